@@ -1,0 +1,34 @@
+// A bounding volume hierarchy over boxes; it does not know what the boxes hold.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace glim {
+
+struct Box {
+    glm::vec3 lo;
+    glm::vec3 hi;
+};
+
+// Invariants, held as code by check_bvh:
+//  - nodes[0] is the root; an inner node (count == 0) has its children at `first` and `first + 1`, after itself;
+//  - a leaf holds primitives order[first .. first + count), count >= 1;
+//  - every primitive is in exactly one leaf; a node's box contains the boxes of all that is below it;
+//  - no path from the root has more than kMaxBvhDepth inner nodes (shaders/shared/limits.h), whatever the input.
+struct BvhNode {
+    Box box;
+    std::uint32_t first;
+    std::uint32_t count;
+};
+
+struct Bvh {
+    std::vector<BvhNode> nodes;
+    std::vector<std::uint32_t> order;  // primitive indices, leaf after leaf
+    std::uint32_t depth = 0;           // inner nodes on the longest path
+    double cost = 0.0;                 // surface-area cost relative to the root: expected node visits + primitive tests
+};
+
+}  // namespace glim

@@ -1,0 +1,17 @@
+// Numbers that host and kernels must agree on.
+#ifndef GLIM_SHARED_LIMITS_H
+#define GLIM_SHARED_LIMITS_H
+#include "vocabulary.h"
+
+GLIM_SHARED_BEGIN
+
+// Entries of the traversal stack. buildBvh never makes a deeper tree: it turns to median splits in time.
+GLIM_CONST uint kMaxBvhDepth = 48u;
+
+// Samples of a pixel come in blocks with one scramble each, aligned to the absolute sample index; block means are what
+// the variance is estimated from. A page is the fold of its blocks, the film the fold of its pages.
+GLIM_CONST uint kBlockSamples = 32u;
+GLIM_CONST uint kPageSamples = 256u;
+
+GLIM_SHARED_END
+#endif

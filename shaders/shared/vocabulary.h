@@ -1,0 +1,28 @@
+// Spells GLSL's types in C++, so that one text declares a struct for both. Scalar block layout on the device: members
+// follow each other with the alignment of their scalars, as in C++.
+#ifndef GLIM_SHARED_VOCABULARY_H
+#define GLIM_SHARED_VOCABULARY_H
+
+#ifdef __cplusplus
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#define GLIM_SHARED_BEGIN namespace glim {
+#define GLIM_SHARED_END }
+#define GLIM_CONST inline constexpr
+namespace glim {
+using uint = std::uint32_t;
+using vec2 = glm::vec2;
+using vec3 = glm::vec3;
+using uvec2 = glm::uvec2;
+using uvec3 = glm::uvec3;
+using uvec4 = glm::uvec4;
+}  // namespace glim
+#else
+#extension GL_EXT_scalar_block_layout : require
+#define GLIM_SHARED_BEGIN
+#define GLIM_SHARED_END
+#define GLIM_CONST const
+#endif
+
+#endif

@@ -1,0 +1,49 @@
+# The only rule that makes SPIR-V: glslang, then NoContraction on every float operation, then spirv-val.
+#
+#   glim_embed_shaders(TARGET NAMESPACE name SOURCES a.comp b.comp ...)
+#
+# makes a static library with one `extern const EmbeddedShader` per file (host/gpu/embedded_shader.hpp), declared in
+# the generated header `<name>.hpp` as glim::<name>::<file stem>.
+find_program(GLSLANG_VALIDATOR NAMES glslangValidator glslang REQUIRED)
+find_program(SPIRV_VAL spirv-val REQUIRED)
+
+add_executable(mark_no_contraction ${CMAKE_CURRENT_LIST_DIR}/mark_no_contraction.cpp)
+
+function(glim_embed_shaders target)
+    cmake_parse_arguments(ARG "" "NAMESPACE" "SOURCES" ${ARGN})
+    set(directory ${CMAKE_CURRENT_BINARY_DIR}/${target})
+    file(MAKE_DIRECTORY ${directory})
+    set(header "#pragma once\n#include \"host/gpu/embedded_shader.hpp\"\nnamespace glim::${ARG_NAMESPACE} {\n")
+    set(objects "")
+    foreach(source IN LISTS ARG_SOURCES)
+        get_filename_component(source ${source} ABSOLUTE)
+        get_filename_component(stem ${source} NAME_WE)
+        set(spirv ${directory}/${stem}.spv)
+        add_custom_command(
+            OUTPUT ${spirv}
+            COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.2 -I${PROJECT_SOURCE_DIR}/shaders
+                    -I${PROJECT_SOURCE_DIR}/tests/support --depfile ${spirv}.d -o ${spirv}.plain ${source}
+            COMMAND mark_no_contraction ${spirv}.plain ${spirv}
+            COMMAND ${SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${spirv}
+            DEPFILE ${spirv}.d
+            DEPENDS ${source} mark_no_contraction
+            COMMENT "Compiling ${stem}.comp" VERBATIM)
+        set(definition ${directory}/${stem}.cpp)
+        file(CONFIGURE OUTPUT ${definition} @ONLY CONTENT [[
+#include "host/gpu/embedded_shader.hpp"
+asm(".section .rodata\n.balign 4\n@stem@_begin:\n.incbin \"@spirv@\"\n@stem@_end:\n.previous\n");
+extern "C" const std::uint32_t @stem@_words[] asm("@stem@_begin");
+extern "C" const std::uint32_t @stem@_wordsEnd[] asm("@stem@_end");
+namespace glim::@ARG_NAMESPACE@ {
+extern const EmbeddedShader @stem@;
+const EmbeddedShader @stem@{"@stem@", @stem@_words, @stem@_wordsEnd};
+}
+]])
+        set_source_files_properties(${definition} PROPERTIES OBJECT_DEPENDS ${spirv})
+        list(APPEND objects ${definition})
+        string(APPEND header "extern const EmbeddedShader ${stem};\n")
+    endforeach()
+    file(CONFIGURE OUTPUT ${directory}/${ARG_NAMESPACE}.hpp CONTENT "${header}}\n" @ONLY)
+    add_library(${target} STATIC ${objects})
+    target_include_directories(${target} PUBLIC ${directory} ${PROJECT_SOURCE_DIR})
+endfunction()
