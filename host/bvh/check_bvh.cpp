@@ -1,0 +1,122 @@
+#include "host/bvh/check_bvh.hpp"
+
+#include "host/bvh/surface_area.hpp"
+#include "shaders/shared/limits.h"
+
+#include <cmath>
+
+namespace glim {
+namespace {
+
+std::string name(const char* what, std::size_t index) { return std::string(what) + " " + std::to_string(index); }
+
+// False for a NaN as well.
+bool contains(const Box& outer, const Box& inner) {
+    return glm::all(glm::lessThanEqual(outer.lo, inner.lo)) && glm::all(glm::lessThanEqual(inner.hi, outer.hi));
+}
+
+class Checker {
+public:
+    Checker(const Bvh& tree, std::span<const Box> primitiveBoxes)
+        : bvh(tree), boxes(primitiveBoxes), depths(tree.nodes.size(), kUnseen), covered(tree.order.size(), false),
+          used(primitiveBoxes.size(), false) {}
+
+    // Children lie after their parents, so one pass in order of index sees every parent first.
+    std::optional<std::string> findDefect() {
+        if (bvh.nodes.empty() || bvh.order.size() != boxes.size()) {
+            return "the tree has " + std::to_string(bvh.nodes.size()) + " nodes and orders " +
+                   std::to_string(bvh.order.size()) + " primitives, expected " + std::to_string(boxes.size());
+        }
+        depths[0] = 0;
+        for (std::size_t i = 0; i < bvh.nodes.size(); ++i) {
+            auto defect = depths[i] == kUnseen ? name("node", i) + " has no parent"
+                          : bvh.nodes[i].count == 0 ? findInnerDefect(i)
+                                                    : findLeafDefect(i);
+            if (defect) {
+                return defect;
+            }
+        }
+        // As many leaf entries as primitives were demanded above, none twice: only a gap is left to find.
+        for (std::size_t i = 0; i < covered.size(); ++i) {
+            if (!covered[i]) {
+                return name("entry", i) + " of the order is in no leaf";
+            }
+        }
+        return findSummaryDefect();
+    }
+
+private:
+    static constexpr std::uint32_t kUnseen = ~0U;
+
+    std::optional<std::string> findInnerDefect(std::size_t index) {
+        const BvhNode& node = bvh.nodes[index];
+        if (node.first <= index || node.first >= bvh.nodes.size() - 1) {
+            return name("node", index) + " has its children at " + std::to_string(node.first) + ", expected after " +
+                   std::to_string(index) + " and before " + std::to_string(bvh.nodes.size() - 1);
+        }
+        if (depths[index] == kMaxBvhDepth) {
+            return name("node", index) + " is inner node number " + std::to_string(kMaxBvhDepth + 1) +
+                   " on its path, more than the traversal stack holds";
+        }
+        for (std::size_t child = node.first; child < std::size_t{node.first} + 2; ++child) {
+            if (depths[child] != kUnseen) {
+                return name("node", child) + " has two parents, one of them " + name("node", index);
+            }
+            if (!contains(node.box, bvh.nodes[child].box)) {
+                return "the box of " + name("node", index) + " does not contain that of its child " + name("node", child);
+            }
+            depths[child] = depths[index] + 1;
+        }
+        return std::nullopt;
+    }
+
+    std::optional<std::string> findLeafDefect(std::size_t index) {
+        const BvhNode& leaf = bvh.nodes[index];
+        if (std::size_t{leaf.first} + leaf.count > bvh.order.size()) {
+            return name("leaf", index) + " ends at " + std::to_string(std::size_t{leaf.first} + leaf.count) +
+                   ", beyond the " + std::to_string(bvh.order.size()) + " ordered primitives";
+        }
+        deepest = std::max(deepest, depths[index]);
+        for (std::size_t i = leaf.first; i < std::size_t{leaf.first} + leaf.count; ++i) {
+            const std::uint32_t primitive = bvh.order[i];
+            if (primitive >= boxes.size()) {
+                return name("leaf", index) + " holds primitive " + std::to_string(primitive) + " of only " +
+                       std::to_string(boxes.size());
+            }
+            if (used[primitive] || covered[i]) {
+                return name("primitive", primitive) + " is in " + name("leaf", index) + " and in a leaf before it";
+            }
+            used[primitive] = covered[i] = true;
+            if (!contains(leaf.box, boxes[primitive])) {
+                return "the box of " + name("leaf", index) + " does not contain " + name("primitive", primitive);
+            }
+        }
+        return std::nullopt;
+    }
+
+    std::optional<std::string> findSummaryDefect() const {
+        if (bvh.depth != deepest) {
+            return "the tree's depth is " + std::to_string(deepest) + ", but it says " + std::to_string(bvh.depth);
+        }
+        const double cost = computeCost(bvh.nodes);
+        // Rounding of a sum of up to 2^32 terms stays far below this.
+        if (!(std::abs(bvh.cost - cost) <= 1e-6 * cost) || !std::isfinite(cost)) {
+            return "the tree's cost is " + std::to_string(cost) + ", but it says " + std::to_string(bvh.cost);
+        }
+        return std::nullopt;
+    }
+
+    const Bvh& bvh;
+    std::span<const Box> boxes;
+    std::vector<std::uint32_t> depths;  // inner nodes above each node
+    std::vector<bool> covered, used;    // entries of the order; primitives
+    std::uint32_t deepest = 0;
+};
+
+}  // namespace
+
+std::optional<std::string> findBvhDefect(const Bvh& bvh, std::span<const Box> boxes) {
+    return Checker(bvh, boxes).findDefect();
+}
+
+}  // namespace glim
