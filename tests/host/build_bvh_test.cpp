@@ -185,6 +185,23 @@ TEST(BuildBvh, CostIsTheExpectedNumberOfSteps) {
     EXPECT_LT(bvh.nodes[1].box.lo.x, bvh.nodes[2].box.lo.x) << "the lower side is the first child";
 }
 
+// Multiplying by a power of two is exact, so nothing may change, neither at a float's limits nor far below 1.
+TEST(BuildBvh, UnitOfLengthDoesNotMatter) {
+    const auto scale = [](Boxes boxes, float factor) {
+        for (Box& box : boxes) {
+            box = {box.lo * factor, box.hi * factor};
+        }
+        return boxes;
+    };
+    const Boxes boxes = scale(makeRandom(5000, 0.01F), 1.9F);
+    const Bvh expected = buildBvh(boxes);
+    for (const float factor : {std::exp2(127.0F), std::exp2(-100.0F)}) {
+        const Bvh bvh = buildBvh(scale(boxes, factor));
+        EXPECT_EQ(bvh.order, expected.order) << factor;
+        EXPECT_DOUBLE_EQ(bvh.cost, expected.cost) << factor;
+    }
+}
+
 TEST(BuildBvh, IsDeterministic) {
     const Boxes boxes = makeTerrain(50);
     const Bvh a = buildBvh(boxes), b = buildBvh(boxes);
