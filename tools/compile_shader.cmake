@@ -19,8 +19,9 @@ function(glim_embed_shaders target)
         get_filename_component(source ${source} ABSOLUTE)
         get_filename_component(stem ${source} NAME_WE)
         set(spirv ${directory}/${stem}.spv)
+        # The depfile names the .plain file, and Ninja believes a depfile only if it names the first output.
         add_custom_command(
-            OUTPUT ${spirv}
+            OUTPUT ${spirv}.plain ${spirv}
             COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.2 -I${PROJECT_SOURCE_DIR}/shaders
                     -I${PROJECT_SOURCE_DIR}/tests/support --depfile ${spirv}.d -o ${spirv}.plain ${source}
             COMMAND mark_no_contraction ${spirv}.plain ${spirv}

@@ -1,0 +1,150 @@
+# Shared by tools/glim and tools/test: installs what is missing, builds what has changed. To be sourced by bash.
+# Everything it says goes to stderr: stdout belongs to the program.
+
+root=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
+setupLog=$root/build/setup.log
+
+# Package and what it is for; the same names in Debian 12 and 13.
+buildPackages=(
+    "g++                       compiles glim"
+    "cmake                     configures the build"
+    "ninja-build               runs the build"
+    "glslang-tools             compiles the kernels to SPIR-V"
+    "spirv-tools               checks the SPIR-V"
+    "libvulkan-dev             Vulkan headers and loader"
+    "mesa-vulkan-drivers       Vulkan drivers, among them a software one"
+    "libglm-dev                vectors and matrices"
+    "libtinygltf-dev           reads glTF"
+    "nlohmann-json3-dev        reads and writes JSON"
+    "libopenexr-dev            reads and writes EXR"
+    "libpng-dev                writes PNG"
+    "libcli11-dev              reads the command line"
+)
+testPackages=(
+    "libgtest-dev              runs the tests"
+    "vulkan-validationlayers   checks every use of Vulkan in the tests"
+)
+
+say() { printf 'glim: %s\n' "$*" >&2; }
+
+# fail SENTENCE: shows what the failed step wrote, then the sentence.
+fail() {
+    [[ -s $setupLog ]] && cat "$setupLog" >&2
+    say "$*"
+    exit 1
+}
+
+# True on Debian 12 or newer (testing and unstable have no version).
+isDebian() (
+    [[ -r /etc/os-release ]] && source /etc/os-release &&
+        [[ ${ID:-} == debian && ${VERSION_ID:-99} -ge 12 ]] && command -v apt-get >/dev/null
+)
+
+asRoot() {
+    if [[ $(id -u) == 0 ]]; then
+        "$@"
+    elif [[ -t 0 ]]; then
+        sudo "$@"
+    else
+        sudo -n "$@"
+    fi
+}
+
+# installMissing PACKAGE_LINE...
+installMissing() {
+    local installed line missing=() names=()
+    installed=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "${@%% *}" 2>/dev/null | sed -n 's/ installed$//p' || true)
+    for line in "$@"; do
+        if ! grep -qxF -- "${line%% *}" <<<"$installed"; then
+            missing+=("$line")
+            names+=("${line%% *}")
+        fi
+    done
+    [[ ${#names[@]} == 0 ]] && return
+    say "installing with apt-get what is missing:"
+    printf '    %s\n' "${missing[@]}" >&2
+    if [[ $(id -u) != 0 ]] && ! command -v sudo >/dev/null; then
+        fail "neither root nor sudo is at hand; as root, run: apt-get install ${names[*]}"
+    fi
+    # Stale lists are no reason to give up: the packages may still be there.
+    asRoot apt-get update -qq </dev/null >>"$setupLog" 2>&1 || true
+    asRoot env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
+        -o DPkg::Lock::Timeout=300 "${names[@]}" </dev/null >>"$setupLog" 2>&1 ||
+        fail "apt-get could not install: ${names[*]}"
+}
+
+# The sentence for systems whose packages we do not know.
+namePackages() { echo "please install what Debian calls ${*%% *}, then run this again"; }
+
+requireTools() {
+    local tool
+    for tool in g++ cmake ninja glslangValidator spirv-val; do
+        command -v $tool >/dev/null || fail "$tool was not found and this is not Debian 12 or newer: $(namePackages "$@")"
+    done
+}
+
+# Passes on to the log; on a terminal also shows how far ninja is.
+showProgress() {
+    local line
+    while IFS= read -r line; do
+        printf '%s\n' "$line" >>"$setupLog"
+        [[ -t 2 && $line == \[* ]] && printf '\r\033[Kglim: building %s' "${line%%]*}]" >&2
+    done
+    [[ -t 2 ]] && printf '\r\033[K' >&2
+    return 0
+}
+
+# configure DIRECTORY PRESET TESTS: runs cmake if it never ran this way here.
+configure() {
+    local directory=$1 preset=$2 tests=$3 key fresh=()
+    # The launcher needs no test packages, but leaves on what tools/test has turned on.
+    [[ $tests == OFF && -f $directory/.configured && $(<"$directory/.configured") == *" ON "* ]] && tests=ON
+    key="$preset $tests $root"
+    [[ -f $directory/build.ninja && -f $directory/.configured && $(<"$directory/.configured") == "$key" ]] && return
+    # CMake refuses a build directory that was moved along with its sources.
+    [[ -f $directory/.configured && $(<"$directory/.configured") != *" $root" ]] && fresh=(--fresh)
+    (cd "$root" && cmake "${fresh[@]}" --preset "$preset" "-DGLIM_TESTS=$tests") >>"$setupLog" 2>&1 || return
+    printf '%s' "$key" >"$directory/.configured"
+}
+
+# What the binary says of itself besides its sources: a new commit is a new build even if no file is newer.
+describeBuild() { echo "$1 $root $(git -C "$root" rev-parse HEAD 2>/dev/null || echo unknown)"; }
+
+# isBuilt STAMP PRESET: no source is newer than the stamp, and it is of the same preset and commit. A few milliseconds.
+isBuilt() {
+    [[ -x ${1%/*}/glim && -f $1 && $(<"$1") == "$(describeBuild "$2")" ]] || return
+    [[ -z $(cd "$root" && find CMakeLists.txt CMakePresets.json host shaders tests tools -newer "$1" -print -quit) ]]
+}
+
+# build DIRECTORY PRESET TESTS TARGET PACKAGE_LINE...: under the lock.
+build() {
+    local directory=$1 preset=$2 tests=$3 target=$4 stamp=$1/.built-$4 start=$SECONDS hint=
+    shift 4
+    isBuilt "$stamp" "$preset" && return
+    setupLog=$directory/setup.log
+    : >"$setupLog"
+    if isDebian; then
+        installMissing "$@"
+    else
+        requireTools "$@"
+        hint="; this is not Debian 12 or newer, so if something is missing: $(namePackages "$@")"
+    fi
+    # Before the build, so that what is edited meanwhile counts as newer.
+    describeBuild "$preset" >"$stamp.new"
+    say "building in $directory"
+    configure "$directory" "$preset" "$tests" || fail "cmake could not configure the build$hint"
+    cmake --build "$directory" --target "$target" 2>&1 | showProgress || fail "the build failed$hint"
+    mv "$stamp.new" "$stamp"
+    say "built in $((SECONDS - start)) s"
+}
+
+# ensureBuilt DIRECTORY PRESET TESTS TARGET PACKAGE_LINE...: does nothing, fast, if nothing has changed; of several at a
+# time one builds and the others wait.
+ensureBuilt() {
+    isBuilt "$1/.built-$4" "$2" && return
+    mkdir -p "$1"
+    (
+        flock 9
+        build "$@"
+    ) 9>"$1/.lock"
+}
