@@ -14,4 +14,10 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+// One sentence: which device or driver call, what it answered, what was expected of it.
+class DeviceError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
 }  // namespace glim

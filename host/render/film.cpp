@@ -28,9 +28,11 @@ PixelMoments foldMoments(const PixelMoments& a, const PixelMoments& b)
     return sum;
 }
 
-void foldPage(Film& film, const std::vector<PixelMoments>& page)
+void foldPage(Film& film, std::size_t begin, const std::vector<PixelMoments>& page)
 {
-    std::transform(film.pixels.begin(), film.pixels.end(), page.begin(), film.pixels.begin(), foldMoments);
+    const auto pixels = film.pixels.begin() + static_cast<std::ptrdiff_t>(begin);
+    std::transform(page.begin(), page.end(), pixels, pixels,
+                   [](const PixelMoments& folded, const PixelMoments& known) { return foldMoments(known, folded); });
 }
 
 glm::vec3 varianceOfMean(const PixelMoments& moments)

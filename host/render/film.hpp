@@ -31,8 +31,8 @@ struct Film {
 // operations: it is what makes a merged film equal the single run bit for bit.
 PixelMoments foldMoments(const PixelMoments& a, const PixelMoments& b);
 
-// Folds `page` onto `film`, pixel by pixel.
-void foldPage(Film& film, const std::vector<PixelMoments>& page);
+// Folds `page` onto the pixels of `film` from index `begin` on.
+void foldPage(Film& film, std::size_t begin, const std::vector<PixelMoments>& page);
 
 // Variance of a pixel's mean from its block means; NaN where fewer than two blocks are known.
 glm::vec3 varianceOfMean(const PixelMoments& moments);

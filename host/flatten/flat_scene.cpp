@@ -1,0 +1,61 @@
+#include "host/flatten/flat_scene.hpp"
+
+#include <cstdio>
+#include <span>
+
+namespace glim {
+namespace {
+
+// FNV-1a, 64 bits (Fowler, Noll, Vo): a fingerprint, not a secret.
+class Fingerprint {
+public:
+    template <class T>
+    void add(const std::vector<T>& values)
+    {
+        addBytes(std::as_bytes(std::span<const T>(values)));
+    }
+    void addBytes(std::span<const std::byte> bytes)
+    {
+        for (const std::byte byte : bytes) {
+            state_ = (state_ ^ static_cast<std::uint64_t>(byte)) * 1099511628211ULL;
+        }
+    }
+    std::string text() const
+    {
+        char digits[17];
+        std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(state_));
+        return digits;
+    }
+
+private:
+    std::uint64_t state_ = 14695981039346656037ULL;
+};
+
+template <class T>
+std::uint64_t bytesOf(const std::vector<T>& values)
+{
+    return values.size() * sizeof(T);
+}
+
+}  // namespace
+
+std::uint64_t sizeInBytes(const FlatScene& scene)
+{
+    return bytesOf(scene.nodes) + bytesOf(scene.records) + bytesOf(scene.normals) + bytesOf(scene.materials) +
+           bytesOf(scene.lights) + bytesOf(scene.emitters);
+}
+
+std::string fingerprint(const FlatScene& scene, const FlatCamera& camera)
+{
+    Fingerprint print;
+    print.add(scene.nodes);
+    print.add(scene.records);
+    print.add(scene.normals);
+    print.add(scene.materials);
+    print.add(scene.lights);
+    print.add(scene.emitters);
+    print.add(std::vector<FlatCamera>{camera});
+    return print.text();
+}
+
+}  // namespace glim

@@ -1,0 +1,39 @@
+// The scene as the arrays that kernels read. Element types: shaders/shared/scene_types.h, which says what is in the texels.
+#pragma once
+
+#include "shaders/shared/scene_types.h"
+
+#include <string>
+#include <vector>
+
+namespace glim {
+
+// What the scene needs; the rest is compiled out of the kernels.
+struct SceneFeatures {
+    bool spheres = false;
+    bool smooth = false;          // some triangles have vertex normals
+    bool specular = false;        // mirrors or glass
+    bool surfaceLights = false;
+    bool punctualLights = false;
+    bool environment = false;
+};
+
+struct FlatScene {
+    std::vector<uvec4> nodes;
+    std::vector<uvec4> records;   // in the order of the BVH's leaves
+    std::vector<uvec4> normals;   // parallel to records, or empty
+    std::vector<FlatMaterial> materials;
+    std::vector<FlatLight> lights;
+    std::vector<FlatEmitter> emitters;
+    SceneFeatures features;
+    vec3 environment{0.0F};
+    std::uint32_t environmentLight = 0;  // index among lights, if features.environment
+};
+
+// Bytes that the scene takes on the device.
+std::uint64_t sizeInBytes(const FlatScene& scene);
+
+// A fingerprint of everything above and the camera: equal pictures come from equal ones.
+std::string fingerprint(const FlatScene& scene, const FlatCamera& camera);
+
+}  // namespace glim

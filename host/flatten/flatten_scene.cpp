@@ -1,0 +1,167 @@
+#include "host/flatten/flatten_scene.hpp"
+
+#include "host/flatten/light_table.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace glim {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+uvec4 texel(const glm::vec3& v, std::uint32_t w)
+{
+    return {std::bit_cast<std::uint32_t>(v.x), std::bit_cast<std::uint32_t>(v.y), std::bit_cast<std::uint32_t>(v.z), w};
+}
+
+// Gives every box a thickness: at least one ulp, and 2^-30 of the scene, so that a plane through the ray's origin lies at
+// |t| >= 1e9 scenes for a direction component of intersect_box.glsl's smallest size, and never ties at t = 0.
+Box thicken(const Box& box, float pad)
+{
+    Box thick = box;
+    for (int k = 0; k < 3; ++k) {
+        thick.lo[k] = std::nextafter(box.lo[k] - pad, -kInfinity);
+        thick.hi[k] = std::nextafter(box.hi[k] + pad, kInfinity);
+    }
+    return thick;
+}
+
+float boxPad(const Box& root)
+{
+    const glm::vec3 farthest = glm::max(glm::abs(root.lo), glm::abs(root.hi));
+    return std::ldexp(std::max({farthest.x, farthest.y, farthest.z, std::numeric_limits<float>::min()}), -30);
+}
+
+struct ChildTexels {
+    Box box;
+    std::uint32_t first, count;
+};
+
+void pushNode(std::vector<uvec4>& nodes, const ChildTexels& a, const ChildTexels& b)
+{
+    nodes.push_back(texel(a.box.lo, a.first));
+    nodes.push_back(texel(a.box.hi, b.first));
+    nodes.push_back(texel(b.box.lo, a.count));
+    nodes.push_back(texel(b.box.hi, b.count));
+}
+
+// Inner nodes keep their order; each moves to its rank among the inner ones.
+std::vector<uvec4> flattenNodes(const Bvh& bvh)
+{
+    const float pad = boxPad(bvh.nodes[0].box);
+    std::vector<uvec4> nodes;
+    if (bvh.nodes[0].count > 0) {
+        const BvhNode& leaf = bvh.nodes[0];
+        pushNode(nodes, {thicken(leaf.box, pad), leaf.first, leaf.count}, {thicken(leaf.box, pad), 0, kEmptyLeaf});
+        return nodes;
+    }
+    std::vector<std::uint32_t> rank(bvh.nodes.size(), 0);
+    std::uint32_t inner = 0;
+    for (std::size_t i = 0; i < bvh.nodes.size(); ++i) {
+        rank[i] = bvh.nodes[i].count == 0 ? inner++ : 0;
+    }
+    const auto child = [&](std::uint32_t i) -> ChildTexels {
+        const BvhNode& node = bvh.nodes[i];
+        return {thicken(node.box, pad), node.count == 0 ? rank[i] : node.first, node.count};
+    };
+    for (const BvhNode& node : bvh.nodes) {
+        if (node.count == 0) {
+            pushNode(nodes, child(node.first), child(node.first + 1));
+        }
+    }
+    return nodes;
+}
+
+// The material of each triangle, and whether its normals count.
+std::vector<const Primitive*> primitiveOfTriangle(const Scene& scene)
+{
+    std::vector<const Primitive*> owners(scene.triangles.size(), nullptr);
+    for (const Primitive& primitive : scene.primitives) {
+        std::fill_n(owners.begin() + primitive.firstTriangle, primitive.triangleCount, &primitive);
+    }
+    return owners;
+}
+
+void pushTriangle(FlatScene& flat, const Scene& scene, std::uint32_t id, const Primitive& owner)
+{
+    const Triangle& triangle = scene.triangles[id];
+    flat.records.push_back(texel(triangle.vertices[0], id));
+    flat.records.push_back(texel(triangle.vertices[1], owner.material));
+    flat.records.push_back(texel(triangle.vertices[2], 0));
+}
+
+void pushSphere(FlatScene& flat, const Scene& scene, std::uint32_t id)
+{
+    const Sphere& sphere = scene.spheres[id - scene.triangles.size()];
+    flat.records.push_back(texel(sphere.center, id));
+    flat.records.push_back(texel({sphere.radius, 0.0F, 0.0F}, sphere.material | kSphereBit));
+    flat.records.push_back(texel({0.0F, 0.0F, 0.0F}, 0));
+}
+
+void pushNormals(FlatScene& flat, const Scene& scene, std::uint32_t id, const Primitive* owner)
+{
+    const bool smooth = owner != nullptr && owner->smooth;
+    for (int k = 0; k < 3; ++k) {
+        flat.normals.push_back(texel(smooth ? scene.normals[id].normals[k] : glm::vec3(0.0F), 0));
+    }
+}
+
+}  // namespace
+
+std::vector<Box> primitiveBoxes(const Scene& scene)
+{
+    std::vector<Box> boxes;
+    boxes.reserve(scene.triangles.size() + scene.spheres.size());
+    for (const Triangle& t : scene.triangles) {
+        boxes.push_back({glm::min(t.vertices[0], glm::min(t.vertices[1], t.vertices[2])),
+                         glm::max(t.vertices[0], glm::max(t.vertices[1], t.vertices[2]))});
+    }
+    for (const Sphere& sphere : scene.spheres) {
+        boxes.push_back(thicken({sphere.center - sphere.radius, sphere.center + sphere.radius}, 0.0F));
+    }
+    return boxes;
+}
+
+FlatScene flattenScene(const Scene& scene, const Bvh& bvh)
+{
+    FlatScene flat;
+    flat.nodes = flattenNodes(bvh);
+    flat.features.spheres = !scene.spheres.empty();
+    flat.features.smooth = std::any_of(scene.primitives.begin(), scene.primitives.end(),
+                                       [](const Primitive& primitive) { return primitive.smooth; });
+    for (const Material& m : scene.materials) {
+        flat.materials.push_back({m.baseColor, static_cast<std::uint32_t>(m.scattering), m.emission, m.ior,
+                                  m.doubleSided ? 1U : 0U});
+        flat.features.specular = flat.features.specular || m.scattering != Scattering::Lambert;
+    }
+    const std::vector<const Primitive*> owners = primitiveOfTriangle(scene);
+    std::vector<std::uint32_t> recordOf(bvh.order.size());
+    for (std::uint32_t record = 0; record < bvh.order.size(); ++record) {
+        const std::uint32_t id = bvh.order[record];
+        const Primitive* owner = id < owners.size() ? owners[id] : nullptr;
+        recordOf[id] = record;
+        if (owner != nullptr) {
+            pushTriangle(flat, scene, id, *owner);
+        } else {
+            pushSphere(flat, scene, id);
+        }
+        if (flat.features.smooth) {
+            pushNormals(flat, scene, id, owner);
+        }
+    }
+    addLights(flat, scene, recordOf);
+    return flat;
+}
+
+FlatCamera flattenCamera(const Camera& camera, float aspectRatio)
+{
+    const bool perspective = camera.kind == Camera::Kind::Perspective;
+    const float halfHeight = perspective ? std::tan(0.5F * camera.yfov) : camera.halfHeight;
+    return {camera.position, camera.right * (halfHeight * aspectRatio), camera.up * halfHeight, camera.forward,
+            perspective ? kPerspective : kOrthographic};
+}
+
+}  // namespace glim

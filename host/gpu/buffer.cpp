@@ -1,0 +1,177 @@
+#include "host/gpu/buffer.hpp"
+
+#include "host/gpu/commands.hpp"
+
+#include <utility>
+
+namespace glim {
+namespace {
+
+constexpr std::uint64_t kTexelBytes = 16;
+
+std::string megabytes(std::uint64_t bytes)
+{
+    return std::to_string((bytes + (1U << 20) - 1) >> 20) + " MiB";
+}
+
+// The most bytes that a kernel of this device can see of a buffer of this kind.
+std::uint64_t limitOf(const DeviceDescription& device, BufferKind kind)
+{
+    return kind == BufferKind::Texel ? device.maxTexelElements * kTexelBytes : device.maxStorageBuffer;
+}
+
+void refuseTooLarge(const DeviceDescription& device, const std::string& name, BufferKind kind, std::uint64_t size)
+{
+    const std::uint64_t limit = std::min(limitOf(device, kind), device.maxAllocation);
+    if (size > limit) {
+        throw DeviceError("The " + name + " need " + megabytes(size) + ", which is " + megabytes(size - limit) +
+                          " more than device \"" + device.name + "\" allows in one buffer (" + megabytes(limit) + ").");
+    }
+}
+
+// A staging buffer that the host sees, for memory that it does not.
+class Staging {
+public:
+    Staging(const Device& device, std::uint64_t size) : device_(device)
+    {
+        VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+        info.size = size;
+        info.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+        check(vkCreateBuffer(device.handle(), &info, nullptr, &handle_), "create a staging buffer");
+        VkMemoryRequirements needs;
+        vkGetBufferMemoryRequirements(device.handle(), handle_, &needs);
+        VkMemoryPropertyFlags have = 0;
+        VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+        allocation.allocationSize = needs.size;
+        allocation.memoryTypeIndex = device.findMemoryType(
+            needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+            VK_MEMORY_PROPERTY_HOST_CACHED_BIT, &have);
+        check(vkAllocateMemory(device.handle(), &allocation, nullptr, &memory_), "allocate a staging buffer");
+        check(vkBindBufferMemory(device.handle(), handle_, memory_, 0), "bind a staging buffer");
+        check(vkMapMemory(device.handle(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped_), "map a staging buffer");
+    }
+    ~Staging()
+    {
+        vkDestroyBuffer(device_.handle(), handle_, nullptr);
+        vkFreeMemory(device_.handle(), memory_, nullptr);
+    }
+    Staging(const Staging&) = delete;
+    Staging& operator=(const Staging&) = delete;
+
+    VkBuffer handle() const { return handle_; }
+    void* mapped() const { return mapped_; }
+
+private:
+    const Device& device_;
+    VkBuffer handle_ = VK_NULL_HANDLE;
+    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    void* mapped_ = nullptr;
+};
+
+}  // namespace
+
+Buffer::Buffer(Device& device, const std::string& name, BufferKind kind, std::uint64_t size)
+    : device_(&device), kind_(kind), size_(size)
+{
+    refuseTooLarge(device.description(), name, kind, size);
+    VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+    info.size = size;
+    info.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                 (kind == BufferKind::Texel ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT
+                                            : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
+    check(vkCreateBuffer(device.handle(), &info, nullptr, &handle_), "create the buffer of the " + name);
+    try {
+        allocate(name);
+    } catch (...) {
+        vkDestroyBuffer(device.handle(), handle_, nullptr);
+        throw;
+    }
+    device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(handle_), name);
+    if (kind == BufferKind::Texel) {
+        VkBufferViewCreateInfo view{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
+        view.buffer = handle_;
+        view.format = VK_FORMAT_R32G32B32A32_UINT;
+        view.range = VK_WHOLE_SIZE;
+        check(vkCreateBufferView(device.handle(), &view, nullptr, &view_), "create the texel view of the " + name);
+    }
+}
+
+void Buffer::allocate(const std::string& name)
+{
+    VkMemoryRequirements needs;
+    vkGetBufferMemoryRequirements(device_->handle(), handle_, &needs);
+    const VkMemoryPropertyFlags host = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    const bool readback = kind_ == BufferKind::Readback;
+    VkMemoryPropertyFlags have = 0;
+    VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+    allocation.allocationSize = needs.size;
+    allocation.memoryTypeIndex = device_->findMemoryType(
+        needs.memoryTypeBits, readback ? host : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+        readback ? VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_HOST_CACHED_BIT} : host, &have);
+    const VkResult result = vkAllocateMemory(device_->handle(), &allocation, nullptr, &memory_);
+    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
+        throw DeviceError("The " + name + " need " + megabytes(needs.size) + ", but device \"" +
+                          device_->description().name + "\" has no more memory (of " +
+                          megabytes(device_->description().memory) + ").");
+    }
+    check(result, "allocate the " + name);
+    allocated_ = needs.size;
+    device_->addMemory(static_cast<std::int64_t>(allocated_));
+    check(vkBindBufferMemory(device_->handle(), handle_, memory_, 0), "bind the memory of the " + name);
+    if ((have & host) == host) {
+        void* mapped = nullptr;
+        check(vkMapMemory(device_->handle(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped), "map the " + name);
+        mapped_ = static_cast<std::byte*>(mapped);
+    }
+}
+
+Buffer::~Buffer()
+{
+    if (handle_ == VK_NULL_HANDLE) {
+        return;
+    }
+    vkDestroyBufferView(device_->handle(), view_, nullptr);
+    vkDestroyBuffer(device_->handle(), handle_, nullptr);
+    vkFreeMemory(device_->handle(), memory_, nullptr);
+    device_->addMemory(-static_cast<std::int64_t>(allocated_));
+}
+
+Buffer::Buffer(Buffer&& other) noexcept
+    : device_(other.device_), kind_(other.kind_), size_(other.size_), handle_(std::exchange(other.handle_, nullptr)),
+      memory_(other.memory_), view_(other.view_), allocated_(other.allocated_), mapped_(other.mapped_)
+{
+}
+
+void Buffer::upload(std::span<const std::byte> bytes)
+{
+    if (bytes.empty()) {
+        return;
+    }
+    if (mapped_ != nullptr) {
+        std::memcpy(mapped_, bytes.data(), bytes.size());
+        return;
+    }
+    const Staging staging(*device_, bytes.size());
+    std::memcpy(staging.mapped(), bytes.data(), bytes.size());
+    Commands commands(*device_);
+    commands.copy(staging.handle(), handle_, bytes.size());
+    commands.submitAndWait();
+}
+
+void Buffer::download(std::span<std::byte> bytes) const
+{
+    if (bytes.empty()) {
+        return;
+    }
+    if (mapped_ != nullptr) {
+        std::memcpy(bytes.data(), mapped_, bytes.size());
+        return;
+    }
+    const Staging staging(*device_, bytes.size());
+    Commands commands(*device_);
+    commands.copy(handle_, staging.handle(), bytes.size());
+    commands.submitAndWait();
+    std::memcpy(bytes.data(), staging.mapped(), bytes.size());
+}
+
+}  // namespace glim

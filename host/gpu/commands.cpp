@@ -1,0 +1,135 @@
+#include "host/gpu/commands.hpp"
+
+#include <cassert>
+
+namespace glim {
+
+Commands::Commands(const Device& device) : device_(device)
+{
+    VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+    poolInfo.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+    poolInfo.queueFamilyIndex = device.queueFamily();
+    check(vkCreateCommandPool(device.handle(), &poolInfo, nullptr, &pool_), "create a command pool");
+    VkCommandBufferAllocateInfo bufferInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    bufferInfo.commandPool = pool_;
+    bufferInfo.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    bufferInfo.commandBufferCount = 1;
+    check(vkAllocateCommandBuffers(device.handle(), &bufferInfo, &buffer_), "allocate a command buffer");
+    const VkFenceCreateInfo fenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    check(vkCreateFence(device.handle(), &fenceInfo, nullptr, &fence_), "create a fence");
+    VkCommandBufferBeginInfo beginInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    beginInfo.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    check(vkBeginCommandBuffer(buffer_, &beginInfo), "begin a command buffer");
+    if (device.description().nanosecondsPerTick > 0.0F) {
+        VkQueryPoolCreateInfo queryInfo{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+        queryInfo.queryType = VK_QUERY_TYPE_TIMESTAMP;
+        queryInfo.queryCount = 2 * kMaxTimed;
+        check(vkCreateQueryPool(device.handle(), &queryInfo, nullptr, &queries_), "create a query pool");
+        vkResetQueryPool(device.handle(), queries_, 0, 2 * kMaxTimed);
+    }
+}
+
+Commands::~Commands()
+{
+    vkDestroyQueryPool(device_.handle(), queries_, nullptr);
+    vkDestroyFence(device_.handle(), fence_, nullptr);
+    vkDestroyCommandPool(device_.handle(), pool_, nullptr);
+}
+
+void Commands::begin(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push)
+{
+    assert(push.size() == kernel.layout().pushSize());
+    const VkDescriptorSet set = bindings.set();
+    const VkPipelineLayout layout = kernel.layout().pipelineLayout();
+    vkCmdBindPipeline(buffer_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
+    vkCmdBindDescriptorSets(buffer_, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);
+    if (!push.empty()) {
+        vkCmdPushConstants(buffer_, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, static_cast<std::uint32_t>(push.size()),
+                           push.data());
+    }
+    if (queries_ != VK_NULL_HANDLE && timed_.size() < kMaxTimed) {
+        vkCmdWriteTimestamp(buffer_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries_,
+                            static_cast<std::uint32_t>(2 * timed_.size()));
+    }
+}
+
+void Commands::end(const Kernel& kernel)
+{
+    if (queries_ != VK_NULL_HANDLE && timed_.size() < kMaxTimed) {
+        vkCmdWriteTimestamp(buffer_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries_,
+                            static_cast<std::uint32_t>(2 * timed_.size() + 1));
+        timed_.push_back(kernel.name());
+    }
+    barrier();
+}
+
+void Commands::barrier()
+{
+    const VkPipelineStageFlags stages = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+    VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
+    memory.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
+    memory.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT |
+                           VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_HOST_READ_BIT;
+    vkCmdPipelineBarrier(buffer_, stages, stages | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0,
+                         1, &memory, 0, nullptr, 0, nullptr);
+}
+
+void Commands::dispatch(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push,
+                        std::uint32_t groups)
+{
+    assert(groups <= device_.description().maxGroups);
+    begin(kernel, bindings, push);
+    vkCmdDispatch(buffer_, groups, 1, 1);
+    end(kernel);
+}
+
+void Commands::dispatchIndirect(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push,
+                                const Buffer& arguments, std::uint64_t offset)
+{
+    begin(kernel, bindings, push);
+    vkCmdDispatchIndirect(buffer_, arguments.handle(), offset);
+    end(kernel);
+}
+
+void Commands::fillWithZero(const Buffer& buffer)
+{
+    vkCmdFillBuffer(buffer_, buffer.handle(), 0, VK_WHOLE_SIZE, 0);
+    barrier();
+}
+
+void Commands::copy(VkBuffer source, VkBuffer target, std::uint64_t bytes)
+{
+    const VkBufferCopy region{0, 0, bytes};
+    vkCmdCopyBuffer(buffer_, source, target, 1, &region);
+    barrier();
+}
+
+void Commands::submitAndWait()
+{
+    check(vkEndCommandBuffer(buffer_), "end a command buffer");
+    VkSubmitInfo info{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+    info.commandBufferCount = 1;
+    info.pCommandBuffers = &buffer_;
+    check(vkQueueSubmit(device_.queue(), 1, &info, fence_), "submit work");
+    check(vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, UINT64_MAX), "wait for the device");
+    device_.instance().refuseMessages();
+}
+
+std::vector<KernelTime> Commands::times() const
+{
+    std::vector<std::uint64_t> ticks(2 * timed_.size());
+    if (!ticks.empty()) {
+        check(vkGetQueryPoolResults(device_.handle(), queries_, 0, static_cast<std::uint32_t>(ticks.size()),
+                                    ticks.size() * sizeof(ticks[0]), ticks.data(), sizeof(ticks[0]),
+                                    VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+              "read timestamps");
+    }
+    std::vector<KernelTime> times;
+    for (std::size_t i = 0; i < timed_.size(); ++i) {
+        const double elapsed = static_cast<double>(ticks[2 * i + 1] - ticks[2 * i]);
+        times.push_back({timed_[i], elapsed * static_cast<double>(device_.description().nanosecondsPerTick) * 1e-9});
+    }
+    return times;
+}
+
+}  // namespace glim

@@ -1,0 +1,117 @@
+#include "host/gpu/instance.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace glim {
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+VKAPI_ATTR VkBool32 VKAPI_CALL countMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                            const VkDebugUtilsMessengerCallbackDataEXT* data, void* counter)
+{
+    std::fprintf(stderr, "validation: %s\n", data->pMessage);
+    ++*static_cast<int*>(counter);
+    return VK_FALSE;
+}
+
+VkDebugUtilsMessengerCreateInfoEXT messengerInfo(int* counter)
+{
+    VkDebugUtilsMessengerCreateInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
+    info.messageSeverity =
+        VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+    info.pfnUserCallback = countMessage;
+    info.pUserData = counter;
+    return info;
+}
+
+bool wantsValidation()
+{
+    const char* value = std::getenv("GLIM_VALIDATION");
+    return value != nullptr && std::strcmp(value, "1") == 0;
+}
+
+void requireValidationLayer()
+{
+    std::uint32_t count = 0;
+    check(vkEnumerateInstanceLayerProperties(&count, nullptr), "list layers");
+    std::vector<VkLayerProperties> layers(count);
+    check(vkEnumerateInstanceLayerProperties(&count, layers.data()), "list layers");
+    const bool found = std::any_of(layers.begin(), layers.end(), [](const VkLayerProperties& layer) {
+        return std::strcmp(layer.layerName, kValidationLayer) == 0;
+    });
+    if (!found) {
+        throw DeviceError("GLIM_VALIDATION=1 asks for VK_LAYER_KHRONOS_validation, which is not installed "
+                          "(Debian: vulkan-validationlayers).");
+    }
+}
+
+}  // namespace
+
+Instance::Instance() : messages_(std::make_unique<int>(0))
+{
+    VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
+    application.pApplicationName = "glim";
+    application.apiVersion = VK_API_VERSION_1_2;
+    VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
+    info.pApplicationInfo = &application;
+
+    const VkValidationFeatureEnableEXT enabled[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+    VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
+    VkDebugUtilsMessengerCreateInfoEXT messenger = messengerInfo(messages_.get());
+    const char* extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
+    const bool validation = wantsValidation();
+    if (validation) {
+        requireValidationLayer();
+        features.enabledValidationFeatureCount = 1;
+        features.pEnabledValidationFeatures = enabled;
+        messenger.pNext = &features;
+        info.pNext = &messenger;
+        info.enabledLayerCount = 1;
+        info.ppEnabledLayerNames = &kValidationLayer;
+        info.enabledExtensionCount = 1;
+        info.ppEnabledExtensionNames = extensions;
+    }
+    check(vkCreateInstance(&info, nullptr, &handle_), "create an instance (is a Vulkan driver installed?)");
+    if (validation) {
+        const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+            vkGetInstanceProcAddr(handle_, "vkCreateDebugUtilsMessengerEXT"));
+        const VkDebugUtilsMessengerCreateInfoEXT own = messengerInfo(messages_.get());
+        check(create(handle_, &own, nullptr, &messenger_), "create a debug messenger");
+    }
+}
+
+Instance::~Instance()
+{
+    if (messenger_ != VK_NULL_HANDLE) {
+        const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+            vkGetInstanceProcAddr(handle_, "vkDestroyDebugUtilsMessengerEXT"));
+        destroy(handle_, messenger_, nullptr);
+    }
+    vkDestroyInstance(handle_, nullptr);
+    if (*messages_ > 0) {
+        std::_Exit(static_cast<int>(ExitCode::Device));  // a destructor cannot throw, and this must not pass
+    }
+}
+
+std::vector<VkPhysicalDevice> Instance::physicalDevices() const
+{
+    std::uint32_t count = 0;
+    check(vkEnumeratePhysicalDevices(handle_, &count, nullptr), "list devices");
+    std::vector<VkPhysicalDevice> devices(count);
+    check(vkEnumeratePhysicalDevices(handle_, &count, devices.data()), "list devices");
+    return devices;
+}
+
+void Instance::refuseMessages() const
+{
+    if (*messages_ > 0) {
+        throw DeviceError("The Vulkan validation layers have complained (see above); glim expects them silent.");
+    }
+}
+
+}  // namespace glim

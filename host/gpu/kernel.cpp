@@ -1,0 +1,134 @@
+#include "host/gpu/kernel.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace glim {
+namespace {
+
+VkDescriptorType descriptorType(BufferKind kind)
+{
+    return kind == BufferKind::Texel ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+}
+
+std::vector<VkDescriptorPoolSize> poolSizes(const std::vector<BindingSlot>& slots)
+{
+    std::vector<VkDescriptorPoolSize> sizes;
+    for (const BindingSlot& slot : slots) {
+        sizes.push_back({descriptorType(slot.kind), 1});
+    }
+    return sizes;
+}
+
+}  // namespace
+
+KernelLayout::KernelLayout(const Device& device, const std::vector<BindingSlot>& slots, std::uint32_t pushSize)
+    : device_(device), slots_(slots), pushSize_(pushSize)
+{
+    std::vector<VkDescriptorSetLayoutBinding> bindings;
+    for (const BindingSlot& slot : slots) {
+        bindings.push_back({slot.binding, descriptorType(slot.kind), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    }
+    const auto storage = static_cast<std::uint32_t>(std::count_if(
+        slots.begin(), slots.end(), [](const BindingSlot& slot) { return slot.kind != BufferKind::Texel; }));
+    if (storage > device.description().maxStorageBuffers) {
+        throw DeviceError("glim's kernels use " + std::to_string(storage) + " storage buffers, but device \"" +
+                          device.description().name + "\" allows " +
+                          std::to_string(device.description().maxStorageBuffers) + ".");
+    }
+    VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+    setInfo.bindingCount = static_cast<std::uint32_t>(bindings.size());
+    setInfo.pBindings = bindings.data();
+    check(vkCreateDescriptorSetLayout(device.handle(), &setInfo, nullptr, &setLayout_), "create a descriptor layout");
+
+    const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, pushSize};
+    VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+    info.setLayoutCount = 1;
+    info.pSetLayouts = &setLayout_;
+    info.pushConstantRangeCount = pushSize > 0 ? 1 : 0;
+    info.pPushConstantRanges = &push;
+    check(vkCreatePipelineLayout(device.handle(), &info, nullptr, &pipelineLayout_), "create a pipeline layout");
+}
+
+KernelLayout::~KernelLayout()
+{
+    vkDestroyPipelineLayout(device_.handle(), pipelineLayout_, nullptr);
+    vkDestroyDescriptorSetLayout(device_.handle(), setLayout_, nullptr);
+}
+
+Bindings::Bindings(const KernelLayout& layout, const std::map<std::uint32_t, const Buffer*>& buffers)
+    : device_(&layout.device())
+{
+    const std::vector<VkDescriptorPoolSize> sizes = poolSizes(layout.slots());
+    VkDescriptorPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+    poolInfo.maxSets = 1;
+    poolInfo.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
+    poolInfo.pPoolSizes = sizes.data();
+    check(vkCreateDescriptorPool(device_->handle(), &poolInfo, nullptr, &pool_), "create a descriptor pool");
+    VkDescriptorSetAllocateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+    const VkDescriptorSetLayout setLayout = layout.setLayout();
+    setInfo.descriptorPool = pool_;
+    setInfo.descriptorSetCount = 1;
+    setInfo.pSetLayouts = &setLayout;
+    check(vkAllocateDescriptorSets(device_->handle(), &setInfo, &set_), "allocate a descriptor set");
+
+    for (const auto& [binding, buffer] : buffers) {
+        const VkDescriptorBufferInfo range{buffer->handle(), 0, VK_WHOLE_SIZE};
+        const VkBufferView view = buffer->texelView();
+        VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+        write.dstSet = set_;
+        write.dstBinding = binding;
+        write.descriptorCount = 1;
+        write.descriptorType = descriptorType(buffer->kind());
+        write.pBufferInfo = &range;
+        write.pTexelBufferView = &view;
+        vkUpdateDescriptorSets(device_->handle(), 1, &write, 0, nullptr);
+    }
+}
+
+Bindings::~Bindings() { vkDestroyDescriptorPool(device_->handle(), pool_, nullptr); }
+
+Bindings::Bindings(Bindings&& other) noexcept
+    : device_(other.device_), pool_(std::exchange(other.pool_, nullptr)), set_(other.set_)
+{
+}
+
+Kernel::Kernel(const KernelLayout& layout, const EmbeddedShader& shader, const Specialization& specialization)
+    : layout_(&layout), name_(shader.name)
+{
+    const VkDevice device = layout.device().handle();
+    VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+    moduleInfo.codeSize = shader.words().size_bytes();
+    moduleInfo.pCode = shader.begin;
+    VkShaderModule module = VK_NULL_HANDLE;
+    check(vkCreateShaderModule(device, &moduleInfo, nullptr, &module), "load kernel " + name_);
+
+    std::vector<VkSpecializationMapEntry> entries;
+    std::vector<std::uint32_t> values;
+    for (const auto& [id, value] : specialization) {
+        entries.push_back({id, static_cast<std::uint32_t>(values.size() * sizeof(value)), sizeof(value)});
+        values.push_back(value);
+    }
+    const VkSpecializationInfo constants{static_cast<std::uint32_t>(entries.size()), entries.data(),
+                                         values.size() * sizeof(std::uint32_t), values.data()};
+    VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+    info.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
+    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    info.stage.module = module;
+    info.stage.pName = "main";
+    info.stage.pSpecializationInfo = &constants;
+    info.layout = layout.pipelineLayout();
+    const VkResult result = vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_);
+    vkDestroyShaderModule(device, module, nullptr);
+    check(result, "compile kernel " + name_);
+    layout.device().setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline_), name_);
+}
+
+Kernel::~Kernel() { vkDestroyPipeline(layout_->device().handle(), pipeline_, nullptr); }
+
+Kernel::Kernel(Kernel&& other) noexcept
+    : layout_(other.layout_), name_(std::move(other.name_)), pipeline_(std::exchange(other.pipeline_, nullptr))
+{
+}
+
+}  // namespace glim

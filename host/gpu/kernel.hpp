@@ -1,0 +1,74 @@
+// A compute kernel and the buffers bound to it.
+#pragma once
+
+#include "host/gpu/buffer.hpp"
+#include "host/gpu/embedded_shader.hpp"
+
+#include <map>
+
+namespace glim {
+
+struct BindingSlot {
+    std::uint32_t binding;
+    BufferKind kind;
+};
+
+// The bindings that a family of kernels shares, all in set 0, and the size of its push constants in bytes.
+class KernelLayout {
+public:
+    KernelLayout(const Device& device, const std::vector<BindingSlot>& slots, std::uint32_t pushSize);
+    ~KernelLayout();
+    KernelLayout(const KernelLayout&) = delete;
+    KernelLayout& operator=(const KernelLayout&) = delete;
+
+    const Device& device() const { return device_; }
+    const std::vector<BindingSlot>& slots() const { return slots_; }
+    VkDescriptorSetLayout setLayout() const { return setLayout_; }
+    VkPipelineLayout pipelineLayout() const { return pipelineLayout_; }
+    std::uint32_t pushSize() const { return pushSize_; }
+
+private:
+    const Device& device_;
+    std::vector<BindingSlot> slots_;
+    std::uint32_t pushSize_;
+    VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
+    VkPipelineLayout pipelineLayout_ = VK_NULL_HANDLE;
+};
+
+// Buffers for the bindings of a layout. A slot that no kernel run with this set uses may stay empty.
+class Bindings {
+public:
+    Bindings(const KernelLayout& layout, const std::map<std::uint32_t, const Buffer*>& buffers);
+    ~Bindings();
+    Bindings(Bindings&& other) noexcept;
+    Bindings& operator=(Bindings&&) = delete;
+
+    VkDescriptorSet set() const { return set_; }
+
+private:
+    const Device* device_;
+    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    VkDescriptorSet set_ = VK_NULL_HANDLE;
+};
+
+// Specialization constants by constant_id; bools are 0 or 1.
+using Specialization = std::map<std::uint32_t, std::uint32_t>;
+
+class Kernel {
+public:
+    Kernel(const KernelLayout& layout, const EmbeddedShader& shader, const Specialization& specialization);
+    ~Kernel();
+    Kernel(Kernel&& other) noexcept;
+    Kernel& operator=(Kernel&&) = delete;
+
+    const std::string& name() const { return name_; }
+    const KernelLayout& layout() const { return *layout_; }
+    VkPipeline pipeline() const { return pipeline_; }
+
+private:
+    const KernelLayout* layout_;
+    std::string name_;
+    VkPipeline pipeline_ = VK_NULL_HANDLE;
+};
+
+}  // namespace glim

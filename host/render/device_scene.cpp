@@ -1,0 +1,49 @@
+#include "host/render/device_scene.hpp"
+
+#include "shaders/shared/bindings.h"
+
+#include <algorithm>
+
+namespace glim {
+namespace {
+
+// A buffer cannot be empty: an array that the scene does not need gets one zero element.
+template <class T>
+Buffer uploaded(Device& device, const std::string& name, BufferKind kind, const std::vector<T>& values)
+{
+    const std::vector<T> one(1, T{});
+    const std::vector<T>& source = values.empty() ? one : values;
+    Buffer buffer(device, name, kind, source.size() * sizeof(T));
+    upload(buffer, std::span<const T>(source));
+    return buffer;
+}
+
+}  // namespace
+
+DeviceScene::DeviceScene(Device& device, const FlatScene& scene, const FlatCamera& camera)
+    : nodes_(uploaded(device, "scene's BVH nodes", BufferKind::Texel, scene.nodes)),
+      records_(uploaded(device, "scene's triangles and spheres", BufferKind::Texel, scene.records)),
+      normals_(uploaded(device, "scene's normals", BufferKind::Texel, scene.normals)),
+      materials_(uploaded(device, "scene's materials", BufferKind::Storage, scene.materials)),
+      lights_(uploaded(device, "scene's lights", BufferKind::Storage, scene.lights)),
+      emitters_(uploaded(device, "scene's emitters", BufferKind::Storage, scene.emitters)),
+      camera_(uploaded(device, "camera's numbers", BufferKind::Storage, std::vector<FlatCamera>{camera}))
+{
+}
+
+std::vector<BindingSlot> DeviceScene::slots()
+{
+    return {{kBindNodes, BufferKind::Texel},        {kBindRecords, BufferKind::Texel},
+            {kBindNormals, BufferKind::Texel},      {kBindMaterials, BufferKind::Storage},
+            {kBindLights, BufferKind::Storage},     {kBindEmitters, BufferKind::Storage},
+            {kBindCamera, BufferKind::Storage}};
+}
+
+std::map<std::uint32_t, const Buffer*> DeviceScene::buffers() const
+{
+    return {{kBindNodes, &nodes_},         {kBindRecords, &records_}, {kBindNormals, &normals_},
+            {kBindMaterials, &materials_}, {kBindLights, &lights_},   {kBindEmitters, &emitters_},
+            {kBindCamera, &camera_}};
+}
+
+}  // namespace glim

@@ -1,0 +1,22 @@
+// A FlatScene on the device.
+#pragma once
+
+#include "host/flatten/flat_scene.hpp"
+#include "host/gpu/kernel.hpp"
+
+namespace glim {
+
+class DeviceScene {
+public:
+    // Throws DeviceError, saying by how much, if the scene exceeds the device.
+    DeviceScene(Device& device, const FlatScene& scene, const FlatCamera& camera);
+
+    // The slots of scene.glsl.
+    static std::vector<BindingSlot> slots();
+    std::map<std::uint32_t, const Buffer*> buffers() const;
+
+private:
+    Buffer nodes_, records_, normals_, materials_, lights_, emitters_, camera_;
+};
+
+}  // namespace glim

@@ -1,0 +1,79 @@
+#include "host/render/path_buffers.hpp"
+
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/path_types.h"
+#include "shaders/shared/pixel_moments.h"
+
+namespace glim {
+namespace {
+
+template <class T>
+Buffer arrayOf(Device& device, const std::string& name, std::uint64_t count)
+{
+    return Buffer(device, name, BufferKind::Storage, count * sizeof(T));
+}
+
+std::map<std::uint32_t, const Buffer*> merged(std::map<std::uint32_t, const Buffer*> a,
+                                              const std::map<std::uint32_t, const Buffer*>& b)
+{
+    a.insert(b.begin(), b.end());
+    return a;
+}
+
+}  // namespace
+
+std::vector<BindingSlot> kernelSlots()
+{
+    std::vector<BindingSlot> slots = DeviceScene::slots();
+    for (std::uint32_t binding = kBindRays; binding <= kBindStatus; ++binding) {
+        slots.push_back({binding, BufferKind::Storage});
+    }
+    return slots;
+}
+
+PathBuffers::PathBuffers(Device& device, std::uint32_t capacity)
+    : rays_(arrayOf<PathRay>(device, "rays", capacity)), hits_(arrayOf<PathHit>(device, "hits", capacity)),
+      states_(arrayOf<PathState>(device, "path states", capacity)),
+      radiance_(arrayOf<PathRadiance>(device, "path radiances", capacity)),
+      firstHits_(arrayOf<FirstHit>(device, "first hits", capacity)),
+      shadowRays_(arrayOf<ShadowRay>(device, "shadow rays", capacity)),
+      queueA_(arrayOf<uint>(device, "queue's entries", capacity)), queueB_(arrayOf<uint>(device, "queue's entries", capacity)),
+      shadowQueue_(arrayOf<uint>(device, "shadow queue's entries", capacity)),
+      queueSizes_(arrayOf<QueueSizes>(device, "queue sizes", 1)), queueTails_(arrayOf<QueueTails>(device, "queue tails", 1)),
+      rayCounts_(arrayOf<RayCounts>(device, "ray counts", 1)), status_(arrayOf<Status>(device, "status words", 1))
+{
+    upload(queueSizes_, std::span<const QueueSizes>(std::vector<QueueSizes>(1)));
+    upload(queueTails_, std::span<const QueueTails>(std::vector<QueueTails>(1)));
+    upload(rayCounts_, std::span<const RayCounts>(std::vector<RayCounts>(1)));
+    upload(status_, std::span<const Status>(std::vector<Status>(1)));
+}
+
+std::map<std::uint32_t, const Buffer*> PathBuffers::buffers(std::uint32_t parity) const
+{
+    return {{kBindRays, &rays_},
+            {kBindHits, &hits_},
+            {kBindStates, &states_},
+            {kBindRadiance, &radiance_},
+            {kBindFirstHits, &firstHits_},
+            {kBindShadowRays, &shadowRays_},
+            {kBindActiveQueue, parity == 0 ? &queueA_ : &queueB_},
+            {kBindNextQueue, parity == 0 ? &queueB_ : &queueA_},
+            {kBindShadowQueue, &shadowQueue_},
+            {kBindQueueSizes, &queueSizes_},
+            {kBindQueueTails, &queueTails_},
+            {kBindRayCounts, &rayCounts_},
+            {kBindStatus, &status_}};
+}
+
+Slab::Slab(Device& device, const KernelLayout& layout, const DeviceScene& scene, const PathBuffers& paths,
+           std::uint32_t begin, std::uint32_t count)
+    : begin_(begin), count_(count), blocks_(arrayOf<BlockSums>(device, "film's blocks", count)),
+      pages_(arrayOf<PixelMoments>(device, "film's pages", count))
+{
+    const std::map<std::uint32_t, const Buffer*> film = {{kBindBlocks, &blocks_}, {kBindPages, &pages_}};
+    const auto fixed = merged(scene.buffers(), film);
+    even_.emplace(layout, merged(fixed, paths.buffers(0)));
+    odd_.emplace(layout, merged(fixed, paths.buffers(1)));
+}
+
+}  // namespace glim

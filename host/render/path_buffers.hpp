@@ -1,0 +1,53 @@
+// What kernels hand to each other, for as many paths as are in flight, and the pixels they add up to.
+#pragma once
+
+#include "host/gpu/kernel.hpp"
+#include "host/render/device_scene.hpp"
+
+#include <optional>
+
+namespace glim {
+
+// The slots of all kernels of shaders/kernels.
+std::vector<BindingSlot> kernelSlots();
+
+class PathBuffers {
+public:
+    PathBuffers(Device& device, std::uint32_t capacity);
+
+    // `parity` 1 swaps the active and the next queue.
+    std::map<std::uint32_t, const Buffer*> buffers(std::uint32_t parity) const;
+
+    const Buffer& queueSizes() const { return queueSizes_; }
+    const Buffer& queueTails() const { return queueTails_; }
+    const Buffer& rayCounts() const { return rayCounts_; }
+    const Buffer& status() const { return status_; }
+
+private:
+    Buffer rays_, hits_, states_, radiance_, firstHits_, shadowRays_, queueA_, queueB_, shadowQueue_;
+    Buffer queueSizes_, queueTails_, rayCounts_, status_;
+};
+
+// Pixels [begin, begin + count) of the picture. A storage buffer's limit (128 MiB on llvmpipe) cuts large pictures into
+// several slabs.
+class Slab {
+public:
+    Slab(Device& device, const KernelLayout& layout, const DeviceScene& scene, const PathBuffers& paths,
+         std::uint32_t begin, std::uint32_t count);
+
+    // Chosen so that neither buffer exceeds 128 MiB.
+    static constexpr std::uint32_t kMaxPixels = 1U << 20;
+
+    std::uint32_t begin() const { return begin_; }
+    std::uint32_t count() const { return count_; }
+    const Buffer& blocks() const { return blocks_; }
+    const Buffer& pages() const { return pages_; }
+    const Bindings& bindings(std::uint32_t parity) const { return parity == 0 ? *even_ : *odd_; }
+
+private:
+    std::uint32_t begin_, count_;
+    Buffer blocks_, pages_;
+    std::optional<Bindings> even_, odd_;
+};
+
+}  // namespace glim

@@ -1,0 +1,85 @@
+// Renders: the order of the kernels. READ THIS FIRST (renderer.cpp).
+#pragma once
+
+#include "host/render/film.hpp"
+#include "host/render/path_buffers.hpp"
+#include "host/render/settings.hpp"
+#include "shaders/shared/path_types.h"
+
+#include <chrono>
+#include <functional>
+#include <memory>
+
+namespace glim {
+
+struct KernelStatistics {
+    std::uint64_t dispatches = 0;
+    double seconds = 0.0;  // on the device
+};
+
+struct RenderStatistics {
+    double uploadSeconds = 0.0, compileSeconds = 0.0, renderSeconds = 0.0;
+    std::map<std::string, KernelStatistics> kernels;
+    double longestDispatch = 0.0;  // seconds, on the device, after compilation
+    std::uint64_t samples = 0;     // over all pixels
+    std::uint64_t cameraAndBounceRays = 0, shadowRays = 0;
+    std::uint32_t nonFinite = 0;   // samples left out
+    std::vector<Located> located;  // the first of them
+    std::uint64_t peakDeviceMemory = 0;  // bytes
+};
+
+struct RenderProgress {
+    std::uint64_t samples, totalSamples;  // over all pixels
+    double seconds;
+};
+
+// Called between passes; false ends the render after what is done.
+using RenderObserver = std::function<bool(const RenderProgress&)>;
+
+class Renderer {
+public:
+    // Uploads the scene and compiles the kernels for what it needs.
+    Renderer(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
+
+    // Samples until sampleEnd, the time limit or the observer ends it. Every pixel of the film has what was finished; the
+    // counts say how much. Throws DeviceError if the driver cut a loop short or a queue overflowed: no film is better than
+    // a wrong one. Once per object.
+    Film render(const RenderObserver& observer);
+
+    const RenderStatistics& statistics() const { return statistics_; }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    Kernel kernel(const EmbeddedShader& shader) const;
+    void compile();
+    bool sweep(std::uint32_t first, std::uint32_t count, bool endsBlock, const RenderObserver& observer);
+    void runPass(const Slab& slab, Pass pass);
+    void tracePaths(const Slab& slab, Pass& pass);
+    void recordBounce(Commands& commands, const Slab& slab, const Pass& pass) const;
+    void run(Commands& commands);
+    void closeBlocks();
+    void foldPages(Film& film);
+    bool isOver(const RenderObserver& observer) const;
+    void refuseBrokenStatus() const;
+    void readCounters();
+    Pass passOf(const Slab& slab) const;
+
+    Device& device_;
+    RenderSettings settings_;
+    Specialization specialization_;
+    Pass template_{};  // what all passes have in common
+    std::string fingerprint_;
+    RenderStatistics statistics_;
+    Clock::time_point start_;
+    std::uint64_t samplesPerSweep_ = 1;
+    std::uint32_t pathsPerPass_;
+
+    DeviceScene scene_;
+    PathBuffers paths_;
+    KernelLayout layout_;
+    std::vector<std::unique_ptr<Slab>> slabs_;
+    Kernel generateRays_, sizeDispatch_, traceClosest_, sampleLights_, traceShadow_, bounce_, accumulate_;
+};
+
+}  // namespace glim

@@ -1,0 +1,16 @@
+// Adds light to a path. Needs UPDATES_RADIANCE.
+#ifndef GLIM_ACCESS_RADIANCE
+#define GLIM_ACCESS_RADIANCE
+
+#include "lib/clamp_indirect.glsl"
+#include "paths.glsl"
+
+// `events`: surfaces met between camera and light.
+void addRadiance(uint slot, vec3 contribution, uint events)
+{
+    ClampedLight light = clampIndirect(contribution, events, pass.clampIndirect);
+    PathRadiance sum = pathRadiance[slot];
+    pathRadiance[slot] = PathRadiance(sum.radiance + light.kept, sum.clamped + light.removed);
+}
+
+#endif

@@ -1,0 +1,27 @@
+// What went wrong on the device, counted and located.
+#ifndef GLIM_ACCESS_STATUS
+#define GLIM_ACCESS_STATUS
+
+#include "lib/canary.glsl"
+#include "shared/bindings.h"
+#include "shared/path_types.h"
+
+layout(set = 0, binding = kBindStatus, scalar) buffer StatusBuffer { Status status; };
+
+// Every kernel ends with this.
+void checkLoopBudget(uint canarySteps)
+{
+    if (isLoopBudgetSpent(canarySteps)) {
+        atomicOr(status.flags, kStatusLoopCap);
+    }
+}
+
+void reportNonFinite(uint pixel, uint sampleIndex)
+{
+    uint place = atomicAdd(status.nonFinite, 1u);
+    if (place < kMaxLocated) {
+        status.located[place] = Located(pixel, sampleIndex);
+    }
+}
+
+#endif

@@ -1,0 +1,53 @@
+// One thread is one pixel of the pass. Adds its finished samples to the block, in the order of their index, and folds the block
+// into the page when it ends: the bits do not depend on how the work was cut.
+// Reads radiance and first hits. Updates blocks and pages; counts samples that are not finite and leaves them out.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define READS_RADIANCE
+#define READS_FIRST_HITS
+#include "access/paths.glsl"
+#include "access/status.glsl"
+#include "lib/moments.glsl"
+
+layout(set = 0, binding = kBindBlocks, scalar) buffer Blocks { BlockSums blocks[]; };
+layout(set = 0, binding = kBindPages, scalar) buffer Pages { PixelMoments pages[]; };
+
+bool isFinite(float x)
+{
+    return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u;
+}
+
+BlockSums addSample(BlockSums sums, PathRadiance path, FirstHit first)
+{
+    return BlockSums(sums.count + 1u, sums.radiance + path.radiance, sums.alpha + first.alpha, sums.albedo + first.albedo,
+                     sums.normal + first.normal, min(sums.depth, first.depth), sums.clamped + path.clamped);
+}
+
+void addPixel(uint pixel)
+{
+    uint at = pass.firstPixel + pixel;
+    BlockSums sums = blocks[at];
+    for (uint i = 0u; i < pass.sampleCount; ++i) {
+        uint slot = pixel * pass.sampleCount + i;
+        PathRadiance path = pathRadiance[slot];
+        if (isFinite(path.radiance.r) && isFinite(path.radiance.g) && isFinite(path.radiance.b)) {
+            sums = addSample(sums, path, pathFirstHits[slot]);
+        } else {
+            reportNonFinite(pass.slabBegin + at, pass.firstSample + i);
+        }
+    }
+    if ((pass.accumulate & kEndsBlock) != 0u) {
+        pages[at] = foldMoments(pages[at], momentsOfBlock(sums));
+        sums = emptyBlock();
+    }
+    blocks[at] = sums;
+}
+
+void main()
+{
+    uint pixel = interleavedInvocation();
+    if (pixel < pass.pixelCount) {
+        addPixel(pixel);
+    }
+    checkLoopBudget(pass.canarySteps);
+}

@@ -1,0 +1,24 @@
+// One thread is one entry of the shadow queue. Adds the light it carries if nothing is in its way.
+// Reads the scene, the shadow queue, shadow rays. Updates radiance.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define READS_SHADOW_QUEUE
+#define READS_QUEUE_SIZES
+#define READS_SHADOW_RAYS
+#define UPDATES_RADIANCE
+#include "access/radiance.glsl"
+#include "access/status.glsl"
+#include "access/traverse.glsl"
+
+void main()
+{
+    uint entry = interleavedInvocation();
+    if (entry < queueSizes.shadow) {
+        uint slot = shadowQueue[entry];
+        ShadowRay ray = pathShadowRays[slot];
+        if (isUnoccluded(ray)) {
+            addRadiance(slot, ray.contribution, pass.bounce + 1u);
+        }
+    }
+    checkLoopBudget(pass.canarySteps);
+}

@@ -1,0 +1,16 @@
+// Detects the driver's silent loop cap.
+#ifndef GLIM_LIB_CANARY
+#define GLIM_LIB_CANARY
+
+// Mesa's llvmpipe before 24 gives an invocation group 65,535 loop iterations in all; once they are spent, every loop runs
+// once, silently. `steps` must be 3 and unknown to the compiler. True if the budget is spent.
+bool isLoopBudgetSpent(uint steps)
+{
+    uint done = 0u;
+    for (uint i = 0u; i < steps; ++i) {
+        done += 1u + (i >> 8u);
+    }
+    return done < steps;
+}
+
+#endif

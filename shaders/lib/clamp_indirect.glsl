@@ -1,0 +1,23 @@
+// --clamp-indirect: a bias that says what it took.
+#ifndef GLIM_LIB_CLAMP_INDIRECT
+#define GLIM_LIB_CLAMP_INDIRECT
+
+struct ClampedLight {
+    vec3 kept;
+    float removed;  // mean of the three channels
+};
+
+// One contribution to a sample, scaled so that no channel exceeds `limit` if it has met two surfaces or more. A limit of
+// infinity removes nothing and changes no bit.
+ClampedLight clampIndirect(vec3 contribution, uint events, float limit)
+{
+    float largest = max(contribution.r, max(contribution.g, contribution.b));
+    if (events < 2u || !(largest > limit)) {
+        return ClampedLight(contribution, 0.0);
+    }
+    vec3 kept = contribution * (limit / largest);
+    vec3 gone = contribution - kept;
+    return ClampedLight(kept, (gone.r + gone.g + gone.b) / 3.0);
+}
+
+#endif

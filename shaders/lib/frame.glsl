@@ -1,0 +1,33 @@
+// Orthonormal frames and reflections about them.
+#ifndef GLIM_LIB_FRAME
+#define GLIM_LIB_FRAME
+
+struct Frame {
+    vec3 x, y, z;
+};
+
+// A right-handed frame with the unit vector n as z. Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
+// The sign is taken from the bit, so that -0 and 0 both work (GLSL's sign(0) is 0).
+Frame makeFrame(vec3 n)
+{
+    float s = (floatBitsToUint(n.z) >> 31u) != 0u ? -1.0 : 1.0;
+    float a = -1.0 / (s + n.z);
+    float b = n.x * n.y * a;
+    return Frame(vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), vec3(b, s + n.y * n.y * a, -n.y), n);
+}
+
+vec3 worldFromFrame(Frame frame, vec3 v)
+{
+    return frame.x * v.x + frame.y * v.y + frame.z * v.z;
+}
+
+// Unit vector along v for any non-zero finite v: scaled first, since squares of 1e25 or 1e-25 leave float's range.
+vec3 normalizeSafely(vec3 v)
+{
+    vec3 a = abs(v);
+    float largest = max(a.x, max(a.y, a.z));
+    vec3 scaled = v / largest;
+    return scaled / sqrt(dot(scaled, scaled));
+}
+
+#endif

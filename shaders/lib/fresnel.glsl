@@ -1,0 +1,51 @@
+// Reflection and refraction at smooth interfaces.
+#ifndef GLIM_LIB_FRESNEL
+#define GLIM_LIB_FRESNEL
+
+// Share of unpolarised light that a dielectric interface reflects; `eta` = index beyond / index before, `cosine` of the
+// incident direction in [0, 1]. 1 on total reflection, 0 where there is no interface. 1 - eta^-2 sin^2 is formed without
+// cancellation at grazing incidence.
+float fresnelDielectric(float cosine, float eta)
+{
+    float c = clamp(cosine, 0.0, 1.0);
+    if (eta == 1.0) {
+        return 0.0;
+    }
+    float k = 1.0 - (1.0 - c) * (1.0 + c) / (eta * eta);
+    if (!(k > 0.0)) {
+        return 1.0;
+    }
+    float t = sqrt(k);
+    float parallel = (eta * c - t) / (eta * c + t);
+    float perpendicular = (c - eta * t) / (c + eta * t);
+    return min(1.0, 0.5 * (parallel * parallel + perpendicular * perpendicular));
+}
+
+// Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994.
+vec3 fresnelSchlick(vec3 normalReflectance, float cosine)
+{
+    float m = clamp(1.0 - cosine, 0.0, 1.0);
+    float m2 = m * m;
+    return normalReflectance + (1.0 - normalReflectance) * (m2 * m2 * m);
+}
+
+// The mirror direction of wo; both point away from the surface. n: unit.
+vec3 reflectAbout(vec3 wo, vec3 n)
+{
+    return 2.0 * dot(wo, n) * n - wo;
+}
+
+// The refracted direction for dot(wo, n) >= 0, unit, pointing away on the other side; only where there is no total
+// reflection. With eta == 1 it is -wo exactly.
+vec3 refractThrough(vec3 wo, vec3 n, float eta)
+{
+    if (eta == 1.0) {
+        return -wo;
+    }
+    float c = dot(wo, n);
+    float k = 1.0 - (1.0 - c) * (1.0 + c) / (eta * eta);
+    vec3 wi = (c / eta - sqrt(max(0.0, k))) * n - wo / eta;
+    return wi / sqrt(dot(wi, wi));
+}
+
+#endif

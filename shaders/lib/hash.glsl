@@ -1,0 +1,32 @@
+// Counter-based random numbers.
+#ifndef GLIM_LIB_HASH
+#define GLIM_LIB_HASH
+
+// pcg4d: four 32-bit numbers from four counters. Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020.
+uvec4 hash4(uvec4 v)
+{
+    v = v * 1664525u + 1013904223u;
+    v.x += v.y * v.w;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v.w += v.y * v.z;
+    v ^= v >> 16u;
+    v.x += v.y * v.w;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v.w += v.y * v.z;
+    return v;
+}
+
+// Uniform in [0, 1): the upper 24 bits, so 1.0 cannot come out and every value is equally likely.
+float unitFloat(uint bits)
+{
+    return float(bits >> 8u) * (1.0 / 16777216.0);
+}
+
+vec2 unitFloat(uvec2 bits)
+{
+    return vec2(unitFloat(bits.x), unitFloat(bits.y));
+}
+
+#endif

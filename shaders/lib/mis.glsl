@@ -1,0 +1,23 @@
+// Multiple importance sampling.
+#ifndef GLIM_LIB_MIS
+#define GLIM_LIB_MIS
+
+// Weight of a sample drawn with pdf f where another technique has pdf g: the power heuristic with exponent 2 (Veach 1997,
+// section 9.2.4). In ratios, so that no square overflows; 0 if both are 0.
+float weightPower(float f, float g)
+{
+    if (!(f > 0.0)) {
+        return 0.0;
+    }
+    if (isinf(f)) {
+        return isinf(g) ? 0.5 : 1.0;
+    }
+    if (f >= g) {
+        float r = g / f;
+        return 1.0 / (1.0 + r * r);
+    }
+    float r = f / g;
+    return r * r / (1.0 + r * r);
+}
+
+#endif

@@ -1,0 +1,41 @@
+// Points on surfaces with bounds on their error, and ray origins that cannot meet the surface again.
+#ifndef GLIM_LIB_OFFSET_POINT
+#define GLIM_LIB_OFFSET_POINT
+
+// Bound of the rounding of a barycentric point and of a later intersection with the triangle: NVIDIA, "Solving
+// Self-Intersection Artifacts in DirectX Raytracing", 2023 (optix-toolkit, SelfIntersectionAvoidance): 2^-24 |v0| +
+// 3 * 2^-24 of the largest extent.
+vec3 triangleErrorBound(vec3 v0, vec3 e1, vec3 e2)
+{
+    vec3 extent = abs(e1) + abs(e2) + abs(e1 - e2);
+    return 5.9604645e-8 * abs(v0) + vec3(1.7881394e-7 * max(extent.x, max(extent.y, extent.z)));
+}
+
+// Of a point projected to a sphere: rounding of the centre and four operations on the radius.
+vec3 sphereErrorBound(vec3 center, float radius)
+{
+    return 5.9604645e-8 * abs(center) + vec3(2.3841858e-7 * radius);
+}
+
+// The next float away from zero or towards it along the sign of `side`.
+float nextAlong(float x, float side)
+{
+    int bits = floatBitsToInt(x);
+    if (side == 0.0) {
+        return x;
+    }
+    if (x == 0.0) {
+        return side > 0.0 ? 1.17549435e-38 : -1.17549435e-38;  // the smallest normal: denormals may be flushed
+    }
+    return intBitsToFloat((side > 0.0) == (x > 0.0) ? bits + 1 : bits - 1);
+}
+
+// Moves `point` off the surface along the unit geometric normal n (on the side wanted), far enough to clear the error box,
+// rounded away from the surface (pbrt-v4, section 6.8.6).
+vec3 offsetPoint(vec3 point, vec3 n, vec3 errorBound)
+{
+    vec3 moved = point + n * dot(abs(n), errorBound);
+    return vec3(nextAlong(moved.x, n.x), nextAlong(moved.y, n.y), nextAlong(moved.z, n.z));
+}
+
+#endif

@@ -1,0 +1,16 @@
+// Russian roulette.
+#ifndef GLIM_LIB_ROULETTE
+#define GLIM_LIB_ROULETTE
+
+// Hits before the first roulette: the first bounces carry most of the light.
+const uint kRouletteBounce = 3u;
+
+// Probability to go on: min(1, largest throughput), freed of what refraction compresses (Arvo and Kirk 1990; the eta scale as
+// in pbrt-v4). Never capped below 1: any cap q gives infinite variance once albedo^2 >= q.
+float survivalProbability(vec3 throughput, float etaScale, uint bounce)
+{
+    float largest = max(throughput.r, max(throughput.g, throughput.b)) * etaScale;
+    return bounce < kRouletteBounce ? 1.0 : min(1.0, largest);
+}
+
+#endif

@@ -1,0 +1,52 @@
+// Random numbers of a path: a pure function of (seed, pixel, sample, dimension).
+#ifndef GLIM_LIB_SAMPLER
+#define GLIM_LIB_SAMPLER
+
+#include "hash.glsl"
+#include "shared/limits.h"
+#include "sobol.glsl"
+
+// Dimensions, each a pair of numbers. Those of bounce b begin at kDimensionBounce + b * kDimensionsPerBounce.
+const uint kDimensionPixel = 0u;
+const uint kDimensionBounce = 1u;
+const uint kDimensionLight = 0u;    // which light: bin, threshold
+const uint kDimensionEmitter = 1u;  // which of its triangles: bin, threshold
+const uint kDimensionPoint = 2u;    // where on it
+const uint kDimensionScatter = 3u;  // direction of the next ray
+const uint kDimensionFate = 4u;     // reflect or refract; roulette
+const uint kDimensionsPerBounce = 5u;
+
+// Bounces with Sobol' points; beyond them paths are too blurred to gain, and independent numbers are cheaper.
+const uint kSobolBounces = 4u;
+
+struct SampleId {
+    uint seed;
+    uint pixel;
+    uint index;  // absolute sample index
+};
+
+uint bounceDimension(uint bounce, uint dimension)
+{
+    return kDimensionBounce + bounce * kDimensionsPerBounce + dimension;
+}
+
+uvec2 independentPair(SampleId id, uint dimension)
+{
+    return hash4(uvec4(id.pixel, id.index, dimension, id.seed)).xy;
+}
+
+// Each block of kBlockSamples has a scramble of its own, so that block means are independent and tell the variance.
+uvec2 sobolPair(SampleId id, uint dimension)
+{
+    // The counter is told apart from independentPair's by its upper bit.
+    uvec4 seeds = hash4(uvec4(id.pixel, (id.index / kBlockSamples) | 0x80000000u, dimension, id.seed));
+    return scrambledSobolPoint(id.index % kBlockSamples, seeds.xyz);
+}
+
+uvec2 samplePair(SampleId id, uint dimension, bool sobol)
+{
+    return sobol && dimension < bounceDimension(kSobolBounces, 0u) ? sobolPair(id, dimension)
+                                                                   : independentPair(id, dimension);
+}
+
+#endif

@@ -1,0 +1,48 @@
+// Binding numbers of set 0, and ids of specialization constants.
+#ifndef GLIM_SHARED_BINDINGS_H
+#define GLIM_SHARED_BINDINGS_H
+#include "vocabulary.h"
+
+GLIM_SHARED_BEGIN
+
+// scene.glsl
+GLIM_CONST uint kBindNodes = 0u;
+GLIM_CONST uint kBindRecords = 1u;
+GLIM_CONST uint kBindNormals = 2u;
+GLIM_CONST uint kBindMaterials = 3u;
+GLIM_CONST uint kBindLights = 4u;
+GLIM_CONST uint kBindEmitters = 5u;
+GLIM_CONST uint kBindCamera = 6u;
+// paths.glsl
+GLIM_CONST uint kBindRays = 7u;
+GLIM_CONST uint kBindHits = 8u;
+GLIM_CONST uint kBindStates = 9u;
+GLIM_CONST uint kBindRadiance = 10u;
+GLIM_CONST uint kBindFirstHits = 11u;
+GLIM_CONST uint kBindShadowRays = 12u;
+GLIM_CONST uint kBindActiveQueue = 13u;
+GLIM_CONST uint kBindNextQueue = 14u;
+GLIM_CONST uint kBindShadowQueue = 15u;
+GLIM_CONST uint kBindQueueSizes = 16u;
+GLIM_CONST uint kBindQueueTails = 17u;
+GLIM_CONST uint kBindRayCounts = 18u;
+GLIM_CONST uint kBindBlocks = 19u;
+GLIM_CONST uint kBindPages = 20u;
+GLIM_CONST uint kBindStatus = 21u;
+// tests
+GLIM_CONST uint kBindCases = 22u;
+GLIM_CONST uint kBindReport = 23u;
+GLIM_CONST uint kBindResults = 24u;
+
+GLIM_CONST uint kSpecWorkgroup = 0u;
+GLIM_CONST uint kSpecSpheres = 1u;         // the scene has spheres
+GLIM_CONST uint kSpecSmooth = 2u;          // some triangles have vertex normals
+GLIM_CONST uint kSpecSpecular = 3u;        // some material is a mirror or glass
+GLIM_CONST uint kSpecSurfaceLights = 4u;   // some triangle or sphere emits
+GLIM_CONST uint kSpecPunctualLights = 5u;
+GLIM_CONST uint kSpecEnvironment = 6u;
+GLIM_CONST uint kSpecSobol = 7u;           // else independent samples
+GLIM_CONST uint kSpecMollerTrumbore = 8u;  // else watertight
+
+GLIM_SHARED_END
+#endif

@@ -1,0 +1,118 @@
+// What kernels hand to each other. Arrays are indexed by slot: the place of a path in the pass.
+#ifndef GLIM_SHARED_PATH_TYPES_H
+#define GLIM_SHARED_PATH_TYPES_H
+#include "vocabulary.h"
+
+GLIM_SHARED_BEGIN
+
+struct PathRay {
+    vec3 origin;
+    uint source;     // record that the ray leaves, or kNoRecord
+    vec3 direction;  // unit
+};
+
+struct PathHit {
+    uint record;       // kNoRecord: a miss
+    float t;
+    vec2 barycentric;  // weights of v1 and v2; a sphere's are unused
+};
+
+struct PathState {
+    vec3 throughput;
+    float pdf;       // of the ray's direction per steradian; 0: camera, mirror or glass, which light sampling cannot find
+    float cosine;    // of the ray's direction against the shading normal it left, >= 0
+    float etaScale;  // product of squared relative indices: throughput * etaScale is free of the glass's compression
+};
+
+struct PathRadiance {
+    vec3 radiance;
+    float clamped;   // mean of the three channels of what --clamp-indirect took away
+};
+
+struct FirstHit {
+    vec3 albedo;
+    float alpha;
+    vec3 normal;
+    float depth;
+};
+
+// A segment that must be free for `contribution` to count: from origin to origin + direction.
+struct ShadowRay {
+    vec3 origin;
+    uint source;
+    vec3 direction;  // unnormalised; an infinite one for directional light and environment (see `reach`)
+    uint target;     // record of the light, which does not shadow itself, or kNoRecord
+    vec3 contribution;
+    float reach;     // 1, or infinity
+};
+
+// Written by size_dispatch: the length of each queue and the indirect arguments of the dispatches over it.
+struct QueueSizes {
+    uint closest;
+    uint shadow;
+    uvec3 closestGroups;
+    uvec3 shadowGroups;
+};
+
+// Where the next entry goes.
+struct QueueTails {
+    uint next;
+    uint shadow;
+};
+
+// Rays traced so far in this render, 64 bits in two words.
+struct RayCounts {
+    uvec2 closest;
+    uvec2 shadow;
+};
+
+GLIM_CONST uint kStatusLoopCap = 1u;    // the driver stopped a loop: the picture is wrong
+GLIM_CONST uint kStatusOverflow = 2u;   // a queue or the traversal stack was full
+GLIM_CONST uint kMaxLocated = 16u;
+
+struct Located {
+    uint pixel;   // index in the picture
+    uint sampleIndex;
+};
+
+struct Status {
+    uint flags;
+    uint nonFinite;                // samples that were not finite, and are in no average
+    Located located[kMaxLocated];  // the first of them to be counted
+};
+
+// Sums over the samples of a block so far.
+struct BlockSums {
+    uint count;
+    vec3 radiance;
+    float alpha;
+    vec3 albedo;
+    vec3 normal;
+    float depth;  // the nearest
+    float clamped;
+};
+
+GLIM_CONST uint kEndsBlock = 1u;  // accumulate folds the block into the page afterwards
+
+// Push constants of every kernel of a pass: pixels [firstPixel, firstPixel + pixelCount) of a slab, each with samples
+// [firstSample, firstSample + sampleCount). Slot = (pixel - firstPixel) * sampleCount + (sample - firstSample).
+struct Pass {
+    uint width, height;
+    uint slabBegin;     // index in the picture of the slab's pixel 0
+    uint firstPixel;    // within the slab
+    uint pixelCount;
+    uint firstSample;
+    uint sampleCount;
+    uint seed;
+    uint bounce;        // surface events before the hit at hand
+    uint maxBounces;
+    uint lightCount;
+    uint environmentLight;  // index, if the scene has an environment
+    vec3 environment;
+    float clampIndirect;    // infinity: off
+    uint accumulate;        // kEndsBlock or 0
+    uint canarySteps;       // 3, unknown to the compiler
+};
+
+GLIM_SHARED_END
+#endif
