@@ -106,7 +106,7 @@ void Buffer::allocate(const std::string& name)
     VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     allocation.allocationSize = needs.size;
     allocation.memoryTypeIndex = device_->findMemoryType(
-        needs.memoryTypeBits, readback ? host : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+        needs.memoryTypeBits, readback ? host : VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT},
         readback ? VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_HOST_CACHED_BIT} : host, &have);
     const VkResult result = vkAllocateMemory(device_->handle(), &allocation, nullptr, &memory_);
     if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {

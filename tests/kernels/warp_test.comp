@@ -1,0 +1,33 @@
+// One thread is one point of the unit square.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "expect.glsl"
+#include "lib/warp.glsl"
+
+struct Case {
+    vec2 u;
+    vec2 disk;  // the expected point
+};
+
+layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
+
+void main()
+{
+    if (isTestThread()) {
+        Case c = cases[TEST_THREAD];
+        vec2 disk = sampleDisk(c.u);
+        EXPECT_NEAR_VECTOR(disk, c.disk, 3e-7);
+        vec3 w = sampleCosineHemisphere(c.u);
+        EXPECT_NEAR_VECTOR(w.xy, c.disk, 3e-7);
+        EXPECT_NEAR(dot(w, w), 1.0, 5e-7);
+        EXPECT_TRUE(w.z >= 0.0);
+        EXPECT_NEAR(pdfCosineHemisphere(w.z), w.z / 3.14159265, 1e-7);
+        EXPECT_EQUAL(pdfCosineHemisphere(-w.z), 0.0);
+        vec3 s = sampleSphere(c.u);
+        EXPECT_NEAR(dot(s, s), 1.0, 5e-7);
+        EXPECT_NEAR(s.z, 1.0 - 2.0 * c.u.x, 1e-7);
+        vec2 b = sampleTriangle(c.u);
+        EXPECT_TRUE(b.x >= 0.0 && b.y >= 0.0 && b.x + b.y <= 1.0);
+    }
+    endTest();
+}

@@ -1,0 +1,58 @@
+// Expectations on the device. Each stands on one line; the host reports a failure at that line, and fails for a line whose
+// check never ran. A test kernel calls endTest() last.
+#ifndef GLIM_TESTS_EXPECT
+#define GLIM_TESTS_EXPECT
+
+#include "lib/canary.glsl"
+#include "report.h"
+#include "shared/bindings.h"
+#include "shared/path_types.h"
+
+layout(local_size_x_id = kSpecWorkgroup) in;
+layout(push_constant, scalar) uniform PassBlock { Pass pass; };
+layout(set = 0, binding = kBindReport, scalar) buffer ReportBuffer { Report report; };
+
+#define TEST_THREAD gl_GlobalInvocationID.x
+
+// The number of cases travels as the pass's pixel count.
+bool isTestThread()
+{
+    return TEST_THREAD < pass.pixelCount;
+}
+
+void expectThat(uint line, bool holds, float actual, float expected, float tolerance)
+{
+    atomicOr(report.lines[line / 32u], 1u << (line % 32u));
+    if (!holds) {
+        uint place = atomicAdd(report.failureCount, 1u);
+        if (place < kMaxFailures) {
+            report.failures[place] = Failure(line, TEST_THREAD, actual, expected, tolerance);
+        }
+    }
+}
+
+bool isNear(float actual, float expected, float tolerance)
+{
+    return abs(actual - expected) <= tolerance;  // false for NaN
+}
+
+// Absolute tolerance.
+#define EXPECT_NEAR(actual, expected, tolerance) \
+    expectThat(__LINE__, isNear(actual, expected, tolerance), actual, expected, tolerance)
+// Relative to the expected value.
+#define EXPECT_CLOSE(actual, expected, relative) \
+    expectThat(__LINE__, isNear(actual, expected, abs(expected) * (relative)), actual, expected, abs(expected) * (relative))
+// Distance of two vectors.
+#define EXPECT_NEAR_VECTOR(actual, expected, tolerance) \
+    expectThat(__LINE__, length((actual) - (expected)) <= (tolerance), length((actual) - (expected)), 0.0, tolerance)
+#define EXPECT_EQUAL(actual, expected) \
+    expectThat(__LINE__, (actual) == (expected), float(actual), float(expected), 0.0)
+#define EXPECT_TRUE(condition) expectThat(__LINE__, condition, 0.0, 1.0, 0.0)
+
+void endTest()
+{
+    report.sentinel = isLoopBudgetSpent(pass.canarySteps) ? kSentinel : 0u;
+    atomicAdd(report.threads, 1u);
+}
+
+#endif

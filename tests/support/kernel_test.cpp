@@ -1,0 +1,87 @@
+#include "tests/support/kernel_test.hpp"
+
+#include "host/render/path_buffers.hpp"
+#include "shaders/shared/bindings.h"
+#include "tests/support/report.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace glim {
+namespace {
+
+constexpr std::uint32_t kWorkgroup = 64;
+
+std::string sourceOf(const EmbeddedShader& shader)
+{
+    return std::string(GLIM_SOURCE_DIR "/tests/kernels/") + shader.name + ".comp";
+}
+
+// Lines of the kernel's source that hold a check.
+std::vector<std::uint32_t> checkedLines(const std::string& file)
+{
+    std::ifstream source(file);
+    EXPECT_TRUE(source.good()) << "cannot read " << file;
+    std::vector<std::uint32_t> lines;
+    std::string text;
+    for (std::uint32_t line = 1; std::getline(source, text); ++line) {
+        if (text.find("EXPECT_") != std::string::npos && text.find("//") > text.find("EXPECT_")) {
+            lines.push_back(line);
+        }
+    }
+    return lines;
+}
+
+void addFailures(const std::string& file, const Report& report, std::uint32_t threads)
+{
+    for (std::uint32_t i = 0; i < std::min(report.failureCount, kMaxFailures); ++i) {
+        const Failure& failure = report.failures[i];
+        ADD_FAILURE_AT(file.c_str(), static_cast<int>(failure.line))
+            << "case " << failure.thread << ": " << failure.actual << ", expected " << failure.expected << " within "
+            << failure.tolerance << (i + 1 == kMaxFailures ? " (and more)" : "");
+    }
+    for (const std::uint32_t line : checkedLines(file)) {
+        if ((report.lines[line / 32] >> line % 32 & 1U) == 0) {
+            ADD_FAILURE_AT(file.c_str(), static_cast<int>(line)) << "this check never ran";
+        }
+    }
+    EXPECT_EQ(report.threads, threads) << file << ": threads that ran to the end";
+    EXPECT_NE(report.sentinel, kSentinel) << file << ": never ran, or its loop budget is spent";
+}
+
+}  // namespace
+
+void KernelTest::run()
+{
+    Device& device = testDevice();
+    std::vector<BindingSlot> slots = kernelSlots();
+    for (const std::uint32_t binding : {kBindCases, kBindReport, kBindResults}) {
+        slots.push_back({binding, BufferKind::Storage});
+    }
+    Buffer reportBuffer(device, "report", BufferKind::Storage, sizeof(Report));
+    Report report{};
+    report.sentinel = kSentinel;
+    upload(reportBuffer, std::span<const Report>(&report, 1));
+
+    std::map<std::uint32_t, const Buffer*> bound = buffers_;
+    bound[kBindReport] = &reportBuffer;
+    if (cases_) {
+        bound[kBindCases] = &*cases_;
+    }
+    if (results_) {
+        bound[kBindResults] = &*results_;
+    }
+    pass_.canarySteps = 3;
+    specialization_.insert({kSpecWorkgroup, kWorkgroup});
+    const KernelLayout layout(device, slots, sizeof(Pass));
+    const Kernel kernel(layout, shader_, specialization_);
+    const Bindings bindings(layout, bound);
+    const std::uint32_t groups = (pass_.pixelCount + kWorkgroup - 1) / kWorkgroup;
+    Commands commands(device);
+    commands.dispatch(kernel, bindings, std::as_bytes(std::span<const Pass, 1>(&pass_, 1)), groups);
+    commands.submitAndWait();
+    addFailures(sourceOf(shader_), download<Report>(reportBuffer, 1)[0], groups * kWorkgroup);
+}
+
+}  // namespace glim
