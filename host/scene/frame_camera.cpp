@@ -1,0 +1,37 @@
+#include "host/scene/frame_camera.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace glim {
+
+Camera frameCamera(const Scene& scene)
+{
+    const float infinity = std::numeric_limits<float>::infinity();
+    glm::vec3 low(infinity), high(-infinity);
+    for (const Triangle& triangle : scene.triangles) {
+        for (const glm::vec3& vertex : triangle.vertices) {
+            low = glm::min(low, vertex);
+            high = glm::max(high, vertex);
+        }
+    }
+    for (const Sphere& sphere : scene.spheres) {
+        low = glm::min(low, sphere.center - sphere.radius);
+        high = glm::max(high, sphere.center + sphere.radius);
+    }
+
+    Camera camera;
+    camera.name = "framed";
+    const glm::dvec3 center = 0.5 * glm::dvec3(low) + 0.5 * glm::dvec3(high);
+    const double radius = 0.5 * glm::length(glm::dvec3(high) - glm::dvec3(low));
+    const double distance = radius / std::sin(0.5 * static_cast<double>(camera.yfov));  // the box's sphere just fits
+    const glm::dvec3 backward = glm::normalize(glm::dvec3(0.4, 0.3, 1.0));
+    const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), backward));
+    camera.position = center + distance * backward;
+    camera.forward = -backward;
+    camera.right = right;
+    camera.up = glm::cross(backward, right);
+    return camera;
+}
+
+}  // namespace glim

@@ -1,0 +1,153 @@
+// The properties that glim reads, after the glTF 2.0 schema and those of its extensions, as one table.
+#pragma once
+
+#include <cfloat>
+#include <cstddef>
+
+namespace glim {
+
+enum class JsonKind { Index, Whole, Number, Numbers, Bool, String, Object, Array };
+enum class Need { Optional, Required };  // of the last name in the path, where its parent exists
+
+constexpr double kPositive = DBL_MIN;             // as a minimum: greater than zero
+constexpr double kMaxWhole = 9007199254740992.0;  // 2^53
+
+struct SchemaRule {
+    const char* path;  // `[]`: each element of an array, `{}`: each value of an object
+    JsonKind kind;
+    Need need = Need::Optional;
+    const char* target = nullptr;  // Index: path of the array that is indexed
+    std::size_t count = 0;         // Numbers: how many
+    double min = -DBL_MAX, max = DBL_MAX;
+};
+
+namespace schema {
+
+constexpr SchemaRule index(const char* path, const char* target, Need need = Need::Optional)
+{
+    return {path, JsonKind::Index, need, target, 0, 0, 0};
+}
+
+constexpr SchemaRule whole(const char* path, Need need = Need::Optional, double min = 0, double max = kMaxWhole)
+{
+    return {path, JsonKind::Whole, need, nullptr, 0, min, max};
+}
+
+constexpr SchemaRule number(const char* path, Need need = Need::Optional, double min = -DBL_MAX, double max = DBL_MAX)
+{
+    return {path, JsonKind::Number, need, nullptr, 0, min, max};
+}
+
+constexpr SchemaRule numbers(const char* path, std::size_t count, double min = -DBL_MAX, double max = DBL_MAX)
+{
+    return {path, JsonKind::Numbers, Need::Optional, nullptr, count, min, max};
+}
+
+constexpr SchemaRule other(const char* path, JsonKind kind, Need need = Need::Optional)
+{
+    return {path, kind, need};
+}
+
+}  // namespace schema
+
+constexpr double kHalfPi = 1.57079632679489661923;
+constexpr double kMaxYfov = 3.14;  // at pi the picture plane is infinite
+
+// Ordered so that what others point into is checked first.
+constexpr SchemaRule kSchemaRules[] = {
+    schema::other("asset", JsonKind::Object, Need::Required),
+    schema::other("asset.version", JsonKind::String, Need::Required),
+    schema::other("asset.minVersion", JsonKind::String),
+    schema::other("extensionsUsed[]", JsonKind::String),
+    schema::other("extensionsRequired[]", JsonKind::String),
+
+    schema::other("buffers[].uri", JsonKind::String),
+    schema::whole("buffers[].byteLength", Need::Required, 1),
+    schema::index("bufferViews[].buffer", "buffers", Need::Required),
+    schema::whole("bufferViews[].byteOffset"),
+    schema::whole("bufferViews[].byteLength", Need::Required, 1),
+    schema::whole("bufferViews[].byteStride", Need::Optional, 4, 252),
+    schema::index("accessors[].bufferView", "bufferViews"),
+    schema::whole("accessors[].byteOffset"),
+    schema::whole("accessors[].componentType", Need::Required),
+    schema::whole("accessors[].count", Need::Required, 1),
+    schema::other("accessors[].type", JsonKind::String, Need::Required),
+    schema::other("accessors[].normalized", JsonKind::Bool),
+    schema::whole("accessors[].sparse.count", Need::Required, 1),
+    schema::other("accessors[].sparse.indices", JsonKind::Object, Need::Required),
+    schema::index("accessors[].sparse.indices.bufferView", "bufferViews", Need::Required),
+    schema::whole("accessors[].sparse.indices.byteOffset"),
+    schema::whole("accessors[].sparse.indices.componentType", Need::Required),
+    schema::other("accessors[].sparse.values", JsonKind::Object, Need::Required),
+    schema::index("accessors[].sparse.values.bufferView", "bufferViews", Need::Required),
+    schema::whole("accessors[].sparse.values.byteOffset"),
+
+    schema::other("materials[].name", JsonKind::String),
+    schema::numbers("materials[].pbrMetallicRoughness.baseColorFactor", 4, 0, 1),
+    schema::number("materials[].pbrMetallicRoughness.metallicFactor", Need::Optional, 0, 1),
+    schema::number("materials[].pbrMetallicRoughness.roughnessFactor", Need::Optional, 0, 1),
+    schema::index("materials[].pbrMetallicRoughness.baseColorTexture.index", "textures", Need::Required),
+    schema::index("materials[].pbrMetallicRoughness.metallicRoughnessTexture.index", "textures", Need::Required),
+    schema::index("materials[].normalTexture.index", "textures", Need::Required),
+    schema::index("materials[].occlusionTexture.index", "textures", Need::Required),
+    schema::index("materials[].emissiveTexture.index", "textures", Need::Required),
+    schema::numbers("materials[].emissiveFactor", 3, 0),
+    schema::other("materials[].alphaMode", JsonKind::String),
+    schema::number("materials[].alphaCutoff", Need::Optional, 0),
+    schema::other("materials[].doubleSided", JsonKind::Bool),
+    schema::other("materials[].extensions{}", JsonKind::Object),
+    schema::number("materials[].extensions.KHR_materials_emissive_strength.emissiveStrength", Need::Optional, 0),
+    schema::number("materials[].extensions.KHR_materials_ior.ior", Need::Optional, 0),
+    schema::number("materials[].extensions.KHR_materials_specular.specularFactor", Need::Optional, 0, 1),
+    schema::numbers("materials[].extensions.KHR_materials_specular.specularColorFactor", 3, 0),
+    schema::number("materials[].extensions.KHR_materials_transmission.transmissionFactor", Need::Optional, 0, 1),
+    schema::number("materials[].extensions.KHR_materials_volume.thicknessFactor", Need::Optional, 0),
+    schema::number("materials[].extensions.KHR_materials_volume.attenuationDistance", Need::Optional, kPositive),
+    schema::numbers("materials[].extensions.KHR_materials_volume.attenuationColor", 3, 0, 1),
+
+    schema::other("meshes[].name", JsonKind::String),
+    schema::other("meshes[].primitives", JsonKind::Array, Need::Required),
+    schema::other("meshes[].primitives[].attributes", JsonKind::Object, Need::Required),
+    schema::index("meshes[].primitives[].attributes{}", "accessors"),
+    schema::index("meshes[].primitives[].indices", "accessors"),
+    schema::index("meshes[].primitives[].material", "materials"),
+    schema::whole("meshes[].primitives[].mode", Need::Optional, 0, 6),
+    schema::index("meshes[].primitives[].targets[]{}", "accessors"),
+
+    schema::other("cameras[].name", JsonKind::String),
+    schema::other("cameras[].type", JsonKind::String, Need::Required),
+    schema::number("cameras[].perspective.yfov", Need::Required, kPositive, kMaxYfov),
+    schema::number("cameras[].perspective.aspectRatio", Need::Optional, kPositive),
+    schema::number("cameras[].perspective.znear", Need::Required, kPositive),
+    schema::number("cameras[].orthographic.xmag", Need::Required, kPositive),
+    schema::number("cameras[].orthographic.ymag", Need::Required, kPositive),
+    schema::number("cameras[].orthographic.znear", Need::Required),
+    schema::number("cameras[].orthographic.zfar", Need::Required),
+    schema::other("extensions.KHR_lights_punctual.lights", JsonKind::Array, Need::Required),
+    schema::other("extensions.KHR_lights_punctual.lights[].name", JsonKind::String),
+    schema::other("extensions.KHR_lights_punctual.lights[].type", JsonKind::String, Need::Required),
+    schema::numbers("extensions.KHR_lights_punctual.lights[].color", 3, 0),
+    schema::number("extensions.KHR_lights_punctual.lights[].intensity", Need::Optional, 0),
+    schema::number("extensions.KHR_lights_punctual.lights[].range", Need::Optional, kPositive),
+    schema::number("extensions.KHR_lights_punctual.lights[].spot.innerConeAngle", Need::Optional, 0, kHalfPi),
+    schema::number("extensions.KHR_lights_punctual.lights[].spot.outerConeAngle", Need::Optional, kPositive, kHalfPi),
+
+    schema::other("nodes[].name", JsonKind::String),
+    schema::index("nodes[].children[]", "nodes"),
+    schema::index("nodes[].mesh", "meshes"),
+    schema::index("nodes[].camera", "cameras"),
+    schema::index("nodes[].skin", "skins"),
+    schema::index("nodes[].extensions.KHR_lights_punctual.light", "extensions.KHR_lights_punctual.lights",
+                  Need::Required),
+    schema::numbers("nodes[].matrix", 16),
+    schema::numbers("nodes[].translation", 3),
+    schema::numbers("nodes[].rotation", 4),
+    schema::numbers("nodes[].scale", 3),
+    schema::number("nodes[].extras.sphere.radius", Need::Required, 0),
+    schema::index("nodes[].extras.sphere.material", "materials"),
+    schema::other("scenes[].name", JsonKind::String),
+    schema::index("scenes[].nodes[]", "nodes"),
+    schema::index("scene", "scenes"),
+};
+
+}  // namespace glim

@@ -1,0 +1,161 @@
+#include "host/scene/gltf/place_nodes.hpp"
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <cmath>
+
+namespace glim {
+namespace {
+
+constexpr int kNone = -1;
+
+// Below this share of what orthogonal columns of the same lengths would span, a matrix is taken for singular.
+constexpr double kSingular = 1e-12;
+
+std::vector<int> findParents(const GltfFile& file)
+{
+    const std::vector<tinygltf::Node>& nodes = file.model.nodes;
+    std::vector<int> parents(nodes.size(), kNone);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        for (const int child : nodes[i].children) {
+            int& parent = parents[static_cast<std::size_t>(child)];
+            if (parent != kNone) {
+                refuse(file, nodeLabel(file, static_cast<std::size_t>(child)) + " is a child of nodes[" +
+                                 std::to_string(parent) + "] and of nodes[" + std::to_string(i) +
+                                 "]; expected one parent");
+            }
+            parent = static_cast<int>(i);
+        }
+    }
+    return parents;
+}
+
+// With one parent at most, a cycle is met by walking upwards.
+void checkAcyclic(const GltfFile& file, const std::vector<int>& parents)
+{
+    std::vector<int> walkThatMet(parents.size(), kNone);
+    for (std::size_t start = 0; start < parents.size(); ++start) {
+        const auto walk = static_cast<int>(start);
+        int at = walk;
+        while (at != kNone && walkThatMet[static_cast<std::size_t>(at)] == kNone) {
+            walkThatMet[static_cast<std::size_t>(at)] = walk;
+            at = parents[static_cast<std::size_t>(at)];
+        }
+        if (at != kNone && walkThatMet[static_cast<std::size_t>(at)] == walk) {
+            refuse(file, nodeLabel(file, static_cast<std::size_t>(at)) +
+                             " is its own ancestor; expected a hierarchy without cycles");
+        }
+    }
+}
+
+std::vector<int> findRoots(const GltfFile& file, const LoadOptions& options, const std::vector<int>& parents,
+                           std::vector<std::string>& notices)
+{
+    const std::vector<tinygltf::Scene>& scenes = file.model.scenes;
+    if (options.scene && *options.scene >= scenes.size()) {
+        refuse(file, "scene " + std::to_string(*options.scene) + " was asked for; expected one below " +
+                         std::to_string(scenes.size()));
+    }
+    if (!scenes.empty()) {
+        const std::size_t first = file.model.defaultScene < 0 ? 0 : static_cast<std::size_t>(file.model.defaultScene);
+        return scenes[options.scene.value_or(first)].nodes;
+    }
+    std::vector<int> roots;
+    for (std::size_t i = 0; i < parents.size(); ++i) {
+        if (parents[i] == kNone) {
+            roots.push_back(static_cast<int>(i));
+        }
+    }
+    notices.push_back("the file has no scene: all its nodes are drawn");
+    return roots;
+}
+
+void checkRoots(const GltfFile& file, const std::vector<int>& roots, const std::vector<int>& parents)
+{
+    std::vector<bool> listed(parents.size(), false);
+    for (const int root : roots) {
+        const auto index = static_cast<std::size_t>(root);
+        if (parents[index] != kNone || listed[index]) {
+            refuse(file, nodeLabel(file, index) + " is listed by a scene " +
+                             (listed[index] ? "twice" : "and is a child of nodes[" + std::to_string(parents[index]) +
+                                                            "]") +
+                             "; expected each root once");
+        }
+        listed[index] = true;
+    }
+}
+
+glm::dmat4 readMatrix(const GltfFile& file, std::size_t index)
+{
+    const std::vector<double>& values = file.model.nodes[index].matrix;
+    glm::dmat4 matrix;
+    for (int i = 0; i < 16; ++i) {
+        matrix[i / 4][i % 4] = values[static_cast<std::size_t>(i)];
+    }
+    if (values[3] != 0.0 || values[7] != 0.0 || values[11] != 0.0 || values[15] != 1.0) {
+        refuse(file, nodeLabel(file, index) + ".matrix has the last row " + toText(values[3]) + " " +
+                         toText(values[7]) + " " + toText(values[11]) + " " + toText(values[15]) +
+                         "; expected 0 0 0 1");
+    }
+    return matrix;
+}
+
+glm::dmat4 parentFromNode(const GltfFile& file, std::size_t index)
+{
+    const tinygltf::Node& node = file.model.nodes[index];
+    if (!node.matrix.empty()) {
+        return readMatrix(file, index);
+    }
+    glm::dmat4 matrix(1.0);
+    if (!node.rotation.empty()) {
+        const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
+        if (!(glm::length(rotation) > 0.0)) {
+            refuse(file, nodeLabel(file, index) + ".rotation is 0; expected a unit quaternion");
+        }
+        matrix = glm::dmat4(glm::mat3_cast(glm::normalize(rotation)));
+    }
+    for (int c = 0; c < 3; ++c) {
+        matrix[c] *= node.scale.empty() ? 1.0 : node.scale[static_cast<std::size_t>(c)];
+        matrix[3][c] = node.translation.empty() ? 0.0 : node.translation[static_cast<std::size_t>(c)];
+    }
+    return matrix;
+}
+
+}  // namespace
+
+std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& options, std::vector<std::string>& notices)
+{
+    const std::vector<int> parents = findParents(file);
+    checkAcyclic(file, parents);
+    const std::vector<int> roots = findRoots(file, options, parents, notices);
+    checkRoots(file, roots, parents);
+
+    std::vector<PlacedNode> placed, pending;  // a stack of its own: hierarchies may be deeper than the call stack
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
+        pending.push_back({static_cast<std::size_t>(*root), glm::dmat4(1.0)});
+    }
+    while (!pending.empty()) {
+        PlacedNode node = pending.back();
+        pending.pop_back();
+        node.worldFromNode = node.worldFromNode * parentFromNode(file, node.index);
+        placed.push_back(node);
+        const std::vector<int>& children = file.model.nodes[node.index].children;
+        for (auto child = children.rbegin(); child != children.rend(); ++child) {
+            pending.push_back({static_cast<std::size_t>(*child), node.worldFromNode});
+        }
+    }
+    return placed;
+}
+
+glm::dmat3 readLinear(const GltfFile& file, const PlacedNode& node)
+{
+    const glm::dmat3 linear(node.worldFromNode);
+    const double span = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
+    if (!(std::abs(glm::determinant(linear)) > kSingular * span)) {
+        refuse(file, nodeLabel(file, node.index) + " has a singular transform (determinant " +
+                         toText(glm::determinant(linear)) + "); expected one that can be inverted");
+    }
+    return linear;
+}
+
+}  // namespace glim

@@ -1,0 +1,22 @@
+// The node hierarchy of one scene, flattened: which node stands where in the world.
+#pragma once
+
+#include "host/scene/gltf/gltf_file.hpp"
+#include "host/scene/load_gltf.hpp"
+
+#include <glm/glm.hpp>
+
+namespace glim {
+
+struct PlacedNode {
+    std::size_t index;
+    glm::dmat4 worldFromNode;  // affine
+};
+
+// In document order, parents first. Checks that the nodes form trees.
+std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& options, std::vector<std::string>& notices);
+
+// The linear part of what carries a shape, camera or light; refuses a singular one.
+glm::dmat3 readLinear(const GltfFile& file, const PlacedNode& node);
+
+}  // namespace glim

@@ -1,0 +1,209 @@
+#include "host/scene/gltf/read_accessor.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+namespace glim {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian and are read as they are");
+
+// An accessor without bufferView is all zeros: memory that no byte of the file pays for.
+constexpr std::size_t kMaxUnbackedElements = std::size_t{1} << 22U;
+
+struct Elements {
+    const unsigned char* first;
+    std::size_t stride;
+    std::size_t count;
+};
+
+struct Layout {
+    std::size_t offset;  // into the view
+    std::size_t count;
+    std::size_t elementSize;
+};
+
+// The bytes of `count` elements, all inside their view and that inside its buffer.
+Elements findElements(const GltfFile& file, std::size_t viewIndex, const Layout& layout, const std::string& place)
+{
+    const tinygltf::BufferView& view = file.model.bufferViews[viewIndex];
+    const std::vector<unsigned char>& buffer = file.buffers[static_cast<std::size_t>(view.buffer)];
+    const std::string viewPlace = "bufferViews[" + std::to_string(viewIndex) + "]";
+    if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset) {
+        refuse(file, viewPlace + " ends at byte " + std::to_string(view.byteOffset + view.byteLength) +
+                         "; expected at most the " + std::to_string(buffer.size()) + " of buffers[" +
+                         std::to_string(view.buffer) + "]");
+    }
+    const std::size_t stride = view.byteStride == 0 ? layout.elementSize : view.byteStride;
+    if (stride < layout.elementSize) {
+        refuse(file, viewPlace + ".byteStride is " + std::to_string(stride) + "; expected at least the " +
+                         std::to_string(layout.elementSize) + " bytes of an element of " + place);
+    }
+    const bool firstFits = layout.offset <= view.byteLength && layout.elementSize <= view.byteLength - layout.offset;
+    const std::size_t room = firstFits ? (view.byteLength - layout.offset - layout.elementSize) / stride + 1 : 0;
+    if (layout.count > room) {
+        refuse(file, place + " claims " + std::to_string(layout.count) + " elements; expected at most the " +
+                         std::to_string(room) + " that fit into " + viewPlace);
+    }
+    return {buffer.data() + view.byteOffset + layout.offset, stride, layout.count};
+}
+
+template <typename Component>
+Component load(const unsigned char* bytes)
+{
+    Component value;
+    std::memcpy(&value, bytes, sizeof value);
+    return value;
+}
+
+// glTF 2.0, section 3.6.2.2: signed normalised integers are clamped, so that both ends are exact.
+template <typename Component>
+double loadAs(const unsigned char* bytes, bool normalized)
+{
+    const auto value = static_cast<double>(load<Component>(bytes));
+    if constexpr (std::is_integral_v<Component>) {
+        return normalized ? std::max(value / static_cast<double>(std::numeric_limits<Component>::max()), -1.0) : value;
+    }
+    return value;
+}
+
+using Loader = double (*)(const unsigned char*, bool);
+
+Loader findLoader(const GltfFile& file, int componentType, const std::string& place)
+{
+    switch (componentType) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE: return loadAs<std::int8_t>;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return loadAs<std::uint8_t>;
+    case TINYGLTF_COMPONENT_TYPE_SHORT: return loadAs<std::int16_t>;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return loadAs<std::uint16_t>;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return loadAs<std::uint32_t>;
+    case TINYGLTF_COMPONENT_TYPE_FLOAT: return loadAs<float>;
+    default: break;
+    }
+    refuse(file, place + ".componentType is " + std::to_string(componentType) +
+                     "; expected one of 5120, 5121, 5122, 5123, 5125 and 5126");
+}
+
+void checkIndexType(const GltfFile& file, int componentType, const std::string& place)
+{
+    if (componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
+        componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+        componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
+        refuse(file, place + ".componentType is " + std::to_string(componentType) +
+                         "; expected 5121, 5123 or 5125 for indices");
+    }
+}
+
+// One component type's size and conversion, times the components of an element.
+struct Decoder {
+    Loader loader;
+    std::size_t componentSize;
+    std::size_t components;
+    bool normalized;
+
+    std::size_t size() const { return componentSize * components; }
+    double operator()(const unsigned char* element, std::size_t component) const
+    {
+        return loader(element + component * componentSize, normalized);
+    }
+};
+
+Decoder makeDecoder(const GltfFile& file, int componentType, std::size_t components, bool normalized,
+                    const std::string& place)
+{
+    return {findLoader(file, componentType, place),
+            static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(componentType))),
+            components, normalized};
+}
+
+template <typename Value, typename Convert>
+void replaceSparse(const GltfFile& file, const tinygltf::Accessor& accessor, const Decoder& decoder,
+                   const std::string& place, const Convert& convert, std::vector<Value>& values)
+{
+    const auto& sparse = accessor.sparse;
+    const auto count = static_cast<std::size_t>(sparse.count);
+    checkIndexType(file, sparse.indices.componentType, place + ".sparse.indices");
+    const Decoder indexDecoder = makeDecoder(file, sparse.indices.componentType, 1, false, place);
+    const Elements indices = findElements(file, static_cast<std::size_t>(sparse.indices.bufferView),
+                                          {static_cast<std::size_t>(sparse.indices.byteOffset), count,
+                                           indexDecoder.size()},
+                                          place + ".sparse.indices");
+    const Elements replacements = findElements(file, static_cast<std::size_t>(sparse.values.bufferView),
+                                               {static_cast<std::size_t>(sparse.values.byteOffset), count,
+                                                decoder.size()},
+                                               place + ".sparse.values");
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto target = static_cast<std::size_t>(indexDecoder(indices.first + i * indices.stride, 0));
+        if (target >= values.size()) {
+            refuse(file, place + ".sparse replaces element " + std::to_string(target) + "; expected one below " +
+                             std::to_string(values.size()));
+        }
+        values[target] = convert(decoder, replacements.first + i * replacements.stride);
+    }
+}
+
+template <typename Value, typename Convert>
+std::vector<Value> readElements(const GltfFile& file, std::size_t index, std::size_t components,
+                                const std::string& place, const Convert& convert)
+{
+    const tinygltf::Accessor& accessor = file.model.accessors[index];
+    const Decoder decoder = makeDecoder(file, accessor.componentType, components, accessor.normalized, place);
+    std::vector<Value> values;
+    if (accessor.bufferView >= 0) {
+        const Elements elements = findElements(file, static_cast<std::size_t>(accessor.bufferView),
+                                               {accessor.byteOffset, accessor.count, decoder.size()}, place);
+        values.reserve(elements.count);
+        for (std::size_t i = 0; i < elements.count; ++i) {
+            values.push_back(convert(decoder, elements.first + i * elements.stride));
+        }
+    } else {
+        values.resize(accessor.count, Value(0));
+    }
+    if (accessor.sparse.isSparse) {
+        replaceSparse(file, accessor, decoder, place, convert, values);
+    }
+    return values;
+}
+
+void checkAccessor(const GltfFile& file, std::size_t index, int type, const char* typeName, const std::string& place)
+{
+    const tinygltf::Accessor& accessor = file.model.accessors[index];
+    if (accessor.type != type) {
+        refuse(file, place + " has another type; expected " + typeName);
+    }
+    if (accessor.bufferView < 0 && accessor.count > kMaxUnbackedElements) {
+        refuse(file, place + " claims " + std::to_string(accessor.count) +
+                         " elements without a bufferView; expected at most " + std::to_string(kMaxUnbackedElements));
+    }
+}
+
+std::string placeOf(std::size_t accessor, const std::string& use)
+{
+    return "accessors[" + std::to_string(accessor) + "] (" + use + ")";
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> readVec3(const GltfFile& file, std::size_t accessor, const std::string& use)
+{
+    const std::string place = placeOf(accessor, use);
+    checkAccessor(file, accessor, TINYGLTF_TYPE_VEC3, "VEC3", place);
+    return readElements<glm::dvec3>(file, accessor, 3, place, [](const Decoder& decoder, const unsigned char* bytes) {
+        return glm::dvec3(decoder(bytes, 0), decoder(bytes, 1), decoder(bytes, 2));
+    });
+}
+
+std::vector<std::uint32_t> readIndices(const GltfFile& file, std::size_t accessor, const std::string& use)
+{
+    const std::string place = placeOf(accessor, use);
+    checkAccessor(file, accessor, TINYGLTF_TYPE_SCALAR, "SCALAR", place);
+    checkIndexType(file, file.model.accessors[accessor].componentType, place);
+    return readElements<std::uint32_t>(file, accessor, 1, place, [](const Decoder& decoder, const unsigned char* bytes) {
+        return static_cast<std::uint32_t>(decoder(bytes, 0));
+    });
+}
+
+}  // namespace glim

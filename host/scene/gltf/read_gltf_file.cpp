@@ -1,0 +1,187 @@
+#include "host/error.hpp"
+#include "host/scene/gltf/check_gltf_json.hpp"
+#include "host/scene/gltf/gltf_container.hpp"
+#include "host/scene/gltf/gltf_file.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <sstream>
+
+namespace glim {
+namespace {
+
+using nlohmann::json;
+
+// `%20` and its like, RFC 3986 section 2.1.
+std::string percentDecode(const std::string& uri)
+{
+    std::string decoded;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        if (uri[i] == '%' && i + 2 < uri.size() && std::isxdigit(static_cast<unsigned char>(uri[i + 1])) != 0 &&
+            std::isxdigit(static_cast<unsigned char>(uri[i + 2])) != 0) {
+            decoded += static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16));
+            i += 2;
+        } else {
+            decoded += uri[i];
+        }
+    }
+    return decoded;
+}
+
+std::vector<unsigned char> decodeDataUri(const std::string& path, const std::string& place, const std::string& uri)
+{
+    std::vector<unsigned char> bytes;
+    std::string mimeType;
+    if (!tinygltf::DecodeDataURI(&bytes, mimeType, uri, 0, false)) {
+        throw InputError(path + ": " + place + ".uri starts with \"" + uri.substr(0, uri.find(',')).substr(0, 48) +
+                         "\"; expected base64 data of type application/octet-stream or application/gltf-buffer");
+    }
+    return bytes;
+}
+
+std::vector<unsigned char> readExternal(const std::string& path, const std::string& place, const std::string& uri)
+{
+    const std::filesystem::path relative = percentDecode(uri);
+    if (relative.empty() || relative.is_absolute() || uri.find(':') != std::string::npos) {
+        throw InputError(path + ": " + place + ".uri is \"" + uri + "\"; expected a path relative to the glTF file");
+    }
+    try {
+        return readBytes(std::filesystem::path(path).parent_path() / relative);
+    } catch (const InputError& error) {
+        throw InputError(path + ": " + place + " names the file \"" + uri + "\", which cannot be read (" +
+                         error.what() + ")");
+    }
+}
+
+std::vector<std::vector<unsigned char>> readBuffers(const std::string& path, const json& document,
+                                                    GltfContainer& container)
+{
+    std::vector<std::vector<unsigned char>> buffers;
+    for (const json& entry : document.value("buffers", json::array())) {
+        const std::string place = "buffers[" + std::to_string(buffers.size()) + "]";
+        const std::string uri = entry.value("uri", "");
+        std::vector<unsigned char> bytes;
+        if (!entry.contains("uri")) {
+            if (!buffers.empty() || !container.binary) {
+                throw InputError(path + ": " + place + " has no uri; expected one in all but the first buffer of a .glb");
+            }
+            bytes = std::move(*container.binary);
+        } else {
+            bytes = uri.rfind("data:", 0) == 0 ? decodeDataUri(path, place, uri) : readExternal(path, place, uri);
+        }
+        const auto expected = entry.at("byteLength").get<std::uint64_t>();
+        if (bytes.size() < expected) {
+            throw InputError(path + ": " + place + " holds " + std::to_string(bytes.size()) +
+                             " bytes; expected its byteLength " + std::to_string(expected));
+        }
+        buffers.push_back(std::move(bytes));
+    }
+    return buffers;
+}
+
+// tinygltf 2.7 refuses index accessors without a bufferView, though sparse ones may lack it: they borrow one while it
+// parses. Returns the borrowers.
+std::vector<std::size_t> lendBufferViews(json& document)
+{
+    std::vector<std::size_t> borrowers;
+    if (!document.contains("accessors")) {
+        return borrowers;
+    }
+    for (std::size_t i = 0; i < document["accessors"].size(); ++i) {
+        json& accessor = document["accessors"][i];
+        if (!accessor.contains("bufferView") && accessor.contains("sparse")) {
+            accessor["bufferView"] = accessor["sparse"]["indices"]["bufferView"];
+            borrowers.push_back(i);
+        }
+    }
+    return borrowers;
+}
+
+// tinygltf narrows whole numbers in extras and extensions to int.
+void widenIntegers(json& value)
+{
+    if (value.is_number_integer()) {
+        value = value.get<double>();
+    } else if (value.is_structured()) {
+        for (json& member : value) {
+            widenIntegers(member);
+        }
+    }
+}
+
+void widenMembers(json& document, const char* collection, const char* member)
+{
+    if (!document.contains(collection)) {
+        return;
+    }
+    for (json& element : document[collection]) {
+        if (element.contains(member)) {
+            widenIntegers(element[member]);
+        }
+    }
+}
+
+// tinygltf is given the checked JSON alone: it opens no file, decodes no image, and cannot stumble over what glim
+// does not read.
+tinygltf::Model parseModel(const std::string& path, json document)
+{
+    for (const char* unread : {"buffers", "images", "textures", "samplers", "skins", "animations"}) {
+        document.erase(unread);
+    }
+    const std::vector<std::size_t> borrowers = lendBufferViews(document);
+    widenMembers(document, "materials", "extensions");
+    widenMembers(document, "nodes", "extras");
+    const std::string text = document.dump();
+    tinygltf::TinyGLTF parser;
+    tinygltf::Model model;
+    std::string error, warning;
+    if (!parser.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()), "")) {
+        throw InputError(path + ": not valid glTF: " + error.substr(0, error.find('\n')));
+    }
+    for (const std::size_t borrower : borrowers) {
+        model.accessors[borrower].bufferView = -1;
+    }
+    return model;
+}
+
+}  // namespace
+
+GltfFile readGltfFile(const std::filesystem::path& file)
+{
+    const std::string path = file.string();
+    GltfContainer container = openContainer(path, readBytes(file));
+    json document = parseJson(path, container.json);
+    checkGltfJson(path, document);
+
+    GltfFile result;
+    result.path = path;
+    result.buffers = readBuffers(path, document, container);
+    result.animated = document.contains("animations");
+    result.model = parseModel(path, std::move(document));
+    return result;
+}
+
+void refuse(const GltfFile& file, const std::string& sentence)
+{
+    throw InputError(file.path + ": " + sentence);
+}
+
+std::string label(const char* collection, std::size_t index, const std::string& name)
+{
+    const std::string place = std::string(collection) + "[" + std::to_string(index) + "]";
+    return name.empty() ? place : place + " (\"" + name + "\")";
+}
+
+std::string nodeLabel(const GltfFile& file, std::size_t node)
+{
+    return label("nodes", node, file.model.nodes[node].name);
+}
+
+std::string toText(double value)
+{
+    std::ostringstream text;
+    text << value;
+    return text.str();
+}
+
+}  // namespace glim

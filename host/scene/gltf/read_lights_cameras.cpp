@@ -1,0 +1,111 @@
+#include "host/scene/gltf/read_lights_cameras.hpp"
+
+#include <cmath>
+
+namespace glim {
+namespace {
+
+glm::vec3 readPosition(const GltfFile& file, const PlacedNode& node, const Scene& scene)
+{
+    const glm::vec3 position(glm::dvec3(node.worldFromNode[3]) - scene.origin);
+    if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(position.z)) {
+        refuse(file, nodeLabel(file, node.index) + " is not at a finite place; expected coordinates that fit a float");
+    }
+    return position;
+}
+
+std::string nameOf(const GltfFile& file, const PlacedNode& node, const std::string& own)
+{
+    const std::string& name = file.model.nodes[node.index].name;
+    return name.empty() ? own : name;
+}
+
+PunctualLight readLight(const GltfFile& file, const PlacedNode& node, std::size_t index, Scene& scene)
+{
+    const tinygltf::Light& source = file.model.lights[index];
+    const std::string place = label("lights", index, source.name);
+    PunctualLight light;
+    light.name = nameOf(file, node, source.name);
+    light.position = readPosition(file, node, scene);
+    light.direction = -glm::normalize(readLinear(file, node)[2]);
+    for (int c = 0; c < 3; ++c) {
+        const double color = source.color.empty() ? 1.0 : source.color[static_cast<std::size_t>(c)];
+        light.intensity[c] = static_cast<float>(source.intensity * color);
+    }
+    if (source.type == "point") {
+        light.kind = PunctualLight::Kind::Point;
+    } else if (source.type == "directional") {
+        light.kind = PunctualLight::Kind::Directional;
+    } else if (source.type == "spot") {
+        light.kind = PunctualLight::Kind::Spot;
+        if (source.spot.innerConeAngle >= source.spot.outerConeAngle) {
+            refuse(file, place + " has the inner cone angle " + toText(source.spot.innerConeAngle) +
+                             "; expected less than the outer one, " + toText(source.spot.outerConeAngle));
+        }
+        light.cosInner = static_cast<float>(std::cos(source.spot.innerConeAngle));
+        light.cosOuter = static_cast<float>(std::cos(source.spot.outerConeAngle));
+    } else {
+        refuse(file, place + " is of type \"" + source.type + "\"; expected point, directional or spot");
+    }
+    if (source.range > 0.0) {
+        scene.notices.push_back(place + " shines without its range: it falls with the square of the distance alone");
+    }
+    return light;
+}
+
+// The view is a rotation and a place: glTF gives scale no meaning here.
+void readView(const GltfFile& file, const PlacedNode& node, Camera& camera)
+{
+    const glm::dmat3 linear = readLinear(file, node);
+    const glm::dvec3 forward = -glm::normalize(linear[2]);
+    const glm::dvec3 up = glm::normalize(linear[1] - forward * glm::dot(forward, linear[1]));
+    camera.forward = forward;
+    camera.up = up;
+    camera.right = glm::cross(forward, up);
+}
+
+Camera readCamera(const GltfFile& file, const PlacedNode& node, std::size_t index, Scene& scene)
+{
+    const tinygltf::Camera& source = file.model.cameras[index];
+    const std::string place = label("cameras", index, source.name);
+    Camera camera;
+    camera.name = nameOf(file, node, source.name);
+    camera.position = readPosition(file, node, scene);
+    readView(file, node, camera);
+    if (glm::determinant(glm::dmat3(node.worldFromNode)) < 0.0) {
+        scene.notices.push_back(nodeLabel(file, node.index) + " mirrors its camera, which is ignored");
+    }
+    if (source.type == "perspective" && source.perspective.yfov > 0.0) {
+        camera.yfov = static_cast<float>(source.perspective.yfov);
+        if (source.perspective.aspectRatio > 0.0) {
+            camera.aspectRatio = static_cast<float>(source.perspective.aspectRatio);
+        }
+    } else if (source.type == "orthographic" && source.orthographic.xmag > 0.0) {
+        camera.kind = Camera::Kind::Orthographic;
+        camera.halfWidth = static_cast<float>(source.orthographic.xmag);
+        camera.halfHeight = static_cast<float>(source.orthographic.ymag);
+        camera.aspectRatio = static_cast<float>(source.orthographic.xmag / source.orthographic.ymag);
+    } else {
+        refuse(file, place + " is of type \"" + source.type +
+                         "\"; expected perspective or orthographic with the object of that name");
+    }
+    return camera;
+}
+
+}  // namespace
+
+void readLightsAndCameras(const GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& scene)
+{
+    for (const PlacedNode& node : nodes) {
+        const tinygltf::Node& source = file.model.nodes[node.index];
+        if (const auto light = source.extensions.find("KHR_lights_punctual"); light != source.extensions.end()) {
+            const auto index = static_cast<std::size_t>(light->second.Get("light").GetNumberAsInt());
+            scene.lights.push_back(readLight(file, node, index, scene));
+        }
+        if (source.camera >= 0) {
+            scene.cameras.push_back(readCamera(file, node, static_cast<std::size_t>(source.camera), scene));
+        }
+    }
+}
+
+}  // namespace glim

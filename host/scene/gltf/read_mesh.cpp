@@ -1,0 +1,128 @@
+#include "host/scene/gltf/read_mesh.hpp"
+
+#include "host/scene/gltf/read_accessor.hpp"
+
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+namespace glim {
+namespace {
+
+std::vector<glm::dvec3> readPositions(const GltfFile& file, std::size_t accessor, const std::string& place)
+{
+    const std::string use = "POSITION of " + place;
+    std::vector<glm::dvec3> positions = readVec3(file, accessor, use);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            if (!std::isfinite(positions[i][c])) {
+                refuse(file, "accessors[" + std::to_string(accessor) + "] (" + use + ") holds " +
+                                 toText(positions[i][c]) + " in element " + std::to_string(i) +
+                                 "; expected finite numbers");
+            }
+        }
+    }
+    return positions;
+}
+
+std::vector<std::uint32_t> readVertexOrder(const GltfFile& file, const tinygltf::Primitive& primitive,
+                                           std::size_t vertexCount, const std::string& place)
+{
+    if (primitive.indices < 0) {
+        std::vector<std::uint32_t> order(vertexCount);
+        std::iota(order.begin(), order.end(), 0U);
+        return order;
+    }
+    const auto accessor = static_cast<std::size_t>(primitive.indices);
+    std::vector<std::uint32_t> order = readIndices(file, accessor, "indices of " + place);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        if (order[i] >= vertexCount) {
+            refuse(file, "accessors[" + std::to_string(accessor) + "] (indices of " + place + ") holds " +
+                             std::to_string(order[i]) + " in element " + std::to_string(i) +
+                             "; expected indices below " + std::to_string(vertexCount));
+        }
+    }
+    return order;
+}
+
+// glTF 2.0, section 3.7.2.1: triangle i of a strip is (i, i + 1 + i % 2, i + 2 - i % 2), of a fan (i + 1, i + 2, 0).
+std::vector<std::uint32_t> listTriangles(const std::vector<std::uint32_t>& order, int mode)
+{
+    if (mode == TINYGLTF_MODE_TRIANGLES) {
+        return order;
+    }
+    std::vector<std::uint32_t> corners;
+    corners.reserve(3 * order.size());
+    for (std::size_t i = 0; i + 2 < order.size(); ++i) {
+        const std::size_t odd = i % 2;
+        if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
+            corners.insert(corners.end(), {order[i], order[i + 1 + odd], order[i + 2 - odd]});
+        } else {
+            corners.insert(corners.end(), {order[i + 1], order[i + 2], order[0]});
+        }
+    }
+    return corners;
+}
+
+void checkVertexCount(const GltfFile& file, std::size_t count, int mode, const std::string& place)
+{
+    if (mode == TINYGLTF_MODE_TRIANGLES && count % 3 != 0) {
+        refuse(file, place + " has " + std::to_string(count) + " vertices for triangles; expected a multiple of 3");
+    }
+    if (count < 3) {
+        refuse(file, place + " has " + std::to_string(count) + " vertices for a strip or fan; expected at least 3");
+    }
+}
+
+std::optional<MeshPart> readPart(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& place,
+                                 std::vector<std::string>& notices)
+{
+    const auto position = primitive.attributes.find("POSITION");
+    if (position == primitive.attributes.end()) {
+        notices.push_back(place + " has no POSITION and is left out");
+        return std::nullopt;
+    }
+    if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
+        notices.push_back(place + (primitive.mode == TINYGLTF_MODE_POINTS ? " holds points" : " holds lines") +
+                          " and is left out: only triangles, strips and fans are drawn");
+        return std::nullopt;
+    }
+    MeshPart part;
+    part.positions = readPositions(file, static_cast<std::size_t>(position->second), place);
+    if (const auto normal = primitive.attributes.find("NORMAL"); normal != primitive.attributes.end()) {
+        part.normals = readVec3(file, static_cast<std::size_t>(normal->second), "NORMAL of " + place);
+        if (part.normals.size() != part.positions.size()) {
+            refuse(file, place + " has " + std::to_string(part.normals.size()) + " normals; expected as many as its " +
+                             std::to_string(part.positions.size()) + " positions");
+        }
+    }
+    const std::vector<std::uint32_t> order = readVertexOrder(file, primitive, part.positions.size(), place);
+    checkVertexCount(file, order.size(), primitive.mode, place);
+    part.corners = listTriangles(order, primitive.mode);
+    part.material = primitive.material;
+    if (primitive.attributes.count("COLOR_0") != 0) {
+        notices.push_back(place + " is drawn without its vertex colours (COLOR_0)");
+    }
+    if (!primitive.targets.empty()) {
+        notices.push_back(place + " is drawn without its morph targets");
+    }
+    return part;
+}
+
+}  // namespace
+
+std::vector<MeshPart> readMesh(const GltfFile& file, std::size_t mesh, std::vector<std::string>& notices)
+{
+    const tinygltf::Mesh& source = file.model.meshes[mesh];
+    std::vector<MeshPart> parts;
+    for (std::size_t i = 0; i < source.primitives.size(); ++i) {
+        const std::string place = label("meshes", mesh, source.name) + ".primitives[" + std::to_string(i) + "]";
+        if (std::optional<MeshPart> part = readPart(file, source.primitives[i], place, notices)) {
+            part->name = source.primitives.size() == 1 ? source.name : source.name + "." + std::to_string(i);
+            parts.push_back(std::move(*part));
+        }
+    }
+    return parts;
+}
+
+}  // namespace glim
