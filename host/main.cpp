@@ -1,1 +1,49 @@
-int main() { return 0; }
+// The command line in, the exit code out.
+#include "host/cli/compare.hpp"
+#include "host/cli/devices.hpp"
+#include "host/cli/inspect.hpp"
+#include "host/cli/merge.hpp"
+#include "host/cli/render.hpp"
+#include "host/cli/version.hpp"
+#include "host/error.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+#include <new>
+
+namespace {
+
+int fail(glim::ExitCode code, const std::string& sentence)
+{
+    std::cerr << "glim: " << sentence << '\n';
+    return static_cast<int>(code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    glim::ExitCode exitCode = glim::ExitCode::Done;
+    CLI::App app("glim: a path tracer in Vulkan compute kernels", "glim");
+    app.set_version_flag("--version", glim::versionText());
+    app.require_subcommand(1);
+    app.footer("Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 130 or 143 interrupted.");
+    glim::addRender(app, exitCode);
+    glim::addInspect(app);
+    glim::addDevices(app);
+    glim::addCompare(app);
+    glim::addMerge(app);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : static_cast<int>(glim::ExitCode::Usage);
+    } catch (const glim::InputError& error) {
+        return fail(glim::ExitCode::BadInput, error.what());
+    } catch (const glim::DeviceError& error) {
+        return fail(glim::ExitCode::Device, error.what());
+    } catch (const std::bad_alloc&) {
+        return fail(glim::ExitCode::BadInput, "There is not enough memory for this scene and picture.");
+    }
+    return static_cast<int>(exitCode);
+}

@@ -10,11 +10,11 @@
 
 #include "kernels.hpp"
 #include "shaders/shared/bindings.h"
+#include "shaders/shared/limits.h"
 
 #include <algorithm>
 #include <bit>
 #include <cstddef>
-#include <sstream>
 
 namespace glim {
 namespace {

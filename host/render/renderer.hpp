@@ -1,6 +1,7 @@
 // Renders: the order of the kernels. READ THIS FIRST (renderer.cpp).
 #pragma once
 
+#include "host/gpu/commands.hpp"
 #include "host/render/film.hpp"
 #include "host/render/path_buffers.hpp"
 #include "host/render/settings.hpp"

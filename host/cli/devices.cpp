@@ -1,0 +1,75 @@
+#include "host/cli/devices.hpp"
+
+#include "host/gpu/device.hpp"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <iostream>
+#include <memory>
+
+namespace glim {
+namespace {
+
+std::uint64_t mebibytes(std::uint64_t bytes) { return bytes >> 20; }
+
+nlohmann::ordered_json jsonOf(const DeviceDescription& d)
+{
+    return {{"name", d.name},
+            {"driver", d.driver},
+            {"kind", d.kind},
+            {"usable", d.missing.empty()},
+            {"missing", d.missing},
+            {"subgroupSize", d.subgroupSize},
+            {"memory", d.memory},
+            {"maxAllocation", d.maxAllocation},
+            {"maxStorageBuffer", d.maxStorageBuffer},
+            {"maxTexelElements", d.maxTexelElements},
+            {"maxStorageBuffersPerKernel", d.maxStorageBuffers},
+            {"maxWorkgroupInvocations", d.maxWorkgroup},
+            {"timestamps", d.nanosecondsPerTick > 0.0F}};
+}
+
+void printDevice(std::size_t index, const DeviceDescription& d)
+{
+    std::cout << index << "  " << d.name << "\n   " << d.kind << ", " << d.driver << "\n   subgroup " << d.subgroupSize
+              << ", memory " << mebibytes(d.memory) << " MiB, largest allocation " << mebibytes(d.maxAllocation)
+              << " MiB\n   storage buffer " << mebibytes(d.maxStorageBuffer) << " MiB (" << d.maxStorageBuffers
+              << " per kernel), texel buffer " << mebibytes(d.maxTexelElements * 16) << " MiB, workgroup " << d.maxWorkgroup
+              << ", timestamps " << (d.nanosecondsPerTick > 0.0F ? "yes" : "no") << '\n';
+    if (!d.missing.empty()) {
+        std::cout << "   not usable: lacks " << d.missing << '\n';
+    }
+}
+
+void runDevices(bool json)
+{
+    const Instance instance;
+    const std::vector<DeviceDescription> devices = listDevices(instance);
+    if (devices.empty()) {
+        throw DeviceError("Vulkan shows no device (a software one comes with Debian's mesa-vulkan-drivers).");
+    }
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < devices.size(); ++i) {
+        if (json) {
+            list.push_back(jsonOf(devices[i]));
+        } else {
+            printDevice(i, devices[i]);
+        }
+    }
+    if (json) {
+        std::cout << list.dump(2) << '\n';
+    }
+}
+
+}  // namespace
+
+void addDevices(CLI::App& app)
+{
+    auto json = std::make_shared<bool>(false);
+    CLI::App* command = app.add_subcommand("devices", "List the Vulkan devices, the one used by default first");
+    command->add_flag("--json", *json, "Print JSON; sizes in bytes");
+    command->callback([json] { runDevices(*json); });
+}
+
+}  // namespace glim

@@ -1,0 +1,17 @@
+// SIGINT and SIGTERM as a question to ask between passes.
+#pragma once
+
+namespace glim {
+
+// While one lives, the first SIGINT or SIGTERM is only remembered; a second one ends the program as usual.
+class InterruptWatch {
+public:
+    InterruptWatch();
+    ~InterruptWatch();
+    InterruptWatch(const InterruptWatch&) = delete;
+    InterruptWatch& operator=(const InterruptWatch&) = delete;
+
+    int signal() const;  // 0: none yet
+};
+
+}  // namespace glim

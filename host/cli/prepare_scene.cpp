@@ -1,0 +1,58 @@
+#include "host/cli/prepare_scene.hpp"
+
+#include "host/bvh/build_bvh.hpp"
+#include "host/error.hpp"
+#include "host/flatten/flatten_scene.hpp"
+#include "host/scene/load_gltf.hpp"
+
+#include <chrono>
+#include <iostream>
+
+namespace glim {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsBetween(Clock::time_point begin, Clock::time_point end)
+{
+    return std::chrono::duration<double>(end - begin).count();
+}
+
+}  // namespace
+
+PreparedScene prepareScene(const std::filesystem::path& file, std::optional<std::size_t> sceneIndex,
+                           std::optional<glm::vec3> environment)
+{
+    PreparedScene prepared;
+    const Clock::time_point start = Clock::now();
+    prepared.scene = loadGltf(file, {sceneIndex});
+    if (environment) {
+        prepared.scene.environment = environment;
+    }
+    for (const std::string& notice : prepared.scene.notices) {
+        std::cerr << "glim: " << notice << '\n';
+    }
+    const Clock::time_point loaded = Clock::now();
+    prepared.bvh = buildBvh(primitiveBoxes(prepared.scene));
+    prepared.flat = flattenScene(prepared.scene, prepared.bvh);
+    prepared.loadSeconds = secondsBetween(start, loaded);
+    prepared.buildSeconds = secondsBetween(loaded, Clock::now());
+    return prepared;
+}
+
+const Camera& findCamera(const Scene& scene, const std::optional<std::string>& choice)
+{
+    if (!choice) {
+        return scene.cameras.front();
+    }
+    std::string list;
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        if (scene.cameras[i].name == *choice || std::to_string(i) == *choice) {
+            return scene.cameras[i];
+        }
+        list += (i == 0 ? "" : ", ") + std::to_string(i) + " \"" + scene.cameras[i].name + "\"";
+    }
+    throw InputError(scene.file + ": camera \"" + *choice + "\": expected one of " + list + ".");
+}
+
+}  // namespace glim

@@ -1,0 +1,27 @@
+// From a file to what the renderer takes, timed; shared by render and inspect.
+#pragma once
+
+#include "host/bvh/bvh.hpp"
+#include "host/flatten/flat_scene.hpp"
+#include "host/scene/scene.hpp"
+
+#include <filesystem>
+#include <optional>
+
+namespace glim {
+
+struct PreparedScene {
+    Scene scene;
+    Bvh bvh;
+    FlatScene flat;
+    double loadSeconds = 0.0, buildSeconds = 0.0;  // build: BVH and flattening
+};
+
+// Throws InputError. Prints the scene's notices to stderr.
+PreparedScene prepareScene(const std::filesystem::path& file, std::optional<std::size_t> sceneIndex,
+                           std::optional<glm::vec3> environment);
+
+// The camera of that name or index (the first if absent). Throws InputError listing what there is.
+const Camera& findCamera(const Scene& scene, const std::optional<std::string>& choice);
+
+}  // namespace glim

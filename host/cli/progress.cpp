@@ -1,0 +1,76 @@
+#include "host/cli/progress.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <unistd.h>
+
+namespace glim {
+namespace {
+
+constexpr int kBarWidth = 30;
+constexpr double kInterval = 0.1;  // seconds
+
+double rate(const RenderProgress& progress)
+{
+    return progress.seconds > 0.0 ? static_cast<double>(progress.samples) / progress.seconds : 0.0;
+}
+
+}  // namespace
+
+ProgressPrinter::ProgressPrinter(ProgressStyle style, std::optional<double> timeLimit, std::uint64_t pixels)
+    : style_(style), timeLimit_(timeLimit), pixels_(pixels)
+{
+    if (style == ProgressStyle::Auto) {
+        style_ = isatty(STDERR_FILENO) != 0 ? ProgressStyle::Bar : ProgressStyle::None;
+    }
+}
+
+void ProgressPrinter::print(const RenderProgress& progress)
+{
+    const bool complete = progress.samples == progress.totalSamples;
+    if (style_ == ProgressStyle::None || (progress.seconds - last_ < kInterval && !complete)) {
+        return;
+    }
+    last_ = progress.seconds;
+    double share = static_cast<double>(progress.samples) / static_cast<double>(progress.totalSamples);
+    if (timeLimit_) {
+        share = std::clamp(progress.seconds / *timeLimit_, share, 1.0);
+    }
+    const double remaining = share > 0.0 ? progress.seconds * (1.0 / share - 1.0) : 0.0;
+    if (style_ == ProgressStyle::Bar) {
+        printBar(progress, share, remaining);
+    } else {
+        printJson(progress, share, remaining);
+    }
+}
+
+void ProgressPrinter::printBar(const RenderProgress& progress, double share, double remaining) const
+{
+    const int filled = static_cast<int>(share * kBarWidth);
+    std::fprintf(stderr, "\r\033[K[%s%s] %3.0f %%  %.1f samples/pixel  %.3f Msamples/s  ETA %.0f s",
+                 std::string(static_cast<std::size_t>(filled), '#').c_str(),
+                 std::string(static_cast<std::size_t>(kBarWidth - filled), '.').c_str(), 100.0 * share,
+                 static_cast<double>(progress.samples) / static_cast<double>(pixels_), 1e-6 * rate(progress), remaining);
+}
+
+void ProgressPrinter::printJson(const RenderProgress& progress, double share, double remaining) const
+{
+    const nlohmann::ordered_json line = {{"done", share},
+                                         {"samples", progress.samples},
+                                         {"totalSamples", progress.totalSamples},
+                                         {"seconds", progress.seconds},
+                                         {"samplesPerSecond", rate(progress)},
+                                         {"etaSeconds", remaining}};
+    std::fprintf(stderr, "%s\n", line.dump().c_str());
+}
+
+void ProgressPrinter::finish()
+{
+    if (style_ == ProgressStyle::Bar && last_ >= 0.0) {
+        std::fprintf(stderr, "\r\033[K");
+    }
+}
+
+}  // namespace glim

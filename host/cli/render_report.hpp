@@ -1,0 +1,23 @@
+// What a render tells: one line for people, JSON for machines.
+#pragma once
+
+#include "host/cli/prepare_scene.hpp"
+#include "host/cli/render_options.hpp"
+#include "host/render/renderer.hpp"
+
+namespace glim {
+
+struct RenderReport {
+    const RenderOptions& options;
+    const PreparedScene& prepared;
+    const Film& film;
+    const RenderStatistics& statistics;
+    const DeviceDescription& device;
+    std::string stopReason;  // "samples", "time", "SIGINT", "SIGTERM"
+    double writeSeconds;
+};
+
+void printSummary(const RenderReport& report);
+void writeStatistics(const std::filesystem::path& path, const RenderReport& report);
+
+}  // namespace glim
