@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace {
 
 struct PngSink {
     WholeFile& file;
-    std::string error;
+    std::string error;  // a whole sentence once something went wrong
+    const std::string name;
 };
 
 // libpng is C and leaves by longjmp: no exception may cross it, so what went wrong is kept until it has returned.
@@ -33,6 +35,17 @@ void pngWrite(png_structp png, png_bytep bytes, png_size_t count)
 
 void pngFlush(png_structp) {}
 
+[[noreturn]] void pngFail(png_structp png, png_const_charp reason)
+{
+    auto* sink = static_cast<PngSink*>(png_get_error_ptr(png));
+    if (sink->error.empty()) {
+        sink->error = sink->name + ": cannot be written as PNG (" + reason + ").";
+    }
+    png_longjmp(png, 1);
+}
+
+void pngWarn(png_structp, png_const_charp) {}
+
 void writeRows(png_structp png, png_infop info, const Image& image, const std::vector<png_bytep>& rows)
 {
     png_set_IHDR(png, info, image.width, image.height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
@@ -48,9 +61,13 @@ void writeRows(png_structp png, png_infop info, const Image& image, const std::v
 // Keeps no object with a destructor: setjmp may return into it twice.
 bool encode(PngSink& sink, const Image& image, const std::vector<png_bytep>& rows)
 {
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, pngFail, pngWarn);
     png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
-    if (info == nullptr || setjmp(png_jmpbuf(png))) {
+    if (info == nullptr) {
+        png_destroy_write_struct(&png, nullptr);
+        throw std::bad_alloc();
+    }
+    if (setjmp(png_jmpbuf(png))) {
         png_destroy_write_struct(&png, &info);
         return false;
     }
@@ -94,9 +111,9 @@ void writePng(const std::filesystem::path& path, const Image& image, double expo
         rows[y] = bytes.data() + y * 3 * image.width;
     }
     WholeFile file(path);
-    PngSink sink{file, {}};
+    PngSink sink{file, {}, path.string()};
     if (!encode(sink, image, rows)) {
-        throw InputError(sink.error.empty() ? path.string() + ": cannot be written as PNG." : sink.error);
+        throw InputError(sink.error);
     }
     file.commit();
 }
