@@ -1,0 +1,62 @@
+#include "host/cli/merge.hpp"
+
+#include "host/image/whole_file.hpp"
+#include "host/render/film_file.hpp"
+#include "host/render/merge_films.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+#include <memory>
+
+namespace glim {
+namespace {
+
+struct MergeOptions {
+    std::vector<std::filesystem::path> inputs;
+    std::filesystem::path output, png;
+    double exposure = 0.0;
+};
+
+void runMerge(const MergeOptions& options)
+{
+    checkWritable(options.output, ".exr");
+    if (!options.png.empty()) {
+        checkWritable(options.png, ".png");
+    }
+    const MergedFilm merged = mergeFilms(options.inputs);
+    writeFilm(options.output, merged.film);
+    if (!options.png.empty()) {
+        writeFilmPng(options.png, merged.film, options.exposure);
+    }
+    std::cerr << "Merged " << options.inputs.size() << " films into " << options.output.string() << ", samples "
+              << sampleRangesText(merged.film) << ": "
+              << (merged.exact ? "the bits of the single run." : "equal to the single run up to rounding.") << '\n';
+}
+
+}  // namespace
+
+void addMerge(CLI::App& app)
+{
+    auto options = std::make_shared<MergeOptions>();
+    CLI::App* command = app.add_subcommand("merge", "Merge renders of one scene over different samples into one");
+    command->footer("The films must agree in scene, camera, size, seed and settings, and their samples must not overlap\n"
+                    "(render --samples A:B). Films of one page, 256 samples from a multiple of 256 on, that continue each\n"
+                    "other give the bits of the single run; other ranges give it up to rounding, and that is said.");
+    command->add_option("films", options->inputs, "Films written by glim render or glim merge, in any order (.exr)")
+        ->required()
+        ->type_name("A.exr B.exr ...");
+    command->add_option("-o,--output", options->output, "The merged film; it may replace one of the inputs (.exr)")
+        ->required()
+        ->type_name("C.exr");
+    CLI::Option* png = command->add_option("--png", options->png, "Also write an sRGB picture to look at (.png)")
+                           ->type_name("C.png");
+    command->add_option("--exposure", options->exposure, "Brightness of the PNG in stops, -64 to 64; the EXR keeps its values")
+        ->type_name("EV")
+        ->check(CLI::Range(-64.0, 64.0))
+        ->needs(png)
+        ->capture_default_str();
+    command->callback([options] { runMerge(*options); });
+}
+
+}  // namespace glim

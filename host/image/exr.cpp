@@ -1,0 +1,221 @@
+#include "host/image/exr.hpp"
+
+#include "host/error.hpp"
+#include "host/image/whole_file.hpp"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfChromaticities.h>
+#include <OpenEXR/ImfDoubleAttribute.h>
+#include <OpenEXR/ImfFloatAttribute.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfVersion.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <string>
+
+namespace fs = std::filesystem;
+
+namespace glim {
+namespace {
+
+// A header may claim any size: beyond this a file is taken for damaged before memory is asked for.
+constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 30;
+
+std::size_t pixelCount(const Image& image)
+{
+    return std::size_t{image.width} * image.height;
+}
+
+void checkIsExr(const fs::path& path)
+{
+    if (fs::is_directory(path)) {
+        throw InputError(path.string() + ": is a folder, not an OpenEXR file.");
+    }
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) {
+        throw InputError(path.string() + ": cannot be opened: " + std::strerror(errno) + ".");
+    }
+    char magic[4] = {};
+    stream.read(magic, sizeof magic);
+    if (!stream || !Imf::isImfMagic(magic)) {
+        throw InputError(path.string() + ": is not an OpenEXR file.");
+    }
+}
+
+// Runs `step` and turns OpenEXR's exceptions into ours.
+void guarded(const fs::path& path, const char* failure, const std::function<void()>& step)
+{
+    try {
+        step();
+    } catch (const InputError&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw InputError(path.string() + ": " + failure + " (" + error.what() + ").");
+    }
+}
+
+// Describes the file's storage, not its picture.
+bool isOpenExrsOwn(const std::string& name)
+{
+    static const Imf::Header fresh;
+    return fresh.find(name) != fresh.end() || name == "type" || name == "name" || name == "version" || name == "chunkCount";
+}
+
+void readAttributes(const Imf::Header& header, Image& image)
+{
+    for (auto entry = header.begin(); entry != header.end(); ++entry) {
+        if (isOpenExrsOwn(entry.name())) {
+            continue;
+        }
+        const Imf::Attribute& attribute = entry.attribute();
+        auto keep = [&](auto value) { image.attributes[entry.name()] = std::move(value); };
+        if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute)) {
+            keep(text->value());
+        } else if (const auto* precise = dynamic_cast<const Imf::DoubleAttribute*>(&attribute)) {
+            keep(precise->value());
+        } else if (const auto* real = dynamic_cast<const Imf::FloatAttribute*>(&attribute)) {
+            keep(static_cast<double>(real->value()));
+        } else if (const auto* whole = dynamic_cast<const Imf::IntAttribute*>(&attribute)) {
+            keep(static_cast<double>(whole->value()));
+        }
+    }
+}
+
+void readHeader(const fs::path& path, const Imf::Header& header, Image& image)
+{
+    const Imath::Box2i window = header.dataWindow();
+    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+    const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
+    if (width < 1 || height < 1 || static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) > kMaxPixels) {
+        throw InputError(path.string() + ": its data window is " + std::to_string(width) + "x" + std::to_string(height)
+                         + ", expected 1 to " + std::to_string(kMaxPixels) + " pixels.");
+    }
+    image.width = static_cast<std::uint32_t>(width);
+    image.height = static_cast<std::uint32_t>(height);
+    readAttributes(header, image);
+}
+
+// OpenEXR addresses pixels by their place in the data window, from a base that may lie outside the plane.
+template <class Value>
+Imf::Slice sliceOf(Imf::PixelType type, const std::vector<Value>& plane, const Imath::Box2i& window)
+{
+    return Imf::Slice::Make(type, plane.data(), window.min, window.max.x - window.min.x + 1,
+                            window.max.y - window.min.y + 1, sizeof(Value));
+}
+
+void readChannels(const fs::path& path, Imf::InputFile& file, Image& image)
+{
+    const Imf::Header& header = file.header();
+    const Imath::Box2i window = header.dataWindow();
+    Imf::FrameBuffer frame;
+    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
+        if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1) {
+            throw InputError(path.string() + ": its channel " + channel.name()
+                             + " is subsampled, expected a value for every pixel.");
+        }
+        if (channel.channel().type == Imf::UINT) {
+            auto& plane = image.counts[channel.name()];
+            plane.resize(pixelCount(image));
+            frame.insert(channel.name(), sliceOf(Imf::UINT, plane, window));
+        } else {
+            auto& plane = image.channels[channel.name()];
+            plane.resize(pixelCount(image));
+            frame.insert(channel.name(), sliceOf(Imf::FLOAT, plane, window));
+        }
+    }
+    file.setFrameBuffer(frame);
+    file.readPixels(window.min.y, window.max.y);
+}
+
+class ExrStream : public Imf::OStream {
+public:
+    ExrStream(WholeFile& file, const std::string& name) : OStream(name.c_str()), file_(file) {}
+    void write(const char bytes[], int count) override { file_.write(bytes, static_cast<std::size_t>(count)); }
+    std::uint64_t tellp() override { return file_.tell(); }
+    void seekp(std::uint64_t position) override { file_.seek(position); }
+
+private:
+    WholeFile& file_;
+};
+
+Imf::Header headerOf(const Image& image)
+{
+    Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
+    header.compression() = Imf::ZIP_COMPRESSION;
+    Imf::addChromaticities(header, Imf::Chromaticities());  // the default is Rec.709 with the white D65
+    for (const auto& [name, value] : image.attributes) {
+        if (const auto* number = std::get_if<double>(&value)) {
+            header.insert(name, Imf::DoubleAttribute(*number));
+        } else {
+            header.insert(name, Imf::StringAttribute(std::get<std::string>(value)));
+        }
+    }
+    return header;
+}
+
+void writeStream(ExrStream& stream, const Image& image)
+{
+    Imf::Header header = headerOf(image);
+    Imf::FrameBuffer frame;
+    for (const auto& [name, plane] : image.channels) {
+        header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+        frame.insert(name, sliceOf(Imf::FLOAT, plane, header.dataWindow()));
+    }
+    for (const auto& [name, plane] : image.counts) {
+        header.channels().insert(name, Imf::Channel(Imf::UINT));
+        frame.insert(name, sliceOf(Imf::UINT, plane, header.dataWindow()));
+    }
+    Imf::OutputFile file(stream, header);
+    file.setFrameBuffer(frame);
+    file.writePixels(static_cast<int>(image.height));
+}
+
+}  // namespace
+
+Image readExr(const fs::path& path)
+{
+    checkIsExr(path);
+    Image image;
+    guarded(path, "is damaged, or not an OpenEXR picture", [&] {
+        Imf::InputFile file(path.c_str());
+        if (!file.isComplete()) {
+            throw InputError(path.string() + ": is incomplete: rows of pixels are missing.");
+        }
+        readHeader(path, file.header(), image);
+        readChannels(path, file, image);
+    });
+    return image;
+}
+
+Image readExrHeader(const fs::path& path)
+{
+    checkIsExr(path);
+    Image image;
+    guarded(path, "is damaged, or not an OpenEXR picture", [&] {
+        const Imf::InputFile file(path.c_str());
+        readHeader(path, file.header(), image);
+    });
+    return image;
+}
+
+void writeExr(const fs::path& path, const Image& image)
+{
+    WholeFile file(path);
+    guarded(path, "cannot be written", [&] {
+        ExrStream stream(file, path.string());
+        writeStream(stream, image);
+    });
+    file.commit();
+}
+
+}  // namespace glim

@@ -1,0 +1,121 @@
+#include "host/image/png.hpp"
+
+#include "host/error.hpp"
+#include "host/image/whole_file.hpp"
+
+#include <png.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <string>
+#include <vector>
+
+namespace glim {
+namespace {
+
+struct PngSink {
+    WholeFile& file;
+    std::string error;  // a whole sentence once something went wrong
+    const std::string name;
+};
+
+// libpng is C and leaves by longjmp: no exception may cross it, so what went wrong is kept until it has returned.
+void pngWrite(png_structp png, png_bytep bytes, png_size_t count)
+{
+    auto* sink = static_cast<PngSink*>(png_get_io_ptr(png));
+    try {
+        sink->file.write(bytes, count);
+        return;
+    } catch (const InputError& error) {
+        sink->error = error.what();
+    }
+    png_error(png, "write");
+}
+
+void pngFlush(png_structp) {}
+
+[[noreturn]] void pngFail(png_structp png, png_const_charp reason)
+{
+    auto* sink = static_cast<PngSink*>(png_get_error_ptr(png));
+    if (sink->error.empty()) {
+        sink->error = sink->name + ": cannot be written as PNG (" + reason + ").";
+    }
+    png_longjmp(png, 1);
+}
+
+void pngWarn(png_structp, png_const_charp) {}
+
+void writeRows(png_structp png, png_infop info, const Image& image, const std::vector<png_bytep>& rows)
+{
+    png_set_IHDR(png, info, image.width, image.height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_write_info(png, info);
+    for (const png_bytep row : rows) {
+        png_write_row(png, row);
+    }
+    png_write_end(png, info);
+}
+
+// Keeps no object with a destructor: setjmp may return into it twice.
+bool encode(PngSink& sink, const Image& image, const std::vector<png_bytep>& rows)
+{
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, pngFail, pngWarn);
+    png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
+    if (info == nullptr) {
+        png_destroy_write_struct(&png, nullptr);
+        throw std::bad_alloc();
+    }
+    if (setjmp(png_jmpbuf(png))) {
+        png_destroy_write_struct(&png, &info);
+        return false;
+    }
+    png_set_user_limits(png, image.width, image.height);
+    png_set_write_fn(png, &sink, pngWrite, pngFlush);
+    writeRows(png, info, image, rows);
+    png_destroy_write_struct(&png, &info);
+    return true;
+}
+
+std::vector<std::uint8_t> bytesOf(const Image& image, double exposure)
+{
+    const double scale = std::exp2(exposure);
+    const std::vector<float>* planes[3] = {&image.channels.at("R"), &image.channels.at("G"), &image.channels.at("B")};
+    const std::size_t count = planes[0]->size();
+    std::vector<std::uint8_t> bytes(3 * count);
+    for (std::size_t pixel = 0; pixel < count; ++pixel) {
+        const bool finite = std::all_of(planes, planes + 3, [&](auto* plane) { return std::isfinite((*plane)[pixel]); });
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::uint8_t magenta = c == 1 ? 0 : 255;
+            bytes[3 * pixel + c] = finite ? srgbByte(scale * static_cast<double>((*planes[c])[pixel])) : magenta;
+        }
+    }
+    return bytes;
+}
+
+}  // namespace
+
+std::uint8_t srgbByte(double linear)
+{
+    const double x = std::clamp(linear, 0.0, 1.0);
+    const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
+    return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
+}
+
+void writePng(const std::filesystem::path& path, const Image& image, double exposure)
+{
+    std::vector<std::uint8_t> bytes = bytesOf(image, exposure);
+    std::vector<png_bytep> rows(image.height);
+    for (std::size_t y = 0; y < rows.size(); ++y) {
+        rows[y] = bytes.data() + y * 3 * image.width;
+    }
+    WholeFile file(path);
+    PngSink sink{file, {}, path.string()};
+    if (!encode(sink, image, rows)) {
+        throw InputError(sink.error);
+    }
+    file.commit();
+}
+
+}  // namespace glim

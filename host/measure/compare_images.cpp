@@ -1,0 +1,229 @@
+#include "host/measure/compare_images.hpp"
+
+#include "host/error.hpp"
+#include "host/measure/normal.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace glim {
+namespace {
+
+constexpr std::uint32_t kBlockSide = 8;
+constexpr std::size_t kMinBlocks = 16;  // below, a normal interval from the blocks' spread would be too narrow
+constexpr double kAbsoluteEpsilon = 0.01;
+
+void checkSizes(const Picture& picture, const Picture& reference)
+{
+    if (picture.width != reference.width || picture.height != reference.height) {
+        throw InputError("The pictures are " + std::to_string(picture.width) + "x" + std::to_string(picture.height)
+                         + " and " + std::to_string(reference.width) + "x" + std::to_string(reference.height)
+                         + ", expected equal sizes.");
+    }
+}
+
+std::vector<bool> findComparable(const Picture& picture, const Picture& reference, Comparison& result)
+{
+    std::vector<bool> comparable(picture.radiance.size());
+    for (std::size_t i = 0; i < comparable.size(); ++i) {
+        const bool finite = isFinite(picture.radiance[i]), referenceFinite = isFinite(reference.radiance[i]);
+        result.nonFinite += !finite;
+        result.nonFiniteInReference += !referenceFinite;
+        comparable[i] = finite && referenceFinite;
+        result.compared += comparable[i];
+    }
+    if (result.compared == 0) {
+        throw InputError("No pixel is finite in both pictures, expected at least one to compare.");
+    }
+    return comparable;
+}
+
+double meanOfFinite(const std::vector<glm::vec3>& values)
+{
+    glm::dvec3 sum(0.0);
+    std::size_t count = 0;
+    for (const glm::vec3& value : values) {
+        if (isFinite(value)) {
+            sum += glm::dvec3(value);
+            ++count;
+        }
+    }
+    return (sum.x + sum.y + sum.z) / (3.0 * static_cast<double>(count));
+}
+
+double relativeEpsilon(const Picture& reference)
+{
+    const double mean = meanOfFinite(reference.radiance);
+    return 0.01 * mean * mean;
+}
+
+// Adds the terms of one value with squared error `square` against reference value `r`.
+void addTerms(SquaredErrors& sums, double square, double r, double epsilon)
+{
+    sums.mse += square;
+    sums.relMseAbsolute += square / (r * r + kAbsoluteEpsilon);
+    // Only a black reference has no epsilon; there an exact zero is right and anything else infinitely wrong.
+    sums.relMse += square > 0 ? square / (r * r + epsilon) : 0.0;
+}
+
+void divide(SquaredErrors& sums, double terms)
+{
+    sums.mse /= terms;
+    sums.relMse /= terms;
+    sums.relMseAbsolute /= terms;
+}
+
+void addErrors(const Picture& picture, const Picture& reference, const std::vector<bool>& comparable, Comparison& result)
+{
+    result.epsilon = relativeEpsilon(reference);
+    const double mapeFloor = 0.01 * std::abs(meanOfFinite(reference.radiance));
+    double largest = -1.0;
+    for (std::size_t i = 0; i < comparable.size(); ++i) {
+        for (int c = 0; comparable[i] && c < 3; ++c) {
+            const double r = static_cast<double>(reference.radiance[i][c]);
+            const double difference = static_cast<double>(picture.radiance[i][c]) - r;
+            addTerms(result.errors, difference * difference, r, result.epsilon);
+            result.mape += difference != 0 ? std::abs(difference) / (std::abs(r) + mapeFloor) : 0.0;
+            if (std::abs(difference) > largest) {
+                largest = std::abs(difference);
+                const auto pixel = static_cast<std::uint32_t>(i);
+                result.maxError = {pixel % picture.width, pixel / picture.width, c, picture.radiance[i][c],
+                                   reference.radiance[i][c]};
+            }
+        }
+    }
+    const double terms = 3.0 * static_cast<double>(result.compared);
+    divide(result.errors, terms);
+    result.mape /= terms;
+}
+
+// Sums over a region: of the picture, of the reference, and of their variances.
+struct Sums {
+    glm::dvec3 picture{0.0}, reference{0.0}, variance{0.0}, referenceVariance{0.0};
+};
+
+void addPixel(Sums& sums, const Picture& picture, const Picture& reference, std::size_t i)
+{
+    sums.picture += glm::dvec3(picture.radiance[i]);
+    sums.reference += glm::dvec3(reference.radiance[i]);
+    const glm::dvec3 unknown(std::numeric_limits<double>::quiet_NaN());
+    sums.variance += picture.variance.empty() ? unknown : glm::dvec3(picture.variance[i]);
+    sums.referenceVariance += reference.variance.empty() ? unknown : glm::dvec3(reference.variance[i]);
+}
+
+std::vector<Sums> sumBlocks(const Picture& picture, const Picture& reference, const std::vector<bool>& comparable)
+{
+    const std::size_t columns = (picture.width + kBlockSide - 1) / kBlockSide;
+    const std::size_t rows = (picture.height + kBlockSide - 1) / kBlockSide;
+    std::vector<Sums> blocks(columns * rows);
+    for (std::size_t i = 0; i < comparable.size(); ++i) {
+        if (comparable[i]) {
+            const std::size_t x = i % picture.width, y = i / picture.width;
+            addPixel(blocks[y / kBlockSide * columns + x / kBlockSide], picture, reference, i);
+        }
+    }
+    return blocks;
+}
+
+// Variance of sum(x) - ratio sum(r) from how the blocks scatter about it.
+double scatter(const std::vector<Sums>& blocks, const glm::dvec3& weights, double ratio)
+{
+    double squares = 0.0;
+    for (const Sums& block : blocks) {
+        const double residual = glm::dot(weights, block.picture - ratio * block.reference);
+        squares += residual * residual;
+    }
+    const double count = static_cast<double>(blocks.size());
+    return squares * count / (count - 1.0);
+}
+
+MeanRatio ratioWithin(double value, double standardError)
+{
+    const double reach = twoSidedLimit(0.05) * standardError;
+    return {value, value - reach, value + reach};
+}
+
+void addRatios(const std::vector<Sums>& blocks, Comparison& result)
+{
+    Sums total;
+    for (const Sums& block : blocks) {
+        total.picture += block.picture;
+        total.reference += block.reference;
+        total.variance += block.variance;
+        total.referenceVariance += block.referenceVariance;
+    }
+    const bool knowsVariance = isFinite(total.variance) && isFinite(total.referenceVariance);
+    result.intervalSource = knowsVariance                   ? IntervalSource::Variance
+                            : blocks.size() >= kMinBlocks ? IntervalSource::Blocks
+                                                          : IntervalSource::None;
+    auto standardError = [&](const glm::dvec3& weights) {
+        const double reference = glm::dot(weights, total.reference);
+        const double ratio = glm::dot(weights, total.picture) / reference;
+        switch (result.intervalSource) {
+        case IntervalSource::Variance:
+            return glm::dot(weights, glm::sqrt(total.variance + ratio * ratio * total.referenceVariance)) / reference;
+        case IntervalSource::Blocks: return std::sqrt(scatter(blocks, weights, ratio)) / reference;
+        case IntervalSource::None: break;
+        }
+        return std::numeric_limits<double>::quiet_NaN();
+    };
+    auto ratioOf = [&](const glm::dvec3& weights) {
+        const double value = glm::dot(weights, total.picture) / glm::dot(weights, total.reference);
+        return ratioWithin(value, standardError(weights));
+    };
+    result.ratio = {ratioOf({1, 0, 0}), ratioOf({0, 1, 0}), ratioOf({0, 0, 1})};
+    result.ratioOfAll = ratioOf({1, 1, 1});
+}
+
+}  // namespace
+
+Comparison compareImages(const Picture& picture, const Picture& reference)
+{
+    checkSizes(picture, reference);
+    Comparison result;
+    const std::vector<bool> comparable = findComparable(picture, reference, result);
+    addErrors(picture, reference, comparable, result);
+    addRatios(sumBlocks(picture, reference, comparable), result);
+    result.noise = estimateErrors(picture);
+    result.referenceNoise = estimateErrors(reference);
+    return result;
+}
+
+std::optional<SquaredErrors> estimateErrors(const Picture& picture)
+{
+    const double epsilon = relativeEpsilon(picture);
+    SquaredErrors sums;
+    std::size_t known = 0;
+    for (std::size_t i = 0; i < picture.variance.size(); ++i) {
+        if (isFinite(picture.radiance[i]) && isFinite(picture.variance[i])) {
+            ++known;
+            for (int c = 0; c < 3; ++c) {
+                addTerms(sums, static_cast<double>(picture.variance[i][c]), static_cast<double>(picture.radiance[i][c]),
+                         epsilon);
+            }
+        }
+    }
+    if (known == 0) {
+        return std::nullopt;
+    }
+    divide(sums, 3.0 * static_cast<double>(known));
+    return sums;
+}
+
+Image signedDifference(const Picture& picture, const Picture& reference)
+{
+    checkSizes(picture, reference);
+    Image image;
+    image.width = picture.width;
+    image.height = picture.height;
+    const char* letters[] = {"R", "G", "B"};
+    for (int c = 0; c < 3; ++c) {
+        auto& plane = image.channels[letters[c]];
+        for (std::size_t i = 0; i < picture.radiance.size(); ++i) {
+            plane.push_back(picture.radiance[i][c] - reference.radiance[i][c]);
+        }
+    }
+    return image;
+}
+
+}  // namespace glim

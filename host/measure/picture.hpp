@@ -1,0 +1,31 @@
+// What is measured: radiance and, where it is known, how uncertain it is.
+#pragma once
+
+#include "host/image/image.hpp"
+#include "host/render/film.hpp"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace glim {
+
+struct Picture {
+    std::uint32_t width = 0, height = 0;
+    std::vector<glm::vec3> radiance;  // row 0 at the top, left to right
+    std::vector<glm::vec3> variance;  // of each radiance as a mean; not finite: unknown there; empty: unknown
+};
+
+Picture pictureOf(const Film& film);
+
+// The channels R, G, B and, if there are, variance.R, .G, .B. `name` is for the message of InputError.
+Picture pictureOf(const Image& image, const std::string& name);
+
+// R, G and B of `image` as the variance of `picture`.
+void setVariance(Picture& picture, const Image& image, const std::string& name);
+
+bool isFinite(const glm::dvec3& value);
+
+}  // namespace glim

@@ -1,0 +1,232 @@
+#include "host/render/film_file.hpp"
+
+#include "host/error.hpp"
+#include "host/image/exr.hpp"
+#include "host/image/png.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <type_traits>
+
+namespace fs = std::filesystem;
+
+namespace glim {
+namespace {
+
+constexpr double kFormat = 1;  // of the layers and attributes below; raise it when a reader would misread
+
+// Consecutive 32-bit members of PixelMoments, one letter each.
+struct Layer {
+    const char* prefix;
+    const char* letters;
+    std::size_t offset;
+};
+
+static_assert(std::is_standard_layout_v<PixelMoments> && sizeof(PixelMoments) == 17 * sizeof(float));
+
+constexpr Layer kFloatLayers[] = {
+    {"", "RGB", offsetof(PixelMoments, mean)},
+    {"", "A", offsetof(PixelMoments, alpha)},
+    {"squares.", "RGB", offsetof(PixelMoments, squares)},
+    {"albedo.", "RGB", offsetof(PixelMoments, albedo)},
+    {"normal.", "XYZ", offsetof(PixelMoments, normal)},
+    {"depth.", "Z", offsetof(PixelMoments, depth)},
+    {"clamped.", "X", offsetof(PixelMoments, clamped)},
+};
+constexpr Layer kCountLayers[] = {
+    {"count.", "X", offsetof(PixelMoments, count)},
+    {"blocks.", "X", offsetof(PixelMoments, blocks)},
+};
+
+// Calls visit(channel name, offset in PixelMoments) for every channel of the layers.
+template <class Layers, class Visit>
+void forEachChannel(const Layers& layers, Visit visit)
+{
+    for (const Layer& layer : layers) {
+        for (std::size_t i = 0; layer.letters[i] != '\0'; ++i) {
+            std::string name = layer.prefix;
+            name += layer.letters[i];
+            visit(name, layer.offset + i * sizeof(float));
+        }
+    }
+}
+
+template <class Value>
+std::vector<Value> planeOf(const std::vector<PixelMoments>& pixels, std::size_t offset)
+{
+    std::vector<Value> plane(pixels.size());
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        std::memcpy(&plane[i], reinterpret_cast<const std::byte*>(&pixels[i]) + offset, sizeof(Value));
+    }
+    return plane;
+}
+
+template <class Value>
+void takePlane(const fs::path& path, const std::map<std::string, std::vector<Value>>& planes, const std::string& name,
+               std::size_t offset, std::vector<PixelMoments>& pixels)
+{
+    const auto plane = planes.find(name);
+    if (plane == planes.end()) {
+        throw InputError(path.string() + ": is not a complete film: it has no channel " + name + " of the expected type.");
+    }
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        std::memcpy(reinterpret_cast<std::byte*>(&pixels[i]) + offset, &plane->second[i], sizeof(Value));
+    }
+}
+
+void addVariance(const std::vector<PixelMoments>& pixels, Image& image)
+{
+    bool known = false;
+    std::vector<float> planes[3];
+    for (const PixelMoments& pixel : pixels) {
+        const bool knownHere = pixel.blocks >= 2;
+        const glm::vec3 variance = knownHere ? varianceOfMean(pixel) : glm::vec3(std::numeric_limits<float>::infinity());
+        known = known || knownHere;
+        for (int c = 0; c < 3; ++c) {
+            planes[c].push_back(variance[c]);
+        }
+    }
+    if (known) {
+        image.channels["variance.R"] = std::move(planes[0]);
+        image.channels["variance.G"] = std::move(planes[1]);
+        image.channels["variance.B"] = std::move(planes[2]);
+    }
+}
+
+Image imageOf(const Film& film)
+{
+    Image image;
+    image.width = film.width;
+    image.height = film.height;
+    image.attributes = {{"software", "glim " GLIM_VERSION},
+                        {"glim:film", kFormat},
+                        {"glim:sceneFile", film.sceneFile},
+                        {"glim:scene", film.identity.scene},
+                        {"glim:settings", film.identity.settings},
+                        {"glim:seed", static_cast<double>(film.identity.seed)},
+                        {"glim:samples", sampleRangesText(film)},
+                        {"glim:seconds", film.seconds},
+                        {"glim:device", film.device}};
+    forEachChannel(kFloatLayers, [&](const std::string& name, std::size_t offset) {
+        image.channels[name] = planeOf<float>(film.pixels, offset);
+    });
+    forEachChannel(kCountLayers, [&](const std::string& name, std::size_t offset) {
+        image.counts[name] = planeOf<std::uint32_t>(film.pixels, offset);
+    });
+    addVariance(film.pixels, image);
+    return image;
+}
+
+template <class Value>
+Value attribute(const fs::path& path, const Image& image, const std::string& name)
+{
+    const auto entry = image.attributes.find(name);
+    if (entry == image.attributes.end() || !std::holds_alternative<Value>(entry->second)) {
+        throw InputError(path.string() + ": is not a film written by glim: it has no attribute " + name
+                         + " of the expected type.");
+    }
+    return std::get<Value>(entry->second);
+}
+
+// Ascending and disjoint, or nothing.
+std::optional<decltype(Film::sampleRanges)> parseRanges(const std::string& text)
+{
+    decltype(Film::sampleRanges) ranges;
+    std::istringstream stream(text);
+    for (std::string word; stream >> word;) {
+        std::istringstream range(word);
+        std::uint32_t begin = 0, end = 0;
+        char colon = '\0';
+        if (!(range >> begin >> colon >> end) || colon != ':' || !range.eof() || begin >= end
+            || (!ranges.empty() && begin < ranges.back().second)) {
+            return std::nullopt;
+        }
+        ranges.emplace_back(begin, end);
+    }
+    return ranges;
+}
+
+Film filmOfHeader(const fs::path& path, const Image& image)
+{
+    const double format = attribute<double>(path, image, "glim:film");
+    if (format != kFormat) {
+        throw InputError(path.string() + ": is a film of format " + std::to_string(std::lround(format))
+                         + ", expected format " + std::to_string(std::lround(kFormat)) + ".");
+    }
+    const double seed = attribute<double>(path, image, "glim:seed");
+    if (!(seed >= 0 && seed <= std::numeric_limits<std::uint32_t>::max() && seed == std::floor(seed))) {
+        throw InputError(path.string() + ": its seed is " + std::to_string(seed) + ", expected a 32-bit whole number.");
+    }
+    const auto samples = attribute<std::string>(path, image, "glim:samples");
+    const auto ranges = parseRanges(samples);
+    if (!ranges) {
+        throw InputError(path.string() + ": its sample ranges are \"" + samples
+                         + "\", expected ascending disjoint ranges such as \"0:256 512:768\".");
+    }
+    Film film;
+    film.width = image.width;
+    film.height = image.height;
+    film.sampleRanges = *ranges;
+    film.identity.scene = attribute<std::string>(path, image, "glim:scene");
+    film.identity.settings = attribute<std::string>(path, image, "glim:settings");
+    film.identity.seed = static_cast<std::uint32_t>(seed);
+    film.seconds = attribute<double>(path, image, "glim:seconds");
+    film.device = attribute<std::string>(path, image, "glim:device");
+    film.sceneFile = attribute<std::string>(path, image, "glim:sceneFile");
+    return film;
+}
+
+}  // namespace
+
+std::string sampleRangesText(const Film& film)
+{
+    std::ostringstream text;
+    const char* separator = "";
+    for (const auto& [begin, end] : film.sampleRanges) {
+        text << separator << begin << ':' << end;
+        separator = " ";
+    }
+    return text.str();
+}
+
+void writeFilm(const fs::path& path, const Film& film)
+{
+    writeExr(path, imageOf(film));
+}
+
+Film readFilm(const fs::path& path)
+{
+    const Image image = readExr(path);
+    Film film = filmOfHeader(path, image);
+    film.pixels.resize(std::size_t{film.width} * film.height);
+    forEachChannel(kFloatLayers, [&](const std::string& name, std::size_t offset) {
+        takePlane(path, image.channels, name, offset, film.pixels);
+    });
+    forEachChannel(kCountLayers, [&](const std::string& name, std::size_t offset) {
+        takePlane(path, image.counts, name, offset, film.pixels);
+    });
+    return film;
+}
+
+Film readFilmHeader(const fs::path& path)
+{
+    return filmOfHeader(path, readExrHeader(path));
+}
+
+void writeFilmPng(const fs::path& path, const Film& film, double exposure)
+{
+    Image image;
+    image.width = film.width;
+    image.height = film.height;
+    const char* letters[] = {"R", "G", "B"};
+    for (std::size_t c = 0; c < 3; ++c) {
+        image.channels[letters[c]] = planeOf<float>(film.pixels, offsetof(PixelMoments, mean) + c * sizeof(float));
+    }
+    writePng(path, image, exposure);
+}
+
+}  // namespace glim

@@ -1,0 +1,252 @@
+#include "host/cli/compare.hpp"
+#include "host/error.hpp"
+#include "host/image/exr.hpp"
+#include "host/measure/compare_images.hpp"
+#include "tests/support/noisy_picture.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <CLI/CLI.hpp>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <limits>
+
+namespace glim {
+namespace {
+
+using test::ScratchFolder;
+using test::addNoise;
+using test::expectRefusal;
+using test::makeTruth;
+using test::shareReach;
+
+Picture uniform(std::uint32_t side, const glm::vec3& radiance)
+{
+    return {side, side, std::vector<glm::vec3>(side * side, radiance), {}};
+}
+
+TEST(CompareImages, MetricsOfAKnownDifference)
+{
+    const Comparison result = compareImages(uniform(4, {1.5F, 2.0F, 3.0F}), uniform(4, {1.0F, 2.0F, 6.0F}));
+    // Differences .5, 0, -3; mean(r) = 3, so eps = .09.
+    EXPECT_DOUBLE_EQ(result.epsilon, 0.09);
+    EXPECT_DOUBLE_EQ(result.errors.mse, (0.25 + 9) / 3);
+    EXPECT_DOUBLE_EQ(result.errors.relMse, (0.25 / 1.09 + 9 / 36.09) / 3);
+    EXPECT_DOUBLE_EQ(result.errors.relMseAbsolute, (0.25 / 1.01 + 9 / 36.01) / 3);
+    EXPECT_DOUBLE_EQ(result.mape, (0.5 / 1.03 + 3 / 6.03) / 3);
+    EXPECT_DOUBLE_EQ(result.ratio[0].value, 1.5);
+    EXPECT_DOUBLE_EQ(result.ratio[1].value, 1.0);
+    EXPECT_DOUBLE_EQ(result.ratio[2].value, 0.5);
+    EXPECT_DOUBLE_EQ(result.ratioOfAll.value, 6.5 / 9);
+    EXPECT_EQ(result.compared, 16U);
+    EXPECT_EQ(result.maxError.channel, 2);
+    EXPECT_EQ(result.maxError.value, 3.0F);
+    EXPECT_EQ(result.maxError.reference, 6.0F);
+    EXPECT_FALSE(result.noise || result.referenceNoise);
+    EXPECT_EQ(result.intervalSource, IntervalSource::None);
+    EXPECT_TRUE(std::isnan(result.ratioOfAll.low));
+}
+
+TEST(CompareImages, EpsilonFollowsTheBrightness)
+{
+    const Comparison dim = compareImages(addNoise(makeTruth(8, 8), 0.2F, 1), makeTruth(8, 8));
+    const Comparison bright = compareImages(addNoise(makeTruth(8, 8, 1024), 0.2F, 1), makeTruth(8, 8, 1024));
+    EXPECT_NEAR(bright.errors.relMse, dim.errors.relMse, 1e-6 * dim.errors.relMse);
+    EXPECT_NEAR(bright.mape, dim.mape, 1e-6 * dim.mape);
+}
+
+TEST(CompareImages, FindsTheLargestDifference)
+{
+    const Picture reference = makeTruth(9, 5);
+    Picture picture = reference;
+    picture.radiance[3 * 9 + 7].y -= 0.5F;
+    picture.radiance[0].x += 0.25F;
+    const Comparison result = compareImages(picture, reference);
+    EXPECT_EQ(result.maxError.x, 7U);
+    EXPECT_EQ(result.maxError.y, 3U);
+    EXPECT_EQ(result.maxError.channel, 1);
+}
+
+TEST(CompareImages, CountsNonFinitePixelsAndLeavesThemOut)
+{
+    Picture picture = uniform(4, glm::vec3(1.0F)), reference = uniform(4, glm::vec3(2.0F));
+    picture.radiance[0].x = std::numeric_limits<float>::quiet_NaN();
+    picture.radiance[1].y = -std::numeric_limits<float>::infinity();
+    reference.radiance[1].z = std::numeric_limits<float>::infinity();
+    reference.radiance[2] = glm::vec3(std::numeric_limits<float>::quiet_NaN());
+    const Comparison result = compareImages(picture, reference);
+    EXPECT_EQ(result.nonFinite, 2U);
+    EXPECT_EQ(result.nonFiniteInReference, 2U);
+    EXPECT_EQ(result.compared, 13U);
+    EXPECT_DOUBLE_EQ(result.errors.mse, 1.0);
+    EXPECT_DOUBLE_EQ(result.ratioOfAll.value, 0.5);
+    EXPECT_DOUBLE_EQ(result.epsilon, 0.04);
+}
+
+TEST(CompareImages, RefusesOtherSizesAndNothingToCompare)
+{
+    expectRefusal<InputError>([] { compareImages(makeTruth(4, 5), makeTruth(5, 4)); }, "are 4x5 and 5x4");
+    const Picture nothing = uniform(2, glm::vec3(std::numeric_limits<float>::quiet_NaN()));
+    expectRefusal<InputError>([&] { compareImages(nothing, uniform(2, glm::vec3(1.0F))); }, "No pixel is finite");
+}
+
+// Share of intervals for the true ratio 1.1 that contain it, per channel and over all.
+std::array<double, 4> coverage(bool withVariance)
+{
+    constexpr int kTrials = 1000;
+    const Picture truth = makeTruth(64, 64), brighter = makeTruth(64, 64, 1.1F);
+    std::array<double, 4> share{};
+    for (std::uint32_t trial = 0; trial < kTrials; ++trial) {
+        Picture picture = addNoise(brighter, 0.3F, 2 * trial), reference = addNoise(truth, 0.3F, 2 * trial + 1);
+        if (!withVariance) {
+            picture.variance.clear();
+        }
+        const Comparison result = compareImages(picture, reference);
+        EXPECT_EQ(result.intervalSource, withVariance ? IntervalSource::Variance : IntervalSource::Blocks);
+        const MeanRatio ratios[4] = {result.ratio[0], result.ratio[1], result.ratio[2], result.ratioOfAll};
+        for (std::size_t i = 0; i < 4; ++i) {
+            share[i] += (ratios[i].low <= 1.1 && 1.1 <= ratios[i].high) / static_cast<double>(kTrials);
+        }
+    }
+    return share;
+}
+
+TEST(CompareImages, IntervalsFromVarianceHoldTheTruthInNinetyFivePercent)
+{
+    const auto share = coverage(true);
+    for (std::size_t c = 0; c < 3; ++c) {
+        EXPECT_NEAR(share[c], 0.95, shareReach(0.95, 1000));
+    }
+    EXPECT_GT(share[3], 0.95 - shareReach(0.95, 1000));  // these channels are independent: wider than need be
+}
+
+TEST(CompareImages, IntervalsFromBlocksHoldTheTruthInNinetyFivePercent)
+{
+    for (const double share : coverage(false)) {
+        EXPECT_NEAR(share, 0.945, shareReach(0.945, 1000));  // a normal limit for Student's with 63 degrees of freedom
+    }
+}
+
+TEST(EstimateErrors, IsTheExpectedErrorAgainstTheTruth)
+{
+    const Picture truth = makeTruth(64, 64);
+    const Picture picture = addNoise(truth, 0.1F, 3);
+    const auto estimate = estimateErrors(picture);
+    ASSERT_TRUE(estimate);
+    const SquaredErrors measured = compareImages(picture, truth).errors;
+    // 12,288 squares of normals: 1.3 % standard deviation, more where weights differ; x^2 for r^2 adds 3 x .1^2.
+    EXPECT_NEAR(estimate->mse, measured.mse, 0.08 * measured.mse);
+    EXPECT_NEAR(estimate->relMse, measured.relMse, 0.1 * measured.relMse);
+    EXPECT_NEAR(estimate->relMseAbsolute, measured.relMseAbsolute, 0.1 * measured.relMseAbsolute);
+}
+
+TEST(EstimateErrors, OfAKnownVariance)
+{
+    Picture picture = uniform(2, {1.0F, 2.0F, 6.0F});
+    picture.variance.assign(4, {0.25F, 0.0F, 9.0F});
+    picture.variance[1].x = std::numeric_limits<float>::infinity();
+    EXPECT_DOUBLE_EQ(estimateErrors(picture)->mse, 9.25 / 3);
+    EXPECT_DOUBLE_EQ(estimateErrors(picture)->relMse, (0.25 / 1.09 + 9 / 36.09) / 3);
+    EXPECT_DOUBLE_EQ(compareImages(picture, picture).referenceNoise->relMseAbsolute, (0.25 / 1.01 + 9 / 36.01) / 3);
+    picture.variance.clear();
+    EXPECT_FALSE(estimateErrors(picture));
+}
+
+class CompareCommand : public testing::Test {
+protected:
+    static Image imageOf(const Picture& picture, bool asVariance)
+    {
+        Image image;
+        image.width = picture.width;
+        image.height = picture.height;
+        for (const glm::vec3& value : asVariance ? picture.variance : picture.radiance) {
+            image.channels["R"].push_back(value.x);
+            image.channels["G"].push_back(value.y);
+            image.channels["B"].push_back(value.z);
+        }
+        return image;
+    }
+    static std::string run(std::vector<std::string> arguments)
+    {
+        CLI::App app;
+        addCompare(app);
+        std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
+        arguments.push_back("compare");
+        testing::internal::CaptureStdout();
+        testing::internal::CaptureStderr();
+        try {
+            app.parse(arguments);
+        } catch (...) {
+            testing::internal::GetCapturedStdout();
+            testing::internal::GetCapturedStderr();
+            throw;
+        }
+        testing::internal::GetCapturedStderr();
+        return testing::internal::GetCapturedStdout();
+    }
+    CompareCommand()
+    {
+        const Picture truth = makeTruth(64, 64);
+        const Picture picture = addNoise(truth, 0.3F, 1), reference = addNoise(truth, 0.1F, 2);
+        Image film = imageOf(picture, false);
+        const Image variance = imageOf(picture, true);
+        for (const auto& [name, plane] : variance.channels) {
+            film.channels["variance." + name] = plane;
+        }
+        writeExr(a, film);
+        writeExr(b, imageOf(reference, false));
+        writeExr(v, imageOf(reference, true));
+    }
+    const ScratchFolder folder;
+    const std::string a = folder / "a.exr", b = folder / "b.exr", v = folder / "v.exr", d = folder / "d.exr";
+};
+
+TEST_F(CompareCommand, PrintsJsonThatAgreesWithTheFunctions)
+{
+    const auto json = nlohmann::json::parse(run({a, b, "--variance", v, "--json", "--diff", d}));
+    Picture reference = pictureOf(readExr(b), b);
+    setVariance(reference, readExr(v), v);
+    const Picture picture = pictureOf(readExr(a), a);
+    const Comparison expected = compareImages(picture, reference);
+    EXPECT_EQ(json["relmse"], expected.errors.relMse);
+    EXPECT_EQ(json["relmse_absolute"], expected.errors.relMseAbsolute);
+    EXPECT_EQ(json["reference_noise"]["mse"], expected.referenceNoise->mse);
+    EXPECT_EQ(json["mean_ratio"]["interval"]["source"], "variance");
+    EXPECT_EQ(json["mean_ratio"]["all"]["high"], expected.ratioOfAll.high);
+    EXPECT_TRUE(json["z_test"]["agree"]);
+    EXPECT_EQ(readExr(d).channels["G"][77], picture.radiance[77].y - reference.radiance[77].y);
+}
+
+TEST_F(CompareCommand, PrintsATable)
+{
+    const std::string table = run({a, b});
+    EXPECT_NE(table.find("relMSE absolute"), std::string::npos);
+    EXPECT_NE(table.find("95 % intervals from the scatter of 8x8 blocks"), std::string::npos);
+    EXPECT_EQ(table.find("verdict"), std::string::npos);
+    EXPECT_NE(run({a, b, "--variance", v}).find("agree up to noise"), std::string::npos);
+    EXPECT_NE(run({a, a, "--variance", v}).find("4096 compared"), std::string::npos);
+}
+
+TEST_F(CompareCommand, RefusesBadInput)
+{
+    const auto refused = [&](const std::vector<std::string>& arguments, const std::string& part) {
+        expectRefusal<InputError>([&] { run(arguments); }, part);
+    };
+    refused({a, folder / "missing.exr"}, "missing.exr: cannot be opened");
+    refused({folder / "missing.exr", b, "--diff", folder / "d.png"}, "does not end in .exr");  // before any work
+    Image small = readExr(b);
+    small.channels.erase("B");
+    writeExr(v, small);
+    refused({a, v}, "v.exr: has no half or float channel B");
+    writeExr(v, imageOf(makeTruth(32, 64), true));
+    refused({a, b, "--variance", v}, "v.exr: is 32x64, expected the reference's 64x64");
+    small = readExr(b);
+    small.channels["G"][65] = -1.0F;
+    writeExr(v, small);
+    refused({a, b, "--variance", v}, "pixel (1, 1) is negative");
+    EXPECT_THROW(run({a, b, "--unknown"}), CLI::ParseError);
+    EXPECT_THROW(run({a}), CLI::ParseError);
+}
+
+}  // namespace
+}  // namespace glim

@@ -1,0 +1,208 @@
+#include "host/error.hpp"
+#include "host/image/exr.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfChromaticitiesAttribute.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfTiledOutputFile.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+namespace glim {
+namespace {
+
+using test::ScratchFolder;
+using test::bytesOfFile;
+using test::expectRefusal;
+using test::writeText;
+
+// Values that a careless path through half, through text or through arithmetic would change.
+Image makeImage()
+{
+    using Limits = std::numeric_limits<float>;
+    Image image;
+    image.width = 5;
+    image.height = 2;
+    image.channels["R"] = {0.0F, -0.0F, 1.0F / 3.0F, Limits::infinity(), -Limits::infinity(),
+                           Limits::quiet_NaN(), Limits::denorm_min(), Limits::max(), 65536.0F, -1e-30F};
+    image.channels["albedo.G"] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+    image.counts["count.X"] = {0, 1, (1U << 24) + 1, 0xFFFFFFFFU, 4, 5, 6, 7, 8, 9};
+    image.attributes = {{"glim:seed", 4294967295.0}, {"glim:scene", std::string("a \"b\"\nc")}, {"third", 1.0 / 3.0}};
+    return image;
+}
+
+TEST(Exr, ReadsBackEveryBitItWrote)
+{
+    const ScratchFolder folder;
+    const Image image = makeImage();
+    writeExr(folder / "a.exr", image);
+    const Image back = readExr(folder / "a.exr");
+    ASSERT_EQ(back.width, 5U);
+    ASSERT_EQ(back.height, 2U);
+    ASSERT_EQ(back.channels.size(), 2U);
+    for (const auto& [name, plane] : image.channels) {
+        ASSERT_EQ(back.channels.at(name).size(), plane.size());
+        EXPECT_EQ(std::memcmp(back.channels.at(name).data(), plane.data(), plane.size() * sizeof(float)), 0) << name;
+    }
+    EXPECT_EQ(back.counts, image.counts);
+    EXPECT_EQ(back.attributes, image.attributes);
+    const Image header = readExrHeader(folder / "a.exr");
+    EXPECT_EQ(header.width, 5U);
+    EXPECT_TRUE(header.channels.empty());
+    EXPECT_EQ(header.attributes, back.attributes);
+}
+
+TEST(Exr, TheSameImageGivesTheSameBytes)
+{
+    const ScratchFolder folder;
+    writeExr(folder / "a.exr", makeImage());
+    writeExr(folder / "b.exr", makeImage());
+    EXPECT_EQ(bytesOfFile(folder / "a.exr"), bytesOfFile(folder / "b.exr"));
+    EXPECT_EQ(folder.entries(), 2);
+}
+
+TEST(Exr, IsFloatZipRec709FromTheTopLeft)
+{
+    const ScratchFolder folder;
+    writeExr(folder / "a.exr", makeImage());
+    const Imf::InputFile file((folder / "a.exr").c_str());
+    EXPECT_EQ(file.header().channels()["R"].type, Imf::FLOAT);
+    EXPECT_EQ(file.header().channels()["count.X"].type, Imf::UINT);
+    EXPECT_EQ(file.header().compression(), Imf::ZIP_COMPRESSION);
+    EXPECT_EQ(file.header().dataWindow().min, Imath::V2i(0, 0));
+    EXPECT_EQ(file.header().dataWindow(), file.header().displayWindow());
+    const auto& primaries = file.header().typedAttribute<Imf::ChromaticitiesAttribute>("chromaticities").value();
+    EXPECT_FLOAT_EQ(primaries.red.x, 0.64F);
+    EXPECT_FLOAT_EQ(primaries.green.y, 0.60F);
+    EXPECT_FLOAT_EQ(primaries.blue.x, 0.15F);
+    EXPECT_FLOAT_EQ(primaries.white.x, 0.3127F);
+}
+
+// Half values x + 100 y at the pixel (x, y) of a window with negative corner.
+template <class File>
+void writeHalves(File& file, std::vector<Imath::half>& pixels, const Imath::Box2i& window)
+{
+    const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
+    pixels.clear();
+    for (int y = window.min.y; y <= window.max.y; ++y) {
+        for (int x = window.min.x; x <= window.max.x; ++x) {
+            pixels.emplace_back(static_cast<float>(x + 100 * y));
+        }
+    }
+    Imf::FrameBuffer frame;
+    frame.insert("R", Imf::Slice::Make(Imf::HALF, pixels.data(), window.min, width, height));
+    file.setFrameBuffer(frame);
+}
+
+void expectHalves(const Image& image)
+{
+    ASSERT_EQ(image.width, 21U);
+    ASSERT_EQ(image.height, 5U);
+    const auto& plane = image.channels.at("R");
+    for (std::uint32_t y = 0; y < 5; ++y) {
+        for (std::uint32_t x = 0; x < 21; ++x) {
+            EXPECT_EQ(plane[y * 21 + x], static_cast<float>(x) - 7 + 100 * (static_cast<float>(y) - 2));
+        }
+    }
+}
+
+TEST(Exr, ReadsHalfScanLinesOfAWindowFromBottomToTop)
+{
+    const ScratchFolder folder;
+    const Imath::Box2i window({-7, -2}, {13, 2});
+    Imf::Header header(Imath::Box2i({0, 0}, {99, 99}), window);
+    header.channels().insert("R", Imf::Channel(Imf::HALF));
+    header.lineOrder() = Imf::DECREASING_Y;
+    {
+        std::vector<Imath::half> pixels;
+        Imf::OutputFile file((folder / "a.exr").c_str(), header);
+        writeHalves(file, pixels, window);
+        file.writePixels(5);
+    }
+    expectHalves(readExr(folder / "a.exr"));
+}
+
+TEST(Exr, ReadsTheFinestLevelOfTiles)
+{
+    const ScratchFolder folder;
+    const Imath::Box2i window({-7, -2}, {13, 2});
+    Imf::Header header(window, window);
+    header.channels().insert("R", Imf::Channel(Imf::HALF));
+    header.setTileDescription(Imf::TileDescription(8, 4, Imf::MIPMAP_LEVELS));
+    {
+        std::vector<Imath::half> pixels;
+        Imf::TiledOutputFile file((folder / "a.exr").c_str(), header);
+        writeHalves(file, pixels, window);
+        for (int level = 0; level < file.numLevels(); ++level) {
+            file.writeTiles(0, file.numXTiles(level) - 1, 0, file.numYTiles(level) - 1, level);
+        }
+    }
+    expectHalves(readExr(folder / "a.exr"));
+}
+
+TEST(Exr, RefusesWhatItCannotReadWhole)
+{
+    const ScratchFolder folder;
+    auto expectUnreadable = [&](const char* name, const std::string& part) {
+        expectRefusal<InputError>([&] { readExr(folder / name); }, (folder / name).string() + ": " + part);
+    };
+    expectUnreadable("missing.exr", "cannot be opened: No such file");
+    std::filesystem::create_directory(folder / "folder.exr");
+    expectUnreadable("folder.exr", "is a folder");
+    writeText(folder / "empty.exr", "");
+    expectUnreadable("empty.exr", "is not an OpenEXR file");
+    writeText(folder / "text.exr", "P6 1 1 255 abc");
+    expectUnreadable("text.exr", "is not an OpenEXR file");
+}
+
+TEST(Exr, RefusesEveryTruncation)
+{
+    const ScratchFolder folder;
+    Image image;
+    image.width = image.height = 40;
+    for (int i = 0; i < 1600; ++i) {
+        image.channels["R"].push_back(static_cast<float>(i * 7919 % 1601));
+    }
+    writeExr(folder / "a.exr", image);
+    const std::string bytes = bytesOfFile(folder / "a.exr");
+    for (std::size_t length = 4; length < bytes.size(); length += 37) {
+        writeText(folder / "cut.exr", bytes.substr(0, length));
+        EXPECT_THROW(readExr(folder / "cut.exr"), InputError) << length << " of " << bytes.size();
+    }
+}
+
+TEST(Exr, RefusesSubsampledChannels)
+{
+    const ScratchFolder folder;
+    Imf::Header header(4, 4);
+    header.channels().insert("RY", Imf::Channel(Imf::FLOAT, 2, 2));
+    const float pixels[4] = {};
+    {
+        Imf::OutputFile file((folder / "a.exr").c_str(), header);
+        Imf::FrameBuffer frame;
+        frame.insert("RY", Imf::Slice::Make(Imf::FLOAT, pixels, {0, 0}, 4, 4, 4, 8, 2, 2));
+        file.setFrameBuffer(frame);
+        file.writePixels(4);
+    }
+    expectRefusal<InputError>([&] { readExr(folder / "a.exr"); }, "channel RY is subsampled");
+}
+
+TEST(Exr, AFailedWriteLeavesTheOldFile)
+{
+    const ScratchFolder folder;
+    writeExr(folder / "a.exr", makeImage());
+    const std::string before = bytesOfFile(folder / "a.exr");
+    Image broken;  // OpenEXR refuses an image without pixels
+    EXPECT_THROW(writeExr(folder / "a.exr", broken), InputError);
+    EXPECT_EQ(bytesOfFile(folder / "a.exr"), before);
+    EXPECT_EQ(folder.entries(), 1);
+}
+
+}  // namespace
+}  // namespace glim

@@ -1,0 +1,171 @@
+#include "host/error.hpp"
+#include "host/image/exr.hpp"
+#include "host/render/film_file.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/support/simulated_film.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace glim {
+namespace {
+
+using test::ScratchFolder;
+using test::bytesOfFile;
+using test::expectRefusal;
+using test::sameBits;
+using test::simulateFilm;
+
+TEST(FilmFile, ReadsBackEveryBit)
+{
+    const ScratchFolder folder;
+    Film film = simulateFilm(100, 700, 4294967295U);
+    film.sampleRanges = {{0, 32}, {100, 700}};
+    film.pixels[3].mean = glm::vec3(-0.0F, 1e-42F, 3e38F);
+    film.pixels[4] = PixelMoments{};
+    film.pixels[5].count = 0xFFFFFFFFU;
+    film.pixels[5].blocks = (1U << 24) + 1;
+    film.seconds = 1.0 / 3.0;
+    writeFilm(folder / "a.exr", film);
+    const Film back = readFilm(folder / "a.exr");
+    EXPECT_EQ(back.width, film.width);
+    EXPECT_EQ(back.height, film.height);
+    EXPECT_TRUE(sameBits(back.pixels, film.pixels));
+    EXPECT_EQ(back.sampleRanges, film.sampleRanges);
+    EXPECT_EQ(back.identity.scene, film.identity.scene);
+    EXPECT_EQ(back.identity.settings, film.identity.settings);
+    EXPECT_EQ(back.identity.seed, film.identity.seed);
+    EXPECT_EQ(back.seconds, film.seconds);
+    EXPECT_EQ(back.device, film.device);
+    EXPECT_EQ(back.sceneFile, film.sceneFile);
+    const Film header = readFilmHeader(folder / "a.exr");
+    EXPECT_TRUE(header.pixels.empty());
+    EXPECT_EQ(header.sampleRanges, film.sampleRanges);
+}
+
+TEST(FilmFile, TheSameFilmGivesTheSameBytes)
+{
+    const ScratchFolder folder;
+    writeFilm(folder / "a.exr", simulateFilm(0, 300));
+    writeFilm(folder / "b.exr", simulateFilm(0, 300));
+    EXPECT_EQ(bytesOfFile(folder / "a.exr"), bytesOfFile(folder / "b.exr"));
+}
+
+TEST(FilmFile, HasTheLayersOtherProgramsLookFor)
+{
+    const ScratchFolder folder;
+    const Film film = simulateFilm(0, 128);
+    writeFilm(folder / "a.exr", film);
+    const Image image = readExr(folder / "a.exr");
+    const PixelMoments& pixel = film.pixels[9];
+    EXPECT_EQ(image.channels.at("R")[9], pixel.mean.x);
+    EXPECT_EQ(image.channels.at("B")[9], pixel.mean.z);
+    EXPECT_EQ(image.channels.at("A")[9], pixel.alpha);
+    EXPECT_EQ(image.channels.at("albedo.G")[9], pixel.albedo.y);
+    EXPECT_EQ(image.channels.at("normal.Z")[9], pixel.normal.z);
+    EXPECT_EQ(image.channels.at("depth.Z")[9], pixel.depth);
+    EXPECT_TRUE(std::isinf(image.channels.at("depth.Z")[9]));
+    EXPECT_EQ(image.counts.at("count.X")[9], 128U);
+    EXPECT_EQ(std::get<std::string>(image.attributes.at("glim:samples")), "0:128");
+}
+
+// Four blocks of 32: the variance of the mean is that of the block means over four.
+TEST(FilmFile, VarianceIsThatOfTheMean)
+{
+    const ScratchFolder folder;
+    writeFilm(folder / "a.exr", simulateFilm(0, 128));
+    const Image image = readExr(folder / "a.exr");
+    for (std::uint32_t pixel = 0; pixel < image.width * image.height; ++pixel) {
+        double sum = 0, squares = 0;
+        for (std::uint32_t block = 0; block < 4; ++block) {
+            const float mean = test::simulateBlock(1, pixel, 32 * block, 32 * block + 32).mean.y;
+            sum += static_cast<double>(mean);
+            squares += static_cast<double>(mean) * static_cast<double>(mean);
+        }
+        const double variance = (squares - sum * sum / 4) / 3 / 4;
+        EXPECT_NEAR(static_cast<double>(image.channels.at("variance.G")[pixel]), variance, 1e-5 * squares);
+    }
+}
+
+TEST(FilmFile, UnknownVarianceIsLeftOutOrInfinite)
+{
+    const ScratchFolder folder;
+    writeFilm(folder / "a.exr", simulateFilm(0, 32));
+    EXPECT_FALSE(readExr(folder / "a.exr").channels.contains("variance.R"));
+    Film film = simulateFilm(0, 64);
+    film.pixels[2].blocks = 1;
+    writeFilm(folder / "b.exr", film);
+    const std::vector<float> variance = readExr(folder / "b.exr").channels.at("variance.R");
+    for (std::size_t pixel = 0; pixel < variance.size(); ++pixel) {
+        EXPECT_EQ(std::isinf(variance[pixel]), pixel == 2);
+        EXPECT_FALSE(std::isnan(variance[pixel]));
+    }
+}
+
+TEST(FilmFile, WritesAPngOfTheBeauty)
+{
+    const ScratchFolder folder;
+    writeFilmPng(folder / "a.png", simulateFilm(0, 32), 0.0);
+    EXPECT_EQ(bytesOfFile(folder / "a.png").substr(1, 3), "PNG");
+    EXPECT_EQ(folder.entries(), 1);
+}
+
+class FilmFileRefusal : public testing::Test {
+protected:
+    FilmFileRefusal()
+    {
+        writeFilm(path, simulateFilm(0, 64));
+        image = readExr(path);
+    }
+    void expectRefused(const std::string& part) const
+    {
+        writeExr(path, image);
+        expectRefusal<InputError>([&] { readFilm(path); }, path.string() + ": " + part);
+    }
+    const ScratchFolder folder;
+    const std::filesystem::path path = folder / "a.exr";
+    Image image;
+};
+
+TEST_F(FilmFileRefusal, OfAnotherPicture)
+{
+    image.attributes.clear();
+    expectRefused("is not a film written by glim: it has no attribute glim:film");
+}
+
+TEST_F(FilmFileRefusal, OfALaterFormat)
+{
+    image.attributes["glim:film"] = 2.0;
+    expectRefused("is a film of format 2, expected format 1");
+}
+
+TEST_F(FilmFileRefusal, OfALostChannel)
+{
+    image.channels.erase("squares.G");
+    expectRefused("is not a complete film: it has no channel squares.G");
+}
+
+TEST_F(FilmFileRefusal, OfCountsThatAnotherProgramMadeFloats)
+{
+    image.counts.erase("count.X");
+    image.channels["count.X"].assign(image.channels["R"].size(), 64.0F);
+    expectRefused("is not a complete film: it has no channel count.X");
+}
+
+TEST_F(FilmFileRefusal, OfASeedThatIsNone)
+{
+    image.attributes["glim:seed"] = -1.0;
+    expectRefused("its seed is -1");
+}
+
+TEST_F(FilmFileRefusal, OfImpossibleSampleRanges)
+{
+    for (const char* ranges : {"64:0", "0:64 32:96", "0-64", "0:64x", "0:", "-1:5", "0:4294967296", "64:128 0:64"}) {
+        image.attributes["glim:samples"] = std::string(ranges);
+        expectRefused("its sample ranges are \"" + std::string(ranges) + "\"");
+    }
+}
+
+}  // namespace
+}  // namespace glim
