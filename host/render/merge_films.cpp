@@ -139,7 +139,7 @@ MergePlan planMerge(const std::vector<Film>& films, const std::vector<std::strin
 
 void foldFilm(Film& film, const Film& next)
 {
-    foldPage(film, next.pixels);
+    foldPage(film, 0, next.pixels);
     foldHeader(film, next);
 }
 
