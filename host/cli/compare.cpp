@@ -212,8 +212,9 @@ void addCompare(CLI::App& app)
     command->add_option("reference", options->reference, "The reference r, of the same size")
         ->required()
         ->type_name("B.exr");
-    command->add_option("--variance", options->variance, "Variance of the reference's pixels as means, in R, G, B; goes before"
-                                                         " a variance in B.exr")
+    command
+        ->add_option("--variance", options->variance,
+                     "Variance of the reference's pixels, each a mean, in R, G, B; goes before one in B.exr")
         ->type_name("V.exr");
     command->add_option("--diff", options->difference, "Write the signed difference A - B (.exr)")->type_name("D.exr");
     command->add_flag("--json", options->json, "Print JSON instead of a table; unknown numbers are null");
