@@ -6,8 +6,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <iostream>
 #include <memory>
+#include <vector>
 
 namespace glim {
 namespace {
