@@ -9,9 +9,13 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
 
 namespace glim {
 namespace {
@@ -212,8 +216,9 @@ void addCompare(CLI::App& app)
     command->add_option("reference", options->reference, "The reference r, of the same size")
         ->required()
         ->type_name("B.exr");
-    command->add_option("--variance", options->variance, "Variance of the reference's pixels as means, in R, G, B; goes before"
-                                                         " a variance in B.exr")
+    command
+        ->add_option("--variance", options->variance,
+                     "Variance of the reference's pixels, each a mean, in R, G, B; goes before one in B.exr")
         ->type_name("V.exr");
     command->add_option("--diff", options->difference, "Write the signed difference A - B (.exr)")->type_name("D.exr");
     command->add_flag("--json", options->json, "Print JSON instead of a table; unknown numbers are null");

@@ -6,8 +6,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <iostream>
 #include <memory>
+#include <vector>
 
 namespace glim {
 namespace {
@@ -45,13 +47,13 @@ void addMerge(CLI::App& app)
                     "other give the bits of the single run; other ranges give it up to rounding, and that is said.");
     command->add_option("films", options->inputs, "Films written by glim render or glim merge, in any order (.exr)")
         ->required()
-        ->type_name("A.exr B.exr ...");
+        ->type_name("A.exr");
     command->add_option("-o,--output", options->output, "The merged film; it may replace one of the inputs (.exr)")
         ->required()
         ->type_name("C.exr");
-    CLI::Option* png = command->add_option("--png", options->png, "Also write an sRGB picture to look at (.png)")
-                           ->type_name("C.png");
-    command->add_option("--exposure", options->exposure, "Brightness of the PNG in stops, -64 to 64; the EXR keeps its values")
+    CLI::Option* png = command->add_option("--png", options->png, "Also write an sRGB picture to look at (.png)");
+    png->type_name("C.png");
+    command->add_option("--exposure", options->exposure, "Brightness of the PNG in stops, of which the EXR has none")
         ->type_name("EV")
         ->check(CLI::Range(-64.0, 64.0))
         ->needs(png)

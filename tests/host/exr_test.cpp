@@ -177,6 +177,22 @@ TEST(Exr, RefusesEveryTruncation)
     }
 }
 
+TEST(Exr, RefusesAFileWhoseWriterStoppedEarly)
+{
+    const ScratchFolder folder;
+    Imf::Header header(4, 40);
+    header.channels().insert("R", Imf::Channel(Imf::FLOAT));
+    const std::vector<float> pixels(160);
+    {
+        Imf::OutputFile file((folder / "a.exr").c_str(), header);
+        Imf::FrameBuffer frame;
+        frame.insert("R", Imf::Slice::Make(Imf::FLOAT, pixels.data(), {0, 0}, 4, 40));
+        file.setFrameBuffer(frame);
+        file.writePixels(20);
+    }
+    expectRefusal<InputError>([&] { readExr(folder / "a.exr"); }, "a.exr: is incomplete: rows of pixels are missing.");
+}
+
 TEST(Exr, RefusesSubsampledChannels)
 {
     const ScratchFolder folder;

@@ -63,7 +63,8 @@ TEST(Png, TransferFunctionIsSrgb)
 TEST(Png, HoldsTheExposedPixelsFromTheTopLeft)
 {
     const ScratchFolder folder;
-    const Image image = makeImage({{0, 0, 0}, {0.25F, 0, 0}, {0, 0.25F, 0}, {0, 0, 0.25F}, {0.09F, 0.09F, 0.09F}, {9, 1, -1}}, 3);
+    const Image image = makeImage(
+        {{0, 0, 0}, {0.25F, 0, 0}, {0, 0.25F, 0}, {0, 0, 0.25F}, {0.09F, 0.09F, 0.09F}, {9, 1, -1}}, 3);
     writePng(folder / "a.png", image, 1.0);
     EXPECT_EQ(decode(folder / "a.png"),
               (std::vector<Rgb>{{0, 0, 0}, {188, 0, 0}, {0, 188, 0}, {0, 0, 188}, {118, 118, 118}, {255, 255, 0}}));
