@@ -4,6 +4,7 @@
 #define GLIM_ACCESS_PATHS
 
 #include "pass.glsl"
+#include "shared/pixel_moments.h"
 
 #define DECLARE(qualifier, number, type, name) \
     layout(set = 0, binding = number, scalar) qualifier buffer name##Buffer { type name[]; }
@@ -72,6 +73,11 @@ layout(set = 0, binding = kBindQueueSizes, scalar) writeonly buffer QueueSizesBu
 
 #if defined(UPDATES_QUEUE_TAILS)
 layout(set = 0, binding = kBindQueueTails, scalar) buffer QueueTailsBuffer { QueueTails queueTails; };
+#endif
+
+#if defined(UPDATES_FILM)
+DECLARE(, kBindBlocks, BlockSums, filmBlocks);
+DECLARE(, kBindPages, PixelMoments, filmPages);
 #endif
 
 #if defined(UPDATES_RAY_COUNTS)

@@ -5,12 +5,10 @@
 #extension GL_GOOGLE_include_directive : require
 #define READS_RADIANCE
 #define READS_FIRST_HITS
+#define UPDATES_FILM
 #include "access/paths.glsl"
 #include "access/status.glsl"
 #include "lib/moments.glsl"
-
-layout(set = 0, binding = kBindBlocks, scalar) buffer Blocks { BlockSums blocks[]; };
-layout(set = 0, binding = kBindPages, scalar) buffer Pages { PixelMoments pages[]; };
 
 bool isFinite(float x)
 {
@@ -26,7 +24,7 @@ BlockSums addSample(BlockSums sums, PathRadiance path, FirstHit first)
 void addPixel(uint pixel)
 {
     uint at = pass.firstPixel + pixel;
-    BlockSums sums = blocks[at];
+    BlockSums sums = filmBlocks[at];
     for (uint i = 0u; i < pass.sampleCount; ++i) {
         uint slot = pixel * pass.sampleCount + i;
         PathRadiance path = pathRadiance[slot];
@@ -37,10 +35,10 @@ void addPixel(uint pixel)
         }
     }
     if ((pass.accumulate & kEndsBlock) != 0u) {
-        pages[at] = foldMoments(pages[at], momentsOfBlock(sums));
+        filmPages[at] = foldMoments(filmPages[at], momentsOfBlock(sums));
         sums = emptyBlock();
     }
-    blocks[at] = sums;
+    filmBlocks[at] = sums;
 }
 
 void main()

@@ -1,0 +1,89 @@
+#include "tests/support/render_scene.hpp"
+
+#include "host/bvh/build_bvh.hpp"
+#include "host/flatten/flatten_scene.hpp"
+#include "host/measure/normal.hpp"
+#include "tests/support/test_device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace glim {
+namespace {
+
+// The family: what all whole-picture tests compare.
+constexpr double kFamilyLevel = 1e-3;
+constexpr std::size_t kFamilySize = 200;
+
+}  // namespace
+
+FlatScene flattened(const Scene& scene) { return flattenScene(scene, buildBvh(primitiveBoxes(scene))); }
+
+Film renderFlat(const FlatScene& flat, const Camera& camera, const RenderSettings& settings)
+{
+    const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
+    Renderer renderer(testDevice(), flat, flattenCamera(camera, aspect), settings);
+    Film film = renderer.render([](const RenderProgress&) { return true; });
+    EXPECT_EQ(renderer.statistics().nonFinite, 0U);
+    return film;
+}
+
+Film renderScene(const Scene& scene, const RenderSettings& settings)
+{
+    return renderFlat(flattened(scene), scene.cameras.front(), settings);
+}
+
+RenderSettings squareSettings(std::uint32_t side, std::uint32_t spp)
+{
+    RenderSettings settings;
+    settings.width = settings.height = side;
+    settings.sampleEnd = spp;
+    return settings;
+}
+
+std::uint32_t samplesFor(std::uint32_t spp, std::uint32_t factor)
+{
+    return std::getenv("GLIM_LONG") != nullptr ? spp * factor : spp;
+}
+
+MeanEstimate meanOf(const Film& film)
+{
+    glm::dvec3 sum(0.0), variance(0.0);
+    for (const PixelMoments& pixel : film.pixels) {
+        sum += glm::dvec3(pixel.mean);
+        variance += glm::dvec3(varianceOfMean(pixel));
+    }
+    const double pixels = static_cast<double>(film.pixels.size());
+    return {sum / pixels, glm::sqrt(variance) / pixels};
+}
+
+void expectEverywhere(const Film& film, const glm::dvec3& truth, int bounces)
+{
+    double worst = 0.0;
+    for (const PixelMoments& pixel : film.pixels) {
+        const glm::dvec3 error = glm::abs(glm::dvec3(pixel.mean) - truth) / truth;
+        worst = std::max({worst, error.r, error.g, error.b});
+    }
+    EXPECT_LE(worst, bounces * 0x1p-20) << "largest relative error of a pixel";
+}
+
+void expectMean(const std::string& name, const Film& film, const glm::dvec3& truth)
+{
+    const MeanEstimate estimate = meanOf(film);
+    const double z = twoSidedLimit(kFamilyLevel / kFamilySize);
+    for (int k = 0; k < 3; ++k) {
+        const double error = estimate.mean[k] - truth[k];
+        EXPECT_LE(std::abs(error), z * estimate.standardError[k] + 2e-5 * truth[k])
+            << name << ", channel " << k << ": " << estimate.mean[k] << ", truth " << truth[k];
+        if (k == 0) {
+            std::printf("%s: %.7g, truth %.7g, relative error %.2e +- %.1e (sees %.1e)\n", name.c_str(), estimate.mean[k],
+                        truth[k], error / truth[k], estimate.standardError[k] / truth[k],
+                        (z + 2.33) * estimate.standardError[k] / truth[k]);
+        }
+    }
+}
+
+}  // namespace glim

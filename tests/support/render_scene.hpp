@@ -1,0 +1,35 @@
+// Renders a scene made in memory on the test device, and says what its mean is and how well that is known.
+#pragma once
+
+#include "host/flatten/flat_scene.hpp"
+#include "host/render/renderer.hpp"
+#include "host/scene/scene.hpp"
+
+namespace glim {
+
+FlatScene flattened(const Scene& scene);
+
+// Through the first camera.
+Film renderScene(const Scene& scene, const RenderSettings& settings);
+Film renderFlat(const FlatScene& flat, const Camera& camera, const RenderSettings& settings);
+
+// Square, with samples [0, spp).
+RenderSettings squareSettings(std::uint32_t side, std::uint32_t spp);
+
+// GLIM_LONG=1 (tools/test --long) asks for `factor` times the samples.
+std::uint32_t samplesFor(std::uint32_t spp, std::uint32_t factor = 25);
+
+struct MeanEstimate {
+    glm::dvec3 mean;
+    glm::dvec3 standardError;  // from the block means of every pixel
+};
+
+MeanEstimate meanOf(const Film& film);
+
+// Every pixel within 2^-20 (relative) per bounce: for scenes whose estimator has no variance.
+void expectEverywhere(const Film& film, const glm::dvec3& truth, int bounces);
+
+// accuracy: |mean - truth| <= z se + 2e-5 truth, z for a family of 200 comparisons at level 1e-3. Prints what it measured.
+void expectMean(const std::string& name, const Film& film, const glm::dvec3& truth);
+
+}  // namespace glim
