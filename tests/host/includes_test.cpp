@@ -1,0 +1,262 @@
+// The direction of dependencies, the folders that own a library, what a shader file may declare, and sizes: as rules over
+// the text of the sources, each of which is also shown to find what it forbids.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace glim {
+namespace {
+
+struct Source {
+    std::string path;  // from the project root
+    std::string text;
+};
+
+// What each folder of host/ stands directly on; what those stand on is allowed as well.
+const std::map<std::string, std::set<std::string>> kStandsOn{
+    {"main.cpp", {"cli"}},
+    {"cli", {"preview", "measure"}},
+    {"preview", {"render"}},
+    {"measure", {"render"}},
+    {"render", {"flatten", "gpu"}},
+    {"flatten", {"bvh", "shaders/shared"}},
+    {"bvh", {"scene", "shaders/shared"}},  // the depth of the traversal stack is a shared limit
+    {"scene", {"image"}},
+    {"image", {}},
+    {"gpu", {}},
+    {"shaders/shared", {}},
+};
+
+// How an include begins, and the folders of host/ that own what it brings. Vulkan's types pass on to render and preview
+// through gpu's headers.
+const std::vector<std::pair<std::string, std::set<std::string>>> kOwners{
+    {"tiny_gltf", {"scene"}},   {"OpenEXR/", {"image"}}, {"Imath/", {"image"}},      {"Imf", {"image"}},
+    {"png.h", {"image"}},       {"stb_", {"image"}},     {"GLFW/", {"preview"}},     {"vulkan/", {"gpu"}},
+    {"CLI/", {"cli", "main.cpp"}}, {"commit.h", {"cli"}},   {"kernels.hpp", {"render"}},
+};
+
+const std::vector<std::string> kShaderFolders{"shared", "lib", "access", "kernels"};  // each may include itself and those before
+
+bool startsWith(const std::string& text, const std::string& start) { return text.rfind(start, 0) == 0; }
+
+// The n-th part of a path: part("host/bvh/bvh.hpp", 1) is "bvh".
+std::string part(const std::string& path, std::size_t n) {
+    const std::filesystem::path split(path);
+    const auto size = static_cast<std::size_t>(std::distance(split.begin(), split.end()));
+    return n < size ? std::next(split.begin(), static_cast<std::ptrdiff_t>(n))->string() : "";
+}
+
+std::set<std::string> findAllBelow(const std::string& folder) {
+    std::set<std::string> below{folder};
+    for (const std::string& next : kStandsOn.at(folder)) {
+        below.merge(findAllBelow(next));
+    }
+    return below;
+}
+
+struct Include {
+    std::string target;
+    bool quoted;
+};
+
+std::vector<Include> findIncludes(const std::string& text) {
+    static const std::regex kInclude(R"((?:^|\n)[ \t]*#[ \t]*include[ \t]*(["<])([^">]+)[">])");
+    std::vector<Include> includes;
+    for (std::sregex_iterator i(text.begin(), text.end(), kInclude), end; i != end; ++i) {
+        includes.push_back({(*i)[2], (*i)[1] == "\""});
+    }
+    return includes;
+}
+
+// By hand: std::regex recurses once per character and would run out of stack in a long comment.
+std::string removeComments(const std::string& text) {
+    std::string code;
+    for (std::size_t i = 0; i < text.size();) {
+        const bool line = text.compare(i, 2, "//") == 0;
+        if (line || text.compare(i, 2, "/*") == 0) {
+            const std::size_t end = text.find(line ? "\n" : "*/", i + 2);
+            i = end == std::string::npos ? text.size() : end + (line ? 0 : 2);
+        } else {
+            code += text[i++];
+        }
+    }
+    return code;
+}
+
+std::string findHostDefect(const std::string& folder, const Include& include) {
+    for (const auto& [start, owners] : kOwners) {
+        if (startsWith(include.target, start)) {
+            return owners.count(folder) ? "" : "belongs to host/" + *owners.begin() + " alone";
+        }
+    }
+    if (!include.quoted || include.target == "host/error.hpp") {
+        return "";
+    }
+    const bool shared = startsWith(include.target, "shaders/shared/");
+    if (!shared && !startsWith(include.target, "host/")) {
+        return "is neither below host nor below shaders/shared";
+    }
+    const std::string target = shared ? "shaders/shared" : part(include.target, 1);
+    return findAllBelow(folder).count(target) ? "" : "points back or aside: host/" + folder + " must not know it";
+}
+
+std::string findShaderDefect(const std::string& folder, const Include& include) {
+    const std::string target = part(include.target, 1).empty() ? folder : part(include.target, 0);
+    const auto begin = kShaderFolders.begin(), end = kShaderFolders.end();
+    const auto from = std::find(begin, end, folder), to = std::find(begin, end, target);
+    if (to == end) {
+        return "is not below shaders";
+    }
+    return to <= from ? "" : "points back: shaders/" + folder + " must not know it";
+}
+
+void findIncludeDefects(const Source& source, std::vector<std::string>& defects) {
+    const std::string folder = part(source.path, 1);
+    const bool host = startsWith(source.path, "host/") && source.path != "host/error.hpp";
+    const bool shader = startsWith(source.path, "shaders/");
+    if (host && !kStandsOn.count(folder)) {
+        defects.push_back(source.path + ": host/" + folder + " is missing in kStandsOn");
+        return;
+    }
+    for (const Include& include : findIncludes(source.text)) {
+        // shaders/shared is C++ as well, and takes the standard library and glm from there.
+        const std::string defect = host                       ? findHostDefect(folder, include)
+                                   : shader && include.quoted ? findShaderDefect(folder, include)
+                                                              : "";
+        if (!defect.empty()) {
+            defects.push_back(source.path + ": " + include.target + " " + defect);
+        }
+    }
+}
+
+void findWordDefects(const Source& source, std::vector<std::string>& defects) {
+    static const std::regex kResource(R"(\b(buffer|uniform)\b)"), kArcus(R"(\b(acos|asin)\b)");
+    if (!startsWith(source.path, "shaders/") || source.path == "shaders/README.md") {
+        return;
+    }
+    const std::string code = removeComments(source.text);
+    if (part(source.path, 1) != "access" && std::regex_search(code, kResource)) {
+        defects.push_back(source.path + ": declares a resource, which only shaders/access does");
+    }
+    // Off by 1.6e-4 and 3.9e-4 on Mesa's software driver.
+    if (std::regex_search(code, kArcus)) {
+        defects.push_back(source.path + ": uses acos or asin, which drivers compute too coarsely; use atan");
+    }
+}
+
+void findSizeDefects(const Source& source, std::vector<std::string>& defects) {
+    const auto lines = std::count(source.text.begin(), source.text.end(), '\n');
+    const std::ptrdiff_t most = startsWith(source.path, "shaders/kernels/") ? 150 : 300;
+    if (lines > most) {
+        defects.push_back(source.path + ": has " + std::to_string(lines) + " lines, expected at most " + std::to_string(most));
+    }
+}
+
+std::vector<std::string> findDefects(const std::vector<Source>& sources) {
+    std::vector<std::string> defects;
+    for (const Source& source : sources) {
+        findIncludeDefects(source, defects);
+        findWordDefects(source, defects);
+        findSizeDefects(source, defects);
+    }
+    return defects;
+}
+
+std::vector<Source> readSources() {
+    const std::filesystem::path root = GLIM_SOURCE_DIR;
+    std::vector<Source> sources;
+    for (const char* folder : {"host", "shaders", "tests", "tools"}) {
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
+            const std::string path = entry.path().lexically_relative(root).generic_string();
+            static const std::regex kText(R"(.*\.(cpp|hpp|h|glsl|comp|cmake|py|sh|txt|md)|tools/[^.]*)");
+            if (entry.is_regular_file() && std::regex_match(path, kText)) {
+                std::ifstream file(entry.path());
+                sources.push_back({path, {std::istreambuf_iterator<char>(file), {}}});
+            }
+        }
+    }
+    return sources;
+}
+
+TEST(Includes, SourcesKeepTheRules) {
+    const std::vector<Source> sources = readSources();
+    for (const char* folder : {"host/", "shaders/", "tests/", "tools/"}) {
+        EXPECT_TRUE(std::any_of(sources.begin(), sources.end(),
+                                [folder](const Source& source) { return startsWith(source.path, folder); }))
+            << folder << ": nothing was found to check";
+    }
+    for (const std::string& defect : findDefects(sources)) {
+        ADD_FAILURE() << defect;
+    }
+}
+
+struct Example {
+    const char* path;
+    const char* text;
+};
+
+TEST(Includes, WhatIsAllowedPasses) {
+    for (const auto& [path, text] : {
+             Example{"host/main.cpp", "#include \"host/cli/render.hpp\"\n#include \"host/error.hpp\"\n#include <CLI/CLI.hpp>\n"},
+             Example{"host/cli/inspect.cpp", "#include \"host/scene/load_gltf.hpp\"\n#include \"host/gpu/device.hpp\"\n"},
+             Example{"host/scene/gltf/read.cpp", "#include <tiny_gltf.h>\n#include \"host/image/exr.hpp\"\n"},
+             Example{"host/bvh/build_bvh.cpp", "#include \"shaders/shared/limits.h\"\n// #include \"host/gpu/device.hpp\"\n"},
+             Example{"host/gpu/check.hpp", "#include <vulkan/vulkan.h>\n#include \"host/error.hpp\"\n"},
+             Example{"shaders/lib/warp.glsl", "#include \"shared/limits.h\"\n#include \"sphere.glsl\"\n// uniform, acos\n"},
+             Example{"shaders/access/scene.glsl", "#include \"lib/warp.glsl\"\nreadonly buffer B { float b[]; };\n"},
+             Example{"shaders/shared/types.h", "#include \"vocabulary.h\"\n#include <cstdint>\n"},
+         }) {
+        for (const std::string& defect : findDefects({{path, text}})) {
+            ADD_FAILURE() << defect;
+        }
+    }
+}
+
+TEST(Includes, EveryViolationIsFound) {
+    const std::string long301(301, '\n'), long151(151, '\n');
+    for (const auto& [path, text] : {
+             Example{"host/scene/scene.hpp", "#include \"host/bvh/bvh.hpp\"\n"},
+             Example{"host/scene/scene.hpp", "#include \"shaders/shared/limits.h\"\n"},
+             Example{"host/image/exr.cpp", "#include \"host/render/film.hpp\"\n"},
+             Example{"host/bvh/bvh.hpp", "#pragma once\n  # include \"host/flatten/flat_scene.hpp\"\n"},
+             Example{"host/flatten/light_table.cpp", "#include \"host/render/film.hpp\"\n"},
+             Example{"host/flatten/light_table.cpp", "#include \"host/gpu/device.hpp\"\n"},
+             Example{"host/gpu/device.cpp", "#include \"host/scene/scene.hpp\"\n"},
+             Example{"host/render/renderer.cpp", "#include \"host/measure/picture.hpp\"\n"},
+             Example{"host/measure/picture.cpp", "#include \"host/preview/window.hpp\"\n"},
+             Example{"host/cli/render.cpp", "#include \"host/main.cpp\"\n"},
+             Example{"host/main.cpp", "#include \"tests/support/statistics.hpp\"\n"},
+             Example{"host/cli/render.cpp", "#include \"tools/setup.h\"\n"},
+             Example{"host/cli/render.cpp", "#include \"render.hpp\"\n"},
+             Example{"host/cli/render.cpp", "#include \"shaders/lib/warp.glsl\"\n"},
+             Example{"host/novel/x.cpp", ""},
+             Example{"host/render/film.cpp", "#include <OpenEXR/ImfHeader.h>\n"},
+             Example{"host/image/png.cpp", "#include <tiny_gltf.h>\n"},
+             Example{"host/cli/preview.cpp", "#include <GLFW/glfw3.h>\n"},
+             Example{"host/render/renderer.cpp", "#include <vulkan/vulkan.h>\n"},
+             Example{"host/scene/scene.hpp", "#include <vulkan/vulkan.h>\n"},
+             Example{"shaders/shared/limits.h", "#include \"lib/warp.glsl\"\n"},
+             Example{"shaders/lib/warp.glsl", "#include \"access/scene.glsl\"\n"},
+             Example{"shaders/access/scene.glsl", "#include \"kernels/bounce.comp\"\n"},
+             Example{"shaders/lib/warp.glsl", "#include \"../tests/support/expect.glsl\"\n"},
+             Example{"shaders/lib/warp.glsl", "uniform sampler2D map;\n"},
+             Example{"shaders/kernels/bounce.comp", "layout(binding = 0) buffer B { float b[]; };\n"},
+             Example{"shaders/lib/warp.glsl", "float f(float x) { return acos(x); }\n"},
+             Example{"shaders/kernels/bounce.comp", "/* a */ float y = asin(1.0); // b\n"},
+             Example{"shaders/kernels/bounce.comp", long151.c_str()},
+             Example{"host/main.cpp", long301.c_str()},
+         }) {
+        EXPECT_EQ(findDefects({{path, text}}).size(), 1U) << path << "\n" << text;
+    }
+}
+
+}  // namespace
+}  // namespace glim
