@@ -92,13 +92,13 @@ def coincident(count):
 
 
 def growing(count):
-    """A line of triangles from a millimetre to a million kilometres: binning by centroid puts all but the last few in
-    one bin, over and over."""
+    """Triangles from a millimetre to a million kilometres on both sides of the origin: binning by centroid puts all but
+    the last few in one bin, over and over."""
     document, points = sunlit(), []
     ratio = 1e12 ** (1.0 / max(1, count - 1))
     for i in range(count):
-        size = 1e-3 * ratio ** i
-        points += [[size, 0.0, 0.0], [2.0 * size, 0.0, 0.0], [1.5 * size, size, 0.0]]
+        size = 1e-3 * ratio ** i * (1 - 2 * (i % 2))
+        points += [[size, -size, 0.0], [2.0 * size, -size, 0.0], [1.5 * size, size, 0.0]]
     document.shape("line", points, list(range(3 * count)), grey(document))
     return document
 
