@@ -25,6 +25,28 @@ std::string excerpt(const json& value)
     return text.size() <= 40 ? text : text.substr(0, 40) + "...";
 }
 
+std::string describeRange(const SchemaRule& rule)
+{
+    std::string range;
+    if (rule.min != -DBL_MAX) {
+        range += rule.min == kPositive ? " above 0" : " from " + toText(rule.min);
+    }
+    if (rule.max != DBL_MAX && rule.max != kMaxWhole) {
+        range += " to " + toText(rule.max);
+    }
+    return range;
+}
+
+bool isInRange(const SchemaRule& rule, const json& value)
+{
+    return value.is_number() && value.get<double>() >= rule.min && value.get<double>() <= rule.max;
+}
+
+bool isOneOf(const std::string& words, const json& value)
+{
+    return value.is_string() && (", " + words + ",").find(", " + value.get<std::string>() + ",") != std::string::npos;
+}
+
 class JsonCheck {
 public:
     JsonCheck(const std::string& path, const json& document) : m_path(path), m_document(document) {}
@@ -32,10 +54,12 @@ public:
     void apply(const SchemaRule& rule) const { visit(rule, rule.path, m_document, ""); }
 
 private:
-    [[noreturn]] void refuseValue(const std::string& place, const json& value, const std::string& expected) const
+    void require(bool right, const std::string& place, const json& value, const std::string& expected) const
     {
-        throw InputError(m_path + ": " + (place.empty() ? "the document" : place) + " is " + excerpt(value) +
-                         "; expected " + expected);
+        if (!right) {
+            throw InputError(m_path + ": " + (place.empty() ? "the document" : place) + " is " + excerpt(value) +
+                             "; expected " + expected);
+        }
     }
 
     void visit(const SchemaRule& rule, std::string_view rest, const json& value, const std::string& place) const
@@ -43,16 +67,12 @@ private:
         if (rest.empty()) {
             checkValue(rule, value, place);
         } else if (rest.substr(0, 2) == "[]") {
-            if (!value.is_array()) {
-                refuseValue(place, value, "an array");
-            }
+            require(value.is_array(), place, value, "an array");
             for (std::size_t i = 0; i < value.size(); ++i) {
                 visit(rule, rest.substr(2), value[i], place + "[" + std::to_string(i) + "]");
             }
         } else if (rest.substr(0, 2) == "{}") {
-            if (!value.is_object()) {
-                refuseValue(place, value, "an object");
-            }
+            require(value.is_object(), place, value, "an object");
             for (const auto& [key, member] : value.items()) {
                 visit(rule, rest.substr(2), member, place + "." + key);
             }
@@ -65,84 +85,78 @@ private:
     {
         const std::string name(rest.substr(0, rest.find_first_of(".[{")));
         rest.remove_prefix(name.size());
-        const bool foreign = place.size() > 7 && place.compare(place.size() - 7, 7, ".extras") == 0;
-        if (!value.is_object()) {
-            if (foreign) {
-                return;  // extras may hold anything
-            }
-            refuseValue(place, value, "an object");
+        if (!value.is_object() && place.size() > 7 && place.compare(place.size() - 7, 7, ".extras") == 0) {
+            return;  // extras may hold anything
         }
+        require(value.is_object(), place, value, "an object");
         const auto member = value.find(name);
         const std::string memberPlace = place.empty() ? name : place + "." + name;
         if (member != value.end()) {
             visit(rule, rest, *member, memberPlace);
         } else if (rest.empty() && rule.need == Need::Required) {
-            throw InputError(m_path + ": " + memberPlace + " is missing; expected it to be given");
+            throw InputError(m_path + ": " + memberPlace + " is missing; expected " + describe(rule));
         }
     }
 
     void checkValue(const SchemaRule& rule, const json& value, const std::string& place) const
     {
+        require(isRight(rule, value), place, value, describe(rule));
+        for (std::size_t i = 0; rule.kind == JsonKind::Numbers && i < value.size(); ++i) {
+            require(isInRange(rule, value[i]), place + "[" + std::to_string(i) + "]", value[i],
+                    "a number" + describeRange(rule));
+        }
+    }
+
+    bool isRight(const SchemaRule& rule, const json& value) const
+    {
         switch (rule.kind) {
-        case JsonKind::Index: return checkIndex(rule, value, place);
-        case JsonKind::Whole:
-            if (!value.is_number_integer()) {
-                refuseValue(place, value, "a whole number");
-            }
-            return checkNumber(rule, value, place);
-        case JsonKind::Number: return checkNumber(rule, value, place);
-        case JsonKind::Numbers:
-            if (!value.is_array() || value.size() != rule.count) {
-                refuseValue(place, value, "an array of " + std::to_string(rule.count) + " numbers");
-            }
-            for (std::size_t i = 0; i < value.size(); ++i) {
-                checkNumber(rule, value[i], place + "[" + std::to_string(i) + "]");
-            }
-            return;
-        case JsonKind::Bool: return checkType(value.is_boolean(), value, place, "true or false");
-        case JsonKind::String: return checkType(value.is_string(), value, place, "a string");
-        case JsonKind::Object: return checkType(value.is_object(), value, place, "an object");
-        case JsonKind::Array: return checkType(value.is_array(), value, place, "an array");
+        case JsonKind::Index: return value.is_number_unsigned() && value.get<std::uint64_t>() < computeSize(rule.target);
+        case JsonKind::Whole: return value.is_number_integer() && isInRange(rule, value);
+        case JsonKind::Number: return isInRange(rule, value);
+        case JsonKind::Numbers: return value.is_array() && value.size() == rule.count;
+        case JsonKind::Bool: return value.is_boolean();
+        case JsonKind::String: return value.is_string();
+        case JsonKind::OneOf: return isOneOf(rule.target, value);
+        case JsonKind::Object: return value.is_object();
+        case JsonKind::Array: return value.is_array();
         }
+        return false;
     }
 
-    void checkType(bool right, const json& value, const std::string& place, const char* expected) const
+    std::string describe(const SchemaRule& rule) const
     {
-        if (!right) {
-            refuseValue(place, value, expected);
+        switch (rule.kind) {
+        case JsonKind::Index: {
+            const std::size_t size = computeSize(rule.target);
+            return "an index into " + std::string(rule.target) + ", which has " + std::to_string(size) +
+                   (size == 1 ? " entry" : " entries");
         }
+        case JsonKind::Whole: return "a whole number" + describeRange(rule);
+        case JsonKind::Number: return "a number" + describeRange(rule);
+        case JsonKind::Numbers: return "an array of " + std::to_string(rule.count) + " numbers";
+        case JsonKind::Bool: return "true or false";
+        case JsonKind::String: return "a string";
+        case JsonKind::OneOf: return "one of " + std::string(rule.target);
+        case JsonKind::Object: return "an object";
+        case JsonKind::Array: return "an array";
+        }
+        return "";
     }
 
-    void checkNumber(const SchemaRule& rule, const json& value, const std::string& place) const
+    // Entries of the array at a dotted path; 0 where there is none.
+    std::size_t computeSize(std::string_view target) const
     {
-        const bool inside = value.is_number() && value.get<double>() >= rule.min && value.get<double>() <= rule.max;
-        if (inside) {
-            return;
+        const json* at = &m_document;
+        while (!target.empty()) {
+            const std::string name(target.substr(0, target.find('.')));
+            target.remove_prefix(std::min(target.size(), name.size() + 1));
+            const auto member = at->find(name);
+            if (member == at->end()) {
+                return 0;
+            }
+            at = &*member;
         }
-        std::string expected = rule.kind == JsonKind::Whole ? "a whole number" : "a number";
-        if (rule.min != -DBL_MAX) {
-            expected += rule.min == kPositive ? " above 0" : " from " + toText(rule.min);
-        }
-        if (rule.max != DBL_MAX && rule.max != kMaxWhole) {
-            expected += " to " + toText(rule.max);
-        }
-        refuseValue(place, value, expected);
-    }
-
-    void checkIndex(const SchemaRule& rule, const json& value, const std::string& place) const
-    {
-        const json* target = &m_document;
-        for (std::string_view rest = rule.target; target != nullptr && !rest.empty();) {
-            const std::string name(rest.substr(0, rest.find('.')));
-            rest.remove_prefix(std::min(rest.size(), name.size() + 1));
-            const auto member = target->find(name);
-            target = member == target->end() ? nullptr : &*member;
-        }
-        const std::size_t size = target == nullptr ? 0 : target->size();
-        if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= size) {
-            refuseValue(place, value, "an index into " + std::string(rule.target) + ", which has " +
-                                          std::to_string(size) + (size == 1 ? " entry" : " entries"));
-        }
+        return at->is_array() ? at->size() : 0;
     }
 
     const std::string& m_path;

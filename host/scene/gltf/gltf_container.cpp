@@ -96,6 +96,9 @@ std::vector<unsigned char> readBytes(const std::filesystem::path& file)
 
 GltfContainer openContainer(const std::string& path, std::vector<unsigned char> bytes)
 {
+    if (bytes.empty()) {
+        throw InputError(path + ": the file is empty; expected glTF");
+    }
     if (bytes.size() < 4 || readU32(bytes, 0) != kMagic) {
         if (std::filesystem::path(path).extension() == ".glb") {
             throw InputError(path + ": does not start with the bytes \"glTF\"; expected them in a .glb");

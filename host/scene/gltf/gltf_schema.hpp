@@ -6,7 +6,7 @@
 
 namespace glim {
 
-enum class JsonKind { Index, Whole, Number, Numbers, Bool, String, Object, Array };
+enum class JsonKind { Index, Whole, Number, Numbers, Bool, String, OneOf, Object, Array };
 enum class Need { Optional, Required };  // of the last name in the path, where its parent exists
 
 constexpr double kPositive = DBL_MIN;             // as a minimum: greater than zero
@@ -16,7 +16,7 @@ struct SchemaRule {
     const char* path;  // `[]`: each element of an array, `{}`: each value of an object
     JsonKind kind;
     Need need = Need::Optional;
-    const char* target = nullptr;  // Index: path of the array that is indexed
+    const char* target = nullptr;  // Index: path of the array that is indexed; OneOf: the words, separated by ", "
     std::size_t count = 0;         // Numbers: how many
     double min = -DBL_MAX, max = DBL_MAX;
 };
@@ -41,6 +41,11 @@ constexpr SchemaRule number(const char* path, Need need = Need::Optional, double
 constexpr SchemaRule numbers(const char* path, std::size_t count, double min = -DBL_MAX, double max = DBL_MAX)
 {
     return {path, JsonKind::Numbers, Need::Optional, nullptr, count, min, max};
+}
+
+constexpr SchemaRule oneOf(const char* path, const char* words, Need need = Need::Optional)
+{
+    return {path, JsonKind::OneOf, need, words};
 }
 
 constexpr SchemaRule other(const char* path, JsonKind kind, Need need = Need::Optional)
@@ -69,15 +74,15 @@ constexpr SchemaRule kSchemaRules[] = {
     schema::whole("bufferViews[].byteStride", Need::Optional, 4, 252),
     schema::index("accessors[].bufferView", "bufferViews"),
     schema::whole("accessors[].byteOffset"),
-    schema::whole("accessors[].componentType", Need::Required),
+    schema::whole("accessors[].componentType", Need::Required, 5120, 5126),
     schema::whole("accessors[].count", Need::Required, 1),
-    schema::other("accessors[].type", JsonKind::String, Need::Required),
+    schema::oneOf("accessors[].type", "SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3, MAT4", Need::Required),
     schema::other("accessors[].normalized", JsonKind::Bool),
     schema::whole("accessors[].sparse.count", Need::Required, 1),
     schema::other("accessors[].sparse.indices", JsonKind::Object, Need::Required),
     schema::index("accessors[].sparse.indices.bufferView", "bufferViews", Need::Required),
     schema::whole("accessors[].sparse.indices.byteOffset"),
-    schema::whole("accessors[].sparse.indices.componentType", Need::Required),
+    schema::whole("accessors[].sparse.indices.componentType", Need::Required, 5121, 5125),
     schema::other("accessors[].sparse.values", JsonKind::Object, Need::Required),
     schema::index("accessors[].sparse.values.bufferView", "bufferViews", Need::Required),
     schema::whole("accessors[].sparse.values.byteOffset"),
@@ -92,7 +97,7 @@ constexpr SchemaRule kSchemaRules[] = {
     schema::index("materials[].occlusionTexture.index", "textures", Need::Required),
     schema::index("materials[].emissiveTexture.index", "textures", Need::Required),
     schema::numbers("materials[].emissiveFactor", 3, 0),
-    schema::other("materials[].alphaMode", JsonKind::String),
+    schema::oneOf("materials[].alphaMode", "OPAQUE, MASK, BLEND"),
     schema::number("materials[].alphaCutoff", Need::Optional, 0),
     schema::other("materials[].doubleSided", JsonKind::Bool),
     schema::other("materials[].extensions{}", JsonKind::Object),
@@ -115,7 +120,7 @@ constexpr SchemaRule kSchemaRules[] = {
     schema::index("meshes[].primitives[].targets[]{}", "accessors"),
 
     schema::other("cameras[].name", JsonKind::String),
-    schema::other("cameras[].type", JsonKind::String, Need::Required),
+    schema::oneOf("cameras[].type", "perspective, orthographic", Need::Required),
     schema::number("cameras[].perspective.yfov", Need::Required, kPositive, kMaxYfov),
     schema::number("cameras[].perspective.aspectRatio", Need::Optional, kPositive),
     schema::number("cameras[].perspective.znear", Need::Required, kPositive),
@@ -125,7 +130,7 @@ constexpr SchemaRule kSchemaRules[] = {
     schema::number("cameras[].orthographic.zfar", Need::Required),
     schema::other("extensions.KHR_lights_punctual.lights", JsonKind::Array, Need::Required),
     schema::other("extensions.KHR_lights_punctual.lights[].name", JsonKind::String),
-    schema::other("extensions.KHR_lights_punctual.lights[].type", JsonKind::String, Need::Required),
+    schema::oneOf("extensions.KHR_lights_punctual.lights[].type", "point, directional, spot", Need::Required),
     schema::numbers("extensions.KHR_lights_punctual.lights[].color", 3, 0),
     schema::number("extensions.KHR_lights_punctual.lights[].intensity", Need::Optional, 0),
     schema::number("extensions.KHR_lights_punctual.lights[].range", Need::Optional, kPositive),

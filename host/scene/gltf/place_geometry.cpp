@@ -271,7 +271,9 @@ void GeometryPlacer::finish()
                                   " normals that are zero or not finite");
     }
     if (m_scene.triangles.empty() && m_scene.spheres.empty()) {
-        refuse(m_file, "the scene has no triangle and no sphere to draw; expected at least one");
+        refuse(m_file, "the scene has no triangle and no sphere to draw (" + std::to_string(m_flatTriangles) +
+                           " of zero area, " + std::to_string(m_emptySpheres) +
+                           " of zero radius); expected at least one");
     }
 }
 

@@ -36,7 +36,7 @@ PunctualLight readLight(const GltfFile& file, const PlacedNode& node, std::size_
         light.kind = PunctualLight::Kind::Point;
     } else if (source.type == "directional") {
         light.kind = PunctualLight::Kind::Directional;
-    } else if (source.type == "spot") {
+    } else {
         light.kind = PunctualLight::Kind::Spot;
         if (source.spot.innerConeAngle >= source.spot.outerConeAngle) {
             refuse(file, place + " has the inner cone angle " + toText(source.spot.innerConeAngle) +
@@ -44,8 +44,6 @@ PunctualLight readLight(const GltfFile& file, const PlacedNode& node, std::size_
         }
         light.cosInner = static_cast<float>(std::cos(source.spot.innerConeAngle));
         light.cosOuter = static_cast<float>(std::cos(source.spot.outerConeAngle));
-    } else {
-        refuse(file, place + " is of type \"" + source.type + "\"; expected point, directional or spot");
     }
     if (source.range > 0.0) {
         scene.notices.push_back(place + " shines without its range: it falls with the square of the distance alone");
@@ -67,7 +65,6 @@ void readView(const GltfFile& file, const PlacedNode& node, Camera& camera)
 Camera readCamera(const GltfFile& file, const PlacedNode& node, std::size_t index, Scene& scene)
 {
     const tinygltf::Camera& source = file.model.cameras[index];
-    const std::string place = label("cameras", index, source.name);
     Camera camera;
     camera.name = nameOf(file, node, source.name);
     camera.position = readPosition(file, node, scene);
@@ -75,19 +72,16 @@ Camera readCamera(const GltfFile& file, const PlacedNode& node, std::size_t inde
     if (glm::determinant(glm::dmat3(node.worldFromNode)) < 0.0) {
         scene.notices.push_back(nodeLabel(file, node.index) + " mirrors its camera, which is ignored");
     }
-    if (source.type == "perspective" && source.perspective.yfov > 0.0) {
+    if (source.type == "perspective") {
         camera.yfov = static_cast<float>(source.perspective.yfov);
         if (source.perspective.aspectRatio > 0.0) {
             camera.aspectRatio = static_cast<float>(source.perspective.aspectRatio);
         }
-    } else if (source.type == "orthographic" && source.orthographic.xmag > 0.0) {
+    } else {
         camera.kind = Camera::Kind::Orthographic;
         camera.halfWidth = static_cast<float>(source.orthographic.xmag);
         camera.halfHeight = static_cast<float>(source.orthographic.ymag);
         camera.aspectRatio = static_cast<float>(source.orthographic.xmag / source.orthographic.ymag);
-    } else {
-        refuse(file, place + " is of type \"" + source.type +
-                         "\"; expected perspective or orthographic with the object of that name");
     }
     return camera;
 }

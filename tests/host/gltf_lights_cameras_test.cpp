@@ -1,0 +1,155 @@
+#include "tests/support/gltf_builder.hpp"
+
+#include <gtest/gtest.h>
+
+namespace glim::test {
+namespace {
+
+using nlohmann::json;
+
+constexpr float kTolerance = 1e-6F;
+
+// Turns -Z to +X.
+const json kQuarterTurn = {0, -std::sqrt(0.5), 0, std::sqrt(0.5)};
+
+GltfBuilder withTriangle()
+{
+    GltfBuilder builder;
+    builder.addNode({{"mesh", builder.addTriangleMesh()}});
+    return builder;
+}
+
+PunctualLight readLight(const json& light)
+{
+    GltfBuilder builder = withTriangle();
+    builder.document["extensions"]["KHR_lights_punctual"]["lights"] = json::array({light});
+    builder.addNode({{"name", "lamp"},
+                     {"translation", {1, 2, 3}},
+                     {"rotation", kQuarterTurn},
+                     {"scale", {5, 5, 5}},
+                     {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    const Scene scene = load(builder);
+    PunctualLight result = scene.lights.at(0);
+    result.position += glm::vec3(scene.origin);
+    return result;
+}
+
+TEST(GltfLights, ReadsPointLights)
+{
+    const PunctualLight light = readLight({{"type", "point"}, {"color", {1, 0.5, 0}}, {"intensity", 20}});
+    EXPECT_EQ(light.kind, PunctualLight::Kind::Point);
+    EXPECT_EQ(light.name, "lamp");
+    EXPECT_EQ(light.position, glm::vec3(1, 2, 3));
+    EXPECT_EQ(light.intensity, glm::vec3(20, 10, 0)) << "scale does not change it";
+}
+
+TEST(GltfLights, DirectionalLightsTravelAlongTheirMinusZ)
+{
+    const PunctualLight light = readLight({{"type", "directional"}});
+    EXPECT_EQ(light.kind, PunctualLight::Kind::Directional);
+    EXPECT_LT(glm::length(light.direction - glm::vec3(1, 0, 0)), kTolerance);
+    EXPECT_EQ(light.intensity, glm::vec3(1.0F));
+}
+
+TEST(GltfLights, SpotConesComeAsCosines)
+{
+    const PunctualLight plain = readLight({{"type", "spot"}, {"spot", json::object()}});
+    EXPECT_EQ(plain.kind, PunctualLight::Kind::Spot);
+    EXPECT_EQ(plain.cosInner, 1.0F);
+    EXPECT_FLOAT_EQ(plain.cosOuter, std::sqrt(0.5F)) << "pi / 4 unless told otherwise";
+    const PunctualLight narrow = readLight(
+        {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}});
+    EXPECT_FLOAT_EQ(narrow.cosInner, std::cos(0.25F));
+    EXPECT_FLOAT_EQ(narrow.cosOuter, std::cos(0.5F));
+    EXPECT_LT(glm::length(narrow.direction - glm::vec3(1, 0, 0)), kTolerance);
+}
+
+TEST(GltfLights, ARangeIsIgnoredAndSaidSo)
+{
+    GltfBuilder builder = withTriangle();
+    builder.document["extensions"]["KHR_lights_punctual"]["lights"] = json::array({{{"type", "point"}, {"range", 3}}});
+    builder.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    const Scene scene = load(builder);
+    EXPECT_NE(::testing::PrintToString(scene.notices).find("lights[0] shines without its range"), std::string::npos);
+}
+
+Scene readCamera(const json& camera, json node)
+{
+    GltfBuilder builder = withTriangle();
+    builder.append("cameras", camera);
+    node["camera"] = 0;
+    builder.addNode(node);
+    return load(builder);
+}
+
+const json kPerspective = {{"type", "perspective"}, {"name", "own"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}};
+
+TEST(GltfCameras, ReadsPerspectiveCameras)
+{
+    json source = kPerspective;
+    const Camera bare = readCamera(source, json::object()).cameras.at(0);
+    EXPECT_EQ(bare.kind, Camera::Kind::Perspective);
+    EXPECT_EQ(bare.name, "own");
+    EXPECT_EQ(bare.yfov, 0.5F);
+    EXPECT_FALSE(bare.aspectRatio.has_value());
+    source["perspective"]["aspectRatio"] = 1.25;
+    const Scene scene = readCamera(source, {{"translation", {7, 8, 9}}, {"name", "node"}});
+    EXPECT_EQ(scene.cameras.at(0).name, "node");
+    EXPECT_EQ(scene.cameras.at(0).aspectRatio, 1.25F);
+    EXPECT_EQ(scene.cameras.at(0).position + glm::vec3(scene.origin), glm::vec3(7, 8, 9));
+    EXPECT_EQ(::testing::PrintToString(scene.notices).find("framed"), std::string::npos);
+}
+
+TEST(GltfCameras, ReadsOrthographicCameras)
+{
+    const json source = {{"type", "orthographic"},
+                         {"orthographic", {{"xmag", 3}, {"ymag", 2}, {"znear", 0}, {"zfar", 10}}}};
+    const Camera camera = readCamera(source, {{"scale", {4, 4, 4}}}).cameras.at(0);
+    EXPECT_EQ(camera.kind, Camera::Kind::Orthographic);
+    EXPECT_EQ(camera.halfWidth, 3.0F);
+    EXPECT_EQ(camera.halfHeight, 2.0F);
+    EXPECT_EQ(camera.aspectRatio, 1.5F);
+}
+
+TEST(GltfCameras, AxesAreOrthonormalWhateverTheScale)
+{
+    for (const json& scale : {json{1, 1, 1}, json{2, 5, 0.1}, json{1, 1, -1}}) {
+        const Camera camera = readCamera(kPerspective, {{"rotation", kQuarterTurn}, {"scale", scale}}).cameras.at(0);
+        const float side = scale[2].get<float>() < 0.0F ? -1.0F : 1.0F;
+        EXPECT_LT(glm::length(camera.forward - glm::vec3(side, 0, 0)), kTolerance);
+        EXPECT_LT(glm::length(camera.up - glm::vec3(0, 1, 0)), kTolerance);
+        EXPECT_LT(glm::length(glm::cross(camera.right, camera.up) + camera.forward), kTolerance);
+    }
+}
+
+TEST(GltfCameras, ShearIsTakenOut)
+{
+    const json matrix = {1, 0, 0, 0, 0.5, 1, 0.5, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    const Camera camera = readCamera(kPerspective, {{"matrix", matrix}}).cameras.at(0);
+    EXPECT_EQ(camera.forward, glm::vec3(0, 0, -1));
+    EXPECT_LT(glm::length(camera.up - glm::normalize(glm::vec3(0.5, 1, 0))), kTolerance);
+}
+
+TEST(GltfCameras, FramesTheWholeBoxWhereThereIsNone)
+{
+    GltfBuilder builder;
+    builder.addNode({{"mesh", builder.addTriangleMesh()}, {"translation", {50, 60, 70}}, {"scale", {3, 9, 1}}});
+    builder.addNode({{"extras", {{"sphere", {{"radius", 2}}}}}, {"translation", {55, 60, 70}}});
+    const Scene scene = load(builder);
+    EXPECT_EQ(scene.notices.back(), "the scene has no camera: one is framed on its bounding box");
+    const Camera& camera = scene.cameras.at(0);
+    const auto isSeen = [&](const glm::vec3& point) {
+        const glm::vec3 to = point - camera.position;
+        const float reach = std::tan(0.5F * camera.yfov) * glm::dot(to, camera.forward);
+        return std::abs(glm::dot(to, camera.up)) <= reach && std::abs(glm::dot(to, camera.right)) <= reach;
+    };
+    for (const glm::vec3& vertex : scene.triangles.at(0).vertices) {
+        EXPECT_TRUE(isSeen(vertex));
+    }
+    for (const glm::vec3& axis : {glm::vec3(2, 0, 0), glm::vec3(0, 2, 0), glm::vec3(0, 0, 2)}) {
+        EXPECT_TRUE(isSeen(scene.spheres.at(0).center + axis) && isSeen(scene.spheres.at(0).center - axis));
+    }
+}
+
+}  // namespace
+}  // namespace glim::test

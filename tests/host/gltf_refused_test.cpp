@@ -1,0 +1,97 @@
+// scenes/refused against the table of sentences in scenes/README.md: the table is the expectation.
+#include "tests/support/gltf_builder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+
+namespace glim::test {
+namespace {
+
+const std::filesystem::path kScenes = std::filesystem::path(GLIM_SOURCE_DIR) / "scenes";
+
+// Rows "| `name` | sentence |" below the heading "Refused".
+std::map<std::string, std::string> readTable()
+{
+    std::map<std::string, std::string> table;
+    std::ifstream readme(kScenes / "README.md");
+    bool inside = false;
+    for (std::string line; std::getline(readme, line);) {
+        if (line.rfind("## ", 0) == 0) {
+            inside = line.find("Refused") != std::string::npos;
+        }
+        if (inside && line.rfind("| `", 0) == 0) {
+            const std::size_t end = line.find("` | ");
+            table[line.substr(3, end - 3)] = line.substr(end + 4, line.size() - end - 4 - 2);
+        }
+    }
+    return table;
+}
+
+TEST(GltfRefused, EveryFileIsRefusedWithItsSentence)
+{
+    const std::map<std::string, std::string> table = readTable();
+    std::set<std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(kScenes / "refused")) {
+        files.insert(entry.path().filename().string());
+    }
+    for (const auto& [name, sentence] : table) {
+        ASSERT_EQ(files.count(name), 1U) << name << " is in the table only";
+    }
+    ASSERT_GT(files.size(), 50U);
+    for (const std::string& name : files) {
+        const std::string path = (kScenes / "refused" / name).string();
+        const std::string message = loadRefusal(path);
+        ASSERT_EQ(table.count(name), 1U) << name << " is not in the table of scenes/README.md";
+        EXPECT_EQ(message.rfind(path + ": ", 0), 0U) << message;
+        EXPECT_NE(message.find(table.at(name)), std::string::npos) << message;
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    }
+}
+
+TEST(GltfRefused, IncompleteCamerasAndSpots)
+{
+    GltfBuilder builder;
+    builder.addNode({{"mesh", builder.addTriangleMesh()}});
+    for (const char* type : {"perspective", "orthographic"}) {
+        builder.document["cameras"] = nlohmann::json::array({{{"type", type}}});
+        EXPECT_NE(refusal(builder).find("not valid glTF"), std::string::npos);
+    }
+    builder.document.erase("cameras");
+    builder.document["extensions"]["KHR_lights_punctual"]["lights"] = nlohmann::json::array({{{"type", "spot"}}});
+    EXPECT_NE(refusal(builder).find("not valid glTF"), std::string::npos);
+}
+
+TEST(GltfRefused, MemoryThatNoByteOfTheFilePaysFor)
+{
+    GltfBuilder builder;
+    const std::size_t positions = builder.append(
+        "accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", 1000000000000}});
+    builder.addNode({{"mesh", builder.addMesh({{"attributes", {{"POSITION", positions}}}})}});
+    EXPECT_NE(refusal(builder).find("claims 1000000000000 elements without a bufferView"), std::string::npos);
+}
+
+TEST(GltfRefused, SingularNodesThatCarryNothingAreHarmless)
+{
+    GltfBuilder builder;
+    builder.addNode({{"mesh", builder.addTriangleMesh()}});
+    builder.addNode({{"scale", {0, 0, 0}}});
+    EXPECT_EQ(load(builder).triangles.size(), 1U);
+}
+
+TEST(GltfRefused, EnvironmentsThatAreNoMapAreOnlySaid)
+{
+    GltfBuilder builder;
+    builder.addNode({{"mesh", builder.addTriangleMesh()}});
+    builder.document["scenes"][0]["extras"] = {{"environment", {{"uri", "sky.hdr"}}}};
+    EXPECT_EQ(load(builder).notices.at(0), "scenes[0].extras.environment has no \"file\" and is ignored");
+    builder.document["scenes"][0]["extras"] = "a string of someone else";
+    builder.document["nodes"][0]["extras"] = {1, 2, 3};
+    EXPECT_EQ(load(builder).triangles.size(), 1U);
+}
+
+}  // namespace
+}  // namespace glim::test

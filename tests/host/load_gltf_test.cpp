@@ -1,0 +1,254 @@
+// Containers, hierarchy, recentring and what is left out.
+#include "tests/support/gltf_builder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace glim::test {
+namespace {
+
+using nlohmann::json;
+
+GltfBuilder oneTriangle(json node = json::object())
+{
+    GltfBuilder builder;
+    node["mesh"] = builder.addTriangleMesh();
+    builder.addNode(node);
+    return builder;
+}
+
+glm::vec3 vertex(const Scene& scene, std::size_t triangle, int corner)
+{
+    return scene.triangles.at(triangle).vertices[corner] + glm::vec3(scene.origin);
+}
+
+bool hasNotice(const Scene& scene, const std::string& fragment)
+{
+    return std::any_of(scene.notices.begin(), scene.notices.end(),
+                       [&](const std::string& notice) { return notice.find(fragment) != std::string::npos; });
+}
+
+void expectTheTriangle(const Scene& scene)
+{
+    ASSERT_EQ(scene.triangles.size(), 1U);
+    EXPECT_EQ(vertex(scene, 0, 0), glm::vec3(0, 0, 0));
+    EXPECT_EQ(vertex(scene, 0, 1), glm::vec3(1, 0, 0));
+    EXPECT_EQ(vertex(scene, 0, 2), glm::vec3(0, 1, 0));
+}
+
+TEST(LoadGltf, ReadsDataUriAndBinaryContainer)
+{
+    expectTheTriangle(load(oneTriangle()));
+    expectTheTriangle(loadGltf(writeTemporary("scene.glb", oneTriangle().toGlb())));
+}
+
+TEST(LoadGltf, ReadsExternalBuffersBesideTheFile)
+{
+    GltfBuilder builder = oneTriangle();
+    const Bytes& bytes = builder.bytes();
+    // Longer than byteLength is allowed, and names are percent-encoded.
+    writeTemporary("a b.bin", std::string(bytes.begin(), bytes.end()) + "more");
+    builder.document["buffers"] = json::array({{{"byteLength", bytes.size()}, {"uri", "a%20b.bin"}}});
+    expectTheTriangle(loadText(builder.document.dump()));
+}
+
+TEST(LoadGltf, RefusesWhatIsNotAFile)
+{
+    EXPECT_NE(loadRefusal("/nonexistent/x.gltf").find("/nonexistent/x.gltf: cannot be read: No such file"),
+              std::string::npos);
+    EXPECT_NE(loadRefusal(GLIM_SOURCE_DIR).find("is a directory"), std::string::npos);
+}
+
+TEST(LoadGltf, RefusesDeepJsonBeforeAnyParserRecurses)
+{
+    const std::string deep = R"({"asset":{"version":"2.0"},"extras":)" + std::string(100000, '[');
+    EXPECT_NE(loadRefusal(writeTemporary("deep.gltf", deep)).find("nested 100001 levels deep"), std::string::npos);
+}
+
+TEST(LoadGltf, ComposesMatrixAndTrsAlike)
+{
+    // Scale, then rotate by 90 degrees about Z, then translate.
+    const double h = std::sqrt(0.5);
+    const json trs = {{"translation", {1, 2, 3}}, {"rotation", {0, 0, h, h}}, {"scale", {2, 3, 4}}};
+    const json matrix = {{"matrix", {0, 2, 0, 0, -3, 0, 0, 0, 0, 0, 4, 0, 1, 2, 3, 1}}};
+    for (const json& node : {trs, matrix}) {
+        const Scene scene = load(oneTriangle(node));
+        EXPECT_LT(glm::length(vertex(scene, 0, 0) - glm::vec3(1, 2, 3)), 1e-6F);
+        EXPECT_LT(glm::length(vertex(scene, 0, 1) - glm::vec3(1, 4, 3)), 1e-6F);
+        EXPECT_LT(glm::length(vertex(scene, 0, 2) - glm::vec3(-2, 2, 3)), 1e-6F);
+    }
+}
+
+TEST(LoadGltf, AppliesParentsAfterChildren)
+{
+    GltfBuilder builder;
+    builder.append("nodes", {{"mesh", builder.addTriangleMesh()}, {"translation", {1, 0, 0}}});
+    builder.append("nodes", {{"children", {0}}, {"scale", {10, 10, 10}}});
+    builder.addNode({{"children", {1}}, {"translation", {0, 0, 5}}});
+    EXPECT_EQ(vertex(load(builder), 0, 1), glm::vec3(20, 0, 5));
+}
+
+TEST(LoadGltf, ReadsHierarchiesDeeperThanTheCallStack)
+{
+    GltfBuilder builder;
+    builder.append("nodes", {{"mesh", builder.addTriangleMesh()}});
+    for (std::size_t i = 0; i < 50000; ++i) {
+        builder.append("nodes", {{"children", {i}}});
+    }
+    builder.document["scenes"][0]["nodes"] = {50000};
+    expectTheTriangle(load(builder));
+}
+
+TEST(LoadGltf, FrontStaysFrontUnderNegativeScale)
+{
+    for (const json& scale : {json{1, 1, 1}, json{-1, 1, 1}, json{1, 1, -1}, json{-1, -1, 1}, json{-2, -1, -3}}) {
+        GltfBuilder builder;
+        const std::size_t positions = builder.addVec3({0, 0, 0, 1, 0, 0, 0, 1, 0});
+        const std::size_t normals = builder.addVec3({0, 0, 1, 0, 0, 1, 0, 0, 1});
+        const json attributes = {{"POSITION", positions}, {"NORMAL", normals}};
+        builder.addNode({{"mesh", builder.addMesh({{"attributes", attributes}})}, {"scale", scale}});
+        const Scene scene = load(builder);
+        const float front = scale[2].get<float>() > 0.0F ? 1.0F : -1.0F;  // where +Z went
+        const Triangle& t = scene.triangles.at(0);
+        const glm::vec3 face = glm::cross(t.vertices[1] - t.vertices[0], t.vertices[2] - t.vertices[0]);
+        EXPECT_GT(face.z * front, 0.0F) << scale;
+        EXPECT_EQ(scene.normals.at(0).normals[0], glm::vec3(0, 0, front)) << scale;
+    }
+}
+
+TEST(LoadGltf, NormalsFollowTheInverseTranspose)
+{
+    // On the plane x + y = 1, whose normal (1,1,0) becomes that of x / 2 + y = 1, which is (1,2,0); the normals of the
+    // vertices are told apart by their corners, which mirroring exchanges.
+    for (const double mirror : {1.0, -1.0}) {
+        GltfBuilder builder;
+        const std::size_t positions = builder.addVec3({1, 0, 0, 0, 1, 0, 0, 1, 1});
+        const std::size_t normals = builder.addVec3({1, 1, 0, 1, 1, 0, 0, 1, 0});
+        const json attributes = {{"POSITION", positions}, {"NORMAL", normals}};
+        builder.addNode({{"mesh", builder.addMesh({{"attributes", attributes}})}, {"scale", {2, 1, mirror}}});
+        const Scene scene = load(builder);
+        const glm::vec3 tilted = glm::normalize(glm::vec3(1, 2, 0));
+        for (int v = 0; v < 3; ++v) {
+            const bool isThird = std::abs(vertex(scene, 0, v).z) > 0.5F;
+            const glm::vec3 expected = isThird ? glm::vec3(0, 1, 0) : tilted;
+            EXPECT_LT(glm::length(scene.normals.at(0).normals[v] - expected), 1e-6F) << v;
+        }
+    }
+}
+
+TEST(LoadGltf, BadNormalsGiveWayToTheFaceNormal)
+{
+    GltfBuilder builder;
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const std::size_t positions = builder.addVec3({0, 0, 0, 1, 0, 0, 0, 1, 0});
+    const std::size_t normals = builder.addVec3({nan, 0, 0, 0, 0, 0, 0, 1, 0});
+    builder.addNode({{"mesh", builder.addMesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}})}});
+    const Scene scene = load(builder);
+    EXPECT_EQ(scene.normals.at(0).normals[0], glm::vec3(0, 0, 1));
+    EXPECT_EQ(scene.normals.at(0).normals[1], glm::vec3(0, 0, 1));
+    EXPECT_EQ(scene.normals.at(0).normals[2], glm::vec3(0, 1, 0));
+    EXPECT_TRUE(hasNotice(scene, "used the face normal in place of 2 normals")) << ::testing::PrintToString(scene.notices);
+}
+
+TEST(LoadGltf, RecentringLosesNothingFarFromTheOrigin)
+{
+    const auto place = [](double x, double y, double z) {
+        GltfBuilder builder;
+        // Coordinates with all 24 bits in use, and a sphere, a light and a camera that go along.
+        const std::size_t positions = builder.addVec3({0.1F, 0.7F, 0.3F, 1.9F, 0.1F, 0.2F, 0.3F, 1.7F, 0.1F});
+        builder.append("nodes", {{"mesh", builder.addMesh({{"attributes", {{"POSITION", positions}}}})},
+                                 {"rotation", {0.1, 0.2, 0.3, 0.9}}});
+        builder.append("nodes", {{"translation", {0.5, 0.25, 0.75}}, {"extras", {{"sphere", {{"radius", 0.3}}}}}});
+        builder.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
+        builder.append("nodes", {{"translation", {0.5, 0.5, 4}}, {"camera", 0}});
+        builder.addNode({{"children", {0, 1, 2}}, {"translation", {x, y, z}}});
+        return load(builder);
+    };
+    const Scene here = place(0, 0, 0);
+    for (const double far : {1e4, 1e6, 1e9}) {
+        const Scene there = place(far, -far, far);
+        EXPECT_EQ(std::memcmp(here.triangles.data(), there.triangles.data(), sizeof(Triangle)), 0) << far;
+        EXPECT_EQ(here.spheres.at(0).center, there.spheres.at(0).center) << far;
+        EXPECT_EQ(here.cameras.at(0).position, there.cameras.at(0).position) << far;
+        EXPECT_EQ(there.origin - here.origin, glm::dvec3(far, -far, far));
+    }
+}
+
+TEST(LoadGltf, OriginIsTheCentreToTheShareItSays)
+{
+    const Scene scene = load(oneTriangle({{"translation", {100.3, -7.1, 3.3}}, {"scale", {3, 5, 1}}}));
+    const glm::dvec3 center(101.8, -4.6, 3.3);
+    EXPECT_LT(glm::length(scene.origin - center), 5.0 * std::sqrt(3.0) / 512.0);
+}
+
+TEST(LoadGltf, DropsWhatHasNoExtentAndCountsIt)
+{
+    GltfBuilder builder;
+    const std::size_t positions = builder.addVec3({0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0, 3, 0, 0});
+    const std::size_t indices = builder.addIndices({0, 1, 2, 0, 0, 1, 1, 3, 4});
+    builder.addNode({{"mesh", builder.addMesh({{"attributes", {{"POSITION", positions}}}, {"indices", indices}})}});
+    builder.addNode({{"extras", {{"sphere", {{"radius", 0}}}}}});
+    const Scene scene = load(builder);
+    EXPECT_EQ(scene.triangles.size(), 1U);
+    EXPECT_TRUE(scene.spheres.empty());
+    EXPECT_TRUE(hasNotice(scene, "left out 2 triangles of zero area"));
+    EXPECT_TRUE(hasNotice(scene, "left out 1 spheres of zero radius"));
+}
+
+TEST(LoadGltf, ChoosesTheScene)
+{
+    GltfBuilder builder = oneTriangle({{"name", "first"}});
+    builder.append("nodes", {{"name", "second"}, {"mesh", 0}});
+    builder.append("scenes", {{"nodes", {1}}});
+    EXPECT_EQ(load(builder).primitives.at(0).name, "first");
+    EXPECT_EQ(load(builder, {.scene = 1}).primitives.at(0).name, "second");
+    builder.document["scene"] = 1;
+    EXPECT_EQ(load(builder).primitives.at(0).name, "second");
+    EXPECT_NE(refusal(builder, {.scene = 2}).find("scene 2 was asked for; expected one below 2"), std::string::npos);
+    builder.document.erase("scene");
+    builder.document.erase("scenes");
+    EXPECT_EQ(load(builder).primitives.size(), 2U);
+}
+
+TEST(LoadGltf, PlacesAMeshOncePerNode)
+{
+    GltfBuilder builder = oneTriangle();
+    builder.addNode({{"mesh", 0}, {"translation", {4, 0, 0}}});
+    const Scene scene = load(builder);
+    ASSERT_EQ(scene.primitives.size(), 2U);
+    EXPECT_EQ(scene.primitives[1].firstTriangle, 1U);
+    EXPECT_EQ(vertex(scene, 1, 0), glm::vec3(4, 0, 0));
+}
+
+TEST(LoadGltf, ScalesSpheresUniformly)
+{
+    const auto radius = [](const json& node) {
+        GltfBuilder builder;
+        json sphere = node;
+        sphere["extras"] = {{"sphere", {{"radius", 2}}}};
+        builder.addNode(sphere);
+        return load(builder).spheres.at(0).radius;
+    };
+    EXPECT_EQ(radius(json::object()), 2.0F);
+    EXPECT_EQ(radius({{"scale", {3, 3, 3}}, {"rotation", {0.5, 0.5, 0.5, 0.5}}}), 6.0F);
+    EXPECT_EQ(radius({{"scale", {-1.5, -1.5, -1.5}}}), 3.0F);
+    EXPECT_EQ(radius({{"scale", {-1.5, 1.5, 1.5}}}), 3.0F);
+}
+
+TEST(LoadGltf, SaysWhatItDoesNotKnow)
+{
+    GltfBuilder builder = oneTriangle();
+    builder.document["extensionsUsed"] = {"EXT_mesh_gpu_instancing", "KHR_materials_ior"};
+    builder.document["animations"] = json::array({json::object()});
+    builder.document["skins"] = json::array({{{"joints", {0}}}});
+    builder.document["nodes"][0]["skin"] = 0;
+    const Scene scene = load(builder);
+    EXPECT_TRUE(hasNotice(scene, "the extension EXT_mesh_gpu_instancing is ignored"));
+    EXPECT_FALSE(hasNotice(scene, "KHR_materials_ior"));
+    EXPECT_TRUE(hasNotice(scene, "animations are ignored"));
+    EXPECT_TRUE(hasNotice(scene, "skins are ignored"));
+}
+
+}  // namespace
+}  // namespace glim::test

@@ -1,0 +1,152 @@
+#include "tests/support/gltf_builder.hpp"
+
+#include "host/error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace glim::test {
+namespace {
+
+using nlohmann::json;
+
+std::string toBase64(const Bytes& bytes)
+{
+    const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t group = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            group = group << 8U | (i + k < bytes.size() ? bytes[i + k] : 0U);
+        }
+        for (std::size_t k = 0; k < 4; ++k) {
+            text += i + k <= bytes.size() ? digits[group >> (18U - 6U * k) & 63U] : '=';
+        }
+    }
+    return text;
+}
+
+std::string u32(std::size_t value)
+{
+    std::string bytes;
+    for (unsigned shift = 0; shift < 32; shift += 8) {
+        bytes += static_cast<char>(value >> shift & 255U);
+    }
+    return bytes;
+}
+
+}  // namespace
+
+GltfBuilder::GltfBuilder()
+    : document{{"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", json::array({{{"nodes", json::array()}}})}}
+{
+}
+
+std::size_t GltfBuilder::append(const std::string& collection, const json& entry)
+{
+    document[collection].push_back(entry);
+    return document[collection].size() - 1;
+}
+
+std::size_t GltfBuilder::addView(const Bytes& bytes)
+{
+    m_bytes.resize((m_bytes.size() + 3) / 4 * 4);
+    const std::size_t offset = m_bytes.size();
+    m_bytes.insert(m_bytes.end(), bytes.begin(), bytes.end());
+    return append("bufferViews", {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes.size()}});
+}
+
+std::size_t GltfBuilder::addAccessor(const Bytes& bytes, int componentType, const std::string& type, std::size_t count)
+{
+    return append("accessors", {{"bufferView", addView(bytes)}, {"componentType", componentType}, {"type", type},
+                                {"count", count}});
+}
+
+std::size_t GltfBuilder::addVec3(const std::vector<float>& values)
+{
+    return addAccessor(toBytes(values), kFloat, "VEC3", values.size() / 3);
+}
+
+std::size_t GltfBuilder::addIndices(const std::vector<std::uint32_t>& values)
+{
+    return addAccessor(toBytes(values), kUnsignedInt, "SCALAR", values.size());
+}
+
+std::size_t GltfBuilder::addMesh(const json& primitive)
+{
+    return append("meshes", {{"primitives", json::array({primitive})}});
+}
+
+std::size_t GltfBuilder::addNode(const json& node)
+{
+    const std::size_t index = append("nodes", node);
+    document["scenes"][0]["nodes"].push_back(index);
+    return index;
+}
+
+std::size_t GltfBuilder::addTriangleMesh()
+{
+    return addMesh({{"attributes", {{"POSITION", addVec3({0, 0, 0, 1, 0, 0, 0, 1, 0})}}}});
+}
+
+std::string GltfBuilder::toGltf() const
+{
+    json copy = document;
+    if (!m_bytes.empty()) {
+        copy["buffers"] = json::array({{{"byteLength", m_bytes.size()},
+                                        {"uri", "data:application/octet-stream;base64," + toBase64(m_bytes)}}});
+    }
+    return copy.dump();
+}
+
+std::string GltfBuilder::toGlb() const
+{
+    json copy = document;
+    copy["buffers"] = json::array({{{"byteLength", m_bytes.size()}}});
+    std::string text = copy.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    std::string binary(m_bytes.begin(), m_bytes.end());
+    binary.resize((binary.size() + 3) / 4 * 4);
+    return "glTF" + u32(2) + u32(12 + 8 + text.size() + 8 + binary.size()) + u32(text.size()) + "JSON" + text +
+           u32(binary.size()) + std::string("BIN\0", 4) + binary;
+}
+
+std::string writeTemporary(const std::string& name, const std::string& content)
+{
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) /
+                                         (std::string("glim_") + info->test_suite_name() + "_" + info->name());
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / name, std::ios::binary) << content;
+    return (folder / name).string();
+}
+
+Scene loadText(const std::string& content, const LoadOptions& options)
+{
+    return loadGltf(writeTemporary("scene.gltf", content), options);
+}
+
+Scene load(const GltfBuilder& builder, const LoadOptions& options)
+{
+    return loadText(builder.toGltf(), options);
+}
+
+std::string loadRefusal(const std::string& path, const LoadOptions& options)
+{
+    try {
+        loadGltf(path, options);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    ADD_FAILURE() << path << " was not refused";
+    return "";
+}
+
+std::string refusal(const GltfBuilder& builder, const LoadOptions& options)
+{
+    return loadRefusal(writeTemporary("scene.gltf", builder.toGltf()), options);
+}
+
+}  // namespace glim::test

@@ -1,0 +1,63 @@
+// glTF files put together in a test, byte by byte.
+#pragma once
+
+#include "host/scene/load_gltf.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace glim::test {
+
+constexpr int kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123, kUnsignedInt = 5125,
+              kFloat = 5126;
+
+using Bytes = std::vector<unsigned char>;
+
+template <typename Value>
+Bytes toBytes(const std::vector<Value>& values)
+{
+    Bytes bytes(values.size() * sizeof(Value));
+    std::memcpy(bytes.data(), values.data(), bytes.size());
+    return bytes;
+}
+
+// A document with one buffer that grows; empty but for asset, scene and scenes.
+class GltfBuilder {
+public:
+    GltfBuilder();
+
+    std::size_t append(const std::string& collection, const nlohmann::json& entry);
+    std::size_t addView(const Bytes& bytes);
+    std::size_t addAccessor(const Bytes& bytes, int componentType, const std::string& type, std::size_t count);
+    std::size_t addVec3(const std::vector<float>& values);
+    std::size_t addIndices(const std::vector<std::uint32_t>& values);
+    std::size_t addMesh(const nlohmann::json& primitive);
+    // Appends the node and makes it a root of scene 0.
+    std::size_t addNode(const nlohmann::json& node);
+    // The triangle (0,0,0) (1,0,0) (0,1,0), front towards +Z, in a mesh of its own; returns the mesh.
+    std::size_t addTriangleMesh();
+
+    std::string toGltf() const;  // buffer as data URI
+    std::string toGlb() const;
+    const Bytes& bytes() const { return m_bytes; }
+
+    nlohmann::json document;
+
+private:
+    Bytes m_bytes;
+};
+
+// Writes below the test's own temporary folder; returns the path.
+std::string writeTemporary(const std::string& name, const std::string& content);
+
+Scene loadText(const std::string& content, const LoadOptions& options = {});
+Scene load(const GltfBuilder& builder, const LoadOptions& options = {});
+
+// The sentence that loading is refused with; fails the test and returns "" if it is not.
+std::string loadRefusal(const std::string& path, const LoadOptions& options = {});
+std::string refusal(const GltfBuilder& builder, const LoadOptions& options = {});
+
+}  // namespace glim::test

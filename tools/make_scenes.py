@@ -1,0 +1,58 @@
+#!/usr/bin/env python3
+"""Writes the scenes that glim renders.
+
+Without options: scenes/*.gltf and scenes/refused/*, the same bytes every time.
+"""
+
+import argparse
+import os
+import sys
+
+from scene_makers.gltf_document import write_whole
+from scene_makers.large_scenes import BUNNY, LARGE_SCENES, cornell_bunny
+from scene_makers.refused_scenes import REFUSED
+from scene_makers.small_scenes import SMALL_SCENES
+
+SCENES = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "scenes")
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--large", nargs=2, metavar=("NAME", "N"),
+                        help="write one large scene instead: %s of N triangles, forest of N trees, menger of level N"
+                        % ", ".join(n for n in LARGE_SCENES if n not in ("forest", "menger")))
+    parser.add_argument("-o", "--output", metavar="FILE", help="where to write the large scene (.glb or .gltf)")
+    parser.add_argument("--fetch", action="store_true",
+                        help="write scenes/cornell_bunny.glb from Debian's glmark2-data instead")
+    arguments = parser.parse_args()
+    if arguments.large:
+        name, size = arguments.large
+        if name not in LARGE_SCENES or not size.isdigit() or int(size) < 1:
+            parser.error("--large %s %s: expected one of %s and a whole number from 1" %
+                         (name, size, ", ".join(LARGE_SCENES)))
+    if bool(arguments.large) != bool(arguments.output):
+        parser.error("--large and -o FILE belong together")
+    if arguments.output and not arguments.output.endswith((".glb", ".gltf")):
+        parser.error("-o %s: expected a name that ends in .glb or .gltf" % arguments.output)
+    return arguments
+
+
+def main():
+    arguments = parse_arguments()
+    if arguments.large:
+        name, size = arguments.large
+        LARGE_SCENES[name](int(size)).write(arguments.output)
+    elif arguments.fetch:
+        if not os.path.exists(BUNNY):
+            sys.exit("make_scenes.py: %s is missing; install it with: apt install glmark2-data" % BUNNY)
+        cornell_bunny().write(os.path.join(SCENES, "cornell_bunny.glb"))
+    else:
+        os.makedirs(os.path.join(SCENES, "refused"), exist_ok=True)
+        for name, make in SMALL_SCENES.items():
+            make().write(os.path.join(SCENES, name + ".gltf"))
+        for name, make in REFUSED.items():
+            write_whole(os.path.join(SCENES, "refused", name), make())
+
+
+if __name__ == "__main__":
+    main()
