@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
+#include <algorithm>
+#include <limits>
+#include <utility>
 
 namespace glim::test {
 namespace {
