@@ -1,10 +1,10 @@
 #include "host/cli/render.hpp"
 
+#include "host/cli/check_target.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/render_report.hpp"
 #include "host/flatten/flatten_scene.hpp"
-#include "host/image/whole_file.hpp"
 #include "host/render/film_file.hpp"
 
 #include <CLI/CLI.hpp>
@@ -21,12 +21,12 @@ constexpr std::uint32_t kDefaultHeight = 512;
 
 void checkTargets(const RenderOptions& options)
 {
-    checkWritable(options.output, ".exr");
+    checkTarget(options.output, ".exr", {options.scene});
     if (options.png) {
-        checkWritable(*options.png, ".png");
+        checkTarget(*options.png, ".png", {options.scene});
     }
     if (options.stats) {
-        checkWritable(*options.stats, ".json");
+        checkTarget(*options.stats, ".json", {options.scene});
     }
 }
 
