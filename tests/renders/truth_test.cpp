@@ -15,7 +15,7 @@ const glm::vec3 kRho(0.8F, 0.5F, 0.2F);
 
 // A camera that sees a spot of the floor y = 0 around the origin, 2 mm wide: small enough that a formula at the point is the
 // pixel's value (the second derivative of what is tested, times 1e-6).
-void lookAtFloor(SceneBuilder& builder) { builder.orthographic({0.3F, 0.5F, 0.2F}, {0, 0, 0}, 1e-3F); }
+void lookAtFloor(SceneBuilder& builder) { builder.orthographic({0.03F, 0.05F, 0.02F}, {0, 0, 0}, 1e-3F); }
 
 SceneBuilder floorScene()
 {

@@ -46,11 +46,18 @@ public:
         pass_.pixelCount = count;
         return *this;
     }
+    // Spending the driver's loop budget is no failure; loopsSpent() tells how many threads noticed.
+    KernelTest& mayExhaustLoops()
+    {
+        mayExhaustLoops_ = true;
+        return *this;
+    }
     Pass& pass() { return pass_; }
 
     // Adds a failure to the running test for each failed check (the first kMaxFailures of them), for each check that never
     // ran, and for threads that never ended.
     void run();
+    std::uint32_t loopsSpent() const { return loopsSpent_; }
 
     template <class Result>
     std::vector<Result> results() const
@@ -64,6 +71,8 @@ private:
     std::optional<Buffer> cases_, results_;
     std::map<std::uint32_t, const Buffer*> buffers_;
     Specialization specialization_;
+    bool mayExhaustLoops_ = false;
+    std::uint32_t loopsSpent_ = 0;
 };
 
 }  // namespace glim

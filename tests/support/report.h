@@ -18,6 +18,7 @@ struct Failure {
 struct Report {
     uint sentinel;
     uint threads;             // that ran to the end
+    uint loopsSpent;          // threads whose loop budget was spent
     uint failureCount;
     uint lines[kLineWords];   // one bit per line whose check has run
     Failure failures[kMaxFailures];

@@ -1,0 +1,86 @@
+// accuracy H1: rays from inside a closed mesh, aimed where Moller and Trumbore's test leaks.
+#include "shaders/shared/bindings.h"
+#include "test_kernels.hpp"
+#include "tests/support/scene_on_device.hpp"
+#include "tests/support/test_meshes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <iostream>
+
+namespace glim {
+namespace {
+
+struct Setup {
+    vec3 center;
+    float scale;
+    float tolerance;
+    float noise;
+};
+
+struct Tally {
+    uint rays[3];
+    uint misses[3];
+    uint astray[3];
+};
+
+struct Place {
+    float scale, shift;  // the mesh lies at scale * (shift + [-1, 1]^3)
+};
+
+void PrintTo(const Place& place, std::ostream* out) { *out << "scale " << place.scale << " shift " << place.shift; }
+
+struct Closed {
+    Mesh mesh;
+    float noise;  // 0 where the triangles are round enough for it not to matter
+};
+
+Tally shoot(const Closed& closed, const Place& place, bool mollerTrumbore)
+{
+    const SceneOnDevice scene(sceneOf(placed(closed.mesh, place.scale, place.shift)));
+    // Far from the origin the mesh is rounded to a grid of 1e-3 of its size, and no longer quite convex.
+    const float tolerance = place.scale * (place.shift > 0.0F ? 2e-2F : 1e-5F);
+    KernelTest test = scene.test(test_kernels::watertight_test);
+    test.cases(std::vector<Setup>{{vec3(place.scale * place.shift), place.scale, tolerance, closed.noise}});
+    test.resultsOf<Tally>(1).specialize(kSpecMollerTrumbore, mollerTrumbore ? 1 : 0);
+    // Whole workgroups, so that every thread is a ray.
+    test.threads(std::getenv("GLIM_LONG") != nullptr ? 4'000'000 / 64 * 64 : 90'048).run();
+    const Tally tally = test.results<Tally>()[0];
+    std::cout << (mollerTrumbore ? "Moller-Trumbore" : "watertight") << ", scale " << place.scale << ", shift "
+              << place.shift << ": edge, vertex, axis: ";
+    for (int kind = 0; kind < 3; ++kind) {
+        std::cout << tally.misses[kind] << " of " << tally.rays[kind] << (kind < 2 ? ", " : " leak\n");
+    }
+    return tally;
+}
+
+class WatertightTest : public testing::TestWithParam<Place> {};
+
+TEST_P(WatertightTest, NoRayLeavesAClosedMesh)
+{
+    // An edge function is a difference of two products of three roundings each: 6 * 2^-24.
+    for (const Closed& closed : {Closed{icosphere(4), 0.0F}, Closed{sliverBox(150), 6 * 0x1p-24F}}) {
+        const Tally tally = shoot(closed, GetParam(), false);
+        for (int kind = 0; kind < 3; ++kind) {
+            EXPECT_EQ(tally.misses[kind], 0U) << closed.mesh.size() << " triangles, kind " << kind;
+            EXPECT_EQ(tally.astray[kind], 0U) << closed.mesh.size() << " triangles, kind " << kind;
+            EXPECT_GT(tally.rays[kind], 30'000U);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Places, WatertightTest,
+                         testing::Values(Place{1e-4F, 0.0F}, Place{1.0F, 0.0F}, Place{1e5F, 0.0F}, Place{1e-4F, 1e4F},
+                                         Place{1.0F, 1e4F}, Place{1e5F, 1e4F}));
+
+// The test above is able to fail.
+TEST(MollerTrumboreTest, LeaksAtEdgesAndVertices)
+{
+    const Tally tally = shoot({icosphere(4), 0.0F}, {1.0F, 0.0F}, true);
+    EXPECT_GT(tally.misses[0], tally.rays[0] / 50);
+    EXPECT_GT(tally.misses[1], tally.rays[1] / 50);
+}
+
+}  // namespace
+}  // namespace glim

@@ -1,0 +1,114 @@
+// The same seed gives the same bits, however the work is cut and whatever else is compiled in.
+#include "host/render/film_file.hpp"
+#include "host/render/merge_films.hpp"
+#include "tests/support/build_scene.hpp"
+#include "tests/support/render_scene.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/support/test_device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace glim {
+namespace {
+
+bool sameBits(const Film& a, const Film& b)
+{
+    return a.pixels.size() == b.pixels.size() &&
+           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(PixelMoments)) == 0;
+}
+
+RenderSettings settingsFor(Sampler sampler)
+{
+    RenderSettings settings = squareSettings(40, 80);  // two whole blocks and a half
+    settings.sampler = sampler;
+    return settings;
+}
+
+class DeterminismTest : public testing::TestWithParam<Sampler> {
+protected:
+    DeterminismTest() : flat(flattened(scene)), first(render(settingsFor(GetParam()))) {}
+
+    Film render(const RenderSettings& settings) const { return renderFlat(flat, scene.cameras.front(), settings); }
+
+    const Scene scene = mixedScene();
+    FlatScene flat;
+    Film first;
+};
+
+TEST_P(DeterminismTest, TwoRuns) { EXPECT_TRUE(sameBits(first, render(settingsFor(GetParam())))); }
+
+TEST_P(DeterminismTest, AnotherSeedDiffers)
+{
+    RenderSettings settings = settingsFor(GetParam());
+    settings.seed = 1;
+    EXPECT_FALSE(sameBits(first, render(settings)));
+}
+
+TEST_P(DeterminismTest, WorkgroupSizes)
+{
+    for (const std::uint32_t workgroup : {32U, 128U}) {
+        RenderSettings settings = settingsFor(GetParam());
+        settings.workgroup = workgroup;
+        EXPECT_TRUE(sameBits(first, render(settings))) << workgroup;
+    }
+}
+
+TEST_P(DeterminismTest, DispatchSizes)
+{
+    for (const std::uint32_t capacity : {1U << 8, 3000U, 1U << 16}) {
+        RenderSettings settings = settingsFor(GetParam());
+        settings.pathCapacity = capacity;
+        EXPECT_TRUE(sameBits(first, render(settings))) << capacity;
+    }
+}
+
+TEST_P(DeterminismTest, FeaturesThatTheSceneDoesNotNeed)
+{
+    SceneBuilder builder;
+    builder.cube(1.0F, builder.lambert(glm::vec3(0.6F), glm::vec3(0.3F)), true).perspective({0, 0, 0.5F}, {0, 0, 0}, 1.0F);
+    FlatScene lean = flattened(builder.scene());
+    const Film bare = renderFlat(lean, builder.scene().cameras.front(), settingsFor(GetParam()));
+    // Smooth normals and an environment would need data; the rest is there and never used.
+    lean.features.spheres = lean.features.specular = lean.features.punctualLights = true;
+    EXPECT_TRUE(sameBits(bare, renderFlat(lean, builder.scene().cameras.front(), settingsFor(GetParam()))));
+}
+
+INSTANTIATE_TEST_SUITE_P(Samplers, DeterminismTest, testing::Values(Sampler::Sobol, Sampler::Independent));
+
+TEST(MergedRenderTest, PagesMergeToTheBitsOfTheSingleRun)
+{
+    const test::ScratchFolder folder;
+    const Scene scene = mixedScene();
+    RenderSettings settings = squareSettings(16, 512);
+    writeFilm(folder / "whole.exr", renderScene(scene, settings));
+    settings.sampleEnd = 256;
+    writeFilm(folder / "a.exr", renderScene(scene, settings));
+    settings.sampleBegin = 256;
+    settings.sampleEnd = 512;
+    writeFilm(folder / "b.exr", renderScene(scene, settings));
+    const MergedFilm merged = mergeFilms({folder / "a.exr", folder / "b.exr"});
+    EXPECT_TRUE(merged.exact);
+    EXPECT_TRUE(sameBits(merged.film, readFilm(folder / "whole.exr")));
+}
+
+// FNV-1a of all moments of a render that runs every kernel path. It changes when the picture is meant to change, and must be
+// the same on every software driver: tools/test --driver checks that.
+constexpr std::uint64_t kMixedSceneHash = 0xc7df065f4cdeca84ULL;
+
+TEST(DriverAgreementTest, TheSameBitsOnEverySoftwareDriver)
+{
+    const Film film = renderScene(mixedScene(), squareSettings(64, 64));
+    std::uint64_t hash = 14695981039346656037ULL;
+    for (const std::byte byte : std::as_bytes(std::span<const PixelMoments>(film.pixels))) {
+        hash = (hash ^ static_cast<std::uint64_t>(byte)) * 1099511628211ULL;
+    }
+    std::printf("mixed scene on %s: %#018llx\n", film.device.c_str(), static_cast<unsigned long long>(hash));
+    if (testDevice().description().software) {
+        EXPECT_EQ(hash, kMixedSceneHash);
+    }
+}
+
+}  // namespace
+}  // namespace glim

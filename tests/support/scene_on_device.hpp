@@ -1,0 +1,39 @@
+// A scene on the test device, with the tables that lead from what kernels say back to it.
+#pragma once
+
+#include "host/bvh/build_bvh.hpp"
+#include "host/flatten/flatten_scene.hpp"
+#include "host/render/device_scene.hpp"
+#include "tests/support/kernel_test.hpp"
+
+namespace glim {
+
+struct SceneOnDevice {
+    explicit SceneOnDevice(const Scene& scene, const Camera& camera = {})
+        : bvh(buildBvh(primitiveBoxes(scene))), flat(flattenScene(scene, bvh)),
+          device(testDevice(), flat, flattenCamera(camera, 1.0F)), recordOf(bvh.order.size())
+    {
+        for (std::uint32_t record = 0; record < bvh.order.size(); ++record) {
+            recordOf[bvh.order[record]] = record;
+        }
+    }
+
+    // The primitive (triangles, then spheres) that stands at a record; kNoRecord for none.
+    std::uint32_t idOf(std::uint32_t record) const { return record == kNoRecord ? kNoRecord : bvh.order[record]; }
+
+    // `kernel` over this scene; the number of lights travels in its pass.
+    KernelTest test(const EmbeddedShader& kernel) const
+    {
+        KernelTest test(kernel);
+        test.buffers(device.buffers());
+        test.pass().lightCount = static_cast<std::uint32_t>(flat.lights.size());
+        return test;
+    }
+
+    Bvh bvh;
+    FlatScene flat;
+    DeviceScene device;
+    std::vector<std::uint32_t> recordOf;  // by primitive
+};
+
+}  // namespace glim

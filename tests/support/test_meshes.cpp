@@ -1,0 +1,161 @@
+#include "tests/support/test_meshes.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace glim {
+namespace {
+
+void subdivide(Mesh& mesh, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, int levels)
+{
+    if (levels == 0) {
+        mesh.push_back({{glm::vec3(a), glm::vec3(b), glm::vec3(c)}});
+        return;
+    }
+    // Sums commute exactly, so both neighbours of an edge get the same middle.
+    const glm::dvec3 ab = glm::normalize(a + b), bc = glm::normalize(b + c), ca = glm::normalize(c + a);
+    subdivide(mesh, a, ab, ca, levels - 1);
+    subdivide(mesh, b, bc, ab, levels - 1);
+    subdivide(mesh, c, ca, bc, levels - 1);
+    subdivide(mesh, ab, bc, ca, levels - 1);
+}
+
+glm::vec3 randomPoint(std::mt19937& random, float size)
+{
+    std::uniform_real_distribution<float> within(-size, size);
+    const float x = within(random), y = within(random);
+    return {x, y, within(random)};
+}
+
+// From -1 to 1, thinner and thinner towards both ends, down to 1e-6.
+std::vector<float> ringHeights(int rings)
+{
+    std::vector<float> heights{-1.0F};
+    for (int i = rings; i >= -rings; --i) {
+        const double distance = 1.0 - std::pow(10.0, -6.0 * std::abs(i) / rings);
+        heights.push_back(static_cast<float>(i > 0 ? -distance : distance));
+    }
+    heights.push_back(1.0F);
+    return heights;
+}
+
+}  // namespace
+
+Mesh icosphere(int subdivisions)
+{
+    const double g = std::numbers::phi;
+    const glm::dvec3 v[12] = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
+                              {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+    constexpr int kFaces[20][3] = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                                   {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
+                                   {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+    Mesh mesh;
+    for (const auto& face : kFaces) {
+        subdivide(mesh, glm::normalize(v[face[0]]), glm::normalize(v[face[1]]), glm::normalize(v[face[2]]), subdivisions);
+    }
+    return mesh;
+}
+
+Mesh sliverBox(int rings)
+{
+    const glm::vec2 corners[5] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
+    const glm::vec2 apex(1.0F - 1e-6F, 0.3F);
+    const std::vector<float> heights = ringHeights(rings);
+    Mesh mesh;
+    for (int k = 0; k < 4; ++k) {
+        const glm::vec2 from = corners[k], to = corners[k + 1];
+        for (std::size_t i = 0; i + 1 < heights.size(); ++i) {
+            const glm::vec3 a(from, heights[i]), b(to, heights[i]), c(to, heights[i + 1]), d(from, heights[i + 1]);
+            mesh.push_back({{a, b, c}});
+            mesh.push_back({{a, c, d}});
+        }
+        mesh.push_back({{glm::vec3(from, 1), glm::vec3(to, 1), glm::vec3(apex, 1)}});
+        mesh.push_back({{glm::vec3(to, -1), glm::vec3(from, -1), glm::vec3(apex, -1)}});
+    }
+    return mesh;
+}
+
+Mesh terrain(int cells)
+{
+    const auto vertex = [cells](int i, int j) {
+        const float x = 20.0F * static_cast<float>(i) / static_cast<float>(cells) - 10.0F;
+        const float z = 20.0F * static_cast<float>(j) / static_cast<float>(cells) - 10.0F;
+        return glm::vec3(x, std::sin(0.7F * x) * std::cos(0.9F * z) + 0.2F * std::sin(5.0F * x + 3.0F * z), z);
+    };
+    Mesh mesh;
+    for (int i = 0; i < cells; ++i) {
+        for (int j = 0; j < cells; ++j) {
+            mesh.push_back({{vertex(i, j), vertex(i, j + 1), vertex(i + 1, j)}});
+            mesh.push_back({{vertex(i + 1, j + 1), vertex(i + 1, j), vertex(i, j + 1)}});
+        }
+    }
+    return mesh;
+}
+
+Mesh randomTriangles(std::size_t count, float size, std::uint32_t seed)
+{
+    std::mt19937 random(seed);
+    Mesh mesh;
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::vec3 center = randomPoint(random, 1.0F);
+        const glm::vec3 a = randomPoint(random, size), b = randomPoint(random, size), c = randomPoint(random, size);
+        mesh.push_back({{center + a, center + b, center + c}});
+    }
+    return mesh;
+}
+
+std::vector<Sphere> randomSpheres(std::size_t count, float largestRadius, std::uint32_t seed)
+{
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> radius(0.05F * largestRadius, largestRadius);
+    std::vector<Sphere> spheres;
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::vec3 center = randomPoint(random, 1.0F);
+        spheres.push_back({"", center, radius(random), 0});
+    }
+    return spheres;
+}
+
+Mesh coincidentTriangles(std::size_t count)
+{
+    return Mesh(count, Triangle{{glm::vec3(-1, -1, 0), glm::vec3(1, -1, 0), glm::vec3(0, 1, 0)}});
+}
+
+Mesh growingLine(std::size_t count, float first, double ratio)
+{
+    Mesh mesh;
+    double start = 0.0, length = static_cast<double>(first);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto x = static_cast<float>(start), y = static_cast<float>(length);
+        start += length;
+        const auto end = static_cast<float>(start);
+        mesh.push_back({{glm::vec3(x, 0, -y), glm::vec3(end, 0.3F * y, -y), glm::vec3(x, 0.1F * y, y)}});
+        length *= ratio;
+    }
+    return mesh;
+}
+
+Mesh placed(Mesh mesh, float scale, float shift)
+{
+    for (Triangle& triangle : mesh) {
+        for (glm::vec3& vertex : triangle.vertices) {
+            vertex = (vertex + shift) * scale;
+        }
+    }
+    return mesh;
+}
+
+Scene sceneOf(const Mesh& mesh, const std::vector<Sphere>& spheres)
+{
+    Scene scene;
+    scene.materials.emplace_back();
+    scene.triangles = mesh;
+    scene.spheres = spheres;
+    if (!mesh.empty()) {
+        scene.primitives.push_back({"", 0, static_cast<std::uint32_t>(mesh.size()), 0, false});
+    }
+    return scene;
+}
+
+}  // namespace glim

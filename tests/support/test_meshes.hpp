@@ -1,0 +1,36 @@
+// Meshes made in memory. Vertices that triangles share have equal bits.
+#pragma once
+
+#include "host/scene/scene.hpp"
+
+namespace glim {
+
+using Mesh = std::vector<Triangle>;
+
+// 20 * 4^subdivisions triangles, vertices on the unit sphere, fronts outwards.
+Mesh icosphere(int subdivisions);
+
+// The closed surface of [-1, 1]^3: its sides are 8 * rings strips as thin as 1e-6, its caps fans with a sliver.
+Mesh sliverBox(int rings);
+
+// Height field over [-10, 10]^2, 2 * cells^2 triangles, up is +y.
+Mesh terrain(int cells);
+
+// Vertices within `size` of a random point of [-1, 1]^3 along each axis.
+Mesh randomTriangles(std::size_t count, float size, std::uint32_t seed);
+
+std::vector<Sphere> randomSpheres(std::size_t count, float largestRadius, std::uint32_t seed);
+
+// `count` copies of the triangle (-1,-1,0) (1,-1,0) (0,1,0).
+Mesh coincidentTriangles(std::size_t count);
+
+// Along +x, each triangle starts where the one before ends and is `ratio` times its length.
+Mesh growingLine(std::size_t count, float first, double ratio);
+
+// (vertex + shift) * scale: one value for equal vertices, so that shared ones stay shared.
+Mesh placed(Mesh mesh, float scale, float shift);
+
+// One primitive of one white material, and spheres of the same.
+Scene sceneOf(const Mesh& mesh, const std::vector<Sphere>& spheres = {});
+
+}  // namespace glim
