@@ -20,6 +20,15 @@ int fail(glim::ExitCode code, const std::string& sentence)
     return static_cast<int>(code);
 }
 
+// CLI11 would complain of what is missing even where something that it does not know explains it.
+std::string usageSentence(const CLI::App* app, const CLI::Error& error)
+{
+    const std::vector<std::string> unknown = app->remaining(true);
+    const std::string sentence =
+        unknown.empty() ? error.what() : "\"" + unknown[0] + "\" was not expected: no such command, option or argument";
+    return "glim: " + sentence + "\nRun with --help for more information.\n";
+}
+
 }  // namespace
 
 int main(int argc, char** argv)
@@ -27,6 +36,7 @@ int main(int argc, char** argv)
     glim::ExitCode exitCode = glim::ExitCode::Done;
     CLI::App app("glim: a path tracer in Vulkan compute kernels", "glim");
     app.set_version_flag("--version", glim::versionText());
+    app.failure_message(usageSentence);
     app.require_subcommand(1);
     app.footer("Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 130 or 143 interrupted.");
     glim::addRender(app, exitCode);

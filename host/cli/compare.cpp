@@ -1,8 +1,8 @@
 #include "host/cli/compare.hpp"
 
+#include "host/cli/check_target.hpp"
 #include "host/error.hpp"
 #include "host/image/exr.hpp"
-#include "host/image/whole_file.hpp"
 #include "host/measure/compare_images.hpp"
 #include "host/measure/z_test.hpp"
 
@@ -180,7 +180,7 @@ void report(const CompareOptions& options, const Comparison& result, const std::
 void runCompare(const CompareOptions& options)
 {
     if (!options.difference.empty()) {
-        checkWritable(options.difference, ".exr");
+        checkTarget(options.difference, ".exr", {options.picture, options.reference, options.variance});
     }
     const Picture picture = pictureOf(readExr(options.picture), options.picture.string());
     Picture reference = pictureOf(readExr(options.reference), options.reference.string());

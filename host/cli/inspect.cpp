@@ -1,5 +1,6 @@
 #include "host/cli/inspect.hpp"
 
+#include "host/cli/parse.hpp"
 #include "host/cli/prepare_scene.hpp"
 
 #include <CLI/CLI.hpp>
@@ -104,7 +105,7 @@ void addInspect(CLI::App& app)
     auto options = std::make_shared<InspectOptions>();
     CLI::App* command = app.add_subcommand("inspect", "Tell what is in a scene, what it costs and what it needs");
     command->add_option("scene", options->scene, "The scene, .gltf or .glb")->required()->type_name("SCENE");
-    command->add_option("--scene", options->sceneIndex, "Index of the file's scene [its default one]")->type_name("INDEX");
+    addSceneIndex(*command, options->sceneIndex);
     command->add_flag("--json", options->json, "Print JSON");
     command->callback([options] { runInspect(*options); });
 }

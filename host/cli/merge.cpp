@@ -1,6 +1,7 @@
 #include "host/cli/merge.hpp"
 
-#include "host/image/whole_file.hpp"
+#include "host/cli/check_target.hpp"
+#include "host/cli/parse.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/merge_films.hpp"
 
@@ -22,9 +23,9 @@ struct MergeOptions {
 
 void runMerge(const MergeOptions& options)
 {
-    checkWritable(options.output, ".exr");
+    checkTarget(options.output, ".exr", {});
     if (!options.png.empty()) {
-        checkWritable(options.png, ".png");
+        checkTarget(options.png, ".png", {});
     }
     const MergedFilm merged = mergeFilms(options.inputs);
     writeFilm(options.output, merged.film);
@@ -53,11 +54,7 @@ void addMerge(CLI::App& app)
         ->type_name("C.exr");
     CLI::Option* png = command->add_option("--png", options->png, "Also write an sRGB picture to look at (.png)");
     png->type_name("C.png");
-    command->add_option("--exposure", options->exposure, "Brightness of the PNG in stops, of which the EXR has none")
-        ->type_name("EV")
-        ->check(CLI::Range(-64.0, 64.0))
-        ->needs(png)
-        ->capture_default_str();
+    addExposure(*command, options->exposure)->needs(png);
     command->callback([options] { runMerge(*options); });
 }
 

@@ -2,9 +2,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <vector>
+#include <limits>
+#include <sstream>
 
 namespace glim {
 namespace {
@@ -34,7 +36,76 @@ std::vector<std::string> split(const std::string& text, char separator)
     return parts;
 }
 
+template <class T>
+std::string textOf(T number)
+{
+    std::ostringstream text;
+    text << number;
+    return text.str();
+}
+
+template <class T>
+T parseBounded(const NumberOption<T>& option, const std::string& text)
+{
+    T value{};
+    const std::string unsignedText = text.substr(text.rfind('+', 0) == 0 ? 1 : 0);
+    // NaN fails both comparisons.
+    if (!parseNumber(unsignedText, value) || !(value >= option.low && value <= option.high)) {
+        throw CLI::ValidationError(option.name, "\"" + text + "\": expected a " +
+                                                    (std::is_integral_v<T> ? "whole number" : "number") + " from " +
+                                                    textOf(option.low) + " to " + textOf(option.high));
+    }
+    return value;
+}
+
 }  // namespace
+
+template <class T>
+CLI::Option* addNumber(CLI::App& command, const NumberOption<T>& option, std::function<void(T)> store)
+{
+    const std::string help =
+        option.what + ", " + textOf(option.low) + " to " + textOf(option.high) + " [" + option.fallback + "]";
+    return command
+        .add_option_function<std::string>(
+            option.name, [option, store](const std::string& text) { store(parseBounded(option, text)); }, help)
+        ->type_name(option.unit);
+}
+
+template CLI::Option* addNumber(CLI::App&, const NumberOption<std::uint32_t>&, std::function<void(std::uint32_t)>);
+template CLI::Option* addNumber(CLI::App&, const NumberOption<float>&, std::function<void(float)>);
+template CLI::Option* addNumber(CLI::App&, const NumberOption<double>&, std::function<void(double)>);
+
+CLI::Option* addChoice(CLI::App& command, const std::string& name, const std::string& unit, const std::string& help,
+                       const std::vector<std::string>& names, std::function<void(std::size_t)> store)
+{
+    return command
+        .add_option_function<std::string>(
+            name,
+            [name, names, store](const std::string& text) {
+                const auto found = std::find(names.begin(), names.end(), text);
+                if (found == names.end()) {
+                    throw CLI::ValidationError(name, "\"" + text + "\": expected " + CLI::detail::join(names, " or "));
+                }
+                store(static_cast<std::size_t>(found - names.begin()));
+            },
+            help)
+        ->type_name(unit);
+}
+
+CLI::Option* addExposure(CLI::App& command, double& exposure)
+{
+    return addNumber<double>(command,
+                             {"--exposure", "EV", "Stops for the PNG, never applied to the EXR", -100.0, 100.0, "0"},
+                             [&exposure](double stops) { exposure = stops; });
+}
+
+CLI::Option* addSceneIndex(CLI::App& command, std::optional<std::size_t>& index)
+{
+    constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
+    return addNumber<std::uint32_t>(command,
+                                    {"--scene", "INDEX", "Which of the file's scenes", 0, kMost, "its default one"},
+                                    [&index](std::uint32_t value) { index = value; });
+}
 
 glm::uvec2 parseSize(const std::string& text)
 {

@@ -1,11 +1,19 @@
-// Option values that are more than one number. Each throws CLI::ValidationError (exit code 2) naming what was expected.
+// Option values. Whatever is no value of the option throws CLI::ValidationError (exit code 2) naming what was expected.
 #pragma once
 
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}
 
 namespace glim {
 
@@ -15,5 +23,26 @@ inline constexpr std::uint32_t kMaxSample = 1U << 31;
 glm::uvec2 parseSize(const std::string& text);                                 // "640x480"
 std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& text);   // "0:256", begin < end
 glm::vec3 parseRadiance(const std::string& text);                              // "1,1,1", >= 0; a file is refused
+
+// An option whose value is one number (uint32_t, float or double) of [low, high]; never NaN. The help says `what`, the
+// range and, in brackets, what holds without the option.
+template <class T>
+struct NumberOption {
+    std::string name, unit, what;
+    T low, high;
+    std::string fallback;
+};
+template <class T>
+CLI::Option* addNumber(CLI::App& command, const NumberOption<T>& option, std::function<void(T)> store);
+
+// An option whose value is one of `names`; `store` gets its place in that list.
+CLI::Option* addChoice(CLI::App& command, const std::string& name, const std::string& unit, const std::string& help,
+                       const std::vector<std::string>& names, std::function<void(std::size_t)> store);
+
+// --exposure of render and merge: stops, for a PNG.
+CLI::Option* addExposure(CLI::App& command, double& exposure);
+
+// --scene of render and inspect.
+CLI::Option* addSceneIndex(CLI::App& command, std::optional<std::size_t>& index);
 
 }  // namespace glim

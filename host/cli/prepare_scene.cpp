@@ -35,6 +35,9 @@ PreparedScene prepareScene(const std::filesystem::path& file, std::optional<std:
     const Clock::time_point loaded = Clock::now();
     prepared.bvh = buildBvh(primitiveBoxes(prepared.scene));
     prepared.flat = flattenScene(prepared.scene, prepared.bvh);
+    if (prepared.flat.lights.empty()) {
+        std::cerr << "glim: the scene has no light, so every picture of it is black; --environment 1,1,1 lights it\n";
+    }
     prepared.loadSeconds = secondsBetween(start, loaded);
     prepared.buildSeconds = secondsBetween(loaded, Clock::now());
     return prepared;

@@ -1,10 +1,10 @@
 #include "host/cli/render.hpp"
 
+#include "host/cli/check_target.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/render_report.hpp"
 #include "host/flatten/flatten_scene.hpp"
-#include "host/image/whole_file.hpp"
 #include "host/render/film_file.hpp"
 
 #include <CLI/CLI.hpp>
@@ -13,6 +13,7 @@
 #include <csignal>
 #include <iostream>
 #include <memory>
+#include <unistd.h>
 
 namespace glim {
 namespace {
@@ -21,12 +22,12 @@ constexpr std::uint32_t kDefaultHeight = 512;
 
 void checkTargets(const RenderOptions& options)
 {
-    checkWritable(options.output, ".exr");
+    checkTarget(options.output, ".exr", {options.scene});
     if (options.png) {
-        checkWritable(*options.png, ".png");
+        checkTarget(*options.png, ".png", {options.scene});
     }
     if (options.stats) {
-        checkWritable(*options.stats, ".json");
+        checkTarget(*options.stats, ".json", {options.scene});
     }
 }
 
@@ -66,6 +67,29 @@ double writePictures(const RenderOptions& options, const Film& film)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+// Linux grants memory that is not there and later kills the program that uses it.
+void refuseHugePicture(const RenderSettings& settings, const DeviceDescription& device)
+{
+    const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
+    const std::uint64_t onDevice = pixels * 2 * sizeof(PixelMoments);  // a block and a page
+    const std::uint64_t onHost = pixels * 2 * sizeof(PixelMoments);    // the film and its planes in the file
+    const std::uint64_t memory = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+                                 static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
+    const auto refuse = [&](std::uint64_t needed, const std::string& owner, std::uint64_t there) {
+        if (needed > there) {
+            throw InputError("--size " + std::to_string(settings.width) + "x" + std::to_string(settings.height) +
+                             ": the picture needs " + std::to_string(needed >> 20) + " MiB of memory, but " + owner +
+                             " has only " + std::to_string(there >> 20) + " MiB.");
+        }
+    };
+    if (device.software) {
+        refuse(onHost + onDevice, "this machine", memory);
+        return;
+    }
+    refuse(onHost, "this machine", memory);
+    refuse(onDevice, "device \"" + device.name + "\"", device.memory);
+}
+
 ExitCode runRender(const RenderOptions& options)
 {
     checkTargets(options);
@@ -75,6 +99,7 @@ ExitCode runRender(const RenderOptions& options)
     const PreparedScene prepared = prepareScene(options.scene, options.sceneIndex, options.environment);
     const Camera& camera = findCamera(prepared.scene, options.camera);
     const RenderSettings settings = settingsFor(options, camera);
+    refuseHugePicture(settings, device.description());
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
     Renderer renderer(device, prepared.flat, flattenCamera(camera, aspect), settings);
 

@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <map>
+#include <limits>
 
 namespace glim {
 namespace {
@@ -19,67 +19,59 @@ void addPictureOptions(CLI::App& command, RenderOptions& options)
     command
         .add_option_function<std::string>(
             "--size", [&options](const std::string& text) { options.size = parseSize(text); },
-            "Pixels [512 high, width from the camera's aspect ratio]")
+            "Pixels, each side 1 to 65535 [512 high, width from the camera's aspect ratio]")
         ->type_name("WxH");
     command.add_option("--camera", options.camera, "Name or index of a camera of the file [0]")->type_name("NAME|INDEX");
-    command.add_option("--scene", options.sceneIndex, "Index of the file's scene [its default one]")->type_name("INDEX");
+    addSceneIndex(command, options.sceneIndex);
     command
         .add_option_function<std::string>(
             "--environment", [&options](const std::string& text) { options.environment = parseRadiance(text); },
             "Constant radiance from everywhere, W/(sr m^2), each >= 0; goes before the file's [none]")
         ->type_name("R,G,B");
-    command.add_option("--exposure", options.exposure, "Stops (EV) for the PNG, -100 to 100; never applied to the EXR [0]")
-        ->check(CLI::Range(-100.0, 100.0))
-        ->type_name("EV");
+    addExposure(command, options.exposure);
 }
 
-void addSamplingOptions(CLI::App& command, RenderOptions& options)
+void addSampleCounts(CLI::App& command, RenderSettings& settings)
 {
-    RenderSettings& settings = options.settings;
-    CLI::Option* spp =
-        command
-            .add_option_function<std::uint32_t>(
-                "--spp", [&settings](std::uint32_t count) { settings.sampleEnd = count; },
-                "Samples per pixel, 1 to 2147483648 [64]")
-            ->check(CLI::Range(1U, kMaxSample))
-            ->type_name("N");
-    CLI::Option* time = command
-                            .add_option_function<double>(
-                                "--time",
-                                [&settings](double seconds) { settings.seconds = seconds; },
-                                "Sample for this many seconds, > 0, as far as --samples allows if given")
-                            ->check(CLI::Range(1e-3, 1e9))
-                            ->type_name("SECONDS");
+    CLI::Option* spp = addNumber<std::uint32_t>(command, {"--spp", "N", "Samples per pixel", 1, kMaxSample, "64"},
+                                                [&settings](std::uint32_t count) { settings.sampleEnd = count; });
+    CLI::Option* time =
+        addNumber<double>(command, {"--time", "SECONDS", "Sample for this long, as far as --samples allows", 1e-3, 1e9, "off"},
+                          [&settings](double seconds) { settings.seconds = seconds; });
     CLI::Option* samples = command
                                .add_option_function<std::string>(
                                    "--samples",
                                    [&settings](const std::string& text) {
                                        std::tie(settings.sampleBegin, settings.sampleEnd) = parseRange(text);
                                    },
-                                   "Absolute sample indices, for `glim merge`: BEGIN to END - 1 [0:64]")
+                                   "Absolute sample indices BEGIN to END - 1, for `glim merge`, 0 to " +
+                                       std::to_string(kMaxSample) + " [0:64]")
                                ->type_name("BEGIN:END");
     spp->excludes(time)->excludes(samples);
-    command.add_option("--bounces", settings.bounces, "Most surface events between camera and light; 0: emission only [64]")
-        ->check(CLI::Range(0U, 1000000U))
-        ->type_name("N");
-    command.add_option("--seed", settings.seed, "Same seed, same bits; 0 to 4294967295 [0]")->type_name("N");
-    const std::map<std::string, Sampler> samplers = {{"sobol", Sampler::Sobol}, {"independent", Sampler::Independent}};
-    command.add_option("--sampler", settings.sampler, "sobol (Owen-scrambled) or independent [sobol]")
-        ->transform(CLI::CheckedTransformer(samplers))
-        ->type_name("S");
-    const std::map<std::string, Intersector> intersectors = {{"watertight", Intersector::Watertight},
-                                                             {"moller-trumbore", Intersector::MollerTrumbore}};
-    command
-        .add_option("--intersector", settings.intersector,
-                    "watertight (Woop 2013) or moller-trumbore (the textbook test; leaks at edges) [watertight]")
-        ->transform(CLI::CheckedTransformer(intersectors))
-        ->type_name("I");
-    command
-        .add_option("--clamp-indirect", settings.clampIndirect,
-                    "Scale down light that met two surfaces or more to at most this radiance, > 0; a bias, whose energy is "
-                    "reported [off]")
-        ->check(CLI::Range(1e-30F, 1e30F))
-        ->type_name("X");
+}
+
+void addSamplingOptions(CLI::App& command, RenderSettings& settings)
+{
+    addSampleCounts(command, settings);
+    addNumber<std::uint32_t>(
+        command, {"--bounces", "N", "Most surface events between camera and light; 0 is emission only", 0, 1000000, "64"},
+        [&settings](std::uint32_t bounces) { settings.bounces = bounces; });
+    addNumber<std::uint32_t>(
+        command, {"--seed", "N", "Same seed, same bits", 0, std::numeric_limits<std::uint32_t>::max(), "0"},
+        [&settings](std::uint32_t seed) { settings.seed = seed; });
+    addChoice(command, "--sampler", "S", "sobol (Owen-scrambled) or independent [sobol]", {"sobol", "independent"},
+              [&settings](std::size_t i) { settings.sampler = i == 0 ? Sampler::Sobol : Sampler::Independent; });
+    addChoice(command, "--intersector", "I",
+              "watertight (Woop 2013) or moller-trumbore (the textbook test; leaks at edges) [watertight]",
+              {"watertight", "moller-trumbore"}, [&settings](std::size_t i) {
+                  settings.intersector = i == 0 ? Intersector::Watertight : Intersector::MollerTrumbore;
+              });
+    addNumber<float>(command,
+                     {"--clamp-indirect", "X",
+                      "Scale down light that met two surfaces or more to at most this radiance, W/(sr m^2); a bias, whose "
+                      "energy is reported",
+                      1e-30F, 1e30F, "off"},
+                     [&settings](float limit) { settings.clampIndirect = limit; });
 }
 
 void addMachineOptions(CLI::App& command, RenderOptions& options)
@@ -87,12 +79,11 @@ void addMachineOptions(CLI::App& command, RenderOptions& options)
     command.add_option("--device", options.device, "Index or part of a name from `glim devices` [the first usable one]")
         ->type_name("D");
     command.add_option("--stats", options.stats, "Write times, counts and estimated errors as JSON")->type_name("S.json");
-    const std::map<std::string, ProgressStyle> styles = {
-        {"bar", ProgressStyle::Bar}, {"json", ProgressStyle::Json}, {"none", ProgressStyle::None}};
-    command
-        .add_option("--progress", options.progress, "bar, json (a line per step) or none, to stderr [bar on a terminal]")
-        ->transform(CLI::CheckedTransformer(styles))
-        ->type_name("STYLE");
+    addChoice(command, "--progress", "STYLE", "bar, json (a line per step) or none, to stderr [bar on a terminal]",
+              {"bar", "json", "none"}, [&options](std::size_t i) {
+                  constexpr ProgressStyle kStyles[] = {ProgressStyle::Bar, ProgressStyle::Json, ProgressStyle::None};
+                  options.progress = kStyles[i];
+              });
 }
 
 }  // namespace
@@ -100,7 +91,7 @@ void addMachineOptions(CLI::App& command, RenderOptions& options)
 void addRenderOptions(CLI::App& command, RenderOptions& options)
 {
     addPictureOptions(command, options);
-    addSamplingOptions(command, options);
+    addSamplingOptions(command, options.settings);
     addMachineOptions(command, options);
     command.parse_complete_callback([&command, &options] {
         if (command.count("--time") > 0 && command.count("--samples") == 0) {

@@ -37,6 +37,10 @@ std::uint64_t bytesOf(const std::vector<T>& values)
     return values.size() * sizeof(T);
 }
 
+static_assert(sizeof(FlatMaterial) == kMaterialTexels * sizeof(uvec4));
+static_assert(sizeof(FlatLight) == kLightTexels * sizeof(uvec4));
+static_assert(sizeof(FlatEmitter) == kEmitterTexels * sizeof(uvec4));
+
 }  // namespace
 
 std::uint64_t sizeInBytes(const FlatScene& scene)

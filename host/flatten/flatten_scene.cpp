@@ -134,7 +134,7 @@ FlatScene flattenScene(const Scene& scene, const Bvh& bvh)
                                        [](const Primitive& primitive) { return primitive.smooth; });
     for (const Material& m : scene.materials) {
         flat.materials.push_back({m.baseColor, static_cast<std::uint32_t>(m.scattering), m.emission, m.ior,
-                                  m.doubleSided ? 1U : 0U});
+                                  m.doubleSided ? 1U : 0U, uvec3(0)});
         flat.features.specular = flat.features.specular || m.scattering != Scattering::Lambert;
     }
     const std::vector<const Primitive*> owners = primitiveOfTriangle(scene);

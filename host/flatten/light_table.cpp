@@ -145,7 +145,7 @@ private:
 
     void addEmitter(std::uint32_t record, float areaPdf, AliasEntry alias)
     {
-        flat_.emitters.push_back({record, static_cast<std::uint32_t>(flat_.lights.size()), areaPdf, alias});
+        flat_.emitters.push_back({alias, record, static_cast<std::uint32_t>(flat_.lights.size()), areaPdf, uvec3(0)});
         flat_.records[record * kRecordTexels + 2].w = static_cast<std::uint32_t>(flat_.emitters.size());
         flat_.features.surfaceLights = true;
     }

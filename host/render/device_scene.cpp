@@ -24,9 +24,9 @@ DeviceScene::DeviceScene(Device& device, const FlatScene& scene, const FlatCamer
     : nodes_(uploaded(device, "scene's BVH nodes", BufferKind::Texel, scene.nodes)),
       records_(uploaded(device, "scene's triangles and spheres", BufferKind::Texel, scene.records)),
       normals_(uploaded(device, "scene's normals", BufferKind::Texel, scene.normals)),
-      materials_(uploaded(device, "scene's materials", BufferKind::Storage, scene.materials)),
-      lights_(uploaded(device, "scene's lights", BufferKind::Storage, scene.lights)),
-      emitters_(uploaded(device, "scene's emitters", BufferKind::Storage, scene.emitters)),
+      materials_(uploaded(device, "scene's materials", BufferKind::Texel, scene.materials)),
+      lights_(uploaded(device, "scene's lights", BufferKind::Texel, scene.lights)),
+      emitters_(uploaded(device, "scene's emitters", BufferKind::Texel, scene.emitters)),
       camera_(uploaded(device, "camera's numbers", BufferKind::Storage, std::vector<FlatCamera>{camera}))
 {
 }
@@ -34,8 +34,8 @@ DeviceScene::DeviceScene(Device& device, const FlatScene& scene, const FlatCamer
 std::vector<BindingSlot> DeviceScene::slots()
 {
     return {{kBindNodes, BufferKind::Texel},        {kBindRecords, BufferKind::Texel},
-            {kBindNormals, BufferKind::Texel},      {kBindMaterials, BufferKind::Storage},
-            {kBindLights, BufferKind::Storage},     {kBindEmitters, BufferKind::Storage},
+            {kBindNormals, BufferKind::Texel},      {kBindMaterials, BufferKind::Texel},
+            {kBindLights, BufferKind::Texel},       {kBindEmitters, BufferKind::Texel},
             {kBindCamera, BufferKind::Storage}};
 }
 

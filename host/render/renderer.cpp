@@ -5,7 +5,7 @@
 //   accumulate
 //
 // (size_dispatch' is also the size_dispatch of the next bounce.) A sweep is passes over all pixels for the same few samples
-// of a block. Which pixels share a pass depends on measured time; the samples of a sweep and all sums do not.
+// of a block. Which pixels share a pass depends on measured time; the order of a pixel's samples and all sums do not.
 #include "host/render/renderer.hpp"
 
 #include "kernels.hpp"
@@ -55,12 +55,13 @@ Pass passTemplate(const FlatScene& scene, const RenderSettings& settings)
     return pass;
 }
 
-// As many samples of a block as fit for all pixels at once, a power of two; it must not depend on time.
-std::uint32_t sweepSamples(const RenderSettings& settings)
+// End of the sweep that begins with `sample`: the first block is swept 1, 1, 2, 4, 8 and 16 samples at a time, so that a
+// render that is stopped early covers its picture evenly; later blocks at once, which keeps the rays of a pixel together.
+std::uint32_t sweepEnd(std::uint32_t sample, const RenderSettings& settings)
 {
-    const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
-    const std::uint64_t fit = std::max<std::uint64_t>(1, settings.pathCapacity / pixels);
-    return std::min(kBlockSamples, static_cast<std::uint32_t>(std::bit_floor(fit)));
+    const std::uint32_t done = sample - settings.sampleBegin;
+    const std::uint32_t count = done < kBlockSamples ? std::max(1U, std::bit_floor(done)) : kBlockSamples;
+    return std::min({settings.sampleEnd, (sample / kBlockSamples + 1) * kBlockSamples, sample + count});
 }
 
 std::uint32_t groupsOf(std::uint32_t count, std::uint32_t workgroup) { return (count + workgroup - 1) / workgroup; }
@@ -72,7 +73,7 @@ Kernel Renderer::kernel(const EmbeddedShader& shader) const { return Kernel(layo
 Renderer::Renderer(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
     : device_(device), settings_(settings), specialization_(specialize(scene.features, settings)),
       template_(passTemplate(scene, settings)), fingerprint_(fingerprint(scene, camera)), start_(Clock::now()),
-      samplesPerSweep_(sweepSamples(settings)), pathsPerPass_(std::min(kFirstPassPaths, settings.pathCapacity)),
+      pathsPerPass_(std::min(kFirstPassPaths, settings.pathCapacity)),
       scene_(device, scene, camera), paths_(device, settings.pathCapacity), layout_(device, kernelSlots(), sizeof(Pass)),
       generateRays_(kernel(kernels::generate_rays)), sizeDispatch_(kernel(kernels::size_dispatch)),
       traceClosest_(kernel(kernels::trace_closest)), sampleLights_(kernel(kernels::sample_lights)),
@@ -129,9 +130,9 @@ Film Renderer::render(const RenderObserver& observer)
     std::uint32_t sample = settings_.sampleBegin;
     bool going = true;
     while (going && sample < settings_.sampleEnd) {
-        const std::uint32_t blockEnd = std::min(settings_.sampleEnd, (sample / kBlockSamples + 1) * kBlockSamples);
-        const std::uint32_t end = std::min(blockEnd, sample + static_cast<std::uint32_t>(samplesPerSweep_));
-        going = sweep(sample, end - sample, end == blockEnd, observer);
+        const std::uint32_t end = sweepEnd(sample, settings_);
+        const bool endsBlock = end == settings_.sampleEnd || end % kBlockSamples == 0;
+        going = sweep(sample, end - sample, endsBlock, observer);
         sample = end;
         if (!going) {
             closeBlocks();

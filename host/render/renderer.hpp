@@ -73,7 +73,6 @@ private:
     std::string fingerprint_;
     RenderStatistics statistics_;
     Clock::time_point start_;
-    std::uint64_t samplesPerSweep_ = 1;
     std::uint32_t pathsPerPass_;
 
     DeviceScene scene_;

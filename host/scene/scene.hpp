@@ -1,6 +1,6 @@
-// A scene as plain values: no Vulkan, no glTF. Every position is float32 relative to `origin`, which is the centre of the
-// scene's bounding box in world coordinates (to 1/256 of its extent) and was subtracted in double: far from the world's
-// origin nothing is lost.
+// A scene as plain values: no Vulkan, no glTF. Every position is float32 relative to `origin`, which is the centre of
+// the scene's bounding box in world coordinates (to 1/256 of its extent) and was subtracted in double: far from the
+// world's origin nothing is lost.
 #pragma once
 
 #include <glm/glm.hpp>

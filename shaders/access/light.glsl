@@ -26,7 +26,7 @@ const LightSample kNoLight = LightSample(vec3(0.0), vec3(0.0), 0.0, vec3(0.0), k
 uint chooseLight(uvec2 bits, uint lightCount)
 {
     uint bin = chooseBin(bits.x, lightCount);
-    AliasEntry entry = sceneLights[bin].alias;
+    AliasEntry entry = fetchLight(bin).alias;
     return chooseAlias(bin, entry.threshold, entry.other, bits.y);
 }
 
@@ -52,9 +52,9 @@ float pdfSurfaceLight(FlatEmitter emitter, FlatLight light, vec3 from, float t, 
 LightSample sampleTriangleLight(FlatLight light, vec3 from, uvec2 choice, vec2 u)
 {
     uint bin = chooseBin(choice.x, light.emitterCount);
-    AliasEntry entry = sceneEmitters[light.firstEmitter + bin].alias;
+    AliasEntry entry = fetchEmitter(light.firstEmitter + bin).alias;
     bin = chooseAlias(bin, entry.threshold, entry.other, choice.y);
-    FlatEmitter emitter = sceneEmitters[light.firstEmitter + bin];
+    FlatEmitter emitter = fetchEmitter(light.firstEmitter + bin);
     Record record = fetchRecord(emitter.record);
     vec3 v0 = floatsOf(record.t0);
     vec3 e1 = floatsOf(record.t1) - v0;
@@ -110,7 +110,7 @@ LightSample sampleSphereArea(FlatLight light, FlatEmitter emitter, vec3 from, ve
 
 LightSample sampleSphereLight(FlatLight light, vec3 from, vec2 u)
 {
-    FlatEmitter emitter = sceneEmitters[light.firstEmitter];
+    FlatEmitter emitter = fetchEmitter(light.firstEmitter);
     vec3 outward = from - light.position;
     float sin2;
     if (seesCone(outward, light.radius, sin2)) {
@@ -150,7 +150,7 @@ LightSample sampleEnvironment(FlatLight light, vec3 from, vec3 normal, vec2 u)
 
 LightSample sampleLight(uint index, vec3 from, vec3 normal, uvec2 choice, vec2 u)
 {
-    FlatLight light = sceneLights[index];
+    FlatLight light = fetchLight(index);
     if (kSurfaceLights && light.kind == kTriangleLight) {
         return sampleTriangleLight(light, from, choice, u);
     }

@@ -8,9 +8,9 @@
 layout(set = 0, binding = kBindNodes) uniform usamplerBuffer sceneNodes;
 layout(set = 0, binding = kBindRecords) uniform usamplerBuffer sceneRecords;
 layout(set = 0, binding = kBindNormals) uniform usamplerBuffer sceneNormals;
-layout(set = 0, binding = kBindMaterials, scalar) readonly buffer Materials { FlatMaterial sceneMaterials[]; };
-layout(set = 0, binding = kBindLights, scalar) readonly buffer Lights { FlatLight sceneLights[]; };
-layout(set = 0, binding = kBindEmitters, scalar) readonly buffer Emitters { FlatEmitter sceneEmitters[]; };
+layout(set = 0, binding = kBindMaterials) uniform usamplerBuffer sceneMaterials;
+layout(set = 0, binding = kBindLights) uniform usamplerBuffer sceneLights;
+layout(set = 0, binding = kBindEmitters) uniform usamplerBuffer sceneEmitters;
 layout(set = 0, binding = kBindCamera, scalar) readonly buffer CameraBuffer { FlatCamera sceneCamera; };
 
 // Three texels; scene_types.h says what is in them.
@@ -27,6 +27,35 @@ Record fetchRecord(uint record)
 vec3 floatsOf(uvec4 texel)
 {
     return uintBitsToFloat(texel.xyz);
+}
+
+FlatMaterial fetchMaterial(uint material)
+{
+    int at = int(material * kMaterialTexels);
+    uvec4 a = texelFetch(sceneMaterials, at);
+    uvec4 b = texelFetch(sceneMaterials, at + 1);
+    uvec4 c = texelFetch(sceneMaterials, at + 2);
+    return FlatMaterial(floatsOf(a), a.w, floatsOf(b), uintBitsToFloat(b.w), c.x, c.yzw);
+}
+
+FlatLight fetchLight(uint light)
+{
+    int at = int(light * kLightTexels);
+    uvec4 a = texelFetch(sceneLights, at);
+    uvec4 b = texelFetch(sceneLights, at + 1);
+    uvec4 c = texelFetch(sceneLights, at + 2);
+    uvec4 d = texelFetch(sceneLights, at + 3);
+    uvec4 e = texelFetch(sceneLights, at + 4);
+    return FlatLight(a.x, a.y, a.z, uintBitsToFloat(a.w), floatsOf(b), uintBitsToFloat(b.w), floatsOf(c),
+                     uintBitsToFloat(c.w), floatsOf(d), uintBitsToFloat(d.w), AliasEntry(e.x, e.y), e.z, e.w);
+}
+
+FlatEmitter fetchEmitter(uint emitter)
+{
+    int at = int(emitter * kEmitterTexels);
+    uvec4 a = texelFetch(sceneEmitters, at);
+    uvec4 b = texelFetch(sceneEmitters, at + 1);
+    return FlatEmitter(AliasEntry(a.x, a.y), a.z, a.w, uintBitsToFloat(b.x), b.yzw);
 }
 
 bool isSphere(Record record)

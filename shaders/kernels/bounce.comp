@@ -56,7 +56,7 @@ void visit(uint slot)
     SampleId id = sampleOfSlot(slot);
     vec2 u = unitFloat(samplePair(id, bounceDimension(pass.bounce, kDimensionScatter), kSobol));
     vec2 fate = unitFloat(samplePair(id, bounceDimension(pass.bounce, kDimensionFate), kSobol));
-    Scatter scatter = scatterAt(surface, sceneMaterials[surface.material], -ray.direction, u, fate.x);
+    Scatter scatter = scatterAt(surface, fetchMaterial(surface.material), -ray.direction, u, fate.x);
     vec3 throughput = state.throughput * scatter.weight;
     float etaScale = state.etaScale * scatter.etaScale;
     float survival = survivalProbability(throughput, etaScale, pass.bounce);

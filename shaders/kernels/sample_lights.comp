@@ -22,7 +22,7 @@
 
 vec3 environmentFound(PathState state)
 {
-    float other = sceneLights[pass.environmentLight].probability * pdfCosineHemisphere(state.cosine);
+    float other = fetchLight(pass.environmentLight).probability * pdfCosineHemisphere(state.cosine);
     return pass.environment * (state.pdf > 0.0 ? weightPower(state.pdf, other) : 1.0);
 }
 
@@ -34,9 +34,9 @@ vec3 emissionFound(PathRay ray, PathHit hit, PathState state, Surface surface, F
     if (!(state.pdf > 0.0)) {
         return material.emission;
     }
-    FlatEmitter emitter = sceneEmitters[surface.emitter - 1u];
+    FlatEmitter emitter = fetchEmitter(surface.emitter - 1u);
     float cosine = abs(dot(surface.geometric, ray.direction));
-    float other = pdfSurfaceLight(emitter, sceneLights[emitter.light], ray.origin, hit.t, cosine);
+    float other = pdfSurfaceLight(emitter, fetchLight(emitter.light), ray.origin, hit.t, cosine);
     return material.emission * weightPower(state.pdf, other);
 }
 
@@ -81,7 +81,7 @@ void visit(uint slot)
         return;
     }
     Surface surface = surfaceAt(ray, hit);
-    FlatMaterial material = sceneMaterials[surface.material];
+    FlatMaterial material = fetchMaterial(surface.material);
     if (pass.bounce == 0u) {
         float depth = dot(surface.point - sceneCamera.position, sceneCamera.forward);
         pathFirstHits[slot] = FirstHit(material.baseColor, 1.0, surface.shading, depth);

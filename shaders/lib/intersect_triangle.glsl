@@ -34,7 +34,7 @@ Shear makeShear(vec3 d)
 
 // Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013, without the double fallback: rounding is
 // monotone, so the sign of a*b - c*d is right or zero, two triangles compute negated values for their common edge, and zero
-// counts as inside. Double hits on edges are left to the caller's tie rule. Hits need 0 < t < tmax.
+// counts as inside. Double hits on edges are left to the caller's tie rule. Hits need 0 < t <= tmax.
 TriangleHit intersectWatertight(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v2, float tmax)
 {
     vec3 a = permute(v0 - origin, shear.axis, shear.flip);

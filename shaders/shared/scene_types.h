@@ -25,12 +25,19 @@ GLIM_CONST uint kLambert = 0u;
 GLIM_CONST uint kMirror = 1u;
 GLIM_CONST uint kGlass = 2u;
 
+// Materials, lights and emitters are read as texels too (scene.glsl): a storage buffer's load costs llvmpipe as much for one
+// word as a texel's four. Hence their sizes in whole texels and vec3s that share one with a scalar.
+GLIM_CONST uint kMaterialTexels = 3u;
+GLIM_CONST uint kLightTexels = 5u;
+GLIM_CONST uint kEmitterTexels = 2u;
+
 struct FlatMaterial {
     vec3 baseColor;
     uint scattering;   // kLambert, kMirror, kGlass
     vec3 emission;     // radiance, W/(sr m^2)
     float ior;
     uint doubleSided;  // 1: emits from both sides
+    uvec3 unused;
 };
 
 GLIM_CONST uint kTriangleLight = 0u;  // all emissive triangles of one primitive, chosen by area
@@ -49,25 +56,27 @@ struct AliasEntry {
 
 struct FlatLight {
     uint kind;
-    uint firstEmitter;     // triangles and sphere: its emitters [firstEmitter, firstEmitter + emitterCount)
+    uint firstEmitter;   // triangles and sphere: its emitters [firstEmitter, firstEmitter + emitterCount)
     uint emitterCount;
-    float probability;     // with which the alias table as implemented chooses this light
+    float probability;   // with which the alias table as implemented chooses this light
+    vec3 position;       // sphere: centre; point, spot
+    float radius;        // sphere
+    vec3 direction;      // spot, directional: unit, the way light travels
+    float cosInner;      // spot
+    vec3 intensity;      // radiance of surfaces and environment; W/sr of point and spot; W/m^2 of directional
+    float cosOuter;      // spot
     AliasEntry alias;
-    vec3 position;         // sphere: centre; point, spot
-    float radius;          // sphere
-    vec3 direction;        // spot, directional: unit, the way light travels
-    float cosInner;        // spot
-    vec3 intensity;        // radiance of surfaces and environment; W/sr of point and spot; W/m^2 of directional
-    float cosOuter;        // spot
     uint doubleSided;
+    uint unused;
 };
 
 // A record that emits.
 struct FlatEmitter {
+    AliasEntry alias;  // among its light's emitters, indices relative to firstEmitter
     uint record;
     uint light;
     float areaPdf;     // of a point on it, per m^2, once its light is chosen; as the alias table implements it
-    AliasEntry alias;  // among its light's emitters, indices relative to firstEmitter
+    uvec3 unused;
 };
 
 GLIM_CONST uint kPerspective = 0u;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -118,7 +119,8 @@ TEST(SharedScenes, ScansAndArenaLoad)
         {"CBelephant89k", 88940}, {"CBnefertiti", 99950},     {"beast", 64618},    {"bunny69k", 69451}};
     for (const auto& [name, count] : triangles) {
         const fs::path arena = root / "arena" / (name + ".glb");
-        EXPECT_EQ(loadGltf(fs::exists(arena) ? arena : root / "scans" / (name + ".glb")).triangles.size(), count) << name;
+        const fs::path file = fs::exists(arena) ? arena : root / "scans" / (name + ".glb");
+        EXPECT_EQ(loadGltf(file).triangles.size(), count) << name;
     }
 }
 

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
+#include <algorithm>
+#include <limits>
+#include <utility>
 
 namespace glim::test {
 namespace {
@@ -37,7 +39,9 @@ void expectIntegers(int componentType, bool normalized, double one)
     builder.document["bufferViews"][0]["byteStride"] = kStride * sizeof(Component);
     builder.document["accessors"][accessor]["normalized"] = normalized;
     const Scene scene = loadPositions(builder, accessor);
-    const auto expected = [&](double value) { return static_cast<float>(normalized ? std::max(value / one, -1.0) : value); };
+    const auto expected = [&](double value) {
+        return static_cast<float>(normalized ? std::max(value / one, -1.0) : value);
+    };
     const auto width = static_cast<float>(expected(high) - expected(low));
     EXPECT_FLOAT_EQ(vertex(scene, 0, 1).x - vertex(scene, 0, 0).x, width);
     EXPECT_NEAR(vertex(scene, 0, 0).x, expected(low), 1e-6F * width);

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace glim::test {
 namespace {
@@ -78,6 +80,17 @@ TEST(LoadGltf, ComposesMatrixAndTrsAlike)
         EXPECT_LT(glm::length(vertex(scene, 0, 1) - glm::vec3(1, 4, 3)), 1e-6F);
         EXPECT_LT(glm::length(vertex(scene, 0, 2) - glm::vec3(-2, 2, 3)), 1e-6F);
     }
+}
+
+TEST(LoadGltf, QuaternionsTurnCounterClockwiseAboutTheirAxis)
+{
+    // 120 degrees about (1,1,1) takes x to y to z; given twice as long as a unit quaternion.
+    const Scene scene = load(oneTriangle({{"rotation", {1, 1, 1, 1}}}));
+    EXPECT_LT(glm::length(vertex(scene, 0, 1) - glm::vec3(0, 1, 0)), 1e-6F);
+    EXPECT_LT(glm::length(vertex(scene, 0, 2) - glm::vec3(0, 0, 1)), 1e-6F);
+    // 90 degrees about x takes y to z.
+    const Scene tipped = load(oneTriangle({{"rotation", {std::sqrt(0.5), 0, 0, std::sqrt(0.5)}}}));
+    EXPECT_LT(glm::length(vertex(tipped, 0, 2) - glm::vec3(0, 0, 1)), 1e-6F);
 }
 
 TEST(LoadGltf, AppliesParentsAfterChildren)

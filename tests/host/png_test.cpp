@@ -1,9 +1,9 @@
 #include "host/error.hpp"
 #include "host/image/png.hpp"
+#include "tests/support/decode_png.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include <array>
 #include <cmath>
@@ -14,7 +14,8 @@ namespace {
 
 using test::ScratchFolder;
 using test::bytesOfFile;
-using Rgb = std::array<int, 3>;
+using test::Rgb;
+using test::decodePng;
 
 Image makeImage(const std::vector<std::array<float, 3>>& pixels, std::uint32_t width)
 {
@@ -27,21 +28,6 @@ Image makeImage(const std::vector<std::array<float, 3>>& pixels, std::uint32_t w
         image.channels["B"].push_back(pixel[2]);
     }
     return image;
-}
-
-std::vector<Rgb> decode(const std::filesystem::path& path)
-{
-    png_image png{};
-    png.version = PNG_IMAGE_VERSION;
-    EXPECT_NE(png_image_begin_read_from_file(&png, path.c_str()), 0) << png.message;
-    EXPECT_EQ(png.format, PNG_FORMAT_RGB + 0U);  // 8 bits, no alpha, sRGB
-    std::vector<png_byte> bytes(PNG_IMAGE_SIZE(png));
-    EXPECT_NE(png_image_finish_read(&png, nullptr, bytes.data(), 0, nullptr), 0) << png.message;
-    std::vector<Rgb> pixels;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        pixels.push_back({bytes[i], bytes[i + 1], bytes[i + 2]});
-    }
-    return pixels;
 }
 
 // Published pairs of the sRGB curve, and its inverse: each byte is nearest to the light it stands for.
@@ -66,10 +52,10 @@ TEST(Png, HoldsTheExposedPixelsFromTheTopLeft)
     const Image image = makeImage(
         {{0, 0, 0}, {0.25F, 0, 0}, {0, 0.25F, 0}, {0, 0, 0.25F}, {0.09F, 0.09F, 0.09F}, {9, 1, -1}}, 3);
     writePng(folder / "a.png", image, 1.0);
-    EXPECT_EQ(decode(folder / "a.png"),
+    EXPECT_EQ(decodePng(folder / "a.png"),
               (std::vector<Rgb>{{0, 0, 0}, {188, 0, 0}, {0, 188, 0}, {0, 0, 188}, {118, 118, 118}, {255, 255, 0}}));
     writePng(folder / "b.png", image, -1.0);
-    EXPECT_EQ(decode(folder / "b.png")[1], (Rgb{srgbByte(0.125), 0, 0}));
+    EXPECT_EQ(decodePng(folder / "b.png")[1], (Rgb{srgbByte(0.125), 0, 0}));
     EXPECT_EQ(folder.entries(), 2);
 }
 
@@ -79,7 +65,7 @@ TEST(Png, ShowsNonFinitePixelsInMagenta)
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
     writePng(folder / "a.png", makeImage({{nan, 0, 0}, {0, infinity, 0}, {0, 0, -infinity}, {1, 1, 1}}, 2), 0.0);
     const Rgb magenta{255, 0, 255};
-    EXPECT_EQ(decode(folder / "a.png"), (std::vector<Rgb>{magenta, magenta, magenta, {255, 255, 255}}));
+    EXPECT_EQ(decodePng(folder / "a.png"), (std::vector<Rgb>{magenta, magenta, magenta, {255, 255, 255}}));
 }
 
 TEST(Png, TheSameImageGivesTheSameBytes)

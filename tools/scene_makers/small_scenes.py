@@ -9,10 +9,10 @@ from .shapes import block, brilliant, icosahedron, rest_on_face, turn
 WHITE, RED, GREEN = (0.73, 0.73, 0.71), (0.63, 0.065, 0.05), (0.14, 0.45, 0.091)
 
 
-def cornell_room(document, light=0.5, radiance=(18.0, 14.5, 9.5)):
+def cornell_room(document, light=0.5, radiance=(22.0, 19.0, 14.0)):
     """Two metres wide, open to the camera; the light hangs 1 cm below the ceiling and shines down."""
     white, red, green = (document.material(*m) for m in (("white", WHITE), ("red", RED), ("green", GREEN)))
-    document.camera("front", (0.0, 1.0, 3.95), (0.0, 1.0, 0.0), 39.0, 1.0)
+    document.camera("front", (0.0, 1.0, 3.95), (0.0, 1.0, 0.0), 37.4, 1.0)
     document.quad("floor", [[-1, 0, 1], [1, 0, 1], [1, 0, -1], [-1, 0, -1]], white)
     document.quad("ceiling", [[-1, 2, -1], [1, 2, -1], [1, 2, 1], [-1, 2, 1]], white)
     document.quad("back", [[-1, 0, -1], [1, 0, -1], [1, 2, -1], [-1, 2, -1]], white)
@@ -52,7 +52,7 @@ def cornell_mirror_glass():
 
 def cornell_gems():
     document = Document()
-    cornell_room(document, light=0.7, radiance=(14.0, 12.5, 10.5))
+    cornell_room(document, light=0.7, radiance=(12.0, 11.0, 9.5))
     stones = (("diamond", brilliant(8), -1, 0.46, -12.0, (-0.4, 0.0, -0.1), (0.98, 0.98, 0.98), 2.4),
               ("sapphire", icosahedron(), 0, 0.33, 25.0, (0.46, 0.0, -0.3), (0.45, 0.62, 0.95), 1.77),
               ("emerald", brilliant(6), -1, 0.3, 40.0, (0.32, 0.0, 0.5), (0.5, 0.92, 0.62), 1.58))
@@ -134,7 +134,7 @@ def many_lights():
         place = (1.7 * (i % 3 - 1), 0.0, 1.7 * (i // 3 - 1))
         document.shape("block %d" % i, turn(points, 20.0 * i, place), indices, stone)
     colors = [colorsys.hsv_to_rgb(i / 16.0, 0.65, 1.0) for i in range(16)]
-    lamps = [document.material("lamp %d" % i, emission=[40.0 * c for c in color], double_sided=True)
+    lamps = [document.material("lamp %d" % i, emission=[15.0 * c for c in color], double_sided=True)
              for i, color in enumerate(colors)]
     h = 0.025
     square = [[-h, 0, -h], [h, 0, -h], [h, 0, h], [-h, 0, h]]

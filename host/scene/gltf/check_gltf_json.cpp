@@ -110,7 +110,8 @@ private:
     bool isRight(const SchemaRule& rule, const json& value) const
     {
         switch (rule.kind) {
-        case JsonKind::Index: return value.is_number_unsigned() && value.get<std::uint64_t>() < computeSize(rule.target);
+        case JsonKind::Index:
+            return value.is_number_unsigned() && value.get<std::uint64_t>() < computeSize(rule.target);
         case JsonKind::Whole: return value.is_number_integer() && isInRange(rule, value);
         case JsonKind::Number: return isInRange(rule, value);
         case JsonKind::Numbers: return value.is_array() && value.size() == rule.count;

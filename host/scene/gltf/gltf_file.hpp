@@ -1,4 +1,5 @@
-// A glTF file whose JSON has been checked and whose buffers are in memory: what every reader in this folder starts from.
+// A glTF file whose JSON has been checked and whose buffers are in memory: what every reader in this folder starts
+// from.
 #pragma once
 
 #include <tiny_gltf.h>

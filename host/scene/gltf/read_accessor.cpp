@@ -191,9 +191,10 @@ std::vector<glm::dvec3> readVec3(const GltfFile& file, std::size_t accessor, con
 {
     const std::string place = placeOf(accessor, use);
     checkAccessor(file, accessor, TINYGLTF_TYPE_VEC3, "VEC3", place);
-    return readElements<glm::dvec3>(file, accessor, 3, place, [](const Decoder& decoder, const unsigned char* bytes) {
+    const auto convert = [](const Decoder& decoder, const unsigned char* bytes) {
         return glm::dvec3(decoder(bytes, 0), decoder(bytes, 1), decoder(bytes, 2));
-    });
+    };
+    return readElements<glm::dvec3>(file, accessor, 3, place, convert);
 }
 
 std::vector<std::uint32_t> readIndices(const GltfFile& file, std::size_t accessor, const std::string& use)
@@ -201,9 +202,10 @@ std::vector<std::uint32_t> readIndices(const GltfFile& file, std::size_t accesso
     const std::string place = placeOf(accessor, use);
     checkAccessor(file, accessor, TINYGLTF_TYPE_SCALAR, "SCALAR", place);
     checkIndexType(file, file.model.accessors[accessor].componentType, place);
-    return readElements<std::uint32_t>(file, accessor, 1, place, [](const Decoder& decoder, const unsigned char* bytes) {
+    const auto convert = [](const Decoder& decoder, const unsigned char* bytes) {
         return static_cast<std::uint32_t>(decoder(bytes, 0));
-    });
+    };
+    return readElements<std::uint32_t>(file, accessor, 1, place, convert);
 }
 
 }  // namespace glim

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cctype>
 #include <sstream>
 
 namespace glim {
@@ -63,7 +64,8 @@ std::vector<std::vector<unsigned char>> readBuffers(const std::string& path, con
         std::vector<unsigned char> bytes;
         if (!entry.contains("uri")) {
             if (!buffers.empty() || !container.binary) {
-                throw InputError(path + ": " + place + " has no uri; expected one in all but the first buffer of a .glb");
+                throw InputError(path + ": " + place +
+                                 " has no uri; expected one in all but the first buffer of a .glb");
             }
             bytes = std::move(*container.binary);
         } else {

@@ -143,7 +143,8 @@ tinygltf::Material makeDefaultMaterial()
 
 MaterialReading readMaterial(const GltfFile& file, int index)
 {
-    const tinygltf::Material source = index < 0 ? makeDefaultMaterial() : file.model.materials[static_cast<std::size_t>(index)];
+    const tinygltf::Material source =
+        index < 0 ? makeDefaultMaterial() : file.model.materials[static_cast<std::size_t>(index)];
     const std::string place = index < 0 ? "the default material" : label("materials", index, source.name);
     const std::vector<double>& color = source.pbrMetallicRoughness.baseColorFactor;
     const std::vector<double>& emissive = source.emissiveFactor;

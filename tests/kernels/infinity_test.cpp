@@ -1,0 +1,12 @@
+#include "test_kernels.hpp"
+#include "tests/support/kernel_test.hpp"
+
+#include <gtest/gtest.h>
+
+namespace glim {
+namespace {
+
+TEST(InfinityTest, IsInfinite) { KernelTest(test_kernels::infinity_test).threads(1).run(); }
+
+}  // namespace
+}  // namespace glim

@@ -1,0 +1,220 @@
+#include "shaders/shared/vocabulary.h"
+#include "test_kernels.hpp"
+#include "tests/support/kernel_test.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/statistics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+#include <limits>
+
+namespace glim {
+namespace {
+
+enum Verdict : std::uint32_t { Miss = 0, Hit = 1, Either = 2 };
+
+struct Case {
+    vec3 origin, direction, v0, v1, v2;
+    float tmax;
+    std::uint32_t verdict = Either;
+    std::uint32_t fat = 0;
+    float t = -1.0F, tTolerance = 0.0F;
+    vec2 barycentric{0.0F};
+    float barycentricTolerance = 0.0F;
+};
+
+constexpr double kUnit = 0x1p-24;  // relative rounding error of one float operation
+
+// A triangle's corner in the plane that a ray's direction is projected out of, and how far rounding may move it: difference
+// and subtraction 1 unit each on both terms, a division of 2.5 ulp and a product on the second.
+struct Projected {
+    glm::dvec2 p, error;
+    double along;
+};
+
+Projected project(const vec3& v, const Case& c, int axis)
+{
+    const glm::dvec3 a = glm::dvec3(v) - glm::dvec3(c.origin), d(c.direction);
+    Projected projected{};
+    projected.along = a[axis];
+    for (int k = 0; k < 2; ++k) {
+        const int j = (axis + 1 + k) % 3;
+        const double shear = d[j] / d[axis] * a[axis];
+        projected.p[k] = a[j] - shear;
+        projected.error[k] = kUnit * (2.0 * std::abs(a[j]) + 8.0 * std::abs(shear));
+    }
+    return projected;
+}
+
+struct EdgeFunction {
+    double value, error;
+};
+
+EdgeFunction edgeFunction(const Projected& a, const Projected& b)
+{
+    const auto product = [](double x, double ex, double y, double ey) {
+        return (std::abs(x) + ex) * (std::abs(y) + ey) * (1.0 + 2.0 * kUnit) - std::abs(x * y);
+    };
+    return {a.p.x * b.p.y - a.p.y * b.p.x,
+            product(a.p.x, a.error.x, b.p.y, b.error.y) + product(a.p.y, a.error.y, b.p.x, b.error.x)};
+}
+
+// The truth by volumes in double, with bounds on what rounding may do to a float32 evaluation of Woop's formulas.
+void judge(Case& c)
+{
+    const glm::dvec3 size = glm::abs(glm::dvec3(c.direction));
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const Projected v[3] = {project(c.v0, c, axis), project(c.v1, c, axis), project(c.v2, c, axis)};
+    double sum = 0.0, sumError = 0.0, depth = 0.0, depthError = 0.0;
+    bool someClearlyAbove = false, someClearlyBelow = false, allClear = true;
+    EdgeFunction e[3];
+    for (int i = 0; i < 3; ++i) {
+        e[i] = edgeFunction(v[(i + 1) % 3], v[(i + 2) % 3]);
+        sum += e[i].value;
+        sumError += e[i].error + 2.0 * kUnit * std::abs(e[i].value);
+        depth += e[i].value * v[i].along;
+        depthError += (e[i].error + 5.0 * kUnit * std::abs(e[i].value)) * std::abs(v[i].along);
+        someClearlyAbove = someClearlyAbove || e[i].value > e[i].error;
+        someClearlyBelow = someClearlyBelow || e[i].value < -e[i].error;
+        allClear = allClear && std::abs(e[i].value) > e[i].error;
+    }
+    if (someClearlyAbove && someClearlyBelow) {
+        c.verdict = Miss;
+        return;
+    }
+    if (!allClear || std::abs(sum) <= 1.5 * sumError) {
+        return;
+    }
+    const double safe = std::abs(sum) - sumError;
+    const double t = depth / sum / static_cast<double>(c.direction[axis]);
+    const double tError = depthError / safe / size[axis] + std::abs(t) * (sumError / safe + 12.0 * kUnit);
+    if (std::abs(t) <= tError || std::abs(t - static_cast<double>(c.tmax)) <= tError) {
+        return;
+    }
+    c.verdict = t > 0.0 && t <= static_cast<double>(c.tmax) ? Hit : Miss;
+    c.t = static_cast<float>(t);
+    c.tTolerance = static_cast<float>(tError);
+    c.barycentric = {e[1].value / sum, e[2].value / sum};
+    c.barycentricTolerance = static_cast<float>(2.0 * (sumError / safe + 6.0 * kUnit));
+}
+
+glm::dvec3 rayDirection(Random& random)
+{
+    glm::dvec3 d = random.direction();
+    if (random.below(4) == 0) {
+        d = glm::dvec3(0.0);
+        d[static_cast<int>(random.below(3))] = random.below(2) == 0 ? 1.0 : -1.0;
+        return random.below(2) == 0 ? d : -d;  // with zeros of either sign
+    }
+    return d;
+}
+
+// Where Moller and Trumbore's ten roundings, each relative to |e1| |e2| |origin - v0|, stay below 1e-5 of t.
+bool isFat(const Case& c)
+{
+    const glm::dvec3 e1(c.v1 - c.v0), e2(c.v2 - c.v0);
+    const double sides = glm::length(e1) * glm::length(e2), apart = std::max(glm::length(e1), glm::length(e2));
+    const float least = std::min({1.0F - c.barycentric.x - c.barycentric.y, c.barycentric.x, c.barycentric.y});
+    return c.verdict == Hit && least > 1e-3F && static_cast<double>(c.t) > apart && static_cast<double>(c.t) < 10.0 * apart &&
+           sides > 0.2 * apart * apart && std::abs(glm::dot(glm::cross(e1, e2), glm::dvec3(c.direction))) > 0.2 * sides;
+}
+
+// A ray at point b0 v0 + b1 v1 + b2 v2, which lies outside about as often as inside.
+void aim(Case& c, Random& random, double scale)
+{
+    const double b1 = random.uniform(-0.4, 1.1), b2 = random.uniform(-0.4, 1.1 - b1);
+    const glm::dvec3 target = glm::dvec3(c.v0) * (1.0 - b1 - b2) + glm::dvec3(c.v1) * b1 + glm::dvec3(c.v2) * b2;
+    const glm::dvec3 d = rayDirection(random);
+    const double distance = scale * random.logUniform(1e-2, 1e2);
+    c.origin = target - d * distance;
+    c.direction = d;
+    const std::uint32_t reach = random.below(3);
+    c.tmax = reach == 0 ? std::numeric_limits<float>::infinity() : static_cast<float>(distance * (reach == 1 ? 1.5 : 0.7));
+    judge(c);
+    c.fat = isFat(c) ? 1 : 0;
+}
+
+void runCases(const std::string& what, const std::vector<Case>& cases)
+{
+    const auto count = [&cases](std::uint32_t verdict) {
+        return std::count_if(cases.begin(), cases.end(), [verdict](const Case& c) { return c.verdict == verdict; });
+    };
+    std::cout << "  " << what << ": " << count(Hit) << " hits, " << count(Miss) << " misses, " << count(Either)
+              << " that rounding may decide\n";
+    EXPECT_GT(count(Hit), 100) << what;
+    EXPECT_GT(count(Miss), 100) << what;
+    KernelTest(test_kernels::intersect_triangle_test).cases(cases).run();
+}
+
+std::vector<Case> ordinaryCases(Random& random, double scale, double shift)
+{
+    std::vector<Case> cases(100000);
+    for (Case& c : cases) {
+        const glm::dvec3 center = scale * shift * random.direction();
+        c.v0 = center + scale * random.normalVector();
+        c.v1 = center + scale * random.normalVector();
+        c.v2 = center + scale * random.normalVector();
+        aim(c, random, scale);
+    }
+    return cases;
+}
+
+TEST(IntersectTriangleTest, AgreesWithDoubleAtAnyScaleAndPlace)
+{
+    for (int round = 0; round < testRounds(); ++round) {
+        for (const double scale : {1e-4, 1.0, 1e5}) {
+            for (const double shift : {0.0, 1e4}) {
+                Random random(static_cast<std::uint64_t>(round) * 97 + 1);
+                const std::string what = "scale " + std::to_string(scale) + " shift " + std::to_string(shift);
+                runCases(what, ordinaryCases(random, scale, shift));
+            }
+        }
+    }
+}
+
+// H2: aspect ratios of 1 to 1e8.
+TEST(IntersectTriangleTest, SliversAgreeWithDouble)
+{
+    for (int round = 0; round < testRounds(); ++round) {
+        Random random(static_cast<std::uint64_t>(round) * 97 + 2);
+        for (int part = 0; part < 2; ++part) {
+            std::vector<Case> cases(500000);
+            for (Case& c : cases) {
+                const glm::dvec3 v0 = random.normalVector(), v1 = random.normalVector();
+                c.v0 = v0;
+                c.v1 = v1;
+                c.v2 = glm::mix(v0, v1, random.uniform(-0.2, 1.2)) + random.normalVector() / random.logUniform(1.0, 1e8);
+                aim(c, random, 1.0);
+            }
+            runCases("slivers", cases);
+        }
+    }
+}
+
+// H2: coincident and collinear corners, and sizes whose products leave float's normal range. Only the outputs' being
+// numbers, and in range, is at stake (the kernel checks it for every case); beyond 1e-9 to 1e10 the third powers of distances
+// leave the range, and hits may be lost.
+TEST(IntersectTriangleTest, DegenerateTrianglesGiveNoNan)
+{
+    Random random(3);
+    std::vector<Case> cases(200000);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        Case& c = cases[i];
+        const double scale = i % 5 == 4 ? random.logUniform(1e-22, 1e15) : 1.0;
+        c.v0 = scale * random.normalVector();
+        c.v1 = i % 5 == 0 ? c.v0 : vec3(scale * random.normalVector());
+        c.v2 = i % 5 <= 1 ? c.v1 : i % 5 == 2 ? 2.0F * c.v1 - c.v0 : i % 5 == 3 ? c.v0 + 2.0F * (c.v1 - c.v0)
+                                                                     : vec3(scale * random.normalVector());
+        aim(c, random, scale);
+        if (scale < 1e-9 || scale > 1e10) {
+            c.verdict = Either;
+            c.fat = 0;
+        }
+    }
+    runCases("degenerate", cases);
+}
+
+}  // namespace
+}  // namespace glim

@@ -1,0 +1,40 @@
+#include "test_kernels.hpp"
+#include "tests/support/kernel_test.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace glim {
+namespace {
+
+struct Case {
+    float f, g;
+    float weight;
+};
+
+// H22: f^2 / (f^2 + g^2) in long double, over values whose squares leave float's range.
+TEST(MisTest, H22PowerHeuristicNeverOverflows)
+{
+    const float infinity = std::numeric_limits<float>::infinity();
+    std::vector<Case> cases;
+    for (const float f : {0.0F, 1e-38F, 1e-20F, 0.3F, 1.0F, 7.0F, 1e19F, 1e30F, 3.4028235e38F, infinity}) {
+        for (const float g : {0.0F, 1e-38F, 1e-20F, 0.3F, 1.0F, 7.0F, 1e19F, 1e30F, 3.4028235e38F, infinity}) {
+            const long double a = f, b = g;
+            long double weight = a * a / (a * a + b * b);
+            if (f == 0.0F) {
+                weight = 0.0L;
+            } else if (std::isinf(f)) {
+                weight = std::isinf(g) ? 0.5L : 1.0L;
+            } else if (std::isinf(g)) {
+                weight = 0.0L;
+            }
+            cases.push_back({f, g, static_cast<float>(weight)});
+        }
+    }
+    KernelTest(test_kernels::mis_test).cases(cases).run();
+}
+
+}  // namespace
+}  // namespace glim

@@ -1,0 +1,28 @@
+// One thread is one path about to play.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "expect.glsl"
+#include "lib/roulette.glsl"
+
+struct Case {
+    vec3 throughput;
+    float etaScale;
+    uint bounce;
+    float survival;
+};
+
+layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
+
+void main()
+{
+    if (isTestThread()) {
+        Case c = cases[TEST_THREAD];
+        float survival = survivalProbability(c.throughput, c.etaScale, c.bounce);
+        EXPECT_CLOSE(survival, c.survival, 2e-7);
+        // H24: the weight after roulette never exceeds the larger of 1 and the weight before.
+        vec3 after = c.throughput / survival * c.etaScale;
+        vec3 before = c.throughput * c.etaScale;
+        EXPECT_TRUE(max(after.r, max(after.g, after.b)) <= 1.000001 * max(1.0, max(before.r, max(before.g, before.b))));
+    }
+    endTest();
+}

@@ -1,0 +1,220 @@
+// The command line refuses before it works, says why in one sentence and leaves nothing behind.
+#include "tests/support/run_glim.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+namespace glim::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Arguments = std::vector<std::string>;
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// One line "glim: ..." on stderr that contains `part`, nothing on stdout.
+void expectSentence(const GlimRun& run, int exitCode, const std::string& part)
+{
+    EXPECT_EQ(run.exitCode, exitCode) << run.err;
+    EXPECT_EQ(run.err.rfind("glim: ", 0), 0U) << run.err;
+    EXPECT_TRUE(contains(run.err, part)) << run.err << "lacks: " << part;
+    EXPECT_EQ(countLines(run.err), 1U) << run.err;
+    EXPECT_EQ(run.out, "");
+}
+
+// A mistake in the command itself: a second line points to --help.
+void expectUsage(const GlimRun& run, const std::string& part)
+{
+    EXPECT_EQ(run.exitCode, 2) << run.err;
+    EXPECT_EQ(run.err.rfind("glim: ", 0), 0U) << run.err;
+    EXPECT_TRUE(contains(run.err, part)) << run.err << "lacks: " << part;
+    EXPECT_TRUE(contains(run.err, "\nRun with --help")) << run.err;
+    EXPECT_EQ(countLines(run.err), 2U) << run.err;
+    EXPECT_EQ(run.out, "");
+}
+
+TEST(CommandLineTest, VersionNamesCommitAndBuild)
+{
+    const GlimRun run = runGlim({"--version"});
+    EXPECT_EQ(run.exitCode, 0);
+    EXPECT_EQ(run.out.rfind("glim ", 0), 0U) << run.out;
+    EXPECT_TRUE(contains(run.out, "(commit ")) << run.out;
+    EXPECT_TRUE(contains(run.out, " build)")) << run.out;
+    EXPECT_EQ(countLines(run.out), 1U);
+    EXPECT_EQ(run.err, "");
+}
+
+TEST(CommandLineTest, HelpListsEveryOptionWithUnitRangeAndDefault)
+{
+    const std::vector<std::pair<std::string, Arguments>> expected{
+        {"render",
+         {"--output OUT.exr", "--png P.png", "--size WxH", "1 to 65535 [512 high", "--camera NAME|INDEX", "camera of the file [0]",
+          "--scene INDEX", "[its default one]", "--environment R,G,B", "W/(sr m^2), each >= 0", "[none]", "--exposure EV",
+          "-100 to 100 [0]", "--spp N", "1 to 2147483648 [64]", "--time SECONDS", "0.001 to 1e+09 [off]",
+          "--samples BEGIN:END", "0 to 2147483648 [0:64]", "--bounces N", "0 to 1000000 [64]", "--seed N",
+          "0 to 4294967295 [0]", "--sampler S", "or independent [sobol]", "--intersector I", "[watertight]",
+          "--clamp-indirect X", "1e-30 to 1e+30 [off]", "--device D", "[the first usable one]", "--stats S.json",
+          "--progress STYLE", "[bar on a terminal]"}},
+        {"inspect", {"scene SCENE", "--scene INDEX", "--json"}},
+        {"devices", {"--json"}},
+        {"compare", {"picture A.exr", "reference B.exr", "--variance V.exr", "--diff D.exr", "--json"}},
+        {"merge", {"films A.exr", "--output C.exr", "--png C.png", "--exposure EV", "-100 to 100 [0]"}}};
+    const GlimRun all = runGlim({"--help"});
+    EXPECT_TRUE(contains(all.out, "Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 130 or 143 interrupted"));
+    for (const auto& [command, parts] : expected) {
+        EXPECT_TRUE(contains(all.out, "  " + command + " ")) << command;
+        const GlimRun run = runGlim({command, "--help"});
+        EXPECT_EQ(run.exitCode, 0);
+        EXPECT_EQ(run.err, "");
+        for (const std::string& part : parts) {
+            EXPECT_TRUE(contains(run.out, part)) << command << " --help lacks: " << part;
+        }
+    }
+}
+
+TEST(CommandLineTest, CommandsAndOptionsThatDoNotExist)
+{
+    expectUsage(runGlim(Arguments{}), "subcommand is required");
+    expectUsage(runGlim({"rendre", "x.gltf"}), "\"rendre\" was not expected");
+    expectUsage(runGlim({"render", "--fast"}), "\"--fast\" was not expected");
+    expectUsage(runGlim({"render", "x.gltf", "-o", "x.exr", "y.gltf"}), "\"y.gltf\" was not expected");
+    expectUsage(runGlim({"render"}), "scene is required");
+    expectUsage(runGlim({"render", "x.gltf"}), "--output is required");
+    expectUsage(runGlim({"merge", "x.exr"}), "--output is required");
+    expectUsage(runGlim({"compare", "x.exr"}), "reference is required");
+}
+
+TEST(CommandLineTest, NonsenseValuesAreUsageErrorsBeforeAnyWork)
+{
+    const ScratchFolder folder;
+    const std::string whole = "expected a whole number from ", number = "expected a number from ";
+    const std::vector<std::pair<Arguments, std::string>> cases{
+        {{"--spp", "0"}, "--spp: \"0\": " + whole + "1 to 2147483648"},
+        {{"--spp", "1.5"}, whole},
+        {{"--spp", "0x10"}, whole},
+        {{"--spp", "2147483649"}, whole},
+        {{"--spp", "1", "--spp", "2"}, "--spp"},
+        {{"--spp", "4", "--time", "1"}, "--spp excludes --time"},
+        {{"--spp", "4", "--samples", "0:4"}, "--spp excludes --samples"},
+        {{"--time", "nan"}, "--time: \"nan\": " + number},
+        {{"--time", "0"}, number},
+        {{"--exposure", "nan"}, "--exposure: \"nan\": " + number + "-100 to 100"},
+        {{"--clamp-indirect", "nan"}, number},
+        {{"--clamp-indirect", "0"}, number},
+        {{"--seed", "-1"}, "--seed: \"-1\": " + whole + "0 to 4294967295"},
+        {{"--seed", "4294967296"}, whole},
+        {{"--bounces", "-1"}, whole},
+        {{"--scene", "-1"}, whole},
+        {{"--size", "0x5"}, "--size: \"0x5\": expected WIDTHxHEIGHT"},
+        {{"--size", "64"}, "expected WIDTHxHEIGHT"},
+        {{"--size", "70000x1"}, "each 1 to 65535"},
+        {{"--samples", "7:5"}, "--samples: \"7:5\": expected BEGIN:END"},
+        {{"--samples", "0:2147483649"}, "END <= 2147483648"},
+        {{"--environment", "sky.hdr"}, "--environment: \"sky.hdr\": expected a constant radiance as r,g,b"},
+        {{"--environment", "1,-1,0"}, "numbers >= 0"},
+        {{"--environment", "1,inf,0"}, "numbers >= 0"},
+        {{"--sampler", "halton"}, "--sampler: \"halton\": expected sobol or independent"},
+        {{"--intersector", "fast"}, "expected watertight or moller-trumbore"},
+        {{"--progress", "loud"}, "expected bar or json or none"},
+        {{"--png"}, "--png"}};
+    for (const auto& [options, part] : cases) {
+        // The scene does not exist: a complaint about it would be work done before the value was looked at.
+        Arguments arguments{"render", "no-such-scene.gltf", "-o", (folder / "x.exr").string()};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        expectUsage(runGlim(arguments), part);
+        EXPECT_EQ(folder.entries(), 0);
+    }
+}
+
+TEST(CommandLineTest, OutputsThatCannotBeWrittenAreRefusedBeforeAnyWork)
+{
+    const ScratchFolder folder;
+    fs::create_directory(folder / "folder.exr");
+    writeText(folder / "file", "");
+    const std::string good = (folder / "x.exr").string();
+    const std::vector<std::pair<Arguments, std::string>> cases{
+        {{"-o", ""}, "empty file name"},
+        {{"-o", (folder / "x.png").string()}, "x.png: cannot be written: its name does not end in .exr"},
+        {{"-o", (folder / "none/x.exr").string()}, "does not exist"},
+        {{"-o", (folder / "file/x.exr").string()}, "is not a folder"},
+        {{"-o", (folder / "folder.exr").string()}, "it is a folder"},
+        {{"-o", "/proc/x.exr"}, "/proc/x.exr: cannot be written"},  // root may write there by its permission bits
+        {{"-o", good, "--png", (folder / "x.jpg").string()}, "does not end in .png"},
+        {{"-o", good, "--png", (folder / "none/x.png").string()}, "does not exist"},
+        {{"-o", good, "--stats", (folder / "x.txt").string()}, "does not end in .json"},
+        {{"-o", good, "--stats", (folder / "none/x.json").string()}, "does not exist"}};
+    for (const auto& [options, part] : cases) {
+        Arguments arguments{"render", "no-such-scene.gltf"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        expectSentence(runGlim(arguments), 1, part);
+        EXPECT_EQ(folder.entries(), 2);
+    }
+    expectSentence(runGlim({"merge", "a.exr", "-o", "/proc/x.exr"}), 1, "/proc/x.exr: cannot be written");
+    expectSentence(runGlim({"compare", "a.exr", "b.exr", "--diff", "/proc/x.exr"}), 1, "/proc/x.exr: cannot be written");
+}
+
+TEST(CommandLineTest, InputsAreNeverOverwritten)
+{
+    const ScratchFolder folder;
+    const fs::path scene = folder / "scene.exr", stats = folder / "scene.json";
+    fs::copy_file(sceneFile("cornell.gltf"), scene);
+    fs::copy_file(sceneFile("cornell.gltf"), stats);
+    fs::create_symlink(scene, folder / "link.exr");
+    const std::string bytes = bytesOfFile(scene);
+    const Arguments small{"--size", "4x4", "--spp", "1"};
+    for (const Arguments& options : {Arguments{scene.string(), "-o", scene.string()},
+                                     Arguments{scene.string(), "-o", (folder / "link.exr").string()},
+                                     Arguments{stats.string(), "-o", (folder / "x.exr").string(), "--stats", stats.string()}}) {
+        Arguments arguments{"render"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        arguments.insert(arguments.end(), small.begin(), small.end());
+        expectSentence(runGlim(arguments), 1, "it is the input");
+    }
+    EXPECT_EQ(bytesOfFile(scene), bytes);
+    EXPECT_EQ(bytesOfFile(stats), bytes);
+    const std::string film = (folder / "film.exr").string();
+    ASSERT_EQ(runGlim({"render", scene.string(), "-o", film, "--size", "4x4", "--spp", "1"}).exitCode, 0);
+    expectSentence(runGlim({"compare", film, film, "--diff", film}), 1, "it is the input");
+}
+
+TEST(CommandLineTest, RefusedScenesLeaveTheTargetAsItWas)
+{
+    const ScratchFolder folder;
+    const std::string target = (folder / "x.exr").string();
+    int files = 0;
+    for (const auto& entry : fs::directory_iterator(sceneFile("refused"))) {
+        ++files;
+        expectSentence(runGlim({"render", entry.path().string(), "-o", target, "--size", "4x4", "--spp", "1"}), 1,
+                       entry.path().filename().string() + ": ");
+        EXPECT_EQ(folder.entries(), 0) << entry.path();
+    }
+    EXPECT_GT(files, 0);
+    writeText(target, "what was here before");
+    for (const std::string& scene : {sceneFile("none.gltf"), sceneFile("refused/not_json.gltf"), sceneFile("")}) {
+        expectSentence(runGlim({"render", scene, "-o", target}), 1, scene + ": ");
+    }
+    EXPECT_EQ(bytesOfFile(target), "what was here before");
+    EXPECT_EQ(folder.entries(), 1);
+    expectSentence(runGlim({"inspect", sceneFile("refused/not_json.gltf")}), 1, "not_json.gltf: ");
+}
+
+TEST(CommandLineTest, WhatTheSceneDoesNotHaveIsNamedWithWhatItHas)
+{
+    const ScratchFolder folder;
+    const Arguments render{"render", sceneFile("cornell.gltf"), "-o", (folder / "x.exr").string()};
+    const auto with = [&](const std::string& option, const std::string& value) {
+        Arguments arguments = render;
+        arguments.insert(arguments.end(), {option, value});
+        return runGlim(arguments);
+    };
+    expectSentence(with("--camera", "rear"), 1, "camera \"rear\": expected one of 0 \"front\"");
+    expectSentence(with("--camera", "1"), 1, "camera \"1\": expected one of 0 \"front\"");
+    expectSentence(with("--scene", "1"), 1, "scene 1 was asked for; expected one below 1");
+    expectSentence(with("--device", "no such device"), 1, "--device no such device: no such device; there are: 0 \"");
+    expectSentence(with("--size", "65535x65535"), 1, "--size 65535x65535: the picture needs 1114078 MiB of memory");
+    EXPECT_EQ(folder.entries(), 0);
+}
+
+}  // namespace
+}  // namespace glim::test

@@ -1,0 +1,128 @@
+#include "tests/support/run_glim.hpp"
+
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+extern char** environ;
+
+namespace glim::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kPatience = std::chrono::minutes(2);
+constexpr auto kPollInterval = std::chrono::milliseconds(2);
+
+std::vector<std::string> environmentOf(const GlimCall& call)
+{
+    std::vector<std::string> variables;
+    for (char** variable = environ; *variable != nullptr; ++variable) {
+        const std::string text = *variable;
+        if (call.environment.count(text.substr(0, text.find('='))) == 0) {
+            variables.push_back(text);
+        }
+    }
+    for (const auto& [name, value] : call.environment) {
+        if (value) {
+            variables.push_back(name + "=" + *value);
+        }
+    }
+    return variables;
+}
+
+std::vector<char*> pointersTo(std::vector<std::string>& texts)
+{
+    std::vector<char*> pointers;
+    for (std::string& text : texts) {
+        pointers.push_back(text.data());
+    }
+    pointers.push_back(nullptr);
+    return pointers;
+}
+
+pid_t start(const GlimCall& call, const std::filesystem::path& out, const std::filesystem::path& err)
+{
+    std::vector<std::string> words{call.program.string()};
+    words.insert(words.end(), call.arguments.begin(), call.arguments.end());
+    std::vector<std::string> variables = environmentOf(call);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), O_WRONLY | O_CREAT, 0600);
+    posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_WRONLY | O_CREAT, 0600);
+    posix_spawn_file_actions_addchdir_np(&actions, call.folder.c_str());
+    pid_t process = -1;
+    const int error = posix_spawn(&process, words[0].c_str(), &actions, nullptr, pointersTo(words).data(),
+                                  pointersTo(variables).data());
+    posix_spawn_file_actions_destroy(&actions);
+    EXPECT_EQ(error, 0) << call.program;
+    return error == 0 ? process : -1;
+}
+
+// The status that waitpid reports.
+int await(pid_t process, int signalAtFirstLine, const std::filesystem::path& err)
+{
+    const Clock::time_point deadline = Clock::now() + kPatience;
+    int status = 0;
+    while (waitpid(process, &status, WNOHANG) == 0) {
+        if (signalAtFirstLine != 0 && bytesOfFile(err).find('\n') != std::string::npos) {
+            kill(process, signalAtFirstLine);
+            signalAtFirstLine = 0;
+        }
+        if (Clock::now() > deadline) {
+            ADD_FAILURE() << "glim has not ended in time";
+            kill(process, SIGKILL);
+            waitpid(process, &status, 0);
+            break;
+        }
+        std::this_thread::sleep_for(kPollInterval);
+    }
+    return status;
+}
+
+}  // namespace
+
+GlimRun runGlim(const GlimCall& call)
+{
+    const ScratchFolder folder;
+    GlimRun run;
+    const pid_t process = start(call, folder / "out", folder / "err");
+    if (process < 0) {
+        return run;
+    }
+    const int status = await(process, call.signalAtFirstLine, folder / "err");
+    run.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    run.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    run.out = bytesOfFile(folder / "out");
+    run.err = bytesOfFile(folder / "err");
+    return run;
+}
+
+GlimRun runGlim(const std::vector<std::string>& arguments)
+{
+    GlimCall call;
+    call.arguments = arguments;
+    return runGlim(call);
+}
+
+std::string sceneFile(const std::string& name)
+{
+    return (std::filesystem::path(GLIM_SOURCE_DIR) / "scenes" / name).string();
+}
+
+std::size_t countLines(const std::string& text)
+{
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+}  // namespace glim::test
