@@ -1,20 +1,32 @@
-// One thread is one slot of a pass; every slot must be somebody's.
+// One thread is one invocation of a dispatch; it marks its place in the order of work, and asks for its sample.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "access/pass.glsl"
 #include "expect.glsl"
 
-layout(set = 0, binding = kBindResults, scalar) buffer Results { uint visits[]; };
+struct Case {
+    uint seed, pixel, index;
+};
+
+struct Result {
+    uint visits;
+    uint group;
+};
+
+layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
+layout(set = 0, binding = kBindResults, scalar) buffer Results { Result results[]; };
 
 void main()
 {
-    uint slot = interleavedInvocation();
-    if (slot < pass.pixelCount * pass.sampleCount) {
-        atomicAdd(visits[slot], 1u);
-        SampleId id = sampleOfSlot(slot);
-        EXPECT_EQUAL(id.pixel, pass.slabBegin + pass.firstPixel + slot / pass.sampleCount);
-        EXPECT_EQUAL(id.index, pass.firstSample + slot % pass.sampleCount);
-        EXPECT_EQUAL(id.seed, pass.seed);
+    uint place = interleavedInvocation();
+    EXPECT_TRUE(place < gl_NumWorkGroups.x * gl_WorkGroupSize.x);
+    atomicAdd(results[place].visits, 1u);
+    results[place].group = gl_WorkGroupID.x;
+    if (isTestThread()) {
+        Case c = cases[TEST_THREAD];
+        SampleId id = sampleOfSlot(TEST_THREAD);
+        EXPECT_EQUAL(id.seed, c.seed);
+        EXPECT_EQUAL(id.pixel, c.pixel);
+        EXPECT_EQUAL(id.index, c.index);
     }
     endTest();
 }

@@ -3,37 +3,53 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 namespace glim {
 namespace {
 
-// For odd and even numbers of workgroups.
-TEST(PassTest, InterleavingReachesEverySlotOnce)
+struct Case {
+    uint seed, pixel, index;
+};
+
+struct Result {
+    uint visits;
+    uint group;
+};
+
+constexpr std::uint32_t kGroupSize = 64;
+
+// Slots as path_types.h lays them out: pixel after pixel, the samples of each together.
+std::vector<Case> samplesInOrder(const Pass& pass, std::uint32_t count)
 {
-    for (const std::uint32_t slots : {1U, 64U, 65U, 129U, 640U, 1000U}) {
-        KernelTest test(test_kernels::pass_test);
-        test.resultsOf<uint>(slots).threads(slots);
-        test.pass().sampleCount = 1;
-        test.pass().seed = 7;
-        test.pass().slabBegin = 1000;
-        test.pass().firstPixel = 100;
-        test.pass().firstSample = 64;
-        test.run();
-        const std::vector<uint> visits = test.results<uint>();
-        EXPECT_TRUE(std::all_of(visits.begin(), visits.end(), [](uint n) { return n == 1; })) << slots << " slots";
+    std::vector<Case> cases;
+    for (std::uint32_t pixel = 0; cases.size() < count; ++pixel) {
+        for (std::uint32_t sample = 0; sample < pass.sampleCount && cases.size() < count; ++sample) {
+            cases.push_back({pass.seed, pass.slabBegin + pass.firstPixel + pixel, pass.firstSample + sample});
+        }
     }
+    return cases;
 }
 
-TEST(PassTest, SeveralSamplesOfAPixelAreNeighbours)
+TEST(PassTest, VisitsEveryPlaceOnceFromBothHalvesAndKnowsItsSample)
 {
-    KernelTest test(test_kernels::pass_test);
-    test.threads(64).resultsOf<uint>(64);
-    test.pass().pixelCount = 16;
-    test.pass().sampleCount = 4;
-    test.pass().firstSample = 8;
-    test.run();
-    EXPECT_EQ(std::ranges::count(test.results<uint>(), 1U), 64);
+    for (const std::uint32_t groups : {1U, 2U, 3U, 4U, 7U, 64U, 101U}) {
+        SCOPED_TRACE(std::to_string(groups) + " groups");
+        KernelTest test(test_kernels::pass_test);
+        Pass& pass = test.pass();
+        pass.seed = 0xdeadbeefU + groups;
+        pass.slabBegin = 1U << 20;
+        pass.firstPixel = 500;
+        pass.firstSample = 96;
+        pass.sampleCount = 1 + groups % 32;
+        const std::uint32_t threads = groups * kGroupSize;
+        test.cases(samplesInOrder(pass, threads)).resultsOf<Result>(threads).run();
+        const std::vector<Result> results = test.results<Result>();
+        for (std::uint32_t place = 0; place < threads; ++place) {
+            EXPECT_EQ(results[place].visits, 1U) << "place " << place;
+            // Neighbouring groups of places are worked on in different halves of the dispatch.
+            const bool second = results[place].group >= (groups + 1) / 2;
+            EXPECT_EQ(second, place / kGroupSize % 2 == 1) << "place " << place;
+        }
+    }
 }
 
 }  // namespace

@@ -1,34 +1,39 @@
-// One thread is one slot: what it writes to each array must be found there, and nowhere else.
+// One thread is one slot. Every buffer of paths.glsl, told apart by what is in it: the host has filled those that are read
+// here, and knows what must be in the others afterwards.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define UPDATES_RAYS
-#define WRITES_HITS
+#define READS_ACTIVE_QUEUE
+#define READS_SHADOW_QUEUE
+#define READS_QUEUE_SIZES
+#define READS_RAYS
+#define READS_SHADOW_RAYS
 #define UPDATES_STATES
 #define UPDATES_RADIANCE
-#define WRITES_FIRST_HITS
-#define WRITES_SHADOW_RAYS
-#define WRITES_NEXT_QUEUE
-#define WRITES_SHADOW_QUEUE
 #define UPDATES_QUEUE_TAILS
-#include "access/paths.glsl"
+#define UPDATES_RAY_COUNTS
+#define WRITES_HITS
+#define WRITES_FIRST_HITS
+#define WRITES_NEXT_QUEUE
 #include "expect.glsl"
+#include "access/paths.glsl"
 
 void main()
 {
-    if (isTestThread()) {
-        uint i = TEST_THREAD;
-        float x = float(100u * i);
-        pathRays[i] = PathRay(vec3(x, x + 1.0, x + 2.0), i + 3u, vec3(x + 4.0, x + 5.0, x + 6.0));
-        pathHits[i] = PathHit(i, x + 1.0, vec2(x + 2.0, x + 3.0));
-        pathStates[i] = PathState(vec3(x, x + 1.0, x + 2.0), x + 3.0, x + 4.0, x + 5.0);
-        pathRadiance[i] = PathRadiance(vec3(x, x + 1.0, x + 2.0), x + 3.0);
-        pathFirstHits[i] = FirstHit(vec3(x, x + 1.0, x + 2.0), x + 3.0, vec3(x + 4.0, x + 5.0, x + 6.0), x + 7.0);
-        pathShadowRays[i] = ShadowRay(vec3(x), i, vec3(x + 1.0), i + 2u, vec3(x + 3.0), x + 4.0);
-        nextQueue[atomicAdd(queueTails.next, 1u)] = i;
-        shadowQueue[atomicAdd(queueTails.shadow, 1u)] = i + 1u;
-        EXPECT_TRUE(pathRays[i].direction == vec3(x + 4.0, x + 5.0, x + 6.0));
-        EXPECT_EQUAL(pathStates[i].etaScale, x + 5.0);
-        EXPECT_EQUAL(pathRadiance[i].clamped, x + 3.0);
+    uint slot = TEST_THREAD;
+    if (slot < queueSizes.closest) {
+        float f = float(slot);
+        EXPECT_EQUAL(activeQueue[slot], 3000u + slot);
+        EXPECT_EQUAL(shadowQueue[slot], 4000u + slot);
+        EXPECT_EQUAL(queueSizes.shadowGroups.z, 77u);
+        EXPECT_EQUAL(pathRays[slot].source, 5000u + slot);
+        EXPECT_EQUAL(pathShadowRays[slot].target, 6000u + slot);
+        pathStates[slot].pdf += f;
+        pathRadiance[slot].clamped += 2.0 * f;
+        pathHits[slot] = PathHit(slot, 3.0 * f, vec2(0.25, 0.5));
+        pathFirstHits[slot] = FirstHit(vec3(0.5), 1.0, vec3(0.0, 1.0, 0.0), 4.0 * f);
+        nextQueue[slot] = 7000u + slot;
+        atomicAdd(queueTails.shadow, 1u);
+        atomicAdd(rayCounts.closest.y, 2u);
     }
     endTest();
 }

@@ -1,70 +1,63 @@
-#include "host/render/path_buffers.hpp"
 #include "shaders/shared/bindings.h"
 #include "test_kernels.hpp"
 #include "tests/support/kernel_test.hpp"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <numeric>
-
 namespace glim {
 namespace {
 
-constexpr std::uint32_t kSlots = 200;
+constexpr std::uint32_t kSlots = 100;
+
+template <class T, class Make>
+Buffer filled(const std::string& name, Make make)
+{
+    std::vector<T> values;
+    for (std::uint32_t i = 0; i < kSlots; ++i) {
+        values.push_back(make(i));
+    }
+    Buffer buffer(testDevice(), name, BufferKind::Storage, kSlots * sizeof(T));
+    upload(buffer, std::span<const T>(values));
+    return buffer;
+}
 
 template <class T>
-T last(const PathBuffers& paths, std::uint32_t binding)
+Buffer zeroed(const std::string& name)
 {
-    return download<T>(*paths.buffers(0).at(binding), kSlots).back();
+    return filled<T>(name, [](std::uint32_t) { return T{}; });
 }
 
-std::vector<uint> sortedQueue(const PathBuffers& paths, std::uint32_t binding)
+TEST(PathsTest, EachBufferIsAtItsBinding)
 {
-    std::vector<uint> queue = download<uint>(*paths.buffers(0).at(binding), kSlots);
-    std::sort(queue.begin(), queue.end());
-    return queue;
-}
-
-TEST(PathsTest, StructsReadOnTheHostAsTheDeviceWroteThem)
-{
-    const PathBuffers paths(testDevice(), kSlots);
-    KernelTest(test_kernels::paths_test).buffers(paths.buffers(0)).threads(kSlots).run();
-    const float x = 100.0F * (kSlots - 1);
-    const PathRay ray = last<PathRay>(paths, kBindRays);
-    EXPECT_EQ(ray.origin, vec3(x, x + 1, x + 2));
-    EXPECT_EQ(ray.source, kSlots + 2);
-    const PathHit hit = last<PathHit>(paths, kBindHits);
-    EXPECT_EQ(hit.t, x + 1);
-    EXPECT_EQ(hit.barycentric, vec2(x + 2, x + 3));
-    const PathState state = last<PathState>(paths, kBindStates);
-    EXPECT_EQ(state.pdf, x + 3);
-    EXPECT_EQ(state.cosine, x + 4);
-    const FirstHit first = last<FirstHit>(paths, kBindFirstHits);
-    EXPECT_EQ(first.normal, vec3(x + 4, x + 5, x + 6));
-    EXPECT_EQ(first.depth, x + 7);
-    const ShadowRay shadow = last<ShadowRay>(paths, kBindShadowRays);
-    EXPECT_EQ(shadow.target, kSlots + 1);
-    EXPECT_EQ(shadow.reach, x + 4);
-}
-
-TEST(PathsTest, QueuesHoldEverySlotOnce)
-{
-    const PathBuffers paths(testDevice(), kSlots);
-    KernelTest(test_kernels::paths_test).buffers(paths.buffers(0)).threads(kSlots).run();
-    std::vector<uint> slots(kSlots);
-    std::iota(slots.begin(), slots.end(), 0U);
-    EXPECT_EQ(sortedQueue(paths, kBindNextQueue), slots);
-    std::iota(slots.begin(), slots.end(), 1U);
-    EXPECT_EQ(sortedQueue(paths, kBindShadowQueue), slots);
-    EXPECT_EQ(download<QueueTails>(paths.queueTails(), 1)[0].next, kSlots);
-}
-
-TEST(PathsTest, ParitySwapsTheQueues)
-{
-    const PathBuffers paths(testDevice(), kSlots);
-    EXPECT_EQ(paths.buffers(0).at(kBindActiveQueue), paths.buffers(1).at(kBindNextQueue));
-    EXPECT_EQ(paths.buffers(0).at(kBindNextQueue), paths.buffers(1).at(kBindActiveQueue));
+    const Buffer active = filled<uint>("active queue", [](uint i) { return 3000 + i; });
+    const Buffer shadow = filled<uint>("shadow queue", [](uint i) { return 4000 + i; });
+    const Buffer rays = filled<PathRay>("rays", [](uint i) { return PathRay{vec3(0), 5000 + i, vec3(0)}; });
+    const Buffer shadowRays = filled<ShadowRay>("shadow rays", [](uint i) {
+        return ShadowRay{vec3(0), 0, vec3(0), 6000 + i, vec3(0), 1.0F};
+    });
+    const Buffer sizes = filled<QueueSizes>("queue sizes", [](uint) {
+        return QueueSizes{kSlots, 0, uvec3(0), uvec3(0, 0, 77)};
+    });
+    const Buffer states = filled<PathState>("states", [](uint) { return PathState{vec3(1), 0.5F, 0.0F, 1.0F}; });
+    const Buffer radiance = filled<PathRadiance>("radiance", [](uint) { return PathRadiance{vec3(1), 0.25F}; });
+    const Buffer tails = zeroed<QueueTails>("queue tails"), counts = zeroed<RayCounts>("ray counts");
+    const Buffer hits = zeroed<PathHit>("hits"), firstHits = zeroed<FirstHit>("first hits"), next = zeroed<uint>("next queue");
+    KernelTest test(test_kernels::paths_test);
+    test.buffers({{kBindActiveQueue, &active}, {kBindShadowQueue, &shadow}, {kBindRays, &rays}, {kBindStates, &states},
+                  {kBindShadowRays, &shadowRays}, {kBindQueueSizes, &sizes}, {kBindRadiance, &radiance}, {kBindHits, &hits},
+                  {kBindQueueTails, &tails}, {kBindRayCounts, &counts}, {kBindFirstHits, &firstHits}, {kBindNextQueue, &next}});
+    test.threads(kSlots).run();
+    for (std::uint32_t i = 0; i < kSlots; ++i) {
+        const auto f = static_cast<float>(i);
+        EXPECT_EQ(download<PathState>(states, kSlots)[i].pdf, 0.5F + f);
+        EXPECT_EQ(download<PathRadiance>(radiance, kSlots)[i].clamped, 0.25F + 2.0F * f);
+        EXPECT_EQ(download<PathHit>(hits, kSlots)[i].t, 3.0F * f);
+        EXPECT_EQ(download<FirstHit>(firstHits, kSlots)[i].depth, 4.0F * f);
+        EXPECT_EQ(download<uint>(next, kSlots)[i], 7000 + i);
+    }
+    EXPECT_EQ(download<QueueTails>(tails, 1)[0].shadow, kSlots);
+    EXPECT_EQ(download<QueueTails>(tails, 1)[0].next, 0U);
+    EXPECT_EQ(download<RayCounts>(counts, 1)[0].closest, uvec2(0, 2 * kSlots));
 }
 
 }  // namespace
