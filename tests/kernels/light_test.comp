@@ -1,0 +1,105 @@
+// One thread is some samples of the light that arrives at one receiver: a point in the air, or a point of a surface that is
+// looked up as the renderer does. The host knows the irradiance.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "expect.glsl"
+#include "access/light.glsl"
+#include "access/traverse.glsl"
+
+struct Case {
+    vec3 point;
+    float height;  // of the ray that looks the surface up along -normal; 0: in the air
+    vec3 normal;
+};
+
+struct Result {
+    float sum;           // over the samples, of the irradiance that each estimates (red)
+    float least, most;   // of the samples
+    float pdf;           // of the last one
+    float pdfError;      // largest relative difference to the density computed for the point that the direction meets
+    uint compared;       // samples in it
+    uint elsewhere;      // samples whose direction did not meet the light that was sampled
+    float surfaceError;  // distance of the surface that was looked up from the point asked for
+};
+
+layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
+layout(set = 0, binding = kBindResults, scalar) writeonly buffer Results { Result results[]; };
+
+struct Receiver {
+    Surface surface;
+    uint record;
+    float error;
+};
+
+Receiver makeReceiver(Case c)
+{
+    if (c.height == 0.0) {
+        return Receiver(Surface(c.point, vec3(0.0), c.normal, c.normal, true, 0u, 0u), kNoRecord, 0.0);
+    }
+    PathRay ray = PathRay(c.point + c.normal * c.height, kNoRecord, -c.normal);
+    PathHit hit = traceClosest(ray);
+    Surface surface = surfaceAt(ray, hit);
+    return Receiver(surface, hit.record, length(surface.point - c.point));
+}
+
+// As sample_lights does it, for a white receiver: the irradiance that the sample stands for.
+float estimate(Receiver receiver, LightSample light)
+{
+    float cosine = dot(light.wi, receiver.surface.shading);
+    if (!(cosine > 0.0) || light.radiance.r == 0.0) {
+        return 0.0;
+    }
+    vec3 origin = leavePoint(receiver.surface, light.wi);
+    bool infinite = light.reach > 1.0;
+    ShadowRay shadow = ShadowRay(origin, receiver.record, infinite ? light.wi : light.target - origin, light.record,
+                                 vec3(0.0), light.reach);
+    return isUnoccluded(shadow) ? light.radiance.r * cosine : 0.0;
+}
+
+// The density that a path which finds the light by chance computes for it (emissionFound in sample_lights.comp).
+void comparePdf(Receiver receiver, LightSample light, inout Result result)
+{
+    vec3 origin = leavePoint(receiver.surface, light.wi);
+    PathHit hit = traceClosest(PathRay(origin, receiver.record, light.wi));
+    if (hit.record != light.record) {
+        ++result.elsewhere;
+        return;
+    }
+    Surface met = surfaceAt(PathRay(origin, receiver.record, light.wi), hit);
+    FlatEmitter emitter = fetchEmitter(met.emitter - 1u);
+    float cosine = abs(dot(met.geometric, light.wi));
+    // Nearer to grazing the rounding of the directions alone is more than the tolerance.
+    if (cosine > 3e-3) {
+        float pdf = pdfSurfaceLight(emitter, fetchLight(emitter.light), origin, hit.t, cosine);
+        result.pdfError = max(result.pdfError, abs(pdf - light.pdf) / light.pdf);
+        ++result.compared;
+    }
+}
+
+// `sampleCount` threads for each receiver, each with `maxBounces` samples.
+void main()
+{
+    Case c = cases[TEST_THREAD / pass.sampleCount];
+    Receiver receiver = makeReceiver(c);
+    Result result = Result(0.0, kInfinity, 0.0, 0.0, 0.0, 0u, 0u, receiver.error);
+    for (uint i = 0u; i < pass.maxBounces; ++i) {
+        uvec4 a = hash4(uvec4(TEST_THREAD, i, 0u, pass.seed));
+        uvec4 b = hash4(uvec4(TEST_THREAD, i, 1u, pass.seed));
+        uint chosen = chooseLight(a.xy, pass.lightCount);
+        LightSample light =
+            sampleLight(chosen, receiver.surface.point, receiver.surface.shading, a.zw, unitFloat(b.xy));
+        float one = estimate(receiver, light);
+        EXPECT_TRUE(one >= 0.0 && !isinf(one));
+        EXPECT_TRUE(light.radiance.r == 0.0 || abs(dot(light.wi, light.wi) - 1.0) < 1e-6);
+        EXPECT_TRUE(light.pdf >= 0.0 && !isinf(light.pdf));
+        result.sum += one;
+        result.least = min(result.least, one);
+        result.most = max(result.most, one);
+        result.pdf = light.pdf;
+        if (light.record != kNoRecord && dot(light.wi, receiver.surface.geometric) > 0.0) {
+            comparePdf(receiver, light, result);
+        }
+    }
+    results[TEST_THREAD] = result;
+    endTest();
+}
