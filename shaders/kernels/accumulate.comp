@@ -25,6 +25,9 @@ void addPixel(uint pixel)
 {
     uint at = pass.firstPixel + pixel;
     BlockSums sums = filmBlocks[at];
+    if (sums.count == 0u) {
+        sums = emptyBlock();  // the host begins with zeros, which would be the least depth
+    }
     for (uint i = 0u; i < pass.sampleCount; ++i) {
         uint slot = pixel * pass.sampleCount + i;
         PathRadiance path = pathRadiance[slot];
@@ -36,7 +39,7 @@ void addPixel(uint pixel)
     }
     if ((pass.accumulate & kEndsBlock) != 0u) {
         filmPages[at] = foldMoments(filmPages[at], momentsOfBlock(sums));
-        sums = emptyBlock();
+        sums.count = 0u;
     }
     filmBlocks[at] = sums;
 }
