@@ -26,7 +26,7 @@ void addPixel(uint pixel)
     uint at = pass.firstPixel + pixel;
     BlockSums sums = filmBlocks[at];
     if (sums.count == 0u) {
-        sums = emptyBlock();  // the host begins with zeros, which would be the least depth
+        sums = emptyBlock();  // the host fills new blocks with zeros
     }
     for (uint i = 0u; i < pass.sampleCount; ++i) {
         uint slot = pixel * pass.sampleCount + i;
@@ -39,7 +39,7 @@ void addPixel(uint pixel)
     }
     if ((pass.accumulate & kEndsBlock) != 0u) {
         filmPages[at] = foldMoments(filmPages[at], momentsOfBlock(sums));
-        sums.count = 0u;
+        sums = emptyBlock();
     }
     filmBlocks[at] = sums;
 }

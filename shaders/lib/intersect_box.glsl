@@ -3,7 +3,8 @@
 #define GLIM_LIB_INTERSECT_BOX
 
 // Widens the far end by the rounding of two divisions of 2.5 ulp and their products (Ize, "Robust BVH Ray Traversal", JCGT
-// 2(2), 2013, has 2 ulp for exact division): (2 * 2.5 + 2) * 2^-24, twice.
+// 2(2), 2013, has 2 ulp for exact division): (2 * 2.5 + 2) * 2^-24, twice. Of tmax too: a box whose contents are met exactly
+// at tmax must not be passed by, or ties between them would depend on the tree.
 const float kFarPad = 1.0000009;
 
 // Below this a direction component counts as this: 0 * inf, a NaN, cannot arise.
@@ -28,9 +29,8 @@ float intersectBox(vec3 lo, vec3 hi, vec3 origin, vec3 reciprocal, float tmax)
     ivec3 n = min(a, b);
     ivec3 f = max(a, b);
     int near = max(max(n.x, n.y), max(n.z, 0));
-    float far = intBitsToFloat(min(f.x, min(f.y, f.z))) * kFarPad;
-    int last = min(floatBitsToInt(far), floatBitsToInt(tmax));
-    return near <= last ? intBitsToFloat(near) : -1.0;
+    float last = intBitsToFloat(min(min(f.x, floatBitsToInt(tmax)), min(f.y, f.z))) * kFarPad;
+    return near <= floatBitsToInt(last) ? intBitsToFloat(near) : -1.0;
 }
 
 #endif

@@ -11,7 +11,7 @@ struct Case {
     vec3 lo, hi, origin, direction;
     float tmax;
     uint verdict;  // kMiss: by more than the padding; kHit: the true box, exactly; else may be either
-    uint nudges;   // 2 bits and a sign for each reciprocal: ulps to add to it, as Vulkan's 2.5 ulp allow
+    uint nudges;   // three digits to base 5: ulps to add to each reciprocal, + 2; Vulkan allows 2.5 ulp
     float enter;   // expected
     float tolerance;
 };

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
 #include <functional>
 #include <iostream>
 #include <random>
@@ -106,7 +106,8 @@ void compareClosest(const Reference& reference, const SceneOnDevice& scene, cons
 {
     const ReferenceRay ray = inDouble(scene, c.ray);
     const ReferenceHit grown = reference.closest(ray, kMargin), shrunk = reference.closest(ray, -kMargin);
-    const double nearer = std::min(grown.t, shrunk.t), farther = std::max(grown.t, shrunk.t);
+    const double exact = reference.closest(ray, 0.0).t;
+    const double nearer = std::min({grown.t, exact, shrunk.t}), farther = std::max({grown.t, exact, shrunk.t});
     // 3e-7 of the coordinates (about 1) along the normal, so that over the cosine along the ray; the sheared test adds as much.
     const double slack = 1e-6 / std::min(grown.cosine, shrunk.cosine);
     const double t = static_cast<double>(hit.t);

@@ -1,0 +1,178 @@
+#include "shaders/shared/vocabulary.h"
+#include "test_kernels.hpp"
+#include "tests/support/kernel_test.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/statistics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+#include <limits>
+
+namespace glim {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+struct Case {
+    vec3 origin, direction, center;
+    float radius, tmax;
+    std::uint32_t onSphere;
+};
+
+struct Roots {
+    bool real;
+    double first, last;
+};
+
+// By the quadratic formula in extended precision: with 64 digits its cancellation costs less than float's rounding.
+Roots rootsOf(const Case& c)
+{
+    using Vector = glm::vec<3, long double>;
+    const Vector f = Vector(c.origin) - Vector(c.center), d(c.direction);
+    const long double a = glm::dot(d, d), b = glm::dot(f, d);
+    const long double radius = static_cast<long double>(c.radius);
+    const long double discriminant = b * b - a * (glm::dot(f, f) - radius * radius);
+    const long double root = std::sqrt(std::max(0.0L, discriminant));
+    return {discriminant >= 0.0L, static_cast<double>((-b - root) / a), static_cast<double>((-b + root) / a)};
+}
+
+std::vector<float> distances(const std::vector<Case>& cases)
+{
+    KernelTest test(test_kernels::intersect_sphere_test);
+    test.cases(cases).resultsOf<float>(cases.size()).run();
+    return test.results<float>();
+}
+
+struct Accuracy {
+    double falseMisses = 0.0;  // share of the rays that meet the sphere
+    double meanError = 0.0;    // of t, metres
+};
+
+Accuracy measure(const std::vector<Case>& cases)
+{
+    const std::vector<float> found = distances(cases);
+    double meeting = 0.0, missed = 0.0, error = 0.0;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const Roots roots = rootsOf(cases[i]);
+        const double t = roots.first > 0.0 ? roots.first : roots.last;
+        if (!roots.real || !(t > 0.0)) {
+            continue;
+        }
+        meeting += 1.0;
+        if (found[i] < 0.0F) {
+            missed += 1.0;
+        } else {
+            error += std::abs(static_cast<double>(found[i]) - t);
+        }
+    }
+    EXPECT_GT(meeting, 0.4 * static_cast<double>(cases.size()));
+    return {missed / meeting, error / (meeting - missed)};
+}
+
+// A ray from `distance` at a point of the disc that the sphere shows.
+Case rayFrom(Random& random, double radius, double distance)
+{
+    const glm::dvec3 center(0.0), out = random.direction();
+    const glm::dvec3 rim = glm::normalize(glm::cross(out, random.direction()));
+    Case c{center + distance * out, {}, center, static_cast<float>(radius), kInfinity, 0};
+    const glm::dvec3 target = center + radius * std::sqrt(random.uniform()) * rim;
+    c.direction = glm::normalize(target - glm::dvec3(c.origin));
+    return c;
+}
+
+struct Row {
+    double radius, distance, falseMisses, meanError;  // limits; the error in radii
+};
+
+// H9: radius, distance, largest share of false misses, largest mean error; at 1e5 five half ulps of t.
+TEST(IntersectSphereTest, KeepsItsDigitsFarAway)
+{
+    for (const Row& row : {Row{1.0, 2.0, 1e-5, 1e-6}, Row{1.0, 1e3, 1e-5, 2e-4}, Row{1.0, 1e4, 1e-4, 1e-3},
+                           Row{1.0, 1e5, 5e-4, 2e-2}, Row{1e-3, 10.0, 1e-4, 1e-3}}) {
+        Random random(6);
+        std::vector<Case> cases(400000);
+        std::generate(cases.begin(), cases.end(), [&] { return rayFrom(random, row.radius, row.distance); });
+        const Accuracy accuracy = measure(cases);
+        std::cout << "  radius " << row.radius << " distance " << row.distance << ": false misses " << accuracy.falseMisses
+                  << ", mean error of t " << accuracy.meanError / row.radius << " radii\n";
+        EXPECT_LE(accuracy.falseMisses, row.falseMisses);
+        EXPECT_LE(accuracy.meanError / row.radius, row.meanError);
+    }
+}
+
+// H9: a ground sphere of radius 1e5, seen from 1 above; looking down.
+TEST(IntersectSphereTest, GroundUnderTheEye)
+{
+    Random random(7);
+    std::vector<Case> cases(400000);
+    for (Case& c : cases) {
+        glm::dvec3 down = random.direction();
+        down.y = -std::max(0.1, std::abs(down.y));
+        c = {{0.0F, 1.0F, 0.0F}, glm::normalize(down), {0.0F, -1e5F, 0.0F}, 1e5F, kInfinity, 0};
+    }
+    const Accuracy accuracy = measure(cases);
+    std::cout << "  ground: false misses " << accuracy.falseMisses << ", mean error " << accuracy.meanError << " m\n";
+    EXPECT_EQ(accuracy.falseMisses, 0.0);
+    EXPECT_LE(accuracy.meanError, 2e-5);
+}
+
+TEST(IntersectSphereTest, SeenFromWithin)
+{
+    Random random(8);
+    std::vector<Case> cases(200000);
+    for (Case& c : cases) {
+        const double radius = random.logUniform(1e-4, 1e5);
+        const glm::dvec3 center = radius * random.normalVector();
+        c = {center + radius * random.uniform(0.0, 0.99) * random.direction(), random.direction(), center,
+             static_cast<float>(radius), kInfinity, 0};
+    }
+    const std::vector<float> found = distances(cases);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        // At 0.99 of the radius the far root is conditioned like 1 / sqrt(1 - 0.99^2) = 7; ten roundings of up to 5 radii.
+        ASSERT_NEAR(static_cast<double>(found[i]), rootsOf(cases[i]).last, 2e-5 * static_cast<double>(cases[i].radius)) << i;
+    }
+}
+
+// A ray that starts on the sphere meets its far side, from within, or nothing: never its start.
+TEST(IntersectSphereTest, LeavesItsOwnSurface)
+{
+    Random random(9);
+    std::vector<Case> cases(300000);
+    std::vector<double> chords;  // 0: outwards
+    for (Case& c : cases) {
+        const double radius = random.logUniform(1e-4, 1e5);
+        const glm::dvec3 center = radius * random.normalVector(), n = random.direction();
+        const glm::dvec3 d = random.direction();
+        c = {center + radius * n, d, center, static_cast<float>(radius), kInfinity, 1};
+        chords.push_back(std::max(0.0, -2.0 * radius * glm::dot(n, d)));
+    }
+    const std::vector<float> found = distances(cases);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        // The start is off the sphere by up to d = 1e-6 radii, so the far root is off by d r / chord, and at most sqrt(2 d) r.
+        const double radius = static_cast<double>(cases[i].radius), d = 1e-6 * radius;
+        const double slack = std::min(d + d * radius / chords[i], std::sqrt(2.0 * d * radius));
+        ASSERT_NEAR(std::max(0.0, static_cast<double>(found[i])), chords[i], slack) << i;
+        if (glm::dot(cases[i].direction, cases[i].origin - cases[i].center) > 1e-5F * cases[i].radius) {
+            ASSERT_EQ(found[i], -1.0F) << i;
+        }
+    }
+}
+
+TEST(IntersectSphereTest, TangentAndAwayAndBehind)
+{
+    const vec3 x(1.0F, 0.0F, 0.0F);
+    const std::vector<Case> cases = {
+        {{-3.0F, 1.0F, 0.0F}, x, {}, 1.0F, kInfinity, 0},             // touches at 3
+        {{-3.0F, 1.0F + 0x1p-20F, 0.0F}, x, {}, 1.0F, kInfinity, 0},  // passes
+        {{3.0F, 0.0F, 0.0F}, x, {}, 1.0F, kInfinity, 0},              // behind
+        {{-3.0F, 0.0F, 0.0F}, x, {}, 1.0F, 1.5F, 0},                  // too far
+        {{0.0F, 1.0F, 0.0F}, x, {}, 1.0F, kInfinity, 0},              // starts at the point of contact
+        {{-3.0F, 0.0F, 0.0F}, 2.0F * x, {}, 1.0F, kInfinity, 0},      // direction of length 2
+    };
+    EXPECT_EQ(distances(cases), (std::vector<float>{3.0F, -1.0F, -1.0F, -1.0F, -1.0F, 1.0F}));
+}
+
+}  // namespace
+}  // namespace glim

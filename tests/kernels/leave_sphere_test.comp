@@ -1,0 +1,53 @@
+// One thread is one hit of a sphere, from outside or inside, and one ray that leaves it to either side.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "expect.glsl"
+#include "access/surface.glsl"
+#include "access/traverse.glsl"
+#include "lib/alias.glsl"
+#include "lib/frame.glsl"
+#include "lib/warp.glsl"
+
+uvec4 randomBits(uint dimension)
+{
+    return hash4(uvec4(TEST_THREAD, dimension, 0u, pass.seed));
+}
+
+
+void main()
+{
+    uvec4 bits = randomBits(0u);
+    uint index = chooseBin(bits.x, uint(textureSize(sceneRecords)) / kRecordTexels);
+    Record record = fetchRecord(index);
+    vec3 center = floatsOf(record.t0);
+    float radius = uintBitsToFloat(record.t1.x);
+    bool inside = (bits.y & 1u) != 0u;
+    vec3 n = sampleSphere(unitFloat(bits.zw));
+    vec3 side = inside ? -n : n;
+    vec3 towards = -worldFromFrame(makeFrame(side), sampleCosineHemisphere(unitFloat(randomBits(1u).xy)));
+    // Starts well within the sphere's half of the way, or one radius outside.
+    vec3 origin = center + radius * n - towards * (radius * (inside ? max(0.01, -dot(towards, side)) : 1.0));
+    PathRay ray = PathRay(origin, kNoRecord, towards);
+    PathHit hit = traceClosest(ray);
+    if (dot(towards, side) < -0.02) {
+        EXPECT_EQUAL(hit.record, index);
+        Surface surface = surfaceAt(ray, hit);
+        EXPECT_EQUAL(uint(surface.front), uint(!inside));
+        EXPECT_CLOSE(length(surface.point - center), radius, 1e-6);
+        uvec4 more = randomBits(2u);
+        bool inwards = (more.z & 1u) != 0u;
+        vec3 out_ = normalize(surface.point - center);
+        vec3 wi = worldFromFrame(makeFrame(inwards ? -out_ : out_), sampleCosineHemisphere(unitFloat(more.xy)));
+        vec3 start = leavePoint(surface, wi);
+        PathHit next = traceClosest(PathRay(start, index, wi));
+        float cosine = dot(wi, out_);
+        if (!inwards) {
+            EXPECT_TRUE(next.record != index);
+        }
+        if (inwards && cosine < -0.02) {
+            EXPECT_EQUAL(next.record, index);
+            EXPECT_NEAR(next.t, -2.0 * radius * cosine, 1e-4 * radius);
+        }
+    }
+    endTest();
+}

@@ -1,0 +1,74 @@
+// One thread is one hit of a triangle and one ray that leaves it, to either side (accuracy H7).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "expect.glsl"
+#include "access/surface.glsl"
+#include "access/traverse.glsl"
+#include "lib/alias.glsl"
+#include "lib/frame.glsl"
+#include "lib/warp.glsl"
+
+struct Setup {
+    float reach;  // aim within this distance of the origin; 0: anywhere on the triangle
+};
+
+struct Tally {
+    uint left;           // rays that left a triangle
+    uint selfHits;       // that met it again at once, without the rule that they cannot
+    uint skippedHits;    // with it, through the whole traversal
+    uint otherHits;      // that met another triangle
+    uint largestOffset;  // bits of a float: of the triangle's size, after 4 ulp of the point
+};
+
+layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Setup setup; };
+layout(set = 0, binding = kBindResults, scalar) buffer Results { Tally tally; };
+
+uvec4 randomBits(uint dimension)
+{
+    return hash4(uvec4(TEST_THREAD, dimension, 0u, pass.seed));
+}
+
+float largest(vec3 v)
+{
+    return max(abs(v.x), max(abs(v.y), abs(v.z)));
+}
+
+void leave(PathRay ray, PathHit hit, Record record, float size)
+{
+    Surface surface = surfaceAt(ray, hit);
+    uvec4 bits = randomBits(3u);
+    vec3 normal = (bits.z & 1u) != 0u ? surface.geometric : -surface.geometric;
+    vec3 wi = worldFromFrame(makeFrame(normal), sampleCosineHemisphere(unitFloat(bits.xy)));
+    vec3 origin = leavePoint(surface, wi);
+    EXPECT_TRUE(dot(origin - surface.point, normal) >= 0.0);
+    float offset = largest(origin - surface.point) - 4.8e-7 * largest(surface.point);
+    atomicMax(tally.largestOffset, floatBitsToUint(max(0.0, offset / size)));
+    bool again = intersectRecord(beginWalk(origin, wi), record, kInfinity, false).t > 0.0;
+    PathHit next = traceClosest(PathRay(origin, hit.record, wi));
+    atomicAdd(tally.left, 1u);
+    atomicAdd(tally.selfHits, again ? 1u : 0u);
+    atomicAdd(tally.skippedHits, next.record == hit.record ? 1u : 0u);
+    atomicAdd(tally.otherHits, next.record != kNoRecord ? 1u : 0u);
+}
+
+void main()
+{
+    uvec4 bits = randomBits(0u);
+    uint index = chooseBin(bits.x, uint(textureSize(sceneRecords)) / kRecordTexels);
+    Record record = fetchRecord(index);
+    vec3 v0 = floatsOf(record.t0);
+    vec3 e1 = floatsOf(record.t1) - v0;
+    vec3 e2 = floatsOf(record.t2) - v0;
+    float size = max(largest(e1), largest(e2));
+    vec2 b = sampleTriangle(unitFloat(bits.yz));
+    vec3 near = setup.reach * (1.0 - 2.0 * vec3(unitFloat(randomBits(1u).xy), unitFloat(bits.w)));
+    vec3 target = setup.reach > 0.0 ? near : v0 + e1 * b.x + e2 * b.y;
+    vec3 direction = sampleSphere(unitFloat(randomBits(2u).xy));
+    float distance_ = setup.reach > 0.0 ? 4.0 * setup.reach : 0.5 * size;
+    PathRay ray = PathRay(target - direction * distance_, kNoRecord, direction);
+    TriangleHit hit = intersectRecord(beginWalk(ray.origin, ray.direction), record, kInfinity, false);
+    if (hit.t > 0.0) {
+        leave(ray, PathHit(index, hit.t, hit.barycentric), record, size);
+    }
+    endTest();
+}

@@ -1,0 +1,127 @@
+#include "shaders/shared/vocabulary.h"
+#include "test_kernels.hpp"
+#include "tests/support/kernel_test.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/statistics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+#include <numbers>
+
+namespace glim {
+namespace {
+
+struct Case {
+    vec3 v0, v1, v2, v3;
+    vec2 barycentric;
+    vec3 normal, direction;
+    float from, side, next;
+};
+
+struct Result {
+    vec3 point, origin, onSphere;
+    std::uint32_t self, neighbour;
+};
+
+// H7's table: triangles of `size` about a point at `place`, which the ray leaves.
+struct Row {
+    const char* name;
+    double size, place;
+    bool neighbours;  // rounding of their corners bends them by less than what is tested
+};
+
+constexpr Row kRows[] = {
+    {"unit at the origin", 1.0, 1.0, true},   {"scale 1e-4", 1e-4, 1e-4, true},
+    {"scale 1e5", 1e5, 1e5, true},            {"unit at 1e4", 1.0, 1e4, true},
+    {"unit at 1e6", 1.0, 1e6, false},         {"size 1e5 near the origin", 1e5, 1.0, true},
+    {"size 1e3 near the origin", 1e3, 1.0, true},
+};
+
+void setNext(Case& c, Random& random)
+{
+    c.from = static_cast<float>(random.logUniform(1e-30, 1e30) * (random.below(2) == 0 ? 1.0 : -1.0));
+    c.side = static_cast<float>(random.uniform(-1.0, 1.0));
+    c.next = std::nextafter(c.from, c.side > 0.0F ? 3e38F : -3e38F);
+    if (random.below(16) == 0) {
+        c.from = 0.0F;
+        c.next = c.side > 0.0F ? 0x1p-126F : -0x1p-126F;
+    } else if (random.below(16) == 0) {
+        c.side = 0.0F;
+        c.next = c.from;
+    }
+}
+
+// One half of the points lie close to the edge that the neighbour shares.
+Case caseOf(const Row& row, Random& random)
+{
+    Case c{};
+    const double toEdge = random.below(2) == 0 ? random.uniform() : random.logUniform(1e-8, 1.0);
+    const double b1 = (1.0 - toEdge) * random.uniform(), b2 = 1.0 - toEdge - b1;
+    c.barycentric = {b1, b2};
+    glm::dvec3 normal(0.0);
+    while (glm::length(normal) == 0.0) {  // at 1e6 rounding flattens some
+        const glm::dvec3 e1 = row.size * random.normalVector(), e2 = row.size * random.normalVector();
+        const glm::dvec3 v0 = row.place * random.direction() - b1 * e1 - b2 * e2;
+        c.v0 = v0;
+        c.v1 = v0 + e1;
+        c.v2 = v0 + e2;
+        normal = glm::cross(glm::dvec3(c.v1 - c.v0), glm::dvec3(c.v2 - c.v0));
+    }
+    c.v3 = glm::dvec3(c.v1) + glm::dvec3(c.v2) - glm::dvec3(c.v0);
+    const glm::dvec3 n = glm::normalize(normal) * (random.below(2) == 0 ? 1.0 : -1.0);
+    c.normal = n;
+    const glm::dvec3 x = glm::normalize(glm::cross(n, random.direction())), y = glm::cross(n, x);
+    const double u = random.uniform(), phi = 2.0 * std::numbers::pi * random.uniform();
+    c.direction = std::sqrt(u) * (std::cos(phi) * x + std::sin(phi) * y) + std::sqrt(1.0 - u) * n;
+    setNext(c, random);
+    return c;
+}
+
+struct Tally {
+    double rays = 0.0, self = 0.0, neighbour = 0.0, behind = 0.0, inSphere = 0.0, offset = 0.0, limit = 0.0;
+};
+
+void count(Tally& tally, const Case& c, const Result& r)
+{
+    const glm::dvec3 e1 = glm::dvec3(c.v1) - glm::dvec3(c.v0), e2 = glm::dvec3(c.v2) - glm::dvec3(c.v0);
+    const glm::dvec3 n = glm::cross(e1, e2) * (glm::dot(glm::cross(e1, e2), glm::dvec3(c.normal)) > 0.0 ? 1.0 : -1.0);
+    tally.rays += 1.0;
+    tally.self += r.self;
+    tally.neighbour += r.neighbour;
+    tally.behind += glm::dot(glm::dvec3(r.origin) - glm::dvec3(c.v0), n) > 0.0 ? 0.0 : 1.0;
+    tally.inSphere += glm::distance(glm::dvec3(r.onSphere), glm::dvec3(c.v0)) > glm::length(e1) ? 0.0 : 1.0;
+    tally.offset += glm::distance(glm::dvec3(r.origin), glm::dvec3(r.point));
+    tally.limit += 5e-6 * std::max(glm::length(e1), glm::length(e2)) + 4.0 * 0x1p-23 * glm::length(glm::dvec3(r.point));
+}
+
+// H7. A ray skips the triangle that it leaves (traverse.glsl), so `self` is what that skip must still catch.
+TEST(OffsetPointTest, RaysDoNotMeetWhatTheyLeave)
+{
+    for (const Row& row : kRows) {
+        Tally tally;
+        for (int round = 0; round < testRounds(); ++round) {
+            Random random(static_cast<std::uint64_t>(round) * 13 + 10);
+            std::vector<Case> cases(300000);
+            std::generate(cases.begin(), cases.end(), [&] { return caseOf(row, random); });
+            KernelTest test(test_kernels::offset_point_test);
+            test.cases(cases).resultsOf<Result>(cases.size()).run();
+            const std::vector<Result> results = test.results<Result>();
+            for (std::size_t i = 0; i < cases.size(); ++i) {
+                count(tally, cases[i], results[i]);
+            }
+        }
+        std::cout << "  " << row.name << ": of " << tally.rays << " rays " << tally.self << " meet their triangle, "
+                  << tally.neighbour << " its neighbour; " << tally.behind << " start behind it, " << tally.inSphere
+                  << " in the sphere; mean offset " << tally.offset / tally.rays << " m, allowed "
+                  << tally.limit / tally.rays << '\n';
+        EXPECT_LT(tally.self / tally.rays, 1e-4) << row.name;
+        EXPECT_LT(row.neighbours ? tally.neighbour / tally.rays : 0.0, 1e-4) << row.name;
+        EXPECT_EQ(tally.inSphere, 0.0) << row.name;
+        EXPECT_LE(tally.offset, tally.limit) << row.name;
+    }
+}
+
+}  // namespace
+}  // namespace glim

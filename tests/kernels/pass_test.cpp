@@ -1,0 +1,56 @@
+#include "test_kernels.hpp"
+#include "tests/support/kernel_test.hpp"
+
+#include <gtest/gtest.h>
+
+namespace glim {
+namespace {
+
+struct Case {
+    uint seed, pixel, index;
+};
+
+struct Result {
+    uint visits;
+    uint group;
+};
+
+constexpr std::uint32_t kGroupSize = 64;
+
+// Slots as path_types.h lays them out: pixel after pixel, the samples of each together.
+std::vector<Case> samplesInOrder(const Pass& pass, std::uint32_t count)
+{
+    std::vector<Case> cases;
+    for (std::uint32_t pixel = 0; cases.size() < count; ++pixel) {
+        for (std::uint32_t sample = 0; sample < pass.sampleCount && cases.size() < count; ++sample) {
+            cases.push_back({pass.seed, pass.slabBegin + pass.firstPixel + pixel, pass.firstSample + sample});
+        }
+    }
+    return cases;
+}
+
+TEST(PassTest, VisitsEveryPlaceOnceFromBothHalvesAndKnowsItsSample)
+{
+    for (const std::uint32_t groups : {1U, 2U, 3U, 4U, 7U, 64U, 101U}) {
+        SCOPED_TRACE(std::to_string(groups) + " groups");
+        KernelTest test(test_kernels::pass_test);
+        Pass& pass = test.pass();
+        pass.seed = 0xdeadbeefU + groups;
+        pass.slabBegin = 1U << 20;
+        pass.firstPixel = 500;
+        pass.firstSample = 96;
+        pass.sampleCount = 1 + groups % 32;
+        const std::uint32_t threads = groups * kGroupSize;
+        test.cases(samplesInOrder(pass, threads)).resultsOf<Result>(threads).run();
+        const std::vector<Result> results = test.results<Result>();
+        for (std::uint32_t place = 0; place < threads; ++place) {
+            EXPECT_EQ(results[place].visits, 1U) << "place " << place;
+            // Neighbouring groups of places are worked on in different halves of the dispatch.
+            const bool second = results[place].group >= (groups + 1) / 2;
+            EXPECT_EQ(second, place / kGroupSize % 2 == 1) << "place " << place;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace glim

@@ -1,0 +1,39 @@
+// One thread is one slot. Every buffer of paths.glsl, told apart by what is in it: the host has filled those that are read
+// here, and knows what must be in the others afterwards.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define READS_ACTIVE_QUEUE
+#define READS_SHADOW_QUEUE
+#define READS_QUEUE_SIZES
+#define READS_RAYS
+#define READS_SHADOW_RAYS
+#define UPDATES_STATES
+#define UPDATES_RADIANCE
+#define UPDATES_QUEUE_TAILS
+#define UPDATES_RAY_COUNTS
+#define WRITES_HITS
+#define WRITES_FIRST_HITS
+#define WRITES_NEXT_QUEUE
+#include "expect.glsl"
+#include "access/paths.glsl"
+
+void main()
+{
+    uint slot = TEST_THREAD;
+    if (slot < queueSizes.closest) {
+        float f = float(slot);
+        EXPECT_EQUAL(activeQueue[slot], 3000u + slot);
+        EXPECT_EQUAL(shadowQueue[slot], 4000u + slot);
+        EXPECT_EQUAL(queueSizes.shadowGroups.z, 77u);
+        EXPECT_EQUAL(pathRays[slot].source, 5000u + slot);
+        EXPECT_EQUAL(pathShadowRays[slot].target, 6000u + slot);
+        pathStates[slot].pdf += f;
+        pathRadiance[slot].clamped += 2.0 * f;
+        pathHits[slot] = PathHit(slot, 3.0 * f, vec2(0.25, 0.5));
+        pathFirstHits[slot] = FirstHit(vec3(0.5), 1.0, vec3(0.0, 1.0, 0.0), 4.0 * f);
+        nextQueue[slot] = 7000u + slot;
+        atomicAdd(queueTails.shadow, 1u);
+        atomicAdd(rayCounts.closest.y, 2u);
+    }
+    endTest();
+}

@@ -1,0 +1,49 @@
+// One thread is one primitive, as the host has it and as the flattened scene does.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "expect.glsl"
+#include "access/scene.glsl"
+
+struct Case {
+    uint record;
+    uint id;
+    uint sphere;
+    vec3 corners[3];  // sphere: centre, (radius, 0, 0)
+    vec3 normals[3];
+    uint material;
+    vec3 baseColor;
+    vec3 emission;
+    uint light;       // + 1; 0 where it does not emit
+    vec3 cameraPosition;
+};
+
+layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
+
+void main()
+{
+    if (isTestThread()) {
+        Case c = cases[TEST_THREAD];
+        Record record = fetchRecord(c.record);
+        EXPECT_EQUAL(record.t0.w, c.id);
+        EXPECT_EQUAL(uint(isSphere(record)), c.sphere);
+        EXPECT_TRUE(floatsOf(record.t0) == c.corners[0]);
+        EXPECT_TRUE(floatsOf(record.t1) == c.corners[1]);
+        EXPECT_TRUE(floatsOf(record.t2) == c.corners[2]);
+        EXPECT_EQUAL(record.t1.w & ~kSphereBit, c.material);
+        int at = int(c.record * kRecordTexels);
+        EXPECT_TRUE(floatsOf(texelFetch(sceneNormals, at)) == c.normals[0]);
+        EXPECT_TRUE(floatsOf(texelFetch(sceneNormals, at + 2)) == c.normals[2]);
+        FlatMaterial material = fetchMaterial(c.material);
+        EXPECT_TRUE(material.baseColor == c.baseColor);
+        EXPECT_TRUE(material.emission == c.emission);
+        EXPECT_EQUAL(uint(record.t2.w != 0u), uint(c.light != 0u));
+        if (record.t2.w != 0u) {
+            FlatEmitter emitter = fetchEmitter(record.t2.w - 1u);
+            EXPECT_EQUAL(emitter.record, c.record);
+            EXPECT_EQUAL(emitter.light, c.light - 1u);
+            EXPECT_TRUE(fetchLight(emitter.light).intensity == c.emission);
+        }
+        EXPECT_TRUE(sceneCamera.position == c.cameraPosition);
+    }
+    endTest();
+}

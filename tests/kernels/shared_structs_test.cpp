@@ -1,0 +1,45 @@
+// Host and device agree on the place of every field of shaders/shared.
+#include "test_kernels.hpp"
+#include "tests/support/kernel_test.hpp"
+#include "tests/support/shared_fields.h"
+
+#include <gtest/gtest.h>
+
+namespace glim {
+namespace {
+
+// Words, all of them named in shared_fields.h, without padding.
+static_assert(sizeof(PathRay) == 28 && sizeof(PathHit) == 16 && sizeof(PathState) == 24 && sizeof(PathRadiance) == 16);
+static_assert(sizeof(FirstHit) == 32 && sizeof(ShadowRay) == 48 && sizeof(QueueSizes) == 32 && sizeof(QueueTails) == 8);
+static_assert(sizeof(RayCounts) == 16 && sizeof(Located) == 8 && sizeof(Status) == 8 + 8 * kMaxLocated);
+static_assert(sizeof(BlockSums) == 52 && sizeof(Pass) == 72 && sizeof(PixelMoments) == 68);
+static_assert(sizeof(FlatMaterial) == 48 && sizeof(AliasEntry) == 8 && sizeof(FlatLight) == 80);
+static_assert(sizeof(FlatEmitter) == 32 && sizeof(FlatCamera) == 52);
+static_assert(sizeof(EverySharedStruct) == 4 * kSharedWords);
+static_assert(sizeof(Pass) <= 128, "llvmpipe before 24 has 128 bytes of push constants");
+
+TEST(SharedStructsTest, HaveEveryFieldInTheSamePlace)
+{
+    EverySharedStruct values{};
+    uint number = 1000;
+#define U(field) values.field = number++;
+#define F(field) values.field = static_cast<float>(number++);
+#define U2(field) U(field.x) U(field.y)
+#define F2(field) F(field.x) F(field.y)
+#define U3(field) U2(field) U(field.z)
+#define F3(field) F2(field) F(field.z)
+#include "tests/support/shared_fields.h"
+#undef U
+#undef F
+    KernelTest test(test_kernels::shared_structs_test);
+    test.cases(std::vector<EverySharedStruct>{values}).resultsOf<EverySharedStruct>(1).run();
+    values = test.results<EverySharedStruct>()[0];
+    number = 1000;
+#define U(field) EXPECT_EQ(static_cast<uint>(values.field), number++) << #field;
+#define F(field) U(field)
+#include "tests/support/shared_fields.h"
+    EXPECT_EQ(number, 1000 + kSharedWords);
+}
+
+}  // namespace
+}  // namespace glim

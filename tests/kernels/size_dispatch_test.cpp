@@ -1,0 +1,78 @@
+// The kernel itself, over queues of known length.
+#include "host/gpu/commands.hpp"
+#include "host/render/path_buffers.hpp"
+#include "kernels.hpp"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/path_types.h"
+#include "tests/support/test_device.hpp"
+
+#include <gtest/gtest.h>
+
+namespace glim {
+namespace {
+
+constexpr std::uint32_t kWorkgroup = 64;
+
+struct Outcome {
+    QueueSizes sizes;
+    QueueTails tails;
+    RayCounts counts;
+};
+
+Outcome sizeDispatch(const Pass& pass, const QueueTails& tails, const RayCounts& counts)
+{
+    const KernelLayout layout(testDevice(), kernelSlots(), sizeof(Pass));
+    const Kernel kernel(layout, kernels::size_dispatch, {{kSpecWorkgroup, kWorkgroup}});
+    PathBuffers paths(testDevice(), 1);
+    Buffer tailsBuffer(testDevice(), "test's tails", BufferKind::Storage, sizeof(QueueTails));
+    Buffer countsBuffer(testDevice(), "test's counts", BufferKind::Storage, sizeof(RayCounts));
+    upload(tailsBuffer, std::span<const QueueTails>(&tails, 1));
+    upload(countsBuffer, std::span<const RayCounts>(&counts, 1));
+    std::map<std::uint32_t, const Buffer*> bound = paths.buffers(0);
+    bound[kBindQueueTails] = &tailsBuffer;
+    bound[kBindRayCounts] = &countsBuffer;
+    const Bindings bindings(layout, bound);
+    Commands commands(testDevice());
+    commands.dispatch(kernel, bindings, std::as_bytes(std::span<const Pass, 1>(&pass, 1)), 1);
+    commands.submitAndWait();
+    EXPECT_EQ(download<Status>(paths.status(), 1)[0].flags, 0U);
+    return {download<QueueSizes>(paths.queueSizes(), 1)[0], download<QueueTails>(tailsBuffer, 1)[0],
+            download<RayCounts>(countsBuffer, 1)[0]};
+}
+
+Pass passAt(std::uint32_t bounce)
+{
+    Pass pass{};
+    pass.pixelCount = 1000;
+    pass.sampleCount = 3;
+    pass.bounce = bounce;
+    pass.canarySteps = 3;
+    return pass;
+}
+
+TEST(SizeDispatchTest, StartsWithAllSlots)
+{
+    const Outcome outcome = sizeDispatch(passAt(0), {5, 0}, {});
+    EXPECT_EQ(outcome.sizes.closest, 3000U);
+    EXPECT_EQ(outcome.sizes.shadow, 0U);
+    EXPECT_EQ(outcome.sizes.closestGroups, uvec3(47, 1, 1));
+    EXPECT_EQ(outcome.sizes.shadowGroups, uvec3(0, 1, 1));
+    EXPECT_EQ(outcome.tails.next, 0U);
+    EXPECT_EQ(outcome.counts.closest, uvec2(3000, 0));
+}
+
+TEST(SizeDispatchTest, FollowsTheTailsAndCarriesCounts)
+{
+    const Outcome outcome = sizeDispatch(passAt(2), {64, 65}, {uvec2(0xffffffff, 7), uvec2(0xffffffff - 65, 0)});
+    EXPECT_EQ(outcome.sizes.closest, 64U);
+    EXPECT_EQ(outcome.sizes.shadow, 65U);
+    EXPECT_EQ(outcome.sizes.closestGroups, uvec3(1, 1, 1));
+    EXPECT_EQ(outcome.sizes.shadowGroups, uvec3(2, 1, 1));
+    EXPECT_EQ(outcome.tails.next, 0U);
+    EXPECT_EQ(outcome.tails.shadow, 0U);
+    EXPECT_EQ(outcome.counts.closest, uvec2(63, 8));
+    EXPECT_EQ(outcome.counts.shadow, uvec2(0xffffffff, 0));
+}
+
+}  // namespace
+}  // namespace glim

@@ -1,0 +1,38 @@
+// One thread is one ray through the real traversal, whose box and primitive tests are counted.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "expect.glsl"
+#include "access/scene.glsl"
+#include "lib/intersect_box.glsl"
+#include "shared/path_types.h"
+
+uint boxTests = 0u;
+uint recordFetches = 0u;
+#define intersectBox(lo, hi, origin, reciprocal, tmax) (++boxTests, intersectBox(lo, hi, origin, reciprocal, tmax))
+#define fetchRecord(record) (++recordFetches, fetchRecord(record))
+#include "access/traverse.glsl"
+
+struct Result {
+    PathHit hit;
+    uint nodes;
+    uint primitives;
+    uint shadowNodes;
+    uint unoccluded;
+};
+
+layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { PathRay rays[]; };
+layout(set = 0, binding = kBindResults, scalar) writeonly buffer Results { Result results[]; };
+
+void main()
+{
+    if (isTestThread()) {
+        PathRay ray = rays[TEST_THREAD];
+        PathHit hit = traceClosest(ray);
+        uint nodes = boxTests / 2u;
+        uint primitives = recordFetches;
+        bool unoccluded = isUnoccluded(ShadowRay(ray.origin, ray.source, ray.direction, kNoRecord, vec3(0.0), kInfinity));
+        EXPECT_TRUE(nodes > 0u && boxTests > 2u * nodes);
+        results[TEST_THREAD] = Result(hit, nodes, primitives, boxTests / 2u - nodes, uint(unoccluded));
+    }
+    endTest();
+}

@@ -1,0 +1,76 @@
+// Every struct of shaders/shared and every field of it, in order, for both languages. Included where these are macros of one
+// argument: U and F for a word, U2, F2, U3, F3 for vectors.
+#ifndef GLIM_TESTS_SHARED_FIELDS
+#define GLIM_TESTS_SHARED_FIELDS
+#include "../../shaders/shared/path_types.h"
+#include "../../shaders/shared/pixel_moments.h"
+#include "../../shaders/shared/scene_types.h"
+
+GLIM_SHARED_BEGIN
+
+GLIM_CONST uint kSharedWords = 194u;
+
+struct EverySharedStruct {
+    PathRay ray;
+    PathHit hit;
+    PathState state;
+    PathRadiance radiance;
+    FirstHit firstHit;
+    ShadowRay shadowRay;
+    QueueSizes queueSizes;
+    QueueTails queueTails;
+    RayCounts rayCounts;
+    Located located;
+    Status status;
+    BlockSums blockSums;
+    Pass pass_;
+    PixelMoments pixelMoments;
+    FlatMaterial material;
+    AliasEntry alias;
+    FlatLight light;
+    FlatEmitter emitter;
+    FlatCamera camera;
+};
+
+GLIM_SHARED_END
+#endif
+
+#ifdef F3
+F3(ray.origin) U(ray.source) F3(ray.direction)
+U(hit.record) F(hit.t) F2(hit.barycentric)
+F3(state.throughput) F(state.pdf) F(state.cosine) F(state.etaScale)
+F3(radiance.radiance) F(radiance.clamped)
+F3(firstHit.albedo) F(firstHit.alpha) F3(firstHit.normal) F(firstHit.depth)
+F3(shadowRay.origin) U(shadowRay.source) F3(shadowRay.direction) U(shadowRay.target) F3(shadowRay.contribution)
+F(shadowRay.reach)
+U(queueSizes.closest) U(queueSizes.shadow) U3(queueSizes.closestGroups) U3(queueSizes.shadowGroups)
+U(queueTails.next) U(queueTails.shadow)
+U2(rayCounts.closest) U2(rayCounts.shadow)
+U(located.pixel) U(located.sampleIndex)
+U(status.flags) U(status.nonFinite) U(status.located[0].pixel) U(status.located[0].sampleIndex)
+U(status.located[1].pixel) U(status.located[1].sampleIndex) U(status.located[2].pixel)
+U(status.located[2].sampleIndex) U(status.located[3].pixel) U(status.located[3].sampleIndex)
+U(status.located[4].pixel) U(status.located[4].sampleIndex) U(status.located[5].pixel)
+U(status.located[5].sampleIndex) U(status.located[6].pixel) U(status.located[6].sampleIndex)
+U(status.located[7].pixel) U(status.located[7].sampleIndex) U(status.located[8].pixel)
+U(status.located[8].sampleIndex) U(status.located[9].pixel) U(status.located[9].sampleIndex)
+U(status.located[10].pixel) U(status.located[10].sampleIndex) U(status.located[11].pixel)
+U(status.located[11].sampleIndex) U(status.located[12].pixel) U(status.located[12].sampleIndex)
+U(status.located[13].pixel) U(status.located[13].sampleIndex) U(status.located[14].pixel)
+U(status.located[14].sampleIndex) U(status.located[15].pixel) U(status.located[15].sampleIndex)
+U(blockSums.count) F3(blockSums.radiance) F(blockSums.alpha) F3(blockSums.albedo) F3(blockSums.normal)
+F(blockSums.depth) F(blockSums.clamped)
+U(pass_.width) U(pass_.height) U(pass_.slabBegin) U(pass_.firstPixel) U(pass_.pixelCount) U(pass_.firstSample)
+U(pass_.sampleCount) U(pass_.seed) U(pass_.bounce) U(pass_.maxBounces) U(pass_.lightCount) U(pass_.environmentLight)
+F3(pass_.environment) F(pass_.clampIndirect) U(pass_.accumulate) U(pass_.canarySteps)
+U(pixelMoments.count) U(pixelMoments.blocks) F3(pixelMoments.mean) F3(pixelMoments.squares) F(pixelMoments.alpha)
+F3(pixelMoments.albedo) F3(pixelMoments.normal) F(pixelMoments.depth) F(pixelMoments.clamped)
+F3(material.baseColor) U(material.scattering) F3(material.emission) F(material.ior) U(material.doubleSided)
+U3(material.unused)
+U(alias.threshold) U(alias.other)
+U(light.kind) U(light.firstEmitter) U(light.emitterCount) F(light.probability) U(light.alias.threshold)
+U(light.alias.other) F3(light.position) F(light.radius) F3(light.direction) F(light.cosInner) F3(light.intensity)
+F(light.cosOuter) U(light.doubleSided) U(light.unused)
+U(emitter.record) U(emitter.light) F(emitter.areaPdf) U(emitter.alias.threshold) U(emitter.alias.other) U3(emitter.unused)
+F3(camera.position) F3(camera.right) F3(camera.up) F3(camera.forward) U(camera.kind)
+#endif
