@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <sys/resource.h>
@@ -112,6 +113,14 @@ Json statisticsOf(const RenderReport& report)
             {"estimate", estimateOf(report.film)}};
 }
 
+void warnOfGaps(const Film& film)
+{
+    const auto gaps = std::count_if(film.pixels.begin(), film.pixels.end(), [](const PixelMoments& p) { return p.count == 0; });
+    if (gaps > 0) {
+        std::cerr << "glim: " << gaps << " of " << film.pixels.size() << " pixels have no sample and are black.\n";
+    }
+}
+
 void warnOfBias(const RenderReport& report)
 {
     if (report.statistics.nonFinite > 0) {
@@ -131,6 +140,7 @@ void warnOfBias(const RenderReport& report)
 
 void printSummary(const RenderReport& report)
 {
+    warnOfGaps(report.film);
     warnOfBias(report);
     const RenderStatistics& s = report.statistics;
     const double pixels = static_cast<double>(report.film.pixels.size());

@@ -21,9 +21,13 @@ std::string listOf(const std::vector<Candidate>& candidates)
     return list.empty() ? "none" : list;
 }
 
+// A number is an index and never part of a name: many names have digits.
 bool isNamedBy(const std::string& choice, std::size_t index, const DeviceDescription& description)
 {
-    return choice == std::to_string(index) || lowerCase(description.name).find(lowerCase(choice)) != std::string::npos;
+    if (choice.find_first_not_of("0123456789") == std::string::npos) {
+        return choice == std::to_string(index);
+    }
+    return lowerCase(description.name).find(lowerCase(choice)) != std::string::npos;
 }
 
 Candidate choose(const Instance& instance, const std::optional<std::string>& choice)

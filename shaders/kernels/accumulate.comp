@@ -25,6 +25,9 @@ void addPixel(uint pixel)
 {
     uint at = pass.firstPixel + pixel;
     BlockSums sums = filmBlocks[at];
+    if (sums.count == 0u) {
+        sums = emptyBlock();  // the host fills new blocks with zeros
+    }
     for (uint i = 0u; i < pass.sampleCount; ++i) {
         uint slot = pixel * pass.sampleCount + i;
         PathRadiance path = pathRadiance[slot];

@@ -2,16 +2,22 @@
 #ifndef GLIM_LIB_FRESNEL
 #define GLIM_LIB_FRESNEL
 
+// Squared cosine of the refracted direction, 1 - sin^2 / eta^2; < 0: total reflection. As (eta^2 - 1 + cos^2) / eta^2, whose
+// terms are as small as the result at grazing incidence on an interface that hardly is one.
+float refractedCosine2(float cosine, float eta)
+{
+    return ((eta - 1.0) * (eta + 1.0) + cosine * cosine) / (eta * eta);
+}
+
 // Share of unpolarised light that a dielectric interface reflects; `eta` = index beyond / index before, `cosine` of the
-// incident direction in [0, 1]. 1 on total reflection, 0 where there is no interface. 1 - eta^-2 sin^2 is formed without
-// cancellation at grazing incidence.
+// incident direction in [0, 1]. 1 on total reflection, 0 where there is no interface.
 float fresnelDielectric(float cosine, float eta)
 {
     float c = clamp(cosine, 0.0, 1.0);
     if (eta == 1.0) {
         return 0.0;
     }
-    float k = 1.0 - (1.0 - c) * (1.0 + c) / (eta * eta);
+    float k = refractedCosine2(c, eta);
     if (!(k > 0.0)) {
         return 1.0;
     }
@@ -43,7 +49,7 @@ vec3 refractThrough(vec3 wo, vec3 n, float eta)
         return -wo;
     }
     float c = dot(wo, n);
-    float k = 1.0 - (1.0 - c) * (1.0 + c) / (eta * eta);
+    float k = refractedCosine2(c, eta);
     vec3 wi = (c / eta - sqrt(max(0.0, k))) * n - wo / eta;
     return wi / sqrt(dot(wi, wi));
 }

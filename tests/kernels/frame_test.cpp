@@ -1,46 +1,49 @@
 #include "shaders/shared/vocabulary.h"
 #include "test_kernels.hpp"
 #include "tests/support/kernel_test.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/statistics.hpp"
 
 #include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
 
 namespace glim {
 namespace {
 
 struct Case {
-    vec3 normal;
-    vec3 vector;
-    vec3 unit;
+    vec3 normal, vector, unit;
 };
 
-// H17: 1e5 normals anywhere and 1e5 within 1e-3 to 1e-7 rad of +-z, where Frisvad's frame fails, and the poles with both
-// zeros. H39: vectors of 1e-30 to 1e30.
-TEST(FrameTest, H17H39OrthonormalEverywhere)
+Case caseOf(const glm::dvec3& normal, Random& random)
 {
-    std::mt19937 random(7);
-    std::normal_distribution<double> gauss;
-    std::uniform_real_distribution<double> uniform;
-    std::vector<Case> cases;
-    const auto add = [&](const glm::dvec3& n) {
-        const glm::dvec3 v(gauss(random), gauss(random), gauss(random));
-        const vec3 scaled(v * std::pow(10.0, 60.0 * uniform(random) - 30.0));
-        cases.push_back({vec3(glm::normalize(n)), scaled, vec3(glm::normalize(glm::dvec3(scaled)))});
-    };
-    for (int i = 0; i < 100000; ++i) {
-        add({gauss(random), gauss(random), gauss(random)});
-        const double angle = std::pow(10.0, -3.0 - 4.0 * uniform(random)), phi = 6.28 * uniform(random);
-        add({angle * std::cos(phi), angle * std::sin(phi), i % 2 == 0 ? 1.0 : -1.0});
-    }
-    for (const float z : {1.0F, -1.0F}) {
-        for (const float zero : {0.0F, -0.0F}) {
-            cases.push_back({{zero, zero, z}, {zero, 3.0F, zero}, {0, 1, 0}});
-            cases.push_back({{zero, z, zero}, {1e-30F, zero, zero}, {1, 0, 0}});
+    const glm::dvec3 d = random.direction();
+    Case c{normal, random.logUniform(1e-30, 1e30) * d, {}};
+    const glm::dvec3 v(c.vector);
+    c.unit = v / glm::length(v);
+    return c;
+}
+
+// H17 and H39: any direction, directions within 1e-7 to 1e-3 of both poles, and the axes with zeros of either sign.
+TEST(FrameTest, IsOrthonormalAndRightHanded)
+{
+    for (int round = 0; round < testRounds(); ++round) {
+        Random random(static_cast<std::uint64_t>(round) * 7 + 13);
+        std::vector<Case> cases;
+        for (int i = 0; i < 1000000; ++i) {
+            cases.push_back(caseOf(random.direction(), random));
         }
+        for (int i = 0; i < 100000; ++i) {
+            const glm::dvec2 side = glm::normalize(glm::dvec2(random.normal(), random.normal()));
+            const glm::dvec3 near(side * random.logUniform(1e-7, 1e-3), i % 2 == 0 ? 1.0 : -1.0);
+            cases.push_back(caseOf(glm::normalize(near), random));
+        }
+        for (int i = 0; i < 24; ++i) {
+            const double zero = (i & 1) != 0 ? -0.0 : 0.0, other = (i & 2) != 0 ? -0.0 : 0.0;
+            glm::dvec3 n(zero, other, zero);
+            n[i / 8] = (i & 4) != 0 ? -1.0 : 1.0;
+            cases.push_back(caseOf(n, random));
+        }
+        KernelTest(test_kernels::frame_test).cases(cases).run();
     }
-    KernelTest(test_kernels::frame_test).cases(cases).run();
 }
 
 }  // namespace

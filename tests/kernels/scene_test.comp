@@ -33,15 +33,15 @@ void main()
         int at = int(c.record * kRecordTexels);
         EXPECT_TRUE(floatsOf(texelFetch(sceneNormals, at)) == c.normals[0]);
         EXPECT_TRUE(floatsOf(texelFetch(sceneNormals, at + 2)) == c.normals[2]);
-        FlatMaterial material = sceneMaterials[c.material];
+        FlatMaterial material = fetchMaterial(c.material);
         EXPECT_TRUE(material.baseColor == c.baseColor);
         EXPECT_TRUE(material.emission == c.emission);
         EXPECT_EQUAL(uint(record.t2.w != 0u), uint(c.light != 0u));
         if (record.t2.w != 0u) {
-            FlatEmitter emitter = sceneEmitters[record.t2.w - 1u];
+            FlatEmitter emitter = fetchEmitter(record.t2.w - 1u);
             EXPECT_EQUAL(emitter.record, c.record);
             EXPECT_EQUAL(emitter.light, c.light - 1u);
-            EXPECT_TRUE(sceneLights[emitter.light].intensity == c.emission);
+            EXPECT_TRUE(fetchLight(emitter.light).intensity == c.emission);
         }
         EXPECT_TRUE(sceneCamera.position == c.cameraPosition);
     }

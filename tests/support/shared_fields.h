@@ -8,7 +8,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 187u;
+GLIM_CONST uint kSharedWords = 194u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -66,10 +66,11 @@ F3(pass_.environment) F(pass_.clampIndirect) U(pass_.accumulate) U(pass_.canaryS
 U(pixelMoments.count) U(pixelMoments.blocks) F3(pixelMoments.mean) F3(pixelMoments.squares) F(pixelMoments.alpha)
 F3(pixelMoments.albedo) F3(pixelMoments.normal) F(pixelMoments.depth) F(pixelMoments.clamped)
 F3(material.baseColor) U(material.scattering) F3(material.emission) F(material.ior) U(material.doubleSided)
+U3(material.unused)
 U(alias.threshold) U(alias.other)
 U(light.kind) U(light.firstEmitter) U(light.emitterCount) F(light.probability) U(light.alias.threshold)
 U(light.alias.other) F3(light.position) F(light.radius) F3(light.direction) F(light.cosInner) F3(light.intensity)
-F(light.cosOuter) U(light.doubleSided)
-U(emitter.record) U(emitter.light) F(emitter.areaPdf) U(emitter.alias.threshold) U(emitter.alias.other)
+F(light.cosOuter) U(light.doubleSided) U(light.unused)
+U(emitter.record) U(emitter.light) F(emitter.areaPdf) U(emitter.alias.threshold) U(emitter.alias.other) U3(emitter.unused)
 F3(camera.position) F3(camera.right) F3(camera.up) F3(camera.forward) U(camera.kind)
 #endif

@@ -1,0 +1,86 @@
+#include "shaders/shared/vocabulary.h"
+#include "test_kernels.hpp"
+#include "tests/support/kernel_test.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/statistics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace glim {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+struct Case {
+    float sin2;
+    vec2 u;
+    float oneMinusCos, pdf;
+    vec2 across;
+    float rise;
+};
+
+// 1 - cos of the half angle = 2 sin^2 of half of it; the cone's solid angle is 2 pi times that.
+double riseOf(double sin2)
+{
+    return 2.0 * std::pow(std::sin(0.5 * std::asin(std::sqrt(sin2))), 2.0);
+}
+
+Case caseOf(float sin2, vec2 u)
+{
+    const double whole = riseOf(static_cast<double>(sin2)), rise = static_cast<double>(u.x) * whole;
+    const double phi = kPi * (2.0 * static_cast<double>(u.y) - 1.0), r = std::sqrt(rise * (2.0 - rise));
+    return {sin2, u, static_cast<float>(whole), static_cast<float>(1.0 / (2.0 * kPi * whole)),
+            vec2(r * std::cos(phi), r * std::sin(phi)), static_cast<float>(rise)};
+}
+
+// H11: ratios of radius to distance from 1e-6 to 0.999999.
+TEST(ConeTest, KeepsItsDigitsHoweverSmall)
+{
+    Random random(11);
+    std::vector<Case> cases;
+    for (int i = 0; i < 200000; ++i) {
+        const double ratio = i % 2 == 0 ? random.logUniform(1e-6, 1.0) : 1.0 - random.logUniform(1e-6, 1.0);
+        cases.push_back(caseOf(static_cast<float>(ratio * ratio), {random.unitFloat(), random.unitFloat()}));
+    }
+    for (const float x : {0.0F, 0x1p-24F, 0.5F, 1.0F - 0x1p-24F}) {
+        for (const float y : {0.0F, 0x1p-24F, 0.5F, 1.0F - 0x1p-24F}) {
+            cases.push_back(caseOf(1e-12F, {x, y}));
+            cases.push_back(caseOf(1.0F, {x, y}));
+        }
+    }
+    KernelTest(test_kernels::cone_test).cases(cases).resultsOf<vec3>(cases.size()).run();
+}
+
+// Equal solid angles get equal counts: rings of equal 1 - cos, sectors of equal azimuth.
+void expectUniform(float sin2, std::uint64_t seed)
+{
+    constexpr int kRings = 10, kSectors = 20;
+    Random random(seed);
+    std::vector<Case> cases;
+    for (int i = 0; i < 1000000; ++i) {
+        cases.push_back(caseOf(sin2, {random.unitFloat(), random.unitFloat()}));
+    }
+    KernelTest test(test_kernels::cone_test);
+    test.cases(cases).resultsOf<vec3>(cases.size()).run();
+    std::vector<double> counts(kRings * kSectors, 0.0);
+    for (const vec3& w : test.results<vec3>()) {
+        const double r2 = glm::dot(glm::dvec2(w), glm::dvec2(w));
+        const double rise = r2 / (1.0 + std::sqrt(1.0 - r2)) / riseOf(static_cast<double>(sin2));
+        const double turn = 0.5 + std::atan2(static_cast<double>(w.y), static_cast<double>(w.x)) / (2.0 * kPi);
+        ++counts[static_cast<std::size_t>(std::min(kRings - 1, static_cast<int>(rise * kRings)) * kSectors +
+                                          std::min(kSectors - 1, static_cast<int>(turn * kSectors)))];
+    }
+    const std::vector<double> expected(counts.size(), static_cast<double>(cases.size()) / kRings / kSectors);
+    expectCounts("cone of sin^2 " + std::to_string(sin2), counts, expected, 2);
+}
+
+TEST(ConeTest, IsUniform)
+{
+    expectUniform(0.7F, 12);
+    expectUniform(1e-8F, 15);
+}
+
+}  // namespace
+}  // namespace glim

@@ -1,0 +1,125 @@
+#include "shaders/shared/vocabulary.h"
+#include "test_kernels.hpp"
+#include "tests/support/kernel_test.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/statistics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+
+namespace glim {
+namespace {
+
+struct Case {
+    float cosine, eta;
+    float reflected, tolerance;
+    float beyond;
+    vec3 color, schlick;
+    vec3 wo, n, mirrored, passed;
+    float passedTolerance;
+};
+
+// Fresnel's sine and tangent laws (1823), the mean of both polarisations.
+double reflectance(double cosine, double eta)
+{
+    const double sine = std::sqrt((1.0 - cosine) * (1.0 + cosine));
+    if (sine >= eta) {
+        return 1.0;
+    }
+    if (sine < 1e-7) {
+        return std::pow((eta - 1.0) / (eta + 1.0), 2.0);
+    }
+    const double i = std::atan2(sine, cosine), t = std::asin(sine / eta);
+    const double s = std::sin(i - t) / std::sin(i + t), p = std::tan(i - t) / std::tan(i + t);
+    return 0.5 * (s * s + p * p);
+}
+
+// The same from k, the square of the cosine beyond, to see how an error of k counts.
+double reflectanceOf(double c, double eta, double k)
+{
+    const double t = std::sqrt(std::max(0.0, k));
+    const double p = (eta * c - t) / (eta * c + t), s = (c - eta * t) / (c + eta * t);
+    return 0.5 * (s * s + p * p);
+}
+
+void setReflectance(Case& c)
+{
+    const double cosine = static_cast<double>(c.cosine), eta = static_cast<double>(c.eta);
+    const double sine2 = (1.0 - cosine) * (1.0 + cosine), k = 1.0 - sine2 / (eta * eta);
+    // Rounding of k: three operations on its two terms, their sum, and a quotient of 2.5 ulp.
+    const double error = 0x1p-24 * (4.0 * (std::abs(eta * eta - 1.0) + cosine * cosine) / (eta * eta) + 6.0 * std::abs(k));
+    c.reflected = static_cast<float>(reflectance(cosine, eta));
+    const double span = std::max(std::abs(reflectanceOf(cosine, eta, k + error) - reflectanceOf(cosine, eta, k)),
+                                 std::abs(reflectanceOf(cosine, eta, k - error) - reflectanceOf(cosine, eta, k)));
+    c.tolerance = k < -error ? 0.0F : static_cast<float>(eta > 0.6 ? std::min(2e-3, span + 2e-6) : span + 2e-6);
+    c.beyond = k > 0.05 && cosine > 0.2 && eta > 0.5 && eta < 2.0 ? static_cast<float>(std::sqrt(k)) : -1.0F;
+}
+
+void setDirections(Case& c, Random& random)
+{
+    const glm::dvec3 n = random.direction();
+    glm::dvec3 wo = random.direction();
+    wo = glm::dot(wo, n) < 0.0 ? -wo : wo;
+    c.n = n;
+    c.wo = wo;
+    const glm::dvec3 along(c.n), from(c.wo);
+    const double cosine = glm::dot(from, along) / glm::length(along), eta = static_cast<double>(c.eta);
+    const glm::dvec3 across = from - cosine * along;
+    c.mirrored = cosine * along - across;
+    // Snell: the tangential part shrinks by eta, the normal part makes the length 1.
+    const double k = 1.0 - glm::dot(across, across) / (eta * eta);
+    const double error = 4e-7 * (1.0 + cosine) * (1.0 + 1.0 / (eta * eta));  // of k, rounding of unit vectors included
+    c.passed = -across / eta - std::sqrt(std::max(0.0, k)) * along;
+    c.passedTolerance =
+        k > 2.0 * error ? static_cast<float>(2e-6 * (1.0 + 1.0 / eta) + error / std::sqrt(k)) : -1.0F;
+}
+
+Case caseOf(Random& random, int kind)
+{
+    Case c{};
+    c.eta = static_cast<float>(random.logUniform(1.0 / 3.0, 3.0));
+    c.cosine = random.unitFloat();
+    const double eta = static_cast<double>(c.eta);
+    if (kind == 1 && eta < 1.0) {  // near the critical angle, on either side
+        c.cosine = static_cast<float>(
+            std::sqrt(std::max(0.0, 1.0 - eta * eta + random.logUniform(1e-7, 1e-2) * (random.below(2) == 0 ? 1.0 : -1.0))));
+    } else if (kind == 2) {  // nearly no interface
+        c.eta = static_cast<float>(1.0 + random.logUniform(1e-6, 1e-2) * (random.below(2) == 0 ? 1.0 : -1.0));
+    } else if (kind == 3) {
+        c.cosine = random.below(2) == 0 ? 0.0F : static_cast<float>(random.logUniform(1e-8, 1e-2));
+    } else if (kind == 4) {
+        c.cosine = 1.0F - static_cast<float>(random.below(16)) * 0x1p-24F;
+    }
+    setReflectance(c);
+    setDirections(c, random);
+    const glm::dvec3 color(random.uniform(), random.uniform(), random.uniform());
+    c.color = color;
+    c.schlick = color + (1.0 - color) * std::pow(1.0 - static_cast<double>(c.cosine), 5.0);
+    return c;
+}
+
+// H21. Near the critical angle the reflectance goes as the square root of k, so the tolerance is what k's rounding does to it;
+// H21's 2e-3 caps it for indices up to 1 / 0.6 (at index 3 the last ulp of k alone is worth 5e-3).
+TEST(FresnelTest, AgreesWithTheSineAndTangentLaws)
+{
+    for (int round = 0; round < testRounds(); ++round) {
+        Random random(static_cast<std::uint64_t>(round) * 7 + 14);
+        std::vector<Case> cases;
+        float largest = 0.0F, ordinary = 0.0F;
+        for (int i = 0; i < 800000; ++i) {
+            cases.push_back(caseOf(random, i % 8));
+            const Case& c = cases.back();
+            const float k = 1.0F - (1.0F - c.cosine) * (1.0F + c.cosine) / (c.eta * c.eta);
+            largest = std::max(largest, c.tolerance);
+            ordinary = std::max(ordinary, k > 0.05F ? c.tolerance : 0.0F);
+        }
+        std::cout << "  tolerance: up to " << largest << ", away from the critical angle " << ordinary << '\n';
+        EXPECT_LE(ordinary, 1e-5F);
+        KernelTest(test_kernels::fresnel_test).cases(cases).run();
+    }
+}
+
+}  // namespace
+}  // namespace glim

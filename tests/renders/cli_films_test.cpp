@@ -1,0 +1,208 @@
+// Renders cut short and put together: merging, time limits, signals, repeatability, progress.
+#include "host/render/film_file.hpp"
+#include "tests/support/run_glim.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/support/simulated_film.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <sstream>
+
+namespace glim::test {
+namespace {
+
+using nlohmann::json;
+using Arguments = std::vector<std::string>;
+
+class Films {
+public:
+    // Renders scenes/SCENE to NAME; fails the test unless that succeeds.
+    void render(const std::string& name, const Arguments& options, const std::string& scene = "cornell.gltf") const
+    {
+        const GlimRun run = runGlim(call(name, options, scene));
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+    }
+    GlimCall call(const std::string& name, const Arguments& options, const std::string& scene = "cornell.gltf") const
+    {
+        GlimCall call;
+        call.arguments = {"render", sceneFile(scene), "-o", name};
+        call.arguments.insert(call.arguments.end(), options.begin(), options.end());
+        if (std::find(options.begin(), options.end(), "--size") == options.end()) {
+            call.arguments.insert(call.arguments.end(), {"--size", "16x16"});
+        }
+        call.folder = folder_.path();
+        return call;
+    }
+    GlimRun merge(const Arguments& options) const
+    {
+        GlimCall call;
+        call.arguments = {"merge"};
+        call.arguments.insert(call.arguments.end(), options.begin(), options.end());
+        call.folder = folder_.path();
+        return runGlim(call);
+    }
+    Film film(const char* name) const { return readFilm(folder_ / name); }
+    json statistics(const char* name) const { return json::parse(bytesOfFile(folder_ / name)); }
+    bool exists(const char* name) const { return std::filesystem::exists(folder_ / name); }
+
+private:
+    ScratchFolder folder_;
+};
+
+std::vector<json> linesOf(const std::string& text)
+{
+    std::vector<json> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) {
+        lines.push_back(json::parse(line));
+    }
+    return lines;
+}
+
+TEST(CommandLineTest, MergedPagesAreTheBitsOfTheSingleRun)
+{
+    const Films films;
+    films.render("a.exr", {"--samples", "0:256"});
+    films.render("b.exr", {"--samples", "256:512"});
+    films.render("whole.exr", {"--samples", "0:512"});
+    const GlimRun run = films.merge({"b.exr", "a.exr", "-o", "c.exr"});
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_NE(run.err.find("the bits of the single run"), std::string::npos) << run.err;
+    EXPECT_EQ(run.out, "");
+    EXPECT_TRUE(sameBits(films.film("c.exr").pixels, films.film("whole.exr").pixels));
+    EXPECT_FALSE(sameBits(films.film("c.exr").pixels, films.film("a.exr").pixels));
+    const GlimRun inPlace = films.merge({"a.exr", "b.exr", "-o", "b.exr"});  // the output may replace an input
+    EXPECT_EQ(inPlace.exitCode, 0) << inPlace.err;
+    EXPECT_TRUE(sameBits(films.film("b.exr").pixels, films.film("whole.exr").pixels));
+}
+
+TEST(CommandLineTest, MergeRefusesWhatDoesNotBelongTogether)
+{
+    const Films films;
+    films.render("a.exr", {"--samples", "0:32"});
+    films.render("overlap.exr", {"--samples", "31:64"});
+    films.render("seed.exr", {"--samples", "32:64", "--seed", "1"});
+    films.render("bounces.exr", {"--samples", "32:64", "--bounces", "3"});
+    films.render("scene.exr", {"--samples", "32:64"}, "cornell_spheres.gltf");
+    films.render("light.exr", {"--samples", "32:64", "--environment", "1,1,1"});
+    films.render("size.exr", {"--samples", "32:64", "--size", "8x8"});
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {"overlap.exr", "both hold samples 31:32"}, {"seed.exr", "its seed is 1, expected 0"},
+        {"bounces.exr", "its setting is \"bounces=3\", expected \"bounces=64\""},
+        {"scene.exr", "its scene is "},             {"light.exr", "its scene is "},
+        {"size.exr", "its size is 8x8"},            {"none.exr", "none.exr: "}};
+    for (const auto& [name, part] : cases) {
+        const GlimRun run = films.merge({"a.exr", name, "-o", "c.exr"});
+        EXPECT_EQ(run.exitCode, 1);
+        EXPECT_NE(run.err.find(part), std::string::npos) << run.err << "lacks: " << part;
+        EXPECT_EQ(countLines(run.err), 1U) << run.err;
+        EXPECT_FALSE(films.exists("c.exr"));
+    }
+}
+
+TEST(CommandLineTest, TheSameSeedGivesTheSamePixels)
+{
+    const Films films;
+    films.render("a.exr", {"--seed", "5", "--spp", "48"});
+    films.render("b.exr", {"--seed", "5", "--spp", "48"});
+    films.render("c.exr", {"--seed", "6", "--spp", "48"});
+    EXPECT_TRUE(sameBits(films.film("a.exr").pixels, films.film("b.exr").pixels));
+    EXPECT_FALSE(sameBits(films.film("a.exr").pixels, films.film("c.exr").pixels));
+}
+
+TEST(CommandLineTest, TimeEndsARender)
+{
+    const Films films;
+    films.render("x.exr", {"--time", "0.5", "--stats", "s.json"});
+    const json s = films.statistics("s.json");
+    EXPECT_EQ(s.at("stopReason"), "time");
+    EXPECT_GE(s.at("seconds").at("render"), 0.5);
+    EXPECT_LT(s.at("seconds").at("render"), 5.0);  // a pass is far below this even where others use the machine
+    EXPECT_GE(films.film("x.exr").pixels[0].count, 1U);
+    films.render("x.exr", {"--time", "1000", "--samples", "8:24", "--stats", "s.json"});
+    EXPECT_EQ(films.statistics("s.json").at("stopReason"), "samples");
+    EXPECT_EQ(films.film("x.exr").pixels[0].count, 16U);
+}
+
+TEST(CommandLineTest, PixelsThatNoTimeWasLeftForAreSaid)
+{
+    const Films films;
+    const GlimRun run = runGlim(films.call("x.exr", {"--time", "0.001", "--size", "512x512"}));
+    EXPECT_EQ(run.exitCode, 0);
+    EXPECT_NE(run.err.find(" of 262144 pixels have no sample and are black"), std::string::npos) << run.err;
+    EXPECT_EQ(countLines(run.err), 1U);
+}
+
+TEST(CommandLineTest, SignalsEndARenderThatIsThenWritten)
+{
+    for (const auto& [signal, name, exitCode] : {std::tuple(SIGINT, "SIGINT", 130), std::tuple(SIGTERM, "SIGTERM", 143)}) {
+        const Films films;
+        GlimCall call = films.call("x.exr", {"--size", "60x60", "--spp", "2000000000", "--progress", "json", "--stats",
+                                             "s.json", "--png", "x.png"});
+        call.signalAtFirstLine = signal;
+        const GlimRun run = runGlim(call);
+        EXPECT_EQ(run.exitCode, exitCode) << run.err;
+        EXPECT_NE(run.err.find(std::string("stopped by ") + name + "; what was finished is in x.exr"), std::string::npos)
+            << run.err;
+        EXPECT_TRUE(films.exists("x.png"));
+        const Film film = films.film("x.exr");
+        std::uint64_t samples = 0;
+        for (const PixelMoments& pixel : film.pixels) {
+            samples += pixel.count;
+            EXPECT_TRUE(std::isfinite(pixel.mean.r + pixel.mean.g + pixel.mean.b));
+        }
+        const json s = films.statistics("s.json");
+        EXPECT_EQ(s.at("stopReason"), name);
+        EXPECT_EQ(s.at("samples"), samples);
+        EXPECT_GT(samples, 0U);
+        EXPECT_EQ(film.sampleRanges.front().second, s.at("sampleRange").at(1));
+        EXPECT_LT(film.sampleRanges.front().second, 2000000000U);
+    }
+}
+
+TEST(CommandLineTest, ProgressAsJsonGoesUpToOne)
+{
+    const Films films;
+    const GlimRun run = runGlim(films.call("x.exr", {"--spp", "512", "--progress", "json"}));
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    const std::vector<json> lines = linesOf(run.err);
+    ASSERT_GE(lines.size(), 2U);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const json& before = lines[i == 0 ? 0 : i - 1];
+        EXPECT_GE(lines[i].at("done"), before.at("done"));
+        EXPECT_GE(lines[i].at("samples"), before.at("samples"));
+        EXPECT_GE(lines[i].at("seconds"), before.at("seconds"));
+        EXPECT_EQ(lines[i].at("totalSamples"), 16 * 16 * 512);
+        EXPECT_GE(lines[i].at("etaSeconds"), 0.0);
+    }
+    EXPECT_EQ(lines.back().at("done"), 1.0);
+    EXPECT_EQ(lines.back().at("samples"), 16 * 16 * 512);
+}
+
+TEST(CommandLineTest, ResultsAreOnStdoutAndChatterOnStderr)
+{
+    const Films films;
+    for (const Arguments& style : {Arguments{}, Arguments{"--progress", "none"}}) {
+        Arguments options{"--spp", "64"};
+        options.insert(options.end(), style.begin(), style.end());
+        const GlimRun run = runGlim(films.call("x.exr", options));
+        EXPECT_EQ(run.err, "");  // no terminal, no bar
+        EXPECT_EQ(run.out.rfind("x.exr: 16x16, 64 samples per pixel in ", 0), 0U) << run.out;
+        EXPECT_NE(run.out.find(", estimated relMSE "), std::string::npos) << run.out;
+        EXPECT_NE(run.out.find(", on "), std::string::npos) << "a software device is named: " << run.out;
+        EXPECT_EQ(countLines(run.out), 1U);
+    }
+    const GlimRun bar = runGlim(films.call("x.exr", {"--spp", "64", "--progress", "bar"}));
+    EXPECT_NE(bar.err.find("Msamples/s"), std::string::npos) << bar.err;
+    EXPECT_EQ(countLines(bar.out), 1U);
+    const GlimRun mapped = runGlim(films.call("x.exr", {"--spp", "1"}, "veach_mis.gltf"));
+    EXPECT_GE(countLines(mapped.err), 1U) << "materials that are mapped are said";
+    EXPECT_EQ(countLines(mapped.out), 1U);
+}
+
+}  // namespace
+}  // namespace glim::test

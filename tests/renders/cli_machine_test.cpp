@@ -1,0 +1,178 @@
+// The program among its surroundings: devices, inspect, an installation, a machine without driver or display.
+#include "tests/support/gltf_builder.hpp"
+#include "tests/support/run_glim.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+namespace glim::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+GlimCall smallRender(const ScratchFolder& folder, const std::vector<std::string>& options = {})
+{
+    GlimCall call;
+    call.arguments = {"render", sceneFile("cornell.gltf"), "-o", "x.exr", "--size", "8x8", "--spp", "1"};
+    call.arguments.insert(call.arguments.end(), options.begin(), options.end());
+    call.folder = folder.path();
+    return call;
+}
+
+json listDevices()
+{
+    const GlimRun run = runGlim({"devices", "--json"});
+    EXPECT_EQ(run.exitCode, 0) << run.err;
+    return json::parse(run.out);
+}
+
+TEST(CommandLineTest, DevicesAreListedWithWhatMatters)
+{
+    const json devices = listDevices();
+    ASSERT_GE(devices.size(), 1U);
+    const GlimRun text = runGlim({"devices"});
+    EXPECT_EQ(text.exitCode, 0);
+    for (const json& device : devices) {
+        EXPECT_GT(device.at("memory"), 0);
+        EXPECT_GT(device.at("subgroupSize"), 0);
+        EXPECT_GT(device.at("maxStorageBuffer"), 0);
+        EXPECT_GT(device.at("maxTexelElements"), 0);
+        EXPECT_NE(device.at("kind"), "");
+        EXPECT_TRUE(contains(text.out, device.at("name"))) << text.out;
+        EXPECT_TRUE(contains(text.out, device.at("driver"))) << text.out;
+    }
+}
+
+TEST(CommandLineTest, DevicesAreChosenByIndexAndByPartOfTheName)
+{
+    const std::string name = listDevices().at(0).at("name");
+    std::string part = name.substr(0, 5);
+    std::transform(part.begin(), part.end(), part.begin(), [](unsigned char c) { return std::toupper(c); });
+    for (const std::string& choice : {std::string("0"), part}) {
+        const ScratchFolder folder;
+        const GlimRun run = runGlim(smallRender(folder, {"--device", choice}));
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        EXPECT_TRUE(contains(run.out, "on " + name)) << run.out;
+    }
+}
+
+TEST(CommandLineTest, WithoutADriverTheSentenceSaysWhatToInstall)
+{
+    const ScratchFolder folder;
+    GlimCall call = smallRender(folder);
+    for (const auto& arguments : {call.arguments, std::vector<std::string>{"devices"}}) {
+        call.arguments = arguments;
+        call.environment = {{"VK_DRIVER_FILES", "/nonexistent"}, {"VK_ICD_FILENAMES", "/nonexistent"}};
+        const GlimRun run = runGlim(call);
+        EXPECT_EQ(run.exitCode, 3);
+        EXPECT_TRUE(contains(run.err, "mesa-vulkan-drivers")) << run.err;
+        EXPECT_EQ(run.err.rfind("glim: ", 0), 0U) << run.err;
+        EXPECT_EQ(countLines(run.err), 1U) << run.err;
+        EXPECT_EQ(run.out, "");
+    }
+    EXPECT_EQ(folder.entries(), 0);
+}
+
+// A sphere that emits, two triangles a metre apart, a camera without a name.
+std::string knownScene()
+{
+    GltfBuilder builder;
+    const std::size_t mesh = builder.addTriangleMesh();
+    builder.append("materials", {{"emissiveFactor", {1, 1, 1}}});
+    builder.addNode({{"mesh", mesh}});
+    builder.addNode({{"mesh", mesh}, {"translation", {0, 0, -1}}});
+    builder.addNode({{"translation", {0, 0, 3}}, {"extras", {{"sphere", {{"radius", 0.5}, {"material", 0}}}}}});
+    return builder.toGltf();
+}
+
+TEST(CommandLineTest, InspectCountsWhatIsThere)
+{
+    const ScratchFolder folder;
+    const std::string scene = (folder / "known.gltf").string();
+    writeText(scene, knownScene());
+    const GlimRun run = runGlim({"inspect", scene, "--json"});
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    const json found = json::parse(run.out);
+    EXPECT_EQ(found.at("counts").at("triangles"), 2);
+    EXPECT_EQ(found.at("counts").at("spheres"), 1);
+    EXPECT_EQ(found.at("counts").at("lights"), 1);
+    const std::vector<double> low = found.at("bounds").at("low"), high = found.at("bounds").at("high");
+    for (const auto& [value, expected] : {std::pair(low[0], -0.5), {low[1], -0.5}, {low[2], -1.0}, {high[0], 1.0}, {high[2], 3.5}}) {
+        EXPECT_NEAR(value, expected, 1e-5);
+    }
+    EXPECT_GE(found.at("bvh").at("depth"), 1);
+    EXPECT_GT(found.at("bvh").at("surfaceAreaCost"), 0.0);
+    EXPECT_GT(found.at("deviceBytes"), 3 * 36);
+    EXPECT_EQ(found.at("needs").at("spheres"), true);
+    EXPECT_EQ(found.at("needs").at("surface lights"), true);
+    EXPECT_EQ(found.at("needs").at("punctual lights"), false);
+    const GlimRun text = runGlim({"inspect", scene});
+    EXPECT_EQ(text.exitCode, 0);
+    for (const char* part : {"triangles 2\n", "spheres 1\n", "bounds", "BVH: ", "on the device: ", "needs:", "camera 0 \"framed\""}) {
+        EXPECT_TRUE(contains(text.out, part)) << text.out << "lacks: " << part;
+    }
+    EXPECT_EQ(folder.entries(), 1);
+}
+
+TEST(CommandLineTest, ScenesWithoutCameraOrLightAreFramedAndSaid)
+{
+    const ScratchFolder folder;
+    GltfBuilder builder;
+    builder.addNode({{"mesh", builder.addTriangleMesh()}});
+    writeText(folder / "dark.gltf", builder.toGltf());
+    GlimCall call = smallRender(folder);
+    call.arguments[1] = "dark.gltf";
+    const GlimRun run = runGlim(call);
+    EXPECT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_TRUE(contains(run.err, "camera")) << run.err;
+    EXPECT_TRUE(contains(run.err, "the scene has no light")) << run.err;
+    call.arguments.insert(call.arguments.end(), {"--environment", "1,1,1"});
+    EXPECT_FALSE(contains(runGlim(call).err, "no light"));
+}
+
+TEST(CommandLineTest, AnInstalledAndMovedProgramRendersWithoutADisplay)
+{
+    const ScratchFolder folder;
+    const fs::path prefix = folder / "prefix", home = folder / "home", bin = folder / "bin";
+    const std::string install = "cmake --install '" GLIM_BUILD_DIR "' --prefix '" + prefix.string() + "' >/dev/null";
+    ASSERT_EQ(std::system(install.c_str()), 0);
+    fs::create_directory(home);
+    fs::create_directory(bin);
+    fs::rename(prefix / "bin" / "glim", bin / "glim");
+    fs::remove_all(prefix);
+    fs::copy_file(sceneFile("cornell.gltf"), home / "my scéne.gltf");
+    GlimCall call = smallRender(folder);
+    call.program = bin / "glim";
+    call.folder = home;
+    call.arguments[1] = "my scéne.gltf";
+    call.environment = {{"DISPLAY", std::nullopt}, {"WAYLAND_DISPLAY", std::nullopt}};
+    const GlimRun run = runGlim(call);
+    EXPECT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_TRUE(fs::exists(home / "x.exr"));
+    EXPECT_EQ(std::distance(fs::directory_iterator(home), fs::directory_iterator()), 2);
+}
+
+TEST(CommandLineTest, NoWindowLibraryIsLinked)
+{
+    FILE* pipe = popen("ldd '" GLIM_BINARY "'", "r");
+    ASSERT_NE(pipe, nullptr);
+    std::string libraries;
+    for (char buffer[4096]; std::fgets(buffer, sizeof buffer, pipe) != nullptr;) {
+        libraries += buffer;
+    }
+    EXPECT_EQ(pclose(pipe), 0);
+    EXPECT_TRUE(contains(libraries, "libvulkan")) << libraries;
+    for (const char* window : {"glfw", "libX11", "libxcb", "wayland"}) {
+        EXPECT_FALSE(contains(libraries, window)) << libraries;
+    }
+}
+
+}  // namespace
+}  // namespace glim::test
