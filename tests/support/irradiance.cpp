@@ -80,7 +80,8 @@ std::vector<IrradianceEstimate> estimateIrradiance(const Scene& scene, const std
     return estimates;
 }
 
-std::vector<IrradianceEstimate> expectIrradiance(const char* name, const Scene& scene, const std::vector<Receiver>& receivers)
+std::vector<IrradianceEstimate> expectIrradiance(const char* name, const Scene& scene, const std::vector<Receiver>& receivers,
+                                                 double densityTolerance)
 {
     const double limit = scoreLimit(kFamily);
     const std::vector<IrradianceEstimate> estimates = estimateIrradiance(scene, receivers);
@@ -89,7 +90,7 @@ std::vector<IrradianceEstimate> expectIrradiance(const char* name, const Scene& 
         const double truth = receivers[i].truth;
         EXPECT_LE(std::abs(e.mean - truth), limit * e.standardError + 2e-5 * truth)
             << name << ", receiver " << i << ": " << e.mean << ", truth " << truth;
-        EXPECT_LE(e.pdfError, 1e-4) << name << ", receiver " << i;
+        EXPECT_LE(e.pdfError, densityTolerance) << name << ", receiver " << i;
         std::printf("%s %zu: %.6g, truth %.6g, z %.1f, sees %.1e; %zu densities within %.0e, %zu elsewhere\n", name, i,
                     e.mean, truth, e.standardError > 0.0 ? (e.mean - truth) / e.standardError : 0.0,
                     truth > 0.0 ? limit * e.standardError / truth : 0.0, e.compared, e.pdfError, e.elsewhere);

@@ -26,8 +26,9 @@ struct IrradianceEstimate {
 std::vector<IrradianceEstimate> estimateIrradiance(const Scene& scene, const std::vector<Receiver>& receivers);
 
 // accuracy, section 2: |mean - truth| <= z se + 2e-5 truth; a density that is found must be the one it was sampled with
-// within 1e-4. Prints the errors.
-std::vector<IrradianceEstimate> expectIrradiance(const char* name, const Scene& scene, const std::vector<Receiver>& receivers);
+// within `densityTolerance`. Prints the errors.
+std::vector<IrradianceEstimate> expectIrradiance(const char* name, const Scene& scene, const std::vector<Receiver>& receivers,
+                                                 double densityTolerance = 1e-4);
 
 // As above where every sample is the truth, within 2^-20.
 void expectExactIrradiance(const char* name, const Scene& scene, const std::vector<Receiver>& receivers);
