@@ -58,8 +58,8 @@ TEST_P(ArenaTest, AgreesWithAnIndependentRenderer)
 }
 
 // Left out: CBgems, whose reference was made without the tint of the glass and with longer paths (with the tint taken out of the
-// file and 64 bounces the ratio of means is 0.9996 +- 0.0011); CBcoil, a mirror with vertex normals, where the other renderer
-// loses the light that a shading normal reflects into the surface and glim reflects it about the true normal instead.
+// file and 64 bounces the ratio of means is 0.9996 +- 0.0011); CBcoil, a mirror of .3, where the other renderer
+// has a constant reflectance and glim Schlick's, as glTF says for metals (without Schlick the ratio of means is .9999).
 INSTANTIATE_TEST_SUITE_P(Scenes, ArenaTest,
                          testing::Values(Arena{"arena", "a_cornell", true}, Arena{"arena", "c_mirror_glass", false},
                                          Arena{"arena", "d_bunny", true}, Arena{"seed", "CBbunny", true},
