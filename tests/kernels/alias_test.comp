@@ -33,7 +33,8 @@ void main()
         for (uint i = 0u; i < kDraws; ++i) {
             uvec4 bits = hash4(uvec4(TEST_THREAD, i, pass.seed, 0u));
             uint drawn = chooseBin(bits.x, count);
-            results[TEST_THREAD * kDraws + i] = chooseAlias(drawn, cases[drawn].entry.threshold, cases[drawn].entry.other, bits.y);
+            AliasEntry entry = cases[drawn].entry;
+            results[TEST_THREAD * kDraws + i] = chooseAlias(drawn, entry.threshold, entry.other, bits.y);
         }
     }
     endTest();

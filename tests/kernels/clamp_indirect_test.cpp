@@ -24,7 +24,8 @@ TEST(ClampIndirectTest, SaysWhatItTook)
     std::vector<Case> cases;
     for (int i = 0; i < 100000; ++i) {
         const glm::dvec3 mix(random.uniform(), random.uniform(), random.uniform());
-        Case c{random.logUniform(1e-10, 1e10) * mix, random.below(4), static_cast<float>(random.logUniform(1e-6, 1e6)), {}, 0.0F};
+        Case c{random.logUniform(1e-10, 1e10) * mix, random.below(4), 0.0F, {}, 0.0F};
+        c.limit = static_cast<float>(random.logUniform(1e-6, 1e6));
         const glm::dvec3 light(c.contribution);
         const double largest = std::max({light.r, light.g, light.b}), limit = static_cast<double>(c.limit);
         // Light that has met fewer than two surfaces is direct. The hue stays.

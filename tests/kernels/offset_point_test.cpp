@@ -118,6 +118,7 @@ TEST(OffsetPointTest, RaysDoNotMeetWhatTheyLeave)
                   << tally.limit / tally.rays << '\n';
         EXPECT_LT(tally.self / tally.rays, 1e-4) << row.name;
         EXPECT_LT(row.neighbours ? tally.neighbour / tally.rays : 0.0, 1e-4) << row.name;
+        EXPECT_EQ(tally.behind, 0.0) << row.name;
         EXPECT_EQ(tally.inSphere, 0.0) << row.name;
         EXPECT_LE(tally.offset, tally.limit) << row.name;
     }

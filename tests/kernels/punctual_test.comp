@@ -21,6 +21,7 @@ void main()
         bool sharp = c.cosInner - c.cosOuter < 1.1e-4;  // the rim is then 1e-4 wide in the cosine
         EXPECT_TRUE(sharp || spotFalloff(c.cosInner, c.cosInner, c.cosOuter) == 1.0);
         EXPECT_EQUAL(spotFalloff(c.cosOuter + 2e-4, c.cosOuter, c.cosOuter), 1.0);
+        EXPECT_NEAR(spotFalloff(c.cosOuter + 5e-5, c.cosOuter, c.cosOuter), 0.25, 2e-3);
         EXPECT_TRUE(spotFalloff(c.cosine, c.cosInner, c.cosOuter) <= spotFalloff(c.cosine + 1e-3, c.cosInner, c.cosOuter));
     }
     endTest();
