@@ -60,7 +60,7 @@ LightSample sampleTriangleLight(FlatLight light, vec3 from, uvec2 choice, vec2 u
     vec3 e1 = floatsOf(record.t1) - v0;
     vec3 e2 = floatsOf(record.t2) - v0;
     vec2 barycentric = sampleTriangle(u);
-    vec3 point = v0 + e1 * barycentric.x + e2 * barycentric.y;
+    vec3 point = trianglePoint(v0, e1, e2, barycentric);
     vec3 n = triangleNormal(v0, floatsOf(record.t1), floatsOf(record.t2));
     vec3 towards = point - from;
     float distance_ = length(towards);
