@@ -53,9 +53,8 @@ Surface surfaceOfTriangle(Record record, uint index, vec2 barycentric)
     vec3 e1 = floatsOf(record.t1) - v0;
     vec3 e2 = floatsOf(record.t2) - v0;
     vec3 n = triangleNormal(v0, floatsOf(record.t1), floatsOf(record.t2));
-    // The small terms first: triangleErrorBound allows for one rounding at the size of v0, not for two.
-    vec3 point = v0 + (e1 * barycentric.x + e2 * barycentric.y);
-    Surface surface = Surface(point, triangleErrorBound(v0, e1, e2), n, n, true, record.t1.w, record.t2.w);
+    Surface surface = Surface(trianglePoint(v0, e1, e2, barycentric), triangleErrorBound(v0, e1, e2), n, n, true, record.t1.w,
+                              record.t2.w);
     if (kSmooth) {
         vec3 smoothed = vertexNormal(index, barycentric);
         float square = dot(smoothed, smoothed);

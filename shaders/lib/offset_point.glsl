@@ -2,7 +2,13 @@
 #ifndef GLIM_LIB_OFFSET_POINT
 #define GLIM_LIB_OFFSET_POINT
 
-// Bound of the rounding of a barycentric point and of a later intersection with the triangle: NVIDIA, "Solving
+// The edges' part first: only the last sum rounds at the size of v0, which triangleErrorBound rests on.
+vec3 trianglePoint(vec3 v0, vec3 e1, vec3 e2, vec2 barycentric)
+{
+    return v0 + (e1 * barycentric.x + e2 * barycentric.y);
+}
+
+// Bound of the rounding of trianglePoint and of a later intersection with the triangle: NVIDIA, "Solving
 // Self-Intersection Artifacts in DirectX Raytracing", 2023 (optix-toolkit, SelfIntersectionAvoidance): 2^-24 |v0| +
 // 3 * 2^-24 of the largest extent.
 vec3 triangleErrorBound(vec3 v0, vec3 e1, vec3 e2)

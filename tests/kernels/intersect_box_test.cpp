@@ -123,10 +123,9 @@ Case rayAt(const Leaf& leaf, Random& random, double scale)
     glm::dvec3 target;
     for (int k = 0; k < 3; ++k) {
         const std::uint32_t place = random.below(3);
-        const double inner = glm::mix(static_cast<double>(leaf.needed.lo[k]), static_cast<double>(leaf.needed.hi[k]),
-                                      random.uniform());
-        target[k] = place == 0 ? static_cast<double>(leaf.needed.lo[k])
-                               : place == 1 ? static_cast<double>(leaf.needed.hi[k]) : static_cast<double>(static_cast<float>(inner));
+        const double lo = static_cast<double>(leaf.needed.lo[k]), hi = static_cast<double>(leaf.needed.hi[k]);
+        const float inner = static_cast<float>(glm::mix(lo, hi, random.uniform()));
+        target[k] = place == 0 ? lo : place == 1 ? hi : static_cast<double>(inner);
     }
     if (random.below(8) == 0) {
         target += scale * random.logUniform(1e-6, 1.0) * random.normalVector();
@@ -137,6 +136,11 @@ Case rayAt(const Leaf& leaf, Random& random, double scale)
     const std::optional<double> needed = enterBox(leaf.needed, c, 0.0), stored = enterBox(leaf.stored, c, 0.0);
     if (needed && random.below(2) == 0) {
         c.tmax = std::nextafter(static_cast<float>(*needed), std::numeric_limits<float>::infinity());  // a hit just there
+    }
+    if (stored && *stored > 0.0 && random.below(8) == 0) {
+        c.tmax = static_cast<float>(*stored * 0.999);  // ends before the box
+        c.verdict = Miss;
+        return c;
     }
     const glm::vec3 reach = glm::abs(c.origin) + glm::abs(leaf.stored.lo) + glm::abs(leaf.stored.hi);
     const double pad = 1e-5 * static_cast<double>(std::max({reach.x, reach.y, reach.z}));
@@ -158,8 +162,10 @@ TEST(IntersectBoxTest, MissesNoBoxThatTheSceneNeeds)
                 for (Case& c : cases) {
                     c = rayAt(leaves[random.below(static_cast<std::uint32_t>(leaves.size()))], random, scale);
                 }
-                const auto hits = std::count_if(cases.begin(), cases.end(), [](const Case& c) { return c.verdict == Hit; });
-                const auto misses = std::count_if(cases.begin(), cases.end(), [](const Case& c) { return c.verdict == Miss; });
+                const auto count = [&cases](std::uint32_t verdict) {
+                    return std::count_if(cases.begin(), cases.end(), [verdict](const Case& c) { return c.verdict == verdict; });
+                };
+                const auto hits = count(Hit), misses = count(Miss);
                 std::cout << "  scale " << scale << " shift " << shift << ": " << leaves.size() << " boxes, " << hits
                           << " rays that must hit, " << misses << " that must miss\n";
                 EXPECT_GT(hits, 100000);

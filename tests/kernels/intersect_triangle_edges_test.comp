@@ -12,7 +12,7 @@ struct Case {
     vec3 hub;
     vec3 rim[kMostRim];
     uint triangles;
-    uint turn;  // which corner of triangle i comes first: bits 2i, 2i + 1
+    uint turn;  // which corner of triangle i comes first: bits 2i, 2i + 1; bit 31: wound the other way
 };
 
 layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
@@ -28,8 +28,9 @@ void main()
             vec3 corner[3] = vec3[](c.hub, c.rim[i], c.rim[(i + 1u) % kMostRim]);
             uint first = (c.turn >> (2u * i)) & 3u;
             vec3 v0 = corner[first % 3u];
-            vec3 v1 = corner[(first + 1u) % 3u];
-            vec3 v2 = corner[(first + 2u) % 3u];
+            uint back = c.turn >> 31u;
+            vec3 v1 = corner[(first + 1u + back) % 3u];
+            vec3 v2 = corner[(first + 2u - back) % 3u];
             hits.x += intersectWatertight(c.origin, shear, v0, v1, v2, 1e30).t > 0.0 ? 1u : 0u;
             hits.y += intersectMollerTrumbore(c.origin, c.direction, v0, v1, v2, 1e30).t > 0.0 ? 1u : 0u;
         }

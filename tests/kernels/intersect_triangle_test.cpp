@@ -111,14 +111,18 @@ glm::dvec3 rayDirection(Random& random)
     return d;
 }
 
-// Where Moller and Trumbore's ten roundings, each relative to |e1| |e2| |origin - v0|, stay below 1e-5 of t.
+// Where Moller and Trumbore's ten roundings, each relative to |e1| |e2| |origin - v0|, stay below 1e-5 of t, and neither an
+// edge nor tmax is near.
 bool isFat(const Case& c)
 {
-    const glm::dvec3 e1(c.v1 - c.v0), e2(c.v2 - c.v0);
+    const glm::dvec3 e1(c.v1 - c.v0), e2(c.v2 - c.v0), d(c.direction), from = glm::dvec3(c.origin) - glm::dvec3(c.v0);
     const double sides = glm::length(e1) * glm::length(e2), apart = std::max(glm::length(e1), glm::length(e2));
-    const float least = std::min({1.0F - c.barycentric.x - c.barycentric.y, c.barycentric.x, c.barycentric.y});
-    return c.verdict == Hit && least > 1e-3F && static_cast<double>(c.t) > apart && static_cast<double>(c.t) < 10.0 * apart &&
-           sides > 0.2 * apart * apart && std::abs(glm::dot(glm::cross(e1, e2), glm::dvec3(c.direction))) > 0.2 * sides;
+    const double det = glm::dot(glm::cross(d, e2), e1);
+    const double b1 = glm::dot(glm::cross(d, e2), from) / det, b2 = glm::dot(glm::cross(from, e1), d) / det;
+    const double t = glm::dot(glm::cross(from, e1), e2) / det, tmax = static_cast<double>(c.tmax);
+    const double least = std::min({std::abs(1.0 - b1 - b2), std::abs(b1), std::abs(b2)});
+    return c.verdict != Either && least > 1e-3 && std::abs(t) > apart && std::abs(t) < 10.0 * apart &&
+           std::abs(t - tmax) > 1e-3 * std::abs(t) && sides > 0.2 * apart * apart && std::abs(det) > 0.2 * sides;
 }
 
 // A ray at point b0 v0 + b1 v1 + b2 v2, which lies outside about as often as inside.

@@ -1,4 +1,5 @@
-// One thread is one ray that leaves a triangle. Results: its origin, and whether it meets the triangle or its neighbour.
+// One thread is one ray that leaves a triangle. Results: the point with its bound, the ray's origin, a point off a sphere, and
+// whether the ray meets the triangle or its neighbour.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
@@ -14,7 +15,7 @@ struct Case {
 };
 
 struct Result {
-    vec3 point, origin, onSphere;
+    vec3 point, bound, origin, onSphere;
     uint self, neighbour;
 };
 
@@ -28,15 +29,16 @@ void main()
         EXPECT_EQUAL(nextAlong(c.from, c.side), c.next);
         vec3 e1 = c.v1 - c.v0;
         vec3 e2 = c.v2 - c.v0;
-        vec3 point = c.v0 + e1 * c.barycentric.x + e2 * c.barycentric.y;
-        vec3 origin = offsetPoint(point, c.normal, triangleErrorBound(c.v0, e1, e2));
+        vec3 point = trianglePoint(c.v0, e1, e2, c.barycentric);
+        vec3 bound = triangleErrorBound(c.v0, e1, e2);
+        vec3 origin = offsetPoint(point, c.normal, bound);
         EXPECT_TRUE(dot(origin - point, c.normal) > 0.0);
         Shear shear = makeShear(c.direction);
         uint self = intersectWatertight(origin, shear, c.v0, c.v1, c.v2, 1e30).t > 0.0 ? 1u : 0u;
         uint neighbour = intersectWatertight(origin, shear, c.v2, c.v1, c.v3, 1e30).t > 0.0 ? 1u : 0u;
         // The same normal on a sphere about v0 with the radius |e1|.
         vec3 onSphere = offsetPoint(c.v0 + length(e1) * c.normal, c.normal, sphereErrorBound(c.v0, length(e1)));
-        results[TEST_THREAD] = Result(point, origin, onSphere, self, neighbour);
+        results[TEST_THREAD] = Result(point, bound, origin, onSphere, self, neighbour);
     }
     endTest();
 }

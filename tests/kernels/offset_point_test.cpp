@@ -21,7 +21,7 @@ struct Case {
 };
 
 struct Result {
-    vec3 point, origin, onSphere;
+    vec3 point, bound, origin, onSphere;
     std::uint32_t self, neighbour;
 };
 
@@ -80,7 +80,7 @@ Case caseOf(const Row& row, Random& random)
 }
 
 struct Tally {
-    double rays = 0.0, self = 0.0, neighbour = 0.0, behind = 0.0, inSphere = 0.0, offset = 0.0, limit = 0.0;
+    double rays = 0.0, unbounded = 0.0, self = 0.0, neighbour = 0.0, behind = 0.0, inSphere = 0.0, offset = 0.0, limit = 0.0;
 };
 
 void count(Tally& tally, const Case& c, const Result& r)
@@ -88,6 +88,10 @@ void count(Tally& tally, const Case& c, const Result& r)
     const glm::dvec3 e1 = glm::dvec3(c.v1) - glm::dvec3(c.v0), e2 = glm::dvec3(c.v2) - glm::dvec3(c.v0);
     const glm::dvec3 n = glm::cross(e1, e2) * (glm::dot(glm::cross(e1, e2), glm::dvec3(c.normal)) > 0.0 ? 1.0 : -1.0);
     tally.rays += 1.0;
+    const glm::dvec2 b(c.barycentric);
+    const glm::dvec3 error = glm::abs(glm::dvec3(r.point) - (glm::dvec3(c.v0) + e1 * b.x + e2 * b.y));
+    const bool bounded = glm::all(glm::lessThanEqual(error, glm::dvec3(r.bound)));
+    tally.unbounded += bounded ? 0.0 : 1.0;
     tally.self += r.self;
     tally.neighbour += r.neighbour;
     tally.behind += glm::dot(glm::dvec3(r.origin) - glm::dvec3(c.v0), n) > 0.0 ? 0.0 : 1.0;
@@ -113,11 +117,13 @@ TEST(OffsetPointTest, RaysDoNotMeetWhatTheyLeave)
             }
         }
         std::cout << "  " << row.name << ": of " << tally.rays << " rays " << tally.self << " meet their triangle, "
-                  << tally.neighbour << " its neighbour; " << tally.behind << " start behind it, " << tally.inSphere
-                  << " in the sphere; mean offset " << tally.offset / tally.rays << " m, allowed "
-                  << tally.limit / tally.rays << '\n';
+                  << tally.neighbour << " its neighbour; " << tally.unbounded << " points exceed their bound, " << tally.behind
+                  << " rays start behind the triangle, " << tally.inSphere << " in the sphere; mean offset "
+                  << tally.offset / tally.rays << " m, allowed " << tally.limit / tally.rays << '\n';
         EXPECT_LT(tally.self / tally.rays, 1e-4) << row.name;
         EXPECT_LT(row.neighbours ? tally.neighbour / tally.rays : 0.0, 1e-4) << row.name;
+        EXPECT_EQ(tally.unbounded, 0.0) << row.name;
+        EXPECT_EQ(tally.behind, 0.0) << row.name;
         EXPECT_EQ(tally.inSphere, 0.0) << row.name;
         EXPECT_LE(tally.offset, tally.limit) << row.name;
     }
