@@ -104,7 +104,7 @@ void addInspect(CLI::App& app)
 {
     auto options = std::make_shared<InspectOptions>();
     CLI::App* command = app.add_subcommand("inspect", "Tell what is in a scene, what it costs and what it needs");
-    command->add_option("scene", options->scene, "The scene, .gltf or .glb")->required()->type_name("SCENE");
+    command->add_option("SCENE", options->scene, "The scene, .gltf or .glb")->required()->type_name("FILE");
     addSceneIndex(*command, options->sceneIndex);
     command->add_flag("--json", options->json, "Print JSON");
     command->callback([options] { runInspect(*options); });

@@ -11,7 +11,7 @@ namespace {
 
 void addPictureOptions(CLI::App& command, RenderOptions& options)
 {
-    command.add_option("scene", options.scene, "The scene, .gltf or .glb")->required()->type_name("SCENE");
+    command.add_option("SCENE", options.scene, "The scene, .gltf or .glb")->required()->type_name("FILE");
     command.add_option("-o,--output", options.output, "The picture to write: scene-linear EXR with layers")
         ->required()
         ->type_name("OUT.exr");

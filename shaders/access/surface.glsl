@@ -2,6 +2,7 @@
 #ifndef GLIM_ACCESS_SURFACE
 #define GLIM_ACCESS_SURFACE
 
+#include "lib/frame.glsl"
 #include "lib/offset_point.glsl"
 #include "scene.glsl"
 #include "shared/path_types.h"
@@ -24,9 +25,7 @@ vec3 triangleNormal(vec3 v0, vec3 v1, vec3 v2)
     vec3 c = v0 - v2;
     vec3 l = vec3(dot(a, a), dot(b, b), dot(c, c));
     vec3 n = l.x <= l.y && l.x <= l.z ? cross(b, c) : l.y <= l.z ? cross(c, a) : cross(a, b);
-    float largest = max(abs(n.x), max(abs(n.y), abs(n.z)));
-    vec3 scaled = n / largest;
-    return scaled / sqrt(dot(scaled, scaled));
+    return normalizeSafely(n);
 }
 
 // Interpolated vertex normal, or zero where the triangle is flat.

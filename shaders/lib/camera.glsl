@@ -2,7 +2,6 @@
 #ifndef GLIM_LIB_CAMERA
 #define GLIM_LIB_CAMERA
 
-#include "frame.glsl"
 #include "shared/path_types.h"
 #include "shared/scene_types.h"
 
@@ -16,12 +15,20 @@ vec2 filmFromPixel(vec2 position, vec2 size)
     return vec2(film.x, -film.y);
 }
 
+// The unit vector along forward + across, for a unit vector and one perpendicular to it. As forward plus what is missing, which
+// is small in a thin field of view: only the last sum rounds (0.05 pixel of 0.1 degree / 1920, against 0.1 by normalize).
+vec3 aside(vec3 forward, vec3 across)
+{
+    float square = dot(across, across);
+    float length_ = sqrt(1.0 + square);
+    return forward + (across - forward * (square / (1.0 + length_))) / length_;
+}
+
 PathRay cameraRay(FlatCamera camera, vec2 film)
 {
     vec3 across = film.x * camera.right + film.y * camera.up;
-    return camera.kind == kOrthographic
-               ? PathRay(camera.position + across, kNoRecord, camera.forward)
-               : PathRay(camera.position, kNoRecord, normalizeSafely(camera.forward + across));
+    return camera.kind == kOrthographic ? PathRay(camera.position + across, kNoRecord, camera.forward)
+                                        : PathRay(camera.position, kNoRecord, aside(camera.forward, across));
 }
 
 #endif

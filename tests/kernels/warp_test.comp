@@ -1,4 +1,4 @@
-// One thread is one point of the unit square.
+// One thread is one point of the unit square. Results: where it goes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
@@ -9,7 +9,13 @@ struct Case {
     vec2 disk;  // the expected point
 };
 
+struct Result {
+    vec3 hemisphere, sphere;
+    vec2 triangle;
+};
+
 layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
+layout(set = 0, binding = kBindResults, scalar) writeonly buffer Results { Result results[]; };
 
 void main()
 {
@@ -28,6 +34,7 @@ void main()
         EXPECT_NEAR(s.z, 1.0 - 2.0 * c.u.x, 1e-7);
         vec2 b = sampleTriangle(c.u);
         EXPECT_TRUE(b.x >= 0.0 && b.y >= 0.0 && b.x + b.y <= 1.0);
+        results[TEST_THREAD] = Result(w, s, b);
     }
     endTest();
 }

@@ -1,10 +1,14 @@
 #include "shaders/shared/vocabulary.h"
 #include "test_kernels.hpp"
 #include "tests/support/kernel_test.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/statistics.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace glim {
@@ -13,6 +17,11 @@ namespace {
 struct Case {
     vec2 u;
     vec2 disk;
+};
+
+struct Result {
+    vec3 hemisphere, sphere;
+    vec2 triangle;
 };
 
 // Shirley and Chiu's map by its definition: the square's concentric frames go to circles, arc length kept.
@@ -29,17 +38,115 @@ glm::dvec2 concentricDisk(glm::dvec2 u)
     return {radius * std::cos(phi), radius * std::sin(phi)};
 }
 
-TEST(WarpTest, HitsTheDiskSphereAndTriangle)
+std::vector<Result> warped(const std::vector<vec2>& points)
 {
     std::vector<Case> cases;
-    for (int i = 0; i <= 64; ++i) {
-        for (int j = 0; j <= 64; ++j) {
-            const vec2 u(std::min(static_cast<float>(i) / 64.0F, 1.0F - 0x1p-24F),
-                         std::min(static_cast<float>(j) / 64.0F, 1.0F - 0x1p-24F));
-            cases.push_back({u, vec2(concentricDisk(glm::dvec2(u)))});
+    for (const vec2& u : points) {
+        cases.push_back({u, vec2(concentricDisk(glm::dvec2(u)))});
+    }
+    KernelTest test(test_kernels::warp_test);
+    test.cases(cases).resultsOf<Result>(cases.size()).run();
+    return test.results<Result>();
+}
+
+// H18: the corners and middle of the square, and a grid.
+TEST(WarpTest, HitsTheDiskSphereAndTriangle)
+{
+    std::vector<vec2> points;
+    for (const float x : {0.0F, 0x1p-24F, 0.5F, 1.0F - 0x1p-24F}) {
+        for (const float y : {0.0F, 0x1p-24F, 0.5F, 1.0F - 0x1p-24F}) {
+            points.emplace_back(x, y);
         }
     }
-    KernelTest(test_kernels::warp_test).cases(cases).run();
+    for (int i = 0; i <= 64; ++i) {
+        for (int j = 0; j <= 64; ++j) {
+            points.emplace_back(std::min(static_cast<float>(i) / 64.0F, 1.0F - 0x1p-24F),
+                                std::min(static_cast<float>(j) / 64.0F, 1.0F - 0x1p-24F));
+        }
+    }
+    for (const Result& result : warped(points)) {
+        EXPECT_TRUE(std::isfinite(result.hemisphere.z) && std::isfinite(result.sphere.x));
+    }
+}
+
+double turnOf(const vec3& v)
+{
+    return 0.5 + std::atan2(static_cast<double>(v.y), static_cast<double>(v.x)) / (2.0 * std::numbers::pi);
+}
+
+// Each as a point of the unit square that is uniform if the warp is right: by area of the disk under the hemisphere, height
+// on the sphere (Archimedes), and (b1 + b2)^2 and b2 / (b1 + b2) in the triangle.
+glm::dvec2 unwarpHemisphere(const Result& r)
+{
+    return {glm::dot(glm::dvec2(r.hemisphere), glm::dvec2(r.hemisphere)), turnOf(r.hemisphere)};
+}
+
+glm::dvec2 unwarpSphere(const Result& r)
+{
+    return {0.5 - 0.5 * static_cast<double>(r.sphere.z), turnOf(r.sphere)};
+}
+
+glm::dvec2 unwarpTriangle(const Result& r)
+{
+    const glm::dvec2 b(r.triangle);
+    return {(b.x + b.y) * (b.x + b.y), b.y / (b.x + b.y)};
+}
+
+std::size_t comparisons()
+{
+    return 16 * static_cast<std::size_t>(testRounds());
+}
+
+void expectUniform(const std::string& what, const std::vector<Result>& results, glm::dvec2 (*unwarp)(const Result&))
+{
+    for (const int rows : {10, 80}) {
+        const int columns = 2 * rows;
+        std::vector<double> counts(static_cast<std::size_t>(rows * columns), 0.0);
+        for (const Result& result : results) {
+            const glm::dvec2 u = unwarp(result);
+            const int row = std::min(rows - 1, static_cast<int>(u.x * rows));
+            const int column = std::min(columns - 1, static_cast<int>(u.y * columns));
+            ++counts[static_cast<std::size_t>(row * columns + column)];
+        }
+        const std::vector<double> expected(counts.size(), static_cast<double>(results.size()) / rows / columns);
+        expectCounts(what, counts, expected, comparisons());
+    }
+}
+
+void expectMean(const std::string& what, const std::vector<Result>& results, double truth,
+                const std::function<float(const Result&)>& value)
+{
+    std::vector<double> values(results.size());
+    std::transform(results.begin(), results.end(), values.begin(),
+                   [&value](const Result& result) { return static_cast<double>(value(result)); });
+    expectSampleMean(what, values, truth, comparisons());
+}
+
+void expectUniformityAndMoments(const std::vector<Result>& results)
+{
+    expectUniform("cosine hemisphere", results, unwarpHemisphere);
+    expectUniform("sphere", results, unwarpSphere);
+    expectUniform("triangle", results, unwarpTriangle);
+    expectMean("hemisphere x", results, 0.0, [](const Result& r) { return r.hemisphere.x; });
+    expectMean("hemisphere y", results, 0.0, [](const Result& r) { return r.hemisphere.y; });
+    expectMean("hemisphere z", results, 2.0 / 3.0, [](const Result& r) { return r.hemisphere.z; });
+    expectMean("hemisphere z^2", results, 0.5, [](const Result& r) { return r.hemisphere.z * r.hemisphere.z; });
+    expectMean("sphere x", results, 0.0, [](const Result& r) { return r.sphere.x; });
+    expectMean("sphere y", results, 0.0, [](const Result& r) { return r.sphere.y; });
+    expectMean("sphere z", results, 0.0, [](const Result& r) { return r.sphere.z; });
+    expectMean("sphere z^2", results, 1.0 / 3.0, [](const Result& r) { return r.sphere.z * r.sphere.z; });
+    expectMean("triangle b1", results, 1.0 / 3.0, [](const Result& r) { return r.triangle.x; });
+    expectMean("triangle b1 b2", results, 1.0 / 12.0, [](const Result& r) { return r.triangle.x * r.triangle.y; });
+}
+
+TEST(WarpTest, KeepsUniformityAndMoments)
+{
+    for (int round = 0; round < testRounds(); ++round) {
+        Random random(static_cast<std::uint64_t>(round) + 100);
+        std::vector<vec2> points(1000000);
+        std::generate(points.begin(), points.end(), [&random] { return vec2(random.unitFloat(), random.unitFloat()); });
+        expectUniformityAndMoments(warped(points));
+    }
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ TEST(CommandLineTest, HelpListsEveryOptionWithUnitRangeAndDefault)
           "0 to 4294967295 [0]", "--sampler S", "or independent [sobol]", "--intersector I", "[watertight]",
           "--clamp-indirect X", "1e-30 to 1e+30 [off]", "--device D", "[the first usable one]", "--stats S.json",
           "--progress STYLE", "[bar on a terminal]"}},
-        {"inspect", {"scene SCENE", "--scene INDEX", "--json"}},
+        {"inspect", {"SCENE FILE", "--scene INDEX", "--json"}},
         {"devices", {"--json"}},
         {"compare", {"picture A.exr", "reference B.exr", "--variance V.exr", "--diff D.exr", "--json"}},
         {"merge", {"films A.exr", "--output C.exr", "--png C.png", "--exposure EV", "-100 to 100 [0]"}}};
@@ -79,7 +79,7 @@ TEST(CommandLineTest, CommandsAndOptionsThatDoNotExist)
     expectUsage(runGlim({"rendre", "x.gltf"}), "\"rendre\" was not expected");
     expectUsage(runGlim({"render", "--fast"}), "\"--fast\" was not expected");
     expectUsage(runGlim({"render", "x.gltf", "-o", "x.exr", "y.gltf"}), "\"y.gltf\" was not expected");
-    expectUsage(runGlim({"render"}), "scene is required");
+    expectUsage(runGlim({"render"}), "SCENE is required");
     expectUsage(runGlim({"render", "x.gltf"}), "--output is required");
     expectUsage(runGlim({"merge", "x.exr"}), "--output is required");
     expectUsage(runGlim({"compare", "x.exr"}), "reference is required");

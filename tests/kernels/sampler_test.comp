@@ -1,0 +1,34 @@
+// One thread is one sample id and dimension. Result: its pair of numbers.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "expect.glsl"
+#include "lib/sampler.glsl"
+
+struct Case {
+    uint seed, pixel, index, dimension;
+    uint sobol;
+};
+
+layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
+layout(set = 0, binding = kBindResults, scalar) writeonly buffer Results { uvec2 results[]; };
+
+void main()
+{
+    if (isTestThread()) {
+        Case c = cases[TEST_THREAD];
+        SampleId id = SampleId(c.seed, c.pixel, c.index);
+        uvec2 pair = samplePair(id, c.dimension, c.sobol != 0u);
+        bool late = c.dimension >= 1u + 4u * 5u;  // after the pixel's dimension and four bounces of five
+        EXPECT_TRUE(c.sobol != 0u && !late || pair == independentPair(id, c.dimension));
+        EXPECT_TRUE(c.sobol == 0u || late || pair != independentPair(id, c.dimension));
+        // No two uses share a dimension.
+        uint bounce = TEST_THREAD % 64u;
+        uint uses[5] = uint[](kDimensionLight, kDimensionEmitter, kDimensionPoint, kDimensionScatter, kDimensionFate);
+        for (uint k = 0u; k < 5u; ++k) {
+            EXPECT_EQUAL(bounceDimension(bounce, uses[k]), 1u + 5u * bounce + k);
+        }
+        EXPECT_TRUE(kDimensionPixel == 0u);
+        results[TEST_THREAD] = pair;
+    }
+    endTest();
+}
