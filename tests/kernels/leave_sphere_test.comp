@@ -41,12 +41,13 @@ void main()
         vec3 start = leavePoint(surface, wi);
         PathHit next = traceClosest(PathRay(start, index, wi));
         float cosine = dot(wi, out_);
-        if (!inwards) {
+        if (!inwards && cosine > 1e-5) {  // 0 once in 1e7, on the rim of the hemisphere
             EXPECT_TRUE(next.record != index);
         }
         if (inwards && cosine < -0.02) {
             EXPECT_EQUAL(next.record, index);
-            EXPECT_NEAR(next.t, -2.0 * radius * cosine, 1e-4 * radius);
+            // The start is off the sphere by up to twice the bound, which moves both roots by that over the cosine.
+            EXPECT_NEAR(next.t, -2.0 * radius * cosine, 4.0 * length(surface.errorBound) / -cosine);
         }
     }
     endTest();
