@@ -26,7 +26,7 @@ const LightSample kNoLight = LightSample(vec3(0.0), vec3(0.0), 0.0, vec3(0.0), k
 uint chooseLight(uvec2 bits, uint lightCount)
 {
     uint bin = chooseBin(bits.x, lightCount);
-    AliasEntry entry = sceneLights[bin].alias;
+    AliasEntry entry = fetchLight(bin).alias;
     return chooseAlias(bin, entry.threshold, entry.other, bits.y);
 }
 
@@ -52,9 +52,9 @@ float pdfSurfaceLight(FlatEmitter emitter, FlatLight light, vec3 from, float t, 
 LightSample sampleTriangleLight(FlatLight light, vec3 from, uvec2 choice, vec2 u)
 {
     uint bin = chooseBin(choice.x, light.emitterCount);
-    AliasEntry entry = sceneEmitters[light.firstEmitter + bin].alias;
+    AliasEntry entry = fetchEmitter(light.firstEmitter + bin).alias;
     bin = chooseAlias(bin, entry.threshold, entry.other, choice.y);
-    FlatEmitter emitter = sceneEmitters[light.firstEmitter + bin];
+    FlatEmitter emitter = fetchEmitter(light.firstEmitter + bin);
     Record record = fetchRecord(emitter.record);
     vec3 v0 = floatsOf(record.t0);
     vec3 e1 = floatsOf(record.t1) - v0;
@@ -74,37 +74,49 @@ LightSample sampleTriangleLight(FlatLight light, vec3 from, uvec2 choice, vec2 u
     return LightSample(towards / distance_, light.intensity / pdf, pdf, target, emitter.record, 1.0);
 }
 
-LightSample sampleSphereLight(FlatLight light, vec3 from, vec2 u)
+// From outside: uniform in the cone.
+LightSample sampleSphereCone(FlatLight light, uint record, vec3 outward, float sin2, vec2 u)
 {
-    FlatEmitter emitter = sceneEmitters[light.firstEmitter];
-    vec3 outward = from - light.position;
-    float sin2;
-    vec3 n;
-    if (seesCone(outward, light.radius, sin2)) {
-        // The point of the sphere under the sampled direction (pbrt-v4, section 6.2.4): the angle at the centre.
-        float distance_ = length(outward);
-        vec3 local = sampleCone(u, sin2);
-        float sinLocal2 = dot(local.xy, local.xy);
-        float across = sinLocal2 / sqrt(sin2) + local.z * sqrt(max(0.0, 1.0 - sinLocal2 / sin2));
-        float sinCenter = sqrt(max(0.0, (1.0 - across) * (1.0 + across)));
-        float planar = sqrt(sinLocal2);
-        vec2 azimuth = planar > 0.0 ? local.xy / planar : vec2(0.0);
-        n = worldFromFrame(makeFrame(outward / distance_), vec3(azimuth * sinCenter, across));
-    } else if (light.doubleSided != 0u) {
-        n = sampleSphere(u);
-    } else {
-        return kNoLight;
-    }
+    vec3 local = sampleCone(u, sin2);
+    // The point of the sphere under the sampled direction (pbrt-v4, section 6.2.4): the angle at the centre. Only shadow rays
+    // aim at it: next to the surface it is the receiver itself, and wi must not come from their difference.
+    float sinLocal2 = dot(local.xy, local.xy);
+    float across = sinLocal2 / sqrt(sin2) + local.z * sqrt(max(0.0, 1.0 - sinLocal2 / sin2));
+    float sinCenter = sqrt(max(0.0, (1.0 - across) * (1.0 + across)));
+    float planar = sqrt(sinLocal2);
+    vec2 azimuth = planar > 0.0 ? local.xy / planar : vec2(0.0);
+    Frame frame = makeFrame(outward / length(outward));
+    vec3 n = worldFromFrame(frame, vec3(azimuth * sinCenter, across));
+    float pdf = light.probability * pdfCone(sin2);
+    vec3 target = offsetPoint(light.position + light.radius * n, n, sphereErrorBound(light.position, light.radius));
+    return LightSample(worldFromFrame(frame, vec3(local.xy, -local.z)), light.intensity / pdf, pdf, target, record, 1.0);
+}
+
+// From within a sphere that emits inwards too: uniform over its area.
+LightSample sampleSphereArea(FlatLight light, FlatEmitter emitter, vec3 from, vec2 u)
+{
+    vec3 n = sampleSphere(u);
     vec3 point = light.position + light.radius * n;
     vec3 towards = point - from;
     float distance_ = length(towards);
-    float facing = -dot(n, towards) / distance_;
-    float pdf = pdfSurfaceLight(emitter, light, from, distance_, abs(facing));
-    if (!(distance_ > 0.0 && pdf > 0.0)) {
+    float cosine = dot(n, towards) / distance_;
+    if (!(cosine > 0.0)) {
         return kNoLight;
     }
-    vec3 target = offsetPoint(point, facing > 0.0 ? n : -n, sphereErrorBound(light.position, light.radius));
+    float pdf = pdfSurfaceLight(emitter, light, from, distance_, cosine);
+    vec3 target = offsetPoint(point, -n, sphereErrorBound(light.position, light.radius));
     return LightSample(towards / distance_, light.intensity / pdf, pdf, target, emitter.record, 1.0);
+}
+
+LightSample sampleSphereLight(FlatLight light, vec3 from, vec2 u)
+{
+    FlatEmitter emitter = fetchEmitter(light.firstEmitter);
+    vec3 outward = from - light.position;
+    float sin2;
+    if (seesCone(outward, light.radius, sin2)) {
+        return sampleSphereCone(light, emitter.record, outward, sin2, u);
+    }
+    return light.doubleSided != 0u ? sampleSphereArea(light, emitter, from, u) : kNoLight;
 }
 
 LightSample samplePunctualLight(FlatLight light, vec3 from)
@@ -138,7 +150,7 @@ LightSample sampleEnvironment(FlatLight light, vec3 from, vec3 normal, vec2 u)
 
 LightSample sampleLight(uint index, vec3 from, vec3 normal, uvec2 choice, vec2 u)
 {
-    FlatLight light = sceneLights[index];
+    FlatLight light = fetchLight(index);
     if (kSurfaceLights && light.kind == kTriangleLight) {
         return sampleTriangleLight(light, from, choice, u);
     }
