@@ -34,7 +34,10 @@ void runMerge(const MergeOptions& options)
     }
     std::cerr << "Merged " << options.inputs.size() << " films into " << options.output.string() << ", samples "
               << sampleRangesText(merged.film) << ": "
-              << (merged.exact ? "the bits of the single run." : "equal to the single run up to rounding.") << '\n';
+              << (merged.exact           ? "the bits of the single run."
+                  : merged.film.complete ? "equal to the single run up to rounding."
+                                         : "some are missing, since a render was ended early; the layer count.X has what is there.")
+              << '\n';
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ std::string stopReason(int signal, const Film& film, const RenderSettings& setti
     if (signal != 0) {
         return signal == SIGINT ? "SIGINT" : "SIGTERM";
     }
-    return film.sampleRanges[0].second == settings.sampleEnd ? "samples" : "time";
+    return film.complete && film.sampleRanges[0].second == settings.sampleEnd ? "samples" : "time";
 }
 
 // Seconds that writing took.

@@ -107,8 +107,8 @@ Json statisticsOf(const RenderReport& report)
             {"longestDispatchSeconds", s.longestDispatch},
             {"peakMemory", {{"host", peakHostMemory()}, {"device", s.peakDeviceMemory}}},
             {"nonFinite", nonFiniteOf(s, report.film.width)},
-            {"loopCapHits", 0},
-            {"overflows", 0},
+            {"loopCapHits", s.loopCaps},
+            {"overflows", s.overflows},
             {"clampIndirect", clampingOf(report.film, report.options)},
             {"estimate", estimateOf(report.film)}};
 }

@@ -30,11 +30,15 @@ std::string lowerCase(std::string text)
     return text;
 }
 
-fs::path behindLinks(const fs::path& path)
+// A link may lead to a file that is yet to be made. Links in a circle stay links and are refused later.
+fs::path behindLinks(fs::path path)
 {
+    constexpr int kMostLinks = 40;  // Linux follows no more
     std::error_code ignored;
-    const fs::path real = fs::is_symlink(path, ignored) ? fs::weakly_canonical(path, ignored) : path;
-    return real.empty() ? path : real;
+    for (int i = 0; i < kMostLinks && fs::is_symlink(path, ignored); ++i) {
+        path = path.parent_path() / fs::read_symlink(path, ignored);
+    }
+    return path;
 }
 
 fs::path folderOf(const fs::path& path)
@@ -60,6 +64,9 @@ void checkTarget(const fs::path& path, const fs::path& target)
         refuse(path, folder.string() + " is not a folder");
     }
     const fs::file_status status = fs::status(target, error);
+    if (fs::is_symlink(target, error)) {
+        refuse(path, "its links lead in a circle");
+    }
     if (fs::is_directory(status) || !target.has_filename()) {
         refuse(path, "it is a folder");
     }

@@ -109,6 +109,7 @@ Image imageOf(const Film& film)
                         {"glim:settings", film.identity.settings},
                         {"glim:seed", static_cast<double>(film.identity.seed)},
                         {"glim:samples", sampleRangesText(film)},
+                        {"glim:complete", film.complete ? 1.0 : 0.0},
                         {"glim:seconds", film.seconds},
                         {"glim:device", film.device}};
     forEachChannel(kFloatLayers, [&](const std::string& name, std::size_t offset) {
@@ -174,6 +175,7 @@ Film filmOfHeader(const fs::path& path, const Image& image)
     film.identity.scene = attribute<std::string>(path, image, "glim:scene");
     film.identity.settings = attribute<std::string>(path, image, "glim:settings");
     film.identity.seed = static_cast<std::uint32_t>(seed);
+    film.complete = attribute<double>(path, image, "glim:complete") != 0.0;
     film.seconds = attribute<double>(path, image, "glim:seconds");
     film.device = attribute<std::string>(path, image, "glim:device");
     film.sceneFile = attribute<std::string>(path, image, "glim:sceneFile");

@@ -99,6 +99,7 @@ void addRanges(Film& film, const Film& next, bool joined)
 void foldHeader(Film& film, const Film& next)
 {
     addRanges(film, next, continuesExactly(film, next));
+    film.complete = film.complete && next.complete;
     film.seconds += next.seconds;
     if (film.device.find(next.device) == std::string::npos) {
         film.device += "; " + next.device;
@@ -109,7 +110,7 @@ void foldHeader(Film& film, const Film& next)
 
 bool continuesExactly(const Film& film, const Film& next)
 {
-    if (film.sampleRanges.size() != 1 || next.sampleRanges.size() != 1) {
+    if (!film.complete || !next.complete || film.sampleRanges.size() != 1 || next.sampleRanges.size() != 1) {
         return false;
     }
     const auto [begin, end] = next.sampleRanges.front();
@@ -128,7 +129,7 @@ MergePlan planMerge(const std::vector<Film>& films, const std::vector<std::strin
     std::stable_sort(plan.order.begin(), plan.order.end(),
                      [&](std::size_t a, std::size_t b) { return firstSample(films[a]) < firstSample(films[b]); });
     Film merged = films.at(plan.order[0]);
-    plan.exact = merged.sampleRanges.size() == 1;
+    plan.exact = merged.complete && merged.sampleRanges.size() == 1;
     for (std::size_t i = 1; i < films.size(); ++i) {
         const Film& next = films[plan.order[i]];
         plan.exact = plan.exact && continuesExactly(merged, next);

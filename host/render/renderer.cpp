@@ -142,6 +142,7 @@ Film Renderer::render(const RenderObserver& observer)
         }
     }
     film.sampleRanges = {{settings_.sampleBegin, sample}};
+    film.complete = statistics_.samples == film.pixels.size() * (sample - settings_.sampleBegin);
     statistics_.renderSeconds = std::chrono::duration<double>(Clock::now() - start_).count();
     film.seconds = statistics_.renderSeconds;
     readCounters();
@@ -269,13 +270,15 @@ bool Renderer::isOver(const RenderObserver& observer) const
 void Renderer::refuseBrokenStatus() const
 {
     const Status status = download<Status>(paths_.status(), 1)[0];
-    if ((status.flags & kStatusLoopCap) != 0) {
-        throw DeviceError("The driver of \"" + device_.description().name +
-                          "\" cut a loop short (its budget of iterations is spent), so the picture would be wrong; "
+    if (status.loopCaps > 0) {
+        throw DeviceError("The driver of \"" + device_.description().name + "\" cut loops short in " +
+                          std::to_string(status.loopCaps) +
+                          " threads (their budget of iterations is spent), so the picture would be wrong; "
                           "the scene's BVH takes more steps per ray than this driver allows.");
     }
-    if ((status.flags & kStatusOverflow) != 0) {
-        throw DeviceError("A queue or the traversal stack overflowed on \"" + device_.description().name + "\".");
+    if (status.overflows > 0) {
+        throw DeviceError("Queues on \"" + device_.description().name + "\" are " + std::to_string(status.overflows) +
+                          " entries longer than there are paths, so the picture would be wrong.");
     }
 }
 
@@ -286,6 +289,8 @@ void Renderer::readCounters()
     const Status status = download<Status>(paths_.status(), 1)[0];
     statistics_.cameraAndBounceRays = wide(rays.closest);
     statistics_.shadowRays = wide(rays.shadow);
+    statistics_.loopCaps = status.loopCaps;
+    statistics_.overflows = status.overflows;
     statistics_.nonFinite = status.nonFinite;
     statistics_.located.assign(status.located, status.located + std::min(status.nonFinite, kMaxLocated));
     statistics_.peakDeviceMemory = device_.peakMemory();

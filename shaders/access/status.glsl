@@ -12,8 +12,17 @@ layout(set = 0, binding = kBindStatus, scalar) buffer StatusBuffer { Status stat
 void checkLoopBudget(uint canarySteps)
 {
     if (isLoopBudgetSpent(canarySteps)) {
-        atomicOr(status.flags, kStatusLoopCap);
+        atomicAdd(status.loopCaps, 1u);
     }
+}
+
+// A kernel appends each slot at most once, so a longer queue has lost entries or counted some twice.
+uint checkQueue(uint count, uint slots)
+{
+    if (count > slots) {
+        atomicAdd(status.overflows, count - slots);
+    }
+    return min(count, slots);
 }
 
 void reportNonFinite(uint pixel, uint sampleIndex)

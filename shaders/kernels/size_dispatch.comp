@@ -1,6 +1,6 @@
 // One thread in all. Turns the lengths of the queues just filled into the sizes of the dispatches over them, and empties the
 // tails. At the start of a pass (bounce 0 comes with all slots queued) generate_rays has filled the queue itself.
-// Reads and writes queue tails; writes queue sizes; adds to the ray counts.
+// Reads and writes queue tails; writes queue sizes; adds to the ray counts and, for queues that are too long, to the status.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define WRITES_QUEUE_SIZES
@@ -24,8 +24,9 @@ uvec2 add64(uvec2 sum, uint more)
 void main()
 {
     if (gl_GlobalInvocationID.x == 0u) {
-        uint closest = pass.bounce == 0u ? pass.pixelCount * pass.sampleCount : queueTails.next;
-        uint shadow = queueTails.shadow;
+        uint slots = pass.pixelCount * pass.sampleCount;
+        uint closest = pass.bounce == 0u ? slots : checkQueue(queueTails.next, slots);
+        uint shadow = checkQueue(queueTails.shadow, slots);
         queueSizes.closest = closest;
         queueSizes.shadow = shadow;
         queueSizes.closestGroups = uvec3(groupsOf(closest), 1u, 1u);

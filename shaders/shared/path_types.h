@@ -66,8 +66,6 @@ struct RayCounts {
     uvec2 shadow;
 };
 
-GLIM_CONST uint kStatusLoopCap = 1u;    // the driver stopped a loop: the picture is wrong
-GLIM_CONST uint kStatusOverflow = 2u;   // a queue or the traversal stack was full
 GLIM_CONST uint kMaxLocated = 16u;
 
 struct Located {
@@ -76,7 +74,8 @@ struct Located {
 };
 
 struct Status {
-    uint flags;
+    uint loopCaps;                 // threads whose driver stops loops early: the picture is wrong
+    uint overflows;                // entries of queues beyond one per slot: the picture is wrong
     uint nonFinite;                // samples that were not finite, and are in no average
     Located located[kMaxLocated];  // the first of them to be counted
 };

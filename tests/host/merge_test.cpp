@@ -65,6 +65,23 @@ TEST(Merge, OtherRangesGiveTheSingleRunUpToRoundingAndSaySo)
     }
 }
 
+TEST(Merge, AFilmThatEndedEarlyGivesUpThePromise)
+{
+    for (const bool earlier : {false, true}) {
+        const ScratchFolder folder;
+        Film first = simulateFilm(0, 256), second = simulateFilm(256, 512);
+        Film& ended = earlier ? first : second;
+        ended.complete = false;
+        ended.pixels.back() = PixelMoments{};
+        writeFilm(folder / "a.exr", first);
+        writeFilm(folder / "b.exr", second);
+        const MergedFilm merged = mergeFilms({folder / "a.exr", folder / "b.exr"});
+        EXPECT_FALSE(merged.exact);
+        EXPECT_FALSE(merged.film.complete);
+        EXPECT_EQ(merged.film.pixels.back().count, 256U);
+    }
+}
+
 TEST(Merge, KeepsNoPromiseBeyondAGap)
 {
     const MergedFilm merged = mergeRanges({{0, 256}, {512, 768}});

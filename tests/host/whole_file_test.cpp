@@ -91,6 +91,19 @@ TEST(WholeFile, WritesThroughASymbolicLink)
     EXPECT_EQ(bytesOfFile(folder / "real/a.exr"), "new");
 }
 
+TEST(WholeFile, MakesTheFileThatALinkLeadsTo)
+{
+    const ScratchFolder folder;
+    std::filesystem::create_directory(folder / "real");
+    std::filesystem::create_symlink("real/b.exr", folder / "a.exr");
+    std::filesystem::create_symlink("a.exr", folder / "again.exr");
+    WholeFile file(folder / "again.exr");
+    file.commit();
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "again.exr"));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "a.exr"));
+    EXPECT_TRUE(std::filesystem::is_regular_file(folder / "real/b.exr"));
+}
+
 TEST(WholeFile, HasTheModeOfAnOrdinaryNewFile)
 {
     const ScratchFolder folder;
@@ -126,6 +139,10 @@ TEST(CheckWritable, RefusesWithTheReason)
     expectUnwritable(folder / "missing/a.exr", "missing does not exist");
     expectUnwritable(folder / "folder.exr", "it is a folder");
     expectUnwritable(folder / "file/a.exr", "file is not a folder");
+    std::filesystem::create_symlink("circle.exr", folder / "circle.exr");
+    expectUnwritable(folder / "circle.exr", "lead in a circle");
+    std::filesystem::create_symlink("missing/b.exr", folder / "nowhere.exr");
+    expectUnwritable(folder / "nowhere.exr", "missing does not exist");
     expectRefusal<InputError>([] { checkWritable("", ".exr"); }, "empty file name");
     expectRefusal<InputError>([] { checkWritable("/dev/null", ""); }, "not a regular file");
     expectRefusal<InputError>([] { WholeFile file("/dev/null"); }, "not a regular file");

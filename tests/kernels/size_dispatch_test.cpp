@@ -17,6 +17,7 @@ struct Outcome {
     QueueSizes sizes;
     QueueTails tails;
     RayCounts counts;
+    std::uint32_t overflows;
 };
 
 Outcome sizeDispatch(const Pass& pass, const QueueTails& tails, const RayCounts& counts)
@@ -35,9 +36,8 @@ Outcome sizeDispatch(const Pass& pass, const QueueTails& tails, const RayCounts&
     Commands commands(testDevice());
     commands.dispatch(kernel, bindings, std::as_bytes(std::span<const Pass, 1>(&pass, 1)), 1);
     commands.submitAndWait();
-    EXPECT_EQ(download<Status>(paths.status(), 1)[0].flags, 0U);
     return {download<QueueSizes>(paths.queueSizes(), 1)[0], download<QueueTails>(tailsBuffer, 1)[0],
-            download<RayCounts>(countsBuffer, 1)[0]};
+            download<RayCounts>(countsBuffer, 1)[0], download<Status>(paths.status(), 1)[0].overflows};
 }
 
 Pass passAt(std::uint32_t bounce)
@@ -59,6 +59,16 @@ TEST(SizeDispatchTest, StartsWithAllSlots)
     EXPECT_EQ(outcome.sizes.shadowGroups, uvec3(0, 1, 1));
     EXPECT_EQ(outcome.tails.next, 0U);
     EXPECT_EQ(outcome.counts.closest, uvec2(3000, 0));
+    EXPECT_EQ(outcome.overflows, 0U);
+}
+
+TEST(SizeDispatchTest, CountsWhatIsBeyondTheSlots)
+{
+    const Outcome outcome = sizeDispatch(passAt(1), {3000, 3002}, {});
+    EXPECT_EQ(outcome.sizes.closest, 3000U);
+    EXPECT_EQ(outcome.sizes.shadow, 3000U);
+    EXPECT_EQ(outcome.overflows, 2U);
+    EXPECT_EQ(sizeDispatch(passAt(1), {3001, 3000}, {}).overflows, 1U);
 }
 
 TEST(SizeDispatchTest, FollowsTheTailsAndCarriesCounts)

@@ -135,6 +135,20 @@ TEST(CommandLineTest, PixelsThatNoTimeWasLeftForAreSaid)
     EXPECT_EQ(run.exitCode, 0);
     EXPECT_NE(run.err.find(" of 262144 pixels have no sample and are black"), std::string::npos) << run.err;
     EXPECT_EQ(countLines(run.err), 1U);
+    EXPECT_FALSE(films.film("x.exr").complete);
+}
+
+TEST(CommandLineTest, MergeSaysThatAFilmEndedEarly)
+{
+    const Films films;
+    films.render("a.exr", {"--time", "0.001", "--samples", "0:256", "--size", "512x512", "--stats", "s.json"});
+    EXPECT_EQ(films.statistics("s.json").at("stopReason"), "time");
+    films.render("b.exr", {"--samples", "256:257", "--size", "512x512"});
+    const GlimRun run = films.merge({"a.exr", "b.exr", "-o", "c.exr"});
+    EXPECT_EQ(run.exitCode, 0);
+    EXPECT_NE(run.err.find("some are missing"), std::string::npos) << run.err;
+    EXPECT_TRUE(films.film("b.exr").complete);
+    EXPECT_FALSE(films.film("c.exr").complete);
 }
 
 TEST(CommandLineTest, SignalsEndARenderThatIsThenWritten)

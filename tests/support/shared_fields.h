@@ -8,7 +8,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 194u;
+GLIM_CONST uint kSharedWords = 195u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -47,7 +47,7 @@ U(queueSizes.closest) U(queueSizes.shadow) U3(queueSizes.closestGroups) U3(queue
 U(queueTails.next) U(queueTails.shadow)
 U2(rayCounts.closest) U2(rayCounts.shadow)
 U(located.pixel) U(located.sampleIndex)
-U(status.flags) U(status.nonFinite) U(status.located[0].pixel) U(status.located[0].sampleIndex)
+U(status.loopCaps) U(status.overflows) U(status.nonFinite) U(status.located[0].pixel) U(status.located[0].sampleIndex)
 U(status.located[1].pixel) U(status.located[1].sampleIndex) U(status.located[2].pixel)
 U(status.located[2].sampleIndex) U(status.located[3].pixel) U(status.located[3].sampleIndex)
 U(status.located[4].pixel) U(status.located[4].sampleIndex) U(status.located[5].pixel)
