@@ -16,7 +16,7 @@ namespace {
 
 int fail(glim::ExitCode code, const std::string& sentence)
 {
-    std::cerr << "glim: " << sentence << '\n';
+    std::cerr << "glim: " << sentence << (sentence.back() == '.' ? "\n" : ".\n");
     return static_cast<int>(code);
 }
 

@@ -26,7 +26,7 @@ void addPictureOptions(CLI::App& command, RenderOptions& options)
     command
         .add_option_function<std::string>(
             "--environment", [&options](const std::string& text) { options.environment = parseRadiance(text); },
-            "Constant radiance from everywhere, W/(sr m^2), each >= 0; goes before the file's [none]")
+            "Constant radiance from everywhere, W/(sr m^2), each >= 0; replaces the file's own [none]")
         ->type_name("R,G,B");
     addExposure(command, options.exposure);
 }

@@ -38,7 +38,8 @@ std::size_t pixelCount(const Image& image)
 
 void checkIsExr(const fs::path& path)
 {
-    if (fs::is_directory(path)) {
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored)) {
         throw InputError(path.string() + ": is a folder, not an OpenEXR file.");
     }
     std::ifstream stream(path, std::ios::binary);

@@ -196,7 +196,8 @@ TEST(CommandLineTest, RefusedScenesLeaveTheTargetAsItWas)
     }
     EXPECT_EQ(bytesOfFile(target), "what was here before");
     EXPECT_EQ(folder.entries(), 1);
-    expectSentence(runGlim({"inspect", sceneFile("refused/not_json.gltf")}), 1, "not_json.gltf: ");
+    expectSentence(runGlim({"inspect", sceneFile("refused/not_json.gltf")}), 1, "not JSON: syntax error at byte 30.\n");
+    expectSentence(runGlim({"inspect", ""}), 1, "The scene's file name is empty.\n");
 }
 
 TEST(CommandLineTest, WhatTheSceneDoesNotHaveIsNamedWithWhatItHas)

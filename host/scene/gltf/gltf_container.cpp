@@ -78,9 +78,13 @@ int computeDepth(const std::string& text)
 
 std::vector<unsigned char> readBytes(const std::filesystem::path& file)
 {
+    if (file.empty()) {
+        throw InputError("The scene's file name is empty");
+    }
+    std::error_code ignored;
     std::ifstream stream(file, std::ios::binary | std::ios::ate);
     const std::streamoff size = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
-    if (std::filesystem::is_directory(file)) {
+    if (std::filesystem::is_directory(file, ignored)) {
         throw InputError(file.string() + ": is a directory; expected a file");
     }
     if (size < 0) {
