@@ -3,6 +3,7 @@
 #include "host/bvh/surface_area.hpp"
 #include "shaders/shared/limits.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace glim {

@@ -4,6 +4,8 @@
 #include "host/cli/render_options.hpp"
 #include "host/render/renderer.hpp"
 
+#include <optional>
+
 namespace glim {
 
 class ProgressPrinter {

@@ -2,6 +2,7 @@
 
 #include "host/gpu/commands.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace glim {

@@ -1,6 +1,7 @@
 #include "host/gpu/describe_devices.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace glim {
 namespace {

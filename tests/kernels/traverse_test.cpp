@@ -9,6 +9,7 @@
 #include <bit>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <random>
 
 namespace glim {
