@@ -11,7 +11,7 @@ struct Surface {
     vec3 point;       // on the surface, to within errorBound
     vec3 errorBound;
     vec3 geometric;   // unit normal on the side of wo
-    vec3 shading;     // unit, on the side of wo
+    vec3 shading;     // unit; interpolated ones may look away from wo (turnToViewer)
     bool front;       // wo is on the front side
     uint material;
     uint emitter;     // index + 1, or 0
@@ -63,8 +63,7 @@ Surface surfaceOfTriangle(Record record, uint index, vec2 barycentric)
     return surface;
 }
 
-// The surface that `ray` met. Normals are turned to the side of wo = -ray.direction; a shading normal that looks away from
-// wo there gives way to the geometric one, so that no silhouette goes black.
+// The surface that `ray` met. Both normals are turned over if the geometric one is not on the side of wo = -ray.direction.
 Surface surfaceAt(PathRay ray, PathHit hit)
 {
     Record record = fetchRecord(hit.record);
@@ -78,10 +77,15 @@ Surface surfaceAt(PathRay ray, PathHit hit)
     float side = surface.front ? 1.0 : -1.0;
     surface.geometric *= side;
     surface.shading *= side;
-    if (!(dot(surface.shading, ray.direction) < 0.0)) {
+    return surface;
+}
+
+// A shading normal that looks away from wo gives way to the geometric one, so that no silhouette goes black.
+void turnToViewer(inout Surface surface, vec3 wo)
+{
+    if (!(dot(surface.shading, wo) > 0.0)) {
         surface.shading = surface.geometric;
     }
-    return surface;
 }
 
 // Origin of a ray that leaves the surface along wi.

@@ -81,6 +81,7 @@ void visit(uint slot)
         return;
     }
     Surface surface = surfaceAt(ray, hit);
+    turnToViewer(surface, -ray.direction);
     FlatMaterial material = fetchMaterial(surface.material);
     if (pass.bounce == 0u) {
         float depth = dot(surface.point - sceneCamera.position, sceneCamera.forward);

@@ -23,6 +23,10 @@ void main()
             results[TEST_THREAD].hit = hit;
         } else {
             Surface s = surfaceAt(ray, hit);
+            vec3 shading = s.shading;
+            turnToViewer(s, -ray.direction);
+            bool looksAway = dot(shading, ray.direction) >= 0.0;
+            EXPECT_TRUE(s.shading == (looksAway ? s.geometric : shading));
             EXPECT_NEAR(dot(s.geometric, s.geometric), 1.0, 5e-7);
             EXPECT_NEAR(dot(s.shading, s.shading), 1.0, 5e-7);
             EXPECT_TRUE(dot(s.geometric, ray.direction) <= 0.0);

@@ -1,10 +1,12 @@
 // Whole pictures whose answer is known on paper. The T-numbers are those of tests/README.md.
 #include "tests/support/build_scene.hpp"
 #include "tests/support/render_scene.hpp"
+#include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 namespace glim {
@@ -77,6 +79,26 @@ TEST(TruthTest, T5GlassUnderAConstantSkyVanishes)
     settings.bounces = 1000;
     // Every path ends in the sky with the throughput it began with, up to the rounding of eta^2 on each crossing.
     expectEverywhere(renderScene(builder.scene(), settings), {1.0, 2.0, 4.0}, 8);
+}
+
+// H23: normals up to 20 degrees off the faces neither trap light in glass nor make any.
+TEST(TruthTest, H23SmoothGlassUnderAConstantSkyVanishes)
+{
+    SceneBuilder builder;
+    builder.glass(1.5F);
+    builder.environment(glm::vec3(1.0F)).perspective({0, 0, 5}, {0, 0, 0}, 0.4F);  // silhouettes too
+    Scene scene = builder.scene();
+    scene.triangles = icosphere(1);
+    scene.primitives = {{"", 0, static_cast<std::uint32_t>(scene.triangles.size()), 0, true}};
+    for (const Triangle& triangle : scene.triangles) {
+        scene.normals.push_back({triangle.vertices[0], triangle.vertices[1], triangle.vertices[2]});
+    }
+    RenderSettings settings = squareSettings(48, samplesFor(64));
+    settings.bounces = 1000;
+    const MeanEstimate estimate = meanOf(renderScene(scene, settings));
+    std::printf("H23 smooth glass: %.5f +- %.5f\n", estimate.mean.r, estimate.standardError.r);
+    EXPECT_GT(estimate.mean.r, 0.999);
+    EXPECT_LT(estimate.mean.r, 1.0 + 5.0 * estimate.standardError.r);
 }
 
 TEST(TruthTest, T9PointDirectionalAndSpotLight)
