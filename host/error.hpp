@@ -6,7 +6,7 @@
 
 namespace glim {
 
-enum class ExitCode : int { Done = 0, BadInput = 1, Usage = 2, Device = 3, Interrupted = 130, Terminated = 143 };
+enum class ExitCode : int { Done = 0, BadInput = 1, Usage = 2, Device = 3, HungUp = 129, Interrupted = 130, Terminated = 143 };
 
 // One sentence: which file, which place in it, which value, what was expected.
 class InputError : public std::runtime_error {

@@ -38,7 +38,7 @@ int main(int argc, char** argv)
     app.set_version_flag("--version", glim::versionText());
     app.failure_message(usageSentence);
     app.require_subcommand(1);
-    app.footer("Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 130 or 143 interrupted.");
+    app.footer("Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 129, 130 or 143 stopped by a signal.");
     glim::addRender(app, exitCode);
     glim::addInspect(app);
     glim::addDevices(app);
@@ -54,6 +54,9 @@ int main(int argc, char** argv)
         return fail(glim::ExitCode::Device, error.what());
     } catch (const std::bad_alloc&) {
         return fail(glim::ExitCode::BadInput, "There is not enough memory for this scene and picture.");
+    }
+    if (!std::cout.flush()) {
+        return fail(glim::ExitCode::BadInput, "The results could not be written to standard output");
     }
     return static_cast<int>(exitCode);
 }

@@ -7,7 +7,7 @@
 find_program(GLSLANG_VALIDATOR NAMES glslangValidator glslang REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 
-add_executable(mark_no_contraction ${CMAKE_CURRENT_LIST_DIR}/mark_no_contraction.cpp)
+add_executable(mark_floats ${CMAKE_CURRENT_LIST_DIR}/mark_floats.cpp)
 
 function(glim_embed_shaders target)
     cmake_parse_arguments(ARG "" "NAMESPACE" "SOURCES" ${ARGN})
@@ -24,10 +24,10 @@ function(glim_embed_shaders target)
             OUTPUT ${spirv}.plain ${spirv}
             COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.2 -I${PROJECT_SOURCE_DIR}/shaders
                     -I${PROJECT_SOURCE_DIR}/tests/support --depfile ${spirv}.d -o ${spirv}.plain ${source}
-            COMMAND mark_no_contraction ${spirv}.plain ${spirv}
+            COMMAND mark_floats ${spirv}.plain ${spirv}
             COMMAND ${SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${spirv}
             DEPFILE ${spirv}.d
-            DEPENDS ${source} mark_no_contraction
+            DEPENDS ${source} mark_floats
             COMMENT "Compiling ${stem}.comp" VERBATIM)
         set(definition ${directory}/${stem}.cpp)
         file(CONFIGURE OUTPUT ${definition} @ONLY CONTENT [[

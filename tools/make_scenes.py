@@ -30,6 +30,10 @@ def parse_arguments():
         if name not in LARGE_SCENES or not size.isdigit() or int(size) < 1:
             parser.error("--large %s %s: expected one of %s and a whole number from 1" %
                          (name, size, ", ".join(LARGE_SCENES)))
+        if name == "menger" and int(size) > 5:
+            parser.error("--large menger %s: expected at most level 5, which has 13 million triangles" % size)
+    if arguments.large and arguments.fetch:
+        parser.error("--large and --fetch exclude each other")
     if bool(arguments.large) != bool(arguments.output):
         parser.error("--large and -o FILE belong together")
     if arguments.output and not arguments.output.endswith((".glb", ".gltf")):
@@ -55,4 +59,7 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except OSError as error:
+        sys.exit("make_scenes.py: %s" % error)

@@ -108,7 +108,7 @@ configure() {
 }
 
 # What the binary says of itself besides its sources: a new commit is a new build even if no file is newer.
-describeBuild() { echo "$1 $root $(git -C "$root" rev-parse HEAD 2>/dev/null || echo unknown)"; }
+describeBuild() { echo "$1 $root $(git -c safe.directory="$root" -C "$root" rev-parse HEAD 2>/dev/null || echo unknown)"; }
 
 # isBuilt STAMP PRESET: no source is newer than the stamp, and it is of the same preset and commit. A few milliseconds.
 isBuilt() {
@@ -142,7 +142,7 @@ build() {
 # time one builds and the others wait.
 ensureBuilt() {
     isBuilt "$1/.built-$4" "$2" && return
-    mkdir -p "$1"
+    mkdir -p "$1" 2>/dev/null && [[ -w $1 ]] || fail "cannot write to $1, where glim is to be built"
     (
         flock 9
         build "$@"

@@ -5,6 +5,8 @@
 #include "host/image/exr.hpp"
 #include "host/measure/compare_images.hpp"
 #include "host/measure/z_test.hpp"
+#include "host/render/film_file.hpp"
+#include "host/render/merge_films.hpp"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -25,12 +27,19 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kChannels[] = {"R", "G", "B"};
 
 struct CompareOptions {
-    std::filesystem::path picture, reference, variance, difference;
+    std::filesystem::path picture, reference;
+    std::optional<std::filesystem::path> variance, difference;
     bool json = false;
 };
 
+// Whether a test of noise makes sense, which supposes that the two noises have nothing to do with each other.
+enum class Relation { Independent, SharedSamples, Identical };
+
 std::string number(double value, int digits = 5)
 {
+    if (std::isnan(value)) {
+        return "unknown";
+    }
     std::ostringstream stream;
     stream << std::setprecision(digits) << value;
     return stream.str();
@@ -163,10 +172,22 @@ Json jsonOf(const Comparison& result, const std::optional<ZTest>& test)
     return json;
 }
 
-void report(const CompareOptions& options, const Comparison& result, const std::optional<ZTest>& test)
+const char* nameOf(Relation relation)
+{
+    switch (relation) {
+    case Relation::Identical: return "identical";
+    case Relation::SharedSamples: return "shared samples";
+    case Relation::Independent: break;
+    }
+    return "independent";
+}
+
+void report(const CompareOptions& options, const Comparison& result, Relation relation, const std::optional<ZTest>& test)
 {
     if (options.json) {
-        std::cout << jsonOf(result, test).dump(2) << '\n';
+        Json json = jsonOf(result, test);
+        json["relation"] = nameOf(relation);
+        std::cout << json.dump(2) << '\n';
         return;
     }
     std::cout << "A = " << options.picture.string() << ", B = " << options.reference.string() << " (the reference)\n";
@@ -174,29 +195,51 @@ void report(const CompareOptions& options, const Comparison& result, const std::
     printRatios(result);
     if (test) {
         printTest(*test);
+    } else if (relation == Relation::Identical) {
+        row("verdict") << "identical\n";
+    } else if (relation == Relation::SharedSamples) {
+        row("verdict") << "none: the two share samples, so their noise tells nothing\n";
     }
+}
+
+// The film's header if glim wrote the picture.
+std::optional<Film> filmOf(const std::filesystem::path& path, const Image& image)
+{
+    if (image.attributes.count("glim:film") == 0) {
+        return std::nullopt;
+    }
+    const Film film = readFilmHeader(path);
+    if (!film.complete) {
+        std::cerr << "glim: " << path.string() << " is of a render that was ended early: some pixels have fewer samples or none.\n";
+    }
+    return film;
 }
 
 void runCompare(const CompareOptions& options)
 {
-    if (!options.difference.empty()) {
-        checkTarget(options.difference, ".exr", {options.picture, options.reference, options.variance});
+    if (options.difference) {
+        checkTarget(*options.difference, ".exr", {options.picture, options.reference, options.variance.value_or("")});
     }
-    const Picture picture = pictureOf(readExr(options.picture), options.picture.string());
-    Picture reference = pictureOf(readExr(options.reference), options.reference.string());
-    if (!options.variance.empty()) {
-        setVariance(reference, readExr(options.variance), options.variance.string());
+    const Image image = readExr(options.picture), referenceImage = readExr(options.reference);
+    const Picture picture = pictureOf(image, options.picture.string());
+    Picture reference = pictureOf(referenceImage, options.reference.string());
+    if (options.variance) {
+        setVariance(reference, readExr(*options.variance), options.variance->string());
     }
     const Comparison result = compareImages(picture, reference);
+    const auto film = filmOf(options.picture, image), referenceFilm = filmOf(options.reference, referenceImage);
+    const Relation relation = picture.radiance == reference.radiance ? Relation::Identical
+                              : film && referenceFilm && shareSamples(*film, *referenceFilm) ? Relation::SharedSamples
+                                                                                             : Relation::Independent;
     std::optional<ZTest> test;
-    if (!picture.variance.empty() && !reference.variance.empty()) {
+    if (relation == Relation::Independent && !picture.variance.empty() && !reference.variance.empty()) {
         test = zTest(picture, reference);
     }
-    if (!options.difference.empty()) {
-        writeExr(options.difference, signedDifference(picture, reference));
-        std::cerr << "Wrote A - B to " << options.difference.string() << ".\n";
+    if (options.difference) {
+        writeExr(*options.difference, signedDifference(picture, reference));
+        std::cerr << "Wrote A - B to " << options.difference->string() << ".\n";
     }
-    report(options, result, test);
+    report(options, result, relation, test);
 }
 
 }  // namespace
@@ -209,6 +252,7 @@ void addCompare(CLI::App& app)
                     "with eps = .01 mean(r)^2 and, as relMSE absolute, eps = .01; means are over pixels and channels.\n"
                     "The ratio mean(x) / mean(r) has a 95 % interval, from the variances if both are known, otherwise\n"
                     "from the scatter of 8x8 blocks. With both variances, z-tests say whether the pictures agree.\n"
+                    "They take blocks of 8x8 for normal, which caustics and other rare bright light are only at many samples.\n"
                     "Variance layers in films written by glim are used without asking.");
     command->add_option("picture", options->picture, "The picture x: any OpenEXR file with R, G, B")
         ->required()

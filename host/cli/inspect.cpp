@@ -91,7 +91,7 @@ void printText(const Json& d)
 
 void runInspect(const InspectOptions& options)
 {
-    const Json description = describe(options, prepareScene(options.scene, options.sceneIndex, {}));
+    const Json description = describe(options, prepareScene(options.scene, {options.sceneIndex, {}}));
     if (options.json) {
         std::cout << description.dump(2) << '\n';
     } else {

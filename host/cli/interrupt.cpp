@@ -14,18 +14,37 @@ void remember(int signal)
     std::signal(signal, SIG_DFL);
 }
 
+// A signal that whoever started us ignores stays ignored, as nohup and scripts' background jobs ask.
+void watch(int signal)
+{
+    if (std::signal(signal, remember) == SIG_IGN) {
+        std::signal(signal, SIG_IGN);
+    }
+}
+
+void unwatch(int signal)
+{
+    if (std::signal(signal, SIG_DFL) == SIG_IGN) {
+        std::signal(signal, SIG_IGN);
+    }
+}
+
 }  // namespace
 
 InterruptWatch::InterruptWatch()
 {
-    std::signal(SIGINT, remember);
-    std::signal(SIGTERM, remember);
+    watch(SIGINT);
+    watch(SIGTERM);
+    watch(SIGHUP);
+    std::signal(SIGPIPE, SIG_IGN);
 }
 
 InterruptWatch::~InterruptWatch()
 {
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
+    unwatch(SIGINT);
+    unwatch(SIGTERM);
+    unwatch(SIGHUP);
+    std::signal(SIGPIPE, SIG_DFL);
 }
 
 int InterruptWatch::signal() const { return received; }

@@ -1,9 +1,10 @@
-// SIGINT and SIGTERM as a question to ask between passes.
+// SIGINT, SIGTERM and SIGHUP as a question to ask between passes.
 #pragma once
 
 namespace glim {
 
-// While one lives, the first SIGINT or SIGTERM is only remembered; a second one ends the program as usual.
+// While one lives, the first of these signals is only remembered; a second one ends the program as usual. A reader that goes
+// away (SIGPIPE) ends nothing.
 class InterruptWatch {
 public:
     InterruptWatch();

@@ -3,7 +3,6 @@
 #include "host/bvh/build_bvh.hpp"
 #include "host/error.hpp"
 #include "host/flatten/flatten_scene.hpp"
-#include "host/scene/load_gltf.hpp"
 
 #include <chrono>
 #include <iostream>
@@ -20,15 +19,11 @@ double secondsBetween(Clock::time_point begin, Clock::time_point end)
 
 }  // namespace
 
-PreparedScene prepareScene(const std::filesystem::path& file, std::optional<std::size_t> sceneIndex,
-                           std::optional<glm::vec3> environment)
+PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions& options)
 {
     PreparedScene prepared;
     const Clock::time_point start = Clock::now();
-    prepared.scene = loadGltf(file, {sceneIndex});
-    if (environment) {
-        prepared.scene.environment = environment;
-    }
+    prepared.scene = loadGltf(file, options);
     for (const std::string& notice : prepared.scene.notices) {
         std::cerr << "glim: " << notice << '\n';
     }

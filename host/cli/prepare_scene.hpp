@@ -3,7 +3,7 @@
 
 #include "host/bvh/bvh.hpp"
 #include "host/flatten/flat_scene.hpp"
-#include "host/scene/scene.hpp"
+#include "host/scene/load_gltf.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -18,8 +18,7 @@ struct PreparedScene {
 };
 
 // Throws InputError. Prints the scene's notices to stderr.
-PreparedScene prepareScene(const std::filesystem::path& file, std::optional<std::size_t> sceneIndex,
-                           std::optional<glm::vec3> environment);
+PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions& options);
 
 // The camera of that name or index (the first if absent). Throws InputError listing what there is.
 const Camera& findCamera(const Scene& scene, const std::optional<std::string>& choice);

@@ -38,6 +38,15 @@ float aspectRatioOf(const Camera& camera)
     return orthographic ? camera.halfWidth / camera.halfHeight : camera.aspectRatio.value_or(1.0F);
 }
 
+LoadOptions loadOptionsOf(const RenderOptions& options)
+{
+    LoadOptions load{options.sceneIndex, options.environment};
+    if (options.size) {
+        load.aspectRatio = static_cast<float>(options.size->x) / static_cast<float>(options.size->y);
+    }
+    return load;
+}
+
 RenderSettings settingsFor(const RenderOptions& options, const Camera& camera)
 {
     RenderSettings settings = options.settings;
@@ -49,10 +58,33 @@ RenderSettings settingsFor(const RenderOptions& options, const Camera& camera)
     return settings;
 }
 
+const char* nameOf(int signal)
+{
+    return signal == SIGINT ? "SIGINT" : signal == SIGTERM ? "SIGTERM" : "SIGHUP";
+}
+
+// The exit code of a render that a signal may have ended; says so.
+ExitCode finish(int signal, const std::string& what)
+{
+    if (signal == 0) {
+        return ExitCode::Done;
+    }
+    std::cerr << "glim: stopped by " << nameOf(signal) << "; " << what << ".\n";
+    return signal == SIGINT ? ExitCode::Interrupted : signal == SIGTERM ? ExitCode::Terminated : ExitCode::HungUp;
+}
+
+// A picture with holes is better than none, but not than the one that is there.
+bool wouldRuin(const std::filesystem::path& output, const Film& film)
+{
+    std::error_code ignored;
+    return std::filesystem::exists(output, ignored) &&
+           std::any_of(film.pixels.begin(), film.pixels.end(), [](const PixelMoments& p) { return p.count == 0; });
+}
+
 std::string stopReason(int signal, const Film& film, const RenderSettings& settings)
 {
     if (signal != 0) {
-        return signal == SIGINT ? "SIGINT" : "SIGTERM";
+        return nameOf(signal);
     }
     return film.complete && film.sampleRanges[0].second == settings.sampleEnd ? "samples" : "time";
 }
@@ -68,19 +100,20 @@ double writePictures(const RenderOptions& options, const Film& film)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Linux grants memory that is not there and later kills the program that uses it.
-void refuseHugePicture(const RenderSettings& settings, const DeviceDescription& device)
+// Before anything is allocated: Linux grants memory that is not there and later kills the program that uses it.
+void refuseWhatDoesNotFit(const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device)
 {
     const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
-    const std::uint64_t onDevice = pixels * 2 * sizeof(PixelMoments);  // a block and a page
-    const std::uint64_t onHost = pixels * 2 * sizeof(PixelMoments);    // the film and its planes in the file
+    const std::uint64_t onDevice = sizeInBytes(prepared.flat) + PathBuffers::sizeInBytes(settings.pathCapacity) +
+                                   pixels * (sizeof(BlockSums) + sizeof(PixelMoments));
+    const std::uint64_t onHost = pixels * 2 * sizeof(PixelMoments);  // the film and its planes in the file
     const std::uint64_t memory = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
                                  static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
     const auto refuse = [&](std::uint64_t needed, const std::string& owner, std::uint64_t there) {
         if (needed > there) {
-            throw InputError("--size " + std::to_string(settings.width) + "x" + std::to_string(settings.height) +
-                             ": the picture needs " + std::to_string(needed >> 20) + " MiB of memory, but " + owner +
-                             " has only " + std::to_string(there >> 20) + " MiB.");
+            throw InputError(prepared.scene.file + ": the scene and a picture of " + std::to_string(settings.width) + "x" +
+                             std::to_string(settings.height) + " need " + std::to_string(needed >> 20) + " MiB, which is " +
+                             std::to_string((needed - there) >> 20) + " MiB more memory than " + owner + " has.");
         }
     };
     if (device.software) {
@@ -97,11 +130,14 @@ ExitCode runRender(const RenderOptions& options)
     const InterruptWatch watch;
     const Instance instance;
     Device device(instance, options.device);
-    const PreparedScene prepared = prepareScene(options.scene, options.sceneIndex, options.environment);
+    const PreparedScene prepared = prepareScene(options.scene, loadOptionsOf(options));
     const Camera& camera = findCamera(prepared.scene, options.camera);
     const RenderSettings settings = settingsFor(options, camera);
-    refuseHugePicture(settings, device.description());
+    refuseWhatDoesNotFit(prepared, settings, device.description());
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
+    if (watch.signal() != 0) {
+        return finish(watch.signal(), "nothing was rendered or written");
+    }
     Renderer renderer(device, prepared.flat, flattenCamera(camera, aspect), settings);
 
     ProgressPrinter progress(options.progress, settings.seconds, std::uint64_t{settings.width} * settings.height);
@@ -110,6 +146,9 @@ ExitCode runRender(const RenderOptions& options)
         return watch.signal() == 0;
     });
     progress.finish();
+    if (watch.signal() != 0 && wouldRuin(options.output, film)) {
+        return finish(watch.signal(), "some pixels had no sample yet, so " + options.output.string() + " is left as it was");
+    }
     film.sceneFile = options.scene.string();
     const double writeSeconds = writePictures(options, film);
     const RenderReport report{options, prepared, film, renderer.statistics(), device.description(),
@@ -117,13 +156,8 @@ ExitCode runRender(const RenderOptions& options)
     if (options.stats) {
         writeStatistics(*options.stats, report);
     }
-    if (watch.signal() != 0) {
-        std::cerr << "glim: stopped by " << report.stopReason << "; what was finished is in " << options.output.string()
-                  << ".\n";
-    }
     printSummary(report);
-    return watch.signal() == 0 ? ExitCode::Done
-                               : (watch.signal() == SIGINT ? ExitCode::Interrupted : ExitCode::Terminated);
+    return finish(watch.signal(), "what was finished is in " + options.output.string());
 }
 
 }  // namespace
@@ -133,8 +167,10 @@ void addRender(CLI::App& app, ExitCode& exitCode)
     auto options = std::make_shared<RenderOptions>();
     CLI::App* command = app.add_subcommand("render", "Render a glTF scene to an EXR file");
     addRenderOptions(*command, *options);
-    command->footer("EXR layers: R, G, B, A; variance of the mean; albedo, normal, depth; count and what merging needs.\n"
-                    "The same scene, seed and options give the same bits. Ctrl-C writes what is finished.");
+    command->footer("EXR layers: R, G, B, A (coverage); albedo; normal (world axes); depth.Z (nearest, along the view axis);\n"
+                    "count.X (samples); from 33 samples on variance, of the mean, surest at multiples of 32; squares, blocks and\n"
+                    "clamped for merging. The same scene, seed and options give the same pixels. Ctrl-C writes what is finished.\n"
+                    "Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 129, 130 or 143 stopped by SIGHUP, SIGINT or SIGTERM.");
     command->callback([options, &exitCode] { exitCode = runRender(*options); });
 }
 

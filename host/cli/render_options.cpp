@@ -15,7 +15,8 @@ void addPictureOptions(CLI::App& command, RenderOptions& options)
     command.add_option("-o,--output", options.output, "The picture to write: scene-linear EXR with layers")
         ->required()
         ->type_name("OUT.exr");
-    command.add_option("--png", options.png, "Also write sRGB of clip(2^EV x) as PNG")->type_name("P.png");
+    CLI::Option* png = command.add_option("--png", options.png, "Also write sRGB of clip(2^EV x) as PNG");
+    png->type_name("P.png");
     command
         .add_option_function<std::string>(
             "--size", [&options](const std::string& text) { options.size = parseSize(text); },
@@ -28,7 +29,7 @@ void addPictureOptions(CLI::App& command, RenderOptions& options)
             "--environment", [&options](const std::string& text) { options.environment = parseRadiance(text); },
             "Constant radiance from everywhere, W/(sr m^2), each >= 0; replaces the file's own [none]")
         ->type_name("R,G,B");
-    addExposure(command, options.exposure);
+    addExposure(command, options.exposure)->needs(png);
 }
 
 void addSampleCounts(CLI::App& command, RenderSettings& settings)
@@ -36,7 +37,7 @@ void addSampleCounts(CLI::App& command, RenderSettings& settings)
     CLI::Option* spp = addNumber<std::uint32_t>(command, {"--spp", "N", "Samples per pixel", 1, kMaxSample, "64"},
                                                 [&settings](std::uint32_t count) { settings.sampleEnd = count; });
     CLI::Option* time =
-        addNumber<double>(command, {"--time", "SECONDS", "Sample for this long, as far as --samples allows", 1e-3, 1e9, "off"},
+        addNumber<double>(command, {"--time", "SECONDS", "Sample for this long, and as long as the pass under way takes; with --samples to its end at most", 1e-3, 1e9, "off"},
                           [&settings](double seconds) { settings.seconds = seconds; });
     CLI::Option* samples = command
                                .add_option_function<std::string>(

@@ -154,6 +154,8 @@ void printSummary(const RenderReport& report)
     if (const auto errors = estimateErrors(pictureOf(report.film))) {
         std::snprintf(line, sizeof line, ", estimated relMSE %.3g", errors->relMse);
         std::cout << line;
+    } else {
+        std::cout << ", error unknown below 33 samples per pixel";
     }
     std::cout << ", on " << report.device.name << " (" << report.device.kind << ")\n";
 }

@@ -102,13 +102,16 @@ void Buffer::allocate(const std::string& name)
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device_->handle(), handle_, &needs);
     const VkMemoryPropertyFlags host = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    // Memory that is the device's and also cached by the host is one memory that both share. What a discrete GPU shows the host
+    // of its own is small (256 MiB) or slow to read, so there the host goes through staging buffers.
+    const VkMemoryPropertyFlags shared = host | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
     const bool readback = kind_ == BufferKind::Readback;
     VkMemoryPropertyFlags have = 0;
     VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     allocation.allocationSize = needs.size;
     allocation.memoryTypeIndex = device_->findMemoryType(
         needs.memoryTypeBits, readback ? host : VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT},
-        readback ? VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_HOST_CACHED_BIT} : host, &have);
+        readback ? VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_HOST_CACHED_BIT} : shared, &have);
     const VkResult result = vkAllocateMemory(device_->handle(), &allocation, nullptr, &memory_);
     if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
         throw DeviceError("The " + name + " need " + megabytes(needs.size) + ", but device \"" +

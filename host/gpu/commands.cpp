@@ -126,7 +126,7 @@ std::vector<KernelTime> Commands::times() const
     }
     std::vector<KernelTime> times;
     for (std::size_t i = 0; i < timed_.size(); ++i) {
-        const double elapsed = static_cast<double>(ticks[2 * i + 1] - ticks[2 * i]);
+        const auto elapsed = static_cast<double>((ticks[2 * i + 1] - ticks[2 * i]) & device_.description().tickMask);
         times.push_back({timed_[i], elapsed * static_cast<double>(device_.description().nanosecondsPerTick) * 1e-9});
     }
     return times;

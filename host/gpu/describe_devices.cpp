@@ -62,7 +62,14 @@ std::string findMissing(VkPhysicalDevice physical, std::uint32_t version)
     if (features12.scalarBlockLayout == VK_FALSE) {
         return "scalarBlockLayout";
     }
-    return features12.hostQueryReset == VK_FALSE ? "hostQueryReset" : "";
+    if (features12.hostQueryReset == VK_FALSE) {
+        return "hostQueryReset";
+    }
+    VkPhysicalDeviceVulkan12Properties properties12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &properties12, {}};
+    vkGetPhysicalDeviceProperties2(physical, &properties);
+    // Infinite distances are real ones in the kernels, and comparisons guard against NaN.
+    return properties12.shaderSignedZeroInfNanPreserveFloat32 == VK_FALSE ? "shaderSignedZeroInfNanPreserveFloat32" : "";
 }
 
 Candidate describe(VkPhysicalDevice physical)
@@ -93,6 +100,7 @@ Candidate describe(VkPhysicalDevice physical)
         d.missing = "a compute queue";
     } else if (family->second != 0) {
         d.nanosecondsPerTick = limits.timestampPeriod;
+        d.tickMask = ~std::uint64_t{0} >> (64 - family->second);
     }
     return {physical, family ? family->first : 0, d};
 }

@@ -24,6 +24,7 @@ struct DeviceDescription {
     std::uint32_t maxWorkgroup = 0;       // invocations
     std::uint32_t maxGroups = 0;          // workgroups of one dispatch along x
     float nanosecondsPerTick = 0.0F;      // 0: no timestamps
+    std::uint64_t tickMask = 0;           // the bits of a timestamp that count; it wraps beyond
     std::string missing;                  // what glim needs and this device lacks; empty if usable
 };
 

@@ -48,7 +48,7 @@ void checkSamePicture(const Film& film, const std::string& name, const Film& fir
         refuse(name, firstName, "size", size(film), size(first));
     }
     if (film.identity.scene != first.identity.scene) {
-        refuse(name, firstName, "scene", quoted(film.identity.scene) + " (" + film.sceneFile + ")",
+        refuse(name, firstName, "scene, camera or environment", quoted(film.identity.scene) + " (" + film.sceneFile + ")",
                quoted(first.identity.scene) + " (" + first.sceneFile + ")");
     }
     if (film.identity.seed != first.identity.seed) {
@@ -107,6 +107,17 @@ void foldHeader(Film& film, const Film& next)
 }
 
 }  // namespace
+
+bool shareSamples(const Film& a, const Film& b)
+{
+    const bool samePicture = a.identity.scene == b.identity.scene && a.identity.seed == b.identity.seed &&
+                             a.identity.settings == b.identity.settings;
+    return samePicture && std::any_of(a.sampleRanges.begin(), a.sampleRanges.end(), [&](const SampleRange& mine) {
+        return std::any_of(b.sampleRanges.begin(), b.sampleRanges.end(), [&](const SampleRange& other) {
+            return mine.first < other.second && other.first < mine.second;
+        });
+    });
+}
 
 bool continuesExactly(const Film& film, const Film& next)
 {

@@ -20,6 +20,9 @@ struct MergePlan {
 // Only the headers are looked at. Refuses (InputError, by `names`) different pictures and overlapping samples.
 MergePlan planMerge(const std::vector<Film>& films, const std::vector<std::string>& names);
 
+// Are both of the same picture, and is a sample in both?
+bool shareSamples(const Film& a, const Film& b);
+
 // Does `next` continue `film` with the bits of a single run?
 bool continuesExactly(const Film& film, const Film& next);
 

@@ -39,13 +39,22 @@ PathBuffers::PathBuffers(Device& device, std::uint32_t capacity)
       shadowRays_(arrayOf<ShadowRay>(device, "shadow rays", capacity)),
       queueA_(arrayOf<uint>(device, "queue's entries", capacity)), queueB_(arrayOf<uint>(device, "queue's entries", capacity)),
       shadowQueue_(arrayOf<uint>(device, "shadow queue's entries", capacity)),
-      queueSizes_(arrayOf<QueueSizes>(device, "queue sizes", 1)), queueTails_(arrayOf<QueueTails>(device, "queue tails", 1)),
-      rayCounts_(arrayOf<RayCounts>(device, "ray counts", 1)), status_(arrayOf<Status>(device, "status words", 1))
+      queueSizes_(device, "queue sizes", BufferKind::Readback, sizeof(QueueSizes)),
+      queueTails_(arrayOf<QueueTails>(device, "queue tails", 1)),
+      rayCounts_(device, "ray counts", BufferKind::Readback, sizeof(RayCounts)),
+      status_(device, "status words", BufferKind::Readback, sizeof(Status))
 {
     upload(queueSizes_, std::span<const QueueSizes>(std::vector<QueueSizes>(1)));
     upload(queueTails_, std::span<const QueueTails>(std::vector<QueueTails>(1)));
     upload(rayCounts_, std::span<const RayCounts>(std::vector<RayCounts>(1)));
     upload(status_, std::span<const Status>(std::vector<Status>(1)));
+}
+
+std::uint64_t PathBuffers::sizeInBytes(std::uint32_t capacity)
+{
+    constexpr std::uint64_t kPathBytes = sizeof(PathRay) + sizeof(PathHit) + sizeof(PathState) + sizeof(PathRadiance) +
+                                         sizeof(FirstHit) + sizeof(ShadowRay) + 3 * sizeof(uint);
+    return capacity * kPathBytes + sizeof(QueueSizes) + sizeof(QueueTails) + sizeof(RayCounts) + sizeof(Status);
 }
 
 std::map<std::uint32_t, const Buffer*> PathBuffers::buffers(std::uint32_t parity) const

@@ -14,6 +14,7 @@ std::vector<BindingSlot> kernelSlots();
 class PathBuffers {
 public:
     PathBuffers(Device& device, std::uint32_t capacity);
+    static std::uint64_t sizeInBytes(std::uint32_t capacity);
 
     // `parity` 1 swaps the active and the next queue.
     std::map<std::uint32_t, const Buffer*> buffers(std::uint32_t parity) const;

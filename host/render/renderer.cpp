@@ -274,7 +274,8 @@ void Renderer::refuseBrokenStatus() const
         throw DeviceError("The driver of \"" + device_.description().name + "\" cut loops short in " +
                           std::to_string(status.loopCaps) +
                           " threads (their budget of iterations is spent), so the picture would be wrong; "
-                          "the scene's BVH takes more steps per ray than this driver allows.");
+                          "the scene's BVH takes more steps per ray than this driver allows (Mesa's software driver has no such "
+                          "budget from version 24 on).");
     }
     if (status.overflows > 0) {
         throw DeviceError("Queues on \"" + device_.description().name + "\" are " + std::to_string(status.overflows) +

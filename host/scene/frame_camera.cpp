@@ -1,11 +1,12 @@
 #include "host/scene/frame_camera.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace glim {
 
-Camera frameCamera(const Scene& scene)
+Camera frameCamera(const Scene& scene, float aspectRatio)
 {
     const float infinity = std::numeric_limits<float>::infinity();
     glm::vec3 low(infinity), high(-infinity);
@@ -24,7 +25,9 @@ Camera frameCamera(const Scene& scene)
     camera.name = "framed";
     const glm::dvec3 center = 0.5 * glm::dvec3(low) + 0.5 * glm::dvec3(high);
     const double radius = 0.5 * glm::length(glm::dvec3(high) - glm::dvec3(low));
-    const double distance = radius / std::sin(0.5 * static_cast<double>(camera.yfov));  // the box's sphere just fits
+    // The box's sphere just fits into the narrower of the two fields of view.
+    const double slope = std::tan(0.5 * static_cast<double>(camera.yfov)) * std::min(1.0, static_cast<double>(aspectRatio));
+    const double distance = radius / std::sin(std::atan(slope));
     const glm::dvec3 backward = glm::normalize(glm::dvec3(0.4, 0.3, 1.0));
     const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), backward));
     camera.position = center + distance * backward;

@@ -30,10 +30,11 @@ void noteWholeFile(const GltfFile& file, const std::vector<PlacedNode>& nodes, S
     }
 }
 
-// An environment is refused rather than left out: without it the picture would be another one.
-void checkEnvironment(const GltfFile& file, const LoadOptions& options, Scene& scene)
+// The file's environment is refused rather than left out: without it the picture would be another one.
+void placeEnvironment(const GltfFile& file, const LoadOptions& options, Scene& scene)
 {
-    if (file.model.scenes.empty()) {
+    scene.environment = options.environment;
+    if (options.environment || file.model.scenes.empty()) {
         return;
     }
     const auto first = static_cast<std::size_t>(std::max(file.model.defaultScene, 0));
@@ -89,13 +90,13 @@ Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options)
     }
 
     const std::vector<PlacedNode> nodes = placeNodes(file, options, scene.notices);
-    checkEnvironment(file, options, scene);
+    placeEnvironment(file, options, scene);
     noteWholeFile(file, nodes, scene);
     placeGeometry(file, nodes, scene);
     noteUsedMaterials(readings, scene);
     readLightsAndCameras(file, nodes, scene);
     if (scene.cameras.empty()) {
-        scene.cameras.push_back(frameCamera(scene));
+        scene.cameras.push_back(frameCamera(scene, options.aspectRatio));
         scene.notices.push_back("the scene has no camera: one is framed on its bounding box");
     }
     checkScene(scene);

@@ -70,6 +70,9 @@ void visit(uint slot)
     vec2 fate = unitFloat(samplePair(id, bounceDimension(pass.bounce, kDimensionFate), kSobol));
     Scatter scatter = scatterAt(surface, -ray.direction, u, fate.x);
     vec3 throughput = state.throughput * scatter.weight;
+    if (all(equal(throughput, vec3(0.0)))) {
+        return;
+    }
     float etaScale = state.etaScale * scatter.etaScale;
     float survival = survivalProbability(throughput, etaScale, pass.bounce);
     if (!(fate.y < survival)) {

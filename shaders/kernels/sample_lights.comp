@@ -22,7 +22,7 @@
 
 vec3 environmentFound(PathState state)
 {
-    float other = fetchLight(pass.environmentLight).probability * pdfCosineHemisphere(state.cosine);
+    float other = fetchLight(pass.environmentLight).probability * pdfLambert(state.cosine);
     return pass.environment * (state.pdf > 0.0 ? weightPower(state.pdf, other) : 1.0);
 }
 
@@ -53,9 +53,8 @@ void askForShadowRay(uint slot, PathState state, Surface surface, FlatMaterial m
     if (!(cosine > 0.0 && dot(light.wi, surface.geometric) > 0.0)) {
         return;
     }
-    float weight = light.pdf > 0.0 ? weightPower(light.pdf, pdfCosineHemisphere(cosine)) : 1.0;
-    vec3 contribution =
-        state.throughput * (material.baseColor * (1.0 / kPi)) * light.radiance * (cosine * weight);
+    float weight = light.pdf > 0.0 ? weightPower(light.pdf, pdfLambert(cosine)) : 1.0;
+    vec3 contribution = state.throughput * evalLambert(material.baseColor, cosine) * light.radiance * (cosine * weight);
     if (all(equal(contribution, vec3(0.0)))) {
         return;
     }

@@ -10,13 +10,12 @@ float oneMinusCosCone(float sin2)
     return sin2 / (1.0 + sqrt(max(0.0, 1.0 - sin2)));
 }
 
-// Uniform in the cone about +z. The sine is formed from 1 - cos, not from cos (accuracy: relative 1e-7 at any size).
+// Uniform in the cone about +z. The sine is formed from 1 - cos, not from cos: right to 1e-7 at any size.
 vec3 sampleCone(vec2 u, float sin2)
 {
     float rise = u.x * oneMinusCosCone(sin2);
     float r = sqrt(max(0.0, rise * (2.0 - rise)));
-    float phi = kPi * (2.0 * u.y - 1.0);
-    return vec3(r * cos(phi), r * sin(phi), 1.0 - rise);
+    return vec3(r * sampleCircle(u.y), 1.0 - rise);
 }
 
 // Per steradian.

@@ -14,22 +14,23 @@ struct Scatter {
     float etaScale;  // squared index of the side entered over that left; 1 for reflection
 };
 
-// Lambert: albedo / pi, in sr^-1; the cosine is not included. 0 across the surface.
-vec3 evalLambert(vec3 albedo, vec3 wo, vec3 wi)
+// Lambert: albedo / pi, in sr^-1; the cosine is not included. `cosine`: of wi against the normal on wo's side; 0 across.
+vec3 evalLambert(vec3 albedo, float cosine)
 {
-    return wo.z * wi.z > 0.0 ? albedo * (1.0 / kPi) : vec3(0.0);
+    return cosine > 0.0 ? albedo * (1.0 / kPi) : vec3(0.0);
 }
 
-float pdfLambert(vec3 wo, vec3 wi)
+// Per steradian.
+float pdfLambert(float cosine)
 {
-    return wo.z * wi.z > 0.0 ? pdfCosineHemisphere(abs(wi.z)) : 0.0;
+    return pdfCosineHemisphere(cosine);
 }
 
-// wo.z > 0. The weight is the albedo exactly; a direction in the surface has pdf 0 and is dropped.
+// On the side of wo. The weight is the albedo exactly; a direction in the surface has pdf 0 and is dropped.
 Scatter sampleLambert(vec3 albedo, vec2 u)
 {
     vec3 wi = sampleCosineHemisphere(u);
-    return Scatter(wi, wi.z > 0.0 ? albedo : vec3(0.0), pdfCosineHemisphere(wi.z), 1.0);
+    return Scatter(wi, wi.z > 0.0 ? albedo : vec3(0.0), pdfLambert(wi.z), 1.0);
 }
 
 // A perfect mirror with Schlick's Fresnel over its colour, as glTF has for metals. n: unit, on the side of wo.

@@ -34,13 +34,20 @@ float pdfCosineHemisphere(float cosine)
     return max(cosine, 0.0) * (1.0 / kPi);
 }
 
+// The unit circle, uniform. Divided by its length, since Vulkan lets sin and cos be 2^-11 off.
+vec2 sampleCircle(float u)
+{
+    float phi = kPi * (2.0 * u - 1.0);
+    vec2 point = vec2(cos(phi), sin(phi));
+    return point / length(point);
+}
+
 // The unit sphere, pdf 1/(4 pi) per steradian.
 vec3 sampleSphere(vec2 u)
 {
     float z = 1.0 - 2.0 * u.x;
     float r = 2.0 * sqrt(max(0.0, u.x * (1.0 - u.x)));
-    float phi = kPi * (2.0 * u.y - 1.0);
-    return vec3(r * cos(phi), r * sin(phi), z);
+    return vec3(r * sampleCircle(u.y), z);
 }
 
 // Weights of v1 and v2, uniform over a triangle. Osada et al., "Shape Distributions", 2002, folded by Heitz's low-distortion

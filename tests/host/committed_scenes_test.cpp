@@ -82,15 +82,15 @@ TEST(CommittedScenes, SolidsAreClosedAndTurnedOutwards)
 
 fs::path findSharedScenes()
 {
-    const char* given = std::getenv("GLIM_SHARED_SCENES");
-    return given != nullptr ? fs::path(given) : fs::path(GLIM_SOURCE_DIR) / ".." / "shared" / "scenes";
+    const char* given = std::getenv("GLIM_SHARED");
+    return (given != nullptr ? fs::path(given) : fs::path(GLIM_SOURCE_DIR) / ".." / "shared") / "scenes";
 }
 
 TEST(SharedScenes, LoadWithTheTrianglesTheyWereMadeWith)
 {
     const fs::path root = findSharedScenes();
     if (!fs::exists(root / "seed" / "counts.jsonl")) {
-        GTEST_SKIP() << "NOT TESTED: " << root << " is missing; set GLIM_SHARED_SCENES to the folder of shared scenes";
+        GTEST_SKIP() << "NOT TESTED: " << root << " is missing; set GLIM_SHARED to the folder that holds scenes/";
     }
     std::ifstream lines(root / "seed" / "counts.jsonl");
     std::size_t compared = 0;
@@ -112,7 +112,7 @@ TEST(SharedScenes, ScansAndArenaLoad)
 {
     const fs::path root = findSharedScenes();
     if (!fs::exists(root / "arena") || !fs::exists(root / "scans")) {
-        GTEST_SKIP() << "NOT TESTED: " << root << " is missing; set GLIM_SHARED_SCENES to the folder of shared scenes";
+        GTEST_SKIP() << "NOT TESTED: " << root << " is missing; set GLIM_SHARED to the folder that holds scenes/";
     }
     const std::map<std::string, std::size_t> triangles = {
         {"a_cornell", 42},        {"c_mirror_glass", 163858}, {"d_bunny", 278682}, {"CBdragon202k", 202532},

@@ -137,19 +137,24 @@ TEST(GltfCameras, FramesTheWholeBoxWhereThereIsNone)
     GltfBuilder builder;
     builder.addNode({{"mesh", builder.addTriangleMesh()}, {"translation", {50, 60, 70}}, {"scale", {3, 9, 1}}});
     builder.addNode({{"extras", {{"sphere", {{"radius", 2}}}}}, {"translation", {55, 60, 70}}});
-    const Scene scene = load(builder);
-    EXPECT_EQ(scene.notices.back(), "the scene has no camera: one is framed on its bounding box");
-    const Camera& camera = scene.cameras.at(0);
-    const auto isSeen = [&](const glm::vec3& point) {
-        const glm::vec3 to = point - camera.position;
-        const float reach = std::tan(0.5F * camera.yfov) * glm::dot(to, camera.forward);
-        return std::abs(glm::dot(to, camera.up)) <= reach && std::abs(glm::dot(to, camera.right)) <= reach;
-    };
-    for (const glm::vec3& vertex : scene.triangles.at(0).vertices) {
-        EXPECT_TRUE(isSeen(vertex));
-    }
-    for (const glm::vec3& axis : {glm::vec3(2, 0, 0), glm::vec3(0, 2, 0), glm::vec3(0, 0, 2)}) {
-        EXPECT_TRUE(isSeen(scene.spheres.at(0).center + axis) && isSeen(scene.spheres.at(0).center - axis));
+    for (const float aspectRatio : {0.25F, 1.0F, 4.0F}) {
+        LoadOptions options;
+        options.aspectRatio = aspectRatio;
+        const Scene scene = load(builder, options);
+        EXPECT_EQ(scene.notices.back(), "the scene has no camera: one is framed on its bounding box");
+        const Camera& camera = scene.cameras.at(0);
+        const auto isSeen = [&](const glm::vec3& point) {
+            const glm::vec3 to = point - camera.position;
+            const float reach = std::tan(0.5F * camera.yfov) * glm::dot(to, camera.forward);
+            return std::abs(glm::dot(to, camera.up)) <= reach &&
+                   std::abs(glm::dot(to, camera.right)) <= aspectRatio * reach;
+        };
+        for (const glm::vec3& vertex : scene.triangles.at(0).vertices) {
+            EXPECT_TRUE(isSeen(vertex));
+        }
+        for (const glm::vec3& axis : {glm::vec3(2, 0, 0), glm::vec3(0, 2, 0), glm::vec3(0, 0, 2)}) {
+            EXPECT_TRUE(isSeen(scene.spheres.at(0).center + axis) && isSeen(scene.spheres.at(0).center - axis));
+        }
     }
 }
 

@@ -82,6 +82,14 @@ TEST(GltfRefused, SingularNodesThatCarryNothingAreHarmless)
     EXPECT_EQ(load(builder).triangles.size(), 1U);
 }
 
+TEST(GltfRefused, NoEnvironmentThatTheCallerReplaces)
+{
+    LoadOptions options;
+    options.environment = glm::vec3(1.0F, 2.0F, 3.0F);
+    const Scene scene = loadGltf(kScenes / "refused" / "environment_map.gltf", options);
+    EXPECT_EQ(scene.environment, options.environment);
+}
+
 TEST(GltfRefused, EnvironmentsThatAreNoMapAreOnlySaid)
 {
     GltfBuilder builder;

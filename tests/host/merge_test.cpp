@@ -191,7 +191,7 @@ TEST_F(MergeRefusal, OfAnotherScene)
 {
     b.identity.scene = "77aa";
     b.sceneFile = "scenes/other.gltf";
-    expectRefused("its scene is \"77aa\" (scenes/other.gltf), expected \"3f2a\" (scenes/box.gltf).");
+    expectRefused("its scene, camera or environment is \"77aa\" (scenes/other.gltf), expected \"3f2a\" (scenes/box.gltf).");
 }
 
 TEST_F(MergeRefusal, OfAnotherSeed)

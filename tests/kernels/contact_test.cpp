@@ -1,4 +1,4 @@
-// accuracy H10: shadow rays where light, blocker and receiver touch.
+// H10: shadow rays where light, blocker and receiver touch.
 #include "tests/support/build_scene.hpp"
 #include "tests/support/irradiance.hpp"
 #include "tests/support/irradiance_formulas.hpp"

@@ -1,4 +1,4 @@
-// One thread is one hit of a triangle and one ray that leaves it, to either side (accuracy H7).
+// One thread is one hit of a triangle and one ray that leaves it, to either side (H7).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"

@@ -1,4 +1,4 @@
-// accuracy H7: rays that leave a triangle do not meet it, at any scale and place, and start close to it.
+// H7: rays that leave a triangle do not meet it, at any scale and place, and start close to it.
 #include "test_kernels.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/scene_on_device.hpp"
@@ -61,7 +61,7 @@ TEST_P(LeaveSurfaceTest, MeetsItNoMore)
               << tally.skippedHits << " with the rule, offset at most " << offset << " of the triangle\n";
     EXPECT_GT(tally.left, 100'000U);
     EXPECT_EQ(tally.skippedHits, 0U);
-    // accuracy's table has 1.3e-5 for this bound; the rule removes the rest.
+    // 1.3e-5 of the rays meet it by this bound alone; the rule removes the rest.
     EXPECT_LE(tally.selfHits, tally.left / 20'000);
     EXPECT_LE(offset, 5e-6F);
 }

@@ -1,4 +1,4 @@
-// Light that arrives: the sampler's estimates against formulas of accuracy, section 2 (T9 to T13, H11).
+// Light that arrives: the sampler's estimates against formulas (T9 to T13, H11).
 #include "tests/support/build_scene.hpp"
 #include "tests/support/irradiance.hpp"
 #include "tests/support/irradiance_formulas.hpp"
@@ -79,7 +79,7 @@ TEST(LightTest, SphereAboveAndAcrossTheHorizon)
     expectIrradiance("T10 sphere", builder.scene(), receivers);
 }
 
-// accuracy H11: r/d from nearly 1 down to 1e-6.
+// H11: r/d from nearly 1 down to 1e-6.
 TEST(LightTest, SphereConesOfAllSizes)
 {
     for (const float ratio : {0.999999F, 0.9F, 0.1F, 1e-2F, 1e-3F, 1e-4F, 1e-5F, 1e-6F}) {

@@ -18,9 +18,9 @@ struct Case {
 TEST(PunctualTest, H16SpotFalloff)
 {
     std::vector<Case> cases;
-    for (const auto& [inner, outer] : {std::pair{0.0, 0.7854}, {0.3, 0.5}, {0.5, 0.9}, {0.2, 1.5}}) {
+    for (const auto& [inner, outer] : {std::pair{0.0, 0.7854}, {0.3, 0.5}, {0.5, 0.9}, {0.2, 1.5}, {0.0, 0.0087}, {0.0035, 0.007}}) {
         for (int i = 0; i <= 200; ++i) {
-            Case c{static_cast<float>(std::cos(0.01 * i)), static_cast<float>(std::cos(inner)),
+            Case c{static_cast<float>(std::cos(0.006 * outer * i)), static_cast<float>(std::cos(inner)),
                    static_cast<float>(std::cos(outer)), 0.0F};
             const double share = (static_cast<double>(c.cosine) - static_cast<double>(c.cosOuter)) /
                                  (static_cast<double>(c.cosInner) - static_cast<double>(c.cosOuter));

@@ -1,4 +1,4 @@
-// One thread is one pair of directions at one surface, and the numbers for one sample.
+// One thread is one direction at one surface, and the numbers for one sample.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
@@ -6,7 +6,7 @@
 
 struct Case {
     vec3 albedo;
-    vec3 wo, wi;     // in the frame of the shading normal; wo.z > 0
+    float cosine;    // of wi against the shading normal, of either sign
     vec2 u;
     float fate;
     vec3 n;          // unit; woAt on its side
@@ -25,15 +25,13 @@ void main()
         Case c = cases[TEST_THREAD];
         // Lambert: what is sampled has the weight eval * cosine / pdf, which is the albedo; nothing crosses the surface.
         Scatter s = sampleLambert(c.albedo, c.u);
-        vec3 eval = evalLambert(c.albedo, c.wo, s.wi);
-        EXPECT_EQUAL(s.pdf, pdfLambert(c.wo, s.wi));
+        vec3 eval = evalLambert(c.albedo, s.wi.z);
+        EXPECT_EQUAL(s.pdf, pdfLambert(s.wi.z));
         EXPECT_TRUE(s.wi.z > 0.0 ? s.weight == c.albedo : s.weight == vec3(0.0));
         EXPECT_TRUE(!(s.wi.z > 0.0) || distance(eval * s.wi.z / s.pdf, c.albedo) <= 4e-7);
         EXPECT_EQUAL(s.etaScale, 1.0);
-        EXPECT_TRUE(evalLambert(c.albedo, c.wo, c.wi) == evalLambert(c.albedo, c.wi, c.wo));
-        EXPECT_NEAR_VECTOR(evalLambert(c.albedo, c.wo, c.wi), c.wi.z > 0.0 ? c.albedo / 3.14159265 : vec3(0.0), 1e-7);
-        EXPECT_NEAR(pdfLambert(c.wo, c.wi), c.wi.z > 0.0 ? c.wi.z / 3.14159265 : 0.0, 1e-7);
-        EXPECT_TRUE(evalLambert(c.albedo, -c.wo, -c.wi) == evalLambert(c.albedo, c.wo, c.wi));
+        EXPECT_NEAR_VECTOR(evalLambert(c.albedo, c.cosine), c.cosine > 0.0 ? c.albedo / 3.14159265 : vec3(0.0), 1e-7);
+        EXPECT_NEAR(pdfLambert(c.cosine), c.cosine > 0.0 ? c.cosine / 3.14159265 : 0.0, 1e-7);
         // Mirror.
         Scatter m = sampleMirror(c.albedo, c.woAt, c.n);
         EXPECT_NEAR_VECTOR(m.wi, c.mirrored, 1e-6);

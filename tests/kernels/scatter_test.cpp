@@ -12,7 +12,8 @@ namespace glim {
 namespace {
 
 struct Case {
-    vec3 albedo, wo, wi;
+    vec3 albedo;
+    float cosine;
     vec2 u;
     float fate;
     vec3 n, woAt, mirrored;
@@ -41,8 +42,7 @@ Case caseOf(Random& random)
 {
     Case c{};
     c.albedo = vec3(random.uniform(), random.uniform(), random.uniform());
-    c.wo = upwards(random.direction(), {0.0, 0.0, 1.0});
-    c.wi = random.direction();
+    c.cosine = static_cast<float>(random.direction().z);
     c.u = {random.unitFloat(), random.unitFloat()};
     c.fate = random.unitFloat();
     c.n = random.direction();

@@ -55,7 +55,7 @@ TEST(StatusTest, CountsAndLocatesNonFiniteSamples)
     }
 }
 
-// accuracy H42: a loop that the driver cut short is flagged, one that it let run is not.
+// H42: a loop that the driver cut short is flagged, one that it let run is not.
 TEST(StatusTest, FlagsALoopThatTheDriverStopped)
 {
     std::vector<Case> cases(64);

@@ -1,4 +1,4 @@
-// What the tree costs per ray, and that the worst trees neither overflow the stack nor hide a hit (accuracy H6).
+// What the tree costs per ray, and that the worst trees neither overflow the stack nor hide a hit (H6).
 #include "shaders/shared/limits.h"
 #include "test_kernels.hpp"
 #include "tests/support/reference.hpp"

@@ -1,4 +1,4 @@
-// accuracy H1: rays from inside a closed mesh, aimed where Moller and Trumbore's test leaks.
+// H1: rays from inside a closed mesh, aimed where Moller and Trumbore's test leaks.
 #include "shaders/shared/bindings.h"
 #include "test_kernels.hpp"
 #include "tests/support/scene_on_device.hpp"

@@ -47,6 +47,7 @@ public:
     }
     Film film(const char* name) const { return readFilm(folder_ / name); }
     json statistics(const char* name) const { return json::parse(bytesOfFile(folder_ / name)); }
+    std::filesystem::path folder() const { return folder_.path(); }
     bool exists(const char* name) const { return std::filesystem::exists(folder_ / name); }
 
 private:
@@ -90,10 +91,13 @@ TEST(CommandLineTest, MergeRefusesWhatDoesNotBelongTogether)
     films.render("scene.exr", {"--samples", "32:64"}, "cornell_spheres.gltf");
     films.render("light.exr", {"--samples", "32:64", "--environment", "1,1,1"});
     films.render("size.exr", {"--samples", "32:64", "--size", "8x8"});
+    films.render("clamp.exr", {"--samples", "0:32", "--clamp-indirect", "0.1234561"});
+    films.render("clamp2.exr", {"--samples", "32:64", "--clamp-indirect", "0.1234564"});
+    EXPECT_NE(films.merge({"clamp.exr", "clamp2.exr", "-o", "c.exr"}).exitCode, 0);
     const std::vector<std::pair<std::string, std::string>> cases{
         {"overlap.exr", "both hold samples 31:32"}, {"seed.exr", "its seed is 1, expected 0"},
         {"bounces.exr", "its setting is \"bounces=3\", expected \"bounces=64\""},
-        {"scene.exr", "its scene is "},             {"light.exr", "its scene is "},
+        {"scene.exr", "its scene, camera or environment is "}, {"light.exr", "its scene, camera or environment is "},
         {"size.exr", "its size is 8x8"},            {"none.exr", "none.exr: "}};
     for (const auto& [name, part] : cases) {
         const GlimRun run = films.merge({"a.exr", name, "-o", "c.exr"});
@@ -149,6 +153,37 @@ TEST(CommandLineTest, MergeSaysThatAFilmEndedEarly)
     EXPECT_NE(run.err.find("some are missing"), std::string::npos) << run.err;
     EXPECT_TRUE(films.film("b.exr").complete);
     EXPECT_FALSE(films.film("c.exr").complete);
+}
+
+TEST(CommandLineTest, ComparisonsTestNoNoiseThatIsShared)
+{
+    const Films films;
+    films.render("a.exr", {"--samples", "0:64"});
+    films.render("more.exr", {"--samples", "32:128"});
+    films.render("other.exr", {"--samples", "64:128"});
+    const auto compare = [&](const char* other) {
+        GlimCall call;
+        call.arguments = {"compare", "a.exr", other, "--json"};
+        call.folder = films.folder();
+        return json::parse(runGlim(call).out);
+    };
+    EXPECT_EQ(compare("a.exr").at("relation"), "identical");
+    EXPECT_EQ(compare("more.exr").at("relation"), "shared samples");
+    EXPECT_TRUE(compare("more.exr").at("z_test").is_null());
+    EXPECT_EQ(compare("other.exr").at("relation"), "independent");
+    EXPECT_FALSE(compare("other.exr").at("z_test").is_null());
+}
+
+TEST(CommandLineTest, AnEarlySignalSparesThePictureThatIsThere)
+{
+    const Films films;
+    films.render("x.exr", {"--spp", "1"});
+    GlimCall call = films.call("x.exr", {"--size", "2000x2000", "--spp", "4", "--progress", "json"});
+    call.signalAtFirstLine = SIGHUP;
+    const GlimRun run = runGlim(call);
+    EXPECT_EQ(run.exitCode, 129) << run.err;
+    EXPECT_NE(run.err.find("x.exr is left as it was"), std::string::npos) << run.err;
+    EXPECT_EQ(films.film("x.exr").width, 16U);
 }
 
 TEST(CommandLineTest, SignalsEndARenderThatIsThenWritten)

@@ -93,6 +93,12 @@ std::string knownScene()
     return builder.toGltf();
 }
 
+TEST(CommandLineTest, ResultsThatCannotBeWrittenAreAFailure)
+{
+    const std::string command = "'" GLIM_BINARY "' devices >/dev/full";
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
+}
+
 TEST(CommandLineTest, InspectCountsWhatIsThere)
 {
     const ScratchFolder folder;

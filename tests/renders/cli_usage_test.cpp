@@ -61,7 +61,7 @@ TEST(CommandLineTest, HelpListsEveryOptionWithUnitRangeAndDefault)
         {"compare", {"picture A.exr", "reference B.exr", "--variance V.exr", "--diff D.exr", "--json"}},
         {"merge", {"films A.exr", "--output C.exr", "--png C.png", "--exposure EV", "-100 to 100 [0]"}}};
     const GlimRun all = runGlim({"--help"});
-    EXPECT_TRUE(contains(all.out, "Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 130 or 143 interrupted"));
+    EXPECT_TRUE(contains(all.out, "Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 129, 130 or 143 stopped by a signal"));
     for (const auto& [command, parts] : expected) {
         EXPECT_TRUE(contains(all.out, "  " + command + " ")) << command;
         const GlimRun run = runGlim({command, "--help"});
@@ -216,7 +216,7 @@ TEST(CommandLineTest, WhatTheSceneDoesNotHaveIsNamedWithWhatItHas)
     for (const std::string digit : {"", "5", "6", "7", "8", "9"}) {  // most of which are in the name of some device
         expectSentence(with("--device", digit), 1, "--device " + digit + ": no such device");
     }
-    expectSentence(with("--size", "65535x65535"), 1, "--size 65535x65535: the picture needs ");
+    expectSentence(with("--size", "65535x65535"), 1, "cornell.gltf: the scene and a picture of 65535x65535 need ");
     EXPECT_EQ(folder.entries(), 0);
 }
 

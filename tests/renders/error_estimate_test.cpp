@@ -1,4 +1,4 @@
-// accuracy H30: the variance that a picture reports is that of pictures with other seeds.
+// H30: the variance that a picture reports is that of pictures with other seeds.
 #include "host/measure/picture.hpp"
 #include "host/scene/load_gltf.hpp"
 #include "shaders/shared/limits.h"

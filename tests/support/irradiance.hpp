@@ -25,7 +25,7 @@ struct IrradianceEstimate {
 // 131,072 samples each (20 times as many with GLIM_LONG).
 std::vector<IrradianceEstimate> estimateIrradiance(const Scene& scene, const std::vector<Receiver>& receivers);
 
-// accuracy, section 2: |mean - truth| <= z se + 2e-5 truth; a density that is found must be the one it was sampled with
+// Thresholds (tests/README.md): |mean - truth| <= z se + 2e-5 truth; a density that is found must be the one it was sampled with
 // within `densityTolerance`. Prints the errors.
 std::vector<IrradianceEstimate> expectIrradiance(const char* name, const Scene& scene, const std::vector<Receiver>& receivers,
                                                  double densityTolerance = 1e-4);

@@ -29,7 +29,7 @@ MeanEstimate meanOf(const Film& film);
 // Every pixel within 2^-20 (relative) per bounce: for scenes whose estimator has no variance.
 void expectEverywhere(const Film& film, const glm::dvec3& truth, int bounces);
 
-// accuracy: |mean - truth| <= z se + 2e-5 truth, z for a family of 200 comparisons at level 1e-3. Prints what it measured.
+// Thresholds (tests/README.md): |mean - truth| <= z se + 2e-5 truth, z for a family of 200 comparisons at level 1e-3. Prints what it measured.
 void expectMean(const std::string& name, const Film& film, const glm::dvec3& truth);
 
 }  // namespace glim

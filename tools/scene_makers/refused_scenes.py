@@ -54,12 +54,12 @@ def with_vertex(value):
     return to_text(document.finish(embed=True)).encode()
 
 
-def sparse(index):
+def sparse(index, **more):
     def make(document):
         values = document.view(pack("f", [0.0, 0.0, 1.0]))
         document.json["accessors"][0]["sparse"] = {
             "count": 1, "indices": {"bufferView": document.view(pack("H", [index])), "componentType": 5123},
-            "values": {"bufferView": values}}
+            "values": {"bufferView": values, **more}}
     return build(make)
 
 
@@ -121,6 +121,7 @@ REFUSED = {
     "odd_component.gltf": lambda: put("accessors", 0, "componentType", 5124),
     "float_indices.gltf": lambda: put("accessors", 1, "componentType", 5126),
     "sparse_past_end.gltf": lambda: sparse(3),
+    "sparse_far_away.gltf": lambda: sparse(0, byteOffset=4294967296),
     "nan_position.gltf": lambda: with_vertex(float("nan")),
     "infinite_position.gltf": lambda: with_vertex(float("inf")),
     # meshes and nodes

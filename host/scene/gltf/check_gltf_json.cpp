@@ -32,7 +32,7 @@ std::string describeRange(const SchemaRule& rule)
         range += rule.min == kPositive ? " above 0" : " from " + toText(rule.min);
     }
     if (rule.max != DBL_MAX && rule.max != kMaxWhole) {
-        range += " to " + toText(rule.max);
+        range += " to " + (rule.kind == JsonKind::Whole ? std::to_string(static_cast<std::int64_t>(rule.max)) : toText(rule.max));
     }
     return range;
 }

@@ -11,6 +11,7 @@ enum class Need { Optional, Required };  // of the last name in the path, where 
 
 constexpr double kPositive = DBL_MIN;             // as a minimum: greater than zero
 constexpr double kMaxWhole = 9007199254740992.0;  // 2^53
+constexpr double kMaxInt = 2147483647.0;          // what tinygltf has room for
 
 struct SchemaRule {
     const char* path;  // `[]`: each element of an array, `{}`: each value of an object
@@ -78,14 +79,14 @@ constexpr SchemaRule kSchemaRules[] = {
     schema::whole("accessors[].count", Need::Required, 1),
     schema::oneOf("accessors[].type", "SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3, MAT4", Need::Required),
     schema::other("accessors[].normalized", JsonKind::Bool),
-    schema::whole("accessors[].sparse.count", Need::Required, 1),
+    schema::whole("accessors[].sparse.count", Need::Required, 1, kMaxInt),
     schema::other("accessors[].sparse.indices", JsonKind::Object, Need::Required),
     schema::index("accessors[].sparse.indices.bufferView", "bufferViews", Need::Required),
-    schema::whole("accessors[].sparse.indices.byteOffset"),
+    schema::whole("accessors[].sparse.indices.byteOffset", Need::Optional, 0, kMaxInt),
     schema::whole("accessors[].sparse.indices.componentType", Need::Required, 5121, 5125),
     schema::other("accessors[].sparse.values", JsonKind::Object, Need::Required),
     schema::index("accessors[].sparse.values.bufferView", "bufferViews", Need::Required),
-    schema::whole("accessors[].sparse.values.byteOffset"),
+    schema::whole("accessors[].sparse.values.byteOffset", Need::Optional, 0, kMaxInt),
 
     schema::other("materials[].name", JsonKind::String),
     schema::numbers("materials[].pbrMetallicRoughness.baseColorFactor", 4, 0, 1),

@@ -1,4 +1,5 @@
-// mark_no_contraction IN.spv OUT.spv: decorates the result of every float arithmetic instruction NoContraction.
+// mark_floats IN.spv OUT.spv: decorates the result of every float arithmetic instruction NoContraction, and declares that
+// signed zeros, infinities and NaN are kept: kernels let distances be infinite and guard against NaN by comparisons.
 //
 // Vulkan lets a driver contract and reassociate undecorated float operations. GLSL's `precise` does the same job but
 // does not reach into called functions, cross() or dot(). With every operation marked, kernels with and without a
@@ -15,9 +16,12 @@
 
 namespace {
 
-// Opcodes and the decoration number are those of the SPIR-V specification, sections 3.20 and 3.49.
+// Opcodes and the other numbers are those of the SPIR-V specification, sections 3.6, 3.20, 3.31 and 3.49.
 constexpr std::uint32_t kMagic = 0x07230203;
-constexpr std::uint32_t kOpExtInst = 12, kOpDecorate = 71, kNoContraction = 42, kGlslFma = 50;
+constexpr std::uint32_t kOpExtInst = 12, kOpEntryPoint = 15, kOpExecutionMode = 16, kOpCapability = 17, kOpDecorate = 71;
+constexpr std::uint32_t kNoContraction = 42, kGlslFma = 50;
+constexpr std::uint32_t kSignedZeroInfNanPreserveCapability = 4466, kSignedZeroInfNanPreserve = 4461;
+constexpr std::size_t kHeaderWords = 5;
 const std::set<std::uint32_t> kFloatArithmetic = {
     127,                      // OpFNegate
     129, 131, 133, 136,       // OpFAdd, OpFSub, OpFMul, OpFDiv
@@ -43,21 +47,26 @@ std::vector<std::uint32_t> readWords(const char* path)
 int main(int argc, char** argv)
 {
     if (argc != 3) {
-        std::fprintf(stderr, "usage: mark_no_contraction IN.spv OUT.spv\n");
+        std::fprintf(stderr, "usage: mark_floats IN.spv OUT.spv\n");
         return 2;
     }
     const std::vector<std::uint32_t> words = readWords(argv[1]);
-    if (words.size() < 5 || words[0] != kMagic) {
+    if (words.size() < kHeaderWords || words[0] != kMagic) {
         std::fprintf(stderr, "%s: not SPIR-V\n", argv[1]);
         return 1;
     }
     std::vector<std::uint32_t> decorations;
     std::set<std::uint32_t> marked;
-    std::size_t typesBegin = 0;
-    for (std::size_t at = 5; at < words.size(); at += words[at] >> 16) {
+    std::size_t typesBegin = 0, entryEnd = 0;
+    std::uint32_t entry = 0;
+    for (std::size_t at = kHeaderWords; at < words.size(); at += words[at] >> 16) {
         const std::uint32_t opcode = words[at] & 0xffff;
         if (typesBegin == 0 && isType(opcode)) {
             typesBegin = at;
+        }
+        if (opcode == kOpEntryPoint) {
+            entry = words[at + 2];
+            entryEnd = at + (words[at] >> 16);
         }
         if (opcode == kOpDecorate && words[at + 2] == kNoContraction) {
             marked.insert(words[at + 1]);
@@ -70,11 +79,17 @@ int main(int argc, char** argv)
             decorations.insert(decorations.end(), {(3U << 16) | kOpDecorate, words[at + 2], kNoContraction});
         }
     }
+    const std::vector<std::uint32_t> capability{(2U << 16) | kOpCapability, kSignedZeroInfNanPreserveCapability};
+    const std::vector<std::uint32_t> mode{(4U << 16) | kOpExecutionMode, entry, kSignedZeroInfNanPreserve, 32};
     std::ofstream out(argv[2], std::ios::binary);
     const auto write = [&out](const std::uint32_t* begin, std::size_t count) {
         out.write(reinterpret_cast<const char*>(begin), static_cast<std::streamsize>(count * 4));
     };
-    write(words.data(), typesBegin);
+    write(words.data(), kHeaderWords);
+    write(capability.data(), capability.size());
+    write(words.data() + kHeaderWords, entryEnd - kHeaderWords);
+    write(mode.data(), mode.size());
+    write(words.data() + entryEnd, typesBegin - entryEnd);
     write(decorations.data(), decorations.size());
     write(words.data() + typesBegin, words.size() - typesBegin);
     return out.good() ? 0 : 1;

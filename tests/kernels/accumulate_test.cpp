@@ -1,0 +1,86 @@
+// The kernel itself: samples that are not finite are counted, located and in no sum.
+#include "host/gpu/commands.hpp"
+#include "host/render/path_buffers.hpp"
+#include "kernels.hpp"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/path_types.h"
+#include "shaders/shared/pixel_moments.h"
+#include "tests/support/test_device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+namespace glim {
+namespace {
+
+constexpr std::uint32_t kPixels = 100, kSamples = 8, kSlabBegin = 1000, kFirstSample = 32;
+
+struct Outcome {
+    std::vector<PixelMoments> pages;
+    Status status;
+};
+
+Outcome accumulate(const std::vector<PathRadiance>& radiance)
+{
+    const KernelLayout layout(testDevice(), kernelSlots(), sizeof(Pass));
+    const Kernel kernel(layout, kernels::accumulate, {{kSpecWorkgroup, 64}});
+    PathBuffers paths(testDevice(), kPixels * kSamples);
+    Buffer blocks(testDevice(), "test's blocks", BufferKind::Storage, kPixels * sizeof(BlockSums));
+    Buffer pages(testDevice(), "test's pages", BufferKind::Storage, kPixels * sizeof(PixelMoments));
+    Buffer given(testDevice(), "test's radiance", BufferKind::Storage, radiance.size() * sizeof(PathRadiance));
+    Buffer firstHits(testDevice(), "test's first hits", BufferKind::Storage, radiance.size() * sizeof(FirstHit));
+    upload(blocks, std::span<const BlockSums>(std::vector<BlockSums>(kPixels)));
+    upload(pages, std::span<const PixelMoments>(std::vector<PixelMoments>(kPixels)));
+    upload(given, std::span<const PathRadiance>(radiance));
+    upload(firstHits, std::span<const FirstHit>(std::vector<FirstHit>(radiance.size())));
+    std::map<std::uint32_t, const Buffer*> bound = paths.buffers(0);
+    bound[kBindRadiance] = &given;
+    bound[kBindFirstHits] = &firstHits;
+    bound[kBindBlocks] = &blocks;
+    bound[kBindPages] = &pages;
+    const Bindings bindings(layout, bound);
+    Pass pass{};
+    pass.slabBegin = kSlabBegin;
+    pass.pixelCount = kPixels;
+    pass.firstSample = kFirstSample;
+    pass.sampleCount = kSamples;
+    pass.accumulate = kEndsBlock;
+    pass.canarySteps = 3;
+    Commands commands(testDevice());
+    commands.dispatch(kernel, bindings, std::as_bytes(std::span<const Pass, 1>(&pass, 1)), (kPixels + 63) / 64);
+    commands.submitAndWait();
+    return {download<PixelMoments>(pages, kPixels), download<Status>(paths.status(), 1)[0]};
+}
+
+TEST(AccumulateTest, LeavesOutWhatIsNotFinite)
+{
+    const float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+    std::vector<PathRadiance> radiance(kPixels * kSamples, {vec3(1.0F, 2.0F, 4.0F), 0.0F});
+    // Pixel 7 loses a sample in each channel, pixel 50 all.
+    radiance[7 * kSamples + 0].radiance.r = nan;
+    radiance[7 * kSamples + 3].radiance.g = infinity;
+    radiance[7 * kSamples + 7].radiance.b = -infinity;
+    for (std::uint32_t i = 0; i < kSamples; ++i) {
+        radiance[50 * kSamples + i].radiance = vec3(nan);
+    }
+    const Outcome outcome = accumulate(radiance);
+    for (std::uint32_t pixel = 0; pixel < kPixels; ++pixel) {
+        const std::uint32_t kept = pixel == 7 ? kSamples - 3 : pixel == 50 ? 0 : kSamples;
+        EXPECT_EQ(outcome.pages[pixel].count, kept) << pixel;
+        EXPECT_EQ(outcome.pages[pixel].mean, kept > 0 ? vec3(1.0F, 2.0F, 4.0F) : vec3(0.0F)) << pixel;
+    }
+    EXPECT_EQ(outcome.status.nonFinite, 3 + kSamples);
+    std::set<std::pair<std::uint32_t, std::uint32_t>> located;
+    for (std::uint32_t i = 0; i < std::min(outcome.status.nonFinite, kMaxLocated); ++i) {
+        located.insert({outcome.status.located[i].pixel, outcome.status.located[i].sampleIndex});
+    }
+    EXPECT_EQ(located.size(), 3 + kSamples);
+    EXPECT_EQ(located.count({kSlabBegin + 7, kFirstSample + 3}), 1U);
+    EXPECT_EQ(located.count({kSlabBegin + 50, kFirstSample + 7}), 1U);
+}
+
+}  // namespace
+}  // namespace glim

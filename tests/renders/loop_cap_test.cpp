@@ -1,0 +1,33 @@
+// H42: a picture that the driver cut short is no picture.
+#include "host/error.hpp"
+#include "tests/support/build_scene.hpp"
+#include "tests/support/render_scene.hpp"
+#include "tests/support/test_meshes.hpp"
+
+#include <gtest/gtest.h>
+
+namespace glim {
+namespace {
+
+// A ray meets all of 100,000 coincident triangles, more than Mesa 22.3.6 allows a loop: the render is refused, or right.
+TEST(LoopCapTest, EndsTheRender)
+{
+    SceneBuilder builder;
+    builder.lambert(glm::vec3(0.5F));
+    builder.environment(glm::vec3(1.0F)).perspective({0, 0, 3}, {0, 0, 0}, 0.05F);
+    Scene scene = builder.scene();
+    scene.triangles = coincidentTriangles(100000);
+    scene.primitives = {{"", 0, 100000, 0, false}};
+    try {
+        const Film film = renderScene(scene, squareSettings(4, 1));
+        for (const PixelMoments& pixel : film.pixels) {
+            EXPECT_EQ(pixel.alpha, 1.0F);
+            EXPECT_NEAR(pixel.depth, 3.0F, 1e-6F);
+        }
+    } catch (const DeviceError& error) {
+        EXPECT_NE(std::string(error.what()).find("cut loops short"), std::string::npos) << error.what();
+    }
+}
+
+}  // namespace
+}  // namespace glim
