@@ -42,6 +42,56 @@ std::vector<std::uint32_t> readWords(const char* path)
     return words;
 }
 
+// Where things belong in a module, and what it lacks.
+struct Findings {
+    std::uint32_t entry = 0;                   // the entry point's id
+    std::size_t entryEnd = 0, typesBegin = 0;  // execution modes go to the one, decorations to the other
+    std::vector<std::uint32_t> decorations;
+    bool usesFma = false;
+};
+
+Findings examine(const std::vector<std::uint32_t>& words)
+{
+    Findings found;
+    std::set<std::uint32_t> marked;
+    for (std::size_t at = kHeaderWords; at < words.size(); at += words[at] >> 16) {
+        const std::uint32_t opcode = words[at] & 0xffff;
+        if (found.typesBegin == 0 && isType(opcode)) {
+            found.typesBegin = at;
+        }
+        if (opcode == kOpEntryPoint) {
+            found.entry = words[at + 2];
+            found.entryEnd = at + (words[at] >> 16);
+        }
+        if (opcode == kOpDecorate && words[at + 2] == kNoContraction) {
+            marked.insert(words[at + 1]);
+        }
+        found.usesFma = found.usesFma || (opcode == kOpExtInst && words[at + 4] == kGlslFma);
+        if (kFloatArithmetic.count(opcode) != 0 && marked.count(words[at + 2]) == 0) {
+            found.decorations.insert(found.decorations.end(), {(3U << 16) | kOpDecorate, words[at + 2], kNoContraction});
+        }
+    }
+    return found;
+}
+
+bool writeMarked(const char* path, const std::vector<std::uint32_t>& words, const Findings& found)
+{
+    const std::vector<std::uint32_t> capability{(2U << 16) | kOpCapability, kSignedZeroInfNanPreserveCapability};
+    const std::vector<std::uint32_t> mode{(4U << 16) | kOpExecutionMode, found.entry, kSignedZeroInfNanPreserve, 32};
+    std::ofstream out(path, std::ios::binary);
+    const auto write = [&out](const std::uint32_t* begin, std::size_t count) {
+        out.write(reinterpret_cast<const char*>(begin), static_cast<std::streamsize>(count * 4));
+    };
+    write(words.data(), kHeaderWords);
+    write(capability.data(), capability.size());
+    write(words.data() + kHeaderWords, found.entryEnd - kHeaderWords);
+    write(mode.data(), mode.size());
+    write(words.data() + found.entryEnd, found.typesBegin - found.entryEnd);
+    write(found.decorations.data(), found.decorations.size());
+    write(words.data() + found.typesBegin, words.size() - found.typesBegin);
+    return out.good();
+}
+
 }  // namespace
 
 int main(int argc, char** argv)
@@ -55,42 +105,10 @@ int main(int argc, char** argv)
         std::fprintf(stderr, "%s: not SPIR-V\n", argv[1]);
         return 1;
     }
-    std::vector<std::uint32_t> decorations;
-    std::set<std::uint32_t> marked;
-    std::size_t typesBegin = 0, entryEnd = 0;
-    std::uint32_t entry = 0;
-    for (std::size_t at = kHeaderWords; at < words.size(); at += words[at] >> 16) {
-        const std::uint32_t opcode = words[at] & 0xffff;
-        if (typesBegin == 0 && isType(opcode)) {
-            typesBegin = at;
-        }
-        if (opcode == kOpEntryPoint) {
-            entry = words[at + 2];
-            entryEnd = at + (words[at] >> 16);
-        }
-        if (opcode == kOpDecorate && words[at + 2] == kNoContraction) {
-            marked.insert(words[at + 1]);
-        }
-        if (opcode == kOpExtInst && words[at + 4] == kGlslFma) {
-            std::fprintf(stderr, "%s: uses fma(), which a driver may leave unfused\n", argv[1]);
-            return 1;
-        }
-        if (kFloatArithmetic.count(opcode) != 0 && marked.count(words[at + 2]) == 0) {
-            decorations.insert(decorations.end(), {(3U << 16) | kOpDecorate, words[at + 2], kNoContraction});
-        }
+    const Findings found = examine(words);
+    if (found.usesFma) {
+        std::fprintf(stderr, "%s: uses fma(), which a driver may leave unfused\n", argv[1]);
+        return 1;
     }
-    const std::vector<std::uint32_t> capability{(2U << 16) | kOpCapability, kSignedZeroInfNanPreserveCapability};
-    const std::vector<std::uint32_t> mode{(4U << 16) | kOpExecutionMode, entry, kSignedZeroInfNanPreserve, 32};
-    std::ofstream out(argv[2], std::ios::binary);
-    const auto write = [&out](const std::uint32_t* begin, std::size_t count) {
-        out.write(reinterpret_cast<const char*>(begin), static_cast<std::streamsize>(count * 4));
-    };
-    write(words.data(), kHeaderWords);
-    write(capability.data(), capability.size());
-    write(words.data() + kHeaderWords, entryEnd - kHeaderWords);
-    write(mode.data(), mode.size());
-    write(words.data() + entryEnd, typesBegin - entryEnd);
-    write(decorations.data(), decorations.size());
-    write(words.data() + typesBegin, words.size() - typesBegin);
-    return out.good() ? 0 : 1;
+    return writeMarked(argv[2], words, found) ? 0 : 1;
 }

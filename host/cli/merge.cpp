@@ -36,7 +36,7 @@ void runMerge(const MergeOptions& options)
               << sampleRangesText(merged.film) << ": "
               << (merged.exact           ? "the bits of the single run."
                   : merged.film.complete ? "equal to the single run up to rounding."
-                                         : "some are missing, since a render was ended early; the layer count.X has what is there.")
+                                         : "some are missing, since a render was ended early (see the layer count.X).")
               << '\n';
 }
 

@@ -36,9 +36,11 @@ void addSampleCounts(CLI::App& command, RenderSettings& settings)
 {
     CLI::Option* spp = addNumber<std::uint32_t>(command, {"--spp", "N", "Samples per pixel", 1, kMaxSample, "64"},
                                                 [&settings](std::uint32_t count) { settings.sampleEnd = count; });
-    CLI::Option* time =
-        addNumber<double>(command, {"--time", "SECONDS", "Sample for this long, and as long as the pass under way takes; with --samples to its end at most", 1e-3, 1e9, "off"},
-                          [&settings](double seconds) { settings.seconds = seconds; });
+    CLI::Option* time = addNumber<double>(
+        command,
+        {"--time", "SECONDS", "Sample for this long and until the pass under way ends; with --samples to its end at most",
+         1e-3, 1e9, "off"},
+        [&settings](double seconds) { settings.seconds = seconds; });
     CLI::Option* samples = command
                                .add_option_function<std::string>(
                                    "--samples",

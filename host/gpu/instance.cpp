@@ -76,7 +76,8 @@ Instance::Instance() : messages_(std::make_unique<int>(0))
         info.enabledExtensionCount = 1;
         info.ppEnabledExtensionNames = extensions;
     }
-    check(vkCreateInstance(&info, nullptr, &handle_), "create an instance (is a driver installed? Debian has a software one in mesa-vulkan-drivers)");
+    check(vkCreateInstance(&info, nullptr, &handle_),
+          "create an instance (is a driver installed? Debian has a software one in mesa-vulkan-drivers)");
     if (validation) {
         const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
             vkGetInstanceProcAddr(handle_, "vkCreateDebugUtilsMessengerEXT"));
