@@ -44,7 +44,6 @@ InterruptWatch::~InterruptWatch()
     unwatch(SIGINT);
     unwatch(SIGTERM);
     unwatch(SIGHUP);
-    std::signal(SIGPIPE, SIG_DFL);
 }
 
 int InterruptWatch::signal() const { return received; }

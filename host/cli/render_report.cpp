@@ -127,7 +127,8 @@ void warnOfBias(const RenderReport& report)
     if (report.statistics.nonFinite > 0) {
         const Located& first = report.statistics.located[0];
         std::cerr << "glim: " << report.statistics.nonFinite
-                  << " samples were not finite and are in no average; the first: pixel (" << first.pixel % report.film.width << ", " << first.pixel / report.film.width << "), sample "
+                  << " samples were not finite and are in no average; the first: pixel ("
+                  << first.pixel % report.film.width << ", " << first.pixel / report.film.width << "), sample "
                   << first.sampleIndex << ".\n";
     }
     if (std::isfinite(report.options.settings.clampIndirect)) {

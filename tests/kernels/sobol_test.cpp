@@ -77,19 +77,25 @@ TEST(SobolTest, FirstPointsAreANet)
     expectNet(points.data(), 12);
 }
 
+// The first `length` points of each of `count` scrambled sequences, one after the other.
+std::vector<uvec2> sequences(std::uint32_t count, std::uint32_t length, std::uint64_t seed)
+{
+    Random random(seed);
+    std::vector<Case> cases;
+    for (std::uint32_t s = 0; s < count; ++s) {
+        const uvec3 seeds(random.bits(), random.bits(), random.bits());
+        for (std::uint32_t i = 0; i < length; ++i) {
+            cases.push_back(caseOf(i, seeds, random));
+        }
+    }
+    return scrambled(cases);
+}
+
 // Every aligned run of 2^m, here all blocks of 32 and the first 4096 of a sequence, for many seeds.
 TEST(SobolTest, ScrambledRunsAreNets)
 {
     constexpr std::uint32_t kSequences = 64, kLength = 4096;
-    Random random(31);
-    std::vector<Case> cases;
-    for (std::uint32_t s = 0; s < kSequences; ++s) {
-        const uvec3 seeds(random.bits(), random.bits(), random.bits());
-        for (std::uint32_t i = 0; i < kLength; ++i) {
-            cases.push_back(caseOf(i, seeds, random));
-        }
-    }
-    const std::vector<uvec2> points = scrambled(cases);
+    const std::vector<uvec2> points = sequences(kSequences, kLength, 31);
     for (std::uint32_t s = 0; s < kSequences; ++s) {
         expectNet(&points[s * kLength], 12);
     }
@@ -147,15 +153,7 @@ double errorSlope(const std::vector<uvec2>& points, std::uint32_t length, double
 TEST(SobolTest, ErrorsFallAsTheyShould)
 {
     constexpr std::uint32_t kSequences = 128, kLength = 4096;
-    Random random(33);
-    std::vector<Case> cases;
-    for (std::uint32_t s = 0; s < kSequences; ++s) {
-        const uvec3 seeds(random.bits(), random.bits(), random.bits());
-        for (std::uint32_t i = 0; i < kLength; ++i) {
-            cases.push_back(caseOf(i, seeds, random));
-        }
-    }
-    const std::vector<uvec2> points = scrambled(cases);
+    const std::vector<uvec2> points = sequences(kSequences, kLength, 33);
     const double smooth = errorSlope(points, kLength, 0.25 * std::pow(std::exp(1.0) - 1.0, 2.0),
                                      [](double x, double y) { return 0.25 * std::exp(x + y); });
     const double edge = errorSlope(points, kLength, std::numbers::pi / 4.0,
