@@ -1,7 +1,9 @@
 // H42: a picture that the driver cut short is no picture.
 #include "host/error.hpp"
+#include "host/flatten/flatten_scene.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/render_scene.hpp"
+#include "tests/support/test_device.hpp"
 #include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>
@@ -18,8 +20,11 @@ TEST(LoopCapTest, EndsTheRender)
     Scene scene = builder.scene();
     scene.triangles = coincidentTriangles(100000);
     scene.primitives = {{"", 0, 100000, 0, false}};
+    const FlatScene flat = flattened(scene);
     try {
-        const Film film = renderScene(scene, squareSettings(4, 1));
+        Renderer renderer(testDevice(), flat, flattenCamera(scene.cameras.front(), 1.0F), squareSettings(4, 1));
+        const Film film = renderer.render([](const RenderProgress&) { return true; });
+        EXPECT_EQ(renderer.statistics().loopCaps, 0U) << "noticed, but the render went on";
         for (const PixelMoments& pixel : film.pixels) {
             EXPECT_EQ(pixel.alpha, 1.0F);
             EXPECT_NEAR(pixel.depth, 3.0F, 1e-6F);
