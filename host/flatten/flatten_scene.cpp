@@ -156,12 +156,13 @@ FlatScene flattenScene(const Scene& scene, const Bvh& bvh)
     return flat;
 }
 
-FlatCamera flattenCamera(const Camera& camera, float aspectRatio)
+FlatCamera flattenCamera(const Camera& camera, float aspectRatio, const Lens& lens)
 {
     const bool perspective = camera.kind == Camera::Kind::Perspective;
     const float halfHeight = perspective ? std::tan(0.5F * camera.yfov) : camera.halfHeight;
     return {camera.position, camera.right * (halfHeight * aspectRatio), camera.up * halfHeight, camera.forward,
-            perspective ? kPerspective : kOrthographic};
+            perspective ? kPerspective : kOrthographic, camera.right * lens.radius, camera.up * lens.radius,
+            1.0F / lens.focalDistance};
 }
 
 }  // namespace glim

@@ -12,7 +12,13 @@ std::vector<Box> primitiveBoxes(const Scene& scene);
 
 FlatScene flattenScene(const Scene& scene, const Bvh& bvh);
 
+// A thin lens; both in metres. Radius 0 is a pinhole, whose focal distance does not matter.
+struct Lens {
+    float radius = 0.0F;         // of the aperture
+    float focalDistance = 1.0F;  // along the view axis to the plane of sharpness
+};
+
 // `aspectRatio`: width / height of the picture. The picture's height spans the camera's vertical extent.
-FlatCamera flattenCamera(const Camera& camera, float aspectRatio);
+FlatCamera flattenCamera(const Camera& camera, float aspectRatio, const Lens& lens = {});
 
 }  // namespace glim

@@ -10,6 +10,27 @@ namespace glim {
 
 enum class Sampler { Sobol, Independent };
 enum class Intersector { Watertight, MollerTrumbore };
+enum class Accelerator { Bvh, None };
+
+// How the light of a hit's own neighbourhood of directions is estimated. All have the same expectation: a light that no
+// direction can find (point, spot, directional) is sampled in each of them.
+enum class DirectLight {
+    Mis,         // one light by power and the scattered ray, weighted by the power heuristic
+    Lights,      // every light, lightSamples times each
+    Hemisphere,  // lightSamples directions, uniform over the hemisphere
+    Bsdf,        // the scattered ray alone
+};
+
+// Light by the surfaces it has met between source and camera: none, one, two or more.
+enum class PathParts { All, Emission, Direct, Indirect };
+
+enum class Roulette { Throughput, Fixed, None };
+
+// What the picture shows of what the camera rays meet; all but Shaded end there.
+enum class View { Shaded, Normal, Depth, Albedo, BvhSteps };
+
+// Course: Berkeley's CS 184 path tracer, which stops a pixel once 1.96 s / sqrt(n) <= tolerance * mean of luminance.
+enum class Adaptive { Off, Course, CourseLiteral };
 
 struct RenderSettings {
     std::uint32_t width = 512, height = 512;
@@ -18,6 +39,16 @@ struct RenderSettings {
     std::uint32_t seed = 0;
     Sampler sampler = Sampler::Sobol;
     Intersector intersector = Intersector::Watertight;
+    Accelerator accelerator = Accelerator::Bvh;
+    DirectLight direct = DirectLight::Mis;
+    std::uint32_t lightSamples = 1;
+    PathParts paths = PathParts::All;
+    Roulette roulette = Roulette::Throughput;
+    float survival = 0.7F;  // of Roulette::Fixed
+    View view = View::Shaded;
+    Adaptive adaptive = Adaptive::Off;  // else independent samples only, sampleBegin 0, at most sampleEnd
+    float tolerance = 0.05F;
+    std::uint32_t batch = 32;  // samples between two looks at a pixel
     float clampIndirect = std::numeric_limits<float>::infinity();
     std::optional<double> seconds;  // stop sampling after this long
 
@@ -26,7 +57,8 @@ struct RenderSettings {
     std::uint32_t pathCapacity = 1U << 18;  // paths in flight, at least kBlockSamples
 };
 
-// Every setting that changes a sample, as "name=value ..."; part of a film's identity.
+// Every setting that changes a sample, as "name=value ..."; part of a film's identity. Those that later versions of glim added
+// are named where they are not at their default.
 std::string describeSettings(const RenderSettings& settings);
 
 }  // namespace glim

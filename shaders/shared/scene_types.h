@@ -83,13 +83,17 @@ GLIM_CONST uint kPerspective = 0u;
 GLIM_CONST uint kOrthographic = 1u;
 
 // For film coordinates (x, y) in [-1, 1], y up: perspective rays leave `position` along forward + x right + y up;
-// orthographic rays leave position + x right + y up along forward.
+// orthographic rays leave position + x right + y up along forward. A thin lens moves the origin by a point of the disk with
+// radii lensRight and lensUp, and turns the ray so that it meets the pinhole's one at the depth 1 / inverseFocus.
 struct FlatCamera {
     vec3 position;
     vec3 right;
     vec3 up;
-    vec3 forward;  // unit
+    vec3 forward;    // unit
     uint kind;
+    vec3 lensRight;  // 0: a pinhole
+    vec3 lensUp;
+    float inverseFocus;
 };
 
 GLIM_SHARED_END

@@ -8,7 +8,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 195u;
+GLIM_CONST uint kSharedWords = 202u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -72,5 +72,5 @@ U(light.kind) U(light.firstEmitter) U(light.emitterCount) F(light.probability) U
 U(light.alias.other) F3(light.position) F(light.radius) F3(light.direction) F(light.cosInner) F3(light.intensity)
 F(light.cosOuter) U(light.doubleSided) U(light.unused)
 U(emitter.record) U(emitter.light) F(emitter.areaPdf) U(emitter.alias.threshold) U(emitter.alias.other) U3(emitter.unused)
-F3(camera.position) F3(camera.right) F3(camera.up) F3(camera.forward) U(camera.kind)
+F3(camera.position) F3(camera.right) F3(camera.up) F3(camera.forward) U(camera.kind) F3(camera.lensRight) F3(camera.lensUp) F(camera.inverseFocus)
 #endif
