@@ -1,8 +1,10 @@
 #include "host/render/path_buffers.hpp"
 
+#include "host/gpu/commands.hpp"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/path_types.h"
-#include "shaders/shared/pixel_moments.h"
+
+#include <numeric>
 
 namespace glim {
 namespace {
@@ -75,14 +77,62 @@ std::map<std::uint32_t, const Buffer*> PathBuffers::buffers(std::uint32_t parity
 }
 
 Slab::Slab(Device& device, const KernelLayout& layout, const DeviceScene& scene, const PathBuffers& paths,
-           std::uint32_t begin, std::uint32_t count)
-    : begin_(begin), count_(count), blocks_(arrayOf<BlockSums>(device, "film's blocks", count)),
-      pages_(arrayOf<PixelMoments>(device, "film's pages", count))
+           std::uint32_t begin, std::uint32_t count, bool adaptive)
+    : device_(device), begin_(begin), count_(count), chosenCount_(count), adaptive_(adaptive),
+      blocks_(arrayOf<BlockSums>(device, "film's blocks", count)),
+      pages_(arrayOf<PixelMoments>(device, "film's pages", count)),
+      luminance_(arrayOf<LuminanceMoments>(device, "pixels' luminances", adaptive ? count : 1)),
+      chosen_(arrayOf<uint>(device, "chosen pixels", 1 + (adaptive ? count : 1)))
 {
-    const std::map<std::uint32_t, const Buffer*> film = {{kBindBlocks, &blocks_}, {kBindPages, &pages_}};
+    const std::map<std::uint32_t, const Buffer*> film = {{kBindBlocks, &blocks_},
+                                                         {kBindPages, &pages_},
+                                                         {kBindLuminance, &luminance_},
+                                                         {kBindChosenPixels, &chosen_}};
     const auto fixed = merged(scene.buffers(), film);
     even_.emplace(layout, merged(fixed, paths.buffers(0)));
     odd_.emplace(layout, merged(fixed, paths.buffers(1)));
+    fillWithZero({&blocks_, &pages_, &luminance_});
+    chooseAll();
 }
+
+std::uint64_t Slab::bytesPerPixel(bool adaptive)
+{
+    return sizeof(BlockSums) + sizeof(PixelMoments) + (adaptive ? sizeof(LuminanceMoments) + sizeof(uint) : 0);
+}
+
+void Slab::fillWithZero(std::initializer_list<const Buffer*> buffers)
+{
+    Commands commands(device_);
+    for (const Buffer* buffer : buffers) {
+        commands.fillWithZero(*buffer);
+    }
+    commands.submitAndWait();
+}
+
+std::vector<PixelMoments> Slab::takePages()
+{
+    std::vector<PixelMoments> pages = download<PixelMoments>(pages_, count_);
+    fillWithZero({&pages_});
+    return pages;
+}
+
+void Slab::chooseAll()
+{
+    chosenCount_ = count_;
+    if (adaptive_) {
+        std::vector<uint> list(1 + count_);
+        list[0] = count_;
+        std::iota(list.begin() + 1, list.end(), 0U);
+        upload(chosen_, std::span<const uint>(list));
+    }
+}
+
+void Slab::chooseNone()
+{
+    chosenCount_ = 0;
+    fillWithZero({&chosen_});
+}
+
+void Slab::readChosenCount() { chosenCount_ = download<uint>(chosen_, 1)[0]; }
 
 }  // namespace glim

@@ -3,8 +3,11 @@
 
 #include "host/gpu/kernel.hpp"
 #include "host/render/device_scene.hpp"
+#include "shaders/shared/pixel_moments.h"
 
+#include <initializer_list>
 #include <optional>
+#include <vector>
 
 namespace glim {
 
@@ -30,24 +33,37 @@ private:
 };
 
 // Pixels [begin, begin + count) of the picture. A storage buffer's limit (128 MiB on llvmpipe) cuts large pictures into
-// several slabs.
+// several slabs. The slab of an adaptive render knows which of its pixels are chosen for more samples: at first, all.
 class Slab {
 public:
     Slab(Device& device, const KernelLayout& layout, const DeviceScene& scene, const PathBuffers& paths,
-         std::uint32_t begin, std::uint32_t count);
+         std::uint32_t begin, std::uint32_t count, bool adaptive);
+    static std::uint64_t bytesPerPixel(bool adaptive);
 
     // Chosen so that neither buffer exceeds 128 MiB.
     static constexpr std::uint32_t kMaxPixels = 1U << 20;
 
     std::uint32_t begin() const { return begin_; }
     std::uint32_t count() const { return count_; }
-    const Buffer& blocks() const { return blocks_; }
-    const Buffer& pages() const { return pages_; }
+    std::uint32_t chosenCount() const { return chosenCount_; }
     const Bindings& bindings(std::uint32_t parity) const { return parity == 0 ? *even_ : *odd_; }
 
+    // Reads the pages and empties them.
+    std::vector<PixelMoments> takePages();
+    void chooseAll();
+    void chooseNone();
+    // After choose_pixels has filled the list.
+    void readChosenCount();
+
 private:
-    std::uint32_t begin_, count_;
+    void fillWithZero(std::initializer_list<const Buffer*> buffers);
+
+    Device& device_;
+    std::uint32_t begin_, count_, chosenCount_;
+    bool adaptive_;
     Buffer blocks_, pages_;
+    Buffer luminance_;  // LuminanceMoments
+    Buffer chosen_;     // their number, then their indices in the slab
     std::optional<Bindings> even_, odd_;
 };
 

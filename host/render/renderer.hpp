@@ -1,22 +1,13 @@
-// Renders: the order of the kernels. READ THIS FIRST (renderer.cpp).
+// Renders: sweeps over the picture, pass after pass. READ renderer.cpp FIRST.
 #pragma once
 
-#include "host/gpu/commands.hpp"
 #include "host/render/film.hpp"
-#include "host/render/path_buffers.hpp"
-#include "host/render/settings.hpp"
-#include "shaders/shared/path_types.h"
+#include "host/render/wavefront.hpp"
 
 #include <chrono>
 #include <functional>
-#include <memory>
 
 namespace glim {
-
-struct KernelStatistics {
-    std::uint64_t dispatches = 0;
-    double seconds = 0.0;  // on the device
-};
 
 struct RenderStatistics {
     double uploadSeconds = 0.0, compileSeconds = 0.0, renderSeconds = 0.0;
@@ -31,7 +22,7 @@ struct RenderStatistics {
 };
 
 struct RenderProgress {
-    std::uint64_t samples, totalSamples;  // over all pixels
+    std::uint64_t samples, totalSamples;  // over all pixels; of an adaptive render, total if no further pixel is done early
     double seconds;
 };
 
@@ -43,9 +34,9 @@ public:
     // Uploads the scene and compiles the kernels for what it needs.
     Renderer(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
 
-    // Samples until sampleEnd, the time limit or the observer ends it. Every pixel of the film has what was finished; the
-    // counts say how much. Throws DeviceError if the driver cut a loop short or a queue overflowed: no film is better than
-    // a wrong one. Once per object.
+    // Samples until sampleEnd, the stop rule, the time limit or the observer ends it. Every pixel of the film has what was
+    // finished; the counts say how much. Throws DeviceError if the driver cut a loop short or a queue overflowed: no film is
+    // better than a wrong one. Once per object.
     Film render(const RenderObserver& observer);
 
     const RenderStatistics& statistics() const { return statistics_; }
@@ -53,34 +44,27 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
-    Kernel kernel(const EmbeddedShader& shader) const;
-    void compile();
+    bool isAdaptive() const { return settings_.adaptive != Adaptive::Off; }
+    std::uint32_t sweepEnd(std::uint32_t sample) const;
     bool sweep(std::uint32_t first, std::uint32_t count, bool endsBlock, const RenderObserver& observer);
-    void runPass(const Slab& slab, Pass pass);
-    void tracePaths(const Slab& slab, Pass& pass);
-    void recordBounce(Commands& commands, const Slab& slab, const Pass& pass) const;
-    void run(Commands& commands);
+    void runPass(const Slab& slab, const Pass& pass);
+    std::uint64_t choosePixels();
     void closeBlocks();
     void foldPages(Film& film);
     bool isOver(const RenderObserver& observer) const;
     void refuseBrokenStatus() const;
     void readCounters();
-    Pass passOf(const Slab& slab) const;
 
     Device& device_;
     RenderSettings settings_;
-    Specialization specialization_;
-    Pass template_{};  // what all passes have in common
     std::string fingerprint_;
     RenderStatistics statistics_;
     Clock::time_point start_;
     std::uint32_t pathsPerPass_;
+    std::uint64_t plannedSamples_;
 
-    DeviceScene scene_;
-    PathBuffers paths_;
-    KernelLayout layout_;
+    std::unique_ptr<Wavefront> wavefront_;
     std::vector<std::unique_ptr<Slab>> slabs_;
-    Kernel generateRays_, sizeDispatch_, traceClosest_, sampleLights_, traceShadow_, bounce_, accumulate_;
 };
 
 }  // namespace glim

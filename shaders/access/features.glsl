@@ -1,4 +1,4 @@
-// What the scene needs, as specialization constants: what it does not contain is compiled away.
+// What the scene needs and what the render is asked for, as specialization constants: the rest is compiled away.
 #ifndef GLIM_ACCESS_FEATURES
 #define GLIM_ACCESS_FEATURES
 
@@ -12,5 +12,11 @@ layout(constant_id = kSpecPunctualLights) const bool kPunctualLights = true;
 layout(constant_id = kSpecEnvironment) const bool kEnvironment = true;
 layout(constant_id = kSpecSobol) const bool kSobol = true;
 layout(constant_id = kSpecMollerTrumbore) const bool kMollerTrumbore = false;
+layout(constant_id = kSpecBruteForce) const bool kBruteForce = false;
+layout(constant_id = kSpecDirect) const uint kDirect = kDirectMis;
+layout(constant_id = kSpecRoulette) const uint kRoulette = kRouletteThroughput;
+layout(constant_id = kSpecLens) const bool kLens = false;
+layout(constant_id = kSpecAdaptive) const bool kAdaptive = false;
+layout(constant_id = kSpecView) const uint kView = kViewNormal;
 
 #endif

@@ -148,9 +148,13 @@ LightSample sampleEnvironment(FlatLight light, vec3 from, vec3 normal, vec2 u)
     return LightSample(wi, light.intensity / pdf, pdf, from + wi, kNoRecord, kInfinity);
 }
 
-LightSample sampleLight(uint index, vec3 from, vec3 normal, uvec2 choice, vec2 u)
+// `certain`: every light is sampled, so that its probability is 1.
+LightSample sampleLight(uint index, bool certain, vec3 from, vec3 normal, uvec2 choice, vec2 u)
 {
     FlatLight light = fetchLight(index);
+    if (certain) {
+        light.probability = 1.0;
+    }
     if (kSurfaceLights && light.kind == kTriangleLight) {
         return sampleTriangleLight(light, from, choice, u);
     }

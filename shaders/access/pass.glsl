@@ -2,11 +2,20 @@
 #ifndef GLIM_ACCESS_PASS
 #define GLIM_ACCESS_PASS
 
+#include "features.glsl"
 #include "lib/sampler.glsl"
-#include "shared/bindings.h"
 #include "shared/path_types.h"
 
 layout(push_constant, scalar) uniform PassBlock { Pass pass; };
+
+#if defined(WRITES_CHOSEN_PIXELS)
+layout(set = 0, binding = kBindChosenPixels, scalar) buffer ChosenPixelsBuffer { uint chosenCount; uint chosenPixels[]; };
+#else
+layout(set = 0, binding = kBindChosenPixels, scalar) readonly buffer ChosenPixelsBuffer {
+    uint chosenCount;
+    uint chosenPixels[];  // indices in the slab
+};
+#endif
 
 layout(local_size_x_id = kSpecWorkgroup) in;
 
@@ -21,10 +30,16 @@ uint interleavedInvocation()
     return group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
 }
 
+// Index in the slab of the pass's pixel number `i`.
+uint pixelOfPass(uint i)
+{
+    return kAdaptive ? chosenPixels[pass.firstPixel + i] : pass.firstPixel + i;
+}
+
 SampleId sampleOfSlot(uint slot)
 {
     uint pixel = slot / pass.sampleCount;
-    return SampleId(pass.seed, pass.slabBegin + pass.firstPixel + pixel,
+    return SampleId(pass.seed, pass.slabBegin + pixelOfPass(pixel),
                     pass.firstSample + (slot - pixel * pass.sampleCount));
 }
 

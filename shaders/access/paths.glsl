@@ -19,8 +19,8 @@ DECLARE(writeonly, kBindRays, PathRay, pathRays);
 
 #if defined(READS_HITS)
 DECLARE(readonly, kBindHits, PathHit, pathHits);
-#elif defined(WRITES_HITS)
-DECLARE(writeonly, kBindHits, PathHit, pathHits);
+#elif defined(UPDATES_HITS)
+DECLARE(, kBindHits, PathHit, pathHits);
 #endif
 
 #if defined(READS_STATES)
@@ -49,6 +49,8 @@ DECLARE(writeonly, kBindFirstHits, FirstHit, pathFirstHits);
 DECLARE(readonly, kBindShadowRays, ShadowRay, pathShadowRays);
 #elif defined(WRITES_SHADOW_RAYS)
 DECLARE(writeonly, kBindShadowRays, ShadowRay, pathShadowRays);
+#elif defined(UPDATES_SHADOW_RAYS)
+DECLARE(, kBindShadowRays, ShadowRay, pathShadowRays);
 #endif
 
 #if defined(READS_ACTIVE_QUEUE)
@@ -78,6 +80,9 @@ layout(set = 0, binding = kBindQueueTails, scalar) buffer QueueTailsBuffer { Que
 #if defined(UPDATES_FILM)
 DECLARE(, kBindBlocks, BlockSums, filmBlocks);
 DECLARE(, kBindPages, PixelMoments, filmPages);
+DECLARE(, kBindLuminance, LuminanceMoments, filmLuminance);
+#elif defined(READS_LUMINANCE)
+DECLARE(readonly, kBindLuminance, LuminanceMoments, filmLuminance);
 #endif
 
 #if defined(UPDATES_RAY_COUNTS)

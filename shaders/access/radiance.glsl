@@ -5,9 +5,12 @@
 #include "lib/clamp_indirect.glsl"
 #include "paths.glsl"
 
-// `events`: surfaces met between camera and light.
+// `events`: surfaces met between camera and light; light with fewer or more than the pass wants is dropped.
 void addRadiance(uint slot, vec3 contribution, uint events)
 {
+    if (events < pass.leastEvents || events > pass.mostEvents) {
+        return;
+    }
     ClampedLight light = clampIndirect(contribution, events, pass.clampIndirect);
     PathRadiance sum = pathRadiance[slot];
     pathRadiance[slot] = PathRadiance(sum.radiance + light.kept, sum.clamped + light.removed);

@@ -88,6 +88,12 @@ void turnToViewer(inout Surface surface, vec3 wo)
     }
 }
 
+// Radiance that the surface itself sends towards wo.
+vec3 emittedRadiance(Surface surface, FlatMaterial material)
+{
+    return surface.emitter != 0u && (surface.front || material.doubleSided != 0u) ? material.emission : vec3(0.0);
+}
+
 // Origin of a ray that leaves the surface along wi.
 vec3 leavePoint(Surface surface, vec3 wi)
 {

@@ -66,12 +66,39 @@ Fork visitNode(Walk walk, uint node, float tmax)
     return swapped ? Fork(child1, child0, t1, t0) : Fork(child0, child1, t0, t1);
 }
 
-// The closest hit; ties go to the lower primitive id, so that the result does not depend on the tree.
-PathHit traceClosest(PathRay ray)
+struct Closest {
+    PathHit hit;
+    uint id;  // of its primitive
+};
+
+const uint kNoId = 0xffffffffu;
+
+PathHit makeMiss()
 {
+    return PathHit(kNoRecord, kInfinity, vec2(0.0));
+}
+
+// Ties go to the lower primitive id, so that the result does not depend on the tree.
+void meetRecord(Walk walk, uint index, uint source, inout Closest best)
+{
+    Record record = fetchRecord(index);
+    TriangleHit hit = intersectRecord(walk, record, best.hit.t, index == source);
+    if (hit.t > 0.0 && (hit.t < best.hit.t || record.t0.w < best.id)) {
+        best = Closest(PathHit(index, hit.t, hit.barycentric), record.t0.w);
+    }
+}
+
+// What a traversal has done.
+struct Steps {
+    uint nodes;       // inner nodes visited, two boxes each
+    uint primitives;  // tested
+};
+
+PathHit traceClosest(PathRay ray, out Steps steps)
+{
+    steps = Steps(0u, 0u);
     Walk walk = beginWalk(ray.origin, ray.direction);
-    PathHit best = PathHit(kNoRecord, kInfinity, vec2(0.0));
-    uint bestId = 0xffffffffu;
+    Closest best = Closest(makeMiss(), kNoId);
     Child stack[kMaxBvhDepth];
     uint depth = 0u;
     Child at = Child(0u, 0u);
@@ -79,7 +106,8 @@ PathHit traceClosest(PathRay ray)
     while (going) {
         bool descend = false;
         if (at.count == 0u) {
-            Fork fork = visitNode(walk, at.first, best.t);
+            Fork fork = visitNode(walk, at.first, best.hit.t);
+            ++steps.nodes;
             descend = fork.nearT >= 0.0;
             at = fork.near;
             if (fork.farT >= 0.0) {
@@ -87,12 +115,8 @@ PathHit traceClosest(PathRay ray)
             }
         } else if (at.count != kEmptyLeaf) {
             for (uint i = at.first; i < at.first + at.count; ++i) {
-                Record record = fetchRecord(i);
-                TriangleHit hit = intersectRecord(walk, record, best.t, i == ray.source);
-                if (hit.t > 0.0 && (hit.t < best.t || record.t0.w < bestId)) {
-                    best = PathHit(i, hit.t, hit.barycentric);
-                    bestId = record.t0.w;
-                }
+                meetRecord(walk, i, ray.source, best);
+                ++steps.primitives;
             }
         }
         if (!descend) {
@@ -101,7 +125,13 @@ PathHit traceClosest(PathRay ray)
             at = stack[depth];
         }
     }
-    return best;
+    return best.hit;
+}
+
+PathHit traceClosest(PathRay ray)
+{
+    Steps uncounted;
+    return traceClosest(ray, uncounted);
 }
 
 // True if nothing but `target` lies between origin and origin + reach * direction.

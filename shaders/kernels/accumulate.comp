@@ -1,6 +1,6 @@
 // One thread is one pixel of the pass. Adds its finished samples to the block, in the order of their index, and folds the block
 // into the page when it ends: the bits do not depend on how the work was cut.
-// Reads radiance and first hits. Updates blocks and pages; counts samples that are not finite and leaves them out.
+// Reads radiance and first hits. Updates blocks, pages and, in adaptive renders, luminance; counts samples that are not finite and leaves them out.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_RADIANCE
@@ -9,6 +9,7 @@
 #include "access/paths.glsl"
 #include "access/status.glsl"
 #include "lib/moments.glsl"
+#include "lib/stop_rule.glsl"
 
 bool isFinite(float x)
 {
@@ -23,7 +24,7 @@ BlockSums addSample(BlockSums sums, PathRadiance path, FirstHit first)
 
 void addPixel(uint pixel)
 {
-    uint at = pass.firstPixel + pixel;
+    uint at = pixelOfPass(pixel);
     BlockSums sums = filmBlocks[at];
     if (sums.count == 0u) {
         sums = emptyBlock();  // the host fills new blocks with zeros
@@ -33,6 +34,9 @@ void addPixel(uint pixel)
         PathRadiance path = pathRadiance[slot];
         if (isFinite(path.radiance.r) && isFinite(path.radiance.g) && isFinite(path.radiance.b)) {
             sums = addSample(sums, path, pathFirstHits[slot]);
+            if (kAdaptive) {
+                filmLuminance[at] = addLuminance(filmLuminance[at], luminanceOf(path.radiance));
+            }
         } else {
             reportNonFinite(pass.slabBegin + at, pass.firstSample + i);
         }

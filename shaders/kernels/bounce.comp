@@ -56,6 +56,13 @@ Scatter scatterAt(inout Surface surface, vec3 wo, vec2 u, float fate)
                                                        : scatterLambert(surface, material, u);
 }
 
+float survivalOf(vec3 throughput, float etaScale)
+{
+    return kRoulette == kRouletteThroughput ? survivalProbability(throughput, etaScale, pass.bounce)
+           : kRoulette == kRouletteFixed    ? survivalFixed(pass.survival, pass.bounce)
+                                            : 1.0;
+}
+
 void visit(uint slot)
 {
     PathHit hit = pathHits[slot];
@@ -74,7 +81,7 @@ void visit(uint slot)
         return;
     }
     float etaScale = state.etaScale * scatter.etaScale;
-    float survival = survivalProbability(throughput, etaScale, pass.bounce);
+    float survival = survivalOf(throughput, etaScale);
     if (!(fate.y < survival)) {
         return;
     }

@@ -10,6 +10,13 @@
 #include "access/scene.glsl"
 #include "access/status.glsl"
 #include "lib/camera.glsl"
+#include "lib/warp.glsl"
+
+PathRay rayThrough(SampleId id, vec2 film)
+{
+    return kLens ? lensRay(sceneCamera, film, sampleDisk(unitFloat(samplePair(id, kDimensionLens, kSobol))))
+                 : cameraRay(sceneCamera, film);
+}
 
 void main()
 {
@@ -18,7 +25,7 @@ void main()
         SampleId id = sampleOfSlot(slot);
         vec2 jitter = unitFloat(samplePair(id, kDimensionPixel, kSobol));
         vec2 corner = vec2(id.pixel % pass.width, id.pixel / pass.width);
-        pathRays[slot] = cameraRay(sceneCamera, filmFromPixel(corner + jitter, vec2(pass.width, pass.height)));
+        pathRays[slot] = rayThrough(id, filmFromPixel(corner + jitter, vec2(pass.width, pass.height)));
         pathStates[slot] = PathState(vec3(1.0), 0.0, 0.0, 1.0);
         pathRadiance[slot] = PathRadiance(vec3(0.0), 0.0);
         nextQueue[slot] = slot;

@@ -1,5 +1,5 @@
-// One thread is one entry of the active queue. Adds the light that its ray has found, and asks for a shadow ray to one light
-// that the surface may see. At bounce 0 it also notes what the camera saw.
+// One thread is one entry of the active queue. Asks for a shadow ray to one light that the surface may see: a round of direct
+// light. The first round also adds the light that the ray itself has found and, at bounce 0, notes what the camera saw.
 // Reads the scene, the queue, rays, hits, states. Updates radiance. Writes first hits, shadow rays; appends to the shadow queue.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -20,40 +20,66 @@
 #include "lib/mis.glsl"
 #include "lib/scatter.glsl"
 
+// What light that a ray has found counts if sampling lights has density `other` for it, and what light counts that sampling
+// lights has found if the scattered ray has that density. Cameras, mirrors and glass leave it to the ray alone, delta lights
+// to the sample.
+float weightFound(PathState state, float other)
+{
+    if (!(state.pdf > 0.0) || kDirect == kDirectBsdf) {
+        return 1.0;
+    }
+    return kDirect == kDirectMis ? weightPower(state.pdf, other) : 0.0;
+}
+
+float weightSampled(float pdf, float other)
+{
+    return kDirect == kDirectMis && pdf > 0.0 ? weightPower(pdf, other) : 1.0;
+}
+
 vec3 environmentFound(PathState state)
 {
     float other = fetchLight(pass.environmentLight).probability * pdfLambert(state.cosine);
-    return pass.environment * (state.pdf > 0.0 ? weightPower(state.pdf, other) : 1.0);
+    return pass.environment * weightFound(state, other);
 }
 
 vec3 emissionFound(PathRay ray, PathHit hit, PathState state, Surface surface, FlatMaterial material)
 {
-    if (surface.emitter == 0u || !(surface.front || material.doubleSided != 0u)) {
-        return vec3(0.0);
-    }
-    if (!(state.pdf > 0.0)) {
-        return material.emission;
+    vec3 emission = emittedRadiance(surface, material);
+    if (all(equal(emission, vec3(0.0))) || !(state.pdf > 0.0)) {
+        return emission;
     }
     FlatEmitter emitter = fetchEmitter(surface.emitter - 1u);
     float cosine = abs(dot(surface.geometric, ray.direction));
     float other = pdfSurfaceLight(emitter, fetchLight(emitter.light), ray.origin, hit.t, cosine);
-    return material.emission * weightPower(state.pdf, other);
+    return emission * weightFound(state, other);
 }
 
-// The radiance that one light sends on towards the camera if nothing shadows it; 0 if there is none.
+// The radiance of one light that the round chooses.
+LightSample sampleLightOfRound(SampleId id, Surface surface)
+{
+    uint chosen = pass.light;
+    if (kDirect == kDirectMis) {
+        chosen = chooseLight(samplePair(id, bounceDimension(pass.bounce, kDimensionLight), kSobol), pass.lightCount);
+    } else {
+        id = splitSample(id, pass.light, pass.lightSample, pass.lightSamples);
+    }
+    return sampleLight(chosen, kDirect != kDirectMis, surface.point, surface.shading,
+                       samplePair(id, bounceDimension(pass.bounce, kDimensionEmitter), kSobol),
+                       unitFloat(samplePair(id, bounceDimension(pass.bounce, kDimensionPoint), kSobol)));
+}
+
+// Carries the radiance that the light sends on towards the camera if nothing shadows it.
 void askForShadowRay(uint slot, PathState state, Surface surface, FlatMaterial material)
 {
-    SampleId id = sampleOfSlot(slot);
-    uint chosen = chooseLight(samplePair(id, bounceDimension(pass.bounce, kDimensionLight), kSobol), pass.lightCount);
-    LightSample light =
-        sampleLight(chosen, surface.point, surface.shading,
-                    samplePair(id, bounceDimension(pass.bounce, kDimensionEmitter), kSobol),
-                    unitFloat(samplePair(id, bounceDimension(pass.bounce, kDimensionPoint), kSobol)));
+    LightSample light = sampleLightOfRound(sampleOfSlot(slot), surface);
     float cosine = dot(light.wi, surface.shading);
     if (!(cosine > 0.0 && dot(light.wi, surface.geometric) > 0.0)) {
         return;
     }
-    float weight = light.pdf > 0.0 ? weightPower(light.pdf, pdfLambert(cosine)) : 1.0;
+    float weight = weightSampled(light.pdf, pdfLambert(cosine));
+    if (kDirect == kDirectLights) {
+        weight /= float(pass.lightSamples);
+    }
     vec3 contribution = state.throughput * evalLambert(material.baseColor, cosine) * light.radiance * (cosine * weight);
     if (all(equal(contribution, vec3(0.0)))) {
         return;
@@ -65,31 +91,44 @@ void askForShadowRay(uint slot, PathState state, Surface surface, FlatMaterial m
     shadowQueue[atomicAdd(queueTails.shadow, 1u)] = slot;
 }
 
+void noteFirstHit(uint slot, Surface surface, FlatMaterial material)
+{
+    float depth = dot(surface.point - sceneCamera.position, sceneCamera.forward);
+    pathFirstHits[slot] = FirstHit(material.baseColor, 1.0, surface.shading, depth);
+}
+
+void visitNothing(uint slot, PathState state)
+{
+    if (pass.bounce == 0u) {
+        pathFirstHits[slot] = FirstHit(vec3(0.0), 0.0, vec3(0.0), kInfinity);
+    }
+    if (kEnvironment) {
+        addRadiance(slot, state.throughput * environmentFound(state), pass.bounce);
+    }
+}
+
 void visit(uint slot)
 {
     PathRay ray = pathRays[slot];
     PathHit hit = pathHits[slot];
     PathState state = pathStates[slot];
+    bool first = pass.addsFound != 0u;
     if (hit.record == kNoRecord) {
-        if (pass.bounce == 0u) {
-            pathFirstHits[slot] = FirstHit(vec3(0.0), 0.0, vec3(0.0), kInfinity);
-        }
-        if (kEnvironment) {
-            addRadiance(slot, state.throughput * environmentFound(state), pass.bounce);
+        if (first) {
+            visitNothing(slot, state);
         }
         return;
     }
     Surface surface = surfaceAt(ray, hit);
     turnToViewer(surface, -ray.direction);
     FlatMaterial material = fetchMaterial(surface.material);
-    if (pass.bounce == 0u) {
-        float depth = dot(surface.point - sceneCamera.position, sceneCamera.forward);
-        pathFirstHits[slot] = FirstHit(material.baseColor, 1.0, surface.shading, depth);
+    if (first && pass.bounce == 0u) {
+        noteFirstHit(slot, surface, material);
     }
-    if (kSurfaceLights) {
+    if (first && kSurfaceLights) {
         addRadiance(slot, state.throughput * emissionFound(ray, hit, state, surface, material), pass.bounce);
     }
-    if (pass.lightCount > 0u && pass.bounce < pass.maxBounces && material.scattering == kLambert) {
+    if (pass.light != kNoLightIndex && pass.bounce < pass.maxBounces && material.scattering == kLambert) {
         askForShadowRay(slot, state, surface, material);
     }
 }

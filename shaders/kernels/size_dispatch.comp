@@ -1,5 +1,5 @@
-// One thread in all. Turns the lengths of the queues just filled into the sizes of the dispatches over them, and empties the
-// tails. At the start of a pass (bounce 0 comes with all slots queued) generate_rays has filled the queue itself.
+// One thread in all. Turns the length of a queue just filled into the size of the dispatches over it, and empties its tail: that of
+// the paths or of the shadow rays, as the pass says. At the start of a pass (bounce 0) generate_rays has queued all slots.
 // Reads and writes queue tails; writes queue sizes; adds to the ray counts and, for queues that are too long, to the status.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -21,19 +21,34 @@ uvec2 add64(uvec2 sum, uint more)
     return uvec2(sum.x, sum.y + carry);
 }
 
+void sizePaths(uint slots)
+{
+    uint count = pass.bounce == 0u ? slots : checkQueue(queueTails.next, slots);
+    queueSizes.closest = count;
+    queueSizes.closestGroups = uvec3(groupsOf(count), 1u, 1u);
+    queueTails.next = 0u;
+    rayCounts.closest = add64(rayCounts.closest, count);
+}
+
+void sizeShadow(uint slots)
+{
+    uint count = checkQueue(queueTails.shadow, slots);
+    queueSizes.shadow = count;
+    queueSizes.shadowGroups = uvec3(groupsOf(count), 1u, 1u);
+    queueTails.shadow = 0u;
+    rayCounts.shadow = add64(rayCounts.shadow, count);
+}
+
 void main()
 {
     if (gl_GlobalInvocationID.x == 0u) {
         uint slots = pass.pixelCount * pass.sampleCount;
-        uint closest = pass.bounce == 0u ? slots : checkQueue(queueTails.next, slots);
-        uint shadow = checkQueue(queueTails.shadow, slots);
-        queueSizes.closest = closest;
-        queueSizes.shadow = shadow;
-        queueSizes.closestGroups = uvec3(groupsOf(closest), 1u, 1u);
-        queueSizes.shadowGroups = uvec3(groupsOf(shadow), 1u, 1u);
-        queueTails = QueueTails(0u, 0u);
-        rayCounts.closest = add64(rayCounts.closest, closest);
-        rayCounts.shadow = add64(rayCounts.shadow, shadow);
+        if ((pass.sizes & kSizesPaths) != 0u) {
+            sizePaths(slots);
+        }
+        if ((pass.sizes & kSizesShadow) != 0u) {
+            sizeShadow(slots);
+        }
     }
     checkLoopBudget(pass.canarySteps);
 }

@@ -1,21 +1,31 @@
-// One thread is one entry of the active queue. Finds what its ray meets first.
-// Reads the scene, the queue, rays. Writes hits.
+// One thread is one entry of the active queue. Finds what its ray meets first. Brute force takes several dispatches, each of which
+// goes on from what was met so far.
+// Reads the scene, the queue, rays. Writes hits (brute force also reads them).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_ACTIVE_QUEUE
 #define READS_QUEUE_SIZES
 #define READS_RAYS
-#define WRITES_HITS
+#define UPDATES_HITS
 #include "access/paths.glsl"
+#include "access/scan.glsl"
 #include "access/status.glsl"
-#include "access/traverse.glsl"
+
+PathHit scanRecords(uint slot)
+{
+    PathHit met = makeMiss();
+    if (pass.firstRecord > 0u) {
+        met = pathHits[slot];
+    }
+    return scanClosest(pathRays[slot], met, pass.firstRecord, pass.endRecord);
+}
 
 void main()
 {
     uint entry = interleavedInvocation();
     if (entry < queueSizes.closest) {
         uint slot = activeQueue[entry];
-        pathHits[slot] = traceClosest(pathRays[slot]);
+        pathHits[slot] = kBruteForce ? scanRecords(slot) : traceClosest(pathRays[slot]);
     }
     checkLoopBudget(pass.canarySteps);
 }

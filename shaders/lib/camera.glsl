@@ -31,4 +31,16 @@ PathRay cameraRay(FlatCamera camera, vec2 film)
                                         : PathRay(camera.position, kNoRecord, aside(camera.forward, across));
 }
 
+// Through the point `disk` of a thin lens with the unit disk as aperture: all rays of one film point meet where the pinhole's
+// ray meets the plane of focus (Cook, Porter, Carpenter, "Distributed Ray Tracing", 1984).
+PathRay lensRay(FlatCamera camera, vec2 film, vec2 disk)
+{
+    vec3 across = film.x * camera.right + film.y * camera.up;
+    vec3 aperture = disk.x * camera.lensRight + disk.y * camera.lensUp;
+    bool orthographic = camera.kind == kOrthographic;
+    vec3 origin = camera.position + aperture + (orthographic ? across : vec3(0.0));
+    vec3 turn = (orthographic ? vec3(0.0) : across) - aperture * camera.inverseFocus;
+    return PathRay(origin, kNoRecord, aside(camera.forward, turn));
+}
+
 #endif

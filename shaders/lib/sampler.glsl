@@ -8,6 +8,7 @@
 
 // Dimensions, each a pair of numbers. Those of bounce b begin at kDimensionBounce + b * kDimensionsPerBounce.
 const uint kDimensionPixel = 0u;
+const uint kDimensionLens = 0xffffffffu;
 const uint kDimensionBounce = 1u;
 const uint kDimensionLight = 0u;    // which light: bin, threshold
 const uint kDimensionEmitter = 1u;  // which of its triangles: bin, threshold
@@ -45,8 +46,15 @@ uvec2 sobolPair(SampleId id, uint dimension)
 
 uvec2 samplePair(SampleId id, uint dimension, bool sobol)
 {
-    return sobol && dimension < bounceDimension(kSobolBounces, 0u) ? sobolPair(id, dimension)
-                                                                   : independentPair(id, dimension);
+    bool early = dimension < bounceDimension(kSobolBounces, 0u) || dimension == kDimensionLens;
+    return sobol && early ? sobolPair(id, dimension) : independentPair(id, dimension);
+}
+
+// For number `k` of `count` samples that one sample takes of light `light`: together they are points [index * count,
+// index * count + count) of a sequence that belongs to this light.
+SampleId splitSample(SampleId id, uint light, uint k, uint count)
+{
+    return SampleId(hash4(uvec4(id.seed, light, 0u, 0u)).x, id.pixel, id.index * count + k);
 }
 
 #endif

@@ -28,11 +28,13 @@ GLIM_CONST uint kBindQueueTails = 17u;
 GLIM_CONST uint kBindRayCounts = 18u;
 GLIM_CONST uint kBindBlocks = 19u;
 GLIM_CONST uint kBindPages = 20u;
-GLIM_CONST uint kBindStatus = 21u;
+GLIM_CONST uint kBindLuminance = 21u;
+GLIM_CONST uint kBindChosenPixels = 22u;
+GLIM_CONST uint kBindStatus = 23u;
 // tests
-GLIM_CONST uint kBindCases = 22u;
-GLIM_CONST uint kBindReport = 23u;
-GLIM_CONST uint kBindResults = 24u;
+GLIM_CONST uint kBindCases = 24u;
+GLIM_CONST uint kBindReport = 25u;
+GLIM_CONST uint kBindResults = 26u;
 
 GLIM_CONST uint kSpecWorkgroup = 0u;
 GLIM_CONST uint kSpecSpheres = 1u;         // the scene has spheres
@@ -43,6 +45,27 @@ GLIM_CONST uint kSpecPunctualLights = 5u;
 GLIM_CONST uint kSpecEnvironment = 6u;
 GLIM_CONST uint kSpecSobol = 7u;           // else independent samples
 GLIM_CONST uint kSpecMollerTrumbore = 8u;  // else watertight
+GLIM_CONST uint kSpecBruteForce = 9u;      // every primitive against every ray; else the BVH
+GLIM_CONST uint kSpecDirect = 10u;         // kDirectMis ...
+GLIM_CONST uint kSpecRoulette = 11u;       // kRouletteThroughput ...
+GLIM_CONST uint kSpecLens = 12u;           // else a pinhole
+GLIM_CONST uint kSpecAdaptive = 13u;       // passes go over chosen pixels
+GLIM_CONST uint kSpecView = 14u;           // kViewNormal ...
+
+// How direct light is estimated.
+GLIM_CONST uint kDirectMis = 0u;
+GLIM_CONST uint kDirectLights = 1u;
+GLIM_CONST uint kDirectHemisphere = 2u;
+GLIM_CONST uint kDirectBsdf = 3u;
+
+GLIM_CONST uint kRouletteThroughput = 0u;
+GLIM_CONST uint kRouletteFixed = 1u;
+GLIM_CONST uint kRouletteNone = 2u;
+
+GLIM_CONST uint kViewNormal = 1u;
+GLIM_CONST uint kViewDepth = 2u;
+GLIM_CONST uint kViewAlbedo = 3u;
+GLIM_CONST uint kViewBvhSteps = 4u;
 
 GLIM_SHARED_END
 #endif

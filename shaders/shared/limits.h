@@ -13,5 +13,12 @@ GLIM_CONST uint kMaxBvhDepth = 48u;
 GLIM_CONST uint kBlockSamples = 32u;
 GLIM_CONST uint kPageSamples = 256u;
 
+// Primitives that brute force tries per dispatch: Mesa before 24 stops loops after 65,535 iterations.
+GLIM_CONST uint kScanRecords = 8192u;
+
+// Samples without any difference after which a pixel may count as constant: one whose samples are black but for one in 200
+// has then been found out with probability .994.
+GLIM_CONST uint kConstantSamples = 1024u;
+
 GLIM_SHARED_END
 #endif

@@ -36,14 +36,15 @@ struct FirstHit {
     float depth;
 };
 
-// A segment that must be free for `contribution` to count: from origin to origin + direction.
+// A segment that must be free for `contribution` to count: from origin to origin + direction. Over the hemisphere instead, a ray
+// without end that brings home the emission of what it meets times `contribution`.
 struct ShadowRay {
     vec3 origin;
     uint source;
     vec3 direction;  // unnormalised; an infinite one for directional light and environment (see `reach`)
-    uint target;     // record of the light, which does not shadow itself, or kNoRecord
+    uint target;     // record of the light, which does not shadow itself, or kNoRecord; brute force notes what was met so far
     vec3 contribution;
-    float reach;     // 1, or infinity
+    float reach;     // 1, or infinity; brute force sets it to 0 in the shadow and, over the hemisphere, to the nearest hit's t
 };
 
 // Written by size_dispatch: the length of each queue and the indirect arguments of the dispatches over it.
@@ -93,8 +94,19 @@ struct BlockSums {
 
 GLIM_CONST uint kEndsBlock = 1u;  // accumulate folds the block into the page afterwards
 
-// Push constants of every kernel of a pass: pixels [firstPixel, firstPixel + pixelCount) of a slab, each with samples
-// [firstSample, firstSample + sampleCount). Slot = (pixel - firstPixel) * sampleCount + (sample - firstSample).
+// Which queues size_dispatch looks at.
+GLIM_CONST uint kSizesPaths = 1u;
+GLIM_CONST uint kSizesShadow = 2u;
+
+// Lights of a round that are none of the scene's.
+GLIM_CONST uint kNoLightIndex = 0xffffffffu;
+GLIM_CONST uint kAnyLight = 0xfffffffeu;  // one by power
+
+// Push constants of every kernel of a pass: pixels [firstPixel, firstPixel + pixelCount) of a slab or, in adaptive renders, of
+// its list of chosen pixels, each with samples [firstSample, firstSample + sampleCount).
+// Slot = (pixel - firstPixel) * sampleCount + (sample - firstSample).
+//
+// Direct light comes in rounds of one ray per path: sample `lightSample` of `lightSamples` of one light or of the hemisphere.
 struct Pass {
     uint width, height;
     uint slabBegin;     // index in the picture of the slab's pixel 0
@@ -111,6 +123,19 @@ struct Pass {
     float clampIndirect;    // infinity: off
     uint accumulate;        // kEndsBlock or 0
     uint canarySteps;       // 3, unknown to the compiler
+    uint leastEvents;       // surfaces between camera and light, of the light that counts
+    uint mostEvents;
+    float survival;         // of kRouletteFixed
+    uint sizes;             // kSizesPaths | kSizesShadow
+    uint addsFound;         // 1: sample_lights adds the light that the ray itself has found (the first round)
+    uint light;             // of the round: an index, kAnyLight or kNoLightIndex
+    uint lightSample;
+    uint lightSamples;
+    uint firstRecord;       // of brute force: records [firstRecord, endRecord) out of recordCount
+    uint endRecord;
+    uint recordCount;
+    float tolerance;        // of choose_pixels: half the 95 % interval over the mean
+    uint constantSamples;   // a pixel whose samples are all equal needs as many
 };
 
 GLIM_SHARED_END

@@ -17,5 +17,12 @@ struct PixelMoments {
     float clamped;     // radiance taken away by --clamp-indirect, mean of the three channels
 };
 
+// Luminance (Rec.709) of a pixel's samples, for adaptive sampling.
+struct LuminanceMoments {
+    uint count;
+    float mean;
+    float squares;  // sum of (luminance - mean)^2
+};
+
 GLIM_SHARED_END
 #endif

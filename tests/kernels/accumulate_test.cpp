@@ -1,4 +1,4 @@
-// The kernel itself: samples that are not finite are counted, located and in no sum.
+// The kernel itself: samples that are not finite are counted, located and in no sum; adaptive renders add up chosen pixels.
 #include "host/gpu/commands.hpp"
 #include "host/render/path_buffers.hpp"
 #include "kernels.hpp"
@@ -20,13 +20,21 @@ constexpr std::uint32_t kPixels = 100, kSamples = 8, kSlabBegin = 1000, kFirstSa
 
 struct Outcome {
     std::vector<PixelMoments> pages;
+    std::vector<LuminanceMoments> luminances;
     Status status;
 };
 
-Outcome accumulate(const std::vector<PathRadiance>& radiance)
+// An empty `chosen` is no adaptive render.
+Outcome accumulate(const std::vector<PathRadiance>& radiance, const std::vector<uint>& chosen = {})
 {
     const KernelLayout layout(testDevice(), kernelSlots(), sizeof(Pass));
-    const Kernel kernel(layout, kernels::accumulate, {{kSpecWorkgroup, 64}});
+    const Kernel kernel(layout, kernels::accumulate, {{kSpecWorkgroup, 64}, {kSpecAdaptive, !chosen.empty()}});
+    Buffer list(testDevice(), "test's choice", BufferKind::Storage, (1 + kPixels) * sizeof(uint));
+    std::vector<uint> counted{kPixels};
+    counted.insert(counted.end(), chosen.begin(), chosen.end());
+    upload(list, std::span<const uint>(counted));
+    Buffer luminances(testDevice(), "test's luminances", BufferKind::Storage, kPixels * sizeof(LuminanceMoments));
+    upload(luminances, std::span<const LuminanceMoments>(std::vector<LuminanceMoments>(kPixels)));
     PathBuffers paths(testDevice(), kPixels * kSamples);
     Buffer blocks(testDevice(), "test's blocks", BufferKind::Storage, kPixels * sizeof(BlockSums));
     Buffer pages(testDevice(), "test's pages", BufferKind::Storage, kPixels * sizeof(PixelMoments));
@@ -41,6 +49,8 @@ Outcome accumulate(const std::vector<PathRadiance>& radiance)
     bound[kBindFirstHits] = &firstHits;
     bound[kBindBlocks] = &blocks;
     bound[kBindPages] = &pages;
+    bound[kBindChosenPixels] = &list;
+    bound[kBindLuminance] = &luminances;
     const Bindings bindings(layout, bound);
     Pass pass{};
     pass.slabBegin = kSlabBegin;
@@ -52,7 +62,8 @@ Outcome accumulate(const std::vector<PathRadiance>& radiance)
     Commands commands(testDevice());
     commands.dispatch(kernel, bindings, std::as_bytes(std::span<const Pass, 1>(&pass, 1)), (kPixels + 63) / 64);
     commands.submitAndWait();
-    return {download<PixelMoments>(pages, kPixels), download<Status>(paths.status(), 1)[0]};
+    return {download<PixelMoments>(pages, kPixels), download<LuminanceMoments>(luminances, kPixels),
+            download<Status>(paths.status(), 1)[0]};
 }
 
 TEST(AccumulateTest, LeavesOutWhatIsNotFinite)
@@ -80,6 +91,28 @@ TEST(AccumulateTest, LeavesOutWhatIsNotFinite)
     EXPECT_EQ(located.size(), 3 + kSamples);
     EXPECT_EQ(located.count({kSlabBegin + 7, kFirstSample + 3}), 1U);
     EXPECT_EQ(located.count({kSlabBegin + 50, kFirstSample + 7}), 1U);
+}
+
+TEST(AccumulateTest, AddsToTheChosenPixels)
+{
+    std::vector<PathRadiance> radiance(kPixels * kSamples);
+    std::vector<uint> chosen(kPixels);
+    for (std::uint32_t i = 0; i < kPixels; ++i) {
+        chosen[i] = kPixels - 1 - i;
+        for (std::uint32_t k = 0; k < kSamples; ++k) {
+            radiance[i * kSamples + k].radiance = vec3(static_cast<float>(i + k), 0.0F, 0.0F);
+        }
+    }
+    const Outcome outcome = accumulate(radiance, chosen);
+    for (std::uint32_t i = 0; i < kPixels; ++i) {
+        const float mean = static_cast<float>(i) + 3.5F;
+        EXPECT_FLOAT_EQ(outcome.pages[chosen[i]].mean.r, mean);
+        const LuminanceMoments& moments = outcome.luminances[chosen[i]];
+        EXPECT_EQ(moments.count, kSamples);
+        EXPECT_NEAR(moments.mean, 0.2126F * mean, 1e-6F * mean);
+        EXPECT_NEAR(moments.squares, 0.2126F * 0.2126F * 42.0F, 1e-4F);  // sum of (k - 3.5)^2 over 0 to 7
+    }
+    EXPECT_EQ(accumulate(radiance).luminances[0].count, 0U);
 }
 
 }  // namespace

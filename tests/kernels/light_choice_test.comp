@@ -18,7 +18,7 @@ void main()
     uvec4 b = hash4(uvec4(TEST_THREAD, 1u, 0u, pass.seed));
     uint chosen = chooseLight(a.xy, pass.lightCount);
     EXPECT_TRUE(chosen < pass.lightCount);
-    LightSample light = sampleLight(chosen, vec3(0.0), vec3(0.0, 1.0, 0.0), a.zw, unitFloat(b.xy));
+    LightSample light = sampleLight(chosen, false, vec3(0.0), vec3(0.0, 1.0, 0.0), a.zw, unitFloat(b.xy));
     results[TEST_THREAD] = Result(chosen, light.record, light.wi);
     endTest();
 }

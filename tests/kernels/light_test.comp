@@ -87,7 +87,7 @@ void main()
         uvec4 b = hash4(uvec4(TEST_THREAD, i, 1u, pass.seed));
         uint chosen = chooseLight(a.xy, pass.lightCount);
         LightSample light =
-            sampleLight(chosen, receiver.surface.point, receiver.surface.shading, a.zw, unitFloat(b.xy));
+            sampleLight(chosen, false, receiver.surface.point, receiver.surface.shading, a.zw, unitFloat(b.xy));
         float one = estimate(receiver, light);
         EXPECT_TRUE(one >= 0.0 && !isinf(one));
         EXPECT_TRUE(light.radiance.r == 0.0 || abs(dot(light.wi, light.wi) - 1.0) < 1e-6);

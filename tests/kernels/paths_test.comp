@@ -11,7 +11,7 @@
 #define UPDATES_RADIANCE
 #define UPDATES_QUEUE_TAILS
 #define UPDATES_RAY_COUNTS
-#define WRITES_HITS
+#define UPDATES_HITS
 #define WRITES_FIRST_HITS
 #define WRITES_NEXT_QUEUE
 #include "expect.glsl"

@@ -46,6 +46,7 @@ Pass passAt(std::uint32_t bounce)
     pass.pixelCount = 1000;
     pass.sampleCount = 3;
     pass.bounce = bounce;
+    pass.sizes = kSizesPaths | kSizesShadow;
     pass.canarySteps = 3;
     return pass;
 }
@@ -82,6 +83,23 @@ TEST(SizeDispatchTest, FollowsTheTailsAndCarriesCounts)
     EXPECT_EQ(outcome.tails.shadow, 0U);
     EXPECT_EQ(outcome.counts.closest, uvec2(63, 8));
     EXPECT_EQ(outcome.counts.shadow, uvec2(0xffffffff, 0));
+}
+
+TEST(SizeDispatchTest, LeavesTheOtherQueueAlone)
+{
+    Pass pass = passAt(1);
+    pass.sizes = kSizesPaths;
+    const Outcome paths = sizeDispatch(pass, {64, 65}, {});
+    EXPECT_EQ(paths.sizes.closest, 64U);
+    EXPECT_EQ(paths.sizes.shadow, 0U);
+    EXPECT_EQ(paths.tails.shadow, 65U);
+    EXPECT_EQ(paths.counts.shadow, uvec2(0, 0));
+    pass.sizes = kSizesShadow;
+    const Outcome shadow = sizeDispatch(pass, {64, 65}, {});
+    EXPECT_EQ(shadow.sizes.closest, 0U);
+    EXPECT_EQ(shadow.sizes.shadow, 65U);
+    EXPECT_EQ(shadow.tails.next, 64U);
+    EXPECT_EQ(shadow.counts.closest, uvec2(0, 0));
 }
 
 }  // namespace

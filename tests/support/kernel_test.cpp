@@ -65,7 +65,9 @@ void KernelTest::run()
     report.sentinel = kSentinel;
     upload(reportBuffer, std::span<const Report>(&report, 1));
 
+    const Buffer noChoice(device, "chosen pixels", BufferKind::Storage, 2 * sizeof(uint));
     std::map<std::uint32_t, const Buffer*> bound = buffers_;
+    bound.insert({kBindChosenPixels, &noChoice});
     bound[kBindReport] = &reportBuffer;
     if (cases_) {
         bound[kBindCases] = &*cases_;

@@ -8,7 +8,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 202u;
+GLIM_CONST uint kSharedWords = 218u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -25,6 +25,7 @@ struct EverySharedStruct {
     BlockSums blockSums;
     Pass pass_;
     PixelMoments pixelMoments;
+    LuminanceMoments luminanceMoments;
     FlatMaterial material;
     AliasEntry alias;
     FlatLight light;
@@ -63,8 +64,12 @@ F(blockSums.depth) F(blockSums.clamped)
 U(pass_.width) U(pass_.height) U(pass_.slabBegin) U(pass_.firstPixel) U(pass_.pixelCount) U(pass_.firstSample)
 U(pass_.sampleCount) U(pass_.seed) U(pass_.bounce) U(pass_.maxBounces) U(pass_.lightCount) U(pass_.environmentLight)
 F3(pass_.environment) F(pass_.clampIndirect) U(pass_.accumulate) U(pass_.canarySteps)
+U(pass_.leastEvents) U(pass_.mostEvents) F(pass_.survival) U(pass_.sizes) U(pass_.addsFound) U(pass_.light)
+U(pass_.lightSample) U(pass_.lightSamples) U(pass_.firstRecord) U(pass_.endRecord) U(pass_.recordCount) F(pass_.tolerance)
+U(pass_.constantSamples)
 U(pixelMoments.count) U(pixelMoments.blocks) F3(pixelMoments.mean) F3(pixelMoments.squares) F(pixelMoments.alpha)
 F3(pixelMoments.albedo) F3(pixelMoments.normal) F(pixelMoments.depth) F(pixelMoments.clamped)
+U(luminanceMoments.count) F(luminanceMoments.mean) F(luminanceMoments.squares)
 F3(material.baseColor) U(material.scattering) F3(material.emission) F(material.ior) U(material.doubleSided)
 U3(material.unused)
 U(alias.threshold) U(alias.other)
@@ -72,5 +77,6 @@ U(light.kind) U(light.firstEmitter) U(light.emitterCount) F(light.probability) U
 U(light.alias.other) F3(light.position) F(light.radius) F3(light.direction) F(light.cosInner) F3(light.intensity)
 F(light.cosOuter) U(light.doubleSided) U(light.unused)
 U(emitter.record) U(emitter.light) F(emitter.areaPdf) U(emitter.alias.threshold) U(emitter.alias.other) U3(emitter.unused)
-F3(camera.position) F3(camera.right) F3(camera.up) F3(camera.forward) U(camera.kind) F3(camera.lensRight) F3(camera.lensUp) F(camera.inverseFocus)
+F3(camera.position) F3(camera.right) F3(camera.up) F3(camera.forward) U(camera.kind)
+F3(camera.lensRight) F3(camera.lensUp) F(camera.inverseFocus)
 #endif

@@ -1,0 +1,25 @@
+// The kernels of a render, compiled for what the scene needs and the settings ask for.
+#pragma once
+
+#include "host/flatten/flat_scene.hpp"
+#include "host/gpu/kernel.hpp"
+#include "host/render/settings.hpp"
+
+#include <optional>
+
+namespace glim {
+
+Specialization specialize(const SceneFeatures& features, const FlatCamera& camera, const RenderSettings& settings);
+
+struct KernelSet {
+    KernelSet(const KernelLayout& layout, const Specialization& specialization);
+
+    std::vector<const Kernel*> all() const;
+
+    Kernel generateRays, sizeDispatch, traceClosest, sampleLights, traceShadow, bounce, accumulate;
+    std::optional<Kernel> sampleHemisphere, traceHemisphere;  // of --direct hemisphere
+    std::optional<Kernel> showView;                           // of views other than shaded
+    std::optional<Kernel> choosePixels;                       // of adaptive renders
+};
+
+}  // namespace glim

@@ -1,0 +1,60 @@
+#include "host/render/recording.hpp"
+
+#include <algorithm>
+
+namespace glim {
+namespace {
+
+// All of them are timed, and a submission ends within seconds.
+constexpr std::uint32_t kDispatchesPerSubmission = 64;
+
+std::span<const std::byte> bytesOf(const Pass& pass) { return std::as_bytes(std::span<const Pass, 1>(&pass, 1)); }
+
+}  // namespace
+
+Recording::Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics)
+    : device_(device), statistics_(statistics)
+{
+}
+
+Commands& Recording::next()
+{
+    if (recorded_ == kDispatchesPerSubmission) {
+        finish();
+    }
+    if (!commands_) {
+        commands_.emplace(device_);
+    }
+    ++recorded_;
+    return *commands_;
+}
+
+void Recording::dispatch(const Kernel& kernel, const Bindings& bindings, const Pass& pass, std::uint32_t groups)
+{
+    next().dispatch(kernel, bindings, bytesOf(pass), groups);
+}
+
+void Recording::dispatchIndirect(const Kernel& kernel, const Bindings& bindings, const Pass& pass, const Buffer& arguments,
+                                 std::uint64_t offset)
+{
+    next().dispatchIndirect(kernel, bindings, bytesOf(pass), arguments, offset);
+}
+
+void Recording::finish()
+{
+    if (!commands_) {
+        return;
+    }
+    commands_->submitAndWait();
+    for (const KernelTime& time : commands_->times()) {
+        KernelStatistics& kernel = statistics_[time.kernel];
+        ++kernel.dispatches;
+        kernel.seconds += time.seconds;
+        longest_ = std::max(longest_, time.seconds);
+        total_ += time.seconds;
+    }
+    commands_.reset();
+    recorded_ = 0;
+}
+
+}  // namespace glim

@@ -1,0 +1,45 @@
+// Dispatches one after the other, timed, and submitted in portions.
+#pragma once
+
+#include "host/gpu/commands.hpp"
+#include "shaders/shared/path_types.h"
+
+#include <map>
+#include <optional>
+#include <string>
+
+namespace glim {
+
+struct KernelStatistics {
+    std::uint64_t dispatches = 0;
+    double seconds = 0.0;  // on the device
+};
+
+class Recording {
+public:
+    // Adds what each kernel took to `statistics`.
+    Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics);
+
+    // `groups` workgroups.
+    void dispatch(const Kernel& kernel, const Bindings& bindings, const Pass& pass, std::uint32_t groups);
+    // The group counts are read from `arguments` at `offset` bytes.
+    void dispatchIndirect(const Kernel& kernel, const Bindings& bindings, const Pass& pass, const Buffer& arguments,
+                          std::uint64_t offset);
+    // Runs what has not run yet; must end a recording.
+    void finish();
+
+    // Device seconds of what has run.
+    double longest() const { return longest_; }
+    double total() const { return total_; }
+
+private:
+    Commands& next();
+
+    const Device& device_;
+    std::map<std::string, KernelStatistics>& statistics_;
+    std::optional<Commands> commands_;
+    std::uint32_t recorded_ = 0;
+    double longest_ = 0.0, total_ = 0.0;
+};
+
+}  // namespace glim

@@ -1,0 +1,191 @@
+// A pass traces some samples of some pixels to their end:
+//
+//   generate_rays
+//   per bounce:  size_dispatch -> trace_closest
+//                per round of direct light:  sample_lights -> size_dispatch -> trace_shadow
+//                bounce
+//   accumulate
+//
+// A round over the hemisphere has sample_hemisphere and trace_hemisphere instead. --view puts show_view before accumulate. Brute
+// force repeats each trace_ for the next records.
+#include "host/render/wavefront.hpp"
+
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/limits.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+
+namespace glim {
+namespace {
+
+// Bounces recorded at once; then the host looks whether any path is alive.
+constexpr std::uint32_t kBouncesPerLook = 8;
+
+Pass passTemplate(const FlatScene& scene, const RenderSettings& settings)
+{
+    Pass pass{};
+    pass.width = settings.width;
+    pass.height = settings.height;
+    pass.seed = settings.seed;
+    pass.lightCount = static_cast<std::uint32_t>(scene.lights.size());
+    pass.environment = scene.environment;
+    pass.environmentLight = scene.environmentLight;
+    pass.clampIndirect = settings.clampIndirect;
+    pass.canarySteps = 3;
+    pass.leastEvents = settings.paths == PathParts::Direct ? 1 : settings.paths == PathParts::Indirect ? 2 : 0;
+    pass.mostEvents = settings.paths == PathParts::Emission ? 0 : settings.paths == PathParts::Direct ? 1 : settings.bounces;
+    pass.maxBounces = settings.view == View::Shaded ? std::min(settings.bounces, pass.mostEvents) : 0;
+    pass.survival = settings.survival;
+    pass.recordCount = static_cast<std::uint32_t>(scene.records.size()) / kRecordTexels;
+    pass.endRecord = pass.recordCount;
+    pass.tolerance = settings.tolerance;
+    pass.constantSamples = settings.adaptive == Adaptive::CourseLiteral ? 0 : kConstantSamples;
+    return pass;
+}
+
+}  // namespace
+
+Wavefront::Wavefront(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
+    : device_(device), settings_(settings), rounds_(lightRounds(scene, settings)), template_(passTemplate(scene, settings)),
+      scene_(device, scene, camera), paths_(device, settings.pathCapacity), layout_(device, kernelSlots(), sizeof(Pass)),
+      kernels_(layout_, specialize(scene.features, camera, settings))
+{
+    compile();
+}
+
+std::unique_ptr<Slab> Wavefront::makeSlab(std::uint32_t begin, std::uint32_t count)
+{
+    return std::make_unique<Slab>(device_, layout_, scene_, paths_, begin, count, settings_.adaptive != Adaptive::Off);
+}
+
+// llvmpipe compiles at the first dispatch: one with nothing to do, so that no timed one pays.
+void Wavefront::compile()
+{
+    const auto start = std::chrono::steady_clock::now();
+    const std::unique_ptr<Slab> slab = makeSlab(0, 1);
+    Pass pass = passOf(*slab);
+    pass.bounce = 1;
+    pass.sizes = kSizesPaths | kSizesShadow;
+    Commands commands(device_);
+    for (const Kernel* kernel : kernels_.all()) {
+        commands.dispatch(*kernel, slab->bindings(0), std::as_bytes(std::span<const Pass, 1>(&pass, 1)), 1);
+    }
+    commands.submitAndWait();
+    compileSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+Pass Wavefront::passOf(const Slab& slab) const
+{
+    Pass pass = template_;
+    pass.slabBegin = slab.begin();
+    return pass;
+}
+
+std::uint32_t Wavefront::groupsOf(std::uint32_t count) const
+{
+    return (count + settings_.workgroup - 1) / settings_.workgroup;
+}
+
+Wavefront::Seconds Wavefront::trace(const Slab& slab, Pass pass)
+{
+    Recording recording(device_, statistics_);
+    tracePaths(recording, slab, pass);
+    if (kernels_.showView) {
+        recording.dispatch(*kernels_.showView, slab.bindings(0), pass, groupsOf(pass.pixelCount * pass.sampleCount));
+    }
+    recording.dispatch(kernels_.accumulate, slab.bindings(0), pass, groupsOf(pass.pixelCount));
+    recording.finish();
+    return {recording.longest(), recording.total()};
+}
+
+void Wavefront::tracePaths(Recording& recording, const Slab& slab, Pass& pass)
+{
+    bool alive = true;
+    for (std::uint32_t bounce = 0; alive && bounce <= pass.maxBounces; bounce += kBouncesPerLook) {
+        if (bounce == 0) {
+            // generate_rays fills what bounce 0 reads: its next queue is the odd bindings' one.
+            recording.dispatch(kernels_.generateRays, slab.bindings(1), pass, groupsOf(pass.pixelCount * pass.sampleCount));
+        }
+        const std::uint32_t end = std::min(pass.maxBounces, bounce + kBouncesPerLook - 1);
+        for (pass.bounce = bounce; pass.bounce <= end; ++pass.bounce) {
+            recordBounce(recording, slab, pass);
+        }
+        recording.finish();
+        alive = download<QueueSizes>(paths_.queueSizes(), 1)[0].closest > 0;
+    }
+}
+
+void Wavefront::recordBounce(Recording& recording, const Slab& slab, const Pass& pass) const
+{
+    const Bindings& bindings = slab.bindings(pass.bounce % 2);
+    if (pass.bounce == 0) {
+        recordSize(recording, bindings, pass, kSizesPaths);
+    }
+    recordTrace(recording, kernels_.traceClosest, bindings, pass, offsetof(QueueSizes, closestGroups));
+    for (std::size_t i = 0; i < rounds_.size(); ++i) {
+        Pass round = pass;
+        round.addsFound = i == 0 ? 1 : 0;
+        round.light = rounds_[i].light;
+        round.lightSample = rounds_[i].sample;
+        round.lightSamples = rounds_[i].samples;
+        recordRound(recording, bindings, round, rounds_[i].hemisphere);
+    }
+    recording.dispatchIndirect(kernels_.bounce, bindings, pass, paths_.queueSizes(), offsetof(QueueSizes, closestGroups));
+    Pass next = pass;
+    next.bounce = pass.bounce + 1;
+    recordSize(recording, bindings, next, kSizesPaths);
+}
+
+void Wavefront::recordRound(Recording& recording, const Bindings& bindings, const Pass& round, bool hemisphere) const
+{
+    const Kernel& sample = hemisphere ? *kernels_.sampleHemisphere : kernels_.sampleLights;
+    recording.dispatchIndirect(sample, bindings, round, paths_.queueSizes(), offsetof(QueueSizes, closestGroups));
+    if (round.bounce < round.maxBounces && (hemisphere || round.light != kNoLightIndex)) {
+        recordSize(recording, bindings, round, kSizesShadow);
+        recordTrace(recording, hemisphere ? *kernels_.traceHemisphere : kernels_.traceShadow, bindings, round,
+                    offsetof(QueueSizes, shadowGroups));
+    }
+}
+
+void Wavefront::recordSize(Recording& recording, const Bindings& bindings, Pass pass, std::uint32_t queues) const
+{
+    pass.sizes = queues;
+    recording.dispatch(kernels_.sizeDispatch, bindings, pass, 1);
+}
+
+void Wavefront::recordTrace(Recording& recording, const Kernel& kernel, const Bindings& bindings, Pass pass,
+                            std::uint64_t groupsOffset) const
+{
+    const bool bruteForce = settings_.accelerator == Accelerator::None;
+    const std::uint32_t step = bruteForce ? kScanRecords : pass.recordCount;
+    for (pass.firstRecord = 0; pass.firstRecord < pass.recordCount; pass.firstRecord += step) {
+        pass.endRecord = std::min(pass.recordCount, pass.firstRecord + step);
+        recording.dispatchIndirect(kernel, bindings, pass, paths_.queueSizes(), groupsOffset);
+    }
+}
+
+void Wavefront::closeBlocks(Slab& slab)
+{
+    slab.chooseAll();
+    Pass pass = passOf(slab);
+    pass.pixelCount = slab.count();
+    pass.accumulate = kEndsBlock;
+    Recording recording(device_, statistics_);
+    recording.dispatch(kernels_.accumulate, slab.bindings(0), pass, groupsOf(pass.pixelCount));
+    recording.finish();
+}
+
+void Wavefront::choosePixels(Slab& slab)
+{
+    slab.chooseNone();
+    Pass pass = passOf(slab);
+    pass.pixelCount = slab.count();
+    Recording recording(device_, statistics_);
+    recording.dispatch(*kernels_.choosePixels, slab.bindings(0), pass, groupsOf(pass.pixelCount));
+    recording.finish();
+    slab.readChosenCount();
+}
+
+}  // namespace glim

@@ -1,0 +1,61 @@
+// The kernels in their order: traces the paths of a pass to their end (wavefront.cpp).
+#pragma once
+
+#include "host/render/device_scene.hpp"
+#include "host/render/kernel_set.hpp"
+#include "host/render/light_rounds.hpp"
+#include "host/render/path_buffers.hpp"
+#include "host/render/recording.hpp"
+
+#include <memory>
+
+namespace glim {
+
+class Wavefront {
+public:
+    // Uploads the scene and compiles the kernels for what it needs.
+    Wavefront(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
+
+    // Pixels of the film; every one is chosen.
+    std::unique_ptr<Slab> makeSlab(std::uint32_t begin, std::uint32_t count);
+
+    // A pass over `slab` with nothing in it yet.
+    Pass passOf(const Slab& slab) const;
+    // Traces the pass and adds its samples to the film. Returns the device seconds of its longest dispatch and of all.
+    struct Seconds {
+        double longest, total;
+    };
+    Seconds trace(const Slab& slab, Pass pass);
+    // Folds the blocks of all pixels that are under way into their pages. Afterwards every pixel is chosen.
+    void closeBlocks(Slab& slab);
+    // Chooses the pixels that still need samples.
+    void choosePixels(Slab& slab);
+
+    const PathBuffers& paths() const { return paths_; }
+    double compileSeconds() const { return compileSeconds_; }
+    const std::map<std::string, KernelStatistics>& statistics() const { return statistics_; }
+
+private:
+    void compile();
+    void tracePaths(Recording& recording, const Slab& slab, Pass& pass);
+    void recordBounce(Recording& recording, const Slab& slab, const Pass& pass) const;
+    void recordRound(Recording& recording, const Bindings& bindings, const Pass& round, bool hemisphere) const;
+    void recordTrace(Recording& recording, const Kernel& kernel, const Bindings& bindings, Pass pass,
+                     std::uint64_t groupsOffset) const;
+    void recordSize(Recording& recording, const Bindings& bindings, Pass pass, std::uint32_t queues) const;
+    std::uint32_t groupsOf(std::uint32_t count) const;
+
+    Device& device_;
+    RenderSettings settings_;
+    std::vector<LightRound> rounds_;
+    Pass template_;  // what all passes have in common
+    std::map<std::string, KernelStatistics> statistics_;
+    double compileSeconds_ = 0.0;
+
+    DeviceScene scene_;
+    PathBuffers paths_;
+    KernelLayout layout_;
+    KernelSet kernels_;
+};
+
+}  // namespace glim

@@ -1,0 +1,30 @@
+// Brute force: every primitive against the ray, some records at a time.
+#ifndef GLIM_ACCESS_SCAN
+#define GLIM_ACCESS_SCAN
+
+#include "traverse.glsl"
+
+// The closest of `met` (kNoRecord: nothing yet, at infinity) and what is among records [first, end).
+PathHit scanClosest(PathRay ray, PathHit met, uint first, uint end)
+{
+    Walk walk = beginWalk(ray.origin, ray.direction);
+    Closest best = Closest(met, met.record == kNoRecord ? kNoId : fetchRecord(met.record).t0.w);
+    for (uint i = first; i < end; ++i) {
+        meetRecord(walk, i, ray.source, best);
+    }
+    return best.hit;
+}
+
+// True if nothing but `target` among records [first, end) lies between origin and origin + reach * direction.
+bool scanUnoccluded(ShadowRay ray, uint first, uint end)
+{
+    Walk walk = beginWalk(ray.origin, ray.direction);
+    bool occluded = false;
+    for (uint i = first; i < end && !occluded; ++i) {
+        TriangleHit hit = intersectRecord(walk, fetchRecord(i), ray.reach, i == ray.source);
+        occluded = hit.t > 0.0 && i != ray.target;
+    }
+    return !occluded;
+}
+
+#endif
