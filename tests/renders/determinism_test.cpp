@@ -9,16 +9,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <cstring>
 
 namespace glim {
 namespace {
-
-bool sameBits(const Film& a, const Film& b)
-{
-    return a.pixels.size() == b.pixels.size() &&
-           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(PixelMoments)) == 0;
-}
 
 RenderSettings settingsFor(Sampler sampler)
 {

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
 namespace glim {
 namespace {
@@ -69,6 +70,27 @@ void expectEverywhere(const Film& film, const glm::dvec3& truth, int bounces)
         worst = std::max({worst, error.r, error.g, error.b});
     }
     EXPECT_LE(worst, bounces * 0x1p-20) << "largest relative error of a pixel";
+}
+
+bool sameBits(const Film& a, const Film& b)
+{
+    return a.pixels.size() == b.pixels.size() &&
+           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(PixelMoments)) == 0;
+}
+
+void expectSameMean(const std::string& name, const Film& a, const Film& b)
+{
+    const MeanEstimate x = meanOf(a), y = meanOf(b);
+    const double z = twoSidedLimit(kFamilyLevel / kFamilySize);
+    for (int k = 0; k < 3; ++k) {
+        const double error = std::hypot(x.standardError[k], y.standardError[k]);
+        EXPECT_LE(std::abs(x.mean[k] - y.mean[k]), z * error + 2e-5 * y.mean[k])
+            << name << ", channel " << k << ": " << x.mean[k] << " and " << y.mean[k];
+        if (k == 0) {
+            std::printf("%s: ratio of means - 1 = %.2e +- %.1e\n", name.c_str(), x.mean[k] / y.mean[k] - 1.0,
+                        error / y.mean[k]);
+        }
+    }
 }
 
 void expectMean(const std::string& name, const Film& film, const glm::dvec3& truth)

@@ -19,6 +19,9 @@ RenderSettings squareSettings(std::uint32_t side, std::uint32_t spp);
 // GLIM_LONG=1 (tools/test --long) asks for `factor` times the samples.
 std::uint32_t samplesFor(std::uint32_t spp, std::uint32_t factor = 25);
 
+// In everything that is known of every pixel.
+bool sameBits(const Film& a, const Film& b);
+
 struct MeanEstimate {
     glm::dvec3 mean;
     glm::dvec3 standardError;  // from the block means of every pixel
@@ -28,6 +31,9 @@ MeanEstimate meanOf(const Film& film);
 
 // Every pixel within 2^-20 (relative) per bounce: for scenes whose estimator has no variance.
 void expectEverywhere(const Film& film, const glm::dvec3& truth, int bounces);
+
+// Both means are of independent samples: |a - b| <= z sqrt(se_a^2 + se_b^2) + 2e-5 b in each channel. Prints the ratio.
+void expectSameMean(const std::string& name, const Film& a, const Film& b);
 
 // Thresholds (tests/README.md): |mean - truth| <= z se + 2e-5 truth, z for a family of 200 comparisons at level 1e-3. Prints what it measured.
 void expectMean(const std::string& name, const Film& film, const glm::dvec3& truth);

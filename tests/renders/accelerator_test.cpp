@@ -1,0 +1,86 @@
+// --accelerator, --split, --intersector: the same picture, by bits or by means.
+#include "host/bvh/build_bvh.hpp"
+#include "host/flatten/flatten_scene.hpp"
+#include "shaders/shared/limits.h"
+#include "tests/support/build_scene.hpp"
+#include "tests/support/render_scene.hpp"
+#include "tests/support/test_device.hpp"
+#include "tests/support/test_meshes.hpp"
+
+#include <gtest/gtest.h>
+
+namespace glim {
+namespace {
+
+// A mesh of more triangles than one dispatch of brute force tries, under a lamp and a sky; one triangle lies on another, so that
+// ties must be broken.
+Scene meshScene()
+{
+    SceneBuilder builder;
+    builder.lambert(glm::vec3(0.6F, 0.5F, 0.4F));
+    const auto lamp = builder.lambert(glm::vec3(0.0F), glm::vec3(4.0F));
+    builder.sphere({0.0F, 2.2F, 0.5F}, 0.4F, lamp)
+        .environment(glm::vec3(0.1F, 0.2F, 0.3F))
+        .perspective({0, 1, 4}, {0, 0, 0}, 0.7F);
+    Scene scene = builder.scene();
+    scene.triangles = icosphere(5);
+    scene.triangles.insert(scene.triangles.begin(), scene.triangles.end() - 500, scene.triangles.end());
+    scene.primitives = {{"", 0, static_cast<std::uint32_t>(scene.triangles.size()), 0, false}};
+    return scene;
+}
+
+class AcceleratorTest : public testing::TestWithParam<DirectLight> {
+protected:
+    AcceleratorTest()
+    {
+        settings.bounces = 3;
+        settings.direct = GetParam();
+        settings.lightSamples = 2;
+    }
+    RenderSettings settings = squareSettings(12, 4);
+};
+
+TEST_P(AcceleratorTest, NoneGivesTheBitsOfTheTree)
+{
+    for (const Scene& scene : {meshScene(), mixedScene()}) {
+        settings.accelerator = Accelerator::Bvh;
+        const Film tree = renderScene(scene, settings);
+        settings.accelerator = Accelerator::None;
+        EXPECT_TRUE(sameBits(tree, renderScene(scene, settings))) << scene.triangles.size() << " triangles";
+    }
+    EXPECT_GT(meshScene().triangles.size(), 2 * kScanRecords);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, AcceleratorTest,
+                         testing::Values(DirectLight::Mis, DirectLight::Lights, DirectLight::Hemisphere, DirectLight::Bsdf));
+
+// The textbook test leaks at edges and rounds otherwise: other bits, the same picture.
+TEST(IntersectorTest, MollerTrumboreAgreesInTheMean)
+{
+    RenderSettings settings = squareSettings(32, 256);
+    settings.sampler = Sampler::Independent;
+    settings.bounces = 3;
+    const Film watertight = renderScene(meshScene(), settings);
+    settings.intersector = Intersector::MollerTrumbore;
+    EXPECT_FALSE(sameBits(watertight, renderScene(meshScene(), settings)));
+    settings.seed = 1;
+    expectSameMean("moller-trumbore", renderScene(meshScene(), settings), watertight);
+}
+
+// Timestamps show that brute force tries every record: as many dispatches of trace_closest per bounce as there are portions.
+TEST(AcceleratorDispatchTest, NoneScansEveryRecord)
+{
+    const Scene scene = meshScene();
+    const FlatScene flat = flattened(scene);
+    RenderSettings settings = squareSettings(4, 1);
+    settings.bounces = 0;
+    settings.accelerator = Accelerator::None;
+    Renderer renderer(testDevice(), flat, flattenCamera(scene.cameras.front(), 1.0F), settings);
+    renderer.render([](const RenderProgress&) { return true; });
+    const auto portions = (flat.records.size() / kRecordTexels + kScanRecords - 1) / kScanRecords;
+    EXPECT_EQ(portions, 3U);
+    EXPECT_EQ(renderer.statistics().kernels.at("trace_closest").dispatches, portions);
+}
+
+}  // namespace
+}  // namespace glim

@@ -1,0 +1,152 @@
+// --direct: four ways to estimate direct light, of one expectation.
+#include "host/flatten/flatten_scene.hpp"
+#include "tests/support/build_scene.hpp"
+#include "tests/support/render_scene.hpp"
+#include "tests/support/test_device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+namespace glim {
+namespace {
+
+// A closed room with a lamp under the ceiling and two spheres.
+Scene room()
+{
+    SceneBuilder builder;
+    const auto white = builder.lambert(glm::vec3(0.7F, 0.6F, 0.5F));
+    const auto lamp = builder.lambert(glm::vec3(0.0F), glm::vec3(5.0F));
+    builder.cube(1.0F, white, true)
+        .quad({glm::vec3(-0.4F, 0.9F, -0.4F), {0.4F, 0.9F, -0.4F}, {0.4F, 0.9F, 0.4F}, {-0.4F, 0.9F, 0.4F}}, lamp)
+        .sphere({-0.4F, -0.6F, -0.3F}, 0.4F, builder.lambert(glm::vec3(0.2F, 0.5F, 0.8F)))
+        .sphere({0.5F, -0.7F, 0.2F}, 0.3F, builder.mirror(glm::vec3(0.9F)))
+        .perspective({0.0F, 0.0F, 0.95F}, {0, -0.2F, 0}, 1.2F);
+    return builder.scene();
+}
+
+// A floor under a sky, with a sphere light and a light that shines to both sides.
+Scene yard()
+{
+    SceneBuilder builder;
+    const auto floor = builder.lambert(glm::vec3(0.6F));
+    const auto ball = builder.lambert(glm::vec3(0.3F), glm::vec3(3.0F, 2.0F, 1.0F));
+    const auto sheet = builder.lambert(glm::vec3(0.5F), glm::vec3(1.0F, 2.0F, 3.0F), true);
+    builder.quad({glm::vec3(-3, 0, 3), {3, 0, 3}, {3, 0, -3}, {-3, 0, -3}}, floor)
+        .quad({glm::vec3(0.5F, 0.2F, -1), {0.5F, 0.2F, 1}, {0.5F, 1.2F, 1}, {0.5F, 1.2F, -1}}, sheet)
+        .sphere({-1.0F, 0.6F, 0.0F}, 0.5F, ball)
+        .environment(glm::vec3(0.3F, 0.4F, 0.5F))
+        .perspective({0, 2, 5}, {0, 0.3F, 0}, 0.7F);
+    return builder.scene();
+}
+
+struct Place {
+    const char* name;
+    Scene (*scene)();
+};
+
+struct Way {
+    const char* name;
+    DirectLight direct;
+    std::uint32_t lightSamples, spp;
+};
+
+class DirectLightTest : public testing::TestWithParam<std::tuple<Place, Way>> {};
+
+RenderSettings independent(std::uint32_t side, std::uint32_t spp, std::uint32_t bounces)
+{
+    RenderSettings settings = squareSettings(side, spp);
+    settings.sampler = Sampler::Independent;
+    settings.bounces = bounces;
+    return settings;
+}
+
+TEST_P(DirectLightTest, HasTheMeanOfTheDefault)
+{
+    const auto& [place, way] = GetParam();
+    const FlatScene flat = flattened(place.scene());
+    const Camera camera = place.scene().cameras.front();
+    RenderSettings settings = independent(32, samplesFor(512), 4);
+    const Film expected = renderFlat(flat, camera, settings);
+    settings.seed = 1;
+    settings.direct = way.direct;
+    settings.lightSamples = way.lightSamples;
+    settings.sampleEnd = samplesFor(way.spp);
+    expectSameMean(std::string(place.name) + ", " + way.name, renderFlat(flat, camera, settings), expected);
+}
+
+// The mixed scene has a point light, which every way must sample: no direction meets it.
+INSTANTIATE_TEST_SUITE_P(
+    Places, DirectLightTest,
+    testing::Combine(testing::Values(Place{"room", room}, Place{"yard", yard}, Place{"mixed", mixedScene}),
+                     testing::Values(Way{"lights", DirectLight::Lights, 1, 256}, Way{"lights4", DirectLight::Lights, 4, 64},
+                                     Way{"hemisphere", DirectLight::Hemisphere, 1, 1024},
+                                     Way{"hemisphere8", DirectLight::Hemisphere, 8, 256},
+                                     Way{"bsdf", DirectLight::Bsdf, 1, 1024})),
+    [](const auto& test) {
+        return std::string(std::get<0>(test.param).name) + "_" + std::get<1>(test.param).name;
+    });
+
+double meanVariance(const FlatScene& flat, const Camera& camera, const RenderSettings& settings)
+{
+    double sum = 0.0;
+    for (const PixelMoments& pixel : renderFlat(flat, camera, settings).pixels) {
+        sum += static_cast<double>(varianceOfMean(pixel).g);
+    }
+    return sum;
+}
+
+// Directly lit pixels of a floor that see neither light nor edge: all noise is of the light's samples. With Sobol' points N of
+// them do better than N independent ones, whose variance is 1/N. 32 x 32 pixels of 8 blocks: 2.4 % standard error.
+TEST(LightSamplesTest, DivideTheVariance)
+{
+    SceneBuilder builder;
+    const auto lamp = builder.lambert(glm::vec3(0.0F), glm::vec3(5.0F));
+    builder.quad({glm::vec3(-5, 0, 5), {5, 0, 5}, {5, 0, -5}, {-5, 0, -5}}, builder.lambert(glm::vec3(0.5F)))
+        .quad({glm::vec3(-1, 1, -1), {1, 1, -1}, {1, 1, 1}, {-1, 1, 1}}, lamp)
+        .orthographic({0.0F, 0.5F, 0.0F}, {0, 0, 0}, 0.3F);
+    const FlatScene flat = flattened(builder.scene());
+    const Camera camera = builder.scene().cameras.front();
+    for (const DirectLight direct : {DirectLight::Lights, DirectLight::Hemisphere}) {
+        RenderSettings settings = independent(32, 256, 1);
+        settings.direct = direct;
+        const double one = meanVariance(flat, camera, settings);
+        settings.lightSamples = 8;
+        EXPECT_NEAR(one / meanVariance(flat, camera, settings), 8.0, 8.0 * 4.0 * 0.034);
+        settings.sampler = Sampler::Sobol;
+        EXPECT_GT(one / meanVariance(flat, camera, settings), 8.0 * (1.0 + 5.0 * 0.034));
+    }
+}
+
+std::uint64_t shadowRays(const FlatScene& flat, const Camera& camera, DirectLight direct, std::uint32_t lightSamples)
+{
+    RenderSettings settings = squareSettings(8, 4);
+    settings.bounces = 1;
+    settings.direct = direct;
+    settings.lightSamples = lightSamples;
+    Renderer renderer(testDevice(), flat, flattenCamera(camera, 1.0F), settings);
+    renderer.render([](const RenderProgress&) { return true; });
+    return renderer.statistics().shadowRays;
+}
+
+// Everything sees both lights: of an area light N samples, of a point light one.
+TEST(LightSamplesTest, CountPerLightAndHit)
+{
+    SceneBuilder builder;
+    const auto lamp = builder.lambert(glm::vec3(0.0F), glm::vec3(5.0F));
+    builder.quad({glm::vec3(-5, 0, 5), {5, 0, 5}, {5, 0, -5}, {-5, 0, -5}}, builder.lambert(glm::vec3(0.5F)))
+        .quad({glm::vec3(-1, 1, -1), {1, 1, -1}, {1, 1, 1}, {-1, 1, 1}}, lamp)
+        .light({"", PunctualLight::Kind::Point, {0, 0.8F, 0}, {0, 0, -1}, glm::vec3(1.0F), 1.0F, 0.0F})
+        .orthographic({0.0F, 0.5F, 0.0F}, {0, 0, 0}, 0.3F);
+    const FlatScene flat = flattened(builder.scene());
+    const Camera camera = builder.scene().cameras.front();
+    const std::uint64_t hits = 8 * 8 * 4;
+    EXPECT_EQ(shadowRays(flat, camera, DirectLight::Mis, 1), hits);
+    EXPECT_EQ(shadowRays(flat, camera, DirectLight::Lights, 1), 2 * hits);
+    EXPECT_EQ(shadowRays(flat, camera, DirectLight::Lights, 5), 6 * hits);
+    EXPECT_EQ(shadowRays(flat, camera, DirectLight::Hemisphere, 5), 6 * hits);
+    EXPECT_EQ(shadowRays(flat, camera, DirectLight::Bsdf, 1), hits);
+}
+
+}  // namespace
+}  // namespace glim

@@ -1,0 +1,76 @@
+// --paths and --bounces: light by the surfaces it has met.
+#include "tests/support/build_scene.hpp"
+#include "tests/support/render_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace glim {
+namespace {
+
+constexpr std::uint32_t kBounces = 6, kSamples = 64;
+
+Film render(PathParts paths, std::uint32_t bounces, DirectLight direct)
+{
+    RenderSettings settings = squareSettings(40, kSamples);
+    settings.bounces = bounces;
+    settings.paths = paths;
+    settings.direct = direct;
+    return renderScene(mixedScene(), settings);
+}
+
+class PathPartsTest : public testing::TestWithParam<DirectLight> {};
+
+// Bit for bit where one part alone shines; elsewhere each of at most 2 kBounces + 1 additions of a sample, 32 of a block and 3 of
+// the fold rounds by 2^-24.
+TEST_P(PathPartsTest, AddUpToAll)
+{
+    const Film all = render(PathParts::All, kBounces, GetParam());
+    const Film parts[] = {render(PathParts::Emission, kBounces, GetParam()), render(PathParts::Direct, kBounces, GetParam()),
+                          render(PathParts::Indirect, kBounces, GetParam())};
+    const double reach = 2.0 * (2 * kBounces + 1 + 32 + 3) * 0x1p-24;
+    int alone = 0;
+    double worst = 0.0;
+    for (std::size_t i = 0; i < all.pixels.size(); ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const float whole = all.pixels[i].mean[k];
+            const float part[] = {parts[0].pixels[i].mean[k], parts[1].pixels[i].mean[k], parts[2].pixels[i].mean[k]};
+            const double sum = static_cast<double>(part[0]) + static_cast<double>(part[1]) + static_cast<double>(part[2]);
+            if (std::count(part, part + 3, 0.0F) == 2) {
+                ++alone;
+                EXPECT_EQ(sum, static_cast<double>(whole));
+            }
+            worst = std::max(worst, std::abs(sum - static_cast<double>(whole)) / static_cast<double>(whole));
+        }
+    }
+    EXPECT_LE(worst, reach);
+    EXPECT_GT(alone, 100) << "channels of pixels with one part alone";
+    std::printf("largest relative difference %.1e, one part alone in %d\n", worst, alone);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, PathPartsTest,
+                         testing::Values(DirectLight::Mis, DirectLight::Lights, DirectLight::Hemisphere, DirectLight::Bsdf));
+
+TEST(PathPartsTest, AreWhatFewerBouncesGive)
+{
+    const auto sameMeans = [](const Film& a, const Film& b) {
+        return std::equal(a.pixels.begin(), a.pixels.end(), b.pixels.begin(),
+                          [](const PixelMoments& x, const PixelMoments& y) { return x.mean == y.mean; });
+    };
+    const Film none = render(PathParts::All, 0, DirectLight::Mis), one = render(PathParts::All, 1, DirectLight::Mis);
+    EXPECT_TRUE(sameMeans(render(PathParts::Emission, 100, DirectLight::Mis), none));
+    EXPECT_FALSE(sameMeans(none, one));
+    EXPECT_TRUE(sameMeans(render(PathParts::Direct, 1, DirectLight::Mis), render(PathParts::Direct, 100, DirectLight::Mis)));
+    EXPECT_EQ(meanOf(render(PathParts::Indirect, 1, DirectLight::Mis)).mean, glm::dvec3(0.0));
+    double last = meanOf(one).mean.g;
+    for (const std::uint32_t bounces : {2U, 3U, 100U}) {
+        const double mean = meanOf(render(PathParts::All, bounces, DirectLight::Mis)).mean.g;
+        EXPECT_GT(mean, last) << bounces;
+        last = mean;
+    }
+}
+
+}  // namespace
+}  // namespace glim

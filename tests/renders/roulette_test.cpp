@@ -1,0 +1,96 @@
+// H24: --roulette in a closed room of albedo a whose walls emit 1, where a path's value is known at every length.
+#include "tests/support/build_scene.hpp"
+#include "tests/support/render_scene.hpp"
+#include "tests/support/statistics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace glim {
+namespace {
+
+constexpr double kSurvival = 0.7;
+
+Film render(double albedo, Roulette roulette, std::uint32_t bounces, std::uint32_t spp)
+{
+    SceneBuilder builder;
+    builder.cube(1.0F, builder.lambert(glm::vec3(static_cast<float>(albedo)), glm::vec3(1.0F)), true)
+        .perspective({0.3F, 0.2F, 0.6F}, {-1, -0.5F, -1}, 1.0F);
+    RenderSettings settings = squareSettings(64, spp);
+    settings.sampler = Sampler::Independent;
+    settings.direct = DirectLight::Bsdf;
+    settings.bounces = bounces;
+    settings.roulette = roulette;
+    settings.survival = static_cast<float>(kSurvival);
+    return renderScene(builder.scene(), settings);
+}
+
+// E X^p of a path's value X under the fixed roulette: with q^(m-1) it reaches hit m >= 1, where it collects a^m / q^(m-1).
+double moment(double a, std::uint32_t bounces, int p)
+{
+    double expected = 0.0, value = 1.0, reach = 1.0;
+    for (std::uint32_t m = 1; m <= bounces; ++m) {
+        value += std::pow(a, m) / std::pow(kSurvival, m - 1);
+        const double ends = m == bounces ? reach : reach * (1.0 - kSurvival);
+        expected += ends * std::pow(value, p);
+        reach *= kSurvival;
+    }
+    return expected;
+}
+
+double variance(double a, std::uint32_t bounces) { return moment(a, bounces, 2) - std::pow(moment(a, bounces, 1), 2); }
+
+double truth(double a, std::uint32_t bounces) { return (1.0 - std::pow(a, bounces + 1.0)) / (1.0 - a); }
+
+TEST(RoulettePictureTest, NoneFollowsEveryPathToTheEnd)
+{
+    expectEverywhere(render(0.8, Roulette::None, 30, 4), glm::dvec3(truth(0.8, 30)), 31);
+}
+
+TEST(RoulettePictureTest, AllHaveTheSameMeanWhereTheVarianceExists)
+{
+    for (const double a : {0.5, 0.8}) {
+        const double z = scoreLimit(200);
+        for (const Roulette roulette : {Roulette::Throughput, Roulette::Fixed}) {
+            const MeanEstimate mean = meanOf(render(a, roulette, 200, samplesFor(64)));
+            const double samples = 64.0 * 64.0 * samplesFor(64);
+            // The fixed roulette's estimate of its own error is too noisy: the formula gives the error.
+            const double error = roulette == Roulette::Fixed ? std::sqrt(variance(a, 200) / samples) : mean.standardError.g;
+            EXPECT_NEAR(mean.mean.g, truth(a, 200), z * error);
+            std::printf("albedo %.1f, %s: relative error %.1e +- %.1e\n", a, roulette == Roulette::Fixed ? "fixed:0.7" : "throughput",
+                        mean.mean.g / truth(a, 200) - 1.0, error / truth(a, 200));
+        }
+    }
+}
+
+// The variance that is measured is the formula's, and that grows without limit where a^2 >= q, by a^2/q per bounce.
+TEST(RoulettePictureTest, FixedHasInfiniteVarianceAboveItsLimit)
+{
+    for (const double a : {0.6, 0.8, 0.9}) {
+        constexpr std::uint32_t kBounces = 12, kSamples = 256;
+        double sum = 0.0;
+        const Film film = render(a, Roulette::Fixed, kBounces, kSamples);
+        for (const PixelMoments& pixel : film.pixels) {
+            sum += static_cast<double>(varianceOfMean(pixel).g) * kSamples;
+        }
+        const double measured = sum / static_cast<double>(film.pixels.size()), expected = variance(a, kBounces);
+        // Of a variance from n samples in blocks of 32: fourth central moment / n + variance^2 * (2 / blocks).
+        const double mean = moment(a, kBounces, 1);
+        const double fourth = moment(a, kBounces, 4) - 4 * mean * moment(a, kBounces, 3) + 6 * mean * mean * moment(a, kBounces, 2) -
+                              3 * std::pow(mean, 4);
+        const double n = 64.0 * 64.0 * kSamples;
+        const double error = std::sqrt((fourth - expected * expected) / n + expected * expected * 2.0 * 32.0 / n);
+        EXPECT_NEAR(measured, expected, 5.0 * error) << "albedo " << a;
+        std::printf("albedo %.1f: variance of a sample after %u bounces %.4g, formula %.4g +- %.2g; after 100 %.4g, after 200 %.4g\n",
+                    a, kBounces, measured, expected, error, variance(a, 100), variance(a, 200));
+        const double growth = variance(a, 200) / variance(a, 100);
+        EXPECT_EQ(growth < 1.001, a * a < kSurvival);
+        EXPECT_EQ(growth > 1e5, a * a > kSurvival);
+    }
+    EXPECT_NEAR(std::sqrt(kSurvival), 0.837, 5e-4);
+}
+
+}  // namespace
+}  // namespace glim
