@@ -6,6 +6,7 @@
 #include "host/cli/render_report.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/render/film_file.hpp"
+#include "host/render/film_pictures.hpp"
 
 #include <CLI/CLI.hpp>
 
