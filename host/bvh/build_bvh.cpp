@@ -140,10 +140,14 @@ std::optional<Split> findSplit(std::span<const Reference> references, const Slic
     return best;
 }
 
-// Along the axis on which the centres spread most; equal centres by index, so the result is defined.
-std::uint32_t partitionAtMedian(std::span<Reference> references, const Box& centres) {
+// On which the centres spread most.
+int findWidestAxis(const Box& centres) {
     const glm::dvec3 extent = glm::dvec3(centres.hi) - glm::dvec3(centres.lo);
-    const int axis = extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
+    return extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
+}
+
+// Equal centres by index, so the result is defined.
+std::uint32_t partitionAtMedian(std::span<Reference> references, int axis) {
     const auto half = static_cast<std::uint32_t>(references.size() / 2);
     std::nth_element(references.begin(), references.begin() + half, references.end(),
                      [axis](const Reference& a, const Reference& b) {
@@ -153,6 +157,18 @@ std::uint32_t partitionAtMedian(std::span<Reference> references, const Box& cent
     return half;
 }
 
+std::uint32_t partitionAtMean(std::span<Reference> references, int axis) {
+    double sum = 0.0;
+    for (const Reference& reference : references) {
+        sum += static_cast<double>(computeCentre(reference.box)[axis]);
+    }
+    const double mean = sum / static_cast<double>(references.size());
+    const auto middle = std::partition(references.begin(), references.end(), [&](const Reference& reference) {
+        return static_cast<double>(computeCentre(reference.box)[axis]) < mean;
+    });
+    return static_cast<std::uint32_t>(middle - references.begin());
+}
+
 std::uint32_t partition(std::span<Reference> references, const Slices& slices, const Split& split) {
     const auto middle = std::partition(references.begin(), references.end(), [&](const Reference& reference) {
         return slices.find(computeCentre(reference.box), split.axis) < split.slice;
@@ -160,8 +176,13 @@ std::uint32_t partition(std::span<Reference> references, const Slices& slices, c
     return static_cast<std::uint32_t>(middle - references.begin());
 }
 
+// Whether both sides of a split have primitives, and the larger one finds room in the depth that is left.
+bool isAdmissible(std::uint32_t left, std::uint32_t count, std::uint32_t depth) {
+    return left > 0 && left < count && depth + 1 + levelsOfMedianSplits(std::max(left, count - left)) <= kMaxBvhDepth;
+}
+
 // Reorders the references and returns how many go left; 0 if a leaf is better.
-std::uint32_t divide(std::span<Reference> references, const Bounds& bounds, std::uint32_t depth) {
+std::uint32_t divideBySah(std::span<Reference> references, const Bounds& bounds, std::uint32_t depth) {
     const auto count = static_cast<std::uint32_t>(references.size());
     if (count == 1) {
         return 0;
@@ -175,13 +196,19 @@ std::uint32_t divide(std::span<Reference> references, const Bounds& bounds, std:
     if (count <= kMaxLeafSize && (!splitPays || depth == kMaxBvhDepth)) {
         return 0;
     }
-    if (split) {
-        const std::uint32_t left = partition(references, slices, *split);
-        if (depth + 1 + levelsOfMedianSplits(std::max(left, count - left)) <= kMaxBvhDepth) {
-            return left;
-        }
+    const std::uint32_t left = split ? partition(references, slices, *split) : 0;
+    return isAdmissible(left, count, depth) ? left : partitionAtMedian(references, findWidestAxis(bounds.centres));
+}
+
+// As above, by a rule that does not ask what a leaf costs.
+std::uint32_t divideByCount(std::span<Reference> references, const Bounds& bounds, std::uint32_t depth, SplitRule rule) {
+    const auto count = static_cast<std::uint32_t>(references.size());
+    if (count <= kMaxLeafSize) {
+        return 0;
     }
-    return partitionAtMedian(references, bounds.centres);
+    const int axis = findWidestAxis(bounds.centres);
+    const std::uint32_t left = rule == SplitRule::Mean ? partitionAtMean(references, axis) : 0;
+    return isAdmissible(left, count, depth) ? left : partitionAtMedian(references, axis);
 }
 
 std::vector<Reference> makeReferences(std::span<const Box> boxes) {
@@ -194,7 +221,7 @@ std::vector<Reference> makeReferences(std::span<const Box> boxes) {
 
 }  // namespace
 
-Bvh buildBvh(std::span<const Box> boxes) {
+Bvh buildBvh(std::span<const Box> boxes, SplitRule rule) {
     static_assert(kMaxBvhDepth >= 30, "2^32 primitives in leaves of 4 need 30 median splits");
     assert(!boxes.empty() && boxes.size() <= std::numeric_limits<std::uint32_t>::max() / 2);
     std::vector<Reference> references = makeReferences(boxes);
@@ -207,7 +234,8 @@ Bvh buildBvh(std::span<const Box> boxes) {
         tasks.pop_back();
         const std::span<Reference> mine(references.begin() + task.begin, references.begin() + task.end);
         const Bounds bounds = computeBounds(mine);
-        const std::uint32_t left = divide(mine, bounds, task.depth);
+        const std::uint32_t left = rule == SplitRule::Sah ? divideBySah(mine, bounds, task.depth)
+                                                          : divideByCount(mine, bounds, task.depth, rule);
         if (left == 0) {
             bvh.nodes[task.node] = {bounds.box, task.begin, task.end - task.begin};
             bvh.depth = std::max(bvh.depth, task.depth);

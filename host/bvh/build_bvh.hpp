@@ -1,4 +1,4 @@
-// Binned surface-area-heuristic build.
+// From boxes to their tree, by one of three rules.
 #pragma once
 
 #include "host/bvh/bvh.hpp"
@@ -7,7 +7,15 @@
 
 namespace glim {
 
+// Where a node is divided. Mean and Median: along the axis on which the boxes' centres spread most, down to leaves of at most
+// four primitives, as Berkeley's course CS 184 has it.
+enum class SplitRule {
+    Sah,     // the cheapest of 32 places on each axis, by the surface-area heuristic
+    Mean,    // the mean of the centres; their median where one side would be empty
+    Median,  // as many primitives on either side
+};
+
 // One box per primitive, finite with lo <= hi, at least one. Deterministic: the same boxes give the same tree.
-Bvh buildBvh(std::span<const Box> boxes);
+Bvh buildBvh(std::span<const Box> boxes, SplitRule rule = SplitRule::Sah);
 
 }  // namespace glim

@@ -7,6 +7,7 @@
 #include "host/measure/z_test.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/merge_films.hpp"
+#include "host/render/settings.hpp"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -209,7 +210,7 @@ std::optional<Film> filmOf(const std::filesystem::path& path, const Image& image
         return std::nullopt;
     }
     const Film film = readFilmHeader(path);
-    if (!film.complete) {
+    if (!film.complete && findSetting(film.identity.settings, "adaptive").empty()) {
         std::cerr << "glim: " << path.string()
                   << " is of a render that was ended early: some pixels have fewer samples or none.\n";
     }

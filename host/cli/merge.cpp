@@ -3,6 +3,7 @@
 #include "host/cli/check_target.hpp"
 #include "host/cli/parse.hpp"
 #include "host/render/film_file.hpp"
+#include "host/render/film_pictures.hpp"
 #include "host/render/merge_films.hpp"
 
 #include <CLI/CLI.hpp>

@@ -95,7 +95,7 @@ CLI::Option* addChoice(CLI::App& command, const std::string& name, const std::st
 CLI::Option* addExposure(CLI::App& command, double& exposure)
 {
     return addNumber<double>(command,
-                             {"--exposure", "EV", "Stops for the PNG, never applied to the EXR", -100.0, 100.0, "0"},
+                             {"--exposure", "EV", "Stops for a PNG of light or albedo, never applied to the EXR", -100.0, 100.0, "0"},
                              [&exposure](double stops) { exposure = stops; });
 }
 
@@ -129,6 +129,18 @@ std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& text)
                                                     std::to_string(kMaxSample) + ", as in 0:256");
     }
     return range;
+}
+
+float parseSurvival(const std::string& text)
+{
+    const std::string start = "fixed:";
+    float survival = 0.0F;
+    if (text.rfind(start, 0) != 0 || !parseNumber(text.substr(start.size()), survival) || !std::isnormal(survival) ||
+        !(survival > 0.0F && survival <= 1.0F)) {
+        throw CLI::ValidationError("--roulette",
+                                   "\"" + text + "\": expected throughput, none or fixed:P with 0 < P <= 1, as in fixed:0.7");
+    }
+    return survival;
 }
 
 glm::vec3 parseRadiance(const std::string& text)

@@ -23,6 +23,7 @@ inline constexpr std::uint32_t kMaxSample = 1U << 31;
 glm::uvec2 parseSize(const std::string& text);                                 // "640x480"
 std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& text);   // "0:256", begin < end
 glm::vec3 parseRadiance(const std::string& text);                              // "1,1,1", >= 0; a file is refused
+float parseSurvival(const std::string& text);                                  // "fixed:0.7", of (0, 1]
 
 // An option whose value is one number (uint32_t, float or double) of [low, high]; never NaN. The help says `what`, the
 // range and, in brackets, what holds without the option.
@@ -38,6 +39,14 @@ CLI::Option* addNumber(CLI::App& command, const NumberOption<T>& option, std::fu
 // An option whose value is one of `names`; `store` gets its place in that list.
 CLI::Option* addChoice(CLI::App& command, const std::string& name, const std::string& unit, const std::string& help,
                        const std::vector<std::string>& names, std::function<void(std::size_t)> store);
+
+// `names` in the order of the enumeration.
+template <class Enum>
+CLI::Option* addEnum(CLI::App& command, const std::string& name, const std::string& unit, const std::string& help,
+                     const std::vector<std::string>& names, Enum& value)
+{
+    return addChoice(command, name, unit, help, names, [&value](std::size_t i) { value = static_cast<Enum>(i); });
+}
 
 // --exposure of render and merge: stops, for a PNG.
 CLI::Option* addExposure(CLI::App& command, double& exposure);

@@ -1,6 +1,5 @@
 #include "host/cli/prepare_scene.hpp"
 
-#include "host/bvh/build_bvh.hpp"
 #include "host/error.hpp"
 #include "host/flatten/flatten_scene.hpp"
 
@@ -19,7 +18,7 @@ double secondsBetween(Clock::time_point begin, Clock::time_point end)
 
 }  // namespace
 
-PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions& options)
+PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions& options, SplitRule split)
 {
     PreparedScene prepared;
     const Clock::time_point start = Clock::now();
@@ -28,7 +27,8 @@ PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions&
         std::cerr << "glim: " << notice << '\n';
     }
     const Clock::time_point loaded = Clock::now();
-    prepared.bvh = buildBvh(primitiveBoxes(prepared.scene));
+    prepared.bvh = buildBvh(primitiveBoxes(prepared.scene), split);
+    prepared.split = split;
     prepared.flat = flattenScene(prepared.scene, prepared.bvh);
     if (prepared.flat.lights.empty()) {
         std::cerr << "glim: the scene has no light, so every picture of it is black; --environment 1,1,1 lights it\n";

@@ -1,7 +1,7 @@
 // From a file to what the renderer takes, timed; shared by render and inspect.
 #pragma once
 
-#include "host/bvh/bvh.hpp"
+#include "host/bvh/build_bvh.hpp"
 #include "host/flatten/flat_scene.hpp"
 #include "host/scene/load_gltf.hpp"
 
@@ -13,12 +13,14 @@ namespace glim {
 struct PreparedScene {
     Scene scene;
     Bvh bvh;
+    SplitRule split = SplitRule::Sah;  // that the tree was built by
     FlatScene flat;
     double loadSeconds = 0.0, buildSeconds = 0.0;  // build: BVH and flattening
 };
 
 // Throws InputError. Prints the scene's notices to stderr.
-PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions& options);
+PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions& options,
+                           SplitRule split = SplitRule::Sah);
 
 // The camera of that name or index (the first if absent). Throws InputError listing what there is.
 const Camera& findCamera(const Scene& scene, const std::optional<std::string>& choice);

@@ -4,8 +4,8 @@
 #include "host/cli/interrupt.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/render_report.hpp"
-#include "host/flatten/flatten_scene.hpp"
 #include "host/render/film_file.hpp"
+#include "host/render/film_pictures.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -26,6 +26,9 @@ void checkTargets(const RenderOptions& options)
     checkTarget(options.output, ".exr", {options.scene});
     if (options.png) {
         checkTarget(*options.png, ".png", {options.scene});
+    }
+    if (options.rates) {
+        checkTarget(*options.rates, ".png", {options.scene});
     }
     if (options.stats) {
         checkTarget(*options.stats, ".json", {options.scene});
@@ -86,7 +89,15 @@ std::string stopReason(int signal, const Film& film, const RenderSettings& setti
     if (signal != 0) {
         return nameOf(signal);
     }
-    return film.complete && film.sampleRanges[0].second == settings.sampleEnd ? "samples" : "time";
+    if (settings.adaptive == Adaptive::Off) {
+        return film.complete && film.sampleRanges[0].second == settings.sampleEnd ? "samples" : "time";
+    }
+    if (settings.seconds && film.seconds >= *settings.seconds) {
+        return "time";
+    }
+    const bool reached = std::any_of(film.pixels.begin(), film.pixels.end(),
+                                     [&](const PixelMoments& p) { return p.count >= settings.sampleEnd; });
+    return reached ? "samples" : "tolerance";
 }
 
 // Seconds that writing took.
@@ -96,6 +107,9 @@ double writePictures(const RenderOptions& options, const Film& film)
     writeFilm(options.output, film);
     if (options.png) {
         writeFilmPng(*options.png, film, options.exposure);
+    }
+    if (options.rates) {
+        writeRatesPng(*options.rates, film);
     }
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -130,7 +144,7 @@ ExitCode runRender(const RenderOptions& options)
     const InterruptWatch watch;
     const Instance instance;
     Device device(instance, options.device);
-    const PreparedScene prepared = prepareScene(options.scene, loadOptionsOf(options));
+    const PreparedScene prepared = prepareScene(options.scene, loadOptionsOf(options), options.split);
     const Camera& camera = findCamera(prepared.scene, options.camera);
     const RenderSettings settings = settingsFor(options, camera);
     refuseWhatDoesNotFit(prepared, settings, device.description());
@@ -138,7 +152,7 @@ ExitCode runRender(const RenderOptions& options)
     if (watch.signal() != 0) {
         return finish(watch.signal(), "nothing was rendered or written");
     }
-    Renderer renderer(device, prepared.flat, flattenCamera(camera, aspect), settings);
+    Renderer renderer(device, prepared.flat, flattenCamera(camera, aspect, options.lens), settings);
 
     ProgressPrinter progress(options.progress, settings.seconds, std::uint64_t{settings.width} * settings.height);
     Film film = renderer.render([&](const RenderProgress& now) {

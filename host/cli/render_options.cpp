@@ -1,10 +1,10 @@
 #include "host/cli/render_options.hpp"
 
 #include "host/cli/parse.hpp"
+#include "host/cli/sampling_options.hpp"
+#include "host/cli/settle_options.hpp"
 
 #include <CLI/CLI.hpp>
-
-#include <limits>
 
 namespace glim {
 namespace {
@@ -15,8 +15,13 @@ void addPictureOptions(CLI::App& command, RenderOptions& options)
     command.add_option("-o,--output", options.output, "The picture to write: scene-linear EXR with layers")
         ->required()
         ->type_name("OUT.exr");
-    CLI::Option* png = command.add_option("--png", options.png, "Also write sRGB of clip(2^EV x) as PNG");
+    CLI::Option* png = command.add_option("--png", options.png, 
+                                          "Also write a PNG: sRGB of clip(2^EV x); normals as .5 + .5 n, depth from white to "
+                                          "dark, node visits from blue to red");
     png->type_name("P.png");
+    command
+        .add_option("--rates", options.rates, "Write a PNG of the samples per pixel, from blue (fewest) to red (most)")
+        ->type_name("R.png");
     command
         .add_option_function<std::string>(
             "--size", [&options](const std::string& text) { options.size = parseSize(text); },
@@ -32,49 +37,20 @@ void addPictureOptions(CLI::App& command, RenderOptions& options)
     addExposure(command, options.exposure)->needs(png);
 }
 
-void addSampleCounts(CLI::App& command, RenderSettings& settings)
+void addViewOptions(CLI::App& command, RenderOptions& options)
 {
-    CLI::Option* spp = addNumber<std::uint32_t>(command, {"--spp", "N", "Samples per pixel", 1, kMaxSample, "64"},
-                                                [&settings](std::uint32_t count) { settings.sampleEnd = count; });
-    CLI::Option* time = addNumber<double>(
-        command,
-        {"--time", "SECONDS", "Sample for this long and until the pass under way ends; with --samples to its end at most",
-         1e-3, 1e9, "off"},
-        [&settings](double seconds) { settings.seconds = seconds; });
-    CLI::Option* samples = command
-                               .add_option_function<std::string>(
-                                   "--samples",
-                                   [&settings](const std::string& text) {
-                                       std::tie(settings.sampleBegin, settings.sampleEnd) = parseRange(text);
-                                   },
-                                   "Absolute sample indices BEGIN to END - 1, for `glim merge`, 0 to " +
-                                       std::to_string(kMaxSample) + " [0:64]")
-                               ->type_name("BEGIN:END");
-    spp->excludes(time)->excludes(samples);
-}
-
-void addSamplingOptions(CLI::App& command, RenderSettings& settings)
-{
-    addSampleCounts(command, settings);
-    addNumber<std::uint32_t>(
-        command, {"--bounces", "N", "Most surface events between camera and light; 0 is emission only", 0, 1000000, "64"},
-        [&settings](std::uint32_t bounces) { settings.bounces = bounces; });
-    addNumber<std::uint32_t>(
-        command, {"--seed", "N", "Same seed, same bits", 0, std::numeric_limits<std::uint32_t>::max(), "0"},
-        [&settings](std::uint32_t seed) { settings.seed = seed; });
-    addChoice(command, "--sampler", "S", "sobol (Owen-scrambled) or independent [sobol]", {"sobol", "independent"},
-              [&settings](std::size_t i) { settings.sampler = i == 0 ? Sampler::Sobol : Sampler::Independent; });
-    addChoice(command, "--intersector", "I",
-              "watertight (Woop 2013) or moller-trumbore (the textbook test; leaks at edges) [watertight]",
-              {"watertight", "moller-trumbore"}, [&settings](std::size_t i) {
-                  settings.intersector = i == 0 ? Intersector::Watertight : Intersector::MollerTrumbore;
-              });
-    addNumber<float>(command,
-                     {"--clamp-indirect", "X",
-                      "Scale down light that met two surfaces or more to at most this radiance, W/(sr m^2); a bias, whose "
-                      "energy is reported",
-                      1e-30F, 1e30F, "off"},
-                     [&settings](float limit) { settings.clampIndirect = limit; });
+    addEnum(command, "--view", "V",
+            "shaded, or of the surface that a camera ray meets first: normal (world axes), depth (metres along the view axis), "
+            "albedo or bvh-steps (R inner nodes visited, G primitives tested) [shaded]",
+            {"shaded", "normal", "depth", "albedo", "bvh-steps"}, options.settings.view);
+    CLI::Option* radius = addNumber<float>(
+        command, {"--lens-radius", "R", "Radius of a thin lens, metres", 0.0F, 1e6F, "0, a pinhole"},
+        [&options](float metres) { options.lens.radius = metres; });
+    CLI::Option* distance = addNumber<float>(
+        command, {"--focal-distance", "D", "From the lens to the plane of sharpness along the view axis, metres", 1e-6F, 1e9F, "none"},
+        [&options](float metres) { options.lens.focalDistance = metres; });
+    radius->needs(distance);
+    distance->needs(radius);
 }
 
 void addMachineOptions(CLI::App& command, RenderOptions& options)
@@ -94,13 +70,13 @@ void addMachineOptions(CLI::App& command, RenderOptions& options)
 void addRenderOptions(CLI::App& command, RenderOptions& options)
 {
     addPictureOptions(command, options);
-    addSamplingOptions(command, options.settings);
+    addViewOptions(command, options);
+    addSampleOptions(command, options.settings);
+    addLightOptions(command, options.settings);
+    addAdaptiveOptions(command, options.settings);
+    addTracingOptions(command, options.settings, options.split);
     addMachineOptions(command, options);
-    command.parse_complete_callback([&command, &options] {
-        if (command.count("--time") > 0 && command.count("--samples") == 0) {
-            options.settings.sampleEnd = kMaxSample;
-        }
-    });
+    command.parse_complete_callback([&command, &options] { settleOptions(command, options); });
 }
 
 }  // namespace glim

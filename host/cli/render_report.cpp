@@ -1,5 +1,6 @@
 #include "host/cli/render_report.hpp"
 
+#include "host/cli/film_figures.hpp"
 #include "host/image/whole_file.hpp"
 #include "host/measure/compare_images.hpp"
 #include "host/render/film_file.hpp"
@@ -29,39 +30,69 @@ double perSecond(std::uint64_t count, double seconds)
     return seconds > 0.0 ? static_cast<double>(count) / seconds : 0.0;
 }
 
-// Mean over the picture of what --clamp-indirect took, and of what is left.
-std::pair<double, double> clampedEnergy(const Film& film)
-{
-    double removed = 0.0, kept = 0.0;
-    for (const PixelMoments& pixel : film.pixels) {
-        removed += static_cast<double>(pixel.clamped);
-        kept += static_cast<double>(pixel.mean.r + pixel.mean.g + pixel.mean.b) / 3.0;
-    }
-    const double pixels = static_cast<double>(film.pixels.size());
-    return {removed / pixels, kept / pixels};
-}
-
 Json clampingOf(const Film& film, const RenderOptions& options)
 {
     if (!std::isfinite(options.settings.clampIndirect)) {
         return nullptr;
     }
-    const auto [removed, kept] = clampedEnergy(film);
+    const auto [removed, kept] = computeClampedEnergy(film);
     return {{"limit", options.settings.clampIndirect},
             {"removedMeanRadiance", removed},
             {"removedShare", removed / (removed + kept)}};
 }
 
-Json estimateOf(const Film& film)
+// Of light alone: other views have no noise worth the name.
+Json estimateOf(const RenderReport& report)
 {
-    const auto errors = estimateErrors(pictureOf(film));
-    if (!errors) {
+    const auto errors = estimateErrors(pictureOf(report.film));
+    if (!errors || report.options.settings.view != View::Shaded) {
         return nullptr;
     }
     return {{"relmse", errors->relMse},
             {"relmseAbsolute", errors->relMseAbsolute},
             {"mse", errors->mse},
             {"standardError", std::sqrt(errors->mse)}};
+}
+
+Json bvhOf(const RenderReport& report)
+{
+    if (report.options.settings.accelerator == Accelerator::None) {
+        return nullptr;
+    }
+    constexpr const char* kRules[] = {"sah", "mean", "median"};
+    const Bvh& bvh = report.prepared.bvh;
+    return {{"split", kRules[static_cast<int>(report.prepared.split)]},
+            {"nodes", bvh.nodes.size()},
+            {"depth", bvh.depth},
+            {"cost", bvh.cost}};
+}
+
+Json adaptiveOf(const RenderReport& report)
+{
+    const RenderSettings& settings = report.options.settings;
+    if (settings.adaptive == Adaptive::Off) {
+        return nullptr;
+    }
+    const Rates rates = computeRates(report.film);
+    const auto atMost = std::count_if(report.film.pixels.begin(), report.film.pixels.end(),
+                                      [&](const PixelMoments& pixel) { return pixel.count >= settings.sampleEnd; });
+    return {{"rule", settings.adaptive == Adaptive::Course ? "course" : "course:literal"},
+            {"tolerance", settings.tolerance},
+            {"batch", settings.batch},
+            {"maxSpp", settings.sampleEnd},
+            {"meanSpp", rates.mean},
+            {"leastSpp", rates.least},
+            {"mostSpp", rates.most},
+            {"pixelsAtMost", atMost}};
+}
+
+Json stepsOf(const RenderReport& report)
+{
+    if (report.options.settings.view != View::BvhSteps) {
+        return nullptr;
+    }
+    const Steps steps = computeSteps(report.film);
+    return {{"nodesPerRay", steps.nodes}, {"primitivesPerRay", steps.primitives}, {"mostNodes", steps.mostNodes}};
 }
 
 Json kernelsOf(const RenderStatistics& statistics)
@@ -111,7 +142,10 @@ Json statisticsOf(const RenderReport& report)
             {"loopCapHits", s.loopCaps},
             {"overflows", s.overflows},
             {"clampIndirect", clampingOf(report.film, report.options)},
-            {"estimate", estimateOf(report.film)}};
+            {"estimate", estimateOf(report)},
+            {"bvh", bvhOf(report)},
+            {"adaptive", adaptiveOf(report)},
+            {"steps", stepsOf(report)}};
 }
 
 void warnOfGaps(const Film& film)
@@ -132,10 +166,50 @@ void warnOfBias(const RenderReport& report)
                   << first.sampleIndex << ".\n";
     }
     if (std::isfinite(report.options.settings.clampIndirect)) {
-        const auto [removed, kept] = clampedEnergy(report.film);
+        const auto [removed, kept] = computeClampedEnergy(report.film);
         std::cerr << "glim: --clamp-indirect removed " << 100.0 * removed / (removed + kept)
                   << " % of the picture's light (mean radiance " << removed << ").\n";
     }
+}
+
+std::string format(const char* pattern, auto... values)
+{
+    char text[256];
+    std::snprintf(text, sizeof text, pattern, values...);
+    return text;
+}
+
+std::string rangeText(const RenderReport& report)
+{
+    if (report.options.settings.adaptive == Adaptive::Off && !report.options.rates) {
+        return "";
+    }
+    const Rates rates = computeRates(report.film);
+    return format(" (%u to %u)", rates.least, rates.most);
+}
+
+std::string savingText(const RenderReport& report)
+{
+    const RenderSettings& settings = report.options.settings;
+    if (settings.adaptive == Adaptive::Off) {
+        return "";
+    }
+    const double share = computeRates(report.film).mean / settings.sampleEnd;
+    return format(", %.1f %% fewer samples than %u everywhere", 100.0 * (1.0 - share), settings.sampleEnd);
+}
+
+std::string qualityText(const RenderReport& report)
+{
+    const View view = report.options.settings.view;
+    if (view == View::BvhSteps) {
+        const Steps steps = computeSteps(report.film);
+        return format(", %.1f node visits per ray, at most %.1f in a pixel", steps.nodes, steps.mostNodes);
+    }
+    if (view != View::Shaded) {
+        return "";
+    }
+    const auto errors = estimateErrors(pictureOf(report.film));
+    return errors ? format(", estimated relMSE %.3g", errors->relMse) : ", error unknown below 33 samples per pixel";
 }
 
 }  // namespace
@@ -146,19 +220,14 @@ void printSummary(const RenderReport& report)
     warnOfBias(report);
     const RenderStatistics& s = report.statistics;
     const double pixels = static_cast<double>(report.film.pixels.size());
-    char line[512];
-    std::snprintf(line, sizeof line, "%s: %ux%u, %.4g samples per pixel in %.2f s (%.3f Msamples/s, %.2f Mrays/s)",
-                  report.options.output.c_str(), report.film.width, report.film.height,
-                  static_cast<double>(s.samples) / pixels, s.renderSeconds, 1e-6 * perSecond(s.samples, s.renderSeconds),
-                  1e-6 * perSecond(s.cameraAndBounceRays + s.shadowRays, s.renderSeconds));
-    std::cout << line;
-    if (const auto errors = estimateErrors(pictureOf(report.film))) {
-        std::snprintf(line, sizeof line, ", estimated relMSE %.3g", errors->relMse);
-        std::cout << line;
-    } else {
-        std::cout << ", error unknown below 33 samples per pixel";
-    }
-    std::cout << ", on " << report.device.name << " (" << report.device.kind << ")\n";
+    std::cout << report.options.output.string()
+              << format(": %ux%u, %.4g samples per pixel", report.film.width, report.film.height,
+                        static_cast<double>(s.samples) / pixels)
+              << rangeText(report)
+              << format(" in %.2f s (%.3f Msamples/s, %.2f Mrays/s)", s.renderSeconds,
+                        1e-6 * perSecond(s.samples, s.renderSeconds),
+                        1e-6 * perSecond(s.cameraAndBounceRays + s.shadowRays, s.renderSeconds))
+              << savingText(report) << qualityText(report) << ", on " << report.device.name << " (" << report.device.kind << ")\n";
 }
 
 void writeStatistics(const std::filesystem::path& path, const RenderReport& report)

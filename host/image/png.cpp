@@ -9,7 +9,6 @@
 #include <cmath>
 #include <new>
 #include <string>
-#include <vector>
 
 namespace glim {
 namespace {
@@ -46,20 +45,25 @@ void pngFlush(png_structp) {}
 
 void pngWarn(png_structp, png_const_charp) {}
 
-void writeRows(png_structp png, png_infop info, const Image& image, const std::vector<png_bytep>& rows)
+struct Rows {
+    std::uint32_t width, height;
+    const Rgb8* first;
+};
+
+void writeRows(png_structp png, png_infop info, const Rows& rows)
 {
-    png_set_IHDR(png, info, image.width, image.height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+    png_set_IHDR(png, info, rows.width, rows.height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_write_info(png, info);
-    for (const png_bytep row : rows) {
-        png_write_row(png, row);
+    for (std::size_t y = 0; y < rows.height; ++y) {
+        png_write_row(png, rows.first[y * rows.width].data());
     }
     png_write_end(png, info);
 }
 
 // Keeps no object with a destructor: setjmp may return into it twice.
-bool encode(PngSink& sink, const Image& image, const std::vector<png_bytep>& rows)
+bool encode(PngSink& sink, const Rows& rows)
 {
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, pngFail, pngWarn);
     png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
@@ -71,27 +75,26 @@ bool encode(PngSink& sink, const Image& image, const std::vector<png_bytep>& row
         png_destroy_write_struct(&png, &info);
         return false;
     }
-    png_set_user_limits(png, image.width, image.height);
+    png_set_user_limits(png, rows.width, rows.height);
     png_set_write_fn(png, &sink, pngWrite, pngFlush);
-    writeRows(png, info, image, rows);
+    writeRows(png, info, rows);
     png_destroy_write_struct(&png, &info);
     return true;
 }
 
-std::vector<std::uint8_t> bytesOf(const Image& image, double exposure)
+std::vector<Rgb8> bytesOf(const Image& image, double exposure)
 {
     const double scale = std::exp2(exposure);
     const std::vector<float>* planes[3] = {&image.channels.at("R"), &image.channels.at("G"), &image.channels.at("B")};
-    const std::size_t count = planes[0]->size();
-    std::vector<std::uint8_t> bytes(3 * count);
-    for (std::size_t pixel = 0; pixel < count; ++pixel) {
-        const bool finite = std::all_of(planes, planes + 3, [&](auto* plane) { return std::isfinite((*plane)[pixel]); });
-        for (std::size_t c = 0; c < 3; ++c) {
-            const std::uint8_t magenta = c == 1 ? 0 : 255;
-            bytes[3 * pixel + c] = finite ? srgbByte(scale * static_cast<double>((*planes[c])[pixel])) : magenta;
+    std::vector<Rgb8> pixels(planes[0]->size(), kMagenta);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        if (std::all_of(planes, planes + 3, [i](auto* plane) { return std::isfinite((*plane)[i]); })) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                pixels[i][c] = srgbByte(scale * static_cast<double>((*planes[c])[i]));
+            }
         }
     }
-    return bytes;
+    return pixels;
 }
 
 }  // namespace
@@ -103,19 +106,19 @@ std::uint8_t srgbByte(double linear)
     return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
 }
 
-void writePng(const std::filesystem::path& path, const Image& image, double exposure)
+void writePng(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, const std::vector<Rgb8>& pixels)
 {
-    std::vector<std::uint8_t> bytes = bytesOf(image, exposure);
-    std::vector<png_bytep> rows(image.height);
-    for (std::size_t y = 0; y < rows.size(); ++y) {
-        rows[y] = bytes.data() + y * 3 * image.width;
-    }
     WholeFile file(path);
     PngSink sink{file, {}, path.string()};
-    if (!encode(sink, image, rows)) {
+    if (!encode(sink, {width, height, pixels.data()})) {
         throw InputError(sink.error);
     }
     file.commit();
+}
+
+void writePng(const std::filesystem::path& path, const Image& image, double exposure)
+{
+    writePng(path, image.width, image.height, bytesOf(image, exposure));
 }
 
 }  // namespace glim

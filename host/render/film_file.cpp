@@ -2,7 +2,6 @@
 
 #include "host/error.hpp"
 #include "host/image/exr.hpp"
-#include "host/image/png.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -217,18 +216,6 @@ Film readFilm(const fs::path& path)
 Film readFilmHeader(const fs::path& path)
 {
     return filmOfHeader(path, readExrHeader(path));
-}
-
-void writeFilmPng(const fs::path& path, const Film& film, double exposure)
-{
-    Image image;
-    image.width = film.width;
-    image.height = film.height;
-    const char* letters[] = {"R", "G", "B"};
-    for (std::size_t c = 0; c < 3; ++c) {
-        image.channels[letters[c]] = planeOf<float>(film.pixels, offsetof(PixelMoments, mean) + c * sizeof(float));
-    }
-    writePng(path, image, exposure);
 }
 
 }  // namespace glim

@@ -23,9 +23,6 @@ Film readFilm(const std::filesystem::path& path);
 // All but `pixels`.
 Film readFilmHeader(const std::filesystem::path& path);
 
-// exposure in stops: sRGB of clip(2^exposure x).
-void writeFilmPng(const std::filesystem::path& path, const Film& film, double exposure);
-
 // "0:256 512:768"
 std::string sampleRangesText(const Film& film);
 

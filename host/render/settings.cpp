@@ -52,4 +52,16 @@ std::string describeSettings(const RenderSettings& settings)
     return text.str();
 }
 
+std::string findSetting(const std::string& description, const std::string& name)
+{
+    std::istringstream words(description);
+    const std::string start = name + "=";
+    for (std::string word; words >> word;) {
+        if (word.rfind(start, 0) == 0) {
+            return word.substr(start.size());
+        }
+    }
+    return {};
+}
+
 }  // namespace glim

@@ -61,4 +61,7 @@ struct RenderSettings {
 // are named where they are not at their default.
 std::string describeSettings(const RenderSettings& settings);
 
+// What `description` says of the setting `name`; empty if nothing.
+std::string findSetting(const std::string& description, const std::string& name);
+
 }  // namespace glim

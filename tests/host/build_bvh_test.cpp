@@ -86,24 +86,33 @@ struct Input {
 
 void PrintTo(const Input& input, std::ostream* out) { *out << input.name; }
 
-class BuildBvhInput : public testing::TestWithParam<Input> {};
+class BuildBvhInput : public testing::TestWithParam<std::tuple<Input, SplitRule>> {};
+
+std::string nameOf(const testing::TestParamInfo<std::tuple<Input, SplitRule>>& info) {
+    constexpr const char* kRules[] = {"", "ByMean", "ByMedian"};
+    const auto& [input, rule] = info.param;
+    return std::string(input.name) + kRules[static_cast<int>(rule)];
+}
+
+const auto kEveryRule = testing::Values(SplitRule::Sah, SplitRule::Mean, SplitRule::Median);
 
 TEST_P(BuildBvhInput, GivesAValidTree) {
-    const Boxes boxes = GetParam().make();
-    const Bvh bvh = buildBvh(boxes);
+    const auto& [input, rule] = GetParam();
+    const Boxes boxes = input.make();
+    const Bvh bvh = buildBvh(boxes, rule);
     const auto defect = findBvhDefect(bvh, boxes);
     EXPECT_FALSE(defect) << *defect;
     EXPECT_LE(bvh.depth, kMaxBvhDepth);
     EXPECT_TRUE(std::isfinite(bvh.cost)) << bvh.cost;
     EXPECT_GT(bvh.cost, 0.0);
     EXPECT_TRUE(std::all_of(bvh.nodes.begin(), bvh.nodes.end(), [](const BvhNode& node) { return node.count <= 4; }));
-    std::cout << GetParam().name << ": " << boxes.size() << " boxes, depth " << bvh.depth << ", cost " << bvh.cost << "\n";
+    std::cout << input.name << ": " << boxes.size() << " boxes, depth " << bvh.depth << ", cost " << bvh.cost << "\n";
 }
 
 constexpr float kHuge = 1e30F;
 INSTANTIATE_TEST_SUITE_P(
     Worst, BuildBvhInput,
-    testing::Values(
+    testing::Combine(testing::Values(
         Input{"One", [] { return makeRandom(1, 1.0F); }}, Input{"Two", [] { return makeRandom(2, 0.1F); }},
         Input{"Five", [] { return makeRandom(5, 0.1F); }},
         Input{"Coincident", [] { return Boxes(100000, Box{glm::vec3(1), glm::vec3(2)}); }},
@@ -119,14 +128,15 @@ INSTANTIATE_TEST_SUITE_P(
                   }
                   return boxes;
               }},
-        Input{"Denormal", [] { return Boxes(makeRandom(1000, 1.0F).size(), Box{glm::vec3(0), glm::vec3(1e-44F)}); }}),
-    [](const auto& input) { return input.param.name; });
+        Input{"Denormal", [] { return Boxes(makeRandom(1000, 1.0F).size(), Box{glm::vec3(0), glm::vec3(1e-44F)}); }}), kEveryRule),
+    nameOf);
 INSTANTIATE_TEST_SUITE_P(Random, BuildBvhInput,
-                         testing::Values(Input{"Points", [] { return makeRandom(20000, 0.0F); }},
-                                         Input{"Small", [] { return makeRandom(20000, 0.01F); }},
-                                         Input{"Overlapping", [] { return makeRandom(20000, 1.0F); }},
-                                         Input{"Terrain", [] { return makeTerrain(100); }}),
-                         [](const auto& input) { return input.param.name; });
+                         testing::Combine(testing::Values(Input{"Points", [] { return makeRandom(20000, 0.0F); }},
+                                                          Input{"Small", [] { return makeRandom(20000, 0.01F); }},
+                                                          Input{"Overlapping", [] { return makeRandom(20000, 1.0F); }},
+                                                          Input{"Terrain", [] { return makeTerrain(100); }}),
+                                          kEveryRule),
+                         nameOf);
 
 // Cost of the tree that splits at the median along the widest axis, down to four primitives.
 struct MedianTree {

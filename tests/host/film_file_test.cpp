@@ -105,14 +105,6 @@ TEST(FilmFile, UnknownVarianceIsLeftOutOrInfinite)
     }
 }
 
-TEST(FilmFile, WritesAPngOfTheBeauty)
-{
-    const ScratchFolder folder;
-    writeFilmPng(folder / "a.png", simulateFilm(0, 32), 0.0);
-    EXPECT_EQ(bytesOfFile(folder / "a.png").substr(1, 3), "PNG");
-    EXPECT_EQ(folder.entries(), 1);
-}
-
 class FilmFileRefusal : public testing::Test {
 protected:
     FilmFileRefusal()

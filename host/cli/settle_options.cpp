@@ -1,0 +1,105 @@
+#include "host/cli/settle_options.hpp"
+
+#include "host/cli/parse.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+
+namespace glim {
+namespace {
+
+constexpr std::uint32_t kViewSamples = 4, kMaxSpp = 2048;
+constexpr std::uint64_t kMaxCounter = std::uint64_t{1} << 32;  // sample index * light samples + light sample
+
+bool isGiven(const CLI::App& command, const std::string& option) { return command.count(option) > 0; }
+
+[[noreturn]] void refuse(const CLI::App& command, const std::string& option, const std::string& why)
+{
+    throw CLI::ValidationError(option, "\"" + command.get_option(option)->results().front() + "\": " + why);
+}
+
+void refuseIfGiven(const CLI::App& command, std::initializer_list<const char*> options, const std::string& why)
+{
+    for (const char* option : options) {
+        if (isGiven(command, option)) {
+            refuse(command, option, why);
+        }
+    }
+}
+
+void settleView(const CLI::App& command, RenderSettings& settings)
+{
+    if (settings.view == View::Shaded) {
+        return;
+    }
+    const std::string nothing = "means nothing with --view " + command.get_option("--view")->results().front();
+    refuseIfGiven(command,
+                  {"--bounces", "--direct", "--light-samples", "--paths", "--roulette", "--clamp-indirect", "--adaptive", "--rates"},
+                  nothing);
+    if (settings.view != View::Albedo) {
+        refuseIfGiven(command, {"--exposure"}, nothing);
+    }
+    if (settings.view == View::BvhSteps && settings.accelerator == Accelerator::None) {
+        refuse(command, "--view", "with --accelerator none there is no BVH; expected --accelerator bvh");
+    }
+    settings.bounces = 0;
+    if (!isGiven(command, "--spp") && !isGiven(command, "--samples")) {
+        settings.sampleEnd = kViewSamples;
+    }
+}
+
+void settleAdaptive(const CLI::App& command, RenderSettings& settings)
+{
+    if (settings.adaptive == Adaptive::Off) {
+        refuseIfGiven(command, {"--tolerance", "--batch", "--max-spp"}, "expected --adaptive course or course:literal with it");
+        return;
+    }
+    refuseIfGiven(command, {"--spp", "--samples"}, "--adaptive itself chooses the samples; expected --max-spp as their limit");
+    if (isGiven(command, "--sampler") && settings.sampler == Sampler::Sobol) {
+        refuse(command, "--sampler", "the statistics of --adaptive assume independent samples; expected --sampler independent");
+    }
+    settings.sampler = Sampler::Independent;
+    settings.sampleEnd = isGiven(command, "--max-spp") ? settings.sampleEnd : kMaxSpp;
+    if (settings.batch > settings.sampleEnd) {
+        refuseIfGiven(command, {"--batch"}, "expected at most --max-spp, which is " + std::to_string(settings.sampleEnd));
+        refuse(command, "--max-spp", "expected at least --batch, which is " + std::to_string(settings.batch));
+    }
+}
+
+void settleTime(const CLI::App& command, RenderSettings& settings)
+{
+    if (settings.seconds && settings.adaptive == Adaptive::Off && !isGiven(command, "--samples")) {
+        settings.sampleEnd = static_cast<std::uint32_t>(std::min<std::uint64_t>(kMaxSample, kMaxCounter / settings.lightSamples));
+    }
+}
+
+void checkLightSamples(const CLI::App& command, const RenderSettings& settings)
+{
+    if (settings.direct == DirectLight::Mis || settings.direct == DirectLight::Bsdf) {
+        refuseIfGiven(command, {"--light-samples"}, "expected --direct lights or --direct hemisphere with it");
+    }
+    if (std::uint64_t{settings.sampleEnd} * settings.lightSamples > kMaxCounter) {
+        refuse(command, "--light-samples",
+               "times " + std::to_string(settings.sampleEnd) + " samples per pixel is more than 2^32; expected at most " +
+                   std::to_string(kMaxCounter / settings.sampleEnd));
+    }
+}
+
+}  // namespace
+
+void settleOptions(const CLI::App& command, RenderOptions& options)
+{
+    settleView(command, options.settings);
+    settleAdaptive(command, options.settings);
+    settleTime(command, options.settings);
+    checkLightSamples(command, options.settings);
+    if (options.settings.accelerator == Accelerator::None) {
+        refuseIfGiven(command, {"--split"}, "with --accelerator none there is no BVH to split");
+    }
+    if (options.png && options.rates && options.png->lexically_normal() == options.rates->lexically_normal()) {
+        refuse(command, "--rates", "expected another file than that of --png");
+    }
+}
+
+}  // namespace glim

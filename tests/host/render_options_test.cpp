@@ -1,0 +1,213 @@
+// Each option of `render` stores what it says, and what does not go together is refused with the option, its value and a reason.
+#include "host/cli/parse.hpp"
+#include "host/cli/render_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace glim {
+namespace {
+
+// "render x.gltf -o x.exr" with `options`, words separated by spaces.
+RenderOptions parse(const std::string& options)
+{
+    CLI::App app;
+    RenderOptions parsed;
+    addRenderOptions(*app.add_subcommand("render"), parsed);
+    std::vector<std::string> words{"render", "x.gltf", "-o", "x.exr"};
+    std::istringstream stream(options);
+    for (std::string word; stream >> word;) {
+        words.push_back(word);
+    }
+    std::reverse(words.begin(), words.end());  // as CLI11 wants them
+    app.parse(words);
+    return parsed;
+}
+
+RenderSettings settings(const std::string& options) { return parse(options).settings; }
+
+void expectRefused(const std::string& options, const std::string& part)
+{
+    try {
+        parse(options);
+        ADD_FAILURE() << options << ": was taken, expected a message with: " << part;
+    } catch (const CLI::ParseError& error) {
+        EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << options << ": " << error.what() << "\nlacks: " << part;
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    }
+}
+
+TEST(RenderOptions, DefaultsAreThoseOfTheSettings)
+{
+    const RenderOptions options = parse("");
+    EXPECT_EQ(describeSettings(options.settings), describeSettings(RenderSettings()));
+    EXPECT_EQ(options.settings.sampleBegin, 0U);
+    EXPECT_EQ(options.settings.sampleEnd, 64U);
+    EXPECT_EQ(options.settings.accelerator, Accelerator::Bvh);
+    EXPECT_EQ(options.split, SplitRule::Sah);
+    EXPECT_EQ(options.lens.radius, 0.0F);
+    EXPECT_FALSE(options.settings.seconds || options.png || options.rates || options.stats);
+}
+
+TEST(RenderOptions, LightIsFoundAsAsked)
+{
+    EXPECT_EQ(settings("--direct mis").direct, DirectLight::Mis);
+    EXPECT_EQ(settings("--direct lights").direct, DirectLight::Lights);
+    EXPECT_EQ(settings("--direct hemisphere").direct, DirectLight::Hemisphere);
+    EXPECT_EQ(settings("--direct bsdf").direct, DirectLight::Bsdf);
+    EXPECT_EQ(settings("--direct lights --light-samples 1").lightSamples, 1U);
+    EXPECT_EQ(settings("--direct lights --light-samples 65536").lightSamples, 65536U);
+    EXPECT_EQ(settings("--light-samples 7 --direct hemisphere").lightSamples, 7U);
+    EXPECT_EQ(settings("--paths all").paths, PathParts::All);
+    EXPECT_EQ(settings("--paths emission").paths, PathParts::Emission);
+    EXPECT_EQ(settings("--paths direct").paths, PathParts::Direct);
+    EXPECT_EQ(settings("--paths indirect").paths, PathParts::Indirect);
+    EXPECT_EQ(settings("--sampler independent").sampler, Sampler::Independent);
+    EXPECT_EQ(settings("--bounces 3").bounces, 3U);
+}
+
+TEST(RenderOptions, RouletteHasItsProbability)
+{
+    EXPECT_EQ(settings("--roulette throughput").roulette, Roulette::Throughput);
+    EXPECT_EQ(settings("--roulette none").roulette, Roulette::None);
+    for (const auto& [text, survival] : {std::pair("0.7", 0.7F), {"1", 1.0F}, {"1e-3", 1e-3F}, {".5", 0.5F}}) {
+        const RenderSettings found = settings(std::string("--roulette fixed:") + text);
+        EXPECT_EQ(found.roulette, Roulette::Fixed);
+        EXPECT_EQ(found.survival, survival);
+    }
+    for (const std::string text : {"fixed:1.2", "fixed:0", "fixed:-0.5", "fixed:", "fixed:nan", "fixed:inf", "fixed:0.5x", "fixed:1e-40",
+                                   "fixed", "fixd", "0.7", "Fixed:0.7", ":0.7"}) {
+        expectRefused("--roulette " + text, "--roulette: \"" + text + "\": expected throughput, none or fixed:P with 0 < P <= 1");
+    }
+}
+
+TEST(RenderOptions, RaysAreTracedAsAsked)
+{
+    EXPECT_EQ(settings("--accelerator none").accelerator, Accelerator::None);
+    EXPECT_EQ(settings("--accelerator bvh --split sah").accelerator, Accelerator::Bvh);
+    EXPECT_EQ(parse("--split mean").split, SplitRule::Mean);
+    EXPECT_EQ(parse("--split median").split, SplitRule::Median);
+    EXPECT_EQ(settings("--intersector moller-trumbore").intersector, Intersector::MollerTrumbore);
+    const Lens lens = parse("--lens-radius 0.25 --focal-distance 7.5").lens;
+    EXPECT_EQ(lens.radius, 0.25F);
+    EXPECT_EQ(lens.focalDistance, 7.5F);
+}
+
+TEST(RenderOptions, AdaptiveRendersTakeIndependentSamplesUpToALimit)
+{
+    const RenderSettings plain = settings("--adaptive course");
+    EXPECT_EQ(plain.adaptive, Adaptive::Course);
+    EXPECT_EQ(plain.sampler, Sampler::Independent);
+    EXPECT_EQ(plain.tolerance, 0.05F);
+    EXPECT_EQ(plain.batch, 32U);
+    EXPECT_EQ(plain.sampleBegin, 0U);
+    EXPECT_EQ(plain.sampleEnd, 2048U);
+    const RenderSettings chosen = settings("--adaptive course:literal --tolerance 0.01 --batch 64 --max-spp 4096 --sampler independent");
+    EXPECT_EQ(chosen.adaptive, Adaptive::CourseLiteral);
+    EXPECT_EQ(chosen.tolerance, 0.01F);
+    EXPECT_EQ(chosen.batch, 64U);
+    EXPECT_EQ(chosen.sampleEnd, 4096U);
+    const RenderSettings timed = settings("--adaptive course --time 5");
+    EXPECT_EQ(timed.sampleEnd, 2048U);
+    EXPECT_EQ(timed.seconds, 5.0);
+    EXPECT_EQ(settings("--adaptive course --max-spp 32").sampleEnd, 32U);
+    EXPECT_EQ(settings("--adaptive off --spp 16").sampleEnd, 16U);
+    EXPECT_EQ(settings("--adaptive off").sampler, Sampler::Sobol);
+}
+
+TEST(RenderOptions, ViewsTakeFewSamplesAndNoBounce)
+{
+    for (const auto& [name, view] : {std::pair("normal", View::Normal), {"depth", View::Depth}, {"albedo", View::Albedo},
+                                     {"bvh-steps", View::BvhSteps}}) {
+        const std::string option = std::string("--view ") + name;
+        EXPECT_EQ(settings(option).view, view);
+        EXPECT_EQ(settings(option).bounces, 0U);
+        EXPECT_EQ(settings(option).sampleEnd, 4U);
+        EXPECT_EQ(settings(option + " --spp 9").sampleEnd, 9U);
+        EXPECT_EQ(settings(option + " --samples 8:24").sampleEnd, 24U);
+        EXPECT_EQ(settings(option + " --time 2").sampleEnd, kMaxSample);
+        EXPECT_EQ(settings(option + " --sampler independent --split mean --png p.png").view, view);
+    }
+    EXPECT_EQ(settings("--view shaded").sampleEnd, 64U);
+    EXPECT_EQ(settings("--view shaded --bounces 2").bounces, 2U);
+    EXPECT_EQ(parse("--view albedo --png p.png --exposure 1").exposure, 1.0);
+}
+
+TEST(RenderOptions, SampleCountersFitThirtyTwoBits)
+{
+    EXPECT_EQ(settings("--time 1").sampleEnd, kMaxSample);
+    EXPECT_EQ(settings("--time 1 --direct lights --light-samples 2").sampleEnd, kMaxSample);
+    EXPECT_EQ(settings("--time 1 --direct lights --light-samples 3").sampleEnd, 1431655765U);
+    EXPECT_EQ(settings("--time 1 --direct hemisphere --light-samples 65536").sampleEnd, 65536U);
+    EXPECT_EQ(settings("--spp 65536 --direct hemisphere --light-samples 65536").sampleEnd, 65536U);
+    expectRefused("--spp 65537 --direct hemisphere --light-samples 65536",
+                  "--light-samples: \"65536\": times 65537 samples per pixel is more than 2^32; expected at most 65535");
+    expectRefused("--time 1 --samples 0:65537 --direct lights --light-samples 65536", "expected at most 65535");
+    expectRefused("--adaptive course --max-spp 131072 --direct lights --light-samples 40000", "expected at most 32768");
+}
+
+TEST(RenderOptions, WhatDoesNotGoTogetherIsRefused)
+{
+    const std::string direct = "expected --direct lights or --direct hemisphere with it",
+                      rule = "expected --adaptive course or course:literal with it", tree = "with --accelerator none there is no BVH";
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {"--light-samples 1", "--light-samples: \"1\": " + direct},
+        {"--light-samples 4 --direct mis", "--light-samples: \"4\": " + direct},
+        {"--light-samples 4 --direct bsdf", direct},
+        {"--split sah --accelerator none", "--split: \"sah\": " + tree + " to split"},
+        {"--view bvh-steps --accelerator none", "--view: \"bvh-steps\": " + tree},
+        {"--tolerance 0.1", "--tolerance: \"0.1\": " + rule},
+        {"--batch 64", "--batch: \"64\": " + rule},
+        {"--max-spp 64 --adaptive off", "--max-spp: \"64\": " + rule},
+        {"--adaptive course --spp 64", "--spp: \"64\": --adaptive itself chooses the samples; expected --max-spp as their limit"},
+        {"--adaptive course --samples 0:64", "--samples: \"0:64\": --adaptive itself chooses the samples"},
+        {"--adaptive course --sampler sobol", "--sampler: \"sobol\": the statistics of --adaptive assume independent samples"},
+        {"--adaptive course --batch 4096", "--batch: \"4096\": expected at most --max-spp, which is 2048"},
+        {"--adaptive course --batch 64 --max-spp 32", "--batch: \"64\": expected at most --max-spp, which is 32"},
+        {"--adaptive course --max-spp 31", "--max-spp: \"31\": expected at least --batch, which is 32"},
+        {"--lens-radius 0.1", "--lens-radius requires --focal-distance"},
+        {"--focal-distance 3", "--focal-distance requires --lens-radius"},
+        {"--png a.png --rates a.png", "--rates: \"a.png\": expected another file than that of --png"},
+        {"--png a.png --rates ./a.png", "expected another file"}};
+    for (const auto& [options, part] : cases) {
+        expectRefused(options, part);
+    }
+}
+
+TEST(RenderOptions, ViewsRefuseWhatHasNoMeaningThere)
+{
+    const std::vector<std::string> meaningless{"--bounces 3",        "--direct lights",     "--light-samples 2",   "--paths direct",
+                                               "--roulette none",    "--adaptive course",   "--clamp-indirect 1",  "--rates r.png",
+                                               "--adaptive off"};
+    for (const std::string view : {"normal", "depth", "albedo", "bvh-steps"}) {
+        for (const std::string& option : meaningless) {
+            const std::string name = option.substr(0, option.find(' ')), value = option.substr(name.size() + 1);
+            expectRefused("--view " + view + " " + option, name + ": \"" + value + "\": means nothing with --view " + view);
+        }
+    }
+    for (const std::string view : {"normal", "depth", "bvh-steps"}) {
+        expectRefused("--png p.png --exposure 1 --view " + view, "--exposure: \"1\": means nothing with --view " + view);
+    }
+}
+
+TEST(RenderOptions, NonsenseValuesAreRefused)
+{
+    for (const std::string option :
+         {"--direct", "--paths", "--accelerator", "--split", "--adaptive", "--view", "--sampler", "--intersector"}) {
+        expectRefused(option + " nonsense", option + ": \"nonsense\": expected ");
+    }
+    for (const std::string option : {"--light-samples 0", "--light-samples 65537", "--light-samples 1.5", "--tolerance 0", "--tolerance -1",
+                                     "--tolerance nan", "--tolerance 2e6", "--batch 1", "--batch 1048577", "--max-spp 1",
+                                     "--max-spp 2147483649", "--lens-radius -1", "--lens-radius nan", "--lens-radius inf",
+                                     "--focal-distance 0", "--focal-distance nan", "--focal-distance inf"}) {
+        const std::string name = option.substr(0, option.find(' ')), value = option.substr(name.size() + 1);
+        expectRefused(option, name + ": \"" + value + "\": expected a ");
+    }
+}
+
+}  // namespace
+}  // namespace glim

@@ -1,0 +1,143 @@
+// What a render says of its tree, its samples per pixel and its steps, in words and as JSON; and what compare says of such films.
+#include "host/render/film_file.hpp"
+#include "tests/support/decode_png.hpp"
+#include "tests/support/run_glim.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/support/simulated_film.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <regex>
+
+namespace glim::test {
+namespace {
+
+using nlohmann::json;
+using Arguments = std::vector<std::string>;
+
+class Workplace {
+public:
+    // Renders scenes/cornell.gltf at 16x16 to x.exr; fails the test unless that succeeds. The summary, and --stats.
+    std::pair<std::string, json> render(const Arguments& options) const
+    {
+        Arguments arguments{"render", sceneFile("cornell.gltf"), "-o", "x.exr", "--size", "16x16", "--stats", "s.json"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const GlimRun run = call(arguments);
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        EXPECT_EQ(countLines(run.out), 1U) << run.out;
+        return {run.out, json::parse(bytesOfFile(folder_ / "s.json"))};
+    }
+    GlimRun call(const Arguments& arguments) const
+    {
+        GlimCall call;
+        call.arguments = arguments;
+        call.folder = folder_.path();
+        return runGlim(call);
+    }
+    std::filesystem::path file(const char* name) const { return folder_ / name; }
+
+private:
+    ScratchFolder folder_;
+};
+
+void expectText(const std::string& text, const char* pattern)
+{
+    EXPECT_TRUE(std::regex_search(text, std::regex(pattern))) << text << "lacks: " << pattern;
+}
+
+TEST(CommandLineTest, ReportsDescribeTheTree)
+{
+    const Workplace workplace;
+    std::vector<double> costs;
+    for (const std::string rule : {"sah", "mean", "median"}) {
+        const json bvh = workplace.render({"--spp", "1", "--split", rule}).second.at("bvh");
+        EXPECT_EQ(bvh.at("split"), rule);
+        EXPECT_GT(bvh.at("nodes"), 2);
+        EXPECT_GT(bvh.at("depth"), 1);
+        costs.push_back(bvh.at("cost"));
+    }
+    EXPECT_LT(costs[0], costs[1]);
+    EXPECT_LT(costs[0], costs[2]);
+    EXPECT_EQ(workplace.render({"--spp", "1"}).second.at("bvh").at("cost"), costs[0]);
+    EXPECT_TRUE(workplace.render({"--spp", "1", "--accelerator", "none"}).second.at("bvh").is_null());
+}
+
+TEST(CommandLineTest, PlainReportsHaveNeitherRuleNorSteps)
+{
+    const Workplace workplace;
+    const json stats = workplace.render({"--spp", "1"}).second;
+    EXPECT_TRUE(stats.at("adaptive").is_null());
+    EXPECT_TRUE(stats.at("steps").is_null());
+}
+
+TEST(CommandLineTest, RatesAreAPictureAndARange)
+{
+    const Workplace workplace;
+    const std::string summary = workplace.render({"--spp", "2", "--rates", "r.png"}).first;
+    expectText(summary, "^x\\.exr: 16x16, 2 samples per pixel \\(2 to 2\\) in ");
+    EXPECT_EQ(decodePng(workplace.file("r.png")), (std::vector<Rgb>(16 * 16, {0, 0, 255})));
+}
+
+TEST(CommandLineTest, AdaptiveReportsCountPixels)
+{
+    const Workplace workplace;
+    const auto [summary, stats] = workplace.render({"--adaptive", "course", "--max-spp", "64", "--tolerance", "0.25"});
+    const json adaptive = stats.at("adaptive");
+    EXPECT_EQ(adaptive.at("rule"), "course");
+    EXPECT_EQ(adaptive.at("tolerance"), 0.25);
+    EXPECT_EQ(adaptive.at("batch"), 32);
+    EXPECT_EQ(adaptive.at("maxSpp"), 64);
+    std::uint64_t samples = 0, atMost = 0;
+    for (const PixelMoments& pixel : readFilm(workplace.file("x.exr")).pixels) {
+        samples += pixel.count;
+        atMost += pixel.count == 64 ? 1 : 0;
+        EXPECT_GE(pixel.count, adaptive.at("leastSpp"));
+        EXPECT_LE(pixel.count, adaptive.at("mostSpp"));
+    }
+    EXPECT_EQ(adaptive.at("pixelsAtMost"), atMost);
+    EXPECT_DOUBLE_EQ(adaptive.at("meanSpp"), static_cast<double>(samples) / (16 * 16));
+    EXPECT_EQ(stats.at("stopReason"), atMost == 0 ? "tolerance" : "samples");
+    expectText(summary, " samples per pixel \\([0-9]+ to [0-9]+\\) in .*, [0-9.]+ % fewer samples than 64 everywhere, ");
+}
+
+TEST(CommandLineTest, TimeEndsAnAdaptiveRender)
+{
+    const Workplace workplace;
+    const Arguments endless{"--adaptive", "course:literal", "--max-spp", "2000000000", "--tolerance", "1e-30", "--time", "0.3"};
+    const json stats = workplace.render(endless).second;
+    EXPECT_EQ(stats.at("stopReason"), "time");
+    EXPECT_EQ(stats.at("adaptive").at("rule"), "course:literal");
+}
+
+TEST(CommandLineTest, StepsAreReportedForTheirViewAlone)
+{
+    const Workplace workplace;
+    const auto [summary, stats] = workplace.render({"--view", "bvh-steps"});
+    const json steps = stats.at("steps");
+    EXPECT_GT(steps.at("nodesPerRay"), 0.0);
+    EXPECT_GT(steps.at("primitivesPerRay"), 0.0);
+    EXPECT_GE(steps.at("mostNodes"), steps.at("nodesPerRay"));
+    EXPECT_TRUE(stats.at("estimate").is_null());
+    EXPECT_EQ(stats.at("samples"), 16 * 16 * 4);
+    expectText(summary, ", [0-9.]+ node visits per ray, at most [0-9.]+ in a pixel, on ");
+    const auto [normals, other] = workplace.render({"--view", "normal"});
+    EXPECT_TRUE(other.at("steps").is_null());
+    EXPECT_EQ(normals.find("error unknown"), std::string::npos) << normals;
+}
+
+TEST(CommandLineTest, AdaptiveFilmsAreNotTakenForUnfinishedOnes)
+{
+    const Workplace workplace;
+    Film film = simulateFilm(0, 64);
+    film.complete = false;
+    writeFilm(workplace.file("cut.exr"), film);
+    film.identity.settings += " adaptive=course tolerance=0.05 batch=32 max-spp=64";
+    writeFilm(workplace.file("adaptive.exr"), film);
+    writeFilm(workplace.file("other.exr"), simulateFilm(64, 128));
+    EXPECT_NE(workplace.call({"compare", "cut.exr", "other.exr"}).err.find("ended early"), std::string::npos);
+    EXPECT_EQ(workplace.call({"compare", "adaptive.exr", "other.exr"}).err, "");
+}
+
+}  // namespace
+}  // namespace glim::test
