@@ -15,8 +15,10 @@ namespace {
 
 // Passes aim at this for their longest dispatch: far below any watchdog.
 constexpr double kTargetDispatchSeconds = 0.05;
-// And at this in all, where many rounds of direct light or long brute force make many dispatches: Ctrl-C is answered between passes.
+// And at this in all, where many rounds of direct light or long brute force make many dispatches, since Ctrl-C is answered between
+// passes; but with fewer paths than these the dispatches themselves would cost more than what they do.
 constexpr double kTargetPassSeconds = 1.0;
+constexpr double kLeastPaths = 1U << 10;
 constexpr std::uint32_t kFirstPassPaths = 1U << 14;
 // Steps of the BVH that a ray may take as long as a primitive of brute force: the first pass of that is shorter.
 constexpr std::uint32_t kUsualSteps = 64;
@@ -128,12 +130,18 @@ void Renderer::runPass(const Slab& slab, const Pass& pass)
     const std::uint32_t paths = pass.pixelCount * pass.sampleCount;
     statistics_.samples += paths;
     statistics_.longestDispatch = std::max(statistics_.longestDispatch, seconds.longest);
-    if (seconds.longest > 0.0) {
-        const double room = std::min(kTargetDispatchSeconds / seconds.longest, kTargetPassSeconds / seconds.total);
-        pathsPerPass_ =
-            static_cast<std::uint32_t>(std::clamp(paths * std::clamp(room, 0.5, 2.0), static_cast<double>(kBlockSamples),
-                                                  static_cast<double>(settings_.pathCapacity)));
+    // What is left at the end of a sweep says little about a full pass, unless it took too long.
+    if (seconds.longest > kTargetDispatchSeconds || (seconds.longest > 0.0 && 2 * std::uint64_t{paths} > pathsPerPass_)) {
+        resizePasses(paths, seconds);
     }
+}
+
+void Renderer::resizePasses(std::uint32_t paths, const Wavefront::Seconds& seconds)
+{
+    const double byDispatch = paths * std::clamp(kTargetDispatchSeconds / seconds.longest, 0.5, 2.0);
+    const double byPass = std::max(kLeastPaths, paths * kTargetPassSeconds / seconds.total);
+    pathsPerPass_ = static_cast<std::uint32_t>(std::clamp(std::min(byDispatch, byPass), static_cast<double>(kBlockSamples),
+                                                          static_cast<double>(settings_.pathCapacity)));
 }
 
 // How many pixels still need samples.

@@ -48,6 +48,7 @@ private:
     std::uint32_t sweepEnd(std::uint32_t sample) const;
     bool sweep(std::uint32_t first, std::uint32_t count, bool endsBlock, const RenderObserver& observer);
     void runPass(const Slab& slab, const Pass& pass);
+    void resizePasses(std::uint32_t paths, const Wavefront::Seconds& seconds);
     std::uint64_t choosePixels();
     void closeBlocks();
     void foldPages(Film& film);

@@ -124,7 +124,9 @@ void Wavefront::recordBounce(Recording& recording, const Slab& slab, const Pass&
         recordSize(recording, bindings, pass, kSizesPaths);
     }
     recordTrace(recording, kernels_.traceClosest, bindings, pass, offsetof(QueueSizes, closestGroups));
-    for (std::size_t i = 0; i < rounds_.size(); ++i) {
+    // The last hit only finds light.
+    const std::size_t rounds = pass.bounce < pass.maxBounces ? rounds_.size() : 1;
+    for (std::size_t i = 0; i < rounds; ++i) {
         Pass round = pass;
         round.addsFound = i == 0 ? 1 : 0;
         round.light = rounds_[i].light;

@@ -1,6 +1,7 @@
 // One thread is one pixel of the pass. Adds its finished samples to the block, in the order of their index, and folds the block
 // into the page when it ends: the bits do not depend on how the work was cut.
-// Reads radiance and first hits. Updates blocks, pages and, in adaptive renders, luminance; counts samples that are not finite and leaves them out.
+// Reads radiance and first hits. Updates blocks, pages and, in adaptive renders, luminance; counts samples that are not finite and
+// leaves them out.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_RADIANCE
