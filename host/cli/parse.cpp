@@ -95,7 +95,8 @@ CLI::Option* addChoice(CLI::App& command, const std::string& name, const std::st
 CLI::Option* addExposure(CLI::App& command, double& exposure)
 {
     return addNumber<double>(command,
-                             {"--exposure", "EV", "Stops for a PNG of light or albedo, never applied to the EXR", -100.0, 100.0, "0"},
+                             {"--exposure", "EV", "Stops for a PNG of light or albedo, never applied to the EXR", -100.0,
+                              100.0, "0"},
                              [&exposure](double stops) { exposure = stops; });
 }
 

@@ -47,7 +47,8 @@ void addViewOptions(CLI::App& command, RenderOptions& options)
         command, {"--lens-radius", "R", "Radius of a thin lens, metres", 0.0F, 1e6F, "0, a pinhole"},
         [&options](float metres) { options.lens.radius = metres; });
     CLI::Option* distance = addNumber<float>(
-        command, {"--focal-distance", "D", "From the lens to the plane of sharpness along the view axis, metres", 1e-6F, 1e9F, "none"},
+        command,
+        {"--focal-distance", "D", "From the lens to the plane of sharpness along the view axis, metres", 1e-6F, 1e9F, "none"},
         [&options](float metres) { options.lens.focalDistance = metres; });
     radius->needs(distance);
     distance->needs(radius);

@@ -227,7 +227,8 @@ void printSummary(const RenderReport& report)
               << format(" in %.2f s (%.3f Msamples/s, %.2f Mrays/s)", s.renderSeconds,
                         1e-6 * perSecond(s.samples, s.renderSeconds),
                         1e-6 * perSecond(s.cameraAndBounceRays + s.shadowRays, s.renderSeconds))
-              << savingText(report) << qualityText(report) << ", on " << report.device.name << " (" << report.device.kind << ")\n";
+              << savingText(report) << qualityText(report) << ", on " << report.device.name << " (" << report.device.kind
+              << ")\n";
 }
 
 void writeStatistics(const std::filesystem::path& path, const RenderReport& report)

@@ -34,9 +34,8 @@ void settleView(const CLI::App& command, RenderSettings& settings)
         return;
     }
     const std::string nothing = "means nothing with --view " + command.get_option("--view")->results().front();
-    refuseIfGiven(command,
-                  {"--bounces", "--direct", "--light-samples", "--paths", "--roulette", "--clamp-indirect", "--adaptive", "--rates"},
-                  nothing);
+    refuseIfGiven(command, {"--bounces", "--direct", "--light-samples", "--paths", "--roulette", "--clamp-indirect"}, nothing);
+    refuseIfGiven(command, {"--adaptive", "--rates"}, nothing);
     if (settings.view != View::Albedo) {
         refuseIfGiven(command, {"--exposure"}, nothing);
     }

@@ -100,8 +100,9 @@ TEST(FilmPictures, DepthGoesFromWhiteToDark)
 
 TEST(FilmPictures, StepsAreHeatWhoseScaleAFewPixelsDoNotSet)
 {
-    EXPECT_EQ(picture(View::BvhSteps, {pixel({0, 50, 0}), pixel({20, 0, 0}), pixel({40, 0, 0}), pixel({40, 1, 0}), pixel({kNan, 0, 0})}),
-              (std::vector<Rgb>{kBlue, {0, 255, 0}, kRed, kRed, kBad}));
+    const std::vector<PixelMoments> few{pixel({0, 50, 0}), pixel({20, 0, 0}), pixel({40, 0, 0}), pixel({40, 1, 0}),
+                                        pixel({kNan, 0, 0})};
+    EXPECT_EQ(picture(View::BvhSteps, few), (std::vector<Rgb>{kBlue, {0, 255, 0}, kRed, kRed, kBad}));
     std::vector<PixelMoments> pixels(2000, pixel({8, 0, 0}));
     pixels[0] = pixel({4, 0, 0});
     pixels[1] = pixel({1e6F, 0, 0});

@@ -36,8 +36,9 @@ void expectRefused(const std::string& options, const std::string& part)
         parse(options);
         ADD_FAILURE() << options << ": was taken, expected a message with: " << part;
     } catch (const CLI::ParseError& error) {
-        EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << options << ": " << error.what() << "\nlacks: " << part;
-        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+        const std::string sentence = error.what();
+        EXPECT_NE(sentence.find(part), std::string::npos) << options << ": " << sentence << "\nlacks: " << part;
+        EXPECT_EQ(sentence.find('\n'), std::string::npos) << sentence;
     }
 }
 
@@ -79,8 +80,8 @@ TEST(RenderOptions, RouletteHasItsProbability)
         EXPECT_EQ(found.roulette, Roulette::Fixed);
         EXPECT_EQ(found.survival, survival);
     }
-    for (const std::string text : {"fixed:1.2", "fixed:0", "fixed:-0.5", "fixed:", "fixed:nan", "fixed:inf", "fixed:0.5x", "fixed:1e-40",
-                                   "fixed", "fixd", "0.7", "Fixed:0.7", ":0.7"}) {
+    for (const std::string text : {"fixed:1.2", "fixed:0", "fixed:-0.5", "fixed:", "fixed:nan", "fixed:inf", "fixed:0.5x",
+                                   "fixed:1e-40", "fixed", "fixd", "0.7", "Fixed:0.7", ":0.7"}) {
         expectRefused("--roulette " + text, "--roulette: \"" + text + "\": expected throughput, none or fixed:P with 0 < P <= 1");
     }
 }
@@ -106,7 +107,8 @@ TEST(RenderOptions, AdaptiveRendersTakeIndependentSamplesUpToALimit)
     EXPECT_EQ(plain.batch, 32U);
     EXPECT_EQ(plain.sampleBegin, 0U);
     EXPECT_EQ(plain.sampleEnd, 2048U);
-    const RenderSettings chosen = settings("--adaptive course:literal --tolerance 0.01 --batch 64 --max-spp 4096 --sampler independent");
+    const RenderSettings chosen =
+        settings("--adaptive course:literal --tolerance 0.01 --batch 64 --max-spp 4096 --sampler independent");
     EXPECT_EQ(chosen.adaptive, Adaptive::CourseLiteral);
     EXPECT_EQ(chosen.tolerance, 0.01F);
     EXPECT_EQ(chosen.batch, 64U);
@@ -153,7 +155,8 @@ TEST(RenderOptions, SampleCountersFitThirtyTwoBits)
 TEST(RenderOptions, WhatDoesNotGoTogetherIsRefused)
 {
     const std::string direct = "expected --direct lights or --direct hemisphere with it",
-                      rule = "expected --adaptive course or course:literal with it", tree = "with --accelerator none there is no BVH";
+                      rule = "expected --adaptive course or course:literal with it",
+                      tree = "with --accelerator none there is no BVH";
     const std::vector<std::pair<std::string, std::string>> cases{
         {"--light-samples 1", "--light-samples: \"1\": " + direct},
         {"--light-samples 4 --direct mis", "--light-samples: \"4\": " + direct},
@@ -180,9 +183,9 @@ TEST(RenderOptions, WhatDoesNotGoTogetherIsRefused)
 
 TEST(RenderOptions, ViewsRefuseWhatHasNoMeaningThere)
 {
-    const std::vector<std::string> meaningless{"--bounces 3",        "--direct lights",     "--light-samples 2",   "--paths direct",
-                                               "--roulette none",    "--adaptive course",   "--clamp-indirect 1",  "--rates r.png",
-                                               "--adaptive off"};
+    const std::vector<std::string> meaningless{
+        "--bounces 3",       "--direct lights",    "--light-samples 2", "--paths direct", "--roulette none",
+        "--adaptive course", "--clamp-indirect 1", "--rates r.png",     "--adaptive off"};
     for (const std::string view : {"normal", "depth", "albedo", "bvh-steps"}) {
         for (const std::string& option : meaningless) {
             const std::string name = option.substr(0, option.find(' ')), value = option.substr(name.size() + 1);
@@ -200,10 +203,11 @@ TEST(RenderOptions, NonsenseValuesAreRefused)
          {"--direct", "--paths", "--accelerator", "--split", "--adaptive", "--view", "--sampler", "--intersector"}) {
         expectRefused(option + " nonsense", option + ": \"nonsense\": expected ");
     }
-    for (const std::string option : {"--light-samples 0", "--light-samples 65537", "--light-samples 1.5", "--tolerance 0", "--tolerance -1",
-                                     "--tolerance nan", "--tolerance 2e6", "--batch 1", "--batch 1048577", "--max-spp 1",
-                                     "--max-spp 2147483649", "--lens-radius -1", "--lens-radius nan", "--lens-radius inf",
-                                     "--focal-distance 0", "--focal-distance nan", "--focal-distance inf"}) {
+    for (const std::string option : {"--light-samples 0", "--light-samples 65537", "--light-samples 1.5", "--tolerance 0",
+                                     "--tolerance -1", "--tolerance nan", "--tolerance 2e6", "--batch 1", "--batch 1048577",
+                                     "--max-spp 1", "--max-spp 2147483649", "--lens-radius -1", "--lens-radius nan",
+                                     "--lens-radius inf", "--focal-distance 0", "--focal-distance nan",
+                                     "--focal-distance inf"}) {
         const std::string name = option.substr(0, option.find(' ')), value = option.substr(name.size() + 1);
         expectRefused(option, name + ": \"" + value + "\": expected a ");
     }
