@@ -54,6 +54,22 @@ TEST_P(AcceleratorTest, NoneGivesTheBitsOfTheTree)
 INSTANTIATE_TEST_SUITE_P(Ways, AcceleratorTest,
                          testing::Values(DirectLight::Mis, DirectLight::Lights, DirectLight::Hemisphere, DirectLight::Bsdf));
 
+TEST(SplitRulePictureTest, EveryRuleGivesTheBitsOfTheOthers)
+{
+    RenderSettings settings = squareSettings(24, 32);
+    for (const Scene& scene : {meshScene(), mixedScene()}) {
+        const std::vector<Box> boxes = primitiveBoxes(scene);
+        const FlatScene sah = flattenScene(scene, buildBvh(boxes, SplitRule::Sah));
+        const Film film = renderFlat(sah, scene.cameras.front(), settings);
+        for (const SplitRule rule : {SplitRule::Mean, SplitRule::Median}) {
+            const FlatScene other = flattenScene(scene, buildBvh(boxes, rule));
+            EXPECT_NE(other.nodes, sah.nodes);
+            EXPECT_TRUE(sameBits(renderFlat(other, scene.cameras.front(), settings), film))
+                << scene.triangles.size() << " triangles, rule " << static_cast<int>(rule);
+        }
+    }
+}
+
 // The textbook test leaks at edges and rounds otherwise: other bits, the same picture.
 TEST(IntersectorTest, MollerTrumboreAgreesInTheMean)
 {
