@@ -1,7 +1,7 @@
 #include "host/flatten/flatten_scene.hpp"
 #include "test_kernels.hpp"
+#include "tests/support/any_camera.hpp"
 #include "tests/support/kernel_test.hpp"
-#include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,18 +18,6 @@ struct Case {
     vec3 origin, direction;
     float originTolerance;
 };
-
-Camera anyCamera(Random& random)
-{
-    Camera camera;
-    const glm::dvec3 forward = random.direction();
-    const glm::dvec3 right = glm::normalize(glm::cross(forward, random.direction()));
-    camera.position = random.logUniform(1e-3, 1e3) * random.direction();
-    camera.forward = forward;
-    camera.right = right;
-    camera.up = glm::cross(right, forward);
-    return camera;
-}
 
 double halfHeightOf(const Camera& camera)
 {

@@ -1,14 +1,19 @@
-// One thread looks at every specialization constant of the scene's features.
+// One thread looks at every specialization constant of scene and render.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
 #include "access/features.glsl"
 
-layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { uint expected; };
+struct Case {
+    uint on;  // one bit per id
+    uint direct, roulette, view;
+};
+
+layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case expected; };
 
 bool isExpected(uint id)
 {
-    return (expected >> id & 1u) != 0u;
+    return (expected.on >> id & 1u) != 0u;
 }
 
 void main()
@@ -22,6 +27,12 @@ void main()
         EXPECT_TRUE(kEnvironment == isExpected(kSpecEnvironment));
         EXPECT_TRUE(kSobol == isExpected(kSpecSobol));
         EXPECT_TRUE(kMollerTrumbore == isExpected(kSpecMollerTrumbore));
+        EXPECT_TRUE(kBruteForce == isExpected(kSpecBruteForce));
+        EXPECT_TRUE(kLens == isExpected(kSpecLens));
+        EXPECT_TRUE(kAdaptive == isExpected(kSpecAdaptive));
+        EXPECT_EQUAL(kDirect, expected.direct);
+        EXPECT_EQUAL(kRoulette, expected.roulette);
+        EXPECT_EQUAL(kView, expected.view);
     }
     endTest();
 }

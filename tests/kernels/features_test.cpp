@@ -7,19 +7,60 @@
 namespace glim {
 namespace {
 
+struct Case {
+    uint on;
+    uint direct, roulette, view;
+};
+
+// Unasked, all that a scene may need is on, and what a render may be asked for is off.
+constexpr uint kDefaultOn[] = {kSpecSpheres,        kSpecSmooth,      kSpecSpecular, kSpecSurfaceLights,
+                               kSpecPunctualLights, kSpecEnvironment, kSpecSobol};
+constexpr uint kDefaultOff[] = {kSpecMollerTrumbore, kSpecBruteForce, kSpecLens, kSpecAdaptive};
+
+Case defaults()
+{
+    Case expected{0, kDirectMis, kRouletteThroughput, kViewNormal};
+    for (const uint id : kDefaultOn) {
+        expected.on |= 1U << id;
+    }
+    return expected;
+}
+
+void expectFeatures(const Case& expected, const Specialization& constants)
+{
+    KernelTest test(test_kernels::features_test);
+    for (const auto& [id, value] : constants) {
+        test.specialize(id, value);
+    }
+    test.cases(std::vector<Case>{expected}).run();
+}
+
 TEST(FeaturesTest, EachConstantFollowsItsOwnId)
 {
-    // Unasked, everything is on but the textbook triangle test.
-    std::uint32_t defaults = 0;
-    for (std::uint32_t id = kSpecSpheres; id <= kSpecSobol; ++id) {
-        defaults |= 1U << id;
-    }
-    KernelTest(test_kernels::features_test).cases(std::vector<uint>{defaults}).run();
-    for (std::uint32_t id = kSpecSpheres; id <= kSpecMollerTrumbore; ++id) {
+    expectFeatures(defaults(), {});
+    for (const uint id : kDefaultOn) {
         SCOPED_TRACE("constant " + std::to_string(id));
-        const std::uint32_t value = id == kSpecMollerTrumbore ? 1 : 0;
-        KernelTest test(test_kernels::features_test);
-        test.cases(std::vector<uint>{defaults ^ 1U << id}).specialize(id, value).run();
+        Case expected = defaults();
+        expected.on ^= 1U << id;
+        expectFeatures(expected, {{id, 0}});
+    }
+    for (const uint id : kDefaultOff) {
+        SCOPED_TRACE("constant " + std::to_string(id));
+        Case expected = defaults();
+        expected.on ^= 1U << id;
+        expectFeatures(expected, {{id, 1}});
+    }
+}
+
+TEST(FeaturesTest, EachChoiceFollowsItsOwnId)
+{
+    for (const uint value : {0U, 1U, 2U, 3U, 4U}) {
+        SCOPED_TRACE("value " + std::to_string(value));
+        Case direct = defaults(), roulette = defaults(), view = defaults();
+        direct.direct = roulette.roulette = view.view = value;
+        expectFeatures(direct, {{kSpecDirect, value}});
+        expectFeatures(roulette, {{kSpecRoulette, value}});
+        expectFeatures(view, {{kSpecView, value}});
     }
 }
 

@@ -1,4 +1,5 @@
-// One thread is one sample of a light from the origin: which one, which part of it, and where it lies.
+// One thread is one sample of a light from the origin: which one, which part of it, and where it lies. Were the light certain,
+// it would be the same sample, of a density greater by 1 / probability.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
@@ -8,6 +9,7 @@ struct Result {
     uint light;
     uint record;
     vec3 wi;
+    uint lit;
 };
 
 layout(set = 0, binding = kBindResults, scalar) writeonly buffer Results { Result results[]; };
@@ -19,6 +21,13 @@ void main()
     uint chosen = chooseLight(a.xy, pass.lightCount);
     EXPECT_TRUE(chosen < pass.lightCount);
     LightSample light = sampleLight(chosen, false, vec3(0.0), vec3(0.0, 1.0, 0.0), a.zw, unitFloat(b.xy));
-    results[TEST_THREAD] = Result(chosen, light.record, light.wi);
+    LightSample certain = sampleLight(chosen, true, vec3(0.0), vec3(0.0, 1.0, 0.0), a.zw, unitFloat(b.xy));
+    float probability = fetchLight(chosen).probability;
+    EXPECT_TRUE(certain.wi == light.wi && certain.target == light.target);
+    EXPECT_TRUE(certain.record == light.record && certain.reach == light.reach);
+    // At most four products and quotients differ, half an ulp each, in the one and in the other.
+    EXPECT_CLOSE(certain.pdf * probability, light.pdf, 5e-7);
+    EXPECT_NEAR_VECTOR(certain.radiance, light.radiance * probability, 7e-7 * length(certain.radiance));
+    results[TEST_THREAD] = Result(chosen, light.record, light.wi, uint(light.radiance != vec3(0.0)));
     endTest();
 }

@@ -24,6 +24,7 @@ struct Result {
     uint light;
     uint record;
     vec3 wi;
+    uint lit;
 };
 
 std::vector<Result> sample(const SceneOnDevice& scene)
@@ -101,6 +102,30 @@ TEST(LightChoiceTest, SpreadsEvenlyOverASpheresCone)
             counts[16 * ring + std::clamp(static_cast<int>(16.0 * turn), 0, 15)] += 1.0;
         }
         expectShares("cone of r/d " + std::to_string(ratio), counts, std::vector<double>(256, 1.0));
+    }
+}
+
+// One light of each kind, a sphere seen from without and one from within; the kernel compares each sample with that of the same
+// light if it is certain.
+TEST(LightChoiceTest, CertainLightsLackTheirProbability)
+{
+    SceneBuilder builder;
+    builder.quad({vec3(-1, 2, -1), {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}}, builder.lambert(vec3(0.0F), vec3(1.0F), true))
+        .sphere({3, 1, 0}, 0.5F, builder.lambert(vec3(0.0F), vec3(2.0F)))
+        .sphere({0, 0, 1}, 5.0F, builder.lambert(vec3(0.0F), vec3(0.1F), true))
+        .light({"", PunctualLight::Kind::Point, {0, 0.9F, 0}, {0, 0, -1}, vec3(3.0F, 7.0F, 0.0F), 1.0F, 0.0F})
+        .light({"", PunctualLight::Kind::Spot, {0, 0.9F, 0}, {0, -1, 0}, vec3(90.0F), 0.9F, 0.5F})
+        .light({"", PunctualLight::Kind::Directional, {0, 0, 0}, {0, -1, 0}, vec3(1.5F), 1.0F, 0.0F})
+        .environment(vec3(0.2F));
+    const SceneOnDevice scene(builder.scene());
+    ASSERT_EQ(scene.flat.lights.size(), 7U);
+    std::vector<std::uint32_t> lit(7, 0);
+    for (const Result& result : sample(scene)) {
+        lit[result.light] += result.lit;
+    }
+    for (std::size_t i = 0; i < lit.size(); ++i) {
+        EXPECT_GT(lit[i], 1000U) << "light " << i;
+        EXPECT_LT(scene.flat.lights[i].probability, 0.9F) << "light " << i;
     }
 }
 

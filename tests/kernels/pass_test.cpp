@@ -1,5 +1,7 @@
+#include "shaders/shared/bindings.h"
 #include "test_kernels.hpp"
 #include "tests/support/kernel_test.hpp"
+#include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,12 +20,14 @@ struct Result {
 constexpr std::uint32_t kGroupSize = 64;
 
 // Slots as path_types.h lays them out: pixel after pixel, the samples of each together.
-std::vector<Case> samplesInOrder(const Pass& pass, std::uint32_t count)
+// `chosen`: the pixels of an adaptive pass; empty: all.
+std::vector<Case> samplesInOrder(const Pass& pass, std::uint32_t count, const std::vector<uint>& chosen = {})
 {
     std::vector<Case> cases;
     for (std::uint32_t pixel = 0; cases.size() < count; ++pixel) {
         for (std::uint32_t sample = 0; sample < pass.sampleCount && cases.size() < count; ++sample) {
-            cases.push_back({pass.seed, pass.slabBegin + pass.firstPixel + pixel, pass.firstSample + sample});
+            const std::uint32_t number = pass.firstPixel + pixel, at = chosen.empty() ? number : chosen[number];
+            cases.push_back({pass.seed, pass.slabBegin + at, pass.firstSample + sample});
         }
     }
     return cases;
@@ -50,6 +54,27 @@ TEST(PassTest, VisitsEveryPlaceOnceFromBothHalvesAndKnowsItsSample)
             EXPECT_EQ(second, place / kGroupSize % 2 == 1) << "place " << place;
         }
     }
+}
+
+TEST(PassTest, GoesOverChosenPixelsIfAdaptive)
+{
+    constexpr std::uint32_t kThreads = 10 * kGroupSize;
+    KernelTest test(test_kernels::pass_test);
+    Pass& pass = test.pass();
+    pass.slabBegin = 7000;
+    pass.firstPixel = 500;
+    pass.sampleCount = 3;
+    Random random(50);
+    std::vector<uint> chosen(pass.firstPixel + kThreads);
+    for (uint& pixel : chosen) {
+        pixel = random.below(1U << 20);
+    }
+    std::vector<uint> counted{static_cast<uint>(chosen.size())};
+    counted.insert(counted.end(), chosen.begin(), chosen.end());
+    Buffer list(testDevice(), "test's choice", BufferKind::Storage, counted.size() * sizeof(uint));
+    upload(list, std::span<const uint>(counted));
+    test.cases(samplesInOrder(pass, kThreads, chosen)).resultsOf<Result>(kThreads);
+    test.buffers({{kBindChosenPixels, &list}}).specialize(kSpecAdaptive, 1).run();
 }
 
 }  // namespace

@@ -27,25 +27,47 @@ PathRadiance add(const PathRadiance& sum, const glm::dvec3& light, uint events, 
             static_cast<float>(static_cast<double>(sum.clamped) + (lost.r + lost.g + lost.b) / 3.0)};
 }
 
+// Light of 0 to 3 events, in a pass that wants [least, most].
+void expectSums(float limit, uint least, uint most)
+{
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> light(0.0F, 10.0F);
+    std::vector<Case> cases;
+    std::vector<PathRadiance> before;
+    for (uint i = 0; i < 1000; ++i) {
+        before.push_back({vec3(light(random), light(random), 0.5F), 0.1F * light(random)});
+        const vec3 contribution(light(random), i % 7 == 0 ? 0.0F : light(random), 0.1F * light(random));
+        const uint events = i % 4;
+        const bool wanted = events >= least && events <= most;
+        cases.push_back({contribution, events,
+                         wanted ? add(before.back(), glm::dvec3(contribution), events, static_cast<double>(limit))
+                                : before.back()});
+    }
+    Buffer sums(testDevice(), "test's radiance", BufferKind::Storage, before.size() * sizeof(PathRadiance));
+    upload(sums, std::span<const PathRadiance>(before));
+    KernelTest test(test_kernels::radiance_test);
+    test.pass().clampIndirect = limit;
+    test.pass().leastEvents = least;
+    test.pass().mostEvents = most;
+    test.cases(cases).buffers({{kBindRadiance, &sums}}).run();
+}
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
 TEST(RadianceTest, AddsLightAndTellsWhatTheClampTook)
 {
-    for (const float limit : {std::numeric_limits<float>::infinity(), 3.0F, 0.1F}) {
-        std::mt19937 random(1);
-        std::uniform_real_distribution<float> light(0.0F, 10.0F);
-        std::vector<Case> cases;
-        std::vector<PathRadiance> before;
-        for (uint i = 0; i < 1000; ++i) {
-            before.push_back({vec3(light(random), light(random), 0.5F), 0.1F * light(random)});
-            const vec3 contribution(light(random), i % 7 == 0 ? 0.0F : light(random), 0.1F * light(random));
-            const uint events = i % 4;
-            cases.push_back({contribution, events,
-                             add(before.back(), glm::dvec3(contribution), events, static_cast<double>(limit))});
-        }
-        Buffer sums(testDevice(), "test's radiance", BufferKind::Storage, before.size() * sizeof(PathRadiance));
-        upload(sums, std::span<const PathRadiance>(before));
-        KernelTest test(test_kernels::radiance_test);
-        test.pass().clampIndirect = limit;
-        test.cases(cases).buffers({{kBindRadiance, &sums}}).run();
+    for (const float limit : {kInfinity, 3.0F, 0.1F}) {
+        expectSums(limit, 0, 64);
+    }
+}
+
+// What is dropped is not told as clamped either.
+TEST(RadianceTest, DropsLightThatThePassDoesNotWant)
+{
+    for (const auto& [least, most] : {std::pair{0U, 0U}, {1U, 1U}, {0U, 1U}, {2U, 64U}, {1U, 2U}, {3U, 3U}, {4U, 64U}}) {
+        SCOPED_TRACE("events " + std::to_string(least) + " to " + std::to_string(most));
+        expectSums(kInfinity, least, most);
+        expectSums(0.1F, least, most);
     }
 }
 

@@ -9,6 +9,7 @@ struct Case {
     float etaScale;
     uint bounce;
     float survival;
+    float q, survivalOfQ;  // the fixed rule
 };
 
 layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
@@ -19,6 +20,7 @@ void main()
         Case c = cases[TEST_THREAD];
         float survival = survivalProbability(c.throughput, c.etaScale, c.bounce);
         EXPECT_CLOSE(survival, c.survival, 2e-7);
+        EXPECT_EQUAL(survivalFixed(c.q, c.bounce), c.survivalOfQ);
         // H24: the weight after roulette never exceeds the larger of 1 and the weight before.
         vec3 after = c.throughput / survival * c.etaScale;
         vec3 before = c.throughput * c.etaScale;

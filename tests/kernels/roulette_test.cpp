@@ -14,6 +14,7 @@ struct Case {
     float etaScale;
     uint bounce;
     float survival;
+    float q = 0.7F, survivalOfQ = 1.0F;
 };
 
 // H24: min(1, largest throughput freed of eta^2), from the fourth hit on; in particular 1, not .95, at albedo .99.
@@ -27,6 +28,24 @@ TEST(RouletteTest, H24SurvivesByThroughput)
                 cases.push_back({{t, 0.5F * t, 0.1F * t}, eta, bounce, expected});
                 cases.push_back({{0.2F * t, 0.5F * t, t}, eta, bounce, expected});
             }
+        }
+    }
+    for (Case& c : cases) {
+        c.survivalOfQ = c.bounce == 0 ? 1.0F : c.q;
+    }
+    KernelTest(test_kernels::roulette_test).cases(cases).run();
+}
+
+// The first indirect bounce is certain, each later one has the probability q, whatever the throughput.
+TEST(RouletteTest, FixedRuleSparesTheFirstBounce)
+{
+    std::vector<Case> cases;
+    for (const float q : {0.0F, 0.3F, 0.7F, 1.0F}) {
+        for (const float t : {0.01F, 1.0F}) {
+            cases.push_back({vec3(t), 1.0F, 0, 1.0F, q, 1.0F});
+            cases.push_back({vec3(t), 1.0F, 1, 1.0F, q, q});
+            cases.push_back({vec3(t), 1.0F, 2, 1.0F, q, q});
+            cases.push_back({vec3(t), 1.0F, 64, t, q, q});
         }
     }
     KernelTest(test_kernels::roulette_test).cases(cases).run();

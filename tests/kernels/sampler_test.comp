@@ -7,6 +7,7 @@
 struct Case {
     uint seed, pixel, index, dimension;
     uint sobol;
+    uint light, k, count;  // number k of count samples of a light; count 0: not split
 };
 
 layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
@@ -17,8 +18,12 @@ void main()
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
         SampleId id = SampleId(c.seed, c.pixel, c.index);
+        if (c.count > 0u) {
+            id = splitSample(id, c.light, c.k, c.count);
+        }
         uvec2 pair = samplePair(id, c.dimension, c.sobol != 0u);
-        bool late = c.dimension >= 1u + 4u * 5u;  // after the pixel's dimension and four bounces of five
+        // After the pixel's dimension and four bounces of five.
+        bool late = c.dimension >= 1u + 4u * 5u && c.dimension != kDimensionLens;
         EXPECT_TRUE(c.sobol != 0u && !late || pair == independentPair(id, c.dimension));
         EXPECT_TRUE(c.sobol == 0u || late || pair != independentPair(id, c.dimension));
         // No two uses share a dimension.
@@ -27,7 +32,7 @@ void main()
         for (uint k = 0u; k < 5u; ++k) {
             EXPECT_EQUAL(bounceDimension(bounce, uses[k]), 1u + 5u * bounce + k);
         }
-        EXPECT_TRUE(kDimensionPixel == 0u);
+        EXPECT_TRUE(kDimensionPixel == 0u && kDimensionLens == 0xffffffffu);
         results[TEST_THREAD] = pair;
     }
     endTest();

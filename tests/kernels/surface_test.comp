@@ -9,6 +9,7 @@ struct Result {
     PathHit hit;
     vec3 point, errorBound, geometric, shading;
     uint front, material, emitter;
+    vec3 emitted;
 };
 
 layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { PathRay rays[]; };
@@ -32,8 +33,13 @@ void main()
             EXPECT_TRUE(dot(s.geometric, ray.direction) <= 0.0);
             EXPECT_TRUE(dot(s.shading, ray.direction) <= 0.0);
             EXPECT_TRUE(all(greaterThan(s.errorBound, vec3(0.0))));
+            FlatMaterial material = fetchMaterial(s.material);
+            vec3 emitted = emittedRadiance(s, material);
+            Surface dark = s;
+            dark.emitter = 0u;
+            EXPECT_TRUE(emittedRadiance(dark, material) == vec3(0.0));
             results[TEST_THREAD] = Result(hit, s.point, s.errorBound, s.geometric, s.shading, uint(s.front), s.material,
-                                          s.emitter);
+                                          s.emitter, emitted);
         }
     }
     endTest();

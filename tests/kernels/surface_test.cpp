@@ -16,6 +16,7 @@ struct Result {
     PathHit hit;
     vec3 point, errorBound, geometric, shading;
     uint front, material, emitter;
+    vec3 emitted;
 };
 
 using glm::dvec3;
@@ -33,7 +34,8 @@ protected:
         return glm::normalize(dvec3(x, y, normal(random_)));
     }
 
-    // Flat triangles, smooth ones whose normals lean away by up to some 70 degrees, and emitting spheres.
+    // Flat triangles, smooth ones whose normals lean away by up to some 70 degrees and that emit from their fronts, and spheres
+    // that emit from both sides.
     Scene makeScene(float shift)
     {
         const Mesh flat = placed(randomTriangles(150, 0.3F, 1), 1.0F, shift);
@@ -46,7 +48,9 @@ protected:
         }
         Scene scene = sceneOf(mesh, spheres);
         scene.materials.resize(3);
-        scene.materials[kSmooth].emission = scene.materials[kRound].emission = glm::vec3(1.0F);
+        scene.materials[kSmooth].emission = glm::vec3(1.0F, 0.5F, 0.25F);
+        scene.materials[kRound].emission = glm::vec3(0.0F, 3.0F, 7.0F);
+        scene.materials[kRound].doubleSided = true;
         scene.primitives = {{"", 0, 150, kFlat, false}, {"", 150, 150, kSmooth, true}};
         for (const Triangle& t : scene.triangles) {
             const dvec3 n = normalOf(t);
@@ -88,10 +92,12 @@ protected:
 
     void checkTriangle(const Scene& scene, std::uint32_t id, const PathRay& ray, const Result& r);
     void checkSphere(const Sphere& sphere, const PathRay& ray, const Result& r);
+    void checkEmission(const Material& material, const Result& r);
     void checkSides(const dvec3& normal, const dvec3& shading, const PathRay& ray, const Result& r, double slack);
 
     std::mt19937 random_{11};
     std::size_t smoothed_ = 0, gaveWay_ = 0, spheres_ = 0, triangles_ = 0;
+    std::size_t darkBacks_ = 0, brightBacks_ = 0, brightFronts_ = 0;
 };
 
 // |error| <= bound on each axis.
@@ -164,6 +170,15 @@ void SurfaceTest::checkSphere(const Sphere& sphere, const PathRay& ray, const Re
     ++spheres_;
 }
 
+void SurfaceTest::checkEmission(const Material& material, const Result& r)
+{
+    const bool front = r.front != 0, emits = material.emission != glm::vec3(0.0F);
+    EXPECT_EQ(r.emitted, front || material.doubleSided ? material.emission : glm::vec3(0.0F));
+    brightFronts_ += emits && front ? 1 : 0;
+    brightBacks_ += emits && !front && material.doubleSided ? 1 : 0;
+    darkBacks_ += emits && !front && !material.doubleSided ? 1 : 0;
+}
+
 TEST_P(SurfaceTest, IsTheOneOfTheScene)
 {
     const Scene scene = makeScene(GetParam());
@@ -185,6 +200,7 @@ TEST_P(SurfaceTest, IsTheOneOfTheScene)
         if (r.emitter > 0) {
             EXPECT_EQ(onDevice.flat.emitters[r.emitter - 1].record, r.hit.record);
         }
+        checkEmission(scene.materials[r.material], r);
         if (isTriangle) {
             checkTriangle(scene, id, rays[i], r);
         } else {
@@ -192,10 +208,12 @@ TEST_P(SurfaceTest, IsTheOneOfTheScene)
         }
     }
     std::cout << triangles_ << " hits of triangles (" << smoothed_ << " smooth), " << spheres_ << " of spheres, "
-              << gaveWay_ << " shading normals looked away\n";
+              << gaveWay_ << " shading normals looked away; emission seen from " << brightFronts_ << " fronts and "
+              << brightBacks_ << " backs, not from " << darkBacks_ << " backs\n";
     EXPECT_GT(triangles_, 5000U);
     EXPECT_GT(spheres_, 500U);
     EXPECT_GT(gaveWay_, 100U);
+    EXPECT_GT(std::min({brightFronts_, brightBacks_, darkBacks_}), 100U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shifts, SurfaceTest, testing::Values(0.0F, 100.0F));

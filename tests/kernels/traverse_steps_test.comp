@@ -1,4 +1,4 @@
-// One thread is one ray through the real traversal, whose box and primitive tests are counted.
+// One thread is one ray through the real traversal, whose box and primitive tests are counted, as it counts them itself.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
@@ -27,10 +27,13 @@ void main()
 {
     if (isTestThread()) {
         PathRay ray = rays[TEST_THREAD];
-        PathHit hit = traceClosest(ray);
+        Steps steps;
+        PathHit hit = traceClosest(ray, steps);
         uint nodes = boxTests / 2u;
         uint primitives = recordFetches;
         bool unoccluded = isUnoccluded(ShadowRay(ray.origin, ray.source, ray.direction, kNoRecord, vec3(0.0), kInfinity));
+        EXPECT_EQUAL(steps.nodes, nodes);
+        EXPECT_EQUAL(steps.primitives, primitives);
         EXPECT_TRUE(nodes > 0u && boxTests > 2u * nodes);
         results[TEST_THREAD] = Result(hit, nodes, primitives, boxTests / 2u - nodes, uint(unoccluded));
     }

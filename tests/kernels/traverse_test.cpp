@@ -1,25 +1,17 @@
 #include "test_kernels.hpp"
 #include "tests/support/reference.hpp"
-#include "tests/support/scene_on_device.hpp"
-#include "tests/support/test_meshes.hpp"
+#include "tests/support/traverse_cases.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <bit>
-#include <functional>
 #include <iostream>
-#include <limits>
-#include <random>
 
 namespace glim {
 namespace {
 
-struct Case {
-    PathRay ray;
-    uint target = kNoRecord;
-    float reach = 1.0F;
-};
+using Case = TraverseCase;
 
 struct Result {
     PathHit hit;
@@ -28,72 +20,6 @@ struct Result {
 
 // Of a primitive's size. The watertight test in float is right to some 1e-6 of it at coordinates of about 1.
 constexpr double kMargin = 1e-4;
-
-class RayMaker {
-public:
-    explicit RayMaker(const SceneOnDevice& scene) : scene_(scene) {}
-
-    // Anywhere, in any direction; every third with one or two direction components of +0 or -0, and then with its origin
-    // exactly on planes of the boxes of primitives.
-    Case anywhere(const std::vector<Box>& boxes)
-    {
-        Case c{};
-        c.ray.source = kNoRecord;
-        c.ray.origin = point(1.2F);
-        c.ray.direction = glm::normalize(point(1.0F));
-        if (random_() % 3 == 0) {
-            const auto kept = static_cast<int>(random_() % 3);
-            for (int k = 0; k < 3; ++k) {
-                if (k != kept && (random_() % 2 == 0 || k == (kept + 1) % 3)) {
-                    c.ray.direction[k] = random_() % 2 == 0 ? 0.0F : -0.0F;
-                    const Box& box = boxes[below(boxes.size())];
-                    c.ray.origin[k] = random_() % 2 == 0 ? box.lo[k] : box.hi[k];
-                }
-            }
-            c.ray.direction = glm::normalize(c.ray.direction);
-        }
-        pickShadow(c);
-        return c;
-    }
-
-    // Off the surface of a primitive, towards any side.
-    Case leaving(const Scene& scene)
-    {
-        Case c = {};
-        const std::uint32_t id = below(scene_.recordOf.size());
-        c.ray.source = scene_.recordOf[id];
-        c.ray.direction = glm::normalize(point(1.0F));
-        if (id < scene.triangles.size()) {
-            const Triangle& t = scene.triangles[id];
-            c.ray.origin = 0.5F * t.vertices[0] + 0.2F * t.vertices[1] + 0.3F * t.vertices[2];
-        } else {
-            const Sphere& sphere = scene.spheres[id - scene.triangles.size()];
-            c.ray.origin = sphere.center + sphere.radius * glm::normalize(point(1.0F));
-        }
-        pickShadow(c);
-        return c;
-    }
-
-private:
-    glm::vec3 point(float size)
-    {
-        std::uniform_real_distribution<float> within(-size, size);
-        const float x = within(random_), y = within(random_);
-        return {x, y, within(random_)};
-    }
-
-    void pickShadow(Case& c)
-    {
-        c.target = random_() % 2 == 0 ? below(scene_.recordOf.size()) : kNoRecord;
-        c.reach = random_() % 4 == 0 ? std::numeric_limits<float>::infinity()
-                                     : std::uniform_real_distribution<float>(0.05F, 1.0F)(random_);
-    }
-
-    std::uint32_t below(std::size_t count) { return static_cast<std::uint32_t>(random_() % count); }
-
-    const SceneOnDevice& scene_;
-    std::mt19937 random_{7};
-};
 
 struct Tally {
     std::size_t rays = 0, ambiguous = 0, hits = 0, occluded = 0;
@@ -134,14 +60,7 @@ void compareShadow(const Reference& reference, const SceneOnDevice& scene, const
     tally.occluded += unoccluded ? 0 : 1;
 }
 
-struct Input {
-    const char* name;
-    std::function<Scene()> make;
-};
-
-void PrintTo(const Input& input, std::ostream* out) { *out << input.name; }
-
-class TraverseTest : public testing::TestWithParam<Input> {};
+class TraverseTest : public testing::TestWithParam<TraverseInput> {};
 
 TEST_P(TraverseTest, AgreesWithBruteForceAndTheReference)
 {
@@ -172,15 +91,8 @@ TEST_P(TraverseTest, AgreesWithBruteForceAndTheReference)
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Scenes, TraverseTest,
-    testing::Values(
-        Input{"Mixed", [] { return sceneOf(randomTriangles(250, 0.3F, 1), randomSpheres(50, 0.2F, 2)); }},
-        Input{"Large", [] { return sceneOf(randomTriangles(60, 1.5F, 3), randomSpheres(6, 1.2F, 4)); }},
-        Input{"Spheres", [] { return sceneOf({}, randomSpheres(200, 0.3F, 5)); }},
-        Input{"Small", [] { return sceneOf(randomTriangles(500, 0.1F, 6), randomSpheres(100, 0.1F, 7)); }},
-        Input{"OneTriangle", [] { return sceneOf(randomTriangles(1, 1.5F, 8)); }},
-        Input{"OneSphere", [] { return sceneOf({}, {{"", glm::vec3(0.1F, 0.2F, 0.0F), 0.8F, 0}}); }}),
-    [](const testing::TestParamInfo<Input>& parameter) { return std::string(parameter.param.name); });
+    Scenes, TraverseTest, testing::ValuesIn(traverseInputs()),
+    [](const testing::TestParamInfo<TraverseInput>& parameter) { return std::string(parameter.param.name); });
 
 // Copies of one triangle and mirrored pairs of edges: the lowest primitive id wins whatever the order of the leaves.
 TEST(TraverseTiesTest, GoToTheLowestPrimitive)

@@ -10,7 +10,7 @@ struct Case {
 };
 
 struct Result {
-    vec3 hemisphere, sphere;
+    vec3 hemisphere, sphere, uniformHemisphere;
     vec2 triangle;
 };
 
@@ -32,9 +32,13 @@ void main()
         vec3 s = sampleSphere(c.u);
         EXPECT_NEAR(dot(s, s), 1.0, 5e-7);
         EXPECT_NEAR(s.z, 1.0 - 2.0 * c.u.x, 1e-7);
+        vec3 h = sampleUniformHemisphere(c.u);
+        EXPECT_NEAR(dot(h, h), 1.0, 5e-7);
+        EXPECT_TRUE(h.z > 0.0);
+        EXPECT_CLOSE(pdfUniformHemisphere(), 0.159154943, 2e-7);
         vec2 b = sampleTriangle(c.u);
         EXPECT_TRUE(b.x >= 0.0 && b.y >= 0.0 && b.x + b.y <= 1.0);
-        results[TEST_THREAD] = Result(w, s, b);
+        results[TEST_THREAD] = Result(w, s, h, b);
     }
     endTest();
 }

@@ -20,7 +20,7 @@ struct Case {
 };
 
 struct Result {
-    vec3 hemisphere, sphere;
+    vec3 hemisphere, sphere, uniformHemisphere;
     vec2 triangle;
 };
 
@@ -66,6 +66,7 @@ TEST(WarpTest, HitsTheDiskSphereAndTriangle)
     }
     for (const Result& result : warped(points)) {
         EXPECT_TRUE(std::isfinite(result.hemisphere.z) && std::isfinite(result.sphere.x));
+        EXPECT_TRUE(std::isfinite(result.uniformHemisphere.x) && std::isfinite(result.uniformHemisphere.y));
     }
 }
 
@@ -75,7 +76,7 @@ double turnOf(const vec3& v)
 }
 
 // Each as a point of the unit square that is uniform if the warp is right: by area of the disk under the hemisphere, height
-// on the sphere (Archimedes), and (b1 + b2)^2 and b2 / (b1 + b2) in the triangle.
+// on the sphere and the uniform hemisphere (Archimedes), and (b1 + b2)^2 and b2 / (b1 + b2) in the triangle.
 glm::dvec2 unwarpHemisphere(const Result& r)
 {
     return {glm::dot(glm::dvec2(r.hemisphere), glm::dvec2(r.hemisphere)), turnOf(r.hemisphere)};
@@ -86,6 +87,11 @@ glm::dvec2 unwarpSphere(const Result& r)
     return {0.5 - 0.5 * static_cast<double>(r.sphere.z), turnOf(r.sphere)};
 }
 
+glm::dvec2 unwarpUniformHemisphere(const Result& r)
+{
+    return {1.0 - static_cast<double>(r.uniformHemisphere.z), turnOf(r.uniformHemisphere)};
+}
+
 glm::dvec2 unwarpTriangle(const Result& r)
 {
     const glm::dvec2 b(r.triangle);
@@ -94,7 +100,7 @@ glm::dvec2 unwarpTriangle(const Result& r)
 
 std::size_t comparisons()
 {
-    return 16 * static_cast<std::size_t>(testRounds());
+    return 22 * static_cast<std::size_t>(testRounds());
 }
 
 void expectUniform(const std::string& what, const std::vector<Result>& results, glm::dvec2 (*unwarp)(const Result&))
@@ -126,11 +132,17 @@ void expectUniformityAndMoments(const std::vector<Result>& results)
 {
     expectUniform("cosine hemisphere", results, unwarpHemisphere);
     expectUniform("sphere", results, unwarpSphere);
+    expectUniform("uniform hemisphere", results, unwarpUniformHemisphere);
     expectUniform("triangle", results, unwarpTriangle);
     expectMean("hemisphere x", results, 0.0, [](const Result& r) { return r.hemisphere.x; });
     expectMean("hemisphere y", results, 0.0, [](const Result& r) { return r.hemisphere.y; });
     expectMean("hemisphere z", results, 2.0 / 3.0, [](const Result& r) { return r.hemisphere.z; });
     expectMean("hemisphere z^2", results, 0.5, [](const Result& r) { return r.hemisphere.z * r.hemisphere.z; });
+    expectMean("uniform hemisphere x", results, 0.0, [](const Result& r) { return r.uniformHemisphere.x; });
+    expectMean("uniform hemisphere y", results, 0.0, [](const Result& r) { return r.uniformHemisphere.y; });
+    expectMean("uniform hemisphere z", results, 0.5, [](const Result& r) { return r.uniformHemisphere.z; });
+    expectMean("uniform hemisphere z^2", results, 1.0 / 3.0,
+               [](const Result& r) { return r.uniformHemisphere.z * r.uniformHemisphere.z; });
     expectMean("sphere x", results, 0.0, [](const Result& r) { return r.sphere.x; });
     expectMean("sphere y", results, 0.0, [](const Result& r) { return r.sphere.y; });
     expectMean("sphere z", results, 0.0, [](const Result& r) { return r.sphere.z; });

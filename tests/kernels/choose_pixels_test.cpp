@@ -1,0 +1,123 @@
+// The kernel itself, over pixels whose luminances are known.
+#include "host/gpu/commands.hpp"
+#include "host/render/path_buffers.hpp"
+#include "kernels.hpp"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/limits.h"
+#include "shaders/shared/path_types.h"
+#include "tests/support/luminance_cases.hpp"
+#include "tests/support/test_device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+namespace glim {
+namespace {
+
+constexpr std::uint32_t kWorkgroup = 64;
+constexpr std::uint32_t kUntouched = 0xabcdef01;
+constexpr float kTolerance = 0.05F;
+
+struct Outcome {
+    std::uint32_t count;
+    std::vector<std::uint32_t> timesChosen;  // by pixel
+    std::size_t strangers = 0;               // entries that are no pixel
+    std::size_t beyond = 0;                  // entries written beyond the count
+    Status status;
+};
+
+Outcome readList(const Buffer& list, std::size_t pixels, const Status& status)
+{
+    const std::vector<uint> words = download<uint>(list, list.size() / sizeof(uint));
+    Outcome outcome{words[0], std::vector<std::uint32_t>(pixels, 0), 0, 0, status};
+    for (std::size_t i = 1; i < words.size(); ++i) {
+        if (i > outcome.count) {
+            outcome.beyond += words[i] != kUntouched ? 1 : 0;
+        } else if (words[i] < pixels) {
+            ++outcome.timesChosen[words[i]];
+        } else {
+            ++outcome.strangers;
+        }
+    }
+    return outcome;
+}
+
+// The last `idle` entries of the luminances are no pixels of the slab.
+Outcome choosePixels(const std::vector<LuminanceMoments>& luminances, std::uint32_t constantSamples, std::size_t idle = 100)
+{
+    const KernelLayout layout(testDevice(), kernelSlots(), sizeof(Pass));
+    const Kernel kernel(layout, kernels::choose_pixels, {{kSpecWorkgroup, kWorkgroup}, {kSpecAdaptive, 1}});
+    PathBuffers paths(testDevice(), 1);
+    Buffer given(testDevice(), "test's luminances", BufferKind::Storage, luminances.size() * sizeof(LuminanceMoments));
+    upload(given, std::span<const LuminanceMoments>(luminances));
+    Buffer list(testDevice(), "test's choice", BufferKind::Storage, (1 + luminances.size()) * sizeof(uint));
+    std::vector<uint> empty(1 + luminances.size(), kUntouched);
+    empty[0] = 0;
+    upload(list, std::span<const uint>(empty));
+    std::map<std::uint32_t, const Buffer*> bound = paths.buffers(0);
+    bound[kBindLuminance] = &given;
+    bound[kBindChosenPixels] = &list;
+    const Bindings bindings(layout, bound);
+    Pass pass{};
+    pass.pixelCount = static_cast<std::uint32_t>(luminances.size() - idle);
+    pass.tolerance = kTolerance;
+    pass.constantSamples = constantSamples;
+    pass.canarySteps = 3;
+    Commands commands(testDevice());
+    const auto groups = static_cast<std::uint32_t>((luminances.size() + kWorkgroup - 1) / kWorkgroup);
+    commands.dispatch(kernel, bindings, std::as_bytes(std::span<const Pass, 1>(&pass, 1)), groups);
+    commands.submitAndWait();
+    return readList(list, pass.pixelCount, download<Status>(paths.status(), 1)[0]);
+}
+
+void expectAList(const Outcome& outcome)
+{
+    EXPECT_EQ(outcome.strangers, 0U);
+    EXPECT_EQ(outcome.beyond, 0U);
+    EXPECT_EQ(outcome.status.loopCaps, 0U);
+    std::uint32_t chosen = 0;
+    for (std::size_t pixel = 0; pixel < outcome.timesChosen.size(); ++pixel) {
+        EXPECT_LE(outcome.timesChosen[pixel], 1U) << "pixel " << pixel;
+        chosen += outcome.timesChosen[pixel];
+    }
+    EXPECT_EQ(outcome.count, chosen);
+}
+
+TEST(ChoosePixelsTest, ListsThoseThatAreNotAccurate)
+{
+    for (const std::uint32_t constantSamples : {0U, kConstantSamples}) {
+        Random random(70 + constantSamples);
+        std::vector<LuminanceMoments> luminances(10103);
+        for (LuminanceMoments& luminance : luminances) {
+            luminance = anyLuminance(random, kTolerance);
+        }
+        const Outcome outcome = choosePixels(luminances, constantSamples);
+        expectAList(outcome);
+        std::size_t undecided = 0;
+        for (std::size_t pixel = 0; pixel < outcome.timesChosen.size(); ++pixel) {
+            const std::optional<bool> accurate = isAccurateInDouble(luminances[pixel], kTolerance, constantSamples);
+            undecided += accurate ? 0 : 1;
+            EXPECT_TRUE(!accurate || outcome.timesChosen[pixel] == (*accurate ? 0 : 1)) << "pixel " << pixel;
+        }
+        std::cout << "  " << outcome.count << " of " << outcome.timesChosen.size() << " pixels chosen, " << undecided
+                  << " left to rounding\n";
+        EXPECT_LT(undecided, outcome.timesChosen.size() / 5);
+    }
+}
+
+TEST(ChoosePixelsTest, ListsNoneOrAll)
+{
+    const std::vector<LuminanceMoments> black(5000, {2, 0.0F, 0.0F}), fresh(5000, {0, 0.0F, 0.0F});
+    const Outcome none = choosePixels(black, 0), all = choosePixels(fresh, 0), cautious = choosePixels(black, kConstantSamples);
+    for (const Outcome* outcome : {&none, &all, &cautious}) {
+        expectAList(*outcome);
+    }
+    EXPECT_EQ(none.count, 0U);
+    EXPECT_EQ(all.count, 4900U);
+    EXPECT_EQ(cautious.count, 4900U);
+    EXPECT_EQ(choosePixels(std::vector<LuminanceMoments>(1), 0, 0).count, 1U);
+}
+
+}  // namespace
+}  // namespace glim

@@ -1,0 +1,21 @@
+// One thread is one stream of luminances, of which it adds the next `sampleCount`: more would spend Mesa's loop budget.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "expect.glsl"
+#include "lib/stop_rule.glsl"
+
+layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { float samples[]; };
+layout(set = 0, binding = kBindResults, scalar) buffer Results { LuminanceMoments results[]; };
+
+void main()
+{
+    if (isTestThread()) {
+        LuminanceMoments moments = results[TEST_THREAD];
+        for (uint i = 0u; i < pass.sampleCount; ++i) {
+            moments = addLuminance(moments, samples[TEST_THREAD * pass.sampleCount + i]);
+        }
+        EXPECT_EQUAL(moments.count, results[TEST_THREAD].count + pass.sampleCount);
+        results[TEST_THREAD] = moments;
+    }
+    endTest();
+}
