@@ -1,0 +1,154 @@
+"""Section 2: what a bounding volume hierarchy buys, and how it is split."""
+
+import os
+
+from .. import plots
+from ..estimates import fit_logarithm, spread
+from ..markup import gallery, heading, number, paragraph, plot, table, timing
+
+KEY, TITLE = "acceleration", "2. The bounding volume hierarchy"
+MESHES, RULES = ("cow", "beast"), ("sah", "mean", "median")
+COURSE_PIXELS = 800 * 600
+COURSE_SECONDS = {"cow": (22.0, 0.05), "beast": (335.0, 0.05)}
+CAMERA_RAYS = ("--view", "normal", "--spp", 1)
+
+
+def time_rays(lab, name, scene, size, *options):
+    """One camera ray a pixel, several times; seconds, and nanoseconds a ray."""
+    shots = []
+    for i in range(lab.profile.timings):
+        shots.append(lab.render("%s %d of %d" % (name, i + 1, lab.profile.timings), scene, size, *CAMERA_RAYS, *options))
+        os.remove(shots[-1].exr)
+    return {"size": size, "seconds": spread([s.seconds for s in shots]),
+            "nanosecondsPerRay": spread([1e9 * s.seconds / s.pixels for s in shots]),
+            "buildSeconds": spread([s.build_seconds for s in shots]), "bvh": shots[0].stats["bvh"]}
+
+
+def count_steps(lab, name, scene, size, *options):
+    shot = lab.render("%s, visits" % name, scene, size, "--view", "bvh-steps", "--spp", 1, *options)
+    os.remove(shot.exr)
+    return shot.stats["steps"]
+
+
+def measure_rule(lab, scene, size, rule):
+    name = "%s %s" % (scene, rule)
+    return {**time_rays(lab, name, scene, size, "--split", rule), "steps": count_steps(lab, name, scene, size, "--split", rule)}
+
+
+def same_picture(lab, scene, size):
+    """Whether every rule, and no BVH at all, give the same bits."""
+    choices = [("--split", rule) for rule in RULES] + [("--accelerator", "none")]
+    shots = [lab.render("%s same bits %s" % (scene, choice[1]), scene, size, *CAMERA_RAYS, *choice) for choice in choices]
+    return all(lab.glim.compare(shot.exr, shots[0].exr)["relation"] == "identical" for shot in shots[1:])
+
+
+def measure_mesh(lab, scene):
+    profile = lab.profile
+    reference = lab.reference(scene, profile.bvh_size, 64, "--view", "normal")
+    return {"triangles": lab.glim.inspect(lab.scenes.path(scene))["counts"]["triangles"],
+            "rules": {rule: measure_rule(lab, scene, profile.bvh_size, rule) for rule in RULES},
+            "none": time_rays(lab, scene + " without", scene, profile.brute_sizes[scene], "--accelerator", "none"),
+            "sameBits": same_picture(lab, scene, profile.brute_sizes[scene]),
+            "picture": lab.measure(scene + " normal", scene, profile.bvh_size, *CAMERA_RAYS, seed=1, reference=reference,
+                                   png=True)}
+
+
+def measure_growth(lab):
+    profile, points = lab.profile, {rule: [] for rule in (*lab.profile.growth_rules, "none")}
+    for triangles in profile.growth:
+        scene = lab.scenes.blob(triangles)
+        count = lab.glim.inspect(lab.scenes.path(scene))["counts"]["triangles"]
+        for rule in profile.growth_rules:
+            points[rule].append({"triangles": count, **measure_rule(lab, scene, profile.bvh_size, rule)})
+        if triangles <= profile.brute_growth:
+            points["none"].append({"triangles": count, **time_rays(lab, scene + " without", scene, profile.brute_sizes["beast"],
+                                                                   "--accelerator", "none")})
+    return points
+
+
+def ray_time(entry):
+    return entry["nanosecondsPerRay"]["median"]
+
+
+def fit(points):
+    counts = [p["triangles"] for p in points]
+    return {"nanoseconds": fit_logarithm(counts, [ray_time(p) for p in points]),
+            "visits": fit_logarithm(counts, [p["steps"]["nodesPerRay"] for p in points])}
+
+
+def measure(lab):
+    meshes = {scene: measure_mesh(lab, scene) for scene in MESHES}
+    for mesh in meshes.values():
+        mesh["speedup"] = ray_time(mesh["none"]) / ray_time(mesh["rules"]["sah"])
+    growth = measure_growth(lab)
+    return {"names": lab.scenes.names, "meshes": meshes, "growth": growth,
+            "fits": {rule: fit(points) for rule, points in growth.items() if rule != "none"}}
+
+
+def speedup_row(name, scene, mesh):
+    none, bvh = mesh["none"], mesh["rules"]["sah"]
+    brute, quick = COURSE_SECONDS[scene]
+    whole = [1e-9 * COURSE_PIXELS * ray_time(entry) for entry in (none, bvh)]
+    return ("%s, %s triangles" % (name, number(mesh["triangles"], 5)), "%d x %d" % tuple(none["size"]),
+            timing(none["seconds"]), "%d x %d" % tuple(bvh["size"]), timing(bvh["seconds"]),
+            number(mesh["speedup"]), "%s to %s" % tuple(map(number, whole)),
+            "%g s to %g s: %s" % (brute, quick, number(brute / quick)), "yes" if mesh["sameBits"] else "NO")
+
+
+def rule_row(rule, entry, best):
+    steps = entry["steps"]
+    return (rule, timing(entry["seconds"]), timing(entry["buildSeconds"]), number(steps["nodesPerRay"], 4),
+            number(steps["primitivesPerRay"], 4), number(steps["mostNodes"], 4), number(entry["bvh"]["depth"]),
+            number(ray_time(entry) / best))
+
+
+def show_growth(results):
+    growth, fits = results["growth"], results["fits"]
+    rules = [rule for rule in growth if rule != "none"]
+    times = {rule: [(p["triangles"], ray_time(p)) for p in growth[rule]] for rule in rules}
+    visits = {rule: [(p["triangles"], p["steps"]["nodesPerRay"]) for p in growth[rule]] for rule in rules}
+    both = {**times, "no BVH": [(p["triangles"], ray_time(p)) for p in growth["none"]]}
+    svg = plots.plot_growth("growth", [
+        ("nanoseconds a ray", times, {rule: fits[rule]["nanoseconds"] for rule in rules}, False),
+        ("node visits a ray", visits, {rule: fits[rule]["visits"] for rule in rules}, False),
+        ("nanoseconds a ray", both, {}, True)])
+    rows = [(rule, "%s + %s log2 n" % (number(f["nanoseconds"]["a"]), number(f["nanoseconds"]["b"])),
+             number(f["nanoseconds"]["r2"]), "%s + %s log2 n" % (number(f["visits"]["a"]), number(f["visits"]["b"])),
+             number(f["visits"]["r2"])) for rule, f in fits.items()]
+    return (plot(svg, "Bumpy globes of n triangles from one camera. On a logarithmic axis a logarithm is straight; without "
+                 "a BVH the time is proportional to n.") +
+            table(("split", "nanoseconds a ray", "R2", "visits a ray", "R2"), rows, "Least squares of a + b log2 n"))
+
+
+def show(results, pictures):
+    names, meshes = results["names"], results["meshes"]
+    text = paragraph("One camera ray a pixel, one chain of dispatches, median of %d runs (least to most). Without a BVH a "
+                     "smaller picture where the course's 800 x 600 would take too long; ratios are of the time a ray." %
+                     meshes["cow"]["none"]["seconds"]["n"])
+    text += gallery(pictures.figure(names[scene], mesh["picture"]) for scene, mesh in meshes.items())
+    text += table(("mesh", "without: size", "seconds", "with: size", "seconds", "ratio", "seconds at 800 x 600",
+                   "course, with its own mesh", "same bits"),
+                  [speedup_row(names[scene], scene, mesh) for scene, mesh in meshes.items()], "With and without a BVH")
+    for scene, mesh in meshes.items():
+        best = ray_time(mesh["rules"]["sah"])
+        text += table(("split", "seconds", "build seconds", "node visits a ray", "primitives a ray", "most visits", "depth",
+                       "time / sah's"), [rule_row(rule, entry, best) for rule, entry in mesh["rules"].items()],
+                      "Split rules, %s" % names[scene])
+    return text + heading("Growth with the number of triangles") + show_growth(results)
+
+
+def headlines(results):
+    rows = []
+    for scene, mesh in results["meshes"].items():
+        sah, mean = mesh["rules"]["sah"], mesh["rules"]["mean"]
+        rows.append(("BVH, %s (%s triangles)" % (results["names"][scene], number(mesh["triangles"], 5)),
+                     "%s s to build" % number(sah["buildSeconds"]["median"]),
+                     "rays %s times as fast (course: %s)" % (number(mesh["speedup"]),
+                                                             number(COURSE_SECONDS[scene][0] / COURSE_SECONDS[scene][1]))))
+    rows.append(("SAH against the course's split, %s" % results["names"]["beast"],
+                 "%s times the build" % number(sah["buildSeconds"]["median"] / mean["buildSeconds"]["median"]),
+                 "%s times the visits" % number(sah["steps"]["nodesPerRay"] / mean["steps"]["nodesPerRay"])))
+    visits = results["fits"]["sah"]["visits"]
+    rows.append(("Visits a ray, 10^2 to 10^6 triangles", "", "%s + %s log2 n (R2 %s)" % tuple(
+        number(visits[key]) for key in ("a", "b", "r2"))))
+    return rows
