@@ -75,10 +75,14 @@ class Lab:
 
     # Measurements
 
-    def render(self, name, scene, size, *options, png=False, rates=False):
+    def render(self, name, scene, size, *options, png=False, rates=False, keep=True):
+        """Without `keep` only the statistics are wanted."""
         self.say("%s: %s" % (self.section, name))
-        stem = os.path.join(self.scratch, name.replace(" ", "-").replace("/", "-"))
-        return self.glim.render(stem, self.scenes.path(scene), size, [str(o) for o in options], png, rates)
+        stem = os.path.join(self.scratch, name.replace(" ", "-"))
+        shot = self.glim.render(stem, self.scenes.path(scene), size, [str(o) for o in options], png, rates)
+        if not keep:
+            os.remove(shot.exr)
+        return shot
 
     def reference(self, scene, size, spp, *options):
         """The long render of the same light, by MIS and Sobol' points whatever the experiments use."""
@@ -88,11 +92,19 @@ class Lab:
             self.references[key] = self.render(name, scene, size, "--spp", spp, "--seed", REFERENCE_SEED, *options)
         return self.references[key]
 
+    def triangles(self, scene):
+        return self.glim.inspect(self.scenes.path(scene))["counts"]["triangles"]
+
     def measure(self, name, scene, size, *options, seed, reference, png=False, rates=False):
-        """One render and how far it is from the reference, whose own noise is taken off."""
+        """One render and how far it is from the long one."""
         shot = self.render("%s seed %d" % (name, seed), scene, size, "--seed", seed, *options, png=png, rates=rates)
-        errors = self.glim.compare(shot.exr, reference.exr)
+        judged = self.judge(shot, reference)
         os.remove(shot.exr)
+        return judged
+
+    def judge(self, shot, reference):
+        """A render's cost and its error, from which the reference's own noise is taken off."""
+        errors = self.glim.compare(shot.exr, reference.exr)
         noise = errors["reference_noise"] or {"mse": 0.0, "relmse": 0.0}
         return {"seconds": shot.seconds, "mrays": shot.mrays, "samples": shot.samples, "spp": shot.spp, "rays": shot.rays,
                 "relmse": errors["relmse"] - noise["relmse"], "referenceNoise": noise["relmse"],

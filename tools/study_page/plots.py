@@ -56,7 +56,7 @@ def draw_growth(axes, series, unit, fits):
         if label in fits:
             fit, ends = fits[label], (points[0][0], points[-1][0])
             axes.plot(ends, [fit["a"] + fit["b"] * math.log2(n) for n in ends], marker="", color=axes.lines[-1].get_color(),
-                      label="%.3g + %.3g log2 n" % (fit["a"], fit["b"]))
+                      label="%.3g %+.3g log2 n" % (fit["a"], fit["b"]))
     axes.set(xscale="log", xlabel="triangles n", ylabel=unit)
     axes.legend(fontsize=8)
 
@@ -69,6 +69,6 @@ def plot_growth(name, panels):
         if logarithmic:
             axes.set_yscale("log")
         else:
-            axes.set_ylim(bottom=0)
+            axes.set_ylim(0, 1.35 * axes.get_ylim()[1])  # room for the legend
     figure.tight_layout()
     return to_svg(figure, name, "; ".join("%s against the number of triangles" % unit for unit, *_ in panels))

@@ -41,16 +41,16 @@ class Profile:
 
 QUICK = Profile(
     name="quick",
-    budgets={"views": 6, "acceleration": 40, "direct": 30, "global": 45, "adaptive": 40},
+    budgets={"views": 8, "acceleration": 45, "direct": 35, "global": 55, "adaptive": 35},
     view_size=(240, 180),
-    bvh_size=(400, 300), brute_sizes={"cow": (200, 150), "beast": (80, 60)}, timings=3,
+    bvh_size=(400, 300), brute_sizes={"cow": (160, 120), "beast": (80, 60)}, timings=3,
     growth=(100, 1000, 10000, 100000, 1000000), growth_rules=("sah",), brute_growth=1000,
-    direct_size=(96, 72), direct_reference=256, direct_seeds=(2, 4), direct_spp=(1, 4, 16, 64), equal_time=(0.5,),
-    light_size=(80, 60), light_reference=1024, light_spp=16, part_reference=128,
-    spp=(1, 2, 4, 8, 16, 32, 64), spp_pictures=(1, 4, 16, 64), spp_seeds=(2, 4),
-    roulette_spp=32, roulette_seeds=(2, 6), roulette_sizes={"spheres": (80, 60), "furnace": (40, 30)},
+    direct_size=(96, 72), direct_reference=512, direct_seeds=(2, 4), direct_spp=(1, 16, 64), equal_time=(0.5,),
+    light_size=(72, 54), light_reference=1024, light_spp=16, part_reference=256,
+    spp=(1, 4, 16, 64), spp_pictures=(1, 4, 16, 64), spp_seeds=(2, 4),
+    roulette_spp=16, roulette_seeds=(2, 4), roulette_sizes={"spheres": (72, 54), "furnace": (32, 24)},
     adaptive_size=(96, 72), adaptive_reference=512, tolerance=0.1, max_spp=512,
-    bias_size=(48, 36), bias_scenes=("spheres",), bias_reference=1024, bias_seeds=(3, 8))
+    bias_size=(48, 36), bias_scenes=("spheres",), bias_reference=1024, bias_seeds=(2, 6))
 
 FULL = Profile(
     name="full",

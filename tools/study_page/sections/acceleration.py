@@ -1,7 +1,5 @@
 """Section 2: what a bounding volume hierarchy buys, and how it is split."""
 
-import os
-
 from .. import plots
 from ..estimates import fit_logarithm, spread
 from ..markup import gallery, heading, number, paragraph, plot, table, timing
@@ -13,56 +11,59 @@ COURSE_SECONDS = {"cow": (22.0, 0.05), "beast": (335.0, 0.05)}
 CAMERA_RAYS = ("--view", "normal", "--spp", 1)
 
 
-def time_rays(lab, name, scene, size, *options):
-    """One camera ray a pixel, several times; seconds, and nanoseconds a ray."""
-    shots = []
-    for i in range(lab.profile.timings):
-        shots.append(lab.render("%s %d of %d" % (name, i + 1, lab.profile.timings), scene, size, *CAMERA_RAYS, *options))
-        os.remove(shots[-1].exr)
-    return {"size": size, "seconds": spread([s.seconds for s in shots]),
+def render_often(lab, name, scene, size, *options, times=None, png=False, keep=True):
+    """`png` and `keep` are about the first picture; no other is kept."""
+    times = times or lab.profile.timings
+    return [lab.render("%s %s %d of %d" % (scene, name, i + 1, times), scene, size, *CAMERA_RAYS, *options, png=png and i == 0,
+                       keep=keep and i == 0) for i in range(times)]
+
+
+def summarize_times(shots):
+    """Seconds, and nanoseconds a ray."""
+    first = shots[0]
+    return {"size": first.stats["size"], "seconds": spread([s.seconds for s in shots]),
             "nanosecondsPerRay": spread([1e9 * s.seconds / s.pixels for s in shots]),
-            "buildSeconds": spread([s.build_seconds for s in shots]), "bvh": shots[0].stats["bvh"]}
+            "buildSeconds": spread([s.build_seconds for s in shots]), "bvh": first.stats["bvh"]}
 
 
-def count_steps(lab, name, scene, size, *options):
-    shot = lab.render("%s, visits" % name, scene, size, "--view", "bvh-steps", "--spp", 1, *options)
-    os.remove(shot.exr)
-    return shot.stats["steps"]
+def count_steps(lab, scene, size, rule):
+    """Apart, so that counting is in no time."""
+    return lab.render("%s %s visits" % (scene, rule), scene, size, "--view", "bvh-steps", "--spp", 1, "--split",
+                      rule, keep=False).stats["steps"]
 
 
-def measure_rule(lab, scene, size, rule):
-    name = "%s %s" % (scene, rule)
-    return {**time_rays(lab, name, scene, size, "--split", rule), "steps": count_steps(lab, name, scene, size, "--split", rule)}
-
-
-def same_picture(lab, scene, size):
-    """Whether every rule, and no BVH at all, give the same bits."""
-    choices = [("--split", rule) for rule in RULES] + [("--accelerator", "none")]
-    shots = [lab.render("%s same bits %s" % (scene, choice[1]), scene, size, *CAMERA_RAYS, *choice) for choice in choices]
+def is_same(lab, shots):
+    """Whether pictures are the same bits."""
     return all(lab.glim.compare(shot.exr, shots[0].exr)["relation"] == "identical" for shot in shots[1:])
 
 
 def measure_mesh(lab, scene):
     profile = lab.profile
-    reference = lab.reference(scene, profile.bvh_size, 64, "--view", "normal")
-    return {"triangles": lab.glim.inspect(lab.scenes.path(scene))["counts"]["triangles"],
-            "rules": {rule: measure_rule(lab, scene, profile.bvh_size, rule) for rule in RULES},
-            "none": time_rays(lab, scene + " without", scene, profile.brute_sizes[scene], "--accelerator", "none"),
-            "sameBits": same_picture(lab, scene, profile.brute_sizes[scene]),
-            "picture": lab.measure(scene + " normal", scene, profile.bvh_size, *CAMERA_RAYS, seed=1, reference=reference,
-                                   png=True)}
+    size, small = profile.bvh_size, profile.brute_sizes[scene]
+    shots = {rule: render_often(lab, rule, scene, size, "--split", rule, png=rule == "sah") for rule in RULES}
+    without = render_often(lab, "without", scene, small, "--accelerator", "none")
+    as_small = lab.render("%s small" % scene, scene, small, *CAMERA_RAYS)
+    return {"triangles": lab.triangles(scene),
+            "rules": {rule: {**summarize_times(found), "steps": count_steps(lab, scene, size, rule)}
+                      for rule, found in shots.items()},
+            "none": summarize_times(without),
+            "sameBits": is_same(lab, [found[0] for found in shots.values()]) and is_same(lab, [without[0], as_small]),
+            "picture": lab.judge(shots["sah"][0], lab.reference(scene, size, 64, "--view", "normal"))}
 
 
 def measure_growth(lab):
+    """Without a BVH only a few triangles, and once: such a time is long and grows as it must."""
     profile, points = lab.profile, {rule: [] for rule in (*lab.profile.growth_rules, "none")}
     for triangles in profile.growth:
         scene = lab.scenes.blob(triangles)
-        count = lab.glim.inspect(lab.scenes.path(scene))["counts"]["triangles"]
+        count = {"triangles": lab.triangles(scene)}
         for rule in profile.growth_rules:
-            points[rule].append({"triangles": count, **measure_rule(lab, scene, profile.bvh_size, rule)})
+            times = summarize_times(render_often(lab, rule, scene, profile.bvh_size, "--split", rule, keep=False))
+            points[rule].append({**count, **times, "steps": count_steps(lab, scene, profile.bvh_size, rule)})
         if triangles <= profile.brute_growth:
-            points["none"].append({"triangles": count, **time_rays(lab, scene + " without", scene, profile.brute_sizes["beast"],
-                                                                   "--accelerator", "none")})
+            shots = render_often(lab, "without", scene, profile.brute_sizes["beast"], "--accelerator", "none", times=1,
+                                 keep=False)
+            points["none"].append({**count, **summarize_times(shots)})
     return points
 
 
@@ -102,6 +103,10 @@ def rule_row(rule, entry, best):
             number(ray_time(entry) / best))
 
 
+def line_text(fitted):
+    return "%s %s %s log2 n" % (number(fitted["a"]), "-" if fitted["b"] < 0 else "+", number(abs(fitted["b"])))
+
+
 def show_growth(results):
     growth, fits = results["growth"], results["fits"]
     rules = [rule for rule in growth if rule != "none"]
@@ -112,8 +117,8 @@ def show_growth(results):
         ("nanoseconds a ray", times, {rule: fits[rule]["nanoseconds"] for rule in rules}, False),
         ("node visits a ray", visits, {rule: fits[rule]["visits"] for rule in rules}, False),
         ("nanoseconds a ray", both, {}, True)])
-    rows = [(rule, "%s + %s log2 n" % (number(f["nanoseconds"]["a"]), number(f["nanoseconds"]["b"])),
-             number(f["nanoseconds"]["r2"]), "%s + %s log2 n" % (number(f["visits"]["a"]), number(f["visits"]["b"])),
+    rows = [(rule, line_text(f["nanoseconds"]),
+             number(f["nanoseconds"]["r2"]), line_text(f["visits"]),
              number(f["visits"]["r2"])) for rule, f in fits.items()]
     return (plot(svg, "Bumpy globes of n triangles from one camera. On a logarithmic axis a logarithm is straight; without "
                  "a BVH the time is proportional to n.") +
@@ -149,6 +154,5 @@ def headlines(results):
                  "%s times the build" % number(sah["buildSeconds"]["median"] / mean["buildSeconds"]["median"]),
                  "%s times the visits" % number(sah["steps"]["nodesPerRay"] / mean["steps"]["nodesPerRay"])))
     visits = results["fits"]["sah"]["visits"]
-    rows.append(("Visits a ray, 10^2 to 10^6 triangles", "", "%s + %s log2 n (R2 %s)" % tuple(
-        number(visits[key]) for key in ("a", "b", "r2"))))
+    rows.append(("Visits a ray, 10^2 to 10^6 triangles", "", "%s (R2 %s)" % (line_text(visits), number(visits["r2"]))))
     return rows
