@@ -103,7 +103,8 @@ class PageTest(unittest.TestCase):
                 *(("spheres", "--direct hemisphere --light-samples 1 --spp %d " % n) for n in (16, 64)),
                 *(("spheres", "--bounces %d --spp" % n) for n in (0, 1, 2, 3, 4, 100)),
                 ("spheres", "--paths direct"), ("spheres", "--paths indirect"),
-                *((scene, "--roulette %s" % mode) for scene in ("spheres", "furnace") for mode in ("none", "throughput", "fixed:0.7")),
+                *((scene, "--roulette %s" % mode) for scene in ("spheres", "furnace")
+                  for mode in ("none", "throughput", "fixed:0.7")),
                 *(("spheres", "--sampler %s --spp %d" % (s, n)) for s in ("sobol", "independent") for n in profiles.QUICK.spp),
                 *((scene, "--adaptive course --tolerance") for scene in ("bunny", "spheres")),
                 ("spheres", "--adaptive course:literal")):
@@ -116,7 +117,8 @@ class PageTest(unittest.TestCase):
             self.assertTrue(wanted in self.text, wanted)
 
     def test_faults_are_noticed(self):
-        for before, after in (("<h2>", "<h3>"), ('alt="', 'title="'), ("data:image/png", "https://x.org/"), (" Mrays/s, relMSE", ""),
+        for before, after in (("<h2>", "<h3>"), ('alt="', 'title="'), ("data:image/png", "https://x.org/"),
+                              (" Mrays/s, relMSE", ""),
                               ('id="views"', 'id="adaptive"'), ("<svg", "<em"), ("<style>", "<style>a{background:url(x)}"),
                               ("<p>", "<p>nan "), ("</tbody></table>", "")):
             self.assertTrue(before in self.text, before)
@@ -132,7 +134,8 @@ class PageTest(unittest.TestCase):
 
 class NumbersTest(unittest.TestCase):
     def test_forms(self):
-        for value, text in ((0.012345, "0.0123"), (64618, "64,600"), (1.5e-7, "1.50e-07"), (0, "0"), (None, "unknown"), (440.0, "440")):
+        for value, text in ((0.012345, "0.0123"), (64618, "64,600"), (1.5e-7, "1.50e-07"), (0, "0"), (None, "unknown"),
+                            (440.0, "440")):
             self.assertEqual(markup.number(value), text)
         self.assertEqual(markup.number(64618, 5), "64,618")
 

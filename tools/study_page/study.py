@@ -30,7 +30,8 @@ def processor():
 def describe(glim, arguments):
     return {"command": shlex.join(["tools/study", *arguments]),
             "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC"),
-            "glim": glim.version, "device": glim.device["name"], "driver": glim.device["driver"], "kind": glim.device["kind"],
+            "glim": glim.version, "device": glim.device["name"], "driver": glim.device["driver"],
+            "kind": glim.device["kind"],
             "processor": processor(), "system": platform.platform()}
 
 
@@ -61,9 +62,10 @@ def run_study(options, arguments):
                         "files": scenes.files()},
              "budgets": options.profile.budgets, "taken": lab.finished, "headlines": headlines,
              "markdown": to_markdown(headlines), "sections": measured}
-    write_whole(os.path.join(options.out, "study.json"), (json.dumps(study, indent=1, allow_nan=False) + "\n").encode())
+    text = json.dumps(study, indent=1, allow_nan=False) + "\n"
     # Through JSON, so that the page is made of nothing that the file does not hold.
-    page = build_page(json.loads(json.dumps(study)), options.out)
+    page = build_page(json.loads(text), options.out)
+    write_whole(os.path.join(options.out, "study.json"), text.encode())
     write_whole(os.path.join(options.out, "index.html"), page.encode())
     lab.close()
     return study["markdown"]

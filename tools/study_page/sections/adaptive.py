@@ -32,8 +32,8 @@ def measure_pictures(lab, scene):
                          reference=reference, png=True, rates=True)
     uniform = lab.measure("uniform %s" % scene, scene, size, *uniform_options(course["spp"]), seed=FIRST_SEED,
                           reference=reference, png=True)
-    timed = lab.measure("equal time %s" % scene, scene, size, *uniform_options(equal_time_spp(course, uniform)), seed=FIRST_SEED,
-                        reference=reference)
+    spp = equal_time_spp(course, uniform)
+    timed = lab.measure("equal time %s" % scene, scene, size, *uniform_options(spp), seed=FIRST_SEED, reference=reference)
     return {"course": course, "uniform": uniform, "equal time": timed, "saved": 1 - course["spp"] / profile.max_spp}
 
 
@@ -85,7 +85,8 @@ def show_pictures(results, pictures):
         text += table(("sampling", "mean spp", "seconds", "seconds a million samples", "relMSE"), [
             (row, number(run["spp"], 4), number(run["seconds"]), number(1e6 * run["seconds"] / run["samples"]), relmse(run))
             for row, run in shots.items() if isinstance(run, dict)],
-            "%s: %s of the samples saved against %d everywhere" % (name.capitalize(), percent(shots["saved"]), results["maxSpp"]))
+            "%s: %s of the samples saved against %d everywhere" %
+            (name.capitalize(), percent(shots["saved"]), results["maxSpp"]))
     return text
 
 
@@ -105,9 +106,10 @@ def show_biases(results):
         text += table(("sampling", "mean spp", "seconds a million samples", "relMSE", "over uniform's", "bias +- 2 s.e.",
                        "bias less uniform's, same seed"), rows,
                       "%s, %d x %d, %d seeds" % (results["names"][scene].capitalize(), *size, count))
-    return text + paragraph("A pixel stops when its samples happen to look certain, which is more often when they lack a bright one: the "
-                            "mean comes out low. An earlier experiment elsewhere measured %s. Uniform and adaptive samples of a seed "
-                            "are the same as far as both go, so the last column has the noise of the rest only." % EARLIER_BIAS)
+    return text + paragraph(
+        "A pixel stops when its samples happen to look certain, which is more often when they lack a bright one: the mean "
+        "comes out low. An earlier experiment elsewhere measured %s. Uniform and adaptive samples of a seed are the same as far as "
+        "both go, so the last column has the noise of the rest only." % EARLIER_BIAS)
 
 
 def show(results, pictures):

@@ -32,12 +32,15 @@ def slope_of(counts, runs):
 
 def show_errors(results):
     samplers = results["samplers"]
-    panels = [(axis, [("%s, slope %s" % (name, bracket(found["slope"])), [(p[key], p["relmse"]) for p in found["points"]])
-                      for name, found in samplers.items()]) for axis, key in (("samples per pixel", "spp"), ("seconds", "seconds"))]
+    panels = []
+    for axis, key in (("samples per pixel", "spp"), ("seconds", "seconds")):
+        panels.append((axis, [("%s, slope %s" % (name, bracket(found["slope"])),
+                               [(p[key], p["relmse"]) for p in found["points"]])
+                              for name, found in samplers.items()]))
     rows = [(number(a["spp"]), number(a["seconds"]), relmse(a), number(b["seconds"]), relmse(b))
             for a, b in zip(*(samplers[name]["points"] for name in SAMPLERS))]
-    text = plot(plots.plot_errors("convergence", panels), "Independent points: variance falls as 1 / n, slope -1. Owen-scrambled Sobol' "
-                "points do better where the light is smooth.")
+    text = plot(plots.plot_errors("convergence", panels), "Independent points: variance falls as 1 / n, slope -1. "
+                "Owen-scrambled Sobol' points do better where the light is smooth.")
     return text + table(("spp", "Sobol': seconds", "relMSE", "independent: seconds", "relMSE"), rows)
 
 

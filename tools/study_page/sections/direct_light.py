@@ -27,8 +27,8 @@ def measure_samples(lab, reference):
         for key in chosen:
             method, rays, spp = key
             runs[key].append(lab.measure(
-                "%s %d rays %d spp" % key, SCENE, lab.profile.direct_size, *DIRECT, "--direct", method, "--light-samples", rays,
-                "--spp", spp, "--sampler", "independent", seed=seed, reference=reference,
+                "%s %d rays %d spp" % key, SCENE, lab.profile.direct_size, *DIRECT, "--direct", method,
+                "--light-samples", rays, "--spp", spp, "--sampler", "independent", seed=seed, reference=reference,
                 png=seed == FIRST_SEED and (rays, spp) in PICTURES))
     return [{"method": method, "lightRays": rays, **summarize(runs[method, rays, spp]), "spp": spp}
             for method, rays, spp in chosen]
@@ -72,8 +72,8 @@ def show_plot(rows):
                                  ("1 spp", [r for r in rows if r["method"] == method and r["spp"] == 1])):
                 series.append(("%s, %s" % (method, name), [(value(r), r["relmse"]) for r in chosen]))
         panels.append((axis, series))
-    return plot(plots.plot_errors("direct", panels), "Error against samples and against seconds. Fewer samples a pixel with more "
-                "light rays save camera rays, but leave the edges' staircase.")
+    return plot(plots.plot_errors("direct", panels), "Error against samples and against seconds. Fewer samples a pixel with "
+                "more light rays save camera rays, but leave the edges' staircase.")
 
 
 def show(results, pictures):

@@ -34,9 +34,9 @@ def measure_scene(lab, scene, until):
     runs = {mode: [] for mode in MODES}
     for seed in lab.seeds(lab.profile.roulette_seeds, until=until):
         for mode in MODES:
-            runs[mode].append(lab.measure("roulette %s %s" % (mode.replace(":", " "), scene), scene, size, *SCENES[scene],
-                                          "--roulette", mode, "--spp", lab.profile.roulette_spp, "--sampler", "independent",
-                                          seed=seed, reference=reference))
+            name = "roulette %s %s" % (mode.replace(":", " "), scene)
+            runs[mode].append(lab.measure(name, scene, size, *SCENES[scene], "--roulette", mode, "--sampler", "independent",
+                                          "--spp", lab.profile.roulette_spp, seed=seed, reference=reference))
     # In the furnace no roulette is free of variance, so it cannot be what efficiencies are measured by.
     baseline = runs["throughput" if scene == "furnace" else "none"]
     return {mode: summarize_mode(found, baseline) for mode, found in runs.items()}
@@ -56,8 +56,8 @@ def show(results, names):
                 "furnace": "Closed room of albedo .9 in which every path carries the same light, so that the roulette is the "
                            "only noise; efficiency relative to throughput"}
     text = heading("Russian roulette")
-    text += paragraph("%d samples a pixel with independent points, at most 100 bounces. Variance is that of one sample, mean over "
-                      "pixels and channels." % results["spp"])
+    text += paragraph("%d samples a pixel with independent points, at most 100 bounces. Variance is that of one sample, mean "
+                      "over pixels and channels." % results["spp"])
     for scene, modes in results["scenes"].items():
         rows = [(mode, mean_text(entry), bracket(entry["variance"]), number(entry["largestVariance"]),
                  number(entry["rays"] / entry["samples"]), number(entry["seconds"]),
@@ -65,9 +65,10 @@ def show(results, names):
                 for mode, entry in modes.items()]
         text += table(("roulette", "mean / truth +- 2 s.e.", "variance", "largest of a seed", "rays a path", "seconds",
                        "efficiency"), rows, captions[scene])
-    return text + paragraph("With the fixed probability .7 a path's weight grows by albedo / .7 a bounce, so its second moment is the sum "
-                            "of (albedo^2 / .7)^k: it is infinite from albedo .837 on. In the room of albedo .9 the measured variance "
-                            "is therefore that of the samples at hand and would grow with more of them; the mean stays right.")
+    return text + paragraph(
+        "With the fixed probability .7 a path's weight grows by albedo / .7 a bounce, so its second moment is the sum of "
+        "(albedo^2 / .7)^k: it is infinite from albedo .837 on. In the room of albedo .9 the measured variance is therefore "
+        "that of the samples at hand and would grow with more of them; the mean stays right.")
 
 
 def headlines(results):

@@ -19,8 +19,8 @@ def measure(lab):
 
 
 def show(results, pictures):
-    text = paragraph("Camera rays alone, %d a pixel, at %d x %d: nothing is lit. The colour of a normal view is (n + 1) / 2; "
-                     "relMSE against %d rays a pixel is what is left of the edges' staircase." %
+    text = paragraph("Camera rays alone, %d a pixel, at %d x %d: nothing is lit. The colour of a normal view is (n + 1) / 2, "
+                     "its relMSE against %d rays a pixel what is left of the edges' staircase." %
                      (SPP, *results["size"], LONG_SPP))
     for scene, views in results["views"].items():
         name = results["names"][scene]
