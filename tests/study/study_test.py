@@ -52,6 +52,8 @@ class EstimatesTest(unittest.TestCase):
         source = random.Random(5)  # 2,000 trials: standard error .5 %
         mean = self.coverage(lambda: estimates.mean_interval([source.gauss(2, 3) for _ in range(4)]), 2)
         self.assertAlmostEqual(mean, 0.95, delta=0.02)
+        positive = self.coverage(lambda: estimates.positive_interval([source.gammavariate(20, 0.1) for _ in range(4)]), 2)
+        self.assertAlmostEqual(positive, 0.95, delta=0.02)
 
         def pair():
             shared = [source.gauss(0, 0.1) for _ in range(6)]

@@ -41,16 +41,27 @@ def spread(values):
     return {"median": statistics.median(values), "least": min(values), "most": max(values), "n": len(values)}
 
 
+def logarithmic(mean, error, n):
+    """Student's interval taken to the logarithm (the delta method), so that it stays positive."""
+    factor = math.exp(student(n - 1) * error / mean)
+    return interval(mean, mean / factor, mean * factor, n)
+
+
+def positive_interval(values):
+    """Of the mean of what cannot be negative, as errors and variances; if their estimates are, plain Student's."""
+    values = list(values)
+    if len(values) < 2 or min(values) <= 0:
+        return mean_interval(values)
+    return logarithmic(statistics.fmean(values), standard_error(values), len(values))
+
+
 def ratio_of_means(numerators, denominators):
-    """Of pairs, by seed. The interval is Student's with the ratio estimator's linearised error (Cochran 1977, section 6.3),
-    taken to the logarithm so that it stays positive."""
+    """Of pairs, by seed, with the ratio estimator's linearised error (Cochran 1977, section 6.3)."""
     below, count = statistics.fmean(denominators), len(numerators)
     ratio = statistics.fmean(numerators) / below
     if count < 2 or ratio <= 0:
         return interval(ratio, None, None, count)
-    error = standard_error([(a - ratio * b) / below for a, b in zip(numerators, denominators)])
-    factor = math.exp(student(count - 1) * error / ratio)
-    return interval(ratio, ratio / factor, ratio * factor, count)
+    return logarithmic(ratio, standard_error([(a - ratio * b) / below for a, b in zip(numerators, denominators)]), count)
 
 
 def fit_line(xs, ys):

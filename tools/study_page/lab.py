@@ -6,7 +6,7 @@ import statistics
 import sys
 import time
 
-from .estimates import mean_interval
+from .estimates import mean_interval, positive_interval
 
 REFERENCE_SEED = 1000003  # no experiment's seed comes near
 FIRST_SEED = 1
@@ -125,6 +125,6 @@ def summarize(runs):
     return {"seconds": statistics.median(r["seconds"] for r in runs), "mrays": statistics.median(r["mrays"] for r in runs),
             "samples": statistics.fmean(r["samples"] for r in runs), "spp": statistics.fmean(r["spp"] for r in runs),
             "rays": statistics.fmean(r["rays"] for r in runs),
-            "relmse": mean_interval([r["relmse"] for r in runs]), "referenceNoise": runs[0]["referenceNoise"],
-            "mse": mean_interval([r["mse"] for r in runs]), "meanRatio": mean_interval([r["meanRatio"] for r in runs]),
+            "relmse": positive_interval([r["relmse"] for r in runs]), "referenceNoise": runs[0]["referenceNoise"],
+            "mse": positive_interval([r["mse"] for r in runs]), "meanRatio": mean_interval([r["meanRatio"] for r in runs]),
             "picture": runs[0]["picture"], "rates": runs[0]["rates"]}

@@ -61,8 +61,8 @@ FULL = Profile(
     brute_growth=10000,
     direct_size=(240, 180), direct_reference=2048, direct_seeds=(4, 16), direct_spp=(1, 2, 4, 8, 16, 32, 64, 128, 256),
     equal_time=(1.0, 4.0, 16.0),
-    light_size=(200, 150), light_reference=8192, light_spp=64, part_reference=1024,
+    light_size=(160, 120), light_reference=8192, light_spp=64, part_reference=1024,
     spp=(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024), spp_pictures=(1, 4, 16, 64, 1024), spp_seeds=(3, 6),
-    roulette_spp=64, roulette_seeds=(4, 16), roulette_sizes={"spheres": (200, 150), "furnace": (80, 60)},
-    adaptive_size=(240, 180), adaptive_reference=2048, tolerance=0.05, max_spp=2048,
-    bias_size=(80, 60), bias_scenes=("spheres", "bunny"), bias_reference=16384, bias_seeds=(4, 16))
+    roulette_spp=64, roulette_seeds=(4, 16), roulette_sizes={"spheres": (160, 120), "furnace": (80, 60)},
+    adaptive_size=(200, 150), adaptive_reference=2048, tolerance=0.05, max_spp=2048,
+    bias_size=(80, 60), bias_scenes=("spheres", "bunny"), bias_reference=8192, bias_seeds=(4, 16))

@@ -41,7 +41,7 @@ def measure_mesh(lab, scene):
     profile = lab.profile
     size, small = profile.bvh_size, profile.brute_sizes[scene]
     shots = {rule: render_often(lab, rule, scene, size, "--split", rule, png=rule == "sah") for rule in RULES}
-    without = render_often(lab, "without", scene, small, "--accelerator", "none")
+    without = render_often(lab, "without", scene, small, "--accelerator", "none", times=3)
     as_small = lab.render("%s small" % scene, scene, small, *CAMERA_RAYS)
     return {"triangles": lab.triangles(scene),
             "rules": {rule: {**summarize_times(found), "steps": count_steps(lab, scene, size, rule)}

@@ -1,6 +1,6 @@
 """Section 4, second part: three ways to end a path, with their mean and their variance."""
 
-from ..estimates import mean_interval, ratio_of_means, standard_error
+from ..estimates import positive_interval, ratio_of_means, standard_error
 from ..lab import summarize
 from ..markup import bracket, heading, number, paragraph, table
 from .light_paths import LONGEST
@@ -22,7 +22,7 @@ def summarize_mode(runs, baseline):
     variances = [run["mse"] * run["spp"] for run in runs]
     costs = [run["mse"] * run["seconds"] for run in runs]
     ratios = [run["meanRatio"] for run in runs]
-    return {**summarize(runs), "variance": mean_interval(variances), "largestVariance": max(variances),
+    return {**summarize(runs), "variance": positive_interval(variances), "largestVariance": max(variances),
             "standardError": standard_error(ratios),
             "efficiency": ratio_of_means([run["mse"] * run["seconds"] for run in baseline], costs)
                           if max(variances) > ROUNDING else None}
