@@ -37,7 +37,8 @@ class FakeScenes:
 class FakeShot:
     def __init__(self, folder, name):
         self.exr = os.path.join(folder, "scratch.exr")
-        self.seconds, self.build_seconds, self.pixels = 0.01 * (len(name) + 1), 0.001, 12
+        self.seconds, self.trace_seconds = 0.01 * (len(name) + 1), 0.001 * len(name)
+        self.build_seconds, self.pixels = 0.001, 12
         self.stats = {"size": [4, 3], "bvh": {"split": "sah", "nodes": 9, "depth": 4, "cost": 2.0},
                       "steps": {"nodesPerRay": 7.5, "primitivesPerRay": 2.5, "mostNodes": 31}}
 

@@ -15,6 +15,7 @@ class Shot:
         self.exr, self.png, self.rates, self.stats = exr, png, rates, stats
         self.seconds = stats["seconds"]["render"]
         self.build_seconds = stats["seconds"]["build"]
+        self.trace_seconds = stats["kernels"]["trace_closest"]["seconds"]
         self.samples = stats["samples"]
         self.rays = stats["rays"]["total"]
         self.pixels = stats["size"][0] * stats["size"][1]
@@ -47,8 +48,8 @@ class Glim:
         except OSError as error:
             raise StudyError("cannot run %s: %s" % (command[0], error.strerror)) from error
         if done.returncode != 0:
-            lines = (done.stderr or "").strip().splitlines() or ["it said nothing"]
-            shown = " ".join(["glim", *(os.path.basename(a) if os.path.isabs(a) else a for a in command[1:])])
+            lines = (done.stderr or "").strip().splitlines() or ["see above" if show_errors else "it said nothing"]
+            shown = " ".join(["glim", *map(os.path.basename, command[1:])])
             raise StudyError("'%s' ended with exit code %d: %s" % (shown, done.returncode, lines[-1]))
         return done.stdout
 

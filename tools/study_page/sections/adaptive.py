@@ -7,6 +7,7 @@ from ..markup import bracket, gallery, heading, number, paragraph, percent, relm
 KEY, TITLE = "adaptive", "5. Adaptive sampling"
 SCENES = ("bunny", "spheres")
 BATCH = 32
+CONSTANT_SAMPLES = 1024  # kConstantSamples of shaders/shared/limits.h
 RULES = ("course", "course:literal")
 # Of an experiment with oracle variances in another renderer: one room, 5,638 and 2,723 samples a pixel.
 EARLIER_BIAS = "-1.4 % with light sampling, -3.7 % with caustics"
@@ -108,14 +109,16 @@ def show_biases(results):
                       "%s, %d x %d, %d seeds" % (results["names"][scene].capitalize(), *size, count))
     return text + paragraph(
         "A pixel stops when its samples happen to look certain, which is more often when they lack a bright one: the mean "
-        "comes out low. An earlier experiment elsewhere measured %s. Uniform and adaptive samples of a seed are the same as far as "
-        "both go, so the last column has the noise of the rest only." % EARLIER_BIAS)
+        "comes out low. An earlier experiment elsewhere measured %s. Uniform and adaptive samples of a seed are the same as "
+        "far as both go, so the last column has the noise of the rest only." % EARLIER_BIAS)
 
 
 def show(results, pictures):
     text = paragraph("Batches of %d independent samples; a pixel stops when 1.96 s / sqrt(n) <= %g mean, or at %d samples. "
-                     "course:literal also stops where a first batch has no variance. Pictures at %d x %d." %
-                     (BATCH, results["tolerance"], results["maxSpp"], *results["size"]))
+                     "course:literal also stops where a first batch has no variance; course lets pixels whose samples are all equal, "
+                     "the background among them, go on for up to %d. Pictures at %d x %d." %
+                     (BATCH, results["tolerance"], results["maxSpp"], min(CONSTANT_SAMPLES, results["maxSpp"]),
+                      *results["size"]))
     return text + show_pictures(results, pictures) + show_biases(results)
 
 
