@@ -22,6 +22,7 @@ from study_page.errors import StudyError  # noqa: E402
 from study_page.lab import Lab  # noqa: E402
 from study_page.page import build_page  # noqa: E402
 from study_page.scenes import Scenes  # noqa: E402
+from study_page.sections import adaptive  # noqa: E402
 from scene_makers.gltf_document import cross, subtract  # noqa: E402
 from scene_makers.study_scenes import globe, resolution  # noqa: E402
 
@@ -132,6 +133,11 @@ class PageTest(unittest.TestCase):
         for row in self.study["headlines"]:
             self.assertTrue(markup.escape(row[0]) in self.text, row[0])
             self.assertIn(row[0], self.study["markdown"])
+
+
+    def test_constant_of_the_kernels(self):
+        with open(os.path.join(ROOT, "shaders", "shared", "limits.h"), encoding="utf-8") as file:
+            self.assertIn("kConstantSamples = %du;" % adaptive.CONSTANT_SAMPLES, file.read())
 
 
 class NumbersTest(unittest.TestCase):

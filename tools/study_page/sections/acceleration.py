@@ -105,8 +105,8 @@ def speedup_row(name, scene, mesh):
 def rule_row(rule, entry, best):
     steps = entry["steps"]
     return (rule, timing(entry["seconds"]), timing(entry["traceNanosecondsPerRay"]), timing(entry["buildSeconds"]),
-            number(steps["nodesPerRay"], 4), number(steps["primitivesPerRay"], 4), number(steps["mostNodes"], 4), number(entry["bvh"]["depth"]),
-            number(trace_time(entry) / best))
+            number(steps["nodesPerRay"], 4), number(steps["primitivesPerRay"], 4), number(steps["mostNodes"], 4),
+            number(entry["bvh"]["depth"]), number(trace_time(entry) / best))
 
 
 def line_text(fitted):
@@ -134,8 +134,8 @@ def show_growth(results):
 def show(results, pictures):
     names, meshes = results["names"], results["meshes"]
     text = paragraph("One camera ray a pixel, one chain of dispatches, median of at least three runs (least to most). "
-                     "Without a BVH a smaller picture where the course's 800 x 600 would take too long; ratios are of the time a ray, of "
-                     "the whole render and of tracing alone: the rest is the same with and without.")
+                     "Without a BVH a smaller picture where the course's 800 x 600 would take too long; ratios are of the time "
+                     "a ray, of the whole render and of tracing alone: the rest is the same with and without.")
     text += gallery(pictures.figure(names[scene], mesh["picture"]) for scene, mesh in meshes.items())
     text += table(("mesh", "without: size", "seconds", "with: size", "seconds", "ratio", "of tracing alone",
                    "seconds at 800 x 600", "course, with its own mesh", "same bits"),

@@ -115,8 +115,8 @@ def show_biases(results):
 
 def show(results, pictures):
     text = paragraph("Batches of %d independent samples; a pixel stops when 1.96 s / sqrt(n) <= %g mean, or at %d samples. "
-                     "course:literal also stops where a first batch has no variance; course lets pixels whose samples are all equal, "
-                     "the background among them, go on for up to %d. Pictures at %d x %d." %
+                     "course:literal also stops where a first batch has no variance; course lets pixels whose samples are all "
+                     "equal, the background among them, go on for up to %d. Pictures at %d x %d." %
                      (BATCH, results["tolerance"], results["maxSpp"], min(CONSTANT_SAMPLES, results["maxSpp"]),
                       *results["size"]))
     return text + show_pictures(results, pictures) + show_biases(results)
