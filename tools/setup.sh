@@ -1,4 +1,4 @@
-# Shared by tools/glim and tools/test: installs what is missing, builds what has changed. To be sourced by bash.
+# Shared by tools/glim, tools/test and tools/study: installs what is missing, builds what has changed. To be sourced by bash.
 # Everything it says goes to stderr: stdout belongs to the program.
 
 root=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
@@ -20,9 +20,14 @@ buildPackages=(
     "libpng-dev                writes PNG"
     "libcli11-dev              reads the command line"
 )
+studyPackages=(
+    "python3                   measures, and writes the study's page"
+    "python3-matplotlib        draws the study's plots"
+)
 testPackages=(
     "libgtest-dev              runs the tests"
     "vulkan-validationlayers   checks every use of Vulkan in the tests"
+    "${studyPackages[@]}"
 )
 
 say() { printf 'glim: %s\n' "$*" >&2; }
@@ -147,4 +152,23 @@ ensureBuilt() {
         flock 9
         build "$@"
     ) 9>"$1/.lock"
+}
+
+# The first Python that has what the study needs; a user's own may shadow the system's.
+findPython() {
+    local python
+    for python in python3 /usr/bin/python3; do
+        "$python" -c 'import matplotlib' 2>/dev/null && echo "$python" && return
+    done
+    return 1
+}
+
+# Prints which Python to run, after installing what is missing.
+ensurePython() {
+    findPython && return
+    isDebian || fail "no python3 with matplotlib was found: $(namePackages "${studyPackages[@]}")"
+    mkdir -p "$root/build" 2>/dev/null && [[ -w $root/build ]] || fail "cannot write to $root/build, where the log goes"
+    : >"$setupLog"
+    installMissing "${studyPackages[@]}"
+    findPython || fail "python3 cannot import matplotlib although it is installed"
 }
