@@ -49,7 +49,7 @@ QUICK = Profile(
     light_size=(72, 54), light_reference=1024, light_spp=16, part_reference=256,
     spp=(1, 4, 16, 64), spp_pictures=(1, 4, 16, 64), spp_seeds=(2, 4),
     roulette_spp=16, roulette_seeds=(2, 4), roulette_sizes={"spheres": (72, 54), "furnace": (32, 24)},
-    adaptive_size=(96, 72), adaptive_reference=512, tolerance=0.1, max_spp=512,
+    adaptive_size=(80, 60), adaptive_reference=512, tolerance=0.2, max_spp=256,
     bias_size=(48, 36), bias_scenes=("spheres",), bias_reference=1024, bias_seeds=(2, 6))
 
 FULL = Profile(
