@@ -10,7 +10,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 DESCRIPTION = "Measures what each idea of the course's path tracer costs and what it buys, and writes one page about it."
 EPILOG = """\
 Writes OUT/index.html, which holds its pictures and plots and needs no network, OUT/study.json with the same numbers,
-and OUT/pictures. The full study takes up to 90 minutes on 2 cores without a GPU, --quick under 5. Progress goes to
+and OUT/pictures. The full study takes about 45 minutes on 2 cores without a GPU, --quick under 5. Progress goes to
 stderr; at the end the headline numbers go to stdout as a Markdown table.
 The course's scenes are not part of the repository; without them scenes of ours of the same make are used, and the page
 says so. GLIM_BINARY names another build of glim to measure instead of build/glim.

@@ -54,15 +54,15 @@ QUICK = Profile(
 
 FULL = Profile(
     name="full",
-    budgets={"views": 60, "acceleration": 780, "direct": 720, "global": 1680, "adaptive": 1380},
+    budgets={"views": 40, "acceleration": 420, "direct": 420, "global": 900, "adaptive": 900},
     view_size=(640, 480),
-    bvh_size=(800, 600), brute_sizes={"cow": (800, 600), "beast": (400, 300)}, timings=5,
+    bvh_size=(800, 600), brute_sizes={"cow": (800, 600), "beast": (320, 240)}, timings=3,
     growth=(100, 316, 1000, 3162, 10000, 31623, 100000, 316228, 1000000), growth_rules=("sah", "mean", "median"),
     brute_growth=10000,
-    direct_size=(240, 180), direct_reference=2048, direct_seeds=(4, 16), direct_spp=(1, 2, 4, 8, 16, 32, 64, 128, 256),
+    direct_size=(200, 150), direct_reference=2048, direct_seeds=(4, 16), direct_spp=(1, 2, 4, 8, 16, 32, 64, 128, 256),
     equal_time=(1.0, 4.0, 16.0),
-    light_size=(160, 120), light_reference=8192, light_spp=64, part_reference=1024,
+    light_size=(128, 96), light_reference=8192, light_spp=64, part_reference=1024,
     spp=(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024), spp_pictures=(1, 4, 16, 64, 1024), spp_seeds=(3, 6),
-    roulette_spp=64, roulette_seeds=(4, 16), roulette_sizes={"spheres": (160, 120), "furnace": (80, 60)},
-    adaptive_size=(200, 150), adaptive_reference=2048, tolerance=0.05, max_spp=2048,
-    bias_size=(80, 60), bias_scenes=("spheres", "bunny"), bias_reference=8192, bias_seeds=(4, 16))
+    roulette_spp=64, roulette_seeds=(4, 16), roulette_sizes={"spheres": (128, 96), "furnace": (80, 60)},
+    adaptive_size=(144, 108), adaptive_reference=2048, tolerance=0.05, max_spp=2048,
+    bias_size=(64, 48), bias_scenes=("spheres", "bunny"), bias_reference=8192, bias_seeds=(5, 16))
