@@ -23,8 +23,8 @@ void addRoulette(CLI::App& command, RenderSettings& settings)
                 }
             },
             "How paths end before --bounces: throughput (survive by what they carry), none, or fixed:P (survive with "
-            "probability P, 0 < P <= 1, at every bounce but the first; the mean stays right, but the variance is infinite where albedo^2 >= P: "
-            "for 0.7 above albedo .837) [throughput]")
+            "probability P, 0 < P <= 1, at every bounce but the first; the mean stays right, but the variance is infinite where "
+            "albedo^2 >= P: for 0.7 above albedo .837) [throughput]")
         ->type_name("R");
 }
 

@@ -12,7 +12,7 @@ enum class Sampler { Sobol, Independent };
 enum class Intersector { Watertight, MollerTrumbore };
 enum class Accelerator { Bvh, None };
 
-// How the light of a hit's own neighbourhood of directions is estimated. All have the same expectation: a light that no
+// How the light that reaches a hit straight from a source is estimated. All have the same expectation: a light that no
 // direction can find (point, spot, directional) is sampled in each of them.
 enum class DirectLight {
     Mis,         // one light by power and the scattered ray, weighted by the power heuristic

@@ -1,5 +1,5 @@
-// One thread is one entry of the shadow queue, filled by sample_hemisphere. Adds what its ray meets, if that shines. Brute force takes
-// several dispatches: the ray notes what it met so far, and the last dispatch adds the light.
+// One thread is one entry of the shadow queue, filled by sample_hemisphere. Adds what its ray meets, if that shines. Brute force
+// takes several dispatches: the ray notes what it met so far, and the last dispatch adds the light.
 // Reads the scene, the shadow queue, shadow rays (brute force also writes them). Updates radiance.
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -59,8 +59,9 @@ TEST(RoulettePictureTest, AllHaveTheSameMeanWhereTheVarianceExists)
             // The fixed roulette's estimate of its own error is too noisy: the formula gives the error.
             const double error = roulette == Roulette::Fixed ? std::sqrt(variance(a, 200) / samples) : mean.standardError.g;
             EXPECT_NEAR(mean.mean.g, truth(a, 200), z * error);
-            std::printf("albedo %.1f, %s: relative error %.1e +- %.1e\n", a, roulette == Roulette::Fixed ? "fixed:0.7" : "throughput",
-                        mean.mean.g / truth(a, 200) - 1.0, error / truth(a, 200));
+            std::printf("albedo %.1f, %s: relative error %.1e +- %.1e\n", a,
+                        roulette == Roulette::Fixed ? "fixed:0.7" : "throughput", mean.mean.g / truth(a, 200) - 1.0,
+                        error / truth(a, 200));
         }
     }
 }
@@ -78,12 +79,13 @@ TEST(RoulettePictureTest, FixedHasInfiniteVarianceAboveItsLimit)
         const double measured = sum / static_cast<double>(film.pixels.size()), expected = variance(a, kBounces);
         // Of a variance from n samples in blocks of 32: fourth central moment / n + variance^2 * (2 / blocks).
         const double mean = moment(a, kBounces, 1);
-        const double fourth = moment(a, kBounces, 4) - 4 * mean * moment(a, kBounces, 3) + 6 * mean * mean * moment(a, kBounces, 2) -
-                              3 * std::pow(mean, 4);
+        const double fourth = moment(a, kBounces, 4) - 4 * mean * moment(a, kBounces, 3) +
+                              6 * mean * mean * moment(a, kBounces, 2) - 3 * std::pow(mean, 4);
         const double n = 64.0 * 64.0 * kSamples;
         const double error = std::sqrt((fourth - expected * expected) / n + expected * expected * 2.0 * 32.0 / n);
         EXPECT_NEAR(measured, expected, 5.0 * error) << "albedo " << a;
-        std::printf("albedo %.1f: variance of a sample after %u bounces %.4g, formula %.4g +- %.2g; after 100 %.4g, after 200 %.4g\n",
+        std::printf("albedo %.1f: variance of a sample after %u bounces %.4g, formula %.4g +- %.2g; after 100 %.4g, "
+                    "after 200 %.4g\n",
                     a, kBounces, measured, expected, error, variance(a, 100), variance(a, 200));
         const double growth = variance(a, 200) / variance(a, 100);
         EXPECT_EQ(growth < 1.001, a * a < kSurvival);

@@ -63,7 +63,8 @@ TEST(ViewTest, BvhStepsCountsNodesAndPrimitives)
     Scene mesh = sceneOf(icosphere(5));
     mesh.cameras = builder.scene().cameras;
     const MeanEstimate steps = meanOf(view(mesh, View::BvhSteps));
-    std::printf("%zu triangles: %.1f nodes and %.1f primitives per camera ray\n", mesh.triangles.size(), steps.mean.r, steps.mean.g);
+    std::printf("%zu triangles: %.1f nodes and %.1f primitives per camera ray\n", mesh.triangles.size(), steps.mean.r,
+                steps.mean.g);
     EXPECT_GT(steps.mean.r, std::log2(static_cast<double>(mesh.triangles.size())) - 2.0);
     EXPECT_LT(steps.mean.r, 60.0);
 }
