@@ -201,7 +201,7 @@ std::uint32_t divideBySah(std::span<Reference> references, const Bounds& bounds,
 }
 
 // As above, by a rule that does not ask what a leaf costs.
-std::uint32_t divideByCount(std::span<Reference> references, const Bounds& bounds, std::uint32_t depth, SplitRule rule) {
+std::uint32_t divideAtMeanOrMedian(std::span<Reference> references, const Bounds& bounds, std::uint32_t depth, SplitRule rule) {
     const auto count = static_cast<std::uint32_t>(references.size());
     if (count <= kMaxLeafSize) {
         return 0;
@@ -235,7 +235,7 @@ Bvh buildBvh(std::span<const Box> boxes, SplitRule rule) {
         const std::span<Reference> mine(references.begin() + task.begin, references.begin() + task.end);
         const Bounds bounds = computeBounds(mine);
         const std::uint32_t left = rule == SplitRule::Sah ? divideBySah(mine, bounds, task.depth)
-                                                          : divideByCount(mine, bounds, task.depth, rule);
+                                                          : divideAtMeanOrMedian(mine, bounds, task.depth, rule);
         if (left == 0) {
             bvh.nodes[task.node] = {bounds.box, task.begin, task.end - task.begin};
             bvh.depth = std::max(bvh.depth, task.depth);

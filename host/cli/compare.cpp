@@ -210,7 +210,7 @@ std::optional<Film> filmOf(const std::filesystem::path& path, const Image& image
         return std::nullopt;
     }
     const Film film = readFilmHeader(path);
-    if (!film.complete && findSetting(film.identity.settings, "adaptive").empty()) {
+    if (!film.complete) {
         std::cerr << "glim: " << path.string()
                   << " is of a render that was ended early: some pixels have fewer samples or none.\n";
     }

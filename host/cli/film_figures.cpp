@@ -21,7 +21,10 @@ Rates computeRates(const Film& film)
 {
     const auto fewer = [](const PixelMoments& a, const PixelMoments& b) { return a.count < b.count; };
     const auto [least, most] = std::minmax_element(film.pixels.begin(), film.pixels.end(), fewer);
-    return {computeMean(film, [](const PixelMoments& p) { return p.count; }), least->count, most->count};
+    const auto blocks = std::min_element(film.pixels.begin(), film.pixels.end(), [](const PixelMoments& a, const PixelMoments& b) {
+        return a.blocks < b.blocks;
+    });
+    return {computeMean(film, [](const PixelMoments& p) { return p.count; }), least->count, most->count, blocks->blocks};
 }
 
 Steps computeSteps(const Film& film)

@@ -9,6 +9,7 @@ namespace glim {
 struct Rates {
     double mean;
     std::uint32_t least, most;
+    std::uint32_t fewestBlocks;  // that a pixel's variance comes from
 };
 Rates computeRates(const Film& film);
 

@@ -91,7 +91,9 @@ void printText(const Json& d)
 
 void runInspect(const InspectOptions& options)
 {
-    const Json description = describe(options, prepareScene(options.scene, {options.sceneIndex, {}}));
+    const PreparedScene prepared = prepareScene(options.scene, {options.sceneIndex, {}});
+    warnOfDarkness(prepared);
+    const Json description = describe(options, prepared);
     if (options.json) {
         std::cout << description.dump(2) << '\n';
     } else {

@@ -30,12 +30,16 @@ PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions&
     prepared.bvh = buildBvh(primitiveBoxes(prepared.scene), split);
     prepared.split = split;
     prepared.flat = flattenScene(prepared.scene, prepared.bvh);
-    if (prepared.flat.lights.empty()) {
-        std::cerr << "glim: the scene has no light, so every picture of it is black; --environment 1,1,1 lights it\n";
-    }
     prepared.loadSeconds = secondsBetween(start, loaded);
     prepared.buildSeconds = secondsBetween(loaded, Clock::now());
     return prepared;
+}
+
+void warnOfDarkness(const PreparedScene& prepared)
+{
+    if (prepared.flat.lights.empty()) {
+        std::cerr << "glim: the scene has no light, so every picture of it is black; --environment 1,1,1 lights it\n";
+    }
 }
 
 const Camera& findCamera(const Scene& scene, const std::optional<std::string>& choice)

@@ -22,6 +22,9 @@ struct PreparedScene {
 PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions& options,
                            SplitRule split = SplitRule::Sah);
 
+// To stderr, if the scene has no light.
+void warnOfDarkness(const PreparedScene& prepared);
+
 // The camera of that name or index (the first if absent). Throws InputError listing what there is.
 const Camera& findCamera(const Scene& scene, const std::optional<std::string>& choice);
 

@@ -92,7 +92,7 @@ std::string stopReason(int signal, const Film& film, const RenderSettings& setti
     if (settings.adaptive == Adaptive::Off) {
         return film.complete && film.sampleRanges[0].second == settings.sampleEnd ? "samples" : "time";
     }
-    if (settings.seconds && film.seconds >= *settings.seconds) {
+    if (!film.complete) {
         return "time";
     }
     const bool reached = std::any_of(film.pixels.begin(), film.pixels.end(),
@@ -145,6 +145,9 @@ ExitCode runRender(const RenderOptions& options)
     const Instance instance;
     Device device(instance, options.device);
     const PreparedScene prepared = prepareScene(options.scene, loadOptionsOf(options), options.split);
+    if (options.settings.view == View::Shaded) {
+        warnOfDarkness(prepared);
+    }
     const Camera& camera = findCamera(prepared.scene, options.camera);
     const RenderSettings settings = settingsFor(options, camera);
     refuseWhatDoesNotFit(prepared, settings, device.description());

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <optional>
 #include <sys/resource.h>
 
 namespace glim {
@@ -41,11 +42,21 @@ Json clampingOf(const Film& film, const RenderOptions& options)
             {"removedShare", removed / (removed + kept)}};
 }
 
-// Of light alone: other views have no noise worth the name.
+// Of light alone: other views have no noise worth the name. Nothing if pixels that an adaptive render has stopped have one block
+// of samples, which tells no error: the rest would not stand for them.
+std::optional<SquaredErrors> knownErrors(const RenderReport& report)
+{
+    const bool adaptive = report.options.settings.adaptive != Adaptive::Off;
+    if (report.options.settings.view != View::Shaded || (adaptive && computeRates(report.film).fewestBlocks < 2)) {
+        return std::nullopt;
+    }
+    return estimateErrors(pictureOf(report.film));
+}
+
 Json estimateOf(const RenderReport& report)
 {
-    const auto errors = estimateErrors(pictureOf(report.film));
-    if (!errors || report.options.settings.view != View::Shaded) {
+    const auto errors = knownErrors(report);
+    if (!errors) {
         return nullptr;
     }
     return {{"relmse", errors->relMse},
@@ -191,7 +202,7 @@ std::string rangeText(const RenderReport& report)
 std::string savingText(const RenderReport& report)
 {
     const RenderSettings& settings = report.options.settings;
-    if (settings.adaptive == Adaptive::Off) {
+    if (settings.adaptive == Adaptive::Off || !report.film.complete) {
         return "";
     }
     const double share = computeRates(report.film).mean / settings.sampleEnd;
@@ -208,8 +219,12 @@ std::string qualityText(const RenderReport& report)
     if (view != View::Shaded) {
         return "";
     }
-    const auto errors = estimateErrors(pictureOf(report.film));
-    return errors ? format(", estimated relMSE %.3g", errors->relMse) : ", error unknown below 33 samples per pixel";
+    const auto errors = knownErrors(report);
+    if (!errors) {
+        return ", error unknown below 33 samples per pixel";
+    }
+    const bool adaptive = report.options.settings.adaptive != Adaptive::Off;
+    return format(", estimated relMSE %.3g%s", errors->relMse, adaptive ? " besides the rule's bias" : "");
 }
 
 }  // namespace

@@ -85,6 +85,16 @@ void checkLightSamples(const CLI::App& command, const RenderSettings& settings)
     }
 }
 
+// What would be black whatever the scene.
+void checkPaths(const CLI::App& command, const RenderSettings& settings)
+{
+    const std::uint32_t least = settings.paths == PathParts::Direct ? 1 : settings.paths == PathParts::Indirect ? 2 : 0;
+    if (settings.bounces < least) {
+        refuseIfGiven(command, {"--bounces"}, "leaves nothing of --paths " + command.get_option("--paths")->results().front() +
+                                                  "; expected at least " + std::to_string(least));
+    }
+}
+
 }  // namespace
 
 void settleOptions(const CLI::App& command, RenderOptions& options)
@@ -93,6 +103,7 @@ void settleOptions(const CLI::App& command, RenderOptions& options)
     settleAdaptive(command, options.settings);
     settleTime(command, options.settings);
     checkLightSamples(command, options.settings);
+    checkPaths(command, options.settings);
     if (options.settings.accelerator == Accelerator::None) {
         refuseIfGiven(command, {"--split"}, "with --accelerator none there is no BVH to split");
     }

@@ -51,13 +51,26 @@ std::uint64_t sizeInBytes(const FlatScene& scene)
 
 std::string fingerprint(const FlatScene& scene, const FlatCamera& camera)
 {
+    // By primitive, since the order of the records is the tree's.
+    const std::size_t count = scene.records.size() / kRecordTexels;
+    std::vector<std::uint32_t> recordOf(count);
+    for (std::uint32_t record = 0; record < count; ++record) {
+        recordOf[scene.records[record * kRecordTexels].w] = record;
+    }
     Fingerprint print;
-    print.add(scene.nodes);
-    print.add(scene.records);
-    print.add(scene.normals);
+    for (const std::uint32_t record : recordOf) {
+        const std::size_t at = std::size_t{record} * kRecordTexels;
+        print.addBytes(std::as_bytes(std::span(scene.records).subspan(at, kRecordTexels)));
+        if (!scene.normals.empty()) {
+            print.addBytes(std::as_bytes(std::span(scene.normals).subspan(at, kRecordTexels)));
+        }
+    }
+    for (FlatEmitter emitter : scene.emitters) {
+        emitter.record = scene.records[std::size_t{emitter.record} * kRecordTexels].w;
+        print.add(std::vector<FlatEmitter>{emitter});
+    }
     print.add(scene.materials);
     print.add(scene.lights);
-    print.add(scene.emitters);
     print.add(std::vector<FlatCamera>{camera});
     return print.text();
 }

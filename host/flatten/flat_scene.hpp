@@ -33,7 +33,7 @@ struct FlatScene {
 // Bytes that the scene takes on the device.
 std::uint64_t sizeInBytes(const FlatScene& scene);
 
-// A fingerprint of everything above and the camera: equal pictures come from equal ones.
+// A fingerprint of everything above but the tree, and the camera: equal pictures come from equal ones.
 std::string fingerprint(const FlatScene& scene, const FlatCamera& camera);
 
 }  // namespace glim

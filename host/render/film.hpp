@@ -21,7 +21,7 @@ struct Film {
     std::uint32_t width = 0, height = 0;
     std::vector<PixelMoments> pixels;  // row 0 at the top, left to right
     std::vector<std::pair<std::uint32_t, std::uint32_t>> sampleRanges;  // [begin, end), ascending, disjoint
-    bool complete = true;  // every pixel has had all of sampleRanges; false if the render was ended early
+    bool complete = true;  // every pixel has had all of sampleRanges or, in adaptive renders, all it was to have
     FilmIdentity identity;
     double seconds = 0.0;  // spent sampling
     std::string device;    // names the device and driver

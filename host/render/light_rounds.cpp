@@ -1,6 +1,9 @@
 #include "host/render/light_rounds.hpp"
 
+#include "host/error.hpp"
 #include "shaders/shared/path_types.h"
+
+#include <algorithm>
 
 namespace glim {
 namespace {
@@ -11,10 +14,23 @@ bool isDelta(const FlatLight& light)
     return light.kind == kPointLight || light.kind == kSpotLight || light.kind == kDirectionalLight;
 }
 
+void refuseTooMany(const FlatScene& scene, const RenderSettings& settings)
+{
+    constexpr std::uint64_t kMost = 1U << 20;
+    const auto deltas = static_cast<std::uint64_t>(std::count_if(scene.lights.begin(), scene.lights.end(), isDelta));
+    const std::uint64_t rays = deltas + (scene.lights.size() - deltas) * settings.lightSamples;
+    if (settings.direct == DirectLight::Lights && rays > kMost) {
+        throw InputError("--direct lights: the scene's " + std::to_string(scene.lights.size()) + " lights with " +
+                         std::to_string(settings.lightSamples) + " samples each would take " + std::to_string(rays) +
+                         " rays per hit, expected at most " + std::to_string(kMost) + ".");
+    }
+}
+
 }  // namespace
 
 std::vector<LightRound> lightRounds(const FlatScene& scene, const RenderSettings& settings)
 {
+    refuseTooMany(scene, settings);
     std::vector<LightRound> rounds;
     if (settings.direct == DirectLight::Mis && !scene.lights.empty()) {
         return {{false, kAnyLight}};

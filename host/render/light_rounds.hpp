@@ -13,7 +13,7 @@ struct LightRound {
     std::uint32_t samples = 1;
 };
 
-// At least one; the first is no hemisphere.
+// At least one; the first is no hemisphere. Refuses (InputError) more than a million.
 std::vector<LightRound> lightRounds(const FlatScene& scene, const RenderSettings& settings);
 
 }  // namespace glim

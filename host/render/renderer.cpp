@@ -16,19 +16,19 @@ namespace {
 // Passes aim at this for their longest dispatch: far below any watchdog.
 constexpr double kTargetDispatchSeconds = 0.05;
 // And at this in all, where many rounds of direct light or long brute force make many dispatches, since Ctrl-C is answered between
-// passes; but with fewer paths than these the dispatches themselves would cost more than what they do.
+// passes; but not if that leaves so little for a dispatch that starting it costs more (20 us on llvmpipe).
 constexpr double kTargetPassSeconds = 1.0;
-constexpr double kLeastPaths = 1U << 10;
+constexpr double kLeastDispatchSeconds = 0.001;
+// Of a first pass, with one round of direct light and a ray that takes this many steps.
 constexpr std::uint32_t kFirstPassPaths = 1U << 14;
-// Steps of the BVH that a ray may take as long as a primitive of brute force: the first pass of that is shorter.
-constexpr std::uint32_t kUsualSteps = 64;
+constexpr std::uint64_t kUsualSteps = 64;
 
 std::uint32_t firstPassPaths(const FlatScene& scene, const RenderSettings& settings)
 {
-    const auto records = static_cast<std::uint32_t>(scene.records.size()) / kRecordTexels;
-    const bool bruteForce = settings.accelerator == Accelerator::None && records > kUsualSteps;
-    const std::uint32_t paths = bruteForce ? kFirstPassPaths * kUsualSteps / std::min(records, kScanRecords) : kFirstPassPaths;
-    return std::clamp(paths, kBlockSamples, settings.pathCapacity);
+    const std::uint64_t records = scene.records.size() / kRecordTexels;
+    const std::uint64_t steps = settings.accelerator == Accelerator::None ? std::max(records, kUsualSteps) : kUsualSteps;
+    const std::uint64_t work = steps * lightRounds(scene, settings).size();
+    return std::clamp(static_cast<std::uint32_t>(kFirstPassPaths * kUsualSteps / work), kBlockSamples, settings.pathCapacity);
 }
 
 double secondsSince(std::chrono::steady_clock::time_point start)
@@ -85,16 +85,13 @@ Film Renderer::render(const RenderObserver& observer)
             chosen = choosePixels();
             plannedSamples_ = statistics_.samples + chosen * (settings_.sampleEnd - sample);
         }
-        const bool over = !going || chosen == 0 || sample == settings_.sampleEnd;
-        if (over && (!going || isAdaptive())) {
-            closeBlocks();
-        }
-        if (over || sample % kPageSamples == 0) {
-            foldPages(film);
+        if (!going || chosen == 0 || sample == settings_.sampleEnd || sample % kPageSamples == 0) {
+            foldPages(film, !going || isAdaptive());
         }
     }
     film.sampleRanges = {{settings_.sampleBegin, sample}};
-    film.complete = statistics_.samples == film.pixels.size() * (sample - settings_.sampleBegin);
+    const bool even = statistics_.samples == film.pixels.size() * (sample - settings_.sampleBegin);
+    film.complete = going || (even && !isAdaptive());
     statistics_.renderSeconds = secondsSince(start_);
     film.seconds = statistics_.renderSeconds;
     readCounters();
@@ -138,10 +135,10 @@ void Renderer::runPass(const Slab& slab, const Pass& pass)
 
 void Renderer::resizePasses(std::uint32_t paths, const Wavefront::Seconds& seconds)
 {
-    const double byDispatch = paths * std::clamp(kTargetDispatchSeconds / seconds.longest, 0.5, 2.0);
-    const double byPass = std::max(kLeastPaths, paths * kTargetPassSeconds / seconds.total);
-    pathsPerPass_ = static_cast<std::uint32_t>(std::clamp(std::min(byDispatch, byPass), static_cast<double>(kBlockSamples),
-                                                          static_cast<double>(settings_.pathCapacity)));
+    const double byPass = std::max(kTargetPassSeconds / seconds.total, kLeastDispatchSeconds / seconds.longest);
+    const double scale = std::clamp(std::min(kTargetDispatchSeconds / seconds.longest, byPass), 0.5, 2.0);
+    pathsPerPass_ = static_cast<std::uint32_t>(
+        std::clamp(paths * scale, static_cast<double>(kBlockSamples), static_cast<double>(settings_.pathCapacity)));
 }
 
 // How many pixels still need samples.
@@ -155,17 +152,13 @@ std::uint64_t Renderer::choosePixels()
     return chosen;
 }
 
-// Of pixels that have ended within a block.
-void Renderer::closeBlocks()
+// `closesBlocks`: some pixels may have ended within a block.
+void Renderer::foldPages(Film& film, bool closesBlocks)
 {
     for (const auto& slab : slabs_) {
-        wavefront_->closeBlocks(*slab);
-    }
-}
-
-void Renderer::foldPages(Film& film)
-{
-    for (const auto& slab : slabs_) {
+        if (closesBlocks) {
+            wavefront_->closeBlocks(*slab);
+        }
         foldPage(film, slab->begin(), slab->takePages());
     }
 }

@@ -1,4 +1,4 @@
-// Renders: sweeps over the picture, pass after pass. READ renderer.cpp FIRST.
+// Renders: sweeps over the picture, pass after pass.
 #pragma once
 
 #include "host/render/film.hpp"
@@ -50,8 +50,7 @@ private:
     void runPass(const Slab& slab, const Pass& pass);
     void resizePasses(std::uint32_t paths, const Wavefront::Seconds& seconds);
     std::uint64_t choosePixels();
-    void closeBlocks();
-    void foldPages(Film& film);
+    void foldPages(Film& film, bool closesBlocks);
     bool isOver(const RenderObserver& observer) const;
     void refuseBrokenStatus() const;
     void readCounters();

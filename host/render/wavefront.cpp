@@ -124,27 +124,34 @@ void Wavefront::recordBounce(Recording& recording, const Slab& slab, const Pass&
         recordSize(recording, bindings, pass, kSizesPaths);
     }
     recordTrace(recording, kernels_.traceClosest, bindings, pass, offsetof(QueueSizes, closestGroups));
-    // The last hit only finds light.
-    const std::size_t rounds = pass.bounce < pass.maxBounces ? rounds_.size() : 1;
-    for (std::size_t i = 0; i < rounds; ++i) {
-        Pass round = pass;
-        round.addsFound = i == 0 ? 1 : 0;
-        round.light = rounds_[i].light;
-        round.lightSample = rounds_[i].sample;
-        round.lightSamples = rounds_[i].samples;
-        recordRound(recording, bindings, round, rounds_[i].hemisphere);
-    }
+    recordRounds(recording, bindings, pass);
     recording.dispatchIndirect(kernels_.bounce, bindings, pass, paths_.queueSizes(), offsetof(QueueSizes, closestGroups));
     Pass next = pass;
     next.bounce = pass.bounce + 1;
     recordSize(recording, bindings, next, kSizesPaths);
 }
 
+void Wavefront::recordRounds(Recording& recording, const Bindings& bindings, const Pass& pass) const
+{
+    // Light sampled here has met one surface more than the path; the last hit only finds light.
+    const bool counts = pass.bounce < pass.maxBounces && pass.bounce + 1 >= pass.leastEvents;
+    const std::vector<LightRound> finding = {{false, kNoLightIndex}};
+    Pass round = pass;
+    round.addsFound = 1;
+    for (const LightRound& each : counts ? rounds_ : finding) {
+        round.light = each.light;
+        round.lightSample = each.sample;
+        round.lightSamples = each.samples;
+        recordRound(recording, bindings, round, each.hemisphere);
+        round.addsFound = 0;
+    }
+}
+
 void Wavefront::recordRound(Recording& recording, const Bindings& bindings, const Pass& round, bool hemisphere) const
 {
     const Kernel& sample = hemisphere ? *kernels_.sampleHemisphere : kernels_.sampleLights;
     recording.dispatchIndirect(sample, bindings, round, paths_.queueSizes(), offsetof(QueueSizes, closestGroups));
-    if (round.bounce < round.maxBounces && (hemisphere || round.light != kNoLightIndex)) {
+    if (hemisphere || round.light != kNoLightIndex) {
         recordSize(recording, bindings, round, kSizesShadow);
         recordTrace(recording, hemisphere ? *kernels_.traceHemisphere : kernels_.traceShadow, bindings, round,
                     offsetof(QueueSizes, shadowGroups));
@@ -168,12 +175,11 @@ void Wavefront::recordTrace(Recording& recording, const Kernel& kernel, const Bi
     }
 }
 
-void Wavefront::closeBlocks(Slab& slab)
+void Wavefront::closeBlocks(const Slab& slab)
 {
-    slab.chooseAll();
     Pass pass = passOf(slab);
     pass.pixelCount = slab.count();
-    pass.accumulate = kEndsBlock;
+    pass.accumulate = kEndsBlock | kEveryPixel;
     Recording recording(device_, statistics_);
     recording.dispatch(kernels_.accumulate, slab.bindings(0), pass, groupsOf(pass.pixelCount));
     recording.finish();

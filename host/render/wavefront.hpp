@@ -26,8 +26,8 @@ public:
         double longest, total;
     };
     Seconds trace(const Slab& slab, Pass pass);
-    // Folds the blocks of all pixels that are under way into their pages. Afterwards every pixel is chosen.
-    void closeBlocks(Slab& slab);
+    // Folds the blocks of all pixels, chosen or not, that are under way into their pages.
+    void closeBlocks(const Slab& slab);
     // Chooses the pixels that still need samples.
     void choosePixels(Slab& slab);
 
@@ -39,6 +39,7 @@ private:
     void compile();
     void tracePaths(Recording& recording, const Slab& slab, Pass& pass);
     void recordBounce(Recording& recording, const Slab& slab, const Pass& pass) const;
+    void recordRounds(Recording& recording, const Bindings& bindings, const Pass& pass) const;
     void recordRound(Recording& recording, const Bindings& bindings, const Pass& round, bool hemisphere) const;
     void recordTrace(Recording& recording, const Kernel& kernel, const Bindings& bindings, Pass pass,
                      std::uint64_t groupsOffset) const;
@@ -47,7 +48,7 @@ private:
 
     Device& device_;
     RenderSettings settings_;
-    std::vector<LightRound> rounds_;
+    std::vector<LightRound> rounds_;  // of direct light at each hit
     Pass template_;  // what all passes have in common
     std::map<std::string, KernelStatistics> statistics_;
     double compileSeconds_ = 0.0;

@@ -148,6 +148,7 @@ LightSample sampleEnvironment(FlatLight light, vec3 from, vec3 normal, vec2 u)
     return LightSample(wi, light.intensity / pdf, pdf, from + wi, kNoRecord, kInfinity);
 }
 
+// `from`: the point that rays leave the receiver from, not on it: the wall of a sphere light sees it from within only by that.
 // `certain`: every light is sampled, so that its probability is 1.
 LightSample sampleLight(uint index, bool certain, vec3 from, vec3 normal, uvec2 choice, vec2 u)
 {

@@ -25,7 +25,7 @@ BlockSums addSample(BlockSums sums, PathRadiance path, FirstHit first)
 
 void addPixel(uint pixel)
 {
-    uint at = pixelOfPass(pixel);
+    uint at = (pass.accumulate & kEveryPixel) != 0u ? pixel : pixelOfPass(pixel);
     BlockSums sums = filmBlocks[at];
     if (sums.count == 0u) {
         sums = emptyBlock();  // the host fills new blocks with zeros

@@ -56,6 +56,13 @@ Scatter scatterAt(inout Surface surface, vec3 wo, vec2 u, float fate)
                                                        : scatterLambert(surface, material, u);
 }
 
+// The last ray of a path only finds light, and what sampling has found already does not count twice.
+bool findsNothing(Scatter scatter)
+{
+    bool sampled = kDirect == kDirectLights || kDirect == kDirectHemisphere;
+    return sampled && scatter.pdf > 0.0 && pass.bounce + 1u == pass.maxBounces;
+}
+
 float survivalOf(vec3 throughput, float etaScale)
 {
     return kRoulette == kRouletteThroughput ? survivalProbability(throughput, etaScale, pass.bounce)
@@ -77,7 +84,7 @@ void visit(uint slot)
     vec2 fate = unitFloat(samplePair(id, bounceDimension(pass.bounce, kDimensionFate), kSobol));
     Scatter scatter = scatterAt(surface, -ray.direction, u, fate.x);
     vec3 throughput = state.throughput * scatter.weight;
-    if (all(equal(throughput, vec3(0.0)))) {
+    if (all(equal(throughput, vec3(0.0))) || findsNothing(scatter)) {
         return;
     }
     float etaScale = state.etaScale * scatter.etaScale;

@@ -28,6 +28,9 @@ void askForRay(uint slot, Surface surface, FlatMaterial material)
     }
     float share = local.z / (pdfUniformHemisphere() * float(pass.lightSamples));
     vec3 contribution = pathStates[slot].throughput * evalLambert(material.baseColor, local.z) * share;
+    if (all(equal(contribution, vec3(0.0)))) {
+        return;
+    }
     pathShadowRays[slot] =
         ShadowRay(leavePoint(surface, wi), pathHits[slot].record, wi, kNoRecord, contribution, kInfinity);
     shadowQueue[atomicAdd(queueTails.shadow, 1u)] = slot;
@@ -51,7 +54,7 @@ void visit(uint slot)
 void main()
 {
     uint entry = interleavedInvocation();
-    if (pass.bounce < pass.maxBounces && entry < queueSizes.closest) {
+    if (entry < queueSizes.closest) {
         visit(activeQueue[entry]);
     }
     checkLoopBudget(pass.canarySteps);

@@ -54,8 +54,8 @@ vec3 emissionFound(PathRay ray, PathHit hit, PathState state, Surface surface, F
     return emission * weightFound(state, other);
 }
 
-// The radiance of one light that the round chooses.
-LightSample sampleLightOfRound(SampleId id, Surface surface)
+// The radiance of one light that the round chooses, seen `from` the point that rays leave the surface from.
+LightSample sampleLightOfRound(SampleId id, vec3 from, vec3 normal)
 {
     uint chosen = pass.light;
     if (kDirect == kDirectMis) {
@@ -63,7 +63,7 @@ LightSample sampleLightOfRound(SampleId id, Surface surface)
     } else {
         id = splitSample(id, pass.light, pass.lightSample, pass.lightSamples);
     }
-    return sampleLight(chosen, kDirect != kDirectMis, surface.point, surface.shading,
+    return sampleLight(chosen, kDirect != kDirectMis, from, normal,
                        samplePair(id, bounceDimension(pass.bounce, kDimensionEmitter), kSobol),
                        unitFloat(samplePair(id, bounceDimension(pass.bounce, kDimensionPoint), kSobol)));
 }
@@ -71,7 +71,8 @@ LightSample sampleLightOfRound(SampleId id, Surface surface)
 // Carries the radiance that the light sends on towards the camera if nothing shadows it.
 void askForShadowRay(uint slot, PathState state, Surface surface, FlatMaterial material)
 {
-    LightSample light = sampleLightOfRound(sampleOfSlot(slot), surface);
+    vec3 origin = leavePoint(surface, surface.geometric);
+    LightSample light = sampleLightOfRound(sampleOfSlot(slot), origin, surface.shading);
     float cosine = dot(light.wi, surface.shading);
     if (!(cosine > 0.0 && dot(light.wi, surface.geometric) > 0.0)) {
         return;
@@ -84,7 +85,6 @@ void askForShadowRay(uint slot, PathState state, Surface surface, FlatMaterial m
     if (all(equal(contribution, vec3(0.0)))) {
         return;
     }
-    vec3 origin = leavePoint(surface, light.wi);
     bool infinite = light.reach > 1.0;
     pathShadowRays[slot] = ShadowRay(origin, pathHits[slot].record, infinite ? light.wi : light.target - origin,
                                      light.record, contribution, light.reach);
@@ -103,7 +103,7 @@ void visitNothing(uint slot, PathState state)
         pathFirstHits[slot] = FirstHit(vec3(0.0), 0.0, vec3(0.0), kInfinity);
     }
     if (kEnvironment) {
-        addRadiance(slot, state.throughput * environmentFound(state), pass.bounce);
+        addRadiance(slot, state.throughput * environmentFound(state), pass.bounce, 1u);
     }
 }
 
@@ -126,9 +126,9 @@ void visit(uint slot)
         noteFirstHit(slot, surface, material);
     }
     if (first && kSurfaceLights) {
-        addRadiance(slot, state.throughput * emissionFound(ray, hit, state, surface, material), pass.bounce);
+        addRadiance(slot, state.throughput * emissionFound(ray, hit, state, surface, material), pass.bounce, 1u);
     }
-    if (pass.light != kNoLightIndex && pass.bounce < pass.maxBounces && material.scattering == kLambert) {
+    if (pass.light != kNoLightIndex && material.scattering == kLambert) {
         askForShadowRay(slot, state, surface, material);
     }
 }

@@ -36,7 +36,7 @@ void visit(uint slot)
     PathRay ray = PathRay(shadow.origin, shadow.source, shadow.direction);
     PathHit hit = kBruteForce ? scanRecords(slot, ray, shadow) : traceClosest(ray);
     if (pass.endRecord == pass.recordCount) {
-        addRadiance(slot, shadow.contribution * radianceFound(ray, hit), pass.bounce + 1u);
+        addRadiance(slot, shadow.contribution * radianceFound(ray, hit), pass.bounce + 1u, pass.lightSamples);
     }
 }
 

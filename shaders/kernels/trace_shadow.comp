@@ -28,7 +28,7 @@ void main()
         ShadowRay ray = pathShadowRays[slot];
         bool clear = kBruteForce ? isUnoccludedSoFar(slot, ray) : isUnoccluded(ray);
         if (clear && pass.endRecord == pass.recordCount) {
-            addRadiance(slot, ray.contribution, pass.bounce + 1u);
+            addRadiance(slot, ray.contribution, pass.bounce + 1u, pass.lightSamples);
         }
     }
     checkLoopBudget(pass.canarySteps);

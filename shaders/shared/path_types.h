@@ -92,7 +92,8 @@ struct BlockSums {
     float clamped;
 };
 
-GLIM_CONST uint kEndsBlock = 1u;  // accumulate folds the block into the page afterwards
+GLIM_CONST uint kEndsBlock = 1u;   // accumulate folds the block into the page afterwards
+GLIM_CONST uint kEveryPixel = 2u;  // the pass goes over all pixels of the slab, whichever are chosen
 
 // Which queues size_dispatch looks at.
 GLIM_CONST uint kSizesPaths = 1u;
@@ -121,7 +122,7 @@ struct Pass {
     uint environmentLight;  // index, if the scene has an environment
     vec3 environment;
     float clampIndirect;    // infinity: off
-    uint accumulate;        // kEndsBlock or 0
+    uint accumulate;        // kEndsBlock | kEveryPixel
     uint canarySteps;       // 3, unknown to the compiler
     uint leastEvents;       // surfaces between camera and light, of the light that counts
     uint mostEvents;

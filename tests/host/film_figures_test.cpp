@@ -16,6 +16,8 @@ Film makeFilm()
     film.pixels[0].mean = {1, 5, 0};
     film.pixels[1].count = 32;
     film.pixels[1].mean = {9, 1, 2};
+    film.pixels[0].blocks = film.pixels[1].blocks = 3;
+    film.pixels[2].blocks = 1;
     film.pixels[1].clamped = 1.5F;
     film.pixels[2].count = 8;
     film.pixels[2].mean = {2, 0, 7};
@@ -28,6 +30,7 @@ TEST(FilmFigures, RatesAreMeanLeastAndMost)
     EXPECT_DOUBLE_EQ(rates.mean, 14.0);
     EXPECT_EQ(rates.least, 2U);
     EXPECT_EQ(rates.most, 32U);
+    EXPECT_EQ(rates.fewestBlocks, 1U);
 }
 
 TEST(FilmFigures, StepsAreMeansAndTheLargestPixel)

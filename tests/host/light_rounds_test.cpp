@@ -1,5 +1,6 @@
 #include "host/render/light_rounds.hpp"
 
+#include "host/error.hpp"
 #include "shaders/shared/path_types.h"
 
 #include <gtest/gtest.h>
@@ -88,6 +89,22 @@ TEST(LightRoundsTest, HemisphereComesAfterARoundThatAddsWhatWasFound)
 TEST(LightRoundsTest, BsdfLeavesSurfacesAndSkyToTheRay)
 {
     EXPECT_EQ(roundsOf({kTriangleLight, kSphereLight, kEnvironmentLight}, DirectLight::Bsdf, 4), "none:0/1");
+}
+
+TEST(LightRounds, MoreThanAMillionAreRefused)
+{
+    RenderSettings settings;
+    settings.direct = DirectLight::Lights;
+    settings.lightSamples = 65536;
+    const std::vector<uint> kinds(16, kSphereLight);
+    EXPECT_EQ(lightRounds(sceneWith(kinds), settings).size(), 1U << 20);
+    try {
+        lightRounds(sceneWith(std::vector<uint>(17, kSphereLight)), settings);
+        ADD_FAILURE() << "accepted";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("1114112 rays per hit, expected at most 1048576"), std::string::npos)
+            << error.what();
+    }
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct Outcome {
 };
 
 // An empty `chosen` is no adaptive render.
-Outcome accumulate(const std::vector<PathRadiance>& radiance, const std::vector<uint>& chosen = {})
+Outcome accumulate(const std::vector<PathRadiance>& radiance, const std::vector<uint>& chosen = {}, uint flags = kEndsBlock)
 {
     const KernelLayout layout(testDevice(), kernelSlots(), sizeof(Pass));
     const Kernel kernel(layout, kernels::accumulate, {{kSpecWorkgroup, 64}, {kSpecAdaptive, !chosen.empty()}});
@@ -57,7 +57,7 @@ Outcome accumulate(const std::vector<PathRadiance>& radiance, const std::vector<
     pass.pixelCount = kPixels;
     pass.firstSample = kFirstSample;
     pass.sampleCount = kSamples;
-    pass.accumulate = kEndsBlock;
+    pass.accumulate = flags;
     pass.canarySteps = 3;
     Commands commands(testDevice());
     commands.dispatch(kernel, bindings, std::as_bytes(std::span<const Pass, 1>(&pass, 1)), (kPixels + 63) / 64);
@@ -113,6 +113,8 @@ TEST(AccumulateTest, AddsToTheChosenPixels)
         EXPECT_NEAR(moments.squares, 0.2126F * 0.2126F * 42.0F, 1e-4F);  // sum of (k - 3.5)^2 over 0 to 7
     }
     EXPECT_EQ(accumulate(radiance).luminances[0].count, 0U);
+    const Outcome every = accumulate(radiance, chosen, kEndsBlock | kEveryPixel);
+    EXPECT_FLOAT_EQ(every.pages[10].mean.r, 13.5F);
 }
 
 }  // namespace

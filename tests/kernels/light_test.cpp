@@ -104,7 +104,7 @@ TEST(LightTest, SphereFromWithin)
         expectIrradiance(doubleSided ? "inside, double-sided" : "inside, front only", builder.scene(),
                          {{{1, 0, 0}, {0, 1, 0}, inside}, {{1.5F, 0.5F, -1}, {0.6F, 0, 0.8F}, inside},
                           {{1, 1.7F, 0}, {0, 1, 0}, inside}});
-        // Exactly on it: no answer is asked for, but a finite one.
+        // Exactly on it: the renderer never asks from there; a finite answer.
         estimateIrradiance(builder.scene(), {{{3, 0, 0}, {1, 0, 0}}, {{1, 2, 0}, {0, -1, 0}}, {{1, 0, -2}, {1, 0, 0}}});
     }
 }

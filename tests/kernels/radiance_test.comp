@@ -8,6 +8,7 @@
 struct Case {
     vec3 contribution;
     uint events;
+    uint samples;
     PathRadiance expected;
 };
 
@@ -17,7 +18,7 @@ void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        addRadiance(TEST_THREAD, c.contribution, c.events);
+        addRadiance(TEST_THREAD, c.contribution, c.events, c.samples);
         PathRadiance sum = pathRadiance[TEST_THREAD];
         EXPECT_NEAR_VECTOR(sum.radiance, c.expected.radiance, 4e-7 * length(c.expected.radiance));
         // The difference of contribution and kept: as right as the larger of them.

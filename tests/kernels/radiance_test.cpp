@@ -14,6 +14,7 @@ namespace {
 struct Case {
     vec3 contribution;
     uint events;
+    uint samples;  // that the contribution is one of
     PathRadiance expected;
 };
 
@@ -38,9 +39,10 @@ void expectSums(float limit, uint least, uint most)
         before.push_back({vec3(light(random), light(random), 0.5F), 0.1F * light(random)});
         const vec3 contribution(light(random), i % 7 == 0 ? 0.0F : light(random), 0.1F * light(random));
         const uint events = i % 4;
+        const uint samples = i % 3 == 0 ? 8 : 1;
         const bool wanted = events >= least && events <= most;
-        cases.push_back({contribution, events,
-                         wanted ? add(before.back(), glm::dvec3(contribution), events, static_cast<double>(limit))
+        cases.push_back({contribution, events, samples,
+                         wanted ? add(before.back(), glm::dvec3(contribution), events, static_cast<double>(limit) / samples)
                                 : before.back()});
     }
     Buffer sums(testDevice(), "test's radiance", BufferKind::Storage, before.size() * sizeof(PathRadiance));

@@ -129,14 +129,14 @@ TEST(CommandLineTest, StepsAreReportedForTheirViewAlone)
 TEST(CommandLineTest, AdaptiveFilmsAreNotTakenForUnfinishedOnes)
 {
     const Workplace workplace;
-    Film film = simulateFilm(0, 64);
-    film.complete = false;
-    writeFilm(workplace.file("cut.exr"), film);
-    film.identity.settings += " adaptive=course tolerance=0.05 batch=32 max-spp=64";
-    writeFilm(workplace.file("adaptive.exr"), film);
-    writeFilm(workplace.file("other.exr"), simulateFilm(64, 128));
-    EXPECT_NE(workplace.call({"compare", "cut.exr", "other.exr"}).err.find("ended early"), std::string::npos);
-    EXPECT_EQ(workplace.call({"compare", "adaptive.exr", "other.exr"}).err, "");
+    const Arguments adaptive{"--adaptive", "course:literal", "--tolerance", "0.5", "--max-spp", "64"};
+    workplace.render(adaptive);
+    EXPECT_TRUE(readFilmHeader(workplace.file("x.exr")).complete);
+    EXPECT_EQ(workplace.call({"compare", "x.exr", "x.exr"}).err, "");
+    Arguments cut{"--adaptive", "course", "--max-spp", "1000000", "--tolerance", "1e-6", "--time", "0.5"};
+    workplace.render(cut);
+    EXPECT_FALSE(readFilmHeader(workplace.file("x.exr")).complete);
+    EXPECT_NE(workplace.call({"compare", "x.exr", "x.exr"}).err.find("ended early"), std::string::npos);
 }
 
 }  // namespace

@@ -3,9 +3,11 @@
 #include "tests/support/build_scene.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/test_device.hpp"
+#include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 
 namespace glim {
@@ -38,6 +40,24 @@ Scene yard()
         .environment(glm::vec3(0.3F, 0.4F, 0.5F))
         .perspective({0, 2, 5}, {0, 0.3F, 0}, 0.7F);
     return builder.scene();
+}
+
+// Smooth triangles, whose normals lean away from their faces, between a lamp and a sky.
+Scene smoothBall()
+{
+    SceneBuilder builder;
+    builder.lambert(glm::vec3(0.7F, 0.6F, 0.5F));
+    const auto lamp = builder.lambert(glm::vec3(0.0F), glm::vec3(4.0F));
+    builder.sphere({1.5F, 1.5F, 1.0F}, 0.4F, lamp)
+        .environment(glm::vec3(0.2F, 0.3F, 0.4F))
+        .perspective({0, 0.5F, 4}, {0, 0, 0}, 0.6F);
+    Scene scene = builder.scene();
+    scene.triangles = icosphere(1);
+    for (const Triangle& triangle : scene.triangles) {
+        scene.normals.push_back({{triangle.vertices[0], triangle.vertices[1], triangle.vertices[2]}});
+    }
+    scene.primitives = {{"", 0, static_cast<std::uint32_t>(scene.triangles.size()), 0, true}};
+    return scene;
 }
 
 struct Place {
@@ -78,7 +98,8 @@ TEST_P(DirectLightTest, HasTheMeanOfTheDefault)
 // The mixed scene has a point light, which every way must sample: no direction meets it.
 INSTANTIATE_TEST_SUITE_P(
     Places, DirectLightTest,
-    testing::Combine(testing::Values(Place{"room", room}, Place{"yard", yard}, Place{"mixed", mixedScene}),
+    testing::Combine(testing::Values(Place{"room", room}, Place{"yard", yard}, Place{"mixed", mixedScene},
+                                     Place{"smooth", smoothBall}),
                      testing::Values(Way{"lights", DirectLight::Lights, 1, 256}, Way{"lights4", DirectLight::Lights, 4, 64},
                                      Way{"hemisphere", DirectLight::Hemisphere, 1, 1024},
                                      Way{"hemisphere8", DirectLight::Hemisphere, 8, 256},
@@ -86,6 +107,36 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) {
         return std::string(std::get<0>(test.param).name) + "_" + std::get<1>(test.param).name;
     });
+
+// T3 in a round room: a sphere that shines inwards sees all of itself.
+TEST(DirectLightTest, T3ASphereFromWithin)
+{
+    SceneBuilder builder;
+    builder.sphere({0, 0, 0}, 1.0F, builder.lambert(glm::vec3(0.5F), glm::vec3(1.0F, 2.0F, 0.5F), true))
+        .perspective({0.3F, 0.2F, 0.5F}, {-1, -0.5F, -1}, 1.0F);
+    for (const DirectLight direct : {DirectLight::Mis, DirectLight::Lights, DirectLight::Hemisphere, DirectLight::Bsdf}) {
+        for (const std::uint32_t bounces : {1U, 5U}) {
+            RenderSettings settings = independent(48, samplesFor(128), bounces);
+            settings.direct = direct;
+            const double truth = (1.0 - std::pow(0.5, bounces + 1.0)) / 0.5;
+            expectMean("round room, way " + std::to_string(static_cast<int>(direct)) + ", bounces " + std::to_string(bounces),
+                       renderScene(builder.scene(), settings), truth * glm::dvec3(1.0, 2.0, 0.5));
+        }
+    }
+}
+
+// The same wall shines outwards only: inside it is dark.
+TEST(DirectLightTest, OneSidedSpheresAreDarkInside)
+{
+    SceneBuilder builder;
+    builder.sphere({0, 0, 0}, 1.0F, builder.lambert(glm::vec3(0.5F), glm::vec3(1.0F)))
+        .perspective({0.3F, 0.2F, 0.5F}, {-1, -0.5F, -1}, 1.0F);
+    for (const DirectLight direct : {DirectLight::Mis, DirectLight::Lights, DirectLight::Hemisphere, DirectLight::Bsdf}) {
+        RenderSettings settings = squareSettings(16, 32);
+        settings.direct = direct;
+        EXPECT_EQ(meanOf(renderScene(builder.scene(), settings)).mean, glm::dvec3(0.0)) << static_cast<int>(direct);
+    }
+}
 
 double meanVariance(const FlatScene& flat, const Camera& camera, const RenderSettings& settings)
 {

@@ -27,5 +27,42 @@ TEST(RayCountTest, BlackSurfacesEndPaths)
     EXPECT_GT(closestRays(glm::vec3(1.0F)), 3U * 16U * 16U * 4U);  // four segments a path, but for directions in the wall
 }
 
+RenderStatistics countIn(const SceneBuilder& builder, RenderSettings settings)
+{
+    const FlatScene flat = flattened(builder.scene());
+    Renderer renderer(testDevice(), flat, flattenCamera(builder.scene().cameras.front(), 1.0F), settings);
+    renderer.render([](const RenderProgress&) { return true; });
+    return renderer.statistics();
+}
+
+// Where lights are sampled at every hit, the ray after the last one would find what does not count; and light sampled at the first
+// hit is no indirect light.
+TEST(RayCountTest, LightSamplingNeedsNoLastRay)
+{
+    SceneBuilder builder;
+    builder.cube(1.0F, builder.lambert(glm::vec3(0.5F), glm::vec3(1.0F)), true).perspective({0, 0, 0}, {0, 0, -1}, 1.0F);
+    constexpr std::uint64_t kSamples = 16 * 16 * 4;
+    RenderSettings settings = squareSettings(16, 4);
+    settings.bounces = 1;
+    for (const DirectLight direct : {DirectLight::Lights, DirectLight::Hemisphere}) {
+        settings.direct = direct;
+        const RenderStatistics counts = countIn(builder, settings);
+        EXPECT_EQ(counts.cameraAndBounceRays, kSamples);
+        EXPECT_GT(counts.shadowRays, kSamples / 4);
+    }
+    settings.paths = PathParts::Indirect;
+    settings.bounces = 2;
+    EXPECT_LE(countIn(builder, settings).shadowRays, kSamples);
+}
+
+TEST(RayCountTest, BlackSurfacesNeedNoDirections)
+{
+    SceneBuilder builder;
+    builder.cube(1.0F, builder.lambert(glm::vec3(0.0F), glm::vec3(1.0F)), true).perspective({0, 0, 0}, {0, 0, -1}, 1.0F);
+    RenderSettings settings = squareSettings(16, 4);
+    settings.direct = DirectLight::Hemisphere;
+    EXPECT_EQ(countIn(builder, settings).shadowRays, 0U);
+}
+
 }  // namespace
 }  // namespace glim
