@@ -6,7 +6,7 @@ import statistics
 import sys
 import time
 
-from .estimates import mean_interval, positive_interval
+from .estimates import mean_interval, positive_interval, ratio_of_means
 
 REFERENCE_SEED = 1000003  # no experiment's seed comes near
 FIRST_SEED = 1
@@ -73,6 +73,10 @@ class Lab:
                 return
             yield FIRST_SEED + i
 
+    def few_seeds(self):
+        """For what is shown as a picture above all."""
+        return range(FIRST_SEED, FIRST_SEED + self.profile.few_seeds)
+
     # Measurements
 
     def render(self, name, scene, size, *options, png=False, rates=False, keep=True):
@@ -85,11 +89,13 @@ class Lab:
         return shot
 
     def reference(self, scene, size, spp, *options):
-        """The long render of the same light, by MIS and Sobol' points whatever the experiments use."""
+        """The long render of the same light, by MIS whatever the experiments use. Independent points: of others glim's
+        estimate of the noise, from blocks of samples taken as independent, is too high, and it is taken off."""
         key = (scene, size, spp, options)
         if key not in self.references:
             name = "reference %d %s" % (len(self.references), scene)
-            self.references[key] = self.render(name, scene, size, "--spp", spp, "--seed", REFERENCE_SEED, *options)
+            self.references[key] = self.render(name, scene, size, "--spp", spp, "--seed", REFERENCE_SEED,
+                                               "--sampler", "independent", *options)
         return self.references[key]
 
     def triangles(self, scene):
@@ -120,8 +126,18 @@ class Lab:
         return name
 
 
+def time_ratio(runs, others):
+    """Of the seconds a sample, pairs by seed."""
+    return ratio_of_means(*([r["seconds"] / r["samples"] for r in side] for side in (runs, others)))
+
+
+def cost_ratio(runs, others):
+    """Of relMSE times seconds, pairs by seed: how much longer `runs` would take to the error of `others`, at 1 / n."""
+    return ratio_of_means(*([r["relmse"] * r["seconds"] for r in side] for side in (runs, others)))
+
+
 def summarize(runs):
-    """Several seeds of one experiment."""
+    """Several seeds of one experiment; seconds are the median."""
     return {"seconds": statistics.median(r["seconds"] for r in runs), "mrays": statistics.median(r["mrays"] for r in runs),
             "samples": statistics.fmean(r["samples"] for r in runs), "spp": statistics.fmean(r["spp"] for r in runs),
             "rays": statistics.fmean(r["rays"] for r in runs),
