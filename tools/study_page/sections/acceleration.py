@@ -1,7 +1,9 @@
 """Section 2: what a bounding volume hierarchy buys, and how it is split."""
 
+import math
+
 from .. import plots
-from ..estimates import fit_logarithm, spread
+from ..estimates import fit_line, fit_logarithm, spread
 from ..markup import gallery, heading, number, paragraph, plot, table, timing
 
 KEY, TITLE = "acceleration", "2. The bounding volume hierarchy"
@@ -82,6 +84,13 @@ def fit(points):
             "visits": fit_logarithm(counts, [p["steps"]["nodesPerRay"] for p in points])}
 
 
+def exponent(points):
+    """Of n, by least squares of logarithms; None of one point."""
+    if len(points) < 2:
+        return None
+    return fit_line([math.log(p["triangles"]) for p in points], [math.log(trace_time(p)) for p in points])[1]
+
+
 def measure(lab):
     meshes = {scene: measure_mesh(lab, scene) for scene in MESHES}
     for mesh in meshes.values():
@@ -89,7 +98,8 @@ def measure(lab):
                            "tracing": trace_time(mesh["none"]) / trace_time(mesh["rules"]["sah"])}
     growth = measure_growth(lab)
     return {"names": lab.scenes.names, "meshes": meshes, "growth": growth,
-            "fits": {rule: fit(points) for rule, points in growth.items() if rule != "none"}}
+            "fits": {rule: fit(points) for rule, points in growth.items() if rule != "none"},
+            "exponentWithout": exponent(growth["none"])}
 
 
 def speedup_row(name, scene, mesh):
@@ -127,7 +137,8 @@ def show_growth(results):
              number(f["nanoseconds"]["r2"]), line_text(f["visits"]),
              number(f["visits"]["r2"])) for rule, f in fits.items()]
     return (plot(svg, "Bumpy globes of n triangles from one camera, tracing alone. On a logarithmic axis a logarithm "
-                 "is straight; without a BVH the time is proportional to n.") +
+                 "is straight. Without a BVH, each rendered once, the time grows as n to the power %s up to %s triangles." %
+                 (number(results["exponentWithout"]), number(growth["none"][-1]["triangles"]))) +
             table(("split", "nanoseconds a ray of tracing", "R2", "visits a ray", "R2"), rows, "Least squares of a + b log2 n"))
 
 
