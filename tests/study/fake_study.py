@@ -21,7 +21,7 @@ def write_png(path):
 
 class FakeGlim:
     def compare(self, _picture, _reference):
-        return {"mean_ratio": {"all": {"value": 0.7}}, "relation": "identical"}
+        return {"mean_ratio": {"all": {"value": 0.7, "low": 0.69, "high": 0.71}}, "relation": "identical"}
 
 
 class FakeScenes:
@@ -51,6 +51,9 @@ class FakeLab:
         self.asked, self.finished = [], {}
         os.makedirs(os.path.join(folder, "pictures"))
         write_png(os.path.join(folder, "pictures", "one.png"))
+
+    def few_seeds(self):
+        return range(1, self.profile.few_seeds + 1)
 
     def seeds(self, least_most, until):
         assert 0 < until <= 1

@@ -25,8 +25,8 @@ def measure(lab, until):
 
 
 def slope_of(counts, runs):
-    """From the counts at which every seed's error is above the long render's noise: others have no logarithm."""
-    kept = [spp for spp in counts if min(run["relmse"] for run in runs[spp]) > 0]
+    """From the counts at which every seed's error is above the long render's noise, which is known but roughly."""
+    kept = [spp for spp in counts if all(run["relmse"] > run["referenceNoise"] for run in runs[spp])]
     return fit_slope(kept, list(zip(*[[run["relmse"] for run in runs[spp]] for spp in kept])))
 
 
