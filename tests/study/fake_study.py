@@ -83,7 +83,7 @@ class FakeLab:
 def fake_run(spp, seed, png, rates):
     error = 0.1 / spp * (1 + 0.01 * seed)
     return {"seconds": 0.001 * spp, "mrays": 1.5, "samples": 12 * spp, "spp": float(spp), "rays": 40 * spp, "relmse": error,
-            "referenceNoise": 0.0005, "mse": 2 * error, "meanRatio": 1 - 0.001 * seed, "adaptive": None,
+            "referenceNoise": 0.0005, "mse": 2 * error, "meanRatio": 1 - 0.001 * seed, "steps": None,
             "picture": "one.png" if png else None, "rates": "one.png" if rates else None}
 
 

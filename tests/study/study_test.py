@@ -106,6 +106,9 @@ class EstimatesTest(unittest.TestCase):
         runs[256] = [{"relmse": 0.0001, "referenceNoise": 0.005}, {"relmse": 0.004, "referenceNoise": 0.005}]
         self.assertAlmostEqual(convergence.slope_of(list(runs), runs)["mean"], -1)
         self.assertIsNone(convergence.slope_of([256], runs)["mean"])
+        slopes = convergence.slopes_of("sobol", runs)
+        self.assertAlmostEqual(slopes["to 32"]["mean"], -1)
+        self.assertIsNone(slopes["from 32 on"]["mean"])  # 64 and 256, of which the noise leaves one
 
 
 class BiasTest(unittest.TestCase):
@@ -164,7 +167,7 @@ class PageTest(unittest.TestCase):
 
     def test_every_experiment_appears(self):
         for wanted in ("cow &lt;&amp;&gt;", "hemisphere, 64 light rays, 1 spp", "lights, 1 light ray, 64 spp", "indirect only",
-                       "100 bounces", "fixed:0.7", "throughput", "64 spp", "course:literal", "equal time", "samples taken",
+                       "100 bounces", ">1 bounce<", "fixed:0.7", "throughput", "64 spp", "course:literal", "equal time", "samples taken",
                        "22 s to 0.05 s: 440", "bias: mean less uniform", ", no interval", "335 s to 0.05 s: 6,700", "log2 n", "after taking off"):
             self.assertTrue(wanted in self.text, wanted)
 
@@ -185,7 +188,9 @@ class PageTest(unittest.TestCase):
 
     def test_constant_of_the_kernels(self):
         with open(os.path.join(ROOT, "shaders", "shared", "limits.h"), encoding="utf-8") as file:
-            self.assertIn("kConstantSamples = %du;" % adaptive.CONSTANT_SAMPLES, file.read())
+            text = file.read()
+        self.assertIn("kConstantSamples = %du;" % adaptive.CONSTANT_SAMPLES, text)
+        self.assertIn("kBlockSamples = %du;" % convergence.BLOCK, text)
 
 
 class NumbersTest(unittest.TestCase):
@@ -209,13 +214,11 @@ class LabTest(unittest.TestCase):
         self.assertEqual(len(list(self.lab(0).seeds((2, 5), until=1.0))), 2)
 
 
-    def test_references_are_independent_and_made_once(self):
+    def test_references_are_made_once(self):
         lab = self.lab(0)
         lab.glim, lab.scenes, lab.scratch = mock.Mock(), mock.Mock(), lab.folder
         self.assertIs(lab.reference("spheres", (4, 3), 64), lab.reference("spheres", (4, 3), 64))
         lab.glim.render.assert_called_once()
-        options = lab.glim.render.call_args.args[3]
-        self.assertEqual(options[options.index("--sampler") + 1], "independent")
 
 
 class ScenesTest(unittest.TestCase):

@@ -89,13 +89,12 @@ class Lab:
         return shot
 
     def reference(self, scene, size, spp, *options):
-        """The long render of the same light, by MIS whatever the experiments use. Independent points: of others glim's
-        estimate of the noise, from blocks of samples taken as independent, is too high, and it is taken off."""
+        """The long render of the same light, by MIS and Sobol' points whatever the experiments use. What glim tells of its
+        noise, from blocks of Sobol' points each scrambled anew, has no bias and can be taken off."""
         key = (scene, size, spp, options)
         if key not in self.references:
             name = "reference %d %s" % (len(self.references), scene)
-            self.references[key] = self.render(name, scene, size, "--spp", spp, "--seed", REFERENCE_SEED,
-                                               "--sampler", "independent", *options)
+            self.references[key] = self.render(name, scene, size, "--spp", spp, "--seed", REFERENCE_SEED, *options)
         return self.references[key]
 
     def triangles(self, scene):
@@ -115,7 +114,7 @@ class Lab:
         return {"seconds": shot.seconds, "mrays": shot.mrays, "samples": shot.samples, "spp": shot.spp, "rays": shot.rays,
                 "relmse": errors["relmse"] - noise["relmse"], "referenceNoise": noise["relmse"],
                 "mse": errors["mse"] - noise["mse"], "meanRatio": errors["mean_ratio"]["all"]["value"],
-                "adaptive": shot.stats.get("adaptive"), "picture": self.keep(shot.png), "rates": self.keep(shot.rates)}
+                "steps": shot.stats.get("steps"), "picture": self.keep(shot.png), "rates": self.keep(shot.rates)}
 
     def keep(self, png):
         """Moves a picture to where the page finds it; returns its name there."""
@@ -143,4 +142,4 @@ def summarize(runs):
             "rays": statistics.fmean(r["rays"] for r in runs),
             "relmse": positive_interval([r["relmse"] for r in runs]), "referenceNoise": runs[0]["referenceNoise"],
             "mse": positive_interval([r["mse"] for r in runs]), "meanRatio": mean_interval([r["meanRatio"] for r in runs]),
-            "picture": runs[0]["picture"], "rates": runs[0]["rates"]}
+            "steps": runs[0]["steps"], "picture": runs[0]["picture"], "rates": runs[0]["rates"]}

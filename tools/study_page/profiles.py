@@ -56,7 +56,7 @@ FULL = Profile(
     bvh_size=(800, 600), brute_sizes={"cow": (800, 600), "beast": (320, 240)}, timings=3,
     growth=(100, 316, 1000, 3162, 10000, 31623, 100000, 316228, 1000000), growth_rules=("sah", "mean", "median"),
     brute_growth=10000,
-    direct_size=(200, 150), direct_reference=8192, direct_seeds=(4, 16), direct_spp=(1, 2, 4, 8, 16, 32, 64, 128, 256),
+    direct_size=(200, 150), direct_reference=4096, direct_seeds=(4, 16), direct_spp=(1, 2, 4, 8, 16, 32, 64, 128, 256),
     equal_time=(1.0, 4.0),
     light_size=(128, 96), light_reference=8192, light_spp=64, part_reference=1024,
     spp=(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024), spp_pictures=(1, 4, 16, 64, 1024), spp_seeds=(3, 6),

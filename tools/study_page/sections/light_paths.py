@@ -6,13 +6,19 @@ from ..markup import bracket, gallery, heading, number, paragraph, percent, relm
 
 SCENE = "spheres"
 BOUNCES = (0, 1, 2, 3, 4, 100)
-EVERYTHING = "%d bounces" % BOUNCES[-1]
+
+
+def bounce_label(count):
+    return "1 bounce" if count == 1 else "%d bounces" % count
+
+
+EVERYTHING = bounce_label(BOUNCES[-1])
 LONGEST = ("--bounces", BOUNCES[-1])
 PARTS = {"direct only": (*LONGEST, "--paths", "direct"), "indirect only": (*LONGEST, "--paths", "indirect")}
 
 
 def cases():
-    return {**PARTS, **{"%d bounces" % n: ("--bounces", n) for n in BOUNCES}}
+    return {**PARTS, **{bounce_label(n): ("--bounces", n) for n in BOUNCES}}
 
 
 def measure_share(lab, part, whole):
@@ -62,7 +68,7 @@ def show(results, pictures):
 
 
 def headlines(results):
-    direct, two = (results["parts"]["%d bounces" % n] for n in (1, 2))
+    direct, two = (results["parts"][bounce_label(n)] for n in (1, 2))
     return [("Indirect light, %s instead of 1" % EVERYTHING,
              "%s times the seconds a sample" % bracket(direct["secondsOfWhole"]),
              "%s of the picture's light" % share_text(complement(direct["shareOfLight"]))),
