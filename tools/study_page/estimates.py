@@ -47,6 +47,12 @@ def spread(values):
     return {"median": statistics.median(values), "least": min(values), "most": max(values), "n": len(values)}
 
 
+def spread_of_ratio(above, below):
+    """From the medians, and from the least over the most to the most over the least."""
+    return {"median": above["median"] / below["median"], "least": above["least"] / below["most"],
+            "most": above["most"] / below["least"], "n": min(above["n"], below["n"])}
+
+
 def logarithmic(mean, error, n):
     """Student's interval taken to the logarithm (the delta method), so that it stays positive."""
     factor = math.exp(student(n - 1) * error / mean)

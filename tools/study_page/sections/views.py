@@ -41,4 +41,5 @@ def show(results, pictures):
 def headlines(results):
     run = results["views"]["spheres"]["normal"]
     return [("Camera rays, %s" % results["names"]["spheres"],
-             "%s s for %d a pixel at %d x %d" % (number(run["seconds"]), SPP, *results["size"]), "%s Mrays/s" % number(run["mrays"]))]
+             "%s s for %d a pixel at %d x %d" % (number(run["seconds"]), SPP, *results["size"]),
+             "%s Mrays/s" % number(run["mrays"]))]
