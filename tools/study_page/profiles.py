@@ -39,7 +39,7 @@ class Profile:
 
 QUICK = Profile(
     name="quick",
-    budgets={"views": 8, "acceleration": 45, "direct": 35, "global": 55, "adaptive": 35},
+    budgets={"views": 12, "acceleration": 50, "direct": 30, "global": 45, "adaptive": 28},
     few_seeds=2, view_size=(240, 180),
     bvh_size=(400, 300), brute_sizes={"cow": (160, 120), "beast": (80, 60)}, timings=3,
     growth=(100, 1000, 10000, 100000, 1000000), growth_rules=("sah",), brute_growth=1000,
@@ -51,7 +51,7 @@ QUICK = Profile(
 
 FULL = Profile(
     name="full",
-    budgets={"views": 40, "acceleration": 420, "direct": 420, "global": 900, "adaptive": 900},
+    budgets={"views": 90, "acceleration": 285, "direct": 480, "global": 960, "adaptive": 900},
     few_seeds=4, view_size=(640, 480),
     bvh_size=(800, 600), brute_sizes={"cow": (800, 600), "beast": (320, 240)}, timings=3,
     growth=(100, 316, 1000, 3162, 10000, 31623, 100000, 316228, 1000000), growth_rules=("sah", "mean", "median"),

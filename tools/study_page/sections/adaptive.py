@@ -91,7 +91,7 @@ def show(results, pictures):
     text += "".join(show_scene(results, scene, pictures) for scene in results["scenes"])
     return text + paragraph(
         "A pixel stops when its samples happen to look certain, which is more often when they lack a bright one: the mean "
-        "comes out low. An earlier experiment elsewhere measured %s. The bias here is against uniform sampling, which has "
+        "can come out low. An earlier experiment elsewhere measured %s; where the brackets here hold 0, none was seen. The bias here is against uniform sampling, which has "
         "none, of the same seed, as a share of the long render's mean: adaptive and uniform samples are the same as far as "
         "both go, and the long render's own error, which one render cannot tell, only scales the difference." % EARLIER_BIAS)
 

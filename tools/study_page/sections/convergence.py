@@ -51,7 +51,7 @@ def show_errors(results):
         panels.append((axis, [(name,
                                [(p[key], p["relmse"]) for p in found["points"]])
                               for name, found in samplers.items()]))
-    rows = [(number(a["spp"]), number(a["seconds"]), relmse(a), number(b["seconds"]), relmse(b))
+    rows = [("%d" % a["spp"], number(a["seconds"]), relmse(a), number(b["seconds"]), relmse(b))
             for a, b in zip(*(samplers[name]["points"] for name in SAMPLERS))]
     text = plot(plots.plot_errors("convergence", panels), "Independent points: the expected variance falls as 1 / n, "
                 "slope -1. Owen-scrambled Sobol' points do better within blocks of %d; the blocks are independent." % BLOCK)
