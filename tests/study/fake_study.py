@@ -21,7 +21,7 @@ def write_png(path):
 
 class FakeGlim:
     def compare(self, _picture, _reference):
-        return {"mean_ratio": {"all": {"value": 0.7}}, "relation": "identical"}
+        return {"mean_ratio": {"all": {"value": 0.7, "low": 0.69, "high": 0.71}}, "relation": "identical"}
 
 
 class FakeScenes:
@@ -52,6 +52,9 @@ class FakeLab:
         os.makedirs(os.path.join(folder, "pictures"))
         write_png(os.path.join(folder, "pictures", "one.png"))
 
+    def few_seeds(self):
+        return range(1, self.profile.few_seeds + 1)
+
     def seeds(self, least_most, until):
         assert 0 < until <= 1
         return range(1, least_most[0] + 1)
@@ -80,7 +83,7 @@ class FakeLab:
 def fake_run(spp, seed, png, rates):
     error = 0.1 / spp * (1 + 0.01 * seed)
     return {"seconds": 0.001 * spp, "mrays": 1.5, "samples": 12 * spp, "spp": float(spp), "rays": 40 * spp, "relmse": error,
-            "referenceNoise": 0.0005, "mse": 2 * error, "meanRatio": 1 - 0.001 * seed, "adaptive": None,
+            "referenceNoise": 0.0005, "mse": 2 * error, "meanRatio": 1 - 0.001 * seed, "steps": None,
             "picture": "one.png" if png else None, "rates": "one.png" if rates else None}
 
 

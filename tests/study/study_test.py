@@ -19,15 +19,16 @@ sys.path.insert(0, os.path.join(ROOT, "tools"))
 from study_page import estimates, markup, profiles  # noqa: E402
 from study_page.arguments import parse_arguments  # noqa: E402
 from study_page.errors import StudyError  # noqa: E402
-from study_page.lab import Lab  # noqa: E402
+from study_page.glim import trace_seconds  # noqa: E402
+from study_page.lab import Lab, cost_ratio, time_ratio  # noqa: E402
 from study_page.page import build_page  # noqa: E402
 from study_page.scenes import Scenes  # noqa: E402
-from study_page.sections import adaptive  # noqa: E402
+from study_page.sections import adaptive, convergence, roulette  # noqa: E402
 from scene_makers.gltf_document import cross, subtract  # noqa: E402
 from scene_makers.study_scenes import globe, resolution  # noqa: E402
 
 from check_page import check_numbers, check_page  # noqa: E402
-from fake_study import fake_study  # noqa: E402
+from fake_study import fake_run, fake_study  # noqa: E402
 
 
 class EstimatesTest(unittest.TestCase):
@@ -80,6 +81,61 @@ class EstimatesTest(unittest.TestCase):
         self.assertLess(estimates.fit_logarithm(counts, counts)["r2"], 0.8)
 
 
+    def test_ratios_pair_seeds(self):
+        slow = [{"seconds": 3.0 * s, "samples": 10, "relmse": 0.2 * s} for s in (1, 2, 4)]
+        fast = [{"seconds": 1.0 * s, "samples": 10, "relmse": 0.1 * s} for s in (1, 2, 4)]
+        for found, ratio in ((time_ratio(slow, fast), 3), (cost_ratio(slow, fast), 6)):
+            for key in ("mean", "low", "high"):  # what varies from seed to seed alike drops out
+                self.assertAlmostEqual(found[key], ratio)
+
+    def test_no_ratio_of_what_noise_hides(self):
+        lost = estimates.ratio_of_means([1, 2, 3], [0.1, -0.2, 0.05])
+        self.assertIsNone(lost["mean"])
+        self.assertIn("noise", markup.bracket(lost))
+        self.assertIn("one run", markup.bracket(estimates.ratio_of_means([1], [2])))
+
+    def test_spread_of_a_ratio_goes_to_the_extremes(self):
+        found = estimates.spread_of_ratio(estimates.spread([10, 12, 20]), estimates.spread([2, 4, 5]))
+        self.assertEqual((found["median"], found["least"], found["most"]), (3, 2, 10))
+
+    def test_complement_turns_the_interval(self):
+        found = estimates.complement(estimates.interval(0.7, 0.6, 0.9, 4))
+        self.assertAlmostEqual(found["mean"], 0.3)
+        self.assertAlmostEqual(found["low"], 0.1)
+        self.assertAlmostEqual(found["high"], 0.4)
+        self.assertIsNone(estimates.complement(estimates.interval(0.7, None, None, 1))["low"])
+
+    def test_slope_leaves_out_what_is_below_the_noise(self):
+        runs = {n: [{"relmse": 1 / n, "referenceNoise": 0.005} for _ in range(2)] for n in (1, 4, 16, 64)}
+        runs[256] = [{"relmse": 0.0001, "referenceNoise": 0.005}, {"relmse": 0.004, "referenceNoise": 0.005}]
+        self.assertAlmostEqual(convergence.slope_of(list(runs), runs)["mean"], -1)
+        self.assertIsNone(convergence.slope_of([256], runs)["mean"])
+        slopes = convergence.slopes_of("sobol", runs)
+        self.assertAlmostEqual(slopes["to 32"]["mean"], -1)
+        self.assertIsNone(slopes["from 32 on"]["mean"])  # 64 and 256, of which the noise leaves one
+
+
+class BiasTest(unittest.TestCase):
+    def runs(self, ratios):
+        return [{**fake_run(16, seed, False, False), "meanRatio": ratio} for seed, ratio in enumerate(ratios)]
+
+    def test_pairs_take_out_what_seeds_share(self):
+        biased, uniform = self.runs([0.98, 1.08, 1.02]), self.runs([1.0, 1.1, 1.03])
+        found = adaptive.summarize_runs(biased, uniform, 64)["bias"]
+        self.assertAlmostEqual(found["mean"], -0.05 / 3)
+        reach = 4.3027 * math.sqrt((2 * (0.02 - 0.05 / 3) ** 2 + (0.01 - 0.05 / 3) ** 2) / 2 / 3)
+        self.assertAlmostEqual(found["high"] - found["mean"], reach, places=6)
+        self.assertAlmostEqual(roulette.summarize_mode(biased, uniform, uniform)["meanLessNone"]["high"], found["high"])
+
+
+class GlimTest(unittest.TestCase):
+    def test_device_without_timestamps(self):
+        stats = {"kernels": {"trace_closest": {"seconds": 2.5}}, "device": {"name": "a device"}}
+        self.assertEqual(trace_seconds(stats), 2.5)
+        with self.assertRaisesRegex(StudyError, "a device .* timestamps"):
+            trace_seconds({**stats, "kernels": {}})
+
+
 class PageTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -115,8 +171,10 @@ class PageTest(unittest.TestCase):
 
     def test_every_experiment_appears(self):
         for wanted in ("cow &lt;&amp;&gt;", "hemisphere, 64 light rays, 1 spp", "lights, 1 light ray, 64 spp", "indirect only",
-                       "100 bounces", "fixed:0.7", "throughput", "64 spp", "course:literal", "equal time", "samples taken",
-                       "22 s to 0.05 s: 440", "335 s to 0.05 s: 6,700", "log2 n", "after taking off"):
+                       "100 bounces", ">1 bounce<", "fixed:0.7", "throughput", "64 spp", "course:literal", "equal time",
+                       "samples taken",
+                       "22 s to 0.05 s: about 440", "bias: mean less uniform", ", no interval", "335 s to 0.05 s: about 6,700",
+                       "log2 n", "after taking off"):
             self.assertTrue(wanted in self.text, wanted)
 
     def test_faults_are_noticed(self):
@@ -134,10 +192,11 @@ class PageTest(unittest.TestCase):
             self.assertTrue(markup.escape(row[0]) in self.text, row[0])
             self.assertIn(row[0], self.study["markdown"])
 
-
     def test_constant_of_the_kernels(self):
         with open(os.path.join(ROOT, "shaders", "shared", "limits.h"), encoding="utf-8") as file:
-            self.assertIn("kConstantSamples = %du;" % adaptive.CONSTANT_SAMPLES, file.read())
+            text = file.read()
+        self.assertIn("kConstantSamples = %du;" % adaptive.CONSTANT_SAMPLES, text)
+        self.assertIn("kBlockSamples = %du;" % convergence.BLOCK, text)
 
 
 class NumbersTest(unittest.TestCase):
@@ -159,6 +218,13 @@ class LabTest(unittest.TestCase):
     def test_seeds_keep_to_the_budget(self):
         self.assertEqual(len(list(self.lab(1000).seeds((2, 5), until=1.0))), 5)
         self.assertEqual(len(list(self.lab(0).seeds((2, 5), until=1.0))), 2)
+
+
+    def test_references_are_made_once(self):
+        lab = self.lab(0)
+        lab.glim, lab.scenes, lab.scratch = mock.Mock(), mock.Mock(), lab.folder
+        self.assertIs(lab.reference("spheres", (4, 3), 64), lab.reference("spheres", (4, 3), 64))
+        lab.glim.render.assert_called_once()
 
 
 class ScenesTest(unittest.TestCase):

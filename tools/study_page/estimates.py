@@ -32,6 +32,12 @@ def mean_interval(values):
     return interval(mean, mean - reach, mean + reach, len(values))
 
 
+def complement(share):
+    """The interval of 1 - share."""
+    low, high = (None, None) if share["low"] is None else (1 - share["high"], 1 - share["low"])
+    return interval(1 - share["mean"], low, high, share["n"])
+
+
 def standard_error(values):
     return statistics.stdev(values) / math.sqrt(len(values)) if len(values) > 1 else None
 
@@ -39,6 +45,12 @@ def standard_error(values):
 def spread(values):
     """Of repeated timings, whose errors are one-sided and not independent: no interval is claimed."""
     return {"median": statistics.median(values), "least": min(values), "most": max(values), "n": len(values)}
+
+
+def spread_of_ratio(above, below):
+    """From the medians, and from the least over the most to the most over the least."""
+    return {"median": above["median"] / below["median"], "least": above["least"] / below["most"],
+            "most": above["most"] / below["least"], "n": min(above["n"], below["n"])}
 
 
 def logarithmic(mean, error, n):
@@ -56,10 +68,13 @@ def positive_interval(values):
 
 
 def ratio_of_means(numerators, denominators):
-    """Of pairs, by seed, with the ratio estimator's linearised error (Cochran 1977, section 6.3)."""
+    """Of pairs, by seed, with the ratio estimator's linearised error (Cochran 1977, section 6.3). Where noise taken off
+    leaves a side without a positive mean there is no ratio."""
     below, count = statistics.fmean(denominators), len(numerators)
+    if below <= 0 or statistics.fmean(numerators) <= 0:
+        return interval(None, None, None, count)
     ratio = statistics.fmean(numerators) / below
-    if count < 2 or ratio <= 0:
+    if count < 2:
         return interval(ratio, None, None, count)
     return logarithmic(ratio, standard_error([(a - ratio * b) / below for a, b in zip(numerators, denominators)]), count)
 
@@ -85,4 +100,6 @@ def fit_logarithm(counts, values):
 def fit_slope(counts, series):
     """Slope of log(value) against log(count): one line per seed, since a seed's points share samples; then the mean."""
     xs = [math.log(n) for n in counts]
+    if len(xs) < 2:
+        return interval(None, None, None, len(series))
     return mean_interval([fit_line(xs, [math.log(v) for v in values])[1] for values in series])

@@ -8,6 +8,14 @@ from .arguments import ROOT
 from .errors import StudyError
 
 
+def trace_seconds(stats):
+    kernel = stats["kernels"].get("trace_closest")
+    if kernel is None:
+        raise StudyError("%s tells no time of the kernel trace_closest, which the study compares: it needs a device with "
+                         "timestamps ('glim devices' lists them)" % stats["device"]["name"])
+    return kernel["seconds"]
+
+
 class Shot:
     """One `glim render`: where its files are, and its statistics."""
 
@@ -15,7 +23,7 @@ class Shot:
         self.exr, self.png, self.rates, self.stats = exr, png, rates, stats
         self.seconds = stats["seconds"]["render"]
         self.build_seconds = stats["seconds"]["build"]
-        self.trace_seconds = stats["kernels"]["trace_closest"]["seconds"]
+        self.trace_seconds = trace_seconds(stats)
         self.samples = stats["samples"]
         self.rays = stats["rays"]["total"]
         self.pixels = stats["size"][0] * stats["size"][1]

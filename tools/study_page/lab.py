@@ -6,7 +6,7 @@ import statistics
 import sys
 import time
 
-from .estimates import mean_interval, positive_interval
+from .estimates import mean_interval, positive_interval, ratio_of_means
 
 REFERENCE_SEED = 1000003  # no experiment's seed comes near
 FIRST_SEED = 1
@@ -73,6 +73,10 @@ class Lab:
                 return
             yield FIRST_SEED + i
 
+    def few_seeds(self):
+        """For what is shown as a picture above all."""
+        return range(FIRST_SEED, FIRST_SEED + self.profile.few_seeds)
+
     # Measurements
 
     def render(self, name, scene, size, *options, png=False, rates=False, keep=True):
@@ -85,7 +89,8 @@ class Lab:
         return shot
 
     def reference(self, scene, size, spp, *options):
-        """The long render of the same light, by MIS and Sobol' points whatever the experiments use."""
+        """The long render of the same light, by MIS and Sobol' points whatever the experiments use. What glim tells of its
+        noise, from blocks of Sobol' points each scrambled anew, has no bias and can be taken off."""
         key = (scene, size, spp, options)
         if key not in self.references:
             name = "reference %d %s" % (len(self.references), scene)
@@ -109,7 +114,7 @@ class Lab:
         return {"seconds": shot.seconds, "mrays": shot.mrays, "samples": shot.samples, "spp": shot.spp, "rays": shot.rays,
                 "relmse": errors["relmse"] - noise["relmse"], "referenceNoise": noise["relmse"],
                 "mse": errors["mse"] - noise["mse"], "meanRatio": errors["mean_ratio"]["all"]["value"],
-                "adaptive": shot.stats.get("adaptive"), "picture": self.keep(shot.png), "rates": self.keep(shot.rates)}
+                "steps": shot.stats.get("steps"), "picture": self.keep(shot.png), "rates": self.keep(shot.rates)}
 
     def keep(self, png):
         """Moves a picture to where the page finds it; returns its name there."""
@@ -120,11 +125,21 @@ class Lab:
         return name
 
 
+def time_ratio(runs, others):
+    """Of the seconds a sample, pairs by seed."""
+    return ratio_of_means(*([r["seconds"] / r["samples"] for r in side] for side in (runs, others)))
+
+
+def cost_ratio(runs, others):
+    """Of relMSE times seconds, pairs by seed: how much longer `runs` would take to the error of `others`, at 1 / n."""
+    return ratio_of_means(*([r["relmse"] * r["seconds"] for r in side] for side in (runs, others)))
+
+
 def summarize(runs):
-    """Several seeds of one experiment."""
+    """Several seeds of one experiment; seconds are the median."""
     return {"seconds": statistics.median(r["seconds"] for r in runs), "mrays": statistics.median(r["mrays"] for r in runs),
             "samples": statistics.fmean(r["samples"] for r in runs), "spp": statistics.fmean(r["spp"] for r in runs),
             "rays": statistics.fmean(r["rays"] for r in runs),
             "relmse": positive_interval([r["relmse"] for r in runs]), "referenceNoise": runs[0]["referenceNoise"],
             "mse": positive_interval([r["mse"] for r in runs]), "meanRatio": mean_interval([r["meanRatio"] for r in runs]),
-            "picture": runs[0]["picture"], "rates": runs[0]["rates"]}
+            "steps": runs[0]["steps"], "picture": runs[0]["picture"], "rates": runs[0]["rates"]}

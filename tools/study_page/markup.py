@@ -32,7 +32,9 @@ def signed_percent(share):
 
 
 def bracket(interval, form=number):
-    """A mean with its 95 % interval; of one value alone it says so."""
+    """A mean with its 95 % interval; of one value alone it says so, as where noise leaves no mean."""
+    if interval["mean"] is None:
+        return "lost in the long render's noise"
     if interval["low"] is None:
         return "%s (one run)" % form(interval["mean"])
     return "%s [%s, %s]" % tuple(form(interval[key]) for key in ("mean", "low", "high"))

@@ -42,9 +42,11 @@ def build_page(study, folder):
              "<title>glim: what each idea costs and buys</title><style>%s</style></head><body>\n" % STYLE,
              "<h1>What each idea of a path tracer costs and what it buys</h1>\n"]
     parts.append(paragraph(
-        "Every number here was measured in one run, on %s, with %s. relMSE is the mean of (x - r)^2 / (r^2 + .01 mean(r)^2) "
-        "against a long render r, whose own noise is taken off and told where it exceeds 1 %%. Square brackets hold 95 %% "
-        "intervals, Student's over seeds; what was rendered once has none." %
+        "Every number that is not said to be the course's or another's was measured in one run, on %s, with %s. relMSE is "
+        "the mean of (x - r)^2 / (r^2 + .01 mean(r)^2) against a long render r, whose own noise is taken off and told where "
+        "it exceeds 1 %%. Square brackets hold 95 %% intervals, Student's over seeds, one by one: of twenty such one may well "
+        "miss. Those of ratios pair the renders of a seed; what was rendered once has none. Seconds are medians over seeds; "
+        "intervals of ratios of seconds hold how this one run scattered, not other machines or days." %
         (study["scenes"]["set"], study["about"]["device"])))
     parts.append('<section id="summary"><h2>Summary</h2>\n' +
                  table(("idea", "costs", "buys"), study["headlines"]) + "</section>\n")

@@ -30,11 +30,11 @@ def to_svg(figure, name, label):
 
 
 def draw_points(axes, label, points):
-    """points: (x, interval); on a logarithmic axis a bar that would reach 0 stops at a tenth."""
+    """points: (x, interval); bars stop at a tenth and at ten times, or a pair of seeds would fill the axis."""
     xs = [x for x, _ in points]
     means = [i["mean"] for _, i in points]
     low = [i["mean"] - max(i["low"], i["mean"] / 10) if i["low"] is not None else 0.0 for _, i in points]
-    high = [i["high"] - i["mean"] if i["high"] is not None else 0.0 for _, i in points]
+    high = [min(i["high"], i["mean"] * 10) - i["mean"] if i["high"] is not None else 0.0 for _, i in points]
     axes.errorbar(xs, means, yerr=(low, high), label=label, capsize=2, linewidth=1.2, markersize=4)
 
 

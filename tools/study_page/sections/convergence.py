@@ -7,6 +7,7 @@ from ..markup import bracket, gallery, heading, number, paragraph, plot, relmse,
 from .light_paths import LONGEST, SCENE
 
 SAMPLERS = ("sobol", "independent")
+BLOCK = 32  # kBlockSamples of shaders/shared/limits.h: Sobol' points of one scramble
 
 
 def measure(lab, until):
@@ -21,26 +22,41 @@ def measure(lab, until):
                                               sampler, "--spp", spp, seed=seed, reference=reference, png=picture))
     return {"referenceSpp": profile.light_reference, "samplers": {
         sampler: {"points": [{"spp": spp, **summarize(of_spp)} for spp, of_spp in found.items()],
-                  "slope": slope_of(profile.spp, found)} for sampler, found in runs.items()}}
+                  "slopes": slopes_of(sampler, found)} for sampler, found in runs.items()}}
 
 
 def slope_of(counts, runs):
-    """From the counts at which every seed's error is above the long render's noise: others have no logarithm."""
-    kept = [spp for spp in counts if min(run["relmse"] for run in runs[spp]) > 0]
+    """From the counts at which every seed's error is above the long render's noise, which is known but roughly."""
+    kept = [spp for spp in counts if all(run["relmse"] > run["referenceNoise"] for run in runs[spp])]
     return fit_slope(kept, list(zip(*[[run["relmse"] for run in runs[spp]] for spp in kept])))
+
+
+def slopes_of(sampler, runs):
+    """Blocks of Sobol' points are independent of each other, so that there are two slopes, and independent points have one."""
+    counts = list(runs)
+    if sampler == "independent":
+        return {"of all": slope_of(counts, runs)}
+    return {"to %d" % BLOCK: slope_of([n for n in counts if n <= BLOCK], runs),
+            "from %d on" % BLOCK: slope_of([n for n in counts if n >= BLOCK], runs)}
+
+
+def slopes_text(slopes):
+    return ", ".join("%s %s" % (bracket(slope), where) for where, slope in slopes.items() if slope["mean"] is not None)
 
 
 def show_errors(results):
     samplers = results["samplers"]
     panels = []
     for axis, key in (("samples per pixel", "spp"), ("seconds", "seconds")):
-        panels.append((axis, [("%s, slope %s" % (name, bracket(found["slope"])),
+        panels.append((axis, [(name,
                                [(p[key], p["relmse"]) for p in found["points"]])
                               for name, found in samplers.items()]))
-    rows = [(number(a["spp"]), number(a["seconds"]), relmse(a), number(b["seconds"]), relmse(b))
+    rows = [("%d" % a["spp"], number(a["seconds"]), relmse(a), number(b["seconds"]), relmse(b))
             for a, b in zip(*(samplers[name]["points"] for name in SAMPLERS))]
-    text = plot(plots.plot_errors("convergence", panels), "Independent points: variance falls as 1 / n, slope -1. "
-                "Owen-scrambled Sobol' points do better where the light is smooth.")
+    text = plot(plots.plot_errors("convergence", panels), "Independent points: the expected variance falls as 1 / n, "
+                "slope -1. Owen-scrambled Sobol' points do better within blocks of %d; the blocks are independent." % BLOCK)
+    text += paragraph("Slopes over samples per pixel: " + "; ".join(
+        "%s %s" % (name, slopes_text(found["slopes"])) for name, found in samplers.items()) + ".")
     return text + table(("spp", "Sobol': seconds", "relMSE", "independent: seconds", "relMSE"), rows)
 
 
@@ -53,7 +69,7 @@ def show(results, pictures):
 
 def headlines(results):
     last = {name: found["points"][-1] for name, found in results["samplers"].items()}
-    slopes = {name: bracket(found["slope"]) for name, found in results["samplers"].items()}
+    slopes = {name: slopes_text(found["slopes"]) for name, found in results["samplers"].items()}
     rows = [("%d samples instead of 1, %s points" % (point["spp"], name), "%s s" % number(point["seconds"]),
              "relMSE %s; slope %s" % (relmse(point), slopes[name])) for name, point in last.items()]
     return rows
