@@ -34,9 +34,10 @@ void addPixel(uint pixel)
         uint slot = pixel * pass.sampleCount + i;
         PathRadiance path = pathRadiance[slot];
         if (isFinite(path.radiance.r) && isFinite(path.radiance.g) && isFinite(path.radiance.b)) {
-            sums = addSample(sums, path, pathFirstHits[slot]);
+            FirstHit first = pathFirstHits[slot];
+            sums = addSample(sums, path, first);
             if (kAdaptive) {
-                filmLuminance[at] = addLuminance(filmLuminance[at], luminanceOf(path.radiance));
+                filmLuminance[at] = addLuminance(filmLuminance[at], luminanceOf(path.radiance), first.alpha > 0.0);
             }
         } else {
             reportNonFinite(pass.slabBegin + at, pass.firstSample + i);

@@ -34,7 +34,9 @@ Shear makeShear(vec3 d)
 
 // Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013, without the double fallback: rounding is
 // monotone, so the sign of a*b - c*d is right or zero, two triangles compute negated values for their common edge, and zero
-// counts as inside. Double hits on edges are left to the caller's tie rule. Hits need 0 < t <= tmax.
+// counts as inside. So it does for a ray beside the triangle but in its plane, where all three may round to zero: such rays are
+// those outside the triangle's box across the ray, which no ray that meets the triangle is. Double hits on edges are left to
+// the caller's tie rule. Hits need 0 < t <= tmax.
 TriangleHit intersectWatertight(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v2, float tmax)
 {
     vec3 a = permute(v0 - origin, shear.axis, shear.flip);
@@ -47,9 +49,12 @@ TriangleHit intersectWatertight(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3
     float v = pa.x * pc.y - pa.y * pc.x;
     float w = pb.x * pa.y - pb.y * pa.x;
     bool outside = min(u, min(v, w)) < 0.0 && max(u, max(v, w)) > 0.0;
+    vec2 low = min(pa, min(pb, pc));
+    vec2 high = max(pa, max(pb, pc));
+    bool beside = max(low.x, low.y) > 0.0 || min(high.x, high.y) < 0.0;
     float det = u + v + w;
     float t = shear.s.z * (u * a.z + v * b.z + w * c.z) / det;
-    bool hit = !outside && det != 0.0 && t > 0.0 && t <= tmax;
+    bool hit = !outside && !beside && det != 0.0 && t > 0.0 && t <= tmax;
     return hit ? TriangleHit(t, vec2(v, w) / det) : kNoTriangleHit;
 }
 

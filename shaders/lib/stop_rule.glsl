@@ -11,12 +11,12 @@ float luminanceOf(vec3 radiance)
 }
 
 // Welford, "Note on a Method for Calculating Corrected Sums of Squares and Products", 1962.
-LuminanceMoments addLuminance(LuminanceMoments moments, float luminance)
+LuminanceMoments addLuminance(LuminanceMoments moments, float luminance, bool met)
 {
     uint count = moments.count + 1u;
     float delta = luminance - moments.mean;
     float mean = moments.mean + delta / float(count);
-    return LuminanceMoments(count, mean, moments.squares + delta * (luminance - mean));
+    return LuminanceMoments(count, mean, moments.squares + delta * (luminance - mean), moments.met + uint(met));
 }
 
 // The rule of Berkeley's CS 184 path tracer: half the 95 % interval of the mean, 1.96 s / sqrt(n), is at most `tolerance` of it.

@@ -17,7 +17,7 @@ GLIM_CONST uint kPageSamples = 256u;
 GLIM_CONST uint kScanRecords = 8192u;
 
 // Samples without any difference after which a pixel may count as constant: one whose samples are black but for one in 200
-// has then been found out with probability .994.
+// has then been found out with probability .994. Where no surface is in sight fewer do (choose_pixels).
 GLIM_CONST uint kConstantSamples = 1024u;
 
 GLIM_SHARED_END

@@ -22,6 +22,7 @@ struct LuminanceMoments {
     uint count;
     float mean;
     float squares;  // sum of (luminance - mean)^2
+    uint met;       // samples whose camera ray met a surface
 };
 
 GLIM_SHARED_END

@@ -43,8 +43,14 @@ Outcome readList(const Buffer& list, std::size_t pixels, const Status& status)
     return outcome;
 }
 
+// The pixels [begin, begin + luminances - idle) of a picture.
+struct Place {
+    std::uint32_t width, height, begin;
+};
+
 // The last `idle` entries of the luminances are no pixels of the slab.
-Outcome choosePixels(const std::vector<LuminanceMoments>& luminances, std::uint32_t constantSamples, std::size_t idle = 100)
+Outcome choosePixels(const std::vector<LuminanceMoments>& luminances, std::uint32_t constantSamples, std::size_t idle = 100,
+                     const Place& place = {20000, 1, 0})
 {
     const KernelLayout layout(testDevice(), kernelSlots(), sizeof(Pass));
     const Kernel kernel(layout, kernels::choose_pixels, {{kSpecWorkgroup, kWorkgroup}, {kSpecAdaptive, 1}});
@@ -60,6 +66,9 @@ Outcome choosePixels(const std::vector<LuminanceMoments>& luminances, std::uint3
     bound[kBindChosenPixels] = &list;
     const Bindings bindings(layout, bound);
     Pass pass{};
+    pass.width = place.width;
+    pass.height = place.height;
+    pass.slabBegin = place.begin;
     pass.pixelCount = static_cast<std::uint32_t>(luminances.size() - idle);
     pass.tolerance = kTolerance;
     pass.constantSamples = constantSamples;
@@ -108,7 +117,7 @@ TEST(ChoosePixelsTest, ListsThoseThatAreNotAccurate)
 
 TEST(ChoosePixelsTest, ListsNoneOrAll)
 {
-    const std::vector<LuminanceMoments> black(5000, {2, 0.0F, 0.0F}), fresh(5000, {0, 0.0F, 0.0F});
+    const std::vector<LuminanceMoments> black(5000, {2, 0.0F, 0.0F, 2}), fresh(5000, {0, 0.0F, 0.0F});
     const Outcome none = choosePixels(black, 0), all = choosePixels(fresh, 0), cautious = choosePixels(black, kConstantSamples);
     for (const Outcome* outcome : {&none, &all, &cautious}) {
         expectAList(*outcome);
@@ -117,6 +126,37 @@ TEST(ChoosePixelsTest, ListsNoneOrAll)
     EXPECT_EQ(all.count, 4900U);
     EXPECT_EQ(cautious.count, 4900U);
     EXPECT_EQ(choosePixels(std::vector<LuminanceMoments>(1), 0, 0).count, 1U);
+}
+
+// A slab that begins and ends within rows, sparsely met.
+TEST(ChoosePixelsTest, LeavesOutWhatIsEmptyWithItsNeighbours)
+{
+    constexpr std::uint32_t kWidth = 60, kHeight = 50, kBegin = 130, kEnd = 2930;
+    Random random(71);
+    std::vector<LuminanceMoments> luminances(kEnd - kBegin);
+    for (LuminanceMoments& luminance : luminances) {
+        luminance = {32, 0.0F, 0.0F, random.below(20) == 0 ? 1U + random.below(32) : 0U};
+    }
+    const auto metNothing = [&](int x, int y) {
+        if (x < 0 || y < 0 || x >= static_cast<int>(kWidth) || y >= static_cast<int>(kHeight)) {
+            return true;
+        }
+        const std::uint32_t index = static_cast<std::uint32_t>(y) * kWidth + static_cast<std::uint32_t>(x);
+        return index >= kBegin && index < kEnd && luminances[index - kBegin].met == 0;
+    };
+    const Outcome outcome = choosePixels(luminances, kConstantSamples, 0, {kWidth, kHeight, kBegin});
+    expectAList(outcome);
+    for (std::uint32_t pixel = 0; pixel < luminances.size(); ++pixel) {
+        const auto x = static_cast<int>((kBegin + pixel) % kWidth), y = static_cast<int>((kBegin + pixel) / kWidth);
+        bool empty = true;
+        for (int i = 0; i < 9; ++i) {
+            empty = empty && metNothing(x + i % 3 - 1, y + i / 3 - 1);
+        }
+        EXPECT_EQ(outcome.timesChosen[pixel], empty ? 0U : 1U) << x << ", " << y;
+    }
+    EXPECT_GT(outcome.count, 500U);
+    EXPECT_LT(outcome.count, 2300U);
+    std::cout << "  " << outcome.count << " of " << luminances.size() << " pixels chosen\n";
 }
 
 }  // namespace

@@ -220,5 +220,28 @@ TEST(IntersectTriangleTest, DegenerateTrianglesGiveNoNan)
     runCases("degenerate", cases);
 }
 
+// Rays in the plane of a triangle, and beside it by half of its distance and more: all three edge functions are rounding noise, and
+// often zero. Counted as hits, such zeros made brute force see what the tree had rightly culled.
+TEST(IntersectTriangleTest, RaysInTheTrianglesPlaneMissIt)
+{
+    Random random(4);
+    // Among others that are hit, so that every check of the kernel runs.
+    std::vector<Case> cases = ordinaryCases(random, 1.0, 0.0);
+    for (int i = 0; i < 400000; ++i) {
+        const glm::dvec3 direction = random.direction();
+        const glm::dvec3 aside = glm::normalize(glm::cross(direction, random.direction()));
+        const auto corner = [&] { return vec3(random.uniform(0.5, 2.0) * direction + random.uniform(0.5, 1.0) * aside); };
+        Case& c = cases.emplace_back();
+        c.origin = vec3(0.0F);
+        c.direction = vec3(direction);
+        c.v0 = corner();
+        c.v1 = corner();
+        c.v2 = corner();
+        c.tmax = std::numeric_limits<float>::max();
+        c.verdict = Miss;
+    }
+    KernelTest(test_kernels::intersect_triangle_test).cases(cases).run();
+}
+
 }  // namespace
 }  // namespace glim

@@ -12,9 +12,10 @@ void main()
     if (isTestThread()) {
         LuminanceMoments moments = results[TEST_THREAD];
         for (uint i = 0u; i < pass.sampleCount; ++i) {
-            moments = addLuminance(moments, samples[TEST_THREAD * pass.sampleCount + i]);
+            moments = addLuminance(moments, samples[TEST_THREAD * pass.sampleCount + i], i % 2u == 0u);
         }
         EXPECT_EQUAL(moments.count, results[TEST_THREAD].count + pass.sampleCount);
+        EXPECT_EQUAL(moments.met, results[TEST_THREAD].met + (pass.sampleCount + 1u) / 2u);
         results[TEST_THREAD] = moments;
     }
     endTest();

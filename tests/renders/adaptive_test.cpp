@@ -166,16 +166,22 @@ TEST(AdaptiveTest, H28ABlackFirstBatchIsNotTheTruth)
     EXPECT_LE(guarded, 0.01 + 5.0 * std::sqrt(0.01 * 0.99 / n));
 }
 
+// A lamp three pixels wide: its middle shines evenly, its rim does not, around it is nothing.
 TEST(AdaptiveTest, H28ConstantPixelsStopAtTheFloor)
 {
     SceneBuilder builder;
-    builder.sphere({0, 0, 0}, 0.1F, builder.lambert(glm::vec3(0.0F), glm::vec3(3.0F))).perspective({0, 0, 5}, {0, 0, 0}, 0.5F);
+    builder.sphere({0, 0, 0}, 0.4F, builder.lambert(glm::vec3(0.0F), glm::vec3(3.0F))).perspective({0, 0, 5}, {0, 0, 0}, 0.5F);
     RenderSettings settings = adaptive(9, 4096);
     const Film film = renderScene(builder.scene(), settings);
-    EXPECT_EQ(film.pixels[0].count, kConstantSamples);
-    EXPECT_EQ(film.pixels[0].mean, glm::vec3(0.0F));
+    const auto countAt = [&](const Film& of, int x) { return of.pixels[static_cast<std::size_t>(4 * 9 + x)].count; };
+    EXPECT_EQ(countAt(film, 4), kConstantSamples);
+    EXPECT_EQ(film.pixels[4 * 9 + 4].mean, glm::vec3(3.0F));
+    EXPECT_EQ(countAt(film, 2), kConstantSamples);  // empty, but next to what is not
+    EXPECT_EQ(countAt(film, 1), 32U);
+    EXPECT_EQ(countAt(film, 0), 32U);
+    EXPECT_EQ(film.pixels[4 * 9 + 2].mean, glm::vec3(0.0F));
     settings.adaptive = Adaptive::CourseLiteral;
-    EXPECT_EQ(renderScene(builder.scene(), settings).pixels[0].count, 32U);
+    EXPECT_EQ(countAt(renderScene(builder.scene(), settings), 4), 32U);
 }
 
 // A picture of two slabs, every pixel of which is chosen or not for itself.

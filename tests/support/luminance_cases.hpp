@@ -40,23 +40,24 @@ inline std::optional<bool> isAccurateInDouble(const LuminanceMoments& moments, f
 
 // Some with 0 to 3 samples, some without any difference, some without light; the others from far off the rule's boundary to
 // within rounding of it.
+// A surface has been met in each.
 inline LuminanceMoments anyLuminance(Random& random, float tolerance)
 {
     const std::uint32_t count = random.below(4) == 0 ? random.below(4) : static_cast<std::uint32_t>(random.logUniform(4, 1e5));
     if (random.below(8) == 0) {
-        return {count, random.below(2) == 0 ? 0.0F : random.unitFloat(), 0.0F};
+        return {count, random.below(2) == 0 ? 0.0F : random.unitFloat(), 0.0F, count};
     }
     const auto mean = static_cast<float>(random.logUniform(1e-6, 1e4));
     if (count < 2) {
-        return {count, mean, 0.0F};
+        return {count, mean, 0.0F, count};
     }
     if (random.below(16) == 0) {
-        return {count, -mean, mean * mean};
+        return {count, -mean, mean * mean, count};
     }
     const double away = random.logUniform(1e-7, 2.0);
     const double share = random.below(2) == 0 ? 1.0 + away : 1.0 / (1.0 + away);
     const double n = count, interval = share * static_cast<double>(tolerance) * static_cast<double>(mean);
-    return {count, mean, static_cast<float>(n * (n - 1.0) * std::pow(interval / 1.96, 2.0))};
+    return {count, mean, static_cast<float>(n * (n - 1.0) * std::pow(interval / 1.96, 2.0)), count};
 }
 
 }  // namespace glim

@@ -8,7 +8,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 218u;
+GLIM_CONST uint kSharedWords = 219u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -69,7 +69,7 @@ U(pass_.lightSample) U(pass_.lightSamples) U(pass_.firstRecord) U(pass_.endRecor
 U(pass_.constantSamples)
 U(pixelMoments.count) U(pixelMoments.blocks) F3(pixelMoments.mean) F3(pixelMoments.squares) F(pixelMoments.alpha)
 F3(pixelMoments.albedo) F3(pixelMoments.normal) F(pixelMoments.depth) F(pixelMoments.clamped)
-U(luminanceMoments.count) F(luminanceMoments.mean) F(luminanceMoments.squares)
+U(luminanceMoments.count) F(luminanceMoments.mean) F(luminanceMoments.squares) U(luminanceMoments.met)
 F3(material.baseColor) U(material.scattering) F3(material.emission) F(material.ior) U(material.doubleSided)
 U3(material.unused)
 U(alias.threshold) U(alias.other)
