@@ -1,7 +1,7 @@
 #include "host/cli/inspect.hpp"
 
 #include "host/cli/parse.hpp"
-#include "host/cli/prepare_scene.hpp"
+#include "host/render/prepare_scene.hpp"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

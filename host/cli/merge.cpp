@@ -31,7 +31,7 @@ void runMerge(const MergeOptions& options)
     const MergedFilm merged = mergeFilms(options.inputs);
     writeFilm(options.output, merged.film);
     if (!options.png.empty()) {
-        writeFilmPng(options.png, merged.film, options.exposure);
+        writeFilmPng(options.png, merged.film, lookOf(merged.film), options.exposure);
     }
     std::cerr << "Merged " << options.inputs.size() << " films into " << options.output.string() << ", samples "
               << sampleRangesText(merged.film) << ": "

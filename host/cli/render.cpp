@@ -106,10 +106,10 @@ double writePictures(const RenderOptions& options, const Film& film)
     const auto start = std::chrono::steady_clock::now();
     writeFilm(options.output, film);
     if (options.png) {
-        writeFilmPng(*options.png, film, options.exposure);
+        writeFilmPng(*options.png, film, lookOf(film), options.exposure);
     }
     if (options.rates) {
-        writeRatesPng(*options.rates, film);
+        writeFilmPng(*options.rates, film, Look::Rate, 0.0);
     }
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

@@ -1,7 +1,7 @@
 // What a render tells: one line for people, JSON for machines.
 #pragma once
 
-#include "host/cli/prepare_scene.hpp"
+#include "host/render/prepare_scene.hpp"
 #include "host/cli/render_options.hpp"
 #include "host/render/renderer.hpp"
 

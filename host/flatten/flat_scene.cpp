@@ -9,6 +9,7 @@ namespace {
 // FNV-1a, 64 bits (Fowler, Noll, Vo): a fingerprint, not a secret.
 class Fingerprint {
 public:
+    explicit Fingerprint(std::uint64_t state = 14695981039346656037ULL) : state_(state) {}
     template <class T>
     void add(const std::vector<T>& values)
     {
@@ -20,15 +21,10 @@ public:
             state_ = (state_ ^ static_cast<std::uint64_t>(byte)) * 1099511628211ULL;
         }
     }
-    std::string text() const
-    {
-        char digits[17];
-        std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(state_));
-        return digits;
-    }
+    std::uint64_t state() const { return state_; }
 
 private:
-    std::uint64_t state_ = 14695981039346656037ULL;
+    std::uint64_t state_;
 };
 
 template <class T>
@@ -49,7 +45,7 @@ std::uint64_t sizeInBytes(const FlatScene& scene)
            bytesOf(scene.lights) + bytesOf(scene.emitters);
 }
 
-std::string fingerprint(const FlatScene& scene, const FlatCamera& camera)
+std::uint64_t fingerprint(const FlatScene& scene)
 {
     // By primitive, since the order of the records is the tree's.
     const std::size_t count = scene.records.size() / kRecordTexels;
@@ -71,8 +67,16 @@ std::string fingerprint(const FlatScene& scene, const FlatCamera& camera)
     }
     print.add(scene.materials);
     print.add(scene.lights);
+    return print.state();
+}
+
+std::string fingerprint(std::uint64_t scene, const FlatCamera& camera)
+{
+    Fingerprint print(scene);
     print.add(std::vector<FlatCamera>{camera});
-    return print.text();
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(print.state()));
+    return digits;
 }
 
 }  // namespace glim

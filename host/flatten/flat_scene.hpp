@@ -3,6 +3,7 @@
 
 #include "shaders/shared/scene_types.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,9 @@ struct FlatScene {
 // Bytes that the scene takes on the device.
 std::uint64_t sizeInBytes(const FlatScene& scene);
 
-// A fingerprint of everything above but the tree, and the camera: equal pictures come from equal ones.
-std::string fingerprint(const FlatScene& scene, const FlatCamera& camera);
+// A fingerprint of everything above but the tree.
+std::uint64_t fingerprint(const FlatScene& scene);
+// Of a scene and a camera: equal pictures come from equal ones.
+std::string fingerprint(std::uint64_t scene, const FlatCamera& camera);
 
 }  // namespace glim

@@ -104,12 +104,50 @@ void Commands::copy(VkBuffer source, VkBuffer target, std::uint64_t bytes)
     barrier();
 }
 
-void Commands::submitAndWait()
+// Of all of an image; everything before is waited for, everything after waits.
+void Commands::transition(VkImage image, VkImageLayout from, VkImageLayout to)
+{
+    VkImageMemoryBarrier change{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
+    change.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
+    change.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+    change.oldLayout = from;
+    change.newLayout = to;
+    change.srcQueueFamilyIndex = change.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    change.image = image;
+    change.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    vkCmdPipelineBarrier(buffer_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr, 0,
+                         nullptr, 1, &change);
+}
+
+void Commands::clear(const StorageImage& image)
+{
+    transition(image.handle(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+    const VkClearColorValue black{{0.0F, 0.0F, 0.0F, 1.0F}};
+    const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    vkCmdClearColorImage(buffer_, image.handle(), VK_IMAGE_LAYOUT_GENERAL, &black, 1, &all);
+    barrier();
+}
+
+void Commands::blit(const StorageImage& image, VkImage target, VkExtent2D size)
+{
+    transition(target, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    VkImageBlit region{};
+    region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.srcOffsets[1] = {static_cast<std::int32_t>(image.width()), static_cast<std::int32_t>(image.height()), 1};
+    region.dstOffsets[1] = {static_cast<std::int32_t>(size.width), static_cast<std::int32_t>(size.height), 1};
+    vkCmdBlitImage(buffer_, image.handle(), VK_IMAGE_LAYOUT_GENERAL, target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
+                   VK_FILTER_NEAREST);
+    transition(target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+}
+
+void Commands::submitAndWait(VkSemaphore done)
 {
     check(vkEndCommandBuffer(buffer_), "end a command buffer");
     VkSubmitInfo info{VK_STRUCTURE_TYPE_SUBMIT_INFO};
     info.commandBufferCount = 1;
     info.pCommandBuffers = &buffer_;
+    info.signalSemaphoreCount = done == VK_NULL_HANDLE ? 0 : 1;
+    info.pSignalSemaphores = &done;
     check(vkQueueSubmit(device_.queue(), 1, &info, fence_), "submit work");
     check(vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, UINT64_MAX), "wait for the device");
     device_.instance().refuseMessages();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/gpu/kernel.hpp"
+#include "host/gpu/storage_image.hpp"
 
 namespace glim {
 
@@ -25,10 +26,14 @@ public:
                           const Buffer& arguments, std::uint64_t offset);
     void fillWithZero(const Buffer& buffer);
     void copy(VkBuffer source, VkBuffer target, std::uint64_t bytes);
+    // Makes it black, and ready for kernels.
+    void clear(const StorageImage& image);
+    // Stretches `image` over `target`, a swapchain's image of this size, and makes it ready to present.
+    void blit(const StorageImage& image, VkImage target, VkExtent2D size);
 
-    // Runs everything recorded and waits for it; then the object is spent. Throws DeviceError if the device fails or the
-    // validation layers have spoken.
-    void submitAndWait();
+    // Runs everything recorded and waits for it; then the object is spent. Signals `done` too, if given. Throws DeviceError if
+    // the device fails or the validation layers have spoken.
+    void submitAndWait(VkSemaphore done = VK_NULL_HANDLE);
 
     // Device seconds of each dispatch in order; empty without timestamps. After submitAndWait.
     std::vector<KernelTime> times() const;
@@ -37,6 +42,7 @@ private:
     void begin(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push);
     void end(const Kernel& kernel);
     void barrier();
+    void transition(VkImage image, VkImageLayout from, VkImageLayout to);
 
     // Dispatches that one object times; further ones run untimed.
     static constexpr std::uint32_t kMaxTimed = 1024;

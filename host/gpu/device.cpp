@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstring>
 #include <optional>
 
 namespace glim {
@@ -31,9 +32,25 @@ bool isNamedBy(const std::string& choice, std::size_t index, const DeviceDescrip
     return lowerCase(description.name).find(lowerCase(choice)) != std::string::npos;
 }
 
-Candidate choose(const Instance& instance, const std::optional<std::string>& choice)
+bool canShow(const Candidate& candidate, VkSurfaceKHR surface)
+{
+    std::uint32_t count = 0;
+    check(vkEnumerateDeviceExtensionProperties(candidate.physical, nullptr, &count, nullptr), "list extensions");
+    std::vector<VkExtensionProperties> extensions(count);
+    check(vkEnumerateDeviceExtensionProperties(candidate.physical, nullptr, &count, extensions.data()), "list extensions");
+    const bool swaps = std::any_of(extensions.begin(), extensions.end(), [](const VkExtensionProperties& extension) {
+        return std::strcmp(extension.extensionName, VK_KHR_SWAPCHAIN_EXTENSION_NAME) == 0;
+    });
+    VkBool32 presents = VK_FALSE;
+    return swaps &&
+           vkGetPhysicalDeviceSurfaceSupportKHR(candidate.physical, candidate.queueFamily, surface, &presents) == VK_SUCCESS &&
+           presents == VK_TRUE;
+}
+
+Candidate choose(const Instance& instance, const std::optional<std::string>& choice, VkSurfaceKHR surface)
 {
     const std::vector<Candidate> candidates = findCandidates(instance);
+    std::string blind;  // devices that cannot show pictures in this window
     for (std::size_t i = 0; i < candidates.size(); ++i) {
         const DeviceDescription& d = candidates[i].description;
         if (choice ? !isNamedBy(*choice, i, d) : !d.missing.empty()) {
@@ -42,7 +59,13 @@ Candidate choose(const Instance& instance, const std::optional<std::string>& cho
         if (!d.missing.empty()) {
             throw DeviceError("Device \"" + d.name + "\" lacks " + d.missing + ", which glim needs.");
         }
-        return candidates[i];
+        if (surface == VK_NULL_HANDLE || canShow(candidates[i], surface)) {
+            return candidates[i];
+        }
+        blind += (blind.empty() ? "\"" : ", \"") + d.name + "\"";
+    }
+    if (!blind.empty()) {
+        throw InputError("This window cannot show pictures of " + blind + "; `glim render` writes them to a file instead.");
     }
     if (choice) {
         throw InputError("--device " + *choice + ": no such device; there are: " + listOf(candidates) + ".");
@@ -53,9 +76,9 @@ Candidate choose(const Instance& instance, const std::optional<std::string>& cho
 
 }  // namespace
 
-Device::Device(const Instance& instance, const std::optional<std::string>& choice) : instance_(instance)
+Device::Device(const Instance& instance, const std::optional<std::string>& choice, VkSurfaceKHR surface) : instance_(instance)
 {
-    const Candidate chosen = choose(instance, choice);
+    const Candidate chosen = choose(instance, choice, surface);
     description_ = chosen.description;
     physical_ = chosen.physical;
     queueFamily_ = chosen.queueFamily;
@@ -71,6 +94,9 @@ Device::Device(const Instance& instance, const std::optional<std::string>& choic
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features};
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queueInfo;
+    const char* swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+    info.enabledExtensionCount = surface == VK_NULL_HANDLE ? 0 : 1;
+    info.ppEnabledExtensionNames = &swapchain;
     check(vkCreateDevice(physical_, &info, nullptr, &handle_), "open device \"" + description_.name + "\"");
     vkGetDeviceQueue(handle_, queueFamily_, 0, &queue_);
     setObjectName_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(

@@ -33,15 +33,18 @@ std::vector<DeviceDescription> listDevices(const Instance& instance);
 
 class Device {
 public:
-    // `choice`: an index into listDevices or a part of a name (any case); absent: the first usable one.
-    // Throws InputError if the choice names nothing, DeviceError if there is no usable device.
-    explicit Device(const Instance& instance, const std::optional<std::string>& choice = {});
+    // `choice`: an index into listDevices or a part of a name (any case); absent: the first usable one. With `surface` only one
+    // that can show pictures there is usable. Throws InputError if the choice names nothing or cannot show pictures,
+    // DeviceError if there is no usable device.
+    explicit Device(const Instance& instance, const std::optional<std::string>& choice = {},
+                    VkSurfaceKHR surface = VK_NULL_HANDLE);
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
     const Instance& instance() const { return instance_; }
     const DeviceDescription& description() const { return description_; }
+    VkPhysicalDevice physical() const { return physical_; }
     VkDevice handle() const { return handle_; }
     VkQueue queue() const { return queue_; }
     std::uint32_t queueFamily() const { return queueFamily_; }

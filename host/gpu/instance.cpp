@@ -52,7 +52,7 @@ void requireValidationLayer()
 
 }  // namespace
 
-Instance::Instance() : messages_(std::make_unique<int>(0))
+Instance::Instance(const std::vector<const char*>& extensions) : messages_(std::make_unique<int>(0))
 {
     VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
     application.pApplicationName = "glim";
@@ -63,7 +63,7 @@ Instance::Instance() : messages_(std::make_unique<int>(0))
     const VkValidationFeatureEnableEXT enabled[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
     VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
     VkDebugUtilsMessengerCreateInfoEXT messenger = messengerInfo(messages_.get());
-    const char* extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
+    std::vector<const char*> enabledExtensions = extensions;
     const bool validation = wantsValidation();
     if (validation) {
         requireValidationLayer();
@@ -73,9 +73,10 @@ Instance::Instance() : messages_(std::make_unique<int>(0))
         info.pNext = &messenger;
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = &kValidationLayer;
-        info.enabledExtensionCount = 1;
-        info.ppEnabledExtensionNames = extensions;
+        enabledExtensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     }
+    info.enabledExtensionCount = static_cast<std::uint32_t>(enabledExtensions.size());
+    info.ppEnabledExtensionNames = enabledExtensions.data();
     check(vkCreateInstance(&info, nullptr, &handle_),
           "create an instance (is a driver installed? Debian has a software one in mesa-vulkan-drivers)");
     if (validation) {

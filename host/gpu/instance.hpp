@@ -12,7 +12,8 @@ namespace glim {
 // goes to stderr and is counted; without the layers installed that is a DeviceError, since a silent check is no check.
 class Instance {
 public:
-    Instance();
+    // With these extensions, which a window names.
+    explicit Instance(const std::vector<const char*>& extensions = {});
     ~Instance();
     Instance(const Instance&) = delete;
     Instance& operator=(const Instance&) = delete;

@@ -11,23 +11,36 @@ VkDescriptorType descriptorType(BufferKind kind)
     return kind == BufferKind::Texel ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
-std::vector<VkDescriptorPoolSize> poolSizes(const std::vector<BindingSlot>& slots)
+std::vector<VkDescriptorPoolSize> poolSizes(const KernelLayout& layout)
 {
     std::vector<VkDescriptorPoolSize> sizes;
-    for (const BindingSlot& slot : slots) {
-        sizes.push_back({descriptorType(slot.kind), 1});
+    for (const VkDescriptorSetLayoutBinding& binding : layout.bindings()) {
+        sizes.push_back({binding.descriptorType, 1});
     }
     return sizes;
 }
 
+VkWriteDescriptorSet writeOf(VkDescriptorSet set, std::uint32_t binding, VkDescriptorType type)
+{
+    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+    write.dstSet = set;
+    write.dstBinding = binding;
+    write.descriptorCount = 1;
+    write.descriptorType = type;
+    return write;
+}
+
 }  // namespace
 
-KernelLayout::KernelLayout(const Device& device, const std::vector<BindingSlot>& slots, std::uint32_t pushSize)
-    : device_(device), slots_(slots), pushSize_(pushSize)
+KernelLayout::KernelLayout(const Device& device, const std::vector<BindingSlot>& slots, std::uint32_t pushSize,
+                           const std::vector<std::uint32_t>& images)
+    : device_(device), pushSize_(pushSize)
 {
-    std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (const BindingSlot& slot : slots) {
-        bindings.push_back({slot.binding, descriptorType(slot.kind), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+        bindings_.push_back({slot.binding, descriptorType(slot.kind), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    }
+    for (const std::uint32_t image : images) {
+        bindings_.push_back({image, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
     }
     const auto storage = static_cast<std::uint32_t>(std::count_if(
         slots.begin(), slots.end(), [](const BindingSlot& slot) { return slot.kind != BufferKind::Texel; }));
@@ -37,8 +50,8 @@ KernelLayout::KernelLayout(const Device& device, const std::vector<BindingSlot>&
                           std::to_string(device.description().maxStorageBuffers) + ".");
     }
     VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
-    setInfo.bindingCount = static_cast<std::uint32_t>(bindings.size());
-    setInfo.pBindings = bindings.data();
+    setInfo.bindingCount = static_cast<std::uint32_t>(bindings_.size());
+    setInfo.pBindings = bindings_.data();
     check(vkCreateDescriptorSetLayout(device.handle(), &setInfo, nullptr, &setLayout_), "create a descriptor layout");
 
     const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, pushSize};
@@ -56,10 +69,11 @@ KernelLayout::~KernelLayout()
     vkDestroyDescriptorSetLayout(device_.handle(), setLayout_, nullptr);
 }
 
-Bindings::Bindings(const KernelLayout& layout, const std::map<std::uint32_t, const Buffer*>& buffers)
+Bindings::Bindings(const KernelLayout& layout, const std::map<std::uint32_t, const Buffer*>& buffers,
+                   const std::map<std::uint32_t, const StorageImage*>& images)
     : device_(&layout.device())
 {
-    const std::vector<VkDescriptorPoolSize> sizes = poolSizes(layout.slots());
+    const std::vector<VkDescriptorPoolSize> sizes = poolSizes(layout);
     VkDescriptorPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
     poolInfo.maxSets = 1;
     poolInfo.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
@@ -75,13 +89,15 @@ Bindings::Bindings(const KernelLayout& layout, const std::map<std::uint32_t, con
     for (const auto& [binding, buffer] : buffers) {
         const VkDescriptorBufferInfo range{buffer->handle(), 0, VK_WHOLE_SIZE};
         const VkBufferView view = buffer->texelView();
-        VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-        write.dstSet = set_;
-        write.dstBinding = binding;
-        write.descriptorCount = 1;
-        write.descriptorType = descriptorType(buffer->kind());
+        VkWriteDescriptorSet write = writeOf(set_, binding, descriptorType(buffer->kind()));
         write.pBufferInfo = &range;
         write.pTexelBufferView = &view;
+        vkUpdateDescriptorSets(device_->handle(), 1, &write, 0, nullptr);
+    }
+    for (const auto& [binding, image] : images) {
+        const VkDescriptorImageInfo whole{VK_NULL_HANDLE, image->view(), VK_IMAGE_LAYOUT_GENERAL};
+        VkWriteDescriptorSet write = writeOf(set_, binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
+        write.pImageInfo = &whole;
         vkUpdateDescriptorSets(device_->handle(), 1, &write, 0, nullptr);
     }
 }

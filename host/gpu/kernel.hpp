@@ -3,6 +3,7 @@
 
 #include "host/gpu/buffer.hpp"
 #include "host/gpu/embedded_shader.hpp"
+#include "host/gpu/storage_image.hpp"
 
 #include <map>
 
@@ -16,29 +17,32 @@ struct BindingSlot {
 // The bindings that a family of kernels shares, all in set 0, and the size of its push constants in bytes.
 class KernelLayout {
 public:
-    KernelLayout(const Device& device, const std::vector<BindingSlot>& slots, std::uint32_t pushSize);
+    // `images`: the bindings that are storage images.
+    KernelLayout(const Device& device, const std::vector<BindingSlot>& slots, std::uint32_t pushSize,
+                 const std::vector<std::uint32_t>& images = {});
     ~KernelLayout();
     KernelLayout(const KernelLayout&) = delete;
     KernelLayout& operator=(const KernelLayout&) = delete;
 
     const Device& device() const { return device_; }
-    const std::vector<BindingSlot>& slots() const { return slots_; }
+    const std::vector<VkDescriptorSetLayoutBinding>& bindings() const { return bindings_; }
     VkDescriptorSetLayout setLayout() const { return setLayout_; }
     VkPipelineLayout pipelineLayout() const { return pipelineLayout_; }
     std::uint32_t pushSize() const { return pushSize_; }
 
 private:
     const Device& device_;
-    std::vector<BindingSlot> slots_;
+    std::vector<VkDescriptorSetLayoutBinding> bindings_;
     std::uint32_t pushSize_;
     VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
     VkPipelineLayout pipelineLayout_ = VK_NULL_HANDLE;
 };
 
-// Buffers for the bindings of a layout. A slot that no kernel run with this set uses may stay empty.
+// Buffers and images for the bindings of a layout. One that no kernel run with this set uses may be left out.
 class Bindings {
 public:
-    Bindings(const KernelLayout& layout, const std::map<std::uint32_t, const Buffer*>& buffers);
+    Bindings(const KernelLayout& layout, const std::map<std::uint32_t, const Buffer*>& buffers,
+             const std::map<std::uint32_t, const StorageImage*>& images = {});
     ~Bindings();
     Bindings(Bindings&& other) noexcept;
     Bindings& operator=(Bindings&&) = delete;

@@ -82,21 +82,6 @@ bool encode(PngSink& sink, const Rows& rows)
     return true;
 }
 
-std::vector<Rgb8> bytesOf(const Image& image, double exposure)
-{
-    const double scale = std::exp2(exposure);
-    const std::vector<float>* planes[3] = {&image.channels.at("R"), &image.channels.at("G"), &image.channels.at("B")};
-    std::vector<Rgb8> pixels(planes[0]->size(), kMagenta);
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-        if (std::all_of(planes, planes + 3, [i](auto* plane) { return std::isfinite((*plane)[i]); })) {
-            for (std::size_t c = 0; c < 3; ++c) {
-                pixels[i][c] = srgbByte(scale * static_cast<double>((*planes[c])[i]));
-            }
-        }
-    }
-    return pixels;
-}
-
 }  // namespace
 
 std::uint8_t srgbByte(double linear)
@@ -114,11 +99,6 @@ void writePng(const std::filesystem::path& path, std::uint32_t width, std::uint3
         throw InputError(sink.error);
     }
     file.commit();
-}
-
-void writePng(const std::filesystem::path& path, const Image& image, double exposure)
-{
-    writePng(path, image.width, image.height, bytesOf(image, exposure));
 }
 
 }  // namespace glim

@@ -1,8 +1,6 @@
 // PNG for looking at: 8 bits a channel, opaque.
 #pragma once
 
-#include "host/image/image.hpp"
-
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -20,8 +18,5 @@ void writePng(const std::filesystem::path& path, std::uint32_t width, std::uint3
 
 // What is not finite, in every picture: no exposure, clipping or scale hides it.
 inline constexpr Rgb8 kMagenta{255, 0, 255};
-
-// sRGB of clip(2^exposure x) of the channels R, G and B; kMagenta where one of them is not finite.
-void writePng(const std::filesystem::path& path, const Image& image, double exposure);
 
 }  // namespace glim

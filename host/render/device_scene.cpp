@@ -31,6 +31,8 @@ DeviceScene::DeviceScene(Device& device, const FlatScene& scene, const FlatCamer
 {
 }
 
+void DeviceScene::setCamera(const FlatCamera& camera) { upload(camera_, std::span<const FlatCamera>(&camera, 1)); }
+
 std::vector<BindingSlot> DeviceScene::slots()
 {
     return {{kBindNodes, BufferKind::Texel},        {kBindRecords, BufferKind::Texel},

@@ -11,6 +11,9 @@ public:
     // Throws DeviceError, saying by how much, if the scene exceeds the device.
     DeviceScene(Device& device, const FlatScene& scene, const FlatCamera& camera);
 
+    // No kernel may be running.
+    void setCamera(const FlatCamera& camera);
+
     // The slots of scene.glsl.
     static std::vector<BindingSlot> slots();
     std::map<std::uint32_t, const Buffer*> buffers() const;

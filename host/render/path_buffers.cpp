@@ -91,8 +91,21 @@ Slab::Slab(Device& device, const KernelLayout& layout, const DeviceScene& scene,
     const auto fixed = merged(scene.buffers(), film);
     even_.emplace(layout, merged(fixed, paths.buffers(0)));
     odd_.emplace(layout, merged(fixed, paths.buffers(1)));
+    clear();
+}
+
+void Slab::clear()
+{
     fillWithZero({&blocks_, &pages_, &luminance_});
     chooseAll();
+}
+
+void Slab::copySamples(const Slab& other)
+{
+    Commands commands(device_);
+    commands.copy(other.blocks_.handle(), blocks_.handle(), blocks_.size());
+    commands.copy(other.pages_.handle(), pages_.handle(), pages_.size());
+    commands.submitAndWait();
 }
 
 std::uint64_t Slab::bytesPerPixel(bool adaptive)

@@ -47,9 +47,15 @@ public:
     std::uint32_t count() const { return count_; }
     std::uint32_t chosenCount() const { return chosenCount_; }
     const Bindings& bindings(std::uint32_t parity) const { return parity == 0 ? *even_ : *odd_; }
+    const Buffer& blocks() const { return blocks_; }
+    const Buffer& pages() const { return pages_; }
 
     // Reads the pages and empties them.
     std::vector<PixelMoments> takePages();
+    // Empties everything; all pixels are chosen.
+    void clear();
+    // Has the samples of `other`, of the same size.
+    void copySamples(const Slab& other);
     void chooseAll();
     void chooseNone();
     // After choose_pixels has filled the list.

@@ -15,9 +15,8 @@ namespace {
 
 // Passes aim at this for their longest dispatch: far below any watchdog.
 constexpr double kTargetDispatchSeconds = 0.05;
-// And at this in all, where many rounds of direct light or long brute force make many dispatches, since Ctrl-C is answered between
-// passes; but not if that leaves so little for a dispatch that starting it costs more (20 us on llvmpipe).
-constexpr double kTargetPassSeconds = 1.0;
+// And at settings.passSeconds in all, where many rounds of direct light or long brute force make many dispatches; but not if that
+// leaves so little for a dispatch that starting it costs more (20 us on llvmpipe).
 constexpr double kLeastDispatchSeconds = 0.001;
 // Of a first pass, with one round of direct light and a ray that takes this many steps.
 constexpr std::uint32_t kFirstPassPaths = 1U << 14;
@@ -39,92 +38,142 @@ double secondsSince(std::chrono::steady_clock::time_point start)
 }  // namespace
 
 Renderer::Renderer(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
-    : device_(device), settings_(settings), fingerprint_(fingerprint(scene, camera)), start_(Clock::now()),
-      pathsPerPass_(firstPassPaths(scene, settings)),
-      plannedSamples_(std::uint64_t{settings.width} * settings.height * (settings.sampleEnd - settings.sampleBegin)),
-      wavefront_(std::make_unique<Wavefront>(device, scene, camera, settings))
+    : device_(device), settings_(settings), sceneFingerprint_(fingerprint(scene)), start_(Clock::now()),
+      pathsPerPass_(firstPassPaths(scene, settings)), wavefront_(std::make_unique<Wavefront>(device, scene, camera, settings))
 {
-    const std::uint32_t pixels = settings.width * settings.height;
-    for (std::uint32_t begin = 0; begin < pixels; begin += Slab::kMaxPixels) {
-        slabs_.push_back(wavefront_->makeSlab(begin, std::min(Slab::kMaxPixels, pixels - begin)));
-    }
+    makeSlabs();
     refuseBrokenStatus();
     statistics_.compileSeconds = wavefront_->compileSeconds();
     statistics_.uploadSeconds = secondsSince(start_) - statistics_.compileSeconds;
+    begin(camera);
 }
 
-// End of the sweep that begins with `sample`: the first block is swept 1, 1, 2, 4, 8 and 16 samples at a time, so that a
-// render that is stopped early covers its picture evenly; later blocks at once, which keeps the rays of a pixel together.
-std::uint32_t Renderer::sweepEnd(std::uint32_t sample) const
+void Renderer::makeSlabs()
 {
-    const std::uint32_t done = sample - settings_.sampleBegin;
-    const std::uint32_t count = done < kBlockSamples ? std::max(1U, std::bit_floor(done)) : kBlockSamples;
-    const std::uint32_t end = std::min({settings_.sampleEnd, (sample / kBlockSamples + 1) * kBlockSamples, sample + count});
-    return isAdaptive() ? std::min(end, (sample / settings_.batch + 1) * settings_.batch) : end;
+    slabs_.clear();
+    const std::uint32_t pixels = settings_.width * settings_.height;
+    for (std::uint32_t first = 0; first < pixels; first += Slab::kMaxPixels) {
+        slabs_.push_back(wavefront_->makeSlab(first, std::min(Slab::kMaxPixels, pixels - first)));
+    }
+}
+
+void Renderer::restart(const FlatCamera& camera, std::uint32_t width, std::uint32_t height)
+{
+    const bool sameSize = width == settings_.width && height == settings_.height;
+    settings_.width = width;
+    settings_.height = height;
+    wavefront_->setCamera(camera, width, height);
+    if (sameSize) {
+        for (const auto& slab : slabs_) {
+            slab->clear();
+        }
+    } else {
+        makeSlabs();
+    }
+    begin(camera);
+}
+
+void Renderer::begin(const FlatCamera& camera)
+{
+    film_ = {};
+    film_.width = settings_.width;
+    film_.height = settings_.height;
+    film_.pixels.resize(std::size_t{film_.width} * film_.height);
+    film_.identity = {fingerprint(sceneFingerprint_, camera), describeSettings(settings_), settings_.seed};
+    film_.device = device_.description().name + ", " + device_.description().driver;
+    foldVersion_ = 0;
+    sample_ = settings_.sampleBegin;
+    sweeping_ = false;
+    slab_ = 0;
+    pixel_ = 0;
+    chosen_ = film_.pixels.size();
+    pictureSamples_ = 0;
+    plannedSamples_ = chosen_ * (settings_.sampleEnd - settings_.sampleBegin);
+    start_ = Clock::now();
 }
 
 Film Renderer::render(const RenderObserver& observer)
 {
-    Film film;
-    film.width = settings_.width;
-    film.height = settings_.height;
-    film.pixels.resize(std::size_t{film.width} * film.height);
-    film.identity = {fingerprint_, describeSettings(settings_), settings_.seed};
-    film.device = device_.description().name + ", " + device_.description().driver;
-
     start_ = Clock::now();
-    std::uint32_t sample = settings_.sampleBegin;
-    std::uint64_t chosen = film.pixels.size();
-    bool going = true;
-    while (going && chosen > 0 && sample < settings_.sampleEnd) {
-        const std::uint32_t end = sweepEnd(sample);
-        const bool endsBlock = end == settings_.sampleEnd || end % kBlockSamples == 0;
-        going = sweep(sample, end - sample, endsBlock, observer);
-        sample = end;
-        if (going && isAdaptive() && sample % settings_.batch == 0) {
-            chosen = choosePixels();
-            plannedSamples_ = statistics_.samples + chosen * (settings_.sampleEnd - sample);
-        }
-        if (!going || chosen == 0 || sample == settings_.sampleEnd || sample % kPageSamples == 0) {
-            foldPages(film, !going || isAdaptive());
-        }
+    while (advance() && !isOver(observer)) {
     }
-    film.sampleRanges = {{settings_.sampleBegin, sample}};
-    const bool even = statistics_.samples == film.pixels.size() * (sample - settings_.sampleBegin);
-    film.complete = going || (even && !isAdaptive());
+    foldPages(film_, slabs_);
     statistics_.renderSeconds = secondsSince(start_);
-    film.seconds = statistics_.renderSeconds;
     readCounters();
+    describe(film_);
+    return std::move(film_);
+}
+
+Film Renderer::film()
+{
+    Film film = film_;
+    std::vector<std::unique_ptr<Slab>> copies;
+    for (const auto& slab : slabs_) {
+        copies.push_back(wavefront_->makeSlab(slab->begin(), slab->count()));
+        copies.back()->copySamples(*slab);
+    }
+    foldPages(film, copies);
+    readCounters();
+    describe(film);
     return film;
 }
 
-// Samples [first, first + count) of every chosen pixel; false if it was ended before the last one, or after it for good.
-bool Renderer::sweep(std::uint32_t first, std::uint32_t count, bool endsBlock, const RenderObserver& observer)
+// The samples it is of.
+void Renderer::describe(Film& film) const
 {
-    for (const auto& slab : slabs_) {
-        std::uint32_t pixel = 0;
-        while (pixel < slab->chosenCount()) {
-            Pass pass = wavefront_->passOf(*slab);
-            pass.firstPixel = pixel;
-            pass.pixelCount = std::min(slab->chosenCount() - pixel, std::max(1U, pathsPerPass_ / count));
-            pass.firstSample = first;
-            pass.sampleCount = count;
-            pass.accumulate = endsBlock ? kEndsBlock : 0;
-            runPass(*slab, pass);
-            pixel += pass.pixelCount;
-            if (isOver(observer)) {
-                return false;
-            }
-        }
+    film.sampleRanges = {{settings_.sampleBegin, sweeping_ ? sweepEnd() : sample_}};
+    const bool even = pictureSamples_ == film.pixels.size() * sampleCount();
+    film.complete = isDone() || (even && !isAdaptive());
+    film.seconds = secondsSince(start_);
+}
+
+// End of the sweep under way: the first block is swept 1, 1, 2, 4, 8 and 16 samples at a time, so that a render that is stopped
+// early covers its picture evenly; later blocks at once, which keeps the rays of a pixel together.
+std::uint32_t Renderer::sweepEnd() const
+{
+    const std::uint32_t done = sampleCount();
+    const std::uint32_t count = done < kBlockSamples ? std::max(1U, std::bit_floor(done)) : kBlockSamples;
+    const std::uint32_t end = std::min({settings_.sampleEnd, (sample_ / kBlockSamples + 1) * kBlockSamples, sample_ + count});
+    return isAdaptive() ? std::min(end, (sample_ / settings_.batch + 1) * settings_.batch) : end;
+}
+
+bool Renderer::advance()
+{
+    if (isDone()) {
+        return false;
+    }
+    runPass(nextPass());
+    while (slab_ < slabs_.size() && pixel_ == slabs_[slab_]->chosenCount()) {
+        ++slab_;
+        pixel_ = 0;
+    }
+    if (slab_ == slabs_.size()) {
+        endSweep();
     }
     return true;
 }
 
-void Renderer::runPass(const Slab& slab, const Pass& pass)
+Pass Renderer::nextPass() const
 {
-    const Wavefront::Seconds seconds = wavefront_->trace(slab, pass);
+    const Slab& slab = *slabs_[slab_];
+    const std::uint32_t end = sweepEnd();
+    Pass pass = wavefront_->passOf(slab);
+    pass.firstPixel = pixel_;
+    pass.firstSample = sample_;
+    pass.sampleCount = end - sample_;
+    pass.pixelCount = std::min(slab.chosenCount() - pixel_, std::max(1U, pathsPerPass_ / pass.sampleCount));
+    pass.accumulate = end % kBlockSamples == 0 ? kEndsBlock : 0;
+    return pass;
+}
+
+void Renderer::runPass(const Pass& pass)
+{
+    const Wavefront::Seconds seconds = wavefront_->trace(*slabs_[slab_], pass);
     refuseBrokenStatus();
     const std::uint32_t paths = pass.pixelCount * pass.sampleCount;
+    sweeping_ = true;
+    pixel_ += pass.pixelCount;
+    pictureSamples_ += paths;
     statistics_.samples += paths;
     statistics_.longestDispatch = std::max(statistics_.longestDispatch, seconds.longest);
     // What is left at the end of a sweep says little about a full pass, unless it took too long.
@@ -135,10 +184,28 @@ void Renderer::runPass(const Slab& slab, const Pass& pass)
 
 void Renderer::resizePasses(std::uint32_t paths, const Wavefront::Seconds& seconds)
 {
-    const double byPass = std::max(kTargetPassSeconds / seconds.total, kLeastDispatchSeconds / seconds.longest);
+    const double byPass = std::max(settings_.passSeconds / seconds.total, kLeastDispatchSeconds / seconds.longest);
     const double scale = std::clamp(std::min(kTargetDispatchSeconds / seconds.longest, byPass), 0.5, 2.0);
     pathsPerPass_ = static_cast<std::uint32_t>(
         std::clamp(paths * scale, static_cast<double>(kBlockSamples), static_cast<double>(settings_.pathCapacity)));
+}
+
+void Renderer::endSweep()
+{
+    sample_ = sweepEnd();
+    sweeping_ = false;
+    slab_ = 0;
+    if (isAdaptive() && sample_ % settings_.batch == 0) {
+        chosen_ = choosePixels();
+        plannedSamples_ = pictureSamples_ + chosen_ * (settings_.sampleEnd - sample_);
+    }
+    while (chosen_ > 0 && slabs_[slab_]->chosenCount() == 0) {
+        ++slab_;
+    }
+    if (sample_ % kPageSamples == 0) {
+        foldPages(film_, slabs_);
+        foldVersion_ = ++folds_;
+    }
 }
 
 // How many pixels still need samples.
@@ -152,13 +219,11 @@ std::uint64_t Renderer::choosePixels()
     return chosen;
 }
 
-// `closesBlocks`: some pixels may have ended within a block.
-void Renderer::foldPages(Film& film, bool closesBlocks)
+// Ends the blocks under way, which in adaptive renders and at the end may be any.
+void Renderer::foldPages(Film& film, const std::vector<std::unique_ptr<Slab>>& slabs)
 {
-    for (const auto& slab : slabs_) {
-        if (closesBlocks) {
-            wavefront_->closeBlocks(*slab);
-        }
+    for (const auto& slab : slabs) {
+        wavefront_->closeBlocks(*slab);
         foldPage(film, slab->begin(), slab->takePages());
     }
 }
@@ -166,7 +231,7 @@ void Renderer::foldPages(Film& film, bool closesBlocks)
 bool Renderer::isOver(const RenderObserver& observer) const
 {
     const double seconds = secondsSince(start_);
-    const bool stop = !observer({statistics_.samples, plannedSamples_, seconds});
+    const bool stop = !observer({pictureSamples_, plannedSamples_, seconds});
     return stop || (settings_.seconds && seconds >= *settings_.seconds);
 }
 

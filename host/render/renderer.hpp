@@ -36,35 +36,65 @@ public:
 
     // Samples until sampleEnd, the stop rule, the time limit or the observer ends it. Every pixel of the film has what was
     // finished; the counts say how much. Throws DeviceError if the driver cut a loop short or a queue overflowed: no film is
-    // better than a wrong one. Once per object.
+    // better than a wrong one. Once per picture.
     Film render(const RenderObserver& observer);
 
+    // The same in steps: a pass of work; false once nothing is left to do. Throws as render.
+    bool advance();
+    // What is finished; sampling may go on.
+    Film film();
+    // Another picture of the scene. The camera has a lens if and only if the first one had.
+    void restart(const FlatCamera& camera, std::uint32_t width, std::uint32_t height);
+
+    // Samples that every chosen pixel has, and those of all pixels together.
+    std::uint32_t sampleCount() const { return sample_ - settings_.sampleBegin; }
+    std::uint64_t pictureSamples() const { return pictureSamples_; }
+    // For who looks at the film on the device, which has what was not folded yet. The version changes whenever `folded` does; 0 while
+    // nothing is folded.
+    const std::vector<std::unique_ptr<Slab>>& slabs() const { return slabs_; }
+    const Film& folded() const { return film_; }
+    std::uint64_t foldVersion() const { return foldVersion_; }
+
+    const RenderSettings& settings() const { return settings_; }
     const RenderStatistics& statistics() const { return statistics_; }
 
 private:
     using Clock = std::chrono::steady_clock;
 
     bool isAdaptive() const { return settings_.adaptive != Adaptive::Off; }
-    std::uint32_t sweepEnd(std::uint32_t sample) const;
-    bool sweep(std::uint32_t first, std::uint32_t count, bool endsBlock, const RenderObserver& observer);
-    void runPass(const Slab& slab, const Pass& pass);
+    bool isDone() const { return chosen_ == 0 || sample_ == settings_.sampleEnd; }
+    void makeSlabs();
+    void begin(const FlatCamera& camera);
+    void describe(Film& film) const;
+    std::uint32_t sweepEnd() const;
+    Pass nextPass() const;
+    void runPass(const Pass& pass);
     void resizePasses(std::uint32_t paths, const Wavefront::Seconds& seconds);
+    void endSweep();
     std::uint64_t choosePixels();
-    void foldPages(Film& film, bool closesBlocks);
+    void foldPages(Film& film, const std::vector<std::unique_ptr<Slab>>& slabs);
     bool isOver(const RenderObserver& observer) const;
     void refuseBrokenStatus() const;
     void readCounters();
 
     Device& device_;
     RenderSettings settings_;
-    std::string fingerprint_;
+    std::uint64_t sceneFingerprint_;
     RenderStatistics statistics_;
     Clock::time_point start_;
     std::uint32_t pathsPerPass_;
-    std::uint64_t plannedSamples_;
 
     std::unique_ptr<Wavefront> wavefront_;
     std::vector<std::unique_ptr<Slab>> slabs_;
+
+    Film film_;                      // the pages folded so far
+    std::uint64_t folds_ = 0, foldVersion_ = 0;
+    std::uint32_t sample_ = 0;       // first of the sweep under way
+    bool sweeping_ = false;          // the sweep has had a pass
+    std::size_t slab_ = 0;           // of the next pass
+    std::uint32_t pixel_ = 0;        // its first one, among the slab's chosen
+    std::uint64_t chosen_ = 0;       // pixels that the sweep goes over
+    std::uint64_t pictureSamples_ = 0, plannedSamples_ = 0;
 };
 
 }  // namespace glim

@@ -55,6 +55,7 @@ struct RenderSettings {
     // How the work is cut: these change no bit of the picture.
     std::uint32_t workgroup = 64;        // invocations
     std::uint32_t pathCapacity = 1U << 18;  // paths in flight, at least kBlockSamples
+    double passSeconds = 1.0;            // that a pass should take at most: nobody is answered before its end
 };
 
 // Every setting that changes a sample, as "name=value ..."; part of a film's identity. Those that later versions of glim added

@@ -55,6 +55,13 @@ Wavefront::Wavefront(Device& device, const FlatScene& scene, const FlatCamera& c
     compile();
 }
 
+void Wavefront::setCamera(const FlatCamera& camera, std::uint32_t width, std::uint32_t height)
+{
+    scene_.setCamera(camera);
+    template_.width = width;
+    template_.height = height;
+}
+
 std::unique_ptr<Slab> Wavefront::makeSlab(std::uint32_t begin, std::uint32_t count)
 {
     return std::make_unique<Slab>(device_, layout_, scene_, paths_, begin, count, settings_.adaptive != Adaptive::Off);

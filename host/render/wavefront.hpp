@@ -16,6 +16,9 @@ public:
     // Uploads the scene and compiles the kernels for what it needs.
     Wavefront(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
 
+    // Of the passes from now on. The camera has a lens if and only if the first one had.
+    void setCamera(const FlatCamera& camera, std::uint32_t width, std::uint32_t height);
+
     // Pixels of the film; every one is chosen.
     std::unique_ptr<Slab> makeSlab(std::uint32_t begin, std::uint32_t count);
 

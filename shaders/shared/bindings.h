@@ -31,10 +31,15 @@ GLIM_CONST uint kBindPages = 20u;
 GLIM_CONST uint kBindLuminance = 21u;
 GLIM_CONST uint kBindChosenPixels = 22u;
 GLIM_CONST uint kBindStatus = 23u;
+// display.glsl, with blocks and pages
+GLIM_CONST uint kBindFolded = 24u;
+GLIM_CONST uint kBindText = 25u;
+GLIM_CONST uint kBindPicture = 26u;
+GLIM_CONST uint kBindShown = 27u;
 // tests
-GLIM_CONST uint kBindCases = 24u;
-GLIM_CONST uint kBindReport = 25u;
-GLIM_CONST uint kBindResults = 26u;
+GLIM_CONST uint kBindCases = 28u;
+GLIM_CONST uint kBindReport = 29u;
+GLIM_CONST uint kBindResults = 30u;
 
 GLIM_CONST uint kSpecWorkgroup = 0u;
 GLIM_CONST uint kSpecSpheres = 1u;         // the scene has spheres

@@ -16,14 +16,14 @@ using test::Rgb;
 using test::ScratchFolder;
 
 const Rgb kBlack{0, 0, 0}, kBlue{0, 0, 255}, kRed{255, 0, 0}, kBad{255, 0, 255};
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
 
 // A pixel of one sample that a share `alpha` of the rays had a surface for.
 PixelMoments pixel(const glm::vec3& mean, float alpha = 1.0F)
 {
     PixelMoments moments{};
     moments.count = 1;
-    moments.mean = mean;
+    moments.mean = moments.normal = moments.albedo = mean;
     moments.alpha = alpha;
     return moments;
 }
@@ -43,7 +43,8 @@ Film filmOf(View view, const std::vector<PixelMoments>& pixels)
 std::vector<Rgb> picture(View view, const std::vector<PixelMoments>& pixels, double exposure = 0.0)
 {
     const ScratchFolder folder;
-    writeFilmPng(folder / "a.png", filmOf(view, pixels), exposure);
+    const Film film = filmOf(view, pixels);
+    writeFilmPng(folder / "a.png", film, lookOf(film), exposure);
     EXPECT_EQ(folder.entries(), 1);
     return test::decodePng(folder / "a.png");
 }
@@ -55,7 +56,7 @@ std::vector<Rgb> ratesPicture(const std::vector<std::uint32_t>& counts)
         pixels[i].count = counts[i];
     }
     const ScratchFolder folder;
-    writeRatesPng(folder / "r.png", filmOf(View::Shaded, pixels));
+    writeFilmPng(folder / "r.png", filmOf(View::Shaded, pixels), Look::Rate, 0.0);
     return test::decodePng(folder / "r.png");
 }
 
@@ -75,7 +76,9 @@ TEST(HeatColor, GoesFromBlueToRed)
 TEST(FilmPictures, LightAndAlbedoAreExposedSrgb)
 {
     for (const View view : {View::Shaded, View::Albedo}) {
-        EXPECT_EQ(picture(view, {pixel({0.25F, 0, 9}), pixel({0, kNan, 0})}, 1.0), (std::vector<Rgb>{{188, 0, 255}, kBad}));
+        EXPECT_EQ(picture(view, {pixel({0.25F, 0, 9}), pixel({0.09F, -1, 0.5F}), pixel({0, kNan, 0}), pixel({0, 0, -kInfinity})}, 1.0),
+                  (std::vector<Rgb>{{188, 0, 255}, {118, 0, 255}, kBad, kBad}));
+        EXPECT_EQ(picture(view, {pixel({0.25F, 0, 0})}, -1.0), (std::vector<Rgb>{{srgbByte(0.125), 0, 0}}));
     }
 }
 
@@ -90,7 +93,11 @@ TEST(FilmPictures, NormalsAreBytesWithoutACurve)
 
 TEST(FilmPictures, DepthGoesFromWhiteToDark)
 {
-    const auto at = [](float depth, float alpha = 1.0F) { return pixel(glm::vec3(depth * alpha), alpha); };
+    const auto at = [](float depth, float alpha = 1.0F) {
+        PixelMoments moments = pixel(glm::vec3(depth * alpha), alpha);
+        moments.depth = alpha > 0.0F ? depth : std::numeric_limits<float>::infinity();
+        return moments;
+    };
     // 2 to 10 metres; the half-covered pixel's surface is at 6; dark is an eighth.
     EXPECT_EQ(picture(View::Depth, {at(2), at(10), at(6, 0.5F), at(0, 0), pixel(glm::vec3(kNan))}),
               (std::vector<Rgb>{{255, 255, 255}, {32, 32, 32}, {143, 143, 143}, kBlack, kBad}));

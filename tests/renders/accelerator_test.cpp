@@ -66,7 +66,7 @@ TEST(SplitRulePictureTest, EveryRuleGivesTheBitsOfTheOthers)
             const FlatScene other = flattenScene(scene, buildBvh(boxes, rule));
             EXPECT_NE(other.nodes, sah.nodes);
             // Their films may be merged.
-            EXPECT_EQ(fingerprint(other, {}), fingerprint(sah, {}));
+            EXPECT_EQ(fingerprint(other), fingerprint(sah));
             EXPECT_TRUE(sameBits(renderFlat(other, scene.cameras.front(), settings), film))
                 << scene.triangles.size() << " triangles, rule " << static_cast<int>(rule);
         }

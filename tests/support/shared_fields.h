@@ -2,13 +2,14 @@
 // argument: U and F for a word, U2, F2, U3, F3 for vectors.
 #ifndef GLIM_TESTS_SHARED_FIELDS
 #define GLIM_TESTS_SHARED_FIELDS
+#include "../../shaders/shared/display_types.h"
 #include "../../shaders/shared/path_types.h"
 #include "../../shaders/shared/pixel_moments.h"
 #include "../../shaders/shared/scene_types.h"
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 219u;
+GLIM_CONST uint kSharedWords = 232u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -31,6 +32,7 @@ struct EverySharedStruct {
     FlatLight light;
     FlatEmitter emitter;
     FlatCamera camera;
+    DisplayPass display;
 };
 
 GLIM_SHARED_END
@@ -79,4 +81,6 @@ F(light.cosOuter) U(light.doubleSided) U(light.unused)
 U(emitter.record) U(emitter.light) F(emitter.areaPdf) U(emitter.alias.threshold) U(emitter.alias.other) U3(emitter.unused)
 F3(camera.position) F3(camera.right) F3(camera.up) F3(camera.forward) U(camera.kind)
 F3(camera.lensRight) F3(camera.lensUp) F(camera.inverseFocus)
+U(display.width) U(display.height) U(display.filmWidth) U(display.filmHeight) U(display.slabBegin) U(display.slabCount)
+U(display.look) F(display.scale) F(display.low) F(display.high) U(display.folded) U(display.textWidth) U(display.textHeight)
 #endif

@@ -1,4 +1,4 @@
-#include "host/cli/prepare_scene.hpp"
+#include "host/render/prepare_scene.hpp"
 
 #include "host/error.hpp"
 #include "host/flatten/flatten_scene.hpp"

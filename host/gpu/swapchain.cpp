@@ -1,0 +1,174 @@
+#include "host/gpu/swapchain.hpp"
+
+#include "host/gpu/commands.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace glim {
+namespace {
+
+constexpr std::uint64_t kAcquireNanoseconds = 200'000'000;  // compositors may withhold pictures of a window that nobody sees
+constexpr std::uint32_t kNoPicture = 0xffffffff;
+
+VkSurfaceFormatKHR chooseFormat(const Device& device, VkSurfaceKHR surface)
+{
+    std::uint32_t count = 0;
+    check(vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical(), surface, &count, nullptr), "list the window's formats");
+    std::vector<VkSurfaceFormatKHR> formats(count);
+    check(vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical(), surface, &count, formats.data()), "list the window's formats");
+    for (const VkSurfaceFormatKHR& format : formats) {
+        VkFormatProperties properties;
+        vkGetPhysicalDeviceFormatProperties(device.physical(), format.format, &properties);
+        const bool plain = format.format == VK_FORMAT_B8G8R8A8_UNORM || format.format == VK_FORMAT_R8G8B8A8_UNORM;
+        if (plain && (properties.optimalTilingFeatures & VK_FORMAT_FEATURE_BLIT_DST_BIT) != 0) {
+            return format;
+        }
+    }
+    throw DeviceError("Device \"" + device.description().name + "\" shows no plain 8-bit colours in this window; "
+                      "`glim render` writes the picture to a file instead.");
+}
+
+// Mailbox: a new picture takes the place of one that waits, so that presenting never does; FIFO is there always.
+VkPresentModeKHR chooseMode(const Device& device, VkSurfaceKHR surface)
+{
+    std::uint32_t count = 0;
+    check(vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical(), surface, &count, nullptr), "list ways to present");
+    std::vector<VkPresentModeKHR> modes(count);
+    check(vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical(), surface, &count, modes.data()), "list ways to present");
+    const bool mailbox = std::find(modes.begin(), modes.end(), VK_PRESENT_MODE_MAILBOX_KHR) != modes.end();
+    return mailbox ? VK_PRESENT_MODE_MAILBOX_KHR : VK_PRESENT_MODE_FIFO_KHR;
+}
+
+VkExtent2D extentOf(const VkSurfaceCapabilitiesKHR& surface, std::uint32_t width, std::uint32_t height)
+{
+    if (surface.currentExtent.width != 0xffffffff) {
+        return surface.currentExtent;
+    }
+    return {std::clamp(width, surface.minImageExtent.width, surface.maxImageExtent.width),
+            std::clamp(height, surface.minImageExtent.height, surface.maxImageExtent.height)};
+}
+
+}  // namespace
+
+Swapchain::Swapchain(Device& device, VkSurfaceKHR surface)
+    : device_(device), surface_(surface), format_(chooseFormat(device, surface)), mode_(chooseMode(device, surface))
+{
+    const VkFenceCreateInfo info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    check(vkCreateFence(device.handle(), &info, nullptr, &acquired_), "create a fence");
+}
+
+Swapchain::~Swapchain()
+{
+    vkQueueWaitIdle(device_.queue());
+    destroyPictures();
+    vkDestroySwapchainKHR(device_.handle(), handle_, nullptr);
+    vkDestroyFence(device_.handle(), acquired_, nullptr);
+}
+
+void Swapchain::destroyPictures()
+{
+    for (const VkSemaphore semaphore : drawn_) {
+        vkDestroySemaphore(device_.handle(), semaphore, nullptr);
+    }
+    drawn_.clear();
+    pictures_.clear();
+}
+
+// False if the window has no area.
+bool Swapchain::rebuild(std::uint32_t width, std::uint32_t height)
+{
+    VkSurfaceCapabilitiesKHR surface;
+    check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_.physical(), surface_, &surface), "look at the window");
+    extent_ = extentOf(surface, width, height);
+    if (extent_.width == 0 || extent_.height == 0) {
+        return false;
+    }
+    check(vkQueueWaitIdle(device_.queue()), "wait for the device");
+    destroyPictures();
+    VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
+    info.surface = surface_;
+    info.minImageCount = std::max(3U, surface.minImageCount + 1);
+    if (surface.maxImageCount > 0) {
+        info.minImageCount = std::min(info.minImageCount, surface.maxImageCount);
+    }
+    info.imageFormat = format_.format;
+    info.imageColorSpace = format_.colorSpace;
+    info.imageExtent = extent_;
+    info.imageArrayLayers = 1;
+    info.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    info.preTransform = surface.currentTransform;
+    info.compositeAlpha = (surface.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR) != 0
+                              ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
+                              : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
+    info.presentMode = mode_;
+    info.clipped = VK_TRUE;
+    info.oldSwapchain = handle_;
+    VkSwapchainKHR fresh = VK_NULL_HANDLE;
+    const VkResult result = vkCreateSwapchainKHR(device_.handle(), &info, nullptr, &fresh);
+    vkDestroySwapchainKHR(device_.handle(), handle_, nullptr);
+    handle_ = fresh;
+    check(result, "create a swapchain");
+    takePictures();
+    stale_ = false;
+    return true;
+}
+
+void Swapchain::takePictures()
+{
+    std::uint32_t count = 0;
+    check(vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, nullptr), "list the swapchain's images");
+    pictures_.resize(count);
+    check(vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, pictures_.data()), "list the swapchain's images");
+    drawn_.resize(count, VK_NULL_HANDLE);
+    const VkSemaphoreCreateInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
+    for (VkSemaphore& semaphore : drawn_) {
+        check(vkCreateSemaphore(device_.handle(), &info, nullptr, &semaphore), "create a semaphore");
+    }
+}
+
+// The index of a picture to draw to, or kNoPicture.
+std::uint32_t Swapchain::acquire()
+{
+    std::uint32_t picture = kNoPicture;
+    const VkResult result =
+        vkAcquireNextImageKHR(device_.handle(), handle_, kAcquireNanoseconds, VK_NULL_HANDLE, acquired_, &picture);
+    stale_ = result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR;
+    if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_TIMEOUT || result == VK_NOT_READY) {
+        return kNoPicture;
+    }
+    check(result, "acquire a picture of the window");
+    check(vkWaitForFences(device_.handle(), 1, &acquired_, VK_TRUE, UINT64_MAX), "wait for a picture of the window");
+    check(vkResetFences(device_.handle(), 1, &acquired_), "reset a fence");
+    return picture;
+}
+
+bool Swapchain::present(const StorageImage& image, std::uint32_t width, std::uint32_t height)
+{
+    if (stale_ && !rebuild(width, height)) {
+        return false;
+    }
+    const std::uint32_t picture = acquire();
+    if (picture == kNoPicture) {
+        return false;
+    }
+    Commands commands(device_);
+    commands.blit(image, pictures_[picture], extent_);
+    commands.submitAndWait(drawn_[picture]);
+
+    VkPresentInfoKHR info{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
+    info.waitSemaphoreCount = 1;
+    info.pWaitSemaphores = &drawn_[picture];
+    info.swapchainCount = 1;
+    info.pSwapchains = &handle_;
+    info.pImageIndices = &picture;
+    const VkResult result = vkQueuePresentKHR(device_.queue(), &info);
+    stale_ = stale_ || result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR;
+    if (result != VK_ERROR_OUT_OF_DATE_KHR) {
+        check(result, "present a picture");
+    }
+    device_.instance().refuseMessages();
+    return result != VK_ERROR_OUT_OF_DATE_KHR;
+}
+
+}  // namespace glim

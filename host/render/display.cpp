@@ -1,0 +1,102 @@
+#include "host/render/display.hpp"
+
+#include "kernels.hpp"
+#include "shaders/shared/bindings.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glim {
+namespace {
+
+constexpr std::uint32_t kWorkgroup = 256;
+
+std::vector<BindingSlot> slots()
+{
+    return {{kBindBlocks, BufferKind::Storage},
+            {kBindPages, BufferKind::Storage},
+            {kBindFolded, BufferKind::Storage},
+            {kBindText, BufferKind::Storage}};
+}
+
+}  // namespace
+
+Display::Display(Device& device)
+    : device_(device), layout_(device, slots(), sizeof(DisplayPass), {kBindPicture, kBindShown}),
+      preview_(layout_, kernels::preview, {{kSpecWorkgroup, kWorkgroup}}),
+      overlay_(layout_, kernels::overlay, {{kSpecWorkgroup, kWorkgroup}})
+{
+}
+
+void Display::resize(std::uint32_t width, std::uint32_t height)
+{
+    picture_.emplace(device_, "window's picture", width, height);
+    shown_.emplace(device_, "window's picture with text", width, height);
+}
+
+void Display::run(const Kernel& kernel, const Bindings& bindings, const DisplayPass& pass)
+{
+    const std::uint64_t groups = (std::uint64_t{pass.width} * pass.height + kWorkgroup - 1) / kWorkgroup;
+    Commands commands(device_);
+    commands.dispatch(kernel, bindings, std::as_bytes(std::span<const DisplayPass, 1>(&pass, 1)),
+                      static_cast<std::uint32_t>(std::min<std::uint64_t>(groups, device_.description().maxGroups)));
+    commands.submitAndWait();
+}
+
+// The pages that the renderer has taken from the device, back on it.
+void Display::takeFolded(const Renderer& renderer)
+{
+    if (renderer.foldVersion() == 0 || renderer.foldVersion() == foldVersion_) {
+        return;
+    }
+    foldVersion_ = renderer.foldVersion();
+    folded_.clear();
+    for (const auto& slab : renderer.slabs()) {
+        const std::span<const PixelMoments> pixels =
+            std::span(renderer.folded().pixels).subspan(slab->begin(), slab->count());
+        folded_.push_back(std::make_unique<Buffer>(device_, "film's folded pages", BufferKind::Storage, pixels.size_bytes()));
+        upload(*folded_.back(), pixels);
+    }
+}
+
+void Display::draw(const Renderer& renderer, Look look, const LookRange& range, double exposure)
+{
+    takeFolded(renderer);
+    DisplayPass pass{};
+    pass.width = picture_->width();
+    pass.height = picture_->height();
+    pass.filmWidth = renderer.settings().width;
+    pass.filmHeight = renderer.settings().height;
+    pass.look = static_cast<std::uint32_t>(look);
+    pass.scale = static_cast<float>(std::exp2(exposure));
+    pass.low = range.low;
+    pass.high = range.high;
+    pass.folded = renderer.foldVersion() != 0;
+    for (std::size_t i = 0; i < renderer.slabs().size(); ++i) {
+        const Slab& slab = *renderer.slabs()[i];
+        const Buffer& folded = pass.folded != 0 ? *folded_[i] : slab.pages();  // which the kernel does not read then
+        const Bindings bindings(layout_, {{kBindBlocks, &slab.blocks()}, {kBindPages, &slab.pages()}, {kBindFolded, &folded}},
+                                {{kBindPicture, &*picture_}});
+        pass.slabBegin = slab.begin();
+        pass.slabCount = slab.count();
+        run(preview_, bindings, pass);
+    }
+}
+
+void Display::cover(const TextBox& text)
+{
+    const std::vector<std::uint32_t> none(1);
+    const std::vector<std::uint32_t>& pixels = text.pixels.empty() ? none : text.pixels;
+    if (!text_ || text_->size() < pixels.size() * sizeof(pixels[0])) {
+        text_ = std::make_unique<Buffer>(device_, "text's pixels", BufferKind::Storage, pixels.size() * sizeof(pixels[0]));
+    }
+    upload(*text_, std::span<const std::uint32_t>(pixels));
+    DisplayPass pass{};
+    pass.width = shown_->width();
+    pass.height = shown_->height();
+    pass.textWidth = text.width;
+    pass.textHeight = text.height;
+    run(overlay_, Bindings(layout_, {{kBindText, &*text_}}, {{kBindPicture, &*picture_}, {kBindShown, &*shown_}}), pass);
+}
+
+}  // namespace glim

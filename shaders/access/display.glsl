@@ -1,0 +1,29 @@
+// The film as a window shows it. The push constants are not those of a pass that traces.
+#ifndef GLIM_ACCESS_DISPLAY
+#define GLIM_ACCESS_DISPLAY
+
+#include "features.glsl"
+#include "lib/moments.glsl"
+#include "shared/display_types.h"
+
+layout(push_constant, scalar) uniform DisplayBlock { DisplayPass pass; };
+layout(local_size_x_id = kSpecWorkgroup) in;
+
+#define DECLARE(number, type, name) \
+    layout(set = 0, binding = number, scalar) readonly buffer name##Buffer { type name[]; }
+
+DECLARE(kBindBlocks, BlockSums, filmBlocks);
+DECLARE(kBindPages, PixelMoments, filmPages);
+DECLARE(kBindFolded, PixelMoments, filmFolded);  // of the pages that the host has taken
+DECLARE(kBindText, uint, textPixels);            // brightness | opacity << 8, rows of textWidth
+layout(set = 0, binding = kBindPicture, rgba8) uniform image2D picture;
+layout(set = 0, binding = kBindShown, rgba8) writeonly uniform image2D shown;
+
+// All samples so far, as the host folds them.
+PixelMoments momentsOfPixel(uint pixel)
+{
+    PixelMoments page = foldMoments(filmPages[pixel], momentsOfBlock(filmBlocks[pixel]));
+    return pass.folded != 0u ? foldMoments(filmFolded[pixel], page) : page;
+}
+
+#endif
