@@ -3,6 +3,7 @@
 #include "host/cli/devices.hpp"
 #include "host/cli/inspect.hpp"
 #include "host/cli/merge.hpp"
+#include "host/cli/preview.hpp"
 #include "host/cli/render.hpp"
 #include "host/cli/version.hpp"
 #include "host/error.hpp"
@@ -40,6 +41,7 @@ int main(int argc, char** argv)
     app.require_subcommand(1);
     app.footer("Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 129, 130 or 143 stopped by a signal.");
     glim::addRender(app, exitCode);
+    glim::addPreview(app);
     glim::addInspect(app);
     glim::addDevices(app);
     glim::addCompare(app);

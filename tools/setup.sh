@@ -19,6 +19,8 @@ buildPackages=(
     "libopenexr-dev            reads and writes EXR"
     "libpng-dev                writes PNG"
     "libcli11-dev              reads the command line"
+    "libglfw3-dev              opens the preview's window"
+    "libstb-dev                draws the preview's text"
 )
 studyPackages=(
     "python3                   measures, and writes the study's page"
@@ -27,6 +29,8 @@ studyPackages=(
 testPackages=(
     "libgtest-dev              runs the tests"
     "vulkan-validationlayers   checks every use of Vulkan in the tests"
+    "xvfb                      is the screen of the preview's tests"
+    "xauth                     lets them on it"
     "${studyPackages[@]}"
 )
 

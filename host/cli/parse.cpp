@@ -36,6 +36,18 @@ std::vector<std::string> split(const std::string& text, char separator)
     return parts;
 }
 
+// Three finite numbers.
+template <class Vector>
+bool parseTriple(const std::string& text, Vector& triple)
+{
+    const std::vector<std::string> parts = split(text, ',');
+    bool valid = parts.size() == 3;
+    for (int k = 0; valid && k < 3; ++k) {
+        valid = parseNumber(parts[static_cast<std::size_t>(k)], triple[k]) && std::isfinite(triple[k]);
+    }
+    return valid;
+}
+
 template <class T>
 std::string textOf(T number)
 {
@@ -146,19 +158,22 @@ float parseSurvival(const std::string& text)
 
 glm::vec3 parseRadiance(const std::string& text)
 {
-    const std::vector<std::string> parts = split(text, ',');
     glm::vec3 radiance(0.0F);
-    bool valid = parts.size() == 3;
-    for (int k = 0; valid && k < 3; ++k) {
-        valid = parseNumber(parts[static_cast<std::size_t>(k)], radiance[k]) && std::isfinite(radiance[k]) &&
-                radiance[k] >= 0.0F;
-    }
-    if (!valid) {
+    if (!parseTriple(text, radiance) || glm::any(glm::lessThan(radiance, glm::vec3(0.0F)))) {
         throw CLI::ValidationError("--environment",
                                    "\"" + text + "\": expected a constant radiance as r,g,b with numbers >= 0, as in "
                                                  "1,1,1 (environment maps are not supported yet)");
     }
     return radiance;
+}
+
+glm::dvec3 parsePoint(const std::string& option, const std::string& text)
+{
+    glm::dvec3 point(0.0);
+    if (!parseTriple(text, point)) {
+        throw CLI::ValidationError(option, "\"" + text + "\": expected three numbers, as in 1,2.5,-3");
+    }
+    return point;
 }
 
 }  // namespace glim

@@ -4,6 +4,7 @@
 #include "host/cli/interrupt.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/render_report.hpp"
+#include "host/render/check_memory.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/film_pictures.hpp"
 
@@ -14,12 +15,9 @@
 #include <csignal>
 #include <iostream>
 #include <memory>
-#include <unistd.h>
 
 namespace glim {
 namespace {
-
-constexpr std::uint32_t kDefaultHeight = 512;
 
 void checkTargets(const RenderOptions& options)
 {
@@ -35,27 +33,10 @@ void checkTargets(const RenderOptions& options)
     }
 }
 
-float aspectRatioOf(const Camera& camera)
-{
-    const bool orthographic = camera.kind == Camera::Kind::Orthographic;
-    return orthographic ? camera.halfWidth / camera.halfHeight : camera.aspectRatio.value_or(1.0F);
-}
-
-LoadOptions loadOptionsOf(const RenderOptions& options)
-{
-    LoadOptions load{options.sceneIndex, options.environment};
-    if (options.size) {
-        load.aspectRatio = static_cast<float>(options.size->x) / static_cast<float>(options.size->y);
-    }
-    return load;
-}
-
 RenderSettings settingsFor(const RenderOptions& options, const Camera& camera)
 {
     RenderSettings settings = options.settings;
-    const float width = std::round(static_cast<float>(kDefaultHeight) * aspectRatioOf(camera));
-    const glm::uvec2 size =
-        options.size.value_or(glm::uvec2(static_cast<std::uint32_t>(std::clamp(width, 1.0F, 65535.0F)), kDefaultHeight));
+    const glm::uvec2 size = options.size.value_or(naturalSize(camera));
     settings.width = size.x;
     settings.height = size.y;
     return settings;
@@ -114,30 +95,6 @@ double writePictures(const RenderOptions& options, const Film& film)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Before anything is allocated: Linux grants memory that is not there and later kills the program that uses it.
-void refuseWhatDoesNotFit(const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device)
-{
-    const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
-    const std::uint64_t onDevice = sizeInBytes(prepared.flat) + PathBuffers::sizeInBytes(settings.pathCapacity) +
-                                   pixels * Slab::bytesPerPixel(settings.adaptive != Adaptive::Off);
-    const std::uint64_t onHost = pixels * 2 * sizeof(PixelMoments);  // the film and its planes in the file
-    const std::uint64_t memory = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
-                                 static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
-    const auto refuse = [&](std::uint64_t needed, const std::string& owner, std::uint64_t there) {
-        if (needed > there) {
-            throw InputError(prepared.scene.file + ": the scene and a picture of " + std::to_string(settings.width) + "x" +
-                             std::to_string(settings.height) + " need " + std::to_string(needed >> 20) + " MiB, which is " +
-                             std::to_string((needed - there) >> 20) + " MiB more memory than " + owner + " has.");
-        }
-    };
-    if (device.software) {
-        refuse(onHost + onDevice, "this machine", memory);
-        return;
-    }
-    refuse(onHost, "this machine", memory);
-    refuse(onDevice, "device \"" + device.name + "\"", device.memory);
-}
-
 ExitCode runRender(const RenderOptions& options)
 {
     checkTargets(options);
@@ -148,7 +105,10 @@ ExitCode runRender(const RenderOptions& options)
     if (options.settings.view == View::Shaded) {
         warnOfDarkness(prepared);
     }
-    const Camera& camera = findCamera(prepared.scene, options.camera);
+    Camera camera = findCamera(prepared.scene, options.camera);
+    if (options.pose) {
+        camera = placeCamera(camera, *options.pose, prepared.scene.origin);
+    }
     const RenderSettings settings = settingsFor(options, camera);
     refuseWhatDoesNotFit(prepared, settings, device.description());
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);

@@ -97,9 +97,8 @@ void checkPaths(const CLI::App& command, const RenderSettings& settings)
 
 }  // namespace
 
-void settleOptions(const CLI::App& command, RenderOptions& options)
+void settlePicture(const CLI::App& command, PictureOptions& options)
 {
-    settleView(command, options.settings);
     settleAdaptive(command, options.settings);
     settleTime(command, options.settings);
     checkLightSamples(command, options.settings);
@@ -107,6 +106,12 @@ void settleOptions(const CLI::App& command, RenderOptions& options)
     if (options.settings.accelerator == Accelerator::None) {
         refuseIfGiven(command, {"--split"}, "with --accelerator none there is no BVH to split");
     }
+}
+
+void settleRender(const CLI::App& command, RenderOptions& options)
+{
+    settleView(command, options.settings);
+    settlePicture(command, options);
     if (options.png && options.rates && options.png->lexically_normal() == options.rates->lexically_normal()) {
         refuse(command, "--rates", "expected another file than that of --png");
     }

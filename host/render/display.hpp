@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/gpu/commands.hpp"
+#include "host/image/text.hpp"
 #include "host/render/look.hpp"
 #include "host/render/renderer.hpp"
 #include "shaders/shared/display_types.h"
@@ -10,12 +11,6 @@
 #include <vector>
 
 namespace glim {
-
-// Text in the upper left corner.
-struct TextBox {
-    std::uint32_t width = 0, height = 0;
-    std::vector<std::uint32_t> pixels;  // rows from the top: brightness | opacity << 8
-};
 
 class Display {
 public:

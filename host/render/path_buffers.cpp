@@ -76,6 +76,13 @@ std::map<std::uint32_t, const Buffer*> PathBuffers::buffers(std::uint32_t parity
             {kBindStatus, &status_}};
 }
 
+void PathBuffers::queueRay(const PathRay& ray)
+{
+    const uint slot = 0;
+    upload(rays_, std::span<const PathRay>(&ray, 1));
+    upload(queueA_, std::span<const uint>(&slot, 1));
+}
+
 Slab::Slab(Device& device, const KernelLayout& layout, const DeviceScene& scene, const PathBuffers& paths,
            std::uint32_t begin, std::uint32_t count, bool adaptive)
     : device_(device), begin_(begin), count_(count), chosenCount_(count), adaptive_(adaptive),

@@ -3,6 +3,7 @@
 
 #include "host/gpu/kernel.hpp"
 #include "host/render/device_scene.hpp"
+#include "shaders/shared/path_types.h"
 #include "shaders/shared/pixel_moments.h"
 
 #include <initializer_list>
@@ -22,6 +23,10 @@ public:
     // `parity` 1 swaps the active and the next queue.
     std::map<std::uint32_t, const Buffer*> buffers(std::uint32_t parity) const;
 
+    // Makes it the ray of slot 0, and slot 0 the first entry of the active queue at parity 0.
+    void queueRay(const PathRay& ray);
+
+    const Buffer& hits() const { return hits_; }
     const Buffer& queueSizes() const { return queueSizes_; }
     const Buffer& queueTails() const { return queueTails_; }
     const Buffer& rayCounts() const { return rayCounts_; }

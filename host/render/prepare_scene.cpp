@@ -3,7 +3,9 @@
 #include "host/error.hpp"
 #include "host/flatten/flatten_scene.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iostream>
 
 namespace glim {
@@ -18,15 +20,18 @@ double secondsBetween(Clock::time_point begin, Clock::time_point end)
 
 }  // namespace
 
-PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions& options, SplitRule split)
+PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions& options, SplitRule split,
+                           const std::function<void(const std::string&)>& stage)
 {
     PreparedScene prepared;
     const Clock::time_point start = Clock::now();
+    stage("loading " + file.filename().string());
     prepared.scene = loadGltf(file, options);
     for (const std::string& notice : prepared.scene.notices) {
         std::cerr << "glim: " << notice << '\n';
     }
     const Clock::time_point loaded = Clock::now();
+    stage("building the BVH of " + std::to_string(prepared.scene.triangles.size() + prepared.scene.spheres.size()) + " primitives");
     prepared.bvh = buildBvh(primitiveBoxes(prepared.scene), split);
     prepared.split = split;
     prepared.flat = flattenScene(prepared.scene, prepared.bvh);
@@ -55,6 +60,15 @@ const Camera& findCamera(const Scene& scene, const std::optional<std::string>& c
         list += (i == 0 ? "" : ", ") + std::to_string(i) + " \"" + scene.cameras[i].name + "\"";
     }
     throw InputError(scene.file + ": camera \"" + *choice + "\": expected one of " + list + ".");
+}
+
+glm::uvec2 naturalSize(const Camera& camera)
+{
+    constexpr std::uint32_t kHeight = 512;
+    const bool orthographic = camera.kind == Camera::Kind::Orthographic;
+    const float aspectRatio = orthographic ? camera.halfWidth / camera.halfHeight : camera.aspectRatio.value_or(1.0F);
+    const float width = std::round(static_cast<float>(kHeight) * aspectRatio);
+    return {static_cast<std::uint32_t>(std::clamp(width, 1.0F, 65535.0F)), kHeight};
 }
 
 }  // namespace glim

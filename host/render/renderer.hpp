@@ -41,8 +41,11 @@ public:
 
     // The same in steps: a pass of work; false once nothing is left to do. Throws as render.
     bool advance();
+    bool isDone() const { return chosen_ == 0 || sample_ == settings_.sampleEnd; }
     // What is finished; sampling may go on.
     Film film();
+    // What one ray meets; no part of the picture.
+    PathHit traceRay(const PathRay& ray) { return wavefront_->traceRay(*slabs_.front(), ray); }
     // Another picture of the scene. The camera has a lens if and only if the first one had.
     void restart(const FlatCamera& camera, std::uint32_t width, std::uint32_t height);
 
@@ -62,7 +65,6 @@ private:
     using Clock = std::chrono::steady_clock;
 
     bool isAdaptive() const { return settings_.adaptive != Adaptive::Off; }
-    bool isDone() const { return chosen_ == 0 || sample_ == settings_.sampleEnd; }
     void makeSlabs();
     void begin(const FlatCamera& camera);
     void describe(Film& film) const;

@@ -182,6 +182,18 @@ void Wavefront::recordTrace(Recording& recording, const Kernel& kernel, const Bi
     }
 }
 
+PathHit Wavefront::traceRay(const Slab& slab, const PathRay& ray)
+{
+    paths_.queueRay(ray);
+    Pass pass = passOf(slab);
+    pass.pixelCount = pass.sampleCount = 1;
+    Recording recording(device_, statistics_);
+    recordSize(recording, slab.bindings(0), pass, kSizesPaths);
+    recordTrace(recording, kernels_.traceClosest, slab.bindings(0), pass, offsetof(QueueSizes, closestGroups));
+    recording.finish();
+    return download<PathHit>(paths_.hits(), 1)[0];
+}
+
 void Wavefront::closeBlocks(const Slab& slab)
 {
     Pass pass = passOf(slab);

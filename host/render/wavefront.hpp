@@ -29,6 +29,8 @@ public:
         double longest, total;
     };
     Seconds trace(const Slab& slab, Pass pass);
+    // The hit of one ray alone; between passes.
+    PathHit traceRay(const Slab& slab, const PathRay& ray);
     // Folds the blocks of all pixels, chosen or not, that are under way into their pages.
     void closeBlocks(const Slab& slab);
     // Chooses the pixels that still need samples.

@@ -24,7 +24,7 @@ struct Source {
 const std::map<std::string, std::set<std::string>> kStandsOn{
     {"main.cpp", {"cli"}},
     {"cli", {"preview", "measure"}},
-    {"preview", {"render"}},
+    {"preview", {"measure"}},
     {"measure", {"render"}},
     {"render", {"flatten", "gpu"}},
     {"flatten", {"bvh", "shaders/shared"}},

@@ -1,0 +1,40 @@
+// What `glim render` and `glim preview` are both told.
+#pragma once
+
+#include "host/bvh/build_bvh.hpp"
+#include "host/flatten/flatten_scene.hpp"
+#include "host/render/settings.hpp"
+#include "host/scene/load_gltf.hpp"
+#include "host/scene/pose.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace glim {
+
+struct PictureOptions {
+    std::filesystem::path scene;
+    std::optional<glm::uvec2> size;
+    std::optional<std::size_t> sceneIndex;
+    std::optional<std::string> device, camera;
+    std::optional<Pose> pose;
+    std::optional<glm::vec3> environment;
+    double exposure = 0.0;
+    Lens lens;
+    SplitRule split = SplitRule::Sah;
+    RenderSettings settings;  // all but width and height
+};
+
+// Adds their options to `command`; they write into `options`, which must outlive it.
+void addSceneOptions(CLI::App& command, PictureOptions& options);
+void addCameraOptions(CLI::App& command, PictureOptions& options);
+void addDevice(CLI::App& command, PictureOptions& options);
+
+LoadOptions loadOptionsOf(const PictureOptions& options);
+
+}  // namespace glim

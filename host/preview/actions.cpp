@@ -1,0 +1,201 @@
+// What the user does, done.
+#include "host/preview/pick.hpp"
+#include "host/preview/session.hpp"
+#include "host/render/film_file.hpp"
+#include "host/render/film_pictures.hpp"
+
+#include "host/error.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+namespace glim {
+namespace {
+
+constexpr double kExposureStep = 0.5;  // stops
+
+double slopeOf(const Camera& camera, const Pose& pose)
+{
+    if (camera.kind == Camera::Kind::Orthographic) {
+        return static_cast<double>(camera.halfHeight);  // of the placed camera, zoom and all
+    }
+    return std::tan(0.5 * static_cast<double>(camera.yfov)) * glm::length(pose.at - pose.from);
+}
+
+// The first number of three digits for which there is no picture yet.
+std::filesystem::path freeStem(const std::filesystem::path& scene)
+{
+    for (int number = 1;; ++number) {
+        char digits[16];
+        std::snprintf(digits, sizeof digits, "-%03d", number);
+        const std::filesystem::path stem = scene.stem().string() + digits;
+        if (!std::filesystem::exists(stem.string() + ".exr") && !std::filesystem::exists(stem.string() + ".png")) {
+            return stem;
+        }
+    }
+}
+
+}  // namespace
+
+void Session::say(const std::string& text)
+{
+    notice_ = text;
+    noticeTime_ = Clock::now();
+    changed_ = true;
+}
+
+void Session::handle(const Event& event)
+{
+    using Kind = Event::Kind;
+    if (event.kind == Kind::Close) {
+        closing_ = true;
+        return;
+    }
+    if (event.kind == Kind::Resize) {
+        resize();
+        return;
+    }
+    if (event.kind == Kind::KeyUp) {
+        held_.erase(event.key);
+        return;
+    }
+    waiting_.push_back(event.when);
+    changed_ = true;
+    if (event.kind == Kind::KeyDown) {
+        press(event.key);
+    } else if (event.kind == Kind::Click) {
+        clickAt(event.position);
+    } else if (viewpoint_) {
+        moveBy(event);
+    }
+}
+
+void Session::moveBy(const Event& event)
+{
+    const double height = static_cast<double>(display_.height());
+    const Camera camera = viewpoint_->camera();
+    viewpoint_->move([&](const Pose& pose) {
+        switch (event.kind) {
+        case Event::Kind::Orbit: return orbit(pose, event.amount, height);
+        case Event::Kind::Pan: return pan(pose, event.amount, 2.0 * slopeOf(camera, pose) / height);
+        default: return dolly(pose, event.amount.y, camera.kind);
+        }
+    });
+    restart();
+}
+
+void Session::press(char key)
+{
+    if (key == kEscape) {
+        closing_ = true;
+    } else if (key == 'H') {
+        overlayLevel_ = (overlayLevel_ + 1) % 3;
+    } else if (key == '+' || key == '-') {
+        options_.exposure += key == '+' ? kExposureStep : -kExposureStep;
+    } else if (key == ' ') {
+        paused_ = !paused_;
+    } else if (viewpoint_ && std::string("WASDQE").find(key) != std::string::npos) {
+        held_.insert(key);
+    } else if (viewpoint_) {
+        pressForScene(key);
+    }
+}
+
+void Session::pressForScene(char key)
+{
+    if (key == 'F') {
+        const double aspect = static_cast<double>(display_.width()) / static_cast<double>(display_.height());
+        viewpoint_->move([&](const Pose& pose) { return frame(pose, viewpoint_->bounds(), viewpoint_->fileCamera(), aspect); });
+        restart();
+    } else if (key == 'R') {
+        viewpoint_->reset();
+        restart();
+    } else if (key >= '1' && key <= '9') {
+        if (viewpoint_->choose(static_cast<std::size_t>(key - '1'))) {
+            restart();
+        } else {
+            say(std::string("The file has no camera ") + key + ".");
+        }
+    } else if (key == 'V') {
+        cycleLook();
+    } else if (key == 'P') {
+        writePictures();
+    } else if (key == 'C') {
+        std::cout << viewpoint_->describeAsOptions() << '\n' << viewpoint_->describeAsGltf() << std::endl;
+        say(viewpoint_->describeAsOptions());
+    }
+}
+
+// Node visits are another film's; without a BVH there are none.
+void Session::cycleLook()
+{
+    const bool visits = options_.settings.accelerator != Accelerator::None;
+    const Look last = visits ? Look::Steps : Look::Rate;
+    const bool wasSteps = look_ == Look::Steps;
+    look_ = look_ == last ? Look::Radiance : static_cast<Look>(static_cast<int>(look_) + 1);
+    if (look_ == Look::Steps) {
+        if (!steps_) {
+            RenderSettings settings = options_.settings;
+            settings.view = View::BvhSteps;
+            settings.bounces = 0;
+            settings.adaptive = Adaptive::Off;
+            steps_ = std::make_unique<Refiner>(device_, *prepared_, settings, options_.lens);
+        }
+        restart();
+    } else if (wasSteps && lightIsStale_) {
+        restart();
+    }
+}
+
+void Session::clickAt(const glm::dvec2& position)
+{
+    if (!light_) {
+        return;
+    }
+    const glm::uvec2 size(refiner().renderer().settings().width, refiner().renderer().settings().height);
+    const glm::dvec2 inside = glm::clamp(position, glm::dvec2(0.0), glm::dvec2(display_.width() - 1, display_.height() - 1));
+    const glm::uvec2 pixel = glm::uvec2(inside) * size / glm::uvec2(display_.width(), display_.height());
+    const Film film = refiner().renderer().film();
+    const PixelMoments& moments = film.pixels[std::size_t{pixel.y} * size.x + pixel.x];
+    const glm::vec3 error = glm::sqrt(varianceOfMean(moments));
+    std::string there = "nothing";
+    if (const std::optional<Pick> found = pick(refiner().renderer(), *prepared_, refiner().camera(), pixel)) {
+        char place[200];
+        std::snprintf(place, sizeof place, ", at (%.6g, %.6g, %.6g), %.6g m away", found->position.x, found->position.y,
+                      found->position.z, found->distance);
+        there = found->object + ", material " + found->material + place;
+    }
+    char text[300];
+    std::snprintf(text, sizeof text, "; %u samples, mean (%.6g, %.6g, %.6g) W/(sr m^2)", moments.count,
+                  static_cast<double>(moments.mean.r), static_cast<double>(moments.mean.g), static_cast<double>(moments.mean.b));
+    std::string known = text;
+    if (moments.blocks > 1) {
+        std::snprintf(text, sizeof text, ", standard error (%.2g, %.2g, %.2g)", static_cast<double>(error.r),
+                      static_cast<double>(error.g), static_cast<double>(error.b));
+        known += text;
+    } else {
+        known += ", standard error known from 33 samples on";
+    }
+    const std::string line = "pixel (" + std::to_string(pixel.x) + ", " + std::to_string(pixel.y) + ") of " + std::to_string(size.x) +
+                             "x" + std::to_string(size.y) + ": " + there + known;
+    std::cout << line << std::endl;
+    say(there);
+}
+
+void Session::writePictures()
+{
+    const std::filesystem::path stem = freeStem(options_.scene);
+    try {
+        Film film = refiner().renderer().film();
+        film.sceneFile = options_.scene.string();
+        writeFilm(stem.string() + ".exr", film);
+        writeFilmPng(stem.string() + ".png", film, look_, options_.exposure);
+        say("wrote " + stem.string() + ".exr and .png");
+    } catch (const InputError& error) {
+        say(error.what());
+    }
+    std::cerr << "glim: " << notice_ << '\n';
+}
+
+}  // namespace glim

@@ -1,0 +1,89 @@
+// What the window says of its picture.
+#include "host/preview/session.hpp"
+
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+namespace glim {
+namespace {
+
+constexpr double kNoticeSeconds = 6.0;
+
+constexpr const char* kHelp[] = {
+    "",
+    "drag         orbit",
+    "shift-drag, middle-drag  pan",
+    "wheel        nearer, farther",
+    "W A S D Q E  fly: ahead, left, back, right, down, up",
+    "F            frame the scene",
+    "R            reset to the file's camera",
+    "1-9          the file's cameras",
+    "+ -          exposure",
+    "V            views: shaded, normal, depth, albedo, samples, BVH steps",
+    "click        what is there: printed",
+    "Space        pause",
+    "P            write PNG and EXR",
+    "C            print the camera",
+    "H            figures, help, nothing",
+    "Esc          quit",
+};
+
+std::string nameOf(Look look)
+{
+    constexpr const char* kNames[] = {"shaded", "normal", "depth", "albedo", "samples", "BVH steps"};
+    return kNames[static_cast<int>(look)];
+}
+
+__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...)
+{
+    char text[200];
+    va_list values;
+    va_start(values, pattern);
+    std::vsnprintf(text, sizeof text, pattern, values);
+    va_end(values);
+    return text;
+}
+
+}  // namespace
+
+std::vector<std::string> Session::figures()
+{
+    Refiner& picture = refiner();
+    std::vector<std::string> lines;
+    const std::string state = paused_ ? ", paused" : picture.isDone() && picture.scale() == 1 ? ", done" : "";
+    lines.push_back(format("%u samples in %.1f s, %.2f Msamples/s%s", picture.renderer().sampleCount(), picture.seconds(),
+                           picture.samplesPerSecond() * 1e-6, state.c_str()));
+    if (relMse_ && picture.scale() == 1) {
+        lines.push_back(format("estimated relMSE %.3g at %llu samples", *relMse_, static_cast<unsigned long long>(estimatedAt_)));
+    }
+    std::string view = nameOf(look_);
+    if (options_.exposure != 0.0) {
+        view += format(", %+.1f EV", options_.exposure);
+    }
+    lines.push_back(view + format(", %ux%u, 1/%u size", display_.width(), display_.height(), picture.scale()));
+    lines.push_back(device_.description().name);
+    return lines;
+}
+
+std::vector<std::string> Session::overlay()
+{
+    std::vector<std::string> lines;
+    if (overlayLevel_ > 0 && light_) {
+        lines = figures();
+    }
+    if (!title_.empty()) {
+        lines.push_back(title_);
+    }
+    if (overlayLevel_ == 2) {
+        lines.insert(lines.end(), std::begin(kHelp), std::end(kHelp));
+    } else if (overlayLevel_ == 1 && light_) {
+        lines.push_back("H: help");
+    }
+    if (!notice_.empty() && std::chrono::duration<double>(Clock::now() - noticeTime_).count() < kNoticeSeconds) {
+        lines.push_back(notice_);
+    }
+    return lines;
+}
+
+}  // namespace glim

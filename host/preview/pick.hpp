@@ -1,0 +1,21 @@
+// What is behind a pixel.
+#pragma once
+
+#include "host/render/prepare_scene.hpp"
+#include "host/render/renderer.hpp"
+
+#include <optional>
+
+namespace glim {
+
+struct Pick {
+    glm::dvec3 position;     // world coordinates
+    double distance;         // metres from where the ray begins
+    std::string object;      // as in: primitive "floor", triangle 3
+    std::string material;
+};
+
+// Of the ray through the pixel's centre, and the middle of a lens.
+std::optional<Pick> pick(Renderer& renderer, const PreparedScene& prepared, const FlatCamera& camera, const glm::uvec2& pixel);
+
+}  // namespace glim

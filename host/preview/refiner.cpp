@@ -1,0 +1,88 @@
+#include "host/preview/refiner.hpp"
+
+#include "host/flatten/flatten_scene.hpp"
+
+namespace glim {
+namespace {
+
+constexpr double kPassSeconds = 0.02;    // input waits for a pass
+constexpr double kMovingSeconds = 0.03;  // for a coarse picture: with pass, drawing and presenting it makes less than 100 ms
+constexpr double kStillSeconds = 0.15;   // after the last move the picture is refined
+constexpr std::uint32_t kCoarsest = 8;
+
+double secondsBetween(std::chrono::steady_clock::time_point begin, std::chrono::steady_clock::time_point end)
+{
+    return std::chrono::duration<double>(end - begin).count();
+}
+
+RenderSettings startingSettings(RenderSettings settings)
+{
+    settings.width = settings.height = 1;
+    settings.passSeconds = kPassSeconds;
+    return settings;
+}
+
+}  // namespace
+
+Refiner::Refiner(Device& device, const PreparedScene& prepared, const RenderSettings& settings, const Lens& lens)
+    : settings_(settings), lens_(lens), camera_(flattenCamera(prepared.scene.cameras.front(), 1.0F, lens)),
+      renderer_(device, prepared.flat, camera_, startingSettings(settings))
+{
+}
+
+std::uint32_t Refiner::movingScale() const
+{
+    const double pixels = static_cast<double>(size_.x) * size_.y;
+    std::uint32_t scale = 1;
+    while (scale < kCoarsest && pixels > scale * scale * speed_ * kMovingSeconds) {
+        scale *= 2;
+    }
+    return scale;
+}
+
+void Refiner::show(const Camera& camera, const glm::uvec2& size, bool still)
+{
+    size_ = size;
+    camera_ = flattenCamera(camera, static_cast<float>(size.x) / static_cast<float>(size.y), lens_);
+    moved_ = Clock::now();
+    begin(still ? 1 : movingScale());
+}
+
+void Refiner::begin(std::uint32_t scale)
+{
+    scale_ = scale;
+    const glm::uvec2 film = (size_ + scale - 1U) / scale;
+    renderer_.restart(camera_, film.x, film.y);
+    began_ = Clock::now();
+}
+
+void Refiner::advance()
+{
+    const std::uint64_t before = renderer_.pictureSamples();
+    const Clock::time_point start = Clock::now();
+    if (renderer_.advance()) {
+        const double now = static_cast<double>(renderer_.pictureSamples() - before) / secondsBetween(start, Clock::now());
+        speed_ = speed_ == 0.0 ? now : 0.8 * speed_ + 0.2 * now;
+    }
+}
+
+bool Refiner::refine(bool paused)
+{
+    if (scale_ > 1 && secondsBetween(moved_, Clock::now()) > kStillSeconds) {
+        begin(1);
+    }
+    const bool whole = renderer_.sampleCount() > 0;
+    if (isDone() || (whole && paused)) {
+        return scale_ > 1;  // will be refined soon
+    }
+    do {
+        advance();
+    } while (scale_ > 1 && renderer_.sampleCount() == 0);
+    return true;
+}
+
+bool Refiner::isDone() const { return renderer_.isDone() || (settings_.seconds && scale_ == 1 && seconds() >= *settings_.seconds); }
+
+double Refiner::seconds() const { return secondsBetween(began_, Clock::now()); }
+
+}  // namespace glim

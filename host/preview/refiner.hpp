@@ -1,0 +1,50 @@
+// A picture that refines: coarse while the camera moves, so that it follows at once, then pixel by pixel.
+#pragma once
+
+#include "host/render/prepare_scene.hpp"
+#include "host/render/renderer.hpp"
+
+#include <chrono>
+#include <memory>
+
+namespace glim {
+
+class Refiner {
+public:
+    // Uploads and compiles. `settings` without size; --view bvh-steps may be among them.
+    Refiner(Device& device, const PreparedScene& prepared, const RenderSettings& settings, const Lens& lens);
+
+    // From now on this camera's picture, of this size. `still`: nothing moves, so that it need not be coarse first.
+    void show(const Camera& camera, const glm::uvec2& size, bool still);
+    // Works for some 20 ms, or until a coarse picture is whole; false if there is nothing to do. If `paused`, only as long as
+    // some pixel has no sample.
+    bool refine(bool paused);
+
+    // Whether every pixel has had its samples, or its time.
+    bool isDone() const;
+    // Samples that every pixel of the full size has.
+    std::uint32_t sampleCount() const { return scale_ == 1 ? renderer_.sampleCount() : 0; }
+    std::uint32_t scale() const { return scale_; }  // pixels of the picture along a side of the film's
+    double seconds() const;                         // since the picture began
+    double samplesPerSecond() const { return speed_; }
+    const FlatCamera& camera() const { return camera_; }
+    Renderer& renderer() { return renderer_; }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    std::uint32_t movingScale() const;
+    void begin(std::uint32_t scale);
+    void advance();
+
+    RenderSettings settings_;
+    Lens lens_;
+    FlatCamera camera_;
+    glm::uvec2 size_{1, 1};
+    std::uint32_t scale_ = 1;
+    double speed_ = 0.0;      // samples per second, lately; 0: not known yet
+    Clock::time_point began_, moved_;
+    Renderer renderer_;
+};
+
+}  // namespace glim

@@ -1,0 +1,33 @@
+#include "host/render/check_memory.hpp"
+
+#include "host/error.hpp"
+#include "host/render/path_buffers.hpp"
+
+#include <unistd.h>
+
+namespace glim {
+
+void refuseWhatDoesNotFit(const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device)
+{
+    const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
+    const std::uint64_t onDevice = sizeInBytes(prepared.flat) + PathBuffers::sizeInBytes(settings.pathCapacity) +
+                                   pixels * Slab::bytesPerPixel(settings.adaptive != Adaptive::Off);
+    const std::uint64_t onHost = pixels * 2 * sizeof(PixelMoments);  // the film and its planes in the file
+    const std::uint64_t memory = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+                                 static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
+    const auto refuse = [&](std::uint64_t needed, const std::string& owner, std::uint64_t there) {
+        if (needed > there) {
+            throw InputError(prepared.scene.file + ": the scene and a picture of " + std::to_string(settings.width) + "x" +
+                             std::to_string(settings.height) + " need " + std::to_string(needed >> 20) + " MiB, which is " +
+                             std::to_string((needed - there) >> 20) + " MiB more memory than " + owner + " has.");
+        }
+    };
+    if (device.software) {
+        refuse(onHost + onDevice, "this machine", memory);
+        return;
+    }
+    refuse(onHost, "this machine", memory);
+    refuse(onDevice, "device \"" + device.name + "\"", device.memory);
+}
+
+}  // namespace glim

@@ -1,0 +1,13 @@
+// Whether a picture fits into memory.
+#pragma once
+
+#include "host/gpu/device.hpp"
+#include "host/render/prepare_scene.hpp"
+#include "host/render/settings.hpp"
+
+namespace glim {
+
+// Before anything is allocated: Linux grants memory that is not there and later kills the program that uses it. Throws InputError.
+void refuseWhatDoesNotFit(const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device);
+
+}  // namespace glim

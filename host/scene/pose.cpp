@@ -1,0 +1,45 @@
+#include "host/scene/pose.hpp"
+
+#include "host/error.hpp"
+
+#include <cmath>
+
+namespace glim {
+
+Camera placeCamera(const Camera& camera, const Pose& pose, const glm::dvec3& sceneOrigin)
+{
+    const glm::dvec3 ahead = pose.at - pose.from;
+    const glm::dvec3 across = glm::cross(ahead, pose.up);
+    if (!(glm::length(ahead) > 0.0)) {
+        throw InputError("--look-at: is where --look-from is; expected another point.");
+    }
+    if (!(glm::length(across) > 1e-9 * glm::length(ahead) * glm::length(pose.up))) {
+        throw InputError("--look-up: expected a direction other than the one that the camera looks in.");
+    }
+    const glm::dvec3 forward = glm::normalize(ahead), right = glm::normalize(across);
+    Camera placed = camera;
+    placed.position = glm::vec3(pose.from - sceneOrigin);
+    placed.forward = glm::vec3(forward);
+    placed.right = glm::vec3(right);
+    placed.up = glm::vec3(glm::cross(right, forward));
+    if (pose.zoom != 1.0) {  // which keeps the bits
+        placed.yfov = static_cast<float>(2.0 * std::atan(std::tan(0.5 * static_cast<double>(camera.yfov)) / pose.zoom));
+    }
+    placed.halfWidth = static_cast<float>(static_cast<double>(camera.halfWidth) / pose.zoom);
+    placed.halfHeight = static_cast<float>(static_cast<double>(camera.halfHeight) / pose.zoom);
+    return placed;
+}
+
+Pose poseOf(const Camera& camera, double distance, const glm::dvec3& sceneOrigin)
+{
+    constexpr double kLevel = 1e-3;  // radians of roll that do not matter
+    const glm::dvec3 right(camera.right), up(camera.up), forward(camera.forward);
+    const bool level = std::abs(right.y) < kLevel && up.y > kLevel;
+    Pose pose;
+    pose.from = glm::dvec3(camera.position) + sceneOrigin;
+    pose.at = pose.from + distance * forward;
+    pose.up = level ? glm::dvec3(0.0, 1.0, 0.0) : up;
+    return pose;
+}
+
+}  // namespace glim
