@@ -17,7 +17,7 @@ void addPictureOptions(CLI::App& command, RenderOptions& options)
         ->type_name("OUT.exr");
     CLI::Option* png = command.add_option("--png", options.png, 
                                           "Also write a PNG: sRGB of clip(2^EV x); normals as .5 + .5 n, depth from white to "
-                                          "dark, node visits from blue to red");
+                                          "dark, node visits from blue (none) to red (as many as 99.9 % of the pixels have)");
     png->type_name("P.png");
     command
         .add_option("--rates", options.rates, "Write a PNG of the samples per pixel, from blue (fewest) to red (most)")
@@ -40,8 +40,9 @@ void addPictureOptions(CLI::App& command, RenderOptions& options)
 void addViewOptions(CLI::App& command, RenderOptions& options)
 {
     addEnum(command, "--view", "V",
-            "shaded, or of the surface that a camera ray meets first: normal (world axes), depth (metres along the view axis), "
-            "albedo or bvh-steps (R inner nodes visited, G primitives tested) [shaded]",
+            "shaded, or of the surface that a camera ray meets first: normal (world axes), depth (metres along the view axis, 0 "
+            "where there is none, averaged over the pixel; the layer depth.Z has the nearest), albedo or bvh-steps (R inner "
+            "nodes visited, G primitives tested) [shaded]",
             {"shaded", "normal", "depth", "albedo", "bvh-steps"}, options.settings.view);
     CLI::Option* radius = addNumber<float>(
         command, {"--lens-radius", "R", "Radius of a thin lens, metres", 0.0F, 1e6F, "0, a pinhole"},

@@ -22,6 +22,9 @@ public:
     // `parity` 1 swaps the active and the next queue.
     std::map<std::uint32_t, const Buffer*> buffers(std::uint32_t parity) const;
 
+    // After a pass that was not finished.
+    void emptyQueues();
+
     const Buffer& queueSizes() const { return queueSizes_; }
     const Buffer& queueTails() const { return queueTails_; }
     const Buffer& rayCounts() const { return rayCounts_; }

@@ -15,10 +15,11 @@ namespace {
 
 // Passes aim at this for their longest dispatch: far below any watchdog.
 constexpr double kTargetDispatchSeconds = 0.05;
-// And at this in all, where many rounds of direct light or long brute force make many dispatches, since Ctrl-C is answered between
-// passes; but not if that leaves so little for a dispatch that starting it costs more (20 us on llvmpipe).
+// And at this in all, where many rounds of direct light or long brute force make many dispatches, since --time ends between passes;
+// but not if that leaves so little for a dispatch that starting it costs more (with 1 ms for the longest, 512 rounds took seven
+// times as long as with 10, since those of later bounces have a hundredth of its rays).
 constexpr double kTargetPassSeconds = 1.0;
-constexpr double kLeastDispatchSeconds = 0.001;
+constexpr double kLeastDispatchSeconds = 0.01;
 // Of a first pass, with one round of direct light and a ray that takes this many steps.
 constexpr std::uint32_t kFirstPassPaths = 1U << 14;
 constexpr std::uint64_t kUsualSteps = 64;
@@ -110,7 +111,9 @@ bool Renderer::sweep(std::uint32_t first, std::uint32_t count, bool endsBlock, c
             pass.firstSample = first;
             pass.sampleCount = count;
             pass.accumulate = endsBlock ? kEndsBlock : 0;
-            runPass(*slab, pass);
+            if (!runPass(*slab, pass, observer)) {
+                return false;
+            }
             pixel += pass.pixelCount;
             if (isOver(observer)) {
                 return false;
@@ -120,10 +123,17 @@ bool Renderer::sweep(std::uint32_t first, std::uint32_t count, bool endsBlock, c
     return true;
 }
 
-void Renderer::runPass(const Slab& slab, const Pass& pass)
+// False if the observer ended it before it was done, which it may where a pass is longer than usual.
+bool Renderer::runPass(const Slab& slab, const Pass& pass, const RenderObserver& observer)
 {
-    const Wavefront::Seconds seconds = wavefront_->trace(slab, pass);
+    const Clock::time_point begin = Clock::now();
+    const auto traced = wavefront_->trace(
+        slab, pass, [&] { return asks(observer) || secondsSince(begin) < kTargetPassSeconds; });
     refuseBrokenStatus();
+    if (!traced) {
+        return false;
+    }
+    const Wavefront::Seconds seconds = *traced;
     const std::uint32_t paths = pass.pixelCount * pass.sampleCount;
     statistics_.samples += paths;
     statistics_.longestDispatch = std::max(statistics_.longestDispatch, seconds.longest);
@@ -131,6 +141,7 @@ void Renderer::runPass(const Slab& slab, const Pass& pass)
     if (seconds.longest > kTargetDispatchSeconds || (seconds.longest > 0.0 && 2 * std::uint64_t{paths} > pathsPerPass_)) {
         resizePasses(paths, seconds);
     }
+    return true;
 }
 
 void Renderer::resizePasses(std::uint32_t paths, const Wavefront::Seconds& seconds)
@@ -163,11 +174,15 @@ void Renderer::foldPages(Film& film, bool closesBlocks)
     }
 }
 
-bool Renderer::isOver(const RenderObserver& observer) const
+bool Renderer::asks(const RenderObserver& observer)
 {
-    const double seconds = secondsSince(start_);
-    const bool stop = !observer({statistics_.samples, plannedSamples_, seconds});
-    return stop || (settings_.seconds && seconds >= *settings_.seconds);
+    ended_ = !observer({statistics_.samples, plannedSamples_, secondsSince(start_)}) || ended_;
+    return !ended_;
+}
+
+bool Renderer::isOver(const RenderObserver& observer)
+{
+    return !asks(observer) || (settings_.seconds && secondsSince(start_) >= *settings_.seconds);
 }
 
 void Renderer::refuseBrokenStatus() const

@@ -26,7 +26,7 @@ struct RenderProgress {
     double seconds;
 };
 
-// Called between passes; false ends the render after what is done.
+// Called several times a second; false ends the render after the pass under way or, if that takes seconds, without it.
 using RenderObserver = std::function<bool(const RenderProgress&)>;
 
 class Renderer {
@@ -47,11 +47,12 @@ private:
     bool isAdaptive() const { return settings_.adaptive != Adaptive::Off; }
     std::uint32_t sweepEnd(std::uint32_t sample) const;
     bool sweep(std::uint32_t first, std::uint32_t count, bool endsBlock, const RenderObserver& observer);
-    void runPass(const Slab& slab, const Pass& pass);
+    bool runPass(const Slab& slab, const Pass& pass, const RenderObserver& observer);
+    bool asks(const RenderObserver& observer);
     void resizePasses(std::uint32_t paths, const Wavefront::Seconds& seconds);
     std::uint64_t choosePixels();
     void foldPages(Film& film, bool closesBlocks);
-    bool isOver(const RenderObserver& observer) const;
+    bool isOver(const RenderObserver& observer);
     void refuseBrokenStatus() const;
     void readCounters();
 
@@ -62,6 +63,7 @@ private:
     Clock::time_point start_;
     std::uint32_t pathsPerPass_;
     std::uint64_t plannedSamples_;
+    bool ended_ = false;  // by the observer
 
     std::unique_ptr<Wavefront> wavefront_;
     std::vector<std::unique_ptr<Slab>> slabs_;
