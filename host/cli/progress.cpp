@@ -50,7 +50,7 @@ void ProgressPrinter::print(const RenderProgress& progress)
 void ProgressPrinter::printBar(const RenderProgress& progress, double share, double remaining) const
 {
     const int filled = static_cast<int>(share * kBarWidth);
-    std::fprintf(stderr, "\r\033[K[%s%s] %3.0f %%  %.1f samples/pixel  %.3f Msamples/s  ETA %.0f s",
+    std::fprintf(stderr, "\r\033[K[%s%s] %3.0f %%  %.3g samples/pixel  %.3g Msamples/s  ETA %.0f s",
                  std::string(static_cast<std::size_t>(filled), '#').c_str(),
                  std::string(static_cast<std::size_t>(kBarWidth - filled), '.').c_str(), 100.0 * share,
                  static_cast<double>(progress.samples) / static_cast<double>(pixels_), 1e-6 * rate(progress), remaining);

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <cstdio>
 #include <iostream>
 #include <memory>
 
@@ -81,6 +82,17 @@ std::string stopReason(int signal, const Film& film, const RenderSettings& setti
     return reached ? "samples" : "tolerance";
 }
 
+// As describeSettings: the picture can be made again from what is in its file.
+std::string describe(const Lens& lens)
+{
+    char text[100] = "";
+    if (lens.radius > 0.0F) {
+        std::snprintf(text, sizeof text, " lens-radius=%.9g focal-distance=%.9g", static_cast<double>(lens.radius),
+                      static_cast<double>(lens.focalDistance));
+    }
+    return text;
+}
+
 // Seconds that writing took.
 double writePictures(const RenderOptions& options, const Film& film)
 {
@@ -123,10 +135,14 @@ ExitCode runRender(const RenderOptions& options)
         return watch.signal() == 0;
     });
     progress.finish();
+    if (watch.signal() != 0 && renderer.statistics().samples == 0) {
+        return finish(watch.signal(), "no sample was finished, and nothing is written");
+    }
     if (watch.signal() != 0 && wouldRuin(options.output, film)) {
         return finish(watch.signal(), "some pixels had no sample yet, so " + options.output.string() + " is left as it was");
     }
     film.sceneFile = options.scene.string();
+    film.identity.settings += describe(options.lens);
     const double writeSeconds = writePictures(options, film);
     const RenderReport report{options, prepared, film, renderer.statistics(), device.description(),
                               stopReason(watch.signal(), film, settings), writeSeconds};

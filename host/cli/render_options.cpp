@@ -16,7 +16,7 @@ void addOutputOptions(CLI::App& command, RenderOptions& options)
         ->type_name("OUT.exr");
     CLI::Option* png = command.add_option("--png", options.png,
                                           "Also write a PNG: sRGB of clip(2^EV x); normals as .5 + .5 n, depth from white to "
-                                          "dark, node visits from blue to red");
+                                          "dark, node visits from blue (none) to red (as many as 99.9 % of the pixels have)");
     png->type_name("P.png");
     addExposure(command, options.exposure)->needs(png);
     command
@@ -33,8 +33,9 @@ void addOutputOptions(CLI::App& command, RenderOptions& options)
 void addView(CLI::App& command, RenderOptions& options)
 {
     addEnum(command, "--view", "V",
-            "shaded, or of the surface that a camera ray meets first: normal (world axes), depth (metres along the view axis), "
-            "albedo or bvh-steps (R inner nodes visited, G primitives tested) [shaded]",
+            "shaded, or of the surface that a camera ray meets first: normal (world axes), depth (metres along the view axis, 0 "
+            "where there is none, averaged over the pixel; the layer depth.Z has the nearest), albedo or bvh-steps (R inner "
+            "nodes visited, G primitives tested) [shaded]",
             {"shaded", "normal", "depth", "albedo", "bvh-steps"}, options.settings.view);
 }
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <optional>
 #include <sys/resource.h>
@@ -29,6 +30,14 @@ std::uint64_t peakHostMemory()
 double perSecond(std::uint64_t count, double seconds)
 {
     return seconds > 0.0 ? static_cast<double>(count) / seconds : 0.0;
+}
+
+// The double that reads like the float: .05, not .0500000007.
+double shortest(float value)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.7g", static_cast<double>(value));
+    return std::strtod(text, nullptr);
 }
 
 Json clampingOf(const Film& film, const RenderOptions& options)
@@ -51,6 +60,12 @@ std::optional<SquaredErrors> knownErrors(const RenderReport& report)
         return std::nullopt;
     }
     return estimateErrors(pictureOf(report.film));
+}
+
+std::size_t pixelsWithoutError(const Film& film)
+{
+    return static_cast<std::size_t>(
+        std::count_if(film.pixels.begin(), film.pixels.end(), [](const PixelMoments& pixel) { return pixel.blocks < 2; }));
 }
 
 Json estimateOf(const RenderReport& report)
@@ -88,7 +103,7 @@ Json adaptiveOf(const RenderReport& report)
     const auto atMost = std::count_if(report.film.pixels.begin(), report.film.pixels.end(),
                                       [&](const PixelMoments& pixel) { return pixel.count >= settings.sampleEnd; });
     return {{"rule", settings.adaptive == Adaptive::Course ? "course" : "course:literal"},
-            {"tolerance", settings.tolerance},
+            {"tolerance", shortest(settings.tolerance)},
             {"batch", settings.batch},
             {"maxSpp", settings.sampleEnd},
             {"meanSpp", rates.mean},
@@ -154,6 +169,7 @@ Json statisticsOf(const RenderReport& report)
             {"overflows", s.overflows},
             {"clampIndirect", clampingOf(report.film, report.options)},
             {"estimate", estimateOf(report)},
+            {"pixelsWithoutEstimate", pixelsWithoutError(report.film)},
             {"bvh", bvhOf(report)},
             {"adaptive", adaptiveOf(report)},
             {"steps", stepsOf(report)}};
@@ -221,7 +237,7 @@ std::string qualityText(const RenderReport& report)
     }
     const auto errors = knownErrors(report);
     if (!errors) {
-        return ", error unknown below 33 samples per pixel";
+        return format(", error unknown since %zu pixels have less than 33 samples", pixelsWithoutError(report.film));
     }
     const bool adaptive = report.options.settings.adaptive != Adaptive::Off;
     return format(", estimated relMSE %.3g%s", errors->relMse, adaptive ? " besides the rule's bias" : "");
@@ -239,7 +255,7 @@ void printSummary(const RenderReport& report)
               << format(": %ux%u, %.4g samples per pixel", report.film.width, report.film.height,
                         static_cast<double>(s.samples) / pixels)
               << rangeText(report)
-              << format(" in %.2f s (%.3f Msamples/s, %.2f Mrays/s)", s.renderSeconds,
+              << format(" in %.2f s (%.3g Msamples/s, %.3g Mrays/s)", s.renderSeconds,
                         1e-6 * perSecond(s.samples, s.renderSeconds),
                         1e-6 * perSecond(s.cameraAndBounceRays + s.shadowRays, s.renderSeconds))
               << savingText(report) << qualityText(report) << ", on " << report.device.name << " (" << report.device.kind

@@ -47,10 +47,12 @@ PathBuffers::PathBuffers(Device& device, std::uint32_t capacity)
       status_(device, "status words", BufferKind::Readback, sizeof(Status))
 {
     upload(queueSizes_, std::span<const QueueSizes>(std::vector<QueueSizes>(1)));
-    upload(queueTails_, std::span<const QueueTails>(std::vector<QueueTails>(1)));
+    emptyQueues();
     upload(rayCounts_, std::span<const RayCounts>(std::vector<RayCounts>(1)));
     upload(status_, std::span<const Status>(std::vector<Status>(1)));
 }
+
+void PathBuffers::emptyQueues() { upload(queueTails_, std::span<const QueueTails>(std::vector<QueueTails>(1))); }
 
 std::uint64_t PathBuffers::sizeInBytes(std::uint32_t capacity)
 {

@@ -25,6 +25,8 @@ public:
 
     // Makes it the ray of slot 0, and slot 0 the first entry of the active queue at parity 0.
     void queueRay(const PathRay& ray);
+    // After a pass that was not finished.
+    void emptyQueues();
 
     const Buffer& hits() const { return hits_; }
     const Buffer& queueSizes() const { return queueSizes_; }

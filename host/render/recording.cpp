@@ -1,6 +1,7 @@
 #include "host/render/recording.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace glim {
 namespace {
@@ -12,32 +13,40 @@ std::span<const std::byte> bytesOf(const Pass& pass) { return std::as_bytes(std:
 
 }  // namespace
 
-Recording::Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics)
-    : device_(device), statistics_(statistics)
+Recording::Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics, std::function<bool()> goesOn)
+    : device_(device), statistics_(statistics), goesOn_(std::move(goesOn))
 {
 }
 
-Commands& Recording::next()
+// Null once it is stopped.
+Commands* Recording::next()
 {
     if (recorded_ == kDispatchesPerSubmission) {
         finish();
+    }
+    if (stopped_) {
+        return nullptr;
     }
     if (!commands_) {
         commands_.emplace(device_);
     }
     ++recorded_;
-    return *commands_;
+    return &*commands_;
 }
 
 void Recording::dispatch(const Kernel& kernel, const Bindings& bindings, const Pass& pass, std::uint32_t groups)
 {
-    next().dispatch(kernel, bindings, bytesOf(pass), groups);
+    if (Commands* commands = next()) {
+        commands->dispatch(kernel, bindings, bytesOf(pass), groups);
+    }
 }
 
 void Recording::dispatchIndirect(const Kernel& kernel, const Bindings& bindings, const Pass& pass, const Buffer& arguments,
                                  std::uint64_t offset)
 {
-    next().dispatchIndirect(kernel, bindings, bytesOf(pass), arguments, offset);
+    if (Commands* commands = next()) {
+        commands->dispatchIndirect(kernel, bindings, bytesOf(pass), arguments, offset);
+    }
 }
 
 void Recording::finish()
@@ -55,6 +64,7 @@ void Recording::finish()
     }
     commands_.reset();
     recorded_ = 0;
+    stopped_ = !goesOn_();
 }
 
 }  // namespace glim

@@ -4,6 +4,7 @@
 #include "host/gpu/commands.hpp"
 #include "shaders/shared/path_types.h"
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -17,8 +18,9 @@ struct KernelStatistics {
 
 class Recording {
 public:
-    // Adds what each kernel took to `statistics`.
-    Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics);
+    // Adds what each kernel took to `statistics`. Asks `goesOn` whenever a portion has run; once that is false, nothing more runs.
+    Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics,
+              std::function<bool()> goesOn = [] { return true; });
 
     // `groups` workgroups.
     void dispatch(const Kernel& kernel, const Bindings& bindings, const Pass& pass, std::uint32_t groups);
@@ -28,15 +30,19 @@ public:
     // Runs what has not run yet; must end a recording.
     void finish();
 
+    // Whether anything may be missing because `goesOn` was false.
+    bool isStopped() const { return stopped_; }
     // Device seconds of what has run.
     double longest() const { return longest_; }
     double total() const { return total_; }
 
 private:
-    Commands& next();
+    Commands* next();
 
     const Device& device_;
     std::map<std::string, KernelStatistics>& statistics_;
+    std::function<bool()> goesOn_;
+    bool stopped_ = false;
     std::optional<Commands> commands_;
     std::uint32_t recorded_ = 0;
     double longest_ = 0.0, total_ = 0.0;

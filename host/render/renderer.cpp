@@ -15,9 +15,10 @@ namespace {
 
 // Passes aim at this for their longest dispatch: far below any watchdog.
 constexpr double kTargetDispatchSeconds = 0.05;
-// And at settings.passSeconds in all, where many rounds of direct light or long brute force make many dispatches; but not if that
-// leaves so little for a dispatch that starting it costs more (20 us on llvmpipe).
-constexpr double kLeastDispatchSeconds = 0.001;
+// And at settings.passSeconds in all, where many rounds of direct light or long brute force make many dispatches, since --time ends
+// between passes; but not if that leaves so little for a dispatch that starting it costs more (with 1 ms for the longest, 512 rounds
+// took seven times as long as with 10, since those of later bounces have a hundredth of its rays).
+constexpr double kLeastDispatchSeconds = 0.01;
 // Of a first pass, with one round of direct light and a ray that takes this many steps.
 constexpr std::uint32_t kFirstPassPaths = 1U << 14;
 constexpr std::uint64_t kUsualSteps = 64;
@@ -95,7 +96,10 @@ void Renderer::begin(const FlatCamera& camera)
 Film Renderer::render(const RenderObserver& observer)
 {
     start_ = Clock::now();
-    while (advance() && !isOver(observer)) {
+    Clock::time_point begin = start_;
+    const auto goesOn = [&] { return asks(observer) || secondsSince(begin) < settings_.passSeconds; };
+    while (advance(goesOn) && !isOver(observer)) {
+        begin = Clock::now();
     }
     foldPages(film_, slabs_);
     statistics_.renderSeconds = secondsSince(start_);
@@ -137,12 +141,11 @@ std::uint32_t Renderer::sweepEnd() const
     return isAdaptive() ? std::min(end, (sample_ / settings_.batch + 1) * settings_.batch) : end;
 }
 
-bool Renderer::advance()
+bool Renderer::advance(const std::function<bool()>& goesOn)
 {
-    if (isDone()) {
+    if (isDone() || !runPass(nextPass(), goesOn)) {
         return false;
     }
-    runPass(nextPass());
     while (slab_ < slabs_.size() && pixel_ == slabs_[slab_]->chosenCount()) {
         ++slab_;
         pixel_ = 0;
@@ -166,10 +169,15 @@ Pass Renderer::nextPass() const
     return pass;
 }
 
-void Renderer::runPass(const Pass& pass)
+// False if `goesOn` ended it before it was done.
+bool Renderer::runPass(const Pass& pass, const std::function<bool()>& goesOn)
 {
-    const Wavefront::Seconds seconds = wavefront_->trace(*slabs_[slab_], pass);
+    const auto traced = wavefront_->trace(*slabs_[slab_], pass, goesOn);
     refuseBrokenStatus();
+    if (!traced) {
+        return false;
+    }
+    const Wavefront::Seconds seconds = *traced;
     const std::uint32_t paths = pass.pixelCount * pass.sampleCount;
     sweeping_ = true;
     pixel_ += pass.pixelCount;
@@ -180,6 +188,7 @@ void Renderer::runPass(const Pass& pass)
     if (seconds.longest > kTargetDispatchSeconds || (seconds.longest > 0.0 && 2 * std::uint64_t{paths} > pathsPerPass_)) {
         resizePasses(paths, seconds);
     }
+    return true;
 }
 
 void Renderer::resizePasses(std::uint32_t paths, const Wavefront::Seconds& seconds)
@@ -228,11 +237,15 @@ void Renderer::foldPages(Film& film, const std::vector<std::unique_ptr<Slab>>& s
     }
 }
 
-bool Renderer::isOver(const RenderObserver& observer) const
+bool Renderer::asks(const RenderObserver& observer)
 {
-    const double seconds = secondsSince(start_);
-    const bool stop = !observer({pictureSamples_, plannedSamples_, seconds});
-    return stop || (settings_.seconds && seconds >= *settings_.seconds);
+    ended_ = !observer({pictureSamples_, plannedSamples_, secondsSince(start_)}) || ended_;
+    return !ended_;
+}
+
+bool Renderer::isOver(const RenderObserver& observer)
+{
+    return !asks(observer) || (settings_.seconds && secondsSince(start_) >= *settings_.seconds);
 }
 
 void Renderer::refuseBrokenStatus() const

@@ -26,7 +26,7 @@ struct RenderProgress {
     double seconds;
 };
 
-// Called between passes; false ends the render after what is done.
+// Called several times a second; false ends the render after the pass under way or, if that takes seconds, without it.
 using RenderObserver = std::function<bool(const RenderProgress&)>;
 
 class Renderer {
@@ -39,8 +39,9 @@ public:
     // better than a wrong one. Once per picture.
     Film render(const RenderObserver& observer);
 
-    // The same in steps: a pass of work; false once nothing is left to do. Throws as render.
-    bool advance();
+    // The same in steps: a pass of work. False once nothing is left to do, or if `goesOn`, asked now and then, ended the pass, of which
+    // nothing is kept then. Throws as render.
+    bool advance(const std::function<bool()>& goesOn = [] { return true; });
     bool isDone() const { return chosen_ == 0 || sample_ == settings_.sampleEnd; }
     // What is finished; sampling may go on.
     Film film();
@@ -70,12 +71,13 @@ private:
     void describe(Film& film) const;
     std::uint32_t sweepEnd() const;
     Pass nextPass() const;
-    void runPass(const Pass& pass);
+    bool runPass(const Pass& pass, const std::function<bool()>& goesOn);
+    bool asks(const RenderObserver& observer);
     void resizePasses(std::uint32_t paths, const Wavefront::Seconds& seconds);
     void endSweep();
     std::uint64_t choosePixels();
     void foldPages(Film& film, const std::vector<std::unique_ptr<Slab>>& slabs);
-    bool isOver(const RenderObserver& observer) const;
+    bool isOver(const RenderObserver& observer);
     void refuseBrokenStatus() const;
     void readCounters();
 
@@ -85,6 +87,7 @@ private:
     RenderStatistics statistics_;
     Clock::time_point start_;
     std::uint32_t pathsPerPass_;
+    bool ended_ = false;  // by the observer
 
     std::unique_ptr<Wavefront> wavefront_;
     std::vector<std::unique_ptr<Slab>> slabs_;

@@ -95,16 +95,20 @@ std::uint32_t Wavefront::groupsOf(std::uint32_t count) const
     return (count + settings_.workgroup - 1) / settings_.workgroup;
 }
 
-Wavefront::Seconds Wavefront::trace(const Slab& slab, Pass pass)
+std::optional<Wavefront::Seconds> Wavefront::trace(const Slab& slab, Pass pass, const std::function<bool()>& goesOn)
 {
-    Recording recording(device_, statistics_);
+    Recording recording(device_, statistics_, goesOn);
     tracePaths(recording, slab, pass);
+    if (recording.isStopped()) {
+        paths_.emptyQueues();
+        return std::nullopt;
+    }
     if (kernels_.showView) {
         recording.dispatch(*kernels_.showView, slab.bindings(0), pass, groupsOf(pass.pixelCount * pass.sampleCount));
     }
     recording.dispatch(kernels_.accumulate, slab.bindings(0), pass, groupsOf(pass.pixelCount));
     recording.finish();
-    return {recording.longest(), recording.total()};
+    return Seconds{recording.longest(), recording.total()};
 }
 
 void Wavefront::tracePaths(Recording& recording, const Slab& slab, Pass& pass)
@@ -120,7 +124,7 @@ void Wavefront::tracePaths(Recording& recording, const Slab& slab, Pass& pass)
             recordBounce(recording, slab, pass);
         }
         recording.finish();
-        alive = download<QueueSizes>(paths_.queueSizes(), 1)[0].closest > 0;
+        alive = !recording.isStopped() && download<QueueSizes>(paths_.queueSizes(), 1)[0].closest > 0;
     }
 }
 

@@ -24,11 +24,12 @@ public:
 
     // A pass over `slab` with nothing in it yet.
     Pass passOf(const Slab& slab) const;
-    // Traces the pass and adds its samples to the film. Returns the device seconds of its longest dispatch and of all.
+    // Traces the pass and adds its samples to the film. Returns the device seconds of its longest dispatch and of all; nothing, and the
+    // film is as it was, if `goesOn`, asked every so many dispatches, ended it.
     struct Seconds {
         double longest, total;
     };
-    Seconds trace(const Slab& slab, Pass pass);
+    std::optional<Seconds> trace(const Slab& slab, Pass pass, const std::function<bool()>& goesOn);
     // The hit of one ray alone; between passes.
     PathHit traceRay(const Slab& slab, const PathRay& ray);
     // Folds the blocks of all pixels, chosen or not, that are under way into their pages.

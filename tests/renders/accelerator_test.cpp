@@ -12,21 +12,30 @@
 namespace glim {
 namespace {
 
-// A mesh of more triangles than one dispatch of brute force tries, under a lamp and a sky; one triangle lies on another, so that
-// ties must be broken.
+// A mesh of more triangles than one dispatch of brute force tries, under a lamp and a sky. A part of it lies there twice in two
+// colours, so that ties must be broken; a loose shell around it throws shadows from everywhere in the list of records.
 Scene meshScene()
 {
     SceneBuilder builder;
     builder.lambert(glm::vec3(0.6F, 0.5F, 0.4F));
+    const auto other = builder.lambert(glm::vec3(0.2F, 0.7F, 0.9F));
     const auto lamp = builder.lambert(glm::vec3(0.0F), glm::vec3(4.0F));
     builder.sphere({0.0F, 2.2F, 0.5F}, 0.4F, lamp)
         .environment(glm::vec3(0.1F, 0.2F, 0.3F))
         .perspective({0, 1, 4}, {0, 0, 0}, 0.7F);
     Scene scene = builder.scene();
     scene.triangles = icosphere(5);
-    const Mesh again(scene.triangles.end() - 500, scene.triangles.end());
-    scene.triangles.insert(scene.triangles.begin(), again.begin(), again.end());
-    scene.primitives = {{"", 0, static_cast<std::uint32_t>(scene.triangles.size()), 0, false}};
+    const Mesh mesh = scene.triangles;
+    for (std::size_t i = 0; i < mesh.size(); i += 4) {
+        const Triangle& t = mesh[i];
+        scene.triangles.push_back({{1.3F * t.vertices[0], 1.3F * t.vertices[1], 1.3F * t.vertices[2]}});
+    }
+    const auto once = static_cast<std::uint32_t>(scene.triangles.size());
+    for (std::size_t i = 0; i < mesh.size(); i += 2) {
+        scene.triangles.push_back(mesh[i]);
+    }
+    const auto all = static_cast<std::uint32_t>(scene.triangles.size());
+    scene.primitives = {{"", 0, once, 0, false}, {"", once, all - once, other, false}};
     return scene;
 }
 
@@ -97,7 +106,7 @@ TEST(AcceleratorDispatchTest, NoneScansEveryRecord)
     Renderer renderer(testDevice(), flat, flattenCamera(scene.cameras.front(), 1.0F), settings);
     renderer.render([](const RenderProgress&) { return true; });
     const auto portions = (flat.records.size() / kRecordTexels + kScanRecords - 1) / kScanRecords;
-    EXPECT_EQ(portions, 3U);
+    EXPECT_EQ(portions, 5U);
     EXPECT_EQ(renderer.statistics().kernels.at("trace_closest").dispatches, portions);
 }
 

@@ -99,6 +99,21 @@ TEST(CommandLineTest, AdaptiveReportsCountPixels)
     EXPECT_DOUBLE_EQ(adaptive.at("meanSpp"), static_cast<double>(samples) / (16 * 16));
     EXPECT_EQ(stats.at("stopReason"), atMost == 0 ? "tolerance" : "samples");
     expectText(summary, " samples per pixel \\([0-9]+ to [0-9]+\\) in .*, [0-9.]+ % fewer samples than 64 everywhere, ");
+    const std::size_t unknown = stats.at("pixelsWithoutEstimate");
+    EXPECT_GT(unknown, 0U) << "pixels that stop after one block";
+    EXPECT_TRUE(stats.at("estimate").is_null());
+    expectText(summary, (", error unknown since " + std::to_string(unknown) + " pixels have less than 33 samples, on ").c_str());
+}
+
+// With what is in its file a picture can be made again.
+TEST(CommandLineTest, TheLensIsAmongTheSettings)
+{
+    const Workplace workplace;
+    const json stats = workplace.render({"--spp", "1", "--lens-radius", "0.1", "--focal-distance", "3"}).second;
+    const std::string settings = stats.at("settings");
+    expectText(settings, " lens-radius=0\\.1[0-9]* focal-distance=3$");
+    EXPECT_EQ(readFilm(workplace.file("x.exr")).identity.settings, settings);
+    EXPECT_EQ(workplace.render({"--spp", "1"}).second.at("settings").get<std::string>().find("lens"), std::string::npos);
 }
 
 TEST(CommandLineTest, TimeEndsAnAdaptiveRender)

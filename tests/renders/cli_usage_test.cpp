@@ -60,7 +60,7 @@ TEST(CommandLineTest, HelpListsEveryOptionWithUnitRangeAndDefault)
           "metres, 0 to 1e+06 [0, a pinhole]", "--focal-distance D", "metres, 1e-06 to 1e+09 [none]", "--direct D",
           "point, spot and directional lights", "[mis]", "--light-samples N", "1 to 65536 [1]", "--paths PART", "[all]",
           "--roulette R", "infinite where albedo^2 >= P", "above albedo .837) [throughput]", "--accelerator A",
-          "8192 a dispatch [bvh]", "--split RULE", "[sah]", "--adaptive RULE", "1.96 s / sqrt(n) <= T m", "by 1 to 4 %",
+          "8192 a dispatch [bvh]", "--split RULE", "[sah]", "--adaptive RULE", "1.96 s / sqrt(n) <= T m", "by 1.7 %",
           "[off]", "--tolerance T", "1e-30 to 1e+06 [0.05]", "--batch N", "2 to 1048576 [32]", "--max-spp N",
           "2 to 2147483648 [2048]"}},
         {"inspect", {"SCENE FILE", "--scene INDEX", "--json"}},

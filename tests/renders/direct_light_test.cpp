@@ -138,6 +138,26 @@ TEST(DirectLightTest, OneSidedSpheresAreDarkInside)
     }
 }
 
+// Many rounds make passes of minutes: whoever ends a render then need not wait for the one under way, of which nothing is kept. A
+// short one is finished.
+TEST(DirectLightTest, ALongPassMayEndBeforeItsLastRound)
+{
+    const Scene scene = room();
+    const FlatScene flat = flattened(scene);
+    RenderSettings settings = squareSettings(4, 2);
+    settings.direct = DirectLight::Lights;
+    for (const std::uint32_t lightSamples : {1U, 65536U}) {
+        settings.lightSamples = lightSamples;
+        Renderer renderer(testDevice(), flat, flattenCamera(scene.cameras.front(), 1.0F), settings);
+        const Film film = renderer.render([](const RenderProgress&) { return false; });
+        EXPECT_EQ(renderer.statistics().samples, lightSamples == 1 ? 16U : 0U);
+        EXPECT_EQ(film.complete, lightSamples == 1) << "one sample of each pixel";
+        for (const PixelMoments& pixel : film.pixels) {
+            EXPECT_EQ(pixel.count, lightSamples == 1 ? 1U : 0U);
+        }
+    }
+}
+
 double meanVariance(const FlatScene& flat, const Camera& camera, const RenderSettings& settings)
 {
     double sum = 0.0;
