@@ -142,10 +142,13 @@ void Session::cycleLook()
             settings.adaptive = Adaptive::Off;
             steps_ = std::make_unique<Refiner>(device_, *prepared_, settings, options_.lens);
         }
+        const bool stale = lightIsStale_;
         restart();
+        lightIsStale_ = stale;
     } else if (wasSteps && lightIsStale_) {
         restart();
     }
+    estimatedAt_ = 0;
 }
 
 void Session::clickAt(const glm::dvec2& position)

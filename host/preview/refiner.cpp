@@ -45,39 +45,42 @@ void Refiner::show(const Camera& camera, const glm::uvec2& size, bool still)
     size_ = size;
     camera_ = flattenCamera(camera, static_cast<float>(size.x) / static_cast<float>(size.y), lens_);
     moved_ = Clock::now();
-    begin(still ? 1 : movingScale());
+    begin(still ? 1 : movingScale(), !still);
 }
 
-void Refiner::begin(std::uint32_t scale)
+void Refiner::begin(std::uint32_t scale, bool fresh)
 {
     scale_ = scale;
+    fresh_ = fresh;
     const glm::uvec2 film = (size_ + scale - 1U) / scale;
     renderer_.restart(camera_, film.x, film.y);
     began_ = Clock::now();
 }
 
-void Refiner::advance()
+void Refiner::advance(const std::function<bool()>& goesOn)
 {
     const std::uint64_t before = renderer_.pictureSamples();
     const Clock::time_point start = Clock::now();
-    if (renderer_.advance()) {
+    if (renderer_.advance(goesOn)) {
         const double now = static_cast<double>(renderer_.pictureSamples() - before) / secondsBetween(start, Clock::now());
         speed_ = speed_ == 0.0 ? now : 0.8 * speed_ + 0.2 * now;
     }
 }
 
-bool Refiner::refine(bool paused)
+bool Refiner::refine(bool paused, const std::function<bool()>& goesOn)
 {
-    if (scale_ > 1 && secondsBetween(moved_, Clock::now()) > kStillSeconds) {
-        begin(1);
+    if (scale_ > 1 && !fresh_ && secondsBetween(moved_, Clock::now()) > kStillSeconds) {
+        begin(1, false);
     }
     const bool whole = renderer_.sampleCount() > 0;
     if (isDone() || (whole && paused)) {
         return scale_ > 1;  // will be refined soon
     }
+    // The first picture is always made whole, or a hand that never rests would see none.
     do {
-        advance();
-    } while (scale_ > 1 && renderer_.sampleCount() == 0);
+        advance([&] { return fresh_ || goesOn(); });
+    } while (fresh_ && renderer_.sampleCount() == 0);
+    fresh_ = false;
     return true;
 }
 

@@ -16,10 +16,12 @@ public:
 
     // From now on this camera's picture, of this size. `still`: nothing moves, so that it need not be coarse first.
     void show(const Camera& camera, const glm::uvec2& size, bool still);
-    // Works for some 20 ms, or until a coarse picture is whole; false if there is nothing to do. If `paused`, only as long as
-    // some pixel has no sample.
-    bool refine(bool paused);
+    // Works for some 20 ms, or less once `goesOn` is false, or until a coarse picture is whole; false if there is nothing to do. If
+    // `paused`, only as long as some pixel has no sample.
+    bool refine(bool paused, const std::function<bool()>& goesOn);
 
+    // Whether what moved is not to be seen yet: the first, mostly coarse, picture since show() is not whole.
+    bool isFresh() const { return fresh_; }
     // Whether every pixel has had its samples, or its time.
     bool isDone() const;
     // Samples that every pixel of the full size has.
@@ -34,14 +36,15 @@ private:
     using Clock = std::chrono::steady_clock;
 
     std::uint32_t movingScale() const;
-    void begin(std::uint32_t scale);
-    void advance();
+    void begin(std::uint32_t scale, bool fresh);
+    void advance(const std::function<bool()>& goesOn);
 
     RenderSettings settings_;
     Lens lens_;
     FlatCamera camera_;
     glm::uvec2 size_{1, 1};
     std::uint32_t scale_ = 1;
+    bool fresh_ = false;
     double speed_ = 0.0;      // samples per second, lately; 0: not known yet
     Clock::time_point began_, moved_;
     Renderer renderer_;

@@ -15,7 +15,7 @@
 namespace glim {
 namespace {
 
-constexpr double kFrameSeconds = 1.0 / 30.0;
+constexpr double kFrameSeconds = 1.0 / 30.0, kMovingFrameSeconds = 1.0 / 60.0;
 constexpr double kPresentShare = 0.1;   // of the time, at most, that goes into presenting while nothing moves
 constexpr double kIdleSeconds = 0.05;
 
@@ -89,6 +89,9 @@ void Session::enter(std::unique_ptr<PreparedScene> prepared)
     warnOfDarkness(*prepared);
     auto light = std::make_unique<Refiner>(device_, *prepared, settings, options_.lens);
     viewpoint_->enter(prepared->scene);
+    if (light_) {
+        std::cerr << "glim: " << options_.scene.string() << " has changed and is loaded again\n";
+    }
     light_ = std::move(light);
     steps_.reset();
     if (look_ == Look::Steps) {
@@ -134,18 +137,20 @@ void Session::restart(bool still)
 
 bool Session::work()
 {
-    const bool worked = refiner().refine(paused_);
+    const bool worked = refiner().refine(paused_, [this] { return events_.isEmpty(); });
     changed_ = changed_ || worked;
     return worked;
 }
 
 // At once where the user waits; else often enough to look alive, and seldom enough to leave the time to rendering.
-bool Session::isPresentDue() const
+bool Session::isPresentDue()
 {
-    if (!changed_) {
+    if (!changed_ || (light_ && refiner().isFresh())) {
         return false;
     }
-    return !waiting_.empty() || secondsSince(presented_) >= std::max(kFrameSeconds, presentSeconds_ / kPresentShare);
+    const bool moving = light_ && refiner().scale() > 1;
+    const double interval = moving ? kMovingFrameSeconds : std::max(kFrameSeconds, presentSeconds_ / kPresentShare);
+    return !waiting_.empty() || secondsSince(presented_) >= interval;
 }
 
 void Session::present()
@@ -189,6 +194,9 @@ void Session::measure()
     estimatedAt_ = samples;
     measuredLook_ = look_;
     range_ = computeRange(film, look_);
+    if (look_ == Look::Rate) {
+        range_.high = std::max(range_.high, 2.0F * range_.low);  // or a sweep under way would be all the scale shows
+    }
     if (const auto errors = estimateErrors(pictureOf(film)); errors && look_ != Look::Steps) {
         relMse_ = errors->relMse;
     }

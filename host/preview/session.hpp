@@ -34,7 +34,7 @@ private:
     void fly();
     void restart(bool still = false);
     bool work();
-    bool isPresentDue() const;
+    bool isPresentDue();
     void present();
     void measure();
     // actions.cpp: what the user does

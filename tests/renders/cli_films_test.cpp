@@ -179,7 +179,8 @@ TEST(CommandLineTest, AnEarlySignalSparesThePictureThatIsThere)
     const Films films;
     films.render("x.exr", {"--spp", "1"});
     GlimCall call = films.call("x.exr", {"--size", "2000x2000", "--spp", "4", "--progress", "json"});
-    call.signalAtFirstLine = SIGHUP;
+    call.signalWhen = hasLine;
+    call.signal = SIGHUP;
     const GlimRun run = runGlim(call);
     EXPECT_EQ(run.exitCode, 129) << run.err;
     EXPECT_NE(run.err.find("x.exr is left as it was"), std::string::npos) << run.err;
@@ -192,7 +193,8 @@ TEST(CommandLineTest, SignalsEndARenderThatIsThenWritten)
         const Films films;
         GlimCall call = films.call("x.exr", {"--size", "60x60", "--spp", "2000000000", "--progress", "json", "--stats",
                                              "s.json", "--png", "x.png"});
-        call.signalAtFirstLine = signal;
+        call.signalWhen = hasLine;
+        call.signal = signal;
         const GlimRun run = runGlim(call);
         EXPECT_EQ(run.exitCode, exitCode) << run.err;
         EXPECT_NE(run.err.find(std::string("stopped by ") + name + "; what was finished is in x.exr"), std::string::npos)

@@ -70,14 +70,15 @@ pid_t start(const GlimCall& call, const std::filesystem::path& out, const std::f
 }
 
 // The status that waitpid reports.
-int await(pid_t process, int signalAtFirstLine, const std::filesystem::path& err)
+int await(pid_t process, const GlimCall& call, const std::filesystem::path& err)
 {
     const Clock::time_point deadline = Clock::now() + kPatience;
     int status = 0;
+    bool signalled = !call.signalWhen;
     while (waitpid(process, &status, WNOHANG) == 0) {
-        if (signalAtFirstLine != 0 && bytesOfFile(err).find('\n') != std::string::npos) {
-            kill(process, signalAtFirstLine);
-            signalAtFirstLine = 0;
+        if (!signalled && call.signalWhen(bytesOfFile(err))) {
+            kill(process, call.signal);
+            signalled = true;
         }
         if (Clock::now() > deadline) {
             ADD_FAILURE() << "glim has not ended in time";
@@ -100,7 +101,7 @@ GlimRun runGlim(const GlimCall& call)
     if (process < 0) {
         return run;
     }
-    const int status = await(process, call.signalAtFirstLine, folder / "err");
+    const int status = await(process, call, folder / "err");
     run.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     run.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     run.out = bytesOfFile(folder / "out");

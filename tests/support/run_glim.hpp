@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -14,7 +15,9 @@ struct GlimCall {
     std::map<std::string, std::optional<std::string>> environment;  // on top of the test's own; nothing: unset
     std::filesystem::path folder = std::filesystem::current_path();
     std::filesystem::path program = GLIM_BINARY;
-    int signalAtFirstLine = 0;  // sent once stderr has a whole line
+    // Sends `signal` once this is true of what stderr has so far; it may take its time, while the program goes on.
+    std::function<bool(const std::string& err)> signalWhen;
+    int signal = 0;
 };
 
 struct GlimRun {
@@ -22,6 +25,9 @@ struct GlimRun {
     int signal = 0;     // that ended it
     std::string out, err;
 };
+
+// There is a whole line.
+inline bool hasLine(const std::string& err) { return err.find('\n') != std::string::npos; }
 
 // Adds a failure to the running test, and ends the process, if it takes longer than two minutes.
 GlimRun runGlim(const GlimCall& call);

@@ -1,0 +1,169 @@
+// What the mouse and the keys do to a camera.
+#include "host/preview/controls.hpp"
+#include "host/preview/viewpoint.hpp"
+
+#include "host/error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace glim {
+namespace {
+
+const Pose kPose{{3.0, 2.0, 6.0}, {1.0, 1.0, -1.0}, {0.0, 1.0, 0.0}, 1.0};
+
+double distanceOf(const Pose& pose) { return glm::length(pose.at - pose.from); }
+
+void expectNear(const glm::dvec3& a, const glm::dvec3& b, double within = 1e-12) { EXPECT_LE(glm::length(a - b), within) << a.x << " " << a.y << " " << a.z; }
+
+TEST(Controls, OrbitGoesRoundWhatIsLookedAt)
+{
+    const Pose half = orbit(kPose, {200.0, 0.0}, 200.0);  // the picture's height: half a turn
+    expectNear(half.at, kPose.at);
+    expectNear(half.from, {2.0 * kPose.at.x - kPose.from.x, kPose.from.y, 2.0 * kPose.at.z - kPose.from.z}, 1e-9);
+    // Dragging to the right turns the scene to the right: the camera goes to its left.
+    const Pose front{{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 1.0};
+    EXPECT_LT(orbit(front, {10.0, 0.0}, 200.0).from.x, 0.0);
+    EXPECT_GT(orbit(front, {0.0, 10.0}, 200.0).from.y, 0.0) << "dragging down shows the scene from above";
+    for (const double y : {-1e4, -30.0, 30.0, 1e4}) {
+        const Pose turned = orbit(kPose, {13.0, y}, 200.0);
+        EXPECT_NEAR(distanceOf(turned), distanceOf(kPose), 1e-9);
+        EXPECT_GT(glm::length(glm::cross(glm::normalize(turned.at - turned.from), turned.up)), 1e-3) << "never over a pole";
+    }
+}
+
+TEST(Controls, PanMovesBothByPixels)
+{
+    const Pose front{{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 1.0};
+    const Pose moved = pan(front, {10.0, 4.0}, 0.1);  // the scene follows the mouse: right and down
+    expectNear(moved.from, {-1.0, 0.4, 5.0});
+    expectNear(moved.at, {-1.0, 0.4, 0.0});
+}
+
+TEST(Controls, DollyTakesATenthOfTheDistance)
+{
+    EXPECT_NEAR(distanceOf(dolly(kPose, 1.0, Camera::Kind::Perspective)), 0.9 * distanceOf(kPose), 1e-12);
+    EXPECT_NEAR(distanceOf(dolly(dolly(kPose, 3.0, Camera::Kind::Perspective), -3.0, Camera::Kind::Perspective)), distanceOf(kPose), 1e-12);
+    Pose near = kPose;
+    for (int i = 0; i < 1000; ++i) {
+        near = dolly(near, 1.0, Camera::Kind::Perspective);
+    }
+    EXPECT_GT(distanceOf(near), 0.0);
+    const Pose zoomed = dolly(kPose, 1.0, Camera::Kind::Orthographic);
+    expectNear(zoomed.from, kPose.from);
+    EXPECT_NEAR(zoomed.zoom, 1.0 / 0.9, 1e-12);
+}
+
+TEST(Controls, FlyGoesAlongTheViewsAxes)
+{
+    const Pose front{{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 1.0};
+    expectNear(fly(front, {1.0, 2.0, 3.0}).from, {1.0, 2.0, 2.0});
+    expectNear(fly(front, {1.0, 2.0, 3.0}).at, {1.0, 2.0, -3.0});
+}
+
+// The sphere just fits into the narrower field of view.
+TEST(Controls, FrameSeesTheWholeSphere)
+{
+    Camera camera;
+    camera.yfov = 1.0F;
+    const Bounds bounds{{4.0, 5.0, 6.0}, 2.0};
+    for (const double aspect : {0.5, 1.0, 2.0}) {
+        const Pose framed = frame(kPose, bounds, camera, aspect);
+        const double half = std::atan(std::tan(0.5) * std::min(1.0, aspect));
+        EXPECT_NEAR(std::asin(bounds.radius / distanceOf(framed)), half, 1e-6);
+        expectNear(framed.at, bounds.center);
+        expectNear(glm::normalize(framed.at - framed.from), glm::normalize(kPose.at - kPose.from));
+    }
+    camera.kind = Camera::Kind::Orthographic;
+    camera.halfHeight = 8.0F;
+    EXPECT_NEAR(8.0 / frame(kPose, bounds, camera, 1.0).zoom, bounds.radius, 1e-12);
+}
+
+TEST(PoseTest, PlacesCamerasFarFromTheOrigin)
+{
+    const glm::dvec3 origin(1e9, 0.0, -1e9);
+    const Pose pose{origin + glm::dvec3(0, 0, 5), origin, {0, 1, 0}, 2.0};
+    Camera camera;
+    camera.yfov = 1.0F;
+    const Camera placed = placeCamera(camera, pose, origin);
+    EXPECT_EQ(placed.position, glm::vec3(0, 0, 5));
+    EXPECT_EQ(placed.forward, glm::vec3(0, 0, -1));
+    EXPECT_EQ(placed.right, glm::vec3(1, 0, 0));
+    EXPECT_EQ(placed.up, glm::vec3(0, 1, 0));
+    EXPECT_NEAR(static_cast<double>(std::tan(0.5F * placed.yfov)), 0.5 * std::tan(0.5), 1e-6);
+}
+
+TEST(PoseTest, RefusesNoDirection)
+{
+    EXPECT_THROW(placeCamera({}, {{1, 1, 1}, {1, 1, 1}, {0, 1, 0}, 1.0}, {}), InputError);
+    EXPECT_THROW(placeCamera({}, {{0, 5, 0}, {0, 0, 0}, {0, 1, 0}, 1.0}, {}), InputError);
+    EXPECT_THROW(placeCamera({}, {{0, 5, 0}, {0, 0, 0}, {0, 0, 0}, 1.0}, {}), InputError);
+}
+
+// A level camera stays level when it is turned; one that is rolled keeps its roll.
+TEST(PoseTest, IsTheCamerasOwn)
+{
+    Camera camera;
+    camera.position = {1, 2, 3};
+    const glm::vec3 forward = glm::normalize(glm::vec3(0.3F, -0.4F, -1.0F));
+    camera.forward = forward;
+    camera.right = glm::normalize(glm::cross(forward, glm::vec3(0, 1, 0)));
+    camera.up = glm::cross(camera.right, forward);
+    EXPECT_EQ(poseOf(camera, 2.0, {}).up, glm::dvec3(0, 1, 0));
+    std::swap(camera.right, camera.up);
+    camera.right = -camera.right;
+    EXPECT_EQ(poseOf(camera, 2.0, {}).up, glm::dvec3(camera.up));
+    const Camera again = placeCamera(camera, poseOf(camera, 2.0, {}), {});
+    expectNear(again.forward, camera.forward, 1e-6);
+    expectNear(again.up, camera.up, 1e-6);
+    expectNear(again.position, camera.position, 0.0);
+}
+
+Scene twoCameras()
+{
+    Scene scene;
+    scene.spheres = {{"ball", {1, 0, 0}, 2.0F, 0}};
+    scene.cameras.resize(2);
+    scene.cameras[0].position = {1, 0, 10};
+    scene.cameras[1].position = {1, 0, -10};
+    scene.cameras[1].forward = {0, 0, 1};
+    scene.cameras[1].right = {-1, 0, 0};
+    return scene;
+}
+
+TEST(ViewpointTest, IsTheFilesCameraUntilItMoves)
+{
+    Viewpoint viewpoint(0, std::nullopt);
+    viewpoint.enter(twoCameras());
+    EXPECT_EQ(viewpoint.describeAsOptions(), "--camera 0");
+    EXPECT_EQ(viewpoint.camera().position, glm::vec3(1, 0, 10));
+    expectNear(viewpoint.pose().at, {1, 0, 0});
+    viewpoint.move([](const Pose& pose) { return fly(pose, {0, 0, 1}); });
+    EXPECT_EQ(viewpoint.camera().position, glm::vec3(1, 0, 9));
+    EXPECT_EQ(viewpoint.describeAsOptions(), "--camera 0 --look-from 1,0,9 --look-at 1,0,-1 --look-up 0,1,0");
+    EXPECT_FALSE(viewpoint.choose(2));
+    EXPECT_TRUE(viewpoint.choose(1));
+    EXPECT_EQ(viewpoint.describeAsOptions(), "--camera 1");
+    viewpoint.reset();
+    EXPECT_EQ(viewpoint.describeAsOptions(), "--camera 0");
+}
+
+// Where it was moved to, it stays in a scene that has changed around it.
+TEST(ViewpointTest, StaysInAnotherScene)
+{
+    Viewpoint viewpoint(1, std::nullopt);
+    viewpoint.enter(twoCameras());
+    viewpoint.move([](const Pose& pose) { return fly(pose, {0, 1, 0}); });
+    Scene other = twoCameras();
+    other.origin = {100, 0, 0};
+    viewpoint.enter(other);
+    EXPECT_EQ(viewpoint.camera().position, glm::vec3(-99, 1, -10));
+    other.cameras.resize(1);
+    viewpoint.enter(other);
+    EXPECT_EQ(viewpoint.camera().position, glm::vec3(-99, 1, -10));
+}
+
+}  // namespace
+}  // namespace glim

@@ -1,0 +1,55 @@
+// The window's colours are those of the files.
+#include "host/render/look.hpp"
+#include "shaders/shared/display_types.h"
+#include "test_kernels.hpp"
+#include "tests/support/kernel_test.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace glim {
+namespace {
+
+struct Case {
+    PixelMoments pixel;
+    DisplayPass display;
+    vec3 expected;
+};
+
+TEST(DisplayTest, ColoursAreThoseOfTheHost)
+{
+    std::mt19937 random(3);
+    std::lognormal_distribution<float> value(-1.0F, 2.0F);
+    std::uniform_real_distribution<float> unit;
+    std::vector<Case> cases(60000);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        Case& c = cases[i];
+        const Look look = static_cast<Look>(i % 6);
+        c.pixel.count = 1 + random() % 5000;
+        c.pixel.mean = {value(random), value(random), value(random)};
+        c.pixel.alpha = random() % 4 == 0 ? 0.0F : unit(random);
+        c.pixel.albedo = {unit(random), unit(random), unit(random)};
+        c.pixel.normal = c.pixel.alpha * glm::normalize(vec3(unit(random) - 0.5F, unit(random) - 0.5F, 0.2F));
+        c.pixel.depth = c.pixel.alpha > 0.0F ? value(random) : std::numeric_limits<float>::infinity();
+        if (i % 97 == 0) {
+            c.pixel.mean[static_cast<int>(i % 3)] =
+                i % 2 == 0 ? std::numeric_limits<float>::quiet_NaN() : std::numeric_limits<float>::infinity();
+        }
+        const float low = i % 5 == 0 ? 7.0F : value(random);
+        const LookRange range{low, i % 5 == 0 ? low : low + value(random)};
+        const double exposure = static_cast<double>(i % 7) - 3.0;
+        c.display.look = static_cast<std::uint32_t>(look);
+        c.display.scale = static_cast<float>(std::exp2(exposure));
+        c.display.low = range.low;
+        c.display.high = range.high;
+        const Rgb8 color = lookAt(c.pixel, look, range, exposure);
+        c.expected = {color[0], color[1], color[2]};
+    }
+    KernelTest(test_kernels::display_test).cases(cases).run();
+}
+
+}  // namespace
+}  // namespace glim

@@ -1,0 +1,229 @@
+// A render in steps, from one camera after the other, gives the films of whole renders; and a window shows them as files do.
+#include "host/render/display.hpp"
+#include "test_kernels.hpp"
+#include "tests/support/build_scene.hpp"
+#include "tests/support/render_scene.hpp"
+#include "tests/support/test_device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace glim {
+namespace {
+
+FlatCamera cameraOf(const Scene& scene, const RenderSettings& settings)
+{
+    return flattenCamera(scene.cameras.front(), static_cast<float>(settings.width) / static_cast<float>(settings.height));
+}
+
+class StepsTest : public testing::Test {
+protected:
+    StepsTest()
+    {
+        settings.passSeconds = 0.001;  // many passes
+        settings.pathCapacity = 1024;
+    }
+    const Scene scene = mixedScene();
+    const FlatScene flat = flattened(scene);
+    RenderSettings settings = squareSettings(24, 290);  // through a page, and a block begun
+};
+
+TEST_F(StepsTest, FilmsAreThoseOfWholeRenders)
+{
+    Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
+    int films = 0;
+    while (renderer.advance()) {
+        const std::uint32_t count = renderer.sampleCount();
+        const bool whole = renderer.pictureSamples() == std::uint64_t{count} * 24 * 24;
+        if (!whole || (count > 4 && count != 32 && count != 256 && count != 290)) {
+            continue;
+        }
+        RenderSettings same = settings;
+        same.sampleEnd = count;
+        const Film film = renderer.film(), expected = renderScene(scene, same);
+        EXPECT_TRUE(sameBits(film, expected)) << count << " samples";
+        EXPECT_EQ(film.sampleRanges, expected.sampleRanges);
+        EXPECT_TRUE(film.complete);
+        ++films;
+    }
+    EXPECT_EQ(films, 6);
+    EXPECT_TRUE(renderer.isDone());
+}
+
+TEST_F(StepsTest, OtherCamerasBeginAgain)
+{
+    settings.sampleEnd = 40;
+    Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
+    renderer.advance();
+    for (const glm::uvec2 size : {glm::uvec2(24, 24), glm::uvec2(7, 30), glm::uvec2(7, 30)}) {
+        settings.width = size.x;
+        settings.height = size.y;
+        Scene moved = scene;
+        moved.cameras[0].position += glm::vec3(0.1F * static_cast<float>(size.y), 0.0F, 0.0F);
+        renderer.restart(cameraOf(moved, settings), size.x, size.y);
+        EXPECT_EQ(renderer.pictureSamples(), 0U);
+        while (renderer.advance()) {
+        }
+        const Film film = renderer.film(), expected = renderScene(moved, settings);
+        EXPECT_TRUE(sameBits(film, expected));
+        EXPECT_EQ(film.identity.scene, expected.identity.scene);
+        EXPECT_EQ(film.identity.settings, expected.identity.settings);
+    }
+}
+
+// A pass that is given up leaves nothing behind, in the film or in the queues.
+TEST_F(StepsTest, PassesThatAreGivenUpAreTracedAgain)
+{
+    settings.sampleEnd = 8;
+    settings.direct = DirectLight::Lights;
+    settings.lightSamples = 32;
+    Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
+    int calls = 0, given = 0;
+    while (!renderer.isDone()) {
+        calls = 0;
+        given += renderer.advance([&] { return ++calls != 3 || given > 4; }) ? 0 : 1;
+    }
+    EXPECT_EQ(given, 5);
+    EXPECT_TRUE(sameBits(renderer.film(), renderScene(scene, settings)));
+}
+
+TEST_F(StepsTest, AdaptiveFilmsToo)
+{
+    settings.adaptive = Adaptive::Course;
+    settings.sampler = Sampler::Independent;
+    settings.sampleEnd = 300;
+    settings.tolerance = 0.2F;
+    Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
+    while (renderer.advance()) {
+        renderer.film();
+    }
+    EXPECT_TRUE(sameBits(renderer.film(), renderScene(scene, settings)));
+}
+
+TEST_F(StepsTest, OneRayMeetsWhatTheCameraSees)
+{
+    settings.sampleEnd = 4;
+    settings.adaptive = Adaptive::Off;
+    Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
+    renderer.advance();
+    const Camera& camera = scene.cameras[0];
+    const PathHit hit = renderer.traceRay({camera.position, kNoRecord, camera.forward});
+    const PathHit miss = renderer.traceRay({camera.position + 1e4F * camera.up, kNoRecord, camera.up});
+    EXPECT_NE(hit.record, kNoRecord);
+    EXPECT_EQ(miss.record, kNoRecord);
+    while (renderer.advance()) {
+    }
+    EXPECT_TRUE(sameBits(renderer.film(), renderScene(scene, settings))) << "no part of the picture";
+    const PixelMoments& middle = renderer.film().pixels[12 * 24 + 12];
+    EXPECT_NEAR(hit.t, middle.depth, 0.2F * middle.depth);
+}
+
+// --- what a window shows ---
+
+std::vector<Rgb8> shownBy(Display& display)
+{
+    const KernelLayout layout(testDevice(), {{kBindResults, BufferKind::Storage}}, 2 * sizeof(uint), {kBindShown});
+    const Kernel kernel(layout, test_kernels::read_picture, {{kSpecWorkgroup, 64}});
+    const uint size[] = {display.width(), display.height()};
+    Buffer pixels(testDevice(), "test's pixels", BufferKind::Readback, std::uint64_t{4} * size[0] * size[1]);
+    Commands commands(testDevice());
+    commands.dispatch(kernel, Bindings(layout, {{kBindResults, &pixels}}, {{kBindShown, &display.shown()}}),
+                      std::as_bytes(std::span(size)), (size[0] * size[1] + 63) / 64);
+    commands.submitAndWait();
+    std::vector<Rgb8> colors;
+    for (const uint pixel : download<uint>(pixels, std::size_t{size[0]} * size[1])) {
+        colors.push_back({static_cast<std::uint8_t>(pixel), static_cast<std::uint8_t>(pixel >> 8), static_cast<std::uint8_t>(pixel >> 16)});
+    }
+    return colors;
+}
+
+// Of eight bits; float and double may round a half to either side.
+int largestDifference(const std::vector<Rgb8>& a, const std::vector<Rgb8>& b)
+{
+    int largest = a.size() == b.size() ? 0 : 255;
+    for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            largest = std::max(largest, std::abs(int{a[i][c]} - int{b[i][c]}));
+        }
+    }
+    return largest;
+}
+
+TEST_F(StepsTest, AWindowShowsWhatFilesHold)
+{
+    Display display(testDevice());
+    display.resize(24, 24);
+    for (const std::uint32_t samples : {1U, 40U, 290U}) {
+        for (const Look look : {Look::Radiance, Look::Normal, Look::Depth, Look::Albedo, Look::Rate, Look::Steps}) {
+            RenderSettings one = settings;
+            one.sampleEnd = samples;
+            one.view = look == Look::Steps ? View::BvhSteps : View::Shaded;
+            Renderer renderer(testDevice(), flat, cameraOf(scene, one), one);
+            while (renderer.advance()) {
+            }
+            const Film film = renderer.film();
+            const LookRange range = computeRange(film, look);
+            display.draw(renderer, look, range, 0.5);
+            display.cover({});
+            std::vector<Rgb8> expected;
+            for (const PixelMoments& pixel : film.pixels) {
+                expected.push_back(lookAt(pixel, look, range, 0.5));
+            }
+            EXPECT_LE(largestDifference(shownBy(display), expected), 1) << "look " << static_cast<int>(look) << ", " << samples;
+        }
+    }
+}
+
+// What has no sample yet keeps what was there: nothing flashes black.
+TEST_F(StepsTest, AWindowKeepsTheCoarsePictureUnderTheFine)
+{
+    Display display(testDevice());
+    display.resize(24, 24);
+    settings.sampleEnd = 1;
+    settings.pathCapacity = 64;
+    Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
+    renderer.restart(cameraOf(scene, settings), 3, 3);
+    renderer.advance();
+    display.draw(renderer, Look::Albedo, {}, 0.0);
+    display.cover({});
+    const std::vector<Rgb8> coarse = shownBy(display);
+    for (std::size_t i = 0; i < coarse.size(); ++i) {
+        EXPECT_EQ(coarse[i], coarse[i / 24 / 8 * 8 * 24 + i % 24 / 8 * 8]) << "blocks of eight";
+    }
+    renderer.restart(cameraOf(scene, settings), 24, 24);
+    renderer.advance();
+    ASSERT_EQ(renderer.pictureSamples(), 64U);
+    display.draw(renderer, Look::Albedo, {}, 0.0);
+    display.cover({});
+    const std::vector<Rgb8> mixed = shownBy(display);
+    const Film film = renderer.film();
+    for (std::size_t i = 0; i < mixed.size(); ++i) {
+        EXPECT_EQ(mixed[i], i < 64 ? lookAt(film.pixels[i], Look::Albedo, {}, 0.0) : coarse[i]) << i;
+    }
+}
+
+TEST_F(StepsTest, TextLiesOverThePicture)
+{
+    Display display(testDevice());
+    display.resize(24, 24);
+    settings.sampleEnd = 1;
+    Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
+    renderer.advance();
+    display.draw(renderer, Look::Radiance, {}, 0.0);
+    display.cover({});
+    const std::vector<Rgb8> plain = shownBy(display);
+    display.cover({2, 3, {255U | 255U << 8, 0U | 255U << 8, 0U, 255U | 255U << 8, 0U | 128U << 8, 255U}});
+    const std::vector<Rgb8> covered = shownBy(display);
+    EXPECT_EQ(covered[0], (Rgb8{255, 255, 255}));
+    EXPECT_EQ(covered[1], (Rgb8{0, 0, 0}));
+    EXPECT_EQ(covered[24], plain[24]);
+    EXPECT_EQ(covered[25], (Rgb8{255, 255, 255}));
+    EXPECT_NEAR(covered[48][0], plain[48][0] * 127.0 / 255.0, 1.0);
+    EXPECT_EQ(covered[49], plain[49]);
+    display.cover({});
+    EXPECT_EQ(shownBy(display), plain) << "text leaves no trace";
+}
+
+}  // namespace
+}  // namespace glim
