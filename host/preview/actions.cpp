@@ -170,8 +170,9 @@ void Session::clickAt(const glm::dvec2& position)
         there = found->object + ", material " + found->material + place;
     }
     char text[300];
-    std::snprintf(text, sizeof text, "; %u samples, mean (%.6g, %.6g, %.6g) W/(sr m^2)", moments.count,
-                  static_cast<double>(moments.mean.r), static_cast<double>(moments.mean.g), static_cast<double>(moments.mean.b));
+    std::snprintf(text, sizeof text, "; %u samples, mean (%.6g, %.6g, %.6g)%s", moments.count,
+                  static_cast<double>(moments.mean.r), static_cast<double>(moments.mean.g), static_cast<double>(moments.mean.b),
+                  look_ == Look::Steps ? " node visits and primitive tests" : " W/(sr m^2)");
     std::string known = text;
     if (moments.blocks > 1) {
         std::snprintf(text, sizeof text, ", standard error (%.2g, %.2g, %.2g)", static_cast<double>(error.r),

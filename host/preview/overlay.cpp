@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <iterator>
 
 namespace glim {
 namespace {
@@ -12,21 +13,21 @@ constexpr double kNoticeSeconds = 6.0;
 
 constexpr const char* kHelp[] = {
     "",
-    "drag         orbit",
-    "shift-drag, middle-drag  pan",
-    "wheel        nearer, farther",
-    "W A S D Q E  fly: ahead, left, back, right, down, up",
-    "F            frame the scene",
-    "R            reset to the file's camera",
-    "1-9          the file's cameras",
-    "+ -          exposure",
-    "V            views: shaded, normal, depth, albedo, samples, BVH steps",
-    "click        what is there: printed",
-    "Space        pause",
-    "P            write PNG and EXR",
-    "C            print the camera",
-    "H            figures, help, nothing",
-    "Esc          quit",
+    "drag\torbit",
+    "shift-drag, middle-drag\tpan",
+    "wheel\tnearer, farther",
+    "W A S D Q E\tfly: ahead, left, back, right, down, up",
+    "F\tframe the scene",
+    "R\treset to the file's camera",
+    "1-9\tthe file's cameras",
+    "+ -\texposure",
+    "V\tviews: shaded, normal, depth, albedo, samples, BVH steps",
+    "click\twhat is there: printed",
+    "Space\tpause",
+    "P\twrite PNG and EXR",
+    "C\tprint the camera",
+    "H\tfigures, help, nothing",
+    "Esc\tquit",
 };
 
 std::string nameOf(Look look)

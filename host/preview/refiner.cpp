@@ -54,15 +54,18 @@ void Refiner::begin(std::uint32_t scale, bool fresh)
     fresh_ = fresh;
     const glm::uvec2 film = (size_ + scale - 1U) / scale;
     renderer_.restart(camera_, film.x, film.y);
-    began_ = Clock::now();
+    seconds_ = 0.0;
 }
 
 void Refiner::advance(const std::function<bool()>& goesOn)
 {
     const std::uint64_t before = renderer_.pictureSamples();
     const Clock::time_point start = Clock::now();
-    if (renderer_.advance(goesOn)) {
-        const double now = static_cast<double>(renderer_.pictureSamples() - before) / secondsBetween(start, Clock::now());
+    const bool whole = renderer_.advance(goesOn);
+    const double spent = secondsBetween(start, Clock::now());
+    seconds_ += spent;
+    if (whole) {
+        const double now = static_cast<double>(renderer_.pictureSamples() - before) / spent;
         speed_ = speed_ == 0.0 ? now : 0.8 * speed_ + 0.2 * now;
     }
 }
@@ -85,7 +88,5 @@ bool Refiner::refine(bool paused, const std::function<bool()>& goesOn)
 }
 
 bool Refiner::isDone() const { return renderer_.isDone() || (settings_.seconds && scale_ == 1 && seconds() >= *settings_.seconds); }
-
-double Refiner::seconds() const { return secondsBetween(began_, Clock::now()); }
 
 }  // namespace glim

@@ -1,6 +1,7 @@
 // A picture that refines: coarse while the camera moves, so that it follows at once, then pixel by pixel.
 #pragma once
 
+#include "host/flatten/flatten_scene.hpp"
 #include "host/render/prepare_scene.hpp"
 #include "host/render/renderer.hpp"
 
@@ -27,7 +28,7 @@ public:
     // Samples that every pixel of the full size has.
     std::uint32_t sampleCount() const { return scale_ == 1 ? renderer_.sampleCount() : 0; }
     std::uint32_t scale() const { return scale_; }  // pixels of the picture along a side of the film's
-    double seconds() const;                         // since the picture began
+    double seconds() const { return seconds_; }     // of work on the picture
     double samplesPerSecond() const { return speed_; }
     const FlatCamera& camera() const { return camera_; }
     Renderer& renderer() { return renderer_; }
@@ -46,7 +47,8 @@ private:
     std::uint32_t scale_ = 1;
     bool fresh_ = false;
     double speed_ = 0.0;      // samples per second, lately; 0: not known yet
-    Clock::time_point began_, moved_;
+    double seconds_ = 0.0;
+    Clock::time_point moved_;
     Renderer renderer_;
 };
 

@@ -1,5 +1,7 @@
 #include "host/preview/scene_loader.hpp"
 
+#include <utility>
+
 namespace glim {
 namespace {
 

@@ -4,13 +4,14 @@
 #include "host/measure/compare_images.hpp"
 #include "host/measure/picture.hpp"
 #include "host/render/check_memory.hpp"
+#include "shaders/shared/limits.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <iostream>
-#include <thread>
+#include <utility>
 
 namespace glim {
 namespace {

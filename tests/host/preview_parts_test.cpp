@@ -67,6 +67,7 @@ TEST(TextTest, IsInkOnShade)
     EXPECT_EQ(ink + std::count(box.pixels.begin(), box.pixels.end(), 150U << 8), std::ssize(box.pixels));
     EXPECT_EQ(std::count(box.pixels.begin(), box.pixels.begin() + 8 * box.width, 255U | 255U << 8), 0) << "a margin";
     EXPECT_TRUE(drawText({}, 1).pixels.empty());
+    EXPECT_EQ(drawText({"a\tb"}, 1).width, drawText({"abc\tb"}, 1).width) << "columns";
     const TextBox twice = drawText({"glim"}, 2), once = drawText({"glim"}, 1);
     EXPECT_EQ(twice.width, 2 * once.width);
     EXPECT_EQ(std::count(twice.pixels.begin(), twice.pixels.end(), 255U | 255U << 8),
