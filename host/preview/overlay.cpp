@@ -70,7 +70,10 @@ std::vector<std::string> Session::figures()
 std::vector<std::string> Session::overlay()
 {
     std::vector<std::string> lines;
-    if (overlayLevel_ > 0 && light_) {
+    if (overlayLevel_ == 0 && light_) {
+        return lines;
+    }
+    if (light_) {
         lines = figures();
     }
     if (!title_.empty()) {

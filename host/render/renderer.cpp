@@ -7,6 +7,7 @@
 #include "shaders/shared/limits.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cstddef>
 
@@ -29,6 +30,13 @@ std::uint32_t firstPassPaths(const FlatScene& scene, const RenderSettings& setti
     const std::uint64_t steps = settings.accelerator == Accelerator::None ? std::max(records, kUsualSteps) : kUsualSteps;
     const std::uint64_t work = steps * lightRounds(scene, settings).size();
     return std::clamp(static_cast<std::uint32_t>(kFirstPassPaths * kUsualSteps / work), kBlockSamples, settings.pathCapacity);
+}
+
+// Of all renderers together: what one has folded is never taken for what another has.
+std::uint64_t nextVersion()
+{
+    static std::atomic<std::uint64_t> last = 0;
+    return ++last;
 }
 
 double secondsSince(std::chrono::steady_clock::time_point start)
@@ -213,7 +221,7 @@ void Renderer::endSweep()
     }
     if (sample_ % kPageSamples == 0) {
         foldPages(film_, slabs_);
-        foldVersion_ = ++folds_;
+        foldVersion_ = nextVersion();
     }
 }
 

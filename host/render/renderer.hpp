@@ -93,7 +93,7 @@ private:
     std::vector<std::unique_ptr<Slab>> slabs_;
 
     Film film_;                      // the pages folded so far
-    std::uint64_t folds_ = 0, foldVersion_ = 0;
+    std::uint64_t foldVersion_ = 0;
     std::uint32_t sample_ = 0;       // first of the sweep under way
     bool sweeping_ = false;          // the sweep has had a pass
     std::size_t slab_ = 0;           // of the next pass

@@ -28,7 +28,7 @@ TEST(DisplayTest, ColoursAreThoseOfTheHost)
     for (std::size_t i = 0; i < cases.size(); ++i) {
         Case& c = cases[i];
         const Look look = static_cast<Look>(i % 6);
-        c.pixel.count = 1 + random() % 5000;
+        c.pixel.count = static_cast<std::uint32_t>(1 + random() % 5000);
         c.pixel.mean = {value(random), value(random), value(random)};
         c.pixel.alpha = random() % 4 == 0 ? 0.0F : unit(random);
         c.pixel.albedo = {unit(random), unit(random), unit(random)};

@@ -1,5 +1,7 @@
 // A render in steps, from one camera after the other, gives the films of whole renders; and a window shows them as files do.
+#include "host/flatten/flatten_scene.hpp"
 #include "host/render/display.hpp"
+#include "shaders/shared/bindings.h"
 #include "test_kernels.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/render_scene.hpp"
@@ -155,13 +157,16 @@ TEST_F(StepsTest, AWindowShowsWhatFilesHold)
     Display display(testDevice());
     display.resize(24, 24);
     for (const std::uint32_t samples : {1U, 40U, 290U}) {
+        RenderSettings one = settings;
+        one.sampleEnd = samples;
+        Renderer light(testDevice(), flat, cameraOf(scene, one), one);
+        one.view = View::BvhSteps;
+        one.bounces = 0;
+        Renderer steps(testDevice(), flat, cameraOf(scene, one), one);
+        while (light.advance() || steps.advance()) {
+        }
         for (const Look look : {Look::Radiance, Look::Normal, Look::Depth, Look::Albedo, Look::Rate, Look::Steps}) {
-            RenderSettings one = settings;
-            one.sampleEnd = samples;
-            one.view = look == Look::Steps ? View::BvhSteps : View::Shaded;
-            Renderer renderer(testDevice(), flat, cameraOf(scene, one), one);
-            while (renderer.advance()) {
-            }
+            Renderer& renderer = look == Look::Steps ? steps : light;
             const Film film = renderer.film();
             const LookRange range = computeRange(film, look);
             display.draw(renderer, look, range, 0.5);
