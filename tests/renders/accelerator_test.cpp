@@ -39,6 +39,30 @@ Scene meshScene()
     return scene;
 }
 
+// A floor seen from exactly 4 metres above, with tiles in it: those of even fields come before it in the scene, those of odd ones
+// after it. Whatever a ray meets, it meets two at the same distance; which one first is up to the tree.
+Scene tiledScene()
+{
+    SceneBuilder builder;
+    const auto tile = builder.lambert(glm::vec3(0.8F)), floor = builder.lambert(glm::vec3(0.2F));
+    const auto quad = [&](const glm::vec2& low, float size, std::uint32_t material) {
+        builder.quad({glm::vec3(low, 0.0F), glm::vec3(low.x + size, low.y, 0.0F), glm::vec3(low + size, 0.0F),
+                      glm::vec3(low.x, low.y + size, 0.0F)}, material);
+    };
+    const auto tiles = [&](int parity) {
+        for (int i = 0; i < 64; ++i) {
+            if ((i % 8 + i / 8) % 2 == parity) {
+                quad({0.25F * static_cast<float>(i % 8) - 1.0F, 0.25F * static_cast<float>(i / 8) - 1.0F}, 0.25F, tile);
+            }
+        }
+    };
+    tiles(0);
+    quad({-1.0F, -1.0F}, 2.0F, floor);
+    tiles(1);
+    builder.environment(glm::vec3(1.0F)).orthographic({0, 0, 4}, {0, 0, 0}, 1.0F);
+    return builder.scene();
+}
+
 class AcceleratorTest : public testing::TestWithParam<DirectLight> {
 protected:
     AcceleratorTest()
@@ -52,7 +76,7 @@ protected:
 
 TEST_P(AcceleratorTest, NoneGivesTheBitsOfTheTree)
 {
-    for (const Scene& scene : {meshScene(), mixedScene()}) {
+    for (const Scene& scene : {meshScene(), mixedScene(), tiledScene()}) {
         settings.accelerator = Accelerator::Bvh;
         const Film tree = renderScene(scene, settings);
         settings.accelerator = Accelerator::None;
@@ -67,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(Ways, AcceleratorTest,
 TEST(SplitRulePictureTest, EveryRuleGivesTheBitsOfTheOthers)
 {
     RenderSettings settings = squareSettings(24, 32);
-    for (const Scene& scene : {meshScene(), mixedScene()}) {
+    for (const Scene& scene : {meshScene(), mixedScene(), tiledScene()}) {
         const std::vector<Box> boxes = primitiveBoxes(scene);
         const FlatScene sah = flattenScene(scene, buildBvh(boxes, SplitRule::Sah));
         const Film film = renderFlat(sah, scene.cameras.front(), settings);
@@ -78,6 +102,21 @@ TEST(SplitRulePictureTest, EveryRuleGivesTheBitsOfTheOthers)
             EXPECT_EQ(fingerprint(other), fingerprint(sah));
             EXPECT_TRUE(sameBits(renderFlat(other, scene.cameras.front(), settings), film))
                 << scene.triangles.size() << " triangles, rule " << static_cast<int>(rule);
+        }
+    }
+}
+
+TEST(SplitRulePictureTest, TiesGoToTheLowerId)
+{
+    const Scene scene = tiledScene();
+    RenderSettings settings = squareSettings(8, 4);
+    settings.bounces = 0;
+    for (const SplitRule rule : {SplitRule::Sah, SplitRule::Mean, SplitRule::Median}) {
+        const Film film = renderFlat(flattenScene(scene, buildBvh(primitiveBoxes(scene), rule)), scene.cameras.front(), settings);
+        for (int i = 0; i < 64; ++i) {
+            // Rows of the film go down, those of the tiles up: of eight, parity changes.
+            EXPECT_FLOAT_EQ(film.pixels[static_cast<std::size_t>(i)].albedo.r, (i % 8 + i / 8) % 2 == 1 ? 0.8F : 0.2F)
+                << i << ", rule " << static_cast<int>(rule);
         }
     }
 }
