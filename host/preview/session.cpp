@@ -42,6 +42,8 @@ void Session::run()
         const bool idle = !working && held_.empty() && !changed_;
         for (const Event& event : events_.take(idle ? kIdleSeconds : 0.0)) {
             handle(event);
+            ++handled_;
+            changed_ = true;
         }
         takeScene();
         fly();
@@ -175,7 +177,7 @@ void Session::present()
         latency_.add(std::chrono::duration<double>(presented_ - came).count());
     }
     if (light_) {
-        window_.reportSamples(refiner().sampleCount(), refiner().scale() == 1 && refiner().isDone());
+        window_.reportShown(refiner().sampleCount(), refiner().scale() == 1 && refiner().isDone(), handled_);
     }
 }
 

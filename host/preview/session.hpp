@@ -72,6 +72,7 @@ private:
     double presentSeconds_ = 0.0;             // that the last one took
     std::vector<Clock::time_point> waiting_;  // when what has not been answered by a picture yet came in
     bool changed_ = true;                     // there is something new to show
+    std::uint64_t handled_ = 0;               // events
     Latency latency_;
     std::uint64_t frames_ = 0;
     std::optional<double> relMse_;            // estimated, when the picture had estimatedAt_ samples

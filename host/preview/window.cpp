@@ -116,12 +116,11 @@ void Window::setSize(const glm::uvec2& size)
     glfwPostEmptyEvent();
 }
 
-void Window::reportSamples(std::uint64_t samples, bool ended)
+void Window::reportShown(std::uint64_t samples, bool ended, std::uint64_t events)
 {
     samples_ = samples;
-    if (ended_.exchange(ended) != ended) {
-        glfwPostEmptyEvent();
-    }
+    ended_ = ended;
+    answered_ = events;
 }
 
 void Window::finish()
@@ -132,6 +131,7 @@ void Window::finish()
 
 void Window::push(Event event)
 {
+    ++pushed_;
     event.when = std::chrono::steady_clock::now();
     events_.push(event);
 }
@@ -245,8 +245,8 @@ void Window::run(const std::vector<ScriptStep>& script)
 
 bool Window::isDue(const ScriptStep& step, double since) const
 {
-    const bool waits = step.kind == ScriptStep::Kind::Samples && samples_ < step.samples && !ended_;
-    return since >= step.delay && !waits;
+    const bool there = answered_ == pushed_ && (samples_ >= step.samples || ended_);
+    return since >= step.delay && (step.kind != ScriptStep::Kind::Samples || there);
 }
 
 // What the user's doing it would call.

@@ -35,8 +35,9 @@ public:
     float contentScale() const { return contentScale_; }                        // of text, on displays with small pixels
     void setTitle(const std::string& title);
     void setSize(const glm::uvec2& size);
-    // Samples that every pixel on show has; `ended`: there will not be more. Scripts wait for them.
-    void reportSamples(std::uint64_t samples, bool ended);
+    // What is on show, for scripts that wait for it: samples that every pixel has, whether there will not be more, and how many of
+    // the events so far have been answered.
+    void reportShown(std::uint64_t samples, bool ended, std::uint64_t events);
     void finish();
 
 private:
@@ -62,7 +63,8 @@ private:
     GLFWwindow* window_ = nullptr;
     std::atomic<std::uint32_t> pictureWidth_ = 0, pictureHeight_ = 0;
     std::atomic<float> contentScale_ = 1.0F;
-    std::atomic<std::uint64_t> samples_ = 0;
+    std::atomic<std::uint64_t> samples_ = 0, answered_ = 0;
+    std::uint64_t pushed_ = 0;        // events
     std::atomic<bool> ended_ = false, finished_ = false;
 
     std::mutex mutex_;

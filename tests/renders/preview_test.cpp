@@ -137,7 +137,7 @@ TEST_F(PreviewTest, PrintsTheOptionsOfItsCamera)
         "0 key F\n0 drag left 0,0 90,0\n0 key R\n",
     };
     for (const char* moves : kMoves) {
-        const GlimRun session = run(std::string("0 samples 1\n") + moves + "0.1 key C\n0.3 samples 4\n0 key P\n0 key escape\n", {"--spp", "4"});
+        const GlimRun session = run(std::string("0 samples 1\n") + moves + "0.1 key C\n0 samples 4\n0 key P\n0 key escape\n", {"--spp", "4"});
         const std::string options = session.out.substr(0, session.out.find('\n'));
         ASSERT_EQ(options.rfind("--camera 0", 0), 0U) << session.out;
         EXPECT_NE(session.out.find("\"cameras\":[{\"type\":\"perspective\""), std::string::npos) << session.out;
@@ -151,7 +151,7 @@ TEST_F(PreviewTest, KeysDoWhatTheHelpSays)
 {
     std::string script = "0 samples 4\n0 key P\n";
     for (int views = 0; views < 6; ++views) {
-        script += "0 key V\n0.3 samples 4\n0 key P\n";
+        script += "0 key V\n0 samples 4\n0 key P\n";
     }
     script += "0 key +\n0 key P\n0 key -\n0 key P\n0 key 2\n0 click 48,36\n0 key H\n0 key space\n0 close\n";
     const GlimRun session = run(script, {"--spp", "4"});
@@ -189,7 +189,7 @@ TEST_F(PreviewTest, SurvivesAResizeStorm)
     for (int i = 0; i < 100; ++i) {
         script << "0.01 resize " << 20 + 7 * (i % 30) << "x" << 300 - 9 * (i % 32) << "\n";
     }
-    script << "0.1 resize 64x48\n0.5 samples 2\n0 key P\n0 iconify\n0.1 restore\n0 close\n";
+    script << "0.1 resize 64x48\n0.1 samples 2\n0 key P\n0 iconify\n0.1 restore\n0 close\n";
     run(script.str(), {"--spp", "2"});
     size = "64x48";
     EXPECT_TRUE(sameBits(written(1), render("--spp 2")));
