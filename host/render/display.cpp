@@ -23,7 +23,6 @@ std::vector<BindingSlot> slots()
 
 Display::Display(Device& device)
     : device_(device), layout_(device, slots(), sizeof(DisplayPass), {kBindPicture, kBindShown}),
-      preview_(layout_, kernels::preview, {{kSpecWorkgroup, kWorkgroup}}),
       overlay_(layout_, kernels::overlay, {{kSpecWorkgroup, kWorkgroup}})
 {
 }
@@ -34,9 +33,20 @@ void Display::resize(std::uint32_t width, std::uint32_t height)
     shown_.emplace(device_, "window's picture with text", width, height);
 }
 
-void Display::run(const Kernel& kernel, const Bindings& bindings, const DisplayPass& pass)
+const Kernel& Display::previewOf(Look look, bool folded)
 {
-    const std::uint64_t groups = (std::uint64_t{pass.width} * pass.height + kWorkgroup - 1) / kWorkgroup;
+    const auto found = previews_.find({look, folded});
+    if (found != previews_.end()) {
+        return found->second;
+    }
+    const Specialization constants = {
+        {kSpecWorkgroup, kWorkgroup}, {kSpecLook, static_cast<std::uint32_t>(look)}, {kSpecFolded, folded}};
+    return previews_.emplace(std::pair(look, folded), Kernel(layout_, kernels::preview, constants)).first->second;
+}
+
+void Display::run(const Kernel& kernel, const Bindings& bindings, const DisplayPass& pass, std::uint64_t threads)
+{
+    const std::uint64_t groups = (threads + kWorkgroup - 1) / kWorkgroup;
     Commands commands(device_);
     commands.dispatch(kernel, bindings, std::as_bytes(std::span<const DisplayPass, 1>(&pass, 1)),
                       static_cast<std::uint32_t>(std::min<std::uint64_t>(groups, device_.description().maxGroups)));
@@ -67,19 +77,18 @@ void Display::draw(const Renderer& renderer, Look look, const LookRange& range, 
     pass.height = picture_->height();
     pass.filmWidth = renderer.settings().width;
     pass.filmHeight = renderer.settings().height;
-    pass.look = static_cast<std::uint32_t>(look);
     pass.scale = static_cast<float>(std::exp2(exposure));
     pass.low = range.low;
     pass.high = range.high;
-    pass.folded = renderer.foldVersion() != 0;
+    const bool anyFolded = renderer.foldVersion() != 0;
     for (std::size_t i = 0; i < renderer.slabs().size(); ++i) {
         const Slab& slab = *renderer.slabs()[i];
-        const Buffer& folded = pass.folded != 0 ? *folded_[i] : slab.pages();  // which the kernel does not read then
+        const Buffer& folded = anyFolded ? *folded_[i] : slab.pages();  // which the kernel does not read then
         const Bindings bindings(layout_, {{kBindBlocks, &slab.blocks()}, {kBindPages, &slab.pages()}, {kBindFolded, &folded}},
                                 {{kBindPicture, &*picture_}});
         pass.slabBegin = slab.begin();
         pass.slabCount = slab.count();
-        run(preview_, bindings, pass);
+        run(previewOf(look, anyFolded), bindings, pass, slab.count());
     }
 }
 
@@ -96,7 +105,8 @@ void Display::cover(const TextBox& text)
     pass.height = shown_->height();
     pass.textWidth = text.width;
     pass.textHeight = text.height;
-    run(overlay_, Bindings(layout_, {{kBindText, &*text_}}, {{kBindPicture, &*picture_}, {kBindShown, &*shown_}}), pass);
+    run(overlay_, Bindings(layout_, {{kBindText, &*text_}}, {{kBindPicture, &*picture_}, {kBindShown, &*shown_}}), pass,
+        std::uint64_t{pass.width} * pass.height);
 }
 
 }  // namespace glim

@@ -29,12 +29,14 @@ public:
     std::uint32_t height() const { return shown_->height(); }
 
 private:
-    void run(const Kernel& kernel, const Bindings& bindings, const DisplayPass& pass);
+    void run(const Kernel& kernel, const Bindings& bindings, const DisplayPass& pass, std::uint64_t threads);
+    const Kernel& previewOf(Look look, bool folded);
     void takeFolded(const Renderer& renderer);
 
     Device& device_;
     KernelLayout layout_;
-    Kernel preview_, overlay_;
+    Kernel overlay_;
+    std::map<std::pair<Look, bool>, Kernel> previews_;  // by look, and whether pages are folded; compiled when needed
     std::optional<StorageImage> picture_, shown_;
     std::unique_ptr<Buffer> text_;
     std::vector<std::unique_ptr<Buffer>> folded_;  // one per slab of the renderer's film

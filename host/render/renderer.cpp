@@ -10,6 +10,7 @@
 #include <atomic>
 #include <bit>
 #include <cstddef>
+#include <utility>
 
 namespace glim {
 namespace {
@@ -17,9 +18,9 @@ namespace {
 // Passes aim at this for their longest dispatch: far below any watchdog.
 constexpr double kTargetDispatchSeconds = 0.05;
 // And at settings.passSeconds in all, where many rounds of direct light or long brute force make many dispatches, since --time ends
-// between passes; but not if that leaves so little for a dispatch that starting it costs more (with 1 ms for the longest, 512 rounds
-// took seven times as long as with 10, since those of later bounces have a hundredth of its rays).
-constexpr double kLeastDispatchSeconds = 0.01;
+// between passes; but not if that leaves so little for a dispatch that starting it costs more (of a second, with 1 ms for the longest,
+// 512 rounds took seven times as long as with 10, since those of later bounces have a hundredth of its rays).
+constexpr double kLeastDispatchShare = 0.01;
 // Of a first pass, with one round of direct light and a ray that takes this many steps.
 constexpr std::uint32_t kFirstPassPaths = 1U << 14;
 constexpr std::uint64_t kUsualSteps = 64;
@@ -68,16 +69,18 @@ void Renderer::makeSlabs()
 
 void Renderer::restart(const FlatCamera& camera, std::uint32_t width, std::uint32_t height)
 {
-    const bool sameSize = width == settings_.width && height == settings_.height;
+    const glm::uvec2 before(settings_.width, settings_.height), size(width, height);
     settings_.width = width;
     settings_.height = height;
     wavefront_->setCamera(camera, width, height);
-    if (sameSize) {
-        for (const auto& slab : slabs_) {
-            slab->clear();
+    if (size != before) {
+        std::swap(slabs_, spare_);
+        if (size != std::exchange(spareSize_, before)) {
+            makeSlabs();
         }
-    } else {
-        makeSlabs();
+    }
+    for (const auto& slab : slabs_) {
+        slab->clear();
     }
     begin(camera);
 }
@@ -201,7 +204,7 @@ bool Renderer::runPass(const Pass& pass, const std::function<bool()>& goesOn)
 
 void Renderer::resizePasses(std::uint32_t paths, const Wavefront::Seconds& seconds)
 {
-    const double byPass = std::max(settings_.passSeconds / seconds.total, kLeastDispatchSeconds / seconds.longest);
+    const double byPass = settings_.passSeconds * std::max(1.0 / seconds.total, kLeastDispatchShare / seconds.longest);
     const double scale = std::clamp(std::min(kTargetDispatchSeconds / seconds.longest, byPass), 0.5, 2.0);
     pathsPerPass_ = static_cast<std::uint32_t>(
         std::clamp(paths * scale, static_cast<double>(kBlockSamples), static_cast<double>(settings_.pathCapacity)));

@@ -91,6 +91,8 @@ private:
 
     std::unique_ptr<Wavefront> wavefront_;
     std::vector<std::unique_ptr<Slab>> slabs_;
+    std::vector<std::unique_ptr<Slab>> spare_;  // of the size before, to which a window soon returns
+    glm::uvec2 spareSize_{0, 0};
 
     Film film_;                      // the pages folded so far
     std::uint64_t foldVersion_ = 0;

@@ -23,7 +23,7 @@ layout(set = 0, binding = kBindShown, rgba8) writeonly uniform image2D shown;
 PixelMoments momentsOfPixel(uint pixel)
 {
     PixelMoments page = foldMoments(filmPages[pixel], momentsOfBlock(filmBlocks[pixel]));
-    return pass.folded != 0u ? foldMoments(filmFolded[pixel], page) : page;
+    return kFolded ? foldMoments(filmFolded[pixel], page) : page;
 }
 
 #endif

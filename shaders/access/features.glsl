@@ -18,5 +18,7 @@ layout(constant_id = kSpecRoulette) const uint kRoulette = kRouletteThroughput;
 layout(constant_id = kSpecLens) const bool kLens = false;
 layout(constant_id = kSpecAdaptive) const bool kAdaptive = false;
 layout(constant_id = kSpecView) const uint kView = kViewNormal;
+layout(constant_id = kSpecLook) const uint kLook = 0u;
+layout(constant_id = kSpecFolded) const bool kFolded = true;
 
 #endif

@@ -1,19 +1,33 @@
-// One thread is one pixel of the window's picture, or several where the device has too few threads. Draws what the film knows
-// there; where it has no sample yet, what was drawn before stays: an earlier camera's picture or a coarser film's, never black.
+// One thread is one pixel of the film's slab, or several where the device has too few threads. Draws the rectangle of the window's
+// picture that it covers; where it has no sample yet, what was drawn before stays: an earlier camera's picture or a coarser
+// film's, never black. Only what `kLook` shows of a pixel is loaded: loads are what this kernel costs on a software driver.
 // Reads the film. Updates the picture.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "access/display.glsl"
 #include "lib/display.glsl"
 
-void drawPixel(uvec2 at)
+// The first pixel of the picture that is not left of or above the film's pixel `film`.
+uvec2 cornerOf(uvec2 film)
 {
-    uvec2 film = at * uvec2(pass.filmWidth, pass.filmHeight) / uvec2(pass.width, pass.height);
-    uint pixel = film.y * pass.filmWidth + film.x - pass.slabBegin;
-    if (pixel < pass.slabCount) {
-        PixelMoments moments = momentsOfPixel(pixel);
-        if (moments.count > 0u) {
-            imageStore(picture, ivec2(at), vec4(displayColor(moments, pass), 1.0));
+    uvec2 size = uvec2(pass.filmWidth, pass.filmHeight);
+    return (film * uvec2(pass.width, pass.height) + size - 1u) / size;
+}
+
+void drawPixel(uint pixel)
+{
+    PixelMoments moments = momentsOfPixel(pixel);
+    if (moments.count == 0u) {
+        return;
+    }
+    vec4 color = vec4(displayColor(moments, kLook, pass), 1.0);
+    uint index = pass.slabBegin + pixel;
+    uvec2 film = uvec2(index % pass.filmWidth, index / pass.filmWidth);
+    uvec2 low = cornerOf(film);
+    uvec2 high = cornerOf(film + 1u);
+    for (uint y = low.y; y < high.y; ++y) {
+        for (uint x = low.x; x < high.x; ++x) {
+            imageStore(picture, ivec2(x, y), color);
         }
     }
 }
@@ -21,7 +35,7 @@ void drawPixel(uvec2 at)
 void main()
 {
     uint threads = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
-    for (uint id = gl_GlobalInvocationID.x; id < pass.width * pass.height; id += threads) {
-        drawPixel(uvec2(id % pass.width, id / pass.width));
+    for (uint pixel = gl_GlobalInvocationID.x; pixel < pass.slabCount; pixel += threads) {
+        drawPixel(pixel);
     }
 }

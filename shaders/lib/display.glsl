@@ -50,12 +50,12 @@ vec3 normalColor(PixelMoments pixel)
 }
 
 // `pixel` has a sample.
-vec3 displayColor(PixelMoments pixel, DisplayPass pass)
+vec3 displayColor(PixelMoments pixel, uint look, DisplayPass pass)
 {
     if (!isFinite(pixel.mean)) {
         return kMagenta;
     }
-    switch (pass.look) {
+    switch (look) {
     case kLookNormal: return roundToBytes(normalColor(pixel));
     case kLookDepth: return roundToBytes(depthColor(pixel, pass.low, pass.high));
     case kLookAlbedo: return roundToBytes(encodeSrgb(pass.scale * pixel.albedo));

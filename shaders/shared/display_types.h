@@ -21,10 +21,8 @@ struct DisplayPass {
     uint width, height;          // of the picture
     uint filmWidth, filmHeight;
     uint slabBegin, slabCount;   // pixels of the film
-    uint look;
     float scale;                 // 2^EV, of radiance and albedo
     float low, high;             // ends of the scale of depths, samples or steps
-    uint folded;                 // 1: the host has taken pages, and given them back folded
     uint textWidth, textHeight;  // of the text in the upper left corner
 };
 

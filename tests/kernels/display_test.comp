@@ -6,6 +6,7 @@
 
 struct Case {
     PixelMoments pixel;
+    uint look;
     DisplayPass display;
     vec3 expected;  // bytes, by the host
 };
@@ -16,7 +17,7 @@ void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        vec3 bytes = 255.0 * displayColor(c.pixel, c.display);
+        vec3 bytes = 255.0 * displayColor(c.pixel, c.look, c.display);
         // A half may round to either side.
         EXPECT_NEAR(bytes.r, c.expected.r, 1.001);
         EXPECT_NEAR(bytes.g, c.expected.g, 1.001);

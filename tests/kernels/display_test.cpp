@@ -15,6 +15,7 @@ namespace {
 
 struct Case {
     PixelMoments pixel;
+    uint look;
     DisplayPass display;
     vec3 expected;
 };
@@ -41,7 +42,7 @@ TEST(DisplayTest, ColoursAreThoseOfTheHost)
         const float low = i % 5 == 0 ? 7.0F : value(random);
         const LookRange range{low, i % 5 == 0 ? low : low + value(random)};
         const double exposure = static_cast<double>(i % 7) - 3.0;
-        c.display.look = static_cast<std::uint32_t>(look);
+        c.look = static_cast<std::uint32_t>(look);
         c.display.scale = static_cast<float>(std::exp2(exposure));
         c.display.low = range.low;
         c.display.high = range.high;

@@ -14,7 +14,7 @@ static_assert(sizeof(FirstHit) == 32 && sizeof(ShadowRay) == 48 && sizeof(QueueS
 static_assert(sizeof(RayCounts) == 16 && sizeof(Located) == 8 && sizeof(Status) == 12 + 8 * kMaxLocated);
 static_assert(sizeof(BlockSums) == 52 && sizeof(Pass) == 124 && sizeof(PixelMoments) == 68);
 static_assert(sizeof(FlatMaterial) == 48 && sizeof(AliasEntry) == 8 && sizeof(FlatLight) == 80);
-static_assert(sizeof(FlatEmitter) == 32 && sizeof(FlatCamera) == 80 && sizeof(DisplayPass) == 52);
+static_assert(sizeof(FlatEmitter) == 32 && sizeof(FlatCamera) == 80 && sizeof(DisplayPass) == 44);
 static_assert(sizeof(EverySharedStruct) == 4 * kSharedWords);
 static_assert(sizeof(Pass) <= 128, "llvmpipe before 24 has 128 bytes of push constants");
 

@@ -9,7 +9,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 232u;
+GLIM_CONST uint kSharedWords = 230u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -82,5 +82,5 @@ U(emitter.record) U(emitter.light) F(emitter.areaPdf) U(emitter.alias.threshold)
 F3(camera.position) F3(camera.right) F3(camera.up) F3(camera.forward) U(camera.kind)
 F3(camera.lensRight) F3(camera.lensUp) F(camera.inverseFocus)
 U(display.width) U(display.height) U(display.filmWidth) U(display.filmHeight) U(display.slabBegin) U(display.slabCount)
-U(display.look) F(display.scale) F(display.low) F(display.high) U(display.folded) U(display.textWidth) U(display.textHeight)
+F(display.scale) F(display.low) F(display.high) U(display.textWidth) U(display.textHeight)
 #endif
