@@ -137,7 +137,7 @@ Film Renderer::film()
 void Renderer::describe(Film& film) const
 {
     film.sampleRanges = {{settings_.sampleBegin, sweeping_ ? sweepEnd() : sample_}};
-    const bool even = pictureSamples_ == film.pixels.size() * sampleCount();
+    const bool even = pictureSamples_ > 0 && pictureSamples_ == film.pixels.size() * sampleCount();
     film.complete = isDone() || (even && !isAdaptive());
     film.seconds = secondsSince(start_);
 }

@@ -23,8 +23,7 @@ class StepsTest : public testing::Test {
 protected:
     StepsTest()
     {
-        settings.passSeconds = 0.001;  // many passes
-        settings.pathCapacity = 1024;
+        settings.pathCapacity = 1024;  // several passes a sweep
     }
     const Scene scene = mixedScene();
     const FlatScene flat = flattened(scene);
