@@ -15,7 +15,7 @@ void addPictureOptions(CLI::App& command, RenderOptions& options)
     command.add_option("-o,--output", options.output, "The picture to write: scene-linear EXR with layers")
         ->required()
         ->type_name("OUT.exr");
-    CLI::Option* png = command.add_option("--png", options.png, 
+    CLI::Option* png = command.add_option("--png", options.png,
                                           "Also write a PNG: sRGB of clip(2^EV x); normals as .5 + .5 n, depth from white to "
                                           "dark, node visits from blue (none) to red (as many as 99.9 % of the pixels have)");
     png->type_name("P.png");

@@ -16,8 +16,8 @@ namespace {
 // Passes aim at this for their longest dispatch: far below any watchdog.
 constexpr double kTargetDispatchSeconds = 0.05;
 // And at this in all, where many rounds of direct light or long brute force make many dispatches, since --time ends between passes;
-// but not if that leaves so little for a dispatch that starting it costs more (with 1 ms for the longest, 512 rounds took seven
-// times as long as with 10, since those of later bounces have a hundredth of its rays).
+// but not if that leaves so little for a dispatch that starting it costs more (with 1 ms for the longest, 512 rounds took three
+// times as long as with 10 at 32x32, since those of later bounces have a hundredth of its rays).
 constexpr double kTargetPassSeconds = 1.0;
 constexpr double kLeastDispatchSeconds = 0.01;
 // Of a first pass, with one round of direct light and a ray that takes this many steps.
