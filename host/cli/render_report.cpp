@@ -237,7 +237,7 @@ std::string qualityText(const RenderReport& report)
     }
     const auto errors = knownErrors(report);
     if (!errors) {
-        return format(", error unknown since %zu pixels have less than 33 samples", pixelsWithoutError(report.film));
+        return format(", error unknown since %zu pixels have fewer than 33 samples", pixelsWithoutError(report.film));
     }
     const bool adaptive = report.options.settings.adaptive != Adaptive::Off;
     return format(", estimated relMSE %.3g%s", errors->relMse, adaptive ? " besides the rule's bias" : "");

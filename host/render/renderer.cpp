@@ -19,7 +19,7 @@ namespace {
 constexpr double kTargetDispatchSeconds = 0.05;
 // And at settings.passSeconds in all, where many rounds of direct light or long brute force make many dispatches, since --time ends
 // between passes; but not if that leaves so little for a dispatch that starting it costs more (of a second, with 1 ms for the longest,
-// 512 rounds took seven times as long as with 10, since those of later bounces have a hundredth of its rays).
+// 512 rounds took three times as long as with 10 at 32x32, since those of later bounces have a hundredth of its rays).
 constexpr double kLeastDispatchShare = 0.01;
 // Of a first pass, with one round of direct light and a ray that takes this many steps.
 constexpr std::uint32_t kFirstPassPaths = 1U << 14;

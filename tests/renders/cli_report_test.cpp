@@ -102,7 +102,7 @@ TEST(CommandLineTest, AdaptiveReportsCountPixels)
     const std::size_t unknown = stats.at("pixelsWithoutEstimate");
     EXPECT_GT(unknown, 0U) << "pixels that stop after one block";
     EXPECT_TRUE(stats.at("estimate").is_null());
-    expectText(summary, (", error unknown since " + std::to_string(unknown) + " pixels have less than 33 samples, on ").c_str());
+    expectText(summary, (", error unknown since " + std::to_string(unknown) + " pixels have fewer than 33 samples, on ").c_str());
 }
 
 // With what is in its file a picture can be made again.
