@@ -30,7 +30,8 @@ testPackages=(
     "libgtest-dev              runs the tests"
     "vulkan-validationlayers   checks every use of Vulkan in the tests"
     "xvfb                      is the screen of the preview's tests"
-    "xauth                     lets them on it"
+    "x11-xserver-utils         tells it how dense its pixels are"
+    "xauth                     lets a session by hand on it (xvfb-run)"
     "${studyPackages[@]}"
 )
 

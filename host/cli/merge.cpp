@@ -58,7 +58,7 @@ void addMerge(CLI::App& app)
         ->type_name("C.exr");
     CLI::Option* png = command->add_option("--png", options->png, "Also write an sRGB picture to look at (.png)");
     png->type_name("C.png");
-    addExposure(*command, options->exposure)->needs(png);
+    addExposure(*command, options->exposure, "a PNG")->needs(png);
     command->callback([options] { runMerge(*options); });
 }
 

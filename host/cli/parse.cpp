@@ -104,10 +104,10 @@ CLI::Option* addChoice(CLI::App& command, const std::string& name, const std::st
         ->type_name(unit);
 }
 
-CLI::Option* addExposure(CLI::App& command, double& exposure)
+CLI::Option* addExposure(CLI::App& command, double& exposure, const std::string& picture)
 {
     return addNumber<double>(command,
-                             {"--exposure", "EV", "Stops for a PNG of light or albedo, never applied to the EXR", -100.0,
+                             {"--exposure", "EV", "Stops for " + picture + " of light or albedo, never applied to the EXR", -100.0,
                               100.0, "0"},
                              [&exposure](double stops) { exposure = stops; });
 }

@@ -49,8 +49,8 @@ CLI::Option* addEnum(CLI::App& command, const std::string& name, const std::stri
     return addChoice(command, name, unit, help, names, [&value](std::size_t i) { value = static_cast<Enum>(i); });
 }
 
-// --exposure of render and merge: stops, for a PNG.
-CLI::Option* addExposure(CLI::App& command, double& exposure);
+// --exposure, in stops, of `picture`, as in "a PNG".
+CLI::Option* addExposure(CLI::App& command, double& exposure, const std::string& picture);
 
 // --scene of render and inspect.
 CLI::Option* addSceneIndex(CLI::App& command, std::optional<std::size_t>& index);

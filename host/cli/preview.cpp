@@ -46,15 +46,18 @@ void addPreview(CLI::App& app)
     CLI::App* command = app.add_subcommand("preview", "Show a glTF scene in a window, and refine it while you look around");
     addSceneOptions(*command, *options);
     addCameraOptions(*command, *options);
-    addExposure(*command, options->exposure);
-    addSampleOptions(*command, options->settings);
+    addExposure(*command, options->exposure, "the window and a PNG");
+    addSampleOptions(*command, options->settings, "as many as there is time for", "0 on");
     addLightOptions(*command, options->settings);
     addAdaptiveOptions(*command, options->settings);
     addTracingOptions(*command, options->settings, options->split);
     addWindowOptions(*command, *options);
     addDevice(*command, *options);
-    command->footer("Keys: H in the window shows them. After N samples the picture has the bits of `glim render --spp N` from its\n"
-                    "camera, whose options C prints. P writes what is shown to SCENE-001.exr and .png in the working folder.\n"
+    command->footer("Keys: left-drag orbits, middle-drag or shift-drag pans, the wheel goes nearer; W A S D Q E fly; F frames the scene,\n"
+                    "R is the file's camera, 1-9 its others; + - exposure; V the next view (shaded, normal, depth, albedo, samples,\n"
+                    "BVH steps); a click prints what is there; Space pauses, P writes what is shown to SCENE-001.exr and .png in the\n"
+                    "working folder, C prints the camera as options and as glTF, H shows help, Esc quits. After N samples the picture\n"
+                    "has the bits of `glim render --spp N` with the options that C prints. A changed scene file is loaded again.\n"
                     "Exit codes: 0 done, 1 bad input or no display, 2 usage, 3 device.");
     command->parse_complete_callback([command, options] {
         settlePicture(*command, *options);

@@ -4,6 +4,7 @@
 #include "host/cli/interrupt.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/render_report.hpp"
+#include "host/flatten/view_options.hpp"
 #include "host/render/check_memory.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/film_pictures.hpp"
@@ -82,17 +83,6 @@ std::string stopReason(int signal, const Film& film, const RenderSettings& setti
     return reached ? "samples" : "tolerance";
 }
 
-// As describeSettings: the picture can be made again from what is in its file.
-std::string describe(const Lens& lens)
-{
-    char text[100] = "";
-    if (lens.radius > 0.0F) {
-        std::snprintf(text, sizeof text, " lens-radius=%.9g focal-distance=%.9g", static_cast<double>(lens.radius),
-                      static_cast<double>(lens.focalDistance));
-    }
-    return text;
-}
-
 // Seconds that writing took.
 double writePictures(const RenderOptions& options, const Film& film)
 {
@@ -142,7 +132,7 @@ ExitCode runRender(const RenderOptions& options)
         return finish(watch.signal(), "some pixels had no sample yet, so " + options.output.string() + " is left as it was");
     }
     film.sceneFile = options.scene.string();
-    film.identity.settings += describe(options.lens);
+    film.identity.settings += describeView(options.pose, options.lens);  // so that it can be made again from what is in its file
     const double writeSeconds = writePictures(options, film);
     const RenderReport report{options, prepared, film, renderer.statistics(), device.description(),
                               stopReason(watch.signal(), film, settings), writeSeconds};

@@ -18,7 +18,7 @@ void addOutputOptions(CLI::App& command, RenderOptions& options)
                                           "Also write a PNG: sRGB of clip(2^EV x); normals as .5 + .5 n, depth from white to "
                                           "dark, node visits from blue (none) to red (as many as 99.9 % of the pixels have)");
     png->type_name("P.png");
-    addExposure(command, options.exposure)->needs(png);
+    addExposure(command, options.exposure, "a PNG")->needs(png);
     command
         .add_option("--rates", options.rates, "Write a PNG of the samples per pixel, from blue (fewest) to red (most)")
         ->type_name("R.png");
@@ -47,7 +47,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
     addOutputOptions(command, options);
     addCameraOptions(command, options);
     addView(command, options);
-    addSampleOptions(command, options.settings);
+    addSampleOptions(command, options.settings, "64; 4 with a --view other than shaded", "0:64");
     addLightOptions(command, options.settings);
     addAdaptiveOptions(command, options.settings);
     addTracingOptions(command, options.settings, options.split);

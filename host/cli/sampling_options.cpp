@@ -30,10 +30,10 @@ void addRoulette(CLI::App& command, RenderSettings& settings)
 
 }  // namespace
 
-void addSampleOptions(CLI::App& command, RenderSettings& settings)
+void addSampleOptions(CLI::App& command, RenderSettings& settings, const std::string& sppDefault, const std::string& rangeDefault)
 {
     CLI::Option* spp = addNumber<std::uint32_t>(
-        command, {"--spp", "N", "Samples per pixel", 1, kMaxSample, "64; 4 with a --view other than shaded"},
+        command, {"--spp", "N", "Samples per pixel", 1, kMaxSample, sppDefault},
         [&settings](std::uint32_t count) { settings.sampleEnd = count; });
     CLI::Option* time = addNumber<double>(
         command,
@@ -47,7 +47,7 @@ void addSampleOptions(CLI::App& command, RenderSettings& settings)
                                        std::tie(settings.sampleBegin, settings.sampleEnd) = parseRange(text);
                                    },
                                    "Absolute sample indices BEGIN to END - 1, for `glim merge`, 0 to " +
-                                       std::to_string(kMaxSample) + " [0:64]")
+                                       std::to_string(kMaxSample) + " [" + rangeDefault + "]")
                                ->type_name("BEGIN:END");
     spp->excludes(time)->excludes(samples);
     addNumber<std::uint32_t>(

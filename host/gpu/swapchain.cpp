@@ -25,7 +25,7 @@ VkSurfaceFormatKHR chooseFormat(const Device& device, VkSurfaceKHR surface)
             return format;
         }
     }
-    throw DeviceError("Device \"" + device.description().name + "\" shows no plain 8-bit colours in this window; "
+    throw InputError("Device \"" + device.description().name + "\" shows no plain 8-bit colours in this window; "
                       "`glim render` writes the picture to a file instead.");
 }
 

@@ -4,6 +4,8 @@
 #include <stb/stb_easy_font.h>
 
 #include <algorithm>
+#include <sstream>
+#include <utility>
 
 namespace glim {
 namespace {
@@ -51,27 +53,51 @@ void drawWords(TextBox& box, std::string words, const glm::uvec2& place, std::ui
 
 int widthOf(std::string words) { return stb_easy_font_width(words.data()); }  // the library takes no constants
 
+// What does not fit between the margins goes on in the next row; a word too long for one is cut.
+std::vector<std::string> wrap(const std::vector<std::string>& lines, std::uint32_t dots)
+{
+    const auto fits = [dots](const std::string& text) { return widthOf(text) + 2 * static_cast<int>(kMarginDots) <= static_cast<int>(dots); };
+    std::vector<std::string> rows;
+    for (const std::string& line : lines) {
+        std::string row;
+        if (line.find('\t') != std::string::npos || fits(line)) {
+            row = line;
+        } else {
+            std::istringstream words(line);
+            for (std::string word; words >> word;) {
+                if (!row.empty() && !fits(row + " " + word)) {
+                    rows.push_back(std::exchange(row, ""));
+                }
+                row += (row.empty() ? "" : " ") + word;
+            }
+        }
+        rows.push_back(row);
+    }
+    return rows;
+}
+
 }  // namespace
 
-TextBox drawText(const std::vector<std::string>& lines, std::uint32_t scale)
+TextBox drawText(const std::vector<std::string>& lines, std::uint32_t scale, std::uint32_t width)
 {
     TextBox box;
-    if (lines.empty()) {
+    const std::vector<std::string> rows = wrap(lines, width / scale);
+    if (rows.empty()) {
         return box;
     }
     std::vector<Words> columns;
     int dots = 0;
-    for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
         const auto y = kMarginDots + static_cast<std::uint32_t>(i) * kLineDots;
-        const std::size_t tab = lines[i].find('\t');
-        columns.push_back({printable(lines[i].substr(0, tab)), {kMarginDots, y}});
+        const std::size_t tab = rows[i].find('\t');
+        columns.push_back({printable(rows[i].substr(0, tab)), {kMarginDots, y}});
         if (tab != std::string::npos) {
-            columns.push_back({printable(lines[i].substr(tab + 1)), {kMarginDots + kTabDots, y}});
+            columns.push_back({printable(rows[i].substr(tab + 1)), {kMarginDots + kTabDots, y}});
         }
         dots = std::max(dots, static_cast<int>(columns.back().place.x) + widthOf(columns.back().text));
     }
     box.width = (static_cast<std::uint32_t>(dots) + kMarginDots) * scale;
-    box.height = (static_cast<std::uint32_t>(lines.size()) * kLineDots + 2 * kMarginDots) * scale;
+    box.height = (static_cast<std::uint32_t>(rows.size()) * kLineDots + 2 * kMarginDots) * scale;
     box.pixels.assign(std::size_t{box.width} * box.height, kShade);
     for (const Words& words : columns) {
         drawWords(box, words.text, words.place, scale);

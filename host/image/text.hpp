@@ -14,7 +14,8 @@ struct TextBox {
 };
 
 // White on a dark shade, `scale` pixels to a dot of the font (lines are 12 dots high); nothing if there are no lines. What is not
-// printable ASCII shows as "?"; what follows a tab stands in a second column.
-TextBox drawText(const std::vector<std::string>& lines, std::uint32_t scale);
+// printable ASCII shows as "?"; what follows a tab stands in a second column; lines without one go on below where `width` pixels
+// are not enough.
+TextBox drawText(const std::vector<std::string>& lines, std::uint32_t scale, std::uint32_t width);
 
 }  // namespace glim

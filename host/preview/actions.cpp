@@ -1,4 +1,5 @@
 // What the user does, done.
+#include "host/flatten/view_options.hpp"
 #include "host/preview/pick.hpp"
 #include "host/preview/session.hpp"
 #include "host/render/film_file.hpp"
@@ -122,8 +123,7 @@ void Session::pressForScene(char key)
     } else if (key == 'P') {
         writePictures();
     } else if (key == 'C') {
-        std::cout << viewpoint_->describeAsOptions() << '\n' << viewpoint_->describeAsGltf() << std::endl;
-        say(viewpoint_->describeAsOptions());
+        printCamera();
     }
 }
 
@@ -187,12 +187,21 @@ void Session::clickAt(const glm::dvec2& position)
     say(there);
 }
 
+void Session::printCamera()
+{
+    const std::string options = "--camera " + std::to_string(viewpoint_->index()) + viewOptions(viewpoint_->moved(), options_.lens) +
+                                " --size " + std::to_string(display_.width()) + "x" + std::to_string(display_.height());
+    std::cout << options << '\n' << viewpoint_->describeAsGltf() << std::endl;
+    say(options);
+}
+
 void Session::writePictures()
 {
     const std::filesystem::path stem = freeStem(options_.scene);
     try {
         Film film = refiner().renderer().film();
         film.sceneFile = options_.scene.string();
+        film.identity.settings += describeView(viewpoint_->moved(), options_.lens);
         writeFilm(stem.string() + ".exr", film);
         writeFilmPng(stem.string() + ".png", film, look_, options_.exposure);
         say("wrote " + stem.string() + ".exr and .png");

@@ -62,7 +62,8 @@ std::vector<std::string> Session::figures()
     if (options_.exposure != 0.0) {
         view += format(", %+.1f EV", options_.exposure);
     }
-    lines.push_back(view + format(", %ux%u, 1/%u size", display_.width(), display_.height(), picture.scale()));
+    const std::string size = picture.scale() == 1 ? "full size" : "1/" + std::to_string(picture.scale()) + " size";
+    lines.push_back(view + format(", %ux%u, ", display_.width(), display_.height()) + size);
     lines.push_back(device_.description().name);
     return lines;
 }

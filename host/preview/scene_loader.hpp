@@ -1,4 +1,4 @@
-// Loads the scene in a thread of its own, and again whenever its file changes.
+// Loads the scene in a thread of its own, and again whenever its file or one of its buffers' changes.
 #pragma once
 
 #include "host/render/prepare_scene.hpp"
@@ -19,19 +19,21 @@ public:
     std::string stage() const;
 
 private:
-    // A file that is being written changes until its size and time stay for two looks.
     struct Stamp {
         std::filesystem::file_time_type time;
         std::uintmax_t size = 0;
         bool operator==(const Stamp&) const = default;
     };
-    Stamp look() const;
+    // Of each file; nothing while one is missing, as between the two steps of some editors' saving.
+    std::vector<Stamp> look() const;
+    bool hasChanged();
     void begin();
 
     std::filesystem::path file_;
+    std::vector<std::filesystem::path> files_;  // that the scene was read from last
     LoadOptions options_;
     SplitRule split_;
-    Stamp loaded_, seen_;
+    std::vector<Stamp> loaded_, seen_;          // when loading began, and at the last look
     std::chrono::steady_clock::time_point lastLook_;
     mutable std::mutex mutex_;
     std::string stage_;

@@ -163,7 +163,8 @@ void Session::present()
         measure();
         display_.draw(refiner().renderer(), look_, range_, options_.exposure);
     }
-    display_.cover(drawText(overlay(), static_cast<std::uint32_t>(std::max(1.0F, std::round(window_.contentScale())))));
+    const auto dotPixels = static_cast<std::uint32_t>(std::max(1.0F, std::round(window_.contentScale())));
+    display_.cover(drawText(overlay(), dotPixels, display_.width()));
     const glm::uvec2 size = window_.pictureSize();
     const bool shown = swapchain_.present(display_.shown(), size.x, size.y);
     presented_ = Clock::now();

@@ -44,6 +44,7 @@ private:
     void pressForScene(char key);
     void cycleLook();
     void clickAt(const glm::dvec2& position);
+    void printCamera();
     void writePictures();
     void say(const std::string& text);
     // overlay.cpp: what the window says

@@ -4,19 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cstdio>
 
 namespace glim {
-namespace {
-
-std::string numbers(const glm::dvec3& v)
-{
-    char text[100];
-    std::snprintf(text, sizeof text, "%.17g,%.17g,%.17g", v.x, v.y, v.z);
-    return text;
-}
-
-}  // namespace
 
 void Viewpoint::enter(const Scene& scene)
 {
@@ -49,20 +38,6 @@ void Viewpoint::reset()
 {
     index_ = firstIndex_;
     pose_.reset();
-}
-
-std::string Viewpoint::describeAsOptions() const
-{
-    std::string text = "--camera " + std::to_string(index_);
-    if (pose_) {
-        text += " --look-from " + numbers(pose_->from) + " --look-at " + numbers(pose_->at) + " --look-up " + numbers(pose_->up);
-    }
-    if (pose_ && pose_->zoom != 1.0) {
-        char zoom[40];
-        std::snprintf(zoom, sizeof zoom, " --zoom %.17g", pose_->zoom);
-        text += zoom;
-    }
-    return text;
 }
 
 std::string Viewpoint::describeAsGltf() const

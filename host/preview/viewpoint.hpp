@@ -30,8 +30,8 @@ public:
     }
     Pose pose() const;
 
-    // The options of `glim render` that give this camera, to the bit.
-    std::string describeAsOptions() const;
+    std::size_t index() const { return index_; }  // of the file's camera
+    const std::optional<Pose>& moved() const { return pose_; }
     // A camera and its node, as JSON of a glTF file.
     std::string describeAsGltf() const;
 

@@ -1,21 +1,11 @@
 #include "host/render/settings.hpp"
 
-#include <charconv>
+#include "host/exact_text.hpp"
+
 #include <cmath>
 #include <sstream>
 
 namespace glim {
-
-namespace {
-
-// The shortest text that reads back as the same number.
-std::string exactText(float value)
-{
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
-}  // namespace
 
 std::string describeSettings(const RenderSettings& settings)
 {

@@ -79,6 +79,7 @@ Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options)
     const GltfFile file = readGltfFile(path);
     Scene scene;
     scene.file = file.path;
+    scene.files = file.files;
 
     std::vector<MaterialReading> readings;
     for (int i = 0; i < static_cast<int>(file.model.materials.size()); ++i) {

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -73,6 +74,7 @@ struct Camera {
 
 struct Scene {
     std::string file;
+    std::vector<std::filesystem::path> files;  // that it was read from: `file` and those of its buffers
     glm::dvec3 origin{0.0};
     std::vector<Triangle> triangles;
     std::vector<TriangleNormals> normals;  // empty, or one entry per triangle

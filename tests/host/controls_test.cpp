@@ -1,5 +1,6 @@
 // What the mouse and the keys do to a camera.
 #include "host/preview/controls.hpp"
+#include "host/flatten/view_options.hpp"
 #include "host/preview/viewpoint.hpp"
 
 #include "host/error.hpp"
@@ -137,17 +138,27 @@ TEST(ViewpointTest, IsTheFilesCameraUntilItMoves)
 {
     Viewpoint viewpoint(0, std::nullopt);
     viewpoint.enter(twoCameras());
-    EXPECT_EQ(viewpoint.describeAsOptions(), "--camera 0");
+    EXPECT_FALSE(viewpoint.moved());
     EXPECT_EQ(viewpoint.camera().position, glm::vec3(1, 0, 10));
     expectNear(viewpoint.pose().at, {1, 0, 0});
     viewpoint.move([](const Pose& pose) { return fly(pose, {0, 0, 1}); });
     EXPECT_EQ(viewpoint.camera().position, glm::vec3(1, 0, 9));
-    EXPECT_EQ(viewpoint.describeAsOptions(), "--camera 0 --look-from 1,0,9 --look-at 1,0,-1 --look-up 0,1,0");
+    EXPECT_EQ(viewOptions(viewpoint.moved(), {}), " --look-from 1,0,9 --look-at 1,0,-1 --look-up 0,1,0");
     EXPECT_FALSE(viewpoint.choose(2));
     EXPECT_TRUE(viewpoint.choose(1));
-    EXPECT_EQ(viewpoint.describeAsOptions(), "--camera 1");
+    EXPECT_FALSE(viewpoint.moved());
+    EXPECT_EQ(viewpoint.index(), 1U);
     viewpoint.reset();
-    EXPECT_EQ(viewpoint.describeAsOptions(), "--camera 0");
+    EXPECT_EQ(viewpoint.index(), 0U);
+}
+
+TEST(ViewOptionsTest, AreExact)
+{
+    EXPECT_EQ(viewOptions(std::nullopt, {}), "");
+    const Pose pose{{0.1, 1e-7, -3}, {1.0 / 3.0, 0, 0}, {0, 0, 1}, 2.5};
+    EXPECT_EQ(viewOptions(pose, {0.1F, 3.0F}), " --look-from 0.1,1e-07,-3 --look-at 0.3333333333333333,0,0 --look-up 0,0,1 --zoom 2.5"
+                                               " --lens-radius 0.1 --focal-distance 3");
+    EXPECT_EQ(describeView(pose, {}), " look-from=0.1,1e-07,-3 look-at=0.3333333333333333,0,0 look-up=0,0,1 zoom=2.5");
 }
 
 // Where it was moved to, it stays in a scene that has changed around it.

@@ -59,19 +59,28 @@ TEST(ScriptTest, NamesTheLineThatIsBad)
 
 TEST(TextTest, IsInkOnShade)
 {
-    const TextBox box = drawText({"Hi", "glim \xc3\xa9"}, 2);
+    const TextBox box = drawText({"Hi", "glim \xc3\xa9"}, 2, 500);
     EXPECT_EQ(box.pixels.size(), std::size_t{box.width} * box.height);
     EXPECT_EQ(box.height, 2U * (2 * 12 + 8));
     const auto ink = std::count(box.pixels.begin(), box.pixels.end(), 255U | 255U << 8);
     EXPECT_GT(ink, 100);
     EXPECT_EQ(ink + std::count(box.pixels.begin(), box.pixels.end(), 150U << 8), std::ssize(box.pixels));
     EXPECT_EQ(std::count(box.pixels.begin(), box.pixels.begin() + 8 * box.width, 255U | 255U << 8), 0) << "a margin";
-    EXPECT_TRUE(drawText({}, 1).pixels.empty());
-    EXPECT_EQ(drawText({"a\tb"}, 1).width, drawText({"abc\tb"}, 1).width) << "columns";
-    const TextBox twice = drawText({"glim"}, 2), once = drawText({"glim"}, 1);
+    EXPECT_TRUE(drawText({}, 1, 100).pixels.empty());
+    EXPECT_EQ(drawText({"a\tb"}, 1, 500).width, drawText({"abc\tb"}, 1, 500).width) << "columns";
+    const TextBox twice = drawText({"glim"}, 2, 500), once = drawText({"glim"}, 1, 500);
     EXPECT_EQ(twice.width, 2 * once.width);
     EXPECT_EQ(std::count(twice.pixels.begin(), twice.pixels.end(), 255U | 255U << 8),
               4 * std::count(once.pixels.begin(), once.pixels.end(), 255U | 255U << 8));
+}
+
+TEST(TextTest, GoesOnBelow)
+{
+    const std::uint32_t width = drawText({"aaa bbb"}, 1, 500).width;
+    const TextBox broken = drawText({"aaa bbb ccc ddd"}, 1, width + 5), two = drawText({"aaa bbb", "ccc ddd"}, 1, 500);
+    EXPECT_EQ(broken.pixels, two.pixels);
+    EXPECT_EQ(drawText({"a longword b"}, 1, 30).height, drawText({"a", "longword", "b"}, 1, 500).height) << "cut where no blank is";
+    EXPECT_EQ(drawText({"word"}, 1, 1).pixels, drawText({"word"}, 1, 500).pixels);
 }
 
 TEST(LatencyTest, QuantilesAreOfTheWaits)

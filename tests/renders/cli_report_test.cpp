@@ -106,14 +106,17 @@ TEST(CommandLineTest, AdaptiveReportsCountPixels)
 }
 
 // With what is in its file a picture can be made again.
-TEST(CommandLineTest, TheLensIsAmongTheSettings)
+TEST(CommandLineTest, ViewAndLensAreAmongTheSettings)
 {
     const Workplace workplace;
-    const json stats = workplace.render({"--spp", "1", "--lens-radius", "0.1", "--focal-distance", "3"}).second;
+    const json stats = workplace.render({"--spp", "1", "--lens-radius", "0.1", "--focal-distance", "3", "--look-from", "0,1,2",
+                                         "--look-at", "0,1,0"}).second;
     const std::string settings = stats.at("settings");
-    expectText(settings, " lens-radius=0\\.1[0-9]* focal-distance=3$");
+    expectText(settings, " look-from=0,1,2 look-at=0,1,0 look-up=0,1,0 lens-radius=0\\.1 focal-distance=3$");
     EXPECT_EQ(readFilm(workplace.file("x.exr")).identity.settings, settings);
-    EXPECT_EQ(workplace.render({"--spp", "1"}).second.at("settings").get<std::string>().find("lens"), std::string::npos);
+    const std::string plain = workplace.render({"--spp", "1"}).second.at("settings");
+    EXPECT_EQ(plain.find("lens"), std::string::npos);
+    EXPECT_EQ(plain.find("look"), std::string::npos);
 }
 
 TEST(CommandLineTest, TimeEndsAnAdaptiveRender)

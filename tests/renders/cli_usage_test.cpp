@@ -62,7 +62,13 @@ TEST(CommandLineTest, HelpListsEveryOptionWithUnitRangeAndDefault)
           "--roulette R", "infinite where albedo^2 >= P", "above albedo .837) [throughput]", "--accelerator A",
           "8192 a dispatch [bvh]", "--split RULE", "[sah]", "--adaptive RULE", "1.96 s / sqrt(n) <= T m", "by 1.7 %",
           "[off]", "--tolerance T", "1e-30 to 1e+06 [0.05]", "--batch N", "2 to 1048576 [32]", "--max-spp N",
-          "2 to 2147483648 [2048]"}},
+          "2 to 2147483648 [2048]", "--look-from X,Y,Z", "world coordinates", "--look-at X,Y,Z", "--look-up X,Y,Z", "[0,1,0]",
+          "--zoom Z", "1e-06 to 1e+06 [1]"}},
+        {"preview",
+         {"--size WxH", "--camera NAME|INDEX", "--look-from X,Y,Z", "--lens-radius R", "Stops for the window and a PNG",
+          "[as many as there is time for]", "--time SECONDS", "[0 on]", "--seed N", "--sampler S", "--bounces N", "--direct D",
+          "--light-samples N", "--paths PART", "--roulette R", "--clamp-indirect X", "--adaptive RULE", "--accelerator A",
+          "--frames N", "[never]", "--script FILE", "left-drag orbits", "Space pauses", "1 bad input or no display"}},
         {"inspect", {"SCENE FILE", "--scene INDEX", "--json"}},
         {"devices", {"--json"}},
         {"compare", {"picture A.exr", "reference B.exr", "--variance V.exr", "--diff D.exr", "--json"}},
@@ -152,7 +158,11 @@ TEST(CommandLineTest, OptionsThatDoNotGoTogetherAreUsageErrorsBeforeAnyWork)
         {{"--adaptive", "course", "--tolerance", "0"}, "--tolerance: \"0\": expected a number from "},
         {{"--adaptive", "course", "--spp", "64"}, "--spp: \"64\": --adaptive itself chooses the samples; expected --max-spp"},
         {{"--view", "normals"}, "--view: \"normals\": expected shaded or normal or depth or albedo or bvh-steps"},
-        {{"--lens-radius", "0.1"}, "--lens-radius requires --focal-distance"}});
+        {{"--lens-radius", "0.1"}, "--lens-radius requires --focal-distance"},
+        {{"--look-from", "0,0,1"}, "--look-from requires --look-at"},
+        {{"--look-up", "0,0,1"}, "--look-up requires --look-from"},
+        {{"--look-from", "0,0", "--look-at", "0,0,0"}, "--look-from: \"0,0\": expected "},
+        {{"--look-from", "0,0,nan", "--look-at", "0,0,0"}, "--look-from: \"0,0,nan\": expected "}});
 }
 
 TEST(CommandLineTest, OutputsThatCannotBeWrittenAreRefusedBeforeAnyWork)

@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <csignal>
+#include <cstdio>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -38,16 +39,26 @@ std::string readLine(int pipe)
     return line;
 }
 
+// Where desktops keep it, and GLFW reads it.
+void setDensity(const std::string& display, int density)
+{
+    FILE* database = popen(("xrdb -display " + display + " -nocpp -merge -").c_str(), "w");
+    if (database != nullptr) {
+        std::fprintf(database, "Xft.dpi: %d\n", density);
+    }
+    EXPECT_TRUE(database != nullptr && pclose(database) == 0) << "xrdb fails; is the package x11-xserver-utils installed?";
+}
+
 }  // namespace
 
-VirtualScreen::VirtualScreen()
+VirtualScreen::VirtualScreen(int depth, int density)
 {
     int ends[2];
     if (pipe(ends) != 0) {
         ADD_FAILURE() << "no pipe";
         return;
     }
-    const std::string size = std::to_string(kWidth) + "x" + std::to_string(kHeight) + "x24";
+    const std::string size = std::to_string(kWidth) + "x" + std::to_string(kHeight) + "x" + std::to_string(depth);
     std::vector<std::string> words{"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", size, "-fbdir",
                                    folder_.path().string(), "-nolisten", "tcp", "-noreset"};
     std::vector<char*> arguments;
@@ -65,6 +76,7 @@ VirtualScreen::VirtualScreen()
     close(ends[0]);
     EXPECT_FALSE(number.empty()) << "Xvfb does not start; is the package xvfb installed?";
     name_ = ":" + number;
+    setDensity(name_, density);
 }
 
 VirtualScreen::~VirtualScreen()

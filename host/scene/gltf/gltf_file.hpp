@@ -12,6 +12,7 @@ namespace glim {
 
 struct GltfFile {
     std::string path;  // as given, for messages
+    std::vector<std::filesystem::path> files;  // that were read: this one and those of its buffers
     // Index properties are in range, numbers have their type. Holds no buffers, images, skins or animations.
     tinygltf::Model model;
     std::vector<std::vector<unsigned char>> buffers;  // each at least as long as its byteLength

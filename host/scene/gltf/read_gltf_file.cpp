@@ -40,6 +40,11 @@ std::vector<unsigned char> decodeDataUri(const std::string& path, const std::str
     return bytes;
 }
 
+std::filesystem::path externalFile(const std::string& path, const std::string& uri)
+{
+    return std::filesystem::path(path).parent_path() / percentDecode(uri);
+}
+
 std::vector<unsigned char> readExternal(const std::string& path, const std::string& place, const std::string& uri)
 {
     const std::filesystem::path relative = percentDecode(uri);
@@ -47,7 +52,7 @@ std::vector<unsigned char> readExternal(const std::string& path, const std::stri
         throw InputError(path + ": " + place + ".uri is \"" + uri + "\"; expected a path relative to the glTF file");
     }
     try {
-        return readBytes(std::filesystem::path(path).parent_path() / relative);
+        return readBytes(externalFile(path, uri));
     } catch (const InputError& error) {
         throw InputError(path + ": " + place + " names the file \"" + uri + "\", which cannot be read (" +
                          error.what() + ")");
@@ -79,6 +84,18 @@ std::vector<std::vector<unsigned char>> readBuffers(const std::string& path, con
         buffers.push_back(std::move(bytes));
     }
     return buffers;
+}
+
+std::vector<std::filesystem::path> listFiles(const std::string& path, const json& document)
+{
+    std::vector<std::filesystem::path> files{path};
+    for (const json& buffer : document.value("buffers", json::array())) {
+        const std::string uri = buffer.value("uri", "data:");
+        if (uri.rfind("data:", 0) != 0) {
+            files.push_back(externalFile(path, uri));
+        }
+    }
+    return files;
 }
 
 // tinygltf 2.7 refuses index accessors without a bufferView, though sparse ones may lack it: they borrow one while it
@@ -158,6 +175,7 @@ GltfFile readGltfFile(const std::filesystem::path& file)
     GltfFile result;
     result.path = path;
     result.buffers = readBuffers(path, document, container);
+    result.files = listFiles(path, document);
     result.animated = document.contains("animations");
     result.model = parseModel(path, std::move(document));
     return result;

@@ -1,0 +1,46 @@
+#include "host/flatten/view_options.hpp"
+
+#include "host/exact_text.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace glim {
+namespace {
+
+using Words = std::vector<std::pair<std::string, std::string>>;
+
+std::string pointText(const glm::dvec3& v) { return exactText(v.x) + "," + exactText(v.y) + "," + exactText(v.z); }
+
+Words wordsOf(const std::optional<Pose>& pose, const Lens& lens)
+{
+    Words words;
+    if (pose) {
+        words = {{"look-from", pointText(pose->from)}, {"look-at", pointText(pose->at)}, {"look-up", pointText(pose->up)}};
+    }
+    if (pose && pose->zoom != 1.0) {
+        words.emplace_back("zoom", exactText(pose->zoom));
+    }
+    if (lens.radius > 0.0F) {
+        words.emplace_back("lens-radius", exactText(lens.radius));
+        words.emplace_back("focal-distance", exactText(lens.focalDistance));
+    }
+    return words;
+}
+
+std::string join(const Words& words, const char* before, const char* between)
+{
+    std::string text;
+    for (const auto& [name, value] : words) {
+        text += before + name + between + value;
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string describeView(const std::optional<Pose>& pose, const Lens& lens) { return join(wordsOf(pose, lens), " ", "="); }
+
+std::string viewOptions(const std::optional<Pose>& pose, const Lens& lens) { return join(wordsOf(pose, lens), " --", " "); }
+
+}  // namespace glim

@@ -1,0 +1,18 @@
+// The command line's words for what a camera of the file was changed to.
+#pragma once
+
+#include "host/flatten/flatten_scene.hpp"
+#include "host/scene/pose.hpp"
+
+#include <optional>
+#include <string>
+
+namespace glim {
+
+// As a film's settings name it: " look-from=0,0,1 look-at=0,0,0 lens-radius=0.1 ...", exact; empty where nothing was changed.
+std::string describeView(const std::optional<Pose>& pose, const Lens& lens);
+
+// The same as options of `glim render`: " --look-from 0,0,1 --look-at 0,0,0 --lens-radius 0.1 ...".
+std::string viewOptions(const std::optional<Pose>& pose, const Lens& lens);
+
+}  // namespace glim

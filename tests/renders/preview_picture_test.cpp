@@ -1,0 +1,146 @@
+// What the window shows and writes is what `glim render` gives.
+#include "tests/support/preview_fixture.hpp"
+
+#include <csignal>
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <thread>
+
+namespace glim::test {
+namespace {
+
+constexpr const char* kBare = "0 key H\n0 key H\n";  // without figures, so that all of the window is picture
+
+TEST_F(PreviewTest, ShowsAndWritesWhatARenderGives)
+{
+    const Pixels shown = windowAtWriting(screen, std::string(kBare) + "0 samples 8\n0 key P\n", {"--spp", "8"});
+    EXPECT_TRUE(sameBits(film(1), render("--spp 8")));
+    EXPECT_EQ(picture(1), rendered());
+    EXPECT_EQ(countOthers(shown, rendered()), 0);
+}
+
+// Through a page's end, where the host takes the samples, and beyond.
+TEST_F(PreviewTest, ShowsManySamples)
+{
+    width = 24;
+    height = 18;
+    const Pixels shown = windowAtWriting(screen, std::string(kBare) + "0 samples 300\n0 key P\n", {"--spp", "300"});
+    EXPECT_TRUE(sameBits(film(1), render("--spp 300")));
+    EXPECT_EQ(countOthers(shown, rendered()), 0);
+}
+
+// Options of sampling, of adaptive sampling and of the camera are a render's.
+TEST_F(PreviewTest, TakesTheOptionsOfARender)
+{
+    const char* const kOptions[] = {
+        "--spp 4 --seed 7 --sampler independent --bounces 2 --direct lights --light-samples 2 --roulette fixed:0.8",
+        "--adaptive course --tolerance 0.2 --batch 8 --max-spp 64",
+        "--samples 32:40 --clamp-indirect 1 --paths indirect --accelerator none --intersector moller-trumbore",
+        "--spp 3 --look-from 0,1.2,3 --look-at 0,1,0 --zoom 1.5 --lens-radius 0.05 --focal-distance 3 --environment 1,0.5,0.25",
+    };
+    for (const char* options : kOptions) {
+        std::istringstream words(options);
+        const std::vector<std::string> list{std::istream_iterator<std::string>(words), {}};
+        run("0 samples 2000000000\n0 key P\n0 close\n", list);
+        const Film made = film(1);
+        const Film expected = render(options);
+        EXPECT_TRUE(sameBits(made, expected)) << options;
+        EXPECT_EQ(made.identity.settings, expected.identity.settings);
+        EXPECT_EQ(picture(1), rendered()) << options;
+        removePictures();
+    }
+}
+
+// Wherever the camera was moved to, C prints the options of `glim render` that give the same bits.
+TEST_F(PreviewTest, PrintsTheOptionsOfItsCamera)
+{
+    const char* const kMoves[] = {
+        "0 drag left 10,10 40,30\n",
+        "0 drag middle 50,50 20,40\n0 scroll 2\n",
+        "0 key F\n0 scroll -1\n",
+        "0 press W\n0.2 release W\n0 press E\n0 press A\n0.1 release A\n0 release E\n",
+        "0 key F\n0 drag left 0,0 90,0\n0 key R\n0 resize 50x70\n",
+    };
+    for (const char* moves : kMoves) {
+        const GlimRun session = run(std::string("0 samples 1\n") + moves + "0.1 key C\n0 samples 4\n0 key P\n0 key escape\n",
+                                    {"--spp", "4", "--lens-radius", "0.01", "--focal-distance", "3"});
+        const std::string options = firstLine(session.out);
+        ASSERT_EQ(options.rfind("--camera 0", 0), 0U) << session.out;
+        EXPECT_NE(session.out.find("\"cameras\":[{\"type\":\"perspective\""), std::string::npos) << session.out;
+        const Film expected = render("--spp 4 " + options);
+        EXPECT_TRUE(sameBits(film(1), expected)) << moves << options;
+        EXPECT_EQ(film(1).identity.settings, expected.identity.settings);
+        removePictures();
+    }
+}
+
+int brightest(const std::array<int, 3>& pixel) { return *std::max_element(pixel.begin(), pixel.end()); }
+
+// The share of the window that is not black.
+double shareOfLight(const Pixels& window)
+{
+    const auto lit = std::count_if(window.begin(), window.end(), [](const auto& pixel) { return brightest(pixel) > 0; });
+    return static_cast<double>(lit) / static_cast<double>(window.size());
+}
+
+// Looked at again and again while the camera turns, the size changes and views come and go.
+TEST_F(PreviewTest, NeverFlashesBlack)
+{
+    std::string script = std::string(kBare) + "0 samples 2\n0 key P\n";
+    for (int i = 0; i < 30; ++i) {
+        script += "0.04 drag left 10,10 16,12\n0.04 drag left 16,12 10,10\n";
+        script += i % 5 == 4 ? "0.1 key V\n" : i % 5 == 2 ? "0.1 key +\n0 key -\n" : "";
+    }
+    Pixels first;
+    std::set<Pixels> seen;
+    double least = 1.0;
+    GlimCall session = call(script);
+    session.signalWhen = [&](const std::string& err) {
+        if (err.find("wrote") == std::string::npos) {
+            return false;
+        }
+        first = windowOf(screen.pixels());
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(3);
+        while (std::chrono::steady_clock::now() < end) {
+            const Pixels now = windowOf(screen.pixels());
+            least = std::min(least, shareOfLight(now));
+            seen.insert(now);
+        }
+        return true;
+    };
+    session.signal = SIGTERM;
+    runGlim(session);
+    EXPECT_GT(shareOfLight(first), 0.7);
+    EXPECT_GT(least, 0.6) << "of the window was lit at the least";
+    EXPECT_GT(seen.size(), 10U) << "pictures";
+}
+
+// On a display with small pixels the text has dots of two by two.
+TEST_F(PreviewTest, TextGrowsWithTheDensityOfTheDisplay)
+{
+    width = 400;
+    height = 100;
+    const auto doubled = [&](int density) {
+        const VirtualScreen display(24, density);
+        const Pixels window = windowAtWriting(display, "0 samples 1\n0 key P\n", {"--spp", "1"});
+        int ink = 0, whole = 0;
+        for (std::size_t y = 0; y < 40; y += 2) {
+            for (std::size_t x = 0; x < 200; x += 2) {
+                const std::size_t at = y * width + x;
+                const int white = static_cast<int>(std::count(&window[at], &window[at + 2], std::array{255, 255, 255})) +
+                                  static_cast<int>(std::count(&window[at + width], &window[at + width + 2], std::array{255, 255, 255}));
+                ink += white > 0 ? 1 : 0;
+                whole += white == 4 ? 1 : 0;
+            }
+        }
+        removePictures();
+        EXPECT_GT(ink, 100);
+        return static_cast<double>(whole) / ink;
+    };
+    EXPECT_EQ(doubled(192), 1.0);
+    EXPECT_LT(doubled(96), 0.5);
+}
+
+}  // namespace
+}  // namespace glim::test

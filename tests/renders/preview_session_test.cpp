@@ -1,0 +1,220 @@
+// What a user does in the window, and what it answers.
+#include "tests/support/gltf_builder.hpp"
+#include "tests/support/preview_fixture.hpp"
+
+#include <csignal>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace glim::test {
+namespace {
+
+TEST_F(PreviewTest, ViewsExposureAndClicks)
+{
+    std::string script = "0 samples 4\n0 key P\n";
+    for (int views = 0; views < 6; ++views) {
+        script += "0 key V\n0 samples 4\n0 key P\n";
+    }
+    script += "0 key +\n0 key P\n0 key -\n0 key P\n0 click 48,36\n0 close\n";
+    const GlimRun session = run(script, {"--spp", "4"});
+    render("--spp 4");
+    const Pixels shaded = rendered();
+    const char* const kViews[] = {"normal", "depth", "albedo"};
+    EXPECT_EQ(picture(1), shaded);
+    for (int i = 0; i < 3; ++i) {
+        render(std::string("--spp 4 --view ") + kViews[i]);
+        EXPECT_EQ(picture(2 + i), rendered()) << kViews[i];
+    }
+    EXPECT_EQ(picture(5), Pixels(std::size_t{width} * height, {0, 0, 255})) << "as many samples everywhere";
+    const Film steps = render("--spp 4 --view bvh-steps");
+    EXPECT_EQ(picture(6), rendered());
+    EXPECT_TRUE(sameBits(film(6), steps));
+    EXPECT_EQ(picture(7), shaded) << "round again";
+    render("--spp 4 --exposure 0.5");
+    EXPECT_EQ(picture(8), rendered());
+    EXPECT_EQ(picture(9), shaded);
+    EXPECT_NE(session.out.find("pixel (48, 36) of 96x72: mesh "), std::string::npos) << session.out;
+    EXPECT_NE(session.out.find("; 4 samples, mean ("), std::string::npos) << session.out;
+}
+
+glm::dvec3 standsAt(const std::string& options)
+{
+    glm::dvec3 at(0.0);
+    const std::size_t place = options.find("--look-from ");
+    EXPECT_NE(place, std::string::npos) << options;
+    std::sscanf(options.c_str() + std::min(place, options.size()), "--look-from %lf,%lf,%lf", &at.x, &at.y, &at.z);
+    return at;
+}
+
+// The camera of the scene looks along -Z; half the scene's radius a second.
+TEST_F(PreviewTest, KeysFly)
+{
+    const std::vector<std::pair<char, glm::dvec3>> kWays{{'W', {0, 0, -1}}, {'S', {0, 0, 1}}, {'A', {-1, 0, 0}},
+                                                         {'D', {1, 0, 0}},  {'Q', {0, -1, 0}}, {'E', {0, 1, 0}}};
+    std::string script = "0 samples 1\n0 drag left 10,10 20,10\n0 drag left 20,10 10,10\n0 key C\n";
+    for (const auto& [key, way] : kWays) {
+        script += std::string("0 press ") + key + "\n0.3 release " + key + "\n0 key C\n";
+    }
+    std::istringstream out(run(script + "0 key R\n0 key C\n0 key F\n0 key C\n0 key escape\n").out);
+    const auto nextLine = [&] {
+        std::string line, gltf;
+        std::getline(out, line);
+        std::getline(out, gltf);
+        return line;
+    };
+    glm::dvec3 before = standsAt(nextLine());
+    for (const auto& [key, way] : kWays) {
+        const glm::dvec3 now = standsAt(nextLine());
+        const double distance = glm::length(now - before);
+        EXPECT_GT(distance, 0.02) << key;
+        EXPECT_LT(glm::length(now - before - distance * way), 1e-3 * distance) << key;
+        before = now;
+    }
+    EXPECT_EQ(nextLine(), "--camera 0 --size 96x72") << "after R";
+    EXPECT_GT(standsAt(nextLine()).z, before.z) << "after F";
+}
+
+TEST_F(PreviewTest, DigitsAreTheFilesCameras)
+{
+    nlohmann::json document = nlohmann::json::parse(std::ifstream(scene));
+    document["nodes"].push_back({{"camera", 0}, {"translation", {0.3, 1.2, 2.0}}});
+    document["scenes"][0]["nodes"].push_back(document["nodes"].size() - 1);
+    scene = folder / "two.gltf";
+    std::ofstream(scene) << document;
+    const GlimRun session = run("0 samples 2\n0 key 2\n0 samples 2\n0 key C\n0 key P\n0 key 1\n0 samples 2\n0 key P\n0 key 3\n"
+                                "0 key P\n0 close\n", {"--spp", "2"});
+    EXPECT_EQ(firstLine(session.out), "--camera 1 --size 96x72");
+    EXPECT_TRUE(sameBits(film(1), render("--spp 2 --camera 1")));
+    const Film first = render("--spp 2");
+    EXPECT_TRUE(sameBits(film(2), first));
+    EXPECT_TRUE(sameBits(film(3), first)) << "there is no camera 3";
+}
+
+TEST_F(PreviewTest, FiguresAndHelpComeAndGo)
+{
+    width = 320;
+    height = 240;
+    const auto covered = [&](const std::string& keys) {
+        const Pixels window = windowAtWriting(screen, "0 samples 1\n" + keys + "0 key P\n", {"--spp", "1"});
+        const int others = countOthers(window, picture(1));
+        removePictures();
+        return others;
+    };
+    const int figures = covered(""), help = covered("0 key H\n"), bare = covered("0 key H\n0 key H\n");
+    EXPECT_GT(figures, 320 * 12);
+    EXPECT_GT(help, 2 * figures);
+    EXPECT_EQ(bare, 0);
+}
+
+TEST_F(PreviewTest, PauseStopsSampling)
+{
+    const GlimRun session = run("0 samples 2\n0 key space\n0.1 key P\n0.5 key P\n0 key space\n0.5 key P\n0 close\n");
+    EXPECT_TRUE(sameBits(film(1), film(2))) << session.err;
+    EXPECT_GT(film(3).pixels[0].count, film(2).pixels[0].count);
+}
+
+TEST_F(PreviewTest, SurvivesAResizeStorm)
+{
+    std::ostringstream script;
+    script << "0 samples 1\n";
+    for (int i = 0; i < 100; ++i) {
+        script << "0.01 resize " << 20 + 7 * (i % 30) << "x" << 300 - 9 * (i % 32) << "\n";
+    }
+    script << "0.1 resize 64x48\n0.1 samples 2\n0 key P\n0 iconify\n0.1 restore\n0 close\n";
+    run(script.str(), {"--spp", "2"});
+    width = 64;
+    height = 48;
+    EXPECT_TRUE(sameBits(film(1), render("--spp 2")));
+}
+
+TEST_F(PreviewTest, ClosesWhileItLoads)
+{
+    run("0 close\n");
+    run("0.05 key V\n0 drag left 1,1 30,30\n0 key P\n0 key C\n0 click 3,3\n0 close\n");
+}
+
+TEST_F(PreviewTest, EndsAfterItsFrames) { EXPECT_NE(run("", {"--frames", "3"}).err.find("glim: 3 frames"), std::string::npos); }
+
+// The session that tests/README.md measures: whatever the user does, a picture answers it.
+TEST_F(PreviewTest, AnswersEveryInput)
+{
+    width = 640;
+    height = 480;
+    const GlimRun session = run(bytesOfFile(GLIM_SOURCE_DIR "/tests/renders/look_around.script"));
+    int frames = 0, inputs = 0, median = -1, most = -1;
+    const std::size_t last = session.err.rfind("glim: ");
+    ASSERT_NE(last, std::string::npos) << session.err;
+    EXPECT_EQ(std::sscanf(session.err.c_str() + last, "glim: %d frames; %d inputs, each in a picture after %d ms (median), %d ms (99 %%)",
+                          &frames, &inputs, &median, &most), 4) << session.err;
+    EXPECT_GE(inputs, 200);
+    EXPECT_GT(median, 0);
+    EXPECT_GE(most, median);
+}
+
+// The glTF file and its buffer: an exporter writes both.
+TEST_F(PreviewTest, LoadsAChangedSceneAgainAndABrokenOneNot)
+{
+    GltfBuilder builder;
+    builder.addNode({{"mesh", builder.addTriangleMesh()}});
+    nlohmann::json document = builder.document;
+    document["buffers"] = {{{"byteLength", builder.bytes().size()}, {"uri", "data.bin"}}};
+    Bytes moved = builder.bytes();
+    scene = folder / "triangle.gltf";
+    const auto write = [&](const Bytes& bytes, const std::string& text) {
+        std::ofstream(folder / "data.bin", std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
+        std::ofstream(scene) << text;
+    };
+    write(builder.bytes(), document.dump());
+    GlimCall session = call("0 samples 1\n0 key P\n", {"--environment", "1,1,1"});
+    int stage = 0;
+    session.signalWhen = [&](const std::string& err) {
+        const char* const kWaitsFor[] = {"wrote triangle-001", "triangle.gltf: ", "has changed and is loaded again",
+                                         "has changed and is loaded again"};
+        const std::size_t place = err.find(kWaitsFor[stage]);
+        if (place == std::string::npos || (stage == 3 && err.find(kWaitsFor[3], place + 1) == std::string::npos)) {
+            return false;
+        }
+        if (stage < 2) {
+            std::ofstream(scene) << (stage == 0 ? std::string("{\"broken\"") : document.dump());
+        } else if (stage == 2) {
+            std::ofstream(folder / "data.bin", std::ios::binary).write(reinterpret_cast<const char*>(moved.data()), std::ssize(moved));
+        }
+        return ++stage == 4;
+    };
+    session.signal = SIGTERM;
+    const GlimRun done = runGlim(session);
+    EXPECT_EQ(done.signal, SIGTERM) << done.err;
+    EXPECT_EQ(stage, 4) << "the old picture stays, the mended scene comes, and so does a new buffer: " << done.err;
+}
+
+TEST_F(PreviewTest, RefusesWhatItCannotShow)
+{
+    const auto refusal = [&](GlimCall session, int exitCode, const char* sentence) {
+        const GlimRun done = runGlim(session);
+        EXPECT_EQ(done.exitCode, exitCode) << done.err;
+        EXPECT_NE(done.err.find(sentence), std::string::npos) << done.err;
+    };
+    GlimCall blind = call("");
+    blind.environment["DISPLAY"] = std::nullopt;
+    blind.environment["WAYLAND_DISPLAY"] = std::nullopt;
+    refusal(blind, 1, "`glim render`");
+    blind.environment["DISPLAY"] = ":4711";
+    refusal(blind, 1, "`glim render`");
+    refusal(call("0 jump\n"), 1, "script, line 1: \"0 jump\": expected a delay");
+    for (const int depth : {8, 16}) {
+        const VirtualScreen colours(depth);
+        GlimCall dim = call("");
+        dim.environment["DISPLAY"] = colours.name();
+        refusal(dim, 1, "`glim render` writes");
+    }
+    GlimCall missing = call("");
+    missing.arguments[1] = "missing.gltf";
+    refusal(missing, 1, "missing.gltf");
+    GlimCall camera = call("");
+    camera.arguments.insert(camera.arguments.end(), {"--camera", "seven"});
+    refusal(camera, 1, "camera \"seven\"");
+}
+
+}  // namespace
+}  // namespace glim::test

@@ -1,0 +1,117 @@
+#include "tests/support/preview_fixture.hpp"
+
+#include "host/render/film_file.hpp"
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+namespace glim::test {
+namespace {
+
+void expectSilence(const GlimRun& done)
+{
+    EXPECT_EQ(done.err.find("validation"), std::string::npos) << done.err;
+}
+
+}  // namespace
+
+GlimCall PreviewTest::call(const std::string& script, const std::vector<std::string>& more) const
+{
+    std::ofstream(folder / "script") << script;
+    GlimCall made;
+    made.arguments = {"preview", scene, "--script", "script", "--size", size()};
+    made.arguments.insert(made.arguments.end(), more.begin(), more.end());
+    made.environment = {{"DISPLAY", screen.name()}, {"GLIM_VALIDATION", "1"}};
+    made.folder = folder.path();
+    return made;
+}
+
+GlimRun PreviewTest::run(const std::string& script, const std::vector<std::string>& more) const
+{
+    GlimRun done = runGlim(call(script, more));
+    EXPECT_EQ(done.exitCode, 0) << done.err;
+    expectSilence(done);
+    return done;
+}
+
+Pixels PreviewTest::windowAtWriting(const VirtualScreen& shown, const std::string& script,
+                                    const std::vector<std::string>& more) const
+{
+    Pixels window;
+    GlimCall session = call(script, more);
+    session.environment["DISPLAY"] = shown.name();
+    session.signalWhen = [&](const std::string& err) {
+        if (err.find("wrote") == std::string::npos) {
+            return false;
+        }
+        window = windowOf(shown.calmPixels());
+        return true;
+    };
+    session.signal = SIGTERM;
+    const GlimRun done = runGlim(session);
+    EXPECT_EQ(done.signal, SIGTERM) << done.err;
+    expectSilence(done);
+    return window;
+}
+
+Film PreviewTest::render(const std::string& options) const
+{
+    GlimCall made;
+    made.arguments = {"render", scene, "-o", "r.exr", "--png", "r.png"};
+    std::istringstream words(options);
+    for (std::string word; words >> word;) {
+        made.arguments.push_back(word);
+    }
+    if (options.find("--size") == std::string::npos) {
+        made.arguments.insert(made.arguments.end(), {"--size", size()});
+    }
+    made.folder = folder.path();
+    const GlimRun done = runGlim(made);
+    EXPECT_EQ(done.exitCode, 0) << options << done.err;
+    return readFilm(folder / "r.exr");
+}
+
+std::string PreviewTest::numbered(int number) const
+{
+    return folder / (std::filesystem::path(scene).stem().string() + "-00" + std::to_string(number)).c_str();
+}
+
+Film PreviewTest::film(int number) const { return readFilm(numbered(number) + ".exr"); }
+
+Pixels PreviewTest::picture(int number) const { return decodePng(numbered(number) + ".png"); }
+
+void PreviewTest::removePictures() const
+{
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+        std::filesystem::remove(entry.path());
+    }
+}
+
+Pixels PreviewTest::windowOf(const Pixels& shown) const
+{
+    Pixels corner;
+    for (std::size_t y = 0; y < height; ++y) {
+        const auto row = shown.begin() + static_cast<std::ptrdiff_t>(y * VirtualScreen::kWidth);
+        corner.insert(corner.end(), row, row + width);
+    }
+    return corner;
+}
+
+int countOthers(const Pixels& a, const Pixels& b)
+{
+    int others = 0;
+    for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
+        bool same = true;
+        for (std::size_t c = 0; c < 3; ++c) {
+            same = same && std::abs(a[i][c] - b[i][c]) <= 1;
+        }
+        others += same ? 0 : 1;
+    }
+    return a.size() == b.size() ? others : -1;
+}
+
+std::string firstLine(const std::string& out) { return out.substr(0, out.find('\n')); }
+
+}  // namespace glim::test

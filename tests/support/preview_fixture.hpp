@@ -1,0 +1,55 @@
+// Scripted sessions of `glim preview` on a screen of the test's own.
+#pragma once
+
+#include "host/render/film.hpp"
+#include "tests/support/decode_png.hpp"
+#include "tests/support/render_scene.hpp"
+#include "tests/support/run_glim.hpp"
+#include "tests/support/virtual_screen.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace glim::test {
+
+using Pixels = std::vector<std::array<int, 3>>;
+
+class PreviewTest : public testing::Test {
+protected:
+    // `glim preview` of `scene` in a folder of its own, with the steps of `script`, one per line.
+    GlimCall call(const std::string& script, const std::vector<std::string>& more = {}) const;
+    // Expects no error and no message of the validation layers.
+    GlimRun run(const std::string& script, const std::vector<std::string>& more = {}) const;
+    // What is in the window on `shown`, once it rests, when the script has pressed P; ends the session then.
+    Pixels windowAtWriting(const VirtualScreen& shown, const std::string& script, const std::vector<std::string>& more = {}) const;
+    // Of what is on a screen, the window.
+    Pixels windowOf(const Pixels& shown) const;
+
+    // What `glim render` makes of the same scene; `options` separated by blanks.
+    Film render(const std::string& options) const;
+    Pixels rendered() const { return decodePng(folder / "r.png"); }
+    // The film and the picture that the N-th P of a session wrote.
+    Film film(int number) const;
+    Pixels picture(int number) const;
+    void removePictures() const;
+
+    ScratchFolder folder;
+    VirtualScreen screen;
+    std::string scene = sceneFile("cornell_spheres.gltf");
+    std::uint32_t width = 96, height = 72;
+
+private:
+    std::string size() const { return std::to_string(width) + "x" + std::to_string(height); }
+    std::string numbered(int number) const;
+};
+
+// How many pixels differ by more than one step of eight bits in a channel, which rounding in float and double may; -1 if there are
+// not as many.
+int countOthers(const Pixels& a, const Pixels& b);
+
+// The first line of what a session printed: what C says the camera's options are.
+std::string firstLine(const std::string& out);
+
+}  // namespace glim::test
