@@ -158,7 +158,7 @@ void Buffer::upload(std::span<const std::byte> bytes)
     const Staging staging(*device_, bytes.size());
     std::memcpy(staging.mapped(), bytes.data(), bytes.size());
     Commands commands(*device_);
-    commands.copy(staging.handle(), handle_, bytes.size());
+    commands.copy(staging.handle(), 0, handle_, bytes.size());
     commands.submitAndWait();
 }
 
@@ -173,7 +173,7 @@ void Buffer::download(std::span<std::byte> bytes) const
     }
     const Staging staging(*device_, bytes.size());
     Commands commands(*device_);
-    commands.copy(handle_, staging.handle(), bytes.size());
+    commands.copy(handle_, 0, staging.handle(), bytes.size());
     commands.submitAndWait();
     std::memcpy(bytes.data(), staging.mapped(), bytes.size());
 }

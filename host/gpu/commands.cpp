@@ -97,9 +97,9 @@ void Commands::fillWithZero(const Buffer& buffer)
     barrier();
 }
 
-void Commands::copy(VkBuffer source, VkBuffer target, std::uint64_t bytes)
+void Commands::copy(VkBuffer source, std::uint64_t offset, VkBuffer target, std::uint64_t bytes)
 {
-    const VkBufferCopy region{0, 0, bytes};
+    const VkBufferCopy region{offset, 0, bytes};
     vkCmdCopyBuffer(buffer_, source, target, 1, &region);
     barrier();
 }

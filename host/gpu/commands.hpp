@@ -25,7 +25,8 @@ public:
     void dispatchIndirect(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push,
                           const Buffer& arguments, std::uint64_t offset);
     void fillWithZero(const Buffer& buffer);
-    void copy(VkBuffer source, VkBuffer target, std::uint64_t bytes);
+    // From `offset` in the source to the start of the target, bytes.
+    void copy(VkBuffer source, std::uint64_t offset, VkBuffer target, std::uint64_t bytes);
     // Makes it black, and ready for kernels.
     void clear(const StorageImage& image);
     // Stretches `image` over `target`, a swapchain's image of this size, and makes it ready to present.

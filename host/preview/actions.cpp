@@ -2,14 +2,11 @@
 #include "host/flatten/view_options.hpp"
 #include "host/preview/pick.hpp"
 #include "host/preview/session.hpp"
-#include "host/render/film_file.hpp"
-#include "host/render/film_pictures.hpp"
-
-#include "host/error.hpp"
 
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <utility>
 
 namespace glim {
 namespace {
@@ -24,19 +21,6 @@ double slopeOf(const Camera& camera, const Pose& pose)
     return std::tan(0.5 * static_cast<double>(camera.yfov)) * glm::length(pose.at - pose.from);
 }
 
-// The first number of three digits for which there is no picture yet.
-std::filesystem::path freeStem(const std::filesystem::path& scene)
-{
-    for (int number = 1;; ++number) {
-        char digits[16];
-        std::snprintf(digits, sizeof digits, "-%03d", number);
-        const std::filesystem::path stem = scene.stem().string() + digits;
-        if (!std::filesystem::exists(stem.string() + ".exr") && !std::filesystem::exists(stem.string() + ".png")) {
-            return stem;
-        }
-    }
-}
-
 }  // namespace
 
 void Session::say(const std::string& text)
@@ -44,6 +28,12 @@ void Session::say(const std::string& text)
     notice_ = text;
     noticeTime_ = Clock::now();
     changed_ = true;
+}
+
+void Session::tell(const std::string& text)
+{
+    std::cerr << "glim: " << text << '\n';
+    say(text);
 }
 
 void Session::handle(const Event& event)
@@ -121,7 +111,8 @@ void Session::pressForScene(char key)
     } else if (key == 'V') {
         cycleLook();
     } else if (key == 'P') {
-        writePictures();
+        say("writing the picture");
+        later_ = [this] { writePictures(); };
     } else if (key == 'C') {
         printCamera();
     }
@@ -132,20 +123,30 @@ void Session::cycleLook()
 {
     const bool visits = options_.settings.accelerator != Accelerator::None;
     const Look last = visits ? Look::Steps : Look::Rate;
-    const bool wasSteps = look_ == Look::Steps;
-    look_ = look_ == last ? Look::Radiance : static_cast<Look>(static_cast<int>(look_) + 1);
-    if (look_ == Look::Steps) {
-        if (!steps_) {
+    const Look next = look_ == last ? Look::Radiance : static_cast<Look>(static_cast<int>(look_) + 1);
+    if (next == Look::Steps && !steps_) {
+        say("compiling kernels that count");
+        later_ = [this] {
             RenderSettings settings = options_.settings;
             settings.view = View::BvhSteps;
             settings.bounces = 0;
             settings.adaptive = Adaptive::Off;
             steps_ = std::make_unique<Refiner>(device_, *prepared_, settings, options_.lens);
-        }
-        const bool stale = lightIsStale_;
+            lookAt(Look::Steps);
+        };
+    } else {
+        lookAt(next);
+    }
+}
+
+void Session::lookAt(Look look)
+{
+    const bool stale = lightIsStale_, leaves = look_ == Look::Steps;
+    look_ = look;
+    if (look == Look::Steps) {
         restart();
         lightIsStale_ = stale;
-    } else if (wasSteps && lightIsStale_) {
+    } else if (leaves && stale) {
         restart();
     }
     estimatedAt_ = 0;
@@ -159,8 +160,7 @@ void Session::clickAt(const glm::dvec2& position)
     const glm::uvec2 size(refiner().renderer().settings().width, refiner().renderer().settings().height);
     const glm::dvec2 inside = glm::clamp(position, glm::dvec2(0.0), glm::dvec2(display_.width() - 1, display_.height() - 1));
     const glm::uvec2 pixel = glm::uvec2(inside) * size / glm::uvec2(display_.width(), display_.height());
-    const Film film = refiner().renderer().film();
-    const PixelMoments& moments = film.pixels[std::size_t{pixel.y} * size.x + pixel.x];
+    const PixelMoments moments = refiner().renderer().moments(pixel.y * size.x + pixel.x);
     const glm::vec3 error = glm::sqrt(varianceOfMean(moments));
     std::string there = "nothing";
     if (const std::optional<Pick> found = pick(refiner().renderer(), *prepared_, refiner().camera(), pixel)) {
@@ -197,18 +197,13 @@ void Session::printCamera()
 
 void Session::writePictures()
 {
-    const std::filesystem::path stem = freeStem(options_.scene);
-    try {
-        Film film = refiner().renderer().film();
-        film.sceneFile = options_.scene.string();
-        film.identity.settings += describeView(viewpoint_->moved(), options_.lens);
-        writeFilm(stem.string() + ".exr", film);
-        writeFilmPng(stem.string() + ".png", film, look_, options_.exposure);
-        say("wrote " + stem.string() + ".exr and .png");
-    } catch (const InputError& error) {
-        say(error.what());
+    Film film = refiner().renderer().film();
+    film.sceneFile = options_.scene.string();
+    film.identity.settings += describeView(viewpoint_->moved(), options_.lens);
+    if (const auto report = writer_.takeReport(true)) {
+        tell(*report);
     }
-    std::cerr << "glim: " << notice_ << '\n';
+    writer_.write(options_.scene, std::move(film), look_, options_.exposure);
 }
 
 }  // namespace glim

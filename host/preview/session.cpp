@@ -39,17 +39,36 @@ void Session::run()
 {
     while (!closing_ && (!options_.frames || frames_ < *options_.frames)) {
         const bool working = light_ && work();
-        const bool idle = !working && held_.empty() && !changed_;
-        for (const Event& event : events_.take(idle ? kIdleSeconds : 0.0)) {
-            handle(event);
-            ++handled_;
-            changed_ = true;
-        }
+        const bool idle = !working && held_.empty() && !changed_ && inbox_.empty();
+        takeEvents(idle ? kIdleSeconds : 0.0);
         takeScene();
+        if (const auto report = writer_.takeReport(false)) {
+            tell(*report);
+        }
         fly();
         if (isPresentDue()) {
             present();
         }
+        if (later_ && !refiner().isFresh()) {
+            std::exchange(later_, nullptr)();
+        }
+    }
+    if (const auto report = writer_.takeReport(true)) {
+        tell(*report);
+    }
+}
+
+// What takes longer than a picture is done after one that says so, and the events that follow wait for it.
+void Session::takeEvents(double seconds)
+{
+    for (const Event& event : events_.take(seconds)) {
+        inbox_.push_back(event);
+    }
+    while (!inbox_.empty() && !later_) {
+        handle(inbox_.front());
+        inbox_.pop_front();
+        ++handled_;
+        changed_ = true;
     }
 }
 
@@ -64,8 +83,7 @@ void Session::takeScene()
         if (!prepared_) {
             throw;
         }
-        std::cerr << "glim: " << error.what() << '\n';
-        say(error.what());
+        tell(error.what());
     }
     const std::string stage = loader_.stage();
     if (stage != title_) {
@@ -115,9 +133,12 @@ void Session::resize()
     restart();
 }
 
-// While keys are held: half the scene's radius a second.
+// While keys are held, from picture to picture: half the scene's radius a second.
 void Session::fly()
 {
+    if (!shown_) {
+        return;
+    }
     const double seconds = std::min(0.1, secondsSince(std::exchange(flown_, Clock::now())));
     const auto axis = [this](char more, char less) { return static_cast<double>(held_.count(more)) - static_cast<double>(held_.count(less)); };
     const glm::dvec3 way(axis('D', 'A'), axis('E', 'Q'), axis('W', 'S'));
@@ -131,6 +152,7 @@ void Session::restart(bool still)
 {
     if (light_) {
         refiner().show(viewpoint_->camera(), {display_.width(), display_.height()}, still);
+        shown_ = false;
         lightIsStale_ = look_ == Look::Steps;
         estimatedAt_ = 0;
         relMse_.reset();
@@ -140,7 +162,7 @@ void Session::restart(bool still)
 
 bool Session::work()
 {
-    const bool worked = refiner().refine(paused_, [this] { return events_.isEmpty(); });
+    const bool worked = refiner().refine(paused_, [this] { return !isAsked(); });
     changed_ = changed_ || worked;
     return worked;
 }
@@ -173,6 +195,7 @@ void Session::present()
         return;
     }
     ++frames_;
+    shown_ = true;
     changed_ = false;
     for (const Clock::time_point came : std::exchange(waiting_, {})) {
         latency_.add(std::chrono::duration<double>(presented_ - came).count());
@@ -188,7 +211,7 @@ void Session::measure()
     const std::uint32_t samples = refiner().sampleCount();
     const bool ranged = look_ == Look::Depth || look_ == Look::Rate || look_ == Look::Steps;
     const bool first = ranged && measuredLook_ != look_;
-    if (!first && (samples < 1 || samples < 2 * estimatedAt_ || !events_.isEmpty())) {
+    if (!first && (samples < 1 || samples < 2 * estimatedAt_ || isAsked())) {
         return;
     }
     if (!ranged && samples < 2 * kBlockSamples) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/preview/latency.hpp"
+#include "host/preview/picture_writer.hpp"
 #include "host/preview/preview.hpp"
 #include "host/preview/refiner.hpp"
 #include "host/preview/scene_loader.hpp"
@@ -27,7 +28,9 @@ private:
     using Clock = std::chrono::steady_clock;
 
     Refiner& refiner() { return look_ == Look::Steps ? *steps_ : *light_; }
+    bool isAsked() const { return !inbox_.empty() || !events_.isEmpty(); }
     // session.cpp: the loop
+    void takeEvents(double seconds);
     void takeScene();
     void enter(std::unique_ptr<PreparedScene> prepared);
     void resize();
@@ -43,10 +46,12 @@ private:
     void press(char key);
     void pressForScene(char key);
     void cycleLook();
+    void lookAt(Look look);
     void clickAt(const glm::dvec2& position);
     void printCamera();
     void writePictures();
-    void say(const std::string& text);
+    void say(const std::string& text);   // in the window
+    void tell(const std::string& text);  // there and on stderr
     // overlay.cpp: what the window says
     std::vector<std::string> overlay();
     std::vector<std::string> figures();
@@ -60,11 +65,14 @@ private:
     Swapchain swapchain_;
     Display display_;
     SceneLoader loader_;
+    PictureWriter writer_;
 
     std::unique_ptr<PreparedScene> prepared_;
     std::unique_ptr<Refiner> light_, steps_;  // of --view shaded and bvh-steps; the latter once it is looked at
     std::optional<Viewpoint> viewpoint_;
     Look look_ = Look::Radiance;
+    std::deque<Event> inbox_;                 // of events_, those not handled yet
+    std::function<void()> later_;             // to be done once the window has said so
     std::set<char> held_;                     // keys that fly
     bool paused_ = false, closing_ = false;
     int overlayLevel_ = 1;                    // 0: nothing, 1: figures, 2: help too
@@ -73,6 +81,7 @@ private:
     double presentSeconds_ = 0.0;             // that the last one took
     std::vector<Clock::time_point> waiting_;  // when what has not been answered by a picture yet came in
     bool changed_ = true;                     // there is something new to show
+    bool shown_ = true;                       // the camera's latest move
     std::uint64_t handled_ = 0;               // events
     Latency latency_;
     std::uint64_t frames_ = 0;
@@ -81,9 +90,7 @@ private:
     Look measuredLook_ = Look::Radiance;      // that range_ is of
     std::string title_;
     std::uint64_t estimatedAt_ = 0;
-
     bool lightIsStale_ = false;               // light_ is of another camera, since steps_ was looked at
-
 };
 
 }  // namespace glim

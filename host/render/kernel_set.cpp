@@ -3,6 +3,8 @@
 #include "kernels.hpp"
 #include "shaders/shared/bindings.h"
 
+#include <future>
+
 namespace glim {
 namespace {
 
@@ -59,30 +61,40 @@ Specialization specialize(const SceneFeatures& features, const FlatCamera& camer
 }
 
 KernelSet::KernelSet(const KernelLayout& layout, const Specialization& s)
-    : generateRays(layout, kernels::generate_rays, s), sizeDispatch(layout, kernels::size_dispatch, s),
-      traceClosest(layout, kernels::trace_closest, s), sampleLights(layout, kernels::sample_lights, s),
-      traceShadow(layout, kernels::trace_shadow, s), bounce(layout, kernels::bounce, s),
-      accumulate(layout, kernels::accumulate, s)
 {
+    std::vector<std::future<void>> compiling;
+    const auto compile = [&](std::optional<Kernel>& kernel, const EmbeddedShader& shader) {
+        compiling.push_back(std::async(std::launch::async, [&] { kernel.emplace(layout, shader, s); }));
+    };
+    compile(sampleLights, kernels::sample_lights);  // the longest
+    compile(traceClosest, kernels::trace_closest);
+    compile(bounce, kernels::bounce);
+    compile(traceShadow, kernels::trace_shadow);
+    compile(generateRays, kernels::generate_rays);
+    compile(accumulate, kernels::accumulate);
+    compile(sizeDispatch, kernels::size_dispatch);
     if (s.at(kSpecDirect) == kDirectHemisphere) {
-        sampleHemisphere.emplace(layout, kernels::sample_hemisphere, s);
-        traceHemisphere.emplace(layout, kernels::trace_hemisphere, s);
+        compile(sampleHemisphere, kernels::sample_hemisphere);
+        compile(traceHemisphere, kernels::trace_hemisphere);
     }
     if (s.at(kSpecView) != 0) {
-        showView.emplace(layout, kernels::show_view, s);
+        compile(showView, kernels::show_view);
     }
     if (s.at(kSpecAdaptive) != 0) {
-        choosePixels.emplace(layout, kernels::choose_pixels, s);
+        compile(choosePixels, kernels::choose_pixels);
+    }
+    for (std::future<void>& kernel : compiling) {
+        kernel.get();
     }
 }
 
 std::vector<const Kernel*> KernelSet::all() const
 {
-    std::vector<const Kernel*> kernels = {&sizeDispatch, &generateRays, &traceClosest, &sampleLights,
-                                          &traceShadow,  &bounce,       &accumulate};
-    for (const std::optional<Kernel>* optional : {&sampleHemisphere, &traceHemisphere, &showView, &choosePixels}) {
-        if (*optional) {
-            kernels.push_back(&**optional);
+    std::vector<const Kernel*> kernels;
+    for (const std::optional<Kernel>* kernel : {&sizeDispatch, &generateRays, &traceClosest, &sampleLights, &traceShadow, &bounce,
+                                                &accumulate, &sampleHemisphere, &traceHemisphere, &showView, &choosePixels}) {
+        if (*kernel) {
+            kernels.push_back(&**kernel);
         }
     }
     return kernels;

@@ -11,12 +11,14 @@ namespace glim {
 
 Specialization specialize(const SceneFeatures& features, const FlatCamera& camera, const RenderSettings& settings);
 
+// Absent where no picture of these settings needs it.
 struct KernelSet {
+    // Compiles all at the same time.
     KernelSet(const KernelLayout& layout, const Specialization& specialization);
 
     std::vector<const Kernel*> all() const;
 
-    Kernel generateRays, sizeDispatch, traceClosest, sampleLights, traceShadow, bounce, accumulate;
+    std::optional<Kernel> generateRays, sizeDispatch, traceClosest, sampleLights, traceShadow, bounce, accumulate;
     std::optional<Kernel> sampleHemisphere, traceHemisphere;  // of --direct hemisphere
     std::optional<Kernel> showView;                           // of views other than shaded
     std::optional<Kernel> choosePixels;                       // of adaptive renders

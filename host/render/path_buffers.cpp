@@ -109,11 +109,11 @@ void Slab::clear()
     chooseAll();
 }
 
-void Slab::copySamples(const Slab& other)
+void Slab::copySamples(const Slab& other, std::uint32_t first)
 {
     Commands commands(device_);
-    commands.copy(other.blocks_.handle(), blocks_.handle(), blocks_.size());
-    commands.copy(other.pages_.handle(), pages_.handle(), pages_.size());
+    commands.copy(other.blocks_.handle(), first * sizeof(BlockSums), blocks_.handle(), count_ * sizeof(BlockSums));
+    commands.copy(other.pages_.handle(), first * sizeof(PixelMoments), pages_.handle(), count_ * sizeof(PixelMoments));
     commands.submitAndWait();
 }
 

@@ -61,8 +61,8 @@ public:
     std::vector<PixelMoments> takePages();
     // Empties everything; all pixels are chosen.
     void clear();
-    // Has the samples of `other`, of the same size.
-    void copySamples(const Slab& other);
+    // Has the samples of as many pixels of `other`, from its `first` on.
+    void copySamples(const Slab& other, std::uint32_t first);
     void chooseAll();
     void chooseNone();
     // After choose_pixels has filled the list.

@@ -125,12 +125,21 @@ Film Renderer::film()
     std::vector<std::unique_ptr<Slab>> copies;
     for (const auto& slab : slabs_) {
         copies.push_back(wavefront_->makeSlab(slab->begin(), slab->count()));
-        copies.back()->copySamples(*slab);
+        copies.back()->copySamples(*slab, 0);
     }
     foldPages(film, copies);
     readCounters();
     describe(film);
     return film;
+}
+
+PixelMoments Renderer::moments(std::uint32_t pixel)
+{
+    const Slab& slab = *slabs_[pixel / Slab::kMaxPixels];
+    const std::unique_ptr<Slab> copy = wavefront_->makeSlab(pixel, 1);
+    copy->copySamples(slab, pixel - slab.begin());
+    wavefront_->closeBlocks(*copy);
+    return foldMoments(film_.pixels[pixel], copy->takePages().front());
 }
 
 // The samples it is of.

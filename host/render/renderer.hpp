@@ -45,6 +45,7 @@ public:
     bool isDone() const { return chosen_ == 0 || sample_ == settings_.sampleEnd; }
     // What is finished; sampling may go on.
     Film film();
+    PixelMoments moments(std::uint32_t pixel);  // of film(), faster
     // What one ray meets; no part of the picture.
     PathHit traceRay(const PathRay& ray) { return wavefront_->traceRay(*slabs_.front(), ray); }
     // Another picture of the scene. The camera has a lens if and only if the first one had.

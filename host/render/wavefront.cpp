@@ -106,7 +106,7 @@ std::optional<Wavefront::Seconds> Wavefront::trace(const Slab& slab, Pass pass, 
     if (kernels_.showView) {
         recording.dispatch(*kernels_.showView, slab.bindings(0), pass, groupsOf(pass.pixelCount * pass.sampleCount));
     }
-    recording.dispatch(kernels_.accumulate, slab.bindings(0), pass, groupsOf(pass.pixelCount));
+    recording.dispatch(*kernels_.accumulate, slab.bindings(0), pass, groupsOf(pass.pixelCount));
     recording.finish();
     return Seconds{recording.longest(), recording.total()};
 }
@@ -117,7 +117,7 @@ void Wavefront::tracePaths(Recording& recording, const Slab& slab, Pass& pass)
     for (std::uint32_t bounce = 0; alive && bounce <= pass.maxBounces; bounce += kBouncesPerLook) {
         if (bounce == 0) {
             // generate_rays fills what bounce 0 reads: its next queue is the odd bindings' one.
-            recording.dispatch(kernels_.generateRays, slab.bindings(1), pass, groupsOf(pass.pixelCount * pass.sampleCount));
+            recording.dispatch(*kernels_.generateRays, slab.bindings(1), pass, groupsOf(pass.pixelCount * pass.sampleCount));
         }
         const std::uint32_t end = std::min(pass.maxBounces, bounce + kBouncesPerLook - 1);
         for (pass.bounce = bounce; pass.bounce <= end; ++pass.bounce) {
@@ -134,9 +134,9 @@ void Wavefront::recordBounce(Recording& recording, const Slab& slab, const Pass&
     if (pass.bounce == 0) {
         recordSize(recording, bindings, pass, kSizesPaths);
     }
-    recordTrace(recording, kernels_.traceClosest, bindings, pass, offsetof(QueueSizes, closestGroups));
+    recordTrace(recording, *kernels_.traceClosest, bindings, pass, offsetof(QueueSizes, closestGroups));
     recordRounds(recording, bindings, pass);
-    recording.dispatchIndirect(kernels_.bounce, bindings, pass, paths_.queueSizes(), offsetof(QueueSizes, closestGroups));
+    recording.dispatchIndirect(*kernels_.bounce, bindings, pass, paths_.queueSizes(), offsetof(QueueSizes, closestGroups));
     Pass next = pass;
     next.bounce = pass.bounce + 1;
     recordSize(recording, bindings, next, kSizesPaths);
@@ -160,11 +160,11 @@ void Wavefront::recordRounds(Recording& recording, const Bindings& bindings, con
 
 void Wavefront::recordRound(Recording& recording, const Bindings& bindings, const Pass& round, bool hemisphere) const
 {
-    const Kernel& sample = hemisphere ? *kernels_.sampleHemisphere : kernels_.sampleLights;
+    const Kernel& sample = hemisphere ? *kernels_.sampleHemisphere : *kernels_.sampleLights;
     recording.dispatchIndirect(sample, bindings, round, paths_.queueSizes(), offsetof(QueueSizes, closestGroups));
     if (hemisphere || round.light != kNoLightIndex) {
         recordSize(recording, bindings, round, kSizesShadow);
-        recordTrace(recording, hemisphere ? *kernels_.traceHemisphere : kernels_.traceShadow, bindings, round,
+        recordTrace(recording, hemisphere ? *kernels_.traceHemisphere : *kernels_.traceShadow, bindings, round,
                     offsetof(QueueSizes, shadowGroups));
     }
 }
@@ -172,7 +172,7 @@ void Wavefront::recordRound(Recording& recording, const Bindings& bindings, cons
 void Wavefront::recordSize(Recording& recording, const Bindings& bindings, Pass pass, std::uint32_t queues) const
 {
     pass.sizes = queues;
-    recording.dispatch(kernels_.sizeDispatch, bindings, pass, 1);
+    recording.dispatch(*kernels_.sizeDispatch, bindings, pass, 1);
 }
 
 void Wavefront::recordTrace(Recording& recording, const Kernel& kernel, const Bindings& bindings, Pass pass,
@@ -193,7 +193,7 @@ PathHit Wavefront::traceRay(const Slab& slab, const PathRay& ray)
     pass.pixelCount = pass.sampleCount = 1;
     Recording recording(device_, statistics_);
     recordSize(recording, slab.bindings(0), pass, kSizesPaths);
-    recordTrace(recording, kernels_.traceClosest, slab.bindings(0), pass, offsetof(QueueSizes, closestGroups));
+    recordTrace(recording, *kernels_.traceClosest, slab.bindings(0), pass, offsetof(QueueSizes, closestGroups));
     recording.finish();
     return download<PathHit>(paths_.hits(), 1)[0];
 }
@@ -204,7 +204,7 @@ void Wavefront::closeBlocks(const Slab& slab)
     pass.pixelCount = slab.count();
     pass.accumulate = kEndsBlock | kEveryPixel;
     Recording recording(device_, statistics_);
-    recording.dispatch(kernels_.accumulate, slab.bindings(0), pass, groupsOf(pass.pixelCount));
+    recording.dispatch(*kernels_.accumulate, slab.bindings(0), pass, groupsOf(pass.pixelCount));
     recording.finish();
 }
 

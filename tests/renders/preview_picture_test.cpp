@@ -1,11 +1,9 @@
 // What the window shows and writes is what `glim render` gives.
 #include "tests/support/preview_fixture.hpp"
 
-#include <csignal>
 #include <algorithm>
-#include <numeric>
-#include <set>
-#include <thread>
+#include <iterator>
+#include <sstream>
 
 namespace glim::test {
 namespace {
@@ -75,16 +73,6 @@ TEST_F(PreviewTest, PrintsTheOptionsOfItsCamera)
     }
 }
 
-int brightest(const std::array<int, 3>& pixel) { return *std::max_element(pixel.begin(), pixel.end()); }
-
-// The share of the window that is not black.
-double shareOfLight(const Pixels& window)
-{
-    const auto lit = std::count_if(window.begin(), window.end(), [](const auto& pixel) { return brightest(pixel) > 0; });
-    return static_cast<double>(lit) / static_cast<double>(window.size());
-}
-
-// Looked at again and again while the camera turns, the size changes and views come and go.
 TEST_F(PreviewTest, NeverFlashesBlack)
 {
     std::string script = std::string(kBare) + "0 samples 2\n0 key P\n";
@@ -92,28 +80,15 @@ TEST_F(PreviewTest, NeverFlashesBlack)
         script += "0.04 drag left 10,10 16,12\n0.04 drag left 16,12 10,10\n";
         script += i % 5 == 4 ? "0.1 key V\n" : i % 5 == 2 ? "0.1 key +\n0 key -\n" : "";
     }
-    Pixels first;
-    std::set<Pixels> seen;
-    double least = 1.0;
-    GlimCall session = call(script);
-    session.signalWhen = [&](const std::string& err) {
-        if (err.find("wrote") == std::string::npos) {
-            return false;
-        }
-        first = windowOf(screen.pixels());
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(3);
-        while (std::chrono::steady_clock::now() < end) {
-            const Pixels now = windowOf(screen.pixels());
-            least = std::min(least, shareOfLight(now));
-            seen.insert(now);
-        }
-        return true;
-    };
-    session.signal = SIGTERM;
-    runGlim(session);
-    EXPECT_GT(shareOfLight(first), 0.7);
-    EXPECT_GT(least, 0.6) << "of the window was lit at the least";
-    EXPECT_GT(seen.size(), 10U) << "pictures";
+    const Watched seen = watch(script);
+    EXPECT_GT(seen.leastLight, 0.6) << "of the window, all through";
+    EXPECT_GT(seen.pictures.size(), 10U);
+}
+
+TEST_F(PreviewTest, ShowsTheFlight)
+{
+    const Watched seen = watch(std::string(kBare) + "0 samples 2\n0 key P\n0 press W\n3 release W\n", {"--spp", "1"});
+    EXPECT_GT(seen.pictures.size(), 20U) << "while the key is down";
 }
 
 // On a display with small pixels the text has dots of two by two.

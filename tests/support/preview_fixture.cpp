@@ -2,6 +2,8 @@
 
 #include "host/render/film_file.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
@@ -13,6 +15,28 @@ namespace {
 void expectSilence(const GlimRun& done)
 {
     EXPECT_EQ(done.err.find("validation"), std::string::npos) << done.err;
+}
+
+double shareOfLight(const Pixels& window)
+{
+    const auto lit = std::count_if(window.begin(), window.end(), [](const auto& pixel) { return pixel != std::array{0, 0, 0}; });
+    return static_cast<double>(lit) / static_cast<double>(window.size());
+}
+
+// Looks when P has written a picture, then ends the session.
+void whenWritten(GlimCall session, const std::function<void()>& look)
+{
+    session.signalWhen = [&look](const std::string& err) {
+        if (err.find("wrote") == std::string::npos) {
+            return false;
+        }
+        look();
+        return true;
+    };
+    session.signal = SIGTERM;
+    const GlimRun done = runGlim(session);
+    EXPECT_EQ(done.signal, SIGTERM) << done.err;
+    expectSilence(done);
 }
 
 }  // namespace
@@ -42,18 +66,22 @@ Pixels PreviewTest::windowAtWriting(const VirtualScreen& shown, const std::strin
     Pixels window;
     GlimCall session = call(script, more);
     session.environment["DISPLAY"] = shown.name();
-    session.signalWhen = [&](const std::string& err) {
-        if (err.find("wrote") == std::string::npos) {
-            return false;
-        }
-        window = windowOf(shown.calmPixels());
-        return true;
-    };
-    session.signal = SIGTERM;
-    const GlimRun done = runGlim(session);
-    EXPECT_EQ(done.signal, SIGTERM) << done.err;
-    expectSilence(done);
+    whenWritten(session, [&] { window = windowOf(shown.calmPixels()); });
     return window;
+}
+
+PreviewTest::Watched PreviewTest::watch(const std::string& script, const std::vector<std::string>& more) const
+{
+    Watched seen;
+    whenWritten(call(script, more), [&] {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(3);
+        while (std::chrono::steady_clock::now() < end) {
+            const Pixels now = windowOf(screen.pixels());
+            seen.leastLight = std::min(seen.leastLight, shareOfLight(now));
+            seen.pictures.insert(now);
+        }
+    });
+    return seen;
 }
 
 Film PreviewTest::render(const std::string& options) const
