@@ -131,7 +131,7 @@ void Session::cycleLook()
             settings.view = View::BvhSteps;
             settings.bounces = 0;
             settings.adaptive = Adaptive::Off;
-            steps_ = std::make_unique<Refiner>(device_, *prepared_, settings, options_.lens);
+            steps_ = std::make_unique<Refiner>(*light_, *prepared_, settings);
             lookAt(Look::Steps);
         };
     } else {

@@ -2,13 +2,14 @@
 
 #include "host/flatten/flatten_scene.hpp"
 
+#include <utility>
+
 namespace glim {
 namespace {
 
 constexpr double kPassSeconds = 0.02;    // input waits for a pass
 constexpr double kMovingSeconds = 0.03;  // for a coarse picture: with pass, drawing and presenting it makes less than 100 ms
 constexpr double kStillSeconds = 0.15;   // after the last move the picture is refined
-constexpr std::uint32_t kCoarsest = 8;
 
 double secondsBetween(std::chrono::steady_clock::time_point begin, std::chrono::steady_clock::time_point end)
 {
@@ -30,14 +31,20 @@ Refiner::Refiner(Device& device, const PreparedScene& prepared, const RenderSett
 {
 }
 
-std::uint32_t Refiner::movingScale() const
+Refiner::Refiner(const Refiner& lender, const PreparedScene& prepared, const RenderSettings& settings)
+    : settings_(settings), lens_(lender.lens_), camera_(lender.camera_),
+      renderer_(lender.renderer_, prepared.flat, camera_, startingSettings(settings))
 {
-    const double pixels = static_cast<double>(size_.x) * size_.y;
-    std::uint32_t scale = 1;
-    while (scale < kCoarsest && pixels > scale * scale * speed_ * kMovingSeconds) {
-        scale *= 2;
+}
+
+// After a first picture at movingScale_ has taken so long; a finer one would take up to four times that.
+void Refiner::chooseMovingScale(double seconds)
+{
+    if (seconds > kMovingSeconds && movingScale_ < kCoarsest) {
+        movingScale_ *= 2;
+    } else if (4.0 * seconds < kMovingSeconds && movingScale_ > 1) {
+        movingScale_ /= 2;
     }
-    return scale;
 }
 
 void Refiner::show(const Camera& camera, const glm::uvec2& size, bool still)
@@ -45,7 +52,7 @@ void Refiner::show(const Camera& camera, const glm::uvec2& size, bool still)
     size_ = size;
     camera_ = flattenCamera(camera, static_cast<float>(size.x) / static_cast<float>(size.y), lens_);
     moved_ = Clock::now();
-    begin(still ? 1 : movingScale(), !still);
+    begin(still ? 1 : movingScale_, !still);
 }
 
 void Refiner::begin(std::uint32_t scale, bool fresh)
@@ -83,7 +90,9 @@ bool Refiner::refine(bool paused, const std::function<bool()>& goesOn)
     do {
         advance([&] { return fresh_ || goesOn(); });
     } while (fresh_ && renderer_.sampleCount() == 0);
-    fresh_ = false;
+    if (std::exchange(fresh_, false)) {
+        chooseMovingScale(seconds_);
+    }
     return true;
 }
 

@@ -14,6 +14,8 @@ class Refiner {
 public:
     // Uploads and compiles. `settings` without size; --view bvh-steps may be among them.
     Refiner(Device& device, const PreparedScene& prepared, const RenderSettings& settings, const Lens& lens);
+    // Of the same scene, with its buffers; `lender` must outlive it.
+    Refiner(const Refiner& lender, const PreparedScene& prepared, const RenderSettings& settings);
 
     // From now on this camera's picture, of this size. `still`: nothing moves, so that it need not be coarse first.
     void show(const Camera& camera, const glm::uvec2& size, bool still);
@@ -34,9 +36,10 @@ public:
     Renderer& renderer() { return renderer_; }
 
 private:
+    static constexpr std::uint32_t kCoarsest = 8;
     using Clock = std::chrono::steady_clock;
 
-    std::uint32_t movingScale() const;
+    void chooseMovingScale(double seconds);
     void begin(std::uint32_t scale, bool fresh);
     void advance(const std::function<bool()>& goesOn);
 
@@ -46,6 +49,7 @@ private:
     glm::uvec2 size_{1, 1};
     std::uint32_t scale_ = 1;
     bool fresh_ = false;
+    std::uint32_t movingScale_ = kCoarsest;  // of the next coarse picture
     double speed_ = 0.0;      // samples per second, lately; 0: not known yet
     double seconds_ = 0.0;
     Clock::time_point moved_;

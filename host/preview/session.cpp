@@ -113,8 +113,8 @@ void Session::enter(std::unique_ptr<PreparedScene> prepared)
     if (light_) {
         std::cerr << "glim: " << options_.scene.string() << " has changed and is loaded again\n";
     }
+    steps_.reset();  // it has borrowed from light_
     light_ = std::move(light);
-    steps_.reset();
     if (look_ == Look::Steps) {
         look_ = Look::Radiance;
     }

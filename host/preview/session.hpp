@@ -68,7 +68,7 @@ private:
     PictureWriter writer_;
 
     std::unique_ptr<PreparedScene> prepared_;
-    std::unique_ptr<Refiner> light_, steps_;  // of --view shaded and bvh-steps; the latter once it is looked at
+    std::unique_ptr<Refiner> light_, steps_;  // of --view shaded and bvh-steps; the latter once it is looked at, with light_'s buffers
     std::optional<Viewpoint> viewpoint_;
     Look look_ = Look::Radiance;
     std::deque<Event> inbox_;                 // of events_, those not handled yet

@@ -20,18 +20,20 @@ Buffer uploaded(Device& device, const std::string& name, BufferKind kind, const 
 
 }  // namespace
 
-DeviceScene::DeviceScene(Device& device, const FlatScene& scene, const FlatCamera& camera)
+DeviceScene::DeviceScene(Device& device, const FlatScene& scene)
     : nodes_(uploaded(device, "scene's BVH nodes", BufferKind::Texel, scene.nodes)),
       records_(uploaded(device, "scene's triangles and spheres", BufferKind::Texel, scene.records)),
       normals_(uploaded(device, "scene's normals", BufferKind::Texel, scene.normals)),
       materials_(uploaded(device, "scene's materials", BufferKind::Texel, scene.materials)),
       lights_(uploaded(device, "scene's lights", BufferKind::Texel, scene.lights)),
-      emitters_(uploaded(device, "scene's emitters", BufferKind::Texel, scene.emitters)),
-      camera_(uploaded(device, "camera's numbers", BufferKind::Storage, std::vector<FlatCamera>{camera}))
+      emitters_(uploaded(device, "scene's emitters", BufferKind::Texel, scene.emitters))
 {
 }
 
-void DeviceScene::setCamera(const FlatCamera& camera) { upload(camera_, std::span<const FlatCamera>(&camera, 1)); }
+DeviceCamera::DeviceCamera(Device& device, const FlatCamera& camera)
+    : buffer_(uploaded(device, "camera's numbers", BufferKind::Storage, std::vector<FlatCamera>{camera}))
+{
+}
 
 std::vector<BindingSlot> DeviceScene::slots()
 {
@@ -44,8 +46,7 @@ std::vector<BindingSlot> DeviceScene::slots()
 std::map<std::uint32_t, const Buffer*> DeviceScene::buffers() const
 {
     return {{kBindNodes, &nodes_},         {kBindRecords, &records_}, {kBindNormals, &normals_},
-            {kBindMaterials, &materials_}, {kBindLights, &lights_},   {kBindEmitters, &emitters_},
-            {kBindCamera, &camera_}};
+            {kBindMaterials, &materials_}, {kBindLights, &lights_},   {kBindEmitters, &emitters_}};
 }
 
 }  // namespace glim

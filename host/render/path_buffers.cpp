@@ -85,15 +85,16 @@ void PathBuffers::queueRay(const PathRay& ray)
     upload(queueA_, std::span<const uint>(&slot, 1));
 }
 
-Slab::Slab(Device& device, const KernelLayout& layout, const DeviceScene& scene, const PathBuffers& paths,
-           std::uint32_t begin, std::uint32_t count, bool adaptive)
+Slab::Slab(Device& device, const KernelLayout& layout, const DeviceScene& scene, const DeviceCamera& camera,
+           const PathBuffers& paths, std::uint32_t begin, std::uint32_t count, bool adaptive)
     : device_(device), begin_(begin), count_(count), chosenCount_(count), adaptive_(adaptive),
       blocks_(arrayOf<BlockSums>(device, "film's blocks", count)),
       pages_(arrayOf<PixelMoments>(device, "film's pages", count)),
       luminance_(arrayOf<LuminanceMoments>(device, "pixels' luminances", adaptive ? count : 1)),
       chosen_(arrayOf<uint>(device, "chosen pixels", 1 + (adaptive ? count : 1)))
 {
-    const std::map<std::uint32_t, const Buffer*> film = {{kBindBlocks, &blocks_},
+    const std::map<std::uint32_t, const Buffer*> film = {{kBindCamera, &camera.buffer()},
+                                                         {kBindBlocks, &blocks_},
                                                          {kBindPages, &pages_},
                                                          {kBindLuminance, &luminance_},
                                                          {kBindChosenPixels, &chosen_}};

@@ -43,8 +43,8 @@ private:
 // several slabs. The slab of an adaptive render knows which of its pixels are chosen for more samples: at first, all.
 class Slab {
 public:
-    Slab(Device& device, const KernelLayout& layout, const DeviceScene& scene, const PathBuffers& paths,
-         std::uint32_t begin, std::uint32_t count, bool adaptive);
+    Slab(Device& device, const KernelLayout& layout, const DeviceScene& scene, const DeviceCamera& camera,
+         const PathBuffers& paths, std::uint32_t begin, std::uint32_t count, bool adaptive);
     static std::uint64_t bytesPerPixel(bool adaptive);
 
     // Chosen so that neither buffer exceeds 128 MiB.

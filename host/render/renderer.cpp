@@ -15,24 +15,6 @@
 namespace glim {
 namespace {
 
-// Passes aim at this for their longest dispatch: far below any watchdog.
-constexpr double kTargetDispatchSeconds = 0.05;
-// And at settings.passSeconds in all, where many rounds of direct light or long brute force make many dispatches, since --time ends
-// between passes; but not if that leaves so little for a dispatch that starting it costs more (of a second, with 1 ms for the longest,
-// 512 rounds took three times as long as with 10 at 32x32, since those of later bounces have a hundredth of its rays).
-constexpr double kLeastDispatchShare = 0.01;
-// Of a first pass, with one round of direct light and a ray that takes this many steps.
-constexpr std::uint32_t kFirstPassPaths = 1U << 14;
-constexpr std::uint64_t kUsualSteps = 64;
-
-std::uint32_t firstPassPaths(const FlatScene& scene, const RenderSettings& settings)
-{
-    const std::uint64_t records = scene.records.size() / kRecordTexels;
-    const std::uint64_t steps = settings.accelerator == Accelerator::None ? std::max(records, kUsualSteps) : kUsualSteps;
-    const std::uint64_t work = steps * lightRounds(scene, settings).size();
-    return std::clamp(static_cast<std::uint32_t>(kFirstPassPaths * kUsualSteps / work), kBlockSamples, settings.pathCapacity);
-}
-
 // Of all renderers together: what one has folded is never taken for what another has.
 std::uint64_t nextVersion()
 {
@@ -49,7 +31,19 @@ double secondsSince(std::chrono::steady_clock::time_point start)
 
 Renderer::Renderer(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
     : device_(device), settings_(settings), sceneFingerprint_(fingerprint(scene)), start_(Clock::now()),
-      pathsPerPass_(firstPassPaths(scene, settings)), wavefront_(std::make_unique<Wavefront>(device, scene, camera, settings))
+      passSize_(scene, settings), wavefront_(std::make_unique<Wavefront>(device, scene, camera, settings))
+{
+    open(camera);
+}
+
+Renderer::Renderer(const Renderer& lender, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
+    : device_(lender.device_), settings_(settings), sceneFingerprint_(lender.sceneFingerprint_), start_(Clock::now()),
+      passSize_(scene, settings), wavefront_(std::make_unique<Wavefront>(*lender.wavefront_, scene, camera, settings))
+{
+    open(camera);
+}
+
+void Renderer::open(const FlatCamera& camera)
 {
     makeSlabs();
     refuseBrokenStatus();
@@ -184,7 +178,7 @@ Pass Renderer::nextPass() const
     pass.firstPixel = pixel_;
     pass.firstSample = sample_;
     pass.sampleCount = end - sample_;
-    pass.pixelCount = std::min(slab.chosenCount() - pixel_, std::max(1U, pathsPerPass_ / pass.sampleCount));
+    pass.pixelCount = std::min(slab.chosenCount() - pixel_, std::max(1U, passSize_.paths() / pass.sampleCount));
     pass.accumulate = end % kBlockSamples == 0 ? kEndsBlock : 0;
     return pass;
 }
@@ -197,26 +191,15 @@ bool Renderer::runPass(const Pass& pass, const std::function<bool()>& goesOn)
     if (!traced) {
         return false;
     }
-    const Wavefront::Seconds seconds = *traced;
+    const PassSeconds seconds = *traced;
     const std::uint32_t paths = pass.pixelCount * pass.sampleCount;
     sweeping_ = true;
     pixel_ += pass.pixelCount;
     pictureSamples_ += paths;
     statistics_.samples += paths;
     statistics_.longestDispatch = std::max(statistics_.longestDispatch, seconds.longest);
-    // What is left at the end of a sweep says little about a full pass, unless it took too long.
-    if (seconds.longest > kTargetDispatchSeconds || (seconds.longest > 0.0 && 2 * std::uint64_t{paths} > pathsPerPass_)) {
-        resizePasses(paths, seconds);
-    }
+    passSize_.learn(paths, seconds);
     return true;
-}
-
-void Renderer::resizePasses(std::uint32_t paths, const Wavefront::Seconds& seconds)
-{
-    const double byPass = settings_.passSeconds * std::max(1.0 / seconds.total, kLeastDispatchShare / seconds.longest);
-    const double scale = std::clamp(std::min(kTargetDispatchSeconds / seconds.longest, byPass), 0.5, 2.0);
-    pathsPerPass_ = static_cast<std::uint32_t>(
-        std::clamp(paths * scale, static_cast<double>(kBlockSamples), static_cast<double>(settings_.pathCapacity)));
 }
 
 void Renderer::endSweep()

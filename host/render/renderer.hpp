@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/render/film.hpp"
+#include "host/render/pass_size.hpp"
 #include "host/render/wavefront.hpp"
 
 #include <chrono>
@@ -33,6 +34,9 @@ class Renderer {
 public:
     // Uploads the scene and compiles the kernels for what it needs.
     Renderer(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
+
+    // The same of the scene and in the buffers of `lender`, which must outlive it; only one of them may be at work.
+    Renderer(const Renderer& lender, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
 
     // Samples until sampleEnd, the stop rule, the time limit or the observer ends it. Every pixel of the film has what was
     // finished; the counts say how much. Throws DeviceError if the driver cut a loop short or a queue overflowed: no film is
@@ -67,6 +71,7 @@ private:
     using Clock = std::chrono::steady_clock;
 
     bool isAdaptive() const { return settings_.adaptive != Adaptive::Off; }
+    void open(const FlatCamera& camera);
     void makeSlabs();
     void begin(const FlatCamera& camera);
     void describe(Film& film) const;
@@ -74,7 +79,6 @@ private:
     Pass nextPass() const;
     bool runPass(const Pass& pass, const std::function<bool()>& goesOn);
     bool asks(const RenderObserver& observer);
-    void resizePasses(std::uint32_t paths, const Wavefront::Seconds& seconds);
     void endSweep();
     std::uint64_t choosePixels();
     void foldPages(Film& film, const std::vector<std::unique_ptr<Slab>>& slabs);
@@ -87,7 +91,7 @@ private:
     std::uint64_t sceneFingerprint_;
     RenderStatistics statistics_;
     Clock::time_point start_;
-    std::uint32_t pathsPerPass_;
+    PassSize passSize_;
     bool ended_ = false;  // by the observer
 
     std::unique_ptr<Wavefront> wavefront_;

@@ -49,7 +49,16 @@ Pass passTemplate(const FlatScene& scene, const RenderSettings& settings)
 
 Wavefront::Wavefront(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
     : device_(device), settings_(settings), rounds_(lightRounds(scene, settings)), template_(passTemplate(scene, settings)),
-      scene_(device, scene, camera), paths_(device, settings.pathCapacity), layout_(device, kernelSlots(), sizeof(Pass)),
+      ownScene_(std::in_place, device, scene), ownPaths_(std::in_place, device, settings.pathCapacity), scene_(*ownScene_),
+      paths_(*ownPaths_), camera_(device, camera), layout_(device, kernelSlots(), sizeof(Pass)),
+      kernels_(layout_, specialize(scene.features, camera, settings))
+{
+    compile();
+}
+
+Wavefront::Wavefront(Wavefront& lender, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
+    : device_(lender.device_), settings_(settings), rounds_(lightRounds(scene, settings)), template_(passTemplate(scene, settings)),
+      scene_(lender.scene_), paths_(lender.paths_), camera_(device_, camera), layout_(device_, kernelSlots(), sizeof(Pass)),
       kernels_(layout_, specialize(scene.features, camera, settings))
 {
     compile();
@@ -57,14 +66,14 @@ Wavefront::Wavefront(Device& device, const FlatScene& scene, const FlatCamera& c
 
 void Wavefront::setCamera(const FlatCamera& camera, std::uint32_t width, std::uint32_t height)
 {
-    scene_.setCamera(camera);
+    camera_.set(camera);
     template_.width = width;
     template_.height = height;
 }
 
 std::unique_ptr<Slab> Wavefront::makeSlab(std::uint32_t begin, std::uint32_t count)
 {
-    return std::make_unique<Slab>(device_, layout_, scene_, paths_, begin, count, settings_.adaptive != Adaptive::Off);
+    return std::make_unique<Slab>(device_, layout_, scene_, camera_, paths_, begin, count, settings_.adaptive != Adaptive::Off);
 }
 
 // llvmpipe compiles at the first dispatch: one with nothing to do, so that no timed one pays.
@@ -95,7 +104,7 @@ std::uint32_t Wavefront::groupsOf(std::uint32_t count) const
     return (count + settings_.workgroup - 1) / settings_.workgroup;
 }
 
-std::optional<Wavefront::Seconds> Wavefront::trace(const Slab& slab, Pass pass, const std::function<bool()>& goesOn)
+std::optional<PassSeconds> Wavefront::trace(const Slab& slab, Pass pass, const std::function<bool()>& goesOn)
 {
     Recording recording(device_, statistics_, goesOn);
     tracePaths(recording, slab, pass);
@@ -108,7 +117,7 @@ std::optional<Wavefront::Seconds> Wavefront::trace(const Slab& slab, Pass pass, 
     }
     recording.dispatch(*kernels_.accumulate, slab.bindings(0), pass, groupsOf(pass.pixelCount));
     recording.finish();
-    return Seconds{recording.longest(), recording.total()};
+    return PassSeconds{recording.longest(), recording.total()};
 }
 
 void Wavefront::tracePaths(Recording& recording, const Slab& slab, Pass& pass)

@@ -4,6 +4,7 @@
 #include "host/render/device_scene.hpp"
 #include "host/render/kernel_set.hpp"
 #include "host/render/light_rounds.hpp"
+#include "host/render/pass_size.hpp"
 #include "host/render/path_buffers.hpp"
 #include "host/render/recording.hpp"
 
@@ -16,6 +17,9 @@ public:
     // Uploads the scene and compiles the kernels for what it needs.
     Wavefront(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
 
+    // The same of the scene and in the buffers of `lender`, which must outlive it and be at rest while it traces.
+    Wavefront(Wavefront& lender, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
+
     // Of the passes from now on. The camera has a lens if and only if the first one had.
     void setCamera(const FlatCamera& camera, std::uint32_t width, std::uint32_t height);
 
@@ -24,12 +28,9 @@ public:
 
     // A pass over `slab` with nothing in it yet.
     Pass passOf(const Slab& slab) const;
-    // Traces the pass and adds its samples to the film. Returns the device seconds of its longest dispatch and of all; nothing, and the
-    // film is as it was, if `goesOn`, asked every so many dispatches, ended it.
-    struct Seconds {
-        double longest, total;
-    };
-    std::optional<Seconds> trace(const Slab& slab, Pass pass, const std::function<bool()>& goesOn);
+    // Traces the pass and adds its samples to the film. Returns what it took; nothing, and the film is as it was, if `goesOn`, asked
+    // every so many dispatches, ended it.
+    std::optional<PassSeconds> trace(const Slab& slab, Pass pass, const std::function<bool()>& goesOn);
     // The hit of one ray alone; between passes.
     PathHit traceRay(const Slab& slab, const PathRay& ray);
     // Folds the blocks of all pixels, chosen or not, that are under way into their pages.
@@ -59,8 +60,11 @@ private:
     std::map<std::string, KernelStatistics> statistics_;
     double compileSeconds_ = 0.0;
 
-    DeviceScene scene_;
-    PathBuffers paths_;
+    std::optional<DeviceScene> ownScene_;  // absent if they are lent
+    std::optional<PathBuffers> ownPaths_;
+    const DeviceScene& scene_;
+    PathBuffers& paths_;
+    DeviceCamera camera_;
     KernelLayout layout_;
     KernelSet kernels_;
 };

@@ -4,14 +4,15 @@
 #include "host/bvh/build_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/render/device_scene.hpp"
+#include "shaders/shared/bindings.h"
 #include "tests/support/kernel_test.hpp"
 
 namespace glim {
 
 struct SceneOnDevice {
-    explicit SceneOnDevice(const Scene& scene, const Camera& camera = {})
+    explicit SceneOnDevice(const Scene& scene, const Camera& view = {})
         : bvh(buildBvh(primitiveBoxes(scene))), flat(flattenScene(scene, bvh)),
-          device(testDevice(), flat, flattenCamera(camera, 1.0F)), recordOf(bvh.order.size())
+          device(testDevice(), flat), camera(testDevice(), flattenCamera(view, 1.0F)), recordOf(bvh.order.size())
     {
         for (std::uint32_t record = 0; record < bvh.order.size(); ++record) {
             recordOf[bvh.order[record]] = record;
@@ -26,6 +27,7 @@ struct SceneOnDevice {
     {
         KernelTest test(kernel);
         test.buffers(device.buffers());
+        test.buffers({{kBindCamera, &camera.buffer()}});
         test.pass().lightCount = static_cast<std::uint32_t>(flat.lights.size());
         return test;
     }
@@ -33,6 +35,7 @@ struct SceneOnDevice {
     Bvh bvh;
     FlatScene flat;
     DeviceScene device;
+    DeviceCamera camera;
     std::vector<std::uint32_t> recordOf;  // by primitive
 };
 

@@ -1,0 +1,47 @@
+#include "host/render/pass_size.hpp"
+
+#include "host/render/light_rounds.hpp"
+#include "shaders/shared/limits.h"
+
+#include <algorithm>
+
+namespace glim {
+namespace {
+
+// Passes aim at this for their longest dispatch: far below any watchdog.
+constexpr double kTargetDispatchSeconds = 0.05;
+// And at settings.passSeconds in all, where many rounds of direct light or long brute force make many dispatches, since --time ends
+// between passes; but not if that leaves so little for a dispatch that starting it costs more (of a second, with 1 ms for the longest,
+// 512 rounds took three times as long as with 10 at 32x32, since those of later bounces have a hundredth of its rays).
+constexpr double kLeastDispatchShare = 0.01;
+// Of a first pass, with one round of direct light and a ray that takes this many steps.
+constexpr std::uint32_t kFirstPassPaths = 1U << 14;
+constexpr std::uint64_t kUsualSteps = 64;
+
+std::uint32_t firstPassPaths(const FlatScene& scene, const RenderSettings& settings)
+{
+    const std::uint64_t records = scene.records.size() / kRecordTexels;
+    const std::uint64_t steps = settings.accelerator == Accelerator::None ? std::max(records, kUsualSteps) : kUsualSteps;
+    const std::uint64_t work = steps * lightRounds(scene, settings).size();
+    return std::clamp(static_cast<std::uint32_t>(kFirstPassPaths * kUsualSteps / work), kBlockSamples, settings.pathCapacity);
+}
+
+}  // namespace
+
+PassSize::PassSize(const FlatScene& scene, const RenderSettings& settings)
+    : paths_(firstPassPaths(scene, settings)), capacity_(settings.pathCapacity), passSeconds_(settings.passSeconds)
+{
+}
+
+// What is left at the end of a sweep says little about a full pass, unless it took too long.
+void PassSize::learn(std::uint32_t paths, const PassSeconds& seconds)
+{
+    if (seconds.longest <= kTargetDispatchSeconds && (seconds.longest <= 0.0 || 2 * std::uint64_t{paths} <= paths_)) {
+        return;
+    }
+    const double byPass = passSeconds_ * std::max(1.0 / seconds.total, kLeastDispatchShare / seconds.longest);
+    const double scale = std::clamp(std::min(kTargetDispatchSeconds / seconds.longest, byPass), 0.5, 2.0);
+    paths_ = static_cast<std::uint32_t>(std::clamp(paths * scale, static_cast<double>(kBlockSamples), static_cast<double>(capacity_)));
+}
+
+}  // namespace glim
