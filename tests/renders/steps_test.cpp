@@ -128,9 +128,9 @@ std::vector<Rgb8> shownBy(Display& display)
     const Kernel kernel(layout, test_kernels::read_picture, {{kSpecWorkgroup, 64}});
     const uint size[] = {display.width(), display.height()};
     Buffer pixels(testDevice(), "test's pixels", BufferKind::Readback, std::uint64_t{4} * size[0] * size[1]);
+    const Bindings bindings(layout, {{kBindResults, &pixels}}, {{kBindShown, &display.shown()}});
     Commands commands(testDevice());
-    commands.dispatch(kernel, Bindings(layout, {{kBindResults, &pixels}}, {{kBindShown, &display.shown()}}),
-                      std::as_bytes(std::span(size)), (size[0] * size[1] + 63) / 64);
+    commands.dispatch(kernel, bindings, std::as_bytes(std::span(size)), (size[0] * size[1] + 63) / 64);
     commands.submitAndWait();
     std::vector<Rgb8> colors;
     for (const uint pixel : download<uint>(pixels, std::size_t{size[0]} * size[1])) {
