@@ -6,22 +6,20 @@
 namespace glim {
 namespace {
 
-// All of them are timed, and a submission ends within seconds.
-constexpr std::uint32_t kDispatchesPerSubmission = 64;
-
 std::span<const std::byte> bytesOf(const Pass& pass) { return std::as_bytes(std::span<const Pass, 1>(&pass, 1)); }
 
 }  // namespace
 
-Recording::Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics, std::function<bool()> goesOn)
-    : device_(device), statistics_(statistics), goesOn_(std::move(goesOn))
+Recording::Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics, std::uint32_t submission,
+                     std::function<bool()> goesOn)
+    : device_(device), statistics_(statistics), submission_(submission), goesOn_(std::move(goesOn))
 {
 }
 
 // Null once it is stopped.
 Commands* Recording::next()
 {
-    if (recorded_ == kDispatchesPerSubmission) {
+    if (recorded_ == submission_) {
         finish();
     }
     if (stopped_) {

@@ -18,8 +18,9 @@ struct KernelStatistics {
 
 class Recording {
 public:
-    // Adds what each kernel took to `statistics`. Asks `goesOn` whenever a portion has run; once that is false, nothing more runs.
-    Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics,
+    // Adds what each kernel took to `statistics`. Asks `goesOn` whenever a portion, of `submission` dispatches at most, has run; once
+    // that is false, nothing more runs.
+    Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics, std::uint32_t submission,
               std::function<bool()> goesOn = [] { return true; });
 
     // `groups` workgroups.
@@ -41,6 +42,7 @@ private:
 
     const Device& device_;
     std::map<std::string, KernelStatistics>& statistics_;
+    std::uint32_t submission_;
     std::function<bool()> goesOn_;
     bool stopped_ = false;
     std::optional<Commands> commands_;
