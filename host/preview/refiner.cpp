@@ -8,9 +8,9 @@ namespace glim {
 namespace {
 
 // A pass pays: with a fifth of this, two spheres took 2.5 times as long, for the many small dispatches. Input waits only for the
-// dispatches under way, eight of which trace a bounce.
+// dispatches under way: of eight, 50 ms more.
 constexpr double kPassSeconds = 0.1;
-constexpr std::uint32_t kSubmission = 8;
+constexpr std::uint32_t kSubmission = 2;
 constexpr double kMovingSeconds = 0.03;  // for a coarse picture: with pass, drawing and presenting it makes less than 100 ms
 constexpr double kStillSeconds = 0.15;   // after the last move the picture is refined
 
