@@ -10,7 +10,7 @@ namespace {
 // A pass pays: with a fifth of this, two spheres took 2.5 times as long, for the many small dispatches. Input waits only for the
 // dispatches under way: of eight, 50 ms more.
 constexpr double kPassSeconds = 0.1;
-constexpr std::uint32_t kSubmission = 2;
+constexpr std::uint32_t kPortion = 2;
 constexpr double kMovingSeconds = 0.03;  // for a coarse picture: with pass, drawing and presenting it makes less than 100 ms
 constexpr double kStillSeconds = 0.15;   // after the last move the picture is refined
 
@@ -23,7 +23,7 @@ RenderSettings startingSettings(RenderSettings settings)
 {
     settings.width = settings.height = 1;
     settings.passSeconds = kPassSeconds;
-    settings.submission = kSubmission;
+    settings.portion = kPortion;
     return settings;
 }
 
@@ -92,7 +92,7 @@ bool Refiner::refine(bool paused, const std::function<bool()>& goesOn)
     }
     // The first picture is always made whole, or a hand that never rests would see none.
     do {
-        advance([&] { return fresh_ || goesOn(); });
+        advance(fresh_ ? nullptr : goesOn);
     } while (fresh_ && renderer_.sampleCount() == 0);
     if (std::exchange(fresh_, false)) {
         chooseMovingScale(seconds_);

@@ -6,20 +6,28 @@
 namespace glim {
 namespace {
 
+// Dispatches of a portion where nobody is asked: all of them are timed, and a submission ends within seconds.
+constexpr std::uint32_t kUnasked = 64;
+
 std::span<const std::byte> bytesOf(const Pass& pass) { return std::as_bytes(std::span<const Pass, 1>(&pass, 1)); }
 
 }  // namespace
 
-Recording::Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics, std::uint32_t submission,
+Recording::Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics)
+    : Recording(device, statistics, kUnasked, nullptr)
+{
+}
+
+Recording::Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics, std::uint32_t dispatches,
                      std::function<bool()> goesOn)
-    : device_(device), statistics_(statistics), submission_(submission), goesOn_(std::move(goesOn))
+    : device_(device), statistics_(statistics), portion_(goesOn ? dispatches : kUnasked), goesOn_(std::move(goesOn))
 {
 }
 
 // Null once it is stopped.
 Commands* Recording::next()
 {
-    if (recorded_ == submission_) {
+    if (recorded_ == portion_) {
         finish();
     }
     if (stopped_) {
@@ -62,7 +70,7 @@ void Recording::finish()
     }
     commands_.reset();
     recorded_ = 0;
-    stopped_ = !goesOn_();
+    stopped_ = goesOn_ && !goesOn_();
 }
 
 }  // namespace glim

@@ -18,10 +18,11 @@ struct KernelStatistics {
 
 class Recording {
 public:
-    // Adds what each kernel took to `statistics`. Asks `goesOn` whenever a portion, of `submission` dispatches at most, has run; once
-    // that is false, nothing more runs.
-    Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics, std::uint32_t submission,
-              std::function<bool()> goesOn = [] { return true; });
+    // Adds what each kernel took to `statistics`.
+    Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics);
+    // And asks `goesOn`, unless that is empty, whenever a portion of `dispatches`, or less, has run; once it is false, nothing more runs.
+    Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics, std::uint32_t dispatches,
+              std::function<bool()> goesOn);
 
     // `groups` workgroups.
     void dispatch(const Kernel& kernel, const Bindings& bindings, const Pass& pass, std::uint32_t groups);
@@ -42,7 +43,7 @@ private:
 
     const Device& device_;
     std::map<std::string, KernelStatistics>& statistics_;
-    std::uint32_t submission_;
+    std::uint32_t portion_;
     std::function<bool()> goesOn_;
     bool stopped_ = false;
     std::optional<Commands> commands_;

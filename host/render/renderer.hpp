@@ -45,7 +45,7 @@ public:
 
     // The same in steps: a pass of work. False once nothing is left to do, or if `goesOn`, asked now and then, ended the pass, of which
     // nothing is kept then. Throws as render.
-    bool advance(const std::function<bool()>& goesOn = [] { return true; });
+    bool advance(const std::function<bool()>& goesOn = nullptr);
     bool isDone() const { return chosen_ == 0 || sample_ == settings_.sampleEnd; }
     // What is finished; sampling may go on.
     Film film();

@@ -55,7 +55,7 @@ struct RenderSettings {
     // How the work is cut: these change no bit of the picture.
     std::uint32_t workgroup = 64;        // invocations
     std::uint32_t pathCapacity = 1U << 18;  // paths in flight, at least kBlockSamples
-    std::uint32_t submission = 64;       // dispatches, all of which are timed; then it is asked whether the pass goes on
+    std::uint32_t portion = 64;          // dispatches that run before it is asked whether the pass goes on
     double passSeconds = 1.0;            // that a pass should take at most: nobody is answered before its end
 };
 

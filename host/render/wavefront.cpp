@@ -106,7 +106,7 @@ std::uint32_t Wavefront::groupsOf(std::uint32_t count) const
 
 std::optional<PassSeconds> Wavefront::trace(const Slab& slab, Pass pass, const std::function<bool()>& goesOn)
 {
-    Recording recording(device_, statistics_, settings_.submission, goesOn);
+    Recording recording(device_, statistics_, settings_.portion, goesOn);
     tracePaths(recording, slab, pass);
     if (recording.isStopped()) {
         paths_.emptyQueues();
@@ -200,7 +200,7 @@ PathHit Wavefront::traceRay(const Slab& slab, const PathRay& ray)
     paths_.queueRay(ray);
     Pass pass = passOf(slab);
     pass.pixelCount = pass.sampleCount = 1;
-    Recording recording(device_, statistics_, settings_.submission);
+    Recording recording(device_, statistics_);
     recordSize(recording, slab.bindings(0), pass, kSizesPaths);
     recordTrace(recording, *kernels_.traceClosest, slab.bindings(0), pass, offsetof(QueueSizes, closestGroups));
     recording.finish();
@@ -212,7 +212,7 @@ void Wavefront::closeBlocks(const Slab& slab)
     Pass pass = passOf(slab);
     pass.pixelCount = slab.count();
     pass.accumulate = kEndsBlock | kEveryPixel;
-    Recording recording(device_, statistics_, settings_.submission);
+    Recording recording(device_, statistics_);
     recording.dispatch(*kernels_.accumulate, slab.bindings(0), pass, groupsOf(pass.pixelCount));
     recording.finish();
 }
@@ -222,7 +222,7 @@ void Wavefront::choosePixels(Slab& slab)
     slab.chooseNone();
     Pass pass = passOf(slab);
     pass.pixelCount = slab.count();
-    Recording recording(device_, statistics_, settings_.submission);
+    Recording recording(device_, statistics_);
     recording.dispatch(*kernels_.choosePixels, slab.bindings(0), pass, groupsOf(pass.pixelCount));
     recording.finish();
     slab.readChosenCount();
