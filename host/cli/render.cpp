@@ -97,6 +97,12 @@ double writePictures(const RenderOptions& options, const Film& film)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+Camera cameraOf(const Scene& scene, const RenderOptions& options)
+{
+    const Camera& camera = findCamera(scene, options.camera);
+    return options.pose ? placeCamera(camera, *options.pose, scene.origin) : camera;
+}
+
 ExitCode runRender(const RenderOptions& options)
 {
     checkTargets(options);
@@ -107,10 +113,7 @@ ExitCode runRender(const RenderOptions& options)
     if (options.settings.view == View::Shaded) {
         warnOfDarkness(prepared);
     }
-    Camera camera = findCamera(prepared.scene, options.camera);
-    if (options.pose) {
-        camera = placeCamera(camera, *options.pose, prepared.scene.origin);
-    }
+    const Camera camera = cameraOf(prepared.scene, options);
     const RenderSettings settings = settingsFor(options, camera);
     refuseWhatDoesNotFit(prepared, settings, device.description());
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);

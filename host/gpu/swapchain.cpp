@@ -13,6 +13,9 @@ constexpr std::uint32_t kNoPicture = 0xffffffff;
 
 VkSurfaceFormatKHR chooseFormat(const Device& device, VkSurfaceKHR surface)
 {
+    VkSurfaceCapabilitiesKHR capabilities;
+    check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device.physical(), surface, &capabilities), "look at the window");
+    const bool takesBlits = (capabilities.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_DST_BIT) != 0;
     std::uint32_t count = 0;
     check(vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical(), surface, &count, nullptr), "list the window's formats");
     std::vector<VkSurfaceFormatKHR> formats(count);
@@ -21,7 +24,7 @@ VkSurfaceFormatKHR chooseFormat(const Device& device, VkSurfaceKHR surface)
         VkFormatProperties properties;
         vkGetPhysicalDeviceFormatProperties(device.physical(), format.format, &properties);
         const bool plain = format.format == VK_FORMAT_B8G8R8A8_UNORM || format.format == VK_FORMAT_R8G8B8A8_UNORM;
-        if (plain && (properties.optimalTilingFeatures & VK_FORMAT_FEATURE_BLIT_DST_BIT) != 0) {
+        if (takesBlits && plain && (properties.optimalTilingFeatures & VK_FORMAT_FEATURE_BLIT_DST_BIT) != 0) {
             return format;
         }
     }

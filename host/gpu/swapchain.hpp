@@ -7,7 +7,7 @@ namespace glim {
 
 class Swapchain {
 public:
-    // `surface`: of a window that outlives this, and that the device was opened for. Throws DeviceError if it takes no 8-bit colours
+    // `surface`: of a window that outlives this, and that the device was opened for. Throws InputError if it takes no 8-bit colours
     // without a transfer function of its own (which would encode them twice), or cannot be blitted to.
     Swapchain(Device& device, VkSurfaceKHR surface);
     ~Swapchain();

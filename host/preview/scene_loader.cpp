@@ -1,5 +1,7 @@
 #include "host/preview/scene_loader.hpp"
 
+#include "host/error.hpp"
+
 #include <utility>
 
 namespace glim {
@@ -46,6 +48,9 @@ void SceneLoader::begin()
 {
     loading_ = std::async(std::launch::async, [this] {
         return std::make_unique<PreparedScene>(prepareScene(file_, options_, split_, [this](const std::string& stage) {
+            if (ended_) {
+                throw InputError("loading was given up");
+            }
             const std::lock_guard lock(mutex_);
             stage_ = stage;
         }));

@@ -3,6 +3,7 @@
 
 #include "host/render/prepare_scene.hpp"
 
+#include <atomic>
 #include <chrono>
 #include <future>
 #include <mutex>
@@ -12,6 +13,8 @@ namespace glim {
 class SceneLoader {
 public:
     SceneLoader(std::filesystem::path file, LoadOptions options, SplitRule split);
+
+    ~SceneLoader() { ended_ = true; }  // and waits for the end of the stage under way
 
     // A scene that has been loaded since the last call, or nothing. Throws InputError if loading it failed.
     std::unique_ptr<PreparedScene> take();
@@ -35,6 +38,7 @@ private:
     SplitRule split_;
     std::vector<Stamp> loaded_, seen_;          // when loading began, and at the last look
     std::chrono::steady_clock::time_point lastLook_;
+    std::atomic<bool> ended_ = false;
     mutable std::mutex mutex_;
     std::string stage_;
     std::future<std::unique_ptr<PreparedScene>> loading_;

@@ -28,7 +28,7 @@ std::string reason()
     throw InputError(what + " (" + reason() + "); `glim render` needs no window.");
 }
 
-// As H names them: letters as on the keyboard at hand, the other keys by their place.
+// As H names them: letters, + and - as on the keyboard at hand; the other keys, and + and - too, by their place on an American one.
 char nameOf(int key, int scancode)
 {
     if (key == GLFW_KEY_ESCAPE) {
@@ -41,6 +41,9 @@ char nameOf(int key, int scancode)
         return '-';
     }
     const char* name = glfwGetKeyName(key, scancode);
+    if (name != nullptr && (name[0] == '+' || name[0] == '-') && name[1] == '\0') {
+        return name[0];
+    }
     if (name != nullptr && std::isalpha(static_cast<unsigned char>(name[0])) && name[1] == '\0') {
         return static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
     }

@@ -70,12 +70,13 @@ Pixels PreviewTest::windowAtWriting(const VirtualScreen& shown, const std::strin
     return window;
 }
 
-PreviewTest::Watched PreviewTest::watch(const std::string& script, const std::vector<std::string>& more) const
+PreviewTest::Watched PreviewTest::watch(std::size_t pictures, const std::string& script, const std::vector<std::string>& more) const
 {
     Watched seen;
     whenWritten(call(script, more), [&] {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(3);
-        while (std::chrono::steady_clock::now() < end) {
+        const auto start = std::chrono::steady_clock::now();
+        const auto isWithin = [start](int seconds) { return std::chrono::steady_clock::now() < start + std::chrono::seconds(seconds); };
+        while (isWithin(3) || (seen.pictures.size() < pictures && isWithin(60))) {
             const Pixels now = windowOf(screen.pixels());
             seen.leastLight = std::min(seen.leastLight, shareOfLight(now));
             seen.pictures.insert(now);

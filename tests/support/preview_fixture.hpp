@@ -25,12 +25,13 @@ protected:
     GlimRun run(const std::string& script, const std::vector<std::string>& more = {}) const;
     // What is in the window on `shown`, once it rests, when the script has pressed P; ends the session then.
     Pixels windowAtWriting(const VirtualScreen& shown, const std::string& script, const std::vector<std::string>& more = {}) const;
-    // Looks at the window again and again for three seconds from when the script has pressed P.
+    // Looks at the window again and again from when the script has pressed P: three seconds, and until `pictures` were seen, but no
+    // longer than a minute.
     struct Watched {
         std::set<Pixels> pictures;  // all that were seen
         double leastLight = 1.0;    // the share of the window that was not black, at the least
     };
-    Watched watch(const std::string& script, const std::vector<std::string>& more = {}) const;
+    Watched watch(std::size_t pictures, const std::string& script, const std::vector<std::string>& more = {}) const;
     // Of what is on a screen, the window.
     Pixels windowOf(const Pixels& shown) const;
 
