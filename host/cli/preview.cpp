@@ -57,7 +57,7 @@ void addPreview(CLI::App& app)
                     "R is the file's camera, 1-9 its others; + - exposure; V the next view (shaded, normal, depth, albedo, samples,\n"
                     "BVH steps); a click prints what is there; Space pauses, P writes what is shown to SCENE-001.exr and .png in the\n"
                     "working folder, C prints the camera as options and as glTF, H shows help, Esc quits. After N samples the picture\n"
-                    "has the bits of `glim render --spp N` with the options that C prints. A changed scene file is loaded again.\n"
+                    "has the bits of `glim render --spp N` with the same options and those that C prints. A changed scene file is loaded again.\n"
                     "Exit codes: 0 done, 1 bad input or no display, 2 usage, 3 device.");
     command->parse_complete_callback([command, options] {
         settlePicture(*command, *options);

@@ -14,11 +14,11 @@ VKAPI_ATTR VkBool32 VKAPI_CALL countMessage(VkDebugUtilsMessageSeverityFlagBitsE
                                             const VkDebugUtilsMessengerCallbackDataEXT* data, void* counter)
 {
     std::fprintf(stderr, "validation: %s\n", data->pMessage);
-    ++*static_cast<int*>(counter);
+    ++*static_cast<std::atomic<int>*>(counter);
     return VK_FALSE;
 }
 
-VkDebugUtilsMessengerCreateInfoEXT messengerInfo(int* counter)
+VkDebugUtilsMessengerCreateInfoEXT messengerInfo(std::atomic<int>* counter)
 {
     VkDebugUtilsMessengerCreateInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
     info.messageSeverity =
@@ -52,7 +52,7 @@ void requireValidationLayer()
 
 }  // namespace
 
-Instance::Instance(const std::vector<const char*>& extensions) : messages_(std::make_unique<int>(0))
+Instance::Instance(const std::vector<const char*>& extensions) : messages_(std::make_unique<std::atomic<int>>(0))
 {
     VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
     application.pApplicationName = "glim";

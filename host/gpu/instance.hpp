@@ -3,6 +3,7 @@
 
 #include "host/gpu/check.hpp"
 
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -27,7 +28,7 @@ public:
 private:
     VkInstance handle_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
-    std::unique_ptr<int> messages_;  // an address that the layers may keep
+    std::unique_ptr<std::atomic<int>> messages_;  // an address that the layers may keep; kernels are compiled in several threads
 };
 
 }  // namespace glim

@@ -12,6 +12,13 @@ constexpr VkFormat kFormat = VK_FORMAT_R8G8B8A8_UNORM;  // storage and blit sour
 StorageImage::StorageImage(Device& device, const std::string& name, std::uint32_t width, std::uint32_t height)
     : device_(device), width_(width), height_(height)
 {
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(device.physical(), &properties);
+    const std::uint32_t most = properties.limits.maxImageDimension2D;
+    if (width > most || height > most) {
+        throw DeviceError(name + " would have " + std::to_string(width) + "x" + std::to_string(height) + " pixels, and \"" +
+                          device.description().name + "\" has at most " + std::to_string(most) + " a side.");
+    }
     VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
     info.imageType = VK_IMAGE_TYPE_2D;
     info.format = kFormat;

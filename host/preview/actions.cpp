@@ -73,7 +73,7 @@ void Session::moveBy(const Event& event)
         default: return dolly(pose, event.amount.y, camera.kind);
         }
     });
-    restart();
+    moved_ = true;
 }
 
 void Session::press(char key)
@@ -98,13 +98,13 @@ void Session::pressForScene(char key)
     if (key == 'F') {
         const double aspect = static_cast<double>(display_.width()) / static_cast<double>(display_.height());
         viewpoint_->move([&](const Pose& pose) { return frame(pose, viewpoint_->bounds(), viewpoint_->fileCamera(), aspect); });
-        restart();
+        moved_ = true;
     } else if (key == 'R') {
         viewpoint_->reset();
-        restart();
+        moved_ = true;
     } else if (key >= '1' && key <= '9') {
         if (viewpoint_->choose(static_cast<std::size_t>(key - '1'))) {
-            restart();
+            moved_ = true;
         } else {
             say(std::string("The file has no camera ") + key + ".");
         }
@@ -112,7 +112,11 @@ void Session::pressForScene(char key)
         cycleLook();
     } else if (key == 'P') {
         say("writing the picture");
-        later_ = [this] { writePictures(); };
+        if (isWhole()) {
+            later_ = [this] { writePictures(); };
+        } else {
+            writes_ = true;
+        }
     } else if (key == 'C') {
         printCamera();
     }
@@ -141,13 +145,13 @@ void Session::cycleLook()
 
 void Session::lookAt(Look look)
 {
-    const bool stale = lightIsStale_, leaves = look_ == Look::Steps;
+    const bool stale = lightIsStale_ || moved_, leaves = look_ == Look::Steps;
     look_ = look;
     if (look == Look::Steps) {
-        restart();
+        show();
         lightIsStale_ = stale;
     } else if (leaves && stale) {
-        restart();
+        show();
     }
     estimatedAt_ = 0;
 }
@@ -203,6 +207,7 @@ void Session::writePictures()
     if (const auto report = writer_.takeReport(true)) {
         tell(*report);
     }
+    writes_ = false;
     writer_.write(options_.scene, std::move(film), look_, options_.exposure);
 }
 

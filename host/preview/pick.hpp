@@ -11,7 +11,7 @@ namespace glim {
 struct Pick {
     glm::dvec3 position;     // world coordinates
     double distance;         // metres from where the ray begins
-    std::string object;      // as in: primitive "floor", triangle 3
+    std::string object;      // as in: mesh "floor", triangle 3
     std::string material;
 };
 

@@ -26,7 +26,7 @@ struct PreviewOptions {
     std::optional<std::filesystem::path> script;
 };
 
-// Until the window is closed, or the script or the frames end it. Throws InputError where there is no display or the scene is
+// Until the window is closed, as a script may, or the frames are shown. Throws InputError where there is no display or the scene is
 // refused, DeviceError as a render does.
 void preview(const PreviewOptions& options);
 

@@ -19,7 +19,7 @@ public:
 
     // From now on this camera's picture, of this size. `still`: nothing moves, so that it need not be coarse first.
     void show(const Camera& camera, const glm::uvec2& size, bool still);
-    // Works for some 20 ms, or less once `goesOn` is false, or until a coarse picture is whole; false if there is nothing to do. If
+    // Works for some 100 ms, or less once `goesOn` is false, or until a coarse picture is whole; false if there is nothing to do. If
     // `paused`, only as long as some pixel has no sample.
     bool refine(bool paused, const std::function<bool()>& goesOn);
 

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <iterator>
 #include <utility>
 
 namespace glim {
@@ -46,13 +47,19 @@ void Session::run()
             tell(*report);
         }
         fly();
+        followCamera();
         if (isPresentDue()) {
             present();
+            followCamera();
         }
-        if (later_ && !refiner().isFresh()) {
+        if (later_ && !moved_ && !refiner().isFresh()) {
             std::exchange(later_, nullptr)();
         }
+        if (writes_ && isWhole()) {
+            writePictures();
+        }
     }
+    window_.finish();
     if (const auto report = writer_.takeReport(true)) {
         tell(*report);
     }
@@ -102,6 +109,9 @@ void Session::enter(std::unique_ptr<PreparedScene> prepared)
     window_.setTitle("glim: compiling kernels for " + options_.scene.filename().string());
     if (!viewpoint_) {
         const Camera& chosen = findCamera(prepared->scene, options_.camera);
+        if (options_.pose) {
+            placeCamera(chosen, *options_.pose, prepared->scene.origin);  // refuses what gives no direction
+        }
         viewpoint_.emplace(static_cast<std::size_t>(&chosen - prepared->scene.cameras.data()), options_.pose);
         if (!options_.size) {
             window_.setSize(naturalSize(chosen));
@@ -120,7 +130,7 @@ void Session::enter(std::unique_ptr<PreparedScene> prepared)
     }
     prepared_ = std::move(prepared);
     window_.setTitle("glim: " + options_.scene.filename().string());
-    restart();
+    show();
 }
 
 void Session::resize()
@@ -130,7 +140,10 @@ void Session::resize()
         return;
     }
     display_.resize(size.x, size.y);
-    restart();
+    if (light_) {
+        show();
+    }
+    changed_ = true;
 }
 
 // While keys are held, from picture to picture: half the scene's radius a second.
@@ -144,19 +157,28 @@ void Session::fly()
     const glm::dvec3 way(axis('D', 'A'), axis('E', 'Q'), axis('W', 'S'));
     if (viewpoint_ && way != glm::dvec3(0.0)) {
         viewpoint_->move([&](const Pose& pose) { return ::glim::fly(pose, 0.5 * viewpoint_->bounds().radius * seconds * way); });
-        restart();
+        moved_ = true;
     }
 }
 
-void Session::restart(bool still)
+// However often the camera moves, each picture is shown before the next is begun: a hand that never rests would see none otherwise.
+void Session::followCamera()
 {
-    if (light_) {
-        refiner().show(viewpoint_->camera(), {display_.width(), display_.height()}, still);
-        shown_ = false;
-        lightIsStale_ = look_ == Look::Steps;
-        estimatedAt_ = 0;
-        relMse_.reset();
+    if (moved_ && shown_) {
+        show();
     }
+}
+
+// Begins the picture from where the camera is now.
+void Session::show()
+{
+    refiner().show(viewpoint_->camera(), {display_.width(), display_.height()}, false);
+    std::move(waiting_.begin(), waiting_.end(), std::back_inserter(underWay_));
+    waiting_.clear();
+    moved_ = shown_ = false;
+    lightIsStale_ = look_ == Look::Steps;
+    estimatedAt_ = 0;
+    relMse_.reset();
     changed_ = true;
 }
 
@@ -170,12 +192,13 @@ bool Session::work()
 // At once where the user waits; else often enough to look alive, and seldom enough to leave the time to rendering.
 bool Session::isPresentDue()
 {
-    if (!changed_ || (light_ && refiner().isFresh())) {
+    const bool nothingNew = !changed_ && !options_.frames;
+    if (nothingNew || (light_ && refiner().isFresh())) {
         return false;
     }
     const bool moving = light_ && refiner().scale() > 1;
     const double interval = moving ? kMovingFrameSeconds : std::max(kFrameSeconds, presentSeconds_ / kPresentShare);
-    return !waiting_.empty() || secondsSince(presented_) >= interval;
+    return !waiting_.empty() || !underWay_.empty() || secondsSince(presented_) >= interval;
 }
 
 void Session::present()
@@ -194,13 +217,19 @@ void Session::present()
     if (!shown) {
         return;
     }
-    ++frames_;
+    changed_ = moved_;
     shown_ = true;
-    changed_ = false;
-    for (const Clock::time_point came : std::exchange(waiting_, {})) {
+    if (!moved_) {
+        std::move(waiting_.begin(), waiting_.end(), std::back_inserter(underWay_));
+        waiting_.clear();
+    }
+    for (const Clock::time_point came : std::exchange(underWay_, {})) {
         latency_.add(std::chrono::duration<double>(presented_ - came).count());
     }
     if (light_) {
+        ++frames_;
+    }
+    if (light_ && !moved_) {
         window_.reportShown(refiner().sampleCount(), refiner().scale() == 1 && refiner().isDone(), handled_);
     }
 }

@@ -11,6 +11,8 @@
 #include "host/gpu/swapchain.hpp"
 #include "host/render/display.hpp"
 
+#include <deque>
+#include <functional>
 #include <set>
 
 namespace glim {
@@ -27,15 +29,17 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
-    Refiner& refiner() { return look_ == Look::Steps ? *steps_ : *light_; }
-    bool isAsked() const { return !inbox_.empty() || !events_.isEmpty(); }
+    Refiner& refiner() const { return look_ == Look::Steps ? *steps_ : *light_; }
+    bool isWhole() const { return !moved_ && refiner().scale() == 1 && refiner().sampleCount() > 0; }
+    bool isAsked() const { return moved_ || !inbox_.empty() || !events_.isEmpty(); }
     // session.cpp: the loop
     void takeEvents(double seconds);
     void takeScene();
     void enter(std::unique_ptr<PreparedScene> prepared);
     void resize();
     void fly();
-    void restart(bool still = false);
+    void followCamera();
+    void show();
     bool work();
     bool isPresentDue();
     void present();
@@ -73,15 +77,18 @@ private:
     Look look_ = Look::Radiance;
     std::deque<Event> inbox_;                 // of events_, those not handled yet
     std::function<void()> later_;             // to be done once the window has said so
+    bool writes_ = false;                     // a picture, once there is a whole one
     std::set<char> held_;                     // keys that fly
     bool paused_ = false, closing_ = false;
     int overlayLevel_ = 1;                    // 0: nothing, 1: figures, 2: help too
     std::string notice_;                      // the last thing said
     Clock::time_point noticeTime_, flown_, presented_;
     double presentSeconds_ = 0.0;             // that the last one took
-    std::vector<Clock::time_point> waiting_;  // when what has not been answered by a picture yet came in
+    std::vector<Clock::time_point> waiting_;  // when what no picture answers yet came in
+    std::vector<Clock::time_point> underWay_; // and what the next one answers
     bool changed_ = true;                     // there is something new to show
-    bool shown_ = true;                       // the camera's latest move
+    bool moved_ = false;                      // the camera, since show()
+    bool shown_ = true;                       // what show() began
     std::uint64_t handled_ = 0;               // events
     Latency latency_;
     std::uint64_t frames_ = 0;

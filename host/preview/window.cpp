@@ -244,6 +244,7 @@ void Window::run(const std::vector<ScriptStep>& script)
             last = glfwGetTime();
         }
     }
+    glfwHideWindow(window_);
 }
 
 bool Window::isDue(const ScriptStep& step, double since) const

@@ -2,6 +2,7 @@
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/preview_fixture.hpp"
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -109,9 +110,20 @@ TEST_F(PreviewTest, FiguresAndHelpComeAndGo)
 
 TEST_F(PreviewTest, PauseStopsSampling)
 {
-    const GlimRun session = run("0 samples 2\n0 key space\n0.1 key P\n0.5 key P\n0 key space\n0.5 key P\n0 close\n");
+    width = 24;
+    height = 18;
+    const GlimRun session = run("0 samples 2\n0 key space\n0.1 key P\n0.5 key P\n0 key space\n0 samples 512\n0 key P\n0 close\n");
     EXPECT_TRUE(sameBits(film(1), film(2))) << session.err;
     EXPECT_GT(film(3).pixels[0].count, film(2).pixels[0].count);
+}
+
+// P right after a move waits for a picture of the whole window with a sample everywhere.
+TEST_F(PreviewTest, WritesNoUnfinishedPicture)
+{
+    run("0 samples 1\n0 drag left 10,10 40,20\n0 key P\n0 samples 1\n0 close\n");
+    const Film whole = film(1);
+    EXPECT_EQ(whole.width, width);
+    EXPECT_TRUE(std::all_of(whole.pixels.begin(), whole.pixels.end(), [](const PixelMoments& pixel) { return pixel.count > 0; }));
 }
 
 TEST_F(PreviewTest, SurvivesAResizeStorm)
@@ -134,7 +146,7 @@ TEST_F(PreviewTest, ClosesWhileItLoads)
     run("0.05 key V\n0 drag left 1,1 30,30\n0 key P\n0 key C\n0 click 3,3\n0 close\n");
 }
 
-TEST_F(PreviewTest, EndsAfterItsFrames) { EXPECT_NE(run("", {"--frames", "3"}).err.find("glim: 3 frames"), std::string::npos); }
+TEST_F(PreviewTest, EndsAfterItsFrames) { EXPECT_NE(run("", {"--frames", "20", "--spp", "1"}).err.find("glim: 20 frames"), std::string::npos); }
 
 // The session that tests/README.md measures: whatever the user does, a picture answers it.
 TEST_F(PreviewTest, AnswersEveryInput)
@@ -214,6 +226,9 @@ TEST_F(PreviewTest, RefusesWhatItCannotShow)
     GlimCall camera = call("");
     camera.arguments.insert(camera.arguments.end(), {"--camera", "seven"});
     refusal(camera, 1, "camera \"seven\"");
+    GlimCall nowhere = call("");
+    nowhere.arguments.insert(nowhere.arguments.end(), {"--look-from", "0,0,0", "--look-at", "0,0,0"});
+    refusal(nowhere, 1, "--look-at: is where --look-from is");
 }
 
 }  // namespace
