@@ -51,12 +51,12 @@ void Refiner::chooseMovingScale(double seconds)
     }
 }
 
-void Refiner::show(const Camera& camera, const glm::uvec2& size, bool still)
+void Refiner::show(const Camera& camera, const glm::uvec2& size)
 {
     size_ = size;
     camera_ = flattenCamera(camera, static_cast<float>(size.x) / static_cast<float>(size.y), lens_);
     moved_ = Clock::now();
-    begin(still ? 1 : movingScale_, !still);
+    begin(movingScale_, true);
 }
 
 void Refiner::begin(std::uint32_t scale, bool fresh)

@@ -17,8 +17,8 @@ public:
     // Of the same scene, with its buffers; `lender` must outlive it.
     Refiner(const Refiner& lender, const PreparedScene& prepared, const RenderSettings& settings);
 
-    // From now on this camera's picture, of this size. `still`: nothing moves, so that it need not be coarse first.
-    void show(const Camera& camera, const glm::uvec2& size, bool still);
+    // From now on this camera's picture, of this size; at first coarse, since more moves may follow.
+    void show(const Camera& camera, const glm::uvec2& size);
     // Works for some 100 ms, or less once `goesOn` is false, or until a coarse picture is whole; false if there is nothing to do. If
     // `paused`, only as long as some pixel has no sample.
     bool refine(bool paused, const std::function<bool()>& goesOn);

@@ -60,6 +60,9 @@ void Session::run()
         }
     }
     window_.finish();
+    if (writes_) {
+        tell("the window was closed before the picture was whole, and nothing is written");
+    }
     if (const auto report = writer_.takeReport(true)) {
         tell(*report);
     }
@@ -172,7 +175,7 @@ void Session::followCamera()
 // Begins the picture from where the camera is now.
 void Session::show()
 {
-    refiner().show(viewpoint_->camera(), {display_.width(), display_.height()}, false);
+    refiner().show(viewpoint_->camera(), {display_.width(), display_.height()});
     std::move(waiting_.begin(), waiting_.end(), std::back_inserter(underWay_));
     waiting_.clear();
     moved_ = shown_ = false;
