@@ -24,10 +24,24 @@ struct Words {
     glm::uvec2 place;  // dots from the upper left corner
 };
 
+// The font's tables hold nothing else, and its own functions do not look.
 std::string printable(std::string line)
 {
     std::replace_if(line.begin(), line.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
     return line;
+}
+
+// Every line, with the one tab that it may have.
+std::vector<std::string> printable(const std::vector<std::string>& lines)
+{
+    std::vector<std::string> rows;
+    for (const std::string& line : lines) {
+        rows.push_back(printable(line));
+        if (const std::size_t tab = line.find('\t'); tab != std::string::npos) {
+            rows.back()[tab] = '\t';
+        }
+    }
+    return rows;
 }
 
 void fill(TextBox& box, const glm::uvec2& low, const glm::uvec2& high)
@@ -81,7 +95,7 @@ std::vector<std::string> wrap(const std::vector<std::string>& lines, std::uint32
 TextBox drawText(const std::vector<std::string>& lines, std::uint32_t scale, std::uint32_t width)
 {
     TextBox box;
-    const std::vector<std::string> rows = wrap(lines, width / scale);
+    const std::vector<std::string> rows = wrap(printable(lines), width / scale);
     if (rows.empty()) {
         return box;
     }
@@ -90,9 +104,9 @@ TextBox drawText(const std::vector<std::string>& lines, std::uint32_t scale, std
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const auto y = kMarginDots + static_cast<std::uint32_t>(i) * kLineDots;
         const std::size_t tab = rows[i].find('\t');
-        columns.push_back({printable(rows[i].substr(0, tab)), {kMarginDots, y}});
+        columns.push_back({rows[i].substr(0, tab), {kMarginDots, y}});
         if (tab != std::string::npos) {
-            columns.push_back({printable(rows[i].substr(tab + 1)), {kMarginDots + kTabDots, y}});
+            columns.push_back({rows[i].substr(tab + 1), {kMarginDots + kTabDots, y}});
         }
         dots = std::max(dots, static_cast<int>(columns.back().place.x) + widthOf(columns.back().text));
     }

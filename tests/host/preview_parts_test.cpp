@@ -68,6 +68,8 @@ TEST(TextTest, IsInkOnShade)
     EXPECT_EQ(std::count(box.pixels.begin(), box.pixels.begin() + 8 * box.width, 255U | 255U << 8), 0) << "a margin";
     EXPECT_TRUE(drawText({}, 1, 100).pixels.empty());
     EXPECT_EQ(drawText({"a\tb"}, 1, 500).width, drawText({"abc\tb"}, 1, 500).width) << "columns";
+    EXPECT_EQ(drawText({"caf\xc3\xa9 a\tb\tc"}, 1, 500).pixels, drawText({"caf?? a\tb?c"}, 1, 500).pixels) << "not printable";
+    EXPECT_EQ(drawText({"caf\xc3\xa9 a"}, 1, 30).pixels, drawText({"caf??", "a"}, 1, 500).pixels) << "nor where it is cut";
     const TextBox twice = drawText({"glim"}, 2, 500), once = drawText({"glim"}, 1, 500);
     EXPECT_EQ(twice.width, 2 * once.width);
     EXPECT_EQ(std::count(twice.pixels.begin(), twice.pixels.end(), 255U | 255U << 8),
