@@ -31,6 +31,7 @@ testPackages=(
     "vulkan-validationlayers   checks every use of Vulkan in the tests"
     "xvfb                      is the screen of the preview's tests"
     "x11-xserver-utils         tells it how dense its pixels are"
+    "xdotool                   presses its keys and moves its mouse"
     "xauth                     lets a session by hand on it (xvfb-run)"
     "${studyPackages[@]}"
 )

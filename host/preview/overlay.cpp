@@ -85,7 +85,11 @@ std::vector<std::string> Session::overlay()
     } else if (overlayLevel_ == 1 && light_) {
         lines.push_back("H: help");
     }
-    if (!notice_.empty() && std::chrono::duration<double>(Clock::now() - noticeTime_).count() < kNoticeSeconds) {
+    if (!trouble_.empty()) {
+        lines.push_back(trouble_);
+    }
+    const bool recent = std::chrono::duration<double>(Clock::now() - noticeTime_).count() < kNoticeSeconds;
+    if (recent && !notice_.empty() && notice_ != trouble_) {
         lines.push_back(notice_);
     }
     return lines;

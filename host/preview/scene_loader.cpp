@@ -14,8 +14,8 @@ constexpr std::chrono::milliseconds kBetweenLooks{250};
 SceneLoader::SceneLoader(std::filesystem::path file, LoadOptions options, SplitRule split)
     : file_(std::move(file)), files_{file_}, options_(options), split_(split), lastLook_(std::chrono::steady_clock::now())
 {
-    loaded_ = seen_ = look();
     begin();
+    seen_ = loaded_;
 }
 
 std::vector<SceneLoader::Stamp> SceneLoader::look() const
@@ -24,9 +24,11 @@ std::vector<SceneLoader::Stamp> SceneLoader::look() const
     for (const std::filesystem::path& file : files_) {
         std::error_code missing;
         stamps.push_back({std::filesystem::last_write_time(file, missing), 0});
-        stamps.back().size = missing ? 0 : std::filesystem::file_size(file, missing);
         if (missing) {
             return {};
+        }
+        if (std::filesystem::is_regular_file(file, missing)) {
+            stamps.back().size = std::filesystem::file_size(file, missing);
         }
     }
     return stamps;
@@ -46,6 +48,8 @@ bool SceneLoader::hasChanged()
 
 void SceneLoader::begin()
 {
+    loaded_ = look();
+    began_ = std::filesystem::file_time_type::clock::now();
     loading_ = std::async(std::launch::async, [this] {
         return std::make_unique<PreparedScene>(prepareScene(file_, options_, split_, [this](const std::string& stage) {
             if (ended_) {
@@ -61,7 +65,6 @@ std::unique_ptr<PreparedScene> SceneLoader::take()
 {
     if (!loading_.valid()) {
         if (hasChanged()) {
-            loaded_ = seen_;
             begin();
         }
         return nullptr;
@@ -73,12 +76,31 @@ std::unique_ptr<PreparedScene> SceneLoader::take()
         const std::lock_guard lock(mutex_);
         stage_.clear();
     }
-    std::unique_ptr<PreparedScene> prepared = loading_.get();
-    if (prepared->scene.files != files_) {
-        files_ = prepared->scene.files;
-        loaded_ = look();
+    try {
+        std::unique_ptr<PreparedScene> prepared = loading_.get();
+        watch(prepared->scene.files);
+        return prepared;
+    } catch (...) {
+        watch({file_, std::filesystem::absolute(file_).parent_path()});  // a file that is missing may come
+        throw;
     }
-    return prepared;
+}
+
+// What was written since loading began is not what was loaded.
+void SceneLoader::watch(const std::vector<std::filesystem::path>& files)
+{
+    if (files == files_) {
+        return;
+    }
+    const std::vector<Stamp> before = std::exchange(loaded_, {});
+    files_ = files;
+    loaded_ = look();
+    for (Stamp& stamp : loaded_) {
+        stamp = stamp.time < began_ ? stamp : Stamp{};
+    }
+    if (!before.empty() && !loaded_.empty()) {
+        loaded_.front() = before.front();  // the scene's own
+    }
 }
 
 std::string SceneLoader::stage() const

@@ -16,7 +16,7 @@ public:
 
     ~SceneLoader() { ended_ = true; }  // and waits for the end of the stage under way
 
-    // A scene that has been loaded since the last call, or nothing. Throws InputError if loading it failed.
+    // A scene that has been loaded since the last call, or nothing. Throws what loading it threw.
     std::unique_ptr<PreparedScene> take();
     // What it is doing, as in "loading a.gltf"; empty when nothing.
     std::string stage() const;
@@ -31,12 +31,14 @@ private:
     std::vector<Stamp> look() const;
     bool hasChanged();
     void begin();
+    void watch(const std::vector<std::filesystem::path>& files);
 
     std::filesystem::path file_;
-    std::vector<std::filesystem::path> files_;  // that the scene was read from last
+    std::vector<std::filesystem::path> files_;  // that the scene was read from last; its own is the first
     LoadOptions options_;
     SplitRule split_;
     std::vector<Stamp> loaded_, seen_;          // when loading began, and at the last look
+    std::filesystem::file_time_type began_;     // the last loading
     std::chrono::steady_clock::time_point lastLook_;
     std::atomic<bool> ended_ = false;
     mutable std::mutex mutex_;

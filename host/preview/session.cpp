@@ -10,8 +10,8 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
-#include <iostream>
 #include <iterator>
+#include <thread>
 #include <utility>
 
 namespace glim {
@@ -82,18 +82,22 @@ void Session::takeEvents(double seconds)
     }
 }
 
-// A scene that is refused ends the session only if there is none to go on with.
+// A scene that is refused, or too much for the memory, ends the session only if there is none to go on with. (A device that is lost
+// says so again.)
 void Session::takeScene()
 {
     try {
         if (std::unique_ptr<PreparedScene> prepared = loader_.take()) {
             enter(std::move(prepared));
+            trouble_.clear();
         }
-    } catch (const InputError& error) {
+    } catch (const std::exception& error) {
         if (!prepared_) {
             throw;
         }
-        tell(error.what());
+        const bool isMemory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+        trouble_ = isMemory ? options_.scene.string() + ": out of memory" : error.what();
+        tell(trouble_);
     }
     const std::string stage = loader_.stage();
     if (stage != title_) {
@@ -124,7 +128,7 @@ void Session::enter(std::unique_ptr<PreparedScene> prepared)
     auto light = std::make_unique<Refiner>(device_, *prepared, settings, options_.lens);
     viewpoint_->enter(prepared->scene);
     if (light_) {
-        std::cerr << "glim: " << options_.scene.string() << " has changed and is loaded again\n";
+        tell(options_.scene.string() + " has changed and is loaded again");
     }
     steps_.reset();  // it has borrowed from light_
     light_ = std::move(light);
@@ -218,6 +222,7 @@ void Session::present()
     presented_ = Clock::now();
     presentSeconds_ = std::chrono::duration<double>(presented_ - start).count();
     if (!shown) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));  // no hurry: the window is changing, or not to be seen
         return;
     }
     changed_ = moved_;

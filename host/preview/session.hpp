@@ -82,6 +82,7 @@ private:
     bool paused_ = false, closing_ = false;
     int overlayLevel_ = 1;                    // 0: nothing, 1: figures, 2: help too
     std::string notice_;                      // the last thing said
+    std::string trouble_;                     // why the file as it is now is not shown
     Clock::time_point noticeTime_, flown_, presented_;
     double presentSeconds_ = 0.0;             // that the last one took
     std::vector<Clock::time_point> waiting_;  // when what no picture answers yet came in

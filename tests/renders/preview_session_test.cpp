@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
 namespace glim::test {
 namespace {
@@ -37,6 +39,46 @@ TEST_F(PreviewTest, ViewsExposureAndClicks)
     EXPECT_EQ(picture(9), shaded);
     EXPECT_NE(session.out.find("pixel (48, 36) of 96x72: mesh "), std::string::npos) << session.out;
     EXPECT_NE(session.out.find("; 4 samples, mean ("), std::string::npos) << session.out;
+}
+
+// Through GLFW and X: a press of a key, a drag, a turn of the wheel are what the scripts' are. (No figures, or their seconds would
+// keep the pictures of two sessions apart.)
+TEST_F(PreviewTest, KeyboardAndMouseOfTheScreen)
+{
+    GlimCall session = call("", {"--spp", "1"});
+    std::string command = "DISPLAY=" + screen.name() + " timeout 60 xdotool search --sync --onlyvisible --name '^glim: cornell_spheres.gltf$'";
+    command += " mousemove 48 36 click 1 key c"
+               " mousemove 30 30 mousedown 1 mousemove 60 40 mouseup 1 key c"
+               " mousemove 30 30 keydown Shift mousedown 1 mousemove 50 40 mouseup 1 keyup Shift key c"
+               " mousemove 30 30 mousedown 2 mousemove 10 20 mouseup 2 key c"
+               " click 4 key c click 5 key c keydown w sleep 0.3 keyup w key c key plus key minus key plus key p";
+    std::thread hand([&command] { EXPECT_EQ(std::system(command.c_str()), 0) << "is the package xdotool installed?"; });
+    session.signalWhen = [&](const std::string& err) {
+        return err.find("wrote") != std::string::npos && std::system(("DISPLAY=" + screen.name() + " xdotool key Escape").c_str()) == 0;
+    };
+    session.signal = 0;  // none: Escape is enough
+    const GlimRun done = runGlim(session);
+    hand.join();
+    EXPECT_EQ(done.exitCode, 0) << done.err;
+    EXPECT_NE(done.out.find("pixel (48, 36) of 96x72: mesh "), std::string::npos) << done.out;
+    std::istringstream out(done.out);
+    std::vector<std::string> views;
+    for (std::string line; std::getline(out, line);) {
+        if (line.starts_with("--camera")) {
+            views.push_back(line);
+        }
+    }
+    ASSERT_EQ(views.size(), 7U) << done.out;
+    EXPECT_EQ(views[0], "--camera 0 --size 96x72") << "a click moves nothing";
+    for (std::size_t i = 1; i < views.size(); ++i) {
+        EXPECT_NE(views[i], views[i - 1]) << i;
+    }
+    const auto lookedAt = [&views](std::size_t i) { return views[i].substr(std::min(views[i].size(), views[i].find("--look-at"))); };
+    EXPECT_NE(lookedAt(2), lookedAt(1)) << "pans with shift";
+    EXPECT_NE(lookedAt(3), lookedAt(2)) << "pans with the middle button";
+    EXPECT_EQ(lookedAt(4), lookedAt(3)) << "the wheel goes nearer";
+    render(views.back() + " --spp 1 --exposure 0.5");
+    EXPECT_EQ(picture(1), rendered());
 }
 
 glm::dvec3 standsAt(const std::string& options)
