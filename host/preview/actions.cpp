@@ -161,34 +161,41 @@ void Session::clickAt(const glm::dvec2& position)
     if (!light_) {
         return;
     }
-    const glm::uvec2 size(refiner().renderer().settings().width, refiner().renderer().settings().height);
-    const glm::dvec2 inside = glm::clamp(position, glm::dvec2(0.0), glm::dvec2(display_.width() - 1, display_.height() - 1));
-    const glm::uvec2 pixel = glm::uvec2(inside) * size / glm::uvec2(display_.width(), display_.height());
-    const PixelMoments moments = refiner().renderer().moments(pixel.y * size.x + pixel.x);
-    const glm::vec3 error = glm::sqrt(varianceOfMean(moments));
+    const glm::uvec2 size(display_.width(), display_.height());
+    const glm::uvec2 pixel(glm::clamp(position, glm::dvec2(0.0), glm::dvec2(size - 1U)));
     std::string there = "nothing";
-    if (const std::optional<Pick> found = pick(refiner().renderer(), *prepared_, refiner().camera(), pixel)) {
+    if (const std::optional<Pick> found = pick(refiner().renderer(), *prepared_, refiner().camera(), pixel, size)) {
         char place[200];
         std::snprintf(place, sizeof place, ", at (%.6g, %.6g, %.6g), %.6g m away", found->position.x, found->position.y,
                       found->position.z, found->distance);
         there = found->object + ", material " + found->material + place;
     }
+    std::cout << "pixel (" << pixel.x << ", " << pixel.y << ") of " << size.x << "x" << size.y << ": " << there
+              << describeSamples(pixel) << std::endl;
+    say(there);
+}
+
+// As in "; 64 samples, mean (1, 1, 1) W/(sr m^2), standard error (.1, .1, .1)".
+std::string Session::describeSamples(const glm::uvec2& pixel)
+{
+    const RenderSettings& film = refiner().renderer().settings();
+    const glm::uvec2 place = pixel / refiner().scale();
+    const PixelMoments moments = refiner().renderer().moments(place.y * film.width + place.x);
+    const glm::vec3 error = glm::sqrt(varianceOfMean(moments));
     char text[300];
-    std::snprintf(text, sizeof text, "; %u samples, mean (%.6g, %.6g, %.6g)%s", moments.count,
+    std::snprintf(text, sizeof text, "; %u sample%s, mean (%.6g, %.6g, %.6g)%s", moments.count, moments.count == 1 ? "" : "s",
                   static_cast<double>(moments.mean.r), static_cast<double>(moments.mean.g), static_cast<double>(moments.mean.b),
                   look_ == Look::Steps ? " node visits and primitive tests" : " W/(sr m^2)");
     std::string known = text;
-    if (moments.blocks > 1) {
-        std::snprintf(text, sizeof text, ", standard error (%.2g, %.2g, %.2g)", static_cast<double>(error.r),
-                      static_cast<double>(error.g), static_cast<double>(error.b));
-        known += text;
-    } else {
-        known += ", standard error known from 33 samples on";
+    if (refiner().scale() > 1) {
+        known += " in a picture of 1/" + std::to_string(refiner().scale()) + " size";
     }
-    const std::string line = "pixel (" + std::to_string(pixel.x) + ", " + std::to_string(pixel.y) + ") of " + std::to_string(size.x) +
-                             "x" + std::to_string(size.y) + ": " + there + known;
-    std::cout << line << std::endl;
-    say(there);
+    if (moments.blocks < 2) {
+        return known + ", standard error known from 33 samples on";
+    }
+    std::snprintf(text, sizeof text, ", standard error (%.2g, %.2g, %.2g)", static_cast<double>(error.r),
+                  static_cast<double>(error.g), static_cast<double>(error.b));
+    return known + text;
 }
 
 void Session::printCamera()

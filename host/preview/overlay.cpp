@@ -52,8 +52,9 @@ std::vector<std::string> Session::figures()
 {
     Refiner& picture = refiner();
     std::vector<std::string> lines;
+    const std::uint32_t samples = picture.renderer().sampleCount();
     const std::string state = paused_ ? ", paused" : picture.isDone() && picture.scale() == 1 ? ", done" : "";
-    lines.push_back(format("%u samples in %.1f s, %.2f Msamples/s%s", picture.renderer().sampleCount(), picture.seconds(),
+    lines.push_back(format("%u sample%s in %.1f s, %.2f Msamples/s%s", samples, samples == 1 ? "" : "s", picture.seconds(),
                            picture.samplesPerSecond() * 1e-6, state.c_str()));
     if (relMse_ && picture.scale() == 1) {
         lines.push_back(format("estimated relMSE %.3g at %llu samples", *relMse_, static_cast<unsigned long long>(estimatedAt_)));

@@ -34,9 +34,10 @@ void describe(const Scene& scene, std::uint32_t id, Pick& pick)
 
 }  // namespace
 
-std::optional<Pick> pick(Renderer& renderer, const PreparedScene& prepared, const FlatCamera& camera, const glm::uvec2& pixel)
+std::optional<Pick> pick(Renderer& renderer, const PreparedScene& prepared, const FlatCamera& camera, const glm::uvec2& pixel,
+                         const glm::uvec2& size)
 {
-    const PathRay ray = rayThrough(camera, pixel, {renderer.settings().width, renderer.settings().height});
+    const PathRay ray = rayThrough(camera, pixel, size);
     const PathHit hit = renderer.traceRay(ray);
     if (hit.record == kNoRecord) {
         return std::nullopt;

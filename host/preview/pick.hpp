@@ -15,7 +15,8 @@ struct Pick {
     std::string material;
 };
 
-// Of the ray through the pixel's centre, and the middle of a lens.
-std::optional<Pick> pick(Renderer& renderer, const PreparedScene& prepared, const FlatCamera& camera, const glm::uvec2& pixel);
+// Of the ray through the centre of a pixel of a picture of this size, and the middle of a lens.
+std::optional<Pick> pick(Renderer& renderer, const PreparedScene& prepared, const FlatCamera& camera, const glm::uvec2& pixel,
+                         const glm::uvec2& size);
 
 }  // namespace glim

@@ -52,6 +52,7 @@ private:
     void cycleLook();
     void lookAt(Look look);
     void clickAt(const glm::dvec2& position);
+    std::string describeSamples(const glm::uvec2& pixel);
     void printCamera();
     void writePictures();
     void say(const std::string& text);   // in the window

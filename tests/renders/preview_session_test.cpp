@@ -206,40 +206,48 @@ TEST_F(PreviewTest, AnswersEveryInput)
     EXPECT_GE(most, median);
 }
 
-// The glTF file and its buffer: an exporter writes both.
+// The glTF file and its buffer: an exporter writes both, one after the other.
 TEST_F(PreviewTest, LoadsAChangedSceneAgainAndABrokenOneNot)
 {
     GltfBuilder builder;
     builder.addNode({{"mesh", builder.addTriangleMesh()}});
     nlohmann::json document = builder.document;
     document["buffers"] = {{{"byteLength", builder.bytes().size()}, {"uri", "data.bin"}}};
-    Bytes moved = builder.bytes();
+    nlohmann::json late = document;
+    late["buffers"][0]["uri"] = "late.bin";
     scene = folder / "triangle.gltf";
-    const auto write = [&](const Bytes& bytes, const std::string& text) {
-        std::ofstream(folder / "data.bin", std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
-        std::ofstream(scene) << text;
+    const auto writeBuffer = [&](const char* name) {
+        const Bytes bytes = builder.bytes();
+        std::ofstream(folder / name, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
     };
-    write(builder.bytes(), document.dump());
+    writeBuffer("data.bin");
+    std::ofstream(scene) << document.dump();
+    struct Stage {
+        const char* waitsFor;
+        std::function<void()> then;
+    };
+    const std::vector<Stage> stages{
+        {"wrote triangle-001", [&] { std::ofstream(scene) << "{\"broken\""; }},
+        {"triangle.gltf: ", [&] { std::ofstream(scene) << document.dump(); }},
+        {"is loaded again", [&] { writeBuffer("data.bin"); }},
+        {"is loaded again", [&] { std::ofstream(scene) << late.dump(); }},
+        {"late.bin", [&] { writeBuffer("late.bin"); }},
+        {"is loaded again", [] {}},
+    };
     GlimCall session = call("0 samples 1\n0 key P\n", {"--environment", "1,1,1"});
-    int stage = 0;
+    std::size_t stage = 0, read = 0;
     session.signalWhen = [&](const std::string& err) {
-        const char* const kWaitsFor[] = {"wrote triangle-001", "triangle.gltf: ", "has changed and is loaded again",
-                                         "has changed and is loaded again"};
-        const std::size_t place = err.find(kWaitsFor[stage]);
-        if (place == std::string::npos || (stage == 3 && err.find(kWaitsFor[3], place + 1) == std::string::npos)) {
-            return false;
+        const std::size_t place = err.find(stages[stage].waitsFor, read);
+        if (place != std::string::npos) {
+            read = err.size();
+            stages[stage++].then();
         }
-        if (stage < 2) {
-            std::ofstream(scene) << (stage == 0 ? std::string("{\"broken\"") : document.dump());
-        } else if (stage == 2) {
-            std::ofstream(folder / "data.bin", std::ios::binary).write(reinterpret_cast<const char*>(moved.data()), std::ssize(moved));
-        }
-        return ++stage == 4;
+        return stage == stages.size();
     };
     session.signal = SIGTERM;
     const GlimRun done = runGlim(session);
     EXPECT_EQ(done.signal, SIGTERM) << done.err;
-    EXPECT_EQ(stage, 4) << "the old picture stays, the mended scene comes, and so does a new buffer: " << done.err;
+    EXPECT_EQ(stage, stages.size()) << done.err;
 }
 
 TEST_F(PreviewTest, RefusesWhatItCannotShow)
