@@ -91,12 +91,12 @@ TEST_F(PreviewTest, ShowsTheFlight)
     EXPECT_GE(seen.pictures.size(), 20U) << "while the key is down";
 }
 
-// A hand that never rests, as a mouse of 60 reports a second.
+// A hand that never rests: its mouse moves more often than pictures are made.
 TEST_F(PreviewTest, ShowsPicturesThroughALongDrag)
 {
     std::string script = std::string(kBare) + "0 samples 1\n0 key P\n";
-    for (int i = 0; i < 3600; ++i) {
-        script += "0.0167 drag left 10,10 13,10\n";
+    for (int i = 0; i < 20000; ++i) {
+        script += "0.003 drag left 10,10 13,10\n";
     }
     const Watched seen = watch(20, script, {"--spp", "1"});
     EXPECT_GE(seen.pictures.size(), 20U);
