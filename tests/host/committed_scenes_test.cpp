@@ -1,5 +1,6 @@
 // Every scene in scenes/ loads as scenes/README.md says, and so do the shared ones where they are at hand.
 #include "host/scene/load_gltf.hpp"
+#include "places.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -2,6 +2,7 @@
 #include "host/error.hpp"
 #include "host/scene/check_scene.hpp"
 #include "tests/support/gltf_builder.hpp"
+#include "places.h"
 
 #include <gtest/gtest.h>
 

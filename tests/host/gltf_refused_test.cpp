@@ -1,5 +1,6 @@
 // scenes/refused against the table of sentences in scenes/README.md: the table is the expectation.
 #include "tests/support/gltf_builder.hpp"
+#include "places.h"
 
 #include <gtest/gtest.h>
 

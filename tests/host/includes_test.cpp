@@ -1,5 +1,7 @@
 // The direction of dependencies, the folders that own a library, what a shader file may declare, and sizes: as rules over
 // the text of the sources, each of which is also shown to find what it forbids.
+#include "places.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>

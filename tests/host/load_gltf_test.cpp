@@ -1,5 +1,6 @@
 // Containers, hierarchy, recentring and what is left out.
 #include "tests/support/gltf_builder.hpp"
+#include "places.h"
 
 #include <gtest/gtest.h>
 

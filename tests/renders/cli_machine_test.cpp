@@ -2,6 +2,7 @@
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/run_glim.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "places.h"
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 #include "shaders/shared/limits.h"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/statistics.hpp"
+#include "places.h"
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 #include "host/measure/z_test.hpp"
 #include "host/scene/load_gltf.hpp"
 #include "tests/support/render_scene.hpp"
+#include "places.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // What a user does in the window, and what it answers.
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/preview_fixture.hpp"
+#include "places.h"
 
 #include <algorithm>
 #include <csignal>

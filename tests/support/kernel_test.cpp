@@ -3,6 +3,7 @@
 #include "host/render/path_buffers.hpp"
 #include "shaders/shared/bindings.h"
 #include "tests/support/report.h"
+#include "places.h"
 
 #include <gtest/gtest.h>
 

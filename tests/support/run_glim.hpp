@@ -1,6 +1,8 @@
 // The built program as a user runs it: a process with arguments, an environment and a working folder.
 #pragma once
 
+#include "places.h"
+
 #include <filesystem>
 #include <functional>
 #include <map>
