@@ -144,6 +144,16 @@ std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& text)
     return range;
 }
 
+double parsePercent(const std::string& option, const std::string& text)
+{
+    double percent = 0.0;
+    if (text.empty() || text.back() != '%' || !parseNumber(text.substr(0, text.size() - 1), percent) ||
+        !(percent > 0.0 && percent <= 1000.0)) {
+        throw CLI::ValidationError(option, "\"" + text + "\": expected more than 0 and at most 1000 percent of the mean, as in 1%");
+    }
+    return 0.01 * percent;
+}
+
 float parseSurvival(const std::string& text)
 {
     const std::string start = "fixed:";

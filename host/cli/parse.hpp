@@ -24,6 +24,7 @@ glm::uvec2 parseSize(const std::string& text);                                 /
 std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& text);   // "0:256", begin < end
 glm::vec3 parseRadiance(const std::string& text);                              // "1,1,1", >= 0; a file is refused
 glm::dvec3 parsePoint(const std::string& option, const std::string& text);     // "1,2.5,-3"
+double parsePercent(const std::string& option, const std::string& text);       // "1%", of (0, 1000]; 1 for 100%
 float parseSurvival(const std::string& text);                                  // "fixed:0.7", of (0, 1]
 
 // An option whose value is one number (uint32_t, float or double) of [low, high]; never NaN. The help says `what`, the

@@ -67,10 +67,13 @@ bool wouldRuin(const std::filesystem::path& output, const Film& film)
            std::any_of(film.pixels.begin(), film.pixels.end(), [](const PixelMoments& p) { return p.count == 0; });
 }
 
-std::string stopReason(int signal, const Film& film, const RenderSettings& settings)
+std::string stopReason(int signal, const Film& film, const RenderSettings& settings, bool isGood)
 {
     if (signal != 0) {
         return nameOf(signal);
+    }
+    if (isGood) {
+        return "target";
     }
     if (settings.adaptive == Adaptive::Off) {
         return film.complete && film.sampleRanges[0].second == settings.sampleEnd ? "samples" : "time";
@@ -103,6 +106,27 @@ Camera cameraOf(const Scene& scene, const RenderOptions& options)
     return options.pose ? placeCamera(camera, *options.pose, scene.origin) : camera;
 }
 
+struct Rendered {
+    Film film;
+    bool isGood = false;  // the target is reached
+};
+
+Rendered renderPicture(Renderer& renderer, const ErrorTarget& target, ProgressPrinter& progress, const InterruptWatch& watch)
+{
+    Rendered rendered;
+    const auto observe = [&](const RenderProgress& now) {
+        progress.print(now);
+        return watch.signal() == 0;
+    };
+    const auto judge = [&](const Film& film) {
+        const double times = timesToTarget(film, target);
+        rendered.isGood = times <= 1.0;
+        return times;
+    };
+    rendered.film = renderer.render(observe, target.isGiven() ? FilmJudge(judge) : nullptr);
+    return rendered;
+}
+
 ExitCode runRender(const RenderOptions& options)
 {
     checkTargets(options);
@@ -123,10 +147,7 @@ ExitCode runRender(const RenderOptions& options)
     Renderer renderer(device, prepared.flat, flattenCamera(camera, aspect, options.lens), settings);
 
     ProgressPrinter progress(options.progress, settings.seconds, std::uint64_t{settings.width} * settings.height);
-    Film film = renderer.render([&](const RenderProgress& now) {
-        progress.print(now);
-        return watch.signal() == 0;
-    });
+    auto [film, isGood] = renderPicture(renderer, options.target, progress, watch);
     progress.finish();
     if (watch.signal() != 0 && renderer.statistics().samples == 0) {
         return finish(watch.signal(), "no sample was finished, and nothing is written");
@@ -138,7 +159,7 @@ ExitCode runRender(const RenderOptions& options)
     film.identity.settings += describeView(options.pose, options.lens);  // so that it can be made again from what is in its file
     const double writeSeconds = writePictures(options, film);
     const RenderReport report{options, prepared, film, renderer.statistics(), device.description(),
-                              stopReason(watch.signal(), film, settings), writeSeconds};
+                              stopReason(watch.signal(), film, settings, isGood), writeSeconds};
     if (options.stats) {
         writeStatistics(*options.stats, report);
     }
@@ -154,8 +175,8 @@ void addRender(CLI::App& app, ExitCode& exitCode)
     CLI::App* command = app.add_subcommand("render", "Render a glTF scene to an EXR file");
     addRenderOptions(*command, *options);
     command->footer("EXR layers: R, G, B, A (coverage); albedo; normal (world axes); depth.Z (nearest, along the view axis);\n"
-                    "count.X (samples); from 33 samples on variance, of the mean, surest at multiples of 32; squares, blocks and\n"
-                    "clamped for merging. The same scene, seed and options give the same pixels. Ctrl-C writes what is finished.\n"
+                    "count.X (samples); from 33 samples on variance, of the mean, and error, its root, the standard error, surest at\n"
+                    "multiples of 32; squares, blocks and clamped for merging. The same scene, seed and options give the same pixels. Ctrl-C writes what is finished.\n"
                     "Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 129, 130 or 143 stopped by SIGHUP, SIGINT or SIGTERM.");
     command->callback([options, &exitCode] { exitCode = runRender(*options); });
 }

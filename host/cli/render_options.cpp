@@ -30,6 +30,20 @@ void addOutputOptions(CLI::App& command, RenderOptions& options)
               });
 }
 
+void addTargets(CLI::App& command, ErrorTarget& target)
+{
+    command
+        .add_option_function<std::string>(
+            "--target-rmse", [&target](const std::string& text) { target.rmse = parsePercent("--target-rmse", text); },
+            "Sample until the estimated root mean square error of the picture is this share of its mean, as in 1%; --spp, "
+            "--samples or --time may end it before [off]")
+        ->type_name("P%");
+    addNumber<double>(command,
+                      {"--target-relmse", "E", "The same for the estimated relMSE, mean (x - truth)^2 / (truth^2 + .01 mean^2)",
+                       1e-12, 1e6, "off"},
+                      [&target](double value) { target.relMse = value; });
+}
+
 void addView(CLI::App& command, RenderOptions& options)
 {
     addEnum(command, "--view", "V",
@@ -48,6 +62,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
     addCameraOptions(command, options);
     addView(command, options);
     addSampleOptions(command, options.settings, "64; 4 with a --view other than shaded", "0:64");
+    addTargets(command, options.target);
     addLightOptions(command, options.settings);
     addAdaptiveOptions(command, options.settings);
     addTracingOptions(command, options.settings, options.split);

@@ -1,6 +1,7 @@
 // What `glim render` is told.
 #pragma once
 
+#include "host/cli/error_report.hpp"
 #include "host/cli/picture_options.hpp"
 
 namespace glim {
@@ -11,6 +12,7 @@ struct RenderOptions : PictureOptions {
     std::filesystem::path output;
     std::optional<std::filesystem::path> png, rates, stats;
     ProgressStyle progress = ProgressStyle::Auto;
+    ErrorTarget target;
 };
 
 // Adds every option of `render` to `command`; they write into `options`, which must outlive it.

@@ -1,8 +1,8 @@
 #include "host/cli/render_report.hpp"
 
+#include "host/cli/error_report.hpp"
 #include "host/cli/film_figures.hpp"
 #include "host/image/whole_file.hpp"
-#include "host/measure/compare_images.hpp"
 #include "host/render/film_file.hpp"
 
 #include <nlohmann/json.hpp>
@@ -49,35 +49,6 @@ Json clampingOf(const Film& film, const RenderOptions& options)
     return {{"limit", options.settings.clampIndirect},
             {"removedMeanRadiance", removed},
             {"removedShare", removed / (removed + kept)}};
-}
-
-// Of light alone: other views have no noise worth the name. Nothing if pixels that an adaptive render has stopped have one block
-// of samples, which tells no error: the rest would not stand for them.
-std::optional<SquaredErrors> knownErrors(const RenderReport& report)
-{
-    const bool adaptive = report.options.settings.adaptive != Adaptive::Off;
-    if (report.options.settings.view != View::Shaded || (adaptive && computeRates(report.film).fewestBlocks < 2)) {
-        return std::nullopt;
-    }
-    return estimateErrors(pictureOf(report.film));
-}
-
-std::size_t pixelsWithoutError(const Film& film)
-{
-    return static_cast<std::size_t>(
-        std::count_if(film.pixels.begin(), film.pixels.end(), [](const PixelMoments& pixel) { return pixel.blocks < 2; }));
-}
-
-Json estimateOf(const RenderReport& report)
-{
-    const auto errors = knownErrors(report);
-    if (!errors) {
-        return nullptr;
-    }
-    return {{"relmse", errors->relMse},
-            {"relmseAbsolute", errors->relMseAbsolute},
-            {"mse", errors->mse},
-            {"standardError", std::sqrt(errors->mse)}};
 }
 
 Json bvhOf(const RenderReport& report)
@@ -168,7 +139,7 @@ Json statisticsOf(const RenderReport& report)
             {"loopCapHits", s.loopCaps},
             {"overflows", s.overflows},
             {"clampIndirect", clampingOf(report.film, report.options)},
-            {"estimate", estimateOf(report)},
+            {"estimate", estimateOf(report.film, report.options.settings)},
             {"pixelsWithoutEstimate", pixelsWithoutError(report.film)},
             {"bvh", bvhOf(report)},
             {"adaptive", adaptiveOf(report)},
@@ -235,12 +206,7 @@ std::string qualityText(const RenderReport& report)
     if (view != View::Shaded) {
         return "";
     }
-    const auto errors = knownErrors(report);
-    if (!errors) {
-        return format(", error unknown since %zu pixels have fewer than 33 samples", pixelsWithoutError(report.film));
-    }
-    const bool adaptive = report.options.settings.adaptive != Adaptive::Off;
-    return format(", estimated relMSE %.3g%s", errors->relMse, adaptive ? " besides the rule's bias" : "");
+    return errorText(report.film, report.options.settings);
 }
 
 }  // namespace

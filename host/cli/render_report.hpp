@@ -13,7 +13,7 @@ struct RenderReport {
     const Film& film;
     const RenderStatistics& statistics;
     const DeviceDescription& device;
-    std::string stopReason;  // "samples", "time", "tolerance", or the signal's name
+    std::string stopReason;  // "samples", "time", "tolerance", "target", or the signal's name
     double writeSeconds;
 };
 

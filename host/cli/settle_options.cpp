@@ -1,6 +1,7 @@
 #include "host/cli/settle_options.hpp"
 
 #include "host/cli/parse.hpp"
+#include "shaders/shared/limits.h"
 
 #include <CLI/CLI.hpp>
 
@@ -36,6 +37,7 @@ void settleView(const CLI::App& command, RenderSettings& settings)
     const std::string nothing = "means nothing with --view " + command.get_option("--view")->results().front();
     refuseIfGiven(command, {"--bounces", "--direct", "--light-samples", "--paths", "--roulette", "--clamp-indirect"}, nothing);
     refuseIfGiven(command, {"--adaptive", "--rates"}, nothing);
+    refuseIfGiven(command, {"--target-rmse", "--target-relmse"}, nothing);
     if (settings.view != View::Albedo) {
         refuseIfGiven(command, {"--exposure"}, nothing);
     }
@@ -66,10 +68,15 @@ void settleAdaptive(const CLI::App& command, RenderSettings& settings)
     }
 }
 
+std::uint32_t mostSamples(const RenderSettings& settings)
+{
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(kMaxSample, kMaxCounter / settings.lightSamples));
+}
+
 void settleTime(const CLI::App& command, RenderSettings& settings)
 {
     if (settings.seconds && settings.adaptive == Adaptive::Off && !isGiven(command, "--samples")) {
-        settings.sampleEnd = static_cast<std::uint32_t>(std::min<std::uint64_t>(kMaxSample, kMaxCounter / settings.lightSamples));
+        settings.sampleEnd = mostSamples(settings);
     }
 }
 
@@ -95,6 +102,26 @@ void checkPaths(const CLI::App& command, const RenderSettings& settings)
     }
 }
 
+// Without another limit the target alone ends the render.
+void settleTarget(const CLI::App& command, RenderOptions& options)
+{
+    if (!options.target.isGiven()) {
+        return;
+    }
+    if (options.settings.adaptive != Adaptive::Off) {
+        refuseIfGiven(command, {"--target-rmse", "--target-relmse"}, "--adaptive course has a rule of its own; expected no --adaptive");
+    }
+    const std::uint32_t least = 2 * kBlockSamples, count = options.settings.sampleEnd - options.settings.sampleBegin;
+    const bool limited = isGiven(command, "--spp") || isGiven(command, "--samples");
+    if (limited && count < least) {
+        refuseIfGiven(command, {"--target-rmse", "--target-relmse"},
+                      "the error is known from " + std::to_string(least) + " samples on; expected at least as many");
+    }
+    if (!limited) {
+        options.settings.sampleEnd = mostSamples(options.settings);
+    }
+}
+
 }  // namespace
 
 void settlePicture(const CLI::App& command, PictureOptions& options)
@@ -111,6 +138,7 @@ void settlePicture(const CLI::App& command, PictureOptions& options)
 void settleRender(const CLI::App& command, RenderOptions& options)
 {
     settleView(command, options.settings);
+    settleTarget(command, options);
     settlePicture(command, options);
     if (options.png && options.rates && options.png->lexically_normal() == options.rates->lexically_normal()) {
         refuse(command, "--rates", "expected another file than that of --png");

@@ -38,25 +38,6 @@ std::vector<bool> findComparable(const Picture& picture, const Picture& referenc
     return comparable;
 }
 
-double meanOfFinite(const std::vector<glm::vec3>& values)
-{
-    glm::dvec3 sum(0.0);
-    std::size_t count = 0;
-    for (const glm::vec3& value : values) {
-        if (isFinite(value)) {
-            sum += glm::dvec3(value);
-            ++count;
-        }
-    }
-    return (sum.x + sum.y + sum.z) / (3.0 * static_cast<double>(count));
-}
-
-double relativeEpsilon(const Picture& reference)
-{
-    const double mean = meanOfFinite(reference.radiance);
-    return 0.01 * mean * mean;
-}
-
 // Adds the terms of one value with squared error `square` against reference value `r`.
 void addTerms(SquaredErrors& sums, double square, double r, double epsilon)
 {
@@ -76,7 +57,7 @@ void divide(SquaredErrors& sums, double terms)
 void addErrors(const Picture& picture, const Picture& reference, const std::vector<bool>& comparable, Comparison& result)
 {
     result.epsilon = relativeEpsilon(reference);
-    const double mapeFloor = 0.01 * std::abs(meanOfFinite(reference.radiance));
+    const double mapeFloor = 0.01 * std::abs(meanRadiance(reference));
     double largest = -1.0;
     for (std::size_t i = 0; i < comparable.size(); ++i) {
         for (int c = 0; comparable[i] && c < 3; ++c) {
@@ -208,6 +189,25 @@ std::optional<SquaredErrors> estimateErrors(const Picture& picture)
     }
     divide(sums, 3.0 * static_cast<double>(known));
     return sums;
+}
+
+double meanRadiance(const Picture& picture)
+{
+    glm::dvec3 sum(0.0);
+    std::size_t count = 0;
+    for (const glm::vec3& value : picture.radiance) {
+        if (isFinite(value)) {
+            sum += glm::dvec3(value);
+            ++count;
+        }
+    }
+    return (sum.x + sum.y + sum.z) / (3.0 * static_cast<double>(count));
+}
+
+double relativeEpsilon(const Picture& reference)
+{
+    const double mean = meanRadiance(reference);
+    return 0.01 * mean * mean;
 }
 
 Image signedDifference(const Picture& picture, const Picture& reference)

@@ -53,6 +53,11 @@ Comparison compareImages(const Picture& picture, const Picture& reference);
 // what to subtract from a comparison in which it is the reference. Nothing where no variance is known.
 std::optional<SquaredErrors> estimateErrors(const Picture& picture);
 
+// Over the pixels that are finite, and channels.
+double meanRadiance(const Picture& picture);
+// What keeps relMse finite where the picture is black: .01 mean^2.
+double relativeEpsilon(const Picture& reference);
+
 // x - r, pixel by pixel.
 Image signedDifference(const Picture& picture, const Picture& reference);
 

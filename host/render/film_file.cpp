@@ -3,6 +3,7 @@
 #include "host/error.hpp"
 #include "host/image/exr.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -77,22 +78,20 @@ void takePlane(const fs::path& path, const std::map<std::string, std::vector<Val
     }
 }
 
-void addVariance(const std::vector<PixelMoments>& pixels, Image& image)
+// Of the mean: its variance and, for who would rather look, its standard error.
+void addErrors(const std::vector<PixelMoments>& pixels, Image& image)
 {
-    bool known = false;
-    std::vector<float> planes[3];
-    for (const PixelMoments& pixel : pixels) {
-        const bool knownHere = pixel.blocks >= 2;
-        const glm::vec3 variance = knownHere ? varianceOfMean(pixel) : glm::vec3(std::numeric_limits<float>::infinity());
-        known = known || knownHere;
-        for (int c = 0; c < 3; ++c) {
-            planes[c].push_back(variance[c]);
-        }
+    if (std::none_of(pixels.begin(), pixels.end(), [](const PixelMoments& pixel) { return pixel.blocks >= 2; })) {
+        return;
     }
-    if (known) {
-        image.channels["variance.R"] = std::move(planes[0]);
-        image.channels["variance.G"] = std::move(planes[1]);
-        image.channels["variance.B"] = std::move(planes[2]);
+    for (const PixelMoments& pixel : pixels) {
+        const glm::vec3 unknown(std::numeric_limits<float>::infinity());
+        const glm::vec3 variance = pixel.blocks >= 2 ? varianceOfMean(pixel) : unknown;
+        for (int c = 0; c < 3; ++c) {
+            const char letter = "RGB"[c];
+            image.channels[std::string("variance.") + letter].push_back(variance[c]);
+            image.channels[std::string("error.") + letter].push_back(std::sqrt(variance[c]));
+        }
     }
 }
 
@@ -117,7 +116,7 @@ Image imageOf(const Film& film)
     forEachChannel(kCountLayers, [&](const std::string& name, std::size_t offset) {
         image.counts[name] = planeOf<std::uint32_t>(film.pixels, offset);
     });
-    addVariance(film.pixels, image);
+    addErrors(film.pixels, image);
     return image;
 }
 

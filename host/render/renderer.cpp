@@ -93,17 +93,18 @@ void Renderer::begin(const FlatCamera& camera)
     slab_ = 0;
     pixel_ = 0;
     chosen_ = film_.pixels.size();
-    pictureSamples_ = 0;
+    pictureSamples_ = judgedSamples_ = 0;
     plannedSamples_ = chosen_ * (settings_.sampleEnd - settings_.sampleBegin);
     start_ = Clock::now();
 }
 
-Film Renderer::render(const RenderObserver& observer)
+Film Renderer::render(const RenderObserver& observer, const FilmJudge& judge)
 {
     start_ = Clock::now();
+    plannedSamples_ = judge ? film_.pixels.size() * 2 * kBlockSamples : plannedSamples_;  // until it is known better
     Clock::time_point begin = start_;
     const auto goesOn = [&] { return asks(observer) || secondsSince(begin) < settings_.passSeconds; };
-    while (advance(goesOn) && !isOver(observer)) {
+    while (advance(goesOn) && !isOver(observer) && !(judge && isGoodEnough(judge))) {
         begin = Clock::now();
     }
     foldPages(film_, slabs_);
@@ -249,6 +250,20 @@ bool Renderer::asks(const RenderObserver& observer)
 bool Renderer::isOver(const RenderObserver& observer)
 {
     return !asks(observer) || (settings_.seconds && secondsSince(start_) >= *settings_.seconds);
+}
+
+// Looks whenever blocks end, but not before there are a tenth more samples: looking often would stop where the estimate happens
+// to be low, and takes time.
+bool Renderer::isGoodEnough(const FilmJudge& judge)
+{
+    const bool ends = !sweeping_ && sample_ % kBlockSamples == 0 && sampleCount() >= 2 * kBlockSamples;
+    if (!ends || static_cast<double>(pictureSamples_) < 1.1 * static_cast<double>(judgedSamples_)) {
+        return false;
+    }
+    judgedSamples_ = pictureSamples_;
+    const double times = std::min(judge(film()), 1e6);
+    plannedSamples_ = static_cast<std::uint64_t>(static_cast<double>(pictureSamples_) * std::max(times, 1.0));
+    return times <= 1.0;
 }
 
 void Renderer::refuseBrokenStatus() const

@@ -27,6 +27,9 @@ struct RenderProgress {
     double seconds;
 };
 
+// Judges a film that is finished so far: how many times its samples it would need; at most 1: it is good enough.
+using FilmJudge = std::function<double(const Film&)>;
+
 // Called several times a second; false ends the render after the pass under way or, if that takes seconds, without it.
 using RenderObserver = std::function<bool(const RenderProgress&)>;
 
@@ -38,10 +41,10 @@ public:
     // The same of the scene and in the buffers of `lender`, which must outlive it; only one of them may be at work.
     Renderer(const Renderer& lender, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
 
-    // Samples until sampleEnd, the stop rule, the time limit or the observer ends it. Every pixel of the film has what was
+    // Samples until sampleEnd, the stop rule, the time limit, the observer or the judge, if there is one, ends it. Every pixel of the film has what was
     // finished; the counts say how much. Throws DeviceError if the driver cut a loop short or a queue overflowed: no film is
     // better than a wrong one. Once per picture.
-    Film render(const RenderObserver& observer);
+    Film render(const RenderObserver& observer, const FilmJudge& judge = nullptr);
 
     // The same in steps: a pass of work. False once nothing is left to do, or if `goesOn`, asked now and then, ended the pass, of which
     // nothing is kept then. Throws as render.
@@ -83,6 +86,7 @@ private:
     std::uint64_t choosePixels();
     void foldPages(Film& film, const std::vector<std::unique_ptr<Slab>>& slabs);
     bool isOver(const RenderObserver& observer);
+    bool isGoodEnough(const FilmJudge& judge);
     void refuseBrokenStatus() const;
     void readCounters();
 
@@ -107,6 +111,7 @@ private:
     std::uint32_t pixel_ = 0;        // its first one, among the slab's chosen
     std::uint64_t chosen_ = 0;       // pixels that the sweep goes over
     std::uint64_t pictureSamples_ = 0, plannedSamples_ = 0;
+    std::uint64_t judgedSamples_ = 0;  // of the picture, when it was judged last
 };
 
 }  // namespace glim

@@ -87,6 +87,7 @@ TEST(FilmFile, VarianceIsThatOfTheMean)
         }
         const double variance = (squares - sum * sum / 4) / 3 / 4;
         EXPECT_NEAR(static_cast<double>(image.channels.at("variance.G")[pixel]), variance, 1e-5 * squares);
+        EXPECT_EQ(image.channels.at("error.G")[pixel], std::sqrt(image.channels.at("variance.G")[pixel]));
     }
 }
 

@@ -224,7 +224,7 @@ TEST(CommandLineTest, StatisticsAreCompleteAndSane)
     EXPECT_NE(s.at("device").at("name"), "");
     EXPECT_GT(s.at("estimate").at("relmse"), 0.0);
     EXPECT_LT(s.at("estimate").at("relmse"), 1.0);
-    EXPECT_GT(s.at("estimate").at("standardError"), 0.0);
+    EXPECT_GT(s.at("estimate").at("rmse"), 0.0);
     EXPECT_TRUE(s.at("clampIndirect").is_null());
 }
 

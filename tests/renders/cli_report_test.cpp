@@ -105,6 +105,55 @@ TEST(CommandLineTest, AdaptiveReportsCountPixels)
     expectText(summary, (", error unknown since " + std::to_string(unknown) + " pixels have fewer than 33 samples, on ").c_str());
 }
 
+TEST(CommandLineTest, ATargetEndsARender)
+{
+    const Workplace workplace;
+    const auto [summary, stats] = workplace.render({"--target-rmse", "15%"});
+    const json estimate = stats.at("estimate");
+    EXPECT_EQ(stats.at("stopReason"), "target");
+    EXPECT_LE(estimate.at("rmseOfMean"), 0.15);
+    EXPECT_LT(estimate.at("rmseOfMean95")[0], estimate.at("rmseOfMean"));
+    EXPECT_GT(estimate.at("rmseOfMean95")[1], estimate.at("rmseOfMean"));
+    EXPECT_LT(estimate.at("relmse95")[0], estimate.at("relmse"));
+    EXPECT_GT(estimate.at("relmse95")[1], estimate.at("relmse"));
+    const std::uint32_t samples = stats.at("sampleRange")[1];
+    EXPECT_EQ(samples % 32, 0U) << "blocks are whole";
+    EXPECT_EQ(stats.at("samples"), std::uint64_t{samples} * 16 * 16);
+    EXPECT_TRUE(readFilmHeader(workplace.file("x.exr")).complete);
+    expectText(summary, ", estimated relMSE [0-9.e-]+ \\[[0-9.e-]+, [0-9.e-]+\\], RMSE [0-9.]+ % \\[[0-9.]+, [0-9.]+\\] of the mean");
+    if (samples > 64) {
+        const json before = workplace.render({"--spp", std::to_string(samples / 2 / 32 * 32)}).second;
+        EXPECT_GT(before.at("estimate").at("rmseOfMean"), 0.15) << "no sooner";
+    }
+    const double reached = estimate.at("relmse");
+    const json same = workplace.render({"--target-relmse", std::to_string(1.01 * reached)}).second;
+    EXPECT_EQ(same.at("stopReason"), "target");
+    EXPECT_LE(same.at("estimate").at("relmse"), 1.01 * reached);
+    EXPECT_EQ(workplace.render({"--target-relmse", "1e-9", "--spp", "64"}).second.at("stopReason"), "samples");
+    EXPECT_EQ(workplace.render({"--target-relmse", "1e-9", "--time", "0.3"}).second.at("stopReason"), "time");
+}
+
+TEST(CommandLineTest, TargetsWithoutMeaningAreRefused)
+{
+    const Workplace workplace;
+    const auto refuses = [&](const Arguments& options, const char* sentence) {
+        Arguments arguments{"render", sceneFile("cornell.gltf"), "-o", "x.exr"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const GlimRun run = workplace.call(arguments);
+        EXPECT_EQ(run.exitCode, 2) << run.err;
+        EXPECT_NE(run.err.find(sentence), std::string::npos) << run.err;
+    };
+    for (const char* text : {"1", "%", "0%", "-1%", "nan%", "1001%", "one%"}) {
+        refuses({"--target-rmse", text}, "percent of the mean");
+    }
+    refuses({"--target-relmse", "0"}, "--target-relmse");
+    refuses({"--target-relmse", "0.1", "--spp", "63"}, "known from 64 samples on");
+    refuses({"--target-relmse", "0.1", "--samples", "64:100"}, "known from 64 samples on");
+    refuses({"--target-relmse", "0.1", "--view", "normal"}, "means nothing");
+    refuses({"--target-rmse", "1%", "--adaptive", "course"}, "a rule of its own");
+    EXPECT_FALSE(std::filesystem::exists(workplace.file("x.exr")));
+}
+
 // With what is in its file a picture can be made again.
 TEST(CommandLineTest, ViewAndLensAreAmongTheSettings)
 {

@@ -1,0 +1,90 @@
+#include "host/measure/error_estimate.hpp"
+
+#include "host/measure/normal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <vector>
+
+namespace glim {
+namespace {
+
+// A pixel's part of the sum, the mean of its channels, and the number of blocks it is known from.
+struct Part {
+    double value;
+    double blocks;
+};
+
+// The squared error of a pixel's mean has the variance 2 s^4 if s^2 is the mean's, and an estimate of s^2 from K blocks has
+// 2 s^4 / (K - 1), for normal means of blocks; the estimate's own square is (K + 1) / (K - 1) s^4 on average. So the difference of
+// the two sums has the variance of the sum of 2 K / (K + 1) times the estimates' squares. Channels count as fully correlated. The
+// interval is of the logarithm, since errors are positive.
+Interval intervalOf(const std::vector<Part>& parts)
+{
+    double sum = 0.0, variance = 0.0;
+    for (const Part& part : parts) {
+        sum += part.value;
+        variance += 2.0 * part.blocks / (part.blocks + 1.0) * part.value * part.value;
+    }
+    if (sum == 0.0) {
+        return {};
+    }
+    const double reach = std::exp(twoSidedLimit(0.05) * std::sqrt(variance) / sum);
+    const double value = sum / static_cast<double>(parts.size());
+    return {value / reach, value * reach};
+}
+
+std::size_t countOfHalf(std::vector<Part> parts)
+{
+    std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.value > b.value; });
+    const double half = 0.5 * std::accumulate(parts.begin(), parts.end(), 0.0, [](double sum, const Part& p) { return sum + p.value; });
+    std::size_t count = 0;
+    for (double sum = 0.0; count < parts.size() && sum < half; ++count) {
+        sum += parts[count].value;
+    }
+    return count;
+}
+
+// `weight` of the variance of a channel whose mean is known.
+std::vector<Part> partsOf(const Film& film, const std::function<double(double)>& weight)
+{
+    std::vector<Part> parts;
+    for (const PixelMoments& pixel : film.pixels) {
+        if (pixel.blocks >= 2) {
+            const glm::vec3 variance = varianceOfMean(pixel);
+            double sum = 0.0;
+            for (int c = 0; c < 3; ++c) {
+                const double square = static_cast<double>(variance[c]);
+                sum += square > 0.0 ? square * weight(static_cast<double>(pixel.mean[c])) : 0.0;
+            }
+            parts.push_back({sum / 3.0, static_cast<double>(pixel.blocks)});
+        }
+    }
+    return parts;
+}
+
+}  // namespace
+
+std::optional<ErrorEstimate> estimateError(const Film& film)
+{
+    const Picture picture = pictureOf(film);
+    const auto errors = estimateErrors(picture);
+    if (!errors) {
+        return std::nullopt;
+    }
+    const double epsilon = relativeEpsilon(picture);
+    const std::vector<Part> parts = partsOf(film, [](double) { return 1.0; });
+    ErrorEstimate estimate;
+    estimate.errors = *errors;
+    estimate.mse = intervalOf(parts);
+    estimate.relMse = intervalOf(partsOf(film, [epsilon](double mean) { return 1.0 / (mean * mean + epsilon); }));
+    estimate.mean = meanRadiance(picture);
+    estimate.pixelsOfHalf = countOfHalf(parts);
+    return estimate;
+}
+
+double relativeRoot(double meanSquare, double mean) { return meanSquare > 0.0 ? std::sqrt(meanSquare) / mean : 0.0; }
+
+}  // namespace glim

@@ -1,0 +1,175 @@
+// The interval of a picture's error holds the truth as often as it says.
+#include "host/measure/error_estimate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <random>
+
+namespace glim {
+namespace {
+
+constexpr std::uint32_t kBlock = 32;
+
+using Random = std::mt19937_64;
+
+// A pixel's true radiance and the sum of `kBlock` of its samples.
+struct Population {
+    const char* name;
+    std::function<double(std::uint32_t pixel)> truth;
+    std::function<double(std::uint32_t pixel, Random&)> block;
+};
+
+double shade(std::uint32_t pixel) { return 0.2 + pixel % 97 / 97.0; }
+
+double sumOf(Random& random, const std::function<double(Random&)>& sample)
+{
+    double sum = 0.0;
+    for (std::uint32_t i = 0; i < kBlock; ++i) {
+        sum += sample(random);
+    }
+    return sum;
+}
+
+// Samples all alike but for a tenth of their size.
+Population smooth()
+{
+    return {"smooth", shade, [](std::uint32_t pixel, Random& random) {
+                std::normal_distribution<double> normal(kBlock * shade(pixel), 0.1 * std::sqrt(kBlock) * shade(pixel));
+                return normal(random);
+            }};
+}
+
+// In one pixel of ten black and white meet, and the others have no variance.
+Population edges()
+{
+    const auto covered = [](std::uint32_t pixel) { return pixel % 10 == 0 ? (pixel / 10 % 63 + 0.5) / 63.0 : 1.0; };
+    return {"edges", covered, [covered](std::uint32_t pixel, Random& random) {
+                return std::binomial_distribution<int>(kBlock, covered(pixel))(random) * 1.0;
+            }};
+}
+
+// Lognormal with a sigma of 2: the skewness is 414.
+Population heavy()
+{
+    return {"heavy tails", [](std::uint32_t) { return std::exp(2.0); }, [](std::uint32_t, Random& random) {
+                return sumOf(random, [](Random& r) { return std::lognormal_distribution<double>(0.0, 2.0)(r); });
+            }};
+}
+
+// One sample in a hundred thousand is a ten thousandfold one.
+Population rare()
+{
+    return {"rare", [](std::uint32_t) { return 1.1; }, [](std::uint32_t, Random& random) {
+                const double ordinary = std::normal_distribution<double>(kBlock * 1.0, 0.1 * std::sqrt(kBlock))(random);
+                return ordinary + 1e4 * std::binomial_distribution<int>(kBlock, 1e-5)(random);
+            }};
+}
+
+Film draw(const Population& population, std::uint32_t pixels, std::uint32_t blocks, Random& random)
+{
+    Film film;
+    film.width = pixels;
+    film.height = 1;
+    film.pixels.resize(pixels);
+    for (std::uint32_t i = 0; i < pixels; ++i) {
+        for (std::uint32_t b = 0; b < blocks; ++b) {
+            PixelMoments block{};
+            block.count = kBlock;
+            block.blocks = 1;
+            block.mean = glm::vec3(static_cast<float>(population.block(i, random) / kBlock));
+            film.pixels[i] = foldMoments(film.pixels[i], block);
+        }
+    }
+    return film;
+}
+
+double meanSquareError(const Film& film, const Population& population)
+{
+    double sum = 0.0;
+    for (std::uint32_t i = 0; i < film.width; ++i) {
+        const double error = static_cast<double>(film.pixels[i].mean.r) - population.truth(i);
+        sum += error * error;
+    }
+    return sum / film.width;
+}
+
+// The share of films whose interval holds their error.
+double measureCoverage(const Population& population, std::uint32_t pixels, std::uint32_t blocks, int films)
+{
+    Random random(20261122);
+    int covered = 0;
+    for (int i = 0; i < films; ++i) {
+        const Film film = draw(population, pixels, blocks, random);
+        const ErrorEstimate estimate = *estimateError(film);
+        const double error = meanSquareError(film, population);
+        covered += error >= estimate.mse.low && error <= estimate.mse.high ? 1 : 0;
+    }
+    const double share = static_cast<double>(covered) / films;
+    std::printf("%s, %u pixels of %u blocks: the interval holds the error of %.1f %% of %d films\n", population.name, pixels,
+                blocks, 100.0 * share, films);
+    return share;
+}
+
+// Of so many films, with the probability .95 each: five standard deviations.
+double leastCoverage(int films) { return 0.95 - 5.0 * std::sqrt(0.95 * 0.05 / films); }
+
+TEST(ErrorEstimate, H30CoversWhatIsSmooth)
+{
+    for (const std::uint32_t blocks : {2U, 4U, 16U}) {
+        const double share = measureCoverage(smooth(), 256, blocks, 1000);
+        EXPECT_GE(share, leastCoverage(1000));
+        EXPECT_LE(share, 1.9 - leastCoverage(1000)) << "nor is the interval too wide";
+    }
+}
+
+TEST(ErrorEstimate, H30CoversEdges)
+{
+    EXPECT_GE(measureCoverage(edges(), 640, 4, 1000), leastCoverage(1000));
+}
+
+TEST(ErrorEstimate, H30CoversHeavyTails)
+{
+    EXPECT_GE(measureCoverage(heavy(), 256, 4, 200), leastCoverage(200));
+}
+
+// Where what makes up the error is mostly not among the samples, no interval can hold it; once it is, the report says so.
+TEST(ErrorEstimate, H30SaysWhereRareSamplesAreAllOfTheError)
+{
+    EXPECT_LT(measureCoverage(rare(), 256, 4, 500), 0.9) << "one film in three has met one";
+    Random random(7);
+    int few = 0, met = 0;
+    for (int i = 0; i < 200; ++i) {
+        const ErrorEstimate estimate = *estimateError(draw(rare(), 256, 4, random));
+        const bool has = estimate.errors.mse > 1.0;
+        met += has ? 1 : 0;
+        few += has && estimate.isOfFew() ? 1 : 0;
+    }
+    EXPECT_GT(met, 0);
+    EXPECT_EQ(few, met);
+    EXPECT_FALSE(estimateError(draw(smooth(), 256, 4, random))->isOfFew());
+}
+
+TEST(ErrorEstimate, IsThatOfThePicture)
+{
+    Random random(1);
+    Film film = draw(edges(), 640, 4, random);
+    const ErrorEstimate estimate = *estimateError(film);
+    EXPECT_DOUBLE_EQ(estimate.errors.mse, estimateErrors(pictureOf(film))->mse);
+    EXPECT_LT(estimate.mse.low, estimate.errors.mse);
+    EXPECT_GT(estimate.mse.high, estimate.errors.mse);
+    EXPECT_NEAR(std::sqrt(estimate.mse.low * estimate.mse.high), estimate.errors.mse, 1e-9 * estimate.errors.mse);
+    EXPECT_NEAR(std::sqrt(estimate.relMse.low * estimate.relMse.high), estimate.errors.relMse, 1e-9 * estimate.errors.relMse);
+    EXPECT_LE(estimate.pixelsOfHalf, 32U) << "of 64 edges, half";
+    EXPECT_NEAR(estimate.mean, 0.95, 0.01);
+    film.pixels.assign(film.pixels.size(), film.pixels[1]);
+    const ErrorEstimate still = *estimateError(film);
+    EXPECT_EQ(still.mse.high, 0.0) << "no variance, no error";
+    EXPECT_FALSE(still.isOfFew());
+    EXPECT_FALSE(estimateError(draw(smooth(), 16, 1, random))) << "one block says nothing of its error";
+}
+
+}  // namespace
+}  // namespace glim
