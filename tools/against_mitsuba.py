@@ -26,7 +26,7 @@ def check(options):
     if warning:
         say(warning)
     mitsuba, renders = Mitsuba(scene, options), (Renders(), Renders())
-    say("Mitsuba's variant is %s" % mitsuba.variant)
+    say(mitsuba.explanation)
     with tempfile.TemporaryDirectory(prefix="glim-against-mitsuba-") as folder:
         glim = Glim(options, folder)
         for seed in range(options.seeds):

@@ -20,6 +20,11 @@ scene = mi.cornell_box()
 scene["sensor"]["film"].update(width=8, height=8)
 mi.render(mi.load_dict(scene), spp=1).numpy()
 """
+EXPLANATIONS = {
+    "llvm_ad_rgb": "Mitsuba's variant is llvm_ad_rgb",
+    "scalar_rgb": "Mitsuba's variant is scalar_rgb, which is slow, since llvm_ad_rgb did not run: install Debian's libllvm19, or "
+                  "name the library of LLVM 19 in DRJIT_LIBLLVM_PATH",
+}
 
 
 def choose_variant():
@@ -60,6 +65,7 @@ class Mitsuba:
         from .plugins import register_plugins
         register_plugins()
         self.scene = build_scene(scene, options.size, options.bounces, options.environment)
+        self.explanation = EXPLANATIONS[self.variant]
         self.name = "Mitsuba %s, %s" % (mi.__version__, self.variant)
         self.spp = options.spp
         self.render(0, 1 if self.variant.startswith("scalar") else self.spp)  # compiles
