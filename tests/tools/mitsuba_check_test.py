@@ -156,6 +156,9 @@ class BuildSceneTest(unittest.TestCase):
         self.assertEqual(entries["sensor"]["fov_axis"], "y")
         self.assertEqual((entries["sensor"]["film"]["width"], entries["sensor"]["film"]["height"]), (64, 32))
         self.assertEqual(sum(key.startswith("mesh") for key in entries), 4)  # white, red, green, lamp
+        lamps = self.build("many_lights")
+        self.assertEqual(sum(key.startswith("mesh") for key in lamps), 2 + 768)
+        self.assertEqual(sum(key.startswith("sphere") for key in lamps), 256)
 
     def test_materials_and_lights(self):
         entries = self.build("cornell_mirror_glass", environment=[1, 2, 3])

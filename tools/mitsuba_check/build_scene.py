@@ -44,20 +44,24 @@ def make_mesh(name, material, positions, triangles, normals):
     return mesh
 
 
+def groups_of(scene):
+    """Meshes to join: those of a material, but lamps one by one, since Mitsuba gives each emitter the same share of samples."""
+    groups = {}
+    for index, mesh in enumerate(scene.meshes):
+        lamp = index if scene.materials[mesh.material].emits else None
+        groups.setdefault((mesh.material, mesh.normals is not None, lamp), []).append(mesh)
+    return groups
+
+
 def meshes_of(scene):
     shapes = {}
-    for index, material in enumerate(scene.materials):
-        for smooth in (False, True):
-            same = [m for m in scene.meshes if m.material == index and (m.normals is not None) == smooth]
-            if not same:
-                continue
-            positions, triangles = join(same)
-            normals = np.concatenate([mesh.normals for mesh in same]) if smooth else None
-            if material.emits and material.double_sided:
-                positions, triangles = two_sheets(positions, triangles)
-                normals = None
-            name = "mesh_%d_%s" % (index, "smooth" if smooth else "flat")
-            shapes[name] = make_mesh(name, material, positions, triangles, normals)
+    for (index, smooth, _lamp), same in groups_of(scene).items():
+        material, (positions, triangles) = scene.materials[index], join(same)
+        normals = np.concatenate([mesh.normals for mesh in same]) if smooth else None
+        if material.emits and material.double_sided:
+            (positions, triangles), normals = two_sheets(positions, triangles), None
+        name = "mesh_%d" % len(shapes)
+        shapes[name] = make_mesh(name, material, positions, triangles, normals)
     return shapes
 
 

@@ -17,7 +17,7 @@ def two_sheets(positions, triangles):
 
 
 def join(meshes):
-    """One mesh of those with the same material: an emitter each, not a thousand."""
+    """One mesh of several."""
     firsts = np.cumsum([0] + [len(mesh.positions) for mesh in meshes])
     return (np.concatenate([mesh.positions for mesh in meshes]),
             np.concatenate([mesh.triangles.astype(np.int64) + first for mesh, first in zip(meshes, firsts)]))
