@@ -212,6 +212,9 @@ class FiguresTest(unittest.TestCase):
         self.assertFalse(found["z_test"]["agree"])
         self.assertLess(found["ratio"]["all"]["low"], 1.01)
         self.assertGreater(found["ratio"]["all"]["low"], 1)
+        # Noise .2 over 2,080 pixels and 8 seeds, twice, around 1: (2.93 + 1.64) .2 sqrt(2 / 16,640), and
+        # some 15 % more as the largest of three estimates with 14 degrees of freedom.
+        self.assertAlmostEqual(found["z_test"]["detectable_bias"], 0.0100, delta=0.005)
         corner = self.renders(3)
         corner[:, 8:16, 16:24, 1] *= 1.2
         found = figures.test_bias(corner, other)["z_test"]

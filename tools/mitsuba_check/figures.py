@@ -10,6 +10,7 @@ from study_page.estimates import logarithmic, student
 
 BLOCK = 8
 LEVEL = 0.01  # of each family of tests
+POWER = 0.95  # with which the test of the means finds the bias that is called detectable
 ROUNDING = 2.0 ** -20  # of float32 sums, relative: no noise, as in host/measure/z_test.cpp
 RESAMPLES = 2000
 
@@ -69,7 +70,9 @@ def test_bias(a, b):
     worst = np.unravel_index(np.argmax(np.abs(z)), z.shape)
     across = -(-a.shape[2] // BLOCK)
     mean_z, count = z_of(means_a, means_b)[0], int(np.count_nonzero(noisy))
+    errors = welch(means_a, means_b)[1] / np.maximum(means_b.mean(axis=0), 1e-30)
     found = {"mean_z": list(map(float, mean_z)), "mean_limit": sidak_limit(3),
+             "detectable_bias": float((sidak_limit(3) + NormalDist().inv_cdf(POWER)) * errors.max()),
              "worst_block": {"z": float(z[worst]), "x": int(worst[0]) % across * BLOCK, "y": int(worst[0]) // across * BLOCK,
                              "channel": "RGB"[worst[1]]},
              "block_limit": sidak_limit(z.size),

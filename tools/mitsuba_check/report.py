@@ -46,7 +46,8 @@ def to_table(found):
         "glim on %s against %s" % (found["glim"], found["mitsuba"])]
     for name in ("all", "R", "G", "B"):
         lines.append(row("mean ratio" if name == "all" else "mean ratio " + name, with_interval(ratio[name], "value", "%.5f")))
-    lines.append(row("z of means", "%.2f %.2f %.2f   limit %.2f" % (*test["mean_z"], test["mean_limit"])))
+    lines.append(row("z of means", "%.2f %.2f %.2f   limit %.2f; would see a bias of %.2g %%" % (
+        *test["mean_z"], test["mean_limit"], 100 * test["detectable_bias"])))
     worst = test["worst_block"]
     lines.append(row("z of 8x8 blocks", "largest %.2f at (%d, %d) in %s   limit %.2f" % (
         worst["z"], worst["x"], worst["y"], worst["channel"], test["block_limit"])))
