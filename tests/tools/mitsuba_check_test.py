@@ -225,6 +225,10 @@ class FiguresTest(unittest.TestCase):
         same = self.renders(1, noise=0)
         self.assertTrue(figures.test_bias(same * (1 + 2e-7), same)["z_test"]["agree"])
         self.assertFalse(figures.test_bias(same * (1 + 2e-6), same)["z_test"]["agree"])
+        flat = np.ones((8, 16, 16, 3))
+        found = figures.test_bias(1.5 * flat, flat)["z_test"]
+        self.assertGreater(min(found["mean_z"]), 10)
+        self.assertFalse(found["agree"])
 
     def test_ratio_intervals_cover(self):
         source, inside = np.random.default_rng(4), 0
