@@ -11,8 +11,8 @@ Both take the same number of samples and bounces, and otherwise their defaults: 
 Mitsuba's independent points and Russian roulette ('path'); neither choice changes the mean. The ratio of the means has a
 95 % interval from the renders' scatter; z-tests of the means and of 8x8 blocks say whether it is noise, which is near enough
 to normal only at many samples where there are caustics. relMSE is of one render, from the scatter alone, with
-eps = .01 mean^2; time to equal error is relMSE times seconds, Mitsuba's over glim's. Seconds are of rendering; starting,
-loading and compiling are apart.
+eps = .01 mean^2; time to equal error is relMSE times the median of seconds, Mitsuba's over glim's. Seconds are of
+rendering; starting, loading and compiling are apart.
 Mitsuba has no light that shines from both sides of a triangle: two sheets stand for it, of which Mitsuba's light sampling
 tries one in vain. It has no Schlick's Fresnel and no spot with glTF's falloff either; both are classes in Python here.
 Mitsuba: in any Python, pip install mitsuba numpy; then run this with that Python. For its fast variant llvm_ad_rgb also
