@@ -200,7 +200,7 @@ class FiguresTest(unittest.TestCase):
     def test_the_verdict_on_noise_alone(self):
         wrong, squares = 0, []
         for seed in range(100):
-            test = figures.test_bias(self.renders(2 * seed), self.renders(2 * seed + 1))["z_test"]
+            test = figures.test_bias(self.renders(2 * seed), self.renders(2 * seed + 1), 1)["z_test"]
             wrong += not test["agree"]
             squares.append(test["mean_square"])
         self.assertLessEqual(wrong, 8)  # two families of 1 %: more than 8 of 100 with probability 2e-4
@@ -208,7 +208,7 @@ class FiguresTest(unittest.TestCase):
 
     def test_the_verdict_on_a_bias(self):
         biased, other = self.renders(1, scale=1.01), self.renders(2)
-        found = figures.test_bias(biased, other)
+        found = figures.test_bias(biased, other, 1)
         self.assertFalse(found["z_test"]["agree"])
         self.assertLess(found["ratio"]["all"]["low"], 1.01)
         self.assertGreater(found["ratio"]["all"]["low"], 1)
@@ -217,16 +217,21 @@ class FiguresTest(unittest.TestCase):
         self.assertAlmostEqual(found["z_test"]["detectable_bias"], 0.0100, delta=0.005)
         corner = self.renders(3)
         corner[:, 8:16, 16:24, 1] *= 1.2
-        found = figures.test_bias(corner, other)["z_test"]
+        found = figures.test_bias(corner, other, 1)["z_test"]
         self.assertFalse(found["agree"])
         self.assertEqual([found["worst_block"][key] for key in ("x", "y", "channel")], [16, 8, "G"])
 
     def test_rounding_is_no_bias_and_without_noise_the_rest_is(self):
         same = self.renders(1, noise=0)
-        self.assertTrue(figures.test_bias(same * (1 + 2e-7), same)["z_test"]["agree"])
-        self.assertFalse(figures.test_bias(same * (1 + 2e-6), same)["z_test"]["agree"])
+        self.assertTrue(figures.test_bias(same * (1 + 2e-7), same, 1)["z_test"]["agree"])
+        self.assertFalse(figures.test_bias(same * (1 + 2e-6), same, 1)["z_test"]["agree"])
+        # What Mitsuba's film makes of samples of .7, whose sum is taken in float32.
+        added = np.cumsum(np.full(1024, 0.7, np.float32), dtype=np.float32)[-1] / 1024.0 / np.float32(0.7)
+        self.assertGreater(abs(added - 1), figures.ROUNDING)
+        self.assertFalse(figures.test_bias(same * added, same, 1)["z_test"]["agree"])
+        self.assertTrue(figures.test_bias(same * added, same, 1024)["z_test"]["agree"])
         flat = np.ones((8, 16, 16, 3))
-        found = figures.test_bias(1.5 * flat, flat)["z_test"]
+        found = figures.test_bias(1.5 * flat, flat, 1)["z_test"]
         self.assertGreater(min(found["mean_z"]), 10)
         self.assertFalse(found["agree"])
 
@@ -245,13 +250,13 @@ class FiguresTest(unittest.TestCase):
         self.assertAlmostEqual(errors.mean(), 0.01 / (4 + 0.04), delta=0.03 * 0.01 / 4.04)
         seconds = np.linspace(0.9, 1.1, 8)
         seconds[3] = 50  # an interruption
-        found = figures.compare_renders(quiet, seconds, loud, 3 * seconds)["time_to_equal_error"]
+        found = figures.compare_renders(quiet, seconds, loud, 3 * seconds, 1)["time_to_equal_error"]
         self.assertAlmostEqual(found["value"], 12, delta=0.5)
         self.assertTrue(10 < found["low"] < 12 < found["high"] < 14, found)
 
     def test_a_perfect_picture_has_no_ratio_of_times(self):
         same = np.ones((8, 16, 16, 3))
-        found = figures.compare_renders(same, np.ones(8), same, np.ones(8))
+        found = figures.compare_renders(same, np.ones(8), same, np.ones(8), 1)
         self.assertEqual(found["time_to_equal_error"], {"value": None, "low": None, "high": None})
         self.assertEqual(report.with_interval(found["time_to_equal_error"], "value", "%g"), "unknown")
         self.assertTrue(found["z_test"]["agree"])

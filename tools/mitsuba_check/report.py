@@ -20,7 +20,7 @@ def warn_of_size(center, radius):
 
 def collect(options, glim, mitsuba, renders):
     pairs = {"glim": renders[0], "mitsuba": renders[1]}
-    found = compare_renders(*renders[0].arrays(), *renders[1].arrays())
+    found = compare_renders(*renders[0].arrays(), *renders[1].arrays(), options.spp)
     return {"scene": options.scene, "size": list(options.size), "spp": options.spp, "seeds": options.seeds,
             "bounces": options.bounces, "glim": glim.device, "mitsuba": mitsuba.name,
             "seconds": {name: {"render": {"median": statistics.median(r.seconds), "least": min(r.seconds),
