@@ -1,4 +1,4 @@
-// A number as a colour.
+// Numbers as colours.
 #pragma once
 
 #include "host/image/png.hpp"
@@ -9,5 +9,9 @@ namespace glim {
 // pictures of sampling rates, which go from blue through green to red, with two colours more to tell values apart. A NaN is
 // kMagenta.
 Rgb8 heatColor(double value);
+
+// Blue at -1, through white at 0 to red at 1, clamped beyond: what is right is as light as paper, and half an error half as dark
+// on both sides.
+Rgb8 differenceColor(double value);
 
 }  // namespace glim

@@ -54,16 +54,30 @@ void divide(SquaredErrors& sums, double terms)
     sums.relMseAbsolute /= terms;
 }
 
+SquaredErrors meanOf(const std::vector<SquaredErrors>& pixels)
+{
+    SquaredErrors sums;
+    for (const SquaredErrors& pixel : pixels) {
+        sums.mse += pixel.mse;
+        sums.relMse += pixel.relMse;
+        sums.relMseAbsolute += pixel.relMseAbsolute;
+    }
+    divide(sums, static_cast<double>(pixels.size()));
+    return sums;
+}
+
 void addErrors(const Picture& picture, const Picture& reference, const std::vector<bool>& comparable, Comparison& result)
 {
     result.epsilon = relativeEpsilon(reference);
     const double mapeFloor = 0.01 * std::abs(meanRadiance(reference));
     double largest = -1.0;
+    std::vector<SquaredErrors> pixels;
     for (std::size_t i = 0; i < comparable.size(); ++i) {
+        SquaredErrors terms;
         for (int c = 0; comparable[i] && c < 3; ++c) {
             const double r = static_cast<double>(reference.radiance[i][c]);
             const double difference = static_cast<double>(picture.radiance[i][c]) - r;
-            addTerms(result.errors, difference * difference, r, result.epsilon);
+            addTerms(terms, difference * difference, r, result.epsilon);
             result.mape += difference != 0 ? std::abs(difference) / (std::abs(r) + mapeFloor) : 0.0;
             if (std::abs(difference) > largest) {
                 largest = std::abs(difference);
@@ -72,10 +86,14 @@ void addErrors(const Picture& picture, const Picture& reference, const std::vect
                                    reference.radiance[i][c]};
             }
         }
+        if (comparable[i]) {
+            divide(terms, 3.0);
+            pixels.push_back(terms);
+        }
     }
-    const double terms = 3.0 * static_cast<double>(result.compared);
-    divide(result.errors, terms);
-    result.mape /= terms;
+    result.errors = meanOf(pixels);
+    result.trimmed = trimErrors(pixels);
+    result.mape /= 3.0 * static_cast<double>(result.compared);
 }
 
 // Sums over a region: of the picture, of the reference, and of their variances.

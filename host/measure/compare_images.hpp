@@ -3,18 +3,12 @@
 #pragma once
 
 #include "host/measure/picture.hpp"
+#include "host/measure/squared_errors.hpp"
 
 #include <array>
 #include <optional>
 
 namespace glim {
-
-// Errors of which each term is a squared difference.
-struct SquaredErrors {
-    double mse = 0.0;             // mean (x-r)^2
-    double relMse = 0.0;          // mean (x-r)^2 / (r^2 + eps), eps = .01 mean(r)^2: the scene's brightness cancels
-    double relMseAbsolute = 0.0;  // the same with eps = .01, as published comparisons use (Rousselle et al. 2011)
-};
 
 enum class IntervalSource {
     Variance,  // delta method, from the variance of every pixel of both pictures
@@ -37,6 +31,7 @@ struct Comparison {
     std::size_t compared = 0;  // pixels
     std::size_t nonFinite = 0, nonFiniteInReference = 0;
     SquaredErrors errors;
+    TrimmedErrors trimmed;
     double epsilon = 0.0;  // of relMse
     double mape = 0.0;     // mean |x-r| / (|r| + .01 mean(r))
     std::array<MeanRatio, 3> ratio;

@@ -2,6 +2,8 @@
 #include "host/error.hpp"
 #include "host/image/exr.hpp"
 #include "host/measure/compare_images.hpp"
+#include "host/measure/error_picture.hpp"
+#include "tests/support/decode_png.hpp"
 #include "tests/support/noisy_picture.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -213,6 +215,9 @@ TEST_F(CompareCommand, PrintsJsonThatAgreesWithTheFunctions)
     const Comparison expected = compareImages(picture, reference);
     EXPECT_EQ(json["relmse"], expected.errors.relMse);
     EXPECT_EQ(json["relmse_absolute"], expected.errors.relMseAbsolute);
+    EXPECT_EQ(json["trimmed"]["relmse"], expected.trimmed.kept.relMse);
+    EXPECT_EQ(json["trimmed"]["dropped_share"]["mse"], expected.trimmed.share.mse);
+    EXPECT_EQ(json["trimmed"]["dropped_pixels"], 4);
     EXPECT_EQ(json["reference_noise"]["mse"], expected.referenceNoise->mse);
     EXPECT_EQ(json["mean_ratio"]["interval"]["source"], "variance");
     EXPECT_EQ(json["mean_ratio"]["all"]["high"], expected.ratioOfAll.high);
@@ -225,9 +230,23 @@ TEST_F(CompareCommand, PrintsATable)
     const std::string table = run({a, b});
     EXPECT_NE(table.find("relMSE absolute"), std::string::npos);
     EXPECT_NE(table.find("95 % intervals from the scatter of 8x8 blocks"), std::string::npos);
+    EXPECT_NE(table.find("without the 4 pixels (.1 %) of the largest terms"), std::string::npos);
     EXPECT_EQ(table.find("verdict"), std::string::npos);
     EXPECT_NE(run({a, b, "--variance", v}).find("agree up to noise"), std::string::npos);
     EXPECT_NE(run({a, a, "--variance", v}).find("4096 compared"), std::string::npos);
+}
+
+TEST_F(CompareCommand, DrawsTheErrors)
+{
+    const std::string png = folder / "d.png";
+    run({a, b, "--diff-png", png});
+    const auto pixels = test::decodePng(png);
+    const Picture picture = pictureOf(readExr(a), a), reference = pictureOf(readExr(b), b);
+    const ErrorPicture expected = drawErrors(picture, reference, compareImages(picture, reference).epsilon);
+    ASSERT_EQ(pixels.size(), expected.pixels.size());
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        EXPECT_TRUE(std::equal(pixels[i].begin(), pixels[i].end(), expected.pixels[i].begin())) << "pixel " << i;
+    }
 }
 
 TEST_F(CompareCommand, RefusesBadInput)
@@ -237,6 +256,7 @@ TEST_F(CompareCommand, RefusesBadInput)
     };
     refused({a, folder / "missing.exr"}, "missing.exr: cannot be opened");
     refused({folder / "missing.exr", b, "--diff", folder / "d.png"}, "does not end in .exr");  // before any work
+    refused({folder / "missing.exr", b, "--diff-png", folder / "d.exr"}, "does not end in .png");
     Image small = readExr(b);
     small.channels.erase("B");
     writeExr(v, small);

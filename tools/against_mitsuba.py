@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+"""How a user checks glim: the same scene by an independent renderer on the same machine. --help says what is printed."""
+
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True  # beside the sources it would look like a change to build
+
+from mitsuba_check.arguments import parse_arguments  # noqa: E402
+from mitsuba_check.errors import CheckError  # noqa: E402
+
+
+def say(text):
+    print("against_mitsuba.py: %s" % text, file=sys.stderr)
+
+
+def check(options):
+    # Only now: --help and a refusal need neither NumPy nor Mitsuba.
+    from mitsuba_check.renderers import Glim, Mitsuba, Renders, import_mitsuba
+    import_mitsuba()
+    from mitsuba_check.report import collect, to_json, to_table, warn_of_size
+    from mitsuba_check.scene import read_scene
+    scene = read_scene(options.scene)
+    options.size = options.size or (max(1, round(128 * scene.camera.aspect)), 128)
+    warning = warn_of_size(*scene.bounds())
+    if warning:
+        say(warning)
+    mitsuba, renders = Mitsuba(scene, options), (Renders(), Renders())
+    say(mitsuba.explanation)
+    with tempfile.TemporaryDirectory(prefix="glim-against-mitsuba-") as folder:
+        glim = Glim(options, folder)
+        for seed in range(options.seeds):
+            # In turns, so that a change of the machine's speed meets both.
+            glim.add_render(seed, renders[0], mitsuba.read)
+            mitsuba.add_render(seed, renders[1])
+            say("%d of %d renders of each" % (seed + 1, options.seeds))
+    found = collect(options, glim, mitsuba, renders)
+    print(to_json(found) if options.json else to_table(found))
+
+
+def main():
+    options = parse_arguments()
+    try:
+        check(options)
+    except (CheckError, OSError) as error:
+        sys.exit("against_mitsuba.py: %s" % error)
+    except ModuleNotFoundError as error:
+        sys.exit("against_mitsuba.py: %s; run 'pip install numpy'" % error)
+    except KeyboardInterrupt:
+        sys.exit(130)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,112 @@
+"""The same pictures by both renderers: seed by seed, with seconds."""
+
+import json
+import os
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+from .errors import CheckError
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+MISSING = ("Mitsuba is not installed for %s: run 'pip install mitsuba numpy' in a virtual environment and start this with its "
+           "python; the fast variant also needs Debian's libllvm19 (14, 15 and 16 fail)" % sys.executable)
+TRY_LLVM = """
+import mitsuba as mi
+mi.set_variant("llvm_ad_rgb")
+scene = mi.cornell_box()
+scene["sensor"]["film"].update(width=8, height=8)
+mi.render(mi.load_dict(scene), spp=1).numpy()
+"""
+EXPLANATIONS = {
+    "llvm_ad_rgb": "Mitsuba's variant is llvm_ad_rgb",
+    "scalar_rgb": "Mitsuba's variant is scalar_rgb, which is slow, since llvm_ad_rgb did not run: install Debian's libllvm19, or "
+                  "name the library of LLVM 19 in DRJIT_LIBLLVM_PATH",
+}
+
+
+def choose_variant():
+    """LLVM of the wrong version ends the process, so another one tries."""
+    tried = subprocess.run([sys.executable, "-B", "-c", TRY_LLVM], capture_output=True, check=False)
+    return "llvm_ad_rgb" if tried.returncode == 0 else "scalar_rgb"
+
+
+class Renders:
+    def __init__(self):
+        self.pictures, self.seconds, self.start = [], [], []
+
+    def add(self, picture, seconds, start):
+        self.pictures.append(picture)
+        self.seconds.append(seconds)
+        self.start.append(start)
+
+    def arrays(self):
+        return np.array(self.pictures, float), np.array(self.seconds)
+
+
+def import_mitsuba():
+    try:
+        import mitsuba
+    except ImportError as error:
+        raise CheckError(MISSING) from error
+    return mitsuba
+
+
+class Mitsuba:
+    def __init__(self, scene, options):
+        mi = self.mi = import_mitsuba()
+        self.variant = choose_variant()
+        began = time.perf_counter()
+        mi.set_variant(self.variant)
+        mi.set_log_level(mi.LogLevel.Error)
+        from .build_scene import build_scene
+        from .plugins import register_plugins
+        register_plugins()
+        self.scene = build_scene(scene, options.size, options.bounces, options.environment)
+        self.explanation = EXPLANATIONS[self.variant]
+        self.name = "Mitsuba %s, %s" % (mi.__version__, self.variant)
+        self.spp = options.spp
+        self.render(0, 1 if self.variant.startswith("scalar") else self.spp)  # compiles
+        self.start = time.perf_counter() - began
+
+    def render(self, seed, spp):
+        return np.array(self.mi.render(self.scene, seed=seed, spp=spp))[..., :3]
+
+    def add_render(self, seed, renders):
+        began = time.perf_counter()
+        picture = self.render(seed, self.spp)
+        renders.add(picture, time.perf_counter() - began, self.start)
+
+    def read(self, path):
+        """A picture that glim wrote: R, G and B of all its layers."""
+        return np.array(dict(self.mi.Bitmap(path).split())["<root>"], float)[..., :3]
+
+
+class Glim:
+    def __init__(self, options, folder):
+        self.options, self.folder = options, folder
+        self.launcher = os.environ.get("GLIM_BINARY") or os.path.join(ROOT, "tools", "glim")
+        self.device = None
+        self.run("--version", show_errors=True)  # builds, for minutes the first time
+
+    def run(self, *arguments, show_errors=False):
+        done = subprocess.run([self.launcher, *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=None if show_errors else subprocess.PIPE, text=True, check=False)
+        if done.returncode != 0:
+            lines = (done.stderr or "").strip().splitlines() or ["see above" if show_errors else "it said nothing"]
+            raise CheckError("glim %s ended with exit code %d: %s" % (arguments[0], done.returncode, lines[-1]))
+
+    def add_render(self, seed, renders, read):
+        exr, stats = os.path.join(self.folder, "glim.exr"), os.path.join(self.folder, "glim.json")
+        options = self.options
+        more = [] if options.environment is None else ["--environment", ",".join("%r" % c for c in options.environment)]
+        began = time.perf_counter()
+        self.run("render", options.scene, "-o", exr, "--stats", stats, "--size", "%dx%d" % options.size, "--progress", "none",
+                 "--spp", str(options.spp), "--seed", str(seed), "--bounces", str(options.bounces), *more)
+        whole = time.perf_counter() - began
+        with open(stats, encoding="utf-8") as file:
+            content = json.load(file)
+        self.device = content["device"]["name"]
+        renders.add(read(exr), content["seconds"]["render"], whole - content["seconds"]["render"])
