@@ -26,7 +26,7 @@ std::array<vec3, 4> downQuad(float half, float y)
 }
 
 // A light on the ceiling it lies in, and 1e-4 below: the floor sees it whole, the ceiling not at all.
-TEST(ContactTest, LightOnACeiling)
+TEST(ContactTest, H10LightOnACeiling)
 {
     for (const float gap : {0.0F, 1e-4F}) {
         SceneBuilder builder;
@@ -49,7 +49,7 @@ TEST(ContactTest, LightOnACeiling)
 }
 
 // A sphere light resting on the floor, up to 1e-3 of where they touch.
-TEST(ContactTest, SphereLightOnTheFloor)
+TEST(ContactTest, H10SphereLightOnTheFloor)
 {
     SceneBuilder builder;
     builder.quad(floorQuad(), builder.lambert(vec3(0.5F)));
@@ -65,7 +65,7 @@ TEST(ContactTest, SphereLightOnTheFloor)
 }
 
 // A black sphere resting on the floor, a point light: lit where the segment clears the sphere.
-TEST(ContactTest, SphereOnTheFloorCastsItsShadowToTheContact)
+TEST(ContactTest, H10SphereOnTheFloorCastsItsShadowToTheContact)
 {
     const dvec3 lamp(3, 4, 0), center(0, 0.5, 0);
     SceneBuilder builder;
@@ -88,7 +88,7 @@ TEST(ContactTest, SphereOnTheFloorCastsItsShadowToTheContact)
 
 // Emitter and receiver at once: a closed box that emits inwards gives pi to each point of its walls, most of it from lights
 // that share an edge with the receiver. A wall alone gives itself nothing.
-TEST(ContactTest, EmitterIsTheReceiver)
+TEST(ContactTest, H10EmitterIsTheReceiver)
 {
     SceneBuilder box;
     box.cube(1.0F, box.lambert(vec3(0.0F), vec3(1.0F)), true);
