@@ -39,9 +39,17 @@ Roots rootsOf(const Case& c)
 
 std::vector<float> distances(const std::vector<Case>& cases)
 {
-    KernelTest test(test_kernels::intersect_sphere_test);
-    test.cases(cases).resultsOf<float>(cases.size()).run();
-    return test.results<float>();
+    constexpr std::size_t kPart = 500000;  // that fit a buffer anywhere
+    std::vector<float> found;
+    for (std::size_t begin = 0; begin < cases.size(); begin += kPart) {
+        const auto first = cases.begin() + static_cast<std::ptrdiff_t>(begin);
+        const std::vector<Case> part(first, first + static_cast<std::ptrdiff_t>(std::min(kPart, cases.size() - begin)));
+        KernelTest test(test_kernels::intersect_sphere_test);
+        test.cases(part).resultsOf<float>(part.size()).run();
+        const std::vector<float> results = test.results<float>();
+        found.insert(found.end(), results.begin(), results.end());
+    }
+    return found;
 }
 
 struct Accuracy {
