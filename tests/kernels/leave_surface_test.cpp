@@ -7,12 +7,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <functional>
 #include <ostream>
 
 namespace glim {
 namespace {
+
+constexpr std::uint32_t kMostGroups = 65535;  // of a dispatch, on every device
 
 struct Setup {
     float reach;
@@ -31,7 +34,7 @@ Tally leave(const Mesh& mesh, float reach, std::uint32_t rays)
 {
     const SceneOnDevice scene(sceneOf(mesh));
     KernelTest test = scene.test(test_kernels::leave_surface_test);
-    test.cases(std::vector<Setup>{{reach}}).resultsOf<Tally>(1).threads(rays / 64 * 64).run();
+    test.cases(std::vector<Setup>{{reach}}).resultsOf<Tally>(1).threads(std::min(rays / 64, kMostGroups) * 64).run();
     return test.results<Tally>()[0];
 }
 
