@@ -115,7 +115,7 @@ TEST(LoadGltf, ReadsHierarchiesDeeperThanTheCallStack)
     expectTheTriangle(load(builder));
 }
 
-TEST(LoadGltf, FrontStaysFrontUnderNegativeScale)
+TEST(LoadGltf, H44FrontStaysFrontUnderNegativeScale)
 {
     for (const json& scale : {json{1, 1, 1}, json{-1, 1, 1}, json{1, 1, -1}, json{-1, -1, 1}, json{-2, -1, -3}}) {
         GltfBuilder builder;
@@ -166,7 +166,7 @@ TEST(LoadGltf, BadNormalsGiveWayToTheFaceNormal)
     EXPECT_TRUE(hasNotice(scene, "used the face normal in place of 2 normals")) << ::testing::PrintToString(scene.notices);
 }
 
-TEST(LoadGltf, RecentringLosesNothingFarFromTheOrigin)
+TEST(LoadGltf, H8RecentringLosesNothingFarFromTheOrigin)
 {
     const auto place = [](double x, double y, double z) {
         GltfBuilder builder;
@@ -197,7 +197,7 @@ TEST(LoadGltf, OriginIsTheCentreToTheShareItSays)
     EXPECT_LT(glm::length(scene.origin - center), 5.0 * std::sqrt(3.0) / 512.0);
 }
 
-TEST(LoadGltf, DropsWhatHasNoExtentAndCountsIt)
+TEST(LoadGltf, H44DropsWhatHasNoExtentAndCountsIt)
 {
     GltfBuilder builder;
     const std::size_t positions = builder.addVec3({0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0, 3, 0, 0});

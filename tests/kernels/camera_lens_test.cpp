@@ -107,7 +107,7 @@ void expectRay(const Case& c, const PathRay& ray, Worst& worst)
     worst.share = std::max(worst.share, miss / slack);
 }
 
-TEST(CameraLensTest, RaysOfAFilmPointMeetInFocus)
+TEST(CameraLensTest, H35RaysOfAFilmPointMeetInFocus)
 {
     for (const bool orthographic : {false, true}) {
         const std::vector<Case> cases = anyCases(orthographic);
@@ -130,7 +130,7 @@ TEST(CameraLensTest, RaysOfAFilmPointMeetInFocus)
 }
 
 // With a lens of no size the disk does not matter.
-TEST(CameraLensTest, PinholesIgnoreTheDisk)
+TEST(CameraLensTest, H35PinholesIgnoreTheDisk)
 {
     Random random(87);
     std::vector<Case> cases;

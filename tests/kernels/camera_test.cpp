@@ -1,12 +1,12 @@
 #include "host/flatten/flatten_scene.hpp"
 #include "test_kernels.hpp"
 #include "tests/support/any_camera.hpp"
+#include "tests/support/hard_case.hpp"
 #include "tests/support/kernel_test.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <iostream>
 #include <numbers>
 
 namespace glim {
@@ -76,7 +76,7 @@ TEST(CameraTest, RaysGoWhereTheFilmSays)
 }
 
 // H35: at a field of view of 0.1 degree on 1920 pixels each direction is within 0.07 pixel.
-TEST(CameraTest, ThinFieldsOfView)
+TEST(CameraTest, H35ThinFieldsOfView)
 {
     constexpr float kSize = 1920.0F;
     Random random(81);
@@ -98,8 +98,8 @@ TEST(CameraTest, ThinFieldsOfView)
         squares += angle * angle / static_cast<double>(cases.size());
     }
     const double pixel = 0.1 * std::numbers::pi / 180.0 / static_cast<double>(kSize);
-    std::cout << "  error of directions: at most " << worst / pixel << " pixels, root of mean square "
-              << std::sqrt(squares) / pixel << '\n';
+    printHardCase("H35", "field of view .1 degree on 1920 pixels", static_cast<double>(cases.size()),
+                  "directions within " + figure(worst / pixel) + " pixels, root of mean square " + figure(std::sqrt(squares) / pixel));
     EXPECT_LE(worst, 0.07 * pixel);
 }
 

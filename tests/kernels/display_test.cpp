@@ -20,7 +20,7 @@ struct Case {
     vec3 expected;
 };
 
-TEST(DisplayTest, ColoursAreThoseOfTheHost)
+TEST(DisplayTest, H40ColoursAreThoseOfTheHost)
 {
     std::mt19937 random(3);
     std::lognormal_distribution<float> value(-1.0F, 2.0F);

@@ -21,7 +21,7 @@ bool isFloatArithmetic(std::uint32_t opcode)
 
 class FloatMarksTest : public testing::TestWithParam<const EmbeddedShader*> {};
 
-TEST_P(FloatMarksTest, EveryOperationIsExact)
+TEST_P(FloatMarksTest, H3H37H38EveryOperationIsExact)
 {
     const std::span<const std::uint32_t> words = GetParam()->words();
     std::set<std::uint32_t> marked, arithmetic;

@@ -1,13 +1,12 @@
 #include "shaders/shared/vocabulary.h"
 #include "test_kernels.hpp"
+#include "tests/support/hard_case.hpp"
 #include "tests/support/kernel_test.hpp"
 #include "tests/support/random.hpp"
-#include "tests/support/statistics.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <iostream>
 #include <numbers>
 
 namespace glim {
@@ -88,11 +87,12 @@ Case vertexCase(Random& random, double scale, double shift)
 void expectNoLeak(const std::string& what, Case (*makeCase)(Random&, double, double))
 {
     std::size_t rays = 0, leaks = 0, many = 0;
-    for (int round = 0; round < testRounds(); ++round) {
+    constexpr std::size_t kRays = 84000;
+    for (int round = 0; round < hardRounds(6 * kRays); ++round) {
         for (const double scale : {1e-4, 1.0, 1e5}) {
             for (const double shift : {0.0, 1e4}) {
                 Random random(static_cast<std::uint64_t>(round) * 31 + 5);
-                std::vector<Case> cases(84000);
+                std::vector<Case> cases(kRays);
                 std::generate(cases.begin(), cases.end(), [&] { return makeCase(random, scale, shift); });
                 KernelTest test(test_kernels::intersect_triangle_edges_test);
                 test.cases(cases).resultsOf<uvec2>(cases.size()).run();
@@ -104,17 +104,18 @@ void expectNoLeak(const std::string& what, Case (*makeCase)(Random&, double, dou
             }
         }
     }
-    std::cout << "  " << what << ": " << rays << " rays, 0 leaks expected, " << many << " hit more than once; "
-              << leaks << " leaks of Moller and Trumbore's\n";
+    printHardCase("H1", what + ", scale 1e-4 to 1e5, shift 0 and 1e4", static_cast<double>(rays),
+                  "leaks 0, " + std::to_string(many) + " hit more than once",
+                  "Moller and Trumbore: " + std::to_string(leaks) + " leaks");
     EXPECT_GT(leaks, rays / 1000) << what << ": these rays would not find a leak";
 }
 
-TEST(IntersectTriangleEdgesTest, NoRayPassesBetweenTwoTriangles)
+TEST(IntersectTriangleEdgesTest, H1NoRayPassesBetweenTwoTriangles)
 {
     expectNoLeak("edges", edgeCase);
 }
 
-TEST(IntersectTriangleEdgesTest, NoRayPassesThroughAVertex)
+TEST(IntersectTriangleEdgesTest, H1NoRayPassesThroughAVertex)
 {
     expectNoLeak("vertices", vertexCase);
 }

@@ -18,6 +18,7 @@ struct Tally {
     uint skippedHits;    // with it, through the whole traversal
     uint otherHits;      // that met another triangle
     uint largestOffset;  // bits of a float: of the triangle's size, after 4 ulp of the point
+    uint naiveHits;      // rays from o + t d that met the triangle again beyond t = 1e-4
 };
 
 layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Setup setup; };
@@ -45,6 +46,9 @@ void leave(PathRay ray, PathHit hit, Record record, float size)
     atomicMax(tally.largestOffset, floatBitsToUint(max(0.0, offset / size)));
     bool again = intersectRecord(beginWalk(origin, wi), record, kInfinity, false).t > 0.0;
     PathHit next = traceClosest(PathRay(origin, hit.record, wi));
+    vec3 naive = ray.origin + ray.direction * hit.t;
+    bool naiveAgain = intersectRecord(beginWalk(naive, wi), record, kInfinity, false).t > 1e-4;
+    atomicAdd(tally.naiveHits, naiveAgain ? 1u : 0u);
     atomicAdd(tally.left, 1u);
     atomicAdd(tally.selfHits, again ? 1u : 0u);
     atomicAdd(tally.skippedHits, next.record == hit.record ? 1u : 0u);

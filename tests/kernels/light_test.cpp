@@ -26,7 +26,7 @@ vec3 tilted(float degrees)
     return vec3(dvec3(std::sin(radians), std::cos(radians), 0.0));
 }
 
-TEST(LightTest, PointAndDirectionalAreExact)
+TEST(LightTest, H16PointAndDirectionalAreExact)
 {
     SceneBuilder point;
     addSpeck(point);
@@ -80,7 +80,7 @@ TEST(LightTest, SphereAboveAndAcrossTheHorizon)
 }
 
 // H11: r/d from nearly 1 down to 1e-6.
-TEST(LightTest, SphereConesOfAllSizes)
+TEST(LightTest, H11SphereConesOfAllSizes)
 {
     for (const float ratio : {0.999999F, 0.9F, 0.1F, 1e-2F, 1e-3F, 1e-4F, 1e-5F, 1e-6F}) {
         SceneBuilder builder;

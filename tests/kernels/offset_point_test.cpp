@@ -100,8 +100,8 @@ void count(Tally& tally, const Case& c, const Result& r)
     tally.limit += 5e-6 * std::max(glm::length(e1), glm::length(e2)) + 4.0 * 0x1p-23 * glm::length(glm::dvec3(r.point));
 }
 
-// H7. A ray skips the triangle that it leaves (traverse.glsl), so `self` is what that skip must still catch.
-TEST(OffsetPointTest, RaysDoNotMeetWhatTheyLeave)
+// A ray skips the triangle that it leaves (traverse.glsl), so `self` is what that skip must still catch.
+TEST(OffsetPointTest, H7RaysDoNotMeetWhatTheyLeave)
 {
     for (const Row& row : kRows) {
         Tally tally;

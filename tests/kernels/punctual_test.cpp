@@ -1,4 +1,5 @@
 #include "test_kernels.hpp"
+#include "tests/support/hard_case.hpp"
 #include "tests/support/kernel_test.hpp"
 
 #include <gtest/gtest.h>
@@ -13,6 +14,14 @@ struct Case {
     float cosine, cosInner, cosOuter;
     float falloff;
 };
+
+// The falloff with a ramp of .001 at least, as KHR_lights_punctual suggests it.
+float naiveFalloff(const Case& c)
+{
+    const float scale = 1.0F / std::max(0.001F, c.cosInner - c.cosOuter);
+    const float ramp = std::clamp((c.cosine - c.cosOuter) * scale, 0.0F, 1.0F);
+    return ramp * ramp;
+}
 
 // KHR_lights_punctual: full inside the inner angle, nothing outside the outer one, the square of the share between.
 TEST(PunctualTest, H16SpotFalloff)
@@ -31,6 +40,13 @@ TEST(PunctualTest, H16SpotFalloff)
     cases.push_back({0.5F, 0.5F, 0.5F, 0.0F});  // no ramp at all: nothing at or outside the rim, all inside
     cases.push_back({0.6F, 0.5F, 0.5F, 1.0F});
     KernelTest(test_kernels::punctual_test).cases(cases).run();
+    float worst = 0.0F;
+    for (const Case& c : cases) {
+        worst = std::max(worst, std::abs(naiveFalloff(c) - c.falloff));
+    }
+    EXPECT_GT(worst, 0.5F);
+    printHardCase("H16", "spots from .2 degrees", static_cast<double>(cases.size()), "falloff within rounding",
+                  "a ramp of at least .001: off by " + figure(static_cast<double>(worst)));
 }
 
 }  // namespace

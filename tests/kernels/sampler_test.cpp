@@ -62,7 +62,7 @@ void expectNets(const std::vector<uvec2>& pairs)
 }
 
 // H33: each aligned block of samples is a net of its own, whatever the pixel and dimension.
-TEST(SamplerTest, BlocksAreNets)
+TEST(SamplerTest, H33BlocksAreNets)
 {
     std::vector<Case> cases;
     for (std::uint32_t block = 0; block < 2000; ++block) {
@@ -177,7 +177,7 @@ void expectIndependent(const Step& step, std::uint32_t sobol, std::size_t tests,
     }
 }
 
-TEST(SamplerTest, NeighboursAreIndependent)
+TEST(SamplerTest, H32NeighboursAreIndependent)
 {
     const std::size_t tests = 2 * 4 * (std::size(kSteps) * 2 - 1);
     double worst = 0.0;

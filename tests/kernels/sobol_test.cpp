@@ -1,5 +1,6 @@
 #include "shaders/shared/vocabulary.h"
 #include "test_kernels.hpp"
+#include "tests/support/hard_case.hpp"
 #include "tests/support/kernel_test.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/statistics.hpp"
@@ -8,7 +9,6 @@
 
 #include <cmath>
 #include <functional>
-#include <iostream>
 #include <numbers>
 
 namespace glim {
@@ -61,7 +61,7 @@ void expectNet(const uvec2* points, std::uint32_t m)
     }
 }
 
-TEST(SobolTest, FirstPointsAreANet)
+TEST(SobolTest, H33FirstPointsAreANet)
 {
     Random random(30);
     std::vector<Case> cases;
@@ -92,7 +92,7 @@ std::vector<uvec2> sequences(std::uint32_t count, std::uint32_t length, std::uin
 }
 
 // Every aligned run of 2^m, here all blocks of 32 and the first 4096 of a sequence, for many seeds.
-TEST(SobolTest, ScrambledRunsAreNets)
+TEST(SobolTest, H33ScrambledRunsAreNets)
 {
     constexpr std::uint32_t kSequences = 64, kLength = 4096;
     const std::vector<uvec2> points = sequences(kSequences, kLength, 31);
@@ -150,7 +150,7 @@ double errorSlope(const std::vector<uvec2>& points, std::uint32_t length, double
 }
 
 // H33.
-TEST(SobolTest, ErrorsFallAsTheyShould)
+TEST(SobolTest, H33ErrorsFallAsTheyShould)
 {
     constexpr std::uint32_t kSequences = 128, kLength = 4096;
     const std::vector<uvec2> points = sequences(kSequences, kLength, 33);
@@ -158,7 +158,8 @@ TEST(SobolTest, ErrorsFallAsTheyShould)
                                      [](double x, double y) { return 0.25 * std::exp(x + y); });
     const double edge = errorSlope(points, kLength, std::numbers::pi / 4.0,
                                    [](double x, double y) { return x * x + y * y < 1.0 ? 1.0 : 0.0; });
-    std::cout << "  slopes of log MSE: smooth " << smooth << ", edge " << edge << '\n';
+    printHardCase("H33", "slopes of log MSE", kSequences * kLength, "smooth " + figure(smooth) + ", edge " + figure(edge),
+                  "independent points: -1");
     EXPECT_LE(smooth, -2.5);
     EXPECT_NEAR(edge, -1.5, 0.15);
 }

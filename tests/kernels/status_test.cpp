@@ -1,11 +1,11 @@
 #include "shaders/shared/bindings.h"
 #include "test_kernels.hpp"
+#include "tests/support/hard_case.hpp"
 #include "tests/support/kernel_test.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <iostream>
 #include <set>
 
 namespace glim {
@@ -33,7 +33,7 @@ Outcome run(const std::vector<Case>& cases)
 }
 
 // Every sample that is not finite is counted; the first kMaxLocated to be counted are located, each once.
-TEST(StatusTest, CountsAndLocatesNonFiniteSamples)
+TEST(StatusTest, H37CountsAndLocatesNonFiniteSamples)
 {
     for (const std::uint32_t bad : {0U, 1U, kMaxLocated, 300U}) {
         std::vector<Case> cases(1000);
@@ -56,13 +56,13 @@ TEST(StatusTest, CountsAndLocatesNonFiniteSamples)
 }
 
 // H42: a loop that the driver cut short is flagged, one that it let run is not.
-TEST(StatusTest, FlagsALoopThatTheDriverStopped)
+TEST(StatusTest, H42FlagsALoopThatTheDriverStopped)
 {
     std::vector<Case> cases(64);
     cases[5].loops = 70'000;
     const Outcome outcome = run(cases);
     const bool stopped = outcome.loopsRun[5] < 70'000;
-    std::cout << "the driver ran " << outcome.loopsRun[5] << " of 70000 loops\n";
+    printHardCase("H42", "a loop of 70,000 steps", 1, "ran " + std::to_string(outcome.loopsRun[5]) + ", reported if less");
     EXPECT_EQ(outcome.status.loopCaps > 0, stopped);
     EXPECT_EQ(outcome.loopsSpent > 0, stopped);
     EXPECT_TRUE(stopped || outcome.loopsRun[5] == 70'000);

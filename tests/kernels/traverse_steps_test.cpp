@@ -1,6 +1,7 @@
 // What the tree costs per ray, and that the worst trees neither overflow the stack nor hide a hit (H6).
 #include "shaders/shared/limits.h"
 #include "test_kernels.hpp"
+#include "tests/support/hard_case.hpp"
 #include "tests/support/reference.hpp"
 #include "tests/support/scene_on_device.hpp"
 #include "tests/support/test_meshes.hpp"
@@ -96,7 +97,7 @@ TEST(TraverseStepsTest, AreWhatTheTreesCostPredicts)
     }
 }
 
-TEST(TraverseStepsTest, CoincidentTrianglesGiveTheLowestOrAreReported)
+TEST(TraverseStepsTest, H6CoincidentTrianglesGiveTheLowestOrAreReported)
 {
     for (const std::size_t count : {5000, 100000}) {
         const SceneOnDevice scene(sceneOf(coincidentTriangles(count)));
@@ -111,14 +112,15 @@ TEST(TraverseStepsTest, CoincidentTrianglesGiveTheLowestOrAreReported)
         for (const Result& result : results) {
             wrong += scene.idOf(result.hit.record) == 0 && result.hit.t == 1.0F && result.unoccluded == 0 ? 0 : 1;
         }
-        std::cout << count << " coincident: depth " << scene.bvh.depth << ", " << wrong << " of 64 rays wrong, "
-                  << test.loopsSpent() << " threads report a spent loop budget\n";
+        printHardCase("H6", std::to_string(count) + " coincident triangles", 64,
+                      "depth " + std::to_string(scene.bvh.depth) + ", " + std::to_string(wrong) + " wrong, " +
+                          std::to_string(test.loopsSpent()) + " report a spent loop budget");
         EXPECT_TRUE(wrong == 0 || test.loopsSpent() == 64);
         EXPECT_TRUE(count > 5000 || test.loopsSpent() == 0);
     }
 }
 
-TEST(TraverseStepsTest, GrowingLineAgreesWithTheReference)
+TEST(TraverseStepsTest, H6GrowingLineAgreesWithTheReference)
 {
     const Scene line = sceneOf(growingLine(100000, 1e-4F, 1.0002));
     const SceneOnDevice scene(line);
@@ -146,7 +148,8 @@ TEST(TraverseStepsTest, GrowingLineAgreesWithTheReference)
             ++compared;
         }
     }
-    std::cout << "growing line: depth " << scene.bvh.depth << ", " << compared << " of 300 rays compared\n";
+    printHardCase("H6", "sizes growing over 8 decades", static_cast<double>(compared),
+                  "depth " + std::to_string(scene.bvh.depth) + ", every ray as the reference says");
     EXPECT_GT(compared, 250U);
 }
 

@@ -1,13 +1,14 @@
 // H1: rays from inside a closed mesh, aimed where Moller and Trumbore's test leaks.
 #include "shaders/shared/bindings.h"
 #include "test_kernels.hpp"
+#include "tests/support/hard_case.hpp"
+#include "tests/support/render_scene.hpp"
 #include "tests/support/scene_on_device.hpp"
 #include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <iostream>
+#include <ostream>
 
 namespace glim {
 namespace {
@@ -45,19 +46,21 @@ Tally shoot(const Closed& closed, const Place& place, bool mollerTrumbore)
     test.cases(std::vector<Setup>{{vec3(place.scale * place.shift), place.scale, tolerance, closed.noise}});
     test.resultsOf<Tally>(1).specialize(kSpecMollerTrumbore, mollerTrumbore ? 1 : 0);
     // Whole workgroups, so that every thread is a ray.
-    test.threads(std::getenv("GLIM_LONG") != nullptr ? 4'000'000 / 64 * 64 : 90'048).run();
+    test.threads(static_cast<std::uint32_t>(hardTrials(samplesFor(90'048, 25)))).run();
     const Tally tally = test.results<Tally>()[0];
-    std::cout << (mollerTrumbore ? "Moller-Trumbore" : "watertight") << ", scale " << place.scale << ", shift "
-              << place.shift << ": edge, vertex, axis: ";
-    for (int kind = 0; kind < 3; ++kind) {
-        std::cout << tally.misses[kind] << " of " << tally.rays[kind] << (kind < 2 ? ", " : " leak\n");
-    }
+    const std::string leaks = "leaks at edges, vertices, along axes " + std::to_string(tally.misses[0]) + ", " +
+                              std::to_string(tally.misses[1]) + ", " + std::to_string(tally.misses[2]);
+    printHardCase("H1",
+                  std::to_string(closed.mesh.size()) + " triangles in a tree, scale " +
+                      figure(static_cast<double>(place.scale)) + ", shift " + figure(static_cast<double>(place.shift)),
+                  tally.rays[0] + tally.rays[1] + tally.rays[2], mollerTrumbore ? "" : leaks,
+                  mollerTrumbore ? "Moller and Trumbore: " + leaks : "");
     return tally;
 }
 
 class WatertightTest : public testing::TestWithParam<Place> {};
 
-TEST_P(WatertightTest, NoRayLeavesAClosedMesh)
+TEST_P(WatertightTest, H1NoRayLeavesAClosedMesh)
 {
     // An edge function is a difference of two products of three roundings each: 6 * 2^-24.
     for (const Closed& closed : {Closed{icosphere(4), 0.0F}, Closed{sliverBox(150), 6 * 0x1p-24F}}) {
@@ -77,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Places, WatertightTest,
                                          Place{1.0F, 1e4F}, Place{1e5F, 1e4F}));
 
 // The test above is able to fail.
-TEST(MollerTrumboreTest, LeaksAtEdgesAndVertices)
+TEST(MollerTrumboreTest, H1LeaksAtEdgesAndVertices)
 {
     const Tally tally = shoot({icosphere(4), 0.0F}, {1.0F, 0.0F}, true);
     EXPECT_GT(tally.misses[0], tally.rays[0] / 50);

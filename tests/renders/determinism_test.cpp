@@ -31,7 +31,7 @@ protected:
     Film first;
 };
 
-TEST_P(DeterminismTest, TwoRuns) { EXPECT_TRUE(sameBits(first, render(settingsFor(GetParam())))); }
+TEST_P(DeterminismTest, H34TwoRuns) { EXPECT_TRUE(sameBits(first, render(settingsFor(GetParam())))); }
 
 TEST_P(DeterminismTest, AnotherSeedDiffers)
 {
@@ -40,7 +40,7 @@ TEST_P(DeterminismTest, AnotherSeedDiffers)
     EXPECT_FALSE(sameBits(first, render(settings)));
 }
 
-TEST_P(DeterminismTest, WorkgroupSizes)
+TEST_P(DeterminismTest, H34WorkgroupSizes)
 {
     for (const std::uint32_t workgroup : {32U, 128U}) {
         RenderSettings settings = settingsFor(GetParam());
@@ -49,7 +49,7 @@ TEST_P(DeterminismTest, WorkgroupSizes)
     }
 }
 
-TEST_P(DeterminismTest, DispatchSizes)
+TEST_P(DeterminismTest, H34DispatchSizes)
 {
     for (const std::uint32_t capacity : {1U << 8, 3000U, 1U << 16}) {
         RenderSettings settings = settingsFor(GetParam());
@@ -71,7 +71,7 @@ TEST_P(DeterminismTest, FeaturesThatTheSceneDoesNotNeed)
 
 INSTANTIATE_TEST_SUITE_P(Samplers, DeterminismTest, testing::Values(Sampler::Sobol, Sampler::Independent));
 
-TEST(MergedRenderTest, PagesMergeToTheBitsOfTheSingleRun)
+TEST(MergedRenderTest, H34PagesMergeToTheBitsOfTheSingleRun)
 {
     const test::ScratchFolder folder;
     const Scene scene = mixedScene();
@@ -91,7 +91,7 @@ TEST(MergedRenderTest, PagesMergeToTheBitsOfTheSingleRun)
 // the same on every software driver: tools/test --driver checks that.
 constexpr std::uint64_t kMixedSceneHash = 0x5166278da91c7059ULL;
 
-TEST(DriverAgreementTest, TheSameBitsOnEverySoftwareDriver)
+TEST(DriverAgreementTest, H34TheSameBitsOnEverySoftwareDriver)
 {
     const Film film = renderScene(mixedScene(), squareSettings(64, 64));
     std::uint64_t hash = 14695981039346656037ULL;

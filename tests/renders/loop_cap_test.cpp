@@ -12,7 +12,7 @@ namespace glim {
 namespace {
 
 // A ray meets all of 100,000 coincident triangles, more than Mesa 22.3.6 allows a loop: the render is refused, or right.
-TEST(LoopCapTest, EndsTheRender)
+TEST(LoopCapTest, H42EndsTheRender)
 {
     SceneBuilder builder;
     builder.lambert(glm::vec3(0.5F));

@@ -1,5 +1,6 @@
 // H24: --roulette in a closed room of albedo a whose walls emit 1, where a path's value is known at every length.
 #include "tests/support/build_scene.hpp"
+#include "tests/support/hard_case.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/statistics.hpp"
 
@@ -13,12 +14,12 @@ namespace {
 
 constexpr double kSurvival = 0.7;
 
-Film render(double albedo, Roulette roulette, std::uint32_t bounces, std::uint32_t spp)
+Film render(double albedo, Roulette roulette, std::uint32_t bounces, std::uint32_t spp, std::uint32_t side = 64)
 {
     SceneBuilder builder;
     builder.cube(1.0F, builder.lambert(glm::vec3(static_cast<float>(albedo)), glm::vec3(1.0F)), true)
         .perspective({0.3F, 0.2F, 0.6F}, {-1, -0.5F, -1}, 1.0F);
-    RenderSettings settings = squareSettings(64, spp);
+    RenderSettings settings = squareSettings(side, spp);
     settings.sampler = Sampler::Independent;
     settings.direct = DirectLight::Bsdf;
     settings.bounces = bounces;
@@ -93,6 +94,27 @@ TEST(RoulettePictureTest, FixedHasInfiniteVarianceAboveItsLimit)
         EXPECT_EQ(growth > 1e5, a * a > kSurvival);
     }
     EXPECT_NEAR(std::sqrt(kSurvival), 0.837, 5e-4);
+}
+
+// The truth is 1 / (1 - a) = 100. By throughput a path's value is 1 + its length, geometric but for the bounces before roulette: its
+// deviation is sqrt(a) / (1 - a) = 99.5 or a little less.
+TEST(RoulettePictureTest, H24H25AlbedoOf99)
+{
+    constexpr double kAlbedo = 0.99, kDeviation = 99.5;
+    constexpr std::uint32_t kSide = 16, kBounces = 3000;  // beyond which is 8e-14 of the light
+    const auto spp = static_cast<std::uint32_t>(hardTrials(kSide * kSide * samplesFor(64, 16)) / (kSide * kSide));
+    const double paths = 1.0 * kSide * kSide * spp, z = scoreLimit(200);
+    const MeanEstimate ours = meanOf(render(kAlbedo, Roulette::Throughput, kBounces, spp, kSide));
+    const MeanEstimate fixed = meanOf(render(kAlbedo, Roulette::Fixed, kBounces, spp, kSide));
+    const double deviation = ours.standardError.g * std::sqrt(paths), error = kDeviation / std::sqrt(paths);
+    printHardCase("H24", "closed room of albedo .99", paths,
+                  "mean " + figure(ours.mean.g) + " +- " + figure(error) + " of 100, deviation " + figure(deviation),
+                  "fixed:0.7: mean " + figure(fixed.mean.g));
+    EXPECT_NEAR(ours.mean.g, 100.0, z * error);
+    EXPECT_GT(std::abs(fixed.mean.g - 100.0), z * error);
+    // Of an exponential's variance from n values: (kurtosis 9 - 1) / n, and 2 / (blocks - pixels) for what is within blocks.
+    const double spread = std::sqrt(8.0 / paths + 2.0 / (paths / 32.0 - kSide * kSide));
+    EXPECT_NEAR(deviation * deviation / (kDeviation * kDeviation), 1.0, 0.05 + z * spread);
 }
 
 }  // namespace

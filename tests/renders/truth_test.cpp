@@ -53,7 +53,7 @@ TEST(TruthTest, T1ConvexLambertObjectUnderAConstantSky)
 class FurnaceTest : public testing::TestWithParam<float> {};
 
 // T2, T3: a closed room whose walls all emit e and reflect a: e (1 - a^(k+1)) / (1 - a) after k bounces.
-TEST_P(FurnaceTest, T2T3ClosedRoom)
+TEST_P(FurnaceTest, H25T2T3ClosedRoom)
 {
     const double a = static_cast<double>(GetParam());
     SceneBuilder builder;
@@ -106,7 +106,7 @@ void expectExactMean(const Film& film, const glm::dvec3& truth)
     EXPECT_LE(std::max({error.r, error.g, error.b}), 1e-5);
 }
 
-TEST(TruthTest, T9PointDirectionalAndSpotLight)
+TEST(TruthTest, H16T9PointDirectionalAndSpotLight)
 {
     const glm::dvec3 position(0.5, 2.0, -0.7);
     const double distance2 = glm::dot(position, position), cosine = position.y / std::sqrt(distance2);

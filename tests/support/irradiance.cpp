@@ -1,6 +1,7 @@
 #include "tests/support/irradiance.hpp"
 
 #include "test_kernels.hpp"
+#include "tests/support/hard_case.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/scene_on_device.hpp"
 #include "tests/support/statistics.hpp"
@@ -59,7 +60,7 @@ IrradianceEstimate reduce(std::span<const Result> results)
 
 std::vector<IrradianceEstimate> estimateIrradiance(const Scene& scene, const std::vector<Receiver>& receivers)
 {
-    const std::uint32_t threads = samplesFor(2048, 20);
+    const auto threads = static_cast<std::uint32_t>(hardTrials(samplesFor(2048, 20) * kSamplesPerThread)) / kSamplesPerThread;
     std::vector<Case> cases;
     for (const Receiver& receiver : receivers) {
         cases.push_back({receiver.point, receiver.height, receiver.normal});

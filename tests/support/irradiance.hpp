@@ -22,7 +22,7 @@ struct IrradianceEstimate {
     double surfaceError;       // metres
 };
 
-// 131,072 samples each (20 times as many with GLIM_LONG).
+// 131,072 samples each (20 times as many with GLIM_LONG, 4e6 with GLIM_HARD).
 std::vector<IrradianceEstimate> estimateIrradiance(const Scene& scene, const std::vector<Receiver>& receivers);
 
 // Thresholds (tests/README.md): |mean - truth| <= z se + 2e-5 truth; a density that is found must be the one it was sampled with
