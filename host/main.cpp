@@ -1,4 +1,5 @@
 // The command line in, the exit code out.
+#include "host/cli/bench.hpp"
 #include "host/cli/compare.hpp"
 #include "host/cli/devices.hpp"
 #include "host/cli/inspect.hpp"
@@ -45,6 +46,7 @@ int main(int argc, char** argv)
     glim::addInspect(app);
     glim::addDevices(app);
     glim::addCompare(app);
+    glim::addBench(app, exitCode);
     glim::addMerge(app);
     try {
         app.parse(argc, argv);

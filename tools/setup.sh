@@ -1,4 +1,4 @@
-# Shared by tools/glim, tools/test and tools/study: installs what is missing, builds what has changed. To be sourced by bash.
+# Shared by tools/glim, tools/test, tools/study and tools/plot_bench: installs what is missing, builds what has changed. To be sourced by bash.
 # Everything it says goes to stderr: stdout belongs to the program.
 
 root=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")

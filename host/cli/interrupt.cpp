@@ -1,6 +1,7 @@
 #include "host/cli/interrupt.hpp"
 
 #include <csignal>
+#include <iostream>
 
 namespace glim {
 namespace {
@@ -47,5 +48,19 @@ InterruptWatch::~InterruptWatch()
 }
 
 int InterruptWatch::signal() const { return received; }
+
+const char* nameOfSignal(int signal)
+{
+    return signal == SIGINT ? "SIGINT" : signal == SIGTERM ? "SIGTERM" : "SIGHUP";
+}
+
+ExitCode finish(int signal, const std::string& what)
+{
+    if (signal == 0) {
+        return ExitCode::Done;
+    }
+    std::cerr << "glim: stopped by " << nameOfSignal(signal) << "; " << what << ".\n";
+    return signal == SIGINT ? ExitCode::Interrupted : signal == SIGTERM ? ExitCode::Terminated : ExitCode::HungUp;
+}
 
 }  // namespace glim

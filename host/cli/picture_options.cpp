@@ -52,6 +52,11 @@ void addLens(CLI::App& command, PictureOptions& options)
 void addSceneOptions(CLI::App& command, PictureOptions& options)
 {
     command.add_option("SCENE", options.scene, "The scene, .gltf or .glb")->required()->type_name("FILE");
+    addSceneChoice(command, options);
+}
+
+void addSceneChoice(CLI::App& command, PictureOptions& options)
+{
     addSceneIndex(command, options.sceneIndex);
     command
         .add_option_function<std::string>(
@@ -60,12 +65,12 @@ void addSceneOptions(CLI::App& command, PictureOptions& options)
         ->type_name("R,G,B");
 }
 
-void addCameraOptions(CLI::App& command, PictureOptions& options)
+void addCameraOptions(CLI::App& command, PictureOptions& options, const std::string& height)
 {
     command
         .add_option_function<std::string>(
             "--size", [&options](const std::string& text) { options.size = parseSize(text); },
-            "Pixels, each side 1 to 65535 [512 high, width from the camera's aspect ratio]")
+            "Pixels, each side 1 to 65535 [" + height + " high, width from the camera's aspect ratio]")
         ->type_name("WxH");
     command.add_option("--camera", options.camera, "Name or index of a camera of the file [0]")->type_name("NAME|INDEX");
     addPose(command, options);

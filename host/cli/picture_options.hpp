@@ -32,7 +32,8 @@ struct PictureOptions {
 
 // Adds their options to `command`; they write into `options`, which must outlive it.
 void addSceneOptions(CLI::App& command, PictureOptions& options);
-void addCameraOptions(CLI::App& command, PictureOptions& options);
+void addSceneChoice(CLI::App& command, PictureOptions& options);  // of them, all but the file
+void addCameraOptions(CLI::App& command, PictureOptions& options, const std::string& height = "512");  // without --size
 void addDevice(CLI::App& command, PictureOptions& options);
 
 LoadOptions loadOptionsOf(const PictureOptions& options);

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -44,21 +43,6 @@ RenderSettings settingsFor(const RenderOptions& options, const Camera& camera)
     return settings;
 }
 
-const char* nameOf(int signal)
-{
-    return signal == SIGINT ? "SIGINT" : signal == SIGTERM ? "SIGTERM" : "SIGHUP";
-}
-
-// The exit code of a render that a signal may have ended; says so.
-ExitCode finish(int signal, const std::string& what)
-{
-    if (signal == 0) {
-        return ExitCode::Done;
-    }
-    std::cerr << "glim: stopped by " << nameOf(signal) << "; " << what << ".\n";
-    return signal == SIGINT ? ExitCode::Interrupted : signal == SIGTERM ? ExitCode::Terminated : ExitCode::HungUp;
-}
-
 // A picture with holes is better than none, but not than the one that is there.
 bool wouldRuin(const std::filesystem::path& output, const Film& film)
 {
@@ -70,7 +54,7 @@ bool wouldRuin(const std::filesystem::path& output, const Film& film)
 std::string stopReason(int signal, const Film& film, const RenderSettings& settings, bool isGood)
 {
     if (signal != 0) {
-        return nameOf(signal);
+        return nameOfSignal(signal);
     }
     if (isGood) {
         return "target";

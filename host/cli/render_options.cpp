@@ -23,11 +23,7 @@ void addOutputOptions(CLI::App& command, RenderOptions& options)
         .add_option("--rates", options.rates, "Write a PNG of the samples per pixel, from blue (fewest) to red (most)")
         ->type_name("R.png");
     command.add_option("--stats", options.stats, "Write times, counts and estimated errors as JSON")->type_name("S.json");
-    addChoice(command, "--progress", "STYLE", "bar, json (a line per step) or none, to stderr [bar on a terminal]",
-              {"bar", "json", "none"}, [&options](std::size_t i) {
-                  constexpr ProgressStyle kStyles[] = {ProgressStyle::Bar, ProgressStyle::Json, ProgressStyle::None};
-                  options.progress = kStyles[i];
-              });
+    addProgress(command, options.progress);
 }
 
 void addTargets(CLI::App& command, ErrorTarget& target)
@@ -54,6 +50,15 @@ void addView(CLI::App& command, RenderOptions& options)
 }
 
 }  // namespace
+
+void addProgress(CLI::App& command, ProgressStyle& style)
+{
+    addChoice(command, "--progress", "STYLE", "bar, json (a line per step) or none, to stderr [bar on a terminal]",
+              {"bar", "json", "none"}, [&style](std::size_t i) {
+                  constexpr ProgressStyle kStyles[] = {ProgressStyle::Bar, ProgressStyle::Json, ProgressStyle::None};
+                  style = kStyles[i];
+              });
+}
 
 void addRenderOptions(CLI::App& command, RenderOptions& options)
 {

@@ -15,6 +15,9 @@ struct RenderOptions : PictureOptions {
     ErrorTarget target;
 };
 
+// --progress, into `style`.
+void addProgress(CLI::App& command, ProgressStyle& style);
+
 // Adds every option of `render` to `command`; they write into `options`, which must outlive it.
 void addRenderOptions(CLI::App& command, RenderOptions& options);
 

@@ -50,6 +50,11 @@ void addSampleOptions(CLI::App& command, RenderSettings& settings, const std::st
                                        std::to_string(kMaxSample) + " [" + rangeDefault + "]")
                                ->type_name("BEGIN:END");
     spp->excludes(time)->excludes(samples);
+    addSamplerOptions(command, settings);
+}
+
+void addSamplerOptions(CLI::App& command, RenderSettings& settings)
+{
     addNumber<std::uint32_t>(
         command, {"--seed", "N", "Same seed, same bits", 0, std::numeric_limits<std::uint32_t>::max(), "0"},
         [&settings](std::uint32_t seed) { settings.seed = seed; });

@@ -128,6 +128,11 @@ void settlePicture(const CLI::App& command, PictureOptions& options)
 {
     settleAdaptive(command, options.settings);
     settleTime(command, options.settings);
+    settleLight(command, options);
+}
+
+void settleLight(const CLI::App& command, PictureOptions& options)
+{
     checkLightSamples(command, options.settings);
     checkPaths(command, options.settings);
     if (options.settings.accelerator == Accelerator::None) {

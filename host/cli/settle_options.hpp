@@ -8,6 +8,7 @@ namespace glim {
 // Refuse (CLI::ValidationError) options that contradict each other or mean nothing together, and set what follows from those
 // that were given: the default number of samples, the sampler of --adaptive, the bounces of a --view.
 void settlePicture(const CLI::App& command, PictureOptions& options);
+void settleLight(const CLI::App& command, PictureOptions& options);  // of it, what addLightOptions and addTracingOptions add
 void settleRender(const CLI::App& command, RenderOptions& options);
 
 }  // namespace glim

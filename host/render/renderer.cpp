@@ -79,6 +79,13 @@ void Renderer::restart(const FlatCamera& camera, std::uint32_t width, std::uint3
     begin(camera);
 }
 
+void Renderer::restart(const FlatCamera& camera, std::uint32_t seed)
+{
+    settings_.seed = seed;
+    wavefront_->setSeed(seed);
+    restart(camera, settings_.width, settings_.height);
+}
+
 void Renderer::begin(const FlatCamera& camera)
 {
     film_ = {};
@@ -198,6 +205,7 @@ bool Renderer::runPass(const Pass& pass, const std::function<bool()>& goesOn)
     pixel_ += pass.pixelCount;
     pictureSamples_ += paths;
     statistics_.samples += paths;
+    statistics_.passSeconds += seconds.total;
     statistics_.longestDispatch = std::max(statistics_.longestDispatch, seconds.longest);
     passSize_.learn(paths, seconds);
     return true;

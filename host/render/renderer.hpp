@@ -12,6 +12,7 @@ namespace glim {
 
 struct RenderStatistics {
     double uploadSeconds = 0.0, compileSeconds = 0.0, renderSeconds = 0.0;
+    double passSeconds = 0.0;  // of all passes, on the device; 0 if it cannot tell
     std::map<std::string, KernelStatistics> kernels;
     double longestDispatch = 0.0;  // seconds, on the device, after compilation
     std::uint64_t samples = 0;     // over all pixels
@@ -57,6 +58,8 @@ public:
     PathHit traceRay(const PathRay& ray) { return wavefront_->traceRay(*slabs_.front(), ray); }
     // Another picture of the scene. The camera has a lens if and only if the first one had.
     void restart(const FlatCamera& camera, std::uint32_t width, std::uint32_t height);
+    // The same picture from other random numbers.
+    void restart(const FlatCamera& camera, std::uint32_t seed);
 
     // Samples that every chosen pixel has, and those of all pixels together.
     std::uint32_t sampleCount() const { return sample_ - settings_.sampleBegin; }

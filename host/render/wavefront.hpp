@@ -22,6 +22,7 @@ public:
 
     // Of the passes from now on. The camera has a lens if and only if the first one had.
     void setCamera(const FlatCamera& camera, std::uint32_t width, std::uint32_t height);
+    void setSeed(std::uint32_t seed) { template_.seed = seed; }
 
     // Pixels of the film; every one is chosen.
     std::unique_ptr<Slab> makeSlab(std::uint32_t begin, std::uint32_t count);

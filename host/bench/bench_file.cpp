@@ -1,0 +1,197 @@
+#include "host/bench/bench_file.hpp"
+
+#include "host/bench/summarize_bench.hpp"
+#include "host/error.hpp"
+#include "host/exact_text.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+
+namespace glim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kFormat = 1;
+
+Json jsonOf(const Interval& interval)
+{
+    return {{"value", interval.value}, {"low", interval.low}, {"high", interval.high}};
+}
+
+Json jsonOf(const BenchPoint& point, const PointSummary& summary)
+{
+    return {{"samples", point.samples},
+            {"seconds", point.seconds},
+            {"kernelSeconds", point.kernelSeconds},
+            {"mse", point.mse},
+            {"relMse", point.relMse},
+            {"trimmedRelMse", point.trimmedRelMse},
+            {"summary",
+             {{"seconds", summary.seconds},
+              {"kernelSeconds", summary.kernelSeconds},
+              {"mse", jsonOf(summary.mse)},
+              {"relMse", jsonOf(summary.relMse)},
+              {"trimmedRelMse", summary.trimmedRelMse},
+              {"floorLimited", summary.floorLimited}}}};
+}
+
+Json jsonOf(const BenchSummary& summary)
+{
+    const SlopeTest& test = summary.slopeTest;
+    return {{"slope", jsonOf(summary.slope)},
+            {"fit", {{"factor", summary.fit.factor}, {"power", jsonOf(summary.fit.power)}, {"rest", jsonOf(summary.fit.rest)}}},
+            {"slopeTest",
+             {{"holds", test.holds()},
+              {"slopeHolds", test.slopeHolds()},
+              {"slopeReach", test.slopeReach},
+              {"biasHolds", test.biasHolds()},
+              {"biasReach", test.biasReach}}},
+            {"efficiency", jsonOf(summary.efficiency)},
+            {"kernelEfficiency", jsonOf(summary.kernelEfficiency)},
+            {"samplesPerSecond", summary.samplesPerSecond}};
+}
+
+Json jsonOf(const SceneBench& bench)
+{
+    const BenchSummary summary = summarizeBench(bench);
+    Json points = Json::array();
+    for (std::size_t i = 0; i < bench.points.size(); ++i) {
+        points.push_back(jsonOf(bench.points[i], summary.points[i]));
+    }
+    const StartUp& start = bench.startUp;
+    return {{"scene", bench.scene},
+            {"picture", bench.picture},
+            {"settings", bench.settings},
+            {"device", bench.device},
+            {"version", bench.version},
+            {"size", {bench.width, bench.height}},
+            {"startUpSeconds",
+             {{"load", start.load}, {"build", start.build}, {"upload", start.upload}, {"compile", start.compile}}},
+            {"reference",
+             {{"file", bench.reference},
+              {"known", bench.floor.known},
+              {"mse", bench.floor.mse},
+              {"relMse", bench.floor.relMse},
+              {"relMseError", bench.floor.relMseError}}},
+            {"seeds", bench.seeds},
+            {"points", points},
+            {"bias", {{"squared", bench.bias.squared}, {"error", bench.bias.error}}},
+            {"summary", jsonOf(summary)}};
+}
+
+BenchPoint pointOf(const Json& json, std::size_t seeds)
+{
+    BenchPoint point;
+    json.at("samples").get_to(point.samples);
+    const std::pair<const char*, std::vector<double>&> series[] = {{"seconds", point.seconds},
+                                                                   {"kernelSeconds", point.kernelSeconds},
+                                                                   {"mse", point.mse},
+                                                                   {"relMse", point.relMse},
+                                                                   {"trimmedRelMse", point.trimmedRelMse}};
+    for (const auto& [name, values] : series) {
+        json.at(name).get_to(values);
+        if (values.size() != seeds) {
+            throw InputError(std::string("its ") + name + " after " + std::to_string(point.samples) + " samples are " +
+                             std::to_string(values.size()) + " numbers, expected " + std::to_string(seeds) + ", one for each seed");
+        }
+    }
+    return point;
+}
+
+SceneBench benchOf(const Json& json)
+{
+    SceneBench bench;
+    json.at("scene").get_to(bench.scene);
+    json.at("picture").get_to(bench.picture);
+    json.at("settings").get_to(bench.settings);
+    json.at("device").get_to(bench.device);
+    json.at("version").get_to(bench.version);
+    bench.width = json.at("size").at(0).get<std::uint32_t>();
+    bench.height = json.at("size").at(1).get<std::uint32_t>();
+    const Json &start = json.at("startUpSeconds"), &reference = json.at("reference"), &bias = json.at("bias");
+    bench.startUp = {start.at("load").get<double>(), start.at("build").get<double>(), start.at("upload").get<double>(),
+                     start.at("compile").get<double>()};
+    reference.at("file").get_to(bench.reference);
+    bench.floor = {reference.at("mse").get<double>(), reference.at("relMse").get<double>(),
+                   reference.at("relMseError").get<double>(), reference.at("known").get<bool>()};
+    json.at("seeds").get_to(bench.seeds);
+    for (const Json& point : json.at("points")) {
+        bench.points.push_back(pointOf(point, bench.seeds.size()));
+    }
+    bench.bias = {bias.at("squared").get<double>(), bias.at("error").get<double>()};
+    if (bench.seeds.size() < 2 || bench.points.empty()) {
+        throw InputError("it has " + std::to_string(bench.seeds.size()) + " seeds and " + std::to_string(bench.points.size()) +
+                         " points, expected at least two and one");
+    }
+    return bench;
+}
+
+// As RFC 4180 asks of a field.
+std::string quoted(const std::string& text)
+{
+    std::string field(1, '"');
+    for (const char c : text) {
+        field.append(c == '"' ? 2 : 1, c);
+    }
+    field.push_back('"');
+    return field;
+}
+
+}  // namespace
+
+std::string benchJson(const std::vector<SceneBench>& benches)
+{
+    Json scenes = Json::array();
+    for (const SceneBench& bench : benches) {
+        scenes.push_back(jsonOf(bench));
+    }
+    return Json({{"glim:bench", kFormat}, {"scenes", scenes}}).dump(1) + "\n";
+}
+
+std::string benchCsv(const std::vector<SceneBench>& benches)
+{
+    std::string text = "scene,width,height,settings,seed,samples,seconds,kernel_seconds,mse,relmse,trimmed_relmse,"
+                       "reference_mse,reference_relmse\n";
+    for (const SceneBench& bench : benches) {
+        const std::string start = quoted(bench.scene) + "," + std::to_string(bench.width) + "," + std::to_string(bench.height) +
+                                  "," + quoted(bench.settings) + ",";
+        for (const BenchPoint& point : bench.points) {
+            for (std::size_t i = 0; i < bench.seeds.size(); ++i) {
+                text += start + std::to_string(bench.seeds[i]) + "," + std::to_string(point.samples);
+                for (const double value : {point.seconds[i], point.kernelSeconds[i], point.mse[i], point.relMse[i],
+                                           point.trimmedRelMse[i], bench.floor.mse, bench.floor.relMse}) {
+                    text.append(1, ',').append(exactText(value));
+                }
+                text.push_back('\n');
+            }
+        }
+    }
+    return text;
+}
+
+std::vector<SceneBench> readBenches(const std::filesystem::path& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) {
+        throw InputError(file.string() + ": cannot be read, expected a JSON file of `glim bench`.");
+    }
+    try {
+        const Json json = Json::parse(stream);
+        if (json.at("glim:bench").get<int>() != kFormat) {
+            throw InputError("it has format " + json.at("glim:bench").dump() + ", expected " + std::to_string(kFormat));
+        }
+        std::vector<SceneBench> benches;
+        for (const Json& scene : json.at("scenes")) {
+            benches.push_back(benchOf(scene));
+        }
+        return benches;
+    } catch (const InputError& error) {
+        throw InputError(file.string() + ": is no bench of this glim: " + error.what() + ".");
+    } catch (const Json::exception&) {
+        throw InputError(file.string() + ": is no JSON file that `glim bench` wrote.");
+    }
+}
+
+}  // namespace glim

@@ -1,0 +1,268 @@
+#include "host/cli/bench.hpp"
+
+#include "host/bench/bench_file.hpp"
+#include "host/bench/bench_reference.hpp"
+#include "host/bench/measure_error.hpp"
+#include "host/bench/run_bench.hpp"
+#include "host/cli/bench_options.hpp"
+#include "host/cli/bench_report.hpp"
+#include "host/cli/check_target.hpp"
+#include "host/cli/interrupt.hpp"
+#include "host/cli/parse.hpp"
+#include "host/cli/progress.hpp"
+#include "host/cli/version.hpp"
+#include "host/error.hpp"
+#include "host/exact_text.hpp"
+#include "host/flatten/view_options.hpp"
+#include "host/image/whole_file.hpp"
+#include "host/render/check_memory.hpp"
+#include "host/render/film_file.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <iostream>
+#include <memory>
+#include <numeric>
+
+namespace glim {
+namespace {
+
+// The work on one scene, as far as anyone who waits wants to know.
+class BenchProgress {
+public:
+    BenchProgress(ProgressStyle style, const InterruptWatch& watch, std::uint64_t pixels)
+        : printer_(style, std::nullopt, pixels), watch_(watch), pixels_(pixels)
+    {
+    }
+    ~BenchProgress() { printer_.finish(); }
+
+    // Samples per pixel of all that is to be rendered.
+    void plan(std::uint64_t samples) { total_ = samples; }
+    void finishPart(std::uint64_t samples) { done_ += samples; }
+    // Of the part under way. False once the user wants it to end.
+    bool show(std::uint64_t samples)
+    {
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+        if (total_ > 0) {
+            printer_.print({pixels_ * (done_ + samples), pixels_ * total_, seconds});
+        }
+        return watch_.signal() == 0;
+    }
+
+private:
+    ProgressPrinter printer_;
+    const InterruptWatch& watch_;
+    std::uint64_t pixels_, done_ = 0, total_ = 0;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+Camera cameraOf(const Scene& scene, const BenchOptions& options)
+{
+    const Camera& camera = findCamera(scene, options.camera);
+    return options.pose ? placeCamera(camera, *options.pose, scene.origin) : camera;
+}
+
+glm::uvec2 sizeOf(const BenchOptions& options, const Camera& camera)
+{
+    const glm::uvec2 natural = naturalSize(camera);
+    const std::uint32_t width = (natural.x * kBenchHeight + natural.y / 2) / natural.y;
+    return options.size.value_or(glm::uvec2(std::max(1U, width), kBenchHeight));
+}
+
+std::string pictureText(const BenchOptions& options)
+{
+    std::string text = "camera=" + options.camera.value_or("0") + describeView(options.pose, options.lens);
+    if (options.sceneIndex) {
+        text += " scene=" + std::to_string(*options.sceneIndex);
+    }
+    if (options.environment) {
+        const glm::vec3& e = *options.environment;
+        text += " environment=" + exactText(e.r) + "," + exactText(e.g) + "," + exactText(e.b);
+    }
+    return text;
+}
+
+// Refuses a baseline without the picture of `bench`.
+const SceneBench& findBaseline(const std::vector<SceneBench>& baselines, const std::string& file, const SceneBench& bench)
+{
+    const auto describe = [](const SceneBench& b) {
+        return std::filesystem::path(b.scene).filename().string() + " at " + std::to_string(b.width) + "x" +
+               std::to_string(b.height) + " with " + b.picture;
+    };
+    std::string list;
+    for (const SceneBench& baseline : baselines) {
+        if (describe(baseline) == describe(bench)) {
+            return baseline;
+        }
+        list += (list.empty() ? "" : "; ") + describe(baseline);
+    }
+    throw InputError(file + ": has " + list + "; expected " + describe(bench) + ".");
+}
+
+// A power of two; the sampler counts light samples in 32 bits (settle_options.cpp).
+std::uint32_t mostSamples(std::uint32_t lightSamples)
+{
+    return std::bit_floor(static_cast<std::uint32_t>(std::min<std::uint64_t>(kMaxSample, (std::uint64_t{1} << 32) / lightSamples)));
+}
+
+// What is known of a scene before anything is rendered.
+struct BenchJob {
+    PreparedScene prepared;
+    RenderSettings settings;
+    FlatCamera camera;
+    SceneBench bench;
+};
+
+SceneBench describeBench(const BenchOptions& options, const std::filesystem::path& scene, const RenderSettings& settings,
+                         const DeviceDescription& device)
+{
+    SceneBench bench;
+    bench.scene = scene.string();
+    bench.picture = pictureText(options);
+    bench.settings = describeSettings(settings);
+    bench.device = device.name + ", " + device.driver;
+    bench.version = versionText();
+    bench.width = settings.width;
+    bench.height = settings.height;
+    bench.seeds.resize(options.seeds);
+    std::iota(bench.seeds.begin(), bench.seeds.end(), settings.seed);
+    return bench;
+}
+
+BenchJob prepareJob(const BenchOptions& options, const std::filesystem::path& scene, const DeviceDescription& device)
+{
+    BenchJob job{prepareScene(scene, loadOptionsOf(options), options.split), options.settings, {}, {}};
+    warnOfDarkness(job.prepared);
+    const Camera camera = cameraOf(job.prepared.scene, options);
+    const glm::uvec2 size = sizeOf(options, camera);
+    job.settings.width = size.x;
+    job.settings.height = size.y;
+    job.settings.sampleEnd = mostSamples(job.settings.lightSamples);
+    refuseWhatDoesNotFit(job.prepared, job.settings, device);
+    job.camera = flattenCamera(camera, static_cast<float>(size.x) / static_cast<float>(size.y), options.lens);
+    job.bench = describeBench(options, scene, job.settings, device);
+    return job;
+}
+
+// Renders what the bench measures against. False if the user ended it.
+bool makeReference(Device& device, const BenchJob& job, const RenderSettings& settings, BenchProgress& progress)
+{
+    Renderer renderer(device, job.prepared.flat, job.camera, settings);
+    const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
+    bool goesOn = true;
+    Film film = renderer.render([&](const RenderProgress& now) {
+        goesOn = progress.show(now.samples / pixels);
+        return goesOn;
+    });
+    if (goesOn) {
+        film.sceneFile = job.bench.scene;
+        writeFilm(job.bench.reference, film);
+        progress.finishPart(settings.sampleEnd);
+    }
+    return goesOn;
+}
+
+// All of one scene, into job.bench. False if the user ended it.
+bool measure(Device& device, const BenchOptions& options, BenchJob& job, const InterruptWatch& watch)
+{
+    SceneBench& bench = job.bench;
+    BenchProgress progress(options.progress, watch, std::uint64_t{bench.width} * bench.height);
+    const BenchObserver show = [&](std::uint64_t samples) { return progress.show(samples); };
+    Renderer renderer(device, job.prepared.flat, job.camera, job.settings);
+    bench.startUp = {job.prepared.loadSeconds, job.prepared.buildSeconds, renderer.statistics().uploadSeconds,
+                     renderer.statistics().compileSeconds};
+    // With --spp as well: what is dispatched first takes longer.
+    const auto fitting = chooseSamples(renderer, job.camera, options.samples ? 0.0 : options.seconds,
+                                       job.settings.sampleEnd / kReferenceFactor, show);
+    if (!fitting) {
+        return false;
+    }
+    const std::uint32_t samples = options.samples.value_or(*fitting);
+    const std::string identity = renderer.folded().identity.scene;
+    const RenderSettings longRender = referenceSettings(job.settings, samples);
+    bench.reference = options.reference.value_or(referenceOf(options, bench.scene)).string();
+    const bool made = options.reference || (!options.makeReference && isReference(bench.reference, identity, longRender));
+    const std::uint64_t work = std::uint64_t{samples} * bench.seeds.size();
+    progress.plan(made ? work : work + longRender.sampleEnd);
+    if (!made && !makeReference(device, job, longRender, progress)) {
+        return false;
+    }
+    const Picture reference = readReference(bench.reference, bench.width, bench.height, identity, bench.seeds);
+    bench.floor = measureFloor(reference);
+    auto rendered = renderSeeds(renderer, job.camera, bench.seeds, samples, reference, show);
+    if (rendered) {
+        bench.points = std::move(rendered->points);
+        bench.bias = rendered->bias;
+    }
+    return rendered.has_value();
+}
+
+void writeText(const std::filesystem::path& path, const std::string& text)
+{
+    WholeFile file(path);
+    file.write(text.data(), text.size());
+    file.commit();
+}
+
+void checkTargets(const BenchOptions& options)
+{
+    std::vector<std::filesystem::path> inputs = options.scenes;
+    for (const auto& input : {options.reference, options.against}) {
+        if (input) {
+            inputs.push_back(*input);
+        }
+    }
+    checkTarget(options.output, ".json", inputs);
+    checkTarget(csvOf(options), ".csv", inputs);
+    for (const std::filesystem::path& scene : options.scenes) {
+        if (!options.reference) {
+            checkTarget(referenceOf(options, scene), ".exr", inputs);
+        }
+    }
+}
+
+ExitCode runBench(const BenchOptions& options)
+{
+    checkTargets(options);
+    const std::vector<SceneBench> baselines = options.against ? readBenches(*options.against) : std::vector<SceneBench>();
+    const InterruptWatch watch;
+    const Instance instance;
+    Device device(instance, options.device);
+    std::vector<SceneBench> benches;
+    for (const std::filesystem::path& scene : options.scenes) {
+        BenchJob job = prepareJob(options, scene, device.description());
+        const SceneBench* baseline =
+            options.against ? &findBaseline(baselines, options.against->string(), job.bench) : nullptr;
+        if (watch.signal() != 0 || !measure(device, options, job, watch)) {
+            return finish(watch.signal(), "no figures are written");
+        }
+        printBench(job.bench);
+        if (baseline != nullptr) {
+            printComparison(compareBenches(job.bench, *baseline), options.against->string());
+        }
+        std::cout << std::flush;
+        benches.push_back(std::move(job.bench));
+        writeText(options.output, benchJson(benches));
+        writeText(csvOf(options), benchCsv(benches));
+    }
+    return ExitCode::Done;
+}
+
+}  // namespace
+
+void addBench(CLI::App& app, ExitCode& exitCode)
+{
+    auto options = std::make_shared<BenchOptions>();
+    CLI::App* command = app.add_subcommand("bench", "Measure how fast the error of a picture falls, or against an earlier measurement");
+    addBenchOptions(*command, *options);
+    command->footer("Each of K seeds is rendered, and compared with the reference after 1, 2, 4 ... samples per pixel. The reference's own\n"
+                    "noise is taken off; intervals are 95 %, from seeds drawn with replacement. The slope test fails if the seeds' errors\n"
+                    "have something in common (a bias) or fall slower than 1/n (samples that repeat). tools/plot_bench.py draws OUT.json.\n"
+                    "Times of two benches were taken one after the other: what slowed the machine in between is in no interval.\n"
+                    "Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 129, 130 or 143 stopped by SIGHUP, SIGINT or SIGTERM.");
+    command->callback([options, &exitCode] { exitCode = runBench(*options); });
+}
+
+}  // namespace glim

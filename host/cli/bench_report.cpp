@@ -1,0 +1,103 @@
+#include "host/cli/bench_report.hpp"
+
+#include "host/bench/summarize_bench.hpp"
+#include "host/render/settings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+namespace glim {
+namespace {
+
+std::string format(const char* pattern, auto... values)
+{
+    char text[256];
+    std::snprintf(text, sizeof text, pattern, values...);
+    return text;
+}
+
+std::string intervalText(const Interval& interval)
+{
+    if (!std::isfinite(interval.low) || !std::isfinite(interval.high)) {
+        return format("%.3g [unknown]", interval.value);
+    }
+    return format("%.3g [%.3g, %.3g]", interval.value, interval.low, interval.high);
+}
+
+void printPoints(const SceneBench& bench, const BenchSummary& summary)
+{
+    std::cout << "   samples    seconds  on device  relMSE [95 %]                  trimmed    RMSE\n";
+    for (const PointSummary& point : summary.points) {
+        std::cout << format("%10u %10.4g %10.4g  %-30s %-9.3g  %-9.3g", point.samples, point.seconds, point.kernelSeconds,
+                            intervalText(point.relMse).c_str(), point.trimmedRelMse, std::sqrt(std::max(0.0, point.mse.value)))
+                  << (point.floorLimited ? "  limited by the reference's noise" : "") << '\n';
+    }
+    std::cout << "reference " << bench.reference << ": "
+              << (bench.floor.known ? format("its noise, relMSE %.3g, is taken off", bench.floor.relMse)
+                                    : std::string("its noise is unknown, nothing is taken off"))
+              << '\n';
+}
+
+// Sobol' points gain within blocks of 32 and not between them, which no single power fits.
+std::string fitText(const SceneBench& bench, const BenchSummary& summary)
+{
+    if (findSetting(bench.settings, "sampler") != "independent") {
+        return "";
+    }
+    return "relMSE = A n^-p + B with p " + intervalText(summary.fit.power) + ", B " + intervalText(summary.fit.rest) + "; ";
+}
+
+void printSlopeTest(const SceneBench& bench, const BenchSummary& summary)
+{
+    const SlopeTest& test = summary.slopeTest;
+    std::cout << fitText(bench, summary)
+              << format("slope test: slope %.3g (at most %.3g), bias^2 %.3g (at most %.3g)\n", test.slope, -1.0 + test.slopeReach,
+                        test.bias, test.biasReach);
+    if (!test.biasHolds()) {
+        std::cout << "SLOPE TEST FAILS: the renders have an error in common, so this is biased against that reference\n";
+    } else if (!test.slopeHolds()) {
+        std::cout << "SLOPE TEST FAILS: the error falls too slowly, so samples repeat or depend on each other\n";
+    }
+}
+
+std::string efficiencyText(const BenchSummary& summary)
+{
+    if (!summary.slopeTest.holds()) {
+        return "no efficiency since the slope test fails";
+    }
+    return "efficiency 1/(relMSE s) " + intervalText(summary.efficiency);
+}
+
+std::string verdict(const Interval& ratio)
+{
+    return intervalText(ratio) + (excludesOne(ratio) ? ", excludes 1\n" : ", does not exclude 1\n");
+}
+
+}  // namespace
+
+void printBench(const SceneBench& bench)
+{
+    const BenchSummary summary = summarizeBench(bench);
+    printPoints(bench, summary);
+    printSlopeTest(bench, summary);
+    const PointSummary& last = summary.points.back();
+    const StartUp& start = bench.startUp;
+    std::cout << bench.scene << format(": %ux%u, relMSE ", bench.width, bench.height) << intervalText(last.relMse)
+              << format(" after %.3g s (%u samples per pixel, %zu seeds), slope ", last.seconds, last.samples, bench.seeds.size())
+              << intervalText(summary.slope) << ", " << efficiencyText(summary)
+              << format(", %.3g Msamples/s after %.2f s to start, on ", 1e-6 * summary.samplesPerSecond,
+                        start.load + start.build + start.upload + start.compile)
+              << bench.device << '\n';
+}
+
+void printComparison(const BenchComparison& comparison, const std::string& baseline)
+{
+    std::cout << "against " << baseline << format(" after %u samples, seeds ", comparison.samples)
+              << (comparison.paired ? "paired" : "not paired") << ":\n  relMSE x            " << verdict(comparison.error)
+              << "  samples a second x  " << verdict(comparison.samplesPerSecond) << "  efficiency x        "
+              << verdict(comparison.efficiency) << "  time to its error x " << verdict(comparison.timeToError);
+}
+
+}  // namespace glim

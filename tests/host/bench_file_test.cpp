@@ -1,0 +1,76 @@
+// Benches survive being written and read, and what is no bench is refused.
+#include "host/bench/bench_file.hpp"
+
+#include "host/error.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/support/simulated_bench.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace glim {
+namespace {
+
+using test::bytesOfFile;
+using test::expectRefusal;
+using test::writeText;
+
+SceneBench someBench()
+{
+    SceneBench bench = test::simulateBench(test::Flaw::None, 3);
+    bench.picture = "camera=0";
+    bench.device = "llvmpipe";
+    bench.version = "glim 1";
+    bench.reference = "noise.exr";
+    bench.startUp = {0.1, 0.2, 0.3, 0.4};
+    return bench;
+}
+
+TEST(BenchFile, WhatIsReadIsWhatWasWritten)
+{
+    const test::ScratchFolder folder;
+    const std::string text = benchJson({someBench(), test::simulateBench(test::Flaw::Bias, 4)});
+    writeText(folder / "bench.json", text);
+    const std::vector<SceneBench> benches = readBenches(folder / "bench.json");
+    EXPECT_EQ(benchJson(benches), text);
+    ASSERT_EQ(benches.size(), 2U);
+    EXPECT_EQ(benches[0].scene, "scenes/\"noise\".gltf");
+    EXPECT_EQ(benches[0].points[6].relMse, someBench().points[6].relMse);
+    EXPECT_EQ(benches[0].startUp.compile, 0.4);
+    EXPECT_EQ(benches[0].bias.squared, someBench().bias.squared);
+}
+
+TEST(BenchFile, CsvHasALineForEveryRenderOfEveryPoint)
+{
+    const std::string text = benchCsv({someBench()});
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1 + 16 * 7);
+    EXPECT_EQ(text.rfind("scene,width,height,settings,seed,samples,seconds,", 0), 0U);
+    const std::size_t second = text.find('\n') + 1;
+    const std::string line = text.substr(second, text.find('\n', second) - second);
+    EXPECT_EQ(line.rfind("\"scenes/\"\"noise\"\".gltf\",16,16,\"seed=0 bounces=64\",0,1,", 0), 0U) << line;
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 12) << line;
+}
+
+TEST(BenchFile, WhatIsNoBenchIsRefused)
+{
+    const test::ScratchFolder folder;
+    const auto file = folder / "x.json";
+    const auto refuse = [&](const std::string& text, const std::string& part) {
+        writeText(file, text);
+        expectRefusal<InputError>([&] { readBenches(file); }, part);
+    };
+    expectRefusal<InputError>([&] { readBenches(folder / "none.json"); }, "none.json: cannot be read");
+    refuse("{", "x.json: is no JSON file that `glim bench` wrote");
+    refuse("{\"scenes\": []}", "is no JSON file that `glim bench` wrote");
+    refuse("{\"glim:bench\": 7, \"scenes\": []}", "it has format 7, expected 1");
+    auto json = nlohmann::json::parse(benchJson({someBench()}));
+    json["scenes"][0]["points"][2]["mse"].erase(0);
+    refuse(json.dump(), "its mse after 4 samples are 15 numbers, expected 16, one for each seed");
+    json["scenes"][0]["points"] = nlohmann::json::array();
+    refuse(json.dump(), "16 seeds and 0 points");
+}
+
+}  // namespace
+}  // namespace glim

@@ -1,0 +1,127 @@
+// What `glim bench` measures on a device: rendered points are those of plain renders, and the slope test tells right from wrong.
+#include "host/bench/bench_reference.hpp"
+#include "host/bench/measure_error.hpp"
+#include "host/bench/run_bench.hpp"
+#include "host/bench/summarize_bench.hpp"
+#include "host/flatten/flatten_scene.hpp"
+#include "host/scene/load_gltf.hpp"
+#include "tests/support/render_scene.hpp"
+#include "tests/support/test_device.hpp"
+#include "places.h"
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <numeric>
+
+namespace glim {
+namespace {
+
+constexpr std::uint32_t kSide = 12, kSamples = 64, kSeeds = 16;
+
+bool goOn(std::uint64_t) { return true; }
+
+class BenchTest : public testing::Test {
+protected:
+    static void SetUpTestSuite()
+    {
+        scene = std::make_unique<Scene>(loadGltf(GLIM_SOURCE_DIR "/scenes/cornell_spheres.gltf"));
+        flat = std::make_unique<FlatScene>(flattened(*scene));
+        reference = std::make_unique<Picture>(
+            pictureOf(renderFlat(*flat, scene->cameras.front(), referenceSettings(squareSettings(kSide, kSamples), kSamples))));
+    }
+    static void TearDownTestSuite()
+    {
+        scene.reset();
+        flat.reset();
+        reference.reset();
+    }
+
+    static FlatCamera camera() { return flattenCamera(scene->cameras.front(), 1.0F); }
+
+    static SceneBench measure(const RenderSettings& settings)
+    {
+        Renderer renderer(testDevice(), *flat, camera(), settings);
+        SceneBench bench;
+        bench.width = bench.height = kSide;
+        bench.floor = measureFloor(*reference);
+        bench.seeds.resize(kSeeds);
+        std::iota(bench.seeds.begin(), bench.seeds.end(), 1U);
+        auto rendered = renderSeeds(renderer, camera(), bench.seeds, kSamples, *reference, goOn);
+        bench.points = std::move(rendered->points);
+        bench.bias = rendered->bias;
+        return bench;
+    }
+
+    static BenchSummary summarize(const std::string& what, const RenderSettings& settings)
+    {
+        const BenchSummary summary = summarizeBench(measure(settings));
+        std::cout << "  " << what << ": slope " << summary.slope.value << " [" << summary.slope.low << ", " << summary.slope.high
+                  << "], limit " << -1.0 + summary.slopeTest.slopeReach << "; bias^2 " << summary.slopeTest.bias << ", limit "
+                  << summary.slopeTest.biasReach << '\n';
+        return summary;
+    }
+
+    static std::unique_ptr<Scene> scene;
+    static std::unique_ptr<FlatScene> flat;
+    static std::unique_ptr<Picture> reference;
+};
+
+std::unique_ptr<Scene> BenchTest::scene;
+std::unique_ptr<FlatScene> BenchTest::flat;
+std::unique_ptr<Picture> BenchTest::reference;
+
+TEST_F(BenchTest, PointsAreThoseOfPlainRenders)
+{
+    RenderSettings settings = squareSettings(kSide, kSamples);
+    Renderer renderer(testDevice(), *flat, camera(), settings);
+    const auto rendered = renderSeeds(renderer, camera(), {7, 3, 7}, kSamples, *reference, goOn);
+    ASSERT_EQ(rendered->points.size(), 7U);
+    for (const auto& [place, spp] : {std::pair{2U, 4U}, {5U, 32U}, {6U, 64U}}) {
+        const BenchPoint& point = rendered->points[place];
+        EXPECT_EQ(point.samples, spp);
+        settings.seed = 3;
+        settings.sampleEnd = spp;
+        const PictureError plain = measureError(pictureOf(renderScene(*scene, settings)), *reference);
+        EXPECT_EQ(point.relMse[1], plain.relMse);
+        EXPECT_EQ(point.mse[1], plain.mse);
+        EXPECT_EQ(point.relMse[0], point.relMse[2]);
+        EXPECT_NE(point.relMse[0], point.relMse[1]);
+    }
+    for (std::size_t i = 1; i < rendered->points.size(); ++i) {
+        EXPECT_GT(rendered->points[i].seconds[0], rendered->points[i - 1].seconds[0]);
+    }
+}
+
+TEST_F(BenchTest, SlopeTestHoldsForBothSamplers)
+{
+    RenderSettings settings = squareSettings(kSide, kSamples);
+    const BenchSummary sobol = summarize("sobol", settings);
+    settings.sampler = Sampler::Independent;
+    const BenchSummary independent = summarize("independent", settings);
+    EXPECT_TRUE(sobol.slopeTest.holds());
+    EXPECT_TRUE(independent.slopeTest.holds());
+    EXPECT_GT(independent.slopeTest.slope, -1.0 - independent.slopeTest.slopeReach);
+    EXPECT_FALSE(sobol.points.back().floorLimited);
+}
+
+TEST_F(BenchTest, SlopeTestFailsForBias)
+{
+    RenderSettings settings = squareSettings(kSide, kSamples);
+    settings.bounces = 1;
+    const BenchSummary dark = summarize("one bounce", settings);
+    EXPECT_FALSE(dark.slopeTest.biasHolds());
+    EXPECT_FALSE(dark.slopeTest.slopeHolds());
+}
+
+TEST_F(BenchTest, ChoosesAPowerOfTwoThatTakesAboutAsLong)
+{
+    RenderSettings settings = squareSettings(kSide, 1U << 20);
+    Renderer renderer(testDevice(), *flat, camera(), settings);
+    EXPECT_EQ(chooseSamples(renderer, camera(), 1e-3, 1U << 20, goOn), kLeastBenchSamples);
+    EXPECT_EQ(chooseSamples(renderer, camera(), 1e6, 128, goOn), 128U);
+    EXPECT_FALSE(chooseSamples(renderer, camera(), 1.0, 128, [](std::uint64_t) { return false; }));
+}
+
+}  // namespace
+}  // namespace glim

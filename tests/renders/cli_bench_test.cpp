@@ -1,0 +1,123 @@
+// `glim bench` as a user runs it: files, the reference that is used again, baselines, and what is refused.
+#include "host/bench/bench_file.hpp"
+#include "host/bench/summarize_bench.hpp"
+#include "tests/support/run_glim.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+namespace glim::test {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+GlimRun bench(const Arguments& more)
+{
+    Arguments arguments{"bench", sceneFile("cornell_spheres.gltf"), "--size", "8x8"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runGlim(arguments);
+}
+
+void expectSentence(const GlimRun& run, int exitCode, const std::string& part)
+{
+    EXPECT_EQ(run.exitCode, exitCode) << run.err;
+    EXPECT_TRUE(contains(run.err, part)) << run.err << "lacks: " << part;
+    EXPECT_EQ(countLines(run.err), exitCode == 2 ? 2U : 1U) << run.err;
+    EXPECT_EQ(run.out, "");
+}
+
+TEST(BenchCommandTest, MeasuresWritesAndComparesWithAnEarlierBench)
+{
+    const ScratchFolder folder;
+    const std::string first = (folder / "a.json").string(), second = (folder / "b.json").string();
+    const std::string reference = (folder / "a.cornell_spheres.exr").string();
+    GlimRun run = bench({"--spp", "64", "-o", first});
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    EXPECT_EQ(countLines(run.out), 11U) << run.out;
+    for (const char* part : {"cornell_spheres.gltf: 8x8, relMSE ", "(64 samples per pixel, 16 seeds), slope -", "efficiency ", " s to start, on "}) {
+        EXPECT_TRUE(contains(run.out, part)) << run.out << "lacks: " << part;
+    }
+    const std::vector<SceneBench> benches = readBenches(first);
+    ASSERT_EQ(benches.size(), 1U);
+    EXPECT_EQ(benches[0].points.size(), 7U);
+    EXPECT_EQ(benches[0].seeds.size(), 16U);
+    EXPECT_TRUE(benches[0].floor.known);
+    EXPECT_GT(benches[0].startUp.compile, 0.0);
+    EXPECT_GT(benches[0].points.back().kernelSeconds[0], 0.0);
+    EXPECT_GT(benches[0].points.back().seconds[0], benches[0].points.back().kernelSeconds[0]);
+    EXPECT_EQ(bytesOfFile(folder / "a.csv"), benchCsv(benches));
+
+    const std::string bytes = bytesOfFile(reference);
+    run = bench({"--spp", "64", "-o", second, "--direct", "hemisphere", "--reference", reference, "--against", first});
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_EQ(bytesOfFile(reference), bytes);
+    EXPECT_FALSE(std::filesystem::exists(folder / "b.cornell_spheres.exr"));
+    EXPECT_TRUE(contains(run.out, "after 64 samples, seeds paired")) << run.out;
+    const std::size_t place = run.out.find("  efficiency x ");
+    ASSERT_NE(place, std::string::npos);
+    const std::string line = run.out.substr(place, run.out.find('\n', place) - place);
+    EXPECT_TRUE(contains(line, ", excludes 1")) << line;  // hemisphere sampling of a small light is many times worse
+
+    // What is there is used again, and two runs differ in nothing but times.
+    run = bench({"--spp", "64", "-o", first});
+    EXPECT_EQ(bytesOfFile(reference), bytes);
+    EXPECT_EQ(readBenches(first)[0].points.back().relMse, benches[0].points.back().relMse);
+
+    expectSentence(runGlim({"bench", sceneFile("cornell.gltf"), "--size", "8x8", "-o", second, "--against", first}), 1,
+                   "a.json: has cornell_spheres.gltf at 8x8 with camera=0; expected cornell.gltf at 8x8 with camera=0.");
+    expectSentence(runGlim({"bench", sceneFile("cornell_spheres.gltf"), "--size", "8x9", "-o", second, "--against", first}), 1,
+                   "expected cornell_spheres.gltf at 8x9 with camera=0.");
+    expectSentence(runGlim({"bench", sceneFile("cornell_spheres.gltf"), "--size", "8x9", "-o", second, "--reference", reference}), 1,
+                   "is a picture of 8x8, expected 8x9 as of the bench");
+    expectSentence(runGlim({"bench", sceneFile("cornell.gltf"), "--size", "8x8", "-o", second, "--reference", reference}), 1,
+                   "is a picture of another scene or camera (");
+    expectSentence(bench({"-o", second, "--reference", reference, "--seed", "2147483640"}), 1,
+                   "was made from seed 2147483648, which is one of the bench's");
+}
+
+TEST(BenchCommandTest, RefusesBeforeAnyWork)
+{
+    const ScratchFolder folder;
+    const std::string output = (folder / "x.json").string();
+    const auto with = [&](Arguments more) {
+        more.insert(more.begin(), {"bench", "no-such-scene.gltf", "-o", output});
+        return runGlim(more);
+    };
+    expectSentence(runGlim({"bench"}), 2, "SCENE is required");
+    expectSentence(with({"--seeds", "15"}), 2, "--seeds: \"15\": expected a whole number from 16 to 1024");
+    expectSentence(with({"--spp", "63"}), 2, "--spp: \"63\": expected a whole number from 64 to ");
+    expectSentence(with({"--spp", "96"}), 2, "--spp: \"96\": expected a power of two, as in 256");
+    expectSentence(with({"--seconds", "0"}), 2, "--seconds: \"0\": expected a number from 0.001");
+    expectSentence(with({"--seconds", "1", "--spp", "64"}), 2, "--seconds excludes --spp");
+    expectSentence(with({"--reference", "r.exr", "--make-reference"}), 2, "--reference excludes --make-reference");
+    expectSentence(with({"other.gltf", "--reference", "r.exr"}), 2, "--reference: \"r.exr\": expected one SCENE with it, not 2");
+    expectSentence(with({"folder/no-such-scene.glb"}), 2, "SCENE: \"folder/no-such-scene.glb\": expected scenes of different names");
+    expectSentence(with({"--light-samples", "4"}), 2, "--light-samples: \"4\": expected --direct lights");
+    expectSentence(with({"--against", (folder / "none.json").string()}), 1, "none.json: cannot be read");
+    expectSentence(with({"--against", output}), 1, "x.json: cannot be");
+    expectSentence(runGlim({"bench", "x.gltf", "-o", (folder / "x.txt").string()}), 1, "does not end in .json");
+    expectSentence(with({}), 1, "no-such-scene.gltf: ");
+    EXPECT_EQ(folder.entries(), 0);
+}
+
+TEST(BenchCommandTest, AnInterruptWritesNoFigures)
+{
+    const ScratchFolder folder;
+    GlimCall call;
+    call.arguments = {"bench", sceneFile("cornell_spheres.gltf"), "--size", "64x64", "--spp", "4096", "-o",
+                      (folder / "x.json").string(), "--progress", "json"};
+    call.signalWhen = hasLine;
+    call.signal = SIGINT;
+    const GlimRun run = runGlim(call);
+    EXPECT_EQ(run.exitCode, 130);
+    EXPECT_TRUE(contains(run.err, "glim: stopped by SIGINT; no figures are written.")) << run.err;
+    EXPECT_EQ(folder.entries(), 0);
+}
+
+}  // namespace
+}  // namespace glim::test
