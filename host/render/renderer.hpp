@@ -52,6 +52,8 @@ public:
     PixelMoments moments(std::uint32_t pixel);  // of film(), faster
     // What one ray meets; no part of the picture.
     PathHit traceRay(const PathRay& ray) { return wavefront_->traceRay(*slabs_.front(), ray); }
+    // A sample of a pixel once more, and in no film.
+    PathRadiance traceSample(std::uint32_t pixel, std::uint32_t sample) { return wavefront_->traceSample(pixel, sample); }
     // Another picture of the scene. The camera has a lens if and only if the first one had.
     void restart(const FlatCamera& camera, std::uint32_t width, std::uint32_t height);
 
@@ -83,7 +85,6 @@ private:
     std::uint64_t choosePixels();
     void foldPages(Film& film, const std::vector<std::unique_ptr<Slab>>& slabs);
     bool isOver(const RenderObserver& observer);
-    void refuseBrokenStatus() const;
     void readCounters();
 
     Device& device_;
