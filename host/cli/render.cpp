@@ -4,6 +4,7 @@
 #include "host/cli/interrupt.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/render_report.hpp"
+#include "host/cli/replay.hpp"
 #include "host/flatten/view_options.hpp"
 #include "host/render/check_memory.hpp"
 #include "host/render/film_file.hpp"
@@ -33,15 +34,6 @@ void checkTargets(const RenderOptions& options)
     if (options.stats) {
         checkTarget(*options.stats, ".json", {options.scene});
     }
-}
-
-RenderSettings settingsFor(const RenderOptions& options, const Camera& camera)
-{
-    RenderSettings settings = options.settings;
-    const glm::uvec2 size = options.size.value_or(naturalSize(camera));
-    settings.width = size.x;
-    settings.height = size.y;
-    return settings;
 }
 
 const char* nameOf(int signal)
@@ -97,12 +89,6 @@ double writePictures(const RenderOptions& options, const Film& film)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-Camera cameraOf(const Scene& scene, const RenderOptions& options)
-{
-    const Camera& camera = findCamera(scene, options.camera);
-    return options.pose ? placeCamera(camera, *options.pose, scene.origin) : camera;
-}
-
 ExitCode runRender(const RenderOptions& options)
 {
     checkTargets(options);
@@ -138,7 +124,8 @@ ExitCode runRender(const RenderOptions& options)
     film.identity.settings += describeView(options.pose, options.lens);  // so that it can be made again from what is in its file
     const double writeSeconds = writePictures(options, film);
     const RenderReport report{options, prepared, film, renderer.statistics(), device.description(),
-                              stopReason(watch.signal(), film, settings), writeSeconds};
+                              stopReason(watch.signal(), film, settings), writeSeconds,
+                              findSuspects(renderer, film)};
     if (options.stats) {
         writeStatistics(*options.stats, report);
     }
@@ -157,7 +144,13 @@ void addRender(CLI::App& app, ExitCode& exitCode)
                     "count.X (samples); from 33 samples on variance, of the mean, surest at multiples of 32; squares, blocks and\n"
                     "clamped for merging. The same scene, seed and options give the same pixels. Ctrl-C writes what is finished.\n"
                     "Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 129, 130 or 143 stopped by SIGHUP, SIGINT or SIGTERM.");
-    command->callback([options, &exitCode] { exitCode = runRender(*options); });
+    command->callback([options, &exitCode] {
+        if (options->replay) {
+            runReplay(*options);
+        } else {
+            exitCode = runRender(*options);
+        }
+    });
 }
 
 }  // namespace glim

@@ -11,7 +11,7 @@ namespace {
 
 void addOutputOptions(CLI::App& command, RenderOptions& options)
 {
-    command.add_option("-o,--output", options.output, "The picture to write: scene-linear EXR with layers")
+    command.add_option("-o,--output", options.output, "The picture to write: scene-linear EXR with layers (not with --replay)")
         ->required()
         ->type_name("OUT.exr");
     CLI::Option* png = command.add_option("--png", options.png,
@@ -22,12 +22,33 @@ void addOutputOptions(CLI::App& command, RenderOptions& options)
     command
         .add_option("--rates", options.rates, "Write a PNG of the samples per pixel, from blue (fewest) to red (most)")
         ->type_name("R.png");
-    command.add_option("--stats", options.stats, "Write times, counts and estimated errors as JSON")->type_name("S.json");
+    command.add_option("--stats", options.stats, "Write times, counts and estimated errors, or what --replay prints, as JSON")->type_name("S.json");
     addChoice(command, "--progress", "STYLE", "bar, json (a line per step) or none, to stderr [bar on a terminal]",
               {"bar", "json", "none"}, [&options](std::size_t i) {
                   constexpr ProgressStyle kStyles[] = {ProgressStyle::Bar, ProgressStyle::Json, ProgressStyle::None};
                   options.progress = kStyles[i];
               });
+}
+
+void addPathOptions(CLI::App& command, RenderOptions& options)
+{
+    addNumber<std::uint32_t>(
+        command,
+        {"--suspects", "N",
+         "List the N brightest samples of the picture, of each pixel its brightest alone (8 bytes a pixel), each with the option "
+         "that replays it",
+         1, 1000, "off"},
+        [&options](std::uint32_t count) { options.settings.suspects = count; });
+    command
+        .add_option_function<std::string>(
+            "--replay",
+            [&command, &options](const std::string& text) {
+                options.replay = parseSample(text);
+                command.get_option("--output")->required(false);
+            },
+            "Instead of a picture: trace sample SAMPLE of the pixel in column X and row Y (from the upper left corner, 0,0) alone, "
+            "to the bits it has in a render with the same options, and print every vertex, pdf, weight and contribution")
+        ->type_name("X,Y,SAMPLE");
 }
 
 void addView(CLI::App& command, RenderOptions& options)
@@ -47,6 +68,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
     addOutputOptions(command, options);
     addCameraOptions(command, options);
     addView(command, options);
+    addPathOptions(command, options);
     addSampleOptions(command, options.settings, "64; 4 with a --view other than shaded", "0:64");
     addLightOptions(command, options.settings);
     addAdaptiveOptions(command, options.settings);

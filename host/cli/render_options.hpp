@@ -1,6 +1,7 @@
 // What `glim render` is told.
 #pragma once
 
+#include "host/cli/parse.hpp"
 #include "host/cli/picture_options.hpp"
 
 namespace glim {
@@ -10,6 +11,7 @@ enum class ProgressStyle { Auto, Bar, Json, None };
 struct RenderOptions : PictureOptions {
     std::filesystem::path output;
     std::optional<std::filesystem::path> png, rates, stats;
+    std::optional<SamplePlace> replay;  // instead of a picture
     ProgressStyle progress = ProgressStyle::Auto;
 };
 

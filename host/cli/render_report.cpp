@@ -1,6 +1,7 @@
 #include "host/cli/render_report.hpp"
 
 #include "host/cli/film_figures.hpp"
+#include "host/cli/suspect_report.hpp"
 #include "host/image/whole_file.hpp"
 #include "host/measure/compare_images.hpp"
 #include "host/render/film_file.hpp"
@@ -172,7 +173,8 @@ Json statisticsOf(const RenderReport& report)
             {"pixelsWithoutEstimate", pixelsWithoutError(report.film)},
             {"bvh", bvhOf(report)},
             {"adaptive", adaptiveOf(report)},
-            {"steps", stepsOf(report)}};
+            {"steps", stepsOf(report)},
+            {"suspects", suspectsOf(report)}};
 }
 
 void warnOfGaps(const Film& film)
@@ -260,6 +262,7 @@ void printSummary(const RenderReport& report)
                         1e-6 * perSecond(s.cameraAndBounceRays + s.shadowRays, s.renderSeconds))
               << savingText(report) << qualityText(report) << ", on " << report.device.name << " (" << report.device.kind
               << ")\n";
+    printSuspects(report);
 }
 
 void writeStatistics(const std::filesystem::path& path, const RenderReport& report)
