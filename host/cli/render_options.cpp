@@ -22,7 +22,9 @@ void addOutputOptions(CLI::App& command, RenderOptions& options)
     command
         .add_option("--rates", options.rates, "Write a PNG of the samples per pixel, from blue (fewest) to red (most)")
         ->type_name("R.png");
-    command.add_option("--stats", options.stats, "Write times, counts and estimated errors, or what --replay prints, as JSON")->type_name("S.json");
+    command
+        .add_option("--stats", options.stats, "Write times, counts and estimated errors, or what --replay prints, as JSON")
+        ->type_name("S.json");
     addChoice(command, "--progress", "STYLE", "bar, json (a line per step) or none, to stderr [bar on a terminal]",
               {"bar", "json", "none"}, [&options](std::size_t i) {
                   constexpr ProgressStyle kStyles[] = {ProgressStyle::Bar, ProgressStyle::Json, ProgressStyle::None};

@@ -52,7 +52,8 @@ void printSurface(const ReplayReport& report, const PathVertex& vertex)
 
 void printArrival(const PathVertex& vertex)
 {
-    std::cout << "  ray from pdf " << (vertex.before.pdf > 0.0F ? exactText(vertex.before.pdf) + " per sr" : "0, which no sampling of lights finds")
+    std::cout << "  ray from pdf "
+              << (vertex.before.pdf > 0.0F ? exactText(vertex.before.pdf) + " per sr" : "0, which no sampling of lights finds")
               << ", throughput " << textOf(vertex.before.throughput) << "\n";
     // Light that was found may count nothing, since sampling finds it as well.
     if (vertex.found.radiance != glm::vec3(0.0F) || vertex.met.foundWeight != 1.0F) {
@@ -66,7 +67,8 @@ void printTry(const ReplayReport& report, const LightTry& each)
 {
     const PathNote& note = each.note;
     std::cout << "  light sampled: "
-              << (each.hemisphere ? "a direction of the hemisphere" : describeLight(report.prepared.scene, report.prepared.flat, note.light));
+              << (each.hemisphere ? "a direction of the hemisphere"
+                                  : describeLight(report.prepared.scene, report.prepared.flat, note.light));
     if (!each.asked) {
         std::cout << ", sends nothing here\n";
         return;

@@ -1,6 +1,7 @@
 // One thread is one entry of the active queue. Asks for a shadow ray to one light that the surface may see: a round of direct
 // light. The first round also adds the light that the ray itself has found and, at bounce 0, notes what the camera saw.
-// Reads the scene, the queue, rays, hits, states. Updates radiance. Writes first hits, shadow rays, the note; appends to the shadow queue.
+// Reads the scene, the queue, rays, hits, states. Updates radiance. Writes first hits, shadow rays, the note; appends
+// to the shadow queue.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_ACTIVE_QUEUE
