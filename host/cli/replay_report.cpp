@@ -22,7 +22,12 @@ constexpr const char* kFates[] = {"goes on",
                                   "ends: roulette"};
 
 // Exact: reads back as the same bits.
-std::string textOf(const glm::vec3& v) { return "(" + exactText(v.x) + ", " + exactText(v.y) + ", " + exactText(v.z) + ")"; }
+std::string textOf(const glm::vec3& v)
+{
+    std::string text("(");
+    text.append(exactText(v.x)).append(", ").append(exactText(v.y)).append(", ").append(exactText(v.z)).append(")");
+    return text;
+}
 
 glm::dvec3 worldOf(const PreparedScene& prepared, const glm::vec3& point) { return prepared.scene.origin + glm::dvec3(point); }
 
