@@ -1,16 +1,13 @@
 // Intervals of figures that come from independent renders: from figures of renders drawn with replacement.
 #pragma once
 
+#include "host/measure/interval.hpp"
+
 #include <cstddef>
 #include <functional>
 #include <vector>
 
 namespace glim {
-
-struct Interval {
-    double value = 0.0;
-    double low = 0.0, high = 0.0;  // 95 %; NaN where there is none
-};
 
 // Indices of renders, a list for each group of them that is drawn by itself. Renders that are paired by seed are one group.
 using Draw = std::vector<std::vector<std::size_t>>;

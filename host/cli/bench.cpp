@@ -58,12 +58,6 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-Camera cameraOf(const Scene& scene, const BenchOptions& options)
-{
-    const Camera& camera = findCamera(scene, options.camera);
-    return options.pose ? placeCamera(camera, *options.pose, scene.origin) : camera;
-}
-
 glm::uvec2 sizeOf(const BenchOptions& options, const Camera& camera)
 {
     const glm::uvec2 natural = naturalSize(camera);

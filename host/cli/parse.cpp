@@ -154,6 +154,19 @@ double parsePercent(const std::string& option, const std::string& text)
     return 0.01 * percent;
 }
 
+SamplePlace parseSample(const std::string& text)
+{
+    const std::vector<std::string> parts = split(text, ',');
+    SamplePlace place{};
+    if (parts.size() != 3 || !parseNumber(parts[0], place.x) || !parseNumber(parts[1], place.y) ||
+        !parseNumber(parts[2], place.sample) || place.x >= kMaxSide || place.y >= kMaxSide || place.sample >= kMaxSample) {
+        throw CLI::ValidationError("--replay", "\"" + text + "\": expected X,Y,SAMPLE with whole numbers X and Y from 0 to " +
+                                                   std::to_string(kMaxSide - 1) + " and SAMPLE from 0 to " +
+                                                   std::to_string(kMaxSample - 1) + ", as in 12,40,7");
+    }
+    return place;
+}
+
 float parseSurvival(const std::string& text)
 {
     const std::string start = "fixed:";

@@ -20,9 +20,15 @@ namespace glim {
 // The largest sample index + 1: the sampler keeps one bit of the block number for itself.
 inline constexpr std::uint32_t kMaxSample = 1U << 31;
 
+// Sample `sample` of the pixel in column x and row y, from the upper left corner.
+struct SamplePlace {
+    std::uint32_t x, y, sample;
+};
+
 glm::uvec2 parseSize(const std::string& text);                                 // "640x480"
 std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& text);   // "0:256", begin < end
 glm::vec3 parseRadiance(const std::string& text);                              // "1,1,1", >= 0; a file is refused
+SamplePlace parseSample(const std::string& text);                                // "12,40,7"
 glm::dvec3 parsePoint(const std::string& option, const std::string& text);     // "1,2.5,-3"
 double parsePercent(const std::string& option, const std::string& text);       // "1%", of (0, 1000]; 1 for 100%
 float parseSurvival(const std::string& text);                                  // "fixed:0.7", of (0, 1]

@@ -1,6 +1,7 @@
 #include "host/cli/picture_options.hpp"
 
 #include "host/cli/parse.hpp"
+#include "host/render/prepare_scene.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -90,6 +91,21 @@ LoadOptions loadOptionsOf(const PictureOptions& options)
         load.aspectRatio = static_cast<float>(options.size->x) / static_cast<float>(options.size->y);
     }
     return load;
+}
+
+Camera cameraOf(const Scene& scene, const PictureOptions& options)
+{
+    const Camera& camera = findCamera(scene, options.camera);
+    return options.pose ? placeCamera(camera, *options.pose, scene.origin) : camera;
+}
+
+RenderSettings settingsFor(const PictureOptions& options, const Camera& camera)
+{
+    RenderSettings settings = options.settings;
+    const glm::uvec2 size = options.size.value_or(naturalSize(camera));
+    settings.width = size.x;
+    settings.height = size.y;
+    return settings;
 }
 
 }  // namespace glim

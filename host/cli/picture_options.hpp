@@ -37,5 +37,9 @@ void addCameraOptions(CLI::App& command, PictureOptions& options, const std::str
 void addDevice(CLI::App& command, PictureOptions& options);
 
 LoadOptions loadOptionsOf(const PictureOptions& options);
+// The camera of the scene that the options choose, where they place it.
+Camera cameraOf(const Scene& scene, const PictureOptions& options);
+// With the size that the options or, without one, the camera names.
+RenderSettings settingsFor(const PictureOptions& options, const Camera& camera);
 
 }  // namespace glim

@@ -4,6 +4,7 @@
 #include "host/cli/interrupt.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/render_report.hpp"
+#include "host/cli/replay.hpp"
 #include "host/flatten/view_options.hpp"
 #include "host/render/check_memory.hpp"
 #include "host/render/film_file.hpp"
@@ -32,15 +33,6 @@ void checkTargets(const RenderOptions& options)
     if (options.stats) {
         checkTarget(*options.stats, ".json", {options.scene});
     }
-}
-
-RenderSettings settingsFor(const RenderOptions& options, const Camera& camera)
-{
-    RenderSettings settings = options.settings;
-    const glm::uvec2 size = options.size.value_or(naturalSize(camera));
-    settings.width = size.x;
-    settings.height = size.y;
-    return settings;
 }
 
 // A picture with holes is better than none, but not than the one that is there.
@@ -82,12 +74,6 @@ double writePictures(const RenderOptions& options, const Film& film)
         writeFilmPng(*options.rates, film, Look::Rate, 0.0);
     }
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-Camera cameraOf(const Scene& scene, const RenderOptions& options)
-{
-    const Camera& camera = findCamera(scene, options.camera);
-    return options.pose ? placeCamera(camera, *options.pose, scene.origin) : camera;
 }
 
 struct Rendered {
@@ -143,7 +129,7 @@ ExitCode runRender(const RenderOptions& options)
     film.identity.settings += describeView(options.pose, options.lens);  // so that it can be made again from what is in its file
     const double writeSeconds = writePictures(options, film);
     const RenderReport report{options, prepared, film, renderer.statistics(), device.description(),
-                              stopReason(watch.signal(), film, settings, isGood), writeSeconds};
+                              stopReason(watch.signal(), film, settings, isGood), writeSeconds, findSuspects(renderer, film)};
     if (options.stats) {
         writeStatistics(*options.stats, report);
     }
@@ -160,9 +146,16 @@ void addRender(CLI::App& app, ExitCode& exitCode)
     addRenderOptions(*command, *options);
     command->footer("EXR layers: R, G, B, A (coverage); albedo; normal (world axes); depth.Z (nearest, along the view axis);\n"
                     "count.X (samples); from 33 samples on variance, of the mean, and error, its root, the standard error, surest at\n"
-                    "multiples of 32; squares, blocks and clamped for merging. The same scene, seed and options give the same pixels. Ctrl-C writes what is finished.\n"
+                    "multiples of 32; squares, blocks and clamped for merging. The same scene, seed and options give the same pixels.\n"
+                    "Ctrl-C writes what is finished.\n"
                     "Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 129, 130 or 143 stopped by SIGHUP, SIGINT or SIGTERM.");
-    command->callback([options, &exitCode] { exitCode = runRender(*options); });
+    command->callback([options, &exitCode] {
+        if (options->replay) {
+            runReplay(*options);
+        } else {
+            exitCode = runRender(*options);
+        }
+    });
 }
 
 }  // namespace glim

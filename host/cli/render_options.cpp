@@ -11,7 +11,7 @@ namespace {
 
 void addOutputOptions(CLI::App& command, RenderOptions& options)
 {
-    command.add_option("-o,--output", options.output, "The picture to write: scene-linear EXR with layers")
+    command.add_option("-o,--output", options.output, "The picture to write: scene-linear EXR with layers (not with --replay)")
         ->required()
         ->type_name("OUT.exr");
     CLI::Option* png = command.add_option("--png", options.png,
@@ -22,7 +22,9 @@ void addOutputOptions(CLI::App& command, RenderOptions& options)
     command
         .add_option("--rates", options.rates, "Write a PNG of the samples per pixel, from blue (fewest) to red (most)")
         ->type_name("R.png");
-    command.add_option("--stats", options.stats, "Write times, counts and estimated errors as JSON")->type_name("S.json");
+    command
+        .add_option("--stats", options.stats, "Write times, counts and estimated errors, or what --replay prints, as JSON")
+        ->type_name("S.json");
     addProgress(command, options.progress);
 }
 
@@ -38,6 +40,27 @@ void addTargets(CLI::App& command, ErrorTarget& target)
                       {"--target-relmse", "E", "The same for the estimated relMSE, mean (x - truth)^2 / (truth^2 + .01 mean^2)",
                        1e-12, 1e6, "off"},
                       [&target](double value) { target.relMse = value; });
+}
+
+void addPathOptions(CLI::App& command, RenderOptions& options)
+{
+    addNumber<std::uint32_t>(
+        command,
+        {"--suspects", "N",
+         "List the N brightest samples of the picture, of each pixel its brightest alone (8 bytes a pixel), each with the option "
+         "that replays it",
+         1, 1000, "off"},
+        [&options](std::uint32_t count) { options.settings.suspects = count; });
+    command
+        .add_option_function<std::string>(
+            "--replay",
+            [&command, &options](const std::string& text) {
+                options.replay = parseSample(text);
+                command.get_option("--output")->required(false);
+            },
+            "Instead of a picture: trace sample SAMPLE of the pixel in column X and row Y (from the upper left corner, 0,0) alone, "
+            "to the bits it has in a render with the same options, and print every vertex, pdf, weight and contribution")
+        ->type_name("X,Y,SAMPLE");
 }
 
 void addView(CLI::App& command, RenderOptions& options)
@@ -66,6 +89,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
     addOutputOptions(command, options);
     addCameraOptions(command, options);
     addView(command, options);
+    addPathOptions(command, options);
     addSampleOptions(command, options.settings, "64; 4 with a --view other than shaded", "0:64");
     addTargets(command, options.target);
     addLightOptions(command, options.settings);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/cli/error_report.hpp"
+#include "host/cli/parse.hpp"
 #include "host/cli/picture_options.hpp"
 
 namespace glim {
@@ -11,6 +12,7 @@ enum class ProgressStyle { Auto, Bar, Json, None };
 struct RenderOptions : PictureOptions {
     std::filesystem::path output;
     std::optional<std::filesystem::path> png, rates, stats;
+    std::optional<SamplePlace> replay;  // instead of a picture
     ProgressStyle progress = ProgressStyle::Auto;
     ErrorTarget target;
 };

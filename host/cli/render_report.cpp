@@ -2,6 +2,7 @@
 
 #include "host/cli/error_report.hpp"
 #include "host/cli/film_figures.hpp"
+#include "host/cli/suspect_report.hpp"
 #include "host/image/whole_file.hpp"
 #include "host/render/film_file.hpp"
 
@@ -143,7 +144,8 @@ Json statisticsOf(const RenderReport& report)
             {"pixelsWithoutEstimate", pixelsWithoutError(report.film)},
             {"bvh", bvhOf(report)},
             {"adaptive", adaptiveOf(report)},
-            {"steps", stepsOf(report)}};
+            {"steps", stepsOf(report)},
+            {"suspects", suspectsOf(report)}};
 }
 
 void warnOfGaps(const Film& film)
@@ -226,6 +228,7 @@ void printSummary(const RenderReport& report)
                         1e-6 * perSecond(s.cameraAndBounceRays + s.shadowRays, s.renderSeconds))
               << savingText(report) << qualityText(report) << ", on " << report.device.name << " (" << report.device.kind
               << ")\n";
+    printSuspects(report);
 }
 
 void writeStatistics(const std::filesystem::path& path, const RenderReport& report)

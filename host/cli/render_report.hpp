@@ -3,7 +3,7 @@
 
 #include "host/render/prepare_scene.hpp"
 #include "host/cli/render_options.hpp"
-#include "host/render/renderer.hpp"
+#include "host/render/suspects.hpp"
 
 namespace glim {
 
@@ -15,6 +15,7 @@ struct RenderReport {
     const DeviceDescription& device;
     std::string stopReason;  // "samples", "time", "tolerance", "target", or the signal's name
     double writeSeconds;
+    std::vector<Suspect> suspects;
 };
 
 void printSummary(const RenderReport& report);

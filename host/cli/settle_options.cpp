@@ -36,8 +36,7 @@ void settleView(const CLI::App& command, RenderSettings& settings)
     }
     const std::string nothing = "means nothing with --view " + command.get_option("--view")->results().front();
     refuseIfGiven(command, {"--bounces", "--direct", "--light-samples", "--paths", "--roulette", "--clamp-indirect"}, nothing);
-    refuseIfGiven(command, {"--adaptive", "--rates"}, nothing);
-    refuseIfGiven(command, {"--target-rmse", "--target-relmse"}, nothing);
+    refuseIfGiven(command, {"--adaptive", "--rates", "--suspects", "--target-rmse", "--target-relmse"}, nothing);
     if (settings.view != View::Albedo) {
         refuseIfGiven(command, {"--exposure"}, nothing);
     }
@@ -77,6 +76,32 @@ void settleTime(const CLI::App& command, RenderSettings& settings)
 {
     if (settings.seconds && settings.adaptive == Adaptive::Off && !isGiven(command, "--samples")) {
         settings.sampleEnd = mostSamples(settings);
+    }
+}
+
+// Any sample, unless the command says which ones there are.
+void settleReplay(const CLI::App& command, RenderOptions& options)
+{
+    if (!options.replay) {
+        return;
+    }
+    refuseIfGiven(command, {"--output", "--png", "--rates", "--progress", "--time", "--suspects", "--target-rmse", "--target-relmse"},
+                  "means nothing with --replay, which makes no picture");
+    if (options.settings.view != View::Shaded) {
+        refuse(command, "--view", "has no paths; expected --view shaded with --replay");
+    }
+    if (!isGiven(command, "--spp") && !isGiven(command, "--samples") && options.settings.adaptive == Adaptive::Off) {
+        options.settings.sampleBegin = options.replay->sample;
+        options.settings.sampleEnd = options.replay->sample + 1;
+    }
+}
+
+void checkReplay(const CLI::App& command, const RenderOptions& options)
+{
+    const RenderSettings& settings = options.settings;
+    if (options.replay && (options.replay->sample < settings.sampleBegin || options.replay->sample >= settings.sampleEnd)) {
+        refuse(command, "--replay", "expected one of the samples that the other options ask for, " +
+                                        std::to_string(settings.sampleBegin) + " to " + std::to_string(settings.sampleEnd - 1));
     }
 }
 
@@ -142,9 +167,11 @@ void settleLight(const CLI::App& command, PictureOptions& options)
 
 void settleRender(const CLI::App& command, RenderOptions& options)
 {
+    settleReplay(command, options);
     settleView(command, options.settings);
     settleTarget(command, options);
     settlePicture(command, options);
+    checkReplay(command, options);
     if (options.png && options.rates && options.png->lexically_normal() == options.rates->lexically_normal()) {
         refuse(command, "--rates", "expected another file than that of --png");
     }

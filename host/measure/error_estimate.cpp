@@ -33,7 +33,7 @@ Interval intervalOf(const std::vector<Part>& parts)
     }
     const double reach = std::exp(twoSidedLimit(0.05) * std::sqrt(variance) / sum);
     const double value = sum / static_cast<double>(parts.size());
-    return {value / reach, value * reach};
+    return {value, value / reach, value * reach};
 }
 
 std::size_t countOfHalf(std::vector<Part> parts)

@@ -2,16 +2,12 @@
 #pragma once
 
 #include "host/measure/compare_images.hpp"
+#include "host/measure/interval.hpp"
 
 #include <cstddef>
 #include <optional>
 
 namespace glim {
-
-// With 95 % probability.
-struct Interval {
-    double low = 0.0, high = 0.0;
-};
 
 struct ErrorEstimate {
     SquaredErrors errors;          // of this very film against the truth; biases are not among them

@@ -168,7 +168,7 @@ void Session::clickAt(const glm::dvec2& position)
         char place[200];
         std::snprintf(place, sizeof place, ", at (%.6g, %.6g, %.6g), %.6g m away", found->position.x, found->position.y,
                       found->position.z, found->distance);
-        there = found->object + ", material " + found->material + place;
+        there = textOf(found->primitive) + ", material " + found->primitive.material + place;
     }
     std::cout << "pixel (" << pixel.x << ", " << pixel.y << ") of " << size.x << "x" << size.y << ": " << there
               << describeSamples(pixel) << std::endl;

@@ -1,8 +1,5 @@
 #include "host/preview/pick.hpp"
 
-#include <algorithm>
-#include <iterator>
-
 namespace glim {
 namespace {
 
@@ -12,24 +9,6 @@ PathRay rayThrough(const FlatCamera& camera, const glm::uvec2& pixel, const glm:
     const glm::vec3 across = film.x * camera.right - film.y * camera.up;
     return camera.kind == kOrthographic ? PathRay{camera.position + across, kNoRecord, camera.forward}
                                         : PathRay{camera.position, kNoRecord, glm::normalize(camera.forward + across)};
-}
-
-std::string quoted(const std::string& name) { return name.empty() ? "without a name" : "\"" + name + "\""; }
-
-// Triangles come before spheres.
-void describe(const Scene& scene, std::uint32_t id, Pick& pick)
-{
-    if (id >= scene.triangles.size()) {
-        const Sphere& sphere = scene.spheres[id - scene.triangles.size()];
-        pick.object = "sphere " + quoted(sphere.name);
-        pick.material = quoted(scene.materials[sphere.material].name);
-        return;
-    }
-    const auto after = std::upper_bound(scene.primitives.begin(), scene.primitives.end(), id,
-                                        [](std::uint32_t value, const Primitive& p) { return value < p.firstTriangle; });
-    const Primitive& primitive = *std::prev(after);
-    pick.object = "mesh " + quoted(primitive.name) + ", triangle " + std::to_string(id - primitive.firstTriangle);
-    pick.material = quoted(scene.materials[primitive.material].name);
 }
 
 }  // namespace
@@ -45,7 +24,7 @@ std::optional<Pick> pick(Renderer& renderer, const PreparedScene& prepared, cons
     Pick found;
     found.distance = static_cast<double>(hit.t);
     found.position = prepared.scene.origin + glm::dvec3(ray.origin) + found.distance * glm::dvec3(ray.direction);
-    describe(prepared.scene, prepared.flat.records[std::size_t{hit.record} * kRecordTexels].w, found);
+    found.primitive = describeRecord(prepared.scene, prepared.flat, hit.record);
     return found;
 }
 

@@ -1,6 +1,7 @@
 // What is behind a pixel.
 #pragma once
 
+#include "host/render/describe_primitive.hpp"
 #include "host/render/prepare_scene.hpp"
 #include "host/render/renderer.hpp"
 
@@ -11,8 +12,7 @@ namespace glim {
 struct Pick {
     glm::dvec3 position;     // world coordinates
     double distance;         // metres from where the ray begins
-    std::string object;      // as in: mesh "floor", triangle 3
-    std::string material;
+    PrimitiveDescription primitive;
 };
 
 // Of the ray through the centre of a pixel of a picture of this size, and the middle of a lens.

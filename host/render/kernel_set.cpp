@@ -57,7 +57,9 @@ Specialization specialize(const SceneFeatures& features, const FlatCamera& camer
             {kSpecRoulette, rouletteOf(settings.roulette)},
             {kSpecLens, camera.lensRight != vec3(0.0F)},
             {kSpecAdaptive, settings.adaptive != Adaptive::Off},
-            {kSpecView, viewOf(settings.view)}};
+            {kSpecView, viewOf(settings.view)},
+            {kSpecSuspects, settings.suspects > 0},
+            {kSpecNotes, settings.notes}};
 }
 
 KernelSet::KernelSet(const KernelLayout& layout, const Specialization& s)

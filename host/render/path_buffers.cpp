@@ -44,12 +44,14 @@ PathBuffers::PathBuffers(Device& device, std::uint32_t capacity)
       queueSizes_(device, "queue sizes", BufferKind::Readback, sizeof(QueueSizes)),
       queueTails_(arrayOf<QueueTails>(device, "queue tails", 1)),
       rayCounts_(device, "ray counts", BufferKind::Readback, sizeof(RayCounts)),
+      note_(device, "path's note", BufferKind::Readback, sizeof(PathNote)),
       status_(device, "status words", BufferKind::Readback, sizeof(Status))
 {
     upload(queueSizes_, std::span<const QueueSizes>(std::vector<QueueSizes>(1)));
     emptyQueues();
     upload(rayCounts_, std::span<const RayCounts>(std::vector<RayCounts>(1)));
     upload(status_, std::span<const Status>(std::vector<Status>(1)));
+    takeNote();
 }
 
 void PathBuffers::emptyQueues() { upload(queueTails_, std::span<const QueueTails>(std::vector<QueueTails>(1))); }
@@ -58,7 +60,8 @@ std::uint64_t PathBuffers::sizeInBytes(std::uint32_t capacity)
 {
     constexpr std::uint64_t kPathBytes = sizeof(PathRay) + sizeof(PathHit) + sizeof(PathState) + sizeof(PathRadiance) +
                                          sizeof(FirstHit) + sizeof(ShadowRay) + 3 * sizeof(uint);
-    return capacity * kPathBytes + sizeof(QueueSizes) + sizeof(QueueTails) + sizeof(RayCounts) + sizeof(Status);
+    return capacity * kPathBytes + sizeof(QueueSizes) + sizeof(QueueTails) + sizeof(RayCounts) + sizeof(PathNote) +
+           sizeof(Status);
 }
 
 std::map<std::uint32_t, const Buffer*> PathBuffers::buffers(std::uint32_t parity) const
@@ -75,6 +78,7 @@ std::map<std::uint32_t, const Buffer*> PathBuffers::buffers(std::uint32_t parity
             {kBindQueueSizes, &queueSizes_},
             {kBindQueueTails, &queueTails_},
             {kBindRayCounts, &rayCounts_},
+            {kBindNote, &note_},
             {kBindStatus, &status_}};
 }
 
@@ -85,18 +89,37 @@ void PathBuffers::queueRay(const PathRay& ray)
     upload(queueA_, std::span<const uint>(&slot, 1));
 }
 
+PathRadiance PathBuffers::takeRadiance()
+{
+    const PathRadiance taken = download<PathRadiance>(radiance_, 1)[0];
+    upload(radiance_, std::span<const PathRadiance>(std::vector<PathRadiance>(1)));
+    return taken;
+}
+
+PathNote PathBuffers::takeNote()
+{
+    const PathNote taken = download<PathNote>(note_, 1)[0];
+    PathNote empty{};
+    empty.foundWeight = 1.0F;
+    empty.light = kNothing;
+    upload(note_, std::span<const PathNote>(&empty, 1));
+    return taken;
+}
+
 Slab::Slab(Device& device, const KernelLayout& layout, const DeviceScene& scene, const DeviceCamera& camera,
-           const PathBuffers& paths, std::uint32_t begin, std::uint32_t count, bool adaptive)
-    : device_(device), begin_(begin), count_(count), chosenCount_(count), adaptive_(adaptive),
+           const PathBuffers& paths, std::uint32_t begin, std::uint32_t count, const RenderSettings& settings)
+    : device_(device), begin_(begin), count_(count), chosenCount_(count), adaptive_(settings.adaptive != Adaptive::Off),
       blocks_(arrayOf<BlockSums>(device, "film's blocks", count)),
       pages_(arrayOf<PixelMoments>(device, "film's pages", count)),
-      luminance_(arrayOf<LuminanceMoments>(device, "pixels' luminances", adaptive ? count : 1)),
-      chosen_(arrayOf<uint>(device, "chosen pixels", 1 + (adaptive ? count : 1)))
+      luminance_(arrayOf<LuminanceMoments>(device, "pixels' luminances", adaptive_ ? count : 1)),
+      brightest_(arrayOf<BrightestSample>(device, "pixels' brightest samples", settings.suspects > 0 ? count : 1)),
+      chosen_(arrayOf<uint>(device, "chosen pixels", 1 + (adaptive_ ? count : 1)))
 {
     const std::map<std::uint32_t, const Buffer*> film = {{kBindCamera, &camera.buffer()},
                                                          {kBindBlocks, &blocks_},
                                                          {kBindPages, &pages_},
                                                          {kBindLuminance, &luminance_},
+                                                         {kBindBrightest, &brightest_},
                                                          {kBindChosenPixels, &chosen_}};
     const auto fixed = merged(scene.buffers(), film);
     even_.emplace(layout, merged(fixed, paths.buffers(0)));
@@ -106,7 +129,7 @@ Slab::Slab(Device& device, const KernelLayout& layout, const DeviceScene& scene,
 
 void Slab::clear()
 {
-    fillWithZero({&blocks_, &pages_, &luminance_});
+    fillWithZero({&blocks_, &pages_, &luminance_, &brightest_});
     chooseAll();
 }
 
@@ -118,9 +141,10 @@ void Slab::copySamples(const Slab& other, std::uint32_t first)
     commands.submitAndWait();
 }
 
-std::uint64_t Slab::bytesPerPixel(bool adaptive)
+std::uint64_t Slab::bytesPerPixel(const RenderSettings& settings)
 {
-    return sizeof(BlockSums) + sizeof(PixelMoments) + (adaptive ? sizeof(LuminanceMoments) + sizeof(uint) : 0);
+    return sizeof(BlockSums) + sizeof(PixelMoments) + (settings.suspects > 0 ? sizeof(BrightestSample) : 0) +
+           (settings.adaptive != Adaptive::Off ? sizeof(LuminanceMoments) + sizeof(uint) : 0);
 }
 
 void Slab::fillWithZero(std::initializer_list<const Buffer*> buffers)

@@ -3,6 +3,7 @@
 
 #include "host/gpu/kernel.hpp"
 #include "host/render/device_scene.hpp"
+#include "host/render/settings.hpp"
 #include "shaders/shared/path_types.h"
 #include "shaders/shared/pixel_moments.h"
 
@@ -27,8 +28,15 @@ public:
     void queueRay(const PathRay& ray);
     // After a pass that was not finished.
     void emptyQueues();
+    // What was added to slot 0, and what was noted, since it was last taken: both start anew.
+    PathRadiance takeRadiance();
+    PathNote takeNote();
 
+    const Buffer& rays() const { return rays_; }
     const Buffer& hits() const { return hits_; }
+    const Buffer& states() const { return states_; }
+    const Buffer& radiance() const { return radiance_; }
+    const Buffer& shadowRays() const { return shadowRays_; }
     const Buffer& queueSizes() const { return queueSizes_; }
     const Buffer& queueTails() const { return queueTails_; }
     const Buffer& rayCounts() const { return rayCounts_; }
@@ -36,7 +44,7 @@ public:
 
 private:
     Buffer rays_, hits_, states_, radiance_, firstHits_, shadowRays_, queueA_, queueB_, shadowQueue_;
-    Buffer queueSizes_, queueTails_, rayCounts_, status_;
+    Buffer queueSizes_, queueTails_, rayCounts_, note_, status_;
 };
 
 // Pixels [begin, begin + count) of the picture. A storage buffer's limit (128 MiB on llvmpipe) cuts large pictures into
@@ -44,8 +52,8 @@ private:
 class Slab {
 public:
     Slab(Device& device, const KernelLayout& layout, const DeviceScene& scene, const DeviceCamera& camera,
-         const PathBuffers& paths, std::uint32_t begin, std::uint32_t count, bool adaptive);
-    static std::uint64_t bytesPerPixel(bool adaptive);
+         const PathBuffers& paths, std::uint32_t begin, std::uint32_t count, const RenderSettings& settings);
+    static std::uint64_t bytesPerPixel(const RenderSettings& settings);
 
     // Chosen so that neither buffer exceeds 128 MiB.
     static constexpr std::uint32_t kMaxPixels = 1U << 20;
@@ -56,6 +64,8 @@ public:
     const Bindings& bindings(std::uint32_t parity) const { return parity == 0 ? *even_ : *odd_; }
     const Buffer& blocks() const { return blocks_; }
     const Buffer& pages() const { return pages_; }
+    // One per pixel if the render's settings ask for suspects.
+    const Buffer& brightest() const { return brightest_; }
 
     // Reads the pages and empties them.
     std::vector<PixelMoments> takePages();
@@ -76,6 +86,7 @@ private:
     bool adaptive_;
     Buffer blocks_, pages_;
     Buffer luminance_;  // LuminanceMoments
+    Buffer brightest_;  // BrightestSample
     Buffer chosen_;     // their number, then their indices in the slab
     std::optional<Bindings> even_, odd_;
 };

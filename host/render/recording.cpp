@@ -24,6 +24,13 @@ Recording::Recording(const Device& device, std::map<std::string, KernelStatistic
 {
 }
 
+Recording::Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics,
+                     std::function<void(const Kernel&, const Pass&)> watch)
+    : Recording(device, statistics)
+{
+    watch_ = std::move(watch);
+}
+
 // Null once it is stopped.
 Commands* Recording::next()
 {
@@ -44,6 +51,7 @@ void Recording::dispatch(const Kernel& kernel, const Bindings& bindings, const P
 {
     if (Commands* commands = next()) {
         commands->dispatch(kernel, bindings, bytesOf(pass), groups);
+        showWatch(kernel, pass);
     }
 }
 
@@ -52,6 +60,15 @@ void Recording::dispatchIndirect(const Kernel& kernel, const Bindings& bindings,
 {
     if (Commands* commands = next()) {
         commands->dispatchIndirect(kernel, bindings, bytesOf(pass), arguments, offset);
+        showWatch(kernel, pass);
+    }
+}
+
+void Recording::showWatch(const Kernel& kernel, const Pass& pass)
+{
+    if (watch_) {
+        finish();
+        watch_(kernel, pass);
     }
 }
 

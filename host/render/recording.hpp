@@ -24,6 +24,10 @@ public:
     Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics, std::uint32_t dispatches,
               std::function<bool()> goesOn);
 
+    // And calls `watch` after each dispatch with what it was.
+    Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics,
+              std::function<void(const Kernel&, const Pass&)> watch);
+
     // `groups` workgroups.
     void dispatch(const Kernel& kernel, const Bindings& bindings, const Pass& pass, std::uint32_t groups);
     // The group counts are read from `arguments` at `offset` bytes.
@@ -40,11 +44,13 @@ public:
 
 private:
     Commands* next();
+    void showWatch(const Kernel& kernel, const Pass& pass);
 
     const Device& device_;
     std::map<std::string, KernelStatistics>& statistics_;
     std::uint32_t portion_;
     std::function<bool()> goesOn_;
+    std::function<void(const Kernel&, const Pass&)> watch_;
     bool stopped_ = false;
     std::optional<Commands> commands_;
     std::uint32_t recorded_ = 0;

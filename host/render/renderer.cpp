@@ -3,6 +3,7 @@
 // depends on measured time; the order of a pixel's samples and all sums do not.
 #include "host/render/renderer.hpp"
 
+#include "host/render/check_status.hpp"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/limits.h"
 
@@ -46,7 +47,7 @@ Renderer::Renderer(const Renderer& lender, const FlatScene& scene, const FlatCam
 void Renderer::open(const FlatCamera& camera)
 {
     makeSlabs();
-    refuseBrokenStatus();
+    refuseBrokenStatus(device_.description(), wavefront_->paths());
     statistics_.compileSeconds = wavefront_->compileSeconds();
     statistics_.uploadSeconds = secondsSince(start_) - statistics_.compileSeconds;
     begin(camera);
@@ -195,7 +196,7 @@ Pass Renderer::nextPass() const
 bool Renderer::runPass(const Pass& pass, const std::function<bool()>& goesOn)
 {
     const auto traced = wavefront_->trace(*slabs_[slab_], pass, goesOn);
-    refuseBrokenStatus();
+    refuseBrokenStatus(device_.description(), wavefront_->paths());
     if (!traced) {
         return false;
     }
@@ -272,22 +273,6 @@ bool Renderer::isGoodEnough(const FilmJudge& judge)
     const double times = std::min(judge(film()), 1e6);
     plannedSamples_ = static_cast<std::uint64_t>(static_cast<double>(pictureSamples_) * std::max(times, 1.0));
     return times <= 1.0;
-}
-
-void Renderer::refuseBrokenStatus() const
-{
-    const Status status = download<Status>(wavefront_->paths().status(), 1)[0];
-    if (status.loopCaps > 0) {
-        throw DeviceError("The driver of \"" + device_.description().name + "\" cut loops short in " +
-                          std::to_string(status.loopCaps) +
-                          " threads (their budget of iterations is spent), so the picture would be wrong; "
-                          "the scene's BVH takes more steps per ray than this driver allows (Mesa's software driver has no such "
-                          "budget from version 24 on).");
-    }
-    if (status.overflows > 0) {
-        throw DeviceError("Queues on \"" + device_.description().name + "\" are " + std::to_string(status.overflows) +
-                          " entries longer than there are paths, so the picture would be wrong.");
-    }
 }
 
 void Renderer::readCounters()

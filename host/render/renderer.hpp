@@ -56,6 +56,8 @@ public:
     PixelMoments moments(std::uint32_t pixel);  // of film(), faster
     // What one ray meets; no part of the picture.
     PathHit traceRay(const PathRay& ray) { return wavefront_->traceRay(*slabs_.front(), ray); }
+    // A sample of a pixel once more, and in no film.
+    PathRadiance traceSample(std::uint32_t pixel, std::uint32_t sample) { return wavefront_->traceSample(pixel, sample); }
     // Another picture of the scene. The camera has a lens if and only if the first one had.
     void restart(const FlatCamera& camera, std::uint32_t width, std::uint32_t height);
     // The same picture from other random numbers.
@@ -90,7 +92,6 @@ private:
     void foldPages(Film& film, const std::vector<std::unique_ptr<Slab>>& slabs);
     bool isOver(const RenderObserver& observer);
     bool isGoodEnough(const FilmJudge& judge);
-    void refuseBrokenStatus() const;
     void readCounters();
 
     Device& device_;

@@ -52,6 +52,10 @@ struct RenderSettings {
     float clampIndirect = std::numeric_limits<float>::infinity();
     std::optional<double> seconds;  // stop sampling after this long
 
+    // What is kept besides the picture, of which this changes no bit.
+    std::uint32_t suspects = 0;  // brightest samples to list; each pixel keeps its own (suspects.hpp)
+    bool notes = false;          // kernels note what they find out about the only path of a pass (replay.hpp)
+
     // How the work is cut: these change no bit of the picture.
     std::uint32_t workgroup = 64;        // invocations
     std::uint32_t pathCapacity = 1U << 18;  // paths in flight, at least kBlockSamples

@@ -73,7 +73,7 @@ void Wavefront::setCamera(const FlatCamera& camera, std::uint32_t width, std::ui
 
 std::unique_ptr<Slab> Wavefront::makeSlab(std::uint32_t begin, std::uint32_t count)
 {
-    return std::make_unique<Slab>(device_, layout_, scene_, camera_, paths_, begin, count, settings_.adaptive != Adaptive::Off);
+    return std::make_unique<Slab>(device_, layout_, scene_, camera_, paths_, begin, count, settings_);
 }
 
 // llvmpipe compiles at the first dispatch: one with nothing to do, so that no timed one pays.
@@ -193,6 +193,21 @@ void Wavefront::recordTrace(Recording& recording, const Kernel& kernel, const Bi
         pass.endRecord = std::min(pass.recordCount, pass.firstRecord + step);
         recording.dispatchIndirect(kernel, bindings, pass, paths_.queueSizes(), groupsOffset);
     }
+}
+
+PathRadiance Wavefront::traceSample(std::uint32_t pixel, std::uint32_t sample, const PathWatch& watch)
+{
+    const std::unique_ptr<Slab> slab = makeSlab(pixel, 1);
+    Pass pass = passOf(*slab);
+    pass.pixelCount = pass.sampleCount = 1;
+    pass.firstSample = sample;
+    std::function<void(const Kernel&, const Pass&)> watchKernel;
+    if (watch) {
+        watchKernel = [&](const Kernel& kernel, const Pass& dispatched) { watch(kernel.name(), dispatched, paths_); };
+    }
+    Recording recording(device_, statistics_, watchKernel);
+    tracePaths(recording, *slab, pass);
+    return paths_.takeRadiance();
 }
 
 PathHit Wavefront::traceRay(const Slab& slab, const PathRay& ray)

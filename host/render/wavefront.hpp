@@ -12,6 +12,9 @@
 
 namespace glim {
 
+// Told after each kernel of a path: its name, its pass, and where to look.
+using PathWatch = std::function<void(const std::string& kernel, const Pass& pass, PathBuffers& paths)>;
+
 class Wavefront {
 public:
     // Uploads the scene and compiles the kernels for what it needs.
@@ -32,6 +35,8 @@ public:
     // Traces the pass and adds its samples to the film. Returns what it took; nothing, and the film is as it was, if `goesOn`, asked
     // every so many dispatches, ended it.
     std::optional<PassSeconds> trace(const Slab& slab, Pass pass, const std::function<bool()>& goesOn);
+    // One sample of one pixel alone, added to no film. With a watch that takes radiance, what it has left.
+    PathRadiance traceSample(std::uint32_t pixel, std::uint32_t sample, const PathWatch& watch = nullptr);
     // The hit of one ray alone; between passes.
     PathHit traceRay(const Slab& slab, const PathRay& ray);
     // Folds the blocks of all pixels, chosen or not, that are under way into their pages.

@@ -20,5 +20,7 @@ layout(constant_id = kSpecAdaptive) const bool kAdaptive = false;
 layout(constant_id = kSpecView) const uint kView = kViewNormal;
 layout(constant_id = kSpecLook) const uint kLook = 0u;
 layout(constant_id = kSpecFolded) const bool kFolded = true;
+layout(constant_id = kSpecSuspects) const bool kSuspects = false;
+layout(constant_id = kSpecNotes) const bool kNotes = false;
 
 #endif

@@ -81,6 +81,7 @@ layout(set = 0, binding = kBindQueueTails, scalar) buffer QueueTailsBuffer { Que
 DECLARE(, kBindBlocks, BlockSums, filmBlocks);
 DECLARE(, kBindPages, PixelMoments, filmPages);
 DECLARE(, kBindLuminance, LuminanceMoments, filmLuminance);
+DECLARE(, kBindBrightest, BrightestSample, filmBrightest);
 #elif defined(READS_LUMINANCE)
 DECLARE(readonly, kBindLuminance, LuminanceMoments, filmLuminance);
 #endif

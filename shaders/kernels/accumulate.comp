@@ -1,7 +1,7 @@
 // One thread is one pixel of the pass. Adds its finished samples to the block, in the order of their index, and folds the block
 // into the page when it ends: the bits do not depend on how the work was cut.
-// Reads radiance and first hits. Updates blocks, pages and, in adaptive renders, luminance; counts samples that are not finite and
-// leaves them out.
+// Reads radiance and first hits. Updates blocks, pages and, in renders that ask for them, luminance and brightest samples; counts
+// samples that are not finite and leaves them out.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_RADIANCE
@@ -23,6 +23,14 @@ BlockSums addSample(BlockSums sums, PathRadiance path, FirstHit first)
                      sums.normal + first.normal, min(sums.depth, first.depth), sums.clamped + path.clamped);
 }
 
+// Samples come in the order of their index: ties go to the lower one.
+void keepBrightest(uint at, float luminance, uint sampleIndex)
+{
+    if (luminance > filmBrightest[at].luminance) {
+        filmBrightest[at] = BrightestSample(luminance, sampleIndex);
+    }
+}
+
 void addPixel(uint pixel)
 {
     uint at = (pass.accumulate & kEveryPixel) != 0u ? pixel : pixelOfPass(pixel);
@@ -36,6 +44,9 @@ void addPixel(uint pixel)
         if (isFinite(path.radiance.r) && isFinite(path.radiance.g) && isFinite(path.radiance.b)) {
             FirstHit first = pathFirstHits[slot];
             sums = addSample(sums, path, first);
+            if (kSuspects) {
+                keepBrightest(at, luminanceOf(path.radiance), pass.firstSample + i);
+            }
             if (kAdaptive) {
                 filmLuminance[at] = addLuminance(filmLuminance[at], luminanceOf(path.radiance), first.alpha > 0.0);
             }

@@ -1,6 +1,6 @@
 // One thread is one entry of the active queue. Scatters its path at the surface that it met, plays roulette, and queues the
 // next ray. Comes after sample_lights of the same bounce.
-// Reads the scene, the queue, hits. Updates rays and states; appends to the next queue.
+// Reads the scene, the queue, hits. Updates rays and states; writes the note; appends to the next queue.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_ACTIVE_QUEUE
@@ -10,9 +10,9 @@
 #define UPDATES_STATES
 #define WRITES_NEXT_QUEUE
 #define UPDATES_QUEUE_TAILS
+#include "access/notes.glsl"
 #include "access/paths.glsl"
 #include "access/status.glsl"
-#include "access/surface.glsl"
 #include "lib/frame.glsl"
 #include "lib/roulette.glsl"
 #include "lib/scatter.glsl"
@@ -84,11 +84,13 @@ void visit(uint slot)
     vec2 fate = unitFloat(samplePair(id, bounceDimension(pass.bounce, kDimensionFate), kSobol));
     Scatter scatter = scatterAt(surface, -ray.direction, u, fate.x);
     vec3 throughput = state.throughput * scatter.weight;
+    noteScatter(scatter.weight, throughput);
     if (all(equal(throughput, vec3(0.0))) || findsNothing(scatter)) {
         return;
     }
     float etaScale = state.etaScale * scatter.etaScale;
     float survival = survivalOf(throughput, etaScale);
+    noteSurvival(survival);
     if (!(fate.y < survival)) {
         return;
     }

@@ -1,6 +1,7 @@
 // One thread is one entry of the active queue. Asks for a shadow ray to one light that the surface may see: a round of direct
 // light. The first round also adds the light that the ray itself has found and, at bounce 0, notes what the camera saw.
-// Reads the scene, the queue, rays, hits, states. Updates radiance. Writes first hits, shadow rays; appends to the shadow queue.
+// Reads the scene, the queue, rays, hits, states. Updates radiance. Writes first hits, shadow rays, the note; appends
+// to the shadow queue.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_ACTIVE_QUEUE
@@ -14,9 +15,9 @@
 #define WRITES_SHADOW_QUEUE
 #define UPDATES_QUEUE_TAILS
 #include "access/light.glsl"
+#include "access/notes.glsl"
 #include "access/radiance.glsl"
 #include "access/status.glsl"
-#include "access/surface.glsl"
 #include "lib/mis.glsl"
 #include "lib/scatter.glsl"
 
@@ -28,7 +29,9 @@ float weightFound(PathState state, float other)
     if (!(state.pdf > 0.0) || kDirect == kDirectBsdf) {
         return 1.0;
     }
-    return kDirect == kDirectMis ? weightPower(state.pdf, other) : 0.0;
+    float weight = kDirect == kDirectMis ? weightPower(state.pdf, other) : 0.0;
+    noteFound(other, weight);
+    return weight;
 }
 
 float weightSampled(float pdf, float other)
@@ -63,6 +66,7 @@ LightSample sampleLightOfRound(SampleId id, vec3 from, vec3 normal)
     } else {
         id = splitSample(id, pass.light, pass.lightSample, pass.lightSamples);
     }
+    noteLight(chosen);
     return sampleLight(chosen, kDirect != kDirectMis, from, normal,
                        samplePair(id, bounceDimension(pass.bounce, kDimensionEmitter), kSobol),
                        unitFloat(samplePair(id, bounceDimension(pass.bounce, kDimensionPoint), kSobol)));
@@ -81,6 +85,7 @@ void askForShadowRay(uint slot, PathState state, Surface surface, FlatMaterial m
     if (kDirect == kDirectLights) {
         weight /= float(pass.lightSamples);
     }
+    noteLightSample(light.pdf, pdfLambert(cosine), weight);
     vec3 contribution = state.throughput * evalLambert(material.baseColor, cosine) * light.radiance * (cosine * weight);
     if (all(equal(contribution, vec3(0.0)))) {
         return;
@@ -121,6 +126,7 @@ void visit(uint slot)
     }
     Surface surface = surfaceAt(ray, hit);
     turnToViewer(surface, -ray.direction);
+    noteSurface(surface);
     FlatMaterial material = fetchMaterial(surface.material);
     if (first && pass.bounce == 0u) {
         noteFirstHit(slot, surface, material);

@@ -30,16 +30,18 @@ GLIM_CONST uint kBindBlocks = 19u;
 GLIM_CONST uint kBindPages = 20u;
 GLIM_CONST uint kBindLuminance = 21u;
 GLIM_CONST uint kBindChosenPixels = 22u;
-GLIM_CONST uint kBindStatus = 23u;
+GLIM_CONST uint kBindBrightest = 23u;
+GLIM_CONST uint kBindNote = 24u;
+GLIM_CONST uint kBindStatus = 25u;
 // display.glsl, with blocks and pages
-GLIM_CONST uint kBindFolded = 24u;
-GLIM_CONST uint kBindText = 25u;
-GLIM_CONST uint kBindPicture = 26u;
-GLIM_CONST uint kBindShown = 27u;
+GLIM_CONST uint kBindFolded = 26u;
+GLIM_CONST uint kBindText = 27u;
+GLIM_CONST uint kBindPicture = 28u;
+GLIM_CONST uint kBindShown = 29u;
 // tests
-GLIM_CONST uint kBindCases = 28u;
-GLIM_CONST uint kBindReport = 29u;
-GLIM_CONST uint kBindResults = 30u;
+GLIM_CONST uint kBindCases = 30u;
+GLIM_CONST uint kBindReport = 31u;
+GLIM_CONST uint kBindResults = 32u;
 
 GLIM_CONST uint kSpecWorkgroup = 0u;
 GLIM_CONST uint kSpecSpheres = 1u;         // the scene has spheres
@@ -58,6 +60,8 @@ GLIM_CONST uint kSpecAdaptive = 13u;       // passes go over chosen pixels
 GLIM_CONST uint kSpecView = 14u;           // kViewNormal ...
 GLIM_CONST uint kSpecLook = 15u;           // kLookRadiance ...
 GLIM_CONST uint kSpecFolded = 16u;         // the host has taken pages of the film, and given them back folded
+GLIM_CONST uint kSpecSuspects = 17u;       // each pixel's brightest sample is kept
+GLIM_CONST uint kSpecNotes = 18u;          // the kernels note what they find out about the only path of a pass
 
 // How direct light is estimated.
 GLIM_CONST uint kDirectMis = 0u;

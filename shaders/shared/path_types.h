@@ -47,6 +47,26 @@ struct ShadowRay {
     float reach;     // 1, or infinity; brute force sets it to 0 in the shadow and, over the hemisphere, to the nearest hit's t
 };
 
+GLIM_CONST uint kNothing = 0xffffffffu;
+
+// What happened to a path where it met a surface and no other buffer tells. Lengths and directions as in PathRay, pdfs per
+// steradian.
+struct PathNote {
+    vec3 point;
+    vec3 geometric;    // unit normals on the side that the path came from
+    vec3 shading;
+    uint front;        // 1: that is the front
+    float foundPdf;    // with which sampling lights would have found the light that the path has found; 0: it was not asked
+    float foundWeight; // of that light; 1 unless noted
+    uint light;        // that was sampled, or kNothing
+    float lightPdf;    // of choosing that light and that direction; 0: a point, spot or directional light
+    float scatterPdf;  // with which scattering would have found it
+    float lightWeight;
+    vec3 weight;       // of the scattering: function * cosine / pdf
+    vec3 throughput;   // with that weight, before roulette
+    float survival;    // of roulette; 0: the path did not get there
+};
+
 // Written by size_dispatch: the length of each queue and the indirect arguments of the dispatches over it.
 struct QueueSizes {
     uint closest;

@@ -25,5 +25,11 @@ struct LuminanceMoments {
     uint met;       // samples whose camera ray met a surface
 };
 
+// The first of the samples of a pixel that none outshines; 0 and 0 while all are black.
+struct BrightestSample {
+    float luminance;
+    uint sampleIndex;
+};
+
 GLIM_SHARED_END
 #endif

@@ -18,7 +18,10 @@ RenderOptions parse(const std::string& options)
     CLI::App app;
     RenderOptions parsed;
     addRenderOptions(*app.add_subcommand("render"), parsed);
-    std::vector<std::string> words{"render", "x.gltf", "-o", "x.exr"};
+    std::vector<std::string> words{"render", "x.gltf"};
+    if (options.find("--replay") == std::string::npos) {
+        words.insert(words.end(), {"-o", "x.exr"});
+    }
     std::istringstream stream(options);
     for (std::string word; stream >> word;) {
         words.push_back(word);
@@ -197,6 +200,42 @@ TEST(RenderOptions, ViewsRefuseWhatHasNoMeaningThere)
     }
 }
 
+TEST(RenderOptions, ReplaysTakeTheSamplesThatARenderWouldHave)
+{
+    const RenderOptions any = parse("--replay 3,5,2147483647");
+    EXPECT_EQ(any.replay->x, 3U);
+    EXPECT_EQ(any.replay->y, 5U);
+    EXPECT_EQ(any.replay->sample, 2147483647U);
+    for (const std::string render : {"--spp 9", "--samples 8:9", "--adaptive course --max-spp 512 --batch 4", "--direct lights"}) {
+        EXPECT_EQ(parse(render + " --stats s.json --replay 0,0,8").replay->sample, 8U);
+    }
+    const std::string among = "expected one of the samples that the other options ask for, ";
+    expectRefused("--replay 0,0,9 --spp 9", "--replay: \"0,0,9\": " + among + "0 to 8");
+    expectRefused("--replay 0,0,7 --samples 8:10", among + "8 to 9");
+    expectRefused("--replay 0,0,10 --samples 8:10", among + "8 to 9");
+    expectRefused("--replay 0,0,2048 --adaptive course", among + "0 to 2047");
+    expectRefused("--replay 0,0,131072 --direct lights --light-samples 32768", "is more than 2^32");
+}
+
+TEST(RenderOptions, ReplaysRefuseWhatIsOfPictures)
+{
+    for (const std::string option : {"--output x.exr", "--png p.png", "--rates r.png", "--progress json", "--time 1", "--suspects 3"}) {
+        const std::string name = option.substr(0, option.find(' ')), value = option.substr(name.size() + 1);
+        expectRefused("--replay 1,2,3 " + option, name + ": \"" + value + "\": means nothing with --replay");
+    }
+    expectRefused("--replay 1,2,3 --view normal", "--view: \"normal\": has no paths; expected --view shaded with --replay");
+    EXPECT_TRUE(parse("--replay 1,2,3 --view shaded").replay);
+    for (const std::string place : {"1,2", "1,2,3,4", "1,,3", "a,2,3", "1,2,", "-1,2,3", "1.5,2,3", "65535,0,0", "0,65535,0",
+                                    "0,0,2147483648", "+1,2,3"}) {
+        expectRefused("--replay " + place, "--replay: \"" + place + "\": expected X,Y,SAMPLE with whole numbers");
+    }
+    for (const std::string view : {"normal", "depth", "albedo", "bvh-steps"}) {
+        expectRefused("--suspects 3 --view " + view, "--suspects: \"3\": means nothing with --view " + view);
+    }
+    EXPECT_EQ(settings("--suspects 1000").suspects, 1000U);
+    EXPECT_EQ(settings("").suspects, 0U);
+}
+
 TEST(RenderOptions, NonsenseValuesAreRefused)
 {
     for (const std::string option :
@@ -205,7 +244,7 @@ TEST(RenderOptions, NonsenseValuesAreRefused)
     }
     for (const std::string option : {"--light-samples 0", "--light-samples 65537", "--light-samples 1.5", "--tolerance 0",
                                      "--tolerance -1", "--tolerance nan", "--tolerance 2e6", "--batch 1", "--batch 1048577",
-                                     "--max-spp 1", "--max-spp 2147483649", "--lens-radius -1", "--lens-radius nan",
+                                     "--max-spp 1", "--max-spp 2147483649", "--suspects 0", "--suspects 1001", "--suspects all", "--lens-radius -1", "--lens-radius nan",
                                      "--lens-radius inf", "--focal-distance 0", "--focal-distance nan",
                                      "--focal-distance inf"}) {
         const std::string name = option.substr(0, option.find(' ')), value = option.substr(name.size() + 1);

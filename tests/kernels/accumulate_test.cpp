@@ -1,4 +1,5 @@
-// The kernel itself: samples that are not finite are counted, located and in no sum; adaptive renders add up chosen pixels.
+// The kernel itself: samples that are not finite are counted, located and in no sum; adaptive renders add up chosen pixels; who
+// asks for suspects gets the brightest sample of each pixel.
 #include "host/gpu/commands.hpp"
 #include "host/render/path_buffers.hpp"
 #include "kernels.hpp"
@@ -21,20 +22,24 @@ constexpr std::uint32_t kPixels = 100, kSamples = 8, kSlabBegin = 1000, kFirstSa
 struct Outcome {
     std::vector<PixelMoments> pages;
     std::vector<LuminanceMoments> luminances;
+    std::vector<BrightestSample> brightest;
     Status status;
 };
 
-// An empty `chosen` is no adaptive render.
-Outcome accumulate(const std::vector<PathRadiance>& radiance, const std::vector<uint>& chosen = {}, uint flags = kEndsBlock)
+// An empty `chosen` is no adaptive render. Brightest samples start as `brightest`.
+Outcome accumulate(const std::vector<PathRadiance>& radiance, const std::vector<uint>& chosen = {}, uint flags = kEndsBlock,
+                   const std::vector<BrightestSample>& brightest = {})
 {
     const KernelLayout layout(testDevice(), kernelSlots(), sizeof(Pass));
-    const Kernel kernel(layout, kernels::accumulate, {{kSpecWorkgroup, 64}, {kSpecAdaptive, !chosen.empty()}});
+    const Kernel kernel(layout, kernels::accumulate, {{kSpecWorkgroup, 64}, {kSpecAdaptive, !chosen.empty()}, {kSpecSuspects, !brightest.empty()}});
     Buffer list(testDevice(), "test's choice", BufferKind::Storage, (1 + kPixels) * sizeof(uint));
     std::vector<uint> counted{kPixels};
     counted.insert(counted.end(), chosen.begin(), chosen.end());
     upload(list, std::span<const uint>(counted));
     Buffer luminances(testDevice(), "test's luminances", BufferKind::Storage, kPixels * sizeof(LuminanceMoments));
     upload(luminances, std::span<const LuminanceMoments>(std::vector<LuminanceMoments>(kPixels)));
+    Buffer kept(testDevice(), "test's brightest samples", BufferKind::Storage, kPixels * sizeof(BrightestSample));
+    upload(kept, std::span<const BrightestSample>(brightest.empty() ? std::vector<BrightestSample>(kPixels) : brightest));
     PathBuffers paths(testDevice(), kPixels * kSamples);
     Buffer blocks(testDevice(), "test's blocks", BufferKind::Storage, kPixels * sizeof(BlockSums));
     Buffer pages(testDevice(), "test's pages", BufferKind::Storage, kPixels * sizeof(PixelMoments));
@@ -51,6 +56,7 @@ Outcome accumulate(const std::vector<PathRadiance>& radiance, const std::vector<
     bound[kBindPages] = &pages;
     bound[kBindChosenPixels] = &list;
     bound[kBindLuminance] = &luminances;
+    bound[kBindBrightest] = &kept;
     const Bindings bindings(layout, bound);
     Pass pass{};
     pass.slabBegin = kSlabBegin;
@@ -63,7 +69,7 @@ Outcome accumulate(const std::vector<PathRadiance>& radiance, const std::vector<
     commands.dispatch(kernel, bindings, std::as_bytes(std::span<const Pass, 1>(&pass, 1)), (kPixels + 63) / 64);
     commands.submitAndWait();
     return {download<PixelMoments>(pages, kPixels), download<LuminanceMoments>(luminances, kPixels),
-            download<Status>(paths.status(), 1)[0]};
+            download<BrightestSample>(kept, kPixels), download<Status>(paths.status(), 1)[0]};
 }
 
 TEST(AccumulateTest, H37LeavesOutWhatIsNotFinite)
@@ -115,6 +121,37 @@ TEST(AccumulateTest, AddsToTheChosenPixels)
     EXPECT_EQ(accumulate(radiance).luminances[0].count, 0U);
     const Outcome every = accumulate(radiance, chosen, kEndsBlock | kEveryPixel);
     EXPECT_FLOAT_EQ(every.pages[10].mean.r, 13.5F);
+}
+
+TEST(AccumulateTest, KeepsTheFirstBrightestSample)
+{
+    std::vector<PathRadiance> radiance(kPixels * kSamples);
+    std::vector<BrightestSample> before(kPixels);
+    for (std::uint32_t i = 0; i < kPixels; ++i) {
+        // Green outshines red; samples i % 8 and, as bright, the last.
+        radiance[i * kSamples + i % kSamples].radiance = radiance[i * kSamples + kSamples - 1].radiance = vec3(0.0F, 1.0F, 0.0F);
+        radiance[i * kSamples + (i + 3) % (kSamples - 1)].radiance += vec3(0.5F, 0.0F, 0.0F);
+    }
+    radiance[3 * kSamples + 5].radiance = vec3(std::numeric_limits<float>::infinity());
+    std::fill_n(radiance.begin() + 20 * kSamples, kSamples, PathRadiance{});
+    before[40] = {9.0F, 7};
+    const Outcome outcome = accumulate(radiance, {}, kEndsBlock, before);
+    for (std::uint32_t i = 0; i < kPixels; ++i) {
+        SCOPED_TRACE(i);
+        float luminance = -1.0F;
+        std::uint32_t sample = 0;
+        for (std::uint32_t k = 0; k < kSamples; ++k) {
+            const vec3 color = radiance[i * kSamples + k].radiance;
+            const float value = 0.2126F * color.r + 0.7152F * color.g;
+            if (value > luminance && value < 1e9F) {
+                luminance = value;
+                sample = kFirstSample + k;
+            }
+        }
+        EXPECT_FLOAT_EQ(outcome.brightest[i].luminance, i == 40 ? 9.0F : luminance);
+        EXPECT_EQ(outcome.brightest[i].sampleIndex, i == 20 ? 0 : i == 40 ? 7 : sample);
+    }
+    EXPECT_EQ(accumulate(radiance).brightest[0].luminance, 0.0F);
 }
 
 }  // namespace

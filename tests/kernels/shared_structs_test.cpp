@@ -13,6 +13,7 @@ static_assert(sizeof(PathRay) == 28 && sizeof(PathHit) == 16 && sizeof(PathState
 static_assert(sizeof(FirstHit) == 32 && sizeof(ShadowRay) == 48 && sizeof(QueueSizes) == 32 && sizeof(QueueTails) == 8);
 static_assert(sizeof(RayCounts) == 16 && sizeof(Located) == 8 && sizeof(Status) == 12 + 8 * kMaxLocated);
 static_assert(sizeof(BlockSums) == 52 && sizeof(Pass) == 124 && sizeof(PixelMoments) == 68);
+static_assert(sizeof(PathNote) == 92 && sizeof(BrightestSample) == 8);
 static_assert(sizeof(FlatMaterial) == 48 && sizeof(AliasEntry) == 8 && sizeof(FlatLight) == 80);
 static_assert(sizeof(FlatEmitter) == 32 && sizeof(FlatCamera) == 80 && sizeof(DisplayPass) == 44);
 static_assert(sizeof(EverySharedStruct) == 4 * kSharedWords);

@@ -9,7 +9,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 230u;
+GLIM_CONST uint kSharedWords = 255u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -18,6 +18,7 @@ struct EverySharedStruct {
     PathRadiance radiance;
     FirstHit firstHit;
     ShadowRay shadowRay;
+    PathNote note;
     QueueSizes queueSizes;
     QueueTails queueTails;
     RayCounts rayCounts;
@@ -27,6 +28,7 @@ struct EverySharedStruct {
     Pass pass_;
     PixelMoments pixelMoments;
     LuminanceMoments luminanceMoments;
+    BrightestSample brightest;
     FlatMaterial material;
     AliasEntry alias;
     FlatLight light;
@@ -46,6 +48,8 @@ F3(radiance.radiance) F(radiance.clamped)
 F3(firstHit.albedo) F(firstHit.alpha) F3(firstHit.normal) F(firstHit.depth)
 F3(shadowRay.origin) U(shadowRay.source) F3(shadowRay.direction) U(shadowRay.target) F3(shadowRay.contribution)
 F(shadowRay.reach)
+F3(note.point) F3(note.geometric) F3(note.shading) U(note.front) F(note.foundPdf) F(note.foundWeight) U(note.light)
+F(note.lightPdf) F(note.scatterPdf) F(note.lightWeight) F3(note.weight) F3(note.throughput) F(note.survival)
 U(queueSizes.closest) U(queueSizes.shadow) U3(queueSizes.closestGroups) U3(queueSizes.shadowGroups)
 U(queueTails.next) U(queueTails.shadow)
 U2(rayCounts.closest) U2(rayCounts.shadow)
@@ -72,6 +76,7 @@ U(pass_.constantSamples)
 U(pixelMoments.count) U(pixelMoments.blocks) F3(pixelMoments.mean) F3(pixelMoments.squares) F(pixelMoments.alpha)
 F3(pixelMoments.albedo) F3(pixelMoments.normal) F(pixelMoments.depth) F(pixelMoments.clamped)
 U(luminanceMoments.count) F(luminanceMoments.mean) F(luminanceMoments.squares) U(luminanceMoments.met)
+F(brightest.luminance) U(brightest.sampleIndex)
 F3(material.baseColor) U(material.scattering) F3(material.emission) F(material.ior) U(material.doubleSided)
 U3(material.unused)
 U(alias.threshold) U(alias.other)

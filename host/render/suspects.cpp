@@ -1,0 +1,60 @@
+#include "host/render/suspects.hpp"
+
+#include <algorithm>
+
+namespace glim {
+namespace {
+
+// Rec.709, as stop_rule.glsl has it.
+double luminanceOf(const glm::vec3& radiance)
+{
+    return glm::dot(glm::dvec3(radiance), glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
+struct Brightest {
+    float luminance;
+    std::uint32_t pixel, sampleIndex;
+};
+
+// Of all pixels that are not black, the first `count`.
+std::vector<Brightest> findBrightest(const Renderer& renderer, std::size_t count)
+{
+    std::vector<Brightest> found;
+    for (const auto& slab : renderer.slabs()) {
+        const std::vector<BrightestSample> samples = download<BrightestSample>(slab->brightest(), slab->count());
+        for (std::uint32_t i = 0; i < slab->count(); ++i) {
+            if (samples[i].luminance > 0.0F) {
+                found.push_back({samples[i].luminance, slab->begin() + i, samples[i].sampleIndex});
+            }
+        }
+    }
+    const auto last = found.begin() + static_cast<std::ptrdiff_t>(std::min(count, found.size()));
+    std::partial_sort(found.begin(), last, found.end(), [](const Brightest& a, const Brightest& b) {
+        return a.luminance != b.luminance ? a.luminance > b.luminance : a.pixel < b.pixel;
+    });
+    found.erase(last, found.end());
+    return found;
+}
+
+}  // namespace
+
+std::vector<Suspect> findSuspects(Renderer& renderer, const Film& film)
+{
+    if (renderer.settings().suspects == 0) {
+        return {};
+    }
+    double picture = 0.0;
+    for (const PixelMoments& pixel : film.pixels) {
+        picture += luminanceOf(pixel.mean);
+    }
+    std::vector<Suspect> suspects;
+    for (const Brightest& each : findBrightest(renderer, renderer.settings().suspects)) {
+        const PixelMoments& pixel = film.pixels[each.pixel];
+        const PathRadiance path = renderer.traceSample(each.pixel, each.sampleIndex);
+        const double luminance = luminanceOf(path.radiance), part = luminance / pixel.count;
+        suspects.push_back({each.pixel, each.sampleIndex, path.radiance, luminance, part / luminanceOf(pixel.mean), part / picture});
+    }
+    return suspects;
+}
+
+}  // namespace glim

@@ -1,0 +1,21 @@
+// The samples that make a picture's fireflies.
+#pragma once
+
+#include "host/render/renderer.hpp"
+
+namespace glim {
+
+struct Suspect {
+    std::uint32_t pixel;       // index in the picture
+    std::uint32_t sampleIndex;
+    glm::vec3 radiance;
+    double luminance;
+    double shareOfPixel;       // of the sum of its pixel's luminances
+    double shareOfPicture;     // of the sum of the pixels' means
+};
+
+// The brightest samples of `film`, which `renderer` has rendered, as many as its settings ask for, at most one of a pixel and
+// none that is black. Brightest first; ties go to the lower pixel, whose lower sample it is.
+std::vector<Suspect> findSuspects(Renderer& renderer, const Film& film);
+
+}  // namespace glim
