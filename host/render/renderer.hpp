@@ -42,9 +42,9 @@ public:
     // The same of the scene and in the buffers of `lender`, which must outlive it; only one of them may be at work.
     Renderer(const Renderer& lender, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
 
-    // Samples until sampleEnd, the stop rule, the time limit, the observer or the judge, if there is one, ends it. Every pixel of the film has what was
-    // finished; the counts say how much. Throws DeviceError if the driver cut a loop short or a queue overflowed: no film is
-    // better than a wrong one. Once per picture.
+    // Samples until sampleEnd, the stop rule, the time limit, the observer or the judge, if there is one, ends it. Every pixel of the
+    // film has what was finished; the counts say how much. Throws DeviceError if the driver cut a loop short or a queue overflowed:
+    // no film is better than a wrong one. Once per picture.
     Film render(const RenderObserver& observer, const FilmJudge& judge = nullptr);
 
     // The same in steps: a pass of work. False once nothing is left to do, or if `goesOn`, asked now and then, ended the pass, of which
