@@ -61,9 +61,10 @@ std::vector<PixelMoments> addUp(const std::vector<Samples>& blocks)
         bound[kBindFirstHits] = &firstHits;
         bound[kBindBlocks] = &open;
         bound[kBindPages] = &pages;
-        // Read by adaptive renders alone.
+        // Of adaptive renders, and of those that keep suspects.
         bound[kBindChosenPixels] = &open;
         bound[kBindLuminance] = &pages;
+        bound[kBindBrightest] = &pages;
         bindings.emplace_back(layout, bound);
     }
     runTurns(layout, bindings);
