@@ -14,7 +14,7 @@
 namespace glim {
 namespace {
 
-constexpr std::uint32_t kSide = 24, kSamples = 2 * kBlockSamples, kSeeds = 64;
+constexpr std::uint32_t kSide = 24, kSamples = 2 * kBlockSamples, kSeeds = 32;
 
 class ErrorEstimateTest : public testing::TestWithParam<Sampler> {};
 
