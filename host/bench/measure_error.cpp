@@ -2,15 +2,11 @@
 
 #include "host/measure/compare_images.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numeric>
 
 namespace glim {
 namespace {
-
-constexpr double kTrimmed = 0.001;  // of the pixels
 
 std::vector<float> errorTerms(const Picture& picture, const Picture& reference, double epsilon)
 {
@@ -37,27 +33,13 @@ double product(const std::vector<float>& a, const std::vector<float>& b, std::si
     return sum;
 }
 
-double trimmedMean(const std::vector<float>& terms)
-{
-    std::vector<double> pixels;
-    for (std::size_t i = 0; i < terms.size(); i += 3) {
-        pixels.push_back(product(terms, terms, i, i + 3) / 3.0);
-    }
-    const auto dropped = static_cast<std::ptrdiff_t>(std::ceil(kTrimmed * static_cast<double>(pixels.size())));
-    std::nth_element(pixels.begin(), pixels.begin() + dropped, pixels.end(), std::greater<>());
-    const auto kept = pixels.begin() + dropped;
-    return std::accumulate(kept, pixels.end(), 0.0) / static_cast<double>(pixels.end() - kept);
-}
-
 }  // namespace
 
 PictureError measureError(const Picture& picture, const Picture& reference)
 {
     const Comparison comparison = compareImages(picture, reference);
-    PictureError error{comparison.errors.mse, comparison.errors.relMse, 0.0,
-                       errorTerms(picture, reference, comparison.epsilon)};
-    error.trimmedRelMse = trimmedMean(error.terms);
-    return error;
+    return {comparison.errors.mse, comparison.errors.relMse, comparison.trimmed.kept.relMse,
+            errorTerms(picture, reference, comparison.epsilon)};
 }
 
 // The error of the floor is that of a sum of squares of normal numbers, of which a pixel's three channels are taken to be one.

@@ -8,8 +8,8 @@
 #include "host/cli/bench_report.hpp"
 #include "host/cli/check_target.hpp"
 #include "host/cli/interrupt.hpp"
-#include "host/cli/parse.hpp"
 #include "host/cli/progress.hpp"
+#include "host/cli/settle_options.hpp"
 #include "host/cli/version.hpp"
 #include "host/error.hpp"
 #include "host/exact_text.hpp"
@@ -95,12 +95,6 @@ const SceneBench& findBaseline(const std::vector<SceneBench>& baselines, const s
     throw InputError(file + ": has " + list + "; expected " + describe(bench) + ".");
 }
 
-// A power of two; the sampler counts light samples in 32 bits (settle_options.cpp).
-std::uint32_t mostSamples(std::uint32_t lightSamples)
-{
-    return std::bit_floor(static_cast<std::uint32_t>(std::min<std::uint64_t>(kMaxSample, (std::uint64_t{1} << 32) / lightSamples)));
-}
-
 // What is known of a scene before anything is rendered.
 struct BenchJob {
     PreparedScene prepared;
@@ -133,7 +127,7 @@ BenchJob prepareJob(const BenchOptions& options, const std::filesystem::path& sc
     const glm::uvec2 size = sizeOf(options, camera);
     job.settings.width = size.x;
     job.settings.height = size.y;
-    job.settings.sampleEnd = mostSamples(job.settings.lightSamples);
+    job.settings.sampleEnd = std::bit_floor(mostSamples(job.settings));
     refuseWhatDoesNotFit(job.prepared, job.settings, device);
     job.camera = flattenCamera(camera, static_cast<float>(size.x) / static_cast<float>(size.y), options.lens);
     job.bench = describeBench(options, scene, job.settings, device);

@@ -67,11 +67,6 @@ void settleAdaptive(const CLI::App& command, RenderSettings& settings)
     }
 }
 
-std::uint32_t mostSamples(const RenderSettings& settings)
-{
-    return static_cast<std::uint32_t>(std::min<std::uint64_t>(kMaxSample, kMaxCounter / settings.lightSamples));
-}
-
 void settleTime(const CLI::App& command, RenderSettings& settings)
 {
     if (settings.seconds && settings.adaptive == Adaptive::Off && !isGiven(command, "--samples")) {
@@ -148,6 +143,11 @@ void settleTarget(const CLI::App& command, RenderOptions& options)
 }
 
 }  // namespace
+
+std::uint32_t mostSamples(const RenderSettings& settings)
+{
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(kMaxSample, kMaxCounter / settings.lightSamples));
+}
 
 void settlePicture(const CLI::App& command, PictureOptions& options)
 {

@@ -11,4 +11,7 @@ void settlePicture(const CLI::App& command, PictureOptions& options);
 void settleLight(const CLI::App& command, PictureOptions& options);  // of it, what addLightOptions and addTracingOptions add
 void settleRender(const CLI::App& command, RenderOptions& options);
 
+// Per pixel, since the sampler counts samples of lights in 32 bits.
+std::uint32_t mostSamples(const RenderSettings& settings);
+
 }  // namespace glim
