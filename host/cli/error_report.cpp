@@ -16,8 +16,8 @@ namespace {
 // of samples, which tells no error: the rest would not stand for them.
 std::optional<ErrorEstimate> knownError(const Film& film, const RenderSettings& settings)
 {
-    const bool adaptive = settings.adaptive != Adaptive::Off;
-    if (settings.view != View::Shaded || (adaptive && computeRates(film).fewestBlocks < 2)) {
+    const bool stops = isCourse(settings.adaptive);
+    if (settings.view != View::Shaded || (stops && computeRates(film).fewestBlocks < 2)) {
         return std::nullopt;
     }
     return estimateError(film);
@@ -87,7 +87,7 @@ std::string errorText(const Film& film, const RenderSettings& settings)
     if (estimate->isOfFew()) {
         text += format(", half of it in %zu pixels, so the interval is worth little", estimate->pixelsOfHalf);
     }
-    return settings.adaptive == Adaptive::Off ? text : text + " besides the rule's bias";
+    return isCourse(settings.adaptive) ? text + " besides the rule's bias" : text;
 }
 
 }  // namespace glim

@@ -33,7 +33,7 @@ void addWindowOptions(CLI::App& command, WindowOptions& options)
 void settleEnd(const CLI::App& command, RenderSettings& settings)
 {
     const bool ends = command.count("--spp") + command.count("--samples") + command.count("--max-spp") > 0;
-    if (!ends && settings.adaptive == Adaptive::Off) {
+    if (!ends && !isCourse(settings.adaptive)) {
         settings.sampleEnd = kMaxSample / settings.lightSamples;
     }
 }

@@ -43,7 +43,7 @@ bool wouldRuin(const std::filesystem::path& output, const Film& film)
            std::any_of(film.pixels.begin(), film.pixels.end(), [](const PixelMoments& p) { return p.count == 0; });
 }
 
-std::string stopReason(int signal, const Film& film, const RenderSettings& settings, bool isGood)
+std::string stopReason(int signal, const Film& film, const RenderSettings& settings, bool isGood, bool isDone)
 {
     if (signal != 0) {
         return nameOfSignal(signal);
@@ -51,15 +51,13 @@ std::string stopReason(int signal, const Film& film, const RenderSettings& setti
     if (isGood) {
         return "target";
     }
-    if (settings.adaptive == Adaptive::Off) {
-        return film.complete && film.sampleRanges[0].second == settings.sampleEnd ? "samples" : "time";
-    }
-    if (!film.complete) {
+    if (!isDone) {
         return "time";
     }
-    const bool reached = std::any_of(film.pixels.begin(), film.pixels.end(),
-                                     [&](const PixelMoments& p) { return p.count >= settings.sampleEnd; });
-    return reached ? "samples" : "tolerance";
+    const bool calm = isCourse(settings.adaptive) &&
+                      std::none_of(film.pixels.begin(), film.pixels.end(),
+                                   [&](const PixelMoments& p) { return p.count >= settings.sampleEnd; });
+    return calm ? "tolerance" : "samples";
 }
 
 // Seconds that writing took.
@@ -97,6 +95,15 @@ Rendered renderPicture(Renderer& renderer, const ErrorTarget& target, ProgressPr
     return rendered;
 }
 
+std::optional<ControlBias> measureBias(Renderer& renderer, const Film& film, const InterruptWatch& watch)
+{
+    if (renderer.settings().adaptive == Adaptive::Off) {
+        return std::nullopt;
+    }
+    const auto control = renderer.sampleControl(film, [&] { return watch.signal() == 0; });
+    return control ? estimateControlBias(film, *control) : std::nullopt;
+}
+
 ExitCode runRender(const RenderOptions& options)
 {
     checkTargets(options);
@@ -129,7 +136,8 @@ ExitCode runRender(const RenderOptions& options)
     film.identity.settings += describeView(options.pose, options.lens);  // so that it can be made again from what is in its file
     const double writeSeconds = writePictures(options, film);
     const RenderReport report{options, prepared, film, renderer.statistics(), device.description(),
-                              stopReason(watch.signal(), film, settings, isGood), writeSeconds, findSuspects(renderer, film)};
+                              stopReason(watch.signal(), film, settings, isGood, renderer.isDone()), writeSeconds,
+                              findSuspects(renderer, film), measureBias(renderer, film, watch)};
     if (options.stats) {
         writeStatistics(*options.stats, report);
     }

@@ -65,6 +65,15 @@ Json bvhOf(const RenderReport& report)
             {"cost", bvh.cost}};
 }
 
+Json biasOf(const RenderReport& report)
+{
+    if (!report.bias) {
+        return nullptr;
+    }
+    const Interval& bias = report.bias->bias;
+    return {{"ofMean", bias.value}, {"ofMean95", {bias.low, bias.high}}, {"pixels", report.bias->pixels}};
+}
+
 Json adaptiveOf(const RenderReport& report)
 {
     const RenderSettings& settings = report.options.settings;
@@ -72,16 +81,21 @@ Json adaptiveOf(const RenderReport& report)
         return nullptr;
     }
     const Rates rates = computeRates(report.film);
+    const Json counts = {{"meanSpp", rates.mean}, {"leastSpp", rates.least}, {"mostSpp", rates.most}, {"bias", biasOf(report)}};
+    if (isNeighbours(settings.adaptive)) {
+        Json json = {{"rule", settings.adaptive == Adaptive::Neighbours ? "neighbours" : "neighbours:absolute"}};
+        json.update(counts);
+        return json;
+    }
     const auto atMost = std::count_if(report.film.pixels.begin(), report.film.pixels.end(),
                                       [&](const PixelMoments& pixel) { return pixel.count >= settings.sampleEnd; });
-    return {{"rule", settings.adaptive == Adaptive::Course ? "course" : "course:literal"},
-            {"tolerance", shortest(settings.tolerance)},
-            {"batch", settings.batch},
-            {"maxSpp", settings.sampleEnd},
-            {"meanSpp", rates.mean},
-            {"leastSpp", rates.least},
-            {"mostSpp", rates.most},
-            {"pixelsAtMost", atMost}};
+    Json json = {{"rule", settings.adaptive == Adaptive::Course ? "course" : "course:literal"},
+                 {"tolerance", shortest(settings.tolerance)},
+                 {"batch", settings.batch},
+                 {"maxSpp", settings.sampleEnd}};
+    json.update(counts);
+    json["pixelsAtMost"] = atMost;
+    return json;
 }
 
 Json stepsOf(const RenderReport& report)
@@ -191,7 +205,7 @@ std::string rangeText(const RenderReport& report)
 std::string savingText(const RenderReport& report)
 {
     const RenderSettings& settings = report.options.settings;
-    if (settings.adaptive == Adaptive::Off || !report.film.complete) {
+    if (!isCourse(settings.adaptive) || !report.film.complete) {
         return "";
     }
     const double share = computeRates(report.film).mean / settings.sampleEnd;
@@ -208,7 +222,13 @@ std::string qualityText(const RenderReport& report)
     if (view != View::Shaded) {
         return "";
     }
-    return errorText(report.film, report.options.settings);
+    std::string text = errorText(report.film, report.options.settings);
+    if (report.bias) {
+        const Interval& bias = report.bias->bias;
+        text += format(", bias %+.2f %% [%+.2f, %+.2f] by %zu control pixels", 100.0 * bias.value, 100.0 * bias.low, 100.0 * bias.high,
+                       report.bias->pixels);
+    }
+    return text;
 }
 
 }  // namespace

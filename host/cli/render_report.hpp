@@ -3,6 +3,7 @@
 
 #include "host/render/prepare_scene.hpp"
 #include "host/cli/render_options.hpp"
+#include "host/measure/control_bias.hpp"
 #include "host/render/suspects.hpp"
 
 namespace glim {
@@ -16,6 +17,7 @@ struct RenderReport {
     std::string stopReason;  // "samples", "time", "tolerance", "target", or the signal's name
     double writeSeconds;
     std::vector<Suspect> suspects;
+    std::optional<ControlBias> bias;  // of adaptive renders
 };
 
 void printSummary(const RenderReport& report);

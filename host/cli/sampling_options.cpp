@@ -58,7 +58,7 @@ void addSamplerOptions(CLI::App& command, RenderSettings& settings)
     addNumber<std::uint32_t>(
         command, {"--seed", "N", "Same seed, same bits", 0, std::numeric_limits<std::uint32_t>::max(), "0"},
         [&settings](std::uint32_t seed) { settings.seed = seed; });
-    addEnum(command, "--sampler", "S", "sobol (Owen-scrambled) or independent [sobol; independent with --adaptive]",
+    addEnum(command, "--sampler", "S", "sobol (Owen-scrambled) or independent [sobol; independent with --adaptive course]",
             {"sobol", "independent"}, settings.sampler);
 }
 
@@ -93,17 +93,19 @@ void addLightOptions(CLI::App& command, RenderSettings& settings)
 void addAdaptiveOptions(CLI::App& command, RenderSettings& settings)
 {
     addEnum(command, "--adaptive", "RULE",
-            "course: look at each pixel after every --batch of its n samples, and stop it once 1.96 s / sqrt(n) <= T m, where m "
-            "and s are mean and standard deviation of their luminance (Berkeley, CS 184). A bias: pixels stop where they "
-            "happen to look calm, mostly too dark: by 1.7 % of the light of a room with mirror and glass (earlier experiments: 1 to "
-            "4 %), by less than .3 % in diffuse rooms. Pixels without any variance go on to 1024 samples unless no surface is in "
-            "sight; course:literal stops them at once, and may leave them black [off]",
-            {"off", "course", "course:literal"}, settings.adaptive);
-    addNumber<float>(command, {"--tolerance", "T", "Of --adaptive, relative to the mean", 1e-30F, 1e6F, "0.05"},
+            "neighbours: the first 64 samples everywhere; of the others half everywhere, and half in proportion to the standard "
+            "deviation of the 48 pixels around, relative to their radiance (neighbours:absolute: as it is, for --target-rmse); "
+            "--spp is the mean over pixels [256]. course: look at each pixel after every --batch of its n samples, and stop it once "
+            "1.96 s / sqrt(n) <= T m, where m and s are mean and standard deviation of their luminance (Berkeley, CS 184). A bias: "
+            "pixels stop where they happen to look calm, mostly too dark: by 1.7 % of the light of a room with mirror and glass "
+            "(earlier experiments: 1 to 4 %), by less than .3 % in diffuse rooms. Pixels without any variance go on to 1024 samples "
+            "unless no surface is in sight; course:literal stops them at once, and may leave them black [off]",
+            {"off", "course", "course:literal", "neighbours", "neighbours:absolute"}, settings.adaptive);
+    addNumber<float>(command, {"--tolerance", "T", "Of --adaptive course, relative to the mean", 1e-30F, 1e6F, "0.05"},
                      [&settings](float tolerance) { settings.tolerance = tolerance; });
-    addNumber<std::uint32_t>(command, {"--batch", "N", "Samples between two looks of --adaptive", 2, 1048576, "32"},
+    addNumber<std::uint32_t>(command, {"--batch", "N", "Samples between two looks of --adaptive course", 2, 1048576, "32"},
                              [&settings](std::uint32_t count) { settings.batch = count; });
-    addNumber<std::uint32_t>(command, {"--max-spp", "N", "Most samples per pixel of --adaptive", 2, kMaxSample, "2048"},
+    addNumber<std::uint32_t>(command, {"--max-spp", "N", "Most samples per pixel of --adaptive course", 2, kMaxSample, "2048"},
                              [&settings](std::uint32_t count) { settings.sampleEnd = count; });
 }
 

@@ -49,15 +49,11 @@ void settleView(const CLI::App& command, RenderSettings& settings)
     }
 }
 
-void settleAdaptive(const CLI::App& command, RenderSettings& settings)
+void settleCourse(const CLI::App& command, RenderSettings& settings)
 {
-    if (settings.adaptive == Adaptive::Off) {
-        refuseIfGiven(command, {"--tolerance", "--batch", "--max-spp"}, "expected --adaptive course or course:literal with it");
-        return;
-    }
-    refuseIfGiven(command, {"--spp", "--samples"}, "--adaptive itself chooses the samples; expected --max-spp as their limit");
+    refuseIfGiven(command, {"--spp", "--samples"}, "--adaptive course itself chooses the samples; expected --max-spp as their limit");
     if (isGiven(command, "--sampler") && settings.sampler == Sampler::Sobol) {
-        refuse(command, "--sampler", "the statistics of --adaptive assume independent samples; expected --sampler independent");
+        refuse(command, "--sampler", "the statistics of --adaptive course assume independent samples; expected --sampler independent");
     }
     settings.sampler = Sampler::Independent;
     settings.sampleEnd = isGiven(command, "--max-spp") ? settings.sampleEnd : kMaxSpp;
@@ -67,9 +63,33 @@ void settleAdaptive(const CLI::App& command, RenderSettings& settings)
     }
 }
 
+// Without another limit, four times the samples that all pixels have alike.
+void settleNeighbours(const CLI::App& command, RenderSettings& settings)
+{
+    refuseIfGiven(command, {"--samples"}, "--adaptive itself chooses the samples; expected --spp as their mean");
+    if (isGiven(command, "--spp") && settings.sampleEnd <= kPilotSamples) {
+        refuse(command, "--spp", "--adaptive neighbours begins with " + std::to_string(kPilotSamples) +
+                                     " samples of every pixel; expected more");
+    }
+    settings.sampleEnd = isGiven(command, "--spp") ? settings.sampleEnd : 4 * kPilotSamples;
+}
+
+void settleAdaptive(const CLI::App& command, RenderSettings& settings)
+{
+    if (!isCourse(settings.adaptive)) {
+        refuseIfGiven(command, {"--tolerance", "--batch", "--max-spp"}, "expected --adaptive course or course:literal with it");
+    }
+    if (isNeighbours(settings.adaptive)) {
+        settleNeighbours(command, settings);
+    }
+    if (isCourse(settings.adaptive)) {
+        settleCourse(command, settings);
+    }
+}
+
 void settleTime(const CLI::App& command, RenderSettings& settings)
 {
-    if (settings.seconds && settings.adaptive == Adaptive::Off && !isGiven(command, "--samples")) {
+    if (settings.seconds && !isCourse(settings.adaptive) && !isGiven(command, "--samples")) {
         settings.sampleEnd = mostSamples(settings);
     }
 }
@@ -85,7 +105,8 @@ void settleReplay(const CLI::App& command, RenderOptions& options)
     if (options.settings.view != View::Shaded) {
         refuse(command, "--view", "has no paths; expected --view shaded with --replay");
     }
-    if (!isGiven(command, "--spp") && !isGiven(command, "--samples") && options.settings.adaptive == Adaptive::Off) {
+    const bool limited = isGiven(command, "--spp") || isGiven(command, "--samples");
+    if (isNeighbours(options.settings.adaptive) || (!limited && options.settings.adaptive == Adaptive::Off)) {
         options.settings.sampleBegin = options.replay->sample;
         options.settings.sampleEnd = options.replay->sample + 1;
     }
@@ -128,8 +149,9 @@ void settleTarget(const CLI::App& command, RenderOptions& options)
     if (!options.target.isGiven()) {
         return;
     }
-    if (options.settings.adaptive != Adaptive::Off) {
-        refuseIfGiven(command, {"--target-rmse", "--target-relmse"}, "--adaptive course has a rule of its own; expected no --adaptive");
+    if (isCourse(options.settings.adaptive)) {
+        refuseIfGiven(command, {"--target-rmse", "--target-relmse"},
+                      "--adaptive course has a rule of its own; expected --adaptive neighbours or off");
     }
     const std::uint32_t least = 2 * kBlockSamples, count = options.settings.sampleEnd - options.settings.sampleBegin;
     const bool limited = isGiven(command, "--spp") || isGiven(command, "--samples");
@@ -167,10 +189,12 @@ void settleLight(const CLI::App& command, PictureOptions& options)
 
 void settleRender(const CLI::App& command, RenderOptions& options)
 {
-    settleReplay(command, options);
     settleView(command, options.settings);
+    settleAdaptive(command, options.settings);
+    settleTime(command, options.settings);
+    settleReplay(command, options);
     settleTarget(command, options);
-    settlePicture(command, options);
+    settleLight(command, options);
     checkReplay(command, options);
     if (options.png && options.rates && options.png->lexically_normal() == options.rates->lexically_normal()) {
         refuse(command, "--rates", "expected another file than that of --png");

@@ -56,10 +56,11 @@ Specialization specialize(const SceneFeatures& features, const FlatCamera& camer
             {kSpecDirect, directOf(settings.direct)},
             {kSpecRoulette, rouletteOf(settings.roulette)},
             {kSpecLens, camera.lensRight != vec3(0.0F)},
-            {kSpecAdaptive, settings.adaptive != Adaptive::Off},
+            {kSpecChosen, settings.adaptive != Adaptive::Off},
             {kSpecView, viewOf(settings.view)},
             {kSpecSuspects, settings.suspects > 0},
-            {kSpecNotes, settings.notes}};
+            {kSpecNotes, settings.notes},
+            {kSpecLuminance, isCourse(settings.adaptive)}};
 }
 
 KernelSet::KernelSet(const KernelLayout& layout, const Specialization& s)
@@ -82,7 +83,7 @@ KernelSet::KernelSet(const KernelLayout& layout, const Specialization& s)
     if (s.at(kSpecView) != 0) {
         compile(showView, kernels::show_view);
     }
-    if (s.at(kSpecAdaptive) != 0) {
+    if (s.at(kSpecLuminance) != 0) {
         compile(choosePixels, kernels::choose_pixels);
     }
     for (std::future<void>& kernel : compiling) {

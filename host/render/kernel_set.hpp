@@ -21,7 +21,7 @@ struct KernelSet {
     std::optional<Kernel> generateRays, sizeDispatch, traceClosest, sampleLights, traceShadow, bounce, accumulate;
     std::optional<Kernel> sampleHemisphere, traceHemisphere;  // of --direct hemisphere
     std::optional<Kernel> showView;                           // of views other than shaded
-    std::optional<Kernel> choosePixels;                       // of adaptive renders
+    std::optional<Kernel> choosePixels;                       // of --adaptive course
 };
 
 }  // namespace glim

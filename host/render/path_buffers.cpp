@@ -4,7 +4,7 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/path_types.h"
 
-#include <numeric>
+#include <cstring>
 
 namespace glim {
 namespace {
@@ -108,12 +108,12 @@ PathNote PathBuffers::takeNote()
 
 Slab::Slab(Device& device, const KernelLayout& layout, const DeviceScene& scene, const DeviceCamera& camera,
            const PathBuffers& paths, std::uint32_t begin, std::uint32_t count, const RenderSettings& settings)
-    : device_(device), begin_(begin), count_(count), chosenCount_(count), adaptive_(settings.adaptive != Adaptive::Off),
+    : device_(device), begin_(begin), count_(count), chosenCount_(count), chooses_(settings.adaptive != Adaptive::Off),
       blocks_(arrayOf<BlockSums>(device, "film's blocks", count)),
       pages_(arrayOf<PixelMoments>(device, "film's pages", count)),
-      luminance_(arrayOf<LuminanceMoments>(device, "pixels' luminances", adaptive_ ? count : 1)),
+      luminance_(arrayOf<LuminanceMoments>(device, "pixels' luminances", isCourse(settings.adaptive) ? count : 1)),
       brightest_(arrayOf<BrightestSample>(device, "pixels' brightest samples", settings.suspects > 0 ? count : 1)),
-      chosen_(arrayOf<uint>(device, "chosen pixels", 1 + (adaptive_ ? count : 1)))
+      chosen_(device, "chosen pixels", BufferKind::Storage, sizeof(uint) + (chooses_ ? count : 1) * sizeof(ChosenPixel))
 {
     const std::map<std::uint32_t, const Buffer*> film = {{kBindCamera, &camera.buffer()},
                                                          {kBindBlocks, &blocks_},
@@ -144,7 +144,8 @@ void Slab::copySamples(const Slab& other, std::uint32_t first)
 std::uint64_t Slab::bytesPerPixel(const RenderSettings& settings)
 {
     return sizeof(BlockSums) + sizeof(PixelMoments) + (settings.suspects > 0 ? sizeof(BrightestSample) : 0) +
-           (settings.adaptive != Adaptive::Off ? sizeof(LuminanceMoments) + sizeof(uint) : 0);
+           (settings.adaptive != Adaptive::Off ? sizeof(ChosenPixel) : 0) +
+           (isCourse(settings.adaptive) ? sizeof(LuminanceMoments) : 0);
 }
 
 void Slab::fillWithZero(std::initializer_list<const Buffer*> buffers)
@@ -166,12 +167,23 @@ std::vector<PixelMoments> Slab::takePages()
 void Slab::chooseAll()
 {
     chosenCount_ = count_;
-    if (adaptive_) {
-        std::vector<uint> list(1 + count_);
-        list[0] = count_;
-        std::iota(list.begin() + 1, list.end(), 0U);
-        upload(chosen_, std::span<const uint>(list));
+    if (chooses_) {
+        std::vector<ChosenPixel> all(count_);
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            all[i].pixel = i;
+        }
+        choose(all);
     }
+}
+
+void Slab::choose(const std::vector<ChosenPixel>& pixels)
+{
+    chosenCount_ = static_cast<std::uint32_t>(pixels.size());
+    std::vector<uint> list(1 + 2 * pixels.size());
+    list[0] = chosenCount_;
+    static_assert(sizeof(ChosenPixel) == 2 * sizeof(uint));
+    std::memcpy(list.data() + 1, pixels.data(), pixels.size() * sizeof(ChosenPixel));
+    upload(chosen_, std::span<const uint>(list));
 }
 
 void Slab::chooseNone()

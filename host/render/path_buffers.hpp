@@ -55,9 +55,6 @@ public:
          const PathBuffers& paths, std::uint32_t begin, std::uint32_t count, const RenderSettings& settings);
     static std::uint64_t bytesPerPixel(const RenderSettings& settings);
 
-    // Chosen so that neither buffer exceeds 128 MiB.
-    static constexpr std::uint32_t kMaxPixels = 1U << 20;
-
     std::uint32_t begin() const { return begin_; }
     std::uint32_t count() const { return count_; }
     std::uint32_t chosenCount() const { return chosenCount_; }
@@ -74,6 +71,7 @@ public:
     // Has the samples of as many pixels of `other`, from its `first` on.
     void copySamples(const Slab& other, std::uint32_t first);
     void chooseAll();
+    void choose(const std::vector<ChosenPixel>& pixels);
     void chooseNone();
     // After choose_pixels has filled the list.
     void readChosenCount();
@@ -83,11 +81,11 @@ private:
 
     Device& device_;
     std::uint32_t begin_, count_, chosenCount_;
-    bool adaptive_;
+    bool chooses_;
     Buffer blocks_, pages_;
     Buffer luminance_;  // LuminanceMoments
     Buffer brightest_;  // BrightestSample
-    Buffer chosen_;     // their number, then their indices in the slab
+    Buffer chosen_;     // their number, then ChosenPixel
     std::optional<Bindings> even_, odd_;
 };
 

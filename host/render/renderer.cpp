@@ -1,6 +1,6 @@
-// A pass traces some samples of some pixels to their end (wavefront.cpp: the order of the kernels). A sweep is passes over all
-// pixels, or over those that an adaptive render has chosen, for the same few samples of a block. Which pixels share a pass
-// depends on measured time; the order of a pixel's samples and all sums do not.
+// A pass traces some samples of some pixels to their end (wavefront.cpp: the order of the kernels). A sweep is passes over many
+// pixels (renderer_sweeps.cpp: which). Which pixels share a pass depends on measured time; the order of a pixel's samples and all
+// sums do not.
 #include "host/render/renderer.hpp"
 
 #include "host/render/check_status.hpp"
@@ -9,19 +9,12 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace glim {
 namespace {
-
-// Of all renderers together: what one has folded is never taken for what another has.
-std::uint64_t nextVersion()
-{
-    static std::atomic<std::uint64_t> last = 0;
-    return ++last;
-}
 
 double secondsSince(std::chrono::steady_clock::time_point start)
 {
@@ -53,12 +46,18 @@ void Renderer::open(const FlatCamera& camera)
     begin(camera);
 }
 
+std::uint64_t Renderer::nextFoldVersion()
+{
+    static std::atomic<std::uint64_t> last = 0;
+    return ++last;
+}
+
 void Renderer::makeSlabs()
 {
     slabs_.clear();
     const std::uint32_t pixels = settings_.width * settings_.height;
-    for (std::uint32_t first = 0; first < pixels; first += Slab::kMaxPixels) {
-        slabs_.push_back(wavefront_->makeSlab(first, std::min(Slab::kMaxPixels, pixels - first)));
+    for (std::uint32_t first = 0; first < pixels; first += settings_.slabPixels) {
+        slabs_.push_back(wavefront_->makeSlab(first, std::min(settings_.slabPixels, pixels - first)));
     }
 }
 
@@ -97,6 +96,8 @@ void Renderer::begin(const FlatCamera& camera)
     film_.device = device_.description().name + ", " + device_.description().driver;
     foldVersion_ = 0;
     sample_ = settings_.sampleBegin;
+    roundEnd_ = 0;
+    timesToTarget_ = std::numeric_limits<double>::infinity();
     sweeping_ = false;
     slab_ = 0;
     pixel_ = 0;
@@ -138,7 +139,7 @@ Film Renderer::film()
 
 PixelMoments Renderer::moments(std::uint32_t pixel)
 {
-    const Slab& slab = *slabs_[pixel / Slab::kMaxPixels];
+    const Slab& slab = *slabs_[pixel / settings_.slabPixels];
     const std::unique_ptr<Slab> copy = wavefront_->makeSlab(pixel, 1);
     copy->copySamples(slab, pixel - slab.begin());
     wavefront_->closeBlocks(*copy);
@@ -148,48 +149,11 @@ PixelMoments Renderer::moments(std::uint32_t pixel)
 // The samples it is of.
 void Renderer::describe(Film& film) const
 {
-    film.sampleRanges = {{settings_.sampleBegin, sweeping_ ? sweepEnd() : sample_}};
+    const std::uint32_t end = isInRounds() && roundEnd_ > 0 ? blocks_.end() : sweeping_ ? sweepEnd() : sample_;
+    film.sampleRanges = {{settings_.sampleBegin, end}};
     const bool even = pictureSamples_ > 0 && pictureSamples_ == film.pixels.size() * sampleCount();
-    film.complete = isDone() || (even && !isAdaptive());
+    film.complete = isDone() || (!isCourse(settings_.adaptive) && (isInRounds() ? !sweeping_ : even));
     film.seconds = secondsSince(start_);
-}
-
-// End of the sweep under way: the first block is swept 1, 1, 2, 4, 8 and 16 samples at a time, so that a render that is stopped
-// early covers its picture evenly; later blocks at once, which keeps the rays of a pixel together.
-std::uint32_t Renderer::sweepEnd() const
-{
-    const std::uint32_t done = sampleCount();
-    const std::uint32_t count = done < kBlockSamples ? std::max(1U, std::bit_floor(done)) : kBlockSamples;
-    const std::uint32_t end = std::min({settings_.sampleEnd, (sample_ / kBlockSamples + 1) * kBlockSamples, sample_ + count});
-    return isAdaptive() ? std::min(end, (sample_ / settings_.batch + 1) * settings_.batch) : end;
-}
-
-bool Renderer::advance(const std::function<bool()>& goesOn)
-{
-    if (isDone() || !runPass(nextPass(), goesOn)) {
-        return false;
-    }
-    while (slab_ < slabs_.size() && pixel_ == slabs_[slab_]->chosenCount()) {
-        ++slab_;
-        pixel_ = 0;
-    }
-    if (slab_ == slabs_.size()) {
-        endSweep();
-    }
-    return true;
-}
-
-Pass Renderer::nextPass() const
-{
-    const Slab& slab = *slabs_[slab_];
-    const std::uint32_t end = sweepEnd();
-    Pass pass = wavefront_->passOf(slab);
-    pass.firstPixel = pixel_;
-    pass.firstSample = sample_;
-    pass.sampleCount = end - sample_;
-    pass.pixelCount = std::min(slab.chosenCount() - pixel_, std::max(1U, passSize_.paths() / pass.sampleCount));
-    pass.accumulate = end % kBlockSamples == 0 ? kEndsBlock : 0;
-    return pass;
 }
 
 // False if `goesOn` ended it before it was done.
@@ -210,35 +174,6 @@ bool Renderer::runPass(const Pass& pass, const std::function<bool()>& goesOn)
     statistics_.longestDispatch = std::max(statistics_.longestDispatch, seconds.longest);
     passSize_.learn(paths, seconds);
     return true;
-}
-
-void Renderer::endSweep()
-{
-    sample_ = sweepEnd();
-    sweeping_ = false;
-    slab_ = 0;
-    if (isAdaptive() && sample_ % settings_.batch == 0) {
-        chosen_ = choosePixels();
-        plannedSamples_ = pictureSamples_ + chosen_ * (settings_.sampleEnd - sample_);
-    }
-    while (chosen_ > 0 && slabs_[slab_]->chosenCount() == 0) {
-        ++slab_;
-    }
-    if (sample_ % kPageSamples == 0) {
-        foldPages(film_, slabs_);
-        foldVersion_ = nextVersion();
-    }
-}
-
-// How many pixels still need samples.
-std::uint64_t Renderer::choosePixels()
-{
-    std::uint64_t chosen = 0;
-    for (const auto& slab : slabs_) {
-        wavefront_->choosePixels(*slab);
-        chosen += slab->chosenCount();
-    }
-    return chosen;
 }
 
 // Ends the blocks under way, which in adaptive renders and at the end may be any.
@@ -265,14 +200,15 @@ bool Renderer::isOver(const RenderObserver& observer)
 // to be low, and takes time.
 bool Renderer::isGoodEnough(const FilmJudge& judge)
 {
-    const bool ends = !sweeping_ && sample_ % kBlockSamples == 0 && sampleCount() >= 2 * kBlockSamples;
+    const bool whole = isInRounds() || sample_ % kBlockSamples == 0;
+    const bool ends = !sweeping_ && whole && sampleCount() >= 2 * kBlockSamples;
     if (!ends || static_cast<double>(pictureSamples_) < 1.1 * static_cast<double>(judgedSamples_)) {
         return false;
     }
     judgedSamples_ = pictureSamples_;
-    const double times = std::min(judge(film()), 1e6);
-    plannedSamples_ = static_cast<std::uint64_t>(static_cast<double>(pictureSamples_) * std::max(times, 1.0));
-    return times <= 1.0;
+    timesToTarget_ = std::min(judge(film()), 1e6);
+    plannedSamples_ = static_cast<std::uint64_t>(static_cast<double>(pictureSamples_) * std::max(timesToTarget_, 1.0));
+    return timesToTarget_ <= 1.0;
 }
 
 void Renderer::readCounters()

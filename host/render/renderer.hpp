@@ -1,6 +1,7 @@
 // Renders: sweeps over the picture, pass after pass.
 #pragma once
 
+#include "host/render/block_queue.hpp"
 #include "host/render/film.hpp"
 #include "host/render/pass_size.hpp"
 #include "host/render/wavefront.hpp"
@@ -47,7 +48,11 @@ public:
     // no film is better than a wrong one. Once per picture.
     Film render(const RenderObserver& observer, const FilmJudge& judge = nullptr);
 
-    // The same in steps: a pass of work. False once nothing is left to do, or if `goesOn`, asked now and then, ended the pass, of which
+    // After an adaptive render: new samples of one pixel in a hundred (in small pictures of 64 or so), as many as `film` has of each,
+    // and in no statistics. What was chosen by the old ones, those do not know. Nothing if `goesOn` ended it.
+    std::optional<Film> sampleControl(const Film& film, const std::function<bool()>& goesOn);
+
+    // The same as render in steps: a pass of work. False once nothing is left to do, or if `goesOn`, asked now and then, ended the pass, of which
     // nothing is kept then. Throws as render.
     bool advance(const std::function<bool()>& goesOn = nullptr);
     bool isDone() const { return chosen_ == 0 || sample_ == settings_.sampleEnd; }
@@ -63,7 +68,7 @@ public:
     // The same picture from other random numbers.
     void restart(const FlatCamera& camera, std::uint32_t seed);
 
-    // Samples that every chosen pixel has, and those of all pixels together.
+    // Samples that every chosen pixel has (in rounds, their mean), and those of all pixels together.
     std::uint32_t sampleCount() const { return sample_ - settings_.sampleBegin; }
     std::uint64_t pictureSamples() const { return pictureSamples_; }
     // For who looks at the film on the device, which has what was not folded yet. The version changes whenever `folded` does; 0 while
@@ -78,17 +83,25 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
-    bool isAdaptive() const { return settings_.adaptive != Adaptive::Off; }
     void open(const FlatCamera& camera);
     void makeSlabs();
     void begin(const FlatCamera& camera);
     void describe(Film& film) const;
-    std::uint32_t sweepEnd() const;
-    Pass nextPass() const;
     bool runPass(const Pass& pass, const std::function<bool()>& goesOn);
     bool asks(const RenderObserver& observer);
+    // Of all renderers together: what one has folded is never taken for what another has.
+    static std::uint64_t nextFoldVersion();
+
+    // In renderer_sweeps.cpp.
+    bool isInRounds() const;
+    std::uint32_t sweepEnd() const;
+    bool findSlab();
+    Pass nextPass(std::uint32_t firstSample, std::uint32_t sampleCount) const;
     void endSweep();
     std::uint64_t choosePixels();
+    void startRound();
+    bool chooseSweep(BlockQueue& blocks);
+
     void foldPages(Film& film, const std::vector<std::unique_ptr<Slab>>& slabs);
     bool isOver(const RenderObserver& observer);
     bool isGoodEnough(const FilmJudge& judge);
@@ -109,13 +122,17 @@ private:
 
     Film film_;                      // the pages folded so far
     std::uint64_t foldVersion_ = 0;
-    std::uint32_t sample_ = 0;       // first of the sweep under way
-    bool sweeping_ = false;          // the sweep has had a pass
+    std::uint32_t sample_ = 0;       // first of the sweep under way; in rounds, the pixels' mean when it began
+    bool sweeping_ = false;          // the sweep or round has had a pass
     std::size_t slab_ = 0;           // of the next pass
     std::uint32_t pixel_ = 0;        // its first one, among the slab's chosen
     std::uint64_t chosen_ = 0;       // pixels that the sweep goes over
     std::uint64_t pictureSamples_ = 0, plannedSamples_ = 0;
     std::uint64_t judgedSamples_ = 0;  // of the picture, when it was judged last
+    double timesToTarget_ = 0.0;       // that it found; infinite before
+    BlockQueue blocks_;                // of the round under way
+    std::uint32_t roundEnd_ = 0;       // mean samples after it
+    std::uint32_t sweepSamples_ = 0;   // of each pixel in one of its sweeps
 };
 
 }  // namespace glim

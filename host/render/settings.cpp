@@ -31,7 +31,10 @@ std::string describeSettings(const RenderSettings& settings)
     if (settings.view != View::Shaded) {
         text << " view=" << kViews[static_cast<int>(settings.view)];
     }
-    if (settings.adaptive != Adaptive::Off) {
+    if (isNeighbours(settings.adaptive)) {
+        text << " adaptive=" << (settings.adaptive == Adaptive::Neighbours ? "neighbours" : "neighbours:absolute");
+    }
+    if (isCourse(settings.adaptive)) {
         text << " adaptive=" << (settings.adaptive == Adaptive::Course ? "course" : "course:literal")
              << " tolerance=" << exactText(settings.tolerance) << " batch=" << settings.batch
              << " max-spp=" << settings.sampleEnd;

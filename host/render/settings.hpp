@@ -1,6 +1,8 @@
 // What a render is asked for.
 #pragma once
 
+#include "shaders/shared/limits.h"
+
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -29,8 +31,13 @@ enum class Roulette { Throughput, Fixed, None };
 // What the picture shows of what the camera rays meet; all but Shaded end there.
 enum class View { Shaded, Normal, Depth, Albedo, BvhSteps };
 
-// Course: Berkeley's CS 184 path tracer, which stops a pixel once 1.96 s / sqrt(n) <= tolerance * mean of luminance.
-enum class Adaptive { Off, Course, CourseLiteral };
+// Course: Berkeley's CS 184 path tracer, which stops a pixel once 1.96 s / sqrt(n) <= tolerance * mean of luminance. Neighbours: the
+// more samples, the noisier a pixel's neighbours are, relative to their radiance or in absolute terms (allocate_samples.hpp).
+enum class Adaptive { Off, Course, CourseLiteral, Neighbours, NeighboursAbsolute };
+
+// That Neighbours begins with everywhere. Two blocks are the fewest that tell a variance; of 48 neighbours they tell it well enough.
+inline constexpr std::uint32_t kPilotSamples = 64;
+static_assert(kPilotSamples >= 2 * kBlockSamples);
 
 struct RenderSettings {
     std::uint32_t width = 512, height = 512;
@@ -46,9 +53,11 @@ struct RenderSettings {
     Roulette roulette = Roulette::Throughput;
     float survival = 0.7F;  // of Roulette::Fixed
     View view = View::Shaded;
-    Adaptive adaptive = Adaptive::Off;  // else independent samples only, sampleBegin 0, at most sampleEnd
-    float tolerance = 0.05F;
-    std::uint32_t batch = 32;  // samples between two looks at a pixel
+    // Sample indices then begin at 0. Of Course they are independent, and a pixel has at most sampleEnd; of Neighbours, pixels have
+    // sampleEnd on average.
+    Adaptive adaptive = Adaptive::Off;
+    float tolerance = 0.05F;   // of Course
+    std::uint32_t batch = 32;  // of Course: samples between two looks at a pixel
     float clampIndirect = std::numeric_limits<float>::infinity();
     std::optional<double> seconds;  // stop sampling after this long
 
@@ -59,9 +68,16 @@ struct RenderSettings {
     // How the work is cut: these change no bit of the picture.
     std::uint32_t workgroup = 64;        // invocations
     std::uint32_t pathCapacity = 1U << 18;  // paths in flight, at least kBlockSamples
+    std::uint32_t slabPixels = 1U << 20;    // most pixels of a slab: no buffer of the film exceeds 128 MiB, llvmpipe's limit
     std::uint32_t portion = 64;          // dispatches that run before it is asked whether the pass goes on
     double passSeconds = 1.0;            // that a pass should take at most: nobody is answered before its end
 };
+
+inline bool isCourse(Adaptive adaptive) { return adaptive == Adaptive::Course || adaptive == Adaptive::CourseLiteral; }
+inline bool isNeighbours(Adaptive adaptive)
+{
+    return adaptive == Adaptive::Neighbours || adaptive == Adaptive::NeighboursAbsolute;
+}
 
 // Every setting that changes a sample, as "name=value ..."; part of a film's identity. Those that later versions of glim added
 // are named where they are not at their default.

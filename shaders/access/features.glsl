@@ -16,11 +16,12 @@ layout(constant_id = kSpecBruteForce) const bool kBruteForce = false;
 layout(constant_id = kSpecDirect) const uint kDirect = kDirectMis;
 layout(constant_id = kSpecRoulette) const uint kRoulette = kRouletteThroughput;
 layout(constant_id = kSpecLens) const bool kLens = false;
-layout(constant_id = kSpecAdaptive) const bool kAdaptive = false;
+layout(constant_id = kSpecChosen) const bool kChosen = false;
 layout(constant_id = kSpecView) const uint kView = kViewNormal;
 layout(constant_id = kSpecLook) const uint kLook = 0u;
 layout(constant_id = kSpecFolded) const bool kFolded = true;
 layout(constant_id = kSpecSuspects) const bool kSuspects = false;
 layout(constant_id = kSpecNotes) const bool kNotes = false;
+layout(constant_id = kSpecLuminance) const bool kLuminance = false;
 
 #endif

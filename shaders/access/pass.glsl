@@ -9,11 +9,14 @@
 layout(push_constant, scalar) uniform PassBlock { Pass pass; };
 
 #if defined(WRITES_CHOSEN_PIXELS)
-layout(set = 0, binding = kBindChosenPixels, scalar) buffer ChosenPixelsBuffer { uint chosenCount; uint chosenPixels[]; };
+layout(set = 0, binding = kBindChosenPixels, scalar) buffer ChosenPixelsBuffer {
+    uint chosenCount;
+    ChosenPixel chosenPixels[];
+};
 #else
 layout(set = 0, binding = kBindChosenPixels, scalar) readonly buffer ChosenPixelsBuffer {
     uint chosenCount;
-    uint chosenPixels[];  // indices in the slab
+    ChosenPixel chosenPixels[];
 };
 #endif
 
@@ -33,14 +36,20 @@ uint interleavedInvocation()
 // Index in the slab of the pass's pixel number `i`.
 uint pixelOfPass(uint i)
 {
-    return kAdaptive ? chosenPixels[pass.firstPixel + i] : pass.firstPixel + i;
+    return kChosen ? chosenPixels[pass.firstPixel + i].pixel : pass.firstPixel + i;
+}
+
+// Of the pass's pixel number `i`.
+uint firstSampleOfPass(uint i)
+{
+    return kChosen ? chosenPixels[pass.firstPixel + i].samplesBefore + pass.firstSample : pass.firstSample;
 }
 
 SampleId sampleOfSlot(uint slot)
 {
     uint pixel = slot / pass.sampleCount;
     return SampleId(pass.seed, pass.slabBegin + pixelOfPass(pixel),
-                    pass.firstSample + (slot - pixel * pass.sampleCount));
+                    firstSampleOfPass(pixel) + (slot - pixel * pass.sampleCount));
 }
 
 #endif

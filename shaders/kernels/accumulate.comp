@@ -1,4 +1,4 @@
-// One thread is one pixel of the pass. Adds its finished samples to the block, in the order of their index, and folds the block
+// One thread is one pixel of the pass. Adds its finished samples to the block, in the order of their index, and folds each block
 // into the page when it ends: the bits do not depend on how the work was cut.
 // Reads radiance and first hits. Updates blocks, pages and, in renders that ask for them, luminance and brightest samples; counts
 // samples that are not finite and leaves them out.
@@ -11,6 +11,7 @@
 #include "access/status.glsl"
 #include "lib/moments.glsl"
 #include "lib/stop_rule.glsl"
+#include "shared/limits.h"
 
 bool isFinite(float x)
 {
@@ -31,9 +32,17 @@ void keepBrightest(uint at, float luminance, uint sampleIndex)
     }
 }
 
+BlockSums endBlock(uint at, BlockSums sums)
+{
+    filmPages[at] = foldMoments(filmPages[at], momentsOfBlock(sums));
+    return emptyBlock();
+}
+
 void addPixel(uint pixel)
 {
-    uint at = (pass.accumulate & kEveryPixel) != 0u ? pixel : pixelOfPass(pixel);
+    bool every = (pass.accumulate & kEveryPixel) != 0u;
+    uint at = every ? pixel : pixelOfPass(pixel);
+    uint firstSample = every ? pass.firstSample : firstSampleOfPass(pixel);
     BlockSums sums = filmBlocks[at];
     if (sums.count == 0u) {
         sums = emptyBlock();  // the host fills new blocks with zeros
@@ -45,18 +54,20 @@ void addPixel(uint pixel)
             FirstHit first = pathFirstHits[slot];
             sums = addSample(sums, path, first);
             if (kSuspects) {
-                keepBrightest(at, luminanceOf(path.radiance), pass.firstSample + i);
+                keepBrightest(at, luminanceOf(path.radiance), firstSample + i);
             }
-            if (kAdaptive) {
+            if (kLuminance) {
                 filmLuminance[at] = addLuminance(filmLuminance[at], luminanceOf(path.radiance), first.alpha > 0.0);
             }
         } else {
-            reportNonFinite(pass.slabBegin + at, pass.firstSample + i);
+            reportNonFinite(pass.slabBegin + at, firstSample + i);
+        }
+        if ((firstSample + i + 1u) % kBlockSamples == 0u) {
+            sums = endBlock(at, sums);
         }
     }
     if ((pass.accumulate & kEndsBlock) != 0u) {
-        filmPages[at] = foldMoments(filmPages[at], momentsOfBlock(sums));
-        sums = emptyBlock();
+        sums = endBlock(at, sums);
     }
     filmBlocks[at] = sums;
 }

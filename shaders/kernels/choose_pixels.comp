@@ -34,7 +34,7 @@ void main()
 {
     uint pixel = interleavedInvocation();
     if (pixel < pass.pixelCount && !isAccurate(filmLuminance[pixel], pass.tolerance, pass.constantSamples) && !isEmpty(pixel)) {
-        chosenPixels[atomicAdd(chosenCount, 1u)] = pixel;
+        chosenPixels[atomicAdd(chosenCount, 1u)] = ChosenPixel(pixel, 0u);
     }
     checkLoopBudget(pass.canarySteps);
 }

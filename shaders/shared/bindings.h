@@ -56,12 +56,13 @@ GLIM_CONST uint kSpecBruteForce = 9u;      // every primitive against every ray;
 GLIM_CONST uint kSpecDirect = 10u;         // kDirectMis ...
 GLIM_CONST uint kSpecRoulette = 11u;       // kRouletteThroughput ...
 GLIM_CONST uint kSpecLens = 12u;           // else a pinhole
-GLIM_CONST uint kSpecAdaptive = 13u;       // passes go over chosen pixels
+GLIM_CONST uint kSpecChosen = 13u;         // passes go over chosen pixels
 GLIM_CONST uint kSpecView = 14u;           // kViewNormal ...
 GLIM_CONST uint kSpecLook = 15u;           // kLookRadiance ...
 GLIM_CONST uint kSpecFolded = 16u;         // the host has taken pages of the film, and given them back folded
 GLIM_CONST uint kSpecSuspects = 17u;       // each pixel's brightest sample is kept
 GLIM_CONST uint kSpecNotes = 18u;          // the kernels note what they find out about the only path of a pass
+GLIM_CONST uint kSpecLuminance = 19u;      // the film knows the luminance of its pixels
 
 // How direct light is estimated.
 GLIM_CONST uint kDirectMis = 0u;

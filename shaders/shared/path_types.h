@@ -112,8 +112,14 @@ struct BlockSums {
     float clamped;
 };
 
-GLIM_CONST uint kEndsBlock = 1u;   // accumulate folds the block into the page afterwards
+GLIM_CONST uint kEndsBlock = 1u;   // accumulate folds the block into the page afterwards, whole or not
 GLIM_CONST uint kEveryPixel = 2u;  // the pass goes over all pixels of the slab, whichever are chosen
+
+// Of a pass over some pixels of a slab, which need not have had the same number of samples before.
+struct ChosenPixel {
+    uint pixel;          // index in the slab
+    uint samplesBefore;  // is added to the pass's firstSample
+};
 
 // Which queues size_dispatch looks at.
 GLIM_CONST uint kSizesPaths = 1u;
@@ -124,7 +130,7 @@ GLIM_CONST uint kNoLightIndex = 0xffffffffu;
 GLIM_CONST uint kAnyLight = 0xfffffffeu;  // one by power
 
 // Push constants of every kernel of a pass: pixels [firstPixel, firstPixel + pixelCount) of a slab or, in adaptive renders, of
-// its list of chosen pixels, each with samples [firstSample, firstSample + sampleCount).
+// its list of chosen pixels, each with samples [firstSample, firstSample + sampleCount); a chosen pixel may begin later.
 // Slot = (pixel - firstPixel) * sampleCount + (sample - firstSample).
 //
 // Direct light comes in rounds of one ray per path: sample `lightSample` of `lightSamples` of one light or of the hemisphere.

@@ -120,6 +120,14 @@ TEST(RenderOptions, AdaptiveRendersTakeIndependentSamplesUpToALimit)
     EXPECT_EQ(timed.sampleEnd, 2048U);
     EXPECT_EQ(timed.seconds, 5.0);
     EXPECT_EQ(settings("--adaptive course --max-spp 32").sampleEnd, 32U);
+    EXPECT_EQ(settings("--adaptive neighbours").sampleEnd, 256U);
+    EXPECT_EQ(settings("--adaptive neighbours").sampler, Sampler::Sobol);
+    EXPECT_EQ(settings("--adaptive neighbours:absolute --spp 65").adaptive, Adaptive::NeighboursAbsolute);
+    EXPECT_EQ(settings("--adaptive neighbours:absolute --spp 65").sampleEnd, 65U);
+    EXPECT_EQ(settings("--adaptive neighbours --sampler independent").sampler, Sampler::Independent);
+    EXPECT_GT(settings("--adaptive neighbours --time 5").sampleEnd, 1000000U);
+    EXPECT_GT(settings("--adaptive neighbours --target-rmse 1%").sampleEnd, 1000000U);
+    EXPECT_EQ(settings("--adaptive neighbours --target-rmse 1% --spp 100").sampleEnd, 100U);
     EXPECT_EQ(settings("--adaptive off --spp 16").sampleEnd, 16U);
     EXPECT_EQ(settings("--adaptive off").sampler, Sampler::Sobol);
 }
@@ -168,10 +176,13 @@ TEST(RenderOptions, WhatDoesNotGoTogetherIsRefused)
         {"--view bvh-steps --accelerator none", "--view: \"bvh-steps\": " + tree},
         {"--tolerance 0.1", "--tolerance: \"0.1\": " + rule},
         {"--batch 64", "--batch: \"64\": " + rule},
+        {"--max-spp 64 --adaptive neighbours", "--max-spp: \"64\": " + rule},
+        {"--adaptive neighbours --spp 64", "--spp: \"64\": --adaptive neighbours begins with 64 samples of every pixel; expected more"},
+        {"--adaptive neighbours --samples 0:128", "--samples: \"0:128\": --adaptive itself chooses the samples; expected --spp"},
         {"--max-spp 64 --adaptive off", "--max-spp: \"64\": " + rule},
-        {"--adaptive course --spp 64", "--spp: \"64\": --adaptive itself chooses the samples; expected --max-spp as their limit"},
-        {"--adaptive course --samples 0:64", "--samples: \"0:64\": --adaptive itself chooses the samples"},
-        {"--adaptive course --sampler sobol", "--sampler: \"sobol\": the statistics of --adaptive assume independent samples"},
+        {"--adaptive course --spp 64", "--spp: \"64\": --adaptive course itself chooses the samples; expected --max-spp as their limit"},
+        {"--adaptive course --samples 0:64", "--samples: \"0:64\": --adaptive course itself chooses the samples"},
+        {"--adaptive course --sampler sobol", "--sampler: \"sobol\": the statistics of --adaptive course assume independent samples"},
         {"--adaptive course --batch 4096", "--batch: \"4096\": expected at most --max-spp, which is 2048"},
         {"--adaptive course --batch 64 --max-spp 32", "--batch: \"64\": expected at most --max-spp, which is 32"},
         {"--adaptive course --max-spp 31", "--max-spp: \"31\": expected at least --batch, which is 32"},

@@ -27,14 +27,20 @@ struct Outcome {
 };
 
 // An empty `chosen` is no adaptive render. Brightest samples start as `brightest`.
-Outcome accumulate(const std::vector<PathRadiance>& radiance, const std::vector<uint>& chosen = {}, uint flags = kEndsBlock,
+Outcome accumulate(const std::vector<PathRadiance>& radiance, const std::vector<ChosenPixel>& chosen = {}, uint flags = kEndsBlock,
                    const std::vector<BrightestSample>& brightest = {})
 {
     const KernelLayout layout(testDevice(), kernelSlots(), sizeof(Pass));
-    const Kernel kernel(layout, kernels::accumulate, {{kSpecWorkgroup, 64}, {kSpecAdaptive, !chosen.empty()}, {kSpecSuspects, !brightest.empty()}});
-    Buffer list(testDevice(), "test's choice", BufferKind::Storage, (1 + kPixels) * sizeof(uint));
+    const Kernel kernel(layout, kernels::accumulate, 
+                        {{kSpecWorkgroup, 64},
+                         {kSpecChosen, !chosen.empty()},
+                         {kSpecLuminance, !chosen.empty()},
+                         {kSpecSuspects, !brightest.empty()}});
+    Buffer list(testDevice(), "test's choice", BufferKind::Storage, sizeof(uint) + kPixels * sizeof(ChosenPixel));
     std::vector<uint> counted{kPixels};
-    counted.insert(counted.end(), chosen.begin(), chosen.end());
+    for (const ChosenPixel& each : chosen) {
+        counted.insert(counted.end(), {each.pixel, each.samplesBefore});
+    }
     upload(list, std::span<const uint>(counted));
     Buffer luminances(testDevice(), "test's luminances", BufferKind::Storage, kPixels * sizeof(LuminanceMoments));
     upload(luminances, std::span<const LuminanceMoments>(std::vector<LuminanceMoments>(kPixels)));
@@ -102,9 +108,9 @@ TEST(AccumulateTest, H37LeavesOutWhatIsNotFinite)
 TEST(AccumulateTest, AddsToTheChosenPixels)
 {
     std::vector<PathRadiance> radiance(kPixels * kSamples);
-    std::vector<uint> chosen(kPixels);
+    std::vector<ChosenPixel> chosen(kPixels);
     for (std::uint32_t i = 0; i < kPixels; ++i) {
-        chosen[i] = kPixels - 1 - i;
+        chosen[i].pixel = kPixels - 1 - i;
         for (std::uint32_t k = 0; k < kSamples; ++k) {
             radiance[i * kSamples + k].radiance = vec3(static_cast<float>(i + k), 0.0F, 0.0F);
         }
@@ -112,8 +118,8 @@ TEST(AccumulateTest, AddsToTheChosenPixels)
     const Outcome outcome = accumulate(radiance, chosen);
     for (std::uint32_t i = 0; i < kPixels; ++i) {
         const float mean = static_cast<float>(i) + 3.5F;
-        EXPECT_FLOAT_EQ(outcome.pages[chosen[i]].mean.r, mean);
-        const LuminanceMoments& moments = outcome.luminances[chosen[i]];
+        EXPECT_FLOAT_EQ(outcome.pages[chosen[i].pixel].mean.r, mean);
+        const LuminanceMoments& moments = outcome.luminances[chosen[i].pixel];
         EXPECT_EQ(moments.count, kSamples);
         EXPECT_NEAR(moments.mean, 0.2126F * mean, 1e-6F * mean);
         EXPECT_NEAR(moments.squares, 0.2126F * 0.2126F * 42.0F, 1e-4F);  // sum of (k - 3.5)^2 over 0 to 7
@@ -121,6 +127,37 @@ TEST(AccumulateTest, AddsToTheChosenPixels)
     EXPECT_EQ(accumulate(radiance).luminances[0].count, 0U);
     const Outcome every = accumulate(radiance, chosen, kEndsBlock | kEveryPixel);
     EXPECT_FLOAT_EQ(every.pages[10].mean.r, 13.5F);
+}
+
+// Each chosen pixel goes on from its own sample, and blocks end where their index says so: after 32, within the pass or not.
+TEST(AccumulateTest, ChosenPixelsGoOnFromTheirOwnSamples)
+{
+    std::vector<PathRadiance> radiance(kPixels * kSamples);
+    std::vector<ChosenPixel> chosen(kPixels);
+    for (std::uint32_t i = 0; i < kPixels; ++i) {
+        chosen[i] = {i, 3 * i};
+        for (std::uint32_t k = 0; k < kSamples; ++k) {
+            radiance[i * kSamples + k].radiance = vec3(static_cast<float>(k), 0.0F, 0.0F);
+        }
+    }
+    radiance[50 * kSamples + 2].radiance.g = std::numeric_limits<float>::infinity();
+    const Outcome outcome = accumulate(radiance, chosen, kEndsBlock, std::vector<BrightestSample>(kPixels));
+    for (std::uint32_t i = 0; i < kPixels; ++i) {
+        SCOPED_TRACE(i);
+        const std::uint32_t first = kFirstSample + 3 * i, toEnd = kBlockSamples - first % kBlockSamples;
+        EXPECT_EQ(outcome.pages[i].blocks, toEnd < kSamples ? 2U : 1U);
+        EXPECT_EQ(outcome.pages[i].count, i == 50 ? kSamples - 1 : kSamples);
+        EXPECT_EQ(outcome.brightest[i].sampleIndex, first + kSamples - 1);
+        if (i != 50) {
+            // Means (m - 1) / 2 and (m + 7) / 2 of m and 8 - m samples: m (8 - m) / 8 times the square of what is between them.
+            const float m = static_cast<float>(std::min(toEnd, kSamples));
+            EXPECT_FLOAT_EQ(outcome.pages[i].mean.r, 3.5F);
+            EXPECT_FLOAT_EQ(outcome.pages[i].squares.r, m * (8.0F - m) / 8.0F * 16.0F);
+        }
+    }
+    EXPECT_EQ(outcome.status.nonFinite, 1U);
+    EXPECT_EQ(outcome.status.located[0].pixel, kSlabBegin + 50);
+    EXPECT_EQ(outcome.status.located[0].sampleIndex, kFirstSample + 150 + 2);
 }
 
 TEST(AccumulateTest, KeepsTheFirstBrightestSample)

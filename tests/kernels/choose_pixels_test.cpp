@@ -31,11 +31,12 @@ Outcome readList(const Buffer& list, std::size_t pixels, const Status& status)
 {
     const std::vector<uint> words = download<uint>(list, list.size() / sizeof(uint));
     Outcome outcome{words[0], std::vector<std::uint32_t>(pixels, 0), 0, 0, status};
-    for (std::size_t i = 1; i < words.size(); ++i) {
-        if (i > outcome.count) {
-            outcome.beyond += words[i] != kUntouched ? 1 : 0;
-        } else if (words[i] < pixels) {
-            ++outcome.timesChosen[words[i]];
+    for (std::size_t i = 0; 2 * i + 2 < words.size(); ++i) {
+        const uint pixel = words[1 + 2 * i], samplesBefore = words[2 + 2 * i];
+        if (i >= outcome.count) {
+            outcome.beyond += pixel != kUntouched || samplesBefore != kUntouched ? 1 : 0;
+        } else if (pixel < pixels && samplesBefore == 0) {
+            ++outcome.timesChosen[pixel];
         } else {
             ++outcome.strangers;
         }
@@ -53,12 +54,12 @@ Outcome choosePixels(const std::vector<LuminanceMoments>& luminances, std::uint3
                      const Place& place = {20000, 1, 0})
 {
     const KernelLayout layout(testDevice(), kernelSlots(), sizeof(Pass));
-    const Kernel kernel(layout, kernels::choose_pixels, {{kSpecWorkgroup, kWorkgroup}, {kSpecAdaptive, 1}});
+    const Kernel kernel(layout, kernels::choose_pixels, {{kSpecWorkgroup, kWorkgroup}, {kSpecChosen, 1}, {kSpecLuminance, 1}});
     PathBuffers paths(testDevice(), 1);
     Buffer given(testDevice(), "test's luminances", BufferKind::Storage, luminances.size() * sizeof(LuminanceMoments));
     upload(given, std::span<const LuminanceMoments>(luminances));
-    Buffer list(testDevice(), "test's choice", BufferKind::Storage, (1 + luminances.size()) * sizeof(uint));
-    std::vector<uint> empty(1 + luminances.size(), kUntouched);
+    Buffer list(testDevice(), "test's choice", BufferKind::Storage, (1 + 2 * luminances.size()) * sizeof(uint));
+    std::vector<uint> empty(1 + 2 * luminances.size(), kUntouched);
     empty[0] = 0;
     upload(list, std::span<const uint>(empty));
     std::map<std::uint32_t, const Buffer*> bound = paths.buffers(0);

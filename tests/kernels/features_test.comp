@@ -29,9 +29,10 @@ void main()
         EXPECT_TRUE(kMollerTrumbore == isExpected(kSpecMollerTrumbore));
         EXPECT_TRUE(kBruteForce == isExpected(kSpecBruteForce));
         EXPECT_TRUE(kLens == isExpected(kSpecLens));
-        EXPECT_TRUE(kAdaptive == isExpected(kSpecAdaptive));
+        EXPECT_TRUE(kChosen == isExpected(kSpecChosen));
         EXPECT_TRUE(kSuspects == isExpected(kSpecSuspects));
         EXPECT_TRUE(kNotes == isExpected(kSpecNotes));
+        EXPECT_TRUE(kLuminance == isExpected(kSpecLuminance));
         EXPECT_EQUAL(kDirect, expected.direct);
         EXPECT_EQUAL(kRoulette, expected.roulette);
         EXPECT_EQUAL(kView, expected.view);

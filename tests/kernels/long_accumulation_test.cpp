@@ -26,7 +26,7 @@ using Samples = std::vector<PathRadiance>;  // of one block of all pixels
 
 void runTurns(const KernelLayout& layout, const std::deque<Bindings>& bindings)
 {
-    const Kernel kernel(layout, kernels::accumulate, {{kSpecWorkgroup, 64}, {kSpecAdaptive, 0}});
+    const Kernel kernel(layout, kernels::accumulate, {{kSpecWorkgroup, 64}, {kSpecLuminance, 0}});
     Pass pass{};
     pass.pixelCount = kPixels;
     pass.sampleCount = kBlockSamples;

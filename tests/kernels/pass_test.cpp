@@ -21,13 +21,14 @@ constexpr std::uint32_t kGroupSize = 64;
 
 // Slots as path_types.h lays them out: pixel after pixel, the samples of each together.
 // `chosen`: the pixels of an adaptive pass; empty: all.
-std::vector<Case> samplesInOrder(const Pass& pass, std::uint32_t count, const std::vector<uint>& chosen = {})
+std::vector<Case> samplesInOrder(const Pass& pass, std::uint32_t count, const std::vector<ChosenPixel>& chosen = {})
 {
     std::vector<Case> cases;
     for (std::uint32_t pixel = 0; cases.size() < count; ++pixel) {
         for (std::uint32_t sample = 0; sample < pass.sampleCount && cases.size() < count; ++sample) {
-            const std::uint32_t number = pass.firstPixel + pixel, at = chosen.empty() ? number : chosen[number];
-            cases.push_back({pass.seed, pass.slabBegin + at, pass.firstSample + sample});
+            const std::uint32_t number = pass.firstPixel + pixel;
+            const ChosenPixel at = chosen.empty() ? ChosenPixel{number, 0} : chosen[number];
+            cases.push_back({pass.seed, pass.slabBegin + at.pixel, pass.firstSample + at.samplesBefore + sample});
         }
     }
     return cases;
@@ -63,18 +64,19 @@ TEST(PassTest, GoesOverChosenPixelsIfAdaptive)
     Pass& pass = test.pass();
     pass.slabBegin = 7000;
     pass.firstPixel = 500;
+    pass.firstSample = 5;
     pass.sampleCount = 3;
     Random random(50);
-    std::vector<uint> chosen(pass.firstPixel + kThreads);
-    for (uint& pixel : chosen) {
-        pixel = random.below(1U << 20);
-    }
+    std::vector<ChosenPixel> chosen(pass.firstPixel + kThreads);
     std::vector<uint> counted{static_cast<uint>(chosen.size())};
-    counted.insert(counted.end(), chosen.begin(), chosen.end());
+    for (ChosenPixel& each : chosen) {
+        each = {random.below(1U << 20), random.below(1000)};
+        counted.insert(counted.end(), {each.pixel, each.samplesBefore});
+    }
     Buffer list(testDevice(), "test's choice", BufferKind::Storage, counted.size() * sizeof(uint));
     upload(list, std::span<const uint>(counted));
     test.cases(samplesInOrder(pass, kThreads, chosen)).resultsOf<Result>(kThreads);
-    test.buffers({{kBindChosenPixels, &list}}).specialize(kSpecAdaptive, 1).run();
+    test.buffers({{kBindChosenPixels, &list}}).specialize(kSpecChosen, 1).run();
 }
 
 }  // namespace

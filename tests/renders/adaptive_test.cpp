@@ -197,7 +197,7 @@ TEST(AdaptiveTest, WorksAcrossSlabs)
     settings.tolerance = 1e-3F;
     const Film film = renderScene(builder.scene(), settings);
     const auto pixels = pixelsByCount(film);
-    ASSERT_GT(film.pixels.size(), Slab::kMaxPixels);
+    ASSERT_GT(film.pixels.size(), settings.slabPixels);
     EXPECT_EQ(film.pixels.back().count, 2U);
     EXPECT_GT(pixels.at(6).size(), 500U);  // the rim of the sphere
     settings.adaptive = Adaptive::Off;

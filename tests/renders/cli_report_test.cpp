@@ -102,7 +102,7 @@ TEST(CommandLineTest, AdaptiveReportsCountPixels)
     const std::size_t unknown = stats.at("pixelsWithoutEstimate");
     EXPECT_GT(unknown, 0U) << "pixels that stop after one block";
     EXPECT_TRUE(stats.at("estimate").is_null());
-    expectText(summary, (", error unknown since " + std::to_string(unknown) + " pixels have fewer than 33 samples, on ").c_str());
+    expectText(summary, (", error unknown since " + std::to_string(unknown) + " pixels have fewer than 33 samples, bias ").c_str());
 }
 
 TEST(CommandLineTest, ATargetEndsARender)
@@ -166,6 +166,40 @@ TEST(CommandLineTest, ViewAndLensAreAmongTheSettings)
     const std::string plain = workplace.render({"--spp", "1"}).second.at("settings");
     EXPECT_EQ(plain.find("lens"), std::string::npos);
     EXPECT_EQ(plain.find("look"), std::string::npos);
+}
+
+TEST(CommandLineTest, NeighboursReportTheirSamplesAndTheBiasOfTheirControl)
+{
+    const Workplace workplace;
+    const auto [summary, stats] = workplace.render({"--adaptive", "neighbours", "--spp", "96", "--bounces", "2"});
+    expectText(summary, "^x\\.exr: 16x16, 9[5-7](\\.[0-9]+)? samples per pixel \\(64 to [0-9]+\\) in ");
+    expectText(summary, ", bias [-+][0-9.]+ % \\[[-+][0-9.]+, [-+][0-9.]+\\] by [0-9]+ control pixels, on ");
+    EXPECT_EQ(summary.find("besides the rule's bias"), std::string::npos);
+    const json adaptive = stats.at("adaptive");
+    EXPECT_EQ(adaptive.at("rule"), "neighbours");
+    EXPECT_FALSE(adaptive.contains("tolerance"));
+    EXPECT_GE(adaptive.at("bias").at("pixels"), 16);
+    EXPECT_LT(adaptive.at("bias").at("ofMean95")[0], adaptive.at("bias").at("ofMean95")[1]);
+    EXPECT_EQ(stats.at("stopReason"), "samples");
+    const Film film = readFilm(workplace.file("x.exr"));
+    std::uint64_t samples = 0;
+    for (const PixelMoments& pixel : film.pixels) {
+        samples += pixel.count;
+    }
+    EXPECT_EQ(stats.at("samples"), samples);
+    EXPECT_DOUBLE_EQ(adaptive.at("meanSpp"), static_cast<double>(samples) / (16 * 16));
+    EXPECT_NE(film.identity.settings.find(" adaptive=neighbours"), std::string::npos);
+}
+
+TEST(CommandLineTest, NeighboursStopAtATargetOrInTime)
+{
+    const Workplace workplace;
+    json stats = workplace.render({"--adaptive", "neighbours", "--target-relmse", "0.02", "--bounces", "2"}).second;
+    EXPECT_EQ(stats.at("stopReason"), "target");
+    EXPECT_LE(stats.at("estimate").at("relmse"), 0.02);
+    stats = workplace.render({"--adaptive", "neighbours:absolute", "--time", "0.5"}).second;
+    EXPECT_EQ(stats.at("stopReason"), "time");
+    EXPECT_EQ(stats.at("adaptive").at("rule"), "neighbours:absolute");
 }
 
 TEST(CommandLineTest, TimeEndsAnAdaptiveRender)

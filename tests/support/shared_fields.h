@@ -9,7 +9,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 255u;
+GLIM_CONST uint kSharedWords = 257u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -29,6 +29,7 @@ struct EverySharedStruct {
     PixelMoments pixelMoments;
     LuminanceMoments luminanceMoments;
     BrightestSample brightest;
+    ChosenPixel chosen;
     FlatMaterial material;
     AliasEntry alias;
     FlatLight light;
@@ -77,6 +78,7 @@ U(pixelMoments.count) U(pixelMoments.blocks) F3(pixelMoments.mean) F3(pixelMomen
 F3(pixelMoments.albedo) F3(pixelMoments.normal) F(pixelMoments.depth) F(pixelMoments.clamped)
 U(luminanceMoments.count) F(luminanceMoments.mean) F(luminanceMoments.squares) U(luminanceMoments.met)
 F(brightest.luminance) U(brightest.sampleIndex)
+U(chosen.pixel) U(chosen.samplesBefore)
 F3(material.baseColor) U(material.scattering) F3(material.emission) F(material.ior) U(material.doubleSided)
 U3(material.unused)
 U(alias.threshold) U(alias.other)

@@ -1,0 +1,108 @@
+#include "host/render/allocate_samples.hpp"
+
+#include "shaders/shared/limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace glim {
+namespace {
+
+constexpr int kReach = 3;  // of the neighbours: 7x7
+
+// Added to squared radiance, as relMSE has it: of black pixels the relative error says nothing.
+double epsilonOf(const Film& film)
+{
+    double sum = 0.0;
+    for (const PixelMoments& pixel : film.pixels) {
+        sum += static_cast<double>(pixel.mean.r + pixel.mean.g + pixel.mean.b) / 3.0;
+    }
+    const double mean = sum / static_cast<double>(film.pixels.size());
+    return 0.01 * mean * mean;
+}
+
+// Of one sample, from the means of blocks; negative where they do not tell. Mean of the channels.
+double varianceOfSample(const PixelMoments& pixel, SquaredError error, double epsilon)
+{
+    if (pixel.blocks < 2) {
+        return -1.0;
+    }
+    double sum = 0.0;
+    for (int c = 0; c < 3; ++c) {
+        const double square = static_cast<double>(pixel.squares[c]), mean = static_cast<double>(pixel.mean[c]);
+        sum += square > 0.0 && error == SquaredError::Relative ? square / (mean * mean + epsilon) : square;
+    }
+    return sum / (3.0 * (pixel.blocks - 1.0));
+}
+
+// Mean over the neighbours that are known.
+double meanAround(const std::vector<double>& variances, int width, int height, int x, int y)
+{
+    double sum = 0.0;
+    int known = 0;
+    for (int v = std::max(0, y - kReach); v <= std::min(height - 1, y + kReach); ++v) {
+        for (int u = std::max(0, x - kReach); u <= std::min(width - 1, x + kReach); ++u) {
+            const double variance = variances[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u)];
+            if ((u != x || v != y) && variance >= 0.0) {
+                sum += variance;
+                ++known;
+            }
+        }
+    }
+    return known > 0 ? sum / known : 0.0;
+}
+
+// Samples still missing if pixels should have `scale` times their shares.
+double missing(const std::vector<double>& shares, const std::vector<std::uint32_t>& samples, double scale)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        sum += std::max(0.0, scale * shares[i] - samples[i]);
+    }
+    return sum;
+}
+
+}  // namespace
+
+std::vector<double> computeShares(const Film& film, SquaredError error)
+{
+    const double epsilon = epsilonOf(film);
+    std::vector<double> variances(film.pixels.size()), shares(film.pixels.size());
+    std::transform(film.pixels.begin(), film.pixels.end(), variances.begin(),
+                   [&](const PixelMoments& pixel) { return varianceOfSample(pixel, error, epsilon); });
+    const int width = static_cast<int>(film.width), height = static_cast<int>(film.height);
+    for (int y = 0, i = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x, ++i) {
+            shares[static_cast<std::size_t>(i)] = std::sqrt(meanAround(variances, width, height, x, y));
+        }
+    }
+    const double mean = std::accumulate(shares.begin(), shares.end(), 0.0) / static_cast<double>(shares.size());
+    for (double& share : shares) {
+        share = mean > 0.0 ? 0.5 + 0.5 * share / mean : 1.0;
+    }
+    return shares;
+}
+
+std::vector<std::uint32_t> allocateBlocks(const std::vector<double>& shares, const std::vector<std::uint32_t>& samples,
+                                          double meanSamples)
+{
+    const double all = meanSamples * static_cast<double>(shares.size());
+    const double more = std::max(0.0, all - std::accumulate(samples.begin(), samples.end(), 0.0));
+    // No pixel loses what it has: the others get less than their share of `all`. Bisection to one part in 2^50.
+    double low = 0.0, high = all / std::accumulate(shares.begin(), shares.end(), 0.0);
+    for (int i = 0; i < 50; ++i) {
+        const double middle = 0.5 * (low + high);
+        (missing(shares, samples, middle) < more ? low : high) = middle;
+    }
+    std::vector<std::uint32_t> blocks(shares.size());
+    double wanted = 0.0, given = 0.0;  // what rounding takes from one pixel goes to the next
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        wanted += std::max(0.0, low * shares[i] - samples[i]) / kBlockSamples;
+        blocks[i] = static_cast<std::uint32_t>(std::max(0.0, std::round(wanted - given)));
+        given += blocks[i];
+    }
+    return blocks;
+}
+
+}  // namespace glim

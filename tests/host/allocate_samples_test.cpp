@@ -1,0 +1,175 @@
+// Which pixels of a film should have how many samples next, from what is known of it.
+#include "host/render/allocate_samples.hpp"
+#include "host/render/block_queue.hpp"
+#include "shaders/shared/limits.h"
+#include "tests/support/random.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+namespace glim {
+namespace {
+
+constexpr std::uint32_t kSide = 32;
+
+std::size_t at(std::uint32_t x, std::uint32_t y) { return std::size_t{y} * kSide + x; }
+
+// Every pixel has two blocks, whose means tell this variance of a sample.
+Film filmOf(float mean, float variance)
+{
+    Film film;
+    film.width = film.height = kSide;
+    PixelMoments pixel{};
+    pixel.count = 2 * kBlockSamples;
+    pixel.blocks = 2;
+    pixel.mean = glm::vec3(mean);
+    pixel.squares = glm::vec3(variance);
+    film.pixels.assign(std::size_t{kSide} * kSide, pixel);
+    return film;
+}
+
+double meanOf(const std::vector<double>& values)
+{
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+TEST(AllocateSamplesTest, EvenFilmsAreSampledEvenly)
+{
+    for (const float variance : {0.0F, 1.0F}) {
+        for (const double share : computeShares(filmOf(1.0F, variance), SquaredError::Relative)) {
+            EXPECT_NEAR(share, 1.0, 1e-12);
+        }
+    }
+}
+
+// A pixel's own variance, be it nothing or all there is, leaves its own share at what the others have far from it.
+TEST(AllocateSamplesTest, APixelIsNotAskedAboutItself)
+{
+    Film film = filmOf(1.0F, 1.0F);
+    for (const float own : {0.0F, 1e6F}) {
+        film.pixels[at(16, 16)].squares = glm::vec3(own);
+        const std::vector<double> shares = computeShares(film, SquaredError::Absolute);
+        EXPECT_DOUBLE_EQ(shares[at(16, 16)], shares[at(0, 0)]);
+        // Half is the same for all; of the other half the 48 neighbours' root mean variance.
+        const double expected = std::sqrt((47.0 + static_cast<double>(own)) / 48.0);
+        for (const auto& [x, y] : {std::pair(13U, 13U), std::pair(19U, 16U), std::pair(15U, 16U)}) {
+            EXPECT_NEAR((shares[at(x, y)] - 0.5) / (shares[at(0, 0)] - 0.5), expected, 1e-9 * expected) << x << ", " << y;
+        }
+        EXPECT_DOUBLE_EQ(shares[at(12, 16)], shares[at(0, 0)]);
+        EXPECT_DOUBLE_EQ(shares[at(16, 20)], shares[at(0, 0)]);
+        EXPECT_NEAR(meanOf(shares), 1.0, 1e-12);
+        EXPECT_GE(*std::min_element(shares.begin(), shares.end()), 0.5);
+    }
+}
+
+// Four times the variance in bright halves is the same relative error.
+TEST(AllocateSamplesTest, RelativeErrorsCountByRadiance)
+{
+    Film film = filmOf(10.0F, 1.0F);
+    for (std::uint32_t y = 0; y < kSide; ++y) {
+        for (std::uint32_t x = kSide / 2; x < kSide; ++x) {
+            film.pixels[at(x, y)].mean = glm::vec3(20.0F);
+            film.pixels[at(x, y)].squares = glm::vec3(4.0F);
+        }
+    }
+    const std::vector<double> absolute = computeShares(film, SquaredError::Absolute);
+    EXPECT_NEAR((absolute[at(28, 3)] - 0.5) / (absolute[at(3, 3)] - 0.5), 2.0, 1e-9);
+    const std::vector<double> relative = computeShares(film, SquaredError::Relative);
+    // 1 % of the mean's square is added to each square.
+    const double epsilon = 0.01 * 15.0 * 15.0;
+    const double expected = std::sqrt(4.0 / (400.0 + epsilon) / (1.0 / (100.0 + epsilon)));
+    EXPECT_NEAR((relative[at(28, 3)] - 0.5) / (relative[at(3, 3)] - 0.5), expected, 1e-6);
+}
+
+// Of pixels with a block or none nothing is known: they are no neighbours.
+TEST(AllocateSamplesTest, WhatIsUnknownIsLeftOut)
+{
+    Film film = filmOf(1.0F, 1.0F);
+    film.pixels[at(8, 8)].blocks = 1;
+    film.pixels[at(9, 8)].blocks = 0;
+    film.pixels[at(8, 8)].squares = glm::vec3(1e9F);
+    for (const double share : computeShares(film, SquaredError::Absolute)) {
+        EXPECT_NEAR(share, 1.0, 1e-12);
+    }
+    Film alone = filmOf(1.0F, 1.0F);
+    alone.width = alone.height = 1;
+    alone.pixels.resize(1);
+    EXPECT_EQ(computeShares(alone, SquaredError::Relative), std::vector<double>{1.0});
+}
+
+TEST(AllocateSamplesTest, BlocksComeToTheWantedMeanWithinHalfOfOne)
+{
+    Random random(81);
+    for (const double mean : {80.0, 96.0, 100.0, 500.0}) {
+        std::vector<double> shares(1000);
+        std::vector<std::uint32_t> samples(shares.size());
+        for (std::size_t i = 0; i < shares.size(); ++i) {
+            shares[i] = 0.5 + 4.0 * random.uniform() * random.uniform() * random.uniform();
+            samples[i] = kBlockSamples * (1 + random.below(3));
+        }
+        const std::vector<std::uint32_t> blocks = allocateBlocks(shares, samples, mean);
+        double before = 0.0, after = 0.0, share = 0.0, given = 0.0;
+        for (std::size_t i = 0; i < blocks.size(); ++i) {
+            before += samples[i];
+            after += samples[i] + kBlockSamples * blocks[i];
+            if (blocks[i] > 1) {
+                share += shares[i];
+                given += samples[i] + kBlockSamples * blocks[i];
+            }
+        }
+        EXPECT_NEAR(after, std::max(before, mean * 1000.0), 0.5 * kBlockSamples) << mean;
+        // Where much is wanted the share is had.
+        for (std::size_t i = 0; i < blocks.size(); ++i) {
+            if (blocks[i] > 1) {
+                EXPECT_NEAR(samples[i] + kBlockSamples * blocks[i], given / share * shares[i], 1.6 * kBlockSamples) << i;
+            }
+        }
+    }
+}
+
+TEST(AllocateSamplesTest, WhoHasEnoughGetsNoMore)
+{
+    const std::vector<double> shares{0.5, 1.0, 1.5};
+    EXPECT_EQ(allocateBlocks(shares, {320, 320, 320}, 320.0), (std::vector<std::uint32_t>{0, 0, 0}));
+    EXPECT_EQ(allocateBlocks(shares, {3200, 320, 320}, 1300.0), (std::vector<std::uint32_t>{0, 0, 2}));
+}
+
+// Every pixel's samples, in the order of their index and each once, whatever a sweep may take.
+TEST(BlockQueueTest, GivesEveryBlockOnceAndInOrder)
+{
+    for (const std::uint32_t most : {1U, 32U, 100U, 256U, 1U << 20}) {
+        BlockQueue queue(4, 64);
+        const std::vector<std::uint32_t> wanted{0, 1, 13, 64};
+        queue.add({0, 1, 10, 60});
+        queue.add({0, 0, 3, 4});
+        std::vector<std::uint32_t> next(4, 64);
+        std::size_t sweeps = 0;
+        while (const auto sweep = queue.take(most)) {
+            ++sweeps;
+            EXPECT_TRUE(std::has_single_bit(sweep->sampleCount / kBlockSamples)) << sweep->sampleCount;
+            EXPECT_LE(sweep->sampleCount, std::max(most, kBlockSamples));
+            ASSERT_FALSE(sweep->pixels.empty());
+            for (std::size_t i = 0; i < sweep->pixels.size(); ++i) {
+                EXPECT_TRUE(i == 0 || sweep->pixels[i - 1].pixel < sweep->pixels[i].pixel);
+                EXPECT_EQ(sweep->pixels[i].sample, next[sweep->pixels[i].pixel]);
+                next[sweep->pixels[i].pixel] += sweep->sampleCount;
+            }
+        }
+        for (std::size_t i = 0; i < wanted.size(); ++i) {
+            EXPECT_EQ(next[i], 64 + kBlockSamples * wanted[i]);
+        }
+        EXPECT_EQ(queue.next(), next);
+        EXPECT_EQ(queue.end(), next[3]);
+        EXPECT_TRUE(queue.isEmpty());
+        if (most == 1U << 20) {
+            EXPECT_EQ(sweeps, 4U);  // 64, 8, 4, 1
+        }
+    }
+}
+
+}  // namespace
+}  // namespace glim

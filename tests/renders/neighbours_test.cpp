@@ -1,0 +1,237 @@
+// --adaptive neighbours: pixels get samples by the noise around them, the samples are those of a uniform render, and the picture is
+// neither darker nor noisier for it.
+#include "host/flatten/flatten_scene.hpp"
+#include "host/measure/control_bias.hpp"
+#include "host/measure/error_estimate.hpp"
+#include "host/scene/load_gltf.hpp"
+#include "places.h"
+#include "tests/support/build_scene.hpp"
+#include "tests/support/hard_case.hpp"
+#include "tests/support/render_scene.hpp"
+#include "tests/support/statistics.hpp"
+#include "tests/support/test_device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numeric>
+
+namespace glim {
+namespace {
+
+RenderSettings neighbours(std::uint32_t side, std::uint32_t meanSpp)
+{
+    RenderSettings settings = squareSettings(side, meanSpp);
+    settings.adaptive = Adaptive::Neighbours;
+    settings.bounces = 3;
+    return settings;
+}
+
+std::uint64_t samplesOf(const Film& film)
+{
+    std::uint64_t samples = 0;
+    for (const PixelMoments& pixel : film.pixels) {
+        samples += pixel.count;
+    }
+    return samples;
+}
+
+// A lamp low above a floor, that half of the picture sees; the other half sees nothing.
+Scene halfEmptyScene()
+{
+    SceneBuilder builder;
+    builder.quad({glm::vec3(-5, 0, 5), {0, 0, 5}, {0, 0, -5}, {-5, 0, -5}}, builder.lambert(glm::vec3(0.5F)))
+        .sphere({-2.5F, 1, 0}, 0.2F, builder.lambert(glm::vec3(0.0F), glm::vec3(10.0F)))
+        .orthographic({0, 6, 0}, {0, 0, 0}, 5.0F);
+    return builder.scene();
+}
+
+TEST(NeighboursTest, EveryPixelHasTheSamplesOfAUniformRenderOfItsCount)
+{
+    const RenderSettings settings = neighbours(32, 200);
+    const Film film = renderScene(mixedScene(), settings);
+    std::map<std::uint32_t, std::vector<std::size_t>> pixels;
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+        pixels[film.pixels[i].count].push_back(i);
+    }
+    EXPECT_GE(pixels.size(), 4U);
+    std::size_t exact = 0;
+    RenderSettings uniform = settings;
+    uniform.adaptive = Adaptive::Off;
+    for (const auto& [count, indices] : pixels) {
+        EXPECT_EQ(count % kBlockSamples, 0U);
+        uniform.sampleEnd = count;
+        const Film expected = renderScene(mixedScene(), uniform);
+        for (const std::size_t i : indices) {
+            const glm::vec3 mean = film.pixels[i].mean, other = expected.pixels[i].mean;
+            EXPECT_EQ(film.pixels[i].blocks, expected.pixels[i].blocks);
+            if (count <= kPageSamples) {
+                EXPECT_EQ(mean, other) << i;
+                EXPECT_EQ(film.pixels[i].squares, expected.pixels[i].squares) << i;
+                ++exact;
+            } else {
+                // The uniform render folds pages of 256.
+                EXPECT_LE(glm::length(mean - other), 1e-6F * glm::length(other)) << i;
+                EXPECT_LE(glm::length(film.pixels[i].squares - expected.pixels[i].squares),
+                          1e-4F * glm::length(expected.pixels[i].squares)) << i;
+            }
+        }
+        std::printf("%zu pixels with %u samples\n", indices.size(), count);
+    }
+    EXPECT_GT(exact, film.pixels.size() / 2);
+    EXPECT_LT(exact, film.pixels.size());
+}
+
+TEST(NeighboursTest, DoesNotDependOnHowTheWorkIsCut)
+{
+    RenderSettings settings = neighbours(28, 150);
+    const Film film = renderScene(mixedScene(), settings);
+    settings.pathCapacity = 1000;
+    settings.workgroup = 32;
+    settings.slabPixels = 300;
+    EXPECT_TRUE(sameBits(film, renderScene(mixedScene(), settings)));
+    const Scene scene = mixedScene();
+    Renderer renderer(testDevice(), flattened(scene), flattenCamera(scene.cameras.front(), 1.0F), settings);
+    int calls = 0;
+    while (!renderer.isDone()) {
+        renderer.advance([&] { return ++calls % 7 != 3; });  // now and then a pass is given up
+        renderer.film();
+    }
+    EXPECT_TRUE(sameBits(film, renderer.film()));
+    renderer.restart(flattenCamera(scene.cameras.front(), 1.0F), settings.seed);
+    while (renderer.advance()) {
+    }
+    EXPECT_TRUE(sameBits(film, renderer.film()));
+}
+
+TEST(NeighboursTest, PixelsHaveTheWantedSamplesOnAverage)
+{
+    const Scene scene = halfEmptyScene();
+    for (const std::uint32_t spp : {65U, 96U, 128U, 300U}) {
+        Renderer renderer(testDevice(), flattened(scene), flattenCamera(scene.cameras.front(), 1.0F), neighbours(20, spp));
+        std::uint64_t last = 0;
+        const Film film = renderer.render([&](const RenderProgress& now) {
+            EXPECT_LE(now.samples, now.totalSamples + kBlockSamples);
+            last = now.samples;
+            return true;
+        });
+        EXPECT_NEAR(static_cast<double>(samplesOf(film)), 400.0 * spp, 0.5 * kBlockSamples * 8.0) << spp;
+        EXPECT_EQ(renderer.statistics().samples, samplesOf(film));
+        EXPECT_EQ(last, samplesOf(film));
+        EXPECT_TRUE(film.complete);
+        EXPECT_TRUE(renderer.isDone());
+        if (spp == 300) {
+            // Each half gets a half of the samples that is spread evenly; the other half goes to where there is noise.
+            EXPECT_NEAR(film.pixels[10 * 20 + 17].count, 150.0, kBlockSamples);
+            EXPECT_GT(film.pixels[10 * 20 + 5].count, 400U);
+        }
+    }
+}
+
+TEST(NeighboursTest, ATargetEndsItWithTheRoundThatReachesIt)
+{
+    const Scene scene = mixedScene();
+    RenderSettings settings = neighbours(24, kPilotSamples);
+    const double target = 0.55 * estimateError(renderScene(scene, settings))->errors.relMse;
+    settings.sampleEnd = 1U << 20;
+    Renderer renderer(testDevice(), flattened(scene), flattenCamera(scene.cameras.front(), 1.0F), settings);
+    const Film film = renderer.render([](const RenderProgress&) { return true; },
+                                      [&](const Film& now) { return estimateError(now)->errors.relMse / target; });
+    const double reached = estimateError(film)->errors.relMse;
+    EXPECT_LE(reached, target);
+    EXPECT_GE(reached, 0.8 * target) << "rounds end near the target";
+    EXPECT_TRUE(film.complete);
+    EXPECT_GT(samplesOf(film), film.pixels.size() * kPilotSamples);
+    EXPECT_FALSE(renderer.isDone());
+}
+
+// What the control has knows nothing of the film, and changes nothing of it.
+TEST(NeighboursTest, TheControlIsNewSamplesOfAFewPixels)
+{
+    const Scene scene = mixedScene();
+    for (const Adaptive adaptive : {Adaptive::Neighbours, Adaptive::Course}) {
+        RenderSettings settings = neighbours(100, 80);
+        settings.adaptive = adaptive;
+        settings.sampler = adaptive == Adaptive::Course ? Sampler::Independent : Sampler::Sobol;
+        settings.slabPixels = 3000;
+        Renderer renderer(testDevice(), flattened(scene), flattenCamera(scene.cameras.front(), 1.0F), settings);
+        const Film film = renderer.render([](const RenderProgress&) { return true; });
+        const RenderStatistics before = renderer.statistics();
+        const auto control = renderer.sampleControl(film, [] { return true; });
+        ASSERT_TRUE(control);
+        std::size_t pixels = 0;
+        for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+            const PixelMoments& mine = control->pixels[i];
+            pixels += mine.count > 0 ? 1 : 0;
+            EXPECT_TRUE(mine.count == 0 || (mine.count >= film.pixels[i].count && mine.count < film.pixels[i].count + kBlockSamples));
+            EXPECT_TRUE(mine.squares == glm::vec3(0.0F) || mine.mean != film.pixels[i].mean) << i;
+        }
+        EXPECT_NEAR(static_cast<double>(pixels), 100.0, 50.0);
+        EXPECT_EQ(renderer.statistics().samples, before.samples);
+        const auto bias = estimateControlBias(film, *control);
+        ASSERT_TRUE(bias);
+        // Three times what two standard deviations are.
+        EXPECT_LT(std::abs(bias->bias.value), 1.5 * (bias->bias.high - bias->bias.low));
+        EXPECT_FALSE(renderer.sampleControl(film, [] { return false; }));
+    }
+}
+
+// Where noise is uneven the same samples leave less of it.
+TEST(NeighboursTest, TheErrorIsLess)
+{
+    RenderSettings settings = neighbours(32, 192);
+    for (const Adaptive adaptive : {Adaptive::Neighbours, Adaptive::NeighboursAbsolute}) {
+        double error = 0.0, uniformError = 0.0;
+        for (settings.seed = 0; settings.seed < 4; ++settings.seed) {
+            for (const Adaptive each : {adaptive, Adaptive::Off}) {
+                settings.adaptive = each;
+                const SquaredErrors errors = estimateError(renderScene(halfEmptyScene(), settings))->errors;
+                (each == Adaptive::Off ? uniformError : error) += adaptive == Adaptive::Neighbours ? errors.relMse : errors.mse;
+            }
+        }
+        std::printf("error x %.3f\n", error / uniformError);
+        EXPECT_LT(error, 0.8 * uniformError);
+    }
+}
+
+// H29. Against uniform renders of the same seeds, which share the first 64 samples. Beside it the course's rule, which looks at each
+// pixel by itself.
+TEST(NeighboursTest, H29IsNotDarker)
+{
+    constexpr int kSeeds = 24;
+    const Scene scene = loadGltf(GLIM_SOURCE_DIR "/scenes/cornell_mirror_glass.gltf");
+    RenderSettings settings = neighbours(20, 128);
+    settings.bounces = 64;
+    std::vector<double> differences, stopped;
+    for (settings.seed = 0; settings.seed < kSeeds; ++settings.seed) {
+        const auto meanOfRule = [&](Adaptive adaptive) {
+            RenderSettings other = settings;
+            other.adaptive = adaptive;
+            if (isCourse(adaptive)) {
+                other.sampler = Sampler::Independent;
+                other.tolerance = 0.2F;
+                other.sampleEnd = 256;
+            }
+            const glm::dvec3 mean = meanOf(renderScene(scene, other)).mean;
+            return (mean.r + mean.g + mean.b) / 3.0;
+        };
+        const double uniform = meanOfRule(Adaptive::Off);
+        differences.push_back(meanOfRule(Adaptive::Neighbours) / uniform - 1.0);
+        if (settings.seed < 8) {
+            stopped.push_back(meanOfRule(Adaptive::Course) / uniform - 1.0);
+        }
+    }
+    const auto average = [](const std::vector<double>& values) {
+        return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    };
+    printHardCase("H29", "mirror and glass, 24 seeds of 20x20 at 128 samples", kSeeds * 400.0 * 128.0,
+                  "mean " + figure(100.0 * average(differences)) + " % off uniform renders'",
+                  "the course's rule at tolerance .2: " + figure(100.0 * average(stopped)) + " %");
+    expectSampleMean("adaptive over uniform, less 1", differences, 0.0, 1);
+    EXPECT_LT(average(stopped), -0.01) << "the course's rule is what this would notice";
+}
+
+}  // namespace
+}  // namespace glim
