@@ -96,7 +96,7 @@ def read(path):
     try:
         with open(path, encoding="utf-8") as file:
             content = json.load(file)
-        if content["glim:bench"] != 1:
+        if content["glim:bench"] != 2:
             raise KeyError
         return content["scenes"]
     except OSError as error:

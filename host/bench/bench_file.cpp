@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 
 Json jsonOf(const Interval& interval)
 {
@@ -25,6 +25,7 @@ Json jsonOf(const BenchPoint& point, const PointSummary& summary)
     return {{"samples", point.samples},
             {"seconds", point.seconds},
             {"kernelSeconds", point.kernelSeconds},
+            {"mean", point.mean},
             {"mse", point.mse},
             {"relMse", point.relMse},
             {"trimmedRelMse", point.trimmedRelMse},
@@ -87,6 +88,7 @@ BenchPoint pointOf(const Json& json, std::size_t seeds)
     json.at("samples").get_to(point.samples);
     const std::pair<const char*, std::vector<double>&> series[] = {{"seconds", point.seconds},
                                                                    {"kernelSeconds", point.kernelSeconds},
+                                                                   {"mean", point.mean},
                                                                    {"mse", point.mse},
                                                                    {"relMse", point.relMse},
                                                                    {"trimmedRelMse", point.trimmedRelMse}};
@@ -152,7 +154,7 @@ std::string benchJson(const std::vector<SceneBench>& benches)
 
 std::string benchCsv(const std::vector<SceneBench>& benches)
 {
-    std::string text = "scene,width,height,settings,seed,samples,seconds,kernel_seconds,mse,relmse,trimmed_relmse,"
+    std::string text = "scene,width,height,settings,seed,samples,seconds,kernel_seconds,mean,mse,relmse,trimmed_relmse,"
                        "reference_mse,reference_relmse\n";
     for (const SceneBench& bench : benches) {
         const std::string start = quoted(bench.scene) + "," + std::to_string(bench.width) + "," + std::to_string(bench.height) +
@@ -160,7 +162,7 @@ std::string benchCsv(const std::vector<SceneBench>& benches)
         for (const BenchPoint& point : bench.points) {
             for (std::size_t i = 0; i < bench.seeds.size(); ++i) {
                 text += start + std::to_string(bench.seeds[i]) + "," + std::to_string(point.samples);
-                for (const double value : {point.seconds[i], point.kernelSeconds[i], point.mse[i], point.relMse[i],
+                for (const double value : {point.seconds[i], point.kernelSeconds[i], point.mean[i], point.mse[i], point.relMse[i],
                                            point.trimmedRelMse[i], bench.floor.mse, bench.floor.relMse}) {
                     text.append(1, ',').append(exactText(value));
                 }

@@ -12,6 +12,7 @@ struct BenchPoint {
     std::uint32_t samples = 0;
     std::vector<double> seconds;        // spent sampling; looking at the picture is no part of it
     std::vector<double> kernelSeconds;  // of them on the device, in kernels; 0 where it cannot tell
+    std::vector<double> mean;           // radiance over pixels and channels
     std::vector<double> mse, relMse;    // from the reference, whose own noise is still in them (measure/compare_images.hpp)
     std::vector<double> trimmedRelMse;  // without the .1 % of the pixels that are worst: beside relMse, never instead
 };

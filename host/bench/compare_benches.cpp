@@ -16,12 +16,13 @@ const BenchPoint& pointAt(const SceneBench& bench, std::uint32_t samples)
 
 // Of one bench, for the renders of a draw.
 struct Side {
-    double error, seconds, slope;
+    double error, mse, mean, seconds, slope;
 };
 
 Side sideOf(const SceneBench& bench, const BenchPoint& point, const std::vector<std::size_t>& indices)
 {
-    return {meanOver(point.relMse, indices) - bench.floor.relMse, medianOver(point.seconds, indices), slopeOver(bench, indices)};
+    return {meanOver(point.relMse, indices) - bench.floor.relMse, meanOver(point.mse, indices) - bench.floor.mse,
+            meanOver(point.mean, indices), medianOver(point.seconds, indices), slopeOver(bench, indices)};
 }
 
 }  // namespace
@@ -44,6 +45,8 @@ BenchComparison compareBenches(const SceneBench& bench, const SceneBench& baseli
     };
     comparison.efficiency = ratio([](const Side& a, const Side& b) { return b.error * b.seconds / (a.error * a.seconds); });
     comparison.error = ratio([](const Side& a, const Side& b) { return a.error / b.error; });
+    comparison.mse = ratio([](const Side& a, const Side& b) { return a.mse / b.mse; });
+    comparison.mean = ratio([](const Side& a, const Side& b) { return a.mean / b.mean; });
     comparison.samplesPerSecond = ratio([](const Side& a, const Side& b) { return b.seconds / a.seconds; });
     comparison.timeToError = ratio([](const Side& a, const Side& b) {
         return a.seconds / b.seconds * std::pow(b.error / a.error, 1.0 / a.slope);

@@ -12,6 +12,8 @@ struct BenchComparison {
     bool paired = false;      // drawn in pairs, since both have the same seeds
     Interval efficiency;      // 1 / (relMSE * seconds)
     Interval error;           // relMSE
+    Interval mse;
+    Interval mean;            // of the pictures: the same but for a bias
     Interval samplesPerSecond;
     Interval timeToError;     // until the first has the second's error, along its slope
 };

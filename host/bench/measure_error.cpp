@@ -38,7 +38,7 @@ double product(const std::vector<float>& a, const std::vector<float>& b, std::si
 PictureError measureError(const Picture& picture, const Picture& reference)
 {
     const Comparison comparison = compareImages(picture, reference);
-    return {comparison.errors.mse, comparison.errors.relMse, comparison.trimmed.kept.relMse,
+    return {meanRadiance(picture), comparison.errors.mse, comparison.errors.relMse, comparison.trimmed.kept.relMse,
             errorTerms(picture, reference, comparison.epsilon)};
 }
 

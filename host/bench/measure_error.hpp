@@ -7,6 +7,7 @@
 namespace glim {
 
 struct PictureError {
+    double mean = 0.0;  // of the picture
     double mse = 0.0, relMse = 0.0, trimmedRelMse = 0.0;
     std::vector<float> terms;  // (x - r) / sqrt(r^2 + eps), 0 where either is not finite: relMse is their mean square
 };

@@ -40,6 +40,7 @@ std::optional<std::vector<float>> renderSeed(Renderer& renderer, const Picture& 
         error = measureError(pictureOf(renderer.film()), reference);
         point.seconds.push_back(seconds);
         point.kernelSeconds.push_back(renderer.statistics().passSeconds - kernelStart);
+        point.mean.push_back(error.mean);
         point.mse.push_back(error.mse);
         point.relMse.push_back(error.relMse);
         point.trimmedRelMse.push_back(error.trimmedRelMse);
@@ -76,7 +77,7 @@ std::optional<RenderedSeeds> renderSeeds(Renderer& renderer, const FlatCamera& c
 {
     RenderedSeeds rendered;
     for (std::uint32_t count = 1; count <= samples; count *= 2) {
-        rendered.points.push_back({count, {}, {}, {}, {}, {}});
+        rendered.points.push_back({count, {}, {}, {}, {}, {}, {}});
     }
     std::vector<std::vector<float>> terms;
     for (std::size_t i = 0; i < seeds.size(); ++i) {

@@ -63,6 +63,10 @@ void settleBench(const CLI::App& command, BenchOptions& options)
     // For settleLight, which also refuses more light samples than can be counted.
     options.settings.sampleEnd = options.samples.value_or(kLeastBenchSamples);
     settleLight(command, options);
+    if (options.settings.adaptive != Adaptive::Off && options.settings.sampleEnd <= kPilotSamples && options.samples) {
+        throw CLI::ValidationError("--spp", "\"" + std::to_string(*options.samples) + "\": --adaptive neighbours begins with " +
+                                                std::to_string(kPilotSamples) + " samples of every pixel; expected more");
+    }
     std::set<std::filesystem::path> references;
     for (const std::filesystem::path& scene : options.scenes) {
         if (!references.insert(referenceOf(options, scene)).second) {
@@ -85,6 +89,12 @@ void addBenchOptions(CLI::App& command, BenchOptions& options)
     addFileOptions(command, options);
     addCameraOptions(command, options, std::to_string(kBenchHeight));
     addSamplerOptions(command, options.settings);
+    addChoice(command, "--adaptive", "RULE",
+              "neighbours or neighbours:absolute, as `glim render` has them: points of more than 64 samples per pixel are adaptive [off]",
+              {"off", "neighbours", "neighbours:absolute"}, [&options](std::size_t i) {
+                  constexpr Adaptive kRules[] = {Adaptive::Off, Adaptive::Neighbours, Adaptive::NeighboursAbsolute};
+                  options.settings.adaptive = kRules[i];
+              });
     addLightOptions(command, options.settings);
     addTracingOptions(command, options.settings, options.split);
     addDevice(command, options);

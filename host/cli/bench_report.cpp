@@ -18,12 +18,12 @@ std::string format(const char* pattern, auto... values)
     return text;
 }
 
-std::string intervalText(const Interval& interval)
+std::string intervalText(const Interval& interval, int digits = 3)
 {
     if (!std::isfinite(interval.low) || !std::isfinite(interval.high)) {
-        return format("%.3g [unknown]", interval.value);
+        return format("%.*g [unknown]", digits, interval.value);
     }
-    return format("%.3g [%.3g, %.3g]", interval.value, interval.low, interval.high);
+    return format("%.*g [%.*g, %.*g]", digits, interval.value, digits, interval.low, digits, interval.high);
 }
 
 void printPoints(const SceneBench& bench, const BenchSummary& summary)
@@ -70,9 +70,9 @@ std::string efficiencyText(const BenchSummary& summary)
     return "efficiency 1/(relMSE s) " + intervalText(summary.efficiency);
 }
 
-std::string verdict(const Interval& ratio)
+std::string verdict(const Interval& ratio, int digits = 3)
 {
-    return intervalText(ratio) + (excludesOne(ratio) ? ", excludes 1\n" : ", does not exclude 1\n");
+    return intervalText(ratio, digits) + (excludesOne(ratio) ? ", excludes 1\n" : ", does not exclude 1\n");
 }
 
 }  // namespace
@@ -95,7 +95,8 @@ void printBench(const SceneBench& bench)
 void printComparison(const BenchComparison& comparison, const std::string& baseline)
 {
     std::cout << "against " << baseline << format(" after %u samples, seeds ", comparison.samples)
-              << (comparison.paired ? "paired" : "not paired") << ":\n  relMSE x            " << verdict(comparison.error)
+              << (comparison.paired ? "paired" : "not paired") << ":\n  mean x              " << verdict(comparison.mean, 6)
+              << "  MSE x               " << verdict(comparison.mse) << "  relMSE x            " << verdict(comparison.error)
               << "  samples a second x  " << verdict(comparison.samplesPerSecond) << "  efficiency x        "
               << verdict(comparison.efficiency) << "  time to its error x " << verdict(comparison.timeToError);
 }

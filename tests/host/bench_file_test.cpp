@@ -38,6 +38,7 @@ TEST(BenchFile, WhatIsReadIsWhatWasWritten)
     ASSERT_EQ(benches.size(), 2U);
     EXPECT_EQ(benches[0].scene, "scenes/\"noise\".gltf");
     EXPECT_EQ(benches[0].points[6].relMse, someBench().points[6].relMse);
+    EXPECT_EQ(benches[0].points[6].mean, someBench().points[6].mean);
     EXPECT_EQ(benches[0].startUp.compile, 0.4);
     EXPECT_EQ(benches[0].bias.squared, someBench().bias.squared);
 }
@@ -50,7 +51,7 @@ TEST(BenchFile, CsvHasALineForEveryRenderOfEveryPoint)
     const std::size_t second = text.find('\n') + 1;
     const std::string line = text.substr(second, text.find('\n', second) - second);
     EXPECT_EQ(line.rfind("\"scenes/\"\"noise\"\".gltf\",16,16,\"seed=0 bounces=64\",0,1,", 0), 0U) << line;
-    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 12) << line;
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 13) << line;
 }
 
 TEST(BenchFile, WhatIsNoBenchIsRefused)
@@ -64,7 +65,7 @@ TEST(BenchFile, WhatIsNoBenchIsRefused)
     expectRefusal<InputError>([&] { readBenches(folder / "none.json"); }, "none.json: cannot be read");
     refuse("{", "x.json: is no JSON file that `glim bench` wrote");
     refuse("{\"scenes\": []}", "is no JSON file that `glim bench` wrote");
-    refuse("{\"glim:bench\": 7, \"scenes\": []}", "it has format 7, expected 1");
+    refuse("{\"glim:bench\": 7, \"scenes\": []}", "it has format 7, expected 2");
     auto json = nlohmann::json::parse(benchJson({someBench()}));
     json["scenes"][0]["points"][2]["mse"].erase(0);
     refuse(json.dump(), "its mse after 4 samples are 15 numbers, expected 16, one for each seed");

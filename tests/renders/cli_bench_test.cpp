@@ -63,6 +63,15 @@ TEST(BenchCommandTest, MeasuresWritesAndComparesWithAnEarlierBench)
     const std::string line = run.out.substr(place, run.out.find('\n', place) - place);
     EXPECT_TRUE(contains(line, ", excludes 1")) << line;  // hemisphere sampling of a small light is many times worse
 
+    // Points of 64 samples and less share every sample with the uniform render, so that their means are the same.
+    run = bench({"--spp", "128", "-o", second, "--adaptive", "neighbours", "--reference", reference, "--against", first});
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_TRUE(contains(run.out, "\n  mean x              1 [1, 1], does not exclude 1\n  MSE x               1 [1, 1]")) << run.out;
+    const SceneBench adaptive = readBenches(second)[0];
+    EXPECT_EQ(adaptive.points.back().samples, 128U);
+    EXPECT_TRUE(contains(adaptive.settings, " adaptive=neighbours")) << adaptive.settings;
+    EXPECT_EQ(adaptive.points[6].relMse, benches[0].points[6].relMse);
+
     // What is there is used again, and two runs differ in nothing but times.
     run = bench({"--spp", "64", "-o", first});
     EXPECT_EQ(bytesOfFile(reference), bytes);
@@ -92,6 +101,8 @@ TEST(BenchCommandTest, RefusesBeforeAnyWork)
     expectSentence(with({"--seeds", "15"}), 2, "--seeds: \"15\": expected a whole number from 16 to 1024");
     expectSentence(with({"--spp", "63"}), 2, "--spp: \"63\": expected a whole number from 64 to ");
     expectSentence(with({"--spp", "96"}), 2, "--spp: \"96\": expected a power of two, as in 256");
+    expectSentence(with({"--spp", "64", "--adaptive", "neighbours"}), 2, "--spp: \"64\": --adaptive neighbours begins with 64 samples");
+    expectSentence(with({"--adaptive", "course"}), 2, "expected off or neighbours or neighbours:absolute");
     expectSentence(with({"--seconds", "0"}), 2, "--seconds: \"0\": expected a number from 0.001");
     expectSentence(with({"--seconds", "1", "--spp", "64"}), 2, "--seconds excludes --spp");
     expectSentence(with({"--reference", "r.exr", "--make-reference"}), 2, "--reference excludes --make-reference");

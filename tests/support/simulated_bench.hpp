@@ -83,6 +83,7 @@ inline SceneBench simulateBench(Flaw flaw, std::uint64_t trial)
             point.kernelSeconds.push_back(0.9 * each * point.samples);
             point.mse.push_back(error.mse);
             point.relMse.push_back(error.relMse);
+            point.mean.push_back(error.mean);
             point.trimmedRelMse.push_back(error.trimmedRelMse);
             if (i + 1 == pictures.size()) {
                 terms.push_back(std::move(error.terms));

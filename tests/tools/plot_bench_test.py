@@ -30,7 +30,7 @@ class PlotBenchTest(unittest.TestCase):
 
     def write(self, name, benches):
         with open(os.path.join(self.folder.name, name), "w", encoding="utf-8") as file:
-            json.dump({"glim:bench": 1, "scenes": benches}, file)
+            json.dump({"glim:bench": 2, "scenes": benches}, file)
 
     def run_program(self, *arguments):
         return subprocess.run([sys.executable, PROGRAM, *arguments], cwd=self.folder.name, text=True, capture_output=True, check=False)
