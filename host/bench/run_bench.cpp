@@ -68,7 +68,8 @@ std::optional<std::uint32_t> chooseSamples(Renderer& renderer, const FlatCamera&
         each = *taken / samples;
         samples *= 2;
     } while (each * samples < kPilotShare * seconds && samples < most);
-    const double fitting = std::clamp(seconds / each, static_cast<double>(kLeastBenchSamples), static_cast<double>(most));
+    const std::uint32_t least = renderer.settings().adaptive == Adaptive::Off ? kLeastBenchSamples : 2 * kPilotSamples;
+    const double fitting = std::clamp(seconds / each, static_cast<double>(least), static_cast<double>(most));
     return std::bit_floor(static_cast<std::uint32_t>(fitting));
 }
 

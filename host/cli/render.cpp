@@ -135,9 +135,12 @@ ExitCode runRender(const RenderOptions& options)
     film.sceneFile = options.scene.string();
     film.identity.settings += describeView(options.pose, options.lens);  // so that it can be made again from what is in its file
     const double writeSeconds = writePictures(options, film);
+    // Before the control, whose samples are no suspects.
+    std::vector<Suspect> suspects = findSuspects(renderer, film);
+    const auto bias = measureBias(renderer, film, watch);
     const RenderReport report{options, prepared, film, renderer.statistics(), device.description(),
                               stopReason(watch.signal(), film, settings, isGood, renderer.isDone()), writeSeconds,
-                              findSuspects(renderer, film), measureBias(renderer, film, watch)};
+                              std::move(suspects), bias};
     if (options.stats) {
         writeStatistics(*options.stats, report);
     }

@@ -93,9 +93,10 @@ void addLightOptions(CLI::App& command, RenderSettings& settings)
 void addAdaptiveOptions(CLI::App& command, RenderSettings& settings)
 {
     addEnum(command, "--adaptive", "RULE",
-            "neighbours: the first 64 samples everywhere; of the others half everywhere, and half in proportion to the standard "
-            "deviation of the 48 pixels around, relative to their radiance (neighbours:absolute: as it is, for --target-rmse); "
-            "--spp is the mean over pixels [256]. course: look at each pixel after every --batch of its n samples, and stop it once "
+            "neighbours: half of the samples everywhere (the first 64 in any case), the others in proportion to the standard "
+            "deviation that those have in the 48 pixels around, relative to their radiance (neighbours:absolute: as it is, for "
+            "--target-rmse); --spp is the mean over pixels [256]. Either way new samples of one pixel in a hundred tell what bias "
+            "there is. course: look at each pixel after every --batch of its n samples, and stop it once "
             "1.96 s / sqrt(n) <= T m, where m and s are mean and standard deviation of their luminance (Berkeley, CS 184). A bias: "
             "pixels stop where they happen to look calm, mostly too dark: by 1.7 % of the light of a room with mirror and glass "
             "(earlier experiments: 1 to 4 %), by less than .3 % in diffuse rooms. Pixels without any variance go on to 1024 samples "

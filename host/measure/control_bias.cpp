@@ -1,14 +1,16 @@
 #include "host/measure/control_bias.hpp"
 
-#include "host/measure/normal.hpp"
+#include "host/measure/student.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace glim {
 namespace {
 
-constexpr std::size_t kLeastPixels = 16;  // fewer tell no spread
+constexpr std::size_t kLeastPixels = 32;  // of fewer, of uneven radiance, intervals hold the truth too seldom
 
 double meanOf(const PixelMoments& pixel)
 {
@@ -29,16 +31,21 @@ std::optional<ControlBias> estimateControlBias(const Film& film, const Film& con
             laterSum += later.back();
         }
     }
-    if (chosen.size() < kLeastPixels || laterSum <= 0.0) {
+    if (chosen.size() < kLeastPixels || laterSum <= *std::max_element(later.begin(), later.end())) {
         return std::nullopt;
     }
+    // Without one pixel each: where few bright pixels make up the sums, this tells more than the spread of the differences.
     const double ratio = chosenSum / laterSum, n = static_cast<double>(chosen.size());
-    double squares = 0.0;
+    std::vector<double> without;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
-        const double difference = chosen[i] - ratio * later[i];
-        squares += difference * difference;
+        without.push_back((chosenSum - chosen[i]) / (laterSum - later[i]));
     }
-    const double reach = twoSidedLimit(0.05) * std::sqrt(squares * n / (n - 1.0)) / laterSum;
+    const double mean = std::accumulate(without.begin(), without.end(), 0.0) / n;
+    double squares = 0.0;
+    for (const double each : without) {
+        squares += (each - mean) * (each - mean);
+    }
+    const double reach = studentLimit(0.05, chosen.size() - 1) * std::sqrt(squares * (n - 1.0) / n);
     return ControlBias{chosen.size(), {ratio - 1.0, ratio - 1.0 - reach, ratio - 1.0 + reach}};
 }
 

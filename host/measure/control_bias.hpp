@@ -14,8 +14,8 @@ struct ControlBias {
     Interval bias;           // mean radiance of the film's pixels over that of the control's, less 1
 };
 
-// Of the pixels of which `control` has samples, which no choice has depended on. The interval is that of a ratio of sums over pixels
-// (Cochran 1977, Sampling Techniques, 6.4), whose differences tell their own spread. Nothing if they are fewer than 16, or black.
+// Of the pixels of which `control` has samples, which no choice has depended on. The interval is the jackknife's (Tukey 1958), of a
+// ratio of sums over pixels. Nothing if they are fewer than 32, or one pixel has all the light.
 std::optional<ControlBias> estimateControlBias(const Film& film, const Film& control);
 
 }  // namespace glim

@@ -22,7 +22,7 @@ double epsilonOf(const Film& film)
     return 0.01 * mean * mean;
 }
 
-// Of one sample, from the means of blocks; negative where they do not tell. Mean of the channels.
+// Of one sample, from the means of blocks; negative where they do not tell, or more than a float can. Mean of the channels.
 double varianceOfSample(const PixelMoments& pixel, SquaredError error, double epsilon)
 {
     if (pixel.blocks < 2) {
@@ -33,7 +33,7 @@ double varianceOfSample(const PixelMoments& pixel, SquaredError error, double ep
         const double square = static_cast<double>(pixel.squares[c]), mean = static_cast<double>(pixel.mean[c]);
         sum += square > 0.0 && error == SquaredError::Relative ? square / (mean * mean + epsilon) : square;
     }
-    return sum / (3.0 * (pixel.blocks - 1.0));
+    return std::isfinite(sum) ? sum / (3.0 * (pixel.blocks - 1.0)) : -1.0;
 }
 
 // Mean over the neighbours that are known.
@@ -44,7 +44,8 @@ double meanAround(const std::vector<double>& variances, int width, int height, i
     for (int v = std::max(0, y - kReach); v <= std::min(height - 1, y + kReach); ++v) {
         for (int u = std::max(0, x - kReach); u <= std::min(width - 1, x + kReach); ++u) {
             const double variance = variances[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u)];
-            if ((u != x || v != y) && variance >= 0.0) {
+            const bool self = u == x && v == y;
+            if (!self && variance >= 0.0) {
                 sum += variance;
                 ++known;
             }
@@ -79,7 +80,7 @@ std::vector<double> computeShares(const Film& film, SquaredError error)
     }
     const double mean = std::accumulate(shares.begin(), shares.end(), 0.0) / static_cast<double>(shares.size());
     for (double& share : shares) {
-        share = mean > 0.0 ? 0.5 + 0.5 * share / mean : 1.0;
+        share = mean > 0.0 ? share / mean : 1.0;
     }
     return shares;
 }

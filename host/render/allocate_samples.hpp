@@ -11,9 +11,10 @@ namespace glim {
 // What is to become small: the mean of squared errors, or of squared errors over squared radiance.
 enum class SquaredError { Absolute, Relative };
 
-// What share of the samples each pixel should have, 1 on average: half of it is the same for all, half in proportion to the
-// standard deviation of a sample (Neyman 1934), which its 7x7 neighbours tell, but not the pixel itself: one that has missed a
-// bright path so far would look calm, be left alone, and stay too dark.
+// What share of the samples each pixel should have, 1 on average: in proportion to the standard deviation of a sample (Neyman 1934),
+// which its 7x7 neighbours tell, but not the pixel itself: one that has missed a bright path so far would look calm, be left
+// alone, and stay too dark. `film` has as many samples of each pixel, none of which earlier shares have asked for: else a bright
+// path in a pixel gave its neighbours samples, these found bright paths, and the pixel got samples that dilute its own.
 std::vector<double> computeShares(const Film& film, SquaredError error);
 
 // Blocks that each pixel should have besides the `samples` it has: together all pixels then have `meanSamples` times their number,

@@ -23,15 +23,15 @@ std::optional<Sweep> BlockQueue::take(std::uint32_t mostSamples)
     Sweep sweep{blocks * kBlockSamples, {}};
     for (std::uint32_t pixel = 0; pixel < blocks_.size(); ++pixel) {
         if (blocks_[pixel] >= blocks) {
-            sweep.pixels.push_back({pixel, next_[pixel]});
+            sweep.pixels.push_back({pixel, begin_ + samples_[pixel]});
             blocks_[pixel] -= blocks;
-            next_[pixel] += sweep.sampleCount;
+            samples_[pixel] += sweep.sampleCount;
         }
     }
     return sweep;
 }
 
-std::uint32_t BlockQueue::end() const { return *std::max_element(next_.begin(), next_.end()); }
+std::uint32_t BlockQueue::end() const { return begin_ + *std::max_element(samples_.begin(), samples_.end()); }
 
 bool BlockQueue::isEmpty() const
 {

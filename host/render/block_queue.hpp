@@ -23,21 +23,23 @@ struct Sweep {
 class BlockQueue {
 public:
     BlockQueue() = default;
-    // All pixels go on from sample `begin`, which begins a block.
-    BlockQueue(std::size_t pixels, std::uint32_t begin) : next_(pixels, begin), blocks_(pixels, 0) {}
+    // Of every pixel from sample `begin` on, which begins a block.
+    BlockQueue(std::size_t pixels, std::uint32_t begin) : begin_(begin), samples_(pixels, 0), blocks_(pixels, 0) {}
 
     void add(const std::vector<std::uint32_t>& blocks);
-    // Takes the same power of two of blocks of every pixel that still needs as many: the most that some pixel needs and that does not
-    // exceed `mostSamples`, of which a block is always one. Nothing once all are taken.
+    // Takes the same power of two of blocks of every pixel that still needs as many: the most that some pixel needs, but no more
+    // than a block or `mostSamples`. Nothing once all are taken.
     std::optional<Sweep> take(std::uint32_t mostSamples);
 
-    // Where every pixel goes on, and the furthest of them.
-    const std::vector<std::uint32_t>& next() const { return next_; }
+    // How many were taken of every pixel, and the first index beyond all of them.
+    const std::vector<std::uint32_t>& samples() const { return samples_; }
+    std::uint32_t begin() const { return begin_; }
     std::uint32_t end() const;
     bool isEmpty() const;
 
 private:
-    std::vector<std::uint32_t> next_, blocks_;
+    std::uint32_t begin_ = 0;
+    std::vector<std::uint32_t> samples_, blocks_;
 };
 
 }  // namespace glim

@@ -12,7 +12,8 @@ void refuseWhatDoesNotFit(const PreparedScene& prepared, const RenderSettings& s
     const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
     const std::uint64_t onDevice = sizeInBytes(prepared.flat) + PathBuffers::sizeInBytes(settings.pathCapacity) +
                                    pixels * Slab::bytesPerPixel(settings);
-    const std::uint64_t onHost = pixels * 2 * sizeof(PixelMoments);  // the film and its planes in the file
+    // The film and its planes in the file; what chooses pixels has a film of its own.
+    const std::uint64_t onHost = pixels * (isNeighbours(settings.adaptive) ? 3 : 2) * sizeof(PixelMoments);
     const std::uint64_t memory = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
                                  static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
     const auto refuse = [&](std::uint64_t needed, const std::string& owner, std::uint64_t there) {

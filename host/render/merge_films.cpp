@@ -106,12 +106,26 @@ void foldHeader(Film& film, const Film& next)
     }
 }
 
+// Without what only says which of the samples there are.
+std::string samplesOf(const std::string& settings)
+{
+    std::istringstream words(settings);
+    std::string kept;
+    for (std::string word; words >> word;) {
+        const std::string name = word.substr(0, word.find('='));
+        if (name != "adaptive" && name != "tolerance" && name != "batch" && name != "max-spp") {
+            kept += word + " ";
+        }
+    }
+    return kept;
+}
+
 }  // namespace
 
 bool shareSamples(const Film& a, const Film& b)
 {
     const bool samePicture = a.identity.scene == b.identity.scene && a.identity.seed == b.identity.seed &&
-                             a.identity.settings == b.identity.settings;
+                             samplesOf(a.identity.settings) == samplesOf(b.identity.settings);
     return samePicture && std::any_of(a.sampleRanges.begin(), a.sampleRanges.end(), [&](const SampleRange& mine) {
         return std::any_of(b.sampleRanges.begin(), b.sampleRanges.end(), [&](const SampleRange& other) {
             return mine.first < other.second && other.first < mine.second;

@@ -96,7 +96,14 @@ void Renderer::begin(const FlatCamera& camera)
     film_.device = device_.description().name + ", " + device_.description().driver;
     foldVersion_ = 0;
     sample_ = settings_.sampleBegin;
-    roundEnd_ = 0;
+    mean_ = roundEnd_ = commonEnd_ = 0;
+    choosing_ = false;
+    if (isNeighbours(settings_.adaptive)) {
+        // All pixels together never have more than half of sampleEnd.
+        const std::uint32_t half = std::max(kPilotSamples, (settings_.sampleEnd + 1) / 2);
+        chosenBlocks_ = BlockQueue(film_.pixels.size(), (half + kBlockSamples - 1) / kBlockSamples * kBlockSamples);
+        common_ = film_;
+    }
     timesToTarget_ = std::numeric_limits<double>::infinity();
     sweeping_ = false;
     slab_ = 0;
@@ -149,10 +156,16 @@ PixelMoments Renderer::moments(std::uint32_t pixel)
 // The samples it is of.
 void Renderer::describe(Film& film) const
 {
-    const std::uint32_t end = isInRounds() && roundEnd_ > 0 ? blocks_.end() : sweeping_ ? sweepEnd() : sample_;
-    film.sampleRanges = {{settings_.sampleBegin, end}};
-    const bool even = pictureSamples_ > 0 && pictureSamples_ == film.pixels.size() * sampleCount();
-    film.complete = isDone() || (!isCourse(settings_.adaptive) && (isInRounds() ? !sweeping_ : even));
+    film.sampleRanges = {{settings_.sampleBegin, sweeping_ && !choosing_ ? sweepEnd() : sample_}};
+    if (isNeighbours(settings_.adaptive)) {
+        if (chosenBlocks_.end() > chosenBlocks_.begin()) {
+            film.sampleRanges.emplace_back(chosenBlocks_.begin(), chosenBlocks_.end());
+        }
+        film.complete = mean_ > 0 && isBetweenRounds();
+    } else {
+        const bool even = pictureSamples_ > 0 && pictureSamples_ == film.pixels.size() * sampleCount();
+        film.complete = isDone() || (even && !isCourse(settings_.adaptive));
+    }
     film.seconds = secondsSince(start_);
 }
 
@@ -200,7 +213,7 @@ bool Renderer::isOver(const RenderObserver& observer)
 // to be low, and takes time.
 bool Renderer::isGoodEnough(const FilmJudge& judge)
 {
-    const bool whole = isInRounds() || sample_ % kBlockSamples == 0;
+    const bool whole = isNeighbours(settings_.adaptive) ? isBetweenRounds() : sample_ % kBlockSamples == 0;
     const bool ends = !sweeping_ && whole && sampleCount() >= 2 * kBlockSamples;
     if (!ends || static_cast<double>(pictureSamples_) < 1.1 * static_cast<double>(judgedSamples_)) {
         return false;

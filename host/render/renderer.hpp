@@ -55,7 +55,10 @@ public:
     // The same as render in steps: a pass of work. False once nothing is left to do, or if `goesOn`, asked now and then, ended the pass, of which
     // nothing is kept then. Throws as render.
     bool advance(const std::function<bool()>& goesOn = nullptr);
-    bool isDone() const { return chosen_ == 0 || sample_ == settings_.sampleEnd; }
+    bool isDone() const
+    {
+        return chosen_ == 0 || (isNeighbours(settings_.adaptive) ? mean_ : sample_) == settings_.sampleEnd;
+    }
     // What is finished; sampling may go on.
     Film film();
     PixelMoments moments(std::uint32_t pixel);  // of film(), faster
@@ -68,8 +71,8 @@ public:
     // The same picture from other random numbers.
     void restart(const FlatCamera& camera, std::uint32_t seed);
 
-    // Samples that every chosen pixel has (in rounds, their mean), and those of all pixels together.
-    std::uint32_t sampleCount() const { return sample_ - settings_.sampleBegin; }
+    // Samples that every chosen pixel has (with --adaptive neighbours, that pixels have on average), and those of all pixels together.
+    std::uint32_t sampleCount() const { return mean_ > 0 ? mean_ : sample_ - settings_.sampleBegin; }
     std::uint64_t pictureSamples() const { return pictureSamples_; }
     // For who looks at the film on the device, which has what was not folded yet. The version changes whenever `folded` does; 0 while
     // nothing is folded.
@@ -93,13 +96,16 @@ private:
     static std::uint64_t nextFoldVersion();
 
     // In renderer_sweeps.cpp.
-    bool isInRounds() const;
+    bool isBetweenRounds() const { return mean_ == roundEnd_; }
     std::uint32_t sweepEnd() const;
     bool findSlab();
     Pass nextPass(std::uint32_t firstSample, std::uint32_t sampleCount) const;
     void endSweep();
     std::uint64_t choosePixels();
     void startRound();
+    void startChoosing();
+    void endRound();
+    void foldCommon();
     bool chooseSweep(BlockQueue& blocks);
 
     void foldPages(Film& film, const std::vector<std::unique_ptr<Slab>>& slabs);
@@ -122,17 +128,23 @@ private:
 
     Film film_;                      // the pages folded so far
     std::uint64_t foldVersion_ = 0;
-    std::uint32_t sample_ = 0;       // first of the sweep under way; in rounds, the pixels' mean when it began
-    bool sweeping_ = false;          // the sweep or round has had a pass
+    std::uint32_t sample_ = 0;       // first of the sweep under way over all pixels
+    bool sweeping_ = false;          // the sweep, or the round's choice, has had a pass
     std::size_t slab_ = 0;           // of the next pass
     std::uint32_t pixel_ = 0;        // its first one, among the slab's chosen
     std::uint64_t chosen_ = 0;       // pixels that the sweep goes over
     std::uint64_t pictureSamples_ = 0, plannedSamples_ = 0;
     std::uint64_t judgedSamples_ = 0;  // of the picture, when it was judged last
     double timesToTarget_ = 0.0;       // that it found; infinite before
-    BlockQueue blocks_;                // of the round under way
-    std::uint32_t roundEnd_ = 0;       // mean samples after it
-    std::uint32_t sweepSamples_ = 0;   // of each pixel in one of its sweeps
+
+    // Of --adaptive neighbours.
+    Film common_;                     // the samples of all pixels alike
+    std::uint32_t commonEnd_ = 0;     // their number in the round under way
+    BlockQueue chosenBlocks_;         // the others
+    bool choosing_ = false;           // the sweep under way is of them
+    std::uint32_t sweepSamples_ = 0;  // that each pixel of it has
+    std::uint32_t mean_ = 0;          // samples of pixels after the last round
+    std::uint32_t roundEnd_ = 0;      // after the one under way
 };
 
 }  // namespace glim

@@ -1,6 +1,6 @@
 // Which samples of which pixels come next. A sweep goes over all pixels, or over those that an adaptive render has chosen, for the
-// same number of samples. --adaptive neighbours begins with kPilotSamples everywhere; each round after that is several sweeps, in
-// which pixels get different numbers of blocks.
+// same number of samples. --adaptive neighbours goes in rounds: sweeps over all pixels, then some over chosen ones, which take blocks
+// of samples beyond those that all pixels will ever have.
 #include "host/render/allocate_samples.hpp"
 #include "host/render/renderer.hpp"
 #include "shaders/shared/limits.h"
@@ -13,41 +13,39 @@
 namespace glim {
 namespace {
 
-// Mean samples after a round that begins with `samples` of them: 96, 128, 192, 256, 384 ... A round grows by half at most, since
+// Mean samples after a round that begins with `samples` of them: 64, 96, 128, 192, 256, 384 ... A round grows by half at most, since
 // what it is planned from is worth more later, and powers of two are met for who looks there.
 std::uint32_t usualRoundEnd(std::uint32_t samples)
 {
+    if (samples == 0) {
+        return kPilotSamples;
+    }
     const std::uint32_t power = std::bit_floor(samples), middle = power + power / 2;
     return samples < middle ? middle : 2 * power;
 }
 
 }  // namespace
 
-bool Renderer::isInRounds() const { return isNeighbours(settings_.adaptive) && sample_ >= kPilotSamples; }
-
 // End of the sweep under way: the first block is swept 1, 1, 2, 4, 8 and 16 samples at a time, so that a render that is stopped
-// early covers its picture evenly; later blocks at once, which keeps the rays of a pixel together. Of a round its mean.
+// early covers its picture evenly; later blocks at once, which keeps the rays of a pixel together.
 std::uint32_t Renderer::sweepEnd() const
 {
-    if (isInRounds()) {
-        return roundEnd_;
-    }
-    const std::uint32_t done = sampleCount();
+    const std::uint32_t done = sample_ - settings_.sampleBegin, last = isNeighbours(settings_.adaptive) ? commonEnd_ : settings_.sampleEnd;
     const std::uint32_t count = done < kBlockSamples ? std::max(1U, std::bit_floor(done)) : kBlockSamples;
-    const std::uint32_t end = std::min({settings_.sampleEnd, (sample_ / kBlockSamples + 1) * kBlockSamples, sample_ + count});
+    const std::uint32_t end = std::min({last, (sample_ / kBlockSamples + 1) * kBlockSamples, sample_ + count});
     return isCourse(settings_.adaptive) ? std::min(end, (sample_ / settings_.batch + 1) * settings_.batch) : end;
 }
 
 bool Renderer::advance(const std::function<bool()>& goesOn)
 {
-    while (isInRounds() && roundEnd_ <= sample_ && !isDone()) {
+    while (isNeighbours(settings_.adaptive) && isBetweenRounds() && !isDone()) {
         startRound();
     }
     if (isDone()) {
         return false;
     }
-    // In rounds each pixel has a first sample of its own.
-    const Pass pass = isInRounds() ? nextPass(0, sweepSamples_) : nextPass(sample_, sweepEnd() - sample_);
+    // Chosen pixels of a round have first samples of their own.
+    const Pass pass = choosing_ ? nextPass(0, sweepSamples_) : nextPass(sample_, sweepEnd() - sample_);
     if (!runPass(pass, goesOn)) {
         return false;
     }
@@ -80,7 +78,10 @@ Pass Renderer::nextPass(std::uint32_t firstSample, std::uint32_t sampleCount) co
 
 void Renderer::endSweep()
 {
-    if (isInRounds() && chooseSweep(blocks_)) {
+    if (choosing_) {
+        if (!chooseSweep(chosenBlocks_)) {
+            endRound();
+        }
         return;
     }
     sample_ = sweepEnd();
@@ -91,8 +92,12 @@ void Renderer::endSweep()
     }
     slab_ = 0;
     findSlab();
-    // Pixels of rounds have no pages in common: theirs has no end.
-    if (sample_ % kPageSamples == 0 && !isNeighbours(settings_.adaptive)) {
+    if (isNeighbours(settings_.adaptive)) {
+        if (sample_ == commonEnd_) {
+            foldCommon();
+            startChoosing();
+        }
+    } else if (sample_ % kPageSamples == 0) {
         foldPages(film_, slabs_);
         foldVersion_ = nextFoldVersion();
     }
@@ -109,20 +114,56 @@ std::uint64_t Renderer::choosePixels()
     return chosen;
 }
 
-// With a target in sight no further than that.
+// Half of a round's samples, but at least kPilotSamples, are the same for all pixels, and they alone say who gets the others. With a
+// target in sight the round goes no further than that.
 void Renderer::startRound()
 {
-    const auto most = static_cast<double>(std::min(usualRoundEnd(sample_), settings_.sampleEnd));
-    const double wanted = sample_ * std::max(1.12, 1.02 * timesToTarget_);
+    const auto most = static_cast<double>(std::min(usualRoundEnd(mean_), settings_.sampleEnd));
+    const double wanted = mean_ == 0 ? most : mean_ * std::max(1.12, 1.02 * timesToTarget_);
     roundEnd_ = static_cast<std::uint32_t>(std::ceil(std::min(most, wanted)));
-    if (sample_ == kPilotSamples) {
-        blocks_ = BlockQueue(film_.pixels.size(), kPilotSamples);
+    commonEnd_ = std::max(std::min(kPilotSamples, roundEnd_), roundEnd_ / 2 / kBlockSamples * kBlockSamples);
+    if (sample_ == commonEnd_) {
+        startChoosing();
+        return;
     }
+    for (const auto& slab : slabs_) {
+        slab->chooseAll();
+    }
+    slab_ = 0;
+    pixel_ = 0;
+}
+
+void Renderer::startChoosing()
+{
     const SquaredError error = settings_.adaptive == Adaptive::Neighbours ? SquaredError::Relative : SquaredError::Absolute;
-    blocks_.add(allocateBlocks(computeShares(film(), error), blocks_.next(), roundEnd_));
-    if (!chooseSweep(blocks_)) {
-        sample_ = roundEnd_;  // it was less than half a block
+    if (roundEnd_ > commonEnd_) {
+        chosenBlocks_.add(allocateBlocks(computeShares(common_, error), chosenBlocks_.samples(), roundEnd_ - commonEnd_));
     }
+    choosing_ = chooseSweep(chosenBlocks_);
+    if (!choosing_) {
+        endRound();
+    }
+}
+
+void Renderer::endRound()
+{
+    foldPages(film_, slabs_);
+    foldVersion_ = nextFoldVersion();
+    choosing_ = false;
+    sweeping_ = false;
+    mean_ = roundEnd_;
+}
+
+// The common samples of a round.
+void Renderer::foldCommon()
+{
+    for (const auto& slab : slabs_) {
+        wavefront_->closeBlocks(*slab);
+        const std::vector<PixelMoments> pages = slab->takePages();
+        foldPage(film_, slab->begin(), pages);
+        foldPage(common_, slab->begin(), pages);
+    }
+    foldVersion_ = nextFoldVersion();
 }
 
 std::optional<Film> Renderer::sampleControl(const Film& film, const std::function<bool()>& goesOn)
@@ -138,14 +179,16 @@ std::optional<Film> Renderer::sampleControl(const Film& film, const std::functio
     BlockQueue blocks(film.pixels.size(), begin);
     blocks.add(needed);
     const RenderStatistics before = statistics_;
-    while (chooseSweep(blocks)) {
+    bool going = true;
+    while (going && chooseSweep(blocks)) {
         do {
-            if (!runPass(nextPass(0, sweepSamples_), goesOn)) {
-                return std::nullopt;
-            }
-        } while (findSlab());
+            going = runPass(nextPass(0, sweepSamples_), goesOn);
+        } while (going && findSlab());
     }
     statistics_ = before;
+    if (!going) {
+        return std::nullopt;
+    }
     Film control;
     control.pixels.resize(film.pixels.size());
     foldPages(control, slabs_);

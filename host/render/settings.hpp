@@ -54,7 +54,7 @@ struct RenderSettings {
     float survival = 0.7F;  // of Roulette::Fixed
     View view = View::Shaded;
     // Sample indices then begin at 0. Of Course they are independent, and a pixel has at most sampleEnd; of Neighbours, pixels have
-    // sampleEnd on average.
+    // sampleEnd on average, half of which are all pixels' first.
     Adaptive adaptive = Adaptive::Off;
     float tolerance = 0.05F;   // of Course
     std::uint32_t batch = 32;  // of Course: samples between two looks at a pixel
