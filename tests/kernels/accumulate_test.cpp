@@ -6,11 +6,13 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/path_types.h"
 #include "shaders/shared/pixel_moments.h"
+#include "tests/support/hard_case.hpp"
 #include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -78,6 +80,20 @@ Outcome accumulate(const std::vector<PathRadiance>& radiance, const std::vector<
             download<BrightestSample>(kept, kPixels), download<Status>(paths.status(), 1)[0]};
 }
 
+// Pixels whose plain average over their samples is not finite.
+std::uint32_t countPoisoned(const std::vector<PathRadiance>& radiance)
+{
+    std::uint32_t poisoned = 0;
+    for (std::uint32_t pixel = 0; pixel < kPixels; ++pixel) {
+        vec3 sum(0.0F);
+        for (std::uint32_t i = 0; i < kSamples; ++i) {
+            sum += radiance[pixel * kSamples + i].radiance;
+        }
+        poisoned += std::isfinite(sum.r + sum.g + sum.b) ? 0 : 1;
+    }
+    return poisoned;
+}
+
 TEST(AccumulateTest, H37LeavesOutWhatIsNotFinite)
 {
     const float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
@@ -90,6 +106,10 @@ TEST(AccumulateTest, H37LeavesOutWhatIsNotFinite)
         radiance[50 * kSamples + i].radiance = vec3(nan);
     }
     const Outcome outcome = accumulate(radiance);
+    printHardCase("H37", "11 samples of 2 pixels are not finite", kPixels * kSamples,
+                  std::to_string(outcome.status.nonFinite) + " counted and left out",
+                  "plain average: " + std::to_string(countPoisoned(radiance)) + " pixels are not finite");
+    EXPECT_EQ(countPoisoned(radiance), 2U);
     for (std::uint32_t pixel = 0; pixel < kPixels; ++pixel) {
         const std::uint32_t kept = pixel == 7 ? kSamples - 3 : pixel == 50 ? 0 : kSamples;
         EXPECT_EQ(outcome.pages[pixel].count, kept) << pixel;

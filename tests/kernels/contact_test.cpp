@@ -1,5 +1,6 @@
 // H10: shadow rays where light, blocker and receiver touch.
 #include "tests/support/build_scene.hpp"
+#include "tests/support/hard_case.hpp"
 #include "tests/support/irradiance.hpp"
 #include "tests/support/irradiance_formulas.hpp"
 
@@ -53,6 +54,20 @@ TEST(ContactTest, H10LightOnACeiling)
     }
 }
 
+// Irradiance of a floor by a sphere of radiance 1 that rays from t > epsilon find: a grid of directions by the cosine.
+double irradianceBeyond(double epsilon, const dvec3& center, double radius)
+{
+    constexpr int kSide = 512;
+    int found = 0;
+    for (int i = 0; i < kSide * kSide; ++i) {
+        const double u = (i % kSide + 0.5) / kSide, phi = 2.0 * std::numbers::pi * (i / kSide + 0.5) / kSide;
+        const dvec3 w(std::sqrt(u) * std::cos(phi), std::sqrt(1.0 - u), std::sqrt(u) * std::sin(phi));
+        const double middle = glm::dot(center, w), square = middle * middle - glm::dot(center, center) + radius * radius;
+        found += square > 0.0 && middle - std::sqrt(square) > epsilon ? 1 : 0;
+    }
+    return std::numbers::pi * found / (kSide * kSide);
+}
+
 // A sphere light resting on the floor, up to 1e-3 of where they touch.
 TEST(ContactTest, H10SphereLightOnTheFloor)
 {
@@ -66,7 +81,12 @@ TEST(ContactTest, H10SphereLightOnTheFloor)
         receivers.push_back({{x, 0, 0}, {0, 1, 0}, truth, std::min(kLookUp, 0.5F * x * x)});
     }
     // Rays leave a floor of 10 m by 6e-6 m, which is 6 % of the gap at the last receiver: the cone is another by that.
-    expectIrradiance("sphere light on the floor", builder.scene(), receivers, 1e-3);
+    const auto nearest = expectIrradiance("sphere light on the floor", builder.scene(), receivers, 1e-3).back();
+    const double truth = receivers.back().truth, naive = irradianceBeyond(1e-3, {-0.01, 0.5, 0.0}, 0.5) / truth;
+    printHardCase("H10", "1 cm from where a sphere light touches", static_cast<double>(hardTrials(2048 * 64)),
+                  "irradiance x " + figure(nearest.mean / truth), "rays from t > 1e-3: x " + figure(naive));
+    EXPECT_NEAR(irradianceBeyond(0.0, {-0.01, 0.5, 0.0}, 0.5), truth, 1e-3 * truth) << "only where they begin is wrong";
+    EXPECT_LT(naive, 0.5);
 }
 
 // A black sphere resting on the floor, a point light: lit where the segment clears the sphere.

@@ -1,4 +1,4 @@
-// One thread is one pixel, looked at one way.
+// One thread is one pixel, looked at one way. Result: its radiance as indices of bytes, by conversion alone.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
@@ -12,6 +12,7 @@ struct Case {
 };
 
 layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
+layout(set = 0, binding = kBindResults, scalar) writeonly buffer Results { uvec3 results[]; };
 
 void main()
 {
@@ -23,6 +24,7 @@ void main()
         EXPECT_NEAR(bytes.g, c.expected.g, 1.001);
         EXPECT_NEAR(bytes.b, c.expected.b, 1.001);
         EXPECT_NEAR(bytes.r, round(bytes.r), 0.001);
+        results[TEST_THREAD] = uvec3(255.0 * c.display.scale * c.pixel.mean + 0.5);
     }
     endTest();
 }

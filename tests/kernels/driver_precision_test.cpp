@@ -15,15 +15,15 @@ namespace glim {
 namespace {
 
 struct Case {
-    float x, y, z;
+    float x, y, z, w;
 };
 
 struct Result {
-    float sine, cosine, root, quotient, inverse, arctangent, power;
+    float sine, cosine, root, quotient, inverse, arctangent, power, polar, arccosine;
 };
 
 struct Errors {
-    double sine, cosine;                                     // absolute
+    double sine, cosine, polar, arccosine;              // absolute
     double root, quotient, inverse, arctangent, power;  // ulp: relative in units of 2^-23
 };
 
@@ -43,6 +43,9 @@ void count(Errors& worst, const Case& c, const Result& r)
     raise(worst.quotient, ulps(r.quotient, x / z));
     raise(worst.inverse, ulps(r.inverse, 1.0 / std::sqrt(y)));
     raise(worst.arctangent, ulps(r.arctangent, std::atan2(x, z)));
+    const double angle = std::acos(static_cast<double>(c.w));
+    raise(worst.polar, std::abs(static_cast<double>(r.polar) - angle));
+    raise(worst.arccosine, std::abs(static_cast<double>(r.arccosine) - angle));
     raise(worst.power, ulps(r.power, std::exp2(x)) / (3.0 + 2.0 * std::abs(x)));
 }
 
@@ -54,6 +57,7 @@ TEST(DriverPrecisionTest, H41IsWhatVulkanPromises)
         c.x = static_cast<float>(random.uniform(-std::numbers::pi, std::numbers::pi));
         c.y = static_cast<float>(random.logUniform(1e-30, 1e30));
         c.z = static_cast<float>(random.logUniform(1e-6, 1e6) * (random.below(2) == 0 ? 1.0 : -1.0));
+        c.w = c.x / std::numbers::pi_v<float>;
     }
     KernelTest test(test_kernels::driver_precision_test);
     test.cases(cases).resultsOf<Result>(cases.size()).run();
@@ -65,7 +69,9 @@ TEST(DriverPrecisionTest, H41IsWhatVulkanPromises)
     printHardCase("H41", "the driver's functions", static_cast<double>(cases.size()),
                   "sin, cos within " + figure(std::max(worst.sine, worst.cosine)) + "; ulp: / " + figure(worst.quotient) +
                       ", sqrt " + figure(worst.root) + ", inversesqrt " + figure(worst.inverse) + ", atan " +
-                      figure(worst.arctangent) + ", exp2 " + figure(worst.power) + " of what is allowed");
+                      figure(worst.arctangent) + ", exp2 " + figure(worst.power) +
+                      " of what is allowed; the angle to a pole by atan within " + figure(worst.polar),
+                  "by acos within " + figure(worst.arccosine));
     // Vulkan, "Precision and Operation of SPIR-V Instructions"; sqrt inherits from 1 / inversesqrt.
     EXPECT_LE(std::max(worst.sine, worst.cosine), 0x1p-11);
     EXPECT_LE(worst.quotient, 2.5);

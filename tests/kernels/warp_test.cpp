@@ -50,6 +50,13 @@ std::vector<Result> warped(const std::vector<vec2>& points)
     return test.results<Result>();
 }
 
+// By the definition, which sampleLambert avoids: NaN for a direction in the surface.
+float quotientWeight(float albedo, float cosine)
+{
+    constexpr float kPerPi = std::numbers::inv_pi_v<float>;
+    return albedo * kPerPi * cosine / (cosine * kPerPi);
+}
+
 // The corners and middle of the square, and a grid.
 TEST(WarpTest, H18HitsTheDiskSphereAndTriangle)
 {
@@ -65,11 +72,17 @@ TEST(WarpTest, H18HitsTheDiskSphereAndTriangle)
                                 std::min(static_cast<float>(j) / 64.0F, 1.0F - 0x1p-24F));
         }
     }
+    int undefined = 0, inexact = 0;
     for (const Result& result : warped(points)) {
+        const float weight = quotientWeight(0.7F, result.hemisphere.z);
+        undefined += std::isnan(weight) ? 1 : 0;
+        inexact += weight != 0.7F ? 1 : 0;
         EXPECT_TRUE(std::isfinite(result.hemisphere.z) && std::isfinite(result.sphere.x));
         EXPECT_TRUE(std::isfinite(result.uniformHemisphere.x) && std::isfinite(result.uniformHemisphere.y));
     }
-    printHardCase("H18", "cosine hemisphere, corners and grid", static_cast<double>(points.size()), "unit within 5e-7, finite");
+    printHardCase("H18", "cosine hemisphere, corners and grid", static_cast<double>(points.size()), "unit within 5e-7, finite",
+                  "f cos / pdf: " + std::to_string(undefined) + " NaN, " + std::to_string(inexact) + " not the albedo");
+    EXPECT_GT(undefined, 0);
 }
 
 double turnOf(const vec3& v)
