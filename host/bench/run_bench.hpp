@@ -15,8 +15,8 @@ inline constexpr std::uint32_t kLeastBenchSamples = 64;
 // Is asked several times a second, with the samples that each pixel has had so far, of all seeds together; false ends the work.
 using BenchObserver = std::function<bool(std::uint64_t samples)>;
 
-// The power of two, from kLeastBenchSamples (twice those that are not chosen, of adaptive renders) to `most`, that takes about `seconds`. Measured after the costs of first dispatches,
-// which are thereby paid. Nothing if `observer` ended it.
+// The power of two, from kLeastBenchSamples (of adaptive renders, twice kPilotSamples) to `most`, that takes about `seconds`. Measured
+// after the costs of first dispatches, which are thereby paid. Nothing if `observer` ended it.
 std::optional<std::uint32_t> chooseSamples(Renderer& renderer, const FlatCamera& camera, double seconds, std::uint32_t most,
                                            const BenchObserver& observer);
 

@@ -90,7 +90,8 @@ void addBenchOptions(CLI::App& command, BenchOptions& options)
     addCameraOptions(command, options, std::to_string(kBenchHeight));
     addSamplerOptions(command, options.settings);
     addChoice(command, "--adaptive", "RULE",
-              "neighbours or neighbours:absolute, as `glim render` has them: points of more than 64 samples per pixel are adaptive [off]",
+              "neighbours or neighbours:absolute, as `glim render` has them: points of more than 64 samples per pixel are adaptive "
+              "[off]",
               {"off", "neighbours", "neighbours:absolute"}, [&options](std::size_t i) {
                   constexpr Adaptive kRules[] = {Adaptive::Off, Adaptive::Neighbours, Adaptive::NeighboursAbsolute};
                   options.settings.adaptive = kRules[i];

@@ -51,9 +51,11 @@ void settleView(const CLI::App& command, RenderSettings& settings)
 
 void settleCourse(const CLI::App& command, RenderSettings& settings)
 {
-    refuseIfGiven(command, {"--spp", "--samples"}, "--adaptive course itself chooses the samples; expected --max-spp as their limit");
+    refuseIfGiven(command, {"--spp", "--samples"},
+                  "--adaptive course itself chooses the samples; expected --max-spp as their limit");
     if (isGiven(command, "--sampler") && settings.sampler == Sampler::Sobol) {
-        refuse(command, "--sampler", "the statistics of --adaptive course assume independent samples; expected --sampler independent");
+        refuse(command, "--sampler",
+               "the statistics of --adaptive course assume independent samples; expected --sampler independent");
     }
     settings.sampler = Sampler::Independent;
     settings.sampleEnd = isGiven(command, "--max-spp") ? settings.sampleEnd : kMaxSpp;

@@ -43,7 +43,7 @@ double meanAround(const std::vector<double>& variances, int width, int height, i
     int known = 0;
     for (int v = std::max(0, y - kReach); v <= std::min(height - 1, y + kReach); ++v) {
         for (int u = std::max(0, x - kReach); u <= std::min(width - 1, x + kReach); ++u) {
-            const double variance = variances[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u)];
+            const double variance = variances[static_cast<std::size_t>(v * width + u)];
             const bool self = u == x && v == y;
             if (!self && variance >= 0.0) {
                 sum += variance;

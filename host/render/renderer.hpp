@@ -52,8 +52,8 @@ public:
     // and in no statistics. What was chosen by the old ones, those do not know. Nothing if `goesOn` ended it.
     std::optional<Film> sampleControl(const Film& film, const std::function<bool()>& goesOn);
 
-    // The same as render in steps: a pass of work. False once nothing is left to do, or if `goesOn`, asked now and then, ended the pass, of which
-    // nothing is kept then. Throws as render.
+    // The same as render in steps: a pass of work. False once nothing is left to do, or if `goesOn`, asked now and then, ended the
+    // pass, of which nothing is kept then. Throws as render.
     bool advance(const std::function<bool()>& goesOn = nullptr);
     bool isDone() const
     {
@@ -71,7 +71,7 @@ public:
     // The same picture from other random numbers.
     void restart(const FlatCamera& camera, std::uint32_t seed);
 
-    // Samples that every chosen pixel has (with --adaptive neighbours, that pixels have on average), and those of all pixels together.
+    // Samples that every chosen pixel has (of --adaptive neighbours that pixels have on average), and those of all pixels together.
     std::uint32_t sampleCount() const { return mean_ > 0 ? mean_ : sample_ - settings_.sampleBegin; }
     std::uint64_t pictureSamples() const { return pictureSamples_; }
     // For who looks at the film on the device, which has what was not folded yet. The version changes whenever `folded` does; 0 while

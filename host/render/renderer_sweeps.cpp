@@ -30,7 +30,8 @@ std::uint32_t usualRoundEnd(std::uint32_t samples)
 // early covers its picture evenly; later blocks at once, which keeps the rays of a pixel together.
 std::uint32_t Renderer::sweepEnd() const
 {
-    const std::uint32_t done = sample_ - settings_.sampleBegin, last = isNeighbours(settings_.adaptive) ? commonEnd_ : settings_.sampleEnd;
+    const std::uint32_t done = sample_ - settings_.sampleBegin;
+    const std::uint32_t last = isNeighbours(settings_.adaptive) ? commonEnd_ : settings_.sampleEnd;
     const std::uint32_t count = done < kBlockSamples ? std::max(1U, std::bit_floor(done)) : kBlockSamples;
     const std::uint32_t end = std::min({last, (sample_ / kBlockSamples + 1) * kBlockSamples, sample_ + count});
     return isCourse(settings_.adaptive) ? std::min(end, (sample_ / settings_.batch + 1) * settings_.batch) : end;
