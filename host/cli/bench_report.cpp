@@ -40,7 +40,7 @@ void printPoints(const SceneBench& bench, const BenchSummary& summary)
               << '\n';
 }
 
-// Sobol' points gain within blocks of 32 and not between them, which no single power fits.
+// Sobol' points gain within blocks and not between them, which no single power fits.
 std::string fitText(const SceneBench& bench, const BenchSummary& summary)
 {
     if (findSetting(bench.settings, "sampler") != "independent") {

@@ -78,7 +78,7 @@ std::string errorText(const Film& film, const RenderSettings& settings)
 {
     const auto estimate = knownError(film, settings);
     if (!estimate) {
-        return format(", error unknown since %zu pixels have fewer than 33 samples", pixelsWithoutError(film));
+        return format(", error unknown since %zu pixels have one block of samples at most", pixelsWithoutError(film));
     }
     const auto percent = [&](double meanSquare) { return 100.0 * relativeRoot(meanSquare, estimate->mean); };
     std::string text = format(", estimated relMSE %.3g [%.3g, %.3g], RMSE %.3g %% [%.3g, %.3g] of the mean",

@@ -157,7 +157,8 @@ void addRender(CLI::App& app, ExitCode& exitCode)
     addRenderOptions(*command, *options);
     command->footer("EXR layers: R, G, B, A (coverage); albedo; normal (world axes); depth.Z (nearest, along the view axis);\n"
                     "count.X (samples); from 33 samples on variance, of the mean, and error, its root, the standard error, surest at\n"
-                    "multiples of 32; squares, blocks and clamped for merging. The same scene, seed and options give the same pixels.\n"
+                    "32 samples and multiples of 64; squares, blocks and clamped for merging. The same scene, seed and options give\n"
+                    "the same pixels.\n"
                     "Ctrl-C writes what is finished.\n"
                     "Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 129, 130 or 143 stopped by SIGHUP, SIGINT or SIGTERM.");
     command->callback([options, &exitCode] {

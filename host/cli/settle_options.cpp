@@ -155,9 +155,10 @@ void settleTarget(const CLI::App& command, RenderOptions& options)
         refuseIfGiven(command, {"--target-rmse", "--target-relmse"},
                       "--adaptive course has a rule of its own; expected --adaptive neighbours or off");
     }
-    const std::uint32_t least = 2 * kBlockSamples, count = options.settings.sampleEnd - options.settings.sampleBegin;
+    const RenderSettings& settings = options.settings;
+    const std::uint32_t least = leastSamplesForError(settings.sampleBegin);
     const bool limited = isGiven(command, "--spp") || isGiven(command, "--samples");
-    if (limited && count < least) {
+    if (limited && settings.sampleEnd - settings.sampleBegin < least) {
         refuseIfGiven(command, {"--target-rmse", "--target-relmse"},
                       "the error is known from " + std::to_string(least) + " samples on; expected at least as many");
     }

@@ -251,7 +251,7 @@ void Session::measure()
     if (!first && (samples < 1 || samples < 2 * estimatedAt_ || isAsked())) {
         return;
     }
-    if (!ranged && samples < 2 * kBlockSamples) {
+    if (!ranged && samples < leastSamplesForError(0)) {
         return;
     }
     const Film film = refiner().renderer().film();

@@ -117,7 +117,7 @@ void Renderer::begin(const FlatCamera& camera)
 Film Renderer::render(const RenderObserver& observer, const FilmJudge& judge)
 {
     start_ = Clock::now();
-    plannedSamples_ = judge ? film_.pixels.size() * 2 * kBlockSamples : plannedSamples_;  // until it is known better
+    plannedSamples_ = judge ? film_.pixels.size() * leastSamplesForError(settings_.sampleBegin) : plannedSamples_;  // until it is known better
     Clock::time_point begin = start_;
     const auto goesOn = [&] { return asks(observer) || secondsSince(begin) < settings_.passSeconds; };
     while (advance(goesOn) && !isOver(observer) && !(judge && isGoodEnough(judge))) {
@@ -214,7 +214,7 @@ bool Renderer::isOver(const RenderObserver& observer)
 bool Renderer::isGoodEnough(const FilmJudge& judge)
 {
     const bool whole = isNeighbours(settings_.adaptive) ? isBetweenRounds() : sample_ % kBlockSamples == 0;
-    const bool ends = !sweeping_ && whole && sampleCount() >= 2 * kBlockSamples;
+    const bool ends = !sweeping_ && whole && sampleCount() >= leastSamplesForError(settings_.sampleBegin);
     if (!ends || static_cast<double>(pictureSamples_) < 1.1 * static_cast<double>(judgedSamples_)) {
         return false;
     }

@@ -35,9 +35,11 @@ enum class View { Shaded, Normal, Depth, Albedo, BvhSteps };
 // more samples, the noisier a pixel's neighbours are, relative to their radiance or in absolute terms (allocate_samples.hpp).
 enum class Adaptive { Off, Course, CourseLiteral, Neighbours, NeighboursAbsolute };
 
+// Whose error is known, that of the samples from `begin` on: two blocks.
+inline std::uint32_t leastSamplesForError(std::uint32_t begin) { return begin == 0 ? kBlockSamples : 2 * kBlockSamples; }
+
 // That Neighbours begins with everywhere. Two blocks are the fewest that tell a variance; of 48 neighbours they tell it well enough.
-inline constexpr std::uint32_t kPilotSamples = 64;
-static_assert(kPilotSamples >= 2 * kBlockSamples);
+inline constexpr std::uint32_t kPilotSamples = kBlockSamples;
 
 struct RenderSettings {
     std::uint32_t width = 512, height = 512;

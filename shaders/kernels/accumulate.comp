@@ -10,8 +10,8 @@
 #include "access/paths.glsl"
 #include "access/status.glsl"
 #include "lib/moments.glsl"
+#include "lib/sampler.glsl"
 #include "lib/stop_rule.glsl"
-#include "shared/limits.h"
 
 bool isFinite(float x)
 {
@@ -62,7 +62,7 @@ void addPixel(uint pixel)
         } else {
             reportNonFinite(pass.slabBegin + at, firstSample + i);
         }
-        if ((firstSample + i + 1u) % kBlockSamples == 0u) {
+        if ((firstSample + i + 1u) % blockSamples(firstSample + i) == 0u) {
             sums = endBlock(at, sums);
         }
     }

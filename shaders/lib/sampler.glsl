@@ -36,12 +36,16 @@ uvec2 independentPair(SampleId id, uint dimension)
     return hash4(uvec4(id.pixel, id.index, dimension, id.seed)).xy;
 }
 
-// Each block of kBlockSamples has a scramble of its own, so that block means are independent and tell the variance.
+// Of the block that sample `index` is in.
+uint blockSamples(uint index) { return index < kBlockSamples ? kFirstBlockSamples : kBlockSamples; }
+
+// Each block has a scramble of its own, so that block means are independent and tell the variance.
 uvec2 sobolPair(SampleId id, uint dimension)
 {
+    uint point = id.index % blockSamples(id.index), block = (id.index - point) / kFirstBlockSamples;
     // The counter is told apart from independentPair's by its upper bit.
-    uvec4 seeds = hash4(uvec4(id.pixel, (id.index / kBlockSamples) | 0x80000000u, dimension, id.seed));
-    return scrambledSobolPoint(id.index % kBlockSamples, seeds.xyz);
+    uvec4 seeds = hash4(uvec4(id.pixel, block | 0x80000000u, dimension, id.seed));
+    return scrambledSobolPoint(point, seeds.xyz);
 }
 
 uvec2 samplePair(SampleId id, uint dimension, bool sobol)

@@ -9,8 +9,10 @@ GLIM_SHARED_BEGIN
 GLIM_CONST uint kMaxBvhDepth = 48u;
 
 // Samples of a pixel come in blocks with one scramble each, aligned to the absolute sample index; block means are what
-// the variance is estimated from. A page is the fold of its blocks, the film the fold of its pages.
-GLIM_CONST uint kBlockSamples = 32u;
+// the variance is estimated from. The first of kBlockSamples is two halves, so that the error is known from there on. A page is
+// the fold of its blocks, the film the fold of its pages.
+GLIM_CONST uint kBlockSamples = 64u;
+GLIM_CONST uint kFirstBlockSamples = 32u;
 GLIM_CONST uint kPageSamples = 256u;
 
 // Primitives that brute force tries per dispatch: Mesa before 24 stops loops after 65,535 iterations.

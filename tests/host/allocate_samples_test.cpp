@@ -107,7 +107,7 @@ TEST(AllocateSamplesTest, WhatIsUnknownIsLeftOut)
 TEST(AllocateSamplesTest, BlocksComeToTheWantedMeanWithinHalfOfOne)
 {
     Random random(81);
-    for (const double mean : {80.0, 96.0, 100.0, 500.0}) {
+    for (const double mean : {160.0, 192.0, 200.0, 1000.0}) {
         std::vector<double> shares(1000);
         std::vector<std::uint32_t> samples(shares.size());
         for (std::size_t i = 0; i < shares.size(); ++i) {
@@ -138,7 +138,7 @@ TEST(AllocateSamplesTest, WhoHasEnoughGetsNoMore)
 {
     const std::vector<double> shares{0.5, 1.0, 1.5};
     EXPECT_EQ(allocateBlocks(shares, {320, 320, 320}, 320.0), (std::vector<std::uint32_t>{0, 0, 0}));
-    EXPECT_EQ(allocateBlocks(shares, {3200, 320, 320}, 1300.0), (std::vector<std::uint32_t>{0, 0, 2}));
+    EXPECT_EQ(allocateBlocks(shares, {3200, 320, 320}, 1300.0), (std::vector<std::uint32_t>{0, 0, 1}));
 }
 
 // --- whether choosing is a bias ---
@@ -150,21 +150,21 @@ public:
 
     static constexpr double kTruth = 1.1;
 
-    void addBlocks(PixelMoments& moments, std::uint32_t blocks)
+    void addBlocks(PixelMoments& moments, std::uint32_t blocks, std::uint32_t blockSamples)
     {
         for (std::uint32_t i = 0; i < blocks; ++i) {
             PixelMoments block{};
-            block.count = kBlockSamples;
+            block.count = blockSamples;
             block.blocks = 1;
-            double sum = kBlockSamples;
-            while (left_ < kBlockSamples) {
+            double sum = blockSamples;
+            while (left_ < blockSamples) {
                 sum += 1000.0;
                 const double used = left_;
                 skip();
                 left_ += used;
             }
-            left_ -= kBlockSamples;
-            block.mean = glm::vec3(static_cast<float>(sum / kBlockSamples));
+            left_ -= blockSamples;
+            block.mean = glm::vec3(static_cast<float>(sum / blockSamples));
             moments = foldMoments(moments, block);
         }
     }
@@ -187,11 +187,14 @@ double errorOfRounds(std::uint64_t seed, bool asksChosenOnes)
     common.pixels.resize(std::size_t{kSide} * kSide);
     std::vector<std::uint32_t> chosen(common.pixels.size(), 0);
     std::vector<PixelMoments> chosenMoments(common.pixels.size());
-    std::uint32_t commonSamples = 0;
+    for (PixelMoments& pixel : common.pixels) {
+        spikes.addBlocks(pixel, 2, kFirstBlockSamples);
+    }
+    std::uint32_t commonSamples = kBlockSamples;
     for (const std::uint32_t mean : {96U, 128U, 192U, 256U}) {
-        const std::uint32_t wanted = std::max(64U, mean / 2);
+        const std::uint32_t wanted = std::max(64U, mean / 2 / kBlockSamples * kBlockSamples);
         for (PixelMoments& pixel : common.pixels) {
-            spikes.addBlocks(pixel, (wanted - commonSamples) / kBlockSamples);
+            spikes.addBlocks(pixel, (wanted - commonSamples) / kBlockSamples, kBlockSamples);
         }
         commonSamples = wanted;
         all = common;
@@ -200,7 +203,7 @@ double errorOfRounds(std::uint64_t seed, bool asksChosenOnes)
         }
         const auto blocks = allocateBlocks(computeShares(all, SquaredError::Relative), chosen, mean - wanted);
         for (std::size_t i = 0; i < chosen.size(); ++i) {
-            spikes.addBlocks(chosenMoments[i], blocks[i]);
+            spikes.addBlocks(chosenMoments[i], blocks[i], kBlockSamples);
             chosen[i] += blocks[i] * kBlockSamples;
         }
     }
@@ -250,7 +253,7 @@ TEST(BlockQueueTest, GivesEveryBlockOnceAndInOrder)
         for (std::size_t i = 0; i < wanted.size(); ++i) {
             EXPECT_EQ(next[i], 64 + kBlockSamples * wanted[i]);
         }
-        EXPECT_EQ(queue.samples(), (std::vector<std::uint32_t>{0, 32, 13 * 32, 64 * 32}));
+        EXPECT_EQ(queue.samples(), (std::vector<std::uint32_t>{0, 64, 13 * 64, 64 * 64}));
         EXPECT_EQ(queue.begin(), 64U);
         EXPECT_EQ(queue.end(), next[3]);
         EXPECT_TRUE(queue.isEmpty());

@@ -72,20 +72,20 @@ TEST(FilmFile, HasTheLayersOtherProgramsLookFor)
     EXPECT_EQ(std::get<std::string>(image.attributes.at("glim:samples")), "0:128");
 }
 
-// Four blocks of 32: the variance of the mean is that of the block means over four.
+// Blocks of 32, 32, 64 and 64: the variance of the mean from the blocks' distances from it.
 TEST(FilmFile, VarianceIsThatOfTheMean)
 {
     const ScratchFolder folder;
-    writeFilm(folder / "a.exr", simulateFilm(0, 128));
+    writeFilm(folder / "a.exr", simulateFilm(0, 192));
     const Image image = readExr(folder / "a.exr");
     for (std::uint32_t pixel = 0; pixel < image.width * image.height; ++pixel) {
         double sum = 0, squares = 0;
-        for (std::uint32_t block = 0; block < 4; ++block) {
-            const float mean = test::simulateBlock(1, pixel, 32 * block, 32 * block + 32).mean.y;
-            sum += static_cast<double>(mean);
-            squares += static_cast<double>(mean) * static_cast<double>(mean);
+        for (const auto& [begin, end] : {std::pair{0U, 32U}, {32U, 64U}, {64U, 128U}, {128U, 192U}}) {
+            const double count = end - begin, mean = static_cast<double>(test::simulateBlock(1, pixel, begin, end).mean.y);
+            sum += count * mean;
+            squares += count * mean * mean;
         }
-        const double variance = (squares - sum * sum / 4) / 3 / 4;
+        const double variance = (squares - sum * sum / 192) / 3 / 192;
         EXPECT_NEAR(static_cast<double>(image.channels.at("variance.G")[pixel]), variance, 1e-5 * squares);
         EXPECT_EQ(image.channels.at("error.G")[pixel], std::sqrt(image.channels.at("variance.G")[pixel]));
     }

@@ -6,6 +6,7 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/path_types.h"
 #include "shaders/shared/pixel_moments.h"
+#include "tests/support/blocks.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/test_device.hpp"
 
@@ -149,7 +150,7 @@ TEST(AccumulateTest, AddsToTheChosenPixels)
     EXPECT_FLOAT_EQ(every.pages[10].mean.r, 13.5F);
 }
 
-// Each chosen pixel goes on from its own sample, and blocks end where their index says so: after 32, within the pass or not.
+// Each chosen pixel goes on from its own sample, and blocks end where their index says so, within the pass or not.
 TEST(AccumulateTest, ChosenPixelsGoOnFromTheirOwnSamples)
 {
     std::vector<PathRadiance> radiance(kPixels * kSamples);
@@ -164,7 +165,7 @@ TEST(AccumulateTest, ChosenPixelsGoOnFromTheirOwnSamples)
     const Outcome outcome = accumulate(radiance, chosen, kEndsBlock, std::vector<BrightestSample>(kPixels));
     for (std::uint32_t i = 0; i < kPixels; ++i) {
         SCOPED_TRACE(i);
-        const std::uint32_t first = kFirstSample + 3 * i, toEnd = kBlockSamples - first % kBlockSamples;
+        const std::uint32_t first = kFirstSample + 3 * i, toEnd = test::blockEnd(first) - first;
         EXPECT_EQ(outcome.pages[i].blocks, toEnd < kSamples ? 2U : 1U);
         EXPECT_EQ(outcome.pages[i].count, i == 50 ? kSamples - 1 : kSamples);
         EXPECT_EQ(outcome.brightest[i].sampleIndex, first + kSamples - 1);

@@ -47,16 +47,18 @@ TEST(SamplerTest, IsAFunctionOfTheSampleAlone)
     }
 }
 
-void expectNets(const std::vector<uvec2>& pairs)
+// Each run of 2^m pairs has one in each of 2^m cells of equal size, of whatever shape.
+void expectNets(const std::vector<uvec2>& pairs, std::uint32_t m)
 {
-    for (std::size_t begin = 0; begin < pairs.size(); begin += kBlockSamples) {
-        for (std::uint32_t a = 0; a <= 5; ++a) {
+    const std::size_t size = std::size_t{1} << m;
+    for (std::size_t begin = 0; begin < pairs.size(); begin += size) {
+        for (std::uint32_t a = 0; a <= m; ++a) {
             std::set<std::uint64_t> cells;
-            for (std::size_t i = begin; i < begin + kBlockSamples; ++i) {
+            for (std::size_t i = begin; i < begin + size; ++i) {
                 const std::uint64_t x = static_cast<std::uint64_t>(pairs[i].x) >> (32 - a);
-                cells.insert(x << 5 | static_cast<std::uint64_t>(pairs[i].y) >> (27 + a));
+                cells.insert(x << m | static_cast<std::uint64_t>(pairs[i].y) >> (32 - m + a));
             }
-            ASSERT_EQ(cells.size(), kBlockSamples) << "block " << begin / kBlockSamples << ", split " << a;
+            ASSERT_EQ(cells.size(), size) << "net " << begin / size << ", split " << a;
         }
     }
 }
@@ -64,13 +66,31 @@ void expectNets(const std::vector<uvec2>& pairs)
 // H33: each aligned block of samples is a net of its own, whatever the pixel and dimension.
 TEST(SamplerTest, H33BlocksAreNets)
 {
-    std::vector<Case> cases;
-    for (std::uint32_t block = 0; block < 2000; ++block) {
-        for (std::uint32_t i = 0; i < kBlockSamples; ++i) {
-            cases.push_back({9, block * 7, block % 5 * kBlockSamples + i, block % 22 == 21 ? kLens : block % 22, 1});
+    const auto casesOf = [](std::uint32_t firstSample, std::uint32_t sampleCount) {
+        std::vector<Case> cases;
+        for (std::uint32_t block = 0; block < 1000; ++block) {
+            const std::uint32_t first = firstSample + block % 5 * sampleCount;
+            for (std::uint32_t i = 0; i < sampleCount; ++i) {
+                cases.push_back({9, block * 7, first + i, block % 22 == 21 ? kLens : block % 22, 1});
+            }
         }
+        return cases;
+    };
+    expectNets(pairsOf(casesOf(0, kFirstBlockSamples)), 5);
+    expectNets(pairsOf(casesOf(kBlockSamples, kBlockSamples)), 6);
+}
+
+// Blocks are scrambled each by itself: no two of a pixel's have a point in common.
+TEST(SamplerTest, NoTwoBlocksShareAScramble)
+{
+    std::vector<Case> cases;
+    for (std::uint32_t i = 0; i < 1U << 14; ++i) {
+        cases.push_back({9, 5, i, 3, 1});
     }
-    expectNets(pairsOf(cases));
+    std::set<std::uint64_t> seen;
+    for (const uvec2 pair : pairsOf(cases)) {
+        EXPECT_TRUE(seen.insert(static_cast<std::uint64_t>(pair.x) << 32 | pair.y).second);
+    }
 }
 
 // The samples of one light, those of all camera samples one after the other: 32 of one sample, 8 of each of 4, 3 of each of 32.
@@ -84,7 +104,7 @@ TEST(SamplerTest, SamplesOfALightAreNets)
             }
         }
         SCOPED_TRACE(std::to_string(count) + " samples of each light");
-        expectNets(pairsOf(cases));
+        expectNets(pairsOf(cases), 5);
     }
 }
 

@@ -103,7 +103,7 @@ std::vector<uvec2> sequences(std::uint32_t count, std::uint32_t length, std::uin
     return scrambled(cases);
 }
 
-// Every aligned run of 2^m, here all blocks of 32 and the first 4096 of a sequence, for many seeds.
+// Every aligned run of 2^m, here all of 32 and the first 4096 of a sequence, for many seeds.
 TEST(SobolTest, H33ScrambledRunsAreNets)
 {
     constexpr std::uint32_t kSequences = 64, kLength = 4096;

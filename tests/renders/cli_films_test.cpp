@@ -160,7 +160,7 @@ TEST(CommandLineTest, ComparisonsTestNoNoiseThatIsShared)
     const Films films;
     films.render("a.exr", {"--samples", "0:64"});
     films.render("more.exr", {"--samples", "32:128"});
-    films.render("other.exr", {"--samples", "64:128"});
+    films.render("other.exr", {"--samples", "64:192"});
     const auto compare = [&](const char* other) {
         GlimCall call;
         call.arguments = {"compare", "a.exr", other, "--json"};

@@ -1,5 +1,6 @@
 // What a render says of its tree, its samples per pixel and its steps, in words and as JSON; and what compare says of such films.
 #include "host/render/film_file.hpp"
+#include "shaders/shared/limits.h"
 #include "tests/support/decode_png.hpp"
 #include "tests/support/run_glim.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -102,7 +103,7 @@ TEST(CommandLineTest, AdaptiveReportsCountPixels)
     const std::size_t unknown = stats.at("pixelsWithoutEstimate");
     EXPECT_GT(unknown, 0U) << "pixels that stop after one block";
     EXPECT_TRUE(stats.at("estimate").is_null());
-    expectText(summary, (", error unknown since " + std::to_string(unknown) + " pixels have fewer than 33 samples, bias ").c_str());
+    expectText(summary, (", error unknown since " + std::to_string(unknown) + " pixels have one block of samples at most, bias ").c_str());
 }
 
 TEST(CommandLineTest, ATargetEndsARender)
@@ -117,12 +118,12 @@ TEST(CommandLineTest, ATargetEndsARender)
     EXPECT_LT(estimate.at("relmse95")[0], estimate.at("relmse"));
     EXPECT_GT(estimate.at("relmse95")[1], estimate.at("relmse"));
     const std::uint32_t samples = stats.at("sampleRange")[1];
-    EXPECT_EQ(samples % 32, 0U) << "blocks are whole";
+    EXPECT_EQ(samples % kBlockSamples, 0U) << "blocks are whole";
     EXPECT_EQ(stats.at("samples"), std::uint64_t{samples} * 16 * 16);
     EXPECT_TRUE(readFilmHeader(workplace.file("x.exr")).complete);
     expectText(summary, ", estimated relMSE [0-9.e-]+ \\[[0-9.e-]+, [0-9.e-]+\\], RMSE [0-9.]+ % \\[[0-9.]+, [0-9.]+\\] of the mean");
     if (samples > 64) {
-        const json before = workplace.render({"--spp", std::to_string(samples / 2 / 32 * 32)}).second;
+        const json before = workplace.render({"--spp", std::to_string(samples / 2 / kBlockSamples * kBlockSamples)}).second;
         EXPECT_GT(before.at("estimate").at("rmseOfMean"), 0.15) << "no sooner";
     }
     const double reached = estimate.at("relmse");
@@ -148,7 +149,7 @@ TEST(CommandLineTest, TargetsWithoutMeaningAreRefused)
     }
     refuses({"--target-relmse", "0"}, "--target-relmse");
     refuses({"--target-relmse", "0.1", "--spp", "63"}, "known from 64 samples on");
-    refuses({"--target-relmse", "0.1", "--samples", "64:100"}, "known from 64 samples on");
+    refuses({"--target-relmse", "0.1", "--samples", "64:100"}, "known from 128 samples on");
     refuses({"--target-relmse", "0.1", "--view", "normal"}, "means nothing");
     refuses({"--target-rmse", "1%", "--adaptive", "course"}, "a rule of its own");
     EXPECT_FALSE(std::filesystem::exists(workplace.file("x.exr")));

@@ -16,7 +16,7 @@
 namespace glim {
 namespace {
 
-constexpr std::uint32_t kSide = 24, kSamples = 2 * kBlockSamples, kSeeds = 32;
+constexpr std::uint32_t kSide = 24, kSamples = kBlockSamples, kSeeds = 32;
 
 class ErrorEstimateTest : public testing::TestWithParam<Sampler> {};
 

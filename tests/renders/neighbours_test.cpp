@@ -69,9 +69,9 @@ void expectSameButForRounding(const PixelMoments& pixel, const PixelMoments& exp
 // The first ones are the same for all pixels, the others begin where those can never end.
 TEST(NeighboursTest, EveryPixelHasTheSamplesOfUniformRenders)
 {
-    const RenderSettings settings = neighbours(32, 200);
+    const RenderSettings settings = neighbours(32, 300);
     const Film film = renderScene(mixedScene(), settings);
-    constexpr std::uint32_t kCommon = 96, kBegin = 128;  // 200 / 2, whole blocks down and up
+    constexpr std::uint32_t kCommon = 128, kBegin = 192;  // 300 / 2, whole blocks down and up
     ASSERT_EQ(film.sampleRanges.size(), 2U);
     EXPECT_EQ(film.sampleRanges[0], std::pair(0U, kCommon));
     EXPECT_EQ(film.sampleRanges[1].first, kBegin);
@@ -180,7 +180,7 @@ TEST(NeighboursTest, AFilmOfAnUnfinishedRoundSaysSo)
             }
             EXPECT_EQ(pixel.count % kBlockSamples, 0U);
             EXPECT_LE(pixel.count, possible);
-            EXPECT_GE(pixel.count, 96U);
+            EXPECT_GE(pixel.count, 64U);
         }
         renderer.advance();
     }

@@ -78,12 +78,12 @@ TEST(RoulettePictureTest, FixedHasInfiniteVarianceAboveItsLimit)
             sum += static_cast<double>(varianceOfMean(pixel).g) * kSamples;
         }
         const double measured = sum / static_cast<double>(film.pixels.size()), expected = variance(a, bounces);
-        // Of a variance from n samples in blocks of 32: fourth central moment / n + variance^2 * (2 / blocks).
+        // Of a variance from n samples in blocks: fourth central moment / n + variance^2 * (2 / blocks).
         const double mean = moment(a, bounces, 1);
         const double fourth = moment(a, bounces, 4) - 4 * mean * moment(a, bounces, 3) +
                               6 * mean * mean * moment(a, bounces, 2) - 3 * std::pow(mean, 4);
         const double n = 64.0 * 64.0 * kSamples;
-        const double error = std::sqrt((fourth - expected * expected) / n + expected * expected * 2.0 * 32.0 / n);
+        const double error = std::sqrt((fourth - expected * expected) / n + expected * expected * 2.0 * kBlockSamples / n);
         EXPECT_NEAR(measured, expected, 5.0 * error) << "albedo " << a;
         std::printf("albedo %.1f: variance of a sample after %u bounces %.4g, formula %.4g +- %.2g; after 100 %.4g, "
                     "after 200 %.4g\n",
@@ -113,7 +113,7 @@ TEST(RoulettePictureTest, H24H25AlbedoOf99)
     EXPECT_NEAR(ours.mean.g, 100.0, z * error);
     EXPECT_GT(std::abs(fixed.mean.g - 100.0), z * error);
     // Of an exponential's variance from n values: (kurtosis 9 - 1) / n, and 2 / (blocks - pixels) for what is within blocks.
-    const double spread = std::sqrt(8.0 / paths + 2.0 / (paths / 32.0 - kSide * kSide));
+    const double spread = std::sqrt(8.0 / paths + 2.0 / (paths / kBlockSamples - kSide * kSide));
     EXPECT_NEAR(deviation * deviation / (kDeviation * kDeviation), 1.0, 0.05 + z * spread);
 }
 

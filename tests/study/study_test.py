@@ -196,7 +196,7 @@ class PageTest(unittest.TestCase):
         with open(os.path.join(ROOT, "shaders", "shared", "limits.h"), encoding="utf-8") as file:
             text = file.read()
         self.assertIn("kConstantSamples = %du;" % adaptive.CONSTANT_SAMPLES, text)
-        self.assertIn("kBlockSamples = %du;" % convergence.BLOCK, text)
+        self.assertIn("kFirstBlockSamples = %du;" % convergence.BLOCK, text)
 
 
 class NumbersTest(unittest.TestCase):

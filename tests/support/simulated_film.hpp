@@ -3,6 +3,7 @@
 
 #include "host/render/film.hpp"
 #include "shaders/shared/limits.h"
+#include "tests/support/blocks.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -50,10 +51,10 @@ inline Film simulateFilm(std::uint32_t begin, std::uint32_t end, std::uint32_t s
     for (std::uint32_t first = begin; first < end;) {
         const std::uint32_t pageEnd = std::min(end, (first / kPageSamples + 1) * kPageSamples);
         std::vector<PixelMoments> page(film.pixels.size(), PixelMoments{});
-        for (; first < pageEnd; first = std::min(pageEnd, (first / kBlockSamples + 1) * kBlockSamples)) {
-            const std::uint32_t blockEnd = std::min(pageEnd, (first / kBlockSamples + 1) * kBlockSamples);
+        for (; first < pageEnd; first = std::min(pageEnd, blockEnd(first))) {
+            const std::uint32_t last = std::min(pageEnd, blockEnd(first));
             for (std::uint32_t pixel = 0; pixel < page.size(); ++pixel) {
-                page[pixel] = foldMoments(page[pixel], simulateBlock(seed, pixel, first, blockEnd));
+                page[pixel] = foldMoments(page[pixel], simulateBlock(seed, pixel, first, last));
             }
         }
         foldPage(film, 0, page);

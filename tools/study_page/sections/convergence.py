@@ -7,7 +7,7 @@ from ..markup import bracket, gallery, heading, number, paragraph, plot, relmse,
 from .light_paths import LONGEST, SCENE
 
 SAMPLERS = ("sobol", "independent")
-BLOCK = 32  # kBlockSamples of shaders/shared/limits.h: Sobol' points of one scramble
+BLOCK = 32  # kFirstBlockSamples of shaders/shared/limits.h: Sobol' points of one scramble
 
 
 def measure(lab, until):

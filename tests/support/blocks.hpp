@@ -1,0 +1,17 @@
+// The blocks that samples come in.
+#pragma once
+
+#include "shaders/shared/limits.h"
+
+#include <cstdint>
+
+namespace glim::test {
+
+// Of the block that the sample is in.
+inline std::uint32_t blockEnd(std::uint32_t sample)
+{
+    const std::uint32_t size = sample < kBlockSamples ? kFirstBlockSamples : kBlockSamples;
+    return (sample / size + 1) * size;
+}
+
+}  // namespace glim::test
