@@ -102,7 +102,8 @@ TEST(RoulettePictureTest, H24H25AlbedoOf99)
 {
     constexpr double kAlbedo = 0.99, kDeviation = 99.5;
     constexpr std::uint32_t kSide = 16, kBounces = 3000;  // beyond which is 8e-14 of the light
-    const auto spp = static_cast<std::uint32_t>(hardTrials(kSide * kSide * samplesFor(64, 16)) / (kSide * kSide));
+    constexpr std::size_t kRays = 100;  // of a path
+    const auto spp = static_cast<std::uint32_t>(hardTrials(kSide * kSide * samplesFor(64, 16), kRays) / (kSide * kSide));
     const double paths = 1.0 * kSide * kSide * spp, z = scoreLimit(200);
     const MeanEstimate ours = meanOf(render(kAlbedo, Roulette::Throughput, kBounces, spp, kSide));
     const MeanEstimate fixed = meanOf(render(kAlbedo, Roulette::Fixed, kBounces, spp, kSide));

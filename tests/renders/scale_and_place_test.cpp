@@ -62,7 +62,8 @@ Scene roomAt(double scale, double shift)
 
 Film renderRoom(const Scene& scene, std::uint32_t seed)
 {
-    RenderSettings settings = squareSettings(kSide, static_cast<std::uint32_t>(hardTrials(kSide * kSide * samplesFor(64)) / (kSide * kSide)));
+    constexpr std::size_t kRays = 8;  // of a path of four bounces
+    RenderSettings settings = squareSettings(kSide, static_cast<std::uint32_t>(hardTrials(kSide * kSide * samplesFor(64), kRays) / (kSide * kSide)));
     settings.bounces = 4;
     settings.seed = seed;
     settings.sampler = Sampler::Independent;
@@ -159,7 +160,7 @@ TEST(ScaleAndPlaceTest, H7NothingShadowsItself)
         box.cube(s, box.lambert(glm::vec3(0.5F)), false).environment(glm::vec3(1.0F));
         box.perspective({3 * s, 4 * s, 5 * s}, {0, 0, 0}, 0.1F);
         for (const SceneBuilder* builder : {&ball, &box}) {
-            const auto spp = static_cast<std::uint32_t>(hardTrials(kSide * kSide * 64) / (kSide * kSide));
+            const auto spp = static_cast<std::uint32_t>(hardTrials(kSide * kSide * 64, 2) / (kSide * kSide));
             expectEverywhere(renderScene(builder->scene(), squareSettings(kSide, spp)), glm::dvec3(0.5), 2);
             pixels += 1.0 * kSide * kSide * spp;
         }

@@ -22,9 +22,9 @@ int hardRounds(std::size_t trials)
     return isHard() ? static_cast<int>(roundsOf(trials)) : testRounds();
 }
 
-std::size_t hardTrials(std::size_t trials)
+std::size_t hardTrials(std::size_t trials, std::size_t raysEach)
 {
-    return isHard() ? trials * roundsOf(trials) : trials;
+    return isHard() ? trials * roundsOf(trials * raysEach) : trials;
 }
 
 void printHardCase(const std::string& number, const std::string& what, double trials, const std::string& result,

@@ -11,8 +11,8 @@ namespace glim {
 // trials, else testRounds().
 int hardRounds(std::size_t trials);
 
-// `trials`, but with --hard 4e6 at least, rounded up to whole multiples of `trials`.
-std::size_t hardTrials(std::size_t trials);
+// `trials`, but with --hard as many as have 4e6 rays or numbers, rounded up to whole multiples of `trials`.
+std::size_t hardTrials(std::size_t trials, std::size_t raysEach = 1);
 
 // "H9 | radius 1 from 1e4 | 400000 trials | misses 0 | misses .19": the case, the trials, what glim does, and what simpler code does.
 void printHardCase(const std::string& number, const std::string& what, double trials, const std::string& result,
