@@ -45,7 +45,7 @@ PictureError measureError(const Picture& picture, const Picture& reference)
 // The error of the floor is that of a sum of squares of normal numbers, of which a pixel's three channels are taken to be one.
 Floor measureFloor(const Picture& reference)
 {
-    const auto noise = estimateErrors(reference);
+    const auto noise = noiseOfReference(reference);
     if (!noise) {
         return {};
     }

@@ -2,6 +2,7 @@
 
 #include "host/error.hpp"
 #include "host/measure/normal.hpp"
+#include "host/render/likely_radiance.hpp"
 
 #include <cmath>
 #include <limits>
@@ -174,6 +175,26 @@ void addRatios(const std::vector<Sums>& blocks, Comparison& result)
     result.ratioOfAll = ratioOf({1, 1, 1});
 }
 
+std::optional<SquaredErrors> errorsRelativeTo(const std::vector<glm::dvec3>& radiance, const Picture& picture)
+{
+    const double epsilon = relativeEpsilon(picture);
+    SquaredErrors sums;
+    std::size_t known = 0;
+    for (std::size_t i = 0; i < picture.variance.size(); ++i) {
+        if (isFinite(picture.radiance[i]) && isFinite(picture.variance[i])) {
+            ++known;
+            for (int c = 0; c < 3; ++c) {
+                addTerms(sums, static_cast<double>(picture.variance[i][c]), radiance[i][c], epsilon);
+            }
+        }
+    }
+    if (known == 0) {
+        return std::nullopt;
+    }
+    divide(sums, 3.0 * static_cast<double>(known));
+    return sums;
+}
+
 }  // namespace
 
 Comparison compareImages(const Picture& picture, const Picture& reference)
@@ -184,29 +205,18 @@ Comparison compareImages(const Picture& picture, const Picture& reference)
     addErrors(picture, reference, comparable, result);
     addRatios(sumBlocks(picture, reference, comparable), result);
     result.noise = estimateErrors(picture);
-    result.referenceNoise = estimateErrors(reference);
+    result.referenceNoise = noiseOfReference(reference);
     return result;
 }
 
 std::optional<SquaredErrors> estimateErrors(const Picture& picture)
 {
-    const double epsilon = relativeEpsilon(picture);
-    SquaredErrors sums;
-    std::size_t known = 0;
-    for (std::size_t i = 0; i < picture.variance.size(); ++i) {
-        if (isFinite(picture.radiance[i]) && isFinite(picture.variance[i])) {
-            ++known;
-            for (int c = 0; c < 3; ++c) {
-                addTerms(sums, static_cast<double>(picture.variance[i][c]), static_cast<double>(picture.radiance[i][c]),
-                         epsilon);
-            }
-        }
-    }
-    if (known == 0) {
-        return std::nullopt;
-    }
-    divide(sums, 3.0 * static_cast<double>(known));
-    return sums;
+    return errorsRelativeTo(findLikelyRadiance(picture.width, picture.height, picture.radiance, picture.variance), picture);
+}
+
+std::optional<SquaredErrors> noiseOfReference(const Picture& reference)
+{
+    return errorsRelativeTo({reference.radiance.begin(), reference.radiance.end()}, reference);
 }
 
 double meanRadiance(const Picture& picture)

@@ -38,15 +38,16 @@ struct Comparison {
     MeanRatio ratioOfAll;  // all channels together; its interval allows for fully correlated channels
     IntervalSource intervalSource = IntervalSource::None;
     MaxError maxError;     // the largest |x-r|
-    std::optional<SquaredErrors> noise, referenceNoise;  // estimateErrors of each
+    std::optional<SquaredErrors> noise, referenceNoise;  // estimateErrors of the one, noiseOfReference of the other
 };
 
 // Refuses (InputError) pictures of different sizes.
 Comparison compareImages(const Picture& picture, const Picture& reference);
 
-// What the picture's own variance contributes to the errors: its expected distance from the truth if it is unbiased, and
-// what to subtract from a comparison in which it is the reference. Nothing where no variance is known.
+// The picture's expected distance from the truth if it is unbiased, from its own variance. Nothing where no variance is known.
 std::optional<SquaredErrors> estimateErrors(const Picture& picture);
+// What to subtract from a comparison in which it is the reference: the same, but relative to the reference's very values.
+std::optional<SquaredErrors> noiseOfReference(const Picture& reference);
 
 // Over the pixels that are finite, and channels.
 double meanRadiance(const Picture& picture);

@@ -1,6 +1,7 @@
 #include "host/measure/error_estimate.hpp"
 
 #include "host/measure/normal.hpp"
+#include "host/render/likely_radiance.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -47,17 +48,18 @@ std::size_t countOfHalf(std::vector<Part> parts)
     return count;
 }
 
-// `weight` of the variance of a channel whose mean is known.
-std::vector<Part> partsOf(const Film& film, const std::function<double(double)>& weight)
+// Of each channel of pixel i its variance times a weight.
+std::vector<Part> partsOf(const Film& film, const std::function<double(std::size_t, int)>& weight)
 {
     std::vector<Part> parts;
-    for (const PixelMoments& pixel : film.pixels) {
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+        const PixelMoments& pixel = film.pixels[i];
         if (pixel.blocks >= 2) {
             const glm::vec3 variance = varianceOfMean(pixel);
             double sum = 0.0;
             for (int c = 0; c < 3; ++c) {
                 const double square = static_cast<double>(variance[c]);
-                sum += square > 0.0 ? square * weight(static_cast<double>(pixel.mean[c])) : 0.0;
+                sum += square > 0.0 ? square * weight(i, c) : 0.0;
             }
             parts.push_back({sum / 3.0, static_cast<double>(pixel.blocks)});
         }
@@ -75,11 +77,12 @@ std::optional<ErrorEstimate> estimateError(const Film& film)
         return std::nullopt;
     }
     const double epsilon = relativeEpsilon(picture);
-    const std::vector<Part> parts = partsOf(film, [](double) { return 1.0; });
+    const std::vector<glm::dvec3> likely = findLikelyRadiance(film);
+    const std::vector<Part> parts = partsOf(film, [](std::size_t, int) { return 1.0; });
     ErrorEstimate estimate;
     estimate.errors = *errors;
     estimate.mse = intervalOf(parts);
-    estimate.relMse = intervalOf(partsOf(film, [epsilon](double mean) { return 1.0 / (mean * mean + epsilon); }));
+    estimate.relMse = intervalOf(partsOf(film, [&](std::size_t i, int c) { return 1.0 / (likely[i][c] * likely[i][c] + epsilon); }));
     estimate.mean = meanRadiance(picture);
     estimate.pixelsOfHalf = countOfHalf(parts);
     return estimate;

@@ -1,5 +1,6 @@
 #include "host/render/allocate_samples.hpp"
 
+#include "host/render/likely_radiance.hpp"
 #include "shaders/shared/limits.h"
 
 #include <algorithm>
@@ -22,16 +23,17 @@ double epsilonOf(const Film& film)
     return 0.01 * mean * mean;
 }
 
-// Of one sample, from the means of blocks; negative where they do not tell, or more than a float can. Mean of the channels.
-double varianceOfSample(const PixelMoments& pixel, SquaredError error, double epsilon)
+// Of one sample, from the means of blocks; negative where they do not tell, or more than a float can. Mean of the channels, each
+// over its part of `scale`.
+double varianceOfSample(const PixelMoments& pixel, const glm::dvec3& scale)
 {
     if (pixel.blocks < 2) {
         return -1.0;
     }
     double sum = 0.0;
     for (int c = 0; c < 3; ++c) {
-        const double square = static_cast<double>(pixel.squares[c]), mean = static_cast<double>(pixel.mean[c]);
-        sum += square > 0.0 && error == SquaredError::Relative ? square / (mean * mean + epsilon) : square;
+        const double square = static_cast<double>(pixel.squares[c]);
+        sum += square > 0.0 ? square / scale[c] : square;
     }
     return std::isfinite(sum) ? sum / (3.0 * (pixel.blocks - 1.0)) : -1.0;
 }
@@ -68,10 +70,14 @@ double missing(const std::vector<double>& shares, const std::vector<std::uint32_
 
 std::vector<double> computeShares(const Film& film, SquaredError error)
 {
-    const double epsilon = epsilonOf(film);
+    std::vector<glm::dvec3> scales(film.pixels.size(), glm::dvec3(1.0));
+    if (error == SquaredError::Relative) {
+        const std::vector<glm::dvec3> likely = findLikelyRadiance(film);
+        std::transform(likely.begin(), likely.end(), scales.begin(),
+                       [epsilon = epsilonOf(film)](const glm::dvec3& radiance) { return radiance * radiance + epsilon; });
+    }
     std::vector<double> variances(film.pixels.size()), shares(film.pixels.size());
-    std::transform(film.pixels.begin(), film.pixels.end(), variances.begin(),
-                   [&](const PixelMoments& pixel) { return varianceOfSample(pixel, error, epsilon); });
+    std::transform(film.pixels.begin(), film.pixels.end(), scales.begin(), variances.begin(), varianceOfSample);
     const int width = static_cast<int>(film.width), height = static_cast<int>(film.height);
     for (int y = 0, i = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x, ++i) {

@@ -145,7 +145,7 @@ TEST(NeighboursTest, ATargetEndsItWithTheRoundThatReachesIt)
 {
     const Scene scene = mixedScene();
     RenderSettings settings = neighbours(24, kPilotSamples);
-    const double target = 0.55 * estimateError(renderScene(scene, settings))->errors.relMse;
+    const double target = 0.4 * estimateError(renderScene(scene, settings))->errors.relMse;
     settings.sampleEnd = 1U << 20;
     Renderer renderer(testDevice(), flattened(scene), flattenCamera(scene.cameras.front(), 1.0F), settings);
     const Film film = renderer.render([](const RenderProgress&) { return true; },
