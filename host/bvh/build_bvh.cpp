@@ -13,7 +13,7 @@
 namespace glim {
 namespace {
 
-constexpr std::uint32_t kMaxLeafSize = 4;
+constexpr std::uint32_t kMaxLeafSize = 2;
 constexpr std::uint32_t kMaxBins = 32;
 
 // Partitioned in place, so that a node's primitives lie together in memory.
@@ -222,7 +222,7 @@ std::vector<Reference> makeReferences(std::span<const Box> boxes) {
 }  // namespace
 
 Bvh buildBvh(std::span<const Box> boxes, SplitRule rule) {
-    static_assert(kMaxBvhDepth >= 30, "2^32 primitives in leaves of 4 need 30 median splits");
+    static_assert(kMaxBvhDepth >= 31, "2^32 primitives in leaves of 2 need 31 median splits");
     assert(!boxes.empty() && boxes.size() <= std::numeric_limits<std::uint32_t>::max() / 2);
     std::vector<Reference> references = makeReferences(boxes);
     Bvh bvh;

@@ -8,7 +8,7 @@
 namespace glim {
 
 // Where a node is divided. Mean and Median: along the axis on which the boxes' centres spread most, down to leaves of at most
-// four primitives, as Berkeley's course CS 184 has it.
+// two primitives, as Berkeley's course CS 184 has it.
 enum class SplitRule {
     Sah,     // the cheapest of 32 places on each axis, by the surface-area heuristic
     Mean,    // the mean of the centres; their median where one side would be empty

@@ -46,7 +46,7 @@ Json needsOf(const SceneFeatures& features)
 
 Json describe(const InspectOptions& options, const PreparedScene& prepared)
 {
-    const Box& box = prepared.bvh.nodes[0].box;
+    const Box& box = prepared.bvh.box;
     Json cameras = Json::array();
     for (const Camera& camera : prepared.scene.cameras) {
         cameras.push_back({{"name", camera.name},

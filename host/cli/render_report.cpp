@@ -58,7 +58,7 @@ Json bvhOf(const RenderReport& report)
         return nullptr;
     }
     constexpr const char* kRules[] = {"sah", "mean", "median"};
-    const Bvh& bvh = report.prepared.bvh;
+    const WideBvh& bvh = report.prepared.bvh;
     return {{"split", kRules[static_cast<int>(report.prepared.split)]},
             {"nodes", bvh.nodes.size()},
             {"depth", bvh.depth},

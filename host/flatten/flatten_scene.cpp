@@ -1,6 +1,7 @@
 #include "host/flatten/flatten_scene.hpp"
 
 #include "host/flatten/light_table.hpp"
+#include "host/flatten/pack_nodes.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -10,69 +11,9 @@
 namespace glim {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
 uvec4 texel(const glm::vec3& v, std::uint32_t w)
 {
     return {std::bit_cast<std::uint32_t>(v.x), std::bit_cast<std::uint32_t>(v.y), std::bit_cast<std::uint32_t>(v.z), w};
-}
-
-// Gives every box a thickness: at least one ulp, and 2^-30 of the scene, so that a plane through the ray's origin lies at
-// |t| >= 1e9 scenes for a direction component of intersect_box.glsl's smallest size, and never ties at t = 0.
-Box thicken(const Box& box, float pad)
-{
-    Box thick = box;
-    for (int k = 0; k < 3; ++k) {
-        thick.lo[k] = std::nextafter(box.lo[k] - pad, -kInfinity);
-        thick.hi[k] = std::nextafter(box.hi[k] + pad, kInfinity);
-    }
-    return thick;
-}
-
-float boxPad(const Box& root)
-{
-    const glm::vec3 farthest = glm::max(glm::abs(root.lo), glm::abs(root.hi));
-    return std::ldexp(std::max({farthest.x, farthest.y, farthest.z, std::numeric_limits<float>::min()}), -30);
-}
-
-struct ChildTexels {
-    Box box;
-    std::uint32_t first, count;
-};
-
-void pushNode(std::vector<uvec4>& nodes, const ChildTexels& a, const ChildTexels& b)
-{
-    nodes.push_back(texel(a.box.lo, a.first));
-    nodes.push_back(texel(a.box.hi, b.first));
-    nodes.push_back(texel(b.box.lo, a.count));
-    nodes.push_back(texel(b.box.hi, b.count));
-}
-
-// Inner nodes keep their order; each moves to its rank among the inner ones.
-std::vector<uvec4> flattenNodes(const Bvh& bvh)
-{
-    const float pad = boxPad(bvh.nodes[0].box);
-    std::vector<uvec4> nodes;
-    if (bvh.nodes[0].count > 0) {
-        const BvhNode& leaf = bvh.nodes[0];
-        pushNode(nodes, {thicken(leaf.box, pad), leaf.first, leaf.count}, {thicken(leaf.box, pad), 0, kEmptyLeaf});
-        return nodes;
-    }
-    std::vector<std::uint32_t> rank(bvh.nodes.size(), 0);
-    std::uint32_t inner = 0;
-    for (std::size_t i = 0; i < bvh.nodes.size(); ++i) {
-        rank[i] = bvh.nodes[i].count == 0 ? inner++ : 0;
-    }
-    const auto child = [&](std::uint32_t i) -> ChildTexels {
-        const BvhNode& node = bvh.nodes[i];
-        return {thicken(node.box, pad), node.count == 0 ? rank[i] : node.first, node.count};
-    };
-    for (const BvhNode& node : bvh.nodes) {
-        if (node.count == 0) {
-            pushNode(nodes, child(node.first), child(node.first + 1));
-        }
-    }
-    return nodes;
 }
 
 // The material of each triangle, and whether its normals count.
@@ -109,6 +50,18 @@ void pushNormals(FlatScene& flat, const Scene& scene, std::uint32_t id, const Pr
     }
 }
 
+// Rounded outwards.
+Box boxOf(const Sphere& sphere)
+{
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    Box box{sphere.center - sphere.radius, sphere.center + sphere.radius};
+    for (int k = 0; k < 3; ++k) {
+        box.lo[k] = std::nextafter(box.lo[k], -kInfinity);
+        box.hi[k] = std::nextafter(box.hi[k], kInfinity);
+    }
+    return box;
+}
+
 }  // namespace
 
 std::vector<Box> primitiveBoxes(const Scene& scene)
@@ -120,15 +73,15 @@ std::vector<Box> primitiveBoxes(const Scene& scene)
                          glm::max(t.vertices[0], glm::max(t.vertices[1], t.vertices[2]))});
     }
     for (const Sphere& sphere : scene.spheres) {
-        boxes.push_back(thicken({sphere.center - sphere.radius, sphere.center + sphere.radius}, 0.0F));
+        boxes.push_back(boxOf(sphere));
     }
     return boxes;
 }
 
-FlatScene flattenScene(const Scene& scene, const Bvh& bvh)
+FlatScene flattenScene(const Scene& scene, const WideBvh& bvh)
 {
     FlatScene flat;
-    flat.nodes = flattenNodes(bvh);
+    flat.nodes = packNodes(bvh);
     flat.features.spheres = !scene.spheres.empty();
     flat.features.smooth = std::any_of(scene.primitives.begin(), scene.primitives.end(),
                                        [](const Primitive& primitive) { return primitive.smooth; });

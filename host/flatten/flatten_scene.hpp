@@ -1,7 +1,7 @@
-// Scene and Bvh to FlatScene.
+// Scene and WideBvh to FlatScene.
 #pragma once
 
-#include "host/bvh/bvh.hpp"
+#include "host/bvh/wide_bvh.hpp"
 #include "host/flatten/flat_scene.hpp"
 #include "host/scene/scene.hpp"
 
@@ -10,7 +10,7 @@ namespace glim {
 // The box of each primitive, triangles first, then spheres (rounded outwards): what buildBvh takes.
 std::vector<Box> primitiveBoxes(const Scene& scene);
 
-FlatScene flattenScene(const Scene& scene, const Bvh& bvh);
+FlatScene flattenScene(const Scene& scene, const WideBvh& bvh);
 
 // A thin lens; both in metres. Radius 0 is a pinhole, whose focal distance does not matter.
 struct Lens {

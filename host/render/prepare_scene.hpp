@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/bvh/build_bvh.hpp"
+#include "host/bvh/wide_bvh.hpp"
 #include "host/flatten/flat_scene.hpp"
 #include "host/scene/load_gltf.hpp"
 
@@ -13,7 +14,7 @@ namespace glim {
 
 struct PreparedScene {
     Scene scene;
-    Bvh bvh;
+    WideBvh bvh;
     SplitRule split = SplitRule::Sah;  // that the tree was built by
     FlatScene flat;
     double loadSeconds = 0.0, buildSeconds = 0.0;  // build: BVH and flattening

@@ -3,7 +3,7 @@
 #define GLIM_ACCESS_TRAVERSE
 
 #include "lib/infinity.glsl"
-#include "lib/intersect_box.glsl"
+#include "lib/intersect_node.glsl"
 #include "lib/intersect_sphere.glsl"
 #include "lib/intersect_triangle.glsl"
 #include "scene.glsl"
@@ -14,12 +14,14 @@ struct Walk {
     vec3 origin;
     vec3 direction;
     vec3 reciprocal;
+    uint ahead;  // placesAhead
     Shear shear;
 };
 
 Walk beginWalk(vec3 origin, vec3 direction)
 {
-    return Walk(origin, direction, reciprocalDirection(direction), makeShear(direction));
+    vec3 reciprocal = reciprocalDirection(direction);
+    return Walk(origin, direction, reciprocal, placesAhead(reciprocal), makeShear(direction));
 }
 
 // t in (0, tmax] and barycentrics, or t < 0. A ray never meets the triangle it leaves; a sphere only from within.
@@ -40,30 +42,47 @@ TriangleHit intersectRecord(Walk walk, Record record, float tmax, bool isSource)
                                      floatsOf(record.t2), tmax);
 }
 
-// A child to visit: an inner node (count 0) or a leaf.
-struct Child {
-    uint first, count;
+// Inner children of a node that are yet to be visited: the upper byte of `left`, the nearest uppermost. The lower one says which
+// children of the node are inner ones.
+struct Siblings {
+    uint first;
+    uint left;
 };
 
-// Distances at which the ray enters both children of a node within [0, tmax], < 0 for a miss, nearer one first.
-struct Fork {
-    Child near, far;
-    float nearT, farT;
+const Siblings kRoot = Siblings(0u, 0x80000000u);
+const uint kFirstSibling = 1u << kFirstNodeBit;  // `left` is below once none is left
+
+// Takes the nearest.
+uint takeSibling(inout Siblings siblings, uint ahead)
+{
+    uint bit = uint(findMSB(siblings.left));
+    siblings.left &= ~(1u << bit);
+    uint place = (bit - kFirstNodeBit) ^ ahead;
+    return siblings.first + bitCount(siblings.left & ~(0xffffffffu << place) & 0xffu);
+}
+
+// Leaves' records that are yet to be tested: bits of `left`, from `first` on.
+struct Records {
+    uint first;
+    uint left;
 };
 
-Fork visitNode(Walk walk, uint node, float tmax)
+uint takeRecord(inout Records records)
+{
+    uint bit = uint(findLSB(records.left));
+    records.left &= records.left - 1u;
+    return records.first + bit;
+}
+
+void visitNode(Walk walk, uint node, float tmax, out Siblings children, out Records records)
 {
     int at = int(node * kNodeTexels);
-    uvec4 a = texelFetch(sceneNodes, at);
-    uvec4 b = texelFetch(sceneNodes, at + 1);
-    uvec4 c = texelFetch(sceneNodes, at + 2);
-    uvec4 d = texelFetch(sceneNodes, at + 3);
-    float t0 = intersectBox(floatsOf(a), floatsOf(b), walk.origin, walk.reciprocal, tmax);
-    float t1 = intersectBox(floatsOf(c), floatsOf(d), walk.origin, walk.reciprocal, tmax);
-    Child child0 = Child(a.w, c.w);
-    Child child1 = Child(b.w, d.w);
-    bool swapped = t0 < 0.0 || (t1 >= 0.0 && t1 < t0);
-    return swapped ? Fork(child1, child0, t1, t0) : Fork(child0, child1, t0, t1);
+    uvec4 head = texelFetch(sceneNodes, at);
+    uvec4 content = texelFetch(sceneNodes, at + 1);
+    uint hits = hitsOfNode(head, content, texelFetch(sceneNodes, at + 2), texelFetch(sceneNodes, at + 3), texelFetch(sceneNodes, at + 4),
+                           walk.origin, walk.reciprocal, walk.ahead, tmax);
+    children = Siblings(content.x, (hits & ~(kFirstSibling - 1u)) | head.w >> 24u);
+    records = Records(content.y, hits & (kFirstSibling - 1u));
 }
 
 struct Closest {
@@ -90,7 +109,7 @@ void meetRecord(Walk walk, uint index, uint source, inout Closest best)
 
 // What a traversal has done.
 struct Steps {
-    uint nodes;       // inner nodes visited, two boxes each
+    uint nodes;       // visited, eight boxes each
     uint primitives;  // tested
 };
 
@@ -99,30 +118,26 @@ PathHit traceClosest(PathRay ray, out Steps steps)
     steps = Steps(0u, 0u);
     Walk walk = beginWalk(ray.origin, ray.direction);
     Closest best = Closest(makeMiss(), kNoId);
-    Child stack[kMaxBvhDepth];
+    Siblings stack[kMaxBvhDepth];
     uint depth = 0u;
-    Child at = Child(0u, 0u);
+    Siblings siblings = kRoot;
     bool going = true;
     while (going) {
-        bool descend = false;
-        if (at.count == 0u) {
-            Fork fork = visitNode(walk, at.first, best.hit.t);
-            ++steps.nodes;
-            descend = fork.nearT >= 0.0;
-            at = fork.near;
-            if (fork.farT >= 0.0) {
-                stack[depth++] = fork.far;
-            }
-        } else if (at.count != kEmptyLeaf) {
-            for (uint i = at.first; i < at.first + at.count; ++i) {
-                meetRecord(walk, i, ray.source, best);
-                ++steps.primitives;
-            }
+        uint node = takeSibling(siblings, walk.ahead);
+        if (siblings.left >= kFirstSibling) {
+            stack[depth++] = siblings;
         }
-        if (!descend) {
+        Records records;
+        visitNode(walk, node, best.hit.t, siblings, records);
+        ++steps.nodes;
+        while (records.left != 0u) {
+            meetRecord(walk, takeRecord(records), ray.source, best);
+            ++steps.primitives;
+        }
+        if (siblings.left < kFirstSibling) {
             going = depth > 0u;
             depth -= going ? 1u : 0u;
-            at = stack[depth];
+            siblings = stack[depth];
         }
     }
     return best.hit;
@@ -138,30 +153,27 @@ PathHit traceClosest(PathRay ray)
 bool isUnoccluded(ShadowRay ray)
 {
     Walk walk = beginWalk(ray.origin, ray.direction);
-    Child stack[kMaxBvhDepth];
+    Siblings stack[kMaxBvhDepth];
     uint depth = 0u;
-    Child at = Child(0u, 0u);
+    Siblings siblings = kRoot;
     bool going = true;
     bool occluded = false;
     while (going) {
-        bool descend = false;
-        if (at.count == 0u) {
-            Fork fork = visitNode(walk, at.first, ray.reach);
-            descend = fork.nearT >= 0.0;
-            at = fork.near;
-            if (fork.farT >= 0.0) {
-                stack[depth++] = fork.far;
-            }
-        } else if (at.count != kEmptyLeaf) {
-            for (uint i = at.first; i < at.first + at.count; ++i) {
-                TriangleHit hit = intersectRecord(walk, fetchRecord(i), ray.reach, i == ray.source);
-                occluded = occluded || (hit.t > 0.0 && i != ray.target);
-            }
+        uint node = takeSibling(siblings, walk.ahead);
+        if (siblings.left >= kFirstSibling) {
+            stack[depth++] = siblings;
         }
-        if (!descend) {
+        Records records;
+        visitNode(walk, node, ray.reach, siblings, records);
+        while (records.left != 0u) {
+            uint index = takeRecord(records);
+            TriangleHit hit = intersectRecord(walk, fetchRecord(index), ray.reach, index == ray.source);
+            occluded = occluded || (hit.t > 0.0 && index != ray.target);
+        }
+        if (siblings.left < kFirstSibling) {
             going = depth > 0u && !occluded;
             depth -= going ? 1u : 0u;
-            at = stack[depth];
+            siblings = stack[depth];
         }
     }
     return !occluded;

@@ -5,12 +5,16 @@
 
 GLIM_SHARED_BEGIN
 
-// A BVH node is four texels (uvec4, floats by their bits) and holds the boxes of both its children:
-//   (lo0.xyz, child0) (hi0.xyz, child1) (lo1.xyz, count0) (hi1.xyz, count1)
-// A child with count 0 is the inner node of that index; otherwise it is the leaf of records [child, child + count).
-// kEmptyLeaf as count is a leaf of nothing.
-GLIM_CONST uint kNodeTexels = 4u;
-GLIM_CONST uint kEmptyLeaf = 0xffffffffu;
+// A BVH node is five texels (uvec4, floats by their bits) and holds the boxes of its eight children on a grid of its own:
+//   (origin.xyz, exponents | inner << 24) (first node, first record, entries 0-3, entries 4-7)
+//   (lo.x 0-3, lo.x 4-7, lo.y 0-3, lo.y 4-7) (lo.z 0-3, lo.z 4-7, hi.x 0-3, hi.x 4-7) (hi.y 0-3, hi.y 4-7, hi.z 0-3, hi.z 4-7)
+// Planes, one byte per child, are steps of 2^(exponent - 127) from the origin; exponents are a byte per axis. Bit i of `inner`: child
+// i is a node. These follow one another from the first node on, in the order of the children; so do the records of leaves from the
+// first record on. An entry's lower five bits are the place in a word of hits, and its upper three what to set there: bit
+// kFirstNodeBit + i of an inner child, or a bit for each of a leaf's records, counted from the first. 0: no child.
+GLIM_CONST uint kNodeTexels = 5u;
+GLIM_CONST uint kMaxLeafRecords = 3u;
+GLIM_CONST uint kFirstNodeBit = 24u;  // 8 leaves have as many records at most
 
 // A record is three texels, in the order of the leaves:
 //   triangle: (v0.xyz, primitive id) (v1.xyz, material) (v2.xyz, emitter + 1 or 0)

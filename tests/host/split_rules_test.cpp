@@ -31,31 +31,35 @@ std::vector<std::uint32_t> primitivesOf(const Bvh& bvh, std::size_t leaf) {
 }
 
 // By hand: the mean of 0 1 2 3 4 5 6 35 is 7, which one cube is beyond; the mean of the other seven is 3, which only three are
-// below. The halves of the boxes' areas are 73 of the root, 15, 3, 7 and 9.
+// below, and of their sides the first divides above 0, the other in the middle. Half the area of a row of n cubes is 2 n + 1.
 TEST(SplitRules, MeanDividesAtTheMeanOfTheCentres) {
     for (const int axis : {0, 1, 2}) {
         const Bvh bvh = buildBvh(makeCubes({3, 35, 0, 5, 1, 6, 2, 4}, axis), SplitRule::Mean);
-        ASSERT_EQ(bvh.nodes.size(), 5U);
+        ASSERT_EQ(bvh.nodes.size(), 9U);
         EXPECT_EQ(primitivesOf(bvh, 2), (std::vector<std::uint32_t>{1}));
-        EXPECT_EQ(primitivesOf(bvh, 3), (std::vector<std::uint32_t>{2, 4, 6}));
-        EXPECT_EQ(primitivesOf(bvh, 4), (std::vector<std::uint32_t>{0, 3, 5, 7}));
-        EXPECT_EQ(bvh.depth, 2U);
-        EXPECT_NEAR(bvh.cost, 1.0 + (15.0 + 3.0 + 3 * 7.0 + 4 * 9.0) / 73.0, 1e-12);
+        EXPECT_EQ(primitivesOf(bvh, 5), (std::vector<std::uint32_t>{2}));
+        EXPECT_EQ(primitivesOf(bvh, 6), (std::vector<std::uint32_t>{4, 6}));
+        EXPECT_EQ(primitivesOf(bvh, 7), (std::vector<std::uint32_t>{0, 7}));
+        EXPECT_EQ(primitivesOf(bvh, 8), (std::vector<std::uint32_t>{3, 5}));
+        EXPECT_EQ(bvh.depth, 3U);
+        EXPECT_NEAR(bvh.cost, 1.0 + (15.0 + 7.0 + 9.0 + 3.0 + 3.0 + 3 * 2 * 5.0) / 73.0, 1e-12);
     }
 }
 
-// By hand: four on either side, 4 and 32 long.
+// By hand: four on either side, 4 and 32 long, then two, of which the last are 30.
 TEST(SplitRules, MedianDividesByCount) {
     const Bvh bvh = buildBvh(makeCubes({3, 35, 0, 5, 1, 6, 2, 4}, 0), SplitRule::Median);
-    ASSERT_EQ(bvh.nodes.size(), 3U);
-    EXPECT_EQ(primitivesOf(bvh, 1), (std::vector<std::uint32_t>{0, 2, 4, 6}));
-    EXPECT_EQ(primitivesOf(bvh, 2), (std::vector<std::uint32_t>{1, 3, 5, 7}));
-    EXPECT_NEAR(bvh.cost, 1.0 + 4.0 * (9.0 + 65.0) / 73.0, 1e-12);
+    ASSERT_EQ(bvh.nodes.size(), 7U);
+    EXPECT_EQ(primitivesOf(bvh, 3), (std::vector<std::uint32_t>{2, 4}));
+    EXPECT_EQ(primitivesOf(bvh, 4), (std::vector<std::uint32_t>{0, 6}));
+    EXPECT_EQ(primitivesOf(bvh, 5), (std::vector<std::uint32_t>{3, 7}));
+    EXPECT_EQ(primitivesOf(bvh, 6), (std::vector<std::uint32_t>{1, 5}));
+    EXPECT_NEAR(bvh.cost, 1.0 + (9.0 + 65.0 + 2.0 * (5.0 + 5.0 + 5.0 + 61.0)) / 73.0, 1e-12);
 }
 
-// Four primitives are a leaf even where a split would pay, which the heuristic sees.
-TEST(SplitRules, TheCoursesLeavesHoldUpToFour) {
-    const Boxes boxes = makeCubes({0, 1, 11, 12}, 0);
+// Two primitives are a leaf even where a split would pay, which the heuristic sees.
+TEST(SplitRules, TheCoursesLeavesHoldUpToTwo) {
+    const Boxes boxes = makeCubes({0, 10}, 0);
     EXPECT_EQ(buildBvh(boxes, SplitRule::Mean).nodes.size(), 1U);
     EXPECT_EQ(buildBvh(boxes, SplitRule::Median).nodes.size(), 1U);
     EXPECT_EQ(buildBvh(boxes, SplitRule::Sah).nodes.size(), 3U);

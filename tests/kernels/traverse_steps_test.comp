@@ -1,14 +1,15 @@
-// One thread is one ray through the real traversal, whose box and primitive tests are counted, as it counts them itself.
+// One thread is one ray through the real traversal, whose node and primitive tests are counted, as it counts them itself.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
 #include "access/scene.glsl"
-#include "lib/intersect_box.glsl"
+#include "lib/intersect_node.glsl"
 #include "shared/path_types.h"
 
-uint boxTests = 0u;
+uint nodeTests = 0u;
 uint recordFetches = 0u;
-#define intersectBox(lo, hi, origin, reciprocal, tmax) (++boxTests, intersectBox(lo, hi, origin, reciprocal, tmax))
+#define hitsOfNode(head, content, a, b, c, origin, reciprocal, ahead, tmax) \
+    (++nodeTests, hitsOfNode(head, content, a, b, c, origin, reciprocal, ahead, tmax))
 #define fetchRecord(record) (++recordFetches, fetchRecord(record))
 #include "access/traverse.glsl"
 
@@ -29,13 +30,13 @@ void main()
         PathRay ray = rays[TEST_THREAD];
         Steps steps;
         PathHit hit = traceClosest(ray, steps);
-        uint nodes = boxTests / 2u;
+        uint nodes = nodeTests;
         uint primitives = recordFetches;
         bool unoccluded = isUnoccluded(ShadowRay(ray.origin, ray.source, ray.direction, kNoRecord, vec3(0.0), kInfinity));
         EXPECT_EQUAL(steps.nodes, nodes);
         EXPECT_EQUAL(steps.primitives, primitives);
-        EXPECT_TRUE(nodes > 0u && boxTests > 2u * nodes);
-        results[TEST_THREAD] = Result(hit, nodes, primitives, boxTests / 2u - nodes, uint(unoccluded));
+        EXPECT_TRUE(nodes > 0u && nodeTests > nodes);
+        results[TEST_THREAD] = Result(hit, nodes, primitives, nodeTests - nodes, uint(unoccluded));
     }
     endTest();
 }

@@ -86,7 +86,7 @@ TEST(TraverseStepsTest, AreWhatTheTreesCostPredicts)
     for (const Mesh& mesh : {terrain(100), randomTriangles(20000, 0.03F, 1)}) {
         const SceneOnDevice scene(sceneOf(mesh));
         KernelTest test = scene.test(test_kernels::traverse_steps_test);
-        const Means means = meanSteps(trace(test, uniformLines(scene.bvh.nodes[0].box, 20000)));
+        const Means means = meanSteps(trace(test, uniformLines(scene.bvh.box, 20000)));
         std::cout << mesh.size() << " triangles: cost of a line " << scene.bvh.cost << ", steps of a ray " << means.closest
                   << ", node steps of a shadow ray " << means.shadowNodes << "\n";
         // Taking the far child first, or going on beyond the hit, costs what the whole line does: 1.00 measured. 0.71 and

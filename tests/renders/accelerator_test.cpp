@@ -1,5 +1,6 @@
 // --accelerator, --split, --intersector: the same picture, by bits or by means.
 #include "host/bvh/build_bvh.hpp"
+#include "host/bvh/widen_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "shaders/shared/limits.h"
 #include "tests/support/build_scene.hpp"
@@ -87,10 +88,10 @@ TEST(SplitRulePictureTest, EveryRuleGivesTheBitsOfTheOthers)
     RenderSettings settings = squareSettings(24, 32);
     for (const Scene& scene : {meshScene(), mixedScene(), tiledScene()}) {
         const std::vector<Box> boxes = primitiveBoxes(scene);
-        const FlatScene sah = flattenScene(scene, buildBvh(boxes, SplitRule::Sah));
+        const FlatScene sah = flattenScene(scene, widenBvh(buildBvh(boxes, SplitRule::Sah)));
         const Film film = renderFlat(sah, scene.cameras.front(), settings);
         for (const SplitRule rule : {SplitRule::Mean, SplitRule::Median}) {
-            const FlatScene other = flattenScene(scene, buildBvh(boxes, rule));
+            const FlatScene other = flattenScene(scene, widenBvh(buildBvh(boxes, rule)));
             EXPECT_NE(other.nodes, sah.nodes);
             // Their films may be merged.
             EXPECT_EQ(fingerprint(other), fingerprint(sah));
@@ -106,7 +107,7 @@ TEST(SplitRulePictureTest, TiesGoToTheLowerId)
     RenderSettings settings = squareSettings(8, 4);
     settings.bounces = 0;
     for (const SplitRule rule : {SplitRule::Sah, SplitRule::Mean, SplitRule::Median}) {
-        const Film film = renderFlat(flattenScene(scene, buildBvh(primitiveBoxes(scene), rule)), scene.cameras.front(), settings);
+        const Film film = renderFlat(flattenScene(scene, widenBvh(buildBvh(primitiveBoxes(scene), rule))), scene.cameras.front(), settings);
         for (int i = 0; i < 64; ++i) {
             // Rows of the film go down, those of the tiles up: of eight, parity changes.
             EXPECT_FLOAT_EQ(film.pixels[static_cast<std::size_t>(i)].albedo.r, (i % 8 + i / 8) % 2 == 1 ? 0.8F : 0.2F)

@@ -1,6 +1,7 @@
 #include "tests/support/render_scene.hpp"
 
 #include "host/bvh/build_bvh.hpp"
+#include "host/bvh/widen_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/measure/normal.hpp"
 #include "tests/support/test_device.hpp"
@@ -22,7 +23,7 @@ constexpr std::size_t kFamilySize = 200;
 
 }  // namespace
 
-FlatScene flattened(const Scene& scene) { return flattenScene(scene, buildBvh(primitiveBoxes(scene))); }
+FlatScene flattened(const Scene& scene) { return flattenScene(scene, widenBvh(buildBvh(primitiveBoxes(scene)))); }
 
 Film renderFlat(const FlatScene& flat, const Camera& camera, const RenderSettings& settings)
 {

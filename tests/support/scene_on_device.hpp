@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/bvh/build_bvh.hpp"
+#include "host/bvh/widen_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/render/device_scene.hpp"
 #include "shaders/shared/bindings.h"
@@ -11,7 +12,7 @@ namespace glim {
 
 struct SceneOnDevice {
     explicit SceneOnDevice(const Scene& scene, const Camera& view = {})
-        : bvh(buildBvh(primitiveBoxes(scene))), flat(flattenScene(scene, bvh)),
+        : bvh(widenBvh(buildBvh(primitiveBoxes(scene)))), flat(flattenScene(scene, bvh)),
           device(testDevice(), flat), camera(testDevice(), flattenCamera(view, 1.0F)), recordOf(bvh.order.size())
     {
         for (std::uint32_t record = 0; record < bvh.order.size(); ++record) {
@@ -32,7 +33,7 @@ struct SceneOnDevice {
         return test;
     }
 
-    Bvh bvh;
+    WideBvh bvh;
     FlatScene flat;
     DeviceScene device;
     DeviceCamera camera;

@@ -1,0 +1,137 @@
+// Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", HPG 2017, section 3.1.
+#include "host/flatten/pack_nodes.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace glim {
+namespace {
+
+static_assert(kWidth == 8 && kMaxLeafRecords == 3, "what fits into a word of hits");
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr double kMostSteps = 255.0;
+
+// Gives every box a thickness: at least one ulp, and 2^-30 of the scene, so that a plane through the ray's origin lies at
+// |t| >= 1e9 scenes for a direction component of intersect_node.glsl's smallest size. Rounding in double is far below that.
+Box thicken(const Box& box, float pad)
+{
+    Box thick = box;
+    for (int k = 0; k < 3; ++k) {
+        thick.lo[k] = std::nextafter(box.lo[k] - pad, -kInfinity);
+        thick.hi[k] = std::nextafter(box.hi[k] + pad, kInfinity);
+    }
+    return thick;
+}
+
+Box boundsOf(const WideNode& node, float pad)
+{
+    Box bounds{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
+    for (const WideChild& child : node.children) {
+        if (child.kind != WideChild::Kind::Nothing) {
+            const Box box = thicken(child.box, pad);
+            bounds = {glm::min(bounds.lo, box.lo), glm::max(bounds.hi, box.hi)};
+        }
+    }
+    return bounds;
+}
+
+float padOf(const Box& root)
+{
+    const glm::vec3 farthest = glm::max(glm::abs(root.lo), glm::abs(root.hi));
+    return std::ldexp(std::max({farthest.x, farthest.y, farthest.z, std::numeric_limits<float>::min()}), -30);
+}
+
+// Exponent, plus the bias of a float's, of the smallest power of two of which kMostSteps cover the extent.
+std::uint32_t biasedExponent(double extent)
+{
+    int exponent = 0;
+    const double mantissa = std::frexp(extent / kMostSteps, &exponent);  // in [1/2, 1)
+    return static_cast<std::uint32_t>(std::clamp(mantissa == 0.5 ? exponent - 1 : exponent, -126, 127) + 127);
+}
+
+// Planes of one axis, a byte each, four children in a word.
+struct Planes {
+    std::array<std::uint32_t, 2> lo{}, hi{};
+};
+
+Planes packPlanes(const WideNode& node, float pad, int axis, float from, std::uint32_t exponent)
+{
+    const double step = std::ldexp(1.0, static_cast<int>(exponent) - 127);
+    Planes planes;
+    for (std::uint32_t i = 0; i < kWidth; ++i) {
+        if (node.children[i].kind == WideChild::Kind::Nothing) {
+            continue;
+        }
+        const Box box = thicken(node.children[i].box, pad);
+        const double lo = std::floor((static_cast<double>(box.lo[axis]) - static_cast<double>(from)) / step);
+        const double hi = std::ceil((static_cast<double>(box.hi[axis]) - static_cast<double>(from)) / step);
+        planes.lo[i / 4] |= static_cast<std::uint32_t>(std::clamp(lo, 0.0, kMostSteps)) << i % 4 * 8;
+        planes.hi[i / 4] |= static_cast<std::uint32_t>(std::clamp(hi, 0.0, kMostSteps)) << i % 4 * 8;
+    }
+    return planes;
+}
+
+// What a node holds besides boxes.
+struct Content {
+    std::uint32_t firstNode = 0, firstRecord = 0;
+    std::uint32_t inner = 0;                     // bit i: child i is a node
+    std::array<std::uint32_t, 2> entries{};      // a byte for each child
+};
+
+Content contentOf(const WideNode& node)
+{
+    Content content;
+    std::uint32_t records = 0;
+    for (std::uint32_t i = 0; i < kWidth; ++i) {
+        const WideChild& child = node.children[i];
+        std::uint32_t entry = 0;
+        if (child.kind == WideChild::Kind::Inner) {
+            content.firstNode = content.inner == 0 ? child.first : content.firstNode;
+            content.inner |= 1U << i;
+            entry = 1U << 5 | (kFirstNodeBit + i);
+        } else if (child.kind == WideChild::Kind::Leaf) {
+            content.firstRecord = records == 0 ? child.first : content.firstRecord;
+            entry = ((1U << child.count) - 1) << 5 | records;
+            records += child.count;
+        }
+        content.entries[i / 4] |= entry << i % 4 * 8;
+    }
+    return content;
+}
+
+void pushNode(std::vector<uvec4>& texels, const WideNode& node, float pad)
+{
+    const Box bounds = boundsOf(node, pad);
+    const Content content = contentOf(node);
+    std::array<Planes, 3> planes;
+    std::uint32_t exponents = content.inner << 24;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::uint32_t exponent = biasedExponent(static_cast<double>(bounds.hi[axis]) - static_cast<double>(bounds.lo[axis]));
+        planes[axis] = packPlanes(node, pad, axis, bounds.lo[axis], exponent);
+        exponents |= exponent << axis * 8;
+    }
+    texels.push_back({std::bit_cast<std::uint32_t>(bounds.lo.x), std::bit_cast<std::uint32_t>(bounds.lo.y),
+                      std::bit_cast<std::uint32_t>(bounds.lo.z), exponents});
+    texels.push_back({content.firstNode, content.firstRecord, content.entries[0], content.entries[1]});
+    texels.push_back({planes[0].lo[0], planes[0].lo[1], planes[1].lo[0], planes[1].lo[1]});
+    texels.push_back({planes[2].lo[0], planes[2].lo[1], planes[0].hi[0], planes[0].hi[1]});
+    texels.push_back({planes[1].hi[0], planes[1].hi[1], planes[2].hi[0], planes[2].hi[1]});
+}
+
+}  // namespace
+
+std::vector<uvec4> packNodes(const WideBvh& bvh)
+{
+    const float pad = padOf(bvh.box);
+    std::vector<uvec4> texels;
+    texels.reserve(bvh.nodes.size() * kNodeTexels);
+    for (const WideNode& node : bvh.nodes) {
+        pushNode(texels, node, pad);
+    }
+    return texels;
+}
+
+}  // namespace glim
