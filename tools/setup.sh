@@ -22,6 +22,9 @@ buildPackages=(
     "libglfw3-dev              opens the preview's window"
     "libstb-dev                draws the preview's text"
 )
+benchPackages=(
+    "libembree-dev             traces the same rays, for comparison"
+)
 studyPackages=(
     "python3                   measures, and writes the study's page"
     "python3-matplotlib        draws the study's plots"
@@ -105,16 +108,18 @@ showProgress() {
     return 0
 }
 
-# configure DIRECTORY PRESET TESTS: runs cmake if it never ran this way here.
+# configure DIRECTORY PRESET TESTS: runs cmake if it never ran this way here. TESTS: OFF, ON, or BENCH, which has those of ON too.
 configure() {
-    local directory=$1 preset=$2 tests=$3 key fresh=()
-    # The launcher needs no test packages, but leaves on what tools/test has turned on.
-    [[ $tests == OFF && -f $directory/.configured && $(<"$directory/.configured") == *" ON "* ]] && tests=ON
+    local directory=$1 preset=$2 tests=$3 key fresh=() before=
+    [[ -f $directory/.configured ]] && before=$(<"$directory/.configured")
+    # Who needs fewer packages leaves on what another has turned on.
+    [[ $before == *" ON "* && $tests == OFF ]] && tests=ON
+    [[ $before == *" BENCH "* ]] && tests=BENCH
     key="$preset $tests $root"
     [[ -f $directory/build.ninja && -f $directory/.configured && $(<"$directory/.configured") == "$key" ]] && return
     # CMake refuses a build directory that was moved along with its sources.
     [[ -f $directory/.configured && $(<"$directory/.configured") != *" $root" ]] && fresh=(--fresh)
-    (cd "$root" && cmake "${fresh[@]}" --preset "$preset" "-DGLIM_TESTS=$tests") >>"$setupLog" 2>&1 || return
+    (cd "$root" && cmake "${fresh[@]}" --preset "$preset" "-DGLIM_TESTS=${tests/BENCH/ON}" "-DGLIM_BENCH=${tests/#ON/OFF}") >>"$setupLog" 2>&1 || return
     printf '%s' "$key" >"$directory/.configured"
 }
 

@@ -106,8 +106,8 @@ void collect(const Bvh& bvh, const std::vector<Subtree>& subtrees, std::uint32_t
 Roots childrenOf(const Bvh& bvh, const std::vector<Subtree>& subtrees, std::uint32_t node)
 {
     Roots roots;
-    if (subtrees[node].isLeaf) {
-        return {node};  // the root alone may be one
+    if (bvh.nodes[node].count > 0) {
+        return {node};  // the root of so few primitives
     }
     const std::uint32_t left = subtrees[node].nodeToLeft;
     collect(bvh, subtrees, bvh.nodes[node].first, std::min(left, kMostRoots), roots);

@@ -5,6 +5,7 @@
 #include "shaders/shared/path_types.h"
 
 #include <cstring>
+#include <numeric>
 
 namespace glim {
 namespace {
@@ -20,6 +21,13 @@ std::map<std::uint32_t, const Buffer*> merged(std::map<std::uint32_t, const Buff
 {
     a.insert(b.begin(), b.end());
     return a;
+}
+
+std::vector<uint> firstSlots(std::size_t count)
+{
+    std::vector<uint> slots(count);
+    std::iota(slots.begin(), slots.end(), 0U);
+    return slots;
 }
 
 }  // namespace
@@ -82,11 +90,23 @@ std::map<std::uint32_t, const Buffer*> PathBuffers::buffers(std::uint32_t parity
             {kBindStatus, &status_}};
 }
 
-void PathBuffers::queueRay(const PathRay& ray)
+void PathBuffers::queueRays(std::span<const PathRay> rays)
 {
-    const uint slot = 0;
-    upload(rays_, std::span<const PathRay>(&ray, 1));
-    upload(queueA_, std::span<const uint>(&slot, 1));
+    upload(rays_, rays);
+    upload(queueA_, std::span<const uint>(firstSlots(rays.size())));
+}
+
+void PathBuffers::queueShadowRays(std::span<const ShadowRay> rays)
+{
+    std::vector<ShadowRay> light(rays.begin(), rays.end());
+    for (ShadowRay& ray : light) {
+        ray.contribution = vec3(1.0F);
+    }
+    upload(shadowRays_, std::span<const ShadowRay>(light));
+    upload(shadowQueue_, std::span<const uint>(firstSlots(rays.size())));
+    upload(radiance_, std::span<const PathRadiance>(std::vector<PathRadiance>(rays.size())));
+    const QueueTails tails{0, static_cast<uint>(rays.size())};
+    upload(queueTails_, std::span<const QueueTails>(&tails, 1));
 }
 
 PathRadiance PathBuffers::takeRadiance()

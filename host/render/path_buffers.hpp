@@ -24,8 +24,10 @@ public:
     // `parity` 1 swaps the active and the next queue.
     std::map<std::uint32_t, const Buffer*> buffers(std::uint32_t parity) const;
 
-    // Makes it the ray of slot 0, and slot 0 the first entry of the active queue at parity 0.
-    void queueRay(const PathRay& ray);
+    // Makes them the rays of the first slots, and these the active queue at parity 0.
+    void queueRays(std::span<const PathRay> rays);
+    // Makes them the first slots' shadow rays, each with a contribution of 1, and these the shadow queue; no slot has radiance.
+    void queueShadowRays(std::span<const ShadowRay> rays);
     // After a pass that was not finished.
     void emptyQueues();
     // What was added to slot 0, and what was noted, since it was last taken: both start anew.
@@ -37,6 +39,8 @@ public:
     const Buffer& states() const { return states_; }
     const Buffer& radiance() const { return radiance_; }
     const Buffer& shadowRays() const { return shadowRays_; }
+    const Buffer& nextQueue(std::uint32_t parity) const { return parity == 0 ? queueB_ : queueA_; }
+    const Buffer& shadowQueue() const { return shadowQueue_; }
     const Buffer& queueSizes() const { return queueSizes_; }
     const Buffer& queueTails() const { return queueTails_; }
     const Buffer& rayCounts() const { return rayCounts_; }

@@ -63,7 +63,7 @@ public:
     Film film();
     PixelMoments moments(std::uint32_t pixel);  // of film(), faster
     // What one ray meets; no part of the picture.
-    PathHit traceRay(const PathRay& ray) { return wavefront_->traceRay(*slabs_.front(), ray); }
+    PathHit traceRay(const PathRay& ray) { return wavefront_->traceRays(*slabs_.front(), {&ray, 1})[0]; }
     // A sample of a pixel once more, and in no film.
     PathRadiance traceSample(std::uint32_t pixel, std::uint32_t sample) { return wavefront_->traceSample(pixel, sample); }
     // Another picture of the scene. The camera has a lens if and only if the first one had.

@@ -201,25 +201,49 @@ PathRadiance Wavefront::traceSample(std::uint32_t pixel, std::uint32_t sample, c
     Pass pass = passOf(*slab);
     pass.pixelCount = pass.sampleCount = 1;
     pass.firstSample = sample;
+    this->watch(*slab, pass, watch);
+    return paths_.takeRadiance();
+}
+
+void Wavefront::watch(const Slab& slab, Pass pass, const PathWatch& watch)
+{
     std::function<void(const Kernel&, const Pass&)> watchKernel;
     if (watch) {
         watchKernel = [&](const Kernel& kernel, const Pass& dispatched) { watch(kernel.name(), dispatched, paths_); };
     }
     Recording recording(device_, statistics_, watchKernel);
-    tracePaths(recording, *slab, pass);
-    return paths_.takeRadiance();
+    tracePaths(recording, slab, pass);
 }
 
-PathHit Wavefront::traceRay(const Slab& slab, const PathRay& ray)
+std::vector<PathHit> Wavefront::traceRays(const Slab& slab, std::span<const PathRay> rays)
 {
-    paths_.queueRay(ray);
+    paths_.queueRays(rays);
     Pass pass = passOf(slab);
-    pass.pixelCount = pass.sampleCount = 1;
+    pass.pixelCount = static_cast<std::uint32_t>(rays.size());
+    pass.sampleCount = 1;
     Recording recording(device_, statistics_);
     recordSize(recording, slab.bindings(0), pass, kSizesPaths);
     recordTrace(recording, *kernels_.traceClosest, slab.bindings(0), pass, offsetof(QueueSizes, closestGroups));
     recording.finish();
-    return download<PathHit>(paths_.hits(), 1)[0];
+    return download<PathHit>(paths_.hits(), rays.size());
+}
+
+std::vector<bool> Wavefront::traceShadowRays(const Slab& slab, std::span<const ShadowRay> rays)
+{
+    paths_.queueShadowRays(rays);
+    Pass pass = passOf(slab);
+    pass.pixelCount = static_cast<std::uint32_t>(rays.size());
+    pass.sampleCount = 1;
+    pass.leastEvents = 0;
+    pass.mostEvents = 1;
+    Recording recording(device_, statistics_);
+    recordSize(recording, slab.bindings(0), pass, kSizesShadow);
+    recordTrace(recording, *kernels_.traceShadow, slab.bindings(0), pass, offsetof(QueueSizes, shadowGroups));
+    recording.finish();
+    const std::vector<PathRadiance> found = download<PathRadiance>(paths_.radiance(), rays.size());
+    std::vector<bool> free(rays.size());
+    std::transform(found.begin(), found.end(), free.begin(), [](const PathRadiance& each) { return each.radiance.r > 0.0F; });
+    return free;
 }
 
 void Wavefront::closeBlocks(const Slab& slab)

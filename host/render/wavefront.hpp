@@ -37,8 +37,12 @@ public:
     std::optional<PassSeconds> trace(const Slab& slab, Pass pass, const std::function<bool()>& goesOn);
     // One sample of one pixel alone, added to no film. With a watch that takes radiance, what it has left.
     PathRadiance traceSample(std::uint32_t pixel, std::uint32_t sample, const PathWatch& watch = nullptr);
-    // The hit of one ray alone; between passes.
-    PathHit traceRay(const Slab& slab, const PathRay& ray);
+    // Calls `watch` after each kernel of a pass that is added to no film.
+    void watch(const Slab& slab, Pass pass, const PathWatch& watch);
+    // Rays alone, no more than the settings' pathCapacity; between passes.
+    std::vector<PathHit> traceRays(const Slab& slab, std::span<const PathRay> rays);
+    // Whether each is free.
+    std::vector<bool> traceShadowRays(const Slab& slab, std::span<const ShadowRay> rays);
     // Folds the blocks of all pixels, chosen or not, that are under way into their pages.
     void closeBlocks(const Slab& slab);
     // Chooses the pixels that still need samples.

@@ -140,7 +140,7 @@ private:
 
     double ofNode(std::uint32_t i) const
     {
-        return bvh_.nodes[i].count > 0 ? area(i) + asLeaf(i) : area(i) + std::min(asLeaf(i), ofForest(i, kWidth, true));
+        return area(i) + (bvh_.nodes[i].count > 0 ? asLeaf(i) : ofForest(i, kWidth, true));
     }
 
     // Of exactly `roots` of them, or fewer.

@@ -1,0 +1,117 @@
+// glim_rates [SCENE...]: how fast glim's kernels trace rays, relative to Embree in the same run, with the same rays, of which the hits
+// are compared. Without scenes: those of bench_scenes.hpp.
+#include "tests/bench/trace_timer.hpp"
+#include "host/bvh/build_bvh.hpp"
+#include "host/bvh/widen_bvh.hpp"
+#include "host/flatten/flatten_scene.hpp"
+#include "host/scene/load_gltf.hpp"
+#include "tests/bench/bench_scenes.hpp"
+#include "tests/bench/embree.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <functional>
+
+namespace glim {
+namespace {
+
+constexpr int kRounds = 9;
+
+struct Spread {
+    double median, low, high;
+};
+
+Spread spreadOf(std::vector<double> values)
+{
+    std::sort(values.begin(), values.end());
+    return {values[values.size() / 2], values.front(), values.back()};
+}
+
+// Embree before and after glim: what slows the machine for longer than that slows both.
+void compareRates(const char* name, std::size_t rays, const std::function<double()>& ours, const std::function<double()>& embree,
+                  const std::string& differing)
+{
+    std::vector<double> ratios, rates;
+    ours();
+    for (int round = 0; round < kRounds; ++round) {
+        const double before = embree(), seconds = ours(), after = embree();
+        ratios.push_back(0.5 * (before + after) / seconds);
+        rates.push_back(static_cast<double>(rays) / seconds / 1e6);
+    }
+    const Spread ratio = spreadOf(ratios);
+    std::printf("| %s | %.2f | %.2f [%.2f, %.2f] | %s |\n", name, spreadOf(rates).median, ratio.median, ratio.low, ratio.high,
+                differing.c_str());
+    std::fflush(stdout);
+}
+
+std::string countDifferent(const FlatScene& flat, const std::vector<PathHit>& ours, const std::vector<Embree::Hit>& theirs)
+{
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < ours.size(); ++i) {
+        const std::uint32_t id = ours[i].record == kNoRecord ? kNoRecord : flat.records[ours[i].record * kRecordTexels].w;
+        different += id == theirs[i].triangle || std::abs(ours[i].t - theirs[i].t) <= 1e-4F * theirs[i].t ? 0 : 1;
+    }
+    return std::to_string(different) + " of " + std::to_string(ours.size());
+}
+
+void measure(Device& device, const BenchScene& bench)
+{
+    const std::vector<Box> boxes = primitiveBoxes(bench.scene);
+    const auto start = std::chrono::steady_clock::now();
+    const WideBvh bvh = widenBvh(buildBvh(boxes));
+    const double buildSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const FlatScene flat = flattenScene(bench.scene, bvh);
+    RenderSettings settings;
+    settings.width = settings.height = 512;
+    TraceTimer timer(device, flat, flattenCamera(bench.scene.cameras.front(), 1.0F), settings);
+    const Embree embree(bench.scene);
+    const double triangles = static_cast<double>(bench.scene.triangles.size());
+    std::printf("\n%s: %.0f triangles, tree in %.2f s (%.2f M/s), depth %u, cost %.2f, %.0f bytes a triangle\n\n", bench.name.c_str(),
+                triangles, buildSeconds, triangles / buildSeconds / 1e6, bvh.depth, bvh.cost,
+                16.0 * static_cast<double>(flat.nodes.size() + flat.records.size()) / triangles);
+    std::printf("| rays | Mrays/s | over Embree's | other hits |\n|---|---|---|---|\n");
+    const RaySets& rays = timer.rays();
+    for (const auto& [name, set] : {std::pair{"primary", &rays.primary}, {"diffuse", &rays.diffuse}}) {
+        compareRates(name, set->size(), [&] { return timer.trace(*set).seconds; }, [&] { return embree.trace(*set).seconds; },
+                     countDifferent(flat, timer.trace(*set).hits, embree.trace(*set).hits));
+    }
+    const auto ours = timer.trace(rays.shadow).free;
+    const auto theirs = embree.trace(rays.shadow).free;
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < ours.size(); ++i) {
+        different += ours[i] == (theirs[i] != 0) ? 0 : 1;
+    }
+    compareRates("shadow", rays.shadow.size(), [&] { return timer.trace(rays.shadow).seconds; },
+                 [&] { return embree.trace(rays.shadow).seconds; }, std::to_string(different) + " of " + std::to_string(ours.size()));
+}
+
+void run(const std::vector<std::string>& files)
+{
+    const Instance instance;
+    Device device(instance, std::nullopt);
+    std::printf("%s, %s\n", device.description().name.c_str(), device.description().driver.c_str());
+    for (const std::string& file : files) {
+        measure(device, {file, loadGltf(file)});
+    }
+    if (files.empty()) {
+        measure(device, {"bumpy ball", bumpyBall(6)});
+        measure(device, {"hills", hills(707)});
+        measure(device, {"forest", forest(400)});
+    }
+}
+
+}  // namespace
+}  // namespace glim
+
+int main(int argc, char** argv)
+{
+    try {
+        glim::run({argv + 1, argv + argc});
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "glim_rates: %s\n", error.what());
+        return 1;
+    }
+}

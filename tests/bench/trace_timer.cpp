@@ -1,0 +1,31 @@
+#include "tests/bench/trace_timer.hpp"
+
+namespace glim {
+
+TraceTimer::TraceTimer(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
+    : wavefront_(device, scene, camera, settings), slab_(wavefront_.makeSlab(0, settings.width * settings.height)),
+      rays_(captureRays(wavefront_, *slab_))
+{
+}
+
+double TraceTimer::secondsOf(const char* kernel) const
+{
+    const auto found = wavefront_.statistics().find(kernel);
+    return found == wavefront_.statistics().end() ? 0.0 : found->second.seconds;
+}
+
+TraceTimer::Closest TraceTimer::trace(std::span<const PathRay> rays)
+{
+    const double before = secondsOf("trace_closest");
+    std::vector<PathHit> hits = wavefront_.traceRays(*slab_, rays);
+    return {std::move(hits), secondsOf("trace_closest") - before};
+}
+
+TraceTimer::Shadow TraceTimer::trace(std::span<const ShadowRay> rays)
+{
+    const double before = secondsOf("trace_shadow");
+    std::vector<bool> free = wavefront_.traceShadowRays(*slab_, rays);
+    return {std::move(free), secondsOf("trace_shadow") - before};
+}
+
+}  // namespace glim
