@@ -38,9 +38,6 @@ void grow(Box& box, const Box& other) {
     box.hi = glm::max(box.hi, other.hi);
 }
 
-// Halved before the sum, which could overflow.
-glm::vec3 computeCentre(const Box& box) { return 0.5F * box.lo + 0.5F * box.hi; }
-
 struct Bounds {
     Box box = makeEmptyBox();      // around the primitives
     Box centres = makeEmptyBox();  // around the centres of their boxes

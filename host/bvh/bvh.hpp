@@ -13,6 +13,9 @@ struct Box {
     glm::vec3 hi;
 };
 
+// Halved before the sum, which could overflow.
+inline glm::vec3 computeCentre(const Box& box) { return 0.5F * box.lo + 0.5F * box.hi; }
+
 // Invariants, held as code by check_bvh:
 //  - nodes[0] is the root; an inner node (count == 0) has its children at `first` and `first + 1`, after itself;
 //  - a leaf holds primitives order[first .. first + count), count >= 1;

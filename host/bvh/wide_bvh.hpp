@@ -7,7 +7,7 @@
 
 namespace glim {
 
-inline constexpr std::uint32_t kWidth = 8;
+inline constexpr std::uint32_t kBvhWidth = 8;
 
 // An inner node, a leaf of primitives order[first .. first + count), or nothing.
 struct WideChild {
@@ -26,7 +26,7 @@ struct WideChild {
 //  - no path from the root has more than kMaxBvhDepth nodes (shaders/shared/limits.h).
 // A child's place is the octant of its node that it lies in, as far as there is room: bit k is set on the upper side of axis k.
 struct WideNode {
-    std::array<WideChild, kWidth> children;
+    std::array<WideChild, kBvhWidth> children;
 };
 
 struct WideBvh {

@@ -14,13 +14,13 @@ namespace {
 // Of a primitive's test, where the visit of a node is 1.
 constexpr float kPrimitiveCost = 0.5F;
 
-constexpr std::uint32_t kMostRoots = kWidth - 1;
+constexpr std::uint32_t kMostRoots = kBvhWidth - 1;
 
 // What is known of the part of a binary tree below a node.
 struct Subtree {
     std::array<float, kMostRoots> cost;           // of a forest of at most i + 1 roots
     std::array<std::uint8_t, kMostRoots> toLeft;  // of these roots on the left side; 0: fewer roots are as good, or a leaf
-    std::uint8_t nodeToLeft;                      // of a node's kWidth children
+    std::uint8_t nodeToLeft;                      // of a node's kBvhWidth children
     bool isLeaf;                                  // as a single root
     std::uint32_t first, count;                   // primitives
 };
@@ -61,7 +61,7 @@ Subtree join(const BvhNode& node, const Subtree& left, const Subtree& right)
     const auto area = static_cast<float>(computeHalfArea(node.box));
     const float asLeaf = subtree.count <= kMaxLeafRecords ? area * static_cast<float>(subtree.count) * kPrimitiveCost
                                                        : std::numeric_limits<float>::infinity();
-    const Division asNode = divide(left, right, kWidth);
+    const Division asNode = divide(left, right, kBvhWidth);
     subtree.nodeToLeft = asNode.toLeft;
     subtree.isLeaf = asLeaf <= asNode.cost + area;
     subtree.cost[0] = std::min(asLeaf, asNode.cost + area);
@@ -111,31 +111,29 @@ Roots childrenOf(const Bvh& bvh, const std::vector<Subtree>& subtrees, std::uint
     }
     const std::uint32_t left = subtrees[node].nodeToLeft;
     collect(bvh, subtrees, bvh.nodes[node].first, std::min(left, kMostRoots), roots);
-    collect(bvh, subtrees, bvh.nodes[node].first + 1, std::min(kWidth - left, kMostRoots), roots);
+    collect(bvh, subtrees, bvh.nodes[node].first + 1, std::min(kBvhWidth - left, kMostRoots), roots);
     return roots;
 }
 
-glm::vec3 computeCentre(const Box& box) { return 0.5F * box.lo + 0.5F * box.hi; }
-
 // places[i]: of roots[i]. The pair that gains most goes first; ties to the lower ones.
-std::array<std::uint8_t, kWidth> findPlaces(const Bvh& bvh, std::uint32_t node, const Roots& roots)
+std::array<std::uint8_t, kBvhWidth> findPlaces(const Bvh& bvh, std::uint32_t node, const Roots& roots)
 {
     const glm::vec3 middle = computeCentre(bvh.nodes[node].box);
-    std::array<std::array<float, kWidth>, kWidth> gains{};  // of root i in place s
+    std::array<std::array<float, kBvhWidth>, kBvhWidth> gains{};  // of root i in place s
     for (std::size_t i = 0; i < roots.size(); ++i) {
         const glm::vec3 from = computeCentre(bvh.nodes[roots[i]].box) - middle;
-        for (std::uint32_t s = 0; s < kWidth; ++s) {
+        for (std::uint32_t s = 0; s < kBvhWidth; ++s) {
             gains[i][s] = ((s & 1U) != 0 ? from.x : -from.x) + ((s & 2U) != 0 ? from.y : -from.y) + ((s & 4U) != 0 ? from.z : -from.z);
         }
     }
-    std::array<std::uint8_t, kWidth> places{};
+    std::array<std::uint8_t, kBvhWidth> places{};
     std::uint32_t placed = 0, taken = 0;
     for (std::size_t done = 0; done < roots.size(); ++done) {
-        std::size_t root = kWidth;
+        std::size_t root = kBvhWidth;
         std::uint32_t place = 0;
         for (std::size_t i = 0; i < roots.size(); ++i) {
-            for (std::uint32_t s = 0; s < kWidth && (placed >> i & 1U) == 0; ++s) {
-                if ((taken >> s & 1U) == 0 && (root == kWidth || gains[i][s] > gains[root][place])) {
+            for (std::uint32_t s = 0; s < kBvhWidth && (placed >> i & 1U) == 0; ++s) {
+                if ((taken >> s & 1U) == 0 && (root == kBvhWidth || gains[i][s] > gains[root][place])) {
                     root = i;
                     place = s;
                 }

@@ -9,7 +9,7 @@
 namespace glim {
 namespace {
 
-static_assert(kWidth == 8 && kMaxLeafRecords == 3, "what fits into a word of hits");
+static_assert(kBvhWidth == 8 && kMaxLeafRecords == 3, "what fits into a word of hits");
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr double kMostSteps = 255.0;
@@ -61,7 +61,7 @@ Planes packPlanes(const WideNode& node, float pad, int axis, float from, std::ui
 {
     const double step = std::ldexp(1.0, static_cast<int>(exponent) - 127);
     Planes planes;
-    for (std::uint32_t i = 0; i < kWidth; ++i) {
+    for (std::uint32_t i = 0; i < kBvhWidth; ++i) {
         if (node.children[i].kind == WideChild::Kind::Nothing) {
             continue;
         }
@@ -85,7 +85,7 @@ Content contentOf(const WideNode& node)
 {
     Content content;
     std::uint32_t records = 0;
-    for (std::uint32_t i = 0; i < kWidth; ++i) {
+    for (std::uint32_t i = 0; i < kBvhWidth; ++i) {
         const WideChild& child = node.children[i];
         std::uint32_t entry = 0;
         if (child.kind == WideChild::Kind::Inner) {

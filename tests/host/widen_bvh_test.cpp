@@ -108,7 +108,7 @@ TEST(WidenBvhTest, FewPrimitivesAreOneNode)
         }
         const WideBvh wide = widenBvh(buildBvh(boxes));
         ASSERT_EQ(wide.nodes.size(), 1U);
-        for (std::uint32_t place = 0; place < kWidth && count == 8; ++place) {
+        for (std::uint32_t place = 0; place < kBvhWidth && count == 8; ++place) {
             const WideChild& child = wide.nodes[0].children[place];
             EXPECT_EQ(child.kind, Kind::Leaf);
             EXPECT_EQ(wide.order[child.first], place) << "each in the octant that it lies in";
@@ -140,7 +140,7 @@ private:
 
     double ofNode(std::uint32_t i) const
     {
-        return area(i) + (bvh_.nodes[i].count > 0 ? asLeaf(i) : ofForest(i, kWidth, true));
+        return area(i) + (bvh_.nodes[i].count > 0 ? asLeaf(i) : ofForest(i, kBvhWidth, true));
     }
 
     // Of exactly `roots` of them, or fewer.

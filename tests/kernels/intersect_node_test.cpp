@@ -143,7 +143,7 @@ glm::dvec3 padOf(const Case& c, const Box& box)
 void judge(Case& c, const WideNode& node)
 {
     std::uint32_t all = 0;
-    for (std::uint32_t i = 0; i < kWidth; ++i) {
+    for (std::uint32_t i = 0; i < kBvhWidth; ++i) {
         const WideChild& child = node.children[i];
         const std::uint32_t bits = bitsOf(node, i, c.ahead);
         all |= bits;
@@ -163,9 +163,9 @@ Case rayAt(const Tree& tree, Random& random, double scale, NaiveMisses& naive)
     const WideNode& node = tree.wide.nodes[index];
     Case c{{}, {}, hardDirection(random), 0.0F, random.below(125), 0, 0, 0};
     std::copy_n(tree.texels.begin() + index * kNodeTexels, kNodeTexels, c.texels.begin());
-    std::uint32_t place = random.below(kWidth);
+    std::uint32_t place = random.below(kBvhWidth);
     while (node.children[place].kind == WideChild::Kind::Nothing) {
-        place = (place + 1) % kWidth;
+        place = (place + 1) % kBvhWidth;
     }
     const Box& box = node.children[place].box;
     glm::dvec3 target;
