@@ -19,7 +19,7 @@ struct WideChild {
     Box box{};
 };
 
-// Invariants, held as code by findWideBvhDefect:
+// Invariants, held as code by tests/host/widen_bvh_test.cpp:
 //  - nodes[0] is the root; the inner children of a node follow one another, in the order of their places, after itself;
 //  - so do the primitives of its leaves in `order`, in which every primitive is once;
 //  - a child's box contains the boxes of all that is below it;

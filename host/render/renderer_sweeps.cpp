@@ -26,7 +26,7 @@ std::uint32_t usualRoundEnd(std::uint32_t samples)
 
 }  // namespace
 
-// End of the sweep under way: the first block is swept 1, 1, 2, 4, 8 and 16 samples at a time, so that a render that is stopped
+// End of the sweep under way: the first samples are swept 1, 1, 2, 4, 8, 16 and 32 at a time, so that a render that is stopped
 // early covers its picture evenly; later blocks at once, which keeps the rays of a pixel together.
 std::uint32_t Renderer::sweepEnd() const
 {
@@ -115,7 +115,7 @@ std::uint64_t Renderer::choosePixels()
     return chosen;
 }
 
-// Half of a round's samples, but at least kPilotSamples, are the same for all pixels, and they alone say who gets the others. With a
+// Half of a round's samples, down to whole blocks, but at least kPilotSamples, are the same for all pixels, and they alone say who gets the others. With a
 // target in sight the round goes no further than that.
 void Renderer::startRound()
 {

@@ -113,8 +113,9 @@ TEST(RoulettePictureTest, H24H25AlbedoOf99)
                   "fixed:0.7: mean " + figure(fixed.mean.g));
     EXPECT_NEAR(ours.mean.g, 100.0, z * error);
     EXPECT_GT(std::abs(fixed.mean.g - 100.0), z * error);
-    // Of an exponential's variance from n values: (kurtosis 9 - 1) / n, and 2 / (blocks - pixels) for what is within blocks.
-    const double spread = std::sqrt(8.0 / paths + 2.0 / (paths / kBlockSamples - kSide * kSide));
+    // Of an exponential's variance from n values: (kurtosis 9 - 1) / n, and 2 / (blocks - pixels) for what is within blocks, of
+    // which each pixel has one more than whole ones, since the first is two halves.
+    const double spread = std::sqrt(8.0 / paths + 2.0 * kBlockSamples / paths);
     EXPECT_NEAR(deviation * deviation / (kDeviation * kDeviation), 1.0, 0.05 + z * spread);
 }
 
