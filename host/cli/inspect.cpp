@@ -37,6 +37,7 @@ Json countsOf(const PreparedScene& prepared)
 Json needsOf(const SceneFeatures& features)
 {
     return {{"spheres", features.spheres},
+            {"slivers", features.slivers},
             {"smooth normals", features.smooth},
             {"mirror or glass", features.specular},
             {"surface lights", features.surfaceLights},

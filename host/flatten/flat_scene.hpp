@@ -12,6 +12,7 @@ namespace glim {
 // What the scene needs; the rest is compiled out of the kernels.
 struct SceneFeatures {
     bool spheres = false;
+    bool slivers = false;         // some triangles are thinner than kSliverHeight
     bool smooth = false;          // some triangles have vertex normals
     bool specular = false;        // mirrors or glass
     bool surfaceLights = false;

@@ -26,11 +26,21 @@ std::vector<const Primitive*> primitiveOfTriangle(const Scene& scene)
     return owners;
 }
 
+bool isSliver(const Triangle& triangle)
+{
+    const glm::dvec3 v0 = triangle.vertices[0], v1 = triangle.vertices[1], v2 = triangle.vertices[2];
+    const glm::dvec3 a = v1 - v0, b = v2 - v1, c = v0 - v2;
+    const double square = std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
+    return glm::length(glm::cross(a, c)) < static_cast<double>(kSliverHeight) * square;
+}
+
 void pushTriangle(FlatScene& flat, const Scene& scene, std::uint32_t id, const Primitive& owner)
 {
     const Triangle& triangle = scene.triangles[id];
+    const bool sliver = isSliver(triangle);
+    flat.features.slivers = flat.features.slivers || sliver;
     flat.records.push_back(texel(triangle.vertices[0], id));
-    flat.records.push_back(texel(triangle.vertices[1], owner.material));
+    flat.records.push_back(texel(triangle.vertices[1], owner.material | (sliver ? kSliverBit : 0U)));
     flat.records.push_back(texel(triangle.vertices[2], 0));
 }
 

@@ -45,6 +45,7 @@ Specialization specialize(const SceneFeatures& features, const FlatCamera& camer
 {
     return {{kSpecWorkgroup, settings.workgroup},
             {kSpecSpheres, features.spheres},
+            {kSpecSlivers, features.slivers},
             {kSpecSmooth, features.smooth},
             {kSpecSpecular, features.specular},
             {kSpecSurfaceLights, features.surfaceLights},

@@ -5,6 +5,7 @@
 #include "shared/bindings.h"
 
 layout(constant_id = kSpecSpheres) const bool kSpheres = true;
+layout(constant_id = kSpecSlivers) const bool kSlivers = true;
 layout(constant_id = kSpecSmooth) const bool kSmooth = true;
 layout(constant_id = kSpecSpecular) const bool kSpecular = true;
 layout(constant_id = kSpecSurfaceLights) const bool kSurfaceLights = true;

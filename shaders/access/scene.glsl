@@ -63,4 +63,14 @@ bool isSphere(Record record)
     return kSpheres && (record.t1.w & kSphereBit) != 0u;
 }
 
+bool isSliver(Record record)
+{
+    return kSlivers && (record.t1.w & kSliverBit) != 0u;
+}
+
+uint materialOf(Record record)
+{
+    return record.t1.w & kMaterialMask;
+}
+
 #endif

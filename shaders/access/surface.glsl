@@ -43,7 +43,7 @@ Surface surfaceOfSphere(Record record, vec3 near)
     float radius = uintBitsToFloat(record.t1.x);
     vec3 n = near - center;
     n = n / length(n);
-    return Surface(center + radius * n, sphereErrorBound(center, radius), n, n, true, record.t1.w & ~kSphereBit,
+    return Surface(center + radius * n, sphereErrorBound(center, radius), n, n, true, materialOf(record),
                    record.t2.w);
 }
 
@@ -53,7 +53,7 @@ Surface surfaceOfTriangle(Record record, uint index, vec2 barycentric)
     vec3 e1 = floatsOf(record.t1) - v0;
     vec3 e2 = floatsOf(record.t2) - v0;
     vec3 n = triangleNormal(v0, floatsOf(record.t1), floatsOf(record.t2));
-    Surface surface = Surface(trianglePoint(v0, e1, e2, barycentric), triangleErrorBound(v0, e1, e2), n, n, true, record.t1.w,
+    Surface surface = Surface(trianglePoint(v0, e1, e2, barycentric), triangleErrorBound(v0, e1, e2), n, n, true, materialOf(record),
                               record.t2.w);
     if (kSmooth) {
         vec3 smoothed = vertexNormal(index, barycentric);

@@ -39,7 +39,7 @@ TriangleHit intersectRecord(Walk walk, Record record, float tmax, bool isSource)
                ? intersectMollerTrumbore(walk.origin, walk.direction, floatsOf(record.t0), floatsOf(record.t1),
                                          floatsOf(record.t2), tmax)
                : intersectWatertight(walk.origin, walk.shear, floatsOf(record.t0), floatsOf(record.t1),
-                                     floatsOf(record.t2), tmax);
+                                     floatsOf(record.t2), tmax, isSliver(record));
 }
 
 // Inner children of a node that are yet to be visited: the upper byte of `left`, the nearest uppermost. The lower one says which

@@ -32,12 +32,57 @@ Shear makeShear(vec3 d)
     return Shear(vec3(p.x / p.z, p.y / p.z, 1.0 / p.z), axis, flip);
 }
 
+// Upper and lower half of a float's digits, by Veltkamp's constant (Dekker, "A Floating-Point Technique for Extending the Available
+// Precision", 1971): products of halves have no rounding error.
+struct Halves {
+    vec2 upper, lower;
+};
+
+Halves halve(vec2 a)
+{
+    vec2 scaled = 4097.0 * a;
+    vec2 upper = scaled - (scaled - a);
+    return Halves(upper, a - upper);
+}
+
+// x * y - product, exactly, where product is x * y rounded.
+float productError(float product, float xUpper, float xLower, float yUpper, float yLower)
+{
+    return ((xUpper * yUpper - product) + xUpper * yLower + xLower * yUpper) + xLower * yLower;
+}
+
+// a.x * b.y - a.y * b.x with its right sign, and to some 2^-23 of itself wherever it is above 2^-48 of the products.
+float crossAccurately(vec2 a, Halves aHalves, vec2 b, Halves bHalves)
+{
+    float p = a.x * b.y;
+    float q = a.y * b.x;
+    float pError = productError(p, aHalves.upper.x, aHalves.lower.x, bHalves.upper.y, bHalves.lower.y);
+    float qError = productError(q, aHalves.upper.y, aHalves.lower.y, bHalves.upper.x, bHalves.lower.x);
+    return (p - q) + (pError - qError);
+}
+
+// Twice the signed areas of the origin with each edge.
+struct EdgeFunctions {
+    float u, v, w;
+};
+
+EdgeFunctions edgeFunctions(vec2 a, vec2 b, vec2 c)
+{
+    return EdgeFunctions(c.x * b.y - c.y * b.x, a.x * c.y - a.y * c.x, b.x * a.y - b.y * a.x);
+}
+
+EdgeFunctions edgeFunctionsAccurately(vec2 a, vec2 b, vec2 c)
+{
+    Halves ha = halve(a), hb = halve(b), hc = halve(c);
+    return EdgeFunctions(crossAccurately(c, hc, b, hb), crossAccurately(a, ha, c, hc), crossAccurately(b, hb, a, ha));
+}
+
 // Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013, without the double fallback: rounding is
 // monotone, so the sign of a*b - c*d is right or zero, two triangles compute negated values for their common edge, and zero
 // counts as inside. So it does for a ray beside the triangle but in its plane, where all three may round to zero: such rays are
-// those outside the triangle's box across the ray, which no ray that meets the triangle is. Double hits on edges are left to
-// the caller's tie rule. Hits need 0 < t <= tmax.
-TriangleHit intersectWatertight(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v2, float tmax)
+// those outside the triangle's box across the ray, which no ray that meets the triangle is. A sliver's edge functions would be
+// rounding noise, hence `sliver`. Double hits on edges are left to the caller's tie rule. Hits need 0 < t <= tmax.
+TriangleHit intersectWatertight(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v2, float tmax, bool sliver)
 {
     vec3 a = permute(v0 - origin, shear.axis, shear.flip);
     vec3 b = permute(v1 - origin, shear.axis, shear.flip);
@@ -45,17 +90,18 @@ TriangleHit intersectWatertight(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3
     vec2 pa = a.xy - shear.s.xy * a.z;
     vec2 pb = b.xy - shear.s.xy * b.z;
     vec2 pc = c.xy - shear.s.xy * c.z;
-    float u = pc.x * pb.y - pc.y * pb.x;
-    float v = pa.x * pc.y - pa.y * pc.x;
-    float w = pb.x * pa.y - pb.y * pa.x;
-    bool outside = min(u, min(v, w)) < 0.0 && max(u, max(v, w)) > 0.0;
+    EdgeFunctions e = edgeFunctions(pa, pb, pc);
+    if (sliver) {
+        e = edgeFunctionsAccurately(pa, pb, pc);
+    }
+    bool outside = min(e.u, min(e.v, e.w)) < 0.0 && max(e.u, max(e.v, e.w)) > 0.0;
     vec2 low = min(pa, min(pb, pc));
     vec2 high = max(pa, max(pb, pc));
     bool beside = max(low.x, low.y) > 0.0 || min(high.x, high.y) < 0.0;
-    float det = u + v + w;
-    float t = shear.s.z * (u * a.z + v * b.z + w * c.z) / det;
+    float det = e.u + e.v + e.w;
+    float t = shear.s.z * (e.u * a.z + e.v * b.z + e.w * c.z) / det;
     bool hit = !outside && !beside && det != 0.0 && t > 0.0 && t <= tmax;
-    return hit ? TriangleHit(t, vec2(v, w) / det) : kNoTriangleHit;
+    return hit ? TriangleHit(t, vec2(e.v, e.w) / det) : kNoTriangleHit;
 }
 
 // Moller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997, for comparison: it leaks at edges.

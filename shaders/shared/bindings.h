@@ -63,6 +63,7 @@ GLIM_CONST uint kSpecFolded = 16u;         // the host has taken pages of the fi
 GLIM_CONST uint kSpecSuspects = 17u;       // each pixel's brightest sample is kept
 GLIM_CONST uint kSpecNotes = 18u;          // the kernels note what they find out about the only path of a pass
 GLIM_CONST uint kSpecLuminance = 19u;      // the film knows the luminance of its pixels
+GLIM_CONST uint kSpecSlivers = 20u;        // some triangle is a sliver
 
 // How direct light is estimated.
 GLIM_CONST uint kDirectMis = 0u;

@@ -17,12 +17,17 @@ GLIM_CONST uint kMaxLeafRecords = 3u;
 GLIM_CONST uint kFirstNodeBit = 24u;  // 8 leaves have as many records at most
 
 // A record is three texels, in the order of the leaves:
-//   triangle: (v0.xyz, primitive id) (v1.xyz, material) (v2.xyz, emitter + 1 or 0)
+//   triangle: (v0.xyz, primitive id) (v1.xyz, material, | kSliverBit) (v2.xyz, emitter + 1 or 0)
 //   sphere:   (centre.xyz, primitive id) (radius, 0, 0, material | kSphereBit) (0, 0, 0, emitter + 1 or 0)
 // The primitive id is the index in the scene (triangles, then spheres): it breaks ties, so pictures do not depend on the tree.
 // Smooth triangles have three texels more, in a buffer of its own: (n0.xyz, 0) (n1.xyz, 0) (n2.xyz, 0), zero where flat.
 GLIM_CONST uint kRecordTexels = 3u;
 GLIM_CONST uint kSphereBit = 0x80000000u;
+GLIM_CONST uint kSliverBit = 0x40000000u;  // thinner than kSliverHeight
+GLIM_CONST uint kMaterialMask = 0x3fffffffu;
+// Height over longest side below which a triangle's edge functions are computed with the rounding errors of their products. Without
+// these each is off by up to 2^-23 of that side's square, so that above this height a hit moves by less than 2^-11 of the side.
+GLIM_CONST float kSliverHeight = 9.765625e-4f;
 GLIM_CONST uint kNoRecord = 0xffffffffu;
 
 GLIM_CONST uint kLambert = 0u;

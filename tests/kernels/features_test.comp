@@ -20,6 +20,7 @@ void main()
 {
     if (TEST_THREAD == 0u) {
         EXPECT_TRUE(kSpheres == isExpected(kSpecSpheres));
+        EXPECT_TRUE(kSlivers == isExpected(kSpecSlivers));
         EXPECT_TRUE(kSmooth == isExpected(kSpecSmooth));
         EXPECT_TRUE(kSpecular == isExpected(kSpecSpecular));
         EXPECT_TRUE(kSurfaceLights == isExpected(kSpecSurfaceLights));

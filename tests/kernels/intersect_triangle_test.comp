@@ -20,31 +20,34 @@ struct Case {
 
 layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
 
-TriangleHit intersectUpTo(Case c, float tmax)
+void expectVerdict(Case c, bool sliver)
 {
-    return intersectWatertight(c.origin, makeShear(c.direction), c.v0, c.v1, c.v2, tmax);
+    Shear shear = makeShear(c.direction);
+    TriangleHit hit = intersectWatertight(c.origin, shear, c.v0, c.v1, c.v2, c.tmax, sliver);
+    bool isHit = hit.t > 0.0;
+    EXPECT_TRUE(c.verdict > kHit || isHit == (c.verdict == kHit));
+    EXPECT_TRUE(isHit || hit.t == -1.0);
+    TriangleHit back = intersectWatertight(c.origin, shear, c.v0, c.v2, c.v1, c.tmax, sliver);
+    EXPECT_TRUE(c.verdict > kHit || (back.t > 0.0) == isHit);
+    if (isHit) {
+        vec2 b = hit.barycentric;
+        float less = uintBitsToFloat(floatBitsToUint(hit.t) - 1u);
+        EXPECT_TRUE(hit.t <= c.tmax && min(b.x, b.y) >= 0.0 && b.x + b.y <= 1.0000002);
+        EXPECT_TRUE(intersectWatertight(c.origin, shear, c.v0, c.v1, c.v2, hit.t, sliver).t == hit.t);
+        EXPECT_TRUE(intersectWatertight(c.origin, shear, c.v0, c.v1, c.v2, less, sliver).t < 0.0);
+    }
+    if (isHit && c.verdict == kHit) {
+        EXPECT_NEAR(hit.t, c.t, c.tTolerance);
+        EXPECT_NEAR_VECTOR(hit.barycentric, c.barycentric, c.barycentricTolerance);
+    }
 }
 
 void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        TriangleHit hit = intersectUpTo(c, c.tmax);
-        bool isHit = hit.t > 0.0;
-        EXPECT_TRUE(c.verdict > kHit || isHit == (c.verdict == kHit));
-        EXPECT_TRUE(isHit || hit.t == -1.0);
-        TriangleHit back = intersectWatertight(c.origin, makeShear(c.direction), c.v0, c.v2, c.v1, c.tmax);
-        EXPECT_TRUE(c.verdict > kHit || (back.t > 0.0) == isHit);
-        if (isHit) {
-            vec2 b = hit.barycentric;
-            EXPECT_TRUE(hit.t <= c.tmax && min(b.x, b.y) >= 0.0 && b.x + b.y <= 1.0000002);
-            EXPECT_TRUE(intersectUpTo(c, hit.t).t == hit.t);
-            EXPECT_TRUE(intersectUpTo(c, uintBitsToFloat(floatBitsToUint(hit.t) - 1u)).t < 0.0);
-        }
-        if (isHit && c.verdict == kHit) {
-            EXPECT_NEAR(hit.t, c.t, c.tTolerance);
-            EXPECT_NEAR_VECTOR(hit.barycentric, c.barycentric, c.barycentricTolerance);
-        }
+        expectVerdict(c, false);
+        expectVerdict(c, true);
         if (c.fat != 0u) {
             TriangleHit other = intersectMollerTrumbore(c.origin, c.direction, c.v0, c.v1, c.v2, c.tmax);
             EXPECT_TRUE((other.t > 0.0) == (c.verdict == kHit));

@@ -34,8 +34,8 @@ void main()
         vec3 origin = offsetPoint(point, c.normal, bound);
         EXPECT_TRUE(dot(origin - point, c.normal) > 0.0);
         Shear shear = makeShear(c.direction);
-        uint self = intersectWatertight(origin, shear, c.v0, c.v1, c.v2, 1e30).t > 0.0 ? 1u : 0u;
-        uint neighbour = intersectWatertight(origin, shear, c.v2, c.v1, c.v3, 1e30).t > 0.0 ? 1u : 0u;
+        uint self = intersectWatertight(origin, shear, c.v0, c.v1, c.v2, 1e30, false).t > 0.0 ? 1u : 0u;
+        uint neighbour = intersectWatertight(origin, shear, c.v2, c.v1, c.v3, 1e30, false).t > 0.0 ? 1u : 0u;
         // The same normal on a sphere about v0 with the radius |e1|.
         vec3 onSphere = offsetPoint(c.v0 + length(e1) * c.normal, c.normal, sphereErrorBound(c.v0, length(e1)));
         results[TEST_THREAD] = Result(point, bound, origin, onSphere, self, neighbour);

@@ -10,6 +10,7 @@ struct Case {
     uint sphere;
     vec3 corners[3];  // sphere: centre, (radius, 0, 0)
     vec3 normals[3];
+    uint sliver;
     uint material;
     vec3 baseColor;
     vec3 emission;
@@ -29,7 +30,8 @@ void main()
         EXPECT_TRUE(floatsOf(record.t0) == c.corners[0]);
         EXPECT_TRUE(floatsOf(record.t1) == c.corners[1]);
         EXPECT_TRUE(floatsOf(record.t2) == c.corners[2]);
-        EXPECT_EQUAL(record.t1.w & ~kSphereBit, c.material);
+        EXPECT_TRUE(isSliver(record) == (c.sliver != 0u));
+        EXPECT_EQUAL(materialOf(record), c.material);
         int at = int(c.record * kRecordTexels);
         EXPECT_TRUE(floatsOf(texelFetch(sceneNormals, at)) == c.normals[0]);
         EXPECT_TRUE(floatsOf(texelFetch(sceneNormals, at + 2)) == c.normals[2]);

@@ -16,6 +16,7 @@ struct Case {
     uint sphere;
     vec3 corners[3];
     vec3 normals[3];
+    uint sliver;
     uint material;
     vec3 baseColor;
     vec3 emission;
@@ -23,10 +24,14 @@ struct Case {
     vec3 cameraPosition;
 };
 
+constexpr std::uint32_t kSliver = 7, kNearlySliver = 8;
+
 // A flat and a smooth primitive, of which the second emits, and spheres that emit every other one.
 Scene makeScene()
 {
     Scene scene = sceneOf(randomTriangles(60, 0.3F, 1), randomSpheres(20, 0.2F, 2));
+    scene.triangles[kSliver] = {{glm::vec3(0.0F), glm::vec3(0.5F, 0.99F * kSliverHeight, 0.0F), glm::vec3(1.0F, 0.0F, 0.0F)}};
+    scene.triangles[kNearlySliver] = {{glm::vec3(0.0F), glm::vec3(0.5F, 1.01F * kSliverHeight, 0.0F), glm::vec3(1.0F, 0.0F, 0.0F)}};
     scene.materials.resize(3);
     scene.materials[1].baseColor = glm::vec3(0.1F, 0.2F, 0.3F);
     scene.materials[1].emission = glm::vec3(1.0F, 2.0F, 3.0F);
@@ -53,6 +58,7 @@ Case caseOf(const Scene& scene, std::uint32_t id)
         if (second) {
             std::copy_n(scene.normals[id].normals, 3, c.normals);
         }
+        c.sliver = id == kSliver ? 1 : 0;
         c.material = second ? 1 : 0;
         c.light = second ? 1 : 0;
     } else {
