@@ -10,6 +10,14 @@ namespace {
 
 constexpr std::uint64_t kTexelBytes = 16;
 
+VkBufferUsageFlags usageOf(BufferKind kind)
+{
+    const VkBufferUsageFlags texels = hasTexels(kind) ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : 0;
+    const VkBufferUsageFlags storage =
+        hasStorage(kind) ? VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT : 0;
+    return VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | texels | storage;
+}
+
 std::string megabytes(std::uint64_t bytes)
 {
     return std::to_string((bytes + (1U << 20) - 1) >> 20) + " MiB";
@@ -18,7 +26,10 @@ std::string megabytes(std::uint64_t bytes)
 // The most bytes that a kernel of this device can see of a buffer of this kind.
 std::uint64_t limitOf(const DeviceDescription& device, BufferKind kind)
 {
-    return kind == BufferKind::Texel ? device.maxTexelElements * kTexelBytes : device.maxStorageBuffer;
+    const std::uint64_t texels = device.maxTexelElements * kTexelBytes;
+    return kind == BufferKind::Texel  ? texels
+           : kind == BufferKind::Both ? std::min(texels, device.maxStorageBuffer)
+                                      : device.maxStorageBuffer;
 }
 
 void refuseTooLarge(const DeviceDescription& device, const std::string& name, BufferKind kind, std::uint64_t size)
@@ -77,9 +88,7 @@ Buffer::Buffer(Device& device, const std::string& name, BufferKind kind, std::ui
     refuseTooLarge(device.description(), name, kind, size);
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = size;
-    info.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                 (kind == BufferKind::Texel ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT
-                                            : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
+    info.usage = usageOf(kind);
     check(vkCreateBuffer(device.handle(), &info, nullptr, &handle_), "create the buffer of the " + name);
     try {
         allocate(name);
@@ -88,7 +97,7 @@ Buffer::Buffer(Device& device, const std::string& name, BufferKind kind, std::ui
         throw;
     }
     device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(handle_), name);
-    if (kind == BufferKind::Texel) {
+    if (hasTexels(kind)) {
         VkBufferViewCreateInfo view{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
         view.buffer = handle_;
         view.format = VK_FORMAT_R32G32B32A32_UINT;

@@ -12,8 +12,12 @@ namespace glim {
 enum class BufferKind {
     Storage,   // read and written by kernels; also an indirect dispatch's arguments
     Texel,     // read by kernels as 16-byte texels (uvec4)
+    Both,      // as Storage, and as texels at its binding + kTexelsOf
     Readback,  // as Storage, and cheap for the host to read
 };
+
+constexpr bool hasTexels(BufferKind kind) { return kind == BufferKind::Texel || kind == BufferKind::Both; }
+constexpr bool hasStorage(BufferKind kind) { return kind != BufferKind::Texel; }
 
 class Buffer {
 public:

@@ -1,15 +1,14 @@
 #include "host/gpu/kernel.hpp"
 
+#include "shaders/shared/bindings.h"
+
 #include <algorithm>
 #include <utility>
 
 namespace glim {
 namespace {
 
-VkDescriptorType descriptorType(BufferKind kind)
-{
-    return kind == BufferKind::Texel ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-}
+std::uint32_t texelBinding(std::uint32_t binding, BufferKind kind) { return hasStorage(kind) ? binding + kTexelsOf : binding; }
 
 std::vector<VkDescriptorPoolSize> poolSizes(const KernelLayout& layout)
 {
@@ -37,13 +36,19 @@ KernelLayout::KernelLayout(const Device& device, const std::vector<BindingSlot>&
     : device_(device), pushSize_(pushSize)
 {
     for (const BindingSlot& slot : slots) {
-        bindings_.push_back({slot.binding, descriptorType(slot.kind), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+        if (hasStorage(slot.kind)) {
+            bindings_.push_back({slot.binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+        }
+        if (hasTexels(slot.kind)) {
+            bindings_.push_back({texelBinding(slot.binding, slot.kind), VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 1,
+                                 VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+        }
     }
     for (const std::uint32_t image : images) {
         bindings_.push_back({image, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
     }
     const auto storage = static_cast<std::uint32_t>(std::count_if(
-        slots.begin(), slots.end(), [](const BindingSlot& slot) { return slot.kind != BufferKind::Texel; }));
+        slots.begin(), slots.end(), [](const BindingSlot& slot) { return hasStorage(slot.kind); }));
     if (storage > device.description().maxStorageBuffers) {
         throw DeviceError("glim's kernels use " + std::to_string(storage) + " storage buffers, but device \"" +
                           device.description().name + "\" allows " +
@@ -87,12 +92,19 @@ Bindings::Bindings(const KernelLayout& layout, const std::map<std::uint32_t, con
     check(vkAllocateDescriptorSets(device_->handle(), &setInfo, &set_), "allocate a descriptor set");
 
     for (const auto& [binding, buffer] : buffers) {
-        const VkDescriptorBufferInfo range{buffer->handle(), 0, VK_WHOLE_SIZE};
-        const VkBufferView view = buffer->texelView();
-        VkWriteDescriptorSet write = writeOf(set_, binding, descriptorType(buffer->kind()));
-        write.pBufferInfo = &range;
-        write.pTexelBufferView = &view;
-        vkUpdateDescriptorSets(device_->handle(), 1, &write, 0, nullptr);
+        if (hasStorage(buffer->kind())) {
+            const VkDescriptorBufferInfo range{buffer->handle(), 0, VK_WHOLE_SIZE};
+            VkWriteDescriptorSet write = writeOf(set_, binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+            write.pBufferInfo = &range;
+            vkUpdateDescriptorSets(device_->handle(), 1, &write, 0, nullptr);
+        }
+        if (hasTexels(buffer->kind())) {
+            const VkBufferView view = buffer->texelView();
+            VkWriteDescriptorSet write =
+                writeOf(set_, texelBinding(binding, buffer->kind()), VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER);
+            write.pTexelBufferView = &view;
+            vkUpdateDescriptorSets(device_->handle(), 1, &write, 0, nullptr);
+        }
     }
     for (const auto& [binding, image] : images) {
         const VkDescriptorImageInfo whole{VK_NULL_HANDLE, image->view(), VK_IMAGE_LAYOUT_GENERAL};

@@ -11,9 +11,17 @@ namespace glim {
 namespace {
 
 template <class T>
-Buffer arrayOf(Device& device, const std::string& name, std::uint64_t count)
+Buffer arrayOf(Device& device, const std::string& name, std::uint64_t count, BufferKind kind = BufferKind::Storage)
 {
-    return Buffer(device, name, BufferKind::Storage, count * sizeof(T));
+    return Buffer(device, name, kind, count * sizeof(T));
+}
+
+// Whose elements are whole texels.
+template <class T>
+Buffer texelArrayOf(Device& device, const std::string& name, std::uint64_t count)
+{
+    static_assert(sizeof(T) % 16 == 0);
+    return arrayOf<T>(device, name, count, BufferKind::Both);
 }
 
 std::map<std::uint32_t, const Buffer*> merged(std::map<std::uint32_t, const Buffer*> a,
@@ -36,17 +44,17 @@ std::vector<BindingSlot> kernelSlots()
 {
     std::vector<BindingSlot> slots = DeviceScene::slots();
     for (std::uint32_t binding = kBindRays; binding <= kBindStatus; ++binding) {
-        slots.push_back({binding, BufferKind::Storage});
+        slots.push_back({binding, binding <= kBindShadowRays ? BufferKind::Both : BufferKind::Storage});
     }
     return slots;
 }
 
 PathBuffers::PathBuffers(Device& device, std::uint32_t capacity)
-    : rays_(arrayOf<PathRay>(device, "rays", capacity)), hits_(arrayOf<PathHit>(device, "hits", capacity)),
-      states_(arrayOf<PathState>(device, "path states", capacity)),
-      radiance_(arrayOf<PathRadiance>(device, "path radiances", capacity)),
-      firstHits_(arrayOf<FirstHit>(device, "first hits", capacity)),
-      shadowRays_(arrayOf<ShadowRay>(device, "shadow rays", capacity)),
+    : rays_(texelArrayOf<PathRay>(device, "rays", capacity)), hits_(texelArrayOf<PathHit>(device, "hits", capacity)),
+      states_(texelArrayOf<PathState>(device, "path states", capacity)),
+      radiance_(texelArrayOf<PathRadiance>(device, "path radiances", capacity)),
+      firstHits_(texelArrayOf<FirstHit>(device, "first hits", capacity)),
+      shadowRays_(texelArrayOf<ShadowRay>(device, "shadow rays", capacity)),
       queueA_(arrayOf<uint>(device, "queue's entries", capacity)), queueB_(arrayOf<uint>(device, "queue's entries", capacity)),
       shadowQueue_(arrayOf<uint>(device, "shadow queue's entries", capacity)),
       queueSizes_(device, "queue sizes", BufferKind::Readback, sizeof(QueueSizes)),

@@ -9,48 +9,90 @@
 #define DECLARE(qualifier, number, type, name) \
     layout(set = 0, binding = number, scalar) qualifier buffer name##Buffer { type name[]; }
 
-#if defined(READS_RAYS)
-DECLARE(readonly, kBindRays, PathRay, pathRays);
-#elif defined(UPDATES_RAYS)
-DECLARE(, kBindRays, PathRay, pathRays);
-#elif defined(WRITES_RAYS)
+// Paths are read as texels: a storage buffer's load costs llvmpipe as much for one word as a texel's four. A kernel that updates what it
+// reads stores values that depend on those read, hence after reading them.
+#define TEXELS(number, name) layout(set = 0, binding = number + kTexelsOf) uniform usamplerBuffer name
+
+#if defined(READS_RAYS) || defined(UPDATES_RAYS)
+TEXELS(kBindRays, rayTexels);
+
+PathRay fetchRay(uint slot)
+{
+    uvec4 a = texelFetch(rayTexels, int(2u * slot));
+    uvec4 b = texelFetch(rayTexels, int(2u * slot + 1u));
+    return PathRay(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w);
+}
+#endif
+#if defined(WRITES_RAYS) || defined(UPDATES_RAYS)
 DECLARE(writeonly, kBindRays, PathRay, pathRays);
 #endif
 
-#if defined(READS_HITS)
-DECLARE(readonly, kBindHits, PathHit, pathHits);
-#elif defined(UPDATES_HITS)
-DECLARE(, kBindHits, PathHit, pathHits);
+#if defined(READS_HITS) || defined(UPDATES_HITS)
+TEXELS(kBindHits, hitTexels);
+
+PathHit fetchHit(uint slot)
+{
+    uvec4 a = texelFetch(hitTexels, int(slot));
+    return PathHit(a.x, uintBitsToFloat(a.y), uintBitsToFloat(a.zw));
+}
+#endif
+#if defined(UPDATES_HITS)
+DECLARE(writeonly, kBindHits, PathHit, pathHits);
 #endif
 
-#if defined(READS_STATES)
-DECLARE(readonly, kBindStates, PathState, pathStates);
-#elif defined(WRITES_STATES)
+#if defined(READS_STATES) || defined(UPDATES_STATES)
+TEXELS(kBindStates, stateTexels);
+
+PathState fetchState(uint slot)
+{
+    uvec4 a = texelFetch(stateTexels, int(2u * slot));
+    uvec4 b = texelFetch(stateTexels, int(2u * slot + 1u));
+    return PathState(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.x), uintBitsToFloat(b.y), b.zw);
+}
+#endif
+#if defined(WRITES_STATES) || defined(UPDATES_STATES)
 DECLARE(writeonly, kBindStates, PathState, pathStates);
-#elif defined(UPDATES_STATES)
-DECLARE(, kBindStates, PathState, pathStates);
 #endif
 
-#if defined(READS_RADIANCE)
-DECLARE(readonly, kBindRadiance, PathRadiance, pathRadiance);
-#elif defined(WRITES_RADIANCE)
+#if defined(READS_RADIANCE) || defined(UPDATES_RADIANCE)
+TEXELS(kBindRadiance, radianceTexels);
+
+PathRadiance fetchRadiance(uint slot)
+{
+    uvec4 a = texelFetch(radianceTexels, int(slot));
+    return PathRadiance(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w));
+}
+#endif
+#if defined(WRITES_RADIANCE) || defined(UPDATES_RADIANCE)
 DECLARE(writeonly, kBindRadiance, PathRadiance, pathRadiance);
-#elif defined(UPDATES_RADIANCE)
-DECLARE(, kBindRadiance, PathRadiance, pathRadiance);
 #endif
 
 #if defined(READS_FIRST_HITS)
-DECLARE(readonly, kBindFirstHits, FirstHit, pathFirstHits);
+TEXELS(kBindFirstHits, firstHitTexels);
+
+FirstHit fetchFirstHit(uint slot)
+{
+    uvec4 a = texelFetch(firstHitTexels, int(2u * slot));
+    uvec4 b = texelFetch(firstHitTexels, int(2u * slot + 1u));
+    return FirstHit(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.xyz), uintBitsToFloat(b.w));
+}
 #elif defined(WRITES_FIRST_HITS)
 DECLARE(writeonly, kBindFirstHits, FirstHit, pathFirstHits);
 #endif
 
-#if defined(READS_SHADOW_RAYS)
-DECLARE(readonly, kBindShadowRays, ShadowRay, pathShadowRays);
-#elif defined(WRITES_SHADOW_RAYS)
+#if defined(READS_SHADOW_RAYS) || defined(UPDATES_SHADOW_RAYS)
+TEXELS(kBindShadowRays, shadowRayTexels);
+
+ShadowRay fetchShadowRay(uint slot)
+{
+    uvec4 a = texelFetch(shadowRayTexels, int(3u * slot));
+    uvec4 b = texelFetch(shadowRayTexels, int(3u * slot + 1u));
+    uvec4 c = texelFetch(shadowRayTexels, int(3u * slot + 2u));
+    return ShadowRay(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz), uintBitsToFloat(c.w));
+}
+#endif
+#if defined(WRITES_SHADOW_RAYS) || defined(UPDATES_SHADOW_RAYS)
 DECLARE(writeonly, kBindShadowRays, ShadowRay, pathShadowRays);
-#elif defined(UPDATES_SHADOW_RAYS)
-DECLARE(, kBindShadowRays, ShadowRay, pathShadowRays);
 #endif
 
 #if defined(READS_ACTIVE_QUEUE)

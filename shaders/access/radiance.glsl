@@ -13,7 +13,7 @@ void addRadiance(uint slot, vec3 contribution, uint events, uint samples)
         return;
     }
     ClampedLight light = clampIndirect(contribution, events, pass.clampIndirect / float(samples));
-    PathRadiance sum = pathRadiance[slot];
+    PathRadiance sum = fetchRadiance(slot);
     pathRadiance[slot] = PathRadiance(sum.radiance + light.kept, sum.clamped + light.removed);
 }
 

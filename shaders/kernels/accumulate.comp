@@ -49,9 +49,9 @@ void addPixel(uint pixel)
     }
     for (uint i = 0u; i < pass.sampleCount; ++i) {
         uint slot = pixel * pass.sampleCount + i;
-        PathRadiance path = pathRadiance[slot];
+        PathRadiance path = fetchRadiance(slot);
         if (isFinite(path.radiance.r) && isFinite(path.radiance.g) && isFinite(path.radiance.b)) {
-            FirstHit first = pathFirstHits[slot];
+            FirstHit first = fetchFirstHit(slot);
             sums = addSample(sums, path, first);
             if (kSuspects) {
                 keepBrightest(at, luminanceOf(path.radiance), firstSample + i);

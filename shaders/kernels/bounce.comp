@@ -72,12 +72,12 @@ float survivalOf(vec3 throughput, float etaScale)
 
 void visit(uint slot)
 {
-    PathHit hit = pathHits[slot];
+    PathHit hit = fetchHit(slot);
     if (hit.record == kNoRecord) {
         return;
     }
-    PathRay ray = pathRays[slot];
-    PathState state = pathStates[slot];
+    PathRay ray = fetchRay(slot);
+    PathState state = fetchState(slot);
     Surface surface = surfaceAt(ray, hit);
     SampleId id = sampleOfSlot(slot);
     vec2 u = unitFloat(samplePair(id, bounceDimension(pass.bounce, kDimensionScatter), kSobol));
@@ -94,8 +94,8 @@ void visit(uint slot)
     if (!(fate.y < survival)) {
         return;
     }
-    pathRays[slot] = PathRay(leavePoint(surface, scatter.wi), hit.record, scatter.wi);
-    pathStates[slot] = PathState(throughput / survival, scatter.pdf, max(0.0, dot(scatter.wi, surface.shading)), etaScale);
+    pathRays[slot] = PathRay(leavePoint(surface, scatter.wi), hit.record, scatter.wi, 0u);
+    pathStates[slot] = PathState(throughput / survival, scatter.pdf, max(0.0, dot(scatter.wi, surface.shading)), etaScale, uvec2(0u));
     nextQueue[atomicAdd(queueTails.next, 1u)] = slot;
 }
 

@@ -27,22 +27,22 @@ void askForRay(uint slot, Surface surface, FlatMaterial material)
         return;
     }
     float share = local.z / (pdfUniformHemisphere() * float(pass.lightSamples));
-    vec3 contribution = pathStates[slot].throughput * evalLambert(material.baseColor, local.z) * share;
+    vec3 contribution = fetchState(slot).throughput * evalLambert(material.baseColor, local.z) * share;
     if (all(equal(contribution, vec3(0.0)))) {
         return;
     }
     pathShadowRays[slot] =
-        ShadowRay(leavePoint(surface, wi), pathHits[slot].record, wi, kNoRecord, contribution, kInfinity);
+        ShadowRay(leavePoint(surface, wi), fetchHit(slot).record, wi, kNoRecord, contribution, kInfinity);
     shadowQueue[atomicAdd(queueTails.shadow, 1u)] = slot;
 }
 
 void visit(uint slot)
 {
-    PathHit hit = pathHits[slot];
+    PathHit hit = fetchHit(slot);
     if (hit.record == kNoRecord) {
         return;
     }
-    PathRay ray = pathRays[slot];
+    PathRay ray = fetchRay(slot);
     Surface surface = surfaceAt(ray, hit);
     turnToViewer(surface, -ray.direction);
     FlatMaterial material = fetchMaterial(surface.material);

@@ -91,7 +91,7 @@ void askForShadowRay(uint slot, PathState state, Surface surface, FlatMaterial m
         return;
     }
     bool infinite = light.reach > 1.0;
-    pathShadowRays[slot] = ShadowRay(origin, pathHits[slot].record, infinite ? light.wi : light.target - origin,
+    pathShadowRays[slot] = ShadowRay(origin, fetchHit(slot).record, infinite ? light.wi : light.target - origin,
                                      light.record, contribution, light.reach);
     shadowQueue[atomicAdd(queueTails.shadow, 1u)] = slot;
 }
@@ -114,9 +114,9 @@ void visitNothing(uint slot, PathState state)
 
 void visit(uint slot)
 {
-    PathRay ray = pathRays[slot];
-    PathHit hit = pathHits[slot];
-    PathState state = pathStates[slot];
+    PathRay ray = fetchRay(slot);
+    PathHit hit = fetchHit(slot);
+    PathState state = fetchState(slot);
     bool first = pass.addsFound != 0u;
     if (hit.record == kNoRecord) {
         if (first) {

@@ -20,9 +20,9 @@ vec3 stepsOf(PathRay ray)
 vec3 viewOf(uint slot)
 {
     if (kView == kViewBvhSteps) {
-        return stepsOf(pathRays[slot]);
+        return stepsOf(fetchRay(slot));
     }
-    FirstHit first = pathFirstHits[slot];
+    FirstHit first = fetchFirstHit(slot);
     if (kView == kViewDepth) {
         return vec3(first.alpha > 0.0 ? first.depth : 0.0);
     }

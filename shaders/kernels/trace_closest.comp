@@ -15,9 +15,9 @@ PathHit scanRecords(uint slot)
 {
     PathHit met = makeMiss();
     if (pass.firstRecord > 0u) {
-        met = pathHits[slot];
+        met = fetchHit(slot);
     }
-    return scanClosest(pathRays[slot], met, pass.firstRecord, pass.endRecord);
+    return scanClosest(fetchRay(slot), met, pass.firstRecord, pass.endRecord);
 }
 
 void main()
@@ -25,7 +25,7 @@ void main()
     uint entry = interleavedInvocation();
     if (entry < queueSizes.closest) {
         uint slot = activeQueue[entry];
-        pathHits[slot] = kBruteForce ? scanRecords(slot) : traceClosest(pathRays[slot]);
+        pathHits[slot] = kBruteForce ? scanRecords(slot) : traceClosest(fetchRay(slot));
     }
     checkLoopBudget(pass.canarySteps);
 }

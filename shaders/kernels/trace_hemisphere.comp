@@ -32,8 +32,8 @@ PathHit scanRecords(uint slot, PathRay ray, ShadowRay soFar)
 
 void visit(uint slot)
 {
-    ShadowRay shadow = pathShadowRays[slot];
-    PathRay ray = PathRay(shadow.origin, shadow.source, shadow.direction);
+    ShadowRay shadow = fetchShadowRay(slot);
+    PathRay ray = PathRay(shadow.origin, shadow.source, shadow.direction, 0u);
     PathHit hit = kBruteForce ? scanRecords(slot, ray, shadow) : traceClosest(ray);
     if (pass.endRecord == pass.recordCount) {
         addRadiance(slot, shadow.contribution * radianceFound(ray, hit), pass.bounce + 1u, pass.lightSamples);

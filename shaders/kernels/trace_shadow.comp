@@ -25,7 +25,7 @@ void main()
     uint entry = interleavedInvocation();
     if (entry < queueSizes.shadow) {
         uint slot = shadowQueue[entry];
-        ShadowRay ray = pathShadowRays[slot];
+        ShadowRay ray = fetchShadowRay(slot);
         bool clear = kBruteForce ? isUnoccludedSoFar(slot, ray) : isUnoccluded(ray);
         if (clear && pass.endRecord == pass.recordCount) {
             addRadiance(slot, ray.contribution, pass.bounce + 1u, pass.lightSamples);

@@ -5,6 +5,9 @@
 
 GLIM_SHARED_BEGIN
 
+// What kernels write as a storage buffer they read as texels at the binding that is so much higher.
+GLIM_CONST uint kTexelsOf = 64u;
+
 // scene.glsl
 GLIM_CONST uint kBindNodes = 0u;
 GLIM_CONST uint kBindRecords = 1u;

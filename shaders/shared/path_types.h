@@ -1,4 +1,5 @@
-// What kernels hand to each other. Arrays are indexed by slot: the place of a path in the pass.
+// What kernels hand to each other. Arrays are indexed by slot: the place of a path in the pass. Up to ShadowRay they are whole texels,
+// as which kernels read them (paths.glsl).
 #ifndef GLIM_SHARED_PATH_TYPES_H
 #define GLIM_SHARED_PATH_TYPES_H
 #include "vocabulary.h"
@@ -9,6 +10,7 @@ struct PathRay {
     vec3 origin;
     uint source;     // record that the ray leaves, or kNoRecord
     vec3 direction;  // unit
+    uint unused;
 };
 
 struct PathHit {
@@ -22,6 +24,7 @@ struct PathState {
     float pdf;       // of the ray's direction per steradian; 0: camera, mirror or glass, which light sampling cannot find
     float cosine;    // of the ray's direction against the shading normal it left, >= 0
     float etaScale;  // product of squared relative indices: throughput * etaScale is free of the glass's compression
+    uvec2 unused;
 };
 
 struct PathRadiance {

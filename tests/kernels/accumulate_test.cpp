@@ -52,8 +52,8 @@ Outcome accumulate(const std::vector<PathRadiance>& radiance, const std::vector<
     PathBuffers paths(testDevice(), kPixels * kSamples);
     Buffer blocks(testDevice(), "test's blocks", BufferKind::Storage, kPixels * sizeof(BlockSums));
     Buffer pages(testDevice(), "test's pages", BufferKind::Storage, kPixels * sizeof(PixelMoments));
-    Buffer given(testDevice(), "test's radiance", BufferKind::Storage, radiance.size() * sizeof(PathRadiance));
-    Buffer firstHits(testDevice(), "test's first hits", BufferKind::Storage, radiance.size() * sizeof(FirstHit));
+    Buffer given(testDevice(), "test's radiance", BufferKind::Both, radiance.size() * sizeof(PathRadiance));
+    Buffer firstHits(testDevice(), "test's first hits", BufferKind::Both, radiance.size() * sizeof(FirstHit));
     upload(blocks, std::span<const BlockSums>(std::vector<BlockSums>(kPixels)));
     upload(pages, std::span<const PixelMoments>(std::vector<PixelMoments>(kPixels)));
     upload(given, std::span<const PathRadiance>(radiance));

@@ -45,7 +45,7 @@ void leave(PathRay ray, PathHit hit, Record record, float size)
     float offset = largest(origin - surface.point) - 4.8e-7 * largest(surface.point);
     atomicMax(tally.largestOffset, floatBitsToUint(max(0.0, offset / size)));
     bool again = intersectRecord(beginWalk(origin, wi), record, kInfinity, false).t > 0.0;
-    PathHit next = traceClosest(PathRay(origin, hit.record, wi));
+    PathHit next = traceClosest(PathRay(origin, hit.record, wi, 0u));
     vec3 naive = ray.origin + ray.direction * hit.t;
     bool naiveAgain = intersectRecord(beginWalk(naive, wi), record, kInfinity, false).t > 1e-4;
     atomicAdd(tally.naiveHits, naiveAgain ? 1u : 0u);
@@ -69,7 +69,7 @@ void main()
     vec3 target = setup.reach > 0.0 ? near : v0 + e1 * b.x + e2 * b.y;
     vec3 direction = sampleSphere(unitFloat(randomBits(2u).xy));
     float distance_ = setup.reach > 0.0 ? 4.0 * setup.reach : 0.5 * size;
-    PathRay ray = PathRay(target - direction * distance_, kNoRecord, direction);
+    PathRay ray = PathRay(target - direction * distance_, kNoRecord, direction, 0u);
     TriangleHit hit = intersectRecord(beginWalk(ray.origin, ray.direction), record, kInfinity, false);
     if (hit.t > 0.0) {
         leave(ray, PathHit(index, hit.t, hit.barycentric), record, size);

@@ -36,7 +36,7 @@ Receiver makeReceiver(Case c)
     if (c.height == 0.0) {
         return Receiver(Surface(c.point, vec3(0.0), c.normal, c.normal, true, 0u, 0u), kNoRecord, 0.0);
     }
-    PathRay ray = PathRay(c.point + c.normal * c.height, kNoRecord, -c.normal);
+    PathRay ray = PathRay(c.point + c.normal * c.height, kNoRecord, -c.normal, 0u);
     PathHit hit = traceClosest(ray);
     Surface surface = surfaceAt(ray, hit);
     return Receiver(surface, hit.record, length(surface.point - c.point));
@@ -60,12 +60,12 @@ float estimate(Receiver receiver, LightSample light)
 void comparePdf(Receiver receiver, LightSample light, inout Result result)
 {
     vec3 origin = leavePoint(receiver.surface, light.wi);
-    PathHit hit = traceClosest(PathRay(origin, receiver.record, light.wi));
+    PathHit hit = traceClosest(PathRay(origin, receiver.record, light.wi, 0u));
     if (hit.record != light.record) {
         ++result.elsewhere;
         return;
     }
-    Surface met = surfaceAt(PathRay(origin, receiver.record, light.wi), hit);
+    Surface met = surfaceAt(PathRay(origin, receiver.record, light.wi, 0u), hit);
     FlatEmitter emitter = fetchEmitter(met.emitter - 1u);
     float cosine = abs(dot(met.geometric, light.wi));
     // Nearer to grazing the rounding of the directions alone is more than the tolerance.

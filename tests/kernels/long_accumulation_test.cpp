@@ -47,14 +47,14 @@ std::vector<PixelMoments> addUp(const std::vector<Samples>& blocks)
     PathBuffers paths(testDevice(), kPixels * kBlockSamples);
     Buffer open(testDevice(), "test's blocks", BufferKind::Storage, kPixels * sizeof(BlockSums));
     Buffer pages(testDevice(), "test's pages", BufferKind::Storage, kPixels * sizeof(PixelMoments));
-    Buffer firstHits(testDevice(), "test's first hits", BufferKind::Storage, blocks[0].size() * sizeof(FirstHit));
+    Buffer firstHits(testDevice(), "test's first hits", BufferKind::Both, blocks[0].size() * sizeof(FirstHit));
     upload(open, std::span<const BlockSums>(std::vector<BlockSums>(kPixels)));
     upload(pages, std::span<const PixelMoments>(std::vector<PixelMoments>(kPixels)));
     upload(firstHits, std::span<const FirstHit>(std::vector<FirstHit>(blocks[0].size())));
     std::deque<Buffer> radiances;
     std::deque<Bindings> bindings;
     for (const Samples& block : blocks) {
-        radiances.emplace_back(testDevice(), "test's radiance", BufferKind::Storage, block.size() * sizeof(PathRadiance));
+        radiances.emplace_back(testDevice(), "test's radiance", BufferKind::Both, block.size() * sizeof(PathRadiance));
         upload(radiances.back(), std::span<const PathRadiance>(block));
         std::map<std::uint32_t, const Buffer*> bound = paths.buffers(0);
         bound[kBindRadiance] = &radiances.back();

@@ -25,10 +25,11 @@ void main()
         EXPECT_EQUAL(activeQueue[slot], 3000u + slot);
         EXPECT_EQUAL(shadowQueue[slot], 4000u + slot);
         EXPECT_EQUAL(queueSizes.shadowGroups.z, 77u);
-        EXPECT_EQUAL(pathRays[slot].source, 5000u + slot);
-        EXPECT_EQUAL(pathShadowRays[slot].target, 6000u + slot);
-        pathStates[slot].pdf += f;
-        pathRadiance[slot].clamped += 2.0 * f;
+        EXPECT_EQUAL(fetchRay(slot).source, 5000u + slot);
+        EXPECT_EQUAL(fetchShadowRay(slot).target, 6000u + slot);
+        EXPECT_EQUAL(fetchHit(slot).record, 8000u + slot);
+        pathStates[slot].pdf = fetchState(slot).pdf + f;
+        pathRadiance[slot].clamped = fetchRadiance(slot).clamped + 2.0 * f;
         pathHits[slot] = PathHit(slot, 3.0 * f, vec2(0.25, 0.5));
         pathFirstHits[slot] = FirstHit(vec3(0.5), 1.0, vec3(0.0, 1.0, 0.0), 4.0 * f);
         nextQueue[slot] = 7000u + slot;

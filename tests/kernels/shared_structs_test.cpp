@@ -9,7 +9,7 @@ namespace glim {
 namespace {
 
 // Words, all of them named in shared_fields.h, without padding.
-static_assert(sizeof(PathRay) == 28 && sizeof(PathHit) == 16 && sizeof(PathState) == 24 && sizeof(PathRadiance) == 16);
+static_assert(sizeof(PathRay) == 32 && sizeof(PathHit) == 16 && sizeof(PathState) == 32 && sizeof(PathRadiance) == 16);
 static_assert(sizeof(FirstHit) == 32 && sizeof(ShadowRay) == 48 && sizeof(QueueSizes) == 32 && sizeof(QueueTails) == 8);
 static_assert(sizeof(RayCounts) == 16 && sizeof(Located) == 8 && sizeof(Status) == 12 + 8 * kMaxLocated);
 static_assert(sizeof(BlockSums) == 52 && sizeof(Pass) == 124 && sizeof(PixelMoments) == 68);

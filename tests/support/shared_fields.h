@@ -9,7 +9,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 257u;
+GLIM_CONST uint kSharedWords = 260u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -42,9 +42,9 @@ GLIM_SHARED_END
 #endif
 
 #ifdef F3
-F3(ray.origin) U(ray.source) F3(ray.direction)
+F3(ray.origin) U(ray.source) F3(ray.direction) U(ray.unused)
 U(hit.record) F(hit.t) F2(hit.barycentric)
-F3(state.throughput) F(state.pdf) F(state.cosine) F(state.etaScale)
+F3(state.throughput) F(state.pdf) F(state.cosine) F(state.etaScale) U2(state.unused)
 F3(radiance.radiance) F(radiance.clamped)
 F3(firstHit.albedo) F(firstHit.alpha) F3(firstHit.normal) F(firstHit.depth)
 F3(shadowRay.origin) U(shadowRay.source) F3(shadowRay.direction) U(shadowRay.target) F3(shadowRay.contribution)
