@@ -4,15 +4,18 @@
 
 #include "traverse.glsl"
 
-// The closest of `met` (kNoRecord: nothing yet, at infinity) and what is among records [first, end).
+// The closest of `met` (kNoRecord: nothing yet) and what is among records [first, end).
 PathHit scanClosest(PathRay ray, PathHit met, uint first, uint end)
 {
     Walk walk = beginWalk(ray.origin, ray.direction);
-    Closest best = Closest(met, met.record == kNoRecord ? kNoId : fetchRecord(met.record).t0.w);
+    Closest best = makeMiss();
+    if (met.record != kNoRecord) {
+        best = Closest(met.record, fetchRecord(met.record).t0.w, TriangleHit(met.t, met.barycentric, 1.0));
+    }
     for (uint i = first; i < end; ++i) {
         meetRecord(walk, i, ray.source, best);
     }
-    return best.hit;
+    return hitOf(best);
 }
 
 // True if nothing but `target` among records [first, end) lies between origin and origin + reach * direction.

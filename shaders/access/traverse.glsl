@@ -30,7 +30,7 @@ TriangleHit intersectRecord(Walk walk, Record record, float tmax, bool isSource)
     if (isSphere(record)) {
         float t = intersectSphere(walk.origin, walk.direction, floatsOf(record.t0), uintBitsToFloat(record.t1.x), tmax,
                                   isSource);
-        return TriangleHit(t, vec2(0.0));
+        return TriangleHit(t, vec2(0.0), 1.0);
     }
     if (isSource) {
         return kNoTriangleHit;
@@ -86,15 +86,21 @@ void visitNode(Walk walk, uint node, float tmax, out Siblings children, out Reco
 }
 
 struct Closest {
-    PathHit hit;
+    uint record;
     uint id;  // of its primitive
+    TriangleHit hit;
 };
 
 const uint kNoId = 0xffffffffu;
 
-PathHit makeMiss()
+Closest makeMiss()
 {
-    return PathHit(kNoRecord, kInfinity, vec2(0.0));
+    return Closest(kNoRecord, kNoId, TriangleHit(kInfinity, vec2(0.0), 1.0));
+}
+
+PathHit hitOf(Closest best)
+{
+    return PathHit(best.record, best.hit.t, barycentricOf(best.hit));
 }
 
 // Ties go to the lower primitive id, so that the result does not depend on the tree.
@@ -103,7 +109,7 @@ void meetRecord(Walk walk, uint index, uint source, inout Closest best)
     Record record = fetchRecord(index);
     TriangleHit hit = intersectRecord(walk, record, best.hit.t, index == source);
     if (hit.t > 0.0 && (hit.t < best.hit.t || record.t0.w < best.id)) {
-        best = Closest(PathHit(index, hit.t, hit.barycentric), record.t0.w);
+        best = Closest(index, record.t0.w, hit);
     }
 }
 
@@ -117,7 +123,7 @@ PathHit traceClosest(PathRay ray, out Steps steps)
 {
     steps = Steps(0u, 0u);
     Walk walk = beginWalk(ray.origin, ray.direction);
-    Closest best = Closest(makeMiss(), kNoId);
+    Closest best = makeMiss();
     Siblings stack[kMaxBvhDepth];
     uint depth = 0u;
     Siblings siblings = kRoot;
@@ -140,7 +146,7 @@ PathHit traceClosest(PathRay ray, out Steps steps)
             siblings = stack[depth];
         }
     }
-    return best.hit;
+    return hitOf(best);
 }
 
 PathHit traceClosest(PathRay ray)

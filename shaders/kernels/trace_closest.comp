@@ -13,7 +13,7 @@
 
 PathHit scanRecords(uint slot)
 {
-    PathHit met = makeMiss();
+    PathHit met = hitOf(makeMiss());
     if (pass.firstRecord > 0u) {
         met = fetchHit(slot);
     }

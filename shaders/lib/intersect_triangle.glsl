@@ -2,12 +2,19 @@
 #ifndef GLIM_LIB_INTERSECT_TRIANGLE
 #define GLIM_LIB_INTERSECT_TRIANGLE
 
+// Weights are divided by their sum once, of the hit that counts.
 struct TriangleHit {
-    float t;           // < 0: no hit
-    vec2 barycentric;  // weights of v1 and v2
+    float t;       // < 0: no hit
+    vec2 weights;  // of v1 and v2
+    float sum;     // of all three
 };
 
-const TriangleHit kNoTriangleHit = TriangleHit(-1.0, vec2(0.0));
+const TriangleHit kNoTriangleHit = TriangleHit(-1.0, vec2(0.0), 1.0);
+
+vec2 barycentricOf(TriangleHit hit)
+{
+    return hit.weights / hit.sum;
+}
 
 // A ray's shear and axis permutation for the watertight test.
 struct Shear {
@@ -62,19 +69,35 @@ float crossAccurately(vec2 a, Halves aHalves, vec2 b, Halves bHalves)
 }
 
 // Twice the signed areas of the origin with each edge.
-struct EdgeFunctions {
-    float u, v, w;
-};
-
-EdgeFunctions edgeFunctions(vec2 a, vec2 b, vec2 c)
+vec3 edgeFunctions(vec2 a, vec2 b, vec2 c)
 {
-    return EdgeFunctions(c.x * b.y - c.y * b.x, a.x * c.y - a.y * c.x, b.x * a.y - b.y * a.x);
+    return vec3(c.x * b.y - c.y * b.x, a.x * c.y - a.y * c.x, b.x * a.y - b.y * a.x);
 }
 
-EdgeFunctions edgeFunctionsAccurately(vec2 a, vec2 b, vec2 c)
+vec3 edgeFunctionsAccurately(vec2 a, vec2 b, vec2 c)
 {
     Halves ha = halve(a), hb = halve(b), hc = halve(c);
-    return EdgeFunctions(crossAccurately(c, hc, b, hb), crossAccurately(a, ha, c, hc), crossAccurately(b, hb, a, ha));
+    return vec3(crossAccurately(c, hc, b, hb), crossAccurately(a, ha, c, hc), crossAccurately(b, hb, a, ha));
+}
+
+// The bits of floats as integers: only positive ones are above 0, and as unsigned integers only negative ones are above this. Integer
+// minima and maxima are one instruction each on llvmpipe, those of floats three.
+const uint kMinusZero = 0x80000000u;
+
+// Some are negative and some are positive.
+bool haveBothSigns(vec3 e)
+{
+    ivec3 i = floatBitsToInt(e);
+    uvec3 u = floatBitsToUint(e);
+    return max(i.x, max(i.y, i.z)) > 0 && max(u.x, max(u.y, u.z)) > kMinusZero;
+}
+
+// All three are on the same side of an axis, and not on it.
+bool areBeside(vec2 a, vec2 b, vec2 c)
+{
+    ivec2 least = min(floatBitsToInt(a), min(floatBitsToInt(b), floatBitsToInt(c)));
+    uvec2 most = min(floatBitsToUint(a), min(floatBitsToUint(b), floatBitsToUint(c)));
+    return max(least.x, least.y) > 0 || max(most.x, most.y) > kMinusZero;
 }
 
 // Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013, without the double fallback: rounding is
@@ -90,18 +113,14 @@ TriangleHit intersectWatertight(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3
     vec2 pa = a.xy - shear.s.xy * a.z;
     vec2 pb = b.xy - shear.s.xy * b.z;
     vec2 pc = c.xy - shear.s.xy * c.z;
-    EdgeFunctions e = edgeFunctions(pa, pb, pc);
+    vec3 e = edgeFunctions(pa, pb, pc);
     if (sliver) {
         e = edgeFunctionsAccurately(pa, pb, pc);
     }
-    bool outside = min(e.u, min(e.v, e.w)) < 0.0 && max(e.u, max(e.v, e.w)) > 0.0;
-    vec2 low = min(pa, min(pb, pc));
-    vec2 high = max(pa, max(pb, pc));
-    bool beside = max(low.x, low.y) > 0.0 || min(high.x, high.y) < 0.0;
-    float det = e.u + e.v + e.w;
-    float t = shear.s.z * (e.u * a.z + e.v * b.z + e.w * c.z) / det;
-    bool hit = !outside && !beside && det != 0.0 && t > 0.0 && t <= tmax;
-    return hit ? TriangleHit(t, vec2(e.v, e.w) / det) : kNoTriangleHit;
+    float det = e.x + e.y + e.z;
+    float t = shear.s.z * (e.x * a.z + e.y * b.z + e.z * c.z) / det;
+    bool hit = !haveBothSigns(e) && !areBeside(pa, pb, pc) && det != 0.0 && t > 0.0 && t <= tmax;
+    return TriangleHit(hit ? t : -1.0, e.yz, det);
 }
 
 // Moller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997, for comparison: it leaks at edges.
@@ -116,7 +135,7 @@ TriangleHit intersectMollerTrumbore(vec3 origin, vec3 direction, vec3 v0, vec3 v
     vec2 barycentric = vec2(dot(s, p), dot(direction, q)) / det;
     float t = dot(e2, q) / det;
     bool inside = barycentric.x >= 0.0 && barycentric.y >= 0.0 && barycentric.x + barycentric.y <= 1.0;
-    return det != 0.0 && inside && t > 0.0 && t <= tmax ? TriangleHit(t, barycentric) : kNoTriangleHit;
+    return det != 0.0 && inside && t > 0.0 && t <= tmax ? TriangleHit(t, barycentric, 1.0) : kNoTriangleHit;
 }
 
 #endif

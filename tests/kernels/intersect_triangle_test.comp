@@ -30,7 +30,7 @@ void expectVerdict(Case c, bool sliver)
     TriangleHit back = intersectWatertight(c.origin, shear, c.v0, c.v2, c.v1, c.tmax, sliver);
     EXPECT_TRUE(c.verdict > kHit || (back.t > 0.0) == isHit);
     if (isHit) {
-        vec2 b = hit.barycentric;
+        vec2 b = barycentricOf(hit);
         float less = uintBitsToFloat(floatBitsToUint(hit.t) - 1u);
         EXPECT_TRUE(hit.t <= c.tmax && min(b.x, b.y) >= 0.0 && b.x + b.y <= 1.0000002);
         EXPECT_TRUE(intersectWatertight(c.origin, shear, c.v0, c.v1, c.v2, hit.t, sliver).t == hit.t);
@@ -38,7 +38,7 @@ void expectVerdict(Case c, bool sliver)
     }
     if (isHit && c.verdict == kHit) {
         EXPECT_NEAR(hit.t, c.t, c.tTolerance);
-        EXPECT_NEAR_VECTOR(hit.barycentric, c.barycentric, c.barycentricTolerance);
+        EXPECT_NEAR_VECTOR(barycentricOf(hit), c.barycentric, c.barycentricTolerance);
     }
 }
 
@@ -52,7 +52,7 @@ void main()
             TriangleHit other = intersectMollerTrumbore(c.origin, c.direction, c.v0, c.v1, c.v2, c.tmax);
             EXPECT_TRUE((other.t > 0.0) == (c.verdict == kHit));
             EXPECT_TRUE(c.verdict != kHit || abs(other.t - c.t) <= 1e-5 * c.t);
-            EXPECT_TRUE(c.verdict != kHit || distance(other.barycentric, c.barycentric) <= 1e-4);
+            EXPECT_TRUE(c.verdict != kHit || distance(barycentricOf(other), c.barycentric) <= 1e-4);
         }
     }
     endTest();

@@ -72,7 +72,7 @@ void main()
     PathRay ray = PathRay(target - direction * distance_, kNoRecord, direction, 0u);
     TriangleHit hit = intersectRecord(beginWalk(ray.origin, ray.direction), record, kInfinity, false);
     if (hit.t > 0.0) {
-        leave(ray, PathHit(index, hit.t, hit.barycentric), record, size);
+        leave(ray, PathHit(index, hit.t, barycentricOf(hit)), record, size);
     }
     endTest();
 }

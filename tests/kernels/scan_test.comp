@@ -32,8 +32,8 @@ void main()
         Case c = cases[TEST_THREAD];
         uint records = uint(textureSize(sceneRecords)) / kRecordTexels;
         PathHit expected = traceClosest(c.ray);
-        PathHit met = scanClosest(c.ray, makeMiss(), 0u, c.cuts.x);
-        EXPECT_TRUE(met.record < c.cuts.x || sameBits(met, makeMiss()));
+        PathHit met = scanClosest(c.ray, hitOf(makeMiss()), 0u, c.cuts.x);
+        EXPECT_TRUE(met.record < c.cuts.x || sameBits(met, hitOf(makeMiss())));
         PathHit next = scanClosest(c.ray, met, c.cuts.x, c.cuts.y);
         EXPECT_TRUE(sameBits(next, met) || next.record >= c.cuts.x && next.record < c.cuts.y && next.t <= met.t);
         PathHit hit = scanClosest(c.ray, next, c.cuts.y, records);

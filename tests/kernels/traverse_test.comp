@@ -27,7 +27,7 @@ PathHit tryAll(PathRay ray, uint records)
         Record record = fetchRecord(i);
         TriangleHit hit = intersectRecord(walk, record, kInfinity, i == ray.source);
         if (hit.t > 0.0 && (hit.t < best.t || (hit.t == best.t && record.t0.w < bestId))) {
-            best = PathHit(i, hit.t, hit.barycentric);
+            best = PathHit(i, hit.t, barycentricOf(hit));
             bestId = record.t0.w;
         }
     }
