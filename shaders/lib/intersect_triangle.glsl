@@ -16,27 +16,44 @@ vec2 barycentricOf(TriangleHit hit)
     return hit.weights / hit.sum;
 }
 
-// A ray's shear and axis permutation for the watertight test.
-struct Shear {
-    vec3 s;     // shear x, shear y, scale z
-    uint axis;  // of the largest direction component: 0, 1, 2
-    bool flip;  // that component is negative: x and y swap, to keep the winding
+// Which component of a vector stands on an axis: its x, its y, or neither.
+struct Source {
+    bool x, y;
 };
 
-vec3 permute(vec3 v, uint axis, bool flip)
+// A ray's shear and the permutation that puts the largest direction component on z; x and y swap where it is negative, to keep the
+// winding.
+struct Shear {
+    vec3 s;  // shear x, shear y, scale z
+    Source x, y, z;
+};
+
+float pick(vec3 v, Source source)
 {
-    vec3 p = axis == 2u ? v : axis == 0u ? v.yzx : v.zxy;
-    return flip ? p.yxz : p;
+    return source.x ? v.x : source.y ? v.y : v.z;
+}
+
+vec3 permute(vec3 v, Shear shear)
+{
+    return vec3(pick(v, shear.x), pick(v, shear.y), pick(v, shear.z));
+}
+
+Source sourceOf(uint component)
+{
+    return Source(component == 0u, component == 1u);
 }
 
 Shear makeShear(vec3 d)
 {
     vec3 a = abs(d);
-    uint axis = a.z >= a.x && a.z >= a.y ? 2u : (a.x >= a.y ? 0u : 1u);
-    float along = axis == 2u ? d.z : axis == 0u ? d.x : d.y;
-    bool flip = along < 0.0;
-    vec3 p = permute(d, axis, flip);
-    return Shear(vec3(p.x / p.z, p.y / p.z, 1.0 / p.z), axis, flip);
+    uint z = a.z >= a.x && a.z >= a.y ? 2u : (a.x >= a.y ? 0u : 1u);
+    bool flip = pick(d, sourceOf(z)) < 0.0;
+    uint next = z == 2u ? 0u : z + 1u;
+    uint last = z == 0u ? 2u : z - 1u;
+    Shear shear = Shear(vec3(0.0), sourceOf(flip ? last : next), sourceOf(flip ? next : last), sourceOf(z));
+    vec3 p = permute(d, shear);
+    shear.s = vec3(p.x / p.z, p.y / p.z, 1.0 / p.z);
+    return shear;
 }
 
 // Upper and lower half of a float's digits, by Veltkamp's constant (Dekker, "A Floating-Point Technique for Extending the Available
@@ -107,9 +124,9 @@ bool areBeside(vec2 a, vec2 b, vec2 c)
 // rounding noise, hence `sliver`. Double hits on edges are left to the caller's tie rule. Hits need 0 < t <= tmax.
 TriangleHit intersectWatertight(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v2, float tmax, bool sliver)
 {
-    vec3 a = permute(v0 - origin, shear.axis, shear.flip);
-    vec3 b = permute(v1 - origin, shear.axis, shear.flip);
-    vec3 c = permute(v2 - origin, shear.axis, shear.flip);
+    vec3 a = permute(v0 - origin, shear);
+    vec3 b = permute(v1 - origin, shear);
+    vec3 c = permute(v2 - origin, shear);
     vec2 pa = a.xy - shear.s.xy * a.z;
     vec2 pb = b.xy - shear.s.xy * b.z;
     vec2 pc = c.xy - shear.s.xy * c.z;
