@@ -4,6 +4,7 @@
 #include "host/bench/bench_reference.hpp"
 #include "host/bench/measure_error.hpp"
 #include "host/bench/run_bench.hpp"
+#include "host/cli/bench_kernels.hpp"
 #include "host/cli/bench_options.hpp"
 #include "host/cli/bench_report.hpp"
 #include "host/cli/check_target.hpp"
@@ -213,6 +214,9 @@ void checkTargets(const BenchOptions& options)
 
 ExitCode runBench(const BenchOptions& options)
 {
+    if (options.kernels) {
+        return runBenchKernels(options);
+    }
     checkTargets(options);
     const std::vector<SceneBench> baselines = options.against ? readBenches(*options.against) : std::vector<SceneBench>();
     const InterruptWatch watch;

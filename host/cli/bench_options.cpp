@@ -60,6 +60,10 @@ void addFileOptions(CLI::App& command, BenchOptions& options)
 
 void settleBench(const CLI::App& command, BenchOptions& options)
 {
+    if (options.scenes.empty() && !options.kernels) {
+        throw CLI::RequiredError("SCENE");
+    }
+    options.outputGiven = command.get_option("--output")->count() > 0;
     // For settleLight, which also refuses more light samples than can be counted.
     options.settings.sampleEnd = options.samples.value_or(kLeastBenchSamples);
     settleLight(command, options);
@@ -83,7 +87,10 @@ void settleBench(const CLI::App& command, BenchOptions& options)
 
 void addBenchOptions(CLI::App& command, BenchOptions& options)
 {
-    command.add_option("SCENE", options.scenes, "The scenes, .gltf or .glb")->required()->type_name("FILE");
+    command.add_option("SCENE", options.scenes, "The scenes, .gltf or .glb; none with --kernels: hills made in memory")->type_name("FILE");
+    CLI::Option* kernels = command.add_flag("--kernels", options.kernels,
+                                            "Measure instead how many rays a second the kernels trace, by kind of ray and variant; as "
+                                            "JSON if there is an -o");
     addSceneChoice(command, options);
     addMeasureOptions(command, options);
     addFileOptions(command, options);
@@ -100,6 +107,9 @@ void addBenchOptions(CLI::App& command, BenchOptions& options)
     addTracingOptions(command, options.settings, options.split);
     addDevice(command, options);
     addProgress(command, options.progress);
+    for (const char* other : {"--seconds", "--spp", "--seeds", "--reference", "--make-reference", "--against", "--adaptive"}) {
+        kernels->excludes(command.get_option(other));
+    }
     command.parse_complete_callback([&command, &options] { settleBench(command, options); });
 }
 

@@ -11,7 +11,9 @@ inline constexpr std::uint32_t kBenchHeight = 96;  // pixels, of the picture tha
 
 struct BenchOptions : PictureOptions {
     std::vector<std::filesystem::path> scenes;
+    bool kernels = false;  // how fast rays are traced instead
     std::filesystem::path output = "bench.json";  // .csv and references lie beside it
+    bool outputGiven = false;
     std::optional<std::filesystem::path> reference, against;
     bool makeReference = false;
     double seconds = 1.0;  // of each seed

@@ -12,7 +12,7 @@ namespace glim {
 enum class BufferKind {
     Storage,   // read and written by kernels; also an indirect dispatch's arguments
     Texel,     // read by kernels as 16-byte texels (uvec4)
-    Both,      // as Storage, and as texels at its binding + kTexelsOf
+    Both,      // as Storage, and as texels at another binding
     Readback,  // as Storage, and cheap for the host to read
 };
 

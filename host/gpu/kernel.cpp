@@ -1,14 +1,10 @@
 #include "host/gpu/kernel.hpp"
 
-#include "shaders/shared/bindings.h"
-
 #include <algorithm>
 #include <utility>
 
 namespace glim {
 namespace {
-
-std::uint32_t texelBinding(std::uint32_t binding, BufferKind kind) { return hasStorage(kind) ? binding + kTexelsOf : binding; }
 
 std::vector<VkDescriptorPoolSize> poolSizes(const KernelLayout& layout)
 {
@@ -40,8 +36,9 @@ KernelLayout::KernelLayout(const Device& device, const std::vector<BindingSlot>&
             bindings_.push_back({slot.binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
         }
         if (hasTexels(slot.kind)) {
-            bindings_.push_back({texelBinding(slot.binding, slot.kind), VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 1,
-                                 VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+            texelBindings_[slot.binding] = slot.kind == BufferKind::Both ? slot.texels : slot.binding;
+            bindings_.push_back({texelBindings_[slot.binding], VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT,
+                                 nullptr});
         }
     }
     for (const std::uint32_t image : images) {
@@ -100,8 +97,7 @@ Bindings::Bindings(const KernelLayout& layout, const std::map<std::uint32_t, con
         }
         if (hasTexels(buffer->kind())) {
             const VkBufferView view = buffer->texelView();
-            VkWriteDescriptorSet write =
-                writeOf(set_, texelBinding(binding, buffer->kind()), VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER);
+            VkWriteDescriptorSet write = writeOf(set_, layout.texelBinding(binding), VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER);
             write.pTexelBufferView = &view;
             vkUpdateDescriptorSets(device_->handle(), 1, &write, 0, nullptr);
         }

@@ -12,6 +12,7 @@ namespace glim {
 struct BindingSlot {
     std::uint32_t binding;
     BufferKind kind;
+    std::uint32_t texels = 0;  // of BufferKind::Both: the binding at which it is read as texels
 };
 
 // The bindings that a family of kernels shares, all in set 0, and the size of its push constants in bytes.
@@ -29,10 +30,13 @@ public:
     VkDescriptorSetLayout setLayout() const { return setLayout_; }
     VkPipelineLayout pipelineLayout() const { return pipelineLayout_; }
     std::uint32_t pushSize() const { return pushSize_; }
+    // Of the buffer at `binding`, which must have texels.
+    std::uint32_t texelBinding(std::uint32_t binding) const { return texelBindings_.at(binding); }
 
 private:
     const Device& device_;
     std::vector<VkDescriptorSetLayoutBinding> bindings_;
+    std::map<std::uint32_t, std::uint32_t> texelBindings_;
     std::uint32_t pushSize_;
     VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
     VkPipelineLayout pipelineLayout_ = VK_NULL_HANDLE;

@@ -44,7 +44,7 @@ std::vector<BindingSlot> kernelSlots()
 {
     std::vector<BindingSlot> slots = DeviceScene::slots();
     for (std::uint32_t binding = kBindRays; binding <= kBindStatus; ++binding) {
-        slots.push_back({binding, binding <= kBindShadowRays ? BufferKind::Both : BufferKind::Storage});
+        slots.push_back({binding, binding <= kBindShadowRays ? BufferKind::Both : BufferKind::Storage, binding + kTexelsOf});
     }
     return slots;
 }

@@ -1,50 +1,68 @@
 // glim_rates [SCENE...]: how fast glim's kernels trace rays, relative to Embree in the same run, with the same rays, of which the hits
-// are compared. Without scenes: those of bench_scenes.hpp.
-#include "tests/bench/trace_timer.hpp"
+// are compared, and with the table in tests/bench/README.md. Without scenes: those of bench_scenes.hpp.
+#include "host/bench/kernel_rates.hpp"
+#include "host/bench/make_hills.hpp"
+#include "host/bench/trace_timer.hpp"
 #include "host/bvh/build_bvh.hpp"
 #include "host/bvh/widen_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/scene/load_gltf.hpp"
-#include "tests/bench/bench_scenes.hpp"
+#include "tests/support/bench_scenes.hpp"
 #include "tests/bench/embree.hpp"
+#include "tests/bench/recorded.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <fstream>
 #include <functional>
+#include <optional>
 
 namespace glim {
 namespace {
 
-constexpr int kRounds = 9;
-
-struct Spread {
-    double median, low, high;
+// Where the run at hand takes place, and what was recorded of such runs.
+struct Place {
+    std::string device;
+    std::string recorded;  // tests/bench/README.md
+    std::string scene;
 };
 
-Spread spreadOf(std::vector<double> values)
+std::string changeText(const Place& place, const char* rays, const Spread& ratio)
 {
-    std::sort(values.begin(), values.end());
-    return {values[values.size() / 2], values.front(), values.back()};
+    const std::optional<Spread> before = findRecorded(place.recorded, place.device, place.scene, rays);
+    if (!before) {
+        return "-";
+    }
+    char text[64];
+    std::snprintf(text, sizeof text, "%.2f: %s", before->median, describeChange(ratio, *before).c_str());
+    return text;
 }
 
 // Embree before and after glim: what slows the machine for longer than that slows both.
-void compareRates(const char* name, std::size_t rays, const std::function<double()>& ours, const std::function<double()>& embree,
-                  const std::string& differing)
+void compareRates(const Place& place, const char* name, std::size_t rays, const std::function<double()>& ours,
+                  const std::function<double()>& embree, const std::string& differing)
 {
     std::vector<double> ratios, rates;
     ours();
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kRateRounds; ++round) {
         const double before = embree(), seconds = ours(), after = embree();
         ratios.push_back(0.5 * (before + after) / seconds);
         rates.push_back(static_cast<double>(rays) / seconds / 1e6);
     }
     const Spread ratio = spreadOf(ratios);
-    std::printf("| %s | %.2f | %.2f [%.2f, %.2f] | %s |\n", name, spreadOf(rates).median, ratio.median, ratio.low, ratio.high,
-                differing.c_str());
+    std::printf("| %s | %.2f | %.2f [%.2f, %.2f] | %s | %s |\n", name, spreadOf(rates).median, ratio.median, ratio.low, ratio.high,
+                differing.c_str(), changeText(place, name, ratio).c_str());
     std::fflush(stdout);
+}
+
+std::string readText(const char* path)
+{
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 std::string countDifferent(const FlatScene& flat, const std::vector<PathHit>& ours, const std::vector<Embree::Hit>& theirs)
@@ -57,8 +75,9 @@ std::string countDifferent(const FlatScene& flat, const std::vector<PathHit>& ou
     return std::to_string(different) + " of " + std::to_string(ours.size());
 }
 
-void measure(Device& device, const BenchScene& bench)
+void measure(Device& device, Place place, const BenchScene& bench)
 {
+    place.scene = bench.name;
     const std::vector<Box> boxes = primitiveBoxes(bench.scene);
     const auto start = std::chrono::steady_clock::now();
     const WideBvh bvh = widenBvh(buildBvh(boxes));
@@ -69,13 +88,13 @@ void measure(Device& device, const BenchScene& bench)
     TraceTimer timer(device, flat, flattenCamera(bench.scene.cameras.front(), 1.0F), settings);
     const Embree embree(bench.scene);
     const double triangles = static_cast<double>(bench.scene.triangles.size());
-    std::printf("\n%s: %.0f triangles, tree in %.2f s (%.2f M/s), depth %u, cost %.2f, %.0f bytes a triangle\n\n", bench.name.c_str(),
-                triangles, buildSeconds, triangles / buildSeconds / 1e6, bvh.depth, bvh.cost,
+    std::printf("\n### %s\n\n%.0f triangles, tree in %.2f s (%.2f M/s), depth %u, cost %.2f, %.0f bytes a triangle\n\n",
+                bench.name.c_str(), triangles, buildSeconds, triangles / buildSeconds / 1e6, bvh.depth, bvh.cost,
                 16.0 * static_cast<double>(flat.nodes.size() + flat.records.size()) / triangles);
-    std::printf("| rays | Mrays/s | over Embree's | other hits |\n|---|---|---|---|\n");
+    std::printf("| rays | Mrays/s | over Embree's | other hits | recorded |\n|---|---|---|---|---|\n");
     const RaySets& rays = timer.rays();
     for (const auto& [name, set] : {std::pair{"primary", &rays.primary}, {"diffuse", &rays.diffuse}}) {
-        compareRates(name, set->size(), [&] { return timer.trace(*set).seconds; }, [&] { return embree.trace(*set).seconds; },
+        compareRates(place, name, set->size(), [&] { return timer.trace(*set).seconds; }, [&] { return embree.trace(*set).seconds; },
                      countDifferent(flat, timer.trace(*set).hits, embree.trace(*set).hits));
     }
     const auto ours = timer.trace(rays.shadow).free;
@@ -84,7 +103,7 @@ void measure(Device& device, const BenchScene& bench)
     for (std::size_t i = 0; i < ours.size(); ++i) {
         different += ours[i] == (theirs[i] != 0) ? 0 : 1;
     }
-    compareRates("shadow", rays.shadow.size(), [&] { return timer.trace(rays.shadow).seconds; },
+    compareRates(place, "shadow", rays.shadow.size(), [&] { return timer.trace(rays.shadow).seconds; },
                  [&] { return embree.trace(rays.shadow).seconds; }, std::to_string(different) + " of " + std::to_string(ours.size()));
 }
 
@@ -92,14 +111,15 @@ void run(const std::vector<std::string>& files)
 {
     const Instance instance;
     Device device(instance, std::nullopt);
-    std::printf("%s, %s\n", device.description().name.c_str(), device.description().driver.c_str());
+    const Place place{device.description().name + ", " + device.description().driver, readText(GLIM_BENCH_TABLE), ""};
+    std::printf("## %s\n", place.device.c_str());
     for (const std::string& file : files) {
-        measure(device, {file, loadGltf(file)});
+        measure(device, place, {std::filesystem::path(file).filename().string(), loadGltf(file)});
     }
     if (files.empty()) {
-        measure(device, {"bumpy ball", bumpyBall(6)});
-        measure(device, {"hills", hills(707)});
-        measure(device, {"forest", forest(400)});
+        measure(device, place, {"bumpy ball", bumpyBall(6)});
+        measure(device, place, {"hills", makeHills(707)});
+        measure(device, place, {"forest", forest(400)});
     }
 }
 

@@ -5,6 +5,7 @@
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <csignal>
 
@@ -128,6 +129,43 @@ TEST(BenchCommandTest, AnInterruptWritesNoFigures)
     EXPECT_EQ(run.exitCode, 130);
     EXPECT_TRUE(contains(run.err, "glim: stopped by SIGINT; no figures are written.")) << run.err;
     EXPECT_EQ(folder.entries(), 0);
+}
+
+TEST(BenchKernelsTest, TellsWhichVariantIsFastest)
+{
+    const ScratchFolder folder;
+    const std::string file = (folder / "kernels.json").string();
+    const GlimRun run = runGlim({"bench", "--kernels", sceneFile("cornell_spheres.gltf"), "--size", "32x32", "-o", file});
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    const auto table = nlohmann::json::parse(bytesOfFile(file)).at(0);
+    EXPECT_EQ(table.at("spheres"), 2);
+    std::map<std::string, std::size_t> variants, best;
+    for (const auto& rate : table.at("rates")) {
+        ++variants[rate.at("rays")];
+        best[rate.at("rays")] += rate.at("ofBest") == 1.0 ? 1 : 0;
+        const auto& spread = rate.at("raysPerSecond");
+        EXPECT_GT(spread.at("low"), 0.0);
+        EXPECT_LE(spread.at("low"), spread.at("median"));
+        EXPECT_LE(spread.at("median"), spread.at("high"));
+        EXPECT_LE(rate.at("ofBest"), 1.0);
+        EXPECT_TRUE(rate.at("rays") != "primary" || rate.at("count") == 32 * 32);
+    }
+    for (const char* rays : {"primary", "diffuse", "shadow"}) {
+        EXPECT_EQ(variants[rays], 6U);
+        EXPECT_GE(best[rays], 1U);
+    }
+    EXPECT_EQ(countLines(run.out), 2U + 18U) << run.out;
+}
+
+TEST(BenchKernelsTest, NeedsNoScene)
+{
+    const GlimRun run = runGlim({"bench", "--kernels", "--size", "16x16"});
+    EXPECT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_TRUE(contains(run.out, "hills made in memory: 204802 triangles")) << run.out;
+    expectSentence(runGlim({"bench"}), 2, "SCENE is required");
+    expectSentence(runGlim({"bench", "--kernels", "--spp", "64"}), 2, "--kernels excludes --spp");
+    expectSentence(runGlim({"bench", "--kernels", "--size", "16x16", "-o", "/nowhere/k.json"}), 1, "/nowhere/k.json");
 }
 
 }  // namespace

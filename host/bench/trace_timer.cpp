@@ -1,10 +1,16 @@
-#include "tests/bench/trace_timer.hpp"
+#include "host/bench/trace_timer.hpp"
 
 namespace glim {
 
 TraceTimer::TraceTimer(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
     : wavefront_(device, scene, camera, settings), slab_(wavefront_.makeSlab(0, settings.width * settings.height)),
       rays_(captureRays(wavefront_, *slab_))
+{
+}
+
+TraceTimer::TraceTimer(TraceTimer& lender, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
+    : wavefront_(lender.wavefront_, scene, camera, settings), slab_(wavefront_.makeSlab(0, settings.width * settings.height)),
+      rays_(lender.rays_)
 {
 }
 

@@ -1,7 +1,7 @@
 // Times the kernels that trace rays.
 #pragma once
 
-#include "tests/bench/ray_sets.hpp"
+#include "host/bench/ray_sets.hpp"
 
 namespace glim {
 
@@ -9,6 +9,9 @@ class TraceTimer {
 public:
     // Of the scene's rays as the camera has them: as many pixels as `settings` have, which is pathCapacity at most.
     TraceTimer(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
+
+    // In the buffers of `lender`, which must outlive it, with its rays; one of the two traces at a time.
+    TraceTimer(TraceTimer& lender, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
 
     const RaySets& rays() const { return rays_; }
 

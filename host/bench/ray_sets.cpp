@@ -1,4 +1,4 @@
-#include "tests/bench/ray_sets.hpp"
+#include "host/bench/ray_sets.hpp"
 
 #include <algorithm>
 

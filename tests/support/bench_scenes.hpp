@@ -15,8 +15,6 @@ struct BenchScene {
 
 // A bumpy ball in a box under a lamp, 4^subdivisions * 20 triangles and a few.
 Scene bumpyBall(int subdivisions);
-// Hills under a lamp, 2 * cells^2 triangles.
-Scene hills(int cells);
 // Trees of 1,000 leaves each on a meadow: many small triangles without order, and gaps.
 Scene forest(int trees);
 

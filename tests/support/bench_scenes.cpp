@@ -1,4 +1,4 @@
-#include "tests/bench/bench_scenes.hpp"
+#include "tests/support/bench_scenes.hpp"
 
 #include "tests/support/build_scene.hpp"
 #include "tests/support/random.hpp"
@@ -50,15 +50,6 @@ Scene bumpyBall(int subdivisions)
         }
     }
     addMesh(scene, ball, white);
-    return scene;
-}
-
-Scene hills(int cells)
-{
-    SceneBuilder builder = meadow();
-    const auto white = builder.lambert(glm::vec3(0.7F));
-    Scene scene = builder.scene();
-    addMesh(scene, terrain(cells), white);
     return scene;
 }
 

@@ -1,0 +1,156 @@
+#include "host/cli/bench_kernels.hpp"
+
+#include "host/bench/kernel_rates.hpp"
+#include "host/bench/make_hills.hpp"
+#include "host/bvh/build_bvh.hpp"
+#include "host/bvh/widen_bvh.hpp"
+#include "host/cli/check_target.hpp"
+#include "host/cli/interrupt.hpp"
+#include "host/cli/version.hpp"
+#include "host/flatten/flatten_scene.hpp"
+#include "host/flatten/view_options.hpp"
+#include "host/image/whole_file.hpp"
+#include "host/render/check_memory.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+#include <unistd.h>
+
+namespace glim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kHillCells = 320;  // 204,800 triangles: beyond every cache of a core
+
+PreparedScene prepareHills(SplitRule split)
+{
+    PreparedScene prepared;
+    prepared.scene = makeHills(kHillCells);
+    prepared.bvh = widenBvh(buildBvh(primitiveBoxes(prepared.scene), split));
+    prepared.flat = flattenScene(prepared.scene, prepared.bvh);
+    return prepared;
+}
+
+Json jsonOf(const std::string& scene, const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device,
+            const std::vector<KernelRate>& rates)
+{
+    Json table = Json::array();
+    for (const KernelRate& rate : rates) {
+        table.push_back({{"rays", rate.rays},
+                         {"variant", rate.variant},
+                         {"count", rate.count},
+                         {"raysPerSecond", {{"median", rate.rate.median}, {"low", rate.rate.low}, {"high", rate.rate.high}}},
+                         {"ofBest", rate.ofBest}});
+    }
+    return {{"scene", scene},
+            {"triangles", prepared.scene.triangles.size()},
+            {"spheres", prepared.scene.spheres.size()},
+            {"width", settings.width},
+            {"height", settings.height},
+            {"rounds", kRateRounds},
+            {"device", device.name + ", " + device.driver},
+            {"version", versionText()},
+            {"rates", table}};
+}
+
+void print(const std::string& scene, const PreparedScene& prepared, const DeviceDescription& device, const std::vector<KernelRate>& rates)
+{
+    std::cout << scene << ": " << prepared.scene.triangles.size() << " triangles and " << prepared.scene.spheres.size()
+              << " spheres, on " << device.name << ", " << device.driver << '\n';
+    std::cout << "rays         count  variant            Mrays/s: median [lowest, highest]  of the best\n";
+    for (const KernelRate& rate : rates) {
+        char line[160];
+        std::snprintf(line, sizeof line, "%-8s %9zu  %-17s  %8.3g [%.3g, %.3g]", rate.rays.c_str(), rate.count, rate.variant.c_str(),
+                      1e-6 * rate.rate.median, 1e-6 * rate.rate.low, 1e-6 * rate.rate.high);
+        char share[16];
+        std::snprintf(share, sizeof share, "%.2f", rate.ofBest);
+        std::cout << line << std::string(std::max<std::size_t>(1, 75 - std::string(line).size()), ' ') << share << '\n';
+    }
+    std::cout << std::flush;
+}
+
+// On a terminal; a round of a large scene takes seconds.
+class RoundPrinter {
+public:
+    explicit RoundPrinter(ProgressStyle style)
+        : shows_(style == ProgressStyle::Bar || (style == ProgressStyle::Auto && isatty(STDERR_FILENO) != 0))
+    {
+    }
+    ~RoundPrinter()
+    {
+        if (shows_) {
+            std::fputs("\r\033[K", stderr);
+        }
+    }
+    void print(int round) const
+    {
+        if (shows_) {
+            std::fprintf(stderr, "\r\033[Kround %d of %d", round + 1, kRateRounds);
+        }
+    }
+
+private:
+    bool shows_;
+};
+
+// False if the user ended it.
+bool measure(Device& device, const BenchOptions& options, const std::string& name, PreparedScene prepared, const InterruptWatch& watch,
+             Json& tables)
+{
+    const Camera camera = cameraOf(prepared.scene, options);
+    const glm::uvec2 size = options.size.value_or(naturalSize(camera));
+    RenderSettings settings = options.settings;
+    settings.width = size.x;
+    settings.height = size.y;
+    settings.pathCapacity = std::max(settings.pathCapacity, size.x * size.y);
+    refuseWhatDoesNotFit(prepared, settings, device.description());
+    const FlatCamera flat = flattenCamera(camera, static_cast<float>(size.x) / static_cast<float>(size.y), options.lens);
+    const auto show = [&, printer = RoundPrinter(options.progress)](int round) {
+        printer.print(round);
+        return watch.signal() == 0;
+    };
+    const std::vector<KernelRate> rates = measureKernelRates(device, std::move(prepared.flat), flat, settings, show);
+    if (rates.empty()) {
+        return false;
+    }
+    print(name, prepared, device.description(), rates);
+    tables.push_back(jsonOf(name, prepared, settings, device.description(), rates));
+    return true;
+}
+
+}  // namespace
+
+ExitCode runBenchKernels(const BenchOptions& options)
+{
+    if (options.outputGiven) {
+        checkTarget(options.output, ".json", options.scenes);
+    }
+    const InterruptWatch watch;
+    const Instance instance;
+    Device device(instance, options.device);
+    Json tables = Json::array();
+    const auto finished = [&](const std::string& name, PreparedScene prepared) {
+        return watch.signal() == 0 && measure(device, options, name, std::move(prepared), watch, tables);
+    };
+    for (const std::filesystem::path& scene : options.scenes) {
+        if (!finished(scene.string(), prepareScene(scene, loadOptionsOf(options), options.split))) {
+            return finish(watch.signal(), "no figures are written");
+        }
+    }
+    if (options.scenes.empty() && !finished("hills made in memory", prepareHills(options.split))) {
+        return finish(watch.signal(), "no figures are written");
+    }
+    if (options.outputGiven) {
+        const std::string text = tables.dump(2) + "\n";
+        WholeFile file(options.output);
+        file.write(text.data(), text.size());
+        file.commit();
+    }
+    return ExitCode::Done;
+}
+
+}  // namespace glim

@@ -1,0 +1,80 @@
+// Work that does not depend on the machine: what a change of the tree, of the kernels or of their order costs, without a clock.
+#include "host/bench/make_hills.hpp"
+#include "host/bvh/build_bvh.hpp"
+#include "host/bvh/widen_bvh.hpp"
+#include "host/flatten/flatten_scene.hpp"
+#include "tests/support/bench_scenes.hpp"
+#include "tests/support/render_scene.hpp"
+#include "tests/support/test_device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+namespace glim {
+namespace {
+
+struct Counted {
+    const char* name;
+    Scene scene;
+    double nodes, primitives;  // visited and tested by a camera ray, as measured when they were last changed on purpose
+    double cost;               // of the tree
+};
+
+glm::dvec3 meanSteps(const FlatScene& flat, const Camera& camera)
+{
+    RenderSettings settings = squareSettings(128, 1);
+    settings.view = View::BvhSteps;
+    settings.bounces = 0;
+    return meanOf(renderFlat(flat, camera, settings)).mean;
+}
+
+// Both ways: whoever makes it better writes down how much.
+TEST(CountersTest, ACameraRayVisitsAsManyNodesAsRecorded)
+{
+    for (const Counted& counted : {Counted{"ball in a box", bumpyBall(5), 0, 0, 0}, Counted{"hills", makeHills(200), 0, 0, 0},
+                                   Counted{"forest", forest(60), 0, 0, 0}}) {
+        const WideBvh bvh = widenBvh(buildBvh(primitiveBoxes(counted.scene)));
+        const glm::dvec3 steps = meanSteps(flattenScene(counted.scene, bvh), counted.scene.cameras.front());
+        std::cout << counted.name << ": " << counted.scene.triangles.size() << " triangles, cost " << bvh.cost << ", " << steps.x
+                  << " nodes and " << steps.y << " triangles a ray\n";
+        EXPECT_NEAR(steps.x, counted.nodes, 0.03 * counted.nodes) << counted.name;
+        EXPECT_NEAR(steps.y, counted.primitives, 0.03 * counted.primitives) << counted.name;
+        EXPECT_NEAR(bvh.cost, counted.cost, 0.03 * counted.cost) << counted.name;
+    }
+}
+
+TEST(CountersTest, ATriangleTakesAtMost130Bytes)
+{
+    for (Scene scene : {bumpyBall(5), makeHills(200), forest(60)}) {
+        scene.primitives.back().smooth = true;
+        scene.normals.resize(scene.triangles.size(), {{glm::vec3(0, 1, 0), glm::vec3(0, 1, 0), glm::vec3(0, 1, 0)}});
+        const double bytes = static_cast<double>(sizeInBytes(flattened(scene))) / static_cast<double>(scene.triangles.size());
+        std::cout << scene.triangles.size() << " triangles: " << bytes << " bytes each\n";
+        EXPECT_LT(bytes, 130.0);
+    }
+}
+
+// Of samples that fit into one pass: one dispatch each of generate_rays, accumulate and what sizes the next; at every hit, of
+// trace_closest, sample_lights, trace_shadow and bounce, and of what sizes the shadow rays and the next rays.
+TEST(CountersTest, APassTakesSixDispatchesABounce)
+{
+    const Scene scene = makeHills(10);
+    const FlatScene flat = flattened(scene);
+    for (const std::uint32_t bounces : {0U, 1U, 5U}) {
+        RenderSettings settings = squareSettings(32, 16);
+        settings.bounces = bounces;
+        settings.roulette = Roulette::None;
+        Renderer renderer(testDevice(), flat, flattenCamera(scene.cameras.front(), 1.0F), settings);
+        renderer.render([](const RenderProgress&) { return true; });
+        std::uint64_t dispatches = 0;
+        for (const auto& [kernel, statistics] : renderer.statistics().kernels) {
+            std::cout << bounces << " bounces: " << kernel << " " << statistics.dispatches << "\n";
+            dispatches += statistics.dispatches;
+        }
+        EXPECT_LE(dispatches, 3U + 6U * (bounces + 1U));
+    }
+}
+
+}  // namespace
+}  // namespace glim
