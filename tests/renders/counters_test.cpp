@@ -32,8 +32,8 @@ glm::dvec3 meanSteps(const FlatScene& flat, const Camera& camera)
 // Both ways: whoever makes it better writes down how much.
 TEST(CountersTest, ACameraRayVisitsAsManyNodesAsRecorded)
 {
-    for (const Counted& counted : {Counted{"ball in a box", bumpyBall(5), 0, 0, 0}, Counted{"hills", makeHills(200), 0, 0, 0},
-                                   Counted{"forest", forest(60), 0, 0, 0}}) {
+    for (const Counted& counted : {Counted{"ball in a box", bumpyBall(5), 11.24, 6.34, 14.18}, Counted{"hills", makeHills(200), 8.50, 3.80, 8.24},
+                                   Counted{"forest", forest(60), 11.28, 2.67, 6.69}}) {
         const WideBvh bvh = widenBvh(buildBvh(primitiveBoxes(counted.scene)));
         const glm::dvec3 steps = meanSteps(flattenScene(counted.scene, bvh), counted.scene.cameras.front());
         std::cout << counted.name << ": " << counted.scene.triangles.size() << " triangles, cost " << bvh.cost << ", " << steps.x
@@ -55,8 +55,8 @@ TEST(CountersTest, ATriangleTakesAtMost130Bytes)
     }
 }
 
-// Of samples that fit into one pass: one dispatch each of generate_rays, accumulate and what sizes the next; at every hit, of
-// trace_closest, sample_lights, trace_shadow and bounce, and of what sizes the shadow rays and the next rays.
+// At every hit trace_closest, sample_lights, trace_shadow and bounce, and what sizes the shadow rays and the next rays; generate_rays and
+// accumulate once, which also ends the last block. 16 samples come in passes of 1, 1, 2, 4 and 8 while nothing is known of their time.
 TEST(CountersTest, APassTakesSixDispatchesABounce)
 {
     const Scene scene = makeHills(10);
@@ -69,10 +69,12 @@ TEST(CountersTest, APassTakesSixDispatchesABounce)
         renderer.render([](const RenderProgress&) { return true; });
         std::uint64_t dispatches = 0;
         for (const auto& [kernel, statistics] : renderer.statistics().kernels) {
-            std::cout << bounces << " bounces: " << kernel << " " << statistics.dispatches << "\n";
             dispatches += statistics.dispatches;
         }
-        EXPECT_LE(dispatches, 3U + 6U * (bounces + 1U));
+        const std::uint64_t passes = renderer.statistics().kernels.at("generate_rays").dispatches;
+        std::cout << bounces << " bounces: " << dispatches << " dispatches in " << passes << " passes\n";
+        EXPECT_LE(passes, 5U);
+        EXPECT_LE(dispatches, passes * (2U + 6U * (bounces + 1U)) + 1U);
     }
 }
 
