@@ -1,254 +1,173 @@
 #include "host/bvh/build_bvh.hpp"
 
+#include "host/bvh/divide_node.hpp"
+#include "host/bvh/parallel_for.hpp"
 #include "host/bvh/surface_area.hpp"
-#include "shaders/shared/limits.h"
 
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <cassert>
-#include <limits>
-#include <optional>
+#include <memory>
+#include <vector>
 
 namespace glim {
 namespace {
 
-constexpr std::uint32_t kMaxLeafSize = 2;
-constexpr std::uint32_t kMaxBins = 32;
-
-// Partitioned in place, so that a node's primitives lie together in memory.
-struct Reference {
-    Box box;
-    std::uint32_t primitive;
-};
+// Up to how many primitives one thread builds a subtree of, in the cache of its core.
+constexpr std::uint32_t kMostAlone = 8192;
 
 struct Task {
     std::uint32_t node, begin, end;
     std::uint32_t depth;  // inner nodes above
+    NodeBounds bounds;
 };
 
-// Never measured while empty: its area would be positive, and infinite.
-Box makeEmptyBox() {
-    constexpr float kMax = std::numeric_limits<float>::max();
-    return {glm::vec3(kMax), glm::vec3(-kMax)};
-}
-
-void grow(Box& box, const Box& other) {
-    box.lo = glm::min(box.lo, other.lo);
-    box.hi = glm::max(box.hi, other.hi);
-}
-
-struct Bounds {
-    Box box = makeEmptyBox();      // around the primitives
-    Box centres = makeEmptyBox();  // around the centres of their boxes
+// A node of the tree's top. One with few primitives is built with all that is below it.
+struct Part {
+    Task task;
+    std::uint32_t children = 0;  // the first of two parts; 0: `nodes` are the node itself and what is below it
+    std::vector<BvhNode> nodes;
+    std::uint32_t depth = 0;  // of the deepest leaf
 };
 
-Bounds computeBounds(std::span<const Reference> references) {
-    Bounds bounds;
-    for (const Reference& reference : references) {
-        const glm::vec3 centre = computeCentre(reference.box);
-        grow(bounds.box, reference.box);
-        grow(bounds.centres, {centre, centre});
-    }
-    return bounds;
-}
-
-// Inner nodes on the longest path below a node of `count` primitives if all splits from here on are median splits.
-std::uint32_t levelsOfMedianSplits(std::uint32_t count) {
-    const auto levels = static_cast<std::uint32_t>(std::bit_width(count - 1));
-    constexpr auto kLeafLevels = static_cast<std::uint32_t>(std::bit_width(kMaxLeafSize - 1));
-    return levels > kLeafLevels ? levels - kLeafLevels : 0;
-}
-
-struct Bin {
-    Box box = makeEmptyBox();
-    std::uint32_t count = 0;
-
-    void add(const Bin& other) {
-        grow(box, other.box);
-        count += other.count;
-    }
-    double computeWeight() const { return computeHalfArea(box) * count; }
-};
-
-// Equal slices of the box around the centres, on each axis.
-class Slices {
+class Builder {
 public:
-    Slices(const Box& centres, std::uint32_t slices)
-        : count(slices), origin(centres.lo), perUnit(glm::dvec3(centres.hi) - glm::dvec3(centres.lo)) {
-        for (int axis = 0; axis < 3; ++axis) {
-            perUnit[axis] = perUnit[axis] > 0.0 ? count / perUnit[axis] : 0.0;
+    Builder(std::span<const Box> boxes, SplitRule rule, unsigned threads)
+        : count_(static_cast<std::uint32_t>(boxes.size())), rule_(rule), threads_(threads),
+          references_(std::make_unique_for_overwrite<Reference[]>(count_)),
+          scratch_(std::make_unique_for_overwrite<Reference[]>(count_))
+    {
+        parts_.push_back({{0, 0, count_, 0, readBoxes(boxes)}, 0, {}, 0});
+    }
+
+    Bvh build()
+    {
+        divideTop();
+        parallelFor(parts_.size(), threads_, [&](std::size_t i) {
+            if (parts_[i].children == 0) {
+                buildBelow(parts_[i]);
+            }
+        });
+        Bvh bvh;
+        join(bvh);
+        bvh.order.resize(count_);
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            bvh.order[i] = references_[i].primitive();
         }
+        bvh.cost = computeCost(bvh.nodes);
+        return bvh;
     }
-
-    std::uint32_t find(const glm::vec3& centre, int axis) const {
-        const double slice = (static_cast<double>(centre[axis]) - origin[axis]) * perUnit[axis];
-        return std::min(count - 1, static_cast<std::uint32_t>(slice));
-    }
-
-    const std::uint32_t count;
 
 private:
-    glm::dvec3 origin, perUnit;
+    NodeBounds readBoxes(std::span<const Box> boxes)
+    {
+        std::vector<NodeBounds> bounds((count_ + kMostAlone - 1) / kMostAlone);
+        parallelFor(bounds.size(), threads_, [&](std::size_t chunk) {
+            const auto begin = static_cast<std::uint32_t>(chunk) * kMostAlone, end = std::min(begin + kMostAlone, count_);
+            for (std::uint32_t i = begin; i < end; ++i) {
+                references_[i] = {boxes[i], i};
+            }
+            bounds[chunk] = computeBounds({&references_[begin], end - begin});
+        });
+        for (const NodeBounds& chunk : bounds) {
+            bounds.front().grow(chunk);
+        }
+        return bounds.front();
+    }
+
+    Division divide(const Task& task)
+    {
+        const std::size_t count = task.end - task.begin;
+        return divideNode({&references_[task.begin], count}, {&scratch_[task.begin], count}, task.bounds, task.depth, rule_);
+    }
+
+    // Level by level.
+    void divideTop()
+    {
+        for (std::size_t begin = 0, end = 1; begin < end; begin = end, end = parts_.size()) {
+            std::vector<Division> divisions(end - begin);
+            parallelFor(divisions.size(), threads_, [&](std::size_t i) {
+                const Task& task = parts_[begin + i].task;
+                divisions[i] = task.end - task.begin > kMostAlone ? divide(task) : Division{};
+            });
+            for (std::size_t i = begin; i < end; ++i) {
+                const Task task = parts_[i].task;
+                const auto& [left, sides] = divisions[i - begin];
+                if (left > 0) {
+                    parts_[i].children = static_cast<std::uint32_t>(parts_.size());
+                    parts_.push_back({{0, task.begin, task.begin + left, task.depth + 1, sides[0]}, 0, {}, 0});
+                    parts_.push_back({{0, task.begin + left, task.end, task.depth + 1, sides[1]}, 0, {}, 0});
+                }
+            }
+        }
+    }
+
+    void buildBelow(Part& part)
+    {
+        std::vector<BvhNode>& nodes = part.nodes;
+        nodes.reserve(2 * (part.task.end - part.task.begin));
+        nodes.emplace_back();
+        std::vector<Task> tasks{part.task};
+        while (!tasks.empty()) {
+            const Task task = tasks.back();
+            tasks.pop_back();
+            const auto& [left, sides] = divide(task);
+            if (left == 0) {
+                nodes[task.node] = {task.bounds.box.box(), task.begin, task.end - task.begin};
+                part.depth = std::max(part.depth, task.depth);
+                continue;
+            }
+            const auto first = static_cast<std::uint32_t>(nodes.size());
+            nodes[task.node] = {task.bounds.box.box(), first, 0};
+            nodes.resize(first + 2);
+            tasks.push_back({first + 1, task.begin + left, task.end, task.depth + 1, sides[1]});
+            tasks.push_back({first, task.begin, task.begin + left, task.depth + 1, sides[0]});
+        }
+    }
+
+    // Of all parts, in the order that a part's own nodes have.
+    void join(Bvh& bvh)
+    {
+        bvh.nodes.reserve(2 * count_);
+        bvh.nodes.emplace_back();
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> places{{0, 0}};  // part, node
+        while (!places.empty()) {
+            const auto [index, node] = places.back();
+            places.pop_back();
+            const Part& part = parts_[index];
+            const auto first = static_cast<std::uint32_t>(bvh.nodes.size());
+            if (part.children != 0) {
+                bvh.nodes[node] = {part.task.bounds.box.box(), first, 0};
+                bvh.nodes.resize(first + 2);
+                places.push_back({part.children + 1, first + 1});
+                places.push_back({part.children, first});
+                continue;
+            }
+            // The part's node 0 goes to its place, its node i > 0 to first - 1 + i.
+            for (std::size_t i = 0; i < part.nodes.size(); ++i) {
+                BvhNode copy = part.nodes[i];
+                copy.first += copy.count == 0 ? first - 1 : 0;
+                if (i == 0) {
+                    bvh.nodes[node] = copy;
+                } else {
+                    bvh.nodes.push_back(copy);
+                }
+            }
+            bvh.depth = std::max(bvh.depth, part.depth);
+        }
+    }
+
+    const std::uint32_t count_;
+    const SplitRule rule_;
+    const unsigned threads_;
+    const std::unique_ptr<Reference[]> references_, scratch_;
+    std::vector<Part> parts_;
 };
-
-// Slices below `slice` on `axis` go left.
-struct Split {
-    int axis;
-    std::uint32_t slice;
-    double weight;  // sum over both sides of half area * primitives
-};
-
-void chooseBetter(std::optional<Split>& best, const std::array<Bin, kMaxBins>& bins, int axis, std::uint32_t count) {
-    std::array<double, kMaxBins> rightWeight{};
-    Bin right;
-    for (std::uint32_t i = count; --i > 0;) {
-        right.add(bins[i]);
-        rightWeight[i] = right.count > 0 ? right.computeWeight() : -1.0;
-    }
-    Bin left;
-    for (std::uint32_t i = 1; i < count; ++i) {
-        left.add(bins[i - 1]);
-        if (left.count == 0 || rightWeight[i] < 0.0) {
-            continue;
-        }
-        const double weight = left.computeWeight() + rightWeight[i];
-        if (!best || weight < best->weight) {
-            best = Split{axis, i, weight};
-        }
-    }
-}
-
-// Binned surface-area heuristic: I. Wald, On fast Construction of SAH-based Bounding Volume Hierarchies, 2007.
-std::optional<Split> findSplit(std::span<const Reference> references, const Slices& slices) {
-    std::array<std::array<Bin, kMaxBins>, 3> bins;
-    for (const Reference& reference : references) {
-        const glm::vec3 centre = computeCentre(reference.box);
-        for (int axis = 0; axis < 3; ++axis) {
-            Bin& bin = bins[axis][slices.find(centre, axis)];
-            grow(bin.box, reference.box);
-            ++bin.count;
-        }
-    }
-    std::optional<Split> best;
-    for (int axis = 0; axis < 3; ++axis) {
-        chooseBetter(best, bins[axis], axis, slices.count);
-    }
-    return best;
-}
-
-// On which the centres spread most.
-int findWidestAxis(const Box& centres) {
-    const glm::dvec3 extent = glm::dvec3(centres.hi) - glm::dvec3(centres.lo);
-    return extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
-}
-
-// Equal centres by index, so the result is defined.
-std::uint32_t partitionAtMedian(std::span<Reference> references, int axis) {
-    const auto half = static_cast<std::uint32_t>(references.size() / 2);
-    std::nth_element(references.begin(), references.begin() + half, references.end(),
-                     [axis](const Reference& a, const Reference& b) {
-                         const float ca = computeCentre(a.box)[axis], cb = computeCentre(b.box)[axis];
-                         return ca < cb || (ca == cb && a.primitive < b.primitive);
-                     });
-    return half;
-}
-
-std::uint32_t partitionAtMean(std::span<Reference> references, int axis) {
-    double sum = 0.0;
-    for (const Reference& reference : references) {
-        sum += static_cast<double>(computeCentre(reference.box)[axis]);
-    }
-    const double mean = sum / static_cast<double>(references.size());
-    const auto middle = std::partition(references.begin(), references.end(), [&](const Reference& reference) {
-        return static_cast<double>(computeCentre(reference.box)[axis]) < mean;
-    });
-    return static_cast<std::uint32_t>(middle - references.begin());
-}
-
-std::uint32_t partition(std::span<Reference> references, const Slices& slices, const Split& split) {
-    const auto middle = std::partition(references.begin(), references.end(), [&](const Reference& reference) {
-        return slices.find(computeCentre(reference.box), split.axis) < split.slice;
-    });
-    return static_cast<std::uint32_t>(middle - references.begin());
-}
-
-// Whether both sides of a split have primitives, and the larger one finds room in the depth that is left.
-bool isAdmissible(std::uint32_t left, std::uint32_t count, std::uint32_t depth) {
-    return left > 0 && left < count && depth + 1 + levelsOfMedianSplits(std::max(left, count - left)) <= kMaxBvhDepth;
-}
-
-// Reorders the references and returns how many go left; 0 if a leaf is better.
-std::uint32_t divideBySah(std::span<Reference> references, const Bounds& bounds, std::uint32_t depth) {
-    const auto count = static_cast<std::uint32_t>(references.size());
-    if (count == 1) {
-        return 0;
-    }
-    const double area = computeHalfArea(bounds.box);
-    const Slices slices(bounds.centres, std::clamp(count, 4U, kMaxBins));
-    const std::optional<Split> split = area > 0.0 ? findSplit(references, slices) : std::nullopt;
-    // In units of one primitive test; a step through an inner node costs about the same (it reads 4 texels to a
-    // triangle's 3).
-    const bool splitPays = split && area + split->weight < area * count;
-    if (count <= kMaxLeafSize && (!splitPays || depth == kMaxBvhDepth)) {
-        return 0;
-    }
-    const std::uint32_t left = split ? partition(references, slices, *split) : 0;
-    return isAdmissible(left, count, depth) ? left : partitionAtMedian(references, findWidestAxis(bounds.centres));
-}
-
-// As above, by a rule that does not ask what a leaf costs.
-std::uint32_t divideAtMeanOrMedian(std::span<Reference> references, const Bounds& bounds, std::uint32_t depth, SplitRule rule) {
-    const auto count = static_cast<std::uint32_t>(references.size());
-    if (count <= kMaxLeafSize) {
-        return 0;
-    }
-    const int axis = findWidestAxis(bounds.centres);
-    const std::uint32_t left = rule == SplitRule::Mean ? partitionAtMean(references, axis) : 0;
-    return isAdmissible(left, count, depth) ? left : partitionAtMedian(references, axis);
-}
-
-std::vector<Reference> makeReferences(std::span<const Box> boxes) {
-    std::vector<Reference> references(boxes.size());
-    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-        references[i] = {boxes[i], i};
-    }
-    return references;
-}
 
 }  // namespace
 
-Bvh buildBvh(std::span<const Box> boxes, SplitRule rule) {
-    static_assert(kMaxBvhDepth >= 31, "2^32 primitives in leaves of 2 need 31 median splits");
+Bvh buildBvh(std::span<const Box> boxes, SplitRule rule, unsigned threads)
+{
     assert(!boxes.empty() && boxes.size() <= std::numeric_limits<std::uint32_t>::max() / 2);
-    std::vector<Reference> references = makeReferences(boxes);
-    Bvh bvh;
-    bvh.nodes.reserve(boxes.size());
-    bvh.nodes.emplace_back();
-    std::vector<Task> tasks{{0, 0, static_cast<std::uint32_t>(boxes.size()), 0}};
-    while (!tasks.empty()) {
-        const Task task = tasks.back();
-        tasks.pop_back();
-        const std::span<Reference> mine(references.begin() + task.begin, references.begin() + task.end);
-        const Bounds bounds = computeBounds(mine);
-        const std::uint32_t left = rule == SplitRule::Sah ? divideBySah(mine, bounds, task.depth)
-                                                          : divideAtMeanOrMedian(mine, bounds, task.depth, rule);
-        if (left == 0) {
-            bvh.nodes[task.node] = {bounds.box, task.begin, task.end - task.begin};
-            bvh.depth = std::max(bvh.depth, task.depth);
-            continue;
-        }
-        const auto first = static_cast<std::uint32_t>(bvh.nodes.size());
-        bvh.nodes[task.node] = {bounds.box, first, 0};
-        bvh.nodes.resize(first + 2);
-        tasks.push_back({first + 1, task.begin + left, task.end, task.depth + 1});
-        tasks.push_back({first, task.begin, task.begin + left, task.depth + 1});
-    }
-    for (const Reference& reference : references) {
-        bvh.order.push_back(reference.primitive);
-    }
-    bvh.cost = computeCost(bvh.nodes);
-    return bvh;
+    return Builder(boxes, rule, threads).build();
 }
 
 }  // namespace glim

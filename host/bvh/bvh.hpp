@@ -18,6 +18,7 @@ inline glm::vec3 computeCentre(const Box& box) { return 0.5F * box.lo + 0.5F * b
 
 // Invariants, held as code by check_bvh:
 //  - nodes[0] is the root; an inner node (count == 0) has its children at `first` and `first + 1`, after itself;
+//  - depth first: below a node come its children, then all that is below the first of them, then all below the second;
 //  - a leaf holds primitives order[first .. first + count), count >= 1;
 //  - every primitive is in exactly one leaf; a node's box contains the boxes of all that is below it;
 //  - no path from the root has more than kMaxBvhDepth inner nodes (shaders/shared/limits.h), whatever the input.

@@ -43,7 +43,8 @@ public:
                 return name("entry", i) + " of the order is in no leaf";
             }
         }
-        return findSummaryDefect();
+        auto defect = findOrderDefect();
+        return defect ? defect : findSummaryDefect();
     }
 
 private:
@@ -91,6 +92,26 @@ private:
             if (!contains(leaf.box, boxes[primitive])) {
                 return "the box of " + name("leaf", index) + " does not contain " + name("primitive", primitive);
             }
+        }
+        return std::nullopt;
+    }
+
+    // The rest of the tree is sound.
+    std::optional<std::string> findOrderDefect() const {
+        std::vector<std::size_t> ahead{0};
+        for (std::size_t next = 1; !ahead.empty();) {
+            const std::size_t index = ahead.back();
+            const BvhNode& node = bvh.nodes[index];
+            ahead.pop_back();
+            if (node.count > 0) {
+                continue;
+            }
+            if (node.first != next) {
+                return name("node", index) + " has its children at " + std::to_string(node.first) + ", depth first they are at " +
+                       std::to_string(next);
+            }
+            ahead.insert(ahead.end(), {next + 1, next});
+            next += 2;
         }
         return std::nullopt;
     }

@@ -1,89 +1,14 @@
-// Which nodes stay: Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", HPG 2017,
-// section 3.2: for each binary node and each i, the least cost of what is below as a forest of at most i roots.
 #include "host/bvh/widen_bvh.hpp"
 
+#include "host/bvh/examine_subtrees.hpp"
+#include "host/bvh/parallel_for.hpp"
 #include "host/bvh/surface_area.hpp"
-#include "shaders/shared/scene_types.h"
 
 #include <algorithm>
-#include <limits>
+#include <numeric>
 
 namespace glim {
 namespace {
-
-// Of a primitive's test (3 texels), where the visit of a node (5 texels, eight boxes) is 1. A guess by these counts, not yet a measurement.
-constexpr float kPrimitiveCost = 0.5F;
-
-constexpr std::uint32_t kMostRoots = kBvhWidth - 1;
-
-// What is known of the part of a binary tree below a node.
-struct Subtree {
-    std::array<float, kMostRoots> cost;           // of a forest of at most i + 1 roots
-    std::array<std::uint8_t, kMostRoots> toLeft;  // of these roots on the left side; 0: fewer roots are as good, or a leaf
-    std::uint8_t nodeToLeft;                      // of a node's kBvhWidth children
-    bool isLeaf;                                  // as a single root
-    std::uint32_t first, count;                   // primitives
-};
-
-struct Division {
-    float cost;
-    std::uint8_t toLeft;
-};
-
-Division divide(const Subtree& left, const Subtree& right, std::uint32_t roots)
-{
-    Division best{std::numeric_limits<float>::infinity(), 1};
-    for (std::uint32_t k = 1; k < roots; ++k) {
-        const std::uint32_t l = std::min(k, kMostRoots), r = std::min(roots - k, kMostRoots);
-        const float cost = left.cost[l - 1] + right.cost[r - 1];
-        if (cost < best.cost) {
-            best = {cost, static_cast<std::uint8_t>(k)};
-        }
-    }
-    return best;
-}
-
-Subtree makeLeaf(const BvhNode& node)
-{
-    Subtree subtree{};
-    subtree.cost.fill(static_cast<float>(computeHalfArea(node.box)) * static_cast<float>(node.count) * kPrimitiveCost);
-    subtree.isLeaf = true;
-    subtree.first = node.first;
-    subtree.count = node.count;
-    return subtree;
-}
-
-Subtree join(const BvhNode& node, const Subtree& left, const Subtree& right)
-{
-    Subtree subtree{};
-    subtree.first = left.first;
-    subtree.count = left.count + right.count;
-    const auto area = static_cast<float>(computeHalfArea(node.box));
-    const float asLeaf = subtree.count <= kMaxLeafRecords ? area * static_cast<float>(subtree.count) * kPrimitiveCost
-                                                       : std::numeric_limits<float>::infinity();
-    const Division asNode = divide(left, right, kBvhWidth);
-    subtree.nodeToLeft = asNode.toLeft;
-    subtree.isLeaf = asLeaf <= asNode.cost + area;
-    subtree.cost[0] = std::min(asLeaf, asNode.cost + area);
-    for (std::uint32_t roots = 2; roots <= kMostRoots; ++roots) {
-        const Division division = divide(left, right, roots);
-        const bool pays = division.cost < subtree.cost[roots - 2];
-        subtree.cost[roots - 1] = pays ? division.cost : subtree.cost[roots - 2];
-        subtree.toLeft[roots - 1] = pays ? division.toLeft : 0;
-    }
-    return subtree;
-}
-
-// Children lie after their parents.
-std::vector<Subtree> examine(const Bvh& bvh)
-{
-    std::vector<Subtree> subtrees(bvh.nodes.size());
-    for (std::size_t i = bvh.nodes.size(); i-- > 0;) {
-        const BvhNode& node = bvh.nodes[i];
-        subtrees[i] = node.count > 0 ? makeLeaf(node) : join(node, subtrees[node.first], subtrees[node.first + 1]);
-    }
-    return subtrees;
-}
 
 using Roots = std::vector<std::uint32_t>;  // binary nodes
 
@@ -146,29 +71,42 @@ std::array<std::uint8_t, kBvhWidth> findPlaces(const Bvh& bvh, std::uint32_t nod
     return places;
 }
 
+// A node to be made: from which binary one, at which index.
+struct Task {
+    std::uint32_t binary, wide, depth;
+};
+
+// Makes nodes and what is below them, down to a size.
 class Widener {
 public:
-    explicit Widener(const Bvh& bvh) : bvh_(bvh), subtrees_(examine(bvh)), rootArea_(computeHalfArea(bvh.nodes[0].box)) {}
-
-    WideBvh widen()
+    Widener(const Bvh& bvh, const std::vector<Subtree>& subtrees)
+        : bvh_(bvh), subtrees_(subtrees), rootArea_(computeHalfArea(bvh.nodes[0].box))
     {
-        wide_.box = bvh_.nodes[0].box;
-        wide_.order.reserve(bvh_.order.size());
+        wide_.box = bvh.nodes[0].box;
+    }
+
+    // Those of no more than `least` primitives are left, and returned.
+    std::vector<Task> widen(std::uint32_t binary, std::uint32_t depth, std::uint32_t least)
+    {
+        std::vector<Task> left;
+        wide_.nodes.reserve(subtrees_[binary].count / 6);  // about what meshes need
         wide_.nodes.emplace_back();
-        tasks_ = {{0, 0, 1}};
+        tasks_ = {{binary, 0, depth}};
         while (!tasks_.empty()) {
             const Task task = tasks_.back();
             tasks_.pop_back();
-            addNode(task);
+            if (subtrees_[task.binary].count > least) {
+                addNode(task);
+            } else {
+                left.push_back(task);
+            }
         }
-        return std::move(wide_);
+        return left;
     }
 
-private:
-    struct Task {
-        std::uint32_t binary, wide, depth;
-    };
+    WideBvh& result() { return wide_; }
 
+private:
     double shareOf(const Box& box) const { return rootArea_ > 0.0 ? computeHalfArea(box) / rootArea_ : 1.0; }
 
     void addNode(const Task& task)
@@ -205,14 +143,49 @@ private:
     }
 
     const Bvh& bvh_;
-    const std::vector<Subtree> subtrees_;
+    const std::vector<Subtree>& subtrees_;
     const double rootArea_;
     WideBvh wide_;
     std::vector<Task> tasks_;
 };
 
+// `part`'s first node is node `at` of the tree.
+void append(WideBvh& wide, const WideBvh& part, std::uint32_t at)
+{
+    const auto firstNode = static_cast<std::uint32_t>(wide.nodes.size()) - 1;
+    const auto firstEntry = static_cast<std::uint32_t>(wide.order.size());
+    for (std::size_t i = 0; i < part.nodes.size(); ++i) {
+        WideNode& node = i == 0 ? wide.nodes[at] : wide.nodes.emplace_back();
+        node = part.nodes[i];
+        for (WideChild& child : node.children) {
+            child.first += child.kind == WideChild::Kind::Inner  ? firstNode
+                           : child.kind == WideChild::Kind::Leaf ? firstEntry
+                                                                 : 0;
+        }
+    }
+    wide.order.insert(wide.order.end(), part.order.begin(), part.order.end());
+    wide.depth = std::max(wide.depth, part.depth);
+    wide.cost += part.cost;
+}
+
 }  // namespace
 
-WideBvh widenBvh(const Bvh& bvh) { return Widener(bvh).widen(); }
+WideBvh widenBvh(const Bvh& bvh, unsigned threads)
+{
+    constexpr std::uint32_t kMostAlone = 8192;  // primitives below a node that one thread makes, with all that is below
+    const std::vector<Subtree> subtrees = examineSubtrees(bvh, threads);
+    Widener top(bvh, subtrees);
+    const std::vector<Task> tasks = top.widen(0, 1, kMostAlone);
+    std::vector<Widener> parts(tasks.size(), Widener(bvh, subtrees));
+    parallelFor(tasks.size(), threads, [&](std::size_t i) { parts[i].widen(tasks[i].binary, tasks[i].depth, 0); });
+    WideBvh wide = std::move(top.result());
+    wide.order.reserve(bvh.order.size());
+    wide.nodes.reserve(std::accumulate(parts.begin(), parts.end(), wide.nodes.size(),
+                                       [](std::size_t sum, Widener& part) { return sum + part.result().nodes.size(); }));
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+        append(wide, parts[i].result(), tasks[i].wide);
+    }
+    return wide;
+}
 
 }  // namespace glim

@@ -1,10 +1,13 @@
 // Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", HPG 2017, section 3.1.
 #include "host/flatten/pack_nodes.hpp"
 
+#include "host/bvh/parallel_for.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <thread>
 
 namespace glim {
 namespace {
@@ -102,7 +105,7 @@ Content contentOf(const WideNode& node)
     return content;
 }
 
-void pushNode(std::vector<uvec4>& texels, const WideNode& node, float pad)
+std::array<uvec4, kNodeTexels> pack(const WideNode& node, float pad)
 {
     const Box bounds = boundsOf(node, pad);
     const Content content = contentOf(node);
@@ -113,24 +116,26 @@ void pushNode(std::vector<uvec4>& texels, const WideNode& node, float pad)
         planes[axis] = packPlanes(node, pad, axis, bounds.lo[axis], exponent);
         exponents |= exponent << axis * 8;
     }
-    texels.push_back({std::bit_cast<std::uint32_t>(bounds.lo.x), std::bit_cast<std::uint32_t>(bounds.lo.y),
-                      std::bit_cast<std::uint32_t>(bounds.lo.z), exponents});
-    texels.push_back({content.firstNode, content.firstRecord, content.entries[0], content.entries[1]});
-    texels.push_back({planes[0].lo[0], planes[0].lo[1], planes[1].lo[0], planes[1].lo[1]});
-    texels.push_back({planes[2].lo[0], planes[2].lo[1], planes[0].hi[0], planes[0].hi[1]});
-    texels.push_back({planes[1].hi[0], planes[1].hi[1], planes[2].hi[0], planes[2].hi[1]});
+    return {{{std::bit_cast<std::uint32_t>(bounds.lo.x), std::bit_cast<std::uint32_t>(bounds.lo.y),
+              std::bit_cast<std::uint32_t>(bounds.lo.z), exponents},
+             {content.firstNode, content.firstRecord, content.entries[0], content.entries[1]},
+             {planes[0].lo[0], planes[0].lo[1], planes[1].lo[0], planes[1].lo[1]},
+             {planes[2].lo[0], planes[2].lo[1], planes[0].hi[0], planes[0].hi[1]},
+             {planes[1].hi[0], planes[1].hi[1], planes[2].hi[0], planes[2].hi[1]}}};
 }
 
 }  // namespace
 
 std::vector<uvec4> packNodes(const WideBvh& bvh)
 {
+    constexpr std::size_t kBlock = 1024;
     const float pad = padOf(bvh.box);
-    std::vector<uvec4> texels;
-    texels.reserve(bvh.nodes.size() * kNodeTexels);
-    for (const WideNode& node : bvh.nodes) {
-        pushNode(texels, node, pad);
-    }
+    std::vector<uvec4> texels(bvh.nodes.size() * kNodeTexels);
+    parallelFor((bvh.nodes.size() + kBlock - 1) / kBlock, std::thread::hardware_concurrency(), [&](std::size_t block) {
+        for (std::size_t i = block * kBlock; i < std::min((block + 1) * kBlock, bvh.nodes.size()); ++i) {
+            std::ranges::copy(pack(bvh.nodes[i], pad), texels.begin() + static_cast<std::ptrdiff_t>(i * kNodeTexels));
+        }
+    });
     return texels;
 }
 

@@ -78,7 +78,7 @@ private:
 
 TEST(WidenBvhTest, KeepsItsInvariants)
 {
-    for (const Mesh& mesh : {icosphere(0), terrain(40), randomTriangles(3000, 0.1F, 1), growingLine(5000, 1e-4F, 1.001),
+    for (const Mesh& mesh : {icosphere(0), terrain(40), terrain(120), randomTriangles(3000, 0.1F, 1), growingLine(5000, 1e-4F, 1.001),
                              coincidentTriangles(1000)}) {
         const std::vector<Box> boxes = primitiveBoxes(sceneOf(mesh));
         for (const SplitRule rule : {SplitRule::Sah, SplitRule::Mean, SplitRule::Median}) {

@@ -1,0 +1,123 @@
+#include "host/bvh/examine_subtrees.hpp"
+
+#include "host/bvh/parallel_for.hpp"
+#include "host/bvh/surface_area.hpp"
+#include "shaders/shared/scene_types.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace glim {
+namespace {
+
+// Of a primitive's test (3 texels), where the visit of a node (5 texels, eight boxes) is 1. A guess by these counts, not yet a measurement.
+constexpr float kPrimitiveCost = 0.5F;
+
+struct Division {
+    float cost;
+    std::uint8_t toLeft;
+};
+
+Division divide(const Subtree& left, const Subtree& right, std::uint32_t roots)
+{
+    Division best{std::numeric_limits<float>::infinity(), 1};
+    for (std::uint32_t k = 1; k < roots; ++k) {
+        const std::uint32_t l = std::min(k, kMostRoots), r = std::min(roots - k, kMostRoots);
+        const float cost = left.cost[l - 1] + right.cost[r - 1];
+        if (cost < best.cost) {
+            best = {cost, static_cast<std::uint8_t>(k)};
+        }
+    }
+    return best;
+}
+
+Subtree makeLeaf(const BvhNode& node)
+{
+    Subtree subtree{};
+    subtree.cost.fill(static_cast<float>(computeHalfArea(node.box)) * static_cast<float>(node.count) * kPrimitiveCost);
+    subtree.isLeaf = true;
+    subtree.first = node.first;
+    subtree.count = node.count;
+    return subtree;
+}
+
+Subtree join(const BvhNode& node, const Subtree& left, const Subtree& right)
+{
+    Subtree subtree{};
+    subtree.first = left.first;
+    subtree.count = left.count + right.count;
+    const auto area = static_cast<float>(computeHalfArea(node.box));
+    const float asLeaf = subtree.count <= kMaxLeafRecords ? area * static_cast<float>(subtree.count) * kPrimitiveCost
+                                                       : std::numeric_limits<float>::infinity();
+    const Division asNode = divide(left, right, kBvhWidth);
+    subtree.nodeToLeft = asNode.toLeft;
+    subtree.isLeaf = asLeaf <= asNode.cost + area;
+    subtree.cost[0] = std::min(asLeaf, asNode.cost + area);
+    for (std::uint32_t roots = 2; roots <= kMostRoots; ++roots) {
+        const Division division = divide(left, right, roots);
+        const bool pays = division.cost < subtree.cost[roots - 2];
+        subtree.cost[roots - 1] = pays ? division.cost : subtree.cost[roots - 2];
+        subtree.toLeft[roots - 1] = pays ? division.toLeft : 0;
+    }
+    return subtree;
+}
+
+// A node and what is below it: nodes [begin, end), by the order that bvh.hpp demands.
+struct Part {
+    std::uint32_t node, begin, end;
+};
+
+class Examiner {
+public:
+    Examiner(const Bvh& bvh, unsigned threads) : bvh_(bvh), threads_(threads), subtrees_(bvh.nodes.size()) {}
+
+    std::vector<Subtree> examine()
+    {
+        divide({0, 1, static_cast<std::uint32_t>(bvh_.nodes.size())});
+        parallelFor(parts_.size(), threads_, [&](std::size_t i) {
+            const Part& part = parts_[i];
+            for (std::uint32_t node = part.end; node-- > part.begin;) {
+                examine(node);
+            }
+            examine(part.node);
+        });
+        for (std::size_t i = top_.size(); i-- > 0;) {
+            examine(top_[i]);
+        }
+        return std::move(subtrees_);
+    }
+
+private:
+    void divide(const Part& part)
+    {
+        constexpr std::uint32_t kMostAlone = 16384;  // nodes below that one thread examines
+        if (part.end - part.begin <= kMostAlone) {
+            parts_.push_back(part);
+            return;
+        }
+        top_.push_back(part.node);
+        const std::uint32_t left = bvh_.nodes[part.node].first;
+        const BvhNode& right = bvh_.nodes[left + 1];
+        const std::uint32_t middle = right.count > 0 ? part.end : right.first;
+        divide({left, left + 2, middle});
+        divide({left + 1, middle, part.end});
+    }
+
+    void examine(std::uint32_t index)
+    {
+        const BvhNode& node = bvh_.nodes[index];
+        subtrees_[index] = node.count > 0 ? makeLeaf(node) : join(node, subtrees_[node.first], subtrees_[node.first + 1]);
+    }
+
+    const Bvh& bvh_;
+    const unsigned threads_;
+    std::vector<Subtree> subtrees_;
+    std::vector<Part> parts_;
+    std::vector<std::uint32_t> top_;  // parents first
+};
+
+}  // namespace
+
+std::vector<Subtree> examineSubtrees(const Bvh& bvh, unsigned threads) { return Examiner(bvh, threads).examine(); }
+
+}  // namespace glim
