@@ -1,9 +1,10 @@
 // The builder's bins and its threads cost nothing that counts: trees are as good as those of every possible place, and the same.
+#include "host/bench/make_hills.hpp"
 #include "host/bvh/build_bvh.hpp"
 #include "host/bvh/parallel_for.hpp"
 #include "host/bvh/widen_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
-#include "tests/bench/bench_scenes.hpp"
+#include "tests/support/bench_scenes.hpp"
 #include "tests/support/sweep_tree.hpp"
 #include "tests/support/test_meshes.hpp"
 
@@ -30,7 +31,7 @@ TEST(BvhQuality, TheSweepsCostIsTheExpectedNumberOfSteps)
 
 TEST(BvhQuality, CostIsWithinFivePercentOfAFullSweeps)
 {
-    for (const auto& [name, scene] : {std::pair{"bumpy ball in a box", bumpyBall(6)}, {"hills", hills(150)}, {"forest", forest(40)},
+    for (const auto& [name, scene] : {std::pair{"bumpy ball in a box", bumpyBall(6)}, {"hills", makeHills(150)}, {"forest", forest(40)},
                                       {"random triangles", sceneOf(randomTriangles(30000, 0.05F, 1))}}) {
         const std::vector<Box> boxes = primitiveBoxes(scene);
         const double sweep = computeSweepCost(boxes), cost = buildBvh(boxes).cost;
