@@ -114,6 +114,10 @@ void addTracingOptions(CLI::App& command, RenderSettings& settings, SplitRule& s
 {
     addEnum(command, "--accelerator", "A",
             "bvh, or none: every primitive against every ray, 8192 a dispatch [bvh]", {"bvh", "none"}, settings.accelerator);
+    addEnum(command, "--schedule", "S",
+            "wavefront (a kernel for each step of all paths) or persistent (one kernel that traces path after path to its end; not "
+            "with --accelerator none, nor where --direct takes more than one shadow ray per hit): the same bits [wavefront]",
+            {"wavefront", "persistent"}, settings.schedule);
     addEnum(command, "--split", "RULE",
             "Where the BVH divides its nodes: sah (surface-area heuristic), mean or median of the centres along the longest axis "
             "[sah]",

@@ -64,15 +64,19 @@ Specialization specialize(const SceneFeatures& features, const FlatCamera& camer
             {kSpecLuminance, isCourse(settings.adaptive)}};
 }
 
-KernelSet::KernelSet(const KernelLayout& layout, const Specialization& s)
+KernelSet::KernelSet(const KernelLayout& layout, const Specialization& s, Schedule schedule)
 {
     std::vector<std::future<void>> compiling;
     const auto compile = [&](std::optional<Kernel>& kernel, const EmbeddedShader& shader) {
         compiling.push_back(std::async(std::launch::async, [&] { kernel.emplace(layout, shader, s); }));
     };
-    compile(sampleLights, kernels::sample_lights);  // the longest
+    if (schedule == Schedule::Persistent) {
+        compile(tracePaths, kernels::trace_paths);
+    } else {
+        compile(sampleLights, kernels::sample_lights);  // the longest
+        compile(bounce, kernels::bounce);
+    }
     compile(traceClosest, kernels::trace_closest);
-    compile(bounce, kernels::bounce);
     compile(traceShadow, kernels::trace_shadow);
     compile(generateRays, kernels::generate_rays);
     compile(accumulate, kernels::accumulate);
@@ -96,7 +100,7 @@ std::vector<const Kernel*> KernelSet::all() const
 {
     std::vector<const Kernel*> kernels;
     for (const std::optional<Kernel>* kernel : {&sizeDispatch, &generateRays, &traceClosest, &sampleLights, &traceShadow, &bounce,
-                                                &accumulate, &sampleHemisphere, &traceHemisphere, &showView, &choosePixels}) {
+                                                &tracePaths, &accumulate, &sampleHemisphere, &traceHemisphere, &showView, &choosePixels}) {
         if (*kernel) {
             kernels.push_back(&**kernel);
         }

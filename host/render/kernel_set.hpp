@@ -14,11 +14,13 @@ Specialization specialize(const SceneFeatures& features, const FlatCamera& camer
 // Absent where no picture of these settings needs it.
 struct KernelSet {
     // Compiles all at the same time.
-    KernelSet(const KernelLayout& layout, const Specialization& specialization);
+    KernelSet(const KernelLayout& layout, const Specialization& specialization, Schedule schedule);
 
     std::vector<const Kernel*> all() const;
 
-    std::optional<Kernel> generateRays, sizeDispatch, traceClosest, sampleLights, traceShadow, bounce, accumulate;
+    std::optional<Kernel> generateRays, sizeDispatch, traceClosest, traceShadow, accumulate;
+    std::optional<Kernel> sampleLights, bounce;               // of the wavefront
+    std::optional<Kernel> tracePaths;                         // of the persistent schedule
     std::optional<Kernel> sampleHemisphere, traceHemisphere;  // of --direct hemisphere
     std::optional<Kernel> showView;                           // of views other than shaded
     std::optional<Kernel> choosePixels;                       // of --adaptive course

@@ -99,6 +99,7 @@ RenderSettings settingsOfOne(RenderSettings settings)
     settings.adaptive = Adaptive::Off;
     settings.suspects = 0;
     settings.notes = true;
+    settings.schedule = Schedule::Wavefront;  // between whose kernels there is something to see
     settings.pathCapacity = kBlockSamples;
     return settings;
 }

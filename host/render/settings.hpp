@@ -23,6 +23,10 @@ enum class DirectLight {
     Bsdf,        // the scattered ray alone
 };
 
+// Which kernels trace a pass, to the same bits: one per step of all its paths (wavefront.cpp), or one that traces path after path to
+// its end (wavefront_persistent.cpp).
+enum class Schedule { Wavefront, Persistent };
+
 // Light by the surfaces it has met between source and camera: none, one, two or more.
 enum class PathParts { All, Emission, Direct, Indirect };
 
@@ -68,12 +72,16 @@ struct RenderSettings {
     bool notes = false;          // kernels note what they find out about the only path of a pass (replay.hpp)
 
     // How the work is cut: these change no bit of the picture.
+    Schedule schedule = Schedule::Wavefront;
     std::uint32_t workgroup = 64;        // invocations
     std::uint32_t pathCapacity = 1U << 18;  // paths in flight, at least kBlockSamples
     std::uint32_t slabPixels = 1U << 20;    // most pixels of a slab: no buffer of the film exceeds 128 MiB, llvmpipe's limit
     std::uint32_t portion = 64;          // dispatches that run before it is asked whether the pass goes on
     double passSeconds = 1.0;            // that a pass should take at most: nobody is answered before its end
 };
+
+// As --schedule and the statistics have it.
+inline const char* nameOf(Schedule schedule) { return schedule == Schedule::Persistent ? "persistent" : "wavefront"; }
 
 inline bool isCourse(Adaptive adaptive) { return adaptive == Adaptive::Course || adaptive == Adaptive::CourseLiteral; }
 inline bool isNeighbours(Adaptive adaptive)

@@ -7,7 +7,8 @@
 //   accumulate
 //
 // A round over the hemisphere has sample_hemisphere and trace_hemisphere instead. --view puts show_view before accumulate. Brute
-// force repeats each trace_ for the next records.
+// force repeats each trace_ for the next records. In the persistent schedule, trace_paths alone stands for all bounces
+// (wavefront_persistent.cpp).
 #include "host/render/wavefront.hpp"
 
 #include "shaders/shared/bindings.h"
@@ -51,16 +52,18 @@ Wavefront::Wavefront(Device& device, const FlatScene& scene, const FlatCamera& c
     : device_(device), settings_(settings), rounds_(lightRounds(scene, settings)), template_(passTemplate(scene, settings)),
       ownScene_(std::in_place, device, scene), ownPaths_(std::in_place, device, settings.pathCapacity), scene_(*ownScene_),
       paths_(*ownPaths_), camera_(device, camera), layout_(device, kernelSlots(), sizeof(Pass)),
-      kernels_(layout_, specialize(scene.features, camera, settings))
+      kernels_(layout_, specialize(scene.features, camera, settings), settings.schedule)
 {
+    refuseForSchedule();
     compile();
 }
 
 Wavefront::Wavefront(Wavefront& lender, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
     : device_(lender.device_), settings_(settings), rounds_(lightRounds(scene, settings)), template_(passTemplate(scene, settings)),
       scene_(lender.scene_), paths_(lender.paths_), camera_(device_, camera), layout_(device_, kernelSlots(), sizeof(Pass)),
-      kernels_(layout_, specialize(scene.features, camera, settings))
+      kernels_(layout_, specialize(scene.features, camera, settings), settings.schedule)
 {
+    refuseForSchedule();
     compile();
 }
 
@@ -122,6 +125,10 @@ std::optional<PassSeconds> Wavefront::trace(const Slab& slab, Pass pass, const s
 
 void Wavefront::tracePaths(Recording& recording, const Slab& slab, Pass& pass)
 {
+    if (kernels_.tracePaths) {
+        tracePersistently(recording, slab, pass);
+        return;
+    }
     bool alive = true;
     for (std::uint32_t bounce = 0; alive && bounce <= pass.maxBounces; bounce += kBouncesPerLook) {
         if (bounce == 0) {

@@ -55,6 +55,9 @@ public:
 private:
     void compile();
     void tracePaths(Recording& recording, const Slab& slab, Pass& pass);
+    // In wavefront_persistent.cpp.
+    void refuseForSchedule() const;
+    void tracePersistently(Recording& recording, const Slab& slab, Pass& pass);
     void recordBounce(Recording& recording, const Slab& slab, const Pass& pass) const;
     void recordRounds(Recording& recording, const Bindings& bindings, const Pass& pass) const;
     void recordRound(Recording& recording, const Bindings& bindings, const Pass& round, bool hemisphere) const;

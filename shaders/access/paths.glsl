@@ -47,7 +47,7 @@ PathState fetchState(uint slot)
 {
     uvec4 a = texelFetch(stateTexels, int(2u * slot));
     uvec4 b = texelFetch(stateTexels, int(2u * slot + 1u));
-    return PathState(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.x), uintBitsToFloat(b.y), b.zw);
+    return PathState(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.x), uintBitsToFloat(b.y), b.z, b.w);
 }
 #endif
 #if defined(WRITES_STATES) || defined(UPDATES_STATES)
@@ -130,6 +130,15 @@ DECLARE(readonly, kBindLuminance, LuminanceMoments, filmLuminance);
 
 #if defined(UPDATES_RAY_COUNTS)
 layout(set = 0, binding = kBindRayCounts, scalar) buffer RayCountsBuffer { RayCounts rayCounts; };
+
+// From many threads at once.
+void countRays(uint closest, uint shadow)
+{
+    uint before = atomicAdd(rayCounts.closest.x, closest);
+    atomicAdd(rayCounts.closest.y, before + closest < before ? 1u : 0u);
+    before = atomicAdd(rayCounts.shadow.x, shadow);
+    atomicAdd(rayCounts.shadow.y, before + shadow < before ? 1u : 0u);
+}
 #endif
 
 #endif

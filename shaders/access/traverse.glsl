@@ -156,8 +156,9 @@ PathHit traceClosest(PathRay ray)
 }
 
 // True if nothing but `target` lies between origin and origin + reach * direction.
-bool isUnoccluded(ShadowRay ray)
+bool isUnoccluded(ShadowRay ray, out Steps steps)
 {
+    steps = Steps(0u, 0u);
     Walk walk = beginWalk(ray.origin, ray.direction);
     Siblings stack[kMaxBvhDepth];
     uint depth = 0u;
@@ -171,10 +172,12 @@ bool isUnoccluded(ShadowRay ray)
         }
         Records records;
         visitNode(walk, node, ray.reach, siblings, records);
+        ++steps.nodes;
         while (records.left != 0u) {
             uint index = takeRecord(records);
             TriangleHit hit = intersectRecord(walk, fetchRecord(index), ray.reach, index == ray.source);
             occluded = occluded || (hit.t > 0.0 && index != ray.target);
+            ++steps.primitives;
         }
         if (siblings.left < kFirstSibling) {
             going = depth > 0u && !occluded;
@@ -183,6 +186,12 @@ bool isUnoccluded(ShadowRay ray)
         }
     }
     return !occluded;
+}
+
+bool isUnoccluded(ShadowRay ray)
+{
+    Steps uncounted;
+    return isUnoccluded(ray, uncounted);
 }
 
 #endif

@@ -26,7 +26,7 @@ void main()
         vec2 jitter = unitFloat(samplePair(id, kDimensionPixel, kSobol));
         vec2 corner = vec2(id.pixel % pass.width, id.pixel / pass.width);
         pathRays[slot] = rayThrough(id, filmFromPixel(corner + jitter, vec2(pass.width, pass.height)));
-        pathStates[slot] = PathState(vec3(1.0), 0.0, 0.0, 1.0, uvec2(0u));
+        pathStates[slot] = PathState(vec3(1.0), 0.0, 0.0, 1.0, 0u, 0u);
         pathRadiance[slot] = PathRadiance(vec3(0.0), 0.0);
         nextQueue[slot] = slot;
     }

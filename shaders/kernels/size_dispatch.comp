@@ -9,9 +9,10 @@
 #include "access/paths.glsl"
 #include "access/status.glsl"
 
-uint groupsOf(uint count)
+uint groupsOf(uint count, uint share)
 {
-    return (count + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
+    uint groupEntries = gl_WorkGroupSize.x * share;
+    return (count + groupEntries - 1u) / groupEntries;
 }
 
 uvec2 add64(uvec2 sum, uint more)
@@ -21,20 +22,20 @@ uvec2 add64(uvec2 sum, uint more)
     return uvec2(sum.x, sum.y + carry);
 }
 
-void sizePaths(uint slots)
+uint takePaths(uint slots, uint share)
 {
     uint count = pass.bounce == 0u ? slots : checkQueue(queueTails.next, slots);
     queueSizes.closest = count;
-    queueSizes.closestGroups = uvec3(groupsOf(count), 1u, 1u);
+    queueSizes.closestGroups = uvec3(groupsOf(count, share), 1u, 1u);
     queueTails.next = 0u;
-    rayCounts.closest = add64(rayCounts.closest, count);
+    return count;
 }
 
 void sizeShadow(uint slots)
 {
     uint count = checkQueue(queueTails.shadow, slots);
     queueSizes.shadow = count;
-    queueSizes.shadowGroups = uvec3(groupsOf(count), 1u, 1u);
+    queueSizes.shadowGroups = uvec3(groupsOf(count, 1u), 1u, 1u);
     queueTails.shadow = 0u;
     rayCounts.shadow = add64(rayCounts.shadow, count);
 }
@@ -44,7 +45,10 @@ void main()
     if (gl_GlobalInvocationID.x == 0u) {
         uint slots = pass.pixelCount * pass.sampleCount;
         if ((pass.sizes & kSizesPaths) != 0u) {
-            sizePaths(slots);
+            rayCounts.closest = add64(rayCounts.closest, takePaths(slots, 1u));
+        }
+        if ((pass.sizes & kSizesShares) != 0u) {
+            takePaths(slots, kPathsPerThread);
         }
         if ((pass.sizes & kSizesShadow) != 0u) {
             sizeShadow(slots);

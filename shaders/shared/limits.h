@@ -18,6 +18,11 @@ GLIM_CONST uint kPageSamples = 256u;
 // Primitives that brute force tries per dispatch: Mesa before 24 stops loops after 65,535 iterations.
 GLIM_CONST uint kScanRecords = 8192u;
 
+// Paths that a thread of trace_paths takes at most, one after the other, and visits to nodes and tests of primitives after which it
+// begins no ray: eight lanes of Mesa before 24 have 65,535 iterations together. What is left goes into the next dispatch.
+GLIM_CONST uint kPathsPerThread = 16u;
+GLIM_CONST uint kStepsPerThread = 4096u;
+
 // Samples without any difference after which a pixel may count as constant: one whose samples are black but for one in 200
 // has then been found out with probability .994. Where no surface is in sight fewer do (choose_pixels).
 GLIM_CONST uint kConstantSamples = 1024u;

@@ -24,7 +24,8 @@ struct PathState {
     float pdf;       // of the ray's direction per steradian; 0: camera, mirror or glass, which light sampling cannot find
     float cosine;    // of the ray's direction against the shading normal it left, >= 0
     float etaScale;  // product of squared relative indices: throughput * etaScale is free of the glass's compression
-    uvec2 unused;
+    uint bounce;     // surfaces met
+    uint unused;
 };
 
 struct PathRadiance {
@@ -127,6 +128,7 @@ struct ChosenPixel {
 // Which queues size_dispatch looks at.
 GLIM_CONST uint kSizesPaths = 1u;
 GLIM_CONST uint kSizesShadow = 2u;
+GLIM_CONST uint kSizesShares = 4u;  // the paths, for trace_paths, which counts its rays itself
 
 // Lights of a round that are none of the scene's.
 GLIM_CONST uint kNoLightIndex = 0xffffffffu;
@@ -156,7 +158,7 @@ struct Pass {
     uint leastEvents;       // surfaces between camera and light, of the light that counts
     uint mostEvents;
     float survival;         // of kRouletteFixed
-    uint sizes;             // kSizesPaths | kSizesShadow
+    uint sizes;             // kSizesPaths | kSizesShadow, or kSizesShares
     uint addsFound;         // 1: sample_lights adds the light that the ray itself has found (the first round)
     uint light;             // of the round: an index, kAnyLight or kNoLightIndex
     uint lightSample;

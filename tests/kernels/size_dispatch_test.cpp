@@ -3,6 +3,7 @@
 #include "host/render/path_buffers.hpp"
 #include "kernels.hpp"
 #include "shaders/shared/bindings.h"
+#include "shaders/shared/limits.h"
 #include "shaders/shared/path_types.h"
 #include "tests/support/test_device.hpp"
 
@@ -83,6 +84,21 @@ TEST(SizeDispatchTest, FollowsTheTailsAndCarriesCounts)
     EXPECT_EQ(outcome.tails.shadow, 0U);
     EXPECT_EQ(outcome.counts.closest, uvec2(63, 8));
     EXPECT_EQ(outcome.counts.shadow, uvec2(0xffffffff, 0));
+}
+
+TEST(SizeDispatchTest, SharesCountNoRays)
+{
+    Pass pass = passAt(0);
+    pass.sizes = kSizesShares;
+    const Outcome all = sizeDispatch(pass, {5, 6}, {});
+    EXPECT_EQ(all.sizes.closest, 3000U);
+    EXPECT_EQ(all.sizes.closestGroups, uvec3((3000 + kWorkgroup * kPathsPerThread - 1) / (kWorkgroup * kPathsPerThread), 1, 1));
+    EXPECT_EQ(all.counts.closest, uvec2(0, 0));
+    EXPECT_EQ(all.tails.next, 0U);
+    EXPECT_EQ(all.tails.shadow, 6U);
+    pass.bounce = 1;
+    EXPECT_EQ(sizeDispatch(pass, {5, 0}, {}).sizes.closest, 5U);
+    EXPECT_EQ(sizeDispatch(pass, {3001, 0}, {}).overflows, 1U);
 }
 
 TEST(SizeDispatchTest, LeavesTheOtherQueueAlone)

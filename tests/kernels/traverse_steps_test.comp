@@ -32,9 +32,12 @@ void main()
         PathHit hit = traceClosest(ray, steps);
         uint nodes = nodeTests;
         uint primitives = recordFetches;
-        bool unoccluded = isUnoccluded(ShadowRay(ray.origin, ray.source, ray.direction, kNoRecord, vec3(0.0), kInfinity));
+        Steps shadow;
+        bool unoccluded = isUnoccluded(ShadowRay(ray.origin, ray.source, ray.direction, kNoRecord, vec3(0.0), kInfinity), shadow);
         EXPECT_EQUAL(steps.nodes, nodes);
         EXPECT_EQUAL(steps.primitives, primitives);
+        EXPECT_EQUAL(shadow.nodes, nodeTests - nodes);
+        EXPECT_EQUAL(shadow.primitives, recordFetches - primitives);
         EXPECT_TRUE(nodes > 0u && nodeTests > nodes);
         results[TEST_THREAD] = Result(hit, nodes, primitives, nodeTests - nodes, uint(unoccluded));
     }

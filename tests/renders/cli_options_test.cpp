@@ -67,8 +67,8 @@ TEST_F(OptionsTest, ChangeThePicture)
 TEST_F(OptionsTest, ChangeNoBitWhereOnlyTheTracingDiffers)
 {
     const Film film = render("--spp 8");
-    for (const char* options : {"--accelerator none", "--split mean", "--split median", "--direct mis", "--paths all",
-                                "--roulette throughput", "--adaptive off", "--view shaded", "--lens-radius 0 --focal-distance 2"}) {
+    for (const char* options : {"--accelerator none", "--schedule persistent", "--split mean", "--split median", "--direct mis",
+                                "--paths all", "--roulette throughput", "--adaptive off", "--view shaded", "--lens-radius 0 --focal-distance 2"}) {
         EXPECT_TRUE(sameBits(film, render(std::string("--spp 8 ") + options))) << options;
     }
 }

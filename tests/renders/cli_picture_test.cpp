@@ -219,6 +219,7 @@ TEST(CommandLineTest, StatisticsAreCompleteAndSane)
     EXPECT_GT(s.at("peakMemory").at("host"), 1 << 20);
     EXPECT_GT(s.at("peakMemory").at("device"), 1 << 20);
     EXPECT_EQ(s.at("nonFinite").at("count"), 0);
+    EXPECT_EQ(s.at("schedule"), "wavefront");
     EXPECT_EQ(s.at("loopCapHits"), 0);
     EXPECT_EQ(s.at("overflows"), 0);
     EXPECT_NE(s.at("device").at("name"), "");

@@ -11,8 +11,10 @@
 namespace glim {
 namespace {
 
+class LoopCapTest : public testing::TestWithParam<Schedule> {};
+
 // A ray meets all of 100,000 coincident triangles, more than Mesa 22.3.6 allows a loop: the render is refused, or right.
-TEST(LoopCapTest, H42EndsTheRender)
+TEST_P(LoopCapTest, H42EndsTheRender)
 {
     SceneBuilder builder;
     builder.lambert(glm::vec3(0.5F));
@@ -21,8 +23,10 @@ TEST(LoopCapTest, H42EndsTheRender)
     scene.triangles = coincidentTriangles(100000);
     scene.primitives = {{"", 0, 100000, 0, false}};
     const FlatScene flat = flattened(scene);
+    RenderSettings settings = squareSettings(4, 1);
+    settings.schedule = GetParam();
     try {
-        Renderer renderer(testDevice(), flat, flattenCamera(scene.cameras.front(), 1.0F), squareSettings(4, 1));
+        Renderer renderer(testDevice(), flat, flattenCamera(scene.cameras.front(), 1.0F), settings);
         const Film film = renderer.render([](const RenderProgress&) { return true; });
         EXPECT_EQ(renderer.statistics().loopCaps, 0U) << "noticed, but the render went on";
         for (const PixelMoments& pixel : film.pixels) {
@@ -33,6 +37,9 @@ TEST(LoopCapTest, H42EndsTheRender)
         EXPECT_NE(std::string(error.what()).find("cut loops short"), std::string::npos) << error.what();
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(Schedules, LoopCapTest, testing::Values(Schedule::Wavefront, Schedule::Persistent),
+                         [](const testing::TestParamInfo<Schedule>& schedule) { return std::string(nameOf(schedule.param)); });
 
 }  // namespace
 }  // namespace glim

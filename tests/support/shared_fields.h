@@ -44,7 +44,7 @@ GLIM_SHARED_END
 #ifdef F3
 F3(ray.origin) U(ray.source) F3(ray.direction) U(ray.unused)
 U(hit.record) F(hit.t) F2(hit.barycentric)
-F3(state.throughput) F(state.pdf) F(state.cosine) F(state.etaScale) U2(state.unused)
+F3(state.throughput) F(state.pdf) F(state.cosine) F(state.etaScale) U(state.bounce) U(state.unused)
 F3(radiance.radiance) F(radiance.clamped)
 F3(firstHit.albedo) F(firstHit.alpha) F3(firstHit.normal) F(firstHit.depth)
 F3(shadowRay.origin) U(shadowRay.source) F3(shadowRay.direction) U(shadowRay.target) F3(shadowRay.contribution)
