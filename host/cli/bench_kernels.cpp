@@ -104,6 +104,7 @@ bool measure(Device& device, const BenchOptions& options, const std::string& nam
     const Camera camera = cameraOf(prepared.scene, options);
     const glm::uvec2 size = options.size.value_or(naturalSize(camera));
     RenderSettings settings = options.settings;
+    settings.schedule = Schedule::Wavefront;
     settings.width = size.x;
     settings.height = size.y;
     settings.pathCapacity = std::max(settings.pathCapacity, size.x * size.y);

@@ -62,6 +62,9 @@ void addPreview(CLI::App& app)
     command->parse_complete_callback([command, options] {
         settlePicture(*command, *options);
         settleEnd(*command, options->settings);
+        if (options->settings.schedule == Schedule::Auto) {
+            options->settings.schedule = Schedule::Wavefront;
+        }
     });
     command->callback([options] {
         preview({options->scene, loadOptionsOf(*options), options->split, options->size, options->camera, options->device,

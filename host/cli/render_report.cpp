@@ -133,7 +133,7 @@ Json statisticsOf(const RenderReport& report)
             {"size", {report.film.width, report.film.height}},
             {"sampleRange", {report.film.sampleRanges[0].first, report.film.sampleRanges[0].second}},
             {"settings", report.film.identity.settings},
-            {"schedule", nameOf(report.options.settings.schedule)},
+            {"schedule", nameOf(s.schedule)},
             {"stopReason", report.stopReason},
             {"device",
              {{"name", report.device.name}, {"driver", report.device.driver}, {"kind", report.device.kind}}},

@@ -41,6 +41,7 @@ void Renderer::open(const FlatCamera& camera)
 {
     makeSlabs();
     refuseBrokenStatus(device_.description(), wavefront_->paths());
+    statistics_.schedule = wavefront_->schedule();
     statistics_.compileSeconds = wavefront_->compileSeconds();
     statistics_.uploadSeconds = secondsSince(start_) - statistics_.compileSeconds;
     begin(camera);

@@ -12,6 +12,7 @@
 namespace glim {
 
 struct RenderStatistics {
+    Schedule schedule = Schedule::Auto;  // that was used
     double uploadSeconds = 0.0, compileSeconds = 0.0, renderSeconds = 0.0;
     double passSeconds = 0.0;  // of all passes, on the device; 0 if it cannot tell
     std::map<std::string, KernelStatistics> kernels;

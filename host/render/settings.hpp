@@ -25,7 +25,8 @@ enum class DirectLight {
 
 // Which kernels trace a pass, to the same bits: one per step of all its paths (wavefront.cpp), or one that traces path after path to
 // its end (wavefront_persistent.cpp).
-enum class Schedule { Wavefront, Persistent };
+// Auto: the persistent one where it can and the device is software, on which it is faster in every scene measured; no GPU was.
+enum class Schedule { Auto, Wavefront, Persistent };
 
 // Light by the surfaces it has met between source and camera: none, one, two or more.
 enum class PathParts { All, Emission, Direct, Indirect };
@@ -81,7 +82,10 @@ struct RenderSettings {
 };
 
 // As --schedule and the statistics have it.
-inline const char* nameOf(Schedule schedule) { return schedule == Schedule::Persistent ? "persistent" : "wavefront"; }
+inline const char* nameOf(Schedule schedule)
+{
+    return schedule == Schedule::Persistent ? "persistent" : schedule == Schedule::Wavefront ? "wavefront" : "auto";
+}
 
 inline bool isCourse(Adaptive adaptive) { return adaptive == Adaptive::Course || adaptive == Adaptive::CourseLiteral; }
 inline bool isNeighbours(Adaptive adaptive)

@@ -49,21 +49,21 @@ Pass passTemplate(const FlatScene& scene, const RenderSettings& settings)
 }  // namespace
 
 Wavefront::Wavefront(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
-    : device_(device), settings_(settings), rounds_(lightRounds(scene, settings)), template_(passTemplate(scene, settings)),
+    : device_(device), settings_(settings), rounds_(lightRounds(scene, settings)),
+      schedule_(chooseSchedule(settings, rounds_.size(), device.description())), template_(passTemplate(scene, settings)),
       ownScene_(std::in_place, device, scene), ownPaths_(std::in_place, device, settings.pathCapacity), scene_(*ownScene_),
       paths_(*ownPaths_), camera_(device, camera), layout_(device, kernelSlots(), sizeof(Pass)),
-      kernels_(layout_, specialize(scene.features, camera, settings), settings.schedule)
+      kernels_(layout_, specialize(scene.features, camera, settings), schedule_)
 {
-    refuseForSchedule();
     compile();
 }
 
 Wavefront::Wavefront(Wavefront& lender, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
-    : device_(lender.device_), settings_(settings), rounds_(lightRounds(scene, settings)), template_(passTemplate(scene, settings)),
+    : device_(lender.device_), settings_(settings), rounds_(lightRounds(scene, settings)),
+      schedule_(chooseSchedule(settings, rounds_.size(), device_.description())), template_(passTemplate(scene, settings)),
       scene_(lender.scene_), paths_(lender.paths_), camera_(device_, camera), layout_(device_, kernelSlots(), sizeof(Pass)),
-      kernels_(layout_, specialize(scene.features, camera, settings), settings.schedule)
+      kernels_(layout_, specialize(scene.features, camera, settings), schedule_)
 {
-    refuseForSchedule();
     compile();
 }
 

@@ -15,6 +15,9 @@ namespace glim {
 // Told after each kernel of a path: its name, its pass, and where to look.
 using PathWatch = std::function<void(const std::string& kernel, const Pass& pass, PathBuffers& paths)>;
 
+// The one that is to be used where each hit has `rounds` of direct light. Throws InputError if what was asked for cannot be.
+Schedule chooseSchedule(const RenderSettings& settings, std::size_t rounds, const DeviceDescription& device);
+
 class Wavefront {
 public:
     // Uploads the scene and compiles the kernels for what it needs.
@@ -49,6 +52,7 @@ public:
     void choosePixels(Slab& slab);
 
     const PathBuffers& paths() const { return paths_; }
+    Schedule schedule() const { return schedule_; }  // never Auto
     double compileSeconds() const { return compileSeconds_; }
     const std::map<std::string, KernelStatistics>& statistics() const { return statistics_; }
 
@@ -56,7 +60,6 @@ private:
     void compile();
     void tracePaths(Recording& recording, const Slab& slab, Pass& pass);
     // In wavefront_persistent.cpp.
-    void refuseForSchedule() const;
     void tracePersistently(Recording& recording, const Slab& slab, Pass& pass);
     void recordBounce(Recording& recording, const Slab& slab, const Pass& pass) const;
     void recordRounds(Recording& recording, const Bindings& bindings, const Pass& pass) const;
@@ -69,6 +72,7 @@ private:
     Device& device_;
     RenderSettings settings_;
     std::vector<LightRound> rounds_;  // of direct light at each hit
+    Schedule schedule_;
     Pass template_;  // what all passes have in common
     std::map<std::string, KernelStatistics> statistics_;
     double compileSeconds_ = 0.0;

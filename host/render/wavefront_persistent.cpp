@@ -13,19 +13,21 @@
 
 namespace glim {
 
-void Wavefront::refuseForSchedule() const
+Schedule chooseSchedule(const RenderSettings& settings, std::size_t rounds, const DeviceDescription& device)
 {
-    if (settings_.schedule == Schedule::Wavefront) {
-        return;
+    if (settings.schedule == Schedule::Auto) {
+        const bool can = settings.accelerator != Accelerator::None && rounds <= 1;
+        return can && device.software ? Schedule::Persistent : Schedule::Wavefront;
     }
-    if (settings_.accelerator == Accelerator::None) {
+    if (settings.schedule == Schedule::Persistent && settings.accelerator == Accelerator::None) {
         throw InputError("--schedule persistent: one kernel cannot try every primitive within a dispatch, as --accelerator none asks; "
                          "expected --schedule wavefront or --accelerator bvh.");
     }
-    if (rounds_.size() > 1) {
+    if (settings.schedule == Schedule::Persistent && rounds > 1) {
         throw InputError("--schedule persistent: one kernel traces one shadow ray per hit, but --direct and the scene's lights ask for " +
-                         std::to_string(rounds_.size()) + " rounds of them; expected --schedule wavefront or --direct mis.");
+                         std::to_string(rounds) + " rounds of them; expected --schedule wavefront or --direct mis.");
     }
+    return settings.schedule;
 }
 
 void Wavefront::tracePersistently(Recording& recording, const Slab& slab, Pass& pass)

@@ -95,7 +95,8 @@ TEST(RenderOptions, RaysAreTracedAsAsked)
     EXPECT_EQ(settings("--accelerator bvh --split sah").accelerator, Accelerator::Bvh);
     EXPECT_EQ(parse("--split mean").split, SplitRule::Mean);
     EXPECT_EQ(parse("--split median").split, SplitRule::Median);
-    EXPECT_EQ(settings("").schedule, Schedule::Wavefront);
+    EXPECT_EQ(settings("").schedule, Schedule::Auto);
+    EXPECT_EQ(settings("--schedule wavefront").schedule, Schedule::Wavefront);
     EXPECT_EQ(settings("--schedule persistent").schedule, Schedule::Persistent);
     EXPECT_EQ(settings("--intersector moller-trumbore").intersector, Intersector::MollerTrumbore);
     const Lens lens = parse("--lens-radius 0.25 --focal-distance 7.5").lens;

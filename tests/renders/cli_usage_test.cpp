@@ -60,7 +60,7 @@ TEST(CommandLineTest, HelpListsEveryOptionWithUnitRangeAndDefault)
           "metres, 0 to 1e+06 [0, a pinhole]", "--focal-distance D", "metres, 1e-06 to 1e+09 [none]", "--direct D",
           "point, spot and directional lights", "[mis]", "--light-samples N", "1 to 65536 [1]", "--paths PART", "[all]",
           "--roulette R", "infinite where albedo^2 >= P", "above albedo .837) [throughput]", "--accelerator A",
-          "8192 a dispatch [bvh]", "--schedule S", "the same bits [wavefront]", "--split RULE", "[sah]", "--adaptive RULE", "1.96 s / sqrt(n) <= T m", "by 1.7 %",
+          "8192 a dispatch [bvh]", "--schedule S", "view moves [auto]", "--split RULE", "[sah]", "--adaptive RULE", "1.96 s / sqrt(n) <= T m", "by 1.7 %",
           "[off]", "--tolerance T", "1e-30 to 1e+06 [0.05]", "--batch N", "2 to 1048576 [32]", "--max-spp N",
           "2 to 2147483648 [2048]", "--look-from X,Y,Z", "world coordinates", "--look-at X,Y,Z", "--look-up X,Y,Z", "[0,1,0]",
           "--zoom Z", "1e-06 to 1e+06 [1]", "--suspects N", "(8 bytes a pixel)", "1 to 1000 [off]", "--replay X,Y,SAMPLE",

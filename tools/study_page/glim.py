@@ -67,7 +67,7 @@ class Glim:
     def render(self, stem, scene, size, options, png=False, rates=False):
         """Writes stem.exr and, if asked, stem.png and stem.rates.png."""
         exr, stats = stem + ".exr", stem + ".json"
-        command = [self.binary, "render", scene, "-o", exr, "--stats", stats, "--size", "%dx%d" % size,
+        command = [self.binary, "render", scene, "-o", exr, "--stats", stats, "--schedule", "wavefront", "--size", "%dx%d" % size,
                    "--progress", "none", *options]
         if png:
             command += ["--png", stem + ".png"]
