@@ -24,12 +24,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kHills = "hills made in memory";
 constexpr int kHillCells = 320;  // 204,800 triangles: beyond every cache of a core
 
 PreparedScene prepareHills(SplitRule split)
 {
     PreparedScene prepared;
     prepared.scene = makeHills(kHillCells);
+    prepared.scene.file = kHills;
     prepared.bvh = widenBvh(buildBvh(primitiveBoxes(prepared.scene), split));
     prepared.flat = flattenScene(prepared.scene, prepared.bvh);
     return prepared;
@@ -142,7 +144,7 @@ ExitCode runBenchKernels(const BenchOptions& options)
             return finish(watch.signal(), "no figures are written");
         }
     }
-    if (options.scenes.empty() && !finished("hills made in memory", prepareHills(options.split))) {
+    if (options.scenes.empty() && !finished(kHills, prepareHills(options.split))) {
         return finish(watch.signal(), "no figures are written");
     }
     if (options.outputGiven) {

@@ -164,6 +164,7 @@ TEST(BenchKernelsTest, NeedsNoScene)
     EXPECT_EQ(run.exitCode, 0) << run.err;
     EXPECT_TRUE(contains(run.out, "hills made in memory: 204802 triangles")) << run.out;
     expectSentence(runGlim({"bench"}), 2, "SCENE is required");
+    expectSentence(runGlim({"bench", "--kernels", "--camera", "x"}), 1, "hills made in memory: camera \"x\"");
     expectSentence(runGlim({"bench", "--kernels", "--spp", "64"}), 2, "--kernels excludes --spp");
     expectSentence(runGlim({"bench", "--kernels", "--size", "16x16", "-o", "/nowhere/k.json"}), 1, "/nowhere/k.json");
 }
