@@ -2,6 +2,7 @@
 #include "host/error.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/render/replay.hpp"
+#include "host/render/wavefront.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/test_device.hpp"
@@ -144,6 +145,26 @@ void expectRefusal(const FlatScene& flat, const FlatCamera& camera, RenderSettin
         ADD_FAILURE() << "expected \"" << because << "\"";
     } catch (const InputError& error) {
         EXPECT_NE(std::string(error.what()).find(because), std::string::npos) << error.what();
+    }
+}
+
+TEST(ScheduleChoiceTest, AutoIsPersistentOnSoftwareWhereThatCan)
+{
+    DeviceDescription software, other;
+    software.software = true;
+    other.software = false;
+    RenderSettings settings;
+    settings.schedule = Schedule::Auto;
+    EXPECT_EQ(chooseSchedule(settings, 1, software), Schedule::Persistent);
+    EXPECT_EQ(chooseSchedule(settings, 1, other), Schedule::Wavefront);
+    EXPECT_EQ(chooseSchedule(settings, 2, software), Schedule::Wavefront);
+    settings.accelerator = Accelerator::None;
+    EXPECT_EQ(chooseSchedule(settings, 1, software), Schedule::Wavefront);
+    settings = {};
+    for (const Schedule asked : {Schedule::Wavefront, Schedule::Persistent}) {
+        settings.schedule = asked;
+        EXPECT_EQ(chooseSchedule(settings, 1, software), asked);
+        EXPECT_EQ(chooseSchedule(settings, 1, other), asked);
     }
 }
 
