@@ -119,6 +119,9 @@ struct Steps {
     uint primitives;  // tested
 };
 
+// Loops are tested at their end: tested at its beginning, a loop on llvmpipe goes through its body once more, for no lane at all. But
+// what such a loop hands to what follows, it must carry from round to round: on Mesa 22.3.6 whatever else a lane has when it leaves is
+// computed anew as long as others stay, from variables that have moved on.
 PathHit traceClosest(PathRay ray, out Steps steps)
 {
     steps = Steps(0u, 0u);
@@ -128,7 +131,7 @@ PathHit traceClosest(PathRay ray, out Steps steps)
     uint depth = 0u;
     Siblings siblings = kRoot;
     bool going = true;
-    while (going) {
+    do {
         uint node = takeSibling(siblings, walk.ahead);
         if (siblings.left >= kFirstSibling) {
             stack[depth++] = siblings;
@@ -136,16 +139,18 @@ PathHit traceClosest(PathRay ray, out Steps steps)
         Records records;
         visitNode(walk, node, best.hit.t, siblings, records);
         ++steps.nodes;
-        while (records.left != 0u) {
-            meetRecord(walk, takeRecord(records), ray.source, best);
-            ++steps.primitives;
+        if (records.left != 0u) {
+            do {
+                meetRecord(walk, takeRecord(records), ray.source, best);
+                ++steps.primitives;
+            } while (records.left != 0u);
         }
         if (siblings.left < kFirstSibling) {
             going = depth > 0u;
             depth -= going ? 1u : 0u;
             siblings = stack[depth];
         }
-    }
+    } while (going);
     return hitOf(best);
 }
 
@@ -155,7 +160,8 @@ PathHit traceClosest(PathRay ray)
     return traceClosest(ray, uncounted);
 }
 
-// True if nothing but `target` lies between origin and origin + reach * direction.
+// True if nothing but `target` lies between origin and origin + reach * direction. Visits nodes until there is something to test:
+// unlike those of traceClosest, hits do not shorten the ray for the nodes to come.
 bool isUnoccluded(ShadowRay ray, out Steps steps)
 {
     steps = Steps(0u, 0u);
@@ -163,28 +169,40 @@ bool isUnoccluded(ShadowRay ray, out Steps steps)
     Siblings stack[kMaxBvhDepth];
     uint depth = 0u;
     Siblings siblings = kRoot;
+    Records records = Records(0u, 0u);
     bool going = true;
     bool occluded = false;
-    while (going) {
-        uint node = takeSibling(siblings, walk.ahead);
-        if (siblings.left >= kFirstSibling) {
-            stack[depth++] = siblings;
+    do {
+        do {
+            uint node = takeSibling(siblings, walk.ahead);
+            if (siblings.left >= kFirstSibling) {
+                stack[depth++] = siblings;
+            }
+            Records found;
+            visitNode(walk, node, ray.reach, siblings, found);
+            if (found.left != 0u) {  // carries `records`
+                records = found;
+            }
+            ++steps.nodes;
+            if (siblings.left < kFirstSibling) {
+                going = depth > 0u;
+                depth -= going ? 1u : 0u;
+                siblings = stack[depth];
+            }
+        } while (going && records.left == 0u);
+        if (records.left != 0u) {
+            do {
+                uint index = takeRecord(records);
+                TriangleHit hit = intersectRecord(walk, fetchRecord(index), ray.reach, index == ray.source);
+                ++steps.primitives;
+                if (hit.t > 0.0 && index != ray.target) {
+                    occluded = true;
+                    going = false;
+                    records.left = 0u;
+                }
+            } while (records.left != 0u);
         }
-        Records records;
-        visitNode(walk, node, ray.reach, siblings, records);
-        ++steps.nodes;
-        while (records.left != 0u) {
-            uint index = takeRecord(records);
-            TriangleHit hit = intersectRecord(walk, fetchRecord(index), ray.reach, index == ray.source);
-            occluded = occluded || (hit.t > 0.0 && index != ray.target);
-            ++steps.primitives;
-        }
-        if (siblings.left < kFirstSibling) {
-            going = depth > 0u && !occluded;
-            depth -= going ? 1u : 0u;
-            siblings = stack[depth];
-        }
-    }
+    } while (going);
     return !occluded;
 }
 

@@ -116,15 +116,17 @@ void traceShare(uint entry, uint end, inout Work work)
 {
     Path path;
     bool alive = false;
-    while (entry < end && work.steps < kStepsPerThread) {
-        if (!alive) {
-            path = takePath(activeQueue[entry]);
-        }
-        alive = advance(path, work);
-        if (!alive) {
-            pathRadiance[path.slot] = path.light;
-            entry += kNeighbours;
-        }
+    if (entry < end) {
+        do {
+            if (!alive) {
+                path = takePath(activeQueue[entry]);
+            }
+            alive = advance(path, work);
+            if (!alive) {
+                pathRadiance[path.slot] = path.light;
+                entry += kNeighbours;
+            }
+        } while (entry < end && work.steps < kStepsPerThread);
     }
     if (alive) {
         pathRays[path.slot] = path.ray;
