@@ -67,6 +67,7 @@ Json jsonOf(const SceneBench& bench)
             {"settings", bench.settings},
             {"device", bench.device},
             {"version", bench.version},
+            {"schedule", bench.schedule},
             {"size", {bench.width, bench.height}},
             {"startUpSeconds",
              {{"load", start.load}, {"build", start.build}, {"upload", start.upload}, {"compile", start.compile}}},
@@ -110,6 +111,7 @@ SceneBench benchOf(const Json& json)
     json.at("settings").get_to(bench.settings);
     json.at("device").get_to(bench.device);
     json.at("version").get_to(bench.version);
+    bench.schedule = json.value("schedule", "");  // absent in older files
     bench.width = json.at("size").at(0).get<std::uint32_t>();
     bench.height = json.at("size").at(1).get<std::uint32_t>();
     const Json &start = json.at("startUpSeconds"), &reference = json.at("reference"), &bias = json.at("bias");

@@ -39,7 +39,7 @@ struct SceneBench {
     std::string scene;     // file as given
     std::string picture;   // camera and whatever else says what the picture is of, besides the scene
     std::string settings;  // describeSettings of the first seed
-    std::string device, version;
+    std::string device, version, schedule;
     std::uint32_t width = 0, height = 0;
     StartUp startUp;
     std::string reference;  // file

@@ -1,15 +1,25 @@
 #include "host/bench/trace_timer.hpp"
 
 namespace glim {
+namespace {
+
+// Whose kernels trace and do nothing else.
+RenderSettings byWavefront(RenderSettings settings)
+{
+    settings.schedule = Schedule::Wavefront;
+    return settings;
+}
+
+}  // namespace
 
 TraceTimer::TraceTimer(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
-    : wavefront_(device, scene, camera, settings), slab_(wavefront_.makeSlab(0, settings.width * settings.height)),
+    : wavefront_(device, scene, camera, byWavefront(settings)), slab_(wavefront_.makeSlab(0, settings.width * settings.height)),
       rays_(captureRays(wavefront_, *slab_))
 {
 }
 
 TraceTimer::TraceTimer(TraceTimer& lender, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
-    : wavefront_(lender.wavefront_, scene, camera, settings), slab_(wavefront_.makeSlab(0, settings.width * settings.height)),
+    : wavefront_(lender.wavefront_, scene, camera, byWavefront(settings)), slab_(wavefront_.makeSlab(0, settings.width * settings.height)),
       rays_(lender.rays_)
 {
 }

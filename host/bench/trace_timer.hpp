@@ -7,8 +7,7 @@ namespace glim {
 
 class TraceTimer {
 public:
-    // Of the scene's rays as the camera has them: as many pixels as `settings` have, which is pathCapacity at most. The schedule must be
-    // Wavefront.
+    // Of the scene's rays as the camera has them: as many pixels as `settings` have, which is pathCapacity at most.
     TraceTimer(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
 
     // In the buffers of `lender`, which must outlive it, with its rays; one of the two traces at a time.

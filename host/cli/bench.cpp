@@ -8,6 +8,7 @@
 #include "host/cli/bench_options.hpp"
 #include "host/cli/bench_report.hpp"
 #include "host/cli/check_target.hpp"
+#include "host/cli/fastest_schedule.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/settle_options.hpp"
@@ -129,6 +130,7 @@ BenchJob prepareJob(const BenchOptions& options, const std::filesystem::path& sc
     job.settings.width = size.x;
     job.settings.height = size.y;
     job.settings.sampleEnd = std::bit_floor(mostSamples(job.settings));
+    job.settings.fastest = rememberedSchedule(device);
     refuseWhatDoesNotFit(job.prepared, job.settings, device);
     job.camera = flattenCamera(camera, static_cast<float>(size.x) / static_cast<float>(size.y), options.lens);
     job.bench = describeBench(options, scene, job.settings, device);
@@ -162,6 +164,7 @@ bool measure(Device& device, const BenchOptions& options, BenchJob& job, const I
     Renderer renderer(device, job.prepared.flat, job.camera, job.settings);
     bench.startUp = {job.prepared.loadSeconds, job.prepared.buildSeconds, renderer.statistics().uploadSeconds,
                      renderer.statistics().compileSeconds};
+    bench.schedule = nameOf(renderer.statistics().schedule);
     // With --spp as well: what is dispatched first takes longer.
     const auto fitting = chooseSamples(renderer, job.camera, options.samples ? 0.0 : options.seconds,
                                        job.settings.sampleEnd / kReferenceFactor, show);

@@ -1,6 +1,7 @@
 #include "host/cli/render.hpp"
 
 #include "host/cli/check_target.hpp"
+#include "host/cli/fastest_schedule.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/render_report.hpp"
@@ -115,13 +116,15 @@ ExitCode runRender(const RenderOptions& options)
         warnOfDarkness(prepared);
     }
     const Camera camera = cameraOf(prepared.scene, options);
-    const RenderSettings settings = settingsFor(options, camera);
+    RenderSettings settings = settingsFor(options, camera);
     refuseWhatDoesNotFit(prepared, settings, device.description());
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
     if (watch.signal() != 0) {
         return finish(watch.signal(), "nothing was rendered or written");
     }
-    Renderer renderer(device, prepared.flat, flattenCamera(camera, aspect, options.lens), settings);
+    const FlatCamera flatCamera = flattenCamera(camera, aspect, options.lens);
+    settings.fastest = fastestSchedule(device, prepared.flat, flatCamera, settings);
+    Renderer renderer(device, prepared.flat, flatCamera, settings);
 
     ProgressPrinter progress(options.progress, settings.seconds, std::uint64_t{settings.width} * settings.height);
     auto [film, isGood] = renderPicture(renderer, options.target, progress, watch);

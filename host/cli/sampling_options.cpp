@@ -112,13 +112,13 @@ void addAdaptiveOptions(CLI::App& command, RenderSettings& settings)
 
 void addTracingOptions(CLI::App& command, RenderSettings& settings, SplitRule& split)
 {
-    settings.schedule = Schedule::Auto;
     addEnum(command, "--accelerator", "A",
             "bvh, or none: every primitive against every ray, 8192 a dispatch [bvh]", {"bvh", "none"}, settings.accelerator);
     addEnum(command, "--schedule", "S",
             "wavefront (a kernel for each step of all paths) or persistent (one kernel that traces path after path to its end; not "
-            "with --accelerator none, nor where --direct takes more than one shadow ray per hit): the same bits. auto: persistent on a "
-            "software device where it can; a preview's is wavefront, which ends sooner when the view moves [auto]",
+            "with --accelerator none, nor where --direct takes more than one shadow ray per hit): the same bits. auto: the faster one, as "
+            "the first long render on the device measured it and the cache folder keeps it (until then persistent on a software "
+            "device); a preview's is wavefront, which ends sooner when the view moves [auto]",
             {"auto", "wavefront", "persistent"}, settings.schedule);
     addEnum(command, "--split", "RULE",
             "Where the BVH divides its nodes: sah (surface-area heuristic), mean or median of the centres along the longest axis "

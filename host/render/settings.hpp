@@ -25,7 +25,8 @@ enum class DirectLight {
 
 // Which kernels trace a pass, to the same bits: one per step of all its paths (wavefront.cpp), or one that traces path after path to
 // its end (wavefront_persistent.cpp).
-// Auto: the persistent one where it can and the device is software, on which it is faster in every scene measured; no GPU was.
+// Auto: where both can, the one that is known to be faster on the device; else persistent on software devices, where it was faster in
+// every scene measured, and wavefront on GPUs, none of which was.
 enum class Schedule { Auto, Wavefront, Persistent };
 
 // Light by the surfaces it has met between source and camera: none, one, two or more.
@@ -73,7 +74,8 @@ struct RenderSettings {
     bool notes = false;          // kernels note what they find out about the only path of a pass (replay.hpp)
 
     // How the work is cut: these change no bit of the picture.
-    Schedule schedule = Schedule::Wavefront;
+    Schedule schedule = Schedule::Auto;
+    Schedule fastest = Schedule::Auto;   // that is known of the device; Auto: none is
     std::uint32_t workgroup = 64;        // invocations
     std::uint32_t pathCapacity = 1U << 18;  // paths in flight, at least kBlockSamples
     std::uint32_t slabPixels = 1U << 20;    // most pixels of a slab: no buffer of the film exceeds 128 MiB, llvmpipe's limit

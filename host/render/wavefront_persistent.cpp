@@ -17,7 +17,8 @@ Schedule chooseSchedule(const RenderSettings& settings, std::size_t rounds, cons
 {
     if (settings.schedule == Schedule::Auto) {
         const bool can = settings.accelerator != Accelerator::None && rounds <= 1;
-        return can && device.software ? Schedule::Persistent : Schedule::Wavefront;
+        const bool known = settings.fastest != Schedule::Auto;
+        return can && (known ? settings.fastest == Schedule::Persistent : device.software) ? Schedule::Persistent : Schedule::Wavefront;
     }
     if (settings.schedule == Schedule::Persistent && settings.accelerator == Accelerator::None) {
         throw InputError("--schedule persistent: one kernel cannot try every primitive within a dispatch, as --accelerator none asks; "

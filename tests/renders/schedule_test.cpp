@@ -148,7 +148,7 @@ void expectRefusal(const FlatScene& flat, const FlatCamera& camera, RenderSettin
     }
 }
 
-TEST(ScheduleChoiceTest, AutoIsPersistentOnSoftwareWhereThatCan)
+TEST(ScheduleChoiceTest, AutoIsTheFasterOneWhereThatCan)
 {
     DeviceDescription software, other;
     software.software = true;
@@ -161,6 +161,11 @@ TEST(ScheduleChoiceTest, AutoIsPersistentOnSoftwareWhereThatCan)
     settings.accelerator = Accelerator::None;
     EXPECT_EQ(chooseSchedule(settings, 1, software), Schedule::Wavefront);
     settings = {};
+    settings.fastest = Schedule::Wavefront;
+    EXPECT_EQ(chooseSchedule(settings, 1, software), Schedule::Wavefront);
+    settings.fastest = Schedule::Persistent;
+    EXPECT_EQ(chooseSchedule(settings, 1, other), Schedule::Persistent);
+    EXPECT_EQ(chooseSchedule(settings, 2, other), Schedule::Wavefront);
     for (const Schedule asked : {Schedule::Wavefront, Schedule::Persistent}) {
         settings.schedule = asked;
         EXPECT_EQ(chooseSchedule(settings, 1, software), asked);

@@ -4,6 +4,7 @@
 #include "host/bvh/widen_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/measure/normal.hpp"
+#include "host/render/measure_schedules.hpp"
 #include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
@@ -21,6 +22,15 @@ namespace {
 constexpr double kFamilyLevel = 1e-3;
 constexpr std::size_t kFamilySize = 200;
 
+Film renderBy(Schedule schedule, const FlatScene& flat, const FlatCamera& camera, RenderSettings settings)
+{
+    settings.schedule = schedule;
+    Renderer renderer(testDevice(), flat, camera, settings);
+    Film film = renderer.render([](const RenderProgress&) { return true; });
+    EXPECT_EQ(renderer.statistics().nonFinite, 0U);
+    return film;
+}
+
 }  // namespace
 
 FlatScene flattened(const Scene& scene) { return flattenScene(scene, widenBvh(buildBvh(primitiveBoxes(scene)))); }
@@ -28,9 +38,12 @@ FlatScene flattened(const Scene& scene) { return flattenScene(scene, widenBvh(bu
 Film renderFlat(const FlatScene& flat, const Camera& camera, const RenderSettings& settings)
 {
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
-    Renderer renderer(testDevice(), flat, flattenCamera(camera, aspect), settings);
-    Film film = renderer.render([](const RenderProgress&) { return true; });
-    EXPECT_EQ(renderer.statistics().nonFinite, 0U);
+    const FlatCamera flatCamera = flattenCamera(camera, aspect);
+    if (!canMeasureSchedules(flat, settings) || settings.seconds) {
+        return renderBy(settings.schedule, flat, flatCamera, settings);
+    }
+    Film film = renderBy(Schedule::Wavefront, flat, flatCamera, settings);
+    EXPECT_TRUE(sameBits(film, renderBy(Schedule::Persistent, flat, flatCamera, settings))) << "by the two schedules";
     return film;
 }
 

@@ -9,7 +9,7 @@ namespace glim {
 
 FlatScene flattened(const Scene& scene);
 
-// Through the first camera.
+// Through the first camera; by both schedules, where they can and none is asked for, to the same bits.
 Film renderScene(const Scene& scene, const RenderSettings& settings);
 Film renderFlat(const FlatScene& flat, const Camera& camera, const RenderSettings& settings);
 

@@ -14,7 +14,8 @@ namespace glim::test {
 
 struct GlimCall {
     std::vector<std::string> arguments;
-    std::map<std::string, std::optional<std::string>> environment;  // on top of the test's own; nothing: unset
+    // On top of the test's own; nothing: unset. What the user's cache has does not matter, nor does it get anything.
+    std::map<std::string, std::optional<std::string>> environment{{"GLIM_CACHE_DIR", ""}};
     std::filesystem::path folder = std::filesystem::current_path();
     std::filesystem::path program = GLIM_BINARY;
     // Sends `signal` once this is true of what stderr has so far; it may take its time, while the program goes on.
