@@ -1,10 +1,11 @@
 #include "host/cli/bench_kernels.hpp"
 
-#include "host/bench/kernel_rates.hpp"
 #include "host/bench/make_hills.hpp"
+#include "host/bench/picture_rate.hpp"
 #include "host/bvh/build_bvh.hpp"
 #include "host/bvh/widen_bvh.hpp"
 #include "host/cli/check_target.hpp"
+#include "host/cli/fastest_schedule.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/cli/version.hpp"
 #include "host/flatten/flatten_scene.hpp"
@@ -38,7 +39,7 @@ PreparedScene prepareHills(SplitRule split)
 }
 
 Json jsonOf(const std::string& scene, const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device,
-            const std::vector<KernelRate>& rates)
+            const std::vector<KernelRate>& rates, const PictureRate& picture)
 {
     Json table = Json::array();
     for (const KernelRate& rate : rates) {
@@ -56,7 +57,27 @@ Json jsonOf(const std::string& scene, const PreparedScene& prepared, const Rende
             {"rounds", kRateRounds},
             {"device", device.name + ", " + device.driver},
             {"version", versionText()},
-            {"rates", table}};
+            {"rates", table},
+            {"picture",
+             {{"schedule", nameOf(picture.schedule)},
+              {"samples", picture.samples},
+              {"rays", {{"closest", picture.closest}, {"shadow", picture.shadow}}},
+              {"seconds", {{"median", picture.seconds.median}, {"low", picture.seconds.low}, {"high", picture.seconds.high}}},
+              {"traceSeconds", picture.traceSeconds},
+              {"traceShare", picture.traceShare()}}}};
+}
+
+void print(const PictureRate& picture)
+{
+    const double samples = static_cast<double>(picture.samples);
+    char line[256];
+    std::snprintf(line, sizeof line,
+                  "picture, %u samples a pixel, %s: %.3g s [%.3g, %.3g], %.3g Msamples/s; %.2f closest and %.2f shadow rays a sample, "
+                  "which at these rates take %.2f of that\n",
+                  kPictureSamples, nameOf(picture.schedule), picture.seconds.median, picture.seconds.low, picture.seconds.high,
+                  1e-6 * samples / picture.seconds.median, static_cast<double>(picture.closest) / samples,
+                  static_cast<double>(picture.shadow) / samples, picture.traceShare());
+    std::cout << line << std::flush;
 }
 
 void print(const std::string& scene, const PreparedScene& prepared, const DeviceDescription& device, const std::vector<KernelRate>& rates)
@@ -72,7 +93,6 @@ void print(const std::string& scene, const PreparedScene& prepared, const Device
         std::snprintf(share, sizeof share, "%.2f", rate.ofBest);
         std::cout << line << std::string(std::max<std::size_t>(1, 75 - std::string(line).size()), ' ') << share << '\n';
     }
-    std::cout << std::flush;
 }
 
 // On a terminal; a round of a large scene takes seconds.
@@ -91,7 +111,7 @@ public:
     void print(int round) const
     {
         if (shows_) {
-            std::fprintf(stderr, "\r\033[Kround %d of %d", round + 1, kRateRounds);
+            std::fprintf(stderr, "\r\033[Kround %d", round + 1);
         }
     }
 
@@ -100,13 +120,13 @@ private:
 };
 
 // False if the user ended it.
-bool measure(Device& device, const BenchOptions& options, const std::string& name, PreparedScene prepared, const InterruptWatch& watch,
+bool measure(Device& device, const BenchOptions& options, const std::string& name, const PreparedScene& prepared, const InterruptWatch& watch,
              Json& tables)
 {
     const Camera camera = cameraOf(prepared.scene, options);
     const glm::uvec2 size = options.size.value_or(naturalSize(camera));
     RenderSettings settings = options.settings;
-    settings.schedule = Schedule::Wavefront;
+    settings.fastest = rememberedSchedule(device.description());
     settings.width = size.x;
     settings.height = size.y;
     settings.pathCapacity = std::max(settings.pathCapacity, size.x * size.y);
@@ -116,12 +136,14 @@ bool measure(Device& device, const BenchOptions& options, const std::string& nam
         printer.print(round);
         return watch.signal() == 0;
     };
-    const std::vector<KernelRate> rates = measureKernelRates(device, std::move(prepared.flat), flat, settings, show);
-    if (rates.empty()) {
+    const std::vector<KernelRate> rates = measureKernelRates(device, prepared.flat, flat, settings, show);
+    const auto picture = rates.empty() ? std::nullopt : measurePictureRate(device, prepared.flat, flat, settings, rates, show);
+    if (!picture) {
         return false;
     }
     print(name, prepared, device.description(), rates);
-    tables.push_back(jsonOf(name, prepared, settings, device.description(), rates));
+    print(*picture);
+    tables.push_back(jsonOf(name, prepared, settings, device.description(), rates, *picture));
     return true;
 }
 
@@ -136,8 +158,8 @@ ExitCode runBenchKernels(const BenchOptions& options)
     const Instance instance;
     Device device(instance, options.device);
     Json tables = Json::array();
-    const auto finished = [&](const std::string& name, PreparedScene prepared) {
-        return watch.signal() == 0 && measure(device, options, name, std::move(prepared), watch, tables);
+    const auto finished = [&](const std::string& name, const PreparedScene& prepared) {
+        return watch.signal() == 0 && measure(device, options, name, prepared, watch, tables);
     };
     for (const std::filesystem::path& scene : options.scenes) {
         if (!finished(scene.string(), prepareScene(scene, loadOptionsOf(options), options.split))) {

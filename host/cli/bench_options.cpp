@@ -89,8 +89,8 @@ void addBenchOptions(CLI::App& command, BenchOptions& options)
 {
     command.add_option("SCENE", options.scenes, "The scenes, .gltf or .glb; none with --kernels: hills made in memory")->type_name("FILE");
     CLI::Option* kernels = command.add_flag("--kernels", options.kernels,
-                                            "Measure instead how many rays a second the kernels trace, by kind of ray and variant; as "
-                                            "JSON if there is an -o");
+                                            "Measure instead how many rays a second the kernels trace, by kind of ray and variant, and "
+                                            "how much of a picture's time that is; as JSON if there is an -o");
     addSceneChoice(command, options);
     addMeasureOptions(command, options);
     addFileOptions(command, options);

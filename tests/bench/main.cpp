@@ -1,5 +1,6 @@
 // glim_rates [SCENE...]: how fast glim's kernels trace rays, relative to Embree in the same run, with the same rays, of which the hits
-// are compared, and with the table in tests/bench/README.md. Without scenes: those of bench_scenes.hpp.
+// are compared, and with the table in tests/bench/README.md. Without scenes: those of bench_scenes.hpp. glim_rates --growth: how the time
+// of a ray grows with the triangles.
 #include "host/bench/kernel_rates.hpp"
 #include "host/bench/make_hills.hpp"
 #include "host/bench/trace_timer.hpp"
@@ -9,6 +10,7 @@
 #include "host/scene/load_gltf.hpp"
 #include "tests/support/bench_scenes.hpp"
 #include "tests/bench/embree.hpp"
+#include "tests/bench/growth.hpp"
 #include "tests/bench/recorded.hpp"
 
 #include <algorithm>
@@ -113,6 +115,10 @@ void run(const std::vector<std::string>& files)
     Device device(instance, std::nullopt);
     const Place place{device.description().name + ", " + device.description().driver, readText(GLIM_BENCH_TABLE), ""};
     std::printf("## %s\n", place.device.c_str());
+    if (files == std::vector<std::string>{"--growth"}) {
+        measureGrowth(device);
+        return;
+    }
     for (const std::string& file : files) {
         measure(device, place, {std::filesystem::path(file).filename().string(), loadGltf(file)});
     }

@@ -155,7 +155,15 @@ TEST(BenchKernelsTest, TellsWhichVariantIsFastest)
         EXPECT_EQ(variants[rays], 6U);
         EXPECT_GE(best[rays], 1U);
     }
-    EXPECT_EQ(countLines(run.out), 2U + 18U) << run.out;
+    const auto& picture = table.at("picture");
+    EXPECT_EQ(picture.at("samples"), 32 * 32 * 8);
+    EXPECT_GE(picture.at("rays").at("closest"), 32 * 32 * 8);
+    EXPECT_LT(picture.at("rays").at("shadow"), picture.at("rays").at("closest"));
+    EXPECT_GT(picture.at("traceSeconds"), 0.0);
+    EXPECT_NEAR(picture.at("traceShare").get<double>() * picture.at("seconds").at("median").get<double>(),
+                picture.at("traceSeconds").get<double>(), 1e-9);
+    EXPECT_TRUE(contains(run.out, "\npicture, 8 samples a pixel, ")) << run.out;
+    EXPECT_EQ(countLines(run.out), 2U + 18U + 1U) << run.out;
 }
 
 TEST(BenchKernelsTest, NeedsNoScene)
