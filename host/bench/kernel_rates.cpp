@@ -24,7 +24,8 @@ std::vector<Variant> variantsOf(const RenderSettings& settings, const SceneFeatu
         }
     }
     SceneFeatures every;
-    every.spheres = every.slivers = every.smooth = every.specular = every.surfaceLights = every.punctualLights = every.environment = true;
+    every.spheres = every.slivers = every.smooth = every.mirrors = every.glasses = true;
+    every.triangleLights = every.sphereLights = every.punctualLights = every.environment = true;
     variants.push_back({"for any scene", settings, every});
     variants.push_back({"Moller-Trumbore", settings, features});
     variants.back().settings.intersector = Intersector::MollerTrumbore;

@@ -39,8 +39,10 @@ Json needsOf(const SceneFeatures& features)
     return {{"spheres", features.spheres},
             {"slivers", features.slivers},
             {"smooth normals", features.smooth},
-            {"mirror or glass", features.specular},
-            {"surface lights", features.surfaceLights},
+            {"mirrors", features.mirrors},
+            {"glass", features.glasses},
+            {"triangle lights", features.triangleLights},
+            {"sphere lights", features.sphereLights},
             {"punctual lights", features.punctualLights},
             {"environment", features.environment}};
 }

@@ -14,8 +14,10 @@ struct SceneFeatures {
     bool spheres = false;
     bool slivers = false;         // some triangles are thinner than kSliverHeight
     bool smooth = false;          // some triangles have vertex normals
-    bool specular = false;        // mirrors or glass
-    bool surfaceLights = false;
+    bool mirrors = false;
+    bool glasses = false;
+    bool triangleLights = false;
+    bool sphereLights = false;
     bool punctualLights = false;
     bool environment = false;
 };

@@ -98,7 +98,8 @@ FlatScene flattenScene(const Scene& scene, const WideBvh& bvh)
     for (const Material& m : scene.materials) {
         flat.materials.push_back({m.baseColor, static_cast<std::uint32_t>(m.scattering), m.emission, m.ior,
                                   m.doubleSided ? 1U : 0U, uvec3(0)});
-        flat.features.specular = flat.features.specular || m.scattering != Scattering::Lambert;
+        flat.features.mirrors = flat.features.mirrors || m.scattering == Scattering::Mirror;
+        flat.features.glasses = flat.features.glasses || m.scattering == Scattering::Glass;
     }
     const std::vector<const Primitive*> owners = primitiveOfTriangle(scene);
     std::vector<std::uint32_t> recordOf(bvh.order.size());

@@ -56,6 +56,7 @@ public:
         }
         const AliasTable table = buildAliasTable(areas);
         FlatLight light = surfaceLight(kTriangleLight, material, primitive.triangleCount);
+        flat_.features.triangleLights = true;
         double total = 0.0;
         for (std::uint32_t i = 0; i < primitive.triangleCount; ++i) {
             const auto areaPdf = static_cast<float>(table.probabilities[i] / areas[i]);
@@ -74,6 +75,7 @@ public:
         const double radius = static_cast<double>(sphere.radius);
         const double surface = 4.0 * kPi * radius * radius;
         FlatLight light = surfaceLight(kSphereLight, material, 1);
+        flat_.features.sphereLights = true;
         light.position = sphere.center;
         light.radius = sphere.radius;
         addEmitter(recordOf_[scene_.triangles.size() + index], static_cast<float>(1.0 / surface), {0xffffffffU, 0});
@@ -147,7 +149,6 @@ private:
     {
         flat_.emitters.push_back({alias, record, static_cast<std::uint32_t>(flat_.lights.size()), areaPdf, uvec3(0)});
         flat_.records[record * kRecordTexels + 2].w = static_cast<std::uint32_t>(flat_.emitters.size());
-        flat_.features.surfaceLights = true;
     }
 
     void add(const FlatLight& light, double power)

@@ -7,8 +7,10 @@
 layout(constant_id = kSpecSpheres) const bool kSpheres = true;
 layout(constant_id = kSpecSlivers) const bool kSlivers = true;
 layout(constant_id = kSpecSmooth) const bool kSmooth = true;
-layout(constant_id = kSpecSpecular) const bool kSpecular = true;
-layout(constant_id = kSpecSurfaceLights) const bool kSurfaceLights = true;
+layout(constant_id = kSpecMirrors) const bool kMirrors = true;
+layout(constant_id = kSpecGlasses) const bool kGlasses = true;
+layout(constant_id = kSpecTriangleLights) const bool kTriangleLights = true;
+layout(constant_id = kSpecSphereLights) const bool kSphereLights = true;
 layout(constant_id = kSpecPunctualLights) const bool kPunctualLights = true;
 layout(constant_id = kSpecEnvironment) const bool kEnvironment = true;
 layout(constant_id = kSpecSobol) const bool kSobol = true;

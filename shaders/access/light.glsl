@@ -43,7 +43,7 @@ bool seesCone(vec3 from, float radius, out float sin2)
 float pdfSurfaceLight(FlatEmitter emitter, FlatLight light, vec3 from, float t, float cosine)
 {
     float sin2;
-    if (light.kind == kSphereLight && seesCone(from - light.position, light.radius, sin2)) {
+    if (kSphereLights && light.kind == kSphereLight && seesCone(from - light.position, light.radius, sin2)) {
         return light.probability * pdfCone(sin2);
     }
     return light.probability * emitter.areaPdf * t * t / cosine;
@@ -156,10 +156,10 @@ LightSample sampleLight(uint index, bool certain, vec3 from, vec3 normal, uvec2 
     if (certain) {
         light.probability = 1.0;
     }
-    if (kSurfaceLights && light.kind == kTriangleLight) {
+    if (kTriangleLights && light.kind == kTriangleLight) {
         return sampleTriangleLight(light, from, choice, u);
     }
-    if (kSurfaceLights && kSpheres && light.kind == kSphereLight) {
+    if (kSphereLights && light.kind == kSphereLight) {
         return sampleSphereLight(light, from, u);
     }
     if (kEnvironment && light.kind == kEnvironmentLight) {

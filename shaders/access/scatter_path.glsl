@@ -40,12 +40,12 @@ Scatter scatterLambert(Surface surface, FlatMaterial material, vec2 u)
 Scatter scatterAt(inout Surface surface, vec3 wo, vec2 u, float fate)
 {
     FlatMaterial material = fetchMaterial(surface.material);
-    if (kSpecular && material.scattering == kGlass) {
+    if (kGlasses && material.scattering == kGlass) {
         return scatterGlass(surface, material, wo, fate);
     }
     turnToViewer(surface, wo);
-    return kSpecular && material.scattering == kMirror ? scatterMirror(surface, material, wo)
-                                                       : scatterLambert(surface, material, u);
+    return kMirrors && material.scattering == kMirror ? scatterMirror(surface, material, wo)
+                                                      : scatterLambert(surface, material, u);
 }
 
 // The last ray of a path only finds light, and what sampling has found already does not count twice.

@@ -57,7 +57,7 @@ void visit(uint slot)
     if (first && pass.bounce == 0u) {
         pathFirstHits[slot] = firstHitOf(surface, material);
     }
-    if (first && kSurfaceLights) {
+    if (first && (kTriangleLights || kSphereLights)) {
         addRadiance(slot, state.throughput * emissionFound(ray, hit, state, surface, material), pass.bounce, 1u);
     }
     if (pass.light != kNoLightIndex && material.scattering == kLambert) {

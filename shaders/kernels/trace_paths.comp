@@ -86,7 +86,7 @@ void shade(inout Path path, PathHit hit, Surface surface, inout Work work)
     if (path.state.bounce == 0u) {
         pathFirstHits[path.slot] = firstHitOf(surface, material);
     }
-    if (kSurfaceLights) {
+    if (kTriangleLights || kSphereLights) {
         vec3 found = emissionFound(path.ray, hit, path.state, surface, material);
         addLight(path, path.state.throughput * found, path.state.bounce, 1u);
     }

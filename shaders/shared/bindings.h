@@ -49,8 +49,8 @@ GLIM_CONST uint kBindResults = 32u;
 GLIM_CONST uint kSpecWorkgroup = 0u;
 GLIM_CONST uint kSpecSpheres = 1u;         // the scene has spheres
 GLIM_CONST uint kSpecSmooth = 2u;          // some triangles have vertex normals
-GLIM_CONST uint kSpecSpecular = 3u;        // some material is a mirror or glass
-GLIM_CONST uint kSpecSurfaceLights = 4u;   // some triangle or sphere emits
+GLIM_CONST uint kSpecMirrors = 3u;         // some material is a mirror
+GLIM_CONST uint kSpecTriangleLights = 4u;  // some triangle emits
 GLIM_CONST uint kSpecPunctualLights = 5u;
 GLIM_CONST uint kSpecEnvironment = 6u;
 GLIM_CONST uint kSpecSobol = 7u;           // else independent samples
@@ -67,6 +67,8 @@ GLIM_CONST uint kSpecSuspects = 17u;       // each pixel's brightest sample is k
 GLIM_CONST uint kSpecNotes = 18u;          // the kernels note what they find out about the only path of a pass
 GLIM_CONST uint kSpecLuminance = 19u;      // the film knows the luminance of its pixels
 GLIM_CONST uint kSpecSlivers = 20u;        // some triangle is a sliver
+GLIM_CONST uint kSpecGlasses = 21u;        // some material is glass
+GLIM_CONST uint kSpecSphereLights = 22u;   // some sphere emits
 
 // How direct light is estimated.
 GLIM_CONST uint kDirectMis = 0u;

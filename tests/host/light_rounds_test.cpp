@@ -19,7 +19,8 @@ FlatScene sceneWith(const std::vector<uint>& kinds)
         FlatLight light{};
         light.kind = kind;
         scene.lights.push_back(light);
-        scene.features.surfaceLights |= kind == kTriangleLight || kind == kSphereLight;
+        scene.features.triangleLights |= kind == kTriangleLight;
+        scene.features.sphereLights |= kind == kSphereLight;
         scene.features.environment |= kind == kEnvironmentLight;
         scene.features.punctualLights |= kind == kPointLight || kind == kSpotLight || kind == kDirectionalLight;
     }

@@ -22,8 +22,10 @@ void main()
         EXPECT_TRUE(kSpheres == isExpected(kSpecSpheres));
         EXPECT_TRUE(kSlivers == isExpected(kSpecSlivers));
         EXPECT_TRUE(kSmooth == isExpected(kSpecSmooth));
-        EXPECT_TRUE(kSpecular == isExpected(kSpecSpecular));
-        EXPECT_TRUE(kSurfaceLights == isExpected(kSpecSurfaceLights));
+        EXPECT_TRUE(kMirrors == isExpected(kSpecMirrors));
+        EXPECT_TRUE(kGlasses == isExpected(kSpecGlasses));
+        EXPECT_TRUE(kTriangleLights == isExpected(kSpecTriangleLights));
+        EXPECT_TRUE(kSphereLights == isExpected(kSpecSphereLights));
         EXPECT_TRUE(kPunctualLights == isExpected(kSpecPunctualLights));
         EXPECT_TRUE(kEnvironment == isExpected(kSpecEnvironment));
         EXPECT_TRUE(kSobol == isExpected(kSpecSobol));

@@ -13,8 +13,8 @@ struct Case {
 };
 
 // Unasked, all that a scene may need is on, and what a render may be asked for is off.
-constexpr uint kDefaultOn[] = {kSpecSpheres,       kSpecSlivers,        kSpecSmooth,      kSpecSpecular,
-                               kSpecSurfaceLights, kSpecPunctualLights, kSpecEnvironment, kSpecSobol};
+constexpr uint kDefaultOn[] = {kSpecSpheres,        kSpecSlivers,      kSpecSmooth,         kSpecMirrors,     kSpecGlasses,
+                               kSpecTriangleLights, kSpecSphereLights, kSpecPunctualLights, kSpecEnvironment, kSpecSobol};
 constexpr uint kDefaultOff[] = {kSpecMollerTrumbore, kSpecBruteForce, kSpecLens, kSpecChosen,
                                 kSpecSuspects,       kSpecNotes,      kSpecLuminance};
 

@@ -119,7 +119,8 @@ TEST(CommandLineTest, InspectCountsWhatIsThere)
     EXPECT_GT(found.at("bvh").at("surfaceAreaCost"), 0.0);
     EXPECT_GT(found.at("deviceBytes"), 3 * 36);
     EXPECT_EQ(found.at("needs").at("spheres"), true);
-    EXPECT_EQ(found.at("needs").at("surface lights"), true);
+    EXPECT_EQ(found.at("needs").at("triangle lights"), false);
+    EXPECT_EQ(found.at("needs").at("sphere lights"), true);
     EXPECT_EQ(found.at("needs").at("punctual lights"), false);
     const GlimRun text = runGlim({"inspect", scene});
     EXPECT_EQ(text.exitCode, 0);

@@ -65,7 +65,8 @@ TEST_P(DeterminismTest, FeaturesThatTheSceneDoesNotNeed)
     FlatScene lean = flattened(builder.scene());
     const Film bare = renderFlat(lean, builder.scene().cameras.front(), settingsFor(GetParam()));
     // Smooth normals and an environment would need data; the rest is there and never used.
-    lean.features.spheres = lean.features.specular = lean.features.punctualLights = true;
+    lean.features.spheres = lean.features.mirrors = lean.features.glasses = true;
+    lean.features.sphereLights = lean.features.punctualLights = true;
     EXPECT_TRUE(sameBits(bare, renderFlat(lean, builder.scene().cameras.front(), settingsFor(GetParam()))));
 }
 

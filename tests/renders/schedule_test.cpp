@@ -105,7 +105,8 @@ TEST(PersistentTest, FeaturesThatTheSceneDoesNotNeed)
     FlatScene flat = closedBox(builder);
     const FlatCamera camera = flattenCamera(builder.scene().cameras.front(), 1.0F);
     const Film lean = expectSame(flat, camera, squareSettings(16, 16)).film;
-    flat.features.spheres = flat.features.specular = flat.features.punctualLights = true;
+    flat.features.spheres = flat.features.mirrors = flat.features.glasses = true;
+    flat.features.sphereLights = flat.features.punctualLights = true;
     EXPECT_TRUE(sameBits(lean, expectSame(flat, camera, squareSettings(16, 16)).film));
 }
 

@@ -10,14 +10,16 @@ import unittest
 from pathlib import Path
 
 BINDINGS = Path(__file__).resolve().parents[2] / "shaders/shared/bindings.h"
-# Of a scene: what features.glsl has on unless told otherwise. Surface lights stay on: without any light nothing is left to see.
-FEATURES = ["Spheres", "Slivers", "Smooth", "Specular", "PunctualLights", "Environment"]
+# Of a scene: what features.glsl has on unless told otherwise. Triangle lights stay on: without any light nothing is left to see.
+FEATURES = ["Spheres", "Slivers", "Smooth", "Mirrors", "Glasses", "SphereLights", "PunctualLights", "Environment"]
 # Which kernels have code of its own for each, once the others are off.
 USERS = {
     "Spheres": ["trace_closest", "trace_shadow", "bounce", "sample_lights"],
     "Slivers": ["trace_closest", "trace_shadow"],
     "Smooth": ["bounce", "sample_lights"],
-    "Specular": ["bounce"],
+    "Mirrors": ["bounce"],
+    "Glasses": ["bounce"],
+    "SphereLights": ["sample_lights"],
     "PunctualLights": ["sample_lights"],
     "Environment": ["sample_lights"],
 }
