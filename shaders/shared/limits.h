@@ -19,9 +19,10 @@ GLIM_CONST uint kPageSamples = 256u;
 GLIM_CONST uint kScanRecords = 8192u;
 
 // Paths that a thread of trace_paths takes at most, one after the other, and visits to nodes and tests of primitives after which it
-// begins no ray: eight lanes of Mesa before 24 have 65,535 iterations together. What is left goes into the next dispatch.
+// begins no ray. What is left goes into the next dispatch. Eight lanes of Mesa before 24 have 65,535 iterations together; and after
+// passes over a cheap sky the first over ten million triangles took .15 s, with 4096 steps .36 s. 128 take up to a tenth longer in all.
 GLIM_CONST uint kPathsPerThread = 16u;
-GLIM_CONST uint kStepsPerThread = 4096u;
+GLIM_CONST uint kStepsPerThread = 256u;
 
 // Samples without any difference after which a pixel may count as constant: one whose samples are black but for one in 200
 // has then been found out with probability .994. Where no surface is in sight fewer do (choose_pixels).
