@@ -7,13 +7,15 @@
 namespace glim {
 namespace {
 
-double secondsOf(std::uint64_t count, const char* rays, const std::vector<KernelRate>& rates)
+RenderSettings settingsOf(const RenderSettings& asked, Schedule schedule)
 {
-    const auto found = std::find_if(rates.begin(), rates.end(), [&](const KernelRate& rate) { return rate.rays == rays; });  // as rendered
-    return count == 0 || found == rates.end() ? 0.0 : static_cast<double>(count) / found->rate.median;
+    RenderSettings settings = asked;
+    settings.sampleEnd = kPictureSamples;
+    settings.schedule = schedule;
+    return settings;
 }
 
-double secondsOfRender(Renderer& renderer, const FlatCamera& camera)
+double render(Renderer& renderer, const FlatCamera& camera)
 {
     renderer.restart(camera, renderer.settings().seed);
     const auto start = std::chrono::steady_clock::now();
@@ -21,33 +23,42 @@ double secondsOfRender(Renderer& renderer, const FlatCamera& camera)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+// Of all renders so far.
+double traceSecondsOf(const Renderer& renderer)
+{
+    const auto& kernels = renderer.statistics().kernels;
+    const auto secondsOf = [&](const char* name) { return kernels.contains(name) ? kernels.at(name).seconds : 0.0; };
+    return secondsOf("trace_closest") + secondsOf("trace_shadow");
+}
+
 }  // namespace
 
 std::optional<PictureRate> measurePictureRate(Device& device, const FlatScene& scene, const FlatCamera& camera,
-                                              const RenderSettings& settings, const std::vector<KernelRate>& rates,
-                                              const std::function<bool(int round)>& goesOn)
+                                              const RenderSettings& settings, const std::function<bool(int round)>& goesOn)
 {
-    RenderSettings eight = settings;
-    eight.sampleEnd = kPictureSamples;
-    Renderer renderer(device, scene, camera, eight);
-    std::vector<double> seconds;
-    for (int round = -1; round < kPictureRenders; ++round) {  // uncounted the first time: what is dispatched first takes longer
+    Renderer wavefront(device, scene, camera, settingsOf(settings, Schedule::Wavefront));
+    Renderer renderer(wavefront, scene, camera, settingsOf(settings, settings.schedule));
+    std::vector<double> seconds, traceSeconds;
+    for (int round = -1; round < kPictureRenders; ++round) {
         if (!goesOn(std::max(0, round))) {
             return std::nullopt;
         }
-        const double took = secondsOfRender(renderer, camera);
-        if (round >= 0) {
+        const double before = traceSecondsOf(wavefront);
+        render(wavefront, camera);
+        const double took = render(renderer, camera);
+        if (round >= 0) {  // uncounted the first time: what is dispatched first takes longer
             seconds.push_back(took);
+            traceSeconds.push_back(traceSecondsOf(wavefront) - before);
         }
     }
-    const RenderStatistics& all = renderer.statistics();  // of kPictureRenders + 1 renders with the same paths
-    PictureRate picture{all.schedule, all.samples, all.cameraAndBounceRays, all.shadowRays, spreadOf(seconds), 0.0};
-    for (std::uint64_t* sum : {&picture.samples, &picture.closest, &picture.shadow}) {
-        *sum /= kPictureRenders + 1;
-    }
-    picture.traceSeconds = secondsOf(picture.samples, "primary", rates) + secondsOf(picture.closest - picture.samples, "diffuse", rates) +
-                           secondsOf(picture.shadow, "shadow", rates);
-    return picture;
+    const RenderStatistics& all = renderer.statistics();  // rays are those of the wavefront too, whose buffers it has
+    constexpr std::uint64_t kRenders = kPictureRenders + 1;
+    return PictureRate{all.schedule,
+                       all.samples / kRenders,
+                       all.cameraAndBounceRays / (2 * kRenders),
+                       all.shadowRays / (2 * kRenders),
+                       spreadOf(seconds),
+                       spreadOf(traceSeconds).median};
 }
 
 }  // namespace glim

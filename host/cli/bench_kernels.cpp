@@ -73,7 +73,7 @@ void print(const PictureRate& picture)
     char line[256];
     std::snprintf(line, sizeof line,
                   "picture, %u samples a pixel, %s: %.3g s [%.3g, %.3g], %.3g Msamples/s; %.2f closest and %.2f shadow rays a sample, "
-                  "which at these rates take %.2f of that\n",
+                  "which the kernels that trace alone take %.2f of that for\n",
                   kPictureSamples, nameOf(picture.schedule), picture.seconds.median, picture.seconds.low, picture.seconds.high,
                   1e-6 * samples / picture.seconds.median, static_cast<double>(picture.closest) / samples,
                   static_cast<double>(picture.shadow) / samples, picture.traceShare());
@@ -137,7 +137,7 @@ bool measure(Device& device, const BenchOptions& options, const std::string& nam
         return watch.signal() == 0;
     };
     const std::vector<KernelRate> rates = measureKernelRates(device, prepared.flat, flat, settings, show);
-    const auto picture = rates.empty() ? std::nullopt : measurePictureRate(device, prepared.flat, flat, settings, rates, show);
+    const auto picture = rates.empty() ? std::nullopt : measurePictureRate(device, prepared.flat, flat, settings, show);
     if (!picture) {
         return false;
     }

@@ -17,6 +17,9 @@ constexpr double kLeastDispatchShare = 0.01;
 // Of a first pass, with one round of direct light and a ray that takes this many steps.
 constexpr std::uint32_t kFirstPassPaths = 1U << 14;
 constexpr std::uint64_t kUsualSteps = 64;
+// A pass that may cost much more than the last one, as where the sky ends, is no larger than this unless the device is fast.
+constexpr std::uint32_t kUnsurePaths = 1U << 17;
+constexpr double kFastDispatchSeconds = 0.005;
 
 std::uint32_t firstPassPaths(const FlatScene& scene, const RenderSettings& settings)
 {
@@ -41,7 +44,8 @@ void PassSize::learn(std::uint32_t paths, const PassSeconds& seconds)
     }
     const double byPass = passSeconds_ * std::max(1.0 / seconds.total, kLeastDispatchShare / seconds.longest);
     const double scale = std::clamp(std::min(kTargetDispatchSeconds / seconds.longest, byPass), 0.5, 2.0);
-    paths_ = static_cast<std::uint32_t>(std::clamp(paths * scale, static_cast<double>(kBlockSamples), static_cast<double>(capacity_)));
+    const std::uint32_t most = seconds.longest < kFastDispatchSeconds ? capacity_ : std::min(capacity_, kUnsurePaths);
+    paths_ = static_cast<std::uint32_t>(std::clamp(paths * scale, double{kBlockSamples}, double(most)));
 }
 
 }  // namespace glim

@@ -135,9 +135,13 @@ layout(set = 0, binding = kBindRayCounts, scalar) buffer RayCountsBuffer { RayCo
 void countRays(uint closest, uint shadow)
 {
     uint before = atomicAdd(rayCounts.closest.x, closest);
-    atomicAdd(rayCounts.closest.y, before + closest < before ? 1u : 0u);
+    if (before + closest < before) {
+        atomicAdd(rayCounts.closest.y, 1u);
+    }
     before = atomicAdd(rayCounts.shadow.x, shadow);
-    atomicAdd(rayCounts.shadow.y, before + shadow < before ? 1u : 0u);
+    if (before + shadow < before) {
+        atomicAdd(rayCounts.shadow.y, 1u);
+    }
 }
 #endif
 
