@@ -160,8 +160,7 @@ PathHit traceClosest(PathRay ray)
     return traceClosest(ray, uncounted);
 }
 
-// True if nothing but `target` lies between origin and origin + reach * direction. Visits nodes until there is something to test:
-// unlike those of traceClosest, hits do not shorten the ray for the nodes to come.
+// True if nothing but `target` lies between origin and origin + reach * direction.
 bool isUnoccluded(ShadowRay ray, out Steps steps)
 {
     steps = Steps(0u, 0u);
@@ -169,37 +168,30 @@ bool isUnoccluded(ShadowRay ray, out Steps steps)
     Siblings stack[kMaxBvhDepth];
     uint depth = 0u;
     Siblings siblings = kRoot;
-    Records records = Records(0u, 0u);
     bool going = true;
     bool occluded = false;
     do {
-        do {
-            uint node = takeSibling(siblings, walk.ahead);
-            if (siblings.left >= kFirstSibling) {
-                stack[depth++] = siblings;
-            }
-            Records found;
-            visitNode(walk, node, ray.reach, siblings, found);
-            if (found.left != 0u) {  // carries `records`
-                records = found;
-            }
-            ++steps.nodes;
-            if (siblings.left < kFirstSibling) {
-                going = depth > 0u;
-                depth -= going ? 1u : 0u;
-                siblings = stack[depth];
-            }
-        } while (going && records.left == 0u);
+        uint node = takeSibling(siblings, walk.ahead);
+        if (siblings.left >= kFirstSibling) {
+            stack[depth++] = siblings;
+        }
+        Records records;
+        visitNode(walk, node, ray.reach, siblings, records);
+        ++steps.nodes;
+        if (siblings.left < kFirstSibling) {
+            going = depth > 0u;
+            depth -= going ? 1u : 0u;
+            siblings = stack[depth];
+        }
         if (records.left != 0u) {
             do {
                 uint index = takeRecord(records);
                 TriangleHit hit = intersectRecord(walk, fetchRecord(index), ray.reach, index == ray.source);
                 ++steps.primitives;
-                if (hit.t > 0.0 && index != ray.target) {
-                    occluded = true;
-                    going = false;
-                    records.left = 0u;
-                }
+                bool met = hit.t > 0.0 && index != ray.target;
+                occluded = occluded || met;
+                going = going && !met;
+                records.left = met ? 0u : records.left;
             } while (records.left != 0u);
         }
     } while (going);
