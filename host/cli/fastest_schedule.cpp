@@ -58,7 +58,7 @@ bool canRemember()
     return true;
 }
 
-std::string keyOf(const DeviceDescription& device) { return device.name + ", " + device.driver + ", " + versionText(); }
+std::string keyOf(const DeviceDescription& device) { return device.name + ", " + device.driver; }
 
 Json readRemembered()
 {
@@ -70,7 +70,8 @@ Json readRemembered()
 void remember(const DeviceDescription& device, const ScheduleRates& rates)
 {
     Json json = readRemembered();
-    json[keyOf(device)] = {{"fastest", nameOf(rates.fastest())},
+    json[keyOf(device)] = {{"version", versionText()},
+                           {"fastest", nameOf(rates.fastest())},
                            {"samplesPerSecond", {{"wavefront", rates.wavefront}, {"persistent", rates.persistent}}}};
     const std::string text = json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
     WholeFile file(rememberedFile());
@@ -92,7 +93,10 @@ Schedule rememberedSchedule(const DeviceDescription& device)
 {
     const Json json = readRemembered();
     const auto found = json.find(keyOf(device));
-    const Json fastest = found != json.end() && found->is_object() ? found->value("fastest", Json()) : Json();
+    if (found == json.end() || !found->is_object() || found->value("version", Json()) != versionText()) {
+        return Schedule::Auto;
+    }
+    const Json fastest = found->value("fastest", Json());
     return fastest == nameOf(Schedule::Persistent)  ? Schedule::Persistent
            : fastest == nameOf(Schedule::Wavefront) ? Schedule::Wavefront
                                                     : Schedule::Auto;

@@ -1,6 +1,6 @@
-// The faster schedule of a device, measured once and kept by device, driver and version of glim in schedules.json in $GLIM_CACHE_DIR,
-// $XDG_CACHE_HOME/glim or ~/.cache/glim. Whatever is wrong with that file, it is as if there were none: no bit of a picture depends
-// on it.
+// The faster schedule of a device, measured once and kept by device and driver in schedules.json in $GLIM_CACHE_DIR, $XDG_CACHE_HOME/glim
+// or ~/.cache/glim; another version of glim measures it again. Whatever is wrong with that file, it is as if there were none: no bit
+// of a picture depends on it.
 #pragma once
 
 #include "host/flatten/flat_scene.hpp"

@@ -84,7 +84,9 @@ TEST_F(AutoScheduleTest, AFileThatIsNoneIsMeasuredAgain)
     const json entries[] = {"text", {{"fastest", 7}}};
     render(many_);
     const std::string key = kept().begin().key();
-    for (const json& entry : entries) {
+    json older = kept().at(key);
+    older.at("version") = "glim 0.0.1";
+    for (const json& entry : {entries[0], entries[1], older}) {
         writeText(cache_ / "schedules.json", json{{"another device", 1}, {key, entry}}.dump());
         EXPECT_NE(render(many_).err.find(said_), std::string::npos) << entry;
         EXPECT_TRUE(kept().at(key).is_object()) << entry;
