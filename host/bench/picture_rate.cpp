@@ -1,6 +1,6 @@
 #include "host/bench/picture_rate.hpp"
 
-#include "host/render/renderer.hpp"
+#include "host/render/measure_schedules.hpp"
 
 #include <algorithm>
 
@@ -13,14 +13,6 @@ RenderSettings settingsOf(const RenderSettings& asked, Schedule schedule)
     settings.sampleEnd = kPictureSamples;
     settings.schedule = schedule;
     return settings;
-}
-
-double render(Renderer& renderer, const FlatCamera& camera)
-{
-    renderer.restart(camera, renderer.settings().seed);
-    const auto start = std::chrono::steady_clock::now();
-    renderer.render([](const RenderProgress&) { return true; });
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 // Of all renders so far.
@@ -44,8 +36,8 @@ std::optional<PictureRate> measurePictureRate(Device& device, const FlatScene& s
             return std::nullopt;
         }
         const double before = traceSecondsOf(wavefront);
-        render(wavefront, camera);
-        const double took = render(renderer, camera);
+        timeRender(wavefront, camera);
+        const double took = timeRender(renderer, camera);
         if (round >= 0) {  // uncounted the first time: what is dispatched first takes longer
             seconds.push_back(took);
             traceSeconds.push_back(traceSecondsOf(wavefront) - before);

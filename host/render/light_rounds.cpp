@@ -45,7 +45,8 @@ std::vector<LightRound> lightRounds(const FlatScene& scene, const RenderSettings
     if (rounds.empty()) {
         rounds.push_back({false, kNoLightIndex});
     }
-    if (settings.direct == DirectLight::Hemisphere && (scene.features.triangleLights || scene.features.sphereLights || scene.features.environment)) {
+    const SceneFeatures& features = scene.features;
+    if (settings.direct == DirectLight::Hemisphere && (features.triangleLights || features.sphereLights || features.environment)) {
         for (std::uint32_t i = 0; i < settings.lightSamples; ++i) {
             rounds.push_back({true, kNoLightIndex, i, settings.lightSamples});
         }

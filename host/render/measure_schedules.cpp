@@ -22,19 +22,23 @@ RenderSettings settingsOf(const RenderSettings& asked, Schedule schedule)
     return settings;
 }
 
-double samplesPerSecond(Renderer& renderer, const FlatCamera& camera)
+double samplesPerSecond(Renderer& renderer, const FlatCamera& camera) { return kSide * kSide * kSamples / timeRender(renderer, camera); }
+
+}  // namespace
+
+double timeRender(Renderer& renderer, const FlatCamera& camera)
 {
     renderer.restart(camera, renderer.settings().seed);
     const auto start = std::chrono::steady_clock::now();
     renderer.render([](const RenderProgress&) { return true; });
-    return kSide * kSide * kSamples / std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
-
-}  // namespace
 
 bool canMeasureSchedules(const FlatScene& scene, const RenderSettings& settings)
 {
-    return settings.schedule == Schedule::Auto && settings.accelerator != Accelerator::None && lightRounds(scene, settings).size() <= 1;
+    RenderSettings wish = settings;
+    wish.fastest = Schedule::Persistent;
+    return settings.schedule == Schedule::Auto && chooseSchedule(wish, lightRounds(scene, settings).size(), {}) == Schedule::Persistent;
 }
 
 ScheduleRates measureSchedules(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)

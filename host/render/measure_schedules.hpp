@@ -5,6 +5,9 @@
 
 namespace glim {
 
+// Seconds of the picture once more, all of it, from the same random numbers.
+double timeRender(Renderer& renderer, const FlatCamera& camera);
+
 // False where one of them cannot render what is asked for, or was asked for by name.
 bool canMeasureSchedules(const FlatScene& scene, const RenderSettings& settings);
 
