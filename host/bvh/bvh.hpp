@@ -8,6 +8,8 @@
 
 namespace glim {
 
+inline constexpr std::uint32_t kMaxBvhDepth = 48;
+
 struct Box {
     glm::vec3 lo;
     glm::vec3 hi;
@@ -21,7 +23,7 @@ inline glm::vec3 computeCentre(const Box& box) { return 0.5F * box.lo + 0.5F * b
 //  - depth first: below a node come its children, then all that is below the first of them, then all below the second;
 //  - a leaf holds primitives order[first .. first + count), count >= 1;
 //  - every primitive is in exactly one leaf; a node's box contains the boxes of all that is below it;
-//  - no path from the root has more than kMaxBvhDepth inner nodes (shaders/shared/limits.h), whatever the input.
+//  - no path from the root has more than kMaxBvhDepth inner nodes, whatever the input: the builder turns to median splits in time.
 struct BvhNode {
     Box box;
     std::uint32_t first;

@@ -1,7 +1,6 @@
 #include "host/bvh/check_bvh.hpp"
 
 #include "host/bvh/surface_area.hpp"
-#include "shaders/shared/limits.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,6 @@
 #include "host/bvh/divide_node.hpp"
 
 #include "host/bvh/divide_by_sah.hpp"
-#include "shaders/shared/limits.h"
 
 #include <bit>
 

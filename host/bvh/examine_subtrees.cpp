@@ -49,6 +49,7 @@ Subtree join(const BvhNode& node, const Subtree& left, const Subtree& right)
     const auto area = static_cast<float>(computeHalfArea(node.box));
     const float asLeaf = subtree.count <= kMaxLeafRecords ? area * static_cast<float>(subtree.count) * kPrimitiveCost
                                                        : std::numeric_limits<float>::infinity();
+    subtree.height = static_cast<std::uint8_t>(1 + std::max(left.height, right.height));
     const Division asNode = divide(left, right, kBvhWidth);
     subtree.nodeToLeft = asNode.toLeft;
     subtree.isLeaf = asLeaf <= asNode.cost + area;

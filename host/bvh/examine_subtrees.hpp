@@ -17,6 +17,7 @@ struct Subtree {
     std::array<std::uint8_t, kMostRoots> toLeft;  // of these roots on the left side; 0: fewer roots are as good, or a leaf
     std::uint8_t nodeToLeft;                      // of a node's kBvhWidth children
     bool isLeaf;                                  // as a single root
+    std::uint8_t height;                          // inner nodes on the longest path, in the binary tree
     std::uint32_t first, count;                   // primitives
 };
 

@@ -3,11 +3,16 @@
 
 #include "host/bvh/bvh.hpp"
 
+#include "shaders/shared/limits.h"
+
 #include <array>
 
 namespace glim {
 
 inline constexpr std::uint32_t kBvhWidth = 8;
+
+// A walk puts siblings on its stack where it goes on to children: not at the root, which has no siblings, and not at the path's end.
+inline constexpr std::uint32_t kMaxWideDepth = kMaxStackLevels + 2;
 
 // An inner node, a leaf of primitives order[first .. first + count), or nothing.
 struct WideChild {
@@ -23,7 +28,7 @@ struct WideChild {
 //  - nodes[0] is the root; the inner children of a node follow one another, in the order of their places, after itself;
 //  - so do the primitives of its leaves in `order`, in which every primitive is once;
 //  - a child's box contains the boxes of all that is below it;
-//  - no path from the root has more than kMaxBvhDepth nodes (shaders/shared/limits.h).
+//  - no path from the root has more than kMaxWideDepth nodes.
 // A child's place is the octant of its node that it lies in, as far as there is room: bit k is set on the upper side of axis k.
 struct WideNode {
     std::array<WideChild, kBvhWidth> children;

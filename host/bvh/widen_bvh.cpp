@@ -27,8 +27,27 @@ void collect(const Bvh& bvh, const std::vector<Subtree>& subtrees, std::uint32_t
     collect(bvh, subtrees, bvh.nodes[node].first + 1, most - left, roots);
 }
 
-// The binary nodes that become the children of `node`.
-Roots childrenOf(const Bvh& bvh, const std::vector<Subtree>& subtrees, std::uint32_t node)
+// All that is three levels below, or a leaf above that.
+void collectEvenly(const Bvh& bvh, std::uint32_t node, int levels, Roots& roots)
+{
+    if (levels == 0 || bvh.nodes[node].count > 0) {
+        roots.push_back(node);
+        return;
+    }
+    collectEvenly(bvh, bvh.nodes[node].first, levels - 1, roots);
+    collectEvenly(bvh, bvh.nodes[node].first + 1, levels - 1, roots);
+}
+
+// Nodes on a path suffice if each takes three levels of the binary tree.
+bool fits(const Subtree& subtree, std::uint32_t depth)
+{
+    return subtree.isLeaf || depth + (subtree.height + 2U) / 3 <= kMaxWideDepth;
+}
+
+static_assert((kMaxBvhDepth + 2) / 3 <= kMaxWideDepth);
+
+// The binary nodes that become the children of `node`, at `depth`: those that cost least, unless one's tree could become too deep.
+Roots childrenOf(const Bvh& bvh, const std::vector<Subtree>& subtrees, std::uint32_t node, std::uint32_t depth)
 {
     Roots roots;
     if (bvh.nodes[node].count > 0) {
@@ -37,6 +56,10 @@ Roots childrenOf(const Bvh& bvh, const std::vector<Subtree>& subtrees, std::uint
     const std::uint32_t left = subtrees[node].nodeToLeft;
     collect(bvh, subtrees, bvh.nodes[node].first, std::min(left, kMostRoots), roots);
     collect(bvh, subtrees, bvh.nodes[node].first + 1, std::min(kBvhWidth - left, kMostRoots), roots);
+    if (!std::all_of(roots.begin(), roots.end(), [&](std::uint32_t root) { return fits(subtrees[root], depth); })) {
+        roots.clear();
+        collectEvenly(bvh, node, 3, roots);
+    }
     return roots;
 }
 
@@ -111,7 +134,7 @@ private:
 
     void addNode(const Task& task)
     {
-        const Roots roots = childrenOf(bvh_, subtrees_, task.binary);
+        const Roots roots = childrenOf(bvh_, subtrees_, task.binary, task.depth);
         const auto places = findPlaces(bvh_, task.binary, roots);
         WideNode node;
         for (std::size_t i = 0; i < roots.size(); ++i) {

@@ -1,6 +1,7 @@
 // The scene as the arrays that kernels read. Element types: shaders/shared/scene_types.h, which says what is in the texels.
 #pragma once
 
+#include "shaders/shared/limits.h"
 #include "shaders/shared/scene_types.h"
 
 #include <cstdint>
@@ -20,6 +21,7 @@ struct SceneFeatures {
     bool sphereLights = false;
     bool punctualLights = false;
     bool environment = false;
+    std::uint32_t stackLevels = kMaxStackLevels;  // of a traversal
 };
 
 struct FlatScene {

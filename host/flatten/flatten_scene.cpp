@@ -72,6 +72,14 @@ Box boxOf(const Sphere& sphere)
     return box;
 }
 
+// In fours, so that scenes of about the same size share what the driver has compiled.
+std::uint32_t stackLevelsOf(const WideBvh& bvh)
+{
+    return std::max((bvh.depth + 1) / 4 * 4, 4U);
+}
+
+static_assert(kMaxStackLevels % 4 == 0);
+
 }  // namespace
 
 std::vector<Box> primitiveBoxes(const Scene& scene)
@@ -92,6 +100,7 @@ FlatScene flattenScene(const Scene& scene, const WideBvh& bvh)
 {
     FlatScene flat;
     flat.nodes = packNodes(bvh);
+    flat.features.stackLevels = stackLevelsOf(bvh);
     flat.features.spheres = !scene.spheres.empty();
     flat.features.smooth = std::any_of(scene.primitives.begin(), scene.primitives.end(),
                                        [](const Primitive& primitive) { return primitive.smooth; });

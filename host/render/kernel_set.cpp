@@ -53,6 +53,7 @@ Specialization specialize(const SceneFeatures& features, const FlatCamera& camer
             {kSpecSphereLights, features.sphereLights},
             {kSpecPunctualLights, features.punctualLights},
             {kSpecEnvironment, features.environment},
+            {kSpecStackLevels, features.stackLevels},
             {kSpecSobol, settings.sampler == Sampler::Sobol},
             {kSpecMollerTrumbore, settings.intersector == Intersector::MollerTrumbore},
             {kSpecBruteForce, settings.accelerator == Accelerator::None},
@@ -77,9 +78,9 @@ KernelSet::KernelSet(const KernelLayout& layout, const Specialization& s, Schedu
     } else {
         compile(sampleLights, kernels::sample_lights);  // the longest
         compile(bounce, kernels::bounce);
+        compile(traceClosest, kernels::trace_closest);
+        compile(traceShadow, kernels::trace_shadow);
     }
-    compile(traceClosest, kernels::trace_closest);
-    compile(traceShadow, kernels::trace_shadow);
     compile(generateRays, kernels::generate_rays);
     compile(accumulate, kernels::accumulate);
     compile(sizeDispatch, kernels::size_dispatch);

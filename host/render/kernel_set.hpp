@@ -18,12 +18,12 @@ struct KernelSet {
 
     std::vector<const Kernel*> all() const;
 
-    std::optional<Kernel> generateRays, sizeDispatch, traceClosest, traceShadow, accumulate;
-    std::optional<Kernel> sampleLights, bounce;               // of the wavefront
-    std::optional<Kernel> tracePaths;                         // of the persistent schedule
-    std::optional<Kernel> sampleHemisphere, traceHemisphere;  // of --direct hemisphere
-    std::optional<Kernel> showView;                           // of views other than shaded
-    std::optional<Kernel> choosePixels;                       // of --adaptive course
+    std::optional<Kernel> generateRays, sizeDispatch, accumulate;
+    std::optional<Kernel> traceClosest, sampleLights, traceShadow, bounce;  // of the wavefront
+    std::optional<Kernel> tracePaths;                               // of the persistent schedule
+    std::optional<Kernel> sampleHemisphere, traceHemisphere;        // of --direct hemisphere
+    std::optional<Kernel> showView;                                 // of views other than shaded
+    std::optional<Kernel> choosePixels;                             // of --adaptive course
 };
 
 }  // namespace glim

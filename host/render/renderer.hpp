@@ -63,7 +63,7 @@ public:
     // What is finished; sampling may go on.
     Film film();
     PixelMoments moments(std::uint32_t pixel);  // of film(), faster
-    // What one ray meets; no part of the picture.
+    // What one ray meets; no part of the picture. Needs Schedule::Wavefront.
     PathHit traceRay(const PathRay& ray) { return wavefront_->traceRays(*slabs_.front(), {&ray, 1})[0]; }
     // A sample of a pixel once more, and in no film.
     PathRadiance traceSample(std::uint32_t pixel, std::uint32_t sample) { return wavefront_->traceSample(pixel, sample); }

@@ -230,7 +230,7 @@ std::vector<PathHit> Wavefront::traceRays(const Slab& slab, std::span<const Path
     pass.sampleCount = 1;
     Recording recording(device_, statistics_);
     recordSize(recording, slab.bindings(0), pass, kSizesPaths);
-    recordTrace(recording, *kernels_.traceClosest, slab.bindings(0), pass, offsetof(QueueSizes, closestGroups));
+    recordTrace(recording, kernels_.traceClosest.value(), slab.bindings(0), pass, offsetof(QueueSizes, closestGroups));
     recording.finish();
     return download<PathHit>(paths_.hits(), rays.size());
 }
@@ -245,7 +245,7 @@ std::vector<bool> Wavefront::traceShadowRays(const Slab& slab, std::span<const S
     pass.mostEvents = 1;
     Recording recording(device_, statistics_);
     recordSize(recording, slab.bindings(0), pass, kSizesShadow);
-    recordTrace(recording, *kernels_.traceShadow, slab.bindings(0), pass, offsetof(QueueSizes, shadowGroups));
+    recordTrace(recording, kernels_.traceShadow.value(), slab.bindings(0), pass, offsetof(QueueSizes, shadowGroups));
     recording.finish();
     const std::vector<PathRadiance> found = download<PathRadiance>(paths_.radiance(), rays.size());
     std::vector<bool> free(rays.size());

@@ -42,7 +42,8 @@ public:
     PathRadiance traceSample(std::uint32_t pixel, std::uint32_t sample, const PathWatch& watch = nullptr);
     // Calls `watch` after each kernel of a pass that is added to no film.
     void watch(const Slab& slab, Pass pass, const PathWatch& watch);
-    // Rays alone, no more than the settings' pathCapacity; between passes.
+    // Rays alone, no more than the settings' pathCapacity; between passes, and by the wavefront's kernels: std::bad_optional_access
+    // with the persistent schedule, which does not compile them.
     std::vector<PathHit> traceRays(const Slab& slab, std::span<const PathRay> rays);
     // Whether each is free.
     std::vector<bool> traceShadowRays(const Slab& slab, std::span<const ShadowRay> rays);

@@ -3,6 +3,7 @@
 #define GLIM_ACCESS_FEATURES
 
 #include "shared/bindings.h"
+#include "shared/limits.h"
 
 layout(constant_id = kSpecSpheres) const bool kSpheres = true;
 layout(constant_id = kSpecSlivers) const bool kSlivers = true;
@@ -13,6 +14,7 @@ layout(constant_id = kSpecTriangleLights) const bool kTriangleLights = true;
 layout(constant_id = kSpecSphereLights) const bool kSphereLights = true;
 layout(constant_id = kSpecPunctualLights) const bool kPunctualLights = true;
 layout(constant_id = kSpecEnvironment) const bool kEnvironment = true;
+layout(constant_id = kSpecStackLevels) const uint kStackLevels = kMaxStackLevels;
 layout(constant_id = kSpecSobol) const bool kSobol = true;
 layout(constant_id = kSpecMollerTrumbore) const bool kMollerTrumbore = false;
 layout(constant_id = kSpecBruteForce) const bool kBruteForce = false;

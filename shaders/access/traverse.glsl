@@ -7,7 +7,7 @@
 #include "lib/intersect_sphere.glsl"
 #include "lib/intersect_triangle.glsl"
 #include "scene.glsl"
-#include "shared/limits.h"
+#include "siblings.glsl"
 #include "shared/path_types.h"
 
 struct Walk {
@@ -42,25 +42,6 @@ TriangleHit intersectRecord(Walk walk, Record record, float tmax, bool isSource)
                                      floatsOf(record.t2), tmax, isSliver(record));
 }
 
-// Inner children of a node that are yet to be visited: the upper byte of `left`, the nearest uppermost. The lower one says which
-// children of the node are inner ones.
-struct Siblings {
-    uint first;
-    uint left;
-};
-
-const Siblings kRoot = Siblings(0u, 0x80000000u);
-const uint kFirstSibling = 1u << kFirstNodeBit;  // `left` is below once none is left
-
-// Takes the nearest.
-uint takeSibling(inout Siblings siblings, uint ahead)
-{
-    uint bit = uint(findMSB(siblings.left));
-    siblings.left &= ~(1u << bit);
-    uint place = (bit - kFirstNodeBit) ^ ahead;
-    return siblings.first + bitCount(siblings.left & ~(0xffffffffu << place) & 0xffu);
-}
-
 // Leaves' records that are yet to be tested: bits of `left`, from `first` on.
 struct Records {
     uint first;
@@ -74,6 +55,8 @@ uint takeRecord(inout Records records)
     return records.first + bit;
 }
 
+const uint kNodeBits = 0xffffffffu << kFirstNodeBit;
+
 void visitNode(Walk walk, uint node, float tmax, out Siblings children, out Records records)
 {
     int at = int(node * kNodeTexels);
@@ -81,8 +64,8 @@ void visitNode(Walk walk, uint node, float tmax, out Siblings children, out Reco
     uvec4 content = texelFetch(sceneNodes, at + 1);
     uint hits = hitsOfNode(head, content, texelFetch(sceneNodes, at + 2), texelFetch(sceneNodes, at + 3), texelFetch(sceneNodes, at + 4),
                            walk.origin, walk.reciprocal, walk.ahead, tmax);
-    children = Siblings(content.x, (hits & ~(kFirstSibling - 1u)) | head.w >> 24u);
-    records = Records(content.y, hits & (kFirstSibling - 1u));
+    children = Siblings(content.x, (hits & kNodeBits) | head.w >> 24u);
+    records = Records(content.y, hits & ~kNodeBits);
 }
 
 struct Closest {
@@ -127,17 +110,13 @@ PathHit traceClosest(PathRay ray, out Steps steps)
     steps = Steps(0u, 0u);
     Walk walk = beginWalk(ray.origin, ray.direction);
     Closest best = makeMiss();
-    Siblings stack[kMaxBvhDepth];
-    uint depth = 0u;
+    SiblingStack stack = makeSiblingStack();
     Siblings siblings = kRoot;
-    bool going = true;
     do {
         uint node = takeSibling(siblings, walk.ahead);
-        if (siblings.left >= kFirstSibling) {
-            stack[depth++] = siblings;
-        }
+        Siblings children;
         Records records;
-        visitNode(walk, node, best.hit.t, siblings, records);
+        visitNode(walk, node, best.hit.t, children, records);
         ++steps.nodes;
         if (records.left != 0u) {
             do {
@@ -145,12 +124,8 @@ PathHit traceClosest(PathRay ray, out Steps steps)
                 ++steps.primitives;
             } while (records.left != 0u);
         }
-        if (siblings.left < kFirstSibling) {
-            going = depth > 0u;
-            depth -= going ? 1u : 0u;
-            siblings = stack[depth];
-        }
-    } while (going);
+        siblings = nextSiblings(stack, children, siblings);
+    } while (hasAny(siblings));
     return hitOf(best);
 }
 
@@ -165,24 +140,18 @@ bool isUnoccluded(ShadowRay ray, out Steps steps)
 {
     steps = Steps(0u, 0u);
     Walk walk = beginWalk(ray.origin, ray.direction);
-    Siblings stack[kMaxBvhDepth];
-    uint depth = 0u;
+    SiblingStack stack = makeSiblingStack();
     Siblings siblings = kRoot;
     bool going = true;
     bool occluded = false;
     do {
         uint node = takeSibling(siblings, walk.ahead);
-        if (siblings.left >= kFirstSibling) {
-            stack[depth++] = siblings;
-        }
+        Siblings children;
         Records records;
-        visitNode(walk, node, ray.reach, siblings, records);
+        visitNode(walk, node, ray.reach, children, records);
         ++steps.nodes;
-        if (siblings.left < kFirstSibling) {
-            going = depth > 0u;
-            depth -= going ? 1u : 0u;
-            siblings = stack[depth];
-        }
+        siblings = nextSiblings(stack, children, siblings);
+        going = hasAny(siblings);
         if (records.left != 0u) {
             do {
                 uint index = takeRecord(records);

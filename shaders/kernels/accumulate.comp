@@ -32,51 +32,69 @@ void keepBrightest(uint at, float luminance, uint sampleIndex)
     }
 }
 
-BlockSums endBlock(uint at, BlockSums sums)
-{
-    filmPages[at] = foldMoments(filmPages[at], momentsOfBlock(sums));
-    return emptyBlock();
-}
+// What one thread adds: which pixel's samples to which place of the film.
+struct Target {
+    uint pixel, at, firstSample;
+};
 
-void addPixel(uint pixel)
+Target targetOf(uint pixel)
 {
     bool every = (pass.accumulate & kEveryPixel) != 0u;
-    uint at = every ? pixel : pixelOfPass(pixel);
-    uint firstSample = every ? pass.firstSample : firstSampleOfPass(pixel);
-    BlockSums sums = filmBlocks[at];
+    return Target(pixel, every ? pixel : pixelOfPass(pixel), every ? pass.firstSample : firstSampleOfPass(pixel));
+}
+
+BlockSums addFinished(Target target, uint i, BlockSums sums)
+{
+    uint slot = target.pixel * pass.sampleCount + i;
+    PathRadiance path = fetchRadiance(slot);
+    if (!isFinite(path.radiance.r) || !isFinite(path.radiance.g) || !isFinite(path.radiance.b)) {
+        reportNonFinite(pass.slabBegin + target.at, target.firstSample + i);
+        return sums;
+    }
+    FirstHit first = fetchFirstHit(slot);
+    if (kSuspects) {
+        keepBrightest(target.at, luminanceOf(path.radiance), target.firstSample + i);
+    }
+    if (kLuminance) {
+        filmLuminance[target.at] = addLuminance(filmLuminance[target.at], luminanceOf(path.radiance), first.alpha > 0.0);
+    }
+    return addSample(sums, path, first);
+}
+
+// Whether a block ends with the pass's sample i.
+bool endsBlock(Target target, uint i)
+{
+    uint sampleIndex = target.firstSample + i;
+    return (sampleIndex + 1u) % blockSamples(sampleIndex) == 0u;
+}
+
+void addPixel(Target target)
+{
+    BlockSums sums = filmBlocks[target.at];
     if (sums.count == 0u) {
         sums = emptyBlock();  // the host fills new blocks with zeros
     }
-    for (uint i = 0u; i < pass.sampleCount; ++i) {
-        uint slot = pixel * pass.sampleCount + i;
-        PathRadiance path = fetchRadiance(slot);
-        if (isFinite(path.radiance.r) && isFinite(path.radiance.g) && isFinite(path.radiance.b)) {
-            FirstHit first = fetchFirstHit(slot);
-            sums = addSample(sums, path, first);
-            if (kSuspects) {
-                keepBrightest(at, luminanceOf(path.radiance), firstSample + i);
-            }
-            if (kLuminance) {
-                filmLuminance[at] = addLuminance(filmLuminance[at], luminanceOf(path.radiance), first.alpha > 0.0);
-            }
-        } else {
-            reportNonFinite(pass.slabBegin + at, firstSample + i);
+    // One round more than there are samples: the block that the pass itself ends. So the page is in the code once; llvmpipe compiles
+    // a load and a store for each of its words, at some 10 ms each.
+    for (uint i = 0u; i <= pass.sampleCount; ++i) {
+        bool ends = (pass.accumulate & kEndsBlock) != 0u;
+        if (i < pass.sampleCount) {
+            sums = addFinished(target, i, sums);
+            ends = endsBlock(target, i);
         }
-        if ((firstSample + i + 1u) % blockSamples(firstSample + i) == 0u) {
-            sums = endBlock(at, sums);
+        if (ends) {
+            filmPages[target.at] = foldMoments(filmPages[target.at], momentsOfBlock(sums));
+            sums = emptyBlock();
         }
     }
-    if ((pass.accumulate & kEndsBlock) != 0u) {
-        sums = endBlock(at, sums);
-    }
-    filmBlocks[at] = sums;
+    filmBlocks[target.at] = sums;
 }
 
 void main()
 {
     uint pixel = interleavedInvocation();
     if (pixel < pass.pixelCount) {
-        addPixel(pixel);
+        addPixel(targetOf(pixel));
     }
     checkLoopBudget(pass.canarySteps);
 }

@@ -69,6 +69,7 @@ GLIM_CONST uint kSpecLuminance = 19u;      // the film knows the luminance of it
 GLIM_CONST uint kSpecSlivers = 20u;        // some triangle is a sliver
 GLIM_CONST uint kSpecGlasses = 21u;        // some material is glass
 GLIM_CONST uint kSpecSphereLights = 22u;   // some sphere emits
+GLIM_CONST uint kSpecStackLevels = 23u;    // as many as the BVH needs
 
 // How direct light is estimated.
 GLIM_CONST uint kDirectMis = 0u;

@@ -5,8 +5,8 @@
 
 GLIM_SHARED_BEGIN
 
-// Entries of the traversal stack. buildBvh never makes a deeper tree: it turns to median splits in time.
-GLIM_CONST uint kMaxBvhDepth = 48u;
+// Of the traversal stack, at most. No more than 32, the rounds of a loop that Mesa unrolls: in a loop, each level would be memory.
+GLIM_CONST uint kMaxStackLevels = 24u;
 
 // Samples of a pixel come in blocks with one scramble each, aligned to the absolute sample index; block means are what
 // the variance is estimated from. The first of kBlockSamples is two halves, so that the error is known from there on. A page is

@@ -1,7 +1,6 @@
 // The tree is valid and shallow whatever the boxes, cheap where a good tree exists, and check_bvh sees every defect.
 #include "host/bvh/build_bvh.hpp"
 #include "host/bvh/check_bvh.hpp"
-#include "shaders/shared/limits.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
 // H6: trees of what cannot be divided, and of sizes that grow; against splits in the middle of the centres.
 #include "host/bvh/build_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
-#include "shaders/shared/limits.h"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/test_meshes.hpp"
 

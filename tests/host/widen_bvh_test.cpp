@@ -3,7 +3,6 @@
 #include "host/bvh/surface_area.hpp"
 #include "host/bvh/widen_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
-#include "shaders/shared/limits.h"
 #include "shaders/shared/scene_types.h"
 #include "tests/support/random.hpp"
 #include "tests/support/test_meshes.hpp"
@@ -87,7 +86,7 @@ TEST(WidenBvhTest, KeepsItsInvariants)
             EXPECT_EQ(std::count(walked.parents.begin() + 1, walked.parents.end(), 1U),
                       static_cast<std::ptrdiff_t>(wide.nodes.size()) - 1);
             EXPECT_EQ(wide.depth, walked.depth);
-            EXPECT_LE(wide.depth, kMaxBvhDepth);
+            EXPECT_LE(wide.depth, kMaxWideDepth);
             EXPECT_NEAR(wide.cost, walked.cost, 1e-9 * walked.cost);
             std::vector<std::uint32_t> order = wide.order, all(boxes.size());
             std::sort(order.begin(), order.end());
@@ -95,6 +94,62 @@ TEST(WidenBvhTest, KeepsItsInvariants)
             EXPECT_EQ(order, all);
         }
     }
+}
+
+// A path of kMaxBvhDepth inner nodes that shrink, and on the left side of each seven leaves as big as it is: cheapest is a wide node
+// for each, of these leaves and the next.
+class LongPath {
+public:
+    Bvh make()
+    {
+        bvh_.depth = kMaxBvhDepth;
+        bvh_.nodes.resize(1);
+        std::uint32_t node = 0;
+        float size = 1.0F;
+        for (std::uint32_t depth = 0; depth < kMaxBvhDepth; ++depth) {
+            const std::uint32_t first = divide(node, size);
+            addLeaves(first, size, depth + 4 <= kMaxBvhDepth ? 7 : 1);
+            node = first + 1;
+            size *= 0.9F;
+        }
+        addLeaves(node, size, 1);
+        return std::move(bvh_);
+    }
+
+private:
+    std::uint32_t divide(std::uint32_t node, float size)
+    {
+        const auto first = static_cast<std::uint32_t>(bvh_.nodes.size());
+        bvh_.nodes[node] = {Box{glm::vec3(0.0F), glm::vec3(size)}, first, 0};
+        bvh_.nodes.resize(first + 2);
+        return first;
+    }
+
+    void addLeaves(std::uint32_t node, float size, std::uint32_t count)
+    {
+        if (count == 1) {  // of two primitives, so that no two make one
+            const auto first = static_cast<std::uint32_t>(bvh_.order.size());
+            bvh_.nodes[node] = {Box{glm::vec3(0.0F), glm::vec3(size)}, first, 2};
+            bvh_.order.insert(bvh_.order.end(), {first, first + 1});
+            return;
+        }
+        const std::uint32_t first = divide(node, size);
+        addLeaves(first, size, count / 2);
+        addLeaves(first + 1, size, count - count / 2);
+    }
+
+    Bvh bvh_;
+};
+
+TEST(WidenBvhTest, NoTreeIsDeeperThanTheStack)
+{
+    const Bvh bvh = LongPath().make();
+    const WideBvh wide = widenBvh(bvh);
+    const std::vector<Box> boxes(bvh.order.size(), Box{glm::vec3(0.0F), glm::vec3(1e-3F)});
+    EXPECT_EQ(Walker(wide, boxes).walk().depth, wide.depth);
+    EXPECT_LE(wide.depth, kMaxWideDepth);
+    EXPECT_GT(wide.depth, (kMaxBvhDepth + 2) / 3) << "the cheapest nodes for as long as they may";
+    EXPECT_EQ(wide.order.size(), bvh.order.size());
 }
 
 TEST(WidenBvhTest, FewPrimitivesAreOneNode)

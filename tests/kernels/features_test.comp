@@ -6,7 +6,7 @@
 
 struct Case {
     uint on;  // one bit per id
-    uint direct, roulette, view;
+    uint direct, roulette, view, stackLevels;
 };
 
 layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case expected; };
@@ -39,6 +39,7 @@ void main()
         EXPECT_EQUAL(kDirect, expected.direct);
         EXPECT_EQUAL(kRoulette, expected.roulette);
         EXPECT_EQUAL(kView, expected.view);
+        EXPECT_EQUAL(kStackLevels, expected.stackLevels);
     }
     endTest();
 }

@@ -1,4 +1,5 @@
 #include "shaders/shared/bindings.h"
+#include "shaders/shared/limits.h"
 #include "test_kernels.hpp"
 #include "tests/support/kernel_test.hpp"
 
@@ -9,7 +10,7 @@ namespace {
 
 struct Case {
     uint on;
-    uint direct, roulette, view;
+    uint direct, roulette, view, stackLevels;
 };
 
 // Unasked, all that a scene may need is on, and what a render may be asked for is off.
@@ -20,7 +21,7 @@ constexpr uint kDefaultOff[] = {kSpecMollerTrumbore, kSpecBruteForce, kSpecLens,
 
 Case defaults()
 {
-    Case expected{0, kDirectMis, kRouletteThroughput, kViewNormal};
+    Case expected{0, kDirectMis, kRouletteThroughput, kViewNormal, kMaxStackLevels};
     for (const uint id : kDefaultOn) {
         expected.on |= 1U << id;
     }
@@ -57,11 +58,12 @@ TEST(FeaturesTest, EachChoiceFollowsItsOwnId)
 {
     for (const uint value : {0U, 1U, 2U, 3U, 4U}) {
         SCOPED_TRACE("value " + std::to_string(value));
-        Case direct = defaults(), roulette = defaults(), view = defaults();
-        direct.direct = roulette.roulette = view.view = value;
+        Case direct = defaults(), roulette = defaults(), view = defaults(), levels = defaults();
+        direct.direct = roulette.roulette = view.view = levels.stackLevels = value;
         expectFeatures(direct, {{kSpecDirect, value}});
         expectFeatures(roulette, {{kSpecRoulette, value}});
         expectFeatures(view, {{kSpecView, value}});
+        expectFeatures(levels, {{kSpecStackLevels, value}});
     }
 }
 

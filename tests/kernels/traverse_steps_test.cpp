@@ -1,5 +1,4 @@
 // What the tree costs per ray, and that the worst trees neither overflow the stack nor hide a hit (H6).
-#include "shaders/shared/limits.h"
 #include "test_kernels.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/reference.hpp"
@@ -101,7 +100,7 @@ TEST(TraverseStepsTest, H6CoincidentTrianglesGiveTheLowestOrAreReported)
 {
     for (const std::size_t count : {5000, 100000}) {
         const SceneOnDevice scene(sceneOf(coincidentTriangles(count)));
-        EXPECT_LE(scene.bvh.depth, kMaxBvhDepth);
+        EXPECT_LE(scene.bvh.depth, kMaxWideDepth);
         std::vector<PathRay> rays;
         for (int i = 0; i < 64; ++i) {
             rays.push_back({glm::vec3(0.01F * static_cast<float>(i) - 0.4F, -0.5F, 1.0F), kNoRecord, glm::vec3(0, 0, -1)});
@@ -120,11 +119,32 @@ TEST(TraverseStepsTest, H6CoincidentTrianglesGiveTheLowestOrAreReported)
     }
 }
 
+TEST(TraverseStepsTest, TheStackIsAsDeepAsTheTreeNeeds)
+{
+    const SceneOnDevice scene(sceneOf(terrain(120)));
+    const std::vector<PathRay> rays = uniformLines(scene.bvh.box, 20000);
+    const auto traceWith = [&](uint levels) {
+        KernelTest test = scene.test(test_kernels::traverse_steps_test);
+        return trace(test.specialize(kSpecStackLevels, levels), rays);
+    };
+    const auto countDifferences = [&](const std::vector<Result>& results, const std::vector<Result>& expected) {
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < results.size(); ++i) {
+            different += results[i].nodes != expected[i].nodes || results[i].hit.record != expected[i].hit.record ? 1 : 0;
+        }
+        return different;
+    };
+    const std::vector<Result> expected = traceWith(kMaxStackLevels);
+    EXPECT_GE(scene.flat.features.stackLevels, scene.bvh.depth - 2);
+    EXPECT_EQ(countDifferences(traceWith(scene.bvh.depth - 2), expected), 0U);
+    EXPECT_GT(countDifferences(traceWith(1), expected), 0U) << "siblings are lost where there is no room";
+}
+
 TEST(TraverseStepsTest, H6GrowingLineAgreesWithTheReference)
 {
     const Scene line = sceneOf(growingLine(100000, 1e-4F, 1.0002));
     const SceneOnDevice scene(line);
-    EXPECT_LE(scene.bvh.depth, kMaxBvhDepth);
+    EXPECT_LE(scene.bvh.depth, kMaxWideDepth);
     std::mt19937 random(5);
     std::uniform_real_distribution<float> share(0.1F, 0.4F);
     std::vector<PathRay> rays;

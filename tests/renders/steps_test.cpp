@@ -106,6 +106,7 @@ TEST_F(StepsTest, OneRayMeetsWhatTheCameraSees)
 {
     settings.sampleEnd = 4;
     settings.adaptive = Adaptive::Off;
+    settings.schedule = Schedule::Wavefront;
     Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
     renderer.advance();
     const Camera& camera = scene.cameras[0];

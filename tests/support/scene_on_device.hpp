@@ -29,6 +29,7 @@ struct SceneOnDevice {
         KernelTest test(kernel);
         test.buffers(device.buffers());
         test.buffers({{kBindCamera, &camera.buffer()}});
+        test.specialize(kSpecStackLevels, flat.features.stackLevels);
         test.pass().lightCount = static_cast<std::uint32_t>(flat.lights.size());
         return test;
     }
