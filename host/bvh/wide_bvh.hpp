@@ -2,7 +2,6 @@
 #pragma once
 
 #include "host/bvh/bvh.hpp"
-
 #include "shaders/shared/limits.h"
 
 #include <array>

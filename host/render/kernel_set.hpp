@@ -20,10 +20,10 @@ struct KernelSet {
 
     std::optional<Kernel> generateRays, sizeDispatch, accumulate;
     std::optional<Kernel> traceClosest, sampleLights, traceShadow, bounce;  // of the wavefront
-    std::optional<Kernel> tracePaths;                               // of the persistent schedule
-    std::optional<Kernel> sampleHemisphere, traceHemisphere;        // of --direct hemisphere
-    std::optional<Kernel> showView;                                 // of views other than shaded
-    std::optional<Kernel> choosePixels;                             // of --adaptive course
+    std::optional<Kernel> tracePaths;                                       // of the persistent schedule
+    std::optional<Kernel> sampleHemisphere, traceHemisphere;                // of --direct hemisphere
+    std::optional<Kernel> showView;                                         // of views other than shaded
+    std::optional<Kernel> choosePixels;                                     // of --adaptive course
 };
 
 }  // namespace glim
