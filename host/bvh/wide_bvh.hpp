@@ -25,7 +25,7 @@ struct WideChild {
 
 // Invariants, held as code by tests/host/widen_bvh_test.cpp:
 //  - nodes[0] is the root; the inner children of a node follow one another, in the order of their places, after itself;
-//  - so do the primitives of its leaves in `order`, in which every primitive is once;
+//  - so do the primitives of its leaves in `order`, in which every primitive is once, or once for each of its pieces (build_scene_bvh.hpp);
 //  - a child's box contains the boxes of all that is below it;
 //  - no path from the root has more than kMaxWideDepth nodes.
 // A child's place is the octant of its node that it lies in, as far as there is room: bit k is set on the upper side of axis k.

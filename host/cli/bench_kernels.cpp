@@ -2,12 +2,11 @@
 
 #include "host/bench/make_hills.hpp"
 #include "host/bench/picture_rate.hpp"
-#include "host/bvh/build_bvh.hpp"
-#include "host/bvh/widen_bvh.hpp"
 #include "host/cli/check_target.hpp"
 #include "host/cli/fastest_schedule.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/cli/version.hpp"
+#include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/flatten/view_options.hpp"
 #include "host/image/whole_file.hpp"
@@ -33,7 +32,7 @@ PreparedScene prepareHills(SplitRule split)
     PreparedScene prepared;
     prepared.scene = makeHills(kHillCells);
     prepared.scene.file = kHills;
-    prepared.bvh = widenBvh(buildBvh(primitiveBoxes(prepared.scene), split));
+    prepared.bvh = buildSceneBvh(prepared.scene, split);
     prepared.flat = flattenScene(prepared.scene, prepared.bvh);
     return prepared;
 }

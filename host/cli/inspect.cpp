@@ -62,6 +62,7 @@ Json describe(const InspectOptions& options, const PreparedScene& prepared)
               {"high", pointOf(prepared.scene.origin + glm::dvec3(box.hi))}}},
             {"bvh",
              {{"nodes", prepared.bvh.nodes.size()},
+              {"records", prepared.bvh.order.size()},
               {"depth", prepared.bvh.depth},
               {"surfaceAreaCost", prepared.bvh.cost},
               {"buildSeconds", prepared.buildSeconds}}},

@@ -61,6 +61,7 @@ Json bvhOf(const RenderReport& report)
     const WideBvh& bvh = report.prepared.bvh;
     return {{"split", kRules[static_cast<int>(report.prepared.split)]},
             {"nodes", bvh.nodes.size()},
+            {"records", bvh.order.size()},
             {"depth", bvh.depth},
             {"cost", bvh.cost}};
 }

@@ -1,7 +1,9 @@
 #include "host/flatten/flat_scene.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <span>
+#include <utility>
 
 namespace glim {
 namespace {
@@ -47,11 +49,13 @@ std::uint64_t sizeInBytes(const FlatScene& scene)
 
 std::uint64_t fingerprint(const FlatScene& scene)
 {
-    // By primitive, since the order of the records is the tree's.
+    // By primitive, since the order and number of the records is the tree's.
     const std::size_t count = scene.records.size() / kRecordTexels;
-    std::vector<std::uint32_t> recordOf(count);
+    std::vector<std::uint32_t> recordOf;
     for (std::uint32_t record = 0; record < count; ++record) {
-        recordOf[scene.records[record * kRecordTexels].w] = record;
+        const std::size_t primitive = scene.records[record * kRecordTexels].w;
+        recordOf.resize(std::max(recordOf.size(), primitive + 1));
+        recordOf[primitive] = record;
     }
     Fingerprint print;
     for (const std::uint32_t record : recordOf) {
@@ -62,7 +66,7 @@ std::uint64_t fingerprint(const FlatScene& scene)
         }
     }
     for (FlatEmitter emitter : scene.emitters) {
-        emitter.record = scene.records[std::size_t{emitter.record} * kRecordTexels].w;
+        emitter.record = std::exchange(emitter.primitive, 0);  // as in films of before there was that field
         print.add(std::vector<FlatEmitter>{emitter});
     }
     print.add(scene.materials);

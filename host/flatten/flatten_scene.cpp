@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
+#include <span>
 
 namespace glim {
 namespace {
@@ -60,16 +60,16 @@ void pushNormals(FlatScene& flat, const Scene& scene, std::uint32_t id, const Pr
     }
 }
 
-// Rounded outwards.
-Box boxOf(const Sphere& sphere)
+// As addLights has marked one record of each primitive that emits.
+void markOtherRecords(FlatScene& flat, std::span<const std::uint32_t> order, std::span<const std::uint32_t> recordOf)
 {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    Box box{sphere.center - sphere.radius, sphere.center + sphere.radius};
-    for (int k = 0; k < 3; ++k) {
-        box.lo[k] = std::nextafter(box.lo[k], -kInfinity);
-        box.hi[k] = std::nextafter(box.hi[k], kInfinity);
+    if (order.size() == recordOf.size()) {
+        return;  // none has another
     }
-    return box;
+    for (std::size_t record = 0; record < order.size(); ++record) {
+        const std::size_t marked = recordOf[order[record]];
+        flat.records[record * kRecordTexels + 2].w = flat.records[marked * kRecordTexels + 2].w;
+    }
 }
 
 // In fours, so that scenes of about the same size share what the driver has compiled.
@@ -81,20 +81,6 @@ std::uint32_t stackLevelsOf(const WideBvh& bvh)
 static_assert(kMaxStackLevels % 4 == 0);
 
 }  // namespace
-
-std::vector<Box> primitiveBoxes(const Scene& scene)
-{
-    std::vector<Box> boxes;
-    boxes.reserve(scene.triangles.size() + scene.spheres.size());
-    for (const Triangle& t : scene.triangles) {
-        boxes.push_back({glm::min(t.vertices[0], glm::min(t.vertices[1], t.vertices[2])),
-                         glm::max(t.vertices[0], glm::max(t.vertices[1], t.vertices[2]))});
-    }
-    for (const Sphere& sphere : scene.spheres) {
-        boxes.push_back(boxOf(sphere));
-    }
-    return boxes;
-}
 
 FlatScene flattenScene(const Scene& scene, const WideBvh& bvh)
 {
@@ -111,7 +97,7 @@ FlatScene flattenScene(const Scene& scene, const WideBvh& bvh)
         flat.features.glasses = flat.features.glasses || m.scattering == Scattering::Glass;
     }
     const std::vector<const Primitive*> owners = primitiveOfTriangle(scene);
-    std::vector<std::uint32_t> recordOf(bvh.order.size());
+    std::vector<std::uint32_t> recordOf(scene.triangles.size() + scene.spheres.size());
     for (std::uint32_t record = 0; record < bvh.order.size(); ++record) {
         const std::uint32_t id = bvh.order[record];
         const Primitive* owner = id < owners.size() ? owners[id] : nullptr;
@@ -126,6 +112,7 @@ FlatScene flattenScene(const Scene& scene, const WideBvh& bvh)
         }
     }
     addLights(flat, scene, recordOf);
+    markOtherRecords(flat, bvh.order, recordOf);
     return flat;
 }
 

@@ -7,9 +7,7 @@
 
 namespace glim {
 
-// The box of each primitive, triangles first, then spheres (rounded outwards): what buildBvh takes.
-std::vector<Box> primitiveBoxes(const Scene& scene);
-
+// `bvh.order`: of the scene's primitives, each at least once.
 FlatScene flattenScene(const Scene& scene, const WideBvh& bvh);
 
 // A thin lens; both in metres. Radius 0 is a pinhole, whose focal distance does not matter.

@@ -60,7 +60,7 @@ public:
         double total = 0.0;
         for (std::uint32_t i = 0; i < primitive.triangleCount; ++i) {
             const auto areaPdf = static_cast<float>(table.probabilities[i] / areas[i]);
-            addEmitter(recordOf_[primitive.firstTriangle + i], areaPdf, table.entries[i]);
+            addEmitter(primitive.firstTriangle + i, areaPdf, table.entries[i]);
             total += areas[i];
         }
         add(light, kPi * total * strength(material.emission) * (material.doubleSided ? 2.0 : 1.0));
@@ -78,7 +78,7 @@ public:
         flat_.features.sphereLights = true;
         light.position = sphere.center;
         light.radius = sphere.radius;
-        addEmitter(recordOf_[scene_.triangles.size() + index], static_cast<float>(1.0 / surface), {0xffffffffU, 0});
+        addEmitter(static_cast<std::uint32_t>(scene_.triangles.size() + index), static_cast<float>(1.0 / surface), {0xffffffffU, 0});
         add(light, kPi * surface * strength(material.emission) * (material.doubleSided ? 2.0 : 1.0));
     }
 
@@ -145,9 +145,10 @@ private:
         return light;
     }
 
-    void addEmitter(std::uint32_t record, float areaPdf, AliasEntry alias)
+    void addEmitter(std::uint32_t primitive, float areaPdf, AliasEntry alias)
     {
-        flat_.emitters.push_back({alias, record, static_cast<std::uint32_t>(flat_.lights.size()), areaPdf, uvec3(0)});
+        const std::uint32_t record = recordOf_[primitive];
+        flat_.emitters.push_back({alias, record, static_cast<std::uint32_t>(flat_.lights.size()), areaPdf, primitive, uvec2(0)});
         flat_.records[record * kRecordTexels + 2].w = static_cast<std::uint32_t>(flat_.emitters.size());
     }
 

@@ -9,7 +9,7 @@
 namespace glim {
 
 // Fills lights, emitters, environment and their features of `flat`, and marks the records that emit. `recordOf`: where each
-// primitive (triangles, then spheres) stands among flat.records. Lights without power are left out.
+// primitive (triangles, then spheres) stands among flat.records, or the one of its records to mark. Lights without power are left out.
 void addLights(FlatScene& flat, const Scene& scene, std::span<const std::uint32_t> recordOf);
 
 }  // namespace glim

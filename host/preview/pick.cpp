@@ -7,8 +7,8 @@ PathRay rayThrough(const FlatCamera& camera, const glm::uvec2& pixel, const glm:
 {
     const glm::vec2 film = 2.0F * (glm::vec2(pixel) + 0.5F) / glm::vec2(size) - 1.0F;
     const glm::vec3 across = film.x * camera.right - film.y * camera.up;
-    return camera.kind == kOrthographic ? PathRay{camera.position + across, kNoRecord, camera.forward}
-                                        : PathRay{camera.position, kNoRecord, glm::normalize(camera.forward + across)};
+    return camera.kind == kOrthographic ? PathRay{camera.position + across, kNoPrimitive, camera.forward}
+                                        : PathRay{camera.position, kNoPrimitive, glm::normalize(camera.forward + across)};
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #include "host/render/prepare_scene.hpp"
 
-#include "host/bvh/widen_bvh.hpp"
 #include "host/error.hpp"
+#include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions&
     }
     const Clock::time_point loaded = Clock::now();
     stage("building the BVH of " + std::to_string(prepared.scene.triangles.size() + prepared.scene.spheres.size()) + " primitives");
-    prepared.bvh = widenBvh(buildBvh(primitiveBoxes(prepared.scene), split));
+    prepared.bvh = buildSceneBvh(prepared.scene, split);
     prepared.split = split;
     prepared.flat = flattenScene(prepared.scene, prepared.bvh);
     prepared.loadSeconds = secondsBetween(start, loaded);

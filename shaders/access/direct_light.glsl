@@ -60,8 +60,8 @@ LightSample sampleLightOfRound(SampleId id, uint bounce, vec3 from, vec3 normal)
 }
 
 // A round of direct light at a surface that the path met `bounce` surfaces after the camera. False if no light can arrive; else the
-// shadow ray carries the radiance that the light sends on towards the camera if nothing shadows it. `record` is the surface's own.
-bool sampleDirectLight(SampleId id, uint bounce, PathState state, uint record, Surface surface, FlatMaterial material, out ShadowRay ray)
+// shadow ray carries the radiance that the light sends on towards the camera if nothing shadows it.
+bool sampleDirectLight(SampleId id, uint bounce, PathState state, Surface surface, FlatMaterial material, out ShadowRay ray)
 {
     vec3 origin = leavePoint(surface, surface.geometric);
     LightSample light = sampleLightOfRound(id, bounce, origin, surface.shading);
@@ -79,7 +79,7 @@ bool sampleDirectLight(SampleId id, uint bounce, PathState state, uint record, S
         return false;
     }
     bool infinite = light.reach > 1.0;
-    ray = ShadowRay(origin, record, infinite ? light.wi : light.target - origin, light.record, contribution, light.reach);
+    ray = ShadowRay(origin, surface.primitive, infinite ? light.wi : light.target - origin, light.primitive, contribution, light.reach);
     return true;
 }
 

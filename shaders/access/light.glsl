@@ -17,11 +17,11 @@ struct LightSample {
     vec3 radiance;     // radiance / pdf of wi per steradian, the light's probability included; 0: none
     float pdf;         // per steradian, the light's probability included; 0: delta, nothing else can find it
     vec3 target;       // a point that shadow rays aim at, clear of the light's surface
-    uint record;       // of the light's surface, or kNoRecord
+    uint primitive;    // the light's surface, or kNoPrimitive
     float reach;       // 1: the light is at `target`; infinity: it is infinitely far
 };
 
-const LightSample kNoLight = LightSample(vec3(0.0), vec3(0.0), 0.0, vec3(0.0), kNoRecord, 1.0);
+const LightSample kNoLight = LightSample(vec3(0.0), vec3(0.0), 0.0, vec3(0.0), kNoPrimitive, 1.0);
 
 uint chooseLight(uvec2 bits, uint lightCount)
 {
@@ -71,11 +71,11 @@ LightSample sampleTriangleLight(FlatLight light, vec3 from, uvec2 choice, vec2 u
     }
     float pdf = pdfSurfaceLight(emitter, light, from, distance_, cosine);
     vec3 target = offsetPoint(point, facing > 0.0 ? n : -n, triangleErrorBound(v0, e1, e2));
-    return LightSample(towards / distance_, light.intensity / pdf, pdf, target, emitter.record, 1.0);
+    return LightSample(towards / distance_, light.intensity / pdf, pdf, target, emitter.primitive, 1.0);
 }
 
 // From outside: uniform in the cone.
-LightSample sampleSphereCone(FlatLight light, uint record, vec3 outward, float sin2, vec2 u)
+LightSample sampleSphereCone(FlatLight light, uint primitive, vec3 outward, float sin2, vec2 u)
 {
     vec3 local = sampleCone(u, sin2);
     // The point of the sphere under the sampled direction (pbrt-v4, section 6.2.4): the angle at the centre. Only shadow rays
@@ -89,7 +89,7 @@ LightSample sampleSphereCone(FlatLight light, uint record, vec3 outward, float s
     vec3 n = worldFromFrame(frame, vec3(azimuth * sinCenter, across));
     float pdf = light.probability * pdfCone(sin2);
     vec3 target = offsetPoint(light.position + light.radius * n, n, sphereErrorBound(light.position, light.radius));
-    return LightSample(worldFromFrame(frame, vec3(local.xy, -local.z)), light.intensity / pdf, pdf, target, record, 1.0);
+    return LightSample(worldFromFrame(frame, vec3(local.xy, -local.z)), light.intensity / pdf, pdf, target, primitive, 1.0);
 }
 
 // From within a sphere that emits inwards too: uniform over its area.
@@ -105,7 +105,7 @@ LightSample sampleSphereArea(FlatLight light, FlatEmitter emitter, vec3 from, ve
     }
     float pdf = pdfSurfaceLight(emitter, light, from, distance_, cosine);
     vec3 target = offsetPoint(point, -n, sphereErrorBound(light.position, light.radius));
-    return LightSample(towards / distance_, light.intensity / pdf, pdf, target, emitter.record, 1.0);
+    return LightSample(towards / distance_, light.intensity / pdf, pdf, target, emitter.primitive, 1.0);
 }
 
 LightSample sampleSphereLight(FlatLight light, vec3 from, vec2 u)
@@ -114,7 +114,7 @@ LightSample sampleSphereLight(FlatLight light, vec3 from, vec2 u)
     vec3 outward = from - light.position;
     float sin2;
     if (seesCone(outward, light.radius, sin2)) {
-        return sampleSphereCone(light, emitter.record, outward, sin2, u);
+        return sampleSphereCone(light, emitter.primitive, outward, sin2, u);
     }
     return light.doubleSided != 0u ? sampleSphereArea(light, emitter, from, u) : kNoLight;
 }
@@ -122,7 +122,7 @@ LightSample sampleSphereLight(FlatLight light, vec3 from, vec2 u)
 LightSample samplePunctualLight(FlatLight light, vec3 from)
 {
     if (light.kind == kDirectionalLight) {
-        return LightSample(-light.direction, light.intensity / light.probability, 0.0, from - light.direction, kNoRecord,
+        return LightSample(-light.direction, light.intensity / light.probability, 0.0, from - light.direction, kNoPrimitive,
                            kInfinity);
     }
     vec3 towards = light.position - from;
@@ -133,7 +133,7 @@ LightSample samplePunctualLight(FlatLight light, vec3 from)
     vec3 wi = towards / sqrt(distance2);
     float falloff =
         light.kind == kSpotLight ? spotFalloff(-dot(wi, light.direction), light.cosInner, light.cosOuter) : 1.0;
-    return LightSample(wi, light.intensity * falloff / distance2 / light.probability, 0.0, light.position, kNoRecord, 1.0);
+    return LightSample(wi, light.intensity * falloff / distance2 / light.probability, 0.0, light.position, kNoPrimitive, 1.0);
 }
 
 // A constant environment is sampled by the cosine about the shading normal: against Lambert its variance is nil.
@@ -145,7 +145,7 @@ LightSample sampleEnvironment(FlatLight light, vec3 from, vec3 normal, vec2 u)
         return kNoLight;
     }
     vec3 wi = worldFromFrame(makeFrame(normal), local);
-    return LightSample(wi, light.intensity / pdf, pdf, from + wi, kNoRecord, kInfinity);
+    return LightSample(wi, light.intensity / pdf, pdf, from + wi, kNoPrimitive, kInfinity);
 }
 
 // `from`: the point that rays leave the receiver from, not on it: the wall of a sphere light sees it from within only by that.

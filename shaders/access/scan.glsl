@@ -10,7 +10,7 @@ PathHit scanClosest(PathRay ray, PathHit met, uint first, uint end)
     Walk walk = beginWalk(ray.origin, ray.direction);
     Closest best = makeMiss();
     if (met.record != kNoRecord) {
-        best = Closest(met.record, fetchRecord(met.record).t0.w, TriangleHit(met.t, met.barycentric, 1.0));
+        best = Closest(met.record, primitiveOf(fetchRecord(met.record)), TriangleHit(met.t, met.barycentric, 1.0));
     }
     for (uint i = first; i < end; ++i) {
         meetRecord(walk, i, ray.source, best);
@@ -24,8 +24,9 @@ bool scanUnoccluded(ShadowRay ray, uint first, uint end)
     Walk walk = beginWalk(ray.origin, ray.direction);
     bool occluded = false;
     for (uint i = first; i < end && !occluded; ++i) {
-        TriangleHit hit = intersectRecord(walk, fetchRecord(i), ray.reach, i == ray.source);
-        occluded = hit.t > 0.0 && i != ray.target;
+        Record record = fetchRecord(i);
+        TriangleHit hit = intersectRecord(walk, record, ray.reach, primitiveOf(record) == ray.source);
+        occluded = hit.t > 0.0 && primitiveOf(record) != ray.target;
     }
     return !occluded;
 }

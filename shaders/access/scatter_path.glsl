@@ -63,7 +63,7 @@ float survivalOf(vec3 throughput, float etaScale, uint bounce)
 }
 
 // Scatters a path at the surface that its ray met (not turned to the viewer) and plays roulette. False if it ends there.
-bool scatterPath(SampleId id, uint bounce, uint record, Surface surface, inout PathRay ray, inout PathState state)
+bool scatterPath(SampleId id, uint bounce, Surface surface, inout PathRay ray, inout PathState state)
 {
     vec2 u = unitFloat(samplePair(id, bounceDimension(bounce, kDimensionScatter), kSobol));
     vec2 fate = unitFloat(samplePair(id, bounceDimension(bounce, kDimensionFate), kSobol));
@@ -79,7 +79,7 @@ bool scatterPath(SampleId id, uint bounce, uint record, Surface surface, inout P
     if (!(fate.y < survival)) {
         return false;
     }
-    ray = PathRay(leavePoint(surface, scatter.wi), record, scatter.wi, 0u);
+    ray = PathRay(leavePoint(surface, scatter.wi), surface.primitive, scatter.wi, 0u);
     state = PathState(throughput / survival, scatter.pdf, max(0.0, dot(scatter.wi, surface.shading)), etaScale, bounce + 1u, 0u);
     return true;
 }

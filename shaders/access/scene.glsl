@@ -55,7 +55,12 @@ FlatEmitter fetchEmitter(uint emitter)
     int at = int(emitter * kEmitterTexels);
     uvec4 a = texelFetch(sceneEmitters, at);
     uvec4 b = texelFetch(sceneEmitters, at + 1);
-    return FlatEmitter(AliasEntry(a.x, a.y), a.z, a.w, uintBitsToFloat(b.x), b.yzw);
+    return FlatEmitter(AliasEntry(a.x, a.y), a.z, a.w, uintBitsToFloat(b.x), b.y, b.zw);
+}
+
+uint primitiveOf(Record record)
+{
+    return record.t0.w;
 }
 
 bool isSphere(Record record)

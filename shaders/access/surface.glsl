@@ -15,6 +15,7 @@ struct Surface {
     bool front;       // wo is on the front side
     uint material;
     uint emitter;     // index + 1, or 0
+    uint primitive;
 };
 
 // The unit normal of a triangle, counter-clockwise front; from its two longest edges, which cancel least.
@@ -44,7 +45,7 @@ Surface surfaceOfSphere(Record record, vec3 near)
     vec3 n = near - center;
     n = n / length(n);
     return Surface(center + radius * n, sphereErrorBound(center, radius), n, n, true, materialOf(record),
-                   record.t2.w);
+                   record.t2.w, primitiveOf(record));
 }
 
 Surface surfaceOfTriangle(Record record, uint index, vec2 barycentric)
@@ -54,7 +55,7 @@ Surface surfaceOfTriangle(Record record, uint index, vec2 barycentric)
     vec3 e2 = floatsOf(record.t2) - v0;
     vec3 n = triangleNormal(v0, floatsOf(record.t1), floatsOf(record.t2));
     Surface surface = Surface(trianglePoint(v0, e1, e2, barycentric), triangleErrorBound(v0, e1, e2), n, n, true, materialOf(record),
-                              record.t2.w);
+                              record.t2.w, primitiveOf(record));
     if (kSmooth) {
         vec3 smoothed = vertexNormal(index, barycentric);
         float square = dot(smoothed, smoothed);

@@ -70,15 +70,13 @@ void visitNode(Walk walk, uint node, float tmax, out Siblings children, out Reco
 
 struct Closest {
     uint record;
-    uint id;  // of its primitive
+    uint primitive;
     TriangleHit hit;
 };
 
-const uint kNoId = 0xffffffffu;
-
 Closest makeMiss()
 {
-    return Closest(kNoRecord, kNoId, TriangleHit(kInfinity, vec2(0.0), 1.0));
+    return Closest(kNoRecord, kNoPrimitive, TriangleHit(kInfinity, vec2(0.0), 1.0));
 }
 
 PathHit hitOf(Closest best)
@@ -86,13 +84,13 @@ PathHit hitOf(Closest best)
     return PathHit(best.record, best.hit.t, barycentricOf(best.hit));
 }
 
-// Ties go to the lower primitive id, so that the result does not depend on the tree.
+// Ties go to the lower primitive, so that the result does not depend on the tree.
 void meetRecord(Walk walk, uint index, uint source, inout Closest best)
 {
     Record record = fetchRecord(index);
-    TriangleHit hit = intersectRecord(walk, record, best.hit.t, index == source);
-    if (hit.t > 0.0 && (hit.t < best.hit.t || record.t0.w < best.id)) {
-        best = Closest(index, record.t0.w, hit);
+    TriangleHit hit = intersectRecord(walk, record, best.hit.t, primitiveOf(record) == source);
+    if (hit.t > 0.0 && (hit.t < best.hit.t || primitiveOf(record) < best.primitive)) {
+        best = Closest(index, primitiveOf(record), hit);
     }
 }
 
@@ -154,10 +152,10 @@ bool isUnoccluded(ShadowRay ray, out Steps steps)
         going = hasAny(siblings);
         if (records.left != 0u) {
             do {
-                uint index = takeRecord(records);
-                TriangleHit hit = intersectRecord(walk, fetchRecord(index), ray.reach, index == ray.source);
+                Record record = fetchRecord(takeRecord(records));
+                TriangleHit hit = intersectRecord(walk, record, ray.reach, primitiveOf(record) == ray.source);
                 ++steps.primitives;
-                bool met = hit.t > 0.0 && index != ray.target;
+                bool met = hit.t > 0.0 && primitiveOf(record) != ray.target;
                 occluded = occluded || met;
                 going = going && !met;
                 records.left = met ? 0u : records.left;

@@ -22,7 +22,7 @@ void visit(uint slot)
     }
     PathRay ray = fetchRay(slot);
     PathState state = fetchState(slot);
-    if (scatterPath(sampleOfSlot(slot), pass.bounce, hit.record, surfaceAt(ray, hit), ray, state)) {
+    if (scatterPath(sampleOfSlot(slot), pass.bounce, surfaceAt(ray, hit), ray, state)) {
         pathRays[slot] = ray;
         pathStates[slot] = state;
         nextQueue[atomicAdd(queueTails.next, 1u)] = slot;

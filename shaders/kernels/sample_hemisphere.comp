@@ -32,7 +32,7 @@ void askForRay(uint slot, Surface surface, FlatMaterial material)
         return;
     }
     pathShadowRays[slot] =
-        ShadowRay(leavePoint(surface, wi), fetchHit(slot).record, wi, kNoRecord, contribution, kInfinity);
+        ShadowRay(leavePoint(surface, wi), surface.primitive, wi, kNoRecord, contribution, kInfinity);
     shadowQueue[atomicAdd(queueTails.shadow, 1u)] = slot;
 }
 

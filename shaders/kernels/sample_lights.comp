@@ -19,10 +19,10 @@
 #include "access/radiance.glsl"
 #include "access/status.glsl"
 
-void askForShadowRay(uint slot, PathState state, PathHit hit, Surface surface, FlatMaterial material)
+void askForShadowRay(uint slot, PathState state, Surface surface, FlatMaterial material)
 {
     ShadowRay ray;
-    if (sampleDirectLight(sampleOfSlot(slot), pass.bounce, state, hit.record, surface, material, ray)) {
+    if (sampleDirectLight(sampleOfSlot(slot), pass.bounce, state, surface, material, ray)) {
         pathShadowRays[slot] = ray;
         shadowQueue[atomicAdd(queueTails.shadow, 1u)] = slot;
     }
@@ -61,7 +61,7 @@ void visit(uint slot)
         addRadiance(slot, state.throughput * emissionFound(ray, hit, state, surface, material), pass.bounce, 1u);
     }
     if (pass.light != kNoLightIndex && material.scattering == kLambert) {
-        askForShadowRay(slot, state, hit, surface, material);
+        askForShadowRay(slot, state, surface, material);
     }
 }
 

@@ -58,10 +58,10 @@ void leaveScene(inout Path path)
     }
 }
 
-void addSampledLight(inout Path path, uint record, Surface surface, FlatMaterial material, inout Work work)
+void addSampledLight(inout Path path, Surface surface, FlatMaterial material, inout Work work)
 {
     ShadowRay ray;
-    if (!sampleDirectLight(path.id, path.state.bounce, path.state, record, surface, material, ray)) {
+    if (!sampleDirectLight(path.id, path.state.bounce, path.state, surface, material, ray)) {
         return;
     }
     Steps steps;
@@ -91,7 +91,7 @@ void shade(inout Path path, PathHit hit, Surface surface, inout Work work)
         addLight(path, path.state.throughput * found, path.state.bounce, 1u);
     }
     if (samplesLights(path.state.bounce) && material.scattering == kLambert) {
-        addSampledLight(path, hit.record, surface, material, work);
+        addSampledLight(path, surface, material, work);
     }
 }
 
@@ -109,7 +109,7 @@ bool advance(inout Path path, inout Work work)
     Surface surface = surfaceAt(path.ray, hit);
     shade(path, hit, surface, work);
     return path.state.bounce < pass.maxBounces &&
-           scatterPath(path.id, path.state.bounce, hit.record, surface, path.ray, path.state);
+           scatterPath(path.id, path.state.bounce, surface, path.ray, path.state);
 }
 
 void traceShare(uint entry, uint end, inout Work work)

@@ -27,8 +27,8 @@ vec3 aside(vec3 forward, vec3 across)
 PathRay cameraRay(FlatCamera camera, vec2 film)
 {
     vec3 across = film.x * camera.right + film.y * camera.up;
-    return camera.kind == kOrthographic ? PathRay(camera.position + across, kNoRecord, camera.forward, 0u)
-                                        : PathRay(camera.position, kNoRecord, aside(camera.forward, across), 0u);
+    return camera.kind == kOrthographic ? PathRay(camera.position + across, kNoPrimitive, camera.forward, 0u)
+                                        : PathRay(camera.position, kNoPrimitive, aside(camera.forward, across), 0u);
 }
 
 // Through the point `disk` of a thin lens with the unit disk as aperture: all rays of one film point meet where the pinhole's
@@ -40,7 +40,7 @@ PathRay lensRay(FlatCamera camera, vec2 film, vec2 disk)
     bool orthographic = camera.kind == kOrthographic;
     vec3 origin = camera.position + aperture + (orthographic ? across : vec3(0.0));
     vec3 turn = (orthographic ? vec3(0.0) : across) - aperture * camera.inverseFocus;
-    return PathRay(origin, kNoRecord, aside(camera.forward, turn), 0u);
+    return PathRay(origin, kNoPrimitive, aside(camera.forward, turn), 0u);
 }
 
 #endif

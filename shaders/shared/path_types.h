@@ -8,7 +8,7 @@ GLIM_SHARED_BEGIN
 
 struct PathRay {
     vec3 origin;
-    uint source;     // record that the ray leaves, or kNoRecord
+    uint source;     // primitive that the ray leaves, or kNoPrimitive
     vec3 direction;  // unit
     uint unused;
 };
@@ -46,7 +46,8 @@ struct ShadowRay {
     vec3 origin;
     uint source;
     vec3 direction;  // unnormalised; an infinite one for directional light and environment (see `reach`)
-    uint target;     // record of the light, which does not shadow itself, or kNoRecord; brute force notes what was met so far
+    uint target;     // primitive of the light, which does not shadow itself, or kNoPrimitive; over the hemisphere, brute force
+                     // notes the record that was met so far, or kNoRecord
     vec3 contribution;
     float reach;     // 1, or infinity; brute force sets it to 0 in the shadow and, over the hemisphere, to the nearest hit's t
 };

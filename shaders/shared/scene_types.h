@@ -16,10 +16,11 @@ GLIM_CONST uint kNodeTexels = 5u;
 GLIM_CONST uint kMaxLeafRecords = 3u;
 GLIM_CONST uint kFirstNodeBit = 24u;  // 8 leaves have as many records at most
 
-// A record is three texels, in the order of the leaves:
+// A record is three texels, in the order of the leaves; a primitive may have several, all alike:
 //   triangle: (v0.xyz, primitive id) (v1.xyz, material, | kSliverBit) (v2.xyz, emitter + 1 or 0)
 //   sphere:   (centre.xyz, primitive id) (radius, 0, 0, material | kSphereBit) (0, 0, 0, emitter + 1 or 0)
-// The primitive id is the index in the scene (triangles, then spheres): it breaks ties, so pictures do not depend on the tree.
+// The primitive id is the index in the scene (triangles, then spheres): rays name by it what they leave and where they end, and it breaks
+// ties, so pictures do not depend on the tree.
 // Smooth triangles have three texels more, in a buffer of its own: (n0.xyz, 0) (n1.xyz, 0) (n2.xyz, 0), zero where flat.
 GLIM_CONST uint kRecordTexels = 3u;
 GLIM_CONST uint kSphereBit = 0x80000000u;
@@ -29,6 +30,7 @@ GLIM_CONST uint kMaterialMask = 0x3fffffffu;
 // these each is off by up to 2^-23 of that side's square, so that above this height a hit moves by less than 2^-11 of the side.
 GLIM_CONST float kSliverHeight = 9.765625e-4f;
 GLIM_CONST uint kNoRecord = 0xffffffffu;
+GLIM_CONST uint kNoPrimitive = 0xffffffffu;
 
 GLIM_CONST uint kLambert = 0u;
 GLIM_CONST uint kMirror = 1u;
@@ -79,13 +81,14 @@ struct FlatLight {
     uint unused;
 };
 
-// A record that emits.
+// A primitive that emits.
 struct FlatEmitter {
     AliasEntry alias;  // among its light's emitters, indices relative to firstEmitter
-    uint record;
+    uint record;       // one of its records
     uint light;
     float areaPdf;     // of a point on it, per m^2, once its light is chosen; as the alias table implements it
-    uvec3 unused;
+    uint primitive;
+    uvec2 unused;
 };
 
 GLIM_CONST uint kPerspective = 0u;

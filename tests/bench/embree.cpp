@@ -94,7 +94,7 @@ Embree::Closest Embree::trace(std::span<const PathRay> rays) const
             hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
             rtcIntersect1(scene_, &context, &hit);
             const bool met = hit.hit.geomID != RTC_INVALID_GEOMETRY_ID;
-            closest.hits[i] = {met ? hit.hit.primID : kNoRecord, hit.ray.tfar};
+            closest.hits[i] = {met ? hit.hit.primID : kNoPrimitive, hit.ray.tfar};
         }
     });
     return closest;

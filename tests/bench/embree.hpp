@@ -20,7 +20,7 @@ public:
     Embree& operator=(const Embree&) = delete;
 
     struct Hit {
-        std::uint32_t triangle;  // kNoRecord: none
+        std::uint32_t triangle;  // kNoPrimitive: none
         float t;
     };
     struct Closest {

@@ -3,8 +3,7 @@
 #include "host/bench/kernel_rates.hpp"
 #include "host/bench/make_hills.hpp"
 #include "host/bench/trace_timer.hpp"
-#include "host/bvh/build_bvh.hpp"
-#include "host/bvh/widen_bvh.hpp"
+#include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
 
 #include <chrono>
@@ -30,7 +29,7 @@ void measureHills(Device& device, int cells)
 {
     const Scene scene = makeHills(cells);
     const auto start = std::chrono::steady_clock::now();
-    const WideBvh bvh = widenBvh(buildBvh(primitiveBoxes(scene)));
+    const WideBvh bvh = buildSceneBvh(scene);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const FlatScene flat = flattenScene(scene, bvh);
     RenderSettings settings;

@@ -4,8 +4,7 @@
 #include "host/bench/kernel_rates.hpp"
 #include "host/bench/make_hills.hpp"
 #include "host/bench/trace_timer.hpp"
-#include "host/bvh/build_bvh.hpp"
-#include "host/bvh/widen_bvh.hpp"
+#include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/scene/load_gltf.hpp"
 #include "tests/support/bench_scenes.hpp"
@@ -71,7 +70,7 @@ std::string countDifferent(const FlatScene& flat, const std::vector<PathHit>& ou
 {
     std::size_t different = 0;
     for (std::size_t i = 0; i < ours.size(); ++i) {
-        const std::uint32_t id = ours[i].record == kNoRecord ? kNoRecord : flat.records[ours[i].record * kRecordTexels].w;
+        const std::uint32_t id = ours[i].record == kNoRecord ? kNoPrimitive : flat.records[ours[i].record * kRecordTexels].w;
         different += id == theirs[i].triangle || std::abs(ours[i].t - theirs[i].t) <= 1e-4F * theirs[i].t ? 0 : 1;
     }
     return std::to_string(different) + " of " + std::to_string(ours.size());
@@ -80,9 +79,8 @@ std::string countDifferent(const FlatScene& flat, const std::vector<PathHit>& ou
 void measure(Device& device, Place place, const BenchScene& bench)
 {
     place.scene = bench.name;
-    const std::vector<Box> boxes = primitiveBoxes(bench.scene);
     const auto start = std::chrono::steady_clock::now();
-    const WideBvh bvh = widenBvh(buildBvh(boxes));
+    const WideBvh bvh = buildSceneBvh(bench.scene);
     const double buildSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const FlatScene flat = flattenScene(bench.scene, bvh);
     RenderSettings settings;

@@ -1,6 +1,6 @@
 // H6: trees of what cannot be divided, and of sizes that grow; against splits in the middle of the centres.
 #include "host/bvh/build_bvh.hpp"
-#include "host/flatten/flatten_scene.hpp"
+#include "host/flatten/build_scene_bvh.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/test_meshes.hpp"
 

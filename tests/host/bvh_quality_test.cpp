@@ -3,7 +3,7 @@
 #include "host/bvh/build_bvh.hpp"
 #include "host/bvh/parallel_for.hpp"
 #include "host/bvh/widen_bvh.hpp"
-#include "host/flatten/flatten_scene.hpp"
+#include "host/flatten/build_scene_bvh.hpp"
 #include "tests/support/bench_scenes.hpp"
 #include "tests/support/sweep_tree.hpp"
 #include "tests/support/test_meshes.hpp"

@@ -2,7 +2,7 @@
 #include "host/bvh/build_bvh.hpp"
 #include "host/bvh/surface_area.hpp"
 #include "host/bvh/widen_bvh.hpp"
-#include "host/flatten/flatten_scene.hpp"
+#include "host/flatten/build_scene_bvh.hpp"
 #include "shaders/shared/scene_types.h"
 #include "tests/support/random.hpp"
 #include "tests/support/test_meshes.hpp"

@@ -22,8 +22,8 @@ void main()
         EXPECT_TRUE(floatBitsToUint(middle.direction) == floatBitsToUint(pinhole.direction));
         PathRay ray = lensRay(c.camera, c.film, c.disk);
         EXPECT_NEAR(dot(ray.direction, ray.direction), 1.0, 5e-7);
-        EXPECT_EQUAL(ray.source, kNoRecord);
-        EXPECT_EQUAL(middle.source, kNoRecord);
+        EXPECT_EQUAL(ray.source, kNoPrimitive);
+        EXPECT_EQUAL(middle.source, kNoPrimitive);
         results[TEST_THREAD] = ray;
     }
     endTest();

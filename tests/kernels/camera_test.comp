@@ -26,7 +26,7 @@ void main()
         EXPECT_NEAR_VECTOR(ray.origin, c.origin, c.originTolerance);
         EXPECT_NEAR_VECTOR(ray.direction, c.direction, 6e-7);
         EXPECT_NEAR(dot(ray.direction, ray.direction), 1.0, 5e-7);
-        EXPECT_EQUAL(ray.source, kNoRecord);
+        EXPECT_EQUAL(ray.source, kNoPrimitive);
         results[TEST_THREAD] = ray.direction;
     }
     endTest();

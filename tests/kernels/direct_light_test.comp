@@ -33,10 +33,10 @@ void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        Surface surface = Surface(c.point, vec3(0.0), c.geometric, c.shading, true, 0u, 0u);
+        Surface surface = Surface(c.point, vec3(0.0), c.geometric, c.shading, true, 0u, 0u, 77u);
         ShadowRay shadow = ShadowRay(vec3(0.0), 0u, vec3(0.0), 0u, vec3(0.0), 0.0);
-        bool asks = sampleDirectLight(SampleId(pass.seed, TEST_THREAD, 0u), 1u, c.state, 77u, surface, fetchMaterial(0u), shadow);
-        PathRay ray = PathRay(c.point, kNoRecord, c.towards, 0u);
+        bool asks = sampleDirectLight(SampleId(pass.seed, TEST_THREAD, 0u), 1u, c.state, surface, fetchMaterial(0u), shadow);
+        PathRay ray = PathRay(c.point, kNoPrimitive, c.towards, 0u);
         PathHit hit = traceClosest(ray);
         results[TEST_THREAD] = Result(uint(asks), shadow, uint(hit.record != kNoRecord), lightFound(c, ray, hit));
         EXPECT_TRUE(!asks || shadow.source == 77u);

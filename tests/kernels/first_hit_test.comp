@@ -16,7 +16,7 @@ void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        Surface surface = Surface(c.point, vec3(0.0), -c.shading, c.shading, true, 0u, 0u);
+        Surface surface = Surface(c.point, vec3(0.0), -c.shading, c.shading, true, 0u, 0u, 0u);
         FirstHit hit = firstHitOf(surface, FlatMaterial(c.baseColor, kLambert, vec3(9.0), 1.5, 0u, uvec3(0u)));
         EXPECT_NEAR(hit.depth, c.depth, c.tolerance);
         EXPECT_TRUE(hit.albedo == c.baseColor);

@@ -27,7 +27,7 @@ void main()
     vec3 towards = -worldFromFrame(makeFrame(side), sampleCosineHemisphere(unitFloat(randomBits(1u).xy)));
     // Starts well within the sphere's half of the way, or one radius outside.
     vec3 origin = center + radius * n - towards * (radius * (inside ? max(0.01, -dot(towards, side)) : 1.0));
-    PathRay ray = PathRay(origin, kNoRecord, towards, 0u);
+    PathRay ray = PathRay(origin, kNoPrimitive, towards, 0u);
     PathHit hit = traceClosest(ray);
     if (dot(towards, side) < -0.02) {
         EXPECT_EQUAL(hit.record, index);
@@ -39,7 +39,7 @@ void main()
         vec3 out_ = normalize(surface.point - center);
         vec3 wi = worldFromFrame(makeFrame(inwards ? -out_ : out_), sampleCosineHemisphere(unitFloat(more.xy)));
         vec3 start = leavePoint(surface, wi);
-        PathHit next = traceClosest(PathRay(start, index, wi, 0u));
+        PathHit next = traceClosest(PathRay(start, primitiveOf(record), wi, 0u));
         float cosine = dot(wi, out_);
         if (!inwards && cosine > 1e-5) {  // 0 once in 1e7, on the rim of the hemisphere
             EXPECT_TRUE(next.record != index);

@@ -7,6 +7,7 @@
 #include "lib/alias.glsl"
 #include "lib/frame.glsl"
 #include "lib/warp.glsl"
+#include "primitive_met.glsl"
 
 struct Setup {
     float reach;  // aim within this distance of the origin; 0: anywhere on the triangle
@@ -45,13 +46,13 @@ void leave(PathRay ray, PathHit hit, Record record, float size)
     float offset = largest(origin - surface.point) - 4.8e-7 * largest(surface.point);
     atomicMax(tally.largestOffset, floatBitsToUint(max(0.0, offset / size)));
     bool again = intersectRecord(beginWalk(origin, wi), record, kInfinity, false).t > 0.0;
-    PathHit next = traceClosest(PathRay(origin, hit.record, wi, 0u));
+    PathHit next = traceClosest(PathRay(origin, surface.primitive, wi, 0u));
     vec3 naive = ray.origin + ray.direction * hit.t;
     bool naiveAgain = intersectRecord(beginWalk(naive, wi), record, kInfinity, false).t > 1e-4;
     atomicAdd(tally.naiveHits, naiveAgain ? 1u : 0u);
     atomicAdd(tally.left, 1u);
     atomicAdd(tally.selfHits, again ? 1u : 0u);
-    atomicAdd(tally.skippedHits, next.record == hit.record ? 1u : 0u);
+    atomicAdd(tally.skippedHits, primitiveMet(next) == surface.primitive ? 1u : 0u);
     atomicAdd(tally.otherHits, next.record != kNoRecord ? 1u : 0u);
 }
 
@@ -69,7 +70,7 @@ void main()
     vec3 target = setup.reach > 0.0 ? near : v0 + e1 * b.x + e2 * b.y;
     vec3 direction = sampleSphere(unitFloat(randomBits(2u).xy));
     float distance_ = setup.reach > 0.0 ? 4.0 * setup.reach : 0.5 * size;
-    PathRay ray = PathRay(target - direction * distance_, kNoRecord, direction, 0u);
+    PathRay ray = PathRay(target - direction * distance_, kNoPrimitive, direction, 0u);
     TriangleHit hit = intersectRecord(beginWalk(ray.origin, ray.direction), record, kInfinity, false);
     if (hit.t > 0.0) {
         leave(ray, PathHit(index, hit.t, barycentricOf(hit)), record, size);

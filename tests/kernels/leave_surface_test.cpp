@@ -79,6 +79,7 @@ TEST_P(LeaveSurfaceTest, H7MeetsItNoMore)
 INSTANTIATE_TEST_SUITE_P(
     Places, LeaveSurfaceTest,
     testing::Values(Input{"Unit", [] { return randomTriangles(200, 0.5F, 1); }, 0.0F, false},
+                    Input{"InPieces", [] { return aslantPrism(8, 12); }, 0.0F, false},
                     Input{"Tiny", [] { return placed(randomTriangles(200, 0.5F, 1), 1e-4F, 0.0F); }, 0.0F, false},
                     Input{"Huge", [] { return placed(randomTriangles(200, 0.5F, 1), 1e5F, 0.0F); }, 0.0F, true},
                     Input{"At1e4", [] { return placed(randomTriangles(200, 0.5F, 1), 1.0F, 1e4F); }, 0.0F, true},

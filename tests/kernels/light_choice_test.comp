@@ -7,7 +7,7 @@
 
 struct Result {
     uint light;
-    uint record;
+    uint primitive;
     vec3 wi;
     uint lit;
 };
@@ -24,10 +24,10 @@ void main()
     LightSample certain = sampleLight(chosen, true, vec3(0.0), vec3(0.0, 1.0, 0.0), a.zw, unitFloat(b.xy));
     float probability = fetchLight(chosen).probability;
     EXPECT_TRUE(certain.wi == light.wi && certain.target == light.target);
-    EXPECT_TRUE(certain.record == light.record && certain.reach == light.reach);
+    EXPECT_TRUE(certain.primitive == light.primitive && certain.reach == light.reach);
     // At most four products and quotients differ, half an ulp each, in the one and in the other.
     EXPECT_CLOSE(certain.pdf * probability, light.pdf, 5e-7);
     EXPECT_NEAR_VECTOR(certain.radiance, light.radiance * probability, 7e-7 * length(certain.radiance));
-    results[TEST_THREAD] = Result(chosen, light.record, light.wi, uint(light.radiance != vec3(0.0)));
+    results[TEST_THREAD] = Result(chosen, light.primitive, light.wi, uint(light.radiance != vec3(0.0)));
     endTest();
 }

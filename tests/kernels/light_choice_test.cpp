@@ -22,7 +22,7 @@ constexpr std::size_t kFamily = 8;
 
 struct Result {
     uint light;
-    uint record;
+    uint primitive;
     vec3 wi;
     uint lit;
 };
@@ -75,8 +75,8 @@ TEST(LightChoiceTest, FollowsPowerAndArea)
     std::vector<double> lights(powers.size(), 0.0), triangles(areas.size(), 0.0);
     for (const Result& result : sample(scene)) {
         lights[result.light] += 1.0;
-        if (result.light == 0 && result.record != kNoRecord) {
-            triangles[scene.idOf(result.record)] += 1.0;
+        if (result.light == 0 && result.primitive != kNoPrimitive) {
+            triangles[result.primitive] += 1.0;
         }
     }
     expectShares("lights by power", lights, powers);

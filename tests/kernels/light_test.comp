@@ -5,6 +5,7 @@
 #include "expect.glsl"
 #include "access/light.glsl"
 #include "access/traverse.glsl"
+#include "primitive_met.glsl"
 
 struct Case {
     vec3 point;
@@ -27,19 +28,18 @@ layout(set = 0, binding = kBindResults, scalar) writeonly buffer Results { Resul
 
 struct Receiver {
     Surface surface;
-    uint record;
     float error;
 };
 
 Receiver makeReceiver(Case c)
 {
     if (c.height == 0.0) {
-        return Receiver(Surface(c.point, vec3(0.0), c.normal, c.normal, true, 0u, 0u), kNoRecord, 0.0);
+        return Receiver(Surface(c.point, vec3(0.0), c.normal, c.normal, true, 0u, 0u, kNoPrimitive), 0.0);
     }
-    PathRay ray = PathRay(c.point + c.normal * c.height, kNoRecord, -c.normal, 0u);
+    PathRay ray = PathRay(c.point + c.normal * c.height, kNoPrimitive, -c.normal, 0u);
     PathHit hit = traceClosest(ray);
     Surface surface = surfaceAt(ray, hit);
-    return Receiver(surface, hit.record, length(surface.point - c.point));
+    return Receiver(surface, length(surface.point - c.point));
 }
 
 // As sample_lights does it, for a white receiver: the irradiance that the sample stands for.
@@ -51,7 +51,7 @@ float estimate(Receiver receiver, LightSample light)
     }
     vec3 origin = leavePoint(receiver.surface, light.wi);
     bool infinite = light.reach > 1.0;
-    ShadowRay shadow = ShadowRay(origin, receiver.record, infinite ? light.wi : light.target - origin, light.record,
+    ShadowRay shadow = ShadowRay(origin, receiver.surface.primitive, infinite ? light.wi : light.target - origin, light.primitive,
                                  vec3(0.0), light.reach);
     return isUnoccluded(shadow) ? light.radiance.r * cosine : 0.0;
 }
@@ -60,12 +60,12 @@ float estimate(Receiver receiver, LightSample light)
 void comparePdf(Receiver receiver, LightSample light, inout Result result)
 {
     vec3 origin = leavePoint(receiver.surface, light.wi);
-    PathHit hit = traceClosest(PathRay(origin, receiver.record, light.wi, 0u));
-    if (hit.record != light.record) {
+    PathHit hit = traceClosest(PathRay(origin, receiver.surface.primitive, light.wi, 0u));
+    if (primitiveMet(hit) != light.primitive) {
         ++result.elsewhere;
         return;
     }
-    Surface met = surfaceAt(PathRay(origin, receiver.record, light.wi, 0u), hit);
+    Surface met = surfaceAt(PathRay(origin, receiver.surface.primitive, light.wi, 0u), hit);
     FlatEmitter emitter = fetchEmitter(met.emitter - 1u);
     float cosine = abs(dot(met.geometric, light.wi));
     // Nearer to grazing the rounding of the directions alone is more than the tolerance.
@@ -96,7 +96,7 @@ void main()
         result.least = min(result.least, one);
         result.most = max(result.most, one);
         result.pdf = light.pdf;
-        if (light.record != kNoRecord && dot(light.wi, receiver.surface.geometric) > 0.0) {
+        if (light.primitive != kNoPrimitive && dot(light.wi, receiver.surface.geometric) > 0.0) {
             comparePdf(receiver, light, result);
         }
     }

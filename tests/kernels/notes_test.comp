@@ -7,7 +7,7 @@
 void main()
 {
     if (TEST_THREAD == 0u) {
-        noteSurface(Surface(vec3(1.0, 2.0, 3.0), vec3(0.0), vec3(4.0, 5.0, 6.0), vec3(7.0, 8.0, 9.0), true, 0u, 0u));
+        noteSurface(Surface(vec3(1.0, 2.0, 3.0), vec3(0.0), vec3(4.0, 5.0, 6.0), vec3(7.0, 8.0, 9.0), true, 0u, 0u, 0u));
         noteFound(10.0, 11.0);
         noteLight(12u);
         noteLightSample(13.0, 14.0, 15.0);

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
 #include "access/scan.glsl"
+#include "primitive_met.glsl"
 
 struct Case {
     PathRay ray;
@@ -22,7 +23,7 @@ layout(set = 0, binding = kBindResults, scalar) writeonly buffer Results { Resul
 
 bool sameBits(PathHit a, PathHit b)
 {
-    return a.record == b.record && floatBitsToUint(a.t) == floatBitsToUint(b.t) &&
+    return primitiveMet(a) == primitiveMet(b) && floatBitsToUint(a.t) == floatBitsToUint(b.t) &&
            floatBitsToUint(a.barycentric) == floatBitsToUint(b.barycentric);
 }
 
@@ -37,7 +38,7 @@ void main()
         PathHit next = scanClosest(c.ray, met, c.cuts.x, c.cuts.y);
         EXPECT_TRUE(sameBits(next, met) || next.record >= c.cuts.x && next.record < c.cuts.y && next.t <= met.t);
         PathHit hit = scanClosest(c.ray, next, c.cuts.y, records);
-        EXPECT_EQUAL(hit.record, expected.record);
+        EXPECT_EQUAL(primitiveMet(hit), primitiveMet(expected));
         EXPECT_TRUE(sameBits(hit, expected));
         EXPECT_TRUE(sameBits(scanClosest(c.ray, hit, 0u, 0u), hit));
         ShadowRay shadow = ShadowRay(c.ray.origin, c.ray.source, c.ray.direction, c.target, vec3(0.0), c.reach);

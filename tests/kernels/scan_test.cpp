@@ -34,7 +34,7 @@ std::vector<Result> scan(const SceneOnDevice& scene, const std::vector<TraverseC
     Random random(90);
     std::vector<Case> cases;
     for (const TraverseCase& ray : rays) {
-        cases.push_back(cutAnywhere(ray, static_cast<std::uint32_t>(scene.recordOf.size()), random));
+        cases.push_back(cutAnywhere(ray, static_cast<std::uint32_t>(scene.bvh.order.size()), random));
     }
     KernelTest test = scene.test(test_kernels::scan_test);
     test.cases(cases).resultsOf<Result>(cases.size()).run();
@@ -46,7 +46,7 @@ class ScanTest : public testing::TestWithParam<TraverseInput> {};
 TEST_P(ScanTest, InPiecesAgreesWithTheTree)
 {
     const Scene scene = GetParam().make();
-    const std::vector<Box> boxes = primitiveBoxes(scene);
+    const std::vector<Box> boxes = piecesOrPrimitives(scene);
     const SceneOnDevice onDevice(scene);
     RayMaker maker(onDevice);
     std::vector<TraverseCase> rays;
@@ -84,7 +84,7 @@ TEST(ScanTiesTest, GoToTheLowestPrimitive)
         for (const glm::vec3& vertex : triangle.vertices) {
             for (const glm::vec3& target : {vertex, vertex + triangle.vertices[0]}) {
                 for (const glm::vec3& from : {glm::vec3(0.0F), 2.0F * vertex}) {
-                    rays.push_back({{from, kNoRecord, from == glm::vec3(0.0F) ? target : -target}, kNoRecord, 1.0F});
+                    rays.push_back({{from, kNoPrimitive, from == glm::vec3(0.0F) ? target : -target}, kNoPrimitive, 1.0F});
                 }
             }
         }

@@ -23,7 +23,7 @@ void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        bool alive = scatterPath(SampleId(pass.seed, TEST_THREAD, 0u), c.state.bounce, 77u, c.surface, c.ray, c.state);
+        bool alive = scatterPath(SampleId(pass.seed, TEST_THREAD, 0u), c.state.bounce, c.surface, c.ray, c.state);
         results[TEST_THREAD] = Result(uint(alive), c.ray, c.state);
         EXPECT_TRUE(c.state.bounce < 100u);
     }

@@ -24,7 +24,7 @@ const vec3 kColor(0.9F, 0.6F, 0.3F);
 // GLSL's bool is a word.
 struct Surface {
     vec3 point, errorBound, geometric, shading;
-    uint front, material, emitter;
+    uint front, material, emitter, primitive;
 };
 
 struct Case {
@@ -47,7 +47,7 @@ Case makeCase(Random& random, uint material, uint bounce, double lean)
     dvec3 wo = random.direction();
     wo = dot(wo, n) < 0.0 ? -wo : wo;
     c.surface = {random.normalVector(), vec3(1e-6F), n, glm::normalize(n + lean * random.direction()),
-                 random.below(2), material, 0};
+                 random.below(2), material, 0, 77};
     c.ray = {vec3(0.0F), 5, -wo, 0};
     c.state = {{random.uniform(0.1, 1.0), random.uniform(0.1, 1.0), random.uniform(0.1, 1.0)}, 0.5F, 0.5F, 1.0F, bounce, 0};
     return c;

@@ -25,7 +25,7 @@ void main()
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
         Record record = fetchRecord(c.record);
-        EXPECT_EQUAL(record.t0.w, c.id);
+        EXPECT_EQUAL(primitiveOf(record), c.id);
         EXPECT_EQUAL(uint(isSphere(record)), c.sphere);
         EXPECT_TRUE(floatsOf(record.t0) == c.corners[0]);
         EXPECT_TRUE(floatsOf(record.t1) == c.corners[1]);
@@ -41,7 +41,8 @@ void main()
         EXPECT_EQUAL(uint(record.t2.w != 0u), uint(c.light != 0u));
         if (record.t2.w != 0u) {
             FlatEmitter emitter = fetchEmitter(record.t2.w - 1u);
-            EXPECT_EQUAL(emitter.record, c.record);
+            EXPECT_EQUAL(emitter.primitive, c.id);
+            EXPECT_EQUAL(primitiveOf(fetchRecord(emitter.record)), c.id);
             EXPECT_EQUAL(emitter.light, c.light - 1u);
             EXPECT_TRUE(fetchLight(emitter.light).intensity == c.emission);
         }

@@ -26,17 +26,18 @@ struct Case {
 
 constexpr std::uint32_t kSliver = 7, kNearlySliver = 8;
 
-// A flat and a smooth primitive, of which the second emits, and spheres that emit every other one.
+// A flat and a smooth primitive, of which the second emits and has triangles in pieces, and spheres that emit every other one.
 Scene makeScene()
 {
-    Scene scene = sceneOf(randomTriangles(60, 0.3F, 1), randomSpheres(20, 0.2F, 2));
+    Scene scene = sceneOf(strips(8, 1), randomSpheres(20, 0.2F, 2));
+    const auto half = static_cast<std::uint32_t>(scene.triangles.size() / 2);
     scene.triangles[kSliver] = {{glm::vec3(0.0F), glm::vec3(0.5F, 0.99F * kSliverHeight, 0.0F), glm::vec3(1.0F, 0.0F, 0.0F)}};
     scene.triangles[kNearlySliver] = {{glm::vec3(0.0F), glm::vec3(0.5F, 1.01F * kSliverHeight, 0.0F), glm::vec3(1.0F, 0.0F, 0.0F)}};
     scene.materials.resize(3);
     scene.materials[1].baseColor = glm::vec3(0.1F, 0.2F, 0.3F);
     scene.materials[1].emission = glm::vec3(1.0F, 2.0F, 3.0F);
     scene.materials[2].emission = glm::vec3(5.0F, 4.0F, 3.0F);
-    scene.primitives = {{"", 0, 35, 0, false}, {"", 35, 25, 1, true}};
+    scene.primitives = {{"", 0, half, 0, false}, {"", half, half, 1, true}};
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         const float angle = static_cast<float>(i);
         scene.normals.push_back({{glm::vec3(0, 1, 0), glm::vec3(1, 0, 0), glm::vec3(std::cos(angle), 0, std::sin(angle))}});
@@ -81,11 +82,12 @@ TEST(SceneTest, IsOnTheDeviceAsItWasMade)
     camera.position = glm::vec3(1.0F, 2.0F, 3.0F);
     const SceneOnDevice onDevice(scene, camera);
     std::vector<Case> cases;
-    for (std::uint32_t id = 0; id < onDevice.recordOf.size(); ++id) {
-        cases.push_back(caseOf(scene, id));
-        cases.back().record = onDevice.recordOf[id];
+    for (std::uint32_t record = 0; record < onDevice.bvh.order.size(); ++record) {
+        cases.push_back(caseOf(scene, onDevice.bvh.order[record]));
+        cases.back().record = record;
         cases.back().cameraPosition = camera.position;
     }
+    EXPECT_GT(cases.size(), scene.triangles.size() + scene.spheres.size()) << "some have several records";
     onDevice.test(test_kernels::scene_test).cases(cases).run();
 }
 

@@ -85,7 +85,7 @@ protected:
                 towards = glm::normalize(glm::cross(n, towards) + 0.03 * (uniform() - 0.5) * n);
             }
             const dvec3 from = i % 3 == 0 ? dvec3(shift) + 0.5 * direction() : target - 0.3 * towards;
-            rays.push_back({glm::vec3(from), kNoRecord, glm::vec3(i % 3 == 0 ? direction() : towards)});
+            rays.push_back({glm::vec3(from), kNoPrimitive, glm::vec3(i % 3 == 0 ? direction() : towards)});
         }
         return rays;
     }
@@ -191,14 +191,14 @@ TEST_P(SurfaceTest, IsTheOneOfTheScene)
         SCOPED_TRACE("ray " + std::to_string(i));
         const Result& r = results[i];
         const std::uint32_t id = onDevice.idOf(r.hit.record);
-        if (id == kNoRecord) {
+        if (id == kNoPrimitive) {
             continue;
         }
         const bool isTriangle = id < scene.triangles.size();
         EXPECT_EQ(r.material, isTriangle ? (id < 150 ? kFlat : kSmooth) : kRound);
         EXPECT_EQ(r.emitter > 0, r.material != kFlat);
         if (r.emitter > 0) {
-            EXPECT_EQ(onDevice.flat.emitters[r.emitter - 1].record, r.hit.record);
+            EXPECT_EQ(onDevice.flat.emitters[r.emitter - 1].primitive, id);
         }
         checkEmission(scene.materials[r.material], r);
         if (isTriangle) {
@@ -227,7 +227,7 @@ TEST(SurfaceNormalTest, FallsBackToTheFlatOne)
     scene.normals = {{{up, -up, up}}};
     const SceneOnDevice onDevice(scene);
     // The weight of the second vertex is 1/2 there, exactly.
-    const std::vector<PathRay> rays = {{glm::vec3(0.25F, -0.5F, 1.0F), kNoRecord, -up}};
+    const std::vector<PathRay> rays = {{glm::vec3(0.25F, -0.5F, 1.0F), kNoPrimitive, -up}};
     KernelTest test = onDevice.test(test_kernels::surface_test);
     test.cases(rays).resultsOf<Result>(1).run();
     const Result result = test.results<Result>()[0];

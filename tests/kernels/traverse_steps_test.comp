@@ -33,7 +33,7 @@ void main()
         uint nodes = nodeTests;
         uint primitives = recordFetches;
         Steps shadow;
-        bool unoccluded = isUnoccluded(ShadowRay(ray.origin, ray.source, ray.direction, kNoRecord, vec3(0.0), kInfinity), shadow);
+        bool unoccluded = isUnoccluded(ShadowRay(ray.origin, ray.source, ray.direction, kNoPrimitive, vec3(0.0), kInfinity), shadow);
         bool spent = isLoopBudgetSpent(pass.canarySteps);  // then the driver leaves no count as it is
         EXPECT_TRUE(spent || steps.nodes == nodes);
         EXPECT_TRUE(spent || steps.primitives == primitives);

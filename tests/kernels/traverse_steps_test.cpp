@@ -51,7 +51,7 @@ std::vector<PathRay> uniformLines(const Box& box, std::size_t count)
     std::vector<PathRay> rays;
     while (rays.size() < count) {
         const glm::dvec3 from = center + radius * randomUnit(random), to = center + radius * randomUnit(random);
-        const PathRay ray{glm::vec3(from), kNoRecord, glm::vec3(glm::normalize(to - from))};
+        const PathRay ray{glm::vec3(from), kNoPrimitive, glm::vec3(glm::normalize(to - from))};
         if (meets(box, ray)) {
             rays.push_back(ray);
         }
@@ -103,7 +103,7 @@ TEST(TraverseStepsTest, H6CoincidentTrianglesGiveTheLowestOrAreReported)
         EXPECT_LE(scene.bvh.depth, kMaxWideDepth);
         std::vector<PathRay> rays;
         for (int i = 0; i < 64; ++i) {
-            rays.push_back({glm::vec3(0.01F * static_cast<float>(i) - 0.4F, -0.5F, 1.0F), kNoRecord, glm::vec3(0, 0, -1)});
+            rays.push_back({glm::vec3(0.01F * static_cast<float>(i) - 0.4F, -0.5F, 1.0F), kNoPrimitive, glm::vec3(0, 0, -1)});
         }
         KernelTest test = scene.test(test_kernels::traverse_steps_test);
         const std::vector<Result> results = trace(test.mayExhaustLoops(), rays);
@@ -153,7 +153,7 @@ TEST(TraverseStepsTest, H6GrowingLineAgreesWithTheReference)
         const glm::vec3 e1 = t.vertices[1] - t.vertices[0], e2 = t.vertices[2] - t.vertices[0];
         const glm::vec3 target = t.vertices[0] + share(random) * e1 + share(random) * e2;
         const glm::vec3 from = target + glm::vec3(glm::dvec3(static_cast<double>(e1.x)) * randomUnit(random)) * 3.0F;
-        rays.push_back({from, kNoRecord, glm::normalize(target - from)});
+        rays.push_back({from, kNoPrimitive, glm::normalize(target - from)});
     }
     KernelTest test = scene.test(test_kernels::traverse_steps_test);
     const std::vector<Result> results = trace(test, rays);

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
 #include "access/traverse.glsl"
+#include "primitive_met.glsl"
 
 struct Case {
     PathRay ray;
@@ -25,10 +26,10 @@ PathHit tryAll(PathRay ray, uint records)
     uint bestId = 0xffffffffu;
     for (uint i = 0u; i < records; ++i) {
         Record record = fetchRecord(i);
-        TriangleHit hit = intersectRecord(walk, record, kInfinity, i == ray.source);
-        if (hit.t > 0.0 && (hit.t < best.t || (hit.t == best.t && record.t0.w < bestId))) {
+        TriangleHit hit = intersectRecord(walk, record, kInfinity, primitiveOf(record) == ray.source);
+        if (hit.t > 0.0 && (hit.t < best.t || (hit.t == best.t && primitiveOf(record) < bestId))) {
             best = PathHit(i, hit.t, barycentricOf(hit));
-            bestId = record.t0.w;
+            bestId = primitiveOf(record);
         }
     }
     return best;
@@ -39,8 +40,9 @@ bool isUnoccludedByAny(ShadowRay ray, uint records)
     Walk walk = beginWalk(ray.origin, ray.direction);
     bool free = true;
     for (uint i = 0u; i < records; ++i) {
-        TriangleHit hit = intersectRecord(walk, fetchRecord(i), ray.reach, i == ray.source);
-        free = free && (i == ray.target || !(hit.t > 0.0));
+        Record record = fetchRecord(i);
+        TriangleHit hit = intersectRecord(walk, record, ray.reach, primitiveOf(record) == ray.source);
+        free = free && (primitiveOf(record) == ray.target || !(hit.t > 0.0));
     }
     return free;
 }
@@ -52,7 +54,7 @@ void main()
         uint records = uint(textureSize(sceneRecords)) / kRecordTexels;
         PathHit hit = traceClosest(c.ray);
         PathHit expected = tryAll(c.ray, records);
-        EXPECT_EQUAL(hit.record, expected.record);
+        EXPECT_EQUAL(primitiveMet(hit), primitiveMet(expected));
         EXPECT_EQUAL(floatBitsToUint(hit.t), floatBitsToUint(expected.t));
         EXPECT_TRUE(hit.barycentric == expected.barycentric);
         ShadowRay shadow = ShadowRay(c.ray.origin, c.ray.source, c.ray.direction, c.target, vec3(0.0), c.reach);

@@ -1,4 +1,5 @@
 #include "test_kernels.hpp"
+#include "tests/support/random.hpp"
 #include "tests/support/reference.hpp"
 #include "tests/support/traverse_cases.hpp"
 
@@ -25,14 +26,14 @@ struct Tally {
     std::size_t rays = 0, ambiguous = 0, hits = 0, occluded = 0;
 };
 
-ReferenceRay inDouble(const SceneOnDevice& scene, const PathRay& ray)
+ReferenceRay inDouble(const PathRay& ray)
 {
-    return {glm::dvec3(ray.origin), glm::dvec3(ray.direction), scene.idOf(ray.source)};
+    return {glm::dvec3(ray.origin), glm::dvec3(ray.direction), ray.source};
 }
 
 void compareClosest(const Reference& reference, const SceneOnDevice& scene, const Case& c, const PathHit& hit, Tally& tally)
 {
-    const ReferenceRay ray = inDouble(scene, c.ray);
+    const ReferenceRay ray = inDouble(c.ray);
     const ReferenceHit grown = reference.closest(ray, kMargin), shrunk = reference.closest(ray, -kMargin);
     const double exact = reference.closest(ray, 0.0).t;
     const double nearer = std::min({grown.t, exact, shrunk.t}), farther = std::max({grown.t, exact, shrunk.t});
@@ -50,12 +51,12 @@ void compareClosest(const Reference& reference, const SceneOnDevice& scene, cons
     }
 }
 
-void compareShadow(const Reference& reference, const SceneOnDevice& scene, const Case& c, bool unoccluded, Tally& tally)
+void compareShadow(const Reference& reference, const Case& c, bool unoccluded, Tally& tally)
 {
-    const ReferenceRay ray = inDouble(scene, c.ray);
+    const ReferenceRay ray = inDouble(c.ray);
     const double reach = static_cast<double>(c.reach);
-    const bool grown = reference.isOccluded(ray, reach, scene.idOf(c.target), kMargin);
-    const bool shrunk = reference.isOccluded(ray, reach, scene.idOf(c.target), -kMargin);
+    const bool grown = reference.isOccluded(ray, reach, c.target, kMargin);
+    const bool shrunk = reference.isOccluded(ray, reach, c.target, -kMargin);
     EXPECT_TRUE(grown != shrunk || unoccluded == !grown);
     tally.occluded += unoccluded ? 0 : 1;
 }
@@ -65,7 +66,7 @@ class TraverseTest : public testing::TestWithParam<TraverseInput> {};
 TEST_P(TraverseTest, AgreesWithBruteForceAndTheReference)
 {
     const Scene scene = GetParam().make();
-    const std::vector<Box> boxes = primitiveBoxes(scene);
+    const std::vector<Box> boxes = piecesOrPrimitives(scene);
     const SceneOnDevice onDevice(scene);
     RayMaker maker(onDevice);
     std::vector<Case> cases;
@@ -81,7 +82,7 @@ TEST_P(TraverseTest, AgreesWithBruteForceAndTheReference)
     for (std::size_t i = 0; i < cases.size() && !HasFailure(); ++i) {
         SCOPED_TRACE("ray " + std::to_string(i));
         compareClosest(reference, onDevice, cases[i], results[i].hit, tally);
-        compareShadow(reference, onDevice, cases[i], results[i].unoccluded != 0, tally);
+        compareShadow(reference, cases[i], results[i].unoccluded != 0, tally);
     }
     std::cout << GetParam().name << ": " << tally.rays << " rays, " << tally.hits << " hits, " << tally.occluded
               << " occluded, " << tally.ambiguous << " left to rounding\n";
@@ -94,6 +95,45 @@ INSTANTIATE_TEST_SUITE_P(
     Scenes, TraverseTest, testing::ValuesIn(traverseInputs()),
     [](const testing::TestParamInfo<TraverseInput>& parameter) { return std::string(parameter.param.name); });
 
+// Points of triangles where their pieces meet, on edges of pieces' boxes, seen from near and far.
+std::vector<Case> raysAtCuts(const Scene& scene, const Pieces& pieces, std::size_t count)
+{
+    Random random(4);
+    std::vector<Case> cases;
+    while (cases.size() < count) {
+        const std::uint32_t piece = static_cast<std::uint32_t>(pieces.boxes.size()) - 1 - random.below(50);
+        const Triangle& triangle = scene.triangles[pieces.primitives[piece]];
+        const glm::dvec3 a(triangle.vertices[random.below(3)]);
+        const glm::dvec3 b = glm::dvec3(triangle.vertices[0]) + random.uniform() * glm::dvec3(triangle.vertices[1] - triangle.vertices[0]);
+        const int axis = static_cast<int>(random.below(3));
+        const double place = static_cast<double>((random.below(2) == 0 ? pieces.boxes[piece].lo : pieces.boxes[piece].hi)[axis]);
+        const double share = (place - a[axis]) / (b[axis] - a[axis]);
+        if (share > 0.0 && share < 1.0) {
+            const glm::vec3 target(a + share * (b - a)), origin = target + glm::vec3(random.logUniform(1e-4, 2.0) * random.direction());
+            cases.push_back({{origin, kNoPrimitive, target - origin}, kNoPrimitive, 1.5F});
+        }
+    }
+    return cases;
+}
+
+// The kernel compares with brute force, bit by bit.
+TEST(TraversePiecesTest, LoseNoHitWhereTheyMeet)
+{
+    const Scene scene = sceneOf(strips(12, 9));
+    const SceneOnDevice onDevice(scene);
+    ASSERT_GT(onDevice.bvh.order.size(), scene.triangles.size() + 40);
+    const std::vector<Case> cases = raysAtCuts(scene, splitTriangles(scene, primitiveBoxes(scene)), 30000);
+    KernelTest test = onDevice.test(test_kernels::traverse_test);
+    test.cases(cases).resultsOf<Result>(cases.size()).run();
+    std::size_t met = 0;
+    for (const Result& result : test.results<Result>()) {
+        met += result.hit.record != kNoRecord && std::abs(result.hit.t - 1.0F) < 1e-5F ? 1 : 0;
+    }
+    std::cout << onDevice.bvh.order.size() << " records of " << scene.triangles.size() << " triangles, " << met << " of "
+              << cases.size() << " rays met where they were aimed\n";
+    EXPECT_GT(met, cases.size() / 4);
+}
+
 // Copies of one triangle and mirrored pairs of edges: the lowest primitive id wins whatever the order of the leaves.
 TEST(TraverseTiesTest, GoToTheLowestPrimitive)
 {
@@ -104,8 +144,8 @@ TEST(TraverseTiesTest, GoToTheLowestPrimitive)
     std::vector<Case> cases;
     for (const Triangle& triangle : copy) {
         for (const glm::vec3& vertex : triangle.vertices) {
-            cases.push_back({{glm::vec3(0.0F), kNoRecord, vertex}, kNoRecord, 1.0F});
-            cases.push_back({{glm::vec3(0.0F), kNoRecord, vertex + triangle.vertices[0]}, kNoRecord, 1.0F});
+            cases.push_back({{glm::vec3(0.0F), kNoPrimitive, vertex}, kNoPrimitive, 1.0F});
+            cases.push_back({{glm::vec3(0.0F), kNoPrimitive, vertex + triangle.vertices[0]}, kNoPrimitive, 1.0F});
         }
     }
     KernelTest test = scene.test(test_kernels::traverse_test);
@@ -122,10 +162,10 @@ TEST(TraverseSliverTest, H2KeepsItsHit)
     const auto bits = [](uint x, uint y, uint z) {
         return vec3(std::bit_cast<float>(x), std::bit_cast<float>(y), std::bit_cast<float>(z));
     };
-    const PathRay ray{bits(0x3e4b89e3, 0x3e85cdb0, 0x3e0c7dd7), kNoRecord, bits(0xbf5fb293, 0x3f3d1928, 0x3f5ce06a)};
+    const PathRay ray{bits(0x3e4b89e3, 0x3e85cdb0, 0x3e0c7dd7), kNoPrimitive, bits(0xbf5fb293, 0x3f3d1928, 0x3f5ce06a)};
     for (const uint slivers : {0U, 1U}) {
         KernelTest test = scene.test(test_kernels::traverse_test);
-        test.specialize(kSpecSlivers, slivers).cases(std::vector<Case>{{ray, kNoRecord, 1.0F}}).resultsOf<Result>(1).run();
+        test.specialize(kSpecSlivers, slivers).cases(std::vector<Case>{{ray, kNoPrimitive, 1.0F}}).resultsOf<Result>(1).run();
         EXPECT_EQ(test.results<Result>()[0].hit.record != kNoRecord, slivers == 1);
     }
 }

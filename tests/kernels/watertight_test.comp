@@ -55,7 +55,7 @@ void main()
         origin = length(beside - setup.center) < 0.9 * setup.scale ? beside : origin;
     }
     vec3 direction = aim(origin, target, (b.w & 1u) != 0u);
-    PathHit hit = traceClosest(PathRay(origin, kNoRecord, direction, 0u));
+    PathHit hit = traceClosest(PathRay(origin, kNoPrimitive, direction, 0u));
     atomicAdd(tally.rays[kind], 1u);
     if (hit.record == kNoRecord) {
         atomicAdd(tally.misses[kind], 1u);

@@ -63,7 +63,7 @@ class WatertightTest : public testing::TestWithParam<Place> {};
 TEST_P(WatertightTest, H1NoRayLeavesAClosedMesh)
 {
     // An edge function is a difference of two products of three roundings each: 6 * 2^-24.
-    for (const Closed& closed : {Closed{icosphere(4), 0.0F}, Closed{sliverBox(150), 6 * 0x1p-24F}}) {
+    for (const Closed& closed : {Closed{icosphere(4), 0.0F}, Closed{sliverBox(150), 6 * 0x1p-24F}, Closed{aslantPrism(24, 12), 6 * 0x1p-24F}}) {
         const Tally tally = shoot(closed, GetParam(), false);
         for (int kind = 0; kind < 3; ++kind) {
             EXPECT_EQ(tally.misses[kind], 0U) << closed.mesh.size() << " triangles, kind " << kind;

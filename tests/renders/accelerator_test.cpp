@@ -1,6 +1,5 @@
 // --accelerator, --split, --intersector: the same picture, by bits or by means.
-#include "host/bvh/build_bvh.hpp"
-#include "host/bvh/widen_bvh.hpp"
+#include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "shaders/shared/limits.h"
 #include "tests/support/build_scene.hpp"
@@ -58,6 +57,25 @@ Scene tiledScene()
     return builder.scene();
 }
 
+// Strips that shine and others, aslant through a ball of small triangles: those have pieces, and many records.
+Scene aslantScene()
+{
+    SceneBuilder builder;
+    const auto white = builder.lambert(glm::vec3(0.7F)), lamp = builder.lambert(glm::vec3(0.0F), glm::vec3(3.0F), true);
+    builder.sphere({1.0F, -0.2F, 1.5F}, 0.3F, white).sphere({-1.2F, 0.8F, 1.5F}, 0.1F, lamp);
+    for (int i = 0; i < 12; ++i) {
+        const float x = 0.3F * static_cast<float>(i) - 1.65F;
+        builder.quad({glm::vec3(x, -1.7F, -1.6F), {x + 0.02F, -1.7F, -1.6F}, {x + 0.52F, 1.6F, 1.7F}, {x + 0.5F, 1.6F, 1.7F}},
+                     i % 3 == 0 ? lamp : white);
+    }
+    builder.environment(glm::vec3(0.05F)).perspective({0, 1, 4}, {0, 0, 0}, 0.7F);
+    Scene scene = builder.scene();
+    const Mesh ball = icosphere(3);
+    scene.primitives.push_back({"", static_cast<std::uint32_t>(scene.triangles.size()), static_cast<std::uint32_t>(ball.size()), white, false});
+    scene.triangles.insert(scene.triangles.end(), ball.begin(), ball.end());
+    return scene;
+}
+
 class AcceleratorTest : public testing::TestWithParam<DirectLight> {
 protected:
     AcceleratorTest()
@@ -71,7 +89,7 @@ protected:
 
 TEST_P(AcceleratorTest, NoneGivesTheBitsOfTheTree)
 {
-    for (const Scene& scene : {meshScene(), mixedScene(), tiledScene()}) {
+    for (const Scene& scene : {meshScene(), mixedScene(), tiledScene(), aslantScene()}) {
         settings.accelerator = Accelerator::Bvh;
         const Film tree = renderScene(scene, settings);
         settings.accelerator = Accelerator::None;
@@ -86,12 +104,11 @@ INSTANTIATE_TEST_SUITE_P(Ways, AcceleratorTest,
 TEST(SplitRulePictureTest, EveryRuleGivesTheBitsOfTheOthers)
 {
     RenderSettings settings = squareSettings(24, 32);
-    for (const Scene& scene : {meshScene(), mixedScene(), tiledScene()}) {
-        const std::vector<Box> boxes = primitiveBoxes(scene);
-        const FlatScene sah = flattenScene(scene, widenBvh(buildBvh(boxes, SplitRule::Sah)));
+    for (const Scene& scene : {meshScene(), mixedScene(), tiledScene(), aslantScene()}) {
+        const FlatScene sah = flattenScene(scene, buildSceneBvh(scene));
         const Film film = renderFlat(sah, scene.cameras.front(), settings);
         for (const SplitRule rule : {SplitRule::Mean, SplitRule::Median}) {
-            const FlatScene other = flattenScene(scene, widenBvh(buildBvh(boxes, rule)));
+            const FlatScene other = flattenScene(scene, buildSceneBvh(scene, rule));
             EXPECT_NE(other.nodes, sah.nodes);
             // Their films may be merged.
             EXPECT_EQ(fingerprint(other), fingerprint(sah));
@@ -101,13 +118,28 @@ TEST(SplitRulePictureTest, EveryRuleGivesTheBitsOfTheOthers)
     }
 }
 
+// Films are merged and resumed by it, those of earlier builds too.
+TEST(FingerprintTest, IsWhatItWas)
+{
+    EXPECT_EQ(fingerprint(flattened(mixedScene())), 0x63483a629c12bbc6U);
+}
+
+TEST(SplitRulePictureTest, OnlyTheHeuristicsTreeIsOfPieces)
+{
+    const Scene scene = aslantScene();
+    const std::size_t count = scene.triangles.size() + scene.spheres.size();
+    EXPECT_GT(buildSceneBvh(scene).order.size(), count + 10);
+    EXPECT_EQ(buildSceneBvh(scene, SplitRule::Mean).order.size(), count);
+    EXPECT_EQ(buildSceneBvh(scene, SplitRule::Median).order.size(), count);
+}
+
 TEST(SplitRulePictureTest, TiesGoToTheLowerId)
 {
     const Scene scene = tiledScene();
     RenderSettings settings = squareSettings(8, 4);
     settings.bounces = 0;
     for (const SplitRule rule : {SplitRule::Sah, SplitRule::Mean, SplitRule::Median}) {
-        const Film film = renderFlat(flattenScene(scene, widenBvh(buildBvh(primitiveBoxes(scene), rule))), scene.cameras.front(), settings);
+        const Film film = renderFlat(flattenScene(scene, buildSceneBvh(scene, rule)), scene.cameras.front(), settings);
         for (int i = 0; i < 64; ++i) {
             // Rows of the film go down, those of the tiles up: of eight, parity changes.
             EXPECT_FLOAT_EQ(film.pixels[static_cast<std::size_t>(i)].albedo.r, (i % 8 + i / 8) % 2 == 1 ? 0.8F : 0.2F)

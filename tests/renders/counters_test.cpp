@@ -1,7 +1,6 @@
 // Work that does not depend on the machine: what a change of the tree, of the kernels or of their order costs, without a clock.
 #include "host/bench/make_hills.hpp"
-#include "host/bvh/build_bvh.hpp"
-#include "host/bvh/widen_bvh.hpp"
+#include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "tests/support/bench_scenes.hpp"
 #include "tests/support/render_scene.hpp"
@@ -34,7 +33,7 @@ TEST(CountersTest, ACameraRayVisitsAsManyNodesAsRecorded)
 {
     for (const Counted& counted : {Counted{"ball in a box", bumpyBall(5), 11.24, 6.34, 14.18}, Counted{"hills", makeHills(200), 8.50, 3.80, 8.24},
                                    Counted{"forest", forest(60), 11.28, 2.67, 6.69}}) {
-        const WideBvh bvh = widenBvh(buildBvh(primitiveBoxes(counted.scene)));
+        const WideBvh bvh = buildSceneBvh(counted.scene);
         const glm::dvec3 steps = meanSteps(flattenScene(counted.scene, bvh), counted.scene.cameras.front());
         std::cout << counted.name << ": " << counted.scene.triangles.size() << " triangles, cost " << bvh.cost << ", " << steps.x
                   << " nodes and " << steps.y << " triangles a ray\n";

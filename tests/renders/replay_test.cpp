@@ -50,7 +50,7 @@ PathRadiance sumOf(const ReplayedPath& path)
 }
 
 // Each vertex leaves where the next one arrives.
-void expectConnected(const ReplayedPath& path)
+void expectConnected(const FlatScene& flat, const ReplayedPath& path)
 {
     ASSERT_FALSE(path.vertices.empty());
     for (std::size_t i = 0; i < path.vertices.size(); ++i) {
@@ -61,7 +61,7 @@ void expectConnected(const ReplayedPath& path)
             const PathVertex& next = path.vertices[i + 1];
             EXPECT_EQ(next.before.throughput, vertex.after.throughput);
             EXPECT_EQ(next.before.pdf, vertex.after.pdf);
-            EXPECT_EQ(next.ray.source, vertex.hit.record);
+            EXPECT_EQ(next.ray.source, flat.records[std::size_t{vertex.hit.record} * kRecordTexels].w);
             EXPECT_EQ(vertex.after.throughput, vertex.scattered.throughput / vertex.scattered.survival);
         }
     }
@@ -99,7 +99,7 @@ protected:
             const PathRadiance sum = sumOf(path);
             EXPECT_TRUE(sameBits(sum.radiance, path.radiance.radiance));
             EXPECT_EQ(sum.clamped, path.radiance.clamped);
-            expectConnected(path);
+            expectConnected(flat_, path);
             vertices_ += path.vertices.size();
         }
         EXPECT_GT(luminanceOf(film.pixels[order[0]].mean), 0.0);

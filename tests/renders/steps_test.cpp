@@ -110,8 +110,8 @@ TEST_F(StepsTest, OneRayMeetsWhatTheCameraSees)
     Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
     renderer.advance();
     const Camera& camera = scene.cameras[0];
-    const PathHit hit = renderer.traceRay({camera.position, kNoRecord, camera.forward});
-    const PathHit miss = renderer.traceRay({camera.position + 1e4F * camera.up, kNoRecord, camera.up});
+    const PathHit hit = renderer.traceRay({camera.position, kNoPrimitive, camera.forward});
+    const PathHit miss = renderer.traceRay({camera.position + 1e4F * camera.up, kNoPrimitive, camera.up});
     EXPECT_NE(hit.record, kNoRecord);
     EXPECT_EQ(miss.record, kNoRecord);
     while (renderer.advance()) {

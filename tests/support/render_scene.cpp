@@ -1,7 +1,6 @@
 #include "tests/support/render_scene.hpp"
 
-#include "host/bvh/build_bvh.hpp"
-#include "host/bvh/widen_bvh.hpp"
+#include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/measure/normal.hpp"
 #include "host/render/measure_schedules.hpp"
@@ -33,7 +32,7 @@ Film renderBy(Schedule schedule, const FlatScene& flat, const FlatCamera& camera
 
 }  // namespace
 
-FlatScene flattened(const Scene& scene) { return flattenScene(scene, widenBvh(buildBvh(primitiveBoxes(scene)))); }
+FlatScene flattened(const Scene& scene) { return flattenScene(scene, buildSceneBvh(scene)); }
 
 Film renderFlat(const FlatScene& flat, const Camera& camera, const RenderSettings& settings)
 {

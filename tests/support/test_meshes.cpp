@@ -105,6 +105,44 @@ Mesh randomTriangles(std::size_t count, float size, std::uint32_t seed)
     return mesh;
 }
 
+Mesh aslantPrism(int sides, int rings)
+{
+    const glm::dmat3 turned(glm::normalize(glm::dvec3(1, -1, 0)), glm::normalize(glm::dvec3(1, 1, -2)), glm::normalize(glm::dvec3(1, 1, 1)));
+    const auto vertex = [&](int side, int ring, double end) {
+        const double angle = 2.0 * std::numbers::pi * (side % sides) / sides, radius = static_cast<double>(ring) / rings;
+        return glm::vec3(turned * glm::dvec3(radius * std::cos(angle), radius * std::sin(angle), end));
+    };
+    Mesh mesh;
+    const auto quad = [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d) {
+        mesh.push_back({{a, b, c}});
+        mesh.push_back({{a, c, d}});
+    };
+    for (int i = 0; i < sides; ++i) {
+        quad(vertex(i, rings, -2.0), vertex(i + 1, rings, -2.0), vertex(i + 1, rings, 2.0), vertex(i, rings, 2.0));
+        for (const double end : {-2.0, 2.0}) {
+            const int first = end > 0.0 ? i : i + 1, second = end > 0.0 ? i + 1 : i;  // fronts outwards
+            mesh.push_back({{vertex(0, 0, end), vertex(first, 1, end), vertex(second, 1, end)}});
+            for (int ring = 1; ring < rings; ++ring) {
+                quad(vertex(first, ring, end), vertex(first, ring + 1, end), vertex(second, ring + 1, end), vertex(second, ring, end));
+            }
+        }
+    }
+    return mesh;
+}
+
+Mesh strips(std::size_t count, std::uint32_t seed)
+{
+    std::mt19937 random(seed);
+    Mesh mesh = randomTriangles(40 * count, 0.1F, seed + 1);
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::vec3 from = glm::vec3(-0.7F) + randomPoint(random, 0.3F), to = glm::vec3(0.7F) + randomPoint(random, 0.3F);
+        const glm::vec3 across = 0.2F * glm::normalize(randomPoint(random, 1.0F));
+        mesh.push_back({{from, to, to + across}});
+        mesh.push_back({{from, to + across, from + across}});
+    }
+    return mesh;
+}
+
 std::vector<Sphere> randomSpheres(std::size_t count, float largestRadius, std::uint32_t seed)
 {
     std::mt19937 random(seed);

@@ -21,6 +21,14 @@ Mesh randomTriangles(std::size_t count, float size, std::uint32_t seed);
 
 std::vector<Sphere> randomSpheres(std::size_t count, float largestRadius, std::uint32_t seed);
 
+// Strips a fifth wide, of two triangles each, from near one corner of [-1, 1]^3 to near the opposite one, and 40 small triangles
+// for each of them. The tree of such a scene is one of pieces.
+Mesh strips(std::size_t count, std::uint32_t seed);
+
+// The closed surface of a prism around the unit sphere, 4 long along (1, 1, 1), of `sides` sides of two triangles each; its ends are fans
+// of `rings` rings. The tree of such a mesh is one of pieces.
+Mesh aslantPrism(int sides, int rings);
+
 // `count` copies of the triangle (-1,-1,0) (1,-1,0) (0,1,0).
 Mesh coincidentTriangles(std::size_t count);
 

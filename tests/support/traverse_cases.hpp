@@ -1,6 +1,7 @@
 // Rays and scenes for tests of traversal.
 #pragma once
 
+#include "host/flatten/split_triangles.hpp"
 #include "shaders/shared/path_types.h"
 #include "tests/support/scene_on_device.hpp"
 #include "tests/support/test_meshes.hpp"
@@ -14,7 +15,7 @@ namespace glim {
 
 struct TraverseCase {
     PathRay ray;
-    uint target = kNoRecord;
+    uint target = kNoPrimitive;
     float reach = 1.0F;
 };
 
@@ -27,7 +28,7 @@ public:
     TraverseCase anywhere(const std::vector<Box>& boxes)
     {
         TraverseCase c{};
-        c.ray.source = kNoRecord;
+        c.ray.source = kNoPrimitive;
         c.ray.origin = point(1.2F);
         c.ray.direction = glm::normalize(point(1.0F));
         if (random_() % 3 == 0) {
@@ -50,7 +51,7 @@ public:
     {
         TraverseCase c = {};
         const std::uint32_t id = below(scene_.recordOf.size());
-        c.ray.source = scene_.recordOf[id];
+        c.ray.source = id;
         c.ray.direction = glm::normalize(point(1.0F));
         if (id < scene.triangles.size()) {
             const Triangle& t = scene.triangles[id];
@@ -73,7 +74,7 @@ private:
 
     void pickShadow(TraverseCase& c)
     {
-        c.target = random_() % 2 == 0 ? below(scene_.recordOf.size()) : kNoRecord;
+        c.target = random_() % 2 == 0 ? below(scene_.recordOf.size()) : kNoPrimitive;
         c.reach = random_() % 4 == 0 ? std::numeric_limits<float>::infinity()
                                      : std::uniform_real_distribution<float>(0.05F, 1.0F)(random_);
     }
@@ -83,6 +84,13 @@ private:
     const SceneOnDevice& scene_;
     std::mt19937 random_{7};
 };
+
+// What the scene's tree may be of.
+inline std::vector<Box> piecesOrPrimitives(const Scene& scene)
+{
+    Pieces pieces = splitTriangles(scene, primitiveBoxes(scene));
+    return pieces.boxes.empty() ? primitiveBoxes(scene) : std::move(pieces.boxes);
+}
 
 struct TraverseInput {
     const char* name;
@@ -98,6 +106,7 @@ inline std::vector<TraverseInput> traverseInputs()
         {"Large", [] { return sceneOf(randomTriangles(60, 1.5F, 3), randomSpheres(6, 1.2F, 4)); }},
         {"Spheres", [] { return sceneOf({}, randomSpheres(200, 0.3F, 5)); }},
         {"Small", [] { return sceneOf(randomTriangles(500, 0.1F, 6), randomSpheres(100, 0.1F, 7)); }},
+        {"Strips", [] { return sceneOf(placed(strips(12, 9), 0.5F, 0.0F), randomSpheres(20, 0.2F, 10)); }},
         {"OneTriangle", [] { return sceneOf(randomTriangles(1, 1.5F, 8)); }},
         {"OneSphere", [] { return sceneOf({}, {{"", glm::vec3(0.1F, 0.2F, 0.0F), 0.8F, 0}}); }}};
 }

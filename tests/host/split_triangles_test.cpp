@@ -1,0 +1,209 @@
+// Pieces hold their triangles and waste less; a tree is made of them where that is cheaper, and holds every primitive.
+#include "host/bvh/build_bvh.hpp"
+#include "host/bvh/widen_bvh.hpp"
+#include "host/flatten/build_scene_bvh.hpp"
+#include "host/flatten/split_triangles.hpp"
+#include "tests/support/build_scene.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/test_meshes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <numeric>
+
+namespace glim {
+namespace {
+
+// Where rounding in double puts a point of an axis-parallel triangle beside it, and its box without extent.
+constexpr double kRounding = 1e-14;
+
+bool holds(const Box& box, const glm::dvec3& point)
+{
+    return glm::all(glm::greaterThanEqual(point, glm::dvec3(box.lo) - kRounding)) &&
+           glm::all(glm::lessThanEqual(point, glm::dvec3(box.hi) + kRounding));
+}
+
+float sizeOf(const Box& box)
+{
+    const glm::vec3 size = box.hi - box.lo;
+    return std::max({size.x, size.y, size.z});
+}
+
+// Up to what pieces grow by.
+bool holds(const Box& box, const Box& inner)
+{
+    const float margin = 0x1p-21F * sizeOf(box);
+    return glm::all(glm::greaterThanEqual(inner.lo, box.lo - margin)) && glm::all(glm::lessThanEqual(inner.hi, box.hi + margin)) &&
+           glm::all(glm::lessThanEqual(inner.lo, inner.hi));
+}
+
+double halfArea(const Box& box)
+{
+    const glm::dvec3 size = glm::dvec3(box.hi) - glm::dvec3(box.lo);
+    return size.x * size.y + size.y * size.z + size.z * size.x;
+}
+
+// Up to `margin` beside the triangle along each axis.
+glm::dvec3 pointOf(const Triangle& triangle, Random& random, double margin = 0.0)
+{
+    double u = random.uniform(), v = random.uniform();
+    if (u + v > 1.0) {
+        u = 1.0 - u;
+        v = 1.0 - v;
+    }
+    // Every eighth on an edge.
+    v = random.below(8) == 0 ? 0.0 : v;
+    const glm::dvec3 v0(triangle.vertices[0]);
+    const glm::dvec3 beside(random.uniform(-margin, margin), random.uniform(-margin, margin), random.uniform(-margin, margin));
+    return v0 + u * (glm::dvec3(triangle.vertices[1]) - v0) + v * (glm::dvec3(triangle.vertices[2]) - v0) + beside;
+}
+
+std::vector<std::vector<Box>> byPrimitive(const Pieces& pieces, std::size_t count)
+{
+    std::vector<std::vector<Box>> boxes(count);
+    for (std::size_t i = 0; i < pieces.boxes.size(); ++i) {
+        boxes.at(pieces.primitives[i]).push_back(pieces.boxes[i]);
+    }
+    return boxes;
+}
+
+// Triangles in the planes of the axes and without area among the others.
+Mesh awkward()
+{
+    Mesh mesh = strips(10, 3);
+    mesh.push_back({{{-1, -1, 0.25F}, {1, -1, 0.25F}, {1, 1, 0.25F}}});
+    mesh.push_back({{{-1, -1, -1}, {0, 0, 0}, {1, 1, 1}}});
+    mesh.push_back({{{-1, -1, -1}, {-1, -1, -1}, {1, 0.9F, 1}}});
+    mesh.push_back({{{0.5F, 0.5F, 0.5F}, {0.5F, 0.5F, 0.5F}, {0.5F, 0.5F, 0.5F}}});
+    return mesh;
+}
+
+// And what the test of a ray that starts nearby takes for the triangle: 2^-23 of its size is twice that.
+TEST(SplitTrianglesTest, PiecesHoldTheirTriangles)
+{
+    for (const float scale : {1.0F, 0x1p-50F, 0x1p50F}) {
+        for (const Mesh& mesh : {awkward(), strips(40, 5)}) {
+            const Scene scene = sceneOf(placed(mesh, scale, 0.0F), scale == 1.0F ? randomSpheres(30, 0.5F, 6) : std::vector<Sphere>{});
+            const std::vector<Box> whole = primitiveBoxes(scene);
+            const Pieces pieces = splitTriangles(scene, whole);
+            ASSERT_FALSE(pieces.boxes.empty());
+            const auto boxes = byPrimitive(pieces, whole.size());
+            Random random(7);
+            for (std::size_t id = 0; id < whole.size(); ++id) {
+                ASSERT_FALSE(boxes[id].empty());
+                for (const Box& box : boxes[id]) {
+                    ASSERT_TRUE(holds(whole[id], box)) << "triangle " << id << " of " << mesh.size();
+                }
+                const double margin = boxes[id].size() > 1 ? 0x1p-23 * static_cast<double>(sizeOf(whole[id]) / scale) : 0.0;
+                for (int i = 0; i < 100 && id < mesh.size(); ++i) {
+                    const glm::dvec3 point = pointOf(mesh[id], random, margin);
+                    const bool held = std::any_of(boxes[id].begin(), boxes[id].end(), [&](const Box& box) {
+                        return holds({box.lo / scale, box.hi / scale}, point);
+                    });
+                    ASSERT_TRUE(held) << "triangle " << id << " of " << mesh.size() << ", scale " << scale;
+                }
+            }
+        }
+    }
+}
+
+TEST(SplitTrianglesTest, ATenthMoreAtMostAndTheWorstFirst)
+{
+    const Scene scene = sceneOf(strips(12, 9));
+    const std::vector<Box> whole = primitiveBoxes(scene);
+    const Pieces pieces = splitTriangles(scene, whole);
+    EXPECT_EQ(pieces.boxes.size(), whole.size() + whole.size() / 10);
+    const auto boxes = byPrimitive(pieces, whole.size());
+    double leastDivided = 1e300, greatestLeft = 0.0, before = 0.0, after = 0.0;
+    for (std::size_t id = 0; id < whole.size(); ++id) {
+        EXPECT_TRUE(boxes[id].size() == 1 || id >= 12 * 40) << "only strips waste so much, triangle " << id;
+        leastDivided = boxes[id].size() > 1 ? std::min(leastDivided, halfArea(whole[id])) : leastDivided;
+        before += halfArea(whole[id]);
+        for (const Box& box : boxes[id]) {
+            greatestLeft = std::max(greatestLeft, halfArea(box));
+            after += halfArea(box);
+        }
+    }
+    std::cout << "half the surface of all boxes " << before << ", of pieces' " << after << "; the least divided " << leastDivided
+              << ", the greatest left " << greatestLeft << "\n";
+    EXPECT_LT(after, 0.5 * before);
+    // A strip's box is all waste, but for some hundredths.
+    EXPECT_LT(greatestLeft, 1.05 * leastDivided);
+}
+
+TEST(SplitTrianglesTest, NothingIsDividedWhereLittleWastes)
+{
+    Mesh roofed = terrain(40);
+    roofed.push_back({{{-10, 5, -10}, {10, 5, -10}, {10, 9, 10}}});  // makes 57 more, of which less than a fiftieth are no reason
+    for (const Scene& scene : {sceneOf(roofed), sceneOf(terrain(300)), sceneOf(icosphere(4)), sceneOf({}, randomSpheres(50, 1.0F, 3)), sceneOf(randomTriangles(9, 1.0F, 2)),
+                               sceneOf(coincidentTriangles(1)), sceneOf(Mesh(20, Triangle{}))}) {
+        EXPECT_TRUE(splitTriangles(scene, primitiveBoxes(scene)).boxes.empty()) << scene.triangles.size() << " triangles";
+    }
+}
+
+// Some leaf that holds `primitive`, and every node above it, holds the point.
+bool reaches(const WideBvh& bvh, std::uint32_t primitive, const glm::dvec3& point)
+{
+    std::vector<std::uint32_t> nodes{0};
+    while (!nodes.empty()) {
+        const WideNode& node = bvh.nodes[nodes.back()];
+        nodes.pop_back();
+        for (const WideChild& child : node.children) {
+            if (child.kind == WideChild::Kind::Nothing || !holds(child.box, point)) {
+                continue;
+            }
+            const auto first = bvh.order.begin() + child.first;
+            if (child.kind == WideChild::Kind::Inner) {
+                nodes.push_back(child.first);
+            } else if (std::find(first, first + child.count, primitive) != first + child.count) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+double costOf(const std::vector<Box>& boxes) { return widenBvh(buildBvh(boxes)).cost; }
+
+TEST(SceneBvhTest, IsOfPiecesWhereThatIsCheaper)
+{
+    const Scene scene = sceneOf(strips(12, 9));
+    const WideBvh whole = widenBvh(buildBvh(primitiveBoxes(scene))), bvh = buildSceneBvh(scene);
+    std::cout << "cost of primitives " << whole.cost << ", of pieces " << bvh.cost << "\n";
+    EXPECT_LT(bvh.cost, 0.9 * whole.cost);
+    EXPECT_EQ(bvh.box.lo, whole.box.lo);
+    EXPECT_EQ(bvh.box.hi, whole.box.hi);
+    EXPECT_EQ(bvh.order.size(), scene.triangles.size() + scene.triangles.size() / 10);
+    Random random(8);
+    for (std::uint32_t id = 0; id < scene.triangles.size(); ++id) {
+        for (int i = 0; i < 100; ++i) {
+            ASSERT_TRUE(reaches(bvh, id, pointOf(scene.triangles[id], random))) << "triangle " << id;
+        }
+    }
+}
+
+TEST(SceneBvhTest, IsOfPrimitivesElsewhere)
+{
+    SceneBuilder builder;
+    Scene room = builder.cube(1.5F, builder.lambert(glm::vec3(0.5F)), true).scene();
+    const Mesh ball = icosphere(2);
+    room.triangles.insert(room.triangles.end(), ball.begin(), ball.end());
+    EXPECT_FALSE(splitTriangles(room, primitiveBoxes(room)).boxes.empty()) << "walls, but that does not pay";
+    Mesh mixed = randomTriangles(500, 0.1F, 5);
+    const Mesh larger = randomTriangles(100, 0.4F, 77);
+    mixed.insert(mixed.end(), larger.begin(), larger.end());
+    const double gain = costOf(splitTriangles(sceneOf(mixed), primitiveBoxes(sceneOf(mixed))).boxes) / costOf(primitiveBoxes(sceneOf(mixed)));
+    EXPECT_GT(gain, 0.9);
+    EXPECT_LT(gain, 0.97) << "a little cheaper";
+    for (const Scene& scene : {sceneOf(terrain(50), randomSpheres(20, 0.5F, 4)), room, sceneOf(mixed)}) {
+        const WideBvh whole = widenBvh(buildBvh(primitiveBoxes(scene))), bvh = buildSceneBvh(scene);
+        EXPECT_EQ(bvh.order, whole.order);
+        EXPECT_EQ(bvh.cost, whole.cost);
+    }
+}
+
+}  // namespace
+}  // namespace glim

@@ -1,0 +1,13 @@
+// What a ray met, whatever record of it.
+#ifndef GLIM_TEST_PRIMITIVE_MET
+#define GLIM_TEST_PRIMITIVE_MET
+
+#include "access/scene.glsl"
+#include "shared/path_types.h"
+
+uint primitiveMet(PathHit hit)
+{
+    return hit.record == kNoRecord ? kNoPrimitive : primitiveOf(fetchRecord(hit.record));
+}
+
+#endif
