@@ -27,7 +27,7 @@ constexpr std::uint32_t kPlanes = 1U << 20;
 // Of a triangle's size, by which its pieces' boxes grow. The test of a ray that starts nearby takes hits beside the triangle by some 2^-24
 // of that. Nodes around whole triangles are padded by as much (kPlanePad), those around pieces are smaller: without this, 10 of 2.4 million
 // rays from near edges of floors and walls in pieces missed what testing every triangle meets; with a quarter of it none did.
-constexpr float kMargin = 0x1p-22F;
+constexpr double kMargin = 0x1p-22;
 
 // A triangle that six planes cut has nine corners at most; 28 if rounding has bent it so that each plane cuts as many sides as it can.
 struct Polygon {
@@ -69,13 +69,14 @@ Polygon clip(const Triangle& triangle, const Box& box)
     return polygon;
 }
 
+// But finite.
 Box roundedOutwards(const glm::dvec3& lo, const glm::dvec3& hi)
 {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    constexpr float kMost = std::numeric_limits<float>::max();
     Box box;
     for (int k = 0; k < 3; ++k) {
-        box.lo[k] = std::nextafter(static_cast<float>(lo[k]), -kInfinity);
-        box.hi[k] = std::nextafter(static_cast<float>(hi[k]), kInfinity);
+        box.lo[k] = std::nextafter(static_cast<float>(std::max(lo[k], -static_cast<double>(kMost))), -kMost);
+        box.hi[k] = std::nextafter(static_cast<float>(std::min(hi[k], static_cast<double>(kMost))), kMost);
     }
     return box;
 }
@@ -206,10 +207,10 @@ private:
     void grow(std::uint32_t piece)
     {
         const auto& v = scene_.triangles[pieces_.primitives[piece]].vertices;
-        const glm::vec3 size = glm::max(v[0], glm::max(v[1], v[2])) - glm::min(v[0], glm::min(v[1], v[2]));
-        const float margin = kMargin * std::max({size.x, size.y, size.z});
+        const glm::dvec3 size = glm::dvec3(glm::max(v[0], glm::max(v[1], v[2]))) - glm::dvec3(glm::min(v[0], glm::min(v[1], v[2])));
+        const double margin = kMargin * std::max({size.x, size.y, size.z});
         Box& box = pieces_.boxes[piece];
-        box = roundedOutwards(glm::dvec3(box.lo) - static_cast<double>(margin), glm::dvec3(box.hi) + static_cast<double>(margin));
+        box = roundedOutwards(glm::dvec3(box.lo) - margin, glm::dvec3(box.hi) + margin);
     }
 
     const Scene& scene_;

@@ -26,17 +26,18 @@ bool holds(const Box& box, const glm::dvec3& point)
            glm::all(glm::lessThanEqual(point, glm::dvec3(box.hi) + kRounding));
 }
 
-float sizeOf(const Box& box)
+double sizeOf(const Box& box)
 {
-    const glm::vec3 size = box.hi - box.lo;
+    const glm::dvec3 size = glm::dvec3(box.hi) - glm::dvec3(box.lo);
     return std::max({size.x, size.y, size.z});
 }
 
 // Up to what pieces grow by.
 bool holds(const Box& box, const Box& inner)
 {
-    const float margin = 0x1p-21F * sizeOf(box);
-    return glm::all(glm::greaterThanEqual(inner.lo, box.lo - margin)) && glm::all(glm::lessThanEqual(inner.hi, box.hi + margin)) &&
+    const double margin = 0x1p-21 * sizeOf(box);
+    return glm::all(glm::greaterThanEqual(glm::dvec3(inner.lo), glm::dvec3(box.lo) - margin)) &&
+           glm::all(glm::lessThanEqual(glm::dvec3(inner.hi), glm::dvec3(box.hi) + margin)) &&
            glm::all(glm::lessThanEqual(inner.lo, inner.hi));
 }
 
@@ -84,7 +85,7 @@ Mesh awkward()
 // And what the test of a ray that starts nearby takes for the triangle: 2^-23 of its size is twice that.
 TEST(SplitTrianglesTest, PiecesHoldTheirTriangles)
 {
-    for (const float scale : {1.0F, 0x1p-50F, 0x1p50F}) {
+    for (const float scale : {1.0F, 0x1p-50F, 0x1p50F, 0x1p127F}) {
         for (const Mesh& mesh : {awkward(), strips(40, 5)}) {
             const Scene scene = sceneOf(placed(mesh, scale, 0.0F), scale == 1.0F ? randomSpheres(30, 0.5F, 6) : std::vector<Sphere>{});
             const std::vector<Box> whole = primitiveBoxes(scene);
@@ -97,7 +98,7 @@ TEST(SplitTrianglesTest, PiecesHoldTheirTriangles)
                 for (const Box& box : boxes[id]) {
                     ASSERT_TRUE(holds(whole[id], box)) << "triangle " << id << " of " << mesh.size();
                 }
-                const double margin = boxes[id].size() > 1 ? 0x1p-23 * static_cast<double>(sizeOf(whole[id]) / scale) : 0.0;
+                const double margin = boxes[id].size() > 1 ? 0x1p-23 * sizeOf(whole[id]) / static_cast<double>(scale) : 0.0;
                 for (int i = 0; i < 100 && id < mesh.size(); ++i) {
                     const glm::dvec3 point = pointOf(mesh[id], random, margin);
                     const bool held = std::any_of(boxes[id].begin(), boxes[id].end(), [&](const Box& box) {
