@@ -1,4 +1,4 @@
-// The world's mistakes: a file, a flag, a driver. `main` prints the sentence and exits with the code.
+// Errors that are not bugs in glim: a bad file, a bad option, a failing driver. `main` prints the sentence and exits with the code.
 #pragma once
 
 #include <stdexcept>

@@ -1,15 +1,7 @@
 // The command line in, the exit code out.
-#include "host/cli/bench.hpp"
-#include "host/cli/compare.hpp"
-#include "host/cli/devices.hpp"
-#include "host/cli/inspect.hpp"
-#include "host/cli/merge.hpp"
-#include "host/cli/preview.hpp"
-#include "host/cli/render.hpp"
+#include "host/cli/commands.hpp"
 #include "host/cli/version.hpp"
 #include "host/error.hpp"
-
-#include <CLI/CLI.hpp>
 
 #include <iostream>
 #include <new>
@@ -22,36 +14,26 @@ int fail(glim::ExitCode code, const std::string& sentence)
     return static_cast<int>(code);
 }
 
-// CLI11 would complain of what is missing even where something that it does not know explains it.
-std::string usageSentence(const CLI::App* app, const CLI::Error& error)
-{
-    const std::vector<std::string> unknown = app->remaining(true);
-    const std::string sentence =
-        unknown.empty() ? error.what() : "\"" + unknown[0] + "\" was not expected: no such command, option or argument";
-    return "glim: " + sentence + "\nRun with --help for more information.\n";
-}
-
 }  // namespace
 
 int main(int argc, char** argv)
 {
+    glim::CommandLine line("glim: a path tracer in Vulkan compute kernels", glim::versionText(),
+                           "`glim COMMAND --help` lists a command's options.\n"
+                           "Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 129, 130 or 143 stopped by a signal.");
+    glim::addRender(line);
+    glim::addPreview(line);
+    glim::addInspect(line);
+    glim::addDevices(line);
+    glim::addCompare(line);
+    glim::addBench(line);
+    glim::addMerge(line);
     glim::ExitCode exitCode = glim::ExitCode::Done;
-    CLI::App app("glim: a path tracer in Vulkan compute kernels", "glim");
-    app.set_version_flag("--version", glim::versionText());
-    app.failure_message(usageSentence);
-    app.require_subcommand(1);
-    app.footer("Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 129, 130 or 143 stopped by a signal.");
-    glim::addRender(app, exitCode);
-    glim::addPreview(app);
-    glim::addInspect(app);
-    glim::addDevices(app);
-    glim::addCompare(app);
-    glim::addBench(app, exitCode);
-    glim::addMerge(app);
     try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : static_cast<int>(glim::ExitCode::Usage);
+        exitCode = line.run({argv + 1, argv + argc});
+    } catch (const glim::UsageError& error) {
+        std::cerr << "glim: " << error.what() << "\nRun with --help for more information.\n";
+        return static_cast<int>(glim::ExitCode::Usage);
     } catch (const glim::InputError& error) {
         return fail(glim::ExitCode::BadInput, error.what());
     } catch (const glim::DeviceError& error) {

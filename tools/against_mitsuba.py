@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How a user checks glim: the same scene by an independent renderer on the same machine. --help says what is printed."""
+"""Checks glim against an independent renderer: both render the same scene on the same machine. --help says what is printed."""
 
 import sys
 import tempfile
@@ -30,7 +30,7 @@ def check(options):
     with tempfile.TemporaryDirectory(prefix="glim-against-mitsuba-") as folder:
         glim = Glim(options, folder)
         for seed in range(options.seeds):
-            # In turns, so that a change of the machine's speed meets both.
+            # By turns, so that a change of the machine's speed affects both.
             glim.add_render(seed, renders[0], mitsuba.read)
             mitsuba.add_render(seed, renders[1])
             say("%d of %d renders of each" % (seed + 1, options.seeds))

@@ -31,7 +31,7 @@ def root(value):
 
 
 def points_of(bench, axis, error):
-    """(x, value, low, high) of what has a value to draw on logarithmic axes."""
+    """(x, value, low, high) of the points that logarithmic axes can show."""
     points = []
     for point in bench["points"]:
         summary = point["summary"]
@@ -62,7 +62,7 @@ def draw_bench(axes, name, bench, axis, error):
 
 
 def draw_slope(axes, benches, error):
-    """What independent samples would do from the first point on."""
+    """The line that independent samples would follow from the first point on."""
     points = points_of(benches[0], "samples", error)
     if points:
         (x, value, *_), (end, *_) = points[0], points[-1]
@@ -86,7 +86,7 @@ def draw_scene(scene, named):
     handles, labels = grid[0][1].get_legend_handles_labels()
     figure.legend(handles, labels, loc="lower center", fontsize=8)
     size = named[0][1]["size"]
-    figure.suptitle("%s, %dx%d, on %s\n95 %% bands over %s seeds; the reference's noise (dashed) is taken off"
+    figure.suptitle("%s, %dx%d, on %s\n95 %% bands over %s seeds; the reference's noise (dashed) is subtracted"
                     % (scene, *size, named[0][1]["device"], ", ".join(sorted({str(len(b["seeds"])) for _, b in named}))), fontsize=10)
     figure.tight_layout(rect=(0, 0.02 + 0.025 * len(named), 1, 1))
     return figure

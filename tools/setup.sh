@@ -1,5 +1,5 @@
-# Shared by tools/glim, tools/test, tools/study and tools/plot_bench: installs what is missing, builds what has changed. To be sourced by bash.
-# Everything it says goes to stderr: stdout belongs to the program.
+# Shared by tools/glim, tools/test, tools/study and tools/plot_bench: installs what is missing, builds what has changed.
+# To be sourced by bash. Everything it says goes to stderr: stdout belongs to the program.
 
 root=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
 setupLog=$root/build/setup.log
@@ -29,6 +29,9 @@ studyPackages=(
     "python3                   measures, and writes the study's page"
     "python3-matplotlib        draws the study's plots"
 )
+formatPackages=(
+    "clang-format              keeps one style"
+)
 testPackages=(
     "libgtest-dev              runs the tests"
     "vulkan-validationlayers   checks every use of Vulkan in the tests"
@@ -37,6 +40,7 @@ testPackages=(
     "xdotool                   presses its keys and moves its mouse"
     "xauth                     lets a session by hand on it (xvfb-run)"
     "${studyPackages[@]}"
+    "${formatPackages[@]}"
 )
 
 say() { printf 'glim: %s\n' "$*" >&2; }
@@ -97,7 +101,7 @@ requireTools() {
     done
 }
 
-# Passes on to the log; on a terminal also shows how far ninja is.
+# Copies its input to the log; on a terminal it also shows how far ninja is.
 showProgress() {
     local line
     while IFS= read -r line; do
@@ -108,11 +112,11 @@ showProgress() {
     return 0
 }
 
-# configure DIRECTORY PRESET TESTS: runs cmake if it never ran this way here. TESTS: OFF, ON, or BENCH, which has those of ON too.
+# configure DIRECTORY PRESET TESTS: runs cmake unless it has run here with the same arguments. TESTS: OFF, ON, or BENCH, which includes ON.
 configure() {
     local directory=$1 preset=$2 tests=$3 key fresh=() before=
     [[ -f $directory/.configured ]] && before=$(<"$directory/.configured")
-    # Who needs fewer packages leaves on what another has turned on.
+    # A call that needs fewer packages leaves on what another call has turned on.
     [[ $before == *" ON "* && $tests == OFF ]] && tests=ON
     [[ $before == *" BENCH "* ]] && tests=BENCH
     key="$preset $tests $root"
@@ -132,7 +136,7 @@ isBuilt() {
     [[ -z $(cd "$root" && find CMakeLists.txt CMakePresets.json host shaders tests tools -newer "$1" -print -quit) ]]
 }
 
-# build DIRECTORY PRESET TESTS TARGET PACKAGE_LINE...: under the lock.
+# build DIRECTORY PRESET TESTS TARGET PACKAGE_LINE...: called under the lock.
 build() {
     local directory=$1 preset=$2 tests=$3 target=$4 stamp=$1/.built-$4 start=$SECONDS hint=
     shift 4
@@ -154,8 +158,8 @@ build() {
     say "built in $((SECONDS - start)) s"
 }
 
-# ensureBuilt DIRECTORY PRESET TESTS TARGET PACKAGE_LINE...: does nothing, fast, if nothing has changed; of several at a
-# time one builds and the others wait.
+# ensureBuilt DIRECTORY PRESET TESTS TARGET PACKAGE_LINE...: returns fast if nothing has changed. If several run at a time, one builds and
+# the others wait.
 ensureBuilt() {
     isBuilt "$1/.built-$4" "$2" && return
     mkdir -p "$1" 2>/dev/null && [[ -w $1 ]] || fail "cannot write to $1, where glim is to be built"
@@ -163,6 +167,17 @@ ensureBuilt() {
         flock 9
         build "$@"
     ) 9>"$1/.lock"
+}
+
+# ensurePackages TOOL PACKAGE_LINE...: installs the packages if the tool is missing.
+ensurePackages() {
+    local tool=$1
+    shift
+    command -v "$tool" >/dev/null && return
+    isDebian || fail "$tool was not found and this is not Debian 12 or newer: $(namePackages "$@")"
+    mkdir -p "$root/build" 2>/dev/null && [[ -w $root/build ]] || fail "cannot write to $root/build, where the log goes"
+    : >"$setupLog"
+    installMissing "$@"
 }
 
 # The first Python that has what the study needs; a user's own may shadow the system's.

@@ -3,22 +3,17 @@
 #include "host/bench/summarize_bench.hpp"
 #include "host/error.hpp"
 #include "host/exact_text.hpp"
-
-#include <nlohmann/json.hpp>
+#include "host/json.hpp"
 
 #include <fstream>
+#include <iterator>
 
 namespace glim {
 namespace {
 
-using Json = nlohmann::ordered_json;
+constexpr std::uint32_t kFormat = 2;
 
-constexpr int kFormat = 2;
-
-Json jsonOf(const Interval& interval)
-{
-    return {{"value", interval.value}, {"low", interval.low}, {"high", interval.high}};
-}
+Json jsonOf(const Interval& interval) { return {{"value", interval.value}, {"low", interval.low}, {"high", interval.high}}; }
 
 Json jsonOf(const BenchPoint& point, const PointSummary& summary)
 {
@@ -59,7 +54,7 @@ Json jsonOf(const SceneBench& bench)
     const BenchSummary summary = summarizeBench(bench);
     Json points = Json::array();
     for (std::size_t i = 0; i < bench.points.size(); ++i) {
-        points.push_back(jsonOf(bench.points[i], summary.points[i]));
+        points.append(jsonOf(bench.points[i], summary.points[i]));
     }
     const StartUp& start = bench.startUp;
     return {{"scene", bench.scene},
@@ -68,9 +63,8 @@ Json jsonOf(const SceneBench& bench)
             {"device", bench.device},
             {"version", bench.version},
             {"schedule", bench.schedule},
-            {"size", {bench.width, bench.height}},
-            {"startUpSeconds",
-             {{"load", start.load}, {"build", start.build}, {"upload", start.upload}, {"compile", start.compile}}},
+            {"size", Json::array({bench.width, bench.height})},
+            {"startUpSeconds", {{"load", start.load}, {"build", start.build}, {"upload", start.upload}, {"compile", start.compile}}},
             {"reference",
              {{"file", bench.reference},
               {"known", bench.floor.known},
@@ -83,18 +77,24 @@ Json jsonOf(const SceneBench& bench)
             {"summary", jsonOf(summary)}};
 }
 
+std::vector<double> numbersOf(const Json& json)
+{
+    std::vector<double> numbers;
+    for (const Json& element : json.elements()) {
+        numbers.push_back(element.number());
+    }
+    return numbers;
+}
+
 BenchPoint pointOf(const Json& json, std::size_t seeds)
 {
     BenchPoint point;
-    json.at("samples").get_to(point.samples);
-    const std::pair<const char*, std::vector<double>&> series[] = {{"seconds", point.seconds},
-                                                                   {"kernelSeconds", point.kernelSeconds},
-                                                                   {"mean", point.mean},
-                                                                   {"mse", point.mse},
-                                                                   {"relMse", point.relMse},
-                                                                   {"trimmedRelMse", point.trimmedRelMse}};
+    point.samples = json.at("samples").count();
+    const std::pair<const char*, std::vector<double>&> series[] = {{"seconds", point.seconds}, {"kernelSeconds", point.kernelSeconds},
+                                                                   {"mean", point.mean},       {"mse", point.mse},
+                                                                   {"relMse", point.relMse},   {"trimmedRelMse", point.trimmedRelMse}};
     for (const auto& [name, values] : series) {
-        json.at(name).get_to(values);
+        values = numbersOf(json.at(name));
         if (values.size() != seeds) {
             throw InputError(std::string("its ") + name + " after " + std::to_string(point.samples) + " samples are " +
                              std::to_string(values.size()) + " numbers, expected " + std::to_string(seeds) + ", one for each seed");
@@ -106,25 +106,28 @@ BenchPoint pointOf(const Json& json, std::size_t seeds)
 SceneBench benchOf(const Json& json)
 {
     SceneBench bench;
-    json.at("scene").get_to(bench.scene);
-    json.at("picture").get_to(bench.picture);
-    json.at("settings").get_to(bench.settings);
-    json.at("device").get_to(bench.device);
-    json.at("version").get_to(bench.version);
-    bench.schedule = json.value("schedule", "");  // absent in older files
-    bench.width = json.at("size").at(0).get<std::uint32_t>();
-    bench.height = json.at("size").at(1).get<std::uint32_t>();
+    bench.scene = json.at("scene").text();
+    bench.picture = json.at("picture").text();
+    bench.settings = json.at("settings").text();
+    bench.device = json.at("device").text();
+    bench.version = json.at("version").text();
+    if (const Json* schedule = json.find("schedule")) {  // absent in older files
+        bench.schedule = schedule->text();
+    }
+    bench.width = json.at("size").at(0).count();
+    bench.height = json.at("size").at(1).count();
     const Json &start = json.at("startUpSeconds"), &reference = json.at("reference"), &bias = json.at("bias");
-    bench.startUp = {start.at("load").get<double>(), start.at("build").get<double>(), start.at("upload").get<double>(),
-                     start.at("compile").get<double>()};
-    reference.at("file").get_to(bench.reference);
-    bench.floor = {reference.at("mse").get<double>(), reference.at("relMse").get<double>(),
-                   reference.at("relMseError").get<double>(), reference.at("known").get<bool>()};
-    json.at("seeds").get_to(bench.seeds);
-    for (const Json& point : json.at("points")) {
+    bench.startUp = {start.at("load").number(), start.at("build").number(), start.at("upload").number(), start.at("compile").number()};
+    bench.reference = reference.at("file").text();
+    bench.floor = {reference.at("mse").number(), reference.at("relMse").number(), reference.at("relMseError").number(),
+                   reference.at("known").boolean()};
+    for (const Json& seed : json.at("seeds").elements()) {
+        bench.seeds.push_back(seed.count());
+    }
+    for (const Json& point : json.at("points").elements()) {
         bench.points.push_back(pointOf(point, bench.seeds.size()));
     }
-    bench.bias = {bias.at("squared").get<double>(), bias.at("error").get<double>()};
+    bench.bias = {bias.at("squared").number(), bias.at("error").number()};
     if (bench.seeds.size() < 2 || bench.points.empty()) {
         throw InputError("it has " + std::to_string(bench.seeds.size()) + " seeds and " + std::to_string(bench.points.size()) +
                          " points, expected at least two and one");
@@ -149,18 +152,19 @@ std::string benchJson(const std::vector<SceneBench>& benches)
 {
     Json scenes = Json::array();
     for (const SceneBench& bench : benches) {
-        scenes.push_back(jsonOf(bench));
+        scenes.append(jsonOf(bench));
     }
     return Json({{"glim:bench", kFormat}, {"scenes", scenes}}).dump(1) + "\n";
 }
 
 std::string benchCsv(const std::vector<SceneBench>& benches)
 {
-    std::string text = "scene,width,height,settings,seed,samples,seconds,kernel_seconds,mean,mse,relmse,trimmed_relmse,"
-                       "reference_mse,reference_relmse\n";
+    std::string text =
+        "scene,width,height,settings,seed,samples,seconds,kernel_seconds,mean,mse,relmse,trimmed_relmse,"
+        "reference_mse,reference_relmse\n";
     for (const SceneBench& bench : benches) {
-        const std::string start = quoted(bench.scene) + "," + std::to_string(bench.width) + "," + std::to_string(bench.height) +
-                                  "," + quoted(bench.settings) + ",";
+        const std::string start = quoted(bench.scene) + "," + std::to_string(bench.width) + "," + std::to_string(bench.height) + "," +
+                                  quoted(bench.settings) + ",";
         for (const BenchPoint& point : bench.points) {
             for (std::size_t i = 0; i < bench.seeds.size(); ++i) {
                 text += start + std::to_string(bench.seeds[i]) + "," + std::to_string(point.samples);
@@ -181,20 +185,23 @@ std::vector<SceneBench> readBenches(const std::filesystem::path& file)
     if (!stream) {
         throw InputError(file.string() + ": cannot be read, expected a JSON file of `glim bench`.");
     }
+    const std::optional<Json> json = Json::parse({std::istreambuf_iterator<char>(stream), {}});
     try {
-        const Json json = Json::parse(stream);
-        if (json.at("glim:bench").get<int>() != kFormat) {
-            throw InputError("it has format " + json.at("glim:bench").dump() + ", expected " + std::to_string(kFormat));
+        if (!json) {
+            throw JsonError("no JSON");
+        }
+        if (json->at("glim:bench").count() != kFormat) {
+            throw InputError("it has format " + json->at("glim:bench").dump() + ", expected " + std::to_string(kFormat));
         }
         std::vector<SceneBench> benches;
-        for (const Json& scene : json.at("scenes")) {
+        for (const Json& scene : json->at("scenes").elements()) {
             benches.push_back(benchOf(scene));
         }
         return benches;
     } catch (const InputError& error) {
-        throw InputError(file.string() + ": is no bench of this glim: " + error.what() + ".");
-    } catch (const Json::exception&) {
-        throw InputError(file.string() + ": is no JSON file that `glim bench` wrote.");
+        throw InputError(file.string() + ": is not a file of this version's `glim bench`: " + error.what() + ".");
+    } catch (const JsonError&) {
+        throw InputError(file.string() + ": is not a JSON file that `glim bench` wrote.");
     }
 }
 

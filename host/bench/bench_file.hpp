@@ -1,4 +1,4 @@
-// Benches as JSON, with what follows from the raw figures beside them, and as CSV with the raw figures alone.
+// Benches as JSON, with the raw figures and what follows from them, and as CSV with the raw figures alone.
 #pragma once
 
 #include "host/bench/bench_record.hpp"

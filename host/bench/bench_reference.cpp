@@ -36,8 +36,8 @@ bool isReference(const std::filesystem::path& file, const std::string& scene, co
     try {
         const Film film = readFilmHeader(file);
         return film.complete && film.width == settings.width && film.height == settings.height && film.identity.scene == scene &&
-               film.identity.settings == describeSettings(settings) && film.sampleRanges.size() == 1 &&
-               film.sampleRanges[0].first == 0 && film.sampleRanges[0].second >= settings.sampleEnd;
+               film.identity.settings == describeSettings(settings) && film.sampleRanges.size() == 1 && film.sampleRanges[0].first == 0 &&
+               film.sampleRanges[0].second >= settings.sampleEnd;
     } catch (const InputError&) {
         return false;  // no film: it is made anew
     }

@@ -1,7 +1,6 @@
 #include "host/bench/bootstrap.hpp"
 
-#include "host/measure/normal.hpp"
-#include "host/measure/student.hpp"
+#include "host/measure/confidence.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +13,7 @@ namespace glim {
 namespace {
 
 constexpr std::size_t kDraws = 2000;
-constexpr double kOutside = 0.05;  // that an interval may miss
+constexpr double kOutside = 0.05;  // the probability that an interval may miss
 
 Draw everyRender(const std::vector<std::size_t>& sizes)
 {
@@ -77,7 +76,7 @@ double normalShare(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2);
 
 double normalQuantile(double share) { return share < 0.5 ? -twoSidedLimit(2.0 * share) : twoSidedLimit(2.0 - 2.0 * share); }
 
-// Of sorted figures, between their neighbours.
+// The quantile of sorted figures, interpolated between neighbours.
 double quantile(const std::vector<double>& figures, double share)
 {
     const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(figures.size() - 1);
@@ -108,9 +107,7 @@ Interval bootstrap(const std::vector<std::size_t>& sizes, const Figure& figure)
     const double acceleration = findAcceleration(all, figure);
     const double n = static_cast<double>(*std::min_element(sizes.begin(), sizes.end()));
     const double reach = std::sqrt(n / (n - 1.0)) * studentLimit(kOutside, *std::min_element(sizes.begin(), sizes.end()) - 1);
-    const auto end = [&](double z) {
-        return quantile(figures, normalShare(shift + (shift + z) / (1.0 - acceleration * (shift + z))));
-    };
+    const auto end = [&](double z) { return quantile(figures, normalShare(shift + (shift + z) / (1.0 - acceleration * (shift + z)))); };
     return {value, end(-reach), end(reach)};
 }
 
@@ -118,9 +115,8 @@ double jackknifeError(std::size_t size, const Figure& figure)
 {
     const std::vector<double> figures = leaveOneOut(everyRender({size}), 0, figure);
     const double mean = meanOf(figures), n = static_cast<double>(size);
-    const double squares = std::accumulate(figures.begin(), figures.end(), 0.0, [mean](double sum, double value) {
-        return sum + (value - mean) * (value - mean);
-    });
+    const double squares = std::accumulate(figures.begin(), figures.end(), 0.0,
+                                           [mean](double sum, double value) { return sum + (value - mean) * (value - mean); });
     return std::sqrt(squares * (n - 1.0) / n);
 }
 

@@ -1,7 +1,7 @@
-// Intervals of figures that come from independent renders: from figures of renders drawn with replacement.
+// Intervals of figures that come from independent renders, by drawing renders with replacement.
 #pragma once
 
-#include "host/measure/interval.hpp"
+#include "host/measure/confidence.hpp"
 
 #include <cstddef>
 #include <functional>
@@ -18,7 +18,7 @@ using Figure = std::function<double(const Draw&)>;
 // which intervals from 16 renders hold the truth in 91 to 92 % of cases. `sizes`: renders in each group, at least 2.
 Interval bootstrap(const std::vector<std::size_t>& sizes, const Figure& figure);
 
-// Of one group of `size` renders: the jackknife's standard error.
+// The jackknife's standard error for one group of `size` renders.
 double jackknifeError(std::size_t size, const Figure& figure);
 
 }  // namespace glim

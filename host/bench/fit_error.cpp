@@ -15,7 +15,7 @@ struct LinearFit {
     double squares;  // of the relative deviations
 };
 
-// With the power known, factor and rest are a line's.
+// For a given power, factor and rest are those of a line.
 LinearFit fitLine(const std::vector<double>& samples, const std::vector<double>& errors, double power)
 {
     double xx = 0.0, xo = 0.0, oo = 0.0, xSum = 0.0, oSum = 0.0;
@@ -60,7 +60,7 @@ FittedError fitError(const std::vector<double>& samples, const std::vector<doubl
             least = squares;
         }
     }
-    // Between its neighbours by golden sections (Kiefer 1953).
+    // Between its neighbours by golden-section search (Kiefer 1953).
     const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
     double low = kLeastPower * std::exp(stride * std::max(best - 1, 0));
     double high = kLeastPower * std::exp(stride * std::min(best + 1, kSteps));

@@ -1,6 +1,7 @@
 #include "host/bench/kernel_rates.hpp"
 
 #include "host/bench/trace_timer.hpp"
+#include "host/render/measure_schedules.hpp"
 
 #include <algorithm>
 #include <deque>
@@ -11,24 +12,21 @@ namespace {
 struct Variant {
     std::string name;
     RenderSettings settings;
-    SceneFeatures features;
+    std::uint32_t features, stackLevels;
 };
 
-std::vector<Variant> variantsOf(const RenderSettings& settings, const SceneFeatures& features, const DeviceDescription& device)
+std::vector<Variant> variantsOf(const RenderSettings& settings, const FlatScene& scene, const DeviceDescription& device)
 {
-    std::vector<Variant> variants{{"as rendered", settings, features}};
+    std::vector<Variant> variants{{"as rendered", settings, scene.features, scene.stackLevels}};
     for (const std::uint32_t workgroup : {32U, 64U, 128U, 256U}) {
         if (workgroup != settings.workgroup && workgroup <= device.maxWorkgroup) {
-            variants.push_back({"workgroups of " + std::to_string(workgroup), settings, features});
+            variants.push_back({"workgroups of " + std::to_string(workgroup), settings, scene.features, scene.stackLevels});
             variants.back().settings.workgroup = workgroup;
         }
     }
-    SceneFeatures every;
-    every.spheres = every.slivers = every.smooth = every.mirrors = every.glasses = true;
-    every.triangleLights = every.sphereLights = every.punctualLights = every.environment = true;
-    variants.push_back({"for any scene", settings, every});
-    variants.push_back({"Moller-Trumbore", settings, features});
-    variants.back().settings.intersector = Intersector::MollerTrumbore;
+    variants.push_back({"for any scene", settings, kAllFeatures, kMaxStackLevels});
+    variants.push_back({"Moller-Trumbore", settings, scene.features, scene.stackLevels});
+    variants.back().settings.course.intersector = Intersector::MollerTrumbore;
     return variants;
 }
 
@@ -36,9 +34,12 @@ std::vector<Variant> variantsOf(const RenderSettings& settings, const SceneFeatu
 template <class Ray>
 class Contest {
 public:
-    Contest(std::string name, std::span<const Ray> rays) : name_(std::move(name)), rays_(rays) {}
+    Contest(std::string name, std::span<const Ray> rays)
+        : name_(std::move(name)),
+          rays_(rays)
+    {}
 
-    // Uncounted the first time: what is dispatched first takes longer.
+    // The first round does not count: first dispatches take longer.
     void run(std::deque<TraceTimer>& timers, bool counts)
     {
         rates_.resize(timers.size());
@@ -68,6 +69,22 @@ private:
     std::vector<std::vector<double>> rates_;
 };
 
+RenderSettings settingsOf(const RenderSettings& asked, Schedule schedule)
+{
+    RenderSettings settings = asked;
+    settings.sampleEnd = kPictureSamples;
+    settings.schedule = schedule;
+    return settings;
+}
+
+// Seconds of the tracing kernels in all renders so far.
+double traceSecondsOf(const Renderer& renderer)
+{
+    const auto& kernels = renderer.statistics().kernels;
+    const auto secondsOf = [&](const char* name) { return kernels.contains(name) ? kernels.at(name).seconds : 0.0; };
+    return secondsOf("trace_closest") + secondsOf("trace_shadow");
+}
+
 }  // namespace
 
 Spread spreadOf(std::vector<double> values)
@@ -77,23 +94,24 @@ Spread spreadOf(std::vector<double> values)
 }
 
 std::vector<KernelRate> measureKernelRates(Device& device, FlatScene scene, const FlatCamera& camera, const RenderSettings& settings,
-                                           const std::function<bool(int round)>& goesOn)
+                                           const std::function<bool(int round)>& shouldContinue)
 {
-    const std::vector<Variant> variants = variantsOf(settings, scene.features, device.description());
+    const std::vector<Variant> variants = variantsOf(settings, scene, device.description());
     std::deque<TraceTimer> timers;
     for (const Variant& variant : variants) {
         scene.features = variant.features;
+        scene.stackLevels = variant.stackLevels;
         if (timers.empty()) {
             timers.emplace_back(device, scene, camera, variant.settings);
         } else {
-            timers.emplace_back(timers.front(), scene, camera, variant.settings);
+            timers.emplace_back(device, timers.front(), scene, camera, variant.settings);
         }
     }
     const RaySets& rays = timers.front().rays();
     Contest<PathRay> primary("primary", rays.primary), diffuse("diffuse", rays.diffuse);
     Contest<ShadowRay> shadow("shadow", rays.shadow);
     for (int round = -1; round < kRateRounds; ++round) {
-        if (!goesOn(std::max(0, round))) {
+        if (!shouldContinue(std::max(0, round))) {
             return {};
         }
         primary.run(timers, round >= 0);
@@ -105,6 +123,31 @@ std::vector<KernelRate> measureKernelRates(Device& device, FlatScene scene, cons
     diffuse.report(variants, rates);
     shadow.report(variants, rates);
     return rates;
+}
+
+std::optional<PictureRate> measurePictureRate(Device& device, const FlatScene& scene, const FlatCamera& camera,
+                                              const RenderSettings& settings, const std::function<bool(int round)>& shouldContinue)
+{
+    Renderer wavefront(device, scene, camera, settingsOf(settings, Schedule::Wavefront));
+    Renderer renderer(wavefront, scene, camera, settingsOf(settings, settings.schedule));
+    std::vector<double> seconds, traceSeconds;
+    for (int round = -1; round < kPictureRenders; ++round) {
+        if (!shouldContinue(std::max(0, round))) {
+            return std::nullopt;
+        }
+        const double before = traceSecondsOf(wavefront);
+        timeRender(wavefront, camera);
+        const double took = timeRender(renderer, camera);
+        if (round >= 0) {  // the first round does not count: first dispatches take longer
+            seconds.push_back(took);
+            traceSeconds.push_back(traceSecondsOf(wavefront) - before);
+        }
+    }
+    const RenderStatistics& all = renderer.statistics();  // its rays include the wavefront's, whose buffers it shares
+    constexpr std::uint64_t kRenders = kPictureRenders + 1;
+    return PictureRate{
+        all.schedule,      all.samples / kRenders,       all.cameraAndBounceRays / (2 * kRenders), all.shadowRays / (2 * kRenders),
+        spreadOf(seconds), spreadOf(traceSeconds).median};
 }
 
 }  // namespace glim

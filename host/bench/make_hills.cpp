@@ -1,7 +1,7 @@
 #include "host/bench/make_hills.hpp"
 
 #include <cmath>
-#include <iterator>
+#include <utility>
 
 namespace glim {
 namespace {
@@ -13,29 +13,31 @@ glm::vec3 hillAt(int cells, int i, int j)
     return {x, std::sin(0.7F * x) * std::cos(0.9F * z) + 0.2F * std::sin(5.0F * x + 3.0F * z), z};
 }
 
-void addPrimitive(Scene& scene, const char* name, const std::vector<Triangle>& triangles, const Material& material)
+void addMesh(Scene& scene, const char* name, Mesh mesh, const Material& material)
 {
-    Primitive primitive;
-    primitive.name = name;
-    primitive.firstTriangle = static_cast<std::uint32_t>(scene.triangles.size());
-    primitive.triangleCount = static_cast<std::uint32_t>(triangles.size());
-    primitive.material = static_cast<std::uint32_t>(scene.materials.size());
-    scene.primitives.push_back(primitive);
+    mesh.name = name;
+    mesh.material = static_cast<std::uint32_t>(scene.materials.size());
+    scene.instances.push_back({name, static_cast<std::uint32_t>(scene.meshes.size())});
+    scene.meshes.push_back(std::move(mesh));
     scene.materials.push_back(material);
-    scene.triangles.insert(scene.triangles.end(), triangles.begin(), triangles.end());
 }
 
-std::vector<Triangle> hills(int cells)
+Mesh hills(int cells)
 {
-    std::vector<Triangle> triangles;
-    for (int i = 0; i < cells; ++i) {
-        for (int j = 0; j < cells; ++j) {
-            const glm::vec3 a = hillAt(cells, i, j), b = hillAt(cells, i, j + 1), c = hillAt(cells, i + 1, j);
-            triangles.push_back({{a, b, c}});
-            triangles.push_back({{hillAt(cells, i + 1, j + 1), c, b}});
+    Mesh mesh;
+    for (int i = 0; i <= cells; ++i) {
+        for (int j = 0; j <= cells; ++j) {
+            mesh.positions.emplace_back(hillAt(cells, i, j));
         }
     }
-    return triangles;
+    const auto vertex = [cells](int i, int j) { return static_cast<std::uint32_t>(i * (cells + 1) + j); };
+    for (int i = 0; i < cells; ++i) {
+        for (int j = 0; j < cells; ++j) {
+            const std::uint32_t a = vertex(i, j), b = vertex(i, j + 1), c = vertex(i + 1, j), d = vertex(i + 1, j + 1);
+            mesh.indices.insert(mesh.indices.end(), {a, b, c, d, c, b});
+        }
+    }
+    return mesh;
 }
 
 }  // namespace
@@ -47,9 +49,11 @@ Scene makeHills(int cells)
     lamp.baseColor = glm::vec3(0.0F);
     lamp.emission = glm::vec3(20.0F);
     grass.baseColor = glm::vec3(0.7F);
-    const glm::vec3 a(-4, 14, -4), b(4, 14, -4), c(4, 14, 4), d(-4, 14, 4);
-    addPrimitive(scene, "lamp", {{{a, b, c}}, {{a, c, d}}}, lamp);
-    addPrimitive(scene, "hills", hills(cells), grass);
+    Mesh square;
+    square.positions = {{-4, 14, -4}, {4, 14, -4}, {4, 14, 4}, {-4, 14, 4}};
+    square.indices = {0, 1, 2, 0, 2, 3};
+    addMesh(scene, "lamp", std::move(square), lamp);
+    addMesh(scene, "hills", hills(cells), grass);
     scene.environment = glm::vec3(0.5F);
     Camera camera;
     camera.position = glm::vec3(-9, 6, 11);

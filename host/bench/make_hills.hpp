@@ -1,4 +1,4 @@
-// A scene of any size for whoever has none at hand.
+// A generated scene of any size, for benches without a scene file.
 #pragma once
 
 #include "host/scene/scene.hpp"

@@ -1,4 +1,4 @@
-// Renders a picture from many seeds, and looks how far it is from the reference after 1, 2, 4 ... samples.
+// Renders a picture from many seeds, and measures how far it is from the reference after 1, 2, 4 ... samples.
 #pragma once
 
 #include "host/bench/bench_record.hpp"
@@ -9,14 +9,29 @@
 
 namespace glim {
 
-// Six doublings, below which a slope says little.
+struct PictureError {
+    double mean = 0.0;  // of the picture
+    double mse = 0.0, relMse = 0.0, trimmedRelMse = 0.0;
+    std::vector<float> terms;  // (x - r) / sqrt(r^2 + eps), 0 where either is not finite: relMse is their mean square
+};
+
+// Refuses (InputError) pictures of different sizes.
+PictureError measureError(const Picture& picture, const Picture& reference);
+
+// The floor from the reference's variance.
+Floor measureFloor(const Picture& reference);
+
+// From the `terms` of at least 3 independent renders.
+Bias estimateBias(const std::vector<std::vector<float>>& terms, const Floor& floor);
+
+// Six doublings; a slope over fewer says little.
 inline constexpr std::uint32_t kLeastBenchSamples = 64;
 
-// Is asked several times a second, with the samples that each pixel has had so far, of all seeds together; false ends the work.
+// Is called several times a second with the samples that each pixel has had so far, over all seeds; false ends the work.
 using BenchObserver = std::function<bool(std::uint64_t samples)>;
 
-// The power of two, from kLeastBenchSamples (of adaptive renders, twice kPilotSamples) to `most`, that takes about `seconds`. Measured
-// after the costs of first dispatches, which are thereby paid. Nothing if `observer` ended it.
+// The power of two, from kLeastBenchSamples (for adaptive renders, twice kPilotSamples) to `most`, that takes about `seconds`. Measured
+// after the first dispatches, so that their costs are paid. Nothing if `observer` ended it.
 std::optional<std::uint32_t> chooseSamples(Renderer& renderer, const FlatCamera& camera, double seconds, std::uint32_t most,
                                            const BenchObserver& observer);
 
@@ -25,7 +40,7 @@ struct RenderedSeeds {
     Bias bias;
 };
 
-// Each of `seeds` to `samples`, a power of two within the renderer's sampleEnd. Nothing if `observer` ended it.
+// Renders each of `seeds` to `samples`, a power of two within the renderer's sampleEnd. Nothing if `observer` ended it.
 std::optional<RenderedSeeds> renderSeeds(Renderer& renderer, const FlatCamera& camera, const std::vector<std::uint32_t>& seeds,
                                          std::uint32_t samples, const Picture& reference, const BenchObserver& observer);
 

@@ -1,15 +1,16 @@
 #include "host/bench/summarize_bench.hpp"
 
 #include "host/bench/fit_error.hpp"
-#include "host/measure/student.hpp"
+#include "host/measure/confidence.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace glim {
 namespace {
 
-constexpr double kFloorShare = 0.01;      // of an error, above which the floor limits what is known of it
-constexpr double kTestLevel = 1e-3;  // of either part of the slope test, two-sided; fails on one side only
+constexpr double kFloorShare = 0.01;  // of an error, above which the floor limits what is known of it
+constexpr double kTestLevel = 1e-3;   // of either part of the slope test, two-sided; fails on one side only
 
 std::vector<double> samplesOf(const SceneBench& bench)
 {
@@ -73,6 +74,22 @@ Interval efficiencyBy(const SceneBench& bench, const std::vector<double>& second
     });
 }
 
+const BenchPoint& pointAt(const SceneBench& bench, std::uint32_t samples)
+{
+    return *std::find_if(bench.points.begin(), bench.points.end(), [samples](const BenchPoint& point) { return point.samples == samples; });
+}
+
+// One bench's figures, for the renders of a draw.
+struct Side {
+    double error, mse, mean, seconds, slope;
+};
+
+Side sideOf(const SceneBench& bench, const BenchPoint& point, const std::vector<std::size_t>& indices)
+{
+    return {meanOver(point.relMse, indices) - bench.floor.relMse, meanOver(point.mse, indices) - bench.floor.mse,
+            meanOver(point.mean, indices), medianOver(point.seconds, indices), slopeOver(bench, indices)};
+}
+
 }  // namespace
 
 double meanOver(const std::vector<double>& values, const std::vector<std::size_t>& indices)
@@ -119,9 +136,36 @@ BenchSummary summarizeBench(const SceneBench& bench)
     summary.slopeTest = {summary.slope.value, limit * jackknifeError(seeds, slope), bench.bias.squared, limit * bench.bias.error};
     summary.efficiency = efficiencyBy(bench, bench.points.back().seconds);
     summary.kernelEfficiency = efficiencyBy(bench, bench.points.back().kernelSeconds);
-    summary.samplesPerSecond = static_cast<double>(bench.width) * bench.height * bench.points.back().samples /
-                               summary.points.back().seconds;
+    summary.samplesPerSecond =
+        static_cast<double>(bench.width) * bench.height * bench.points.back().samples / summary.points.back().seconds;
     return summary;
 }
+
+BenchComparison compareBenches(const SceneBench& bench, const SceneBench& baseline)
+{
+    BenchComparison comparison;
+    comparison.samples = std::min(bench.points.back().samples, baseline.points.back().samples);
+    comparison.paired = bench.seeds == baseline.seeds;
+    const BenchPoint& mine = pointAt(bench, comparison.samples);
+    const BenchPoint& other = pointAt(baseline, comparison.samples);
+    std::vector<std::size_t> sizes{bench.seeds.size()};
+    if (!comparison.paired) {
+        sizes.push_back(baseline.seeds.size());
+    }
+    const auto ratio = [&](auto figure) {
+        return bootstrap(sizes,
+                         [&](const Draw& draw) { return figure(sideOf(bench, mine, draw.front()), sideOf(baseline, other, draw.back())); });
+    };
+    comparison.efficiency = ratio([](const Side& a, const Side& b) { return b.error * b.seconds / (a.error * a.seconds); });
+    comparison.error = ratio([](const Side& a, const Side& b) { return a.error / b.error; });
+    comparison.mse = ratio([](const Side& a, const Side& b) { return a.mse / b.mse; });
+    comparison.mean = ratio([](const Side& a, const Side& b) { return a.mean / b.mean; });
+    comparison.samplesPerSecond = ratio([](const Side& a, const Side& b) { return b.seconds / a.seconds; });
+    comparison.timeToError =
+        ratio([](const Side& a, const Side& b) { return a.seconds / b.seconds * std::pow(b.error / a.error, 1.0 / a.slope); });
+    return comparison;
+}
+
+bool excludesOne(const Interval& interval) { return interval.low > 1.0 || interval.high < 1.0; }
 
 }  // namespace glim

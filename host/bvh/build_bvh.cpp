@@ -1,6 +1,6 @@
 #include "host/bvh/build_bvh.hpp"
 
-#include "host/bvh/divide_node.hpp"
+#include "host/bvh/split_node.hpp"
 #include "host/bvh/parallel_for.hpp"
 #include "host/bvh/surface_area.hpp"
 
@@ -11,7 +11,7 @@
 namespace glim {
 namespace {
 
-// Up to how many primitives one thread builds a subtree of, in the cache of its core.
+// The largest subtree that one thread builds alone, in primitives: it fits the cache of a core.
 constexpr std::uint32_t kMostAlone = 8192;
 
 struct Task {
@@ -20,10 +20,10 @@ struct Task {
     NodeBounds bounds;
 };
 
-// A node of the tree's top. One with few primitives is built with all that is below it.
+// A node near the root. If it has few primitives, its whole subtree is one part.
 struct Part {
     Task task;
-    std::uint32_t children = 0;  // the first of two parts; 0: `nodes` are the node itself and what is below it
+    std::uint32_t children = 0;  // index of the first of two child parts; 0: `nodes` holds the whole subtree
     std::vector<BvhNode> nodes;
     std::uint32_t depth = 0;  // of the deepest leaf
 };
@@ -31,7 +31,9 @@ struct Part {
 class Builder {
 public:
     Builder(std::span<const Box> boxes, SplitRule rule, unsigned threads)
-        : count_(static_cast<std::uint32_t>(boxes.size())), rule_(rule), threads_(threads),
+        : count_(static_cast<std::uint32_t>(boxes.size())),
+          rule_(rule),
+          threads_(threads),
           references_(std::make_unique_for_overwrite<Reference[]>(count_)),
           scratch_(std::make_unique_for_overwrite<Reference[]>(count_))
     {
@@ -40,7 +42,7 @@ public:
 
     Bvh build()
     {
-        divideTop();
+        splitTop();
         parallelFor(parts_.size(), threads_, [&](std::size_t i) {
             if (parts_[i].children == 0) {
                 buildBelow(parts_[i]);
@@ -73,24 +75,24 @@ private:
         return bounds.front();
     }
 
-    Division divide(const Task& task)
+    NodeSplit split(const Task& task)
     {
         const std::size_t count = task.end - task.begin;
-        return divideNode({&references_[task.begin], count}, {&scratch_[task.begin], count}, task.bounds, task.depth, rule_);
+        return splitNode({&references_[task.begin], count}, {&scratch_[task.begin], count}, task.bounds, task.depth, rule_);
     }
 
-    // Level by level.
-    void divideTop()
+    // Splits level by level.
+    void splitTop()
     {
         for (std::size_t begin = 0, end = 1; begin < end; begin = end, end = parts_.size()) {
-            std::vector<Division> divisions(end - begin);
-            parallelFor(divisions.size(), threads_, [&](std::size_t i) {
+            std::vector<NodeSplit> splits(end - begin);
+            parallelFor(splits.size(), threads_, [&](std::size_t i) {
                 const Task& task = parts_[begin + i].task;
-                divisions[i] = task.end - task.begin > kMostAlone ? divide(task) : Division{};
+                splits[i] = task.end - task.begin > kMostAlone ? split(task) : NodeSplit{};
             });
             for (std::size_t i = begin; i < end; ++i) {
                 const Task task = parts_[i].task;
-                const auto& [left, sides] = divisions[i - begin];
+                const auto& [left, sides] = splits[i - begin];
                 if (left > 0) {
                     parts_[i].children = static_cast<std::uint32_t>(parts_.size());
                     parts_.push_back({{0, task.begin, task.begin + left, task.depth + 1, sides[0]}, 0, {}, 0});
@@ -109,7 +111,7 @@ private:
         while (!tasks.empty()) {
             const Task task = tasks.back();
             tasks.pop_back();
-            const auto& [left, sides] = divide(task);
+            const auto& [left, sides] = split(task);
             if (left == 0) {
                 nodes[task.node] = {task.bounds.box.box(), task.begin, task.end - task.begin};
                 part.depth = std::max(part.depth, task.depth);
@@ -123,7 +125,7 @@ private:
         }
     }
 
-    // Of all parts, in the order that a part's own nodes have.
+    // Joins all parts in depth-first order.
     void join(Bvh& bvh)
     {
         bvh.nodes.reserve(2 * count_);
@@ -141,7 +143,7 @@ private:
                 places.push_back({part.children, first});
                 continue;
             }
-            // The part's node 0 goes to its place, its node i > 0 to first - 1 + i.
+            // The part's node 0 becomes `node`; its node i > 0 becomes first - 1 + i.
             for (std::size_t i = 0; i < part.nodes.size(); ++i) {
                 BvhNode copy = part.nodes[i];
                 copy.first += copy.count == 0 ? first - 1 : 0;

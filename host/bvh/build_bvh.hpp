@@ -1,4 +1,4 @@
-// From boxes to their tree, by one of three rules.
+// Builds a binary BVH over boxes by one of three rules.
 #pragma once
 
 #include "host/bvh/bvh.hpp"
@@ -8,17 +8,16 @@
 
 namespace glim {
 
-// Where a node is divided. Mean and Median: along the axis on which the boxes' centres spread most, down to leaves of at most
-// two primitives, as Berkeley's course CS 184 has it.
+// Where a node is split. Mean and Median split along the axis on which the boxes' centres spread most, down to leaves of at most two
+// primitives, as Berkeley's course CS 184 does.
 enum class SplitRule {
-    Sah,     // the cheapest of 32 places on each axis, or of all for up to 8 primitives, by the surface-area heuristic
-    Mean,    // the mean of the centres; their median where one side would be empty
-    Median,  // as many primitives on either side
+    Sah,     // the cheapest by the surface-area heuristic: of all splits of at most 4 primitives, else of those between 32 bins per axis
+    Mean,    // at the mean of the centres, or at their median if the mean leaves a side empty
+    Median,  // the same number of primitives on both sides
 };
 
-// One box per primitive, finite with lo <= hi, at least one. The same boxes give the same tree, to the bit, on any number of
-// threads.
-Bvh buildBvh(std::span<const Box> boxes, SplitRule rule = SplitRule::Sah,
-             unsigned threads = std::thread::hardware_concurrency());
+// Takes one box per primitive, at least one; boxes are finite with lo <= hi. The same boxes give the same tree, to the bit, on any number
+// of threads.
+Bvh buildBvh(std::span<const Box> boxes, SplitRule rule = SplitRule::Sah, unsigned threads = std::thread::hardware_concurrency());
 
 }  // namespace glim

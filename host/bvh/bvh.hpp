@@ -15,15 +15,15 @@ struct Box {
     glm::vec3 hi;
 };
 
-// Halved before the sum, which could overflow.
+// Each bound is halved first, because their sum could overflow.
 inline glm::vec3 computeCentre(const Box& box) { return 0.5F * box.lo + 0.5F * box.hi; }
 
-// Invariants, held as code by check_bvh:
+// Invariants, which check_bvh.hpp tests:
 //  - nodes[0] is the root; an inner node (count == 0) has its children at `first` and `first + 1`, after itself;
-//  - depth first: below a node come its children, then all that is below the first of them, then all below the second;
+//  - nodes are in depth-first order: after a node come its two children, then all below the first child, then all below the second;
 //  - a leaf holds primitives order[first .. first + count), count >= 1;
 //  - every primitive is in exactly one leaf; a node's box contains the boxes of all that is below it;
-//  - no path from the root has more than kMaxBvhDepth inner nodes, whatever the input: the builder turns to median splits in time.
+//  - no path from the root has more than kMaxBvhDepth inner nodes, whatever the input: the builder changes to median splits in time.
 struct BvhNode {
     Box box;
     std::uint32_t first;

@@ -10,33 +10,39 @@ namespace {
 
 std::string name(const char* what, std::size_t index) { return std::string(what) + " " + std::to_string(index); }
 
-// False for a NaN as well.
-bool contains(const Box& outer, const Box& inner) {
+// False also for NaN.
+bool contains(const Box& outer, const Box& inner)
+{
     return glm::all(glm::lessThanEqual(outer.lo, inner.lo)) && glm::all(glm::lessThanEqual(inner.hi, outer.hi));
 }
 
 class Checker {
 public:
     Checker(const Bvh& tree, std::span<const Box> primitiveBoxes)
-        : bvh(tree), boxes(primitiveBoxes), depths(tree.nodes.size(), kUnseen), covered(tree.order.size(), false),
-          used(primitiveBoxes.size(), false) {}
+        : bvh(tree),
+          boxes(primitiveBoxes),
+          depths(tree.nodes.size(), kUnseen),
+          covered(tree.order.size(), false),
+          used(primitiveBoxes.size(), false)
+    {}
 
     // Children lie after their parents, so one pass in order of index sees every parent first.
-    std::optional<std::string> findDefect() {
+    std::optional<std::string> findDefect()
+    {
         if (bvh.nodes.empty() || bvh.order.size() != boxes.size()) {
-            return "the tree has " + std::to_string(bvh.nodes.size()) + " nodes and orders " +
-                   std::to_string(bvh.order.size()) + " primitives, expected " + std::to_string(boxes.size());
+            return "the tree has " + std::to_string(bvh.nodes.size()) + " nodes and orders " + std::to_string(bvh.order.size()) +
+                   " primitives, expected " + std::to_string(boxes.size());
         }
         depths[0] = 0;
         for (std::size_t i = 0; i < bvh.nodes.size(); ++i) {
-            auto defect = depths[i] == kUnseen ? name("node", i) + " has no parent"
+            auto defect = depths[i] == kUnseen      ? name("node", i) + " has no parent"
                           : bvh.nodes[i].count == 0 ? findInnerDefect(i)
                                                     : findLeafDefect(i);
             if (defect) {
                 return defect;
             }
         }
-        // As many leaf entries as primitives were demanded above, none twice: only a gap is left to find.
+        // The checks above found as many leaf entries as primitives, and none twice, so only a gap can be left.
         for (std::size_t i = 0; i < covered.size(); ++i) {
             if (!covered[i]) {
                 return name("entry", i) + " of the order is in no leaf";
@@ -49,7 +55,8 @@ public:
 private:
     static constexpr std::uint32_t kUnseen = ~0U;
 
-    std::optional<std::string> findInnerDefect(std::size_t index) {
+    std::optional<std::string> findInnerDefect(std::size_t index)
+    {
         const BvhNode& node = bvh.nodes[index];
         if (node.first <= index || node.first >= bvh.nodes.size() - 1) {
             return name("node", index) + " has its children at " + std::to_string(node.first) + ", expected after " +
@@ -71,18 +78,18 @@ private:
         return std::nullopt;
     }
 
-    std::optional<std::string> findLeafDefect(std::size_t index) {
+    std::optional<std::string> findLeafDefect(std::size_t index)
+    {
         const BvhNode& leaf = bvh.nodes[index];
         if (std::size_t{leaf.first} + leaf.count > bvh.order.size()) {
-            return name("leaf", index) + " ends at " + std::to_string(std::size_t{leaf.first} + leaf.count) +
-                   ", beyond the " + std::to_string(bvh.order.size()) + " ordered primitives";
+            return name("leaf", index) + " ends at " + std::to_string(std::size_t{leaf.first} + leaf.count) + ", beyond the " +
+                   std::to_string(bvh.order.size()) + " ordered primitives";
         }
         deepest = std::max(deepest, depths[index]);
         for (std::size_t i = leaf.first; i < std::size_t{leaf.first} + leaf.count; ++i) {
             const std::uint32_t primitive = bvh.order[i];
             if (primitive >= boxes.size()) {
-                return name("leaf", index) + " holds primitive " + std::to_string(primitive) + " of only " +
-                       std::to_string(boxes.size());
+                return name("leaf", index) + " holds primitive " + std::to_string(primitive) + " of only " + std::to_string(boxes.size());
             }
             if (used[primitive] || covered[i]) {
                 return name("primitive", primitive) + " is in " + name("leaf", index) + " and in a leaf before it";
@@ -95,8 +102,9 @@ private:
         return std::nullopt;
     }
 
-    // The rest of the tree is sound.
-    std::optional<std::string> findOrderDefect() const {
+    // Expects a tree that has passed the other checks.
+    std::optional<std::string> findOrderDefect() const
+    {
         std::vector<std::size_t> ahead{0};
         for (std::size_t next = 1; !ahead.empty();) {
             const std::size_t index = ahead.back();
@@ -115,7 +123,8 @@ private:
         return std::nullopt;
     }
 
-    std::optional<std::string> findSummaryDefect() const {
+    std::optional<std::string> findSummaryDefect() const
+    {
         if (bvh.depth != deepest) {
             return "the tree's depth is " + std::to_string(deepest) + ", but it says " + std::to_string(bvh.depth);
         }
@@ -136,8 +145,6 @@ private:
 
 }  // namespace
 
-std::optional<std::string> findBvhDefect(const Bvh& bvh, std::span<const Box> boxes) {
-    return Checker(bvh, boxes).findDefect();
-}
+std::optional<std::string> findBvhDefect(const Bvh& bvh, std::span<const Box> boxes) { return Checker(bvh, boxes).findDefect(); }
 
 }  // namespace glim

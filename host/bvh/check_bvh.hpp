@@ -1,4 +1,4 @@
-// The invariants of bvh.hpp as code.
+// Tests the invariants that bvh.hpp lists.
 #pragma once
 
 #include "host/bvh/bvh.hpp"
@@ -9,7 +9,7 @@
 
 namespace glim {
 
-// Nothing if every invariant holds; otherwise a sentence naming the node and what is wrong.
+// Returns nothing if every invariant holds, otherwise a sentence that names the node and what is wrong.
 std::optional<std::string> findBvhDefect(const Bvh& bvh, std::span<const Box> boxes);
 
 }  // namespace glim

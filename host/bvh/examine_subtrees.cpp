@@ -10,17 +10,18 @@
 namespace glim {
 namespace {
 
-// Of a primitive's test (3 texels), where the visit of a node (5 texels, eight boxes) is 1. A guess by these counts, not yet a measurement.
+// The cost of a primitive test (3 texels) relative to a node visit (5 texels, eight boxes). A guess from these counts, not yet measured.
 constexpr float kPrimitiveCost = 0.5F;
 
-struct Division {
+// The cheapest way to share out the roots, and how many of them are then below the left child.
+struct RootShare {
     float cost;
     std::uint8_t toLeft;
 };
 
-Division divide(const Subtree& left, const Subtree& right, std::uint32_t roots)
+RootShare shareRoots(const Subtree& left, const Subtree& right, std::uint32_t roots)
 {
-    Division best{std::numeric_limits<float>::infinity(), 1};
+    RootShare best{std::numeric_limits<float>::infinity(), 1};
     for (std::uint32_t k = 1; k < roots; ++k) {
         const std::uint32_t l = std::min(k, kMostRoots), r = std::min(roots - k, kMostRoots);
         const float cost = left.cost[l - 1] + right.cost[r - 1];
@@ -48,33 +49,37 @@ Subtree join(const BvhNode& node, const Subtree& left, const Subtree& right)
     subtree.count = left.count + right.count;
     const auto area = static_cast<float>(computeHalfArea(node.box));
     const float asLeaf = subtree.count <= kMaxLeafRecords ? area * static_cast<float>(subtree.count) * kPrimitiveCost
-                                                       : std::numeric_limits<float>::infinity();
+                                                          : std::numeric_limits<float>::infinity();
     subtree.height = static_cast<std::uint8_t>(1 + std::max(left.height, right.height));
-    const Division asNode = divide(left, right, kBvhWidth);
+    const RootShare asNode = shareRoots(left, right, kBvhWidth);
     subtree.nodeToLeft = asNode.toLeft;
     subtree.isLeaf = asLeaf <= asNode.cost + area;
     subtree.cost[0] = std::min(asLeaf, asNode.cost + area);
     for (std::uint32_t roots = 2; roots <= kMostRoots; ++roots) {
-        const Division division = divide(left, right, roots);
-        const bool pays = division.cost < subtree.cost[roots - 2];
-        subtree.cost[roots - 1] = pays ? division.cost : subtree.cost[roots - 2];
-        subtree.toLeft[roots - 1] = pays ? division.toLeft : 0;
+        const RootShare share = shareRoots(left, right, roots);
+        const bool pays = share.cost < subtree.cost[roots - 2];
+        subtree.cost[roots - 1] = pays ? share.cost : subtree.cost[roots - 2];
+        subtree.toLeft[roots - 1] = pays ? share.toLeft : 0;
     }
     return subtree;
 }
 
-// A node and what is below it: nodes [begin, end), by the order that bvh.hpp demands.
+// A subtree: its root `node`, and nodes [begin, end) below it, which are contiguous because bvh.hpp demands depth-first order.
 struct Part {
     std::uint32_t node, begin, end;
 };
 
 class Examiner {
 public:
-    Examiner(const Bvh& bvh, unsigned threads) : bvh_(bvh), threads_(threads), subtrees_(bvh.nodes.size()) {}
+    Examiner(const Bvh& bvh, unsigned threads)
+        : bvh_(bvh),
+          threads_(threads),
+          subtrees_(bvh.nodes.size())
+    {}
 
     std::vector<Subtree> examine()
     {
-        divide({0, 1, static_cast<std::uint32_t>(bvh_.nodes.size())});
+        collectParts({0, 1, static_cast<std::uint32_t>(bvh_.nodes.size())});
         parallelFor(parts_.size(), threads_, [&](std::size_t i) {
             const Part& part = parts_[i];
             for (std::uint32_t node = part.end; node-- > part.begin;) {
@@ -89,9 +94,9 @@ public:
     }
 
 private:
-    void divide(const Part& part)
+    void collectParts(const Part& part)
     {
-        constexpr std::uint32_t kMostAlone = 16384;  // nodes below that one thread examines
+        constexpr std::uint32_t kMostAlone = 16384;  // one thread examines a subtree of at most this many nodes
         if (part.end - part.begin <= kMostAlone) {
             parts_.push_back(part);
             return;
@@ -100,8 +105,8 @@ private:
         const std::uint32_t left = bvh_.nodes[part.node].first;
         const BvhNode& right = bvh_.nodes[left + 1];
         const std::uint32_t middle = right.count > 0 ? part.end : right.first;
-        divide({left, left + 2, middle});
-        divide({left + 1, middle, part.end});
+        collectParts({left, left + 2, middle});
+        collectParts({left + 1, middle, part.end});
     }
 
     void examine(std::uint32_t index)

@@ -15,7 +15,7 @@ void parallelFor(std::size_t count, unsigned threads, const std::function<void(s
             work(i);
         }
     };
-    std::vector<std::future<void>> others;  // destroyed, and so waited for, before what they use
+    std::vector<std::future<void>> others;  // declared last, so that it waits for the threads before what they use is destroyed
     for (std::size_t i = 1; i < std::min<std::size_t>(count, threads); ++i) {
         others.push_back(std::async(std::launch::async, run));
     }

@@ -1,4 +1,4 @@
-// What the builder moves about: boxes of four lanes, on which compilers make one vector instruction of a loop.
+// The builder's working data: boxes of four lanes, so that the compiler turns each loop over lanes into one vector instruction.
 #pragma once
 
 #include "host/bvh/bvh.hpp"
@@ -10,7 +10,7 @@
 
 namespace glim {
 
-// x, y, z and whatever rides along.
+// x, y, z and a fourth value.
 struct alignas(16) Lanes {
     std::array<float, 4> v;
 };
@@ -33,7 +33,7 @@ inline Lanes maxOf(const Lanes& a, const Lanes& b)
     return most;
 }
 
-// Empty until it grows.
+// Starts empty.
 struct LaneBox {
     Lanes lo = fill(std::numeric_limits<float>::max());
     Lanes hi = fill(-std::numeric_limits<float>::max());
@@ -48,7 +48,7 @@ struct LaneBox {
         lo = minOf(lo, point);
         hi = maxOf(hi, point);
     }
-    // Without overflow, whatever the box.
+    // Each bound is halved first, because their difference could overflow.
     Lanes computeHalfExtent() const
     {
         Lanes extent;
@@ -57,7 +57,7 @@ struct LaneBox {
         }
         return extent;
     }
-    // An eighth of the surface; any number if the box is empty. In double: the squares of float extents overflow a float.
+    // An eighth of the surface area; meaningless if the box is empty. In double, because squares of float extents overflow a float.
     double computeArea() const
     {
         const Lanes extent = computeHalfExtent();
@@ -71,8 +71,8 @@ private:
     static constexpr Lanes fill(float value) { return {{value, value, value, value}}; }
 };
 
-// A primitive's box. The fourth lanes hold its index in two halves, which floats hold exactly and vector instructions may process
-// without harm (bits of any integer could be slow denormals).
+// A primitive's box. The fourth lanes hold its index as two 16-bit numbers: floats hold those exactly, and vector instructions process
+// them at full speed (an integer's own bits could be a slow denormal).
 struct Reference {
     LaneBox box;
 
@@ -82,11 +82,8 @@ struct Reference {
         box.lo = {{b.lo.x, b.lo.y, b.lo.z, static_cast<float>(primitive >> 16)}};
         box.hi = {{b.hi.x, b.hi.y, b.hi.z, static_cast<float>(primitive & 0xFFFFU)}};
     }
-    std::uint32_t primitive() const
-    {
-        return static_cast<std::uint32_t>(box.lo.v[3]) << 16 | static_cast<std::uint32_t>(box.hi.v[3]);
-    }
-    // Halved before the sum, which could overflow.
+    std::uint32_t primitive() const { return static_cast<std::uint32_t>(box.lo.v[3]) << 16 | static_cast<std::uint32_t>(box.hi.v[3]); }
+    // Each bound is halved first, because their sum could overflow.
     Lanes computeCentre() const
     {
         Lanes centre;

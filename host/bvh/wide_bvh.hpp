@@ -1,4 +1,4 @@
-// A bounding volume hierarchy whose nodes have up to eight children: what kernels walk.
+// A bounding volume hierarchy whose nodes have up to eight children, as the kernels traverse it.
 #pragma once
 
 #include "host/bvh/bvh.hpp"
@@ -10,7 +10,8 @@ namespace glim {
 
 inline constexpr std::uint32_t kBvhWidth = 8;
 
-// A walk puts siblings on its stack where it goes on to children: not at the root, which has no siblings, and not at the path's end.
+// Traversal pushes a node group whenever it descends. It pushes none at the root, which is alone in its group, and none at the last node of
+// a path: the stack needs two levels fewer than a path has nodes.
 inline constexpr std::uint32_t kMaxWideDepth = kMaxStackLevels + 2;
 
 // An inner node, a leaf of primitives order[first .. first + count), or nothing.
@@ -19,16 +20,18 @@ struct WideChild {
 
     Kind kind = Kind::Nothing;
     std::uint32_t first = 0;  // inner: index of the node
-    std::uint32_t count = 0;  // of the leaf's primitives, at most kMaxLeafRecords
+    std::uint32_t count = 0;  // leaf: number of primitives, at most kMaxLeafRecords
     Box box{};
 };
 
-// Invariants, held as code by tests/host/widen_bvh_test.cpp:
-//  - nodes[0] is the root; the inner children of a node follow one another, in the order of their places, after itself;
-//  - so do the primitives of its leaves in `order`, in which every primitive is once, or once for each of its pieces (build_scene_bvh.hpp);
+// Invariants, which tests/host/collapse_bvh_test.cpp tests:
+//  - nodes[0] is the root; the inner children of a node come after it, one after the other, in the order of their places;
+//  - the primitives of a node's leaves follow one another in `order` in the same way; `order` holds every primitive once, or once for each
+//    of its pieces (build_scene_bvh.hpp);
 //  - a child's box contains the boxes of all that is below it;
 //  - no path from the root has more than kMaxWideDepth nodes.
-// A child's place is the octant of its node that it lies in, as far as there is room: bit k is set on the upper side of axis k.
+// A child's place is the octant of the node in which it lies, unless another child has that place: bit k is set on the upper side of
+// axis k.
 struct WideNode {
     std::array<WideChild, kBvhWidth> children;
 };

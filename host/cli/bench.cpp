@@ -1,26 +1,21 @@
-#include "host/cli/bench.hpp"
-
 #include "host/bench/bench_file.hpp"
 #include "host/bench/bench_reference.hpp"
-#include "host/bench/measure_error.hpp"
 #include "host/bench/run_bench.hpp"
 #include "host/cli/bench_kernels.hpp"
 #include "host/cli/bench_options.hpp"
 #include "host/cli/bench_report.hpp"
-#include "host/cli/check_target.hpp"
+#include "host/cli/commands.hpp"
 #include "host/cli/fastest_schedule.hpp"
 #include "host/cli/interrupt.hpp"
+#include "host/cli/output_file.hpp"
 #include "host/cli/progress.hpp"
-#include "host/cli/settle_options.hpp"
+#include "host/cli/resolve_options.hpp"
 #include "host/cli/version.hpp"
 #include "host/error.hpp"
 #include "host/exact_text.hpp"
 #include "host/flatten/view_options.hpp"
-#include "host/image/whole_file.hpp"
 #include "host/render/check_memory.hpp"
 #include "host/render/film_file.hpp"
-
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -31,19 +26,20 @@
 namespace glim {
 namespace {
 
-// The work on one scene, as far as anyone who waits wants to know.
+// The progress of one scene's bench.
 class BenchProgress {
 public:
     BenchProgress(ProgressStyle style, const InterruptWatch& watch, std::uint64_t pixels)
-        : printer_(style, std::nullopt, pixels), watch_(watch), pixels_(pixels)
-    {
-    }
+        : printer_(style, std::nullopt, pixels),
+          watch_(watch),
+          pixels_(pixels)
+    {}
     ~BenchProgress() { printer_.finish(); }
 
-    // Samples per pixel of all that is to be rendered.
+    // `samples` per pixel are to be rendered in all parts.
     void plan(std::uint64_t samples) { total_ = samples; }
     void finishPart(std::uint64_t samples) { done_ += samples; }
-    // Of the part under way. False once the user wants it to end.
+    // `samples` per pixel of the current part are done. False once the user wants to stop.
     bool show(std::uint64_t samples)
     {
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
@@ -62,7 +58,7 @@ private:
 
 glm::uvec2 sizeOf(const BenchOptions& options, const Camera& camera)
 {
-    const glm::uvec2 natural = naturalSize(camera);
+    const glm::uvec2 natural = defaultSize(camera);
     const std::uint32_t width = (natural.x * kBenchHeight + natural.y / 2) / natural.y;
     return options.size.value_or(glm::uvec2(std::max(1U, width), kBenchHeight));
 }
@@ -80,12 +76,12 @@ std::string pictureText(const BenchOptions& options)
     return text;
 }
 
-// Refuses a baseline without the picture of `bench`.
+// Refuses baselines without the picture of `bench`.
 const SceneBench& findBaseline(const std::vector<SceneBench>& baselines, const std::string& file, const SceneBench& bench)
 {
     const auto describe = [](const SceneBench& b) {
-        return std::filesystem::path(b.scene).filename().string() + " at " + std::to_string(b.width) + "x" +
-               std::to_string(b.height) + " with " + b.picture;
+        return std::filesystem::path(b.scene).filename().string() + " at " + std::to_string(b.width) + "x" + std::to_string(b.height) +
+               " with " + b.picture;
     };
     std::string list;
     for (const SceneBench& baseline : baselines) {
@@ -97,7 +93,7 @@ const SceneBench& findBaseline(const std::vector<SceneBench>& baselines, const s
     throw InputError(file + ": has " + list + "; expected " + describe(bench) + ".");
 }
 
-// What is known of a scene before anything is rendered.
+// A scene, ready to be measured.
 struct BenchJob {
     PreparedScene prepared;
     RenderSettings settings;
@@ -124,38 +120,38 @@ SceneBench describeBench(const BenchOptions& options, const std::filesystem::pat
 BenchJob prepareJob(const BenchOptions& options, const std::filesystem::path& scene, const DeviceDescription& device)
 {
     BenchJob job{prepareScene(scene, loadOptionsOf(options), options.split), options.settings, {}, {}};
-    warnOfDarkness(job.prepared);
+    warnIfNoLights(job.prepared);
     const Camera camera = cameraOf(job.prepared.scene, options);
     const glm::uvec2 size = sizeOf(options, camera);
     job.settings.width = size.x;
     job.settings.height = size.y;
     job.settings.sampleEnd = std::bit_floor(mostSamples(job.settings));
     job.settings.fastest = rememberedSchedule(device);
-    refuseWhatDoesNotFit(job.prepared, job.settings, device);
+    checkMemory(job.prepared, job.settings, device);
     job.camera = flattenCamera(camera, static_cast<float>(size.x) / static_cast<float>(size.y), options.lens);
     job.bench = describeBench(options, scene, job.settings, device);
     return job;
 }
 
-// Renders what the bench measures against. False if the user ended it.
+// Renders the reference. False if the user stopped it.
 bool makeReference(Device& device, const BenchJob& job, const RenderSettings& settings, BenchProgress& progress)
 {
     Renderer renderer(device, job.prepared.flat, job.camera, settings);
     const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
-    bool goesOn = true;
+    bool shouldContinue = true;
     Film film = renderer.render([&](const RenderProgress& now) {
-        goesOn = progress.show(now.samples / pixels);
-        return goesOn;
+        shouldContinue = progress.show(now.samples / pixels);
+        return shouldContinue;
     });
-    if (goesOn) {
+    if (shouldContinue) {
         film.sceneFile = job.bench.scene;
         writeFilm(job.bench.reference, film);
         progress.finishPart(settings.sampleEnd);
     }
-    return goesOn;
+    return shouldContinue;
 }
 
-// All of one scene, into job.bench. False if the user ended it.
+// Measures one scene into job.bench. False if the user stopped it.
 bool measure(Device& device, const BenchOptions& options, BenchJob& job, const InterruptWatch& watch)
 {
     SceneBench& bench = job.bench;
@@ -165,9 +161,9 @@ bool measure(Device& device, const BenchOptions& options, BenchJob& job, const I
     bench.startUp = {job.prepared.loadSeconds, job.prepared.buildSeconds, renderer.statistics().uploadSeconds,
                      renderer.statistics().compileSeconds};
     bench.schedule = nameOf(renderer.statistics().schedule);
-    // With --spp as well: what is dispatched first takes longer.
-    const auto fitting = chooseSamples(renderer, job.camera, options.samples ? 0.0 : options.seconds,
-                                       job.settings.sampleEnd / kReferenceFactor, show);
+    // This also warms up for --spp: first dispatches take longer.
+    const auto fitting =
+        chooseSamples(renderer, job.camera, options.samples ? 0.0 : options.seconds, job.settings.sampleEnd / kReferenceFactor, show);
     if (!fitting) {
         return false;
     }
@@ -189,13 +185,6 @@ bool measure(Device& device, const BenchOptions& options, BenchJob& job, const I
         bench.bias = rendered->bias;
     }
     return rendered.has_value();
-}
-
-void writeText(const std::filesystem::path& path, const std::string& text)
-{
-    WholeFile file(path);
-    file.write(text.data(), text.size());
-    file.commit();
 }
 
 void checkTargets(const BenchOptions& options)
@@ -228,8 +217,7 @@ ExitCode runBench(const BenchOptions& options)
     std::vector<SceneBench> benches;
     for (const std::filesystem::path& scene : options.scenes) {
         BenchJob job = prepareJob(options, scene, device.description());
-        const SceneBench* baseline =
-            options.against ? &findBaseline(baselines, options.against->string(), job.bench) : nullptr;
+        const SceneBench* baseline = options.against ? &findBaseline(baselines, options.against->string(), job.bench) : nullptr;
         if (watch.signal() != 0 || !measure(device, options, job, watch)) {
             return finish(watch.signal(), "no figures are written");
         }
@@ -247,17 +235,16 @@ ExitCode runBench(const BenchOptions& options)
 
 }  // namespace
 
-void addBench(CLI::App& app, ExitCode& exitCode)
+void addBench(CommandLine& line)
 {
     auto options = std::make_shared<BenchOptions>();
-    CLI::App* command = app.add_subcommand("bench", "Measure how fast the error of a picture falls, or against an earlier measurement");
-    addBenchOptions(*command, *options);
-    command->footer("Each of K seeds is rendered, and compared with the reference after 1, 2, 4 ... samples per pixel. The reference's own\n"
-                    "noise is taken off; intervals are 95 %, from seeds drawn with replacement. The slope test fails if the seeds' errors\n"
-                    "have something in common (a bias) or fall slower than 1/n (samples that repeat). tools/plot_bench.py draws OUT.json.\n"
-                    "Times of two benches were taken one after the other: what slowed the machine in between is in no interval.\n"
-                    "Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 129, 130 or 143 stopped by SIGHUP, SIGINT or SIGTERM.");
-    command->callback([options, &exitCode] { exitCode = runBench(*options); });
+    const Command command = line.addCommand("bench", "Measure how fast the error of a picture falls, or compare with an earlier bench");
+    addBenchOptions(command, *options);
+    command.setFooter(
+        "Renders K seeds and compares each with the reference after 1, 2, 4 ... samples per pixel. Intervals are 95 %.\n"
+        "tools/plot_bench draws OUT.json. host/cli/README.md says how the figures are made.\n"
+        "Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 129, 130 or 143 stopped by SIGHUP, SIGINT or SIGTERM.");
+    command.onRun([options] { return runBench(*options); });
 }
 
 }  // namespace glim

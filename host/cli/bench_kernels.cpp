@@ -1,18 +1,15 @@
 #include "host/cli/bench_kernels.hpp"
 
 #include "host/bench/make_hills.hpp"
-#include "host/bench/picture_rate.hpp"
-#include "host/cli/check_target.hpp"
+#include "host/bench/kernel_rates.hpp"
 #include "host/cli/fastest_schedule.hpp"
 #include "host/cli/interrupt.hpp"
+#include "host/cli/output_file.hpp"
 #include "host/cli/version.hpp"
 #include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/flatten/view_options.hpp"
-#include "host/image/whole_file.hpp"
 #include "host/render/check_memory.hpp"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -22,8 +19,6 @@
 namespace glim {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr const char* kHills = "hills made in memory";
 constexpr int kHillCells = 320;  // 204,800 triangles: beyond every cache of a core
 
@@ -32,8 +27,9 @@ PreparedScene prepareHills(SplitRule split)
     PreparedScene prepared;
     prepared.scene = makeHills(kHillCells);
     prepared.scene.file = kHills;
-    prepared.bvh = buildSceneBvh(prepared.scene, split);
-    prepared.flat = flattenScene(prepared.scene, prepared.bvh);
+    prepared.primitives = makePrimitives(prepared.scene);
+    prepared.bvh = buildSceneBvh(prepared.primitives, split);
+    prepared.flat = flattenScene(prepared.scene, prepared.primitives, prepared.bvh);
     return prepared;
 }
 
@@ -42,14 +38,14 @@ Json jsonOf(const std::string& scene, const PreparedScene& prepared, const Rende
 {
     Json table = Json::array();
     for (const KernelRate& rate : rates) {
-        table.push_back({{"rays", rate.rays},
-                         {"variant", rate.variant},
-                         {"count", rate.count},
-                         {"raysPerSecond", {{"median", rate.rate.median}, {"low", rate.rate.low}, {"high", rate.rate.high}}},
-                         {"ofBest", rate.ofBest}});
+        table.append({{"rays", rate.rays},
+                      {"variant", rate.variant},
+                      {"count", rate.count},
+                      {"raysPerSecond", {{"median", rate.rate.median}, {"low", rate.rate.low}, {"high", rate.rate.high}}},
+                      {"ofBest", rate.ofBest}});
     }
     return {{"scene", scene},
-            {"triangles", prepared.scene.triangles.size()},
+            {"triangles", prepared.primitives.triangles.size()},
             {"spheres", prepared.scene.spheres.size()},
             {"width", settings.width},
             {"height", settings.height},
@@ -81,7 +77,7 @@ void print(const PictureRate& picture)
 
 void print(const std::string& scene, const PreparedScene& prepared, const DeviceDescription& device, const std::vector<KernelRate>& rates)
 {
-    std::cout << scene << ": " << prepared.scene.triangles.size() << " triangles and " << prepared.scene.spheres.size()
+    std::cout << scene << ": " << prepared.primitives.triangles.size() << " triangles and " << prepared.scene.spheres.size()
               << " spheres, on " << device.name << ", " << device.driver << '\n';
     std::cout << "rays         count  variant            Mrays/s: median [lowest, highest]  of the best\n";
     for (const KernelRate& rate : rates) {
@@ -94,13 +90,12 @@ void print(const std::string& scene, const PreparedScene& prepared, const Device
     }
 }
 
-// On a terminal; a round of a large scene takes seconds.
+// Shows the round on a terminal, since one of a large scene takes seconds.
 class RoundPrinter {
 public:
     explicit RoundPrinter(ProgressStyle style)
         : shows_(style == ProgressStyle::Bar || (style == ProgressStyle::Auto && isatty(STDERR_FILENO) != 0))
-    {
-    }
+    {}
     ~RoundPrinter()
     {
         if (shows_) {
@@ -118,18 +113,18 @@ private:
     bool shows_;
 };
 
-// False if the user ended it.
-bool measure(Device& device, const BenchOptions& options, const std::string& name, const PreparedScene& prepared, const InterruptWatch& watch,
-             Json& tables)
+// False if the user stopped it.
+bool measure(Device& device, const BenchOptions& options, const std::string& name, const PreparedScene& prepared,
+             const InterruptWatch& watch, Json& tables)
 {
     const Camera camera = cameraOf(prepared.scene, options);
-    const glm::uvec2 size = options.size.value_or(naturalSize(camera));
+    const glm::uvec2 size = options.size.value_or(defaultSize(camera));
     RenderSettings settings = options.settings;
     settings.fastest = rememberedSchedule(device.description());
     settings.width = size.x;
     settings.height = size.y;
     settings.pathCapacity = std::max(settings.pathCapacity, size.x * size.y);
-    refuseWhatDoesNotFit(prepared, settings, device.description());
+    checkMemory(prepared, settings, device.description());
     const FlatCamera flat = flattenCamera(camera, static_cast<float>(size.x) / static_cast<float>(size.y), options.lens);
     const auto show = [&, printer = RoundPrinter(options.progress)](int round) {
         printer.print(round);
@@ -142,7 +137,7 @@ bool measure(Device& device, const BenchOptions& options, const std::string& nam
     }
     print(name, prepared, device.description(), rates);
     print(*picture);
-    tables.push_back(jsonOf(name, prepared, settings, device.description(), rates, *picture));
+    tables.append(jsonOf(name, prepared, settings, device.description(), rates, *picture));
     return true;
 }
 
@@ -169,10 +164,7 @@ ExitCode runBenchKernels(const BenchOptions& options)
         return finish(watch.signal(), "no figures are written");
     }
     if (options.outputGiven) {
-        const std::string text = tables.dump(2) + "\n";
-        WholeFile file(options.output);
-        file.write(text.data(), text.size());
-        file.commit();
+        writeJson(options.output, tables);
     }
     return ExitCode::Done;
 }

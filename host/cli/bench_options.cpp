@@ -3,10 +3,7 @@
 #include "host/bench/bench_reference.hpp"
 #include "host/bench/run_bench.hpp"
 #include "host/cli/parse.hpp"
-#include "host/cli/sampling_options.hpp"
-#include "host/cli/settle_options.hpp"
-
-#include <CLI/CLI.hpp>
+#include "host/cli/resolve_options.hpp"
 
 #include <bit>
 #include <set>
@@ -14,109 +11,92 @@
 namespace glim {
 namespace {
 
-constexpr std::uint32_t kLeastSeeds = 16;  // fewer tell no spread worth an interval (Celarek et al. 2019)
+constexpr std::uint32_t kLeastSeeds = 16;  // fewer give no spread worth an interval (Celarek et al. 2019)
 constexpr std::uint32_t kMostSeeds = 1024;
 constexpr std::uint32_t kMostSamples = kMaxSample / kReferenceFactor;
 
-void addMeasureOptions(CLI::App& command, BenchOptions& options)
+void addSampling(const Command& command, BenchOptions& options)
 {
-    CLI::Option* seconds = addNumber<double>(
-        command,
-        {"--seconds", "S", "Of each seed, rounded to a power of two samples per pixel, at least 64; the reference takes 128 S", 1e-3,
-         1e6, "1"},
-        [&options](double value) { options.seconds = value; });
-    addNumber<std::uint32_t>(command,
-                             {"--spp", "N", "Samples per pixel of each seed instead, a power of two", kLeastBenchSamples, kMostSamples,
-                              "what --seconds allow"},
-                             [&options](std::uint32_t samples) {
-                                 if (!std::has_single_bit(samples)) {
-                                     throw CLI::ValidationError("--spp", "\"" + std::to_string(samples) +
-                                                                             "\": expected a power of two, as in 256");
-                                 }
-                                 options.samples = samples;
-                             })
-        ->excludes(seconds);
+    command.beginGroup("Sampling and stopping");
+    const Option seconds =
+        addNumber<double>(command, {"--seconds", "S", "Time of each seed, at least 64 samples per pixel", 1e-3, 1e6, "1"},
+                          [&options](double value) { options.seconds = value; });
+    addNumber<std::uint32_t>(
+        command, {"--spp", "N", "Samples per pixel of each seed, a power of two", kLeastBenchSamples, kMostSamples, "by --seconds"},
+        [&options](std::uint32_t samples) {
+            if (!std::has_single_bit(samples)) {
+                throw UsageError("--spp", "\"" + std::to_string(samples) + "\": expected a power of two, as in 256");
+            }
+            options.samples = samples;
+        })
+        .excludes(seconds);
     addNumber<std::uint32_t>(command, {"--seeds", "K", "Independent renders, from --seed on", kLeastSeeds, kMostSeeds, "16"},
                              [&options](std::uint32_t count) { options.seeds = count; });
+    addChoice(command, "--adaptive", "RULE", "off, neighbours or neighbours:absolute, beyond 64 samples per pixel [off]",
+              {"off", "neighbours", "neighbours:absolute"}, [&options](std::size_t i) {
+                  constexpr Adaptive kRules[] = {Adaptive::Off, Adaptive::Neighbours, Adaptive::NeighboursAbsolute};
+                  options.settings.adaptive = kRules[i];
+              });
+    addSampler(command, options.settings);
 }
 
-void addFileOptions(CLI::App& command, BenchOptions& options)
+void addOutput(const Command& command, BenchOptions& options)
 {
-    command
-        .add_option("-o,--output", options.output,
-                    "All figures as JSON; the raw ones also as CSV beside it, and references as OUT.SCENE.exr [bench.json]")
-        ->type_name("OUT.json");
-    CLI::Option* reference = command.add_option(
-        "--reference", options.reference,
-        "Picture to measure against, of one scene [OUT.SCENE.exr, which is made if it is not there or of another picture]");
-    reference->type_name("R.exr");
-    command.add_flag("--make-reference", options.makeReference, "Make OUT.SCENE.exr even if it is there")->excludes(reference);
-    command
-        .add_option("--against", options.against,
-                    "Also print how much better this is than an earlier bench of the same pictures, by other settings or another "
-                    "build")
-        ->type_name("BASELINE.json");
+    command.beginGroup("Output");
+    command.addPath("-o,--output", "OUT.json", "All figures; OUT.csv has the raw ones [bench.json]", options.output);
+    const Option reference =
+        command.addPath("--reference", "R.exr", "Picture to measure against [OUT.SCENE.exr, made if missing]", options.reference);
+    command.addFlag("--make-reference", "Make OUT.SCENE.exr even if it exists", options.makeReference).excludes(reference);
+    command.addPath("--against", "BASELINE.json", "Also compare with an earlier bench of the same pictures", options.against);
+    command.addFlag("--kernels", "Measure rays per second of the kernels instead", options.kernels);
+    addProgress(command, options.progress);
 }
 
-void settleBench(const CLI::App& command, BenchOptions& options)
+void resolveBench(const Command& command, BenchOptions& options)
 {
     if (options.scenes.empty() && !options.kernels) {
-        throw CLI::RequiredError("SCENE");
+        throw UsageError("SCENE is required");
     }
-    options.outputGiven = command.get_option("--output")->count() > 0;
-    // For settleLight, which also refuses more light samples than can be counted.
+    options.outputGiven = command.isGiven("--output");
+    // For resolveLight, which also refuses more light samples than can be counted.
     options.settings.sampleEnd = options.samples.value_or(kLeastBenchSamples);
-    settleLight(command, options);
+    resolveLight(command, options);
     if (options.settings.adaptive != Adaptive::Off && options.settings.sampleEnd <= kPilotSamples && options.samples) {
-        throw CLI::ValidationError("--spp", "\"" + std::to_string(*options.samples) + "\": --adaptive neighbours begins with " +
-                                                std::to_string(kPilotSamples) + " samples of every pixel; expected more");
+        throw UsageError("--spp", "\"" + std::to_string(*options.samples) + "\": --adaptive neighbours begins with " +
+                                      std::to_string(kPilotSamples) + " samples of every pixel; expected more");
     }
     std::set<std::filesystem::path> references;
     for (const std::filesystem::path& scene : options.scenes) {
         if (!references.insert(referenceOf(options, scene)).second) {
-            throw CLI::ValidationError("SCENE", "\"" + scene.string() + "\": expected scenes of different names");
+            throw UsageError("SCENE", "\"" + scene.string() + "\": expected scenes of different names");
         }
     }
     if (options.reference && options.scenes.size() > 1) {
-        throw CLI::ValidationError("--reference", "\"" + options.reference->string() + "\": expected one SCENE with it, not " +
-                                                      std::to_string(options.scenes.size()));
+        throw UsageError("--reference", "\"" + options.reference->string() + "\": expected one SCENE with it, not " +
+                                            std::to_string(options.scenes.size()));
     }
 }
 
 }  // namespace
 
-void addBenchOptions(CLI::App& command, BenchOptions& options)
+void addBenchOptions(const Command& command, BenchOptions& options)
 {
-    command.add_option("SCENE", options.scenes, "The scenes, .gltf or .glb; none with --kernels: hills made in memory")->type_name("FILE");
-    CLI::Option* kernels = command.add_flag("--kernels", options.kernels,
-                                            "Measure instead how many rays a second the kernels trace, by kind of ray and variant, and "
-                                            "how much of a picture's time that is; as JSON if there is an -o");
-    addSceneChoice(command, options);
-    addMeasureOptions(command, options);
-    addFileOptions(command, options);
-    addCameraOptions(command, options, std::to_string(kBenchHeight));
-    addSamplerOptions(command, options.settings);
-    addChoice(command, "--adaptive", "RULE",
-              "neighbours or neighbours:absolute, as `glim render` has them: points of more than 64 samples per pixel are adaptive "
-              "[off]",
-              {"off", "neighbours", "neighbours:absolute"}, [&options](std::size_t i) {
-                  constexpr Adaptive kRules[] = {Adaptive::Off, Adaptive::Neighbours, Adaptive::NeighboursAbsolute};
-                  options.settings.adaptive = kRules[i];
-              });
-    addLightOptions(command, options.settings);
-    addTracingOptions(command, options.settings, options.split);
+    command.beginGroup("Picture");
+    command.addPaths("SCENE", "FILE", "Scenes, .gltf or .glb; without one, --kernels makes hills in memory", options.scenes);
+    addPicture(command, options, std::to_string(kBenchHeight));
+    addCamera(command, options);
+    addSampling(command, options);
+    addLightTransport(command, options.settings);
+    addCourseEstimators(command, options.settings);
     addDevice(command, options);
-    addProgress(command, options.progress);
+    addOutput(command, options);
     for (const char* other : {"--seconds", "--spp", "--seeds", "--reference", "--make-reference", "--against", "--adaptive"}) {
-        kernels->excludes(command.get_option(other));
+        command.option("--kernels").excludes(command.option(other));
     }
-    command.parse_complete_callback([&command, &options] { settleBench(command, options); });
+    command.onParsed([command, &options] { resolveBench(command, options); });
 }
 
-std::filesystem::path csvOf(const BenchOptions& options)
-{
-    return std::filesystem::path(options.output).replace_extension(".csv");
-}
+std::filesystem::path csvOf(const BenchOptions& options) { return std::filesystem::path(options.output).replace_extension(".csv"); }
 
 std::filesystem::path referenceOf(const BenchOptions& options, const std::filesystem::path& scene)
 {

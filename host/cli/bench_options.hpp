@@ -1,17 +1,18 @@
-// What `glim bench` is told.
+// The options of `glim bench`.
 #pragma once
 
-#include "host/cli/render_options.hpp"
+#include "host/cli/picture_options.hpp"
+#include "host/cli/progress.hpp"
 
 #include <vector>
 
 namespace glim {
 
-inline constexpr std::uint32_t kBenchHeight = 96;  // pixels, of the picture that nobody gave a size
+inline constexpr std::uint32_t kBenchHeight = 96;  // pixels, without --size
 
 struct BenchOptions : PictureOptions {
     std::vector<std::filesystem::path> scenes;
-    bool kernels = false;  // how fast rays are traced instead
+    bool kernels = false;                         // measure ray rates instead
     std::filesystem::path output = "bench.json";  // .csv and references lie beside it
     bool outputGiven = false;
     std::optional<std::filesystem::path> reference, against;
@@ -23,10 +24,10 @@ struct BenchOptions : PictureOptions {
 };
 
 // Adds every option of `bench` to `command`; they write into `options`, which must outlive it.
-void addBenchOptions(CLI::App& command, BenchOptions& options);
+void addBenchOptions(const Command& command, BenchOptions& options);
 
 std::filesystem::path csvOf(const BenchOptions& options);
-// Where the reference of `scene` lies unless --reference names another.
+// The file of the reference of `scene` without --reference.
 std::filesystem::path referenceOf(const BenchOptions& options, const std::filesystem::path& scene);
 
 }  // namespace glim

@@ -35,12 +35,12 @@ void printPoints(const SceneBench& bench, const BenchSummary& summary)
                   << (point.floorLimited ? "  limited by the reference's noise" : "") << '\n';
     }
     std::cout << "reference " << bench.reference << ": "
-              << (bench.floor.known ? format("its noise, relMSE %.3g, is taken off", bench.floor.relMse)
-                                    : std::string("its noise is unknown, nothing is taken off"))
+              << (bench.floor.known ? format("its noise, relMSE %.3g, is subtracted", bench.floor.relMse)
+                                    : std::string("its noise is unknown, nothing is subtracted"))
               << '\n';
 }
 
-// Sobol' points gain within blocks and not between them, which no single power fits.
+// Sobol' points gain within blocks but not between them, so no single power fits.
 std::string fitText(const SceneBench& bench, const BenchSummary& summary)
 {
     if (findSetting(bench.settings, "sampler") != "independent") {

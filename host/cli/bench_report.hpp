@@ -1,14 +1,14 @@
-// What `glim bench` prints.
+// The report of `glim bench`.
 #pragma once
 
 #include "host/bench/bench_record.hpp"
-#include "host/bench/compare_benches.hpp"
+#include "host/bench/summarize_bench.hpp"
 
 #include <string>
 
 namespace glim {
 
-// A line for every point, what the slope test says, and a last line with the whole in short.
+// Prints a line for every point, the result of the slope test, and a summary.
 void printBench(const SceneBench& bench);
 
 // Ratios to a baseline, and whether their intervals exclude 1.

@@ -1,15 +1,12 @@
-#include "host/cli/compare.hpp"
-
-#include "host/cli/check_target.hpp"
+#include "host/cli/commands.hpp"
 #include "host/cli/compare_report.hpp"
+#include "host/cli/output_file.hpp"
 #include "host/image/exr.hpp"
 #include "host/image/png.hpp"
 #include "host/measure/error_picture.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/merge_films.hpp"
 #include "host/render/settings.hpp"
-
-#include <CLI/CLI.hpp>
 
 #include <iostream>
 #include <memory>
@@ -34,8 +31,7 @@ std::optional<Film> filmOf(const std::filesystem::path& path, const Image& image
     }
     const Film film = readFilmHeader(path);
     if (!film.complete) {
-        std::cerr << "glim: " << path.string()
-                  << " is of a render that was ended early: some pixels have fewer samples or none.\n";
+        std::cerr << "glim: " << path.string() << " is of a render that was ended early: some pixels have fewer samples or none.\n";
     }
     return film;
 }
@@ -43,9 +39,9 @@ std::optional<Film> filmOf(const std::filesystem::path& path, const Image& image
 Relation relate(const CompareOptions& options, const Image& image, const Image& referenceImage, bool equal)
 {
     const auto film = filmOf(options.picture, image), reference = filmOf(options.reference, referenceImage);
-    return equal                                                   ? Relation::Identical
+    return equal                                                  ? Relation::Identical
            : film && reference && shareSamples(*film, *reference) ? Relation::SharedSamples
-                                                                   : Relation::Independent;
+                                                                  : Relation::Independent;
 }
 
 void checkTargets(const CompareOptions& options)
@@ -99,36 +95,25 @@ void runCompare(const CompareOptions& options)
 
 }  // namespace
 
-void addCompare(CLI::App& app)
+void addCompare(CommandLine& line)
 {
     auto options = std::make_shared<CompareOptions>();
-    CLI::App* command = app.add_subcommand("compare", "Measure how far a picture is from a reference");
-    command->footer("Prints MSE, RMSE, MAPE = mean |x-r| / (|r| + .01 mean(r)), and relMSE = mean (x-r)^2 / (r^2 + eps)\n"
-                    "with eps = .01 mean(r)^2 and, as relMSE absolute, eps = .01; means are over pixels and channels.\n"
-                    "Trimmed figures leave out the .1 % of pixels with the largest terms, and say what share those have:\n"
-                    "they show the rest of a picture with fireflies, but are no measure of its error.\n"
-                    "The ratio mean(x) / mean(r) has a 95 % interval, from the variances if both are known, otherwise\n"
-                    "from the scatter of 8x8 blocks. With both variances, z-tests say whether the pictures agree.\n"
-                    "They take blocks of 8x8 for normal, which caustics and other rare bright light are only at many samples.\n"
-                    "Variance layers in films written by glim are used without asking.");
-    command->add_option("picture", options->picture, "The picture x: any OpenEXR file with R, G, B")
-        ->required()
-        ->type_name("A.exr");
-    command->add_option("reference", options->reference, "The reference r, of the same size")
-        ->required()
-        ->type_name("B.exr");
-    command
-        ->add_option("--variance", options->variance,
-                     "Variance of the reference's pixels, each a mean, in R, G, B; goes before one in B.exr")
-        ->type_name("V.exr");
-    command->add_option("--diff", options->difference, "Write the signed difference A - B (.exr)")->type_name("D.exr");
-    command
-        ->add_option("--diff-png", options->differencePng,
-                     "Draw (x-r) / sqrt(r^2 + eps), the mean of the channels (.png): blue too dark, white right, red too bright; "
-                     "full colour is the error that 95 % of the pixels stay below, and is printed")
-        ->type_name("D.png");
-    command->add_flag("--json", options->json, "Print JSON instead of a table; unknown numbers are null");
-    command->callback([options] { runCompare(*options); });
+    const Command command = line.addCommand("compare", "Measure how far a picture is from a reference");
+    command.beginGroup("Picture");
+    command.addPath("picture", "A.exr", "Picture: any OpenEXR file with R, G, B", options->picture).require();
+    command.addPath("reference", "B.exr", "Reference, of the same size", options->reference).require();
+    command.addPath("--variance", "V.exr", "Variance of the reference's pixels [the layer in B.exr]", options->variance);
+    command.beginGroup("Output");
+    command.addPath("--diff", "D.exr", "Write the signed difference A - B", options->difference);
+    command.addPath("--diff-png", "D.png", "Draw the relative error: blue too dark, red too bright", options->differencePng);
+    command.addFlag("--json", "Print JSON instead of a table; unknown numbers are null", options->json);
+    command.setFooter(
+        "Prints MSE, RMSE, relMSE, MAPE and the ratio of the means, with intervals. If both variances are known,\n"
+        "z-tests say whether the pictures agree up to noise. host/cli/README.md defines the figures.");
+    command.onRun([options] {
+        runCompare(*options);
+        return ExitCode::Done;
+    });
 }
 
 }  // namespace glim

@@ -1,6 +1,6 @@
 #include "host/cli/compare_report.hpp"
 
-#include <nlohmann/json.hpp>
+#include "host/json.hpp"
 
 #include <cmath>
 #include <iomanip>
@@ -9,8 +9,6 @@
 
 namespace glim {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kChannels[] = {"R", "G", "B"};
 
@@ -24,10 +22,7 @@ std::string number(double value, int digits = 5)
     return stream.str();
 }
 
-std::ostream& row(const std::string& label)
-{
-    return std::cout << std::left << std::setw(22) << label;
-}
+std::ostream& row(const std::string& label) { return std::cout << std::left << std::setw(22) << label; }
 
 const char* sourceName(IntervalSource source)
 {
@@ -42,9 +37,7 @@ const char* sourceName(IntervalSource source)
 std::string ratioText(const MeanRatio& ratio, IntervalSource source)
 {
     const std::string value = number(ratio.value, 6);
-    return source == IntervalSource::None
-               ? value
-               : value + " [" + number(ratio.low, 6) + ", " + number(ratio.high, 6) + "]";
+    return source == IntervalSource::None ? value : value + " [" + number(ratio.low, 6) + ", " + number(ratio.high, 6) + "]";
 }
 
 std::string withoutNoise(double value, const std::optional<SquaredErrors>& noise, double SquaredErrors::*member)
@@ -55,8 +48,8 @@ std::string withoutNoise(double value, const std::optional<SquaredErrors>& noise
 void printTrimmed(const std::string& name, const TrimmedErrors& trimmed, double SquaredErrors::*member)
 {
     row(name + " trimmed") << number(trimmed.kept.*member) << "   without the " << trimmed.dropped
-                           << " pixels (.1 %) of the largest terms, which make up "
-                           << number(100 * trimmed.share.*member, 3) << " % of it\n";
+                           << " pixels (.1 %) of the largest terms, which make up " << number(100 * trimmed.share.*member, 3)
+                           << " % of it\n";
 }
 
 void printErrors(const Comparison& result)
@@ -67,15 +60,14 @@ void printErrors(const Comparison& result)
     row("RMSE") << number(std::sqrt(errors.mse)) << '\n';
     row("relMSE") << number(errors.relMse) << withoutNoise(errors.relMse, noise, &SquaredErrors::relMse)
                   << "   eps = .01 mean(r)^2 = " << number(result.epsilon, 3) << '\n';
-    row("relMSE absolute") << number(errors.relMseAbsolute)
-                           << withoutNoise(errors.relMseAbsolute, noise, &SquaredErrors::relMseAbsolute)
+    row("relMSE absolute") << number(errors.relMseAbsolute) << withoutNoise(errors.relMseAbsolute, noise, &SquaredErrors::relMseAbsolute)
                            << "   eps = .01\n";
     printTrimmed("MSE", result.trimmed, &SquaredErrors::mse);
     printTrimmed("relMSE", result.trimmed, &SquaredErrors::relMse);
     row("MAPE") << number(result.mape) << '\n';
     if (result.noise) {
-        row("expected from A") << "relMSE " << number(result.noise->relMse) << ", relMSE absolute "
-                               << number(result.noise->relMseAbsolute) << " by its own variance\n";
+        row("expected from A") << "relMSE " << number(result.noise->relMse) << ", relMSE absolute " << number(result.noise->relMseAbsolute)
+                               << " by its own variance\n";
     }
 }
 
@@ -91,19 +83,18 @@ void printRatios(const Comparison& result)
     case IntervalSource::None: std::cout << "   no intervals: too few pixels and no variance\n"; break;
     }
     const MaxError& worst = result.maxError;
-    row("largest difference") << "at (" << worst.x << ", " << worst.y << ") in " << kChannels[worst.channel] << ": "
-                              << worst.value << " for " << worst.reference << '\n';
-    row("pixels") << result.compared << " compared; not finite: " << result.nonFinite << " of A, "
-                  << result.nonFiniteInReference << " of B\n";
+    row("largest difference") << "at (" << worst.x << ", " << worst.y << ") in " << kChannels[worst.channel] << ": " << worst.value
+                              << " for " << worst.reference << '\n';
+    row("pixels") << result.compared << " compared; not finite: " << result.nonFinite << " of A, " << result.nonFiniteInReference
+                  << " of B\n";
 }
 
 void printTest(const ZTest& test)
 {
-    row("z of means") << number(test.meanZ[0], 3) << ' ' << number(test.meanZ[1], 3) << ' ' << number(test.meanZ[2], 3)
-                      << "   limit " << number(test.meanLimit, 3) << "; would see a bias of "
-                      << number(100 * test.detectableBias, 2) << " %\n";
-    row("z of 8x8 blocks") << "largest " << number(test.worstZ, 3) << " at (" << test.worstX << ", " << test.worstY
-                           << ") in " << kChannels[test.worstChannel] << "   limit " << number(test.blockLimit, 3) << '\n';
+    row("z of means") << number(test.meanZ[0], 3) << ' ' << number(test.meanZ[1], 3) << ' ' << number(test.meanZ[2], 3) << "   limit "
+                      << number(test.meanLimit, 3) << "; would see a bias of " << number(100 * test.detectableBias, 2) << " %\n";
+    row("z of 8x8 blocks") << "largest " << number(test.worstZ, 3) << " at (" << test.worstX << ", " << test.worstY << ") in "
+                           << kChannels[test.worstChannel] << "   limit " << number(test.blockLimit, 3) << '\n';
     row("mean z^2 of blocks");
     for (std::size_t c = 0; c < 3; ++c) {
         std::cout << number(test.meanSquare[c], 3) << " +- " << number(test.meanSquareReach[c], 2) << (c < 2 ? ", " : "");
@@ -117,10 +108,7 @@ Json jsonOf(const SquaredErrors& errors)
     return {{"mse", errors.mse}, {"relmse", errors.relMse}, {"relmse_absolute", errors.relMseAbsolute}};
 }
 
-Json jsonOf(const MeanRatio& ratio)
-{
-    return {{"value", ratio.value}, {"low", ratio.low}, {"high", ratio.high}};
-}
+Json jsonOf(const MeanRatio& ratio) { return {{"value", ratio.value}, {"low", ratio.low}, {"high", ratio.high}}; }
 
 Json jsonOf(const ZTest& test)
 {
@@ -128,8 +116,7 @@ Json jsonOf(const ZTest& test)
             {"mean_z", test.meanZ},
             {"mean_limit", test.meanLimit},
             {"detectable_bias", test.detectableBias},
-            {"worst_block", {{"z", test.worstZ}, {"x", test.worstX}, {"y", test.worstY},
-                             {"channel", kChannels[test.worstChannel]}}},
+            {"worst_block", {{"z", test.worstZ}, {"x", test.worstX}, {"y", test.worstY}, {"channel", kChannels[test.worstChannel]}}},
             {"block_limit", test.blockLimit},
             {"mean_square", test.meanSquare},
             {"mean_square_reach", test.meanSquareReach}};
@@ -138,28 +125,28 @@ Json jsonOf(const ZTest& test)
 Json jsonOf(const Comparison& result, const std::optional<ZTest>& test)
 {
     Json json = jsonOf(result.errors);
-    json["rmse"] = std::sqrt(result.errors.mse);
-    json["mape"] = result.mape;
-    json["relmse_epsilon"] = result.epsilon;
-    json["trimmed"] = jsonOf(result.trimmed.kept);
-    json["trimmed"]["dropped_pixels"] = result.trimmed.dropped;
-    json["trimmed"]["dropped_share"] = jsonOf(result.trimmed.share);
-    json["noise"] = result.noise ? jsonOf(*result.noise) : Json();
-    json["reference_noise"] = result.referenceNoise ? jsonOf(*result.referenceNoise) : Json();
-    json["mean_ratio"] = {{"all", jsonOf(result.ratioOfAll)},
-                          {"R", jsonOf(result.ratio[0])},
-                          {"G", jsonOf(result.ratio[1])},
-                          {"B", jsonOf(result.ratio[2])},
-                          {"interval", {{"level", 0.95}, {"source", sourceName(result.intervalSource)}}}};
-    json["max_error"] = {{"x", result.maxError.x},
-                         {"y", result.maxError.y},
-                         {"channel", kChannels[result.maxError.channel]},
-                         {"value", result.maxError.value},
-                         {"reference", result.maxError.reference}};
-    json["pixels"] = {{"compared", result.compared},
-                      {"non_finite", result.nonFinite},
-                      {"non_finite_in_reference", result.nonFiniteInReference}};
-    json["z_test"] = test ? jsonOf(*test) : Json();
+    json.set("rmse", std::sqrt(result.errors.mse));
+    json.set("mape", result.mape);
+    json.set("relmse_epsilon", result.epsilon);
+    Json trimmed = jsonOf(result.trimmed.kept);
+    trimmed.set("dropped_pixels", result.trimmed.dropped);
+    trimmed.set("dropped_share", jsonOf(result.trimmed.share));
+    json.set("trimmed", trimmed);
+    json.set("noise", result.noise ? jsonOf(*result.noise) : Json());
+    json.set("reference_noise", result.referenceNoise ? jsonOf(*result.referenceNoise) : Json());
+    json.set("mean_ratio", {{"all", jsonOf(result.ratioOfAll)},
+                            {"R", jsonOf(result.ratio[0])},
+                            {"G", jsonOf(result.ratio[1])},
+                            {"B", jsonOf(result.ratio[2])},
+                            {"interval", {{"level", 0.95}, {"source", sourceName(result.intervalSource)}}}});
+    json.set("max_error", {{"x", result.maxError.x},
+                           {"y", result.maxError.y},
+                           {"channel", kChannels[result.maxError.channel]},
+                           {"value", result.maxError.value},
+                           {"reference", result.maxError.reference}});
+    json.set("pixels",
+             {{"compared", result.compared}, {"non_finite", result.nonFinite}, {"non_finite_in_reference", result.nonFiniteInReference}});
+    json.set("z_test", test ? jsonOf(*test) : Json());
     return json;
 }
 
@@ -184,14 +171,14 @@ void printTable(const CompareReport& report)
     } else if (report.relation == Relation::Identical) {
         row("verdict") << "identical\n";
     } else if (report.relation == Relation::SharedSamples) {
-        row("verdict") << "none: the two share samples, so their noise tells nothing\n";
+        row("verdict") << "none: the two share samples, so their noise is not independent\n";
     }
 }
 
 void printJson(const CompareReport& report)
 {
     Json json = jsonOf(report.result, report.test);
-    json["relation"] = nameOf(report.relation);
+    json.set("relation", nameOf(report.relation));
     std::cout << json.dump(2) << '\n';
 }
 

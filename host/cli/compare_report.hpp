@@ -1,4 +1,4 @@
-// What `glim compare` says of two pictures, as a table or as JSON.
+// The report of `glim compare`, as a table or as JSON.
 #pragma once
 
 #include "host/measure/compare_images.hpp"
@@ -9,7 +9,7 @@
 
 namespace glim {
 
-// Whether a test of noise makes sense, which supposes that the two noises have nothing to do with each other.
+// How the noise of two pictures is related. A z-test assumes that it is independent.
 enum class Relation { Independent, SharedSamples, Identical };
 
 struct CompareReport {

@@ -1,9 +1,6 @@
-#include "host/cli/devices.hpp"
-
+#include "host/cli/commands.hpp"
 #include "host/gpu/device.hpp"
-
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
+#include "host/json.hpp"
 
 #include <iostream>
 #include <memory>
@@ -13,7 +10,7 @@ namespace {
 
 std::uint64_t mebibytes(std::uint64_t bytes) { return bytes >> 20; }
 
-nlohmann::ordered_json jsonOf(const DeviceDescription& d)
+Json jsonOf(const DeviceDescription& d)
 {
     return {{"name", d.name},
             {"driver", d.driver},
@@ -32,11 +29,11 @@ nlohmann::ordered_json jsonOf(const DeviceDescription& d)
 
 void printDevice(std::size_t index, const DeviceDescription& d)
 {
-    std::cout << index << "  " << d.name << "\n   " << d.kind << ", " << d.driver << "\n   subgroup " << d.subgroupSize
-              << ", memory " << mebibytes(d.memory) << " MiB, largest allocation " << mebibytes(d.maxAllocation)
-              << " MiB\n   storage buffer " << mebibytes(d.maxStorageBuffer) << " MiB (" << d.maxStorageBuffers
-              << " per kernel), texel buffer " << mebibytes(d.maxTexelElements * 16) << " MiB, workgroup " << d.maxWorkgroup
-              << ", timestamps " << (d.nanosecondsPerTick > 0.0F ? "yes" : "no") << '\n';
+    std::cout << index << "  " << d.name << "\n   " << d.kind << ", " << d.driver << "\n   subgroup " << d.subgroupSize << ", memory "
+              << mebibytes(d.memory) << " MiB, largest allocation " << mebibytes(d.maxAllocation) << " MiB\n   storage buffer "
+              << mebibytes(d.maxStorageBuffer) << " MiB (" << d.maxStorageBuffers << " per kernel), texel buffer "
+              << mebibytes(d.maxTexelElements * 16) << " MiB, workgroup " << d.maxWorkgroup << ", timestamps "
+              << (d.nanosecondsPerTick > 0.0F ? "yes" : "no") << '\n';
     if (!d.missing.empty()) {
         std::cout << "   not usable: lacks " << d.missing << '\n';
     }
@@ -49,10 +46,10 @@ void runDevices(bool json)
     if (devices.empty()) {
         throw DeviceError("Vulkan shows no device (a software one comes with Debian's mesa-vulkan-drivers).");
     }
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    Json list = Json::array();
     for (std::size_t i = 0; i < devices.size(); ++i) {
         if (json) {
-            list.push_back(jsonOf(devices[i]));
+            list.append(jsonOf(devices[i]));
         } else {
             printDevice(i, devices[i]);
         }
@@ -64,12 +61,16 @@ void runDevices(bool json)
 
 }  // namespace
 
-void addDevices(CLI::App& app)
+void addDevices(CommandLine& line)
 {
     auto json = std::make_shared<bool>(false);
-    CLI::App* command = app.add_subcommand("devices", "List the Vulkan devices, the one used by default first");
-    command->add_flag("--json", *json, "Print JSON; sizes in bytes");
-    command->callback([json] { runDevices(*json); });
+    const Command command = line.addCommand("devices", "List the Vulkan devices, the one used by default first");
+    command.beginGroup("Output");
+    command.addFlag("--json", "Print JSON; sizes in bytes", *json);
+    command.onRun([json] {
+        runDevices(*json);
+        return ExitCode::Done;
+    });
 }
 
 }  // namespace glim

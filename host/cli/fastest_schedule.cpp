@@ -1,24 +1,22 @@
 #include "host/cli/fastest_schedule.hpp"
 
+#include "host/cli/output_file.hpp"
 #include "host/cli/version.hpp"
 #include "host/error.hpp"
-#include "host/image/whole_file.hpp"
+#include "host/image/atomic_file.hpp"
 #include "host/render/measure_schedules.hpp"
-
-#include <nlohmann/json.hpp>
 
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <iterator>
 
 namespace glim {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-// As many as 512x512 pixels have at 64 samples: ten seconds on two cores without a GPU, of which measuring takes one.
+// Samples of 512x512 pixels at 64 each: ten seconds on two cores without a GPU, of which measuring takes one.
 constexpr std::uint64_t kLongRender = 1U << 24;
 
 bool isLong(const RenderSettings& settings)
@@ -34,7 +32,7 @@ std::filesystem::path cacheFolder()
         return given;
     }
     const char *cache = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
-    if (cache != nullptr && std::filesystem::path(cache).is_absolute()) {  // others are to be ignored (XDG Base Directory 0.8)
+    if (cache != nullptr && std::filesystem::path(cache).is_absolute()) {  // relative paths are to be ignored (XDG Base Directory 0.8)
         return std::filesystem::path(cache) / "glim";
     }
     return home != nullptr && *home != '\0' ? std::filesystem::path(home) / ".cache" / "glim" : std::filesystem::path();
@@ -42,7 +40,7 @@ std::filesystem::path cacheFolder()
 
 std::filesystem::path rememberedFile() { return cacheFolder() / "schedules.json"; }
 
-// Makes the folder where there is none.
+// Makes the folder if there is none.
 bool canRemember()
 {
     if (cacheFolder().empty()) {
@@ -63,20 +61,17 @@ std::string keyOf(const DeviceDescription& device) { return device.name + ", " +
 Json readRemembered()
 {
     std::ifstream file(rememberedFile());
-    const Json json = Json::parse(file, nullptr, false);
-    return json.is_object() ? json : Json::object();
+    const std::optional<Json> json = Json::parse({std::istreambuf_iterator<char>(file), {}});
+    return json && json->isObject() ? *json : Json::object();
 }
 
 void remember(const DeviceDescription& device, const ScheduleRates& rates)
 {
     Json json = readRemembered();
-    json[keyOf(device)] = {{"version", versionText()},
-                           {"fastest", nameOf(rates.fastest())},
-                           {"samplesPerSecond", {{"wavefront", rates.wavefront}, {"persistent", rates.persistent}}}};
-    const std::string text = json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-    WholeFile file(rememberedFile());
-    file.write(text.data(), text.size());
-    file.commit();
+    json.set(keyOf(device), {{"version", versionText()},
+                             {"fastest", nameOf(rates.fastest())},
+                             {"samplesPerSecond", {{"wavefront", rates.wavefront}, {"persistent", rates.persistent}}}});
+    writeJson(rememberedFile(), json);
 }
 
 void report(const ScheduleRates& rates)
@@ -92,20 +87,21 @@ void report(const ScheduleRates& rates)
 Schedule rememberedSchedule(const DeviceDescription& device)
 {
     const Json json = readRemembered();
-    const auto found = json.find(keyOf(device));
-    if (found == json.end() || !found->is_object() || found->value("version", Json()) != versionText()) {
+    const Json* found = json.find(keyOf(device));
+    const Json* version = found != nullptr ? found->find("version") : nullptr;
+    const Json* fastest = found != nullptr ? found->find("fastest") : nullptr;
+    if (version == nullptr || !version->is(versionText()) || fastest == nullptr) {
         return Schedule::Auto;
     }
-    const Json fastest = found->value("fastest", Json());
-    return fastest == nameOf(Schedule::Persistent)  ? Schedule::Persistent
-           : fastest == nameOf(Schedule::Wavefront) ? Schedule::Wavefront
-                                                    : Schedule::Auto;
+    return fastest->is(nameOf(Schedule::Persistent))  ? Schedule::Persistent
+           : fastest->is(nameOf(Schedule::Wavefront)) ? Schedule::Wavefront
+                                                      : Schedule::Auto;
 }
 
 Schedule fastestSchedule(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
 {
     const Schedule remembered = rememberedSchedule(device.description());
-    if (remembered != Schedule::Auto || !isLong(settings) || !canMeasureSchedules(scene, settings) || !canRemember()) {
+    if (remembered != Schedule::Auto || !isLong(settings) || !canMeasureSchedules(settings) || !canRemember()) {
         return remembered;
     }
     const ScheduleRates rates = measureSchedules(device, scene, camera, settings);

@@ -1,11 +1,9 @@
-#include "host/cli/inspect.hpp"
-
+#include "host/cli/commands.hpp"
 #include "host/cli/parse.hpp"
+#include "host/json.hpp"
 #include "host/render/prepare_scene.hpp"
 
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
-
+#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -13,108 +11,148 @@
 namespace glim {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 struct InspectOptions {
     std::filesystem::path scene;
     std::optional<std::size_t> sceneIndex;
     bool json = false;
 };
 
-Json pointOf(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
+using Counts = std::vector<std::pair<const char*, std::size_t>>;
+using Needs = std::vector<std::pair<const char*, bool>>;
 
-Json countsOf(const PreparedScene& prepared)
+Counts countsOf(const PreparedScene& prepared)
 {
-    return {{"triangles", prepared.scene.triangles.size()},
+    return {{"triangles", prepared.primitives.triangles.size()},
             {"spheres", prepared.scene.spheres.size()},
-            {"primitives", prepared.scene.primitives.size()},
+            {"meshes", prepared.scene.meshes.size()},
+            {"instances", prepared.scene.instances.size()},
             {"materials", prepared.scene.materials.size()},
             {"lights", prepared.flat.lights.size()},
             {"emitters", prepared.flat.emitters.size()},
             {"cameras", prepared.scene.cameras.size()}};
 }
 
-Json needsOf(const SceneFeatures& features)
+Needs needsOf(std::uint32_t features)
 {
-    return {{"spheres", features.spheres},
-            {"slivers", features.slivers},
-            {"smooth normals", features.smooth},
-            {"mirrors", features.mirrors},
-            {"glass", features.glasses},
-            {"triangle lights", features.triangleLights},
-            {"sphere lights", features.sphereLights},
-            {"punctual lights", features.punctualLights},
-            {"environment", features.environment}};
+    Needs needs;
+    for (const Feature& feature : kFeatures) {
+        needs.emplace_back(feature.name, (features & feature.bit) != 0);
+    }
+    return needs;
 }
 
-Json describe(const InspectOptions& options, const PreparedScene& prepared)
+struct Bounds {
+    glm::dvec3 low, high;  // world coordinates, metres
+};
+
+Bounds boundsOf(const PreparedScene& prepared)
 {
     const Box& box = prepared.bvh.box;
-    Json cameras = Json::array();
-    for (const Camera& camera : prepared.scene.cameras) {
-        cameras.push_back({{"name", camera.name},
-                           {"kind", camera.kind == Camera::Kind::Perspective ? "perspective" : "orthographic"}});
-    }
-    return {{"scene", options.scene.string()},
-            {"counts", countsOf(prepared)},
-            {"bounds",
-             {{"low", pointOf(prepared.scene.origin + glm::dvec3(box.lo))},
-              {"high", pointOf(prepared.scene.origin + glm::dvec3(box.hi))}}},
-            {"bvh",
-             {{"nodes", prepared.bvh.nodes.size()},
-              {"records", prepared.bvh.order.size()},
-              {"depth", prepared.bvh.depth},
-              {"surfaceAreaCost", prepared.bvh.cost},
-              {"buildSeconds", prepared.buildSeconds}}},
-            {"loadSeconds", prepared.loadSeconds},
-            {"deviceBytes", sizeInBytes(prepared.flat)},
-            {"needs", needsOf(prepared.flat.features)},
-            {"cameras", cameras},
-            {"notices", prepared.scene.notices}};
+    return {prepared.scene.origin + glm::dvec3(box.lo), prepared.scene.origin + glm::dvec3(box.hi)};
 }
 
-void printText(const Json& d)
+const char* kindOf(const Camera& camera) { return camera.kind == Camera::Kind::Perspective ? "perspective" : "orthographic"; }
+
+Json pointOf(const glm::dvec3& p) { return Json::array({p.x, p.y, p.z}); }
+
+template <class Entries>
+Json objectOf(const Entries& entries)
 {
-    std::cout << d["scene"].get<std::string>() << '\n';
-    for (const auto& [name, count] : d["counts"].items()) {
+    Json json = Json::object();
+    for (const auto& [name, value] : entries) {
+        json.set(name, value);
+    }
+    return json;
+}
+
+void printJson(const InspectOptions& options, const PreparedScene& prepared)
+{
+    Json cameras = Json::array();
+    for (const Camera& camera : prepared.scene.cameras) {
+        cameras.append({{"name", camera.name}, {"kind", kindOf(camera)}});
+    }
+    const Bounds bounds = boundsOf(prepared);
+    const Json json = {{"scene", options.scene.string()},
+                       {"counts", objectOf(countsOf(prepared))},
+                       {"bounds", {{"low", pointOf(bounds.low)}, {"high", pointOf(bounds.high)}}},
+                       {"bvh",
+                        {{"nodes", prepared.bvh.nodes.size()},
+                         {"records", prepared.bvh.order.size()},
+                         {"depth", prepared.bvh.depth},
+                         {"surfaceAreaCost", prepared.bvh.cost},
+                         {"buildSeconds", prepared.buildSeconds}}},
+                       {"loadSeconds", prepared.loadSeconds},
+                       {"deviceBytes", sizeInBytes(prepared.flat)},
+                       {"needs", objectOf(needsOf(prepared.flat.features))},
+                       {"cameras", cameras},
+                       {"notices", prepared.scene.notices}};
+    std::cout << json.dump(2) << '\n';
+}
+
+// Three digits, as in 12.3, .000456 or 1.2e+09.
+std::string threeDigits(double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
+std::string pointText(const glm::dvec3& p)
+{
+    char text[64];
+    std::snprintf(text, sizeof text, "(%.3g, %.3g, %.3g)", p.x, p.y, p.z);
+    return text;
+}
+
+void printText(const InspectOptions& options, const PreparedScene& prepared)
+{
+    std::cout << options.scene.string() << '\n';
+    for (const auto& [name, count] : countsOf(prepared)) {
         std::cout << "  " << name << ' ' << count << '\n';
     }
-    std::cout << "  bounds " << d["bounds"]["low"] << " to " << d["bounds"]["high"] << " m\n"
-              << "  BVH: " << d["bvh"]["nodes"] << " nodes, depth " << d["bvh"]["depth"] << ", surface-area cost "
-              << d["bvh"]["surfaceAreaCost"] << ", built in " << d["bvh"]["buildSeconds"] << " s\n"
-              << "  on the device: " << d["deviceBytes"] << " bytes\n  needs:";
-    for (const auto& [name, needed] : d["needs"].items()) {
-        std::cout << (needed.get<bool>() ? " " + name + "," : "");
+    const Bounds bounds = boundsOf(prepared);
+    std::cout << "  bounds " << pointText(bounds.low) << " to " << pointText(bounds.high) << " m\n"
+              << "  BVH: " << prepared.bvh.nodes.size() << " nodes, depth " << prepared.bvh.depth << ", surface-area cost "
+              << threeDigits(static_cast<double>(prepared.bvh.cost)) << ", built in " << threeDigits(prepared.buildSeconds) << " s\n"
+              << "  on the device: " << threeDigits(static_cast<double>(sizeInBytes(prepared.flat)) / (1 << 20)) << " MiB\n  needs:";
+    for (const auto& [name, needed] : needsOf(prepared.flat.features)) {
+        if (needed) {
+            std::cout << ' ' << name << ',';
+        }
     }
     std::cout << " triangles\n";
-    for (std::size_t i = 0; i < d["cameras"].size(); ++i) {
-        std::cout << "  camera " << i << ' ' << d["cameras"][i]["name"] << ", " << d["cameras"][i]["kind"].get<std::string>()
-                  << '\n';
+    for (std::size_t i = 0; i < prepared.scene.cameras.size(); ++i) {
+        const Camera& camera = prepared.scene.cameras[i];
+        std::cout << "  camera " << i << " \"" << camera.name << "\", " << kindOf(camera) << '\n';
     }
 }
 
 void runInspect(const InspectOptions& options)
 {
     const PreparedScene prepared = prepareScene(options.scene, {options.sceneIndex, {}});
-    warnOfDarkness(prepared);
-    const Json description = describe(options, prepared);
+    warnIfNoLights(prepared);
     if (options.json) {
-        std::cout << description.dump(2) << '\n';
+        printJson(options, prepared);
     } else {
-        printText(description);
+        printText(options, prepared);
     }
 }
 
 }  // namespace
 
-void addInspect(CLI::App& app)
+void addInspect(CommandLine& line)
 {
     auto options = std::make_shared<InspectOptions>();
-    CLI::App* command = app.add_subcommand("inspect", "Tell what is in a scene, what it costs and what it needs");
-    command->add_option("SCENE", options->scene, "The scene, .gltf or .glb")->required()->type_name("FILE");
-    addSceneIndex(*command, options->sceneIndex);
-    command->add_flag("--json", options->json, "Print JSON");
-    command->callback([options] { runInspect(*options); });
+    const Command command = line.addCommand("inspect", "Print what a scene contains, costs and needs");
+    command.beginGroup("Picture");
+    command.addPath("SCENE", "FILE", "Scene, .gltf or .glb", options->scene).require();
+    addSceneIndex(command, options->sceneIndex);
+    command.beginGroup("Output");
+    command.addFlag("--json", "Print JSON with every digit; sizes in bytes", options->json);
+    command.onRun([options] {
+        runInspect(*options);
+        return ExitCode::Done;
+    });
 }
 
 }  // namespace glim

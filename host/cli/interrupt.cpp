@@ -15,7 +15,7 @@ void remember(int signal)
     std::signal(signal, SIG_DFL);
 }
 
-// A signal that whoever started us ignores stays ignored, as nohup and scripts' background jobs ask.
+// A signal that was ignored when glim started stays ignored, as nohup and scripts' background jobs ask.
 void watch(int signal)
 {
     if (std::signal(signal, remember) == SIG_IGN) {
@@ -49,10 +49,7 @@ InterruptWatch::~InterruptWatch()
 
 int InterruptWatch::signal() const { return received; }
 
-const char* nameOfSignal(int signal)
-{
-    return signal == SIGINT ? "SIGINT" : signal == SIGTERM ? "SIGTERM" : "SIGHUP";
-}
+const char* nameOfSignal(int signal) { return signal == SIGINT ? "SIGINT" : signal == SIGTERM ? "SIGTERM" : "SIGHUP"; }
 
 ExitCode finish(int signal, const std::string& what)
 {

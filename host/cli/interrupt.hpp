@@ -1,4 +1,4 @@
-// SIGINT, SIGTERM and SIGHUP as a question to ask between passes.
+// SIGINT, SIGTERM and SIGHUP, to be polled between passes.
 #pragma once
 
 #include "host/error.hpp"
@@ -7,8 +7,8 @@
 
 namespace glim {
 
-// While one lives, the first of these signals is only remembered; a second one ends the program as usual. A reader that goes
-// away (SIGPIPE) ends nothing.
+// While an InterruptWatch exists, the first of these signals is only remembered; a second one ends the program as usual. A reader that
+// goes away (SIGPIPE) ends nothing.
 class InterruptWatch {
 public:
     InterruptWatch();
@@ -20,7 +20,7 @@ public:
 };
 
 const char* nameOfSignal(int signal);
-// The exit code of work that `signal` may have ended (0: has not); says so, and `what` became of it, to stderr.
+// The exit code of work that `signal` ended (0: nothing did). If one did, prints that, and `what` became of the work, to stderr.
 ExitCode finish(int signal, const std::string& what);
 
 }  // namespace glim

@@ -1,12 +1,9 @@
-#include "host/cli/merge.hpp"
-
-#include "host/cli/check_target.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/output_file.hpp"
 #include "host/cli/parse.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/film_pictures.hpp"
 #include "host/render/merge_films.hpp"
-
-#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <iostream>
@@ -31,7 +28,7 @@ void runMerge(const MergeOptions& options)
     const MergedFilm merged = mergeFilms(options.inputs);
     writeFilm(options.output, merged.film);
     if (!options.png.empty()) {
-        writeFilmPng(options.png, merged.film, lookOf(merged.film), options.exposure);
+        writeFilmPng(options.png, merged.film, aovOf(merged.film), options.exposure);
     }
     std::cerr << "Merged " << options.inputs.size() << " films into " << options.output.string() << ", samples "
               << sampleRangesText(merged.film) << ": "
@@ -43,23 +40,24 @@ void runMerge(const MergeOptions& options)
 
 }  // namespace
 
-void addMerge(CLI::App& app)
+void addMerge(CommandLine& line)
 {
     auto options = std::make_shared<MergeOptions>();
-    CLI::App* command = app.add_subcommand("merge", "Merge renders of one scene over different samples into one");
-    command->footer("The films must agree in scene, camera, size, seed and settings, and their samples must not overlap\n"
-                    "(render --samples A:B). Films of one page, 256 samples from a multiple of 256 on, that continue each\n"
-                    "other give the bits of the single run; other ranges give it up to rounding, and that is said.");
-    command->add_option("films", options->inputs, "Films written by glim render or glim merge, in any order (.exr)")
-        ->required()
-        ->type_name("A.exr");
-    command->add_option("-o,--output", options->output, "The merged film; it may replace one of the inputs (.exr)")
-        ->required()
-        ->type_name("C.exr");
-    CLI::Option* png = command->add_option("--png", options->png, "Also write an sRGB picture to look at (.png)");
-    png->type_name("C.png");
-    addExposure(*command, options->exposure, "a PNG")->needs(png);
-    command->callback([options] { runMerge(*options); });
+    const Command command = line.addCommand("merge", "Merge renders of one scene over different samples into one");
+    command.beginGroup("Picture");
+    command.addPaths("films", "A.exr", "Films written by glim render or glim merge, in any order", options->inputs).require();
+    command.beginGroup("Output");
+    command.addPath("-o,--output", "C.exr", "Merged film; it may replace one of the inputs", options->output).require();
+    const Option png = command.addPath("--png", "C.png", "Also write an sRGB picture", options->png);
+    addExposure(command, options->exposure, "the PNG").needs(png);
+    command.setFooter(
+        "The films must agree in scene, camera, size, seed and settings, and their samples (render --samples) must\n"
+        "not overlap. Adjacent ranges of 256 samples, from a multiple of 256 on, give the bits of the single run;\n"
+        "other ranges give it up to rounding, and the command says so.");
+    command.onRun([options] {
+        runMerge(*options);
+        return ExitCode::Done;
+    });
 }
 
 }  // namespace glim

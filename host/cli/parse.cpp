@@ -1,7 +1,5 @@
 #include "host/cli/parse.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -36,6 +34,15 @@ std::vector<std::string> split(const std::string& text, char separator)
     return parts;
 }
 
+std::string join(const std::vector<std::string>& parts, const std::string& separator)
+{
+    std::string text;
+    for (const std::string& part : parts) {
+        text += (text.empty() ? "" : separator) + part;
+    }
+    return text;
+}
+
 // Three finite numbers.
 template <class Vector>
 bool parseTriple(const std::string& text, Vector& triple)
@@ -63,9 +70,8 @@ T parseBounded(const NumberOption<T>& option, const std::string& text)
     const std::string unsignedText = text.substr(text.rfind('+', 0) == 0 ? 1 : 0);
     // NaN fails both comparisons.
     if (!parseNumber(unsignedText, value) || !(value >= option.low && value <= option.high)) {
-        throw CLI::ValidationError(option.name, "\"" + text + "\": expected a " +
-                                                    (std::is_integral_v<T> ? "whole number" : "number") + " from " +
-                                                    textOf(option.low) + " to " + textOf(option.high));
+        throw UsageError(option.name, "\"" + text + "\": expected a " + (std::is_integral_v<T> ? "whole number" : "number") + " from " +
+                                          textOf(option.low) + " to " + textOf(option.high));
     }
     return value;
 }
@@ -73,50 +79,39 @@ T parseBounded(const NumberOption<T>& option, const std::string& text)
 }  // namespace
 
 template <class T>
-CLI::Option* addNumber(CLI::App& command, const NumberOption<T>& option, std::function<void(T)> store)
+Option addNumber(const Command& command, const NumberOption<T>& option, std::function<void(T)> store)
 {
-    const std::string help =
-        option.what + ", " + textOf(option.low) + " to " + textOf(option.high) + " [" + option.fallback + "]";
-    return command
-        .add_option_function<std::string>(
-            option.name, [option, store](const std::string& text) { store(parseBounded(option, text)); }, help)
-        ->type_name(option.unit);
+    const std::string help = option.what + ", " + textOf(option.low) + " to " + textOf(option.high) + " [" + option.fallback + "]";
+    return command.add(option.name, option.unit, help, [option, store](const std::string& text) { store(parseBounded(option, text)); });
 }
 
-template CLI::Option* addNumber(CLI::App&, const NumberOption<std::uint32_t>&, std::function<void(std::uint32_t)>);
-template CLI::Option* addNumber(CLI::App&, const NumberOption<float>&, std::function<void(float)>);
-template CLI::Option* addNumber(CLI::App&, const NumberOption<double>&, std::function<void(double)>);
+template Option addNumber(const Command&, const NumberOption<std::uint32_t>&, std::function<void(std::uint32_t)>);
+template Option addNumber(const Command&, const NumberOption<float>&, std::function<void(float)>);
+template Option addNumber(const Command&, const NumberOption<double>&, std::function<void(double)>);
 
-CLI::Option* addChoice(CLI::App& command, const std::string& name, const std::string& unit, const std::string& help,
-                       const std::vector<std::string>& names, std::function<void(std::size_t)> store)
+Option addChoice(const Command& command, const std::string& name, const std::string& unit, const std::string& help,
+                 const std::vector<std::string>& names, std::function<void(std::size_t)> store)
 {
-    return command
-        .add_option_function<std::string>(
-            name,
-            [name, names, store](const std::string& text) {
-                const auto found = std::find(names.begin(), names.end(), text);
-                if (found == names.end()) {
-                    throw CLI::ValidationError(name, "\"" + text + "\": expected " + CLI::detail::join(names, " or "));
-                }
-                store(static_cast<std::size_t>(found - names.begin()));
-            },
-            help)
-        ->type_name(unit);
+    return command.add(name, unit, help, [name, names, store](const std::string& text) {
+        const auto found = std::find(names.begin(), names.end(), text);
+        if (found == names.end()) {
+            throw UsageError(name, "\"" + text + "\": expected " + join(names, " or "));
+        }
+        store(static_cast<std::size_t>(found - names.begin()));
+    });
 }
 
-CLI::Option* addExposure(CLI::App& command, double& exposure, const std::string& picture)
+Option addExposure(const Command& command, double& exposure, const std::string& picture)
 {
     return addNumber<double>(command,
-                             {"--exposure", "EV", "Stops for " + picture + " of light or albedo, never applied to the EXR", -100.0,
-                              100.0, "0"},
+                             {"--exposure", "EV", "Exposure of " + picture + " in stops; the EXR keeps its values", -100.0, 100.0, "0"},
                              [&exposure](double stops) { exposure = stops; });
 }
 
-CLI::Option* addSceneIndex(CLI::App& command, std::optional<std::size_t>& index)
+Option addSceneIndex(const Command& command, std::optional<std::size_t>& index)
 {
     constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
-    return addNumber<std::uint32_t>(command,
-                                    {"--scene", "INDEX", "Which of the file's scenes", 0, kMost, "its default one"},
+    return addNumber<std::uint32_t>(command, {"--scene", "INDEX", "Scene of the file", 0, kMost, "the file's default scene"},
                                     [&index](std::uint32_t value) { index = value; });
 }
 
@@ -124,10 +119,10 @@ glm::uvec2 parseSize(const std::string& text)
 {
     const std::vector<std::string> parts = split(text, 'x');
     glm::uvec2 size(0);
-    if (parts.size() != 2 || !parseNumber(parts[0], size.x) || !parseNumber(parts[1], size.y) || size.x == 0 ||
-        size.y == 0 || size.x > kMaxSide || size.y > kMaxSide) {
-        throw CLI::ValidationError("--size", "\"" + text + "\": expected WIDTHxHEIGHT in pixels, each 1 to " +
-                                                 std::to_string(kMaxSide) + ", as in 640x480");
+    if (parts.size() != 2 || !parseNumber(parts[0], size.x) || !parseNumber(parts[1], size.y) || size.x == 0 || size.y == 0 ||
+        size.x > kMaxSide || size.y > kMaxSide) {
+        throw UsageError("--size",
+                         "\"" + text + "\": expected WIDTHxHEIGHT in pixels, each 1 to " + std::to_string(kMaxSide) + ", as in 640x480");
     }
     return size;
 }
@@ -136,10 +131,10 @@ std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& text)
 {
     const std::vector<std::string> parts = split(text, ':');
     std::pair<std::uint32_t, std::uint32_t> range;
-    if (parts.size() != 2 || !parseNumber(parts[0], range.first) || !parseNumber(parts[1], range.second) ||
-        range.first >= range.second || range.second > kMaxSample) {
-        throw CLI::ValidationError("--samples", "\"" + text + "\": expected BEGIN:END with BEGIN < END <= " +
-                                                    std::to_string(kMaxSample) + ", as in 0:256");
+    if (parts.size() != 2 || !parseNumber(parts[0], range.first) || !parseNumber(parts[1], range.second) || range.first >= range.second ||
+        range.second > kMaxSample) {
+        throw UsageError("--samples",
+                         "\"" + text + "\": expected BEGIN:END with BEGIN < END <= " + std::to_string(kMaxSample) + ", as in 0:256");
     }
     return range;
 }
@@ -149,7 +144,7 @@ double parsePercent(const std::string& option, const std::string& text)
     double percent = 0.0;
     if (text.empty() || text.back() != '%' || !parseNumber(text.substr(0, text.size() - 1), percent) ||
         !(percent > 0.0 && percent <= 1000.0)) {
-        throw CLI::ValidationError(option, "\"" + text + "\": expected more than 0 and at most 1000 percent of the mean, as in 1%");
+        throw UsageError(option, "\"" + text + "\": expected more than 0 and at most 1000 percent of the mean, as in 1%");
     }
     return 0.01 * percent;
 }
@@ -158,11 +153,11 @@ SamplePlace parseSample(const std::string& text)
 {
     const std::vector<std::string> parts = split(text, ',');
     SamplePlace place{};
-    if (parts.size() != 3 || !parseNumber(parts[0], place.x) || !parseNumber(parts[1], place.y) ||
-        !parseNumber(parts[2], place.sample) || place.x >= kMaxSide || place.y >= kMaxSide || place.sample >= kMaxSample) {
-        throw CLI::ValidationError("--replay", "\"" + text + "\": expected X,Y,SAMPLE with whole numbers X and Y from 0 to " +
-                                                   std::to_string(kMaxSide - 1) + " and SAMPLE from 0 to " +
-                                                   std::to_string(kMaxSample - 1) + ", as in 12,40,7");
+    if (parts.size() != 3 || !parseNumber(parts[0], place.x) || !parseNumber(parts[1], place.y) || !parseNumber(parts[2], place.sample) ||
+        place.x >= kMaxSide || place.y >= kMaxSide || place.sample >= kMaxSample) {
+        throw UsageError("--replay", "\"" + text + "\": expected X,Y,SAMPLE with whole numbers X and Y from 0 to " +
+                                         std::to_string(kMaxSide - 1) + " and SAMPLE from 0 to " + std::to_string(kMaxSample - 1) +
+                                         ", as in 12,40,7");
     }
     return place;
 }
@@ -173,8 +168,7 @@ float parseSurvival(const std::string& text)
     float survival = 0.0F;
     if (text.rfind(start, 0) != 0 || !parseNumber(text.substr(start.size()), survival) || !std::isnormal(survival) ||
         !(survival > 0.0F && survival <= 1.0F)) {
-        throw CLI::ValidationError("--roulette",
-                                   "\"" + text + "\": expected throughput, none or fixed:P with 0 < P <= 1, as in fixed:0.7");
+        throw UsageError("--roulette", "\"" + text + "\": expected throughput, none or fixed:P with 0 < P <= 1, as in fixed:0.7");
     }
     return survival;
 }
@@ -183,9 +177,9 @@ glm::vec3 parseRadiance(const std::string& text)
 {
     glm::vec3 radiance(0.0F);
     if (!parseTriple(text, radiance) || glm::any(glm::lessThan(radiance, glm::vec3(0.0F)))) {
-        throw CLI::ValidationError("--environment",
-                                   "\"" + text + "\": expected a constant radiance as r,g,b with numbers >= 0, as in "
-                                                 "1,1,1 (environment maps are not supported yet)");
+        throw UsageError("--environment", "\"" + text +
+                                              "\": expected a constant radiance as r,g,b with numbers >= 0, as in "
+                                              "1,1,1 (environment maps are not supported yet)");
     }
     return radiance;
 }
@@ -194,7 +188,7 @@ glm::dvec3 parsePoint(const std::string& option, const std::string& text)
 {
     glm::dvec3 point(0.0);
     if (!parseTriple(text, point)) {
-        throw CLI::ValidationError(option, "\"" + text + "\": expected three numbers, as in 1,2.5,-3");
+        throw UsageError(option, "\"" + text + "\": expected three numbers, as in 1,2.5,-3");
     }
     return point;
 }

@@ -1,5 +1,7 @@
-// Option values. Whatever is no value of the option throws CLI::ValidationError (exit code 2) naming what was expected.
+// Parses the values of options. Text that is not a valid value throws UsageError, which names what was expected.
 #pragma once
+
+#include "host/cli/command.hpp"
 
 #include <glm/glm.hpp>
 
@@ -9,11 +11,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-namespace CLI {
-class App;
-class Option;
-}
 
 namespace glim {
 
@@ -25,16 +22,16 @@ struct SamplePlace {
     std::uint32_t x, y, sample;
 };
 
-glm::uvec2 parseSize(const std::string& text);                                 // "640x480"
-std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& text);   // "0:256", begin < end
-glm::vec3 parseRadiance(const std::string& text);                              // "1,1,1", >= 0; a file is refused
-SamplePlace parseSample(const std::string& text);                                // "12,40,7"
-glm::dvec3 parsePoint(const std::string& option, const std::string& text);     // "1,2.5,-3"
-double parsePercent(const std::string& option, const std::string& text);       // "1%", of (0, 1000]; 1 for 100%
-float parseSurvival(const std::string& text);                                  // "fixed:0.7", of (0, 1]
+glm::uvec2 parseSize(const std::string& text);                                // "640x480"
+std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& text);  // "0:256", begin < end
+glm::vec3 parseRadiance(const std::string& text);                             // "1,1,1", >= 0; a file is refused
+SamplePlace parseSample(const std::string& text);                             // "12,40,7"
+glm::dvec3 parsePoint(const std::string& option, const std::string& text);    // "1,2.5,-3"
+double parsePercent(const std::string& option, const std::string& text);      // "1%", in (0, 1000]; returns 1 for 100%
+float parseSurvival(const std::string& text);                                 // "fixed:0.7", in (0, 1]
 
-// An option whose value is one number (uint32_t, float or double) of [low, high]; never NaN. The help says `what`, the
-// range and, in brackets, what holds without the option.
+// An option whose value is one number (uint32_t, float or double) in [low, high]; never NaN. The help shows `what`, the range and, in
+// brackets, the default.
 template <class T>
 struct NumberOption {
     std::string name, unit, what;
@@ -42,24 +39,24 @@ struct NumberOption {
     std::string fallback;
 };
 template <class T>
-CLI::Option* addNumber(CLI::App& command, const NumberOption<T>& option, std::function<void(T)> store);
+Option addNumber(const Command& command, const NumberOption<T>& option, std::function<void(T)> store);
 
 // An option whose value is one of `names`; `store` gets its place in that list.
-CLI::Option* addChoice(CLI::App& command, const std::string& name, const std::string& unit, const std::string& help,
-                       const std::vector<std::string>& names, std::function<void(std::size_t)> store);
+Option addChoice(const Command& command, const std::string& name, const std::string& unit, const std::string& help,
+                 const std::vector<std::string>& names, std::function<void(std::size_t)> store);
 
 // `names` in the order of the enumeration.
 template <class Enum>
-CLI::Option* addEnum(CLI::App& command, const std::string& name, const std::string& unit, const std::string& help,
-                     const std::vector<std::string>& names, Enum& value)
+Option addEnum(const Command& command, const std::string& name, const std::string& unit, const std::string& help,
+               const std::vector<std::string>& names, Enum& value)
 {
     return addChoice(command, name, unit, help, names, [&value](std::size_t i) { value = static_cast<Enum>(i); });
 }
 
-// --exposure, in stops, of `picture`, as in "a PNG".
-CLI::Option* addExposure(CLI::App& command, double& exposure, const std::string& picture);
+// --exposure, in stops, of `picture`, as in "the PNG".
+Option addExposure(const Command& command, double& exposure, const std::string& picture);
 
 // --scene of render and inspect.
-CLI::Option* addSceneIndex(CLI::App& command, std::optional<std::size_t>& index);
+Option addSceneIndex(const Command& command, std::optional<std::size_t>& index);
 
 }  // namespace glim

@@ -3,85 +3,149 @@
 #include "host/cli/parse.hpp"
 #include "host/render/prepare_scene.hpp"
 
-#include <CLI/CLI.hpp>
+#include <limits>
+#include <tuple>
 
 namespace glim {
 namespace {
 
-CLI::Option* addPoint(CLI::App& command, const std::string& name, const std::string& help, PictureOptions& options,
-                      glm::dvec3 Pose::*point)
+Option addPoint(const Command& command, const std::string& name, const std::string& help, PictureOptions& options, glm::dvec3 Pose::*point)
 {
-    return command
-        .add_option_function<std::string>(
-            name,
-            [&options, name, point](const std::string& text) {
-                options.pose = options.pose.value_or(Pose{});
-                (*options.pose).*point = parsePoint(name, text);
-            },
-            help)
-        ->type_name("X,Y,Z");
+    return command.add(name, "X,Y,Z", help, [&options, name, point](const std::string& text) {
+        options.pose = options.pose.value_or(Pose{});
+        (*options.pose).*point = parsePoint(name, text);
+    });
 }
 
-void addPose(CLI::App& command, PictureOptions& options)
+void addPose(const Command& command, PictureOptions& options)
 {
-    CLI::Option* from = addPoint(command, "--look-from", "Where the camera stands instead, world coordinates", options, &Pose::from);
-    CLI::Option* at = addPoint(command, "--look-at", "What it has in the middle of the picture", options, &Pose::at);
-    from->needs(at);
-    at->needs(from);
-    addPoint(command, "--look-up", "The direction that points upwards in the picture [0,1,0]", options, &Pose::up)->needs(from);
-    addNumber<double>(command, {"--zoom", "Z", "Show things this much larger", 1e-6, 1e6, "1"}, [&options](double zoom) {
+    const Option from = addPoint(command, "--look-from", "Place the camera here instead, in world coordinates", options, &Pose::from);
+    const Option at = addPoint(command, "--look-at", "Point in the middle of the picture", options, &Pose::at);
+    from.needs(at);
+    at.needs(from);
+    addPoint(command, "--look-up", "Direction that points upwards in the picture [0,1,0]", options, &Pose::up).needs(from);
+    addNumber<double>(command, {"--zoom", "Z", "Magnification", 1e-6, 1e6, "1"}, [&options](double zoom) {
         options.pose = options.pose.value_or(Pose{});
         options.pose->zoom = zoom;
-    })->needs(from);
+    }).needs(from);
 }
 
-void addLens(CLI::App& command, PictureOptions& options)
+void addLens(const Command& command, PictureOptions& options)
 {
-    CLI::Option* radius = addNumber<float>(
-        command, {"--lens-radius", "R", "Radius of a thin lens, metres", 0.0F, 1e6F, "0, a pinhole"},
-        [&options](float metres) { options.lens.radius = metres; });
-    CLI::Option* distance = addNumber<float>(
-        command,
-        {"--focal-distance", "D", "From the lens to the plane of sharpness along the view axis, metres", 1e-6F, 1e9F, "none"},
-        [&options](float metres) { options.lens.focalDistance = metres; });
-    radius->needs(distance);
-    distance->needs(radius);
+    const Option radius = addNumber<float>(command, {"--lens-radius", "R", "Radius of a thin lens in metres", 0.0F, 1e6F, "0, a pinhole"},
+                                           [&options](float metres) { options.lens.radius = metres; });
+    const Option distance =
+        addNumber<float>(command, {"--focal-distance", "D", "Distance of the plane in focus, in metres", 1e-6F, 1e9F, "none"},
+                         [&options](float metres) { options.lens.focalDistance = metres; });
+    radius.needs(distance);
+    distance.needs(radius);
+}
+
+void addRoulette(const Command& command, RenderSettings& settings)
+{
+    command.add("--roulette", "R", "Russian roulette: throughput, none, or fixed:P, a survival probability [throughput]",
+                [&settings](const std::string& text) {
+                    if (text == "throughput" || text == "none") {
+                        settings.course.roulette = text == "none" ? Roulette::None : Roulette::Throughput;
+                    } else {
+                        settings.course.survival = parseSurvival(text);
+                        settings.course.roulette = Roulette::Fixed;
+                    }
+                });
 }
 
 }  // namespace
 
-void addSceneOptions(CLI::App& command, PictureOptions& options)
-{
-    command.add_option("SCENE", options.scene, "The scene, .gltf or .glb")->required()->type_name("FILE");
-    addSceneChoice(command, options);
-}
-
-void addSceneChoice(CLI::App& command, PictureOptions& options)
+void addPicture(const Command& command, PictureOptions& options, const std::string& height)
 {
     addSceneIndex(command, options.sceneIndex);
-    command
-        .add_option_function<std::string>(
-            "--environment", [&options](const std::string& text) { options.environment = parseRadiance(text); },
-            "Constant radiance from everywhere, W/(sr m^2), each >= 0; replaces the file's own [none]")
-        ->type_name("R,G,B");
+    command.add("--environment", "R,G,B", "Constant radiance from everywhere, W/(sr m^2) >= 0 [the file's own]",
+                [&options](const std::string& text) { options.environment = parseRadiance(text); });
+    command.add("--size", "WxH", "Pixels, each side 1 to 65535 [" + height + " high, width by the camera's aspect ratio]",
+                [&options](const std::string& text) { options.size = parseSize(text); });
 }
 
-void addCameraOptions(CLI::App& command, PictureOptions& options, const std::string& height)
+void addCamera(const Command& command, PictureOptions& options)
 {
-    command
-        .add_option_function<std::string>(
-            "--size", [&options](const std::string& text) { options.size = parseSize(text); },
-            "Pixels, each side 1 to 65535 [" + height + " high, width from the camera's aspect ratio]")
-        ->type_name("WxH");
-    command.add_option("--camera", options.camera, "Name or index of a camera of the file [0]")->type_name("NAME|INDEX");
+    command.beginGroup("Camera");
+    command.add("--camera", "NAME|INDEX", "Camera of the file [0]", [&options](const std::string& text) { options.camera = text; });
     addPose(command, options);
     addLens(command, options);
 }
 
-void addDevice(CLI::App& command, PictureOptions& options)
+void addSampleCount(const Command& command, RenderSettings& settings, const std::string& sppDefault, const std::string& rangeDefault)
 {
-    command.add_option("--device", options.device, "Index or part of a name from `glim devices` [the first usable one]")
-        ->type_name("D");
+    const Option spp = addNumber<std::uint32_t>(command, {"--spp", "N", "Samples per pixel", 1, kMaxSample, sppDefault},
+                                                [&settings](std::uint32_t count) { settings.sampleEnd = count; });
+    const Option samples =
+        command.add("--samples", "BEGIN:END",
+                    "Sample indices BEGIN to END - 1, for `glim merge`, 0 to " + std::to_string(kMaxSample) + " [" + rangeDefault + "]",
+                    [&settings](const std::string& text) { std::tie(settings.sampleBegin, settings.sampleEnd) = parseRange(text); });
+    const Option time = addNumber<double>(command, {"--time", "SECONDS", "Stop after this time, at the end of a pass", 1e-3, 1e9, "off"},
+                                          [&settings](double seconds) { settings.seconds = seconds; });
+    spp.excludes(time).excludes(samples);
+}
+
+void addAdaptive(const Command& command, RenderSettings& settings)
+{
+    addEnum(command, "--adaptive", "RULE", "off, neighbours[:absolute], or course[:literal] (--help-all) [off]",
+            {"off", "course", "course:literal", "neighbours", "neighbours:absolute"}, settings.adaptive);
+}
+
+void addSampler(const Command& command, RenderSettings& settings)
+{
+    addNumber<std::uint32_t>(command, {"--seed", "N", "Seed of the random numbers", 0, std::numeric_limits<std::uint32_t>::max(), "0"},
+                             [&settings](std::uint32_t seed) { settings.seed = seed; });
+    addEnum(command, "--sampler", "S", "sobol or independent [sobol; independent with --adaptive course]", {"sobol", "independent"},
+            settings.sampler);
+}
+
+void addLightTransport(const Command& command, RenderSettings& settings)
+{
+    command.beginGroup("Light transport");
+    addNumber<std::uint32_t>(command, {"--bounces", "N", "Most surfaces between camera and light (0: emission alone)", 0, 1000000, "64"},
+                             [&settings](std::uint32_t bounces) { settings.bounces = bounces; });
+    addEnum(command, "--paths", "PART", "Part of the light: all, emission, direct or indirect [all]",
+            {"all", "emission", "direct", "indirect"}, settings.paths);
+    addNumber<float>(command, {"--clamp-indirect", "X", "Clamp indirect light to this radiance (biased)", 1e-30F, 1e30F, "off"},
+                     [&settings](float limit) { settings.clampIndirect = limit; });
+}
+
+void addCourseEstimators(const Command& command, RenderSettings& settings)
+{
+    command.beginGroup("Course estimators");
+    addEnum(command, "--direct", "D", "Direct light: mis, lights, hemisphere or bsdf [mis]", {"mis", "lights", "hemisphere", "bsdf"},
+            settings.course.direct);
+    addNumber<std::uint32_t>(command, {"--light-samples", "N", "Shadow rays per light (lights) or vertex (hemisphere)", 1, 65536, "1"},
+                             [&settings](std::uint32_t count) { settings.course.lightSamples = count; });
+    addRoulette(command, settings);
+    command.hide({"--direct", "--light-samples", "--roulette"});
+}
+
+void addCourseRule(const Command& command, RenderSettings& settings)
+{
+    addNumber<float>(command, {"--tolerance", "T", "Relative error at which --adaptive course stops a pixel", 1e-30F, 1e6F, "0.05"},
+                     [&settings](float tolerance) { settings.course.tolerance = tolerance; });
+    addNumber<std::uint32_t>(command, {"--batch", "N", "Samples between its tests of a pixel", 2, 1048576, "32"},
+                             [&settings](std::uint32_t count) { settings.course.batch = count; });
+    addNumber<std::uint32_t>(command, {"--max-spp", "N", "Its most samples per pixel", 2, kMaxSample, "2048"},
+                             [&settings](std::uint32_t count) { settings.sampleEnd = count; });
+    command.hide({"--tolerance", "--batch", "--max-spp"});
+}
+
+void addDevice(const Command& command, PictureOptions& options)
+{
+    command.beginGroup("Device");
+    command.add("--device", "D", "Index or part of a name from `glim devices` [the first usable one]",
+                [&options](const std::string& text) { options.device = text; });
+    addEnum(command, "--schedule", "S", "wavefront, persistent or auto, the faster one: the same bits [auto]",
+            {"auto", "wavefront", "persistent"}, options.settings.schedule);
+    addEnum(command, "--accelerator", "A", "bvh, or none: test every primitive against every ray [bvh]", {"bvh", "none"},
+            options.settings.course.accelerator);
+    addEnum(command, "--split", "RULE", "Split of BVH nodes: sah, mean or median [sah]", {"sah", "mean", "median"}, options.split);
+    addEnum(command, "--intersector", "I", "Triangle test: watertight or moller-trumbore [watertight]", {"watertight", "moller-trumbore"},
+            options.settings.course.intersector);
+    command.hide({"--schedule", "--accelerator", "--split", "--intersector"});
 }
 
 LoadOptions loadOptionsOf(const PictureOptions& options)
@@ -102,7 +166,7 @@ Camera cameraOf(const Scene& scene, const PictureOptions& options)
 RenderSettings settingsFor(const PictureOptions& options, const Camera& camera)
 {
     RenderSettings settings = options.settings;
-    const glm::uvec2 size = options.size.value_or(naturalSize(camera));
+    const glm::uvec2 size = options.size.value_or(defaultSize(camera));
     settings.width = size.x;
     settings.height = size.y;
     return settings;

@@ -1,7 +1,8 @@
-// What `glim render` and `glim preview` are both told.
+// The options that render, preview and bench share.
 #pragma once
 
 #include "host/bvh/build_bvh.hpp"
+#include "host/cli/command.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/render/settings.hpp"
 #include "host/scene/load_gltf.hpp"
@@ -10,10 +11,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-
-namespace CLI {
-class App;
-}
 
 namespace glim {
 
@@ -30,16 +27,25 @@ struct PictureOptions {
     RenderSettings settings;  // all but width and height
 };
 
-// Adds their options to `command`; they write into `options`, which must outlive it.
-void addSceneOptions(CLI::App& command, PictureOptions& options);
-void addSceneChoice(CLI::App& command, PictureOptions& options);  // of them, all but the file
-void addCameraOptions(CLI::App& command, PictureOptions& options, const std::string& height = "512");  // without --size
-void addDevice(CLI::App& command, PictureOptions& options);
+// Each adds options to the help's current group. They write into `options` or `settings`, which must outlive the command.
+void addPicture(const Command& command, PictureOptions& options, const std::string& height = "512");  // default of --size
+void addSampleCount(const Command& command, RenderSettings& settings, const std::string& sppDefault, const std::string& rangeDefault);
+void addAdaptive(const Command& command, RenderSettings& settings);
+void addSampler(const Command& command, RenderSettings& settings);
+
+// Each adds a whole group of the help.
+void addCamera(const Command& command, PictureOptions& options);
+void addLightTransport(const Command& command, RenderSettings& settings);
+void addCourseEstimators(const Command& command, RenderSettings& settings);
+void addDevice(const Command& command, PictureOptions& options);
+
+// Adds the limits of --adaptive course to the group of addCourseEstimators.
+void addCourseRule(const Command& command, RenderSettings& settings);
 
 LoadOptions loadOptionsOf(const PictureOptions& options);
-// The camera of the scene that the options choose, where they place it.
+// The camera that the options choose, placed where they say.
 Camera cameraOf(const Scene& scene, const PictureOptions& options);
-// With the size that the options or, without one, the camera names.
+// The settings with a size: from the options, or else from the camera.
 RenderSettings settingsFor(const PictureOptions& options, const Camera& camera);
 
 }  // namespace glim

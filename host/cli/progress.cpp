@@ -1,6 +1,7 @@
 #include "host/cli/progress.hpp"
 
-#include <nlohmann/json.hpp>
+#include "host/cli/parse.hpp"
+#include "host/json.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -20,8 +21,19 @@ double rate(const RenderProgress& progress)
 
 }  // namespace
 
+void addProgress(const Command& command, ProgressStyle& style)
+{
+    addChoice(command, "--progress", "STYLE", "Progress on stderr: bar, json (a line per step) or none [bar on a terminal]",
+              {"bar", "json", "none"}, [&style](std::size_t i) {
+                  constexpr ProgressStyle kStyles[] = {ProgressStyle::Bar, ProgressStyle::Json, ProgressStyle::None};
+                  style = kStyles[i];
+              });
+}
+
 ProgressPrinter::ProgressPrinter(ProgressStyle style, std::optional<double> timeLimit, std::uint64_t pixels)
-    : style_(style), timeLimit_(timeLimit), pixels_(pixels)
+    : style_(style),
+      timeLimit_(timeLimit),
+      pixels_(pixels)
 {
     if (style == ProgressStyle::Auto) {
         style_ = isatty(STDERR_FILENO) != 0 ? ProgressStyle::Bar : ProgressStyle::None;
@@ -58,12 +70,12 @@ void ProgressPrinter::printBar(const RenderProgress& progress, double share, dou
 
 void ProgressPrinter::printJson(const RenderProgress& progress, double share, double remaining) const
 {
-    const nlohmann::ordered_json line = {{"done", share},
-                                         {"samples", progress.samples},
-                                         {"totalSamples", progress.totalSamples},
-                                         {"seconds", progress.seconds},
-                                         {"samplesPerSecond", rate(progress)},
-                                         {"etaSeconds", remaining}};
+    const Json line = {{"done", share},
+                       {"samples", progress.samples},
+                       {"totalSamples", progress.totalSamples},
+                       {"seconds", progress.seconds},
+                       {"samplesPerSecond", rate(progress)},
+                       {"etaSeconds", remaining}};
     std::fprintf(stderr, "%s\n", line.dump().c_str());
 }
 

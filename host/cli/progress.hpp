@@ -1,21 +1,26 @@
-// How far a render is, on stderr.
+// Progress of a render, on stderr.
 #pragma once
 
-#include "host/cli/render_options.hpp"
+#include "host/cli/command.hpp"
 #include "host/render/renderer.hpp"
 
 #include <optional>
 
 namespace glim {
 
+enum class ProgressStyle { Auto, Bar, Json, None };
+
+// --progress, into `style`.
+void addProgress(const Command& command, ProgressStyle& style);
+
 class ProgressPrinter {
 public:
-    // Auto: a bar on a terminal, nothing elsewhere. `timeLimit` seconds, if time and not samples ends the render.
+    // Auto: a bar on a terminal, nothing elsewhere. `timeLimit`: seconds, if time ends the render and not samples.
     ProgressPrinter(ProgressStyle style, std::optional<double> timeLimit, std::uint64_t pixels);
 
     // Prints at most ten times a second.
     void print(const RenderProgress& progress);
-    // Takes the bar away.
+    // Removes the bar.
     void finish();
 
 private:

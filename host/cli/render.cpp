@@ -1,6 +1,5 @@
-#include "host/cli/render.hpp"
-
-#include "host/cli/check_target.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/output_file.hpp"
 #include "host/cli/fastest_schedule.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/cli/progress.hpp"
@@ -10,8 +9,6 @@
 #include "host/render/check_memory.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/film_pictures.hpp"
-
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +33,7 @@ void checkTargets(const RenderOptions& options)
     }
 }
 
-// A picture with holes is better than none, but not than the one that is there.
+// A picture with holes is better than none, but not better than an existing one.
 bool wouldRuin(const std::filesystem::path& output, const Film& film)
 {
     std::error_code ignored;
@@ -55,9 +52,8 @@ std::string stopReason(int signal, const Film& film, const RenderSettings& setti
     if (!isDone) {
         return "time";
     }
-    const bool calm = isCourse(settings.adaptive) &&
-                      std::none_of(film.pixels.begin(), film.pixels.end(),
-                                   [&](const PixelMoments& p) { return p.count >= settings.sampleEnd; });
+    const bool calm = isCourse(settings.adaptive) && std::none_of(film.pixels.begin(), film.pixels.end(),
+                                                                  [&](const PixelMoments& p) { return p.count >= settings.sampleEnd; });
     return calm ? "tolerance" : "samples";
 }
 
@@ -67,10 +63,10 @@ double writePictures(const RenderOptions& options, const Film& film)
     const auto start = std::chrono::steady_clock::now();
     writeFilm(options.output, film);
     if (options.png) {
-        writeFilmPng(*options.png, film, lookOf(film), options.exposure);
+        writeFilmPng(*options.png, film, aovOf(film), options.exposure);
     }
     if (options.rates) {
-        writeFilmPng(*options.rates, film, Look::Rate, 0.0);
+        writeFilmPng(*options.rates, film, Aov::SampleCount, 0.0);
     }
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -112,12 +108,12 @@ ExitCode runRender(const RenderOptions& options)
     const Instance instance;
     Device device(instance, options.device);
     const PreparedScene prepared = prepareScene(options.scene, loadOptionsOf(options), options.split);
-    if (options.settings.view == View::Shaded) {
-        warnOfDarkness(prepared);
+    if (options.settings.aov == Aov::Radiance) {
+        warnIfNoLights(prepared);
     }
     const Camera camera = cameraOf(prepared.scene, options);
     RenderSettings settings = settingsFor(options, camera);
-    refuseWhatDoesNotFit(prepared, settings, device.description());
+    checkMemory(prepared, settings, device.description());
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
     if (watch.signal() != 0) {
         return finish(watch.signal(), "nothing was rendered or written");
@@ -136,14 +132,20 @@ ExitCode runRender(const RenderOptions& options)
         return finish(watch.signal(), "some pixels had no sample yet, so " + options.output.string() + " is left as it was");
     }
     film.sceneFile = options.scene.string();
-    film.identity.settings += describeView(options.pose, options.lens);  // so that it can be made again from what is in its file
+    film.identity.settings += describeView(options.pose, options.lens);  // so that the film can be made again from what its file says
     const double writeSeconds = writePictures(options, film);
     // Before the control, whose samples are no suspects.
     std::vector<Suspect> suspects = findSuspects(renderer, film);
     const auto bias = measureBias(renderer, film, watch);
-    const RenderReport report{options, prepared, film, renderer.statistics(), device.description(),
-                              stopReason(watch.signal(), film, settings, isGood, renderer.isDone()), writeSeconds,
-                              std::move(suspects), bias};
+    const RenderReport report{options,
+                              prepared,
+                              film,
+                              renderer.statistics(),
+                              device.description(),
+                              stopReason(watch.signal(), film, settings, isGood, renderer.isDone()),
+                              writeSeconds,
+                              std::move(suspects),
+                              bias};
     if (options.stats) {
         writeStatistics(*options.stats, report);
     }
@@ -153,23 +155,22 @@ ExitCode runRender(const RenderOptions& options)
 
 }  // namespace
 
-void addRender(CLI::App& app, ExitCode& exitCode)
+void addRender(CommandLine& line)
 {
     auto options = std::make_shared<RenderOptions>();
-    CLI::App* command = app.add_subcommand("render", "Render a glTF scene to an EXR file");
-    addRenderOptions(*command, *options);
-    command->footer("EXR layers: R, G, B, A (coverage); albedo; normal (world axes); depth.Z (nearest, along the view axis);\n"
-                    "count.X (samples); from 33 samples on variance, of the mean, and error, its root, the standard error, surest at\n"
-                    "32 samples and multiples of 64; squares, blocks and clamped for merging. The same scene, seed and options give\n"
-                    "the same pixels.\n"
-                    "Ctrl-C writes what is finished.\n"
-                    "Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 129, 130 or 143 stopped by SIGHUP, SIGINT or SIGTERM.");
-    command->callback([options, &exitCode] {
+    const Command command = line.addCommand("render", "Render a glTF scene to an EXR file");
+    addRenderOptions(command, *options);
+    command.setFooter(
+        "EXR layers: R, G, B, A, albedo, normal, depth.Z, count.X, variance, error, and more for `glim merge`.\n"
+        "The same scene, seed and options give the same pixels. Ctrl-C writes what is finished.\n"
+        "Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 129, 130 or 143 stopped by SIGHUP, SIGINT or SIGTERM.\n"
+        "host/cli/README.md has more on every option.");
+    command.onRun([options] {
         if (options->replay) {
             runReplay(*options);
-        } else {
-            exitCode = runRender(*options);
+            return ExitCode::Done;
         }
+        return runRender(*options);
     });
 }
 

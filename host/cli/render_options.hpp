@@ -1,13 +1,12 @@
-// What `glim render` is told.
+// The options of `glim render`.
 #pragma once
 
-#include "host/cli/error_report.hpp"
+#include "host/cli/film_report.hpp"
 #include "host/cli/parse.hpp"
 #include "host/cli/picture_options.hpp"
+#include "host/cli/progress.hpp"
 
 namespace glim {
-
-enum class ProgressStyle { Auto, Bar, Json, None };
 
 struct RenderOptions : PictureOptions {
     std::filesystem::path output;
@@ -17,10 +16,7 @@ struct RenderOptions : PictureOptions {
     ErrorTarget target;
 };
 
-// --progress, into `style`.
-void addProgress(CLI::App& command, ProgressStyle& style);
-
 // Adds every option of `render` to `command`; they write into `options`, which must outlive it.
-void addRenderOptions(CLI::App& command, RenderOptions& options);
+void addRenderOptions(const Command& command, RenderOptions& options);
 
 }  // namespace glim

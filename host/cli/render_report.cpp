@@ -1,12 +1,8 @@
 #include "host/cli/render_report.hpp"
 
-#include "host/cli/error_report.hpp"
-#include "host/cli/film_figures.hpp"
-#include "host/cli/suspect_report.hpp"
-#include "host/image/whole_file.hpp"
+#include "host/cli/film_report.hpp"
+#include "host/cli/output_file.hpp"
 #include "host/render/film_file.hpp"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +15,6 @@
 namespace glim {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 std::uint64_t peakHostMemory()
 {
     rusage usage{};
@@ -28,10 +22,7 @@ std::uint64_t peakHostMemory()
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts KiB
 }
 
-double perSecond(std::uint64_t count, double seconds)
-{
-    return seconds > 0.0 ? static_cast<double>(count) / seconds : 0.0;
-}
+double perSecond(std::uint64_t count, double seconds) { return seconds > 0.0 ? static_cast<double>(count) / seconds : 0.0; }
 
 // The double that reads like the float: .05, not .0500000007.
 double shortest(float value)
@@ -47,14 +38,12 @@ Json clampingOf(const Film& film, const RenderOptions& options)
         return nullptr;
     }
     const auto [removed, kept] = computeClampedEnergy(film);
-    return {{"limit", options.settings.clampIndirect},
-            {"removedMeanRadiance", removed},
-            {"removedShare", removed / (removed + kept)}};
+    return {{"limit", options.settings.clampIndirect}, {"removedMeanRadiance", removed}, {"removedShare", removed / (removed + kept)}};
 }
 
 Json bvhOf(const RenderReport& report)
 {
-    if (report.options.settings.accelerator == Accelerator::None) {
+    if (report.options.settings.course.accelerator == Accelerator::None) {
         return nullptr;
     }
     constexpr const char* kRules[] = {"sah", "mean", "median"};
@@ -72,7 +61,7 @@ Json biasOf(const RenderReport& report)
         return nullptr;
     }
     const Interval& bias = report.bias->bias;
-    return {{"ofMean", bias.value}, {"ofMean95", {bias.low, bias.high}}, {"pixels", report.bias->pixels}};
+    return {{"ofMean", bias.value}, {"ofMean95", Json::array({bias.low, bias.high})}, {"pixels", report.bias->pixels}};
 }
 
 Json adaptiveOf(const RenderReport& report)
@@ -91,17 +80,17 @@ Json adaptiveOf(const RenderReport& report)
     const auto atMost = std::count_if(report.film.pixels.begin(), report.film.pixels.end(),
                                       [&](const PixelMoments& pixel) { return pixel.count >= settings.sampleEnd; });
     Json json = {{"rule", settings.adaptive == Adaptive::Course ? "course" : "course:literal"},
-                 {"tolerance", shortest(settings.tolerance)},
-                 {"batch", settings.batch},
+                 {"tolerance", shortest(settings.course.tolerance)},
+                 {"batch", settings.course.batch},
                  {"maxSpp", settings.sampleEnd}};
     json.update(counts);
-    json["pixelsAtMost"] = atMost;
+    json.set("pixelsAtMost", atMost);
     return json;
 }
 
 Json stepsOf(const RenderReport& report)
 {
-    if (report.options.settings.view != View::BvhSteps) {
+    if (report.options.settings.aov != Aov::BvhSteps) {
         return nullptr;
     }
     const Steps steps = computeSteps(report.film);
@@ -112,7 +101,7 @@ Json kernelsOf(const RenderStatistics& statistics)
 {
     Json kernels = Json::object();
     for (const auto& [name, kernel] : statistics.kernels) {
-        kernels[name] = {{"seconds", kernel.seconds}, {"dispatches", kernel.dispatches}};
+        kernels.set(name, {{"seconds", kernel.seconds}, {"dispatches", kernel.dispatches}});
     }
     return kernels;
 }
@@ -121,9 +110,33 @@ Json nonFiniteOf(const RenderStatistics& statistics, std::uint32_t width)
 {
     Json located = Json::array();
     for (const Located& place : statistics.located) {
-        located.push_back({{"x", place.pixel % width}, {"y", place.pixel / width}, {"sample", place.sampleIndex}});
+        located.append({{"x", place.pixel % width}, {"y", place.pixel / width}, {"sample", place.sampleIndex}});
     }
     return {{"count", statistics.nonFinite}, {"first", located}};
+}
+
+std::string replayOf(const Suspect& suspect, std::uint32_t width)
+{
+    return std::to_string(suspect.pixel % width) + "," + std::to_string(suspect.pixel / width) + "," + std::to_string(suspect.sampleIndex);
+}
+
+Json suspectsOf(const RenderReport& report)
+{
+    if (report.options.settings.suspects == 0) {
+        return nullptr;
+    }
+    Json list = Json::array();
+    for (const Suspect& suspect : report.suspects) {
+        list.append({{"x", suspect.pixel % report.film.width},
+                     {"y", suspect.pixel / report.film.width},
+                     {"sample", suspect.sampleIndex},
+                     {"radiance", Json::array({suspect.radiance.r, suspect.radiance.g, suspect.radiance.b})},
+                     {"luminance", suspect.luminance},
+                     {"shareOfPixel", suspect.shareOfPixel},
+                     {"shareOfPicture", suspect.shareOfPicture},
+                     {"replay", replayOf(suspect, report.film.width)}});
+    }
+    return list;
 }
 
 Json statisticsOf(const RenderReport& report)
@@ -131,13 +144,12 @@ Json statisticsOf(const RenderReport& report)
     const RenderStatistics& s = report.statistics;
     const std::uint64_t rays = s.cameraAndBounceRays + s.shadowRays;
     return {{"scene", report.options.scene.string()},
-            {"size", {report.film.width, report.film.height}},
-            {"sampleRange", {report.film.sampleRanges[0].first, report.film.sampleRanges[0].second}},
+            {"size", Json::array({report.film.width, report.film.height})},
+            {"sampleRange", Json::array({report.film.sampleRanges[0].first, report.film.sampleRanges[0].second})},
             {"settings", report.film.identity.settings},
             {"schedule", nameOf(s.schedule)},
             {"stopReason", report.stopReason},
-            {"device",
-             {{"name", report.device.name}, {"driver", report.device.driver}, {"kind", report.device.kind}}},
+            {"device", {{"name", report.device.name}, {"driver", report.device.driver}, {"kind", report.device.kind}}},
             {"seconds",
              {{"load", report.prepared.loadSeconds},
               {"build", report.prepared.buildSeconds},
@@ -176,15 +188,14 @@ void warnOfBias(const RenderReport& report)
 {
     if (report.statistics.nonFinite > 0) {
         const Located& first = report.statistics.located[0];
-        std::cerr << "glim: " << report.statistics.nonFinite
-                  << " samples were not finite and are in no average; the first: pixel ("
-                  << first.pixel % report.film.width << ", " << first.pixel / report.film.width << "), sample "
-                  << first.sampleIndex << ".\n";
+        std::cerr << "glim: " << report.statistics.nonFinite << " samples were not finite and were discarded; the first: pixel ("
+                  << first.pixel % report.film.width << ", " << first.pixel / report.film.width << "), sample " << first.sampleIndex
+                  << ".\n";
     }
     if (std::isfinite(report.options.settings.clampIndirect)) {
         const auto [removed, kept] = computeClampedEnergy(report.film);
-        std::cerr << "glim: --clamp-indirect removed " << 100.0 * removed / (removed + kept)
-                  << " % of the picture's light (mean radiance " << removed << ").\n";
+        std::cerr << "glim: --clamp-indirect removed " << 100.0 * removed / (removed + kept) << " % of the picture's light (mean radiance "
+                  << removed << ").\n";
     }
 }
 
@@ -216,12 +227,12 @@ std::string savingText(const RenderReport& report)
 
 std::string qualityText(const RenderReport& report)
 {
-    const View view = report.options.settings.view;
-    if (view == View::BvhSteps) {
+    const Aov aov = report.options.settings.aov;
+    if (aov == Aov::BvhSteps) {
         const Steps steps = computeSteps(report.film);
         return format(", %.1f node visits per ray, at most %.1f in a pixel", steps.nodes, steps.mostNodes);
     }
-    if (view != View::Shaded) {
+    if (aov != Aov::Radiance) {
         return "";
     }
     std::string text = errorText(report.film, report.options.settings);
@@ -233,6 +244,21 @@ std::string qualityText(const RenderReport& report)
     return text;
 }
 
+void printSuspects(const RenderReport& report)
+{
+    if (report.options.settings.suspects == 0) {
+        return;
+    }
+    std::cout << "Brightest samples, at most one of a pixel: " << report.suspects.size() << "\n";
+    for (const Suspect& suspect : report.suspects) {
+        const glm::dvec3 radiance(suspect.radiance);
+        char text[200];
+        std::snprintf(text, sizeof text, "  luminance %-9.4g (%.4g, %.4g, %.4g), %.3g %% of its pixel, %.3g %% of the picture: --replay ",
+                      suspect.luminance, radiance.r, radiance.g, radiance.b, 100.0 * suspect.shareOfPixel, 100.0 * suspect.shareOfPicture);
+        std::cout << text << replayOf(suspect, report.film.width) << "\n";
+    }
+}
+
 }  // namespace
 
 void printSummary(const RenderReport& report)
@@ -242,23 +268,14 @@ void printSummary(const RenderReport& report)
     const RenderStatistics& s = report.statistics;
     const double pixels = static_cast<double>(report.film.pixels.size());
     std::cout << report.options.output.string()
-              << format(": %ux%u, %.4g samples per pixel", report.film.width, report.film.height,
-                        static_cast<double>(s.samples) / pixels)
+              << format(": %ux%u, %.4g samples per pixel", report.film.width, report.film.height, static_cast<double>(s.samples) / pixels)
               << rangeText(report)
-              << format(" in %.2f s (%.3g Msamples/s, %.3g Mrays/s)", s.renderSeconds,
-                        1e-6 * perSecond(s.samples, s.renderSeconds),
+              << format(" in %.2f s (%.3g Msamples/s, %.3g Mrays/s)", s.renderSeconds, 1e-6 * perSecond(s.samples, s.renderSeconds),
                         1e-6 * perSecond(s.cameraAndBounceRays + s.shadowRays, s.renderSeconds))
-              << savingText(report) << qualityText(report) << ", on " << report.device.name << " (" << report.device.kind
-              << ")\n";
+              << savingText(report) << qualityText(report) << ", on " << report.device.name << " (" << report.device.kind << ")\n";
     printSuspects(report);
 }
 
-void writeStatistics(const std::filesystem::path& path, const RenderReport& report)
-{
-    const std::string text = statisticsOf(report).dump(2) + "\n";
-    WholeFile file(path);
-    file.write(text.data(), text.size());
-    file.commit();
-}
+void writeStatistics(const std::filesystem::path& path, const RenderReport& report) { writeJson(path, statisticsOf(report)); }
 
 }  // namespace glim

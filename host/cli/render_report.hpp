@@ -1,9 +1,9 @@
-// What a render tells: one line for people, JSON for machines.
+// The report of a render: one line for people, JSON for machines.
 #pragma once
 
-#include "host/render/prepare_scene.hpp"
 #include "host/cli/render_options.hpp"
 #include "host/measure/control_bias.hpp"
+#include "host/render/prepare_scene.hpp"
 #include "host/render/suspects.hpp"
 
 namespace glim {

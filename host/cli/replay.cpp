@@ -1,11 +1,229 @@
 #include "host/cli/replay.hpp"
 
-#include "host/cli/check_target.hpp"
-#include "host/cli/replay_report.hpp"
+#include "host/cli/output_file.hpp"
 #include "host/error.hpp"
+#include "host/exact_text.hpp"
+#include "host/flatten/view_options.hpp"
+#include "host/render/describe_primitive.hpp"
+#include "host/render/prepare_scene.hpp"
+#include "host/render/replay.hpp"
+
+#include <iostream>
 
 namespace glim {
 namespace {
+
+struct ReplayReport {
+    const RenderOptions& options;
+    const PreparedScene& prepared;
+    const RenderSettings& settings;
+    const DeviceDescription& device;
+    ReplayedPath path;
+};
+
+constexpr const char* kEnds[] = {
+    "continues",
+    "escapes",
+    "ends: --bounces or --paths allow no more",
+    "ends: absorbed",
+    "ends: the next ray could only hit light that was sampled here",
+    "ends: roulette",
+};
+
+// Exact: reads back as the same bits.
+std::string textOf(const glm::vec3& v)
+{
+    std::string text("(");
+    text.append(exactText(v.x)).append(", ").append(exactText(v.y)).append(", ").append(exactText(v.z)).append(")");
+    return text;
+}
+
+glm::dvec3 worldOf(const PreparedScene& prepared, const glm::vec3& point) { return prepared.scene.origin + glm::dvec3(point); }
+
+std::string pointText(const glm::dvec3& p)
+{
+    char text[120];
+    std::snprintf(text, sizeof text, "(%.7g, %.7g, %.7g)", p.x, p.y, p.z);
+    return text;
+}
+
+float cosineOf(const PathVertex& vertex) { return -glm::dot(vertex.surface.ns, vertex.ray.direction); }
+
+std::string addedText(const PathRadiance& added)
+{
+    return "adds " + textOf(added.radiance) + (added.clamped > 0.0F ? ", clamped by " + exactText(added.clamped) : "");
+}
+
+void printSurface(const ReplayReport& report, const PathVertex& vertex)
+{
+    const PrimitiveDescription met = describeRecord(report.prepared, vertex.hit.record);
+    const PathNote& note = vertex.surface;
+    std::cout << textOf(met) << ", material " << met.material << ", at " << pointText(worldOf(report.prepared, note.point)) << ", "
+              << exactText(vertex.hit.t) << " m on\n  " << (note.front != 0 ? "front" : "back") << ", normal " << textOf(note.ng)
+              << (note.ns == note.ng ? "" : ", shading normal " + textOf(note.ns)) << ", cosine " << exactText(cosineOf(vertex)) << "\n";
+}
+
+void printArrival(const PathVertex& vertex)
+{
+    std::cout << "  ray from pdf " << (vertex.before.pdf > 0.0F ? exactText(vertex.before.pdf) + " per sr" : "0 (camera or delta lobe)")
+              << ", throughput " << textOf(vertex.before.throughput) << "\n";
+    // The light that the ray has hit may have weight 0, since light sampling finds it as well.
+    if (vertex.emitted.radiance != glm::vec3(0.0F) || vertex.surface.misWeightOfHit != 1.0F) {
+        std::cout << "  light hit: MIS weight " << exactText(vertex.surface.misWeightOfHit)
+                  << (vertex.surface.lightPdfOfHit > 0.0F
+                          ? " against a light sampling pdf of " + exactText(vertex.surface.lightPdfOfHit) + " per sr"
+                          : "")
+                  << ", " << addedText(vertex.emitted) << "\n";
+    }
+}
+
+void printSampledLight(const ReplayReport& report, const SampledLight& each)
+{
+    const PathNote& note = each.note;
+    std::cout << "  light sampled: " << (each.hemisphere ? "a direction of the hemisphere" : describeLight(report.prepared, note.light));
+    if (!each.hasShadowRay) {
+        std::cout << ", no contribution\n";
+        return;
+    }
+    std::cout << " towards " << textOf(each.ray.direction);
+    if (!each.hemisphere) {
+        std::cout << ", pdf " << (note.lightPdf > 0.0F ? exactText(note.lightPdf) + " per sr" : "0 (delta light)") << " against the BSDF's "
+                  << exactText(note.bsdfPdf) << ", MIS weight " << exactText(note.misWeightOfLight);
+    }
+    const bool lost = each.added.radiance == glm::vec3(0.0F);
+    std::cout << ", "
+              << (!lost             ? addedText(each.added)
+                  : each.hemisphere ? "hits no light"
+                                    : "occluded (would add " + textOf(each.ray.contribution) + ")")
+              << "\n";
+}
+
+void printScattering(const PathVertex& vertex)
+{
+    std::cout << "  " << kEnds[static_cast<int>(vertex.end)];
+    if (vertex.end == PathEnd::Continues) {
+        std::cout << " with pdf " << exactText(vertex.after.pdf) << ", weight " << textOf(vertex.bsdf.weight) << ", throughput "
+                  << textOf(vertex.after.throughput);
+    }
+    if (vertex.bsdf.continuation > 0.0F) {
+        std::cout << ", continuation probability " << exactText(vertex.bsdf.continuation);
+    }
+    std::cout << "\n";
+}
+
+void printVertex(const ReplayReport& report, const PathVertex& vertex)
+{
+    std::cout << "bounce " << vertex.bounce << ": ";
+    if (vertex.hit.record == kNoRecord) {
+        std::cout << "nothing along " << textOf(vertex.ray.direction) << "\n";
+        printArrival(vertex);
+        return;
+    }
+    printSurface(report, vertex);
+    printArrival(vertex);
+    for (const SampledLight& each : vertex.sampledLights) {
+        printSampledLight(report, each);
+    }
+    printScattering(vertex);
+}
+
+Json jsonOf(const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); }
+Json jsonOf(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
+Json jsonOf(const PathRadiance& added) { return {{"added", jsonOf(added.radiance)}, {"clamped", added.clamped}}; }
+
+Json surfaceJson(const ReplayReport& report, const PathVertex& vertex)
+{
+    if (vertex.hit.record == kNoRecord) {
+        return nullptr;
+    }
+    const PrimitiveDescription met = describeRecord(report.prepared, vertex.hit.record);
+    return {{"object", met.object},
+            {"triangle", met.triangle ? Json(*met.triangle) : Json()},
+            {"material", met.material},
+            {"position", jsonOf(worldOf(report.prepared, vertex.surface.point))},
+            {"distance", vertex.hit.t},
+            {"front", vertex.surface.front != 0},
+            {"normal", jsonOf(vertex.surface.ng)},
+            {"shadingNormal", jsonOf(vertex.surface.ns)},
+            {"cosine", cosineOf(vertex)}};
+}
+
+Json lightJson(const ReplayReport& report, const SampledLight& each)
+{
+    Json json = {{"light", each.hemisphere ? Json() : Json(describeLight(report.prepared, each.note.light))},
+                 {"pdf", each.note.lightPdf},
+                 {"bsdfPdf", each.note.bsdfPdf},
+                 {"weight", each.note.misWeightOfLight},
+                 {"shadowRay", nullptr}};
+    if (each.hasShadowRay) {
+        json.set("shadowRay", {{"origin", jsonOf(worldOf(report.prepared, each.ray.origin))},
+                               {"direction", jsonOf(each.ray.direction)},
+                               {"contribution", jsonOf(each.ray.contribution)}});
+    }
+    json.update(jsonOf(each.added));
+    return json;
+}
+
+Json vertexJson(const ReplayReport& report, const PathVertex& vertex)
+{
+    Json sampled = Json::array();
+    for (const SampledLight& each : vertex.sampledLights) {
+        sampled.append(lightJson(report, each));
+    }
+    Json emission = {{"pdf", vertex.surface.lightPdfOfHit}, {"weight", vertex.surface.misWeightOfHit}};
+    emission.update(jsonOf(vertex.emitted));
+    Json json = {{"bounce", vertex.bounce},
+                 {"origin", jsonOf(worldOf(report.prepared, vertex.ray.origin))},
+                 {"direction", jsonOf(vertex.ray.direction)},
+                 {"pdf", vertex.before.pdf},
+                 {"throughput", jsonOf(vertex.before.throughput)},
+                 {"surface", surfaceJson(report, vertex)},
+                 {"emission", emission},
+                 {"sampledLights", sampled},
+                 {"end", kEnds[static_cast<int>(vertex.end)]},
+                 {"continuation", vertex.bsdf.continuation},
+                 {"next", nullptr}};
+    if (vertex.end == PathEnd::Continues) {
+        json.set("next",
+                 {{"weight", jsonOf(vertex.bsdf.weight)}, {"pdf", vertex.after.pdf}, {"throughput", jsonOf(vertex.after.throughput)}});
+    }
+    return json;
+}
+
+void printReplay(const ReplayReport& report)
+{
+    const SamplePlace& place = *report.options.replay;
+    std::cout << report.options.scene.string() << ", " << report.settings.width << "x" << report.settings.height << ": pixel (" << place.x
+              << ", " << place.y << "), sample " << place.sample << ", on " << report.device.name << "\n";
+    if (!report.path.vertices.empty()) {
+        const PathRay& ray = report.path.vertices.front().ray;
+        std::cout << "camera at " << pointText(worldOf(report.prepared, ray.origin)) << " towards " << textOf(ray.direction) << "\n";
+    }
+    for (const PathVertex& vertex : report.path.vertices) {
+        printVertex(report, vertex);
+    }
+    std::cout << "radiance " << textOf(report.path.radiance.radiance) << " W/(sr m^2)\n";
+}
+
+void writeReplay(const std::filesystem::path& file, const ReplayReport& report)
+{
+    Json vertices = Json::array();
+    for (const PathVertex& vertex : report.path.vertices) {
+        vertices.append(vertexJson(report, vertex));
+    }
+    const SamplePlace& place = *report.options.replay;
+    const Json json = {{"scene", report.options.scene.string()},
+                       {"size", Json::array({report.settings.width, report.settings.height})},
+                       {"x", place.x},
+                       {"y", place.y},
+                       {"sample", place.sample},
+                       {"settings", describeSettings(report.settings) + describeView(report.options.pose, report.options.lens)},
+                       {"device", {{"name", report.device.name}, {"driver", report.device.driver}, {"kind", report.device.kind}}},
+                       {"radiance", jsonOf(report.path.radiance.radiance)},
+                       {"clamped", report.path.radiance.clamped},
+                       {"vertices", vertices}};
+    writeJson(file, json);
+}
 
 void refuseOutside(const SamplePlace& place, const RenderSettings& settings)
 {

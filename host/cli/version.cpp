@@ -4,9 +4,6 @@
 
 namespace glim {
 
-std::string versionText()
-{
-    return "glim " GLIM_VERSION " (commit " GLIM_COMMIT ", " GLIM_BUILD_TYPE " build)";
-}
+std::string versionText() { return "glim " GLIM_VERSION " (commit " GLIM_COMMIT ", " GLIM_BUILD_TYPE " build)"; }
 
 }  // namespace glim

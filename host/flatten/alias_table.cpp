@@ -9,17 +9,14 @@ namespace {
 
 constexpr double kTwo32 = 4294967296.0;
 
-// How many of the 2^32 numbers fall into bin `bin` of `count` (chooseBin in alias.glsl).
+// The share of the 2^32 numbers that falls into bin `bin` of `count` (chooseBin in alias.glsl).
 double binProbability(std::uint64_t bin, std::uint64_t count)
 {
     const auto first = [count](std::uint64_t b) { return ((b << 32) + count - 1) / count; };
     return static_cast<double>(first(bin + 1) - first(bin)) / kTwo32;
 }
 
-std::uint32_t threshold(double share)
-{
-    return static_cast<std::uint32_t>(std::clamp(std::round(share * kTwo32), 1.0, kTwo32 - 1.0));
-}
+std::uint32_t threshold(double share) { return static_cast<std::uint32_t>(std::clamp(std::round(share * kTwo32), 1.0, kTwo32 - 1.0)); }
 
 std::vector<double> implementedProbabilities(const std::vector<AliasEntry>& entries)
 {
@@ -39,8 +36,8 @@ AliasTable buildAliasTable(std::span<const double> weights)
 {
     const std::size_t count = weights.size();
     const double largest = *std::max_element(weights.begin(), weights.end());
-    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0,
-                                       [largest](double total, double weight) { return total + weight / largest; });
+    const double sum =
+        std::accumulate(weights.begin(), weights.end(), 0.0, [largest](double total, double weight) { return total + weight / largest; });
     std::vector<double> share(count);
     std::vector<std::uint32_t> small, large;
     AliasTable table;

@@ -1,4 +1,4 @@
-// Alias tables for drawing in proportion to weights.
+// Alias tables: they sample in proportion to weights, in constant time.
 #pragma once
 
 #include "shaders/shared/scene_types.h"
@@ -10,11 +10,11 @@ namespace glim {
 
 struct AliasTable {
     std::vector<AliasEntry> entries;
-    std::vector<double> probabilities;  // with which shaders/lib/alias.glsl draws each entry, exactly
+    std::vector<double> probabilities;  // exactly those with which shaders/lib/alias.glsl samples each entry
 };
 
-// At least one weight, all positive and finite. Vose, "A Linear Algorithm for Generating Random Numbers with a Given
-// Distribution", 1991, in double; every entry keeps a positive probability however small its weight.
+// Takes at least one weight; all are positive and finite. M. Vose, "A Linear Algorithm for Generating Random Numbers with a Given
+// Distribution", 1991, in double. Every entry keeps a positive probability however small its weight is.
 AliasTable buildAliasTable(std::span<const double> weights);
 
 }  // namespace glim

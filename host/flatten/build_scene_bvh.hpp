@@ -1,17 +1,17 @@
-// From a scene to its tree.
+// Builds the BVH of a scene's primitives.
 #pragma once
 
 #include "host/bvh/build_bvh.hpp"
 #include "host/bvh/wide_bvh.hpp"
-#include "host/scene/scene.hpp"
+#include "host/flatten/primitives.hpp"
 
 namespace glim {
 
-// The box of each primitive, triangles first, then spheres (rounded outwards): what buildBvh takes.
-std::vector<Box> primitiveBoxes(const Scene& scene);
+// The box of each primitive, by id; those of spheres are rounded outwards.
+std::vector<Box> primitiveBoxes(const Primitives& primitives);
 
-// The tree of the primitives or, by the surface-area heuristic, of their pieces (split_triangles.hpp) where that is cheaper by a
-// tenth. `order` holds each primitive as many times as it has pieces.
-WideBvh buildSceneBvh(const Scene& scene, SplitRule rule = SplitRule::Sah);
+// Builds a tree over the primitives or, with the surface-area heuristic, over their pieces (split_triangles.hpp) if that is cheaper by a
+// tenth. `order` then holds each primitive once for each of its pieces.
+WideBvh buildSceneBvh(const Primitives& primitives, SplitRule rule = SplitRule::Sah);
 
 }  // namespace glim

@@ -8,10 +8,12 @@
 namespace glim {
 namespace {
 
-// FNV-1a, 64 bits (Fowler, Noll, Vo): a fingerprint, not a secret.
+// FNV-1a, 64 bits (Fowler, Noll, Vo): not cryptographic.
 class Fingerprint {
 public:
-    explicit Fingerprint(std::uint64_t state = 14695981039346656037ULL) : state_(state) {}
+    explicit Fingerprint(std::uint64_t state = 14695981039346656037ULL)
+        : state_(state)
+    {}
     template <class T>
     void add(const std::vector<T>& values)
     {
@@ -29,13 +31,22 @@ private:
     std::uint64_t state_;
 };
 
+// Adds three normals per primitive, as when each primitive had its own: films from that time can still be merged and resumed.
+void addNormals(Fingerprint& print, const FlatScene& scene, std::size_t primitive)
+{
+    const uvec4 vertices = primitive < scene.triangles.size() ? scene.triangles[primitive] : uvec4(0);
+    for (int v = 0; v < 3; ++v) {
+        print.addBytes(std::as_bytes(std::span(&scene.vertices[vertices[v]], 1)));
+    }
+}
+
 template <class T>
 std::uint64_t bytesOf(const std::vector<T>& values)
 {
     return values.size() * sizeof(T);
 }
 
-static_assert(sizeof(FlatMaterial) == kMaterialTexels * sizeof(uvec4));
+static_assert(sizeof(MaterialData) == kMaterialTexels * sizeof(uvec4));
 static_assert(sizeof(FlatLight) == kLightTexels * sizeof(uvec4));
 static_assert(sizeof(FlatEmitter) == kEmitterTexels * sizeof(uvec4));
 
@@ -43,13 +54,13 @@ static_assert(sizeof(FlatEmitter) == kEmitterTexels * sizeof(uvec4));
 
 std::uint64_t sizeInBytes(const FlatScene& scene)
 {
-    return bytesOf(scene.nodes) + bytesOf(scene.records) + bytesOf(scene.normals) + bytesOf(scene.materials) +
+    return bytesOf(scene.nodes) + bytesOf(scene.records) + bytesOf(scene.triangles) + bytesOf(scene.vertices) + bytesOf(scene.materials) +
            bytesOf(scene.lights) + bytesOf(scene.emitters);
 }
 
 std::uint64_t fingerprint(const FlatScene& scene)
 {
-    // By primitive, since the order and number of the records is the tree's.
+    // In order of primitives, because the order and the number of records depend on the tree.
     const std::size_t count = scene.records.size() / kRecordTexels;
     std::vector<std::uint32_t> recordOf;
     for (std::uint32_t record = 0; record < count; ++record) {
@@ -58,15 +69,15 @@ std::uint64_t fingerprint(const FlatScene& scene)
         recordOf[primitive] = record;
     }
     Fingerprint print;
-    for (const std::uint32_t record : recordOf) {
-        const std::size_t at = std::size_t{record} * kRecordTexels;
+    for (std::size_t primitive = 0; primitive < recordOf.size(); ++primitive) {
+        const std::size_t at = std::size_t{recordOf[primitive]} * kRecordTexels;
         print.addBytes(std::as_bytes(std::span(scene.records).subspan(at, kRecordTexels)));
-        if (!scene.normals.empty()) {
-            print.addBytes(std::as_bytes(std::span(scene.normals).subspan(at, kRecordTexels)));
+        if (!scene.triangles.empty()) {
+            addNormals(print, scene, primitive);
         }
     }
     for (FlatEmitter emitter : scene.emitters) {
-        emitter.record = std::exchange(emitter.primitive, 0);  // as in films of before there was that field
+        emitter.record = std::exchange(emitter.primitive, 0);  // as in films from before that field existed
         print.add(std::vector<FlatEmitter>{emitter});
     }
     print.add(scene.materials);

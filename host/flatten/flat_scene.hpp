@@ -1,6 +1,7 @@
-// The scene as the arrays that kernels read. Element types: shaders/shared/scene_types.h, which says what is in the texels.
+// The scene as the arrays that kernels read. shaders/shared/scene_types.h says what is in their elements.
 #pragma once
 
+#include "shaders/shared/features.h"
 #include "shaders/shared/limits.h"
 #include "shaders/shared/scene_types.h"
 
@@ -10,38 +11,41 @@
 
 namespace glim {
 
-// What the scene needs; the rest is compiled out of the kernels.
-struct SceneFeatures {
-    bool spheres = false;
-    bool slivers = false;         // some triangles are thinner than kSliverHeight
-    bool smooth = false;          // some triangles have vertex normals
-    bool mirrors = false;
-    bool glasses = false;
-    bool triangleLights = false;
-    bool sphereLights = false;
-    bool punctualLights = false;
-    bool environment = false;
-    std::uint32_t stackLevels = kMaxStackLevels;  // of a traversal
+// Readable names for the bits of shaders/shared/features.h.
+struct Feature {
+    std::uint32_t bit;
+    const char* name;
 };
+
+constexpr Feature kFeatures[] = {{kFeatureSpheres, "spheres"},
+                                 {kFeatureSlivers, "slivers"},
+                                 {kFeatureSmooth, "smooth normals"},
+                                 {kFeatureMirror, "mirrors"},
+                                 {kFeatureGlass, "glass"},
+                                 {kFeatureTriangleLights, "triangle lights"},
+                                 {kFeatureSphereLights, "sphere lights"},
+                                 {kFeaturePunctualLights, "punctual lights"},
+                                 {kFeatureEnvironment, "environment"}};
 
 struct FlatScene {
     std::vector<uvec4> nodes;
-    std::vector<uvec4> records;   // in the order of the BVH's leaves
-    std::vector<uvec4> normals;   // parallel to records, or empty
-    std::vector<FlatMaterial> materials;
+    std::vector<uvec4> records;              // for traversal, in the order of the BVH's leaves
+    std::vector<uvec4> triangles, vertices;  // for shading, by primitive id; empty if no triangle has vertex normals
+    std::vector<MaterialData> materials;
     std::vector<FlatLight> lights;
     std::vector<FlatEmitter> emitters;
-    SceneFeatures features;
+    std::uint32_t features = 0;                   // kFeatureSpheres ...: what the scene needs
+    std::uint32_t stackLevels = kMaxStackLevels;  // of the traversal stack
     vec3 environment{0.0F};
-    std::uint32_t environmentLight = 0;  // index among lights, if features.environment
+    std::uint32_t environmentLight = 0;  // index among lights, if the scene has kFeatureEnvironment
 };
 
-// Bytes that the scene takes on the device.
+// How many bytes the scene takes on the device.
 std::uint64_t sizeInBytes(const FlatScene& scene);
 
-// A fingerprint of everything above but the tree.
+// A fingerprint of all of the above except the tree.
 std::uint64_t fingerprint(const FlatScene& scene);
-// Of a scene and a camera: equal pictures come from equal ones.
+// The fingerprint of a scene and a camera. Films with equal fingerprints show the same picture.
 std::string fingerprint(std::uint64_t scene, const FlatCamera& camera);
 
 }  // namespace glim

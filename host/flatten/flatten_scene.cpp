@@ -16,16 +16,6 @@ uvec4 texel(const glm::vec3& v, std::uint32_t w)
     return {std::bit_cast<std::uint32_t>(v.x), std::bit_cast<std::uint32_t>(v.y), std::bit_cast<std::uint32_t>(v.z), w};
 }
 
-// The material of each triangle, and whether its normals count.
-std::vector<const Primitive*> primitiveOfTriangle(const Scene& scene)
-{
-    std::vector<const Primitive*> owners(scene.triangles.size(), nullptr);
-    for (const Primitive& primitive : scene.primitives) {
-        std::fill_n(owners.begin() + primitive.firstTriangle, primitive.triangleCount, &primitive);
-    }
-    return owners;
-}
-
 bool isSliver(const Triangle& triangle)
 {
     const glm::dvec3 v0 = triangle.vertices[0], v1 = triangle.vertices[1], v2 = triangle.vertices[2];
@@ -34,37 +24,61 @@ bool isSliver(const Triangle& triangle)
     return glm::length(glm::cross(a, c)) < static_cast<double>(kSliverHeight) * square;
 }
 
-void pushTriangle(FlatScene& flat, const Scene& scene, std::uint32_t id, const Primitive& owner)
+void pushTriangle(FlatScene& flat, const Triangle& triangle, std::uint32_t id, std::uint32_t material)
 {
-    const Triangle& triangle = scene.triangles[id];
     const bool sliver = isSliver(triangle);
-    flat.features.slivers = flat.features.slivers || sliver;
+    flat.features |= sliver ? kFeatureSlivers : 0U;
     flat.records.push_back(texel(triangle.vertices[0], id));
-    flat.records.push_back(texel(triangle.vertices[1], owner.material | (sliver ? kSliverBit : 0U)));
+    flat.records.push_back(texel(triangle.vertices[1], material | (sliver ? kSliverBit : 0U)));
     flat.records.push_back(texel(triangle.vertices[2], 0));
 }
 
-void pushSphere(FlatScene& flat, const Scene& scene, std::uint32_t id)
+void pushSphere(FlatScene& flat, const Sphere& sphere, std::uint32_t id)
 {
-    const Sphere& sphere = scene.spheres[id - scene.triangles.size()];
     flat.records.push_back(texel(sphere.center, id));
     flat.records.push_back(texel({sphere.radius, 0.0F, 0.0F}, sphere.material | kSphereBit));
     flat.records.push_back(texel({0.0F, 0.0F, 0.0F}, 0));
 }
 
-void pushNormals(FlatScene& flat, const Scene& scene, std::uint32_t id, const Primitive* owner)
+// Returns one record per primitive: the last one if it has several.
+std::vector<std::uint32_t> pushRecords(FlatScene& flat, const Scene& scene, const Primitives& primitives, const WideBvh& bvh)
 {
-    const bool smooth = owner != nullptr && owner->smooth;
-    for (int k = 0; k < 3; ++k) {
-        flat.normals.push_back(texel(smooth ? scene.normals[id].normals[k] : glm::vec3(0.0F), 0));
+    std::vector<std::uint32_t> materials;  // by triangle
+    materials.reserve(primitives.triangles.size());
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        materials.resize(primitives.firstTriangles[i + 1], scene.meshes[scene.instances[i].mesh].material);
+    }
+    std::vector<std::uint32_t> recordOf(primitives.count());
+    flat.records.reserve(bvh.order.size() * kRecordTexels);
+    for (std::uint32_t record = 0; record < bvh.order.size(); ++record) {
+        const std::uint32_t id = bvh.order[record];
+        recordOf[id] = record;
+        if (id < materials.size()) {
+            pushTriangle(flat, primitives.triangles[id], id, materials[id]);
+        } else {
+            pushSphere(flat, primitives.spheres[id - materials.size()], id);
+        }
+    }
+    return recordOf;
+}
+
+void pushShading(FlatScene& flat, const Primitives& primitives)
+{
+    flat.triangles.reserve(primitives.vertices.size());
+    for (const glm::uvec3& vertices : primitives.vertices) {
+        flat.triangles.emplace_back(vertices, 0U);
+    }
+    flat.vertices.reserve(primitives.normals.size());
+    for (const glm::vec3& normal : primitives.normals) {
+        flat.vertices.push_back(texel(normal, 0));
     }
 }
 
-// As addLights has marked one record of each primitive that emits.
+// Marks the other records of each emitting primitive; addLights has marked one.
 void markOtherRecords(FlatScene& flat, std::span<const std::uint32_t> order, std::span<const std::uint32_t> recordOf)
 {
     if (order.size() == recordOf.size()) {
-        return;  // none has another
+        return;  // each primitive has one
     }
     for (std::size_t record = 0; record < order.size(); ++record) {
         const std::size_t marked = recordOf[order[record]];
@@ -72,46 +86,37 @@ void markOtherRecords(FlatScene& flat, std::span<const std::uint32_t> order, std
     }
 }
 
-// In fours, so that scenes of about the same size share what the driver has compiled.
-std::uint32_t stackLevelsOf(const WideBvh& bvh)
+std::uint32_t featureOf(Scattering scattering)
 {
-    return std::max((bvh.depth + 1) / 4 * 4, 4U);
+    switch (scattering) {
+    case Scattering::Lambert: break;
+    case Scattering::Mirror: return kFeatureMirror;
+    case Scattering::Glass: return kFeatureGlass;
+    }
+    return 0;
 }
+
+// A multiple of four, so that scenes of about the same size share compiled kernels.
+std::uint32_t stackLevelsOf(const WideBvh& bvh) { return std::max((bvh.depth + 1) / 4 * 4, 4U); }
 
 static_assert(kMaxStackLevels % 4 == 0);
 
 }  // namespace
 
-FlatScene flattenScene(const Scene& scene, const WideBvh& bvh)
+FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const WideBvh& bvh)
 {
     FlatScene flat;
     flat.nodes = packNodes(bvh);
-    flat.features.stackLevels = stackLevelsOf(bvh);
-    flat.features.spheres = !scene.spheres.empty();
-    flat.features.smooth = std::any_of(scene.primitives.begin(), scene.primitives.end(),
-                                       [](const Primitive& primitive) { return primitive.smooth; });
+    flat.stackLevels = stackLevelsOf(bvh);
+    flat.features = (primitives.spheres.empty() ? 0U : kFeatureSpheres) | (primitives.normals.empty() ? 0U : kFeatureSmooth);
     for (const Material& m : scene.materials) {
-        flat.materials.push_back({m.baseColor, static_cast<std::uint32_t>(m.scattering), m.emission, m.ior,
-                                  m.doubleSided ? 1U : 0U, uvec3(0)});
-        flat.features.mirrors = flat.features.mirrors || m.scattering == Scattering::Mirror;
-        flat.features.glasses = flat.features.glasses || m.scattering == Scattering::Glass;
+        flat.materials.push_back(
+            {m.baseColor, static_cast<std::uint32_t>(m.scattering), m.emission, m.ior, m.doubleSided ? 1U : 0U, uvec3(0)});
+        flat.features |= featureOf(m.scattering);
     }
-    const std::vector<const Primitive*> owners = primitiveOfTriangle(scene);
-    std::vector<std::uint32_t> recordOf(scene.triangles.size() + scene.spheres.size());
-    for (std::uint32_t record = 0; record < bvh.order.size(); ++record) {
-        const std::uint32_t id = bvh.order[record];
-        const Primitive* owner = id < owners.size() ? owners[id] : nullptr;
-        recordOf[id] = record;
-        if (owner != nullptr) {
-            pushTriangle(flat, scene, id, *owner);
-        } else {
-            pushSphere(flat, scene, id);
-        }
-        if (flat.features.smooth) {
-            pushNormals(flat, scene, id, owner);
-        }
-    }
-    addLights(flat, scene, recordOf);
+    pushShading(flat, primitives);
+    const std::vector<std::uint32_t> recordOf = pushRecords(flat, scene, primitives, bvh);
+    addLights(flat, scene, primitives, recordOf);
     markOtherRecords(flat, bvh.order, recordOf);
     return flat;
 }
@@ -120,8 +125,13 @@ FlatCamera flattenCamera(const Camera& camera, float aspectRatio, const Lens& le
 {
     const bool perspective = camera.kind == Camera::Kind::Perspective;
     const float halfHeight = perspective ? std::tan(0.5F * camera.yfov) : camera.halfHeight;
-    return {camera.position, camera.right * (halfHeight * aspectRatio), camera.up * halfHeight, camera.forward,
-            perspective ? kPerspective : kOrthographic, camera.right * lens.radius, camera.up * lens.radius,
+    return {camera.position,
+            camera.right * (halfHeight * aspectRatio),
+            camera.up * halfHeight,
+            camera.forward,
+            perspective ? kPerspective : kOrthographic,
+            camera.right * lens.radius,
+            camera.up * lens.radius,
             1.0F / lens.focalDistance};
 }
 

@@ -10,26 +10,22 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// The strongest channel stands for a colour: it does not change when channels are swapped.
+// A colour counts by its strongest channel, which does not change when channels are swapped.
 double strength(const glm::vec3& color) { return static_cast<double>(std::max({color.r, color.g, color.b})); }
 
-double area(const Triangle& triangle)
-{
-    const glm::dvec3 v0(triangle.vertices[0]);
-    return 0.5 * glm::length(glm::cross(glm::dvec3(triangle.vertices[1]) - v0, glm::dvec3(triangle.vertices[2]) - v0));
-}
+double area(const Triangle& triangle) { return 0.5 * glm::length(faceNormal(triangle)); }
 
-// Half the diagonal of the scene's box, metres: what directional light and environment shine on.
-double sceneRadius(const Scene& scene)
+// Half the diagonal of the scene's box, metres. Directional lights and the environment shine on a disk of this radius.
+double sceneRadius(const Primitives& primitives)
 {
     glm::dvec3 lo(1e300), hi(-1e300);
-    for (const Triangle& triangle : scene.triangles) {
+    for (const Triangle& triangle : primitives.triangles) {
         for (const glm::vec3& v : triangle.vertices) {
             lo = glm::min(lo, glm::dvec3(v));
             hi = glm::max(hi, glm::dvec3(v));
         }
     }
-    for (const Sphere& sphere : scene.spheres) {
+    for (const Sphere& sphere : primitives.spheres) {
         lo = glm::min(lo, glm::dvec3(sphere.center) - static_cast<double>(sphere.radius));
         hi = glm::max(hi, glm::dvec3(sphere.center) + static_cast<double>(sphere.radius));
     }
@@ -39,28 +35,32 @@ double sceneRadius(const Scene& scene)
 // Collects lights with their powers in watts (up to a factor common to all).
 class LightTable {
 public:
-    LightTable(FlatScene& flat, const Scene& scene, std::span<const std::uint32_t> recordOf)
-        : flat_(flat), scene_(scene), recordOf_(recordOf), radius_(sceneRadius(scene))
-    {
-    }
+    LightTable(FlatScene& flat, const Scene& scene, const Primitives& primitives, std::span<const std::uint32_t> recordOf)
+        : flat_(flat),
+          scene_(scene),
+          primitives_(primitives),
+          recordOf_(recordOf),
+          radius_(sceneRadius(primitives))
+    {}
 
-    void addPrimitive(const Primitive& primitive)
+    void addInstance(std::size_t instance)
     {
-        const Material& material = scene_.materials[primitive.material];
-        if (!(strength(material.emission) > 0.0)) {
+        const Material& material = scene_.materials[scene_.meshes[scene_.instances[instance].mesh].material];
+        const std::uint32_t first = primitives_.firstTriangles[instance], count = primitives_.firstTriangles[instance + 1] - first;
+        if (count == 0 || !(strength(material.emission) > 0.0)) {
             return;
         }
         std::vector<double> areas;
-        for (std::uint32_t i = 0; i < primitive.triangleCount; ++i) {
-            areas.push_back(area(scene_.triangles[primitive.firstTriangle + i]));
+        for (std::uint32_t i = 0; i < count; ++i) {
+            areas.push_back(area(primitives_.triangles[first + i]));
         }
         const AliasTable table = buildAliasTable(areas);
-        FlatLight light = surfaceLight(kTriangleLight, material, primitive.triangleCount);
-        flat_.features.triangleLights = true;
+        FlatLight light = surfaceLight(kTriangleLight, material, count);
+        flat_.features |= kFeatureTriangleLights;
         double total = 0.0;
-        for (std::uint32_t i = 0; i < primitive.triangleCount; ++i) {
+        for (std::uint32_t i = 0; i < count; ++i) {
             const auto areaPdf = static_cast<float>(table.probabilities[i] / areas[i]);
-            addEmitter(primitive.firstTriangle + i, areaPdf, table.entries[i]);
+            addEmitter(first + i, areaPdf, table.entries[i]);
             total += areas[i];
         }
         add(light, kPi * total * strength(material.emission) * (material.doubleSided ? 2.0 : 1.0));
@@ -75,10 +75,10 @@ public:
         const double radius = static_cast<double>(sphere.radius);
         const double surface = 4.0 * kPi * radius * radius;
         FlatLight light = surfaceLight(kSphereLight, material, 1);
-        flat_.features.sphereLights = true;
+        flat_.features |= kFeatureSphereLights;
         light.position = sphere.center;
         light.radius = sphere.radius;
-        addEmitter(static_cast<std::uint32_t>(scene_.triangles.size() + index), static_cast<float>(1.0 / surface), {0xffffffffU, 0});
+        addEmitter(static_cast<std::uint32_t>(primitives_.triangles.size() + index), static_cast<float>(1.0 / surface), {0xffffffffU, 0});
         add(light, kPi * surface * strength(material.emission) * (material.doubleSided ? 2.0 : 1.0));
     }
 
@@ -102,7 +102,7 @@ public:
             light.kind = kDirectionalLight;
             steradians = kPi * radius_ * radius_;  // square metres here: W/m^2 over the scene's disk
         }
-        flat_.features.punctualLights = true;
+        flat_.features |= kFeaturePunctualLights;
         add(light, strength(punctual.intensity) * steradians);
     }
 
@@ -114,7 +114,7 @@ public:
         FlatLight light{};
         light.kind = kEnvironmentLight;
         light.intensity = radiance;
-        flat_.features.environment = true;
+        flat_.features |= kFeatureEnvironment;
         flat_.environment = radiance;
         flat_.environmentLight = static_cast<std::uint32_t>(flat_.lights.size());
         add(light, 4.0 * kPi * kPi * radius_ * radius_ * strength(radiance));
@@ -160,6 +160,7 @@ private:
 
     FlatScene& flat_;
     const Scene& scene_;
+    const Primitives& primitives_;
     std::span<const std::uint32_t> recordOf_;
     double radius_;
     std::vector<double> powers_;
@@ -167,11 +168,11 @@ private:
 
 }  // namespace
 
-void addLights(FlatScene& flat, const Scene& scene, std::span<const std::uint32_t> recordOf)
+void addLights(FlatScene& flat, const Scene& scene, const Primitives& primitives, std::span<const std::uint32_t> recordOf)
 {
-    LightTable table(flat, scene, recordOf);
-    for (const Primitive& primitive : scene.primitives) {
-        table.addPrimitive(primitive);
+    LightTable table(flat, scene, primitives, recordOf);
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        table.addInstance(i);
     }
     for (std::size_t i = 0; i < scene.spheres.size(); ++i) {
         table.addSphere(scene.spheres[i], i);

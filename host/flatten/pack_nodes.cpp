@@ -17,8 +17,8 @@ static_assert(kBvhWidth == 8 && kMaxLeafRecords == 3, "what fits into a word of 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr double kMostSteps = 255.0;
 
-// Gives every box a thickness: at least one ulp, and 2^-30 of the scene, so that a plane through the ray's origin lies at
-// |t| >= 1e9 scenes for a direction component of intersect_node.glsl's smallest size. Rounding in double is far below that.
+// Grows every box by at least one ulp and 2^-30 of the scene. Even for the smallest direction component that intersect_node.glsl has, a
+// face that would pass through the ray's origin is then hit at |t| >= 1e9 scene sizes. Rounding in double is far below that.
 Box thicken(const Box& box, float pad)
 {
     Box thick = box;
@@ -47,7 +47,7 @@ float padOf(const Box& root)
     return std::ldexp(std::max({farthest.x, farthest.y, farthest.z, std::numeric_limits<float>::min()}), -30);
 }
 
-// Exponent, plus the bias of a float's, of the smallest power of two of which kMostSteps cover the extent.
+// The biased float exponent of the smallest power of two such that kMostSteps of them cover the extent.
 std::uint32_t biasedExponent(double extent)
 {
     int exponent = 0;
@@ -55,7 +55,7 @@ std::uint32_t biasedExponent(double extent)
     return static_cast<std::uint32_t>(std::clamp(mantissa == 0.5 ? exponent - 1 : exponent, -126, 127) + 127);
 }
 
-// Planes of one axis, a byte each, four children in a word.
+// The planes of one axis: a byte for each child, four children in a word.
 struct Planes {
     std::array<std::uint32_t, 2> lo{}, hi{};
 };
@@ -77,11 +77,11 @@ Planes packPlanes(const WideNode& node, float pad, int axis, float from, std::ui
     return planes;
 }
 
-// What a node holds besides boxes.
+// A node's children, without their boxes.
 struct Content {
     std::uint32_t firstNode = 0, firstRecord = 0;
-    std::uint32_t inner = 0;                     // bit i: child i is a node
-    std::array<std::uint32_t, 2> entries{};      // a byte for each child
+    std::uint32_t inner = 0;                 // bit i: child i is a node
+    std::array<std::uint32_t, 2> entries{};  // a byte for each child
 };
 
 Content contentOf(const WideNode& node)

@@ -1,4 +1,4 @@
-// From a wide tree to the texels that kernels read (shaders/shared/scene_types.h).
+// Packs a wide tree into the texels that kernels read (shaders/shared/scene_types.h).
 #pragma once
 
 #include "host/bvh/wide_bvh.hpp"
@@ -6,7 +6,7 @@
 
 namespace glim {
 
-// kNodeTexels for each node, in the order of the tree's. The boxes in them contain those of the tree.
+// Returns kNodeTexels texels for each node, in the tree's order. Their boxes contain the tree's boxes.
 std::vector<uvec4> packNodes(const WideBvh& bvh);
 
 }  // namespace glim

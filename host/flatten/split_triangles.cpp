@@ -15,21 +15,25 @@
 namespace glim {
 namespace {
 
-// Of the mean of all boxes: triangles of about one size do not waste as much. Smaller limits lower a tree's cost by .02 at most.
+// A box is split if it wastes more area than this many boxes of mean size. Triangles of about one size do not waste as much. Smaller
+// limits lower a tree's cost by .02 at most.
 constexpr double kLeastWaste = 2.0;
-// One more piece for so many primitives, at most and at least. Two and three times as many at most lower a tree's cost by .03 more. Fewer
-// are the walls and the lamp around what a scene is about, whose pieces do not pay (tests/bench/README.md).
-constexpr std::size_t kMostDivided = 10, kLeastDivided = 50;
+// At most one extra piece per 10 primitives, and at least one per 50. Two or three times as many pieces lower a tree's cost by .03. If
+// there are fewer than the minimum, they are of the walls and the lamp around the actual subject, and splitting those does not pay
+// (tests/bench/EXPERIMENTS.md).
+constexpr std::size_t kMaxSplitShare = 10, kMinSplitShare = 50;
 
-// Planes on each axis, a power of two: what is divided by the same plane has boxes that do not overlap across it.
+// Candidate split planes per axis, a power of two. Boxes that are split by the same plane do not overlap across it.
 constexpr std::uint32_t kPlanes = 1U << 20;
 
-// Of a triangle's size, by which its pieces' boxes grow. The test of a ray that starts nearby takes hits beside the triangle by some 2^-24
-// of that. Nodes around whole triangles are padded by as much (kPlanePad), those around pieces are smaller: without this, 10 of 2.4 million
-// rays from near edges of floors and walls in pieces missed what testing every triangle meets; with a quarter of it none did.
+// How much the boxes of pieces grow, relative to the triangle's size. For rays that start nearby, the intersection test accepts hits
+// beside the triangle by some 2^-24 of its size. The padding of nodes around whole triangles covers that (kPlanePad); nodes around pieces
+// are smaller. Without this margin, 10 of 2.4 million rays from near the edges of split floors and walls missed what testing every
+// triangle finds; with a quarter of it none did.
 constexpr double kMargin = 0x1p-22;
 
-// A triangle that six planes cut has nine corners at most; 28 if rounding has bent it so that each plane cuts as many sides as it can.
+// A triangle that is clipped by six planes has nine corners at most, or 28 if rounding has bent it so much that each plane cuts as many
+// sides as it can.
 struct Polygon {
     std::array<glm::dvec3, 28> corners;
     std::size_t count = 0;
@@ -37,7 +41,7 @@ struct Polygon {
     void add(const glm::dvec3& corner) { corners[count++] = corner; }
 };
 
-// What is above (sign 1) or below (-1) an axis-parallel plane (I. Sutherland, G. Hodgman, Reentrant Polygon Clipping, 1974).
+// The part above (sign 1) or below (-1) an axis-parallel plane (I. Sutherland, G. Hodgman, Reentrant Polygon Clipping, 1974).
 Polygon clip(const Polygon& polygon, int axis, double plane, double sign)
 {
     Polygon kept;
@@ -69,7 +73,7 @@ Polygon clip(const Triangle& triangle, const Box& box)
     return polygon;
 }
 
-// But finite.
+// The result is finite.
 Box roundedOutwards(const glm::dvec3& lo, const glm::dvec3& hi)
 {
     constexpr float kMost = std::numeric_limits<float>::max();
@@ -81,7 +85,7 @@ Box roundedOutwards(const glm::dvec3& lo, const glm::dvec3& hi)
     return box;
 }
 
-// Not beyond the box that the polygon was clipped by.
+// Within `clipped`, the box that the polygon was clipped by.
 Box boundsOf(const Polygon& polygon, const Box& clipped)
 {
     glm::dvec3 lo = polygon.corners[0], hi = polygon.corners[0];
@@ -93,7 +97,7 @@ Box boundsOf(const Polygon& polygon, const Box& clipped)
     return {glm::max(box.lo, clipped.lo), glm::min(box.hi, clipped.hi)};
 }
 
-// Half of the box's surface but the shadows that the polygon throws on it along the axes.
+// Half of the box's surface area, minus the areas of the polygon's projections along the axes.
 double computeWaste(const Polygon& polygon, const Box& box)
 {
     glm::dvec3 twice(0.0);
@@ -107,7 +111,7 @@ struct Waste {
     double area;
     std::uint32_t piece;
 
-    // Of equal ones, the first piece comes first.
+    // The lower piece comes first if both waste the same.
     bool operator<(const Waste& other) const { return area != other.area ? area < other.area : piece > other.piece; }
 };
 
@@ -118,7 +122,9 @@ struct Plane {
 
 class Splitter {
 public:
-    Splitter(const Scene& scene, std::vector<Box> boxes) : scene_(scene), whole_(boxes.front())
+    Splitter(std::span<const Triangle> triangles, std::vector<Box> boxes)
+        : triangles_(triangles),
+          whole_(boxes.front())
     {
         double sum = 0.0;
         for (const Box& box : boxes) {
@@ -134,24 +140,24 @@ public:
 
     Pieces split()
     {
-        const std::size_t count = pieces_.boxes.size(), most = count + count / kMostDivided;
-        for (std::uint32_t id = 0; id < scene_.triangles.size(); ++id) {
+        const std::size_t count = pieces_.boxes.size(), most = count + count / kMaxSplitShare;
+        for (std::uint32_t id = 0; id < triangles_.size(); ++id) {
             consider(id);
         }
         while (!wastes_.empty() && pieces_.boxes.size() < most) {
             const std::uint32_t piece = wastes_.top().piece;
             wastes_.pop();
-            divide(piece);
+            split(piece);
         }
-        if (pieces_.boxes.size() <= count + count / kLeastDivided) {
+        if (pieces_.boxes.size() <= count + count / kMinSplitShare) {
             return {};
         }
-        std::vector<bool> divided(count, false);
+        std::vector<bool> split(count, false);
         for (std::size_t piece = count; piece < pieces_.boxes.size(); ++piece) {
-            divided[pieces_.primitives[piece]] = true;
+            split[pieces_.primitives[piece]] = true;
         }
         for (std::uint32_t piece = 0; piece < pieces_.boxes.size(); ++piece) {
-            if (divided[pieces_.primitives[piece]]) {
+            if (split[pieces_.primitives[piece]]) {
                 grow(piece);
             }
         }
@@ -163,14 +169,14 @@ private:
     {
         const Box& box = pieces_.boxes[piece];
         if (computeHalfArea(box) > leastWaste_) {
-            const double waste = computeWaste(clip(scene_.triangles[pieces_.primitives[piece]], box), box);
+            const double waste = computeWaste(clip(triangles_[pieces_.primitives[piece]], box), box);
             if (waste > leastWaste_) {
                 wastes_.push({waste, piece});
             }
         }
     }
 
-    // The coarsest one through the box's longest side: that whose number ends in most zero bits.
+    // The coarsest plane through the box's longest side: the one whose number ends in the most zero bits.
     std::optional<Plane> findPlane(const Box& box) const
     {
         const glm::dvec3 size = glm::dvec3(box.hi) - glm::dvec3(box.lo);
@@ -184,7 +190,7 @@ private:
         return place > box.lo[axis] && place < box.hi[axis] ? std::optional<Plane>({axis, place}) : std::nullopt;
     }
 
-    void divide(std::uint32_t piece)
+    void split(std::uint32_t piece)
     {
         const std::optional<Plane> plane = findPlane(pieces_.boxes[piece]);
         if (!plane) {
@@ -193,7 +199,7 @@ private:
         const std::uint32_t id = pieces_.primitives[piece];
         Box below = pieces_.boxes[piece], above = below;
         below.hi[plane->axis] = above.lo[plane->axis] = plane->place;
-        const Polygon lower = clip(scene_.triangles[id], below), upper = clip(scene_.triangles[id], above);
+        const Polygon lower = clip(triangles_[id], below), upper = clip(triangles_[id], above);
         if (lower.count == 0 || upper.count == 0) {
             return;
         }
@@ -206,14 +212,14 @@ private:
 
     void grow(std::uint32_t piece)
     {
-        const auto& v = scene_.triangles[pieces_.primitives[piece]].vertices;
+        const auto& v = triangles_[pieces_.primitives[piece]].vertices;
         const glm::dvec3 size = glm::dvec3(glm::max(v[0], glm::max(v[1], v[2]))) - glm::dvec3(glm::min(v[0], glm::min(v[1], v[2])));
         const double margin = kMargin * std::max({size.x, size.y, size.z});
         Box& box = pieces_.boxes[piece];
         box = roundedOutwards(glm::dvec3(box.lo) - margin, glm::dvec3(box.hi) + margin);
     }
 
-    const Scene& scene_;
+    std::span<const Triangle> triangles_;
     Box whole_;
     double leastWaste_;
     Pieces pieces_;
@@ -222,6 +228,6 @@ private:
 
 }  // namespace
 
-Pieces splitTriangles(const Scene& scene, std::vector<Box> boxes) { return Splitter(scene, std::move(boxes)).split(); }
+Pieces splitTriangles(std::span<const Triangle> triangles, std::vector<Box> boxes) { return Splitter(triangles, std::move(boxes)).split(); }
 
 }  // namespace glim

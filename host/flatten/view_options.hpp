@@ -1,4 +1,4 @@
-// The command line's words for what a camera of the file was changed to.
+// A changed camera, written as command-line options.
 #pragma once
 
 #include "host/flatten/flatten_scene.hpp"
@@ -9,7 +9,7 @@
 
 namespace glim {
 
-// As a film's settings name it: " look-from=0,0,1 look-at=0,0,0 lens-radius=0.1 ...", exact; empty where nothing was changed.
+// As in a film's settings: " look-from=0,0,1 look-at=0,0,0 lens-radius=0.1 ...", exact; empty if nothing was changed.
 std::string describeView(const std::optional<Pose>& pose, const Lens& lens);
 
 // The same as options of `glim render`: " --look-from 0,0,1 --look-at 0,0,0 --lens-radius 0.1 ...".

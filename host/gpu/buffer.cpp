@@ -3,6 +3,7 @@
 #include "host/gpu/commands.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace glim {
@@ -13,17 +14,13 @@ constexpr std::uint64_t kTexelBytes = 16;
 VkBufferUsageFlags usageOf(BufferKind kind)
 {
     const VkBufferUsageFlags texels = hasTexels(kind) ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : 0;
-    const VkBufferUsageFlags storage =
-        hasStorage(kind) ? VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT : 0;
+    const VkBufferUsageFlags storage = hasStorage(kind) ? VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT : 0;
     return VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | texels | storage;
 }
 
-std::string megabytes(std::uint64_t bytes)
-{
-    return std::to_string((bytes + (1U << 20) - 1) >> 20) + " MiB";
-}
+std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes + (1U << 20) - 1) >> 20) + " MiB"; }
 
-// The most bytes that a kernel of this device can see of a buffer of this kind.
+// The most bytes of a buffer of this kind that a kernel can address.
 std::uint64_t limitOf(const DeviceDescription& device, BufferKind kind)
 {
     const std::uint64_t texels = device.maxTexelElements * kTexelBytes;
@@ -36,15 +33,16 @@ void refuseTooLarge(const DeviceDescription& device, const std::string& name, Bu
 {
     const std::uint64_t limit = std::min(limitOf(device, kind), device.maxAllocation);
     if (size > limit) {
-        throw DeviceError("The " + name + " need " + megabytes(size) + ", which is " + megabytes(size - limit) +
-                          " more than device \"" + device.name + "\" allows in one buffer (" + megabytes(limit) + ").");
+        throw DeviceError("The " + name + " need " + megabytes(size) + ", which is " + megabytes(size - limit) + " more than device \"" +
+                          device.name + "\" allows in one buffer (" + megabytes(limit) + ").");
     }
 }
 
-// A staging buffer that the host sees, for memory that it does not.
+// A buffer in host memory, for copies to and from memory that the host does not map.
 class Staging {
 public:
-    Staging(const Device& device, std::uint64_t size) : device_(device)
+    Staging(const Device& device, std::uint64_t size)
+        : device_(device)
     {
         VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
         info.size = size;
@@ -55,9 +53,9 @@ public:
         VkMemoryPropertyFlags have = 0;
         VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
         allocation.allocationSize = needs.size;
-        allocation.memoryTypeIndex = device.findMemoryType(
-            needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
-            VK_MEMORY_PROPERTY_HOST_CACHED_BIT, &have);
+        allocation.memoryTypeIndex =
+            device.findMemoryType(needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+                                  VK_MEMORY_PROPERTY_HOST_CACHED_BIT, &have);
         check(vkAllocateMemory(device.handle(), &allocation, nullptr, &memory_), "allocate a staging buffer");
         check(vkBindBufferMemory(device.handle(), handle_, memory_, 0), "bind a staging buffer");
         check(vkMapMemory(device.handle(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped_), "map a staging buffer");
@@ -83,7 +81,9 @@ private:
 }  // namespace
 
 Buffer::Buffer(Device& device, const std::string& name, BufferKind kind, std::uint64_t size)
-    : device_(&device), kind_(kind), size_(size)
+    : device_(&device),
+      kind_(kind),
+      size_(size)
 {
     refuseTooLarge(device.description(), name, kind, size);
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
@@ -111,27 +111,27 @@ void Buffer::allocate(const std::string& name)
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device_->handle(), handle_, &needs);
     const VkMemoryPropertyFlags host = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-    // Memory that is the device's and also cached by the host is one memory that both share. What a discrete GPU shows the host
-    // of its own is small (256 MiB) or slow to read, so there the host goes through staging buffers.
-    const VkMemoryPropertyFlags shared = host | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+    // Device memory that is also host-cached is memory that both share. A discrete GPU may also expose some of its own memory to the
+    // host, but that is small (256 MiB) or slow to read, and stays unmapped.
+    const VkMemoryPropertyFlags shared = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | host | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
     const bool readback = kind_ == BufferKind::Readback;
     VkMemoryPropertyFlags have = 0;
     VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     allocation.allocationSize = needs.size;
-    allocation.memoryTypeIndex = device_->findMemoryType(
-        needs.memoryTypeBits, readback ? host : VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT},
-        readback ? VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_HOST_CACHED_BIT} : shared, &have);
+    allocation.memoryTypeIndex =
+        device_->findMemoryType(needs.memoryTypeBits, readback ? host : VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT},
+                                readback ? VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_HOST_CACHED_BIT} : shared, &have);
+    const bool mappable = device_->memoryPolicy() == MemoryPolicy::MapShared && (have & shared) == shared;
     const VkResult result = vkAllocateMemory(device_->handle(), &allocation, nullptr, &memory_);
     if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
-        throw DeviceError("The " + name + " need " + megabytes(needs.size) + ", but device \"" +
-                          device_->description().name + "\" has no more memory (of " +
-                          megabytes(device_->description().memory) + ").");
+        throw DeviceError("The " + name + " need " + megabytes(needs.size) + ", but device \"" + device_->description().name +
+                          "\" has no more memory (of " + megabytes(device_->description().memory) + ").");
     }
     check(result, "allocate the " + name);
     allocated_ = needs.size;
     device_->addMemory(static_cast<std::int64_t>(allocated_));
     check(vkBindBufferMemory(device_->handle(), handle_, memory_, 0), "bind the memory of the " + name);
-    if ((have & host) == host) {
+    if (readback || mappable) {
         void* mapped = nullptr;
         check(vkMapMemory(device_->handle(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped), "map the " + name);
         mapped_ = static_cast<std::byte*>(mapped);
@@ -150,13 +150,19 @@ Buffer::~Buffer()
 }
 
 Buffer::Buffer(Buffer&& other) noexcept
-    : device_(other.device_), kind_(other.kind_), size_(other.size_), handle_(std::exchange(other.handle_, nullptr)),
-      memory_(other.memory_), view_(other.view_), allocated_(other.allocated_), mapped_(other.mapped_)
-{
-}
+    : device_(other.device_),
+      kind_(other.kind_),
+      size_(other.size_),
+      handle_(std::exchange(other.handle_, nullptr)),
+      memory_(other.memory_),
+      view_(other.view_),
+      allocated_(other.allocated_),
+      mapped_(other.mapped_)
+{}
 
 void Buffer::upload(std::span<const std::byte> bytes)
 {
+    assert(bytes.size() <= size_);
     if (bytes.empty()) {
         return;
     }
@@ -164,15 +170,19 @@ void Buffer::upload(std::span<const std::byte> bytes)
         std::memcpy(mapped_, bytes.data(), bytes.size());
         return;
     }
-    const Staging staging(*device_, bytes.size());
-    std::memcpy(staging.mapped(), bytes.data(), bytes.size());
-    Commands commands(*device_);
-    commands.copy(staging.handle(), 0, handle_, bytes.size());
-    commands.submitAndWait();
+    const Staging staging(*device_, std::min<std::uint64_t>(bytes.size(), kStagingBytes));
+    for (std::uint64_t offset = 0; offset < bytes.size(); offset += kStagingBytes) {
+        const std::uint64_t count = std::min<std::uint64_t>(bytes.size() - offset, kStagingBytes);
+        std::memcpy(staging.mapped(), bytes.data() + offset, count);
+        Commands commands(*device_);
+        commands.copy(staging.handle(), 0, handle_, count, offset);
+        commands.submitAndWait();
+    }
 }
 
 void Buffer::download(std::span<std::byte> bytes) const
 {
+    assert(bytes.size() <= size_);
     if (bytes.empty()) {
         return;
     }
@@ -180,11 +190,14 @@ void Buffer::download(std::span<std::byte> bytes) const
         std::memcpy(bytes.data(), mapped_, bytes.size());
         return;
     }
-    const Staging staging(*device_, bytes.size());
-    Commands commands(*device_);
-    commands.copy(handle_, 0, staging.handle(), bytes.size());
-    commands.submitAndWait();
-    std::memcpy(bytes.data(), staging.mapped(), bytes.size());
+    const Staging staging(*device_, std::min<std::uint64_t>(bytes.size(), kStagingBytes));
+    for (std::uint64_t offset = 0; offset < bytes.size(); offset += kStagingBytes) {
+        const std::uint64_t count = std::min<std::uint64_t>(bytes.size() - offset, kStagingBytes);
+        Commands commands(*device_);
+        commands.copy(handle_, offset, staging.handle(), count);
+        commands.submitAndWait();
+        std::memcpy(bytes.data() + offset, staging.mapped(), count);
+    }
 }
 
 }  // namespace glim

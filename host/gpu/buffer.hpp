@@ -1,4 +1,4 @@
-// Device memory with a buffer over it.
+// A buffer in device memory, and the copies between it and the host.
 #pragma once
 
 #include "host/gpu/device.hpp"
@@ -19,9 +19,12 @@ enum class BufferKind {
 constexpr bool hasTexels(BufferKind kind) { return kind == BufferKind::Texel || kind == BufferKind::Both; }
 constexpr bool hasStorage(BufferKind kind) { return kind != BufferKind::Texel; }
 
+// The size of a staging buffer in bytes. A longer copy is made in parts, so that a large scene needs little host memory beside its own.
+inline constexpr std::uint64_t kStagingBytes = std::uint64_t{16} << 20;
+
 class Buffer {
 public:
-    // `size` in bytes, at least 1. Throws DeviceError with the name, the size and the limit where the device cannot.
+    // `size` is in bytes, at least 1. Throws DeviceError with the name, the size and the limit if the device does not allow it.
     Buffer(Device& device, const std::string& name, BufferKind kind, std::uint64_t size);
     ~Buffer();
     Buffer(Buffer&& other) noexcept;
@@ -31,10 +34,11 @@ public:
     VkBufferView texelView() const { return view_; }
     BufferKind kind() const { return kind_; }
     std::uint64_t size() const { return size_; }
+    bool isMapped() const { return mapped_ != nullptr; }
 
-    // Copies all of `bytes` to the start of the buffer; no kernel that uses it may be running.
+    // Copies `bytes` to the start of the buffer. No kernel that uses the buffer may be running.
     void upload(std::span<const std::byte> bytes);
-    // Copies the first bytes of the buffer out.
+    // Copies the first bytes of the buffer to `bytes`.
     void download(std::span<std::byte> bytes) const;
 
 private:
@@ -47,7 +51,7 @@ private:
     VkDeviceMemory memory_ = VK_NULL_HANDLE;
     VkBufferView view_ = VK_NULL_HANDLE;
     std::uint64_t allocated_ = 0;
-    std::byte* mapped_ = nullptr;  // null where the host cannot see the memory
+    std::byte* mapped_ = nullptr;  // null if host copies are staged
 };
 
 template <class T>

@@ -4,7 +4,8 @@
 
 namespace glim {
 
-Commands::Commands(const Device& device) : device_(device)
+Commands::Commands(const Device& device)
+    : device_(device)
 {
     VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     poolInfo.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
@@ -38,26 +39,23 @@ Commands::~Commands()
 
 void Commands::begin(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push)
 {
-    assert(push.size() == kernel.layout().pushSize());
+    assert(push.size() <= kernel.layout().pushSize());
     const VkDescriptorSet set = bindings.set();
     const VkPipelineLayout layout = kernel.layout().pipelineLayout();
     vkCmdBindPipeline(buffer_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
     vkCmdBindDescriptorSets(buffer_, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);
     if (!push.empty()) {
-        vkCmdPushConstants(buffer_, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, static_cast<std::uint32_t>(push.size()),
-                           push.data());
+        vkCmdPushConstants(buffer_, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, static_cast<std::uint32_t>(push.size()), push.data());
     }
     if (queries_ != VK_NULL_HANDLE && timed_.size() < kMaxTimed) {
-        vkCmdWriteTimestamp(buffer_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries_,
-                            static_cast<std::uint32_t>(2 * timed_.size()));
+        vkCmdWriteTimestamp(buffer_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries_, static_cast<std::uint32_t>(2 * timed_.size()));
     }
 }
 
 void Commands::end(const Kernel& kernel)
 {
     if (queries_ != VK_NULL_HANDLE && timed_.size() < kMaxTimed) {
-        vkCmdWriteTimestamp(buffer_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries_,
-                            static_cast<std::uint32_t>(2 * timed_.size() + 1));
+        vkCmdWriteTimestamp(buffer_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries_, static_cast<std::uint32_t>(2 * timed_.size() + 1));
         timed_.push_back(kernel.name());
     }
     barrier();
@@ -70,12 +68,11 @@ void Commands::barrier()
     memory.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
     memory.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT |
                            VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_HOST_READ_BIT;
-    vkCmdPipelineBarrier(buffer_, stages, stages | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0,
-                         1, &memory, 0, nullptr, 0, nullptr);
+    vkCmdPipelineBarrier(buffer_, stages, stages | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &memory, 0,
+                         nullptr, 0, nullptr);
 }
 
-void Commands::dispatch(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push,
-                        std::uint32_t groups)
+void Commands::dispatch(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push, std::uint32_t groups)
 {
     assert(groups <= device_.description().maxGroups);
     begin(kernel, bindings, push);
@@ -83,8 +80,8 @@ void Commands::dispatch(const Kernel& kernel, const Bindings& bindings, std::spa
     end(kernel);
 }
 
-void Commands::dispatchIndirect(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push,
-                                const Buffer& arguments, std::uint64_t offset)
+void Commands::dispatchIndirect(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push, const Buffer& arguments,
+                                std::uint64_t offset)
 {
     begin(kernel, bindings, push);
     vkCmdDispatchIndirect(buffer_, arguments.handle(), offset);
@@ -93,18 +90,19 @@ void Commands::dispatchIndirect(const Kernel& kernel, const Bindings& bindings, 
 
 void Commands::fillWithZero(const Buffer& buffer)
 {
+    assert(buffer.size() % 4 == 0);
     vkCmdFillBuffer(buffer_, buffer.handle(), 0, VK_WHOLE_SIZE, 0);
     barrier();
 }
 
-void Commands::copy(VkBuffer source, std::uint64_t offset, VkBuffer target, std::uint64_t bytes)
+void Commands::copy(VkBuffer source, std::uint64_t sourceOffset, VkBuffer target, std::uint64_t bytes, std::uint64_t targetOffset)
 {
-    const VkBufferCopy region{offset, 0, bytes};
+    const VkBufferCopy region{sourceOffset, targetOffset, bytes};
     vkCmdCopyBuffer(buffer_, source, target, 1, &region);
     barrier();
 }
 
-// Of all of an image; everything before is waited for, everything after waits.
+// Changes the layout of the whole image, with a full barrier.
 void Commands::transition(VkImage image, VkImageLayout from, VkImageLayout to)
 {
     VkImageMemoryBarrier change{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
@@ -115,8 +113,8 @@ void Commands::transition(VkImage image, VkImageLayout from, VkImageLayout to)
     change.srcQueueFamilyIndex = change.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     change.image = image;
     change.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    vkCmdPipelineBarrier(buffer_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr, 0,
-                         nullptr, 1, &change);
+    vkCmdPipelineBarrier(buffer_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr, 0, nullptr, 1,
+                         &change);
 }
 
 void Commands::clear(const StorageImage& image)
@@ -136,8 +134,8 @@ void Commands::blit(const StorageImage& image, VkImage target, VkExtent2D size)
     region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.srcOffsets[1] = {static_cast<std::int32_t>(image.width()), static_cast<std::int32_t>(image.height()), 1};
     region.dstOffsets[1] = {static_cast<std::int32_t>(size.width), static_cast<std::int32_t>(size.height), 1};
-    vkCmdBlitImage(buffer_, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
-                   &region, VK_FILTER_NEAREST);
+    vkCmdBlitImage(buffer_, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
+                   VK_FILTER_NEAREST);
     transition(image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL);
     transition(target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
 }
@@ -159,10 +157,10 @@ std::vector<KernelTime> Commands::times() const
 {
     std::vector<std::uint64_t> ticks(2 * timed_.size());
     if (!ticks.empty()) {
-        check(vkGetQueryPoolResults(device_.handle(), queries_, 0, static_cast<std::uint32_t>(ticks.size()),
-                                    ticks.size() * sizeof(ticks[0]), ticks.data(), sizeof(ticks[0]),
-                                    VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-              "read timestamps");
+        check(
+            vkGetQueryPoolResults(device_.handle(), queries_, 0, static_cast<std::uint32_t>(ticks.size()), ticks.size() * sizeof(ticks[0]),
+                                  ticks.data(), sizeof(ticks[0]), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+            "read timestamps");
     }
     std::vector<KernelTime> times;
     for (std::size_t i = 0; i < timed_.size(); ++i) {

@@ -1,4 +1,4 @@
-// A list of dispatches, run once. Synchronisation has its home here: a full barrier between any two commands.
+// A list of commands for the device, run once. All synchronisation is made here: a full barrier follows every command.
 #pragma once
 
 #include "host/gpu/kernel.hpp"
@@ -18,25 +18,25 @@ public:
     Commands(const Commands&) = delete;
     Commands& operator=(const Commands&) = delete;
 
-    // `push` holds exactly the layout's push constants; `groups` workgroups along x.
-    void dispatch(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push,
-                  std::uint32_t groups);
-    // As dispatch, the three group counts read from `arguments` at `offset` bytes when it runs.
-    void dispatchIndirect(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push,
-                          const Buffer& arguments, std::uint64_t offset);
+    // `push` holds the first of the layout's push constants, as many as the kernel reads; `groups` workgroups along x.
+    void dispatch(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push, std::uint32_t groups);
+    // As dispatch, but the device reads the three group counts from `arguments`, `offset` bytes from its start.
+    void dispatchIndirect(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push, const Buffer& arguments,
+                          std::uint64_t offset);
+    // The buffer's size must be a multiple of 4 bytes.
     void fillWithZero(const Buffer& buffer);
-    // From `offset` in the source to the start of the target, bytes.
-    void copy(VkBuffer source, std::uint64_t offset, VkBuffer target, std::uint64_t bytes);
-    // Makes it black, and ready for kernels.
+    // Offsets and size are in bytes.
+    void copy(VkBuffer source, std::uint64_t sourceOffset, VkBuffer target, std::uint64_t bytes, std::uint64_t targetOffset = 0);
+    // Fills the image with black and brings it into the layout that kernels expect.
     void clear(const StorageImage& image);
-    // Stretches `image` over `target`, a swapchain's image of this size, and makes it ready to present.
+    // Scales `image` to `target`, a swapchain image of this size, and brings the target into the layout for presenting.
     void blit(const StorageImage& image, VkImage target, VkExtent2D size);
 
-    // Runs everything recorded and waits for it; then the object is spent. Signals `done` too, if given. Throws DeviceError if
-    // the device fails or the validation layers have spoken.
+    // Runs all commands and waits for their end. It may be called once. `done`, if given, is signalled too. Throws DeviceError if
+    // the device fails or the validation layers have printed a message.
     void submitAndWait(VkSemaphore done = VK_NULL_HANDLE);
 
-    // Device seconds of each dispatch in order; empty without timestamps. After submitAndWait.
+    // The device time of each dispatch, in their order; empty if the device has no timestamps. To be called after submitAndWait.
     std::vector<KernelTime> times() const;
 
 private:
@@ -45,7 +45,7 @@ private:
     void barrier();
     void transition(VkImage image, VkImageLayout from, VkImageLayout to);
 
-    // Dispatches that one object times; further ones run untimed.
+    // The most dispatches that are timed.
     static constexpr std::uint32_t kMaxTimed = 1024;
 
     const Device& device_;

@@ -1,12 +1,129 @@
-#include "host/gpu/describe_devices.hpp"
+#include "host/gpu/device.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <cstring>
-#include <optional>
+#include <iterator>
 
 namespace glim {
 namespace {
+
+struct Candidate {
+    VkPhysicalDevice physical;
+    std::uint32_t queueFamily;
+    DeviceDescription description;
+};
+
+std::string nameOf(VkPhysicalDeviceType type)
+{
+    switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return "discrete GPU";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return "integrated GPU";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return "virtual GPU";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU: return "software";
+    default: return "other";
+    }
+}
+
+int rank(const DeviceDescription& description)
+{
+    static const char* const kinds[] = {"discrete GPU", "integrated GPU", "virtual GPU", "other", "software"};
+    return static_cast<int>(std::find(std::begin(kinds), std::end(kinds), description.kind) - std::begin(kinds));
+}
+
+std::uint64_t largestLocalHeap(VkPhysicalDevice physical)
+{
+    VkPhysicalDeviceMemoryProperties memory;
+    vkGetPhysicalDeviceMemoryProperties(physical, &memory);
+    std::uint64_t largest = 0;
+    for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
+        if ((memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0) {
+            largest = std::max<std::uint64_t>(largest, memory.memoryHeaps[i].size);
+        }
+    }
+    return largest;
+}
+
+// The index of the first compute queue family and the number of valid bits of its timestamps.
+std::optional<std::pair<std::uint32_t, std::uint32_t>> findComputeFamily(VkPhysicalDevice physical)
+{
+    std::uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) != 0) {
+            return {{i, families[i].timestampValidBits}};
+        }
+    }
+    return {};
+}
+
+// The first feature that glim needs and the device lacks; empty if there is none.
+std::string findMissing(VkPhysicalDevice physical, std::uint32_t version)
+{
+    if (version < VK_API_VERSION_1_2) {
+        return "Vulkan 1.2";
+    }
+    VkPhysicalDeviceVulkan12Features features12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &features12, {}};
+    vkGetPhysicalDeviceFeatures2(physical, &features);
+    if (features12.scalarBlockLayout == VK_FALSE) {
+        return "scalarBlockLayout";
+    }
+    if (features12.hostQueryReset == VK_FALSE) {
+        return "hostQueryReset";
+    }
+    VkPhysicalDeviceVulkan12Properties properties12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &properties12, {}};
+    vkGetPhysicalDeviceProperties2(physical, &properties);
+    // The kernels compute with infinite distances and compare with NaN.
+    return properties12.shaderSignedZeroInfNanPreserveFloat32 == VK_FALSE ? "shaderSignedZeroInfNanPreserveFloat32" : "";
+}
+
+Candidate describe(VkPhysicalDevice physical)
+{
+    VkPhysicalDeviceMaintenance3Properties allocation{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
+    VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, &allocation};
+    VkPhysicalDeviceSubgroupProperties subgroup{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES, &driver};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroup, {}};
+    vkGetPhysicalDeviceProperties2(physical, &properties);
+    const VkPhysicalDeviceLimits& limits = properties.properties.limits;
+
+    DeviceDescription d;
+    d.name = properties.properties.deviceName;
+    d.driver = std::string(driver.driverName) + " " + driver.driverInfo;
+    d.kind = nameOf(properties.properties.deviceType);
+    d.software = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    d.subgroupSize = subgroup.subgroupSize;
+    d.memory = largestLocalHeap(physical);
+    d.maxAllocation = allocation.maxMemoryAllocationSize;
+    d.maxStorageBuffer = limits.maxStorageBufferRange;
+    d.maxTexelElements = limits.maxTexelBufferElements;
+    d.maxStorageBuffers = limits.maxPerStageDescriptorStorageBuffers;
+    d.maxWorkgroup = limits.maxComputeWorkGroupInvocations;
+    d.maxGroups = limits.maxComputeWorkGroupCount[0];
+    d.missing = findMissing(physical, properties.properties.apiVersion);
+    const auto family = findComputeFamily(physical);
+    if (!family) {
+        d.missing = "a compute queue";
+    } else if (family->second != 0) {
+        d.nanosecondsPerTick = limits.timestampPeriod;
+        d.tickMask = ~std::uint64_t{0} >> (64 - family->second);
+    }
+    return {physical, family ? family->first : 0, d};
+}
+
+std::vector<Candidate> findCandidates(const Instance& instance)
+{
+    std::vector<Candidate> candidates;
+    for (VkPhysicalDevice physical : instance.physicalDevices()) {
+        candidates.push_back(describe(physical));
+    }
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return rank(a.description) < rank(b.description); });
+    return candidates;
+}
 
 std::string lowerCase(std::string text)
 {
@@ -23,7 +140,7 @@ std::string listOf(const std::vector<Candidate>& candidates)
     return list.empty() ? "none" : list;
 }
 
-// A number is an index and never part of a name: many names have digits.
+// A number is always an index, never a part of a name: many names contain digits.
 bool isNamedBy(const std::string& choice, std::size_t index, const DeviceDescription& description)
 {
     if (choice.find_first_not_of("0123456789") == std::string::npos) {
@@ -32,7 +149,7 @@ bool isNamedBy(const std::string& choice, std::size_t index, const DeviceDescrip
     return lowerCase(description.name).find(lowerCase(choice)) != std::string::npos;
 }
 
-bool canShow(const Candidate& candidate, VkSurfaceKHR surface)
+bool canPresent(const Candidate& candidate, VkSurfaceKHR surface)
 {
     std::uint32_t count = 0;
     check(vkEnumerateDeviceExtensionProperties(candidate.physical, nullptr, &count, nullptr), "list extensions");
@@ -42,15 +159,14 @@ bool canShow(const Candidate& candidate, VkSurfaceKHR surface)
         return std::strcmp(extension.extensionName, VK_KHR_SWAPCHAIN_EXTENSION_NAME) == 0;
     });
     VkBool32 presents = VK_FALSE;
-    return swaps &&
-           vkGetPhysicalDeviceSurfaceSupportKHR(candidate.physical, candidate.queueFamily, surface, &presents) == VK_SUCCESS &&
+    return swaps && vkGetPhysicalDeviceSurfaceSupportKHR(candidate.physical, candidate.queueFamily, surface, &presents) == VK_SUCCESS &&
            presents == VK_TRUE;
 }
 
 Candidate choose(const Instance& instance, const std::optional<std::string>& choice, VkSurfaceKHR surface)
 {
     const std::vector<Candidate> candidates = findCandidates(instance);
-    std::string blind;  // devices that cannot show pictures in this window
+    std::string blind;  // devices that fit the choice but cannot present in this window
     for (std::size_t i = 0; i < candidates.size(); ++i) {
         const DeviceDescription& d = candidates[i].description;
         if (choice ? !isNamedBy(*choice, i, d) : !d.missing.empty()) {
@@ -59,7 +175,7 @@ Candidate choose(const Instance& instance, const std::optional<std::string>& cho
         if (!d.missing.empty()) {
             throw DeviceError("Device \"" + d.name + "\" lacks " + d.missing + ", which glim needs.");
         }
-        if (surface == VK_NULL_HANDLE || canShow(candidates[i], surface)) {
+        if (surface == VK_NULL_HANDLE || canPresent(candidates[i], surface)) {
             return candidates[i];
         }
         blind += (blind.empty() ? "\"" : ", \"") + d.name + "\"";
@@ -76,7 +192,18 @@ Candidate choose(const Instance& instance, const std::optional<std::string>& cho
 
 }  // namespace
 
-Device::Device(const Instance& instance, const std::optional<std::string>& choice, VkSurfaceKHR surface) : instance_(instance)
+std::vector<DeviceDescription> listDevices(const Instance& instance)
+{
+    std::vector<DeviceDescription> descriptions;
+    for (const Candidate& candidate : findCandidates(instance)) {
+        descriptions.push_back(candidate.description);
+    }
+    return descriptions;
+}
+
+Device::Device(const Instance& instance, const std::optional<std::string>& choice, VkSurfaceKHR surface, MemoryPolicy memoryPolicy)
+    : instance_(instance),
+      memoryPolicy_(memoryPolicy)
 {
     const Candidate chosen = choose(instance, choice, surface);
     description_ = chosen.description;
@@ -99,14 +226,14 @@ Device::Device(const Instance& instance, const std::optional<std::string>& choic
     info.ppEnabledExtensionNames = &swapchain;
     check(vkCreateDevice(physical_, &info, nullptr, &handle_), "open device \"" + description_.name + "\"");
     vkGetDeviceQueue(handle_, queueFamily_, 0, &queue_);
-    setObjectName_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
-        vkGetInstanceProcAddr(instance.handle(), "vkSetDebugUtilsObjectNameEXT"));
+    setObjectName_ =
+        reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(vkGetInstanceProcAddr(instance.handle(), "vkSetDebugUtilsObjectNameEXT"));
 }
 
 Device::~Device() { vkDestroyDevice(handle_, nullptr); }
 
-std::uint32_t Device::findMemoryType(std::uint32_t allowed, VkMemoryPropertyFlags wanted,
-                                     VkMemoryPropertyFlags preferred, VkMemoryPropertyFlags* chosen) const
+std::uint32_t Device::findMemoryType(std::uint32_t allowed, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred,
+                                     VkMemoryPropertyFlags* chosen) const
 {
     VkPhysicalDeviceMemoryProperties memory;
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory);

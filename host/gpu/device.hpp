@@ -1,4 +1,4 @@
-// A Vulkan device chosen for compute, with one queue that one thread owns.
+// A Vulkan device for compute, with one queue. One thread uses the queue.
 #pragma once
 
 #include "host/gpu/instance.hpp"
@@ -9,55 +9,62 @@
 
 namespace glim {
 
-// What matters of a device to someone choosing one.
 struct DeviceDescription {
     std::string name;
     std::string driver;
-    std::string kind;      // "discrete GPU", "integrated GPU", "virtual GPU", "software", "other"
-    bool software = false; // a CPU pretends
+    std::string kind;       // "discrete GPU", "integrated GPU", "virtual GPU", "software", "other"
+    bool software = false;  // runs on the CPU
     std::uint32_t subgroupSize = 0;
     std::uint64_t memory = 0;             // bytes of the largest device-local heap
     std::uint64_t maxAllocation = 0;      // bytes in one allocation
-    std::uint64_t maxStorageBuffer = 0;   // bytes a kernel can see of one storage buffer
-    std::uint64_t maxTexelElements = 0;   // 16-byte texels a kernel can see of one texel buffer
+    std::uint64_t maxStorageBuffer = 0;   // bytes of a storage buffer that a kernel can address
+    std::uint64_t maxTexelElements = 0;   // 16-byte texels of a texel buffer that a kernel can address
     std::uint32_t maxStorageBuffers = 0;  // per kernel
     std::uint32_t maxWorkgroup = 0;       // invocations
     std::uint32_t maxGroups = 0;          // workgroups of one dispatch along x
     float nanosecondsPerTick = 0.0F;      // 0: no timestamps
-    std::uint64_t tickMask = 0;           // the bits of a timestamp that count; it wraps beyond
-    std::string missing;                  // what glim needs and this device lacks; empty if usable
+    std::uint64_t tickMask = 0;           // the valid bits of a timestamp, which wraps beyond them
+    std::string missing;                  // the first feature that glim needs and this device lacks; empty if usable
 };
 
-// All devices that Vulkan shows, best first: discrete, integrated, virtual, software; in Vulkan's order within a kind.
+// All devices that Vulkan shows, best first: discrete, integrated, virtual, other, software. Vulkan's order decides within a kind.
 std::vector<DeviceDescription> listDevices(const Instance& instance);
+
+// How the host reaches the buffers of a device.
+enum class MemoryPolicy {
+    MapShared,    // maps memory that device and host share (software devices, integrated GPUs) and stages the rest
+    AlwaysStage,  // stages all of it, as a discrete GPU needs it: tests run those copies on a software device
+};
 
 class Device {
 public:
-    // `choice`: an index into listDevices or a part of a name (any case); absent: the first usable one. With `surface` only one
-    // that can show pictures there is usable. Throws InputError if the choice names nothing or cannot show pictures,
-    // DeviceError if there is no usable device.
-    explicit Device(const Instance& instance, const std::optional<std::string>& choice = {},
-                    VkSurfaceKHR surface = VK_NULL_HANDLE);
+    // `choice` is an index into listDevices or a part of a name in any case; without it the first usable device is taken. With
+    // `surface`, a device is usable only if it can present to it. Throws InputError if the choice names no device or one that
+    // cannot present, DeviceError if no device is usable.
+    explicit Device(const Instance& instance, const std::optional<std::string>& choice = {}, VkSurfaceKHR surface = VK_NULL_HANDLE,
+                    MemoryPolicy memoryPolicy = MemoryPolicy::MapShared);
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
     const Instance& instance() const { return instance_; }
     const DeviceDescription& description() const { return description_; }
+    MemoryPolicy memoryPolicy() const { return memoryPolicy_; }
     VkPhysicalDevice physical() const { return physical_; }
     VkDevice handle() const { return handle_; }
     VkQueue queue() const { return queue_; }
     std::uint32_t queueFamily() const { return queueFamily_; }
 
-    // A memory type among `allowed` (bits) with `wanted` and, if there is one, also `preferred` properties.
+    // The first memory type of `allowed` (a bit mask) that has the `wanted` and the `preferred` properties, or at least the
+    // `wanted` ones. `chosen` receives its properties. Throws DeviceError if there is none.
     std::uint32_t findMemoryType(std::uint32_t allowed, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred,
                                  VkMemoryPropertyFlags* chosen) const;
 
-    // Bytes of device memory in use and at most in use so far; Buffer keeps them.
+    // Adds to the bytes of device memory in use. Buffers and images call it, with negative bytes when they free memory.
     void addMemory(std::int64_t bytes);
-    std::uint64_t peakMemory() const { return peakMemory_; }
+    std::uint64_t peakMemory() const { return peakMemory_; }  // the most bytes in use so far
 
-    // Gives an object a name for the debugger, where one listens.
+    // Names an object for a debugger, if one listens.
     void setName(VkObjectType type, std::uint64_t object, const std::string& name) const;
 
 private:
@@ -67,6 +74,7 @@ private:
     VkDevice handle_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     std::uint32_t queueFamily_ = 0;
+    MemoryPolicy memoryPolicy_;
     std::uint64_t memory_ = 0, peakMemory_ = 0;
     PFN_vkSetDebugUtilsObjectNameEXT setObjectName_ = nullptr;
 };

@@ -1,7 +1,9 @@
-// The connection to Vulkan, and what it says against us.
+// The connection to Vulkan, and the messages of its validation layers.
 #pragma once
 
-#include "host/gpu/check.hpp"
+#include "host/error.hpp"
+
+#include <vulkan/vulkan.h>
 
 #include <atomic>
 #include <memory>
@@ -9,11 +11,14 @@
 
 namespace glim {
 
-// With GLIM_VALIDATION=1 in the environment the validation and synchronization layers are on, and every message of theirs
-// goes to stderr and is counted; without the layers installed that is a DeviceError, since a silent check is no check.
+// Throws DeviceError "Vulkan could not <action>: <result>." unless `result` is a success. `action` is as in "create a buffer".
+void check(VkResult result, const std::string& action);
+
+// GLIM_VALIDATION=1 in the environment turns on the validation layers with their synchronization checks. Every message is printed
+// to stderr and counted. If the layers are not installed, the constructor throws DeviceError: a check that does not run is no check.
 class Instance {
 public:
-    // With these extensions, which a window names.
+    // `extensions`: the instance extensions that a window needs.
     explicit Instance(const std::vector<const char*>& extensions = {});
     ~Instance();
     Instance(const Instance&) = delete;
@@ -22,13 +27,14 @@ public:
     VkInstance handle() const { return handle_; }
     std::vector<VkPhysicalDevice> physicalDevices() const;
 
-    // Throws DeviceError once the layers have said anything.
+    // Throws DeviceError if the layers have printed a message since the start.
     void refuseMessages() const;
 
 private:
     VkInstance handle_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
-    std::unique_ptr<std::atomic<int>> messages_;  // an address that the layers may keep; kernels are compiled in several threads
+    // The layers keep its address. It is atomic because kernels are compiled in several threads.
+    std::unique_ptr<std::atomic<int>> messages_;
 };
 
 }  // namespace glim

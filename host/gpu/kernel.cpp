@@ -29,7 +29,8 @@ VkWriteDescriptorSet writeOf(VkDescriptorSet set, std::uint32_t binding, VkDescr
 
 KernelLayout::KernelLayout(const Device& device, const std::vector<BindingSlot>& slots, std::uint32_t pushSize,
                            const std::vector<std::uint32_t>& images)
-    : device_(device), pushSize_(pushSize)
+    : device_(device),
+      pushSize_(pushSize)
 {
     for (const BindingSlot& slot : slots) {
         if (hasStorage(slot.kind)) {
@@ -37,19 +38,18 @@ KernelLayout::KernelLayout(const Device& device, const std::vector<BindingSlot>&
         }
         if (hasTexels(slot.kind)) {
             texelBindings_[slot.binding] = slot.kind == BufferKind::Both ? slot.texels : slot.binding;
-            bindings_.push_back({texelBindings_[slot.binding], VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT,
-                                 nullptr});
+            bindings_.push_back(
+                {texelBindings_[slot.binding], VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
         }
     }
     for (const std::uint32_t image : images) {
         bindings_.push_back({image, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
     }
-    const auto storage = static_cast<std::uint32_t>(std::count_if(
-        slots.begin(), slots.end(), [](const BindingSlot& slot) { return hasStorage(slot.kind); }));
+    const auto storage = static_cast<std::uint32_t>(
+        std::count_if(slots.begin(), slots.end(), [](const BindingSlot& slot) { return hasStorage(slot.kind); }));
     if (storage > device.description().maxStorageBuffers) {
-        throw DeviceError("glim's kernels use " + std::to_string(storage) + " storage buffers, but device \"" +
-                          device.description().name + "\" allows " +
-                          std::to_string(device.description().maxStorageBuffers) + ".");
+        throw DeviceError("glim's kernels use " + std::to_string(storage) + " storage buffers, but device \"" + device.description().name +
+                          "\" allows " + std::to_string(device.description().maxStorageBuffers) + ".");
     }
     VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
     setInfo.bindingCount = static_cast<std::uint32_t>(bindings_.size());
@@ -113,12 +113,14 @@ Bindings::Bindings(const KernelLayout& layout, const std::map<std::uint32_t, con
 Bindings::~Bindings() { vkDestroyDescriptorPool(device_->handle(), pool_, nullptr); }
 
 Bindings::Bindings(Bindings&& other) noexcept
-    : device_(other.device_), pool_(std::exchange(other.pool_, nullptr)), set_(other.set_)
-{
-}
+    : device_(other.device_),
+      pool_(std::exchange(other.pool_, nullptr)),
+      set_(other.set_)
+{}
 
 Kernel::Kernel(const KernelLayout& layout, const EmbeddedShader& shader, const Specialization& specialization)
-    : layout_(&layout), name_(shader.name)
+    : layout_(&layout),
+      name_(shader.name)
 {
     const VkDevice device = layout.device().handle();
     VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
@@ -133,8 +135,8 @@ Kernel::Kernel(const KernelLayout& layout, const EmbeddedShader& shader, const S
         entries.push_back({id, static_cast<std::uint32_t>(values.size() * sizeof(value)), sizeof(value)});
         values.push_back(value);
     }
-    const VkSpecializationInfo constants{static_cast<std::uint32_t>(entries.size()), entries.data(),
-                                         values.size() * sizeof(std::uint32_t), values.data()};
+    const VkSpecializationInfo constants{static_cast<std::uint32_t>(entries.size()), entries.data(), values.size() * sizeof(std::uint32_t),
+                                         values.data()};
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     info.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
@@ -151,8 +153,9 @@ Kernel::Kernel(const KernelLayout& layout, const EmbeddedShader& shader, const S
 Kernel::~Kernel() { vkDestroyPipeline(layout_->device().handle(), pipeline_, nullptr); }
 
 Kernel::Kernel(Kernel&& other) noexcept
-    : layout_(other.layout_), name_(std::move(other.name_)), pipeline_(std::exchange(other.pipeline_, nullptr))
-{
-}
+    : layout_(other.layout_),
+      name_(std::move(other.name_)),
+      pipeline_(std::exchange(other.pipeline_, nullptr))
+{}
 
 }  // namespace glim

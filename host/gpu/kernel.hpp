@@ -1,4 +1,4 @@
-// A compute kernel and the buffers bound to it.
+// Compute kernels, the layout of their bindings, and the buffers and images bound to them.
 #pragma once
 
 #include "host/gpu/buffer.hpp"
@@ -12,13 +12,13 @@ namespace glim {
 struct BindingSlot {
     std::uint32_t binding;
     BufferKind kind;
-    std::uint32_t texels = 0;  // of BufferKind::Both: the binding at which it is read as texels
+    std::uint32_t texels = 0;  // for BufferKind::Both: the binding of its texels
 };
 
-// The bindings that a family of kernels shares, all in set 0, and the size of its push constants in bytes.
+// The bindings that several kernels share, all in set 0, and the size of their push constants in bytes.
 class KernelLayout {
 public:
-    // `images`: the bindings that are storage images.
+    // `images` are the bindings of storage images.
     KernelLayout(const Device& device, const std::vector<BindingSlot>& slots, std::uint32_t pushSize,
                  const std::vector<std::uint32_t>& images = {});
     ~KernelLayout();
@@ -30,7 +30,7 @@ public:
     VkDescriptorSetLayout setLayout() const { return setLayout_; }
     VkPipelineLayout pipelineLayout() const { return pipelineLayout_; }
     std::uint32_t pushSize() const { return pushSize_; }
-    // Of the buffer at `binding`, which must have texels.
+    // Where the texels of the buffer at `binding` are bound. The buffer must have texels.
     std::uint32_t texelBinding(std::uint32_t binding) const { return texelBindings_.at(binding); }
 
 private:
@@ -42,7 +42,7 @@ private:
     VkPipelineLayout pipelineLayout_ = VK_NULL_HANDLE;
 };
 
-// Buffers and images for the bindings of a layout. One that no kernel run with this set uses may be left out.
+// The buffers and images at the bindings of a layout. A binding that no kernel uses may stay empty.
 class Bindings {
 public:
     Bindings(const KernelLayout& layout, const std::map<std::uint32_t, const Buffer*>& buffers,
@@ -59,7 +59,7 @@ private:
     VkDescriptorSet set_ = VK_NULL_HANDLE;
 };
 
-// Specialization constants by constant_id; bools are 0 or 1.
+// The values of specialization constants by constant_id. Booleans are 0 or 1.
 using Specialization = std::map<std::uint32_t, std::uint32_t>;
 
 class Kernel {

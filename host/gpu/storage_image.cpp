@@ -10,7 +10,9 @@ constexpr VkFormat kFormat = VK_FORMAT_R8G8B8A8_UNORM;  // storage and blit sour
 }  // namespace
 
 StorageImage::StorageImage(Device& device, const std::string& name, std::uint32_t width, std::uint32_t height)
-    : device_(device), width_(width), height_(height)
+    : device_(device),
+      width_(width),
+      height_(height)
 {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(device.physical(), &properties);
@@ -51,10 +53,8 @@ void StorageImage::allocate(const std::string& name)
     VkMemoryPropertyFlags chosen = 0;
     VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     info.allocationSize = needs.size;
-    info.memoryTypeIndex =
-        device_.findMemoryType(needs.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, &chosen);
-    check(vkAllocateMemory(device_.handle(), &info, nullptr, &memory_),
-          "allocate " + std::to_string(needs.size) + " bytes for " + name);
+    info.memoryTypeIndex = device_.findMemoryType(needs.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, &chosen);
+    check(vkAllocateMemory(device_.handle(), &info, nullptr, &memory_), "allocate " + std::to_string(needs.size) + " bytes for " + name);
     allocated_ = needs.size;
     device_.addMemory(static_cast<std::int64_t>(allocated_));
     check(vkBindImageMemory(device_.handle(), handle_, memory_, 0), "bind memory of " + name);

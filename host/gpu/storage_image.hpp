@@ -1,4 +1,4 @@
-// A picture that kernels write: 8 bits each of red, green, blue and alpha, as numbers of 0 to 1 without a transfer function.
+// An image that kernels write: RGBA with 8 bits a channel, numbers from 0 to 1 without a transfer function.
 #pragma once
 
 #include "host/gpu/device.hpp"
@@ -7,7 +7,7 @@ namespace glim {
 
 class StorageImage {
 public:
-    // Black. Throws DeviceError where the device cannot.
+    // The image is black at first. Throws DeviceError if the device cannot hold it.
     StorageImage(Device& device, const std::string& name, std::uint32_t width, std::uint32_t height);
     ~StorageImage();
     StorageImage(const StorageImage&) = delete;

@@ -8,8 +8,8 @@
 namespace glim {
 namespace {
 
-constexpr std::uint64_t kAcquireNanoseconds = 200'000'000;  // compositors may withhold pictures of a window that nobody sees
-constexpr std::uint32_t kNoPicture = 0xffffffff;
+constexpr std::uint64_t kAcquireNanoseconds = 200'000'000;  // a compositor may withhold the images of a hidden window
+constexpr std::uint32_t kNoImage = 0xffffffff;
 
 VkSurfaceFormatKHR chooseFormat(const Device& device, VkSurfaceKHR surface)
 {
@@ -28,11 +28,12 @@ VkSurfaceFormatKHR chooseFormat(const Device& device, VkSurfaceKHR surface)
             return format;
         }
     }
-    throw InputError("Device \"" + device.description().name + "\" shows no plain 8-bit colours in this window; "
-                      "`glim render` writes the picture to a file instead.");
+    throw InputError("Device \"" + device.description().name +
+                     "\" shows no plain 8-bit colours in this window; "
+                     "`glim render` writes the picture to a file instead.");
 }
 
-// Mailbox: a new picture takes the place of one that waits, so that presenting never does; FIFO is there always.
+// In mailbox mode a new image replaces one that waits, so that presenting never blocks. Every device has FIFO mode.
 VkPresentModeKHR chooseMode(const Device& device, VkSurfaceKHR surface)
 {
     std::uint32_t count = 0;
@@ -55,7 +56,10 @@ VkExtent2D extentOf(const VkSurfaceCapabilitiesKHR& surface, std::uint32_t width
 }  // namespace
 
 Swapchain::Swapchain(Device& device, VkSurfaceKHR surface)
-    : device_(device), surface_(surface), format_(chooseFormat(device, surface)), mode_(chooseMode(device, surface))
+    : device_(device),
+      surface_(surface),
+      format_(chooseFormat(device, surface)),
+      mode_(chooseMode(device, surface))
 {
     const VkFenceCreateInfo info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     check(vkCreateFence(device.handle(), &info, nullptr, &acquired_), "create a fence");
@@ -64,21 +68,21 @@ Swapchain::Swapchain(Device& device, VkSurfaceKHR surface)
 Swapchain::~Swapchain()
 {
     vkQueueWaitIdle(device_.queue());
-    destroyPictures();
+    destroyImages();
     vkDestroySwapchainKHR(device_.handle(), handle_, nullptr);
     vkDestroyFence(device_.handle(), acquired_, nullptr);
 }
 
-void Swapchain::destroyPictures()
+void Swapchain::destroyImages()
 {
     for (const VkSemaphore semaphore : drawn_) {
         vkDestroySemaphore(device_.handle(), semaphore, nullptr);
     }
     drawn_.clear();
-    pictures_.clear();
+    images_.clear();
 }
 
-// False if the window has no area.
+// Returns false if the window has no area.
 bool Swapchain::rebuild(std::uint32_t width, std::uint32_t height)
 {
     VkSurfaceCapabilitiesKHR surface;
@@ -88,7 +92,7 @@ bool Swapchain::rebuild(std::uint32_t width, std::uint32_t height)
         return false;
     }
     check(vkQueueWaitIdle(device_.queue()), "wait for the device");
-    destroyPictures();
+    destroyImages();
     VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
     info.surface = surface_;
     info.minImageCount = std::max(3U, surface.minImageCount + 1);
@@ -101,9 +105,8 @@ bool Swapchain::rebuild(std::uint32_t width, std::uint32_t height)
     info.imageArrayLayers = 1;
     info.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     info.preTransform = surface.currentTransform;
-    info.compositeAlpha = (surface.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR) != 0
-                              ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
-                              : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
+    info.compositeAlpha = (surface.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR) != 0 ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
+                                                                                                     : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
     info.presentMode = mode_;
     info.clipped = VK_TRUE;
     info.oldSwapchain = handle_;
@@ -112,17 +115,17 @@ bool Swapchain::rebuild(std::uint32_t width, std::uint32_t height)
     vkDestroySwapchainKHR(device_.handle(), handle_, nullptr);
     handle_ = fresh;
     check(result, "create a swapchain");
-    takePictures();
+    getImages();
     stale_ = false;
     return true;
 }
 
-void Swapchain::takePictures()
+void Swapchain::getImages()
 {
     std::uint32_t count = 0;
     check(vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, nullptr), "list the swapchain's images");
-    pictures_.resize(count);
-    check(vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, pictures_.data()), "list the swapchain's images");
+    images_.resize(count);
+    check(vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, images_.data()), "list the swapchain's images");
     drawn_.resize(count, VK_NULL_HANDLE);
     const VkSemaphoreCreateInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
     for (VkSemaphore& semaphore : drawn_) {
@@ -130,20 +133,19 @@ void Swapchain::takePictures()
     }
 }
 
-// The index of a picture to draw to, or kNoPicture.
+// The index of an image to draw to, or kNoImage.
 std::uint32_t Swapchain::acquire()
 {
-    std::uint32_t picture = kNoPicture;
-    const VkResult result =
-        vkAcquireNextImageKHR(device_.handle(), handle_, kAcquireNanoseconds, VK_NULL_HANDLE, acquired_, &picture);
+    std::uint32_t image = kNoImage;
+    const VkResult result = vkAcquireNextImageKHR(device_.handle(), handle_, kAcquireNanoseconds, VK_NULL_HANDLE, acquired_, &image);
     stale_ = result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR;
     if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_TIMEOUT || result == VK_NOT_READY) {
-        return kNoPicture;
+        return kNoImage;
     }
-    check(result, "acquire a picture of the window");
-    check(vkWaitForFences(device_.handle(), 1, &acquired_, VK_TRUE, UINT64_MAX), "wait for a picture of the window");
+    check(result, "acquire an image of the window");
+    check(vkWaitForFences(device_.handle(), 1, &acquired_, VK_TRUE, UINT64_MAX), "wait for an image of the window");
     check(vkResetFences(device_.handle(), 1, &acquired_), "reset a fence");
-    return picture;
+    return image;
 }
 
 bool Swapchain::present(const StorageImage& image, std::uint32_t width, std::uint32_t height)
@@ -151,24 +153,24 @@ bool Swapchain::present(const StorageImage& image, std::uint32_t width, std::uin
     if (stale_ && !rebuild(width, height)) {
         return false;
     }
-    const std::uint32_t picture = acquire();
-    if (picture == kNoPicture) {
+    const std::uint32_t target = acquire();
+    if (target == kNoImage) {
         return false;
     }
     Commands commands(device_);
-    commands.blit(image, pictures_[picture], extent_);
-    commands.submitAndWait(drawn_[picture]);
+    commands.blit(image, images_[target], extent_);
+    commands.submitAndWait(drawn_[target]);
 
     VkPresentInfoKHR info{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
     info.waitSemaphoreCount = 1;
-    info.pWaitSemaphores = &drawn_[picture];
+    info.pWaitSemaphores = &drawn_[target];
     info.swapchainCount = 1;
     info.pSwapchains = &handle_;
-    info.pImageIndices = &picture;
+    info.pImageIndices = &target;
     const VkResult result = vkQueuePresentKHR(device_.queue(), &info);
     stale_ = stale_ || result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR;
     if (result != VK_ERROR_OUT_OF_DATE_KHR) {
-        check(result, "present a picture");
+        check(result, "present an image");
     }
     device_.instance().refuseMessages();
     return result != VK_ERROR_OUT_OF_DATE_KHR;

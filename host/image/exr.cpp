@@ -1,7 +1,7 @@
 #include "host/image/exr.hpp"
 
 #include "host/error.hpp"
-#include "host/image/whole_file.hpp"
+#include "host/image/atomic_file.hpp"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticities.h>
@@ -28,13 +28,10 @@ namespace fs = std::filesystem;
 namespace glim {
 namespace {
 
-// A header may claim any size: beyond this a file is taken for damaged before memory is asked for.
+// A damaged header may claim any size. A file with more pixels is refused before memory is allocated.
 constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 30;
 
-std::size_t pixelCount(const Image& image)
-{
-    return std::size_t{image.width} * image.height;
-}
+std::size_t pixelCount(const Image& image) { return std::size_t{image.width} * image.height; }
 
 void checkIsExr(const fs::path& path)
 {
@@ -53,7 +50,7 @@ void checkIsExr(const fs::path& path)
     }
 }
 
-// Runs `step` and turns OpenEXR's exceptions into ours.
+// Runs `step` and turns OpenEXR's exceptions into InputError.
 void guarded(const fs::path& path, const char* failure, const std::function<void()>& step)
 {
     try {
@@ -65,7 +62,7 @@ void guarded(const fs::path& path, const char* failure, const std::function<void
     }
 }
 
-// Describes the file's storage, not its picture.
+// Whether the attribute describes the file's storage rather than its picture.
 bool isOpenExrsOwn(const std::string& name)
 {
     static const Imf::Header fresh;
@@ -98,20 +95,20 @@ void readHeader(const fs::path& path, const Imf::Header& header, Image& image)
     const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
     const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
     if (width < 1 || height < 1 || static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) > kMaxPixels) {
-        throw InputError(path.string() + ": its data window is " + std::to_string(width) + "x" + std::to_string(height)
-                         + ", expected 1 to " + std::to_string(kMaxPixels) + " pixels.");
+        throw InputError(path.string() + ": its data window is " + std::to_string(width) + "x" + std::to_string(height) +
+                         ", expected 1 to " + std::to_string(kMaxPixels) + " pixels.");
     }
     image.width = static_cast<std::uint32_t>(width);
     image.height = static_cast<std::uint32_t>(height);
     readAttributes(header, image);
 }
 
-// OpenEXR addresses pixels by their place in the data window, from a base that may lie outside the plane.
+// OpenEXR addresses pixels by their position in the data window, relative to a base that may lie outside of `plane`.
 template <class Value>
 Imf::Slice sliceOf(Imf::PixelType type, const std::vector<Value>& plane, const Imath::Box2i& window)
 {
-    return Imf::Slice::Make(type, plane.data(), window.min, window.max.x - window.min.x + 1,
-                            window.max.y - window.min.y + 1, sizeof(Value));
+    return Imf::Slice::Make(type, plane.data(), window.min, window.max.x - window.min.x + 1, window.max.y - window.min.y + 1,
+                            sizeof(Value));
 }
 
 void readChannels(const fs::path& path, Imf::InputFile& file, Image& image)
@@ -121,8 +118,7 @@ void readChannels(const fs::path& path, Imf::InputFile& file, Image& image)
     Imf::FrameBuffer frame;
     for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
         if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1) {
-            throw InputError(path.string() + ": its channel " + channel.name()
-                             + " is subsampled, expected a value for every pixel.");
+            throw InputError(path.string() + ": its channel " + channel.name() + " is subsampled, expected a value for every pixel.");
         }
         if (channel.channel().type == Imf::UINT) {
             auto& plane = image.counts[channel.name()];
@@ -140,13 +136,16 @@ void readChannels(const fs::path& path, Imf::InputFile& file, Image& image)
 
 class ExrStream : public Imf::OStream {
 public:
-    ExrStream(WholeFile& file, const std::string& name) : OStream(name.c_str()), file_(file) {}
+    ExrStream(AtomicFile& file, const std::string& name)
+        : OStream(name.c_str()),
+          file_(file)
+    {}
     void write(const char bytes[], int count) override { file_.write(bytes, static_cast<std::size_t>(count)); }
     std::uint64_t tellp() override { return file_.tell(); }
     void seekp(std::uint64_t position) override { file_.seek(position); }
 
 private:
-    WholeFile& file_;
+    AtomicFile& file_;
 };
 
 Imf::Header headerOf(const Image& image)
@@ -211,7 +210,7 @@ Image readExrHeader(const fs::path& path)
 
 void writeExr(const fs::path& path, const Image& image)
 {
-    WholeFile file(path);
+    AtomicFile file(path);
     guarded(path, "cannot be written", [&] {
         ExrStream stream(file, path.string());
         writeStream(stream, image);

@@ -1,4 +1,4 @@
-// OpenEXR files, read and written whole. Other formats and half-read files are refused with InputError.
+// OpenEXR files, read and written whole. Files of other formats and damaged files are refused with InputError.
 #pragma once
 
 #include "host/image/image.hpp"
@@ -7,15 +7,15 @@
 
 namespace glim {
 
-// Scan lines or tiles (the finest level), any compression, the first part. The data window is the picture: its upper left
-// pixel is (0, 0). Half and float channels come as floats, unsigned ones as counts; of the attributes, the numbers and strings
-// that are not OpenEXR's own.
+// Reads the first part of a file of scan lines or tiles (the finest level) with any compression. The upper left pixel of the data
+// window becomes (0, 0). Half and float channels become float channels, unsigned ones counts. Attributes are kept if they are numbers
+// or strings and not OpenEXR's own.
 Image readExr(const std::filesystem::path& path);
 
-// Size and attributes only.
+// Reads only the size and the attributes.
 Image readExrHeader(const std::filesystem::path& path);
 
-// float32 and uint32 scan lines, ZIP, with the chromaticities of Rec.709. The same image gives the same bytes.
+// Writes float32 and uint32 scan lines with ZIP compression and the chromaticities of Rec.709. Equal images give equal bytes.
 void writeExr(const std::filesystem::path& path, const Image& image);
 
 }  // namespace glim

@@ -25,7 +25,7 @@ Rgb8 heatColor(double value)
 Rgb8 differenceColor(double value)
 {
     constexpr double kWhite = 255.0, kBlue[] = {0, 40, 200}, kRed[] = {200, 0, 0};
-    const double (&end)[3] = value < 0 ? kBlue : kRed;
+    const double(&end)[3] = value < 0 ? kBlue : kRed;
     const double share = std::min(std::abs(value), 1.0);
     Rgb8 color{};
     for (std::size_t c = 0; c < 3; ++c) {

@@ -1,17 +1,15 @@
-// Numbers as colours.
+// Numbers shown as colours.
 #pragma once
 
 #include "host/image/png.hpp"
 
 namespace glim {
 
-// Blue at 0, through cyan, green and yellow to red at 1, linear in between and clamped beyond: the rainbow of the course's (CS 184)
-// pictures of sampling rates, which go from blue through green to red, with two colours more to tell values apart. A NaN is
-// kMagenta.
+// Blue at 0, then cyan, green, yellow, and red at 1; linear in between and clamped outside. The course's (CS 184) pictures of sampling
+// rates go from blue through green to red; the two colours in between tell more values apart. NaN gives kMagenta.
 Rgb8 heatColor(double value);
 
-// Blue at -1, through white at 0 to red at 1, clamped beyond: what is right is as light as paper, and half an error half as dark
-// on both sides.
+// Blue at -1, white at 0, red at 1; linear in between and clamped outside.
 Rgb8 differenceColor(double value);
 
 }  // namespace glim

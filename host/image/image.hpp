@@ -1,4 +1,4 @@
-// A picture as planes of numbers with names: what an EXR file holds, whatever it is a picture of.
+// The content of an EXR file: named planes of numbers, and attributes.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace glim {
 struct Image {
     std::uint32_t width = 0, height = 0;
     std::map<std::string, std::vector<float>> channels;        // "R", "albedo.G" ...; row 0 at the top, left to right
-    std::map<std::string, std::vector<std::uint32_t>> counts;  // channels of whole numbers, which float32 would round
+    std::map<std::string, std::vector<std::uint32_t>> counts;  // channels of integers, which float32 might round
     std::map<std::string, std::variant<double, std::string>> attributes;
 };
 

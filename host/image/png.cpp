@@ -1,7 +1,7 @@
 #include "host/image/png.hpp"
 
 #include "host/error.hpp"
-#include "host/image/whole_file.hpp"
+#include "host/image/atomic_file.hpp"
 
 #include <png.h>
 
@@ -14,12 +14,12 @@ namespace glim {
 namespace {
 
 struct PngSink {
-    WholeFile& file;
-    std::string error;  // a whole sentence once something went wrong
+    AtomicFile& file;
+    std::string error;  // a whole sentence after a failure
     const std::string name;
 };
 
-// libpng is C and leaves by longjmp: no exception may cross it, so what went wrong is kept until it has returned.
+// libpng is written in C and ends by longjmp, which no exception may cross. So the reason of a failure is kept until libpng returns.
 void pngWrite(png_structp png, png_bytep bytes, png_size_t count)
 {
     auto* sink = static_cast<PngSink*>(png_get_io_ptr(png));
@@ -52,8 +52,8 @@ struct Rows {
 
 void writeRows(png_structp png, png_infop info, const Rows& rows)
 {
-    png_set_IHDR(png, info, rows.width, rows.height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, rows.width, rows.height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_write_info(png, info);
     for (std::size_t y = 0; y < rows.height; ++y) {
@@ -62,7 +62,7 @@ void writeRows(png_structp png, png_infop info, const Rows& rows)
     png_write_end(png, info);
 }
 
-// Keeps no object with a destructor: setjmp may return into it twice.
+// Has no local object with a destructor, since setjmp may return a second time.
 bool encode(PngSink& sink, const Rows& rows)
 {
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, pngFail, pngWarn);
@@ -93,7 +93,7 @@ std::uint8_t srgbByte(double linear)
 
 void writePng(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, const std::vector<Rgb8>& pixels)
 {
-    WholeFile file(path);
+    AtomicFile file(path);
     PngSink sink{file, {}, path.string()};
     if (!encode(sink, {width, height, pixels.data()})) {
         throw InputError(sink.error);

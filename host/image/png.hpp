@@ -1,4 +1,4 @@
-// PNG for looking at: 8 bits a channel, opaque.
+// PNG files, for people to look at: 8 bits a channel, opaque.
 #pragma once
 
 #include <array>
@@ -8,15 +8,15 @@
 
 namespace glim {
 
-// The sRGB transfer function (IEC 61966-2-1) of `linear` clipped to 0..1, as a byte.
+// `linear`, clipped to 0..1, after the sRGB transfer function (IEC 61966-2-1).
 std::uint8_t srgbByte(double linear);
 
 using Rgb8 = std::array<std::uint8_t, 3>;
 
-// The bytes as they are, row 0 at the top, left to right.
+// Writes sRGB bytes as they are. Row 0 is at the top, pixels go from left to right.
 void writePng(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, const std::vector<Rgb8>& pixels);
 
-// What is not finite, in every picture: no exposure, clipping or scale hides it.
+// The colour of pixels that are not finite, in every picture. No exposure, clipping or scale may hide them.
 inline constexpr Rgb8 kMagenta{255, 0, 255};
 
 }  // namespace glim

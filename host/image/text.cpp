@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint32_t kLineDots = 12, kMarginDots = 4, kTabDots = 150;
 constexpr std::uint32_t kShade = 0U | 150U << 8, kInk = 255U | 255U << 8;
 
-// What stb_easy_font makes: four of them are a rectangle, beginning with its least corner and with the largest third.
+// A vertex from stb_easy_font. Four vertices make a rectangle: the first is its least corner, the third its largest.
 struct Vertex {
     float x, y, z;
     unsigned char color[4];
@@ -24,14 +24,15 @@ struct Words {
     glm::uvec2 place;  // dots from the upper left corner
 };
 
-// The font's tables hold nothing else, and its own functions do not look.
+// Replaces characters that the font lacks; its own functions do not check.
 std::string printable(std::string line)
 {
-    std::replace_if(line.begin(), line.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
     return line;
 }
 
-// Every line, with the one tab that it may have.
+// The same for every line, but keeps the first tab of each.
 std::vector<std::string> printable(const std::vector<std::string>& lines)
 {
     std::vector<std::string> rows;
@@ -53,24 +54,25 @@ void fill(TextBox& box, const glm::uvec2& low, const glm::uvec2& high)
     }
 }
 
-// At `place` in dots.
+// Draws `words` at `place`, which is in dots.
 void drawWords(TextBox& box, std::string words, const glm::uvec2& place, std::uint32_t scale)
 {
     std::vector<Vertex> vertices(4 * 32 * (words.size() + 1));
-    const int quads = stb_easy_font_print(0.0F, 0.0F, words.data(), nullptr, vertices.data(),
-                                          static_cast<int>(vertices.size() * sizeof(Vertex)));
+    const int quads =
+        stb_easy_font_print(0.0F, 0.0F, words.data(), nullptr, vertices.data(), static_cast<int>(vertices.size() * sizeof(Vertex)));
     for (int i = 0; i < quads; ++i) {
         const Vertex &low = vertices[4 * i], &high = vertices[4 * i + 2];
         fill(box, (place + glm::uvec2(low.x, low.y)) * scale, (place + glm::uvec2(high.x, high.y)) * scale);
     }
 }
 
-int widthOf(std::string words) { return stb_easy_font_width(words.data()); }  // the library takes no constants
+int widthOf(std::string words) { return stb_easy_font_width(words.data()); }  // the library takes no const char*
 
-// What does not fit between the margins goes on in the next row; a word too long for one is cut.
+// Breaks lines between words where they are wider than `dots` less the margins. A single word may stay too long; the picture cuts it.
 std::vector<std::string> wrap(const std::vector<std::string>& lines, std::uint32_t dots)
 {
-    const auto fits = [dots](const std::string& text) { return widthOf(text) + 2 * static_cast<int>(kMarginDots) <= static_cast<int>(dots); };
+    const int most = static_cast<int>(dots) - 2 * static_cast<int>(kMarginDots);
+    const auto fits = [most](const std::string& text) { return widthOf(text) <= most; };
     std::vector<std::string> rows;
     for (const std::string& line : lines) {
         std::string row;

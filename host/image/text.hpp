@@ -1,4 +1,4 @@
-// Text as pixels.
+// Text drawn as pixels.
 #pragma once
 
 #include <cstdint>
@@ -7,15 +7,15 @@
 
 namespace glim {
 
-// Covers a picture from its upper left corner on.
+// Lies over the upper left corner of a picture.
 struct TextBox {
     std::uint32_t width = 0, height = 0;
     std::vector<std::uint32_t> pixels;  // rows from the top: brightness | opacity << 8, both 0 to 255
 };
 
-// White on a dark shade, `scale` pixels to a dot of the font (lines are 12 dots high); nothing if there are no lines. What is not
-// printable ASCII shows as "?"; what follows a tab stands in a second column; lines without one go on below where `width` pixels
-// are not enough.
+// Draws white text on a dark shade. A dot of the font is `scale` pixels wide; a line is 12 dots high. Bytes that are not printable
+// ASCII show as "?". The text after a tab stands in a second column. A line without a tab is broken where it exceeds `width` pixels.
+// The box is empty if there are no lines.
 TextBox drawText(const std::vector<std::string>& lines, std::uint32_t scale, std::uint32_t width);
 
 }  // namespace glim

@@ -1,11 +1,14 @@
 #include "host/measure/compare_images.hpp"
 
 #include "host/error.hpp"
-#include "host/measure/normal.hpp"
-#include "host/render/likely_radiance.hpp"
+#include "host/measure/confidence.hpp"
+#include "host/render/robust_radiance.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 
 namespace glim {
 namespace {
@@ -17,9 +20,8 @@ constexpr double kAbsoluteEpsilon = 0.01;
 void checkSizes(const Picture& picture, const Picture& reference)
 {
     if (picture.width != reference.width || picture.height != reference.height) {
-        throw InputError("The pictures are " + std::to_string(picture.width) + "x" + std::to_string(picture.height)
-                         + " and " + std::to_string(reference.width) + "x" + std::to_string(reference.height)
-                         + ", expected equal sizes.");
+        throw InputError("The pictures are " + std::to_string(picture.width) + "x" + std::to_string(picture.height) + " and " +
+                         std::to_string(reference.width) + "x" + std::to_string(reference.height) + ", expected equal sizes.");
     }
 }
 
@@ -83,8 +85,7 @@ void addErrors(const Picture& picture, const Picture& reference, const std::vect
             if (std::abs(difference) > largest) {
                 largest = std::abs(difference);
                 const auto pixel = static_cast<std::uint32_t>(i);
-                result.maxError = {pixel % picture.width, pixel / picture.width, c, picture.radiance[i][c],
-                                   reference.radiance[i][c]};
+                result.maxError = {pixel % picture.width, pixel / picture.width, c, picture.radiance[i][c], reference.radiance[i][c]};
             }
         }
         if (comparable[i]) {
@@ -153,7 +154,7 @@ void addRatios(const std::vector<Sums>& blocks, Comparison& result)
         total.referenceVariance += block.referenceVariance;
     }
     const bool knowsVariance = isFinite(total.variance) && isFinite(total.referenceVariance);
-    result.intervalSource = knowsVariance                   ? IntervalSource::Variance
+    result.intervalSource = knowsVariance                 ? IntervalSource::Variance
                             : blocks.size() >= kMinBlocks ? IntervalSource::Blocks
                                                           : IntervalSource::None;
     auto standardError = [&](const glm::dvec3& weights) {
@@ -197,6 +198,23 @@ std::optional<SquaredErrors> errorsRelativeTo(const std::vector<glm::dvec3>& rad
 
 }  // namespace
 
+TrimmedErrors trimErrors(const std::vector<SquaredErrors>& pixels)
+{
+    TrimmedErrors result;
+    result.dropped = pixels.size() / 1000;
+    std::vector<double> terms(pixels.size());
+    for (double SquaredErrors::*metric : {&SquaredErrors::mse, &SquaredErrors::relMse, &SquaredErrors::relMseAbsolute}) {
+        std::transform(pixels.begin(), pixels.end(), terms.begin(), std::mem_fn(metric));
+        const auto kept = terms.begin() + static_cast<std::ptrdiff_t>(result.dropped);
+        std::nth_element(terms.begin(), kept, terms.end(), std::greater<>());
+        const double droppedSum = std::accumulate(terms.begin(), kept, 0.0);
+        const double keptSum = std::accumulate(kept, terms.end(), 0.0);
+        result.kept.*metric = keptSum / static_cast<double>(terms.size() - result.dropped);
+        result.share.*metric = droppedSum > 0 ? droppedSum / (droppedSum + keptSum) : 0.0;
+    }
+    return result;
+}
+
 Comparison compareImages(const Picture& picture, const Picture& reference)
 {
     checkSizes(picture, reference);
@@ -211,7 +229,7 @@ Comparison compareImages(const Picture& picture, const Picture& reference)
 
 std::optional<SquaredErrors> estimateErrors(const Picture& picture)
 {
-    return errorsRelativeTo(findLikelyRadiance(picture.width, picture.height, picture.radiance, picture.variance), picture);
+    return errorsRelativeTo(robustRadiance(picture.width, picture.height, picture.radiance, picture.variance), picture);
 }
 
 std::optional<SquaredErrors> noiseOfReference(const Picture& reference)

@@ -3,12 +3,30 @@
 #pragma once
 
 #include "host/measure/picture.hpp"
-#include "host/measure/squared_errors.hpp"
 
 #include <array>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace glim {
+
+struct SquaredErrors {
+    double mse = 0.0;             // mean (x-r)^2
+    double relMse = 0.0;          // mean (x-r)^2 / (r^2 + eps), eps = .01 mean(r)^2: the scene's brightness cancels
+    double relMseAbsolute = 0.0;  // the same with eps = .01, as published comparisons use (Rousselle et al. 2011)
+};
+
+// Each of the three metrics drops its own largest terms. A few bright pixels may make up most of an error; trimmed figures stand beside
+// the full ones, which alone are expected errors.
+struct TrimmedErrors {
+    std::size_t dropped = 0;  // pixels: .1 %, rounded down
+    SquaredErrors kept;       // means over the other pixels
+    SquaredErrors share;      // the dropped pixels' fraction of each sum; 0 if there is no error
+};
+
+// `pixels`: the mean over channels of each pixel's terms.
+TrimmedErrors trimErrors(const std::vector<SquaredErrors>& pixels);
 
 enum class IntervalSource {
     Variance,  // delta method, from the variance of every pixel of both pictures
@@ -17,7 +35,7 @@ enum class IntervalSource {
 };
 
 struct MeanRatio {
-    double value = 0.0;  // mean(x) / mean(r)
+    double value = 0.0;            // mean(x) / mean(r)
     double low = 0.0, high = 0.0;  // 95 % interval; NaN with IntervalSource::None
 };
 
@@ -37,8 +55,8 @@ struct Comparison {
     std::array<MeanRatio, 3> ratio;
     MeanRatio ratioOfAll;  // all channels together; its interval allows for fully correlated channels
     IntervalSource intervalSource = IntervalSource::None;
-    MaxError maxError;     // the largest |x-r|
-    std::optional<SquaredErrors> noise, referenceNoise;  // estimateErrors of the one, noiseOfReference of the other
+    MaxError maxError;                                   // the largest |x-r|
+    std::optional<SquaredErrors> noise, referenceNoise;  // estimateErrors(picture), noiseOfReference(reference)
 };
 
 // Refuses (InputError) pictures of different sizes.
@@ -46,12 +64,12 @@ Comparison compareImages(const Picture& picture, const Picture& reference);
 
 // The picture's expected distance from the truth if it is unbiased, from its own variance. Nothing where no variance is known.
 std::optional<SquaredErrors> estimateErrors(const Picture& picture);
-// What to subtract from a comparison in which it is the reference: the same, but relative to the reference's very values.
+// The same for a reference, relative to its own values: to be subtracted from comparisons with it.
 std::optional<SquaredErrors> noiseOfReference(const Picture& reference);
 
-// Over the pixels that are finite, and channels.
+// The mean over the channels of all finite pixels.
 double meanRadiance(const Picture& picture);
-// What keeps relMse finite where the picture is black: .01 mean^2.
+// .01 mean^2, which keeps relMse finite where the picture is black.
 double relativeEpsilon(const Picture& reference);
 
 // x - r, pixel by pixel.

@@ -1,6 +1,6 @@
 #include "host/measure/control_bias.hpp"
 
-#include "host/measure/student.hpp"
+#include "host/measure/confidence.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace glim {
 namespace {
 
-constexpr std::size_t kLeastPixels = 32;  // of fewer, of uneven radiance, intervals hold the truth too seldom
+constexpr std::size_t kLeastPixels = 32;  // with fewer, of uneven radiance, intervals contain the truth too rarely
 
 double meanOf(const PixelMoments& pixel)
 {
@@ -34,7 +34,7 @@ std::optional<ControlBias> estimateControlBias(const Film& film, const Film& con
     if (chosen.size() < kLeastPixels || laterSum <= *std::max_element(later.begin(), later.end())) {
         return std::nullopt;
     }
-    // Without one pixel each: where few bright pixels make up the sums, this tells more than the spread of the differences.
+    // The ratio without each pixel in turn: if few bright pixels make up the sums, this tells more than the spread of the differences.
     const double ratio = chosenSum / laterSum, n = static_cast<double>(chosen.size());
     std::vector<double> without;
     for (std::size_t i = 0; i < chosen.size(); ++i) {

@@ -1,7 +1,7 @@
-// What an adaptive render has lost or won by choosing where to sample.
+// The bias of an adaptive render, which chooses where to sample.
 #pragma once
 
-#include "host/measure/interval.hpp"
+#include "host/measure/confidence.hpp"
 #include "host/render/film.hpp"
 
 #include <cstddef>
@@ -14,8 +14,8 @@ struct ControlBias {
     Interval bias;           // mean radiance of the film's pixels over that of the control's, less 1
 };
 
-// Of the pixels of which `control` has samples, which no choice has depended on. The interval is the jackknife's (Tukey 1958), of a
-// ratio of sums over pixels. Nothing if they are fewer than 32, or one pixel has all the light.
+// Compares the pixels that `control` has samples of, on which no allocation depended. The interval is the jackknife's (Tukey 1958) for a
+// ratio of sums over pixels. Returns nothing if there are fewer than 32 of them, or if one pixel has all the light.
 std::optional<ControlBias> estimateControlBias(const Film& film, const Film& control);
 
 }  // namespace glim

@@ -1,7 +1,7 @@
 #include "host/measure/error_estimate.hpp"
 
-#include "host/measure/normal.hpp"
-#include "host/render/likely_radiance.hpp"
+#include "host/measure/confidence.hpp"
+#include "host/render/robust_radiance.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,10 +18,10 @@ struct Part {
     double blocks;
 };
 
-// The squared error of a pixel's mean has the variance 2 s^4 if s^2 is the mean's, and an estimate of s^2 from K blocks has
-// 2 s^4 / (K - 1), for normal means of blocks; the estimate's own square is (K + 1) / (K - 1) s^4 on average. So the difference of
-// the two sums has the variance of the sum of 2 K / (K + 1) times the estimates' squares. Channels count as fully correlated. The
-// interval is of the logarithm, since errors are positive.
+// Let s^2 be the variance of a pixel's mean, and block means be normal. The mean's squared error has the variance 2 s^4. An estimate of
+// s^2 from K blocks has the variance 2 s^4 / (K - 1), and its square is (K + 1) / (K - 1) s^4 on average. So the variance of the
+// difference of the two sums is the sum of 2 K / (K + 1) times the squared estimates. Channels count as fully correlated. The interval is
+// that of the logarithm, since errors are positive.
 Interval intervalOf(const std::vector<Part>& parts)
 {
     double sum = 0.0, variance = 0.0;
@@ -48,7 +48,7 @@ std::size_t countOfHalf(std::vector<Part> parts)
     return count;
 }
 
-// Of each channel of pixel i its variance times a weight.
+// The variance of each channel of pixel i, times a weight.
 std::vector<Part> partsOf(const Film& film, const std::function<double(std::size_t, int)>& weight)
 {
     std::vector<Part> parts;
@@ -77,7 +77,7 @@ std::optional<ErrorEstimate> estimateError(const Film& film)
         return std::nullopt;
     }
     const double epsilon = relativeEpsilon(picture);
-    const std::vector<glm::dvec3> likely = findLikelyRadiance(film);
+    const std::vector<glm::dvec3> likely = robustRadiance(film);
     const std::vector<Part> parts = partsOf(film, [](std::size_t, int) { return 1.0; });
     ErrorEstimate estimate;
     estimate.errors = *errors;

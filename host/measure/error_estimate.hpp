@@ -1,8 +1,8 @@
-// How far a film is from the truth, as far as its own blocks of samples tell.
+// The error of a film, estimated from its own blocks of samples.
 #pragma once
 
 #include "host/measure/compare_images.hpp"
-#include "host/measure/interval.hpp"
+#include "host/measure/confidence.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -10,19 +10,20 @@
 namespace glim {
 
 struct ErrorEstimate {
-    SquaredErrors errors;          // of this very film against the truth; biases are not among them
+    SquaredErrors errors;  // of this film against the truth; biases are not included
     Interval mse, relMse;
     double mean = 0.0;             // radiance over pixels and channels, W/(sr m^2)
     std::size_t pixelsOfHalf = 0;  // the fewest pixels that make up half of mse
 
-    // Too few to tell how the next ones are: a lamp's rim in a small picture, or paths so rare and bright that most are missing.
+    // Too few pixels to tell what others would be like: a lamp's rim in a small picture, or paths so rare and bright that most are
+    // missing.
     bool isOfFew() const { return pixelsOfHalf < 10 && errors.mse > 0.0; }
 };
 
 // Pixels of fewer than two blocks are left out; nothing if there are no others.
 std::optional<ErrorEstimate> estimateError(const Film& film);
 
-// The root of a mean square error, relative to the mean of what it is the error of.
+// The root of a mean square error, relative to `mean`.
 double relativeRoot(double meanSquare, double mean);
 
 }  // namespace glim

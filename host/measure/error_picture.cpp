@@ -19,7 +19,7 @@ double signedError(const glm::dvec3& x, const glm::dvec3& r, double epsilon)
     return sum / 3.0;
 }
 
-// The error with that share of the others below it; where that is 0, as when only a corner differs, the largest.
+// The error that kShareBelowScale of the pixels stay below; if that is 0, as when only a corner differs, the largest.
 double chooseScale(const std::vector<double>& errors)
 {
     std::vector<double> sizes;

@@ -1,4 +1,4 @@
-// What is measured: radiance and, where it is known, how uncertain it is.
+// The pictures that are compared: radiance and, where it is known, its variance.
 #pragma once
 
 #include "host/image/image.hpp"

@@ -1,7 +1,7 @@
 #include "host/measure/z_test.hpp"
 
 #include "host/error.hpp"
-#include "host/measure/normal.hpp"
+#include "host/measure/confidence.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,10 +33,7 @@ double zOf(const Region& region, int c)
 }
 
 // A region without noise says nothing about the spread of z.
-bool hasNoise(const Region& region, int c)
-{
-    return std::sqrt(region.variance[c]) > kRounding * region.magnitude[c];
-}
+bool hasNoise(const Region& region, int c) { return std::sqrt(region.variance[c]) > kRounding * region.magnitude[c]; }
 
 Region regionOfPixel(const Picture& picture, const Picture& reference, std::size_t i)
 {
@@ -44,10 +41,7 @@ Region regionOfPixel(const Picture& picture, const Picture& reference, std::size
     return {x - r, glm::dvec3(picture.variance[i]) + glm::dvec3(reference.variance[i]), glm::abs(r)};
 }
 
-bool isKnown(const Picture& picture, std::size_t i)
-{
-    return isFinite(picture.radiance[i]) && isFinite(picture.variance[i]);
-}
+bool isKnown(const Picture& picture, std::size_t i) { return isFinite(picture.radiance[i]) && isFinite(picture.variance[i]); }
 
 void addBlock(ZTest& test, const Region& block, std::uint32_t x, std::uint32_t y)
 {
@@ -96,10 +90,7 @@ bool ZTest::meansAgree() const
     return std::all_of(meanZ.begin(), meanZ.end(), [&](double z) { return std::abs(z) <= meanLimit; });
 }
 
-bool ZTest::blocksAgree() const
-{
-    return std::abs(worstZ) <= blockLimit;
-}
+bool ZTest::blocksAgree() const { return std::abs(worstZ) <= blockLimit; }
 
 bool ZTest::spreadAgrees() const
 {

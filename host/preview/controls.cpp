@@ -1,5 +1,7 @@
 #include "host/preview/controls.hpp"
 
+#include "host/scene/placed_mesh.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,9 +10,9 @@
 namespace glim {
 namespace {
 
-constexpr double kPole = 0.002;      // radians that a camera stays away from straight up and down
-constexpr double kNotch = 0.9;       // of the distance that is left after one
-constexpr double kNearest = 1e-7;    // of the distance to the origin: nearer, `from` and `at` would round to one point
+constexpr double kPole = 0.002;    // radians: the least angle between the view direction and the vertical
+constexpr double kNotch = 0.9;     // the share of the distance that is left after a notch of the wheel
+constexpr double kNearest = 1e-7;  // relative to the distance from the origin: below it `from` and `at` might round to one point
 
 struct Axes {
     glm::dvec3 right, up, forward;
@@ -46,10 +48,10 @@ Pose orbit(const Pose& pose, const glm::dvec2& motion, double height)
 Pose pan(const Pose& pose, const glm::dvec2& motion, double pixel)
 {
     const Axes axes = axesOf(pose);
-    const glm::dvec3 way = pixel * (motion.y * axes.up - motion.x * axes.right);
+    const glm::dvec3 offset = pixel * (motion.y * axes.up - motion.x * axes.right);
     Pose moved = pose;
-    moved.from += way;
-    moved.at += way;
+    moved.from += offset;
+    moved.at += offset;
     return moved;
 }
 
@@ -68,10 +70,10 @@ Pose dolly(const Pose& pose, double notches, Camera::Kind kind)
     return moved;
 }
 
-Pose fly(const Pose& pose, const glm::dvec3& way)
+Pose fly(const Pose& pose, const glm::dvec3& offset)
 {
     const Axes axes = axesOf(pose);
-    const glm::dvec3 step = way.x * axes.right + way.y * axes.up + way.z * axes.forward;
+    const glm::dvec3 step = offset.x * axes.right + offset.y * axes.up + offset.z * axes.forward;
     Pose moved = pose;
     moved.from += step;
     moved.at += step;
@@ -93,26 +95,16 @@ Pose frame(const Pose& pose, const Bounds& bounds, const Camera& camera, double 
 
 Bounds computeBounds(const Scene& scene)
 {
-    const double infinity = std::numeric_limits<double>::infinity();
-    glm::dvec3 low(infinity), high(-infinity);
-    for (const Triangle& triangle : scene.triangles) {
-        for (const glm::vec3& vertex : triangle.vertices) {
-            low = glm::min(low, glm::dvec3(vertex));
-            high = glm::max(high, glm::dvec3(vertex));
-        }
-    }
-    for (const Sphere& sphere : scene.spheres) {
-        low = glm::min(low, glm::dvec3(sphere.center - sphere.radius));
-        high = glm::max(high, glm::dvec3(sphere.center + sphere.radius));
-    }
+    const WorldBox box = computeWorldBox(scene);
+    const glm::dvec3 low(box.low), high(box.high);
     const double radius = 0.5 * glm::length(high - low);
     return {0.5 * (low + high) + scene.origin, radius > 0.0 ? radius : 1.0};
 }
 
 double guessDistance(const Camera& camera, const Bounds& bounds, const glm::dvec3& sceneOrigin)
 {
-    const glm::dvec3 there = bounds.center - sceneOrigin - glm::dvec3(camera.position);
-    return std::max(glm::dot(there, glm::dvec3(camera.forward)), 0.05 * bounds.radius);
+    const glm::dvec3 toCenter = bounds.center - sceneOrigin - glm::dvec3(camera.position);
+    return std::max(glm::dot(toCenter, glm::dvec3(camera.forward)), 0.05 * bounds.radius);
 }
 
 }  // namespace glim

@@ -1,4 +1,4 @@
-// What the window says of its picture.
+// The text over the picture: figures, help and notices.
 #include "host/preview/session.hpp"
 
 #include <cmath>
@@ -30,10 +30,10 @@ constexpr const char* kHelp[] = {
     "Esc\tquit",
 };
 
-std::string nameOf(Look look)
+std::string nameOf(Aov aov)
 {
-    constexpr const char* kNames[] = {"shaded", "normal", "depth", "albedo", "samples", "BVH steps"};
-    return kNames[static_cast<int>(look)];
+    constexpr const char* kNames[] = {"shaded", "normal", "depth", "albedo", "BVH steps", "samples"};
+    return kNames[static_cast<int>(aov)];
 }
 
 __attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...)
@@ -59,7 +59,7 @@ std::vector<std::string> Session::figures()
     if (relMse_ && picture.scale() == 1) {
         lines.push_back(format("estimated relMSE %.3g at %llu samples", *relMse_, static_cast<unsigned long long>(estimatedAt_)));
     }
-    std::string view = nameOf(look_);
+    std::string view = nameOf(aov_);
     if (options_.exposure != 0.0) {
         view += format(", %+.1f EV", options_.exposure);
     }

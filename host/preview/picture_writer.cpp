@@ -23,11 +23,11 @@ std::string freeStem(const std::filesystem::path& scene)
     }
 }
 
-std::string writeBoth(const std::string& stem, const Film& film, Look look, double exposure)
+std::string writeBoth(const std::string& stem, const Film& film, Aov aov, double exposure)
 {
     try {
         writeFilm(stem + ".exr", film);
-        writeFilmPng(stem + ".png", film, look, exposure);
+        writeFilmPng(stem + ".png", film, aov, exposure);
     } catch (const InputError& error) {
         return error.what();
     }
@@ -36,12 +36,12 @@ std::string writeBoth(const std::string& stem, const Film& film, Look look, doub
 
 }  // namespace
 
-void PictureWriter::write(const std::filesystem::path& scene, Film film, Look look, double exposure)
+void PictureWriter::write(const std::filesystem::path& scene, Film film, Aov aov, double exposure)
 {
     if (writing_.valid()) {
         writing_.wait();
     }
-    writing_ = std::async(std::launch::async, writeBoth, freeStem(scene), std::move(film), look, exposure);
+    writing_ = std::async(std::launch::async, writeBoth, freeStem(scene), std::move(film), aov, exposure);
 }
 
 std::optional<std::string> PictureWriter::takeReport(bool wait)

@@ -1,8 +1,8 @@
-// Writes pictures while the window goes on.
+// Writes pictures to files in a thread of its own.
 #pragma once
 
+#include "host/render/aov.hpp"
 #include "host/render/film.hpp"
-#include "host/render/look.hpp"
 
 #include <filesystem>
 #include <future>
@@ -13,10 +13,10 @@ namespace glim {
 
 class PictureWriter {
 public:
-    // Begins to write `film` to SCENE-001.exr in the working folder, or the next number that is free, and as `look` shows it to a PNG
-    // of that name. Waits for the one before, whose report is lost.
-    void write(const std::filesystem::path& scene, Film film, Look look, double exposure);
-    // What became of it, once it is done, or, if `wait`, now.
+    // Starts to write `film` to SCENE-001.exr in the working folder, or to the next free number, and its `aov` to a PNG of the same name.
+    // Waits for earlier files, whose report is lost unless it was taken.
+    void write(const std::filesystem::path& scene, Film film, Aov aov, double exposure);
+    // A sentence that says whether the files were written; nothing while they are being written, unless it should `wait`.
     std::optional<std::string> takeReport(bool wait);
 
 private:

@@ -1,11 +1,11 @@
-// A window that shows the picture while it refines.
+// A window that shows a scene while its picture refines.
 #pragma once
 
+#include "host/bvh/build_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/render/settings.hpp"
 #include "host/scene/load_gltf.hpp"
 #include "host/scene/pose.hpp"
-#include "host/bvh/build_bvh.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -16,18 +16,18 @@ struct PreviewOptions {
     std::filesystem::path scene;
     LoadOptions load;
     SplitRule split = SplitRule::Sah;
-    std::optional<glm::uvec2> size;  // pixels; as the camera says, if absent
+    std::optional<glm::uvec2> size;  // pixels; absent: the size that fits the camera
     std::optional<std::string> camera, device;
     std::optional<Pose> pose;
     Lens lens;
     double exposure = 0.0;
     RenderSettings settings;
-    std::optional<std::uint64_t> frames;           // ends after as many
+    std::optional<std::uint64_t> frames;  // ends after this many pictures
     std::optional<std::filesystem::path> script;
 };
 
-// Until the window is closed, as a script may, or the frames are shown. Throws InputError where there is no display or the scene is
-// refused, DeviceError as a render does.
+// Runs until the user or the script closes the window, or until all frames are shown. Throws InputError if there is no display or the
+// scene is refused, and DeviceError as a render does.
 void preview(const PreviewOptions& options);
 
 }  // namespace glim

@@ -7,12 +7,12 @@
 namespace glim {
 namespace {
 
-// A pass pays: with a fifth of this, two spheres took 2.5 times as long, for the many small dispatches. Input waits only for the
-// dispatches under way: of eight, 50 ms more.
+// Measured (README.md): passes of a fifth of this length made a render 2.5 times as long, since each takes many small dispatches.
+// Input waits only for kPortion dispatches; with eight of them it waited 50 ms longer.
 constexpr double kPassSeconds = 0.1;
 constexpr std::uint32_t kPortion = 2;
-constexpr double kMovingSeconds = 0.03;  // for a coarse picture: with pass, drawing and presenting it makes less than 100 ms
-constexpr double kStillSeconds = 0.15;   // after the last move the picture is refined
+constexpr double kMovingSeconds = 0.03;  // aim for a coarse picture: input, picture and presenting stay below 100 ms together
+constexpr double kStillSeconds = 0.15;   // time after the last move until the full size is started
 
 double secondsBetween(std::chrono::steady_clock::time_point begin, std::chrono::steady_clock::time_point end)
 {
@@ -30,18 +30,20 @@ RenderSettings startingSettings(RenderSettings settings)
 }  // namespace
 
 Refiner::Refiner(Device& device, const PreparedScene& prepared, const RenderSettings& settings, const Lens& lens)
-    : settings_(settings), lens_(lens), camera_(flattenCamera(prepared.scene.cameras.front(), 1.0F, lens)),
+    : settings_(settings),
+      lens_(lens),
+      camera_(flattenCamera(prepared.scene.cameras.front(), 1.0F, lens)),
       renderer_(device, prepared.flat, camera_, startingSettings(settings))
-{
-}
+{}
 
-Refiner::Refiner(const Refiner& lender, const PreparedScene& prepared, const RenderSettings& settings)
-    : settings_(settings), lens_(lender.lens_), camera_(lender.camera_),
-      renderer_(lender.renderer_, prepared.flat, camera_, startingSettings(settings))
-{
-}
+Refiner::Refiner(const Refiner& other, const PreparedScene& prepared, const RenderSettings& settings)
+    : settings_(settings),
+      lens_(other.lens_),
+      camera_(other.camera_),
+      renderer_(other.renderer_, prepared.flat, camera_, startingSettings(settings))
+{}
 
-// After a first picture at movingScale_ has taken so long; a finer one would take up to four times that.
+// `seconds` is what a coarse picture at movingScale_ took. A picture of twice the resolution takes up to four times as long.
 void Refiner::chooseMovingScale(double seconds)
 {
     if (seconds > kMovingSeconds && movingScale_ < kCoarsest) {
@@ -68,11 +70,11 @@ void Refiner::begin(std::uint32_t scale, bool fresh)
     seconds_ = 0.0;
 }
 
-void Refiner::advance(const std::function<bool()>& goesOn)
+void Refiner::advance(const std::function<bool()>& shouldContinue)
 {
     const std::uint64_t before = renderer_.pictureSamples();
     const Clock::time_point start = Clock::now();
-    const bool whole = renderer_.advance(goesOn);
+    const bool whole = renderer_.advance(shouldContinue);
     const double spent = secondsBetween(start, Clock::now());
     seconds_ += spent;
     if (whole) {
@@ -81,18 +83,18 @@ void Refiner::advance(const std::function<bool()>& goesOn)
     }
 }
 
-bool Refiner::refine(bool paused, const std::function<bool()>& goesOn)
+bool Refiner::refine(bool paused, const std::function<bool()>& shouldContinue)
 {
     if (scale_ > 1 && !fresh_ && secondsBetween(moved_, Clock::now()) > kStillSeconds) {
         begin(1, false);
     }
     const bool whole = renderer_.sampleCount() > 0;
     if (isDone() || (whole && paused)) {
-        return scale_ > 1;  // will be refined soon
+        return scale_ > 1;  // the full size comes next
     }
-    // The first picture is always made whole, or a hand that never rests would see none.
+    // The first picture is always completed. Otherwise a user who moves without rest would see none.
     do {
-        advance(fresh_ ? nullptr : goesOn);
+        advance(fresh_ ? nullptr : shouldContinue);
     } while (fresh_ && renderer_.sampleCount() == 0);
     if (std::exchange(fresh_, false)) {
         chooseMovingScale(seconds_);

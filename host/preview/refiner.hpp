@@ -1,4 +1,4 @@
-// A picture that refines: coarse while the camera moves, so that it follows at once, then pixel by pixel.
+// A picture that refines. While the camera moves it has few large pixels, so that it follows at once; then it gets all of them.
 #pragma once
 
 #include "host/flatten/flatten_scene.hpp"
@@ -12,25 +12,25 @@ namespace glim {
 
 class Refiner {
 public:
-    // Uploads and compiles. `settings` without size; --view bvh-steps may be among them.
+    // Uploads the scene and compiles the kernels. The size in `settings` does not matter.
     Refiner(Device& device, const PreparedScene& prepared, const RenderSettings& settings, const Lens& lens);
-    // Of the same scene, with its buffers; `lender` must outlive it.
-    Refiner(const Refiner& lender, const PreparedScene& prepared, const RenderSettings& settings);
+    // Shares the resources of `other`, which is of the same scene and must outlive this one.
+    Refiner(const Refiner& other, const PreparedScene& prepared, const RenderSettings& settings);
 
-    // From now on this camera's picture, of this size; at first coarse, since more moves may follow.
+    // Starts the picture of this camera in this size. It is coarse at first, since the camera may move on.
     void show(const Camera& camera, const glm::uvec2& size);
-    // Works for some 100 ms, or less once `goesOn` is false, or until a coarse picture is whole; false if there is nothing to do. If
-    // `paused`, only as long as some pixel has no sample.
-    bool refine(bool paused, const std::function<bool()>& goesOn);
+    // Works for about 100 ms, but ends earlier once `shouldContinue` returns false or a coarse picture is complete. Returns false if
+    // there is nothing to do. If `paused`, it works only while some pixel has no sample.
+    bool refine(bool paused, const std::function<bool()>& shouldContinue);
 
-    // Whether what moved is not to be seen yet: the first, mostly coarse, picture since show() is not whole.
+    // Whether the first picture since show() is still incomplete.
     bool isFresh() const { return fresh_; }
-    // Whether every pixel has had its samples, or its time.
+    // Whether every pixel has all its samples, or the time is up.
     bool isDone() const;
-    // Samples that every pixel of the full size has.
+    // The samples of each pixel of the picture in full size; 0 while it is coarse.
     std::uint32_t sampleCount() const { return scale_ == 1 ? renderer_.sampleCount() : 0; }
-    std::uint32_t scale() const { return scale_; }  // pixels of the picture along a side of the film's
-    double seconds() const { return seconds_; }     // of work on the picture
+    std::uint32_t scale() const { return scale_; }  // the side of a film pixel in pixels of the picture
+    double seconds() const { return seconds_; }     // spent on the picture
     double samplesPerSecond() const { return speed_; }
     const FlatCamera& camera() const { return camera_; }
     Renderer& renderer() { return renderer_; }
@@ -41,7 +41,7 @@ private:
 
     void chooseMovingScale(double seconds);
     void begin(std::uint32_t scale, bool fresh);
-    void advance(const std::function<bool()>& goesOn);
+    void advance(const std::function<bool()>& shouldContinue);
 
     RenderSettings settings_;
     Lens lens_;
@@ -49,8 +49,8 @@ private:
     glm::uvec2 size_{1, 1};
     std::uint32_t scale_ = 1;
     bool fresh_ = false;
-    std::uint32_t movingScale_ = kCoarsest;  // of the next coarse picture
-    double speed_ = 0.0;      // samples per second, lately; 0: not known yet
+    std::uint32_t movingScale_ = kCoarsest;  // the scale of the next coarse picture
+    double speed_ = 0.0;                     // recent samples per second; 0: unknown
     double seconds_ = 0.0;
     Clock::time_point moved_;
     Renderer renderer_;

@@ -7,18 +7,22 @@
 namespace glim {
 namespace {
 
-constexpr std::chrono::milliseconds kBetweenLooks{250};
+constexpr std::chrono::milliseconds kStampInterval{250};
 
 }  // namespace
 
 SceneLoader::SceneLoader(std::filesystem::path file, LoadOptions options, SplitRule split)
-    : file_(std::move(file)), files_{file_}, options_(options), split_(split), lastLook_(std::chrono::steady_clock::now())
+    : file_(std::move(file)),
+      files_{file_},
+      options_(options),
+      split_(split),
+      lastRead_(std::chrono::steady_clock::now())
 {
     begin();
     seen_ = loaded_;
 }
 
-std::vector<SceneLoader::Stamp> SceneLoader::look() const
+std::vector<SceneLoader::Stamp> SceneLoader::readStamps() const
 {
     std::vector<Stamp> stamps;
     for (const std::filesystem::path& file : files_) {
@@ -34,21 +38,21 @@ std::vector<SceneLoader::Stamp> SceneLoader::look() const
     return stamps;
 }
 
-// And stays so for two looks: it may still be being written at the first.
+// Whether the files have changed and then stayed the same for one interval: a program may still write them.
 bool SceneLoader::hasChanged()
 {
     const auto now = std::chrono::steady_clock::now();
-    if (now - lastLook_ < kBetweenLooks) {
+    if (now - lastRead_ < kStampInterval) {
         return false;
     }
-    lastLook_ = now;
-    const std::vector<Stamp> before = std::exchange(seen_, look());
+    lastRead_ = now;
+    const std::vector<Stamp> before = std::exchange(seen_, readStamps());
     return seen_ == before && seen_ != loaded_ && !seen_.empty();
 }
 
 void SceneLoader::begin()
 {
-    loaded_ = look();
+    loaded_ = readStamps();
     began_ = std::filesystem::file_time_type::clock::now();
     loading_ = std::async(std::launch::async, [this] {
         return std::make_unique<PreparedScene>(prepareScene(file_, options_, split_, [this](const std::string& stage) {
@@ -81,12 +85,12 @@ std::unique_ptr<PreparedScene> SceneLoader::take()
         watch(prepared->scene.files);
         return prepared;
     } catch (...) {
-        watch({file_, std::filesystem::absolute(file_).parent_path()});  // a file that is missing may come
+        watch({file_, std::filesystem::absolute(file_).parent_path()});  // a missing file may appear in the folder
         throw;
     }
 }
 
-// What was written since loading began is not what was loaded.
+// Watches `files` from now on. A file that was written after loading began counts as changed.
 void SceneLoader::watch(const std::vector<std::filesystem::path>& files)
 {
     if (files == files_) {
@@ -94,12 +98,12 @@ void SceneLoader::watch(const std::vector<std::filesystem::path>& files)
     }
     const std::vector<Stamp> before = std::exchange(loaded_, {});
     files_ = files;
-    loaded_ = look();
+    loaded_ = readStamps();
     for (Stamp& stamp : loaded_) {
         stamp = stamp.time < began_ ? stamp : Stamp{};
     }
     if (!before.empty() && !loaded_.empty()) {
-        loaded_.front() = before.front();  // the scene's own
+        loaded_.front() = before.front();  // the glTF file, whose stamp was read before
     }
 }
 

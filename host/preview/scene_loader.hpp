@@ -1,4 +1,4 @@
-// Loads the scene in a thread of its own, and again whenever its file or one of its buffers' changes.
+// Loads the scene in a thread of its own, and loads it again whenever one of its files changes.
 #pragma once
 
 #include "host/render/prepare_scene.hpp"
@@ -14,11 +14,11 @@ class SceneLoader {
 public:
     SceneLoader(std::filesystem::path file, LoadOptions options, SplitRule split);
 
-    ~SceneLoader() { ended_ = true; }  // and waits for the end of the stage under way
+    ~SceneLoader() { ended_ = true; }  // then waits until the current stage ends
 
-    // A scene that has been loaded since the last call, or nothing. Throws what loading it threw.
+    // The scene if it has been loaded since the last call, or null. Throws what loading threw.
     std::unique_ptr<PreparedScene> take();
-    // What it is doing, as in "loading a.gltf"; empty when nothing.
+    // The current stage, as in "loading a.gltf"; empty if nothing is being loaded.
     std::string stage() const;
 
 private:
@@ -27,19 +27,19 @@ private:
         std::uintmax_t size = 0;
         bool operator==(const Stamp&) const = default;
     };
-    // Of each file; nothing while one is missing, as between the two steps of some editors' saving.
-    std::vector<Stamp> look() const;
+    // The stamp of each file. Empty while a file is missing, as it is for a moment when some editors save.
+    std::vector<Stamp> readStamps() const;
     bool hasChanged();
     void begin();
     void watch(const std::vector<std::filesystem::path>& files);
 
     std::filesystem::path file_;
-    std::vector<std::filesystem::path> files_;  // that the scene was read from last; its own is the first
+    std::vector<std::filesystem::path> files_;  // that the scene was read from; the glTF file is the first
     LoadOptions options_;
     SplitRule split_;
-    std::vector<Stamp> loaded_, seen_;          // when loading began, and at the last look
-    std::filesystem::file_time_type began_;     // the last loading
-    std::chrono::steady_clock::time_point lastLook_;
+    std::vector<Stamp> loaded_, seen_;       // the stamps when loading began, and those read last
+    std::filesystem::file_time_type began_;  // when the last loading began
+    std::chrono::steady_clock::time_point lastRead_;
     std::atomic<bool> ended_ = false;
     mutable std::mutex mutex_;
     std::string stage_;

@@ -16,10 +16,12 @@ namespace {
 
 using Kind = ScriptStep::Kind;
 
-// The rest of a line, word by word; a word that is not what it should be makes the line bad.
+// Reads the rest of a line word by word. A word of another kind than expected makes the line bad.
 class Words {
 public:
-    explicit Words(const std::string& line) : stream_(line) {}
+    explicit Words(const std::string& line)
+        : stream_(line)
+    {}
 
     std::string word()
     {
@@ -78,13 +80,13 @@ private:
     bool good_ = true;
 };
 
-// The arguments of a step whose name is read; false if there is no such step.
+// Reads the arguments of the step `name`. Returns false if there is no such step.
 bool readArguments(const std::string& name, Words& words, ScriptStep& step)
 {
-    static const std::map<std::string, Kind> kKinds = {
-        {"key", Kind::Key},         {"press", Kind::Press},   {"release", Kind::Release}, {"drag", Kind::Drag},
-        {"scroll", Kind::Scroll},   {"click", Kind::Click},   {"resize", Kind::Resize},   {"iconify", Kind::Iconify},
-        {"restore", Kind::Restore}, {"samples", Kind::Samples}, {"close", Kind::Close}};
+    static const std::map<std::string, Kind> kKinds = {{"key", Kind::Key},         {"press", Kind::Press},     {"release", Kind::Release},
+                                                       {"drag", Kind::Drag},       {"scroll", Kind::Scroll},   {"click", Kind::Click},
+                                                       {"resize", Kind::Resize},   {"iconify", Kind::Iconify}, {"restore", Kind::Restore},
+                                                       {"samples", Kind::Samples}, {"close", Kind::Close}};
     const auto found = kKinds.find(name);
     if (found == kKinds.end()) {
         return false;

@@ -1,4 +1,4 @@
-// A session that nobody has to be there for.
+// Scripted sessions, for tests and measurements.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -12,23 +12,23 @@ namespace glim {
 
 struct ScriptStep {
     enum class Kind { Press, Release, Key, Drag, Scroll, Click, Resize, Iconify, Restore, Samples, Close };
-    double delay = 0.0;          // seconds after the step before
+    double delay = 0.0;  // seconds since the previous step
     Kind kind = Kind::Close;
     char key = 0;
-    bool pan = false;            // a drag with the middle button
+    bool pan = false;  // a drag with the middle button
     glm::dvec2 from{0.0}, to{0.0};
     double notches = 0.0;
     glm::uvec2 size{0};
-    std::uint64_t samples = 0;   // of every pixel, to wait for
+    std::uint64_t samples = 0;  // waits until every pixel has as many
 };
 
-// One step a line: the delay, then one of
+// Each line is one step: its delay, then one of
 //   key K | press K | release K      K: a letter, a digit, + or -, space or escape
 //   drag left|middle X,Y X,Y         pixels
 //   scroll N | click X,Y | resize WxH | iconify | restore
-//   samples N                        waits until the whole picture has N samples a pixel, or sampling has ended
+//   samples N                        waits until all pixels have N samples, or until sampling has ended
 //   close
-// Blank lines and what follows # are nothing. Throws InputError naming file, line and what was expected.
+// Blank lines and comments, which begin with #, are skipped. Throws InputError with the file, the line and what was expected.
 std::vector<ScriptStep> readScript(const std::filesystem::path& file);
 
 }  // namespace glim

@@ -1,37 +1,88 @@
 #include "host/preview/session.hpp"
 
 #include "host/error.hpp"
+#include "host/flatten/view_options.hpp"
 #include "host/measure/compare_images.hpp"
 #include "host/measure/picture.hpp"
 #include "host/render/check_memory.hpp"
+#include "host/render/describe_primitive.hpp"
 #include "shaders/shared/limits.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <iterator>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace glim {
 namespace {
 
 constexpr double kFrameSeconds = 1.0 / 30.0, kMovingFrameSeconds = 1.0 / 60.0;
-constexpr double kPresentShare = 0.1;   // of the time, at most, that goes into presenting while nothing moves
+constexpr double kPresentShare = 0.1;  // the most of the time that presenting may take while nothing moves
 constexpr double kIdleSeconds = 0.05;
+constexpr double kExposureStep = 0.5;  // stops
 
 double secondsSince(std::chrono::steady_clock::time_point start)
 {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+// Half the height of the picture at the point that the camera looks at, in metres.
+double halfHeightOf(const Camera& camera, const Pose& pose)
+{
+    if (camera.kind == Camera::Kind::Orthographic) {
+        return static_cast<double>(camera.halfHeight);  // includes the zoom
+    }
+    return std::tan(0.5 * static_cast<double>(camera.yfov)) * glm::length(pose.at - pose.from);
+}
+
+struct Pick {
+    glm::dvec3 position;  // world coordinates
+    double distance;      // metres from the ray's origin
+    PrimitiveDescription primitive;
+};
+
+// The ray through the centre of a pixel of a picture of this size, and through the middle of the lens.
+PathRay rayThrough(const FlatCamera& camera, const glm::uvec2& pixel, const glm::uvec2& size)
+{
+    const glm::vec2 film = 2.0F * (glm::vec2(pixel) + 0.5F) / glm::vec2(size) - 1.0F;
+    const glm::vec3 across = film.x * camera.right - film.y * camera.up;
+    return camera.kind == kOrthographic ? PathRay{camera.position + across, kNoPrimitive, camera.forward}
+                                        : PathRay{camera.position, kNoPrimitive, glm::normalize(camera.forward + across)};
+}
+
+// The surface behind the centre of a pixel.
+std::optional<Pick> pick(Renderer& renderer, const PreparedScene& prepared, const FlatCamera& camera, const glm::uvec2& pixel,
+                         const glm::uvec2& size)
+{
+    const PathRay ray = rayThrough(camera, pixel, size);
+    const PathHit hit = renderer.traceRay(ray);
+    if (hit.record == kNoRecord) {
+        return std::nullopt;
+    }
+    Pick found;
+    found.distance = static_cast<double>(hit.t);
+    found.position = prepared.scene.origin + glm::dvec3(ray.origin) + found.distance * glm::dvec3(ray.direction);
+    found.primitive = describeRecord(prepared, hit.record);
+    return found;
+}
+
 }  // namespace
 
 Session::Session(Window& window, EventQueue& events, const PreviewOptions& options)
-    : window_(window), events_(events), options_(options), instance_(Window::instanceExtensions()),
-      surface_(instance_, window.createSurface(instance_)), device_(instance_, options.device, surface_.handle()),
-      swapchain_(device_, surface_.handle()), display_(device_), loader_(options.scene, options.load, options.split)
+    : window_(window),
+      events_(events),
+      options_(options),
+      instance_(Window::instanceExtensions()),
+      surface_(instance_, window.createSurface(instance_)),
+      device_(instance_, options.device, surface_.handle()),
+      swapchain_(device_, surface_.handle()),
+      display_(device_),
+      loader_(options.scene, options.load, options.split)
 {
     display_.resize(std::max(1U, window.pictureSize().x), std::max(1U, window.pictureSize().y));
 }
@@ -40,7 +91,7 @@ void Session::run()
 {
     while (!closing_ && (!options_.frames || frames_ < *options_.frames)) {
         const bool working = light_ && work();
-        const bool idle = !working && held_.empty() && !changed_ && inbox_.empty();
+        const bool idle = !working && heldKeys_.empty() && !changed_ && inbox_.empty();
         takeEvents(idle ? kIdleSeconds : 0.0);
         takeScene();
         if (const auto report = writer_.takeReport(false)) {
@@ -68,7 +119,7 @@ void Session::run()
     }
 }
 
-// What takes longer than a picture is done after one that says so, and the events that follow wait for it.
+// While long work is announced but not done, events wait.
 void Session::takeEvents(double seconds)
 {
     for (const Event& event : events_.take(seconds)) {
@@ -77,13 +128,13 @@ void Session::takeEvents(double seconds)
     while (!inbox_.empty() && !later_) {
         handle(inbox_.front());
         inbox_.pop_front();
-        ++handled_;
+        ++handledEvents_;
         changed_ = true;
     }
 }
 
-// A scene that is refused, or too much for the memory, ends the session only if there is none to go on with. (A device that is lost
-// says so again.)
+// A scene that is refused, or that needs too much memory, ends the session only if no other scene is loaded. (A lost device fails
+// again in the next pass.)
 void Session::takeScene()
 {
     try {
@@ -112,28 +163,28 @@ void Session::enter(std::unique_ptr<PreparedScene> prepared)
     RenderSettings settings = options_.settings;
     settings.width = display_.width();
     settings.height = display_.height();
-    refuseWhatDoesNotFit(*prepared, settings, device_.description());
+    checkMemory(*prepared, settings, device_.description());
     window_.setTitle("glim: compiling kernels for " + options_.scene.filename().string());
     if (!viewpoint_) {
         const Camera& chosen = findCamera(prepared->scene, options_.camera);
         if (options_.pose) {
-            placeCamera(chosen, *options_.pose, prepared->scene.origin);  // refuses what gives no direction
+            placeCamera(chosen, *options_.pose, prepared->scene.origin);  // refuses a pose without direction
         }
         viewpoint_.emplace(static_cast<std::size_t>(&chosen - prepared->scene.cameras.data()), options_.pose);
         if (!options_.size) {
-            window_.setSize(naturalSize(chosen));
+            window_.setSize(defaultSize(chosen));
         }
     }
-    warnOfDarkness(*prepared);
+    warnIfNoLights(*prepared);
     auto light = std::make_unique<Refiner>(device_, *prepared, settings, options_.lens);
     viewpoint_->enter(prepared->scene);
     if (light_) {
         tell(options_.scene.string() + " has changed and is loaded again");
     }
-    steps_.reset();  // it has borrowed from light_
+    steps_.reset();  // it uses buffers of light_
     light_ = std::move(light);
-    if (look_ == Look::Steps) {
-        look_ = Look::Radiance;
+    if (aov_ == Aov::BvhSteps) {
+        aov_ = Aov::Radiance;
     }
     prepared_ = std::move(prepared);
     window_.setTitle("glim: " + options_.scene.filename().string());
@@ -153,22 +204,24 @@ void Session::resize()
     changed_ = true;
 }
 
-// While keys are held, from picture to picture: half the scene's radius a second.
+// Moves the camera by half the scene's radius a second while keys are held, one step per picture.
 void Session::fly()
 {
     if (!shown_) {
         return;
     }
     const double seconds = std::min(0.1, secondsSince(std::exchange(flown_, Clock::now())));
-    const auto axis = [this](char more, char less) { return static_cast<double>(held_.count(more)) - static_cast<double>(held_.count(less)); };
-    const glm::dvec3 way(axis('D', 'A'), axis('E', 'Q'), axis('W', 'S'));
-    if (viewpoint_ && way != glm::dvec3(0.0)) {
-        viewpoint_->move([&](const Pose& pose) { return ::glim::fly(pose, 0.5 * viewpoint_->bounds().radius * seconds * way); });
+    const auto axis = [this](char more, char less) {
+        return (heldKeys_.contains(more) ? 1.0 : 0.0) - (heldKeys_.contains(less) ? 1.0 : 0.0);
+    };
+    const glm::dvec3 direction(axis('D', 'A'), axis('E', 'Q'), axis('W', 'S'));
+    if (viewpoint_ && direction != glm::dvec3(0.0)) {
+        viewpoint_->move([&](const Pose& pose) { return ::glim::fly(pose, 0.5 * viewpoint_->bounds().radius * seconds * direction); });
         moved_ = true;
     }
 }
 
-// However often the camera moves, each picture is shown before the next is begun: a hand that never rests would see none otherwise.
+// Begins the next picture only after the last one was shown. Otherwise a user who moves without rest would see none.
 void Session::followCamera()
 {
     if (moved_ && shown_) {
@@ -176,14 +229,14 @@ void Session::followCamera()
     }
 }
 
-// Begins the picture from where the camera is now.
+// Begins a new picture with the present camera.
 void Session::show()
 {
     refiner().show(viewpoint_->camera(), {display_.width(), display_.height()});
     std::move(waiting_.begin(), waiting_.end(), std::back_inserter(underWay_));
     waiting_.clear();
     moved_ = shown_ = false;
-    lightIsStale_ = look_ == Look::Steps;
+    lightIsStale_ = aov_ == Aov::BvhSteps;
     estimatedAt_ = 0;
     relMse_.reset();
     changed_ = true;
@@ -191,12 +244,12 @@ void Session::show()
 
 bool Session::work()
 {
-    const bool worked = refiner().refine(paused_, [this] { return !isAsked(); });
+    const bool worked = refiner().refine(paused_, [this] { return !isInputWaiting(); });
     changed_ = changed_ || worked;
     return worked;
 }
 
-// At once where the user waits; else often enough to look alive, and seldom enough to leave the time to rendering.
+// Presents at once if the user waits for an answer, and otherwise in intervals that leave most of the time to rendering.
 bool Session::isPresentDue()
 {
     const bool nothingNew = !changed_ && !options_.frames;
@@ -213,7 +266,7 @@ void Session::present()
     const Clock::time_point start = Clock::now();
     if (light_) {
         measure();
-        display_.draw(refiner().renderer(), look_, range_, options_.exposure);
+        display_.draw(refiner().renderer(), aov_, range_, options_.exposure);
     }
     const auto dotPixels = static_cast<std::uint32_t>(std::max(1.0F, std::round(window_.contentScale())));
     display_.cover(drawText(overlay(), dotPixels, display_.width()));
@@ -222,7 +275,7 @@ void Session::present()
     presented_ = Clock::now();
     presentSeconds_ = std::chrono::duration<double>(presented_ - start).count();
     if (!shown) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));  // no hurry: the window is changing, or not to be seen
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));  // the window is hidden or changing
         return;
     }
     changed_ = moved_;
@@ -238,17 +291,17 @@ void Session::present()
         ++frames_;
     }
     if (light_ && !moved_) {
-        window_.reportShown(refiner().sampleCount(), refiner().scale() == 1 && refiner().isDone(), handled_);
+        window_.reportShown(refiner().sampleCount(), refiner().scale() == 1 && refiner().isDone(), handledEvents_);
     }
 }
 
-// Whatever takes a look at the whole film, as often as its samples double.
+// Computes what needs the whole film, whenever its samples have doubled: the estimated error and the range of an AOV.
 void Session::measure()
 {
     const std::uint32_t samples = refiner().sampleCount();
-    const bool ranged = look_ == Look::Depth || look_ == Look::Rate || look_ == Look::Steps;
-    const bool first = ranged && measuredLook_ != look_;
-    if (!first && (samples < 1 || samples < 2 * estimatedAt_ || isAsked())) {
+    const bool ranged = aov_ == Aov::Depth || aov_ == Aov::SampleCount || aov_ == Aov::BvhSteps;
+    const bool first = ranged && measuredAov_ != aov_;
+    if (!first && (samples < 1 || samples < 2 * estimatedAt_ || isInputWaiting())) {
         return;
     }
     if (!ranged && samples < leastSamplesForError(0)) {
@@ -256,22 +309,220 @@ void Session::measure()
     }
     const Film film = refiner().renderer().film();
     estimatedAt_ = samples;
-    measuredLook_ = look_;
-    range_ = computeRange(film, look_);
-    if (look_ == Look::Rate) {
-        range_.high = std::max(range_.high, 2.0F * range_.low);  // or a sweep under way would be all the scale shows
+    measuredAov_ = aov_;
+    range_ = computeRange(film, aov_);
+    if (aov_ == Aov::SampleCount) {
+        range_.high = std::max(range_.high, 2.0F * range_.low);  // the scale should not show the present sweep alone
     }
-    if (const auto errors = estimateErrors(pictureOf(film)); errors && look_ != Look::Steps) {
+    if (const auto errors = estimateErrors(pictureOf(film)); errors && aov_ != Aov::BvhSteps) {
         relMse_ = errors->relMse;
     }
+}
+
+void Session::say(const std::string& text)
+{
+    notice_ = text;
+    noticeTime_ = Clock::now();
+    changed_ = true;
+}
+
+void Session::tell(const std::string& text)
+{
+    std::cerr << "glim: " << text << '\n';
+    say(text);
+}
+
+void Session::handle(const Event& event)
+{
+    using Kind = Event::Kind;
+    if (event.kind == Kind::Close) {
+        closing_ = true;
+        return;
+    }
+    if (event.kind == Kind::Resize) {
+        resize();
+        return;
+    }
+    if (event.kind == Kind::KeyUp) {
+        heldKeys_.erase(event.key);
+        return;
+    }
+    waiting_.push_back(event.when);
+    changed_ = true;
+    if (event.kind == Kind::KeyDown) {
+        press(event.key);
+    } else if (event.kind == Kind::Click) {
+        clickAt(event.position);
+    } else if (viewpoint_) {
+        moveBy(event);
+    }
+}
+
+void Session::moveBy(const Event& event)
+{
+    const double height = static_cast<double>(display_.height());
+    const Camera camera = viewpoint_->camera();
+    viewpoint_->move([&](const Pose& pose) {
+        switch (event.kind) {
+        case Event::Kind::Orbit: return orbit(pose, event.amount, height);
+        case Event::Kind::Pan: return pan(pose, event.amount, 2.0 * halfHeightOf(camera, pose) / height);
+        default: return dolly(pose, event.amount.y, camera.kind);
+        }
+    });
+    moved_ = true;
+}
+
+void Session::press(char key)
+{
+    if (key == kEscape) {
+        closing_ = true;
+    } else if (key == 'H') {
+        overlayLevel_ = (overlayLevel_ + 1) % 3;
+    } else if (key == '+' || key == '-') {
+        options_.exposure += key == '+' ? kExposureStep : -kExposureStep;
+    } else if (key == ' ') {
+        paused_ = !paused_;
+    } else if (viewpoint_ && std::string("WASDQE").find(key) != std::string::npos) {
+        heldKeys_.insert(key);
+    } else if (viewpoint_) {
+        pressForScene(key);
+    }
+}
+
+void Session::pressForScene(char key)
+{
+    if (key == 'F') {
+        const double aspect = static_cast<double>(display_.width()) / static_cast<double>(display_.height());
+        viewpoint_->move([&](const Pose& pose) { return frame(pose, viewpoint_->bounds(), viewpoint_->fileCamera(), aspect); });
+        moved_ = true;
+    } else if (key == 'R') {
+        viewpoint_->reset();
+        moved_ = true;
+    } else if (key >= '1' && key <= '9') {
+        if (viewpoint_->choose(static_cast<std::size_t>(key - '1'))) {
+            moved_ = true;
+        } else {
+            say(std::string("The file has no camera ") + key + ".");
+        }
+    } else if (key == 'V') {
+        cycleAov();
+    } else if (key == 'P') {
+        say("writing the picture");
+        if (isWhole()) {
+            later_ = [this] { writePictures(); };
+        } else {
+            writes_ = true;
+        }
+    } else if (key == 'C') {
+        printCamera();
+    }
+}
+
+// BVH steps need a film of their own. Without a BVH there are none.
+void Session::cycleAov()
+{
+    std::vector<Aov> order = {Aov::Radiance, Aov::Normal, Aov::Depth, Aov::Albedo, Aov::SampleCount};
+    if (options_.settings.course.accelerator != Accelerator::None) {
+        order.push_back(Aov::BvhSteps);
+    }
+    const auto at = std::find(order.begin(), order.end(), aov_);
+    const Aov next = at + 1 == order.end() ? order.front() : at[1];
+    if (next == Aov::BvhSteps && !steps_) {
+        say("compiling kernels that count");
+        later_ = [this] {
+            RenderSettings settings = options_.settings;
+            settings.aov = Aov::BvhSteps;
+            settings.bounces = 0;
+            settings.adaptive = Adaptive::Off;
+            steps_ = std::make_unique<Refiner>(*light_, *prepared_, settings);
+            showAov(Aov::BvhSteps);
+        };
+    } else {
+        showAov(next);
+    }
+}
+
+void Session::showAov(Aov aov)
+{
+    const bool stale = lightIsStale_ || moved_, leaves = aov_ == Aov::BvhSteps;
+    aov_ = aov;
+    if (aov == Aov::BvhSteps) {
+        show();
+        lightIsStale_ = stale;
+    } else if (leaves && stale) {
+        show();
+    }
+    estimatedAt_ = 0;
+}
+
+void Session::clickAt(const glm::dvec2& position)
+{
+    if (!light_) {
+        return;
+    }
+    const glm::uvec2 size(display_.width(), display_.height());
+    const glm::uvec2 pixel(glm::clamp(position, glm::dvec2(0.0), glm::dvec2(size - 1U)));
+    std::string there = "nothing";
+    if (const std::optional<Pick> found = pick(refiner().renderer(), *prepared_, refiner().camera(), pixel, size)) {
+        char place[200];
+        std::snprintf(place, sizeof place, ", at (%.6g, %.6g, %.6g), %.6g m away", found->position.x, found->position.y, found->position.z,
+                      found->distance);
+        there = textOf(found->primitive) + ", material " + found->primitive.material + place;
+    }
+    std::cout << "pixel (" << pixel.x << ", " << pixel.y << ") of " << size.x << "x" << size.y << ": " << there << describeSamples(pixel)
+              << std::endl;
+    say(there);
+}
+
+// For example "; 64 samples, mean (1, 1, 1) W/(sr m^2), standard error (.1, .1, .1)".
+std::string Session::describeSamples(const glm::uvec2& pixel)
+{
+    const RenderSettings& film = refiner().renderer().settings();
+    const glm::uvec2 place = pixel / refiner().scale();
+    const PixelMoments moments = refiner().renderer().moments(place.y * film.width + place.x);
+    const glm::vec3 error = glm::sqrt(varianceOfMean(moments));
+    char text[300];
+    std::snprintf(text, sizeof text, "; %u sample%s, mean (%.6g, %.6g, %.6g)%s", moments.count, moments.count == 1 ? "" : "s",
+                  static_cast<double>(moments.mean.r), static_cast<double>(moments.mean.g), static_cast<double>(moments.mean.b),
+                  aov_ == Aov::BvhSteps ? " node visits and primitive tests" : " W/(sr m^2)");
+    std::string known = text;
+    if (refiner().scale() > 1) {
+        known += " in a picture of 1/" + std::to_string(refiner().scale()) + " size";
+    }
+    if (moments.blocks < 2) {
+        return known + ", standard error known from 33 samples on";
+    }
+    std::snprintf(text, sizeof text, ", standard error (%.2g, %.2g, %.2g)", static_cast<double>(error.r), static_cast<double>(error.g),
+                  static_cast<double>(error.b));
+    return known + text;
+}
+
+void Session::printCamera()
+{
+    const std::string options = "--camera " + std::to_string(viewpoint_->index()) + viewOptions(viewpoint_->moved(), options_.lens) +
+                                " --size " + std::to_string(display_.width()) + "x" + std::to_string(display_.height());
+    std::cout << options << '\n' << viewpoint_->describeAsGltf() << std::endl;
+    say(options);
+}
+
+void Session::writePictures()
+{
+    Film film = refiner().renderer().film();
+    film.sceneFile = options_.scene.string();
+    film.identity.settings += describeView(viewpoint_->moved(), options_.lens);
+    if (const auto report = writer_.takeReport(true)) {
+        tell(*report);
+    }
+    writes_ = false;
+    writer_.write(options_.scene, std::move(film), aov_, options_.exposure);
 }
 
 void Session::printSummary() const
 {
     std::fprintf(stderr, "glim: %llu frames", static_cast<unsigned long long>(frames_));
     if (latency_.count() > 0) {
-        std::fprintf(stderr, "; %zu inputs, each in a picture after %.0f ms (median), %.0f ms (99 %%), %.0f ms (longest)",
-                     latency_.count(), 1e3 * latency_.quantile(0.5), 1e3 * latency_.quantile(0.99), 1e3 * latency_.quantile(1.0));
+        std::fprintf(stderr, "; %zu inputs, each in a picture after %.0f ms (median), %.0f ms (99 %%), %.0f ms (longest)", latency_.count(),
+                     1e3 * latency_.quantile(0.5), 1e3 * latency_.quantile(0.99), 1e3 * latency_.quantile(1.0));
     }
     std::fprintf(stderr, "\n");
 }

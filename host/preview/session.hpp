@@ -1,4 +1,4 @@
-// The thread that renders and owns the device: takes what the user did, works, shows.
+// The preview's rendering thread. It owns the device, handles the user's input, renders and shows pictures.
 #pragma once
 
 #include "host/preview/latency.hpp"
@@ -21,18 +21,19 @@ class Session {
 public:
     Session(Window& window, EventQueue& events, const PreviewOptions& options);
 
-    // Until the window is closed or the frames are shown.
+    // Runs until the window is closed or all frames are shown.
     void run();
-    // Prints what the session was like.
+    // Prints how many pictures were shown and how long the user waited for them.
     void printSummary() const;
 
 private:
     using Clock = std::chrono::steady_clock;
 
-    Refiner& refiner() const { return look_ == Look::Steps ? *steps_ : *light_; }
+    Refiner& refiner() const { return aov_ == Aov::BvhSteps ? *steps_ : *light_; }
     bool isWhole() const { return !moved_ && refiner().scale() == 1 && refiner().sampleCount() > 0; }
-    bool isAsked() const { return moved_ || !inbox_.empty() || !events_.isEmpty(); }
-    // session.cpp: the loop
+    bool isInputWaiting() const { return moved_ || !inbox_.empty() || !events_.isEmpty(); }
+
+    // The loop.
     void takeEvents(double seconds);
     void takeScene();
     void enter(std::unique_ptr<PreparedScene> prepared);
@@ -44,20 +45,22 @@ private:
     bool isPresentDue();
     void present();
     void measure();
-    // actions.cpp: what the user does
+
+    // The user's actions.
     void handle(const Event& event);
     void moveBy(const Event& event);
     void press(char key);
     void pressForScene(char key);
-    void cycleLook();
-    void lookAt(Look look);
+    void cycleAov();
+    void showAov(Aov aov);
     void clickAt(const glm::dvec2& position);
     std::string describeSamples(const glm::uvec2& pixel);
     void printCamera();
     void writePictures();
-    void say(const std::string& text);   // in the window
-    void tell(const std::string& text);  // there and on stderr
-    // overlay.cpp: what the window says
+    void say(const std::string& text);   // shows the text in the window
+    void tell(const std::string& text);  // shows the text in the window and prints it to stderr
+
+    // The text over the picture (overlay.cpp).
     std::vector<std::string> overlay();
     std::vector<std::string> figures();
 
@@ -73,33 +76,34 @@ private:
     PictureWriter writer_;
 
     std::unique_ptr<PreparedScene> prepared_;
-    std::unique_ptr<Refiner> light_, steps_;  // of --view shaded and bvh-steps; the latter once it is looked at, with light_'s buffers
+    // light_ makes all pictures but that of BVH steps. steps_ is made when that is first shown, and shares light_'s buffers.
+    std::unique_ptr<Refiner> light_, steps_;
     std::optional<Viewpoint> viewpoint_;
-    Look look_ = Look::Radiance;
-    std::deque<Event> inbox_;                 // of events_, those not handled yet
-    std::function<void()> later_;             // to be done once the window has said so
-    bool writes_ = false;                     // a picture, once there is a whole one
-    std::set<char> held_;                     // keys that fly
+    Aov aov_ = Aov::Radiance;
+    std::deque<Event> inbox_;      // events that are taken but not handled yet
+    std::function<void()> later_;  // work that starts once the window shows the notice about it
+    bool writes_ = false;          // a picture is to be written once it is complete
+    std::set<char> heldKeys_;      // pressed keys that move the camera
     bool paused_ = false, closing_ = false;
-    int overlayLevel_ = 1;                    // 0: nothing, 1: figures, 2: help too
-    std::string notice_;                      // the last thing said
-    std::string trouble_;                     // why the file as it is now is not shown
+    int overlayLevel_ = 1;  // 0: nothing, 1: figures, 2: help too
+    std::string notice_;    // the last text of say()
+    std::string trouble_;   // why the present file is not shown; empty if it is
     Clock::time_point noticeTime_, flown_, presented_;
-    double presentSeconds_ = 0.0;             // that the last one took
-    std::vector<Clock::time_point> waiting_;  // when what no picture answers yet came in
-    std::vector<Clock::time_point> underWay_; // and what the next one answers
-    bool changed_ = true;                     // there is something new to show
-    bool moved_ = false;                      // the camera, since show()
-    bool shown_ = true;                       // what show() began
-    std::uint64_t handled_ = 0;               // events
+    double presentSeconds_ = 0.0;              // the time that the last present() took
+    std::vector<Clock::time_point> waiting_;   // arrival times of the inputs that no picture answers yet
+    std::vector<Clock::time_point> underWay_;  // arrival times of the inputs that the next picture answers
+    bool changed_ = true;                      // there is something new to show
+    bool moved_ = false;                       // the camera has moved since show()
+    bool shown_ = true;                        // the picture that show() began has been presented
+    std::uint64_t handledEvents_ = 0;
     Latency latency_;
     std::uint64_t frames_ = 0;
-    std::optional<double> relMse_;            // estimated, when the picture had estimatedAt_ samples
-    LookRange range_;
-    Look measuredLook_ = Look::Radiance;      // that range_ is of
-    std::string title_;
+    std::optional<double> relMse_;  // estimated when the picture had estimatedAt_ samples
     std::uint64_t estimatedAt_ = 0;
-    bool lightIsStale_ = false;               // light_ is of another camera, since steps_ was looked at
+    DisplayRange range_;
+    Aov measuredAov_ = Aov::Radiance;  // the AOV that range_ belongs to
+    std::string title_;
+    bool lightIsStale_ = false;  // the camera has moved since light_ was last shown
 };
 
 }  // namespace glim

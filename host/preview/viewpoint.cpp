@@ -1,7 +1,8 @@
 #include "host/preview/viewpoint.hpp"
 
+#include "host/json.hpp"
+
 #include <glm/gtc/quaternion.hpp>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -42,21 +43,22 @@ void Viewpoint::reset()
 
 std::string Viewpoint::describeAsGltf() const
 {
-    using Json = nlohmann::ordered_json;
     const Camera seen = camera();
     const glm::dvec3 from = glm::dvec3(seen.position) + origin_;
     const glm::dquat turn = glm::quat_cast(glm::dmat3(glm::dvec3(seen.right), glm::dvec3(seen.up), -glm::dvec3(seen.forward)));
     Json camera;
     if (seen.kind == Camera::Kind::Perspective) {
-        camera = {{"type", "perspective"}, {"perspective", {{"yfov", seen.yfov}, {"znear", 0.01}}}};
+        Json lens = {{"yfov", seen.yfov}, {"znear", 0.01}};
         if (seen.aspectRatio) {
-            camera["perspective"]["aspectRatio"] = *seen.aspectRatio;
+            lens.set("aspectRatio", *seen.aspectRatio);
         }
+        camera = {{"type", "perspective"}, {"perspective", lens}};
     } else {
         camera = {{"type", "orthographic"},
                   {"orthographic", {{"xmag", seen.halfWidth}, {"ymag", seen.halfHeight}, {"znear", 0.01}, {"zfar", 1000.0}}}};
     }
-    const Json node = {{"camera", 0}, {"translation", {from.x, from.y, from.z}}, {"rotation", {turn.x, turn.y, turn.z, turn.w}}};
+    const Json node = {
+        {"camera", 0}, {"translation", Json::array({from.x, from.y, from.z})}, {"rotation", Json::array({turn.x, turn.y, turn.z, turn.w})}};
     return Json{{"cameras", Json::array({camera})}, {"nodes", Json::array({node})}}.dump();
 }
 

@@ -1,4 +1,4 @@
-// The camera as the user moves it.
+// The camera that the user moves.
 #pragma once
 
 #include "host/preview/controls.hpp"
@@ -10,29 +10,33 @@ namespace glim {
 
 class Viewpoint {
 public:
-    // Camera `index` of `scene`, or where it was moved to.
-    Viewpoint(std::size_t index, const std::optional<Pose>& pose) : index_(index), firstIndex_(index), pose_(pose) {}
+    // Starts with the file's camera `index`, or with the camera placed by `pose`.
+    Viewpoint(std::size_t index, const std::optional<Pose>& pose)
+        : index_(index),
+          firstIndex_(index),
+          pose_(pose)
+    {}
 
-    // The scene may be another one from now on; the camera stays where it was moved to.
+    // Takes the cameras of `scene`, also when it has been loaded again. A moved camera stays where it is.
     void enter(const Scene& scene);
     Camera camera() const;
-    const Camera& fileCamera() const { return cameras_[index_]; }  // before it was moved
+    const Camera& fileCamera() const { return cameras_[index_]; }  // without the user's moves
     const Bounds& bounds() const { return bounds_; }
 
-    // False if the scene has no such camera.
+    // Returns to the file's camera `index`. Returns false if there is none.
     bool choose(std::size_t index);
     void reset();
-    // From where it stands to somewhere else.
-    template <class Move>
-    void move(Move&& to)
+    // `change` makes the new pose from the present one.
+    template <class Change>
+    void move(Change&& change)
     {
-        pose_ = to(pose());
+        pose_ = change(pose());
     }
     Pose pose() const;
 
-    std::size_t index() const { return index_; }  // of the file's camera
+    std::size_t index() const { return index_; }
     const std::optional<Pose>& moved() const { return pose_; }
-    // A camera and its node, as JSON of a glTF file.
+    // The camera and its node as glTF.
     std::string describeAsGltf() const;
 
 private:
@@ -40,7 +44,7 @@ private:
     glm::dvec3 origin_{0.0};
     Bounds bounds_;
     std::size_t index_, firstIndex_;
-    std::optional<Pose> pose_;  // absent: the file's camera as it is
+    std::optional<Pose> pose_;  // absent: the camera was not moved
 };
 
 }  // namespace glim

@@ -11,7 +11,7 @@
 namespace glim {
 namespace {
 
-constexpr double kClickPixels = 3.0;  // that the mouse may move in a click
+constexpr double kClickPixels = 3.0;  // a click becomes a drag if the mouse moves as far
 constexpr double kWaitSeconds = 0.25;
 
 Window* self(GLFWwindow* window) { return static_cast<Window*>(glfwGetWindowUserPointer(window)); }
@@ -23,12 +23,10 @@ std::string reason()
     return text != nullptr ? text : "no reason given";
 }
 
-[[noreturn]] void refuse(const std::string& what)
-{
-    throw InputError(what + " (" + reason() + "); `glim render` needs no window.");
-}
+[[noreturn]] void refuse(const std::string& what) { throw InputError(what + " (" + reason() + "); `glim render` needs no window."); }
 
-// As H names them: letters, + and - as on the keyboard at hand; the other keys, and + and - too, by their place on an American one.
+// The key's name as the help has it, or '\0'. Letters, + and - follow the user's keyboard layout; other keys, and also + and -, are
+// found by their place on an American keyboard.
 char nameOf(int key, int scancode)
 {
     if (key == GLFW_KEY_ESCAPE) {
@@ -53,7 +51,8 @@ char nameOf(int key, int scancode)
 
 }  // namespace
 
-Window::Window(const std::string& title, const glm::uvec2& size, EventQueue& events) : events_(events)
+Window::Window(const std::string& title, const glm::uvec2& size, EventQueue& events)
+    : events_(events)
 {
     if (glfwInit() == GLFW_FALSE) {
         refuse("No window can be opened here");
@@ -66,7 +65,8 @@ Window::Window(const std::string& title, const glm::uvec2& size, EventQueue& eve
         throw InputError("No window can be opened here (" + why + "); `glim render` needs none.");
     }
     glfwSetWindowUserPointer(window_, this);
-    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int) { self(w)->onKey(nameOf(key, scancode), action); });
+    glfwSetKeyCallback(window_,
+                       [](GLFWwindow* w, int key, int scancode, int action, int) { self(w)->onKey(nameOf(key, scancode), action); });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int modifiers) {
         const bool pans = button == GLFW_MOUSE_BUTTON_MIDDLE || (modifiers & GLFW_MOD_SHIFT) != 0;
         self(w)->onButton(pans, button, action);
@@ -123,7 +123,7 @@ void Window::reportShown(std::uint64_t samples, bool ended, std::uint64_t events
 {
     samples_ = samples;
     ended_ = ended;
-    answered_ = events;
+    handledEvents_ = events;
 }
 
 void Window::finish()
@@ -134,7 +134,7 @@ void Window::finish()
 
 void Window::push(Event event)
 {
-    ++pushed_;
+    ++pushedEvents_;
     event.when = std::chrono::steady_clock::now();
     events_.push(event);
 }
@@ -145,9 +145,9 @@ void Window::onKey(char key, int action)
         return;
     }
     if (action == GLFW_PRESS) {
-        held_.insert(key);
+        heldKeys_.insert(key);
     } else {
-        held_.erase(key);
+        heldKeys_.erase(key);
     }
     push({action == GLFW_PRESS ? Event::Kind::KeyDown : Event::Kind::KeyUp, {}, key, {}, {}});
 }
@@ -198,11 +198,11 @@ void Window::onResize()
     push({Event::Kind::Resize, {}, '\0', {}, {}});
 }
 
-// Keys that come up elsewhere are never said to.
+// A window without focus is not told when keys are released, so they count as released at once.
 void Window::onFocus(bool has)
 {
     if (!has) {
-        for (const char key : std::exchange(held_, {})) {
+        for (const char key : std::exchange(heldKeys_, {})) {
             push({Event::Kind::KeyUp, {}, key, {}, {}});
         }
         button_ = -1;
@@ -249,11 +249,11 @@ void Window::run(const std::vector<ScriptStep>& script)
 
 bool Window::isDue(const ScriptStep& step, double since) const
 {
-    const bool there = answered_ == pushed_ && (samples_ >= step.samples || ended_);
+    const bool there = handledEvents_ == pushedEvents_ && (samples_ >= step.samples || ended_);
     return since >= step.delay && (step.kind != ScriptStep::Kind::Samples || there);
 }
 
-// What the user's doing it would call.
+// Calls the functions that the same action of the user would call.
 void Window::perform(const ScriptStep& step)
 {
     using Kind = ScriptStep::Kind;

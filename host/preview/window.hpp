@@ -1,7 +1,7 @@
-// The only place that knows GLFW. Everything here is for the main thread, but for what says otherwise.
+// The window. Only these files use GLFW. The main thread calls all functions that are not marked otherwise.
 #pragma once
 
-#include "host/gpu/surface.hpp"
+#include "host/gpu/instance.hpp"
 #include "host/preview/event_queue.hpp"
 #include "host/preview/script.hpp"
 
@@ -18,30 +18,30 @@ namespace glim {
 
 class Window {
 public:
-    // Opens it; what the user does goes to `events`. Throws InputError where there is no display.
+    // Opens the window. User input goes to `events`. Throws InputError if there is no display.
     Window(const std::string& title, const glm::uvec2& size, EventQueue& events);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    // Lets the user, or the script, act until finish().
+    // Handles the user's input and the script until finish() is called.
     void run(const std::vector<ScriptStep>& script);
 
-    // From any thread:
+    // Any thread may call the following functions.
     static std::vector<const char*> instanceExtensions();
-    // Of this window, to be taken over by a Surface. Throws InputError if Vulkan cannot show pictures in it.
+    // The caller owns the result. Throws InputError if Vulkan cannot present in this window.
     VkSurfaceKHR createSurface(const Instance& instance) const;
     glm::uvec2 pictureSize() const { return {pictureWidth_.load(), pictureHeight_.load()}; }  // pixels
-    float contentScale() const { return contentScale_; }                        // of text, on displays with small pixels
+    float contentScale() const { return contentScale_; }                                      // of text; above 1 on high-DPI displays
     void setTitle(const std::string& title);
     void setSize(const glm::uvec2& size);
-    // What is on show, for scripts that wait for it: samples that every pixel has, whether there will not be more, and how many of
-    // the events so far have been answered.
+    // Tells scripts what the window shows: the samples of every pixel, whether sampling has ended, and how many events have been
+    // handled since the start.
     void reportShown(std::uint64_t samples, bool ended, std::uint64_t events);
     void finish();
 
 private:
-    struct Orders {  // for the main thread
+    struct Orders {  // from other threads to the main thread
         std::optional<std::string> title;
         std::optional<glm::uvec2> size;
     };
@@ -63,15 +63,15 @@ private:
     GLFWwindow* window_ = nullptr;
     std::atomic<std::uint32_t> pictureWidth_ = 0, pictureHeight_ = 0;
     std::atomic<float> contentScale_ = 1.0F;
-    std::atomic<std::uint64_t> samples_ = 0, answered_ = 0;
-    std::uint64_t pushed_ = 0;        // events
+    std::atomic<std::uint64_t> samples_ = 0, handledEvents_ = 0;
+    std::uint64_t pushedEvents_ = 0;
     std::atomic<bool> ended_ = false, finished_ = false;
 
     std::mutex mutex_;
     Orders orders_;
 
-    std::set<char> held_;             // keys
-    int button_ = -1;                 // that is down
+    std::set<char> heldKeys_;
+    int button_ = -1;  // the button that is down, or -1
     glm::dvec2 cursor_{0.0}, pressedAt_{0.0};
     bool pans_ = false, dragged_ = false;
 };

@@ -1,6 +1,6 @@
 #include "host/render/allocate_samples.hpp"
 
-#include "host/render/likely_radiance.hpp"
+#include "host/render/robust_radiance.hpp"
 #include "shaders/shared/limits.h"
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 namespace glim {
 namespace {
 
-constexpr int kReach = 3;  // of the neighbours: 7x7
+constexpr int kReach = 3;  // radius of the neighbourhood: 7x7
 
-// Added to squared radiance, as relMSE has it: of black pixels the relative error says nothing.
+// The epsilon of relMSE, which is added to squared radiance: a relative error says nothing about black pixels.
 double epsilonOf(const Film& film)
 {
     double sum = 0.0;
@@ -23,8 +23,8 @@ double epsilonOf(const Film& film)
     return 0.01 * mean * mean;
 }
 
-// Of one sample, from the means of blocks; negative where they do not tell, or more than a float can. Mean of the channels, each
-// over its part of `scale`.
+// The variance of one sample, estimated from block means: the mean over channels, each divided by its `scale`. Negative if it is unknown
+// or exceeds a float.
 double varianceOfSample(const PixelMoments& pixel, const glm::dvec3& scale)
 {
     if (pixel.blocks < 2) {
@@ -38,7 +38,7 @@ double varianceOfSample(const PixelMoments& pixel, const glm::dvec3& scale)
     return std::isfinite(sum) ? sum / (3.0 * (pixel.blocks - 1.0)) : -1.0;
 }
 
-// Mean over the neighbours that are known.
+// The mean over the neighbours whose variance is known.
 double meanAround(const std::vector<double>& variances, int width, int height, int x, int y)
 {
     double sum = 0.0;
@@ -72,7 +72,7 @@ std::vector<double> computeShares(const Film& film, SquaredError error)
 {
     std::vector<glm::dvec3> scales(film.pixels.size(), glm::dvec3(1.0));
     if (error == SquaredError::Relative) {
-        const std::vector<glm::dvec3> likely = findLikelyRadiance(film);
+        const std::vector<glm::dvec3> likely = robustRadiance(film);
         std::transform(likely.begin(), likely.end(), scales.begin(),
                        [epsilon = epsilonOf(film)](const glm::dvec3& radiance) { return radiance * radiance + epsilon; });
     }
@@ -91,19 +91,18 @@ std::vector<double> computeShares(const Film& film, SquaredError error)
     return shares;
 }
 
-std::vector<std::uint32_t> allocateBlocks(const std::vector<double>& shares, const std::vector<std::uint32_t>& samples,
-                                          double meanSamples)
+std::vector<std::uint32_t> allocateBlocks(const std::vector<double>& shares, const std::vector<std::uint32_t>& samples, double meanSamples)
 {
     const double all = meanSamples * static_cast<double>(shares.size());
     const double more = std::max(0.0, all - std::accumulate(samples.begin(), samples.end(), 0.0));
-    // No pixel loses what it has: the others get less than their share of `all`. Bisection to one part in 2^50.
+    // No pixel loses samples that it has, so the others get less than their share of `all`. Bisection to one part in 2^50.
     double low = 0.0, high = all / std::accumulate(shares.begin(), shares.end(), 0.0);
     for (int i = 0; i < 50; ++i) {
         const double middle = 0.5 * (low + high);
         (missing(shares, samples, middle) < more ? low : high) = middle;
     }
     std::vector<std::uint32_t> blocks(shares.size());
-    double wanted = 0.0, given = 0.0;  // what rounding takes from one pixel goes to the next
+    double wanted = 0.0, given = 0.0;  // rounding errors carry over to the next pixel
     for (std::size_t i = 0; i < shares.size(); ++i) {
         wanted += std::max(0.0, low * shares[i] - samples[i]) / kBlockSamples;
         blocks[i] = static_cast<std::uint32_t>(std::max(0.0, std::round(wanted - given)));

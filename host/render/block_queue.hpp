@@ -1,4 +1,4 @@
-// Which samples pixels should have next that need different numbers of them.
+// Schedules samples for pixels that need different numbers of them.
 #pragma once
 
 #include <cstdint>
@@ -13,25 +13,29 @@ struct PixelStart {
     std::uint32_t sample;
 };
 
-// Work of one kind: each of its pixels, in ascending order, has as many samples.
+// The same number of samples for each of some pixels, which are in ascending order.
 struct Sweep {
     std::uint32_t sampleCount = 0;
     std::vector<PixelStart> pixels;
 };
 
-// Whole blocks of samples still to be taken, of every pixel in the order of their index.
+// The whole blocks of samples that are still to be taken of each pixel, in order of sample index.
 class BlockQueue {
 public:
     BlockQueue() = default;
-    // Of every pixel from sample `begin` on, which begins a block.
-    BlockQueue(std::size_t pixels, std::uint32_t begin) : begin_(begin), samples_(pixels, 0), blocks_(pixels, 0) {}
+    // Every pixel starts at sample `begin`, which begins a block.
+    BlockQueue(std::size_t pixels, std::uint32_t begin)
+        : begin_(begin),
+          samples_(pixels, 0),
+          blocks_(pixels, 0)
+    {}
 
     void add(const std::vector<std::uint32_t>& blocks);
-    // Takes the same power of two of blocks of every pixel that still needs as many: the most that some pixel needs, but no more
-    // than a block or `mostSamples`. Nothing once all are taken.
+    // Takes the same number of blocks of every pixel that still needs as many: the largest power of two that some pixel needs, at most
+    // `mostSamples` but at least one block. Returns nothing once all are taken.
     std::optional<Sweep> take(std::uint32_t mostSamples);
 
-    // How many were taken of every pixel, and the first index beyond all of them.
+    // The samples taken of each pixel, and the first index beyond all of them.
     const std::vector<std::uint32_t>& samples() const { return samples_; }
     std::uint32_t begin() const { return begin_; }
     std::uint32_t end() const;

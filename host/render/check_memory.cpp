@@ -7,15 +7,14 @@
 
 namespace glim {
 
-void refuseWhatDoesNotFit(const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device)
+void checkMemory(const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device)
 {
     const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
-    const std::uint64_t onDevice = sizeInBytes(prepared.flat) + PathBuffers::sizeInBytes(settings.pathCapacity) +
-                                   pixels * Slab::bytesPerPixel(settings);
-    // The film and its planes in the file; what chooses pixels has a film of its own.
+    const std::uint64_t onDevice =
+        sizeInBytes(prepared.flat) + PathBuffers::sizeInBytes(settings.pathCapacity) + pixels * Tile::bytesPerPixel(settings);
+    // The film and its planes in the file; --adaptive neighbours has a second film.
     const std::uint64_t onHost = pixels * (isNeighbours(settings.adaptive) ? 3 : 2) * sizeof(PixelMoments);
-    const std::uint64_t memory = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
-                                 static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
+    const std::uint64_t memory = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
     const auto refuse = [&](std::uint64_t needed, const std::string& owner, std::uint64_t there) {
         if (needed > there) {
             throw InputError(prepared.scene.file + ": the scene and a picture of " + std::to_string(settings.width) + "x" +

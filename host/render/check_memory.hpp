@@ -7,7 +7,8 @@
 
 namespace glim {
 
-// Before anything is allocated: Linux grants memory that is not there and later kills the program that uses it. Throws InputError.
-void refuseWhatDoesNotFit(const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device);
+// To be called before anything is allocated: Linux grants memory that is not there and later kills the program that uses it. Throws
+// InputError if the picture does not fit.
+void checkMemory(const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device);
 
 }  // namespace glim

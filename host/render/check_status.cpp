@@ -9,9 +9,9 @@ void refuseBrokenStatus(const DeviceDescription& device, const PathBuffers& path
     const Status status = download<Status>(paths.status(), 1)[0];
     if (status.loopCaps > 0) {
         throw DeviceError("The driver of \"" + device.name + "\" cut loops short in " + std::to_string(status.loopCaps) +
-                          " threads (their budget of iterations is spent), so the picture would be wrong; "
+                          " threads (at its limit of iterations), so the picture would be wrong; "
                           "the scene's BVH takes more steps per ray than this driver allows (Mesa's software driver has no such "
-                          "budget from version 24 on).");
+                          "limit from version 24 on).");
     }
     if (status.overflows > 0) {
         throw DeviceError("Queues on \"" + device.name + "\" are " + std::to_string(status.overflows) +

@@ -1,14 +1,13 @@
 #include "host/render/describe_primitive.hpp"
 
 #include <algorithm>
-#include <iterator>
 
 namespace glim {
 namespace {
 
 std::string quoted(const std::string& name) { return name.empty() ? "without a name" : "\"" + name + "\""; }
 
-// The flat one has its values, and lights without any power are left out.
+// Compares values, not indices: the flat scene leaves out lights without power.
 bool isSame(const PunctualLight& light, const FlatLight& flat)
 {
     return light.position == flat.position && light.direction == flat.direction && light.intensity == flat.intensity &&
@@ -17,10 +16,22 @@ bool isSame(const PunctualLight& light, const FlatLight& flat)
 
 std::string describePunctual(const Scene& scene, const FlatLight& flat)
 {
-    const auto found = std::find_if(scene.lights.begin(), scene.lights.end(),
-                                    [&](const PunctualLight& light) { return isSame(light, flat); });
+    const auto found =
+        std::find_if(scene.lights.begin(), scene.lights.end(), [&](const PunctualLight& light) { return isSame(light, flat); });
     const std::string kind = flat.kind == kPointLight ? "point" : flat.kind == kSpotLight ? "spot" : "directional";
     return kind + " light " + quoted(found->name);
+}
+
+PrimitiveDescription describePrimitive(const Scene& scene, const Primitives& primitives, std::uint32_t id)
+{
+    if (id >= primitives.triangles.size()) {
+        const Sphere& sphere = primitives.spheres[id - primitives.triangles.size()];
+        return {"sphere " + quoted(sphere.name), std::nullopt, quoted(scene.materials[sphere.material].name)};
+    }
+    const std::uint32_t index = primitives.instanceOf(id);
+    const MeshInstance& instance = scene.instances[index];
+    return {"mesh " + quoted(instance.name), id - primitives.firstTriangles[index],
+            quoted(scene.materials[scene.meshes[instance.mesh].material].name)};
 }
 
 }  // namespace
@@ -30,34 +41,22 @@ std::string textOf(const PrimitiveDescription& primitive)
     return primitive.object + (primitive.triangle ? ", triangle " + std::to_string(*primitive.triangle) : "");
 }
 
-// Triangles come before spheres.
-PrimitiveDescription describePrimitive(const Scene& scene, std::uint32_t id)
+PrimitiveDescription describeRecord(const PreparedScene& prepared, std::uint32_t record)
 {
-    if (id >= scene.triangles.size()) {
-        const Sphere& sphere = scene.spheres[id - scene.triangles.size()];
-        return {"sphere " + quoted(sphere.name), std::nullopt, quoted(scene.materials[sphere.material].name)};
-    }
-    const auto after = std::upper_bound(scene.primitives.begin(), scene.primitives.end(), id,
-                                        [](std::uint32_t value, const Primitive& p) { return value < p.firstTriangle; });
-    const Primitive& primitive = *std::prev(after);
-    return {"mesh " + quoted(primitive.name), id - primitive.firstTriangle, quoted(scene.materials[primitive.material].name)};
+    const std::uint32_t id = prepared.flat.records[std::size_t{record} * kRecordTexels].w;
+    return describePrimitive(prepared.scene, prepared.primitives, id);
 }
 
-PrimitiveDescription describeRecord(const Scene& scene, const FlatScene& flat, std::uint32_t record)
+std::string describeLight(const PreparedScene& prepared, std::uint32_t light)
 {
-    return describePrimitive(scene, flat.records[std::size_t{record} * kRecordTexels].w);
-}
-
-std::string describeLight(const Scene& scene, const FlatScene& flat, std::uint32_t light)
-{
-    const FlatLight& source = flat.lights[light];
+    const FlatLight& source = prepared.flat.lights[light];
     if (source.kind == kEnvironmentLight) {
         return "environment";
     }
     if (source.kind == kTriangleLight || source.kind == kSphereLight) {
-        return describeRecord(scene, flat, flat.emitters[source.firstEmitter].record).object;
+        return describeRecord(prepared, prepared.flat.emitters[source.firstEmitter].record).object;
     }
-    return describePunctual(scene, source);
+    return describePunctual(prepared.scene, source);
 }
 
 }  // namespace glim

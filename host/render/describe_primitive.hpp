@@ -1,8 +1,7 @@
-// What the file calls the things that rays meet.
+// The file's names for what rays hit.
 #pragma once
 
-#include "host/flatten/flat_scene.hpp"
-#include "host/scene/scene.hpp"
+#include "host/render/prepare_scene.hpp"
 
 #include <optional>
 #include <string>
@@ -10,7 +9,7 @@
 namespace glim {
 
 struct PrimitiveDescription {
-    std::string object;  // as in: mesh "floor", or: sphere without a name
+    std::string object;                     // as in: mesh "floor", or: sphere without a name
     std::optional<std::uint32_t> triangle;  // of the mesh
     std::string material;
 };
@@ -18,10 +17,9 @@ struct PrimitiveDescription {
 // "mesh "floor", triangle 3"
 std::string textOf(const PrimitiveDescription& primitive);
 
-PrimitiveDescription describePrimitive(const Scene& scene, std::uint32_t id);
-PrimitiveDescription describeRecord(const Scene& scene, const FlatScene& flat, std::uint32_t record);
+PrimitiveDescription describeRecord(const PreparedScene& prepared, std::uint32_t record);
 
 // As in: spot light "lamp", or: environment.
-std::string describeLight(const Scene& scene, const FlatScene& flat, std::uint32_t light);
+std::string describeLight(const PreparedScene& prepared, std::uint32_t light);
 
 }  // namespace glim

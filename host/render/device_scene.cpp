@@ -22,30 +22,24 @@ Buffer uploaded(Device& device, const std::string& name, BufferKind kind, const 
 
 DeviceScene::DeviceScene(Device& device, const FlatScene& scene)
     : nodes_(uploaded(device, "scene's BVH nodes", BufferKind::Texel, scene.nodes)),
-      records_(uploaded(device, "scene's triangles and spheres", BufferKind::Texel, scene.records)),
-      normals_(uploaded(device, "scene's normals", BufferKind::Texel, scene.normals)),
+      records_(uploaded(device, "scene's records", BufferKind::Texel, scene.records)),
+      triangles_(uploaded(device, "scene's triangles for shading", BufferKind::Texel, scene.triangles)),
+      vertices_(uploaded(device, "scene's vertices", BufferKind::Texel, scene.vertices)),
       materials_(uploaded(device, "scene's materials", BufferKind::Texel, scene.materials)),
       lights_(uploaded(device, "scene's lights", BufferKind::Texel, scene.lights)),
       emitters_(uploaded(device, "scene's emitters", BufferKind::Texel, scene.emitters))
-{
-}
-
-DeviceCamera::DeviceCamera(Device& device, const FlatCamera& camera)
-    : buffer_(uploaded(device, "camera's numbers", BufferKind::Storage, std::vector<FlatCamera>{camera}))
-{
-}
+{}
 
 std::vector<BindingSlot> DeviceScene::slots()
 {
-    return {{kBindNodes, BufferKind::Texel},        {kBindRecords, BufferKind::Texel},
-            {kBindNormals, BufferKind::Texel},      {kBindMaterials, BufferKind::Texel},
-            {kBindLights, BufferKind::Texel},       {kBindEmitters, BufferKind::Texel},
-            {kBindCamera, BufferKind::Storage}};
+    return {{kBindNodes, BufferKind::Texel},    {kBindRecords, BufferKind::Texel},   {kBindTriangles, BufferKind::Texel},
+            {kBindVertices, BufferKind::Texel}, {kBindMaterials, BufferKind::Texel}, {kBindLights, BufferKind::Texel},
+            {kBindEmitters, BufferKind::Texel}};
 }
 
 std::map<std::uint32_t, const Buffer*> DeviceScene::buffers() const
 {
-    return {{kBindNodes, &nodes_},         {kBindRecords, &records_}, {kBindNormals, &normals_},
+    return {{kBindNodes, &nodes_},         {kBindRecords, &records_}, {kBindTriangles, &triangles_}, {kBindVertices, &vertices_},
             {kBindMaterials, &materials_}, {kBindLights, &lights_},   {kBindEmitters, &emitters_}};
 }
 

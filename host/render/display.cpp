@@ -22,10 +22,10 @@ std::vector<BindingSlot> slots()
 }  // namespace
 
 Display::Display(Device& device)
-    : device_(device), layout_(device, slots(), sizeof(DisplayPass), {kBindPicture, kBindShown}),
+    : device_(device),
+      layout_(device, slots(), sizeof(DisplayPass), {kBindPicture, kBindShown}),
       overlay_(layout_, kernels::overlay, {{kSpecWorkgroup, kWorkgroup}})
-{
-}
+{}
 
 void Display::resize(std::uint32_t width, std::uint32_t height)
 {
@@ -33,15 +33,14 @@ void Display::resize(std::uint32_t width, std::uint32_t height)
     shown_.emplace(device_, "window's picture with text", width, height);
 }
 
-const Kernel& Display::previewOf(Look look, bool folded)
+const Kernel& Display::previewOf(Aov aov, bool folded)
 {
-    const auto found = previews_.find({look, folded});
+    const auto found = previews_.find({aov, folded});
     if (found != previews_.end()) {
         return found->second;
     }
-    const Specialization constants = {
-        {kSpecWorkgroup, kWorkgroup}, {kSpecLook, static_cast<std::uint32_t>(look)}, {kSpecFolded, folded}};
-    return previews_.emplace(std::pair(look, folded), Kernel(layout_, kernels::preview, constants)).first->second;
+    const Specialization constants = {{kSpecWorkgroup, kWorkgroup}, {kSpecAov, static_cast<std::uint32_t>(aov)}, {kSpecFolded, folded}};
+    return previews_.emplace(std::pair(aov, folded), Kernel(layout_, kernels::preview, constants)).first->second;
 }
 
 void Display::run(const Kernel& kernel, const Bindings& bindings, const DisplayPass& pass, std::uint64_t threads)
@@ -53,7 +52,7 @@ void Display::run(const Kernel& kernel, const Bindings& bindings, const DisplayP
     commands.submitAndWait();
 }
 
-// The pages that the renderer has taken from the device, back on it.
+// Uploads again the pages that the renderer has folded on the host.
 void Display::takeFolded(const Renderer& renderer)
 {
     if (renderer.foldVersion() == 0 || renderer.foldVersion() == foldVersion_) {
@@ -61,15 +60,14 @@ void Display::takeFolded(const Renderer& renderer)
     }
     foldVersion_ = renderer.foldVersion();
     folded_.clear();
-    for (const auto& slab : renderer.slabs()) {
-        const std::span<const PixelMoments> pixels =
-            std::span(renderer.folded().pixels).subspan(slab->begin(), slab->count());
+    for (const auto& tile : renderer.tiles()) {
+        const std::span<const PixelMoments> pixels = std::span(renderer.folded().pixels).subspan(tile->begin(), tile->count());
         folded_.push_back(std::make_unique<Buffer>(device_, "film's folded pages", BufferKind::Storage, pixels.size_bytes()));
         upload(*folded_.back(), pixels);
     }
 }
 
-void Display::draw(const Renderer& renderer, Look look, const LookRange& range, double exposure)
+void Display::draw(const Renderer& renderer, Aov aov, const DisplayRange& range, double exposure)
 {
     takeFolded(renderer);
     DisplayPass pass{};
@@ -81,14 +79,14 @@ void Display::draw(const Renderer& renderer, Look look, const LookRange& range, 
     pass.low = range.low;
     pass.high = range.high;
     const bool anyFolded = renderer.foldVersion() != 0;
-    for (std::size_t i = 0; i < renderer.slabs().size(); ++i) {
-        const Slab& slab = *renderer.slabs()[i];
-        const Buffer& folded = anyFolded ? *folded_[i] : slab.pages();  // which the kernel does not read then
-        const Bindings bindings(layout_, {{kBindBlocks, &slab.blocks()}, {kBindPages, &slab.pages()}, {kBindFolded, &folded}},
+    for (std::size_t i = 0; i < renderer.tiles().size(); ++i) {
+        const Tile& tile = *renderer.tiles()[i];
+        const Buffer& folded = anyFolded ? *folded_[i] : tile.pages();  // a placeholder that the kernel does not read
+        const Bindings bindings(layout_, {{kBindBlocks, &tile.blocks()}, {kBindPages, &tile.pages()}, {kBindFolded, &folded}},
                                 {{kBindPicture, &*picture_}});
-        pass.slabBegin = slab.begin();
-        pass.slabCount = slab.count();
-        run(previewOf(look, anyFolded), bindings, pass, slab.count());
+        pass.tileBegin = tile.begin();
+        pass.tileCount = tile.count();
+        run(previewOf(aov, anyFolded), bindings, pass, tile.count());
     }
 }
 

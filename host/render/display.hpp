@@ -1,9 +1,9 @@
-// What a window shows of a film: the kernels preview and overlay.
+// Draws a film for a window, with the kernels preview and overlay.
 #pragma once
 
 #include "host/gpu/commands.hpp"
 #include "host/image/text.hpp"
-#include "host/render/look.hpp"
+#include "host/render/aov.hpp"
 #include "host/render/renderer.hpp"
 #include "shaders/shared/display_types.h"
 
@@ -16,31 +16,31 @@ class Display {
 public:
     explicit Display(Device& device);
 
-    // Of this size from now on, black until something is drawn.
+    // Sets the picture's size. It is black until something is drawn.
     void resize(std::uint32_t width, std::uint32_t height);
 
-    // Draws what `renderer` has, stretched over the picture; `exposure` in stops, of radiance and albedo.
-    void draw(const Renderer& renderer, Look look, const LookRange& range, double exposure);
-    // Puts text over what is drawn.
+    // Draws the renderer's film so far, stretched over the picture. `exposure` is in stops and applies to radiance and albedo.
+    void draw(const Renderer& renderer, Aov aov, const DisplayRange& range, double exposure);
+    // Puts text over the drawn picture.
     void cover(const TextBox& text);
-    // What is to be shown, after cover.
+    // The picture with its text, after cover().
     const StorageImage& shown() const { return *shown_; }
     std::uint32_t width() const { return shown_->width(); }
     std::uint32_t height() const { return shown_->height(); }
 
 private:
     void run(const Kernel& kernel, const Bindings& bindings, const DisplayPass& pass, std::uint64_t threads);
-    const Kernel& previewOf(Look look, bool folded);
+    const Kernel& previewOf(Aov aov, bool folded);
     void takeFolded(const Renderer& renderer);
 
     Device& device_;
     KernelLayout layout_;
     Kernel overlay_;
-    std::map<std::pair<Look, bool>, Kernel> previews_;  // by look, and whether pages are folded; compiled when needed
+    std::map<std::pair<Aov, bool>, Kernel> previews_;  // by aov, and whether pages are folded; compiled when needed
     std::optional<StorageImage> picture_, shown_;
     std::unique_ptr<Buffer> text_;
-    std::vector<std::unique_ptr<Buffer>> folded_;  // one per slab of the renderer's film
-    std::uint64_t foldVersion_ = 0;                // of folded_
+    std::vector<std::unique_ptr<Buffer>> folded_;  // one per tile of the renderer's film
+    std::uint64_t foldVersion_ = 0;                // the version that folded_ holds
 };
 
 }  // namespace glim

@@ -1,4 +1,4 @@
-// The picture with what is known of its error, and what it is a picture of.
+// A picture, what is known of its error, and what it shows.
 #pragma once
 
 #include "shaders/shared/pixel_moments.h"
@@ -12,24 +12,24 @@ namespace glim {
 
 // Two films may be merged exactly if all of this agrees (their sample ranges must be disjoint).
 struct FilmIdentity {
-    std::string scene;         // hash of what was rendered: geometry, materials, lights, camera
-    std::string settings;      // every option that changes a sample: "seed=1 sampler=sobol bounces=64 ..."
+    std::string scene;     // hash of what was rendered: geometry, materials, lights, camera
+    std::string settings;  // every option that changes a sample: "seed=1 sampler=sobol bounces=64 ..."
     std::uint32_t seed = 0;
 };
 
 struct Film {
     std::uint32_t width = 0, height = 0;
-    std::vector<PixelMoments> pixels;  // row 0 at the top, left to right
+    std::vector<PixelMoments> pixels;                                   // row 0 at the top, left to right
     std::vector<std::pair<std::uint32_t, std::uint32_t>> sampleRanges;  // [begin, end), ascending, disjoint
-    bool complete = true;  // every pixel has had all of sampleRanges or, in adaptive renders, all it was to have
+    bool complete = true;                                               // each pixel has all of sampleRanges or, if adaptive, its own share
     FilmIdentity identity;
-    double seconds = 0.0;  // spent sampling
-    std::string device;    // names the device and driver
-    std::string sceneFile; // as given
+    double seconds = 0.0;   // spent sampling
+    std::string device;     // names the device and driver
+    std::string sceneFile;  // as given
 };
 
-// Chan, Golub, LeVeque 1983 for the mean and the sum of squares between blocks, in exactly this order of float32
-// operations: it is what makes a merged film equal the single run bit for bit.
+// Chan, Golub, LeVeque 1983 for the mean and the sum of squares between blocks. Exactly this order of float32 operations makes a merged
+// film equal to the single run bit for bit.
 PixelMoments foldMoments(const PixelMoments& a, const PixelMoments& b);
 
 // Folds `page` onto the pixels of `film` from index `begin` on.

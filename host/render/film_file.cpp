@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace glim {
 namespace {
 
-constexpr double kFormat = 1;  // of the layers and attributes below; raise it when a reader would misread
+constexpr double kFormat = 1;  // of the layers and attributes below; raise it when an older reader would misread them
 
 // Consecutive 32-bit members of PixelMoments, one letter each.
 struct Layer {
@@ -66,8 +66,8 @@ std::vector<Value> planeOf(const std::vector<PixelMoments>& pixels, std::size_t 
 }
 
 template <class Value>
-void takePlane(const fs::path& path, const std::map<std::string, std::vector<Value>>& planes, const std::string& name,
-               std::size_t offset, std::vector<PixelMoments>& pixels)
+void takePlane(const fs::path& path, const std::map<std::string, std::vector<Value>>& planes, const std::string& name, std::size_t offset,
+               std::vector<PixelMoments>& pixels)
 {
     const auto plane = planes.find(name);
     if (plane == planes.end()) {
@@ -78,7 +78,7 @@ void takePlane(const fs::path& path, const std::map<std::string, std::vector<Val
     }
 }
 
-// Of the mean: its variance and, for who would rather look, its standard error.
+// Adds the variance of the mean and, for viewing, its standard error.
 void addErrors(const std::vector<PixelMoments>& pixels, Image& image)
 {
     if (std::none_of(pixels.begin(), pixels.end(), [](const PixelMoments& pixel) { return pixel.blocks >= 2; })) {
@@ -110,12 +110,10 @@ Image imageOf(const Film& film)
                         {"glim:complete", film.complete ? 1.0 : 0.0},
                         {"glim:seconds", film.seconds},
                         {"glim:device", film.device}};
-    forEachChannel(kFloatLayers, [&](const std::string& name, std::size_t offset) {
-        image.channels[name] = planeOf<float>(film.pixels, offset);
-    });
-    forEachChannel(kCountLayers, [&](const std::string& name, std::size_t offset) {
-        image.counts[name] = planeOf<std::uint32_t>(film.pixels, offset);
-    });
+    forEachChannel(kFloatLayers,
+                   [&](const std::string& name, std::size_t offset) { image.channels[name] = planeOf<float>(film.pixels, offset); });
+    forEachChannel(kCountLayers,
+                   [&](const std::string& name, std::size_t offset) { image.counts[name] = planeOf<std::uint32_t>(film.pixels, offset); });
     addErrors(film.pixels, image);
     return image;
 }
@@ -125,13 +123,12 @@ Value attribute(const fs::path& path, const Image& image, const std::string& nam
 {
     const auto entry = image.attributes.find(name);
     if (entry == image.attributes.end() || !std::holds_alternative<Value>(entry->second)) {
-        throw InputError(path.string() + ": is not a film written by glim: it has no attribute " + name
-                         + " of the expected type.");
+        throw InputError(path.string() + ": is not a film written by glim: it has no attribute " + name + " of the expected type.");
     }
     return std::get<Value>(entry->second);
 }
 
-// Ascending and disjoint, or nothing.
+// Returns ascending disjoint ranges, or nothing.
 std::optional<decltype(Film::sampleRanges)> parseRanges(const std::string& text)
 {
     decltype(Film::sampleRanges) ranges;
@@ -140,8 +137,8 @@ std::optional<decltype(Film::sampleRanges)> parseRanges(const std::string& text)
         std::istringstream range(word);
         std::uint32_t begin = 0, end = 0;
         char colon = '\0';
-        if (!(range >> begin >> colon >> end) || colon != ':' || !range.eof() || begin >= end
-            || (!ranges.empty() && begin < ranges.back().second)) {
+        if (!(range >> begin >> colon >> end) || colon != ':' || !range.eof() || begin >= end ||
+            (!ranges.empty() && begin < ranges.back().second)) {
             return std::nullopt;
         }
         ranges.emplace_back(begin, end);
@@ -153,8 +150,8 @@ Film filmOfHeader(const fs::path& path, const Image& image)
 {
     const double format = attribute<double>(path, image, "glim:film");
     if (format != kFormat) {
-        throw InputError(path.string() + ": is a film of format " + std::to_string(std::lround(format))
-                         + ", expected format " + std::to_string(std::lround(kFormat)) + ".");
+        throw InputError(path.string() + ": is a film of format " + std::to_string(std::lround(format)) + ", expected format " +
+                         std::to_string(std::lround(kFormat)) + ".");
     }
     const double seed = attribute<double>(path, image, "glim:seed");
     if (!(seed >= 0 && seed <= std::numeric_limits<std::uint32_t>::max() && seed == std::floor(seed))) {
@@ -163,8 +160,8 @@ Film filmOfHeader(const fs::path& path, const Image& image)
     const auto samples = attribute<std::string>(path, image, "glim:samples");
     const auto ranges = parseRanges(samples);
     if (!ranges) {
-        throw InputError(path.string() + ": its sample ranges are \"" + samples
-                         + "\", expected ascending disjoint ranges such as \"0:256 512:768\".");
+        throw InputError(path.string() + ": its sample ranges are \"" + samples +
+                         "\", expected ascending disjoint ranges such as \"0:256 512:768\".");
     }
     Film film;
     film.width = image.width;
@@ -193,28 +190,20 @@ std::string sampleRangesText(const Film& film)
     return text.str();
 }
 
-void writeFilm(const fs::path& path, const Film& film)
-{
-    writeExr(path, imageOf(film));
-}
+void writeFilm(const fs::path& path, const Film& film) { writeExr(path, imageOf(film)); }
 
 Film readFilm(const fs::path& path)
 {
     const Image image = readExr(path);
     Film film = filmOfHeader(path, image);
     film.pixels.resize(std::size_t{film.width} * film.height);
-    forEachChannel(kFloatLayers, [&](const std::string& name, std::size_t offset) {
-        takePlane(path, image.channels, name, offset, film.pixels);
-    });
-    forEachChannel(kCountLayers, [&](const std::string& name, std::size_t offset) {
-        takePlane(path, image.counts, name, offset, film.pixels);
-    });
+    forEachChannel(kFloatLayers,
+                   [&](const std::string& name, std::size_t offset) { takePlane(path, image.channels, name, offset, film.pixels); });
+    forEachChannel(kCountLayers,
+                   [&](const std::string& name, std::size_t offset) { takePlane(path, image.counts, name, offset, film.pixels); });
     return film;
 }
 
-Film readFilmHeader(const fs::path& path)
-{
-    return filmOfHeader(path, readExrHeader(path));
-}
+Film readFilmHeader(const fs::path& path) { return filmOfHeader(path, readExrHeader(path)); }
 
 }  // namespace glim

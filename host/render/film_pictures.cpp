@@ -6,20 +6,20 @@
 
 namespace glim {
 
-Look lookOf(const Film& film)
+Aov aovOf(const Film& film)
 {
-    const std::map<std::string, Look> looks = {
-        {"normal", Look::Normal}, {"depth", Look::Depth}, {"albedo", Look::Albedo}, {"bvh-steps", Look::Steps}};
-    const auto found = looks.find(findSetting(film.identity.settings, "view"));
-    return found == looks.end() ? Look::Radiance : found->second;
+    const std::map<std::string, Aov> aovs = {
+        {"normal", Aov::Normal}, {"depth", Aov::Depth}, {"albedo", Aov::Albedo}, {"bvh-steps", Aov::BvhSteps}};
+    const auto found = aovs.find(findSetting(film.identity.settings, "view"));
+    return found == aovs.end() ? Aov::Radiance : found->second;
 }
 
-void writeFilmPng(const std::filesystem::path& path, const Film& film, Look look, double exposure)
+void writeFilmPng(const std::filesystem::path& path, const Film& film, Aov aov, double exposure)
 {
-    const LookRange range = computeRange(film, look);
+    const DisplayRange range = computeRange(film, aov);
     std::vector<Rgb8> colors;
     for (const PixelMoments& pixel : film.pixels) {
-        colors.push_back(lookAt(pixel, look, range, exposure));
+        colors.push_back(displayColor(pixel, aov, range, exposure));
     }
     writePng(path, film.width, film.height, colors);
 }

@@ -1,17 +1,17 @@
 // Films as PNGs to look at.
 #pragma once
 
-#include "host/render/look.hpp"
+#include "host/render/aov.hpp"
 
 #include <filesystem>
 #include <string>
 
 namespace glim {
 
-// As the film's --view, which its settings name, asks.
-Look lookOf(const Film& film);
+// The AOV of the film's --view, which its settings name.
+Aov aovOf(const Film& film);
 
-// `exposure` in stops, of radiance and albedo.
-void writeFilmPng(const std::filesystem::path& path, const Film& film, Look look, double exposure);
+// `exposure` is in stops and applies to radiance and albedo.
+void writeFilmPng(const std::filesystem::path& path, const Film& film, Aov aov, double exposure);
 
 }  // namespace glim

@@ -1,7 +1,9 @@
 #include "host/render/kernel_set.hpp"
 
+#include "host/render/course.hpp"
 #include "kernels.hpp"
 #include "shaders/shared/bindings.h"
+#include "shaders/shared/course_types.h"
 
 #include <future>
 
@@ -21,78 +23,66 @@ std::uint32_t directOf(DirectLight direct)
 
 std::uint32_t rouletteOf(Roulette roulette)
 {
-    return roulette == Roulette::Throughput ? kRouletteThroughput
-           : roulette == Roulette::Fixed    ? kRouletteFixed
-                                            : kRouletteNone;
+    return roulette == Roulette::Throughput ? kRouletteThroughput : roulette == Roulette::Fixed ? kRouletteFixed : kRouletteNone;
 }
 
-// 0: shaded, which needs no kernel.
-std::uint32_t viewOf(View view)
+Specialization specialize(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
 {
-    switch (view) {
-    case View::Shaded: break;
-    case View::Normal: return kViewNormal;
-    case View::Depth: return kViewDepth;
-    case View::Albedo: return kViewAlbedo;
-    case View::BvhSteps: return kViewBvhSteps;
-    }
-    return 0;
+    return {{kSpecWorkgroup, settings.workgroup},
+            {kSpecFeatures, scene.features},
+            {kSpecStackLevels, scene.stackLevels},
+            {kSpecSobol, settings.sampler == Sampler::Sobol},
+            {kSpecLens, camera.lensRight != vec3(0.0F)},
+            {kSpecChosen, settings.adaptive != Adaptive::Off},
+            {kSpecAov, static_cast<std::uint32_t>(settings.aov)},
+            {kSpecSuspects, settings.suspects > 0},
+            {kSpecNotes, settings.notes}};
+}
+
+Specialization specializeCourse(Specialization constants, const RenderSettings& settings)
+{
+    constants[kSpecMollerTrumbore] = settings.course.intersector == Intersector::MollerTrumbore;
+    constants[kSpecBruteForce] = settings.course.accelerator == Accelerator::None;
+    constants[kSpecDirect] = directOf(settings.course.direct);
+    constants[kSpecRoulette] = rouletteOf(settings.course.roulette);
+    return constants;
 }
 
 }  // namespace
 
-Specialization specialize(const SceneFeatures& features, const FlatCamera& camera, const RenderSettings& settings)
+KernelSet::KernelSet(const KernelLayout& layout, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings,
+                     Schedule schedule)
 {
-    return {{kSpecWorkgroup, settings.workgroup},
-            {kSpecSpheres, features.spheres},
-            {kSpecSlivers, features.slivers},
-            {kSpecSmooth, features.smooth},
-            {kSpecMirrors, features.mirrors},
-            {kSpecGlasses, features.glasses},
-            {kSpecTriangleLights, features.triangleLights},
-            {kSpecSphereLights, features.sphereLights},
-            {kSpecPunctualLights, features.punctualLights},
-            {kSpecEnvironment, features.environment},
-            {kSpecStackLevels, features.stackLevels},
-            {kSpecSobol, settings.sampler == Sampler::Sobol},
-            {kSpecMollerTrumbore, settings.intersector == Intersector::MollerTrumbore},
-            {kSpecBruteForce, settings.accelerator == Accelerator::None},
-            {kSpecDirect, directOf(settings.direct)},
-            {kSpecRoulette, rouletteOf(settings.roulette)},
-            {kSpecLens, camera.lensRight != vec3(0.0F)},
-            {kSpecChosen, settings.adaptive != Adaptive::Off},
-            {kSpecView, viewOf(settings.view)},
-            {kSpecSuspects, settings.suspects > 0},
-            {kSpecNotes, settings.notes},
-            {kSpecLuminance, isCourse(settings.adaptive)}};
-}
-
-KernelSet::KernelSet(const KernelLayout& layout, const Specialization& s, Schedule schedule)
-{
+    const Specialization production = specialize(scene, camera, settings), ofCourse = specializeCourse(production, settings);
     std::vector<std::future<void>> compiling;
-    const auto compile = [&](std::optional<Kernel>& kernel, const EmbeddedShader& shader) {
-        compiling.push_back(std::async(std::launch::async, [&] { kernel.emplace(layout, shader, s); }));
+    const auto compile = [&](std::optional<Kernel>& kernel, const EmbeddedShader& shader, const Specialization& constants) {
+        compiling.push_back(std::async(std::launch::async, [&] { kernel.emplace(layout, shader, constants); }));
     };
-    if (schedule == Schedule::Persistent) {
-        compile(tracePaths, kernels::trace_paths);
+    if (usesCourseEstimators(settings)) {
+        compile(course.sampleLights, kernels::course_sample_lights, ofCourse);  // takes the longest
+        compile(course.bounce, kernels::course_bounce, ofCourse);
+        compile(course.traceClosest, kernels::course_trace_closest, ofCourse);
+        compile(course.traceShadow, kernels::course_trace_shadow, ofCourse);
+        if (settings.course.direct == DirectLight::Hemisphere) {
+            compile(course.sampleHemisphere, kernels::course_sample_hemisphere, ofCourse);
+            compile(course.traceHemisphere, kernels::course_trace_hemisphere, ofCourse);
+        }
+    } else if (schedule == Schedule::Persistent) {
+        compile(tracePaths, kernels::trace_paths, production);
     } else {
-        compile(sampleLights, kernels::sample_lights);  // the longest
-        compile(bounce, kernels::bounce);
-        compile(traceClosest, kernels::trace_closest);
-        compile(traceShadow, kernels::trace_shadow);
+        compile(sampleLightsAndBounce, kernels::sample_lights_and_bounce, production);
+        compile(traceClosest, kernels::trace_closest, production);
+        compile(traceShadow, kernels::trace_shadow, production);
     }
-    compile(generateRays, kernels::generate_rays);
-    compile(accumulate, kernels::accumulate);
-    compile(sizeDispatch, kernels::size_dispatch);
-    if (s.at(kSpecDirect) == kDirectHemisphere) {
-        compile(sampleHemisphere, kernels::sample_hemisphere);
-        compile(traceHemisphere, kernels::trace_hemisphere);
+    compile(generateRays, kernels::generate_rays, production);
+    compile(accumulate, kernels::accumulate, production);
+    compile(sizeDispatch, kernels::size_dispatch, production);
+    if (settings.aov != Aov::Radiance) {
+        compile(showAov, kernels::show_aov, production);
     }
-    if (s.at(kSpecView) != 0) {
-        compile(showView, kernels::show_view);
-    }
-    if (s.at(kSpecLuminance) != 0) {
-        compile(choosePixels, kernels::choose_pixels);
+    if (isCourse(settings.adaptive)) {
+        compile(course.addLuminance, kernels::course_add_luminance, ofCourse);
+        compile(course.choosePixels, kernels::course_choose_pixels, ofCourse);
     }
     for (std::future<void>& kernel : compiling) {
         kernel.get();
@@ -102,8 +92,10 @@ KernelSet::KernelSet(const KernelLayout& layout, const Specialization& s, Schedu
 std::vector<const Kernel*> KernelSet::all() const
 {
     std::vector<const Kernel*> kernels;
-    for (const std::optional<Kernel>* kernel : {&sizeDispatch, &generateRays, &traceClosest, &sampleLights, &traceShadow, &bounce,
-                                                &tracePaths, &accumulate, &sampleHemisphere, &traceHemisphere, &showView, &choosePixels}) {
+    for (const std::optional<Kernel>* kernel :
+         {&sizeDispatch, &generateRays, &traceClosest, &sampleLightsAndBounce, &traceShadow, &tracePaths, &accumulate, &showAov,
+          &course.traceClosest, &course.sampleLights, &course.traceShadow, &course.bounce, &course.sampleHemisphere,
+          &course.traceHemisphere, &course.addLuminance, &course.choosePixels}) {
         if (*kernel) {
             kernels.push_back(&**kernel);
         }

@@ -9,21 +9,26 @@
 
 namespace glim {
 
-Specialization specialize(const SceneFeatures& features, const FlatCamera& camera, const RenderSettings& settings);
+// The course's kernels (shaders/kernels/course). The production kernels know nothing of them.
+struct CourseKernels {
+    std::optional<Kernel> traceClosest, sampleLights, traceShadow, bounce;
+    std::optional<Kernel> sampleHemisphere, traceHemisphere;  // of --direct hemisphere
+    std::optional<Kernel> addLuminance, choosePixels;         // of --adaptive course
+};
 
-// Absent where no picture of these settings needs it.
+// A kernel is absent if the settings do not need it.
 struct KernelSet {
-    // Compiles all at the same time.
-    KernelSet(const KernelLayout& layout, const Specialization& specialization, Schedule schedule);
+    // Compiles all kernels in parallel, for the chosen schedule.
+    KernelSet(const KernelLayout& layout, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings,
+              Schedule schedule);
 
     std::vector<const Kernel*> all() const;
 
     std::optional<Kernel> generateRays, sizeDispatch, accumulate;
-    std::optional<Kernel> traceClosest, sampleLights, traceShadow, bounce;  // of the wavefront
-    std::optional<Kernel> tracePaths;                                       // of the persistent schedule
-    std::optional<Kernel> sampleHemisphere, traceHemisphere;                // of --direct hemisphere
-    std::optional<Kernel> showView;                                         // of views other than shaded
-    std::optional<Kernel> choosePixels;                                     // of --adaptive course
+    std::optional<Kernel> traceClosest, sampleLightsAndBounce, traceShadow;  // of the wavefront
+    std::optional<Kernel> tracePaths;                                        // of the persistent schedule
+    std::optional<Kernel> showAov;                                           // of AOVs other than radiance
+    CourseKernels course;
 };
 
 }  // namespace glim

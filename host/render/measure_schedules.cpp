@@ -34,11 +34,11 @@ double timeRender(Renderer& renderer, const FlatCamera& camera)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-bool canMeasureSchedules(const FlatScene& scene, const RenderSettings& settings)
+bool canMeasureSchedules(const RenderSettings& settings)
 {
     RenderSettings wish = settings;
     wish.fastest = Schedule::Persistent;
-    return settings.schedule == Schedule::Auto && chooseSchedule(wish, lightRounds(scene, settings).size(), {}) == Schedule::Persistent;
+    return settings.schedule == Schedule::Auto && chooseSchedule(wish, {}) == Schedule::Persistent;
 }
 
 ScheduleRates measureSchedules(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)

@@ -1,15 +1,15 @@
-// Which schedule is the faster one on a device.
+// Measures which schedule is faster on a device.
 #pragma once
 
 #include "host/render/renderer.hpp"
 
 namespace glim {
 
-// Seconds of the picture once more, all of it, from the same random numbers.
+// Renders the whole picture again, from the same random numbers. Returns the seconds it took.
 double timeRender(Renderer& renderer, const FlatCamera& camera);
 
-// False where one of them cannot render what is asked for, or was asked for by name.
-bool canMeasureSchedules(const FlatScene& scene, const RenderSettings& settings);
+// False if a schedule was asked for by name, or if one of them cannot render these settings.
+bool canMeasureSchedules(const RenderSettings& settings);
 
 // Samples per second.
 struct ScheduleRates {
@@ -18,7 +18,8 @@ struct ScheduleRates {
     Schedule fastest() const { return persistent > wavefront ? Schedule::Persistent : Schedule::Wavefront; }
 };
 
-// Of the scene, the two in turn; both must be able to. On two cores without a GPU: a second, or two if nothing is compiled yet.
+// Renders the scene by both in turn, which canMeasureSchedules must allow. On two cores without a GPU this takes a second, or two if
+// nothing is compiled yet.
 ScheduleRates measureSchedules(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
 
 }  // namespace glim

@@ -15,17 +15,13 @@ namespace {
 
 using SampleRange = std::pair<std::uint32_t, std::uint32_t>;
 
-[[noreturn]] void refuse(const std::string& name, const std::string& first, const std::string& what,
-                         const std::string& value, const std::string& expected)
+[[noreturn]] void refuse(const std::string& name, const std::string& first, const std::string& what, const std::string& value,
+                         const std::string& expected)
 {
-    throw InputError(name + ": cannot be merged with " + first + ": its " + what + " is " + value + ", expected "
-                     + expected + ".");
+    throw InputError(name + ": cannot be merged with " + first + ": its " + what + " is " + value + ", expected " + expected + ".");
 }
 
-std::string quoted(const std::string& text)
-{
-    return '"' + text + '"';
-}
+std::string quoted(const std::string& text) { return '"' + text + '"'; }
 
 // The first "key=value" in which the settings differ.
 std::pair<std::string, std::string> firstDifference(const std::string& a, const std::string& b)
@@ -73,17 +69,14 @@ void checkDisjoint(const std::vector<Film>& films, const std::vector<std::string
         const auto& [before, first] = ranges[i - 1];
         const auto& [range, second] = ranges[i];
         if (range.first < before.second) {
-            throw InputError(names[second] + ": cannot be merged with " + names[first] + ": both hold samples "
-                             + std::to_string(range.first) + ":"
-                             + std::to_string(std::min(range.second, before.second)) + ", expected disjoint ranges.");
+            throw InputError(names[second] + ": cannot be merged with " + names[first] + ": both hold samples " +
+                             std::to_string(range.first) + ":" + std::to_string(std::min(range.second, before.second)) +
+                             ", expected disjoint ranges.");
         }
     }
 }
 
-std::uint32_t firstSample(const Film& film)
-{
-    return film.sampleRanges.empty() ? 0 : film.sampleRanges.front().first;
-}
+std::uint32_t firstSample(const Film& film) { return film.sampleRanges.empty() ? 0 : film.sampleRanges.front().first; }
 
 void addRanges(Film& film, const Film& next, bool joined)
 {
@@ -106,7 +99,7 @@ void foldHeader(Film& film, const Film& next)
     }
 }
 
-// Without what only says which of the samples there are.
+// The settings without those that only choose which samples are taken.
 std::string samplesOf(const std::string& settings)
 {
     std::istringstream words(settings);
@@ -127,10 +120,9 @@ bool shareSamples(const Film& a, const Film& b)
     const bool samePicture = a.identity.scene == b.identity.scene && a.identity.seed == b.identity.seed &&
                              samplesOf(a.identity.settings) == samplesOf(b.identity.settings);
     return samePicture && std::any_of(a.sampleRanges.begin(), a.sampleRanges.end(), [&](const SampleRange& mine) {
-        return std::any_of(b.sampleRanges.begin(), b.sampleRanges.end(), [&](const SampleRange& other) {
-            return mine.first < other.second && other.first < mine.second;
-        });
-    });
+               return std::any_of(b.sampleRanges.begin(), b.sampleRanges.end(),
+                                  [&](const SampleRange& other) { return mine.first < other.second && other.first < mine.second; });
+           });
 }
 
 bool continuesExactly(const Film& film, const Film& next)

@@ -1,6 +1,6 @@
 #include "host/render/pass_size.hpp"
 
-#include "host/render/light_rounds.hpp"
+#include "host/render/course_rounds.hpp"
 #include "shaders/shared/limits.h"
 
 #include <algorithm>
@@ -8,23 +8,24 @@
 namespace glim {
 namespace {
 
-// Passes aim at this for their longest dispatch: far below any watchdog.
+// The target for the longest dispatch of a pass: far below any watchdog.
 constexpr double kTargetDispatchSeconds = 0.05;
-// And at settings.passSeconds in all, where many rounds of direct light or long brute force make many dispatches, since --time ends
-// between passes; but not if that leaves so little for a dispatch that starting it costs more (of a second, with 1 ms for the longest,
-// 512 rounds took three times as long as with 10 at 32x32, since those of later bounces have a hundredth of its rays).
+// The target for a whole pass is settings.passSeconds, since --time ends between passes; many rounds of direct light or long brute force
+// make many dispatches. But the longest dispatch gets at least this share of it, or else starting dispatches costs more than their work:
+// at 32x32 with passes of a second, 512 rounds took three times as long with 1 ms for the longest as with 10, since those of later
+// bounces have a hundredth of its rays.
 constexpr double kLeastDispatchShare = 0.01;
-// Of a first pass, with one round of direct light and a ray that takes this many steps.
+// The paths of a first pass, for one round of direct light and rays of kUsualSteps steps.
 constexpr std::uint32_t kFirstPassPaths = 1U << 14;
 constexpr std::uint64_t kUsualSteps = 64;
-// A pass that may cost much more than the last one, as where the sky ends, is no larger than this unless the device is fast.
+// The next pass may cost much more than the last one, as where the sky ends. So it is no larger than this unless the device is fast.
 constexpr std::uint32_t kUnsurePaths = 1U << 17;
 constexpr double kFastDispatchSeconds = 0.005;
 
 std::uint32_t firstPassPaths(const FlatScene& scene, const RenderSettings& settings)
 {
     const std::uint64_t records = scene.records.size() / kRecordTexels;
-    const std::uint64_t steps = settings.accelerator == Accelerator::None ? std::max(records, kUsualSteps) : kUsualSteps;
+    const std::uint64_t steps = settings.course.accelerator == Accelerator::None ? std::max(records, kUsualSteps) : kUsualSteps;
     const std::uint64_t work = steps * lightRounds(scene, settings).size();
     return std::clamp(static_cast<std::uint32_t>(kFirstPassPaths * kUsualSteps / work), kBlockSamples, settings.pathCapacity);
 }
@@ -32,11 +33,12 @@ std::uint32_t firstPassPaths(const FlatScene& scene, const RenderSettings& setti
 }  // namespace
 
 PassSize::PassSize(const FlatScene& scene, const RenderSettings& settings)
-    : paths_(firstPassPaths(scene, settings)), capacity_(settings.pathCapacity), passSeconds_(settings.passSeconds)
-{
-}
+    : paths_(firstPassPaths(scene, settings)),
+      capacity_(settings.pathCapacity),
+      passSeconds_(settings.passSeconds)
+{}
 
-// What is left at the end of a sweep says little about a full pass, unless it took too long.
+// The short pass at the end of a sweep says little about a full one, unless it took too long.
 void PassSize::learn(std::uint32_t paths, const PassSeconds& seconds)
 {
     if (seconds.longest <= kTargetDispatchSeconds && (seconds.longest <= 0.0 || 2 * std::uint64_t{paths} <= paths_)) {

@@ -1,4 +1,4 @@
-// How many paths a pass takes, from what the last ones took.
+// Chooses how many paths a pass traces, from the times of earlier passes.
 #pragma once
 
 #include "host/flatten/flat_scene.hpp"
@@ -6,7 +6,7 @@
 
 namespace glim {
 
-// Device seconds of a pass: its longest dispatch, and all.
+// Device seconds of a pass: of its longest dispatch, and of all.
 struct PassSeconds {
     double longest, total;
 };
@@ -16,7 +16,7 @@ public:
     PassSize(const FlatScene& scene, const RenderSettings& settings);
 
     std::uint32_t paths() const { return paths_; }
-    // A pass of so many paths has taken `seconds`.
+    // Reports that a pass of this many paths took `seconds`.
     void learn(std::uint32_t paths, const PassSeconds& seconds);
 
 private:

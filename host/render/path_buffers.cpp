@@ -16,7 +16,7 @@ Buffer arrayOf(Device& device, const std::string& name, std::uint64_t count, Buf
     return Buffer(device, name, kind, count * sizeof(T));
 }
 
-// Whose elements are whole texels.
+// An array whose elements are whole texels.
 template <class T>
 Buffer texelArrayOf(Device& device, const std::string& name, std::uint64_t count)
 {
@@ -24,8 +24,7 @@ Buffer texelArrayOf(Device& device, const std::string& name, std::uint64_t count
     return arrayOf<T>(device, name, count, BufferKind::Both);
 }
 
-std::map<std::uint32_t, const Buffer*> merged(std::map<std::uint32_t, const Buffer*> a,
-                                              const std::map<std::uint32_t, const Buffer*>& b)
+BufferMap merged(BufferMap a, const BufferMap& b)
 {
     a.insert(b.begin(), b.end());
     return a;
@@ -46,16 +45,20 @@ std::vector<BindingSlot> kernelSlots()
     for (std::uint32_t binding = kBindRays; binding <= kBindStatus; ++binding) {
         slots.push_back({binding, binding <= kBindShadowRays ? BufferKind::Both : BufferKind::Storage, binding + kTexelsOf});
     }
+    slots.push_back({kBindParameters, BufferKind::Storage});
+    slots.push_back({kBindCourseParameters, BufferKind::Storage});
     return slots;
 }
 
 PathBuffers::PathBuffers(Device& device, std::uint32_t capacity)
-    : rays_(texelArrayOf<PathRay>(device, "rays", capacity)), hits_(texelArrayOf<PathHit>(device, "hits", capacity)),
+    : rays_(texelArrayOf<PathRay>(device, "rays", capacity)),
+      hits_(texelArrayOf<PathHit>(device, "hits", capacity)),
       states_(texelArrayOf<PathState>(device, "path states", capacity)),
       radiance_(texelArrayOf<PathRadiance>(device, "path radiances", capacity)),
       firstHits_(texelArrayOf<FirstHit>(device, "first hits", capacity)),
       shadowRays_(texelArrayOf<ShadowRay>(device, "shadow rays", capacity)),
-      queueA_(arrayOf<uint>(device, "queue's entries", capacity)), queueB_(arrayOf<uint>(device, "queue's entries", capacity)),
+      queueA_(arrayOf<uint>(device, "queue's entries", capacity)),
+      queueB_(arrayOf<uint>(device, "queue's entries", capacity)),
       shadowQueue_(arrayOf<uint>(device, "shadow queue's entries", capacity)),
       queueSizes_(device, "queue sizes", BufferKind::Readback, sizeof(QueueSizes)),
       queueTails_(arrayOf<QueueTails>(device, "queue tails", 1)),
@@ -74,13 +77,12 @@ void PathBuffers::emptyQueues() { upload(queueTails_, std::span<const QueueTails
 
 std::uint64_t PathBuffers::sizeInBytes(std::uint32_t capacity)
 {
-    constexpr std::uint64_t kPathBytes = sizeof(PathRay) + sizeof(PathHit) + sizeof(PathState) + sizeof(PathRadiance) +
-                                         sizeof(FirstHit) + sizeof(ShadowRay) + 3 * sizeof(uint);
-    return capacity * kPathBytes + sizeof(QueueSizes) + sizeof(QueueTails) + sizeof(RayCounts) + sizeof(PathNote) +
-           sizeof(Status);
+    constexpr std::uint64_t kPathBytes = sizeof(PathRay) + sizeof(PathHit) + sizeof(PathState) + sizeof(PathRadiance) + sizeof(FirstHit) +
+                                         sizeof(ShadowRay) + 3 * sizeof(uint);
+    return capacity * kPathBytes + sizeof(QueueSizes) + sizeof(QueueTails) + sizeof(RayCounts) + sizeof(PathNote) + sizeof(Status);
 }
 
-std::map<std::uint32_t, const Buffer*> PathBuffers::buffers(std::uint32_t parity) const
+BufferMap PathBuffers::buffers(std::uint32_t parity) const
 {
     return {{kBindRays, &rays_},
             {kBindHits, &hits_},
@@ -128,40 +130,42 @@ PathNote PathBuffers::takeNote()
 {
     const PathNote taken = download<PathNote>(note_, 1)[0];
     PathNote empty{};
-    empty.foundWeight = 1.0F;
+    empty.misWeightOfHit = 1.0F;
     empty.light = kNothing;
     upload(note_, std::span<const PathNote>(&empty, 1));
     return taken;
 }
 
-Slab::Slab(Device& device, const KernelLayout& layout, const DeviceScene& scene, const DeviceCamera& camera,
-           const PathBuffers& paths, std::uint32_t begin, std::uint32_t count, const RenderSettings& settings)
-    : device_(device), begin_(begin), count_(count), chosenCount_(count), chooses_(settings.adaptive != Adaptive::Off),
+Tile::Tile(Device& device, const KernelLayout& layout, const BufferMap& constants, const PathBuffers& paths, std::uint32_t begin,
+           std::uint32_t count, const RenderSettings& settings)
+    : device_(device),
+      begin_(begin),
+      count_(count),
+      chosenCount_(count),
+      chooses_(settings.adaptive != Adaptive::Off),
       blocks_(arrayOf<BlockSums>(device, "film's blocks", count)),
       pages_(arrayOf<PixelMoments>(device, "film's pages", count)),
       luminance_(arrayOf<LuminanceMoments>(device, "pixels' luminances", isCourse(settings.adaptive) ? count : 1)),
       brightest_(arrayOf<BrightestSample>(device, "pixels' brightest samples", settings.suspects > 0 ? count : 1)),
       chosen_(device, "chosen pixels", BufferKind::Storage, sizeof(uint) + (chooses_ ? count : 1) * sizeof(ChosenPixel))
 {
-    const std::map<std::uint32_t, const Buffer*> film = {{kBindCamera, &camera.buffer()},
-                                                         {kBindBlocks, &blocks_},
-                                                         {kBindPages, &pages_},
-                                                         {kBindLuminance, &luminance_},
-                                                         {kBindBrightest, &brightest_},
-                                                         {kBindChosenPixels, &chosen_}};
-    const auto fixed = merged(scene.buffers(), film);
+    const auto fixed = merged(constants, {{kBindBlocks, &blocks_},
+                                          {kBindPages, &pages_},
+                                          {kBindLuminance, &luminance_},
+                                          {kBindBrightest, &brightest_},
+                                          {kBindChosenPixels, &chosen_}});
     even_.emplace(layout, merged(fixed, paths.buffers(0)));
     odd_.emplace(layout, merged(fixed, paths.buffers(1)));
     clear();
 }
 
-void Slab::clear()
+void Tile::clear()
 {
     fillWithZero({&blocks_, &pages_, &luminance_, &brightest_});
     chooseAll();
 }
 
-void Slab::copySamples(const Slab& other, std::uint32_t first)
+void Tile::copySamples(const Tile& other, std::uint32_t first)
 {
     Commands commands(device_);
     commands.copy(other.blocks_.handle(), first * sizeof(BlockSums), blocks_.handle(), count_ * sizeof(BlockSums));
@@ -169,14 +173,13 @@ void Slab::copySamples(const Slab& other, std::uint32_t first)
     commands.submitAndWait();
 }
 
-std::uint64_t Slab::bytesPerPixel(const RenderSettings& settings)
+std::uint64_t Tile::bytesPerPixel(const RenderSettings& settings)
 {
     return sizeof(BlockSums) + sizeof(PixelMoments) + (settings.suspects > 0 ? sizeof(BrightestSample) : 0) +
-           (settings.adaptive != Adaptive::Off ? sizeof(ChosenPixel) : 0) +
-           (isCourse(settings.adaptive) ? sizeof(LuminanceMoments) : 0);
+           (settings.adaptive != Adaptive::Off ? sizeof(ChosenPixel) : 0) + (isCourse(settings.adaptive) ? sizeof(LuminanceMoments) : 0);
 }
 
-void Slab::fillWithZero(std::initializer_list<const Buffer*> buffers)
+void Tile::fillWithZero(std::initializer_list<const Buffer*> buffers)
 {
     Commands commands(device_);
     for (const Buffer* buffer : buffers) {
@@ -185,14 +188,14 @@ void Slab::fillWithZero(std::initializer_list<const Buffer*> buffers)
     commands.submitAndWait();
 }
 
-std::vector<PixelMoments> Slab::takePages()
+std::vector<PixelMoments> Tile::takePages()
 {
     std::vector<PixelMoments> pages = download<PixelMoments>(pages_, count_);
     fillWithZero({&pages_});
     return pages;
 }
 
-void Slab::chooseAll()
+void Tile::chooseAll()
 {
     chosenCount_ = count_;
     if (chooses_) {
@@ -204,7 +207,7 @@ void Slab::chooseAll()
     }
 }
 
-void Slab::choose(const std::vector<ChosenPixel>& pixels)
+void Tile::choose(const std::vector<ChosenPixel>& pixels)
 {
     chosenCount_ = static_cast<std::uint32_t>(pixels.size());
     std::vector<uint> list(1 + 2 * pixels.size());
@@ -214,12 +217,12 @@ void Slab::choose(const std::vector<ChosenPixel>& pixels)
     upload(chosen_, std::span<const uint>(list));
 }
 
-void Slab::chooseNone()
+void Tile::chooseNone()
 {
     chosenCount_ = 0;
     fillWithZero({&chosen_});
 }
 
-void Slab::readChosenCount() { chosenCount_ = download<uint>(chosen_, 1)[0]; }
+void Tile::readChosenCount() { chosenCount_ = download<uint>(chosen_, 1)[0]; }
 
 }  // namespace glim

@@ -1,4 +1,4 @@
-// What kernels hand to each other, for as many paths as are in flight, and the pixels they add up to.
+// The buffers that kernels pass to each other, for all paths in flight, and the pixels that these add up to.
 #pragma once
 
 #include "host/gpu/kernel.hpp"
@@ -13,7 +13,10 @@
 
 namespace glim {
 
-// The slots of all kernels of shaders/kernels.
+// Buffers by binding.
+using BufferMap = std::map<std::uint32_t, const Buffer*>;
+
+// The binding slots of all kernels of a pass (shaders/kernels).
 std::vector<BindingSlot> kernelSlots();
 
 class PathBuffers {
@@ -22,15 +25,16 @@ public:
     static std::uint64_t sizeInBytes(std::uint32_t capacity);
 
     // `parity` 1 swaps the active and the next queue.
-    std::map<std::uint32_t, const Buffer*> buffers(std::uint32_t parity) const;
+    BufferMap buffers(std::uint32_t parity) const;
 
-    // Makes them the rays of the first slots, and these the active queue at parity 0.
+    // Stores the rays in the first slots and makes these slots the active queue at parity 0.
     void queueRays(std::span<const PathRay> rays);
-    // Makes them the first slots' shadow rays, each with a contribution of 1, and these the shadow queue; no slot has radiance.
+    // Stores the shadow rays in the first slots, each with a contribution of 1, and makes these slots the shadow queue. Clears their
+    // radiance.
     void queueShadowRays(std::span<const ShadowRay> rays);
-    // After a pass that was not finished.
+    // To be called after a pass that was not finished.
     void emptyQueues();
-    // What was added to slot 0, and what was noted, since it was last taken: both start anew.
+    // Return and reset the radiance of slot 0 and the note.
     PathRadiance takeRadiance();
     PathNote takeNote();
 
@@ -52,11 +56,12 @@ private:
 };
 
 // Pixels [begin, begin + count) of the picture. A storage buffer's limit (128 MiB on llvmpipe) cuts large pictures into
-// several slabs. The slab of an adaptive render knows which of its pixels are chosen for more samples: at first, all.
-class Slab {
+// several tiles. The tile of an adaptive render knows which of its pixels are chosen for more samples: at first, all.
+class Tile {
 public:
-    Slab(Device& device, const KernelLayout& layout, const DeviceScene& scene, const DeviceCamera& camera,
-         const PathBuffers& paths, std::uint32_t begin, std::uint32_t count, const RenderSettings& settings);
+    // `constants`: buffers of the scene and the parameters.
+    Tile(Device& device, const KernelLayout& layout, const BufferMap& constants, const PathBuffers& paths, std::uint32_t begin,
+         std::uint32_t count, const RenderSettings& settings);
     static std::uint64_t bytesPerPixel(const RenderSettings& settings);
 
     std::uint32_t begin() const { return begin_; }
@@ -72,8 +77,8 @@ public:
     std::vector<PixelMoments> takePages();
     // Empties everything; all pixels are chosen.
     void clear();
-    // Has the samples of as many pixels of `other`, from its `first` on.
-    void copySamples(const Slab& other, std::uint32_t first);
+    // Copies the samples of count() pixels of `other`, from its pixel `first` on.
+    void copySamples(const Tile& other, std::uint32_t first);
     void chooseAll();
     void choose(const std::vector<ChosenPixel>& pixels);
     void chooseNone();
@@ -89,7 +94,7 @@ private:
     Buffer blocks_, pages_;
     Buffer luminance_;  // LuminanceMoments
     Buffer brightest_;  // BrightestSample
-    Buffer chosen_;     // their number, then ChosenPixel
+    Buffer chosen_;     // the number of chosen pixels, then each ChosenPixel
     std::optional<Bindings> even_, odd_;
 };
 

@@ -14,10 +14,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double secondsBetween(Clock::time_point begin, Clock::time_point end)
-{
-    return std::chrono::duration<double>(end - begin).count();
-}
+double secondsBetween(Clock::time_point begin, Clock::time_point end) { return std::chrono::duration<double>(end - begin).count(); }
 
 }  // namespace
 
@@ -28,20 +25,22 @@ PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions&
     const Clock::time_point start = Clock::now();
     stage("loading " + file.filename().string());
     prepared.scene = loadGltf(file, options);
+    prepared.primitives = makePrimitives(prepared.scene);
+    prepared.scene.notices.insert(prepared.scene.notices.end(), prepared.primitives.notices.begin(), prepared.primitives.notices.end());
     for (const std::string& notice : prepared.scene.notices) {
         std::cerr << "glim: " << notice << '\n';
     }
     const Clock::time_point loaded = Clock::now();
-    stage("building the BVH of " + std::to_string(prepared.scene.triangles.size() + prepared.scene.spheres.size()) + " primitives");
-    prepared.bvh = buildSceneBvh(prepared.scene, split);
+    stage("building the BVH of " + std::to_string(prepared.primitives.count()) + " primitives");
+    prepared.bvh = buildSceneBvh(prepared.primitives, split);
     prepared.split = split;
-    prepared.flat = flattenScene(prepared.scene, prepared.bvh);
+    prepared.flat = flattenScene(prepared.scene, prepared.primitives, prepared.bvh);
     prepared.loadSeconds = secondsBetween(start, loaded);
     prepared.buildSeconds = secondsBetween(loaded, Clock::now());
     return prepared;
 }
 
-void warnOfDarkness(const PreparedScene& prepared)
+void warnIfNoLights(const PreparedScene& prepared)
 {
     if (prepared.flat.lights.empty()) {
         std::cerr << "glim: the scene has no light, so every picture of it is black; --environment 1,1,1 lights it\n";
@@ -63,7 +62,7 @@ const Camera& findCamera(const Scene& scene, const std::optional<std::string>& c
     throw InputError(scene.file + ": camera \"" + *choice + "\": expected one of " + list + ".");
 }
 
-glm::uvec2 naturalSize(const Camera& camera)
+glm::uvec2 defaultSize(const Camera& camera)
 {
     constexpr std::uint32_t kHeight = 512;
     const bool orthographic = camera.kind == Camera::Kind::Orthographic;

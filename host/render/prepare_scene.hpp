@@ -1,9 +1,10 @@
-// From a file to what the renderer takes, timed.
+// Prepares a scene file for the renderer, and times the steps.
 #pragma once
 
 #include "host/bvh/build_bvh.hpp"
 #include "host/bvh/wide_bvh.hpp"
 #include "host/flatten/flat_scene.hpp"
+#include "host/flatten/primitives.hpp"
 #include "host/scene/load_gltf.hpp"
 
 #include <filesystem>
@@ -14,23 +15,25 @@ namespace glim {
 
 struct PreparedScene {
     Scene scene;
+    Primitives primitives;
     WideBvh bvh;
-    SplitRule split = SplitRule::Sah;  // that the tree was built by
+    SplitRule split = SplitRule::Sah;  // the rule that the tree was built by
     FlatScene flat;
-    double loadSeconds = 0.0, buildSeconds = 0.0;  // build: BVH and flattening
+    double loadSeconds = 0.0, buildSeconds = 0.0;  // load: file and primitives; build: BVH and flattening
 };
 
-// Throws InputError. Prints the scene's notices to stderr. Says what it begins to do to `stage`, as in "loading a.gltf".
-PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions& options, SplitRule split = SplitRule::Sah,
-                           const std::function<void(const std::string&)>& stage = [](const std::string&) {});
+// Throws InputError. Prints the scene's notices to stderr. Calls `stage` with what it begins to do, as in "loading a.gltf".
+PreparedScene prepareScene(
+    const std::filesystem::path& file, const LoadOptions& options, SplitRule split = SplitRule::Sah,
+    const std::function<void(const std::string&)>& stage = [](const std::string&) {});
 
-// To stderr, if the scene has no light.
-void warnOfDarkness(const PreparedScene& prepared);
+// Warns on stderr if the scene has no light.
+void warnIfNoLights(const PreparedScene& prepared);
 
-// The camera of that name or index (the first if absent). Throws InputError listing what there is.
+// The camera of that name or index (the first if absent). Throws InputError that lists the cameras.
 const Camera& findCamera(const Scene& scene, const std::optional<std::string>& choice);
 
-// Of the picture that nobody gave a size: 512 pixels high, as wide as the camera says.
-glm::uvec2 naturalSize(const Camera& camera);
+// The default size of a picture: 512 pixels high, and as wide as the camera's aspect ratio says.
+glm::uvec2 defaultSize(const Camera& camera);
 
 }  // namespace glim

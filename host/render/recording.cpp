@@ -6,32 +6,30 @@
 namespace glim {
 namespace {
 
-// Dispatches of a portion where nobody is asked: all of them are timed, and a submission ends within seconds.
+// Dispatches per portion if nobody is asked: all of them are timed, and a submission ends within seconds.
 constexpr std::uint32_t kUnasked = 64;
-
-std::span<const std::byte> bytesOf(const Pass& pass) { return std::as_bytes(std::span<const Pass, 1>(&pass, 1)); }
 
 }  // namespace
 
 Recording::Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics)
     : Recording(device, statistics, kUnasked, nullptr)
-{
-}
+{}
 
 Recording::Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics, std::uint32_t dispatches,
-                     std::function<bool()> goesOn)
-    : device_(device), statistics_(statistics), portion_(goesOn ? dispatches : kUnasked), goesOn_(std::move(goesOn))
-{
-}
+                     std::function<bool()> shouldContinue)
+    : device_(device),
+      statistics_(statistics),
+      portion_(shouldContinue ? dispatches : kUnasked),
+      shouldContinue_(std::move(shouldContinue))
+{}
 
-Recording::Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics,
-                     std::function<void(const Kernel&, const Pass&)> watch)
+Recording::Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics, Watch watch)
     : Recording(device, statistics)
 {
     watch_ = std::move(watch);
 }
 
-// Null once it is stopped.
+// The commands to record to; null once the recording is stopped.
 Commands* Recording::next()
 {
     if (recorded_ == portion_) {
@@ -47,28 +45,28 @@ Commands* Recording::next()
     return &*commands_;
 }
 
-void Recording::dispatch(const Kernel& kernel, const Bindings& bindings, const Pass& pass, std::uint32_t groups)
+void Recording::record(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push, std::uint32_t groups)
 {
     if (Commands* commands = next()) {
-        commands->dispatch(kernel, bindings, bytesOf(pass), groups);
-        showWatch(kernel, pass);
+        commands->dispatch(kernel, bindings, push, groups);
+        showWatch(kernel, push);
     }
 }
 
-void Recording::dispatchIndirect(const Kernel& kernel, const Bindings& bindings, const Pass& pass, const Buffer& arguments,
-                                 std::uint64_t offset)
+void Recording::recordIndirect(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push, const Buffer& arguments,
+                               std::uint64_t offset)
 {
     if (Commands* commands = next()) {
-        commands->dispatchIndirect(kernel, bindings, bytesOf(pass), arguments, offset);
-        showWatch(kernel, pass);
+        commands->dispatchIndirect(kernel, bindings, push, arguments, offset);
+        showWatch(kernel, push);
     }
 }
 
-void Recording::showWatch(const Kernel& kernel, const Pass& pass)
+void Recording::showWatch(const Kernel& kernel, std::span<const std::byte> push)
 {
     if (watch_) {
         finish();
-        watch_(kernel, pass);
+        watch_(kernel, push);
     }
 }
 
@@ -87,7 +85,7 @@ void Recording::finish()
     }
     commands_.reset();
     recorded_ = 0;
-    stopped_ = goesOn_ && !goesOn_();
+    stopped_ = shouldContinue_ && !shouldContinue_();
 }
 
 }  // namespace glim

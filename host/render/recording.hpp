@@ -1,12 +1,12 @@
-// Dispatches one after the other, timed, and submitted in portions.
+// Records dispatches, times them, and submits them in portions.
 #pragma once
 
 #include "host/gpu/commands.hpp"
-#include "shaders/shared/path_types.h"
 
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace glim {
@@ -18,25 +18,32 @@ struct KernelStatistics {
 
 class Recording {
 public:
-    // Adds what each kernel took to `statistics`.
+    // Adds the dispatches and device time of each kernel to `statistics`.
     Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics);
-    // And asks `goesOn`, unless that is empty, whenever a portion of `dispatches`, or less, has run; once it is false, nothing more runs.
+    // The same, but asks `shouldContinue` (unless empty) after each portion of at most `dispatches`. Once it is false, nothing more runs.
     Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics, std::uint32_t dispatches,
-              std::function<bool()> goesOn);
+              std::function<bool()> shouldContinue);
 
-    // And calls `watch` after each dispatch with what it was.
-    Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics,
-              std::function<void(const Kernel&, const Pass&)> watch);
+    // The same, but calls `watch` after each dispatch with its kernel and push constants.
+    using Watch = std::function<void(const Kernel&, std::span<const std::byte>)>;
+    Recording(const Device& device, std::map<std::string, KernelStatistics>& statistics, Watch watch);
 
     // `groups` workgroups.
-    void dispatch(const Kernel& kernel, const Bindings& bindings, const Pass& pass, std::uint32_t groups);
+    template <class Push>
+    void dispatch(const Kernel& kernel, const Bindings& bindings, const Push& push, std::uint32_t groups)
+    {
+        record(kernel, bindings, std::as_bytes(std::span<const Push, 1>(&push, 1)), groups);
+    }
     // The group counts are read from `arguments` at `offset` bytes.
-    void dispatchIndirect(const Kernel& kernel, const Bindings& bindings, const Pass& pass, const Buffer& arguments,
-                          std::uint64_t offset);
-    // Runs what has not run yet; must end a recording.
+    template <class Push>
+    void dispatchIndirect(const Kernel& kernel, const Bindings& bindings, const Push& push, const Buffer& arguments, std::uint64_t offset)
+    {
+        recordIndirect(kernel, bindings, std::as_bytes(std::span<const Push, 1>(&push, 1)), arguments, offset);
+    }
+    // Runs what has not run yet. Must be the last call.
     void finish();
 
-    // Whether anything may be missing because `goesOn` was false.
+    // Whether anything may be missing because `shouldContinue` was false.
     bool isStopped() const { return stopped_; }
     // Device seconds of what has run.
     double longest() const { return longest_; }
@@ -44,13 +51,16 @@ public:
 
 private:
     Commands* next();
-    void showWatch(const Kernel& kernel, const Pass& pass);
+    void record(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push, std::uint32_t groups);
+    void recordIndirect(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push, const Buffer& arguments,
+                        std::uint64_t offset);
+    void showWatch(const Kernel& kernel, std::span<const std::byte> push);
 
     const Device& device_;
     std::map<std::string, KernelStatistics>& statistics_;
     std::uint32_t portion_;
-    std::function<bool()> goesOn_;
-    std::function<void(const Kernel&, const Pass&)> watch_;
+    std::function<bool()> shouldContinue_;
+    Watch watch_;
     bool stopped_ = false;
     std::optional<Commands> commands_;
     std::uint32_t recorded_ = 0;

@@ -1,16 +1,22 @@
-// A pass traces some samples of some pixels to their end (wavefront.cpp: the order of the kernels). A sweep is passes over many
-// pixels (renderer_sweeps.cpp: which). Which pixels share a pass depends on measured time; the order of a pixel's samples and all
-// sums do not.
+// A pass traces some samples of some pixels to their end (wavefront.cpp: the order of the kernels). A sweep is the passes that give all
+// pixels, or those that an adaptive render has chosen, the same number of samples. --adaptive neighbours works in rounds: sweeps over all
+// pixels, then sweeps over chosen ones. These take blocks of samples beyond those that all pixels will ever have.
+//
+// Which pixels share a pass depends on measured time. The order of a pixel's samples and all sums do not.
 #include "host/render/renderer.hpp"
 
+#include "host/render/allocate_samples.hpp"
 #include "host/render/check_status.hpp"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/limits.h"
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <limits>
+#include <random>
 #include <utility>
 
 namespace glim {
@@ -21,25 +27,44 @@ double secondsSince(std::chrono::steady_clock::time_point start)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+// Mean samples per pixel after a round that begins with `samples`: 64, 96, 128, 192, 256, 384 ... A round grows by half at most, since
+// later plans rest on better estimates. Powers of two are included for those who compare there.
+std::uint32_t usualRoundEnd(std::uint32_t samples)
+{
+    if (samples == 0) {
+        return kPilotSamples;
+    }
+    const std::uint32_t power = std::bit_floor(samples), middle = power + power / 2;
+    return samples < middle ? middle : 2 * power;
+}
+
 }  // namespace
 
 Renderer::Renderer(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
-    : device_(device), settings_(settings), sceneFingerprint_(fingerprint(scene)), start_(Clock::now()),
-      passSize_(scene, settings), wavefront_(std::make_unique<Wavefront>(device, scene, camera, settings))
+    : device_(device),
+      settings_(settings),
+      sceneFingerprint_(fingerprint(scene)),
+      start_(Clock::now()),
+      passSize_(scene, settings),
+      wavefront_(std::make_unique<Wavefront>(device, scene, camera, settings))
 {
     open(camera);
 }
 
-Renderer::Renderer(const Renderer& lender, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
-    : device_(lender.device_), settings_(settings), sceneFingerprint_(lender.sceneFingerprint_), start_(Clock::now()),
-      passSize_(scene, settings), wavefront_(std::make_unique<Wavefront>(*lender.wavefront_, scene, camera, settings))
+Renderer::Renderer(const Renderer& other, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
+    : device_(other.device_),
+      settings_(settings),
+      sceneFingerprint_(other.sceneFingerprint_),
+      start_(Clock::now()),
+      passSize_(scene, settings),
+      wavefront_(std::make_unique<Wavefront>(device_, other.wavefront_->shared(), scene, camera, settings))
 {
     open(camera);
 }
 
 void Renderer::open(const FlatCamera& camera)
 {
-    makeSlabs();
+    makeTiles();
     refuseBrokenStatus(device_.description(), wavefront_->paths());
     statistics_.schedule = wavefront_->schedule();
     statistics_.compileSeconds = wavefront_->compileSeconds();
@@ -53,12 +78,12 @@ std::uint64_t Renderer::nextFoldVersion()
     return ++last;
 }
 
-void Renderer::makeSlabs()
+void Renderer::makeTiles()
 {
-    slabs_.clear();
+    tiles_.clear();
     const std::uint32_t pixels = settings_.width * settings_.height;
-    for (std::uint32_t first = 0; first < pixels; first += settings_.slabPixels) {
-        slabs_.push_back(wavefront_->makeSlab(first, std::min(settings_.slabPixels, pixels - first)));
+    for (std::uint32_t first = 0; first < pixels; first += settings_.tilePixels) {
+        tiles_.push_back(wavefront_->makeTile(first, std::min(settings_.tilePixels, pixels - first)));
     }
 }
 
@@ -69,13 +94,13 @@ void Renderer::restart(const FlatCamera& camera, std::uint32_t width, std::uint3
     settings_.height = height;
     wavefront_->setCamera(camera, width, height);
     if (size != before) {
-        std::swap(slabs_, spare_);
+        std::swap(tiles_, spare_);
         if (size != std::exchange(spareSize_, before)) {
-            makeSlabs();
+            makeTiles();
         }
     }
-    for (const auto& slab : slabs_) {
-        slab->clear();
+    for (const auto& tile : tiles_) {
+        tile->clear();
     }
     begin(camera);
 }
@@ -100,14 +125,14 @@ void Renderer::begin(const FlatCamera& camera)
     mean_ = roundEnd_ = commonEnd_ = 0;
     choosing_ = false;
     if (isNeighbours(settings_.adaptive)) {
-        // All pixels together never have more than half of sampleEnd.
+        // The samples that all pixels share are never more than half of sampleEnd.
         const std::uint32_t half = std::max(kPilotSamples, (settings_.sampleEnd + 1) / 2);
         chosenBlocks_ = BlockQueue(film_.pixels.size(), (half + kBlockSamples - 1) / kBlockSamples * kBlockSamples);
         common_ = film_;
     }
     timesToTarget_ = std::numeric_limits<double>::infinity();
     sweeping_ = false;
-    slab_ = 0;
+    tile_ = 0;
     pixel_ = 0;
     chosen_ = film_.pixels.size();
     pictureSamples_ = judgedSamples_ = 0;
@@ -118,13 +143,14 @@ void Renderer::begin(const FlatCamera& camera)
 Film Renderer::render(const RenderObserver& observer, const FilmJudge& judge)
 {
     start_ = Clock::now();
-    plannedSamples_ = judge ? film_.pixels.size() * leastSamplesForError(settings_.sampleBegin) : plannedSamples_;  // until it is known better
+    plannedSamples_ =
+        judge ? film_.pixels.size() * leastSamplesForError(settings_.sampleBegin) : plannedSamples_;  // until it is known better
     Clock::time_point begin = start_;
-    const auto goesOn = [&] { return asks(observer) || secondsSince(begin) < settings_.passSeconds; };
-    while (advance(goesOn) && !isOver(observer) && !(judge && isGoodEnough(judge))) {
+    const auto shouldContinue = [&] { return asks(observer) || secondsSince(begin) < settings_.passSeconds; };
+    while (advance(shouldContinue) && !isOver(observer) && !(judge && isGoodEnough(judge))) {
         begin = Clock::now();
     }
-    foldPages(film_, slabs_);
+    foldPages(film_, tiles_);
     statistics_.renderSeconds = secondsSince(start_);
     readCounters();
     describe(film_);
@@ -134,10 +160,10 @@ Film Renderer::render(const RenderObserver& observer, const FilmJudge& judge)
 Film Renderer::film()
 {
     Film film = film_;
-    std::vector<std::unique_ptr<Slab>> copies;
-    for (const auto& slab : slabs_) {
-        copies.push_back(wavefront_->makeSlab(slab->begin(), slab->count()));
-        copies.back()->copySamples(*slab, 0);
+    std::vector<std::unique_ptr<Tile>> copies;
+    for (const auto& tile : tiles_) {
+        copies.push_back(wavefront_->makeTile(tile->begin(), tile->count()));
+        copies.back()->copySamples(*tile, 0);
     }
     foldPages(film, copies);
     readCounters();
@@ -147,14 +173,14 @@ Film Renderer::film()
 
 PixelMoments Renderer::moments(std::uint32_t pixel)
 {
-    const Slab& slab = *slabs_[pixel / settings_.slabPixels];
-    const std::unique_ptr<Slab> copy = wavefront_->makeSlab(pixel, 1);
-    copy->copySamples(slab, pixel - slab.begin());
+    const Tile& tile = *tiles_[pixel / settings_.tilePixels];
+    const std::unique_ptr<Tile> copy = wavefront_->makeTile(pixel, 1);
+    copy->copySamples(tile, pixel - tile.begin());
     wavefront_->closeBlocks(*copy);
     return foldMoments(film_.pixels[pixel], copy->takePages().front());
 }
 
-// The samples it is of.
+// Sets the film's sample ranges, completeness and time.
 void Renderer::describe(Film& film) const
 {
     film.sampleRanges = {{settings_.sampleBegin, sweeping_ && !choosing_ ? sweepEnd() : sample_}};
@@ -170,10 +196,10 @@ void Renderer::describe(Film& film) const
     film.seconds = secondsSince(start_);
 }
 
-// False if `goesOn` ended it before it was done.
-bool Renderer::runPass(const Pass& pass, const std::function<bool()>& goesOn)
+// Returns false if `shouldContinue` ended the pass before it was done.
+bool Renderer::runPass(const Pass& pass, const std::function<bool()>& shouldContinue)
 {
-    const auto traced = wavefront_->trace(*slabs_[slab_], pass, goesOn);
+    const auto traced = wavefront_->trace(*tiles_[tile_], pass, shouldContinue);
     refuseBrokenStatus(device_.description(), wavefront_->paths());
     if (!traced) {
         return false;
@@ -190,12 +216,12 @@ bool Renderer::runPass(const Pass& pass, const std::function<bool()>& goesOn)
     return true;
 }
 
-// Ends the blocks under way, which in adaptive renders and at the end may be any.
-void Renderer::foldPages(Film& film, const std::vector<std::unique_ptr<Slab>>& slabs)
+// Closes the open blocks, which may be partial in adaptive renders and at the end, and folds all pages into `film`.
+void Renderer::foldPages(Film& film, const std::vector<std::unique_ptr<Tile>>& tiles)
 {
-    for (const auto& slab : slabs) {
-        wavefront_->closeBlocks(*slab);
-        foldPage(film, slab->begin(), slab->takePages());
+    for (const auto& tile : tiles) {
+        wavefront_->closeBlocks(*tile);
+        foldPage(film, tile->begin(), tile->takePages());
     }
 }
 
@@ -210,7 +236,7 @@ bool Renderer::isOver(const RenderObserver& observer)
     return !asks(observer) || (settings_.seconds && secondsSince(start_) >= *settings_.seconds);
 }
 
-// Looks whenever blocks end, but not before there are a tenth more samples: looking often would stop where the estimate happens
+// Judges whenever blocks end and there are a tenth more samples than last time. Judging more often would stop where the estimate happens
 // to be low, and takes time.
 bool Renderer::isGoodEnough(const FilmJudge& judge)
 {
@@ -238,6 +264,197 @@ void Renderer::readCounters()
     statistics_.located.assign(status.located, status.located + std::min(status.nonFinite, kMaxLocated));
     statistics_.kernels = wavefront_->statistics();
     statistics_.peakDeviceMemory = device_.peakMemory();
+}
+
+// The end of the current sweep. The first samples are swept 1, 1, 2, 4, 8, 16 and 32 at a time, so that a render that is stopped early
+// covers its picture evenly. Later blocks are swept whole, which keeps the rays of a pixel together.
+std::uint32_t Renderer::sweepEnd() const
+{
+    const std::uint32_t done = sample_ - settings_.sampleBegin;
+    const std::uint32_t last = isNeighbours(settings_.adaptive) ? commonEnd_ : settings_.sampleEnd;
+    const std::uint32_t count = done < kBlockSamples ? std::max(1U, std::bit_floor(done)) : kBlockSamples;
+    const std::uint32_t end = std::min({last, (sample_ / kBlockSamples + 1) * kBlockSamples, sample_ + count});
+    return isCourse(settings_.adaptive) ? std::min(end, (sample_ / settings_.course.batch + 1) * settings_.course.batch) : end;
+}
+
+bool Renderer::advance(const std::function<bool()>& shouldContinue)
+{
+    while (isNeighbours(settings_.adaptive) && isBetweenRounds() && !isDone()) {
+        startRound();
+    }
+    if (isDone()) {
+        return false;
+    }
+    // Each chosen pixel of a round has its own first sample.
+    const Pass pass = choosing_ ? nextPass(0, sweepSamples_) : nextPass(sample_, sweepEnd() - sample_);
+    if (!runPass(pass, shouldContinue)) {
+        return false;
+    }
+    if (!findTile()) {
+        endSweep();
+    }
+    return true;
+}
+
+// Finds the tile of the sweep's next pixel; false if there is none.
+bool Renderer::findTile()
+{
+    while (tile_ < tiles_.size() && pixel_ == tiles_[tile_]->chosenCount()) {
+        ++tile_;
+        pixel_ = 0;
+    }
+    return tile_ < tiles_.size();
+}
+
+Pass Renderer::nextPass(std::uint32_t firstSample, std::uint32_t sampleCount) const
+{
+    const Tile& tile = *tiles_[tile_];
+    Pass pass = wavefront_->passOf(tile);
+    pass.firstPixel = pixel_;
+    pass.firstSample = firstSample;
+    pass.sampleCount = sampleCount;
+    pass.pixelCount = std::min(tile.chosenCount() - pixel_, std::max(1U, passSize_.paths() / pass.sampleCount));
+    return pass;
+}
+
+void Renderer::endSweep()
+{
+    if (choosing_) {
+        if (!chooseSweep(chosenBlocks_)) {
+            endRound();
+        }
+        return;
+    }
+    sample_ = sweepEnd();
+    sweeping_ = false;
+    if (isCourse(settings_.adaptive) && sample_ % settings_.course.batch == 0) {
+        chosen_ = choosePixels();
+        plannedSamples_ = pictureSamples_ + chosen_ * (settings_.sampleEnd - sample_);
+    }
+    tile_ = 0;
+    findTile();
+    if (isNeighbours(settings_.adaptive)) {
+        if (sample_ == commonEnd_) {
+            foldCommon();
+            startChoosing();
+        }
+    } else if (sample_ % kPageSamples == 0) {
+        foldPages(film_, tiles_);
+        foldVersion_ = nextFoldVersion();
+    }
+}
+
+// Returns how many pixels still need samples.
+std::uint64_t Renderer::choosePixels()
+{
+    std::uint64_t chosen = 0;
+    for (const auto& tile : tiles_) {
+        wavefront_->choosePixels(*tile);
+        chosen += tile->chosenCount();
+    }
+    return chosen;
+}
+
+// All pixels get the same half of a round's samples, down to whole blocks but at least kPilotSamples. These alone decide who gets the
+// other half. If there is a target, the round goes no further than it is expected to need.
+void Renderer::startRound()
+{
+    const auto most = static_cast<double>(std::min(usualRoundEnd(mean_), settings_.sampleEnd));
+    const double wanted = mean_ == 0 ? most : mean_ * std::max(1.12, 1.02 * timesToTarget_);
+    roundEnd_ = static_cast<std::uint32_t>(std::ceil(std::min(most, wanted)));
+    commonEnd_ = std::max(std::min(kPilotSamples, roundEnd_), roundEnd_ / 2 / kBlockSamples * kBlockSamples);
+    if (sample_ == commonEnd_) {
+        startChoosing();
+        return;
+    }
+    for (const auto& tile : tiles_) {
+        tile->chooseAll();
+    }
+    tile_ = 0;
+    pixel_ = 0;
+}
+
+void Renderer::startChoosing()
+{
+    const SquaredError error = settings_.adaptive == Adaptive::Neighbours ? SquaredError::Relative : SquaredError::Absolute;
+    if (roundEnd_ > commonEnd_) {
+        chosenBlocks_.add(allocateBlocks(computeShares(common_, error), chosenBlocks_.samples(), roundEnd_ - commonEnd_));
+    }
+    choosing_ = chooseSweep(chosenBlocks_);
+    if (!choosing_) {
+        endRound();
+    }
+}
+
+void Renderer::endRound()
+{
+    foldPages(film_, tiles_);
+    foldVersion_ = nextFoldVersion();
+    choosing_ = false;
+    sweeping_ = false;
+    mean_ = roundEnd_;
+}
+
+// Folds the samples of a round that all pixels share.
+void Renderer::foldCommon()
+{
+    for (const auto& tile : tiles_) {
+        wavefront_->closeBlocks(*tile);
+        const std::vector<PixelMoments> pages = tile->takePages();
+        foldPage(film_, tile->begin(), pages);
+        foldPage(common_, tile->begin(), pages);
+    }
+    foldVersion_ = nextFoldVersion();
+}
+
+std::optional<Film> Renderer::sampleControl(const Film& film, const std::function<bool()>& shouldContinue)
+{
+    const double share = std::max(0.01, 64.0 / static_cast<double>(film.pixels.size()));
+    std::vector<std::uint32_t> needed(film.pixels.size(), 0);
+    std::mt19937 random(settings_.seed);
+    for (std::size_t i = 0; i < needed.size(); ++i) {
+        const bool isControl = static_cast<double>(random()) < share * 0x1p32;
+        needed[i] = isControl ? (film.pixels[i].count + kBlockSamples - 1) / kBlockSamples : 0;
+    }
+    const std::uint32_t begin = (film.sampleRanges.back().second + kBlockSamples - 1) / kBlockSamples * kBlockSamples;
+    BlockQueue blocks(film.pixels.size(), begin);
+    blocks.add(needed);
+    const RenderStatistics before = statistics_;
+    bool going = true;
+    while (going && chooseSweep(blocks)) {
+        do {
+            going = runPass(nextPass(0, sweepSamples_), shouldContinue);
+        } while (going && findTile());
+    }
+    statistics_ = before;
+    if (!going) {
+        return std::nullopt;
+    }
+    Film control;
+    control.pixels.resize(film.pixels.size());
+    foldPages(control, tiles_);
+    return control;
+}
+
+// Starts the next sweep over `blocks`; false if none are left.
+bool Renderer::chooseSweep(BlockQueue& blocks)
+{
+    const auto sweep = blocks.take(passSize_.paths());
+    if (!sweep) {
+        return false;
+    }
+    sweepSamples_ = sweep->sampleCount;
+    auto from = sweep->pixels.begin();
+    for (const auto& tile : tiles_) {
+        std::vector<ChosenPixel> chosen;
+        for (; from != sweep->pixels.end() && from->pixel < tile->begin() + tile->count(); ++from) {
+            chosen.push_back({from->pixel - tile->begin(), from->sample});
+        }
+        tile->choose(chosen);
+    }
+    tile_ = 0;
+    pixel_ = 0;
+    return findTile();
 }
 
 }  // namespace glim

@@ -12,28 +12,28 @@
 namespace glim {
 
 struct RenderStatistics {
-    Schedule schedule = Schedule::Auto;  // that was used
+    Schedule schedule = Schedule::Auto;  // the one used
     double uploadSeconds = 0.0, compileSeconds = 0.0, renderSeconds = 0.0;
-    double passSeconds = 0.0;  // of all passes, on the device; 0 if it cannot tell
+    double passSeconds = 0.0;  // device time of all passes; 0 if unknown
     std::map<std::string, KernelStatistics> kernels;
     double longestDispatch = 0.0;  // seconds, on the device, after compilation
     std::uint64_t samples = 0;     // over all pixels
     std::uint64_t cameraAndBounceRays = 0, shadowRays = 0;
-    std::uint32_t loopCaps = 0, overflows = 0;  // of Status; a render that had any has thrown
-    std::uint32_t nonFinite = 0;   // samples left out
-    std::vector<Located> located;  // the first of them
-    std::uint64_t peakDeviceMemory = 0;  // bytes
+    std::uint32_t loopCaps = 0, overflows = 0;  // as in Status; a render with any of them throws
+    std::uint32_t nonFinite = 0;                // samples left out
+    std::vector<Located> located;               // the first of them
+    std::uint64_t peakDeviceMemory = 0;         // bytes
 };
 
 struct RenderProgress {
-    std::uint64_t samples, totalSamples;  // over all pixels; of an adaptive render, total if no further pixel is done early
+    std::uint64_t samples, totalSamples;  // over all pixels; in adaptive renders, totalSamples assumes that no further pixel ends early
     double seconds;
 };
 
-// Judges a film that is finished so far: how many times its samples it would need; at most 1: it is good enough.
+// Judges the film so far: returns by what factor it needs more samples; at most 1 means good enough.
 using FilmJudge = std::function<double(const Film&)>;
 
-// Called several times a second; false ends the render after the pass under way or, if that takes seconds, without it.
+// Called several times a second. False ends the render after the current pass or, if that takes seconds, without it.
 using RenderObserver = std::function<bool(const RenderProgress&)>;
 
 class Renderer {
@@ -41,43 +41,41 @@ public:
     // Uploads the scene and compiles the kernels for what it needs.
     Renderer(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
 
-    // The same of the scene and in the buffers of `lender`, which must outlive it; only one of them may be at work.
-    Renderer(const Renderer& lender, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
+    // Shares the resources of `other`, a renderer of the same scene that must outlive this one. Only one of them may render at a time.
+    Renderer(const Renderer& other, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
 
-    // Samples until sampleEnd, the stop rule, the time limit, the observer or the judge, if there is one, ends it. Every pixel of the
-    // film has what was finished; the counts say how much. Throws DeviceError if the driver cut a loop short or a queue overflowed:
-    // no film is better than a wrong one. Once per picture.
+    // Samples until sampleEnd, the stopping rule, the time limit, the observer or the judge (if any) ends it. The film has all finished
+    // samples; its counts say how many each pixel has. Throws DeviceError if the driver cut a loop short or a queue overflowed: no film
+    // is better than a wrong one. To be called once per picture.
     Film render(const RenderObserver& observer, const FilmJudge& judge = nullptr);
 
-    // After an adaptive render: new samples of one pixel in a hundred (in small pictures of 64 or so), as many as `film` has of each,
-    // and in no statistics. What was chosen by the old ones, those do not know. Nothing if `goesOn` ended it.
-    std::optional<Film> sampleControl(const Film& film, const std::function<bool()>& goesOn);
+    // After an adaptive render: takes new samples of one pixel in a hundred (of 64 or so in small pictures), as many as `film` has of
+    // each. They are independent of the samples that the allocation was based on, and are in no statistics. Returns nothing if
+    // `shouldContinue` ended it.
+    std::optional<Film> sampleControl(const Film& film, const std::function<bool()>& shouldContinue);
 
-    // The same as render in steps: a pass of work. False once nothing is left to do, or if `goesOn`, asked now and then, ended the
-    // pass, of which nothing is kept then. Throws as render.
-    bool advance(const std::function<bool()>& goesOn = nullptr);
-    bool isDone() const
-    {
-        return chosen_ == 0 || (isNeighbours(settings_.adaptive) ? mean_ : sample_) == settings_.sampleEnd;
-    }
-    // What is finished; sampling may go on.
+    // Renders in steps: each call does one pass. Returns false once nothing is left to do, or if `shouldContinue`, asked now and then,
+    // ended the pass, which is then discarded. Throws as render does.
+    bool advance(const std::function<bool()>& shouldContinue = nullptr);
+    bool isDone() const { return chosen_ == 0 || (isNeighbours(settings_.adaptive) ? mean_ : sample_) == settings_.sampleEnd; }
+    // The film so far; sampling may go on.
     Film film();
-    PixelMoments moments(std::uint32_t pixel);  // of film(), faster
-    // What one ray meets; no part of the picture. Needs Schedule::Wavefront.
-    PathHit traceRay(const PathRay& ray) { return wavefront_->traceRays(*slabs_.front(), {&ray, 1})[0]; }
-    // A sample of a pixel once more, and in no film.
+    PixelMoments moments(std::uint32_t pixel);  // as in film(), but faster
+    // The hit of one ray, which is not part of the picture. Needs Schedule::Wavefront.
+    PathHit traceRay(const PathRay& ray) { return wavefront_->traceRays(*tiles_.front(), {&ray, 1})[0]; }
+    // Traces one sample of a pixel again, and adds it to no film.
     PathRadiance traceSample(std::uint32_t pixel, std::uint32_t sample) { return wavefront_->traceSample(pixel, sample); }
-    // Another picture of the scene. The camera has a lens if and only if the first one had.
+    // Starts another picture of the scene. The camera has a lens if and only if the first one had.
     void restart(const FlatCamera& camera, std::uint32_t width, std::uint32_t height);
-    // The same picture from other random numbers.
+    // Starts the same picture from other random numbers.
     void restart(const FlatCamera& camera, std::uint32_t seed);
 
-    // Samples that every chosen pixel has (of --adaptive neighbours that pixels have on average), and those of all pixels together.
+    // Samples per chosen pixel (with --adaptive neighbours the mean over all pixels), and samples of all pixels together.
     std::uint32_t sampleCount() const { return mean_ > 0 ? mean_ : sample_ - settings_.sampleBegin; }
     std::uint64_t pictureSamples() const { return pictureSamples_; }
-    // For who looks at the film on the device, which has what was not folded yet. The version changes whenever `folded` does; 0 while
-    // nothing is folded.
-    const std::vector<std::unique_ptr<Slab>>& slabs() const { return slabs_; }
+    // For display: the tiles on the device have what is not folded yet, `folded` has the rest. The version changes whenever `folded`
+    // does; 0 while nothing is folded.
+    const std::vector<std::unique_ptr<Tile>>& tiles() const { return tiles_; }
     const Film& folded() const { return film_; }
     std::uint64_t foldVersion() const { return foldVersion_; }
 
@@ -88,18 +86,18 @@ private:
     using Clock = std::chrono::steady_clock;
 
     void open(const FlatCamera& camera);
-    void makeSlabs();
+    void makeTiles();
     void begin(const FlatCamera& camera);
     void describe(Film& film) const;
-    bool runPass(const Pass& pass, const std::function<bool()>& goesOn);
+    bool runPass(const Pass& pass, const std::function<bool()>& shouldContinue);
     bool asks(const RenderObserver& observer);
-    // Of all renderers together: what one has folded is never taken for what another has.
+    // Unique over all renderers, so that the folded pages of one are never taken for those of another.
     static std::uint64_t nextFoldVersion();
 
-    // In renderer_sweeps.cpp.
+    // Which samples of which pixels come next.
     bool isBetweenRounds() const { return mean_ == roundEnd_; }
     std::uint32_t sweepEnd() const;
-    bool findSlab();
+    bool findTile();
     Pass nextPass(std::uint32_t firstSample, std::uint32_t sampleCount) const;
     void endSweep();
     std::uint64_t choosePixels();
@@ -109,7 +107,7 @@ private:
     void foldCommon();
     bool chooseSweep(BlockQueue& blocks);
 
-    void foldPages(Film& film, const std::vector<std::unique_ptr<Slab>>& slabs);
+    void foldPages(Film& film, const std::vector<std::unique_ptr<Tile>>& tiles);
     bool isOver(const RenderObserver& observer);
     bool isGoodEnough(const FilmJudge& judge);
     void readCounters();
@@ -123,29 +121,29 @@ private:
     bool ended_ = false;  // by the observer
 
     std::unique_ptr<Wavefront> wavefront_;
-    std::vector<std::unique_ptr<Slab>> slabs_;
-    std::vector<std::unique_ptr<Slab>> spare_;  // of the size before, to which a window soon returns
+    std::vector<std::unique_ptr<Tile>> tiles_;
+    std::vector<std::unique_ptr<Tile>> spare_;  // tiles of the previous size, to which a window soon returns
     glm::uvec2 spareSize_{0, 0};
 
-    Film film_;                      // the pages folded so far
+    Film film_;  // the pages folded so far
     std::uint64_t foldVersion_ = 0;
-    std::uint32_t sample_ = 0;       // first of the sweep under way over all pixels
-    bool sweeping_ = false;          // the sweep, or the round's choice, has had a pass
-    std::size_t slab_ = 0;           // of the next pass
-    std::uint32_t pixel_ = 0;        // its first one, among the slab's chosen
-    std::uint64_t chosen_ = 0;       // pixels that the sweep goes over
+    std::uint32_t sample_ = 0;  // first sample of the current sweep over all pixels
+    bool sweeping_ = false;     // the sweep, or the round's chosen part, has had a pass
+    std::size_t tile_ = 0;      // the tile of the next pass
+    std::uint32_t pixel_ = 0;   // its first pixel, among the tile's chosen ones
+    std::uint64_t chosen_ = 0;  // pixels that the sweep goes over
     std::uint64_t pictureSamples_ = 0, plannedSamples_ = 0;
-    std::uint64_t judgedSamples_ = 0;  // of the picture, when it was judged last
-    double timesToTarget_ = 0.0;       // that it found; infinite before
+    std::uint64_t judgedSamples_ = 0;  // pictureSamples_ when it was last judged
+    double timesToTarget_ = 0.0;       // the judge's last answer; infinite before the first
 
-    // Of --adaptive neighbours.
-    Film common_;                     // the samples of all pixels alike
-    std::uint32_t commonEnd_ = 0;     // their number in the round under way
-    BlockQueue chosenBlocks_;         // the others
-    bool choosing_ = false;           // the sweep under way is of them
-    std::uint32_t sweepSamples_ = 0;  // that each pixel of it has
-    std::uint32_t mean_ = 0;          // samples of pixels after the last round
-    std::uint32_t roundEnd_ = 0;      // after the one under way
+    // For --adaptive neighbours.
+    Film common_;                     // the samples that all pixels share
+    std::uint32_t commonEnd_ = 0;     // their number at the end of the current round
+    BlockQueue chosenBlocks_;         // the samples of chosen pixels
+    bool choosing_ = false;           // the current sweep is over chosen pixels
+    std::uint32_t sweepSamples_ = 0;  // samples per pixel of that sweep
+    std::uint32_t mean_ = 0;          // mean samples per pixel after the last round
+    std::uint32_t roundEnd_ = 0;      // the same after the current round
 };
 
 }  // namespace glim

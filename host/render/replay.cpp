@@ -12,30 +12,41 @@ T firstOf(const Buffer& buffer)
     return download<T>(buffer, 1)[0];
 }
 
-// Looks at the only path after each kernel. What a kernel adds is taken away at once, so that it is known exactly.
+// Looks at the only path after each kernel. What a kernel adds is taken out at once, so that it is known exactly.
 class PathRecorder {
 public:
-    explicit PathRecorder(std::vector<PathVertex>& vertices) : vertices_(vertices) {}
+    PathRecorder(std::vector<PathVertex>& vertices, std::uint32_t maxBounces, std::uint32_t recordCount)
+        : vertices_(vertices),
+          maxBounces_(maxBounces),
+          recordCount_(recordCount)
+    {}
 
-    void look(const std::string& kernel, const Pass& pass, PathBuffers& paths)
+    void look(const std::string& kernel, const CoursePass& at, PathBuffers& paths)
     {
-        const bool whole = pass.endRecord == pass.recordCount;  // brute force: the last of several dispatches
-        if (kernel == "trace_closest" && whole) {
+        const bool whole = at.lightRound.endRecord == recordCount_;  // brute force: the last of several dispatches
+        if (kernel == "trace_closest" || (kernel == "course_trace_closest" && whole)) {
             alive_ = firstOf<QueueSizes>(paths.queueSizes()).closest > 0;
             if (alive_) {
-                beginVertex(pass, paths);
+                beginVertex(at.pass, paths);
             }
-        } else if (alive_ && kernel == "sample_lights") {
-            takeSampled(pass, paths);
-        } else if (alive_ && kernel == "sample_hemisphere") {
-            vertices_.back().tries.emplace_back().hemisphere = true;
-        } else if (alive_ && (kernel == "trace_shadow" || kernel == "trace_hemisphere") && whole) {
-            takeTraced(paths);
-        } else if (alive_ && kernel == "bounce") {
-            endVertex(pass, paths);
+            return;
         }
-        if (kernel == "sample_lights" || kernel == "sample_hemisphere") {
-            ray_ = firstOf<ShadowRay>(paths.shadowRays());  // brute force changes it
+        if (!alive_) {
+            return;
+        }
+        if (kernel == "sample_lights_and_bounce") {
+            const PathNote note = paths.takeNote();
+            takeSampled(note, true, paths);
+            endVertex(note, at.pass, paths);
+        } else if (kernel == "course_sample_lights") {
+            takeSampled(paths.takeNote(), at.lightRound.addsEmission != 0, paths);
+        } else if (kernel == "course_sample_hemisphere") {
+            vertices_.back().sampledLights.emplace_back().hemisphere = true;
+            ray_ = firstOf<ShadowRay>(paths.shadowRays());
+        } else if (kernel == "trace_shadow" || (whole && (kernel == "course_trace_shadow" || kernel == "course_trace_hemisphere"))) {
+            takeTraced(paths);
+        } else if (kernel == "course_bounce") {
+            endVertex(paths.takeNote(), at.pass, paths);
         }
     }
 
@@ -51,55 +62,57 @@ private:
         paths.takeRadiance();
     }
 
-    void takeSampled(const Pass& pass, PathBuffers& paths)
+    // Records the light that the ray has hit, if the kernel adds it, and the light that was sampled.
+    void takeSampled(const PathNote& note, bool addsEmission, PathBuffers& paths)
     {
         PathVertex& vertex = vertices_.back();
-        const PathNote note = paths.takeNote();
-        if (pass.addsFound != 0) {
-            vertex.met = note;
-            vertex.found = paths.takeRadiance();
+        if (addsEmission) {
+            vertex.surface = note;
+            vertex.emitted = paths.takeRadiance();
         }
         if (note.light != kNothing) {
-            vertex.tries.emplace_back().note = note;
+            vertex.sampledLights.emplace_back().note = note;
         }
+        ray_ = firstOf<ShadowRay>(paths.shadowRays());  // brute force changes it
     }
 
     void takeTraced(PathBuffers& paths)
     {
         if (firstOf<QueueSizes>(paths.queueSizes()).shadow > 0) {
-            LightTry& last = vertices_.back().tries.back();
-            last.asked = true;
+            SampledLight& last = vertices_.back().sampledLights.back();
+            last.hasShadowRay = true;
             last.ray = ray_;
             last.added = paths.takeRadiance();
         }
     }
 
-    void endVertex(const Pass& pass, PathBuffers& paths)
+    void endVertex(const PathNote& note, const Pass& pass, PathBuffers& paths)
     {
         PathVertex& vertex = vertices_.back();
-        vertex.scattered = paths.takeNote();
+        vertex.bsdf = note;
         vertex.after = firstOf<PathState>(paths.states());
-        const bool goesOn = firstOf<QueueTails>(paths.queueTails()).next > 0;
-        vertex.fate = goesOn                                          ? PathFate::GoesOn
-                      : vertex.hit.record == kNoRecord                ? PathFate::Missed
-                      : pass.bounce == pass.maxBounces                ? PathFate::LastBounce
-                      : vertex.scattered.survival > 0.0F              ? PathFate::Roulette
-                      : vertex.scattered.throughput == glm::vec3(0.0F) ? PathFate::Absorbed
-                                                                      : PathFate::Redundant;
+        const bool continues = firstOf<QueueTails>(paths.queueTails()).next > 0;
+        vertex.end = continues                                   ? PathEnd::Continues
+                     : vertex.hit.record == kNoRecord            ? PathEnd::Missed
+                     : pass.bounce == maxBounces_                ? PathEnd::LastBounce
+                     : vertex.bsdf.continuation > 0.0F           ? PathEnd::Roulette
+                     : vertex.bsdf.throughput == glm::vec3(0.0F) ? PathEnd::Absorbed
+                                                                 : PathEnd::Redundant;
     }
 
     std::vector<PathVertex>& vertices_;
+    std::uint32_t maxBounces_, recordCount_;
     ShadowRay ray_{};
     bool alive_ = false;
 };
 
-// One path needs no more, and every path is independent of who else is sampled.
+// The settings for one path, which does not depend on the others of its render.
 RenderSettings settingsOfOne(RenderSettings settings)
 {
     settings.adaptive = Adaptive::Off;
     settings.suspects = 0;
     settings.notes = true;
-    settings.schedule = Schedule::Wavefront;  // between whose kernels there is something to see
+    settings.schedule = Schedule::Wavefront;  // the path can be looked at between its kernels
     settings.pathCapacity = kBlockSamples;
     return settings;
 }
@@ -107,18 +120,19 @@ RenderSettings settingsOfOne(RenderSettings settings)
 }  // namespace
 
 Replay::Replay(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
-    : device_(device), wavefront_(device, scene, camera, settingsOfOne(settings))
-{
-}
+    : device_(device),
+      maxBounces_(pathLengths(settings).maxBounces),
+      recordCount_(static_cast<std::uint32_t>(scene.records.size()) / kRecordTexels),
+      wavefront_(device, scene, camera, settingsOfOne(settings))
+{}
 
 ReplayedPath Replay::trace(std::uint32_t pixel, std::uint32_t sample)
 {
     ReplayedPath path;
     path.radiance = wavefront_.traceSample(pixel, sample);
-    PathRecorder recorder(path.vertices);
-    wavefront_.traceSample(pixel, sample, [&](const std::string& kernel, const Pass& pass, PathBuffers& paths) {
-        recorder.look(kernel, pass, paths);
-    });
+    PathRecorder recorder(path.vertices, maxBounces_, recordCount_);
+    wavefront_.traceSample(
+        pixel, sample, [&](const std::string& kernel, const CoursePass& pass, PathBuffers& paths) { recorder.look(kernel, pass, paths); });
     refuseBrokenStatus(device_.description(), wavefront_.paths());
     return path;
 }

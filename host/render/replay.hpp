@@ -1,4 +1,4 @@
-// One path of a render once more, alone, with everything that happens to it: by the kernels of the render in their order.
+// Traces one path of a render again, alone, with the same kernels in the same order, and records everything that happens to it.
 #pragma once
 
 #include "host/render/wavefront.hpp"
@@ -8,45 +8,45 @@
 namespace glim {
 
 // A round of direct light at a vertex.
-struct LightTry {
-    PathNote note{};        // which light, with which pdfs and weight; over the hemisphere there is none
+struct SampledLight {
+    PathNote note{};  // which light, with which pdfs and weight; unset over the hemisphere
     bool hemisphere = false;
-    bool asked = false;     // a shadow ray set out; else nothing could have come of it
-    ShadowRay ray{};        // if asked
-    PathRadiance added{};   // nothing in the shadow
+    bool hasShadowRay = false;  // a shadow ray was traced; without one, nothing could be added
+    ShadowRay ray{};            // if hasShadowRay
+    PathRadiance added{};       // black if the shadow ray was blocked
 };
 
-enum class PathFate {
-    GoesOn,
+enum class PathEnd {
+    Continues,
     Missed,      // the ray met nothing
     LastBounce,  // has met as many surfaces as --bounces or --paths allow
-    Absorbed,    // scattered with weight 0: into a black or out of the wrong side of a surface
-    Redundant,   // could only have found light that was sampled already
+    Absorbed,    // scattered with weight 0: the surface is black, or the direction leaves on the wrong side
+    Redundant,   // the next ray could only have hit light that was sampled already
     Roulette
 };
 
 // A hit, or the miss that ends the path.
 struct PathVertex {
     std::uint32_t bounce = 0;
-    PathRay ray{};          // that led here
-    PathState before{};     // throughput here, pdf of the ray
+    PathRay ray{};       // the ray that led here
+    PathState before{};  // throughput here, pdf of the ray
     PathHit hit{};
-    PathNote met{};         // the surface, and the light that the ray has found
-    PathRadiance found{};   // that this added
-    std::vector<LightTry> tries;
-    PathNote scattered{};   // weight, throughput and survival
-    PathFate fate = PathFate::GoesOn;
-    PathState after{};      // of the next ray, if it goes on
+    PathNote surface{};      // the surface, and the light that the ray has hit
+    PathRadiance emitted{};  // the radiance that this light added
+    std::vector<SampledLight> sampledLights;
+    PathNote bsdf{};  // weight, throughput and probability to continue
+    PathEnd end = PathEnd::Continues;
+    PathState after{};  // state of the next ray, if the path continues
 };
 
 struct ReplayedPath {
     std::vector<PathVertex> vertices;
-    PathRadiance radiance{};  // the bits of the render's sample: the sum in float32 of all that was added, in order
+    PathRadiance radiance{};  // the render's sample bit for bit: the float32 sum of all that was added, in order
 };
 
 class Replay {
 public:
-    // `settings` are those of the render; how many samples it takes, and where, changes nothing.
+    // `settings` are those of the render; the number and allocation of its samples do not matter.
     Replay(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
 
     // Throws DeviceError as Renderer::render does.
@@ -54,6 +54,7 @@ public:
 
 private:
     const Device& device_;
+    std::uint32_t maxBounces_, recordCount_;
     Wavefront wavefront_;
 };
 

@@ -11,32 +11,32 @@ std::string describeSettings(const RenderSettings& settings)
 {
     constexpr const char* kDirect[] = {"mis", "lights", "hemisphere", "bsdf"};
     constexpr const char* kPaths[] = {"all", "emission", "direct", "indirect"};
-    constexpr const char* kViews[] = {"shaded", "normal", "depth", "albedo", "bvh-steps"};
+    constexpr const char* kAovs[] = {"shaded", "normal", "depth", "albedo", "bvh-steps", "samples"};
     std::ostringstream text;
     text << "seed=" << settings.seed << " bounces=" << settings.bounces
          << " sampler=" << (settings.sampler == Sampler::Sobol ? "sobol" : "independent")
-         << " intersector=" << (settings.intersector == Intersector::Watertight ? "watertight" : "moller-trumbore");
-    if (settings.direct != DirectLight::Mis) {
-        text << " direct=" << kDirect[static_cast<int>(settings.direct)];
+         << " intersector=" << (settings.course.intersector == Intersector::Watertight ? "watertight" : "moller-trumbore");
+    if (settings.course.direct != DirectLight::Mis) {
+        text << " direct=" << kDirect[static_cast<int>(settings.course.direct)];
     }
-    if (settings.lightSamples != 1) {
-        text << " light-samples=" << settings.lightSamples;
+    if (settings.course.lightSamples != 1) {
+        text << " light-samples=" << settings.course.lightSamples;
     }
     if (settings.paths != PathParts::All) {
         text << " paths=" << kPaths[static_cast<int>(settings.paths)];
     }
-    if (settings.roulette != Roulette::Throughput) {
-        text << " roulette=" << (settings.roulette == Roulette::None ? "none" : "fixed:" + exactText(settings.survival));
+    if (settings.course.roulette != Roulette::Throughput) {
+        text << " roulette=" << (settings.course.roulette == Roulette::None ? "none" : "fixed:" + exactText(settings.course.survival));
     }
-    if (settings.view != View::Shaded) {
-        text << " view=" << kViews[static_cast<int>(settings.view)];
+    if (settings.aov != Aov::Radiance) {
+        text << " view=" << kAovs[static_cast<int>(settings.aov)];
     }
     if (isNeighbours(settings.adaptive)) {
         text << " adaptive=" << (settings.adaptive == Adaptive::Neighbours ? "neighbours" : "neighbours:absolute");
     }
     if (isCourse(settings.adaptive)) {
         text << " adaptive=" << (settings.adaptive == Adaptive::Course ? "course" : "course:literal")
-             << " tolerance=" << exactText(settings.tolerance) << " batch=" << settings.batch
+             << " tolerance=" << exactText(settings.course.tolerance) << " batch=" << settings.course.batch
              << " max-spp=" << settings.sampleEnd;
     }
     if (std::isfinite(settings.clampIndirect)) {

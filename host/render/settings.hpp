@@ -14,92 +14,96 @@ enum class Sampler { Sobol, Independent };
 enum class Intersector { Watertight, MollerTrumbore };
 enum class Accelerator { Bvh, None };
 
-// How the light that reaches a hit straight from a source is estimated. All have the same expectation: a light that no
-// direction can find (point, spot, directional) is sampled in each of them.
+// How direct light is estimated at a hit. All have the same expectation: each samples the lights that no ray can hit (point, spot,
+// directional).
 enum class DirectLight {
-    Mis,         // one light by power and the scattered ray, weighted by the power heuristic
+    Mis,         // one light by power and one BSDF sample, weighted by the power heuristic
     Lights,      // every light, lightSamples times each
     Hemisphere,  // lightSamples directions, uniform over the hemisphere
-    Bsdf,        // the scattered ray alone
+    Bsdf,        // the BSDF sample alone
 };
 
-// Which kernels trace a pass, to the same bits: one per step of all its paths (wavefront.cpp), or one that traces path after path to
-// its end (wavefront_persistent.cpp).
-// Auto: where both can, the one that is known to be faster on the device; else persistent on software devices, where it was faster in
-// every scene measured, and wavefront on GPUs, none of which was.
+// Which kernels trace a pass, with the same bits: one for each step of all paths, or one that traces path after path to its end
+// (wavefront.cpp).
+// Auto: if both can, the one known to be faster on the device. If none is known: persistent on software devices, where it was faster in
+// every scene measured, and wavefront on GPUs, none of which was measured.
 enum class Schedule { Auto, Wavefront, Persistent };
 
-// Light by the surfaces it has met between source and camera: none, one, two or more.
+// Light by the number of surfaces between source and camera: any, none, one, two or more.
 enum class PathParts { All, Emission, Direct, Indirect };
 
 enum class Roulette { Throughput, Fixed, None };
 
-// What the picture shows of what the camera rays meet; all but Shaded end there.
-enum class View { Shaded, Normal, Depth, Albedo, BvhSteps };
+// Arbitrary output variables: what a picture shows. The values are those of kAovRadiance ... (shaders/shared/bindings.h). Renders of
+// Normal, Depth, Albedo and BvhSteps end at the camera ray's first hit; SampleCount is known of every film.
+enum class Aov : std::uint32_t { Radiance, Normal, Depth, Albedo, BvhSteps, SampleCount };
 
-// Course: Berkeley's CS 184 path tracer, which stops a pixel once 1.96 s / sqrt(n) <= tolerance * mean of luminance. Neighbours: the
-// more samples, the noisier a pixel's neighbours are, relative to their radiance or in absolute terms (allocate_samples.hpp).
+// Course: Berkeley's CS 184 path tracer, which stops a pixel once 1.96 s / sqrt(n) <= tolerance * mean of luminance. Neighbours: a pixel
+// gets more samples the noisier its neighbours are, relative to their radiance or in absolute terms (allocate_samples.hpp).
 enum class Adaptive { Off, Course, CourseLiteral, Neighbours, NeighboursAbsolute };
 
-// Whose error is known, that of the samples from `begin` on: two blocks.
+// The fewest samples from `begin` on whose error can be estimated: two blocks. The first kBlockSamples of a pixel are two.
 inline std::uint32_t leastSamplesForError(std::uint32_t begin) { return begin == 0 ? kBlockSamples : 2 * kBlockSamples; }
 
-// That Neighbours begins with everywhere. Two blocks are the fewest that tell a variance; of 48 neighbours they tell it well enough.
+// The samples of every pixel that Neighbours begins with. Two blocks are the fewest that give a variance; 48 neighbours give it well
+// enough.
 inline constexpr std::uint32_t kPilotSamples = kBlockSamples;
 
-struct RenderSettings {
-    std::uint32_t width = 512, height = 512;
-    std::uint32_t sampleBegin = 0, sampleEnd = 64;  // absolute indices, [begin, end)
-    std::uint32_t bounces = 64;                     // surface events between camera and light
-    std::uint32_t seed = 0;
-    Sampler sampler = Sampler::Sobol;
+// The estimators of the course, beside the production path (course.hpp). With these defaults the production kernels trace.
+struct CourseSettings {
     Intersector intersector = Intersector::Watertight;
     Accelerator accelerator = Accelerator::Bvh;
     DirectLight direct = DirectLight::Mis;
     std::uint32_t lightSamples = 1;
-    PathParts paths = PathParts::All;
     Roulette roulette = Roulette::Throughput;
-    float survival = 0.7F;  // of Roulette::Fixed
-    View view = View::Shaded;
-    // Sample indices then begin at 0. Of Course they are independent, and a pixel has at most sampleEnd; of Neighbours, pixels have
-    // sampleEnd on average, half of which are all pixels' first.
+    float survival = 0.7F;     // probability, of Roulette::Fixed
+    float tolerance = 0.05F;   // of Adaptive::Course
+    std::uint32_t batch = 32;  // of Adaptive::Course: samples between two tests of a pixel
+};
+
+struct RenderSettings {
+    std::uint32_t width = 512, height = 512;
+    std::uint32_t sampleBegin = 0, sampleEnd = 64;  // absolute indices, [begin, end)
+    std::uint32_t bounces = 64;                     // surfaces between camera and light
+    std::uint32_t seed = 0;
+    Sampler sampler = Sampler::Sobol;
+    PathParts paths = PathParts::All;
+    Aov aov = Aov::Radiance;
+    // Unless Off, sample indices begin at 0. Course: samples are independent, and a pixel has at most sampleEnd. Neighbours: pixels have
+    // sampleEnd on average; half of these are the same for all pixels.
     Adaptive adaptive = Adaptive::Off;
-    float tolerance = 0.05F;   // of Course
-    std::uint32_t batch = 32;  // of Course: samples between two looks at a pixel
     float clampIndirect = std::numeric_limits<float>::infinity();
+    CourseSettings course;
     std::optional<double> seconds;  // stop sampling after this long
 
-    // What is kept besides the picture, of which this changes no bit.
-    std::uint32_t suspects = 0;  // brightest samples to list; each pixel keeps its own (suspects.hpp)
-    bool notes = false;          // kernels note what they find out about the only path of a pass (replay.hpp)
+    // What is recorded besides the picture. This changes no bit of it.
+    std::uint32_t suspects = 0;  // how many of the brightest samples to list; each pixel keeps its own (suspects.hpp)
+    bool notes = false;          // kernels record what happens to the only path of a pass (replay.hpp)
 
     // How the work is cut: these change no bit of the picture.
     Schedule schedule = Schedule::Auto;
-    Schedule fastest = Schedule::Auto;   // that is known of the device; Auto: none is
-    std::uint32_t workgroup = 64;        // invocations
+    Schedule fastest = Schedule::Auto;      // the faster one on this device; Auto: unknown
+    std::uint32_t workgroup = 64;           // invocations
     std::uint32_t pathCapacity = 1U << 18;  // paths in flight, at least kBlockSamples
-    std::uint32_t slabPixels = 1U << 20;    // most pixels of a slab: no buffer of the film exceeds 128 MiB, llvmpipe's limit
-    std::uint32_t portion = 64;          // dispatches that run before it is asked whether the pass goes on
-    double passSeconds = 1.0;            // that a pass should take at most: nobody is answered before its end
+    std::uint32_t tilePixels = 1U << 20;    // most pixels of a tile: no buffer of the film exceeds 128 MiB, llvmpipe's limit
+    std::uint32_t portion = 64;             // dispatches between two checks whether the pass goes on
+    double passSeconds = 1.0;               // the most that a pass should take; callers wait for its end
 };
 
-// As --schedule and the statistics have it.
+// The name that --schedule and the statistics use.
 inline const char* nameOf(Schedule schedule)
 {
     return schedule == Schedule::Persistent ? "persistent" : schedule == Schedule::Wavefront ? "wavefront" : "auto";
 }
 
 inline bool isCourse(Adaptive adaptive) { return adaptive == Adaptive::Course || adaptive == Adaptive::CourseLiteral; }
-inline bool isNeighbours(Adaptive adaptive)
-{
-    return adaptive == Adaptive::Neighbours || adaptive == Adaptive::NeighboursAbsolute;
-}
+inline bool isNeighbours(Adaptive adaptive) { return adaptive == Adaptive::Neighbours || adaptive == Adaptive::NeighboursAbsolute; }
 
-// Every setting that changes a sample, as "name=value ..."; part of a film's identity. Those that later versions of glim added
-// are named where they are not at their default.
+// Every setting that changes a sample, as "name=value ..."; part of a film's identity. Settings that later versions of glim added are
+// listed only if they are not at their default.
 std::string describeSettings(const RenderSettings& settings);
 
-// What `description` says of the setting `name`; empty if nothing.
+// The value of the setting `name` in `description`; empty if absent.
 std::string findSetting(const std::string& description, const std::string& name);
 
 }  // namespace glim

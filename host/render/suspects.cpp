@@ -6,25 +6,22 @@ namespace glim {
 namespace {
 
 // Rec.709, as stop_rule.glsl has it.
-double luminanceOf(const glm::vec3& radiance)
-{
-    return glm::dot(glm::dvec3(radiance), glm::dvec3(0.2126, 0.7152, 0.0722));
-}
+double luminanceOf(const glm::vec3& radiance) { return glm::dot(glm::dvec3(radiance), glm::dvec3(0.2126, 0.7152, 0.0722)); }
 
 struct Brightest {
     float luminance;
     std::uint32_t pixel, sampleIndex;
 };
 
-// Of all pixels that are not black, the first `count`.
+// The `count` pixels with the brightest samples, none of them black.
 std::vector<Brightest> findBrightest(const Renderer& renderer, std::size_t count)
 {
     std::vector<Brightest> found;
-    for (const auto& slab : renderer.slabs()) {
-        const std::vector<BrightestSample> samples = download<BrightestSample>(slab->brightest(), slab->count());
-        for (std::uint32_t i = 0; i < slab->count(); ++i) {
+    for (const auto& tile : renderer.tiles()) {
+        const std::vector<BrightestSample> samples = download<BrightestSample>(tile->brightest(), tile->count());
+        for (std::uint32_t i = 0; i < tile->count(); ++i) {
             if (samples[i].luminance > 0.0F) {
-                found.push_back({samples[i].luminance, slab->begin() + i, samples[i].sampleIndex});
+                found.push_back({samples[i].luminance, tile->begin() + i, samples[i].sampleIndex});
             }
         }
     }

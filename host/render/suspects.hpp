@@ -6,16 +6,16 @@
 namespace glim {
 
 struct Suspect {
-    std::uint32_t pixel;       // index in the picture
+    std::uint32_t pixel;  // index in the picture
     std::uint32_t sampleIndex;
     glm::vec3 radiance;
     double luminance;
-    double shareOfPixel;       // of the sum of its pixel's luminances
-    double shareOfPicture;     // of the sum of the pixels' means
+    double shareOfPixel;    // of the sum of its pixel's luminances
+    double shareOfPicture;  // of the sum of the pixels' means
 };
 
-// The brightest samples of `film`, which `renderer` has rendered, as many as its settings ask for, at most one of a pixel and
-// none that is black. Brightest first; ties go to the lower pixel, whose lower sample it is.
+// Returns the brightest samples of `film`, which `renderer` has rendered: as many as its settings ask for, at most one per pixel, none of
+// them black, the brightest first. Ties go to the lower pixel and, within a pixel, to the lower sample.
 std::vector<Suspect> findSuspects(Renderer& renderer, const Film& film);
 
 }  // namespace glim

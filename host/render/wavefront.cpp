@@ -1,188 +1,179 @@
-// A pass traces some samples of some pixels to their end:
+// A pass traces some samples of some pixels to their end. The wavefront:
 //
 //   generate_rays
-//   per bounce:  size_dispatch -> trace_closest
-//                per round of direct light:  sample_lights -> size_dispatch -> trace_shadow
-//                bounce
+//   per bounce:  size_dispatch -> trace_closest -> sample_lights_and_bounce -> size_dispatch -> trace_shadow
 //   accumulate
 //
-// A round over the hemisphere has sample_hemisphere and trace_hemisphere instead. --view puts show_view before accumulate. Brute
-// force repeats each trace_ for the next records. In the persistent schedule, trace_paths alone stands for all bounces
-// (wavefront_persistent.cpp).
+// The persistent schedule, in which one kernel traces path after path to its end:
+//
+//   generate_rays
+//   until no path is left:  size_dispatch -> trace_paths
+//   accumulate
+//
+// Nearly always one dispatch of trace_paths suffices: its threads put a path aside only once they have taken as many steps as a dispatch
+// may take. No path waits for others, nor for memory between its steps.
+//
+// AOVs insert show_aov before accumulate. The course's estimators have bounces of their own (course.hpp).
 #include "host/render/wavefront.hpp"
 
+#include "host/error.hpp"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/limits.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <cstring>
 
 namespace glim {
 namespace {
 
-// Bounces recorded at once; then the host looks whether any path is alive.
+// Bounces recorded at once; then the host checks whether any path is alive.
 constexpr std::uint32_t kBouncesPerLook = 8;
-
-Pass passTemplate(const FlatScene& scene, const RenderSettings& settings)
-{
-    Pass pass{};
-    pass.width = settings.width;
-    pass.height = settings.height;
-    pass.seed = settings.seed;
-    pass.lightCount = static_cast<std::uint32_t>(scene.lights.size());
-    pass.environment = scene.environment;
-    pass.environmentLight = scene.environmentLight;
-    pass.clampIndirect = settings.clampIndirect;
-    pass.canarySteps = 3;
-    pass.leastEvents = settings.paths == PathParts::Direct ? 1 : settings.paths == PathParts::Indirect ? 2 : 0;
-    pass.mostEvents = settings.paths == PathParts::Emission ? 0 : settings.paths == PathParts::Direct ? 1 : settings.bounces;
-    pass.maxBounces = settings.view == View::Shaded ? std::min(settings.bounces, pass.mostEvents) : 0;
-    pass.survival = settings.survival;
-    pass.recordCount = static_cast<std::uint32_t>(scene.records.size()) / kRecordTexels;
-    pass.endRecord = pass.recordCount;
-    pass.tolerance = settings.tolerance;
-    pass.constantSamples = settings.adaptive == Adaptive::CourseLiteral ? 0 : kConstantSamples;
-    return pass;
-}
 
 }  // namespace
 
+Schedule chooseSchedule(const RenderSettings& settings, const DeviceDescription& device)
+{
+    const bool course = usesCourseEstimators(settings);
+    if (settings.schedule == Schedule::Persistent && course) {
+        throw InputError(
+            "--schedule persistent: the course's estimators (--direct, --roulette, --accelerator, --intersector) have no "
+            "such kernel; expected --schedule wavefront or none of them.");
+    }
+    if (settings.schedule != Schedule::Auto) {
+        return settings.schedule;
+    }
+    const bool known = settings.fastest != Schedule::Auto;
+    return !course && (known ? settings.fastest == Schedule::Persistent : device.software) ? Schedule::Persistent : Schedule::Wavefront;
+}
+
 Wavefront::Wavefront(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
-    : device_(device), settings_(settings), rounds_(lightRounds(scene, settings)),
-      schedule_(chooseSchedule(settings, rounds_.size(), device.description())), template_(passTemplate(scene, settings)),
-      ownScene_(std::in_place, device, scene), ownPaths_(std::in_place, device, settings.pathCapacity), scene_(*ownScene_),
-      paths_(*ownPaths_), camera_(device, camera), layout_(device, kernelSlots(), sizeof(Pass)),
-      kernels_(layout_, specialize(scene.features, camera, settings), schedule_)
+    : device_(device),
+      settings_(settings),
+      schedule_(chooseSchedule(settings, device.description())),
+      own_(SharedResources{DeviceScene(device, scene), PathBuffers(device, settings.pathCapacity)}),
+      shared_(*own_),
+      parameters_(device, scene, camera, settings),
+      course_(device, scene, settings),
+      layout_(device, kernelSlots(), sizeof(CoursePass)),
+      kernels_(layout_, scene, camera, settings, schedule_)
 {
     compile();
 }
 
-Wavefront::Wavefront(Wavefront& lender, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
-    : device_(lender.device_), settings_(settings), rounds_(lightRounds(scene, settings)),
-      schedule_(chooseSchedule(settings, rounds_.size(), device_.description())), template_(passTemplate(scene, settings)),
-      scene_(lender.scene_), paths_(lender.paths_), camera_(device_, camera), layout_(device_, kernelSlots(), sizeof(Pass)),
-      kernels_(layout_, specialize(scene.features, camera, settings), schedule_)
+Wavefront::Wavefront(Device& device, SharedResources& shared, const FlatScene& scene, const FlatCamera& camera,
+                     const RenderSettings& settings)
+    : device_(device),
+      settings_(settings),
+      schedule_(chooseSchedule(settings, device.description())),
+      shared_(shared),
+      parameters_(device, scene, camera, settings),
+      course_(device, scene, settings),
+      layout_(device, kernelSlots(), sizeof(CoursePass)),
+      kernels_(layout_, scene, camera, settings, schedule_)
 {
     compile();
 }
 
 void Wavefront::setCamera(const FlatCamera& camera, std::uint32_t width, std::uint32_t height)
 {
-    camera_.set(camera);
-    template_.width = width;
-    template_.height = height;
+    parameters_.setView(camera, width, height);
 }
 
-std::unique_ptr<Slab> Wavefront::makeSlab(std::uint32_t begin, std::uint32_t count)
+std::unique_ptr<Tile> Wavefront::makeTile(std::uint32_t begin, std::uint32_t count)
 {
-    return std::make_unique<Slab>(device_, layout_, scene_, camera_, paths_, begin, count, settings_);
+    BufferMap constants = shared_.scene.buffers();
+    constants.insert({{kBindParameters, &parameters_.buffer()}, {kBindCourseParameters, &course_.parameters()}});
+    return std::make_unique<Tile>(device_, layout_, constants, shared_.paths, begin, count, settings_);
 }
 
-// llvmpipe compiles at the first dispatch: one with nothing to do, so that no timed one pays.
+// llvmpipe compiles a kernel at its first dispatch. This one has nothing to do, so that no timed dispatch pays for that.
 void Wavefront::compile()
 {
     const auto start = std::chrono::steady_clock::now();
-    const std::unique_ptr<Slab> slab = makeSlab(0, 1);
-    Pass pass = passOf(*slab);
-    pass.bounce = 1;
-    pass.sizes = kSizesPaths | kSizesShadow;
+    const std::unique_ptr<Tile> tile = makeTile(0, 1);
+    CoursePass nothing{passOf(*tile), {}};
+    nothing.pass.bounce = 1;
+    nothing.pass.sizes = kSizesPaths | kSizesShadow;
     Commands commands(device_);
     for (const Kernel* kernel : kernels_.all()) {
-        commands.dispatch(*kernel, slab->bindings(0), std::as_bytes(std::span<const Pass, 1>(&pass, 1)), 1);
+        commands.dispatch(*kernel, tile->bindings(0), std::as_bytes(std::span<const CoursePass, 1>(&nothing, 1)), 1);
     }
     commands.submitAndWait();
     compileSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-Pass Wavefront::passOf(const Slab& slab) const
+Pass Wavefront::passOf(const Tile& tile) const
 {
-    Pass pass = template_;
-    pass.slabBegin = slab.begin();
+    Pass pass{};
+    pass.tileBegin = tile.begin();
     return pass;
 }
 
-std::uint32_t Wavefront::groupsOf(std::uint32_t count) const
-{
-    return (count + settings_.workgroup - 1) / settings_.workgroup;
-}
+std::uint32_t Wavefront::groupsOf(std::uint32_t count) const { return (count + settings_.workgroup - 1) / settings_.workgroup; }
 
-std::optional<PassSeconds> Wavefront::trace(const Slab& slab, Pass pass, const std::function<bool()>& goesOn)
+std::optional<PassSeconds> Wavefront::trace(const Tile& tile, Pass pass, const std::function<bool()>& shouldContinue)
 {
-    Recording recording(device_, statistics_, settings_.portion, goesOn);
-    tracePaths(recording, slab, pass);
+    Recording recording(device_, statistics_, settings_.portion, shouldContinue);
+    tracePaths(recording, tile, pass);
     if (recording.isStopped()) {
-        paths_.emptyQueues();
+        shared_.paths.emptyQueues();
         return std::nullopt;
     }
-    if (kernels_.showView) {
-        recording.dispatch(*kernels_.showView, slab.bindings(0), pass, groupsOf(pass.pixelCount * pass.sampleCount));
+    if (kernels_.showAov) {
+        recording.dispatch(*kernels_.showAov, tile.bindings(0), pass, groupsOf(pass.pixelCount * pass.sampleCount));
     }
-    recording.dispatch(*kernels_.accumulate, slab.bindings(0), pass, groupsOf(pass.pixelCount));
+    recording.dispatch(*kernels_.accumulate, tile.bindings(0), pass, groupsOf(pass.pixelCount));
+    course_.recordLuminance(recording, kernels_, tile.bindings(0), pass, groupsOf(pass.pixelCount));
     recording.finish();
     return PassSeconds{recording.longest(), recording.total()};
 }
 
-void Wavefront::tracePaths(Recording& recording, const Slab& slab, Pass& pass)
+void Wavefront::tracePaths(Recording& recording, const Tile& tile, Pass& pass)
 {
+    // generate_rays fills the queue that bounce 0 reads: the next queue of the odd bindings.
+    recording.dispatch(*kernels_.generateRays, tile.bindings(1), pass, groupsOf(pass.pixelCount * pass.sampleCount));
     if (kernels_.tracePaths) {
-        tracePersistently(recording, slab, pass);
-        return;
+        tracePersistently(recording, tile, pass);
+    } else {
+        traceByWavefront(recording, tile, pass);
     }
+}
+
+bool Wavefront::isAnyPathAlive(const Recording& recording) const
+{
+    return !recording.isStopped() && download<QueueSizes>(shared_.paths.queueSizes(), 1)[0].closest > 0;
+}
+
+void Wavefront::traceByWavefront(Recording& recording, const Tile& tile, Pass& pass)
+{
+    const std::uint32_t maxBounces = pathLengths(settings_).maxBounces;
+    recordSize(recording, tile.bindings(0), pass, kSizesPaths);
     bool alive = true;
-    for (std::uint32_t bounce = 0; alive && bounce <= pass.maxBounces; bounce += kBouncesPerLook) {
-        if (bounce == 0) {
-            // generate_rays fills what bounce 0 reads: its next queue is the odd bindings' one.
-            recording.dispatch(*kernels_.generateRays, slab.bindings(1), pass, groupsOf(pass.pixelCount * pass.sampleCount));
-        }
-        const std::uint32_t end = std::min(pass.maxBounces, bounce + kBouncesPerLook - 1);
-        for (pass.bounce = bounce; pass.bounce <= end; ++pass.bounce) {
-            recordBounce(recording, slab, pass);
+    while (alive && pass.bounce <= maxBounces) {
+        for (const std::uint32_t end = pass.bounce + kBouncesPerLook; pass.bounce <= maxBounces && pass.bounce < end; ++pass.bounce) {
+            recordBounce(recording, tile.bindings(pass.bounce % 2), pass);
         }
         recording.finish();
-        alive = !recording.isStopped() && download<QueueSizes>(paths_.queueSizes(), 1)[0].closest > 0;
+        alive = isAnyPathAlive(recording);
     }
 }
 
-void Wavefront::recordBounce(Recording& recording, const Slab& slab, const Pass& pass) const
+void Wavefront::recordBounce(Recording& recording, const Bindings& bindings, const Pass& pass) const
 {
-    const Bindings& bindings = slab.bindings(pass.bounce % 2);
-    if (pass.bounce == 0) {
-        recordSize(recording, bindings, pass, kSizesPaths);
-    }
-    recordTrace(recording, *kernels_.traceClosest, bindings, pass, offsetof(QueueSizes, closestGroups));
-    recordRounds(recording, bindings, pass);
-    recording.dispatchIndirect(*kernels_.bounce, bindings, pass, paths_.queueSizes(), offsetof(QueueSizes, closestGroups));
+    const Buffer& sizes = shared_.paths.queueSizes();
     Pass next = pass;
     next.bounce = pass.bounce + 1;
-    recordSize(recording, bindings, next, kSizesPaths);
-}
-
-void Wavefront::recordRounds(Recording& recording, const Bindings& bindings, const Pass& pass) const
-{
-    // Light sampled here has met one surface more than the path; the last hit only finds light.
-    const bool counts = pass.bounce < pass.maxBounces && pass.bounce + 1 >= pass.leastEvents;
-    const std::vector<LightRound> finding = {{false, kNoLightIndex}};
-    Pass round = pass;
-    round.addsFound = 1;
-    for (const LightRound& each : counts ? rounds_ : finding) {
-        round.light = each.light;
-        round.lightSample = each.sample;
-        round.lightSamples = each.samples;
-        recordRound(recording, bindings, round, each.hemisphere);
-        round.addsFound = 0;
+    if (usesCourseEstimators(settings_)) {
+        course_.recordBounce(recording, kernels_, bindings, pass, sizes);
+        recordSize(recording, bindings, next, kSizesPaths);
+        return;
     }
-}
-
-void Wavefront::recordRound(Recording& recording, const Bindings& bindings, const Pass& round, bool hemisphere) const
-{
-    const Kernel& sample = hemisphere ? *kernels_.sampleHemisphere : *kernels_.sampleLights;
-    recording.dispatchIndirect(sample, bindings, round, paths_.queueSizes(), offsetof(QueueSizes, closestGroups));
-    if (hemisphere || round.light != kNoLightIndex) {
-        recordSize(recording, bindings, round, kSizesShadow);
-        recordTrace(recording, hemisphere ? *kernels_.traceHemisphere : *kernels_.traceShadow, bindings, round,
-                    offsetof(QueueSizes, shadowGroups));
-    }
+    recording.dispatchIndirect(*kernels_.traceClosest, bindings, pass, sizes, offsetof(QueueSizes, closestGroups));
+    recording.dispatchIndirect(*kernels_.sampleLightsAndBounce, bindings, pass, sizes, offsetof(QueueSizes, closestGroups));
+    recordSize(recording, bindings, next, kSizesPaths | kSizesShadow);
+    recording.dispatchIndirect(*kernels_.traceShadow, bindings, pass, sizes, offsetof(QueueSizes, shadowGroups));
 }
 
 void Wavefront::recordSize(Recording& recording, const Bindings& bindings, Pass pass, std::uint32_t queues) const
@@ -191,87 +182,106 @@ void Wavefront::recordSize(Recording& recording, const Bindings& bindings, Pass 
     recording.dispatch(*kernels_.sizeDispatch, bindings, pass, 1);
 }
 
-void Wavefront::recordTrace(Recording& recording, const Kernel& kernel, const Bindings& bindings, Pass pass,
-                            std::uint64_t groupsOffset) const
+void Wavefront::recordTrace(Recording& recording, const std::optional<Kernel>& production, const std::optional<Kernel>& course,
+                            const Bindings& bindings, const Pass& pass, std::uint64_t groupsOffset) const
 {
-    const bool bruteForce = settings_.accelerator == Accelerator::None;
-    const std::uint32_t step = bruteForce ? kScanRecords : pass.recordCount;
-    for (pass.firstRecord = 0; pass.firstRecord < pass.recordCount; pass.firstRecord += step) {
-        pass.endRecord = std::min(pass.recordCount, pass.firstRecord + step);
-        recording.dispatchIndirect(kernel, bindings, pass, paths_.queueSizes(), groupsOffset);
+    if (usesCourseEstimators(settings_)) {
+        CoursePass round{pass, {}};
+        round.lightRound.lightSamples = 1;
+        course_.recordTrace(recording, course.value(), bindings, round, shared_.paths.queueSizes(), groupsOffset);
+    } else {
+        recording.dispatchIndirect(production.value(), bindings, pass, shared_.paths.queueSizes(), groupsOffset);
+    }
+}
+
+void Wavefront::tracePersistently(Recording& recording, const Tile& tile, Pass& pass)
+{
+    recordSize(recording, tile.bindings(0), pass, kSizesShares);
+    pass.bounce = 1;  // the queue is no longer that of all slots
+    bool alive = true;
+    for (std::uint32_t parity = 0; alive; parity = 1 - parity) {
+        const Bindings& bindings = tile.bindings(parity);
+        recording.dispatchIndirect(*kernels_.tracePaths, bindings, pass, shared_.paths.queueSizes(), offsetof(QueueSizes, closestGroups));
+        recordSize(recording, bindings, pass, kSizesShares);
+        recording.finish();
+        alive = isAnyPathAlive(recording);
     }
 }
 
 PathRadiance Wavefront::traceSample(std::uint32_t pixel, std::uint32_t sample, const PathWatch& watch)
 {
-    const std::unique_ptr<Slab> slab = makeSlab(pixel, 1);
-    Pass pass = passOf(*slab);
+    const std::unique_ptr<Tile> tile = makeTile(pixel, 1);
+    Pass pass = passOf(*tile);
     pass.pixelCount = pass.sampleCount = 1;
     pass.firstSample = sample;
-    this->watch(*slab, pass, watch);
-    return paths_.takeRadiance();
+    this->watch(*tile, pass, watch);
+    return shared_.paths.takeRadiance();
 }
 
-void Wavefront::watch(const Slab& slab, Pass pass, const PathWatch& watch)
+void Wavefront::watch(const Tile& tile, Pass pass, const PathWatch& watch)
 {
-    std::function<void(const Kernel&, const Pass&)> watchKernel;
+    Recording::Watch watchKernel;
     if (watch) {
-        watchKernel = [&](const Kernel& kernel, const Pass& dispatched) { watch(kernel.name(), dispatched, paths_); };
+        watchKernel = [&](const Kernel& kernel, std::span<const std::byte> push) {
+            CoursePass dispatched{};
+            std::memcpy(&dispatched, push.data(), push.size());
+            watch(kernel.name(), dispatched, shared_.paths);
+        };
     }
     Recording recording(device_, statistics_, watchKernel);
-    tracePaths(recording, slab, pass);
+    tracePaths(recording, tile, pass);
+    recording.finish();
 }
 
-std::vector<PathHit> Wavefront::traceRays(const Slab& slab, std::span<const PathRay> rays)
+std::vector<PathHit> Wavefront::traceRays(const Tile& tile, std::span<const PathRay> rays)
 {
-    paths_.queueRays(rays);
-    Pass pass = passOf(slab);
+    shared_.paths.queueRays(rays);
+    Pass pass = passOf(tile);
     pass.pixelCount = static_cast<std::uint32_t>(rays.size());
     pass.sampleCount = 1;
     Recording recording(device_, statistics_);
-    recordSize(recording, slab.bindings(0), pass, kSizesPaths);
-    recordTrace(recording, kernels_.traceClosest.value(), slab.bindings(0), pass, offsetof(QueueSizes, closestGroups));
+    recordSize(recording, tile.bindings(0), pass, kSizesPaths);
+    recordTrace(recording, kernels_.traceClosest, kernels_.course.traceClosest, tile.bindings(0), pass,
+                offsetof(QueueSizes, closestGroups));
     recording.finish();
-    return download<PathHit>(paths_.hits(), rays.size());
+    return download<PathHit>(shared_.paths.hits(), rays.size());
 }
 
-std::vector<bool> Wavefront::traceShadowRays(const Slab& slab, std::span<const ShadowRay> rays)
+std::vector<bool> Wavefront::traceShadowRays(const Tile& tile, std::span<const ShadowRay> rays)
 {
-    paths_.queueShadowRays(rays);
-    Pass pass = passOf(slab);
+    shared_.paths.queueShadowRays(rays);
+    Pass pass = passOf(tile);
     pass.pixelCount = static_cast<std::uint32_t>(rays.size());
     pass.sampleCount = 1;
-    pass.leastEvents = 0;
-    pass.mostEvents = 1;
     Recording recording(device_, statistics_);
-    recordSize(recording, slab.bindings(0), pass, kSizesShadow);
-    recordTrace(recording, kernels_.traceShadow.value(), slab.bindings(0), pass, offsetof(QueueSizes, shadowGroups));
+    recordSize(recording, tile.bindings(0), pass, kSizesShadow);
+    recordTrace(recording, kernels_.traceShadow, kernels_.course.traceShadow, tile.bindings(0), pass, offsetof(QueueSizes, shadowGroups));
     recording.finish();
-    const std::vector<PathRadiance> found = download<PathRadiance>(paths_.radiance(), rays.size());
+    const std::vector<PathRadiance> found = download<PathRadiance>(shared_.paths.radiance(), rays.size());
     std::vector<bool> free(rays.size());
     std::transform(found.begin(), found.end(), free.begin(), [](const PathRadiance& each) { return each.radiance.r > 0.0F; });
     return free;
 }
 
-void Wavefront::closeBlocks(const Slab& slab)
+void Wavefront::closeBlocks(const Tile& tile)
 {
-    Pass pass = passOf(slab);
-    pass.pixelCount = slab.count();
+    Pass pass = passOf(tile);
+    pass.pixelCount = tile.count();
     pass.accumulate = kEndsBlock | kEveryPixel;
     Recording recording(device_, statistics_);
-    recording.dispatch(*kernels_.accumulate, slab.bindings(0), pass, groupsOf(pass.pixelCount));
+    recording.dispatch(*kernels_.accumulate, tile.bindings(0), pass, groupsOf(pass.pixelCount));
     recording.finish();
 }
 
-void Wavefront::choosePixels(Slab& slab)
+void Wavefront::choosePixels(Tile& tile)
 {
-    slab.chooseNone();
-    Pass pass = passOf(slab);
-    pass.pixelCount = slab.count();
+    tile.chooseNone();
+    CoursePass all{passOf(tile), {}};
+    all.pass.pixelCount = tile.count();
     Recording recording(device_, statistics_);
-    recording.dispatch(*kernels_.choosePixels, slab.bindings(0), pass, groupsOf(pass.pixelCount));
+    recording.dispatch(*kernels_.course.choosePixels, tile.bindings(0), all, groupsOf(tile.count()));
     recording.finish();
-    slab.readChosenCount();
+    tile.readChosenCount();
 }
 
 }  // namespace glim

@@ -1,9 +1,10 @@
-// The kernels in their order: traces the paths of a pass to their end (wavefront.cpp).
+// Dispatches the kernels in their order: traces the paths of a pass to their end (wavefront.cpp).
 #pragma once
 
+#include "host/render/course.hpp"
 #include "host/render/device_scene.hpp"
 #include "host/render/kernel_set.hpp"
-#include "host/render/light_rounds.hpp"
+#include "host/render/parameters.hpp"
 #include "host/render/pass_size.hpp"
 #include "host/render/path_buffers.hpp"
 #include "host/render/recording.hpp"
@@ -12,77 +13,80 @@
 
 namespace glim {
 
-// Told after each kernel of a path: its name, its pass, and where to look.
-using PathWatch = std::function<void(const std::string& kernel, const Pass& pass, PathBuffers& paths)>;
+// Called after each kernel of a path with its name, its pass (and round, for a kernel of the course), and the buffers to look at.
+using PathWatch = std::function<void(const std::string& kernel, const CoursePass& pass, PathBuffers& paths)>;
 
-// The one that is to be used where each hit has `rounds` of direct light. Throws InputError if what was asked for cannot be.
-Schedule chooseSchedule(const RenderSettings& settings, std::size_t rounds, const DeviceDescription& device);
+// The schedule that a render is to use. Throws InputError if the one asked for cannot render the other settings.
+Schedule chooseSchedule(const RenderSettings& settings, const DeviceDescription& device);
+
+// What several renders of one scene may share. Only one of them may render at a time.
+struct SharedResources {
+    DeviceScene scene;
+    PathBuffers paths;
+};
 
 class Wavefront {
 public:
     // Uploads the scene and compiles the kernels for what it needs.
     Wavefront(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
 
-    // The same of the scene and in the buffers of `lender`, which must outlive it and be at rest while it traces.
-    Wavefront(Wavefront& lender, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
+    // Uses the resources of another one of the same scene, which must outlive this one and be idle while it traces.
+    Wavefront(Device& device, SharedResources& shared, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
+    SharedResources& shared() { return shared_; }
 
-    // Of the passes from now on. The camera has a lens if and only if the first one had.
+    // Sets the camera of the following passes. It has a lens if and only if the first one had.
     void setCamera(const FlatCamera& camera, std::uint32_t width, std::uint32_t height);
-    void setSeed(std::uint32_t seed) { template_.seed = seed; }
+    void setSeed(std::uint32_t seed) { parameters_.setSeed(seed); }
 
-    // Pixels of the film; every one is chosen.
-    std::unique_ptr<Slab> makeSlab(std::uint32_t begin, std::uint32_t count);
+    // A tile of the film's pixels, all of them chosen.
+    std::unique_ptr<Tile> makeTile(std::uint32_t begin, std::uint32_t count);
 
-    // A pass over `slab` with nothing in it yet.
-    Pass passOf(const Slab& slab) const;
-    // Traces the pass and adds its samples to the film. Returns what it took; nothing, and the film is as it was, if `goesOn`, asked
-    // every so many dispatches, ended it.
-    std::optional<PassSeconds> trace(const Slab& slab, Pass pass, const std::function<bool()>& goesOn);
-    // One sample of one pixel alone, added to no film. With a watch that takes radiance, what it has left.
+    // An empty pass over `tile`.
+    Pass passOf(const Tile& tile) const;
+    // Traces the pass and adds its samples to the film. Returns the time it took. Returns nothing, and leaves the film as it was, if
+    // `shouldContinue`, asked after each portion of dispatches, ended it.
+    std::optional<PassSeconds> trace(const Tile& tile, Pass pass, const std::function<bool()>& shouldContinue);
+    // Traces one sample of one pixel, and adds it to no film. If the watch takes radiance, returns what it has left.
     PathRadiance traceSample(std::uint32_t pixel, std::uint32_t sample, const PathWatch& watch = nullptr);
-    // Calls `watch` after each kernel of a pass that is added to no film.
-    void watch(const Slab& slab, Pass pass, const PathWatch& watch);
-    // Rays alone, no more than the settings' pathCapacity; between passes, and by the wavefront's kernels: std::bad_optional_access
-    // with the persistent schedule, which does not compile them.
-    std::vector<PathHit> traceRays(const Slab& slab, std::span<const PathRay> rays);
-    // Whether each is free.
-    std::vector<bool> traceShadowRays(const Slab& slab, std::span<const ShadowRay> rays);
-    // Folds the blocks of all pixels, chosen or not, that are under way into their pages.
-    void closeBlocks(const Slab& slab);
+    // Traces a pass that is added to no film, and calls `watch` after each kernel.
+    void watch(const Tile& tile, Pass pass, const PathWatch& watch);
+    // Traces rays alone, at most the settings' pathCapacity, between passes. Uses the wavefront's kernels: throws
+    // std::bad_optional_access with the persistent schedule, which does not compile them.
+    std::vector<PathHit> traceRays(const Tile& tile, std::span<const PathRay> rays);
+    // Whether each is unoccluded. Light that has met one surface must count (--bounces 1 or more).
+    std::vector<bool> traceShadowRays(const Tile& tile, std::span<const ShadowRay> rays);
+    // Folds the open blocks of all pixels, chosen or not, into their pages.
+    void closeBlocks(const Tile& tile);
     // Chooses the pixels that still need samples.
-    void choosePixels(Slab& slab);
+    void choosePixels(Tile& tile);
 
-    const PathBuffers& paths() const { return paths_; }
+    const PathBuffers& paths() const { return shared_.paths; }
     Schedule schedule() const { return schedule_; }  // never Auto
     double compileSeconds() const { return compileSeconds_; }
     const std::map<std::string, KernelStatistics>& statistics() const { return statistics_; }
 
 private:
     void compile();
-    void tracePaths(Recording& recording, const Slab& slab, Pass& pass);
-    // In wavefront_persistent.cpp.
-    void tracePersistently(Recording& recording, const Slab& slab, Pass& pass);
-    void recordBounce(Recording& recording, const Slab& slab, const Pass& pass) const;
-    void recordRounds(Recording& recording, const Bindings& bindings, const Pass& pass) const;
-    void recordRound(Recording& recording, const Bindings& bindings, const Pass& round, bool hemisphere) const;
-    void recordTrace(Recording& recording, const Kernel& kernel, const Bindings& bindings, Pass pass,
-                     std::uint64_t groupsOffset) const;
+    void tracePaths(Recording& recording, const Tile& tile, Pass& pass);
+    void traceByWavefront(Recording& recording, const Tile& tile, Pass& pass);
+    void tracePersistently(Recording& recording, const Tile& tile, Pass& pass);
+    void recordBounce(Recording& recording, const Bindings& bindings, const Pass& pass) const;
+    void recordTrace(Recording& recording, const std::optional<Kernel>& production, const std::optional<Kernel>& course,
+                     const Bindings& bindings, const Pass& pass, std::uint64_t groupsOffset) const;
     void recordSize(Recording& recording, const Bindings& bindings, Pass pass, std::uint32_t queues) const;
+    bool isAnyPathAlive(const Recording& recording) const;
     std::uint32_t groupsOf(std::uint32_t count) const;
 
     Device& device_;
     RenderSettings settings_;
-    std::vector<LightRound> rounds_;  // of direct light at each hit
     Schedule schedule_;
-    Pass template_;  // what all passes have in common
     std::map<std::string, KernelStatistics> statistics_;
     double compileSeconds_ = 0.0;
 
-    std::optional<DeviceScene> ownScene_;  // absent if they are lent
-    std::optional<PathBuffers> ownPaths_;
-    const DeviceScene& scene_;
-    PathBuffers& paths_;
-    DeviceCamera camera_;
+    std::optional<SharedResources> own_;  // absent if they belong to another one
+    SharedResources& shared_;
+    DeviceParameters parameters_;
+    CourseEstimators course_;
     KernelLayout layout_;
     KernelSet kernels_;
 };

@@ -1,12 +1,12 @@
-// The invariants of Scene as code.
+// Tests the invariants of a Scene.
 #pragma once
 
 #include "host/scene/scene.hpp"
 
 namespace glim {
 
-// Throws InputError on the first violated invariant: finite values, indices in range, unit axes and normals, at least
-// one triangle or sphere, primitives that tile the triangles.
+// Throws InputError on the first violated invariant: finite values, indices in range, unit axes, transforms that can be inverted, at
+// least one instance or sphere.
 void checkScene(const Scene& scene);
 
 }  // namespace glim

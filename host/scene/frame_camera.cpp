@@ -1,31 +1,20 @@
 #include "host/scene/frame_camera.hpp"
 
+#include "host/scene/placed_mesh.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace glim {
 
 Camera frameCamera(const Scene& scene, float aspectRatio)
 {
-    const float infinity = std::numeric_limits<float>::infinity();
-    glm::vec3 low(infinity), high(-infinity);
-    for (const Triangle& triangle : scene.triangles) {
-        for (const glm::vec3& vertex : triangle.vertices) {
-            low = glm::min(low, vertex);
-            high = glm::max(high, vertex);
-        }
-    }
-    for (const Sphere& sphere : scene.spheres) {
-        low = glm::min(low, sphere.center - sphere.radius);
-        high = glm::max(high, sphere.center + sphere.radius);
-    }
-
+    const auto [low, high] = computeWorldBox(scene);
     Camera camera;
     camera.name = "framed";
     const glm::dvec3 center = 0.5 * glm::dvec3(low) + 0.5 * glm::dvec3(high);
     const double radius = 0.5 * glm::length(glm::dvec3(high) - glm::dvec3(low));
-    // The box's sphere just fits into the narrower of the two fields of view.
+    // The sphere around the box just fits into the narrower of the two fields of view.
     const double slope = std::tan(0.5 * static_cast<double>(camera.yfov)) * std::min(1.0, static_cast<double>(aspectRatio));
     const double distance = radius / std::sin(std::atan(slope));
     const glm::dvec3 backward = glm::normalize(glm::dvec3(0.4, 0.3, 1.0));

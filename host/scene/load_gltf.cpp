@@ -3,7 +3,7 @@
 #include "host/scene/check_scene.hpp"
 #include "host/scene/frame_camera.hpp"
 #include "host/scene/gltf/check_gltf_json.hpp"
-#include "host/scene/gltf/place_geometry.hpp"
+#include "host/scene/gltf/read_geometry.hpp"
 #include "host/scene/gltf/read_lights_cameras.hpp"
 #include "host/scene/gltf/read_material.hpp"
 
@@ -12,7 +12,7 @@
 namespace glim {
 namespace {
 
-void noteWholeFile(const GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& scene)
+void noteIgnoredParts(const GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& scene)
 {
     for (const std::string& extension : file.model.extensionsUsed) {
         const bool ofMaterials = extension.find("_materials_") != std::string::npos;  // noted with each material
@@ -20,8 +20,8 @@ void noteWholeFile(const GltfFile& file, const std::vector<PlacedNode>& nodes, S
             scene.notices.push_back("the extension " + extension + " is ignored");
         }
     }
-    const bool skinned = std::any_of(nodes.begin(), nodes.end(),
-                                     [&](const PlacedNode& node) { return file.model.nodes[node.index].skin >= 0; });
+    const bool skinned =
+        std::any_of(nodes.begin(), nodes.end(), [&](const PlacedNode& node) { return file.model.nodes[node.index].skin >= 0; });
     if (skinned) {
         scene.notices.push_back("skins are ignored: their meshes stand in the rest pose of their nodes");
     }
@@ -30,7 +30,7 @@ void noteWholeFile(const GltfFile& file, const std::vector<PlacedNode>& nodes, S
     }
 }
 
-// The file's environment is refused rather than left out: without it the picture would be another one.
+// Refuses the file's environment map instead of ignoring it, since the picture would be wrong without it.
 void placeEnvironment(const GltfFile& file, const LoadOptions& options, Scene& scene)
 {
     scene.environment = options.environment;
@@ -46,18 +46,19 @@ void placeEnvironment(const GltfFile& file, const LoadOptions& options, Scene& s
     const tinygltf::Value& environment = extras.Get("environment");
     const std::string place = label("scenes", index, file.model.scenes[index].name) + ".extras.environment";
     if (environment.IsObject() && environment.Has("file")) {
-        refuse(file, place + " names a map, which this version cannot read; expected none (--environment r,g,b gives a"
-                             " constant one)");
+        refuse(file, place +
+                         " names a map, which this version cannot read; expected none (--environment r,g,b gives a"
+                         " constant one)");
     }
     scene.notices.push_back(place + " has no \"file\" and is ignored");
 }
 
-// Keeps the default material, the last one, only if something uses it, and says what each used material lost.
+// Keeps the default material (the last one) only if something uses it, and notes what glim ignores of each used material.
 void noteUsedMaterials(const std::vector<MaterialReading>& readings, Scene& scene)
 {
     std::vector<bool> used(readings.size(), false);
-    for (const Primitive& primitive : scene.primitives) {
-        used[primitive.material] = true;
+    for (const Mesh& mesh : scene.meshes) {
+        used[mesh.material] = true;
     }
     for (const Sphere& sphere : scene.spheres) {
         used[sphere.material] = true;
@@ -80,6 +81,7 @@ Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options)
     Scene scene;
     scene.file = file.path;
     scene.files = file.files;
+    scene.images = file.images;
 
     std::vector<MaterialReading> readings;
     for (int i = 0; i < static_cast<int>(file.model.materials.size()); ++i) {
@@ -92,8 +94,8 @@ Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options)
 
     const std::vector<PlacedNode> nodes = placeNodes(file, options, scene.notices);
     placeEnvironment(file, options, scene);
-    noteWholeFile(file, nodes, scene);
-    placeGeometry(file, nodes, scene);
+    noteIgnoredParts(file, nodes, scene);
+    readGeometry(file, nodes, scene);
     noteUsedMaterials(readings, scene);
     readLightsAndCameras(file, nodes, scene);
     if (scene.cameras.empty()) {

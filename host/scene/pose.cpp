@@ -22,7 +22,7 @@ Camera placeCamera(const Camera& camera, const Pose& pose, const glm::dvec3& sce
     placed.forward = glm::vec3(forward);
     placed.right = glm::vec3(right);
     placed.up = glm::vec3(glm::cross(right, forward));
-    if (pose.zoom != 1.0) {  // which keeps the bits
+    if (pose.zoom != 1.0) {  // at 1 no bit may change
         placed.yfov = static_cast<float>(2.0 * std::atan(std::tan(0.5 * static_cast<double>(camera.yfov)) / pose.zoom));
     }
     placed.halfWidth = static_cast<float>(static_cast<double>(camera.halfWidth) / pose.zoom);
@@ -32,7 +32,7 @@ Camera placeCamera(const Camera& camera, const Pose& pose, const glm::dvec3& sce
 
 Pose poseOf(const Camera& camera, double distance, const glm::dvec3& sceneOrigin)
 {
-    constexpr double kLevel = 1e-3;  // radians of roll that do not matter
+    constexpr double kLevel = 1e-3;  // radians of roll that still count as level
     const glm::dvec3 right(camera.right), up(camera.up), forward(camera.forward);
     const bool level = std::abs(right.y) < kLevel && up.y > kLevel;
     Pose pose;

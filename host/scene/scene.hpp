@@ -1,6 +1,6 @@
-// A scene as plain values: no Vulkan, no glTF. Every position is float32 relative to `origin`, which is the centre of
-// the scene's bounding box in world coordinates (to 1/256 of its extent) and was subtracted in double: far from the
-// world's origin nothing is lost.
+// A scene as plain values: no Vulkan, no glTF. Meshes are in object space; instances place them in the world, in double. All other
+// positions are float32 relative to `origin`, which is the centre of the scene's bounding box in world coordinates (to 1/256 of its
+// extent) and was subtracted in double: far from the world's origin nothing is lost.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -25,22 +25,36 @@ struct Material {
     bool doubleSided = false;   // emits from both sides; scattering is always two-sided
 };
 
-// Counter-clockwise seen from the front. Shared vertices hold equal bits, which watertightness rests on.
-struct Triangle {
-    glm::vec3 vertices[3];
-};
-
-struct TriangleNormals {
-    glm::vec3 normals[3];  // unit length
-};
-
-// One glTF primitive placed by one node: triangles [firstTriangle, firstTriangle + triangleCount).
-struct Primitive {
+// Indexed triangles of one material. Attributes are per vertex: one for each position, or none if the file has none.
+struct Mesh {
     std::string name;
-    std::uint32_t firstTriangle = 0;
-    std::uint32_t triangleCount = 0;
+    // In double: what a file stores as normalised integers need not fit a float.
+    std::vector<glm::dvec3> positions;
+    std::vector<glm::dvec3> normals;  // of any length, possibly not finite
+    std::vector<glm::vec4> tangents;  // w: the sign of the bitangent
+    std::vector<glm::vec2> uv0, uv1;
+    std::vector<glm::vec4> colors;       // linear, with alpha
+    std::vector<std::uint32_t> indices;  // three per triangle, counter-clockwise seen from the front
     std::uint32_t material = 0;
-    bool smooth = false;  // its entries of Scene::normals are meaningful
+};
+
+// A mesh placed in the world.
+struct MeshInstance {
+    std::string name;
+    std::uint32_t mesh = 0;
+    glm::dmat4 worldFromMesh{1.0};  // affine and invertible; if it mirrors, front sides stay front sides
+};
+
+// An encoded image: in a file of its own, or in a range of one of the scene file's buffers.
+struct EncodedImage {
+    struct Range {
+        std::uint32_t buffer = 0;
+        std::uint64_t offset = 0, length = 0;
+    };
+    std::string name;
+    std::string mimeType;        // empty where the file does not say
+    std::string uri;             // relative to the scene's file, or data:
+    std::optional<Range> range;  // where there is no uri
 };
 
 struct Sphere {
@@ -54,11 +68,11 @@ struct PunctualLight {
     enum class Kind : std::uint32_t { Point, Directional, Spot };
     std::string name;
     Kind kind = Kind::Point;
-    glm::vec3 position{0.0F};            // point, spot
-    glm::vec3 direction{0.0F, 0.0F, -1}; // unit, the way light travels; directional, spot
-    glm::vec3 intensity{1.0F};           // point, spot: W/sr; directional: W/m^2 on a surface facing it
-    float cosInner = 1.0F;               // spot: full intensity inside this angle,
-    float cosOuter = 0.0F;               // none outside this one
+    glm::vec3 position{0.0F};             // point, spot
+    glm::vec3 direction{0.0F, 0.0F, -1};  // unit, the way light travels; directional, spot
+    glm::vec3 intensity{1.0F};            // point, spot: W/sr; directional: W/m^2 on a surface facing it
+    float cosInner = 1.0F;                // spot: full intensity inside this angle,
+    float cosOuter = 0.0F;                // none outside this one
 };
 
 struct Camera {
@@ -74,15 +88,15 @@ struct Camera {
 
 struct Scene {
     std::string file;
-    std::vector<std::filesystem::path> files;  // that it was read from: `file` and those of its buffers
+    std::vector<std::filesystem::path> files;  // the files it was read from: `file` and its buffers'
     glm::dvec3 origin{0.0};
-    std::vector<Triangle> triangles;
-    std::vector<TriangleNormals> normals;  // empty, or one entry per triangle
-    std::vector<Primitive> primitives;     // in order of firstTriangle, covering all triangles
+    std::vector<Mesh> meshes;
+    std::vector<MeshInstance> instances;
     std::vector<Sphere> spheres;
     std::vector<Material> materials;
+    std::vector<EncodedImage> images;  // nothing reads them yet
     std::vector<PunctualLight> lights;
-    std::vector<Camera> cameras;  // never empty after load_gltf: one is framed where the file has none
+    std::vector<Camera> cameras;           // never empty after load_gltf: one is framed where the file has none
     std::optional<glm::vec3> environment;  // constant radiance from everywhere
     std::vector<std::string> notices;      // one line each: what was ignored, mapped, dropped or framed
 };

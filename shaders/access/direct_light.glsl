@@ -1,86 +1,78 @@
-// The light that a path finds, by its own ray or by sampling lights, each weighted against the other.
+// Direct light at a vertex: by sampling a light, and by what the path's own ray has hit.
 #ifndef GLIM_ACCESS_DIRECT_LIGHT
 #define GLIM_ACCESS_DIRECT_LIGHT
 
-#include "lib/mis.glsl"
-#include "lib/scatter.glsl"
+#include "bsdf.glsl"
+#include "lib/octahedral.glsl"
 #include "light.glsl"
 #include "notes.glsl"
 #include "pass.glsl"
 
-// What light that a ray has found counts if sampling lights has density `other` for it, and what light counts that sampling
-// lights has found if the scattered ray has that density. Cameras, mirrors and glass leave it to the ray alone, delta lights
-// to the sample.
-float weightFound(PathState state, float other)
+// For BSDFs whose non-delta lobes only reflect. With non-delta transmission the side is unknown before wi is: p must then be the point
+// itself.
+LightContext makeLightContext(SurfaceInteraction si, Bsdf bsdf)
 {
-    if (!(state.pdf > 0.0) || kDirect == kDirectBsdf) {
-        return 1.0;
-    }
-    float weight = kDirect == kDirectMis ? weightPower(state.pdf, other) : 0.0;
-    noteFound(other, weight);
-    return weight;
+    return LightContext(offsetRayOrigin(si, si.ng), si.ng, bsdf.frame.z);
 }
 
-float weightSampled(float pdf, float other)
+// The context of the vertex that the path's ray has left.
+LightContext previousContext(PathRay ray, PathState state)
 {
-    return kDirect == kDirectMis && pdf > 0.0 ? weightPower(pdf, other) : 1.0;
+    vec3 n = decodeNormal(state.normal);
+    return LightContext(ray.origin, n, n);
 }
 
-vec3 environmentFound(PathState state)
+LightHit makeLightHit(SurfaceInteraction si, PathRay ray, PathHit hit)
 {
-    float other = fetchLight(pass.environmentLight).probability * pdfLambert(state.cosine);
-    return pass.environment * weightFound(state, other);
+    uint emitter = si.emitter - 1u;
+    return LightHit(fetchEmitter(emitter).light, emitter, hit.t, abs(dot(si.ng, ray.direction)));
 }
 
-vec3 emissionFound(PathRay ray, PathHit hit, PathState state, Surface surface, FlatMaterial material)
+// MIS weights. The including file defines them: path_vertex.glsl, and course/direct_light.glsl for the course. The first is of light that
+// a ray has hit, if light sampling has the density lightPdf for it; the second is of a light sample, a delta light's if lightPdf is 0.
+float misWeightOfHit(PathState state, float lightPdf);
+float misWeightOfSample(float lightPdf, float bsdfPdf);
+
+// Radiance of the environment that an escaping ray has hit, times its MIS weight.
+vec3 weightedEnvironment(PathRay ray, PathState state)
 {
-    vec3 emission = emittedRadiance(surface, material);
+    LightHit hit = LightHit(render.environmentLight, 0u, kInfinity, state.cosine);
+    return render.environment * misWeightOfHit(state, pdfLight(previousContext(ray, state), hit));
+}
+
+// Radiance that the surface at the end of a ray emits back along it, times its MIS weight.
+vec3 weightedEmission(SurfaceInteraction si, MaterialData material, PathRay ray, PathHit hit, PathState state)
+{
+    vec3 emission = emittedRadiance(si, material);
     if (all(equal(emission, vec3(0.0))) || !(state.pdf > 0.0)) {
         return emission;
     }
-    FlatEmitter emitter = fetchEmitter(surface.emitter - 1u);
-    float cosine = abs(dot(surface.geometric, ray.direction));
-    float other = pdfSurfaceLight(emitter, fetchLight(emitter.light), ray.origin, hit.t, cosine);
-    return emission * weightFound(state, other);
+    return emission * misWeightOfHit(state, pdfLight(previousContext(ray, state), makeLightHit(si, ray, hit)));
 }
 
-// The radiance of one light that the round chooses, seen `from` the point that rays leave the surface from.
-LightSample sampleLightOfRound(SampleId id, uint bounce, vec3 from, vec3 normal)
+// One light by power.
+uint chooseLight(SampleId id, uint bounce)
 {
-    uint chosen = pass.light;
-    if (kDirect == kDirectMis) {
-        chosen = chooseLight(samplePair(id, bounceDimension(bounce, kDimensionLight), kSobol), pass.lightCount);
-    } else {
-        id = splitSample(id, pass.light, pass.lightSample, pass.lightSamples);
-    }
-    noteLight(chosen);
-    return sampleLight(chosen, kDirect != kDirectMis, from, normal,
-                       samplePair(id, bounceDimension(bounce, kDimensionEmitter), kSobol),
-                       unitFloat(samplePair(id, bounceDimension(bounce, kDimensionPoint), kSobol)));
+    return selectLight(samplePair(id, bounceDimension(bounce, kDimensionLight), kSobol), render.lightCount);
 }
 
-// A round of direct light at a surface that the path met `bounce` surfaces after the camera. False if no light can arrive; else the
-// shadow ray carries the radiance that the light sends on towards the camera if nothing shadows it.
-bool sampleDirectLight(SampleId id, uint bounce, PathState state, Surface surface, FlatMaterial material, out ShadowRay ray)
+// Samples the chosen light and makes the shadow ray, which starts on the side of wi. Its contribution counts if nothing is in the way.
+// False if that is zero.
+bool sampleChosenLight(SampleId id, FlatLight chosen, SurfaceInteraction si, Bsdf bsdf, vec3 wo, PathState state, out ShadowRay ray)
 {
-    vec3 origin = leavePoint(surface, surface.geometric);
-    LightSample light = sampleLightOfRound(id, bounce, origin, surface.shading);
-    float cosine = dot(light.wi, surface.shading);
-    if (!(cosine > 0.0 && dot(light.wi, surface.geometric) > 0.0)) {
-        return false;
+    LightSample light = sampleLight(chosen, makeLightContext(si, bsdf),
+                                    samplePair(id, bounceDimension(state.bounce, kDimensionEmitter), kSobol),
+                                    unitFloat(samplePair(id, bounceDimension(state.bounce, kDimensionPoint), kSobol)));
+    BsdfEval f = evalBsdf(bsdf, wo, light.wi);
+    float weight = misWeightOfSample(light.pdf, f.pdf);
+    if (f.pdf > 0.0) {
+        noteLightSample(light.pdf, f.pdf, weight);
     }
-    float weight = weightSampled(light.pdf, pdfLambert(cosine));
-    if (kDirect == kDirectLights) {
-        weight /= float(pass.lightSamples);
-    }
-    noteLightSample(light.pdf, pdfLambert(cosine), weight);
-    vec3 contribution = state.throughput * evalLambert(material.baseColor, cosine) * light.radiance * (cosine * weight);
-    if (all(equal(contribution, vec3(0.0)))) {
-        return false;
-    }
-    bool infinite = light.reach > 1.0;
-    ray = ShadowRay(origin, surface.primitive, infinite ? light.wi : light.target - origin, light.primitive, contribution, light.reach);
-    return true;
+    vec3 contribution = state.throughput * f.f * light.radiance * weight;
+    vec3 origin = offsetRayOrigin(si, light.wi);
+    bool infinite = light.tMax > 1.0;
+    ray = ShadowRay(origin, si.primitive, infinite ? light.wi : light.target - origin, light.primitive, contribution, light.tMax);
+    return any(notEqual(contribution, vec3(0.0)));
 }
 
 #endif

@@ -3,17 +3,18 @@
 #define GLIM_ACCESS_FIRST_HIT
 
 #include "lib/infinity.glsl"
-#include "surface.glsl"
+#include "interaction.glsl"
+#include "parameters.glsl"
 
 FirstHit makeNoFirstHit()
 {
     return FirstHit(vec3(0.0), 0.0, vec3(0.0), kInfinity);
 }
 
-FirstHit firstHitOf(Surface surface, FlatMaterial material)
+FirstHit makeFirstHit(SurfaceInteraction si, MaterialData material, vec3 wo)
 {
-    float depth = dot(surface.point - sceneCamera.position, sceneCamera.forward);
-    return FirstHit(material.baseColor, 1.0, surface.shading, depth);
+    float depth = dot(si.p - render.camera.position, render.camera.forward);
+    return FirstHit(material.baseColor, 1.0, visibleNormal(si, wo), depth);
 }
 
 #endif

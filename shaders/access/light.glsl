@@ -1,4 +1,4 @@
-// Chooses and samples lights, and says with which probability it would have.
+// Selects and samples lights, and evaluates the density of light that a ray has hit. A new kind of light adds its branches here.
 #ifndef GLIM_ACCESS_LIGHT
 #define GLIM_ACCESS_LIGHT
 
@@ -9,28 +9,45 @@
 #include "lib/infinity.glsl"
 #include "lib/punctual.glsl"
 #include "lib/warp.glsl"
-#include "surface.glsl"
+#include "interaction.glsl"
+
+// The point that light arrives at: where lights are sampled, or the origin of a ray that has hit a light by chance.
+struct LightContext {
+    vec3 p;   // origin of shadow rays on ng's side: only by this offset is a point on a sphere light's wall inside the light
+    vec3 ng;  // unit, on the side that lights are sampled for; for a chance hit a copy of ns
+    vec3 ns;  // unit; for a chance hit PathState's, rounded: code that selects lights by it must round it in both cases
+};
+
+// A light met by chance.
+struct LightHit {
+    uint light;
+    uint emitter;   // index; of surfaces
+    float t;        // distance
+    float cosine;   // |cos| at the emitter; for the environment: at ns, PathState's, unrounded
+};
 
 // Light that could arrive at a point.
 struct LightSample {
     vec3 wi;           // unit, towards the light
     vec3 radiance;     // radiance / pdf of wi per steradian, the light's probability included; 0: none
-    float pdf;         // per steradian, the light's probability included; 0: delta, nothing else can find it
+    float pdf;         // per steradian, the light's probability included; 0: a delta light, which no ray hits
     vec3 target;       // a point that shadow rays aim at, clear of the light's surface
     uint primitive;    // the light's surface, or kNoPrimitive
-    float reach;       // 1: the light is at `target`; infinity: it is infinitely far
+    float tMax;       // 1: the light is at `target`; infinity: it is infinitely far
 };
 
 const LightSample kNoLight = LightSample(vec3(0.0), vec3(0.0), 0.0, vec3(0.0), kNoPrimitive, 1.0);
 
-uint chooseLight(uvec2 bits, uint lightCount)
+// Chooses a light by power.
+uint selectLight(uvec2 bits, uint lightCount)
 {
     uint bin = chooseBin(bits.x, lightCount);
     AliasEntry entry = fetchLight(bin).alias;
     return chooseAlias(bin, entry.threshold, entry.other, bits.y);
 }
 
-// Cone or, from within or on the surface, area: true and sin^2 of the half angle for the cone. `from` relative to the centre.
+// Whether a sphere light is sampled by its cone, with sin^2 of the half angle; from within or on the surface it is sampled by area. `from`
+// is relative to the centre.
 bool seesCone(vec3 from, float radius, out float sin2)
 {
     float distance2 = dot(from, from);
@@ -38,18 +55,28 @@ bool seesCone(vec3 from, float radius, out float sin2)
     return sin2 < 1.0;
 }
 
-// Density per steradian of a direction towards a point of `light` at distance `t`, met under `cosine` by `emitter`, seen
-// `from`; the light's probability included.
-float pdfSurfaceLight(FlatEmitter emitter, FlatLight light, vec3 from, float t, float cosine)
+// Density per steradian of a direction towards a point of `light` at distance t, which it meets at |cos| `cosine`; the light's
+// probability included. `areaPdf`: FlatEmitter's.
+float pdfSurfaceLight(FlatLight light, float areaPdf, LightContext context, float t, float cosine)
 {
     float sin2;
-    if (kSphereLights && light.kind == kSphereLight && seesCone(from - light.position, light.radius, sin2)) {
+    if (kSphereLights && light.kind == kSphereLight && seesCone(context.p - light.position, light.radius, sin2)) {
         return light.probability * pdfCone(sin2);
     }
-    return light.probability * emitter.areaPdf * t * t / cosine;
+    return light.probability * areaPdf * t * t / cosine;
 }
 
-LightSample sampleTriangleLight(FlatLight light, vec3 from, uvec2 choice, vec2 u)
+// Density per steradian with which selecting and sampling lights would have found the hit.
+float pdfLight(LightContext context, LightHit hit)
+{
+    FlatLight light = fetchLight(hit.light);
+    if (kEnvironment && light.kind == kEnvironmentLight) {
+        return light.probability * pdfCosineHemisphere(hit.cosine);
+    }
+    return pdfSurfaceLight(light, fetchEmitter(hit.emitter).areaPdf, context, hit.t, hit.cosine);
+}
+
+LightSample sampleTriangleLight(FlatLight light, LightContext context, uvec2 choice, vec2 u)
 {
     uint bin = chooseBin(choice.x, light.emitterCount);
     AliasEntry entry = fetchEmitter(light.firstEmitter + bin).alias;
@@ -62,24 +89,23 @@ LightSample sampleTriangleLight(FlatLight light, vec3 from, uvec2 choice, vec2 u
     vec2 barycentric = sampleTriangle(u);
     vec3 point = trianglePoint(v0, e1, e2, barycentric);
     vec3 n = triangleNormal(v0, floatsOf(record.t1), floatsOf(record.t2));
-    vec3 towards = point - from;
+    vec3 towards = point - context.p;
     float distance_ = length(towards);
     float facing = -dot(n, towards) / distance_;
     float cosine = light.doubleSided != 0u ? abs(facing) : facing;
-    if (!(cosine > 0.0)) {
-        return kNoLight;
-    }
-    float pdf = pdfSurfaceLight(emitter, light, from, distance_, cosine);
+    float pdf = pdfSurfaceLight(light, emitter.areaPdf, context, distance_, cosine);
     vec3 target = offsetPoint(point, facing > 0.0 ? n : -n, triangleErrorBound(v0, e1, e2));
-    return LightSample(towards / distance_, light.intensity / pdf, pdf, target, emitter.primitive, 1.0);
+    bool faces = cosine > 0.0;
+    return LightSample(faces ? towards / distance_ : vec3(0.0), faces ? light.intensity / pdf : vec3(0.0), faces ? pdf : 0.0, target,
+                       emitter.primitive, 1.0);
 }
 
 // From outside: uniform in the cone.
 LightSample sampleSphereCone(FlatLight light, uint primitive, vec3 outward, float sin2, vec2 u)
 {
     vec3 local = sampleCone(u, sin2);
-    // The point of the sphere under the sampled direction (pbrt-v4, section 6.2.4): the angle at the centre. Only shadow rays
-    // aim at it: next to the surface it is the receiver itself, and wi must not come from their difference.
+    // The point of the sphere in the sampled direction, by its angle at the centre (pbrt-v4, section 6.2.4). Only shadow rays aim at it. wi
+    // must not be computed from it: next to the surface, the point is the receiver itself.
     float sinLocal2 = dot(local.xy, local.xy);
     float across = sinLocal2 / sqrt(sin2) + local.z * sqrt(max(0.0, 1.0 - sinLocal2 / sin2));
     float sinCenter = sqrt(max(0.0, (1.0 - across) * (1.0 + across)));
@@ -93,30 +119,30 @@ LightSample sampleSphereCone(FlatLight light, uint primitive, vec3 outward, floa
 }
 
 // From within a sphere that emits inwards too: uniform over its area.
-LightSample sampleSphereArea(FlatLight light, FlatEmitter emitter, vec3 from, vec2 u)
+LightSample sampleSphereArea(FlatLight light, FlatEmitter emitter, LightContext context, vec2 u)
 {
     vec3 n = sampleSphere(u);
     vec3 point = light.position + light.radius * n;
-    vec3 towards = point - from;
+    vec3 towards = point - context.p;
     float distance_ = length(towards);
     float cosine = dot(n, towards) / distance_;
     if (!(cosine > 0.0)) {
         return kNoLight;
     }
-    float pdf = pdfSurfaceLight(emitter, light, from, distance_, cosine);
+    float pdf = pdfSurfaceLight(light, emitter.areaPdf, context, distance_, cosine);
     vec3 target = offsetPoint(point, -n, sphereErrorBound(light.position, light.radius));
     return LightSample(towards / distance_, light.intensity / pdf, pdf, target, emitter.primitive, 1.0);
 }
 
-LightSample sampleSphereLight(FlatLight light, vec3 from, vec2 u)
+LightSample sampleSphereLight(FlatLight light, LightContext context, vec2 u)
 {
     FlatEmitter emitter = fetchEmitter(light.firstEmitter);
-    vec3 outward = from - light.position;
+    vec3 outward = context.p - light.position;
     float sin2;
     if (seesCone(outward, light.radius, sin2)) {
         return sampleSphereCone(light, emitter.primitive, outward, sin2, u);
     }
-    return light.doubleSided != 0u ? sampleSphereArea(light, emitter, from, u) : kNoLight;
+    return light.doubleSided != 0u ? sampleSphereArea(light, emitter, context, u) : kNoLight;
 }
 
 LightSample samplePunctualLight(FlatLight light, vec3 from)
@@ -136,37 +162,32 @@ LightSample samplePunctualLight(FlatLight light, vec3 from)
     return LightSample(wi, light.intensity * falloff / distance2 / light.probability, 0.0, light.position, kNoPrimitive, 1.0);
 }
 
-// A constant environment is sampled by the cosine about the shading normal: against Lambert its variance is nil.
-LightSample sampleEnvironment(FlatLight light, vec3 from, vec3 normal, vec2 u)
+// A constant environment is sampled by the cosine about the shading normal: on an open diffuse surface it has no variance.
+LightSample sampleEnvironment(FlatLight light, LightContext context, vec2 u)
 {
     vec3 local = sampleCosineHemisphere(u);
     float pdf = light.probability * pdfCosineHemisphere(local.z);
     if (!(pdf > 0.0)) {
         return kNoLight;
     }
-    vec3 wi = worldFromFrame(makeFrame(normal), local);
-    return LightSample(wi, light.intensity / pdf, pdf, from + wi, kNoPrimitive, kInfinity);
+    vec3 wi = worldFromFrame(makeFrame(context.ns), local);
+    return LightSample(wi, light.intensity / pdf, pdf, context.p + wi, kNoPrimitive, kInfinity);
 }
 
-// `from`: the point that rays leave the receiver from, not on it: the wall of a sphere light sees it from within only by that.
-// `certain`: every light is sampled, so that its probability is 1.
-LightSample sampleLight(uint index, bool certain, vec3 from, vec3 normal, uvec2 choice, vec2 u)
+// The density includes `light.probability`. choice: two words of random bits, u in [0, 1)^2.
+LightSample sampleLight(FlatLight light, LightContext context, uvec2 choice, vec2 u)
 {
-    FlatLight light = fetchLight(index);
-    if (certain) {
-        light.probability = 1.0;
-    }
     if (kTriangleLights && light.kind == kTriangleLight) {
-        return sampleTriangleLight(light, from, choice, u);
+        return sampleTriangleLight(light, context, choice, u);
     }
     if (kSphereLights && light.kind == kSphereLight) {
-        return sampleSphereLight(light, from, u);
+        return sampleSphereLight(light, context, u);
     }
     if (kEnvironment && light.kind == kEnvironmentLight) {
-        return sampleEnvironment(light, from, normal, u);
+        return sampleEnvironment(light, context, u);
     }
     if (kPunctualLights && light.kind >= kPointLight && light.kind <= kDirectionalLight) {
-        return samplePunctualLight(light, from);
+        return samplePunctualLight(light, context.p);
     }
     return kNoLight;
 }

@@ -1,26 +1,26 @@
-// What the kernels find out about the only path of a pass, for who replays it (kNotes).
+// Notes that the kernels take about the only path of a pass, for --replay (kNotes).
 #ifndef GLIM_ACCESS_NOTES
 #define GLIM_ACCESS_NOTES
 
-#include "surface.glsl"
+#include "interaction.glsl"
 
 layout(set = 0, binding = kBindNote, scalar) writeonly buffer NoteBuffer { PathNote pathNote; };
 
-void noteSurface(Surface surface)
+void noteSurface(SurfaceInteraction si, vec3 wo)
 {
     if (kNotes) {
-        pathNote.point = surface.point;
-        pathNote.geometric = surface.geometric;
-        pathNote.shading = surface.shading;
-        pathNote.front = uint(surface.front);
+        pathNote.point = si.p;
+        pathNote.ng = si.ng;
+        pathNote.ns = visibleNormal(si, wo);
+        pathNote.front = uint(si.front);
     }
 }
 
-void noteFound(float other, float weight)
+void noteHitLight(float lightPdf, float weight)
 {
     if (kNotes) {
-        pathNote.foundPdf = other;
-        pathNote.foundWeight = weight;
+        pathNote.lightPdfOfHit = lightPdf;
+        pathNote.misWeightOfHit = weight;
     }
 }
 
@@ -31,16 +31,16 @@ void noteLight(uint light)
     }
 }
 
-void noteLightSample(float pdf, float other, float weight)
+void noteLightSample(float pdf, float bsdfPdf, float weight)
 {
     if (kNotes) {
         pathNote.lightPdf = pdf;
-        pathNote.scatterPdf = other;
-        pathNote.lightWeight = weight;
+        pathNote.bsdfPdf = bsdfPdf;
+        pathNote.misWeightOfLight = weight;
     }
 }
 
-void noteScatter(vec3 weight, vec3 throughput)
+void noteBounce(vec3 weight, vec3 throughput)
 {
     if (kNotes) {
         pathNote.weight = weight;
@@ -48,10 +48,10 @@ void noteScatter(vec3 weight, vec3 throughput)
     }
 }
 
-void noteSurvival(float survival)
+void noteContinuation(float continuation)
 {
     if (kNotes) {
-        pathNote.survival = survival;
+        pathNote.continuation = continuation;
     }
 }
 

@@ -4,9 +4,14 @@
 
 #include "features.glsl"
 #include "lib/sampler.glsl"
+#include "parameters.glsl"
 #include "shared/path_types.h"
 
-layout(push_constant, scalar) uniform PassBlock { Pass pass; };
+// The course's kernels add a round.
+#if !defined(PUSH_CONSTANTS)
+#define PUSH_CONSTANTS Pass pass;
+#endif
+layout(push_constant, scalar) uniform PassBlock { PUSH_CONSTANTS };
 
 #if defined(WRITES_CHOSEN_PIXELS)
 layout(set = 0, binding = kBindChosenPixels, scalar) buffer ChosenPixelsBuffer {
@@ -22,8 +27,8 @@ layout(set = 0, binding = kBindChosenPixels, scalar) readonly buffer ChosenPixel
 
 layout(local_size_x_id = kSpecWorkgroup) in;
 
-// The device's threads may take contiguous halves of a dispatch (llvmpipe does, without stealing): neighbouring groups go
-// to different halves, so that an uneven picture keeps both busy.
+// The device's threads may take contiguous halves of a dispatch (llvmpipe's do, without work stealing). So neighbouring groups go to
+// different halves: an uneven picture keeps both busy.
 uint interleavedInvocation()
 {
     uint groups = gl_NumWorkGroups.x;
@@ -33,13 +38,13 @@ uint interleavedInvocation()
     return group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
 }
 
-// Index in the slab of the pass's pixel number `i`.
+// Index in the tile of the pass's pixel number `i`.
 uint pixelOfPass(uint i)
 {
     return kChosen ? chosenPixels[pass.firstPixel + i].pixel : pass.firstPixel + i;
 }
 
-// Of the pass's pixel number `i`.
+// First sample of the pass's pixel number `i`.
 uint firstSampleOfPass(uint i)
 {
     return kChosen ? chosenPixels[pass.firstPixel + i].samplesBefore + pass.firstSample : pass.firstSample;
@@ -48,7 +53,7 @@ uint firstSampleOfPass(uint i)
 SampleId sampleOfSlot(uint slot)
 {
     uint pixel = slot / pass.sampleCount;
-    return SampleId(pass.seed, pass.slabBegin + pixelOfPass(pixel),
+    return SampleId(render.seed, pass.tileBegin + pixelOfPass(pixel),
                     firstSampleOfPass(pixel) + (slot - pixel * pass.sampleCount));
 }
 

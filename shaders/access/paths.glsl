@@ -9,8 +9,8 @@
 #define DECLARE(qualifier, number, type, name) \
     layout(set = 0, binding = number, scalar) qualifier buffer name##Buffer { type name[]; }
 
-// Paths are read as texels: a storage buffer's load costs llvmpipe as much for one word as a texel's four. A kernel that updates what it
-// reads stores values that depend on those read, hence after reading them.
+// Paths are read as texels: on llvmpipe, loading one word of a storage buffer costs as much as loading the four of a texel. A kernel that
+// updates a buffer stores values that depend on those it has read, so the reads come first.
 #define TEXELS(number, name) layout(set = 0, binding = number + kTexelsOf) uniform usamplerBuffer name
 
 #if defined(READS_RAYS) || defined(UPDATES_RAYS)
@@ -36,7 +36,7 @@ PathHit fetchHit(uint slot)
     return PathHit(a.x, uintBitsToFloat(a.y), uintBitsToFloat(a.zw));
 }
 #endif
-#if defined(UPDATES_HITS)
+#if defined(WRITES_HITS) || defined(UPDATES_HITS)
 DECLARE(writeonly, kBindHits, PathHit, pathHits);
 #endif
 
@@ -122,8 +122,11 @@ layout(set = 0, binding = kBindQueueTails, scalar) buffer QueueTailsBuffer { Que
 #if defined(UPDATES_FILM)
 DECLARE(, kBindBlocks, BlockSums, filmBlocks);
 DECLARE(, kBindPages, PixelMoments, filmPages);
-DECLARE(, kBindLuminance, LuminanceMoments, filmLuminance);
 DECLARE(, kBindBrightest, BrightestSample, filmBrightest);
+#endif
+
+#if defined(UPDATES_LUMINANCE)
+DECLARE(, kBindLuminance, LuminanceMoments, filmLuminance);
 #elif defined(READS_LUMINANCE)
 DECLARE(readonly, kBindLuminance, LuminanceMoments, filmLuminance);
 #endif
@@ -131,7 +134,7 @@ DECLARE(readonly, kBindLuminance, LuminanceMoments, filmLuminance);
 #if defined(UPDATES_RAY_COUNTS)
 layout(set = 0, binding = kBindRayCounts, scalar) buffer RayCountsBuffer { RayCounts rayCounts; };
 
-// From many threads at once.
+// Called by many threads at once.
 void countRays(uint closest, uint shadow)
 {
     uint before = atomicAdd(rayCounts.closest.x, closest);

@@ -5,24 +5,24 @@
 #include "lib/clamp_indirect.glsl"
 #include "paths.glsl"
 
-// `events`: surfaces met between camera and light; light with fewer or more than the pass wants is dropped.
-bool isWanted(uint events)
+// `pathLength`: surfaces met between camera and light; light with fewer or more than the render wants is dropped.
+bool isLengthInRange(uint pathLength)
 {
-    return events >= pass.leastEvents && events <= pass.mostEvents;
+    return pathLength >= render.minPathLength && pathLength <= render.maxPathLength;
 }
 
-// The contribution is one of `samples` that make up an estimate, and is clamped as such.
-PathRadiance addLight(PathRadiance sum, vec3 contribution, uint events, uint samples)
+// The contribution is one of `samples` that add up to an estimate: the limit of its clamp is divided among them.
+PathRadiance addLight(PathRadiance sum, vec3 contribution, uint pathLength, uint samples)
 {
-    ClampedLight light = clampIndirect(contribution, events, pass.clampIndirect / float(samples));
+    ClampedLight light = clampIndirect(contribution, pathLength, render.clampIndirect / float(samples));
     return PathRadiance(sum.radiance + light.kept, sum.clamped + light.removed);
 }
 
 #if defined(UPDATES_RADIANCE)
-void addRadiance(uint slot, vec3 contribution, uint events, uint samples)
+void addRadiance(uint slot, vec3 contribution, uint pathLength, uint samples)
 {
-    if (isWanted(events)) {
-        pathRadiance[slot] = addLight(fetchRadiance(slot), contribution, events, samples);
+    if (isLengthInRange(pathLength)) {
+        pathRadiance[slot] = addLight(fetchRadiance(slot), contribution, pathLength, samples);
     }
 }
 #endif

@@ -7,11 +7,11 @@
 
 layout(set = 0, binding = kBindNodes) uniform usamplerBuffer sceneNodes;
 layout(set = 0, binding = kBindRecords) uniform usamplerBuffer sceneRecords;
-layout(set = 0, binding = kBindNormals) uniform usamplerBuffer sceneNormals;
+layout(set = 0, binding = kBindTriangles) uniform usamplerBuffer sceneTriangles;
+layout(set = 0, binding = kBindVertices) uniform usamplerBuffer sceneVertices;
 layout(set = 0, binding = kBindMaterials) uniform usamplerBuffer sceneMaterials;
 layout(set = 0, binding = kBindLights) uniform usamplerBuffer sceneLights;
 layout(set = 0, binding = kBindEmitters) uniform usamplerBuffer sceneEmitters;
-layout(set = 0, binding = kBindCamera, scalar) readonly buffer CameraBuffer { FlatCamera sceneCamera; };
 
 // Three texels; scene_types.h says what is in them.
 struct Record {
@@ -29,13 +29,13 @@ vec3 floatsOf(uvec4 texel)
     return uintBitsToFloat(texel.xyz);
 }
 
-FlatMaterial fetchMaterial(uint material)
+MaterialData fetchMaterial(uint material)
 {
     int at = int(material * kMaterialTexels);
     uvec4 a = texelFetch(sceneMaterials, at);
     uvec4 b = texelFetch(sceneMaterials, at + 1);
     uvec4 c = texelFetch(sceneMaterials, at + 2);
-    return FlatMaterial(floatsOf(a), a.w, floatsOf(b), uintBitsToFloat(b.w), c.x, c.yzw);
+    return MaterialData(floatsOf(a), a.w, floatsOf(b), uintBitsToFloat(b.w), c.x, c.yzw);
 }
 
 FlatLight fetchLight(uint light)

@@ -8,7 +8,7 @@
 
 layout(set = 0, binding = kBindStatus, scalar) buffer StatusBuffer { Status status; };
 
-// Every kernel ends with this.
+// Every kernel of a pass ends with this.
 void checkLoopBudget(uint canarySteps)
 {
     if (isLoopBudgetSpent(canarySteps)) {

@@ -1,7 +1,7 @@
 // One thread is one pixel of the pass. Adds its finished samples to the block, in the order of their index, and folds each block
 // into the page when it ends: the bits do not depend on how the work was cut.
-// Reads radiance and first hits. Updates blocks, pages and, in renders that ask for them, luminance and brightest samples; counts
-// samples that are not finite and leaves them out.
+// Reads radiance and first hits. Updates blocks, pages and, in renders that ask for them, brightest samples; counts samples that are not
+// finite and leaves them out.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_RADIANCE
@@ -9,14 +9,10 @@
 #define UPDATES_FILM
 #include "access/paths.glsl"
 #include "access/status.glsl"
+#include "lib/finite.glsl"
+#include "lib/luminance.glsl"
 #include "lib/moments.glsl"
 #include "lib/sampler.glsl"
-#include "lib/stop_rule.glsl"
-
-bool isFinite(float x)
-{
-    return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u;
-}
 
 BlockSums addSample(BlockSums sums, PathRadiance path, FirstHit first)
 {
@@ -47,16 +43,13 @@ BlockSums addFinished(Target target, uint i, BlockSums sums)
 {
     uint slot = target.pixel * pass.sampleCount + i;
     PathRadiance path = fetchRadiance(slot);
-    if (!isFinite(path.radiance.r) || !isFinite(path.radiance.g) || !isFinite(path.radiance.b)) {
-        reportNonFinite(pass.slabBegin + target.at, target.firstSample + i);
+    if (!isFinite(path.radiance)) {
+        reportNonFinite(pass.tileBegin + target.at, target.firstSample + i);
         return sums;
     }
     FirstHit first = fetchFirstHit(slot);
     if (kSuspects) {
         keepBrightest(target.at, luminanceOf(path.radiance), target.firstSample + i);
-    }
-    if (kLuminance) {
-        filmLuminance[target.at] = addLuminance(filmLuminance[target.at], luminanceOf(path.radiance), first.alpha > 0.0);
     }
     return addSample(sums, path, first);
 }
@@ -74,8 +67,8 @@ void addPixel(Target target)
     if (sums.count == 0u) {
         sums = emptyBlock();  // the host fills new blocks with zeros
     }
-    // One round more than there are samples: the block that the pass itself ends. So the page is in the code once; llvmpipe compiles
-    // a load and a store for each of its words, at some 10 ms each.
+    // One iteration more than there are samples, for the block that ends with the pass. So the code that folds into the page exists once;
+    // llvmpipe compiles a load and a store for each of its words, at some 10 ms each.
     for (uint i = 0u; i <= pass.sampleCount; ++i) {
         bool ends = (pass.accumulate & kEndsBlock) != 0u;
         if (i < pass.sampleCount) {
@@ -96,5 +89,5 @@ void main()
     if (pixel < pass.pixelCount) {
         addPixel(targetOf(pixel));
     }
-    checkLoopBudget(pass.canarySteps);
+    checkLoopBudget(render.canarySteps);
 }

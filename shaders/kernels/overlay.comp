@@ -1,4 +1,4 @@
-// One thread is one pixel of the window's picture, or several where the device has too few threads. Puts the text over it.
+// One thread is one pixel of the window's picture, or several where the device has too few threads. Draws the text over it.
 // Reads the picture and the text. Writes what is shown.
 #version 460
 #extension GL_GOOGLE_include_directive : require

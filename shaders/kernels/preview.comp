@@ -1,6 +1,6 @@
-// One thread is one pixel of the film's slab, or several where the device has too few threads. Draws the rectangle of the window's
+// One thread is one pixel of the film's tile, or several where the device has too few threads. Draws the rectangle of the window's
 // picture that it covers; where it has no sample yet, what was drawn before stays: an earlier camera's picture or a coarser
-// film's, never black. Only what `kLook` shows of a pixel is loaded: loads are what this kernel costs on a software driver.
+// film's, never black. Only the fields that `kAov` shows are loaded: on a software driver the loads are this kernel's cost.
 // Reads the film. Updates the picture.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -20,8 +20,8 @@ void drawPixel(uint pixel)
     if (moments.count == 0u) {
         return;
     }
-    vec4 color = vec4(displayColor(moments, kLook, pass), 1.0);
-    uint index = pass.slabBegin + pixel;
+    vec4 color = vec4(displayColor(moments, kAov, pass), 1.0);
+    uint index = pass.tileBegin + pixel;
     uvec2 film = uvec2(index % pass.filmWidth, index / pass.filmWidth);
     uvec2 low = cornerOf(film);
     uvec2 high = cornerOf(film + 1u);
@@ -35,7 +35,7 @@ void drawPixel(uint pixel)
 void main()
 {
     uint threads = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
-    for (uint pixel = gl_GlobalInvocationID.x; pixel < pass.slabCount; pixel += threads) {
+    for (uint pixel = gl_GlobalInvocationID.x; pixel < pass.tileCount; pixel += threads) {
         drawPixel(pixel);
     }
 }

@@ -1,31 +1,21 @@
-// One thread is one entry of the active queue. Finds what its ray meets first. Brute force takes several dispatches, each of which
-// goes on from what was met so far.
-// Reads the scene, the queue, rays. Writes hits (brute force also reads them).
+// One thread is one entry of the active queue. Finds what its ray meets first.
+// Reads the scene, the queue, rays. Writes hits.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_ACTIVE_QUEUE
 #define READS_QUEUE_SIZES
 #define READS_RAYS
-#define UPDATES_HITS
+#define WRITES_HITS
 #include "access/paths.glsl"
-#include "access/scan.glsl"
 #include "access/status.glsl"
-
-PathHit scanRecords(uint slot)
-{
-    PathHit met = hitOf(makeMiss());
-    if (pass.firstRecord > 0u) {
-        met = fetchHit(slot);
-    }
-    return scanClosest(fetchRay(slot), met, pass.firstRecord, pass.endRecord);
-}
+#include "access/traverse.glsl"
 
 void main()
 {
     uint entry = interleavedInvocation();
     if (entry < queueSizes.closest) {
         uint slot = activeQueue[entry];
-        pathHits[slot] = kBruteForce ? scanRecords(slot) : traceClosest(fetchRay(slot));
+        pathHits[slot] = traceClosest(fetchRay(slot));
     }
-    checkLoopBudget(pass.canarySteps);
+    checkLoopBudget(render.canarySteps);
 }

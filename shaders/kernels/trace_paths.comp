@@ -1,6 +1,5 @@
 // One thread takes paths of the active queue, one after the other, and traces each to its end: the other schedule, instead of
-// trace_closest, sample_lights, trace_shadow and bounce. Light is added in the order in which those do. Paths that it has no time
-// for go into the next queue as they are.
+// trace_closest, sample_lights_and_bounce and trace_shadow. Paths beyond its limits go into the next queue as they are.
 // Reads the scene, the queue. Updates rays, states, radiance, ray counts. Writes first hits; appends to the next queue.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -13,14 +12,12 @@
 #define WRITES_NEXT_QUEUE
 #define UPDATES_QUEUE_TAILS
 #define UPDATES_RAY_COUNTS
-#include "access/direct_light.glsl"
-#include "access/first_hit.glsl"
+#include "access/path_vertex.glsl"
 #include "access/radiance.glsl"
-#include "access/scatter_path.glsl"
 #include "access/status.glsl"
 #include "access/traverse.glsl"
 
-// Threads side by side that share a run of the queue, so that they stay in one place of the picture.
+// Neighbouring threads that share a run of the queue, so that they stay in one place of the picture.
 const uint kNeighbours = 8u;
 
 struct Path {
@@ -41,61 +38,53 @@ Path takePath(uint slot)
     return Path(slot, sampleOfSlot(slot), fetchRay(slot), fetchState(slot), fetchRadiance(slot));
 }
 
-void addLight(inout Path path, vec3 contribution, uint events, uint samples)
+void addLight(inout Path path, vec3 contribution, uint pathLength)
 {
-    if (isWanted(events)) {
-        path.light = addLight(path.light, contribution, events, samples);
+    if (isLengthInRange(pathLength)) {
+        path.light = addLight(path.light, contribution, pathLength, 1u);
     }
 }
 
-void leaveScene(inout Path path)
+void visitMiss(inout Path path)
 {
     if (path.state.bounce == 0u) {
         pathFirstHits[path.slot] = makeNoFirstHit();
     }
     if (kEnvironment) {
-        addLight(path, path.state.throughput * environmentFound(path.state), path.state.bounce, 1u);
+        addLight(path, shadeMiss(path.ray, path.state), path.state.bounce);
     }
 }
 
-void addSampledLight(inout Path path, Surface surface, FlatMaterial material, inout Work work)
+void traceShadowRay(inout Path path, ShadowRay ray, inout Work work)
 {
-    ShadowRay ray;
-    if (!sampleDirectLight(path.id, path.state.bounce, path.state, surface, material, ray)) {
-        return;
-    }
     Steps steps;
-    bool clear = isUnoccluded(ray, steps);
+    bool unoccluded = isUnoccluded(ray, steps);
     ++work.shadow;
     work.steps += steps.nodes + steps.primitives;
-    if (clear) {
-        addLight(path, ray.contribution, path.state.bounce + 1u, pass.lightSamples);
+    if (unoccluded) {
+        addLight(path, ray.contribution, path.state.bounce + 1u);
     }
 }
 
-// Light sampled here has met one surface more than the path; the last hit only finds light.
-bool samplesLights(uint bounce)
+// Adds light in the order in which the wavefront does. False if the path ends.
+bool visitSurface(inout Path path, PathHit hit, inout Work work)
 {
-    return pass.light != kNoLightIndex && bounce < pass.maxBounces && bounce + 1u >= pass.leastEvents;
-}
-
-void shade(inout Path path, PathHit hit, Surface surface, inout Work work)
-{
-    turnToViewer(surface, -path.ray.direction);
-    FlatMaterial material = fetchMaterial(surface.material);
+    VertexResult vertex = shadeSurface(path.id, path.ray, hit, path.state);
     if (path.state.bounce == 0u) {
-        pathFirstHits[path.slot] = firstHitOf(surface, material);
+        pathFirstHits[path.slot] = vertex.firstHit;
     }
     if (kTriangleLights || kSphereLights) {
-        vec3 found = emissionFound(path.ray, hit, path.state, surface, material);
-        addLight(path, path.state.throughput * found, path.state.bounce, 1u);
+        addLight(path, vertex.emitted, path.state.bounce);
     }
-    if (samplesLights(path.state.bounce) && material.scattering == kLambert) {
-        addSampledLight(path, surface, material, work);
+    if (vertex.hasShadowRay) {
+        traceShadowRay(path, vertex.shadowRay, work);
     }
+    path.ray = vertex.ray;
+    path.state = vertex.state;
+    return vertex.hasNextRay;
 }
 
-// To the next surface. False if that ends the path.
+// Traces the path to its next surface. False if the path ends.
 bool advance(inout Path path, inout Work work)
 {
     Steps steps;
@@ -103,13 +92,10 @@ bool advance(inout Path path, inout Work work)
     ++work.closest;
     work.steps += steps.nodes + steps.primitives;
     if (hit.record == kNoRecord) {
-        leaveScene(path);
+        visitMiss(path);
         return false;
     }
-    Surface surface = surfaceAt(path.ray, hit);
-    shade(path, hit, surface, work);
-    return path.state.bounce < pass.maxBounces &&
-           scatterPath(path.id, path.state.bounce, surface, path.ray, path.state);
+    return visitSurface(path, hit, work);
 }
 
 void traceShare(uint entry, uint end, inout Work work)
@@ -146,5 +132,5 @@ void main()
     Work work = Work(0u, 0u, 0u);
     traceShare(begin + lane, min(queueSizes.closest, begin + kNeighbours * kPathsPerThread), work);
     countRays(work.closest, work.shadow);
-    checkLoopBudget(pass.canarySteps);
+    checkLoopBudget(render.canarySteps);
 }

@@ -15,8 +15,9 @@ vec2 filmFromPixel(vec2 position, vec2 size)
     return vec2(film.x, -film.y);
 }
 
-// The unit vector along forward + across, for a unit vector and one perpendicular to it. As forward plus what is missing, which
-// is small in a thin field of view: only the last sum rounds (0.05 pixel of 0.1 degree / 1920, against 0.1 by normalize).
+// The unit vector along forward + across. `forward` is a unit vector, `across` is perpendicular to it. Computed as forward plus a
+// correction, which is small in a narrow field of view, so only the last sum rounds (0.05 pixel of 0.1 degree / 1920, against 0.1 by
+// normalize).
 vec3 aside(vec3 forward, vec3 across)
 {
     float square = dot(across, across);
@@ -31,8 +32,8 @@ PathRay cameraRay(FlatCamera camera, vec2 film)
                                         : PathRay(camera.position, kNoPrimitive, aside(camera.forward, across), 0u);
 }
 
-// Through the point `disk` of a thin lens with the unit disk as aperture: all rays of one film point meet where the pinhole's
-// ray meets the plane of focus (Cook, Porter, Carpenter, "Distributed Ray Tracing", 1984).
+// The ray through a thin lens. `disk`: the point of the aperture, in the unit disk. All rays of one film point meet where the pinhole's ray
+// meets the plane of focus (Cook, Porter, Carpenter, "Distributed Ray Tracing", 1984).
 PathRay lensRay(FlatCamera camera, vec2 film, vec2 disk)
 {
     vec3 across = film.x * camera.right + film.y * camera.up;

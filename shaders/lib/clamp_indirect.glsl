@@ -1,4 +1,4 @@
-// --clamp-indirect: a bias that says what it took.
+// --clamp-indirect: a biased clamp that reports how much light it removes.
 #ifndef GLIM_LIB_CLAMP_INDIRECT
 #define GLIM_LIB_CLAMP_INDIRECT
 
@@ -7,12 +7,12 @@ struct ClampedLight {
     float removed;  // mean of the three channels
 };
 
-// One contribution to a sample, scaled so that no channel exceeds `limit` if it has met two surfaces or more. A limit of
-// infinity removes nothing and changes no bit.
-ClampedLight clampIndirect(vec3 contribution, uint events, float limit)
+// Scales a contribution to a sample so that no channel exceeds `limit`, if the light has met two surfaces or more. A limit of infinity
+// removes nothing and changes no bit.
+ClampedLight clampIndirect(vec3 contribution, uint pathLength, float limit)
 {
     float largest = max(contribution.r, max(contribution.g, contribution.b));
-    if (events < 2u || !(largest > limit)) {
+    if (pathLength < 2u || !(largest > limit)) {
         return ClampedLight(contribution, 0.0);
     }
     vec3 kept = contribution * (limit / largest);

@@ -10,7 +10,7 @@ float oneMinusCosCone(float sin2)
     return sin2 / (1.0 + sqrt(max(0.0, 1.0 - sin2)));
 }
 
-// Uniform in the cone about +z. The sine is formed from 1 - cos, not from cos: right to 1e-7 at any size.
+// Uniform in the cone about +z. The sine is computed from 1 - cos, not from cos: accurate to 1e-7 at any size.
 vec3 sampleCone(vec2 u, float sin2)
 {
     float rise = u.x * oneMinusCosCone(sin2);

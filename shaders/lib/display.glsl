@@ -1,11 +1,11 @@
-// From numbers to what a screen shows, each channel 0 to 1: host/render/look.cpp does the same for files.
+// Converts pixels to display colours, each channel from 0 to 1. host/render/look.cpp does the same for files.
 #ifndef GLIM_LIB_DISPLAY
 #define GLIM_LIB_DISPLAY
 
 #include "shared/display_types.h"
 #include "shared/pixel_moments.h"
 
-// What is not finite.
+// Shown for pixels that are not finite.
 const vec3 kMagenta = vec3(1.0, 0.0, 1.0);
 
 bool isFinite(vec3 v)
@@ -32,7 +32,7 @@ vec3 heatColor(float value)
     return clamp(vec3(place - 2.0, place < 2.0 ? place : 4.0 - place, 2.0 - place), 0.0, 1.0);
 }
 
-// The channel as an 8-bit image keeps it, whatever the device's own rounding.
+// Rounds each channel as an 8-bit image stores it, whatever the device's own rounding.
 vec3 roundToBytes(vec3 c)
 {
     return floor(255.0 * c + 0.5) / 255.0;
@@ -49,18 +49,18 @@ vec3 normalColor(PixelMoments pixel)
     return pixel.alpha > 0.0 ? clamp(0.5 + 0.5 * pixel.normal / pixel.alpha, 0.0, 1.0) : vec3(0.0);
 }
 
-// `pixel` has a sample.
+// `pixel` has at least one sample.
 vec3 displayColor(PixelMoments pixel, uint look, DisplayPass pass)
 {
     if (!isFinite(pixel.mean)) {
         return kMagenta;
     }
     switch (look) {
-    case kLookNormal: return roundToBytes(normalColor(pixel));
-    case kLookDepth: return roundToBytes(depthColor(pixel, pass.low, pass.high));
-    case kLookAlbedo: return roundToBytes(encodeSrgb(pass.scale * pixel.albedo));
-    case kLookRate: return roundToBytes(heatColor((float(pixel.count) - pass.low) / max(1.0, pass.high - pass.low)));
-    case kLookSteps: return roundToBytes(heatColor((pixel.mean.r - pass.low) / max(1e-30, pass.high - pass.low)));
+    case kAovNormal: return roundToBytes(normalColor(pixel));
+    case kAovDepth: return roundToBytes(depthColor(pixel, pass.low, pass.high));
+    case kAovAlbedo: return roundToBytes(encodeSrgb(pass.scale * pixel.albedo));
+    case kAovSampleCount: return roundToBytes(heatColor((float(pixel.count) - pass.low) / max(1.0, pass.high - pass.low)));
+    case kAovBvhSteps: return roundToBytes(heatColor((pixel.mean.r - pass.low) / max(1e-30, pass.high - pass.low)));
     default: return roundToBytes(encodeSrgb(pass.scale * pixel.mean));
     }
 }

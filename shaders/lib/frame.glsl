@@ -1,4 +1,4 @@
-// Orthonormal frames and reflections about them.
+// Orthonormal frames.
 #ifndef GLIM_LIB_FRAME
 #define GLIM_LIB_FRAME
 
@@ -16,12 +16,23 @@ Frame makeFrame(vec3 n)
     return Frame(vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), vec3(b, s + n.y * n.y * a, -n.y), n);
 }
 
+// Turns the normal to the side of w.
+vec3 faceForward(vec3 n, vec3 w)
+{
+    return dot(n, w) < 0.0 ? -n : n;
+}
+
+vec3 frameFromWorld(Frame frame, vec3 v)
+{
+    return vec3(dot(v, frame.x), dot(v, frame.y), dot(v, frame.z));
+}
+
 vec3 worldFromFrame(Frame frame, vec3 v)
 {
     return frame.x * v.x + frame.y * v.y + frame.z * v.z;
 }
 
-// Unit vector along v for any non-zero finite v: scaled first, since squares of 1e25 or 1e-25 leave float's range.
+// The unit vector along any non-zero finite v. v is scaled first, since squares of 1e25 or 1e-25 leave float's range.
 vec3 normalizeSafely(vec3 v)
 {
     vec3 a = abs(v);

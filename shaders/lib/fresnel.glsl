@@ -2,15 +2,15 @@
 #ifndef GLIM_LIB_FRESNEL
 #define GLIM_LIB_FRESNEL
 
-// Squared cosine of the refracted direction, 1 - sin^2 / eta^2; < 0: total reflection. As (eta^2 - 1 + cos^2) / eta^2, whose
-// terms are as small as the result at grazing incidence on an interface that hardly is one.
+// Squared cosine of the refracted direction, 1 - sin^2 / eta^2; negative on total internal reflection. Computed as (eta^2 - 1 + cos^2) /
+// eta^2: at grazing incidence and eta near 1 its terms are as small as the result.
 float refractedCosine2(float cosine, float eta)
 {
     return ((eta - 1.0) * (eta + 1.0) + cosine * cosine) / (eta * eta);
 }
 
-// Share of unpolarised light that a dielectric interface reflects; `eta` = index beyond / index before, `cosine` of the
-// incident direction in [0, 1]. 1 on total reflection, 0 where there is no interface.
+// Fresnel reflectance of a dielectric interface for unpolarised light. `eta`: index of refraction beyond the interface over that before it;
+// `cosine`: of the incident direction, in [0, 1]. 1 on total internal reflection, 0 if eta is 1.
 float fresnelDielectric(float cosine, float eta)
 {
     float c = clamp(cosine, 0.0, 1.0);
@@ -41,8 +41,8 @@ vec3 reflectAbout(vec3 wo, vec3 n)
     return 2.0 * dot(wo, n) * n - wo;
 }
 
-// The refracted direction for dot(wo, n) >= 0, unit, pointing away on the other side; only where there is no total
-// reflection. With eta == 1 it is -wo exactly.
+// The refracted direction, a unit vector that points away from the surface on the other side. Needs dot(wo, n) >= 0 and no total internal
+// reflection. With eta == 1 it is exactly -wo.
 vec3 refractThrough(vec3 wo, vec3 n, float eta)
 {
     if (eta == 1.0) {

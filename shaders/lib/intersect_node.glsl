@@ -4,15 +4,15 @@
 
 #include "shared/scene_types.h"
 
-// A plane lies at t = steps * (step / d) + (from - o) / d. Of its rounding the reciprocal has at most 2.5 ulp, the difference and each
-// product half a one and the sum half a one of both terms: less than (5 + 4) 2^-24 (|(from - o) / d| + 255 |step / d|), moving
-// the offsets by that included.
+// The ray meets a plane at t = steps * (step / d) + (from - o) / d. Rounding errors: at most 2.5 ulp from the reciprocal, half an ulp from
+// the difference and from each product, and half an ulp of both terms from the sum. Together, including the rounding of the padded offsets,
+// they are less than (5 + 4) 2^-24 (|(from - o) / d| + 255 |step / d|).
 const float kPlanePad = 6e-7;
 
-// Widens tmax: a box whose contents are met exactly there must not be passed by, or ties between them would depend on the tree.
+// Widens tMax. A box whose contents the ray meets exactly at tMax must not be skipped, or ties would depend on the tree.
 const float kFarPad = 1.0000009;
 
-// Below this a direction component counts as this: 0 * inf, a NaN, cannot arise.
+// Smaller direction components are replaced by this, so that 0 * inf, a NaN, cannot arise.
 const float kSmallestDirection = 1e-20;
 
 // Reciprocal direction for hitsOfNode; finite, with the sign of -0 kept.
@@ -23,19 +23,19 @@ vec3 reciprocalDirection(vec3 d)
     return 1.0 / uintBitsToFloat(floatBitsToUint(clamped) | sign);
 }
 
-// Bit k: the ray goes up axis k. A child in place i comes the earlier, the larger i ^ placesAhead is.
+// Bit k is set if the ray goes up axis k. The larger i ^ placesAhead, the earlier the ray reaches the child in place i.
 uint placesAhead(vec3 reciprocal)
 {
     uvec3 up = (floatBitsToUint(reciprocal) >> 31u) ^ 1u;
     return up.x | up.y << 1u | up.z << 2u;
 }
 
-// Planes of four children: the nearer ones and the farther ones along the ray.
+// The near and the far planes of four children along the ray, one byte per child.
 struct Slabs {
     uvec3 near, far;
 };
 
-// Distances of planes are steps * scale + nearOffset or farOffset.
+// The ray meets a plane at t = steps * scale + nearOffset or farOffset.
 struct Grid {
     vec3 scale, nearOffset, farOffset;
 };
@@ -48,9 +48,9 @@ Grid makeGrid(uvec4 head, vec3 origin, vec3 reciprocal)
     return Grid(scale, offset - pad, offset + pad);
 }
 
-// Whether the ray meets child number shift / 8 of four. Signed-integer min and max on the bits of floats order every pair of which at
-// most one is negative like the floats; with two negatives they may pick the wrong one, which is then still negative and
-// loses against 0 (near) or fails the test (far). One instruction each on llvmpipe instead of three.
+// Whether the ray meets child number shift / 8 of four. Signed integer min and max of the floats' bits take one instruction each on
+// llvmpipe instead of three. They order two floats correctly unless both are negative. Then they may pick the wrong one, but that is
+// negative too: it loses against 0 (near) or fails the test (far).
 bool meetsChild(Slabs slabs, uint shift, Grid grid, int last)
 {
     ivec3 n = floatBitsToInt(vec3(slabs.near >> shift & 0xffu) * grid.scale + grid.nearOffset);
@@ -60,7 +60,8 @@ bool meetsChild(Slabs slabs, uint shift, Grid grid, int last)
 
 uint hitsOfFour(Slabs slabs, Grid grid, uint entries, uint ahead, int last)
 {
-    // All four at once: what to set, and where. Places of nodes (kFirstNodeBit and up) are turned so that the nearest is uppermost.
+    // For all four at once: which bits to set, and where. Places of inner children (kFirstNodeBit and up) are permuted so that the nearest
+    // is uppermost.
     uint nodes = (entries & entries << 1u) & 0x10101010u;
     uint places = (entries ^ (nodes >> 4u) * ahead) & 0x1f1f1f1fu;
     uint bits = entries >> 5u & 0x07070707u;
@@ -72,14 +73,14 @@ uint hitsOfFour(Slabs slabs, Grid grid, uint entries, uint ahead, int last)
     return hits;
 }
 
-// The word of hits of a node (scene_types.h) within [0, tmax], those of inner children in the order of placesAhead.
-uint hitsOfNode(uvec4 head, uvec4 content, uvec4 a, uvec4 b, uvec4 c, vec3 origin, vec3 reciprocal, uint ahead, float tmax)
+// The word of hits of a node (scene_types.h) within [0, tMax]. The bits of inner children are in the order of placesAhead.
+uint hitsOfNode(uvec4 head, uvec4 content, uvec4 a, uvec4 b, uvec4 c, vec3 origin, vec3 reciprocal, uint ahead, float tMax)
 {
     Grid grid = makeGrid(head, origin, reciprocal);
     uvec2 xNear = (ahead & 1u) != 0u ? a.xy : b.zw, xFar = (ahead & 1u) != 0u ? b.zw : a.xy;
     uvec2 yNear = (ahead & 2u) != 0u ? a.zw : c.xy, yFar = (ahead & 2u) != 0u ? c.xy : a.zw;
     uvec2 zNear = (ahead & 4u) != 0u ? b.xy : c.zw, zFar = (ahead & 4u) != 0u ? c.zw : b.xy;
-    int last = floatBitsToInt(tmax * kFarPad);
+    int last = floatBitsToInt(tMax * kFarPad);
     Slabs first = Slabs(uvec3(xNear.x, yNear.x, zNear.x), uvec3(xFar.x, yFar.x, zFar.x));
     Slabs second = Slabs(uvec3(xNear.y, yNear.y, zNear.y), uvec3(xFar.y, yFar.y, zFar.y));
     return hitsOfFour(first, grid, content.z, ahead, last) | hitsOfFour(second, grid, content.w, ahead, last);

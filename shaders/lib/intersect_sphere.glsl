@@ -9,12 +9,12 @@ vec3 upperBits(vec3 v)
     return uintBitsToFloat(floatBitsToUint(v) & 0xfffff000u);
 }
 
-// The smallest root in (0, tmax], or -1. The discriminant and the roots as in Haines, Gunther, Akenine-Moller, "Precision
-// Improvements for Ray/Sphere Intersection" (Ray Tracing Gems, ch. 7), with c = (|f|-r)(|f|+r), which keeps its digits for a
-// ground sphere of 1e5 seen from 1 above, and with the ray first moved near the centre by exact products: of the rays at a
-// sphere 1e5 radii away 6e-4 missed without that, none in 4e5 with it. `onSphere`: the ray starts on this sphere, so one
-// root is the start: only the far side, met from within, remains.
-float intersectSphere(vec3 origin, vec3 direction, vec3 center, float radius, float tmax, bool onSphere)
+// The smallest root in (0, tMax], or -1. The discriminant and the roots are those of Haines, Gunther, Akenine-Moller, "Precision
+// Improvements for Ray/Sphere Intersection" (Ray Tracing Gems, ch. 7), with c = (|f|-r)(|f|+r), which keeps its digits for a ground sphere
+// of 1e5 seen from 1 above. The ray is first moved near the centre by exact products: without that, 6e-4 of the rays at a sphere 1e5 radii
+// away missed it; with it, none of 4e5. `onSphere`: the ray starts on this sphere. One root is then the start, so only the far side
+// remains, met from within.
+float intersectSphere(vec3 origin, vec3 direction, vec3 center, float radius, float tMax, bool onSphere)
 {
     vec3 f = origin - center;
     float a = dot(direction, direction);
@@ -31,7 +31,7 @@ float intersectSphere(vec3 origin, vec3 direction, vec3 center, float radius, fl
     float first = min(t0, t1);
     float last = max(t0, t1);
     float t = onSphere ? (b > 0.0 ? t1 : -1.0) : (first > 0.0 ? first : last);
-    return discriminant >= 0.0 && radius > 0.0 && t > 0.0 && t <= tmax ? t : -1.0;
+    return discriminant >= 0.0 && radius > 0.0 && t > 0.0 && t <= tMax ? t : -1.0;
 }
 
 #endif

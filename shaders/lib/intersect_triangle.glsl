@@ -1,8 +1,8 @@
-// Ray against triangle, watertight and textbook.
+// Ray against triangle, watertight.
 #ifndef GLIM_LIB_INTERSECT_TRIANGLE
 #define GLIM_LIB_INTERSECT_TRIANGLE
 
-// Weights are divided by their sum once, of the hit that counts.
+// Barycentric weights, not normalized: only those of the closest hit are divided by their sum.
 struct TriangleHit {
     float t;       // < 0: no hit
     vec2 weights;  // of v1 and v2
@@ -16,13 +16,13 @@ vec2 barycentricOf(TriangleHit hit)
     return hit.weights / hit.sum;
 }
 
-// Which component of a vector stands on an axis: its x, its y, or neither.
+// Which component of a vector goes to an axis: x, y, or, if neither, z.
 struct Source {
     bool x, y;
 };
 
-// A ray's shear and the permutation that puts the largest direction component on z; x and y swap where it is negative, to keep the
-// winding.
+// A ray's shear, and the permutation that puts the largest direction component on z. If that component is negative, x and y swap, to keep
+// the winding.
 struct Shear {
     vec3 s;  // shear x, shear y, scale z
     Source x, y, z;
@@ -75,7 +75,7 @@ float productError(float product, float xUpper, float xLower, float yUpper, floa
     return ((xUpper * yUpper - product) + xUpper * yLower + xLower * yUpper) + xLower * yLower;
 }
 
-// a.x * b.y - a.y * b.x with its right sign, and to some 2^-23 of itself wherever it is above 2^-48 of the products.
+// a.x * b.y - a.y * b.x with the right sign. The relative error is some 2^-23 wherever the result is above 2^-48 of the products.
 float crossAccurately(vec2 a, Halves aHalves, vec2 b, Halves bHalves)
 {
     float p = a.x * b.y;
@@ -85,7 +85,7 @@ float crossAccurately(vec2 a, Halves aHalves, vec2 b, Halves bHalves)
     return (p - q) + (pError - qError);
 }
 
-// Twice the signed areas of the origin with each edge.
+// Twice the signed areas of the triangles that the origin forms with each edge.
 vec3 edgeFunctions(vec2 a, vec2 b, vec2 c)
 {
     return vec3(c.x * b.y - c.y * b.x, a.x * c.y - a.y * c.x, b.x * a.y - b.y * a.x);
@@ -97,8 +97,8 @@ vec3 edgeFunctionsAccurately(vec2 a, vec2 b, vec2 c)
     return vec3(crossAccurately(c, hc, b, hb), crossAccurately(a, ha, c, hc), crossAccurately(b, hb, a, ha));
 }
 
-// The bits of floats as integers: only positive ones are above 0, and as unsigned integers only negative ones are above this. Integer
-// minima and maxima are one instruction each on llvmpipe, those of floats three.
+// Read as signed integers, only positive floats are above 0; read as unsigned integers, only negative floats are above this. Integer minima
+// and maxima are one instruction each on llvmpipe, those of floats three.
 const uint kMinusZero = 0x80000000u;
 
 // Some are negative and some are positive.
@@ -117,12 +117,12 @@ bool areBeside(vec2 a, vec2 b, vec2 c)
     return max(least.x, least.y) > 0 || max(most.x, most.y) > kMinusZero;
 }
 
-// Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013, without the double fallback: rounding is
-// monotone, so the sign of a*b - c*d is right or zero, two triangles compute negated values for their common edge, and zero
-// counts as inside. So it does for a ray beside the triangle but in its plane, where all three may round to zero: such rays are
-// those outside the triangle's box across the ray, which no ray that meets the triangle is. A sliver's edge functions would be
-// rounding noise, hence `sliver`. Double hits on edges are left to the caller's tie rule. Hits need 0 < t <= tmax.
-TriangleHit intersectWatertight(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v2, float tmax, bool sliver)
+// Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013, without the fallback to double. Rounding is monotone, so
+// the sign of a*b - c*d is right or zero; two triangles compute negated values for their common edge; and zero counts as inside. For a ray
+// in the triangle's plane but beside the triangle, all three may round to zero. areBeside rejects such rays: they pass outside the
+// triangle's box across the ray, which no ray that meets the triangle does. A sliver's edge functions would be rounding noise, hence
+// `sliver`. Double hits on edges are left to the caller's tie rule. Hits need 0 < t <= tMax.
+TriangleHit intersectWatertight(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v2, float tMax, bool sliver)
 {
     vec3 a = permute(v0 - origin, shear);
     vec3 b = permute(v1 - origin, shear);
@@ -136,23 +136,8 @@ TriangleHit intersectWatertight(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3
     }
     float det = e.x + e.y + e.z;
     float t = shear.s.z * (e.x * a.z + e.y * b.z + e.z * c.z) / det;
-    bool hit = !haveBothSigns(e) && !areBeside(pa, pb, pc) && det != 0.0 && t > 0.0 && t <= tmax;
+    bool hit = !haveBothSigns(e) && !areBeside(pa, pb, pc) && det != 0.0 && t > 0.0 && t <= tMax;
     return TriangleHit(hit ? t : -1.0, e.yz, det);
-}
-
-// Moller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997, for comparison: it leaks at edges.
-TriangleHit intersectMollerTrumbore(vec3 origin, vec3 direction, vec3 v0, vec3 v1, vec3 v2, float tmax)
-{
-    vec3 e1 = v1 - v0;
-    vec3 e2 = v2 - v0;
-    vec3 p = cross(direction, e2);
-    float det = dot(e1, p);
-    vec3 s = origin - v0;
-    vec3 q = cross(s, e1);
-    vec2 barycentric = vec2(dot(s, p), dot(direction, q)) / det;
-    float t = dot(e2, q) / det;
-    bool inside = barycentric.x >= 0.0 && barycentric.y >= 0.0 && barycentric.x + barycentric.y <= 1.0;
-    return det != 0.0 && inside && t > 0.0 && t <= tmax ? TriangleHit(t, barycentric, 1.0) : kNoTriangleHit;
 }
 
 #endif

@@ -3,8 +3,8 @@
 #define GLIM_LIB_MIS
 
 // Weight of a sample drawn with pdf f where another technique has pdf g: the power heuristic with exponent 2 (Veach 1997,
-// section 9.2.4). In ratios, so that no square overflows; 0 if both are 0.
-float weightPower(float f, float g)
+// section 9.2.4). Computed from ratios, so that no square overflows; 0 if both are 0.
+float powerHeuristic(float f, float g)
 {
     if (!(f > 0.0)) {
         return 0.0;

@@ -1,4 +1,4 @@
-// From sums over a block to moments, and moments folded: host/render/film.cpp does the same for pages.
+// Turns the sums of a block into moments, and folds moments. host/render/film.cpp does the same for pages.
 #ifndef GLIM_LIB_MOMENTS
 #define GLIM_LIB_MOMENTS
 

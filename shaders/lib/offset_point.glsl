@@ -2,38 +2,33 @@
 #ifndef GLIM_LIB_OFFSET_POINT
 #define GLIM_LIB_OFFSET_POINT
 
-// The edges' part first: only the last sum rounds at the size of v0, which triangleErrorBound rests on.
+// The edges are summed first, so that only the last sum rounds at the size of v0. triangleErrorBound relies on that.
 vec3 trianglePoint(vec3 v0, vec3 e1, vec3 e2, vec2 barycentric)
 {
     return v0 + (e1 * barycentric.x + e2 * barycentric.y);
 }
 
-// Bound of the rounding of trianglePoint and of a later intersection with the triangle: NVIDIA, "Solving
-// Self-Intersection Artifacts in DirectX Raytracing", 2023 (optix-toolkit, SelfIntersectionAvoidance): 2^-24 |v0| +
-// 3 * 2^-24 of the largest extent.
+// Bounds the rounding of trianglePoint and of a later intersection with the triangle: NVIDIA, "Solving Self-Intersection Artifacts in
+// DirectX Raytracing", 2023 (optix-toolkit, SelfIntersectionAvoidance): 2^-24 |v0| + 3 * 2^-24 of the largest extent.
 vec3 triangleErrorBound(vec3 v0, vec3 e1, vec3 e2)
 {
     vec3 extent = abs(e1) + abs(e2) + abs(e1 - e2);
     return 5.9604645e-8 * abs(v0) + vec3(1.7881394e-7 * max(extent.x, max(extent.y, extent.z)));
 }
 
-// Of a point projected to a sphere: rounding of the centre and four operations on the radius.
+// Bounds the rounding of a point projected onto a sphere: that of the centre and of four operations on the radius.
 vec3 sphereErrorBound(vec3 center, float radius)
 {
     return 5.9604645e-8 * abs(center) + vec3(2.3841858e-7 * radius);
 }
 
-// The next float away from zero or towards it along the sign of `side`.
+// The next float above x if `side` is positive, below x if it is negative.
 float nextAlong(float x, float side)
 {
     int bits = floatBitsToInt(x);
-    if (side == 0.0) {
-        return x;
-    }
-    if (x == 0.0) {
-        return side > 0.0 ? 1.17549435e-38 : -1.17549435e-38;  // the smallest normal: denormals may be flushed
-    }
-    return intBitsToFloat((side > 0.0) == (x > 0.0) ? bits + 1 : bits - 1);
+    float next = intBitsToFloat((side > 0.0) == (x > 0.0) ? bits + 1 : bits - 1);
+    float smallest = side > 0.0 ? 1.17549435e-38 : -1.17549435e-38;  // normal: denormals may be flushed
+    return side == 0.0 ? x : x == 0.0 ? smallest : next;
 }
 
 // Moves `point` off the surface along the unit geometric normal n (on the side wanted), far enough to clear the error box,

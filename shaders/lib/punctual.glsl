@@ -2,8 +2,8 @@
 #ifndef GLIM_LIB_PUNCTUAL
 #define GLIM_LIB_PUNCTUAL
 
-// Falloff of a spot towards its rim: the squared linear ramp in the cosine that KHR_lights_punctual recommends, without its
-// least width of .001, which takes the light from spots narrower than 2.6 degrees.
+// Falloff of a spot towards its rim: the squared linear ramp in the cosine that KHR_lights_punctual recommends, but without its least width
+// of .001, which darkens spots narrower than 2.6 degrees.
 float spotFalloff(float cosine, float cosInner, float cosOuter)
 {
     float ramp = clamp((cosine - cosOuter) / (cosInner - cosOuter), 0.0, 1.0);

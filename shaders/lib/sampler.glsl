@@ -13,8 +13,8 @@ const uint kDimensionBounce = 1u;
 const uint kDimensionLight = 0u;    // which light: bin, threshold
 const uint kDimensionEmitter = 1u;  // which of its triangles: bin, threshold
 const uint kDimensionPoint = 2u;    // where on it
-const uint kDimensionScatter = 3u;  // direction of the next ray
-const uint kDimensionFate = 4u;     // reflect or refract; roulette
+const uint kDimensionBsdf = 3u;  // direction of the next ray
+const uint kDimensionLobe = 4u;     // reflect or refract; roulette
 const uint kDimensionsPerBounce = 5u;
 
 // Bounces with Sobol' points; beyond them paths are too blurred to gain, and independent numbers are cheaper.
@@ -36,14 +36,14 @@ uvec2 independentPair(SampleId id, uint dimension)
     return hash4(uvec4(id.pixel, id.index, dimension, id.seed)).xy;
 }
 
-// Of the block that sample `index` is in.
+// The number of samples in the block of sample `index`.
 uint blockSamples(uint index) { return index < kBlockSamples ? kFirstBlockSamples : kBlockSamples; }
 
-// Each block has a scramble of its own, so that block means are independent and tell the variance.
+// Each block has a scramble of its own, so that block means are independent and give the variance.
 uvec2 sobolPair(SampleId id, uint dimension)
 {
     uint point = id.index % blockSamples(id.index), block = (id.index - point) / kFirstBlockSamples;
-    // The counter is told apart from independentPair's by its upper bit.
+    // The uppermost bit keeps this counter distinct from independentPair's.
     uvec4 seeds = hash4(uvec4(id.pixel, block | 0x80000000u, dimension, id.seed));
     return scrambledSobolPoint(point, seeds.xyz);
 }
@@ -54,8 +54,8 @@ uvec2 samplePair(SampleId id, uint dimension, bool sobol)
     return sobol && early ? sobolPair(id, dimension) : independentPair(id, dimension);
 }
 
-// For number `k` of `count` samples that one sample takes of light `light`: together they are points [index * count,
-// index * count + count) of a sequence that belongs to this light.
+// The id of number `k` of the `count` samples that one camera sample takes of light `light`. Together they are points [index * count, index
+// * count + count) of a sequence that belongs to this light.
 SampleId splitSample(SampleId id, uint light, uint k, uint count)
 {
     return SampleId(hash4(uvec4(id.seed, light, 0u, 0u)).x, id.pixel, id.index * count + k);

@@ -20,7 +20,7 @@ uint scrambleOwen(uint x, uint seed)
     return bitfieldReverse(permuteLaineKarras(bitfieldReverse(x), seed));
 }
 
-// Points `index` of the first two Sobol' dimensions, as 32-bit fractions: the van der Corput sequence and the one whose
+// Point `index` of the first two Sobol' dimensions, as 32-bit fractions: the van der Corput sequence and the one whose
 // generator matrix is Pascal's triangle modulo 2. That matrix is the fifth Kronecker power of [1 1; 0 1], hence five steps.
 uvec2 sobolPoint(uint index)
 {

@@ -2,13 +2,8 @@
 #ifndef GLIM_LIB_STOP_RULE
 #define GLIM_LIB_STOP_RULE
 
+#include "luminance.glsl"
 #include "shared/pixel_moments.h"
-
-// Rec.709.
-float luminanceOf(vec3 radiance)
-{
-    return dot(radiance, vec3(0.2126, 0.7152, 0.0722));
-}
 
 // Welford, "Note on a Method for Calculating Corrected Sums of Squares and Products", 1962.
 LuminanceMoments addLuminance(LuminanceMoments moments, float luminance, bool met)
@@ -19,9 +14,9 @@ LuminanceMoments addLuminance(LuminanceMoments moments, float luminance, bool me
     return LuminanceMoments(count, mean, moments.squares + delta * (luminance - mean), moments.met + uint(met));
 }
 
-// The rule of Berkeley's CS 184 path tracer: half the 95 % interval of the mean, 1.96 s / sqrt(n), is at most `tolerance` of it.
-// Looking again and again until it holds stops preferably where the mean is too low: that biases the picture. A pixel
-// whose samples are all equal, most often black, passes after `constantSamples` only.
+// The rule of Berkeley's CS 184 path tracer: half the 95 % interval of the mean, 1.96 s / sqrt(n), is at most `tolerance` times the mean.
+// Testing it again and again stops pixels preferably where the mean is too low, which biases the picture. A pixel whose samples are all
+// equal, most often black, passes only after `constantSamples`.
 bool isAccurate(LuminanceMoments moments, float tolerance, uint constantSamples)
 {
     if (moments.count < 2u) {

@@ -1,4 +1,4 @@
-// From the unit square to directions and points. Numbers u are in [0, 1).
+// Warps the unit square to directions and points. Numbers u are in [0, 1).
 #ifndef GLIM_LIB_WARP
 #define GLIM_LIB_WARP
 
@@ -34,7 +34,7 @@ float pdfCosineHemisphere(float cosine)
     return max(cosine, 0.0) * (1.0 / kPi);
 }
 
-// The unit circle, uniform. Divided by its length, since Vulkan lets sin and cos be 2^-11 off.
+// A uniform point of the unit circle. Divided by its length, since Vulkan allows sin and cos an error of 2^-11.
 vec2 sampleCircle(float u)
 {
     float phi = kPi * (2.0 * u - 1.0);

@@ -5,12 +5,12 @@
 
 GLIM_SHARED_BEGIN
 
-// Of the traversal stack, at most. No more than 32, the rounds of a loop that Mesa unrolls: in a loop, each level would be memory.
+// The most levels of the traversal stack. At most 32, because Mesa unrolls no longer loops: in a loop, each level would be in memory.
 GLIM_CONST uint kMaxStackLevels = 24u;
 
-// Samples of a pixel come in blocks with one scramble each, aligned to the absolute sample index; block means are what
-// the variance is estimated from. The first of kBlockSamples is two halves, so that the error is known from there on. A page is
-// the fold of its blocks, the film the fold of its pages.
+// A pixel's samples come in blocks, aligned to the absolute sample index. Each block has a scramble of its own, and the variance is
+// estimated from the block means. The first kBlockSamples samples are two half blocks, so that the error is known that early. A page is the
+// fold of its blocks, the film the fold of its pages.
 GLIM_CONST uint kBlockSamples = 64u;
 GLIM_CONST uint kFirstBlockSamples = 32u;
 GLIM_CONST uint kPageSamples = 256u;
@@ -18,15 +18,15 @@ GLIM_CONST uint kPageSamples = 256u;
 // Primitives that brute force tries per dispatch: Mesa before 24 stops loops after 65,535 iterations.
 GLIM_CONST uint kScanRecords = 8192u;
 
-// Paths that a thread of trace_paths takes at most, one after the other, and visits to nodes and tests of primitives after which it
-// begins no ray. What is left goes into the next dispatch. Eight lanes of Mesa before 24 have 65,535 iterations together; and a pass
-// over ten million triangles that comes after a cheap sky then begins with a dispatch of .12 s on two cores, with 4096 of .35 s. 256
-// take up to a sixth longer in all.
+// A thread of trace_paths takes at most kPathsPerThread paths, one after the other. Once it has visited nodes and tested primitives
+// kStepsPerThread times, it begins no further ray. What is left goes into the next dispatch. Eight lanes of Mesa before 24 have 65,535
+// iterations together. And a pass over ten million triangles that comes after a cheap sky begins with a dispatch of .12 s on two cores;
+// with 4096 steps it would take .35 s. 256 steps take up to a sixth longer in all.
 GLIM_CONST uint kPathsPerThread = 16u;
 GLIM_CONST uint kStepsPerThread = 512u;
 
-// Samples without any difference after which a pixel may count as constant: one whose samples are black but for one in 200
-// has then been found out with probability .994. Where no surface is in sight fewer do (choose_pixels).
+// After this many equal samples a pixel may count as constant. If one sample in 200 is not black, so many have shown one with probability
+// .994. Where no surface is in sight fewer are enough (course_choose_pixels).
 GLIM_CONST uint kConstantSamples = 1024u;
 
 GLIM_SHARED_END

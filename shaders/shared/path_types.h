@@ -1,7 +1,8 @@
-// What kernels hand to each other. Arrays are indexed by slot: the place of a path in the pass. Up to ShadowRay they are whole texels,
-// as which kernels read them (paths.glsl).
+// The data that kernels pass to each other. Arrays are indexed by slot: the place of a path in the pass. The structs up to ShadowRay are
+// whole texels, because kernels read them as texels (paths.glsl).
 #ifndef GLIM_SHARED_PATH_TYPES_H
 #define GLIM_SHARED_PATH_TYPES_H
+#include "scene_types.h"
 #include "vocabulary.h"
 
 GLIM_SHARED_BEGIN
@@ -14,23 +15,23 @@ struct PathRay {
 };
 
 struct PathHit {
-    uint record;       // kNoRecord: a miss
+    uint record;  // kNoRecord: a miss
     float t;
     vec2 barycentric;  // weights of v1 and v2; a sphere's are unused
 };
 
 struct PathState {
     vec3 throughput;
-    float pdf;       // of the ray's direction per steradian; 0: camera, mirror or glass, which light sampling cannot find
+    float pdf;       // of the ray's direction, per steradian; 0 for camera rays and delta lobes, which light sampling cannot replace
     float cosine;    // of the ray's direction against the shading normal it left, >= 0
-    float etaScale;  // product of squared relative indices: throughput * etaScale is free of the glass's compression
+    float etaScale;  // product of squared relative indices: throughput * etaScale is without refraction's scaling of radiance
     uint bounce;     // surfaces met
-    uint unused;
+    uint normal;     // shading normal where the ray started, octahedral (lib/octahedral.glsl)
 };
 
 struct PathRadiance {
     vec3 radiance;
-    float clamped;   // mean of the three channels of what --clamp-indirect took away
+    float clamped;  // mean of the three channels of what --clamp-indirect took away
 };
 
 struct FirstHit {
@@ -40,36 +41,33 @@ struct FirstHit {
     float depth;
 };
 
-// A segment that must be free for `contribution` to count: from origin to origin + direction. Over the hemisphere instead, a ray
-// without end that brings home the emission of what it meets times `contribution`.
+// A segment that must be free for `contribution` to count: from origin to origin + tMax * direction.
 struct ShadowRay {
     vec3 origin;
     uint source;
-    vec3 direction;  // unnormalised; an infinite one for directional light and environment (see `reach`)
-    uint target;     // primitive of the light, which does not shadow itself, or kNoPrimitive; over the hemisphere, brute force
-                     // notes the record that was met so far, or kNoRecord
+    vec3 direction;  // unnormalised; the unit direction for directional lights and the environment (see `tMax`)
+    uint target;     // primitive of the light, which does not shadow itself, or kNoPrimitive
     vec3 contribution;
-    float reach;     // 1, or infinity; brute force sets it to 0 in the shadow and, over the hemisphere, to the nearest hit's t
+    float tMax;  // 1, or infinity
 };
 
 GLIM_CONST uint kNothing = 0xffffffffu;
 
-// What happened to a path where it met a surface and no other buffer tells. Lengths and directions as in PathRay, pdfs per
-// steradian.
+// What happened at a path's vertex, as far as no other buffer holds it. Lengths and directions as in PathRay, pdfs per steradian.
 struct PathNote {
     vec3 point;
-    vec3 geometric;    // unit normals on the side that the path came from
-    vec3 shading;
-    uint front;        // 1: that is the front
-    float foundPdf;    // with which sampling lights would have found the light that the path has found; 0: it was not asked
-    float foundWeight; // of that light; 1 unless noted
-    uint light;        // that was sampled, or kNothing
-    float lightPdf;    // of choosing that light and that direction; 0: a point, spot or directional light
-    float scatterPdf;  // with which scattering would have found it
-    float lightWeight;
-    vec3 weight;       // of the scattering: function * cosine / pdf
-    vec3 throughput;   // with that weight, before roulette
-    float survival;    // of roulette; 0: the path did not get there
+    vec3 ng;  // unit normals on the side that the path came from
+    vec3 ns;
+    uint front;            // 1: that side is the front
+    float lightPdfOfHit;   // of light sampling, for the light that the ray has hit; 0: not evaluated
+    float misWeightOfHit;  // MIS weight of that light; 1 unless noted
+    uint light;            // index of the sampled light, or kNothing
+    float lightPdf;        // of choosing that light and that direction; 0: a point, spot or directional light
+    float bsdfPdf;         // of BSDF sampling, for that direction
+    float misWeightOfLight;
+    vec3 weight;         // of the sampled direction: BSDF * |cos| / pdf
+    vec3 throughput;     // with that weight, before roulette
+    float continuation;  // roulette's probability to continue; 0: the path ended before
 };
 
 // Written by size_dispatch: the length of each queue and the indirect arguments of the dispatches over it.
@@ -95,13 +93,13 @@ struct RayCounts {
 GLIM_CONST uint kMaxLocated = 16u;
 
 struct Located {
-    uint pixel;   // index in the picture
+    uint pixel;  // index in the picture
     uint sampleIndex;
 };
 
 struct Status {
-    uint loopCaps;                 // threads whose driver stops loops early: the picture is wrong
-    uint overflows;                // entries of queues beyond one per slot: the picture is wrong
+    uint loopCaps;                 // threads whose loops the driver cut short: the picture is wrong
+    uint overflows;                // queue entries beyond one per slot: the picture is wrong
     uint nonFinite;                // samples that were not finite, and are in no average
     Located located[kMaxLocated];  // the first of them to be counted
 };
@@ -118,12 +116,12 @@ struct BlockSums {
 };
 
 GLIM_CONST uint kEndsBlock = 1u;   // accumulate folds the block into the page afterwards, whole or not
-GLIM_CONST uint kEveryPixel = 2u;  // the pass goes over all pixels of the slab, whichever are chosen
+GLIM_CONST uint kEveryPixel = 2u;  // the pass goes over all pixels of the tile, whichever are chosen
 
-// Of a pass over some pixels of a slab, which need not have had the same number of samples before.
+// A pixel of a pass over some pixels of a tile, which need not have had the same number of samples before.
 struct ChosenPixel {
-    uint pixel;          // index in the slab
-    uint samplesBefore;  // is added to the pass's firstSample
+    uint pixel;          // index in the tile
+    uint samplesBefore;  // added to the pass's firstSample
 };
 
 // Which queues size_dispatch looks at.
@@ -131,45 +129,42 @@ GLIM_CONST uint kSizesPaths = 1u;
 GLIM_CONST uint kSizesShadow = 2u;
 GLIM_CONST uint kSizesShares = 4u;  // the paths, for trace_paths, which counts its rays itself
 
-// Lights of a round that are none of the scene's.
-GLIM_CONST uint kNoLightIndex = 0xffffffffu;
-GLIM_CONST uint kAnyLight = 0xfffffffeu;  // one by power
-
-// Push constants of every kernel of a pass: pixels [firstPixel, firstPixel + pixelCount) of a slab or, in adaptive renders, of
+// Push constants of every kernel of a pass: pixels [firstPixel, firstPixel + pixelCount) of a tile or, in adaptive renders, of
 // its list of chosen pixels, each with samples [firstSample, firstSample + sampleCount); a chosen pixel may begin later.
 // Slot = (pixel - firstPixel) * sampleCount + (sample - firstSample).
-//
-// Direct light comes in rounds of one ray per path: sample `lightSample` of `lightSamples` of one light or of the hemisphere.
 struct Pass {
-    uint width, height;
-    uint slabBegin;     // index in the picture of the slab's pixel 0
-    uint firstPixel;    // within the slab
+    uint tileBegin;   // index in the picture of the tile's pixel 0
+    uint firstPixel;  // within the tile
     uint pixelCount;
     uint firstSample;
     uint sampleCount;
+    uint bounce;      // surfaces that the paths of the active queue have met
+    uint accumulate;  // kEndsBlock | kEveryPixel
+    uint sizes;       // kSizesPaths | kSizesShadow, or kSizesShares
+};
+
+// What stays the same during a render. In a storage buffer: Mesa compiles kernels anew for the values of a uniform one
+// (tests/bench/EXPERIMENTS.md).
+struct RenderParameters {
+    FlatCamera camera;
+    uint width, height;
     uint seed;
-    uint bounce;        // surface events before the hit at hand
     uint maxBounces;
+    uint minPathLength;  // least number of surfaces between camera and light, for light that counts
+    uint maxPathLength;
     uint lightCount;
     uint environmentLight;  // index, if the scene has an environment
-    vec3 environment;
+    vec3 environment;       // radiance, W/(sr m^2)
     float clampIndirect;    // infinity: off
-    uint accumulate;        // kEndsBlock | kEveryPixel
     uint canarySteps;       // 3, unknown to the compiler
-    uint leastEvents;       // surfaces between camera and light, of the light that counts
-    uint mostEvents;
-    float survival;         // of kRouletteFixed
-    uint sizes;             // kSizesPaths | kSizesShadow, or kSizesShares
-    uint addsFound;         // 1: sample_lights adds the light that the ray itself has found (the first round)
-    uint light;             // of the round: an index, kAnyLight or kNoLightIndex
-    uint lightSample;
-    uint lightSamples;
-    uint firstRecord;       // of brute force: records [firstRecord, endRecord) out of recordCount
-    uint endRecord;
-    uint recordCount;
-    float tolerance;        // of choose_pixels: half the 95 % interval over the mean
-    uint constantSamples;   // a pixel whose samples are all equal needs as many
 };
+
+// Whether a path samples lights at the surface that it meets after `bounce` others. That light has then met bounce + 1 surfaces. At the
+// last hit no light is sampled: only emission is added.
+GLIM_FUNCTION bool samplesLights(uint bounce, uint maxBounces, uint minPathLength, uint lightCount)
+{
+    return lightCount > 0u && bounce < maxBounces && bounce + 1u >= minPathLength;
+}
 
 GLIM_SHARED_END
 #endif

@@ -1,4 +1,4 @@
-// What is known of a pixel: the mean of its samples and how far the means of its blocks are spread.
+// What is known of a pixel: the mean of its samples and the spread of its block means.
 #ifndef GLIM_SHARED_PIXEL_MOMENTS_H
 #define GLIM_SHARED_PIXEL_MOMENTS_H
 #include "vocabulary.h"
@@ -6,15 +6,15 @@
 GLIM_SHARED_BEGIN
 
 struct PixelMoments {
-    uint count;        // samples averaged; non-finite ones are not among them
-    uint blocks;       // blocks with at least one sample
-    vec3 mean;         // radiance, W/(sr m^2)
-    vec3 squares;      // sum over blocks of (samples in block) * (block mean - mean)^2
-    float alpha;       // share of samples whose camera ray met a surface
-    vec3 albedo;       // mean base colour at the camera ray's hit; 0 on a miss
-    vec3 normal;       // mean shading normal, world axes, towards the camera; 0 on a miss
-    float depth;       // nearest camera hit, metres along the view axis; infinity if all missed
-    float clamped;     // radiance taken away by --clamp-indirect, mean of the three channels
+    uint count;     // samples averaged; non-finite ones are not among them
+    uint blocks;    // blocks with at least one sample
+    vec3 mean;      // radiance, W/(sr m^2)
+    vec3 squares;   // sum over blocks of (samples in block) * (block mean - mean)^2
+    float alpha;    // share of samples whose camera ray met a surface
+    vec3 albedo;    // mean base colour at the camera ray's hit; 0 on a miss
+    vec3 normal;    // mean shading normal, world axes, towards the camera; 0 on a miss
+    float depth;    // nearest camera hit, metres along the view axis; infinity if all missed
+    float clamped;  // radiance taken away by --clamp-indirect, mean of the three channels
 };
 
 // Luminance (Rec.709) of a pixel's samples, for adaptive sampling.
@@ -25,7 +25,7 @@ struct LuminanceMoments {
     uint met;       // samples whose camera ray met a surface
 };
 
-// The first of the samples of a pixel that none outshines; 0 and 0 while all are black.
+// A pixel's brightest sample, the first of equals; 0 and 0 while all are black.
 struct BrightestSample {
     float luminance;
     uint sampleIndex;

@@ -10,6 +10,7 @@
 #define GLIM_SHARED_BEGIN namespace glim {
 #define GLIM_SHARED_END }
 #define GLIM_CONST inline constexpr
+#define GLIM_FUNCTION inline
 namespace glim {
 using uint = std::uint32_t;
 using vec2 = glm::vec2;
@@ -23,6 +24,7 @@ using uvec4 = glm::uvec4;
 #define GLIM_SHARED_BEGIN
 #define GLIM_SHARED_END
 #define GLIM_CONST const
+#define GLIM_FUNCTION
 #endif
 
 #endif

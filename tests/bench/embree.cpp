@@ -54,19 +54,21 @@ RTCRay rayOf(const vec3& origin, const vec3& direction, float tfar)
 
 }  // namespace
 
-Embree::Embree(const Scene& scene) : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_))
+Embree::Embree(const Primitives& primitives)
+    : device_(rtcNewDevice(nullptr)),
+      scene_(rtcNewScene(device_))
 {
-    if (!scene.spheres.empty()) {
-        throw std::runtime_error(scene.file + ": has spheres; expected triangles alone, which Embree is compared with.");
+    if (!primitives.spheres.empty()) {
+        throw std::runtime_error("The scene has spheres; expected triangles alone, which Embree is compared with.");
     }
     const Clock::time_point start = Clock::now();
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                     sizeof(glm::vec3), 3 * scene.triangles.size()));
+                                                                     sizeof(glm::vec3), 3 * primitives.triangles.size()));
     auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                                        3 * sizeof(std::uint32_t), scene.triangles.size()));
-    for (std::size_t i = 0; i < 3 * scene.triangles.size(); ++i) {
-        vertices[i] = scene.triangles[i / 3].vertices[i % 3];
+                                                                        3 * sizeof(std::uint32_t), primitives.triangles.size()));
+    for (std::size_t i = 0; i < 3 * primitives.triangles.size(); ++i) {
+        vertices[i] = primitives.triangles[i / 3].vertices[i % 3];
         indices[i] = static_cast<std::uint32_t>(i);
     }
     rtcCommitGeometry(geometry);
@@ -107,7 +109,7 @@ Embree::Shadow Embree::trace(std::span<const ShadowRay> rays) const
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
         for (std::size_t i = begin; i < end; ++i) {
-            RTCRay ray = rayOf(rays[i].origin, rays[i].direction, rays[i].reach);
+            RTCRay ray = rayOf(rays[i].origin, rays[i].direction, rays[i].tMax);
             rtcOccluded1(scene_, &context, &ray);
             shadow.free[i] = ray.tfar >= 0.0F ? 1 : 0;
         }

@@ -1,7 +1,7 @@
 // Embree over the triangles of a scene, on as many threads as the machine has.
 #pragma once
 
-#include "host/scene/scene.hpp"
+#include "host/flatten/primitives.hpp"
 #include "shaders/shared/path_types.h"
 #include "shaders/shared/scene_types.h"
 
@@ -14,7 +14,7 @@ namespace glim {
 
 class Embree {
 public:
-    explicit Embree(const Scene& scene);
+    explicit Embree(const Primitives& primitives);
     ~Embree();
     Embree(const Embree&) = delete;
     Embree& operator=(const Embree&) = delete;

@@ -15,7 +15,8 @@ namespace {
 constexpr int kRounds = 5;
 
 // Median nanoseconds of a ray.
-template <class Ray> double nanosecondsOf(TraceTimer& timer, const std::vector<Ray>& rays)
+template <class Ray>
+double nanosecondsOf(TraceTimer& timer, const std::vector<Ray>& rays)
 {
     std::vector<double> seconds;
     timer.trace(rays);
@@ -28,14 +29,15 @@ template <class Ray> double nanosecondsOf(TraceTimer& timer, const std::vector<R
 void measureHills(Device& device, int cells)
 {
     const Scene scene = makeHills(cells);
+    const Primitives primitives = makePrimitives(scene);
     const auto start = std::chrono::steady_clock::now();
-    const WideBvh bvh = buildSceneBvh(scene);
+    const WideBvh bvh = buildSceneBvh(primitives);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const FlatScene flat = flattenScene(scene, bvh);
+    const FlatScene flat = flattenScene(scene, primitives, bvh);
     RenderSettings settings;
     settings.width = settings.height = 512;
     TraceTimer timer(device, flat, flattenCamera(scene.cameras.front(), 1.0F), settings);
-    const double triangles = static_cast<double>(scene.triangles.size());
+    const double triangles = static_cast<double>(primitives.triangles.size());
     const RaySets& rays = timer.rays();
     const double primary = nanosecondsOf(timer, rays.primary), diffuse = nanosecondsOf(timer, rays.diffuse);
     std::printf("| %.0f | %.3f | %.2f | %u | %.0f | %.0f | %.0f | %.0f |\n", triangles, seconds, triangles / seconds / 1e6, bvh.depth,

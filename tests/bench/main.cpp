@@ -1,6 +1,6 @@
-// glim_rates [SCENE...]: how fast glim's kernels trace rays, relative to Embree in the same run, with the same rays, of which the hits
-// are compared, and with the table in tests/bench/README.md. Without scenes: those of bench_scenes.hpp. glim_rates --growth: how the time
-// of a ray grows with the triangles.
+// glim_rates [SCENE...]: how fast glim's kernels trace rays, relative to Embree in the same run with the same rays. Compares the
+// hits, and the rates with the table in tests/bench/README.md. Without scenes it takes those of bench_scenes.hpp.
+// glim_rates --growth: how the time of a ray grows with the number of triangles.
 #include "host/bench/kernel_rates.hpp"
 #include "host/bench/make_hills.hpp"
 #include "host/bench/trace_timer.hpp"
@@ -25,7 +25,7 @@
 namespace glim {
 namespace {
 
-// Where the run at hand takes place, and what was recorded of such runs.
+// The device and scene of this run, and what was recorded for them.
 struct Place {
     std::string device;
     std::string recorded;  // tests/bench/README.md
@@ -80,22 +80,24 @@ void measure(Device& device, Place place, const BenchScene& bench)
 {
     place.scene = bench.name;
     const auto start = std::chrono::steady_clock::now();
-    const WideBvh bvh = buildSceneBvh(bench.scene);
+    const Primitives primitives = makePrimitives(bench.scene);
+    const WideBvh bvh = buildSceneBvh(primitives);
     const double buildSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const FlatScene flat = flattenScene(bench.scene, bvh);
+    const FlatScene flat = flattenScene(bench.scene, primitives, bvh);
     RenderSettings settings;
     settings.width = settings.height = 512;
     TraceTimer timer(device, flat, flattenCamera(bench.scene.cameras.front(), 1.0F), settings);
-    const Embree embree(bench.scene);
-    const double triangles = static_cast<double>(bench.scene.triangles.size());
-    std::printf("\n### %s\n\n%.0f triangles, tree in %.2f s (%.2f M/s), depth %u, cost %.2f, %.0f bytes a triangle\n\n",
-                bench.name.c_str(), triangles, buildSeconds, triangles / buildSeconds / 1e6, bvh.depth, bvh.cost,
+    const Embree embree(primitives);
+    const double triangles = static_cast<double>(primitives.triangles.size());
+    std::printf("\n### %s\n\n%.0f triangles, tree in %.2f s (%.2f M/s), depth %u, cost %.2f, %.0f bytes a triangle\n\n", bench.name.c_str(),
+                triangles, buildSeconds, triangles / buildSeconds / 1e6, bvh.depth, bvh.cost,
                 16.0 * static_cast<double>(flat.nodes.size() + flat.records.size()) / triangles);
     std::printf("| rays | Mrays/s | over Embree's | other hits | recorded |\n|---|---|---|---|---|\n");
     const RaySets& rays = timer.rays();
     for (const auto& [name, set] : {std::pair{"primary", &rays.primary}, {"diffuse", &rays.diffuse}}) {
-        compareRates(place, name, set->size(), [&] { return timer.trace(*set).seconds; }, [&] { return embree.trace(*set).seconds; },
-                     countDifferent(flat, timer.trace(*set).hits, embree.trace(*set).hits));
+        compareRates(
+            place, name, set->size(), [&] { return timer.trace(*set).seconds; }, [&] { return embree.trace(*set).seconds; },
+            countDifferent(flat, timer.trace(*set).hits, embree.trace(*set).hits));
     }
     const auto ours = timer.trace(rays.shadow).free;
     const auto theirs = embree.trace(rays.shadow).free;
@@ -103,8 +105,9 @@ void measure(Device& device, Place place, const BenchScene& bench)
     for (std::size_t i = 0; i < ours.size(); ++i) {
         different += ours[i] == (theirs[i] != 0) ? 0 : 1;
     }
-    compareRates(place, "shadow", rays.shadow.size(), [&] { return timer.trace(rays.shadow).seconds; },
-                 [&] { return embree.trace(rays.shadow).seconds; }, std::to_string(different) + " of " + std::to_string(ours.size()));
+    compareRates(
+        place, "shadow", rays.shadow.size(), [&] { return timer.trace(rays.shadow).seconds; },
+        [&] { return embree.trace(rays.shadow).seconds; }, std::to_string(different) + " of " + std::to_string(ours.size()));
 }
 
 void run(const std::vector<std::string>& files)

@@ -1,4 +1,4 @@
-// Which pixels of a film should have how many samples next, from what is known of it.
+// How many samples each pixel of a film should get next, from what the film knows of its noise.
 #include "host/render/allocate_samples.hpp"
 #include "host/render/block_queue.hpp"
 #include "shaders/shared/limits.h"
@@ -21,7 +21,7 @@ constexpr std::uint32_t kSide = 32;
 
 std::size_t at(std::uint32_t x, std::uint32_t y) { return std::size_t{y} * kSide + x; }
 
-// Every pixel has two blocks, whose means tell this variance of a sample.
+// Every pixel has two blocks. Their means give this variance of a sample.
 Film filmOf(float mean, float variance)
 {
     Film film;
@@ -49,7 +49,7 @@ TEST(AllocateSamplesTest, EvenFilmsAreSampledEvenly)
     }
 }
 
-// A pixel's own variance, be it nothing or all there is, leaves its own share at what the others have far from it.
+// A pixel's own variance, whether zero or large, does not change its own share.
 TEST(AllocateSamplesTest, APixelIsNotAskedAboutItself)
 {
     Film film = filmOf(1.0F, 1.0F);
@@ -68,7 +68,7 @@ TEST(AllocateSamplesTest, APixelIsNotAskedAboutItself)
     }
 }
 
-// Four times the variance in bright halves is the same relative error.
+// In bright halves four times the variance is the same relative error.
 TEST(AllocateSamplesTest, RelativeErrorsCountByRadiance)
 {
     Film film = filmOf(10.0F, 1.0F);
@@ -87,7 +87,7 @@ TEST(AllocateSamplesTest, RelativeErrorsCountByRadiance)
     EXPECT_NEAR(relative[at(28, 3)] / relative[at(3, 3)], expected, 1e-6);
 }
 
-// Of pixels with a block or none nothing is known: they are no neighbours.
+// Nothing is known of pixels with one block or none: they do not count as neighbours.
 TEST(AllocateSamplesTest, WhatIsUnknownIsLeftOut)
 {
     Film film = filmOf(1.0F, 1.0F);
@@ -125,7 +125,7 @@ TEST(AllocateSamplesTest, BlocksComeToTheWantedMeanWithinHalfOfOne)
             }
         }
         EXPECT_NEAR(after, std::max(before, mean * 1000.0), 0.5 * kBlockSamples) << mean;
-        // Where much is wanted the share is had.
+        // A pixel that gets more than one block has the samples of its share.
         for (std::size_t i = 0; i < blocks.size(); ++i) {
             if (blocks[i] > 1) {
                 EXPECT_NEAR(samples[i] + kBlockSamples * blocks[i], given / share * shares[i], 1.6 * kBlockSamples) << i;
@@ -141,12 +141,16 @@ TEST(AllocateSamplesTest, WhoHasEnoughGetsNoMore)
     EXPECT_EQ(allocateBlocks(shares, {3200, 320, 320}, 1300.0), (std::vector<std::uint32_t>{0, 0, 1}));
 }
 
-// --- whether choosing is a bias ---
+// --- whether choosing pixels biases ---
 
 // Samples are 1, and one in 10,000 is 1,001: a tenth of the light comes in spikes that most pixels never meet.
 class SpikyFilm {
 public:
-    explicit SpikyFilm(std::uint64_t seed) : random_(seed) { skip(); }
+    explicit SpikyFilm(std::uint64_t seed)
+        : random_(seed)
+    {
+        skip();
+    }
 
     static constexpr double kTruth = 1.1;
 
@@ -177,8 +181,8 @@ private:
     double left_ = 0.0;
 };
 
-// The mean of a picture of 32x32 with 256 samples a pixel in four rounds, less the truth. Who asks all samples for the noise around,
-// chosen ones too, has no bias in the first round and a growing one after it.
+// The mean of a picture of 32x32 with 256 samples a pixel in four rounds, minus the truth. If the noise around is estimated from all
+// samples, chosen ones too, the first round has no bias, and later rounds have a growing one.
 double errorOfRounds(std::uint64_t seed, bool asksChosenOnes)
 {
     SpikyFilm spikes(seed);

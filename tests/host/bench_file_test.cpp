@@ -1,4 +1,4 @@
-// Benches survive being written and read, and what is no bench is refused.
+// A bench that is written and read is the same, and a file that is no bench is refused.
 #include "host/bench/bench_file.hpp"
 
 #include "host/error.hpp"
@@ -63,8 +63,8 @@ TEST(BenchFile, WhatIsNoBenchIsRefused)
         expectRefusal<InputError>([&] { readBenches(file); }, part);
     };
     expectRefusal<InputError>([&] { readBenches(folder / "none.json"); }, "none.json: cannot be read");
-    refuse("{", "x.json: is no JSON file that `glim bench` wrote");
-    refuse("{\"scenes\": []}", "is no JSON file that `glim bench` wrote");
+    refuse("{", "x.json: is not a JSON file that `glim bench` wrote");
+    refuse("{\"scenes\": []}", "is not a JSON file that `glim bench` wrote");
     refuse("{\"glim:bench\": 7, \"scenes\": []}", "it has format 7, expected 2");
     auto json = nlohmann::json::parse(benchJson({someBench()}));
     json["scenes"][0]["points"][2]["mse"].erase(0);

@@ -1,6 +1,6 @@
 // Intervals hold the truth as often as they claim: counted over simulated benches, within binomial limits.
 #include "host/bench/bootstrap.hpp"
-#include "host/measure/student.hpp"
+#include "host/measure/confidence.hpp"
 #include "tests/support/noisy_picture.hpp"
 #include "tests/support/random.hpp"
 
@@ -25,7 +25,7 @@ double meanOf(const std::vector<double>& values, const std::vector<std::size_t>&
     return sum / static_cast<double>(indices.size());
 }
 
-// Errors of renders as skewed as a difficult scene's: lognormal of mean 1, of which the coefficient of variation is about 40 %.
+// Errors of renders as skewed as a hard scene's: lognormal, of mean 1 and a coefficient of variation of about 40 %.
 std::vector<double> drawErrors(Random& random)
 {
     constexpr double kSpread = 0.39;
@@ -67,7 +67,7 @@ TEST(Bootstrap, IntervalsOfMeansHoldTheTruthAsOftenAsTheyClaim)
     expectCoverage("mean", held);
 }
 
-// Pairs share most of what varies, so an interval that forgot the pairs would be too wide.
+// Both of a pair share most of what varies. An interval that ignored the pairs would be too wide.
 TEST(Bootstrap, IntervalsOfRatiosHoldTheTruthPairedOrNot)
 {
     Random random(2);
@@ -80,8 +80,7 @@ TEST(Bootstrap, IntervalsOfRatiosHoldTheTruthPairedOrNot)
             value *= 1.0 + 0.05 * random.normal();
         }
         const Interval both = bootstrap({kSeeds}, [&](const Draw& d) { return meanOf(above, d[0]) / meanOf(common, d[0]); });
-        const Interval each =
-            bootstrap({kSeeds, kSeeds}, [&](const Draw& d) { return meanOf(above, d[0]) / meanOf(below, d[1]); });
+        const Interval each = bootstrap({kSeeds, kSeeds}, [&](const Draw& d) { return meanOf(above, d[0]) / meanOf(below, d[1]); });
         paired += both.low <= 1.0 && 1.0 <= both.high;
         apart += each.low <= 1.0 && 1.0 <= each.high;
         pairedWidth += both.high - both.low;

@@ -1,4 +1,4 @@
-// H6: trees of what cannot be divided, and of sizes that grow; against splits in the middle of the centres.
+// H6: the depth of trees over primitives that cannot be split and over primitives of growing size, compared with splits in the middle.
 #include "host/bvh/build_bvh.hpp"
 #include "host/flatten/build_scene_bvh.hpp"
 #include "tests/support/hard_case.hpp"
@@ -30,7 +30,7 @@ Shape shapeOf(const Bvh& bvh)
     return shape;
 }
 
-// Leaves are what is small enough, or cannot be divided.
+// A node is a leaf if it is small enough or cannot be split.
 void splitInTheMiddle(const std::vector<double>& ascending, std::size_t begin, std::size_t end, std::uint32_t depth, Shape& shape)
 {
     const double middle = 0.5 * (ascending[begin] + ascending[end - 1]);
@@ -49,7 +49,7 @@ TEST(BvhDepthTest, H6StaysWithinTheStack)
 {
     for (const auto& [name, mesh] : {std::pair{"100,000 coincident triangles", coincidentTriangles(100000)},
                                      {"100,000 in a row, sizes over 43 decades", growingLine(100000, 1e-30F, 1.001)}}) {
-        const std::vector<Box> boxes = primitiveBoxes(sceneOf(mesh));
+        const std::vector<Box> boxes = primitiveBoxes(primitivesOf(mesh));
         std::vector<double> centres;
         for (const Box& box : boxes) {
             centres.push_back(0.5 * static_cast<double>(box.lo.x) + 0.5 * static_cast<double>(box.hi.x));

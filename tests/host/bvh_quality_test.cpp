@@ -1,8 +1,8 @@
-// The builder's bins and its threads cost nothing that counts: trees are as good as those of every possible place, and the same.
+// Binning costs nothing that counts: the builder's trees are as good as those of a full sweep. Its threads change nothing.
 #include "host/bench/make_hills.hpp"
 #include "host/bvh/build_bvh.hpp"
 #include "host/bvh/parallel_for.hpp"
-#include "host/bvh/widen_bvh.hpp"
+#include "host/bvh/collapse_bvh.hpp"
 #include "host/flatten/build_scene_bvh.hpp"
 #include "tests/support/bench_scenes.hpp"
 #include "tests/support/sweep_tree.hpp"
@@ -31,9 +31,11 @@ TEST(BvhQuality, TheSweepsCostIsTheExpectedNumberOfSteps)
 
 TEST(BvhQuality, CostIsWithinFivePercentOfAFullSweeps)
 {
-    for (const auto& [name, scene] : {std::pair{"bumpy ball in a box", bumpyBall(6)}, {"hills", makeHills(150)}, {"forest", forest(40)},
+    for (const auto& [name, scene] : {std::pair{"bumpy ball in a box", bumpyBall(6)},
+                                      {"hills", makeHills(150)},
+                                      {"forest", forest(40)},
                                       {"random triangles", sceneOf(randomTriangles(30000, 0.05F, 1))}}) {
-        const std::vector<Box> boxes = primitiveBoxes(scene);
+        const std::vector<Box> boxes = primitiveBoxes(makePrimitives(scene));
         const double sweep = computeSweepCost(boxes), cost = buildBvh(boxes).cost;
         std::cout << name << ": " << boxes.size() << " triangles, cost " << cost << ", with a full sweep " << sweep << ", ratio "
                   << cost / sweep << "\n";
@@ -51,18 +53,19 @@ bool areEqual(const WideNode& a, const WideNode& b)
 // More primitives than one thread builds alone.
 TEST(BvhThreads, AnyNumberGivesTheSameTrees)
 {
-    for (const Mesh& mesh : {terrain(150), randomTriangles(30000, 0.05F, 1), coincidentTriangles(30000), growingLine(30000, 1e-10F, 1.001)}) {
-        const std::vector<Box> boxes = primitiveBoxes(sceneOf(mesh));
+    for (const Triangles& mesh :
+         {terrain(150), randomTriangles(30000, 0.05F, 1), coincidentTriangles(30000), growingLine(30000, 1e-10F, 1.001)}) {
+        const std::vector<Box> boxes = primitiveBoxes(primitivesOf(mesh));
         for (const SplitRule rule : {SplitRule::Sah, SplitRule::Mean, SplitRule::Median}) {
             const Bvh alone = buildBvh(boxes, rule, 1);
-            const WideBvh wideAlone = widenBvh(alone, 1);
+            const WideBvh wideAlone = collapseBvh(alone, 1);
             for (const unsigned threads : {0U, 2U, 3U, 8U}) {
                 const Bvh bvh = buildBvh(boxes, rule, threads);
                 EXPECT_EQ(bvh.order, alone.order);
                 ASSERT_EQ(bvh.nodes.size(), alone.nodes.size());
                 EXPECT_EQ(std::memcmp(bvh.nodes.data(), alone.nodes.data(), bvh.nodes.size() * sizeof(BvhNode)), 0);
                 EXPECT_EQ(std::pair(bvh.depth, bvh.cost), std::pair(alone.depth, alone.cost));
-                const WideBvh wide = widenBvh(bvh, threads);
+                const WideBvh wide = collapseBvh(bvh, threads);
                 EXPECT_EQ(wide.order, wideAlone.order);
                 EXPECT_TRUE(std::ranges::equal(wide.nodes, wideAlone.nodes, areEqual));
                 EXPECT_EQ(std::pair(wide.depth, wide.cost), std::pair(wideAlone.depth, wideAlone.cost));
@@ -77,7 +80,8 @@ TEST(BvhThreads, ParallelForCallsOnceForEach)
         for (const std::size_t count : {0U, 1U, 2U, 1000U}) {
             std::vector<std::atomic<int>> calls(count);
             parallelFor(count, threads, [&](std::size_t i) { ++calls[i]; });
-            EXPECT_TRUE(std::all_of(calls.begin(), calls.end(), [](const std::atomic<int>& n) { return n == 1; })) << threads << " " << count;
+            EXPECT_TRUE(std::all_of(calls.begin(), calls.end(), [](const std::atomic<int>& n) { return n == 1; }))
+                << threads << " " << count;
         }
     }
 }

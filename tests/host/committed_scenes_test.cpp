@@ -1,4 +1,5 @@
 // Every scene in scenes/ loads as scenes/README.md says, and so do the shared ones where they are at hand.
+#include "host/flatten/primitives.hpp"
 #include "host/scene/load_gltf.hpp"
 #include "places.h"
 
@@ -23,11 +24,16 @@ struct Counts {
 TEST(CommittedScenes, LoadWithNoSurprises)
 {
     const std::map<std::string, Counts> expected = {
-        {"cornell.gltf", {36, 0, 0, 1, 0}},          {"cornell_spheres.gltf", {12, 2, 0, 1, 0}},
-        {"cornell_mirror_glass.gltf", {12, 2, 0, 1, 0}}, {"cornell_gems.gltf", {112, 0, 0, 1, 0}},
-        {"light_point.gltf", {2, 1, 1, 2, 0}},       {"light_spot.gltf", {2, 1, 1, 2, 0}},
-        {"light_directional.gltf", {2, 1, 1, 2, 0}}, {"furnace.gltf", {12, 0, 0, 1, 0}},
-        {"veach_mis.gltf", {12, 5, 0, 1, 4}},        {"many_lights.gltf", {1646, 256, 0, 1, 0}},
+        {"cornell.gltf", {36, 0, 0, 1, 0}},
+        {"cornell_spheres.gltf", {12, 2, 0, 1, 0}},
+        {"cornell_mirror_glass.gltf", {12, 2, 0, 1, 0}},
+        {"cornell_gems.gltf", {112, 0, 0, 1, 0}},
+        {"light_point.gltf", {2, 1, 1, 2, 0}},
+        {"light_spot.gltf", {2, 1, 1, 2, 0}},
+        {"light_directional.gltf", {2, 1, 1, 2, 0}},
+        {"furnace.gltf", {12, 0, 0, 1, 0}},
+        {"veach_mis.gltf", {12, 5, 0, 1, 4}},
+        {"many_lights.gltf", {1646, 256, 0, 1, 0}},
     };
     std::size_t found = 0;
     for (const auto& entry : fs::directory_iterator(fs::path(GLIM_SOURCE_DIR) / "scenes")) {
@@ -38,11 +44,12 @@ TEST(CommittedScenes, LoadWithNoSurprises)
         ASSERT_EQ(expected.count(name), 1U) << name << " has no expectation here";
         const Counts& counts = expected.at(name);
         const Scene scene = loadGltf(entry.path());
-        EXPECT_EQ(scene.triangles.size(), counts.triangles) << name;
+        EXPECT_EQ(makePrimitives(scene).triangles.size(), counts.triangles) << name;
         EXPECT_EQ(scene.spheres.size(), counts.spheres) << name;
         EXPECT_EQ(scene.lights.size(), counts.lights) << name;
         EXPECT_EQ(scene.cameras.size(), counts.cameras) << name;
-        EXPECT_EQ(scene.notices.size(), counts.notices) << name << ::testing::PrintToString(scene.notices);
+        EXPECT_EQ(scene.notices.size() + makePrimitives(scene).notices.size(), counts.notices)
+            << name << ::testing::PrintToString(scene.notices);
         ++found;
     }
     EXPECT_EQ(found, expected.size());
@@ -55,11 +62,13 @@ TEST(CommittedScenes, SolidsAreClosedAndTurnedOutwards)
     const auto edge = [](const glm::vec3& a, const glm::vec3& b) { return Edge{a.x, a.y, a.z, b.x, b.y, b.z}; };
     const auto check = [&](const char* file, const std::string& name, bool inward) {
         const Scene scene = loadGltf(fs::path(GLIM_SOURCE_DIR) / "scenes" / file);
-        for (const Primitive& primitive : scene.primitives) {
+        const Primitives primitives = makePrimitives(scene);
+        for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+            const MeshInstance& instance = scene.instances[i];
             std::map<Edge, int> edges;
             float volume = 0.0F;
-            for (std::uint32_t t = 0; primitive.name == name && t < primitive.triangleCount; ++t) {
-                const auto& v = scene.triangles[primitive.firstTriangle + t].vertices;
+            for (std::uint32_t t = primitives.firstTriangles[i]; instance.name == name && t < primitives.firstTriangles[i + 1]; ++t) {
+                const auto& v = primitives.triangles[t].vertices;
                 volume += glm::dot(v[0], glm::cross(v[1], v[2])) / 6.0F;
                 for (int k = 0; k < 3; ++k) {
                     ++edges[edge(v[k], v[(k + 1) % 3])];
@@ -70,7 +79,7 @@ TEST(CommittedScenes, SolidsAreClosedAndTurnedOutwards)
                 EXPECT_EQ(balance, 0) << name;
             }
             EXPECT_TRUE(edges.empty() || (volume < 0.0F) == inward) << name << " " << volume;
-            EXPECT_TRUE(primitive.name != name || !edges.empty());
+            EXPECT_TRUE(instance.name != name || !edges.empty());
         }
     };
     check("cornell_gems.gltf", "diamond", false);
@@ -102,7 +111,7 @@ TEST(SharedScenes, LoadWithTheTrianglesTheyWereMadeWith)
             continue;
         }
         const Scene scene = loadGltf(file);
-        EXPECT_EQ(scene.triangles.size(), counts["triangles"].get<std::size_t>()) << file;
+        EXPECT_EQ(makePrimitives(scene).triangles.size(), counts["triangles"].get<std::size_t>()) << file;
         EXPECT_EQ(scene.spheres.size(), counts["spheres"].get<std::size_t>()) << file;
         ++compared;
     }
@@ -115,13 +124,13 @@ TEST(SharedScenes, ScansAndArenaLoad)
     if (!fs::exists(root / "arena") || !fs::exists(root / "scans")) {
         GTEST_SKIP() << "NOT TESTED: " << root << " is missing; set GLIM_SHARED to the folder that holds scenes/";
     }
-    const std::map<std::string, std::size_t> triangles = {
-        {"a_cornell", 42},        {"c_mirror_glass", 163858}, {"d_bunny", 278682}, {"CBdragon202k", 202532},
-        {"CBelephant89k", 88940}, {"CBnefertiti", 99950},     {"beast", 64618},    {"bunny69k", 69451}};
+    const std::map<std::string, std::size_t> triangles = {{"a_cornell", 42},        {"c_mirror_glass", 163858}, {"d_bunny", 278682},
+                                                          {"CBdragon202k", 202532}, {"CBelephant89k", 88940},   {"CBnefertiti", 99950},
+                                                          {"beast", 64618},         {"bunny69k", 69451}};
     for (const auto& [name, count] : triangles) {
         const fs::path arena = root / "arena" / (name + ".glb");
         const fs::path file = fs::exists(arena) ? arena : root / "scans" / (name + ".glb");
-        EXPECT_EQ(loadGltf(file).triangles.size(), count) << name;
+        EXPECT_EQ(makePrimitives(loadGltf(file)).triangles.size(), count) << name;
     }
 }
 

@@ -1,4 +1,4 @@
-#include "host/cli/compare.hpp"
+#include "host/cli/commands.hpp"
 #include "host/error.hpp"
 #include "host/image/exr.hpp"
 #include "host/measure/compare_images.hpp"
@@ -7,7 +7,6 @@
 #include "tests/support/noisy_picture.hpp"
 #include "tests/support/scratch_folder.hpp"
 
-#include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -19,16 +18,13 @@
 namespace glim {
 namespace {
 
-using test::ScratchFolder;
 using test::addNoise;
 using test::expectRefusal;
 using test::makeTruth;
+using test::ScratchFolder;
 using test::shareReach;
 
-Picture uniform(std::uint32_t side, const glm::vec3& radiance)
-{
-    return {side, side, std::vector<glm::vec3>(side * side, radiance), {}};
-}
+Picture uniform(std::uint32_t side, const glm::vec3& radiance) { return {side, side, std::vector<glm::vec3>(side * side, radiance), {}}; }
 
 TEST(CompareImages, MetricsOfAKnownDifference)
 {
@@ -139,8 +135,8 @@ TEST(EstimateErrors, IsTheExpectedErrorAgainstTheTruth)
     const auto estimate = estimateErrors(picture);
     ASSERT_TRUE(estimate);
     const SquaredErrors measured = compareImages(picture, truth).errors;
-    // 12,288 squares of normals: 1.3 % standard deviation, more where weights differ. Relative to 1 + min(d, 0), as it is where
-    // neighbours are alike, a deviation of d = .1 adds 2 d / sqrt(2 pi) + 3/2 d^2 = .095: no less than the truth is said.
+    // 12,288 squares of normal numbers: 1.3 % standard deviation, more where weights differ. The estimate is relative to 1 + min(d, 0), as
+    // neighbours are alike: a deviation of d = .1 adds 2 d / sqrt(2 pi) + 3/2 d^2 = .095. It is never below the truth.
     EXPECT_NEAR(estimate->mse, measured.mse, 0.08 * measured.mse);
     EXPECT_NEAR(estimate->relMse, 1.095 * measured.relMse, 0.08 * measured.relMse);
     EXPECT_NEAR(estimate->relMseAbsolute, 1.095 * measured.relMseAbsolute, 0.08 * measured.relMseAbsolute);
@@ -174,14 +170,13 @@ protected:
     }
     static std::string run(std::vector<std::string> arguments)
     {
-        CLI::App app;
-        addCompare(app);
-        std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
-        arguments.push_back("compare");
+        CommandLine line("", "", "");
+        addCompare(line);
+        arguments.insert(arguments.begin(), "compare");
         testing::internal::CaptureStdout();
         testing::internal::CaptureStderr();
         try {
-            app.parse(arguments);
+            line.run(arguments);
         } catch (...) {
             testing::internal::GetCapturedStdout();
             testing::internal::GetCapturedStderr();
@@ -268,8 +263,8 @@ TEST_F(CompareCommand, RefusesBadInput)
     small.channels["G"][65] = -1.0F;
     writeExr(v, small);
     refused({a, b, "--variance", v}, "pixel (1, 1) is negative");
-    EXPECT_THROW(run({a, b, "--unknown"}), CLI::ParseError);
-    EXPECT_THROW(run({a}), CLI::ParseError);
+    EXPECT_THROW(run({a, b, "--unknown"}), UsageError);
+    EXPECT_THROW(run({a}), UsageError);
 }
 
 }  // namespace

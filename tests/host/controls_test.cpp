@@ -17,7 +17,10 @@ const Pose kPose{{3.0, 2.0, 6.0}, {1.0, 1.0, -1.0}, {0.0, 1.0, 0.0}, 1.0};
 
 double distanceOf(const Pose& pose) { return glm::length(pose.at - pose.from); }
 
-void expectNear(const glm::dvec3& a, const glm::dvec3& b, double within = 1e-12) { EXPECT_LE(glm::length(a - b), within) << a.x << " " << a.y << " " << a.z; }
+void expectNear(const glm::dvec3& a, const glm::dvec3& b, double within = 1e-12)
+{
+    EXPECT_LE(glm::length(a - b), within) << a.x << " " << a.y << " " << a.z;
+}
 
 TEST(Controls, OrbitGoesRoundWhatIsLookedAt)
 {
@@ -156,12 +159,13 @@ TEST(ViewOptionsTest, AreExact)
 {
     EXPECT_EQ(viewOptions(std::nullopt, {}), "");
     const Pose pose{{0.1, 1e-7, -3}, {1.0 / 3.0, 0, 0}, {0, 0, 1}, 2.5};
-    EXPECT_EQ(viewOptions(pose, {0.1F, 3.0F}), " --look-from 0.1,1e-07,-3 --look-at 0.3333333333333333,0,0 --look-up 0,0,1 --zoom 2.5"
-                                               " --lens-radius 0.1 --focal-distance 3");
+    EXPECT_EQ(viewOptions(pose, {0.1F, 3.0F}),
+              " --look-from 0.1,1e-07,-3 --look-at 0.3333333333333333,0,0 --look-up 0,0,1 --zoom 2.5"
+              " --lens-radius 0.1 --focal-distance 3");
     EXPECT_EQ(describeView(pose, {}), " look-from=0.1,1e-07,-3 look-at=0.3333333333333333,0,0 look-up=0,0,1 zoom=2.5");
 }
 
-// Where it was moved to, it stays in a scene that has changed around it.
+// A camera that the user has moved stays where it is when the scene's file changes.
 TEST(ViewpointTest, StaysInAnotherScene)
 {
     Viewpoint viewpoint(1, std::nullopt);

@@ -33,7 +33,7 @@ double sumOf(Random& random, const std::function<double(Random&)>& sample)
     return sum;
 }
 
-// Samples all alike but for a tenth of their size.
+// Samples that differ by a tenth of their size.
 Population smooth()
 {
     return {"smooth", shade, [](std::uint32_t pixel, Random& random) {
@@ -42,7 +42,7 @@ Population smooth()
             }};
 }
 
-// In one pixel of ten black and white meet, and the others have no variance.
+// One pixel of ten has an edge between black and white; the others have no variance.
 Population edges()
 {
     const auto covered = [](std::uint32_t pixel) { return pixel % 10 == 0 ? (pixel / 10 % 63 + 0.5) / 63.0 : 1.0; };
@@ -54,15 +54,17 @@ Population edges()
 // Lognormal with a sigma of 2: the skewness is 414.
 Population heavy()
 {
-    return {"heavy tails", [](std::uint32_t) { return std::exp(2.0); }, [](std::uint32_t, Random& random) {
+    return {"heavy tails", [](std::uint32_t) { return std::exp(2.0); },
+            [](std::uint32_t, Random& random) {
                 return sumOf(random, [](Random& r) { return std::lognormal_distribution<double>(0.0, 2.0)(r); });
             }};
 }
 
-// One sample in a hundred thousand is a ten thousandfold one.
+// One sample in a hundred thousand is ten thousand times as bright.
 Population rare()
 {
-    return {"rare", [](std::uint32_t) { return 1.1; }, [](std::uint32_t, Random& random) {
+    return {"rare", [](std::uint32_t) { return 1.1; },
+            [](std::uint32_t, Random& random) {
                 const double ordinary = std::normal_distribution<double>(kBlock * 1.0, 0.1 * std::sqrt(kBlock))(random);
                 return ordinary + 1e4 * std::binomial_distribution<int>(kBlock, 1e-5)(random);
             }};
@@ -118,12 +120,12 @@ Coverage measureCoverage(const Population& population, std::uint32_t pixels, std
         share.mse += holds(estimate.mse, errors.mse) ? 1.0 / films : 0.0;
         share.relMse += holds(estimate.relMse, errors.relMse) ? 1.0 / films : 0.0;
     }
-    std::printf("%s, %u pixels of %u blocks: the intervals hold MSE and relMSE of %.1f and %.1f %% of %d films\n", population.name,
-                pixels, blocks, 100.0 * share.mse, 100.0 * share.relMse, films);
+    std::printf("%s, %u pixels of %u blocks: the intervals hold MSE and relMSE of %.1f and %.1f %% of %d films\n", population.name, pixels,
+                blocks, 100.0 * share.mse, 100.0 * share.relMse, films);
     return share;
 }
 
-// Of so many films, with the probability .95 each: five standard deviations.
+// Five standard deviations below .95, for the share of so many films.
 double leastCoverage(int films) { return 0.95 - 5.0 * std::sqrt(0.95 * 0.05 / films); }
 
 TEST(ErrorEstimate, H30CoversWhatIsSmooth)
@@ -151,7 +153,7 @@ TEST(ErrorEstimate, H30CoversHeavyTails)
     EXPECT_GE(share.relMse, leastCoverage(200));
 }
 
-// Where what makes up the error is mostly not among the samples, no interval can hold it; once it is, the report says so.
+// While the rare samples that make up the error are missing, no interval can hold it. Once one is there, the report says so.
 TEST(ErrorEstimate, H30SaysWhereRareSamplesAreAllOfTheError)
 {
     EXPECT_LT(measureCoverage(rare(), 256, 4, 500).mse, 0.9) << "one film in three has met one";

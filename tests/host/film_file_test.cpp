@@ -11,10 +11,10 @@
 namespace glim {
 namespace {
 
-using test::ScratchFolder;
 using test::bytesOfFile;
 using test::expectRefusal;
 using test::sameBits;
+using test::ScratchFolder;
 using test::simulateFilm;
 
 TEST(FilmFile, ReadsBackEveryBit)

@@ -1,4 +1,4 @@
-// What each view, and the samples per pixel, look like.
+// What the picture of each AOV and of the samples per pixel looks like.
 #include "host/image/heat_color.hpp"
 #include "host/render/film_pictures.hpp"
 #include "host/render/settings.hpp"
@@ -28,10 +28,10 @@ PixelMoments pixel(const glm::vec3& mean, float alpha = 1.0F)
     return moments;
 }
 
-Film filmOf(View view, const std::vector<PixelMoments>& pixels)
+Film filmOf(Aov aov, const std::vector<PixelMoments>& pixels)
 {
     RenderSettings settings;
-    settings.view = view;
+    settings.aov = aov;
     Film film;
     film.width = static_cast<std::uint32_t>(pixels.size());
     film.height = 1;
@@ -40,11 +40,11 @@ Film filmOf(View view, const std::vector<PixelMoments>& pixels)
     return film;
 }
 
-std::vector<Rgb> picture(View view, const std::vector<PixelMoments>& pixels, double exposure = 0.0)
+std::vector<Rgb> picture(Aov aov, const std::vector<PixelMoments>& pixels, double exposure = 0.0)
 {
     const ScratchFolder folder;
-    const Film film = filmOf(view, pixels);
-    writeFilmPng(folder / "a.png", film, lookOf(film), exposure);
+    const Film film = filmOf(aov, pixels);
+    writeFilmPng(folder / "a.png", film, aovOf(film), exposure);
     EXPECT_EQ(folder.entries(), 1);
     return test::decodePng(folder / "a.png");
 }
@@ -56,7 +56,7 @@ std::vector<Rgb> ratesPicture(const std::vector<std::uint32_t>& counts)
         pixels[i].count = counts[i];
     }
     const ScratchFolder folder;
-    writeFilmPng(folder / "r.png", filmOf(View::Shaded, pixels), Look::Rate, 0.0);
+    writeFilmPng(folder / "r.png", filmOf(Aov::Radiance, pixels), Aov::SampleCount, 0.0);
     return test::decodePng(folder / "r.png");
 }
 
@@ -75,20 +75,20 @@ TEST(HeatColor, GoesFromBlueToRed)
 
 TEST(FilmPictures, LightAndAlbedoAreExposedSrgb)
 {
-    for (const View view : {View::Shaded, View::Albedo}) {
-        EXPECT_EQ(picture(view, {pixel({0.25F, 0, 9}), pixel({0.09F, -1, 0.5F}), pixel({0, kNan, 0}), pixel({0, 0, -kInfinity})}, 1.0),
+    for (const Aov aov : {Aov::Radiance, Aov::Albedo}) {
+        EXPECT_EQ(picture(aov, {pixel({0.25F, 0, 9}), pixel({0.09F, -1, 0.5F}), pixel({0, kNan, 0}), pixel({0, 0, -kInfinity})}, 1.0),
                   (std::vector<Rgb>{{188, 0, 255}, {118, 0, 255}, kBad, kBad}));
-        EXPECT_EQ(picture(view, {pixel({0.25F, 0, 0})}, -1.0), (std::vector<Rgb>{{srgbByte(0.125), 0, 0}}));
+        EXPECT_EQ(picture(aov, {pixel({0.25F, 0, 0})}, -1.0), (std::vector<Rgb>{{srgbByte(0.125), 0, 0}}));
     }
 }
 
 TEST(FilmPictures, NormalsAreBytesWithoutACurve)
 {
-    const std::vector<PixelMoments> pixels{pixel({1, 0, -1}),         pixel({0, 0.6F, 0.8F}), pixel({0, 0, 0}, 0.0F),
-                                           pixel({0, 0, 0.25F}, 0.25F), pixel({kNan, 0, 0})};
+    const std::vector<PixelMoments> pixels{pixel({1, 0, -1}), pixel({0, 0.6F, 0.8F}), pixel({0, 0, 0}, 0.0F), pixel({0, 0, 0.25F}, 0.25F),
+                                           pixel({kNan, 0, 0})};
     const std::vector<Rgb> expected{{255, 128, 0}, {128, 204, 230}, kBlack, {128, 128, 255}, kBad};
-    EXPECT_EQ(picture(View::Normal, pixels), expected);
-    EXPECT_EQ(picture(View::Normal, pixels, 3.0), expected) << "exposure is of light";
+    EXPECT_EQ(picture(Aov::Normal, pixels), expected);
+    EXPECT_EQ(picture(Aov::Normal, pixels, 3.0), expected) << "exposure is of light";
 }
 
 TEST(FilmPictures, DepthGoesFromWhiteToDark)
@@ -99,25 +99,24 @@ TEST(FilmPictures, DepthGoesFromWhiteToDark)
         return moments;
     };
     // 2 to 10 metres; the half-covered pixel's surface is at 6; dark is an eighth.
-    EXPECT_EQ(picture(View::Depth, {at(2), at(10), at(6, 0.5F), at(0, 0), pixel(glm::vec3(kNan))}),
+    EXPECT_EQ(picture(Aov::Depth, {at(2), at(10), at(6, 0.5F), at(0, 0), pixel(glm::vec3(kNan))}),
               (std::vector<Rgb>{{255, 255, 255}, {32, 32, 32}, {143, 143, 143}, kBlack, kBad}));
-    EXPECT_EQ(picture(View::Depth, {at(3), at(3)}), (std::vector<Rgb>(2, {255, 255, 255})));
-    EXPECT_EQ(picture(View::Depth, {at(0, 0)}), (std::vector<Rgb>{kBlack}));
+    EXPECT_EQ(picture(Aov::Depth, {at(3), at(3)}), (std::vector<Rgb>(2, {255, 255, 255})));
+    EXPECT_EQ(picture(Aov::Depth, {at(0, 0)}), (std::vector<Rgb>{kBlack}));
 }
 
 TEST(FilmPictures, StepsAreHeatWhoseScaleAFewPixelsDoNotSet)
 {
-    const std::vector<PixelMoments> few{pixel({0, 50, 0}), pixel({20, 0, 0}), pixel({40, 0, 0}), pixel({40, 1, 0}),
-                                        pixel({kNan, 0, 0})};
-    EXPECT_EQ(picture(View::BvhSteps, few), (std::vector<Rgb>{kBlue, {0, 255, 0}, kRed, kRed, kBad}));
+    const std::vector<PixelMoments> few{pixel({0, 50, 0}), pixel({20, 0, 0}), pixel({40, 0, 0}), pixel({40, 1, 0}), pixel({kNan, 0, 0})};
+    EXPECT_EQ(picture(Aov::BvhSteps, few), (std::vector<Rgb>{kBlue, {0, 255, 0}, kRed, kRed, kBad}));
     std::vector<PixelMoments> pixels(2000, pixel({8, 0, 0}));
     pixels[0] = pixel({4, 0, 0});
     pixels[1] = pixel({1e6F, 0, 0});
-    const std::vector<Rgb> found = picture(View::BvhSteps, pixels);
+    const std::vector<Rgb> found = picture(Aov::BvhSteps, pixels);
     EXPECT_EQ(found[0], (Rgb{0, 255, 0}));
     EXPECT_EQ(found[1], kRed);
     EXPECT_EQ(found[2], kRed);
-    EXPECT_EQ(picture(View::BvhSteps, {pixel({0, 0, 0}), pixel({0, 3, 0})}), (std::vector<Rgb>(2, kBlue)));
+    EXPECT_EQ(picture(Aov::BvhSteps, {pixel({0, 0, 0}), pixel({0, 3, 0})}), (std::vector<Rgb>(2, kBlue)));
 }
 
 TEST(FilmPictures, RatesGoFromTheFewestToTheMost)
@@ -131,7 +130,7 @@ TEST(FilmPictures, RatesGoFromTheFewestToTheMost)
 TEST(FilmPictures, SettingsAreFoundInTheirDescription)
 {
     RenderSettings settings;
-    settings.view = View::BvhSteps;
+    settings.aov = Aov::BvhSteps;
     const std::string text = describeSettings(settings);
     EXPECT_EQ(findSetting(text, "view"), "bvh-steps");
     EXPECT_EQ(findSetting(text, "bounces"), "64");

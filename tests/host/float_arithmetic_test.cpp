@@ -1,5 +1,4 @@
-// H3, H43: products and sums on the host are rounded one by one, as the flags ask; and what happens to the watertight test where they are
-// not.
+// H3, H43: the host rounds products and sums one by one, as its flags ask. Where it does not, the watertight test leaks.
 #include "places.h"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/random.hpp"
@@ -36,10 +35,7 @@ TEST(FloatArithmeticTest, H43EveryFileIsCompiledExactly)
 }
 
 // a b - c d, each product rounded, or the first one not.
-float difference(float a, float b, float c, float d, bool fused)
-{
-    return fused ? std::fma(a, b, -(c * d)) : a * b - c * d;
-}
+float difference(float a, float b, float c, float d, bool fused) { return fused ? std::fma(a, b, -(c * d)) : a * b - c * d; }
 
 // Woop's three edge functions for a ray along +z through the origin.
 bool isHit(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c, bool fused)
@@ -49,7 +45,7 @@ bool isHit(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c, bool fuse
     return (u >= 0.0F && v >= 0.0F && w >= 0.0F) || (u <= 0.0F && v <= 0.0F && w <= 0.0F);
 }
 
-// Two triangles on either side of an edge that the ray meets, as exactly as floats can say.
+// Two triangles on either side of an edge. The ray meets the edge as exactly as floats can say.
 TEST(FloatArithmeticTest, H3FusedProductsLeak)
 {
     Random random(3);

@@ -1,4 +1,5 @@
 // Every way in which glTF may store the same triangle.
+#include "host/flatten/primitives.hpp"
 #include "tests/support/gltf_builder.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +21,13 @@ Scene loadPositions(GltfBuilder& builder, std::size_t accessor)
 
 glm::vec3 vertex(const Scene& scene, std::size_t triangle, int corner)
 {
-    return scene.triangles.at(triangle).vertices[corner] + glm::vec3(scene.origin);
+    return makePrimitives(scene).triangles.at(triangle).vertices[corner] + glm::vec3(scene.origin);
+}
+
+glm::vec3 normal(const Scene& scene, std::size_t triangle, int corner)
+{
+    const Primitives primitives = makePrimitives(scene);
+    return primitives.normals.at(primitives.vertices.at(triangle)[corner]);
 }
 
 template <typename Component>
@@ -39,9 +46,7 @@ void expectIntegers(int componentType, bool normalized, double one)
     builder.document["bufferViews"][0]["byteStride"] = kStride * sizeof(Component);
     builder.document["accessors"][accessor]["normalized"] = normalized;
     const Scene scene = loadPositions(builder, accessor);
-    const auto expected = [&](double value) {
-        return static_cast<float>(normalized ? std::max(value / one, -1.0) : value);
-    };
+    const auto expected = [&](double value) { return static_cast<float>(normalized ? std::max(value / one, -1.0) : value); };
     const auto width = static_cast<float>(expected(high) - expected(low));
     EXPECT_FLOAT_EQ(vertex(scene, 0, 1).x - vertex(scene, 0, 0).x, width);
     EXPECT_NEAR(vertex(scene, 0, 0).x, expected(low), 1e-6F * width);
@@ -79,10 +84,8 @@ TEST(GltfAccessor, ReadsInterleavedAttributesWithOffsets)
     const Scene scene = load(builder);
     EXPECT_EQ(vertex(scene, 0, 1), glm::vec3(2, 0, 0));
     EXPECT_EQ(vertex(scene, 0, 2), glm::vec3(0, 3, 0));
-    ASSERT_EQ(scene.normals.size(), 1U);
-    EXPECT_TRUE(scene.primitives.at(0).smooth);
-    EXPECT_EQ(scene.normals[0].normals[1], glm::vec3(0, 0.6F, 0.8F));
-    EXPECT_EQ(scene.normals[0].normals[2], glm::vec3(0, 0, 1)) << "of unit length again";
+    EXPECT_EQ(normal(scene, 0, 1), glm::vec3(0, 0.6F, 0.8F));
+    EXPECT_EQ(normal(scene, 0, 2), glm::vec3(0, 0, 1)) << "of unit length again";
 }
 
 json sparseOf(GltfBuilder& builder, const Bytes& indices, int indexType, const std::vector<float>& values)
@@ -148,7 +151,7 @@ TEST(GltfAccessor, ReadsEveryIndexType)
 // Normal of a triangle that lies in a plane z = const.
 float facing(const Scene& scene, std::size_t triangle)
 {
-    const Triangle& t = scene.triangles.at(triangle);
+    const Triangle t = makePrimitives(scene).triangles.at(triangle);
     return glm::cross(t.vertices[1] - t.vertices[0], t.vertices[2] - t.vertices[0]).z;
 }
 
@@ -161,7 +164,7 @@ TEST(GltfAccessor, StripsAndFansFaceOneWay)
         const std::size_t accessor = builder.addVec3(positions);
         builder.addNode({{"mesh", builder.addMesh({{"attributes", {{"POSITION", accessor}}}, {"mode", mode}})}});
         const Scene scene = load(builder);
-        ASSERT_EQ(scene.triangles.size(), 3U);
+        ASSERT_EQ(makePrimitives(scene).triangles.size(), 3U);
         float area = 0.0F;
         for (std::size_t t = 0; t < 3; ++t) {
             EXPECT_GT(facing(scene, t), 0.0F) << "mode " << mode << " triangle " << t;
@@ -179,11 +182,59 @@ TEST(GltfAccessor, PointsAndLinesAreLeftOutAndSaidSo)
     builder.addNode({{"mesh", builder.addMesh({{"attributes", {{"POSITION", positions}}}, {"mode", 0}})}});
     builder.addNode({{"mesh", builder.addTriangleMesh()}});
     const Scene scene = load(builder);
-    EXPECT_EQ(scene.triangles.size(), 1U);
+    EXPECT_EQ(makePrimitives(scene).triangles.size(), 1U);
     ASSERT_GE(scene.notices.size(), 2U);
-    EXPECT_EQ(scene.notices[0], "meshes[0].primitives[0] holds lines and is left out: only triangles, strips and fans "
-                                "are drawn");
+    EXPECT_EQ(scene.notices[0],
+              "meshes[0].primitives[0] holds lines and is left out: only triangles, strips and fans "
+              "are drawn");
     EXPECT_NE(scene.notices[1].find("holds points"), std::string::npos);
+}
+
+// A triangle with all attributes that a mesh can have; colours are normalised bytes without alpha, texture coordinates normalised shorts.
+json everyAttribute(GltfBuilder& builder)
+{
+    json attributes = {{"POSITION", builder.addVec3({0, 0, 0, 1, 0, 0, 0, 1, 0})},
+                       {"NORMAL", builder.addVec3({0, 0, 1, 0, 0, 1, 0, 0, 1})}};
+    attributes["TANGENT"] = builder.addAccessor(toBytes<float>({1, 0, 0, 1, 0, 1, 0, -1, 1, 0, 0, 1}), kFloat, "VEC4", 3);
+    attributes["TEXCOORD_0"] = builder.addAccessor(toBytes<float>({0, 0, 0.25F, 0, 0, 3}), kFloat, "VEC2", 3);
+    attributes["TEXCOORD_1"] = builder.addAccessor(toBytes<std::uint16_t>({0, 0, 65535, 0, 0, 13107}), kUnsignedShort, "VEC2", 3);
+    builder.document["accessors"].back()["normalized"] = true;
+    const std::size_t view = builder.addView({255, 0, 0, 0, 0, 255, 0, 0, 0, 0, 51, 0});
+    builder.document["bufferViews"][view]["byteStride"] = 4;
+    attributes["COLOR_0"] = builder.append(
+        "accessors", {{"bufferView", view}, {"componentType", kUnsignedByte}, {"type", "VEC3"}, {"count", 3}, {"normalized", true}});
+    return attributes;
+}
+
+TEST(GltfAccessor, ReadsEveryAttributeOfAMesh)
+{
+    GltfBuilder builder;
+    builder.addNode({{"mesh", builder.addMesh({{"attributes", everyAttribute(builder)}})}});
+    const Mesh mesh = load(builder).meshes.at(0);
+    EXPECT_EQ(mesh.positions.at(1), glm::dvec3(1, 0, 0));
+    EXPECT_EQ(mesh.normals.at(2), glm::dvec3(0, 0, 1));
+    EXPECT_EQ(mesh.tangents.at(1), glm::vec4(0, 1, 0, -1));
+    EXPECT_EQ(mesh.uv0.at(2), glm::vec2(0, 3));
+    EXPECT_EQ(mesh.uv1.at(1), glm::vec2(1, 0));
+    EXPECT_FLOAT_EQ(mesh.uv1.at(2).y, 0.2F);
+    EXPECT_EQ(mesh.colors.at(0), glm::vec4(1, 0, 0, 1)) << "opaque where there is no alpha";
+    EXPECT_FLOAT_EQ(mesh.colors.at(2).b, 0.2F);
+}
+
+TEST(GltfAccessor, EveryAttributeHasAValuePerPosition)
+{
+    const std::pair<const char*, const char*> counts[] = {{"NORMAL", " has 2 normals; expected as many as its 3 positions"},
+                                                          {"TANGENT", " has 2 tangents; expected"},
+                                                          {"TEXCOORD_0", " has 2 texture coordinates; expected"},
+                                                          {"TEXCOORD_1", " has 2 texture coordinates of the second set; expected"},
+                                                          {"COLOR_0", " has 2 vertex colours; expected"}};
+    for (const auto& [name, sentence] : counts) {
+        GltfBuilder builder;
+        const json attributes = everyAttribute(builder);
+        builder.document["accessors"][attributes[name].get<std::size_t>()]["count"] = 2;
+        builder.addNode({{"mesh", builder.addMesh({{"attributes", attributes}})}});
+        EXPECT_NE(refusal(builder).find(sentence), std::string::npos) << refusal(builder);
+    }
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Whatever the bytes: a scene that holds its invariants, or one sentence. Run it under the sanitizers, too.
+// Any bytes give a scene that holds its invariants, or one sentence. tools/test --sanitize runs this too.
 #include "host/error.hpp"
 #include "host/scene/check_scene.hpp"
 #include "tests/support/gltf_builder.hpp"
@@ -65,15 +65,9 @@ void fuzz(const std::string& original, const std::string& name)
     EXPECT_LT(loaded, kMutants) << "the mutants are too tame to prove anything";
 }
 
-TEST(GltfFuzz, SurvivesMutantsOfText)
-{
-    fuzz(readText(GLIM_SOURCE_DIR "/scenes/light_spot.gltf"), "mutant.gltf");
-}
+TEST(GltfFuzz, SurvivesMutantsOfText) { fuzz(readText(GLIM_SOURCE_DIR "/scenes/light_spot.gltf"), "mutant.gltf"); }
 
-TEST(GltfFuzz, SurvivesMutantsOfGems)
-{
-    fuzz(readText(GLIM_SOURCE_DIR "/scenes/cornell_gems.gltf"), "mutant.gltf");
-}
+TEST(GltfFuzz, SurvivesMutantsOfGems) { fuzz(readText(GLIM_SOURCE_DIR "/scenes/cornell_gems.gltf"), "mutant.gltf"); }
 
 TEST(GltfFuzz, SurvivesMutantsOfBinaryFiles)
 {
@@ -85,8 +79,7 @@ TEST(GltfFuzz, SurvivesMutantsOfBinaryFiles)
         {"count", 1},
         {"indices", {{"bufferView", builder.addView({2})}, {"componentType", kUnsignedByte}}},
         {"values", {{"bufferView", builder.addView(toBytes<float>({0, 1, 0.5F}))}}}};
-    const std::size_t mesh = builder.addMesh(
-        {{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}, {"indices", indices}});
+    const std::size_t mesh = builder.addMesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}, {"indices", indices}});
     builder.append("nodes", {{"mesh", mesh}, {"scale", {1, -2, 3}}});
     builder.addNode({{"children", {0}}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1}}});
     builder.addNode({{"extras", {{"sphere", {{"radius", 1.5}}}}}});

@@ -1,3 +1,4 @@
+#include "host/flatten/primitives.hpp"
 #include "tests/support/gltf_builder.hpp"
 
 #include <gtest/gtest.h>
@@ -59,8 +60,7 @@ TEST(GltfLights, SpotConesComeAsCosines)
     EXPECT_EQ(plain.kind, PunctualLight::Kind::Spot);
     EXPECT_EQ(plain.cosInner, 1.0F);
     EXPECT_FLOAT_EQ(plain.cosOuter, std::sqrt(0.5F)) << "pi / 4 unless told otherwise";
-    const PunctualLight narrow = readLight(
-        {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}});
+    const PunctualLight narrow = readLight({{"type", "spot"}, {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}});
     EXPECT_FLOAT_EQ(narrow.cosInner, std::cos(0.25F));
     EXPECT_FLOAT_EQ(narrow.cosOuter, std::cos(0.5F));
     EXPECT_LT(glm::length(narrow.direction - glm::vec3(1, 0, 0)), kTolerance);
@@ -72,7 +72,7 @@ TEST(GltfLights, ARangeIsIgnoredAndSaidSo)
     builder.document["extensions"]["KHR_lights_punctual"]["lights"] = json::array({{{"type", "point"}, {"range", 3}}});
     builder.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
     const Scene scene = load(builder);
-    EXPECT_NE(::testing::PrintToString(scene.notices).find("lights[0] shines without its range"), std::string::npos);
+    EXPECT_NE(::testing::PrintToString(scene.notices).find("lights[0] is drawn without its range"), std::string::npos);
 }
 
 Scene readCamera(const json& camera, json node)
@@ -104,8 +104,7 @@ TEST(GltfCameras, ReadsPerspectiveCameras)
 
 TEST(GltfCameras, ReadsOrthographicCameras)
 {
-    const json source = {{"type", "orthographic"},
-                         {"orthographic", {{"xmag", 3}, {"ymag", 2}, {"znear", 0}, {"zfar", 10}}}};
+    const json source = {{"type", "orthographic"}, {"orthographic", {{"xmag", 3}, {"ymag", 2}, {"znear", 0}, {"zfar", 10}}}};
     const Camera camera = readCamera(source, {{"scale", {4, 4, 4}}}).cameras.at(0);
     EXPECT_EQ(camera.kind, Camera::Kind::Orthographic);
     EXPECT_EQ(camera.halfWidth, 3.0F);
@@ -146,10 +145,10 @@ TEST(GltfCameras, FramesTheWholeBoxWhereThereIsNone)
         const auto isSeen = [&](const glm::vec3& point) {
             const glm::vec3 to = point - camera.position;
             const float reach = std::tan(0.5F * camera.yfov) * glm::dot(to, camera.forward);
-            return std::abs(glm::dot(to, camera.up)) <= reach &&
-                   std::abs(glm::dot(to, camera.right)) <= aspectRatio * reach;
+            return std::abs(glm::dot(to, camera.up)) <= reach && std::abs(glm::dot(to, camera.right)) <= aspectRatio * reach;
         };
-        for (const glm::vec3& vertex : scene.triangles.at(0).vertices) {
+        const Triangle triangle = makePrimitives(scene).triangles.at(0);
+        for (const glm::vec3& vertex : triangle.vertices) {
             EXPECT_TRUE(isSeen(vertex));
         }
         for (const glm::vec3& axis : {glm::vec3(2, 0, 0), glm::vec3(0, 2, 0), glm::vec3(0, 0, 2)}) {

@@ -1,4 +1,4 @@
-// Which material becomes which, and the one line that says what was lost.
+// Which glTF material becomes which of glim's, and the line that says what is left out.
 #include "tests/support/gltf_builder.hpp"
 
 #include <gtest/gtest.h>
@@ -26,13 +26,10 @@ Mapped map(const json& material, const std::vector<std::string>& textures = {})
     builder.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
     builder.addNode({{"camera", 0}});
     const Scene scene = load(builder);
-    return {scene.materials.at(scene.primitives.at(0).material), scene.notices};
+    return {scene.materials.at(scene.meshes.at(0).material), scene.notices};
 }
 
-json specular(double factor)
-{
-    return {{"KHR_materials_specular", {{"specularFactor", factor}}}};
-}
+json specular(double factor) { return {{"KHR_materials_specular", {{"specularFactor", factor}}}}; }
 
 json lambert()
 {
@@ -44,9 +41,10 @@ json lambert()
 json glass()
 {
     return {{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0}}},
-            {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
-                            {"KHR_materials_volume", {{"thicknessFactor", 1}}},
-                            {"KHR_materials_ior", {{"ior", 1.75}}}}}};
+            {"extensions",
+             {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+              {"KHR_materials_volume", {{"thicknessFactor", 1}}},
+              {"KHR_materials_ior", {{"ior", 1.75}}}}}};
 }
 
 using Notices = std::vector<std::string>;
@@ -97,9 +95,8 @@ TEST(GltfMaterial, CoreDielectricLosesItsCoat)
 {
     json material = lambert();
     material.erase("extensions");
-    EXPECT_EQ(map(material).notices,
-              Notices{"materials[0] (\"clay\") is drawn as Lambert without the specular coat (specularFactor 1), "
-                      "roughnessFactor 1"});
+    EXPECT_EQ(map(material).notices, Notices{"materials[0] (\"clay\") is drawn as Lambert without the specular coat (specularFactor 1), "
+                                             "roughnessFactor 1"});
 }
 
 TEST(GltfMaterial, TheDefaultMaterialIsAMetalThatIsDrawnAsLambert)
@@ -115,16 +112,14 @@ TEST(GltfMaterial, TheDefaultMaterialIsAMetalThatIsDrawnAsLambert)
 TEST(GltfMaterial, RoughMetalsAreMappedByTheirRoughness)
 {
     const auto metal = [](double metallic, double roughness) {
-        return map({{"pbrMetallicRoughness", {{"metallicFactor", metallic}, {"roughnessFactor", roughness}}},
-                    {"extensions", specular(0)}});
+        return map({{"pbrMetallicRoughness", {{"metallicFactor", metallic}, {"roughnessFactor", roughness}}}, {"extensions", specular(0)}});
     };
     EXPECT_EQ(metal(1, 0.19).material.scattering, Scattering::Mirror);
     EXPECT_EQ(metal(1, 0.19).notices, Notices{"materials[0] is drawn as mirror without roughnessFactor 0.19"});
     EXPECT_EQ(metal(0.75, 0).notices, Notices{"materials[0] is drawn as mirror without metallicFactor 0.75"});
     EXPECT_EQ(metal(1, 0.2).material.scattering, Scattering::Lambert);
     EXPECT_EQ(metal(0.5, 0).material.scattering, Scattering::Lambert);
-    EXPECT_EQ(metal(0.5, 0.3).notices,
-              Notices{"materials[0] is drawn as Lambert without metallicFactor 0.5, roughnessFactor 0.3"});
+    EXPECT_EQ(metal(0.5, 0.3).notices, Notices{"materials[0] is drawn as Lambert without metallicFactor 0.5, roughnessFactor 0.3"});
 }
 
 TEST(GltfMaterial, GlassNamesEverythingItLoses)
@@ -135,10 +130,9 @@ TEST(GltfMaterial, GlassNamesEverythingItLoses)
     material["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 0.5;
     material["extensions"]["KHR_materials_volume"] = {{"attenuationDistance", 2}, {"attenuationColor", {1, 0, 0}}};
     material["extensions"]["KHR_materials_specular"] = {{"specularFactor", 0.5}, {"specularColorFactor", {1, 1, 0}}};
-    EXPECT_EQ(map(material).notices,
-              Notices{"materials[0] (\"bottle\") is drawn as solid glass without transmissionFactor 0.5, thin walls "
-                      "(thicknessFactor 0), attenuation in the volume, metallicFactor 0.5, roughnessFactor 0.25, "
-                      "specularFactor 0.5, specularColorFactor"});
+    EXPECT_EQ(map(material).notices, Notices{"materials[0] (\"bottle\") is drawn as solid glass without transmissionFactor 0.5, thin walls "
+                                             "(thicknessFactor 0), attenuation in the volume, metallicFactor 0.5, roughnessFactor 0.25, "
+                                             "specularFactor 0.5, specularColorFactor"});
 }
 
 TEST(GltfMaterial, WhiteOrEndlessAttenuationIsNone)
@@ -161,10 +155,9 @@ TEST(GltfMaterial, NamesTexturesAlphaAndUnknownExtensionsInOneLine)
     material["alphaMode"] = "MASK";
     material["extensions"]["KHR_materials_clearcoat"] = json::object();
     material["extensions"]["KHR_materials_specular"]["specularTexture"] = {{"index", 0}};
-    EXPECT_EQ(map(material, {"a"}).notices,
-              Notices{"materials[0] (\"clay\") is drawn as Lambert without alphaMode MASK, baseColorTexture, "
-                      "metallicRoughnessTexture, normalTexture, occlusionTexture, emissiveTexture, "
-                      "KHR_materials_clearcoat, specularTexture"});
+    EXPECT_EQ(map(material, {"a"}).notices, Notices{"materials[0] (\"clay\") is drawn as Lambert without alphaMode MASK, baseColorTexture, "
+                                                    "metallicRoughnessTexture, normalTexture, occlusionTexture, emissiveTexture, "
+                                                    "KHR_materials_clearcoat, specularTexture"});
 }
 
 TEST(GltfMaterial, OpaqueBlendingIsExact)

@@ -1,4 +1,4 @@
-// scenes/refused against the table of sentences in scenes/README.md: the table is the expectation.
+// Each file of scenes/refused is refused with the sentence that the table in scenes/README.md has for it.
 #include "tests/support/gltf_builder.hpp"
 #include "places.h"
 
@@ -69,8 +69,7 @@ TEST(GltfRefused, IncompleteCamerasAndSpots)
 TEST(GltfRefused, MemoryThatNoByteOfTheFilePaysFor)
 {
     GltfBuilder builder;
-    const std::size_t positions = builder.append(
-        "accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", 1000000000000}});
+    const std::size_t positions = builder.append("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", 1000000000000}});
     builder.addNode({{"mesh", builder.addMesh({{"attributes", {{"POSITION", positions}}}})}});
     EXPECT_NE(refusal(builder).find("claims 1000000000000 elements without a bufferView"), std::string::npos);
 }
@@ -80,7 +79,7 @@ TEST(GltfRefused, SingularNodesThatCarryNothingAreHarmless)
     GltfBuilder builder;
     builder.addNode({{"mesh", builder.addTriangleMesh()}});
     builder.addNode({{"scale", {0, 0, 0}}});
-    EXPECT_EQ(load(builder).triangles.size(), 1U);
+    EXPECT_EQ(load(builder).instances.size(), 1U);
 }
 
 TEST(GltfRefused, NoEnvironmentThatTheCallerReplaces)
@@ -99,7 +98,7 @@ TEST(GltfRefused, EnvironmentsThatAreNoMapAreOnlySaid)
     EXPECT_EQ(load(builder).notices.at(0), "scenes[0].extras.environment has no \"file\" and is ignored");
     builder.document["scenes"][0]["extras"] = "a string of someone else";
     builder.document["nodes"][0]["extras"] = {1, 2, 3};
-    EXPECT_EQ(load(builder).triangles.size(), 1U);
+    EXPECT_EQ(load(builder).instances.size(), 1U);
 }
 
 }  // namespace

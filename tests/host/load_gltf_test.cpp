@@ -1,4 +1,5 @@
-// Containers, hierarchy, recentring and what is left out.
+// Containers, hierarchy, recentring, and what the loader leaves out.
+#include "host/flatten/primitives.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "places.h"
 
@@ -24,18 +25,24 @@ GltfBuilder oneTriangle(json node = json::object())
 
 glm::vec3 vertex(const Scene& scene, std::size_t triangle, int corner)
 {
-    return scene.triangles.at(triangle).vertices[corner] + glm::vec3(scene.origin);
+    return makePrimitives(scene).triangles.at(triangle).vertices[corner] + glm::vec3(scene.origin);
 }
 
-bool hasNotice(const Scene& scene, const std::string& fragment)
+glm::vec3 normal(const Scene& scene, std::size_t triangle, int corner)
 {
-    return std::any_of(scene.notices.begin(), scene.notices.end(),
+    const Primitives primitives = makePrimitives(scene);
+    return primitives.normals.at(primitives.vertices.at(triangle)[corner]);
+}
+
+bool hasNotice(const std::vector<std::string>& notices, const std::string& fragment)
+{
+    return std::any_of(notices.begin(), notices.end(),
                        [&](const std::string& notice) { return notice.find(fragment) != std::string::npos; });
 }
 
 void expectTheTriangle(const Scene& scene)
 {
-    ASSERT_EQ(scene.triangles.size(), 1U);
+    ASSERT_EQ(makePrimitives(scene).triangles.size(), 1U);
     EXPECT_EQ(vertex(scene, 0, 0), glm::vec3(0, 0, 0));
     EXPECT_EQ(vertex(scene, 0, 1), glm::vec3(1, 0, 0));
     EXPECT_EQ(vertex(scene, 0, 2), glm::vec3(0, 1, 0));
@@ -59,8 +66,7 @@ TEST(LoadGltf, ReadsExternalBuffersBesideTheFile)
 
 TEST(LoadGltf, RefusesWhatIsNotAFile)
 {
-    EXPECT_NE(loadRefusal("/nonexistent/x.gltf").find("/nonexistent/x.gltf: cannot be read: No such file"),
-              std::string::npos);
+    EXPECT_NE(loadRefusal("/nonexistent/x.gltf").find("/nonexistent/x.gltf: cannot be read: No such file"), std::string::npos);
     EXPECT_NE(loadRefusal(GLIM_SOURCE_DIR).find("is a directory"), std::string::npos);
 }
 
@@ -125,10 +131,10 @@ TEST(LoadGltf, H44FrontStaysFrontUnderNegativeScale)
         builder.addNode({{"mesh", builder.addMesh({{"attributes", attributes}})}, {"scale", scale}});
         const Scene scene = load(builder);
         const float front = scale[2].get<float>() > 0.0F ? 1.0F : -1.0F;  // where +Z went
-        const Triangle& t = scene.triangles.at(0);
+        const Triangle t = makePrimitives(scene).triangles.at(0);
         const glm::vec3 face = glm::cross(t.vertices[1] - t.vertices[0], t.vertices[2] - t.vertices[0]);
         EXPECT_GT(face.z * front, 0.0F) << scale;
-        EXPECT_EQ(scene.normals.at(0).normals[0], glm::vec3(0, 0, front)) << scale;
+        EXPECT_EQ(normal(scene, 0, 0), glm::vec3(0, 0, front)) << scale;
     }
 }
 
@@ -147,7 +153,7 @@ TEST(LoadGltf, NormalsFollowTheInverseTranspose)
         for (int v = 0; v < 3; ++v) {
             const bool isThird = std::abs(vertex(scene, 0, v).z) > 0.5F;
             const glm::vec3 expected = isThird ? glm::vec3(0, 1, 0) : tilted;
-            EXPECT_LT(glm::length(scene.normals.at(0).normals[v] - expected), 1e-6F) << v;
+            EXPECT_LT(glm::length(normal(scene, 0, v) - expected), 1e-6F) << v;
         }
     }
 }
@@ -160,10 +166,10 @@ TEST(LoadGltf, BadNormalsGiveWayToTheFaceNormal)
     const std::size_t normals = builder.addVec3({nan, 0, 0, 0, 0, 0, 0, 1, 0});
     builder.addNode({{"mesh", builder.addMesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}})}});
     const Scene scene = load(builder);
-    EXPECT_EQ(scene.normals.at(0).normals[0], glm::vec3(0, 0, 1));
-    EXPECT_EQ(scene.normals.at(0).normals[1], glm::vec3(0, 0, 1));
-    EXPECT_EQ(scene.normals.at(0).normals[2], glm::vec3(0, 1, 0));
-    EXPECT_TRUE(hasNotice(scene, "used the face normal in place of 2 normals")) << ::testing::PrintToString(scene.notices);
+    EXPECT_EQ(normal(scene, 0, 0), glm::vec3(0, 0, 1));
+    EXPECT_EQ(normal(scene, 0, 1), glm::vec3(0, 0, 1));
+    EXPECT_EQ(normal(scene, 0, 2), glm::vec3(0, 1, 0));
+    EXPECT_TRUE(hasNotice(makePrimitives(scene).notices, "used the face normal in place of 2 normals"));
 }
 
 TEST(LoadGltf, H8RecentringLosesNothingFarFromTheOrigin)
@@ -172,8 +178,8 @@ TEST(LoadGltf, H8RecentringLosesNothingFarFromTheOrigin)
         GltfBuilder builder;
         // Coordinates with all 24 bits in use, and a sphere, a light and a camera that go along.
         const std::size_t positions = builder.addVec3({0.1F, 0.7F, 0.3F, 1.9F, 0.1F, 0.2F, 0.3F, 1.7F, 0.1F});
-        builder.append("nodes", {{"mesh", builder.addMesh({{"attributes", {{"POSITION", positions}}}})},
-                                 {"rotation", {0.1, 0.2, 0.3, 0.9}}});
+        builder.append("nodes",
+                       {{"mesh", builder.addMesh({{"attributes", {{"POSITION", positions}}}})}, {"rotation", {0.1, 0.2, 0.3, 0.9}}});
         builder.append("nodes", {{"translation", {0.5, 0.25, 0.75}}, {"extras", {{"sphere", {{"radius", 0.3}}}}}});
         builder.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
         builder.append("nodes", {{"translation", {0.5, 0.5, 4}}, {"camera", 0}});
@@ -183,7 +189,8 @@ TEST(LoadGltf, H8RecentringLosesNothingFarFromTheOrigin)
     const Scene here = place(0, 0, 0);
     for (const double far : {1e4, 1e6, 1e9}) {
         const Scene there = place(far, -far, far);
-        EXPECT_EQ(std::memcmp(here.triangles.data(), there.triangles.data(), sizeof(Triangle)), 0) << far;
+        const Primitives near = makePrimitives(here), shifted = makePrimitives(there);
+        EXPECT_EQ(std::memcmp(near.triangles.data(), shifted.triangles.data(), sizeof(Triangle)), 0) << far;
         EXPECT_EQ(here.spheres.at(0).center, there.spheres.at(0).center) << far;
         EXPECT_EQ(here.cameras.at(0).position, there.cameras.at(0).position) << far;
         EXPECT_EQ(there.origin - here.origin, glm::dvec3(far, -far, far));
@@ -205,10 +212,11 @@ TEST(LoadGltf, H44DropsWhatHasNoExtentAndCountsIt)
     builder.addNode({{"mesh", builder.addMesh({{"attributes", {{"POSITION", positions}}}, {"indices", indices}})}});
     builder.addNode({{"extras", {{"sphere", {{"radius", 0}}}}}});
     const Scene scene = load(builder);
-    EXPECT_EQ(scene.triangles.size(), 1U);
-    EXPECT_TRUE(scene.spheres.empty());
-    EXPECT_TRUE(hasNotice(scene, "left out 2 triangles of zero area"));
-    EXPECT_TRUE(hasNotice(scene, "left out 1 spheres of zero radius"));
+    const Primitives primitives = makePrimitives(scene);
+    EXPECT_EQ(primitives.triangles.size(), 1U);
+    EXPECT_TRUE(primitives.spheres.empty());
+    EXPECT_TRUE(hasNotice(primitives.notices, "left out 2 triangles of zero area"));
+    EXPECT_TRUE(hasNotice(scene.notices, "left out 1 spheres of zero radius"));
 }
 
 TEST(LoadGltf, ChoosesTheScene)
@@ -216,14 +224,14 @@ TEST(LoadGltf, ChoosesTheScene)
     GltfBuilder builder = oneTriangle({{"name", "first"}});
     builder.append("nodes", {{"name", "second"}, {"mesh", 0}});
     builder.append("scenes", {{"nodes", {1}}});
-    EXPECT_EQ(load(builder).primitives.at(0).name, "first");
-    EXPECT_EQ(load(builder, {.scene = 1}).primitives.at(0).name, "second");
+    EXPECT_EQ(load(builder).instances.at(0).name, "first");
+    EXPECT_EQ(load(builder, {.scene = 1}).instances.at(0).name, "second");
     builder.document["scene"] = 1;
-    EXPECT_EQ(load(builder).primitives.at(0).name, "second");
+    EXPECT_EQ(load(builder).instances.at(0).name, "second");
     EXPECT_NE(refusal(builder, {.scene = 2}).find("scene 2 was asked for; expected one below 2"), std::string::npos);
     builder.document.erase("scene");
     builder.document.erase("scenes");
-    EXPECT_EQ(load(builder).primitives.size(), 2U);
+    EXPECT_EQ(load(builder).instances.size(), 2U);
 }
 
 TEST(LoadGltf, PlacesAMeshOncePerNode)
@@ -231,8 +239,9 @@ TEST(LoadGltf, PlacesAMeshOncePerNode)
     GltfBuilder builder = oneTriangle();
     builder.addNode({{"mesh", 0}, {"translation", {4, 0, 0}}});
     const Scene scene = load(builder);
-    ASSERT_EQ(scene.primitives.size(), 2U);
-    EXPECT_EQ(scene.primitives[1].firstTriangle, 1U);
+    EXPECT_EQ(scene.meshes.size(), 1U);
+    EXPECT_EQ(scene.instances.size(), 2U);
+    EXPECT_EQ(makePrimitives(scene).firstTriangles, (std::vector<std::uint32_t>{0, 1, 2}));
     EXPECT_EQ(vertex(scene, 1, 0), glm::vec3(4, 0, 0));
 }
 
@@ -251,6 +260,26 @@ TEST(LoadGltf, ScalesSpheresUniformly)
     EXPECT_EQ(radius({{"scale", {-1.5, 1.5, 1.5}}}), 3.0F);
 }
 
+TEST(LoadGltf, KeepsImagesAsReferencesToTheirBytes)
+{
+    GltfBuilder builder = oneTriangle();
+    const std::size_t view = builder.addView({1, 2, 3});
+    const json entry = builder.document["bufferViews"][view];
+    builder.append("images", {{"name", "wood"}, {"uri", "wood%201.png"}});
+    builder.append("images", {{"bufferView", view}, {"mimeType", "image/jpeg"}});
+    const std::vector<EncodedImage> images = load(builder).images;
+    ASSERT_EQ(images.size(), 2U);
+    EXPECT_EQ(images[0].name, "wood");
+    EXPECT_EQ(images[0].uri, "wood%201.png");
+    EXPECT_FALSE(images[0].range);
+    EXPECT_EQ(images[1].mimeType, "image/jpeg");
+    ASSERT_TRUE(images[1].range);
+    EXPECT_EQ(images[1].range->offset, entry.value("byteOffset", 0U));
+    EXPECT_EQ(images[1].range->length, 3U);
+    builder.document["images"][1]["bufferView"] = 9;
+    EXPECT_NE(refusal(builder).find("images[1].bufferView is 9; expected an index into bufferViews"), std::string::npos);
+}
+
 TEST(LoadGltf, SaysWhatItDoesNotKnow)
 {
     GltfBuilder builder = oneTriangle();
@@ -259,10 +288,10 @@ TEST(LoadGltf, SaysWhatItDoesNotKnow)
     builder.document["skins"] = json::array({{{"joints", {0}}}});
     builder.document["nodes"][0]["skin"] = 0;
     const Scene scene = load(builder);
-    EXPECT_TRUE(hasNotice(scene, "the extension EXT_mesh_gpu_instancing is ignored"));
-    EXPECT_FALSE(hasNotice(scene, "KHR_materials_ior"));
-    EXPECT_TRUE(hasNotice(scene, "animations are ignored"));
-    EXPECT_TRUE(hasNotice(scene, "skins are ignored"));
+    EXPECT_TRUE(hasNotice(scene.notices, "the extension EXT_mesh_gpu_instancing is ignored"));
+    EXPECT_FALSE(hasNotice(scene.notices, "KHR_materials_ior"));
+    EXPECT_TRUE(hasNotice(scene.notices, "animations are ignored"));
+    EXPECT_TRUE(hasNotice(scene.notices, "skins are ignored"));
 }
 
 }  // namespace

@@ -1,11 +1,10 @@
-#include "host/cli/merge.hpp"
+#include "host/cli/commands.hpp"
 #include "host/error.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/merge_films.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/simulated_film.hpp"
 
-#include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,9 +13,9 @@
 namespace glim {
 namespace {
 
-using test::ScratchFolder;
 using test::expectRefusal;
 using test::sameBits;
+using test::ScratchFolder;
 using test::simulateFilm;
 using Range = std::pair<std::uint32_t, std::uint32_t>;
 
@@ -42,16 +41,15 @@ void expectSingleRun(const std::vector<Range>& ranges, Range whole)
 TEST(Merge, PagesGiveTheBitsOfTheSingleRun)
 {
     expectSingleRun({{0, 256}, {256, 512}}, {0, 512});
-    expectSingleRun({{512, 768}, {0, 256}, {256, 512}}, {0, 768});         // in any order
-    expectSingleRun({{0, 768}, {768, 1024}, {1024, 1100}}, {0, 1100});     // a long run first, part of a page last
-    expectSingleRun({{100, 512}, {512, 768}}, {100, 768});                 // from the middle of a page
+    expectSingleRun({{512, 768}, {0, 256}, {256, 512}}, {0, 768});      // in any order
+    expectSingleRun({{0, 768}, {768, 1024}, {1024, 1100}}, {0, 1100});  // a long run first, part of a page last
+    expectSingleRun({{100, 512}, {512, 768}}, {100, 768});              // from the middle of a page
     expectSingleRun({{40, 300}}, {40, 300});
 }
 
 TEST(Merge, OtherRangesGiveTheSingleRunUpToRoundingAndSaySo)
 {
-    const std::vector<std::vector<Range>> merges = {
-        {{0, 256}, {256, 768}}, {{0, 128}, {128, 256}, {256, 512}}, {{0, 320}, {320, 640}}};
+    const std::vector<std::vector<Range>> merges = {{{0, 256}, {256, 768}}, {{0, 128}, {128, 256}, {256, 512}}, {{0, 320}, {320, 640}}};
     for (const auto& ranges : merges) {
         const MergedFilm merged = mergeRanges(ranges);
         EXPECT_FALSE(merged.exact);
@@ -129,13 +127,12 @@ TEST(Merge, ContinuesExactlyOnlyByOnePageFromItsBeginning)
 // What `glim merge ...` says on stderr.
 std::string runMerge(std::vector<std::string> arguments)
 {
-    CLI::App app;
-    addMerge(app);
-    std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
-    arguments.push_back("merge");
+    CommandLine line("", "", "");
+    addMerge(line);
+    arguments.insert(arguments.begin(), "merge");
     testing::internal::CaptureStderr();
     try {
-        app.parse(arguments);
+        line.run(arguments);
     } catch (...) {
         testing::internal::GetCapturedStderr();
         throw;
@@ -154,8 +151,7 @@ TEST(MergeCommand, WritesTheFilmAndSaysHowExactItIs)
     EXPECT_TRUE(sameBits(readFilm(c).pixels, simulateFilm(0, 512).pixels));
     EXPECT_TRUE(std::filesystem::exists(png));
     writeFilm(b, simulateFilm(512, 2048));
-    EXPECT_NE(runMerge({c, b, "-o", c}).find("samples 0:512 512:2048: equal to the single run up to rounding"),
-              std::string::npos);
+    EXPECT_NE(runMerge({c, b, "-o", c}).find("samples 0:512 512:2048: equal to the single run up to rounding"), std::string::npos);
 }
 
 TEST(MergeCommand, RefusesAndWritesNothing)
@@ -166,9 +162,9 @@ TEST(MergeCommand, RefusesAndWritesNothing)
     expectRefusal<InputError>([&] { runMerge({a, a, "-o", c}); }, "both hold samples 0:256");
     expectRefusal<InputError>([&] { runMerge({a, "missing.exr", "-o", c}); }, "missing.exr: cannot be opened");
     expectRefusal<InputError>([&] { runMerge({"missing.exr", "-o", folder / "c.jpg"}); }, "does not end in .exr");
-    EXPECT_THROW(runMerge({a}), CLI::ParseError);
-    EXPECT_THROW(runMerge({a, "-o", c, "--exposure", "1"}), CLI::ParseError);
-    EXPECT_THROW(runMerge({a, "-o", c, "--png", "c.png", "--exposure", "101"}), CLI::ParseError);
+    EXPECT_THROW(runMerge({a}), UsageError);
+    EXPECT_THROW(runMerge({a, "-o", c, "--exposure", "1"}), UsageError);
+    EXPECT_THROW(runMerge({a, "-o", c, "--png", "c.png", "--exposure", "101"}), UsageError);
     EXPECT_EQ(folder.entries(), 1);
 }
 

@@ -10,11 +10,11 @@
 namespace glim {
 namespace {
 
-using test::ScratchFolder;
 using test::bytesOfFile;
 using test::decodePng;
+using test::ScratchFolder;
 
-// Published pairs of the sRGB curve, and its inverse: each byte is nearest to the light it stands for.
+// Published pairs of the sRGB curve; and its inverse: each byte is the one nearest to the light that it stands for.
 TEST(Png, TransferFunctionIsSrgb)
 {
     EXPECT_EQ(srgbByte(-1.0), 0);
@@ -48,8 +48,7 @@ TEST(Png, IsRefusedWhereItCannotBe)
     const std::vector<Rgb8> one(1);
     test::expectRefusal<InputError>([&] { writePng(folder / "missing/a.png", 1, 1, one); }, "does not exist");
     // Too wide for libpng, which then leaves by longjmp.
-    test::expectRefusal<InputError>([&] { writePng(folder / "a.png", 0x80000000U, 1, one); },
-                                    "a.png: cannot be written as PNG (Invalid IHDR data).");
+    test::expectRefusal<InputError>([&] { writePng(folder / "a.png", 0x80000000U, 1, one); }, "a.png: cannot be written as PNG (");
     EXPECT_EQ(folder.entries(), 0);
 }
 

@@ -25,9 +25,10 @@ std::vector<ScriptStep> read(const std::string& text)
 
 TEST(ScriptTest, ReadsEveryStep)
 {
-    const std::vector<ScriptStep> steps = read("# a session\n\n0.5 key v\n0 press w\n0 release W  # up again\n1 drag left 1,2 3.5,4\n"
-                                               "0 drag middle 1,2 3,4\n0 scroll -2\n0 click 7,8\n0 resize 30x20\n0 iconify\n0 restore\n"
-                                               "0 samples 16\n0 key space\n0 key escape\n0 key +\n0 close\n");
+    const std::vector<ScriptStep> steps = read(
+        "# a session\n\n0.5 key v\n0 press w\n0 release W  # up again\n1 drag left 1,2 3.5,4\n"
+        "0 drag middle 1,2 3,4\n0 scroll -2\n0 click 7,8\n0 resize 30x20\n0 iconify\n0 restore\n"
+        "0 samples 16\n0 key space\n0 key escape\n0 key +\n0 close\n");
     ASSERT_EQ(steps.size(), 15U);
     EXPECT_EQ(steps[0].delay, 0.5);
     EXPECT_EQ(steps[0].kind, Kind::Key);
@@ -49,9 +50,9 @@ TEST(ScriptTest, ReadsEveryStep)
 
 TEST(ScriptTest, NamesTheLineThatIsBad)
 {
-    for (const char* line : {"key V", "-1 key V", "nan key V", "0", "0 jump", "0 key", "0 key VV", "0 key #", "0 drag right 1,2 3,4",
-                             "0 drag left 1,2", "0 drag left 1,2 3", "0 scroll up", "0 resize 0x5", "0 resize 1e9x5", "0 samples 0",
-                             "0 click 1,2 3", "0 close now"}) {
+    for (const char* line :
+         {"key V", "-1 key V", "nan key V", "0", "0 jump", "0 key", "0 key VV", "0 key #", "0 drag right 1,2 3,4", "0 drag left 1,2",
+          "0 drag left 1,2 3", "0 scroll up", "0 resize 0x5", "0 resize 1e9x5", "0 samples 0", "0 click 1,2 3", "0 close now"}) {
         test::expectRefusal<InputError>([&] { read(std::string("0 key A\n") + line + "\n"); }, "script, line 2: ");
     }
     test::expectRefusal<InputError>([] { readScript("missing"); }, "missing: the script cannot be read");

@@ -1,11 +1,10 @@
-// Each option of `render` stores what it says, and what does not go together is refused with the option, its value and a reason.
+// Each option of `render` stores its value. Options that do not go together are refused with the option, its value and a reason.
 #include "host/cli/parse.hpp"
 #include "host/cli/render_options.hpp"
 
-#include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -15,9 +14,9 @@ namespace {
 // "render x.gltf -o x.exr" with `options`, words separated by spaces.
 RenderOptions parse(const std::string& options)
 {
-    CLI::App app;
+    CommandLine line("", "", "");
     RenderOptions parsed;
-    addRenderOptions(*app.add_subcommand("render"), parsed);
+    addRenderOptions(line.addCommand("render", ""), parsed);
     std::vector<std::string> words{"render", "x.gltf"};
     if (options.find("--replay") == std::string::npos) {
         words.insert(words.end(), {"-o", "x.exr"});
@@ -26,8 +25,7 @@ RenderOptions parse(const std::string& options)
     for (std::string word; stream >> word;) {
         words.push_back(word);
     }
-    std::reverse(words.begin(), words.end());  // as CLI11 wants them
-    app.parse(words);
+    line.run(words);
     return parsed;
 }
 
@@ -38,7 +36,7 @@ void expectRefused(const std::string& options, const std::string& part)
     try {
         parse(options);
         ADD_FAILURE() << options << ": was taken, expected a message with: " << part;
-    } catch (const CLI::ParseError& error) {
+    } catch (const UsageError& error) {
         const std::string sentence = error.what();
         EXPECT_NE(sentence.find(part), std::string::npos) << options << ": " << sentence << "\nlacks: " << part;
         EXPECT_EQ(sentence.find('\n'), std::string::npos) << sentence;
@@ -51,7 +49,7 @@ TEST(RenderOptions, DefaultsAreThoseOfTheSettings)
     EXPECT_EQ(describeSettings(options.settings), describeSettings(RenderSettings()));
     EXPECT_EQ(options.settings.sampleBegin, 0U);
     EXPECT_EQ(options.settings.sampleEnd, 64U);
-    EXPECT_EQ(options.settings.accelerator, Accelerator::Bvh);
+    EXPECT_EQ(options.settings.course.accelerator, Accelerator::Bvh);
     EXPECT_EQ(options.split, SplitRule::Sah);
     EXPECT_EQ(options.lens.radius, 0.0F);
     EXPECT_FALSE(options.settings.seconds || options.png || options.rates || options.stats);
@@ -59,13 +57,13 @@ TEST(RenderOptions, DefaultsAreThoseOfTheSettings)
 
 TEST(RenderOptions, LightIsFoundAsAsked)
 {
-    EXPECT_EQ(settings("--direct mis").direct, DirectLight::Mis);
-    EXPECT_EQ(settings("--direct lights").direct, DirectLight::Lights);
-    EXPECT_EQ(settings("--direct hemisphere").direct, DirectLight::Hemisphere);
-    EXPECT_EQ(settings("--direct bsdf").direct, DirectLight::Bsdf);
-    EXPECT_EQ(settings("--direct lights --light-samples 1").lightSamples, 1U);
-    EXPECT_EQ(settings("--direct lights --light-samples 65536").lightSamples, 65536U);
-    EXPECT_EQ(settings("--light-samples 7 --direct hemisphere").lightSamples, 7U);
+    EXPECT_EQ(settings("--direct mis").course.direct, DirectLight::Mis);
+    EXPECT_EQ(settings("--direct lights").course.direct, DirectLight::Lights);
+    EXPECT_EQ(settings("--direct hemisphere").course.direct, DirectLight::Hemisphere);
+    EXPECT_EQ(settings("--direct bsdf").course.direct, DirectLight::Bsdf);
+    EXPECT_EQ(settings("--direct lights --light-samples 1").course.lightSamples, 1U);
+    EXPECT_EQ(settings("--direct lights --light-samples 65536").course.lightSamples, 65536U);
+    EXPECT_EQ(settings("--light-samples 7 --direct hemisphere").course.lightSamples, 7U);
     EXPECT_EQ(settings("--paths all").paths, PathParts::All);
     EXPECT_EQ(settings("--paths emission").paths, PathParts::Emission);
     EXPECT_EQ(settings("--paths direct").paths, PathParts::Direct);
@@ -76,29 +74,29 @@ TEST(RenderOptions, LightIsFoundAsAsked)
 
 TEST(RenderOptions, RouletteHasItsProbability)
 {
-    EXPECT_EQ(settings("--roulette throughput").roulette, Roulette::Throughput);
-    EXPECT_EQ(settings("--roulette none").roulette, Roulette::None);
+    EXPECT_EQ(settings("--roulette throughput").course.roulette, Roulette::Throughput);
+    EXPECT_EQ(settings("--roulette none").course.roulette, Roulette::None);
     for (const auto& [text, survival] : {std::pair("0.7", 0.7F), {"1", 1.0F}, {"1e-3", 1e-3F}, {".5", 0.5F}}) {
         const RenderSettings found = settings(std::string("--roulette fixed:") + text);
-        EXPECT_EQ(found.roulette, Roulette::Fixed);
-        EXPECT_EQ(found.survival, survival);
+        EXPECT_EQ(found.course.roulette, Roulette::Fixed);
+        EXPECT_EQ(found.course.survival, survival);
     }
-    for (const std::string text : {"fixed:1.2", "fixed:0", "fixed:-0.5", "fixed:", "fixed:nan", "fixed:inf", "fixed:0.5x",
-                                   "fixed:1e-40", "fixed", "fixd", "0.7", "Fixed:0.7", ":0.7"}) {
+    for (const std::string text : {"fixed:1.2", "fixed:0", "fixed:-0.5", "fixed:", "fixed:nan", "fixed:inf", "fixed:0.5x", "fixed:1e-40",
+                                   "fixed", "fixd", "0.7", "Fixed:0.7", ":0.7"}) {
         expectRefused("--roulette " + text, "--roulette: \"" + text + "\": expected throughput, none or fixed:P with 0 < P <= 1");
     }
 }
 
 TEST(RenderOptions, RaysAreTracedAsAsked)
 {
-    EXPECT_EQ(settings("--accelerator none").accelerator, Accelerator::None);
-    EXPECT_EQ(settings("--accelerator bvh --split sah").accelerator, Accelerator::Bvh);
+    EXPECT_EQ(settings("--accelerator none").course.accelerator, Accelerator::None);
+    EXPECT_EQ(settings("--accelerator bvh --split sah").course.accelerator, Accelerator::Bvh);
     EXPECT_EQ(parse("--split mean").split, SplitRule::Mean);
     EXPECT_EQ(parse("--split median").split, SplitRule::Median);
     EXPECT_EQ(settings("").schedule, Schedule::Auto);
     EXPECT_EQ(settings("--schedule wavefront").schedule, Schedule::Wavefront);
     EXPECT_EQ(settings("--schedule persistent").schedule, Schedule::Persistent);
-    EXPECT_EQ(settings("--intersector moller-trumbore").intersector, Intersector::MollerTrumbore);
+    EXPECT_EQ(settings("--intersector moller-trumbore").course.intersector, Intersector::MollerTrumbore);
     const Lens lens = parse("--lens-radius 0.25 --focal-distance 7.5").lens;
     EXPECT_EQ(lens.radius, 0.25F);
     EXPECT_EQ(lens.focalDistance, 7.5F);
@@ -109,15 +107,14 @@ TEST(RenderOptions, AdaptiveRendersTakeIndependentSamplesUpToALimit)
     const RenderSettings plain = settings("--adaptive course");
     EXPECT_EQ(plain.adaptive, Adaptive::Course);
     EXPECT_EQ(plain.sampler, Sampler::Independent);
-    EXPECT_EQ(plain.tolerance, 0.05F);
-    EXPECT_EQ(plain.batch, 32U);
+    EXPECT_EQ(plain.course.tolerance, 0.05F);
+    EXPECT_EQ(plain.course.batch, 32U);
     EXPECT_EQ(plain.sampleBegin, 0U);
     EXPECT_EQ(plain.sampleEnd, 2048U);
-    const RenderSettings chosen =
-        settings("--adaptive course:literal --tolerance 0.01 --batch 64 --max-spp 4096 --sampler independent");
+    const RenderSettings chosen = settings("--adaptive course:literal --tolerance 0.01 --batch 64 --max-spp 4096 --sampler independent");
     EXPECT_EQ(chosen.adaptive, Adaptive::CourseLiteral);
-    EXPECT_EQ(chosen.tolerance, 0.01F);
-    EXPECT_EQ(chosen.batch, 64U);
+    EXPECT_EQ(chosen.course.tolerance, 0.01F);
+    EXPECT_EQ(chosen.course.batch, 64U);
     EXPECT_EQ(chosen.sampleEnd, 4096U);
     const RenderSettings timed = settings("--adaptive course --time 5");
     EXPECT_EQ(timed.sampleEnd, 2048U);
@@ -137,16 +134,16 @@ TEST(RenderOptions, AdaptiveRendersTakeIndependentSamplesUpToALimit)
 
 TEST(RenderOptions, ViewsTakeFewSamplesAndNoBounce)
 {
-    for (const auto& [name, view] : {std::pair("normal", View::Normal), {"depth", View::Depth}, {"albedo", View::Albedo},
-                                     {"bvh-steps", View::BvhSteps}}) {
+    for (const auto& [name, aov] :
+         {std::pair("normal", Aov::Normal), {"depth", Aov::Depth}, {"albedo", Aov::Albedo}, {"bvh-steps", Aov::BvhSteps}}) {
         const std::string option = std::string("--view ") + name;
-        EXPECT_EQ(settings(option).view, view);
+        EXPECT_EQ(settings(option).aov, aov);
         EXPECT_EQ(settings(option).bounces, 0U);
         EXPECT_EQ(settings(option).sampleEnd, 4U);
         EXPECT_EQ(settings(option + " --spp 9").sampleEnd, 9U);
         EXPECT_EQ(settings(option + " --samples 8:24").sampleEnd, 24U);
         EXPECT_EQ(settings(option + " --time 2").sampleEnd, kMaxSample);
-        EXPECT_EQ(settings(option + " --sampler independent --split mean --png p.png").view, view);
+        EXPECT_EQ(settings(option + " --sampler independent --split mean --png p.png").aov, aov);
     }
     EXPECT_EQ(settings("--view shaded").sampleEnd, 64U);
     EXPECT_EQ(settings("--view shaded --bounces 2").bounces, 2U);
@@ -168,49 +165,48 @@ TEST(RenderOptions, SampleCountersFitThirtyTwoBits)
 
 TEST(RenderOptions, WhatDoesNotGoTogetherIsRefused)
 {
-    const std::string direct = "expected --direct lights or --direct hemisphere with it",
-                      rule = "expected --adaptive course or course:literal with it",
-                      tree = "with --accelerator none there is no BVH";
-    const std::vector<std::pair<std::string, std::string>> cases{
-        {"--light-samples 1", "--light-samples: \"1\": " + direct},
-        {"--light-samples 4 --direct mis", "--light-samples: \"4\": " + direct},
-        {"--light-samples 4 --direct bsdf", direct},
-        {"--split sah --accelerator none", "--split: \"sah\": " + tree + " to split"},
-        {"--view bvh-steps --accelerator none", "--view: \"bvh-steps\": " + tree},
-        {"--tolerance 0.1", "--tolerance: \"0.1\": " + rule},
-        {"--batch 64", "--batch: \"64\": " + rule},
-        {"--max-spp 64 --adaptive neighbours", "--max-spp: \"64\": " + rule},
-        {"--adaptive neighbours --spp 64", "--spp: \"64\": --adaptive neighbours begins with 64 samples of every pixel; expected more"},
-        {"--adaptive neighbours --samples 0:128", "--samples: \"0:128\": --adaptive itself chooses the samples; expected --spp"},
-        {"--max-spp 64 --adaptive off", "--max-spp: \"64\": " + rule},
-        {"--adaptive course --spp 64", "--spp: \"64\": --adaptive course itself chooses the samples; expected --max-spp as their limit"},
-        {"--adaptive course --samples 0:64", "--samples: \"0:64\": --adaptive course itself chooses the samples"},
-        {"--adaptive course --sampler sobol", "--sampler: \"sobol\": the statistics of --adaptive course assume independent samples"},
-        {"--adaptive course --batch 4096", "--batch: \"4096\": expected at most --max-spp, which is 2048"},
-        {"--adaptive course --batch 64 --max-spp 32", "--batch: \"64\": expected at most --max-spp, which is 32"},
-        {"--adaptive course --max-spp 31", "--max-spp: \"31\": expected at least --batch, which is 32"},
-        {"--lens-radius 0.1", "--lens-radius requires --focal-distance"},
-        {"--focal-distance 3", "--focal-distance requires --lens-radius"},
-        {"--png a.png --rates a.png", "--rates: \"a.png\": expected another file than that of --png"},
-        {"--png a.png --rates ./a.png", "expected another file"}};
-    for (const auto& [options, part] : cases) {
-        expectRefused(options, part);
+    // The option that is refused, its value, and what the sentence must name besides.
+    const std::vector<std::array<std::string, 4>> cases{
+        {"--light-samples 1", "--light-samples", "1", "--direct lights or --direct hemisphere"},
+        {"--light-samples 4 --direct mis", "--light-samples", "4", "--direct lights"},
+        {"--light-samples 4 --direct bsdf", "--light-samples", "4", "--direct lights"},
+        {"--split sah --accelerator none", "--split", "sah", "--accelerator none"},
+        {"--view bvh-steps --accelerator none", "--view", "bvh-steps", "--accelerator bvh"},
+        {"--tolerance 0.1", "--tolerance", "0.1", "--adaptive course"},
+        {"--batch 64", "--batch", "64", "--adaptive course"},
+        {"--max-spp 64 --adaptive neighbours", "--max-spp", "64", "--adaptive course"},
+        {"--max-spp 64 --adaptive off", "--max-spp", "64", "--adaptive course"},
+        {"--adaptive neighbours --spp 64", "--spp", "64", "expected more"},
+        {"--adaptive neighbours --samples 0:128", "--samples", "0:128", "expected --spp"},
+        {"--adaptive course --spp 64", "--spp", "64", "expected --max-spp"},
+        {"--adaptive course --samples 0:64", "--samples", "0:64", "expected --max-spp"},
+        {"--adaptive course --sampler sobol", "--sampler", "sobol", "expected --sampler independent"},
+        {"--adaptive course --batch 4096", "--batch", "4096", "--max-spp, which is 2048"},
+        {"--adaptive course --batch 64 --max-spp 32", "--batch", "64", "--max-spp, which is 32"},
+        {"--adaptive course --max-spp 31", "--max-spp", "31", "--batch, which is 32"},
+        {"--png a.png --rates a.png", "--rates", "a.png", "--png"},
+        {"--png a.png --rates ./a.png", "--rates", "./a.png", "--png"}};
+    for (const auto& [options, option, value, other] : cases) {
+        expectRefused(options, option + ": \"" + value + "\": ");
+        expectRefused(options, other);
     }
+    expectRefused("--lens-radius 0.1", "--lens-radius requires --focal-distance");
+    expectRefused("--focal-distance 3", "--focal-distance requires --lens-radius");
 }
 
 TEST(RenderOptions, ViewsRefuseWhatHasNoMeaningThere)
 {
-    const std::vector<std::string> meaningless{
-        "--bounces 3",       "--direct lights",    "--light-samples 2", "--paths direct", "--roulette none",
-        "--adaptive course", "--clamp-indirect 1", "--rates r.png",     "--adaptive off"};
+    const std::vector<std::string> meaningless{"--bounces 3",        "--direct lights", "--light-samples 2",
+                                               "--paths direct",     "--roulette none", "--adaptive course",
+                                               "--clamp-indirect 1", "--rates r.png",   "--adaptive off"};
     for (const std::string view : {"normal", "depth", "albedo", "bvh-steps"}) {
         for (const std::string& option : meaningless) {
             const std::string name = option.substr(0, option.find(' ')), value = option.substr(name.size() + 1);
-            expectRefused("--view " + view + " " + option, name + ": \"" + value + "\": means nothing with --view " + view);
+            expectRefused("--view " + view + " " + option, name + ": \"" + value + "\": has no effect with --view " + view);
         }
     }
     for (const std::string view : {"normal", "depth", "bvh-steps"}) {
-        expectRefused("--png p.png --exposure 1 --view " + view, "--exposure: \"1\": means nothing with --view " + view);
+        expectRefused("--png p.png --exposure 1 --view " + view, "--exposure: \"1\": has no effect with --view " + view);
     }
 }
 
@@ -235,16 +231,16 @@ TEST(RenderOptions, ReplaysRefuseWhatIsOfPictures)
 {
     for (const std::string option : {"--output x.exr", "--png p.png", "--rates r.png", "--progress json", "--time 1", "--suspects 3"}) {
         const std::string name = option.substr(0, option.find(' ')), value = option.substr(name.size() + 1);
-        expectRefused("--replay 1,2,3 " + option, name + ": \"" + value + "\": means nothing with --replay");
+        expectRefused("--replay 1,2,3 " + option, name + ": \"" + value + "\": has no effect with --replay");
     }
     expectRefused("--replay 1,2,3 --view normal", "--view: \"normal\": has no paths; expected --view shaded with --replay");
     EXPECT_TRUE(parse("--replay 1,2,3 --view shaded").replay);
-    for (const std::string place : {"1,2", "1,2,3,4", "1,,3", "a,2,3", "1,2,", "-1,2,3", "1.5,2,3", "65535,0,0", "0,65535,0",
-                                    "0,0,2147483648", "+1,2,3"}) {
+    for (const std::string place :
+         {"1,2", "1,2,3,4", "1,,3", "a,2,3", "1,2,", "-1,2,3", "1.5,2,3", "65535,0,0", "0,65535,0", "0,0,2147483648", "+1,2,3"}) {
         expectRefused("--replay " + place, "--replay: \"" + place + "\": expected X,Y,SAMPLE with whole numbers");
     }
     for (const std::string view : {"normal", "depth", "albedo", "bvh-steps"}) {
-        expectRefused("--suspects 3 --view " + view, "--suspects: \"3\": means nothing with --view " + view);
+        expectRefused("--suspects 3 --view " + view, "--suspects: \"3\": has no effect with --view " + view);
     }
     EXPECT_EQ(settings("--suspects 1000").suspects, 1000U);
     EXPECT_EQ(settings("").suspects, 0U);
@@ -256,11 +252,11 @@ TEST(RenderOptions, NonsenseValuesAreRefused)
          {"--direct", "--paths", "--accelerator", "--split", "--adaptive", "--view", "--sampler", "--intersector"}) {
         expectRefused(option + " nonsense", option + ": \"nonsense\": expected ");
     }
-    for (const std::string option : {"--light-samples 0", "--light-samples 65537", "--light-samples 1.5", "--tolerance 0",
-                                     "--tolerance -1", "--tolerance nan", "--tolerance 2e6", "--batch 1", "--batch 1048577",
-                                     "--max-spp 1", "--max-spp 2147483649", "--suspects 0", "--suspects 1001", "--suspects all", "--lens-radius -1", "--lens-radius nan",
-                                     "--lens-radius inf", "--focal-distance 0", "--focal-distance nan",
-                                     "--focal-distance inf"}) {
+    for (const std::string option :
+         {"--light-samples 0",    "--light-samples 65537", "--light-samples 1.5", "--tolerance 0",        "--tolerance -1",
+          "--tolerance nan",      "--tolerance 2e6",       "--batch 1",           "--batch 1048577",      "--max-spp 1",
+          "--max-spp 2147483649", "--suspects 0",          "--suspects 1001",     "--suspects all",       "--lens-radius -1",
+          "--lens-radius nan",    "--lens-radius inf",     "--focal-distance 0",  "--focal-distance nan", "--focal-distance inf"}) {
         const std::string name = option.substr(0, option.find(' ')), value = option.substr(name.size() + 1);
         expectRefused(option, name + ": \"" + value + "\": expected a ");
     }

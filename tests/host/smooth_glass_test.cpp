@@ -1,5 +1,5 @@
-// H23: which normal says what side of smooth glass a ray is on. The rule of shaders/kernels/bounce.comp, in double, and one
-// that asks the face: in a ball of 80 triangles under a sky of 1 every path should bring home 1.
+// H23: which normal decides on which side of smooth glass a ray is. The renderer's rule in double, and one that asks the face's
+// normal. In a ball of 80 triangles under a sky of 1, every path should bring home 1.
 #include "tests/support/hard_case.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/reference.hpp"
@@ -42,7 +42,7 @@ Side sideByShading(const dvec3& shading, const dvec3&, const dvec3& wo)
     return {outside, outside ? shading : -shading};
 }
 
-// A shading normal that looks away gives way to the face's.
+// If the shading normal looks away, the face's normal is taken.
 Side sideByFace(const dvec3& shading, const dvec3& face, const dvec3& wo)
 {
     const bool outside = glm::dot(face, wo) > 0.0;
@@ -52,15 +52,15 @@ Side sideByFace(const dvec3& shading, const dvec3& face, const dvec3& wo)
 
 using Rule = Side (*)(const dvec3&, const dvec3&, const dvec3&);
 
-double traceToTheSky(const Scene& scene, ReferenceRay ray, Rule rule, Random& random)
+double traceToTheSky(const Reference& reference, const Triangles& ball, ReferenceRay ray, Rule rule, Random& random)
 {
     double throughput = 1.0;
     for (int bounce = 0; bounce < kBounces; ++bounce) {
-        const ReferenceHit hit = Reference(scene).closest(ray, 0.0);
+        const ReferenceHit hit = reference.closest(ray, 0.0);
         if (!std::isfinite(hit.t)) {
             return throughput;
         }
-        const Triangle& triangle = scene.triangles[hit.id];
+        const Triangle& triangle = ball[hit.id];
         const dvec3 v0(triangle.vertices[0]), e1 = dvec3(triangle.vertices[1]) - v0, e2 = dvec3(triangle.vertices[2]) - v0;
         const dvec3 point = ray.origin + hit.t * ray.direction, cross = glm::cross(e1, e2), wo = -ray.direction;
         const dvec3 face = glm::normalize(glm::dot(cross, v0) > 0.0 ? cross : -cross);
@@ -86,12 +86,13 @@ struct Outcome {
 // Rays at the disk that the ball covers.
 Outcome measure(Rule rule)
 {
-    const Scene scene = sceneOf(icosphere(1));
+    const Triangles ball = icosphere(1);
+    const Reference reference(sceneOf(ball));
     Random random(23);
     Outcome outcome;
     for (int i = 0; i < kPaths; ++i) {
         const double r = std::sqrt(random.uniform()), phi = random.uniform(0.0, 2.0 * std::numbers::pi);
-        const double value = traceToTheSky(scene, {{r * std::cos(phi), r * std::sin(phi), 5.0}, {0.0, 0.0, -1.0}}, rule, random);
+        const double value = traceToTheSky(reference, ball, {{r * std::cos(phi), r * std::sin(phi), 5.0}, {0.0, 0.0, -1.0}}, rule, random);
         outcome.mean += value / kPaths;
         outcome.lost += std::abs(value - 1.0) > 1e-9 ? 1 : 0;
     }

@@ -1,4 +1,4 @@
-// The course's two rules divide where they say, and cost more than the surface-area heuristic where a scene is uneven.
+// The course's two rules divide at the mean and at the median, and cost more than the surface-area heuristic in uneven scenes.
 #include "host/bvh/build_bvh.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,8 @@ namespace {
 using Boxes = std::vector<Box>;
 
 // Unit cubes whose lower corners are at `places` along one axis.
-Boxes makeCubes(const std::vector<float>& places, int axis) {
+Boxes makeCubes(const std::vector<float>& places, int axis)
+{
     Boxes boxes;
     for (const float place : places) {
         glm::vec3 lo(0.0F);
@@ -23,7 +24,8 @@ Boxes makeCubes(const std::vector<float>& places, int axis) {
     return boxes;
 }
 
-std::vector<std::uint32_t> primitivesOf(const Bvh& bvh, std::size_t leaf) {
+std::vector<std::uint32_t> primitivesOf(const Bvh& bvh, std::size_t leaf)
+{
     const auto first = bvh.order.begin() + bvh.nodes[leaf].first;
     std::vector<std::uint32_t> primitives(first, first + bvh.nodes[leaf].count);
     std::sort(primitives.begin(), primitives.end());
@@ -32,7 +34,8 @@ std::vector<std::uint32_t> primitivesOf(const Bvh& bvh, std::size_t leaf) {
 
 // By hand: the mean of 0 1 2 3 4 5 6 35 is 7, which one cube is beyond; the mean of the other seven is 3, which only three are
 // below, and of their sides the first divides above 0, the other in the middle. Half the area of a row of n cubes is 2 n + 1.
-TEST(SplitRules, MeanDividesAtTheMeanOfTheCentres) {
+TEST(SplitRules, MeanDividesAtTheMeanOfTheCentres)
+{
     for (const int axis : {0, 1, 2}) {
         const Bvh bvh = buildBvh(makeCubes({3, 35, 0, 5, 1, 6, 2, 4}, axis), SplitRule::Mean);
         ASSERT_EQ(bvh.nodes.size(), 9U);
@@ -47,7 +50,8 @@ TEST(SplitRules, MeanDividesAtTheMeanOfTheCentres) {
 }
 
 // By hand: four on either side, 4 and 32 long, then two, of which the last are 30.
-TEST(SplitRules, MedianDividesByCount) {
+TEST(SplitRules, MedianDividesByCount)
+{
     const Bvh bvh = buildBvh(makeCubes({3, 35, 0, 5, 1, 6, 2, 4}, 0), SplitRule::Median);
     ASSERT_EQ(bvh.nodes.size(), 7U);
     EXPECT_EQ(primitivesOf(bvh, 3), (std::vector<std::uint32_t>{2, 4}));
@@ -58,21 +62,24 @@ TEST(SplitRules, MedianDividesByCount) {
 }
 
 // Two primitives are a leaf even where a split would pay, which the heuristic sees.
-TEST(SplitRules, TheCoursesLeavesHoldUpToTwo) {
+TEST(SplitRules, TheCoursesLeavesHoldUpToTwo)
+{
     const Boxes boxes = makeCubes({0, 10}, 0);
     EXPECT_EQ(buildBvh(boxes, SplitRule::Mean).nodes.size(), 1U);
     EXPECT_EQ(buildBvh(boxes, SplitRule::Median).nodes.size(), 1U);
     EXPECT_EQ(buildBvh(boxes, SplitRule::Sah).nodes.size(), 3U);
 }
 
-TEST(SplitRules, TheHeuristicIsTheDefault) {
+TEST(SplitRules, TheHeuristicIsTheDefault)
+{
     const Boxes boxes = makeCubes({3, 35, 0, 5, 1, 6, 2, 4}, 0);
     EXPECT_EQ(buildBvh(boxes).order, buildBvh(boxes, SplitRule::Sah).order);
     EXPECT_EQ(buildBvh(boxes).cost, buildBvh(boxes, SplitRule::Sah).cost);
 }
 
 // 10,000 small boxes in a corner of a hall of 2,000 large ones.
-Boxes makeTeapotInAStadium() {
+Boxes makeTeapotInAStadium()
+{
     std::mt19937 generator(1);
     std::uniform_real_distribution<float> unit(0.0F, 1.0F);
     Boxes boxes;
@@ -87,7 +94,8 @@ Boxes makeTeapotInAStadium() {
     return boxes;
 }
 
-TEST(SplitRules, TheHeuristicIsCheapestWhereASceneIsUneven) {
+TEST(SplitRules, TheHeuristicIsCheapestWhereASceneIsUneven)
+{
     const Boxes boxes = makeTeapotInAStadium();
     const double sah = buildBvh(boxes, SplitRule::Sah).cost, mean = buildBvh(boxes, SplitRule::Mean).cost,
                  median = buildBvh(boxes, SplitRule::Median).cost;

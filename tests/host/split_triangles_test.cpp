@@ -1,6 +1,6 @@
 // Pieces hold their triangles and waste less; a tree is made of them where that is cheaper, and holds every primitive.
 #include "host/bvh/build_bvh.hpp"
-#include "host/bvh/widen_bvh.hpp"
+#include "host/bvh/collapse_bvh.hpp"
 #include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/split_triangles.hpp"
 #include "tests/support/build_scene.hpp"
@@ -17,7 +17,7 @@
 namespace glim {
 namespace {
 
-// Where rounding in double puts a point of an axis-parallel triangle beside it, and its box without extent.
+// Rounding in double may move a point of an axis-aligned triangle this far off the triangle and out of its flat box.
 constexpr double kRounding = 1e-14;
 
 bool holds(const Box& box, const glm::dvec3& point)
@@ -32,7 +32,7 @@ double sizeOf(const Box& box)
     return std::max({size.x, size.y, size.z});
 }
 
-// Up to what pieces grow by.
+// Up to the margin by which the boxes of pieces grow.
 bool holds(const Box& box, const Box& inner)
 {
     const double margin = 0x1p-21 * sizeOf(box);
@@ -47,7 +47,7 @@ double halfArea(const Box& box)
     return size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
-// Up to `margin` beside the triangle along each axis.
+// A point of the triangle, moved by up to `margin` along each axis.
 glm::dvec3 pointOf(const Triangle& triangle, Random& random, double margin = 0.0)
 {
     double u = random.uniform(), v = random.uniform();
@@ -71,10 +71,10 @@ std::vector<std::vector<Box>> byPrimitive(const Pieces& pieces, std::size_t coun
     return boxes;
 }
 
-// Triangles in the planes of the axes and without area among the others.
-Mesh awkward()
+// Among other triangles, an axis-aligned one and ones without area.
+Triangles awkward()
 {
-    Mesh mesh = strips(10, 3);
+    Triangles mesh = strips(10, 3);
     mesh.push_back({{{-1, -1, 0.25F}, {1, -1, 0.25F}, {1, 1, 0.25F}}});
     mesh.push_back({{{-1, -1, -1}, {0, 0, 0}, {1, 1, 1}}});
     mesh.push_back({{{-1, -1, -1}, {-1, -1, -1}, {1, 0.9F, 1}}});
@@ -82,14 +82,16 @@ Mesh awkward()
     return mesh;
 }
 
-// And what the test of a ray that starts nearby takes for the triangle: 2^-23 of its size is twice that.
+// They also hold what the test of a ray that starts nearby takes for the triangle: points up to 2^-23 of its size beside it are tried,
+// twice as far as that test errs.
 TEST(SplitTrianglesTest, PiecesHoldTheirTriangles)
 {
     for (const float scale : {1.0F, 0x1p-50F, 0x1p50F, 0x1p127F}) {
-        for (const Mesh& mesh : {awkward(), strips(40, 5)}) {
-            const Scene scene = sceneOf(placed(mesh, scale, 0.0F), scale == 1.0F ? randomSpheres(30, 0.5F, 6) : std::vector<Sphere>{});
-            const std::vector<Box> whole = primitiveBoxes(scene);
-            const Pieces pieces = splitTriangles(scene, whole);
+        for (const Triangles& mesh : {awkward(), strips(40, 5)}) {
+            const Primitives primitives =
+                primitivesOf(placed(mesh, scale, 0.0F), scale == 1.0F ? randomSpheres(30, 0.5F, 6) : std::vector<Sphere>{});
+            const std::vector<Box> whole = primitiveBoxes(primitives);
+            const Pieces pieces = splitTriangles(primitives.triangles, whole);
             ASSERT_FALSE(pieces.boxes.empty());
             const auto boxes = byPrimitive(pieces, whole.size());
             Random random(7);
@@ -113,35 +115,37 @@ TEST(SplitTrianglesTest, PiecesHoldTheirTriangles)
 
 TEST(SplitTrianglesTest, ATenthMoreAtMostAndTheWorstFirst)
 {
-    const Scene scene = sceneOf(strips(12, 9));
-    const std::vector<Box> whole = primitiveBoxes(scene);
-    const Pieces pieces = splitTriangles(scene, whole);
+    const Primitives primitives = primitivesOf(strips(12, 9));
+    const std::vector<Box> whole = primitiveBoxes(primitives);
+    const Pieces pieces = splitTriangles(primitives.triangles, whole);
     EXPECT_EQ(pieces.boxes.size(), whole.size() + whole.size() / 10);
     const auto boxes = byPrimitive(pieces, whole.size());
-    double leastDivided = 1e300, greatestLeft = 0.0, before = 0.0, after = 0.0;
+    double leastSplit = 1e300, greatestLeft = 0.0, before = 0.0, after = 0.0;
     for (std::size_t id = 0; id < whole.size(); ++id) {
         EXPECT_TRUE(boxes[id].size() == 1 || id >= 12 * 40) << "only strips waste so much, triangle " << id;
-        leastDivided = boxes[id].size() > 1 ? std::min(leastDivided, halfArea(whole[id])) : leastDivided;
+        leastSplit = boxes[id].size() > 1 ? std::min(leastSplit, halfArea(whole[id])) : leastSplit;
         before += halfArea(whole[id]);
         for (const Box& box : boxes[id]) {
             greatestLeft = std::max(greatestLeft, halfArea(box));
             after += halfArea(box);
         }
     }
-    std::cout << "half the surface of all boxes " << before << ", of pieces' " << after << "; the least divided " << leastDivided
+    std::cout << "half the surface of all boxes " << before << ", of pieces' " << after << "; the least divided " << leastSplit
               << ", the greatest left " << greatestLeft << "\n";
     EXPECT_LT(after, 0.5 * before);
     // A strip's box is all waste, but for some hundredths.
-    EXPECT_LT(greatestLeft, 1.05 * leastDivided);
+    EXPECT_LT(greatestLeft, 1.05 * leastSplit);
 }
 
-TEST(SplitTrianglesTest, NothingIsDividedWhereLittleWastes)
+TEST(SplitTrianglesTest, NothingIsSplitWhereLittleWastes)
 {
-    Mesh roofed = terrain(40);
+    Triangles roofed = terrain(40);
     roofed.push_back({{{-10, 5, -10}, {10, 5, -10}, {10, 9, 10}}});  // makes 57 more, of which less than a fiftieth are no reason
-    for (const Scene& scene : {sceneOf(roofed), sceneOf(terrain(300)), sceneOf(icosphere(4)), sceneOf({}, randomSpheres(50, 1.0F, 3)), sceneOf(randomTriangles(9, 1.0F, 2)),
-                               sceneOf(coincidentTriangles(1)), sceneOf(Mesh(20, Triangle{}))}) {
-        EXPECT_TRUE(splitTriangles(scene, primitiveBoxes(scene)).boxes.empty()) << scene.triangles.size() << " triangles";
+    for (const Primitives& primitives :
+         {primitivesOf(roofed), primitivesOf(terrain(300)), primitivesOf(icosphere(4)), primitivesOf({}, randomSpheres(50, 1.0F, 3)),
+          primitivesOf(randomTriangles(9, 1.0F, 2)), primitivesOf(coincidentTriangles(1)), primitivesOf(Triangles(20, Triangle{}))}) {
+        EXPECT_TRUE(splitTriangles(primitives.triangles, primitiveBoxes(primitives)).boxes.empty())
+            << primitives.triangles.size() << " triangles";
     }
 }
 
@@ -167,21 +171,21 @@ bool reaches(const WideBvh& bvh, std::uint32_t primitive, const glm::dvec3& poin
     return false;
 }
 
-double costOf(const std::vector<Box>& boxes) { return widenBvh(buildBvh(boxes)).cost; }
+double costOf(const std::vector<Box>& boxes) { return collapseBvh(buildBvh(boxes)).cost; }
 
 TEST(SceneBvhTest, IsOfPiecesWhereThatIsCheaper)
 {
-    const Scene scene = sceneOf(strips(12, 9));
-    const WideBvh whole = widenBvh(buildBvh(primitiveBoxes(scene))), bvh = buildSceneBvh(scene);
+    const Primitives primitives = primitivesOf(strips(12, 9));
+    const WideBvh whole = collapseBvh(buildBvh(primitiveBoxes(primitives))), bvh = buildSceneBvh(primitives);
     std::cout << "cost of primitives " << whole.cost << ", of pieces " << bvh.cost << "\n";
     EXPECT_LT(bvh.cost, 0.9 * whole.cost);
     EXPECT_EQ(bvh.box.lo, whole.box.lo);
     EXPECT_EQ(bvh.box.hi, whole.box.hi);
-    EXPECT_EQ(bvh.order.size(), scene.triangles.size() + scene.triangles.size() / 10);
+    EXPECT_EQ(bvh.order.size(), primitives.triangles.size() + primitives.triangles.size() / 10);
     Random random(8);
-    for (std::uint32_t id = 0; id < scene.triangles.size(); ++id) {
+    for (std::uint32_t id = 0; id < primitives.triangles.size(); ++id) {
         for (int i = 0; i < 100; ++i) {
-            ASSERT_TRUE(reaches(bvh, id, pointOf(scene.triangles[id], random))) << "triangle " << id;
+            ASSERT_TRUE(reaches(bvh, id, pointOf(primitives.triangles[id], random))) << "triangle " << id;
         }
     }
 }
@@ -189,18 +193,19 @@ TEST(SceneBvhTest, IsOfPiecesWhereThatIsCheaper)
 TEST(SceneBvhTest, IsOfPrimitivesElsewhere)
 {
     SceneBuilder builder;
-    Scene room = builder.cube(1.5F, builder.lambert(glm::vec3(0.5F)), true).scene();
-    const Mesh ball = icosphere(2);
+    Primitives room = makePrimitives(builder.cube(1.5F, builder.lambert(glm::vec3(0.5F)), true).scene());
+    const Triangles ball = icosphere(2);
     room.triangles.insert(room.triangles.end(), ball.begin(), ball.end());
-    EXPECT_FALSE(splitTriangles(room, primitiveBoxes(room)).boxes.empty()) << "walls, but that does not pay";
-    Mesh mixed = randomTriangles(500, 0.1F, 5);
-    const Mesh larger = randomTriangles(100, 0.4F, 77);
+    EXPECT_FALSE(splitTriangles(room.triangles, primitiveBoxes(room)).boxes.empty()) << "walls, but that does not pay";
+    Triangles mixed = randomTriangles(500, 0.1F, 5);
+    const Triangles larger = randomTriangles(100, 0.4F, 77);
     mixed.insert(mixed.end(), larger.begin(), larger.end());
-    const double gain = costOf(splitTriangles(sceneOf(mixed), primitiveBoxes(sceneOf(mixed))).boxes) / costOf(primitiveBoxes(sceneOf(mixed)));
+    const std::vector<Box> boxes = primitiveBoxes(primitivesOf(mixed));
+    const double gain = costOf(splitTriangles(mixed, boxes).boxes) / costOf(boxes);
     EXPECT_GT(gain, 0.9);
     EXPECT_LT(gain, 0.97) << "a little cheaper";
-    for (const Scene& scene : {sceneOf(terrain(50), randomSpheres(20, 0.5F, 4)), room, sceneOf(mixed)}) {
-        const WideBvh whole = widenBvh(buildBvh(primitiveBoxes(scene))), bvh = buildSceneBvh(scene);
+    for (const Primitives& primitives : {primitivesOf(terrain(50), randomSpheres(20, 0.5F, 4)), room, primitivesOf(mixed)}) {
+        const WideBvh whole = collapseBvh(buildBvh(primitiveBoxes(primitives))), bvh = buildSceneBvh(primitives);
         EXPECT_EQ(bvh.order, whole.order);
         EXPECT_EQ(bvh.cost, whole.cost);
     }

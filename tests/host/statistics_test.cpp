@@ -14,10 +14,7 @@ TEST(StatisticsTest, ChiSquareTailMatchesTables)
     EXPECT_NEAR(chiSquareTail(149.449, 100.0), 0.001, 1e-6);
 }
 
-TEST(StatisticsTest, ScoreLimitOf200Comparisons)
-{
-    EXPECT_NEAR(scoreLimit(200), 4.56, 0.01);
-}
+TEST(StatisticsTest, ScoreLimitOf200Comparisons) { EXPECT_NEAR(scoreLimit(200), 4.56, 0.01); }
 
 }  // namespace
 }  // namespace glim

@@ -1,7 +1,6 @@
-// Slope, floor and efficiency of simulated benches, and that the slope test finds what is planted.
-#include "host/bench/compare_benches.hpp"
-#include "host/bench/fit_error.hpp"
+// Slope, floor and efficiency of simulated benches; the slope test finds the flaws that are planted.
 #include "host/bench/summarize_bench.hpp"
+#include "host/bench/fit_error.hpp"
 #include "tests/support/noisy_picture.hpp"
 #include "tests/support/simulated_bench.hpp"
 #include "tests/support/statistics.hpp"
@@ -38,7 +37,7 @@ TEST(FitError, FindsFactorPowerAndRest)
 TEST(MeasureError, FloorIsWhatTheReferenceAddsAndBiasIsWhatSeedsShare)
 {
     const SceneBench bench = simulateBench(Flaw::None, 1);
-    // A term falls by 2 (r - 1), of which a mean is left over pixels and channels.
+    // A term falls by 2 (r - 1), whose mean over pixels and channels is left.
     const double left = 2.0 / std::sqrt(3.0 * test::kBenchSide * test::kBenchSide * test::kReferenceSamples);
     EXPECT_NEAR(bench.floor.relMse * test::kReferenceSamples, 1.0 / 1.01, 4.0 * left);
     EXPECT_NEAR(bench.floor.relMseError, bench.floor.relMse * std::sqrt(2.0 / 256), 1e-3 * bench.floor.relMse);
@@ -89,7 +88,7 @@ TEST(SummarizeBench, SlopeTestFindsBiasAndSamplesThatRepeat)
         for (std::uint64_t trial = 0; trial < 3; ++trial) {
             const SlopeTest test = summarizeBench(simulateBench(flaw, trial)).slopeTest;
             EXPECT_EQ(test.holds(), flaw == Flaw::None) << static_cast<int>(flaw);
-            // What repeats within a seed is no error that seeds share.
+            // Samples that repeat within a seed give no error that seeds share.
             EXPECT_EQ(test.biasHolds(), flaw == Flaw::None || flaw == Flaw::RepeatsAfter16) << static_cast<int>(flaw);
             if (flaw != Flaw::SameInEverySeed) {  // whose slope has no known error
                 EXPECT_EQ(test.slopeHolds(), flaw == Flaw::None) << static_cast<int>(flaw);
@@ -133,7 +132,7 @@ TEST(CompareBenches, FindsADifferenceOfMeansAndOfErrors)
     EXPECT_FALSE(excludesOne(paired.error));
 }
 
-// The same errors and seeds in .8 of the time, against themselves and against others' seeds.
+// The same errors in .8 of the time, against the same seeds and against other seeds.
 TEST(CompareBenches, FindsWhatIsFasterAndClaimsNothingElse)
 {
     SceneBench faster = simulateBench(Flaw::None, 1);

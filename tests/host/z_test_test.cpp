@@ -1,5 +1,5 @@
 #include "host/error.hpp"
-#include "host/measure/normal.hpp"
+#include "host/measure/confidence.hpp"
 #include "host/measure/z_test.hpp"
 #include "tests/support/noisy_picture.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -32,7 +32,7 @@ struct Rejections {
     double means = 0, blocks = 0, spread = 0;
 };
 
-// Shares of correct pictures, `width` x `height`, that each of the tests rejects at level .05.
+// The shares of correct pictures of `width` x `height` that each test rejects at level .05.
 Rejections rejectCorrect(std::uint32_t width, std::uint32_t height)
 {
     const Picture truth = makeTruth(width, height);

@@ -1,5 +1,5 @@
-// The kernel itself: samples that are not finite are counted, located and in no sum; adaptive renders add up chosen pixels; who
-// asks for suspects gets the brightest sample of each pixel.
+// The kernel itself. It counts and locates samples that are not finite, and adds them to no sum. In adaptive renders it adds to
+// the chosen pixels. With --suspects it keeps the brightest sample of each pixel.
 #include "host/gpu/commands.hpp"
 #include "host/render/path_buffers.hpp"
 #include "kernels.hpp"
@@ -8,6 +8,7 @@
 #include "shaders/shared/pixel_moments.h"
 #include "tests/support/blocks.hpp"
 #include "tests/support/hard_case.hpp"
+#include "tests/support/parameters_buffer.hpp"
 #include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@
 namespace glim {
 namespace {
 
-constexpr std::uint32_t kPixels = 100, kSamples = 8, kSlabBegin = 1000, kFirstSample = 32;
+constexpr std::uint32_t kPixels = 100, kSamples = 8, kTileBegin = 1000, kFirstSample = 32;
 
 struct Outcome {
     std::vector<PixelMoments> pages;
@@ -29,16 +30,14 @@ struct Outcome {
     Status status;
 };
 
-// An empty `chosen` is no adaptive render. Brightest samples start as `brightest`.
+// An empty `chosen` means: the render is not adaptive. Brightest samples start as `brightest`.
 Outcome accumulate(const std::vector<PathRadiance>& radiance, const std::vector<ChosenPixel>& chosen = {}, uint flags = kEndsBlock,
                    const std::vector<BrightestSample>& brightest = {})
 {
-    const KernelLayout layout(testDevice(), kernelSlots(), sizeof(Pass));
-    const Kernel kernel(layout, kernels::accumulate, 
-                        {{kSpecWorkgroup, 64},
-                         {kSpecChosen, !chosen.empty()},
-                         {kSpecLuminance, !chosen.empty()},
-                         {kSpecSuspects, !brightest.empty()}});
+    const KernelLayout layout(testDevice(), kernelSlots(), sizeof(CoursePass));
+    const Kernel kernel(layout, kernels::accumulate,
+                        {{kSpecWorkgroup, 64}, {kSpecChosen, !chosen.empty()}, {kSpecSuspects, !brightest.empty()}});
+    const Kernel luminance(layout, kernels::course_add_luminance, {{kSpecWorkgroup, 64}, {kSpecChosen, !chosen.empty()}});
     Buffer list(testDevice(), "test's choice", BufferKind::Storage, sizeof(uint) + kPixels * sizeof(ChosenPixel));
     std::vector<uint> counted{kPixels};
     for (const ChosenPixel& each : chosen) {
@@ -66,16 +65,21 @@ Outcome accumulate(const std::vector<PathRadiance>& radiance, const std::vector<
     bound[kBindChosenPixels] = &list;
     bound[kBindLuminance] = &luminances;
     bound[kBindBrightest] = &kept;
+    const Buffer parameters = parametersBuffer(anyParameters());
+    bound[kBindParameters] = &parameters;
     const Bindings bindings(layout, bound);
     Pass pass{};
-    pass.slabBegin = kSlabBegin;
+    pass.tileBegin = kTileBegin;
     pass.pixelCount = kPixels;
     pass.firstSample = kFirstSample;
     pass.sampleCount = kSamples;
     pass.accumulate = flags;
-    pass.canarySteps = 3;
     Commands commands(testDevice());
-    commands.dispatch(kernel, bindings, std::as_bytes(std::span<const Pass, 1>(&pass, 1)), (kPixels + 63) / 64);
+    const auto push = std::as_bytes(std::span<const Pass, 1>(&pass, 1));
+    commands.dispatch(kernel, bindings, push, (kPixels + 63) / 64);
+    if (!chosen.empty()) {
+        commands.dispatch(luminance, bindings, push, (kPixels + 63) / 64);
+    }
     commands.submitAndWait();
     return {download<PixelMoments>(pages, kPixels), download<LuminanceMoments>(luminances, kPixels),
             download<BrightestSample>(kept, kPixels), download<Status>(paths.status(), 1)[0]};
@@ -122,8 +126,8 @@ TEST(AccumulateTest, H37LeavesOutWhatIsNotFinite)
         located.insert({outcome.status.located[i].pixel, outcome.status.located[i].sampleIndex});
     }
     EXPECT_EQ(located.size(), 3 + kSamples);
-    EXPECT_EQ(located.count({kSlabBegin + 7, kFirstSample + 3}), 1U);
-    EXPECT_EQ(located.count({kSlabBegin + 50, kFirstSample + 7}), 1U);
+    EXPECT_EQ(located.count({kTileBegin + 7, kFirstSample + 3}), 1U);
+    EXPECT_EQ(located.count({kTileBegin + 50, kFirstSample + 7}), 1U);
 }
 
 TEST(AccumulateTest, AddsToTheChosenPixels)
@@ -150,7 +154,7 @@ TEST(AccumulateTest, AddsToTheChosenPixels)
     EXPECT_FLOAT_EQ(every.pages[10].mean.r, 13.5F);
 }
 
-// Each chosen pixel goes on from its own sample, and blocks end where their index says so, within the pass or not.
+// Each chosen pixel continues with its own next sample. Blocks end by the sample's index, within the pass or at its end.
 TEST(AccumulateTest, ChosenPixelsGoOnFromTheirOwnSamples)
 {
     std::vector<PathRadiance> radiance(kPixels * kSamples);
@@ -177,7 +181,7 @@ TEST(AccumulateTest, ChosenPixelsGoOnFromTheirOwnSamples)
         }
     }
     EXPECT_EQ(outcome.status.nonFinite, 1U);
-    EXPECT_EQ(outcome.status.located[0].pixel, kSlabBegin + 50);
+    EXPECT_EQ(outcome.status.located[0].pixel, kTileBegin + 50);
     EXPECT_EQ(outcome.status.located[0].sampleIndex, kFirstSample + 150 + 2);
 }
 

@@ -13,7 +13,7 @@ struct Table {
 layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Table table; };
 layout(set = 0, binding = kBindResults, scalar) buffer Results { uint drawn[16]; };
 
-// Threads stand for an even grid over both numbers.
+// The threads form an even grid over both numbers.
 const uint kSide = 1024u;
 
 void main()

@@ -20,7 +20,7 @@ struct Table {
     AliasEntry entries[16];
 };
 
-// H14: over an even grid of both numbers each entry is drawn as often as the table says, up to the grid's edges.
+// H14: an even grid of both numbers draws each entry as often as the table says, up to the grid's edges.
 TEST(AliasTest, H14DrawsWithTheProbabilitiesOfTheTable)
 {
     const std::vector<double> weights = {1.0, 5.0, 0.5, 2.0, 100.0, 0.001, 3.0, 3.0, 7.0, 20.0, 0.3};
@@ -80,8 +80,7 @@ TEST(AliasTest, H14MillionsOfLights)
         }
         const double naive = naiveDistance(each, sum);
         printHardCase("H14", each.size() == weights.size() ? "lognormal powers" : "one bright light before dim ones",
-                      static_cast<double>(each.size()), "total variation " + figure(distance),
-                      "cumulative float sum: " + figure(naive));
+                      static_cast<double>(each.size()), "total variation " + figure(distance), "cumulative float sum: " + figure(naive));
         EXPECT_NEAR(total, 1.0, 1e-9);
         EXPECT_LE(distance, 4e-5);
         EXPECT_GT(naive, 4e-5);

@@ -28,7 +28,7 @@ struct Truth {
     dvec3 onLens;  // the ray's origin
     dvec3 focus;   // where all rays of the film point meet
     double radius;
-    double turn;   // by how much across and aperture turn rays, at most
+    double turn;  // the most by which across and aperture turn rays
 };
 
 Truth truthOf(const Case& c)
@@ -81,13 +81,13 @@ std::vector<Case> anyCases(bool orthographic)
 }
 
 struct Worst {
-    double origin = 0.0;   // over what rounding explains
-    double meeting = 0.0;  // over the distance from the lens
+    double origin = 0.0;   // as a share of what rounding explains
+    double meeting = 0.0;  // as a share of the distance from the lens
     double share = 0.0;    // of the limit
 };
 
-// The origin is a sum of five products, position and aperture among them. The direction: half an ulp when forward is added, and
-// some 12 of them of what turns it, six in across and aperture / depth, six in aside.
+// The origin is a sum of five products, position and aperture among them. The direction is off by half an ulp when forward is added, and by
+// some 12 half ulps of what turns it: six in across and aperture / depth, six in aside.
 void expectRay(const Case& c, const PathRay& ray, Worst& worst)
 {
     const Truth truth = truthOf(c);

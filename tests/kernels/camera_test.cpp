@@ -76,10 +76,7 @@ TEST(CameraTest, RaysGoWhereTheFilmSays)
 }
 
 // The direction by normalize, in float32.
-vec3 normalizedDirection(const Case& c)
-{
-    return glm::normalize(c.camera.forward + (c.film.x * c.camera.right + c.film.y * c.camera.up));
-}
+vec3 normalizedDirection(const Case& c) { return glm::normalize(c.camera.forward + (c.film.x * c.camera.right + c.film.y * c.camera.up)); }
 
 // H35: at a field of view of 0.1 degree on 1920 pixels each direction is within 0.07 pixel.
 TEST(CameraTest, H35ThinFieldsOfView)

@@ -16,7 +16,7 @@ void main()
             x = x * 1664525u + 1013904223u;  // nothing that a compiler could sum up
             counted += 1u + (x >> 31u) * 0u;
         }
-        results[TEST_THREAD] = uvec2(counted, isLoopBudgetSpent(pass.canarySteps) ? 1u : 0u);
+        results[TEST_THREAD] = uvec2(counted, isLoopBudgetSpent(render.canarySteps) ? 1u : 0u);
     }
     report.sentinel = 0u;
     atomicAdd(report.threads, 1u);

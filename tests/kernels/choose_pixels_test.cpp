@@ -6,6 +6,7 @@
 #include "shaders/shared/limits.h"
 #include "shaders/shared/path_types.h"
 #include "tests/support/luminance_cases.hpp"
+#include "tests/support/parameters_buffer.hpp"
 #include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
@@ -49,12 +50,12 @@ struct Place {
     std::uint32_t width, height, begin;
 };
 
-// The last `idle` entries of the luminances are no pixels of the slab.
+// The last `idle` entries of the luminances are no pixels of the tile.
 Outcome choosePixels(const std::vector<LuminanceMoments>& luminances, std::uint32_t constantSamples, std::size_t idle = 100,
                      const Place& place = {20000, 1, 0})
 {
-    const KernelLayout layout(testDevice(), kernelSlots(), sizeof(Pass));
-    const Kernel kernel(layout, kernels::choose_pixels, {{kSpecWorkgroup, kWorkgroup}, {kSpecChosen, 1}, {kSpecLuminance, 1}});
+    const KernelLayout layout(testDevice(), kernelSlots(), sizeof(CoursePass));
+    const Kernel kernel(layout, kernels::course_choose_pixels, {{kSpecWorkgroup, kWorkgroup}, {kSpecChosen, 1}});
     PathBuffers paths(testDevice(), 1);
     Buffer given(testDevice(), "test's luminances", BufferKind::Storage, luminances.size() * sizeof(LuminanceMoments));
     upload(given, std::span<const LuminanceMoments>(luminances));
@@ -65,18 +66,23 @@ Outcome choosePixels(const std::vector<LuminanceMoments>& luminances, std::uint3
     std::map<std::uint32_t, const Buffer*> bound = paths.buffers(0);
     bound[kBindLuminance] = &given;
     bound[kBindChosenPixels] = &list;
+    RenderParameters render = anyParameters();
+    render.width = place.width;
+    render.height = place.height;
+    CourseParameters course{};
+    course.tolerance = kTolerance;
+    course.constantSamples = constantSamples;
+    const Buffer parameters = parametersBuffer(render), courseParameters = parametersBuffer(course);
+    bound[kBindParameters] = &parameters;
+    bound[kBindCourseParameters] = &courseParameters;
     const Bindings bindings(layout, bound);
-    Pass pass{};
-    pass.width = place.width;
-    pass.height = place.height;
-    pass.slabBegin = place.begin;
+    CoursePass push{};
+    Pass& pass = push.pass;
+    pass.tileBegin = place.begin;
     pass.pixelCount = static_cast<std::uint32_t>(luminances.size() - idle);
-    pass.tolerance = kTolerance;
-    pass.constantSamples = constantSamples;
-    pass.canarySteps = 3;
     Commands commands(testDevice());
     const auto groups = static_cast<std::uint32_t>((luminances.size() + kWorkgroup - 1) / kWorkgroup);
-    commands.dispatch(kernel, bindings, std::as_bytes(std::span<const Pass, 1>(&pass, 1)), groups);
+    commands.dispatch(kernel, bindings, std::as_bytes(std::span<const CoursePass, 1>(&push, 1)), groups);
     commands.submitAndWait();
     return readList(list, pass.pixelCount, download<Status>(paths.status(), 1)[0]);
 }
@@ -129,7 +135,7 @@ TEST(ChoosePixelsTest, ListsNoneOrAll)
     EXPECT_EQ(choosePixels(std::vector<LuminanceMoments>(1), 0, 0).count, 1U);
 }
 
-// A slab that begins and ends within rows, sparsely met.
+// A tile that begins and ends within rows, with few chosen pixels.
 TEST(ChoosePixelsTest, LeavesOutWhatIsEmptyWithItsNeighbours)
 {
     constexpr std::uint32_t kWidth = 60, kHeight = 50, kBegin = 130, kEnd = 2930;

@@ -7,7 +7,7 @@
 
 struct Case {
     vec3 contribution;
-    uint events;
+    uint pathLength;
     float limit;
     vec3 kept;
     float removed;
@@ -19,10 +19,10 @@ void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        ClampedLight light = clampIndirect(c.contribution, c.events, c.limit);
+        ClampedLight light = clampIndirect(c.contribution, c.pathLength, c.limit);
         EXPECT_NEAR_VECTOR(light.kept, c.kept, 4e-7 * length(c.kept));
         EXPECT_NEAR(light.removed, c.removed, 4e-7 * length(c.contribution));
-        ClampedLight free = clampIndirect(c.contribution, c.events, kInfinity);
+        ClampedLight free = clampIndirect(c.contribution, c.pathLength, kInfinity);
         EXPECT_TRUE(floatBitsToUint(free.kept) == floatBitsToUint(c.contribution));
         EXPECT_EQUAL(free.removed, 0.0);
     }

@@ -12,7 +12,7 @@ namespace {
 
 struct Case {
     vec3 contribution;
-    uint events;
+    uint pathLength;
     float limit;
     vec3 kept;
     float removed;
@@ -27,7 +27,7 @@ TEST(ClampIndirectTest, KeepsTheHueAndCountsTheRest)
         Case c{{value(random), value(random), value(random)}, i % 5, value(random), vec3(0.0F), 0.0F};
         const glm::dvec3 all(c.contribution);
         const double largest = std::max({all.r, all.g, all.b});
-        const double share = c.events >= 2 ? std::min(1.0, static_cast<double>(c.limit) / largest) : 1.0;
+        const double share = c.pathLength >= 2 ? std::min(1.0, static_cast<double>(c.limit) / largest) : 1.0;
         c.kept = vec3(all * share);
         c.removed = static_cast<float>((all.r + all.g + all.b) / 3.0 * (1.0 - share));
         cases.push_back(c);

@@ -24,17 +24,18 @@ struct Case {
 };
 
 // 1 - cos of the half angle = 2 sin^2 of half of it; the cone's solid angle is 2 pi times that.
-double riseOf(double sin2)
-{
-    return 2.0 * std::pow(std::sin(0.5 * std::asin(std::sqrt(sin2))), 2.0);
-}
+double riseOf(double sin2) { return 2.0 * std::pow(std::sin(0.5 * std::asin(std::sqrt(sin2))), 2.0); }
 
 Case caseOf(float sin2, vec2 u)
 {
     const double whole = riseOf(static_cast<double>(sin2)), rise = static_cast<double>(u.x) * whole;
     const double phi = kPi * (2.0 * static_cast<double>(u.y) - 1.0), r = std::sqrt(rise * (2.0 - rise));
-    return {sin2, u, static_cast<float>(whole), static_cast<float>(1.0 / (2.0 * kPi * whole)),
-            vec2(r * std::cos(phi), r * std::sin(phi)), static_cast<float>(rise)};
+    return {sin2,
+            u,
+            static_cast<float>(whole),
+            static_cast<float>(1.0 / (2.0 * kPi * whole)),
+            vec2(r * std::cos(phi), r * std::sin(phi)),
+            static_cast<float>(rise)};
 }
 
 // Relative error of the density 1 / (2 pi (1 - cos)) with the cosine in float.
@@ -66,8 +67,8 @@ TEST(ConeTest, H11KeepsItsDigitsHoweverSmall)
         EXPECT_GT(naiveError(ratio), 1e-6);
     }
     printHardCase("H11", "cones of r/d 1e-6 to .999999", static_cast<double>(cases.size()), "density within 1e-6",
-                  "1 - cos: off by " + figure(naiveError(1e-2)) + " at r/d 1e-2, " + figure(naiveError(1e-3)) +
-                      " at 1e-3, " + figure(naiveError(1e-4)) + " at 1e-4");
+                  "1 - cos: off by " + figure(naiveError(1e-2)) + " at r/d 1e-2, " + figure(naiveError(1e-3)) + " at 1e-3, " +
+                      figure(naiveError(1e-4)) + " at 1e-4");
 }
 
 // Equal solid angles get equal counts: rings of equal 1 - cos, sectors of equal azimuth.

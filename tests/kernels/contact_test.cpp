@@ -21,12 +21,9 @@ using glm::vec3;
 constexpr float kLookUp = 1e-3F;
 
 std::array<vec3, 4> floorQuad() { return {vec3(-5, 0, 5), {5, 0, 5}, {5, 0, -5}, {-5, 0, -5}}; }
-std::array<vec3, 4> downQuad(float half, float y)
-{
-    return {vec3(-half, y, -half), {half, y, -half}, {half, y, half}, {-half, y, half}};
-}
+std::array<vec3, 4> downQuad(float half, float y) { return {vec3(-half, y, -half), {half, y, -half}, {half, y, half}, {-half, y, half}}; }
 
-// A light on the ceiling it lies in, and 1e-4 below: the floor sees it whole, the ceiling not at all.
+// A light in the plane of the ceiling, and 1e-4 below it. The floor sees all of it, the ceiling nothing.
 TEST(ContactTest, H10LightOnACeiling)
 {
     for (const float gap : {0.0F, 1e-4F}) {
@@ -35,7 +32,7 @@ TEST(ContactTest, H10LightOnACeiling)
         builder.quad(floorQuad(), white).quad(downQuad(4.0F, 2.0F), white);
         builder.quad(downQuad(0.5F, 2.0F - gap), builder.lambert(vec3(0.0F), vec3(1.0F)));
         std::vector<Receiver> receivers;
-        // Seen from aside, .1 % of a lamp in the ceiling's own plane is lost to the rounding of the two (HardLightKnownBug).
+        // From the side, rounding loses .1 % of a lamp that lies in the ceiling's own plane (HardLightKnownBug).
         std::vector<vec3> points = {vec3(0, 0, 0), vec3(0.7F, 0, 0.3F)};
         if (gap > 0.0F) {
             points.emplace_back(-2.5F, 0.0F, 1.0F);
@@ -54,7 +51,8 @@ TEST(ContactTest, H10LightOnACeiling)
     }
 }
 
-// Irradiance of a floor by a sphere of radiance 1 that rays from t > epsilon find: a grid of directions by the cosine.
+// The irradiance that a floor gets from a sphere of radiance 1, by rays with t > epsilon over a grid of cosine-weighted
+// directions.
 double irradianceBeyond(double epsilon, const dvec3& center, double radius)
 {
     constexpr int kSide = 512;
@@ -77,10 +75,10 @@ TEST(ContactTest, H10SphereLightOnTheFloor)
     std::vector<Receiver> receivers;
     for (const float x : {2.0F, 0.5F, 0.1F, 0.03F, 0.01F}) {
         const double truth = irradianceOfSphere({-static_cast<double>(x), 0.5, 0}, 0.5, {0, 1, 0});
-        // Below the sphere's underside, which is x^2 / (2 r) above the floor.
+        // Looked up from below the sphere's underside, which is x^2 / (2 r) above the floor.
         receivers.push_back({{x, 0, 0}, {0, 1, 0}, truth, std::min(kLookUp, 0.5F * x * x)});
     }
-    // Rays leave a floor of 10 m by 6e-6 m, which is 6 % of the gap at the last receiver: the cone is another by that.
+    // Rays leave a floor of 10 m by 6e-6 m, which is 6 % of the gap at the last receiver: the cone differs by that.
     const auto nearest = expectIrradiance("sphere light on the floor", builder.scene(), receivers, 1e-3).back();
     const double truth = receivers.back().truth, naive = irradianceBeyond(1e-3, {-0.01, 0.5, 0.0}, 0.5) / truth;
     printHardCase("H10", "1 cm from where a sphere light touches", static_cast<double>(hardTrials(2048 * 64)),

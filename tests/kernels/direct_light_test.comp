@@ -1,12 +1,12 @@
-// One thread is one receiver: the shadow ray that it asks for, and the light that a ray from it finds.
+// One thread is one receiver: its shadow ray, and the light that a ray from it hits.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
-#include "access/direct_light.glsl"
+#include "access/path_vertex.glsl"
 #include "access/traverse.glsl"
 
 struct Case {
-    vec3 point, shading, geometric, towards;
+    vec3 point, ns, ng, towards;
     PathState state;
 };
 
@@ -14,7 +14,7 @@ struct Result {
     uint asks;
     ShadowRay ray;
     uint finds;  // a surface; else the environment
-    vec3 found;
+    vec3 emitted;  // the environment times throughput
 };
 
 layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
@@ -23,19 +23,20 @@ layout(set = 0, binding = kBindResults, scalar) writeonly buffer Results { Resul
 vec3 lightFound(Case c, PathRay ray, PathHit hit)
 {
     if (hit.record == kNoRecord) {
-        return environmentFound(c.state);
+        return shadeMiss(ray, c.state);
     }
-    Surface surface = surfaceAt(ray, hit);
-    return emissionFound(ray, hit, c.state, surface, fetchMaterial(surface.material));
+    SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
+    return weightedEmission(si, fetchMaterial(si.material), ray, hit, c.state);
 }
 
 void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        Surface surface = Surface(c.point, vec3(0.0), c.geometric, c.shading, true, 0u, 0u, 77u);
+        SurfaceInteraction si = SurfaceInteraction(c.point, vec3(0.0), c.ng, c.ns, vec2(0.0), true, 0u, 77u, 0u);
         ShadowRay shadow = ShadowRay(vec3(0.0), 0u, vec3(0.0), 0u, vec3(0.0), 0.0);
-        bool asks = sampleDirectLight(SampleId(pass.seed, TEST_THREAD, 0u), 1u, c.state, surface, fetchMaterial(0u), shadow);
+        Bsdf bsdf = makeBsdf(si, fetchMaterial(0u), c.ns);
+        bool asks = sampleDirectLight(SampleId(render.seed, TEST_THREAD, 0u), si, bsdf, c.ns, c.state, shadow);
         PathRay ray = PathRay(c.point, kNoPrimitive, c.towards, 0u);
         PathHit hit = traceClosest(ray);
         results[TEST_THREAD] = Result(uint(asks), shadow, uint(hit.record != kNoRecord), lightFound(c, ray, hit));

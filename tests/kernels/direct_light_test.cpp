@@ -1,4 +1,5 @@
-// The two ways in which a path finds light, each against the radiance, densities and weights in double.
+// The two ways in which a path finds light, by light sampling and by chance, against radiance, pdfs and weights in double.
+#include "shaders/shared/course_types.h"
 #include "test_kernels.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/random.hpp"
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace glim {
 namespace {
@@ -20,7 +22,7 @@ constexpr double kPi = std::numbers::pi;
 const dvec3 kAlbedo(0.9, 0.6, 0.3), kEmission(5.0, 4.0, 3.0);
 
 struct Case {
-    vec3 point, shading, geometric, towards;
+    vec3 point, ns, ng, towards;
     PathState state;
 };
 
@@ -31,10 +33,7 @@ struct Result {
     vec3 found;
 };
 
-double powerWeight(double f, double g)
-{
-    return f * f / (f * f + g * g);
-}
+double powerWeight(double f, double g) { return f * f / (f * f + g * g); }
 
 void expectLight(const vec3& light, const dvec3& expected)
 {
@@ -51,8 +50,8 @@ std::vector<Case> receivers(float pdf)
     for (int i = 0; i < 4000; ++i) {
         Case c{};
         c.point = 0.1 * random.normalVector();
-        c.geometric = glm::normalize(dvec3(0, 1, 0) + 0.6 * random.direction());
-        c.shading = glm::normalize(dvec3(c.geometric) + 0.6 * random.direction());
+        c.ng = glm::normalize(dvec3(0, 1, 0) + 0.6 * random.direction());
+        c.ns = glm::normalize(dvec3(c.ng) + 0.6 * random.direction());
         c.towards = glm::normalize(dvec3(0, 1, 0) + 0.5 * random.direction());
         c.state = {{0.5F, 1.0F, 2.0F}, pdf, 0.7F, 1.0F, 1, 0};
         cases.push_back(c);
@@ -60,25 +59,48 @@ std::vector<Case> receivers(float pdf)
     return cases;
 }
 
-std::vector<Result> run(const SceneOnDevice& scene, uint direct, const std::vector<Case>& cases)
+// With the course's kernels: those of production have one estimator only.
+std::vector<Result> runCourse(const SceneOnDevice& scene, uint direct, const std::vector<Case>& cases)
 {
     const Buffer note(testDevice(), "test's note", BufferKind::Storage, sizeof(PathNote));
-    KernelTest test = scene.test(test_kernels::direct_light_test);
+    KernelTest test = scene.test(test_kernels::course_direct_light_test);
     test.buffers({{kBindNote, &note}}).specialize(kSpecDirect, direct);
-    test.pass().environment = scene.flat.environment;
-    test.pass().environmentLight = scene.flat.environmentLight;
-    test.pass().light = direct == kDirectMis ? kAnyLight : 0;
-    test.pass().lightSamples = 4;
+    test.parameters().environment = scene.flat.environment;
+    test.parameters().environmentLight = scene.flat.environmentLight;
+    test.lightRound().light = direct == kDirectMis ? kAnyLight : 0;
+    test.lightRound().lightSamples = 4;
     test.cases(cases).resultsOf<Result>(cases.size()).run();
     return test.results<Result>();
 }
 
-// What light of radiance `radiance` and density `pdf` (0: delta, which counts whole) along wi brings to the camera; zero below the
-// surface.
+std::vector<Result> run(const SceneOnDevice& scene, const std::vector<Case>& cases)
+{
+    const Buffer note(testDevice(), "test's note", BufferKind::Storage, sizeof(PathNote));
+    KernelTest test = scene.test(test_kernels::direct_light_test);
+    test.buffers({{kBindNote, &note}});
+    test.parameters().environment = scene.flat.environment;
+    test.parameters().environmentLight = scene.flat.environmentLight;
+    test.cases(cases).resultsOf<Result>(cases.size()).run();
+    return test.results<Result>();
+}
+
+// Production, then the course's estimators.
+std::vector<std::pair<uint, std::vector<Result>>> runAll(const SceneOnDevice& scene, std::initializer_list<uint> estimators,
+                                                         const std::vector<Case>& cases)
+{
+    std::vector<std::pair<uint, std::vector<Result>>> all = {{kDirectMis, run(scene, cases)}};
+    for (const uint direct : estimators) {
+        all.emplace_back(direct, runCourse(scene, direct, cases));
+    }
+    return all;
+}
+
+// What light of radiance `radiance` and density `pdf` along wi brings to the camera; zero below the surface. A pdf of 0 is a delta light,
+// whose MIS weight is 1.
 dvec3 contribution(const Case& c, const dvec3& wi, const dvec3& radianceOverPdf, double pdf, uint direct)
 {
-    const double cosine = dot(wi, dvec3(c.shading));
-    if (cosine <= 0.0 || dot(wi, dvec3(c.geometric)) <= 0.0) {
+    const double cosine = dot(wi, dvec3(c.ns));
+    if (cosine <= 0.0 || dot(wi, dvec3(c.ng)) <= 0.0) {
         return dvec3(0.0);
     }
     const double weight = direct == kDirectLights ? 0.25 : pdf > 0.0 ? powerWeight(pdf, cosine / kPi) : 1.0;
@@ -87,7 +109,7 @@ dvec3 contribution(const Case& c, const dvec3& wi, const dvec3& radianceOverPdf,
 
 bool isNearHorizon(const Case& c, const dvec3& wi)
 {
-    return std::abs(dot(wi, dvec3(c.shading))) < 1e-3 || std::abs(dot(wi, dvec3(c.geometric))) < 1e-3;
+    return std::abs(dot(wi, dvec3(c.ns))) < 1e-3 || std::abs(dot(wi, dvec3(c.ng))) < 1e-3;
 }
 
 // A quad of 4 square metres, two above the origin, facing down.
@@ -101,17 +123,13 @@ SceneOnDevice quadScene()
     return SceneOnDevice(builder.scene());
 }
 
-double quadPdf(double distance, double cosine)
-{
-    return distance * distance / (cosine * kArea);
-}
+double quadPdf(double distance, double cosine) { return distance * distance / (cosine * kArea); }
 
 TEST(DirectLightKernelTest, SamplesOfASurfaceAreWeighted)
 {
     const SceneOnDevice scene = quadScene();
     const std::vector<Case> cases = receivers(0.0F);
-    for (const uint direct : {kDirectMis, kDirectLights}) {
-        const std::vector<Result> results = run(scene, direct, cases);
+    for (const auto& [direct, results] : runAll(scene, {kDirectMis, kDirectLights}, cases)) {
         std::size_t asked = 0;
         for (std::size_t i = 0; i < cases.size(); ++i) {
             const Result& r = results[i];
@@ -120,7 +138,7 @@ TEST(DirectLightKernelTest, SamplesOfASurfaceAreWeighted)
             }
             ++asked;
             const dvec3 to(r.ray.direction), wi = glm::normalize(to);
-            EXPECT_EQ(r.ray.reach, 1.0F);
+            EXPECT_EQ(r.ray.tMax, 1.0F);
             EXPECT_EQ(r.ray.target / 2, 1U) << "the lamp's triangles are 2 and 3: it does not shadow itself";
             EXPECT_NEAR(static_cast<double>(r.ray.origin.y) + to.y, kHeight, 1e-5);
             const double pdf = quadPdf(glm::length(to), wi.y);
@@ -138,8 +156,7 @@ TEST(DirectLightKernelTest, WhatARayFindsIsWeightedAgainstThat)
     const SceneOnDevice scene = quadScene();
     for (const float pdf : {0.0F, 0.05F, 0.3F}) {
         const std::vector<Case> cases = receivers(pdf);
-        for (const uint direct : {kDirectMis, kDirectLights, kDirectBsdf}) {
-            const std::vector<Result> results = run(scene, direct, cases);
+        for (const auto& [direct, results] : runAll(scene, {kDirectMis, kDirectLights, kDirectBsdf}, cases)) {
             std::size_t found = 0;
             for (std::size_t i = 0; i < cases.size(); ++i) {
                 if (results[i].finds == 0) {
@@ -163,7 +180,7 @@ TEST(DirectLightKernelTest, APointLightCountsWhole)
     builder.sphere(vec3(0, -9, 0), 1.0F, builder.lambert(vec3(kAlbedo)));
     builder.light({"", PunctualLight::Kind::Point, {0.3F, 2, 0}, {0, -1, 0}, vec3(kEmission), 1.0F, 0.0F});
     const std::vector<Case> cases = receivers(0.0F);
-    const std::vector<Result> results = run(SceneOnDevice(builder.scene()), kDirectMis, cases);
+    const std::vector<Result> results = run(SceneOnDevice(builder.scene()), cases);
     for (std::size_t i = 0; i < cases.size(); ++i) {
         const dvec3 to = dvec3(0.3F, 2, 0) - dvec3(cases[i].point), wi = glm::normalize(to);
         if (isNearHorizon(cases[i], wi)) {
@@ -186,20 +203,21 @@ TEST(DirectLightKernelTest, TheEnvironmentIsFoundAsItIsSampled)
     builder.environment(vec3(kEmission));
     const SceneOnDevice scene(builder.scene());
     const std::vector<Case> cases = receivers(0.2F);
-    const std::vector<Result> results = run(scene, kDirectMis, cases);
+    const std::vector<Result> results = run(scene, cases);
     std::size_t found = 0;
     for (std::size_t i = 0; i < cases.size(); ++i) {
         if (results[i].asks != 0) {
             const dvec3 wi(results[i].ray.direction);
-            const double pdf = dot(wi, dvec3(cases[i].shading)) / kPi;  // the cosine's, and the only light
-            EXPECT_EQ(results[i].ray.reach, std::numeric_limits<float>::infinity());
+            const double pdf = dot(wi, dvec3(cases[i].ns)) / kPi;  // the cosine's, and the only light
+            EXPECT_EQ(results[i].ray.tMax, std::numeric_limits<float>::infinity());
             if (!isNearHorizon(cases[i], wi)) {
                 expectLight(results[i].ray.contribution, contribution(cases[i], wi, kEmission / pdf, pdf, kDirectMis));
             }
         }
         if (results[i].finds == 0) {
             ++found;
-            expectLight(results[i].found, kEmission * powerWeight(static_cast<double>(0.2F), static_cast<double>(0.7F) / kPi));
+            expectLight(results[i].found, dvec3(cases[i].state.throughput) * kEmission *
+                                              powerWeight(static_cast<double>(0.2F), static_cast<double>(0.7F) / kPi));
         }
     }
     EXPECT_GT(found, cases.size() / 2);

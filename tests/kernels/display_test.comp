@@ -6,7 +6,7 @@
 
 struct Case {
     PixelMoments pixel;
-    uint look;
+    uint aov;
     DisplayPass display;
     vec3 expected;  // bytes, by the host
 };
@@ -18,8 +18,8 @@ void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        vec3 bytes = 255.0 * displayColor(c.pixel, c.look, c.display);
-        // A half may round to either side.
+        vec3 bytes = 255.0 * displayColor(c.pixel, c.aov, c.display);
+        // A value of .5 may round to either side.
         EXPECT_NEAR(bytes.r, c.expected.r, 1.001);
         EXPECT_NEAR(bytes.g, c.expected.g, 1.001);
         EXPECT_NEAR(bytes.b, c.expected.b, 1.001);

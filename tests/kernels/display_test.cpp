@@ -1,5 +1,5 @@
-// The window's colours are those of the files.
-#include "host/render/look.hpp"
+// The window shows the colours that files have.
+#include "host/render/aov.hpp"
 #include "shaders/shared/display_types.h"
 #include "test_kernels.hpp"
 #include "tests/support/hard_case.hpp"
@@ -17,7 +17,7 @@ namespace {
 
 struct Case {
     PixelMoments pixel;
-    uint look;
+    uint aov;
     DisplayPass display;
     vec3 expected;
 };
@@ -27,8 +27,8 @@ void expectIndicesOutside(const std::vector<uvec3>& naive)
 {
     const auto outside = std::count_if(naive.begin(), naive.end(), [](uvec3 i) { return std::max({i.x, i.y, i.z}) > 255; });
     printHardCase("H40", "radiance, NaN and infinity as bytes", static_cast<double>(naive.size()), "as on the host",
-                  "uint(255 x): " + std::to_string(outside) + " beyond 255; NaN is " + std::to_string(naive[0].x) +
-                      ", infinity " + std::to_string(naive[97].y));
+                  "uint(255 x): " + std::to_string(outside) + " beyond 255; NaN is " + std::to_string(naive[0].x) + ", infinity " +
+                      std::to_string(naive[97].y));
     EXPECT_GT(outside, 0);
 }
 
@@ -40,7 +40,7 @@ TEST(DisplayTest, H40ColoursAreThoseOfTheHost)
     std::vector<Case> cases(60000);
     for (std::size_t i = 0; i < cases.size(); ++i) {
         Case& c = cases[i];
-        const Look look = static_cast<Look>(i % 6);
+        const Aov aov = static_cast<Aov>(i % 6);
         c.pixel.count = static_cast<std::uint32_t>(1 + random() % 5000);
         c.pixel.mean = {value(random), value(random), value(random)};
         c.pixel.alpha = random() % 4 == 0 ? 0.0F : unit(random);
@@ -52,13 +52,13 @@ TEST(DisplayTest, H40ColoursAreThoseOfTheHost)
                 i % 2 == 0 ? std::numeric_limits<float>::quiet_NaN() : std::numeric_limits<float>::infinity();
         }
         const float low = i % 5 == 0 ? 7.0F : value(random);
-        const LookRange range{low, i % 5 == 0 ? low : low + value(random)};
+        const DisplayRange range{low, i % 5 == 0 ? low : low + value(random)};
         const double exposure = static_cast<double>(i % 7) - 3.0;
-        c.look = static_cast<std::uint32_t>(look);
+        c.aov = static_cast<std::uint32_t>(aov);
         c.display.scale = static_cast<float>(std::exp2(exposure));
         c.display.low = range.low;
         c.display.high = range.high;
-        const Rgb8 color = lookAt(c.pixel, look, range, exposure);
+        const Rgb8 color = displayColor(c.pixel, aov, range, exposure);
         c.expected = {color[0], color[1], color[2]};
     }
     KernelTest test(test_kernels::display_test);

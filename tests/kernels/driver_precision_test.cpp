@@ -67,10 +67,9 @@ TEST(DriverPrecisionTest, H41IsWhatVulkanPromises)
         count(worst, cases[i], results[i]);
     }
     printHardCase("H41", "the driver's functions", static_cast<double>(cases.size()),
-                  "sin, cos within " + figure(std::max(worst.sine, worst.cosine)) + "; ulp: / " + figure(worst.quotient) +
-                      ", sqrt " + figure(worst.root) + ", inversesqrt " + figure(worst.inverse) + ", atan " +
-                      figure(worst.arctangent) + ", exp2 " + figure(worst.power) +
-                      " of what is allowed; the angle to a pole by atan within " + figure(worst.polar),
+                  "sin, cos within " + figure(std::max(worst.sine, worst.cosine)) + "; ulp: / " + figure(worst.quotient) + ", sqrt " +
+                      figure(worst.root) + ", inversesqrt " + figure(worst.inverse) + ", atan " + figure(worst.arctangent) + ", exp2 " +
+                      figure(worst.power) + " of what is allowed; the angle to a pole by atan within " + figure(worst.polar),
                   "by acos within " + figure(worst.arccosine));
     // Vulkan, "Precision and Operation of SPIR-V Instructions"; sqrt inherits from 1 / inversesqrt.
     EXPECT_LE(std::max(worst.sine, worst.cosine), 0x1p-11);

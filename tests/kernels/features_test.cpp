@@ -1,27 +1,30 @@
+#include "host/flatten/flat_scene.hpp"
 #include "shaders/shared/bindings.h"
+#include "shaders/shared/course_types.h"
 #include "shaders/shared/limits.h"
 #include "test_kernels.hpp"
 #include "tests/support/kernel_test.hpp"
 
 #include <gtest/gtest.h>
 
+#include <bit>
+
 namespace glim {
 namespace {
 
 struct Case {
+    uint features;
     uint on;
-    uint direct, roulette, view, stackLevels;
+    uint aov, stackLevels;
 };
 
-// Unasked, all that a scene may need is on, and what a render may be asked for is off.
-constexpr uint kDefaultOn[] = {kSpecSpheres,        kSpecSlivers,      kSpecSmooth,         kSpecMirrors,     kSpecGlasses,
-                               kSpecTriangleLights, kSpecSphereLights, kSpecPunctualLights, kSpecEnvironment, kSpecSobol};
-constexpr uint kDefaultOff[] = {kSpecMollerTrumbore, kSpecBruteForce, kSpecLens, kSpecChosen,
-                                kSpecSuspects,       kSpecNotes,      kSpecLuminance};
+// By default everything that a scene may need is on, and everything that a render may be asked for is off.
+constexpr uint kDefaultOn[] = {kSpecSobol};
+constexpr uint kDefaultOff[] = {kSpecLens, kSpecChosen, kSpecSuspects, kSpecNotes};
 
 Case defaults()
 {
-    Case expected{0, kDirectMis, kRouletteThroughput, kViewNormal, kMaxStackLevels};
+    Case expected{kAllFeatures, 0, kAovRadiance, kMaxStackLevels};
     for (const uint id : kDefaultOn) {
         expected.on |= 1U << id;
     }
@@ -54,16 +57,51 @@ TEST(FeaturesTest, EachConstantFollowsItsOwnId)
     }
 }
 
+TEST(FeaturesTest, EachFeatureIsABitOfItsOwn)
+{
+    std::uint32_t seen = 0;
+    for (const Feature& feature : kFeatures) {
+        SCOPED_TRACE(feature.name);
+        EXPECT_TRUE(std::has_single_bit(feature.bit) && (seen & feature.bit) == 0);
+        seen |= feature.bit;
+        for (const uint mask : {feature.bit, kAllFeatures & ~feature.bit}) {
+            Case expected = defaults();
+            expected.features = mask;
+            expectFeatures(expected, {{kSpecFeatures, mask}});
+        }
+    }
+}
+
 TEST(FeaturesTest, EachChoiceFollowsItsOwnId)
 {
     for (const uint value : {0U, 1U, 2U, 3U, 4U}) {
         SCOPED_TRACE("value " + std::to_string(value));
-        Case direct = defaults(), roulette = defaults(), view = defaults(), levels = defaults();
-        direct.direct = roulette.roulette = view.view = levels.stackLevels = value;
-        expectFeatures(direct, {{kSpecDirect, value}});
-        expectFeatures(roulette, {{kSpecRoulette, value}});
-        expectFeatures(view, {{kSpecView, value}});
+        Case aov = defaults(), levels = defaults();
+        aov.aov = levels.stackLevels = value;
+        expectFeatures(aov, {{kSpecAov, value}});
         expectFeatures(levels, {{kSpecStackLevels, value}});
+    }
+}
+
+struct CourseCase {
+    uint mollerTrumbore, bruteForce, direct, roulette;
+};
+
+TEST(FeaturesTest, EachChoiceOfTheCourseFollowsItsOwnId)
+{
+    const auto expect = [](const CourseCase& expected, const Specialization& constants) {
+        KernelTest test(test_kernels::course_features_test);
+        for (const auto& [id, value] : constants) {
+            test.specialize(id, value);
+        }
+        test.cases(std::vector<CourseCase>{expected}).run();
+    };
+    expect({0, 0, kDirectMis, kRouletteThroughput}, {});
+    expect({1, 0, kDirectMis, kRouletteThroughput}, {{kSpecMollerTrumbore, 1}});
+    expect({0, 1, kDirectMis, kRouletteThroughput}, {{kSpecBruteForce, 1}});
+    for (const uint value : {0U, 1U, 2U, 3U}) {
+        expect({0, 0, value, kRouletteThroughput}, {{kSpecDirect, value}});
+        expect({0, 0, kDirectMis, value}, {{kSpecRoulette, value}});
     }
 }
 

@@ -5,7 +5,7 @@
 #include "access/first_hit.glsl"
 
 struct Case {
-    vec3 point, shading, baseColor;
+    vec3 point, ns, baseColor;
     float depth;      // expected
     float tolerance;  // of it
 };
@@ -16,11 +16,11 @@ void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        Surface surface = Surface(c.point, vec3(0.0), -c.shading, c.shading, true, 0u, 0u, 0u);
-        FirstHit hit = firstHitOf(surface, FlatMaterial(c.baseColor, kLambert, vec3(9.0), 1.5, 0u, uvec3(0u)));
+        SurfaceInteraction si = SurfaceInteraction(c.point, vec3(0.0), -c.ns, c.ns, vec2(0.0), true, 0u, 0u, 0u);
+        FirstHit hit = makeFirstHit(si, MaterialData(c.baseColor, kLambert, vec3(9.0), 1.5, 0u, uvec3(0u)), c.ns);
         EXPECT_NEAR(hit.depth, c.depth, c.tolerance);
         EXPECT_TRUE(hit.albedo == c.baseColor);
-        EXPECT_TRUE(hit.normal == c.shading);
+        EXPECT_TRUE(hit.normal == c.ns);
         EXPECT_EQUAL(hit.alpha, 1.0);
         FirstHit none = makeNoFirstHit();
         EXPECT_TRUE(none.albedo == vec3(0.0) && none.normal == vec3(0.0) && none.alpha == 0.0);

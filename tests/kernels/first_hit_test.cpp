@@ -9,7 +9,7 @@ namespace glim {
 namespace {
 
 struct Case {
-    vec3 point, shading, baseColor;
+    vec3 point, ns, baseColor;
     float depth, tolerance;
 };
 
@@ -27,7 +27,7 @@ TEST(FirstHitTest, IsWhatTheCameraSaw)
             Case c{scale * random.normalVector(), random.direction(), {random.uniform(), random.uniform(), random.uniform()}, 0, 0};
             const glm::dvec3 along = glm::dvec3(c.point) - glm::dvec3(camera.position), forward(camera.forward);
             c.depth = static_cast<float>(glm::dot(along, forward));
-            // A difference, a product and two sums: half an ulp each of what is added up, and the rounding of what is expected.
+            // A difference, a product and two sums: half an ulp each of the terms, and the rounding of the expected value.
             c.tolerance = static_cast<float>(5.0 * 0x1p-24 * glm::dot(glm::abs(along), glm::abs(forward)));
             cases.push_back(c);
         }

@@ -36,8 +36,7 @@ double frisvadError(const vec3& n)
         x = {1.0F - n.x * n.x * a, b, -n.x};
         y = {b, 1.0F - n.y * n.y * a, -n.y};
     }
-    const std::array<float, 5> errors = {glm::dot(x, x) - 1.0F, glm::dot(y, y) - 1.0F, glm::dot(x, y), glm::dot(y, n),
-                                         glm::dot(n, x)};
+    const std::array<float, 5> errors = {glm::dot(x, x) - 1.0F, glm::dot(y, y) - 1.0F, glm::dot(x, y), glm::dot(y, n), glm::dot(n, x)};
     double worst = 0.0;
     for (const float error : errors) {
         worst = std::max(worst, std::abs(static_cast<double>(error)));

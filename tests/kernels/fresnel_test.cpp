@@ -72,8 +72,7 @@ void setDirections(Case& c, Random& random)
     const double k = 1.0 - glm::dot(across, across) / (eta * eta);
     const double error = 4e-7 * (1.0 + cosine) * (1.0 + 1.0 / (eta * eta));  // of k, rounding of unit vectors included
     c.passed = -across / eta - std::sqrt(std::max(0.0, k)) * along;
-    c.passedTolerance =
-        k > 2.0 * error ? static_cast<float>(2e-6 * (1.0 + 1.0 / eta) + error / std::sqrt(k)) : -1.0F;
+    c.passedTolerance = k > 2.0 * error ? static_cast<float>(2e-6 * (1.0 + 1.0 / eta) + error / std::sqrt(k)) : -1.0F;
 }
 
 Case caseOf(Random& random, int kind)

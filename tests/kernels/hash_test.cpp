@@ -58,8 +58,8 @@ TEST(HashTest, H31H32IsPcg4dAndNeverReachesOne)
 {
     const std::vector<Case> cases = hashCases();
     KernelTest(test_kernels::hash_test).cases(cases).run();
-    const auto ones = std::count_if(cases.begin(), cases.end(),
-                                    [](const Case& c) { return static_cast<float>(c.bits) * 0x1p-32F >= 1.0F; });
+    const auto ones =
+        std::count_if(cases.begin(), cases.end(), [](const Case& c) { return static_cast<float>(c.bits) * 0x1p-32F >= 1.0F; });
     printHardCase("H31", "the 512 largest and smallest numbers, and others", static_cast<double>(cases.size()), "all in [0, 1)",
                   "float(u) 2^-32: " + std::to_string(ones) + " are 1");
     EXPECT_GT(ones, 0);
@@ -76,8 +76,8 @@ double naiveCorrelation(uint pixels)
     return sum / pixels;
 }
 
-// On the recurrence just shown to be the device's: neighbouring pixels, samples and dimensions are uncorrelated. With
-// n = 65,536 pairs a correlation has standard deviation n^-1/2; 6 lags, family level 1e-3: z = 3.76.
+// On the host's recurrence, which the test above has shown to be the device's: neighbouring pixels, samples and dimensions are
+// uncorrelated. With n = 65,536 pairs a correlation has standard deviation n^-1/2; 6 lags, family level 1e-3: z = 3.76.
 TEST(HashTest, H32NeighboursAreUncorrelated)
 {
     const uint n = 65536;

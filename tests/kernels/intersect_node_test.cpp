@@ -1,5 +1,5 @@
 #include "host/bvh/build_bvh.hpp"
-#include "host/bvh/widen_bvh.hpp"
+#include "host/bvh/collapse_bvh.hpp"
 #include "host/flatten/pack_nodes.hpp"
 #include "test_kernels.hpp"
 #include "tests/support/hard_case.hpp"
@@ -31,7 +31,7 @@ struct Tree {
     std::vector<uvec4> texels;
 };
 
-// Of triangles most of which lie in a plane of two axes, so that their boxes are flat.
+// The tree of triangles, most of which lie in a plane of two axes, so that their boxes are flat.
 Tree treeOf(Random& random, double scale, double shift)
 {
     std::vector<Box> boxes;
@@ -45,10 +45,10 @@ Tree treeOf(Random& random, double scale, double shift)
             const int axis = static_cast<int>(i % 4);
             vertices[1][axis] = vertices[2][axis] = vertices[0][axis];
         }
-        boxes.push_back({glm::min(vertices[0], glm::min(vertices[1], vertices[2])),
-                         glm::max(vertices[0], glm::max(vertices[1], vertices[2]))});
+        boxes.push_back(
+            {glm::min(vertices[0], glm::min(vertices[1], vertices[2])), glm::max(vertices[0], glm::max(vertices[1], vertices[2]))});
     }
-    Tree tree{widenBvh(buildBvh(boxes)), {}};
+    Tree tree{collapseBvh(buildBvh(boxes)), {}};
     tree.texels = packNodes(tree.wide);
     return tree;
 }
@@ -103,7 +103,7 @@ bool naiveHit(const Box& box, const Case& c)
     return near <= far;
 }
 
-// Of rays that meet the box that the triangles need; without and with a zero among the direction's components.
+// Counts of rays that meet the box that the triangles need: [0] without a zero among the direction's components, [1] with one.
 struct NaiveMisses {
     std::size_t rays[2], misses[2];
 };

@@ -115,8 +115,8 @@ struct Row {
 // Radius, distance, largest share of false misses, largest mean error; at 1e5 five half ulps of t.
 TEST(IntersectSphereTest, H9KeepsItsDigitsFarAway)
 {
-    for (const Row& row : {Row{1.0, 2.0, 1e-5, 1e-6}, Row{1.0, 1e3, 1e-5, 2e-4}, Row{1.0, 1e4, 1e-4, 1e-3},
-                           Row{1.0, 1e5, 5e-4, 2e-2}, Row{1e-3, 10.0, 1e-4, 1e-3}}) {
+    for (const Row& row : {Row{1.0, 2.0, 1e-5, 1e-6}, Row{1.0, 1e3, 1e-5, 2e-4}, Row{1.0, 1e4, 1e-4, 1e-3}, Row{1.0, 1e5, 5e-4, 2e-2},
+                           Row{1e-3, 10.0, 1e-4, 1e-3}}) {
         Random random(6);
         std::vector<Case> cases(hardTrials(400000));
         std::generate(cases.begin(), cases.end(), [&] { return rayFrom(random, row.radius, row.distance); });
@@ -154,8 +154,12 @@ TEST(IntersectSphereTest, SeenFromWithin)
     for (Case& c : cases) {
         const double radius = random.logUniform(1e-4, 1e5);
         const glm::dvec3 center = radius * random.normalVector();
-        c = {center + radius * random.uniform(0.0, 0.99) * random.direction(), random.direction(), center,
-             static_cast<float>(radius), kInfinity, 0};
+        c = {center + radius * random.uniform(0.0, 0.99) * random.direction(),
+             random.direction(),
+             center,
+             static_cast<float>(radius),
+             kInfinity,
+             0};
     }
     const std::vector<float> found = distances(cases);
     for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -164,7 +168,7 @@ TEST(IntersectSphereTest, SeenFromWithin)
     }
 }
 
-// A ray that starts on the sphere meets its far side, from within, or nothing: never its start.
+// A ray that starts on the sphere meets the far side from within, or nothing. It never meets its start.
 TEST(IntersectSphereTest, LeavesItsOwnSurface)
 {
     Random random(9);

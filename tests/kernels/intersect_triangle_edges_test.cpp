@@ -105,20 +105,13 @@ void expectNoLeak(const std::string& what, Case (*makeCase)(Random&, double, dou
         }
     }
     printHardCase("H1", what + ", scale 1e-4 to 1e5, shift 0 and 1e4", static_cast<double>(rays),
-                  "leaks 0, " + std::to_string(many) + " hit more than once",
-                  "Moller and Trumbore: " + std::to_string(leaks) + " leaks");
+                  "leaks 0, " + std::to_string(many) + " hit more than once", "Moller and Trumbore: " + std::to_string(leaks) + " leaks");
     EXPECT_GT(leaks, rays / 1000) << what << ": these rays would not find a leak";
 }
 
-TEST(IntersectTriangleEdgesTest, H1NoRayPassesBetweenTwoTriangles)
-{
-    expectNoLeak("edges", edgeCase);
-}
+TEST(IntersectTriangleEdgesTest, H1NoRayPassesBetweenTwoTriangles) { expectNoLeak("edges", edgeCase); }
 
-TEST(IntersectTriangleEdgesTest, H1NoRayPassesThroughAVertex)
-{
-    expectNoLeak("vertices", vertexCase);
-}
+TEST(IntersectTriangleEdgesTest, H1NoRayPassesThroughAVertex) { expectNoLeak("vertices", vertexCase); }
 
 }  // namespace
 }  // namespace glim

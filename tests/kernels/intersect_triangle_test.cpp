@@ -58,8 +58,7 @@ EdgeFunction edgeFunction(const Projected& a, const Projected& b)
     const auto product = [](double x, double ex, double y, double ey) {
         return (std::abs(x) + ex) * (std::abs(y) + ey) * (1.0 + 2.0 * kUnit) - std::abs(x * y);
     };
-    return {a.p.x * b.p.y - a.p.y * b.p.x,
-            product(a.p.x, a.error.x, b.p.y, b.error.y) + product(a.p.y, a.error.y, b.p.x, b.error.x)};
+    return {a.p.x * b.p.y - a.p.y * b.p.x, product(a.p.x, a.error.x, b.p.y, b.error.y) + product(a.p.y, a.error.y, b.p.x, b.error.x)};
 }
 
 // The truth by volumes in double, with bounds on what rounding may do to a float32 evaluation of Woop's formulas.
@@ -232,8 +231,10 @@ TEST(IntersectTriangleTest, H2DegenerateTrianglesGiveNoNan)
         const double scale = i % 5 == 4 ? random.logUniform(1e-22, 1e15) : 1.0;
         c.v0 = scale * random.normalVector();
         c.v1 = i % 5 == 0 ? c.v0 : vec3(scale * random.normalVector());
-        c.v2 = i % 5 <= 1 ? c.v1 : i % 5 == 2 ? 2.0F * c.v1 - c.v0 : i % 5 == 3 ? c.v0 + 2.0F * (c.v1 - c.v0)
-                                                                     : vec3(scale * random.normalVector());
+        c.v2 = i % 5 <= 1   ? c.v1
+               : i % 5 == 2 ? 2.0F * c.v1 - c.v0
+               : i % 5 == 3 ? c.v0 + 2.0F * (c.v1 - c.v0)
+                            : vec3(scale * random.normalVector());
         aim(c, random, scale);
         if (scale < 1e-9 || scale > 1e10) {
             c.verdict = Either;
@@ -243,8 +244,8 @@ TEST(IntersectTriangleTest, H2DegenerateTrianglesGiveNoNan)
     runCases("degenerate", cases);
 }
 
-// Rays in the plane of a triangle, and beside it by half of its distance and more: all three edge functions are rounding noise, and
-// often zero. Counted as hits, such zeros made brute force see what the tree had rightly culled.
+// Rays in the plane of a triangle that pass it at half of its distance and more. All three edge functions are rounding noise, and
+// often zero. When such zeros counted as hits, brute force saw triangles that the tree had rightly culled.
 TEST(IntersectTriangleTest, RaysInTheTrianglesPlaneMissIt)
 {
     Random random(4);

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
-#include "access/surface.glsl"
+#include "access/interaction.glsl"
 #include "access/traverse.glsl"
 #include "lib/alias.glsl"
 #include "lib/frame.glsl"
@@ -10,7 +10,7 @@
 
 uvec4 randomBits(uint dimension)
 {
-    return hash4(uvec4(TEST_THREAD, dimension, 0u, pass.seed));
+    return hash4(uvec4(TEST_THREAD, dimension, 0u, render.seed));
 }
 
 
@@ -31,14 +31,14 @@ void main()
     PathHit hit = traceClosest(ray);
     if (dot(towards, side) < -0.02) {
         EXPECT_EQUAL(hit.record, index);
-        Surface surface = surfaceAt(ray, hit);
+        SurfaceInteraction surface = makeSurfaceInteraction(ray, hit);
         EXPECT_EQUAL(uint(surface.front), uint(!inside));
-        EXPECT_CLOSE(length(surface.point - center), radius, 1e-6);
+        EXPECT_CLOSE(length(surface.p - center), radius, 1e-6);
         uvec4 more = randomBits(2u);
         bool inwards = (more.z & 1u) != 0u;
-        vec3 out_ = normalize(surface.point - center);
+        vec3 out_ = normalize(surface.p - center);
         vec3 wi = worldFromFrame(makeFrame(inwards ? -out_ : out_), sampleCosineHemisphere(unitFloat(more.xy)));
-        vec3 start = leavePoint(surface, wi);
+        vec3 start = offsetRayOrigin(surface, wi);
         PathHit next = traceClosest(PathRay(start, primitiveOf(record), wi, 0u));
         float cosine = dot(wi, out_);
         if (!inwards && cosine > 1e-5) {  // 0 once in 1e7, on the rim of the hemisphere

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
-#include "access/surface.glsl"
+#include "access/interaction.glsl"
 #include "access/traverse.glsl"
 #include "lib/alias.glsl"
 #include "lib/frame.glsl"
@@ -27,7 +27,7 @@ layout(set = 0, binding = kBindResults, scalar) buffer Results { Tally tally; };
 
 uvec4 randomBits(uint dimension)
 {
-    return hash4(uvec4(TEST_THREAD, dimension, 0u, pass.seed));
+    return hash4(uvec4(TEST_THREAD, dimension, 0u, render.seed));
 }
 
 float largest(vec3 v)
@@ -37,13 +37,13 @@ float largest(vec3 v)
 
 void leave(PathRay ray, PathHit hit, Record record, float size)
 {
-    Surface surface = surfaceAt(ray, hit);
+    SurfaceInteraction surface = makeSurfaceInteraction(ray, hit);
     uvec4 bits = randomBits(3u);
-    vec3 normal = (bits.z & 1u) != 0u ? surface.geometric : -surface.geometric;
+    vec3 normal = (bits.z & 1u) != 0u ? surface.ng : -surface.ng;
     vec3 wi = worldFromFrame(makeFrame(normal), sampleCosineHemisphere(unitFloat(bits.xy)));
-    vec3 origin = leavePoint(surface, wi);
-    EXPECT_TRUE(dot(origin - surface.point, normal) >= 0.0);
-    float offset = largest(origin - surface.point) - 4.8e-7 * largest(surface.point);
+    vec3 origin = offsetRayOrigin(surface, wi);
+    EXPECT_TRUE(dot(origin - surface.p, normal) >= 0.0);
+    float offset = largest(origin - surface.p) - 4.8e-7 * largest(surface.p);
     atomicMax(tally.largestOffset, floatBitsToUint(max(0.0, offset / size)));
     bool again = intersectRecord(beginWalk(origin, wi), record, kInfinity, false).t > 0.0;
     PathHit next = traceClosest(PathRay(origin, surface.primitive, wi, 0u));

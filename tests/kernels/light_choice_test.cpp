@@ -68,9 +68,8 @@ TEST(LightChoiceTest, FollowsPowerAndArea)
         area += areas.back();
     }
     const double radius2 = 3.0;  // of the sphere around [-1, 1]^3, squared
-    const std::vector<double> powers = {3.0 * kPi * area,       2.0 * 0.5 * kPi * 4.0, 2.0 * kPi * 4.0 * kPi * 0.25,
-                                        4.0 * kPi * 0.7,        4.0 * 2.0 * kPi * 0.3, 1.5 * kPi * radius2,
-                                        0.2 * kPi * 4.0 * kPi * radius2};
+    const std::vector<double> powers = {3.0 * kPi * area,      2.0 * 0.5 * kPi * 4.0, 2.0 * kPi * 4.0 * kPi * 0.25,   4.0 * kPi * 0.7,
+                                        4.0 * 2.0 * kPi * 0.3, 1.5 * kPi * radius2,   0.2 * kPi * 4.0 * kPi * radius2};
     ASSERT_EQ(scene.flat.lights.size(), powers.size());
     std::vector<double> lights(powers.size(), 0.0), triangles(areas.size(), 0.0);
     for (const Result& result : sample(scene)) {

@@ -27,50 +27,50 @@ layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases
 layout(set = 0, binding = kBindResults, scalar) writeonly buffer Results { Result results[]; };
 
 struct Receiver {
-    Surface surface;
+    SurfaceInteraction surface;
     float error;
 };
 
 Receiver makeReceiver(Case c)
 {
     if (c.height == 0.0) {
-        return Receiver(Surface(c.point, vec3(0.0), c.normal, c.normal, true, 0u, 0u, kNoPrimitive), 0.0);
+        return Receiver(SurfaceInteraction(c.point, vec3(0.0), c.normal, c.normal, vec2(0.0), true, 0u, kNoPrimitive, 0u), 0.0);
     }
     PathRay ray = PathRay(c.point + c.normal * c.height, kNoPrimitive, -c.normal, 0u);
     PathHit hit = traceClosest(ray);
-    Surface surface = surfaceAt(ray, hit);
-    return Receiver(surface, length(surface.point - c.point));
+    SurfaceInteraction surface = makeSurfaceInteraction(ray, hit);
+    return Receiver(surface, length(surface.p - c.point));
 }
 
-// As sample_lights does it, for a white receiver: the irradiance that the sample stands for.
+// As sampleDirectLight does it, for a white receiver: the irradiance that the sample stands for.
 float estimate(Receiver receiver, LightSample light)
 {
-    float cosine = dot(light.wi, receiver.surface.shading);
+    float cosine = dot(light.wi, receiver.surface.ns);
     if (!(cosine > 0.0) || light.radiance.r == 0.0) {
         return 0.0;
     }
-    vec3 origin = leavePoint(receiver.surface, light.wi);
-    bool infinite = light.reach > 1.0;
+    vec3 origin = offsetRayOrigin(receiver.surface, light.wi);
+    bool infinite = light.tMax > 1.0;
     ShadowRay shadow = ShadowRay(origin, receiver.surface.primitive, infinite ? light.wi : light.target - origin, light.primitive,
-                                 vec3(0.0), light.reach);
+                                 vec3(0.0), light.tMax);
     return isUnoccluded(shadow) ? light.radiance.r * cosine : 0.0;
 }
 
-// The density that a path which finds the light by chance computes for it (emissionFound in sample_lights.comp).
+// The pdf that a path computes for a light that its ray hits by chance.
 void comparePdf(Receiver receiver, LightSample light, inout Result result)
 {
-    vec3 origin = leavePoint(receiver.surface, light.wi);
+    vec3 origin = offsetRayOrigin(receiver.surface, light.wi);
     PathHit hit = traceClosest(PathRay(origin, receiver.surface.primitive, light.wi, 0u));
     if (primitiveMet(hit) != light.primitive) {
         ++result.elsewhere;
         return;
     }
-    Surface met = surfaceAt(PathRay(origin, receiver.surface.primitive, light.wi, 0u), hit);
+    SurfaceInteraction met = makeSurfaceInteraction(PathRay(origin, receiver.surface.primitive, light.wi, 0u), hit);
     FlatEmitter emitter = fetchEmitter(met.emitter - 1u);
-    float cosine = abs(dot(met.geometric, light.wi));
+    float cosine = abs(dot(met.ng, light.wi));
     // Nearer to grazing the rounding of the directions alone is more than the tolerance.
     if (cosine > 3e-3) {
-        float pdf = pdfSurfaceLight(emitter, fetchLight(emitter.light), origin, hit.t, cosine);
+        float pdf = pdfLight(LightContext(origin, met.ng, met.ns), LightHit(emitter.light, met.emitter - 1u, hit.t, cosine));
         result.pdfError = max(result.pdfError, abs(pdf - light.pdf) / light.pdf);
         ++result.compared;
     }
@@ -82,12 +82,12 @@ void main()
     Case c = cases[TEST_THREAD / pass.sampleCount];
     Receiver receiver = makeReceiver(c);
     Result result = Result(0.0, kInfinity, 0.0, 0.0, 0.0, 0u, 0u, receiver.error);
-    for (uint i = 0u; i < pass.maxBounces; ++i) {
-        uvec4 a = hash4(uvec4(TEST_THREAD, i, 0u, pass.seed));
-        uvec4 b = hash4(uvec4(TEST_THREAD, i, 1u, pass.seed));
-        uint chosen = chooseLight(a.xy, pass.lightCount);
-        LightSample light =
-            sampleLight(chosen, false, receiver.surface.point, receiver.surface.shading, a.zw, unitFloat(b.xy));
+    for (uint i = 0u; i < render.maxBounces; ++i) {
+        uvec4 a = hash4(uvec4(TEST_THREAD, i, 0u, render.seed));
+        uvec4 b = hash4(uvec4(TEST_THREAD, i, 1u, render.seed));
+        uint chosen = selectLight(a.xy, render.lightCount);
+        LightContext context = LightContext(receiver.surface.p, receiver.surface.ng, receiver.surface.ns);
+        LightSample light = sampleLight(fetchLight(chosen), context, a.zw, unitFloat(b.xy));
         float one = estimate(receiver, light);
         EXPECT_TRUE(one >= 0.0 && !isinf(one));
         EXPECT_TRUE(light.radiance.r == 0.0 || abs(dot(light.wi, light.wi) - 1.0) < 1e-6);
@@ -96,7 +96,7 @@ void main()
         result.least = min(result.least, one);
         result.most = max(result.most, one);
         result.pdf = light.pdf;
-        if (light.primitive != kNoPrimitive && dot(light.wi, receiver.surface.geometric) > 0.0) {
+        if (light.primitive != kNoPrimitive && dot(light.wi, receiver.surface.ng) > 0.0) {
             comparePdf(receiver, light, result);
         }
     }

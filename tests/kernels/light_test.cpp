@@ -1,4 +1,4 @@
-// Light that arrives: the sampler's estimates against formulas (T9 to T13, H11).
+// The light that arrives at a receiver: the sampler's estimates against formulas (T9 to T13, H11).
 #include "tests/support/build_scene.hpp"
 #include "tests/support/irradiance.hpp"
 #include "tests/support/irradiance_formulas.hpp"
@@ -17,7 +17,7 @@ using glm::vec3;
 
 constexpr double kPi = std::numbers::pi;
 
-// Something for the tree to hold, out of everyone's way.
+// A triangle far away, since the tree must hold something.
 void addSpeck(SceneBuilder& builder) { builder.sphere({0.0F, -50.0F, 0.0F}, 0.1F, builder.lambert(vec3(0.5F))); }
 
 vec3 tilted(float degrees)
@@ -53,7 +53,7 @@ TEST(LightTest, SpotFallsOffBetweenItsCones)
         const double ramp = std::min(1.0, std::max(0.0, (cosine - outer) / (inner - outer)));
         receivers.push_back({{x, 0, 0}, {0, 1, 0}, intensity * ramp * ramp * cosine / d2});
     }
-    // Not exact: near the rim the ramp's rounding grows by 1 / (cosine - outer).
+    // Not exact: near the rim the ramp's rounding error grows by 1 / (cosine - outer).
     expectIrradiance("spot", spot.scene(), receivers);
 }
 
@@ -102,9 +102,8 @@ TEST(LightTest, SphereFromWithin)
         builder.sphere({1, 0, 0}, 2.0F, builder.lambert(vec3(0.0F), vec3(1.0F), doubleSided));
         const double inside = doubleSided ? kPi : 0.0;
         expectIrradiance(doubleSided ? "inside, double-sided" : "inside, front only", builder.scene(),
-                         {{{1, 0, 0}, {0, 1, 0}, inside}, {{1.5F, 0.5F, -1}, {0.6F, 0, 0.8F}, inside},
-                          {{1, 1.7F, 0}, {0, 1, 0}, inside}});
-        // Exactly on it: the renderer never asks from there; a finite answer.
+                         {{{1, 0, 0}, {0, 1, 0}, inside}, {{1.5F, 0.5F, -1}, {0.6F, 0, 0.8F}, inside}, {{1, 1.7F, 0}, {0, 1, 0}, inside}});
+        // Exactly on it. The renderer never asks from there; the answer only has to be finite.
         estimateIrradiance(builder.scene(), {{{3, 0, 0}, {1, 0, 0}}, {{1, 2, 0}, {0, -1, 0}}, {{1, 0, -2}, {1, 0, 0}}});
     }
 }
@@ -162,7 +161,7 @@ TEST(LightTest, DiskOfManyTriangles)
     expectIrradiance("T11 disk", builder.scene(), receivers);
 }
 
-// Lights of every kind at once, none in another's way.
+// One light of every kind, none of which hides another.
 TEST(LightTest, SumsOverAllLights)
 {
     SceneBuilder builder;

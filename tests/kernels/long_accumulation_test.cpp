@@ -6,6 +6,7 @@
 #include "shaders/shared/limits.h"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/parameters_buffer.hpp"
 #include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@
 namespace glim {
 namespace {
 
-// Blocks that differ, over and over: 102,400 samples.
+// Different blocks, added again and again: 102,400 samples.
 constexpr std::uint32_t kBlocks = 64, kTurns = 25, kPixels = 64;
 constexpr double kSamples = 1.0 * kBlocks * kTurns * kBlockSamples;
 
@@ -26,12 +27,11 @@ using Samples = std::vector<PathRadiance>;  // of one block of all pixels
 
 void runTurns(const KernelLayout& layout, const std::deque<Bindings>& bindings)
 {
-    const Kernel kernel(layout, kernels::accumulate, {{kSpecWorkgroup, 64}, {kSpecLuminance, 0}});
+    const Kernel kernel(layout, kernels::accumulate, {{kSpecWorkgroup, 64}});
     Pass pass{};
     pass.pixelCount = kPixels;
     pass.firstSample = pass.sampleCount = kBlockSamples;
     pass.accumulate = kEndsBlock;
-    pass.canarySteps = 3;
     for (std::uint32_t turn = 0; turn < kTurns; ++turn) {
         Commands commands(testDevice());
         for (const Bindings& each : bindings) {
@@ -43,7 +43,7 @@ void runTurns(const KernelLayout& layout, const std::deque<Bindings>& bindings)
 
 std::vector<PixelMoments> addUp(const std::vector<Samples>& blocks)
 {
-    const KernelLayout layout(testDevice(), kernelSlots(), sizeof(Pass));
+    const KernelLayout layout(testDevice(), kernelSlots(), sizeof(CoursePass));
     PathBuffers paths(testDevice(), kPixels * kBlockSamples);
     Buffer open(testDevice(), "test's blocks", BufferKind::Storage, kPixels * sizeof(BlockSums));
     Buffer pages(testDevice(), "test's pages", BufferKind::Storage, kPixels * sizeof(PixelMoments));
@@ -51,6 +51,7 @@ std::vector<PixelMoments> addUp(const std::vector<Samples>& blocks)
     upload(open, std::span<const BlockSums>(std::vector<BlockSums>(kPixels)));
     upload(pages, std::span<const PixelMoments>(std::vector<PixelMoments>(kPixels)));
     upload(firstHits, std::span<const FirstHit>(std::vector<FirstHit>(blocks[0].size())));
+    const Buffer parameters = parametersBuffer(anyParameters());
     std::deque<Buffer> radiances;
     std::deque<Bindings> bindings;
     for (const Samples& block : blocks) {
@@ -63,7 +64,7 @@ std::vector<PixelMoments> addUp(const std::vector<Samples>& blocks)
         bound[kBindPages] = &pages;
         // Of adaptive renders, and of those that keep suspects.
         bound[kBindChosenPixels] = &open;
-        bound[kBindLuminance] = &pages;
+        bound[kBindParameters] = &parameters;
         bound[kBindBrightest] = &pages;
         bindings.emplace_back(layout, bound);
     }
@@ -118,8 +119,7 @@ TEST(LongAccumulationTest, H26H27HundredThousandSamples)
             worst = std::max(worst, std::abs(static_cast<double>(pages[pixel].mean.g) / mean - 1.0));
             naiveWorst = std::max(naiveWorst, std::abs(naiveMean(blocks, pixel) / mean - 1.0));
         }
-        printHardCase(streams[s].number, streams[s].name, kSamples, "mean off by " + figure(worst),
-                      "one float sum: " + figure(naiveWorst));
+        printHardCase(streams[s].number, streams[s].name, kSamples, "mean off by " + figure(worst), "one float sum: " + figure(naiveWorst));
         EXPECT_LE(worst, streams[s].limit) << streams[s].name;
         EXPECT_GT(naiveWorst, streams[s].limit) << streams[s].name;
     }

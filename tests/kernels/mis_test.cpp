@@ -20,7 +20,6 @@ TEST(MisTest, H22PowerHeuristicNeverOverflows)
 {
     const float infinity = std::numeric_limits<float>::infinity();
     std::vector<Case> cases;
-    std::size_t wrong = 0;
     for (const float f : {0.0F, 1e-38F, 1e-20F, 0.3F, 1.0F, 7.0F, 1e19F, 1e30F, 3.4028235e38F, infinity}) {
         for (const float g : {0.0F, 1e-38F, 1e-20F, 0.3F, 1.0F, 7.0F, 1e19F, 1e30F, 3.4028235e38F, infinity}) {
             const long double a = f, b = g;
@@ -33,14 +32,10 @@ TEST(MisTest, H22PowerHeuristicNeverOverflows)
                 weight = 0.0L;
             }
             cases.push_back({f, g, static_cast<float>(weight)});
-            const float naive = f * f / (f * f + g * g);
-            wrong += std::abs(naive - cases.back().weight) <= 2e-7F ? 0 : 1;
         }
     }
     KernelTest(test_kernels::mis_test).cases(cases).run();
-    printHardCase("H22", "pdfs 0, 1e-38 ... 3.4e38, infinity", static_cast<double>(cases.size()), "all right",
-                  "f^2 / (f^2 + g^2): " + std::to_string(wrong) + " wrong or NaN");
-    EXPECT_GT(wrong, 0U);
+    printHardCase("H22", "pdfs 0, 1e-38 ... 3.4e38, infinity", static_cast<double>(cases.size()), "all right");
 }
 
 }  // namespace

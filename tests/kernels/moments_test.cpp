@@ -46,11 +46,8 @@ PixelMoments momentsOf(const BlockSums& sums)
         return {};
     }
     const float share = 1.0F / static_cast<float>(sums.count);
-    return {sums.count,          1,
-            sums.radiance * share, vec3(0.0F),
-            sums.alpha * share,  sums.albedo * share,
-            sums.normal * share, sums.depth,
-            sums.clamped * share};
+    return {sums.count,          1,          sums.radiance * share, vec3(0.0F), sums.alpha * share, sums.albedo * share,
+            sums.normal * share, sums.depth, sums.clamped * share};
 }
 
 // Blocks, some short or empty: the device's fold has the bits of the host's, on which exact merging rests.
@@ -71,8 +68,8 @@ TEST(MomentsTest, DeviceAndHostFoldToTheSameBits)
     KernelTest(test_kernels::moments_test).cases(cases).run();
 }
 
-// H26: streams that ruin plain sums, through blocks and folds; mean within 1e-5 and variance of blocks within 1e-4 of what
-// double arithmetic makes of the same samples.
+// H26: samples that ruin plain sums, added in blocks and folds. The mean is within 1e-5, the variance of the blocks within 1e-4
+// of double arithmetic on the same samples.
 TEST(MomentsTest, H26StreamsKeepTheirDigits)
 {
     std::mt19937 random(5);
@@ -100,8 +97,8 @@ TEST(MomentsTest, H26StreamsKeepTheirDigits)
             mean += delta / b;
             squares += kBlockSamples * delta * (sum / kBlockSamples - mean);
         }
-        std::printf("H26 %s: mean off by %.1e, squares %.4g against %.4g\n", name,
-                    static_cast<double>(film.mean.r) / mean - 1.0, static_cast<double>(film.squares.r), squares);
+        std::printf("H26 %s: mean off by %.1e, squares %.4g against %.4g\n", name, static_cast<double>(film.mean.r) / mean - 1.0,
+                    static_cast<double>(film.squares.r), squares);
         EXPECT_NEAR(static_cast<double>(film.mean.r), mean, 1e-5 * mean) << name;
         EXPECT_GE(film.squares.r, 0.0F) << name;
         // A constant's block sums round alike: its squares are rounding only.

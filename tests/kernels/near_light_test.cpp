@@ -1,5 +1,5 @@
-// H13: a square light of 1 m, parallel to the receiver and nearer and nearer. The deviations of single samples, relative to the mean,
-// which sampling by area has; by solid angle they would be .040, .40, .55.
+// H13: a square light of 1 m, parallel to the receiver, at smaller and smaller distances. Measures the deviation of single
+// samples relative to the mean, which is that of sampling by area; by solid angle it would be .040, .40, .55.
 #include "tests/support/build_scene.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/irradiance.hpp"
@@ -21,8 +21,8 @@ struct Near {
 
 Near measure(float height)
 {
-    const std::array<glm::vec3, 4> corners = {glm::vec3(-0.5F, height, -0.5F), {0.5F, height, -0.5F}, {0.5F, height, 0.5F},
-                                              {-0.5F, height, 0.5F}};
+    const std::array<glm::vec3, 4> corners = {
+        glm::vec3(-0.5F, height, -0.5F), {0.5F, height, -0.5F}, {0.5F, height, 0.5F}, {-0.5F, height, 0.5F}};
     SceneBuilder builder;
     builder.quad(corners, builder.lambert(glm::vec3(0.0F), glm::vec3(1.0F)));
     const double truth = irradianceOfPolygon(std::vector<glm::dvec3>(corners.begin(), corners.end()), {0, 1, 0});
@@ -42,10 +42,7 @@ TEST(NearLightTest, H13AnswersStayRight)
 }
 
 // Fails once lights are sampled by solid angle, which gives .40.
-TEST(NearLightKnownBug, H13NearSquaresAreNoisy)
-{
-    EXPECT_GT(measure(0.1F).deviation, 2.0);
-}
+TEST(NearLightKnownBug, H13NearSquaresAreNoisy) { EXPECT_GT(measure(0.1F).deviation, 2.0); }
 
 }  // namespace
 }  // namespace glim

@@ -21,14 +21,15 @@ constexpr std::uint32_t kGroupSize = 64;
 
 // Slots as path_types.h lays them out: pixel after pixel, the samples of each together.
 // `chosen`: the pixels of an adaptive pass; empty: all.
-std::vector<Case> samplesInOrder(const Pass& pass, std::uint32_t count, const std::vector<ChosenPixel>& chosen = {})
+std::vector<Case> samplesInOrder(KernelTest& test, std::uint32_t count, const std::vector<ChosenPixel>& chosen = {})
 {
+    const Pass& pass = test.pass();
     std::vector<Case> cases;
     for (std::uint32_t pixel = 0; cases.size() < count; ++pixel) {
         for (std::uint32_t sample = 0; sample < pass.sampleCount && cases.size() < count; ++sample) {
             const std::uint32_t number = pass.firstPixel + pixel;
             const ChosenPixel at = chosen.empty() ? ChosenPixel{number, 0} : chosen[number];
-            cases.push_back({pass.seed, pass.slabBegin + at.pixel, pass.firstSample + at.samplesBefore + sample});
+            cases.push_back({test.parameters().seed, pass.tileBegin + at.pixel, pass.firstSample + at.samplesBefore + sample});
         }
     }
     return cases;
@@ -40,17 +41,17 @@ TEST(PassTest, VisitsEveryPlaceOnceFromBothHalvesAndKnowsItsSample)
         SCOPED_TRACE(std::to_string(groups) + " groups");
         KernelTest test(test_kernels::pass_test);
         Pass& pass = test.pass();
-        pass.seed = 0xdeadbeefU + groups;
-        pass.slabBegin = 1U << 20;
+        test.parameters().seed = 0xdeadbeefU + groups;
+        pass.tileBegin = 1U << 20;
         pass.firstPixel = 500;
         pass.firstSample = 96;
         pass.sampleCount = 1 + groups % 32;
         const std::uint32_t threads = groups * kGroupSize;
-        test.cases(samplesInOrder(pass, threads)).resultsOf<Result>(threads).run();
+        test.cases(samplesInOrder(test, threads)).resultsOf<Result>(threads).run();
         const std::vector<Result> results = test.results<Result>();
         for (std::uint32_t place = 0; place < threads; ++place) {
             EXPECT_EQ(results[place].visits, 1U) << "place " << place;
-            // Neighbouring groups of places are worked on in different halves of the dispatch.
+            // Neighbouring groups of slots run in different halves of the dispatch.
             const bool second = results[place].group >= (groups + 1) / 2;
             EXPECT_EQ(second, place / kGroupSize % 2 == 1) << "place " << place;
         }
@@ -62,7 +63,7 @@ TEST(PassTest, GoesOverChosenPixelsIfAdaptive)
     constexpr std::uint32_t kThreads = 10 * kGroupSize;
     KernelTest test(test_kernels::pass_test);
     Pass& pass = test.pass();
-    pass.slabBegin = 7000;
+    pass.tileBegin = 7000;
     pass.firstPixel = 500;
     pass.firstSample = 5;
     pass.sampleCount = 3;
@@ -75,7 +76,7 @@ TEST(PassTest, GoesOverChosenPixelsIfAdaptive)
     }
     Buffer list(testDevice(), "test's choice", BufferKind::Storage, counted.size() * sizeof(uint));
     upload(list, std::span<const uint>(counted));
-    test.cases(samplesInOrder(pass, kThreads, chosen)).resultsOf<Result>(kThreads);
+    test.cases(samplesInOrder(test, kThreads, chosen)).resultsOf<Result>(kThreads);
     test.buffers({{kBindChosenPixels, &list}}).specialize(kSpecChosen, 1).run();
 }
 

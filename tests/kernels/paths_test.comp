@@ -1,5 +1,5 @@
-// One thread is one slot. Every buffer of paths.glsl, told apart by what is in it: the host has filled those that are read
-// here, and knows what must be in the others afterwards.
+// One thread is one slot. It reads and writes every buffer of paths.glsl. Each holds other values: the host has filled those that
+// are read here, and knows what the others must hold afterwards.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_ACTIVE_QUEUE

@@ -24,31 +24,56 @@ Buffer filled(const std::string& name, Make make, BufferKind kind = BufferKind::
 template <class T>
 Buffer zeroed(const std::string& name, BufferKind kind = BufferKind::Storage)
 {
-    return filled<T>(name, [](std::uint32_t) { return T{}; }, kind);
+    return filled<T>(
+        name, [](std::uint32_t) { return T{}; }, kind);
 }
 
 TEST(PathsTest, EachBufferIsAtItsBinding)
 {
     const Buffer active = filled<uint>("active queue", [](uint i) { return 3000 + i; });
     const Buffer shadow = filled<uint>("shadow queue", [](uint i) { return 4000 + i; });
-    const Buffer rays = filled<PathRay>("rays", [](uint i) { return PathRay{vec3(0), 5000 + i, vec3(0)}; }, BufferKind::Both);
-    const Buffer shadowRays = filled<ShadowRay>("shadow rays", [](uint i) {
-        return ShadowRay{vec3(0), 0, vec3(0), 6000 + i, vec3(0), 1.0F};
-    }, BufferKind::Both);
-    const Buffer sizes = filled<QueueSizes>("queue sizes", [](uint) {
-        return QueueSizes{kSlots, 0, uvec3(0), uvec3(0, 0, 77)};
-    });
-    const Buffer states = filled<PathState>("states", [](uint) { return PathState{vec3(1), 0.5F, 0.0F, 1.0F}; },
-                                                  BufferKind::Both);
-    const Buffer radiance = filled<PathRadiance>("radiance", [](uint) { return PathRadiance{vec3(1), 0.25F}; },
-                                                       BufferKind::Both);
+    const Buffer rays = filled<PathRay>(
+        "rays",
+        [](uint i) {
+            return PathRay{vec3(0), 5000 + i, vec3(0)};
+        },
+        BufferKind::Both);
+    const Buffer shadowRays = filled<ShadowRay>(
+        "shadow rays", [](uint i) { return ShadowRay{vec3(0), 0, vec3(0), 6000 + i, vec3(0), 1.0F}; }, BufferKind::Both);
+    const Buffer sizes = filled<QueueSizes>("queue sizes", [](uint) { return QueueSizes{kSlots, 0, uvec3(0), uvec3(0, 0, 77)}; });
+    const Buffer states = filled<PathState>(
+        "states",
+        [](uint) {
+            return PathState{vec3(1), 0.5F, 0.0F, 1.0F};
+        },
+        BufferKind::Both);
+    const Buffer radiance = filled<PathRadiance>(
+        "radiance",
+        [](uint) {
+            return PathRadiance{vec3(1), 0.25F};
+        },
+        BufferKind::Both);
     const Buffer tails = zeroed<QueueTails>("queue tails"), counts = zeroed<RayCounts>("ray counts");
-    const Buffer hits = filled<PathHit>("hits", [](uint i) { return PathHit{8000 + i, 0.0F, vec2(0)}; }, BufferKind::Both);
+    const Buffer hits = filled<PathHit>(
+        "hits",
+        [](uint i) {
+            return PathHit{8000 + i, 0.0F, vec2(0)};
+        },
+        BufferKind::Both);
     const Buffer firstHits = zeroed<FirstHit>("first hits", BufferKind::Both), next = zeroed<uint>("next queue");
     KernelTest test(test_kernels::paths_test);
-    test.buffers({{kBindActiveQueue, &active}, {kBindShadowQueue, &shadow}, {kBindRays, &rays}, {kBindStates, &states},
-                  {kBindShadowRays, &shadowRays}, {kBindQueueSizes, &sizes}, {kBindRadiance, &radiance}, {kBindHits, &hits},
-                  {kBindQueueTails, &tails}, {kBindRayCounts, &counts}, {kBindFirstHits, &firstHits}, {kBindNextQueue, &next}});
+    test.buffers({{kBindActiveQueue, &active},
+                  {kBindShadowQueue, &shadow},
+                  {kBindRays, &rays},
+                  {kBindStates, &states},
+                  {kBindShadowRays, &shadowRays},
+                  {kBindQueueSizes, &sizes},
+                  {kBindRadiance, &radiance},
+                  {kBindHits, &hits},
+                  {kBindQueueTails, &tails},
+                  {kBindRayCounts, &counts},
+                  {kBindFirstHits, &firstHits},
+                  {kBindNextQueue, &next}});
     test.threads(kSlots).run();
     for (std::uint32_t i = 0; i < kSlots; ++i) {
         const auto f = static_cast<float>(i);

@@ -7,7 +7,7 @@
 
 struct Case {
     vec3 contribution;
-    uint events;
+    uint pathLength;
     uint samples;
 };
 
@@ -17,7 +17,7 @@ void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        addRadiance(TEST_THREAD, c.contribution, c.events, c.samples);
+        addRadiance(TEST_THREAD, c.contribution, c.pathLength, c.samples);
         EXPECT_TRUE(c.samples > 0u);
     }
     endTest();

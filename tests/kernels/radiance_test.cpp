@@ -13,21 +13,21 @@ namespace {
 
 struct Case {
     vec3 contribution;
-    uint events;
+    uint pathLength;
     uint samples;  // that the contribution is one of
 };
 
-// Light that met two surfaces or more keeps its colour and has no channel above the limit; what is lost is told by its mean.
-PathRadiance add(const PathRadiance& sum, const glm::dvec3& light, uint events, double limit)
+// Light that met two surfaces or more keeps its colour and has no channel above the limit; the mean of what is lost is reported.
+PathRadiance add(const PathRadiance& sum, const glm::dvec3& light, uint pathLength, double limit)
 {
     const double largest = std::max({light.r, light.g, light.b});
-    const double scale = events >= 2 && largest > limit ? limit / largest : 1.0;
+    const double scale = pathLength >= 2 && largest > limit ? limit / largest : 1.0;
     const glm::dvec3 lost = (1.0 - scale) * light;
     return {glm::vec3(glm::dvec3(sum.radiance) + scale * light),
             static_cast<float>(static_cast<double>(sum.clamped) + (lost.r + lost.g + lost.b) / 3.0)};
 }
 
-// Light of 0 to 3 events, in a pass that wants [least, most].
+// Light of paths of length 0 to 3, in a pass that keeps the lengths [least, most].
 void expectSums(float limit, uint least, uint most)
 {
     std::mt19937 random(1);
@@ -37,19 +37,19 @@ void expectSums(float limit, uint least, uint most)
     for (uint i = 0; i < 1000; ++i) {
         before.push_back({vec3(light(random), light(random), 0.5F), 0.1F * light(random)});
         const vec3 contribution(light(random), i % 7 == 0 ? 0.0F : light(random), 0.1F * light(random));
-        const uint events = i % 4;
+        const uint pathLength = i % 4;
         const uint samples = i % 3 == 0 ? 8 : 1;
-        const bool wanted = events >= least && events <= most;
-        cases.push_back({contribution, events, samples});
-        expected.push_back(wanted ? add(before.back(), glm::dvec3(contribution), events, static_cast<double>(limit) / samples)
+        const bool wanted = pathLength >= least && pathLength <= most;
+        cases.push_back({contribution, pathLength, samples});
+        expected.push_back(wanted ? add(before.back(), glm::dvec3(contribution), pathLength, static_cast<double>(limit) / samples)
                                   : before.back());
     }
     Buffer sums(testDevice(), "test's radiance", BufferKind::Both, before.size() * sizeof(PathRadiance));
     upload(sums, std::span<const PathRadiance>(before));
     KernelTest test(test_kernels::radiance_test);
-    test.pass().clampIndirect = limit;
-    test.pass().leastEvents = least;
-    test.pass().mostEvents = most;
+    test.parameters().clampIndirect = limit;
+    test.parameters().minPathLength = least;
+    test.parameters().maxPathLength = most;
     test.cases(cases).buffers({{kBindRadiance, &sums}}).run();
     const std::vector<PathRadiance> after = download<PathRadiance>(sums, cases.size());
     for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -69,11 +69,11 @@ TEST(RadianceTest, AddsLightAndTellsWhatTheClampTook)
     }
 }
 
-// What is dropped is not told as clamped either.
+// Light that the pass does not keep is not reported as clamped either.
 TEST(RadianceTest, DropsLightThatThePassDoesNotWant)
 {
     for (const auto& [least, most] : {std::pair{0U, 0U}, {1U, 1U}, {0U, 1U}, {2U, 64U}, {1U, 2U}, {3U, 3U}, {4U, 64U}}) {
-        SCOPED_TRACE("events " + std::to_string(least) + " to " + std::to_string(most));
+        SCOPED_TRACE("pathLength " + std::to_string(least) + " to " + std::to_string(most));
         expectSums(kInfinity, least, most);
         expectSums(0.1F, least, most);
     }

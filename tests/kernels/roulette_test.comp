@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
+#include "lib/fixed_roulette.glsl"
 #include "lib/roulette.glsl"
 
 struct Case {
@@ -18,9 +19,9 @@ void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        float survival = survivalProbability(c.throughput, c.etaScale, c.bounce);
+        float survival = continuationProbability(c.throughput, c.etaScale, c.bounce);
         EXPECT_CLOSE(survival, c.survival, 2e-7);
-        EXPECT_EQUAL(survivalFixed(c.q, c.bounce), c.survivalOfQ);
+        EXPECT_EQUAL(fixedContinuation(c.q, c.bounce), c.survivalOfQ);
         // H24: the weight after roulette never exceeds the larger of 1 and the weight before.
         vec3 after = c.throughput / survival * c.etaScale;
         vec3 before = c.throughput * c.etaScale;

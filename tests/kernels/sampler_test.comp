@@ -28,7 +28,7 @@ void main()
         EXPECT_TRUE(c.sobol == 0u || late || pair != independentPair(id, c.dimension));
         // No two uses share a dimension.
         uint bounce = TEST_THREAD % 64u;
-        uint uses[5] = uint[](kDimensionLight, kDimensionEmitter, kDimensionPoint, kDimensionScatter, kDimensionFate);
+        uint uses[5] = uint[](kDimensionLight, kDimensionEmitter, kDimensionPoint, kDimensionBsdf, kDimensionLobe);
         for (uint k = 0u; k < 5u; ++k) {
             EXPECT_EQUAL(bounceDimension(bounce, uses[k]), 1u + 5u * bounce + k);
         }

@@ -7,7 +7,7 @@
 struct Case {
     uint record;
     uint id;
-    uint sphere;
+    uint triangle;
     vec3 corners[3];  // sphere: centre, (radius, 0, 0)
     vec3 normals[3];
     uint sliver;
@@ -26,16 +26,19 @@ void main()
         Case c = cases[TEST_THREAD];
         Record record = fetchRecord(c.record);
         EXPECT_EQUAL(primitiveOf(record), c.id);
-        EXPECT_EQUAL(uint(isSphere(record)), c.sphere);
+        EXPECT_EQUAL(uint(isSphere(record)), 1u - c.triangle);
         EXPECT_TRUE(floatsOf(record.t0) == c.corners[0]);
         EXPECT_TRUE(floatsOf(record.t1) == c.corners[1]);
         EXPECT_TRUE(floatsOf(record.t2) == c.corners[2]);
         EXPECT_TRUE(isSliver(record) == (c.sliver != 0u));
         EXPECT_EQUAL(materialOf(record), c.material);
-        int at = int(c.record * kRecordTexels);
-        EXPECT_TRUE(floatsOf(texelFetch(sceneNormals, at)) == c.normals[0]);
-        EXPECT_TRUE(floatsOf(texelFetch(sceneNormals, at + 2)) == c.normals[2]);
-        FlatMaterial material = fetchMaterial(c.material);
+        if (c.triangle != 0u) {
+            uvec4 vertices = texelFetch(sceneTriangles, int(c.id));
+            EXPECT_TRUE(floatsOf(texelFetch(sceneVertices, int(vertices.x))) == c.normals[0]);
+            EXPECT_TRUE(floatsOf(texelFetch(sceneVertices, int(vertices.y))) == c.normals[1]);
+            EXPECT_TRUE(floatsOf(texelFetch(sceneVertices, int(vertices.z))) == c.normals[2]);
+        }
+        MaterialData material = fetchMaterial(c.material);
         EXPECT_TRUE(material.baseColor == c.baseColor);
         EXPECT_TRUE(material.emission == c.emission);
         EXPECT_EQUAL(uint(record.t2.w != 0u), uint(c.light != 0u));
@@ -46,7 +49,7 @@ void main()
             EXPECT_EQUAL(emitter.light, c.light - 1u);
             EXPECT_TRUE(fetchLight(emitter.light).intensity == c.emission);
         }
-        EXPECT_TRUE(sceneCamera.position == c.cameraPosition);
+        EXPECT_TRUE(render.camera.position == c.cameraPosition);
     }
     endTest();
 }

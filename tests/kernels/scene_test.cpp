@@ -13,7 +13,7 @@ namespace {
 struct Case {
     uint record;
     uint id;
-    uint sphere;
+    uint triangle;
     vec3 corners[3];
     vec3 normals[3];
     uint sliver;
@@ -26,45 +26,54 @@ struct Case {
 
 constexpr std::uint32_t kSliver = 7, kNearlySliver = 8;
 
-// A flat and a smooth primitive, of which the second emits and has triangles in pieces, and spheres that emit every other one.
+glm::vec3 cornerNormal(std::size_t corner)
+{
+    const float angle = static_cast<float>(corner);
+    return corner % 3 == 0 ? glm::vec3(0, 1, 0) : glm::vec3(std::cos(angle), 0, std::sin(angle));
+}
+
+// A flat and a smooth mesh, of which the second emits and has triangles in pieces, and spheres that emit every other one.
 Scene makeScene()
 {
-    Scene scene = sceneOf(strips(8, 1), randomSpheres(20, 0.2F, 2));
-    const auto half = static_cast<std::uint32_t>(scene.triangles.size() / 2);
-    scene.triangles[kSliver] = {{glm::vec3(0.0F), glm::vec3(0.5F, 0.99F * kSliverHeight, 0.0F), glm::vec3(1.0F, 0.0F, 0.0F)}};
-    scene.triangles[kNearlySliver] = {{glm::vec3(0.0F), glm::vec3(0.5F, 1.01F * kSliverHeight, 0.0F), glm::vec3(1.0F, 0.0F, 0.0F)}};
+    Triangles first = strips(8, 1);
+    const Triangles second(first.begin() + static_cast<std::ptrdiff_t>(first.size() / 2), first.end());
+    first.resize(first.size() / 2);
+    first[kSliver] = {{glm::vec3(0.0F), glm::vec3(0.5F, 0.99F * kSliverHeight, 0.0F), glm::vec3(1.0F, 0.0F, 0.0F)}};
+    first[kNearlySliver] = {{glm::vec3(0.0F), glm::vec3(0.5F, 1.01F * kSliverHeight, 0.0F), glm::vec3(1.0F, 0.0F, 0.0F)}};
+    Scene scene = sceneOf(first, randomSpheres(20, 0.2F, 2));
     scene.materials.resize(3);
     scene.materials[1].baseColor = glm::vec3(0.1F, 0.2F, 0.3F);
     scene.materials[1].emission = glm::vec3(1.0F, 2.0F, 3.0F);
     scene.materials[2].emission = glm::vec3(5.0F, 4.0F, 3.0F);
-    scene.primitives = {{"", 0, half, 0, false}, {"", half, half, 1, true}};
-    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-        const float angle = static_cast<float>(i);
-        scene.normals.push_back({{glm::vec3(0, 1, 0), glm::vec3(1, 0, 0), glm::vec3(std::cos(angle), 0, std::sin(angle))}});
+    std::vector<glm::vec3> normals;
+    for (std::size_t i = 0; i < 3 * second.size(); ++i) {
+        normals.push_back(cornerNormal(i));
     }
+    addMesh(scene, second, 1, normals);
     for (std::size_t i = 0; i < scene.spheres.size(); i += 2) {
         scene.spheres[i].material = 2;
     }
     return scene;
 }
 
-Case caseOf(const Scene& scene, std::uint32_t id)
+Case caseOf(const Scene& scene, const Primitives& primitives, std::uint32_t id)
 {
     Case c{};
     c.id = id;
-    const auto triangles = static_cast<std::uint32_t>(scene.triangles.size());
+    const auto triangles = static_cast<std::uint32_t>(primitives.triangles.size());
+    c.triangle = id < triangles ? 1 : 0;
     if (id < triangles) {
-        const bool second = id >= scene.primitives[1].firstTriangle;
-        std::copy_n(scene.triangles[id].vertices, 3, c.corners);
-        if (second) {
-            std::copy_n(scene.normals[id].normals, 3, c.normals);
+        const std::uint32_t mesh = primitives.instanceOf(id);
+        std::copy_n(primitives.triangles[id].vertices, 3, c.corners);
+        for (std::size_t v = 0; mesh == 1 && v < 3; ++v) {
+            const glm::dvec3 normal(cornerNormal(3 * (id - primitives.firstTriangles[1]) + v));
+            c.normals[v] = glm::vec3(normal / glm::length(normal));
         }
         c.sliver = id == kSliver ? 1 : 0;
-        c.material = second ? 1 : 0;
-        c.light = second ? 1 : 0;
+        c.material = mesh;
+        c.light = mesh;
     } else {
         const Sphere& sphere = scene.spheres[id - triangles];
-        c.sphere = 1;
         c.corners[0] = sphere.center;
         c.corners[1] = vec3(sphere.radius, 0.0F, 0.0F);
         c.material = sphere.material;
@@ -83,11 +92,11 @@ TEST(SceneTest, IsOnTheDeviceAsItWasMade)
     const SceneOnDevice onDevice(scene, camera);
     std::vector<Case> cases;
     for (std::uint32_t record = 0; record < onDevice.bvh.order.size(); ++record) {
-        cases.push_back(caseOf(scene, onDevice.bvh.order[record]));
+        cases.push_back(caseOf(scene, onDevice.primitives, onDevice.bvh.order[record]));
         cases.back().record = record;
         cases.back().cameraPosition = camera.position;
     }
-    EXPECT_GT(cases.size(), scene.triangles.size() + scene.spheres.size()) << "some have several records";
+    EXPECT_GT(cases.size(), onDevice.primitives.count()) << "some have several records";
     onDevice.test(test_kernels::scene_test).cases(cases).run();
 }
 

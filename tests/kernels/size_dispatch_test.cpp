@@ -5,6 +5,7 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/limits.h"
 #include "shaders/shared/path_types.h"
+#include "tests/support/parameters_buffer.hpp"
 #include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,7 @@ struct Outcome {
 
 Outcome sizeDispatch(const Pass& pass, const QueueTails& tails, const RayCounts& counts)
 {
-    const KernelLayout layout(testDevice(), kernelSlots(), sizeof(Pass));
+    const KernelLayout layout(testDevice(), kernelSlots(), sizeof(CoursePass));
     const Kernel kernel(layout, kernels::size_dispatch, {{kSpecWorkgroup, kWorkgroup}});
     PathBuffers paths(testDevice(), 1);
     Buffer tailsBuffer(testDevice(), "test's tails", BufferKind::Storage, sizeof(QueueTails));
@@ -33,6 +34,8 @@ Outcome sizeDispatch(const Pass& pass, const QueueTails& tails, const RayCounts&
     std::map<std::uint32_t, const Buffer*> bound = paths.buffers(0);
     bound[kBindQueueTails] = &tailsBuffer;
     bound[kBindRayCounts] = &countsBuffer;
+    const Buffer parameters = parametersBuffer(anyParameters());
+    bound[kBindParameters] = &parameters;
     const Bindings bindings(layout, bound);
     Commands commands(testDevice());
     commands.dispatch(kernel, bindings, std::as_bytes(std::span<const Pass, 1>(&pass, 1)), 1);
@@ -48,7 +51,6 @@ Pass passAt(std::uint32_t bounce)
     pass.sampleCount = 3;
     pass.bounce = bounce;
     pass.sizes = kSizesPaths | kSizesShadow;
-    pass.canarySteps = 3;
     return pass;
 }
 

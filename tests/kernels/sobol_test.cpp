@@ -144,8 +144,7 @@ TEST(SobolTest, ScrambledPointsAreUniform)
 }
 
 // Slope of log MSE against log n over n = 2^4 .. 2^12 for the mean of f over the unit square, whose truth is known.
-double errorSlope(const std::vector<uvec2>& points, std::uint32_t length, double truth,
-                  const std::function<double(double, double)>& f)
+double errorSlope(const std::vector<uvec2>& points, std::uint32_t length, double truth, const std::function<double(double, double)>& f)
 {
     std::vector<double> logError;
     for (std::uint32_t m = 4; m <= 12; ++m) {
@@ -173,10 +172,9 @@ struct Slopes {
 
 Slopes slopesOf(const std::vector<uvec2>& points, std::uint32_t length)
 {
-    return {errorSlope(points, length, 0.25 * std::pow(std::exp(1.0) - 1.0, 2.0),
-                       [](double x, double y) { return 0.25 * std::exp(x + y); }),
-            errorSlope(points, length, std::numbers::pi / 4.0,
-                       [](double x, double y) { return x * x + y * y < 1.0 ? 1.0 : 0.0; })};
+    return {
+        errorSlope(points, length, 0.25 * std::pow(std::exp(1.0) - 1.0, 2.0), [](double x, double y) { return 0.25 * std::exp(x + y); }),
+        errorSlope(points, length, std::numbers::pi / 4.0, [](double x, double y) { return x * x + y * y < 1.0 ? 1.0 : 0.0; })};
 }
 
 // H33.
@@ -185,8 +183,7 @@ TEST(SobolTest, H33ErrorsFallAsTheyShould)
     constexpr std::uint32_t kSequences = 128, kLength = 4096;
     const Slopes slopes = slopesOf(sequences(kSequences, kLength, 33), kLength);
     const Slopes naive = slopesOf(independentPoints(kSequences * kLength, 35), kLength);
-    printHardCase("H33", "slopes of log MSE", kSequences * kLength,
-                  "smooth " + figure(slopes.smooth) + ", edge " + figure(slopes.edge),
+    printHardCase("H33", "slopes of log MSE", kSequences * kLength, "smooth " + figure(slopes.smooth) + ", edge " + figure(slopes.edge),
                   "independent points: " + figure(naive.smooth) + ", " + figure(naive.edge));
     EXPECT_LE(slopes.smooth, -2.5);
     EXPECT_NEAR(slopes.edge, -1.5, 0.15);

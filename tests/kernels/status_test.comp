@@ -30,6 +30,6 @@ void main()
         results[TEST_THREAD] = Result(done);
         EXPECT_TRUE(done <= c.loops);
     }
-    checkLoopBudget(pass.canarySteps);
+    checkLoopBudget(render.canarySteps);
     endTest();
 }

@@ -89,7 +89,7 @@ TEST(StopRuleTest, H28EqualSamples)
             cases.push_back({{count, mean, 0.0F}, 0.05F, 1024, count >= 1024 ? 1U : 0U});
             cases.push_back({{count, mean, 0.0F}, 0.0F, 1024, count >= 1024 ? 1U : 0U});
         }
-        // A single sample tells nothing of its error, whatever the sum of squares.
+        // A single sample says nothing about its error, whatever the sum of squares is.
         cases.push_back({{1, mean, 1e-20F}, 0.05F, 0, 0});
     }
     judge(cases);
@@ -111,7 +111,7 @@ struct Stream {
     const char* name;
     std::function<float(Random&)> next;
     double mean, deviation;
-    float grid;  // of floats about the mean
+    float grid;   // of floats about the mean
     double peak;  // density of the samples at their mean, times their deviation
 };
 

@@ -1,4 +1,4 @@
-// What the tree costs per ray, and that the worst trees neither overflow the stack nor hide a hit (H6).
+// What the tree costs per ray; the worst trees neither overflow the stack nor hide a hit (H6).
 #include "test_kernels.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/reference.hpp"
@@ -66,7 +66,7 @@ std::vector<Result> trace(KernelTest& test, const std::vector<PathRay>& rays)
 }
 
 struct Means {
-    double closest = 0.0;      // nodes and primitives
+    double closest = 0.0;  // nodes and primitives
     double shadowNodes = 0.0;
 };
 
@@ -82,7 +82,7 @@ Means meanSteps(const std::vector<Result>& results)
 
 TEST(TraverseStepsTest, AreWhatTheTreesCostPredicts)
 {
-    for (const Mesh& mesh : {terrain(100), randomTriangles(20000, 0.03F, 1)}) {
+    for (const Triangles& mesh : {terrain(100), randomTriangles(20000, 0.03F, 1)}) {
         const SceneOnDevice scene(sceneOf(mesh));
         KernelTest test = scene.test(test_kernels::traverse_steps_test);
         const Means means = meanSteps(trace(test, uniformLines(scene.bvh.box, 20000)));
@@ -135,9 +135,9 @@ TEST(TraverseStepsTest, TheStackIsAsDeepAsTheTreeNeeds)
         return different;
     };
     const std::vector<Result> expected = traceWith(kMaxStackLevels);
-    EXPECT_GE(scene.flat.features.stackLevels, scene.bvh.depth - 2);
+    EXPECT_GE(scene.flat.stackLevels, scene.bvh.depth - 2);
     EXPECT_EQ(countDifferences(traceWith(scene.bvh.depth - 2), expected), 0U);
-    EXPECT_GT(countDifferences(traceWith(1), expected), 0U) << "siblings are lost where there is no room";
+    EXPECT_GT(countDifferences(traceWith(1), expected), 0U) << "group are lost where there is no room";
 }
 
 TEST(TraverseStepsTest, H6GrowingLineAgreesWithTheReference)
@@ -149,7 +149,7 @@ TEST(TraverseStepsTest, H6GrowingLineAgreesWithTheReference)
     std::uniform_real_distribution<float> share(0.1F, 0.4F);
     std::vector<PathRay> rays;
     for (int i = 0; i < 300; ++i) {
-        const Triangle& t = line.triangles[random() % line.triangles.size()];
+        const Triangle& t = scene.primitives.triangles[random() % scene.primitives.triangles.size()];
         const glm::vec3 e1 = t.vertices[1] - t.vertices[0], e2 = t.vertices[2] - t.vertices[0];
         const glm::vec3 target = t.vertices[0] + share(random) * e1 + share(random) * e2;
         const glm::vec3 from = target + glm::vec3(glm::dvec3(static_cast<double>(e1.x)) * randomUnit(random)) * 3.0F;

@@ -8,7 +8,7 @@
 struct Case {
     PathRay ray;
     uint target;
-    float reach;
+    float tMax;
 };
 
 struct Result {
@@ -41,7 +41,7 @@ bool isUnoccludedByAny(ShadowRay ray, uint records)
     bool free = true;
     for (uint i = 0u; i < records; ++i) {
         Record record = fetchRecord(i);
-        TriangleHit hit = intersectRecord(walk, record, ray.reach, primitiveOf(record) == ray.source);
+        TriangleHit hit = intersectRecord(walk, record, ray.tMax, primitiveOf(record) == ray.source);
         free = free && (primitiveOf(record) == ray.target || !(hit.t > 0.0));
     }
     return free;
@@ -57,7 +57,7 @@ void main()
         EXPECT_EQUAL(primitiveMet(hit), primitiveMet(expected));
         EXPECT_EQUAL(floatBitsToUint(hit.t), floatBitsToUint(expected.t));
         EXPECT_TRUE(hit.barycentric == expected.barycentric);
-        ShadowRay shadow = ShadowRay(c.ray.origin, c.ray.source, c.ray.direction, c.target, vec3(0.0), c.reach);
+        ShadowRay shadow = ShadowRay(c.ray.origin, c.ray.source, c.ray.direction, c.target, vec3(0.0), c.tMax);
         bool unoccluded = isUnoccluded(shadow);
         EXPECT_EQUAL(uint(unoccluded), uint(isUnoccludedByAny(shadow, records)));
         results[TEST_THREAD] = Result(hit, uint(unoccluded));

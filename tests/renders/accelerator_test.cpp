@@ -3,6 +3,7 @@
 #include "host/flatten/flatten_scene.hpp"
 #include "shaders/shared/limits.h"
 #include "tests/support/build_scene.hpp"
+#include "tests/support/named.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/test_device.hpp"
 #include "tests/support/test_meshes.hpp"
@@ -19,29 +20,29 @@ Scene meshScene()
     SceneBuilder builder;
     builder.lambert(glm::vec3(0.6F, 0.5F, 0.4F));
     const auto lamp = builder.lambert(glm::vec3(0.0F), glm::vec3(4.0F));
-    builder.sphere({0.0F, 2.2F, 0.5F}, 0.4F, lamp)
-        .environment(glm::vec3(0.1F, 0.2F, 0.3F))
-        .perspective({0, 1, 4}, {0, 0, 0}, 0.7F);
+    builder.sphere({0.0F, 2.2F, 0.5F}, 0.4F, lamp).environment(glm::vec3(0.1F, 0.2F, 0.3F)).perspective({0, 1, 4}, {0, 0, 0}, 0.7F);
     Scene scene = builder.scene();
-    scene.triangles = icosphere(5);
-    const Mesh mesh = scene.triangles;
-    for (std::size_t i = 0; i < mesh.size(); i += 4) {
-        const Triangle& t = mesh[i];
-        scene.triangles.push_back({{1.3F * t.vertices[0], 1.3F * t.vertices[1], 1.3F * t.vertices[2]}});
+    const Triangles ball = icosphere(5);
+    Triangles mesh = ball;
+    for (std::size_t i = 0; i < ball.size(); i += 4) {
+        const Triangle& t = ball[i];
+        mesh.push_back({{1.3F * t.vertices[0], 1.3F * t.vertices[1], 1.3F * t.vertices[2]}});
     }
-    scene.primitives = {{"", 0, static_cast<std::uint32_t>(scene.triangles.size()), 0, false}};
+    addMesh(scene, mesh);
     return scene;
 }
 
-// A floor seen from exactly 4 metres above, with tiles in it: those of even fields come before it in the scene, those of odd ones
-// after it. Whatever a ray meets, it meets two at the same distance; which one first is up to the tree.
+// A floor seen from exactly 4 metres above, with tiles in its plane. Tiles in even fields come before the floor in the scene,
+// those in odd fields after it. Every ray meets two primitives at the same distance; which one it meets first depends on the
+// tree.
 Scene tiledScene()
 {
     SceneBuilder builder;
     const auto tile = builder.lambert(glm::vec3(0.8F)), floor = builder.lambert(glm::vec3(0.2F));
     const auto quad = [&](const glm::vec2& low, float size, std::uint32_t material) {
-        builder.quad({glm::vec3(low, 0.0F), glm::vec3(low.x + size, low.y, 0.0F), glm::vec3(low + size, 0.0F),
-                      glm::vec3(low.x, low.y + size, 0.0F)}, material);
+        builder.quad(
+            {glm::vec3(low, 0.0F), glm::vec3(low.x + size, low.y, 0.0F), glm::vec3(low + size, 0.0F), glm::vec3(low.x, low.y + size, 0.0F)},
+            material);
     };
     const auto tiles = [&](int parity) {
         for (int i = 0; i < 64; ++i) {
@@ -57,7 +58,7 @@ Scene tiledScene()
     return builder.scene();
 }
 
-// Strips that shine and others, aslant through a ball of small triangles: those have pieces, and many records.
+// Strips, some of which emit, aslant through a ball of small triangles. The strips are split into pieces and have many records.
 Scene aslantScene()
 {
     SceneBuilder builder;
@@ -70,19 +71,17 @@ Scene aslantScene()
     }
     builder.environment(glm::vec3(0.05F)).perspective({0, 1, 4}, {0, 0, 0}, 0.7F);
     Scene scene = builder.scene();
-    const Mesh ball = icosphere(3);
-    scene.primitives.push_back({"", static_cast<std::uint32_t>(scene.triangles.size()), static_cast<std::uint32_t>(ball.size()), white, false});
-    scene.triangles.insert(scene.triangles.end(), ball.begin(), ball.end());
+    addMesh(scene, icosphere(3), white);
     return scene;
 }
 
-class AcceleratorTest : public testing::TestWithParam<DirectLight> {
+class AcceleratorTest : public testing::TestWithParam<test::Named<DirectLight>> {
 protected:
     AcceleratorTest()
     {
         settings.bounces = 3;
-        settings.direct = GetParam();
-        settings.lightSamples = 2;
+        settings.course.direct = GetParam().value;
+        settings.course.lightSamples = 2;
     }
     RenderSettings settings = squareSettings(12, 4);
 };
@@ -90,47 +89,46 @@ protected:
 TEST_P(AcceleratorTest, NoneGivesTheBitsOfTheTree)
 {
     for (const Scene& scene : {meshScene(), mixedScene(), tiledScene(), aslantScene()}) {
-        settings.accelerator = Accelerator::Bvh;
+        settings.course.accelerator = Accelerator::Bvh;
         const Film tree = renderScene(scene, settings);
-        settings.accelerator = Accelerator::None;
-        EXPECT_TRUE(sameBits(tree, renderScene(scene, settings))) << scene.triangles.size() << " triangles";
+        settings.course.accelerator = Accelerator::None;
+        EXPECT_TRUE(sameBits(tree, renderScene(scene, settings))) << scene.instances.size() << " instances";
     }
-    EXPECT_GT(meshScene().triangles.size(), 2 * kScanRecords);
+    EXPECT_GT(makePrimitives(meshScene()).count(), 2 * kScanRecords);
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, AcceleratorTest,
-                         testing::Values(DirectLight::Mis, DirectLight::Lights, DirectLight::Hemisphere, DirectLight::Bsdf));
+                         testing::Values(test::Named{"mis", DirectLight::Mis}, test::Named{"lights", DirectLight::Lights},
+                                         test::Named{"hemisphere", DirectLight::Hemisphere}, test::Named{"bsdf", DirectLight::Bsdf}),
+                         test::nameOfParameter);
 
 TEST(SplitRulePictureTest, EveryRuleGivesTheBitsOfTheOthers)
 {
     RenderSettings settings = squareSettings(24, 32);
     for (const Scene& scene : {meshScene(), mixedScene(), tiledScene(), aslantScene()}) {
-        const FlatScene sah = flattenScene(scene, buildSceneBvh(scene));
+        const FlatScene sah = flattened(scene);
         const Film film = renderFlat(sah, scene.cameras.front(), settings);
         for (const SplitRule rule : {SplitRule::Mean, SplitRule::Median}) {
-            const FlatScene other = flattenScene(scene, buildSceneBvh(scene, rule));
+            const FlatScene other = flattened(scene, rule);
             EXPECT_NE(other.nodes, sah.nodes);
             // Their films may be merged.
             EXPECT_EQ(fingerprint(other), fingerprint(sah));
             EXPECT_TRUE(sameBits(renderFlat(other, scene.cameras.front(), settings), film))
-                << scene.triangles.size() << " triangles, rule " << static_cast<int>(rule);
+                << scene.instances.size() << " instances, rule " << static_cast<int>(rule);
         }
     }
 }
 
-// Films are merged and resumed by it, those of earlier builds too.
-TEST(FingerprintTest, IsWhatItWas)
-{
-    EXPECT_EQ(fingerprint(flattened(mixedScene())), 0x63483a629c12bbc6U);
-}
+// Films are merged and resumed by their fingerprint, films of earlier builds too.
+TEST(FingerprintTest, IsWhatItWas) { EXPECT_EQ(fingerprint(flattened(mixedScene())), 0x63483a629c12bbc6U); }
 
 TEST(SplitRulePictureTest, OnlyTheHeuristicsTreeIsOfPieces)
 {
     const Scene scene = aslantScene();
-    const std::size_t count = scene.triangles.size() + scene.spheres.size();
-    EXPECT_GT(buildSceneBvh(scene).order.size(), count + 10);
-    EXPECT_EQ(buildSceneBvh(scene, SplitRule::Mean).order.size(), count);
-    EXPECT_EQ(buildSceneBvh(scene, SplitRule::Median).order.size(), count);
+    const Primitives primitives = makePrimitives(scene);
+    EXPECT_GT(buildSceneBvh(primitives).order.size(), primitives.count() + 10);
+    EXPECT_EQ(buildSceneBvh(primitives, SplitRule::Mean).order.size(), primitives.count());
+    EXPECT_EQ(buildSceneBvh(primitives, SplitRule::Median).order.size(), primitives.count());
 }
 
 TEST(SplitRulePictureTest, TiesGoToTheLowerId)
@@ -139,7 +137,7 @@ TEST(SplitRulePictureTest, TiesGoToTheLowerId)
     RenderSettings settings = squareSettings(8, 4);
     settings.bounces = 0;
     for (const SplitRule rule : {SplitRule::Sah, SplitRule::Mean, SplitRule::Median}) {
-        const Film film = renderFlat(flattenScene(scene, buildSceneBvh(scene, rule)), scene.cameras.front(), settings);
+        const Film film = renderFlat(flattened(scene, rule), scene.cameras.front(), settings);
         for (int i = 0; i < 64; ++i) {
             // Rows of the film go down, those of the tiles up: of eight, parity changes.
             EXPECT_FLOAT_EQ(film.pixels[static_cast<std::size_t>(i)].albedo.r, (i % 8 + i / 8) % 2 == 1 ? 0.8F : 0.2F)
@@ -155,7 +153,7 @@ TEST(IntersectorTest, MollerTrumboreAgreesInTheMean)
     settings.sampler = Sampler::Independent;
     settings.bounces = 3;
     const Film watertight = renderScene(meshScene(), settings);
-    settings.intersector = Intersector::MollerTrumbore;
+    settings.course.intersector = Intersector::MollerTrumbore;
     EXPECT_FALSE(sameBits(watertight, renderScene(meshScene(), settings)));
     settings.seed = 1;
     expectSameMean("moller-trumbore", renderScene(meshScene(), settings), watertight);
@@ -168,12 +166,12 @@ TEST(AcceleratorDispatchTest, NoneScansEveryRecord)
     const FlatScene flat = flattened(scene);
     RenderSettings settings = squareSettings(4, 1);
     settings.bounces = 0;
-    settings.accelerator = Accelerator::None;
+    settings.course.accelerator = Accelerator::None;
     Renderer renderer(testDevice(), flat, flattenCamera(scene.cameras.front(), 1.0F), settings);
     renderer.render([](const RenderProgress&) { return true; });
     const auto portions = (flat.records.size() / kRecordTexels + kScanRecords - 1) / kScanRecords;
     EXPECT_EQ(portions, 4U);
-    EXPECT_EQ(renderer.statistics().kernels.at("trace_closest").dispatches, portions);
+    EXPECT_EQ(renderer.statistics().kernels.at("course_trace_closest").dispatches, portions);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// --adaptive: which pixels get samples, and that those are the samples a uniform render takes.
+// --adaptive: which pixels get samples; each sample is the one that a uniform render takes.
 #include "host/flatten/flatten_scene.hpp"
 #include "shaders/shared/limits.h"
 #include "tests/support/build_scene.hpp"
@@ -22,7 +22,7 @@ RenderSettings adaptive(std::uint32_t side, std::uint32_t mostSpp, std::uint32_t
     RenderSettings settings = squareSettings(side, mostSpp);
     settings.sampler = Sampler::Independent;
     settings.adaptive = Adaptive::Course;
-    settings.batch = batch;
+    settings.course.batch = batch;
     settings.bounces = 3;
     return settings;
 }
@@ -39,13 +39,13 @@ std::map<std::uint32_t, std::vector<std::size_t>> pixelsByCount(const Film& film
 TEST(AdaptiveTest, EveryPixelHasTheBitsOfAUniformRenderOfItsCount)
 {
     RenderSettings settings = adaptive(40, 320, 64);
-    settings.tolerance = 0.15F;
+    settings.course.tolerance = 0.15F;
     const Film film = renderScene(mixedScene(), settings);
     const auto pixels = pixelsByCount(film);
     EXPECT_GE(pixels.size(), 4U);
     settings.adaptive = Adaptive::Off;
     for (const auto& [count, indices] : pixels) {
-        EXPECT_TRUE(count % settings.batch == 0 || count == 320U) << count;
+        EXPECT_TRUE(count % settings.course.batch == 0 || count == 320U) << count;
         settings.sampleEnd = count;
         const Film uniform = renderScene(mixedScene(), settings);
         for (const std::size_t i : indices) {
@@ -61,7 +61,7 @@ TEST(AdaptiveTest, EveryPixelHasTheBitsOfAUniformRenderOfItsCount)
 TEST(AdaptiveTest, BatchesMayEndWithinABlock)
 {
     RenderSettings settings = adaptive(16, 600, 100);
-    settings.tolerance = 0.15F;
+    settings.course.tolerance = 0.15F;
     const Film film = renderScene(mixedScene(), settings);
     settings.adaptive = Adaptive::Off;
     for (const auto& [count, indices] : pixelsByCount(film)) {
@@ -80,7 +80,7 @@ TEST(AdaptiveTest, BatchesMayEndWithinABlock)
 TEST(AdaptiveTest, DoesNotDependOnHowTheWorkIsCut)
 {
     RenderSettings settings = adaptive(40, 128);
-    settings.tolerance = 0.2F;
+    settings.course.tolerance = 0.2F;
     const Film film = renderScene(mixedScene(), settings);
     settings.pathCapacity = 1000;
     settings.workgroup = 32;
@@ -91,7 +91,7 @@ TEST(AdaptiveTest, DoesNotDependOnHowTheWorkIsCut)
 TEST(AdaptiveTest, StopsWhereTheRuleSaysSo)
 {
     RenderSettings settings = adaptive(12, 96, 16);
-    settings.tolerance = 0.2F;
+    settings.course.tolerance = 0.2F;
     const Film film = renderScene(mixedScene(), settings);
     settings.adaptive = Adaptive::Off;
     std::vector<std::vector<double>> luminances(film.pixels.size());
@@ -128,7 +128,7 @@ TEST(AdaptiveTest, TracesOnlyTheSamplesItKeeps)
     const Scene scene = mixedScene();
     const FlatScene flat = flattened(scene);
     RenderSettings settings = adaptive(40, 256);
-    settings.tolerance = 0.2F;
+    settings.course.tolerance = 0.2F;
     settings.bounces = 0;
     Renderer renderer(testDevice(), flat, flattenCamera(scene.cameras.front(), 1.0F), settings);
     const Film film = renderer.render([](const RenderProgress& now) { return now.samples <= now.totalSamples; });
@@ -152,12 +152,12 @@ TEST(AdaptiveTest, H28ABlackFirstBatchIsNotTheTruth)
         .orthographic({0.02F, 0.05F, 0.01F}, {0, 0, 0}, 1e-3F);
     RenderSettings settings = adaptive(48, 1024);
     settings.bounces = 1;
-    settings.direct = DirectLight::Bsdf;
+    settings.course.direct = DirectLight::Bsdf;
     const auto blackShare = [&](Adaptive rule) {
         settings.adaptive = rule;
         const Film film = renderScene(builder.scene(), settings);
-        const auto black = std::count_if(film.pixels.begin(), film.pixels.end(),
-                                         [](const PixelMoments& pixel) { return pixel.mean.g == 0.0F; });
+        const auto black =
+            std::count_if(film.pixels.begin(), film.pixels.end(), [](const PixelMoments& pixel) { return pixel.mean.g == 0.0F; });
         return static_cast<double>(black) / static_cast<double>(film.pixels.size());
     };
     const double literal = blackShare(Adaptive::CourseLiteral), guarded = blackShare(Adaptive::Course);
@@ -168,7 +168,7 @@ TEST(AdaptiveTest, H28ABlackFirstBatchIsNotTheTruth)
     EXPECT_LE(guarded, 0.01 + 5.0 * std::sqrt(0.01 * 0.99 / n));
 }
 
-// A lamp three pixels wide: its middle shines evenly, its rim does not, around it is nothing.
+// A lamp three pixels wide: its middle shines evenly, its rim does not, and nothing is around it.
 TEST(AdaptiveTest, H28ConstantPixelsStopAtTheFloor)
 {
     SceneBuilder builder;
@@ -186,18 +186,18 @@ TEST(AdaptiveTest, H28ConstantPixelsStopAtTheFloor)
     EXPECT_EQ(countAt(renderScene(builder.scene(), settings), 4), 32U);
 }
 
-// A picture of two slabs, every pixel of which is chosen or not for itself.
-TEST(AdaptiveTest, WorksAcrossSlabs)
+// A picture of two tiles, every pixel of which is chosen or not for itself.
+TEST(AdaptiveTest, WorksAcrossTiles)
 {
     SceneBuilder builder;
     builder.sphere({0, 0, 0}, 1.0F, builder.lambert(glm::vec3(0.0F), glm::vec3(3.0F))).perspective({0, 0, 5}, {0, 0, 0}, 0.5F);
     RenderSettings settings = adaptive(1030, 6, 2);
     settings.adaptive = Adaptive::CourseLiteral;
     settings.bounces = 0;
-    settings.tolerance = 1e-3F;
+    settings.course.tolerance = 1e-3F;
     const Film film = renderScene(builder.scene(), settings);
     const auto pixels = pixelsByCount(film);
-    ASSERT_GT(film.pixels.size(), settings.slabPixels);
+    ASSERT_GT(film.pixels.size(), settings.tilePixels);
     EXPECT_EQ(film.pixels.back().count, 2U);
     EXPECT_GT(pixels.at(6).size(), 500U);  // the rim of the sphere
     settings.adaptive = Adaptive::Off;

@@ -1,5 +1,5 @@
-// Against an independent renderer's pictures with their variance, where they are at hand: GLIM_SHARED names the folder that
-// holds scenes/arena, by default `shared` beside the repository.
+// Against pictures of an independent renderer, with their variance, where they are at hand. GLIM_SHARED names the folder that
+// holds scenes/arena; by default it is `shared` beside the repository.
 #include "host/image/exr.hpp"
 #include "host/measure/z_test.hpp"
 #include "host/scene/load_gltf.hpp"
@@ -56,9 +56,9 @@ TEST_P(ArenaTest, AgreesWithAnIndependentRenderer)
     }
     const Film film = renderScene(scene, settings);
     const ZTest test = zTest(pictureOf(film), truth, 1e-4);
-    std::printf("%s: z of means %.2f %.2f %.2f (limit %.2f), worst block %.2f (limit %.2f), mean z^2 %.3f, sees %.2e\n",
-                name.c_str(), test.meanZ[0], test.meanZ[1], test.meanZ[2], test.meanLimit, test.worstZ, test.blockLimit,
-                test.meanSquare[0], test.detectableBias);
+    std::printf("%s: z of means %.2f %.2f %.2f (limit %.2f), worst block %.2f (limit %.2f), mean z^2 %.3f, sees %.2e\n", name.c_str(),
+                test.meanZ[0], test.meanZ[1], test.meanZ[2], test.meanLimit, test.worstZ, test.blockLimit, test.meanSquare[0],
+                test.detectableBias);
     EXPECT_TRUE(test.meansAgree());
     if (GetParam().blocks) {
         EXPECT_TRUE(test.blocksAgree()) << "at (" << test.worstX << ", " << test.worstY << ")";

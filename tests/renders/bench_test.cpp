@@ -1,6 +1,5 @@
-// What `glim bench` measures on a device: rendered points are those of plain renders, and the slope test tells right from wrong.
+// `glim bench` on a device: its points are those of plain renders, and its slope test fails for renders that are wrong.
 #include "host/bench/bench_reference.hpp"
-#include "host/bench/measure_error.hpp"
 #include "host/bench/run_bench.hpp"
 #include "host/bench/summarize_bench.hpp"
 #include "host/flatten/flatten_scene.hpp"

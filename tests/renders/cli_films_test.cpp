@@ -94,11 +94,13 @@ TEST(CommandLineTest, MergeRefusesWhatDoesNotBelongTogether)
     films.render("clamp.exr", {"--samples", "0:32", "--clamp-indirect", "0.1234561"});
     films.render("clamp2.exr", {"--samples", "32:64", "--clamp-indirect", "0.1234564"});
     EXPECT_NE(films.merge({"clamp.exr", "clamp2.exr", "-o", "c.exr"}).exitCode, 0);
-    const std::vector<std::pair<std::string, std::string>> cases{
-        {"overlap.exr", "both hold samples 31:32"}, {"seed.exr", "its seed is 1, expected 0"},
-        {"bounces.exr", "its setting is \"bounces=3\", expected \"bounces=64\""},
-        {"scene.exr", "its scene, camera or environment is "}, {"light.exr", "its scene, camera or environment is "},
-        {"size.exr", "its size is 8x8"},            {"none.exr", "none.exr: "}};
+    const std::vector<std::pair<std::string, std::string>> cases{{"overlap.exr", "both hold samples 31:32"},
+                                                                 {"seed.exr", "its seed is 1, expected 0"},
+                                                                 {"bounces.exr", "its setting is \"bounces=3\", expected \"bounces=64\""},
+                                                                 {"scene.exr", "its scene, camera or environment is "},
+                                                                 {"light.exr", "its scene, camera or environment is "},
+                                                                 {"size.exr", "its size is 8x8"},
+                                                                 {"none.exr", "none.exr: "}};
     for (const auto& [name, part] : cases) {
         const GlimRun run = films.merge({"a.exr", name, "-o", "c.exr"});
         EXPECT_EQ(run.exitCode, 1);
@@ -191,14 +193,13 @@ TEST(CommandLineTest, SignalsEndARenderThatIsThenWritten)
 {
     for (const auto& [signal, name, exitCode] : {std::tuple(SIGINT, "SIGINT", 130), std::tuple(SIGTERM, "SIGTERM", 143)}) {
         const Films films;
-        GlimCall call = films.call("x.exr", {"--size", "60x60", "--spp", "2000000000", "--progress", "json", "--stats",
-                                             "s.json", "--png", "x.png"});
+        GlimCall call =
+            films.call("x.exr", {"--size", "60x60", "--spp", "2000000000", "--progress", "json", "--stats", "s.json", "--png", "x.png"});
         call.signalWhen = hasLine;
         call.signal = signal;
         const GlimRun run = runGlim(call);
         EXPECT_EQ(run.exitCode, exitCode) << run.err;
-        EXPECT_NE(run.err.find(std::string("stopped by ") + name + "; what was finished is in x.exr"), std::string::npos)
-            << run.err;
+        EXPECT_NE(run.err.find(std::string("stopped by ") + name + "; what was finished is in x.exr"), std::string::npos) << run.err;
         EXPECT_TRUE(films.exists("x.png"));
         const Film film = films.film("x.exr");
         std::uint64_t samples = 0;

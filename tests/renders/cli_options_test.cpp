@@ -1,4 +1,4 @@
-// Each option of `glim render` does something to the picture, or nothing where it must not.
+// Each option of `glim render` changes the picture, or leaves every bit of it where it must.
 #include "host/render/film_file.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/run_glim.hpp"
@@ -59,7 +59,9 @@ TEST_F(OptionsTest, ChangeThePicture)
     for (const auto& [one, other] : kPairs) {
         EXPECT_FALSE(sameBits(render("--spp 4 " + std::string(one)), render("--spp 4 " + std::string(other)))) << other;
     }
-    const auto steps = [this](const char* rule) { return render("--spp 4 --view bvh-steps --split " + std::string(rule), "many_lights.gltf"); };
+    const auto steps = [this](const char* rule) {
+        return render("--spp 4 --view bvh-steps --split " + std::string(rule), "many_lights.gltf");
+    };
     EXPECT_FALSE(sameBits(steps("sah"), steps("mean")));
     EXPECT_FALSE(sameBits(steps("mean"), steps("median")));
 }
@@ -67,8 +69,9 @@ TEST_F(OptionsTest, ChangeThePicture)
 TEST_F(OptionsTest, ChangeNoBitWhereOnlyTheTracingDiffers)
 {
     const Film film = render("--spp 8");
-    for (const char* options : {"--accelerator none", "--schedule persistent", "--split mean", "--split median", "--direct mis",
-                                "--paths all", "--roulette throughput", "--adaptive off", "--view shaded", "--lens-radius 0 --focal-distance 2"}) {
+    for (const char* options :
+         {"--accelerator none", "--schedule persistent", "--split mean", "--split median", "--direct mis", "--paths all",
+          "--roulette throughput", "--adaptive off", "--view shaded", "--lens-radius 0 --focal-distance 2"}) {
         EXPECT_TRUE(sameBits(film, render(std::string("--spp 8 ") + options))) << options;
     }
 }
@@ -77,11 +80,10 @@ TEST_F(OptionsTest, OfAdaptiveRendersChangeWhereTheyStop)
 {
     const std::string plain = "--bounces 1 --adaptive course --max-spp 256 --tolerance 0.3";
     const Film film = render(plain);
-    for (const char* other : {"--bounces 1 --adaptive course --max-spp 256 --tolerance 0.2",
-                              "--bounces 1 --adaptive course --max-spp 128 --tolerance 0.3",
-                              "--bounces 1 --adaptive course --max-spp 256 --tolerance 0.3 --batch 16",
-                              "--bounces 1 --adaptive course:literal --max-spp 256 --tolerance 0.3",
-                              "--bounces 1 --sampler independent --spp 256"}) {
+    for (const char* other :
+         {"--bounces 1 --adaptive course --max-spp 256 --tolerance 0.2", "--bounces 1 --adaptive course --max-spp 128 --tolerance 0.3",
+          "--bounces 1 --adaptive course --max-spp 256 --tolerance 0.3 --batch 16",
+          "--bounces 1 --adaptive course:literal --max-spp 256 --tolerance 0.3", "--bounces 1 --sampler independent --spp 256"}) {
         const Film changed = render(other);
         const auto sameCounts = std::equal(film.pixels.begin(), film.pixels.end(), changed.pixels.begin(),
                                            [](const PixelMoments& a, const PixelMoments& b) { return a.count == b.count; });

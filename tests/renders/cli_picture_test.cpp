@@ -1,4 +1,4 @@
-// What the files of a render hold: the picture contract, layers and attributes, statistics.
+// What the files of a render hold: pixels, layers, attributes and statistics.
 #include "host/image/exr.hpp"
 #include "host/image/png.hpp"
 #include "host/render/film_file.hpp"
@@ -18,8 +18,8 @@ namespace {
 using nlohmann::json;
 using Arguments = std::vector<std::string>;
 
-constexpr std::uint32_t kSide = 8;          // pixels
-constexpr float kPixel = 10.0F / kSide;     // metres, at the distance of the lamp
+constexpr std::uint32_t kSide = 8;       // pixels
+constexpr float kPixel = 10.0F / kSide;  // metres, at the distance of the lamp
 constexpr float kDistance = 5.0F;
 constexpr float kRadiance[3] = {2.0F, 1.0F, 0.25F};
 
@@ -29,20 +29,19 @@ std::string lampScene()
 {
     GltfBuilder builder;
     const float right = -5.0F + 2.5F * kPixel, bottom = 5.0F - 2.0F * kPixel;
-    const std::size_t positions =
-        builder.addVec3({-6, bottom, 0, right, bottom, 0, right, 6, 0, -6, bottom, 0, right, 6, 0, -6, 6, 0});
-    builder.append("materials",
-                   {{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 0}}},
-                    {"emissiveFactor", {1, 0.5, 0.125}},
-                    {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 2}}},
-                                    {"KHR_materials_specular", {{"specularFactor", 0}}}}}});
+    const std::size_t positions = builder.addVec3({-6, bottom, 0, right, bottom, 0, right, 6, 0, -6, bottom, 0, right, 6, 0, -6, 6, 0});
+    builder.append(
+        "materials",
+        {{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 0}}},
+         {"emissiveFactor", {1, 0.5, 0.125}},
+         {"extensions",
+          {{"KHR_materials_emissive_strength", {{"emissiveStrength", 2}}}, {"KHR_materials_specular", {{"specularFactor", 0}}}}}});
     builder.addNode({{"mesh", builder.addMesh({{"attributes", {{"POSITION", positions}}}, {"material", 0}})}});
     builder.append("cameras", {{"type", "perspective"},
                                {"name", "wide"},
                                {"perspective", {{"yfov", 1.5707963267948966}, {"aspectRatio", 1.5}, {"znear", 0.01}}}});
-    builder.append("cameras", {{"type", "orthographic"},
-                               {"name", "flat"},
-                               {"orthographic", {{"xmag", 5}, {"ymag", 5}, {"znear", 0}, {"zfar", 100}}}});
+    builder.append("cameras",
+                   {{"type", "orthographic"}, {"name", "flat"}, {"orthographic", {{"xmag", 5}, {"ymag", 5}, {"znear", 0}, {"zfar", 100}}}});
     builder.addNode({{"camera", 0}, {"translation", {0, 0, kDistance}}});
     builder.addNode({{"camera", 1}, {"translation", {0, 0, 2}}});
     return builder.toGltf();
@@ -71,10 +70,7 @@ private:
 };
 
 // The share of a pixel that the lamp covers; column 2 is cut in half.
-float coverage(std::uint32_t x, std::uint32_t y)
-{
-    return y > 1 || x > 2 ? 0.0F : (x == 2 ? 0.5F : 1.0F);
-}
+float coverage(std::uint32_t x, std::uint32_t y) { return y > 1 || x > 2 ? 0.0F : (x == 2 ? 0.5F : 1.0F); }
 
 TEST(CommandLineTest, RowZeroIsAtTheTopAndAlphaIsCoverage)
 {
@@ -88,7 +84,7 @@ TEST(CommandLineTest, RowZeroIsAtTheTopAndAlphaIsCoverage)
         for (std::uint32_t x = 0; x < kSide; ++x) {
             const std::size_t i = std::size_t{y} * kSide + x;
             const float alpha = image.channels["A"][i];
-            // Half a pixel is not hit by exactly half of the samples, but by no other share than what alpha says.
+            // Not exactly half of the samples hit half a pixel, but exactly the share that alpha says.
             EXPECT_NEAR(alpha, coverage(x, y), x == 2 ? 0.1F : 0.0F) << x << ' ' << y;
             for (int c = 0; c < 3; ++c) {
                 EXPECT_NEAR(image.channels[letters[c]][i], kRadiance[c] * alpha, 1e-5F) << x << ' ' << y;
@@ -172,8 +168,8 @@ TEST(CommandLineTest, LayersAndAttributesOfTheExr)
     const Workplace workplace;
     workplace.render({"--size", "4x4", "--samples", "32:96", "--seed", "7"});
     const Image image = workplace.image();
-    for (const char* name : {"R", "G", "B", "A", "variance.R", "variance.G", "variance.B", "albedo.R", "albedo.G", "albedo.B",
-                             "normal.X", "normal.Y", "normal.Z", "depth.Z", "squares.R", "squares.G", "squares.B"}) {
+    for (const char* name : {"R", "G", "B", "A", "variance.R", "variance.G", "variance.B", "albedo.R", "albedo.G", "albedo.B", "normal.X",
+                             "normal.Y", "normal.Z", "depth.Z", "squares.R", "squares.G", "squares.B"}) {
         EXPECT_EQ(image.channels.count(name), 1U) << name;
     }
     EXPECT_EQ(image.counts.at("count.X"), std::vector<std::uint32_t>(16, 64));
@@ -192,8 +188,8 @@ TEST(CommandLineTest, StatisticsAreCompleteAndSane)
 {
     const ScratchFolder folder;
     const std::filesystem::path stats = folder / "s.json";
-    const GlimRun run = runGlim({"render", sceneFile("cornell.gltf"), "-o", (folder / "x.exr").string(), "--size", "16x8",
-                                 "--spp", "64", "--schedule", "persistent", "--stats", stats.string()});
+    const GlimRun run = runGlim({"render", sceneFile("cornell.gltf"), "-o", (folder / "x.exr").string(), "--size", "16x8", "--spp", "64",
+                                 "--schedule", "persistent", "--stats", stats.string()});
     ASSERT_EQ(run.exitCode, 0) << run.err;
     const json s = json::parse(bytesOfFile(stats));
     EXPECT_EQ(s.at("samples"), 16 * 8 * 64);

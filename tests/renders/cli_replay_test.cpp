@@ -1,4 +1,4 @@
-// A user's way to a firefly: render with --suspects, then --replay the one that is named; and what both refuse.
+// How a user finds a firefly: render with --suspects, then --replay the sample that it names. And what both refuse.
 #include "host/render/film_file.hpp"
 #include "tests/support/run_glim.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -43,8 +43,8 @@ glm::vec3 sumOfJson(const json& path)
 {
     glm::vec3 sum(0.0F);
     for (const json& vertex : path.at("vertices")) {
-        sum += vectorOf(vertex.at("found").at("added"));
-        for (const json& each : vertex.at("sampled")) {
+        sum += vectorOf(vertex.at("emission").at("added"));
+        for (const json& each : vertex.at("sampledLights")) {
             sum += vectorOf(each.at("added"));
         }
     }
@@ -128,7 +128,7 @@ TEST(CommandLineTest, ReplaysOfWhatIsNotThereAreRefused)
     expectRefusal(renderIn(folder, scene, {"--replay", "0,0,4", "--spp", "4"}), 2,
                   "--replay: \"0,0,4\": expected one of the samples that the other options ask for, 0 to 3");
     expectRefusal(renderIn(folder, scene, {"--replay", "0,0,0", "-o", "x.exr"}), 2,
-                  "--output: \"x.exr\": means nothing with --replay, which makes no picture");
+                  "--output: \"x.exr\": has no effect with --replay, which makes no picture");
     expectRefusal(renderIn(folder, scene, {"--replay", "0,0,0", "--stats", "r.txt"}), 1,
                   "r.txt: cannot be written: its name does not end in .json.");
     EXPECT_EQ(folder.entries(), 0);

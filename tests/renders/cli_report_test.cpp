@@ -1,4 +1,5 @@
-// What a render says of its tree, its samples per pixel and its steps, in words and as JSON; and what compare says of such films.
+// What a render reports of its tree, its samples per pixel and its steps, in words and as JSON; what compare reports of such
+// films.
 #include "host/render/film_file.hpp"
 #include "shaders/shared/limits.h"
 #include "tests/support/decode_png.hpp"
@@ -150,17 +151,18 @@ TEST(CommandLineTest, TargetsWithoutMeaningAreRefused)
     refuses({"--target-relmse", "0"}, "--target-relmse");
     refuses({"--target-relmse", "0.1", "--spp", "63"}, "known from 64 samples on");
     refuses({"--target-relmse", "0.1", "--samples", "64:100"}, "known from 128 samples on");
-    refuses({"--target-relmse", "0.1", "--view", "normal"}, "means nothing");
+    refuses({"--target-relmse", "0.1", "--view", "normal"}, "has no effect with");
     refuses({"--target-rmse", "1%", "--adaptive", "course"}, "a rule of its own");
     EXPECT_FALSE(std::filesystem::exists(workplace.file("x.exr")));
 }
 
-// With what is in its file a picture can be made again.
+// A film's file says all that is needed to make the picture again.
 TEST(CommandLineTest, ViewAndLensAreAmongTheSettings)
 {
     const Workplace workplace;
-    const json stats = workplace.render({"--spp", "1", "--lens-radius", "0.1", "--focal-distance", "3", "--look-from", "0,1,2",
-                                         "--look-at", "0,1,0"}).second;
+    const json stats =
+        workplace.render({"--spp", "1", "--lens-radius", "0.1", "--focal-distance", "3", "--look-from", "0,1,2", "--look-at", "0,1,0"})
+            .second;
     const std::string settings = stats.at("settings");
     expectText(settings, " look-from=0,1,2 look-at=0,1,0 look-up=0,1,0 lens-radius=0\\.1 focal-distance=3$");
     EXPECT_EQ(readFilm(workplace.file("x.exr")).identity.settings, settings);

@@ -22,8 +22,8 @@ protected:
     Rendered render(const std::string& samples, const std::vector<std::string>& more = {})
     {
         GlimCall call;
-        call.arguments = {"render", sceneFile("cornell.gltf"), "-o", "x.exr", "--size", "64x64", "--spp", samples,
-                          "--target-rmse", "90%", "--stats", "s.json"};
+        call.arguments = {"render", sceneFile("cornell.gltf"), "-o",  "x.exr",   "--size", "64x64", "--spp",
+                          samples,  "--target-rmse",           "90%", "--stats", "s.json"};
         call.arguments.insert(call.arguments.end(), more.begin(), more.end());
         call.environment["GLIM_CACHE_DIR"] = cache_.string();
         call.folder = folder_.path();

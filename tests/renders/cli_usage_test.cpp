@@ -1,8 +1,12 @@
-// The command line refuses before it works, says why in one sentence and leaves nothing behind.
+// The command line refuses before it does any work, says why in one sentence, and leaves no file behind.
 #include "tests/support/run_glim.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
+
+#include <regex>
+#include <set>
+#include <sstream>
 
 namespace glim::test {
 namespace {
@@ -45,51 +49,123 @@ TEST(CommandLineTest, VersionNamesCommitAndBuild)
     EXPECT_EQ(run.err, "");
 }
 
-TEST(CommandLineTest, HelpListsEveryOptionWithUnitRangeAndDefault)
+const std::vector<std::string> kCommands{"render", "preview", "inspect", "devices", "compare", "bench", "merge"};
+
+std::vector<std::string> splitLines(const std::string& text)
 {
-    const std::vector<std::pair<std::string, Arguments>> expected{
-        {"render",
-         {"--output OUT.exr", "--png P.png", "--size WxH", "1 to 65535 [512 high", "--camera NAME|INDEX", "camera of the file [0]",
-          "--scene INDEX", "[its default one]", "--environment R,G,B", "W/(sr m^2), each >= 0", "[none]", "--exposure EV",
-          "-100 to 100 [0]", "--spp N", "1 to 2147483648 [64; 4 with a --view other than shaded]", "--time SECONDS",
-          "0.001 to 1e+09 [off]", "--samples BEGIN:END", "0 to 2147483648 [0:64]", "--bounces N", "0 to 1000000 [64]", "--seed N",
-          "0 to 4294967295 [0]", "--sampler S", "or independent [sobol", "--intersector I", "[watertight]",
-          "--clamp-indirect X", "1e-30 to 1e+30 [off]", "--device D", "[the first usable one]", "--stats S.json",
-          "--progress STYLE", "[bar on a terminal]", "--rates R.png", "from blue (fewest) to red (most)", "--view V",
-          "bvh-steps (R inner nodes visited, G primitives tested) [shaded]", "--lens-radius R",
-          "metres, 0 to 1e+06 [0, a pinhole]", "--focal-distance D", "metres, 1e-06 to 1e+09 [none]", "--direct D",
-          "point, spot and directional lights", "[mis]", "--light-samples N", "1 to 65536 [1]", "--paths PART", "[all]",
-          "--roulette R", "infinite where albedo^2 >= P", "above albedo .837) [throughput]", "--accelerator A",
-          "8192 a dispatch [bvh]", "--schedule S", "view moves [auto]", "--split RULE", "[sah]", "--adaptive RULE", "1.96 s / sqrt(n) <= T m", "by 1.7 %",
-          "[off]", "--tolerance T", "1e-30 to 1e+06 [0.05]", "--batch N", "2 to 1048576 [32]", "--max-spp N",
-          "2 to 2147483648 [2048]", "--look-from X,Y,Z", "world coordinates", "--look-at X,Y,Z", "--look-up X,Y,Z", "[0,1,0]",
-          "--zoom Z", "1e-06 to 1e+06 [1]", "--suspects N", "(8 bytes a pixel)", "1 to 1000 [off]", "--replay X,Y,SAMPLE",
-          "(not with --replay)"}},
-        {"preview",
-         {"--size WxH", "--camera NAME|INDEX", "--look-from X,Y,Z", "--lens-radius R", "Stops for the window and a PNG",
-          "[as many as there is time for]", "--time SECONDS", "[0 on]", "--seed N", "--sampler S", "--bounces N", "--direct D",
-          "--light-samples N", "--paths PART", "--roulette R", "--clamp-indirect X", "--adaptive RULE", "--accelerator A",
-          "--schedule S", "--frames N", "[never]", "--script FILE", "left-drag orbits", "Space pauses", "1 bad input or no display"}},
-        {"bench",
-         {"SCENE FILE ...", "--seconds S", "0.001 to 1e+06 [1]", "--spp N", "a power of two, 64 to 16777216 [what --seconds allow]",
-          "--seeds K", "16 to 1024 [16]", "--output OUT.json", "[bench.json]", "--reference R.exr", "[OUT.SCENE.exr", "--make-reference",
-          "--against BASELINE.json", "--size WxH", "[96 high, width from the camera's", "--seed N", "--sampler S",
-          "--bounces N", "--direct D", "--roulette R", "--clamp-indirect X", "--accelerator A", "--schedule S", "--split RULE",
-          "--device D", "--progress STYLE", "--look-from X,Y,Z", "--environment R,G,B"}},
-        {"inspect", {"SCENE FILE", "--scene INDEX", "--json"}},
-        {"devices", {"--json"}},
-        {"compare", {"picture A.exr", "reference B.exr", "--variance V.exr", "--diff D.exr", "--json"}},
-        {"merge", {"films A.exr", "--output C.exr", "--png C.png", "--exposure EV", "-100 to 100 [0]"}}};
-    const GlimRun all = runGlim({"--help"});
-    EXPECT_TRUE(contains(all.out, "Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 129, 130 or 143 stopped by a signal"));
-    for (const auto& [command, parts] : expected) {
-        EXPECT_TRUE(contains(all.out, "  " + command + " ")) << command;
-        const GlimRun run = runGlim({command, "--help"});
-        EXPECT_EQ(run.exitCode, 0);
-        EXPECT_EQ(run.err, "");
-        for (const std::string& part : parts) {
-            EXPECT_TRUE(contains(run.out, part)) << command << " --help lacks: " << part;
+    std::istringstream stream(text);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(stream, line);) {
+        lines.push_back(line);
+    }
+    return lines;
+}
+
+// The long name of every option that a help text lists, as in "--output".
+std::set<std::string> optionsIn(const std::string& help)
+{
+    static const std::regex kOption(R"(  (?:-\w,)?(--[a-z-]+).*)");
+    std::set<std::string> options;
+    std::smatch match;
+    for (const std::string& line : splitLines(help)) {
+        if (std::regex_match(line, match, kOption)) {
+            EXPECT_TRUE(options.insert(match[1]).second) << match[1] << " stands twice";
         }
+    }
+    return options;
+}
+
+std::vector<std::string> groupsIn(const std::string& help)
+{
+    std::vector<std::string> groups;
+    for (const std::string& line : splitLines(help)) {
+        if (!line.empty() && line[0] != ' ' && line.back() == ':') {
+            groups.push_back(line.substr(0, line.size() - 1));
+        }
+    }
+    return groups;
+}
+
+std::string helpOf(const std::string& command, const std::string& option)
+{
+    const GlimRun run = runGlim({command, option});
+    EXPECT_EQ(run.exitCode, 0);
+    EXPECT_EQ(run.err, "");
+    return run.out;
+}
+
+// Every name that host/cli gives to an option, by its sources.
+std::set<std::string> optionsInSources()
+{
+    static const std::regex kName(R"re("(?:-\w,)?(--[a-z-]+)")re");
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(fs::path(GLIM_SOURCE_DIR) / "host/cli")) {
+        if (entry.path().extension() == ".cpp") {
+            const std::string text = bytesOfFile(entry.path());
+            for (std::sregex_iterator i(text.begin(), text.end(), kName), end; i != end; ++i) {
+                names.insert((*i)[1]);
+            }
+        }
+    }
+    return names;
+}
+
+TEST(CommandLineTest, HelpAllListsEveryOptionOnALineOfItsOwn)
+{
+    std::set<std::string> listed;
+    for (const std::string& command : kCommands) {
+        const std::string all = helpOf(command, "--help-all");
+        for (const std::string& line : splitLines(all)) {
+            EXPECT_LE(line.size(), 110U) << command << ": " << line;
+        }
+        listed.merge(optionsIn(all));
+    }
+    listed.merge(optionsIn(runGlim({"--help"}).out));
+    EXPECT_EQ(listed, optionsInSources());
+    EXPECT_GT(listed.size(), 50U);
+}
+
+TEST(CommandLineTest, HelpLeavesTuningAndTheCourseToHelpAll)
+{
+    const std::vector<std::string> common{"Picture", "Camera", "Sampling and stopping", "Light transport", "Device", "Output", "Help"};
+    std::vector<std::string> every = common;
+    every.insert(every.begin() + 4, "Course estimators");
+    const std::set<std::string> course{"--direct", "--light-samples", "--roulette", "--tolerance", "--batch", "--max-spp"},
+        tuning{"--schedule", "--accelerator", "--split", "--intersector"};
+    for (const std::string command : {"render", "preview", "bench"}) {
+        const std::string help = helpOf(command, "--help"), all = helpOf(command, "--help-all");
+        EXPECT_EQ(groupsIn(help), common) << command;
+        EXPECT_EQ(groupsIn(all), every) << command;
+        std::set<std::string> shown = optionsIn(help), expected = optionsIn(all);
+        for (const auto& hidden : {course, tuning}) {
+            for (const std::string& option : hidden) {
+                expected.erase(option);
+            }
+        }
+        EXPECT_EQ(shown, expected) << command;
+    }
+}
+
+TEST(CommandLineTest, HelpNamesCommandsUnitsRangesAndDefaults)
+{
+    const std::string all = runGlim({"--help"}).out;
+    for (const std::string& command : kCommands) {
+        EXPECT_TRUE(std::regex_search(all, std::regex("\n  " + command + " +[A-Z]"))) << command;
+    }
+    const std::string render = helpOf("render", "--help-all");
+    for (const char* line : {R"(\nUsage: glim render \[OPTIONS\] SCENE\n)", R"(\n  -o,--output OUT\.exr +[A-Z])",
+                             R"(\n  --spp N +Samples per pixel, 1 to 2147483648 \[64;)", R"(\n  --zoom Z .*, 1e-06 to 1e\+06 \[1\]\n)",
+                             R"(\n  --clamp-indirect X .*, 1e-30 to 1e\+30 \[off\]\n)"}) {
+        EXPECT_TRUE(std::regex_search(render, std::regex(line))) << line << "\n" << render;
+    }
+}
+
+// What the help has no room for.
+TEST(CommandLineTest, TheReadmeExplainsEveryOption)
+{
+    const std::string text = bytesOfFile(fs::path(GLIM_SOURCE_DIR) / "host/cli/README.md");
+    for (const std::string& option : optionsInSources()) {
+        EXPECT_TRUE(std::regex_search(text, std::regex("`" + option + "[ `,]"))) << option;
     }
 }
 
@@ -143,7 +219,7 @@ TEST(CommandLineTest, NonsenseValuesAreUsageErrorsBeforeAnyWork)
         {{"--size", "70000x1"}, "each 1 to 65535"},
         {{"--samples", "7:5"}, "--samples: \"7:5\": expected BEGIN:END"},
         {{"--samples", "0:2147483649"}, "END <= 2147483648"},
-        {{"--environment", "sky.hdr"}, "--environment: \"sky.hdr\": expected a constant radiance as r,g,b"},
+        {{"--environment", "sky.hdr"}, "--environment: \"sky.hdr\": expected "},
         {{"--environment", "1,-1,0"}, "numbers >= 0"},
         {{"--environment", "1,inf,0"}, "numbers >= 0"},
         {{"--sampler", "halton"}, "--sampler: \"halton\": expected sobol or independent"},
@@ -156,20 +232,19 @@ TEST(CommandLineTest, NonsenseValuesAreUsageErrorsBeforeAnyWork)
 // A few: host/render_options_test.cpp has them all.
 TEST(CommandLineTest, OptionsThatDoNotGoTogetherAreUsageErrorsBeforeAnyWork)
 {
-    expectUsageBeforeWork({
-        {{"--direct", "light"}, "--direct: \"light\": expected mis or lights or hemisphere or bsdf"},
-        {{"--light-samples", "65537"}, "--light-samples: \"65537\": expected a whole number from 1 to 65536"},
-        {{"--roulette", "fixed:1.2"}, "--roulette: \"fixed:1.2\": expected throughput, none or fixed:P with 0 < P <= 1"},
-        {{"--accelerator", "kd-tree"}, "--accelerator: \"kd-tree\": expected bvh or none"},
-        {{"--adaptive", "on"}, "--adaptive: \"on\": expected off or course or course:literal or neighbours or neighbours:absolute"},
-        {{"--adaptive", "course", "--tolerance", "0"}, "--tolerance: \"0\": expected a number from "},
-        {{"--adaptive", "course", "--spp", "64"}, "--spp: \"64\": --adaptive course itself chooses the samples; expected --max-spp"},
-        {{"--view", "normals"}, "--view: \"normals\": expected shaded or normal or depth or albedo or bvh-steps"},
-        {{"--lens-radius", "0.1"}, "--lens-radius requires --focal-distance"},
-        {{"--look-from", "0,0,1"}, "--look-from requires --look-at"},
-        {{"--look-up", "0,0,1"}, "--look-up requires --look-from"},
-        {{"--look-from", "0,0", "--look-at", "0,0,0"}, "--look-from: \"0,0\": expected "},
-        {{"--look-from", "0,0,nan", "--look-at", "0,0,0"}, "--look-from: \"0,0,nan\": expected "}});
+    expectUsageBeforeWork({{{"--direct", "light"}, "--direct: \"light\": expected mis or "},
+                           {{"--light-samples", "65537"}, "--light-samples: \"65537\": expected "},
+                           {{"--roulette", "fixed:1.2"}, "--roulette: \"fixed:1.2\": expected "},
+                           {{"--accelerator", "kd-tree"}, "--accelerator: \"kd-tree\": expected bvh or none"},
+                           {{"--adaptive", "on"}, "--adaptive: \"on\": expected off or "},
+                           {{"--adaptive", "course", "--tolerance", "0"}, "--tolerance: \"0\": expected a number from "},
+                           {{"--adaptive", "course", "--spp", "64"}, "--spp: \"64\": "},
+                           {{"--view", "normals"}, "--view: \"normals\": expected shaded or "},
+                           {{"--lens-radius", "0.1"}, "--lens-radius requires --focal-distance"},
+                           {{"--look-from", "0,0,1"}, "--look-from requires --look-at"},
+                           {{"--look-up", "0,0,1"}, "--look-up requires --look-from"},
+                           {{"--look-from", "0,0", "--look-at", "0,0,0"}, "--look-from: \"0,0\": expected "},
+                           {{"--look-from", "0,0,nan", "--look-at", "0,0,0"}, "--look-from: \"0,0,nan\": expected "}});
 }
 
 TEST(CommandLineTest, OutputsThatCannotBeWrittenAreRefusedBeforeAnyWork)
@@ -210,9 +285,9 @@ TEST(CommandLineTest, InputsAreNeverOverwritten)
     fs::create_symlink(scene, folder / "link.exr");
     const std::string bytes = bytesOfFile(scene);
     const Arguments small{"--size", "4x4", "--spp", "1"};
-    for (const Arguments& options : {Arguments{scene.string(), "-o", scene.string()},
-                                     Arguments{scene.string(), "-o", (folder / "link.exr").string()},
-                                     Arguments{stats.string(), "-o", (folder / "x.exr").string(), "--stats", stats.string()}}) {
+    for (const Arguments& options :
+         {Arguments{scene.string(), "-o", scene.string()}, Arguments{scene.string(), "-o", (folder / "link.exr").string()},
+          Arguments{stats.string(), "-o", (folder / "x.exr").string(), "--stats", stats.string()}}) {
         Arguments arguments{"render"};
         arguments.insert(arguments.end(), options.begin(), options.end());
         arguments.insert(arguments.end(), small.begin(), small.end());

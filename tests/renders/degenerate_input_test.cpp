@@ -22,7 +22,7 @@ GltfBuilder withTriangle(const json& node = json::object())
     return builder;
 }
 
-// And a sound triangle beside it, so that there is something to draw.
+// With a sound triangle beside it, so that there is something to draw.
 GltfBuilder besideTriangle(const std::vector<float>& positions)
 {
     GltfBuilder builder = withTriangle();

@@ -1,4 +1,4 @@
-// --direct: four ways to estimate direct light, of one expectation.
+// --direct: four ways to estimate direct light, which have the same mean.
 #include "host/flatten/flatten_scene.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/render_scene.hpp"
@@ -48,15 +48,9 @@ Scene smoothBall()
     SceneBuilder builder;
     builder.lambert(glm::vec3(0.7F, 0.6F, 0.5F));
     const auto lamp = builder.lambert(glm::vec3(0.0F), glm::vec3(4.0F));
-    builder.sphere({1.5F, 1.5F, 1.0F}, 0.4F, lamp)
-        .environment(glm::vec3(0.2F, 0.3F, 0.4F))
-        .perspective({0, 0.5F, 4}, {0, 0, 0}, 0.6F);
+    builder.sphere({1.5F, 1.5F, 1.0F}, 0.4F, lamp).environment(glm::vec3(0.2F, 0.3F, 0.4F)).perspective({0, 0.5F, 4}, {0, 0, 0}, 0.6F);
     Scene scene = builder.scene();
-    scene.triangles = icosphere(1);
-    for (const Triangle& triangle : scene.triangles) {
-        scene.normals.push_back({{triangle.vertices[0], triangle.vertices[1], triangle.vertices[2]}});
-    }
-    scene.primitives = {{"", 0, static_cast<std::uint32_t>(scene.triangles.size()), 0, true}};
+    addMesh(scene, icosphere(1), 0, verticesOf(icosphere(1)));
     return scene;
 }
 
@@ -70,6 +64,9 @@ struct Way {
     DirectLight direct;
     std::uint32_t lightSamples, spp;
 };
+
+void PrintTo(const Place& place, std::ostream* out) { *out << place.name; }
+void PrintTo(const Way& way, std::ostream* out) { *out << way.name; }
 
 class DirectLightTest : public testing::TestWithParam<std::tuple<Place, Way>> {};
 
@@ -89,8 +86,8 @@ TEST_P(DirectLightTest, HasTheMeanOfTheDefault)
     RenderSettings settings = independent(32, samplesFor(512), 4);
     const Film expected = renderFlat(flat, camera, settings);
     settings.seed = 1;
-    settings.direct = way.direct;
-    settings.lightSamples = way.lightSamples;
+    settings.course.direct = way.direct;
+    settings.course.lightSamples = way.lightSamples;
     settings.sampleEnd = samplesFor(way.spp);
     expectSameMean(std::string(place.name) + ", " + way.name, renderFlat(flat, camera, settings), expected);
 }
@@ -98,17 +95,13 @@ TEST_P(DirectLightTest, HasTheMeanOfTheDefault)
 // The mixed scene has a point light, which every way must sample: no direction meets it.
 INSTANTIATE_TEST_SUITE_P(
     Places, DirectLightTest,
-    testing::Combine(testing::Values(Place{"room", room}, Place{"yard", yard}, Place{"mixed", mixedScene},
-                                     Place{"smooth", smoothBall}),
+    testing::Combine(testing::Values(Place{"room", room}, Place{"yard", yard}, Place{"mixed", mixedScene}, Place{"smooth", smoothBall}),
                      testing::Values(Way{"lights", DirectLight::Lights, 1, 256}, Way{"lights4", DirectLight::Lights, 4, 64},
                                      Way{"hemisphere", DirectLight::Hemisphere, 1, 1024},
-                                     Way{"hemisphere8", DirectLight::Hemisphere, 8, 256},
-                                     Way{"bsdf", DirectLight::Bsdf, 1, 1024})),
-    [](const auto& test) {
-        return std::string(std::get<0>(test.param).name) + "_" + std::get<1>(test.param).name;
-    });
+                                     Way{"hemisphere8", DirectLight::Hemisphere, 8, 256}, Way{"bsdf", DirectLight::Bsdf, 1, 1024})),
+    [](const auto& test) { return std::string(std::get<0>(test.param).name) + "_" + std::get<1>(test.param).name; });
 
-// T3 in a round room: a sphere that shines inwards sees all of itself.
+// T3 in a round room: a sphere that emits inwards sees all of itself.
 TEST(DirectLightTest, T3ASphereFromWithin)
 {
     SceneBuilder builder;
@@ -117,7 +110,7 @@ TEST(DirectLightTest, T3ASphereFromWithin)
     for (const DirectLight direct : {DirectLight::Mis, DirectLight::Lights, DirectLight::Hemisphere, DirectLight::Bsdf}) {
         for (const std::uint32_t bounces : {1U, 5U}) {
             RenderSettings settings = independent(48, samplesFor(128), bounces);
-            settings.direct = direct;
+            settings.course.direct = direct;
             const double truth = (1.0 - std::pow(0.5, bounces + 1.0)) / 0.5;
             expectMean("round room, way " + std::to_string(static_cast<int>(direct)) + ", bounces " + std::to_string(bounces),
                        renderScene(builder.scene(), settings), truth * glm::dvec3(1.0, 2.0, 0.5));
@@ -133,21 +126,21 @@ TEST(DirectLightTest, OneSidedSpheresAreDarkInside)
         .perspective({0.3F, 0.2F, 0.5F}, {-1, -0.5F, -1}, 1.0F);
     for (const DirectLight direct : {DirectLight::Mis, DirectLight::Lights, DirectLight::Hemisphere, DirectLight::Bsdf}) {
         RenderSettings settings = squareSettings(16, 32);
-        settings.direct = direct;
+        settings.course.direct = direct;
         EXPECT_EQ(meanOf(renderScene(builder.scene(), settings)).mean, glm::dvec3(0.0)) << static_cast<int>(direct);
     }
 }
 
-// Many rounds make passes of minutes: whoever ends a render then need not wait for the one under way, of which nothing is kept. A
-// short one is finished.
+// With many rounds a pass takes minutes. A render that is ended does not wait for such a pass, and keeps nothing of it. It
+// finishes a short pass.
 TEST(DirectLightTest, ALongPassMayEndBeforeItsLastRound)
 {
     const Scene scene = room();
     const FlatScene flat = flattened(scene);
     RenderSettings settings = squareSettings(4, 2);
-    settings.direct = DirectLight::Lights;
+    settings.course.direct = DirectLight::Lights;
     for (const std::uint32_t lightSamples : {1U, 65536U}) {
-        settings.lightSamples = lightSamples;
+        settings.course.lightSamples = lightSamples;
         Renderer renderer(testDevice(), flat, flattenCamera(scene.cameras.front(), 1.0F), settings);
         const Film film = renderer.render([](const RenderProgress&) { return false; });
         EXPECT_EQ(renderer.statistics().samples, lightSamples == 1 ? 16U : 0U);
@@ -180,9 +173,9 @@ TEST(LightSamplesTest, DivideTheVariance)
     const Camera camera = builder.scene().cameras.front();
     for (const DirectLight direct : {DirectLight::Lights, DirectLight::Hemisphere}) {
         RenderSettings settings = independent(32, 256, 1);
-        settings.direct = direct;
+        settings.course.direct = direct;
         const double one = meanVariance(flat, camera, settings);
-        settings.lightSamples = 8;
+        settings.course.lightSamples = 8;
         EXPECT_NEAR(one / meanVariance(flat, camera, settings), 8.0, 8.0 * 4.0 * 0.034);
         settings.sampler = Sampler::Sobol;
         EXPECT_GT(one / meanVariance(flat, camera, settings), 8.0 * (1.0 + 5.0 * 0.034));
@@ -193,8 +186,8 @@ std::uint64_t shadowRays(const FlatScene& flat, const Camera& camera, DirectLigh
 {
     RenderSettings settings = squareSettings(8, 4);
     settings.bounces = 1;
-    settings.direct = direct;
-    settings.lightSamples = lightSamples;
+    settings.course.direct = direct;
+    settings.course.lightSamples = lightSamples;
     Renderer renderer(testDevice(), flat, flattenCamera(camera, 1.0F), settings);
     renderer.render([](const RenderProgress&) { return true; });
     return renderer.statistics().shadowRays;

@@ -4,6 +4,7 @@
 #include "host/scene/load_gltf.hpp"
 #include "shaders/shared/limits.h"
 #include "tests/support/hard_case.hpp"
+#include "tests/support/named.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/statistics.hpp"
 #include "places.h"
@@ -19,9 +20,9 @@ namespace {
 
 constexpr std::uint32_t kSide = 24, kSamples = kBlockSamples, kSeeds = 32;
 
-class ErrorEstimateTest : public testing::TestWithParam<Sampler> {};
+class ErrorEstimateTest : public testing::TestWithParam<test::Named<Sampler>> {};
 
-// With a caustic, and more than a few pixels that make up the error.
+// A scene with a caustic, where more than a few pixels make up the error.
 Scene glassRoom() { return loadGltf(GLIM_SOURCE_DIR "/scenes/cornell_mirror_glass.gltf"); }
 
 std::vector<Film> renderSeeds(const Scene& scene, RenderSettings settings)
@@ -44,12 +45,12 @@ std::vector<glm::dvec3> meanPicture(const std::vector<Film>& films)
     return mean;
 }
 
-// Mean square errors, of which the distances from the mean of all `count` films are unbiased estimates.
+// Mean squared errors, estimated without bias from the distances to the mean of all `count` films.
 SquaredErrors squaredErrors(const Film& film, const std::vector<glm::dvec3>& mean, double count)
 {
-    const double brightness = std::accumulate(mean.begin(), mean.end(), 0.0, [](double sum, const glm::dvec3& m) {
-        return sum + m.r + m.g + m.b;
-    }) / (3.0 * static_cast<double>(mean.size()));
+    const double brightness =
+        std::accumulate(mean.begin(), mean.end(), 0.0, [](double sum, const glm::dvec3& m) { return sum + m.r + m.g + m.b; }) /
+        (3.0 * static_cast<double>(mean.size()));
     SquaredErrors sums;
     for (std::size_t i = 0; i < mean.size(); ++i) {
         const glm::dvec3 distance = glm::dvec3(film.pixels[i].mean) - mean[i], square = distance * distance;
@@ -83,7 +84,7 @@ double errorBySamples()
 
 using Metric = double SquaredErrors::*;
 
-// True errors of films that differ in their seeds, and what each says of itself.
+// The true errors of films with different seeds, and the error that each film states.
 struct Spread {
     std::vector<SquaredErrors> errors;
     std::vector<ErrorEstimate> estimates;
@@ -96,7 +97,7 @@ struct Spread {
         }
         return sum / static_cast<double>(estimates.size());
     }
-    // Of mean the ratio of error to reported error.
+    // The mean ratio of the error to the error that is reported.
     std::vector<double> ratios(Metric metric) const
     {
         std::vector<double> ratios;
@@ -118,7 +119,7 @@ Spread spreadOf(const std::vector<Film>& films)
     return spread;
 }
 
-// By H30 the variance is .7 to 1.5 times what is said of it.
+// H30 demands that the variance is .7 to 1.5 times the reported one.
 void compareWithSamples(const Spread& spread)
 {
     const double meanReported = spread.meanReported(&SquaredErrors::mse), naive = errorBySamples();
@@ -131,7 +132,7 @@ void compareWithSamples(const Spread& spread)
     EXPECT_LT(variance / naive, 0.7);
 }
 
-// Of so many intervals of probability .95, five standard deviations below the mean.
+// Of `count` intervals of probability .95 at least so many must hold: five standard deviations below the mean.
 double leastCovered(double count) { return 0.95 * count - 5.0 * std::sqrt(0.95 * 0.05 * count); }
 
 bool holds(const Interval& interval, double error) { return error >= interval.low && error <= interval.high; }
@@ -139,7 +140,7 @@ bool holds(const Interval& interval, double error) { return error >= interval.lo
 TEST_P(ErrorEstimateTest, H30IsTheSpreadOfOtherSeeds)
 {
     RenderSettings settings = squareSettings(kSide, kSamples);
-    settings.sampler = GetParam();
+    settings.sampler = GetParam().value;
     const Spread spread = spreadOf(renderSeeds(glassRoom(), settings));
     double told = 0.0, covered = 0.0;
     for (std::size_t i = 0; i < kSeeds; ++i) {
@@ -150,18 +151,19 @@ TEST_P(ErrorEstimateTest, H30IsTheSpreadOfOtherSeeds)
     expectSampleMean("variance over reported variance", spread.ratios(&SquaredErrors::mse), 1.0, 200);
     std::printf("  the interval holds the error of %.0f of %.0f renders (%.0f more say that few pixels make it up)\n", covered, told,
                 kSeeds - told);
-    if (GetParam() == Sampler::Sobol) {  // of independent points' error the lamp's rim makes up most: few pixels
+    if (GetParam().value == Sampler::Sobol) {  // with independent points, the few pixels of the lamp's rim make up most of the error
         EXPECT_GE(told, kSeeds / 2) << "or there is little to test";
         compareWithSamples(spread);
     }
     EXPECT_GE(covered, leastCovered(told));
 }
 
-// A pixel that has met a caustic has a large variance and a large radiance: over its own square the error seems a fraction of what it is.
+// A pixel that has met a caustic has a large variance and a large radiance. Relative to its own square, its error seems a
+// fraction of the truth.
 TEST_P(ErrorEstimateTest, H30RelativeErrorsAreRelativeToTheTruth)
 {
     RenderSettings settings = squareSettings(kSide, kSamples);
-    settings.sampler = GetParam();
+    settings.sampler = GetParam().value;
     const std::vector<Film> films = renderSeeds(glassRoom(), settings);
     const Spread spread = spreadOf(films);
     double covered = 0.0, naive = 0.0, truth = 0.0;
@@ -179,8 +181,8 @@ TEST_P(ErrorEstimateTest, H30RelativeErrorsAreRelativeToTheTruth)
     EXPECT_LT(naive / truth, 0.5);
 }
 
-// Blocks of 32, 32 and 64: where a block's variance falls as n^-3/2 (edges) 1.086 times the variance is reported, by calculation. Were
-// the block of 64 taken for two that are independent, it would be 1.23 times.
+// Blocks of 32, 32 and 64: where a block's variance falls as n^-3/2 (edges), 1.086 times the variance is reported, by calculation. If the
+// block of 64 counted as two independent ones, it would be 1.23 times.
 TEST(ErrorEstimateBlocksTest, H30BlocksOfTwoSizes)
 {
     RenderSettings settings = squareSettings(64, 2 * kBlockSamples);
@@ -199,7 +201,9 @@ TEST(ErrorEstimateBlocksTest, H30BlocksOfTwoSizes)
     EXPECT_LE(mean - z * error, 1.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Samplers, ErrorEstimateTest, testing::Values(Sampler::Sobol, Sampler::Independent));
+INSTANTIATE_TEST_SUITE_P(Samplers, ErrorEstimateTest,
+                         testing::Values(test::Named{"sobol", Sampler::Sobol}, test::Named{"independent", Sampler::Independent}),
+                         test::nameOfParameter);
 
 }  // namespace
 }  // namespace glim

@@ -57,9 +57,8 @@ TEST_P(GoldenTest, AgreesWithTheLongRender)
     }
     const Picture golden = pictureOf(readExr(file), file);
     const ZTest test = zTest(pictureOf(renderFile(scene, kTestSamples, 2)), golden, 1e-4);
-    std::printf("%s: z of means %.2f %.2f %.2f (limit %.2f), worst block %.2f (limit %.2f), sees a bias of %.2e\n",
-                scene.c_str(), test.meanZ[0], test.meanZ[1], test.meanZ[2], test.meanLimit, test.worstZ, test.blockLimit,
-                test.detectableBias);
+    std::printf("%s: z of means %.2f %.2f %.2f (limit %.2f), worst block %.2f (limit %.2f), sees a bias of %.2e\n", scene.c_str(),
+                test.meanZ[0], test.meanZ[1], test.meanZ[2], test.meanLimit, test.worstZ, test.blockLimit, test.detectableBias);
     EXPECT_TRUE(test.meansAgree());
     if (GetParam().blocks) {
         EXPECT_TRUE(test.blocksAgree()) << "at (" << test.worstX << ", " << test.worstY << ")";
@@ -68,11 +67,10 @@ TEST_P(GoldenTest, AgreesWithTheLongRender)
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, GoldenTest,
-                         testing::Values(Golden{"cornell", true}, Golden{"cornell_spheres", true},
-                                         Golden{"cornell_mirror_glass", false}, Golden{"cornell_gems", false},
-                                         Golden{"light_point", true}, Golden{"light_spot", true},
-                                         Golden{"light_directional", true}, Golden{"many_lights", true},
-                                         Golden{"veach_mis", true}, Golden{"furnace", true}),
+                         testing::Values(Golden{"cornell", true}, Golden{"cornell_spheres", true}, Golden{"cornell_mirror_glass", false},
+                                         Golden{"cornell_gems", false}, Golden{"light_point", true}, Golden{"light_spot", true},
+                                         Golden{"light_directional", true}, Golden{"many_lights", true}, Golden{"veach_mis", true},
+                                         Golden{"furnace", true}),
                          [](const testing::TestParamInfo<Golden>& golden) { return std::string(golden.param.scene); });
 
 }  // namespace

@@ -1,10 +1,11 @@
-// Whole pictures of lights that touch, are tiny, or are a million; and of something small in something large.
+// Whole pictures with lights that touch walls, tiny lights, a million lights, and a small object in a large hall.
 #include "host/measure/z_test.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/irradiance_formulas.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/statistics.hpp"
+#include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +47,7 @@ RenderSettings oneBounce()
     return settings;
 }
 
-// `lift`: relative, what the height at which rays leave the floor may change.
+// `lift`: the relative change that is allowed for the height at which rays leave the floor.
 void expectFloor(const std::string& number, const std::string& name, const Scene& scene, double irradiance, double lift = 0.0)
 {
     const double truth = kAlbedo * irradiance / std::numbers::pi;
@@ -61,7 +62,7 @@ void expectFloor(const std::string& number, const std::string& name, const Scene
     }
 }
 
-// And what its formula says.
+// A scene, and the irradiance by the formula.
 std::pair<Scene, double> lampBelowTheCeiling(float gap)
 {
     SceneBuilder builder = floorScene();
@@ -79,8 +80,8 @@ TEST(HardLightTest, H10LightTouchingTheCeiling)
     }
 }
 
-// In one plane with the ceiling: rays meet either of them, as rounding has it, so that scattered rays miss a part of the light that the
-// weights trust them to find. Fails once they are told apart.
+// The lamp lies in one plane with the ceiling, and rounding decides which of the two a ray meets. So scattered rays miss a part
+// of the light that the MIS weights trust them to find. Fails once the two are told apart.
 TEST(HardLightKnownBug, H10LightInThePlaneOfTheCeiling)
 {
     const auto [scene, irradiance] = lampBelowTheCeiling(0.0F);
@@ -138,16 +139,28 @@ TEST(HardLightTest, H14AMillionEmitters)
     const auto corner = [](int i, int j) {
         return glm::vec3(static_cast<float>(i) / kColumns - 0.5F, 1.0F, static_cast<float>(j) / kRows - 0.5F);
     };
+    // Two triangles of each brightness, placed again and again: an instance is a light.
+    const auto firstMesh = static_cast<std::uint32_t>(scene.meshes.size());
+    const glm::vec3 a = corner(0, 0), b = corner(1, 0), c = corner(1, 1), d = corner(0, 1);
+    const Triangle halves[2] = {{{a, b, c}}, {{a, c, d}}};
+    for (std::uint32_t shade = 0; shade < kShades; ++shade) {
+        for (const Triangle& half : halves) {
+            addMesh(scene, {half}, firstShade + shade);
+            scene.instances.pop_back();
+        }
+    }
+    std::uint32_t count = 2;  // the floor has two triangles
     for (int i = 0; i < kColumns; ++i) {
         for (int j = 0; j < kRows; ++j) {
-            const glm::vec3 a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1), d = corner(i, j + 1);
-            for (const Triangle& triangle : {Triangle{{a, b, c}}, Triangle{{a, c, d}}}) {
-                const auto shade = static_cast<std::uint32_t>(scene.triangles.size() * 2654435761U >> 20) % kShades;
-                scene.primitives.push_back(
-                    {"", static_cast<std::uint32_t>(scene.triangles.size()), 1, firstShade + shade, false});
-                scene.triangles.push_back(triangle);
+            const glm::vec3 shift = corner(i, j) - a;
+            for (std::uint32_t half = 0; half < 2; ++half) {
+                const std::uint32_t shade = (count++ * 2654435761U >> 20) % kShades;
+                glm::dmat4 worldFromMesh(1.0);
+                worldFromMesh[3] = glm::dvec4(shift, 1.0);
+                scene.instances.push_back({"", firstMesh + 2 * shade + half, worldFromMesh});
+                const auto& v = halves[half].vertices;
                 irradiance += static_cast<double>(scene.materials[firstShade + shade].emission.g) *
-                              irradianceOf(std::span(triangle.vertices));
+                              irradianceOf(std::array{v[0] + shift, v[1] + shift, v[2] + shift});
             }
         }
     }
@@ -165,26 +178,26 @@ TEST(HardLightTest, H7TeapotInAStadium)
     };
     Scene ring = SceneBuilder().perspective({0.012F, 0.02F, 0.012F}, {0, 0, 0}, 0.7F).environment(glm::vec3(1.0F)).scene();
     ring.materials.push_back({"", Scattering::Lambert, glm::vec3(0.8F)});
+    Triangles triangles;
     for (int i = 0; i < kAround; ++i) {
         for (int j = 0; j < kAcross; ++j) {
             const glm::vec3 a = point(i, j), b = point(i, j + 1), c = point(i + 1, j + 1), d = point(i + 1, j);
-            ring.triangles.push_back({{a, b, c}});
-            ring.triangles.push_back({{a, c, d}});
+            triangles.push_back({{a, b, c}});
+            triangles.push_back({{a, c, d}});
         }
     }
-    const auto count = static_cast<std::uint32_t>(ring.triangles.size());
-    ring.primitives.push_back({"", 0, count, 0, false});
+    addMesh(ring, triangles);
     Scene hall = ring;
     hall.environment.reset();
     hall.materials.push_back({"", Scattering::Lambert, glm::vec3(0.0F), glm::vec3(1.0F)});
     const Scene walls = SceneBuilder().cube(500.0F, 1, true).scene();
-    hall.triangles.insert(hall.triangles.end(), walls.triangles.begin(), walls.triangles.end());
-    hall.primitives.push_back({"", count, 12, 1, false});
+    hall.meshes.push_back(walls.meshes[0]);
+    hall.instances.push_back({"", 1});
     RenderSettings settings = squareSettings(kSide, oneBounce().sampleEnd);
     settings.sampler = Sampler::Independent;
     const Film sky = renderScene(ring, settings);
     settings.seed = 1;
-    settings.direct = DirectLight::Bsdf;
+    settings.course.direct = DirectLight::Bsdf;
     const ZTest z = zTest(pictureOf(renderScene(hall, settings)), pictureOf(sky), 1e-3 / 200.0);
     printHardCase("H7", "a ring of 1 cm in a hall of 1 km", 1.0 * kSide * kSide * settings.sampleEnd,
                   "z of the mean " + figure(z.meanZ[1]) + ", worst block " + figure(z.worstZ) + " of " + figure(z.blockLimit));

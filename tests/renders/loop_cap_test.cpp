@@ -1,7 +1,8 @@
-// H42: a picture that the driver cut short is no picture.
+// H42: glim refuses a picture whose loops the driver cut short.
 #include "host/error.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "tests/support/build_scene.hpp"
+#include "tests/support/named.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/test_device.hpp"
 #include "tests/support/test_meshes.hpp"
@@ -11,7 +12,7 @@
 namespace glim {
 namespace {
 
-class LoopCapTest : public testing::TestWithParam<Schedule> {};
+class LoopCapTest : public testing::TestWithParam<test::Named<Schedule>> {};
 
 // A ray meets all of 100,000 coincident triangles, more than Mesa 22.3.6 allows a loop: the render is refused, or right.
 TEST_P(LoopCapTest, H42EndsTheRender)
@@ -20,11 +21,10 @@ TEST_P(LoopCapTest, H42EndsTheRender)
     builder.lambert(glm::vec3(0.5F));
     builder.environment(glm::vec3(1.0F)).perspective({0, 0, 3}, {0, 0, 0}, 0.05F);
     Scene scene = builder.scene();
-    scene.triangles = coincidentTriangles(100000);
-    scene.primitives = {{"", 0, 100000, 0, false}};
+    addMesh(scene, coincidentTriangles(100000));
     const FlatScene flat = flattened(scene);
     RenderSettings settings = squareSettings(4, 1);
-    settings.schedule = GetParam();
+    settings.schedule = GetParam().value;
     try {
         Renderer renderer(testDevice(), flat, flattenCamera(scene.cameras.front(), 1.0F), settings);
         const Film film = renderer.render([](const RenderProgress&) { return true; });
@@ -38,8 +38,9 @@ TEST_P(LoopCapTest, H42EndsTheRender)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Schedules, LoopCapTest, testing::Values(Schedule::Wavefront, Schedule::Persistent),
-                         [](const testing::TestParamInfo<Schedule>& schedule) { return std::string(nameOf(schedule.param)); });
+INSTANTIATE_TEST_SUITE_P(Schedules, LoopCapTest,
+                         testing::Values(test::Named{"wavefront", Schedule::Wavefront}, test::Named{"persistent", Schedule::Persistent}),
+                         test::nameOfParameter);
 
 }  // namespace
 }  // namespace glim

@@ -1,5 +1,5 @@
-// --adaptive neighbours: pixels get samples by the noise around them, the samples are those of a uniform render, and the picture is
-// neither darker nor noisier for it.
+// --adaptive neighbours: pixels get samples by the noise around them. The samples are those of a uniform render, and the picture is neither
+// darker nor noisier.
 #include "host/flatten/flatten_scene.hpp"
 #include "host/measure/error_estimate.hpp"
 #include "host/scene/load_gltf.hpp"
@@ -37,7 +37,7 @@ std::uint64_t samplesOf(const Film& film)
     return samples;
 }
 
-// A lamp low above a floor, that half of the picture sees; the other half sees nothing.
+// A lamp low above a floor, which half of the picture sees. The other half sees nothing.
 Scene halfEmptyScene()
 {
     SceneBuilder builder;
@@ -55,7 +55,7 @@ Film uniform(const Scene& scene, RenderSettings settings, std::uint32_t begin, s
     return renderScene(scene, settings);
 }
 
-// Float rounding: uniform renders fold pages of 256 samples, rounds what each of them has.
+// The same but for float rounding: uniform renders fold pages of 256 samples, rounds fold what each of them has.
 void expectSameButForRounding(const PixelMoments& pixel, const PixelMoments& expected)
 {
     EXPECT_EQ(pixel.count, expected.count);
@@ -66,7 +66,7 @@ void expectSameButForRounding(const PixelMoments& pixel, const PixelMoments& exp
     EXPECT_LE(std::abs(pixel.alpha - expected.alpha), 1e-6F);
 }
 
-// The first ones are the same for all pixels, the others begin where those can never end.
+// The first samples are the same for all pixels. The others begin at an index that the first ones never reach.
 TEST(NeighboursTest, EveryPixelHasTheSamplesOfUniformRenders)
 {
     const RenderSettings settings = neighbours(32, 300);
@@ -101,7 +101,7 @@ TEST(NeighboursTest, DoesNotDependOnHowTheWorkIsCut)
     const Film film = renderScene(mixedScene(), settings);
     settings.pathCapacity = 1000;
     settings.workgroup = 32;
-    settings.slabPixels = 300;
+    settings.tilePixels = 300;
     EXPECT_TRUE(sameBits(film, renderScene(mixedScene(), settings)));
     const Scene scene = mixedScene();
     Renderer renderer(testDevice(), flattened(scene), flattenCamera(scene.cameras.front(), 1.0F), settings);
@@ -199,7 +199,7 @@ TEST(NeighboursTest, AFilmOfAnUnfinishedRoundSaysSo)
     EXPECT_TRUE(sameBits(renderer.film(), whole));
 }
 
-// What the control has is the samples of a uniform render that the film has not, and they change nothing of what is reported.
+// The control has samples of a uniform render that the film does not have. They change nothing of what is reported.
 TEST(NeighboursTest, TheControlIsNewSamplesOfAFewPixels)
 {
     const Scene scene = mixedScene();
@@ -207,7 +207,7 @@ TEST(NeighboursTest, TheControlIsNewSamplesOfAFewPixels)
         RenderSettings settings = neighbours(40, 80);
         settings.adaptive = adaptive;
         settings.sampler = adaptive == Adaptive::Course ? Sampler::Independent : Sampler::Sobol;
-        settings.slabPixels = 700;
+        settings.tilePixels = 700;
         Renderer renderer(testDevice(), flattened(scene), flattenCamera(scene.cameras.front(), 1.0F), settings);
         const Film film = renderer.render([](const RenderProgress&) { return true; });
         const RenderStatistics before = renderer.statistics();
@@ -239,7 +239,7 @@ TEST(NeighboursTest, TheControlIsNewSamplesOfAFewPixels)
     }
 }
 
-// Where noise is uneven the same samples leave less of it.
+// Where noise is uneven, as many samples leave less of it.
 TEST(NeighboursTest, TheErrorIsLess)
 {
     RenderSettings settings = neighbours(32, 192);
@@ -272,7 +272,7 @@ TEST(NeighboursTest, H29IsNotDarker)
             other.adaptive = adaptive;
             if (isCourse(adaptive)) {
                 other.sampler = Sampler::Independent;
-                other.tolerance = 0.2F;
+                other.course.tolerance = 0.2F;
                 other.sampleEnd = 256;
             }
             const glm::dvec3 mean = meanOf(renderScene(scene, other)).mean;

@@ -1,5 +1,6 @@
 // --paths and --bounces: light by the surfaces it has met.
 #include "tests/support/build_scene.hpp"
+#include "tests/support/named.hpp"
 #include "tests/support/render_scene.hpp"
 
 #include <gtest/gtest.h>
@@ -17,19 +18,19 @@ Film render(PathParts paths, std::uint32_t bounces, DirectLight direct)
     RenderSettings settings = squareSettings(40, kSamples);
     settings.bounces = bounces;
     settings.paths = paths;
-    settings.direct = direct;
+    settings.course.direct = direct;
     return renderScene(mixedScene(), settings);
 }
 
-class PathPartsTest : public testing::TestWithParam<DirectLight> {};
+class PathPartsTest : public testing::TestWithParam<test::Named<DirectLight>> {};
 
 // Bit for bit where one part alone shines; elsewhere each of at most 2 kBounces + 1 additions of a sample, 32 of a block and 3 of
 // the fold rounds by 2^-24.
 TEST_P(PathPartsTest, AddUpToAll)
 {
-    const Film all = render(PathParts::All, kBounces, GetParam());
-    const Film parts[] = {render(PathParts::Emission, kBounces, GetParam()), render(PathParts::Direct, kBounces, GetParam()),
-                          render(PathParts::Indirect, kBounces, GetParam())};
+    const Film all = render(PathParts::All, kBounces, GetParam().value);
+    const Film parts[] = {render(PathParts::Emission, kBounces, GetParam().value), render(PathParts::Direct, kBounces, GetParam().value),
+                          render(PathParts::Indirect, kBounces, GetParam().value)};
     const double reach = 2.0 * (2 * kBounces + 1 + 32 + 3) * 0x1p-24;
     int alone = 0;
     double worst = 0.0;
@@ -51,7 +52,9 @@ TEST_P(PathPartsTest, AddUpToAll)
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, PathPartsTest,
-                         testing::Values(DirectLight::Mis, DirectLight::Lights, DirectLight::Hemisphere, DirectLight::Bsdf));
+                         testing::Values(test::Named{"mis", DirectLight::Mis}, test::Named{"lights", DirectLight::Lights},
+                                         test::Named{"hemisphere", DirectLight::Hemisphere}, test::Named{"bsdf", DirectLight::Bsdf}),
+                         test::nameOfParameter);
 
 TEST(PathPartsTest, AreWhatFewerBouncesGive)
 {

@@ -1,4 +1,4 @@
-// What the window shows and writes is what `glim render` gives.
+// The window shows and writes what `glim render` gives.
 #include "tests/support/preview_fixture.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ TEST_F(PreviewTest, ShowsAndWritesWhatARenderGives)
     EXPECT_EQ(countOthers(shown, rendered()), 0);
 }
 
-// Through a page's end, where the host takes the samples, and beyond.
+// Past the end of a page, where the host takes over the samples.
 TEST_F(PreviewTest, ShowsManySamples)
 {
     width = 24;
@@ -50,7 +50,7 @@ TEST_F(PreviewTest, TakesTheOptionsOfARender)
     }
 }
 
-// Wherever the camera was moved to, C prints the options of `glim render` that give the same bits.
+// Wherever the camera is, C prints the options with which `glim render` gives the same bits.
 TEST_F(PreviewTest, PrintsTheOptionsOfItsCamera)
 {
     const char* const kMoves[] = {
@@ -91,7 +91,7 @@ TEST_F(PreviewTest, ShowsTheFlight)
     EXPECT_GE(seen.pictures.size(), 20U) << "while the key is down";
 }
 
-// A hand that never rests: its mouse moves more often than pictures are made.
+// The mouse moves more often than pictures are made.
 TEST_F(PreviewTest, ShowsPicturesThroughALongDrag)
 {
     std::string script = std::string(kBare) + "0 samples 1\n0 key P\n";

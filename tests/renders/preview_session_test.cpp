@@ -42,17 +42,19 @@ TEST_F(PreviewTest, ViewsExposureAndClicks)
     EXPECT_NE(session.out.find("; 4 samples, mean ("), std::string::npos) << session.out;
 }
 
-// Through GLFW and X: a press of a key, a drag, a turn of the wheel are what the scripts' are. (No figures, or their seconds would
+// Through GLFW and X: real keys, drags and turns of the wheel do what the scripts' do. (No figures, or their seconds would
 // keep the pictures of two sessions apart.)
 TEST_F(PreviewTest, KeyboardAndMouseOfTheScreen)
 {
     GlimCall session = call("", {"--spp", "1"});
-    std::string command = "DISPLAY=" + screen.name() + " timeout 60 xdotool search --sync --onlyvisible --name '^glim: cornell_spheres.gltf$'";
-    command += " mousemove 48 36 click 1 key c"
-               " mousemove 30 30 mousedown 1 mousemove 60 40 mouseup 1 key c"
-               " mousemove 30 30 keydown Shift mousedown 1 mousemove 50 40 mouseup 1 keyup Shift key c"
-               " mousemove 30 30 mousedown 2 mousemove 10 20 mouseup 2 key c"
-               " click 4 key c click 5 key c keydown w sleep 0.3 keyup w key c key plus key minus key plus key p";
+    std::string command =
+        "DISPLAY=" + screen.name() + " timeout 60 xdotool search --sync --onlyvisible --name '^glim: cornell_spheres.gltf$'";
+    command +=
+        " mousemove 48 36 click 1 key c"
+        " mousemove 30 30 mousedown 1 mousemove 60 40 mouseup 1 key c"
+        " mousemove 30 30 keydown Shift mousedown 1 mousemove 50 40 mouseup 1 keyup Shift key c"
+        " mousemove 30 30 mousedown 2 mousemove 10 20 mouseup 2 key c"
+        " click 4 key c click 5 key c keydown w sleep 0.3 keyup w key c key plus key minus key plus key p";
     std::thread hand([&command] { EXPECT_EQ(std::system(command.c_str()), 0) << "is the package xdotool installed?"; });
     session.signalWhen = [&](const std::string& err) {
         return err.find("wrote") != std::string::npos && std::system(("DISPLAY=" + screen.name() + " xdotool key Escape").c_str()) == 0;
@@ -94,7 +96,7 @@ glm::dvec3 standsAt(const std::string& options)
 // The camera of the scene looks along -Z; half the scene's radius a second.
 TEST_F(PreviewTest, KeysFly)
 {
-    const std::vector<std::pair<char, glm::dvec3>> kWays{{'W', {0, 0, -1}}, {'S', {0, 0, 1}}, {'A', {-1, 0, 0}},
+    const std::vector<std::pair<char, glm::dvec3>> kWays{{'W', {0, 0, -1}}, {'S', {0, 0, 1}},  {'A', {-1, 0, 0}},
                                                          {'D', {1, 0, 0}},  {'Q', {0, -1, 0}}, {'E', {0, 1, 0}}};
     std::string script = "0 samples 1\n0 drag left 10,10 20,10\n0 drag left 20,10 10,10\n0 key C\n";
     for (const auto& [key, way] : kWays) {
@@ -126,8 +128,10 @@ TEST_F(PreviewTest, DigitsAreTheFilesCameras)
     document["scenes"][0]["nodes"].push_back(document["nodes"].size() - 1);
     scene = folder / "two.gltf";
     std::ofstream(scene) << document;
-    const GlimRun session = run("0 samples 2\n0 key 2\n0 samples 2\n0 key C\n0 key P\n0 key 1\n0 samples 2\n0 key P\n0 key 3\n"
-                                "0 key P\n0 close\n", {"--spp", "2"});
+    const GlimRun session =
+        run("0 samples 2\n0 key 2\n0 samples 2\n0 key C\n0 key P\n0 key 1\n0 samples 2\n0 key P\n0 key 3\n"
+            "0 key P\n0 close\n",
+            {"--spp", "2"});
     EXPECT_EQ(firstLine(session.out), "--camera 1 --size 96x72");
     EXPECT_TRUE(sameBits(film(1), render("--spp 2 --camera 1")));
     const Film first = render("--spp 2");
@@ -155,7 +159,7 @@ TEST_F(PreviewTest, PauseStopsSampling)
 {
     width = 24;
     height = 18;
-    const GlimRun session = run("0 samples 2\n0 key space\n0.1 key P\n0.5 key P\n0 key space\n0 samples 512\n0 key P\n0 close\n");
+    const GlimRun session = run("0 samples 2\n0 key space\n0.1 key P\n0.5 key P\n0 key space\n0 samples 8192\n0 key P\n0 close\n");
     EXPECT_TRUE(sameBits(film(1), film(2))) << session.err;
     EXPECT_GT(film(3).pixels[0].count, film(2).pixels[0].count);
 }
@@ -189,9 +193,12 @@ TEST_F(PreviewTest, ClosesWhileItLoads)
     run("0.05 key V\n0 drag left 1,1 30,30\n0 key P\n0 key C\n0 click 3,3\n0 close\n");
 }
 
-TEST_F(PreviewTest, EndsAfterItsFrames) { EXPECT_NE(run("", {"--frames", "20", "--spp", "1"}).err.find("glim: 20 frames"), std::string::npos); }
+TEST_F(PreviewTest, EndsAfterItsFrames)
+{
+    EXPECT_NE(run("", {"--frames", "20", "--spp", "1"}).err.find("glim: 20 frames"), std::string::npos);
+}
 
-// The session that tests/README.md measures: whatever the user does, a picture answers it.
+// The session that host/preview/README.md measures: whatever the user does, a picture answers it.
 TEST_F(PreviewTest, AnswersEveryInput)
 {
     width = 640;
@@ -201,7 +208,9 @@ TEST_F(PreviewTest, AnswersEveryInput)
     const std::size_t last = session.err.rfind("glim: ");
     ASSERT_NE(last, std::string::npos) << session.err;
     EXPECT_EQ(std::sscanf(session.err.c_str() + last, "glim: %d frames; %d inputs, each in a picture after %d ms (median), %d ms (99 %%)",
-                          &frames, &inputs, &median, &most), 4) << session.err;
+                          &frames, &inputs, &median, &most),
+              4)
+        << session.err;
     EXPECT_GE(inputs, 200);
     EXPECT_GT(median, 0);
     EXPECT_GE(most, median);

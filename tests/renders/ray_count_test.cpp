@@ -35,8 +35,8 @@ RenderStatistics countIn(const SceneBuilder& builder, RenderSettings settings)
     return renderer.statistics();
 }
 
-// Where lights are sampled at every hit, the ray after the last one would find what does not count; and light sampled at the first
-// hit is no indirect light.
+// Where lights are sampled at every hit, a ray after the last hit would find only light that does not count. With --paths
+// indirect, light sampled at the first hit does not count either.
 TEST(RayCountTest, LightSamplingNeedsNoLastRay)
 {
     SceneBuilder builder;
@@ -45,7 +45,7 @@ TEST(RayCountTest, LightSamplingNeedsNoLastRay)
     RenderSettings settings = squareSettings(16, 4);
     settings.bounces = 1;
     for (const DirectLight direct : {DirectLight::Lights, DirectLight::Hemisphere}) {
-        settings.direct = direct;
+        settings.course.direct = direct;
         const RenderStatistics counts = countIn(builder, settings);
         EXPECT_EQ(counts.cameraAndBounceRays, kSamples);
         EXPECT_GT(counts.shadowRays, kSamples / 4);
@@ -60,7 +60,7 @@ TEST(RayCountTest, BlackSurfacesNeedNoDirections)
     SceneBuilder builder;
     builder.cube(1.0F, builder.lambert(glm::vec3(0.0F), glm::vec3(1.0F)), true).perspective({0, 0, 0}, {0, 0, -1}, 1.0F);
     RenderSettings settings = squareSettings(16, 4);
-    settings.direct = DirectLight::Hemisphere;
+    settings.course.direct = DirectLight::Hemisphere;
     EXPECT_EQ(countIn(builder, settings).shadowRays, 0U);
 }
 

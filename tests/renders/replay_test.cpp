@@ -1,4 +1,4 @@
-// A path that is traced again, alone, has the bits that it had in the picture, and what is said of it adds up to them.
+// A path that is traced again, alone, has the bits that it had in the picture. The contributions that are printed add up to them.
 #include "host/bvh/build_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/render/replay.hpp"
@@ -41,8 +41,8 @@ PathRadiance sumOf(const ReplayedPath& path)
         sum.clamped += added.clamped;
     };
     for (const PathVertex& vertex : path.vertices) {
-        add(vertex.found);
-        for (const LightTry& each : vertex.tries) {
+        add(vertex.emitted);
+        for (const SampledLight& each : vertex.sampledLights) {
             add(each.added);
         }
     }
@@ -56,13 +56,13 @@ void expectConnected(const FlatScene& flat, const ReplayedPath& path)
     for (std::size_t i = 0; i < path.vertices.size(); ++i) {
         const PathVertex& vertex = path.vertices[i];
         EXPECT_EQ(vertex.bounce, i);
-        ASSERT_EQ(vertex.fate == PathFate::GoesOn, i + 1 < path.vertices.size());
-        if (vertex.fate == PathFate::GoesOn) {
+        ASSERT_EQ(vertex.end == PathEnd::Continues, i + 1 < path.vertices.size());
+        if (vertex.end == PathEnd::Continues) {
             const PathVertex& next = path.vertices[i + 1];
             EXPECT_EQ(next.before.throughput, vertex.after.throughput);
             EXPECT_EQ(next.before.pdf, vertex.after.pdf);
             EXPECT_EQ(next.ray.source, flat.records[std::size_t{vertex.hit.record} * kRecordTexels].w);
-            EXPECT_EQ(vertex.after.throughput, vertex.scattered.throughput / vertex.scattered.survival);
+            EXPECT_EQ(vertex.after.throughput, vertex.bsdf.throughput / vertex.bsdf.continuation);
         }
     }
 }
@@ -113,8 +113,11 @@ protected:
 
 TEST_F(ReplayTest, HasTheBitsOfTheSampleInEveryScene)
 {
-    for (const auto& [name, sample] : {std::pair("cornell_mirror_glass.gltf", 1003U), {"cornell_gems.gltf", 40U},
-                                       {"many_lights.gltf", 0U}, {"veach_mis.gltf", 7U}, {"light_spot.gltf", 2U}}) {
+    for (const auto& [name, sample] : {std::pair("cornell_mirror_glass.gltf", 1003U),
+                                       {"cornell_gems.gltf", 40U},
+                                       {"many_lights.gltf", 0U},
+                                       {"veach_mis.gltf", 7U},
+                                       {"light_spot.gltf", 2U}}) {
         SCOPED_TRACE(name);
         load(name);
         expectReplays(smallSettings(sample, sample + 1), 12);
@@ -128,13 +131,13 @@ TEST_F(ReplayTest, HasThemHoweverLightIsFound)
     for (const DirectLight direct : {DirectLight::Lights, DirectLight::Hemisphere, DirectLight::Bsdf}) {
         SCOPED_TRACE(static_cast<int>(direct));
         RenderSettings settings = smallSettings(3, 4);
-        settings.direct = direct;
-        settings.lightSamples = direct == DirectLight::Bsdf ? 1 : 3;
+        settings.course.direct = direct;
+        settings.course.lightSamples = direct == DirectLight::Bsdf ? 1 : 3;
         expectReplays(settings, 4);
     }
     RenderSettings settings = smallSettings(40, 41);
-    settings.accelerator = Accelerator::None;
-    settings.roulette = Roulette::Fixed;
+    settings.course.accelerator = Accelerator::None;
+    settings.course.roulette = Roulette::Fixed;
     settings.sampler = Sampler::Independent;
     settings.clampIndirect = 0.1F;
     expectReplays(settings, 4);
@@ -144,8 +147,8 @@ TEST_F(ReplayTest, HasThemHoweverLightIsFound)
 }
 
 struct Tally {
-    int found = 0, shadowed = 0, lit = 0;
-    std::map<PathFate, int> fates;
+    int emitted = 0, shadowed = 0, lit = 0;
+    std::map<PathEnd, int> ends;
 };
 
 double power(float f, float g)
@@ -157,21 +160,21 @@ double power(float f, float g)
 // By the vertex's own numbers: MIS weights are those of the power heuristic, the point is on the ray, and light counts as it came.
 void checkVertex(const PathVertex& vertex, std::size_t lights, Tally& tally)
 {
-    ++tally.fates[vertex.fate];
-    if (vertex.met.foundPdf > 0.0F) {
-        EXPECT_NEAR(static_cast<double>(vertex.met.foundWeight), power(vertex.before.pdf, vertex.met.foundPdf), 1e-6);
-        ++tally.found;
+    ++tally.ends[vertex.end];
+    if (vertex.surface.lightPdfOfHit > 0.0F) {
+        EXPECT_NEAR(static_cast<double>(vertex.surface.misWeightOfHit), power(vertex.before.pdf, vertex.surface.lightPdfOfHit), 1e-6);
+        ++tally.emitted;
     }
     if (vertex.hit.record != kNoRecord) {
         const vec3 there = vertex.ray.origin + vertex.hit.t * vertex.ray.direction;
-        EXPECT_LT(glm::distance(vertex.met.point, there), 1e-5F * (1.0F + glm::length(there) + vertex.hit.t));
-        EXPECT_NEAR(glm::length(vertex.met.geometric), 1.0F, 1e-6F);
-        EXPECT_LE(glm::dot(vertex.met.geometric, vertex.ray.direction), 0.0F);
+        EXPECT_LT(glm::distance(vertex.surface.point, there), 1e-5F * (1.0F + glm::length(there) + vertex.hit.t));
+        EXPECT_NEAR(glm::length(vertex.surface.ng), 1.0F, 1e-6F);
+        EXPECT_LE(glm::dot(vertex.surface.ng, vertex.ray.direction), 0.0F);
     }
-    for (const LightTry& each : vertex.tries) {
-        if (each.asked) {
+    for (const SampledLight& each : vertex.sampledLights) {
+        if (each.hasShadowRay) {
             ASSERT_LT(each.note.light, lights);
-            EXPECT_NEAR(static_cast<double>(each.note.lightWeight), power(each.note.lightPdf, each.note.scatterPdf), 1e-6);
+            EXPECT_NEAR(static_cast<double>(each.note.misWeightOfLight), power(each.note.lightPdf, each.note.bsdfPdf), 1e-6);
             const bool shadowed = each.added.radiance == vec3(0.0F);
             EXPECT_TRUE(shadowed || each.added.radiance == each.ray.contribution);
             ++(shadowed ? tally.shadowed : tally.lit);
@@ -191,12 +194,12 @@ TEST_F(ReplayTest, SaysWhatTheEstimatorIsMadeOf)
             }
         }
     }
-    std::printf("%d lights found, %d sampled in the light, %d in the shadow\n", tally.found, tally.lit, tally.shadowed);
-    EXPECT_GT(tally.found, 50);
+    std::printf("%d lights hit, %d sampled and unoccluded, %d occluded\n", tally.emitted, tally.lit, tally.shadowed);
+    EXPECT_GT(tally.emitted, 50);
     EXPECT_GT(tally.lit, 50);
     EXPECT_GT(tally.shadowed, 5);
-    EXPECT_GT(tally.fates[PathFate::Missed], 5);
-    EXPECT_GT(tally.fates[PathFate::Roulette], 5);
+    EXPECT_GT(tally.ends[PathEnd::Missed], 5);
+    EXPECT_GT(tally.ends[PathEnd::Roulette], 5);
 }
 
 struct Best {
@@ -257,8 +260,8 @@ TEST_F(ReplayTest, SuspectsAreTheBrightestSamples)
         settings.sampler = Sampler::Independent;
         settings.suspects = 30;
         settings.adaptive = adaptive;
-        settings.tolerance = 0.5F;
-        settings.batch = 4;
+        settings.course.tolerance = 0.5F;
+        settings.course.batch = 4;
         Renderer renderer(testDevice(), flat_, camera_, settings);
         const Film film = renderer.render([](const RenderProgress&) { return true; });
         expectSuspects(findSuspects(renderer, film), findBest(film, singles), film);

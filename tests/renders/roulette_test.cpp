@@ -21,10 +21,10 @@ Film render(double albedo, Roulette roulette, std::uint32_t bounces, std::uint32
         .perspective({0.3F, 0.2F, 0.6F}, {-1, -0.5F, -1}, 1.0F);
     RenderSettings settings = squareSettings(side, spp);
     settings.sampler = Sampler::Independent;
-    settings.direct = DirectLight::Bsdf;
+    settings.course.direct = DirectLight::Bsdf;
     settings.bounces = bounces;
-    settings.roulette = roulette;
-    settings.survival = static_cast<float>(kSurvival);
+    settings.course.roulette = roulette;
+    settings.course.survival = static_cast<float>(kSurvival);
     return renderScene(builder.scene(), settings);
 }
 
@@ -60,9 +60,8 @@ TEST(RoulettePictureTest, AllHaveTheSameMeanWhereTheVarianceExists)
             // The fixed roulette's estimate of its own error is too noisy: the formula gives the error.
             const double error = roulette == Roulette::Fixed ? std::sqrt(variance(a, 200) / samples) : mean.standardError.g;
             EXPECT_NEAR(mean.mean.g, truth(a, 200), z * error);
-            std::printf("albedo %.1f, %s: relative error %.1e +- %.1e\n", a,
-                        roulette == Roulette::Fixed ? "fixed:0.7" : "throughput", mean.mean.g / truth(a, 200) - 1.0,
-                        error / truth(a, 200));
+            std::printf("albedo %.1f, %s: relative error %.1e +- %.1e\n", a, roulette == Roulette::Fixed ? "fixed:0.7" : "throughput",
+                        mean.mean.g / truth(a, 200) - 1.0, error / truth(a, 200));
         }
     }
 }
@@ -78,17 +77,18 @@ TEST(RoulettePictureTest, FixedHasInfiniteVarianceAboveItsLimit)
             sum += static_cast<double>(varianceOfMean(pixel).g) * kSamples;
         }
         const double measured = sum / static_cast<double>(film.pixels.size()), expected = variance(a, bounces);
-        // Of a variance from n samples in blocks: fourth central moment / n + variance^2 * (2 / blocks).
+        // Squared error of a variance from n samples in blocks: fourth central moment / n + variance^2 * (2 / blocks).
         const double mean = moment(a, bounces, 1);
-        const double fourth = moment(a, bounces, 4) - 4 * mean * moment(a, bounces, 3) +
-                              6 * mean * mean * moment(a, bounces, 2) - 3 * std::pow(mean, 4);
+        const double fourth =
+            moment(a, bounces, 4) - 4 * mean * moment(a, bounces, 3) + 6 * mean * mean * moment(a, bounces, 2) - 3 * std::pow(mean, 4);
         const double n = 64.0 * 64.0 * kSamples;
         const double error = std::sqrt((fourth - expected * expected) / n + expected * expected * 2.0 * kBlockSamples / n);
         EXPECT_NEAR(measured, expected, 5.0 * error) << "albedo " << a;
-        std::printf("albedo %.1f: variance of a sample after %u bounces %.4g, formula %.4g +- %.2g; after 100 %.4g, "
-                    "after 200 %.4g\n",
-                    a, bounces, measured, expected, error, variance(a, 100), variance(a, 200));
-        // That formula's own limit.
+        std::printf(
+            "albedo %.1f: variance of a sample after %u bounces %.4g, formula %.4g +- %.2g; after 100 %.4g, "
+            "after 200 %.4g\n",
+            a, bounces, measured, expected, error, variance(a, 100), variance(a, 200));
+        // The limit of the formula itself.
         const double growth = variance(a, 200) / variance(a, 100);
         EXPECT_EQ(growth < 1.001, a * a < kSurvival);
         EXPECT_EQ(growth > 1e5, a * a > kSurvival);
@@ -101,8 +101,8 @@ TEST(RoulettePictureTest, FixedHasInfiniteVarianceAboveItsLimit)
 TEST(RoulettePictureTest, H24H25AlbedoOf99)
 {
     constexpr double kAlbedo = 0.99, kDeviation = 99.5;
-    constexpr std::uint32_t kSide = 16, kBounces = 3000;  // beyond which is 8e-14 of the light
-    constexpr std::size_t kRays = 100;  // of a path
+    constexpr std::uint32_t kSide = 16, kBounces = 3000;  // 8e-14 of the light is beyond them
+    constexpr std::size_t kRays = 100;                    // of a path
     const auto spp = static_cast<std::uint32_t>(hardTrials(kSide * kSide * samplesFor(64, 16), kRays) / (kSide * kSide));
     const double paths = 1.0 * kSide * kSide * spp, z = scoreLimit(200);
     const MeanEstimate ours = meanOf(render(kAlbedo, Roulette::Throughput, kBounces, spp, kSide));
@@ -113,8 +113,8 @@ TEST(RoulettePictureTest, H24H25AlbedoOf99)
                   "fixed:0.7: mean " + figure(fixed.mean.g));
     EXPECT_NEAR(ours.mean.g, 100.0, z * error);
     EXPECT_GT(std::abs(fixed.mean.g - 100.0), z * error);
-    // Of an exponential's variance from n values: (kurtosis 9 - 1) / n, and 2 / (blocks - pixels) for what is within blocks, of
-    // which each pixel has one more than whole ones, since the first is two halves.
+    // Squared error of an exponential's variance from n values: (kurtosis 9 - 1) / n, and 2 / (blocks - pixels) for the variance within
+    // blocks. Each pixel has one block more than whole ones, since the first is two halves.
     const double spread = std::sqrt(8.0 / paths + 2.0 * kBlockSamples / paths);
     EXPECT_NEAR(deviation * deviation / (kDeviation * kDeviation), 1.0, 0.05 + z * spread);
 }

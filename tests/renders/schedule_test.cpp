@@ -1,4 +1,4 @@
-// The persistent schedule gives the bits and the rays of the wavefront, whatever a render is asked for, or refuses.
+// Whatever a render is asked for, the persistent schedule gives the bits and the rays of the wavefront, or refuses.
 #include "host/error.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/render/replay.hpp"
@@ -66,58 +66,74 @@ TEST_P(ScheduleTest, ChangesNoBit)
 const Variant kVariants[] = {
     {"Plain", [](RenderSettings&) {}},
     {"Independent", [](RenderSettings& s) { s.sampler = Sampler::Independent; }},
-    {"MollerTrumbore", [](RenderSettings& s) { s.intersector = Intersector::MollerTrumbore; }},
-    {"Bsdf", [](RenderSettings& s) { s.direct = DirectLight::Bsdf; }},
     {"Lens", [](RenderSettings&) {}, {0.1F, 4.0F}},
     {"Clamp", [](RenderSettings& s) { s.clampIndirect = 0.5F; }},
     {"NoBounces", [](RenderSettings& s) { s.bounces = 0; }},
     {"OneBounce", [](RenderSettings& s) { s.bounces = 1; }},
-    {"FixedRoulette", [](RenderSettings& s) { s.roulette = Roulette::Fixed; }},
-    {"NoRoulette", [](RenderSettings& s) { s.roulette = Roulette::None; s.bounces = 20; }},
     {"Emission", [](RenderSettings& s) { s.paths = PathParts::Emission; }},
     {"Direct", [](RenderSettings& s) { s.paths = PathParts::Direct; }},
     {"Indirect", [](RenderSettings& s) { s.paths = PathParts::Indirect; }},
-    {"Normals", [](RenderSettings& s) { s.view = View::Normal; s.bounces = 0; }},
-    {"Steps", [](RenderSettings& s) { s.view = View::BvhSteps; s.bounces = 0; }},
+    {"Normals",
+     [](RenderSettings& s) {
+         s.aov = Aov::Normal;
+         s.bounces = 0;
+     }},
+    {"Steps",
+     [](RenderSettings& s) {
+         s.aov = Aov::BvhSteps;
+         s.bounces = 0;
+     }},
     {"Suspects", [](RenderSettings& s) { s.suspects = 3; }},
-    {"Course", [](RenderSettings& s) { s.adaptive = Adaptive::Course; s.sampler = Sampler::Independent; s.sampleEnd = 128; }},
-    {"Neighbours", [](RenderSettings& s) { s.adaptive = Adaptive::Neighbours; s.sampleEnd = 160; }},
-    {"LaterSamples", [](RenderSettings& s) { s.sampleBegin = 70; s.sampleEnd = 141; s.seed = 7; }},
+    {"Course",
+     [](RenderSettings& s) {
+         s.adaptive = Adaptive::Course;
+         s.sampler = Sampler::Independent;
+         s.sampleEnd = 128;
+     }},
+    {"Neighbours",
+     [](RenderSettings& s) {
+         s.adaptive = Adaptive::Neighbours;
+         s.sampleEnd = 160;
+     }},
+    {"LaterSamples",
+     [](RenderSettings& s) {
+         s.sampleBegin = 70;
+         s.sampleEnd = 141;
+         s.seed = 7;
+     }},
     {"SmallGroups", [](RenderSettings& s) { s.workgroup = 32; }},
     {"LargeGroups", [](RenderSettings& s) { s.workgroup = 128; }},
     {"FewPathsAtOnce", [](RenderSettings& s) { s.pathCapacity = 1U << 8; }},
     {"OddPathsAtOnce", [](RenderSettings& s) { s.pathCapacity = 3001; }},
-    {"Slabs", [](RenderSettings& s) { s.slabPixels = 300; }},
+    {"Tiles", [](RenderSettings& s) { s.tilePixels = 300; }},
 };
 
 INSTANTIATE_TEST_SUITE_P(Settings, ScheduleTest, testing::ValuesIn(kVariants),
                          [](const testing::TestParamInfo<Variant>& variant) { return std::string(variant.param.name); });
 
-FlatScene closedBox(SceneBuilder& builder)
+FlatScene closedBox(SceneBuilder& builder, float albedo)
 {
-    builder.cube(1.0F, builder.lambert(glm::vec3(0.9F), glm::vec3(1.0F)), true).perspective({0, 0, 0.5F}, {0, 0, 0}, 1.0F);
+    builder.cube(1.0F, builder.lambert(glm::vec3(albedo), glm::vec3(1.0F)), true).perspective({0, 0, 0.5F}, {0, 0, 0}, 1.0F);
     return flattened(builder.scene());
 }
 
 TEST(PersistentTest, FeaturesThatTheSceneDoesNotNeed)
 {
     SceneBuilder builder;
-    FlatScene flat = closedBox(builder);
+    FlatScene flat = closedBox(builder, 0.9F);
     const FlatCamera camera = flattenCamera(builder.scene().cameras.front(), 1.0F);
     const Film lean = expectSame(flat, camera, squareSettings(16, 16)).film;
-    flat.features.spheres = flat.features.mirrors = flat.features.glasses = true;
-    flat.features.sphereLights = flat.features.punctualLights = true;
+    flat.features |= kFeatureSpheres | kFeatureMirror | kFeatureGlass | kFeatureSphereLights | kFeaturePunctualLights;
     EXPECT_TRUE(sameBits(lean, expectSame(flat, camera, squareSettings(16, 16)).film));
 }
 
-// Nothing ends these paths: each takes more steps than a dispatch may.
+// Roulette spares white paths, so that nothing ends these: each takes more steps than a dispatch may.
 TEST(PersistentTest, LongPathsTakeSeveralDispatches)
 {
     SceneBuilder builder;
-    const FlatScene flat = closedBox(builder);
+    const FlatScene flat = closedBox(builder, 1.0F);
     RenderSettings settings = squareSettings(9, 2);
     settings.bounces = 1500;
-    settings.roulette = Roulette::None;
     const RenderStatistics statistics = expectSame(flat, flattenCamera(builder.scene().cameras.front(), 1.0F), settings).statistics;
     EXPECT_GT(statistics.kernels.at("trace_paths").dispatches, 2 * statistics.kernels.at("accumulate").dispatches);
 }
@@ -156,21 +172,26 @@ TEST(ScheduleChoiceTest, AutoIsTheFasterOneWhereThatCan)
     other.software = false;
     RenderSettings settings;
     settings.schedule = Schedule::Auto;
-    EXPECT_EQ(chooseSchedule(settings, 1, software), Schedule::Persistent);
-    EXPECT_EQ(chooseSchedule(settings, 1, other), Schedule::Wavefront);
-    EXPECT_EQ(chooseSchedule(settings, 2, software), Schedule::Wavefront);
-    settings.accelerator = Accelerator::None;
-    EXPECT_EQ(chooseSchedule(settings, 1, software), Schedule::Wavefront);
+    EXPECT_EQ(chooseSchedule(settings, software), Schedule::Persistent);
+    EXPECT_EQ(chooseSchedule(settings, other), Schedule::Wavefront);
+    for (const auto& ofCourse : {std::function([](RenderSettings& s) { s.course.accelerator = Accelerator::None; }),
+                                 std::function([](RenderSettings& s) { s.course.intersector = Intersector::MollerTrumbore; }),
+                                 std::function([](RenderSettings& s) { s.course.direct = DirectLight::Bsdf; }),
+                                 std::function([](RenderSettings& s) { s.course.roulette = Roulette::None; })}) {
+        RenderSettings course = settings;
+        course.fastest = Schedule::Persistent;
+        ofCourse(course);
+        EXPECT_EQ(chooseSchedule(course, software), Schedule::Wavefront);
+    }
     settings = {};
     settings.fastest = Schedule::Wavefront;
-    EXPECT_EQ(chooseSchedule(settings, 1, software), Schedule::Wavefront);
+    EXPECT_EQ(chooseSchedule(settings, software), Schedule::Wavefront);
     settings.fastest = Schedule::Persistent;
-    EXPECT_EQ(chooseSchedule(settings, 1, other), Schedule::Persistent);
-    EXPECT_EQ(chooseSchedule(settings, 2, other), Schedule::Wavefront);
+    EXPECT_EQ(chooseSchedule(settings, other), Schedule::Persistent);
     for (const Schedule asked : {Schedule::Wavefront, Schedule::Persistent}) {
         settings.schedule = asked;
-        EXPECT_EQ(chooseSchedule(settings, 1, software), asked);
-        EXPECT_EQ(chooseSchedule(settings, 1, other), asked);
+        EXPECT_EQ(chooseSchedule(settings, software), asked);
+        EXPECT_EQ(chooseSchedule(settings, other), asked);
     }
 }
 
@@ -179,14 +200,13 @@ TEST(PersistentTest, RefusesWhatOneKernelDoesNot)
     const Scene scene = mixedScene();
     const FlatScene flat = flattened(scene);
     const FlatCamera camera = flattenCamera(scene.cameras.front(), 1.0F);
-    RenderSettings settings = squareSettings(4, 1);
-    settings.accelerator = Accelerator::None;
-    expectRefusal(flat, camera, settings, "--accelerator none");
-    settings.accelerator = Accelerator::Bvh;
-    settings.direct = DirectLight::Lights;
-    expectRefusal(flat, camera, settings, "ask for 4 rounds");
-    settings.direct = DirectLight::Hemisphere;
-    expectRefusal(flat, camera, settings, "ask for 2 rounds");
+    for (const auto& ofCourse : {std::function([](RenderSettings& s) { s.course.accelerator = Accelerator::None; }),
+                                 std::function([](RenderSettings& s) { s.course.direct = DirectLight::Lights; }),
+                                 std::function([](RenderSettings& s) { s.course.roulette = Roulette::Fixed; })}) {
+        RenderSettings settings = squareSettings(4, 1);
+        ofCourse(settings);
+        expectRefusal(flat, camera, settings, "the course's estimators");
+    }
 }
 
 }  // namespace

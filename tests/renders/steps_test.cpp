@@ -1,4 +1,4 @@
-// A render in steps, from one camera after the other, gives the films of whole renders; and a window shows them as files do.
+// A render in steps, from one camera after the other, gives the films of whole renders. A window shows them as files do.
 #include "host/flatten/flatten_scene.hpp"
 #include "host/render/display.hpp"
 #include "shaders/shared/bindings.h"
@@ -73,12 +73,12 @@ TEST_F(StepsTest, OtherCamerasBeginAgain)
     }
 }
 
-// A pass that is given up leaves nothing behind, in the film or in the queues.
+// A pass that is abandoned leaves nothing behind, neither in the film nor in the queues.
 TEST_F(StepsTest, PassesThatAreGivenUpAreTracedAgain)
 {
     settings.sampleEnd = 8;
-    settings.direct = DirectLight::Lights;
-    settings.lightSamples = 32;
+    settings.course.direct = DirectLight::Lights;
+    settings.course.lightSamples = 32;
     Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
     int calls = 0, given = 0;
     while (!renderer.isDone()) {
@@ -94,7 +94,7 @@ TEST_F(StepsTest, AdaptiveFilmsToo)
     settings.adaptive = Adaptive::Course;
     settings.sampler = Sampler::Independent;
     settings.sampleEnd = 300;
-    settings.tolerance = 0.2F;
+    settings.course.tolerance = 0.2F;
     Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
     while (renderer.advance()) {
         renderer.film();
@@ -160,27 +160,27 @@ TEST_F(StepsTest, AWindowShowsWhatFilesHold)
         RenderSettings one = settings;
         one.sampleEnd = samples;
         Renderer light(testDevice(), flat, cameraOf(scene, one), one);
-        one.view = View::BvhSteps;
+        one.aov = Aov::BvhSteps;
         one.bounces = 0;
         Renderer steps(testDevice(), flat, cameraOf(scene, one), one);
         while (light.advance() || steps.advance()) {
         }
-        for (const Look look : {Look::Radiance, Look::Normal, Look::Depth, Look::Albedo, Look::Rate, Look::Steps}) {
-            Renderer& renderer = look == Look::Steps ? steps : light;
+        for (const Aov aov : {Aov::Radiance, Aov::Normal, Aov::Depth, Aov::Albedo, Aov::SampleCount, Aov::BvhSteps}) {
+            Renderer& renderer = aov == Aov::BvhSteps ? steps : light;
             const Film film = renderer.film();
-            const LookRange range = computeRange(film, look);
-            display.draw(renderer, look, range, 0.5);
+            const DisplayRange range = computeRange(film, aov);
+            display.draw(renderer, aov, range, 0.5);
             display.cover({});
             std::vector<Rgb8> expected;
             for (const PixelMoments& pixel : film.pixels) {
-                expected.push_back(lookAt(pixel, look, range, 0.5));
+                expected.push_back(displayColor(pixel, aov, range, 0.5));
             }
-            EXPECT_LE(largestDifference(shownBy(display), expected), 1) << "look " << static_cast<int>(look) << ", " << samples;
+            EXPECT_LE(largestDifference(shownBy(display), expected), 1) << "aov " << static_cast<int>(aov) << ", " << samples;
         }
     }
 }
 
-// What has no sample yet keeps what was there: nothing flashes black.
+// A pixel without a sample keeps what it showed before: nothing flashes black.
 TEST_F(StepsTest, AWindowKeepsTheCoarsePictureUnderTheFine)
 {
     Display display(testDevice());
@@ -190,7 +190,7 @@ TEST_F(StepsTest, AWindowKeepsTheCoarsePictureUnderTheFine)
     Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
     renderer.restart(cameraOf(scene, settings), 3, 3);
     renderer.advance();
-    display.draw(renderer, Look::Albedo, {}, 0.0);
+    display.draw(renderer, Aov::Albedo, {}, 0.0);
     display.cover({});
     const std::vector<Rgb8> coarse = shownBy(display);
     for (std::size_t i = 0; i < coarse.size(); ++i) {
@@ -199,12 +199,12 @@ TEST_F(StepsTest, AWindowKeepsTheCoarsePictureUnderTheFine)
     renderer.restart(cameraOf(scene, settings), 24, 24);
     renderer.advance();
     ASSERT_EQ(renderer.pictureSamples(), 64U);
-    display.draw(renderer, Look::Albedo, {}, 0.0);
+    display.draw(renderer, Aov::Albedo, {}, 0.0);
     display.cover({});
     const std::vector<Rgb8> mixed = shownBy(display);
     const Film film = renderer.film();
     for (std::size_t i = 0; i < mixed.size(); ++i) {
-        EXPECT_EQ(mixed[i], i < 64 ? lookAt(film.pixels[i], Look::Albedo, {}, 0.0) : coarse[i]) << i;
+        EXPECT_EQ(mixed[i], i < 64 ? displayColor(film.pixels[i], Aov::Albedo, {}, 0.0) : coarse[i]) << i;
     }
 }
 
@@ -215,7 +215,7 @@ TEST_F(StepsTest, TextLiesOverThePicture)
     settings.sampleEnd = 1;
     Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
     renderer.advance();
-    display.draw(renderer, Look::Radiance, {}, 0.0);
+    display.draw(renderer, Aov::Radiance, {}, 0.0);
     display.cover({});
     const std::vector<Rgb8> plain = shownBy(display);
     display.cover({2, 3, {255U | 255U << 8, 0U | 255U << 8, 0U, 255U | 255U << 8, 0U | 128U << 8, 255U}});

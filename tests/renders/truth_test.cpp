@@ -1,4 +1,4 @@
-// Whole pictures whose answer is known on paper. The T-numbers are those of tests/README.md.
+// Whole pictures whose answer is known on paper. The T-numbers are those of tests/MEASUREMENTS.md.
 #include "tests/support/build_scene.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/test_meshes.hpp"
@@ -29,7 +29,7 @@ SceneBuilder floorScene()
     return builder;
 }
 
-// One bounce: what the floor sends on of irradiance E.
+// One bounce: the radiance that the floor reflects of irradiance E.
 glm::dvec3 reflected(const glm::dvec3& irradiance) { return glm::dvec3(kRho) * irradiance / kPi; }
 
 RenderSettings direct(std::uint32_t spp)
@@ -63,8 +63,8 @@ TEST_P(FurnaceTest, H25T2T3ClosedRoom)
         RenderSettings settings = squareSettings(96, samplesFor(64));
         settings.bounces = bounces;
         const double truth = (1.0 - std::pow(a, bounces + 1.0)) / (1.0 - a);
-        expectMean("T2/T3 albedo " + std::to_string(a) + ", bounces " + std::to_string(bounces),
-                   renderScene(builder.scene(), settings), truth * glm::dvec3(1.0, 2.0, 0.5));
+        expectMean("T2/T3 albedo " + std::to_string(a) + ", bounces " + std::to_string(bounces), renderScene(builder.scene(), settings),
+                   truth * glm::dvec3(1.0, 2.0, 0.5));
     }
 }
 
@@ -89,11 +89,7 @@ TEST(TruthTest, H23SmoothGlassUnderAConstantSkyVanishes)
     builder.glass(1.5F);
     builder.environment(glm::vec3(1.0F)).perspective({0, 0, 5}, {0, 0, 0}, 0.4F);  // silhouettes too
     Scene scene = builder.scene();
-    scene.triangles = icosphere(1);
-    scene.primitives = {{"", 0, static_cast<std::uint32_t>(scene.triangles.size()), 0, true}};
-    for (const Triangle& triangle : scene.triangles) {
-        scene.normals.push_back({triangle.vertices[0], triangle.vertices[1], triangle.vertices[2]});
-    }
+    addMesh(scene, icosphere(1), 0, verticesOf(icosphere(1)));
     RenderSettings settings = squareSettings(48, samplesFor(64));
     settings.bounces = 1000;
     expectEverywhere(renderScene(scene, settings), glm::dvec3(1.0), 8);
@@ -129,15 +125,14 @@ glm::dvec3 sphereIrradiance(double r, double d, double c, const glm::dvec3& radi
         return kPi * radiance * (r / d) * (r / d) * c;
     }
     const double s = std::sqrt(1.0 - c * c), x = std::sqrt(h * h - 1.0), y = -x * c / s;
-    return radiance * ((c * std::acos(y) - x * s * std::sqrt(1.0 - y * y)) / (h * h) +
-                       std::atan(s * std::sqrt(1.0 - y * y) / x));
+    return radiance * ((c * std::acos(y) - x * s * std::sqrt(1.0 - y * y)) / (h * h) + std::atan(s * std::sqrt(1.0 - y * y) / x));
 }
 
 TEST(TruthTest, T10SphereLight)
 {
     const glm::vec3 radiance(6, 4, 2);
-    for (const auto& [center, radius] : {std::pair{glm::vec3(0.6F, 1.5F, -0.4F), 0.5F}, {glm::vec3(2.0F, 0.2F, 0.5F), 0.5F},
-                                         {glm::vec3(-0.3F, 3.0F, 1.0F), 0.001F}}) {
+    for (const auto& [center, radius] :
+         {std::pair{glm::vec3(0.6F, 1.5F, -0.4F), 0.5F}, {glm::vec3(2.0F, 0.2F, 0.5F), 0.5F}, {glm::vec3(-0.3F, 3.0F, 1.0F), 0.001F}}) {
         SceneBuilder builder;
         // No floor but a small patch, so that it does not hide the part of the light below the horizon from itself.
         const auto patch = builder.lambert(kRho);
@@ -146,8 +141,7 @@ TEST(TruthTest, T10SphereLight)
         builder.sphere(center, radius, builder.lambert(glm::vec3(0.0F), radiance));
         const double d = glm::length(glm::dvec3(center));
         const double c = static_cast<double>(center.y) / d;
-        expectMean("T10 sphere light, r/d " + std::to_string(static_cast<double>(radius) / d),
-                   renderScene(builder.scene(), direct(128)),
+        expectMean("T10 sphere light, r/d " + std::to_string(static_cast<double>(radius) / d), renderScene(builder.scene(), direct(128)),
                    reflected(sphereIrradiance(static_cast<double>(radius), d, c, glm::dvec3(radiance))));
     }
 }
@@ -170,8 +164,7 @@ void expectPolygon(const std::string& name, const std::vector<glm::vec3>& corner
     const glm::vec3 radiance(6, 4, 2);
     SceneBuilder builder = floorScene();
     builder.polygon(corners, builder.lambert(glm::vec3(0.0F), radiance));
-    expectMean(name, renderScene(builder.scene(), direct(128)),
-               reflected(polygonIrradiance(corners, glm::dvec3(radiance))));
+    expectMean(name, renderScene(builder.scene(), direct(128)), reflected(polygonIrradiance(corners, glm::dvec3(radiance))));
 }
 
 TEST(TruthTest, T11DiskLightAsPolygon)
@@ -184,8 +177,8 @@ TEST(TruthTest, T11DiskLightAsPolygon)
     }
     // A 400-gon inscribed in the disk has 4.1e-5 less area; the closed form of the disk bounds the polygon's formula.
     const double squares = height * height + offset * offset + radius * radius;
-    const double disk = kPi / 2.0 * (1.0 - (squares - 2.0 * radius * radius) /
-                                               std::sqrt(squares * squares - 4.0 * radius * radius * offset * offset));
+    const double disk =
+        kPi / 2.0 * (1.0 - (squares - 2.0 * radius * radius) / std::sqrt(squares * squares - 4.0 * radius * radius * offset * offset));
     EXPECT_NEAR(polygonIrradiance(corners, glm::dvec3(1.0)).r / disk, 1.0, 1e-4);
     expectPolygon("T11 disk light", corners);
 }
@@ -204,8 +197,8 @@ TEST(TruthTest, T15ConcentricSpheres)
     SceneBuilder builder;
     builder.sphere({0, 0, 0}, 1.0F, builder.lambert(glm::vec3(0.6F), glm::vec3(2.0F)))
         .sphere({0, 0, 0}, 2.0F, builder.lambert(glm::vec3(0.7F)))
-        .perspective({1.5F, 0, 0}, {1.6F, 0, 0}, 1.0F)   // at the outer sphere
-        .perspective({1.5F, 0, 0}, {0, 0, 0}, 0.8F);     // at the inner one
+        .perspective({1.5F, 0, 0}, {1.6F, 0, 0}, 1.0F)  // at the outer sphere
+        .perspective({1.5F, 0, 0}, {0, 0, 0}, 0.8F);    // at the inner one
     RenderSettings settings = squareSettings(128, samplesFor(64));
     settings.bounces = 1000;
     const FlatScene flat = flattened(builder.scene());

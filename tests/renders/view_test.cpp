@@ -14,17 +14,17 @@
 namespace glim {
 namespace {
 
-Film view(const Scene& scene, View what)
+Film view(const Scene& scene, Aov what)
 {
     RenderSettings settings = squareSettings(32, 4);
-    settings.view = what;
+    settings.aov = what;
     return renderScene(scene, settings);
 }
 
 TEST(ViewTest, ShowsWhatTheCameraSees)
 {
     const Scene scene = mixedScene();
-    const Film normal = view(scene, View::Normal), depth = view(scene, View::Depth), albedo = view(scene, View::Albedo);
+    const Film normal = view(scene, Aov::Normal), depth = view(scene, Aov::Depth), albedo = view(scene, Aov::Albedo);
     int partly = 0;
     for (std::size_t i = 0; i < normal.pixels.size(); ++i) {
         EXPECT_EQ(normal.pixels[i].mean, normal.pixels[i].normal);
@@ -48,7 +48,7 @@ TEST(ViewTest, DepthIsAlongTheViewAxis)
     SceneBuilder builder;
     builder.quad({glm::vec3(-9, -9, 0), {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}}, builder.lambert(glm::vec3(0.5F)))
         .perspective({0, 0, 3}, {0, 0, 0}, 1.0F);
-    for (const PixelMoments& pixel : view(builder.scene(), View::Depth).pixels) {
+    for (const PixelMoments& pixel : view(builder.scene(), Aov::Depth).pixels) {
         EXPECT_NEAR(pixel.mean.g, 3.0F, 1e-6F);
     }
 }
@@ -57,19 +57,19 @@ TEST(ViewTest, BvhStepsCountsNodesAndPrimitives)
 {
     SceneBuilder builder;
     builder.sphere({0, 0, 0}, 1.0F, builder.lambert(glm::vec3(0.5F))).perspective({0, 0, 5}, {0, 0, 0}, 0.2F);
-    for (const PixelMoments& pixel : view(builder.scene(), View::BvhSteps).pixels) {
+    for (const PixelMoments& pixel : view(builder.scene(), Aov::BvhSteps).pixels) {
         EXPECT_EQ(pixel.mean, glm::vec3(1.0F, 1.0F, 0.0F));
     }
-    Scene mesh = sceneOf(icosphere(5));
+    const Triangles triangles = icosphere(5);
+    Scene mesh = sceneOf(triangles);
     mesh.cameras = builder.scene().cameras;
-    const MeanEstimate steps = meanOf(view(mesh, View::BvhSteps));
-    std::printf("%zu triangles: %.1f nodes and %.1f primitives per camera ray\n", mesh.triangles.size(), steps.mean.r,
-                steps.mean.g);
-    EXPECT_GT(steps.mean.r, std::log2(static_cast<double>(mesh.triangles.size())) / 3.0 - 1.0);
+    const MeanEstimate steps = meanOf(view(mesh, Aov::BvhSteps));
+    std::printf("%zu triangles: %.1f nodes and %.1f primitives per camera ray\n", triangles.size(), steps.mean.r, steps.mean.g);
+    EXPECT_GT(steps.mean.r, std::log2(static_cast<double>(triangles.size())) / 3.0 - 1.0);
     EXPECT_LT(steps.mean.r, 30.0);
 }
 
-// A half plane that shines, its edge across the middle of the picture, `depth` metres away.
+// An emitting half plane, its edge across the middle of the picture, `depth` metres away.
 Scene edgeAt(float depth)
 {
     SceneBuilder builder;
@@ -109,11 +109,12 @@ TEST(LensTest, SpreadsAnEdgeByTheCircleOfConfusion)
 TEST(LensTest, DoesNotChangeTheMeanOfAWall)
 {
     SceneBuilder builder;
-    builder.quad({glm::vec3(-90, -90, 0), {90, -90, 0}, {90, 90, 0}, {-90, 90, 0}},
-                 builder.lambert(glm::vec3(0.0F), glm::vec3(1.0F, 2.0F, 3.0F)))
+    builder
+        .quad({glm::vec3(-90, -90, 0), {90, -90, 0}, {90, 90, 0}, {-90, 90, 0}},
+              builder.lambert(glm::vec3(0.0F), glm::vec3(1.0F, 2.0F, 3.0F)))
         .perspective({0, 0, 3}, {0, 0, 0}, 1.0F);
-    Renderer renderer(testDevice(), flattened(builder.scene()),
-                      flattenCamera(builder.scene().cameras.front(), 1.0F, {0.3F, 1.5F}), squareSettings(16, 32));
+    Renderer renderer(testDevice(), flattened(builder.scene()), flattenCamera(builder.scene().cameras.front(), 1.0F, {0.3F, 1.5F}),
+                      squareSettings(16, 32));
     expectEverywhere(renderer.render([](const RenderProgress&) { return true; }), {1.0, 2.0, 3.0}, 1);
 }
 

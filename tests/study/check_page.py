@@ -12,7 +12,7 @@ from html.parser import HTMLParser
 
 VOID = {"meta", "img", "br", "hr", "link", "input", "use", "path", "rect", "line", "circle"}
 SECTIONS = ("summary", "views", "acceleration", "direct", "global", "adaptive", "about")
-# What each section cannot be without: least tables, plots and pictures.
+# What each section must have at least: tables, plots and pictures.
 LEAST = {"summary": (1, 0, 0), "views": (0, 0, 4), "acceleration": (4, 1, 2), "direct": (2, 1, 6),
          "global": (4, 1, 13), "adaptive": (2, 0, 6), "about": (2, 0, 0)}
 MOST_HEADLINES = 20

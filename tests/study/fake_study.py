@@ -1,4 +1,4 @@
-"""A study of made-up numbers, of the form that the sections measure, so that the page is tested without rendering."""
+"""A study of made-up numbers in the form that the sections measure. It tests the page without rendering."""
 
 import os
 import struct
@@ -44,7 +44,7 @@ class FakeShot:
 
 
 class FakeLab:
-    """Answers as Lab does, at once; `asked` holds what was to be rendered."""
+    """Answers like Lab, without rendering; `asked` holds the renders that were asked for."""
 
     def __init__(self, folder):
         self.folder, self.profile, self.glim, self.scenes = folder, profiles.QUICK, FakeGlim(), FakeScenes()

@@ -85,7 +85,7 @@ class EstimatesTest(unittest.TestCase):
         slow = [{"seconds": 3.0 * s, "samples": 10, "relmse": 0.2 * s} for s in (1, 2, 4)]
         fast = [{"seconds": 1.0 * s, "samples": 10, "relmse": 0.1 * s} for s in (1, 2, 4)]
         for found, ratio in ((time_ratio(slow, fast), 3), (cost_ratio(slow, fast), 6)):
-            for key in ("mean", "low", "high"):  # what varies from seed to seed alike drops out
+            for key in ("mean", "low", "high"):  # what varies alike from seed to seed cancels
                 self.assertAlmostEqual(found[key], ratio)
 
     def test_no_ratio_of_what_noise_hides(self):
@@ -132,6 +132,7 @@ class GlimTest(unittest.TestCase):
     def test_device_without_timestamps(self):
         stats = {"kernels": {"trace_closest": {"seconds": 2.5}}, "device": {"name": "a device"}}
         self.assertEqual(trace_seconds(stats), 2.5)
+        self.assertEqual(trace_seconds({**stats, "kernels": {"course_trace_closest": {"seconds": 1.5}}}), 1.5)
         with self.assertRaisesRegex(StudyError, "a device .* timestamps"):
             trace_seconds({**stats, "kernels": {}})
 
@@ -174,7 +175,7 @@ class PageTest(unittest.TestCase):
                        "100 bounces", ">1 bounce<", "fixed:0.7", "throughput", "64 spp", "course:literal", "equal time",
                        "samples taken",
                        "22 s to 0.05 s: about 440", "bias: mean less uniform", ", no interval", "335 s to 0.05 s: about 6,700",
-                       "log2 n", "after taking off"):
+                       "log2 n", "after subtracting"):
             self.assertTrue(wanted in self.text, wanted)
 
     def test_faults_are_noticed(self):

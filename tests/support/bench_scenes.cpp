@@ -9,13 +9,6 @@
 namespace glim {
 namespace {
 
-void addMesh(Scene& scene, const Mesh& mesh, std::uint32_t material)
-{
-    scene.primitives.push_back({"mesh", static_cast<std::uint32_t>(scene.triangles.size()), static_cast<std::uint32_t>(mesh.size()),
-                                material, false});
-    scene.triangles.insert(scene.triangles.end(), mesh.begin(), mesh.end());
-}
-
 glm::vec3 bump(const glm::vec3& v)
 {
     const float height = std::sin(9.0F * v.x) * std::sin(11.0F * v.y + 1.0F) * std::sin(8.0F * v.z + 2.0F) +
@@ -43,7 +36,7 @@ Scene bumpyBall(int subdivisions)
         .quad({glm::vec3(-0.4F, 0.98F, -0.4F), {0.4F, 0.98F, -0.4F}, {0.4F, 0.98F, 0.4F}, {-0.4F, 0.98F, 0.4F}}, lamp)
         .perspective({0, 0, 0.99F}, {0, 0, 0}, 1.4F);
     Scene scene = builder.scene();
-    Mesh ball = icosphere(subdivisions);
+    Triangles ball = icosphere(subdivisions);
     for (Triangle& triangle : ball) {
         for (glm::vec3& v : triangle.vertices) {
             v = bump(v);
@@ -60,7 +53,7 @@ Scene forest(int trees)
     builder.quad({glm::vec3(-10, 0, 10), {10, 0, 10}, {10, 0, -10}, {-10, 0, -10}}, white);
     Scene scene = builder.scene();
     Random random(5);
-    Mesh leaves;
+    Triangles leaves;
     for (int tree = 0; tree < trees; ++tree) {
         const glm::dvec3 top(random.uniform(-10.0, 10.0), random.uniform(0.6, 1.2), random.uniform(-10.0, 10.0));
         for (int leaf = 0; leaf < 1000; ++leaf) {

@@ -1,4 +1,4 @@
-// Scenes of known size, made in memory: what the tables of tests/bench/README.md are about.
+// Scenes of known size, made in memory. The tables of tests/bench/README.md measure them.
 #pragma once
 
 #include "host/scene/scene.hpp"

@@ -1,4 +1,4 @@
-// The blocks that samples come in.
+// The blocks that samples are summed in.
 #pragma once
 
 #include "shaders/shared/limits.h"

@@ -1,5 +1,7 @@
 #include "tests/support/build_scene.hpp"
 
+#include "tests/support/test_meshes.hpp"
+
 #include <cmath>
 
 namespace glim {
@@ -20,10 +22,7 @@ std::uint32_t SceneBuilder::mirror(const glm::vec3& reflectance)
     return addMaterial({"", Scattering::Mirror, reflectance, glm::vec3(0.0F), 1.5F, false});
 }
 
-std::uint32_t SceneBuilder::glass(float ior)
-{
-    return addMaterial({"", Scattering::Glass, glm::vec3(1.0F), glm::vec3(0.0F), ior, false});
-}
+std::uint32_t SceneBuilder::glass(float ior) { return addMaterial({"", Scattering::Glass, glm::vec3(1.0F), glm::vec3(0.0F), ior, false}); }
 
 SceneBuilder& SceneBuilder::sphere(const glm::vec3& center, float radius, std::uint32_t material)
 {
@@ -38,17 +37,17 @@ SceneBuilder& SceneBuilder::quad(const std::array<glm::vec3, 4>& corners, std::u
 
 SceneBuilder& SceneBuilder::polygon(const std::vector<glm::vec3>& corners, std::uint32_t material)
 {
-    const auto first = static_cast<std::uint32_t>(scene_.triangles.size());
+    Triangles fan;
     for (std::size_t i = 2; i < corners.size(); ++i) {
-        scene_.triangles.push_back({{corners[0], corners[i - 1], corners[i]}});
+        fan.push_back({{corners[0], corners[i - 1], corners[i]}});
     }
-    scene_.primitives.push_back({"", first, static_cast<std::uint32_t>(corners.size() - 2), material, false});
+    addMesh(scene_, fan, material);
     return *this;
 }
 
 SceneBuilder& SceneBuilder::cube(float half, std::uint32_t material, bool inwards)
 {
-    const auto first = static_cast<std::uint32_t>(scene_.triangles.size());
+    Triangles sides;
     for (int axis = 0; axis < 3; ++axis) {
         for (const float side : {-half, half}) {
             glm::vec3 n(0.0F), u(0.0F), v(0.0F);
@@ -56,11 +55,11 @@ SceneBuilder& SceneBuilder::cube(float half, std::uint32_t material, bool inward
             u[(axis + 1) % 3] = half;
             v[(axis + 2) % 3] = (side > 0.0F) == inwards ? -half : half;
             const glm::vec3 a = n - u - v, b = n + u - v, c = n + u + v, d = n - u + v;
-            scene_.triangles.push_back({{a, b, c}});
-            scene_.triangles.push_back({{a, c, d}});
+            sides.push_back({{a, b, c}});
+            sides.push_back({{a, c, d}});
         }
     }
-    scene_.primitives.push_back({"", first, 12, material, false});
+    addMesh(scene_, sides, material);
     return *this;
 }
 

@@ -15,11 +15,11 @@ public:
     std::uint32_t glass(float ior);
 
     SceneBuilder& sphere(const glm::vec3& center, float radius, std::uint32_t material);
-    // Two triangles; counter-clockwise corners seen from the front. One primitive, so one light if it emits.
+    // Two triangles; counter-clockwise corners seen from the front. One mesh, so one light if it emits.
     SceneBuilder& quad(const std::array<glm::vec3, 4>& corners, std::uint32_t material);
     // A convex polygon as a fan.
     SceneBuilder& polygon(const std::vector<glm::vec3>& corners, std::uint32_t material);
-    // The cube [-half, half]^3 as one primitive, fronts inwards or outwards.
+    // The cube [-half, half]^3 as one mesh, fronts inwards or outwards.
     SceneBuilder& cube(float half, std::uint32_t material, bool inwards);
     SceneBuilder& light(const PunctualLight& light);
     SceneBuilder& environment(const glm::vec3& radiance);
@@ -36,8 +36,8 @@ private:
     Scene scene_;
 };
 
-// A furnishing for tests that need "some scene": a box with a quad light, a Lambert, a mirror and a glass sphere, a point
-// light and an environment: every kernel path runs.
+// A scene for tests that need any scene: a box with a quad light, a Lambert, a mirror and a glass sphere, a point light and an
+// environment, so that every path through the kernels runs.
 Scene mixedScene();
 
 }  // namespace glim

@@ -1,5 +1,5 @@
-// Expectations on the device. Each stands on one line; the host reports a failure at that line, and fails for a line whose
-// check never ran. A test kernel calls endTest() last.
+// Expectations on the device. Each one takes one line. The host reports a failure at that line, and also if the check never ran. A test
+// kernel calls endTest() last.
 #ifndef GLIM_TESTS_EXPECT
 #define GLIM_TESTS_EXPECT
 
@@ -11,7 +11,7 @@ layout(set = 0, binding = kBindReport, scalar) buffer ReportBuffer { Report repo
 
 #define TEST_THREAD gl_GlobalInvocationID.x
 
-// The number of cases travels as the pass's pixel count.
+// The host passes the number of cases as the pixel count.
 bool isTestThread()
 {
     return TEST_THREAD < pass.pixelCount;
@@ -33,13 +33,13 @@ bool isNear(float actual, float expected, float tolerance)
     return abs(actual - expected) <= tolerance;  // false for NaN
 }
 
-// Absolute tolerance.
+// The tolerance is absolute.
 #define EXPECT_NEAR(actual, expected, tolerance) \
     expectThat(__LINE__, isNear(actual, expected, tolerance), actual, expected, tolerance)
-// Relative to the expected value.
+// The tolerance is relative to the expected value.
 #define EXPECT_CLOSE(actual, expected, relative) \
     expectThat(__LINE__, isNear(actual, expected, abs(expected) * (relative)), actual, expected, abs(expected) * (relative))
-// Distance of two vectors.
+// The tolerance is for the distance between two vectors.
 #define EXPECT_NEAR_VECTOR(actual, expected, tolerance) \
     expectThat(__LINE__, length((actual) - (expected)) <= (tolerance), length((actual) - (expected)), 0.0, tolerance)
 #define EXPECT_EQUAL(actual, expected) \
@@ -49,7 +49,7 @@ bool isNear(float actual, float expected, float tolerance)
 void endTest()
 {
     report.sentinel = 0u;
-    if (isLoopBudgetSpent(pass.canarySteps)) {
+    if (isLoopBudgetSpent(render.canarySteps)) {
         atomicAdd(report.loopsSpent, 1u);
     }
     atomicAdd(report.threads, 1u);

@@ -41,8 +41,7 @@ std::string u32(std::size_t value)
 
 GltfBuilder::GltfBuilder()
     : document{{"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", json::array({{{"nodes", json::array()}}})}}
-{
-}
+{}
 
 std::size_t GltfBuilder::append(const std::string& collection, const json& entry)
 {
@@ -52,16 +51,15 @@ std::size_t GltfBuilder::append(const std::string& collection, const json& entry
 
 std::size_t GltfBuilder::addView(const Bytes& bytes)
 {
-    m_bytes.resize((m_bytes.size() + 3) / 4 * 4);
-    const std::size_t offset = m_bytes.size();
-    m_bytes.insert(m_bytes.end(), bytes.begin(), bytes.end());
+    bytes_.resize((bytes_.size() + 3) / 4 * 4);
+    const std::size_t offset = bytes_.size();
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
     return append("bufferViews", {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes.size()}});
 }
 
 std::size_t GltfBuilder::addAccessor(const Bytes& bytes, int componentType, const std::string& type, std::size_t count)
 {
-    return append("accessors", {{"bufferView", addView(bytes)}, {"componentType", componentType}, {"type", type},
-                                {"count", count}});
+    return append("accessors", {{"bufferView", addView(bytes)}, {"componentType", componentType}, {"type", type}, {"count", count}});
 }
 
 std::size_t GltfBuilder::addVec3(const std::vector<float>& values)
@@ -74,10 +72,7 @@ std::size_t GltfBuilder::addIndices(const std::vector<std::uint32_t>& values)
     return addAccessor(toBytes(values), kUnsignedInt, "SCALAR", values.size());
 }
 
-std::size_t GltfBuilder::addMesh(const json& primitive)
-{
-    return append("meshes", {{"primitives", json::array({primitive})}});
-}
+std::size_t GltfBuilder::addMesh(const json& primitive) { return append("meshes", {{"primitives", json::array({primitive})}}); }
 
 std::size_t GltfBuilder::addNode(const json& node)
 {
@@ -86,17 +81,14 @@ std::size_t GltfBuilder::addNode(const json& node)
     return index;
 }
 
-std::size_t GltfBuilder::addTriangleMesh()
-{
-    return addMesh({{"attributes", {{"POSITION", addVec3({0, 0, 0, 1, 0, 0, 0, 1, 0})}}}});
-}
+std::size_t GltfBuilder::addTriangleMesh() { return addMesh({{"attributes", {{"POSITION", addVec3({0, 0, 0, 1, 0, 0, 0, 1, 0})}}}}); }
 
 std::string GltfBuilder::toGltf() const
 {
     json copy = document;
-    if (!m_bytes.empty()) {
-        copy["buffers"] = json::array({{{"byteLength", m_bytes.size()},
-                                        {"uri", "data:application/octet-stream;base64," + toBase64(m_bytes)}}});
+    if (!bytes_.empty()) {
+        copy["buffers"] =
+            json::array({{{"byteLength", bytes_.size()}, {"uri", "data:application/octet-stream;base64," + toBase64(bytes_)}}});
     }
     return copy.dump();
 }
@@ -104,34 +96,28 @@ std::string GltfBuilder::toGltf() const
 std::string GltfBuilder::toGlb() const
 {
     json copy = document;
-    copy["buffers"] = json::array({{{"byteLength", m_bytes.size()}}});
+    copy["buffers"] = json::array({{{"byteLength", bytes_.size()}}});
     std::string text = copy.dump();
     text.resize((text.size() + 3) / 4 * 4, ' ');
-    std::string binary(m_bytes.begin(), m_bytes.end());
+    std::string binary(bytes_.begin(), bytes_.end());
     binary.resize((binary.size() + 3) / 4 * 4);
-    return "glTF" + u32(2) + u32(12 + 8 + text.size() + 8 + binary.size()) + u32(text.size()) + "JSON" + text +
-           u32(binary.size()) + std::string("BIN\0", 4) + binary;
+    return "glTF" + u32(2) + u32(12 + 8 + text.size() + 8 + binary.size()) + u32(text.size()) + "JSON" + text + u32(binary.size()) +
+           std::string("BIN\0", 4) + binary;
 }
 
 std::string writeTemporary(const std::string& name, const std::string& content)
 {
     const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) /
-                                         (std::string("glim_") + info->test_suite_name() + "_" + info->name());
+    const std::filesystem::path folder =
+        std::filesystem::path(::testing::TempDir()) / (std::string("glim_") + info->test_suite_name() + "_" + info->name());
     std::filesystem::create_directories(folder);
     std::ofstream(folder / name, std::ios::binary) << content;
     return (folder / name).string();
 }
 
-Scene loadText(const std::string& content, const LoadOptions& options)
-{
-    return loadGltf(writeTemporary("scene.gltf", content), options);
-}
+Scene loadText(const std::string& content, const LoadOptions& options) { return loadGltf(writeTemporary("scene.gltf", content), options); }
 
-Scene load(const GltfBuilder& builder, const LoadOptions& options)
-{
-    return loadText(builder.toGltf(), options);
-}
+Scene load(const GltfBuilder& builder, const LoadOptions& options) { return loadText(builder.toGltf(), options); }
 
 std::string loadRefusal(const std::string& path, const LoadOptions& options)
 {

@@ -11,8 +11,7 @@
 
 namespace glim::test {
 
-constexpr int kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123, kUnsignedInt = 5125,
-              kFloat = 5126;
+constexpr int kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
 
 using Bytes = std::vector<unsigned char>;
 
@@ -42,12 +41,12 @@ public:
 
     std::string toGltf() const;  // buffer as data URI
     std::string toGlb() const;
-    const Bytes& bytes() const { return m_bytes; }
+    const Bytes& bytes() const { return bytes_; }
 
     nlohmann::json document;
 
 private:
-    Bytes m_bytes;
+    Bytes bytes_;
 };
 
 // Writes below the test's own temporary folder; returns the path.

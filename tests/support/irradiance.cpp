@@ -70,7 +70,7 @@ std::vector<IrradianceEstimate> estimateIrradiance(const Scene& scene, const std
     const std::size_t count = cases.size() * threads;
     test.cases(cases).resultsOf<Result>(count).threads(static_cast<std::uint32_t>(count));
     test.pass().sampleCount = threads;
-    test.pass().maxBounces = kSamplesPerThread;
+    test.parameters().maxBounces = kSamplesPerThread;
     test.run();
     const std::vector<Result> results = test.results<Result>();
     std::vector<IrradianceEstimate> estimates;
@@ -92,9 +92,9 @@ std::vector<IrradianceEstimate> expectIrradiance(const char* name, const Scene& 
         EXPECT_LE(std::abs(e.mean - truth), limit * e.standardError + 2e-5 * truth)
             << name << ", receiver " << i << ": " << e.mean << ", truth " << truth;
         EXPECT_LE(e.pdfError, densityTolerance) << name << ", receiver " << i;
-        std::printf("%s %zu: %.6g, truth %.6g, z %.1f, sees %.1e; %zu densities within %.0e, %zu elsewhere\n", name, i,
-                    e.mean, truth, e.standardError > 0.0 ? (e.mean - truth) / e.standardError : 0.0,
-                    truth > 0.0 ? limit * e.standardError / truth : 0.0, e.compared, e.pdfError, e.elsewhere);
+        std::printf("%s %zu: %.6g, truth %.6g, z %.1f, sees %.1e; %zu densities within %.0e, %zu elsewhere\n", name, i, e.mean, truth,
+                    e.standardError > 0.0 ? (e.mean - truth) / e.standardError : 0.0, truth > 0.0 ? limit * e.standardError / truth : 0.0,
+                    e.compared, e.pdfError, e.elsewhere);
     }
     return estimates;
 }

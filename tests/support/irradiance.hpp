@@ -1,4 +1,4 @@
-// Irradiance on receivers, estimated with the renderer's light sampling (tests/kernels/light_test.comp), against truth.
+// Irradiance on receivers, estimated by the renderer's light sampling (tests/kernels/light_test.comp), and its true value.
 #pragma once
 
 #include "host/scene/scene.hpp"
@@ -14,12 +14,12 @@ struct Receiver {
 
 struct IrradianceEstimate {
     double mean, standardError;
-    double least, most;        // of single samples
-    double pdf;                // of some sample
-    double pdfError;           // the largest, relative, between sampling a direction and finding it
-    std::size_t compared;      // samples in pdfError
-    std::size_t elsewhere;     // samples towards a surface light whose direction meets something else
-    double surfaceError;       // metres
+    double least, most;     // of single samples
+    double pdf;             // of some sample
+    double pdfError;        // the largest, relative, between sampling a direction and finding it
+    std::size_t compared;   // samples in pdfError
+    std::size_t elsewhere;  // samples towards a surface light whose direction meets something else
+    double surfaceError;    // metres
 };
 
 // 131,072 samples each (20 times as many with GLIM_LONG, 4e6 with GLIM_HARD).

@@ -15,12 +15,9 @@ namespace {
 
 constexpr std::uint32_t kWorkgroup = 64;
 
-std::string sourceOf(const EmbeddedShader& shader)
-{
-    return std::string(GLIM_SOURCE_DIR "/tests/kernels/") + shader.name + ".comp";
-}
+std::string sourceOf(const EmbeddedShader& shader) { return std::string(GLIM_SOURCE_DIR "/tests/kernels/") + shader.name + ".comp"; }
 
-// Lines of the kernel's source that hold a check.
+// The lines of the kernel's source that contain a check.
 std::vector<std::uint32_t> checkedLines(const std::string& file)
 {
     std::ifstream source(file);
@@ -40,8 +37,8 @@ void addFailures(const std::string& file, const Report& report, std::uint32_t th
     for (std::uint32_t i = 0; i < std::min(report.failureCount, kMaxFailures); ++i) {
         const Failure& failure = report.failures[i];
         ADD_FAILURE_AT(file.c_str(), static_cast<int>(failure.line))
-            << "case " << failure.thread << ": " << failure.actual << ", expected " << failure.expected << " within "
-            << failure.tolerance << (i + 1 == kMaxFailures ? " (and more)" : "");
+            << "case " << failure.thread << ": " << failure.actual << ", expected " << failure.expected << " within " << failure.tolerance
+            << (i + 1 == kMaxFailures ? " (and more)" : "");
     }
     for (const std::uint32_t line : checkedLines(file)) {
         if ((report.lines[line / 32] >> line % 32 & 1U) == 0) {
@@ -76,14 +73,20 @@ void KernelTest::run()
     if (results_) {
         bound[kBindResults] = &*results_;
     }
-    pass_.canarySteps = 3;
+    parameters_.canarySteps = 3;
     specialization_.insert({kSpecWorkgroup, kWorkgroup});
-    const KernelLayout layout(device, slots, sizeof(Pass));
+    Buffer parameters(device, "test's parameters", BufferKind::Storage, sizeof(RenderParameters));
+    upload(parameters, std::span<const RenderParameters>(&parameters_, 1));
+    bound[kBindParameters] = &parameters;
+    Buffer course(device, "test's parameters of the course", BufferKind::Storage, sizeof(CourseParameters));
+    upload(course, std::span<const CourseParameters>(&course_, 1));
+    bound[kBindCourseParameters] = &course;
+    const KernelLayout layout(device, slots, sizeof(CoursePass));
     const Kernel kernel(layout, shader_, specialization_);
     const Bindings bindings(layout, bound);
-    const std::uint32_t groups = (pass_.pixelCount + kWorkgroup - 1) / kWorkgroup;
+    const std::uint32_t groups = (push_.pass.pixelCount + kWorkgroup - 1) / kWorkgroup;
     Commands commands(device);
-    commands.dispatch(kernel, bindings, std::as_bytes(std::span<const Pass, 1>(&pass_, 1)), groups);
+    commands.dispatch(kernel, bindings, std::as_bytes(std::span<const CoursePass, 1>(&push_, 1)), groups);
     commands.submitAndWait();
     report = download<Report>(reportBuffer, 1)[0];
     addFailures(sourceOf(shader_), report, groups * kWorkgroup);

@@ -1,9 +1,9 @@
-// Runs a test kernel over an array of cases and turns what it reports into failures of the running test, each at the
-// shader's own line.
+// Runs a test kernel over an array of cases. Each failed check of the kernel becomes a failure of the running test, at the line of the
+// shader.
 #pragma once
 
 #include "host/gpu/commands.hpp"
-#include "shaders/shared/path_types.h"
+#include "shaders/shared/course_types.h"
 #include "tests/support/test_device.hpp"
 
 #include <optional>
@@ -12,18 +12,20 @@ namespace glim {
 
 class KernelTest {
 public:
-    explicit KernelTest(const EmbeddedShader& shader) : shader_(shader) {}
+    explicit KernelTest(const EmbeddedShader& shader)
+        : shader_(shader)
+    {}
 
-    // What the kernel sees at kBindCases; sets the number of threads to the number of cases.
+    // Binds the cases at kBindCases and runs one thread per case.
     template <class Case>
     KernelTest& cases(const std::vector<Case>& values)
     {
         cases_.emplace(testDevice(), "test cases", BufferKind::Storage, values.size() * sizeof(Case));
         upload(*cases_, std::span<const Case>(values));
-        pass_.pixelCount = static_cast<std::uint32_t>(values.size());
+        push_.pass.pixelCount = static_cast<std::uint32_t>(values.size());
         return *this;
     }
-    // Room at kBindResults, zeroed; read it with results() after run().
+    // Binds room for results at kBindResults, filled with zeros. results() reads it after run().
     template <class Result>
     KernelTest& resultsOf(std::size_t count)
     {
@@ -43,19 +45,22 @@ public:
     }
     KernelTest& threads(std::uint32_t count)
     {
-        pass_.pixelCount = count;
+        push_.pass.pixelCount = count;
         return *this;
     }
-    // Spending the driver's loop budget is no failure; loopsSpent() tells how many threads noticed.
+    // A spent loop budget of the driver is no failure. loopsSpent() tells how many threads noticed one.
     KernelTest& mayExhaustLoops()
     {
         mayExhaustLoops_ = true;
         return *this;
     }
-    Pass& pass() { return pass_; }
+    Pass& pass() { return push_.pass; }
+    CourseRound& lightRound() { return push_.lightRound; }
+    CourseParameters& course() { return course_; }
+    RenderParameters& parameters() { return parameters_; }
 
-    // Adds a failure to the running test for each failed check (the first kMaxFailures of them), for each check that never
-    // ran, and for threads that never ended.
+    // Adds a failure to the running test for each failed check (at most kMaxFailures), for each check that never ran, and if a thread
+    // has not reached its end.
     void run();
     std::uint32_t loopsSpent() const { return loopsSpent_; }
 
@@ -67,7 +72,9 @@ public:
 
 private:
     EmbeddedShader shader_;
-    Pass pass_{};
+    CoursePass push_{};
+    CourseParameters course_{};
+    RenderParameters parameters_{};
     std::optional<Buffer> cases_, results_;
     std::map<std::uint32_t, const Buffer*> buffers_;
     Specialization specialization_;

@@ -10,11 +10,11 @@
 
 namespace glim {
 
-// Of the ratio of the rule's two sides in float: the interval takes two quotients of 2.5 ulp (one under a root), two roots of
-// 4.5 ulp, and four products and constants of half an ulp; the other side one product. 19 ulp of 2^-24 to 2^-23.
+// The rounding error of the ratio of the rule's two sides in float: the interval takes two quotients of 2.5 ulp (one under a root), two
+// roots of 4.5 ulp, and four products and constants of half an ulp; the other side one product. 19 ulp of 2^-24 to 2^-23.
 constexpr double kRuleRounding = 19.0 * 0x1p-23;
 
-// Half the 95 % interval over what it may be, the tolerance's share of the mean; at least two samples.
+// Half the 95 % interval, divided by the largest that it may be: tolerance times mean. At least two samples.
 inline double shareOfTolerance(const LuminanceMoments& moments, float tolerance)
 {
     const double n = moments.count;
@@ -22,7 +22,7 @@ inline double shareOfTolerance(const LuminanceMoments& moments, float tolerance)
     return 1.96 * std::sqrt(variance / n) / (static_cast<double>(tolerance) * static_cast<double>(moments.mean));
 }
 
-// Nothing where rounding decides.
+// nullopt where rounding decides.
 inline std::optional<bool> isAccurateInDouble(const LuminanceMoments& moments, float tolerance, std::uint32_t constantSamples)
 {
     if (moments.count < 2) {

@@ -12,10 +12,7 @@
 namespace glim::test {
 namespace {
 
-void expectSilence(const GlimRun& done)
-{
-    EXPECT_EQ(done.err.find("validation"), std::string::npos) << done.err;
-}
+void expectSilence(const GlimRun& done) { EXPECT_EQ(done.err.find("validation"), std::string::npos) << done.err; }
 
 double shareOfLight(const Pixels& window)
 {
@@ -23,7 +20,7 @@ double shareOfLight(const Pixels& window)
     return static_cast<double>(lit) / static_cast<double>(window.size());
 }
 
-// Looks when P has written a picture, then ends the session.
+// Calls `look` when the key P has written a picture, then ends the session.
 void whenWritten(GlimCall session, const std::function<void()>& look)
 {
     session.signalWhen = [&look](const std::string& err) {
@@ -60,8 +57,7 @@ GlimRun PreviewTest::run(const std::string& script, const std::vector<std::strin
     return done;
 }
 
-Pixels PreviewTest::windowAtWriting(const VirtualScreen& shown, const std::string& script,
-                                    const std::vector<std::string>& more) const
+Pixels PreviewTest::windowAtWriting(const VirtualScreen& shown, const std::string& script, const std::vector<std::string>& more) const
 {
     Pixels window;
     GlimCall session = call(script, more);

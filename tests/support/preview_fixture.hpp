@@ -25,14 +25,14 @@ protected:
     GlimRun run(const std::string& script, const std::vector<std::string>& more = {}) const;
     // What is in the window on `shown`, once it rests, when the script has pressed P; ends the session then.
     Pixels windowAtWriting(const VirtualScreen& shown, const std::string& script, const std::vector<std::string>& more = {}) const;
-    // Looks at the window again and again from when the script has pressed P: three seconds, and until `pictures` were seen, but no
-    // longer than a minute.
+    // Looks at the window again and again once the script has pressed P: for three seconds and until it has seen as many
+    // `pictures`, but for no longer than a minute.
     struct Watched {
         std::set<Pixels> pictures;  // all that were seen
         double leastLight = 1.0;    // the share of the window that was not black, at the least
     };
     Watched watch(std::size_t pictures, const std::string& script, const std::vector<std::string>& more = {}) const;
-    // Of what is on a screen, the window.
+    // The part of the screen that is the window.
     Pixels windowOf(const Pixels& shown) const;
 
     // What `glim render` makes of the same scene; `options` separated by blanks.
@@ -53,11 +53,11 @@ private:
     std::string numbered(int number) const;
 };
 
-// How many pixels differ by more than one step of eight bits in a channel, which rounding in float and double may; -1 if there are
-// not as many.
+// How many pixels differ by more than one step of eight bits in a channel (rounding in float and in double may differ by one); -1
+// if the sizes differ.
 int countOthers(const Pixels& a, const Pixels& b);
 
-// The first line of what a session printed: what C says the camera's options are.
+// The first line that a session printed: the camera's options, as C prints them.
 std::string firstLine(const std::string& out);
 
 }  // namespace glim::test

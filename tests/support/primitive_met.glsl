@@ -1,4 +1,4 @@
-// What a ray met, whatever record of it.
+// The primitive that a ray met, whichever of its records that was.
 #ifndef GLIM_TEST_PRIMITIVE_MET
 #define GLIM_TEST_PRIMITIVE_MET
 

@@ -6,9 +6,9 @@ namespace glim {
 
 ReferenceHit Reference::meetTriangle(const ReferenceRay& ray, std::uint32_t id, double margin) const
 {
-    const glm::dvec3 v0(scene_.triangles[id].vertices[0]);
-    const glm::dvec3 e1 = glm::dvec3(scene_.triangles[id].vertices[1]) - v0;
-    const glm::dvec3 e2 = glm::dvec3(scene_.triangles[id].vertices[2]) - v0;
+    const glm::dvec3 v0(primitives_.triangles[id].vertices[0]);
+    const glm::dvec3 e1 = glm::dvec3(primitives_.triangles[id].vertices[1]) - v0;
+    const glm::dvec3 e2 = glm::dvec3(primitives_.triangles[id].vertices[2]) - v0;
     const glm::dvec3 n = glm::cross(e1, e2);
     const double along = glm::dot(ray.direction, n);
     if (id == ray.source || along == 0.0) {
@@ -26,17 +26,18 @@ ReferenceHit Reference::meetTriangle(const ReferenceRay& ray, std::uint32_t id, 
 
 ReferenceHit Reference::meetSphere(const ReferenceRay& ray, std::uint32_t id, double margin) const
 {
-    const Sphere& sphere = scene_.spheres[id - scene_.triangles.size()];
+    const Sphere& sphere = primitives_.spheres[id - primitives_.triangles.size()];
     const glm::dvec3 center(sphere.center);
     const double radius = static_cast<double>(sphere.radius) * (1.0 + margin);
     const double closest = glm::dot(center - ray.origin, ray.direction) / glm::dot(ray.direction, ray.direction);
     if (id == ray.source) {
-        // The origin is an end of a chord, and the other end is as far behind its middle.
+        // The origin is one end of a chord; the other end is as far behind the chord's middle.
         const bool inwards = closest * glm::length(ray.direction) > -margin * radius;
         return inwards ? ReferenceHit{std::abs(2.0 * closest), id, std::abs(closest) * glm::length(ray.direction) / radius}
                        : ReferenceHit{};
     }
-    // From within the margin the ray may count as outside or inside: a hit at once for the grown scene, none for the other.
+    // Within the margin the ray may count as outside or as inside. The grown scene takes a hit at once, the shrunk one takes
+    // none.
     if (std::abs(glm::length(ray.origin - center) - static_cast<double>(sphere.radius)) < std::abs(margin) * radius) {
         return margin > 0.0 ? ReferenceHit{0.0, id, 1.0} : ReferenceHit{};
     }
@@ -52,7 +53,7 @@ ReferenceHit Reference::meetSphere(const ReferenceRay& ray, std::uint32_t id, do
 
 ReferenceHit Reference::meet(const ReferenceRay& ray, std::uint32_t id, double margin) const
 {
-    return id < scene_.triangles.size() ? meetTriangle(ray, id, margin) : meetSphere(ray, id, margin);
+    return id < primitives_.triangles.size() ? meetTriangle(ray, id, margin) : meetSphere(ray, id, margin);
 }
 
 ReferenceHit Reference::closest(const ReferenceRay& ray, double margin) const
@@ -67,12 +68,12 @@ ReferenceHit Reference::closest(const ReferenceRay& ray, double margin) const
     return best;
 }
 
-bool Reference::isOccluded(const ReferenceRay& ray, double reach, std::uint32_t target, double margin) const
+bool Reference::isOccluded(const ReferenceRay& ray, double tMax, std::uint32_t target, double margin) const
 {
     for (std::uint32_t id = 0; id < count(); ++id) {
         const double t = meet(ray, id, margin).t;
         // A blocker at the very end of the segment counts for the grown scene only.
-        if (id != target && t < std::numeric_limits<double>::infinity() && t <= reach * (1.0 + margin)) {
+        if (id != target && t < std::numeric_limits<double>::infinity() && t <= tMax * (1.0 + margin)) {
             return true;
         }
     }

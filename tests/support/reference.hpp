@@ -2,7 +2,7 @@
 // shaders: triangles by their plane and areas, spheres by the point of closest approach.
 #pragma once
 
-#include "host/scene/scene.hpp"
+#include "host/flatten/primitives.hpp"
 
 #include <limits>
 
@@ -21,22 +21,24 @@ struct ReferenceRay {
 
 class Reference {
 public:
-    explicit Reference(const Scene& scene) : scene_(scene) {}
+    explicit Reference(const Scene& scene)
+        : primitives_(makePrimitives(scene))
+    {}
 
-    // The closest primitive at t > 0. Every primitive is grown by `margin` of its size (shrunk if negative): what two opposite
-    // margins agree on does not hang on rounding.
+    // The closest primitive at t > 0. Every primitive is grown by `margin` of its size (shrunk if negative). Where two
+    // opposite margins agree, rounding does not decide.
     ReferenceHit closest(const ReferenceRay& ray, double margin) const;
 
-    // Whether anything but `target` is met within (0, reach].
-    bool isOccluded(const ReferenceRay& ray, double reach, std::uint32_t target, double margin) const;
+    // Whether anything but `target` is met within (0, tMax].
+    bool isOccluded(const ReferenceRay& ray, double tMax, std::uint32_t target, double margin) const;
 
 private:
     ReferenceHit meet(const ReferenceRay& ray, std::uint32_t id, double margin) const;
     ReferenceHit meetTriangle(const ReferenceRay& ray, std::uint32_t id, double margin) const;
     ReferenceHit meetSphere(const ReferenceRay& ray, std::uint32_t id, double margin) const;
-    std::uint32_t count() const { return static_cast<std::uint32_t>(scene_.triangles.size() + scene_.spheres.size()); }
+    std::uint32_t count() const { return static_cast<std::uint32_t>(primitives_.count()); }
 
-    const Scene& scene_;
+    Primitives primitives_;
 };
 
 }  // namespace glim

@@ -2,7 +2,7 @@
 
 #include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
-#include "host/measure/normal.hpp"
+#include "host/measure/confidence.hpp"
 #include "host/render/measure_schedules.hpp"
 #include "tests/support/test_device.hpp"
 
@@ -32,13 +32,17 @@ Film renderBy(Schedule schedule, const FlatScene& flat, const FlatCamera& camera
 
 }  // namespace
 
-FlatScene flattened(const Scene& scene) { return flattenScene(scene, buildSceneBvh(scene)); }
+FlatScene flattened(const Scene& scene, SplitRule rule)
+{
+    const Primitives primitives = makePrimitives(scene);
+    return flattenScene(scene, primitives, buildSceneBvh(primitives, rule));
+}
 
 Film renderFlat(const FlatScene& flat, const Camera& camera, const RenderSettings& settings)
 {
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
     const FlatCamera flatCamera = flattenCamera(camera, aspect);
-    if (!canMeasureSchedules(flat, settings) || settings.seconds) {
+    if (!canMeasureSchedules(settings) || settings.seconds) {
         return renderBy(settings.schedule, flat, flatCamera, settings);
     }
     Film film = renderBy(Schedule::Wavefront, flat, flatCamera, settings);
@@ -59,10 +63,7 @@ RenderSettings squareSettings(std::uint32_t side, std::uint32_t spp)
     return settings;
 }
 
-std::uint32_t samplesFor(std::uint32_t spp, std::uint32_t factor)
-{
-    return std::getenv("GLIM_LONG") != nullptr ? spp * factor : spp;
-}
+std::uint32_t samplesFor(std::uint32_t spp, std::uint32_t factor) { return std::getenv("GLIM_LONG") != nullptr ? spp * factor : spp; }
 
 MeanEstimate meanOf(const Film& film)
 {
@@ -87,8 +88,7 @@ void expectEverywhere(const Film& film, const glm::dvec3& truth, int bounces)
 
 bool sameBits(const Film& a, const Film& b)
 {
-    return a.pixels.size() == b.pixels.size() &&
-           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(PixelMoments)) == 0;
+    return a.pixels.size() == b.pixels.size() && std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(PixelMoments)) == 0;
 }
 
 void expectSameMean(const std::string& name, const Film& a, const Film& b)
@@ -100,8 +100,7 @@ void expectSameMean(const std::string& name, const Film& a, const Film& b)
         EXPECT_LE(std::abs(x.mean[k] - y.mean[k]), z * error + 2e-5 * y.mean[k])
             << name << ", channel " << k << ": " << x.mean[k] << " and " << y.mean[k];
         if (k == 0) {
-            std::printf("%s: ratio of means - 1 = %.2e +- %.1e\n", name.c_str(), x.mean[k] / y.mean[k] - 1.0,
-                        error / y.mean[k]);
+            std::printf("%s: ratio of means - 1 = %.2e +- %.1e\n", name.c_str(), x.mean[k] / y.mean[k] - 1.0, error / y.mean[k]);
         }
     }
 }
@@ -115,9 +114,8 @@ void expectMean(const std::string& name, const Film& film, const glm::dvec3& tru
         EXPECT_LE(std::abs(error), z * estimate.standardError[k] + 2e-5 * truth[k])
             << name << ", channel " << k << ": " << estimate.mean[k] << ", truth " << truth[k];
         if (k == 0) {
-            std::printf("%s: %.7g, truth %.7g, relative error %.2e +- %.1e (sees %.1e)\n", name.c_str(), estimate.mean[k],
-                        truth[k], error / truth[k], estimate.standardError[k] / truth[k],
-                        (z + 2.33) * estimate.standardError[k] / truth[k]);
+            std::printf("%s: %.7g, truth %.7g, relative error %.2e +- %.1e (sees %.1e)\n", name.c_str(), estimate.mean[k], truth[k],
+                        error / truth[k], estimate.standardError[k] / truth[k], (z + 2.33) * estimate.standardError[k] / truth[k]);
         }
     }
 }

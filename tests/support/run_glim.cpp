@@ -63,14 +63,13 @@ pid_t start(const GlimCall& call, const std::filesystem::path& out, const std::f
     posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_WRONLY | O_CREAT, 0600);
     posix_spawn_file_actions_addchdir_np(&actions, call.folder.c_str());
     pid_t process = -1;
-    const int error = posix_spawn(&process, words[0].c_str(), &actions, nullptr, pointersTo(words).data(),
-                                  pointersTo(variables).data());
+    const int error = posix_spawn(&process, words[0].c_str(), &actions, nullptr, pointersTo(words).data(), pointersTo(variables).data());
     posix_spawn_file_actions_destroy(&actions);
     EXPECT_EQ(error, 0) << call.program;
     return error == 0 ? process : -1;
 }
 
-// The status that waitpid reports.
+// Returns the status of waitpid.
 int await(pid_t process, const GlimCall& call, const std::filesystem::path& err)
 {
     const Clock::time_point deadline = Clock::now() + kPatience;
@@ -117,14 +116,8 @@ GlimRun runGlim(const std::vector<std::string>& arguments)
     return runGlim(call);
 }
 
-std::string sceneFile(const std::string& name)
-{
-    return (std::filesystem::path(GLIM_SOURCE_DIR) / "scenes" / name).string();
-}
+std::string sceneFile(const std::string& name) { return (std::filesystem::path(GLIM_SOURCE_DIR) / "scenes" / name).string(); }
 
-std::size_t countLines(const std::string& text)
-{
-    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-}
+std::size_t countLines(const std::string& text) { return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')); }
 
 }  // namespace glim::test

@@ -14,11 +14,11 @@ namespace glim::test {
 
 struct GlimCall {
     std::vector<std::string> arguments;
-    // On top of the test's own; nothing: unset. What the user's cache has does not matter, nor does it get anything.
+    // Added to the test's own environment; nullopt unsets a variable. The user's cache is neither read nor written.
     std::map<std::string, std::optional<std::string>> environment{{"GLIM_CACHE_DIR", ""}};
     std::filesystem::path folder = std::filesystem::current_path();
     std::filesystem::path program = GLIM_BINARY;
-    // Sends `signal` once this is true of what stderr has so far; it may take its time, while the program goes on.
+    // Sends `signal` once this is true of what stderr has so far. The program goes on meanwhile.
     std::function<bool(const std::string& err)> signalWhen;
     int signal = 0;
 };
@@ -29,7 +29,7 @@ struct GlimRun {
     std::string out, err;
 };
 
-// There is a whole line.
+// Whether there is a whole line.
 inline bool hasLine(const std::string& err) { return err.find('\n') != std::string::npos; }
 
 // Adds a failure to the running test, and ends the process, if it takes longer than two minutes.

@@ -1,4 +1,4 @@
-// A scene on the test device, with the tables that lead from what kernels say back to it.
+// A scene on the test device, with tables that lead from a kernel's records back to the scene's primitives.
 #pragma once
 
 #include "host/flatten/build_scene_bvh.hpp"
@@ -11,32 +11,42 @@ namespace glim {
 
 struct SceneOnDevice {
     explicit SceneOnDevice(const Scene& scene, const Camera& view = {})
-        : bvh(buildSceneBvh(scene)), flat(flattenScene(scene, bvh)),
-          device(testDevice(), flat), camera(testDevice(), flattenCamera(view, 1.0F)), recordOf(scene.triangles.size() + scene.spheres.size())
+        : SceneOnDevice(scene, makePrimitives(scene), view)
+    {}
+
+    // With primitives that are not made from the scene: triangles of zero area among them, which makePrimitives leaves out.
+    SceneOnDevice(const Scene& scene, Primitives made, const Camera& view = {})
+        : primitives(std::move(made)),
+          bvh(buildSceneBvh(primitives)),
+          flat(flattenScene(scene, primitives, bvh)),
+          device(testDevice(), flat),
+          camera(flattenCamera(view, 1.0F)),
+          recordOf(primitives.count())
     {
         for (std::uint32_t record = 0; record < bvh.order.size(); ++record) {
             recordOf[bvh.order[record]] = record;
         }
     }
 
-    // The primitive (triangles, then spheres) that stands at a record; kNoPrimitive for none.
+    // The primitive that stands at a record; kNoPrimitive for none.
     std::uint32_t idOf(std::uint32_t record) const { return record == kNoRecord ? kNoPrimitive : bvh.order[record]; }
 
-    // `kernel` over this scene; the number of lights travels in its pass.
+    // `kernel` over this scene; camera and number of lights are in its parameters.
     KernelTest test(const EmbeddedShader& kernel) const
     {
         KernelTest test(kernel);
         test.buffers(device.buffers());
-        test.buffers({{kBindCamera, &camera.buffer()}});
-        test.specialize(kSpecStackLevels, flat.features.stackLevels);
-        test.pass().lightCount = static_cast<std::uint32_t>(flat.lights.size());
+        test.parameters().camera = camera;
+        test.specialize(kSpecStackLevels, flat.stackLevels);
+        test.parameters().lightCount = static_cast<std::uint32_t>(flat.lights.size());
         return test;
     }
 
+    Primitives primitives;
     WideBvh bvh;
     FlatScene flat;
     DeviceScene device;
-    DeviceCamera camera;
+    FlatCamera camera;
     std::vector<std::uint32_t> recordOf;  // by primitive: one of its records
 };
 

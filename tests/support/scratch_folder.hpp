@@ -44,10 +44,7 @@ inline std::string bytesOfFile(const std::filesystem::path& path)
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-inline void writeText(const std::filesystem::path& path, const std::string& text)
-{
-    std::ofstream(path, std::ios::binary) << text;
-}
+inline void writeText(const std::filesystem::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
 
 // Fails unless `step` throws an Error whose message contains `part`.
 template <class Error, class Step>

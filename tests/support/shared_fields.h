@@ -3,6 +3,7 @@
 #ifndef GLIM_TESTS_SHARED_FIELDS
 #define GLIM_TESTS_SHARED_FIELDS
 #include "../../shaders/shared/display_types.h"
+#include "../../shaders/shared/course_types.h"
 #include "../../shaders/shared/path_types.h"
 #include "../../shaders/shared/pixel_moments.h"
 #include "../../shaders/shared/scene_types.h"
@@ -25,16 +26,17 @@ struct EverySharedStruct {
     Located located;
     Status status;
     BlockSums blockSums;
-    Pass pass_;
+    CoursePass pass_;
+    RenderParameters parameters;
+    CourseParameters course_;
     PixelMoments pixelMoments;
     LuminanceMoments luminanceMoments;
     BrightestSample brightest;
     ChosenPixel chosen;
-    FlatMaterial material;
+    MaterialData material;
     AliasEntry alias;
     FlatLight light;
     FlatEmitter emitter;
-    FlatCamera camera;
     DisplayPass display;
 };
 
@@ -42,52 +44,53 @@ GLIM_SHARED_END
 #endif
 
 #ifdef F3
+// clang-format off
 F3(ray.origin) U(ray.source) F3(ray.direction) U(ray.unused)
 U(hit.record) F(hit.t) F2(hit.barycentric)
-F3(state.throughput) F(state.pdf) F(state.cosine) F(state.etaScale) U(state.bounce) U(state.unused)
+F3(state.throughput) F(state.pdf) F(state.cosine) F(state.etaScale) U(state.bounce) U(state.normal)
 F3(radiance.radiance) F(radiance.clamped)
 F3(firstHit.albedo) F(firstHit.alpha) F3(firstHit.normal) F(firstHit.depth)
 F3(shadowRay.origin) U(shadowRay.source) F3(shadowRay.direction) U(shadowRay.target) F3(shadowRay.contribution)
-F(shadowRay.reach)
-F3(note.point) F3(note.geometric) F3(note.shading) U(note.front) F(note.foundPdf) F(note.foundWeight) U(note.light)
-F(note.lightPdf) F(note.scatterPdf) F(note.lightWeight) F3(note.weight) F3(note.throughput) F(note.survival)
+F(shadowRay.tMax)
+F3(note.point) F3(note.ng) F3(note.ns) U(note.front) F(note.lightPdfOfHit) F(note.misWeightOfHit) U(note.light) F(note.lightPdf)
+F(note.bsdfPdf) F(note.misWeightOfLight) F3(note.weight) F3(note.throughput) F(note.continuation)
 U(queueSizes.closest) U(queueSizes.shadow) U3(queueSizes.closestGroups) U3(queueSizes.shadowGroups)
 U(queueTails.next) U(queueTails.shadow)
 U2(rayCounts.closest) U2(rayCounts.shadow)
 U(located.pixel) U(located.sampleIndex)
 U(status.loopCaps) U(status.overflows) U(status.nonFinite) U(status.located[0].pixel) U(status.located[0].sampleIndex)
-U(status.located[1].pixel) U(status.located[1].sampleIndex) U(status.located[2].pixel)
-U(status.located[2].sampleIndex) U(status.located[3].pixel) U(status.located[3].sampleIndex)
-U(status.located[4].pixel) U(status.located[4].sampleIndex) U(status.located[5].pixel)
-U(status.located[5].sampleIndex) U(status.located[6].pixel) U(status.located[6].sampleIndex)
-U(status.located[7].pixel) U(status.located[7].sampleIndex) U(status.located[8].pixel)
-U(status.located[8].sampleIndex) U(status.located[9].pixel) U(status.located[9].sampleIndex)
-U(status.located[10].pixel) U(status.located[10].sampleIndex) U(status.located[11].pixel)
-U(status.located[11].sampleIndex) U(status.located[12].pixel) U(status.located[12].sampleIndex)
-U(status.located[13].pixel) U(status.located[13].sampleIndex) U(status.located[14].pixel)
-U(status.located[14].sampleIndex) U(status.located[15].pixel) U(status.located[15].sampleIndex)
-U(blockSums.count) F3(blockSums.radiance) F(blockSums.alpha) F3(blockSums.albedo) F3(blockSums.normal)
-F(blockSums.depth) F(blockSums.clamped)
-U(pass_.width) U(pass_.height) U(pass_.slabBegin) U(pass_.firstPixel) U(pass_.pixelCount) U(pass_.firstSample)
-U(pass_.sampleCount) U(pass_.seed) U(pass_.bounce) U(pass_.maxBounces) U(pass_.lightCount) U(pass_.environmentLight)
-F3(pass_.environment) F(pass_.clampIndirect) U(pass_.accumulate) U(pass_.canarySteps)
-U(pass_.leastEvents) U(pass_.mostEvents) F(pass_.survival) U(pass_.sizes) U(pass_.addsFound) U(pass_.light)
-U(pass_.lightSample) U(pass_.lightSamples) U(pass_.firstRecord) U(pass_.endRecord) U(pass_.recordCount) F(pass_.tolerance)
-U(pass_.constantSamples)
+U(status.located[1].pixel) U(status.located[1].sampleIndex) U(status.located[2].pixel) U(status.located[2].sampleIndex)
+U(status.located[3].pixel) U(status.located[3].sampleIndex) U(status.located[4].pixel) U(status.located[4].sampleIndex)
+U(status.located[5].pixel) U(status.located[5].sampleIndex) U(status.located[6].pixel) U(status.located[6].sampleIndex)
+U(status.located[7].pixel) U(status.located[7].sampleIndex) U(status.located[8].pixel) U(status.located[8].sampleIndex)
+U(status.located[9].pixel) U(status.located[9].sampleIndex) U(status.located[10].pixel) U(status.located[10].sampleIndex)
+U(status.located[11].pixel) U(status.located[11].sampleIndex) U(status.located[12].pixel) U(status.located[12].sampleIndex)
+U(status.located[13].pixel) U(status.located[13].sampleIndex) U(status.located[14].pixel) U(status.located[14].sampleIndex)
+U(status.located[15].pixel) U(status.located[15].sampleIndex)
+U(blockSums.count) F3(blockSums.radiance) F(blockSums.alpha) F3(blockSums.albedo) F3(blockSums.normal) F(blockSums.depth)
+F(blockSums.clamped)
+U(pass_.pass.tileBegin) U(pass_.pass.firstPixel) U(pass_.pass.pixelCount) U(pass_.pass.firstSample) U(pass_.pass.sampleCount)
+U(pass_.pass.bounce) U(pass_.pass.accumulate) U(pass_.pass.sizes) U(pass_.lightRound.light) U(pass_.lightRound.lightSample)
+U(pass_.lightRound.lightSamples) U(pass_.lightRound.addsEmission) U(pass_.lightRound.firstRecord) U(pass_.lightRound.endRecord)
+F3(parameters.camera.position) F3(parameters.camera.right) F3(parameters.camera.up) F3(parameters.camera.forward)
+U(parameters.camera.kind) F3(parameters.camera.lensRight) F3(parameters.camera.lensUp) F(parameters.camera.inverseFocus)
+U(parameters.width) U(parameters.height) U(parameters.seed) U(parameters.maxBounces) U(parameters.minPathLength)
+U(parameters.maxPathLength) U(parameters.lightCount) U(parameters.environmentLight) F3(parameters.environment)
+F(parameters.clampIndirect) U(parameters.canarySteps)
+U(course_.recordCount) F(course_.continuation) F(course_.tolerance) U(course_.constantSamples)
 U(pixelMoments.count) U(pixelMoments.blocks) F3(pixelMoments.mean) F3(pixelMoments.squares) F(pixelMoments.alpha)
 F3(pixelMoments.albedo) F3(pixelMoments.normal) F(pixelMoments.depth) F(pixelMoments.clamped)
 U(luminanceMoments.count) F(luminanceMoments.mean) F(luminanceMoments.squares) U(luminanceMoments.met)
 F(brightest.luminance) U(brightest.sampleIndex)
 U(chosen.pixel) U(chosen.samplesBefore)
-F3(material.baseColor) U(material.scattering) F3(material.emission) F(material.ior) U(material.doubleSided)
-U3(material.unused)
+F3(material.baseColor) U(material.lobe) F3(material.emission) F(material.ior) U(material.doubleSided) U3(material.unused)
 U(alias.threshold) U(alias.other)
-U(light.kind) U(light.firstEmitter) U(light.emitterCount) F(light.probability) U(light.alias.threshold)
-U(light.alias.other) F3(light.position) F(light.radius) F3(light.direction) F(light.cosInner) F3(light.intensity)
-F(light.cosOuter) U(light.doubleSided) U(light.unused)
-U(emitter.record) U(emitter.light) F(emitter.areaPdf) U(emitter.alias.threshold) U(emitter.alias.other) U(emitter.primitive) U2(emitter.unused)
-F3(camera.position) F3(camera.right) F3(camera.up) F3(camera.forward) U(camera.kind)
-F3(camera.lensRight) F3(camera.lensUp) F(camera.inverseFocus)
-U(display.width) U(display.height) U(display.filmWidth) U(display.filmHeight) U(display.slabBegin) U(display.slabCount)
+U(light.kind) U(light.firstEmitter) U(light.emitterCount) F(light.probability) U(light.alias.threshold) U(light.alias.other)
+F3(light.position) F(light.radius) F3(light.direction) F(light.cosInner) F3(light.intensity) F(light.cosOuter)
+U(light.doubleSided) U(light.unused)
+U(emitter.record) U(emitter.light) F(emitter.areaPdf) U(emitter.alias.threshold) U(emitter.alias.other) U(emitter.primitive)
+U2(emitter.unused)
+U(display.width) U(display.height) U(display.filmWidth) U(display.filmHeight) U(display.tileBegin) U(display.tileCount)
 F(display.scale) F(display.low) F(display.high) U(display.textWidth) U(display.textHeight)
+// clang-format on
 #endif

@@ -1,7 +1,7 @@
-// Benches of pictures whose samples are random numbers: what a bench of a renderer with a known flaw looks like, or without.
+// Benches of pictures whose samples are random numbers, as of a renderer with a known flaw or without one.
 #pragma once
 
-#include "host/bench/measure_error.hpp"
+#include "host/bench/run_bench.hpp"
 #include "tests/support/random.hpp"
 
 #include <cmath>

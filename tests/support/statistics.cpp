@@ -1,6 +1,6 @@
 #include "tests/support/statistics.hpp"
 
-#include "host/measure/normal.hpp"
+#include "host/measure/confidence.hpp"
 
 #include <gtest/gtest.h>
 
@@ -44,10 +44,7 @@ double gammaFraction(double a, double x)
 
 }  // namespace
 
-int testRounds()
-{
-    return std::getenv("GLIM_LONG") != nullptr ? 25 : 1;
-}
+int testRounds() { return std::getenv("GLIM_LONG") != nullptr ? 25 : 1; }
 
 double chiSquareTail(double x, double freedom)
 {
@@ -58,8 +55,7 @@ double chiSquareTail(double x, double freedom)
     return half < a + 1.0 ? 1.0 - gammaSeries(a, half) : gammaFraction(a, half);
 }
 
-void expectCounts(const std::string& what, std::span<const double> counts, std::span<const double> expected,
-                  std::size_t tests)
+void expectCounts(const std::string& what, std::span<const double> counts, std::span<const double> expected, std::size_t tests)
 {
     double statistic = 0.0, pooledCount = 0.0, pooledExpected = 0.0;
     double cells = 0.0;
@@ -88,9 +84,8 @@ void expectSampleMean(const std::string& what, std::span<const double> values, d
 {
     const double n = static_cast<double>(values.size());
     const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
-    const double squares = std::accumulate(values.begin(), values.end(), 0.0, [mean](double sum, double value) {
-        return sum + (value - mean) * (value - mean);
-    });
+    const double squares = std::accumulate(values.begin(), values.end(), 0.0,
+                                           [mean](double sum, double value) { return sum + (value - mean) * (value - mean); });
     const double error = std::sqrt(squares / (n - 1.0) / n);
     std::cout << "  " << what << ": mean " << mean << ", expected " << truth << ", z = " << (mean - truth) / error << '\n';
     EXPECT_LE(std::abs(mean - truth), scoreLimit(tests) * error) << what;
@@ -110,9 +105,6 @@ double correlationScore(std::span<const double> a, std::span<const double> b)
     return std::abs(ab) / std::sqrt(aa * bb) * std::sqrt(n);
 }
 
-double scoreLimit(std::size_t tests)
-{
-    return twoSidedLimit(sidakLevel(kFamilyLevel, tests));
-}
+double scoreLimit(std::size_t tests) { return twoSidedLimit(sidakLevel(kFamilyLevel, tests)); }
 
 }  // namespace glim

@@ -1,5 +1,4 @@
-// Tests of hypotheses about what kernels draw. Family of the whole suite: level 1e-3, split by Sidak among the comparisons
-// that a test says it makes.
+// Hypothesis tests of random draws. The level of 1e-3 is divided by Sidak's rule among the comparisons that a test names.
 #pragma once
 
 #include <span>
@@ -8,24 +7,23 @@
 
 namespace glim {
 
-// tools/test --long (GLIM_LONG=1) repeats randomised tests with this many seeds instead of one.
+// The number of seeds of a random test: 25 with tools/test --long (GLIM_LONG=1), otherwise 1.
 int testRounds();
 
-// P(X >= x) for chi-square with `freedom` degrees.
+// P(X >= x) for a chi-square distribution with `freedom` degrees of freedom.
 double chiSquareTail(double x, double freedom);
 
-// Pearson's test of counts against expected ones; cells with less than 5 expected are pooled. `tests`: comparisons in the
-// family. Prints the p-value.
-void expectCounts(const std::string& what, std::span<const double> counts, std::span<const double> expected,
-                  std::size_t tests);
+// Pearson's test of counts against expected counts. Cells with an expected count below 5 are pooled. `tests` is the number of
+// comparisons of the family. Prints the p-value.
+void expectCounts(const std::string& what, std::span<const double> counts, std::span<const double> expected, std::size_t tests);
 
-// The mean of independent values against its truth, with the standard error from the values. Prints z.
+// Compares the mean of independent values with its true value; the standard error comes from the values. Prints z.
 void expectSampleMean(const std::string& what, std::span<const double> values, double truth, std::size_t tests);
 
-// Two series that should be independent: |correlation| * sqrt(n) against the normal limit. Returns it.
+// |correlation| * sqrt(n) of two series, which is normally distributed if they are independent.
 double correlationScore(std::span<const double> a, std::span<const double> b);
 
-// The largest |z| that a family of `tests` comparisons allows at its level.
+// The largest |z| that a family of `tests` comparisons allows.
 double scoreLimit(std::size_t tests);
 
 }  // namespace glim

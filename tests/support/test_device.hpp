@@ -1,4 +1,4 @@
-// The device that all tests of a process share. No device is a failure of the test that asks for it, never a skip.
+// The device that all tests of a process share. Without a device the tests that need it fail; they are never skipped.
 #pragma once
 
 #include "host/gpu/device.hpp"

@@ -2,12 +2,13 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
 
 namespace glim {
 namespace {
 
-void subdivide(Mesh& mesh, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, int levels)
+void subdivide(Triangles& mesh, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, int levels)
 {
     if (levels == 0) {
         mesh.push_back({{glm::vec3(a), glm::vec3(b), glm::vec3(c)}});
@@ -42,27 +43,27 @@ std::vector<float> ringHeights(int rings)
 
 }  // namespace
 
-Mesh icosphere(int subdivisions)
+Triangles icosphere(int subdivisions)
 {
     const double g = std::numbers::phi;
-    const glm::dvec3 v[12] = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                              {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
-    constexpr int kFaces[20][3] = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                                   {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
-                                   {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
-    Mesh mesh;
+    const glm::dvec3 v[12] = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                              {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+    constexpr int kFaces[20][3] = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                                   {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                                   {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+    Triangles mesh;
     for (const auto& face : kFaces) {
         subdivide(mesh, glm::normalize(v[face[0]]), glm::normalize(v[face[1]]), glm::normalize(v[face[2]]), subdivisions);
     }
     return mesh;
 }
 
-Mesh sliverBox(int rings)
+Triangles sliverBox(int rings)
 {
     const glm::vec2 corners[5] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
     const glm::vec2 apex(1.0F - 1e-6F, 0.3F);
     const std::vector<float> heights = ringHeights(rings);
-    Mesh mesh;
+    Triangles mesh;
     for (int k = 0; k < 4; ++k) {
         const glm::vec2 from = corners[k], to = corners[k + 1];
         for (std::size_t i = 0; i + 1 < heights.size(); ++i) {
@@ -76,14 +77,14 @@ Mesh sliverBox(int rings)
     return mesh;
 }
 
-Mesh terrain(int cells)
+Triangles terrain(int cells)
 {
     const auto vertex = [cells](int i, int j) {
         const float x = 20.0F * static_cast<float>(i) / static_cast<float>(cells) - 10.0F;
         const float z = 20.0F * static_cast<float>(j) / static_cast<float>(cells) - 10.0F;
         return glm::vec3(x, std::sin(0.7F * x) * std::cos(0.9F * z) + 0.2F * std::sin(5.0F * x + 3.0F * z), z);
     };
-    Mesh mesh;
+    Triangles mesh;
     for (int i = 0; i < cells; ++i) {
         for (int j = 0; j < cells; ++j) {
             mesh.push_back({{vertex(i, j), vertex(i, j + 1), vertex(i + 1, j)}});
@@ -93,10 +94,10 @@ Mesh terrain(int cells)
     return mesh;
 }
 
-Mesh randomTriangles(std::size_t count, float size, std::uint32_t seed)
+Triangles randomTriangles(std::size_t count, float size, std::uint32_t seed)
 {
     std::mt19937 random(seed);
-    Mesh mesh;
+    Triangles mesh;
     for (std::size_t i = 0; i < count; ++i) {
         const glm::vec3 center = randomPoint(random, 1.0F);
         const glm::vec3 a = randomPoint(random, size), b = randomPoint(random, size), c = randomPoint(random, size);
@@ -105,14 +106,15 @@ Mesh randomTriangles(std::size_t count, float size, std::uint32_t seed)
     return mesh;
 }
 
-Mesh aslantPrism(int sides, int rings)
+Triangles aslantPrism(int sides, int rings)
 {
-    const glm::dmat3 turned(glm::normalize(glm::dvec3(1, -1, 0)), glm::normalize(glm::dvec3(1, 1, -2)), glm::normalize(glm::dvec3(1, 1, 1)));
+    const glm::dmat3 turned(glm::normalize(glm::dvec3(1, -1, 0)), glm::normalize(glm::dvec3(1, 1, -2)),
+                            glm::normalize(glm::dvec3(1, 1, 1)));
     const auto vertex = [&](int side, int ring, double end) {
         const double angle = 2.0 * std::numbers::pi * (side % sides) / sides, radius = static_cast<double>(ring) / rings;
         return glm::vec3(turned * glm::dvec3(radius * std::cos(angle), radius * std::sin(angle), end));
     };
-    Mesh mesh;
+    Triangles mesh;
     const auto quad = [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d) {
         mesh.push_back({{a, b, c}});
         mesh.push_back({{a, c, d}});
@@ -130,10 +132,10 @@ Mesh aslantPrism(int sides, int rings)
     return mesh;
 }
 
-Mesh strips(std::size_t count, std::uint32_t seed)
+Triangles strips(std::size_t count, std::uint32_t seed)
 {
     std::mt19937 random(seed);
-    Mesh mesh = randomTriangles(40 * count, 0.1F, seed + 1);
+    Triangles mesh = randomTriangles(40 * count, 0.1F, seed + 1);
     for (std::size_t i = 0; i < count; ++i) {
         const glm::vec3 from = glm::vec3(-0.7F) + randomPoint(random, 0.3F), to = glm::vec3(0.7F) + randomPoint(random, 0.3F);
         const glm::vec3 across = 0.2F * glm::normalize(randomPoint(random, 1.0F));
@@ -155,14 +157,14 @@ std::vector<Sphere> randomSpheres(std::size_t count, float largestRadius, std::u
     return spheres;
 }
 
-Mesh coincidentTriangles(std::size_t count)
+Triangles coincidentTriangles(std::size_t count)
 {
-    return Mesh(count, Triangle{{glm::vec3(-1, -1, 0), glm::vec3(1, -1, 0), glm::vec3(0, 1, 0)}});
+    return Triangles(count, Triangle{{glm::vec3(-1, -1, 0), glm::vec3(1, -1, 0), glm::vec3(0, 1, 0)}});
 }
 
-Mesh growingLine(std::size_t count, float first, double ratio)
+Triangles growingLine(std::size_t count, float first, double ratio)
 {
-    Mesh mesh;
+    Triangles mesh;
     double start = 0.0, length = static_cast<double>(first);
     for (std::size_t i = 0; i < count; ++i) {
         const auto x = static_cast<float>(start), y = static_cast<float>(length);
@@ -174,7 +176,7 @@ Mesh growingLine(std::size_t count, float first, double ratio)
     return mesh;
 }
 
-Mesh placed(Mesh mesh, float scale, float shift)
+Triangles placed(Triangles mesh, float scale, float shift)
 {
     for (Triangle& triangle : mesh) {
         for (glm::vec3& vertex : triangle.vertices) {
@@ -184,14 +186,45 @@ Mesh placed(Mesh mesh, float scale, float shift)
     return mesh;
 }
 
-Scene sceneOf(const Mesh& mesh, const std::vector<Sphere>& spheres)
+Primitives primitivesOf(const Triangles& triangles, const std::vector<Sphere>& spheres)
+{
+    Primitives primitives;
+    primitives.triangles = triangles;
+    primitives.spheres = spheres;
+    primitives.firstTriangles = {0, static_cast<std::uint32_t>(triangles.size())};
+    return primitives;
+}
+
+void addMesh(Scene& scene, const Triangles& triangles, std::uint32_t material, const std::vector<glm::vec3>& normals)
+{
+    Mesh mesh;
+    mesh.material = material;
+    for (const glm::vec3& vertex : verticesOf(triangles)) {
+        mesh.positions.emplace_back(vertex);
+    }
+    mesh.normals.assign(normals.begin(), normals.end());
+    mesh.indices.resize(mesh.positions.size());
+    std::iota(mesh.indices.begin(), mesh.indices.end(), 0U);
+    scene.instances.push_back({"", static_cast<std::uint32_t>(scene.meshes.size())});
+    scene.meshes.push_back(std::move(mesh));
+}
+
+std::vector<glm::vec3> verticesOf(const Triangles& triangles)
+{
+    std::vector<glm::vec3> vertices;
+    for (const Triangle& triangle : triangles) {
+        vertices.insert(vertices.end(), std::begin(triangle.vertices), std::end(triangle.vertices));
+    }
+    return vertices;
+}
+
+Scene sceneOf(const Triangles& triangles, const std::vector<Sphere>& spheres)
 {
     Scene scene;
     scene.materials.emplace_back();
-    scene.triangles = mesh;
     scene.spheres = spheres;
-    if (!mesh.empty()) {
-        scene.primitives.push_back({"", 0, static_cast<std::uint32_t>(mesh.size()), 0, false});
+    if (!triangles.empty()) {
+        addMesh(scene, triangles);
     }
     return scene;
 }

@@ -16,12 +16,14 @@ namespace glim {
 struct TraverseCase {
     PathRay ray;
     uint target = kNoPrimitive;
-    float reach = 1.0F;
+    float tMax = 1.0F;
 };
 
 class RayMaker {
 public:
-    explicit RayMaker(const SceneOnDevice& scene) : scene_(scene) {}
+    explicit RayMaker(const SceneOnDevice& scene)
+        : scene_(scene)
+    {}
 
     // Anywhere, in any direction; every third with one or two direction components of +0 or -0, and then with its origin
     // exactly on planes of the boxes of primitives.
@@ -47,17 +49,18 @@ public:
     }
 
     // Off the surface of a primitive, towards any side.
-    TraverseCase leaving(const Scene& scene)
+    TraverseCase leaving()
     {
+        const Primitives& primitives = scene_.primitives;
         TraverseCase c = {};
         const std::uint32_t id = below(scene_.recordOf.size());
         c.ray.source = id;
         c.ray.direction = glm::normalize(point(1.0F));
-        if (id < scene.triangles.size()) {
-            const Triangle& t = scene.triangles[id];
+        if (id < primitives.triangles.size()) {
+            const Triangle& t = primitives.triangles[id];
             c.ray.origin = 0.5F * t.vertices[0] + 0.2F * t.vertices[1] + 0.3F * t.vertices[2];
         } else {
-            const Sphere& sphere = scene.spheres[id - scene.triangles.size()];
+            const Sphere& sphere = primitives.spheres[id - primitives.triangles.size()];
             c.ray.origin = sphere.center + sphere.radius * glm::normalize(point(1.0F));
         }
         pickShadow(c);
@@ -75,8 +78,7 @@ private:
     void pickShadow(TraverseCase& c)
     {
         c.target = random_() % 2 == 0 ? below(scene_.recordOf.size()) : kNoPrimitive;
-        c.reach = random_() % 4 == 0 ? std::numeric_limits<float>::infinity()
-                                     : std::uniform_real_distribution<float>(0.05F, 1.0F)(random_);
+        c.tMax = random_() % 4 == 0 ? std::numeric_limits<float>::infinity() : std::uniform_real_distribution<float>(0.05F, 1.0F)(random_);
     }
 
     std::uint32_t below(std::size_t count) { return static_cast<std::uint32_t>(random_() % count); }
@@ -85,11 +87,11 @@ private:
     std::mt19937 random_{7};
 };
 
-// What the scene's tree may be of.
-inline std::vector<Box> piecesOrPrimitives(const Scene& scene)
+// The boxes that the scene's tree may be made of.
+inline std::vector<Box> piecesOrPrimitives(const Primitives& primitives)
 {
-    Pieces pieces = splitTriangles(scene, primitiveBoxes(scene));
-    return pieces.boxes.empty() ? primitiveBoxes(scene) : std::move(pieces.boxes);
+    Pieces pieces = splitTriangles(primitives.triangles, primitiveBoxes(primitives));
+    return pieces.boxes.empty() ? primitiveBoxes(primitives) : std::move(pieces.boxes);
 }
 
 struct TraverseInput {
@@ -101,14 +103,15 @@ inline void PrintTo(const TraverseInput& input, std::ostream* out) { *out << inp
 
 inline std::vector<TraverseInput> traverseInputs()
 {
-    return {
-        {"Mixed", [] { return sceneOf(randomTriangles(250, 0.3F, 1), randomSpheres(50, 0.2F, 2)); }},
-        {"Large", [] { return sceneOf(randomTriangles(60, 1.5F, 3), randomSpheres(6, 1.2F, 4)); }},
-        {"Spheres", [] { return sceneOf({}, randomSpheres(200, 0.3F, 5)); }},
-        {"Small", [] { return sceneOf(randomTriangles(500, 0.1F, 6), randomSpheres(100, 0.1F, 7)); }},
-        {"Strips", [] { return sceneOf(placed(strips(12, 9), 0.5F, 0.0F), randomSpheres(20, 0.2F, 10)); }},
-        {"OneTriangle", [] { return sceneOf(randomTriangles(1, 1.5F, 8)); }},
-        {"OneSphere", [] { return sceneOf({}, {{"", glm::vec3(0.1F, 0.2F, 0.0F), 0.8F, 0}}); }}};
+    return {{"Mixed", [] { return sceneOf(randomTriangles(250, 0.3F, 1), randomSpheres(50, 0.2F, 2)); }},
+            {"Large", [] { return sceneOf(randomTriangles(60, 1.5F, 3), randomSpheres(6, 1.2F, 4)); }},
+            {"Spheres", [] { return sceneOf({}, randomSpheres(200, 0.3F, 5)); }},
+            {"Small", [] { return sceneOf(randomTriangles(500, 0.1F, 6), randomSpheres(100, 0.1F, 7)); }},
+            {"Strips", [] { return sceneOf(placed(strips(12, 9), 0.5F, 0.0F), randomSpheres(20, 0.2F, 10)); }},
+            {"OneTriangle", [] { return sceneOf(randomTriangles(1, 1.5F, 8)); }},
+            {"OneSphere", [] {
+                 return sceneOf({}, {{"", glm::vec3(0.1F, 0.2F, 0.0F), 0.8F, 0}});
+             }}};
 }
 
 }  // namespace glim

@@ -29,7 +29,7 @@ std::uint32_t field(const std::string& dump, XwdField place)
     return value;
 }
 
-// What Xvfb writes to the pipe: its number, once it is ready.
+// Xvfb writes the number of its display to the pipe when it is ready.
 std::string readLine(int pipe)
 {
     std::string line;
@@ -39,7 +39,7 @@ std::string readLine(int pipe)
     return line;
 }
 
-// Where desktops keep it, and GLFW reads it.
+// Desktops keep the density in this database, and GLFW reads it there.
 void setDensity(const std::string& display, int density)
 {
     FILE* database = popen(("xrdb -display " + display + " -nocpp -merge -").c_str(), "w");
@@ -59,8 +59,9 @@ VirtualScreen::VirtualScreen(int depth, int density)
         return;
     }
     const std::string size = std::to_string(kWidth) + "x" + std::to_string(kHeight) + "x" + std::to_string(depth);
-    std::vector<std::string> words{"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", size, "-fbdir",
-                                   folder_.path().string(), "-nolisten", "tcp", "-noreset"};
+    std::vector<std::string> words{"Xvfb",    "-displayfd", std::to_string(ends[1]), "-screen",   "0",
+                                   size,      "-fbdir",     folder_.path().string(), "-nolisten", "tcp",
+                                   "-noreset"};
     std::vector<char*> arguments;
     for (std::string& word : words) {
         arguments.push_back(word.data());

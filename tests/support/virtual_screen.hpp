@@ -1,4 +1,4 @@
-// A screen that nobody sees: an X server of the test's own, and what is on it.
+// A virtual screen: an X server that draws into memory.
 #pragma once
 
 #include "tests/support/scratch_folder.hpp"
@@ -15,17 +15,17 @@ class VirtualScreen {
 public:
     static constexpr std::uint32_t kWidth = 800, kHeight = 600;
 
-    // `depth` in bits, `density` in dots per inch. Adds a failure to the running test if Xvfb (Debian: xvfb) does not start.
+    // `depth` is in bits, `density` in dots per inch. Adds a failure to the running test if Xvfb (Debian: xvfb) does not start.
     explicit VirtualScreen(int depth = 24, int density = 96);
     ~VirtualScreen();
     VirtualScreen(const VirtualScreen&) = delete;
     VirtualScreen& operator=(const VirtualScreen&) = delete;
 
-    // For DISPLAY.
+    // The value of DISPLAY.
     const std::string& name() const { return name_; }
-    // Rows of kWidth pixels from the top; empty if it cannot be read. Of 24 bits only.
+    // Rows of kWidth pixels from the top. The depth must be 24.
     std::vector<std::array<int, 3>> pixels() const;
-    // pixels() once they have not changed for a quarter of a second.
+    // Waits until the pixels have not changed for a quarter of a second.
     std::vector<std::array<int, 3>> calmPixels() const;
 
 private:

@@ -1,4 +1,4 @@
-"""What a scene does not need is compiled away: kernels with features switched off, after SPIR-V's own optimizer.
+"""What a scene does not need is compiled away: looks at kernels with features switched off, after SPIR-V's own optimizer.
 
 Usage: lean_kernels_test.py FOLDER_OF_SPIRV
 """
@@ -9,40 +9,44 @@ import tempfile
 import unittest
 from pathlib import Path
 
-BINDINGS = Path(__file__).resolve().parents[2] / "shaders/shared/bindings.h"
-# Of a scene: what features.glsl has on unless told otherwise. Triangle lights stay on: without any light nothing is left to see.
-FEATURES = ["Spheres", "Slivers", "Smooth", "Mirrors", "Glasses", "SphereLights", "PunctualLights", "Environment"]
-# Which kernels have code of its own for each, once the others are off.
+SHARED = Path(__file__).resolve().parents[2] / "shaders/shared"
+BITS = {name: int(bit, 16) for name, bit in re.findall(r"kFeature(\w+) = (0x[0-9a-f]+)u", (SHARED / "features.h").read_text())}
+# Triangle lights stay on: without any light nothing is left to see.
+FEATURES = [name for name in BITS if name != "TriangleLights"]
+# The kernels that have code for each feature, once the others are off.
 USERS = {
-    "Spheres": ["trace_closest", "trace_shadow", "bounce", "sample_lights"],
+    "Spheres": ["trace_closest", "trace_shadow", "sample_lights_and_bounce"],
     "Slivers": ["trace_closest", "trace_shadow"],
-    "Smooth": ["bounce", "sample_lights"],
-    "Mirrors": ["bounce"],
-    "Glasses": ["bounce"],
-    "SphereLights": ["sample_lights"],
-    "PunctualLights": ["sample_lights"],
-    "Environment": ["sample_lights"],
+    "Smooth": ["sample_lights_and_bounce"],
+    "Mirror": ["sample_lights_and_bounce"],
+    "Glass": ["sample_lights_and_bounce"],
+    "SphereLights": ["sample_lights_and_bounce"],
+    "PunctualLights": ["sample_lights_and_bounce"],
+    "Environment": ["sample_lights_and_bounce"],
 }
 KERNELS = USERS["Spheres"]
 
 
 def spec_id(name):
-    return re.search(rf"kSpec{name} = (\d+)u", BINDINGS.read_text()).group(1)
+    return re.search(rf"kSpec{name} = (\d+)u", (SHARED / "bindings.h").read_text()).group(1)
 
 
 class LeanKernels(unittest.TestCase):
     folder = Path()
 
+    def test_every_feature_is_here(self):
+        self.assertEqual(set(USERS), set(FEATURES))
+
     def size(self, kernel, features):
         """Bytes of the optimized kernel with these features and nothing that a render asks for."""
-        values = {name: name in features for name in FEATURES}
-        values |= {name: False for name in ["BruteForce", "MollerTrumbore", "Notes"]}
-        defaults = " ".join(f"{spec_id(name)}:{str(on).lower()}" for name, on in values.items())
+        mask = sum(BITS[name] for name in [*features, "TriangleLights"])
+        off = " ".join(f"{spec_id(name)}:false" for name in ["Notes"])
+        defaults = f"{spec_id('Features')}:{mask} {off}"
         with tempfile.TemporaryDirectory() as scratch:
             out = Path(scratch) / "optimized.spv"
             subprocess.run(
                 ["spirv-opt", "--target-env=vulkan1.2", "--scalar-block-layout", f"--set-spec-const-default-value={defaults}",
-                 "--freeze-spec-const", "-O", str(self.folder / f"{kernel}.spv"), "-o", str(out)], check=True)
+                 "--freeze-spec-const", "--fold-spec-const-op-composite", "-O", str(self.folder / f"{kernel}.spv"), "-o", str(out)], check=True)
             return out.stat().st_size
 
     def test_a_diffuse_scene_has_smaller_kernels(self):

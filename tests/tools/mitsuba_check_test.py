@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""tools/against_mitsuba.py and tools/flip.py without Mitsuba and FLIP: what is read of a scene, what Mitsuba would be given, and
-the figures on data whose answer is known."""
+"""tools/against_mitsuba.py and tools/flip.py without Mitsuba and FLIP: how a scene is read, what Mitsuba would be given, and the
+figures of data whose answer is known."""
 
 import math
 import os

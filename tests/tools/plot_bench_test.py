@@ -1,4 +1,4 @@
-"""tools/plot_bench.py from made-up benches: what its figures say, and what it refuses."""
+"""tools/plot_bench.py on made-up benches: what its figures say, and what it refuses."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""A Mitsuba scene of the plain one, of objects in memory: no file is written."""
+"""Makes a Mitsuba scene from the plain one, of objects in memory: no file is written."""
 
 import math
 
@@ -45,7 +45,7 @@ def make_mesh(name, material, positions, triangles, normals):
 
 
 def groups_of(scene):
-    """Meshes to join: those of a material, but lamps one by one, since Mitsuba gives each emitter the same share of samples."""
+    """Lists of meshes to join: all of one material, but each lamp alone, since Mitsuba gives each emitter the same share of samples."""
     groups = {}
     for index, mesh in enumerate(scene.meshes):
         lamp = index if scene.materials[mesh.material].emits else None

@@ -2,4 +2,4 @@
 
 
 class CheckError(Exception):
-    """The world's mistake: a file that cannot be exported, a program that is missing or failed."""
+    """Not a mistake of this program: a file that cannot be exported, another program that is missing or failed."""

@@ -1,4 +1,4 @@
-"""What independent renders of two renderers say: the ratio of their means, z-tests, errors at equal samples and time to equal
+"""Compares independent renders of two renderers: the ratio of their means, z-tests, errors at equal samples and time to equal
 error. Renders are arrays: seed x row x column x channel."""
 
 import math
@@ -32,14 +32,14 @@ def normal_of_student(t, freedom):
 
 
 def rounding_of(spp):
-    """Mitsuba's film adds samples one by one in float32: each sum rounds by at most 2^-24, and on average half of all is in it
+    """Mitsuba's film adds samples one by one in float32. Each sum rounds by at most 2^-24, and on average holds half of the light
     (Higham, Accuracy and Stability of Numerical Algorithms, 2002, section 4.2). Measured: 1e-5 at 1,024 samples of .7."""
     return max(ROUNDING, spp * 2.0 ** -25)
 
 
 def z_of(a, b, rounding):
-    """Of each column; 0 where the difference is rounding, beyond any limit where it is more and nothing varies; and where noise
-    is."""
+    """The z of each column, and where there is noise. z is 0 where the difference is rounding, and beyond any limit where it is more
+    than that although nothing varies."""
     difference, error, freedom = welch(a, b)
     floor = rounding * np.abs(b).mean(axis=0)
     excess = np.sign(difference) * np.maximum(np.abs(difference) - floor, 0)
@@ -61,7 +61,7 @@ def ratio_of(a, b):
 
 
 def block_sums(renders):
-    """Sums over blocks of 8 x 8 pixels, those at the rim smaller: seed x block x channel."""
+    """Sums over blocks of 8 x 8 pixels, which are smaller at the rim: seed x block x channel."""
     seeds, height, width, channels = renders.shape
     filled = np.zeros((seeds, -(-height // BLOCK) * BLOCK, -(-width // BLOCK) * BLOCK, channels))
     filled[:, :height, :width] = renders
@@ -92,7 +92,7 @@ def test_bias(a, b, spp):
 
 
 def relative_errors(renders, reference):
-    """Of each render, from its distance to the mean of its own: what relMSE is without bias; their mean is unbiased."""
+    """relMSE of each render, from its distance to the mean of that renderer's renders; unbiased in the mean."""
     weight = 1 / (reference ** 2 + 0.01 * reference.mean() ** 2)
     seeds = len(renders)
     return ((renders - renders.mean(axis=0)) ** 2 * weight).mean(axis=(1, 2, 3)) * seeds / (seeds - 1)

@@ -1,4 +1,4 @@
-"""A glTF file as JSON, arrays and placed nodes; what our scenes do not use of glTF is refused."""
+"""A glTF file as JSON, arrays and placed nodes. Refuses what our scenes do not use of glTF."""
 
 import base64
 import json
@@ -13,7 +13,7 @@ from .errors import CheckError
 KINDS = {5121: np.dtype("u1"), 5123: np.dtype("<u2"), 5125: np.dtype("<u4"), 5126: np.dtype("<f4")}
 EXTENSIONS = {"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular",
               "KHR_materials_transmission", "KHR_materials_volume"}
-# What comes of a file that does not keep to glTF; `glim inspect` says more.
+# The errors that a file raises if it does not follow glTF; `glim inspect` says more.
 BROKEN = (AttributeError, IndexError, KeyError, TypeError, ValueError, struct.error)
 GLB_MAGIC, JSON_CHUNK = b"glTF", 0x4E4F534A
 
@@ -71,7 +71,7 @@ class GltfFile:
             return file.read()
 
     def array(self, index, what):
-        """An accessor as rows: float32 as they are, whole numbers only where they are indices."""
+        """An accessor as rows: float32 as it is; whole numbers only for indices."""
         accessor = self.json["accessors"][index]
         kind = KINDS.get(accessor["componentType"])
         plain = kind is not None and "sparse" not in accessor and "bufferView" in accessor

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-# Of the side of a triangle: how far apart the two one-sided sheets lie that stand for one that emits from both sides.
+# Two one-sided sheets stand for a triangle that emits from both sides. Their distance, as a share of the triangle's side:
 SHEET_GAP = 1e-3
 
 

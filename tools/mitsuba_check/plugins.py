@@ -1,5 +1,5 @@
-"""What glTF means and Mitsuba does not have: a mirror with Schlick's Fresnel, and a spot with the falloff of
-KHR_lights_punctual. As classes they can be written only once a variant is chosen."""
+"""What glTF has and Mitsuba does not have: a mirror with Schlick's Fresnel, and a spot with the falloff of KHR_lights_punctual. These
+classes can be defined only after a variant of Mitsuba is chosen."""
 
 import mitsuba as mi
 

@@ -28,7 +28,7 @@ EXPLANATIONS = {
 
 
 def choose_variant():
-    """LLVM of the wrong version ends the process, so another one tries."""
+    """An LLVM of the wrong version ends the process, so another process tries it."""
     tried = subprocess.run([sys.executable, "-B", "-c", TRY_LLVM], capture_output=True, check=False)
     return "llvm_ad_rgb" if tried.returncode == 0 else "scalar_rgb"
 

@@ -1,4 +1,4 @@
-"""A scene as plain values in world coordinates, and from glTF what glim makes of it (scenes/README.md)."""
+"""A scene as plain values in world coordinates, read from glTF as glim reads it (scenes/README.md)."""
 
 import math
 from dataclasses import dataclass, field

@@ -36,7 +36,7 @@ def terrain(count):
 
 
 def menger(level):
-    """Menger's sponge: only faces between solid and void, so that it stays closed."""
+    """Menger's sponge: only the faces between solid and void, so that the surface is closed."""
     document, n = sunlit(), 3 ** level
 
     def solid(cell):

@@ -1,4 +1,4 @@
-"""Broken files, one for each thing that the loader refuses; each is broken in that way only.
+"""Broken files, one for each thing that the loader refuses. Each is broken in one way only.
 
 scenes/README.md lists the sentences, and a test compares them.
 """

@@ -28,7 +28,7 @@ def block(low, high):
 
 
 def turn(points, degrees, center):
-    """About the vertical axis through the origin, then moved."""
+    """Turned about the vertical axis through the origin, then moved."""
     c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     return [[c * x + s * z + center[0], y + center[1], -s * x + c * z + center[2]] for x, y, z in points]
 

@@ -57,7 +57,7 @@ def cornell_gems():
               ("sapphire", icosahedron(), 0, 0.33, 25.0, (0.46, 0.0, -0.3), (0.45, 0.62, 0.95), 1.77),
               ("emerald", brilliant(6), -1, 0.3, 40.0, (0.32, 0.0, 0.5), (0.5, 0.92, 0.62), 1.58))
     for name, (points, indices), face, size, degrees, center, tint, ior in stones:
-        # A millimetre above the floor: faces that coincide would hide which of them a ray met.
+        # A millimetre above the floor: if faces coincided, one could not tell which of them a ray met.
         resting = rest_on_face([[size * c for c in p] for p in points], indices, face, 0.001)
         document.shape(name, turn(resting, degrees, center), indices, document.material(name, tint, ior=ior))
     return document

@@ -17,7 +17,7 @@ def factor(half):
 
 
 def resolution(triangles):
-    """Columns and rows of a closed globe of 2 columns rows triangles, as near to the number as there is a good shape."""
+    """(columns, rows) of a closed globe of 2 * columns * rows triangles: the count nearest to the number that has a good shape."""
     half = max(6, triangles // 2)
     for step in range(half):
         for candidate in (half - step, half + step):
@@ -61,7 +61,7 @@ def lone_blob(triangles):
 
 
 def blob_in_room(triangles):
-    """In place of a bunny in the Cornell box; with the room's 12 triangles it has about as many as asked."""
+    """A blob that stands for the bunny in the Cornell box. With the room's 12 triangles it has about as many as asked."""
     document = Document()
     cornell_room(document)
     points, indices = globe(triangles - 12)

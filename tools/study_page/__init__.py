@@ -1,1 +1,1 @@
-"""The course's write-up, remade: measures with glim, writes one HTML page and study.json. Started by tools/study."""
+"""Remakes the course's write-up: measures with glim, and writes one HTML page and study.json. Started by tools/study."""

@@ -1,4 +1,4 @@
-"""tools/study: parses, runs, and turns what can go wrong into one sentence and an exit code."""
+"""tools/study: parses, runs, and turns each failure into one sentence and an exit code."""
 
 import signal
 import sys

@@ -2,4 +2,4 @@
 
 
 class StudyError(Exception):
-    """The world's mistake: a scene that is missing, a run of glim that failed."""
+    """Not a mistake of this program: a scene that is missing, a run of glim that failed."""

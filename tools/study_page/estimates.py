@@ -11,7 +11,7 @@ STUDENT = (12.7062, 4.3027, 3.1824, 2.7764, 2.5706, 2.4469, 2.3646, 2.3060, 2.26
 
 
 def student(degrees):
-    """Above the table Cornish and Fisher's expansion (Abramowitz and Stegun 26.7.5), right to 1e-5 there."""
+    """Beyond the table by Cornish and Fisher's expansion (Abramowitz and Stegun 26.7.5), which is right to 1e-5 there."""
     if degrees <= len(STUDENT):
         return STUDENT[degrees - 1]
     z = statistics.NormalDist().inv_cdf(0.5 + LEVEL / 2)
@@ -23,7 +23,7 @@ def interval(mean, low, high, n):
 
 
 def mean_interval(values):
-    """Student's interval of the mean; of one value there is none, and low and high are None."""
+    """Student's interval of the mean. One value has no interval: low and high are None."""
     values = list(values)
     mean = statistics.fmean(values)
     if len(values) < 2:
@@ -43,12 +43,12 @@ def standard_error(values):
 
 
 def spread(values):
-    """Of repeated timings, whose errors are one-sided and not independent: no interval is claimed."""
+    """Median, least and most of repeated timings. Their errors are one-sided and not independent, so this claims no interval."""
     return {"median": statistics.median(values), "least": min(values), "most": max(values), "n": len(values)}
 
 
 def spread_of_ratio(above, below):
-    """From the medians, and from the least over the most to the most over the least."""
+    """The ratio of the medians; it ranges from the least over the most to the most over the least."""
     return {"median": above["median"] / below["median"], "least": above["least"] / below["most"],
             "most": above["most"] / below["least"], "n": min(above["n"], below["n"])}
 
@@ -60,7 +60,7 @@ def logarithmic(mean, error, n):
 
 
 def positive_interval(values):
-    """Of the mean of what cannot be negative, as errors and variances; if their estimates are, plain Student's."""
+    """The interval of a mean that cannot be negative, such as an error or a variance; plain Student's if an estimate is negative."""
     values = list(values)
     if len(values) < 2 or min(values) <= 0:
         return mean_interval(values)
@@ -68,8 +68,8 @@ def positive_interval(values):
 
 
 def ratio_of_means(numerators, denominators):
-    """Of pairs, by seed, with the ratio estimator's linearised error (Cochran 1977, section 6.3). Where noise taken off
-    leaves a side without a positive mean there is no ratio."""
+    """The ratio of two means over pairs by seed, with the ratio estimator's linearised error (Cochran 1977, section 6.3). There is no
+    ratio if one side has no positive mean once its noise is subtracted."""
     below, count = statistics.fmean(denominators), len(numerators)
     if below <= 0 or statistics.fmean(numerators) <= 0:
         return interval(None, None, None, count)

@@ -9,7 +9,8 @@ from .errors import StudyError
 
 
 def trace_seconds(stats):
-    kernel = stats["kernels"].get("trace_closest")
+    kernels = stats["kernels"]
+    kernel = kernels.get("trace_closest", kernels.get("course_trace_closest"))  # the latter without a BVH
     if kernel is None:
         raise StudyError("%s tells no time of the kernel trace_closest, which the study compares: it needs a device with "
                          "timestamps ('glim devices' lists them)" % stats["device"]["name"])

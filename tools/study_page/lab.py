@@ -1,4 +1,4 @@
-"""The bench that the sections measure on: renders, compares with long renders, keeps to budgets, tells how far it is."""
+"""What the sections measure with: it renders, compares with long renders, keeps to time budgets, and reports progress."""
 
 import os
 import shutil
@@ -38,7 +38,8 @@ class Lab:
         os.makedirs(self.scratch)
 
     def remaining(self):
-        """By the plan, corrected by how the finished sections kept to it; a tenth of all counts as planned at first."""
+        """Seconds left by the plan, corrected by how well the finished sections kept to it. A tenth of the plan counts as kept from
+        the start."""
         budgets = self.profile.budgets
         head = 1.0 + 0.1 * sum(budgets.values())
         pace = (head + sum(self.finished.values())) / (head + sum(budgets[s] for s in self.finished))
@@ -63,7 +64,7 @@ class Lab:
             self.out.write("\n")
 
     def seeds(self, least_most, until):
-        """Seeds from FIRST_SEED on; beyond the least only while the next would end before that share of the budget."""
+        """Seeds from FIRST_SEED on. After the least number, goes on only while the next one would end before that share of the budget."""
         least, most = least_most
         start = time.monotonic()
         for i in range(most):
@@ -74,13 +75,13 @@ class Lab:
             yield FIRST_SEED + i
 
     def few_seeds(self):
-        """For what is shown as a picture above all."""
+        """The seeds of experiments that are mostly shown as pictures."""
         return range(FIRST_SEED, FIRST_SEED + self.profile.few_seeds)
 
     # Measurements
 
     def render(self, name, scene, size, *options, png=False, rates=False, keep=True):
-        """Without `keep` only the statistics are wanted."""
+        """Without `keep`, only the statistics are kept."""
         self.say("%s: %s" % (self.section, name))
         stem = os.path.join(self.scratch, name.replace(" ", "-"))
         shot = self.glim.render(stem, self.scenes.path(scene), size, [str(o) for o in options], png, rates)
@@ -89,8 +90,8 @@ class Lab:
         return shot
 
     def reference(self, scene, size, spp, *options):
-        """The long render of the same light, by MIS and Sobol' points whatever the experiments use. What glim tells of its
-        noise, from blocks of Sobol' points each scrambled anew, has no bias and can be taken off."""
+        """The long render of the same light, with MIS and Sobol' points whatever the experiments use. glim estimates its noise without
+        bias, from blocks of Sobol' points with a scramble each, so the noise can be taken off."""
         key = (scene, size, spp, options)
         if key not in self.references:
             name = "reference %d %s" % (len(self.references), scene)
@@ -108,7 +109,7 @@ class Lab:
         return judged
 
     def judge(self, shot, reference):
-        """A render's cost and its error, from which the reference's own noise is taken off."""
+        """A render's cost and its error, from which the reference's own noise is subtracted."""
         errors = self.glim.compare(shot.exr, reference.exr)
         noise = errors["reference_noise"] or {"mse": 0.0, "relmse": 0.0}
         return {"seconds": shot.seconds, "mrays": shot.mrays, "samples": shot.samples, "spp": shot.spp, "rays": shot.rays,
@@ -126,12 +127,13 @@ class Lab:
 
 
 def time_ratio(runs, others):
-    """Of the seconds a sample, pairs by seed."""
+    """The ratio of the seconds a sample, over pairs by seed."""
     return ratio_of_means(*([r["seconds"] / r["samples"] for r in side] for side in (runs, others)))
 
 
 def cost_ratio(runs, others):
-    """Of relMSE times seconds, pairs by seed: how much longer `runs` would take to the error of `others`, at 1 / n."""
+    """The ratio of relMSE times seconds, over pairs by seed: how much longer `runs` would take to reach the error of `others`, if the
+        error falls as 1 / n."""
     return ratio_of_means(*([r["relmse"] * r["seconds"] for r in side] for side in (runs, others)))
 
 

@@ -12,7 +12,7 @@ def escape(text):
 
 
 def number(value, digits=3):
-    """Rounded to so many digits, large numbers in groups of three."""
+    """Rounded to as many digits; large numbers in groups of three."""
     if value is None:
         return "unknown"
     if value == 0:
@@ -32,7 +32,7 @@ def signed_percent(share):
 
 
 def bracket(interval, form=number):
-    """A mean with its 95 % interval; of one value alone it says so, as where noise leaves no mean."""
+    """A mean with its 95 % interval. Says so if there is only one value, or if noise leaves no mean."""
     if interval["mean"] is None:
         return "lost in the long render's noise"
     if interval["low"] is None:
@@ -52,7 +52,7 @@ def relmse(summary):
         return "below the long render's noise %s" % number(noise)
     text = bracket(value) if value["low"] is not None else number(value["mean"])
     if noise > FLOOR_SHARE * value["mean"]:
-        text += " after taking off %s of the long render" % number(noise)
+        text += " after subtracting %s of the long render" % number(noise)
     return text
 
 
@@ -96,7 +96,7 @@ class Pictures:
         return '<img src="data:image/png;base64,%s" alt="%s">' % (data, escape(alt))
 
     def figure(self, title, run):
-        """A picture with what every picture carries: seconds, Mrays/s, relMSE."""
+        """A picture with its caption: seconds, Mrays/s, relMSE."""
         caption = "%s s, %s Mrays/s, relMSE %s" % (number(run["seconds"]), number(run["mrays"]), relmse(run))
         return "<figure>%s<figcaption><b>%s</b><br>%s</figcaption></figure>\n" % (
             self.image(run["picture"], title), escape(title), escape(caption))

@@ -1,4 +1,4 @@
-"""The page, whole: summary, sections, how it was made."""
+"""The whole page: summary, sections, how it was made."""
 
 from .markup import Pictures, escape, paragraph, table
 from .sections import SECTIONS
@@ -43,7 +43,7 @@ def build_page(study, folder):
              "<h1>What each idea of a path tracer costs and what it buys</h1>\n"]
     parts.append(paragraph(
         "Every number that is not said to be the course's or another's was measured in one run, on %s, with %s. relMSE is "
-        "the mean of (x - r)^2 / (r^2 + .01 mean(r)^2) against a long render r, whose own noise is taken off and told where "
+        "the mean of (x - r)^2 / (r^2 + .01 mean(r)^2) against a long render r, whose own noise is subtracted and told where "
         "it exceeds 1 %%. Square brackets hold 95 %% intervals, Student's over seeds, one by one: of twenty such one may well "
         "miss. Those of ratios pair the renders of a seed; what was rendered once has none. Seconds are medians over seeds; "
         "intervals of ratios of seconds hold how this one run scattered, not other machines or days." %

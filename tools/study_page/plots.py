@@ -1,4 +1,4 @@
-"""Plots as SVG text, to stand inside the page. Colours that also differ in lightness (Okabe and Ito 2008)."""
+"""Plots as SVG text that stands inside the page. The colours also differ in lightness (Okabe and Ito 2008)."""
 
 import io
 import math
@@ -30,7 +30,7 @@ def to_svg(figure, name, label):
 
 
 def draw_points(axes, label, points):
-    """points: (x, interval); bars stop at a tenth and at ten times, or a pair of seeds would fill the axis."""
+    """points: (x, interval). Bars end at a tenth and at ten times the mean: those of two seeds would fill the axis."""
     xs = [x for x, _ in points]
     means = [i["mean"] for _, i in points]
     low = [i["mean"] - max(i["low"], i["mean"] / 10) if i["low"] is not None else 0.0 for _, i in points]

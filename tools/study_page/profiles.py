@@ -1,4 +1,4 @@
-"""What the quick and the full study render: the experiments as data. Times are for 2 cores without a GPU."""
+"""The experiments of the quick and of the full study, as data. Times are for 2 cores without a GPU."""
 
 from dataclasses import dataclass
 
@@ -6,11 +6,11 @@ from dataclasses import dataclass
 @dataclass(frozen=True)
 class Profile:
     name: str
-    budgets: dict                  # seconds per section; repetitions stop when theirs is used up
+    budgets: dict                  # seconds per section; repetitions stop when they are used up
     few_seeds: int                 # of views, parts of the light and bounces
     view_size: tuple
     bvh_size: tuple                # of the timed pictures with a BVH
-    brute_sizes: dict              # mesh: of those without, whose time is rays times triangles
+    brute_sizes: dict              # by mesh: of the pictures without a BVH, whose time is rays times triangles
     timings: int                   # repetitions, of which the median counts
     growth: tuple                  # triangle counts
     growth_rules: tuple            # split rules in the plot

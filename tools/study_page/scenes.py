@@ -1,4 +1,4 @@
-"""Which scenes stand for the course's: its own where they are present, otherwise ours of the same make."""
+"""The scenes of the study: the course's own where they are present, otherwise ours of the same kind."""
 
 import os
 
@@ -7,7 +7,7 @@ from scene_makers.study_scenes import blob_in_room, bright_furnace, lone_blob
 from .arguments import ROOT
 from .errors import StudyError
 
-# Role: (file of the course, ours: committed file, or triangles of a mesh to make). The beast lies in scans/ beside seed/.
+# By role: the course's file; our committed file; or how to make a mesh, with its triangles. The beast lies in scans/ beside seed/.
 COURSE = {"spheres": "CBspheres_lambertian.glb", "gems": "CBgems.glb", "cow": "cow.glb", "beast": "beast.glb",
           "bunny": "CBbunny.glb"}
 COMMITTED = {"spheres": "cornell_spheres.gltf", "gems": "cornell_gems.gltf"}
@@ -45,7 +45,7 @@ class Scenes:
         return self.make(role + ".glb", maker(triangles))
 
     def blob(self, triangles):
-        """Role of a mesh of about so many triangles, made on demand."""
+        """The role of a mesh of about as many triangles, made on demand."""
         role = "blob%d" % triangles
         if role not in self.paths:
             self.paths[role] = self.make(role + ".glb", lone_blob(triangles))

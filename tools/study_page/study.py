@@ -63,7 +63,7 @@ def run_study(options, arguments):
              "budgets": options.profile.budgets, "taken": lab.finished, "headlines": headlines,
              "markdown": to_markdown(headlines), "sections": measured}
     text = json.dumps(study, indent=1, allow_nan=False) + "\n"
-    # Through JSON, so that the page is made of nothing that the file does not hold.
+    # Through JSON, so that the page shows only what the file holds.
     page = build_page(json.loads(text), options.out)
     write_whole(os.path.join(options.out, "study.json"), text.encode())
     write_whole(os.path.join(options.out, "index.html"), page.encode())

@@ -15,8 +15,8 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kSupportedExtensions[] = {
-    "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior",  "KHR_materials_specular",
-    "KHR_materials_transmission", "KHR_materials_volume",     "KHR_mesh_quantization",
+    "KHR_lights_punctual",  "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular", "KHR_materials_transmission",
+    "KHR_materials_volume", "KHR_mesh_quantization",
 };
 
 std::string excerpt(const json& value)
@@ -49,16 +49,18 @@ bool isOneOf(const std::string& words, const json& value)
 
 class JsonCheck {
 public:
-    JsonCheck(const std::string& path, const json& document) : m_path(path), m_document(document) {}
+    JsonCheck(const std::string& path, const json& document)
+        : path_(path),
+          document_(document)
+    {}
 
-    void apply(const SchemaRule& rule) const { visit(rule, rule.path, m_document, ""); }
+    void apply(const SchemaRule& rule) const { visit(rule, rule.path, document_, ""); }
 
 private:
     void require(bool right, const std::string& place, const json& value, const std::string& expected) const
     {
         if (!right) {
-            throw InputError(m_path + ": " + (place.empty() ? "the document" : place) + " is " + excerpt(value) +
-                             "; expected " + expected);
+            throw InputError(path_ + ": " + (place.empty() ? "the document" : place) + " is " + excerpt(value) + "; expected " + expected);
         }
     }
 
@@ -94,7 +96,7 @@ private:
         if (member != value.end()) {
             visit(rule, rest, *member, memberPlace);
         } else if (rest.empty() && rule.need == Need::Required) {
-            throw InputError(m_path + ": " + memberPlace + " is missing; expected " + describe(rule));
+            throw InputError(path_ + ": " + memberPlace + " is missing; expected " + describe(rule));
         }
     }
 
@@ -102,16 +104,14 @@ private:
     {
         require(isRight(rule, value), place, value, describe(rule));
         for (std::size_t i = 0; rule.kind == JsonKind::Numbers && i < value.size(); ++i) {
-            require(isInRange(rule, value[i]), place + "[" + std::to_string(i) + "]", value[i],
-                    "a number" + describeRange(rule));
+            require(isInRange(rule, value[i]), place + "[" + std::to_string(i) + "]", value[i], "a number" + describeRange(rule));
         }
     }
 
     bool isRight(const SchemaRule& rule, const json& value) const
     {
         switch (rule.kind) {
-        case JsonKind::Index:
-            return value.is_number_unsigned() && value.get<std::uint64_t>() < computeSize(rule.target);
+        case JsonKind::Index: return value.is_number_unsigned() && value.get<std::uint64_t>() < computeSize(rule.target);
         case JsonKind::Whole: return value.is_number_integer() && isInRange(rule, value);
         case JsonKind::Number: return isInRange(rule, value);
         case JsonKind::Numbers: return value.is_array() && value.size() == rule.count;
@@ -144,10 +144,10 @@ private:
         return "";
     }
 
-    // Entries of the array at a dotted path; 0 where there is none.
+    // The size of the array at a dotted path; 0 if there is none.
     std::size_t computeSize(std::string_view target) const
     {
-        const json* at = &m_document;
+        const json* at = &document_;
         while (!target.empty()) {
             const std::string name(target.substr(0, target.find('.')));
             target.remove_prefix(std::min(target.size(), name.size() + 1));
@@ -160,8 +160,8 @@ private:
         return at->is_array() ? at->size() : 0;
     }
 
-    const std::string& m_path;
-    const json& m_document;
+    const std::string& path_;
+    const json& document_;
 };
 
 void checkExtensions(const std::string& path, const json& document)
@@ -172,8 +172,7 @@ void checkExtensions(const std::string& path, const json& document)
             for (const char* name : kSupportedExtensions) {
                 known += (known.empty() ? "" : ", ") + std::string(name);
             }
-            throw InputError(path + ": extensionsRequired names " + extension.get<std::string>() +
-                             "; expected only " + known);
+            throw InputError(path + ": extensionsRequired names " + extension.get<std::string>() + "; expected only " + known);
         }
     }
 }
@@ -182,8 +181,7 @@ void checkExtensions(const std::string& path, const json& document)
 
 bool isSupportedExtension(const std::string& name)
 {
-    return std::find(std::begin(kSupportedExtensions), std::end(kSupportedExtensions), name) !=
-           std::end(kSupportedExtensions);
+    return std::find(std::begin(kSupportedExtensions), std::end(kSupportedExtensions), name) != std::end(kSupportedExtensions);
 }
 
 void checkGltfJson(const std::string& path, const json& document)
@@ -195,8 +193,7 @@ void checkGltfJson(const std::string& path, const json& document)
     const json& asset = document.at("asset");
     const std::string version = asset.value("version", ""), minVersion = asset.value("minVersion", "2.0");
     if (version.rfind("2.", 0) != 0 || minVersion != "2.0") {
-        throw InputError(path + ": asset asks for glTF " + (asset.contains("minVersion") ? minVersion : version) +
-                         "; expected 2.0");
+        throw InputError(path + ": asset asks for glTF " + (asset.contains("minVersion") ? minVersion : version) + "; expected 2.0");
     }
     checkExtensions(path, document);
 }

@@ -1,4 +1,4 @@
-// The part of the glTF 2.0 schema that glim reads, as one table.
+// Checks a glTF document against the part of the schema that glim reads (gltf_schema.hpp).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,8 +7,8 @@
 
 namespace glim {
 
-// Types, required properties, ranges of numbers, indices below the size of what they point into, version and required
-// extensions. Throws InputError with the place in glTF's own words (accessors[3].count). tinygltf checks none of this.
+// Checks types, required properties, ranges of numbers, indices, version and required extensions. Throws InputError with the place in
+// glTF's own words (accessors[3].count). tinygltf checks none of this.
 void checkGltfJson(const std::string& path, const nlohmann::json& document);
 
 // What extensionsRequired may name.

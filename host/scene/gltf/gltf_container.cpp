@@ -33,8 +33,7 @@ GltfContainer splitChunks(const std::string& path, const std::vector<unsigned ch
     for (int chunk = 0; at < length; ++chunk) {
         const std::string place = path + ": chunk " + std::to_string(chunk) + " of the binary container";
         if (length - at < kChunkHeaderSize || length - at - kChunkHeaderSize < readU32(bytes, at)) {
-            throw InputError(place + " is truncated at byte " + std::to_string(length) +
-                             "; expected its whole content");
+            throw InputError(place + " is truncated at byte " + std::to_string(length) + "; expected its whole content");
         }
         const std::uint32_t size = readU32(bytes, at), type = readU32(bytes, at + 4);
         const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(at + kChunkHeaderSize);
@@ -119,8 +118,8 @@ GltfContainer openContainer(const std::string& path, std::vector<unsigned char> 
         throw InputError(path + ": the binary container has version " + std::to_string(version) + "; expected 2");
     }
     if (length > bytes.size()) {
-        throw InputError(path + ": the file is truncated: it holds " + std::to_string(bytes.size()) +
-                         " bytes; expected " + std::to_string(length));
+        throw InputError(path + ": the file is truncated: it holds " + std::to_string(bytes.size()) + " bytes; expected " +
+                         std::to_string(length));
     }
     return splitChunks(path, bytes, length);
 }

@@ -1,4 +1,4 @@
-// The outer layers of a glTF file: bytes, the binary container, JSON text.
+// Opens the outer layers of a glTF file: bytes, binary container, JSON text.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -18,11 +18,11 @@ struct GltfContainer {
 // Throws InputError: "<file>: cannot be read: <reason>".
 std::vector<unsigned char> readBytes(const std::filesystem::path& file);
 
-// Splits a .glb (glTF 2.0, section 4) into its chunks; anything without its magic is taken for JSON, unless the name
-// says .glb.
+// Splits a .glb (glTF 2.0, section 4) into its chunks. A file that does not begin with its magic number is taken for JSON, unless its name
+// ends in .glb.
 GltfContainer openContainer(const std::string& path, std::vector<unsigned char> bytes);
 
-// Refuses what is nested too deeply before a recursive parser can see it.
+// Refuses JSON that is nested too deeply, before a recursive parser sees it.
 nlohmann::json parseJson(const std::string& path, const std::string& text);
 
 }  // namespace glim

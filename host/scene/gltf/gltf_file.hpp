@@ -1,6 +1,7 @@
-// A glTF file whose JSON has been checked and whose buffers are in memory: what every reader in this folder starts
-// from.
+// A glTF file with checked JSON and its buffers in memory. All readers in this folder begin with it.
 #pragma once
+
+#include "host/scene/scene.hpp"
 
 #include <tiny_gltf.h>
 
@@ -11,11 +12,12 @@
 namespace glim {
 
 struct GltfFile {
-    std::string path;  // as given, for messages
-    std::vector<std::filesystem::path> files;  // that were read: this one and those of its buffers
+    std::string path;                          // as given, for messages
+    std::vector<std::filesystem::path> files;  // this one and those of its buffers
     // Index properties are in range, numbers have their type. Holds no buffers, images, skins or animations.
     tinygltf::Model model;
     std::vector<std::vector<unsigned char>> buffers;  // each at least as long as its byteLength
+    std::vector<EncodedImage> images;
     bool animated = false;
 };
 
@@ -28,6 +30,6 @@ GltfFile readGltfFile(const std::filesystem::path& file);
 std::string label(const char* collection, std::size_t index, const std::string& name);
 std::string nodeLabel(const GltfFile& file, std::size_t node);
 
-std::string toText(double value);  // shortest of six significant digits
+std::string toText(double value);  // at most six significant digits
 
 }  // namespace glim

@@ -1,4 +1,4 @@
-// The properties that glim reads, after the glTF 2.0 schema and those of its extensions, as one table.
+// A table of the properties that glim reads, after the schemas of glTF 2.0 and its extensions.
 #pragma once
 
 #include <cfloat>
@@ -7,7 +7,7 @@
 namespace glim {
 
 enum class JsonKind { Index, Whole, Number, Numbers, Bool, String, OneOf, Object, Array };
-enum class Need { Optional, Required };  // of the last name in the path, where its parent exists
+enum class Need { Optional, Required };  // the path's last member must exist if its parent does
 
 constexpr double kPositive = DBL_MIN;             // as a minimum: greater than zero
 constexpr double kMaxWhole = 9007199254740992.0;  // 2^53
@@ -44,22 +44,16 @@ constexpr SchemaRule numbers(const char* path, std::size_t count, double min = -
     return {path, JsonKind::Numbers, Need::Optional, nullptr, count, min, max};
 }
 
-constexpr SchemaRule oneOf(const char* path, const char* words, Need need = Need::Optional)
-{
-    return {path, JsonKind::OneOf, need, words};
-}
+constexpr SchemaRule oneOf(const char* path, const char* words, Need need = Need::Optional) { return {path, JsonKind::OneOf, need, words}; }
 
-constexpr SchemaRule other(const char* path, JsonKind kind, Need need = Need::Optional)
-{
-    return {path, kind, need};
-}
+constexpr SchemaRule other(const char* path, JsonKind kind, Need need = Need::Optional) { return {path, kind, need}; }
 
 }  // namespace schema
 
 constexpr double kHalfPi = 1.57079632679489661923;
 constexpr double kMaxYfov = 3.14;  // at pi the picture plane is infinite
 
-// Ordered so that what others point into is checked first.
+// A rule comes before those whose indices point into what it checks.
 constexpr SchemaRule kSchemaRules[] = {
     schema::other("asset", JsonKind::Object, Need::Required),
     schema::other("asset.version", JsonKind::String, Need::Required),
@@ -87,6 +81,11 @@ constexpr SchemaRule kSchemaRules[] = {
     schema::other("accessors[].sparse.values", JsonKind::Object, Need::Required),
     schema::index("accessors[].sparse.values.bufferView", "bufferViews", Need::Required),
     schema::whole("accessors[].sparse.values.byteOffset", Need::Optional, 0, kMaxInt),
+
+    schema::other("images[].name", JsonKind::String),
+    schema::other("images[].uri", JsonKind::String),
+    schema::other("images[].mimeType", JsonKind::String),
+    schema::index("images[].bufferView", "bufferViews"),
 
     schema::other("materials[].name", JsonKind::String),
     schema::numbers("materials[].pbrMetallicRoughness.baseColorFactor", 4, 0, 1),
@@ -143,8 +142,7 @@ constexpr SchemaRule kSchemaRules[] = {
     schema::index("nodes[].mesh", "meshes"),
     schema::index("nodes[].camera", "cameras"),
     schema::index("nodes[].skin", "skins"),
-    schema::index("nodes[].extensions.KHR_lights_punctual.light", "extensions.KHR_lights_punctual.lights",
-                  Need::Required),
+    schema::index("nodes[].extensions.KHR_lights_punctual.light", "extensions.KHR_lights_punctual.lights", Need::Required),
     schema::numbers("nodes[].matrix", 16),
     schema::numbers("nodes[].translation", 3),
     schema::numbers("nodes[].rotation", 4),

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kNone = -1;
 
-// Below this share of what orthogonal columns of the same lengths would span, a matrix is taken for singular.
+// A matrix counts as singular if its determinant is below this fraction of that of orthogonal columns of the same lengths.
 constexpr double kSingular = 1e-12;
 
 std::vector<int> findParents(const GltfFile& file)
@@ -20,9 +20,8 @@ std::vector<int> findParents(const GltfFile& file)
         for (const int child : nodes[i].children) {
             int& parent = parents[static_cast<std::size_t>(child)];
             if (parent != kNone) {
-                refuse(file, nodeLabel(file, static_cast<std::size_t>(child)) + " is a child of nodes[" +
-                                 std::to_string(parent) + "] and of nodes[" + std::to_string(i) +
-                                 "]; expected one parent");
+                refuse(file, nodeLabel(file, static_cast<std::size_t>(child)) + " is a child of nodes[" + std::to_string(parent) +
+                                 "] and of nodes[" + std::to_string(i) + "]; expected one parent");
             }
             parent = static_cast<int>(i);
         }
@@ -30,7 +29,7 @@ std::vector<int> findParents(const GltfFile& file)
     return parents;
 }
 
-// With one parent at most, a cycle is met by walking upwards.
+// Each node has one parent at most, so walking upwards finds every cycle.
 void checkAcyclic(const GltfFile& file, const std::vector<int>& parents)
 {
     std::vector<int> walkThatMet(parents.size(), kNone);
@@ -42,8 +41,7 @@ void checkAcyclic(const GltfFile& file, const std::vector<int>& parents)
             at = parents[static_cast<std::size_t>(at)];
         }
         if (at != kNone && walkThatMet[static_cast<std::size_t>(at)] == walk) {
-            refuse(file, nodeLabel(file, static_cast<std::size_t>(at)) +
-                             " is its own ancestor; expected a hierarchy without cycles");
+            refuse(file, nodeLabel(file, static_cast<std::size_t>(at)) + " is its own ancestor; expected a hierarchy without cycles");
         }
     }
 }
@@ -53,8 +51,7 @@ std::vector<int> findRoots(const GltfFile& file, const LoadOptions& options, con
 {
     const std::vector<tinygltf::Scene>& scenes = file.model.scenes;
     if (options.scene && *options.scene >= scenes.size()) {
-        refuse(file, "scene " + std::to_string(*options.scene) + " was asked for; expected one below " +
-                         std::to_string(scenes.size()));
+        refuse(file, "scene " + std::to_string(*options.scene) + " was asked for; expected one below " + std::to_string(scenes.size()));
     }
     if (!scenes.empty()) {
         const std::size_t first = file.model.defaultScene < 0 ? 0 : static_cast<std::size_t>(file.model.defaultScene);
@@ -77,8 +74,7 @@ void checkRoots(const GltfFile& file, const std::vector<int>& roots, const std::
         const auto index = static_cast<std::size_t>(root);
         if (parents[index] != kNone || listed[index]) {
             refuse(file, nodeLabel(file, index) + " is listed by a scene " +
-                             (listed[index] ? "twice" : "and is a child of nodes[" + std::to_string(parents[index]) +
-                                                            "]") +
+                             (listed[index] ? "twice" : "and is a child of nodes[" + std::to_string(parents[index]) + "]") +
                              "; expected each root once");
         }
         listed[index] = true;
@@ -93,9 +89,8 @@ glm::dmat4 readMatrix(const GltfFile& file, std::size_t index)
         matrix[i / 4][i % 4] = values[static_cast<std::size_t>(i)];
     }
     if (values[3] != 0.0 || values[7] != 0.0 || values[11] != 0.0 || values[15] != 1.0) {
-        refuse(file, nodeLabel(file, index) + ".matrix has the last row " + toText(values[3]) + " " +
-                         toText(values[7]) + " " + toText(values[11]) + " " + toText(values[15]) +
-                         "; expected 0 0 0 1");
+        refuse(file, nodeLabel(file, index) + ".matrix has the last row " + toText(values[3]) + " " + toText(values[7]) + " " +
+                         toText(values[11]) + " " + toText(values[15]) + "; expected 0 0 0 1");
     }
     return matrix;
 }
@@ -130,7 +125,7 @@ std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& opti
     const std::vector<int> roots = findRoots(file, options, parents, notices);
     checkRoots(file, roots, parents);
 
-    std::vector<PlacedNode> placed, pending;  // a stack of its own: hierarchies may be deeper than the call stack
+    std::vector<PlacedNode> placed, pending;  // no recursion: hierarchies may be deeper than the call stack
     for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
         pending.push_back({static_cast<std::size_t>(*root), glm::dmat4(1.0)});
     }
@@ -152,8 +147,8 @@ glm::dmat3 readLinear(const GltfFile& file, const PlacedNode& node)
     const glm::dmat3 linear(node.worldFromNode);
     const double span = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
     if (!(std::abs(glm::determinant(linear)) > kSingular * span)) {
-        refuse(file, nodeLabel(file, node.index) + " has a singular transform (determinant " +
-                         toText(glm::determinant(linear)) + "); expected one that can be inverted");
+        refuse(file, nodeLabel(file, node.index) + " has a singular transform (determinant " + toText(glm::determinant(linear)) +
+                         "); expected one that can be inverted");
     }
     return linear;
 }

@@ -1,4 +1,4 @@
-// The node hierarchy of one scene, flattened: which node stands where in the world.
+// Flattens the node hierarchy of one scene: where each node stands in the world.
 #pragma once
 
 #include "host/scene/gltf/gltf_file.hpp"
@@ -16,7 +16,7 @@ struct PlacedNode {
 // In document order, parents first. Checks that the nodes form trees.
 std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& options, std::vector<std::string>& notices);
 
-// The linear part of what carries a shape, camera or light; refuses a singular one.
+// The linear part of a node that carries a shape, camera or light. Refuses a singular one.
 glm::dmat3 readLinear(const GltfFile& file, const PlacedNode& node);
 
 }  // namespace glim

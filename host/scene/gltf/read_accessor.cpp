@@ -9,9 +9,10 @@
 namespace glim {
 namespace {
 
+static_assert(TINYGLTF_TYPE_VEC2 == 2 && TINYGLTF_TYPE_VEC3 == 3 && TINYGLTF_TYPE_VEC4 == 4);
 static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian and are read as they are");
 
-// An accessor without bufferView is all zeros: memory that no byte of the file pays for.
+// An accessor without bufferView is all zeros, so a short file could claim any amount of memory.
 constexpr std::size_t kMaxUnbackedElements = std::size_t{1} << 22U;
 
 struct Elements {
@@ -26,16 +27,15 @@ struct Layout {
     std::size_t elementSize;
 };
 
-// The bytes of `count` elements, all inside their view and that inside its buffer.
+// Finds the bytes of `count` elements. Refuses elements outside their view, and a view outside its buffer.
 Elements findElements(const GltfFile& file, std::size_t viewIndex, const Layout& layout, const std::string& place)
 {
     const tinygltf::BufferView& view = file.model.bufferViews[viewIndex];
     const std::vector<unsigned char>& buffer = file.buffers[static_cast<std::size_t>(view.buffer)];
     const std::string viewPlace = "bufferViews[" + std::to_string(viewIndex) + "]";
     if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset) {
-        refuse(file, viewPlace + " ends at byte " + std::to_string(view.byteOffset + view.byteLength) +
-                         "; expected at most the " + std::to_string(buffer.size()) + " of buffers[" +
-                         std::to_string(view.buffer) + "]");
+        refuse(file, viewPlace + " ends at byte " + std::to_string(view.byteOffset + view.byteLength) + "; expected at most the " +
+                         std::to_string(buffer.size()) + " of buffers[" + std::to_string(view.buffer) + "]");
     }
     const std::size_t stride = view.byteStride == 0 ? layout.elementSize : view.byteStride;
     if (stride < layout.elementSize) {
@@ -45,8 +45,8 @@ Elements findElements(const GltfFile& file, std::size_t viewIndex, const Layout&
     const bool firstFits = layout.offset <= view.byteLength && layout.elementSize <= view.byteLength - layout.offset;
     const std::size_t room = firstFits ? (view.byteLength - layout.offset - layout.elementSize) / stride + 1 : 0;
     if (layout.count > room) {
-        refuse(file, place + " claims " + std::to_string(layout.count) + " elements; expected at most the " +
-                         std::to_string(room) + " that fit into " + viewPlace);
+        refuse(file, place + " claims " + std::to_string(layout.count) + " elements; expected at most the " + std::to_string(room) +
+                         " that fit into " + viewPlace);
     }
     return {buffer.data() + view.byteOffset + layout.offset, stride, layout.count};
 }
@@ -83,21 +83,18 @@ Loader findLoader(const GltfFile& file, int componentType, const std::string& pl
     case TINYGLTF_COMPONENT_TYPE_FLOAT: return loadAs<float>;
     default: break;
     }
-    refuse(file, place + ".componentType is " + std::to_string(componentType) +
-                     "; expected one of 5120, 5121, 5122, 5123, 5125 and 5126");
+    refuse(file, place + ".componentType is " + std::to_string(componentType) + "; expected one of 5120, 5121, 5122, 5123, 5125 and 5126");
 }
 
 void checkIndexType(const GltfFile& file, int componentType, const std::string& place)
 {
-    if (componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
-        componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+    if (componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
         componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
-        refuse(file, place + ".componentType is " + std::to_string(componentType) +
-                         "; expected 5121, 5123 or 5125 for indices");
+        refuse(file, place + ".componentType is " + std::to_string(componentType) + "; expected 5121, 5123 or 5125 for indices");
     }
 }
 
-// One component type's size and conversion, times the components of an element.
+// How to convert an element: the type of its components, and how many it has.
 struct Decoder {
     Loader loader;
     std::size_t componentSize;
@@ -111,50 +108,46 @@ struct Decoder {
     }
 };
 
-Decoder makeDecoder(const GltfFile& file, int componentType, std::size_t components, bool normalized,
-                    const std::string& place)
+Decoder makeDecoder(const GltfFile& file, int componentType, std::size_t components, bool normalized, const std::string& place)
 {
     return {findLoader(file, componentType, place),
-            static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(componentType))),
-            components, normalized};
+            static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(componentType))), components, normalized};
 }
 
 template <typename Value, typename Convert>
-void replaceSparse(const GltfFile& file, const tinygltf::Accessor& accessor, const Decoder& decoder,
-                   const std::string& place, const Convert& convert, std::vector<Value>& values)
+void replaceSparse(const GltfFile& file, const tinygltf::Accessor& accessor, const Decoder& decoder, const std::string& place,
+                   const Convert& convert, std::vector<Value>& values)
 {
     const auto& sparse = accessor.sparse;
     const auto count = static_cast<std::size_t>(sparse.count);
     checkIndexType(file, sparse.indices.componentType, place + ".sparse.indices");
     const Decoder indexDecoder = makeDecoder(file, sparse.indices.componentType, 1, false, place);
-    const Elements indices = findElements(file, static_cast<std::size_t>(sparse.indices.bufferView),
-                                          {static_cast<std::size_t>(sparse.indices.byteOffset), count,
-                                           indexDecoder.size()},
-                                          place + ".sparse.indices");
-    const Elements replacements = findElements(file, static_cast<std::size_t>(sparse.values.bufferView),
-                                               {static_cast<std::size_t>(sparse.values.byteOffset), count,
-                                                decoder.size()},
-                                               place + ".sparse.values");
+    const Elements indices =
+        findElements(file, static_cast<std::size_t>(sparse.indices.bufferView),
+                     {static_cast<std::size_t>(sparse.indices.byteOffset), count, indexDecoder.size()}, place + ".sparse.indices");
+    const Elements replacements =
+        findElements(file, static_cast<std::size_t>(sparse.values.bufferView),
+                     {static_cast<std::size_t>(sparse.values.byteOffset), count, decoder.size()}, place + ".sparse.values");
     for (std::size_t i = 0; i < count; ++i) {
         const auto target = static_cast<std::size_t>(indexDecoder(indices.first + i * indices.stride, 0));
         if (target >= values.size()) {
-            refuse(file, place + ".sparse replaces element " + std::to_string(target) + "; expected one below " +
-                             std::to_string(values.size()));
+            refuse(file,
+                   place + ".sparse replaces element " + std::to_string(target) + "; expected one below " + std::to_string(values.size()));
         }
         values[target] = convert(decoder, replacements.first + i * replacements.stride);
     }
 }
 
 template <typename Value, typename Convert>
-std::vector<Value> readElements(const GltfFile& file, std::size_t index, std::size_t components,
-                                const std::string& place, const Convert& convert)
+std::vector<Value> readElements(const GltfFile& file, std::size_t index, std::size_t components, const std::string& place,
+                                const Convert& convert)
 {
     const tinygltf::Accessor& accessor = file.model.accessors[index];
     const Decoder decoder = makeDecoder(file, accessor.componentType, components, accessor.normalized, place);
     std::vector<Value> values;
     if (accessor.bufferView >= 0) {
-        const Elements elements = findElements(file, static_cast<std::size_t>(accessor.bufferView),
-                                               {accessor.byteOffset, accessor.count, decoder.size()}, place);
+        const Elements elements =
+            findElements(file, static_cast<std::size_t>(accessor.bufferView), {accessor.byteOffset, accessor.count, decoder.size()}, place);
         values.reserve(elements.count);
         for (std::size_t i = 0; i < elements.count; ++i) {
             values.push_back(convert(decoder, elements.first + i * elements.stride));
@@ -175,36 +168,44 @@ void checkAccessor(const GltfFile& file, std::size_t index, int type, const char
         refuse(file, place + " has another type; expected " + typeName);
     }
     if (accessor.bufferView < 0 && accessor.count > kMaxUnbackedElements) {
-        refuse(file, place + " claims " + std::to_string(accessor.count) +
-                         " elements without a bufferView; expected at most " + std::to_string(kMaxUnbackedElements));
+        refuse(file, place + " claims " + std::to_string(accessor.count) + " elements without a bufferView; expected at most " +
+                         std::to_string(kMaxUnbackedElements));
     }
 }
 
-std::string placeOf(std::size_t accessor, const std::string& use)
-{
-    return "accessors[" + std::to_string(accessor) + "] (" + use + ")";
-}
+std::string placeOf(std::size_t accessor, const std::string& use) { return "accessors[" + std::to_string(accessor) + "] (" + use + ")"; }
 
 }  // namespace
 
-std::vector<glm::dvec3> readVec3(const GltfFile& file, std::size_t accessor, const std::string& use)
+template <class Value>
+std::vector<Value> readVectors(const GltfFile& file, std::size_t accessor, const std::string& use)
 {
     const std::string place = placeOf(accessor, use);
-    checkAccessor(file, accessor, TINYGLTF_TYPE_VEC3, "VEC3", place);
-    const auto convert = [](const Decoder& decoder, const unsigned char* bytes) {
-        return glm::dvec3(decoder(bytes, 0), decoder(bytes, 1), decoder(bytes, 2));
+    const int type = file.model.accessors[accessor].type;
+    const bool short4 = Value::length() == 4 && type == TINYGLTF_TYPE_VEC3;
+    const int components = short4 ? 3 : Value::length();
+    // tinygltf's number for a vector type is its count of components.
+    checkAccessor(file, accessor, components, ("VEC" + std::to_string(components)).c_str(), place);
+    const auto convert = [components](const Decoder& decoder, const unsigned char* bytes) {
+        Value value(1);
+        for (int c = 0; c < components; ++c) {
+            value[c] = static_cast<typename Value::value_type>(decoder(bytes, static_cast<std::size_t>(c)));
+        }
+        return value;
     };
-    return readElements<glm::dvec3>(file, accessor, 3, place, convert);
+    return readElements<Value>(file, accessor, static_cast<std::size_t>(components), place, convert);
 }
+
+template std::vector<glm::dvec3> readVectors(const GltfFile&, std::size_t, const std::string&);
+template std::vector<glm::vec2> readVectors(const GltfFile&, std::size_t, const std::string&);
+template std::vector<glm::vec4> readVectors(const GltfFile&, std::size_t, const std::string&);
 
 std::vector<std::uint32_t> readIndices(const GltfFile& file, std::size_t accessor, const std::string& use)
 {
     const std::string place = placeOf(accessor, use);
     checkAccessor(file, accessor, TINYGLTF_TYPE_SCALAR, "SCALAR", place);
     checkIndexType(file, file.model.accessors[accessor].componentType, place);
-    const auto convert = [](const Decoder& decoder, const unsigned char* bytes) {
-        return static_cast<std::uint32_t>(decoder(bytes, 0));
-    };
+    const auto convert = [](const Decoder& decoder, const unsigned char* bytes) { return static_cast<std::uint32_t>(decoder(bytes, 0)); };
     return readElements<std::uint32_t>(file, accessor, 1, place, convert);
 }
 

@@ -54,13 +54,11 @@ std::vector<unsigned char> readExternal(const std::string& path, const std::stri
     try {
         return readBytes(externalFile(path, uri));
     } catch (const InputError& error) {
-        throw InputError(path + ": " + place + " names the file \"" + uri + "\", which cannot be read (" +
-                         error.what() + ")");
+        throw InputError(path + ": " + place + " names the file \"" + uri + "\", which cannot be read (" + error.what() + ")");
     }
 }
 
-std::vector<std::vector<unsigned char>> readBuffers(const std::string& path, const json& document,
-                                                    GltfContainer& container)
+std::vector<std::vector<unsigned char>> readBuffers(const std::string& path, const json& document, GltfContainer& container)
 {
     std::vector<std::vector<unsigned char>> buffers;
     for (const json& entry : document.value("buffers", json::array())) {
@@ -69,8 +67,7 @@ std::vector<std::vector<unsigned char>> readBuffers(const std::string& path, con
         std::vector<unsigned char> bytes;
         if (!entry.contains("uri")) {
             if (!buffers.empty() || !container.binary) {
-                throw InputError(path + ": " + place +
-                                 " has no uri; expected one in all but the first buffer of a .glb");
+                throw InputError(path + ": " + place + " has no uri; expected one in all but the first buffer of a .glb");
             }
             bytes = std::move(*container.binary);
         } else {
@@ -78,8 +75,8 @@ std::vector<std::vector<unsigned char>> readBuffers(const std::string& path, con
         }
         const auto expected = entry.at("byteLength").get<std::uint64_t>();
         if (bytes.size() < expected) {
-            throw InputError(path + ": " + place + " holds " + std::to_string(bytes.size()) +
-                             " bytes; expected its byteLength " + std::to_string(expected));
+            throw InputError(path + ": " + place + " holds " + std::to_string(bytes.size()) + " bytes; expected its byteLength " +
+                             std::to_string(expected));
         }
         buffers.push_back(std::move(bytes));
     }
@@ -98,8 +95,23 @@ std::vector<std::filesystem::path> listFiles(const std::string& path, const json
     return files;
 }
 
-// tinygltf 2.7 refuses index accessors without a bufferView, though sparse ones may lack it: they borrow one while it
-// parses. Returns the borrowers.
+std::vector<EncodedImage> listImages(const json& document)
+{
+    std::vector<EncodedImage> images;
+    for (const json& entry : document.value("images", json::array())) {
+        EncodedImage image{entry.value("name", ""), entry.value("mimeType", ""), entry.value("uri", ""), std::nullopt};
+        if (entry.contains("bufferView")) {
+            const json& view = document["bufferViews"][entry["bufferView"].get<std::size_t>()];
+            image.range = {view["buffer"].get<std::uint32_t>(), view.value("byteOffset", std::uint64_t{0}),
+                           view["byteLength"].get<std::uint64_t>()};
+        }
+        images.push_back(std::move(image));
+    }
+    return images;
+}
+
+// tinygltf 2.7 refuses index accessors without a bufferView, though sparse ones may lack it. They borrow one while it parses. Returns the
+// borrowers.
 std::vector<std::size_t> lendBufferViews(json& document)
 {
     std::vector<std::size_t> borrowers;
@@ -140,8 +152,9 @@ void widenMembers(json& document, const char* collection, const char* member)
     }
 }
 
-// tinygltf is given the checked JSON alone: it opens no file, decodes no image, and cannot stumble over what glim
-// does not read.
+// tinygltf gets nothing but checked JSON: it opens no file, decodes no image, and cannot stumble over what glim does not read. The JSON
+// is parsed twice, before the checks and again by tinygltf, because tinygltf accepts only text, checks little of it, and does not expose
+// the document that it has parsed.
 tinygltf::Model parseModel(const std::string& path, json document)
 {
     for (const char* unread : {"buffers", "images", "textures", "samplers", "skins", "animations"}) {
@@ -176,15 +189,13 @@ GltfFile readGltfFile(const std::filesystem::path& file)
     result.path = path;
     result.buffers = readBuffers(path, document, container);
     result.files = listFiles(path, document);
+    result.images = listImages(document);
     result.animated = document.contains("animations");
     result.model = parseModel(path, std::move(document));
     return result;
 }
 
-void refuse(const GltfFile& file, const std::string& sentence)
-{
-    throw InputError(file.path + ": " + sentence);
-}
+void refuse(const GltfFile& file, const std::string& sentence) { throw InputError(file.path + ": " + sentence); }
 
 std::string label(const char* collection, std::size_t index, const std::string& name)
 {
@@ -192,10 +203,7 @@ std::string label(const char* collection, std::size_t index, const std::string& 
     return name.empty() ? place : place + " (\"" + name + "\")";
 }
 
-std::string nodeLabel(const GltfFile& file, std::size_t node)
-{
-    return label("nodes", node, file.model.nodes[node].name);
-}
+std::string nodeLabel(const GltfFile& file, std::size_t node) { return label("nodes", node, file.model.nodes[node].name); }
 
 std::string toText(double value)
 {

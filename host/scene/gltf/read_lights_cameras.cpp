@@ -46,12 +46,12 @@ PunctualLight readLight(const GltfFile& file, const PlacedNode& node, std::size_
         light.cosOuter = static_cast<float>(std::cos(source.spot.outerConeAngle));
     }
     if (source.range > 0.0) {
-        scene.notices.push_back(place + " shines without its range: it falls with the square of the distance alone");
+        scene.notices.push_back(place + " is drawn without its range: it falls off with the square of the distance");
     }
     return light;
 }
 
-// The view is a rotation and a place: glTF gives scale no meaning here.
+// A camera's transform is a rotation and a translation: glTF gives scale no meaning here.
 void readView(const GltfFile& file, const PlacedNode& node, Camera& camera)
 {
     const glm::dmat3 linear = readLinear(file, node);

@@ -1,4 +1,4 @@
-// KHR_lights_punctual and cameras of placed nodes.
+// Reads the lights (KHR_lights_punctual) and cameras of placed nodes.
 #pragma once
 
 #include "host/scene/gltf/place_nodes.hpp"

@@ -5,9 +5,8 @@
 namespace glim {
 namespace {
 
-constexpr const char* kKnownExtensions[] = {"KHR_materials_emissive_strength", "KHR_materials_ior",
-                                            "KHR_materials_specular", "KHR_materials_transmission",
-                                            "KHR_materials_volume"};
+constexpr const char* kKnownExtensions[] = {"KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular",
+                                            "KHR_materials_transmission", "KHR_materials_volume"};
 
 const tinygltf::Value* findProperty(const tinygltf::Material& source, const char* extension, const char* name)
 {
@@ -21,7 +20,7 @@ double numberOr(const tinygltf::Material& source, const char* extension, const c
     return value == nullptr ? fallback : value->GetNumberAsDouble();
 }
 
-// True where an RGB property is absent or white.
+// True if an RGB property is absent or white.
 bool isWhite(const tinygltf::Material& source, const char* extension, const char* name)
 {
     const tinygltf::Value* value = findProperty(source, extension, name);
@@ -46,13 +45,13 @@ public:
     void addIf(bool condition, const std::string& what)
     {
         if (condition) {
-            m_list += (m_list.empty() ? "" : ", ") + what;
+            list_ += (list_.empty() ? "" : ", ") + what;
         }
     }
-    const std::string& list() const { return m_list; }
+    const std::string& list() const { return list_; }
 
 private:
-    std::string m_list;
+    std::string list_;
 };
 
 void addTextures(const tinygltf::Material& source, Ignored& ignored)
@@ -63,8 +62,7 @@ void addTextures(const tinygltf::Material& source, Ignored& ignored)
     ignored.addIf(source.occlusionTexture.index >= 0, "occlusionTexture");
     ignored.addIf(source.emissiveTexture.index >= 0, "emissiveTexture");
     for (const auto& [name, extension] : source.extensions) {
-        const bool known = std::find(std::begin(kKnownExtensions), std::end(kKnownExtensions), name) !=
-                           std::end(kKnownExtensions);
+        const bool known = std::find(std::begin(kKnownExtensions), std::end(kKnownExtensions), name) != std::end(kKnownExtensions);
         ignored.addIf(!known, name);
         for (const std::string& key : known ? extension.Keys() : std::vector<std::string>{}) {
             ignored.addIf(key.size() > 7 && key.compare(key.size() - 7, 7, "Texture") == 0, key);
@@ -80,8 +78,7 @@ void addGlass(const tinygltf::Material& source, Ignored& ignored)
     const bool attenuates = findProperty(source, "KHR_materials_volume", "attenuationDistance") != nullptr &&
                             !isWhite(source, "KHR_materials_volume", "attenuationColor");
     ignored.addIf(transmission < 1.0, "transmissionFactor " + toText(transmission));
-    ignored.addIf(numberOr(source, "KHR_materials_volume", "thicknessFactor", 0.0) == 0.0,
-                  "thin walls (thicknessFactor 0)");
+    ignored.addIf(numberOr(source, "KHR_materials_volume", "thicknessFactor", 0.0) == 0.0, "thin walls (thicknessFactor 0)");
     ignored.addIf(attenuates, "attenuation in the volume");
     ignored.addIf(pbr.metallicFactor > 0.0, "metallicFactor " + toText(pbr.metallicFactor));
     ignored.addIf(pbr.roughnessFactor > 0.0, "roughnessFactor " + toText(pbr.roughnessFactor));
@@ -96,7 +93,7 @@ void addMirror(const tinygltf::Material& source, Ignored& ignored)
     ignored.addIf(pbr.roughnessFactor > 0.0, "roughnessFactor " + toText(pbr.roughnessFactor));
 }
 
-// glTF's diffuse lobe is Lambert at any roughness; what is missing is the metal and the coat of every dielectric.
+// glTF's diffuse lobe is Lambertian at any roughness. What glim lacks is the metal and the specular coat of dielectrics.
 void addLambert(const tinygltf::Material& source, Ignored& ignored)
 {
     const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
@@ -115,10 +112,8 @@ std::string listIgnored(const tinygltf::Material& source, Scattering scattering)
     case Scattering::Mirror: addMirror(source, ignored); break;
     case Scattering::Lambert: addLambert(source, ignored); break;
     }
-    const bool hasHoles = source.pbrMetallicRoughness.baseColorFactor[3] < 1.0 ||
-                          source.pbrMetallicRoughness.baseColorTexture.index >= 0;
-    ignored.addIf(hasHoles && (source.alphaMode == "MASK" || source.alphaMode == "BLEND"),
-                  "alphaMode " + source.alphaMode);
+    const bool hasHoles = source.pbrMetallicRoughness.baseColorFactor[3] < 1.0 || source.pbrMetallicRoughness.baseColorTexture.index >= 0;
+    ignored.addIf(hasHoles && (source.alphaMode == "MASK" || source.alphaMode == "BLEND"), "alphaMode " + source.alphaMode);
     addTextures(source, ignored);
     return ignored.list();
 }
@@ -143,8 +138,7 @@ tinygltf::Material makeDefaultMaterial()
 
 MaterialReading readMaterial(const GltfFile& file, int index)
 {
-    const tinygltf::Material source =
-        index < 0 ? makeDefaultMaterial() : file.model.materials[static_cast<std::size_t>(index)];
+    const tinygltf::Material source = index < 0 ? makeDefaultMaterial() : file.model.materials[static_cast<std::size_t>(index)];
     const std::string place = index < 0 ? "the default material" : label("materials", index, source.name);
     const std::vector<double>& color = source.pbrMetallicRoughness.baseColorFactor;
     const std::vector<double>& emissive = source.emissiveFactor;

@@ -1,4 +1,4 @@
-// glTF's material model to the three that glim has.
+// Reads materials: maps glTF's model to glim's materials.
 #pragma once
 
 #include "host/scene/gltf/gltf_file.hpp"
@@ -8,7 +8,7 @@ namespace glim {
 
 struct MaterialReading {
     Material material;
-    std::string notice;  // names everything that the material asks for and does not get; empty if it is exact
+    std::string notice;  // names every property of the material that glim ignores; empty if there is none
 };
 
 // -1 is glTF's default material.

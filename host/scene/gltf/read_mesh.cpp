@@ -12,21 +12,20 @@ namespace {
 std::vector<glm::dvec3> readPositions(const GltfFile& file, std::size_t accessor, const std::string& place)
 {
     const std::string use = "POSITION of " + place;
-    std::vector<glm::dvec3> positions = readVec3(file, accessor, use);
+    std::vector<glm::dvec3> positions = readVectors<glm::dvec3>(file, accessor, use);
     for (std::size_t i = 0; i < positions.size(); ++i) {
         for (int c = 0; c < 3; ++c) {
             if (!std::isfinite(positions[i][c])) {
-                refuse(file, "accessors[" + std::to_string(accessor) + "] (" + use + ") holds " +
-                                 toText(positions[i][c]) + " in element " + std::to_string(i) +
-                                 "; expected finite numbers");
+                refuse(file, "accessors[" + std::to_string(accessor) + "] (" + use + ") holds " + toText(positions[i][c]) + " in element " +
+                                 std::to_string(i) + "; expected finite numbers");
             }
         }
     }
     return positions;
 }
 
-std::vector<std::uint32_t> readVertexOrder(const GltfFile& file, const tinygltf::Primitive& primitive,
-                                           std::size_t vertexCount, const std::string& place)
+std::vector<std::uint32_t> readVertexOrder(const GltfFile& file, const tinygltf::Primitive& primitive, std::size_t vertexCount,
+                                           const std::string& place)
 {
     if (primitive.indices < 0) {
         std::vector<std::uint32_t> order(vertexCount);
@@ -37,9 +36,8 @@ std::vector<std::uint32_t> readVertexOrder(const GltfFile& file, const tinygltf:
     std::vector<std::uint32_t> order = readIndices(file, accessor, "indices of " + place);
     for (std::size_t i = 0; i < order.size(); ++i) {
         if (order[i] >= vertexCount) {
-            refuse(file, "accessors[" + std::to_string(accessor) + "] (indices of " + place + ") holds " +
-                             std::to_string(order[i]) + " in element " + std::to_string(i) +
-                             "; expected indices below " + std::to_string(vertexCount));
+            refuse(file, "accessors[" + std::to_string(accessor) + "] (indices of " + place + ") holds " + std::to_string(order[i]) +
+                             " in element " + std::to_string(i) + "; expected indices below " + std::to_string(vertexCount));
         }
     }
     return order;
@@ -51,17 +49,17 @@ std::vector<std::uint32_t> listTriangles(const std::vector<std::uint32_t>& order
     if (mode == TINYGLTF_MODE_TRIANGLES) {
         return order;
     }
-    std::vector<std::uint32_t> corners;
-    corners.reserve(3 * order.size());
+    std::vector<std::uint32_t> indices;
+    indices.reserve(3 * order.size());
     for (std::size_t i = 0; i + 2 < order.size(); ++i) {
         const std::size_t odd = i % 2;
         if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
-            corners.insert(corners.end(), {order[i], order[i + 1 + odd], order[i + 2 - odd]});
+            indices.insert(indices.end(), {order[i], order[i + 1 + odd], order[i + 2 - odd]});
         } else {
-            corners.insert(corners.end(), {order[i + 1], order[i + 2], order[0]});
+            indices.insert(indices.end(), {order[i + 1], order[i + 2], order[0]});
         }
     }
-    return corners;
+    return indices;
 }
 
 void checkVertexCount(const GltfFile& file, std::size_t count, int mode, const std::string& place)
@@ -74,8 +72,26 @@ void checkVertexCount(const GltfFile& file, std::size_t count, int mode, const s
     }
 }
 
-std::optional<MeshPart> readPart(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& place,
-                                 std::vector<std::string>& notices)
+// Reads one value per position; none if the primitive does not have the attribute.
+template <class Value>
+std::vector<Value> readAttribute(const GltfFile& file, const tinygltf::Primitive& primitive, const char* attribute, const char* plural,
+                                 std::size_t vertexCount, const std::string& place)
+{
+    const auto found = primitive.attributes.find(attribute);
+    if (found == primitive.attributes.end()) {
+        return {};
+    }
+    const std::string use = attribute + (" of " + place);
+    std::vector<Value> values = readVectors<Value>(file, static_cast<std::size_t>(found->second), use);
+    if (values.size() != vertexCount) {
+        refuse(file, place + " has " + std::to_string(values.size()) + " " + plural + "; expected as many as its " +
+                         std::to_string(vertexCount) + " positions");
+    }
+    return values;
+}
+
+std::optional<Mesh> readPrimitive(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& place,
+                                  std::vector<std::string>& notices)
 {
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) {
@@ -87,42 +103,41 @@ std::optional<MeshPart> readPart(const GltfFile& file, const tinygltf::Primitive
                           " and is left out: only triangles, strips and fans are drawn");
         return std::nullopt;
     }
-    MeshPart part;
-    part.positions = readPositions(file, static_cast<std::size_t>(position->second), place);
-    if (const auto normal = primitive.attributes.find("NORMAL"); normal != primitive.attributes.end()) {
-        part.normals = readVec3(file, static_cast<std::size_t>(normal->second), "NORMAL of " + place);
-        if (part.normals.size() != part.positions.size()) {
-            refuse(file, place + " has " + std::to_string(part.normals.size()) + " normals; expected as many as its " +
-                             std::to_string(part.positions.size()) + " positions");
-        }
-    }
-    const std::vector<std::uint32_t> order = readVertexOrder(file, primitive, part.positions.size(), place);
+    Mesh mesh;
+    mesh.positions = readPositions(file, static_cast<std::size_t>(position->second), place);
+    const std::size_t count = mesh.positions.size();
+    mesh.normals = readAttribute<glm::dvec3>(file, primitive, "NORMAL", "normals", count, place);
+    mesh.tangents = readAttribute<glm::vec4>(file, primitive, "TANGENT", "tangents", count, place);
+    mesh.uv0 = readAttribute<glm::vec2>(file, primitive, "TEXCOORD_0", "texture coordinates", count, place);
+    mesh.uv1 = readAttribute<glm::vec2>(file, primitive, "TEXCOORD_1", "texture coordinates of the second set", count, place);
+    mesh.colors = readAttribute<glm::vec4>(file, primitive, "COLOR_0", "vertex colours", count, place);
+    const std::vector<std::uint32_t> order = readVertexOrder(file, primitive, count, place);
     checkVertexCount(file, order.size(), primitive.mode, place);
-    part.corners = listTriangles(order, primitive.mode);
-    part.material = primitive.material;
+    mesh.indices = listTriangles(order, primitive.mode);
+    mesh.material = static_cast<std::uint32_t>(primitive.material < 0 ? static_cast<int>(file.model.materials.size()) : primitive.material);
     if (primitive.attributes.count("COLOR_0") != 0) {
         notices.push_back(place + " is drawn without its vertex colours (COLOR_0)");
     }
     if (!primitive.targets.empty()) {
         notices.push_back(place + " is drawn without its morph targets");
     }
-    return part;
+    return mesh;
 }
 
 }  // namespace
 
-std::vector<MeshPart> readMesh(const GltfFile& file, std::size_t mesh, std::vector<std::string>& notices)
+std::vector<Mesh> readMeshes(const GltfFile& file, std::size_t mesh, std::vector<std::string>& notices)
 {
     const tinygltf::Mesh& source = file.model.meshes[mesh];
-    std::vector<MeshPart> parts;
+    std::vector<Mesh> meshes;
     for (std::size_t i = 0; i < source.primitives.size(); ++i) {
         const std::string place = label("meshes", mesh, source.name) + ".primitives[" + std::to_string(i) + "]";
-        if (std::optional<MeshPart> part = readPart(file, source.primitives[i], place, notices)) {
-            part->name = source.primitives.size() == 1 ? source.name : source.name + "." + std::to_string(i);
-            parts.push_back(std::move(*part));
+        if (std::optional<Mesh> read = readPrimitive(file, source.primitives[i], place, notices)) {
+            read->name = source.primitives.size() == 1 ? source.name : source.name + "." + std::to_string(i);
+            meshes.push_back(std::move(*read));
         }
     }
-    return parts;
+    return meshes;
 }
 
 }  // namespace glim

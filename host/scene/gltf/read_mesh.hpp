@@ -1,23 +1,13 @@
-// glTF primitives as indexed triangle lists in the space of their node.
+// Reads meshes. What glTF calls a primitive of a mesh is a mesh here.
 #pragma once
 
 #include "host/scene/gltf/gltf_file.hpp"
-
-#include <glm/glm.hpp>
-
-#include <cstdint>
+#include "host/scene/scene.hpp"
 
 namespace glim {
 
-struct MeshPart {
-    std::string name;  // of the mesh, with the primitive's number where there are several; may be empty
-    std::vector<glm::dvec3> positions;  // finite
-    std::vector<glm::dvec3> normals;    // empty, or one per position, of any length and possibly not finite
-    std::vector<std::uint32_t> corners; // three per triangle, counter-clockwise from the front, below positions.size()
-    int material = -1;
-};
-
-// Points, lines and primitives without positions are left out and said so.
-std::vector<MeshPart> readMesh(const GltfFile& file, std::size_t mesh, std::vector<std::string>& notices);
+// Each mesh is named after the file's mesh, with a number if that has several primitives. The default material's index follows the file's
+// last one. Points, lines and primitives without positions are left out, each with a notice.
+std::vector<Mesh> readMeshes(const GltfFile& file, std::size_t mesh, std::vector<std::string>& notices);
 
 }  // namespace glim

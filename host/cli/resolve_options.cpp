@@ -1,0 +1,202 @@
+#include "host/cli/resolve_options.hpp"
+
+#include "host/cli/parse.hpp"
+#include "shaders/shared/limits.h"
+
+#include <algorithm>
+
+namespace glim {
+namespace {
+
+constexpr std::uint32_t kViewSamples = 4, kMaxSpp = 2048;
+constexpr std::uint64_t kMaxCounter = std::uint64_t{1} << 32;  // sample index * light samples + light sample
+
+[[noreturn]] void refuse(const Command& command, const std::string& option, const std::string& why)
+{
+    throw UsageError(option, "\"" + command.textOf(option) + "\": " + why);
+}
+
+void refuseIfGiven(const Command& command, std::initializer_list<const char*> options, const std::string& why)
+{
+    for (const char* option : options) {
+        if (command.isGiven(option)) {
+            refuse(command, option, why);
+        }
+    }
+}
+
+void resolveView(const Command& command, RenderSettings& settings)
+{
+    if (settings.aov == Aov::Radiance) {
+        return;
+    }
+    const std::string nothing = "has no effect with --view " + command.textOf("--view");
+    refuseIfGiven(command, {"--bounces", "--direct", "--light-samples", "--paths", "--roulette", "--clamp-indirect"}, nothing);
+    refuseIfGiven(command, {"--adaptive", "--rates", "--suspects", "--target-rmse", "--target-relmse"}, nothing);
+    if (settings.aov != Aov::Albedo) {
+        refuseIfGiven(command, {"--exposure"}, nothing);
+    }
+    if (settings.aov == Aov::BvhSteps && settings.course.accelerator == Accelerator::None) {
+        refuse(command, "--view", "with --accelerator none there is no BVH; expected --accelerator bvh");
+    }
+    settings.bounces = 0;
+    if (!command.isGiven("--spp") && !command.isGiven("--samples")) {
+        settings.sampleEnd = kViewSamples;
+    }
+}
+
+void resolveCourse(const Command& command, RenderSettings& settings)
+{
+    refuseIfGiven(command, {"--spp", "--samples"}, "--adaptive course itself chooses the samples; expected --max-spp as their limit");
+    if (command.isGiven("--sampler") && settings.sampler == Sampler::Sobol) {
+        refuse(command, "--sampler", "the statistics of --adaptive course assume independent samples; expected --sampler independent");
+    }
+    settings.sampler = Sampler::Independent;
+    settings.sampleEnd = command.isGiven("--max-spp") ? settings.sampleEnd : kMaxSpp;
+    if (settings.course.batch > settings.sampleEnd) {
+        refuseIfGiven(command, {"--batch"}, "expected at most --max-spp, which is " + std::to_string(settings.sampleEnd));
+        refuse(command, "--max-spp", "expected at least --batch, which is " + std::to_string(settings.course.batch));
+    }
+}
+
+// The default is four times the samples that every pixel gets first.
+void resolveNeighbours(const Command& command, RenderSettings& settings)
+{
+    refuseIfGiven(command, {"--samples"}, "--adaptive itself chooses the samples; expected --spp as their mean");
+    if (command.isGiven("--spp") && settings.sampleEnd <= kPilotSamples) {
+        refuse(command, "--spp",
+               "--adaptive neighbours begins with " + std::to_string(kPilotSamples) + " samples of every pixel; expected more");
+    }
+    settings.sampleEnd = command.isGiven("--spp") ? settings.sampleEnd : 4 * kPilotSamples;
+}
+
+void resolveAdaptive(const Command& command, RenderSettings& settings)
+{
+    if (!isCourse(settings.adaptive)) {
+        refuseIfGiven(command, {"--tolerance", "--batch", "--max-spp"}, "expected --adaptive course or course:literal with it");
+    }
+    if (isNeighbours(settings.adaptive)) {
+        resolveNeighbours(command, settings);
+    }
+    if (isCourse(settings.adaptive)) {
+        resolveCourse(command, settings);
+    }
+}
+
+void resolveTime(const Command& command, RenderSettings& settings)
+{
+    if (settings.seconds && !isCourse(settings.adaptive) && !command.isGiven("--samples")) {
+        settings.sampleEnd = mostSamples(settings);
+    }
+}
+
+// Any sample may be replayed, unless other options limit the samples.
+void resolveReplay(const Command& command, RenderOptions& options)
+{
+    if (!options.replay) {
+        return;
+    }
+    refuseIfGiven(command, {"--output", "--png", "--rates", "--progress", "--time", "--suspects", "--target-rmse", "--target-relmse"},
+                  "has no effect with --replay, which makes no picture");
+    if (options.settings.aov != Aov::Radiance) {
+        refuse(command, "--view", "has no paths; expected --view shaded with --replay");
+    }
+    const bool limited = command.isGiven("--spp") || command.isGiven("--samples");
+    if (isNeighbours(options.settings.adaptive) || (!limited && options.settings.adaptive == Adaptive::Off)) {
+        options.settings.sampleBegin = options.replay->sample;
+        options.settings.sampleEnd = options.replay->sample + 1;
+    }
+}
+
+void checkReplay(const Command& command, const RenderOptions& options)
+{
+    const RenderSettings& settings = options.settings;
+    if (options.replay && (options.replay->sample < settings.sampleBegin || options.replay->sample >= settings.sampleEnd)) {
+        refuse(command, "--replay",
+               "expected one of the samples that the other options ask for, " + std::to_string(settings.sampleBegin) + " to " +
+                   std::to_string(settings.sampleEnd - 1));
+    }
+}
+
+void checkLightSamples(const Command& command, const RenderSettings& settings)
+{
+    if (settings.course.direct == DirectLight::Mis || settings.course.direct == DirectLight::Bsdf) {
+        refuseIfGiven(command, {"--light-samples"}, "expected --direct lights or --direct hemisphere with it");
+    }
+    if (std::uint64_t{settings.sampleEnd} * settings.course.lightSamples > kMaxCounter) {
+        refuse(command, "--light-samples",
+               "times " + std::to_string(settings.sampleEnd) + " samples per pixel is more than 2^32; expected at most " +
+                   std::to_string(kMaxCounter / settings.sampleEnd));
+    }
+}
+
+// Refuses what would be black in every scene.
+void checkPaths(const Command& command, const RenderSettings& settings)
+{
+    const std::uint32_t least = settings.paths == PathParts::Direct ? 1 : settings.paths == PathParts::Indirect ? 2 : 0;
+    if (settings.bounces < least) {
+        refuseIfGiven(command, {"--bounces"},
+                      "leaves nothing of --paths " + command.textOf("--paths") + "; expected at least " + std::to_string(least));
+    }
+}
+
+// Without another limit only the target ends the render.
+void resolveTarget(const Command& command, RenderOptions& options)
+{
+    if (!options.target.isGiven()) {
+        return;
+    }
+    if (isCourse(options.settings.adaptive)) {
+        refuseIfGiven(command, {"--target-rmse", "--target-relmse"},
+                      "--adaptive course has a rule of its own; expected --adaptive neighbours or off");
+    }
+    const RenderSettings& settings = options.settings;
+    const std::uint32_t least = leastSamplesForError(settings.sampleBegin);
+    const bool limited = command.isGiven("--spp") || command.isGiven("--samples");
+    if (limited && settings.sampleEnd - settings.sampleBegin < least) {
+        refuseIfGiven(command, {"--target-rmse", "--target-relmse"},
+                      "the error is known from " + std::to_string(least) + " samples on; expected at least as many");
+    }
+    if (!limited) {
+        options.settings.sampleEnd = mostSamples(options.settings);
+    }
+}
+
+}  // namespace
+
+std::uint32_t mostSamples(const RenderSettings& settings)
+{
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(kMaxSample, kMaxCounter / settings.course.lightSamples));
+}
+
+void resolvePicture(const Command& command, PictureOptions& options)
+{
+    resolveAdaptive(command, options.settings);
+    resolveTime(command, options.settings);
+    resolveLight(command, options);
+}
+
+void resolveLight(const Command& command, PictureOptions& options)
+{
+    checkLightSamples(command, options.settings);
+    checkPaths(command, options.settings);
+    if (options.settings.course.accelerator == Accelerator::None) {
+        refuseIfGiven(command, {"--split"}, "with --accelerator none there is no BVH to split");
+    }
+}
+
+void resolveRender(const Command& command, RenderOptions& options)
+{
+    resolveView(command, options.settings);
+    resolveAdaptive(command, options.settings);
+    resolveTime(command, options.settings);
+    resolveReplay(command, options);
+    resolveTarget(command, options);
+    resolveLight(command, options);
+    checkReplay(command, options);
+    if (options.png && options.rates && options.png->lexically_normal() == options.rates->lexically_normal()) {
+        refuse(command, "--rates", "expected another file than that of --png");
+    }
+}
+
+}  // namespace glim

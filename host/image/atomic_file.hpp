@@ -1,0 +1,38 @@
+// A file that appears under its name either complete or not at all. It is written beside the target under a temporary name; `commit`
+// syncs it to the disk and renames it. Without `commit` nothing remains.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+
+namespace glim {
+
+// Throws InputError if `path` could not be written: it has another extension than `extension` (".exr" in any case; empty allows all),
+// its folder is missing, a folder or a device has its name, or permission is missing. Creates and changes nothing.
+void checkWritable(const std::filesystem::path& path, std::string_view extension);
+
+class AtomicFile {
+public:
+    explicit AtomicFile(const std::filesystem::path& path);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    void write(const void* bytes, std::size_t count);
+    std::uint64_t tell() const { return position_; }
+    void seek(std::uint64_t position);
+    void commit();
+
+private:
+    [[noreturn]] void fail() const;  // throws InputError with the reason from errno
+
+    std::filesystem::path name_;    // as the caller gave it, for messages
+    std::filesystem::path target_;  // after following symbolic links, which stay as they are
+    std::filesystem::path temporary_;
+    std::uint64_t position_ = 0;
+    int descriptor_ = -1;
+};
+
+}  // namespace glim

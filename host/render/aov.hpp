@@ -1,0 +1,25 @@
+// AOVs (arbitrary output variables): the channels of a film, and how they are displayed as colours.
+#pragma once
+
+#include "host/image/png.hpp"
+#include "host/render/film.hpp"
+#include "host/render/settings.hpp"
+
+namespace glim {
+
+// How each is displayed:
+//   Radiance, Albedo   sRGB of clip(2^exposure x)
+//   Normal             .5 + .5 n of the surfaces' mean normal, without a transfer curve; black where no ray met a surface
+//   Depth              of the nearest surface, linear from white (nearest of the picture) to dark grey (farthest); black where none
+//   SampleCount        samples of a pixel, heatColor from the fewest to the most of the picture; blue if all have the same
+//   BvhSteps           with --view bvh-steps: inner nodes visited per ray, heatColor from 0 to the 99.9th percentile of the pixels
+// The ends of the scale on which `aov` shows depths, samples or steps.
+struct DisplayRange {
+    float low = 0.0F, high = 1.0F;
+};
+DisplayRange computeRange(const Film& film, Aov aov);
+
+// `exposure` is in stops and applies to radiance and albedo. Returns kMagenta if the mean is not finite.
+Rgb8 displayColor(const PixelMoments& pixel, Aov aov, const DisplayRange& range, double exposure);
+
+}  // namespace glim

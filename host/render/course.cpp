@@ -1,0 +1,82 @@
+#include "host/render/course.hpp"
+
+#include "host/render/parameters.hpp"
+#include "shaders/shared/limits.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace glim {
+
+bool usesCourseEstimators(const RenderSettings& settings)
+{
+    return settings.course.direct != DirectLight::Mis || settings.course.roulette != Roulette::Throughput ||
+           settings.course.accelerator != Accelerator::Bvh || settings.course.intersector != Intersector::Watertight;
+}
+
+CourseEstimators::CourseEstimators(Device& device, const FlatScene& scene, const RenderSettings& settings)
+    : settings_(settings),
+      rounds_(lightRounds(scene, settings)),
+      parameters_(device, "course's parameters", BufferKind::Storage, sizeof(CourseParameters))
+{
+    CourseParameters parameters{};
+    parameters.recordCount = recordCount_ = static_cast<std::uint32_t>(scene.records.size()) / kRecordTexels;
+    parameters.continuation = settings.course.survival;
+    parameters.tolerance = settings.course.tolerance;
+    parameters.constantSamples = settings.adaptive == Adaptive::CourseLiteral ? 0 : kConstantSamples;
+    upload(parameters_, std::span<const CourseParameters>(&parameters, 1));
+}
+
+void CourseEstimators::recordBounce(Recording& recording, const KernelSet& kernels, const Bindings& bindings, const Pass& pass,
+                                    const Buffer& queueSizes) const
+{
+    recordTrace(recording, *kernels.course.traceClosest, bindings, {pass, {}}, queueSizes, offsetof(QueueSizes, closestGroups));
+    const PathLengths lengths = pathLengths(settings_);
+    const std::vector<LightRound> finding = {{false, kNoLightIndex}};
+    CoursePass round{pass, {}};
+    round.lightRound.addsEmission = 1;
+    // Without lights there is one round, which samples none.
+    for (const LightRound& each : samplesLights(pass.bounce, lengths.maxBounces, lengths.min, 1) ? rounds_ : finding) {
+        round.lightRound.light = each.light;
+        round.lightRound.lightSample = each.sample;
+        round.lightRound.lightSamples = each.samples;
+        recordRound(recording, kernels, bindings, round, each.hemisphere, queueSizes);
+        round.lightRound.addsEmission = 0;
+    }
+    recording.dispatchIndirect(*kernels.course.bounce, bindings, CoursePass{pass, {}}, queueSizes, offsetof(QueueSizes, closestGroups));
+}
+
+void CourseEstimators::recordRound(Recording& recording, const KernelSet& kernels, const Bindings& bindings, const CoursePass& round,
+                                   bool hemisphere, const Buffer& queueSizes) const
+{
+    const Kernel& sample = hemisphere ? *kernels.course.sampleHemisphere : *kernels.course.sampleLights;
+    recording.dispatchIndirect(sample, bindings, round, queueSizes, offsetof(QueueSizes, closestGroups));
+    if (hemisphere || round.lightRound.light != kNoLightIndex) {
+        Pass size = round.pass;
+        size.sizes = kSizesShadow;
+        recording.dispatch(*kernels.sizeDispatch, bindings, size, 1);
+        recordTrace(recording, hemisphere ? *kernels.course.traceHemisphere : *kernels.course.traceShadow, bindings, round, queueSizes,
+                    offsetof(QueueSizes, shadowGroups));
+    }
+}
+
+void CourseEstimators::recordTrace(Recording& recording, const Kernel& kernel, const Bindings& bindings, CoursePass round,
+                                   const Buffer& queueSizes, std::uint64_t groupsOffset) const
+{
+    const bool bruteForce = settings_.course.accelerator == Accelerator::None;
+    const std::uint32_t step = bruteForce ? kScanRecords : recordCount_;
+    for (round.lightRound.firstRecord = 0; round.lightRound.firstRecord < recordCount_; round.lightRound.firstRecord += step) {
+        round.lightRound.endRecord = std::min(recordCount_, round.lightRound.firstRecord + step);
+        recording.dispatchIndirect(kernel, bindings, round, queueSizes, groupsOffset);
+    }
+}
+
+void CourseEstimators::recordLuminance(Recording& recording, const KernelSet& kernels, const Bindings& bindings, const Pass& pass,
+                                       std::uint32_t groups) const
+{
+    if (kernels.course.addLuminance) {
+        recording.dispatch(*kernels.course.addLuminance, bindings, CoursePass{pass, {}}, groups);
+    }
+}
+
+}  // namespace glim

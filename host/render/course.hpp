@@ -1,0 +1,48 @@
+// The estimators of the course (Berkeley's CS 184), beside the production path: their kernels, parameters and order.
+#pragma once
+
+#include "host/render/course_rounds.hpp"
+#include "host/render/kernel_set.hpp"
+#include "host/render/path_buffers.hpp"
+#include "host/render/recording.hpp"
+#include "shaders/shared/course_types.h"
+
+namespace glim {
+
+// Whether tracing needs the course's kernels. --adaptive course does not: it only chooses pixels.
+bool usesCourseEstimators(const RenderSettings& settings);
+
+// A bounce by the course's kernels:
+//
+//   size_dispatch -> course_trace_closest
+//   per round of direct light:  course_sample_lights -> size_dispatch -> course_trace_shadow
+//   course_bounce
+//
+// A round over the hemisphere has course_sample_hemisphere and course_trace_hemisphere instead. Brute force repeats each trace kernel for
+// one range of records after another.
+class CourseEstimators {
+public:
+    CourseEstimators(Device& device, const FlatScene& scene, const RenderSettings& settings);
+
+    const Buffer& parameters() const { return parameters_; }
+
+    void recordBounce(Recording& recording, const KernelSet& kernels, const Bindings& bindings, const Pass& pass,
+                      const Buffer& queueSizes) const;
+    // course_trace_closest or course_trace_shadow alone, over the queue whose group counts are at groupsOffset in queueSizes.
+    void recordTrace(Recording& recording, const Kernel& kernel, const Bindings& bindings, CoursePass round, const Buffer& queueSizes,
+                     std::uint64_t groupsOffset) const;
+    // After a pass: updates the luminance statistics of --adaptive course.
+    void recordLuminance(Recording& recording, const KernelSet& kernels, const Bindings& bindings, const Pass& pass,
+                         std::uint32_t groups) const;
+
+private:
+    void recordRound(Recording& recording, const KernelSet& kernels, const Bindings& bindings, const CoursePass& round, bool hemisphere,
+                     const Buffer& queueSizes) const;
+
+    RenderSettings settings_;
+    std::vector<LightRound> rounds_;  // of direct light at each hit
+    std::uint32_t recordCount_ = 0;
+    Buffer parameters_;
+};
+
+}  // namespace glim

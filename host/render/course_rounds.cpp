@@ -1,0 +1,54 @@
+#include "host/render/course_rounds.hpp"
+
+#include "host/error.hpp"
+#include "shaders/shared/course_types.h"
+
+#include <algorithm>
+
+namespace glim {
+namespace {
+
+// Whether no ray can hit the light, so that it must be sampled.
+bool isDelta(const FlatLight& light) { return light.kind == kPointLight || light.kind == kSpotLight || light.kind == kDirectionalLight; }
+
+void refuseTooMany(const FlatScene& scene, const RenderSettings& settings)
+{
+    constexpr std::uint64_t kMost = 1U << 20;
+    const auto deltas = static_cast<std::uint64_t>(std::count_if(scene.lights.begin(), scene.lights.end(), isDelta));
+    const std::uint64_t rays = deltas + (scene.lights.size() - deltas) * settings.course.lightSamples;
+    if (settings.course.direct == DirectLight::Lights && rays > kMost) {
+        throw InputError("--direct lights: the scene's " + std::to_string(scene.lights.size()) + " lights with " +
+                         std::to_string(settings.course.lightSamples) + " samples each would take " + std::to_string(rays) +
+                         " rays per hit, expected at most " + std::to_string(kMost) + ".");
+    }
+}
+
+}  // namespace
+
+std::vector<LightRound> lightRounds(const FlatScene& scene, const RenderSettings& settings)
+{
+    refuseTooMany(scene, settings);
+    std::vector<LightRound> rounds;
+    if (settings.course.direct == DirectLight::Mis && !scene.lights.empty()) {
+        return {{false, kAnyLight}};
+    }
+    for (std::uint32_t light = 0; light < scene.lights.size(); ++light) {
+        const bool delta = isDelta(scene.lights[light]);
+        const std::uint32_t samples = delta ? 1 : settings.course.direct == DirectLight::Lights ? settings.course.lightSamples : 0;
+        for (std::uint32_t i = 0; i < samples; ++i) {
+            rounds.push_back({false, light, i, samples});
+        }
+    }
+    if (rounds.empty()) {
+        rounds.push_back({false, kNoLightIndex});
+    }
+    constexpr std::uint32_t kHitByRays = kFeatureTriangleLights | kFeatureSphereLights | kFeatureEnvironment;
+    if (settings.course.direct == DirectLight::Hemisphere && (scene.features & kHitByRays) != 0) {
+        for (std::uint32_t i = 0; i < settings.course.lightSamples; ++i) {
+            rounds.push_back({true, kNoLightIndex, i, settings.course.lightSamples});
+        }
+    }
+    return rounds;
+}
+
+}  // namespace glim

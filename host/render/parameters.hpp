@@ -1,0 +1,32 @@
+// The parameters that kernels get once per render.
+#pragma once
+
+#include "host/flatten/flat_scene.hpp"
+#include "host/gpu/buffer.hpp"
+#include "host/render/settings.hpp"
+#include "shaders/shared/path_types.h"
+
+namespace glim {
+
+// Light counts if `min` to `max` surfaces are between it and the camera. A path meets at most maxBounces surfaces before its last one.
+struct PathLengths {
+    std::uint32_t min, max, maxBounces;
+};
+PathLengths pathLengths(const RenderSettings& settings);
+
+class DeviceParameters {
+public:
+    DeviceParameters(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
+
+    // No kernel may be running.
+    void setView(const FlatCamera& camera, std::uint32_t width, std::uint32_t height);
+    void setSeed(std::uint32_t seed);
+
+    const Buffer& buffer() const { return buffer_; }
+
+private:
+    RenderParameters parameters_{};
+    Buffer buffer_;
+};
+
+}  // namespace glim

@@ -1,0 +1,241 @@
+#include "host/scene/gltf/read_geometry.hpp"
+
+#include "host/scene/gltf/read_mesh.hpp"
+#include "host/scene/placed_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace glim {
+namespace {
+
+// Relative tolerance for the equal lengths and orthogonality of a uniform scale's columns: matrices are often printed floats.
+constexpr double kUniformScale = 1e-5;
+
+// The origin is the box's centre rounded to 2^-8 of the extent, so that subtracting it is exact even where the centre
+// itself needs all 53 bits.
+constexpr int kOriginBits = 8;
+
+struct WorldSphere {
+    Sphere sphere;  // without its centre
+    glm::dvec3 center;
+    std::size_t node;
+};
+
+struct Box {
+    glm::dvec3 min{std::numeric_limits<double>::infinity()};
+    glm::dvec3 max{-std::numeric_limits<double>::infinity()};
+
+    void extend(const glm::dvec3& point)
+    {
+        min = glm::min(min, point);
+        max = glm::max(max, point);
+    }
+};
+
+bool isFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+void checkPoint(const GltfFile& file, std::size_t node, const glm::dvec3& point, bool fits)
+{
+    if (!fits) {
+        refuse(file, nodeLabel(file, node) + " places a point at " + toText(point.x) + " " + toText(point.y) + " " + toText(point.z) +
+                         "; expected coordinates that fit a float");
+    }
+}
+
+glm::vec3 toFloat(const GltfFile& file, std::size_t node, const glm::dvec3& point)
+{
+    const glm::vec3 rounded(point);
+    checkPoint(file, node, point, isFinite(rounded));
+    return rounded;
+}
+
+glm::dvec3 computeOrigin(const Box& box)
+{
+    const glm::dvec3 center = 0.5 * box.min + 0.5 * box.max;
+    const double extent = std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z});
+    if (!std::isfinite(extent) || extent == 0.0) {
+        return center;
+    }
+    const double grid = std::ldexp(1.0, std::ilogb(extent) - kOriginBits);
+    return glm::dvec3(std::round(center.x / grid), std::round(center.y / grid), std::round(center.z / grid)) * grid +
+           0.0;  // no negative zero
+}
+
+WorldSphere readSphere(const GltfFile& file, const PlacedNode& node, std::uint32_t defaultMaterial)
+{
+    const tinygltf::Value& source = file.model.nodes[node.index].extras.Get("sphere");
+    const glm::dmat3 linear = readLinear(file, node);
+    const double scale = std::cbrt(std::abs(glm::determinant(linear)));
+    const glm::dmat3 gram = glm::transpose(linear) * linear;
+    for (int c = 0; c < 9; ++c) {
+        const double expected = c / 3 == c % 3 ? scale * scale : 0.0;
+        if (!(std::abs(gram[c / 3][c % 3] - expected) <= kUniformScale * scale * scale)) {
+            refuse(file, nodeLabel(file, node.index) + " scales its sphere by " + toText(glm::length(linear[0])) + " " +
+                             toText(glm::length(linear[1])) + " " + toText(glm::length(linear[2])) +
+                             " or shears it; expected a uniform scale");
+        }
+    }
+    WorldSphere world;
+    world.node = node.index;
+    world.center = glm::dvec3(node.worldFromNode[3]);
+    world.sphere.name = file.model.nodes[node.index].name;
+    world.sphere.radius = static_cast<float>(scale * source.Get("radius").GetNumberAsDouble());
+    world.sphere.material = source.Has("material") ? static_cast<std::uint32_t>(source.Get("material").GetNumberAsInt()) : defaultMaterial;
+    if (!std::isfinite(world.sphere.radius)) {
+        refuse(file, nodeLabel(file, node.index) + " has a sphere of infinite radius; expected one that fits a float");
+    }
+    return world;
+}
+
+class GeometryReader {
+public:
+    GeometryReader(const GltfFile& file, Scene& scene)
+        : file_(file),
+          scene_(scene),
+          defaultMaterial_(static_cast<std::uint32_t>(file.model.materials.size()))
+    {}
+
+    void addNode(const PlacedNode& node);
+    void finish();
+
+private:
+    void addInstances(const PlacedNode& node, int mesh);
+    void countTriangles();
+    Box computeBox() const;
+    void checkVertices(std::size_t instance) const;
+    void requireSomething() const;
+
+    const GltfFile& file_;
+    Scene& scene_;
+    std::uint32_t defaultMaterial_;
+    std::map<int, std::vector<std::uint32_t>> meshes_;  // the scene's meshes by mesh of the file
+    std::vector<std::size_t> nodes_;                    // by instance
+    std::vector<WorldSphere> spheres_;
+    std::size_t triangles_ = 0, emptySpheres_ = 0;
+};
+
+void GeometryReader::addNode(const PlacedNode& node)
+{
+    const tinygltf::Node& source = file_.model.nodes[node.index];
+    if (source.mesh >= 0) {
+        addInstances(node, source.mesh);
+    }
+    if (source.extras.IsObject() && source.extras.Has("sphere")) {
+        WorldSphere sphere = readSphere(file_, node, defaultMaterial_);
+        if (sphere.sphere.radius > 0.0F) {
+            spheres_.push_back(std::move(sphere));
+        } else {
+            ++emptySpheres_;
+        }
+    }
+}
+
+void GeometryReader::addInstances(const PlacedNode& node, int mesh)
+{
+    if (meshes_.count(mesh) == 0) {
+        std::vector<std::uint32_t>& ids = meshes_[mesh];
+        for (Mesh& read : readMeshes(file_, static_cast<std::size_t>(mesh), scene_.notices)) {
+            ids.push_back(static_cast<std::uint32_t>(scene_.meshes.size()));
+            scene_.meshes.push_back(std::move(read));
+        }
+    }
+    readLinear(file_, node);  // refuses a singular one
+    for (const std::uint32_t id : meshes_[mesh]) {
+        const std::string& name = file_.model.nodes[node.index].name;
+        scene_.instances.push_back({name.empty() ? scene_.meshes[id].name : name, id, node.worldFromNode});
+        nodes_.push_back(node.index);
+    }
+}
+
+void GeometryReader::countTriangles()
+{
+    for (const MeshInstance& instance : scene_.instances) {
+        triangles_ += scene_.meshes[instance.mesh].indices.size() / 3;
+    }
+    if (triangles_ > std::numeric_limits<std::uint32_t>::max()) {
+        refuse(file_, "the scene has " + std::to_string(triangles_) + " triangles; expected at most 4294967295");
+    }
+}
+
+Box GeometryReader::computeBox() const
+{
+    Box box;
+    for (std::size_t i = 0; i < scene_.instances.size(); ++i) {
+        const MeshInstance& instance = scene_.instances[i];
+        const Mesh& mesh = scene_.meshes[instance.mesh];
+        const glm::dmat3 linear(instance.worldFromMesh);
+        const glm::dvec3 translation(instance.worldFromMesh[3]);
+        for (const std::uint32_t index : mesh.indices) {
+            const glm::dvec3 world = linear * mesh.positions[index] + translation;
+            checkPoint(file_, nodes_[i], world, isFinite(world));
+            box.extend(world);
+        }
+    }
+    for (const WorldSphere& sphere : spheres_) {
+        checkPoint(file_, sphere.node, sphere.center, isFinite(sphere.center));
+        box.extend(sphere.center - static_cast<double>(sphere.sphere.radius));
+        box.extend(sphere.center + static_cast<double>(sphere.sphere.radius));
+    }
+    return box;
+}
+
+// Refuses vertices that, relative to the origin, do not fit float32.
+void GeometryReader::checkVertices(std::size_t instance) const
+{
+    const MeshInstance& placed = scene_.instances[instance];
+    const Mesh& mesh = scene_.meshes[placed.mesh];
+    const glm::dmat3 linear(placed.worldFromMesh);
+    const glm::dvec3 translation = glm::dvec3(placed.worldFromMesh[3]) - scene_.origin;
+    for (const std::uint32_t index : mesh.indices) {
+        toFloat(file_, nodes_[instance], linear * mesh.positions[index] + translation);
+    }
+}
+
+void GeometryReader::requireSomething() const
+{
+    for (const MeshInstance& instance : scene_.instances) {
+        const PlacedMesh placed(scene_, instance);
+        for (std::size_t i = 0; i < placed.triangleCount(); ++i) {
+            if (faceNormal(placed.triangle(i)) != glm::dvec3(0.0)) {
+                return;
+            }
+        }
+    }
+    refuse(file_, "the scene has no triangle and no sphere to draw (" + std::to_string(triangles_) + " of zero area, " +
+                      std::to_string(emptySpheres_) + " of zero radius); expected at least one");
+}
+
+void GeometryReader::finish()
+{
+    countTriangles();
+    scene_.origin = triangles_ + spheres_.size() == 0 ? glm::dvec3(0.0) : computeOrigin(computeBox());
+    for (std::size_t i = 0; i < scene_.instances.size(); ++i) {
+        checkVertices(i);
+    }
+    for (WorldSphere& sphere : spheres_) {
+        sphere.sphere.center = toFloat(file_, sphere.node, sphere.center - scene_.origin);
+        scene_.spheres.push_back(sphere.sphere);
+    }
+    if (emptySpheres_ > 0) {
+        scene_.notices.push_back("left out " + std::to_string(emptySpheres_) + " spheres of zero radius");
+    }
+    if (scene_.spheres.empty()) {
+        requireSomething();
+    }
+}
+
+}  // namespace
+
+void readGeometry(const GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& scene)
+{
+    GeometryReader reader(file, scene);
+    for (const PlacedNode& node : nodes) {
+        reader.addNode(node);
+    }
+    reader.finish();
+}
+
+}  // namespace glim

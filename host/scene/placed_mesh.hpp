@@ -1,0 +1,41 @@
+// A mesh as an instance places it in the world.
+#pragma once
+
+#include "host/scene/scene.hpp"
+
+#include <array>
+
+namespace glim {
+
+// Three vertices in world space, float32 relative to the scene's origin, counter-clockwise seen from the front. Vertices that triangles
+// share have equal bits, on which watertightness depends.
+struct Triangle {
+    glm::vec3 vertices[3];
+};
+
+// Not normalised: its length is twice the area.
+glm::dvec3 faceNormal(const Triangle& triangle);
+
+class PlacedMesh {
+public:
+    PlacedMesh(const Scene& scene, const MeshInstance& instance);
+
+    std::size_t triangleCount() const { return mesh_->indices.size() / 3; }
+    // Indices of the mesh's vertices. If the instance mirrors, two are swapped, so that the front stays the front.
+    std::array<std::uint32_t, 3> corners(std::size_t triangle) const;
+    Triangle triangle(std::size_t triangle) const;
+
+private:
+    const Mesh* mesh_;
+    std::size_t second_;                // which of a triangle's indices comes second
+    std::vector<glm::vec3> positions_;  // by vertex
+};
+
+// The bounds of everything that has a surface.
+struct WorldBox {
+    glm::vec3 low, high;  // relative to the scene's origin
+};
+
+WorldBox computeWorldBox(const Scene& scene);
+
+}  // namespace glim

@@ -1,0 +1,169 @@
+// Traverses the BVH. The including file defines intersectTriangle: traverse.glsl does, and course/traverse.glsl for the course.
+#ifndef GLIM_ACCESS_BVH_WALK
+#define GLIM_ACCESS_BVH_WALK
+
+#include "lib/infinity.glsl"
+#include "lib/intersect_node.glsl"
+#include "lib/intersect_sphere.glsl"
+#include "lib/intersect_triangle.glsl"
+#include "scene.glsl"
+#include "traversal_stack.glsl"
+#include "shared/path_types.h"
+
+struct Walk {
+    vec3 origin;
+    vec3 direction;
+    vec3 reciprocal;
+    uint ahead;  // placesAhead
+    Shear shear;
+};
+
+Walk beginWalk(vec3 origin, vec3 direction)
+{
+    vec3 reciprocal = reciprocalDirection(direction);
+    return Walk(origin, direction, reciprocal, placesAhead(reciprocal), makeShear(direction));
+}
+
+TriangleHit intersectTriangle(Walk walk, Record record, float tMax);
+
+// t in (0, tMax] and barycentrics, or t < 0. A ray never meets the triangle it leaves; a sphere only from within.
+TriangleHit intersectRecord(Walk walk, Record record, float tMax, bool isSource)
+{
+    if (isSphere(record)) {
+        float t = intersectSphere(walk.origin, walk.direction, floatsOf(record.t0), uintBitsToFloat(record.t1.x), tMax,
+                                  isSource);
+        return TriangleHit(t, vec2(0.0), 1.0);
+    }
+    return isSource ? kNoTriangleHit : intersectTriangle(walk, record, tMax);
+}
+
+// Leaf records that are still to be tested: bit i of `left` stands for record first + i.
+struct Records {
+    uint first;
+    uint left;
+};
+
+uint takeRecord(inout Records records)
+{
+    uint bit = uint(findLSB(records.left));
+    records.left &= records.left - 1u;
+    return records.first + bit;
+}
+
+const uint kNodeBits = 0xffffffffu << kFirstNodeBit;
+
+void visitNode(Walk walk, uint node, float tMax, out NodeGroup children, out Records records)
+{
+    int at = int(node * kNodeTexels);
+    uvec4 head = texelFetch(sceneNodes, at);
+    uvec4 content = texelFetch(sceneNodes, at + 1);
+    uint hits = hitsOfNode(head, content, texelFetch(sceneNodes, at + 2), texelFetch(sceneNodes, at + 3), texelFetch(sceneNodes, at + 4),
+                           walk.origin, walk.reciprocal, walk.ahead, tMax);
+    children = NodeGroup(content.x, (hits & kNodeBits) | head.w >> 24u);
+    records = Records(content.y, hits & ~kNodeBits);
+}
+
+struct Closest {
+    uint record;
+    uint primitive;
+    TriangleHit hit;
+};
+
+Closest makeMiss()
+{
+    return Closest(kNoRecord, kNoPrimitive, TriangleHit(kInfinity, vec2(0.0), 1.0));
+}
+
+PathHit hitOf(Closest best)
+{
+    return PathHit(best.record, best.hit.t, barycentricOf(best.hit));
+}
+
+// Ties go to the lower primitive, so that the result does not depend on the tree.
+void meetRecord(Walk walk, uint index, uint source, inout Closest best)
+{
+    Record record = fetchRecord(index);
+    TriangleHit hit = intersectRecord(walk, record, best.hit.t, primitiveOf(record) == source);
+    if (hit.t > 0.0 && (hit.t < best.hit.t || primitiveOf(record) < best.primitive)) {
+        best = Closest(index, primitiveOf(record), hit);
+    }
+}
+
+// What a traversal has done.
+struct Steps {
+    uint nodes;       // visited, eight boxes each
+    uint primitives;  // tested
+};
+
+// Loops test their condition at the end. If they test it at the beginning, llvmpipe runs the body once more with no lane active. But the
+// code after such a loop may use only variables that the loop carries from iteration to iteration: on Mesa 22.3.6 anything else is
+// recomputed for a lane that has left, as long as other lanes stay, from variables that have changed since.
+PathHit traceClosest(PathRay ray, out Steps steps)
+{
+    steps = Steps(0u, 0u);
+    Walk walk = beginWalk(ray.origin, ray.direction);
+    Closest best = makeMiss();
+    TraversalStack stack = makeTraversalStack();
+    NodeGroup group = kRootGroup;
+    do {
+        uint node = takeNode(group, walk.ahead);
+        NodeGroup children;
+        Records records;
+        visitNode(walk, node, best.hit.t, children, records);
+        ++steps.nodes;
+        if (records.left != 0u) {
+            do {
+                meetRecord(walk, takeRecord(records), ray.source, best);
+                ++steps.primitives;
+            } while (records.left != 0u);
+        }
+        group = nextGroup(stack, children, group);
+    } while (hasAny(group));
+    return hitOf(best);
+}
+
+PathHit traceClosest(PathRay ray)
+{
+    Steps uncounted;
+    return traceClosest(ray, uncounted);
+}
+
+// True if nothing but `target` lies between origin and origin + tMax * direction.
+bool isUnoccluded(ShadowRay ray, out Steps steps)
+{
+    steps = Steps(0u, 0u);
+    Walk walk = beginWalk(ray.origin, ray.direction);
+    TraversalStack stack = makeTraversalStack();
+    NodeGroup group = kRootGroup;
+    bool going = true;
+    bool occluded = false;
+    do {
+        uint node = takeNode(group, walk.ahead);
+        NodeGroup children;
+        Records records;
+        visitNode(walk, node, ray.tMax, children, records);
+        ++steps.nodes;
+        group = nextGroup(stack, children, group);
+        going = hasAny(group);
+        if (records.left != 0u) {
+            do {
+                Record record = fetchRecord(takeRecord(records));
+                TriangleHit hit = intersectRecord(walk, record, ray.tMax, primitiveOf(record) == ray.source);
+                ++steps.primitives;
+                bool met = hit.t > 0.0 && primitiveOf(record) != ray.target;
+                occluded = occluded || met;
+                going = going && !met;
+                records.left = met ? 0u : records.left;
+            } while (records.left != 0u);
+        }
+    } while (going);
+    return !occluded;
+}
+
+bool isUnoccluded(ShadowRay ray)
+{
+    Steps uncounted;
+    return isUnoccluded(ray, uncounted);
+}
+
+#endif

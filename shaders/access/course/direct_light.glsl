@@ -1,0 +1,42 @@
+// Direct light by the course's estimators: the light sample of a round, and the weight of light that a path's own ray has hit.
+#ifndef GLIM_ACCESS_COURSE_DIRECT_LIGHT
+#define GLIM_ACCESS_COURSE_DIRECT_LIGHT
+
+#include "access/course/round.glsl"
+#include "access/direct_light.glsl"
+#include "access/notes.glsl"
+#include "lib/mis.glsl"
+
+// The MIS weight of light that a ray has hit, if light sampling has the density lightPdf for it. It is 1 for camera rays and after delta
+// lobes.
+float misWeightOfHit(PathState state, float lightPdf)
+{
+    if (!(state.pdf > 0.0) || kDirect == kDirectBsdf) {
+        return 1.0;
+    }
+    float weight = kDirect == kDirectMis ? powerHeuristic(state.pdf, lightPdf) : 0.0;
+    noteHitLight(lightPdf, weight);
+    return weight;
+}
+
+float misWeightOfSample(float lightPdf, float bsdfPdf)
+{
+    float weight = kDirect == kDirectMis && lightPdf > 0.0 ? powerHeuristic(lightPdf, bsdfPdf) : 1.0;
+    return kDirect == kDirectLights ? weight / float(lightRound.lightSamples) : weight;
+}
+
+// Samples the light that the round names, or one by power. A named light is certain: its probability is 1.
+bool sampleLightOfRound(SampleId id, SurfaceInteraction si, Bsdf bsdf, vec3 wo, PathState state, out ShadowRay ray)
+{
+    bool named = kDirect != kDirectMis;
+    uint chosen = named ? lightRound.light : chooseLight(id, state.bounce);
+    noteLight(chosen);
+    FlatLight light = fetchLight(chosen);
+    if (named) {
+        id = splitSample(id, lightRound.light, lightRound.lightSample, lightRound.lightSamples);
+        light.probability = 1.0;
+    }
+    return sampleChosenLight(id, light, si, bsdf, wo, state, ray);
+}
+
+#endif

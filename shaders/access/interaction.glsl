@@ -1,0 +1,109 @@
+// Makes a SurfaceInteraction from a hit: all that shading reads of the surface there.
+#ifndef GLIM_ACCESS_INTERACTION
+#define GLIM_ACCESS_INTERACTION
+
+#include "lib/frame.glsl"
+#include "lib/offset_point.glsl"
+#include "scene.glsl"
+#include "shared/path_types.h"
+
+struct SurfaceInteraction {
+    vec3 p;            // on the surface, to within errorBound
+    vec3 errorBound;
+    vec3 ng;           // unit geometric normal, on the side of wo
+    vec3 ns;           // unit shading normal, turned with ng; an interpolated one may still point away from wo
+    vec2 uv;           // of the primitive: barycentrics of a triangle; meshes have no texture coordinates on the device yet
+    bool front;        // wo is on the front side
+    uint material;
+    uint primitive;
+    uint emitter;      // index + 1, or 0
+};
+
+// The unit normal of a triangle, counter-clockwise front; from its two longest edges, which cancel least.
+vec3 triangleNormal(vec3 v0, vec3 v1, vec3 v2)
+{
+    vec3 a = v1 - v0;
+    vec3 b = v2 - v1;
+    vec3 c = v0 - v2;
+    vec3 l = vec3(dot(a, a), dot(b, b), dot(c, c));
+    vec3 n = l.x <= l.y && l.x <= l.z ? cross(b, c) : l.y <= l.z ? cross(c, a) : cross(a, b);
+    return normalizeSafely(n);
+}
+
+// Interpolated vertex normal of a triangle, or zero where it is flat.
+vec3 vertexNormal(uint triangle, vec2 barycentric)
+{
+    ivec3 vertices = ivec3(texelFetch(sceneTriangles, int(triangle)).xyz);
+    return floatsOf(texelFetch(sceneVertices, vertices.x)) * (1.0 - barycentric.x - barycentric.y) +
+           floatsOf(texelFetch(sceneVertices, vertices.y)) * barycentric.x +
+           floatsOf(texelFetch(sceneVertices, vertices.z)) * barycentric.y;
+}
+
+SurfaceInteraction interactionWithSphere(Record record, vec3 near)
+{
+    vec3 center = floatsOf(record.t0);
+    float radius = uintBitsToFloat(record.t1.x);
+    vec3 n = near - center;
+    n = n / length(n);
+    return SurfaceInteraction(center + radius * n, sphereErrorBound(center, radius), n, n, vec2(0.0), true, materialOf(record),
+                              primitiveOf(record), record.t2.w);
+}
+
+SurfaceInteraction interactionWithTriangle(Record record, vec2 barycentric)
+{
+    vec3 v0 = floatsOf(record.t0);
+    vec3 e1 = floatsOf(record.t1) - v0;
+    vec3 e2 = floatsOf(record.t2) - v0;
+    vec3 n = triangleNormal(v0, floatsOf(record.t1), floatsOf(record.t2));
+    SurfaceInteraction si = SurfaceInteraction(trianglePoint(v0, e1, e2, barycentric), triangleErrorBound(v0, e1, e2), n, n, barycentric,
+                                               true, materialOf(record), primitiveOf(record), record.t2.w);
+    if (kSmooth) {
+        vec3 smoothed = vertexNormal(primitiveOf(record), barycentric);
+        float square = dot(smoothed, smoothed);
+        si.ns = square > 0.0 ? smoothed / sqrt(square) : n;
+    }
+    return si;
+}
+
+// Once per hit. Both normals are flipped if the geometric one is not on the side of wo = -ray.direction.
+SurfaceInteraction makeSurfaceInteraction(PathRay ray, PathHit hit)
+{
+    Record record = fetchRecord(hit.record);
+    SurfaceInteraction si;
+    if (isSphere(record)) {
+        si = interactionWithSphere(record, ray.origin + ray.direction * hit.t);
+    } else {
+        si = interactionWithTriangle(record, hit.barycentric);
+    }
+    si.front = dot(si.ng, ray.direction) < 0.0;
+    float side = si.front ? 1.0 : -1.0;
+    si.ng *= side;
+    si.ns *= side;
+    return si;
+}
+
+// The shading normal, or the geometric one if that points away from wo, so that no silhouette goes black.
+vec3 visibleNormal(SurfaceInteraction si, vec3 wo)
+{
+    return dot(si.ns, wo) > 0.0 ? si.ns : si.ng;
+}
+
+// Radiance that the surface itself sends towards wo.
+vec3 emittedRadiance(SurfaceInteraction si, MaterialData material)
+{
+    return si.emitter != 0u && (si.front || material.doubleSided != 0u) ? material.emission : vec3(0.0);
+}
+
+// The point, moved to the side of the surface that w points to, beyond its error bound.
+vec3 offsetRayOrigin(SurfaceInteraction si, vec3 w)
+{
+    vec3 n = dot(w, si.ng) >= 0.0 ? si.ng : -si.ng;
+    return offsetPoint(si.p, n, si.errorBound);
+}
+
+PathRay spawnRay(SurfaceInteraction si, vec3 wi)
+{
+    return PathRay(offsetRayOrigin(si, wi), si.primitive, wi, 0u);
+}
+
+#endif

@@ -1,0 +1,44 @@
+// The next ray of a path: sampled from the BSDF, then spawned if roulette lets it. Conditions select values rather than branch, as in
+// path_vertex.glsl.
+#ifndef GLIM_ACCESS_NEXT_RAY
+#define GLIM_ACCESS_NEXT_RAY
+
+#include "bsdf.glsl"
+#include "lib/octahedral.glsl"
+#include "notes.glsl"
+#include "pass.glsl"
+
+// Uses the sampler dimensions of the bounce. uRoulette, in [0, 1), is the random number for roulette.
+BsdfSample sampleNextRay(SampleId id, Bsdf bsdf, vec3 wo, uint bounce, out float uRoulette)
+{
+    vec2 u = unitFloat(samplePair(id, bounceDimension(bounce, kDimensionBsdf), kSobol));
+    vec2 lobe = unitFloat(samplePair(id, bounceDimension(bounce, kDimensionLobe), kSobol));
+    uRoulette = lobe.y;
+    return sampleBsdf(bsdf, wo, u, lobe.x);
+}
+
+// The including file defines these: path_vertex.glsl, and course/bounce.glsl for the course. Whether the sampled ray can add light, and
+// roulette's probability that it is traced.
+bool canAddLight(BsdfSample s, uint bounce);
+float continuationOf(vec3 throughput, float etaScale, uint bounce);
+
+// Samples the BSDF and plays roulette. False if the path ends: ray and state are then of no use.
+bool bouncePath(SampleId id, SurfaceInteraction si, Bsdf bsdf, vec3 wo, out PathRay ray, inout PathState state)
+{
+    float uRoulette;
+    BsdfSample s = sampleNextRay(id, bsdf, wo, state.bounce, uRoulette);
+    vec3 throughput = state.throughput * s.weight;
+    noteBounce(s.weight, throughput);
+    float etaScale = state.etaScale * (s.eta * s.eta);
+    float continuation = continuationOf(throughput, etaScale, state.bounce);
+    bool scatters = any(notEqual(throughput, vec3(0.0))) && canAddLight(s, state.bounce);
+    if (scatters) {
+        noteContinuation(continuation);
+    }
+    ray = spawnRay(si, s.wi);
+    state = PathState(throughput / continuation, s.pdf, max(0.0, dot(s.wi, bsdf.frame.z)), etaScale, state.bounce + 1u,
+                      encodeNormal(bsdf.frame.z));
+    return scatters && uRoulette < continuation;
+}
+
+#endif

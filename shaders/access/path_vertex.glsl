@@ -1,0 +1,80 @@
+// A path's vertex: what happens where a ray meets a surface, or nothing. Both schedules call shadeSurface and shadeMiss; they only
+// store, trace and queue. Conditions select values rather than branch: on llvmpipe each value that differs between two branches costs
+// two masked stores (tests/bench/EXPERIMENTS.md).
+#ifndef GLIM_ACCESS_PATH_VERTEX
+#define GLIM_ACCESS_PATH_VERTEX
+
+#include "direct_light.glsl"
+#include "first_hit.glsl"
+#include "lib/mis.glsl"
+#include "lib/roulette.glsl"
+#include "next_ray.glsl"
+
+struct VertexResult {
+    vec3 emitted;         // emission that the ray itself has hit, times throughput and MIS weight
+    FirstHit firstHit;    // of the camera's ray
+    bool hasShadowRay;
+    ShadowRay shadowRay;
+    bool hasNextRay;
+    PathRay ray;          // the next one
+    PathState state;      // and its state
+};
+
+// The MIS weight of light that a ray has hit, if light sampling has the density lightPdf for it. It is 1 for camera rays and after delta
+// lobes.
+float misWeightOfHit(PathState state, float lightPdf)
+{
+    if (!(state.pdf > 0.0)) {
+        return 1.0;
+    }
+    float weight = powerHeuristic(state.pdf, lightPdf);
+    noteHitLight(lightPdf, weight);
+    return weight;
+}
+
+// Environment light that an escaping ray has hit, times throughput and MIS weight.
+vec3 shadeMiss(PathRay ray, PathState state)
+{
+    return state.throughput * weightedEnvironment(ray, state);
+}
+
+float misWeightOfSample(float lightPdf, float bsdfPdf)
+{
+    return lightPdf > 0.0 ? powerHeuristic(lightPdf, bsdfPdf) : 1.0;
+}
+
+bool canAddLight(BsdfSample s, uint bounce) { return true; }
+
+float continuationOf(vec3 throughput, float etaScale, uint bounce)
+{
+    return continuationProbability(throughput, etaScale, bounce);
+}
+
+bool sampleDirectLight(SampleId id, SurfaceInteraction si, Bsdf bsdf, vec3 wo, PathState state, out ShadowRay ray)
+{
+    uint chosen = chooseLight(id, state.bounce);
+    noteLight(chosen);
+    return sampleChosenLight(id, fetchLight(chosen), si, bsdf, wo, state, ray);
+}
+
+VertexResult shadeSurface(SampleId id, PathRay ray, PathHit hit, PathState state)
+{
+    vec3 wo = -ray.direction;
+    SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
+    MaterialData material = fetchMaterial(si.material);
+    Bsdf bsdf = makeBsdf(si, material, wo);
+    noteSurface(si, wo);
+    VertexResult result;
+    result.emitted = vec3(0.0);
+    if (kTriangleLights || kSphereLights) {
+        result.emitted = state.throughput * weightedEmission(si, material, ray, hit, state);
+    }
+    result.firstHit = makeFirstHit(si, material, wo);
+    result.hasShadowRay = samplesLights(state.bounce, render.maxBounces, render.minPathLength, render.lightCount) && hasNonDelta(bsdf) &&
+                          sampleDirectLight(id, si, bsdf, wo, state, result.shadowRay);
+    result.state = state;
+    result.hasNextRay = state.bounce < render.maxBounces && bouncePath(id, si, bsdf, wo, result.ray, result.state);
+    return result;
+}
+
+#endif

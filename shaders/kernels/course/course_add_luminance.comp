@@ -1,0 +1,30 @@
+// One thread is one pixel of the pass. Adds its finished samples, in the order of their index, to the luminance moments that the course's
+// adaptive rule uses. Samples that are not finite are left out.
+// Reads radiance and first hits. Updates luminance.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define READS_RADIANCE
+#define READS_FIRST_HITS
+#define UPDATES_LUMINANCE
+#include "access/paths.glsl"
+#include "access/status.glsl"
+#include "lib/finite.glsl"
+#include "lib/stop_rule.glsl"
+
+void main()
+{
+    uint pixel = interleavedInvocation();
+    if (pixel < pass.pixelCount) {
+        uint at = pixelOfPass(pixel);
+        LuminanceMoments moments = filmLuminance[at];
+        for (uint i = 0u; i < pass.sampleCount; ++i) {
+            uint slot = pixel * pass.sampleCount + i;
+            vec3 radiance = fetchRadiance(slot).radiance;
+            if (isFinite(radiance)) {
+                moments = addLuminance(moments, luminanceOf(radiance), fetchFirstHit(slot).alpha > 0.0);
+            }
+        }
+        filmLuminance[at] = moments;
+    }
+    checkLoopBudget(render.canarySteps);
+}

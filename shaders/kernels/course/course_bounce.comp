@@ -1,0 +1,41 @@
+// One thread is one entry of the active queue. Samples the BSDF where its path has met a surface, plays the roulette that the render asks
+// for, and queues the next ray. Comes after course_sample_lights of the same bounce.
+// Reads the scene, the queue, hits. Updates rays and states; writes the note; appends to the next queue.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define READS_ACTIVE_QUEUE
+#define READS_QUEUE_SIZES
+#define UPDATES_RAYS
+#define READS_HITS
+#define UPDATES_STATES
+#define WRITES_NEXT_QUEUE
+#define UPDATES_QUEUE_TAILS
+#include "access/course/bounce.glsl"
+#include "access/paths.glsl"
+#include "access/status.glsl"
+
+void visit(uint slot)
+{
+    PathHit hit = fetchHit(slot);
+    if (hit.record == kNoRecord) {
+        return;
+    }
+    PathRay ray = fetchRay(slot);
+    PathState state = fetchState(slot);
+    SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
+    vec3 wo = -ray.direction;
+    if (bouncePath(sampleOfSlot(slot), si, makeBsdf(si, fetchMaterial(si.material), wo), wo, ray, state)) {
+        pathRays[slot] = ray;
+        pathStates[slot] = state;
+        nextQueue[atomicAdd(queueTails.next, 1u)] = slot;
+    }
+}
+
+void main()
+{
+    uint entry = interleavedInvocation();
+    if (pass.bounce < render.maxBounces && entry < queueSizes.closest) {
+        visit(activeQueue[entry]);
+    }
+    checkLoopBudget(render.canarySteps);
+}

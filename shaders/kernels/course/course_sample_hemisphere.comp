@@ -1,0 +1,56 @@
+// One thread is one entry of the active queue. Queues a ray in a direction that is uniform over the hemisphere, which may hit a
+// light. A round of --direct hemisphere; comes between course_sample_lights and course_bounce.
+// Reads the scene, the queue, rays, hits, states. Writes shadow rays; appends to the shadow queue.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define READS_ACTIVE_QUEUE
+#define READS_QUEUE_SIZES
+#define READS_RAYS
+#define READS_HITS
+#define READS_STATES
+#define WRITES_SHADOW_RAYS
+#define WRITES_SHADOW_QUEUE
+#define UPDATES_QUEUE_TAILS
+#include "access/course/round.glsl"
+#include "access/bsdf.glsl"
+#include "access/paths.glsl"
+#include "access/status.glsl"
+#include "lib/infinity.glsl"
+
+void askForRay(uint slot, SurfaceInteraction si, Bsdf bsdf, vec3 wo)
+{
+    SampleId id = splitSample(sampleOfSlot(slot), kNoLightIndex, lightRound.lightSample, lightRound.lightSamples);
+    vec2 u = unitFloat(samplePair(id, bounceDimension(pass.bounce, kDimensionPoint), kSobol));
+    vec3 local = sampleUniformHemisphere(u);
+    vec3 wi = worldFromFrame(bsdf.frame, local);
+    BsdfEval f = evalBsdf(bsdf, wo, wi);
+    vec3 contribution = fetchState(slot).throughput * f.f / (pdfUniformHemisphere() * float(lightRound.lightSamples));
+    if (all(equal(contribution, vec3(0.0)))) {
+        return;
+    }
+    pathShadowRays[slot] = ShadowRay(offsetRayOrigin(si, wi), si.primitive, wi, kNoRecord, contribution, kInfinity);
+    shadowQueue[atomicAdd(queueTails.shadow, 1u)] = slot;
+}
+
+void visit(uint slot)
+{
+    PathHit hit = fetchHit(slot);
+    if (hit.record == kNoRecord) {
+        return;
+    }
+    PathRay ray = fetchRay(slot);
+    SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
+    Bsdf bsdf = makeBsdf(si, fetchMaterial(si.material), -ray.direction);
+    if (hasNonDelta(bsdf)) {
+        askForRay(slot, si, bsdf, -ray.direction);
+    }
+}
+
+void main()
+{
+    uint entry = interleavedInvocation();
+    if (entry < queueSizes.closest) {
+        visit(activeQueue[entry]);
+    }
+    checkLoopBudget(render.canarySteps);
+}

@@ -1,0 +1,68 @@
+// One thread is one entry of the active queue. Queues a shadow ray to one light that the surface may see: a round of direct
+// light. The first round also adds the light that the ray itself has hit and, at bounce 0, writes the first hit.
+// Reads the scene, the queue, rays, hits, states. Updates radiance. Writes first hits, shadow rays, the note; appends
+// to the shadow queue.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define READS_ACTIVE_QUEUE
+#define READS_QUEUE_SIZES
+#define READS_RAYS
+#define READS_HITS
+#define READS_STATES
+#define UPDATES_RADIANCE
+#define WRITES_FIRST_HITS
+#define WRITES_SHADOW_RAYS
+#define WRITES_SHADOW_QUEUE
+#define UPDATES_QUEUE_TAILS
+#include "access/course/round.glsl"
+#include "access/course/direct_light.glsl"
+#include "access/first_hit.glsl"
+#include "access/radiance.glsl"
+#include "access/status.glsl"
+
+void visitMiss(uint slot, PathRay ray, PathState state)
+{
+    if (pass.bounce == 0u) {
+        pathFirstHits[slot] = makeNoFirstHit();
+    }
+    if (kEnvironment) {
+        addRadiance(slot, state.throughput * weightedEnvironment(ray, state), pass.bounce, 1u);
+    }
+}
+
+void visitSurface(uint slot, PathRay ray, PathHit hit, PathState state)
+{
+    vec3 wo = -ray.direction;
+    SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
+    MaterialData material = fetchMaterial(si.material);
+    Bsdf bsdf = makeBsdf(si, material, wo);
+    noteSurface(si, wo);
+    bool first = lightRound.addsEmission != 0u;
+    if (first && pass.bounce == 0u) {
+        pathFirstHits[slot] = makeFirstHit(si, material, wo);
+    }
+    if (first && (kTriangleLights || kSphereLights)) {
+        addRadiance(slot, state.throughput * weightedEmission(si, material, ray, hit, state), pass.bounce, 1u);
+    }
+    ShadowRay shadow;
+    if (lightRound.light != kNoLightIndex && hasNonDelta(bsdf) &&
+        sampleLightOfRound(sampleOfSlot(slot), si, bsdf, wo, state, shadow)) {
+        pathShadowRays[slot] = shadow;
+        shadowQueue[atomicAdd(queueTails.shadow, 1u)] = slot;
+    }
+}
+
+void main()
+{
+    uint entry = interleavedInvocation();
+    if (entry < queueSizes.closest) {
+        uint slot = activeQueue[entry];
+        PathHit hit = fetchHit(slot);
+        if (hit.record != kNoRecord) {
+            visitSurface(slot, fetchRay(slot), hit, fetchState(slot));
+        } else if (lightRound.addsEmission != 0u) {
+            visitMiss(slot, fetchRay(slot), fetchState(slot));
+        }
+    }
+    checkLoopBudget(render.canarySteps);
+}

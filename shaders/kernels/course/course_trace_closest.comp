@@ -1,0 +1,32 @@
+// One thread is one entry of the active queue. Finds what its ray meets first, by the triangle test that the render asks for. Brute
+// force takes several dispatches, each of which goes on from what was met so far.
+// Reads the scene, the queue, rays. Writes hits (brute force also reads them).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define READS_ACTIVE_QUEUE
+#define READS_QUEUE_SIZES
+#define READS_RAYS
+#define UPDATES_HITS
+#include "access/course/round.glsl"
+#include "access/course/scan.glsl"
+#include "access/paths.glsl"
+#include "access/status.glsl"
+
+PathHit scanRecords(uint slot)
+{
+    PathHit met = hitOf(makeMiss());
+    if (lightRound.firstRecord > 0u) {
+        met = fetchHit(slot);
+    }
+    return scanClosest(fetchRay(slot), met, lightRound.firstRecord, lightRound.endRecord);
+}
+
+void main()
+{
+    uint entry = interleavedInvocation();
+    if (entry < queueSizes.closest) {
+        uint slot = activeQueue[entry];
+        pathHits[slot] = kBruteForce ? scanRecords(slot) : traceClosest(fetchRay(slot));
+    }
+    checkLoopBudget(render.canarySteps);
+}

@@ -1,0 +1,51 @@
+// One thread is one entry of the shadow queue, filled by course_sample_hemisphere. Adds what its ray meets, if that emits. Brute force
+// takes several dispatches: target and tMax of the ray hold the closest hit so far, and the last dispatch adds the light.
+// Reads the scene, the shadow queue, shadow rays (brute force also writes them). Updates radiance.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define READS_SHADOW_QUEUE
+#define READS_QUEUE_SIZES
+#define UPDATES_SHADOW_RAYS
+#define UPDATES_RADIANCE
+#include "access/course/round.glsl"
+#include "access/course/scan.glsl"
+#include "access/interaction.glsl"
+#include "access/radiance.glsl"
+#include "access/status.glsl"
+
+vec3 radianceFound(PathRay ray, PathHit hit)
+{
+    if (hit.record == kNoRecord) {
+        return kEnvironment ? render.environment : vec3(0.0);
+    }
+    SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
+    return emittedRadiance(si, fetchMaterial(si.material));
+}
+
+// Without barycentric coordinates, which emission does not depend on.
+PathHit scanRecords(uint slot, PathRay ray, ShadowRay soFar)
+{
+    PathHit hit = scanClosest(ray, PathHit(soFar.target, soFar.tMax, vec2(0.0)), lightRound.firstRecord, lightRound.endRecord);
+    pathShadowRays[slot].target = hit.record;
+    pathShadowRays[slot].tMax = hit.t;
+    return hit;
+}
+
+void visit(uint slot)
+{
+    ShadowRay shadow = fetchShadowRay(slot);
+    PathRay ray = PathRay(shadow.origin, shadow.source, shadow.direction, 0u);
+    PathHit hit = kBruteForce ? scanRecords(slot, ray, shadow) : traceClosest(ray);
+    if (lightRound.endRecord == course.recordCount) {
+        addRadiance(slot, shadow.contribution * radianceFound(ray, hit), pass.bounce + 1u, lightRound.lightSamples);
+    }
+}
+
+void main()
+{
+    uint entry = interleavedInvocation();
+    if (entry < queueSizes.shadow) {
+        visit(shadowQueue[entry]);
+    }
+    checkLoopBudget(render.canarySteps);
+}

@@ -1,0 +1,36 @@
+// One thread is one entry of the shadow queue. Adds the light it carries if nothing is in its way. Brute force takes several
+// dispatches: an occluded ray gets tMax 0, and the last dispatch adds the light of the others.
+// Reads the scene, the shadow queue, shadow rays (brute force also writes them). Updates radiance.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define READS_SHADOW_QUEUE
+#define READS_QUEUE_SIZES
+#define UPDATES_SHADOW_RAYS
+#define UPDATES_RADIANCE
+#include "access/course/round.glsl"
+#include "access/course/scan.glsl"
+#include "access/radiance.glsl"
+#include "access/status.glsl"
+
+bool isUnoccludedSoFar(uint slot, ShadowRay ray)
+{
+    bool unoccluded = ray.tMax > 0.0 && scanUnoccluded(ray, lightRound.firstRecord, lightRound.endRecord);
+    if (!unoccluded) {
+        pathShadowRays[slot].tMax = 0.0;
+    }
+    return unoccluded;
+}
+
+void main()
+{
+    uint entry = interleavedInvocation();
+    if (entry < queueSizes.shadow) {
+        uint slot = shadowQueue[entry];
+        ShadowRay ray = fetchShadowRay(slot);
+        bool unoccluded = kBruteForce ? isUnoccludedSoFar(slot, ray) : isUnoccluded(ray);
+        if (unoccluded && lightRound.endRecord == course.recordCount) {
+            addRadiance(slot, ray.contribution, pass.bounce + 1u, lightRound.lightSamples);
+        }
+    }
+    checkLoopBudget(render.canarySteps);
+}

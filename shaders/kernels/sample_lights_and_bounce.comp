@@ -1,0 +1,68 @@
+// One thread is one entry of the active queue. Shades what its ray has met: adds the light that the ray itself has hit, samples one
+// light, for which it queues a shadow ray, and samples the BSDF with roulette, for which it queues the next ray. Both in one dispatch,
+// so that interaction, material and BSDF are made once.
+// Reads the scene, the queue, hits. Updates rays, states, radiance. Writes first hits, shadow rays, the note; appends to the shadow
+// queue and the next queue.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define READS_ACTIVE_QUEUE
+#define READS_QUEUE_SIZES
+#define UPDATES_RAYS
+#define READS_HITS
+#define UPDATES_STATES
+#define UPDATES_RADIANCE
+#define WRITES_FIRST_HITS
+#define WRITES_SHADOW_RAYS
+#define WRITES_SHADOW_QUEUE
+#define WRITES_NEXT_QUEUE
+#define UPDATES_QUEUE_TAILS
+#include "access/path_vertex.glsl"
+#include "access/radiance.glsl"
+#include "access/status.glsl"
+
+void visitMiss(uint slot, PathRay ray, PathState state)
+{
+    if (pass.bounce == 0u) {
+        pathFirstHits[slot] = makeNoFirstHit();
+    }
+    if (kEnvironment) {
+        addRadiance(slot, shadeMiss(ray, state), pass.bounce, 1u);
+    }
+}
+
+void visitSurface(uint slot, PathRay ray, PathHit hit, PathState state)
+{
+    VertexResult vertex = shadeSurface(sampleOfSlot(slot), ray, hit, state);
+    if (pass.bounce == 0u) {
+        pathFirstHits[slot] = vertex.firstHit;
+    }
+    if (kTriangleLights || kSphereLights) {
+        addRadiance(slot, vertex.emitted, pass.bounce, 1u);
+    }
+    if (vertex.hasShadowRay) {
+        pathShadowRays[slot] = vertex.shadowRay;
+        shadowQueue[atomicAdd(queueTails.shadow, 1u)] = slot;
+    }
+    if (vertex.hasNextRay) {
+        pathRays[slot] = vertex.ray;
+        pathStates[slot] = vertex.state;
+        nextQueue[atomicAdd(queueTails.next, 1u)] = slot;
+    }
+}
+
+void main()
+{
+    uint entry = interleavedInvocation();
+    if (entry < queueSizes.closest) {
+        uint slot = activeQueue[entry];
+        PathRay ray = fetchRay(slot);
+        PathHit hit = fetchHit(slot);
+        PathState state = fetchState(slot);
+        if (hit.record == kNoRecord) {
+            visitMiss(slot, ray, state);
+        } else {
+            visitSurface(slot, ray, hit, state);
+        }
+    }
+    checkLoopBudget(render.canarySteps);
+}

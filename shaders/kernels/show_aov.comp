@@ -1,0 +1,39 @@
+// One thread is one slot of the pass. Replaces the radiance of its path by what --view asks for: normals, distances along
+// the view axis (0 on a miss), base colours, or visits to inner nodes and tests of primitives by the camera ray.
+// Reads the scene, rays, first hits; nothing has bounced. Writes radiance.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define READS_RAYS
+#define READS_FIRST_HITS
+#define WRITES_RADIANCE
+#include "access/paths.glsl"
+#include "access/status.glsl"
+#include "access/traverse.glsl"
+
+vec3 stepsOf(PathRay ray)
+{
+    Steps steps;
+    traceClosest(ray, steps);
+    return vec3(steps.nodes, steps.primitives, 0.0);
+}
+
+vec3 aovOf(uint slot)
+{
+    if (kAov == kAovBvhSteps) {
+        return stepsOf(fetchRay(slot));
+    }
+    FirstHit first = fetchFirstHit(slot);
+    if (kAov == kAovDepth) {
+        return vec3(first.alpha > 0.0 ? first.depth : 0.0);
+    }
+    return kAov == kAovAlbedo ? first.albedo : first.normal;
+}
+
+void main()
+{
+    uint slot = interleavedInvocation();
+    if (slot < pass.pixelCount * pass.sampleCount) {
+        pathRadiance[slot] = PathRadiance(aovOf(slot), 0.0);
+    }
+    checkLoopBudget(render.canarySteps);
+}

@@ -1,0 +1,15 @@
+#ifndef GLIM_LIB_FINITE
+#define GLIM_LIB_FINITE
+
+// Tests the bits, because a driver may assume that no float is NaN or infinite.
+bool isFinite(float x)
+{
+    return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u;
+}
+
+bool isFinite(vec3 v)
+{
+    return isFinite(v.x) && isFinite(v.y) && isFinite(v.z);
+}
+
+#endif

@@ -1,0 +1,21 @@
+// What a scene needs of the kernels, one bit each: code for the rest is compiled out. host/flatten sets the bits. One specialization
+// constant passes them to the kernels (access/features.glsl).
+#ifndef GLIM_SHARED_FEATURES_H
+#define GLIM_SHARED_FEATURES_H
+#include "vocabulary.h"
+
+GLIM_SHARED_BEGIN
+
+GLIM_CONST uint kFeatureSpheres = 0x1u;
+GLIM_CONST uint kFeatureSlivers = 0x2u;  // triangles thinner than kSliverHeight
+GLIM_CONST uint kFeatureSmooth = 0x4u;   // triangles with vertex normals
+GLIM_CONST uint kFeatureMirror = 0x8u;
+GLIM_CONST uint kFeatureGlass = 0x10u;
+GLIM_CONST uint kFeatureTriangleLights = 0x20u;
+GLIM_CONST uint kFeatureSphereLights = 0x40u;
+GLIM_CONST uint kFeaturePunctualLights = 0x80u;
+GLIM_CONST uint kFeatureEnvironment = 0x100u;
+GLIM_CONST uint kAllFeatures = 0xffffffffu;  // of any scene
+
+GLIM_SHARED_END
+#endif

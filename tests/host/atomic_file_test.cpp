@@ -1,0 +1,172 @@
+#include "host/error.hpp"
+#include "host/image/atomic_file.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <csignal>
+
+namespace glim {
+namespace {
+
+using test::bytesOfFile;
+using test::expectRefusal;
+using test::ScratchFolder;
+using test::writeText;
+
+void expectUnwritable(const std::filesystem::path& path, const std::string& part)
+{
+    expectRefusal<InputError>([&] { checkWritable(path, ".exr"); }, part);
+    expectRefusal<InputError>([&] { checkWritable(path, ".exr"); }, path.string());
+}
+
+TEST(AtomicFile, AppearsOnlyWhenCommitted)
+{
+    const ScratchFolder folder;
+    const auto path = folder / "a.exr";
+    {
+        AtomicFile file(path);
+        file.write("half", 4);
+        EXPECT_FALSE(std::filesystem::exists(path));
+    }
+    EXPECT_EQ(folder.entries(), 0);
+    AtomicFile file(path);
+    file.write("0123456789", 10);
+    file.seek(2);
+    file.write("ab", 2);
+    EXPECT_EQ(file.tell(), 4U);
+    file.commit();
+    EXPECT_EQ(bytesOfFile(path), "01ab456789");
+    EXPECT_EQ(folder.entries(), 1);
+}
+
+TEST(AtomicFile, KeepsTheOldFileAndNothingElseWhenTheDiskIsFull)
+{
+    const ScratchFolder folder;
+    const auto path = folder / "a.exr";
+    writeText(path, "old");
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit tiny{100, before.rlim_max};
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &tiny);
+    expectRefusal<InputError>(
+        [&] {
+            AtomicFile file(path);
+            file.write(std::string(1000, 'x').data(), 1000);
+            file.commit();
+        },
+        "a.exr: cannot be written: File too large");
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    EXPECT_EQ(bytesOfFile(path), "old");
+    EXPECT_EQ(folder.entries(), 1);
+}
+
+TEST(AtomicFile, TwoAtOnceDoNotMeet)
+{
+    const ScratchFolder folder;
+    AtomicFile a(folder / "a"), b(folder / "b");
+    a.write("a", 1);
+    b.write("b", 1);
+    b.commit();
+    a.commit();
+    EXPECT_EQ(bytesOfFile(folder / "a") + bytesOfFile(folder / "b"), "ab");
+}
+
+TEST(AtomicFile, WritesThroughASymbolicLink)
+{
+    const ScratchFolder folder;
+    std::filesystem::create_directory(folder / "real");
+    writeText(folder / "real/a.exr", "old");
+    std::filesystem::create_symlink("real/a.exr", folder / "a.exr");
+    AtomicFile file(folder / "a.exr");
+    file.write("new", 3);
+    file.commit();
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "a.exr"));
+    EXPECT_EQ(bytesOfFile(folder / "real/a.exr"), "new");
+}
+
+TEST(AtomicFile, MakesTheFileThatALinkLeadsTo)
+{
+    const ScratchFolder folder;
+    std::filesystem::create_directory(folder / "real");
+    std::filesystem::create_symlink("real/b.exr", folder / "a.exr");
+    std::filesystem::create_symlink("a.exr", folder / "again.exr");
+    AtomicFile file(folder / "again.exr");
+    file.commit();
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "again.exr"));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "a.exr"));
+    EXPECT_TRUE(std::filesystem::is_regular_file(folder / "real/b.exr"));
+}
+
+TEST(AtomicFile, HasTheModeOfAnOrdinaryNewFile)
+{
+    const ScratchFolder folder;
+    const mode_t before = umask(027);
+    AtomicFile file(folder / "a");
+    file.commit();
+    umask(before);
+    struct stat status {};
+    stat((folder / "a").c_str(), &status);
+    EXPECT_EQ(status.st_mode & 0777U, 0640U);
+}
+
+TEST(CheckWritable, AcceptsNewAndExistingFilesAndTouchesNothing)
+{
+    const ScratchFolder folder;
+    checkWritable(folder / "new.exr", ".exr");
+    checkWritable(folder / "NEW.EXR", ".exr");
+    checkWritable("relative.exr", ".exr");
+    checkWritable(folder / "any.name", "");
+    EXPECT_EQ(folder.entries(), 0);
+    writeText(folder / "old.exr", "old");
+    checkWritable(folder / "old.exr", ".exr");
+    EXPECT_EQ(bytesOfFile(folder / "old.exr"), "old");
+}
+
+TEST(CheckWritable, RefusesWithTheReason)
+{
+    const ScratchFolder folder;
+    std::filesystem::create_directory(folder / "folder.exr");
+    writeText(folder / "file", "");
+    expectUnwritable(folder / "a.png", "does not end in .exr");
+    expectUnwritable(folder / "exr", "does not end in .exr");
+    expectUnwritable(folder / "missing/a.exr", "missing does not exist");
+    expectUnwritable(folder / "folder.exr", "it is a folder");
+    expectUnwritable(folder / "file/a.exr", "file is not a folder");
+    std::filesystem::create_symlink("circle.exr", folder / "circle.exr");
+    expectUnwritable(folder / "circle.exr", "lead in a circle");
+    std::filesystem::create_symlink("missing/b.exr", folder / "nowhere.exr");
+    expectUnwritable(folder / "nowhere.exr", "missing does not exist");
+    expectRefusal<InputError>([] { checkWritable("", ".exr"); }, "empty file name");
+    expectRefusal<InputError>([] { checkWritable("/dev/null", ""); }, "not a regular file");
+    expectRefusal<InputError>([] { AtomicFile file("/dev/null"); }, "not a regular file");
+}
+
+TEST(CheckWritable, RefusesWithoutPermission)
+{
+    const ScratchFolder folder;
+    std::filesystem::create_directory(folder / "closed");
+    writeText(folder / "kept.exr", "");
+    const uid_t user = geteuid();
+    constexpr uid_t kNobody = 65534;
+    if (user == 0) {  // root may write anything: act as somebody else
+        ASSERT_EQ(chown(folder.path().c_str(), kNobody, static_cast<gid_t>(-1)), 0);
+        ASSERT_EQ(chown((folder / "kept.exr").c_str(), kNobody, static_cast<gid_t>(-1)), 0);
+        ASSERT_EQ(seteuid(kNobody), 0);
+    } else {
+        ASSERT_EQ(chmod((folder / "closed").c_str(), 0500), 0);
+    }
+    ASSERT_EQ(chmod((folder / "kept.exr").c_str(), 0444), 0);
+    expectUnwritable(folder / "closed/a.exr", "Permission denied");
+    expectUnwritable(folder / "kept.exr", "Permission denied");
+    ASSERT_EQ(seteuid(user), 0);
+}
+
+}  // namespace
+}  // namespace glim

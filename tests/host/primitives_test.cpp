@@ -1,0 +1,138 @@
+#include "host/flatten/flatten_scene.hpp"
+#include "host/flatten/primitives.hpp"
+#include "tests/support/gltf_builder.hpp"
+#include "tests/support/render_scene.hpp"
+#include "tests/support/test_meshes.hpp"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+namespace glim {
+namespace {
+
+// Two triangles with an edge in common.
+Mesh square(bool smooth)
+{
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    if (smooth) {
+        mesh.normals = {{0, 0, 1}, {0, 1, 1}, {1, 0, 1}, {0, 0, 2}};
+    }
+    return mesh;
+}
+
+Scene sceneWith(const std::vector<Mesh>& meshes, const std::vector<MeshInstance>& instances)
+{
+    Scene scene;
+    scene.materials.emplace_back();
+    scene.meshes = meshes;
+    scene.instances = instances;
+    return scene;
+}
+
+TEST(PrimitivesTest, AreTheTrianglesOfEachInstanceInTurn)
+{
+    const glm::dmat4 shifted = glm::translate(glm::dmat4(1.0), glm::dvec3(4, 0, 0));
+    Scene scene = sceneWith({square(false)}, {{"a", 0}, {"b", 0, shifted}});
+    scene.origin = glm::dvec3(1, 0, 0);
+    scene.spheres.resize(1);
+    const Primitives primitives = makePrimitives(scene);
+    EXPECT_EQ(primitives.count(), 5U);
+    EXPECT_EQ(primitives.firstTriangles, (std::vector<std::uint32_t>{0, 2, 4}));
+    EXPECT_EQ(primitives.instanceOf(1), 0U);
+    EXPECT_EQ(primitives.instanceOf(2), 1U);
+    EXPECT_EQ(primitives.triangles[0].vertices[1], glm::vec3(0, 0, 0));
+    EXPECT_EQ(primitives.triangles[3].vertices[2], glm::vec3(3, 1, 0));
+    EXPECT_TRUE(primitives.normals.empty() && primitives.vertices.empty());
+}
+
+TEST(PrimitivesTest, TrianglesShareTheirMeshsVertices)
+{
+    const Primitives primitives = makePrimitives(sceneWith({square(true), square(false)}, {{"flat", 1}, {"smooth", 0}}));
+    EXPECT_EQ(primitives.normals.size(), 5U) << "none, and four of the square's";
+    EXPECT_EQ(primitives.vertices[0], glm::uvec3(0));
+    EXPECT_EQ(primitives.normals[0], glm::vec3(0.0F));
+    EXPECT_EQ(primitives.vertices[2], glm::uvec3(1, 2, 3));
+    EXPECT_EQ(primitives.vertices[3], glm::uvec3(1, 3, 4));
+    EXPECT_EQ(primitives.normals[4], glm::vec3(0, 0, 1));
+}
+
+// The same square without indices: six corners with three different unit normals.
+TEST(PrimitivesTest, TrianglesWithoutIndicesShareEqualNormals)
+{
+    const Mesh shared = square(true);
+    Mesh corners;
+    for (const std::uint32_t index : shared.indices) {
+        corners.positions.push_back(shared.positions[index]);
+        corners.normals.push_back(shared.normals[index]);
+        corners.indices.push_back(static_cast<std::uint32_t>(corners.indices.size()));
+    }
+    const Primitives primitives = makePrimitives(sceneWith({corners}, {{"", 0}}));
+    EXPECT_EQ(primitives.vertices[0], glm::uvec3(1, 2, 3));
+    EXPECT_EQ(primitives.vertices[1], glm::uvec3(1, 3, 1)) << "(0, 0, 2) is as long as (0, 0, 1) once it is a unit vector";
+    EXPECT_EQ(primitives.normals.size(), 4U);
+}
+
+TEST(PrimitivesTest, ABadNormalGivesWayToTheFaceOfEachTriangle)
+{
+    Mesh bent = square(true);
+    bent.positions[3] = {0, 1, 1};
+    bent.normals[0] = glm::dvec3(0.0);
+    const Primitives primitives = makePrimitives(sceneWith({bent}, {{"", 0}}));
+    EXPECT_EQ(primitives.normals[primitives.vertices[0].x], glm::vec3(0, 0, 1));
+    const glm::vec3 other = primitives.normals[primitives.vertices[1].x];
+    EXPECT_LT(glm::length(other - glm::normalize(glm::vec3(1, -1, 1))), 1e-6F);
+    ASSERT_EQ(primitives.notices.size(), 1U);
+    EXPECT_EQ(primitives.notices[0].find("used the face normal in place of 2 normals"), 0U);
+}
+
+// Triangles whose vertices coincide in float32 have no area.
+TEST(PrimitivesTest, WhatHasNoAreaHasNoId)
+{
+    const glm::dmat4 tiny = glm::scale(glm::dmat4(1.0), glm::dvec3(1e-60));
+    const Primitives primitives = makePrimitives(sceneWith({square(true)}, {{"tiny", 0, tiny}, {"", 0}}));
+    EXPECT_EQ(primitives.firstTriangles, (std::vector<std::uint32_t>{0, 0, 2}));
+    EXPECT_EQ(primitives.instanceOf(0), 1U);
+    EXPECT_EQ(primitives.notices, (std::vector<std::string>{"left out 2 triangles of zero area"}));
+    const FlatScene flat = flattened(sceneWith({square(true)}, {{"tiny", 0, tiny}, {"", 0}}));
+    EXPECT_EQ(flat.triangles.size(), 2U);
+}
+
+TEST(PrimitivesTest, VerticesThatNoTriangleHasAreLeftOut)
+{
+    Mesh part = square(true);
+    part.indices.resize(3);
+    EXPECT_EQ(makePrimitives(sceneWith({part}, {{"", 0}})).normals.size(), 4U);
+}
+
+// Normals are per primitive, not per record.
+TEST(PrimitivesTest, PiecesDuplicateNoNormals)
+{
+    Scene scene = sceneOf({});
+    const Triangles triangles = strips(12, 9);
+    addMesh(scene, triangles, 0, std::vector<glm::vec3>(3 * triangles.size(), glm::vec3(0, 0, 1)));
+    const FlatScene flat = flattened(scene);
+    EXPECT_GT(flat.records.size(), kRecordTexels * triangles.size() + 100);
+    EXPECT_EQ(flat.triangles.size(), triangles.size());
+    EXPECT_EQ(flat.vertices.size(), 2U) << "none, and the one that all corners have";
+}
+
+// The fingerprint of a scene, by which films are merged and resumed, as it was when the loader made three normals per triangle. One mesh is
+// smooth, mirrored, and has a bad normal; beside it are a flat mesh and a sphere.
+TEST(PrimitivesTest, FingerprintsOfSmoothScenesAreWhatTheyWere)
+{
+    test::GltfBuilder builder;
+    const std::size_t positions = builder.addVec3({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0.5F});
+    const std::size_t normals = builder.addVec3({0, 0, 1, 0, 1, 1, 1, 0, 1, 0, 0, 0});
+    const std::size_t mesh = builder.addMesh(
+        {{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}, {"indices", builder.addIndices({0, 1, 2, 2, 1, 3})}});
+    builder.addNode({{"mesh", mesh}, {"scale", {-2, 1, 1}}});
+    builder.addNode({{"mesh", builder.addTriangleMesh()}, {"translation", {2, 0, 0}}});
+    builder.addNode({{"extras", {{"sphere", {{"radius", 0.5}}}}}, {"translation", {0, 2, 0}}});
+    const Scene scene = test::load(builder, {.environment = glm::vec3(1.0F)});
+    EXPECT_EQ(fingerprint(fingerprint(flattened(scene)), flattenCamera(scene.cameras.front(), 1.0F)), "b50275f3d38dba40");
+}
+
+}  // namespace
+}  // namespace glim

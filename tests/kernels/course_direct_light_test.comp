@@ -1,0 +1,47 @@
+// One thread is one receiver: its shadow ray in a round of the course, and the light that a ray from it hits.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "access/course/round.glsl"
+#include "expect.glsl"
+#include "access/course/direct_light.glsl"
+#include "access/course/traverse.glsl"
+
+struct Case {
+    vec3 point, ns, ng, towards;
+    PathState state;
+};
+
+struct Result {
+    uint asks;
+    ShadowRay ray;
+    uint finds;  // a surface; else the environment
+    vec3 found;
+};
+
+layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
+layout(set = 0, binding = kBindResults, scalar) writeonly buffer Results { Result results[]; };
+
+vec3 lightFound(Case c, PathRay ray, PathHit hit)
+{
+    if (hit.record == kNoRecord) {
+        return c.state.throughput * weightedEnvironment(ray, c.state);
+    }
+    SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
+    return weightedEmission(si, fetchMaterial(si.material), ray, hit, c.state);
+}
+
+void main()
+{
+    if (isTestThread()) {
+        Case c = cases[TEST_THREAD];
+        SurfaceInteraction si = SurfaceInteraction(c.point, vec3(0.0), c.ng, c.ns, vec2(0.0), true, 0u, 77u, 0u);
+        ShadowRay shadow = ShadowRay(vec3(0.0), 0u, vec3(0.0), 0u, vec3(0.0), 0.0);
+        Bsdf bsdf = makeBsdf(si, fetchMaterial(0u), c.ns);
+        bool asks = sampleLightOfRound(SampleId(render.seed, TEST_THREAD, 0u), si, bsdf, c.ns, c.state, shadow);
+        PathRay ray = PathRay(c.point, kNoPrimitive, c.towards, 0u);
+        PathHit hit = traceClosest(ray);
+        results[TEST_THREAD] = Result(uint(asks), shadow, uint(hit.record != kNoRecord), lightFound(c, ray, hit));
+        EXPECT_TRUE(!asks || shadow.source == 77u);
+    }
+    endTest();
+}

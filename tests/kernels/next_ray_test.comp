@@ -1,0 +1,45 @@
+// One thread is a path at a surface that its ray has met: where it goes on.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "expect.glsl"
+#include "access/path_vertex.glsl"
+
+struct Case {
+    SurfaceInteraction si;
+    PathRay ray;
+    PathState state;
+};
+
+struct Result {
+    uint alive;
+    PathRay ray;
+    PathState state;
+};
+
+layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
+layout(set = 0, binding = kBindResults, scalar) writeonly buffer Results { Result results[]; };
+
+void main()
+{
+    if (isTestThread()) {
+        Case c = cases[TEST_THREAD];
+        vec3 wo = -c.ray.direction;
+        Bsdf bsdf = makeBsdf(c.si, fetchMaterial(c.si.material), wo);
+        PathState before = c.state;
+        bool alive = bouncePath(SampleId(render.seed, TEST_THREAD, 0u), c.si, bsdf, wo, c.ray, c.state);
+        EXPECT_TRUE(!alive || c.state.bounce == before.bounce + 1u);
+        EXPECT_TRUE(!alive || distance(decodeNormal(c.state.normal), bsdf.frame.z) < 7e-5);
+        // The sampled direction can be evaluated, with the same density, unless it is of a delta lobe.
+        float uRoulette;
+        BsdfSample s = sampleNextRay(SampleId(render.seed, TEST_THREAD, 0u), bsdf, wo, before.bounce, uRoulette);
+        BsdfEval f = evalBsdf(bsdf, wo, s.wi);
+        bool delta = (s.flags & kBsdfDelta) != 0u;
+        EXPECT_TRUE(delta != hasNonDelta(bsdf) && delta == (s.pdf == 0.0));
+        EXPECT_TRUE(!delta || f.pdf == 0.0 && f.f == vec3(0.0));
+        bool grazing = dot(s.wi, bsdf.ng) < 1e-5 || dot(s.wi, bsdf.frame.z) < 1e-3;
+        EXPECT_TRUE(delta || grazing || abs(f.pdf - s.pdf) <= 1e-5 * s.pdf);
+        EXPECT_TRUE(delta || grazing || distance(f.f / s.pdf, s.weight) <= 2e-5 * length(s.weight));
+        results[TEST_THREAD] = Result(uint(alive), c.ray, c.state);
+    }
+    endTest();
+}

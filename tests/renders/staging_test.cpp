@@ -1,0 +1,119 @@
+// The copies of a device whose memory the host does not map, as a discrete GPU's, run on the device at hand.
+#include "host/flatten/flatten_scene.hpp"
+#include "host/gpu/commands.hpp"
+#include "tests/support/build_scene.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/render_scene.hpp"
+#include "tests/support/test_device.hpp"
+
+#include <gtest/gtest.h>
+
+namespace glim {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+// Different bytes at different places, so that a part of a copy at a wrong place is noticed.
+Bytes makeBytes(std::uint64_t count, std::uint64_t seed)
+{
+    Random random(seed);
+    Bytes bytes(count);
+    std::uint32_t bits = 0;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        bits = i % 4 == 0 ? random.bits() : bits >> 8;
+        bytes[i] = static_cast<std::byte>(bits);
+    }
+    return bytes;
+}
+
+class StagingTest : public testing::Test {
+protected:
+    Buffer storage(std::uint64_t size) { return {device, "test's bytes", BufferKind::Storage, size}; }
+
+    Instance instance;
+    Device device{instance, std::nullopt, VK_NULL_HANDLE, MemoryPolicy::AlwaysStage};
+};
+
+TEST_F(StagingTest, OnlyReadbackMemoryIsMapped)
+{
+    for (const BufferKind kind : {BufferKind::Storage, BufferKind::Texel, BufferKind::Both}) {
+        EXPECT_FALSE(Buffer(device, "test's bytes", kind, 64).isMapped());
+        EXPECT_TRUE(Buffer(testDevice(), "test's bytes", kind, 64).isMapped() || !testDevice().description().software);
+    }
+    EXPECT_TRUE(Buffer(device, "test's bytes", BufferKind::Readback, 64).isMapped());
+}
+
+TEST_F(StagingTest, BytesComeBack)
+{
+    for (const std::uint64_t size : {std::uint64_t{1}, std::uint64_t{3}, std::uint64_t{4097}, kStagingBytes - 1, kStagingBytes,
+                                     kStagingBytes + 1, 2 * kStagingBytes - 4, 2 * kStagingBytes + 5}) {
+        Buffer buffer = storage(size);
+        const Bytes sent = makeBytes(size, size);
+        buffer.upload(sent);
+        EXPECT_TRUE(download<std::byte>(buffer, size) == sent) << size;
+    }
+}
+
+TEST_F(StagingTest, AShortCopyLeavesTheRest)
+{
+    const std::uint64_t size = 2 * kStagingBytes + 64;
+    Buffer buffer = storage(size);
+    Bytes expected = makeBytes(size, 1);
+    buffer.upload(expected);
+    for (const std::uint64_t part : {std::uint64_t{0}, std::uint64_t{5}, kStagingBytes + 1}) {
+        const Bytes sent = makeBytes(part, 2 + part);
+        buffer.upload(sent);
+        std::copy(sent.begin(), sent.end(), expected.begin());
+        EXPECT_TRUE(download<std::byte>(buffer, part) == sent) << part;
+        EXPECT_TRUE(download<std::byte>(buffer, size) == expected) << part;
+    }
+}
+
+// Several buffers in one list of commands.
+TEST_F(StagingTest, FillsAndCopies)
+{
+    const std::uint64_t size = kStagingBytes + 4;
+    Buffer a = storage(size), b = storage(size), c = storage(size);
+    const Bytes first = makeBytes(size, 1), second = makeBytes(size, 2);
+    a.upload(first);
+    b.upload(second);
+    c.upload(second);
+    Commands commands(device);
+    commands.fillWithZero(c);
+    commands.copy(a.handle(), 8, b.handle(), 1000);
+    commands.copy(b.handle(), 0, c.handle(), 2000, size - 2000);
+    commands.submitAndWait();
+    Bytes middle = second, last(size);
+    std::copy_n(first.begin() + 8, 1000, middle.begin());
+    std::copy_n(middle.begin(), 2000, last.end() - 2000);
+    EXPECT_TRUE(download<std::byte>(a, size) == first);
+    EXPECT_TRUE(download<std::byte>(b, size) == middle);
+    EXPECT_TRUE(download<std::byte>(c, size) == last);
+}
+
+// The film's pages end at 256 samples; an adaptive render also chooses pixels, which the host looks at.
+TEST_F(StagingTest, ARenderHasTheBitsOfMappedMemory)
+{
+    const Scene scene = mixedScene();
+    const FlatScene flat = flattened(scene);
+    const FlatCamera camera = flattenCamera(scene.cameras.front(), 1.0F);
+    RenderSettings uniform = squareSettings(16, 264), adaptive = squareSettings(16, 80);
+    adaptive.adaptive = Adaptive::Neighbours;
+    for (RenderSettings settings : {uniform, adaptive}) {
+        for (const Schedule schedule : {Schedule::Wavefront, Schedule::Persistent}) {
+            settings.schedule = schedule;
+            const auto render = [&](Device& on) {
+                Renderer renderer(on, flat, camera, settings);
+                Film film = renderer.render([](const RenderProgress&) { return true; });
+                return std::pair(std::move(film), renderer.statistics().cameraAndBounceRays + renderer.statistics().shadowRays);
+            };
+            const auto [staged, stagedRays] = render(device);
+            const auto [mapped, mappedRays] = render(testDevice());
+            EXPECT_TRUE(sameBits(staged, mapped)) << nameOf(schedule);
+            EXPECT_EQ(stagedRays, mappedRays) << nameOf(schedule);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace glim
