@@ -2,8 +2,8 @@
 
 #include "host/bench/summarize_bench.hpp"
 #include "host/error.hpp"
-#include "host/exact_text.hpp"
 #include "host/json.hpp"
+#include "host/text.hpp"
 
 #include <fstream>
 #include <iterator>
@@ -41,9 +41,9 @@ Json jsonOf(const BenchSummary& summary)
             {"slopeTest",
              {{"holds", test.holds()},
               {"slopeHolds", test.slopeHolds()},
-              {"slopeReach", test.slopeReach},
+              {"slopeMargin", test.slopeMargin},
               {"biasHolds", test.biasHolds()},
-              {"biasReach", test.biasReach}}},
+              {"biasLimit", test.biasLimit}}},
             {"efficiency", jsonOf(summary.efficiency)},
             {"kernelEfficiency", jsonOf(summary.kernelEfficiency)},
             {"samplesPerSecond", summary.samplesPerSecond}};

@@ -106,9 +106,9 @@ Interval bootstrap(const std::vector<std::size_t>& sizes, const Figure& figure)
     const double shift = normalQuantile(std::clamp(share, 1.0 / kDraws, 1.0 - 1.0 / kDraws));
     const double acceleration = findAcceleration(all, figure);
     const double n = static_cast<double>(*std::min_element(sizes.begin(), sizes.end()));
-    const double reach = std::sqrt(n / (n - 1.0)) * studentLimit(kOutside, *std::min_element(sizes.begin(), sizes.end()) - 1);
+    const double halfWidth = std::sqrt(n / (n - 1.0)) * studentLimit(kOutside, *std::min_element(sizes.begin(), sizes.end()) - 1);
     const auto end = [&](double z) { return quantile(figures, normalShare(shift + (shift + z) / (1.0 - acceleration * (shift + z)))); };
-    return {value, end(-reach), end(reach)};
+    return {value, end(-halfWidth), end(halfWidth)};
 }
 
 double jackknifeError(std::size_t size, const Figure& figure)

@@ -22,10 +22,10 @@ struct ErrorFit {
 
 // With independent samples the error falls as n^-1, with better points faster. A shallower slope means a bias or repeated samples.
 struct SlopeTest {
-    double slope = 0.0, slopeReach = 0.0;  // fails above -1 + slopeReach
-    double bias = 0.0, biasReach = 0.0;    // relMSE; fails above biasReach
-    bool slopeHolds() const { return slope <= -1.0 + slopeReach; }
-    bool biasHolds() const { return bias <= biasReach; }
+    double slope = 0.0, slopeMargin = 0.0;  // fails above -1 + slopeMargin
+    double bias = 0.0, biasLimit = 0.0;     // relMSE; fails above biasLimit
+    bool slopeHolds() const { return slope <= -1.0 + slopeMargin; }
+    bool biasHolds() const { return bias <= biasLimit; }
     bool holds() const { return slopeHolds() && biasHolds(); }
 };
 

@@ -1,7 +1,7 @@
 #include "host/bvh/build_bvh.hpp"
 
-#include "host/bvh/split_node.hpp"
 #include "host/bvh/parallel_for.hpp"
+#include "host/bvh/split_node.hpp"
 #include "host/bvh/surface_area.hpp"
 
 #include <cassert>

@@ -12,10 +12,10 @@
 #include "host/cli/resolve_options.hpp"
 #include "host/cli/version.hpp"
 #include "host/error.hpp"
-#include "host/exact_text.hpp"
-#include "host/flatten/view_options.hpp"
+#include "host/flatten/camera_options.hpp"
 #include "host/render/check_memory.hpp"
 #include "host/render/film_file.hpp"
+#include "host/text.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -65,7 +65,7 @@ glm::uvec2 sizeOf(const BenchOptions& options, const Camera& camera)
 
 std::string pictureText(const BenchOptions& options)
 {
-    std::string text = "camera=" + options.camera.value_or("0") + describeView(options.pose, options.lens);
+    std::string text = "camera=" + options.camera.value_or("0") + describeCamera(options.pose, options.lens);
     if (options.sceneIndex) {
         text += " scene=" + std::to_string(*options.sceneIndex);
     }
@@ -212,7 +212,7 @@ ExitCode runBench(const BenchOptions& options)
     checkTargets(options);
     const std::vector<SceneBench> baselines = options.against ? readBenches(*options.against) : std::vector<SceneBench>();
     const InterruptWatch watch;
-    const Instance instance;
+    const VulkanInstance instance;
     Device device(instance, options.device);
     std::vector<SceneBench> benches;
     for (const std::filesystem::path& scene : options.scenes) {

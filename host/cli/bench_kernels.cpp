@@ -1,20 +1,20 @@
 #include "host/cli/bench_kernels.hpp"
 
-#include "host/bench/make_hills.hpp"
 #include "host/bench/kernel_rates.hpp"
+#include "host/bench/make_hills.hpp"
 #include "host/cli/fastest_schedule.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/cli/output_file.hpp"
 #include "host/cli/version.hpp"
 #include "host/flatten/build_scene_bvh.hpp"
+#include "host/flatten/camera_options.hpp"
 #include "host/flatten/flatten_scene.hpp"
-#include "host/flatten/view_options.hpp"
 #include "host/render/check_memory.hpp"
 
+#include <unistd.h>
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
-#include <unistd.h>
 
 namespace glim {
 namespace {
@@ -67,8 +67,8 @@ void print(const PictureRate& picture)
     const double samples = static_cast<double>(picture.samples);
     char line[256];
     std::snprintf(line, sizeof line,
-                  "picture, %u samples a pixel, %s: %.3g s [%.3g, %.3g], %.3g Msamples/s; %.2f closest and %.2f shadow rays a sample, "
-                  "which the kernels that trace alone take %.2f of that for\n",
+                  "picture, %u samples per pixel, %s: %.3g s [%.3g, %.3g], %.3g Msamples/s; %.2f closest-hit and %.2f shadow rays "
+                  "per sample; tracing alone takes %.2f of the time\n",
                   kPictureSamples, nameOf(picture.schedule), picture.seconds.median, picture.seconds.low, picture.seconds.high,
                   1e-6 * samples / picture.seconds.median, static_cast<double>(picture.closest) / samples,
                   static_cast<double>(picture.shadow) / samples, picture.traceShare());
@@ -149,7 +149,7 @@ ExitCode runBenchKernels(const BenchOptions& options)
         checkTarget(options.output, ".json", options.scenes);
     }
     const InterruptWatch watch;
-    const Instance instance;
+    const VulkanInstance instance;
     Device device(instance, options.device);
     Json tables = Json::array();
     const auto finished = [&](const std::string& name, const PreparedScene& prepared) {

@@ -19,7 +19,7 @@ void addSampling(const Command& command, BenchOptions& options)
 {
     command.beginGroup("Sampling and stopping");
     const Option seconds =
-        addNumber<double>(command, {"--seconds", "S", "Time of each seed, at least 64 samples per pixel", 1e-3, 1e6, "1"},
+        addNumber<double>(command, {"--seconds", "S", "Render time per seed, at least 64 samples per pixel", 1e-3, 1e6, "1"},
                           [&options](double value) { options.seconds = value; });
     addNumber<std::uint32_t>(
         command, {"--spp", "N", "Samples per pixel of each seed, a power of two", kLeastBenchSamples, kMostSamples, "by --seconds"},
@@ -30,7 +30,8 @@ void addSampling(const Command& command, BenchOptions& options)
             options.samples = samples;
         })
         .excludes(seconds);
-    addNumber<std::uint32_t>(command, {"--seeds", "K", "Independent renders, from --seed on", kLeastSeeds, kMostSeeds, "16"},
+    addNumber<std::uint32_t>(command,
+                             {"--seeds", "K", "Independent renders, with consecutive seeds from --seed", kLeastSeeds, kMostSeeds, "16"},
                              [&options](std::uint32_t count) { options.seeds = count; });
     addChoice(command, "--adaptive", "RULE", "off, neighbours or neighbours:absolute, beyond 64 samples per pixel [off]",
               {"off", "neighbours", "neighbours:absolute"}, [&options](std::size_t i) {
@@ -43,7 +44,7 @@ void addSampling(const Command& command, BenchOptions& options)
 void addOutput(const Command& command, BenchOptions& options)
 {
     command.beginGroup("Output");
-    command.addPath("-o,--output", "OUT.json", "All figures; OUT.csv has the raw ones [bench.json]", options.output);
+    command.addPath("-o,--output", "OUT.json", "Results as JSON; OUT.csv has the raw measurements [bench.json]", options.output);
     const Option reference =
         command.addPath("--reference", "R.exr", "Picture to measure against [OUT.SCENE.exr, made if missing]", options.reference);
     command.addFlag("--make-reference", "Make OUT.SCENE.exr even if it exists", options.makeReference).excludes(reference);

@@ -53,10 +53,10 @@ void printSlopeTest(const SceneBench& bench, const BenchSummary& summary)
 {
     const SlopeTest& test = summary.slopeTest;
     std::cout << fitText(bench, summary)
-              << format("slope test: slope %.3g (at most %.3g), bias^2 %.3g (at most %.3g)\n", test.slope, -1.0 + test.slopeReach,
-                        test.bias, test.biasReach);
+              << format("slope test: slope %.3g (at most %.3g), bias^2 %.3g (at most %.3g)\n", test.slope, -1.0 + test.slopeMargin,
+                        test.bias, test.biasLimit);
     if (!test.biasHolds()) {
-        std::cout << "SLOPE TEST FAILS: the renders have an error in common, so this is biased against that reference\n";
+        std::cout << "SLOPE TEST FAILS: the renders share an error, so they are biased against that reference\n";
     } else if (!test.slopeHolds()) {
         std::cout << "SLOPE TEST FAILS: the error falls too slowly, so samples repeat or depend on each other\n";
     }

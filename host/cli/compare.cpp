@@ -31,7 +31,7 @@ std::optional<Film> filmOf(const std::filesystem::path& path, const Image& image
     }
     const Film film = readFilmHeader(path);
     if (!film.complete) {
-        std::cerr << "glim: " << path.string() << " is of a render that was ended early: some pixels have fewer samples or none.\n";
+        std::cerr << "glim: " << path.string() << " comes from a render that was stopped early: some pixels have fewer samples or none.\n";
     }
     return film;
 }

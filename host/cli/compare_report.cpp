@@ -48,8 +48,7 @@ std::string withoutNoise(double value, const std::optional<SquaredErrors>& noise
 void printTrimmed(const std::string& name, const TrimmedErrors& trimmed, double SquaredErrors::*member)
 {
     row(name + " trimmed") << number(trimmed.kept.*member) << "   without the " << trimmed.dropped
-                           << " pixels (.1 %) of the largest terms, which make up " << number(100 * trimmed.share.*member, 3)
-                           << " % of it\n";
+                           << " worst pixels (.1 %), which contribute " << number(100 * trimmed.share.*member, 3) << " % of it\n";
 }
 
 void printErrors(const Comparison& result)
@@ -66,8 +65,8 @@ void printErrors(const Comparison& result)
     printTrimmed("relMSE", result.trimmed, &SquaredErrors::relMse);
     row("MAPE") << number(result.mape) << '\n';
     if (result.noise) {
-        row("expected from A") << "relMSE " << number(result.noise->relMse) << ", relMSE absolute " << number(result.noise->relMseAbsolute)
-                               << " by its own variance\n";
+        row("expected noise of A") << "relMSE " << number(result.noise->relMse) << ", relMSE absolute "
+                                   << number(result.noise->relMseAbsolute) << " from its own variance\n";
     }
 }
 
@@ -83,8 +82,8 @@ void printRatios(const Comparison& result)
     case IntervalSource::None: std::cout << "   no intervals: too few pixels and no variance\n"; break;
     }
     const MaxError& worst = result.maxError;
-    row("largest difference") << "at (" << worst.x << ", " << worst.y << ") in " << kChannels[worst.channel] << ": " << worst.value
-                              << " for " << worst.reference << '\n';
+    row("largest difference") << "at (" << worst.x << ", " << worst.y << ") in " << kChannels[worst.channel] << ": A " << worst.value
+                              << ", B " << worst.reference << '\n';
     row("pixels") << result.compared << " compared; not finite: " << result.nonFinite << " of A, " << result.nonFiniteInReference
                   << " of B\n";
 }
@@ -97,7 +96,7 @@ void printTest(const ZTest& test)
                            << kChannels[test.worstChannel] << "   limit " << number(test.blockLimit, 3) << '\n';
     row("mean z^2 of blocks");
     for (std::size_t c = 0; c < 3; ++c) {
-        std::cout << number(test.meanSquare[c], 3) << " +- " << number(test.meanSquareReach[c], 2) << (c < 2 ? ", " : "");
+        std::cout << number(test.meanSquare[c], 3) << " +- " << number(test.meanSquareMargin[c], 2) << (c < 2 ? ", " : "");
     }
     std::cout << "   expected 1\n";
     row("verdict") << (test.agrees() ? "agree up to noise" : "differ by more than noise") << " (level 1 %)\n";
@@ -119,7 +118,7 @@ Json jsonOf(const ZTest& test)
             {"worst_block", {{"z", test.worstZ}, {"x", test.worstX}, {"y", test.worstY}, {"channel", kChannels[test.worstChannel]}}},
             {"block_limit", test.blockLimit},
             {"mean_square", test.meanSquare},
-            {"mean_square_reach", test.meanSquareReach}};
+            {"mean_square_margin", test.meanSquareMargin}};
 }
 
 Json jsonOf(const Comparison& result, const std::optional<ZTest>& test)

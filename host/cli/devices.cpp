@@ -41,10 +41,10 @@ void printDevice(std::size_t index, const DeviceDescription& d)
 
 void runDevices(bool json)
 {
-    const Instance instance;
+    const VulkanInstance instance;
     const std::vector<DeviceDescription> devices = listDevices(instance);
     if (devices.empty()) {
-        throw DeviceError("Vulkan shows no device (a software one comes with Debian's mesa-vulkan-drivers).");
+        throw DeviceError("Vulkan finds no device (a software one comes with Debian's mesa-vulkan-drivers).");
     }
     Json list = Json::array();
     for (std::size_t i = 0; i < devices.size(); ++i) {

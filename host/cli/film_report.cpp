@@ -107,16 +107,16 @@ std::string errorText(const Film& film, const RenderSettings& settings)
 {
     const auto estimate = knownError(film, settings);
     if (!estimate) {
-        return format(", error unknown since %zu pixels have one block of samples at most", pixelsWithoutError(film));
+        return format(", error unknown: %zu pixels have too few samples", pixelsWithoutError(film));
     }
     const auto percent = [&](double meanSquare) { return 100.0 * relativeRoot(meanSquare, estimate->mean); };
     std::string text =
         format(", estimated relMSE %.3g [%.3g, %.3g], RMSE %.3g %% [%.3g, %.3g] of the mean", estimate->errors.relMse, estimate->relMse.low,
                estimate->relMse.high, percent(estimate->errors.mse), percent(estimate->mse.low), percent(estimate->mse.high));
     if (estimate->isOfFew()) {
-        text += format(", half of it in %zu pixels, so the interval is worth little", estimate->pixelsOfHalf);
+        text += format(", half of the MSE in %zu pixels, so the intervals are unreliable", estimate->pixelsOfHalf);
     }
-    return isCourse(settings.adaptive) ? text + " besides the rule's bias" : text;
+    return isCourse(settings.adaptive) ? text + ", without the bias of the stopping rule" : text;
 }
 
 }  // namespace glim

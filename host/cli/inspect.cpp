@@ -85,15 +85,15 @@ void printJson(const InspectOptions& options, const PreparedScene& prepared)
                        {"deviceBytes", sizeInBytes(prepared.flat)},
                        {"needs", objectOf(needsOf(prepared.flat.features))},
                        {"cameras", cameras},
-                       {"notices", prepared.scene.notices}};
+                       {"warnings", prepared.scene.warnings}};
     std::cout << json.dump(2) << '\n';
 }
 
-// Three digits, as in 12.3, .000456 or 1.2e+09.
+// Three digits, as in 12.3 or 0.000456; above 999 a whole number.
 std::string threeDigits(double value)
 {
     char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
+    std::snprintf(text, sizeof text, value < 999.5 ? "%.3g" : "%.0f", value);
     return text;
 }
 
@@ -115,12 +115,14 @@ void printText(const InspectOptions& options, const PreparedScene& prepared)
               << "  BVH: " << prepared.bvh.nodes.size() << " nodes, depth " << prepared.bvh.depth << ", surface-area cost "
               << threeDigits(static_cast<double>(prepared.bvh.cost)) << ", built in " << threeDigits(prepared.buildSeconds) << " s\n"
               << "  on the device: " << threeDigits(static_cast<double>(sizeInBytes(prepared.flat)) / (1 << 20)) << " MiB\n  needs:";
+    const char* separator = " ";
     for (const auto& [name, needed] : needsOf(prepared.flat.features)) {
         if (needed) {
-            std::cout << ' ' << name << ',';
+            std::cout << separator << name;
+            separator = ", ";
         }
     }
-    std::cout << " triangles\n";
+    std::cout << (*separator == ' ' ? " nothing but flat diffuse triangles\n" : "\n");
     for (std::size_t i = 0; i < prepared.scene.cameras.size(); ++i) {
         const Camera& camera = prepared.scene.cameras[i];
         std::cout << "  camera " << i << " \"" << camera.name << "\", " << kindOf(camera) << '\n';

@@ -32,9 +32,9 @@ void runMerge(const MergeOptions& options)
     }
     std::cerr << "Merged " << options.inputs.size() << " films into " << options.output.string() << ", samples "
               << sampleRangesText(merged.film) << ": "
-              << (merged.exact           ? "the bits of the single run."
-                  : merged.film.complete ? "equal to the single run up to rounding."
-                                         : "some are missing, since a render was ended early (see the layer count.X).")
+              << (merged.exact           ? "bit-identical to a single run."
+                  : merged.film.complete ? "equal to a single run up to rounding."
+                                         : "some are missing, since a render was stopped early (see the layer count.X).")
               << '\n';
 }
 
@@ -52,7 +52,7 @@ void addMerge(CommandLine& line)
     addExposure(command, options->exposure, "the PNG").needs(png);
     command.setFooter(
         "The films must agree in scene, camera, size, seed and settings, and their samples (render --samples) must\n"
-        "not overlap. Adjacent ranges of 256 samples, from a multiple of 256 on, give the bits of the single run;\n"
+        "not overlap. Adjacent ranges of 256 samples, starting at a multiple of 256, give the bits of a single run;\n"
         "other ranges give it up to rounding, and the command says so.");
     command.onRun([options] {
         runMerge(*options);

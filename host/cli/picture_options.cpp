@@ -88,7 +88,7 @@ void addSampleCount(const Command& command, RenderSettings& settings, const std:
 
 void addAdaptive(const Command& command, RenderSettings& settings)
 {
-    addEnum(command, "--adaptive", "RULE", "off, neighbours[:absolute], or course[:literal] (--help-all) [off]",
+    addEnum(command, "--adaptive", "RULE", "Adaptive sampling: off, neighbours or neighbours:absolute [off]",
             {"off", "course", "course:literal", "neighbours", "neighbours:absolute"}, settings.adaptive);
 }
 
@@ -96,14 +96,14 @@ void addSampler(const Command& command, RenderSettings& settings)
 {
     addNumber<std::uint32_t>(command, {"--seed", "N", "Seed of the random numbers", 0, std::numeric_limits<std::uint32_t>::max(), "0"},
                              [&settings](std::uint32_t seed) { settings.seed = seed; });
-    addEnum(command, "--sampler", "S", "sobol or independent [sobol; independent with --adaptive course]", {"sobol", "independent"},
-            settings.sampler);
+    addEnum(command, "--sampler", "S", "sobol (Owen-scrambled) or independent [sobol; independent with --adaptive course]",
+            {"sobol", "independent"}, settings.sampler);
 }
 
 void addLightTransport(const Command& command, RenderSettings& settings)
 {
     command.beginGroup("Light transport");
-    addNumber<std::uint32_t>(command, {"--bounces", "N", "Most surfaces between camera and light (0: emission alone)", 0, 1000000, "64"},
+    addNumber<std::uint32_t>(command, {"--bounces", "N", "Maximum surfaces between camera and light (0: emission alone)", 0, 1000000, "64"},
                              [&settings](std::uint32_t bounces) { settings.bounces = bounces; });
     addEnum(command, "--paths", "PART", "Part of the light: all, emission, direct or indirect [all]",
             {"all", "emission", "direct", "indirect"}, settings.paths);
@@ -116,7 +116,8 @@ void addCourseEstimators(const Command& command, RenderSettings& settings)
     command.beginGroup("Course estimators");
     addEnum(command, "--direct", "D", "Direct light: mis, lights, hemisphere or bsdf [mis]", {"mis", "lights", "hemisphere", "bsdf"},
             settings.course.direct);
-    addNumber<std::uint32_t>(command, {"--light-samples", "N", "Shadow rays per light (lights) or vertex (hemisphere)", 1, 65536, "1"},
+    addNumber<std::uint32_t>(command,
+                             {"--light-samples", "N", "Samples per light (--direct lights) or per vertex (hemisphere)", 1, 65536, "1"},
                              [&settings](std::uint32_t count) { settings.course.lightSamples = count; });
     addRoulette(command, settings);
     command.hide({"--direct", "--light-samples", "--roulette"});
@@ -126,9 +127,9 @@ void addCourseRule(const Command& command, RenderSettings& settings)
 {
     addNumber<float>(command, {"--tolerance", "T", "Relative error at which --adaptive course stops a pixel", 1e-30F, 1e6F, "0.05"},
                      [&settings](float tolerance) { settings.course.tolerance = tolerance; });
-    addNumber<std::uint32_t>(command, {"--batch", "N", "Samples between its tests of a pixel", 2, 1048576, "32"},
+    addNumber<std::uint32_t>(command, {"--batch", "N", "Samples between convergence tests of --adaptive course", 2, 1048576, "32"},
                              [&settings](std::uint32_t count) { settings.course.batch = count; });
-    addNumber<std::uint32_t>(command, {"--max-spp", "N", "Its most samples per pixel", 2, kMaxSample, "2048"},
+    addNumber<std::uint32_t>(command, {"--max-spp", "N", "Maximum samples per pixel of --adaptive course", 2, kMaxSample, "2048"},
                              [&settings](std::uint32_t count) { settings.sampleEnd = count; });
     command.hide({"--tolerance", "--batch", "--max-spp"});
 }
@@ -138,9 +139,9 @@ void addDevice(const Command& command, PictureOptions& options)
     command.beginGroup("Device");
     command.add("--device", "D", "Index or part of a name from `glim devices` [the first usable one]",
                 [&options](const std::string& text) { options.device = text; });
-    addEnum(command, "--schedule", "S", "wavefront, persistent or auto, the faster one: the same bits [auto]",
+    addEnum(command, "--schedule", "S", "Kernel schedule: wavefront, persistent or auto, the faster one; same picture [auto]",
             {"auto", "wavefront", "persistent"}, options.settings.schedule);
-    addEnum(command, "--accelerator", "A", "bvh, or none: test every primitive against every ray [bvh]", {"bvh", "none"},
+    addEnum(command, "--accelerator", "A", "Acceleration structure: bvh, or none (brute force) [bvh]", {"bvh", "none"},
             options.settings.course.accelerator);
     addEnum(command, "--split", "RULE", "Split of BVH nodes: sah, mean or median [sah]", {"sah", "mean", "median"}, options.split);
     addEnum(command, "--intersector", "I", "Triangle test: watertight or moller-trumbore [watertight]", {"watertight", "moller-trumbore"},

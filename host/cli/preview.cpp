@@ -1,8 +1,8 @@
+#include "host/preview/preview.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/parse.hpp"
 #include "host/cli/picture_options.hpp"
 #include "host/cli/resolve_options.hpp"
-#include "host/preview/preview.hpp"
 
 #include <memory>
 
@@ -20,7 +20,7 @@ void addWindow(const Command& command, WindowOptions& options)
     addExposure(command, options.exposure, "the window and the PNG");
     addNumber<std::uint32_t>(command, {"--frames", "N", "Quit after showing this many pictures", 1, 1000000000, "never"},
                              [&options](std::uint32_t frames) { options.frames = frames; });
-    command.addPath("--script", "FILE", "Act by the lines of this file instead of a user", options.script);
+    command.addPath("--script", "FILE", "Replay the input that this file lists", options.script);
 }
 
 // Without a limit the picture is refined until the window closes.

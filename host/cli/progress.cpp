@@ -3,10 +3,10 @@
 #include "host/cli/parse.hpp"
 #include "host/json.hpp"
 
+#include <unistd.h>
 #include <algorithm>
 #include <cstdio>
 #include <optional>
-#include <unistd.h>
 
 namespace glim {
 namespace {

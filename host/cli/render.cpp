@@ -1,11 +1,11 @@
 #include "host/cli/commands.hpp"
-#include "host/cli/output_file.hpp"
 #include "host/cli/fastest_schedule.hpp"
 #include "host/cli/interrupt.hpp"
+#include "host/cli/output_file.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/render_report.hpp"
 #include "host/cli/replay.hpp"
-#include "host/flatten/view_options.hpp"
+#include "host/flatten/camera_options.hpp"
 #include "host/render/check_memory.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/film_pictures.hpp"
@@ -83,12 +83,12 @@ Rendered renderPicture(Renderer& renderer, const ErrorTarget& target, ProgressPr
         progress.print(now);
         return watch.signal() == 0;
     };
-    const auto judge = [&](const Film& film) {
+    const auto criterion = [&](const Film& film) {
         const double times = timesToTarget(film, target);
         rendered.isGood = times <= 1.0;
         return times;
     };
-    rendered.film = renderer.render(observe, target.isGiven() ? FilmJudge(judge) : nullptr);
+    rendered.film = renderer.render(observe, target.isGiven() ? StoppingCriterion(criterion) : nullptr);
     return rendered;
 }
 
@@ -105,7 +105,7 @@ ExitCode runRender(const RenderOptions& options)
 {
     checkTargets(options);
     const InterruptWatch watch;
-    const Instance instance;
+    const VulkanInstance instance;
     Device device(instance, options.device);
     const PreparedScene prepared = prepareScene(options.scene, loadOptionsOf(options), options.split);
     if (options.settings.aov == Aov::Radiance) {
@@ -132,7 +132,7 @@ ExitCode runRender(const RenderOptions& options)
         return finish(watch.signal(), "some pixels had no sample yet, so " + options.output.string() + " is left as it was");
     }
     film.sceneFile = options.scene.string();
-    film.identity.settings += describeView(options.pose, options.lens);  // so that the film can be made again from what its file says
+    film.identity.settings += describeCamera(options.pose, options.lens);  // so that the film can be made again from what its file says
     const double writeSeconds = writePictures(options, film);
     // Before the control, whose samples are no suspects.
     std::vector<Suspect> suspects = findSuspects(renderer, film);

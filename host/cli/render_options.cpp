@@ -5,7 +5,7 @@
 namespace glim {
 namespace {
 
-void addView(const Command& command, RenderOptions& options)
+void addAov(const Command& command, RenderOptions& options)
 {
     addEnum(command, "--view", "V", "Picture of: shaded, normal, depth, albedo or bvh-steps [shaded]",
             {"shaded", "normal", "depth", "albedo", "bvh-steps"}, options.settings.aov);
@@ -44,7 +44,7 @@ void addRenderOptions(const Command& command, RenderOptions& options)
     command.beginGroup("Picture");
     command.addPath("SCENE", "FILE", "Scene, .gltf or .glb", options.scene).require();
     addPicture(command, options);
-    addView(command, options);
+    addAov(command, options);
     addCamera(command, options);
     command.beginGroup("Sampling and stopping");
     addSampleCount(command, options.settings, "64; 4 with a --view other than shaded", "0:64");

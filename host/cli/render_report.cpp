@@ -4,13 +4,13 @@
 #include "host/cli/output_file.hpp"
 #include "host/render/film_file.hpp"
 
+#include <sys/resource.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <optional>
-#include <sys/resource.h>
 
 namespace glim {
 namespace {
@@ -249,7 +249,7 @@ void printSuspects(const RenderReport& report)
     if (report.options.settings.suspects == 0) {
         return;
     }
-    std::cout << "Brightest samples, at most one of a pixel: " << report.suspects.size() << "\n";
+    std::cout << "Brightest samples, at most one per pixel: " << report.suspects.size() << "\n";
     for (const Suspect& suspect : report.suspects) {
         const glm::dvec3 radiance(suspect.radiance);
         char text[200];

@@ -2,11 +2,11 @@
 
 #include "host/cli/output_file.hpp"
 #include "host/error.hpp"
-#include "host/exact_text.hpp"
-#include "host/flatten/view_options.hpp"
+#include "host/flatten/camera_options.hpp"
 #include "host/render/describe_primitive.hpp"
 #include "host/render/prepare_scene.hpp"
 #include "host/render/replay.hpp"
+#include "host/text.hpp"
 
 #include <iostream>
 
@@ -24,9 +24,9 @@ struct ReplayReport {
 constexpr const char* kEnds[] = {
     "continues",
     "escapes",
-    "ends: --bounces or --paths allow no more",
+    "ends: path length limit (--bounces or --paths)",
     "ends: absorbed",
-    "ends: the next ray could only hit light that was sampled here",
+    "ends: the next ray could only add light already sampled here",
     "ends: roulette",
 };
 
@@ -217,7 +217,7 @@ void writeReplay(const std::filesystem::path& file, const ReplayReport& report)
                        {"x", place.x},
                        {"y", place.y},
                        {"sample", place.sample},
-                       {"settings", describeSettings(report.settings) + describeView(report.options.pose, report.options.lens)},
+                       {"settings", describeSettings(report.settings) + describeCamera(report.options.pose, report.options.lens)},
                        {"device", {{"name", report.device.name}, {"driver", report.device.driver}, {"kind", report.device.kind}}},
                        {"radiance", jsonOf(report.path.radiance.radiance)},
                        {"clamped", report.path.radiance.clamped},
@@ -241,7 +241,7 @@ void runReplay(const RenderOptions& options)
     if (options.stats) {
         checkTarget(*options.stats, ".json", {options.scene});
     }
-    const Instance instance;
+    const VulkanInstance instance;
     Device device(instance, options.device);
     const PreparedScene prepared = prepareScene(options.scene, loadOptionsOf(options), options.split);
     const Camera camera = cameraOf(prepared.scene, options);

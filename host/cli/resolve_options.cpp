@@ -8,7 +8,7 @@
 namespace glim {
 namespace {
 
-constexpr std::uint32_t kViewSamples = 4, kMaxSpp = 2048;
+constexpr std::uint32_t kAovSamples = 4, kMaxSpp = 2048;
 constexpr std::uint64_t kMaxCounter = std::uint64_t{1} << 32;  // sample index * light samples + light sample
 
 [[noreturn]] void refuse(const Command& command, const std::string& option, const std::string& why)
@@ -25,7 +25,7 @@ void refuseIfGiven(const Command& command, std::initializer_list<const char*> op
     }
 }
 
-void resolveView(const Command& command, RenderSettings& settings)
+void resolveAov(const Command& command, RenderSettings& settings)
 {
     if (settings.aov == Aov::Radiance) {
         return;
@@ -41,7 +41,7 @@ void resolveView(const Command& command, RenderSettings& settings)
     }
     settings.bounces = 0;
     if (!command.isGiven("--spp") && !command.isGiven("--samples")) {
-        settings.sampleEnd = kViewSamples;
+        settings.sampleEnd = kAovSamples;
     }
 }
 
@@ -73,7 +73,7 @@ void resolveNeighbours(const Command& command, RenderSettings& settings)
 void resolveAdaptive(const Command& command, RenderSettings& settings)
 {
     if (!isCourse(settings.adaptive)) {
-        refuseIfGiven(command, {"--tolerance", "--batch", "--max-spp"}, "expected --adaptive course or course:literal with it");
+        refuseIfGiven(command, {"--tolerance", "--batch", "--max-spp"}, "has an effect only with --adaptive course or course:literal");
     }
     if (isNeighbours(settings.adaptive)) {
         resolveNeighbours(command, settings);
@@ -99,7 +99,7 @@ void resolveReplay(const Command& command, RenderOptions& options)
     refuseIfGiven(command, {"--output", "--png", "--rates", "--progress", "--time", "--suspects", "--target-rmse", "--target-relmse"},
                   "has no effect with --replay, which makes no picture");
     if (options.settings.aov != Aov::Radiance) {
-        refuse(command, "--view", "has no paths; expected --view shaded with --replay");
+        refuse(command, "--view", "has no light paths to replay; expected --view shaded");
     }
     const bool limited = command.isGiven("--spp") || command.isGiven("--samples");
     if (isNeighbours(options.settings.adaptive) || (!limited && options.settings.adaptive == Adaptive::Off)) {
@@ -121,7 +121,7 @@ void checkReplay(const Command& command, const RenderOptions& options)
 void checkLightSamples(const Command& command, const RenderSettings& settings)
 {
     if (settings.course.direct == DirectLight::Mis || settings.course.direct == DirectLight::Bsdf) {
-        refuseIfGiven(command, {"--light-samples"}, "expected --direct lights or --direct hemisphere with it");
+        refuseIfGiven(command, {"--light-samples"}, "has an effect only with --direct lights or --direct hemisphere");
     }
     if (std::uint64_t{settings.sampleEnd} * settings.course.lightSamples > kMaxCounter) {
         refuse(command, "--light-samples",
@@ -155,7 +155,7 @@ void resolveTarget(const Command& command, RenderOptions& options)
     const bool limited = command.isGiven("--spp") || command.isGiven("--samples");
     if (limited && settings.sampleEnd - settings.sampleBegin < least) {
         refuseIfGiven(command, {"--target-rmse", "--target-relmse"},
-                      "the error is known from " + std::to_string(least) + " samples on; expected at least as many");
+                      "the error is estimated from " + std::to_string(least) + " samples on; expected at least as many");
     }
     if (!limited) {
         options.settings.sampleEnd = mostSamples(options.settings);
@@ -187,7 +187,7 @@ void resolveLight(const Command& command, PictureOptions& options)
 
 void resolveRender(const Command& command, RenderOptions& options)
 {
-    resolveView(command, options.settings);
+    resolveAov(command, options.settings);
     resolveAdaptive(command, options.settings);
     resolveTime(command, options.settings);
     resolveReplay(command, options);

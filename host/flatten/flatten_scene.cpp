@@ -64,12 +64,12 @@ std::vector<std::uint32_t> pushRecords(FlatScene& flat, const Scene& scene, cons
 
 void pushShading(FlatScene& flat, const Primitives& primitives)
 {
-    flat.triangles.reserve(primitives.vertices.size());
-    for (const glm::uvec3& vertices : primitives.vertices) {
+    flat.triangles.reserve(primitives.vertexIndices.size());
+    for (const glm::uvec3& vertices : primitives.vertexIndices) {
         flat.triangles.emplace_back(vertices, 0U);
     }
-    flat.vertices.reserve(primitives.normals.size());
-    for (const glm::vec3& normal : primitives.normals) {
+    flat.vertices.reserve(primitives.vertexNormals.size());
+    for (const glm::vec3& normal : primitives.vertexNormals) {
         flat.vertices.push_back(texel(normal, 0));
     }
 }
@@ -86,12 +86,15 @@ void markOtherRecords(FlatScene& flat, std::span<const std::uint32_t> order, std
     }
 }
 
+static_assert(static_cast<std::uint32_t>(Scattering::Lambert) == kLambert && static_cast<std::uint32_t>(Scattering::Mirror) == kMirror);
+static_assert(static_cast<std::uint32_t>(Scattering::Dielectric) == kDielectric);
+
 std::uint32_t featureOf(Scattering scattering)
 {
     switch (scattering) {
     case Scattering::Lambert: break;
     case Scattering::Mirror: return kFeatureMirror;
-    case Scattering::Glass: return kFeatureGlass;
+    case Scattering::Dielectric: return kFeatureDielectric;
     }
     return 0;
 }
@@ -108,11 +111,16 @@ FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const W
     FlatScene flat;
     flat.nodes = packNodes(bvh);
     flat.stackLevels = stackLevelsOf(bvh);
-    flat.features = (primitives.spheres.empty() ? 0U : kFeatureSpheres) | (primitives.normals.empty() ? 0U : kFeatureSmooth);
+    flat.features = (primitives.spheres.empty() ? 0U : kFeatureSpheres) | (primitives.vertexNormals.empty() ? 0U : kFeatureSmooth);
     for (const Material& m : scene.materials) {
         flat.materials.push_back(
             {m.baseColor, static_cast<std::uint32_t>(m.scattering), m.emission, m.ior, m.doubleSided ? 1U : 0U, uvec3(0)});
-        flat.features |= featureOf(m.scattering);
+    }
+    for (const MeshInstance& instance : scene.instances) {
+        flat.features |= featureOf(scene.materials[scene.meshes[instance.mesh].material].scattering);
+    }
+    for (const Sphere& sphere : scene.spheres) {
+        flat.features |= featureOf(scene.materials[sphere.material].scattering);
     }
     pushShading(flat, primitives);
     const std::vector<std::uint32_t> recordOf = pushRecords(flat, scene, primitives, bvh);

@@ -1,5 +1,7 @@
 #include "host/flatten/primitives.hpp"
 
+#include "host/text.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -40,9 +42,9 @@ public:
             smooth_ = smooth_ || !scene.meshes[instance.mesh].normals.empty();
         }
         made_.triangles.reserve(count);
-        made_.vertices.reserve(smooth_ ? count : 0);
+        made_.vertexIndices.reserve(smooth_ ? count : 0);
         if (smooth_) {
-            made_.normals.emplace_back(0.0F);
+            made_.vertexNormals.emplace_back(0.0F);
         }
     }
 
@@ -55,11 +57,11 @@ public:
         made_.firstTriangles.push_back(static_cast<std::uint32_t>(made_.triangles.size()));
         made_.spheres = scene_.spheres;
         if (flatTriangles_ > 0) {
-            made_.notices.push_back("left out " + std::to_string(flatTriangles_) + " triangles of zero area");
+            made_.warnings.push_back("left out " + counted(flatTriangles_, "triangle") + " of zero area");
         }
         if (badNormals_ > 0) {
-            made_.notices.push_back("used the face normal in place of " + std::to_string(badNormals_) +
-                                    " normals that are zero or not finite");
+            made_.warnings.push_back("used the face normal in place of " + counted(badNormals_, "normal") +
+                                     " of zero length or not finite");
         }
         return std::move(made_);
     }
@@ -83,7 +85,7 @@ private:
             }
             made_.triangles.push_back(triangle);
             if (smooth_) {
-                made_.vertices.push_back(mesh.normals.empty() ? glm::uvec3(0) : addVertices(mesh, placed.corners(i), normal));
+                made_.vertexIndices.push_back(mesh.normals.empty() ? glm::uvec3(0) : addVertices(mesh, placed.corners(i), normal));
             }
         }
     }
@@ -112,7 +114,7 @@ private:
     {
         const auto words = std::bit_cast<Words>(normal);
         std::size_t slot = hashOf(words) & (slots_.size() - 1);
-        while (slots_[slot] != kNotYet && std::bit_cast<Words>(made_.normals[slots_[slot]]) != words) {
+        while (slots_[slot] != kNotYet && std::bit_cast<Words>(made_.vertexNormals[slots_[slot]]) != words) {
             slot = (slot + 1) & (slots_.size() - 1);
         }
         if (slots_[slot] == kNotYet) {
@@ -123,8 +125,8 @@ private:
 
     std::uint32_t addVertex(const glm::vec3& normal)
     {
-        made_.normals.push_back(normal);
-        return static_cast<std::uint32_t>(made_.normals.size() - 1);
+        made_.vertexNormals.push_back(normal);
+        return static_cast<std::uint32_t>(made_.vertexNormals.size() - 1);
     }
 
     const Scene& scene_;

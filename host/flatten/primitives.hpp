@@ -11,12 +11,11 @@ struct Primitives {
     std::vector<Sphere> spheres;
     std::vector<std::uint32_t> firstTriangles;  // by instance, then the number of all triangles
 
-    // Shading normals; both are empty if no mesh has any. `vertices` has the three vertices of each triangle, `normals` the unit normal
-    // of each vertex. Vertex 0 has the normal 0; a triangle without normals has it three times.
-    std::vector<glm::uvec3> vertices;
-    std::vector<glm::vec3> normals;
+    // Shading normals, unit; both are empty if no mesh has any. Vertex 0 has the normal 0; a triangle without normals has it three times.
+    std::vector<glm::uvec3> vertexIndices;  // by triangle
+    std::vector<glm::vec3> vertexNormals;
 
-    std::vector<std::string> notices;  // one line each: what was dropped or replaced
+    std::vector<std::string> warnings;  // one line each: what was dropped or replaced
 
     std::size_t count() const { return triangles.size() + spheres.size(); }
     std::uint32_t instanceOf(std::uint32_t triangle) const;

@@ -41,8 +41,9 @@ void refuseTooLarge(const DeviceDescription& device, const std::string& name, Bu
 // A buffer in host memory, for copies to and from memory that the host does not map.
 class Staging {
 public:
+    // From here on the destructor runs even if a step fails.
     Staging(const Device& device, std::uint64_t size)
-        : device_(device)
+        : Staging(device)
     {
         VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
         info.size = size;
@@ -72,6 +73,10 @@ public:
     void* mapped() const { return mapped_; }
 
 private:
+    explicit Staging(const Device& device)
+        : device_(device)
+    {}
+
     const Device& device_;
     VkBuffer handle_ = VK_NULL_HANDLE;
     VkDeviceMemory memory_ = VK_NULL_HANDLE;
@@ -80,22 +85,22 @@ private:
 
 }  // namespace
 
-Buffer::Buffer(Device& device, const std::string& name, BufferKind kind, std::uint64_t size)
+Buffer::Buffer(Device& device, BufferKind kind, std::uint64_t size)
     : device_(&device),
       kind_(kind),
       size_(size)
+{}
+
+// From here on the destructor runs even if a step fails.
+Buffer::Buffer(Device& device, const std::string& name, BufferKind kind, std::uint64_t size)
+    : Buffer(device, kind, size)
 {
     refuseTooLarge(device.description(), name, kind, size);
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = size;
     info.usage = usageOf(kind);
     check(vkCreateBuffer(device.handle(), &info, nullptr, &handle_), "create the buffer of the " + name);
-    try {
-        allocate(name);
-    } catch (...) {
-        vkDestroyBuffer(device.handle(), handle_, nullptr);
-        throw;
-    }
+    allocate(name);
     device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(handle_), name);
     if (hasTexels(kind)) {
         VkBufferViewCreateInfo view{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};

@@ -42,6 +42,7 @@ public:
     void download(std::span<std::byte> bytes) const;
 
 private:
+    Buffer(Device& device, BufferKind kind, std::uint64_t size);
     void allocate(const std::string& name);
 
     Device* device_;

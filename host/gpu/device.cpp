@@ -114,7 +114,7 @@ Candidate describe(VkPhysicalDevice physical)
     return {physical, family ? family->first : 0, d};
 }
 
-std::vector<Candidate> findCandidates(const Instance& instance)
+std::vector<Candidate> findCandidates(const VulkanInstance& instance)
 {
     std::vector<Candidate> candidates;
     for (VkPhysicalDevice physical : instance.physicalDevices()) {
@@ -163,7 +163,7 @@ bool canPresent(const Candidate& candidate, VkSurfaceKHR surface)
            presents == VK_TRUE;
 }
 
-Candidate choose(const Instance& instance, const std::optional<std::string>& choice, VkSurfaceKHR surface)
+Candidate choose(const VulkanInstance& instance, const std::optional<std::string>& choice, VkSurfaceKHR surface)
 {
     const std::vector<Candidate> candidates = findCandidates(instance);
     std::string blind;  // devices that fit the choice but cannot present in this window
@@ -192,7 +192,7 @@ Candidate choose(const Instance& instance, const std::optional<std::string>& cho
 
 }  // namespace
 
-std::vector<DeviceDescription> listDevices(const Instance& instance)
+std::vector<DeviceDescription> listDevices(const VulkanInstance& instance)
 {
     std::vector<DeviceDescription> descriptions;
     for (const Candidate& candidate : findCandidates(instance)) {
@@ -201,7 +201,7 @@ std::vector<DeviceDescription> listDevices(const Instance& instance)
     return descriptions;
 }
 
-Device::Device(const Instance& instance, const std::optional<std::string>& choice, VkSurfaceKHR surface, MemoryPolicy memoryPolicy)
+Device::Device(const VulkanInstance& instance, const std::optional<std::string>& choice, VkSurfaceKHR surface, MemoryPolicy memoryPolicy)
     : instance_(instance),
       memoryPolicy_(memoryPolicy)
 {

@@ -28,12 +28,12 @@ struct DeviceDescription {
 };
 
 // All devices that Vulkan shows, best first: discrete, integrated, virtual, other, software. Vulkan's order decides within a kind.
-std::vector<DeviceDescription> listDevices(const Instance& instance);
+std::vector<DeviceDescription> listDevices(const VulkanInstance& instance);
 
 // How the host reaches the buffers of a device.
 enum class MemoryPolicy {
     MapShared,    // maps memory that device and host share (software devices, integrated GPUs) and stages the rest
-    AlwaysStage,  // stages all of it, as a discrete GPU needs it: tests run those copies on a software device
+    AlwaysStage,  // stages all but readback buffers, as a discrete GPU needs it: tests run those copies on a software device
 };
 
 class Device {
@@ -41,13 +41,13 @@ public:
     // `choice` is an index into listDevices or a part of a name in any case; without it the first usable device is taken. With
     // `surface`, a device is usable only if it can present to it. Throws InputError if the choice names no device or one that
     // cannot present, DeviceError if no device is usable.
-    explicit Device(const Instance& instance, const std::optional<std::string>& choice = {}, VkSurfaceKHR surface = VK_NULL_HANDLE,
+    explicit Device(const VulkanInstance& instance, const std::optional<std::string>& choice = {}, VkSurfaceKHR surface = VK_NULL_HANDLE,
                     MemoryPolicy memoryPolicy = MemoryPolicy::MapShared);
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
-    const Instance& instance() const { return instance_; }
+    const VulkanInstance& instance() const { return instance_; }
     const DeviceDescription& description() const { return description_; }
     MemoryPolicy memoryPolicy() const { return memoryPolicy_; }
     VkPhysicalDevice physical() const { return physical_; }
@@ -68,7 +68,7 @@ public:
     void setName(VkObjectType type, std::uint64_t object, const std::string& name) const;
 
 private:
-    const Instance& instance_;
+    const VulkanInstance& instance_;
     DeviceDescription description_;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
     VkDevice handle_ = VK_NULL_HANDLE;

@@ -80,7 +80,7 @@ void check(VkResult result, const std::string& action)
     }
 }
 
-Instance::Instance(const std::vector<const char*>& extensions)
+VulkanInstance::VulkanInstance(const std::vector<const char*>& extensions)
     : messages_(std::make_unique<std::atomic<int>>(0))
 {
     VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
@@ -116,7 +116,7 @@ Instance::Instance(const std::vector<const char*>& extensions)
     }
 }
 
-Instance::~Instance()
+VulkanInstance::~VulkanInstance()
 {
     if (messenger_ != VK_NULL_HANDLE) {
         const auto destroy =
@@ -129,7 +129,7 @@ Instance::~Instance()
     }
 }
 
-std::vector<VkPhysicalDevice> Instance::physicalDevices() const
+std::vector<VkPhysicalDevice> VulkanInstance::physicalDevices() const
 {
     std::uint32_t count = 0;
     check(vkEnumeratePhysicalDevices(handle_, &count, nullptr), "list devices");
@@ -138,7 +138,7 @@ std::vector<VkPhysicalDevice> Instance::physicalDevices() const
     return devices;
 }
 
-void Instance::refuseMessages() const
+void VulkanInstance::refuseMessages() const
 {
     if (*messages_ > 0) {
         throw DeviceError("The Vulkan validation layers have complained (see above); glim expects them silent.");

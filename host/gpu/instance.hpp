@@ -16,13 +16,13 @@ void check(VkResult result, const std::string& action);
 
 // GLIM_VALIDATION=1 in the environment turns on the validation layers with their synchronization checks. Every message is printed
 // to stderr and counted. If the layers are not installed, the constructor throws DeviceError: a check that does not run is no check.
-class Instance {
+class VulkanInstance {
 public:
     // `extensions`: the instance extensions that a window needs.
-    explicit Instance(const std::vector<const char*>& extensions = {});
-    ~Instance();
-    Instance(const Instance&) = delete;
-    Instance& operator=(const Instance&) = delete;
+    explicit VulkanInstance(const std::vector<const char*>& extensions = {});
+    ~VulkanInstance();
+    VulkanInstance(const VulkanInstance&) = delete;
+    VulkanInstance& operator=(const VulkanInstance&) = delete;
 
     VkInstance handle() const { return handle_; }
     std::vector<VkPhysicalDevice> physicalDevices() const;

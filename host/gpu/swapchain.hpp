@@ -8,7 +8,7 @@ namespace glim {
 class Surface {
 public:
     // Owns `handle`, which belongs to `instance`.
-    Surface(const Instance& instance, VkSurfaceKHR handle)
+    Surface(const VulkanInstance& instance, VkSurfaceKHR handle)
         : instance_(instance),
           handle_(handle)
     {}
@@ -19,7 +19,7 @@ public:
     VkSurfaceKHR handle() const { return handle_; }
 
 private:
-    const Instance& instance_;
+    const VulkanInstance& instance_;
     VkSurfaceKHR handle_;
 };
 

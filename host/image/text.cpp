@@ -1,7 +1,7 @@
 #include "host/image/text.hpp"
 
-#include <glm/glm.hpp>
 #include <stb/stb_easy_font.h>
+#include <glm/glm.hpp>
 
 #include <algorithm>
 #include <sstream>

@@ -140,8 +140,8 @@ double scatter(const std::vector<Sums>& blocks, const glm::dvec3& weights, doubl
 
 MeanRatio ratioWithin(double value, double standardError)
 {
-    const double reach = twoSidedLimit(0.05) * standardError;
-    return {value, value - reach, value + reach};
+    const double halfWidth = twoSidedLimit(0.05) * standardError;
+    return {value, value - halfWidth, value + halfWidth};
 }
 
 void addRatios(const std::vector<Sums>& blocks, Comparison& result)

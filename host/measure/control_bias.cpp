@@ -45,8 +45,8 @@ std::optional<ControlBias> estimateControlBias(const Film& film, const Film& con
     for (const double each : without) {
         squares += (each - mean) * (each - mean);
     }
-    const double reach = studentLimit(0.05, chosen.size() - 1) * std::sqrt(squares * (n - 1.0) / n);
-    return ControlBias{chosen.size(), {ratio - 1.0, ratio - 1.0 - reach, ratio - 1.0 + reach}};
+    const double halfWidth = studentLimit(0.05, chosen.size() - 1) * std::sqrt(squares * (n - 1.0) / n);
+    return ControlBias{chosen.size(), {ratio - 1.0, ratio - 1.0 - halfWidth, ratio - 1.0 + halfWidth}};
 }
 
 }  // namespace glim

@@ -32,9 +32,9 @@ Interval intervalOf(const std::vector<Part>& parts)
     if (sum == 0.0) {
         return {};
     }
-    const double reach = std::exp(twoSidedLimit(0.05) * std::sqrt(variance) / sum);
+    const double factor = std::exp(twoSidedLimit(0.05) * std::sqrt(variance) / sum);
     const double value = sum / static_cast<double>(parts.size());
-    return {value, value / reach, value * reach};
+    return {value, value / factor, value * factor};
 }
 
 std::size_t countOfHalf(std::vector<Part> parts)

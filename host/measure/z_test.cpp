@@ -95,7 +95,7 @@ bool ZTest::blocksAgree() const { return std::abs(worstZ) <= blockLimit; }
 bool ZTest::spreadAgrees() const
 {
     for (std::size_t c = 0; c < 3; ++c) {
-        if (blocks[c] > 0 && !(std::abs(meanSquare[c] - 1.0) <= meanSquareReach[c])) {
+        if (blocks[c] > 0 && !(std::abs(meanSquare[c] - 1.0) <= meanSquareMargin[c])) {
             return false;
         }
     }
@@ -122,7 +122,7 @@ ZTest zTest(const Picture& picture, const Picture& reference, double alpha)
         test.meanZ[channel] = zOf(whole, c);
         if (count > 0) {
             test.meanSquare[channel] /= count;
-            test.meanSquareReach[channel] = 4.0 * std::sqrt(2.0 / count);
+            test.meanSquareMargin[channel] = 4.0 * std::sqrt(2.0 / count);
         }
         if (whole.magnitude[c] > 0) {
             const double bias = (test.meanLimit + power) * std::sqrt(whole.variance[c]) / whole.magnitude[c];

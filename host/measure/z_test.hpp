@@ -17,11 +17,11 @@ struct ZTest {
     double worstZ = 0.0;                   // of all blocks and channels,
     std::uint32_t worstX = 0, worstY = 0;  // of the block with this upper left pixel
     int worstChannel = 0;
-    double blockLimit = 0.0;                  // Sidak over all
-    std::array<std::size_t, 3> blocks{};      // with noise above the rounding of float32, by channel
-    std::array<double, 3> meanSquare{};       // of z over them
-    std::array<double, 3> meanSquareReach{};  // allowed distance from 1: 4 sqrt(2 / blocks)
-    double detectableBias = 0.0;              // relative to a channel's mean: found by the first test with 95 % probability
+    double blockLimit = 0.0;                   // Sidak over all
+    std::array<std::size_t, 3> blocks{};       // with noise above the rounding of float32, by channel
+    std::array<double, 3> meanSquare{};        // of z over them
+    std::array<double, 3> meanSquareMargin{};  // allowed distance from 1: 4 sqrt(2 / blocks)
+    double detectableBias = 0.0;               // relative to a channel's mean: found by the first test with 95 % probability
 
     bool meansAgree() const;
     bool blocksAgree() const;

@@ -1,4 +1,4 @@
-// The text over the picture: figures, help and notices.
+// The text over the picture: statistics, help and messages.
 #include "host/preview/session.hpp"
 
 #include <cmath>
@@ -16,17 +16,17 @@ constexpr const char* kHelp[] = {
     "drag\torbit",
     "shift-drag, middle-drag\tpan",
     "wheel\tnearer, farther",
-    "W A S D Q E\tfly: ahead, left, back, right, down, up",
+    "W A S D Q E\tfly: forward, left, back, right, down, up",
     "F\tframe the scene",
     "R\treset to the file's camera",
     "1-9\tthe file's cameras",
     "+ -\texposure",
     "V\tviews: shaded, normal, depth, albedo, samples, BVH steps",
-    "click\twhat is there: printed",
+    "click\tprint what is there",
     "Space\tpause",
     "P\twrite PNG and EXR",
     "C\tprint the camera",
-    "H\tfigures, help, nothing",
+    "H\tshow statistics, help, nothing",
     "Esc\tquit",
 };
 

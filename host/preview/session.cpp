@@ -1,7 +1,7 @@
 #include "host/preview/session.hpp"
 
 #include "host/error.hpp"
-#include "host/flatten/view_options.hpp"
+#include "host/flatten/camera_options.hpp"
 #include "host/measure/compare_images.hpp"
 #include "host/measure/picture.hpp"
 #include "host/render/check_memory.hpp"
@@ -428,7 +428,7 @@ void Session::cycleAov()
     const auto at = std::find(order.begin(), order.end(), aov_);
     const Aov next = at + 1 == order.end() ? order.front() : at[1];
     if (next == Aov::BvhSteps && !steps_) {
-        say("compiling kernels that count");
+        say("compiling kernels that count BVH steps");
         later_ = [this] {
             RenderSettings settings = options_.settings;
             settings.aov = Aov::BvhSteps;
@@ -499,7 +499,7 @@ std::string Session::describeSamples(const glm::uvec2& pixel)
 
 void Session::printCamera()
 {
-    const std::string options = "--camera " + std::to_string(viewpoint_->index()) + viewOptions(viewpoint_->moved(), options_.lens) +
+    const std::string options = "--camera " + std::to_string(viewpoint_->index()) + cameraOptions(viewpoint_->moved(), options_.lens) +
                                 " --size " + std::to_string(display_.width()) + "x" + std::to_string(display_.height());
     std::cout << options << '\n' << viewpoint_->describeAsGltf() << std::endl;
     say(options);
@@ -509,7 +509,7 @@ void Session::writePictures()
 {
     Film film = refiner().renderer().film();
     film.sceneFile = options_.scene.string();
-    film.identity.settings += describeView(viewpoint_->moved(), options_.lens);
+    film.identity.settings += describeCamera(viewpoint_->moved(), options_.lens);
     if (const auto report = writer_.takeReport(true)) {
         tell(*report);
     }
@@ -521,7 +521,7 @@ void Session::printSummary() const
 {
     std::fprintf(stderr, "glim: %llu frames", static_cast<unsigned long long>(frames_));
     if (latency_.count() > 0) {
-        std::fprintf(stderr, "; %zu inputs, each in a picture after %.0f ms (median), %.0f ms (99 %%), %.0f ms (longest)", latency_.count(),
+        std::fprintf(stderr, "; %zu inputs, from input to picture %.0f ms (median), %.0f ms (99 %%), %.0f ms (longest)", latency_.count(),
                      1e3 * latency_.quantile(0.5), 1e3 * latency_.quantile(0.99), 1e3 * latency_.quantile(1.0));
     }
     std::fprintf(stderr, "\n");

@@ -1,6 +1,7 @@
 // The preview's rendering thread. It owns the device, handles the user's input, renders and shows pictures.
 #pragma once
 
+#include "host/gpu/swapchain.hpp"
 #include "host/preview/latency.hpp"
 #include "host/preview/picture_writer.hpp"
 #include "host/preview/preview.hpp"
@@ -8,7 +9,6 @@
 #include "host/preview/scene_loader.hpp"
 #include "host/preview/viewpoint.hpp"
 #include "host/preview/window.hpp"
-#include "host/gpu/swapchain.hpp"
 #include "host/render/display.hpp"
 
 #include <deque>
@@ -67,7 +67,7 @@ private:
     Window& window_;
     EventQueue& events_;
     PreviewOptions options_;
-    Instance instance_;
+    VulkanInstance instance_;
     Surface surface_;
     Device device_;
     Swapchain swapchain_;
@@ -81,7 +81,7 @@ private:
     std::optional<Viewpoint> viewpoint_;
     Aov aov_ = Aov::Radiance;
     std::deque<Event> inbox_;      // events that are taken but not handled yet
-    std::function<void()> later_;  // work that starts once the window shows the notice about it
+    std::function<void()> later_;  // work that starts once the window shows the message about it
     bool writes_ = false;          // a picture is to be written once it is complete
     std::set<char> heldKeys_;      // pressed keys that move the camera
     bool paused_ = false, closing_ = false;

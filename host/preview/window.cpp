@@ -96,7 +96,7 @@ std::vector<const char*> Window::instanceExtensions()
     return {names, names + count};
 }
 
-VkSurfaceKHR Window::createSurface(const Instance& instance) const
+VkSurfaceKHR Window::createSurface(const VulkanInstance& instance) const
 {
     VkSurfaceKHR surface = VK_NULL_HANDLE;
     if (glfwCreateWindowSurface(instance.handle(), window_, nullptr, &surface) != VK_SUCCESS) {

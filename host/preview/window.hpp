@@ -30,7 +30,7 @@ public:
     // Any thread may call the following functions.
     static std::vector<const char*> instanceExtensions();
     // The caller owns the result. Throws InputError if Vulkan cannot present in this window.
-    VkSurfaceKHR createSurface(const Instance& instance) const;
+    VkSurfaceKHR createSurface(const VulkanInstance& instance) const;
     glm::uvec2 pictureSize() const { return {pictureWidth_.load(), pictureHeight_.load()}; }  // pixels
     float contentScale() const { return contentScale_; }                                      // of text; above 1 on high-DPI displays
     void setTitle(const std::string& title);

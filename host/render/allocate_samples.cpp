@@ -10,7 +10,7 @@
 namespace glim {
 namespace {
 
-constexpr int kReach = 3;  // radius of the neighbourhood: 7x7
+constexpr int kRadius = 3;  // radius of the neighbourhood: 7x7
 
 // The epsilon of relMSE, which is added to squared radiance: a relative error says nothing about black pixels.
 double epsilonOf(const Film& film)
@@ -43,8 +43,8 @@ double meanAround(const std::vector<double>& variances, int width, int height, i
 {
     double sum = 0.0;
     int known = 0;
-    for (int v = std::max(0, y - kReach); v <= std::min(height - 1, y + kReach); ++v) {
-        for (int u = std::max(0, x - kReach); u <= std::min(width - 1, x + kReach); ++u) {
+    for (int v = std::max(0, y - kRadius); v <= std::min(height - 1, y + kRadius); ++v) {
+        for (int u = std::max(0, x - kRadius); u <= std::min(width - 1, x + kRadius); ++u) {
             const double variance = variances[static_cast<std::size_t>(v * width + u)];
             const bool self = u == x && v == y;
             if (!self && variance >= 0.0) {

@@ -16,6 +16,7 @@ bool usesCourseEstimators(const RenderSettings& settings)
 
 CourseEstimators::CourseEstimators(Device& device, const FlatScene& scene, const RenderSettings& settings)
     : settings_(settings),
+      lightCount_(static_cast<std::uint32_t>(scene.lights.size())),
       rounds_(lightRounds(scene, settings)),
       parameters_(device, "course's parameters", BufferKind::Storage, sizeof(CourseParameters))
 {
@@ -35,8 +36,7 @@ void CourseEstimators::recordBounce(Recording& recording, const KernelSet& kerne
     const std::vector<LightRound> finding = {{false, kNoLightIndex}};
     CoursePass round{pass, {}};
     round.lightRound.addsEmission = 1;
-    // Without lights there is one round, which samples none.
-    for (const LightRound& each : samplesLights(pass.bounce, lengths.maxBounces, lengths.min, 1) ? rounds_ : finding) {
+    for (const LightRound& each : samplesLights(pass.bounce, lengths.maxBounces, lengths.min, lightCount_) ? rounds_ : finding) {
         round.lightRound.light = each.light;
         round.lightRound.lightSample = each.sample;
         round.lightRound.lightSamples = each.samples;

@@ -40,6 +40,7 @@ private:
                      const Buffer& queueSizes) const;
 
     RenderSettings settings_;
+    std::uint32_t lightCount_;
     std::vector<LightRound> rounds_;  // of direct light at each hit
     std::uint32_t recordCount_ = 0;
     Buffer parameters_;

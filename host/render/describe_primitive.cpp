@@ -30,7 +30,7 @@ PrimitiveDescription describePrimitive(const Scene& scene, const Primitives& pri
     }
     const std::uint32_t index = primitives.instanceOf(id);
     const MeshInstance& instance = scene.instances[index];
-    return {"mesh " + quoted(instance.name), id - primitives.firstTriangles[index],
+    return {"instance " + quoted(instance.name), id - primitives.firstTriangles[index],
             quoted(scene.materials[scene.meshes[instance.mesh].material].name)};
 }
 

@@ -9,12 +9,12 @@
 namespace glim {
 
 struct PrimitiveDescription {
-    std::string object;                     // as in: mesh "floor", or: sphere without a name
-    std::optional<std::uint32_t> triangle;  // of the mesh
+    std::string object;                     // as in: instance "floor", or: sphere without a name
+    std::optional<std::uint32_t> triangle;  // of its mesh; those of zero area do not count
     std::string material;
 };
 
-// "mesh "floor", triangle 3"
+// As in: instance "floor", triangle 3.
 std::string textOf(const PrimitiveDescription& primitive);
 
 PrimitiveDescription describeRecord(const PreparedScene& prepared, std::uint32_t record);

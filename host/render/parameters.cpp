@@ -30,10 +30,10 @@ DeviceParameters::DeviceParameters(Device& device, const FlatScene& scene, const
     parameters_.environment = scene.environment;
     parameters_.clampIndirect = settings.clampIndirect;
     parameters_.canarySteps = 3;
-    setView(camera, settings.width, settings.height);
+    setCamera(camera, settings.width, settings.height);
 }
 
-void DeviceParameters::setView(const FlatCamera& camera, std::uint32_t width, std::uint32_t height)
+void DeviceParameters::setCamera(const FlatCamera& camera, std::uint32_t width, std::uint32_t height)
 {
     parameters_.camera = camera;
     parameters_.width = width;

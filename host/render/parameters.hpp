@@ -19,7 +19,7 @@ public:
     DeviceParameters(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
 
     // No kernel may be running.
-    void setView(const FlatCamera& camera, std::uint32_t width, std::uint32_t height);
+    void setCamera(const FlatCamera& camera, std::uint32_t width, std::uint32_t height);
     void setSeed(std::uint32_t seed);
 
     const Buffer& buffer() const { return buffer_; }

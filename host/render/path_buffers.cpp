@@ -131,7 +131,7 @@ PathNote PathBuffers::takeNote()
     const PathNote taken = download<PathNote>(note_, 1)[0];
     PathNote empty{};
     empty.misWeightOfHit = 1.0F;
-    empty.light = kNothing;
+    empty.light = kNoLightIndex;
     upload(note_, std::span<const PathNote>(&empty, 1));
     return taken;
 }

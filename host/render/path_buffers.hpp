@@ -82,7 +82,7 @@ public:
     void chooseAll();
     void choose(const std::vector<ChosenPixel>& pixels);
     void chooseNone();
-    // After choose_pixels has filled the list.
+    // After course_choose_pixels has filled the list.
     void readChosenCount();
 
 private:

@@ -26,9 +26,9 @@ PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions&
     stage("loading " + file.filename().string());
     prepared.scene = loadGltf(file, options);
     prepared.primitives = makePrimitives(prepared.scene);
-    prepared.scene.notices.insert(prepared.scene.notices.end(), prepared.primitives.notices.begin(), prepared.primitives.notices.end());
-    for (const std::string& notice : prepared.scene.notices) {
-        std::cerr << "glim: " << notice << '\n';
+    prepared.scene.warnings.insert(prepared.scene.warnings.end(), prepared.primitives.warnings.begin(), prepared.primitives.warnings.end());
+    for (const std::string& warning : prepared.scene.warnings) {
+        std::cerr << "glim: " << warning << '\n';
     }
     const Clock::time_point loaded = Clock::now();
     stage("building the BVH of " + std::to_string(prepared.primitives.count()) + " primitives");

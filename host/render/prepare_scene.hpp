@@ -22,7 +22,7 @@ struct PreparedScene {
     double loadSeconds = 0.0, buildSeconds = 0.0;  // load: file and primitives; build: BVH and flattening
 };
 
-// Throws InputError. Prints the scene's notices to stderr. Calls `stage` with what it begins to do, as in "loading a.gltf".
+// Throws InputError. Prints the scene's warnings to stderr. Calls `stage` with what it begins to do, as in "loading a.gltf".
 PreparedScene prepareScene(
     const std::filesystem::path& file, const LoadOptions& options, SplitRule split = SplitRule::Sah,
     const std::function<void(const std::string&)>& stage = [](const std::string&) {});

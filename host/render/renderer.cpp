@@ -135,19 +135,19 @@ void Renderer::begin(const FlatCamera& camera)
     tile_ = 0;
     pixel_ = 0;
     chosen_ = film_.pixels.size();
-    pictureSamples_ = judgedSamples_ = 0;
+    pictureSamples_ = testedSamples_ = 0;
     plannedSamples_ = chosen_ * (settings_.sampleEnd - settings_.sampleBegin);
     start_ = Clock::now();
 }
 
-Film Renderer::render(const RenderObserver& observer, const FilmJudge& judge)
+Film Renderer::render(const RenderObserver& observer, const StoppingCriterion& criterion)
 {
     start_ = Clock::now();
     plannedSamples_ =
-        judge ? film_.pixels.size() * leastSamplesForError(settings_.sampleBegin) : plannedSamples_;  // until it is known better
+        criterion ? film_.pixels.size() * leastSamplesForError(settings_.sampleBegin) : plannedSamples_;  // until it is known better
     Clock::time_point begin = start_;
     const auto shouldContinue = [&] { return asks(observer) || secondsSince(begin) < settings_.passSeconds; };
-    while (advance(shouldContinue) && !isOver(observer) && !(judge && isGoodEnough(judge))) {
+    while (advance(shouldContinue) && !isOver(observer) && !(criterion && isGoodEnough(criterion))) {
         begin = Clock::now();
     }
     foldPages(film_, tiles_);
@@ -238,15 +238,15 @@ bool Renderer::isOver(const RenderObserver& observer)
 
 // Judges whenever blocks end and there are a tenth more samples than last time. Judging more often would stop where the estimate happens
 // to be low, and takes time.
-bool Renderer::isGoodEnough(const FilmJudge& judge)
+bool Renderer::isGoodEnough(const StoppingCriterion& criterion)
 {
     const bool whole = isNeighbours(settings_.adaptive) ? isBetweenRounds() : sample_ % kBlockSamples == 0;
     const bool ends = !sweeping_ && whole && sampleCount() >= leastSamplesForError(settings_.sampleBegin);
-    if (!ends || static_cast<double>(pictureSamples_) < 1.1 * static_cast<double>(judgedSamples_)) {
+    if (!ends || static_cast<double>(pictureSamples_) < 1.1 * static_cast<double>(testedSamples_)) {
         return false;
     }
-    judgedSamples_ = pictureSamples_;
-    timesToTarget_ = std::min(judge(film()), 1e6);
+    testedSamples_ = pictureSamples_;
+    timesToTarget_ = std::min(criterion(film()), 1e6);
     plannedSamples_ = static_cast<std::uint64_t>(static_cast<double>(pictureSamples_) * std::max(timesToTarget_, 1.0));
     return timesToTarget_ <= 1.0;
 }

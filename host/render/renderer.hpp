@@ -30,8 +30,8 @@ struct RenderProgress {
     double seconds;
 };
 
-// Judges the film so far: returns by what factor it needs more samples; at most 1 means good enough.
-using FilmJudge = std::function<double(const Film&)>;
+// By what factor the samples of the film so far must still grow; at most 1 ends the render.
+using StoppingCriterion = std::function<double(const Film&)>;
 
 // Called several times a second. False ends the render after the current pass or, if that takes seconds, without it.
 using RenderObserver = std::function<bool(const RenderProgress&)>;
@@ -44,10 +44,10 @@ public:
     // Shares the resources of `other`, a renderer of the same scene that must outlive this one. Only one of them may render at a time.
     Renderer(const Renderer& other, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
 
-    // Samples until sampleEnd, the stopping rule, the time limit, the observer or the judge (if any) ends it. The film has all finished
+    // Samples until sampleEnd, the stopping rule, the time limit, the observer or the criterion (if any) ends it. The film has all finished
     // samples; its counts say how many each pixel has. Throws DeviceError if the driver cut a loop short or a queue overflowed: no film
     // is better than a wrong one. To be called once per picture.
-    Film render(const RenderObserver& observer, const FilmJudge& judge = nullptr);
+    Film render(const RenderObserver& observer, const StoppingCriterion& criterion = nullptr);
 
     // After an adaptive render: takes new samples of one pixel in a hundred (of 64 or so in small pictures), as many as `film` has of
     // each. They are independent of the samples that the allocation was based on, and are in no statistics. Returns nothing if
@@ -109,7 +109,7 @@ private:
 
     void foldPages(Film& film, const std::vector<std::unique_ptr<Tile>>& tiles);
     bool isOver(const RenderObserver& observer);
-    bool isGoodEnough(const FilmJudge& judge);
+    bool isGoodEnough(const StoppingCriterion& criterion);
     void readCounters();
 
     Device& device_;
@@ -133,8 +133,8 @@ private:
     std::uint32_t pixel_ = 0;   // its first pixel, among the tile's chosen ones
     std::uint64_t chosen_ = 0;  // pixels that the sweep goes over
     std::uint64_t pictureSamples_ = 0, plannedSamples_ = 0;
-    std::uint64_t judgedSamples_ = 0;  // pictureSamples_ when it was last judged
-    double timesToTarget_ = 0.0;       // the judge's last answer; infinite before the first
+    std::uint64_t testedSamples_ = 0;  // pictureSamples_ when the criterion was last tested
+    double timesToTarget_ = 0.0;       // the criterion's last answer; infinite before the first
 
     // For --adaptive neighbours.
     Film common_;                     // the samples that all pixels share

@@ -12,7 +12,7 @@ T firstOf(const Buffer& buffer)
     return download<T>(buffer, 1)[0];
 }
 
-// Looks at the only path after each kernel. What a kernel adds is taken out at once, so that it is known exactly.
+// Records the only path after each kernel. What a kernel adds is taken out at once, so that it is known exactly.
 class PathRecorder {
 public:
     PathRecorder(std::vector<PathVertex>& vertices, std::uint32_t maxBounces, std::uint32_t recordCount)
@@ -21,7 +21,7 @@ public:
           recordCount_(recordCount)
     {}
 
-    void look(const std::string& kernel, const CoursePass& at, PathBuffers& paths)
+    void record(const std::string& kernel, const CoursePass& at, PathBuffers& paths)
     {
         const bool whole = at.lightRound.endRecord == recordCount_;  // brute force: the last of several dispatches
         if (kernel == "trace_closest" || (kernel == "course_trace_closest" && whole)) {
@@ -70,7 +70,7 @@ private:
             vertex.surface = note;
             vertex.emitted = paths.takeRadiance();
         }
-        if (note.light != kNothing) {
+        if (note.light != kNoLightIndex) {
             vertex.sampledLights.emplace_back().note = note;
         }
         ray_ = firstOf<ShadowRay>(paths.shadowRays());  // brute force changes it
@@ -131,8 +131,9 @@ ReplayedPath Replay::trace(std::uint32_t pixel, std::uint32_t sample)
     ReplayedPath path;
     path.radiance = wavefront_.traceSample(pixel, sample);
     PathRecorder recorder(path.vertices, maxBounces_, recordCount_);
-    wavefront_.traceSample(
-        pixel, sample, [&](const std::string& kernel, const CoursePass& pass, PathBuffers& paths) { recorder.look(kernel, pass, paths); });
+    wavefront_.traceSample(pixel, sample, [&](const std::string& kernel, const CoursePass& pass, PathBuffers& paths) {
+        recorder.record(kernel, pass, paths);
+    });
     refuseBrokenStatus(device_.description(), wavefront_.paths());
     return path;
 }

@@ -1,6 +1,6 @@
 #include "host/render/settings.hpp"
 
-#include "host/exact_text.hpp"
+#include "host/text.hpp"
 
 #include <cmath>
 #include <sstream>

@@ -1,7 +1,7 @@
 // A pass traces some samples of some pixels to their end. The wavefront:
 //
 //   generate_rays
-//   per bounce:  size_dispatch -> trace_closest -> sample_lights_and_bounce -> size_dispatch -> trace_shadow
+//   per bounce:  size_dispatch -> trace_closest -> sample_lights_and_bounce -> size_dispatch -> trace_shadow (where lights are sampled)
 //   accumulate
 //
 // The persistent schedule, in which one kernel traces path after path to its end:
@@ -29,7 +29,7 @@ namespace glim {
 namespace {
 
 // Bounces recorded at once; then the host checks whether any path is alive.
-constexpr std::uint32_t kBouncesPerLook = 8;
+constexpr std::uint32_t kBouncesPerCheck = 8;
 
 }  // namespace
 
@@ -38,8 +38,8 @@ Schedule chooseSchedule(const RenderSettings& settings, const DeviceDescription&
     const bool course = usesCourseEstimators(settings);
     if (settings.schedule == Schedule::Persistent && course) {
         throw InputError(
-            "--schedule persistent: the course's estimators (--direct, --roulette, --accelerator, --intersector) have no "
-            "such kernel; expected --schedule wavefront or none of them.");
+            "--schedule persistent: the course's estimators (--direct, --roulette, --accelerator, --intersector) need "
+            "--schedule wavefront.");
     }
     if (settings.schedule != Schedule::Auto) {
         return settings.schedule;
@@ -51,6 +51,7 @@ Schedule chooseSchedule(const RenderSettings& settings, const DeviceDescription&
 Wavefront::Wavefront(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
     : device_(device),
       settings_(settings),
+      lightCount_(static_cast<std::uint32_t>(scene.lights.size())),
       schedule_(chooseSchedule(settings, device.description())),
       own_(SharedResources{DeviceScene(device, scene), PathBuffers(device, settings.pathCapacity)}),
       shared_(*own_),
@@ -66,6 +67,7 @@ Wavefront::Wavefront(Device& device, SharedResources& shared, const FlatScene& s
                      const RenderSettings& settings)
     : device_(device),
       settings_(settings),
+      lightCount_(static_cast<std::uint32_t>(scene.lights.size())),
       schedule_(chooseSchedule(settings, device.description())),
       shared_(shared),
       parameters_(device, scene, camera, settings),
@@ -78,7 +80,7 @@ Wavefront::Wavefront(Device& device, SharedResources& shared, const FlatScene& s
 
 void Wavefront::setCamera(const FlatCamera& camera, std::uint32_t width, std::uint32_t height)
 {
-    parameters_.setView(camera, width, height);
+    parameters_.setCamera(camera, width, height);
 }
 
 std::unique_ptr<Tile> Wavefront::makeTile(std::uint32_t begin, std::uint32_t count)
@@ -152,7 +154,7 @@ void Wavefront::traceByWavefront(Recording& recording, const Tile& tile, Pass& p
     recordSize(recording, tile.bindings(0), pass, kSizesPaths);
     bool alive = true;
     while (alive && pass.bounce <= maxBounces) {
-        for (const std::uint32_t end = pass.bounce + kBouncesPerLook; pass.bounce <= maxBounces && pass.bounce < end; ++pass.bounce) {
+        for (const std::uint32_t end = pass.bounce + kBouncesPerCheck; pass.bounce <= maxBounces && pass.bounce < end; ++pass.bounce) {
             recordBounce(recording, tile.bindings(pass.bounce % 2), pass);
         }
         recording.finish();
@@ -172,8 +174,12 @@ void Wavefront::recordBounce(Recording& recording, const Bindings& bindings, con
     }
     recording.dispatchIndirect(*kernels_.traceClosest, bindings, pass, sizes, offsetof(QueueSizes, closestGroups));
     recording.dispatchIndirect(*kernels_.sampleLightsAndBounce, bindings, pass, sizes, offsetof(QueueSizes, closestGroups));
-    recordSize(recording, bindings, next, kSizesPaths | kSizesShadow);
-    recording.dispatchIndirect(*kernels_.traceShadow, bindings, pass, sizes, offsetof(QueueSizes, shadowGroups));
+    const PathLengths lengths = pathLengths(settings_);
+    const bool hasShadowRays = samplesLights(pass.bounce, lengths.maxBounces, lengths.min, lightCount_);
+    recordSize(recording, bindings, next, hasShadowRays ? kSizesPaths | kSizesShadow : kSizesPaths);
+    if (hasShadowRays) {
+        recording.dispatchIndirect(*kernels_.traceShadow, bindings, pass, sizes, offsetof(QueueSizes, shadowGroups));
+    }
 }
 
 void Wavefront::recordSize(Recording& recording, const Bindings& bindings, Pass pass, std::uint32_t queues) const

@@ -79,6 +79,7 @@ private:
 
     Device& device_;
     RenderSettings settings_;
+    std::uint32_t lightCount_;
     Schedule schedule_;
     std::map<std::string, KernelStatistics> statistics_;
     double compileSeconds_ = 0.0;

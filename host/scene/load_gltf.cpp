@@ -17,16 +17,16 @@ void noteIgnoredParts(const GltfFile& file, const std::vector<PlacedNode>& nodes
     for (const std::string& extension : file.model.extensionsUsed) {
         const bool ofMaterials = extension.find("_materials_") != std::string::npos;  // noted with each material
         if (!isSupportedExtension(extension) && !ofMaterials) {
-            scene.notices.push_back("the extension " + extension + " is ignored");
+            scene.warnings.push_back("the extension " + extension + " is ignored");
         }
     }
     const bool skinned =
         std::any_of(nodes.begin(), nodes.end(), [&](const PlacedNode& node) { return file.model.nodes[node.index].skin >= 0; });
     if (skinned) {
-        scene.notices.push_back("skins are ignored: their meshes stand in the rest pose of their nodes");
+        scene.warnings.push_back("skins are ignored: their meshes stand in the rest pose of their nodes");
     }
     if (file.animated) {
-        scene.notices.push_back("animations are ignored");
+        scene.warnings.push_back("animations are ignored");
     }
 }
 
@@ -50,7 +50,7 @@ void placeEnvironment(const GltfFile& file, const LoadOptions& options, Scene& s
                          " names a map, which this version cannot read; expected none (--environment r,g,b gives a"
                          " constant one)");
     }
-    scene.notices.push_back(place + " has no \"file\" and is ignored");
+    scene.warnings.push_back(place + " has no \"file\" and is ignored");
 }
 
 // Keeps the default material (the last one) only if something uses it, and notes what glim ignores of each used material.
@@ -64,8 +64,8 @@ void noteUsedMaterials(const std::vector<MaterialReading>& readings, Scene& scen
         used[sphere.material] = true;
     }
     for (std::size_t i = 0; i < readings.size(); ++i) {
-        if (used[i] && !readings[i].notice.empty()) {
-            scene.notices.push_back(readings[i].notice);
+        if (used[i] && !readings[i].warning.empty()) {
+            scene.warnings.push_back(readings[i].warning);
         }
     }
     if (!used.back()) {
@@ -92,7 +92,7 @@ Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options)
         scene.materials.push_back(reading.material);
     }
 
-    const std::vector<PlacedNode> nodes = placeNodes(file, options, scene.notices);
+    const std::vector<PlacedNode> nodes = placeNodes(file, options, scene.warnings);
     placeEnvironment(file, options, scene);
     noteIgnoredParts(file, nodes, scene);
     readGeometry(file, nodes, scene);
@@ -100,7 +100,7 @@ Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options)
     readLightsAndCameras(file, nodes, scene);
     if (scene.cameras.empty()) {
         scene.cameras.push_back(frameCamera(scene, options.aspectRatio));
-        scene.notices.push_back("the scene has no camera: one is framed on its bounding box");
+        scene.warnings.push_back("the scene has no camera: one is framed on its bounding box");
     }
     checkScene(scene);
     return scene;

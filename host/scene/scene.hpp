@@ -13,7 +13,7 @@
 
 namespace glim {
 
-enum class Scattering : std::uint32_t { Lambert = 0, Mirror = 1, Glass = 2 };
+enum class Scattering : std::uint32_t { Lambert = 0, Mirror = 1, Dielectric = 2 };
 
 // What a surface does to light. Colours are linear Rec.709.
 struct Material {
@@ -98,7 +98,7 @@ struct Scene {
     std::vector<PunctualLight> lights;
     std::vector<Camera> cameras;           // never empty after load_gltf: one is framed where the file has none
     std::optional<glm::vec3> environment;  // constant radiance from everywhere
-    std::vector<std::string> notices;      // one line each: what was ignored, mapped, dropped or framed
+    std::vector<std::string> warnings;     // one line each: what was ignored, mapped, dropped or framed
 };
 
 }  // namespace glim

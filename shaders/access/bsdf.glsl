@@ -16,8 +16,8 @@ struct Bsdf {
     vec3 ng;      // unit, on wo's side
 };
 
-bool isDielectric(uint lobe) { return kDielectrics && lobe == kDielectric; }
-bool isMirror(uint lobe) { return kMirrors && lobe == kMirror; }
+bool isDielectric(uint lobe) { return hasFeature(kFeatureDielectric) && lobe == kDielectric; }
+bool isMirror(uint lobe) { return hasFeature(kFeatureMirror) && lobe == kMirror; }
 
 // For a dielectric the shading normal alone decides on which side wo is, and so which index is in front, even against the geometric normal.
 // If the geometric normal decided, light could enter by one shading normal and be totally reflected by the others for ever: a furnace of

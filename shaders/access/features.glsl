@@ -7,15 +7,16 @@
 #include "shared/limits.h"
 
 layout(constant_id = kSpecFeatures) const uint kFeatures = kAllFeatures;
-const bool kSpheres = (kFeatures & kFeatureSpheres) != 0u;
-const bool kSlivers = (kFeatures & kFeatureSlivers) != 0u;
-const bool kSmooth = (kFeatures & kFeatureSmooth) != 0u;
-const bool kMirrors = (kFeatures & kFeatureMirror) != 0u;
-const bool kDielectrics = (kFeatures & kFeatureGlass) != 0u;
-const bool kTriangleLights = (kFeatures & kFeatureTriangleLights) != 0u;
-const bool kSphereLights = (kFeatures & kFeatureSphereLights) != 0u;
-const bool kPunctualLights = (kFeatures & kFeaturePunctualLights) != 0u;
-const bool kEnvironment = (kFeatures & kFeatureEnvironment) != 0u;
+
+// Whether the scene needs the feature, one of shared/features.h.
+bool hasFeature(uint feature)
+{
+    return (kFeatures & feature) != 0u;
+}
+
+// Lights that a ray may hit by chance.
+bool hasEnvironment() { return hasFeature(kFeatureEnvironment); }
+bool hasEmissiveSurfaces() { return hasFeature(kFeatureTriangleLights) || hasFeature(kFeatureSphereLights); }
 
 layout(constant_id = kSpecStackLevels) const uint kStackLevels = kMaxStackLevels;
 layout(constant_id = kSpecSobol) const bool kSobol = true;

@@ -57,7 +57,7 @@ SurfaceInteraction interactionWithTriangle(Record record, vec2 barycentric)
     vec3 n = triangleNormal(v0, floatsOf(record.t1), floatsOf(record.t2));
     SurfaceInteraction si = SurfaceInteraction(trianglePoint(v0, e1, e2, barycentric), triangleErrorBound(v0, e1, e2), n, n, barycentric,
                                                true, materialOf(record), primitiveOf(record), record.t2.w);
-    if (kSmooth) {
+    if (hasFeature(kFeatureSmooth)) {
         vec3 smoothed = vertexNormal(primitiveOf(record), barycentric);
         float square = dot(smoothed, smoothed);
         si.ns = square > 0.0 ? smoothed / sqrt(square) : n;

@@ -33,7 +33,7 @@ struct LightSample {
     float pdf;         // per steradian, the light's probability included; 0: a delta light, which no ray hits
     vec3 target;       // a point that shadow rays aim at, clear of the light's surface
     uint primitive;    // the light's surface, or kNoPrimitive
-    float tMax;       // 1: the light is at `target`; infinity: it is infinitely far
+    float tMax;        // 1: the light is at `target`; infinity: it is infinitely far
 };
 
 const LightSample kNoLight = LightSample(vec3(0.0), vec3(0.0), 0.0, vec3(0.0), kNoPrimitive, 1.0);
@@ -60,7 +60,7 @@ bool seesCone(vec3 from, float radius, out float sin2)
 float pdfSurfaceLight(FlatLight light, float areaPdf, LightContext context, float t, float cosine)
 {
     float sin2;
-    if (kSphereLights && light.kind == kSphereLight && seesCone(context.p - light.position, light.radius, sin2)) {
+    if (hasFeature(kFeatureSphereLights) && light.kind == kSphereLight && seesCone(context.p - light.position, light.radius, sin2)) {
         return light.probability * pdfCone(sin2);
     }
     return light.probability * areaPdf * t * t / cosine;
@@ -70,7 +70,7 @@ float pdfSurfaceLight(FlatLight light, float areaPdf, LightContext context, floa
 float pdfLight(LightContext context, LightHit hit)
 {
     FlatLight light = fetchLight(hit.light);
-    if (kEnvironment && light.kind == kEnvironmentLight) {
+    if (hasEnvironment() && light.kind == kEnvironmentLight) {
         return light.probability * pdfCosineHemisphere(hit.cosine);
     }
     return pdfSurfaceLight(light, fetchEmitter(hit.emitter).areaPdf, context, hit.t, hit.cosine);
@@ -177,16 +177,16 @@ LightSample sampleEnvironment(FlatLight light, LightContext context, vec2 u)
 // The density includes `light.probability`. choice: two words of random bits, u in [0, 1)^2.
 LightSample sampleLight(FlatLight light, LightContext context, uvec2 choice, vec2 u)
 {
-    if (kTriangleLights && light.kind == kTriangleLight) {
+    if (hasFeature(kFeatureTriangleLights) && light.kind == kTriangleLight) {
         return sampleTriangleLight(light, context, choice, u);
     }
-    if (kSphereLights && light.kind == kSphereLight) {
+    if (hasFeature(kFeatureSphereLights) && light.kind == kSphereLight) {
         return sampleSphereLight(light, context, u);
     }
-    if (kEnvironment && light.kind == kEnvironmentLight) {
+    if (hasEnvironment() && light.kind == kEnvironmentLight) {
         return sampleEnvironment(light, context, u);
     }
-    if (kPunctualLights && light.kind >= kPointLight && light.kind <= kDirectionalLight) {
+    if (hasFeature(kFeaturePunctualLights) && light.kind >= kPointLight && light.kind <= kDirectionalLight) {
         return samplePunctualLight(light, context.p);
     }
     return kNoLight;

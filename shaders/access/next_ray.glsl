@@ -17,10 +17,9 @@ BsdfSample sampleNextRay(SampleId id, Bsdf bsdf, vec3 wo, uint bounce, out float
     return sampleBsdf(bsdf, wo, u, lobe.x);
 }
 
-// The including file defines these: path_vertex.glsl, and course/bounce.glsl for the course. Whether the sampled ray can add light, and
-// roulette's probability that it is traced.
-bool canAddLight(BsdfSample s, uint bounce);
-float continuationOf(vec3 throughput, float etaScale, uint bounce);
+// Roulette's probability that the sampled ray is traced. The including file defines it: path_vertex.glsl, and course/bounce.glsl for the
+// course. `throughput` includes the sample's weight.
+float continuationOf(BsdfSample s, vec3 throughput, float etaScale, uint bounce);
 
 // Samples the BSDF and plays roulette. False if the path ends: ray and state are then of no use.
 bool bouncePath(SampleId id, SurfaceInteraction si, Bsdf bsdf, vec3 wo, out PathRay ray, inout PathState state)
@@ -30,8 +29,8 @@ bool bouncePath(SampleId id, SurfaceInteraction si, Bsdf bsdf, vec3 wo, out Path
     vec3 throughput = state.throughput * s.weight;
     noteBounce(s.weight, throughput);
     float etaScale = state.etaScale * (s.eta * s.eta);
-    float continuation = continuationOf(throughput, etaScale, state.bounce);
-    bool scatters = any(notEqual(throughput, vec3(0.0))) && canAddLight(s, state.bounce);
+    float continuation = continuationOf(s, throughput, etaScale, state.bounce);
+    bool scatters = any(notEqual(throughput, vec3(0.0)));
     if (scatters) {
         noteContinuation(continuation);
     }

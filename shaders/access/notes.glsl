@@ -6,12 +6,13 @@
 
 layout(set = 0, binding = kBindNote, scalar) writeonly buffer NoteBuffer { PathNote pathNote; };
 
-void noteSurface(SurfaceInteraction si, vec3 wo)
+// ns: the shading normal that the BSDF uses.
+void noteSurface(SurfaceInteraction si, vec3 ns)
 {
     if (kNotes) {
         pathNote.point = si.p;
         pathNote.ng = si.ng;
-        pathNote.ns = visibleNormal(si, wo);
+        pathNote.ns = ns;
         pathNote.front = uint(si.front);
     }
 }

@@ -43,9 +43,7 @@ float misWeightOfSample(float lightPdf, float bsdfPdf)
     return lightPdf > 0.0 ? powerHeuristic(lightPdf, bsdfPdf) : 1.0;
 }
 
-bool canAddLight(BsdfSample s, uint bounce) { return true; }
-
-float continuationOf(vec3 throughput, float etaScale, uint bounce)
+float continuationOf(BsdfSample s, vec3 throughput, float etaScale, uint bounce)
 {
     return continuationProbability(throughput, etaScale, bounce);
 }
@@ -63,10 +61,10 @@ VertexResult shadeSurface(SampleId id, PathRay ray, PathHit hit, PathState state
     SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
     MaterialData material = fetchMaterial(si.material);
     Bsdf bsdf = makeBsdf(si, material, wo);
-    noteSurface(si, wo);
+    noteSurface(si, bsdf.frame.z);
     VertexResult result;
     result.emitted = vec3(0.0);
-    if (kTriangleLights || kSphereLights) {
+    if (hasEmissiveSurfaces()) {
         result.emitted = state.throughput * weightedEmission(si, material, ray, hit, state);
     }
     result.firstHit = makeFirstHit(si, material, wo);

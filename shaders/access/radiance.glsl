@@ -11,18 +11,17 @@ bool isLengthInRange(uint pathLength)
     return pathLength >= render.minPathLength && pathLength <= render.maxPathLength;
 }
 
-// The contribution is one of `samples` that add up to an estimate: the limit of its clamp is divided among them.
-PathRadiance addLight(PathRadiance sum, vec3 contribution, uint pathLength, uint samples)
+PathRadiance addLight(PathRadiance sum, vec3 contribution, uint pathLength, float clampLimit)
 {
-    ClampedLight light = clampIndirect(contribution, pathLength, render.clampIndirect / float(samples));
+    ClampedLight light = clampIndirect(contribution, pathLength, clampLimit);
     return PathRadiance(sum.radiance + light.kept, sum.clamped + light.removed);
 }
 
 #if defined(UPDATES_RADIANCE)
-void addRadiance(uint slot, vec3 contribution, uint pathLength, uint samples)
+void addRadiance(uint slot, vec3 contribution, uint pathLength)
 {
     if (isLengthInRange(pathLength)) {
-        pathRadiance[slot] = addLight(fetchRadiance(slot), contribution, pathLength, samples);
+        pathRadiance[slot] = addLight(fetchRadiance(slot), contribution, pathLength, render.clampIndirect);
     }
 }
 #endif

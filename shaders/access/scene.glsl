@@ -65,12 +65,12 @@ uint primitiveOf(Record record)
 
 bool isSphere(Record record)
 {
-    return kSpheres && (record.t1.w & kSphereBit) != 0u;
+    return hasFeature(kFeatureSpheres) && (record.t1.w & kSphereBit) != 0u;
 }
 
 bool isSliver(Record record)
 {
-    return kSlivers && (record.t1.w & kSliverBit) != 0u;
+    return hasFeature(kFeatureSlivers) && (record.t1.w & kSliverBit) != 0u;
 }
 
 uint materialOf(Record record)

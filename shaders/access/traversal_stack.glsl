@@ -21,11 +21,11 @@ bool hasAny(NodeGroup group)
 }
 
 // Takes the nearest.
-uint takeNode(inout NodeGroup group, uint ahead)
+uint takeNode(inout NodeGroup group, uint octant)
 {
     uint bit = uint(findMSB(group.left));
     group.left &= ~(1u << bit);
-    uint place = (bit - kFirstNodeBit) ^ ahead;
+    uint place = (bit - kFirstNodeBit) ^ octant;
     return group.first + bitCount(group.left & ~(0xffffffffu << place) & 0xffu);
 }
 

@@ -2,11 +2,11 @@
 #ifndef GLIM_ACCESS_TRAVERSE
 #define GLIM_ACCESS_TRAVERSE
 
-#include "bvh_walk.glsl"
+#include "bvh_traversal.glsl"
 
-TriangleHit intersectTriangle(Walk walk, Record record, float tMax)
+TriangleHit intersectTriangle(TraversalRay traversal, Record record, float tMax)
 {
-    return intersectWatertight(walk.origin, walk.shear, floatsOf(record.t0), floatsOf(record.t1), floatsOf(record.t2), tMax,
+    return intersectWatertight(traversal.origin, traversal.shear, floatsOf(record.t0), floatsOf(record.t1), floatsOf(record.t2), tMax,
                                isSliver(record));
 }
 

@@ -29,41 +29,41 @@ void keepBrightest(uint at, float luminance, uint sampleIndex)
 }
 
 // What one thread adds: which pixel's samples to which place of the film.
-struct Target {
+struct PassPixel {
     uint pixel, at, firstSample;
 };
 
-Target targetOf(uint pixel)
+PassPixel passPixel(uint pixel)
 {
     bool every = (pass.accumulate & kEveryPixel) != 0u;
-    return Target(pixel, every ? pixel : pixelOfPass(pixel), every ? pass.firstSample : firstSampleOfPass(pixel));
+    return PassPixel(pixel, every ? pixel : pixelOfPass(pixel), every ? pass.firstSample : firstSampleOfPass(pixel));
 }
 
-BlockSums addFinished(Target target, uint i, BlockSums sums)
+BlockSums addFinished(PassPixel from, uint i, BlockSums sums)
 {
-    uint slot = target.pixel * pass.sampleCount + i;
+    uint slot = from.pixel * pass.sampleCount + i;
     PathRadiance path = fetchRadiance(slot);
     if (!isFinite(path.radiance)) {
-        reportNonFinite(pass.tileBegin + target.at, target.firstSample + i);
+        reportNonFinite(pass.tileBegin + from.at, from.firstSample + i);
         return sums;
     }
     FirstHit first = fetchFirstHit(slot);
     if (kSuspects) {
-        keepBrightest(target.at, luminanceOf(path.radiance), target.firstSample + i);
+        keepBrightest(from.at, luminanceOf(path.radiance), from.firstSample + i);
     }
     return addSample(sums, path, first);
 }
 
 // Whether a block ends with the pass's sample i.
-bool endsBlock(Target target, uint i)
+bool endsBlock(PassPixel from, uint i)
 {
-    uint sampleIndex = target.firstSample + i;
+    uint sampleIndex = from.firstSample + i;
     return (sampleIndex + 1u) % blockSamples(sampleIndex) == 0u;
 }
 
-void addPixel(Target target)
+void addPixel(PassPixel from)
 {
-    BlockSums sums = filmBlocks[target.at];
+    BlockSums sums = filmBlocks[from.at];
     if (sums.count == 0u) {
         sums = emptyBlock();  // the host fills new blocks with zeros
     }
@@ -72,22 +72,22 @@ void addPixel(Target target)
     for (uint i = 0u; i <= pass.sampleCount; ++i) {
         bool ends = (pass.accumulate & kEndsBlock) != 0u;
         if (i < pass.sampleCount) {
-            sums = addFinished(target, i, sums);
-            ends = endsBlock(target, i);
+            sums = addFinished(from, i, sums);
+            ends = endsBlock(from, i);
         }
         if (ends) {
-            filmPages[target.at] = foldMoments(filmPages[target.at], momentsOfBlock(sums));
+            filmPages[from.at] = foldMoments(filmPages[from.at], momentsOfBlock(sums));
             sums = emptyBlock();
         }
     }
-    filmBlocks[target.at] = sums;
+    filmBlocks[from.at] = sums;
 }
 
 void main()
 {
     uint pixel = interleavedInvocation();
     if (pixel < pass.pixelCount) {
-        addPixel(targetOf(pixel));
+        addPixel(passPixel(pixel));
     }
     checkLoopBudget(render.canarySteps);
 }

@@ -25,8 +25,8 @@ void visitMiss(uint slot, PathRay ray, PathState state)
     if (pass.bounce == 0u) {
         pathFirstHits[slot] = makeNoFirstHit();
     }
-    if (kEnvironment) {
-        addRadiance(slot, shadeMiss(ray, state), pass.bounce, 1u);
+    if (hasEnvironment()) {
+        addRadiance(slot, shadeMiss(ray, state), pass.bounce);
     }
 }
 
@@ -36,8 +36,8 @@ void visitSurface(uint slot, PathRay ray, PathHit hit, PathState state)
     if (pass.bounce == 0u) {
         pathFirstHits[slot] = vertex.firstHit;
     }
-    if (kTriangleLights || kSphereLights) {
-        addRadiance(slot, vertex.emitted, pass.bounce, 1u);
+    if (hasEmissiveSurfaces()) {
+        addRadiance(slot, vertex.emitted, pass.bounce);
     }
     if (vertex.hasShadowRay) {
         pathShadowRays[slot] = vertex.shadowRay;

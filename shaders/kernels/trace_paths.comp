@@ -41,7 +41,7 @@ Path takePath(uint slot)
 void addLight(inout Path path, vec3 contribution, uint pathLength)
 {
     if (isLengthInRange(pathLength)) {
-        path.light = addLight(path.light, contribution, pathLength, 1u);
+        path.light = addLight(path.light, contribution, pathLength, render.clampIndirect);
     }
 }
 
@@ -50,7 +50,7 @@ void visitMiss(inout Path path)
     if (path.state.bounce == 0u) {
         pathFirstHits[path.slot] = makeNoFirstHit();
     }
-    if (kEnvironment) {
+    if (hasEnvironment()) {
         addLight(path, shadeMiss(path.ray, path.state), path.state.bounce);
     }
 }
@@ -73,7 +73,7 @@ bool visitSurface(inout Path path, PathHit hit, inout Work work)
     if (path.state.bounce == 0u) {
         pathFirstHits[path.slot] = vertex.firstHit;
     }
-    if (kTriangleLights || kSphereLights) {
+    if (hasEmissiveSurfaces()) {
         addLight(path, vertex.emitted, path.state.bounce);
     }
     if (vertex.hasShadowRay) {

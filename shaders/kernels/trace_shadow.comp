@@ -17,7 +17,7 @@ void main()
         uint slot = shadowQueue[entry];
         ShadowRay ray = fetchShadowRay(slot);
         if (isUnoccluded(ray)) {
-            addRadiance(slot, ray.contribution, pass.bounce + 1u, 1u);
+            addRadiance(slot, ray.contribution, pass.bounce + 1u);
         }
     }
     checkLoopBudget(render.canarySteps);

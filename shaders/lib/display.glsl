@@ -1,17 +1,13 @@
-// Converts pixels to display colours, each channel from 0 to 1. host/render/look.cpp does the same for files.
+// Converts pixels to display colours, each channel from 0 to 1. host/render/aov.cpp does the same for files.
 #ifndef GLIM_LIB_DISPLAY
 #define GLIM_LIB_DISPLAY
 
+#include "finite.glsl"
 #include "shared/display_types.h"
 #include "shared/pixel_moments.h"
 
 // Shown for pixels that are not finite.
 const vec3 kMagenta = vec3(1.0, 0.0, 1.0);
-
-bool isFinite(vec3 v)
-{
-    return all(lessThan(floatBitsToUint(v) & 0x7fffffffu, uvec3(0x7f800000u)));
-}
 
 // The sRGB transfer function, IEC 61966-2-1, of x clipped to 0..1.
 float encodeSrgb(float x)
@@ -50,12 +46,12 @@ vec3 normalColor(PixelMoments pixel)
 }
 
 // `pixel` has at least one sample.
-vec3 displayColor(PixelMoments pixel, uint look, DisplayPass pass)
+vec3 displayColor(PixelMoments pixel, uint aov, DisplayPass pass)
 {
     if (!isFinite(pixel.mean)) {
         return kMagenta;
     }
-    switch (look) {
+    switch (aov) {
     case kAovNormal: return roundToBytes(normalColor(pixel));
     case kAovDepth: return roundToBytes(depthColor(pixel, pass.low, pass.high));
     case kAovAlbedo: return roundToBytes(encodeSrgb(pass.scale * pixel.albedo));

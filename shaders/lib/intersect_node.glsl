@@ -23,8 +23,8 @@ vec3 reciprocalDirection(vec3 d)
     return 1.0 / uintBitsToFloat(floatBitsToUint(clamped) | sign);
 }
 
-// Bit k is set if the ray goes up axis k. The larger i ^ placesAhead, the earlier the ray reaches the child in place i.
-uint placesAhead(vec3 reciprocal)
+// Bit k is set if the ray goes up axis k. The larger i ^ rayOctant, the earlier the ray reaches the child in place i.
+uint rayOctant(vec3 reciprocal)
 {
     uvec3 up = (floatBitsToUint(reciprocal) >> 31u) ^ 1u;
     return up.x | up.y << 1u | up.z << 2u;
@@ -58,12 +58,12 @@ bool meetsChild(Slabs slabs, uint shift, Grid grid, int last)
     return max(max(n.x, n.y), max(n.z, 0)) <= min(min(f.x, f.y), min(f.z, last));
 }
 
-uint hitsOfFour(Slabs slabs, Grid grid, uint entries, uint ahead, int last)
+uint hitsOfFour(Slabs slabs, Grid grid, uint entries, uint octant, int last)
 {
     // For all four at once: which bits to set, and where. Places of inner children (kFirstNodeBit and up) are permuted so that the nearest
     // is uppermost.
     uint nodes = (entries & entries << 1u) & 0x10101010u;
-    uint places = (entries ^ (nodes >> 4u) * ahead) & 0x1f1f1f1fu;
+    uint places = (entries ^ (nodes >> 4u) * octant) & 0x1f1f1f1fu;
     uint bits = entries >> 5u & 0x07070707u;
     uint hits = 0u;
     hits |= meetsChild(slabs, 0u, grid, last) ? (bits & 7u) << (places & 31u) : 0u;
@@ -73,17 +73,17 @@ uint hitsOfFour(Slabs slabs, Grid grid, uint entries, uint ahead, int last)
     return hits;
 }
 
-// The word of hits of a node (scene_types.h) within [0, tMax]. The bits of inner children are in the order of placesAhead.
-uint hitsOfNode(uvec4 head, uvec4 content, uvec4 a, uvec4 b, uvec4 c, vec3 origin, vec3 reciprocal, uint ahead, float tMax)
+// The word of hits of a node (scene_types.h) within [0, tMax]. The bits of inner children are in the order of rayOctant.
+uint hitsOfNode(uvec4 head, uvec4 content, uvec4 a, uvec4 b, uvec4 c, vec3 origin, vec3 reciprocal, uint octant, float tMax)
 {
     Grid grid = makeGrid(head, origin, reciprocal);
-    uvec2 xNear = (ahead & 1u) != 0u ? a.xy : b.zw, xFar = (ahead & 1u) != 0u ? b.zw : a.xy;
-    uvec2 yNear = (ahead & 2u) != 0u ? a.zw : c.xy, yFar = (ahead & 2u) != 0u ? c.xy : a.zw;
-    uvec2 zNear = (ahead & 4u) != 0u ? b.xy : c.zw, zFar = (ahead & 4u) != 0u ? c.zw : b.xy;
+    uvec2 xNear = (octant & 1u) != 0u ? a.xy : b.zw, xFar = (octant & 1u) != 0u ? b.zw : a.xy;
+    uvec2 yNear = (octant & 2u) != 0u ? a.zw : c.xy, yFar = (octant & 2u) != 0u ? c.xy : a.zw;
+    uvec2 zNear = (octant & 4u) != 0u ? b.xy : c.zw, zFar = (octant & 4u) != 0u ? c.zw : b.xy;
     int last = floatBitsToInt(tMax * kFarPad);
     Slabs first = Slabs(uvec3(xNear.x, yNear.x, zNear.x), uvec3(xFar.x, yFar.x, zFar.x));
     Slabs second = Slabs(uvec3(xNear.y, yNear.y, zNear.y), uvec3(xFar.y, yFar.y, zFar.y));
-    return hitsOfFour(first, grid, content.z, ahead, last) | hitsOfFour(second, grid, content.w, ahead, last);
+    return hitsOfFour(first, grid, content.z, octant, last) | hitsOfFour(second, grid, content.w, octant, last);
 }
 
 #endif

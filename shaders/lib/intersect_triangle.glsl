@@ -17,7 +17,7 @@ vec2 barycentricOf(TriangleHit hit)
 }
 
 // Which component of a vector goes to an axis: x, y, or, if neither, z.
-struct Source {
+struct Component {
     bool x, y;
 };
 
@@ -25,12 +25,12 @@ struct Source {
 // the winding.
 struct Shear {
     vec3 s;  // shear x, shear y, scale z
-    Source x, y, z;
+    Component x, y, z;
 };
 
-float pick(vec3 v, Source source)
+float pick(vec3 v, Component component)
 {
-    return source.x ? v.x : source.y ? v.y : v.z;
+    return component.x ? v.x : component.y ? v.y : v.z;
 }
 
 vec3 permute(vec3 v, Shear shear)
@@ -38,19 +38,19 @@ vec3 permute(vec3 v, Shear shear)
     return vec3(pick(v, shear.x), pick(v, shear.y), pick(v, shear.z));
 }
 
-Source sourceOf(uint component)
+Component componentOf(uint index)
 {
-    return Source(component == 0u, component == 1u);
+    return Component(index == 0u, index == 1u);
 }
 
 Shear makeShear(vec3 d)
 {
     vec3 a = abs(d);
     uint z = a.z >= a.x && a.z >= a.y ? 2u : (a.x >= a.y ? 0u : 1u);
-    bool flip = pick(d, sourceOf(z)) < 0.0;
+    bool flip = pick(d, componentOf(z)) < 0.0;
     uint next = z == 2u ? 0u : z + 1u;
     uint last = z == 0u ? 2u : z - 1u;
-    Shear shear = Shear(vec3(0.0), sourceOf(flip ? last : next), sourceOf(flip ? next : last), sourceOf(z));
+    Shear shear = Shear(vec3(0.0), componentOf(flip ? last : next), componentOf(flip ? next : last), componentOf(z));
     vec3 p = permute(d, shear);
     shear.s = vec3(p.x / p.z, p.y / p.z, 1.0 / p.z);
     return shear;

@@ -13,8 +13,8 @@ const uint kDimensionBounce = 1u;
 const uint kDimensionLight = 0u;    // which light: bin, threshold
 const uint kDimensionEmitter = 1u;  // which of its triangles: bin, threshold
 const uint kDimensionPoint = 2u;    // where on it
-const uint kDimensionBsdf = 3u;  // direction of the next ray
-const uint kDimensionLobe = 4u;     // reflect or refract; roulette
+const uint kDimensionBsdf = 3u;     // direction of the next ray
+const uint kDimensionLobe = 4u;     // which lobe; the second number is roulette's
 const uint kDimensionsPerBounce = 5u;
 
 // Bounces with Sobol' points; beyond them paths are too blurred to gain, and independent numbers are cheaper.
@@ -52,13 +52,6 @@ uvec2 samplePair(SampleId id, uint dimension, bool sobol)
 {
     bool early = dimension < bounceDimension(kSobolBounces, 0u) || dimension == kDimensionLens;
     return sobol && early ? sobolPair(id, dimension) : independentPair(id, dimension);
-}
-
-// The id of number `k` of the `count` samples that one camera sample takes of light `light`. Together they are points [index * count, index
-// * count + count) of a sequence that belongs to this light.
-SampleId splitSample(SampleId id, uint light, uint k, uint count)
-{
-    return SampleId(hash4(uvec4(id.seed, light, 0u, 0u)).x, id.pixel, id.index * count + k);
 }
 
 #endif

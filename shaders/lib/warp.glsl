@@ -42,18 +42,6 @@ vec2 sampleCircle(float u)
     return point / length(point);
 }
 
-// The hemisphere about +z, z > 0.
-vec3 sampleUniformHemisphere(vec2 u)
-{
-    float r = sqrt(u.x * (2.0 - u.x));
-    return vec3(r * sampleCircle(u.y), 1.0 - u.x);
-}
-
-float pdfUniformHemisphere()
-{
-    return 1.0 / (2.0 * kPi);
-}
-
 // The unit sphere, pdf 1/(4 pi) per steradian.
 vec3 sampleSphere(vec2 u)
 {

@@ -34,9 +34,12 @@ GLIM_CONST uint kBindRayCounts = 18u;
 GLIM_CONST uint kBindBlocks = 19u;
 GLIM_CONST uint kBindPages = 20u;
 GLIM_CONST uint kBindLuminance = 21u;
-GLIM_CONST uint kBindChosenPixels = 22u;
 GLIM_CONST uint kBindBrightest = 23u;
+// pass.glsl
+GLIM_CONST uint kBindChosenPixels = 22u;
+// notes.glsl
 GLIM_CONST uint kBindNote = 24u;
+// status.glsl
 GLIM_CONST uint kBindStatus = 25u;
 // course/: the parameters of the course's estimators
 GLIM_CONST uint kBindCourseParameters = 33u;

@@ -15,9 +15,8 @@ GLIM_CONST uint kRouletteThroughput = 0u;  // as the production kernels do
 GLIM_CONST uint kRouletteFixed = 1u;
 GLIM_CONST uint kRouletteNone = 2u;
 
-// Values of CourseRound::light that are no light of the scene.
-GLIM_CONST uint kNoLightIndex = 0xffffffffu;
-GLIM_CONST uint kAnyLight = 0xfffffffeu;  // one, chosen by power
+// CourseRound::light: one, chosen by power.
+GLIM_CONST uint kAnyLight = 0xfffffffeu;
 
 // Direct light is estimated in rounds of one ray per path: sample `lightSample` of `lightSamples` of one light or of the hemisphere. Brute
 // force runs in several dispatches, each over records [firstRecord, endRecord).

@@ -46,22 +46,22 @@ struct ShadowRay {
     vec3 origin;
     uint source;
     vec3 direction;  // unnormalised; the unit direction for directional lights and the environment (see `tMax`)
-    uint target;     // primitive of the light, which does not shadow itself, or kNoPrimitive
+    uint target;     // primitive of the light, which does not shadow itself, or kNoPrimitive; of hemisphere rays the record met so far
     vec3 contribution;
     float tMax;  // 1, or infinity
 };
 
-GLIM_CONST uint kNothing = 0xffffffffu;
+GLIM_CONST uint kNoLightIndex = 0xffffffffu;
 
 // What happened at a path's vertex, as far as no other buffer holds it. Lengths and directions as in PathRay, pdfs per steradian.
 struct PathNote {
     vec3 point;
-    vec3 ng;  // unit normals on the side that the path came from
-    vec3 ns;
+    vec3 ng;               // unit geometric normal on the side that the path came from
+    vec3 ns;               // unit, the BSDF's
     uint front;            // 1: that side is the front
     float lightPdfOfHit;   // of light sampling, for the light that the ray has hit; 0: not evaluated
     float misWeightOfHit;  // MIS weight of that light; 1 unless noted
-    uint light;            // index of the sampled light, or kNothing
+    uint light;            // index of the sampled light, or kNoLightIndex
     float lightPdf;        // of choosing that light and that direction; 0: a point, spot or directional light
     float bsdfPdf;         // of BSDF sampling, for that direction
     float misWeightOfLight;
@@ -124,7 +124,7 @@ struct ChosenPixel {
     uint samplesBefore;  // added to the pass's firstSample
 };
 
-// Which queues size_dispatch looks at.
+// Which queues size_dispatch sizes.
 GLIM_CONST uint kSizesPaths = 1u;
 GLIM_CONST uint kSizesShadow = 2u;
 GLIM_CONST uint kSizesShares = 4u;  // the paths, for trace_paths, which counts its rays itself

@@ -7,10 +7,10 @@
 #include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/scene/load_gltf.hpp"
-#include "tests/support/bench_scenes.hpp"
 #include "tests/bench/embree.hpp"
 #include "tests/bench/growth.hpp"
 #include "tests/bench/recorded.hpp"
+#include "tests/support/bench_scenes.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -112,7 +112,7 @@ void measure(Device& device, Place place, const BenchScene& bench)
 
 void run(const std::vector<std::string>& files)
 {
-    const Instance instance;
+    const VulkanInstance instance;
     Device device(instance, std::nullopt);
     const Place place{device.description().name + ", " + device.description().driver, readText(GLIM_BENCH_TABLE), ""};
     std::printf("## %s\n", place.device.c_str());

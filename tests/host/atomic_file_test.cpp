@@ -1,5 +1,5 @@
-#include "host/error.hpp"
 #include "host/image/atomic_file.hpp"
+#include "host/error.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>

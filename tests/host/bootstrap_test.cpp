@@ -40,7 +40,7 @@ void expectCoverage(const std::string& what, int held)
 {
     const double share = static_cast<double>(held) / kTrials;
     std::cout << "  " << what << ": " << 100.0 * share << " % of intervals hold the truth\n";
-    EXPECT_NEAR(share, 0.95, test::shareReach(0.95, kTrials)) << what;
+    EXPECT_NEAR(share, 0.95, test::shareMargin(0.95, kTrials)) << what;
 }
 
 TEST(Student, LimitsAreTheTabulatedOnes)

@@ -1,8 +1,8 @@
 // Binning costs nothing that counts: the builder's trees are as good as those of a full sweep. Its threads change nothing.
 #include "host/bench/make_hills.hpp"
 #include "host/bvh/build_bvh.hpp"
-#include "host/bvh/parallel_for.hpp"
 #include "host/bvh/collapse_bvh.hpp"
+#include "host/bvh/parallel_for.hpp"
 #include "host/flatten/build_scene_bvh.hpp"
 #include "tests/support/bench_scenes.hpp"
 #include "tests/support/sweep_tree.hpp"

@@ -1,6 +1,6 @@
 // Each invariant of Scene is broken in turn.
-#include "host/error.hpp"
 #include "host/scene/check_scene.hpp"
+#include "host/error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // The wide tree keeps the invariants of wide_bvh.hpp, and no other choice of nodes would be cheaper.
+#include "host/bvh/collapse_bvh.hpp"
 #include "host/bvh/build_bvh.hpp"
 #include "host/bvh/surface_area.hpp"
-#include "host/bvh/collapse_bvh.hpp"
 #include "host/flatten/build_scene_bvh.hpp"
 #include "shaders/shared/scene_types.h"
 #include "tests/support/random.hpp"

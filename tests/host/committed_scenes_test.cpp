@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Counts {
-    std::size_t triangles, spheres, lights, cameras, notices;
+    std::size_t triangles, spheres, lights, cameras, warnings;
 };
 
 TEST(CommittedScenes, LoadWithNoSurprises)
@@ -48,8 +48,8 @@ TEST(CommittedScenes, LoadWithNoSurprises)
         EXPECT_EQ(scene.spheres.size(), counts.spheres) << name;
         EXPECT_EQ(scene.lights.size(), counts.lights) << name;
         EXPECT_EQ(scene.cameras.size(), counts.cameras) << name;
-        EXPECT_EQ(scene.notices.size() + makePrimitives(scene).notices.size(), counts.notices)
-            << name << ::testing::PrintToString(scene.notices);
+        EXPECT_EQ(scene.warnings.size() + makePrimitives(scene).warnings.size(), counts.warnings)
+            << name << ::testing::PrintToString(scene.warnings);
         ++found;
     }
     EXPECT_EQ(found, expected.size());

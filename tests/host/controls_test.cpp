@@ -1,6 +1,6 @@
 // What the mouse and the keys do to a camera.
 #include "host/preview/controls.hpp"
-#include "host/flatten/view_options.hpp"
+#include "host/flatten/camera_options.hpp"
 #include "host/preview/viewpoint.hpp"
 
 #include "host/error.hpp"
@@ -146,7 +146,7 @@ TEST(ViewpointTest, IsTheFilesCameraUntilItMoves)
     expectNear(viewpoint.pose().at, {1, 0, 0});
     viewpoint.move([](const Pose& pose) { return fly(pose, {0, 0, 1}); });
     EXPECT_EQ(viewpoint.camera().position, glm::vec3(1, 0, 9));
-    EXPECT_EQ(viewOptions(viewpoint.moved(), {}), " --look-from 1,0,9 --look-at 1,0,-1 --look-up 0,1,0");
+    EXPECT_EQ(cameraOptions(viewpoint.moved(), {}), " --look-from 1,0,9 --look-at 1,0,-1 --look-up 0,1,0");
     EXPECT_FALSE(viewpoint.choose(2));
     EXPECT_TRUE(viewpoint.choose(1));
     EXPECT_FALSE(viewpoint.moved());
@@ -157,12 +157,12 @@ TEST(ViewpointTest, IsTheFilesCameraUntilItMoves)
 
 TEST(ViewOptionsTest, AreExact)
 {
-    EXPECT_EQ(viewOptions(std::nullopt, {}), "");
+    EXPECT_EQ(cameraOptions(std::nullopt, {}), "");
     const Pose pose{{0.1, 1e-7, -3}, {1.0 / 3.0, 0, 0}, {0, 0, 1}, 2.5};
-    EXPECT_EQ(viewOptions(pose, {0.1F, 3.0F}),
+    EXPECT_EQ(cameraOptions(pose, {0.1F, 3.0F}),
               " --look-from 0.1,1e-07,-3 --look-at 0.3333333333333333,0,0 --look-up 0,0,1 --zoom 2.5"
               " --lens-radius 0.1 --focal-distance 3");
-    EXPECT_EQ(describeView(pose, {}), " look-from=0.1,1e-07,-3 look-at=0.3333333333333333,0,0 look-up=0,0,1 zoom=2.5");
+    EXPECT_EQ(describeCamera(pose, {}), " look-from=0.1,1e-07,-3 look-at=0.3333333333333333,0,0 look-up=0,0,1 zoom=2.5");
 }
 
 // A camera that the user has moved stays where it is when the scene's file changes.

@@ -1,5 +1,5 @@
-#include "host/error.hpp"
 #include "host/image/exr.hpp"
+#include "host/error.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <OpenEXR/ImfChannelList.h>

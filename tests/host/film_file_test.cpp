@@ -1,6 +1,6 @@
+#include "host/render/film_file.hpp"
 #include "host/error.hpp"
 #include "host/image/exr.hpp"
-#include "host/render/film_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/simulated_film.hpp"
 

@@ -1,6 +1,6 @@
 // What the picture of each AOV and of the samples per pixel looks like.
-#include "host/image/heat_color.hpp"
 #include "host/render/film_pictures.hpp"
+#include "host/image/heat_color.hpp"
 #include "host/render/settings.hpp"
 #include "tests/support/decode_png.hpp"
 #include "tests/support/scratch_folder.hpp"

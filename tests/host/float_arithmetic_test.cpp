@@ -3,8 +3,8 @@
 #include "tests/support/hard_case.hpp"
 #include "tests/support/random.hpp"
 
-#include <glm/glm.hpp>
 #include <gtest/gtest.h>
+#include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 
 #include <cfloat>

@@ -27,7 +27,7 @@ glm::vec3 vertex(const Scene& scene, std::size_t triangle, int corner)
 glm::vec3 normal(const Scene& scene, std::size_t triangle, int corner)
 {
     const Primitives primitives = makePrimitives(scene);
-    return primitives.normals.at(primitives.vertices.at(triangle)[corner]);
+    return primitives.vertexNormals.at(primitives.vertexIndices.at(triangle)[corner]);
 }
 
 template <typename Component>
@@ -74,7 +74,7 @@ TEST(GltfAccessor, ReadsInterleavedAttributesWithOffsets)
     // Position, then normal, 24 bytes a vertex.
     const std::vector<float> values = {0, 0, 0, 0, 0, 1, 2, 0, 0, 0, 0.6F, 0.8F, 0, 3, 0, 0, 0, 5};
     GltfBuilder builder;
-    const std::size_t view = builder.addView(toBytes(values));
+    const std::size_t view = builder.addAov(toBytes(values));
     builder.document["bufferViews"][view]["byteStride"] = 24;
     json accessor = {{"bufferView", view}, {"componentType", kFloat}, {"type", "VEC3"}, {"count", 3}};
     const std::size_t positions = builder.append("accessors", accessor);
@@ -91,8 +91,8 @@ TEST(GltfAccessor, ReadsInterleavedAttributesWithOffsets)
 json sparseOf(GltfBuilder& builder, const Bytes& indices, int indexType, const std::vector<float>& values)
 {
     return {{"count", values.size() / 3},
-            {"indices", {{"bufferView", builder.addView(indices)}, {"componentType", indexType}}},
-            {"values", {{"bufferView", builder.addView(toBytes(values))}}}};
+            {"indices", {{"bufferView", builder.addAov(indices)}, {"componentType", indexType}}},
+            {"values", {{"bufferView", builder.addAov(toBytes(values))}}}};
 }
 
 TEST(GltfAccessor, ReplacesSparseElements)
@@ -123,8 +123,8 @@ TEST(GltfAccessor, SparseIndicesWithoutBufferViewAreReadToo)
     GltfBuilder builder;
     json indices = {{"componentType", kUnsignedShort}, {"type", "SCALAR"}, {"count", 3}};
     indices["sparse"] = {{"count", 2},
-                         {"indices", {{"bufferView", builder.addView({1, 2})}, {"componentType", kUnsignedByte}}},
-                         {"values", {{"bufferView", builder.addView(toBytes<std::uint16_t>({2, 1}))}}}};
+                         {"indices", {{"bufferView", builder.addAov({1, 2})}, {"componentType", kUnsignedByte}}},
+                         {"values", {{"bufferView", builder.addAov(toBytes<std::uint16_t>({2, 1}))}}}};
     const std::size_t accessor = builder.append("accessors", indices);
     const std::size_t positions = builder.addVec3({0, 0, 0, 1, 0, 0, 0, 1, 0});
     builder.addNode({{"mesh", builder.addMesh({{"attributes", {{"POSITION", positions}}}, {"indices", accessor}})}});
@@ -183,11 +183,9 @@ TEST(GltfAccessor, PointsAndLinesAreLeftOutAndSaidSo)
     builder.addNode({{"mesh", builder.addTriangleMesh()}});
     const Scene scene = load(builder);
     EXPECT_EQ(makePrimitives(scene).triangles.size(), 1U);
-    ASSERT_GE(scene.notices.size(), 2U);
-    EXPECT_EQ(scene.notices[0],
-              "meshes[0].primitives[0] holds lines and is left out: only triangles, strips and fans "
-              "are drawn");
-    EXPECT_NE(scene.notices[1].find("holds points"), std::string::npos);
+    ASSERT_GE(scene.warnings.size(), 2U);
+    EXPECT_NE(scene.warnings[0].find("meshes[0].primitives[0] holds lines"), std::string::npos);
+    EXPECT_NE(scene.warnings[1].find("holds points"), std::string::npos);
 }
 
 // A triangle with all attributes that a mesh can have; colours are normalised bytes without alpha, texture coordinates normalised shorts.
@@ -199,7 +197,7 @@ json everyAttribute(GltfBuilder& builder)
     attributes["TEXCOORD_0"] = builder.addAccessor(toBytes<float>({0, 0, 0.25F, 0, 0, 3}), kFloat, "VEC2", 3);
     attributes["TEXCOORD_1"] = builder.addAccessor(toBytes<std::uint16_t>({0, 0, 65535, 0, 0, 13107}), kUnsignedShort, "VEC2", 3);
     builder.document["accessors"].back()["normalized"] = true;
-    const std::size_t view = builder.addView({255, 0, 0, 0, 0, 255, 0, 0, 0, 0, 51, 0});
+    const std::size_t view = builder.addAov({255, 0, 0, 0, 0, 255, 0, 0, 0, 0, 51, 0});
     builder.document["bufferViews"][view]["byteStride"] = 4;
     attributes["COLOR_0"] = builder.append(
         "accessors", {{"bufferView", view}, {"componentType", kUnsignedByte}, {"type", "VEC3"}, {"count", 3}, {"normalized", true}});

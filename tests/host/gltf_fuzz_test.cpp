@@ -1,8 +1,8 @@
 // Any bytes give a scene that holds its invariants, or one sentence. tools/test --sanitize runs this too.
 #include "host/error.hpp"
 #include "host/scene/check_scene.hpp"
-#include "tests/support/gltf_builder.hpp"
 #include "places.h"
+#include "tests/support/gltf_builder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -77,8 +77,8 @@ TEST(GltfFuzz, SurvivesMutantsOfBinaryFiles)
     const std::size_t indices = builder.addAccessor({0, 1, 2, 2, 1, 3}, kUnsignedByte, "SCALAR", 6);
     builder.document["accessors"][positions]["sparse"] = {
         {"count", 1},
-        {"indices", {{"bufferView", builder.addView({2})}, {"componentType", kUnsignedByte}}},
-        {"values", {{"bufferView", builder.addView(toBytes<float>({0, 1, 0.5F}))}}}};
+        {"indices", {{"bufferView", builder.addAov({2})}, {"componentType", kUnsignedByte}}},
+        {"values", {{"bufferView", builder.addAov(toBytes<float>({0, 1, 0.5F}))}}}};
     const std::size_t mesh = builder.addMesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}, {"indices", indices}});
     builder.append("nodes", {{"mesh", mesh}, {"scale", {1, -2, 3}}});
     builder.addNode({{"children", {0}}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1}}});

@@ -1,7 +1,7 @@
 // Containers, hierarchy, recentring, and what the loader leaves out.
 #include "host/flatten/primitives.hpp"
-#include "tests/support/gltf_builder.hpp"
 #include "places.h"
+#include "tests/support/gltf_builder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -31,13 +31,13 @@ glm::vec3 vertex(const Scene& scene, std::size_t triangle, int corner)
 glm::vec3 normal(const Scene& scene, std::size_t triangle, int corner)
 {
     const Primitives primitives = makePrimitives(scene);
-    return primitives.normals.at(primitives.vertices.at(triangle)[corner]);
+    return primitives.vertexNormals.at(primitives.vertexIndices.at(triangle)[corner]);
 }
 
-bool hasNotice(const std::vector<std::string>& notices, const std::string& fragment)
+bool hasWarning(const std::vector<std::string>& warnings, const std::string& fragment)
 {
-    return std::any_of(notices.begin(), notices.end(),
-                       [&](const std::string& notice) { return notice.find(fragment) != std::string::npos; });
+    return std::any_of(warnings.begin(), warnings.end(),
+                       [&](const std::string& warning) { return warning.find(fragment) != std::string::npos; });
 }
 
 void expectTheTriangle(const Scene& scene)
@@ -169,7 +169,7 @@ TEST(LoadGltf, BadNormalsGiveWayToTheFaceNormal)
     EXPECT_EQ(normal(scene, 0, 0), glm::vec3(0, 0, 1));
     EXPECT_EQ(normal(scene, 0, 1), glm::vec3(0, 0, 1));
     EXPECT_EQ(normal(scene, 0, 2), glm::vec3(0, 1, 0));
-    EXPECT_TRUE(hasNotice(makePrimitives(scene).notices, "used the face normal in place of 2 normals"));
+    EXPECT_TRUE(hasWarning(makePrimitives(scene).warnings, "used the face normal in place of 2 normals"));
 }
 
 TEST(LoadGltf, H8RecentringLosesNothingFarFromTheOrigin)
@@ -215,8 +215,8 @@ TEST(LoadGltf, H44DropsWhatHasNoExtentAndCountsIt)
     const Primitives primitives = makePrimitives(scene);
     EXPECT_EQ(primitives.triangles.size(), 1U);
     EXPECT_TRUE(primitives.spheres.empty());
-    EXPECT_TRUE(hasNotice(primitives.notices, "left out 2 triangles of zero area"));
-    EXPECT_TRUE(hasNotice(scene.notices, "left out 1 spheres of zero radius"));
+    EXPECT_TRUE(hasWarning(primitives.warnings, "left out 2 triangles of zero area"));
+    EXPECT_TRUE(hasWarning(scene.warnings, "left out 1 sphere of zero radius"));
 }
 
 TEST(LoadGltf, ChoosesTheScene)
@@ -263,7 +263,7 @@ TEST(LoadGltf, ScalesSpheresUniformly)
 TEST(LoadGltf, KeepsImagesAsReferencesToTheirBytes)
 {
     GltfBuilder builder = oneTriangle();
-    const std::size_t view = builder.addView({1, 2, 3});
+    const std::size_t view = builder.addAov({1, 2, 3});
     const json entry = builder.document["bufferViews"][view];
     builder.append("images", {{"name", "wood"}, {"uri", "wood%201.png"}});
     builder.append("images", {{"bufferView", view}, {"mimeType", "image/jpeg"}});
@@ -288,10 +288,10 @@ TEST(LoadGltf, SaysWhatItDoesNotKnow)
     builder.document["skins"] = json::array({{{"joints", {0}}}});
     builder.document["nodes"][0]["skin"] = 0;
     const Scene scene = load(builder);
-    EXPECT_TRUE(hasNotice(scene.notices, "the extension EXT_mesh_gpu_instancing is ignored"));
-    EXPECT_FALSE(hasNotice(scene.notices, "KHR_materials_ior"));
-    EXPECT_TRUE(hasNotice(scene.notices, "animations are ignored"));
-    EXPECT_TRUE(hasNotice(scene.notices, "skins are ignored"));
+    EXPECT_TRUE(hasWarning(scene.warnings, "the extension EXT_mesh_gpu_instancing is ignored"));
+    EXPECT_FALSE(hasWarning(scene.warnings, "KHR_materials_ior"));
+    EXPECT_TRUE(hasWarning(scene.warnings, "animations are ignored"));
+    EXPECT_TRUE(hasWarning(scene.warnings, "skins are ignored"));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-#include "host/error.hpp"
 #include "host/image/png.hpp"
+#include "host/error.hpp"
 #include "tests/support/decode_png.hpp"
 #include "tests/support/scratch_folder.hpp"
 

@@ -1,11 +1,11 @@
-#include "host/flatten/flatten_scene.hpp"
 #include "host/flatten/primitives.hpp"
+#include "host/flatten/flatten_scene.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/test_meshes.hpp"
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace glim {
 namespace {
@@ -44,18 +44,18 @@ TEST(PrimitivesTest, AreTheTrianglesOfEachInstanceInTurn)
     EXPECT_EQ(primitives.instanceOf(2), 1U);
     EXPECT_EQ(primitives.triangles[0].vertices[1], glm::vec3(0, 0, 0));
     EXPECT_EQ(primitives.triangles[3].vertices[2], glm::vec3(3, 1, 0));
-    EXPECT_TRUE(primitives.normals.empty() && primitives.vertices.empty());
+    EXPECT_TRUE(primitives.vertexNormals.empty() && primitives.vertexIndices.empty());
 }
 
 TEST(PrimitivesTest, TrianglesShareTheirMeshsVertices)
 {
     const Primitives primitives = makePrimitives(sceneWith({square(true), square(false)}, {{"flat", 1}, {"smooth", 0}}));
-    EXPECT_EQ(primitives.normals.size(), 5U) << "none, and four of the square's";
-    EXPECT_EQ(primitives.vertices[0], glm::uvec3(0));
-    EXPECT_EQ(primitives.normals[0], glm::vec3(0.0F));
-    EXPECT_EQ(primitives.vertices[2], glm::uvec3(1, 2, 3));
-    EXPECT_EQ(primitives.vertices[3], glm::uvec3(1, 3, 4));
-    EXPECT_EQ(primitives.normals[4], glm::vec3(0, 0, 1));
+    EXPECT_EQ(primitives.vertexNormals.size(), 5U) << "none, and four of the square's";
+    EXPECT_EQ(primitives.vertexIndices[0], glm::uvec3(0));
+    EXPECT_EQ(primitives.vertexNormals[0], glm::vec3(0.0F));
+    EXPECT_EQ(primitives.vertexIndices[2], glm::uvec3(1, 2, 3));
+    EXPECT_EQ(primitives.vertexIndices[3], glm::uvec3(1, 3, 4));
+    EXPECT_EQ(primitives.vertexNormals[4], glm::vec3(0, 0, 1));
 }
 
 // The same square without indices: six corners with three different unit normals.
@@ -69,9 +69,9 @@ TEST(PrimitivesTest, TrianglesWithoutIndicesShareEqualNormals)
         corners.indices.push_back(static_cast<std::uint32_t>(corners.indices.size()));
     }
     const Primitives primitives = makePrimitives(sceneWith({corners}, {{"", 0}}));
-    EXPECT_EQ(primitives.vertices[0], glm::uvec3(1, 2, 3));
-    EXPECT_EQ(primitives.vertices[1], glm::uvec3(1, 3, 1)) << "(0, 0, 2) is as long as (0, 0, 1) once it is a unit vector";
-    EXPECT_EQ(primitives.normals.size(), 4U);
+    EXPECT_EQ(primitives.vertexIndices[0], glm::uvec3(1, 2, 3));
+    EXPECT_EQ(primitives.vertexIndices[1], glm::uvec3(1, 3, 1)) << "(0, 0, 2) is as long as (0, 0, 1) once it is a unit vector";
+    EXPECT_EQ(primitives.vertexNormals.size(), 4U);
 }
 
 TEST(PrimitivesTest, ABadNormalGivesWayToTheFaceOfEachTriangle)
@@ -80,11 +80,11 @@ TEST(PrimitivesTest, ABadNormalGivesWayToTheFaceOfEachTriangle)
     bent.positions[3] = {0, 1, 1};
     bent.normals[0] = glm::dvec3(0.0);
     const Primitives primitives = makePrimitives(sceneWith({bent}, {{"", 0}}));
-    EXPECT_EQ(primitives.normals[primitives.vertices[0].x], glm::vec3(0, 0, 1));
-    const glm::vec3 other = primitives.normals[primitives.vertices[1].x];
+    EXPECT_EQ(primitives.vertexNormals[primitives.vertexIndices[0].x], glm::vec3(0, 0, 1));
+    const glm::vec3 other = primitives.vertexNormals[primitives.vertexIndices[1].x];
     EXPECT_LT(glm::length(other - glm::normalize(glm::vec3(1, -1, 1))), 1e-6F);
-    ASSERT_EQ(primitives.notices.size(), 1U);
-    EXPECT_EQ(primitives.notices[0].find("used the face normal in place of 2 normals"), 0U);
+    ASSERT_EQ(primitives.warnings.size(), 1U);
+    EXPECT_EQ(primitives.warnings[0].find("used the face normal in place of 2 normals"), 0U);
 }
 
 // Triangles whose vertices coincide in float32 have no area.
@@ -94,7 +94,8 @@ TEST(PrimitivesTest, WhatHasNoAreaHasNoId)
     const Primitives primitives = makePrimitives(sceneWith({square(true)}, {{"tiny", 0, tiny}, {"", 0}}));
     EXPECT_EQ(primitives.firstTriangles, (std::vector<std::uint32_t>{0, 0, 2}));
     EXPECT_EQ(primitives.instanceOf(0), 1U);
-    EXPECT_EQ(primitives.notices, (std::vector<std::string>{"left out 2 triangles of zero area"}));
+    ASSERT_EQ(primitives.warnings.size(), 1U);
+    EXPECT_NE(primitives.warnings[0].find("2 triangles"), std::string::npos);
     const FlatScene flat = flattened(sceneWith({square(true)}, {{"tiny", 0, tiny}, {"", 0}}));
     EXPECT_EQ(flat.triangles.size(), 2U);
 }
@@ -103,7 +104,7 @@ TEST(PrimitivesTest, VerticesThatNoTriangleHasAreLeftOut)
 {
     Mesh part = square(true);
     part.indices.resize(3);
-    EXPECT_EQ(makePrimitives(sceneWith({part}, {{"", 0}})).normals.size(), 4U);
+    EXPECT_EQ(makePrimitives(sceneWith({part}, {{"", 0}})).vertexNormals.size(), 4U);
 }
 
 // Normals are per primitive, not per record.

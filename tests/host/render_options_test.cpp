@@ -1,6 +1,6 @@
 // Each option of `render` stores its value. Options that do not go together are refused with the option, its value and a reason.
-#include "host/cli/parse.hpp"
 #include "host/cli/render_options.hpp"
+#include "host/cli/parse.hpp"
 
 #include <gtest/gtest.h>
 
@@ -233,7 +233,7 @@ TEST(RenderOptions, ReplaysRefuseWhatIsOfPictures)
         const std::string name = option.substr(0, option.find(' ')), value = option.substr(name.size() + 1);
         expectRefused("--replay 1,2,3 " + option, name + ": \"" + value + "\": has no effect with --replay");
     }
-    expectRefused("--replay 1,2,3 --view normal", "--view: \"normal\": has no paths; expected --view shaded with --replay");
+    expectRefused("--replay 1,2,3 --view normal", "--view: \"normal\": has no light paths to replay; expected --view shaded");
     EXPECT_TRUE(parse("--replay 1,2,3 --view shaded").replay);
     for (const std::string place :
          {"1,2", "1,2,3,4", "1,,3", "a,2,3", "1,2,", "-1,2,3", "1.5,2,3", "65535,0,0", "0,65535,0", "0,0,2147483648", "+1,2,3"}) {

@@ -32,9 +32,9 @@ std::vector<std::uint32_t> primitivesOf(const Bvh& bvh, std::size_t leaf)
     return primitives;
 }
 
-// By hand: the mean of 0 1 2 3 4 5 6 35 is 7, which one cube is beyond; the mean of the other seven is 3, which only three are
-// below, and of their sides the first divides above 0, the other in the middle. Half the area of a row of n cubes is 2 n + 1.
-TEST(SplitRules, MeanDividesAtTheMeanOfTheCentres)
+// By hand: the mean of 0 1 2 3 4 5 6 35 is 7; one cube lies above it. The other seven have mean 3, with three cubes below. Of these two
+// halves, the first splits above 0, the second in the middle. Half the area of a row of n cubes is 2 n + 1.
+TEST(SplitRules, MeanSplitsAtTheMeanOfTheCentres)
 {
     for (const int axis : {0, 1, 2}) {
         const Bvh bvh = buildBvh(makeCubes({3, 35, 0, 5, 1, 6, 2, 4}, axis), SplitRule::Mean);
@@ -50,7 +50,7 @@ TEST(SplitRules, MeanDividesAtTheMeanOfTheCentres)
 }
 
 // By hand: four on either side, 4 and 32 long, then two, of which the last are 30.
-TEST(SplitRules, MedianDividesByCount)
+TEST(SplitRules, MedianSplitsByCount)
 {
     const Bvh bvh = buildBvh(makeCubes({3, 35, 0, 5, 1, 6, 2, 4}, 0), SplitRule::Median);
     ASSERT_EQ(bvh.nodes.size(), 7U);

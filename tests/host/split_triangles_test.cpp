@@ -1,8 +1,8 @@
 // Pieces hold their triangles and waste less; a tree is made of them where that is cheaper, and holds every primitive.
+#include "host/flatten/split_triangles.hpp"
 #include "host/bvh/build_bvh.hpp"
 #include "host/bvh/collapse_bvh.hpp"
 #include "host/flatten/build_scene_bvh.hpp"
-#include "host/flatten/split_triangles.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/test_meshes.hpp"

@@ -77,7 +77,7 @@ TEST(SummarizeBench, SlopeOfIndependentSamplesIsMinusOneAsOftenAsItClaims)
         shallow += interval.value > -1.0 + 4.0728 * jackknifeError(bench.seeds.size(), slope);
     }
     std::cout << "  " << held << " of " << kTrials << " intervals hold -1\n";
-    EXPECT_NEAR(static_cast<double>(held) / kTrials, 0.95, test::shareReach(0.95, kTrials));
+    EXPECT_NEAR(static_cast<double>(held) / kTrials, 0.95, test::shareMargin(0.95, kTrials));
     EXPECT_EQ(shallow, 0);
     expectSampleMean("slope", slopes, -1.0, 4);
 }

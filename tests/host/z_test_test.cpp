@@ -1,6 +1,6 @@
+#include "host/measure/z_test.hpp"
 #include "host/error.hpp"
 #include "host/measure/confidence.hpp"
-#include "host/measure/z_test.hpp"
 #include "tests/support/noisy_picture.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 
 using test::addNoise;
 using test::makeTruth;
-using test::shareReach;
+using test::shareMargin;
 
 constexpr int kTrials = 2000;
 constexpr float kNoise = 0.3F;
@@ -50,10 +50,10 @@ Rejections rejectCorrect(std::uint32_t width, std::uint32_t height)
 TEST(ZTest, RejectsCorrectPicturesAtTheNominalRate)
 {
     const Rejections share = rejectCorrect(61, 35);  // with narrow blocks at two edges
-    EXPECT_NEAR(share.means, 0.05, shareReach(0.05, kTrials));
-    EXPECT_NEAR(share.blocks, 0.05, shareReach(0.05, kTrials));
+    EXPECT_NEAR(share.means, 0.05, shareMargin(0.05, kTrials));
+    EXPECT_NEAR(share.blocks, 0.05, shareMargin(0.05, kTrials));
     // Three channels of P(|chi^2_40 / 40 - 1| > 4 sqrt(2 / 40)) = 4.0e-4, as that distribution is skewed.
-    EXPECT_LT(share.spread, 0.0012 + shareReach(0.0012, kTrials));
+    EXPECT_LT(share.spread, 0.0012 + shareMargin(0.0012, kTrials));
 }
 
 TEST(ZTest, ZHasUnitVariance)
@@ -81,7 +81,7 @@ TEST(ZTest, FindsTheBiasItSaysItWouldFind)
         const ZTest test = zTest(addNoise(biased, kNoise, trial), truth);
         found += std::abs(test.meanZ[0]) > test.meanLimit;  // red, which with green has the noisier mean
     }
-    EXPECT_NEAR(found / kTrials, 0.95, shareReach(0.95, kTrials));
+    EXPECT_NEAR(found / kTrials, 0.95, shareMargin(0.95, kTrials));
 }
 
 TEST(ZTest, FindsOnePercent)

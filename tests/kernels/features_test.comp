@@ -25,15 +25,9 @@ bool isNeeded(uint feature)
 void main()
 {
     if (TEST_THREAD == 0u) {
-        EXPECT_TRUE(kSpheres == isNeeded(kFeatureSpheres));
-        EXPECT_TRUE(kSlivers == isNeeded(kFeatureSlivers));
-        EXPECT_TRUE(kSmooth == isNeeded(kFeatureSmooth));
-        EXPECT_TRUE(kMirrors == isNeeded(kFeatureMirror));
-        EXPECT_TRUE(kDielectrics == isNeeded(kFeatureGlass));
-        EXPECT_TRUE(kTriangleLights == isNeeded(kFeatureTriangleLights));
-        EXPECT_TRUE(kSphereLights == isNeeded(kFeatureSphereLights));
-        EXPECT_TRUE(kPunctualLights == isNeeded(kFeaturePunctualLights));
-        EXPECT_TRUE(kEnvironment == isNeeded(kFeatureEnvironment));
+        for (uint bit = 0u; bit < 32u; ++bit) {
+            EXPECT_TRUE(hasFeature(1u << bit) == isNeeded(1u << bit));
+        }
         EXPECT_TRUE(kSobol == isExpected(kSpecSobol));
         EXPECT_TRUE(kLens == isExpected(kSpecLens));
         EXPECT_TRUE(kChosen == isExpected(kSpecChosen));

@@ -50,7 +50,7 @@ bool isUnit(const vec3& v)
     return std::abs(length - 1.0) <= 4e-7;
 }
 
-void compareWithNaive(const std::vector<Case>& cases)
+void printCases(const std::vector<Case>& cases)
 {
     double worst = 0.0;
     std::size_t notUnit = 0;
@@ -62,8 +62,6 @@ void compareWithNaive(const std::vector<Case>& cases)
                   "Frisvad: off by " + figure(worst));
     printHardCase("H39", "vectors of length 1e-30 to 1e30", static_cast<double>(cases.size()), "unit within 4e-7",
                   "v / |v|: " + std::to_string(notUnit) + " not unit");
-    EXPECT_GT(worst, 5e-7);
-    EXPECT_GT(notUnit, cases.size() / 10);
 }
 
 // Any direction, directions within 1e-7 to 1e-3 of both poles, and the axes with zeros of either sign.
@@ -88,7 +86,7 @@ TEST(FrameTest, H17H39IsOrthonormalAndRightHanded)
         }
         KernelTest(test_kernels::frame_test).cases(cases).run();
         if (round == 0) {
-            compareWithNaive(cases);
+            printCases(cases);
         }
     }
 }

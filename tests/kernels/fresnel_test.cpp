@@ -131,7 +131,6 @@ TEST(FresnelTest, H21AgreesWithTheSineAndTangentLaws)
     }
     printHardCase("H21", "indices 1/3 to 3, the critical angle, grazing", 1.0 * kCases * hardRounds(kCases),
                   "within the rounding of the angle", "no clamps: " + std::to_string(wrong) + " wrong or NaN");
-    EXPECT_GT(wrong, 1000U);
 }
 
 }  // namespace

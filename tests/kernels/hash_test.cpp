@@ -62,7 +62,6 @@ TEST(HashTest, H31H32IsPcg4dAndNeverReachesOne)
         std::count_if(cases.begin(), cases.end(), [](const Case& c) { return static_cast<float>(c.bits) * 0x1p-32F >= 1.0F; });
     printHardCase("H31", "the 512 largest and smallest numbers, and others", static_cast<double>(cases.size()), "all in [0, 1)",
                   "float(u) 2^-32: " + std::to_string(ones) + " are 1");
-    EXPECT_GT(ones, 0);
 }
 
 // A linear congruential generator seeded with the pixel's number: its first draw in neighbouring pixels.
@@ -99,7 +98,6 @@ TEST(HashTest, H32NeighboursAreUncorrelated)
     }
     printHardCase("H32", "neighbouring pixels, samples, dimensions", 6.0 * n, "correlation at most " + figure(worst),
                   "seeded by the pixel's number: " + figure(naiveCorrelation(n)));
-    EXPECT_GT(naiveCorrelation(n), 3.76 / std::sqrt(static_cast<double>(n)));
 }
 
 }  // namespace

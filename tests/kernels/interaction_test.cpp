@@ -146,8 +146,8 @@ void SurfaceTest::checkTriangle(const Primitives& primitives, std::uint32_t id, 
     }
     dvec3 shading = n;
     if (primitives.instanceOf(id) == kSmooth) {
-        const glm::uvec3 m = primitives.vertices[id];
-        const auto normal = [&](int v) { return dvec3(primitives.normals[m[v]]); };
+        const glm::uvec3 m = primitives.vertexIndices[id];
+        const auto normal = [&](int v) { return dvec3(primitives.vertexNormals[m[v]]); };
         shading = glm::normalize((1.0 - b1 - b2) * normal(0) + b1 * normal(1) + b2 * normal(2));
         ++smoothed_;
     }

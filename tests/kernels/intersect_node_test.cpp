@@ -23,7 +23,7 @@ struct Case {
     std::array<uvec4, kNodeTexels> texels;
     vec3 origin, direction;
     float tmax;
-    std::uint32_t nudges, mustHit, mustMiss, ahead;
+    std::uint32_t nudges, mustHit, mustMiss, octant;
 };
 
 struct Tree {
@@ -116,11 +116,11 @@ void countNaive(NaiveMisses& naive, const Box& box, const Case& c)
 }
 
 // The bits that a child has in a word of hits.
-std::uint32_t bitsOf(const WideNode& node, std::uint32_t place, std::uint32_t ahead)
+std::uint32_t bitsOf(const WideNode& node, std::uint32_t place, std::uint32_t octant)
 {
     const WideChild& child = node.children[place];
     if (child.kind == WideChild::Kind::Inner) {
-        return 1U << (kFirstNodeBit + (place ^ ahead));
+        return 1U << (kFirstNodeBit + (place ^ octant));
     }
     std::uint32_t before = 0;
     for (std::uint32_t i = 0; i < place; ++i) {
@@ -145,7 +145,7 @@ void judge(Case& c, const WideNode& node)
     std::uint32_t all = 0;
     for (std::uint32_t i = 0; i < kBvhWidth; ++i) {
         const WideChild& child = node.children[i];
-        const std::uint32_t bits = bitsOf(node, i, c.ahead);
+        const std::uint32_t bits = bitsOf(node, i, c.octant);
         all |= bits;
         if (bits != 0) {
             const auto needed = enterBox(child.box, c, glm::dvec3(0.0)), grown = enterBox(child.box, c, padOf(c, child.box));
@@ -173,7 +173,7 @@ Case rayAt(const Tree& tree, Random& random, double scale, NaiveMisses& naive)
         const std::uint32_t where = random.below(3);
         const double lo = static_cast<double>(box.lo[k]), hi = static_cast<double>(box.hi[k]);
         target[k] = where == 0 ? lo : where == 1 ? hi : static_cast<double>(static_cast<float>(glm::mix(lo, hi, random.uniform())));
-        c.ahead |= std::signbit(c.direction[k]) ? 0U : 1U << k;
+        c.octant |= std::signbit(c.direction[k]) ? 0U : 1U << k;
     }
     if (random.below(8) == 0) {
         target += scale * random.logUniform(1e-6, 1.0) * random.normalVector();
@@ -188,7 +188,7 @@ Case rayAt(const Tree& tree, Random& random, double scale, NaiveMisses& naive)
         c.tmax = static_cast<float>(0.99 * distance);
     }
     judge(c, node);
-    if ((c.mustHit & bitsOf(node, place, c.ahead)) != 0) {
+    if ((c.mustHit & bitsOf(node, place, c.octant)) != 0) {
         countNaive(naive, box, c);
     }
     return c;

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
-#include "lib/intersect_moller_trumbore.glsl"
+#include "lib/course/intersect_moller_trumbore.glsl"
 #include "lib/intersect_triangle.glsl"
 
 const uint kMiss = 0u;

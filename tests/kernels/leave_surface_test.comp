@@ -45,10 +45,10 @@ void leave(PathRay ray, PathHit hit, Record record, float size)
     EXPECT_TRUE(dot(origin - surface.p, normal) >= 0.0);
     float offset = largest(origin - surface.p) - 4.8e-7 * largest(surface.p);
     atomicMax(tally.largestOffset, floatBitsToUint(max(0.0, offset / size)));
-    bool again = intersectRecord(beginWalk(origin, wi), record, kInfinity, false).t > 0.0;
+    bool again = intersectRecord(makeTraversalRay(origin, wi), record, kInfinity, false).t > 0.0;
     PathHit next = traceClosest(PathRay(origin, surface.primitive, wi, 0u));
     vec3 naive = ray.origin + ray.direction * hit.t;
-    bool naiveAgain = intersectRecord(beginWalk(naive, wi), record, kInfinity, false).t > 1e-4;
+    bool naiveAgain = intersectRecord(makeTraversalRay(naive, wi), record, kInfinity, false).t > 1e-4;
     atomicAdd(tally.naiveHits, naiveAgain ? 1u : 0u);
     atomicAdd(tally.left, 1u);
     atomicAdd(tally.selfHits, again ? 1u : 0u);
@@ -71,7 +71,7 @@ void main()
     vec3 direction = sampleSphere(unitFloat(randomBits(2u).xy));
     float distance_ = setup.reach > 0.0 ? 4.0 * setup.reach : 0.5 * size;
     PathRay ray = PathRay(target - direction * distance_, kNoPrimitive, direction, 0u);
-    TriangleHit hit = intersectRecord(beginWalk(ray.origin, ray.direction), record, kInfinity, false);
+    TriangleHit hit = intersectRecord(makeTraversalRay(ray.origin, ray.direction), record, kInfinity, false);
     if (hit.t > 0.0) {
         leave(ray, PathHit(index, hit.t, barycentricOf(hit)), record, size);
     }

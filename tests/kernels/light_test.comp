@@ -70,7 +70,7 @@ void comparePdf(Receiver receiver, LightSample light, inout Result result)
     float cosine = abs(dot(met.ng, light.wi));
     // Nearer to grazing the rounding of the directions alone is more than the tolerance.
     if (cosine > 3e-3) {
-        float pdf = pdfLight(LightContext(origin, met.ng, met.ns), LightHit(emitter.light, met.emitter - 1u, hit.t, cosine));
+        float pdf = pdfLight(LightContext(origin, receiver.surface.ns, receiver.surface.ns), LightHit(emitter.light, met.emitter - 1u, hit.t, cosine));
         result.pdfError = max(result.pdfError, abs(pdf - light.pdf) / light.pdf);
         ++result.compared;
     }
@@ -86,6 +86,7 @@ void main()
         uvec4 a = hash4(uvec4(TEST_THREAD, i, 0u, render.seed));
         uvec4 b = hash4(uvec4(TEST_THREAD, i, 1u, render.seed));
         uint chosen = selectLight(a.xy, render.lightCount);
+        // At the point itself, for which the host knows the irradiance; makeLightContext moves it by its error bound.
         LightContext context = LightContext(receiver.surface.p, receiver.surface.ng, receiver.surface.ns);
         LightSample light = sampleLight(fetchLight(chosen), context, a.zw, unitFloat(b.xy));
         float one = estimate(receiver, light);

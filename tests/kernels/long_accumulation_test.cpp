@@ -5,8 +5,8 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/limits.h"
 #include "tests/support/hard_case.hpp"
-#include "tests/support/random.hpp"
 #include "tests/support/parameters_buffer.hpp"
+#include "tests/support/random.hpp"
 #include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>

@@ -2,13 +2,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define UPDATES_RADIANCE
+#include "access/course/radiance.glsl"
 #include "expect.glsl"
-#include "access/radiance.glsl"
 
 struct Case {
     vec3 contribution;
     uint pathLength;
-    uint samples;
+    uint share;  // 1: one of the light samples of a round
 };
 
 layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
@@ -17,8 +17,11 @@ void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        addRadiance(TEST_THREAD, c.contribution, c.pathLength, c.samples);
-        EXPECT_TRUE(c.samples > 0u);
+        if (c.share != 0u) {
+            addShareOfRadiance(TEST_THREAD, c.contribution, c.pathLength);
+        } else {
+            addRadiance(TEST_THREAD, c.contribution, c.pathLength);
+        }
     }
     endTest();
 }

@@ -11,10 +11,12 @@
 namespace glim {
 namespace {
 
+constexpr uint kLightSamples = 8;
+
 struct Case {
     vec3 contribution;
     uint pathLength;
-    uint samples;  // that the contribution is one of
+    uint share;
 };
 
 // Light that met two surfaces or more keeps its colour and has no channel above the limit; the mean of what is lost is reported.
@@ -38,15 +40,16 @@ void expectSums(float limit, uint least, uint most)
         before.push_back({vec3(light(random), light(random), 0.5F), 0.1F * light(random)});
         const vec3 contribution(light(random), i % 7 == 0 ? 0.0F : light(random), 0.1F * light(random));
         const uint pathLength = i % 4;
-        const uint samples = i % 3 == 0 ? 8 : 1;
+        const uint share = i % 3 == 0 ? 1 : 0;
         const bool wanted = pathLength >= least && pathLength <= most;
-        cases.push_back({contribution, pathLength, samples});
-        expected.push_back(wanted ? add(before.back(), glm::dvec3(contribution), pathLength, static_cast<double>(limit) / samples)
-                                  : before.back());
+        cases.push_back({contribution, pathLength, share});
+        const double clampLimit = static_cast<double>(limit) / (share != 0 ? kLightSamples : 1);
+        expected.push_back(wanted ? add(before.back(), glm::dvec3(contribution), pathLength, clampLimit) : before.back());
     }
     Buffer sums(testDevice(), "test's radiance", BufferKind::Both, before.size() * sizeof(PathRadiance));
     upload(sums, std::span<const PathRadiance>(before));
     KernelTest test(test_kernels::radiance_test);
+    test.lightRound().lightSamples = kLightSamples;
     test.parameters().clampIndirect = limit;
     test.parameters().minPathLength = least;
     test.parameters().maxPathLength = most;

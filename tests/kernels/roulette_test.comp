@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
-#include "lib/fixed_roulette.glsl"
+#include "lib/course/fixed_roulette.glsl"
 #include "lib/roulette.glsl"
 
 struct Case {

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
-#include "lib/sampler.glsl"
+#include "lib/course/split_sample.glsl"
 
 struct Case {
     uint seed, pixel, index, dimension;

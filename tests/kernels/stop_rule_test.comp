@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
-#include "lib/stop_rule.glsl"
+#include "lib/course/stop_rule.glsl"
 
 struct Case {
     LuminanceMoments moments;

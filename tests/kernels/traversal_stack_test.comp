@@ -1,4 +1,4 @@
-// One thread is one walk through a tree: the children that it meets at each step, and the node group that must come next.
+// One thread is one traversal of a tree: the children that it meets at each step, and the node group that must come next.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
@@ -14,14 +14,14 @@ struct Step {
 struct Case {
     Step steps[kSteps];
     // Inner children of one node, by place; and their indices among these, in the order in which they must be taken.
-    uint inner, ahead, count;
+    uint inner, octant, count;
     uint order[8];
 };
 
 layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
 layout(set = 0, binding = kBindResults, scalar) writeonly buffer Results { uint results[]; };
 
-void walk(uint thread)
+void traverse(uint thread)
 {
     TraversalStack stack = makeTraversalStack();
     for (uint i = 0u; i < kSteps; ++i) {
@@ -37,12 +37,12 @@ void takeAll(uint thread)
 {
     uint turned = 0u;
     for (uint place = 0u; place < 8u; ++place) {
-        turned |= (cases[thread].inner >> place & 1u) << (kFirstNodeBit + (place ^ cases[thread].ahead));
+        turned |= (cases[thread].inner >> place & 1u) << (kFirstNodeBit + (place ^ cases[thread].octant));
     }
     NodeGroup group = NodeGroup(100u, turned | cases[thread].inner);
     for (uint i = 0u; i < cases[thread].count; ++i) {
         EXPECT_TRUE(hasAny(group));
-        uint taken = takeNode(group, cases[thread].ahead);
+        uint taken = takeNode(group, cases[thread].octant);
         EXPECT_EQUAL(taken, 100u + cases[thread].order[i]);
     }
     EXPECT_TRUE(!hasAny(group));
@@ -51,7 +51,7 @@ void takeAll(uint thread)
 void main()
 {
     if (isTestThread()) {
-        walk(TEST_THREAD);
+        traverse(TEST_THREAD);
         takeAll(TEST_THREAD);
         results[TEST_THREAD] = 1u;
     }

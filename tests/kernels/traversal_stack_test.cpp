@@ -26,7 +26,7 @@ struct Step {
 
 struct Case {
     std::array<Step, kSteps> steps;
-    uint inner, ahead, count;
+    uint inner, octant, count;
     std::array<uint, 8> order;
 };
 
@@ -70,14 +70,14 @@ std::array<Step, kSteps> makeSteps(NodeGroupMaker& maker, std::size_t levels, do
     return steps;
 }
 
-// The nearest first: the larger place ^ ahead is, the nearer the child.
-void makeOrder(Case& c, uint inner, uint ahead)
+// The nearest first: the larger place ^ octant is, the nearer the child.
+void makeOrder(Case& c, uint inner, uint octant)
 {
     c.inner = inner;
-    c.ahead = ahead;
+    c.octant = octant;
     c.count = 0;
     for (uint nearness = 8; nearness-- > 0;) {
-        const uint place = nearness ^ ahead;
+        const uint place = nearness ^ octant;
         if ((inner >> place & 1U) != 0) {
             c.order[c.count++] = static_cast<uint>(std::popcount(inner & ((1U << place) - 1)));
         }

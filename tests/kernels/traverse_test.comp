@@ -21,12 +21,12 @@ layout(set = 0, binding = kBindResults, scalar) writeonly buffer Results { Resul
 
 PathHit tryAll(PathRay ray, uint records)
 {
-    Walk walk = beginWalk(ray.origin, ray.direction);
+    TraversalRay traversal = makeTraversalRay(ray.origin, ray.direction);
     PathHit best = PathHit(kNoRecord, kInfinity, vec2(0.0));
     uint bestId = 0xffffffffu;
     for (uint i = 0u; i < records; ++i) {
         Record record = fetchRecord(i);
-        TriangleHit hit = intersectRecord(walk, record, kInfinity, primitiveOf(record) == ray.source);
+        TriangleHit hit = intersectRecord(traversal, record, kInfinity, primitiveOf(record) == ray.source);
         if (hit.t > 0.0 && (hit.t < best.t || (hit.t == best.t && primitiveOf(record) < bestId))) {
             best = PathHit(i, hit.t, barycentricOf(hit));
             bestId = primitiveOf(record);
@@ -37,11 +37,11 @@ PathHit tryAll(PathRay ray, uint records)
 
 bool isUnoccludedByAny(ShadowRay ray, uint records)
 {
-    Walk walk = beginWalk(ray.origin, ray.direction);
+    TraversalRay traversal = makeTraversalRay(ray.origin, ray.direction);
     bool free = true;
     for (uint i = 0u; i < records; ++i) {
         Record record = fetchRecord(i);
-        TriangleHit hit = intersectRecord(walk, record, ray.tMax, primitiveOf(record) == ray.source);
+        TriangleHit hit = intersectRecord(traversal, record, ray.tMax, primitiveOf(record) == ray.source);
         free = free && (primitiveOf(record) == ray.target || !(hit.t > 0.0));
     }
     return free;

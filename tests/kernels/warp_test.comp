@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
-#include "lib/warp.glsl"
+#include "lib/course/uniform_hemisphere.glsl"
 
 struct Case {
     vec2 u;

@@ -4,9 +4,9 @@
 #include "host/bench/summarize_bench.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/scene/load_gltf.hpp"
+#include "places.h"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/test_device.hpp"
-#include "places.h"
 
 #include <gtest/gtest.h>
 
@@ -56,8 +56,8 @@ protected:
     {
         const BenchSummary summary = summarizeBench(measure(settings));
         std::cout << "  " << what << ": slope " << summary.slope.value << " [" << summary.slope.low << ", " << summary.slope.high
-                  << "], limit " << -1.0 + summary.slopeTest.slopeReach << "; bias^2 " << summary.slopeTest.bias << ", limit "
-                  << summary.slopeTest.biasReach << '\n';
+                  << "], limit " << -1.0 + summary.slopeTest.slopeMargin << "; bias^2 " << summary.slopeTest.bias << ", limit "
+                  << summary.slopeTest.biasLimit << '\n';
         return summary;
     }
 
@@ -100,7 +100,7 @@ TEST_F(BenchTest, SlopeTestHoldsForBothSamplers)
     const BenchSummary independent = summarize("independent", settings);
     EXPECT_TRUE(sobol.slopeTest.holds());
     EXPECT_TRUE(independent.slopeTest.holds());
-    EXPECT_GT(independent.slopeTest.slope, -1.0 - independent.slopeTest.slopeReach);
+    EXPECT_GT(independent.slopeTest.slope, -1.0 - independent.slopeTest.slopeMargin);
     EXPECT_FALSE(sobol.points.back().floorLimited);
 }
 

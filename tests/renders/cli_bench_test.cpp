@@ -110,7 +110,7 @@ TEST(BenchCommandTest, RefusesBeforeAnyWork)
     expectSentence(with({"--reference", "r.exr", "--make-reference"}), 2, "--reference excludes --make-reference");
     expectSentence(with({"other.gltf", "--reference", "r.exr"}), 2, "--reference: \"r.exr\": expected one SCENE with it, not 2");
     expectSentence(with({"folder/no-such-scene.glb"}), 2, "SCENE: \"folder/no-such-scene.glb\": expected scenes of different names");
-    expectSentence(with({"--light-samples", "4"}), 2, "--light-samples: \"4\": expected --direct lights");
+    expectSentence(with({"--light-samples", "4"}), 2, "--light-samples: \"4\": has an effect only with --direct lights");
     expectSentence(with({"--against", (folder / "none.json").string()}), 1, "none.json: cannot be read");
     expectSentence(with({"--against", output}), 1, "x.json: cannot be");
     expectSentence(runGlim({"bench", "x.gltf", "-o", (folder / "x.txt").string()}), 1, "does not end in .json");
@@ -163,7 +163,7 @@ TEST(BenchKernelsTest, TellsWhichVariantIsFastest)
     EXPECT_GT(picture.at("traceSeconds"), 0.0);
     EXPECT_NEAR(picture.at("traceShare").get<double>() * picture.at("seconds").at("median").get<double>(),
                 picture.at("traceSeconds").get<double>(), 1e-9);
-    EXPECT_TRUE(contains(run.out, "\npicture, 8 samples a pixel, ")) << run.out;
+    EXPECT_TRUE(contains(run.out, "\npicture, 8 samples per pixel, ")) << run.out;
     EXPECT_EQ(countLines(run.out), 2U + 18U + 1U) << run.out;
 }
 

@@ -52,20 +52,22 @@ double bytesPerTriangle(const Scene& scene)
     return bytes;
 }
 
-// With vertex normals: those of the hills are shared by their triangles, those of the others are not.
+// With vertex normals, each another one: those of the hills are shared by their triangles, those of the others belong to one corner each.
 TEST(CountersTest, BytesOfASmoothTriangle)
 {
-    for (const auto& [scene, limit] : {std::pair{makeHills(200), 100.0}, {bumpyBall(5), 140.0}, {forest(60), 140.0}}) {
+    for (const auto& [scene, limit] : {std::pair{makeHills(200), 85.0}, {bumpyBall(5), 126.0}, {forest(60), 126.0}}) {
         Scene smooth = scene;
         Mesh& mesh = smooth.meshes.back();
-        mesh.normals.assign(mesh.positions.size(), glm::dvec3(0, 1, 0));
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            mesh.normals.emplace_back(1.0, static_cast<double>(i), 0.0);
+        }
         EXPECT_LT(bytesPerTriangle(smooth), limit);
     }
 }
 
-// At every hit trace_closest, sample_lights_and_bounce, size_dispatch for both queues and trace_shadow; generate_rays, the first
-// size_dispatch and accumulate once, which also ends the last block. 16 samples come in passes of 1, 1, 2, 4 and 8 while nothing is known
-// of their time.
+// At every hit trace_closest, sample_lights_and_bounce, size_dispatch and, but for the last, which samples no lights, trace_shadow;
+// generate_rays, the first size_dispatch and accumulate once, which also ends the last block. 16 samples come in passes of 1, 1, 2, 4 and 8
+// while nothing is known of their time.
 TEST(CountersTest, APassTakesFourDispatchesABounce)
 {
     const Scene scene = makeHills(10);
@@ -82,7 +84,7 @@ TEST(CountersTest, APassTakesFourDispatchesABounce)
         const std::uint64_t passes = renderer.statistics().kernels.at("generate_rays").dispatches;
         std::cout << bounces << " bounces: " << dispatches << " dispatches in " << passes << " passes\n";
         EXPECT_LE(passes, 5U);
-        EXPECT_LE(dispatches, passes * (3U + 4U * (bounces + 1U)) + 1U);
+        EXPECT_LE(dispatches, passes * (3U + 4U * bounces + 3U) + 1U);
     }
 }
 

@@ -69,7 +69,7 @@ TEST_P(DeterminismTest, FeaturesThatTheSceneDoesNotNeed)
     FlatScene lean = flattened(builder.scene());
     const Film bare = renderFlat(lean, builder.scene().cameras.front(), settingsFor(GetParam()));
     // Without smooth normals and an environment, which would need data. The other features are compiled in and never used.
-    lean.features |= kFeatureSpheres | kFeatureMirror | kFeatureGlass | kFeatureSphereLights | kFeaturePunctualLights;
+    lean.features |= kFeatureSpheres | kFeatureMirror | kFeatureDielectric | kFeatureSphereLights | kFeaturePunctualLights;
     EXPECT_TRUE(sameBits(bare, renderFlat(lean, builder.scene().cameras.front(), settingsFor(GetParam()))));
 }
 

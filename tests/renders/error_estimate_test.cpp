@@ -1,13 +1,13 @@
 // H30: the variance that a picture reports is that of pictures with other seeds, and the interval of its error holds the error.
-#include "host/measure/compare_images.hpp"
 #include "host/measure/error_estimate.hpp"
+#include "host/measure/compare_images.hpp"
 #include "host/scene/load_gltf.hpp"
+#include "places.h"
 #include "shaders/shared/limits.h"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/named.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/statistics.hpp"
-#include "places.h"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #include "host/image/exr.hpp"
 #include "host/measure/z_test.hpp"
 #include "host/scene/load_gltf.hpp"
-#include "tests/support/render_scene.hpp"
 #include "places.h"
+#include "tests/support/render_scene.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // What a user does in the window, and what it answers.
+#include "places.h"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/preview_fixture.hpp"
-#include "places.h"
 
 #include <algorithm>
 #include <csignal>
@@ -38,7 +38,7 @@ TEST_F(PreviewTest, ViewsExposureAndClicks)
     render("--spp 4 --exposure 0.5");
     EXPECT_EQ(picture(8), rendered());
     EXPECT_EQ(picture(9), shaded);
-    EXPECT_NE(session.out.find("pixel (48, 36) of 96x72: mesh "), std::string::npos) << session.out;
+    EXPECT_NE(session.out.find("pixel (48, 36) of 96x72: instance "), std::string::npos) << session.out;
     EXPECT_NE(session.out.find("; 4 samples, mean ("), std::string::npos) << session.out;
 }
 
@@ -63,7 +63,7 @@ TEST_F(PreviewTest, KeyboardAndMouseOfTheScreen)
     const GlimRun done = runGlim(session);
     hand.join();
     EXPECT_EQ(done.exitCode, 0) << done.err;
-    EXPECT_NE(done.out.find("pixel (48, 36) of 96x72: mesh "), std::string::npos) << done.out;
+    EXPECT_NE(done.out.find("pixel (48, 36) of 96x72: instance "), std::string::npos) << done.out;
     std::istringstream out(done.out);
     std::vector<std::string> views;
     for (std::string line; std::getline(out, line);) {
@@ -207,7 +207,7 @@ TEST_F(PreviewTest, AnswersEveryInput)
     int frames = 0, inputs = 0, median = -1, most = -1;
     const std::size_t last = session.err.rfind("glim: ");
     ASSERT_NE(last, std::string::npos) << session.err;
-    EXPECT_EQ(std::sscanf(session.err.c_str() + last, "glim: %d frames; %d inputs, each in a picture after %d ms (median), %d ms (99 %%)",
+    EXPECT_EQ(std::sscanf(session.err.c_str() + last, "glim: %d frames; %d inputs, from input to picture %d ms (median), %d ms (99 %%)",
                           &frames, &inputs, &median, &most),
               4)
         << session.err;

@@ -1,7 +1,7 @@
 // A path that is traced again, alone, has the bits that it had in the picture. The contributions that are printed add up to them.
+#include "host/render/replay.hpp"
 #include "host/bvh/build_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
-#include "host/render/replay.hpp"
 #include "host/render/suspects.hpp"
 #include "host/scene/load_gltf.hpp"
 #include "tests/support/render_scene.hpp"

@@ -123,7 +123,7 @@ TEST(PersistentTest, FeaturesThatTheSceneDoesNotNeed)
     FlatScene flat = closedBox(builder, 0.9F);
     const FlatCamera camera = flattenCamera(builder.scene().cameras.front(), 1.0F);
     const Film lean = expectSame(flat, camera, squareSettings(16, 16)).film;
-    flat.features |= kFeatureSpheres | kFeatureMirror | kFeatureGlass | kFeatureSphereLights | kFeaturePunctualLights;
+    flat.features |= kFeatureSpheres | kFeatureMirror | kFeatureDielectric | kFeatureSphereLights | kFeaturePunctualLights;
     EXPECT_TRUE(sameBits(lean, expectSame(flat, camera, squareSettings(16, 16)).film));
 }
 

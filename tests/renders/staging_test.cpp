@@ -30,7 +30,7 @@ class StagingTest : public testing::Test {
 protected:
     Buffer storage(std::uint64_t size) { return {device, "test's bytes", BufferKind::Storage, size}; }
 
-    Instance instance;
+    VulkanInstance instance;
     Device device{instance, std::nullopt, VK_NULL_HANDLE, MemoryPolicy::AlwaysStage};
 };
 

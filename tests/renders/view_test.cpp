@@ -1,6 +1,6 @@
 // --view and the thin lens.
-#include "host/flatten/flatten_scene.hpp"
 #include "host/bvh/build_bvh.hpp"
+#include "host/flatten/flatten_scene.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/test_device.hpp"

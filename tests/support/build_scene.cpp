@@ -22,7 +22,10 @@ std::uint32_t SceneBuilder::mirror(const glm::vec3& reflectance)
     return addMaterial({"", Scattering::Mirror, reflectance, glm::vec3(0.0F), 1.5F, false});
 }
 
-std::uint32_t SceneBuilder::glass(float ior) { return addMaterial({"", Scattering::Glass, glm::vec3(1.0F), glm::vec3(0.0F), ior, false}); }
+std::uint32_t SceneBuilder::glass(float ior)
+{
+    return addMaterial({"", Scattering::Dielectric, glm::vec3(1.0F), glm::vec3(0.0F), ior, false});
+}
 
 SceneBuilder& SceneBuilder::sphere(const glm::vec3& center, float radius, std::uint32_t material)
 {

@@ -49,7 +49,7 @@ std::size_t GltfBuilder::append(const std::string& collection, const json& entry
     return document[collection].size() - 1;
 }
 
-std::size_t GltfBuilder::addView(const Bytes& bytes)
+std::size_t GltfBuilder::addAov(const Bytes& bytes)
 {
     bytes_.resize((bytes_.size() + 3) / 4 * 4);
     const std::size_t offset = bytes_.size();
@@ -59,7 +59,7 @@ std::size_t GltfBuilder::addView(const Bytes& bytes)
 
 std::size_t GltfBuilder::addAccessor(const Bytes& bytes, int componentType, const std::string& type, std::size_t count)
 {
-    return append("accessors", {{"bufferView", addView(bytes)}, {"componentType", componentType}, {"type", type}, {"count", count}});
+    return append("accessors", {{"bufferView", addAov(bytes)}, {"componentType", componentType}, {"type", type}, {"count", count}});
 }
 
 std::size_t GltfBuilder::addVec3(const std::vector<float>& values)

@@ -29,7 +29,7 @@ public:
     GltfBuilder();
 
     std::size_t append(const std::string& collection, const nlohmann::json& entry);
-    std::size_t addView(const Bytes& bytes);
+    std::size_t addAov(const Bytes& bytes);
     std::size_t addAccessor(const Bytes& bytes, int componentType, const std::string& type, std::size_t count);
     std::size_t addVec3(const std::vector<float>& values);
     std::size_t addIndices(const std::vector<std::uint32_t>& values);

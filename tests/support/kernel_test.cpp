@@ -1,9 +1,9 @@
 #include "tests/support/kernel_test.hpp"
 
 #include "host/render/path_buffers.hpp"
+#include "places.h"
 #include "shaders/shared/bindings.h"
 #include "tests/support/report.h"
-#include "places.h"
 
 #include <gtest/gtest.h>
 

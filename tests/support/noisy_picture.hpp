@@ -37,6 +37,6 @@ inline Picture addNoise(const Picture& truth, float relative, std::uint32_t seed
 }
 
 // Four standard deviations of the share of `trials` in which an event of probability p happens.
-inline double shareReach(double p, int trials) { return 4.0 * std::sqrt(p * (1.0 - p) / trials); }
+inline double shareMargin(double p, int trials) { return 4.0 * std::sqrt(p * (1.0 - p) / trials); }
 
 }  // namespace glim::test

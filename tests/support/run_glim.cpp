@@ -1,7 +1,7 @@
 #include "tests/support/run_glim.hpp"
 
-#include "tests/support/scratch_folder.hpp"
 #include "places.h"
+#include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // argument: U and F for a word, U2, F2, U3, F3 for vectors.
 #ifndef GLIM_TESTS_SHARED_FIELDS
 #define GLIM_TESTS_SHARED_FIELDS
-#include "../../shaders/shared/display_types.h"
 #include "../../shaders/shared/course_types.h"
+#include "../../shaders/shared/display_types.h"
 #include "../../shaders/shared/path_types.h"
 #include "../../shaders/shared/pixel_moments.h"
 #include "../../shaders/shared/scene_types.h"

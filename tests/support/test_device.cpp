@@ -4,7 +4,7 @@ namespace glim {
 
 Device& testDevice()
 {
-    static const Instance instance;
+    static const VulkanInstance instance;
     static Device device(instance);
     return device;
 }

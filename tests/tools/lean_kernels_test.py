@@ -19,7 +19,7 @@ USERS = {
     "Slivers": ["trace_closest", "trace_shadow"],
     "Smooth": ["sample_lights_and_bounce"],
     "Mirror": ["sample_lights_and_bounce"],
-    "Glass": ["sample_lights_and_bounce"],
+    "Dielectric": ["sample_lights_and_bounce"],
     "SphereLights": ["sample_lights_and_bounce"],
     "PunctualLights": ["sample_lights_and_bounce"],
     "Environment": ["sample_lights_and_bounce"],

@@ -83,9 +83,9 @@ def test_bias(a, b, spp):
              "block_limit": sidak_limit(z.size),
              "mean_square": float((z[noisy] ** 2).mean()) if count else 0.0,
              # The channels of a block are not independent: as many terms as there are blocks.
-             "mean_square_reach": 4 * math.sqrt(2 / max(1, count / 3))}
+             "mean_square_margin": 4 * math.sqrt(2 / max(1, count / 3))}
     agree = (max(map(abs, mean_z)) <= found["mean_limit"] and abs(z[worst]) <= found["block_limit"] and
-             (count == 0 or found["mean_square"] <= 1 + found["mean_square_reach"]))
+             (count == 0 or found["mean_square"] <= 1 + found["mean_square_margin"]))
     ratios = {c: ratio_of(means_a[:, i], means_b[:, i]) for i, c in enumerate("RGB")}
     return {"ratio": {"all": ratio_of(means_a.mean(axis=1), means_b.mean(axis=1)), **ratios},
             "z_test": {"agree": bool(agree), **found}}

@@ -52,7 +52,7 @@ def to_table(found):
     lines.append(row("z of 8x8 blocks", "largest %.2f at (%d, %d) in %s   limit %.2f" % (
         worst["z"], worst["x"], worst["y"], worst["channel"], test["block_limit"])))
     lines.append(row("mean z^2 of blocks", "%.2f   expected 1, at most %.2f" % (
-        test["mean_square"], 1 + test["mean_square_reach"])))
+        test["mean_square"], 1 + test["mean_square_margin"])))
     lines.append(row("verdict", "agree up to noise" if test["agree"] else "differ by more than noise"))
     for name in ("glim", "mitsuba"):
         seconds = found["seconds"][name]

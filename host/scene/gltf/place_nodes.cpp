@@ -47,7 +47,7 @@ void checkAcyclic(const GltfFile& file, const std::vector<int>& parents)
 }
 
 std::vector<int> findRoots(const GltfFile& file, const LoadOptions& options, const std::vector<int>& parents,
-                           std::vector<std::string>& notices)
+                           std::vector<std::string>& warnings)
 {
     const std::vector<tinygltf::Scene>& scenes = file.model.scenes;
     if (options.scene && *options.scene >= scenes.size()) {
@@ -63,7 +63,7 @@ std::vector<int> findRoots(const GltfFile& file, const LoadOptions& options, con
             roots.push_back(static_cast<int>(i));
         }
     }
-    notices.push_back("the file has no scene: all its nodes are drawn");
+    warnings.push_back("the file has no scene: all its nodes are drawn");
     return roots;
 }
 
@@ -118,11 +118,11 @@ glm::dmat4 parentFromNode(const GltfFile& file, std::size_t index)
 
 }  // namespace
 
-std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& options, std::vector<std::string>& notices)
+std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& options, std::vector<std::string>& warnings)
 {
     const std::vector<int> parents = findParents(file);
     checkAcyclic(file, parents);
-    const std::vector<int> roots = findRoots(file, options, parents, notices);
+    const std::vector<int> roots = findRoots(file, options, parents, warnings);
     checkRoots(file, roots, parents);
 
     std::vector<PlacedNode> placed, pending;  // no recursion: hierarchies may be deeper than the call stack

@@ -14,7 +14,7 @@ struct PlacedNode {
 };
 
 // In document order, parents first. Checks that the nodes form trees.
-std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& options, std::vector<std::string>& notices);
+std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& options, std::vector<std::string>& warnings);
 
 // The linear part of a node that carries a shape, camera or light. Refuses a singular one.
 glm::dmat3 readLinear(const GltfFile& file, const PlacedNode& node);

@@ -2,6 +2,7 @@
 
 #include "host/scene/gltf/read_mesh.hpp"
 #include "host/scene/placed_mesh.hpp"
+#include "host/text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -137,7 +138,7 @@ void GeometryReader::addInstances(const PlacedNode& node, int mesh)
 {
     if (meshes_.count(mesh) == 0) {
         std::vector<std::uint32_t>& ids = meshes_[mesh];
-        for (Mesh& read : readMeshes(file_, static_cast<std::size_t>(mesh), scene_.notices)) {
+        for (Mesh& read : readMeshes(file_, static_cast<std::size_t>(mesh), scene_.warnings)) {
             ids.push_back(static_cast<std::uint32_t>(scene_.meshes.size()));
             scene_.meshes.push_back(std::move(read));
         }
@@ -220,7 +221,7 @@ void GeometryReader::finish()
         scene_.spheres.push_back(sphere.sphere);
     }
     if (emptySpheres_ > 0) {
-        scene_.notices.push_back("left out " + std::to_string(emptySpheres_) + " spheres of zero radius");
+        scene_.warnings.push_back("left out " + counted(emptySpheres_, "sphere") + " of zero radius");
     }
     if (scene_.spheres.empty()) {
         requireSomething();

@@ -46,13 +46,13 @@ PunctualLight readLight(const GltfFile& file, const PlacedNode& node, std::size_
         light.cosOuter = static_cast<float>(std::cos(source.spot.outerConeAngle));
     }
     if (source.range > 0.0) {
-        scene.notices.push_back(place + " is drawn without its range: it falls off with the square of the distance");
+        scene.warnings.push_back(place + " is drawn without its range: it falls off with the square of the distance");
     }
     return light;
 }
 
 // A camera's transform is a rotation and a translation: glTF gives scale no meaning here.
-void readView(const GltfFile& file, const PlacedNode& node, Camera& camera)
+void readCameraPose(const GltfFile& file, const PlacedNode& node, Camera& camera)
 {
     const glm::dmat3 linear = readLinear(file, node);
     const glm::dvec3 forward = -glm::normalize(linear[2]);
@@ -68,9 +68,9 @@ Camera readCamera(const GltfFile& file, const PlacedNode& node, std::size_t inde
     Camera camera;
     camera.name = nameOf(file, node, source.name);
     camera.position = readPosition(file, node, scene);
-    readView(file, node, camera);
+    readCameraPose(file, node, camera);
     if (glm::determinant(glm::dmat3(node.worldFromNode)) < 0.0) {
-        scene.notices.push_back(nodeLabel(file, node.index) + " mirrors its camera, which is ignored");
+        scene.warnings.push_back(nodeLabel(file, node.index) + " mirrors its camera, which is ignored");
     }
     if (source.type == "perspective") {
         camera.yfov = static_cast<float>(source.perspective.yfov);

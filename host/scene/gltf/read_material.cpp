@@ -34,7 +34,7 @@ bool isWhite(const tinygltf::Material& source, const char* extension, const char
 Scattering chooseScattering(const tinygltf::Material& source)
 {
     if (numberOr(source, "KHR_materials_transmission", "transmissionFactor", 0.0) > 0.0) {
-        return Scattering::Glass;
+        return Scattering::Dielectric;
     }
     const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
     return pbr.metallicFactor > 0.5 && pbr.roughnessFactor < 0.2 ? Scattering::Mirror : Scattering::Lambert;
@@ -108,7 +108,7 @@ std::string listIgnored(const tinygltf::Material& source, Scattering scattering)
 {
     Ignored ignored;
     switch (scattering) {
-    case Scattering::Glass: addGlass(source, ignored); break;
+    case Scattering::Dielectric: addGlass(source, ignored); break;
     case Scattering::Mirror: addMirror(source, ignored); break;
     case Scattering::Lambert: addLambert(source, ignored); break;
     }
@@ -151,12 +151,12 @@ MaterialReading readMaterial(const GltfFile& file, int index)
     material.baseColor = glm::dvec3(color[0], color[1], color[2]);
     material.emission = strength * glm::dvec3(emissive[0], emissive[1], emissive[2]);
     material.doubleSided = source.doubleSided;
-    if (material.scattering == Scattering::Glass) {
+    if (material.scattering == Scattering::Dielectric) {
         material.ior = readIor(file, place, source);
     }
     if (const std::string ignored = listIgnored(source, material.scattering); !ignored.empty()) {
         const char* names[] = {"Lambert", "mirror", "solid glass"};
-        reading.notice = place + " is drawn as " + names[static_cast<int>(material.scattering)] + " without " + ignored;
+        reading.warning = place + " is drawn as " + names[static_cast<int>(material.scattering)] + " without " + ignored;
     }
     return reading;
 }

@@ -8,7 +8,7 @@ namespace glim {
 
 struct MaterialReading {
     Material material;
-    std::string notice;  // names every property of the material that glim ignores; empty if there is none
+    std::string warning;  // names every property of the material that glim ignores; empty if there is none
 };
 
 // -1 is glTF's default material.

@@ -91,16 +91,16 @@ std::vector<Value> readAttribute(const GltfFile& file, const tinygltf::Primitive
 }
 
 std::optional<Mesh> readPrimitive(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& place,
-                                  std::vector<std::string>& notices)
+                                  std::vector<std::string>& warnings)
 {
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) {
-        notices.push_back(place + " has no POSITION and is left out");
+        warnings.push_back(place + " has no POSITION and is left out");
         return std::nullopt;
     }
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
-        notices.push_back(place + (primitive.mode == TINYGLTF_MODE_POINTS ? " holds points" : " holds lines") +
-                          " and is left out: only triangles, strips and fans are drawn");
+        warnings.push_back(place + (primitive.mode == TINYGLTF_MODE_POINTS ? " holds points" : " holds lines") +
+                           " and is left out: only triangles, strips and fans are drawn");
         return std::nullopt;
     }
     Mesh mesh;
@@ -116,23 +116,23 @@ std::optional<Mesh> readPrimitive(const GltfFile& file, const tinygltf::Primitiv
     mesh.indices = listTriangles(order, primitive.mode);
     mesh.material = static_cast<std::uint32_t>(primitive.material < 0 ? static_cast<int>(file.model.materials.size()) : primitive.material);
     if (primitive.attributes.count("COLOR_0") != 0) {
-        notices.push_back(place + " is drawn without its vertex colours (COLOR_0)");
+        warnings.push_back(place + " is drawn without its vertex colours (COLOR_0)");
     }
     if (!primitive.targets.empty()) {
-        notices.push_back(place + " is drawn without its morph targets");
+        warnings.push_back(place + " is drawn without its morph targets");
     }
     return mesh;
 }
 
 }  // namespace
 
-std::vector<Mesh> readMeshes(const GltfFile& file, std::size_t mesh, std::vector<std::string>& notices)
+std::vector<Mesh> readMeshes(const GltfFile& file, std::size_t mesh, std::vector<std::string>& warnings)
 {
     const tinygltf::Mesh& source = file.model.meshes[mesh];
     std::vector<Mesh> meshes;
     for (std::size_t i = 0; i < source.primitives.size(); ++i) {
         const std::string place = label("meshes", mesh, source.name) + ".primitives[" + std::to_string(i) + "]";
-        if (std::optional<Mesh> read = readPrimitive(file, source.primitives[i], place, notices)) {
+        if (std::optional<Mesh> read = readPrimitive(file, source.primitives[i], place, warnings)) {
             read->name = source.primitives.size() == 1 ? source.name : source.name + "." + std::to_string(i);
             meshes.push_back(std::move(*read));
         }

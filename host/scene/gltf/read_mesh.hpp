@@ -7,7 +7,7 @@
 namespace glim {
 
 // Each mesh is named after the file's mesh, with a number if that has several primitives. The default material's index follows the file's
-// last one. Points, lines and primitives without positions are left out, each with a notice.
-std::vector<Mesh> readMeshes(const GltfFile& file, std::size_t mesh, std::vector<std::string>& notices);
+// last one. Points, lines and primitives without positions are left out, each with a warning.
+std::vector<Mesh> readMeshes(const GltfFile& file, std::size_t mesh, std::vector<std::string>& warnings);
 
 }  // namespace glim

@@ -4,21 +4,22 @@
 
 #include "access/course/round.glsl"
 #include "access/next_ray.glsl"
-#include "lib/fixed_roulette.glsl"
+#include "lib/course/fixed_roulette.glsl"
 #include "lib/roulette.glsl"
 
 // The last ray of a path only collects emission, which does not count where light sampling already covers it.
-bool canAddLight(BsdfSample s, uint bounce)
+bool isRedundant(BsdfSample s, uint bounce)
 {
     bool sampled = kDirect == kDirectLights || kDirect == kDirectHemisphere;
-    return !(sampled && s.pdf > 0.0 && bounce + 1u == render.maxBounces);
+    return sampled && s.pdf > 0.0 && bounce + 1u == render.maxBounces;
 }
 
-float continuationOf(vec3 throughput, float etaScale, uint bounce)
+float continuationOf(BsdfSample s, vec3 throughput, float etaScale, uint bounce)
 {
-    return kRoulette == kRouletteThroughput ? continuationProbability(throughput, etaScale, bounce)
-           : kRoulette == kRouletteFixed    ? fixedContinuation(course.continuation, bounce)
-                                            : 1.0;
+    return isRedundant(s, bounce)            ? 0.0
+           : kRoulette == kRouletteThroughput ? continuationProbability(throughput, etaScale, bounce)
+           : kRoulette == kRouletteFixed      ? fixedContinuation(course.continuation, bounce)
+                                              : 1.0;
 }
 
 #endif

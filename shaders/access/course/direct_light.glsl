@@ -5,6 +5,7 @@
 #include "access/course/round.glsl"
 #include "access/direct_light.glsl"
 #include "access/notes.glsl"
+#include "lib/course/split_sample.glsl"
 #include "lib/mis.glsl"
 
 // The MIS weight of light that a ray has hit, if light sampling has the density lightPdf for it. It is 1 for camera rays and after delta

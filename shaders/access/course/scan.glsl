@@ -7,13 +7,13 @@
 // The closest hit of `met` (kNoRecord: none yet) and records [first, end).
 PathHit scanClosest(PathRay ray, PathHit met, uint first, uint end)
 {
-    Walk walk = beginWalk(ray.origin, ray.direction);
+    TraversalRay traversal = makeTraversalRay(ray.origin, ray.direction);
     Closest best = makeMiss();
     if (met.record != kNoRecord) {
         best = Closest(met.record, primitiveOf(fetchRecord(met.record)), TriangleHit(met.t, met.barycentric, 1.0));
     }
     for (uint i = first; i < end; ++i) {
-        meetRecord(walk, i, ray.source, best);
+        meetRecord(traversal, i, ray.source, best);
     }
     return hitOf(best);
 }
@@ -21,11 +21,11 @@ PathHit scanClosest(PathRay ray, PathHit met, uint first, uint end)
 // True if nothing but `target` among records [first, end) lies between origin and origin + tMax * direction.
 bool scanUnoccluded(ShadowRay ray, uint first, uint end)
 {
-    Walk walk = beginWalk(ray.origin, ray.direction);
+    TraversalRay traversal = makeTraversalRay(ray.origin, ray.direction);
     bool occluded = false;
     for (uint i = first; i < end && !occluded; ++i) {
         Record record = fetchRecord(i);
-        TriangleHit hit = intersectRecord(walk, record, ray.tMax, primitiveOf(record) == ray.source);
+        TriangleHit hit = intersectRecord(traversal, record, ray.tMax, primitiveOf(record) == ray.source);
         occluded = hit.t > 0.0 && primitiveOf(record) != ray.target;
     }
     return !occluded;

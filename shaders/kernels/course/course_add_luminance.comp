@@ -9,7 +9,7 @@
 #include "access/paths.glsl"
 #include "access/status.glsl"
 #include "lib/finite.glsl"
-#include "lib/stop_rule.glsl"
+#include "lib/course/stop_rule.glsl"
 
 void main()
 {

@@ -7,7 +7,7 @@
 #include "access/course/round.glsl"
 #include "access/paths.glsl"
 #include "access/status.glsl"
-#include "lib/stop_rule.glsl"
+#include "lib/course/stop_rule.glsl"
 
 // No camera ray of the pixel has met a surface. True outside the picture; false in another tile, which is not known.
 bool hasMetNothing(ivec2 at)

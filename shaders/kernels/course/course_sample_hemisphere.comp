@@ -15,9 +15,11 @@
 #include "access/bsdf.glsl"
 #include "access/paths.glsl"
 #include "access/status.glsl"
+#include "lib/course/split_sample.glsl"
+#include "lib/course/uniform_hemisphere.glsl"
 #include "lib/infinity.glsl"
 
-void askForRay(uint slot, SurfaceInteraction si, Bsdf bsdf, vec3 wo)
+void queueRay(uint slot, SurfaceInteraction si, Bsdf bsdf, vec3 wo)
 {
     SampleId id = splitSample(sampleOfSlot(slot), kNoLightIndex, lightRound.lightSample, lightRound.lightSamples);
     vec2 u = unitFloat(samplePair(id, bounceDimension(pass.bounce, kDimensionPoint), kSobol));
@@ -42,7 +44,7 @@ void visit(uint slot)
     SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
     Bsdf bsdf = makeBsdf(si, fetchMaterial(si.material), -ray.direction);
     if (hasNonDelta(bsdf)) {
-        askForRay(slot, si, bsdf, -ray.direction);
+        queueRay(slot, si, bsdf, -ray.direction);
     }
 }
 

@@ -25,8 +25,8 @@ void visitMiss(uint slot, PathRay ray, PathState state)
     if (pass.bounce == 0u) {
         pathFirstHits[slot] = makeNoFirstHit();
     }
-    if (kEnvironment) {
-        addRadiance(slot, state.throughput * weightedEnvironment(ray, state), pass.bounce, 1u);
+    if (hasEnvironment()) {
+        addRadiance(slot, state.throughput * weightedEnvironment(ray, state), pass.bounce);
     }
 }
 
@@ -36,13 +36,13 @@ void visitSurface(uint slot, PathRay ray, PathHit hit, PathState state)
     SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
     MaterialData material = fetchMaterial(si.material);
     Bsdf bsdf = makeBsdf(si, material, wo);
-    noteSurface(si, wo);
+    noteSurface(si, bsdf.frame.z);
     bool first = lightRound.addsEmission != 0u;
     if (first && pass.bounce == 0u) {
         pathFirstHits[slot] = makeFirstHit(si, material, wo);
     }
-    if (first && (kTriangleLights || kSphereLights)) {
-        addRadiance(slot, state.throughput * weightedEmission(si, material, ray, hit, state), pass.bounce, 1u);
+    if (first && hasEmissiveSurfaces()) {
+        addRadiance(slot, state.throughput * weightedEmission(si, material, ray, hit, state), pass.bounce);
     }
     ShadowRay shadow;
     if (lightRound.light != kNoLightIndex && hasNonDelta(bsdf) &&

@@ -8,15 +8,15 @@
 #define UPDATES_SHADOW_RAYS
 #define UPDATES_RADIANCE
 #include "access/course/round.glsl"
+#include "access/course/radiance.glsl"
 #include "access/course/scan.glsl"
 #include "access/interaction.glsl"
-#include "access/radiance.glsl"
 #include "access/status.glsl"
 
 vec3 radianceFound(PathRay ray, PathHit hit)
 {
     if (hit.record == kNoRecord) {
-        return kEnvironment ? render.environment : vec3(0.0);
+        return hasEnvironment() ? render.environment : vec3(0.0);
     }
     SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
     return emittedRadiance(si, fetchMaterial(si.material));
@@ -37,7 +37,7 @@ void visit(uint slot)
     PathRay ray = PathRay(shadow.origin, shadow.source, shadow.direction, 0u);
     PathHit hit = kBruteForce ? scanRecords(slot, ray, shadow) : traceClosest(ray);
     if (lightRound.endRecord == course.recordCount) {
-        addRadiance(slot, shadow.contribution * radianceFound(ray, hit), pass.bounce + 1u, lightRound.lightSamples);
+        addShareOfRadiance(slot, shadow.contribution * radianceFound(ray, hit), pass.bounce + 1u);
     }
 }
 

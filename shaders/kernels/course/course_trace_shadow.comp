@@ -8,8 +8,8 @@
 #define UPDATES_SHADOW_RAYS
 #define UPDATES_RADIANCE
 #include "access/course/round.glsl"
+#include "access/course/radiance.glsl"
 #include "access/course/scan.glsl"
-#include "access/radiance.glsl"
 #include "access/status.glsl"
 
 bool isUnoccludedSoFar(uint slot, ShadowRay ray)
@@ -29,7 +29,7 @@ void main()
         ShadowRay ray = fetchShadowRay(slot);
         bool unoccluded = kBruteForce ? isUnoccludedSoFar(slot, ray) : isUnoccluded(ray);
         if (unoccluded && lightRound.endRecord == course.recordCount) {
-            addRadiance(slot, ray.contribution, pass.bounce + 1u, lightRound.lightSamples);
+            addShareOfRadiance(slot, ray.contribution, pass.bounce + 1u);
         }
     }
     checkLoopBudget(render.canarySteps);

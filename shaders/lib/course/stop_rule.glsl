@@ -1,8 +1,8 @@
 // When a pixel of an adaptive render has had enough samples.
-#ifndef GLIM_LIB_STOP_RULE
-#define GLIM_LIB_STOP_RULE
+#ifndef GLIM_LIB_COURSE_STOP_RULE
+#define GLIM_LIB_COURSE_STOP_RULE
 
-#include "luminance.glsl"
+#include "lib/luminance.glsl"
 #include "shared/pixel_moments.h"
 
 // Welford, "Note on a Method for Calculating Corrected Sums of Squares and Products", 1962.

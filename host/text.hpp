@@ -1,3 +1,4 @@
+// Numbers as text.
 #pragma once
 
 #include <charconv>
@@ -11,6 +12,12 @@ std::string exactText(T value)
 {
     char text[32];
     return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+// "1 sphere", "2 spheres".
+inline std::string counted(std::size_t count, const std::string& noun)
+{
+    return std::to_string(count) + ' ' + noun + (count == 1 ? "" : "s");
 }
 
 }  // namespace glim

@@ -1,6 +1,6 @@
 // The course's Russian roulette.
-#ifndef GLIM_LIB_FIXED_ROULETTE
-#define GLIM_LIB_FIXED_ROULETTE
+#ifndef GLIM_LIB_COURSE_FIXED_ROULETTE
+#define GLIM_LIB_COURSE_FIXED_ROULETTE
 
 // Probability to continue: a fixed q after one guaranteed indirect bounce. In a closed room of albedo a the variance is infinite where a^2
 // >= q, for q = .7 above a = .837.

@@ -1,8 +1,8 @@
 // The ray/triangle test that the course teaches.
-#ifndef GLIM_LIB_INTERSECT_MOLLER_TRUMBORE
-#define GLIM_LIB_INTERSECT_MOLLER_TRUMBORE
+#ifndef GLIM_LIB_COURSE_INTERSECT_MOLLER_TRUMBORE
+#define GLIM_LIB_COURSE_INTERSECT_MOLLER_TRUMBORE
 
-#include "intersect_triangle.glsl"
+#include "lib/intersect_triangle.glsl"
 
 // Moller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997, for comparison: it leaks at edges.
 TriangleHit intersectMollerTrumbore(vec3 origin, vec3 direction, vec3 v0, vec3 v1, vec3 v2, float tMax)

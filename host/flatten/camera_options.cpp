@@ -1,6 +1,6 @@
-#include "host/flatten/view_options.hpp"
+#include "host/flatten/camera_options.hpp"
 
-#include "host/exact_text.hpp"
+#include "host/text.hpp"
 
 #include <utility>
 #include <vector>
@@ -39,8 +39,8 @@ std::string join(const Words& words, const char* before, const char* between)
 
 }  // namespace
 
-std::string describeView(const std::optional<Pose>& pose, const Lens& lens) { return join(wordsOf(pose, lens), " ", "="); }
+std::string describeCamera(const std::optional<Pose>& pose, const Lens& lens) { return join(wordsOf(pose, lens), " ", "="); }
 
-std::string viewOptions(const std::optional<Pose>& pose, const Lens& lens) { return join(wordsOf(pose, lens), " --", " "); }
+std::string cameraOptions(const std::optional<Pose>& pose, const Lens& lens) { return join(wordsOf(pose, lens), " --", " "); }
 
 }  // namespace glim

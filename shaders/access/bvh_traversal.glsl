@@ -1,6 +1,6 @@
 // Traverses the BVH. The including file defines intersectTriangle: traverse.glsl does, and course/traverse.glsl for the course.
-#ifndef GLIM_ACCESS_BVH_WALK
-#define GLIM_ACCESS_BVH_WALK
+#ifndef GLIM_ACCESS_BVH_TRAVERSAL
+#define GLIM_ACCESS_BVH_TRAVERSAL
 
 #include "lib/infinity.glsl"
 #include "lib/intersect_node.glsl"
@@ -10,31 +10,31 @@
 #include "traversal_stack.glsl"
 #include "shared/path_types.h"
 
-struct Walk {
+struct TraversalRay {
     vec3 origin;
     vec3 direction;
     vec3 reciprocal;
-    uint ahead;  // placesAhead
+    uint octant;  // rayOctant
     Shear shear;
 };
 
-Walk beginWalk(vec3 origin, vec3 direction)
+TraversalRay makeTraversalRay(vec3 origin, vec3 direction)
 {
     vec3 reciprocal = reciprocalDirection(direction);
-    return Walk(origin, direction, reciprocal, placesAhead(reciprocal), makeShear(direction));
+    return TraversalRay(origin, direction, reciprocal, rayOctant(reciprocal), makeShear(direction));
 }
 
-TriangleHit intersectTriangle(Walk walk, Record record, float tMax);
+TriangleHit intersectTriangle(TraversalRay traversal, Record record, float tMax);
 
 // t in (0, tMax] and barycentrics, or t < 0. A ray never meets the triangle it leaves; a sphere only from within.
-TriangleHit intersectRecord(Walk walk, Record record, float tMax, bool isSource)
+TriangleHit intersectRecord(TraversalRay traversal, Record record, float tMax, bool isSource)
 {
     if (isSphere(record)) {
-        float t = intersectSphere(walk.origin, walk.direction, floatsOf(record.t0), uintBitsToFloat(record.t1.x), tMax,
+        float t = intersectSphere(traversal.origin, traversal.direction, floatsOf(record.t0), uintBitsToFloat(record.t1.x), tMax,
                                   isSource);
         return TriangleHit(t, vec2(0.0), 1.0);
     }
-    return isSource ? kNoTriangleHit : intersectTriangle(walk, record, tMax);
+    return isSource ? kNoTriangleHit : intersectTriangle(traversal, record, tMax);
 }
 
 // Leaf records that are still to be tested: bit i of `left` stands for record first + i.
@@ -52,13 +52,13 @@ uint takeRecord(inout Records records)
 
 const uint kNodeBits = 0xffffffffu << kFirstNodeBit;
 
-void visitNode(Walk walk, uint node, float tMax, out NodeGroup children, out Records records)
+void visitNode(TraversalRay traversal, uint node, float tMax, out NodeGroup children, out Records records)
 {
     int at = int(node * kNodeTexels);
     uvec4 head = texelFetch(sceneNodes, at);
     uvec4 content = texelFetch(sceneNodes, at + 1);
     uint hits = hitsOfNode(head, content, texelFetch(sceneNodes, at + 2), texelFetch(sceneNodes, at + 3), texelFetch(sceneNodes, at + 4),
-                           walk.origin, walk.reciprocal, walk.ahead, tMax);
+                           traversal.origin, traversal.reciprocal, traversal.octant, tMax);
     children = NodeGroup(content.x, (hits & kNodeBits) | head.w >> 24u);
     records = Records(content.y, hits & ~kNodeBits);
 }
@@ -80,10 +80,10 @@ PathHit hitOf(Closest best)
 }
 
 // Ties go to the lower primitive, so that the result does not depend on the tree.
-void meetRecord(Walk walk, uint index, uint source, inout Closest best)
+void meetRecord(TraversalRay traversal, uint index, uint source, inout Closest best)
 {
     Record record = fetchRecord(index);
-    TriangleHit hit = intersectRecord(walk, record, best.hit.t, primitiveOf(record) == source);
+    TriangleHit hit = intersectRecord(traversal, record, best.hit.t, primitiveOf(record) == source);
     if (hit.t > 0.0 && (hit.t < best.hit.t || primitiveOf(record) < best.primitive)) {
         best = Closest(index, primitiveOf(record), hit);
     }
@@ -101,19 +101,19 @@ struct Steps {
 PathHit traceClosest(PathRay ray, out Steps steps)
 {
     steps = Steps(0u, 0u);
-    Walk walk = beginWalk(ray.origin, ray.direction);
+    TraversalRay traversal = makeTraversalRay(ray.origin, ray.direction);
     Closest best = makeMiss();
     TraversalStack stack = makeTraversalStack();
     NodeGroup group = kRootGroup;
     do {
-        uint node = takeNode(group, walk.ahead);
+        uint node = takeNode(group, traversal.octant);
         NodeGroup children;
         Records records;
-        visitNode(walk, node, best.hit.t, children, records);
+        visitNode(traversal, node, best.hit.t, children, records);
         ++steps.nodes;
         if (records.left != 0u) {
             do {
-                meetRecord(walk, takeRecord(records), ray.source, best);
+                meetRecord(traversal, takeRecord(records), ray.source, best);
                 ++steps.primitives;
             } while (records.left != 0u);
         }
@@ -132,23 +132,23 @@ PathHit traceClosest(PathRay ray)
 bool isUnoccluded(ShadowRay ray, out Steps steps)
 {
     steps = Steps(0u, 0u);
-    Walk walk = beginWalk(ray.origin, ray.direction);
+    TraversalRay traversal = makeTraversalRay(ray.origin, ray.direction);
     TraversalStack stack = makeTraversalStack();
     NodeGroup group = kRootGroup;
     bool going = true;
     bool occluded = false;
     do {
-        uint node = takeNode(group, walk.ahead);
+        uint node = takeNode(group, traversal.octant);
         NodeGroup children;
         Records records;
-        visitNode(walk, node, ray.tMax, children, records);
+        visitNode(traversal, node, ray.tMax, children, records);
         ++steps.nodes;
         group = nextGroup(stack, children, group);
         going = hasAny(group);
         if (records.left != 0u) {
             do {
                 Record record = fetchRecord(takeRecord(records));
-                TriangleHit hit = intersectRecord(walk, record, ray.tMax, primitiveOf(record) == ray.source);
+                TriangleHit hit = intersectRecord(traversal, record, ray.tMax, primitiveOf(record) == ray.source);
                 ++steps.primitives;
                 bool met = hit.t > 0.0 && primitiveOf(record) != ray.target;
                 occluded = occluded || met;
