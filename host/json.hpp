@@ -1,4 +1,5 @@
-// A JSON value to build, print and parse. Only json.cpp includes nlohmann-json, whose templates took a quarter of the build time.
+// A JSON value to build, print and parse. json.cpp and the glTF reader alone include nlohmann-json, whose templates
+// took a quarter of the build time.
 #pragma once
 
 #include <cstdint>

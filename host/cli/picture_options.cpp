@@ -113,7 +113,7 @@ void addLightTransport(const Command& command, RenderSettings& settings)
 
 void addCourseEstimators(const Command& command, RenderSettings& settings)
 {
-    command.beginGroup("Course estimators");
+    command.beginGroup("Course estimators (Berkeley CS 184)");
     addEnum(command, "--direct", "D", "Direct light: mis, lights, hemisphere or bsdf [mis]", {"mis", "lights", "hemisphere", "bsdf"},
             settings.course.direct);
     addNumber<std::uint32_t>(command,

@@ -129,7 +129,7 @@ TEST(CommandLineTest, HelpLeavesTuningAndTheCourseToHelpAll)
 {
     const std::vector<std::string> common{"Picture", "Camera", "Sampling and stopping", "Light transport", "Device", "Output", "Help"};
     std::vector<std::string> every = common;
-    every.insert(every.begin() + 4, "Course estimators");
+    every.insert(every.begin() + 4, "Course estimators (Berkeley CS 184)");
     const std::set<std::string> course{"--direct", "--light-samples", "--roulette", "--tolerance", "--batch", "--max-spp"},
         tuning{"--schedule", "--accelerator", "--split", "--intersector"};
     for (const std::string command : {"render", "preview", "bench"}) {

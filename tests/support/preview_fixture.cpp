@@ -52,14 +52,14 @@ GlimCall PreviewTest::call(const std::string& script, const std::vector<std::str
 GlimRun PreviewTest::run(const std::string& script, const std::vector<std::string>& more) const
 {
     GlimRun done = runGlim(call(script, more));
-    EXPECT_EQ(done.exitCode, 0) << done.err;
+    EXPECT_EQ(done.exitCode, 0) << "signal " << done.signal << "; " << done.err;
     expectSilence(done);
     return done;
 }
 
 Pixels PreviewTest::windowAtWriting(const VirtualScreen& shown, const std::string& script, const std::vector<std::string>& more) const
 {
-    Pixels window;
+    Pixels window(std::size_t{width} * height);  // black if the session fails
     GlimCall session = call(script, more);
     session.environment["DISPLAY"] = shown.name();
     whenWritten(session, [&] { window = windowOf(shown.calmPixels()); });
