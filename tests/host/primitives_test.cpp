@@ -135,5 +135,19 @@ TEST(PrimitivesTest, FingerprintsOfSmoothScenesAreWhatTheyWere)
     EXPECT_EQ(fingerprint(fingerprint(flattened(scene)), flattenCamera(scene.cameras.front(), 1.0F)), "b50275f3d38dba40");
 }
 
+// Kernels are compiled for the lobes of what is drawn, not of what the file lists.
+TEST(FlattenScene, UnusedMaterialsAddNoFeature)
+{
+    Scene scene = sceneWith({square(false)}, {{"", 0}});
+    scene.materials.resize(2);
+    scene.materials[1].scattering = Scattering::Dielectric;
+    EXPECT_EQ(flattened(scene).features & kFeatureDielectric, 0U);
+    scene.meshes[0].material = 1;
+    EXPECT_EQ(flattened(scene).features & kFeatureDielectric, kFeatureDielectric);
+    scene.meshes[0].material = 0;
+    scene.spheres.push_back({"", glm::vec3(0.0F), 1.0F, 1});
+    EXPECT_EQ(flattened(scene).features & kFeatureDielectric, kFeatureDielectric);
+}
+
 }  // namespace
 }  // namespace glim
