@@ -45,16 +45,13 @@ Mesh hills(int cells)
 Scene makeHills(int cells)
 {
     Scene scene;
-    Material lamp, grass;
-    lamp.baseColor = glm::vec3(0.0F);
-    lamp.emission = glm::vec3(20.0F);
-    grass.baseColor = glm::vec3(0.7F);
+    const Material lamp = makeLambert(glm::vec3(0.0F), glm::vec3(20.0F)), grass = makeLambert(glm::vec3(0.7F));
     Mesh square;
     square.positions = {{-4, 14, -4}, {4, 14, -4}, {4, 14, 4}, {-4, 14, 4}};
     square.indices = {0, 1, 2, 0, 2, 3};
     addMesh(scene, "lamp", std::move(square), lamp);
     addMesh(scene, "hills", hills(cells), grass);
-    scene.environment = glm::vec3(0.5F);
+    scene.environment.emplace().radiance = glm::vec3(0.5F);
     Camera camera;
     camera.position = glm::vec3(-9, 6, 11);
     camera.forward = glm::normalize(glm::vec3(0, 0.5F, 0) - camera.position);

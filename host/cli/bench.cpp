@@ -70,8 +70,7 @@ std::string pictureText(const BenchOptions& options)
         text += " scene=" + std::to_string(*options.sceneIndex);
     }
     if (options.environment) {
-        const glm::vec3& e = *options.environment;
-        text += " environment=" + exactText(e.r) + "," + exactText(e.g) + "," + exactText(e.b);
+        text += " environment=" + describeEnvironment(*options.environment);
     }
     return text;
 }

@@ -1,5 +1,7 @@
 #include "host/cli/parse.hpp"
 
+#include "host/text.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -173,13 +175,33 @@ float parseSurvival(const std::string& text)
     return survival;
 }
 
+EnvironmentChoice parseEnvironment(const std::string& text)
+{
+    if (text == "none" || text == "studio") {
+        return text == "none" ? BuiltInEnvironment::None : BuiltInEnvironment::Studio;
+    }
+    const bool looksLikeNumbers = text.find_first_not_of("0123456789.,eE+-") == std::string::npos;
+    return looksLikeNumbers ? EnvironmentChoice(parseRadiance(text)) : EnvironmentChoice(std::filesystem::path(text));
+}
+
+std::string describeEnvironment(const EnvironmentChoice& choice)
+{
+    if (const auto* radiance = std::get_if<glm::vec3>(&choice)) {
+        return exactText(radiance->r) + "," + exactText(radiance->g) + "," + exactText(radiance->b);
+    }
+    if (const auto* file = std::get_if<std::filesystem::path>(&choice)) {
+        return file->string();
+    }
+    return std::get<BuiltInEnvironment>(choice) == BuiltInEnvironment::None ? "none" : "studio";
+}
+
 glm::vec3 parseRadiance(const std::string& text)
 {
     glm::vec3 radiance(0.0F);
     if (!parseTriple(text, radiance) || glm::any(glm::lessThan(radiance, glm::vec3(0.0F)))) {
         throw UsageError("--environment", "\"" + text +
                                               "\": expected a constant radiance as r,g,b with numbers >= 0, as in "
-                                              "1,1,1 (environment maps are not supported yet)");
+                                              "1,1,1; or the name of a .hdr or .exr map, studio or none");
     }
     return radiance;
 }

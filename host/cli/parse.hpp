@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/cli/command.hpp"
+#include "host/scene/load_gltf.hpp"
 
 #include <glm/glm.hpp>
 
@@ -24,6 +25,9 @@ struct SamplePlace {
 
 glm::uvec2 parseSize(const std::string& text);                                // "640x480"
 std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& text);  // "0:256", begin < end
+// "none", "studio", numbers or a file.
+EnvironmentChoice parseEnvironment(const std::string& text);
+std::string describeEnvironment(const EnvironmentChoice& choice);
 glm::vec3 parseRadiance(const std::string& text);                             // "1,1,1", >= 0; a file is refused
 SamplePlace parseSample(const std::string& text);                             // "12,40,7"
 glm::dvec3 parsePoint(const std::string& option, const std::string& text);    // "1,2.5,-3"

@@ -59,8 +59,16 @@ void addRoulette(const Command& command, RenderSettings& settings)
 void addPicture(const Command& command, PictureOptions& options, const std::string& height)
 {
     addSceneIndex(command, options.sceneIndex);
-    command.add("--environment", "R,G,B", "Constant radiance from everywhere, W/(sr m^2) >= 0 [the file's own]",
-                [&options](const std::string& text) { options.environment = parseRadiance(text); });
+    command.add("--environment", "MAP|R,G,B|studio|none",
+                "Light from infinitely far: a .hdr or .exr map, a constant radiance in W/(sr m^2), the built-in studio, or none "
+                "[the file's own; studio if the scene has no light]",
+                [&options](const std::string& text) { options.environment = parseEnvironment(text); });
+    addNumber<float>(command, {"--environment-rotation", "DEG", "Turn the map about the vertical axis", -360.0F, 360.0F, "0"},
+                     [&options](float degrees) { options.environmentRotation = degrees; });
+    addEnum(command, "--environment-background", "on|off", "Whether the camera sees the environment [on]", {"off", "on"},
+            options.environmentBackground);
+    addEnum(command, "--missing-textures", "refuse|grey", "What to do if an image cannot be read [refuse]", {"refuse", "grey"},
+            options.missingTextures);
     command.add("--size", "WxH", "Pixels, each side 1 to 65535 [" + height + " high, width by the camera's aspect ratio]",
                 [&options](const std::string& text) { options.size = parseSize(text); });
 }
@@ -151,7 +159,12 @@ void addDevice(const Command& command, PictureOptions& options)
 
 LoadOptions loadOptionsOf(const PictureOptions& options)
 {
-    LoadOptions load{options.sceneIndex, options.environment};
+    LoadOptions load;
+    load.scene = options.sceneIndex;
+    load.environment = options.environment;
+    load.environmentRotation = glm::radians(options.environmentRotation);
+    load.environmentBackground = options.environmentBackground;
+    load.missingTextures = options.missingTextures;
     if (options.size) {
         load.aspectRatio = static_cast<float>(options.size->x) / static_cast<float>(options.size->y);
     }

@@ -20,7 +20,10 @@ struct PictureOptions {
     std::optional<std::size_t> sceneIndex;
     std::optional<std::string> device, camera;
     std::optional<Pose> pose;
-    std::optional<glm::vec3> environment;
+    std::optional<EnvironmentChoice> environment;
+    float environmentRotation = 0.0F;  // degrees
+    bool environmentBackground = true;
+    MissingTextures missingTextures = MissingTextures::Refuse;
     double exposure = 0.0;
     Lens lens;
     SplitRule split = SplitRule::Sah;

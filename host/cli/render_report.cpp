@@ -167,6 +167,7 @@ Json statisticsOf(const RenderReport& report)
             {"nonFinite", nonFiniteOf(s, report.film.width)},
             {"loopCapHits", s.loopCaps},
             {"overflows", s.overflows},
+            {"transparencyCaps", s.transparencyCaps},
             {"clampIndirect", clampingOf(report.film, report.options)},
             {"estimate", estimateOf(report.film, report.options.settings)},
             {"pixelsWithoutEstimate", pixelsWithoutError(report.film)},

@@ -37,6 +37,11 @@ void addNormals(Fingerprint& print, const FlatScene& scene, std::size_t primitiv
     const uvec4 vertices = primitive < scene.triangles.size() ? scene.triangles[primitive] : uvec4(0);
     for (int v = 0; v < 3; ++v) {
         print.addBytes(std::as_bytes(std::span(&scene.vertices[vertices[v]], 1)));
+        for (const std::uint32_t section : {scene.firstUv, scene.firstTangent, scene.firstColor}) {
+            if (section != 0) {
+                print.addBytes(std::as_bytes(std::span(&scene.vertices[section + vertices[v]], 1)));
+            }
+        }
     }
 }
 
@@ -48,6 +53,8 @@ std::uint64_t bytesOf(const std::vector<T>& values)
 
 static_assert(sizeof(MaterialData) == kMaterialTexels * sizeof(uvec4));
 static_assert(sizeof(FlatLight) == kLightTexels * sizeof(uvec4));
+static_assert(sizeof(PrincipledData) == kPrincipledTexels * sizeof(uvec4));
+static_assert(sizeof(TextureData) == kTextureTexels * sizeof(uvec4));
 static_assert(sizeof(FlatEmitter) == kEmitterTexels * sizeof(uvec4));
 
 }  // namespace
@@ -55,7 +62,8 @@ static_assert(sizeof(FlatEmitter) == kEmitterTexels * sizeof(uvec4));
 std::uint64_t sizeInBytes(const FlatScene& scene)
 {
     return bytesOf(scene.nodes) + bytesOf(scene.records) + bytesOf(scene.triangles) + bytesOf(scene.vertices) + bytesOf(scene.materials) +
-           bytesOf(scene.lights) + bytesOf(scene.emitters);
+           bytesOf(scene.lights) + bytesOf(scene.emitters) + bytesOf(scene.principled) + bytesOf(scene.textures) + bytesOf(scene.texels) +
+           bytesOf(scene.albedos) + bytesOf(scene.environmentTexels) + bytesOf(scene.environmentCells);
 }
 
 std::uint64_t fingerprint(const FlatScene& scene)
@@ -82,6 +90,13 @@ std::uint64_t fingerprint(const FlatScene& scene)
     }
     print.add(scene.materials);
     print.add(scene.lights);
+    print.add(scene.principled);
+    print.add(scene.textures);
+    print.add(scene.texels);
+    print.add(scene.environmentTexels);
+    if (!scene.environmentTexels.empty() || scene.hidesEnvironment) {
+        print.add(std::vector<vec3>{scene.environment, vec3(scene.environmentTurn, scene.hidesEnvironment ? 1.0F : 0.0F)});
+    }
     return print.state();
 }
 

@@ -25,18 +25,37 @@ constexpr Feature kFeatures[] = {{kFeatureSpheres, "spheres"},
                                  {kFeatureTriangleLights, "triangle lights"},
                                  {kFeatureSphereLights, "sphere lights"},
                                  {kFeaturePunctualLights, "punctual lights"},
-                                 {kFeatureEnvironment, "environment"}};
+                                 {kFeatureEnvironment, "environment"},
+                                 {kFeaturePrincipled, "glTF materials"},
+                                 {kFeatureTextures, "textures"},
+                                 {kFeatureNormalMaps, "normal maps"},
+                                 {kFeatureVertexColors, "vertex colours"},
+                                 {kFeatureAlpha, "alpha"},
+                                 {kFeatureEnvironmentMap, "environment map"},
+                                 {kFeatureTextureTransforms, "texture transforms"},
+                                 {kFeatureWideTextures, "16-bit textures"}};
 
 struct FlatScene {
     std::vector<uvec4> nodes;
     std::vector<uvec4> records;              // for traversal, in the order of the BVH's leaves
-    std::vector<uvec4> triangles, vertices;  // for shading, by primitive id; empty if no triangle has vertex normals
+    std::vector<uvec4> triangles, vertices;  // for shading; empty if no triangle has vertex attributes
+    std::uint32_t triangleCount = 0;
+    std::uint32_t firstUv = 0, firstTangent = 0, firstColor = 0;  // sections of `vertices`
     std::vector<MaterialData> materials;
+    std::vector<PrincipledData> principled;  // behind the materials, in the same buffer
+    std::vector<TextureData> textures;       // behind these
+    std::vector<std::uint32_t> texels;       // of images, a byte per channel
+    std::vector<uvec4> albedos;              // empty without kFeaturePrincipled
     std::vector<FlatLight> lights;
     std::vector<FlatEmitter> emitters;
     std::uint32_t features = 0;                   // kFeatureSpheres ...: what the scene needs
     std::uint32_t stackLevels = kMaxStackLevels;  // of the traversal stack
-    vec3 environment{0.0F};
+    vec3 environment{0.0F};              // radiance, or what multiplies that of the map
+    bool hidesEnvironment = false;       // from the camera
+    vec2 environmentTurn{1.0F, 0.0F};    // cosine and sine of the map's rotation
+    std::vector<uvec2> environmentTexels;
+    std::vector<uvec4> environmentCells;
+    uvec2 environmentSize{0}, environmentCellCount{0};
     std::uint32_t environmentLight = 0;  // index among lights, if the scene has kFeatureEnvironment
 };
 

@@ -1,5 +1,7 @@
 #include "host/flatten/flatten_scene.hpp"
 
+#include "host/flatten/albedo_table.hpp"
+#include "host/flatten/flatten_materials.hpp"
 #include "host/flatten/light_table.hpp"
 #include "host/flatten/pack_nodes.hpp"
 
@@ -24,19 +26,19 @@ bool isSliver(const Triangle& triangle)
     return glm::length(glm::cross(a, c)) < static_cast<double>(kSliverHeight) * square;
 }
 
-void pushTriangle(FlatScene& flat, const Triangle& triangle, std::uint32_t id, std::uint32_t material)
+void pushTriangle(FlatScene& flat, const Triangle& triangle, std::uint32_t id, std::uint32_t material, bool alpha)
 {
     const bool sliver = isSliver(triangle);
     flat.features |= sliver ? kFeatureSlivers : 0U;
     flat.records.push_back(texel(triangle.vertices[0], id));
-    flat.records.push_back(texel(triangle.vertices[1], material | (sliver ? kSliverBit : 0U)));
+    flat.records.push_back(texel(triangle.vertices[1], material | (sliver ? kSliverBit : 0U) | (alpha ? kAlphaBit : 0U)));
     flat.records.push_back(texel(triangle.vertices[2], 0));
 }
 
-void pushSphere(FlatScene& flat, const Sphere& sphere, std::uint32_t id)
+void pushSphere(FlatScene& flat, const Sphere& sphere, std::uint32_t id, bool alpha)
 {
     flat.records.push_back(texel(sphere.center, id));
-    flat.records.push_back(texel({sphere.radius, 0.0F, 0.0F}, sphere.material | kSphereBit));
+    flat.records.push_back(texel({sphere.radius, 0.0F, 0.0F}, sphere.material | kSphereBit | (alpha ? kAlphaBit : 0U)));
     flat.records.push_back(texel({0.0F, 0.0F, 0.0F}, 0));
 }
 
@@ -53,10 +55,12 @@ std::vector<std::uint32_t> pushRecords(FlatScene& flat, const Scene& scene, cons
     for (std::uint32_t record = 0; record < bvh.order.size(); ++record) {
         const std::uint32_t id = bvh.order[record];
         recordOf[id] = record;
+        const bool alpha = !primitives.hasAlpha.empty() && primitives.hasAlpha[id];
+        flat.features |= alpha ? kFeatureAlpha : 0U;
         if (id < materials.size()) {
-            pushTriangle(flat, primitives.triangles[id], id, materials[id]);
+            pushTriangle(flat, primitives.triangles[id], id, materials[id], alpha);
         } else {
-            pushSphere(flat, primitives.spheres[id - materials.size()], id);
+            pushSphere(flat, primitives.spheres[id - materials.size()], id, alpha);
         }
     }
     return recordOf;
@@ -64,14 +68,36 @@ std::vector<std::uint32_t> pushRecords(FlatScene& flat, const Scene& scene, cons
 
 void pushShading(FlatScene& flat, const Primitives& primitives)
 {
+    flat.triangleCount = static_cast<std::uint32_t>(primitives.triangles.size());
     flat.triangles.reserve(primitives.vertexIndices.size());
     for (const glm::uvec3& vertices : primitives.vertexIndices) {
         flat.triangles.emplace_back(vertices, 0U);
     }
-    flat.vertices.reserve(primitives.vertexNormals.size());
     for (const glm::vec3& normal : primitives.vertexNormals) {
         flat.vertices.push_back(texel(normal, 0));
+        flat.features |= normal != glm::vec3(0.0F) ? kFeatureSmooth : 0U;
     }
+    const auto pushSection = [&flat](const std::vector<glm::vec4>& values, std::uint32_t& first) {
+        first = values.empty() ? 0 : static_cast<std::uint32_t>(flat.vertices.size());
+        for (const glm::vec4& value : values) {
+            flat.vertices.push_back(texel(glm::vec3(value), std::bit_cast<std::uint32_t>(value.w)));
+        }
+    };
+    pushSection(primitives.vertexUvs, flat.firstUv);
+    pushSection(primitives.vertexTangents, flat.firstTangent);
+    pushSection(primitives.vertexColors, flat.firstColor);
+    flat.features |= primitives.vertexColors.empty() ? 0U : kFeatureVertexColors;
+}
+
+// Which materials are drawn with vertex colours.
+std::vector<bool> findColored(const Scene& scene)
+{
+    std::vector<bool> colored(scene.materials.size(), false);
+    for (const MeshInstance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[instance.mesh];
+        colored[mesh.material] = colored[mesh.material] || !mesh.colors.empty();
+    }
+    return colored;
 }
 
 // Marks the other records of each emitting primitive; addLights has marked one.
@@ -86,19 +112,6 @@ void markOtherRecords(FlatScene& flat, std::span<const std::uint32_t> order, std
     }
 }
 
-static_assert(static_cast<std::uint32_t>(Scattering::Lambert) == kLambert && static_cast<std::uint32_t>(Scattering::Mirror) == kMirror);
-static_assert(static_cast<std::uint32_t>(Scattering::Dielectric) == kDielectric);
-
-std::uint32_t featureOf(Scattering scattering)
-{
-    switch (scattering) {
-    case Scattering::Lambert: break;
-    case Scattering::Mirror: return kFeatureMirror;
-    case Scattering::Dielectric: return kFeatureDielectric;
-    }
-    return 0;
-}
-
 // A multiple of four, so that scenes of about the same size share compiled kernels.
 std::uint32_t stackLevelsOf(const WideBvh& bvh) { return std::max((bvh.depth + 1) / 4 * 4, 4U); }
 
@@ -111,16 +124,16 @@ FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const W
     FlatScene flat;
     flat.nodes = packNodes(bvh);
     flat.stackLevels = stackLevelsOf(bvh);
-    flat.features = (primitives.spheres.empty() ? 0U : kFeatureSpheres) | (primitives.vertexNormals.empty() ? 0U : kFeatureSmooth);
-    for (const Material& m : scene.materials) {
-        flat.materials.push_back(
-            {m.baseColor, static_cast<std::uint32_t>(m.scattering), m.emission, m.ior, m.doubleSided ? 1U : 0U, uvec3(0)});
-    }
+    flat.features = primitives.spheres.empty() ? 0U : kFeatureSpheres;
+    flattenMaterials(flat, scene, findColored(scene));
     for (const MeshInstance& instance : scene.instances) {
-        flat.features |= featureOf(scene.materials[scene.meshes[instance.mesh].material].scattering);
+        flat.features |= featuresOf(flat, scene.meshes[instance.mesh].material);
     }
     for (const Sphere& sphere : scene.spheres) {
-        flat.features |= featureOf(scene.materials[sphere.material].scattering);
+        flat.features |= featuresOf(flat, sphere.material);
+    }
+    if ((flat.features & kFeaturePrincipled) != 0) {
+        flat.albedos = makeAlbedoTable();
     }
     pushShading(flat, primitives);
     const std::vector<std::uint32_t> recordOf = pushRecords(flat, scene, primitives, bvh);

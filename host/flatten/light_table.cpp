@@ -1,8 +1,12 @@
 #include "host/flatten/light_table.hpp"
 
 #include "host/flatten/alias_table.hpp"
+#include "host/flatten/box_sums.hpp"
+#include "host/flatten/environment_map.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <numbers>
 
 namespace glim {
@@ -12,6 +16,37 @@ constexpr double kPi = std::numbers::pi;
 
 // A colour counts by its strongest channel, which does not change when channels are swapped.
 double strength(const glm::vec3& color) { return static_cast<double>(std::max({color.r, color.g, color.b})); }
+
+// The mean strength of a texture over a triangle's texture coordinates, about; 0 only where the texture is black all over.
+class EmissiveTexture {
+public:
+    EmissiveTexture(const Texture& texture, const DecodedImage& image)
+        : texture_(texture),
+          sums_(image.width, image.height, [&image](std::uint32_t x, std::uint32_t y) {
+              const std::size_t at = 4 * (std::size_t{y} * image.width + x);
+              std::uint32_t strongest = 0;
+              for (std::size_t c = 0; c < 3; ++c) {
+                  strongest = std::max(strongest, image.rgba16.empty() ? image.rgba8[at + c] * 257U : image.rgba16[at + c]);
+              }
+              return strongest == 0 ? 0 : static_cast<std::uint32_t>(kOne * std::pow(strongest / 65535.0, 2.2)) + 1;
+          })
+    {}
+
+    double mean(const glm::vec4 (&uvs)[3]) const
+    {
+        glm::vec2 uv[3];
+        for (int v = 0; v < 3; ++v) {
+            uv[v] = texture_.uvSet == 0 ? glm::vec2(uvs[v].x, uvs[v].y) : glm::vec2(uvs[v].z, uvs[v].w);
+        }
+        return sums_.mean(uvBoxOf(texture_, uv), texture_) / kOne;
+    }
+
+private:
+    static constexpr double kOne = 1 << 20;
+
+    const Texture& texture_;
+    BoxSums sums_;
+};
 
 double area(const Triangle& triangle) { return 0.5 * glm::length(faceNormal(triangle)); }
 
@@ -45,23 +80,32 @@ public:
 
     void addInstance(std::size_t instance)
     {
-        const Material& material = scene_.materials[scene_.meshes[scene_.instances[instance].mesh].material];
+        const std::uint32_t id = scene_.meshes[scene_.instances[instance].mesh].material;
+        const Material& material = scene_.materials[id];
         const std::uint32_t first = primitives_.firstTriangles[instance], count = primitives_.firstTriangles[instance + 1] - first;
         if (count == 0 || !(strength(material.emission) > 0.0)) {
             return;
         }
-        std::vector<double> areas;
-        for (std::uint32_t i = 0; i < count; ++i) {
-            areas.push_back(area(primitives_.triangles[first + i]));
-        }
-        const AliasTable table = buildAliasTable(areas);
-        FlatLight light = surfaceLight(kTriangleLight, material, count);
-        flat_.features |= kFeatureTriangleLights;
+        std::vector<double> areas, weights;
+        std::vector<std::uint32_t> emitting;
         double total = 0.0;
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const auto areaPdf = static_cast<float>(table.probabilities[i] / areas[i]);
-            addEmitter(first + i, areaPdf, table.entries[i]);
-            total += areas[i];
+        for (std::uint32_t i = first; i < first + count; ++i) {
+            const double strength = emissionOf(id, i);
+            if (strength > 0.0) {
+                emitting.push_back(i);
+                areas.push_back(area(primitives_.triangles[i]));
+                weights.push_back(areas.back() * strength);
+                total += weights.back();
+            }
+        }
+        if (emitting.empty()) {
+            return;
+        }
+        const AliasTable table = buildAliasTable(weights);
+        FlatLight light = surfaceLight(kTriangleLight, material, static_cast<std::uint32_t>(emitting.size()));
+        flat_.features |= kFeatureTriangleLights;
+        for (std::size_t i = 0; i < emitting.size(); ++i) {
+            addEmitter(emitting[i], static_cast<float>(table.probabilities[i] / areas[i]), table.entries[i]);
         }
         add(light, kPi * total * strength(material.emission) * (material.doubleSided ? 2.0 : 1.0));
     }
@@ -106,18 +150,23 @@ public:
         add(light, strength(punctual.intensity) * steradians);
     }
 
-    void addEnvironment(const glm::vec3& radiance)
+    void addEnvironment(const Environment& environment)
     {
-        if (!(strength(radiance) > 0.0)) {
+        const glm::vec3& radiance = environment.radiance;
+        const double integral = environment.map && strength(radiance) > 0.0 ? flattenEnvironmentMap(flat_, *environment.map) : 4.0 * kPi;
+        if (!(strength(radiance) > 0.0) || !(integral > 0.0)) {
             return;
         }
+        flat_.features |= environment.map ? kFeatureEnvironmentMap : 0U;
+        flat_.environmentTurn = {std::cos(environment.rotation), std::sin(environment.rotation)};
+        flat_.hidesEnvironment = !environment.background;
         FlatLight light{};
         light.kind = kEnvironmentLight;
         light.intensity = radiance;
         flat_.features |= kFeatureEnvironment;
         flat_.environment = radiance;
         flat_.environmentLight = static_cast<std::uint32_t>(flat_.lights.size());
-        add(light, 4.0 * kPi * kPi * radius_ * radius_ * strength(radiance));
+        add(light, integral * kPi * radius_ * radius_ * strength(radiance));
     }
 
     // Turns powers into probabilities.
@@ -134,6 +183,26 @@ public:
     }
 
 private:
+    // What the emission of a triangle is multiplied by on average.
+    double emissionOf(std::uint32_t id, std::uint32_t triangle)
+    {
+        const Material& material = scene_.materials[id];
+        if (!material.emissiveTexture) {
+            return 1.0;
+        }
+        const auto known = textures_.find(id);
+        const EmissiveTexture& texture =
+            known != textures_.end()
+                ? known->second
+                : textures_.emplace(id, EmissiveTexture(*material.emissiveTexture, scene_.images[material.emissiveTexture->image].pixels))
+                      .first->second;
+        glm::vec4 uvs[3];
+        for (int v = 0; v < 3; ++v) {
+            uvs[v] = primitives_.vertexUvs[primitives_.vertexIndices[triangle][v]];
+        }
+        return texture.mean(uvs);
+    }
+
     FlatLight surfaceLight(std::uint32_t kind, const Material& material, std::uint32_t emitters) const
     {
         FlatLight light{};
@@ -142,6 +211,7 @@ private:
         light.emitterCount = emitters;
         light.intensity = material.emission;
         light.doubleSided = material.doubleSided ? 1 : 0;
+        light.uneven = material.emissiveTexture || material.alphaMode != AlphaMode::Opaque ? 1 : 0;
         return light;
     }
 
@@ -164,6 +234,7 @@ private:
     std::span<const std::uint32_t> recordOf_;
     double radius_;
     std::vector<double> powers_;
+    std::map<std::uint32_t, EmissiveTexture> textures_;  // by material
 };
 
 }  // namespace

@@ -1,11 +1,13 @@
 #include "host/flatten/primitives.hpp"
 
+#include "host/flatten/classify_alpha.hpp"
 #include "host/text.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace glim {
@@ -20,7 +22,13 @@ glm::dmat3 computeWorldFromNormal(const glm::dmat3& linear)
     return glm::determinant(linear) < 0.0 ? -cofactors : cofactors;
 }
 
-using Words = std::array<std::uint32_t, 3>;
+// What shading reads of a vertex.
+struct Vertex {
+    glm::vec3 normal{0.0F};
+    glm::vec4 uv{0.0F}, tangent{0.0F}, color{1.0F};
+};
+
+using Words = std::array<std::uint32_t, 15>;
 
 std::size_t hashOf(const Words& words)
 {
@@ -39,12 +47,16 @@ public:
         std::size_t count = 0;
         for (const MeshInstance& instance : scene.instances) {
             count += scene.meshes[instance.mesh].indices.size() / 3;
-            smooth_ = smooth_ || !scene.meshes[instance.mesh].normals.empty();
+            const Mesh& mesh = scene.meshes[instance.mesh];
+            smooth_ = smooth_ || !mesh.normals.empty();
+            mapped_ = mapped_ || isTextured(scene.materials[mesh.material]);
+            tangents_ = tangents_ || !mesh.tangents.empty();
+            colored_ = colored_ || !mesh.colors.empty();
         }
         made_.triangles.reserve(count);
-        made_.vertexIndices.reserve(smooth_ ? count : 0);
-        if (smooth_) {
-            made_.vertexNormals.emplace_back(0.0F);
+        if (smooth_ || mapped_ || tangents_ || colored_) {
+            made_.vertexIndices.reserve(count);
+            addVertex(Vertex());
         }
     }
 
@@ -55,7 +67,12 @@ public:
             addInstance(instance);
         }
         made_.firstTriangles.push_back(static_cast<std::uint32_t>(made_.triangles.size()));
-        made_.spheres = scene_.spheres;
+        for (const Sphere& sphere : scene_.spheres) {
+            addPrimitive(alpha_.classify(sphere), [&] { made_.spheres.push_back(sphere); });
+        }
+        if (std::find(made_.hasAlpha.begin(), made_.hasAlpha.end(), true) == made_.hasAlpha.end()) {
+            made_.hasAlpha.clear();
+        }
         if (flatTriangles_ > 0) {
             made_.warnings.push_back("left out " + counted(flatTriangles_, "triangle") + " of zero area");
         }
@@ -67,14 +84,31 @@ public:
     }
 
 private:
+    static bool isTextured(const Material& material)
+    {
+        const auto textures = texturesOf(material);
+        return std::any_of(textures.begin(), textures.end(), [](const auto* texture) { return texture->has_value(); });
+    }
+
+    template <class Add>
+    void addPrimitive(Coverage coverage, const Add& add)
+    {
+        if (coverage != Coverage::Transparent) {
+            made_.hasAlpha.push_back(coverage == Coverage::Mixed);
+            add();
+        }
+    }
+
     void addInstance(const MeshInstance& instance)
     {
         const Mesh& mesh = scene_.meshes[instance.mesh];
         const PlacedMesh placed(scene_, instance);
-        worldFromNormal_ = computeWorldFromNormal(glm::dmat3(instance.worldFromMesh));
-        vertexOf_.assign(mesh.normals.size(), kNotYet);
-        // Without indices, triangles side by side repeat each other's normals. A table of half-empty slots finds them.
-        const bool unindexed = !mesh.normals.empty() && mesh.indices.size() <= mesh.positions.size();
+        worldFromMesh_ = glm::dmat3(instance.worldFromMesh);
+        worldFromNormal_ = computeWorldFromNormal(worldFromMesh_);
+        vertexOf_.assign(mesh.positions.size(), kNotYet);
+        const bool attributes = !mesh.normals.empty() || !mesh.colors.empty() || !mesh.tangents.empty() || (mapped_ && !mesh.uv0.empty());
+        // Without indices, triangles side by side repeat each other's vertices. A table of half-empty slots finds them.
+        const bool unindexed = attributes && mesh.indices.size() <= mesh.positions.size();
         slots_.assign(unindexed ? std::bit_ceil(2 * mesh.indices.size()) : 0, kNotYet);
         for (std::size_t i = 0; i < placed.triangleCount(); ++i) {
             const Triangle triangle = placed.triangle(i);
@@ -83,10 +117,12 @@ private:
                 ++flatTriangles_;
                 continue;
             }
-            made_.triangles.push_back(triangle);
-            if (smooth_) {
-                made_.vertexIndices.push_back(mesh.normals.empty() ? glm::uvec3(0) : addVertices(mesh, placed.corners(i), normal));
-            }
+            addPrimitive(alpha_.classify(mesh, placed.corners(i)), [&] {
+                made_.triangles.push_back(triangle);
+                if (!made_.vertexNormals.empty()) {
+                    made_.vertexIndices.push_back(attributes ? addVertices(mesh, placed.corners(i), normal) : glm::uvec3(0));
+                }
+            });
         }
     }
 
@@ -94,47 +130,103 @@ private:
     {
         glm::uvec3 vertices;
         for (int v = 0; v < 3; ++v) {
-            std::uint32_t& vertex = vertexOf_[corners[static_cast<std::size_t>(v)]];
+            const std::uint32_t corner = corners[static_cast<std::size_t>(v)];
+            std::uint32_t& vertex = vertexOf_[corner];
             if (vertex == kNotYet) {
-                const glm::dvec3 normal = worldFromNormal_ * mesh.normals[corners[static_cast<std::size_t>(v)]];
-                const double length = glm::length(normal);
-                if (!std::isfinite(length) || !(length > 0.0)) {
-                    vertices[v] = addVertex(glm::vec3(glm::normalize(faceNormal)));  // of this triangle alone
-                    ++badNormals_;
-                    continue;
+                Vertex made = makeVertex(mesh, corner);
+                if (!mesh.normals.empty()) {
+                    const glm::dvec3 normal = worldFromNormal_ * mesh.normals[corner];
+                    const double length = glm::length(normal);
+                    if (!std::isfinite(length) || !(length > 0.0)) {
+                        made.normal = glm::normalize(faceNormal);
+                        vertices[v] = addVertex(made);  // of this triangle alone
+                        ++badNormals_;
+                        continue;
+                    }
+                    made.normal = normal / length;
                 }
-                vertex = slots_.empty() ? addVertex(glm::vec3(normal / length)) : findOrAddVertex(glm::vec3(normal / length));
+                vertex = slots_.empty() ? addVertex(made) : findOrAddVertex(made);
             }
             vertices[v] = vertex;
         }
         return vertices;
     }
 
-    std::uint32_t findOrAddVertex(const glm::vec3& normal)
+    // Without its normal.
+    Vertex makeVertex(const Mesh& mesh, std::uint32_t index) const
     {
-        const auto words = std::bit_cast<Words>(normal);
+        Vertex vertex;
+        if (mapped_) {
+            vertex.uv = glm::vec4(mesh.uv0.empty() ? glm::vec2(0.0F) : mesh.uv0[index], mesh.uv1.empty() ? glm::vec2(0.0F) : mesh.uv1[index]);
+        }
+        if (!mesh.tangents.empty()) {
+            const glm::dvec3 tangent = worldFromMesh_ * glm::dvec3(mesh.tangents[index]);
+            const double length = glm::length(tangent);
+            const bool usable = std::isfinite(length) && length > 0.0;
+            vertex.tangent = usable ? glm::vec4(tangent / length, mesh.tangents[index].w) : glm::vec4(0.0F);
+            // cross(normal, tangent) turns round when the instance mirrors.
+            vertex.tangent.w *= glm::determinant(worldFromMesh_) < 0.0 ? -1.0F : 1.0F;
+        }
+        if (!mesh.colors.empty()) {
+            vertex.color = glm::clamp(mesh.colors[index], 0.0F, 1.0F);
+        }
+        return vertex;
+    }
+
+    static Words wordsOf(const glm::vec3& normal, const glm::vec4& uv, const glm::vec4& tangent, const glm::vec4& color)
+    {
+        Words words{};
+        std::memcpy(words.data(), &normal, sizeof normal);
+        std::memcpy(words.data() + 3, &uv, sizeof uv);
+        std::memcpy(words.data() + 7, &tangent, sizeof tangent);
+        std::memcpy(words.data() + 11, &color, sizeof color);
+        return words;
+    }
+
+    Words wordsOfVertex(std::uint32_t vertex) const
+    {
+        const auto valueOr = [vertex](const std::vector<glm::vec4>& values, float fallback) {
+            return values.empty() ? glm::vec4(fallback) : values[vertex];
+        };
+        return wordsOf(made_.vertexNormals[vertex], valueOr(made_.vertexUvs, 0.0F), valueOr(made_.vertexTangents, 0.0F),
+                       valueOr(made_.vertexColors, 1.0F));
+    }
+
+    std::uint32_t findOrAddVertex(const Vertex& vertex)
+    {
+        const Words words = wordsOf(vertex.normal, vertex.uv, vertex.tangent, vertex.color);
         std::size_t slot = hashOf(words) & (slots_.size() - 1);
-        while (slots_[slot] != kNotYet && std::bit_cast<Words>(made_.vertexNormals[slots_[slot]]) != words) {
+        while (slots_[slot] != kNotYet && wordsOfVertex(slots_[slot]) != words) {
             slot = (slot + 1) & (slots_.size() - 1);
         }
         if (slots_[slot] == kNotYet) {
-            slots_[slot] = addVertex(normal);
+            slots_[slot] = addVertex(vertex);
         }
         return slots_[slot];
     }
 
-    std::uint32_t addVertex(const glm::vec3& normal)
+    std::uint32_t addVertex(const Vertex& vertex)
     {
-        made_.vertexNormals.push_back(normal);
+        made_.vertexNormals.push_back(vertex.normal);
+        if (mapped_) {
+            made_.vertexUvs.push_back(vertex.uv);
+        }
+        if (tangents_) {
+            made_.vertexTangents.push_back(vertex.tangent);
+        }
+        if (colored_) {
+            made_.vertexColors.push_back(vertex.color);
+        }
         return static_cast<std::uint32_t>(made_.vertexNormals.size() - 1);
     }
 
     const Scene& scene_;
-    bool smooth_ = false;  // some mesh has normals
+    AlphaClassifier alpha_{scene_};
+    bool smooth_ = false, mapped_ = false, tangents_ = false, colored_ = false;  // what some mesh has, and some material needs
     Primitives made_;
-    glm::dmat3 worldFromNormal_{1.0};
+    glm::dmat3 worldFromMesh_{1.0}, worldFromNormal_{1.0};
     std::vector<std::uint32_t> vertexOf_;  // by vertex of the mesh
-    std::vector<std::uint32_t> slots_;     // of the hash table, by a normal's hash; empty for a mesh with indices
+    std::vector<std::uint32_t> slots_;     // of the hash table, by a vertex's hash; empty for a mesh with indices
     std::size_t flatTriangles_ = 0, badNormals_ = 0;
 };
 

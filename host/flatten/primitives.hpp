@@ -11,9 +11,15 @@ struct Primitives {
     std::vector<Sphere> spheres;
     std::vector<std::uint32_t> firstTriangles;  // by instance, then the number of all triangles
 
-    // Shading normals, unit; both are empty if no mesh has any. Vertex 0 has the normal 0; a triangle without normals has it three times.
+    // What shading reads of vertices; all are empty if no mesh has any of it. Vertex 0 is that of triangles without attributes.
     std::vector<glm::uvec3> vertexIndices;  // by triangle
-    std::vector<glm::vec3> vertexNormals;
+    std::vector<glm::vec3> vertexNormals;   // unit, or 0 where the mesh is flat
+    // Each is by vertex, or empty if no material needs it.
+    std::vector<glm::vec4> vertexUvs;       // set 0, set 1
+    std::vector<glm::vec4> vertexTangents;  // unit, w the sign of the bitangent; 0 where there is none
+    std::vector<glm::vec4> vertexColors;
+
+    std::vector<bool> hasAlpha;  // by primitive: neither opaque nor transparent all over; empty if no primitive is
 
     std::vector<std::string> warnings;  // one line each: what was dropped or replaced
 
@@ -21,7 +27,7 @@ struct Primitives {
     std::uint32_t instanceOf(std::uint32_t triangle) const;
 };
 
-// Triangles without area are dropped; normals that are zero or not finite are replaced by the face normal.
+// Triangles without area and primitives that are transparent all over are dropped; normals that are zero or not finite are replaced by the face normal.
 Primitives makePrimitives(const Scene& scene);
 
 }  // namespace glim

@@ -9,7 +9,14 @@
 namespace glim {
 namespace {
 
-constexpr std::uint64_t kTexelBytes = 16;
+std::uint64_t texelBytes(BufferKind kind) { return kind == BufferKind::Texel4 ? 4 : kind == BufferKind::Texel8 ? 8 : 16; }
+
+VkFormat texelFormat(BufferKind kind)
+{
+    return kind == BufferKind::Texel4   ? VK_FORMAT_R8G8B8A8_UINT
+           : kind == BufferKind::Texel8 ? VK_FORMAT_R32G32_UINT
+                                        : VK_FORMAT_R32G32B32A32_UINT;
+}
 
 VkBufferUsageFlags usageOf(BufferKind kind)
 {
@@ -23,8 +30,8 @@ std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes + (1U 
 // The most bytes of a buffer of this kind that a kernel can address.
 std::uint64_t limitOf(const DeviceDescription& device, BufferKind kind)
 {
-    const std::uint64_t texels = device.maxTexelElements * kTexelBytes;
-    return kind == BufferKind::Texel  ? texels
+    const std::uint64_t texels = device.maxTexelElements * texelBytes(kind);
+    return !hasStorage(kind)          ? texels
            : kind == BufferKind::Both ? std::min(texels, device.maxStorageBuffer)
                                       : device.maxStorageBuffer;
 }
@@ -105,7 +112,7 @@ Buffer::Buffer(Device& device, const std::string& name, BufferKind kind, std::ui
     if (hasTexels(kind)) {
         VkBufferViewCreateInfo view{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
         view.buffer = handle_;
-        view.format = VK_FORMAT_R32G32B32A32_UINT;
+        view.format = texelFormat(kind);
         view.range = VK_WHOLE_SIZE;
         check(vkCreateBufferView(device.handle(), &view, nullptr, &view_), "create the texel view of the " + name);
     }

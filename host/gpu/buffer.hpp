@@ -12,12 +12,14 @@ namespace glim {
 enum class BufferKind {
     Storage,   // read and written by kernels; also an indirect dispatch's arguments
     Texel,     // read by kernels as 16-byte texels (uvec4)
+    Texel8,    // as texels of 8 bytes (uvec2)
+    Texel4,    // as texels of 4 bytes, each one number (uvec4 of bytes)
     Both,      // as Storage, and as texels at another binding
     Readback,  // as Storage, and cheap for the host to read
 };
 
-constexpr bool hasTexels(BufferKind kind) { return kind == BufferKind::Texel || kind == BufferKind::Both; }
-constexpr bool hasStorage(BufferKind kind) { return kind != BufferKind::Texel; }
+constexpr bool hasTexels(BufferKind kind) { return kind != BufferKind::Storage && kind != BufferKind::Readback; }
+constexpr bool hasStorage(BufferKind kind) { return kind == BufferKind::Storage || kind == BufferKind::Both || kind == BufferKind::Readback; }
 
 // The size of a staging buffer in bytes. A longer copy is made in parts, so that a large scene needs little host memory beside its own.
 inline constexpr std::uint64_t kStagingBytes = std::uint64_t{16} << 20;

@@ -101,6 +101,7 @@ Candidate describe(VkPhysicalDevice physical)
     d.maxStorageBuffer = limits.maxStorageBufferRange;
     d.maxTexelElements = limits.maxTexelBufferElements;
     d.maxStorageBuffers = limits.maxPerStageDescriptorStorageBuffers;
+    d.maxTexelBuffers = limits.maxPerStageDescriptorSampledImages;
     d.maxWorkgroup = limits.maxComputeWorkGroupInvocations;
     d.maxGroups = limits.maxComputeWorkGroupCount[0];
     d.missing = findMissing(physical, properties.properties.apiVersion);

@@ -20,6 +20,7 @@ struct DeviceDescription {
     std::uint64_t maxStorageBuffer = 0;   // bytes of a storage buffer that a kernel can address
     std::uint64_t maxTexelElements = 0;   // 16-byte texels of a texel buffer that a kernel can address
     std::uint32_t maxStorageBuffers = 0;  // per kernel
+    std::uint32_t maxTexelBuffers = 0;    // per kernel
     std::uint32_t maxWorkgroup = 0;       // invocations
     std::uint32_t maxGroups = 0;          // workgroups of one dispatch along x
     float nanosecondsPerTick = 0.0F;      // 0: no timestamps

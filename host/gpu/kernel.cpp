@@ -51,6 +51,10 @@ KernelLayout::KernelLayout(const Device& device, const std::vector<BindingSlot>&
         throw DeviceError("glim's kernels use " + std::to_string(storage) + " storage buffers, but device \"" + device.description().name +
                           "\" allows " + std::to_string(device.description().maxStorageBuffers) + ".");
     }
+    if (texelBindings_.size() > device.description().maxTexelBuffers) {
+        throw DeviceError("glim's kernels use " + std::to_string(texelBindings_.size()) + " texel buffers, but device \"" +
+                          device.description().name + "\" allows " + std::to_string(device.description().maxTexelBuffers) + ".");
+    }
     VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
     setInfo.bindingCount = static_cast<std::uint32_t>(bindings_.size());
     setInfo.pBindings = bindings_.data();

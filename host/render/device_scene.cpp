@@ -3,6 +3,7 @@
 #include "shaders/shared/bindings.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace glim {
 namespace {
@@ -18,6 +19,38 @@ Buffer uploaded(Device& device, const std::string& name, BufferKind kind, const 
     return buffer;
 }
 
+// The materials and what lies behind them, as texels.
+std::vector<uvec4> materialTexels(const FlatScene& scene)
+{
+    std::vector<uvec4> texels;
+    const auto append = [&texels](const auto& values) {
+        const std::size_t before = texels.size();
+        texels.resize(before + values.size() * sizeof(values[0]) / sizeof(uvec4));
+        if (!values.empty()) {
+            std::memcpy(&texels[before], values.data(), values.size() * sizeof(values[0]));
+        }
+    };
+    append(scene.materials);
+    append(scene.principled);
+    append(scene.textures);
+    return texels;
+}
+
+std::vector<Buffer> uploadImages(Device& device, const std::vector<std::uint32_t>& texels)
+{
+    constexpr std::size_t kPerView = std::size_t{1} << kTexelViewBits;
+    std::vector<Buffer> views;
+    for (std::size_t first = 0; first < texels.size(); first += kPerView) {
+        const std::span<const std::uint32_t> part = std::span(texels).subspan(first, std::min(kPerView, texels.size() - first));
+        views.emplace_back(device, "scene's textures", BufferKind::Texel4, part.size_bytes());
+        upload(views.back(), part);
+    }
+    if (views.empty()) {
+        views.push_back(uploaded(device, "scene's textures", BufferKind::Texel4, texels));
+    }
+    return views;
+}
+
 }  // namespace
 
 DeviceScene::DeviceScene(Device& device, const FlatScene& scene)
@@ -25,22 +58,38 @@ DeviceScene::DeviceScene(Device& device, const FlatScene& scene)
       records_(uploaded(device, "scene's records", BufferKind::Texel, scene.records)),
       triangles_(uploaded(device, "scene's triangles for shading", BufferKind::Texel, scene.triangles)),
       vertices_(uploaded(device, "scene's vertices", BufferKind::Texel, scene.vertices)),
-      materials_(uploaded(device, "scene's materials", BufferKind::Texel, scene.materials)),
+      materials_(uploaded(device, "scene's materials", BufferKind::Texel, materialTexels(scene))),
       lights_(uploaded(device, "scene's lights", BufferKind::Texel, scene.lights)),
-      emitters_(uploaded(device, "scene's emitters", BufferKind::Texel, scene.emitters))
+      emitters_(uploaded(device, "scene's emitters", BufferKind::Texel, scene.emitters)),
+      albedos_(uploaded(device, "albedo table", BufferKind::Texel, scene.albedos)),
+      environment_(uploaded(device, "environment map", BufferKind::Texel8, scene.environmentTexels)),
+      environmentCells_(uploaded(device, "environment map's cells", BufferKind::Texel, scene.environmentCells)),
+      images_(uploadImages(device, scene.texels))
 {}
 
 std::vector<BindingSlot> DeviceScene::slots()
 {
-    return {{kBindNodes, BufferKind::Texel},    {kBindRecords, BufferKind::Texel},   {kBindTriangles, BufferKind::Texel},
-            {kBindVertices, BufferKind::Texel}, {kBindMaterials, BufferKind::Texel}, {kBindLights, BufferKind::Texel},
-            {kBindEmitters, BufferKind::Texel}};
+    std::vector<BindingSlot> slots{{kBindEnvironment, BufferKind::Texel8}};
+    for (const std::uint32_t binding : {kBindNodes, kBindRecords, kBindTriangles, kBindVertices, kBindMaterials, kBindLights, kBindEmitters,
+                                        kBindAlbedos, kBindEnvironmentCells}) {
+        slots.push_back({binding, BufferKind::Texel});
+    }
+    for (std::uint32_t view = 0; view < kMaxTexelViews; ++view) {
+        slots.push_back({kBindTexels + view, BufferKind::Texel4});
+    }
+    return slots;
 }
 
 std::map<std::uint32_t, const Buffer*> DeviceScene::buffers() const
 {
-    return {{kBindNodes, &nodes_},         {kBindRecords, &records_}, {kBindTriangles, &triangles_}, {kBindVertices, &vertices_},
-            {kBindMaterials, &materials_}, {kBindLights, &lights_},   {kBindEmitters, &emitters_}};
+    std::map<std::uint32_t, const Buffer*> buffers{
+        {kBindNodes, &nodes_},         {kBindRecords, &records_}, {kBindTriangles, &triangles_}, {kBindVertices, &vertices_},
+        {kBindMaterials, &materials_}, {kBindLights, &lights_},   {kBindEmitters, &emitters_},   {kBindAlbedos, &albedos_},
+        {kBindEnvironment, &environment_}, {kBindEnvironmentCells, &environmentCells_}};
+    for (std::uint32_t view = 0; view < kMaxTexelViews; ++view) {
+        buffers[kBindTexels + view] = &images_[std::min<std::size_t>(view, images_.size() - 1)];
+    }
+    return buffers;
 }
 
 }  // namespace glim

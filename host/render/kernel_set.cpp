@@ -31,6 +31,7 @@ Specialization specialize(const FlatScene& scene, const FlatCamera& camera, cons
     return {{kSpecWorkgroup, settings.workgroup},
             {kSpecFeatures, scene.features},
             {kSpecStackLevels, scene.stackLevels},
+            {kSpecTexelViews, static_cast<std::uint32_t>((scene.texels.size() >> kTexelViewBits) + 1)},
             {kSpecSobol, settings.sampler == Sampler::Sobol},
             {kSpecLens, camera.lensRight != vec3(0.0F)},
             {kSpecChosen, settings.adaptive != Adaptive::Off},

@@ -30,6 +30,14 @@ DeviceParameters::DeviceParameters(Device& device, const FlatScene& scene, const
     parameters_.environment = scene.environment;
     parameters_.clampIndirect = settings.clampIndirect;
     parameters_.canarySteps = 3;
+    parameters_.triangleCount = scene.triangleCount;
+    parameters_.firstUv = scene.firstUv;
+    parameters_.firstTangent = scene.firstTangent;
+    parameters_.firstColor = scene.firstColor;
+    parameters_.hidesEnvironment = scene.hidesEnvironment ? 1 : 0;
+    parameters_.environmentSize = scene.environmentSize;
+    parameters_.environmentCells = scene.environmentCellCount;
+    parameters_.environmentTurn = scene.environmentTurn;
     setCamera(camera, settings.width, settings.height);
 }
 

@@ -4,70 +4,138 @@
 #include "host/scene/frame_camera.hpp"
 #include "host/scene/gltf/check_gltf_json.hpp"
 #include "host/scene/gltf/read_geometry.hpp"
+#include "host/scene/gltf/read_images.hpp"
 #include "host/scene/gltf/read_lights_cameras.hpp"
 #include "host/scene/gltf/read_material.hpp"
+#include "host/scene/make_studio.hpp"
+#include "host/scene/make_tangents.hpp"
+#include "host/text.hpp"
 
 #include <algorithm>
 
 namespace glim {
 namespace {
 
-void noteIgnoredParts(const GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& scene)
+void noteIgnoredParts(const GltfFile& file, const std::vector<PlacedNode>& nodes, Warnings& warnings)
 {
     for (const std::string& extension : file.model.extensionsUsed) {
         const bool ofMaterials = extension.find("_materials_") != std::string::npos;  // noted with each material
         if (!isSupportedExtension(extension) && !ofMaterials) {
-            scene.warnings.push_back("the extension " + extension + " is ignored");
+            warnings.add("the extension " + extension + " is ignored");
         }
     }
     const bool skinned =
         std::any_of(nodes.begin(), nodes.end(), [&](const PlacedNode& node) { return file.model.nodes[node.index].skin >= 0; });
     if (skinned) {
-        scene.warnings.push_back("skins are ignored: their meshes stand in the rest pose of their nodes");
+        warnings.add("skins are ignored: their meshes stand in the rest pose of their nodes");
     }
     if (file.animated) {
-        scene.warnings.push_back("animations are ignored");
+        warnings.add("animations are ignored");
     }
 }
 
-// Refuses the file's environment map instead of ignoring it, since the picture would be wrong without it.
-void placeEnvironment(const GltfFile& file, const LoadOptions& options, Scene& scene)
+Environment readMap(const std::filesystem::path& path, const LoadOptions& options, Scene& scene, Warnings& warnings)
 {
-    scene.environment = options.environment;
-    if (options.environment || file.model.scenes.empty()) {
-        return;
+    Environment environment;
+    environment.map = std::make_shared<RadianceMap>(readRadianceMap(path));
+    environment.rotation = options.environmentRotation;
+    scene.files.push_back(path);
+    if (environment.map->repaired > 0) {
+        warnings.add(path.string() + " holds " + counted(environment.map->repaired, "texel") +
+                     " that are negative or not finite; they count as 0");
+    }
+    return environment;
+}
+
+// scenes[i].extras.environment: {"file", "strength"}.
+std::optional<Environment> readFileEnvironment(const GltfFile& file, const LoadOptions& options, Scene& scene, Warnings& warnings)
+{
+    if (file.model.scenes.empty()) {
+        return std::nullopt;
     }
     const auto first = static_cast<std::size_t>(std::max(file.model.defaultScene, 0));
     const std::size_t index = options.scene.value_or(first);
     const tinygltf::Value& extras = file.model.scenes[index].extras;
     if (!extras.IsObject() || !extras.Has("environment")) {
-        return;
+        return std::nullopt;
     }
-    const tinygltf::Value& environment = extras.Get("environment");
+    const tinygltf::Value& source = extras.Get("environment");
     const std::string place = label("scenes", index, file.model.scenes[index].name) + ".extras.environment";
-    if (environment.IsObject() && environment.Has("file")) {
-        refuse(file, place +
-                         " names a map, which this version cannot read; expected none (--environment r,g,b gives a"
-                         " constant one)");
+    if (!source.IsObject() || !source.Has("file") || !source.Get("file").IsString()) {
+        warnings.add(place + " has no \"file\" and is ignored");
+        return std::nullopt;
     }
-    scene.warnings.push_back(place + " has no \"file\" and is ignored");
+    Environment environment = readMap(externalFile(file.path, source.Get("file").Get<std::string>()), options, scene, warnings);
+    if (source.Has("strength")) {
+        if (!source.Get("strength").IsNumber() || !(source.Get("strength").GetNumberAsDouble() >= 0.0)) {
+            refuse(file, place + ".strength is not a number from 0; expected one");
+        }
+        environment.radiance = glm::vec3(static_cast<float>(source.Get("strength").GetNumberAsDouble()));
+    }
+    return environment;
 }
 
-// Keeps the default material (the last one) only if something uses it, and notes what glim ignores of each used material.
-void noteUsedMaterials(const std::vector<MaterialReading>& readings, Scene& scene)
+std::vector<bool> findUsedMaterials(const Scene& scene)
 {
-    std::vector<bool> used(readings.size(), false);
+    std::vector<bool> used(scene.materials.size(), false);
     for (const Mesh& mesh : scene.meshes) {
         used[mesh.material] = true;
     }
     for (const Sphere& sphere : scene.spheres) {
         used[sphere.material] = true;
     }
-    for (std::size_t i = 0; i < readings.size(); ++i) {
-        if (used[i] && !readings[i].warning.empty()) {
-            scene.warnings.push_back(readings[i].warning);
-        }
+    return used;
+}
+
+Environment makeStudioEnvironment(const LoadOptions& options)
+{
+    Environment environment;
+    environment.map = std::make_shared<RadianceMap>(makeStudio());
+    environment.rotation = options.environmentRotation;
+    environment.background = options.environmentBackground;
+    return environment;
+}
+
+// Emission by a texture, as of the lamps of a model, is not there to light a scene.
+bool hasLight(const Scene& scene)
+{
+    const std::vector<bool> used = findUsedMaterials(scene);
+    bool lamp = false;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        lamp = lamp || (used[i] && !scene.materials[i].emissiveTexture && scene.materials[i].emission != glm::vec3(0.0F));
     }
+    return lamp || !scene.lights.empty() || scene.environment;
+}
+
+std::optional<Environment> chooseEnvironment(const GltfFile& file, const LoadOptions& options, Scene& scene, Warnings& warnings)
+{
+    std::optional<Environment> environment;
+    if (!options.environment) {
+        environment = readFileEnvironment(file, options, scene, warnings);
+    } else if (const auto* radiance = std::get_if<glm::vec3>(&*options.environment)) {
+        environment.emplace().radiance = *radiance;
+    } else if (const auto* path = std::get_if<std::filesystem::path>(&*options.environment)) {
+        environment = readMap(*path, options, scene, warnings);
+    }
+    if (options.environment == EnvironmentChoice(BuiltInEnvironment::Studio)) {
+        environment = makeStudioEnvironment(options);
+    }
+    if (environment) {
+        environment->background = options.environmentBackground;
+    }
+    return environment;
+}
+
+// The file's materials, then the default one. Those of unused ones say nothing.
+void readMaterials(const GltfFile& file, const LoadOptions& options, Scene& scene, Warnings& warnings)
+{
+    const std::vector<bool> used = findUsedMaterials(scene);
+    Warnings unheard;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const int index = i + 1 < scene.materials.size() ? static_cast<int>(i) : -1;
+        scene.materials[i] = readMaterial(file, index, used[i] ? warnings : unheard);
+    }
+    readImages(file, options, used, scene, warnings);
     if (!used.back()) {
         scene.materials.pop_back();
     }
@@ -81,27 +149,24 @@ Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options)
     Scene scene;
     scene.file = file.path;
     scene.files = file.files;
-    scene.images = file.images;
-
-    std::vector<MaterialReading> readings;
-    for (int i = 0; i < static_cast<int>(file.model.materials.size()); ++i) {
-        readings.push_back(readMaterial(file, i));
+    scene.materials.resize(file.model.materials.size() + 1);
+    Warnings warnings;
+    const std::vector<PlacedNode> nodes = placeNodes(file, options, warnings);
+    scene.environment = chooseEnvironment(file, options, scene, warnings);
+    noteIgnoredParts(file, nodes, warnings);
+    readGeometry(file, nodes, scene, warnings);
+    readMaterials(file, options, scene, warnings);
+    giveTangents(scene, warnings);
+    readLightsAndCameras(file, nodes, scene, warnings);
+    if (!options.environment && !hasLight(scene)) {
+        scene.environment = makeStudioEnvironment(options);
+        warnings.add("the scene has no light: the built-in studio lights it (--environment none keeps it dark)");
     }
-    readings.push_back(readMaterial(file, -1));
-    for (const MaterialReading& reading : readings) {
-        scene.materials.push_back(reading.material);
-    }
-
-    const std::vector<PlacedNode> nodes = placeNodes(file, options, scene.warnings);
-    placeEnvironment(file, options, scene);
-    noteIgnoredParts(file, nodes, scene);
-    readGeometry(file, nodes, scene);
-    noteUsedMaterials(readings, scene);
-    readLightsAndCameras(file, nodes, scene);
     if (scene.cameras.empty()) {
         scene.cameras.push_back(frameCamera(scene, options.aspectRatio));
-        scene.warnings.push_back("the scene has no camera: one is framed on its bounding box");
+        warnings.add("the scene has no camera: one is framed on its bounding box");
     }
+    scene.warnings = warnings.lines();
     checkScene(scene);
     return scene;
 }

@@ -5,12 +5,22 @@
 
 #include <filesystem>
 #include <optional>
+#include <variant>
 
 namespace glim {
 
+enum class MissingTextures { Refuse, Grey };
+
+// No environment at all, the built-in studio, a constant radiance or a map.
+enum class BuiltInEnvironment { None, Studio };
+using EnvironmentChoice = std::variant<BuiltInEnvironment, glm::vec3, std::filesystem::path>;
+
 struct LoadOptions {
     std::optional<std::size_t> scene;      // index into the file's scenes; if absent its default scene, else the first
-    std::optional<glm::vec3> environment;  // a constant radiance that replaces the file's environment
+    std::optional<EnvironmentChoice> environment;  // replaces the file's
+    float environmentRotation = 0.0F;              // of a map about +y, radians, added to the file's
+    bool environmentBackground = true;             // the camera sees the environment
+    MissingTextures missingTextures = MissingTextures::Refuse;
     float aspectRatio = 1.0F;              // of the picture, for the framed camera if the file has none
 };
 

@@ -3,27 +3,70 @@
 // extent) and was subtracted in double: far from the world's origin nothing is lost.
 #pragma once
 
+#include "host/image/decode_image.hpp"
+#include "host/image/radiance_map.hpp"
+
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace glim {
 
-enum class Scattering : std::uint32_t { Lambert = 0, Mirror = 1, Dielectric = 2 };
+enum class Wrap : std::uint32_t { Clamp, Mirrored, Repeat };
+enum class AlphaMode : std::uint32_t { Opaque, Mask, Blend };
 
-// What a surface does to light. Colours are linear Rec.709.
+// How a property of a material uses an image.
+struct Texture {
+    std::uint32_t image = 0;
+    std::uint32_t uvSet = 0;  // 0 or 1
+    Wrap wrapS = Wrap::Repeat, wrapT = Wrap::Repeat;
+    bool nearest = false;  // else bilinear
+    // Coordinates of the image are (dot(rowU, (u, v, 1)), dot(rowV, (u, v, 1))).
+    glm::vec3 rowU{1.0F, 0.0F, 0.0F}, rowV{0.0F, 1.0F, 0.0F};
+};
+
+// What a surface does to light: glTF's material, with glTF's defaults. Colours are linear Rec.709. Textures multiply.
 struct Material {
     std::string name;
-    Scattering scattering = Scattering::Lambert;
-    glm::vec3 baseColor{1.0F};  // Lambert: albedo; mirror: reflectance at normal incidence; glass: transmitted tint
-    glm::vec3 emission{0.0F};   // radiance, W/(sr m^2)
-    float ior = 1.5F;           // glass only
-    bool doubleSided = false;   // emits from both sides; scattering is always two-sided
+    glm::vec3 baseColor{1.0F};
+    float metallic = 1.0F, roughness = 1.0F;
+    float ior = 1.5F;                     // 0: infinite
+    float specular = 1.0F;                // strength of the dielectric's reflection
+    glm::vec3 specularColor{1.0F};        // of that reflection at normal incidence; may exceed 1
+    bool glass = false;                   // a smooth solid dielectric, tinted by the base colour
+    glm::vec3 emission{0.0F};             // radiance, W/(sr m^2)
+    bool doubleSided = false;             // emits from both sides; scattering is always two-sided
+    AlphaMode alphaMode = AlphaMode::Opaque;
+    float alpha = 1.0F, alphaCutoff = 0.5F;
+    float normalScale = 1.0F;
+    std::optional<Texture> baseColorTexture, metallicRoughnessTexture, normalTexture, emissiveTexture, specularTexture,
+        specularColorTexture;
 };
+
+// Every texture that a material may have.
+template <class SomeMaterial>
+auto texturesOf(SomeMaterial& m)
+{
+    return std::array{&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture,
+                      &m.emissiveTexture,  &m.specularTexture,          &m.specularColorTexture};
+}
+
+// Nothing but a diffuse lobe.
+inline Material makeLambert(const glm::vec3& albedo, const glm::vec3& emission = glm::vec3(0.0F), bool doubleSided = false)
+{
+    Material material;
+    material.baseColor = albedo;
+    material.metallic = material.specular = 0.0F;
+    material.emission = emission;
+    material.doubleSided = doubleSided;
+    return material;
+}
 
 // Indexed triangles of one material. Attributes are per vertex: one for each position, or none if the file has none.
 struct Mesh {
@@ -45,16 +88,17 @@ struct MeshInstance {
     glm::dmat4 worldFromMesh{1.0};  // affine and invertible; if it mirrors, front sides stay front sides
 };
 
-// An encoded image: in a file of its own, or in a range of one of the scene file's buffers.
-struct EncodedImage {
-    struct Range {
-        std::uint32_t buffer = 0;
-        std::uint64_t offset = 0, length = 0;
-    };
-    std::string name;
-    std::string mimeType;        // empty where the file does not say
-    std::string uri;             // relative to the scene's file, or data:
-    std::optional<Range> range;  // where there is no uri
+struct TextureImage {
+    std::string name;  // as messages name it
+    DecodedImage pixels;
+};
+
+// Radiance from infinitely far: a latitude-longitude map whose middle is -z and whose first row is +y, or the same radiance from everywhere.
+struct Environment {
+    glm::vec3 radiance{1.0F};      // of the constant one; of a map what multiplies its texels
+    std::shared_ptr<const RadianceMap> map;
+    float rotation = 0.0F;         // of the map about +y, counter-clockwise seen from above, radians
+    bool background = true;        // the camera sees it
 };
 
 struct Sphere {
@@ -94,11 +138,11 @@ struct Scene {
     std::vector<MeshInstance> instances;
     std::vector<Sphere> spheres;
     std::vector<Material> materials;
-    std::vector<EncodedImage> images;  // nothing reads them yet
+    std::vector<TextureImage> images;
     std::vector<PunctualLight> lights;
     std::vector<Camera> cameras;           // never empty after load_gltf: one is framed where the file has none
-    std::optional<glm::vec3> environment;  // constant radiance from everywhere
-    std::vector<std::string> warnings;     // one line each: what was ignored, mapped, dropped or framed
+    std::optional<Environment> environment;
+    std::vector<std::string> warnings;  // one line each: what was ignored, mapped, dropped or framed
 };
 
 }  // namespace glim

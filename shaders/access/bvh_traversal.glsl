@@ -79,14 +79,44 @@ PathHit hitOf(Closest best)
     return PathHit(best.record, best.hit.t, barycentricOf(best.hit));
 }
 
+// What a query for the closest hit looks for. Hits are ordered by t, then by primitive: this order does not depend on the tree, and with
+// it a ray can go on behind a hit without an offset.
+struct Query {
+    float tMax;
+    float afterT;          // only hits after this one
+    uint afterPrimitive;
+    uint target;           // not this primitive
+    bool alphaOnly;        // only records with alpha
+};
+
+Query anyHit() { return Query(kInfinity, 0.0, kNoPrimitive, kNoPrimitive, false); }
+
+bool isAfter(Query query, float t, uint primitive)
+{
+    return t > query.afterT || (t == query.afterT && primitive > query.afterPrimitive);
+}
+
 // Ties go to the lower primitive, so that the result does not depend on the tree.
-void meetRecord(TraversalRay traversal, uint index, uint source, inout Closest best)
+void meetRecord(TraversalRay traversal, uint index, uint source, Query query, inout Closest best)
 {
     Record record = fetchRecord(index);
-    TriangleHit hit = intersectRecord(traversal, record, best.hit.t, primitiveOf(record) == source);
-    if (hit.t > 0.0 && (hit.t < best.hit.t || primitiveOf(record) < best.primitive)) {
-        best = Closest(index, primitiveOf(record), hit);
+    uint primitive = primitiveOf(record);
+    TriangleHit hit = intersectRecord(traversal, record, best.hit.t, primitive == source);
+    bool counts = true;
+    if (hasFeature(kFeatureAlpha)) {
+        if (isSphere(record) && !isAfter(query, hit.t, primitive)) {
+            hit = intersectRecord(traversal, record, best.hit.t, true);  // the far side
+        }
+        counts = isAfter(query, hit.t, primitive) && primitive != query.target && (hasAlpha(record) || !query.alphaOnly);
     }
+    if (counts && hit.t > 0.0 && (hit.t < best.hit.t || primitive < best.primitive)) {
+        best = Closest(index, primitive, hit);
+    }
+}
+
+void meetRecord(TraversalRay traversal, uint index, uint source, inout Closest best)
+{
+    meetRecord(traversal, index, source, anyHit(), best);
 }
 
 // What a traversal has done.
@@ -98,11 +128,11 @@ struct Steps {
 // Loops test their condition at the end. If they test it at the beginning, llvmpipe runs the body once more with no lane active. But the
 // code after such a loop may use only variables that the loop carries from iteration to iteration: on Mesa 22.3.6 anything else is
 // recomputed for a lane that has left, as long as other lanes stay, from variables that have changed since.
-PathHit traceClosest(PathRay ray, out Steps steps)
+PathHit traceClosest(PathRay ray, Query query, inout Steps steps)
 {
-    steps = Steps(0u, 0u);
     TraversalRay traversal = makeTraversalRay(ray.origin, ray.direction);
     Closest best = makeMiss();
+    best.hit.t = query.tMax;
     TraversalStack stack = makeTraversalStack();
     NodeGroup group = kRootGroup;
     do {
@@ -113,7 +143,7 @@ PathHit traceClosest(PathRay ray, out Steps steps)
         ++steps.nodes;
         if (records.left != 0u) {
             do {
-                meetRecord(traversal, takeRecord(records), ray.source, best);
+                meetRecord(traversal, takeRecord(records), ray.source, query, best);
                 ++steps.primitives;
             } while (records.left != 0u);
         }
@@ -124,14 +154,14 @@ PathHit traceClosest(PathRay ray, out Steps steps)
 
 PathHit traceClosest(PathRay ray)
 {
-    Steps uncounted;
-    return traceClosest(ray, uncounted);
+    Steps uncounted = Steps(0u, 0u);
+    return traceClosest(ray, anyHit(), uncounted);
 }
 
-// True if nothing but `target` lies between origin and origin + tMax * direction.
-bool isUnoccluded(ShadowRay ray, out Steps steps)
+// True if nothing but `target` and records with alpha lies between origin and origin + tMax * direction. `metAlpha`: some of these did.
+bool isUnoccluded(ShadowRay ray, inout Steps steps, out bool metAlpha)
 {
-    steps = Steps(0u, 0u);
+    metAlpha = false;
     TraversalRay traversal = makeTraversalRay(ray.origin, ray.direction);
     TraversalStack stack = makeTraversalStack();
     NodeGroup group = kRootGroup;
@@ -151,6 +181,10 @@ bool isUnoccluded(ShadowRay ray, out Steps steps)
                 TriangleHit hit = intersectRecord(traversal, record, ray.tMax, primitiveOf(record) == ray.source);
                 ++steps.primitives;
                 bool met = hit.t > 0.0 && primitiveOf(record) != ray.target;
+                if (hasFeature(kFeatureAlpha)) {
+                    metAlpha = metAlpha || (met && hasAlpha(record));
+                    met = met && !hasAlpha(record);
+                }
                 occluded = occluded || met;
                 going = going && !met;
                 records.left = met ? 0u : records.left;
@@ -162,8 +196,9 @@ bool isUnoccluded(ShadowRay ray, out Steps steps)
 
 bool isUnoccluded(ShadowRay ray)
 {
-    Steps uncounted;
-    return isUnoccluded(ray, uncounted);
+    Steps uncounted = Steps(0u, 0u);
+    bool metAlpha;
+    return isUnoccluded(ray, uncounted, metAlpha);
 }
 
 #endif

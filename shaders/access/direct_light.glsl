@@ -25,7 +25,7 @@ LightContext previousContext(PathRay ray, PathState state)
 LightHit makeLightHit(SurfaceInteraction si, PathRay ray, PathHit hit)
 {
     uint emitter = si.emitter - 1u;
-    return LightHit(fetchEmitter(emitter).light, emitter, hit.t, abs(dot(si.ng, ray.direction)));
+    return LightHit(fetchEmitter(emitter).light, emitter, hit.t, abs(dot(si.ng, ray.direction)), ray.direction);
 }
 
 // MIS weights. The including file defines them: path_vertex.glsl, and course/direct_light.glsl for the course. The first is of light that
@@ -36,8 +36,12 @@ float misWeightOfSample(float lightPdf, float bsdfPdf);
 // Radiance of the environment that an escaping ray has hit, times its MIS weight.
 vec3 weightedEnvironment(PathRay ray, PathState state)
 {
-    LightHit hit = LightHit(render.environmentLight, 0u, kInfinity, state.cosine);
-    return render.environment * misWeightOfHit(state, pdfLight(previousContext(ray, state), hit));
+    if (state.bounce == 0u && render.hidesEnvironment != 0u) {
+        return vec3(0.0);
+    }
+    vec3 radiance = hasFeature(kFeatureEnvironmentMap) ? environmentRadiance(ray.direction) : render.environment;
+    LightHit hit = LightHit(render.environmentLight, 0u, kInfinity, state.cosine, ray.direction);
+    return radiance * misWeightOfHit(state, pdfLight(previousContext(ray, state), hit));
 }
 
 // Radiance that the surface at the end of a ray emits back along it, times its MIS weight.

@@ -5,6 +5,7 @@
 #include "shared/bindings.h"
 #include "shared/features.h"
 #include "shared/limits.h"
+#include "shared/scene_types.h"
 
 layout(constant_id = kSpecFeatures) const uint kFeatures = kAllFeatures;
 
@@ -19,6 +20,7 @@ bool hasEnvironment() { return hasFeature(kFeatureEnvironment); }
 bool hasEmissiveSurfaces() { return hasFeature(kFeatureTriangleLights) || hasFeature(kFeatureSphereLights); }
 
 layout(constant_id = kSpecStackLevels) const uint kStackLevels = kMaxStackLevels;
+layout(constant_id = kSpecTexelViews) const uint kTexelViews = kMaxTexelViews;
 layout(constant_id = kSpecSobol) const bool kSobol = true;
 layout(constant_id = kSpecLens) const bool kLens = false;
 layout(constant_id = kSpecChosen) const bool kChosen = false;

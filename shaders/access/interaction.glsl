@@ -12,7 +12,7 @@ struct SurfaceInteraction {
     vec3 errorBound;
     vec3 ng;           // unit geometric normal, on the side of wo
     vec3 ns;           // unit shading normal, turned with ng; an interpolated one may still point away from wo
-    vec2 uv;           // of the primitive: barycentrics of a triangle; meshes have no texture coordinates on the device yet
+    vec2 barycentric;  // weights of v1 and v2
     bool front;        // wo is on the front side
     uint material;
     uint primitive;
@@ -30,13 +30,19 @@ vec3 triangleNormal(vec3 v0, vec3 v1, vec3 v2)
     return normalizeSafely(n);
 }
 
+// Interpolates the section of the vertices that begins at texel `first` (scene_types.h).
+vec4 vertexAttribute(uint first, uint triangle, vec2 barycentric)
+{
+    ivec3 vertices = ivec3(texelFetch(sceneTriangles, int(triangle)).xyz) + int(first);
+    return uintBitsToFloat(texelFetch(sceneVertices, vertices.x)) * (1.0 - barycentric.x - barycentric.y) +
+           uintBitsToFloat(texelFetch(sceneVertices, vertices.y)) * barycentric.x +
+           uintBitsToFloat(texelFetch(sceneVertices, vertices.z)) * barycentric.y;
+}
+
 // Interpolated vertex normal of a triangle, or zero where it is flat.
 vec3 vertexNormal(uint triangle, vec2 barycentric)
 {
-    ivec3 vertices = ivec3(texelFetch(sceneTriangles, int(triangle)).xyz);
-    return floatsOf(texelFetch(sceneVertices, vertices.x)) * (1.0 - barycentric.x - barycentric.y) +
-           floatsOf(texelFetch(sceneVertices, vertices.y)) * barycentric.x +
-           floatsOf(texelFetch(sceneVertices, vertices.z)) * barycentric.y;
+    return vertexAttribute(0u, triangle, barycentric).xyz;
 }
 
 SurfaceInteraction interactionWithSphere(Record record, vec3 near)
@@ -86,6 +92,21 @@ SurfaceInteraction makeSurfaceInteraction(PathRay ray, PathHit hit)
 vec3 visibleNormal(SurfaceInteraction si, vec3 wo)
 {
     return dot(si.ns, wo) > 0.0 ? si.ns : si.ng;
+}
+
+// The shading normal, bent towards wo as little as is needed for a mirror to reflect wo to the outer side of the surface, by a small angle at
+// least; otherwise normal maps and coarse smooth meshes have black rims. As Cycles does; the threshold is its own. Needs dot(ns, wo) > 0.
+vec3 reflectingNormal(vec3 ns, vec3 ng, vec3 wo)
+{
+    vec3 mirrored = 2.0 * dot(ns, wo) * ns - wo;
+    float least = min(0.9 * dot(ng, wo), 0.01);
+    float outwards = dot(mirrored, ng);
+    if (outwards >= least) {
+        return ns;
+    }
+    vec3 raised = mirrored + ng * (least - outwards);
+    vec3 bent = wo + raised / length(raised);
+    return bent / length(bent);
 }
 
 // Radiance that the surface itself sends towards wo.

@@ -9,7 +9,8 @@
 #include "lib/infinity.glsl"
 #include "lib/punctual.glsl"
 #include "lib/warp.glsl"
-#include "interaction.glsl"
+#include "environment_map.glsl"
+#include "material.glsl"
 
 // The point that light arrives at: where lights are sampled, or the origin of a ray that has hit a light by chance.
 struct LightContext {
@@ -24,6 +25,7 @@ struct LightHit {
     uint emitter;   // index; of surfaces
     float t;        // distance
     float cosine;   // |cos| at the emitter; for the environment: at ns, PathState's, unrounded
+    vec3 wi;        // the ray's direction
 };
 
 // Light that could arrive at a point.
@@ -71,9 +73,15 @@ float pdfLight(LightContext context, LightHit hit)
 {
     FlatLight light = fetchLight(hit.light);
     if (hasEnvironment() && light.kind == kEnvironmentLight) {
-        return light.probability * pdfCosineHemisphere(hit.cosine);
+        return light.probability * (hasFeature(kFeatureEnvironmentMap) ? pdfEnvironmentMap(hit.wi) : pdfCosineHemisphere(hit.cosine));
     }
     return pdfSurfaceLight(light, fetchEmitter(hit.emitter).areaPdf, context, hit.t, hit.cosine);
+}
+
+// Whether its emission changes over the surface, by a texture or by coverage.
+bool isUneven(FlatLight light)
+{
+    return (hasFeature(kFeatureTextures) || hasFeature(kFeatureAlpha)) && light.uneven != 0u;
 }
 
 LightSample sampleTriangleLight(FlatLight light, LightContext context, uvec2 choice, vec2 u)
@@ -96,12 +104,16 @@ LightSample sampleTriangleLight(FlatLight light, LightContext context, uvec2 cho
     float pdf = pdfSurfaceLight(light, emitter.areaPdf, context, distance_, cosine);
     vec3 target = offsetPoint(point, facing > 0.0 ? n : -n, triangleErrorBound(v0, e1, e2));
     bool faces = cosine > 0.0;
-    return LightSample(faces ? towards / distance_ : vec3(0.0), faces ? light.intensity / pdf : vec3(0.0), faces ? pdf : 0.0, target,
+    vec3 radiance = light.intensity;
+    if (isUneven(light)) {
+        radiance *= emissionFactor(record, point, barycentric);
+    }
+    return LightSample(faces ? towards / distance_ : vec3(0.0), faces ? radiance / pdf : vec3(0.0), faces ? pdf : 0.0, target,
                        emitter.primitive, 1.0);
 }
 
 // From outside: uniform in the cone.
-LightSample sampleSphereCone(FlatLight light, uint primitive, vec3 outward, float sin2, vec2 u)
+LightSample sampleSphereCone(FlatLight light, FlatEmitter emitter, vec3 outward, float sin2, vec2 u)
 {
     vec3 local = sampleCone(u, sin2);
     // The point of the sphere in the sampled direction, by its angle at the centre (pbrt-v4, section 6.2.4). Only shadow rays aim at it. wi
@@ -114,8 +126,13 @@ LightSample sampleSphereCone(FlatLight light, uint primitive, vec3 outward, floa
     Frame frame = makeFrame(outward / length(outward));
     vec3 n = worldFromFrame(frame, vec3(azimuth * sinCenter, across));
     float pdf = light.probability * pdfCone(sin2);
-    vec3 target = offsetPoint(light.position + light.radius * n, n, sphereErrorBound(light.position, light.radius));
-    return LightSample(worldFromFrame(frame, vec3(local.xy, -local.z)), light.intensity / pdf, pdf, target, primitive, 1.0);
+    vec3 point = light.position + light.radius * n;
+    vec3 target = offsetPoint(point, n, sphereErrorBound(light.position, light.radius));
+    vec3 radiance = light.intensity;
+    if (isUneven(light)) {
+        radiance *= emissionFactor(fetchRecord(emitter.record), point, vec2(0.0));
+    }
+    return LightSample(worldFromFrame(frame, vec3(local.xy, -local.z)), radiance / pdf, pdf, target, emitter.primitive, 1.0);
 }
 
 // From within a sphere that emits inwards too: uniform over its area.
@@ -131,7 +148,11 @@ LightSample sampleSphereArea(FlatLight light, FlatEmitter emitter, LightContext 
     }
     float pdf = pdfSurfaceLight(light, emitter.areaPdf, context, distance_, cosine);
     vec3 target = offsetPoint(point, -n, sphereErrorBound(light.position, light.radius));
-    return LightSample(towards / distance_, light.intensity / pdf, pdf, target, emitter.primitive, 1.0);
+    vec3 radiance = light.intensity;
+    if (isUneven(light)) {
+        radiance *= emissionFactor(fetchRecord(emitter.record), point, vec2(0.0));
+    }
+    return LightSample(towards / distance_, radiance / pdf, pdf, target, emitter.primitive, 1.0);
 }
 
 LightSample sampleSphereLight(FlatLight light, LightContext context, vec2 u)
@@ -140,7 +161,7 @@ LightSample sampleSphereLight(FlatLight light, LightContext context, vec2 u)
     vec3 outward = context.p - light.position;
     float sin2;
     if (seesCone(outward, light.radius, sin2)) {
-        return sampleSphereCone(light, emitter.primitive, outward, sin2, u);
+        return sampleSphereCone(light, emitter, outward, sin2, u);
     }
     return light.doubleSided != 0u ? sampleSphereArea(light, emitter, context, u) : kNoLight;
 }
@@ -174,6 +195,14 @@ LightSample sampleEnvironment(FlatLight light, LightContext context, vec2 u)
     return LightSample(wi, light.intensity / pdf, pdf, context.p + wi, kNoPrimitive, kInfinity);
 }
 
+LightSample sampleEnvironmentMap(FlatLight light, LightContext context, uvec2 choice, vec2 u)
+{
+    float pdf;
+    vec3 wi = sampleEnvironmentMap(choice, u, pdf);
+    pdf *= light.probability;
+    return LightSample(wi, environmentRadiance(wi) / pdf, pdf, context.p + wi, kNoPrimitive, kInfinity);
+}
+
 // The density includes `light.probability`. choice: two words of random bits, u in [0, 1)^2.
 LightSample sampleLight(FlatLight light, LightContext context, uvec2 choice, vec2 u)
 {
@@ -184,6 +213,9 @@ LightSample sampleLight(FlatLight light, LightContext context, uvec2 choice, vec
         return sampleSphereLight(light, context, u);
     }
     if (hasEnvironment() && light.kind == kEnvironmentLight) {
+        if (hasFeature(kFeatureEnvironmentMap)) {
+            return sampleEnvironmentMap(light, context, choice, u);
+        }
         return sampleEnvironment(light, context, u);
     }
     if (hasFeature(kFeaturePunctualLights) && light.kind >= kPointLight && light.kind <= kDirectionalLight) {

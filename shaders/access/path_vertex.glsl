@@ -59,15 +59,15 @@ VertexResult shadeSurface(SampleId id, PathRay ray, PathHit hit, PathState state
 {
     vec3 wo = -ray.direction;
     SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
-    MaterialData material = fetchMaterial(si.material);
+    SurfaceMaterial material = materialAt(si);
     Bsdf bsdf = makeBsdf(si, material, wo);
     noteSurface(si, bsdf.frame.z);
     VertexResult result;
     result.emitted = vec3(0.0);
     if (hasEmissiveSurfaces()) {
-        result.emitted = state.throughput * weightedEmission(si, material, ray, hit, state);
+        result.emitted = state.throughput * weightedEmission(si, material.data, ray, hit, state);
     }
-    result.firstHit = makeFirstHit(si, material, wo);
+    result.firstHit = makeFirstHit(si, material.data, wo);
     result.hasShadowRay = samplesLights(state.bounce, render.maxBounces, render.minPathLength, render.lightCount) && hasNonDelta(bsdf) &&
                           sampleDirectLight(id, si, bsdf, wo, state, result.shadowRay);
     result.state = state;

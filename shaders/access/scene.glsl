@@ -35,7 +35,20 @@ MaterialData fetchMaterial(uint material)
     uvec4 a = texelFetch(sceneMaterials, at);
     uvec4 b = texelFetch(sceneMaterials, at + 1);
     uvec4 c = texelFetch(sceneMaterials, at + 2);
-    return MaterialData(floatsOf(a), a.w, floatsOf(b), uintBitsToFloat(b.w), c.x, c.yzw);
+    return MaterialData(floatsOf(a), a.w, floatsOf(b), uintBitsToFloat(b.w), c.x, c.y, uintBitsToFloat(c.z), uintBitsToFloat(c.w));
+}
+
+PrincipledData fetchPrincipled(uint principled)
+{
+    int at = int(principled);
+    vec4 a = uintBitsToFloat(texelFetch(sceneMaterials, at));
+    vec4 b = uintBitsToFloat(texelFetch(sceneMaterials, at + 1));
+    uvec4 c = uvec4(0u), d = uvec4(0u);
+    if (hasFeature(kFeatureTextures)) {
+        c = texelFetch(sceneMaterials, at + 2);
+        d = texelFetch(sceneMaterials, at + 3);
+    }
+    return PrincipledData(a.x, a.y, a.z, a.w, b.xyz, b.w, c.x, c.y, c.z, c.w, d.x, d.y, d.zw);
 }
 
 FlatLight fetchLight(uint light)
@@ -71,6 +84,12 @@ bool isSphere(Record record)
 bool isSliver(Record record)
 {
     return hasFeature(kFeatureSlivers) && (record.t1.w & kSliverBit) != 0u;
+}
+
+// Neither opaque nor transparent all over.
+bool hasAlpha(Record record)
+{
+    return hasFeature(kFeatureAlpha) && (record.t1.w & kAlphaBit) != 0u;
 }
 
 uint materialOf(Record record)

@@ -25,6 +25,11 @@ uint checkQueue(uint count, uint slots)
     return min(count, slots);
 }
 
+void reportTransparencyCap()
+{
+    atomicAdd(status.transparencyCaps, 1u);
+}
+
 void reportNonFinite(uint pixel, uint sampleIndex)
 {
     uint place = atomicAdd(status.nonFinite, 1u);

@@ -2,7 +2,7 @@
 #ifndef GLIM_ACCESS_TRAVERSE
 #define GLIM_ACCESS_TRAVERSE
 
-#include "bvh_traversal.glsl"
+#include "transparency.glsl"
 
 TriangleHit intersectTriangle(TraversalRay traversal, Record record, float tMax)
 {

@@ -12,8 +12,8 @@
 
 vec3 stepsOf(PathRay ray)
 {
-    Steps steps;
-    traceClosest(ray, steps);
+    Steps steps = Steps(0u, 0u);
+    traceClosest(ray, anyHit(), steps);
     return vec3(steps.nodes, steps.primitives, 0.0);
 }
 

@@ -15,7 +15,8 @@ void main()
     uint entry = interleavedInvocation();
     if (entry < queueSizes.closest) {
         uint slot = activeQueue[entry];
-        pathHits[slot] = traceClosest(fetchRay(slot));
+        Steps uncounted = Steps(0u, 0u);
+        pathHits[slot] = traceVisible(sampleOfSlot(slot), pass.bounce, fetchRay(slot), uncounted);
     }
     checkLoopBudget(render.canarySteps);
 }

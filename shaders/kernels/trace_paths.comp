@@ -57,12 +57,12 @@ void visitMiss(inout Path path)
 
 void traceShadowRay(inout Path path, ShadowRay ray, inout Work work)
 {
-    Steps steps;
-    bool unoccluded = isUnoccluded(ray, steps);
+    Steps steps = Steps(0u, 0u);
+    float clear = transmittance(ray, steps);
     ++work.shadow;
     work.steps += steps.nodes + steps.primitives;
-    if (unoccluded) {
-        addLight(path, ray.contribution, path.state.bounce + 1u);
+    if (clear > 0.0) {
+        addLight(path, attenuated(ray.contribution, clear), path.state.bounce + 1u);
     }
 }
 
@@ -87,8 +87,8 @@ bool visitSurface(inout Path path, PathHit hit, inout Work work)
 // Traces the path to its next surface. False if the path ends.
 bool advance(inout Path path, inout Work work)
 {
-    Steps steps;
-    PathHit hit = traceClosest(path.ray, steps);
+    Steps steps = Steps(0u, 0u);
+    PathHit hit = traceVisible(path.id, path.state.bounce, path.ray, steps);
     ++work.closest;
     work.steps += steps.nodes + steps.primitives;
     if (hit.record == kNoRecord) {

@@ -16,8 +16,9 @@ void main()
     if (entry < queueSizes.shadow) {
         uint slot = shadowQueue[entry];
         ShadowRay ray = fetchShadowRay(slot);
-        if (isUnoccluded(ray)) {
-            addRadiance(slot, ray.contribution, pass.bounce + 1u);
+        float clear = transmittance(ray);
+        if (clear > 0.0) {
+            addRadiance(slot, attenuated(ray.contribution, clear), pass.bounce + 1u);
         }
     }
     checkLoopBudget(render.canarySteps);

@@ -16,6 +16,8 @@ const uint kDimensionPoint = 2u;    // where on it
 const uint kDimensionBsdf = 3u;     // direction of the next ray
 const uint kDimensionLobe = 4u;     // which lobe; the second number is roulette's
 const uint kDimensionsPerBounce = 5u;
+// Whether a surface that is transparent in places is met, apart from all these: with the bounce in the lower bits.
+const uint kDimensionAlpha = 0x40000000u;
 
 // Bounces with Sobol' points; beyond them paths are too blurred to gain, and independent numbers are cheaper.
 const uint kSobolBounces = 4u;

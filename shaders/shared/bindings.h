@@ -16,6 +16,10 @@ GLIM_CONST uint kBindMaterials = 3u;
 GLIM_CONST uint kBindLights = 4u;
 GLIM_CONST uint kBindEmitters = 5u;
 GLIM_CONST uint kBindVertices = 34u;
+GLIM_CONST uint kBindAlbedos = 35u;
+GLIM_CONST uint kBindEnvironment = 36u;
+GLIM_CONST uint kBindEnvironmentCells = 37u;
+GLIM_CONST uint kBindTexels = 40u;  // and the next ones, kMaxTexelViews in all
 // parameters.glsl
 GLIM_CONST uint kBindParameters = 6u;
 // paths.glsl
@@ -67,6 +71,7 @@ GLIM_CONST uint kSpecFolded = 16u;         // the host has taken pages of the fi
 GLIM_CONST uint kSpecSuspects = 17u;       // each pixel's brightest sample is kept
 GLIM_CONST uint kSpecNotes = 18u;          // the kernels note what they find out about the only path of a pass
 GLIM_CONST uint kSpecStackLevels = 23u;    // as many as the BVH needs
+GLIM_CONST uint kSpecTexelViews = 24u;     // as many as the textures need
 
 // Arbitrary output variables: what a picture shows, or a display of a film.
 GLIM_CONST uint kAovRadiance = 0u;

@@ -100,6 +100,7 @@ struct Located {
 struct Status {
     uint loopCaps;                 // threads whose loops the driver cut short: the picture is wrong
     uint overflows;                // queue entries beyond one per slot: the picture is wrong
+    uint transparencyCaps;         // rays that passed more transparent surfaces than they may: the next one counted as opaque
     uint nonFinite;                // samples that were not finite, and are in no average
     Located located[kMaxLocated];  // the first of them to be counted
 };
@@ -157,6 +158,12 @@ struct RenderParameters {
     vec3 environment;       // radiance, W/(sr m^2)
     float clampIndirect;    // infinity: off
     uint canarySteps;       // 3, unknown to the compiler
+    uint triangleCount;                      // primitives from here on are spheres
+    uint firstUv, firstTangent, firstColor;  // sections of the vertices (scene_types.h)
+    uint hidesEnvironment;                   // 1: from the camera
+    uvec2 environmentSize;                   // texels of the map
+    uvec2 environmentCells;                  // of its sampler
+    vec2 environmentTurn;                    // cosine and sine of its rotation
 };
 
 // Whether a path samples lights at the surface that it meets after `bounce` others. That light has then met bounce + 1 surfaces. At the

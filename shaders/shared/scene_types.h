@@ -22,38 +22,96 @@ GLIM_CONST uint kFirstNodeBit = 24u;  // 8 leaves have as many records at most
 // The primitive id is the index in the scene (triangles, then spheres). A ray's source and target are primitive ids, and the lower id wins
 // a tie, so pictures do not depend on the tree.
 //
-// Vertex normals are in two buffers of their own, so that further records of a primitive do not duplicate them. A triangle is one texel, by
-// its primitive id: (vertex, vertex, vertex, 0). A vertex is one texel: (normal.xyz, 0). Vertex 0 has the normal 0; flat triangles consist
-// of it. Scenes without any vertex normals have neither.
+// What shading reads of the vertices is in two buffers of their own, so that further records of a primitive do not duplicate it. A triangle
+// is one texel, by its primitive id: (vertex, vertex, vertex, 0). Vertex i is one texel in each section that the scene has: at i its normal
+// (xyz, 0), at firstUv + i its texture coordinates (set 0, set 1), at firstTangent + i its tangent (xyz, sign of the bitangent), at
+// firstColor + i its colour (RenderParameters). Flat triangles have the normal 0. Vertex 0 is that of triangles without any attribute.
+// Scenes that need none of it have neither buffer.
 GLIM_CONST uint kRecordTexels = 3u;
 GLIM_CONST uint kSphereBit = 0x80000000u;
 GLIM_CONST uint kSliverBit = 0x40000000u;  // thinner than kSliverHeight
-GLIM_CONST uint kMaterialMask = 0x3fffffffu;
+GLIM_CONST uint kAlphaBit = 0x20000000u;   // neither opaque all over nor transparent all over
+GLIM_CONST uint kMaterialMask = 0x1fffffffu;
 // Below this ratio of height to longest side, a triangle's edge functions are corrected by the rounding errors of their products.
 // Uncorrected, each is off by up to 2^-23 of that side's square, so that above this ratio a hit moves by less than 2^-11 of the side.
 GLIM_CONST float kSliverHeight = 9.765625e-4f;
 GLIM_CONST uint kNoRecord = 0xffffffffu;
 GLIM_CONST uint kNoPrimitive = 0xffffffffu;
 
-// Lobes of a material (lib/bsdf).
+// How a material scatters (access/bsdf.glsl). The first three are materials of one lobe (lib/bsdf).
 GLIM_CONST uint kLambert = 0u;
 GLIM_CONST uint kMirror = 1u;
 GLIM_CONST uint kDielectric = 2u;
+GLIM_CONST uint kPrincipled = 3u;  // everything else that glTF has
 
 // Materials, lights and emitters are read as texels too (scene.glsl): on llvmpipe, loading one word of a storage buffer costs as much as
 // loading the four of a texel. So structs are whole texels, and each vec3 shares one with a scalar.
 GLIM_CONST uint kMaterialTexels = 3u;
+GLIM_CONST uint kPrincipledTexels = 4u;
+GLIM_CONST uint kTextureTexels = 3u;
 GLIM_CONST uint kLightTexels = 5u;
 GLIM_CONST uint kEmitterTexels = 2u;
 
 struct MaterialData {
     vec3 baseColor;
-    uint lobe;      // kLambert, kMirror, kDielectric
+    uint lobe;      // kLambert ...
     vec3 emission;  // radiance, W/(sr m^2)
     float ior;
-    uint doubleSided;  // 1: emits from both sides
-    uvec3 unused;
+    uint doubleSided;   // 1: emits from both sides
+    uint principled;    // texel of its PrincipledData, if it has one
+    float alpha;        // of primitives with kAlphaBit, before textures
+    float alphaCutoff;  // of those: below it they are transparent, else opaque; negative: alpha is coverage
 };
+
+// The rest of a material. It lies in the buffer of the materials, behind them, and behind that the textures. A texture is the texel of its
+// TextureData, or 0.
+struct PrincipledData {
+    float metallic;
+    float roughness;
+    float reflectance;  // at normal incidence, of the index of refraction
+    float specular;
+    vec3 specularColor;
+    float normalScale;
+    uint baseColorTexture;          // sRGB, alpha
+    uint metallicRoughnessTexture;  // roughness in G, metallic in B
+    uint normalTexture;
+    uint emissiveTexture;         // sRGB
+    uint specularTexture;         // A
+    uint specularColorTexture;    // sRGB
+    uvec2 unused;
+};
+
+// How a material's property uses an image.
+struct TextureData {
+    uint firstTexel;  // of its image, rows from the top; RGBA, a byte each, or two texels RG and BA, two bytes each
+    uint size;        // width | height << 16
+    uint flags;       // kRepeatS ...
+    uint unused;
+    // Texture coordinates to those of the image: (dot(rowU.xy, uv) + rowU.z, dot(rowV.xy, uv) + rowV.z). Only with kTransformed.
+    vec3 rowU;
+    uint unusedU;
+    vec3 rowV;
+    uint unusedV;
+};
+
+GLIM_CONST uint kWrapS = 0u;  // the place of two bits: kClamp, kMirrored or kRepeat
+GLIM_CONST uint kWrapT = 2u;
+GLIM_CONST uint kClamp = 0u;
+GLIM_CONST uint kMirrored = 1u;
+GLIM_CONST uint kRepeat = 2u;
+GLIM_CONST uint kNearest = 0x10u;      // else bilinear
+GLIM_CONST uint kSrgb = 0x20u;         // RGB, not alpha
+GLIM_CONST uint kWide = 0x40u;         // 16 bits per channel
+GLIM_CONST uint kSecondUv = 0x80u;     // texture coordinates of set 1
+GLIM_CONST uint kTransformed = 0x100u;
+
+// Texels of images: as many buffers of 2^kTexelViewBits texels of four bytes as the scene needs.
+GLIM_CONST uint kTexelViewBits = 27u;
+GLIM_CONST uint kMaxTexelViews = 8u;
+
+// The table of albedos (access/albedo_table.glsl): texel (i, j) is (a, b at column i, a, b at column i + 1) of row j, for the fourth roots
+// i / (kAlbedoSize - 1) of the cosine and j / (kAlbedoSize - 1) of alpha. One more row holds their averages over the hemisphere, by alpha.
+GLIM_CONST uint kAlbedoSize = 64u;
 
 GLIM_CONST uint kTriangleLight = 0u;  // all triangles of one instance of an emissive mesh, chosen by area
 GLIM_CONST uint kSphereLight = 1u;
@@ -78,11 +136,11 @@ struct FlatLight {
     float radius;       // sphere
     vec3 direction;     // spot, directional: unit, the way light travels
     float cosInner;     // spot
-    vec3 intensity;     // surfaces, environment: radiance; point, spot: W/sr; directional: W/m^2
+    vec3 intensity;     // surfaces, constant environment: radiance; point, spot: W/sr; directional: W/m^2
     float cosOuter;     // spot
     AliasEntry alias;
     uint doubleSided;
-    uint unused;
+    uint uneven;  // 1: its emission changes over the surface
 };
 
 // A primitive that emits.

@@ -140,7 +140,7 @@ TEST(FlattenScene, UnusedMaterialsAddNoFeature)
 {
     Scene scene = sceneWith({square(false)}, {{"", 0}});
     scene.materials.resize(2);
-    scene.materials[1].scattering = Scattering::Dielectric;
+    scene.materials[1].glass = true;
     EXPECT_EQ(flattened(scene).features & kFeatureDielectric, 0U);
     scene.meshes[0].material = 1;
     EXPECT_EQ(flattened(scene).features & kFeatureDielectric, kFeatureDielectric);

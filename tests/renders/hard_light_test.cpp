@@ -134,7 +134,7 @@ TEST(HardLightTest, H14AMillionEmitters)
     double irradiance = 0.0;
     const auto firstShade = static_cast<std::uint32_t>(scene.materials.size());
     for (int i = 0; i < kShades; ++i) {
-        scene.materials.push_back({"", Scattering::Lambert, glm::vec3(0.0F), glm::vec3(std::exp2(0.25F * static_cast<float>(i) - 8.0F))});
+        scene.materials.push_back(makeLambert(glm::vec3(0.0F), glm::vec3(std::exp2(0.25F * static_cast<float>(i) - 8.0F))));
     }
     const auto corner = [](int i, int j) {
         return glm::vec3(static_cast<float>(i) / kColumns - 0.5F, 1.0F, static_cast<float>(j) / kRows - 0.5F);
@@ -177,7 +177,7 @@ TEST(HardLightTest, H7TeapotInAStadium)
         return glm::vec3(r * std::cos(u), 3e-3 * std::sin(v), r * std::sin(u));
     };
     Scene ring = SceneBuilder().perspective({0.012F, 0.02F, 0.012F}, {0, 0, 0}, 0.7F).environment(glm::vec3(1.0F)).scene();
-    ring.materials.push_back({"", Scattering::Lambert, glm::vec3(0.8F)});
+    ring.materials.push_back(makeLambert(glm::vec3(0.8F)));
     Triangles triangles;
     for (int i = 0; i < kAround; ++i) {
         for (int j = 0; j < kAcross; ++j) {
@@ -189,7 +189,7 @@ TEST(HardLightTest, H7TeapotInAStadium)
     addMesh(ring, triangles);
     Scene hall = ring;
     hall.environment.reset();
-    hall.materials.push_back({"", Scattering::Lambert, glm::vec3(0.0F), glm::vec3(1.0F)});
+    hall.materials.push_back(makeLambert(glm::vec3(0.0F), glm::vec3(1.0F)));
     const Scene walls = SceneBuilder().cube(500.0F, 1, true).scene();
     hall.meshes.push_back(walls.meshes[0]);
     hall.instances.push_back({"", 1});

@@ -18,7 +18,7 @@ Scene scaled(Scene scene, float factor)
     for (PunctualLight& light : scene.lights) {
         light.intensity *= factor;
     }
-    scene.environment = *scene.environment * factor;
+    scene.environment->radiance *= factor;
     return scene;
 }
 
@@ -33,7 +33,7 @@ Scene recolored(Scene scene)
     for (PunctualLight& light : scene.lights) {
         light.intensity = rotated(light.intensity);
     }
-    scene.environment = rotated(*scene.environment);
+    scene.environment->radiance = rotated(scene.environment->radiance);
     return scene;
 }
 

@@ -14,17 +14,23 @@ std::uint32_t SceneBuilder::addMaterial(const Material& material)
 
 std::uint32_t SceneBuilder::lambert(const glm::vec3& albedo, const glm::vec3& emission, bool doubleSided)
 {
-    return addMaterial({"", Scattering::Lambert, albedo, emission, 1.5F, doubleSided});
+    return addMaterial(makeLambert(albedo, emission, doubleSided));
 }
 
 std::uint32_t SceneBuilder::mirror(const glm::vec3& reflectance)
 {
-    return addMaterial({"", Scattering::Mirror, reflectance, glm::vec3(0.0F), 1.5F, false});
+    Material material;
+    material.baseColor = reflectance;
+    material.roughness = 0.0F;
+    return addMaterial(material);
 }
 
 std::uint32_t SceneBuilder::glass(float ior)
 {
-    return addMaterial({"", Scattering::Dielectric, glm::vec3(1.0F), glm::vec3(0.0F), ior, false});
+    Material material;
+    material.glass = true;
+    material.ior = ior;
+    return addMaterial(material);
 }
 
 SceneBuilder& SceneBuilder::sphere(const glm::vec3& center, float radius, std::uint32_t material)
@@ -74,7 +80,7 @@ SceneBuilder& SceneBuilder::light(const PunctualLight& light)
 
 SceneBuilder& SceneBuilder::environment(const glm::vec3& radiance)
 {
-    scene_.environment = radiance;
+    scene_.environment.emplace().radiance = radiance;
     return *this;
 }
 

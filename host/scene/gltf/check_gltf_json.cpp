@@ -15,8 +15,8 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kSupportedExtensions[] = {
-    "KHR_lights_punctual",  "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular", "KHR_materials_transmission",
-    "KHR_materials_volume", "KHR_mesh_quantization",
+    "EXT_texture_webp",           "KHR_lights_punctual",  "KHR_materials_emissive_strength", "KHR_materials_ior",     "KHR_materials_specular",
+    "KHR_materials_transmission", "KHR_materials_volume", "KHR_mesh_quantization",           "KHR_texture_transform",
 };
 
 std::string excerpt(const json& value)
@@ -164,10 +164,13 @@ private:
     const json& document_;
 };
 
+// Extensions of materials change how things look; without the others geometry or images may be missing.
+bool changesLooksOnly(const std::string& extension) { return extension.find("_materials_") != std::string::npos; }
+
 void checkExtensions(const std::string& path, const json& document)
 {
     for (const json& extension : document.value("extensionsRequired", json::array())) {
-        if (!isSupportedExtension(extension.get<std::string>())) {
+        if (!isSupportedExtension(extension.get<std::string>()) && !changesLooksOnly(extension.get<std::string>())) {
             std::string known;
             for (const char* name : kSupportedExtensions) {
                 known += (known.empty() ? "" : ", ") + std::string(name);

@@ -11,6 +11,26 @@
 
 namespace glim {
 
+// An encoded image: in a file of its own, or in a range of one of the buffers.
+struct EncodedImage {
+    struct Range {
+        std::uint32_t buffer = 0;
+        std::uint64_t offset = 0, length = 0;
+    };
+    std::string name;
+    std::string uri;             // relative to the glTF file, or data:
+    std::optional<Range> range;  // where there is no uri
+};
+
+// A texture with its sampler.
+struct GltfTexture {
+    std::string name;
+    std::optional<std::size_t> image;  // the one that glim reads, of those that the texture offers
+    bool basis = false;                // offers a KTX2 image
+    Wrap wrapS = Wrap::Repeat, wrapT = Wrap::Repeat;
+    bool nearest = false;
+};
+
 struct GltfFile {
     std::string path;                          // as given, for messages
     std::vector<std::filesystem::path> files;  // this one and those of its buffers
@@ -18,10 +38,17 @@ struct GltfFile {
     tinygltf::Model model;
     std::vector<std::vector<unsigned char>> buffers;  // each at least as long as its byteLength
     std::vector<EncodedImage> images;
+    std::vector<GltfTexture> textures;
     bool animated = false;
 };
 
 GltfFile readGltfFile(const std::filesystem::path& file);
+
+// The bytes of a uri: base64 in it, or a file relative to the glTF file. `place` names what has the uri.
+std::vector<unsigned char> readUri(const std::string& path, const std::string& place, const std::string& uri);
+bool isDataUri(const std::string& uri);
+// Where a uri that is not data: points.
+std::filesystem::path externalFile(const std::string& path, const std::string& uri);
 
 // Throws InputError: "<path>: <sentence>".
 [[noreturn]] void refuse(const GltfFile& file, const std::string& sentence);

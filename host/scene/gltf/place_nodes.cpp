@@ -47,7 +47,7 @@ void checkAcyclic(const GltfFile& file, const std::vector<int>& parents)
 }
 
 std::vector<int> findRoots(const GltfFile& file, const LoadOptions& options, const std::vector<int>& parents,
-                           std::vector<std::string>& warnings)
+                           Warnings& warnings)
 {
     const std::vector<tinygltf::Scene>& scenes = file.model.scenes;
     if (options.scene && *options.scene >= scenes.size()) {
@@ -63,7 +63,7 @@ std::vector<int> findRoots(const GltfFile& file, const LoadOptions& options, con
             roots.push_back(static_cast<int>(i));
         }
     }
-    warnings.push_back("the file has no scene: all its nodes are drawn");
+    warnings.add("the file has no scene: all its nodes are drawn");
     return roots;
 }
 
@@ -118,7 +118,7 @@ glm::dmat4 parentFromNode(const GltfFile& file, std::size_t index)
 
 }  // namespace
 
-std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& options, std::vector<std::string>& warnings)
+std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& options, Warnings& warnings)
 {
     const std::vector<int> parents = findParents(file);
     checkAcyclic(file, parents);

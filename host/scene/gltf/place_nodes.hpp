@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/scene/gltf/gltf_file.hpp"
+#include "host/scene/warnings.hpp"
 #include "host/scene/load_gltf.hpp"
 
 #include <glm/glm.hpp>
@@ -14,7 +15,7 @@ struct PlacedNode {
 };
 
 // In document order, parents first. Checks that the nodes form trees.
-std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& options, std::vector<std::string>& warnings);
+std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& options, Warnings& warnings);
 
 // The linear part of a node that carries a shape, camera or light. Refuses a singular one.
 glm::dmat3 readLinear(const GltfFile& file, const PlacedNode& node);

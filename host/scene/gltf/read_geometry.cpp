@@ -93,9 +93,10 @@ WorldSphere readSphere(const GltfFile& file, const PlacedNode& node, std::uint32
 
 class GeometryReader {
 public:
-    GeometryReader(const GltfFile& file, Scene& scene)
+    GeometryReader(const GltfFile& file, Scene& scene, Warnings& warnings)
         : file_(file),
           scene_(scene),
+          warnings_(warnings),
           defaultMaterial_(static_cast<std::uint32_t>(file.model.materials.size()))
     {}
 
@@ -111,6 +112,7 @@ private:
 
     const GltfFile& file_;
     Scene& scene_;
+    Warnings& warnings_;
     std::uint32_t defaultMaterial_;
     std::map<int, std::vector<std::uint32_t>> meshes_;  // the scene's meshes by mesh of the file
     std::vector<std::size_t> nodes_;                    // by instance
@@ -138,7 +140,7 @@ void GeometryReader::addInstances(const PlacedNode& node, int mesh)
 {
     if (meshes_.count(mesh) == 0) {
         std::vector<std::uint32_t>& ids = meshes_[mesh];
-        for (Mesh& read : readMeshes(file_, static_cast<std::size_t>(mesh), scene_.warnings)) {
+        for (Mesh& read : readMeshes(file_, static_cast<std::size_t>(mesh), warnings_)) {
             ids.push_back(static_cast<std::uint32_t>(scene_.meshes.size()));
             scene_.meshes.push_back(std::move(read));
         }
@@ -221,7 +223,7 @@ void GeometryReader::finish()
         scene_.spheres.push_back(sphere.sphere);
     }
     if (emptySpheres_ > 0) {
-        scene_.warnings.push_back("left out " + counted(emptySpheres_, "sphere") + " of zero radius");
+        warnings_.add("left out " + counted(emptySpheres_, "sphere") + " of zero radius");
     }
     if (scene_.spheres.empty()) {
         requireSomething();
@@ -230,9 +232,9 @@ void GeometryReader::finish()
 
 }  // namespace
 
-void readGeometry(const GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& scene)
+void readGeometry(const GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& scene, Warnings& warnings)
 {
-    GeometryReader reader(file, scene);
+    GeometryReader reader(file, scene, warnings);
     for (const PlacedNode& node : nodes) {
         reader.addNode(node);
     }

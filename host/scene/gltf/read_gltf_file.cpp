@@ -35,14 +35,9 @@ std::vector<unsigned char> decodeDataUri(const std::string& path, const std::str
     std::string mimeType;
     if (!tinygltf::DecodeDataURI(&bytes, mimeType, uri, 0, false)) {
         throw InputError(path + ": " + place + ".uri starts with \"" + uri.substr(0, uri.find(',')).substr(0, 48) +
-                         "\"; expected base64 data of type application/octet-stream or application/gltf-buffer");
+                         "\"; expected base64 data of a buffer or an image");
     }
     return bytes;
-}
-
-std::filesystem::path externalFile(const std::string& path, const std::string& uri)
-{
-    return std::filesystem::path(path).parent_path() / percentDecode(uri);
 }
 
 std::vector<unsigned char> readExternal(const std::string& path, const std::string& place, const std::string& uri)
@@ -71,7 +66,7 @@ std::vector<std::vector<unsigned char>> readBuffers(const std::string& path, con
             }
             bytes = std::move(*container.binary);
         } else {
-            bytes = uri.rfind("data:", 0) == 0 ? decodeDataUri(path, place, uri) : readExternal(path, place, uri);
+            bytes = readUri(path, place, uri);
         }
         const auto expected = entry.at("byteLength").get<std::uint64_t>();
         if (bytes.size() < expected) {
@@ -88,7 +83,7 @@ std::vector<std::filesystem::path> listFiles(const std::string& path, const json
     std::vector<std::filesystem::path> files{path};
     for (const json& buffer : document.value("buffers", json::array())) {
         const std::string uri = buffer.value("uri", "data:");
-        if (uri.rfind("data:", 0) != 0) {
+        if (!isDataUri(uri)) {
             files.push_back(externalFile(path, uri));
         }
     }
@@ -99,7 +94,7 @@ std::vector<EncodedImage> listImages(const json& document)
 {
     std::vector<EncodedImage> images;
     for (const json& entry : document.value("images", json::array())) {
-        EncodedImage image{entry.value("name", ""), entry.value("mimeType", ""), entry.value("uri", ""), std::nullopt};
+        EncodedImage image{entry.value("name", ""), entry.value("uri", ""), std::nullopt};
         if (entry.contains("bufferView")) {
             const json& view = document["bufferViews"][entry["bufferView"].get<std::size_t>()];
             image.range = {view["buffer"].get<std::uint32_t>(), view.value("byteOffset", std::uint64_t{0}),
@@ -108,6 +103,43 @@ std::vector<EncodedImage> listImages(const json& document)
         images.push_back(std::move(image));
     }
     return images;
+}
+
+Wrap wrapOf(const json& sampler, const char* member)
+{
+    constexpr int kClampToEdge = 33071, kMirroredRepeat = 33648;
+    const int value = sampler.value(member, 0);
+    return value == kClampToEdge ? Wrap::Clamp : value == kMirroredRepeat ? Wrap::Mirrored : Wrap::Repeat;
+}
+
+// Where there is no magFilter, magnification is bilinear; of minFilter only the filter within a level counts, and only without a magFilter.
+bool isNearest(const json& sampler)
+{
+    constexpr int kNearest = 9728, kNearestMipmapNearest = 9984, kNearestMipmapLinear = 9986;
+    const int filter = sampler.value("magFilter", sampler.value("minFilter", 0));
+    return filter == kNearest || filter == kNearestMipmapNearest || filter == kNearestMipmapLinear;
+}
+
+// The image of an extension goes before the texture's own, which is there for readers that do not know the extension.
+std::vector<GltfTexture> listTextures(const json& document)
+{
+    std::vector<GltfTexture> textures;
+    for (const json& entry : document.value("textures", json::array())) {
+        const json sampler = entry.contains("sampler") ? document["samplers"][entry["sampler"].get<std::size_t>()] : json::object();
+        GltfTexture texture;
+        texture.name = entry.value("name", "");
+        texture.wrapS = wrapOf(sampler, "wrapS");
+        texture.wrapT = wrapOf(sampler, "wrapT");
+        texture.nearest = isNearest(sampler);
+        const json extensions = entry.value("extensions", json::object());
+        texture.basis = extensions.contains("KHR_texture_basisu");
+        const json webp = extensions.value("EXT_texture_webp", json::object());
+        if (webp.contains("source") || entry.contains("source")) {
+            texture.image = (webp.contains("source") ? webp : entry)["source"].get<std::size_t>();
+        }
+        textures.push_back(std::move(texture));
+    }
+    return textures;
 }
 
 // tinygltf 2.7 refuses index accessors without a bufferView, though sparse ones may lack it. They borrow one while it parses. Returns the
@@ -190,9 +222,22 @@ GltfFile readGltfFile(const std::filesystem::path& file)
     result.buffers = readBuffers(path, document, container);
     result.files = listFiles(path, document);
     result.images = listImages(document);
+    result.textures = listTextures(document);
     result.animated = document.contains("animations");
     result.model = parseModel(path, std::move(document));
     return result;
+}
+
+bool isDataUri(const std::string& uri) { return uri.rfind("data:", 0) == 0; }
+
+std::filesystem::path externalFile(const std::string& path, const std::string& uri)
+{
+    return std::filesystem::path(path).parent_path() / percentDecode(uri);
+}
+
+std::vector<unsigned char> readUri(const std::string& path, const std::string& place, const std::string& uri)
+{
+    return isDataUri(uri) ? decodeDataUri(path, place, uri) : readExternal(path, place, uri);
 }
 
 void refuse(const GltfFile& file, const std::string& sentence) { throw InputError(file.path + ": " + sentence); }

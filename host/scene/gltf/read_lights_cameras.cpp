@@ -20,7 +20,7 @@ std::string nameOf(const GltfFile& file, const PlacedNode& node, const std::stri
     return name.empty() ? own : name;
 }
 
-PunctualLight readLight(const GltfFile& file, const PlacedNode& node, std::size_t index, Scene& scene)
+PunctualLight readLight(const GltfFile& file, const PlacedNode& node, std::size_t index, const Scene& scene, Warnings& warnings)
 {
     const tinygltf::Light& source = file.model.lights[index];
     const std::string place = label("lights", index, source.name);
@@ -46,7 +46,7 @@ PunctualLight readLight(const GltfFile& file, const PlacedNode& node, std::size_
         light.cosOuter = static_cast<float>(std::cos(source.spot.outerConeAngle));
     }
     if (source.range > 0.0) {
-        scene.warnings.push_back(place + " is drawn without its range: it falls off with the square of the distance");
+        warnings.add("the range of lights is ignored", place);
     }
     return light;
 }
@@ -62,7 +62,7 @@ void readCameraPose(const GltfFile& file, const PlacedNode& node, Camera& camera
     camera.right = glm::cross(forward, up);
 }
 
-Camera readCamera(const GltfFile& file, const PlacedNode& node, std::size_t index, Scene& scene)
+Camera readCamera(const GltfFile& file, const PlacedNode& node, std::size_t index, const Scene& scene, Warnings& warnings)
 {
     const tinygltf::Camera& source = file.model.cameras[index];
     Camera camera;
@@ -70,7 +70,7 @@ Camera readCamera(const GltfFile& file, const PlacedNode& node, std::size_t inde
     camera.position = readPosition(file, node, scene);
     readCameraPose(file, node, camera);
     if (glm::determinant(glm::dmat3(node.worldFromNode)) < 0.0) {
-        scene.warnings.push_back(nodeLabel(file, node.index) + " mirrors its camera, which is ignored");
+        warnings.add("mirrored cameras are drawn upright", nodeLabel(file, node.index));
     }
     if (source.type == "perspective") {
         camera.yfov = static_cast<float>(source.perspective.yfov);
@@ -88,16 +88,16 @@ Camera readCamera(const GltfFile& file, const PlacedNode& node, std::size_t inde
 
 }  // namespace
 
-void readLightsAndCameras(const GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& scene)
+void readLightsAndCameras(const GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& scene, Warnings& warnings)
 {
     for (const PlacedNode& node : nodes) {
         const tinygltf::Node& source = file.model.nodes[node.index];
         if (const auto light = source.extensions.find("KHR_lights_punctual"); light != source.extensions.end()) {
             const auto index = static_cast<std::size_t>(light->second.Get("light").GetNumberAsInt());
-            scene.lights.push_back(readLight(file, node, index, scene));
+            scene.lights.push_back(readLight(file, node, index, scene, warnings));
         }
         if (source.camera >= 0) {
-            scene.cameras.push_back(readCamera(file, node, static_cast<std::size_t>(source.camera), scene));
+            scene.cameras.push_back(readCamera(file, node, static_cast<std::size_t>(source.camera), scene, warnings));
         }
     }
 }

@@ -6,6 +6,6 @@
 namespace glim {
 
 // Appends the lights and cameras of `nodes` to `scene`, relative to its origin.
-void readLightsAndCameras(const GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& scene);
+void readLightsAndCameras(const GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& scene, Warnings& warnings);
 
 }  // namespace glim

@@ -1,6 +1,7 @@
 #include "host/scene/gltf/read_material.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace glim {
 namespace {
@@ -20,145 +21,207 @@ double numberOr(const tinygltf::Material& source, const char* extension, const c
     return value == nullptr ? fallback : value->GetNumberAsDouble();
 }
 
-// True if an RGB property is absent or white.
-bool isWhite(const tinygltf::Material& source, const char* extension, const char* name)
+glm::vec3 colorOr(const tinygltf::Material& source, const char* extension, const char* name, const glm::vec3& fallback)
 {
     const tinygltf::Value* value = findProperty(source, extension, name);
-    bool white = true;
+    glm::vec3 color = fallback;
     for (int c = 0; value != nullptr && c < 3; ++c) {
-        white = white && value->Get(c).GetNumberAsDouble() == 1.0;
+        color[c] = static_cast<float>(value->Get(c).GetNumberAsDouble());
     }
-    return white;
+    return color;
 }
 
-Scattering chooseScattering(const tinygltf::Material& source)
+// KHR_texture_transform: translation * rotation * scale, counter-clockwise in uv.
+void transformTexture(const tinygltf::Value& transform, Texture& texture)
 {
-    if (numberOr(source, "KHR_materials_transmission", "transmissionFactor", 0.0) > 0.0) {
-        return Scattering::Dielectric;
+    const auto pair = [&transform](const char* name, double fallback) {
+        return transform.Has(name) ? glm::dvec2(transform.Get(name).Get(0).GetNumberAsDouble(), transform.Get(name).Get(1).GetNumberAsDouble())
+                                   : glm::dvec2(fallback);
+    };
+    const glm::dvec2 offset = pair("offset", 0.0), scale = pair("scale", 1.0);
+    const double rotation = transform.Has("rotation") ? transform.Get("rotation").GetNumberAsDouble() : 0.0;
+    const double c = std::cos(rotation), s = std::sin(rotation);
+    texture.rowU = glm::dvec3(c * scale.x, s * scale.y, offset.x);
+    texture.rowV = glm::dvec3(-s * scale.x, c * scale.y, offset.y);
+    if (transform.Has("texCoord")) {
+        texture.uvSet = static_cast<std::uint32_t>(transform.Get("texCoord").GetNumberAsInt());
     }
-    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
-    return pbr.metallicFactor > 0.5 && pbr.roughnessFactor < 0.2 ? Scattering::Mirror : Scattering::Lambert;
 }
 
-class Ignored {
+class MaterialReader {
 public:
-    void addIf(bool condition, const std::string& what)
-    {
-        if (condition) {
-            list_ += (list_.empty() ? "" : ", ") + what;
-        }
-    }
-    const std::string& list() const { return list_; }
+    MaterialReader(const GltfFile& file, const tinygltf::Material& source, std::string place, Warnings& warnings)
+        : file_(file),
+          source_(source),
+          place_(std::move(place)),
+          warnings_(warnings)
+    {}
+
+    Material read();
 
 private:
-    std::string list_;
-};
-
-void addTextures(const tinygltf::Material& source, Ignored& ignored)
-{
-    ignored.addIf(source.pbrMetallicRoughness.baseColorTexture.index >= 0, "baseColorTexture");
-    ignored.addIf(source.pbrMetallicRoughness.metallicRoughnessTexture.index >= 0, "metallicRoughnessTexture");
-    ignored.addIf(source.normalTexture.index >= 0, "normalTexture");
-    ignored.addIf(source.occlusionTexture.index >= 0, "occlusionTexture");
-    ignored.addIf(source.emissiveTexture.index >= 0, "emissiveTexture");
-    for (const auto& [name, extension] : source.extensions) {
-        const bool known = std::find(std::begin(kKnownExtensions), std::end(kKnownExtensions), name) != std::end(kKnownExtensions);
-        ignored.addIf(!known, name);
-        for (const std::string& key : known ? extension.Keys() : std::vector<std::string>{}) {
-            ignored.addIf(key.size() > 7 && key.compare(key.size() - 7, 7, "Texture") == 0, key);
+    void readTextures(Material& material);
+    std::optional<Texture> readTexture(int index, int uvSet, const tinygltf::Value* transform);
+    std::optional<Texture> readTexture(const char* extension, const char* name);
+    template <class Info>
+    std::optional<Texture> readTexture(const Info& info)
+    {
+        const auto transform = info.extensions.find("KHR_texture_transform");
+        return readTexture(info.index, info.texCoord, transform == info.extensions.end() ? nullptr : &transform->second);
+    }
+    float readIor() const;
+    bool readGlass();
+    void warnOfExtensions();
+    void ignore(bool condition, const std::string& what)
+    {
+        if (condition) {
+            warnings_.add(what, place_);
         }
     }
-}
 
-void addGlass(const tinygltf::Material& source, Ignored& ignored)
-{
-    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
-    const double transmission = numberOr(source, "KHR_materials_transmission", "transmissionFactor", 0.0);
-    const double specular = numberOr(source, "KHR_materials_specular", "specularFactor", 1.0);
-    const bool attenuates = findProperty(source, "KHR_materials_volume", "attenuationDistance") != nullptr &&
-                            !isWhite(source, "KHR_materials_volume", "attenuationColor");
-    ignored.addIf(transmission < 1.0, "transmissionFactor " + toText(transmission));
-    ignored.addIf(numberOr(source, "KHR_materials_volume", "thicknessFactor", 0.0) == 0.0, "thin walls (thicknessFactor 0)");
-    ignored.addIf(attenuates, "attenuation in the volume");
-    ignored.addIf(pbr.metallicFactor > 0.0, "metallicFactor " + toText(pbr.metallicFactor));
-    ignored.addIf(pbr.roughnessFactor > 0.0, "roughnessFactor " + toText(pbr.roughnessFactor));
-    ignored.addIf(specular < 1.0, "specularFactor " + toText(specular));
-    ignored.addIf(!isWhite(source, "KHR_materials_specular", "specularColorFactor"), "specularColorFactor");
-}
+    const GltfFile& file_;
+    const tinygltf::Material& source_;
+    std::string place_;
+    Warnings& warnings_;
+};
 
-void addMirror(const tinygltf::Material& source, Ignored& ignored)
+std::optional<Texture> MaterialReader::readTexture(int index, int uvSet, const tinygltf::Value* transform)
 {
-    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
-    ignored.addIf(pbr.metallicFactor < 1.0, "metallicFactor " + toText(pbr.metallicFactor));
-    ignored.addIf(pbr.roughnessFactor > 0.0, "roughnessFactor " + toText(pbr.roughnessFactor));
-}
-
-// glTF's diffuse lobe is Lambertian at any roughness. What glim lacks is the metal and the specular coat of dielectrics.
-void addLambert(const tinygltf::Material& source, Ignored& ignored)
-{
-    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
-    const double specular = numberOr(source, "KHR_materials_specular", "specularFactor", 1.0);
-    const bool coated = specular > 0.0 && pbr.metallicFactor < 1.0;
-    ignored.addIf(pbr.metallicFactor > 0.0, "metallicFactor " + toText(pbr.metallicFactor));
-    ignored.addIf(coated, "the specular coat (specularFactor " + toText(specular) + ")");
-    ignored.addIf(coated || pbr.metallicFactor > 0.0, "roughnessFactor " + toText(pbr.roughnessFactor));
-}
-
-std::string listIgnored(const tinygltf::Material& source, Scattering scattering)
-{
-    Ignored ignored;
-    switch (scattering) {
-    case Scattering::Dielectric: addGlass(source, ignored); break;
-    case Scattering::Mirror: addMirror(source, ignored); break;
-    case Scattering::Lambert: addLambert(source, ignored); break;
+    if (index < 0) {
+        return std::nullopt;
     }
-    const bool hasHoles = source.pbrMetallicRoughness.baseColorFactor[3] < 1.0 || source.pbrMetallicRoughness.baseColorTexture.index >= 0;
-    ignored.addIf(hasHoles && (source.alphaMode == "MASK" || source.alphaMode == "BLEND"), "alphaMode " + source.alphaMode);
-    addTextures(source, ignored);
-    return ignored.list();
+    const GltfTexture& source = file_.textures[static_cast<std::size_t>(index)];
+    if (!source.image) {
+        if (source.basis) {
+            refuse(file_, label("textures", static_cast<std::size_t>(index), source.name) +
+                              " has only a KTX2 image (KHR_texture_basisu); expected a source that is PNG, JPEG or WebP");
+        }
+        ignore(true, "textures without a source are ignored");
+        return std::nullopt;
+    }
+    Texture texture;
+    texture.image = static_cast<std::uint32_t>(*source.image);
+    texture.uvSet = static_cast<std::uint32_t>(uvSet);
+    texture.wrapS = source.wrapS;
+    texture.wrapT = source.wrapT;
+    texture.nearest = source.nearest;
+    if (transform != nullptr) {
+        transformTexture(*transform, texture);
+    }
+    if (texture.uvSet > 1) {
+        ignore(true, "texture coordinates beyond TEXCOORD_1 are replaced by TEXCOORD_0");
+        texture.uvSet = 0;
+    }
+    return texture;
 }
 
-float readIor(const GltfFile& file, const std::string& place, const tinygltf::Material& source)
+std::optional<Texture> MaterialReader::readTexture(const char* extension, const char* name)
 {
-    const double ior = numberOr(source, "KHR_materials_ior", "ior", 1.5);
-    if (ior < 1.0) {
-        refuse(file, place + " has the index of refraction " + toText(ior) + "; expected at least 1");
+    const tinygltf::Value* info = findProperty(source_, extension, name);
+    if (info == nullptr) {
+        return std::nullopt;
+    }
+    const tinygltf::Value* transform = nullptr;
+    if (info->Has("extensions") && info->Get("extensions").Has("KHR_texture_transform")) {
+        transform = &info->Get("extensions").Get("KHR_texture_transform");
+    }
+    return readTexture(info->Get("index").GetNumberAsInt(), info->Has("texCoord") ? info->Get("texCoord").GetNumberAsInt() : 0, transform);
+}
+
+void MaterialReader::readTextures(Material& material)
+{
+    material.baseColorTexture = readTexture(source_.pbrMetallicRoughness.baseColorTexture);
+    material.metallicRoughnessTexture = readTexture(source_.pbrMetallicRoughness.metallicRoughnessTexture);
+    material.normalTexture = readTexture(source_.normalTexture);
+    material.normalScale = static_cast<float>(source_.normalTexture.scale);
+    material.emissiveTexture = readTexture(source_.emissiveTexture);
+    material.specularTexture = readTexture("KHR_materials_specular", "specularTexture");
+    material.specularColorTexture = readTexture("KHR_materials_specular", "specularColorTexture");
+}
+
+float MaterialReader::readIor() const
+{
+    const double ior = numberOr(source_, "KHR_materials_ior", "ior", 1.5);
+    if (ior < 1.0 && ior != 0.0) {
+        refuse(file_, place_ + " has the index of refraction " + toText(ior) + "; expected 0 or at least 1");
     }
     return static_cast<float>(ior);
+}
+
+// Whether the material transmits. All that does is smooth solid glass so far.
+bool MaterialReader::readGlass()
+{
+    const double transmission = numberOr(source_, "KHR_materials_transmission", "transmissionFactor", 0.0);
+    if (!(transmission > 0.0)) {
+        return false;
+    }
+    const tinygltf::PbrMetallicRoughness& pbr = source_.pbrMetallicRoughness;
+    const bool attenuates = findProperty(source_, "KHR_materials_volume", "attenuationDistance") != nullptr &&
+                            colorOr(source_, "KHR_materials_volume", "attenuationColor", glm::vec3(1.0F)) != glm::vec3(1.0F);
+    ignore(transmission < 1.0 || findProperty(source_, "KHR_materials_transmission", "transmissionTexture") != nullptr,
+           "partial transmission is drawn as full transmission");
+    ignore(numberOr(source_, "KHR_materials_volume", "thicknessFactor", 0.0) == 0.0, "thin-walled glass is drawn as solid glass");
+    ignore(attenuates, "attenuation in a volume is ignored");
+    ignore(pbr.roughnessFactor > 0.0, "rough glass is drawn as smooth glass");
+    ignore(pbr.metallicFactor > 0.0, "the metallic part of glass is ignored");
+    return true;
+}
+
+void MaterialReader::warnOfExtensions()
+{
+    for (const auto& [name, extension] : source_.extensions) {
+        const bool known = std::find(std::begin(kKnownExtensions), std::end(kKnownExtensions), name) != std::end(kKnownExtensions);
+        ignore(!known, name + " is ignored");
+    }
+}
+
+Material MaterialReader::read()
+{
+    const std::vector<double>& color = source_.pbrMetallicRoughness.baseColorFactor;
+    const std::vector<double>& emissive = source_.emissiveFactor;
+    const double strength = numberOr(source_, "KHR_materials_emissive_strength", "emissiveStrength", 1.0);
+    Material material;
+    material.name = source_.name;
+    material.baseColor = glm::dvec3(color[0], color[1], color[2]);
+    material.metallic = static_cast<float>(source_.pbrMetallicRoughness.metallicFactor);
+    material.roughness = static_cast<float>(source_.pbrMetallicRoughness.roughnessFactor);
+    material.ior = readIor();
+    material.specular = static_cast<float>(numberOr(source_, "KHR_materials_specular", "specularFactor", 1.0));
+    material.specularColor = colorOr(source_, "KHR_materials_specular", "specularColorFactor", glm::vec3(1.0F));
+    material.glass = readGlass();
+    material.emission = strength * glm::dvec3(emissive[0], emissive[1], emissive[2]);
+    material.doubleSided = source_.doubleSided;
+    material.alphaMode = source_.alphaMode == "MASK" ? AlphaMode::Mask : source_.alphaMode == "BLEND" ? AlphaMode::Blend : AlphaMode::Opaque;
+    material.alpha = static_cast<float>(color[3]);
+    material.alphaCutoff = static_cast<float>(source_.alphaCutoff);
+    readTextures(material);
+    warnOfExtensions();
+    if (material.glass && material.ior == 0.0F) {
+        refuse(file_, place_ + " is glass with the index of refraction 0; expected at least 1");
+    }
+    return material;
 }
 
 tinygltf::Material makeDefaultMaterial()
 {
     tinygltf::Material material;
+    material.name = "default";
     material.emissiveFactor = {0.0, 0.0, 0.0};
     return material;
 }
 
 }  // namespace
 
-MaterialReading readMaterial(const GltfFile& file, int index)
+Material readMaterial(const GltfFile& file, int index, Warnings& warnings)
 {
     const tinygltf::Material source = index < 0 ? makeDefaultMaterial() : file.model.materials[static_cast<std::size_t>(index)];
-    const std::string place = index < 0 ? "the default material" : label("materials", index, source.name);
-    const std::vector<double>& color = source.pbrMetallicRoughness.baseColorFactor;
-    const std::vector<double>& emissive = source.emissiveFactor;
-    const double strength = numberOr(source, "KHR_materials_emissive_strength", "emissiveStrength", 1.0);
+    return MaterialReader(file, source, materialLabel(file, index), warnings).read();
+}
 
-    MaterialReading reading;
-    Material& material = reading.material;
-    material.name = index < 0 ? "default" : source.name;
-    material.scattering = chooseScattering(source);
-    material.baseColor = glm::dvec3(color[0], color[1], color[2]);
-    material.emission = strength * glm::dvec3(emissive[0], emissive[1], emissive[2]);
-    material.doubleSided = source.doubleSided;
-    if (material.scattering == Scattering::Dielectric) {
-        material.ior = readIor(file, place, source);
-    }
-    if (const std::string ignored = listIgnored(source, material.scattering); !ignored.empty()) {
-        const char* names[] = {"Lambert", "mirror", "solid glass"};
-        reading.warning = place + " is drawn as " + names[static_cast<int>(material.scattering)] + " without " + ignored;
-    }
-    return reading;
+std::string materialLabel(const GltfFile& file, int index)
+{
+    const auto at = static_cast<std::size_t>(index);
+    return index < 0 ? "the default material" : label("materials", at, file.model.materials[at].name);
 }
 
 }  // namespace glim

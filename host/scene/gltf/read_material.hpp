@@ -1,17 +1,15 @@
-// Reads materials: maps glTF's model to glim's materials.
+// Reads materials and what their textures refer to.
 #pragma once
 
 #include "host/scene/gltf/gltf_file.hpp"
-#include "host/scene/scene.hpp"
+#include "host/scene/warnings.hpp"
 
 namespace glim {
 
-struct MaterialReading {
-    Material material;
-    std::string warning;  // names every property of the material that glim ignores; empty if there is none
-};
+// `index` -1 is glTF's default material. The textures' images are indices into the file's images; `name` is how messages name the material.
+// Warnings say what glim ignores of it.
+Material readMaterial(const GltfFile& file, int index, Warnings& warnings);
 
-// -1 is glTF's default material.
-MaterialReading readMaterial(const GltfFile& file, int index);
+std::string materialLabel(const GltfFile& file, int index);
 
 }  // namespace glim

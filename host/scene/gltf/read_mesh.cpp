@@ -91,16 +91,15 @@ std::vector<Value> readAttribute(const GltfFile& file, const tinygltf::Primitive
 }
 
 std::optional<Mesh> readPrimitive(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& place,
-                                  std::vector<std::string>& warnings)
+                                  Warnings& warnings)
 {
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) {
-        warnings.push_back(place + " has no POSITION and is left out");
+        warnings.add("meshes without POSITION are left out", place);
         return std::nullopt;
     }
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
-        warnings.push_back(place + (primitive.mode == TINYGLTF_MODE_POINTS ? " holds points" : " holds lines") +
-                           " and is left out: only triangles, strips and fans are drawn");
+        warnings.add(std::string(primitive.mode == TINYGLTF_MODE_POINTS ? "points" : "lines") + " are left out", place);
         return std::nullopt;
     }
     Mesh mesh;
@@ -115,18 +114,15 @@ std::optional<Mesh> readPrimitive(const GltfFile& file, const tinygltf::Primitiv
     checkVertexCount(file, order.size(), primitive.mode, place);
     mesh.indices = listTriangles(order, primitive.mode);
     mesh.material = static_cast<std::uint32_t>(primitive.material < 0 ? static_cast<int>(file.model.materials.size()) : primitive.material);
-    if (primitive.attributes.count("COLOR_0") != 0) {
-        warnings.push_back(place + " is drawn without its vertex colours (COLOR_0)");
-    }
     if (!primitive.targets.empty()) {
-        warnings.push_back(place + " is drawn without its morph targets");
+        warnings.add("morph targets are ignored", place);
     }
     return mesh;
 }
 
 }  // namespace
 
-std::vector<Mesh> readMeshes(const GltfFile& file, std::size_t mesh, std::vector<std::string>& warnings)
+std::vector<Mesh> readMeshes(const GltfFile& file, std::size_t mesh, Warnings& warnings)
 {
     const tinygltf::Mesh& source = file.model.meshes[mesh];
     std::vector<Mesh> meshes;

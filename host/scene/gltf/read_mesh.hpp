@@ -2,12 +2,13 @@
 #pragma once
 
 #include "host/scene/gltf/gltf_file.hpp"
+#include "host/scene/warnings.hpp"
 #include "host/scene/scene.hpp"
 
 namespace glim {
 
 // Each mesh is named after the file's mesh, with a number if that has several primitives. The default material's index follows the file's
 // last one. Points, lines and primitives without positions are left out, each with a warning.
-std::vector<Mesh> readMeshes(const GltfFile& file, std::size_t mesh, std::vector<std::string>& warnings);
+std::vector<Mesh> readMeshes(const GltfFile& file, std::size_t mesh, Warnings& warnings);
 
 }  // namespace glim

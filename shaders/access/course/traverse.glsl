@@ -2,7 +2,7 @@
 #ifndef GLIM_ACCESS_COURSE_TRAVERSE
 #define GLIM_ACCESS_COURSE_TRAVERSE
 
-#include "access/bvh_traversal.glsl"
+#include "access/transparency.glsl"
 #include "access/course/features.glsl"
 #include "lib/course/intersect_moller_trumbore.glsl"
 

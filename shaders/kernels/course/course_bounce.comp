@@ -23,8 +23,9 @@ void visit(uint slot)
     PathRay ray = fetchRay(slot);
     PathState state = fetchState(slot);
     SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
+    SurfaceMaterial material = materialAt(si);
     vec3 wo = -ray.direction;
-    if (bouncePath(sampleOfSlot(slot), si, makeBsdf(si, fetchMaterial(si.material), wo), wo, ray, state)) {
+    if (bouncePath(sampleOfSlot(slot), si, makeBsdf(si, material, wo), wo, ray, state)) {
         pathRays[slot] = ray;
         pathStates[slot] = state;
         nextQueue[atomicAdd(queueTails.next, 1u)] = slot;

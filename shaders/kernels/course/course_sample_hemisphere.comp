@@ -42,7 +42,8 @@ void visit(uint slot)
     }
     PathRay ray = fetchRay(slot);
     SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
-    Bsdf bsdf = makeBsdf(si, fetchMaterial(si.material), -ray.direction);
+    SurfaceMaterial material = materialAt(si);
+    Bsdf bsdf = makeBsdf(si, material, -ray.direction);
     if (hasNonDelta(bsdf)) {
         queueRay(slot, si, bsdf, -ray.direction);
     }

@@ -34,15 +34,15 @@ void visitSurface(uint slot, PathRay ray, PathHit hit, PathState state)
 {
     vec3 wo = -ray.direction;
     SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
-    MaterialData material = fetchMaterial(si.material);
+    SurfaceMaterial material = materialAt(si);
     Bsdf bsdf = makeBsdf(si, material, wo);
     noteSurface(si, bsdf.frame.z);
     bool first = lightRound.addsEmission != 0u;
     if (first && pass.bounce == 0u) {
-        pathFirstHits[slot] = makeFirstHit(si, material, wo);
+        pathFirstHits[slot] = makeFirstHit(si, material.data, wo);
     }
     if (first && hasEmissiveSurfaces()) {
-        addRadiance(slot, state.throughput * weightedEmission(si, material, ray, hit, state), pass.bounce);
+        addRadiance(slot, state.throughput * weightedEmission(si, material.data, ray, hit, state), pass.bounce);
     }
     ShadowRay shadow;
     if (lightRound.light != kNoLightIndex && hasNonDelta(bsdf) &&

@@ -26,7 +26,8 @@ void main()
     uint entry = interleavedInvocation();
     if (entry < queueSizes.closest) {
         uint slot = activeQueue[entry];
-        pathHits[slot] = kBruteForce ? scanRecords(slot) : traceClosest(fetchRay(slot));
+        Steps uncounted = Steps(0u, 0u);
+        pathHits[slot] = kBruteForce ? scanRecords(slot) : traceVisible(sampleOfSlot(slot), pass.bounce, fetchRay(slot), uncounted);
     }
     checkLoopBudget(render.canarySteps);
 }

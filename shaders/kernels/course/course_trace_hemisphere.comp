@@ -10,16 +10,20 @@
 #include "access/course/round.glsl"
 #include "access/course/radiance.glsl"
 #include "access/course/scan.glsl"
-#include "access/interaction.glsl"
+#include "access/environment_map.glsl"
+#include "access/material.glsl"
 #include "access/status.glsl"
+#include "lib/course/split_sample.glsl"
 
 vec3 radianceFound(PathRay ray, PathHit hit)
 {
     if (hit.record == kNoRecord) {
-        return hasEnvironment() ? render.environment : vec3(0.0);
+        vec3 radiance = hasFeature(kFeatureEnvironmentMap) ? environmentRadiance(ray.direction) : render.environment;
+        return hasEnvironment() ? radiance : vec3(0.0);
     }
     SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
-    return emittedRadiance(si, fetchMaterial(si.material));
+    SurfaceMaterial material = materialAt(si);
+    return emittedRadiance(si, material.data);
 }
 
 // Without barycentric coordinates, which emission does not depend on.
@@ -35,7 +39,9 @@ void visit(uint slot)
 {
     ShadowRay shadow = fetchShadowRay(slot);
     PathRay ray = PathRay(shadow.origin, shadow.source, shadow.direction, 0u);
-    PathHit hit = kBruteForce ? scanRecords(slot, ray, shadow) : traceClosest(ray);
+    SampleId id = splitSample(sampleOfSlot(slot), kNoLightIndex, lightRound.lightSample, lightRound.lightSamples);
+    Steps uncounted = Steps(0u, 0u);
+    PathHit hit = kBruteForce ? scanRecords(slot, ray, shadow) : traceVisible(id, pass.bounce + 1u, ray, uncounted);
     if (lightRound.endRecord == course.recordCount) {
         addShareOfRadiance(slot, shadow.contribution * radianceFound(ray, hit), pass.bounce + 1u);
     }

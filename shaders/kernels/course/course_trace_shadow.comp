@@ -27,9 +27,9 @@ void main()
     if (entry < queueSizes.shadow) {
         uint slot = shadowQueue[entry];
         ShadowRay ray = fetchShadowRay(slot);
-        bool unoccluded = kBruteForce ? isUnoccludedSoFar(slot, ray) : isUnoccluded(ray);
-        if (unoccluded && lightRound.endRecord == course.recordCount) {
-            addShareOfRadiance(slot, ray.contribution, pass.bounce + 1u);
+        float clear = kBruteForce ? float(isUnoccludedSoFar(slot, ray)) : transmittance(ray);
+        if (clear > 0.0 && lightRound.endRecord == course.recordCount) {
+            addShareOfRadiance(slot, attenuated(ray.contribution, clear), pass.bounce + 1u);
         }
     }
     checkLoopBudget(render.canarySteps);

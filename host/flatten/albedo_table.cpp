@@ -1,0 +1,140 @@
+#include "host/flatten/albedo_table.hpp"
+
+#include "host/bvh/parallel_for.hpp"
+
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <thread>
+
+namespace glim {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr std::size_t kNodes = 32;
+
+struct Rule {
+    double nodes[kNodes], weights[kNodes];
+};
+
+// Gauss and Legendre's rule on [-1, 1], by Newton's iteration on the polynomial's zeros.
+Rule makeRule()
+{
+    Rule rule{};
+    for (std::size_t i = 0; i < kNodes; ++i) {
+        double x = std::cos(kPi * (static_cast<double>(i) + 0.75) / (static_cast<double>(kNodes) + 0.5)), slope = 1.0;
+        for (int iteration = 0; iteration < 100; ++iteration) {
+            double before = 1.0, here = x;
+            for (std::size_t n = 2; n <= kNodes; ++n) {
+                const auto k = static_cast<double>(n);
+                const double next = ((2.0 * k - 1.0) * x * here - (k - 1.0) * before) / k;
+                before = here;
+                here = next;
+            }
+            slope = static_cast<double>(kNodes) * (x * here - before) / (x * x - 1.0);
+            const double step = here / slope;
+            x -= step;
+            if (std::abs(step) < 1e-15) {
+                break;
+            }
+        }
+        rule.nodes[i] = x;
+        rule.weights[i] = 2.0 / ((1.0 - x * x) * slope * slope);
+    }
+    return rule;
+}
+
+double lambda(double cosine, double alpha)
+{
+    const double tangent2 = (1.0 - cosine * cosine) / (cosine * cosine);
+    return 0.5 * (std::sqrt(1.0 + alpha * alpha * tangent2) - 1.0);
+}
+
+// a and b at a cosine and an alpha above 0: the integral of F G2 (v.h) / (v.z h.z) over the normals h, D(h) h.z dh, whose reflection of v
+// is above the horizon. Slopes are alpha tan(beta) towards the azimuth phi; then D(h) h.z dh = sin(beta) cos(beta) / pi dbeta dphi. For each
+// phi the end of beta is known in closed form, so the integrand is smooth inside; substitutions put more nodes at the ends.
+glm::dvec2 integrateAlbedo(const Rule& rule, double cosine, double alpha)
+{
+    const double sine = std::sqrt((1.0 - cosine) * (1.0 + cosine)), lambdaV = lambda(cosine, alpha);
+    glm::dvec2 sum(0.0);
+    for (std::size_t i = 0; i < kNodes; ++i) {
+        // The half circles that face v and face away, each alike on both sides of its middle.
+        const double t = std::abs(rule.nodes[i]), middle = rule.nodes[i] < 0.0 ? kPi : 0.0;
+        const double phi = middle + kPi / 16.0 * t * (15.0 - 10.0 * t * t + 3.0 * t * t * t * t);
+        const double phiWeight = 15.0 / 16.0 * kPi * (1.0 - t * t) * (1.0 - t * t) * rule.weights[i];
+        const double horizon = 0.5 * (0.5 * kPi + std::atan2(sine * std::cos(phi), cosine));
+        const double end = std::atan2(std::sin(horizon), alpha * std::cos(horizon));
+        for (std::size_t j = 0; j < kNodes; ++j) {
+            const double s = 0.5 * (rule.nodes[j] + 1.0);
+            const double beta = end * (1.0 - s * s * s), weight = phiWeight * end * 3.0 * s * s * 0.5 * rule.weights[j];
+            const double slope = alpha * std::tan(beta), hz = 1.0 / std::sqrt(1.0 + slope * slope);
+            const double vh = hz * (cosine + slope * sine * std::cos(phi));
+            const double lz = 2.0 * vh * hz - cosine;
+            if (!(lz > 0.0) || !(vh > 0.0)) {
+                continue;
+            }
+            const double visible = vh / (cosine * hz * (1.0 + lambdaV + lambda(lz, alpha)));
+            const double value = 2.0 * weight * std::sin(beta) * std::cos(beta) / kPi * visible, schlick = std::pow(1.0 - vh, 5.0);
+            sum += glm::dvec2(1.0 - schlick, schlick) * value;
+        }
+    }
+    return sum;
+}
+
+double rounded(double value) { return std::ldexp(std::round(std::ldexp(value, 22)), -22); }
+
+double rootAt(std::size_t i) { return static_cast<double>(i) / (kAlbedoSize - 1); }
+
+// Of row j. A smooth surface, alpha 0, reflects what Schlick says; light along the surface all of it.
+std::vector<glm::dvec2> makeRow(const Rule& rule, std::size_t j)
+{
+    const double alpha = std::pow(rootAt(j), 4.0);
+    std::vector<glm::dvec2> row;
+    for (std::size_t i = 0; i < kAlbedoSize; ++i) {
+        const double cosine = std::max(std::pow(rootAt(i), 4.0), 1e-9), schlick = std::pow(1.0 - cosine, 5.0);
+        const glm::dvec2 ab = j == 0 ? glm::dvec2(1.0 - schlick, schlick) : integrateAlbedo(rule, cosine, alpha);
+        row.emplace_back(rounded(ab.x), rounded(ab.y));
+    }
+    return row;
+}
+
+// 2 int f(cosine) cosine dcosine of the function that the row's bilinear look-up gives, exactly: linear in x between columns, and the
+// cosine is x^4.
+glm::dvec2 averageOf(const std::vector<glm::dvec2>& row)
+{
+    glm::dvec2 sum(0.0);
+    for (std::size_t i = 0; i + 1 < kAlbedoSize; ++i) {
+        const double x0 = rootAt(i), x1 = rootAt(i + 1);
+        const double m8 = (std::pow(x1, 8.0) - std::pow(x0, 8.0)) / 8.0, m9 = (std::pow(x1, 9.0) - std::pow(x0, 9.0)) / 9.0;
+        const glm::dvec2 slope = (row[i + 1] - row[i]) / (x1 - x0);
+        sum += 8.0 * ((row[i] - slope * x0) * m8 + slope * m9);
+    }
+    return {rounded(sum.x), rounded(sum.y)};
+}
+
+uvec4 texelOf(const glm::dvec2& a, const glm::dvec2& b)
+{
+    const auto bits = [](double value) { return std::bit_cast<std::uint32_t>(static_cast<float>(value)); };
+    return {bits(a.x), bits(a.y), bits(b.x), bits(b.y)};
+}
+
+}  // namespace
+
+std::vector<uvec4> makeAlbedoTable()
+{
+    const Rule rule = makeRule();
+    std::vector<std::vector<glm::dvec2>> rows(kAlbedoSize);
+    parallelFor(rows.size(), std::thread::hardware_concurrency(), [&](std::size_t j) { rows[j] = makeRow(rule, j); });
+    std::vector<uvec4> table;
+    for (const std::vector<glm::dvec2>& row : rows) {
+        for (std::size_t i = 0; i < kAlbedoSize; ++i) {
+            table.push_back(texelOf(row[i], row[std::min<std::size_t>(i + 1, kAlbedoSize - 1)]));
+        }
+    }
+    for (std::size_t j = 0; j < kAlbedoSize; ++j) {
+        table.push_back(texelOf(averageOf(rows[j]), averageOf(rows[std::min<std::size_t>(j + 1, kAlbedoSize - 1)])));
+    }
+    return table;
+}
+
+}  // namespace glim

@@ -1,0 +1,80 @@
+#include "host/flatten/classify_alpha.hpp"
+
+#include <algorithm>
+
+namespace glim {
+namespace {
+
+float alphaOf(const DecodedImage& image, std::size_t texel)
+{
+    return image.rgba16.empty() ? static_cast<float>(image.rgba8[4 * texel + 3]) / 255.0F
+                                : static_cast<float>(image.rgba16[4 * texel + 3]) / 65535.0F;
+}
+
+Coverage coverageOf(const Material& material, float alpha)
+{
+    if (material.alphaMode == AlphaMode::Mask) {
+        return alpha >= material.alphaCutoff ? Coverage::Opaque : Coverage::Transparent;
+    }
+    return alpha >= 1.0F ? Coverage::Opaque : alpha > 0.0F ? Coverage::Mixed : Coverage::Transparent;
+}
+
+// Mesh colours may change alpha between vertices.
+bool hasAlpha(const Mesh& mesh)
+{
+    return std::ranges::any_of(mesh.colors, [](const glm::vec4& color) { return color.a != 1.0F; });
+}
+
+}  // namespace
+
+const AlphaClassifier::Shares& AlphaClassifier::sharesOf(std::uint32_t id)
+{
+    const auto known = shares_.find(id);
+    if (known != shares_.end()) {
+        return known->second;
+    }
+    const Material& material = scene_.materials[id];
+    const DecodedImage& image = scene_.images[material.baseColorTexture->image].pixels;
+    const auto sumsOf = [&](Coverage coverage) {
+        return BoxSums(image.width, image.height, [&](std::uint32_t x, std::uint32_t y) {
+            const float alpha = material.alpha * alphaOf(image, std::size_t{y} * image.width + x);
+            return coverageOf(material, alpha) == coverage ? 1U : 0U;
+        });
+    };
+    return shares_.emplace(id, Shares{sumsOf(Coverage::Opaque), sumsOf(Coverage::Transparent)}).first->second;
+}
+
+Coverage AlphaClassifier::classify(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners)
+{
+    const Material& material = scene_.materials[mesh.material];
+    if (material.alphaMode == AlphaMode::Opaque) {
+        return Coverage::Opaque;
+    }
+    if (hasAlpha(mesh)) {
+        return Coverage::Mixed;
+    }
+    if (!material.baseColorTexture) {
+        return coverageOf(material, material.alpha);
+    }
+    const Texture& texture = *material.baseColorTexture;
+    const std::vector<glm::vec2>& uv = texture.uvSet == 0 ? mesh.uv0 : mesh.uv1;
+    glm::vec2 at[3] = {};
+    for (std::size_t v = 0; v < 3 && !uv.empty(); ++v) {
+        at[v] = uv[corners[v]];
+    }
+    const Shares& shares = sharesOf(mesh.material);
+    const UvBox box = uvBoxOf(texture, at);
+    return shares.opaque.mean(box, texture) == 1.0        ? Coverage::Opaque
+           : shares.transparent.mean(box, texture) == 1.0 ? Coverage::Transparent
+                                                          : Coverage::Mixed;
+}
+
+Coverage AlphaClassifier::classify(const Sphere& sphere) const
+{
+    const Material& material = scene_.materials[sphere.material];
+    return material.alphaMode == AlphaMode::Opaque ? Coverage::Opaque
+           : material.baseColorTexture             ? Coverage::Mixed
+                                                   : coverageOf(material, material.alpha);
+}
+
+}  // namespace glim

@@ -1,0 +1,148 @@
+#include "host/flatten/environment_map.hpp"
+
+#include "host/flatten/alias_table.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+namespace glim {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Beyond this number of texels, blocks of them make a cell.
+constexpr std::uint64_t kMaxCells = std::uint64_t{1} << 23;
+
+// Where light sampling joins BSDF sampling by MIS, it pays to leave the darker part of the map to the other one: Karlik et al., "MIS
+// Compensation" (2019). A share of plain weights keeps every estimator without MIS unbiased.
+constexpr double kPlainShare = 0.1;
+
+// Mantissas of 18 bits and an exponent of 8: relative to the strongest channel each is off by 2^-18 at most.
+uvec2 packTexel(const glm::vec3& color)
+{
+    constexpr int kBits = 18, kBias = 127;
+    const float strongest = std::max({color.r, color.g, color.b});
+    const int exponent = strongest > 0.0F ? std::ilogb(strongest) + 1 - kBits : -kBias;
+    if (exponent <= -kBias) {
+        return uvec2(0);
+    }
+    const auto mantissa = [exponent](float c) {
+        return std::min(static_cast<std::uint32_t>(std::lround(std::ldexp(static_cast<double>(c), -exponent))), (1U << kBits) - 1);
+    };
+    const std::uint32_t r = mantissa(color.r), g = mantissa(color.g), b = mantissa(color.b);
+    return {r | g << 18U, g >> 14U | b << 4U | static_cast<std::uint32_t>(exponent + kBias) << 22U};
+}
+
+double strongest(const glm::vec3& c) { return static_cast<double>(std::max({c.r, c.g, c.b})); }
+
+// The mean of the bilinear interpolant over a texel, a filter (1, 6, 1) / 8 each way: no cell next to a lamp is without weight.
+double meanOverTexel(const RadianceMap& map, std::uint32_t x, std::uint32_t y)
+{
+    const std::uint32_t left = x == 0 ? map.width - 1 : x - 1, right = x + 1 == map.width ? 0 : x + 1;
+    const std::uint32_t above = y == 0 ? 0 : y - 1, below = std::min(y + 1, map.height - 1);
+    const auto row = [&](std::uint32_t v) {
+        const glm::vec3* texels = &map.texels[std::size_t{v} * map.width];
+        return strongest(texels[left]) + 6.0 * strongest(texels[x]) + strongest(texels[right]);
+    };
+    return (row(above) + 6.0 * row(y) + row(below)) / 64.0;
+}
+
+struct CellGrid {
+    std::uint32_t block = 1, width = 0, height = 0;
+};
+
+CellGrid chooseCells(const RadianceMap& map)
+{
+    CellGrid grid;
+    do {
+        grid.width = (map.width + grid.block - 1) / grid.block;
+        grid.height = (map.height + grid.block - 1) / grid.block;
+        grid.block *= 2;
+    } while (std::uint64_t{grid.width} * grid.height > kMaxCells);
+    grid.block /= 2;
+    return grid;
+}
+
+// sin^2 of half the polar angle at the lower edge of row `row`.
+double halfSine2(std::uint32_t row, std::uint32_t rows) { return std::pow(std::sin(0.5 * kPi * row / rows), 2.0); }
+
+// Of a cell of the row, per cell: 2 pi (cos a - cos b) / columns, without cancellation at the poles.
+double solidAngle(std::uint32_t row, const CellGrid& grid)
+{
+    const double a = kPi * row / grid.height, b = kPi * (row + 1) / grid.height;
+    return 2.0 * kPi / grid.width * 2.0 * std::sin(0.5 * (a + b)) * std::sin(0.5 * (b - a));
+}
+
+std::vector<double> meansOfCells(const RadianceMap& map, const CellGrid& grid)
+{
+    std::vector<double> means(std::size_t{grid.width} * grid.height, 0.0);
+    std::vector<std::uint32_t> counts(means.size(), 0);
+    for (std::uint32_t y = 0; y < map.height; ++y) {
+        // A cell is where kernels look its direction up: its share of the map, not a whole number of texels.
+        const std::size_t row = std::size_t{std::min(static_cast<std::uint32_t>((y + 0.5) * grid.height / map.height), grid.height - 1)} * grid.width;
+        for (std::uint32_t x = 0; x < map.width; ++x) {
+            const std::size_t cell = row + std::min(static_cast<std::uint32_t>((x + 0.5) * grid.width / map.width), grid.width - 1);
+            means[cell] += meanOverTexel(map, x, y);
+            ++counts[cell];
+        }
+    }
+    for (std::size_t i = 0; i < means.size(); ++i) {
+        means[i] /= std::max(counts[i], 1U);
+    }
+    return means;
+}
+
+uvec4 rowBounds(std::uint32_t row, const CellGrid& grid)
+{
+    // Rows below the equator are measured from the lower pole; one across it too.
+    const bool lower = 2 * row + 1 >= grid.height;
+    const std::uint32_t from = lower ? grid.height - 1 - row : row;
+    const auto bits = [](double value) { return std::bit_cast<std::uint32_t>(static_cast<float>(value)); };
+    return {bits(halfSine2(from, grid.height)), bits(halfSine2(from + 1, grid.height)), bits(lower ? 1.0 : 0.0), 0};
+}
+
+}  // namespace
+
+double flattenEnvironmentMap(FlatScene& flat, const RadianceMap& map)
+{
+    const CellGrid grid = chooseCells(map);
+    std::vector<double> weights = meansOfCells(map, grid);
+    double integral = 0.0;
+    for (std::uint32_t row = 0; row < grid.height; ++row) {
+        for (std::uint32_t x = 0; x < grid.width; ++x) {
+            integral += weights[std::size_t{row} * grid.width + x] * solidAngle(row, grid);
+        }
+    }
+    if (!(integral > 0.0)) {
+        return 0.0;
+    }
+    const double mean = integral / (4.0 * kPi);
+    for (std::uint32_t row = 0; row < grid.height; ++row) {
+        for (std::uint32_t x = 0; x < grid.width; ++x) {
+            double& weight = weights[std::size_t{row} * grid.width + x];
+            const double compensated = std::max(weight - mean, 0.0);
+            // Bilinear look-ups of a black cell's neighbours may reach into it: no weight is 0.
+            weight = (std::max(weight, 1e-6 * mean) * kPlainShare + compensated * (1.0 - kPlainShare)) * solidAngle(row, grid);
+        }
+    }
+    const AliasTable table = buildAliasTable(weights);
+    flat.environmentTexels.reserve(map.texels.size());
+    for (const glm::vec3& texel : map.texels) {
+        flat.environmentTexels.push_back(packTexel(texel));
+    }
+    flat.environmentSize = {map.width, map.height};
+    flat.environmentCellCount = {grid.width, grid.height};
+    flat.environmentCells.reserve(weights.size() + grid.height);
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        const double pdf = table.probabilities[i] / solidAngle(static_cast<std::uint32_t>(i / grid.width), grid);
+        flat.environmentCells.emplace_back(table.entries[i].threshold, table.entries[i].other, std::bit_cast<std::uint32_t>(static_cast<float>(pdf)), 0);
+    }
+    for (std::uint32_t row = 0; row < grid.height; ++row) {
+        flat.environmentCells.push_back(rowBounds(row, grid));
+    }
+    return integral;
+}
+
+}  // namespace glim

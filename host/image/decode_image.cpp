@@ -1,0 +1,299 @@
+#include "host/image/decode_image.hpp"
+
+#include "host/error.hpp"
+
+#include <png.h>
+#include <webp/decode.h>
+
+#include <algorithm>
+#include <cstdio>  // jpeglib.h needs it before itself
+#include <cstring>
+
+#include <jpeglib.h>
+
+#include <csetjmp>
+
+namespace glim {
+namespace {
+
+using Bytes = std::span<const unsigned char>;
+
+bool startsWith(Bytes bytes, std::string_view magic, std::size_t at = 0)
+{
+    return bytes.size() >= at + magic.size() && std::memcmp(bytes.data() + at, magic.data(), magic.size()) == 0;
+}
+
+void checkSize(const char* kind, std::uint32_t width, std::uint32_t height)
+{
+    if (width == 0 || height == 0 || width > kMaxImageSide || height > kMaxImageSide) {
+        throw InputError("is a " + std::string(kind) + " of " + std::to_string(width) + "x" + std::to_string(height) +
+                         " pixels; expected 1 to " + std::to_string(kMaxImageSide) + " in each direction");
+    }
+}
+
+// What libpng reads from, and what it says; libpng leaves by longjmp, past no destructor of these.
+struct PngSource {
+    Bytes left;
+    std::string error;
+};
+
+void readPng(png_structp png, png_bytep to, png_size_t count)
+{
+    auto& source = *static_cast<PngSource*>(png_get_io_ptr(png));
+    if (source.left.size() < count) {
+        png_error(png, "it ends early");
+    }
+    std::memcpy(to, source.left.data(), count);
+    source.left = source.left.subspan(count);
+}
+
+void keepPngError(png_structp png, png_const_charp message)
+{
+    static_cast<PngSource*>(png_get_error_ptr(png))->error = message;
+    png_longjmp(png, 1);
+}
+
+void ignorePngWarning(png_structp /*png*/, png_const_charp /*message*/) {}
+
+class PngReader {
+public:
+    explicit PngReader(PngSource& source)
+        : png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, keepPngError, ignorePngWarning)),
+          info_(png_create_info_struct(png_))
+    {
+        constexpr png_alloc_size_t kMaxChunk = png_alloc_size_t{64} << 20;
+        png_set_user_limits(png_, 0x7fffffff, 0x7fffffff);  // sizes are refused with a sentence of ours
+        png_set_chunk_cache_max(png_, 128);
+        png_set_chunk_malloc_max(png_, kMaxChunk);
+        png_set_read_fn(png_, &source, readPng);
+    }
+    ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+    PngReader(const PngReader&) = delete;
+    PngReader& operator=(const PngReader&) = delete;
+
+    png_structp png() { return png_; }
+    png_infop info() { return info_; }
+
+private:
+    png_structp png_;
+    png_infop info_;
+};
+
+// False if libpng has given up.
+bool readPngHeader(PngReader& reader)
+{
+    if (setjmp(png_jmpbuf(reader.png())) != 0) {
+        return false;
+    }
+    png_read_info(reader.png(), reader.info());
+    return true;
+}
+
+bool readPngRows(PngReader& reader, std::vector<png_bytep>& rows)
+{
+    if (setjmp(png_jmpbuf(reader.png())) != 0) {
+        return false;
+    }
+    png_read_image(reader.png(), rows.data());
+    png_read_end(reader.png(), nullptr);
+    return true;
+}
+
+bool expandPng(PngReader& reader, bool wide)
+{
+    if (setjmp(png_jmpbuf(reader.png())) != 0) {
+        return false;
+    }
+    png_set_expand(reader.png());  // palettes, few bits and a transparent colour
+    png_set_gray_to_rgb(reader.png());
+    png_set_add_alpha(reader.png(), wide ? 0xffffU : 0xffU, PNG_FILLER_AFTER);
+    if (wide) {
+        png_set_swap(reader.png());
+    }
+    png_set_interlace_handling(reader.png());
+    png_read_update_info(reader.png(), reader.info());
+    return true;
+}
+
+DecodedImage decodePng(Bytes bytes)
+{
+    PngSource source{bytes, ""};
+    PngReader reader(source);
+    const auto require = [&source](bool good) {
+        if (!good) {
+            throw InputError("is a broken PNG (" + source.error + ")");
+        }
+    };
+    require(readPngHeader(reader));
+    DecodedImage image;
+    image.width = png_get_image_width(reader.png(), reader.info());
+    image.height = png_get_image_height(reader.png(), reader.info());
+    checkSize("PNG", image.width, image.height);
+    const bool wide = png_get_bit_depth(reader.png(), reader.info()) == 16;
+    require(expandPng(reader, wide));
+    const std::size_t rowBytes = std::size_t{image.width} * (wide ? 8 : 4), bytesInAll = rowBytes * image.height;
+    wide ? image.rgba16.resize(bytesInAll / 2) : image.rgba8.resize(bytesInAll);
+    auto* const first = wide ? reinterpret_cast<png_bytep>(image.rgba16.data()) : image.rgba8.data();
+    std::vector<png_bytep> rows;
+    for (std::uint32_t y = 0; y < image.height; ++y) {
+        rows.push_back(first + y * rowBytes);
+    }
+    require(readPngRows(reader, rows));
+    return image;
+}
+
+// libjpeg leaves by longjmp too. A warning of its is damage to the picture.
+struct JpegErrors {
+    jpeg_error_mgr base;
+    std::jmp_buf leave;
+    char message[JMSG_LENGTH_MAX];
+};
+
+[[noreturn]] void leaveJpeg(j_common_ptr jpeg)
+{
+    auto& errors = *reinterpret_cast<JpegErrors*>(jpeg->err);
+    errors.base.format_message(jpeg, errors.message);
+    std::longjmp(errors.leave, 1);
+}
+
+void leaveOnWarning(j_common_ptr jpeg, int level)
+{
+    if (level < 0) {
+        leaveJpeg(jpeg);
+    }
+}
+
+// A few bytes can ask for scans without end.
+void limitScans(j_common_ptr jpeg)
+{
+    constexpr int kMaxScans = 500;
+    if (jpeg->is_decompressor != 0 && reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number > kMaxScans) {
+        leaveJpeg(jpeg);
+    }
+}
+
+struct JpegReader {
+    jpeg_decompress_struct jpeg{};
+    JpegErrors errors{};
+    jpeg_progress_mgr progress{};
+
+    JpegReader()
+    {
+        jpeg.err = jpeg_std_error(&errors.base);
+        errors.base.error_exit = leaveJpeg;
+        errors.base.emit_message = leaveOnWarning;
+        progress.progress_monitor = limitScans;
+        jpeg_create_decompress(&jpeg);
+        jpeg.progress = &progress;
+    }
+    ~JpegReader() { jpeg_destroy_decompress(&jpeg); }
+    JpegReader(const JpegReader&) = delete;
+    JpegReader& operator=(const JpegReader&) = delete;
+};
+
+bool readJpegHeader(JpegReader& reader, Bytes bytes)
+{
+    if (setjmp(reader.errors.leave) != 0) {
+        return false;
+    }
+    jpeg_mem_src(&reader.jpeg, bytes.data(), bytes.size());
+    jpeg_read_header(&reader.jpeg, TRUE);
+    return true;
+}
+
+// `row`: room for a row of four channels.
+bool readJpegRows(JpegReader& reader, std::vector<std::uint8_t>& rgba, std::vector<std::uint8_t>& row)
+{
+    if (setjmp(reader.errors.leave) != 0) {
+        return false;
+    }
+    jpeg_decompress_struct& jpeg = reader.jpeg;
+    const bool inks = jpeg.num_components == 4;
+    jpeg.out_color_space = inks ? JCS_CMYK : JCS_EXT_RGBA;
+    jpeg_start_decompress(&jpeg);
+    while (jpeg.output_scanline < jpeg.output_height) {
+        std::uint8_t* const to = rgba.data() + std::size_t{jpeg.output_scanline} * jpeg.output_width * 4;
+        JSAMPROW into = inks ? row.data() : to;
+        jpeg_read_scanlines(&jpeg, &into, 1);
+        for (std::size_t x = 0; inks && x < jpeg.output_width; ++x) {
+            // Adobe's files hold the inks inverted.
+            const auto ink = [&](std::size_t c) { return jpeg.saw_Adobe_marker != 0 ? row[4 * x + c] : 255 - row[4 * x + c]; };
+            for (std::size_t c = 0; c < 3; ++c) {
+                to[4 * x + c] = static_cast<std::uint8_t>((ink(c) * ink(3) + 127) / 255);
+            }
+            to[4 * x + 3] = 255;
+        }
+    }
+    jpeg_finish_decompress(&jpeg);
+    return true;
+}
+
+DecodedImage decodeJpeg(Bytes bytes)
+{
+    JpegReader reader;
+    const auto require = [&reader](bool good) {
+        if (!good) {
+            throw InputError("is a broken JPEG (" + std::string(reader.errors.message) + ")");
+        }
+    };
+    require(readJpegHeader(reader, bytes));
+    checkSize("JPEG", reader.jpeg.image_width, reader.jpeg.image_height);
+    DecodedImage image;
+    image.width = reader.jpeg.image_width;
+    image.height = reader.jpeg.image_height;
+    image.rgba8.resize(std::size_t{image.width} * image.height * 4);
+    std::vector<std::uint8_t> row(std::size_t{image.width} * 4);
+    require(readJpegRows(reader, image.rgba8, row));
+    return image;
+}
+
+DecodedImage decodeWebp(Bytes bytes)
+{
+    WebPBitstreamFeatures features;
+    if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK) {
+        throw InputError("is a broken WebP");
+    }
+    if (features.has_animation != 0) {
+        throw InputError("is an animated WebP; expected a still one");
+    }
+    DecodedImage image;
+    image.width = static_cast<std::uint32_t>(features.width);
+    image.height = static_cast<std::uint32_t>(features.height);
+    checkSize("WebP", image.width, image.height);
+    image.rgba8.resize(std::size_t{image.width} * image.height * 4);
+    if (WebPDecodeRGBAInto(bytes.data(), bytes.size(), image.rgba8.data(), image.rgba8.size(), features.width * 4) == nullptr) {
+        throw InputError("is a broken WebP");
+    }
+    return image;
+}
+
+std::string firstBytes(Bytes bytes)
+{
+    std::string text;
+    for (std::size_t i = 0; i < std::min<std::size_t>(bytes.size(), 4); ++i) {
+        char hex[4];
+        std::snprintf(hex, sizeof hex, " %02x", bytes[i]);
+        text += hex;
+    }
+    return text.empty() ? "it is empty" : "it begins with" + text;
+}
+
+}  // namespace
+
+DecodedImage decodeImage(Bytes bytes)
+{
+    if (startsWith(bytes, "\x89PNG\r\n\x1a\n")) {
+        return decodePng(bytes);
+    }
+    if (startsWith(bytes, "\xff\xd8\xff")) {
+        return decodeJpeg(bytes);
+    }
+    if (startsWith(bytes, "RIFF") && startsWith(bytes, "WEBP", 8)) {
+        return decodeWebp(bytes);
+    }
+    const bool ktx = startsWith(bytes, "\xabKTX 20");
+    throw InputError(std::string("is ") + (ktx ? "a KTX2 texture" : "of an unknown kind (" + firstBytes(bytes) + ")") +
+                     "; expected PNG, JPEG or WebP");
+}
+
+}  // namespace glim

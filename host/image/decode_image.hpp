@@ -1,0 +1,22 @@
+// PNG, JPEG and WebP to texels.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace glim {
+
+inline constexpr std::uint32_t kMaxImageSide = 16384;
+
+// RGBA, rows from the top, as the file holds it: nothing is converted to linear. One of the two vectors is filled.
+struct DecodedImage {
+    std::uint32_t width = 0, height = 0;
+    std::vector<std::uint8_t> rgba8;
+    std::vector<std::uint16_t> rgba16;
+};
+
+// Tells the kind by the bytes. Throws InputError with what is wrong, as in "is a JPEG that ends early"; the caller names the image.
+DecodedImage decodeImage(std::span<const unsigned char> bytes);
+
+}  // namespace glim

@@ -1,0 +1,135 @@
+#include "host/image/radiance_map.hpp"
+
+#include "host/error.hpp"
+#include "host/image/hdr.hpp"
+
+#include <OpenEXR/ImfArray.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfVersion.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <string>
+
+namespace glim {
+namespace {
+
+void checkMapSize(const std::string& path, std::int64_t width, std::int64_t height)
+{
+    if (width < 1 || height < 1 || width > kMaxMapWidth || height > kMaxMapHeight ||
+        static_cast<std::uint64_t>(width * height) > kMaxMapTexels) {
+        throw InputError(path + ": is a map of " + std::to_string(width) + "x" + std::to_string(height) +
+                         " texels; expected at most 16384x8192");
+    }
+}
+
+// The names of the file's channels for red, green and blue: R, G and B, or Y alone three times.
+std::array<std::string, 3> chooseChannels(const std::string& path, const Imf::ChannelList& channels)
+{
+    if (channels.findChannel("R") != nullptr && channels.findChannel("G") != nullptr && channels.findChannel("B") != nullptr) {
+        return {"R", "G", "B"};
+    }
+    const bool chroma = channels.findChannel("RY") != nullptr || channels.findChannel("BY") != nullptr;
+    if (channels.findChannel("Y") != nullptr && !chroma) {
+        return {"Y", "Y", "Y"};
+    }
+    throw InputError(path + ": has no channels R, G and B, nor Y alone; expected these");
+}
+
+RadianceMap readExrMap(const std::string& path)
+{
+    Imf::InputFile file(path.c_str());
+    const Imath::Box2i display = file.header().displayWindow(), data = file.header().dataWindow();
+    const std::int64_t width = std::int64_t{display.max.x} - display.min.x + 1, height = std::int64_t{display.max.y} - display.min.y + 1;
+    checkMapSize(path, width, height);
+    const std::int64_t across = std::int64_t{data.max.x} - data.min.x + 1;
+    checkMapSize(path, across, std::int64_t{data.max.y} - data.min.y + 1);
+    const std::array<std::string, 3> names = chooseChannels(path, file.header().channels());
+    RadianceMap map;
+    map.width = static_cast<std::uint32_t>(width);
+    map.height = static_cast<std::uint32_t>(height);
+    map.texels.resize(static_cast<std::size_t>(width * height), glm::vec3(0.0F));
+    // A row of the data window at a time; what the display window shows of it goes into the map.
+    std::vector<glm::vec3> row(static_cast<std::size_t>(across));
+    const int channels = names[0] == "Y" ? 1 : 3;
+    for (int y = data.min.y; y <= data.max.y; ++y) {
+        Imf::FrameBuffer buffer;
+        for (int c = 0; c < channels; ++c) {
+            char* const base = reinterpret_cast<char*>(&row[0][c]) - std::int64_t{data.min.x} * static_cast<std::int64_t>(sizeof(glm::vec3));
+            buffer.insert(names[static_cast<std::size_t>(c)], Imf::Slice(Imf::FLOAT, base, sizeof(glm::vec3), 0));
+        }
+        file.setFrameBuffer(buffer);
+        file.readPixels(y);
+        if (y < display.min.y || y > display.max.y) {
+            continue;
+        }
+        for (int x = std::max(data.min.x, display.min.x); x <= std::min(data.max.x, display.max.x); ++x) {
+            glm::vec3& texel = map.texels[static_cast<std::size_t>((y - display.min.y) * width + (x - display.min.x))];
+            texel = row[static_cast<std::size_t>(x - data.min.x)];
+            texel = channels == 1 ? glm::vec3(texel.x) : texel;
+        }
+    }
+    return map;
+}
+
+void repair(RadianceMap& map)
+{
+    for (glm::vec3& texel : map.texels) {
+        bool broken = false;
+        for (int c = 0; c < 3; ++c) {
+            if (!std::isfinite(texel[c]) || texel[c] < 0.0F) {
+                texel[c] = 0.0F;
+                broken = true;
+            }
+        }
+        map.repaired += broken ? 1 : 0;
+    }
+}
+
+std::string readStart(const std::filesystem::path& file)
+{
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored)) {
+        throw InputError(file.string() + ": is a folder; expected a .hdr or .exr map");
+    }
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) {
+        throw InputError(file.string() + ": cannot be opened: " + std::strerror(errno));
+    }
+    char start[4] = {};
+    stream.read(start, sizeof start);
+    return {start, static_cast<std::size_t>(stream.gcount())};
+}
+
+}  // namespace
+
+RadianceMap readRadianceMap(const std::filesystem::path& file)
+{
+    const std::string start = readStart(file), path = file.string();
+    RadianceMap map;
+    if (start.size() == 4 && Imf::isImfMagic(start.data())) {
+        try {
+            map = readExrMap(path);
+        } catch (const InputError&) {
+            throw;
+        } catch (const std::exception& error) {
+            throw InputError(path + ": cannot be read as OpenEXR (" + error.what() + ")");
+        }
+    } else if (start.rfind("#?", 0) == 0) {
+        map = readHdr(file);
+        checkMapSize(path, map.width, map.height);
+    } else {
+        throw InputError(path + ": is neither OpenEXR nor Radiance (.hdr); expected one of these");
+    }
+    repair(map);
+    return map;
+}
+
+}  // namespace glim

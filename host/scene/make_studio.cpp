@@ -1,0 +1,61 @@
+#include "host/scene/make_studio.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace glim {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// A rectangle on the sphere with soft edges. Angles in degrees: azimuth from +z towards +x, elevation from the horizon.
+struct Softbox {
+    double azimuth, elevation, halfWidth, halfHeight;
+    double radiance;
+};
+
+constexpr Softbox kSoftboxes[] = {
+    {-50.0, 42.0, 24.0, 20.0, 9.0},   // key
+    {65.0, 18.0, 16.0, 28.0, 2.6},    // fill
+    {165.0, 38.0, 30.0, 12.0, 5.0},   // rim, from behind
+    {0.0, 88.0, 180.0, 16.0, 2.2},    // overhead
+};
+
+double smoothStep(double x)
+{
+    const double t = std::clamp(x, 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+// 1 inside, 0 outside, over an edge of three degrees.
+double inside(double distance, double half) { return smoothStep((half - std::abs(distance)) / 3.0 + 0.5); }
+
+double radianceAt(double azimuth, double elevation)
+{
+    double radiance = 0.16 + 0.42 * smoothStep((elevation + 30.0) / 120.0);
+    for (const Softbox& box : kSoftboxes) {
+        const double across = std::remainder(azimuth - box.azimuth, 360.0) * std::cos(elevation * kPi / 180.0);
+        radiance += box.radiance * inside(box.halfWidth >= 180.0 ? 0.0 : across, box.halfWidth) * inside(elevation - box.elevation, box.halfHeight);
+    }
+    return radiance;
+}
+
+}  // namespace
+
+RadianceMap makeStudio()
+{
+    RadianceMap map;
+    map.width = 1024;
+    map.height = 512;
+    map.texels.reserve(std::size_t{map.width} * map.height);
+    for (std::uint32_t y = 0; y < map.height; ++y) {
+        for (std::uint32_t x = 0; x < map.width; ++x) {
+            const double azimuth = 180.0 - 360.0 * (x + 0.5) / map.width;  // the middle of the map is -z, and +x to its right
+            map.texels.emplace_back(static_cast<float>(radianceAt(azimuth, 90.0 - 180.0 * (y + 0.5) / map.height)));
+        }
+    }
+    return map;
+}
+
+}  // namespace glim

@@ -1,0 +1,72 @@
+// Light from infinitely far by a latitude-longitude map (host/flatten/environment_map.hpp makes it). The radiance is interpolated between
+// texel centres; at the poles it is that of the outermost row. It is sampled by an alias table over cells of about constant radiance.
+#ifndef GLIM_ACCESS_ENVIRONMENT_MAP
+#define GLIM_ACCESS_ENVIRONMENT_MAP
+
+#include "lib/alias.glsl"
+#include "lib/lat_long.glsl"
+#include "parameters.glsl"
+#include "scene.glsl"
+
+layout(set = 0, binding = kBindEnvironment) uniform usamplerBuffer sceneEnvironment;            // environmentTexel
+layout(set = 0, binding = kBindEnvironmentCells) uniform usamplerBuffer sceneEnvironmentCells;  // cells, then their rows
+
+// Three mantissas of 18 bits and an exponent.
+vec3 environmentTexel(uint x, uint y)
+{
+    uvec2 packed_ = texelFetch(sceneEnvironment, int(y * render.environmentSize.x + x)).xy;
+    uvec3 mantissa = uvec3(packed_.x & 0x3ffffu, packed_.x >> 18u | (packed_.y & 0xfu) << 14u, packed_.y >> 4u & 0x3ffffu);
+    return vec3(mantissa) * uintBitsToFloat((packed_.y >> 22u & 0xffu) << 23u);
+}
+
+// Between the world and the map: rotated about the y axis.
+vec3 mapFromWorld(vec3 w)
+{
+    vec2 turn = render.environmentTurn;
+    return vec3(turn.x * w.x - turn.y * w.z, w.y, turn.y * w.x + turn.x * w.z);
+}
+
+vec3 worldFromMap(vec3 w)
+{
+    vec2 turn = render.environmentTurn;
+    return vec3(turn.x * w.x + turn.y * w.z, w.y, turn.x * w.z - turn.y * w.x);
+}
+
+// Radiance from the direction w, unit, in world space.
+vec3 environmentRadiance(vec3 w)
+{
+    vec2 size = vec2(render.environmentSize);
+    vec2 at = latLongFromDirection(mapFromWorld(w)) * size - 0.5;
+    vec2 below = floor(at);
+    vec2 t = at - below;
+    ivec2 first = ivec2(below), last = ivec2(render.environmentSize) - 1;
+    uint left = uint(first.x < 0 ? last.x : first.x), right = uint(first.x >= last.x ? 0 : first.x + 1);
+    uint top = uint(max(first.y, 0)), bottom = uint(min(first.y + 1, last.y));
+    vec3 upper = mix(environmentTexel(left, top), environmentTexel(right, top), t.x);
+    vec3 lower = mix(environmentTexel(left, bottom), environmentTexel(right, bottom), t.x);
+    return render.environment * mix(upper, lower, t.y);
+}
+
+// Density per steradian of sampleEnvironmentMap.
+float pdfEnvironmentMap(vec3 w)
+{
+    uvec2 cells = render.environmentCells;
+    uvec2 cell = min(uvec2(latLongFromDirection(mapFromWorld(w)) * vec2(cells)), cells - 1u);
+    return uintBitsToFloat(texelFetch(sceneEnvironmentCells, int(cell.y * cells.x + cell.x)).z);
+}
+
+// A direction in world space and its density. choice: two words of random bits; u in [0, 1)^2.
+vec3 sampleEnvironmentMap(uvec2 choice, vec2 u, out float pdf)
+{
+    uvec2 cells = render.environmentCells;
+    uint bin = chooseBin(choice.x, cells.x * cells.y);
+    uvec4 entry = texelFetch(sceneEnvironmentCells, int(bin));
+    bin = chooseAlias(bin, entry.x, entry.y, choice.y);
+    pdf = uintBitsToFloat(texelFetch(sceneEnvironmentCells, int(bin)).z);
+    uint row = bin / cells.x;
+    vec4 bounds = uintBitsToFloat(texelFetch(sceneEnvironmentCells, int(cells.x * cells.y + row)));
+    float across = (float(bin - row * cells.x) + u.x) / float(cells.x);
+    return worldFromMap(directionFromLatLong(across, bounds.x + (bounds.y - bounds.x) * u.y, bounds.z != 0.0));
+}
+
+#endif

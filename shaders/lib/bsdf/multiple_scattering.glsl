@@ -1,0 +1,30 @@
+// What single scattering between microfacets loses, and what an interface leaves to the diffuse lobe below it. Both are diffuse lobes with
+// reciprocal weights: Kulla and Conty, "Revisiting Physically Based Shading at Imageworks" (SIGGRAPH course, 2017).
+//
+// Schlick's reflectance F0 + (F90 - F0) s is linear in F0 and F90, so the directional albedo of the GGX lobe is F0 a + F90 b with two
+// functions a and b of cosine and roughness alone (access/albedo_table.glsl); a + b is the albedo for a reflectance of 1.
+#ifndef GLIM_LIB_BSDF_MULTIPLE_SCATTERING
+#define GLIM_LIB_BSDF_MULTIPLE_SCATTERING
+
+// F0 a + F90 b for single scattering; `x` is a, `y` is b.
+vec3 singleScatteringAlbedo(vec2 ab, vec3 f0, float f90)
+{
+    return f0 * ab.x + f90 * ab.y;
+}
+
+// The share of the lost light that further bounces between microfacets reflect, per channel; 1 for F = 1. `average`: a and b averaged over
+// the hemisphere, weighted by the cosine. Schlick's average is F0 + (F90 - F0) / 21.
+vec3 multipleScatteringFresnel(vec2 average, vec3 f0, float f90)
+{
+    float e = average.x + average.y;
+    vec3 f = f0 + (f90 - f0) * (1.0 / 21.0);
+    return f * f * e / (1.0 - f * (1.0 - e));
+}
+
+// Albedo with multiple scattering: `fms` is multipleScatteringFresnel.
+vec3 interfaceAlbedo(vec2 ab, vec3 f0, float f90, vec3 fms)
+{
+    return singleScatteringAlbedo(ab, f0, f90) + fms * (1.0 - ab.x - ab.y);
+}
+
+#endif
