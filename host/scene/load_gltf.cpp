@@ -141,6 +141,24 @@ void readMaterials(const GltfFile& file, const LoadOptions& options, Scene& scen
     }
 }
 
+// Gives tangents to every mesh that is drawn with a normal map and has none, by the texture coordinates of that map. Flat meshes have those
+// of their faces, whatever the file says.
+void giveTangents(Scene& scene, Warnings& warnings)
+{
+    for (Mesh& mesh : scene.meshes) {
+        const std::optional<Texture>& map = scene.materials[mesh.material].normalTexture;
+        if (!map || (!mesh.tangents.empty() && !mesh.normals.empty())) {
+            continue;
+        }
+        mesh.tangents.clear();
+        if ((map->uvSet == 0 ? mesh.uv0 : mesh.uv1).empty()) {
+            warnings.add("normal maps without texture coordinates are ignored", mesh.name);
+        } else if (addTangents(mesh, map->uvSet == 1) > 0) {
+            warnings.add("texture coordinates of normal maps have no area in some triangles", mesh.name);
+        }
+    }
+}
+
 }  // namespace
 
 Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options)

@@ -1,288 +1,390 @@
 #include "host/scene/make_tangents.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
-#include <map>
-#include <unordered_map>
+#include <limits>
+#include <utility>
 
 namespace glim {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffU;
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr double kRounding = 1e-9;  // the length below which a sum of a few unit vectors is taken for zero
 
-// Position, normal and texture coordinates of a corner, by their bits.
-using CornerKey = std::array<std::uint64_t, 8>;
-
-struct CornerHash {
-    std::size_t operator()(const CornerKey& key) const
-    {
-        std::uint64_t hash = 14695981039346656037ULL;  // FNV-1a, a word at a time
-        for (const std::uint64_t word : key) {
-            hash = (hash ^ word) * 1099511628211ULL;
-            hash ^= hash >> 29U;
-        }
-        return static_cast<std::size_t>(hash);
-    }
-};
-
-std::uint64_t bitsOf(double value) { return std::bit_cast<std::uint64_t>(value + 0.0); }  // -0 is 0
-
-glm::dvec3 unitOrZero(const glm::dvec3& v)
+// Of equal numbers, the same bits.
+std::uint64_t bitsOf(double value) { return std::bit_cast<std::uint64_t>(value + 0.0); }
+std::uint64_t bitsOf(float a, float b)
 {
-    const double length = glm::length(v);
-    return length > 0.0 && std::isfinite(length) ? v / length : glm::dvec3(0.0);
+    return static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(a + 0.0F)) << 32U | std::bit_cast<std::uint32_t>(b + 0.0F);
 }
 
-// The part of v in the plane of the unit vector n, as a unit vector or zero.
-glm::dvec3 inPlane(const glm::dvec3& v, const glm::dvec3& n) { return unitOrZero(v - n * glm::dot(n, v)); }
-
-glm::dvec3 anyPerpendicular(const glm::dvec3& n)
+template <std::size_t N>
+std::size_t hashOf(const std::array<std::uint64_t, N>& words)
 {
-    const glm::dvec3 axis = std::abs(n.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    return glm::normalize(axis - n * glm::dot(n, axis));
+    std::uint64_t hash = 0;
+    for (const std::uint64_t word : words) {
+        hash = (hash ^ word) * 0x9e3779b97f4a7c15ULL;
+        hash ^= hash >> 32U;
+    }
+    return static_cast<std::size_t>(hash);
+}
+
+// For each of `count` items the first one with an equal key: an array of words.
+template <class KeyOf>
+std::vector<std::uint32_t> findFirstEqual(std::size_t count, const KeyOf& keyOf)
+{
+    std::vector<std::uint32_t> slots(std::bit_ceil(2 * count + 1), kNone);
+    std::vector<std::uint32_t> firsts(count);
+    for (std::uint32_t item = 0; item < count; ++item) {
+        const auto key = keyOf(item);
+        std::size_t slot = hashOf(key) & (slots.size() - 1);
+        while (slots[slot] != kNone && keyOf(slots[slot]) != key) {
+            slot = (slot + 1) & (slots.size() - 1);
+        }
+        if (slots[slot] == kNone) {
+            slots[slot] = item;
+        }
+        firsts[item] = slots[slot];
+    }
+    return firsts;
+}
+
+// Zero if the vector is zero or not finite.
+glm::dvec3 unitOrZero(const glm::dvec3& vector)
+{
+    const glm::dvec3 scaled = vector / std::max({std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)});
+    const double length = glm::length(scaled);
+    return length > 0.0 ? scaled / length : glm::dvec3(0.0);
+}
+
+// The direction of a unit vector as seen along a unit normal; zero if they are parallel.
+glm::dvec3 projectUnit(const glm::dvec3& vector, const glm::dvec3& normal)
+{
+    const glm::dvec3 projected = vector - normal * glm::dot(normal, vector);
+    const double length = glm::length(projected);
+    return length > kRounding ? projected / length : glm::dvec3(0.0);
+}
+
+glm::dvec3 anyPerpendicular(const glm::dvec3& normal)
+{
+    const glm::dvec3 size = glm::abs(normal);
+    const int least = size.x <= size.y && size.x <= size.z ? 0 : size.y <= size.z ? 1 : 2;
+    glm::dvec3 axis(0.0);
+    axis[least] = 1.0;
+    return glm::normalize(glm::cross(normal, axis));
+}
+
+// Corner 3 * t + i is vertex i of triangle t.
+std::uint32_t nextCorner(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+std::uint32_t previousCorner(std::uint32_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
+
+class Corners {
+public:
+    Corners(std::span<const std::uint32_t> indices, std::span<const glm::dvec3> positions, std::span<const glm::dvec3> normals,
+            std::span<const glm::vec2> uvs)
+        : indices_(indices),
+          positions_(positions),
+          uvs_(uvs)
+    {
+        unitNormals_.reserve(normals.size());
+        for (const glm::dvec3& normal : normals) {
+            unitNormals_.push_back(unitOrZero(normal));
+        }
+    }
+
+    std::size_t count() const { return indices_.size(); }
+    const glm::dvec3& position(std::uint32_t corner) const { return positions_[indices_[corner]]; }
+    const glm::vec2& uv(std::uint32_t corner) const { return uvs_[indices_[corner]]; }
+
+    // Always a unit vector.
+    glm::dvec3 normal(std::uint32_t corner) const
+    {
+        if (!unitNormals_.empty() && unitNormals_[indices_[corner]] != glm::dvec3(0.0)) {
+            return unitNormals_[indices_[corner]];
+        }
+        const std::uint32_t first = corner - corner % 3;
+        const glm::dvec3 face = unitOrZero(glm::cross(position(first + 1) - position(first), position(first + 2) - position(first)));
+        return face == glm::dvec3(0.0) ? glm::dvec3(0, 0, 1) : face;
+    }
+
+    std::array<std::uint64_t, 7> key(std::uint32_t corner) const
+    {
+        const glm::dvec3 p = position(corner);
+        const glm::dvec3 n = normal(corner);
+        return {bitsOf(p.x), bitsOf(p.y), bitsOf(p.z), bitsOf(n.x), bitsOf(n.y), bitsOf(n.z), bitsOf(uv(corner).x, uv(corner).y)};
+    }
+
+    // The angle at a corner between its edges as seen along the normal.
+    double angle(std::uint32_t corner, const glm::dvec3& normal) const
+    {
+        const glm::dvec3 in = projectUnit(unitOrZero(position(previousCorner(corner)) - position(corner)), normal);
+        const glm::dvec3 out = projectUnit(unitOrZero(position(nextCorner(corner)) - position(corner)), normal);
+        return std::acos(std::clamp(glm::dot(in, out), -1.0, 1.0));
+    }
+
+private:
+    std::span<const std::uint32_t> indices_;
+    std::span<const glm::dvec3> positions_;
+    std::span<const glm::vec2> uvs_;
+    std::vector<glm::dvec3> unitNormals_;  // by vertex; zero where there is none
+};
+
+struct Face {
+    glm::dvec3 tangent{0.0};  // unit; zero if there is no uv area
+    bool turns = false;       // uv go around the triangle from the u axis to the v axis
+    bool collapsed = false;   // two corners have one position: its edges connect nothing
+};
+
+Face makeFace(const Corners& corners, std::uint32_t first)
+{
+    const glm::dvec3& a = corners.position(first);
+    const glm::dvec3& b = corners.position(first + 1);
+    const glm::dvec3& c = corners.position(first + 2);
+    Face face;
+    face.collapsed = a == b || b == c || c == a;
+    const glm::dvec2 toB = glm::dvec2(corners.uv(first + 1)) - glm::dvec2(corners.uv(first));
+    const glm::dvec2 toC = glm::dvec2(corners.uv(first + 2)) - glm::dvec2(corners.uv(first));
+    const double area = toB.x * toC.y - toC.x * toB.y;
+    face.turns = area > 0.0;
+    if (face.collapsed || !std::isfinite(area) || area == 0.0) {
+        return face;
+    }
+    const double sign = face.turns ? 1.0 : -1.0;
+    const glm::dvec3 tangent = unitOrZero(sign * ((b - a) * toC.y - (c - a) * toB.y));
+    const glm::dvec3 bitangent = unitOrZero(sign * ((c - a) * toB.x - (b - a) * toC.x));
+    if (bitangent != glm::dvec3(0.0)) {
+        face.tangent = tangent;
+    }
+    return face;
 }
 
 class TangentMaker {
 public:
-    TangentMaker(const Mesh& mesh, const std::vector<glm::vec2>& uv)
-        : mesh_(mesh),
-          uv_(uv),
-          corners_(mesh.indices.size())
-    {}
-
-    std::vector<glm::vec4> make()
+    explicit TangentMaker(Corners corners)
+        : corners_(std::move(corners)),
+          vertices_(findFirstEqual(corners_.count(), [&](std::uint32_t corner) { return corners_.key(corner); })),
+          opposites_(corners_.count(), kNone),
+          grouped_(corners_.count(), false),
+          tangents_(corners_.count(), glm::vec4(0.0F))
     {
-        weld();
-        measureTriangles();
-        findNeighbours();
-        groupOf_.assign(corners_, kNone);
-        for (std::uint32_t corner = 0; corner < corners_; ++corner) {
-            if (groupOf_[corner] == kNone && faces_[corner / 3].usable()) {
-                grow(corner);
+        faces_.reserve(corners_.count() / 3);
+        for (std::uint32_t first = 0; first < corners_.count(); first += 3) {
+            faces_.push_back(makeFace(corners_, first));
+        }
+    }
+
+    void make()
+    {
+        pairEdges();
+        for (std::uint32_t corner = 0; corner < corners_.count(); ++corner) {
+            if (!grouped_[corner] && faces_[corner / 3].tangent != glm::dvec3(0.0)) {
+                gatherGroup(corner);
+                setTangents();
             }
         }
-        return collect();
+        fillGaps();
     }
+
+    std::vector<glm::vec4> takeTangents() { return std::move(tangents_); }
+    std::size_t undetermined() const { return undetermined_; }
 
 private:
-    struct Face {
-        glm::dvec3 tangent{0.0};  // unit, along growing u
-        bool preserving = false;  // u and v turn like the triangle's corners
-        bool mapped = false;      // its texture coordinates span an area
-        bool flat = false;        // two of its corners are in one place
-        bool usable() const { return mapped && !flat; }
+    struct Edge {
+        std::uint64_t ends;   // the smaller vertex first
+        std::uint64_t order;  // bit 32: from the larger to the smaller; below, the corner where it starts
     };
 
-    glm::dvec3 position(std::size_t corner) const { return mesh_.positions[mesh_.indices[corner]]; }
-
-    void weld()
+    // Two triangles that run along an edge in opposite directions are neighbours: of more, the first ones of either direction, the second
+    // ones, and so on.
+    void pairEdges()
     {
-        std::unordered_map<CornerKey, std::uint32_t, CornerHash> known;
-        known.reserve(corners_);
-        for (std::size_t corner = 0; corner < corners_; ++corner) {
-            const std::uint32_t index = mesh_.indices[corner];
-            const std::size_t first = corner - corner % 3;
-            glm::dvec3 n = mesh_.normals.empty() ? glm::dvec3(0.0) : unitOrZero(mesh_.normals[index]);
-            if (n == glm::dvec3(0.0)) {
-                n = unitOrZero(glm::cross(position(first + 1) - position(first), position(first + 2) - position(first)));
+        const std::vector<Edge> edges = sortEdges();
+        for (std::size_t begin = 0; begin < edges.size();) {
+            std::size_t middle = begin;
+            while (middle < edges.size() && edges[middle].ends == edges[begin].ends && edges[middle].order < kBackward) {
+                ++middle;
             }
-            const glm::dvec3 p = position(corner);
-            const glm::dvec2 t(uv_[index]);
-            const CornerKey key{bitsOf(p.x), bitsOf(p.y), bitsOf(p.z), bitsOf(n.x), bitsOf(n.y), bitsOf(n.z), bitsOf(t.x), bitsOf(t.y)};
-            const auto [entry, fresh] = known.try_emplace(key, static_cast<std::uint32_t>(normals_.size()));
-            if (fresh) {
-                normals_.push_back(n);
+            std::size_t end = middle;
+            while (end < edges.size() && edges[end].ends == edges[begin].ends) {
+                ++end;
             }
-            vertexOf_.push_back(entry->second);
+            for (std::size_t i = 0; i < std::min(middle - begin, end - middle); ++i) {
+                const auto forward = static_cast<std::uint32_t>(edges[begin + i].order);
+                const auto backward = static_cast<std::uint32_t>(edges[middle + i].order);
+                opposites_[forward] = backward;
+                opposites_[backward] = forward;
+            }
+            begin = end;
         }
     }
 
-    void measureTriangles()
+    std::vector<Edge> sortEdges() const
     {
-        for (std::size_t at = 0; at < corners_; at += 3) {
-            const glm::dvec3 a = position(at), b = position(at + 1), c = position(at + 2);
-            const glm::dvec2 origin(uv_[mesh_.indices[at]]);
-            const glm::dvec2 s = glm::dvec2(uv_[mesh_.indices[at + 1]]) - origin, t = glm::dvec2(uv_[mesh_.indices[at + 2]]) - origin;
-            const double area = s.x * t.y - s.y * t.x;
-            Face face;
-            face.preserving = area > 0.0;
-            face.flat = a == b || b == c || a == c;
-            face.tangent = unitOrZero((area > 0.0 ? 1.0 : -1.0) * ((b - a) * t.y - (c - a) * s.y));
-            const glm::dvec3 bitangent = unitOrZero((c - a) * s.x - (b - a) * t.x);
-            face.mapped = area != 0.0 && face.tangent != glm::dvec3(0.0) && bitangent != glm::dvec3(0.0);
-            faces_.push_back(face);
-        }
-    }
-
-    // Edge k of a triangle leads from its corner k to the next one; two triangles are neighbours if they run along it in opposite
-    // directions.
-    void findNeighbours()
-    {
-        struct Edge {
-            std::uint32_t low, high, corner;
-            bool forwards;
-        };
         std::vector<Edge> edges;
-        for (std::uint32_t corner = 0; corner < corners_; ++corner) {
-            if (faces_[corner / 3].flat) {
+        edges.reserve(corners_.count());
+        for (std::uint32_t corner = 0; corner < corners_.count(); ++corner) {
+            if (!faces_[corner / 3].collapsed) {
+                const std::uint64_t from = vertices_[corner], to = vertices_[nextCorner(corner)];
+                edges.push_back({std::min(from, to) << 32U | std::max(from, to), corner + (from > to ? kBackward : 0)});
+            }
+        }
+        std::sort(edges.begin(), edges.end(),
+                  [](const Edge& a, const Edge& b) { return a.ends != b.ends ? a.ends < b.ends : a.order < b.order; });
+        return edges;
+    }
+
+    // The corner at the same vertex across the edge that starts, or ends, at a corner.
+    std::uint32_t acrossOutgoing(std::uint32_t corner) const
+    {
+        return opposites_[corner] == kNone ? kNone : nextCorner(opposites_[corner]);
+    }
+    std::uint32_t acrossIncoming(std::uint32_t corner) const { return opposites_[previousCorner(corner)]; }
+
+    // All corners that neighbours connect to this one around its vertex, as far as uv go around their triangles in the same sense.
+    void gatherGroup(std::uint32_t corner)
+    {
+        group_.clear();
+        const bool turns = faces_[corner / 3].turns;
+        join(corner, turns);
+        for (std::uint32_t at = acrossOutgoing(corner); at != kNone && join(at, turns);) {
+            at = acrossOutgoing(at);
+        }
+        for (std::uint32_t at = acrossIncoming(corner); at != kNone && join(at, turns);) {
+            at = acrossIncoming(at);
+        }
+    }
+
+    bool join(std::uint32_t corner, bool turns)
+    {
+        Face& face = faces_[corner / 3];
+        const std::uint32_t first = corner - corner % 3;
+        if (face.tangent == glm::dvec3(0.0) && !grouped_[first] && !grouped_[first + 1] && !grouped_[first + 2]) {
+            face.turns = turns;  // without uv area, the first group decides
+        }
+        if (grouped_[corner] || face.turns != turns) {
+            return false;
+        }
+        grouped_[corner] = true;
+        group_.push_back(corner);
+        return true;
+    }
+
+    // The mean of the triangles' tangents in the plane of the normal, weighted by angle. Where it is zero each keeps its own.
+    void setTangents()
+    {
+        const glm::dvec3 normal = corners_.normal(group_.front());
+        glm::dvec3 sum(0.0);
+        for (const std::uint32_t corner : group_) {
+            sum += corners_.angle(corner, normal) * projectUnit(faces_[corner / 3].tangent, normal);
+        }
+        const bool cancelled = glm::length(sum) < kRounding;
+        for (const std::uint32_t corner : group_) {
+            const glm::dvec3 tangent = cancelled ? projectUnit(faces_[corner / 3].tangent, normal) : glm::normalize(sum);
+            tangents_[corner] = glm::vec4(tangent, handedness(corner));
+        }
+    }
+
+    // From tangent to bitangent is counter-clockwise seen from the front, if from rising u to falling v is.
+    float handedness(std::uint32_t corner) const { return faces_[corner / 3].turns ? -1.0F : 1.0F; }
+
+    bool isSet(std::uint32_t corner) const { return glm::vec3(tangents_[corner]) != glm::vec3(0.0F); }
+
+    // Corners without a tangent take that of the first corner that has one at their vertex. (mikktspace.c does so for collapsed triangles
+    // alone; others without uv area that join no group it gives the x axis, whatever the normal.)
+    void fillGaps()
+    {
+        std::vector<std::uint32_t> lenders(corners_.count(), kNone);  // by vertex
+        for (std::uint32_t corner = 0; corner < corners_.count(); ++corner) {
+            if (lenders[vertices_[corner]] == kNone && isSet(corner)) {
+                lenders[vertices_[corner]] = corner;
+            }
+        }
+        std::uint32_t last = kNone;
+        for (std::uint32_t corner = 0; corner < corners_.count(); ++corner) {
+            if (isSet(corner)) {
                 continue;
             }
-            const std::uint32_t from = vertexOf_[corner], to = vertexOf_[next(corner)];
-            edges.push_back({std::min(from, to), std::max(from, to), corner, from < to});
-        }
-        std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-            return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
-        });
-        neighbour_.assign(corners_, kNone);
-        for (std::size_t i = 0; i < edges.size(); ++i) {
-            for (std::size_t j = i + 1; j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high; ++j) {
-                if (neighbour_[edges[i].corner] == kNone && neighbour_[edges[j].corner] == kNone && edges[i].forwards != edges[j].forwards) {
-                    neighbour_[edges[i].corner] = edges[j].corner / 3;
-                    neighbour_[edges[j].corner] = edges[i].corner / 3;
-                }
-            }
-        }
-    }
-
-    static std::uint32_t next(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
-    static std::uint32_t previous(std::uint32_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
-
-    // Collects the triangles around a vertex that are reached over shared edges and are mapped with the same orientation. Those without an
-    // area in the texture join whichever comes first.
-    void grow(std::uint32_t start)
-    {
-        const auto group = static_cast<std::uint32_t>(sums_.size());
-        const bool preserving = faces_[start / 3].preserving;
-        sums_.emplace_back(0.0);
-        preserving_.push_back(preserving);
-        std::vector<std::uint32_t> open{start};
-        while (!open.empty()) {
-            const std::uint32_t corner = open.back();
-            open.pop_back();
-            Face& face = faces_[corner / 3];
-            const std::uint32_t first = corner - corner % 3;
-            if (!face.mapped && groupOf_[first] == kNone && groupOf_[first + 1] == kNone && groupOf_[first + 2] == kNone) {
-                face.preserving = preserving;
-            }
-            if (groupOf_[corner] != kNone || face.preserving != preserving) {
+            if (const std::uint32_t lender = lenders[vertices_[corner]]; lender != kNone) {
+                tangents_[corner] = tangents_[lender];
                 continue;
             }
-            groupOf_[corner] = group;
-            addTo(sums_[group], corner);
-            for (const std::uint32_t across : {neighbour_[corner], neighbour_[previous(corner)]}) {
-                for (std::uint32_t k = 0; across != kNone && k < 3; ++k) {
-                    if (vertexOf_[3 * across + k] == vertexOf_[corner]) {
-                        open.push_back(3 * across + k);
-                    }
-                }
-            }
+            tangents_[corner] = glm::vec4(anyPerpendicular(corners_.normal(corner)), handedness(corner));
+            undetermined_ += last == corner / 3 ? 0 : 1;
+            last = corner / 3;
         }
     }
 
-    // Weighted by the corner's angle, as seen along the normal.
-    void addTo(glm::dvec3& sum, std::uint32_t corner) const
-    {
-        if (!faces_[corner / 3].usable()) {
-            return;
-        }
-        const glm::dvec3& n = normals_[vertexOf_[corner]];
-        const glm::dvec3 a = inPlane(position(next(corner)) - position(corner), n), b = inPlane(position(previous(corner)) - position(corner), n);
-        sum += inPlane(faces_[corner / 3].tangent, n) * std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
-    }
+    static constexpr std::uint64_t kBackward = 1ULL << 32U;
 
-    // A corner without a group takes the tangent of another corner of its vertex, or any.
-    std::vector<glm::vec4> collect() const
-    {
-        std::vector<std::uint32_t> groupAt(normals_.size(), kNone);
-        for (std::size_t corner = 0; corner < corners_; ++corner) {
-            if (groupOf_[corner] != kNone && groupAt[vertexOf_[corner]] == kNone) {
-                groupAt[vertexOf_[corner]] = groupOf_[corner];
-            }
-        }
-        std::vector<glm::vec4> tangents;
-        for (std::size_t corner = 0; corner < corners_; ++corner) {
-            const glm::dvec3 n = normals_[vertexOf_[corner]];
-            const std::uint32_t group = groupOf_[corner] != kNone ? groupOf_[corner] : groupAt[vertexOf_[corner]];
-            glm::dvec3 tangent = group == kNone ? glm::dvec3(0.0) : unitOrZero(sums_[group]);
-            tangent = tangent == glm::dvec3(0.0) ? anyPerpendicular(n) : tangent;
-            // Texture coordinates grow downwards, so the sign is the opposite of that with v upwards.
-            tangents.emplace_back(glm::vec3(tangent), group != kNone && preserving_[group] ? -1.0F : 1.0F);
-        }
-        return tangents;
-    }
-
-    const Mesh& mesh_;
-    const std::vector<glm::vec2>& uv_;
-    std::size_t corners_;
-    std::vector<glm::dvec3> normals_;       // by welded vertex; unit or zero
-    std::vector<std::uint32_t> vertexOf_;   // by corner
+    Corners corners_;
+    std::vector<std::uint32_t> vertices_;   // by corner: the first corner with equal position, normal and uv
+    std::vector<std::uint32_t> opposites_;  // by corner, for the edge that starts there: where the neighbour's edge starts
     std::vector<Face> faces_;
-    std::vector<std::uint32_t> neighbour_;  // triangle across the edge that begins at the corner
-    std::vector<std::uint32_t> groupOf_;    // by corner
-    std::vector<glm::dvec3> sums_;          // by group
-    std::vector<bool> preserving_;          // by group
+    std::vector<bool> grouped_;         // by corner
+    std::vector<std::uint32_t> group_;  // corners at one vertex
+    std::vector<glm::vec4> tangents_;   // by corner; xyz zero: not known yet
+    std::size_t undetermined_ = 0;      // triangles
 };
 
-template <class Value>
-void duplicate(std::vector<Value>& values, std::size_t index)
+template <class T>
+void duplicate(std::vector<T>& attributes, std::uint32_t vertex)
 {
-    if (!values.empty()) {
-        const Value value = values[index];
-        values.push_back(value);
+    if (!attributes.empty()) {
+        attributes.push_back(T(attributes[vertex]));
     }
 }
 
-// Gives each corner its tangent; the first one that a vertex meets stays with it.
-void setTangents(Mesh& mesh, const std::vector<glm::vec4>& corners)
+std::uint32_t splitVertex(Mesh& mesh, std::uint32_t vertex)
 {
-    const auto original = static_cast<std::uint32_t>(mesh.positions.size());
-    std::vector<bool> taken(original, false);
-    std::map<std::pair<std::uint32_t, std::array<float, 4>>, std::uint32_t> copies;
-    mesh.tangents.assign(original, glm::vec4(0.0F));
-    for (std::size_t corner = 0; corner < corners.size(); ++corner) {
-        std::uint32_t& index = mesh.indices[corner];
-        const glm::vec4& tangent = corners[corner];
-        if (!taken[index]) {
-            taken[index] = true;
-            mesh.tangents[index] = tangent;
-        }
-        if (mesh.tangents[index] == tangent) {
+    duplicate(mesh.positions, vertex);
+    duplicate(mesh.normals, vertex);
+    duplicate(mesh.tangents, vertex);
+    duplicate(mesh.uv0, vertex);
+    duplicate(mesh.uv1, vertex);
+    duplicate(mesh.colors, vertex);
+    return static_cast<std::uint32_t>(mesh.positions.size() - 1);
+}
+
+// `tangents`: by corner. Of the corners of a vertex, the first one and those like it keep it.
+void splitByTangent(Mesh& mesh, const std::vector<glm::vec4>& tangents)
+{
+    const std::vector<std::uint32_t> firsts = findFirstEqual(tangents.size(), [&](std::uint32_t corner) {
+        const glm::vec4& t = tangents[corner];
+        return std::array<std::uint64_t, 3>{mesh.indices[corner], bitsOf(t.x, t.y), bitsOf(t.z, t.w)};
+    });
+    mesh.tangents.assign(mesh.positions.size(), glm::vec4(0.0F));
+    for (std::uint32_t corner = 0; corner < tangents.size(); ++corner) {
+        std::uint32_t& vertex = mesh.indices[corner];
+        if (firsts[corner] != corner) {
+            vertex = mesh.indices[firsts[corner]];
             continue;
         }
-        const auto [copy, fresh] = copies.try_emplace({index, {tangent.x, tangent.y, tangent.z, tangent.w}}, mesh.positions.size());
-        if (fresh) {
-            duplicate(mesh.positions, index);
-            duplicate(mesh.normals, index);
-            duplicate(mesh.uv0, index);
-            duplicate(mesh.uv1, index);
-            duplicate(mesh.colors, index);
-            mesh.tangents.push_back(tangent);
+        if (mesh.tangents[vertex] != glm::vec4(0.0F)) {
+            vertex = splitVertex(mesh, vertex);
         }
-        index = copy->second;
+        mesh.tangents[vertex] = tangents[corner];
     }
+    std::replace(mesh.tangents.begin(), mesh.tangents.end(), glm::vec4(0.0F), glm::vec4(1, 0, 0, 1));  // of no triangle
 }
 
 }  // namespace
 
-std::vector<glm::vec4> makeTangents(const Mesh& mesh, const std::vector<glm::vec2>& uv) { return TangentMaker(mesh, uv).make(); }
-
-void giveTangents(Scene& scene, Warnings& warnings)
+std::vector<glm::vec4> makeTangents(std::span<const std::uint32_t> indices, std::span<const glm::dvec3> positions,
+                                    std::span<const glm::dvec3> normals, std::span<const glm::vec2> uvs)
 {
-    for (Mesh& mesh : scene.meshes) {
-        const std::optional<Texture>& map = scene.materials[mesh.material].normalTexture;
-        // Flat meshes have the tangents of their faces, whatever the file says.
-        if (!map || (!mesh.tangents.empty() && !mesh.normals.empty())) {
-            continue;
-        }
-        const std::vector<glm::vec2>& uv = map->uvSet == 0 ? mesh.uv0 : mesh.uv1;
-        if (uv.empty()) {
-            warnings.add("normal maps without texture coordinates are ignored", mesh.name);
-            mesh.tangents.clear();
-            continue;
-        }
-        setTangents(mesh, makeTangents(mesh, uv));
-    }
+    TangentMaker maker(Corners(indices, positions, normals, uvs));
+    maker.make();
+    return maker.takeTangents();
+}
+
+std::size_t addTangents(Mesh& mesh, bool secondUvSet)
+{
+    TangentMaker maker(Corners(mesh.indices, mesh.positions, mesh.normals, secondUvSet ? mesh.uv1 : mesh.uv0));
+    maker.make();
+    splitByTangent(mesh, maker.takeTangents());
+    return maker.undetermined();
 }
 
 }  // namespace glim

@@ -24,7 +24,7 @@ Scene makeScene()
     scene.materials.resize(1);
     scene.lights.resize(1);
     scene.cameras.resize(1);
-    scene.environment = glm::vec3(1.0F);
+    scene.environment.emplace();
     return scene;
 }
 
@@ -84,7 +84,7 @@ const Breakage kBreakages[] = {
          s.cameras[0].halfHeight = 0;
      }},
     {"camera 0 has an aspect ratio", [](Scene& s) { s.cameras[0].aspectRatio = 0.0F; }},
-    {"environment 0 has a radiance", [](Scene& s) { s.environment = glm::vec3(-1.0F); }},
+    {"environment 0 has a radiance", [](Scene& s) { s.environment->radiance = glm::vec3(-1.0F); }},
     {"no mesh and no sphere",
      [](Scene& s) {
          s = Scene();

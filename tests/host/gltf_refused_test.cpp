@@ -87,7 +87,7 @@ TEST(GltfRefused, NoEnvironmentThatTheCallerReplaces)
     LoadOptions options;
     options.environment = glm::vec3(1.0F, 2.0F, 3.0F);
     const Scene scene = loadGltf(kScenes / "refused" / "environment_map.gltf", options);
-    EXPECT_EQ(scene.environment, options.environment);
+    EXPECT_EQ(scene.environment->radiance, glm::vec3(1.0F, 2.0F, 3.0F));
 }
 
 TEST(GltfRefused, EnvironmentsThatAreNoMapAreOnlySaid)
@@ -95,7 +95,7 @@ TEST(GltfRefused, EnvironmentsThatAreNoMapAreOnlySaid)
     GltfBuilder builder;
     builder.addNode({{"mesh", builder.addTriangleMesh()}});
     builder.document["scenes"][0]["extras"] = {{"environment", {{"uri", "sky.hdr"}}}};
-    EXPECT_NE(load(builder).warnings.at(0).find("scenes[0].extras.environment"), std::string::npos);
+    EXPECT_NE(::testing::PrintToString(load(builder).warnings).find("scenes[0].extras.environment"), std::string::npos);
     builder.document["scenes"][0]["extras"] = "a string of someone else";
     builder.document["nodes"][0]["extras"] = {1, 2, 3};
     EXPECT_EQ(load(builder).instances.size(), 1U);

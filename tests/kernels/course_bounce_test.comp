@@ -25,7 +25,8 @@ void main()
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
         vec3 wo = -c.ray.direction;
-        Bsdf bsdf = makeBsdf(c.si, fetchMaterial(c.si.material), wo);
+        SurfaceMaterial material = materialAt(c.si);
+        Bsdf bsdf = makeBsdf(c.si, material, wo);
         PathState before = c.state;
         bool alive = bouncePath(SampleId(render.seed, TEST_THREAD, 0u), c.si, bsdf, wo, c.ray, c.state);
         EXPECT_TRUE(!alive || c.state.bounce == before.bounce + 1u);

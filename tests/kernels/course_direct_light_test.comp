@@ -36,7 +36,8 @@ void main()
         Case c = cases[TEST_THREAD];
         SurfaceInteraction si = SurfaceInteraction(c.point, vec3(0.0), c.ng, c.ns, vec2(0.0), true, 0u, 77u, 0u);
         ShadowRay shadow = ShadowRay(vec3(0.0), 0u, vec3(0.0), 0u, vec3(0.0), 0.0);
-        Bsdf bsdf = makeBsdf(si, fetchMaterial(0u), c.ns);
+        SurfaceMaterial material = materialAt(si);
+        Bsdf bsdf = makeBsdf(si, material, c.ns);
         bool asks = sampleLightOfRound(SampleId(render.seed, TEST_THREAD, 0u), si, bsdf, c.ns, c.state, shadow);
         PathRay ray = PathRay(c.point, kNoPrimitive, c.towards, 0u);
         PathHit hit = traceClosest(ray);

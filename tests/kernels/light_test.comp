@@ -70,7 +70,8 @@ void comparePdf(Receiver receiver, LightSample light, inout Result result)
     float cosine = abs(dot(met.ng, light.wi));
     // Nearer to grazing the rounding of the directions alone is more than the tolerance.
     if (cosine > 3e-3) {
-        float pdf = pdfLight(LightContext(origin, receiver.surface.ns, receiver.surface.ns), LightHit(emitter.light, met.emitter - 1u, hit.t, cosine));
+        LightContext context = LightContext(origin, receiver.surface.ns, receiver.surface.ns);
+        float pdf = pdfLight(context, LightHit(emitter.light, met.emitter - 1u, hit.t, cosine, light.wi));
         result.pdfError = max(result.pdfError, abs(pdf - light.pdf) / light.pdf);
         ++result.compared;
     }

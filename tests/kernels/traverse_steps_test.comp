@@ -28,12 +28,13 @@ void main()
 {
     if (isTestThread()) {
         PathRay ray = rays[TEST_THREAD];
-        Steps steps;
-        PathHit hit = traceClosest(ray, steps);
+        Steps steps = Steps(0u, 0u);
+        PathHit hit = traceClosest(ray, anyHit(), steps);
         uint nodes = nodeTests;
         uint primitives = recordFetches;
-        Steps shadow;
-        bool unoccluded = isUnoccluded(ShadowRay(ray.origin, ray.source, ray.direction, kNoPrimitive, vec3(0.0), kInfinity), shadow);
+        Steps shadow = Steps(0u, 0u);
+        bool metAlpha;
+        bool unoccluded = isUnoccluded(ShadowRay(ray.origin, ray.source, ray.direction, kNoPrimitive, vec3(0.0), kInfinity), shadow, metAlpha);
         bool spent = isLoopBudgetSpent(render.canarySteps);  // then no count is reliable
         EXPECT_TRUE(spent || steps.nodes == nodes);
         EXPECT_TRUE(spent || steps.primitives == primitives);

@@ -10,7 +10,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 260u;
+GLIM_CONST uint kSharedWords = 300u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -34,6 +34,8 @@ struct EverySharedStruct {
     BrightestSample brightest;
     ChosenPixel chosen;
     MaterialData material;
+    PrincipledData principled;
+    TextureData texture_;
     AliasEntry alias;
     FlatLight light;
     FlatEmitter emitter;
@@ -58,7 +60,7 @@ U(queueSizes.closest) U(queueSizes.shadow) U3(queueSizes.closestGroups) U3(queue
 U(queueTails.next) U(queueTails.shadow)
 U2(rayCounts.closest) U2(rayCounts.shadow)
 U(located.pixel) U(located.sampleIndex)
-U(status.loopCaps) U(status.overflows) U(status.nonFinite) U(status.located[0].pixel) U(status.located[0].sampleIndex)
+U(status.loopCaps) U(status.overflows) U(status.transparencyCaps) U(status.nonFinite) U(status.located[0].pixel) U(status.located[0].sampleIndex)
 U(status.located[1].pixel) U(status.located[1].sampleIndex) U(status.located[2].pixel) U(status.located[2].sampleIndex)
 U(status.located[3].pixel) U(status.located[3].sampleIndex) U(status.located[4].pixel) U(status.located[4].sampleIndex)
 U(status.located[5].pixel) U(status.located[5].sampleIndex) U(status.located[6].pixel) U(status.located[6].sampleIndex)
@@ -76,18 +78,26 @@ F3(parameters.camera.position) F3(parameters.camera.right) F3(parameters.camera.
 U(parameters.camera.kind) F3(parameters.camera.lensRight) F3(parameters.camera.lensUp) F(parameters.camera.inverseFocus)
 U(parameters.width) U(parameters.height) U(parameters.seed) U(parameters.maxBounces) U(parameters.minPathLength)
 U(parameters.maxPathLength) U(parameters.lightCount) U(parameters.environmentLight) F3(parameters.environment)
-F(parameters.clampIndirect) U(parameters.canarySteps)
+F(parameters.clampIndirect) U(parameters.canarySteps) U(parameters.triangleCount) U(parameters.firstUv) U(parameters.firstTangent)
+U(parameters.firstColor) U(parameters.hidesEnvironment) U2(parameters.environmentSize) U2(parameters.environmentCells)
+F2(parameters.environmentTurn)
 U(course_.recordCount) F(course_.continuation) F(course_.tolerance) U(course_.constantSamples)
 U(pixelMoments.count) U(pixelMoments.blocks) F3(pixelMoments.mean) F3(pixelMoments.squares) F(pixelMoments.alpha)
 F3(pixelMoments.albedo) F3(pixelMoments.normal) F(pixelMoments.depth) F(pixelMoments.clamped)
 U(luminanceMoments.count) F(luminanceMoments.mean) F(luminanceMoments.squares) U(luminanceMoments.met)
 F(brightest.luminance) U(brightest.sampleIndex)
 U(chosen.pixel) U(chosen.samplesBefore)
-F3(material.baseColor) U(material.lobe) F3(material.emission) F(material.ior) U(material.doubleSided) U3(material.unused)
+F3(material.baseColor) U(material.lobe) F3(material.emission) F(material.ior) U(material.doubleSided) U(material.principled) F(material.alpha)
+F(material.alphaCutoff)
+F(principled.metallic) F(principled.roughness) F(principled.reflectance) F(principled.specular) F3(principled.specularColor)
+F(principled.normalScale) U(principled.baseColorTexture) U(principled.metallicRoughnessTexture) U(principled.normalTexture)
+U(principled.emissiveTexture) U(principled.specularTexture) U(principled.specularColorTexture) U2(principled.unused)
+U(texture_.firstTexel) U(texture_.size) U(texture_.flags) U(texture_.unused) F3(texture_.rowU) U(texture_.unusedU) F3(texture_.rowV)
+U(texture_.unusedV)
 U(alias.threshold) U(alias.other)
 U(light.kind) U(light.firstEmitter) U(light.emitterCount) F(light.probability) U(light.alias.threshold) U(light.alias.other)
 F3(light.position) F(light.radius) F3(light.direction) F(light.cosInner) F3(light.intensity) F(light.cosOuter)
-U(light.doubleSided) U(light.unused)
+U(light.doubleSided) U(light.uneven)
 U(emitter.record) U(emitter.light) F(emitter.areaPdf) U(emitter.alias.threshold) U(emitter.alias.other) U(emitter.primitive)
 U2(emitter.unused)
 U(display.width) U(display.height) U(display.filmWidth) U(display.filmHeight) U(display.tileBegin) U(display.tileCount)
