@@ -28,11 +28,11 @@ std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& text);  //
 // "none", "studio", numbers or a file.
 EnvironmentChoice parseEnvironment(const std::string& text);
 std::string describeEnvironment(const EnvironmentChoice& choice);
-glm::vec3 parseRadiance(const std::string& text);                             // "1,1,1", >= 0; a file is refused
-SamplePlace parseSample(const std::string& text);                             // "12,40,7"
-glm::dvec3 parsePoint(const std::string& option, const std::string& text);    // "1,2.5,-3"
-double parsePercent(const std::string& option, const std::string& text);      // "1%", in (0, 1000]; returns 1 for 100%
-float parseSurvival(const std::string& text);                                 // "fixed:0.7", in (0, 1]
+glm::vec3 parseRadiance(const std::string& text);                           // "1,1,1", >= 0; a file is refused
+SamplePlace parseSample(const std::string& text);                           // "12,40,7"
+glm::dvec3 parsePoint(const std::string& option, const std::string& text);  // "1,2.5,-3"
+double parsePercent(const std::string& option, const std::string& text);    // "1%", in (0, 1000]; returns 1 for 100%
+float parseSurvival(const std::string& text);                               // "fixed:0.7", in (0, 1]
 
 // An option whose value is one number (uint32_t, float or double) in [low, high]; never NaN. The help shows `what`, the range and, in
 // brackets, the default.

@@ -51,8 +51,8 @@ double lambda(double cosine, double alpha)
 }
 
 // a and b at a cosine and an alpha above 0: the integral of F G2 (v.h) / (v.z h.z) over the normals h, D(h) h.z dh, whose reflection of v
-// is above the horizon. Slopes are alpha tan(beta) towards the azimuth phi; then D(h) h.z dh = sin(beta) cos(beta) / pi dbeta dphi. For each
-// phi the end of beta is known in closed form, so the integrand is smooth inside; substitutions put more nodes at the ends.
+// is above the horizon. Slopes are alpha tan(beta) towards the azimuth phi; then D(h) h.z dh = sin(beta) cos(beta) / pi dbeta dphi. For
+// each phi the end of beta is known in closed form, so the integrand is smooth inside; substitutions put more nodes at the ends.
 glm::dvec2 integrateAlbedo(const Rule& rule, double cosine, double alpha)
 {
     const double sine = std::sqrt((1.0 - cosine) * (1.0 + cosine)), lambdaV = lambda(cosine, alpha);

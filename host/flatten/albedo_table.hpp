@@ -7,8 +7,8 @@
 
 namespace glim {
 
-// (kAlbedoSize + 1) * kAlbedoSize texels of four floats, by quadrature in double. Values are rounded to 2^-22, so that all machines make the
-// same table whatever their sine is.
+// (kAlbedoSize + 1) * kAlbedoSize texels of four floats, by quadrature in double. Values are rounded to 2^-22, so that all machines make
+// the same table whatever their sine is.
 std::vector<uvec4> makeAlbedoTable();
 
 }  // namespace glim

@@ -60,7 +60,8 @@ private:
 
     static Span spanOf(float low, float high, std::uint32_t size, Wrap wrap)
     {
-        const double first = std::floor(static_cast<double>(low) * size - 0.5) - 1.0, last = std::floor(static_cast<double>(high) * size - 0.5) + 2.0;
+        const double first = std::floor(static_cast<double>(low) * size - 0.5) - 1.0,
+                     last = std::floor(static_cast<double>(high) * size - 0.5) + 2.0;
         const Span whole{{{0, size}, {}}};
         if (!(last - first < size)) {
             return whole;  // also where a coordinate is not finite

@@ -81,7 +81,8 @@ std::vector<double> meansOfCells(const RadianceMap& map, const CellGrid& grid)
     std::vector<std::uint32_t> counts(means.size(), 0);
     for (std::uint32_t y = 0; y < map.height; ++y) {
         // A cell is where kernels look its direction up: its share of the map, not a whole number of texels.
-        const std::size_t row = std::size_t{std::min(static_cast<std::uint32_t>((y + 0.5) * grid.height / map.height), grid.height - 1)} * grid.width;
+        const std::size_t row =
+            std::size_t{std::min(static_cast<std::uint32_t>((y + 0.5) * grid.height / map.height), grid.height - 1)} * grid.width;
         for (std::uint32_t x = 0; x < map.width; ++x) {
             const std::size_t cell = row + std::min(static_cast<std::uint32_t>((x + 0.5) * grid.width / map.width), grid.width - 1);
             means[cell] += meanOverTexel(map, x, y);
@@ -137,7 +138,8 @@ double flattenEnvironmentMap(FlatScene& flat, const RadianceMap& map)
     flat.environmentCells.reserve(weights.size() + grid.height);
     for (std::size_t i = 0; i < weights.size(); ++i) {
         const double pdf = table.probabilities[i] / solidAngle(static_cast<std::uint32_t>(i / grid.width), grid);
-        flat.environmentCells.emplace_back(table.entries[i].threshold, table.entries[i].other, std::bit_cast<std::uint32_t>(static_cast<float>(pdf)), 0);
+        flat.environmentCells.emplace_back(table.entries[i].threshold, table.entries[i].other,
+                                           std::bit_cast<std::uint32_t>(static_cast<float>(pdf)), 0);
     }
     for (std::uint32_t row = 0; row < grid.height; ++row) {
         flat.environmentCells.push_back(rowBounds(row, grid));

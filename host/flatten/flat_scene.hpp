@@ -50,9 +50,9 @@ struct FlatScene {
     std::vector<FlatEmitter> emitters;
     std::uint32_t features = 0;                   // kFeatureSpheres ...: what the scene needs
     std::uint32_t stackLevels = kMaxStackLevels;  // of the traversal stack
-    vec3 environment{0.0F};              // radiance, or what multiplies that of the map
-    bool hidesEnvironment = false;       // from the camera
-    vec2 environmentTurn{1.0F, 0.0F};    // cosine and sine of the map's rotation
+    vec3 environment{0.0F};                       // radiance, or what multiplies that of the map
+    bool hidesEnvironment = false;                // from the camera
+    vec2 environmentTurn{1.0F, 0.0F};             // cosine and sine of the map's rotation
     std::vector<uvec2> environmentTexels;
     std::vector<uvec4> environmentCells;
     uvec2 environmentSize{0}, environmentCellCount{0};

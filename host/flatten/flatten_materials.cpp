@@ -79,8 +79,8 @@ public:
             data.principled = data.principled == 0 ? 0 : first + (data.principled - 1) * kPrincipledTexels;
         }
         for (PrincipledData& data : flat_.principled) {
-            for (std::uint32_t* texture : {&data.baseColorTexture, &data.metallicRoughnessTexture, &data.normalTexture, &data.emissiveTexture,
-                                           &data.specularTexture, &data.specularColorTexture}) {
+            for (std::uint32_t* texture : {&data.baseColorTexture, &data.metallicRoughnessTexture, &data.normalTexture,
+                                           &data.emissiveTexture, &data.specularTexture, &data.specularColorTexture}) {
                 *texture = *texture == 0 ? 0 : firstTexture + (*texture - 1) * kTextureTexels;
             }
         }
@@ -183,7 +183,9 @@ private:
                 flat_.texels.push_back(t[0] | t[1] << 8U | t[2] << 16U | static_cast<std::uint32_t>(t[3]) << 24U);
             } else {
                 const std::uint16_t* t = &image.rgba16[4 * i];
-                const auto bytes = [](std::uint32_t a, std::uint32_t b) { return a >> 8U | (a & 0xffU) << 8U | (b >> 8U) << 16U | (b & 0xffU) << 24U; };
+                const auto bytes = [](std::uint32_t a, std::uint32_t b) {
+                    return a >> 8U | (a & 0xffU) << 8U | (b >> 8U) << 16U | (b & 0xffU) << 24U;
+                };
                 flat_.texels.push_back(bytes(t[0], t[1]));
                 flat_.texels.push_back(bytes(t[2], t[3]));
             }
@@ -193,7 +195,7 @@ private:
 
     FlatScene& flat_;
     const Scene& scene_;
-    std::vector<std::optional<glm::dvec4>> colors_;         // by image
+    std::vector<std::optional<glm::dvec4>> colors_;       // by image
     std::map<std::uint32_t, std::uint32_t> firstTexels_;  // by image
 };
 

@@ -157,7 +157,8 @@ private:
     {
         Vertex vertex;
         if (mapped_) {
-            vertex.uv = glm::vec4(mesh.uv0.empty() ? glm::vec2(0.0F) : mesh.uv0[index], mesh.uv1.empty() ? glm::vec2(0.0F) : mesh.uv1[index]);
+            vertex.uv =
+                glm::vec4(mesh.uv0.empty() ? glm::vec2(0.0F) : mesh.uv0[index], mesh.uv1.empty() ? glm::vec2(0.0F) : mesh.uv1[index]);
         }
         if (!mesh.tangents.empty()) {
             const glm::dvec3 tangent = worldFromMesh_ * glm::dvec3(mesh.tangents[index]);

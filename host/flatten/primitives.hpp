@@ -27,7 +27,8 @@ struct Primitives {
     std::uint32_t instanceOf(std::uint32_t triangle) const;
 };
 
-// Triangles without area and primitives that are transparent all over are dropped; normals that are zero or not finite are replaced by the face normal.
+// Triangles without area and primitives that are transparent all over are dropped; normals that are zero or not finite are replaced by the
+// face normal.
 Primitives makePrimitives(const Scene& scene);
 
 }  // namespace glim

@@ -31,9 +31,7 @@ std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes + (1U 
 std::uint64_t limitOf(const DeviceDescription& device, BufferKind kind)
 {
     const std::uint64_t texels = device.maxTexelElements * texelBytes(kind);
-    return !hasStorage(kind)          ? texels
-           : kind == BufferKind::Both ? std::min(texels, device.maxStorageBuffer)
-                                      : device.maxStorageBuffer;
+    return !hasStorage(kind) ? texels : kind == BufferKind::Both ? std::min(texels, device.maxStorageBuffer) : device.maxStorageBuffer;
 }
 
 void refuseTooLarge(const DeviceDescription& device, const std::string& name, BufferKind kind, std::uint64_t size)

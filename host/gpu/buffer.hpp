@@ -19,7 +19,10 @@ enum class BufferKind {
 };
 
 constexpr bool hasTexels(BufferKind kind) { return kind != BufferKind::Storage && kind != BufferKind::Readback; }
-constexpr bool hasStorage(BufferKind kind) { return kind == BufferKind::Storage || kind == BufferKind::Both || kind == BufferKind::Readback; }
+constexpr bool hasStorage(BufferKind kind)
+{
+    return kind == BufferKind::Storage || kind == BufferKind::Both || kind == BufferKind::Readback;
+}
 
 // The size of a staging buffer in bytes. A longer copy is made in parts, so that a large scene needs little host memory beside its own.
 inline constexpr std::uint64_t kStagingBytes = std::uint64_t{16} << 20;

@@ -131,8 +131,8 @@ void HdrReader::readNewRuns(std::uint32_t row, std::vector<Pixel>& pixels)
             const bool repeats = code > 128;
             const auto count = static_cast<std::size_t>(repeats ? code - 128 : code);
             if (count == 0 || count > pixels.size() - x) {
-                refuse("has a run of " + std::to_string(count) + " pixels at pixel " + std::to_string(x) + " of row " + std::to_string(row) +
-                       ", which has " + std::to_string(pixels.size()));
+                refuse("has a run of " + std::to_string(count) + " pixels at pixel " + std::to_string(x) + " of row " +
+                       std::to_string(row) + ", which has " + std::to_string(pixels.size()));
             }
             int value = repeats ? readByte(row) : 0;
             for (std::size_t i = 0; i < count; ++i, ++x) {
@@ -191,8 +191,8 @@ RadianceMap HdrReader::read()
         readRow(row, pixels);
         for (std::uint32_t column = 0; column < header_.columns; ++column) {
             const std::uint32_t x = header_.rowsAreY ? column : row, y = header_.rowsAreY ? row : column;
-            const std::size_t at = std::size_t{header_.yUpwards ? map.height - 1 - y : y} * map.width +
-                                   (header_.xBackwards ? map.width - 1 - x : x);
+            const std::size_t at =
+                std::size_t{header_.yUpwards ? map.height - 1 - y : y} * map.width + (header_.xBackwards ? map.width - 1 - x : x);
             // Without the half that Radiance's own programs add to mantissas: other renderers do not, and black stays black.
             const Pixel& p = pixels[column];
             const double unit = p[3] == 0 ? 0.0 : std::ldexp(1.0, p[3] - 136);

@@ -62,7 +62,8 @@ RadianceMap readExrMap(const std::string& path)
     for (int y = data.min.y; y <= data.max.y; ++y) {
         Imf::FrameBuffer buffer;
         for (int c = 0; c < channels; ++c) {
-            char* const base = reinterpret_cast<char*>(&row[0][c]) - std::int64_t{data.min.x} * static_cast<std::int64_t>(sizeof(glm::vec3));
+            char* const base =
+                reinterpret_cast<char*>(&row[0][c]) - std::int64_t{data.min.x} * static_cast<std::int64_t>(sizeof(glm::vec3));
             buffer.insert(names[static_cast<std::size_t>(c)], Imf::Slice(Imf::FLOAT, base, sizeof(glm::vec3), 0));
         }
         file.setFrameBuffer(buffer);

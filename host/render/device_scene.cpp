@@ -82,10 +82,16 @@ std::vector<BindingSlot> DeviceScene::slots()
 
 std::map<std::uint32_t, const Buffer*> DeviceScene::buffers() const
 {
-    std::map<std::uint32_t, const Buffer*> buffers{
-        {kBindNodes, &nodes_},         {kBindRecords, &records_}, {kBindTriangles, &triangles_}, {kBindVertices, &vertices_},
-        {kBindMaterials, &materials_}, {kBindLights, &lights_},   {kBindEmitters, &emitters_},   {kBindAlbedos, &albedos_},
-        {kBindEnvironment, &environment_}, {kBindEnvironmentCells, &environmentCells_}};
+    std::map<std::uint32_t, const Buffer*> buffers{{kBindNodes, &nodes_},
+                                                   {kBindRecords, &records_},
+                                                   {kBindTriangles, &triangles_},
+                                                   {kBindVertices, &vertices_},
+                                                   {kBindMaterials, &materials_},
+                                                   {kBindLights, &lights_},
+                                                   {kBindEmitters, &emitters_},
+                                                   {kBindAlbedos, &albedos_},
+                                                   {kBindEnvironment, &environment_},
+                                                   {kBindEnvironmentCells, &environmentCells_}};
     for (std::uint32_t view = 0; view < kMaxTexelViews; ++view) {
         buffers[kBindTexels + view] = &images_[std::min<std::size_t>(view, images_.size() - 1)];
     }

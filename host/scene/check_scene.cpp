@@ -103,8 +103,8 @@ void SceneCheck::checkMaterials() const
         require(std::isfinite(material.ior) && (material.ior >= 1.0F || (material.ior == 0.0F && !material.glass)), "material", i,
                 "has an index of refraction below 1 or not finite");
         const auto isShare = [](float value) { return value >= 0.0F && value <= 1.0F; };
-        require(isShare(material.metallic) && isShare(material.roughness) && isShare(material.specular) && isShare(material.alpha), "material",
-                i, "has a metallic, roughness, specular or alpha outside 0 to 1");
+        require(isShare(material.metallic) && isShare(material.roughness) && isShare(material.specular) && isShare(material.alpha),
+                "material", i, "has a metallic, roughness, specular or alpha outside 0 to 1");
         require(isRadiance(material.specularColor) && std::isfinite(material.normalScale) && material.alphaCutoff >= 0.0F, "material", i,
                 "has a specular colour, normal scale or alpha cutoff that is negative or not finite");
         for (const std::optional<Texture>* texture : texturesOf(material)) {
@@ -112,7 +112,8 @@ void SceneCheck::checkMaterials() const
                     "has a texture without an image");
         }
     }
-    require(!scene_.environment || isRadiance(scene_.environment->radiance), "environment", 0, "has a radiance that is negative or not finite");
+    require(!scene_.environment || isRadiance(scene_.environment->radiance), "environment", 0,
+            "has a radiance that is negative or not finite");
 }
 
 void SceneCheck::checkLights() const

@@ -1,5 +1,6 @@
 #include "host/scene/load_gltf.hpp"
 
+#include "host/error.hpp"
 #include "host/scene/check_scene.hpp"
 #include "host/scene/frame_camera.hpp"
 #include "host/scene/gltf/check_gltf_json.hpp"
@@ -65,7 +66,13 @@ std::optional<Environment> readFileEnvironment(const GltfFile& file, const LoadO
         warnings.add(place + " has no \"file\" and is ignored");
         return std::nullopt;
     }
-    Environment environment = readMap(externalFile(file.path, source.Get("file").Get<std::string>()), options, scene, warnings);
+    const std::string name = source.Get("file").Get<std::string>();
+    Environment environment;
+    try {
+        environment = readMap(externalFile(file.path, name), options, scene, warnings);
+    } catch (const InputError& error) {
+        refuse(file, place + " names the map \"" + name + "\", which cannot be read (" + error.what() + ")");
+    }
     if (source.Has("strength")) {
         if (!source.Get("strength").IsNumber() || !(source.Get("strength").GetNumberAsDouble() >= 0.0)) {
             refuse(file, place + ".strength is not a number from 0; expected one");

@@ -16,12 +16,12 @@ enum class BuiltInEnvironment { None, Studio };
 using EnvironmentChoice = std::variant<BuiltInEnvironment, glm::vec3, std::filesystem::path>;
 
 struct LoadOptions {
-    std::optional<std::size_t> scene;      // index into the file's scenes; if absent its default scene, else the first
+    std::optional<std::size_t> scene;              // index into the file's scenes; if absent its default scene, else the first
     std::optional<EnvironmentChoice> environment;  // replaces the file's
     float environmentRotation = 0.0F;              // of a map about +y, radians, added to the file's
     bool environmentBackground = true;             // the camera sees the environment
     MissingTextures missingTextures = MissingTextures::Refuse;
-    float aspectRatio = 1.0F;              // of the picture, for the framed camera if the file has none
+    float aspectRatio = 1.0F;  // of the picture, for the framed camera if the file has none
 };
 
 // Reads and checks a whole file; the result has passed checkScene. Throws InputError with one sentence that names file, place, value and

@@ -16,10 +16,10 @@ struct Softbox {
 };
 
 constexpr Softbox kSoftboxes[] = {
-    {-50.0, 42.0, 24.0, 20.0, 9.0},   // key
-    {65.0, 18.0, 16.0, 28.0, 2.6},    // fill
-    {165.0, 38.0, 30.0, 12.0, 5.0},   // rim, from behind
-    {0.0, 88.0, 180.0, 16.0, 2.2},    // overhead
+    {-50.0, 42.0, 24.0, 20.0, 9.0},  // key
+    {65.0, 18.0, 16.0, 28.0, 2.6},   // fill
+    {165.0, 38.0, 30.0, 12.0, 5.0},  // rim, from behind
+    {0.0, 88.0, 180.0, 16.0, 2.2},   // overhead
 };
 
 double smoothStep(double x)
@@ -36,7 +36,8 @@ double radianceAt(double azimuth, double elevation)
     double radiance = 0.16 + 0.42 * smoothStep((elevation + 30.0) / 120.0);
     for (const Softbox& box : kSoftboxes) {
         const double across = std::remainder(azimuth - box.azimuth, 360.0) * std::cos(elevation * kPi / 180.0);
-        radiance += box.radiance * inside(box.halfWidth >= 180.0 ? 0.0 : across, box.halfWidth) * inside(elevation - box.elevation, box.halfHeight);
+        radiance +=
+            box.radiance * inside(box.halfWidth >= 180.0 ? 0.0 : across, box.halfWidth) * inside(elevation - box.elevation, box.halfHeight);
     }
     return radiance;
 }

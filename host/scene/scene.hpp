@@ -36,12 +36,12 @@ struct Material {
     std::string name;
     glm::vec3 baseColor{1.0F};
     float metallic = 1.0F, roughness = 1.0F;
-    float ior = 1.5F;                     // 0: infinite
-    float specular = 1.0F;                // strength of the dielectric's reflection
-    glm::vec3 specularColor{1.0F};        // of that reflection at normal incidence; may exceed 1
-    bool glass = false;                   // a smooth solid dielectric, tinted by the base colour
-    glm::vec3 emission{0.0F};             // radiance, W/(sr m^2)
-    bool doubleSided = false;             // emits from both sides; scattering is always two-sided
+    float ior = 1.5F;               // 0: infinite
+    float specular = 1.0F;          // strength of the dielectric's reflection
+    glm::vec3 specularColor{1.0F};  // of that reflection at normal incidence; may exceed 1
+    bool glass = false;             // a smooth solid dielectric, tinted by the base colour
+    glm::vec3 emission{0.0F};       // radiance, W/(sr m^2)
+    bool doubleSided = false;       // emits from both sides; scattering is always two-sided
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alpha = 1.0F, alphaCutoff = 0.5F;
     float normalScale = 1.0F;
@@ -93,12 +93,13 @@ struct TextureImage {
     DecodedImage pixels;
 };
 
-// Radiance from infinitely far: a latitude-longitude map whose middle is -z and whose first row is +y, or the same radiance from everywhere.
+// Radiance from infinitely far: a latitude-longitude map whose middle is -z and whose first row is +y, or the same radiance from
+// everywhere.
 struct Environment {
-    glm::vec3 radiance{1.0F};      // of the constant one; of a map what multiplies its texels
+    glm::vec3 radiance{1.0F};  // of the constant one; of a map what multiplies its texels
     std::shared_ptr<const RadianceMap> map;
-    float rotation = 0.0F;         // of the map about +y, counter-clockwise seen from above, radians
-    bool background = true;        // the camera sees it
+    float rotation = 0.0F;   // of the map about +y, counter-clockwise seen from above, radians
+    bool background = true;  // the camera sees it
 };
 
 struct Sphere {
@@ -140,7 +141,7 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<TextureImage> images;
     std::vector<PunctualLight> lights;
-    std::vector<Camera> cameras;           // never empty after load_gltf: one is framed where the file has none
+    std::vector<Camera> cameras;  // never empty after load_gltf: one is framed where the file has none
     std::optional<Environment> environment;
     std::vector<std::string> warnings;  // one line each: what was ignored, mapped, dropped or framed
 };

@@ -39,7 +39,7 @@ vec3 weightedEnvironment(PathRay ray, PathState state)
     if (state.bounce == 0u && render.hidesEnvironment != 0u) {
         return vec3(0.0);
     }
-    vec3 radiance = hasFeature(kFeatureEnvironmentMap) ? environmentRadiance(ray.direction) : render.environment;
+    vec3 radiance = hasEnvironmentMap() ? environmentRadiance(ray.direction) : render.environment;
     LightHit hit = LightHit(render.environmentLight, 0u, kInfinity, state.cosine, ray.direction);
     return radiance * misWeightOfHit(state, pdfLight(previousContext(ray, state), hit));
 }

@@ -11,6 +11,12 @@
 layout(set = 0, binding = kBindEnvironment) uniform usamplerBuffer sceneEnvironment;            // environmentTexel
 layout(set = 0, binding = kBindEnvironmentCells) uniform usamplerBuffer sceneEnvironmentCells;  // cells, then their rows
 
+// Else the environment is constant.
+bool hasEnvironmentMap()
+{
+    return hasFeature(kFeatureEnvironmentMap) && render.environmentSize.x > 0u;
+}
+
 // Three mantissas of 18 bits and an exponent.
 vec3 environmentTexel(uint x, uint y)
 {

@@ -73,7 +73,7 @@ float pdfLight(LightContext context, LightHit hit)
 {
     FlatLight light = fetchLight(hit.light);
     if (hasEnvironment() && light.kind == kEnvironmentLight) {
-        return light.probability * (hasFeature(kFeatureEnvironmentMap) ? pdfEnvironmentMap(hit.wi) : pdfCosineHemisphere(hit.cosine));
+        return light.probability * (hasEnvironmentMap() ? pdfEnvironmentMap(hit.wi) : pdfCosineHemisphere(hit.cosine));
     }
     return pdfSurfaceLight(light, fetchEmitter(hit.emitter).areaPdf, context, hit.t, hit.cosine);
 }
@@ -213,7 +213,7 @@ LightSample sampleLight(FlatLight light, LightContext context, uvec2 choice, vec
         return sampleSphereLight(light, context, u);
     }
     if (hasEnvironment() && light.kind == kEnvironmentLight) {
-        if (hasFeature(kFeatureEnvironmentMap)) {
+        if (hasEnvironmentMap()) {
             return sampleEnvironmentMap(light, context, choice, u);
         }
         return sampleEnvironment(light, context, u);

@@ -58,7 +58,7 @@ float alphaOf(Record record, vec3 point, vec2 barycentric)
     MaterialData material = fetchMaterial(materialOf(record));
     float alpha = material.alpha;
     if (hasFeature(kFeaturePrincipled) && material.principled != 0u) {
-        if (hasFeature(kFeatureVertexColors) && !isSphere(record)) {
+        if (hasFeature(kFeatureVertexColors) && render.firstColor != 0u && !isSphere(record)) {
             alpha *= vertexAttribute(render.firstColor, primitiveOf(record), barycentric).a;
         }
         if (hasFeature(kFeatureTextures)) {
@@ -108,7 +108,7 @@ SurfaceMaterial materialAt(inout SurfaceInteraction si)
     material.data = fetchMaterial(si.material);
     if (hasFeature(kFeaturePrincipled) && material.data.principled != 0u) {
         material.principled = fetchPrincipled(material.data.principled);
-        if (hasFeature(kFeatureVertexColors)) {
+        if (hasFeature(kFeatureVertexColors) && render.firstColor != 0u) {
             material.data.baseColor *= vertexAttribute(render.firstColor, si).rgb;
         }
         if (hasFeature(kFeatureTextures)) {

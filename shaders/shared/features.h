@@ -15,15 +15,15 @@ GLIM_CONST uint kFeatureTriangleLights = 0x20u;
 GLIM_CONST uint kFeatureSphereLights = 0x40u;
 GLIM_CONST uint kFeaturePunctualLights = 0x80u;
 GLIM_CONST uint kFeatureEnvironment = 0x100u;
-GLIM_CONST uint kFeaturePrincipled = 0x200u;      // the glTF material: GGX over a diffuse base
+GLIM_CONST uint kFeaturePrincipled = 0x200u;  // the glTF material: GGX over a diffuse base
 GLIM_CONST uint kFeatureTextures = 0x400u;
 GLIM_CONST uint kFeatureNormalMaps = 0x800u;
 GLIM_CONST uint kFeatureVertexColors = 0x1000u;
-GLIM_CONST uint kFeatureAlpha = 0x2000u;          // primitives that are transparent in places
+GLIM_CONST uint kFeatureAlpha = 0x2000u;           // primitives that are transparent in places
 GLIM_CONST uint kFeatureEnvironmentMap = 0x4000u;  // with kFeatureEnvironment
 GLIM_CONST uint kFeatureTextureTransforms = 0x8000u;
-GLIM_CONST uint kFeatureWideTextures = 0x10000u;   // of 16 bits per channel
-GLIM_CONST uint kAllFeatures = 0xffffffffu;  // of any scene
+GLIM_CONST uint kFeatureWideTextures = 0x10000u;  // of 16 bits per channel
+GLIM_CONST uint kAllFeatures = 0xffffffffu;       // of any scene
 
 GLIM_SHARED_END
 #endif

@@ -154,10 +154,10 @@ struct RenderParameters {
     uint minPathLength;  // least number of surfaces between camera and light, for light that counts
     uint maxPathLength;
     uint lightCount;
-    uint environmentLight;  // index, if the scene has an environment
-    vec3 environment;       // radiance, W/(sr m^2)
-    float clampIndirect;    // infinity: off
-    uint canarySteps;       // 3, unknown to the compiler
+    uint environmentLight;                   // index, if the scene has an environment
+    vec3 environment;                        // radiance, W/(sr m^2)
+    float clampIndirect;                     // infinity: off
+    uint canarySteps;                        // 3, unknown to the compiler
     uint triangleCount;                      // primitives from here on are spheres
     uint firstUv, firstTangent, firstColor;  // sections of the vertices (scene_types.h)
     uint hidesEnvironment;                   // 1: from the camera

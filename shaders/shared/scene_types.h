@@ -75,9 +75,9 @@ struct PrincipledData {
     uint baseColorTexture;          // sRGB, alpha
     uint metallicRoughnessTexture;  // roughness in G, metallic in B
     uint normalTexture;
-    uint emissiveTexture;         // sRGB
-    uint specularTexture;         // A
-    uint specularColorTexture;    // sRGB
+    uint emissiveTexture;       // sRGB
+    uint specularTexture;       // A
+    uint specularColorTexture;  // sRGB
     uvec2 unused;
 };
 
@@ -99,10 +99,10 @@ GLIM_CONST uint kWrapT = 2u;
 GLIM_CONST uint kClamp = 0u;
 GLIM_CONST uint kMirrored = 1u;
 GLIM_CONST uint kRepeat = 2u;
-GLIM_CONST uint kNearest = 0x10u;      // else bilinear
-GLIM_CONST uint kSrgb = 0x20u;         // RGB, not alpha
-GLIM_CONST uint kWide = 0x40u;         // 16 bits per channel
-GLIM_CONST uint kSecondUv = 0x80u;     // texture coordinates of set 1
+GLIM_CONST uint kNearest = 0x10u;   // else bilinear
+GLIM_CONST uint kSrgb = 0x20u;      // RGB, not alpha
+GLIM_CONST uint kWide = 0x40u;      // 16 bits per channel
+GLIM_CONST uint kSecondUv = 0x80u;  // texture coordinates of set 1
 GLIM_CONST uint kTransformed = 0x100u;
 
 // Texels of images: as many buffers of 2^kTexelViewBits texels of four bytes as the scene needs.

@@ -260,24 +260,47 @@ TEST(LoadGltf, ScalesSpheresUniformly)
     EXPECT_EQ(radius({{"scale", {-1.5, 1.5, 1.5}}}), 3.0F);
 }
 
-TEST(LoadGltf, KeepsImagesAsReferencesToTheirBytes)
+// Two texels: red, half transparent, and green.
+constexpr const char* kTwoTexels =
+    "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAYAAAD0In+KAAAAEUlEQVR4nGP4z8DQwPCf4T8ADn0Dfur2k8AAAAAASUVORK5CYII=";
+
+GltfBuilder texturedTriangle(const json& image)
 {
     GltfBuilder builder = oneTriangle();
-    const std::size_t view = builder.addAov({1, 2, 3});
-    const json entry = builder.document["bufferViews"][view];
-    builder.append("images", {{"name", "wood"}, {"uri", "wood%201.png"}});
-    builder.append("images", {{"bufferView", view}, {"mimeType", "image/jpeg"}});
-    const std::vector<EncodedImage> images = load(builder).images;
-    ASSERT_EQ(images.size(), 2U);
-    EXPECT_EQ(images[0].name, "wood");
-    EXPECT_EQ(images[0].uri, "wood%201.png");
-    EXPECT_FALSE(images[0].range);
-    EXPECT_EQ(images[1].mimeType, "image/jpeg");
-    ASSERT_TRUE(images[1].range);
-    EXPECT_EQ(images[1].range->offset, entry.value("byteOffset", 0U));
-    EXPECT_EQ(images[1].range->length, 3U);
-    builder.document["images"][1]["bufferView"] = 9;
-    EXPECT_NE(refusal(builder).find("images[1].bufferView is 9; expected an index into bufferViews"), std::string::npos);
+    builder.append("images", image);
+    builder.append("samplers", {{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}});
+    builder.append("textures", {{"source", 0}, {"sampler", 0}});
+    builder.append("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", 1}}}}}});
+    builder.document["meshes"][0]["primitives"][0]["material"] = 0;
+    return builder;
+}
+
+TEST(LoadGltf, DecodesTheImagesThatMaterialsUse)
+{
+    GltfBuilder builder = texturedTriangle({{"name", "wood"}, {"uri", kTwoTexels}});
+    builder.append("images", {{"uri", "nobody reads it.png"}});
+    const Scene scene = load(builder);
+    ASSERT_EQ(scene.images.size(), 1U);
+    EXPECT_EQ(scene.images[0].pixels.width, 2U);
+    EXPECT_EQ(scene.images[0].pixels.rgba8, (std::vector<std::uint8_t>{255, 0, 0, 128, 0, 255, 0, 255}));
+    const std::optional<Texture>& texture = scene.materials.at(0).baseColorTexture;
+    ASSERT_TRUE(texture);
+    EXPECT_EQ(texture->uvSet, 1U);
+    EXPECT_EQ(texture->wrapS, Wrap::Clamp);
+    EXPECT_EQ(texture->wrapT, Wrap::Mirrored);
+    EXPECT_TRUE(texture->nearest);
+}
+
+TEST(LoadGltf, NamesImagesThatAreMissingOrBroken)
+{
+    EXPECT_NE(refusal(texturedTriangle({{"name", "wood"}, {"uri", "no such file.png"}})).find("no such file.png"), std::string::npos);
+    const std::string broken = refusal(texturedTriangle({{"name", "wood"}, {"uri", "data:image/png;base64,AAEC"}}));
+    EXPECT_NE(broken.find("images[0] (\"wood\") is of an unknown kind (it begins with 00 01 02); expected PNG, JPEG or WebP"),
+              std::string::npos)
+        << broken;
+    GltfBuilder builder = texturedTriangle({{"uri", "wood.png"}});
+    builder.document["textures"][0]["source"] = 9;
+    EXPECT_NE(refusal(builder).find("textures[0].source is 9; expected an index into images"), std::string::npos);
 }
 
 TEST(LoadGltf, SaysWhatItDoesNotKnow)

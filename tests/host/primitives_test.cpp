@@ -126,11 +126,16 @@ TEST(PrimitivesTest, FingerprintsOfSmoothScenesAreWhatTheyWere)
     test::GltfBuilder builder;
     const std::size_t positions = builder.addVec3({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0.5F});
     const std::size_t normals = builder.addVec3({0, 0, 1, 0, 1, 1, 1, 0, 1, 0, 0, 0});
-    const std::size_t mesh = builder.addMesh(
-        {{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}, {"indices", builder.addIndices({0, 1, 2, 2, 1, 3})}});
+    builder.append("materials", {{"pbrMetallicRoughness", {{"metallicFactor", 0}}},
+                                 {"extensions", {{"KHR_materials_specular", {{"specularFactor", 0}}}}}});
+    const std::size_t mesh = builder.addMesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}},
+                                              {"indices", builder.addIndices({0, 1, 2, 2, 1, 3})},
+                                              {"material", 0}});
+    const std::size_t triangle = builder.addTriangleMesh();
+    builder.document["meshes"][triangle]["primitives"][0]["material"] = 0;
     builder.addNode({{"mesh", mesh}, {"scale", {-2, 1, 1}}});
-    builder.addNode({{"mesh", builder.addTriangleMesh()}, {"translation", {2, 0, 0}}});
-    builder.addNode({{"extras", {{"sphere", {{"radius", 0.5}}}}}, {"translation", {0, 2, 0}}});
+    builder.addNode({{"mesh", triangle}, {"translation", {2, 0, 0}}});
+    builder.addNode({{"extras", {{"sphere", {{"radius", 0.5}, {"material", 0}}}}}, {"translation", {0, 2, 0}}});
     const Scene scene = test::load(builder, {.environment = glm::vec3(1.0F)});
     EXPECT_EQ(fingerprint(fingerprint(flattened(scene)), flattenCamera(scene.cameras.front(), 1.0F)), "b50275f3d38dba40");
 }

@@ -15,8 +15,9 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kSupportedExtensions[] = {
-    "EXT_texture_webp",           "KHR_lights_punctual",  "KHR_materials_emissive_strength", "KHR_materials_ior",     "KHR_materials_specular",
-    "KHR_materials_transmission", "KHR_materials_volume", "KHR_mesh_quantization",           "KHR_texture_transform",
+    "EXT_texture_webp",     "KHR_lights_punctual",    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",    "KHR_materials_specular", "KHR_materials_transmission",
+    "KHR_materials_volume", "KHR_mesh_quantization",  "KHR_texture_transform",
 };
 
 std::string excerpt(const json& value)

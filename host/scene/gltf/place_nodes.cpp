@@ -46,8 +46,7 @@ void checkAcyclic(const GltfFile& file, const std::vector<int>& parents)
     }
 }
 
-std::vector<int> findRoots(const GltfFile& file, const LoadOptions& options, const std::vector<int>& parents,
-                           Warnings& warnings)
+std::vector<int> findRoots(const GltfFile& file, const LoadOptions& options, const std::vector<int>& parents, Warnings& warnings)
 {
     const std::vector<tinygltf::Scene>& scenes = file.model.scenes;
     if (options.scene && *options.scene >= scenes.size()) {

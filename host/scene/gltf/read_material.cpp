@@ -35,8 +35,9 @@ glm::vec3 colorOr(const tinygltf::Material& source, const char* extension, const
 void transformTexture(const tinygltf::Value& transform, Texture& texture)
 {
     const auto pair = [&transform](const char* name, double fallback) {
-        return transform.Has(name) ? glm::dvec2(transform.Get(name).Get(0).GetNumberAsDouble(), transform.Get(name).Get(1).GetNumberAsDouble())
-                                   : glm::dvec2(fallback);
+        return transform.Has(name)
+                   ? glm::dvec2(transform.Get(name).Get(0).GetNumberAsDouble(), transform.Get(name).Get(1).GetNumberAsDouble())
+                   : glm::dvec2(fallback);
     };
     const glm::dvec2 offset = pair("offset", 0.0), scale = pair("scale", 1.0);
     const double rotation = transform.Has("rotation") ? transform.Get("rotation").GetNumberAsDouble() : 0.0;
@@ -191,7 +192,9 @@ Material MaterialReader::read()
     material.glass = readGlass();
     material.emission = strength * glm::dvec3(emissive[0], emissive[1], emissive[2]);
     material.doubleSided = source_.doubleSided;
-    material.alphaMode = source_.alphaMode == "MASK" ? AlphaMode::Mask : source_.alphaMode == "BLEND" ? AlphaMode::Blend : AlphaMode::Opaque;
+    material.alphaMode = source_.alphaMode == "MASK"    ? AlphaMode::Mask
+                         : source_.alphaMode == "BLEND" ? AlphaMode::Blend
+                                                        : AlphaMode::Opaque;
     material.alpha = static_cast<float>(color[3]);
     material.alphaCutoff = static_cast<float>(source_.alphaCutoff);
     readTextures(material);

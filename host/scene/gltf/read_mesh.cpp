@@ -90,8 +90,7 @@ std::vector<Value> readAttribute(const GltfFile& file, const tinygltf::Primitive
     return values;
 }
 
-std::optional<Mesh> readPrimitive(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& place,
-                                  Warnings& warnings)
+std::optional<Mesh> readPrimitive(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& place, Warnings& warnings)
 {
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "host/scene/gltf/gltf_file.hpp"
-#include "host/scene/warnings.hpp"
 #include "host/scene/scene.hpp"
+#include "host/scene/warnings.hpp"
 
 namespace glim {
 

@@ -18,7 +18,7 @@
 vec3 radianceFound(PathRay ray, PathHit hit)
 {
     if (hit.record == kNoRecord) {
-        vec3 radiance = hasFeature(kFeatureEnvironmentMap) ? environmentRadiance(ray.direction) : render.environment;
+        vec3 radiance = hasEnvironmentMap() ? environmentRadiance(ray.direction) : render.environment;
         return hasEnvironment() ? radiance : vec3(0.0);
     }
     SurfaceInteraction si = makeSurfaceInteraction(ray, hit);

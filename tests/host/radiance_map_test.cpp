@@ -1,0 +1,129 @@
+#include "host/image/radiance_map.hpp"
+
+#include "host/error.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace glim {
+namespace {
+
+class RadianceMapTest : public ::testing::Test {
+protected:
+    RadianceMap read(const std::string& bytes)
+    {
+        const std::filesystem::path file = folder_.path() / "map.hdr";
+        std::ofstream(file, std::ios::binary) << bytes;
+        return readRadianceMap(file);
+    }
+    std::string refusal(const std::string& bytes)
+    {
+        try {
+            read(bytes);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    }
+
+    test::ScratchFolder folder_;
+};
+
+const std::string kHeader = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n";
+
+std::string pixel(int r, int g, int b, int e)
+{
+    return {static_cast<char>(r), static_cast<char>(g), static_cast<char>(b), static_cast<char>(e)};
+}
+
+TEST_F(RadianceMapTest, PlainPixelsAreMantissasTimesAPowerOfTwo)
+{
+    const RadianceMap map = read(kHeader + "-Y 1 +X 2\n" + pixel(128, 64, 32, 129) + pixel(200, 1, 0, 0));
+    ASSERT_EQ(map.width, 2U);
+    ASSERT_EQ(map.height, 1U);
+    EXPECT_EQ(map.texels[0], glm::vec3(1.0F, 0.5F, 0.25F));
+    EXPECT_EQ(map.texels[1], glm::vec3(0.0F)) << "exponent 0 is black";
+}
+
+TEST_F(RadianceMapTest, EveryOrderOfTheAxes)
+{
+    // The picture: a b above c d, as the reds 1 2 3 4.
+    const glm::vec4 expected(1, 2, 3, 4);
+    const std::pair<const char*, std::array<int, 4>> orders[] = {
+        {"-Y 2 +X 2", {1, 2, 3, 4}}, {"-Y 2 -X 2", {2, 1, 4, 3}}, {"+Y 2 +X 2", {3, 4, 1, 2}}, {"+Y 2 -X 2", {4, 3, 2, 1}},
+        {"+X 2 -Y 2", {1, 3, 2, 4}}, {"-X 2 -Y 2", {2, 4, 1, 3}}, {"+X 2 +Y 2", {3, 1, 4, 2}}, {"-X 2 +Y 2", {4, 2, 3, 1}}};
+    for (const auto& [resolution, reds] : orders) {
+        std::string bytes = kHeader + resolution + "\n";
+        for (const int red : reds) {
+            bytes += pixel(red, 0, 0, 136);
+        }
+        const RadianceMap map = read(bytes);
+        EXPECT_EQ(glm::vec4(map.texels[0].r, map.texels[1].r, map.texels[2].r, map.texels[3].r), expected) << resolution;
+    }
+}
+
+TEST_F(RadianceMapTest, RunsOldAndNew)
+{
+    const RadianceMap old =
+        read(kHeader + "-Y 1 +X 6\n" + pixel(8, 0, 0, 136) + pixel(1, 1, 1, 3) + pixel(9, 0, 0, 136) + pixel(1, 1, 1, 1));
+    for (std::size_t x = 0; x < 6; ++x) {
+        EXPECT_EQ(old.texels[x].r, x < 4 ? 8.0F : 9.0F) << x;
+    }
+    std::string bytes = kHeader + "-Y 1 +X 10\n" + pixel(2, 2, 0, 10);
+    bytes += std::string{char(128 + 7), 5, 3, 1, 2, 3};      // red: seven fives, then 1 2 3
+    bytes += std::string{char(128 + 10), 6};                 // green
+    bytes += std::string{10, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9};  // blue
+    bytes += std::string{char(128 + 10), char(136)};
+    const RadianceMap map = read(bytes);
+    EXPECT_EQ(map.texels[6], glm::vec3(5, 6, 6));
+    EXPECT_EQ(map.texels[9], glm::vec3(3, 6, 9));
+}
+
+TEST_F(RadianceMapTest, ExposureDivides)
+{
+    const RadianceMap map =
+        read("#?RGBE\nEXPOSURE=2\nEXPOSURE= 4\nCOLORCORR= 1 2 4\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + pixel(128, 128, 128, 129));
+    EXPECT_EQ(map.texels[0], glm::vec3(0.125F, 0.0625F, 0.03125F));
+}
+
+TEST_F(RadianceMapTest, SaysWhatIsWrong)
+{
+    EXPECT_NE(refusal("hello").find("neither OpenEXR nor Radiance"), std::string::npos);
+    EXPECT_NE(refusal("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n").find("32-bit_rle_xyze"), std::string::npos);
+    EXPECT_NE(refusal(kHeader + "-Y 99999 +X 99999\n").find("99999"), std::string::npos);
+    EXPECT_NE(refusal(kHeader + "-Y 2 +X 1\n" + pixel(1, 2, 3, 4)).find("ends in row 1 of 2"), std::string::npos);
+    EXPECT_NE(refusal(kHeader + "-Y 1 +X 2\n" + pixel(1, 1, 1, 9)).find("a run of 9 pixels at pixel 0"), std::string::npos);
+    EXPECT_NE(refusal("#?RADIANCE\n").find("no end of its header"), std::string::npos);
+    EXPECT_THROW(readRadianceMap(folder_.path()), InputError);
+    EXPECT_THROW(readRadianceMap(folder_.path() / "missing.exr"), InputError);
+}
+
+TEST_F(RadianceMapTest, SurvivesMutants)
+{
+    Random random(3);
+    std::string good = kHeader + "-Y 3 +X 10\n";
+    for (int row = 0; row < 3; ++row) {
+        good += pixel(2, 2, 0, 10);
+        for (int c = 0; c < 4; ++c) {
+            good += std::string{char(128 + 5), 7, 5, 1, 2, 3, 4, 5};
+        }
+    }
+    ASSERT_EQ(read(good).texels.size(), 30U);
+    for (int i = 0; i < 500; ++i) {
+        std::string bytes = good.substr(0, random.below(2) == 0 ? good.size() : random.below(static_cast<std::uint32_t>(good.size())));
+        for (std::uint32_t k = 0; k < 1 + random.below(4) && !bytes.empty(); ++k) {
+            bytes[random.below(static_cast<std::uint32_t>(bytes.size()))] = static_cast<char>(random.below(256));
+        }
+        try {
+            EXPECT_LE(read(bytes).texels.size(), kMaxMapTexels);
+        } catch (const InputError& error) {
+            EXPECT_NE(std::string(error.what()), "");
+        }
+    }
+}
+
+}  // namespace
+}  // namespace glim
