@@ -66,11 +66,13 @@ private:
         return "  " + option->get_name(false, true) + (unit.empty() || option->get_positional() ? "" : " " + unit);
     }
 
+    static constexpr std::size_t kWidestColumn = 27;  // longer names push their description to the right
+
     static std::string listOptions(const std::vector<const CLI::Option*>& options)
     {
         std::size_t width = 0;
         for (const CLI::Option* option : options) {
-            width = std::max(width, nameOf(option).size() + 2);
+            width = std::max(width, std::min(nameOf(option).size() + 2, kWidestColumn));
         }
         std::string text, group;
         for (const CLI::Option* option : options) {

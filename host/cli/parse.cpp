@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <regex>
 #include <sstream>
 
 namespace glim {
@@ -180,8 +181,8 @@ EnvironmentChoice parseEnvironment(const std::string& text)
     if (text == "none" || text == "studio") {
         return text == "none" ? BuiltInEnvironment::None : BuiltInEnvironment::Studio;
     }
-    const bool looksLikeNumbers = text.find_first_not_of("0123456789.,eE+-") == std::string::npos;
-    return looksLikeNumbers ? EnvironmentChoice(parseRadiance(text)) : EnvironmentChoice(std::filesystem::path(text));
+    const bool isMap = std::regex_search(text, std::regex("\\.(hdr|exr)$", std::regex::icase));
+    return isMap ? EnvironmentChoice(std::filesystem::path(text)) : EnvironmentChoice(parseRadiance(text));
 }
 
 std::string describeEnvironment(const EnvironmentChoice& choice)
@@ -200,8 +201,8 @@ glm::vec3 parseRadiance(const std::string& text)
     glm::vec3 radiance(0.0F);
     if (!parseTriple(text, radiance) || glm::any(glm::lessThan(radiance, glm::vec3(0.0F)))) {
         throw UsageError("--environment", "\"" + text +
-                                              "\": expected a constant radiance as r,g,b with numbers >= 0, as in "
-                                              "1,1,1; or the name of a .hdr or .exr map, studio or none");
+                                              "\": expected the name of a .hdr or .exr map, a constant radiance R,G,B with "
+                                              "numbers >= 0, as in 1,1,1, studio or none");
     }
     return radiance;
 }

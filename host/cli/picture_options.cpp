@@ -59,15 +59,13 @@ void addRoulette(const Command& command, RenderSettings& settings)
 void addPicture(const Command& command, PictureOptions& options, const std::string& height)
 {
     addSceneIndex(command, options.sceneIndex);
-    command.add("--environment", "MAP|R,G,B|studio|none",
-                "Light from infinitely far: a .hdr or .exr map, a constant radiance in W/(sr m^2), the built-in studio, or none "
-                "[the file's own; studio if the scene has no light]",
+    command.add("--environment", "E", ".hdr or .exr map, radiance R,G,B, studio or none [the file's, else studio if unlit]",
                 [&options](const std::string& text) { options.environment = parseEnvironment(text); });
-    addNumber<float>(command, {"--environment-rotation", "DEG", "Turn the map about the vertical axis", -360.0F, 360.0F, "0"},
+    addNumber<float>(command, {"--environment-rotation", "DEG", "Turn of the map about the vertical axis", -360.0F, 360.0F, "0"},
                      [&options](float degrees) { options.environmentRotation = degrees; });
-    addEnum(command, "--environment-background", "on|off", "Whether the camera sees the environment [on]", {"off", "on"},
+    addEnum(command, "--environment-background", "B", "Whether the camera sees the environment: on or off [on]", {"off", "on"},
             options.environmentBackground);
-    addEnum(command, "--missing-textures", "refuse|grey", "What to do if an image cannot be read [refuse]", {"refuse", "grey"},
+    addEnum(command, "--missing-textures", "T", "Images that cannot be read: refuse the scene, or grey in their place [refuse]", {"refuse", "grey"},
             options.missingTextures);
     command.add("--size", "WxH", "Pixels, each side 1 to 65535 [" + height + " high, width by the camera's aspect ratio]",
                 [&options](const std::string& text) { options.size = parseSize(text); });

@@ -49,7 +49,7 @@ public:
             count += scene.meshes[instance.mesh].indices.size() / 3;
             const Mesh& mesh = scene.meshes[instance.mesh];
             smooth_ = smooth_ || !mesh.normals.empty();
-            mapped_ = mapped_ || isTextured(scene.materials[mesh.material]);
+            mapped_ = mapped_ || isTextured(mesh.material);
             tangents_ = tangents_ || !mesh.tangents.empty();
             colored_ = colored_ || !mesh.colors.empty();
         }
@@ -84,9 +84,9 @@ public:
     }
 
 private:
-    static bool isTextured(const Material& material)
+    bool isTextured(std::uint32_t material) const
     {
-        const auto textures = texturesOf(material);
+        const auto textures = texturesOf(scene_.materials[material]);
         return std::any_of(textures.begin(), textures.end(), [](const auto* texture) { return texture->has_value(); });
     }
 

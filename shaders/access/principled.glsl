@@ -47,8 +47,10 @@ Principled makePrincipled(PrincipledData data, vec3 baseColor, float cosine)
     p.row = albedoRow(alpha);
     vec2 ab = fetchAlbedo(p.row, cosine);
     vec2 average = fetchAverageAlbedo(p.row);
-    vec3 fms = multipleScatteringFresnel(average, p.f0, p.f90);
     p.baseFms = multipleScatteringFresnel(average, p.baseReflectance.xxx, p.baseReflectance.y).x;
+    // Mixed like the two BSDFs, for it is convex in F0: of the mixed F0, a white half-metal of roughness 1 would reflect .78 of the light.
+    vec3 fms = mix(multipleScatteringFresnel(average, dielectric, data.specular),
+                   multipleScatteringFresnel(average, baseColor, 1.0), data.metallic);
     vec3 scattered = fms * (1.0 - ab.x - ab.y);
     vec3 diffuse = baseColor * (1.0 - data.metallic) * (1.0 - interfaceAlbedo(p, ab));
     float specular = luminanceOf(singleScatteringAlbedo(ab, p.f0, p.f90));

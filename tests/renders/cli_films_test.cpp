@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <fstream>
 #include <sstream>
 
 namespace glim::test {
@@ -251,8 +252,12 @@ TEST(CommandLineTest, ResultsAreOnStdoutAndChatterOnStderr)
     const GlimRun bar = runGlim(films.call("x.exr", {"--spp", "64", "--progress", "bar"}));
     EXPECT_NE(bar.err.find("Msamples/s"), std::string::npos) << bar.err;
     EXPECT_EQ(countLines(bar.out), 1U);
-    const GlimRun mapped = runGlim(films.call("x.exr", {"--spp", "1"}, "veach_mis.gltf"));
-    EXPECT_GE(countLines(mapped.err), 1U) << "materials that are mapped are said";
+    json scene = json::parse(bytesOfFile(sceneFile("cornell.gltf")));
+    scene["extensionsUsed"].push_back("VENDOR_toon");
+    scene["materials"][0]["extensions"]["VENDOR_toon"] = json::object();
+    std::ofstream(films.folder() / "warned.gltf") << scene;
+    const GlimRun mapped = runGlim(films.call("x.exr", {"--spp", "1"}, (films.folder() / "warned.gltf").string()));
+    EXPECT_GE(countLines(mapped.err), 1U) << "warnings are said";
     EXPECT_EQ(countLines(mapped.out), 1U);
 }
 

@@ -42,6 +42,9 @@ std::size_t addMesh(test::GltfBuilder& builder, const Scene& scene, std::size_t 
 Scene roomAt(double scale, double shift)
 {
     SceneBuilder room, box, lamp;
+    for (SceneBuilder* builder : {&room, &box, &lamp}) {
+        builder->lambert(glm::vec3(0.5F));
+    }
     room.cube(1.0F, 0, true);
     box.cube(0.3F, 0, false);
     lamp.quad({glm::vec3(-0.4F, 0.9F, -0.4F), {0.4F, 0.9F, -0.4F}, {0.4F, 0.9F, 0.4F}, {-0.4F, 0.9F, 0.4F}}, 0);
