@@ -27,6 +27,7 @@ Counts countsOf(const PreparedScene& prepared)
             {"meshes", prepared.scene.meshes.size()},
             {"instances", prepared.scene.instances.size()},
             {"materials", prepared.scene.materials.size()},
+            {"images", prepared.scene.images.size()},
             {"lights", prepared.flat.lights.size()},
             {"emitters", prepared.flat.emitters.size()},
             {"cameras", prepared.scene.cameras.size()}};
@@ -83,6 +84,8 @@ void printJson(const InspectOptions& options, const PreparedScene& prepared)
                          {"buildSeconds", prepared.buildSeconds}}},
                        {"loadSeconds", prepared.loadSeconds},
                        {"deviceBytes", sizeInBytes(prepared.flat)},
+                       {"textureBytes", textureBytes(prepared.flat)},
+                       {"variants", prepared.scene.variants},
                        {"needs", objectOf(needsOf(prepared.flat.features))},
                        {"cameras", cameras},
                        {"warnings", prepared.scene.warnings}};
@@ -114,7 +117,8 @@ void printText(const InspectOptions& options, const PreparedScene& prepared)
     std::cout << "  bounds " << pointText(bounds.low) << " to " << pointText(bounds.high) << " m\n"
               << "  BVH: " << prepared.bvh.nodes.size() << " nodes, depth " << prepared.bvh.depth << ", surface-area cost "
               << threeDigits(static_cast<double>(prepared.bvh.cost)) << ", built in " << threeDigits(prepared.buildSeconds) << " s\n"
-              << "  on the device: " << threeDigits(static_cast<double>(sizeInBytes(prepared.flat)) / (1 << 20)) << " MiB\n  needs:";
+              << "  on the device: " << threeDigits(static_cast<double>(sizeInBytes(prepared.flat)) / (1 << 20)) << " MiB, "
+              << threeDigits(static_cast<double>(textureBytes(prepared.flat)) / (1 << 20)) << " MiB of it textures\n  needs:";
     const char* separator = " ";
     for (const auto& [name, needed] : needsOf(prepared.flat.features)) {
         if (needed) {
@@ -123,6 +127,9 @@ void printText(const InspectOptions& options, const PreparedScene& prepared)
         }
     }
     std::cout << (*separator == ' ' ? " nothing but flat diffuse triangles\n" : "\n");
+    for (const std::string& variant : prepared.scene.variants) {
+        std::cout << "  variant \"" << variant << "\"\n";
+    }
     for (std::size_t i = 0; i < prepared.scene.cameras.size(); ++i) {
         const Camera& camera = prepared.scene.cameras[i];
         std::cout << "  camera " << i << " \"" << camera.name << "\", " << kindOf(camera) << '\n';

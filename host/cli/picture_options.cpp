@@ -59,6 +59,8 @@ void addRoulette(const Command& command, RenderSettings& settings)
 void addPicture(const Command& command, PictureOptions& options, const std::string& height)
 {
     addSceneIndex(command, options.sceneIndex);
+    command.add("--variant", "NAME", "Variant of the file's materials [the file's own materials]",
+                [&options](const std::string& text) { options.variant = text; });
     command.add("--environment", "E", ".hdr or .exr map, radiance R,G,B, studio or none [the file's, else studio if unlit]",
                 [&options](const std::string& text) { options.environment = parseEnvironment(text); });
     addNumber<float>(command, {"--environment-rotation", "DEG", "Turn of the map about the vertical axis", -360.0F, 360.0F, "0"},
@@ -159,6 +161,7 @@ LoadOptions loadOptionsOf(const PictureOptions& options)
 {
     LoadOptions load;
     load.scene = options.sceneIndex;
+    load.variant = options.variant;
     load.environment = options.environment;
     load.environmentRotation = glm::radians(options.environmentRotation);
     load.environmentBackground = options.environmentBackground;

@@ -21,6 +21,7 @@ struct PictureOptions {
     std::optional<std::string> device, camera;
     std::optional<Pose> pose;
     std::optional<EnvironmentChoice> environment;
+    std::string variant;
     float environmentRotation = 0.0F;  // degrees
     bool environmentBackground = true;
     MissingTextures missingTextures = MissingTextures::Refuse;

@@ -118,7 +118,62 @@ uvec4 texelOf(const glm::dvec2& a, const glm::dvec2& b)
     return {bits(a.x), bits(a.y), bits(b.x), bits(b.y)};
 }
 
+// Estevez and Kulla's fit of the sheen's masking, as in lib/bsdf/sheen.glsl.
+double sheenLambda(double cosine, double alpha)
+{
+    constexpr double kRough[] = {21.5473, 3.82987, 0.19823, -1.97760, -4.32054};
+    constexpr double kSmooth[] = {25.3245, 3.32435, 0.16801, -1.27393, -4.85967};
+    double c[5];
+    for (int i = 0; i < 5; ++i) {
+        c[i] = std::lerp(kRough[i], kSmooth[i], (1.0 - alpha) * (1.0 - alpha));
+    }
+    const auto fit = [&c](double x) { return c[0] / (1.0 + c[1] * std::pow(x, c[2])) + c[3] * x + c[4]; };
+    return std::exp(cosine < 0.5 ? fit(cosine) : 2.0 * fit(0.5) - fit(1.0 - cosine));
+}
+
+// Over wi with z = x^4 and the azimuth pi (1 - y^2) from wo's: dense at the horizon opposite to wo, where the lobe lies.
+double integrateSheen(const Rule& rule, double cosine, double alpha)
+{
+    const double sine = std::sqrt((1.0 - cosine) * (1.0 + cosine)), lambdaV = sheenLambda(cosine, alpha);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kNodes; ++i) {
+        const double x = 0.5 * (rule.nodes[i] + 1.0), z = std::pow(x, 4.0), r = std::sqrt((1.0 - z) * (1.0 + z));
+        const double masking = (1.0 + lambdaV + sheenLambda(z, alpha)) * 4.0 * cosine;
+        double ring = 0.0;
+        for (std::size_t j = 0; j < kNodes; ++j) {
+            const double y = 0.5 * (rule.nodes[j] + 1.0), phi = kPi * (1.0 - y * y);
+            const double hx = sine + r * std::cos(phi), hy = r * std::sin(phi), hz = cosine + z;
+            const double sine2 = (hx * hx + hy * hy) / (hx * hx + hy * hy + hz * hz);
+            ring += std::pow(sine2, 0.5 / alpha) * 2.0 * kPi * 2.0 * y * 0.5 * rule.weights[j];
+        }
+        sum += ring * (2.0 + 1.0 / alpha) / (2.0 * kPi) / masking * 4.0 * x * x * x * 0.5 * rule.weights[i];
+    }
+    return sum;
+}
+
 }  // namespace
+
+std::vector<uvec4> makeSheenTable()
+{
+    constexpr double kLeastAlpha = 1e-4, kLeastCosine = 1e-5;  // kMinSheenRoughness squared; below, the lobe is not resolved
+    const Rule rule = makeRule();
+    std::vector<std::vector<double>> rows(kAlbedoSize);
+    parallelFor(rows.size(), std::thread::hardware_concurrency(), [&](std::size_t j) {
+        for (std::size_t i = 0; i < kAlbedoSize; ++i) {
+            rows[j].push_back(rounded(
+                integrateSheen(rule, std::max(std::pow(rootAt(i), 4.0), kLeastCosine), std::max(std::pow(rootAt(j), 4.0), kLeastAlpha))));
+        }
+    });
+    std::vector<uvec4> table;
+    for (std::size_t j = 0; j < kAlbedoSize; ++j) {
+        const std::vector<double>& upper = rows[std::min<std::size_t>(j + 1, kAlbedoSize - 1)];
+        for (std::size_t i = 0; i < kAlbedoSize; ++i) {
+            const std::size_t next = std::min<std::size_t>(i + 1, kAlbedoSize - 1);
+            table.push_back(texelOf({rows[j][i], rows[j][next]}, {upper[i], upper[next]}));
+        }
+    }
+    return table;
+}
 
 std::vector<uvec4> makeAlbedoTable()
 {

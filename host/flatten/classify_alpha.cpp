@@ -1,5 +1,7 @@
 #include "host/flatten/classify_alpha.hpp"
 
+#include "host/flatten/flatten_materials.hpp"
+
 #include <algorithm>
 
 namespace glim {
@@ -47,6 +49,9 @@ const AlphaClassifier::Shares& AlphaClassifier::sharesOf(std::uint32_t id)
 Coverage AlphaClassifier::classify(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners)
 {
     const Material& material = scene_.materials[mesh.material];
+    if (material.unlit || passesStraight(material)) {
+        return Coverage::Mixed;
+    }
     if (material.alphaMode == AlphaMode::Opaque) {
         return Coverage::Opaque;
     }
@@ -72,7 +77,8 @@ Coverage AlphaClassifier::classify(const Mesh& mesh, const std::array<std::uint3
 Coverage AlphaClassifier::classify(const Sphere& sphere) const
 {
     const Material& material = scene_.materials[sphere.material];
-    return material.alphaMode == AlphaMode::Opaque ? Coverage::Opaque
+    return material.unlit || passesStraight(material)  ? Coverage::Mixed
+           : material.alphaMode == AlphaMode::Opaque ? Coverage::Opaque
            : material.baseColorTexture             ? Coverage::Mixed
                                                    : coverageOf(material, material.alpha);
 }

@@ -54,6 +54,8 @@ std::uint64_t bytesOf(const std::vector<T>& values)
 static_assert(sizeof(MaterialData) == kMaterialTexels * sizeof(uvec4));
 static_assert(sizeof(FlatLight) == kLightTexels * sizeof(uvec4));
 static_assert(sizeof(PrincipledData) == kPrincipledTexels * sizeof(uvec4));
+static_assert(sizeof(LayersData) == kLayersTexels * sizeof(uvec4));
+static_assert(sizeof(MediumData) == kMediumTexels * sizeof(uvec4));
 static_assert(sizeof(TextureData) == kTextureTexels * sizeof(uvec4));
 static_assert(sizeof(FlatEmitter) == kEmitterTexels * sizeof(uvec4));
 
@@ -62,8 +64,13 @@ static_assert(sizeof(FlatEmitter) == kEmitterTexels * sizeof(uvec4));
 std::uint64_t sizeInBytes(const FlatScene& scene)
 {
     return bytesOf(scene.nodes) + bytesOf(scene.records) + bytesOf(scene.triangles) + bytesOf(scene.vertices) + bytesOf(scene.materials) +
-           bytesOf(scene.lights) + bytesOf(scene.emitters) + bytesOf(scene.principled) + bytesOf(scene.textures) + bytesOf(scene.texels) +
+           bytesOf(scene.lights) + bytesOf(scene.emitters) + bytesOf(scene.principled) + bytesOf(scene.layers) + bytesOf(scene.textures) + bytesOf(scene.media) + bytesOf(scene.texels) +
            bytesOf(scene.albedos) + bytesOf(scene.environmentTexels) + bytesOf(scene.environmentCells);
+}
+
+std::uint64_t textureBytes(const FlatScene& scene)
+{
+    return bytesOf(scene.texels) + bytesOf(scene.environmentTexels) + bytesOf(scene.environmentCells);
 }
 
 std::uint64_t fingerprint(const FlatScene& scene)
@@ -91,7 +98,9 @@ std::uint64_t fingerprint(const FlatScene& scene)
     print.add(scene.materials);
     print.add(scene.lights);
     print.add(scene.principled);
+    print.add(scene.layers);
     print.add(scene.textures);
+    print.add(scene.media);
     print.add(scene.texels);
     print.add(scene.environmentTexels);
     if (!scene.environmentTexels.empty() || scene.hidesEnvironment) {

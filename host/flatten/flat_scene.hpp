@@ -33,7 +33,18 @@ constexpr Feature kFeatures[] = {{kFeatureSpheres, "spheres"},
                                  {kFeatureAlpha, "alpha"},
                                  {kFeatureEnvironmentMap, "environment map"},
                                  {kFeatureTextureTransforms, "texture transforms"},
-                                 {kFeatureWideTextures, "16-bit textures"}};
+                                 {kFeatureWideTextures, "16-bit textures"},
+                                 {kFeatureClearcoat, "clearcoat"},
+                                 {kFeatureSheen, "sheen"},
+                                 {kFeatureAnisotropy, "anisotropy"},
+                                 {kFeatureIridescence, "iridescence"},
+                                 {kFeatureTransmission, "transmission"},
+                                 {kFeatureDiffuseTransmission, "diffuse transmission"},
+                                 {kFeatureMedia, "volumes"},
+                                 {kFeatureDispersion, "dispersion"},
+                                 {kFeatureThinWalls, "thin walls"},
+                                 {kFeatureUnlit, "unlit materials"},
+                                 {kFeatureGlossiness, "specular-glossiness"}};
 
 struct FlatScene {
     std::vector<uvec4> nodes;
@@ -43,7 +54,11 @@ struct FlatScene {
     std::uint32_t firstUv = 0, firstTangent = 0, firstColor = 0;  // sections of `vertices`
     std::vector<MaterialData> materials;
     std::vector<PrincipledData> principled;  // behind the materials, in the same buffer
+    std::vector<LayersData> layers;          // behind these
     std::vector<TextureData> textures;       // behind these
+    std::vector<MediumData> media;           // behind these, from texel firstMedium on
+    std::uint32_t firstMedium = 0;
+    std::vector<std::uint32_t> materialFeatures;  // what each material needs, used or not; not on the device
     std::vector<std::uint32_t> texels;       // of images, a byte per channel
     std::vector<uvec4> albedos;              // empty without kFeaturePrincipled
     std::vector<FlatLight> lights;
@@ -61,6 +76,9 @@ struct FlatScene {
 
 // How many bytes the scene takes on the device.
 std::uint64_t sizeInBytes(const FlatScene& scene);
+
+// Of these, those of images and environment maps.
+std::uint64_t textureBytes(const FlatScene& scene);
 
 // A fingerprint of all of the above except the tree.
 std::uint64_t fingerprint(const FlatScene& scene);

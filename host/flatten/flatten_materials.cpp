@@ -1,7 +1,9 @@
 #include "host/flatten/flatten_materials.hpp"
 
 #include "host/error.hpp"
+#include "host/flatten/media.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -23,6 +25,22 @@ bool isTextured(const Material& material)
     return false;
 }
 
+bool hasLayers(const Material& m)
+{
+    return m.transmission > 0.0F || m.diffuseTransmission > 0.0F || m.clearcoat > 0.0F || m.sheenColor != glm::vec3(0.0F) ||
+           m.anisotropy > 0.0F || m.iridescence > 0.0F;
+}
+
+// A smooth solid dielectric, tinted by the base colour, and nothing else.
+bool isSmoothGlass(const Material& m)
+{
+    const bool layered = m.diffuseTransmission > 0.0F || m.clearcoat > 0.0F || m.sheenColor != glm::vec3(0.0F) || m.anisotropy > 0.0F ||
+                         m.iridescence > 0.0F;
+    const bool textured = m.transmissionTexture || m.metallicRoughnessTexture || m.specularTexture || m.specularColorTexture;
+    return m.solid && m.transmission == 1.0F && m.metallic == 0.0F && m.specular == 1.0F && m.specularColor == glm::vec3(1.0F) &&
+           m.roughness * m.roughness < kMirrorAlpha && !m.glossy && !layered && !textured;
+}
+
 // The one colour of an image, if it has no other: in [0, 1], as stored.
 std::optional<glm::dvec4> oneColor(const DecodedImage& image)
 {
@@ -41,49 +59,83 @@ class MaterialFlattener {
 public:
     MaterialFlattener(FlatScene& flat, const Scene& scene)
         : flat_(flat),
-          scene_(scene)
+          scene_(scene),
+          media_(findMedia(scene))
     {
         for (const TextureImage& image : scene.images) {
             colors_.push_back(oneColor(image.pixels));
         }
     }
 
-    void add(const Material& source, bool colored)
+    void add(std::uint32_t id, bool colored)
     {
+        const Material& source = scene_.materials[id];
         Material material = source;
         foldTextures(material);
-        const bool textured = isTextured(material);
+        leaveOutAbsentLayers(material);
+        const bool textured = isTextured(material), tracked = media_.tracked && material.solid;
+        features_ = 0;
         MaterialData data{};
         data.baseColor = material.baseColor;
         data.emission = material.emission;
-        data.ior = material.glass ? material.ior : kUnusedIor;
-        data.doubleSided = material.doubleSided ? 1 : 0;
-        data.lobe = textured || colored ? (material.glass ? kDielectric : kPrincipled) : lobeOf(material);
-        if (material.alphaMode != AlphaMode::Opaque) {
-            data.alpha = material.alpha;
-            data.alphaCutoff = material.alphaMode == AlphaMode::Mask ? material.alphaCutoff : -1.0F;
+        data.ior = material.transmission > 0.0F ? material.ior : kUnusedIor;
+        const bool thin = passesStraight(source) && material.transmission > 0.0F;
+        data.flags = (material.doubleSided ? kDoubleSided : 0U) | (thin ? kThinWall : 0U);
+        data.lobe = lobeOf(material);
+        if ((textured || colored) && (data.lobe == kLambert || data.lobe == kMirror)) {
+            data.lobe = kPrincipled;
         }
-        if (textured || colored || data.lobe == kPrincipled) {
+        if (material.alphaMode != AlphaMode::Opaque || material.unlit || thin) {
+            data.alpha = material.alpha;
+            data.alphaCutoff = material.alphaMode == AlphaMode::Mask    ? material.alphaCutoff
+                               : material.alphaMode == AlphaMode::Blend ? kCoverage
+                                                                        : kOpaque;
+        }
+        if (textured || colored || tracked || data.lobe == kPrincipled) {
             data.principled = static_cast<std::uint32_t>(flat_.principled.size() + 1);  // its place is known at the end
             flat_.principled.push_back(makePrincipled(material));
+            if (hasLayers(material) || tracked) {
+                flat_.layers.push_back(makeLayers(material, media_.ofMaterial[id]));
+                flat_.principled.back().layers = static_cast<std::uint32_t>(flat_.layers.size());
+            }
+            features_ |= kFeaturePrincipled | (material.glossy ? kFeatureGlossiness : 0U);
         }
+        features_ |= data.lobe == kMirror ? kFeatureMirror : data.lobe == kDielectric ? kFeatureDielectric : 0U;
+        features_ |= tracked ? kFeatureMedia | (media_.disperses ? kFeatureDispersion : 0U) : 0U;
+        features_ |= material.unlit ? kFeatureUnlit : thin ? kFeatureThinWalls : 0U;
         flat_.materials.push_back(data);
+        flat_.materialFeatures.push_back(features_);
     }
 
-    // Turns counts into texels of the buffer: materials, principled, textures.
+    // Turns counts into texels of the buffer: materials, principled, layers, textures, media.
     void finish()
     {
         const auto first = static_cast<std::uint32_t>(flat_.materials.size() * kMaterialTexels);
-        const auto firstTexture = first + static_cast<std::uint32_t>(flat_.principled.size() * kPrincipledTexels);
+        const auto firstLayers = first + static_cast<std::uint32_t>(flat_.principled.size() * kPrincipledTexels);
+        const auto firstTexture = firstLayers + static_cast<std::uint32_t>(flat_.layers.size() * kLayersTexels);
+        const auto place = [](std::uint32_t& number, std::uint32_t begin, std::uint32_t texels) {
+            number = number == 0 ? 0 : begin + (number - 1) * texels;
+        };
         for (MaterialData& data : flat_.materials) {
-            data.principled = data.principled == 0 ? 0 : first + (data.principled - 1) * kPrincipledTexels;
+            place(data.principled, first, kPrincipledTexels);
         }
         for (PrincipledData& data : flat_.principled) {
+            place(data.layers, firstLayers, kLayersTexels);
             for (std::uint32_t* texture : {&data.baseColorTexture, &data.metallicRoughnessTexture, &data.normalTexture,
                                            &data.emissiveTexture, &data.specularTexture, &data.specularColorTexture}) {
-                *texture = *texture == 0 ? 0 : firstTexture + (*texture - 1) * kTextureTexels;
+                place(*texture, firstTexture, kTextureTexels);
             }
         }
+        for (LayersData& data : flat_.layers) {
+            for (std::uint32_t* texture :
+                 {&data.clearcoatTexture, &data.clearcoatRoughnessTexture, &data.clearcoatNormalTexture, &data.sheenColorTexture,
+                  &data.sheenRoughnessTexture, &data.anisotropyTexture, &data.iridescenceTexture, &data.iridescenceThicknessTexture,
+                  &data.transmissionTexture, &data.diffuseTransmissionTexture, &data.diffuseTransmissionColorTexture}) {
+                place(*texture, firstTexture, kTextureTexels);
+            }
+        }
+        flat_.media = std::move(media_.media);
+        flat_.firstMedium = firstTexture + static_cast<std::uint32_t>(flat_.textures.size() * kTextureTexels);
     }
 
 private:
@@ -116,7 +168,99 @@ private:
         });
         fold(m.emissiveTexture, true, [&m](const glm::dvec4& color) { m.emission *= glm::vec3(color); });
         fold(m.specularTexture, false, [&m](const glm::dvec4& color) { m.specular *= static_cast<float>(color.a); });
-        fold(m.specularColorTexture, true, [&m](const glm::dvec4& color) { m.specularColor *= glm::vec3(color); });
+        fold(m.specularColorTexture, true, [&m](const glm::dvec4& color) {
+            m.specularColor *= glm::vec3(color);
+            m.roughness *= m.glossy ? static_cast<float>(color.a) : 1.0F;
+        });
+        if (m.glossy && !m.specularColorTexture) {
+            m.roughness = 1.0F - m.roughness;
+            m.baseColor *= 1.0F - std::max({m.specularColor.r, m.specularColor.g, m.specularColor.b});
+            m.glossy = false;
+        }
+        foldLayers(m);
+    }
+
+    void foldLayers(Material& m)
+    {
+        const auto foldChannel = [this](std::optional<Texture>& texture, int channel, float& value) {
+            fold(texture, false, [&](const glm::dvec4& color) { value *= static_cast<float>(color[channel]); });
+        };
+        const auto foldColor = [this](std::optional<Texture>& texture, glm::vec3& value) {
+            fold(texture, true, [&](const glm::dvec4& color) { value *= glm::vec3(color); });
+        };
+        foldChannel(m.transmissionTexture, 0, m.transmission);
+        foldChannel(m.diffuseTransmissionTexture, 3, m.diffuseTransmission);
+        foldColor(m.diffuseTransmissionColorTexture, m.diffuseTransmissionColor);
+        foldChannel(m.clearcoatTexture, 0, m.clearcoat);
+        foldChannel(m.clearcoatRoughnessTexture, 1, m.clearcoatRoughness);
+        foldColor(m.sheenColorTexture, m.sheenColor);
+        foldChannel(m.sheenRoughnessTexture, 3, m.sheenRoughness);
+        foldChannel(m.iridescenceTexture, 0, m.iridescence);
+        fold(m.iridescenceThicknessTexture, false, [&m](const glm::dvec4& color) {
+            m.iridescenceThicknessMaximum =
+                std::lerp(m.iridescenceThicknessMinimum, m.iridescenceThicknessMaximum, static_cast<float>(color.g));
+        });
+    }
+
+    // A factor of 0 gives the kernels and bits of a material without the extension.
+    static void leaveOutAbsentLayers(Material& m)
+    {
+        if (m.clearcoat == 0.0F) {
+            m.clearcoatTexture = m.clearcoatRoughnessTexture = m.clearcoatNormalTexture = std::nullopt;
+        }
+        if (m.sheenColor == glm::vec3(0.0F)) {
+            m.sheenColorTexture = m.sheenRoughnessTexture = std::nullopt;
+        }
+        if (m.anisotropy == 0.0F) {
+            m.anisotropyTexture = std::nullopt;
+        }
+        if (m.iridescence == 0.0F) {
+            m.iridescenceTexture = m.iridescenceThicknessTexture = std::nullopt;
+        }
+        if (m.transmission == 0.0F) {
+            m.transmissionTexture = std::nullopt;
+        }
+        if (m.diffuseTransmission == 0.0F) {
+            m.diffuseTransmissionTexture = m.diffuseTransmissionColorTexture = std::nullopt;
+        }
+    }
+
+    LayersData makeLayers(const Material& m, std::uint32_t medium)
+    {
+        LayersData data{};
+        data.clearcoat = m.clearcoat;
+        data.clearcoatRoughness = m.clearcoatRoughness;
+        data.clearcoatTexture = addTexture(m.clearcoatTexture, false);
+        data.clearcoatRoughnessTexture = addTexture(m.clearcoatRoughnessTexture, false);
+        data.clearcoatNormalTexture = addTexture(m.clearcoatNormalTexture, false);
+        data.clearcoatNormalScale = m.clearcoatNormalScale;
+        data.sheenColor = m.sheenColor;
+        data.sheenRoughness = m.sheenRoughness;
+        data.sheenColorTexture = addTexture(m.sheenColorTexture, true);
+        data.sheenRoughnessTexture = addTexture(m.sheenRoughnessTexture, false);
+        data.anisotropy = m.anisotropy;
+        data.anisotropyCosine = std::cos(m.anisotropyRotation);
+        data.anisotropySine = std::sin(m.anisotropyRotation);
+        data.anisotropyTexture = addTexture(m.anisotropyTexture, false);
+        data.iridescence = m.iridescence;
+        data.iridescenceIor = m.iridescenceIor;
+        data.iridescenceThicknessMinimum = m.iridescenceThicknessMinimum;
+        data.iridescenceThicknessMaximum = m.iridescenceThicknessMaximum;
+        data.iridescenceTexture = addTexture(m.iridescenceTexture, false);
+        data.iridescenceThicknessTexture = addTexture(m.iridescenceThicknessTexture, false);
+        data.transmission = m.transmission;
+        data.transmissionTexture = addTexture(m.transmissionTexture, false);
+        data.diffuseTransmission = m.diffuseTransmission;
+        data.diffuseTransmissionColor = m.diffuseTransmissionColor;
+        data.diffuseTransmissionTexture = addTexture(m.diffuseTransmissionTexture, false);
+        data.diffuseTransmissionColorTexture = addTexture(m.diffuseTransmissionColorTexture, true);
+        data.medium = medium;
+        features_ |= (m.clearcoat > 0.0F ? kFeatureClearcoat : 0U) | (m.sheenColor != glm::vec3(0.0F) ? kFeatureSheen : 0U) |
+                     (m.anisotropy > 0.0F ? kFeatureAnisotropy : 0U) | (m.iridescence > 0.0F ? kFeatureIridescence : 0U) |
+                     (m.transmission > 0.0F && lobeOf(m) == kPrincipled ? kFeatureTransmission : 0U) |
+                     (m.diffuseTransmission > 0.0F ? kFeatureDiffuseTransmission : 0U) |
+                     (data.clearcoatNormalTexture != 0 ? kFeatureNormalMaps : 0U);
+        return data;
     }
 
     PrincipledData makePrincipled(const Material& m)
@@ -135,7 +279,8 @@ private:
         data.emissiveTexture = addTexture(m.emissiveTexture, true);
         data.specularTexture = addTexture(m.specularTexture, false);
         data.specularColorTexture = addTexture(m.specularColorTexture, true);
-        flat_.features |= data.normalTexture != 0 ? kFeatureNormalMaps : 0U;
+        data.glossy = m.glossy ? 1 : 0;
+        features_ |= data.normalTexture != 0 ? kFeatureNormalMaps : 0U;
         return data;
     }
 
@@ -156,7 +301,7 @@ private:
         data.rowU = texture->rowU;
         data.rowV = texture->rowV;
         flat_.textures.push_back(data);
-        flat_.features |= kFeatureTextures | (transformed ? kFeatureTextureTransforms : 0U) | (wide ? kFeatureWideTextures : 0U);
+        features_ |= kFeatureTextures | (transformed ? kFeatureTextureTransforms : 0U) | (wide ? kFeatureWideTextures : 0U);
         return static_cast<std::uint32_t>(flat_.textures.size());
     }
 
@@ -195,6 +340,8 @@ private:
 
     FlatScene& flat_;
     const Scene& scene_;
+    Media media_;
+    std::uint32_t features_ = 0;                          // of the material that is added
     std::vector<std::optional<glm::dvec4>> colors_;       // by image
     std::map<std::uint32_t, std::uint32_t> firstTexels_;  // by image
 };
@@ -203,29 +350,35 @@ private:
 
 std::uint32_t lobeOf(const Material& m)
 {
-    if (m.glass) {
+    const bool plain = !hasLayers(m);
+    const bool smooth = m.roughness * m.roughness < kMirrorAlpha && !m.metallicRoughnessTexture;
+    if (m.unlit) {
+        return kUnlit;
+    }
+    if (isSmoothGlass(m)) {
         return kDielectric;
     }
-    if (m.metallic == 0.0F && m.specular == 0.0F) {
+    if (plain && m.metallic == 0.0F && m.specular == 0.0F) {
         return kLambert;
     }
-    return m.metallic == 1.0F && m.roughness * m.roughness < kMirrorAlpha ? kMirror : kPrincipled;
+    return plain && m.metallic == 1.0F && smooth ? kMirror : kPrincipled;
+}
+
+bool passesStraight(const Material& m)
+{
+    const bool smooth = m.roughness * m.roughness < kMirrorAlpha && !m.metallicRoughnessTexture;
+    const bool plain = m.clearcoat == 0.0F && m.sheenColor == glm::vec3(0.0F) && m.iridescence == 0.0F && m.anisotropy == 0.0F &&
+                       !m.specularTexture && !m.specularColorTexture && !m.glossy;
+    return !m.unlit && m.transmission > 0.0F && !m.solid && m.metallic < 1.0F && smooth && plain;
 }
 
 void flattenMaterials(FlatScene& flat, const Scene& scene, const std::vector<bool>& colored)
 {
     MaterialFlattener flattener(flat, scene);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        flattener.add(scene.materials[i], colored[i]);
+        flattener.add(static_cast<std::uint32_t>(i), colored[i]);
     }
     flattener.finish();
-}
-
-std::uint32_t featuresOf(const FlatScene& flat, std::uint32_t material)
-{
-    const MaterialData& data = flat.materials[material];
-    const std::uint32_t lobe = data.lobe == kMirror ? kFeatureMirror : data.lobe == kDielectric ? kFeatureDielectric : 0U;
-    return lobe | (data.principled != 0 ? kFeaturePrincipled : 0U);
 }
 
 }  // namespace glim

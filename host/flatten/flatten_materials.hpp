@@ -6,14 +6,15 @@
 
 namespace glim {
 
-// kLambert, kMirror, kDielectric or kPrincipled: the simplest that draws the material exactly, textures and vertex colours apart.
+// kLambert ... (shaders/shared/scene_types.h): the simplest that draws the material exactly, textures and vertex colours apart.
 std::uint32_t lobeOf(const Material& material);
 
-// Fills materials, principled, textures and texels of `flat`. An image of one colour becomes part of the factor that it multiplies.
+// Whether light that the material transmits passes it straight, so that shadow rays pass it too: a smooth thin wall whose reflection no
+// layer or texture changes.
+bool passesStraight(const Material& material);
+
+// Fills materials, principled, layers, textures, media and texels of `flat`. An image of one colour becomes part of the factor that it multiplies.
 // colored[i]: some mesh of material i has vertex colours.
 void flattenMaterials(FlatScene& flat, const Scene& scene, const std::vector<bool>& colored);
-
-// What the material needs of the kernels.
-std::uint32_t featuresOf(const FlatScene& flat, std::uint32_t material);
 
 }  // namespace glim

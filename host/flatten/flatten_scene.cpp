@@ -127,13 +127,17 @@ FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const W
     flat.features = primitives.spheres.empty() ? 0U : kFeatureSpheres;
     flattenMaterials(flat, scene, findColored(scene));
     for (const MeshInstance& instance : scene.instances) {
-        flat.features |= featuresOf(flat, scene.meshes[instance.mesh].material);
+        flat.features |= flat.materialFeatures[scene.meshes[instance.mesh].material];
     }
     for (const Sphere& sphere : scene.spheres) {
-        flat.features |= featuresOf(flat, sphere.material);
+        flat.features |= flat.materialFeatures[sphere.material];
     }
     if ((flat.features & kFeaturePrincipled) != 0) {
         flat.albedos = makeAlbedoTable();
+    }
+    if ((flat.features & kFeatureSheen) != 0) {
+        const std::vector<uvec4> sheen = makeSheenTable();
+        flat.albedos.insert(flat.albedos.end(), sheen.begin(), sheen.end());
     }
     pushShading(flat, primitives);
     const std::vector<std::uint32_t> recordOf = pushRecords(flat, scene, primitives, bvh);

@@ -211,7 +211,7 @@ private:
         light.emitterCount = emitters;
         light.intensity = material.emission;
         light.doubleSided = material.doubleSided ? 1 : 0;
-        light.uneven = material.emissiveTexture || material.alphaMode != AlphaMode::Opaque ? 1 : 0;
+        light.uneven = material.emissiveTexture || material.alphaMode != AlphaMode::Opaque || material.clearcoat > 0.0F ? 1 : 0;
         return light;
     }
 

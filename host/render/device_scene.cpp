@@ -32,7 +32,9 @@ std::vector<uvec4> materialTexels(const FlatScene& scene)
     };
     append(scene.materials);
     append(scene.principled);
+    append(scene.layers);
     append(scene.textures);
+    append(scene.media);
     return texels;
 }
 

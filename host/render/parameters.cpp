@@ -34,6 +34,7 @@ DeviceParameters::DeviceParameters(Device& device, const FlatScene& scene, const
     parameters_.firstUv = scene.firstUv;
     parameters_.firstTangent = scene.firstTangent;
     parameters_.firstColor = scene.firstColor;
+    parameters_.firstMedium = scene.firstMedium;
     parameters_.hidesEnvironment = scene.hidesEnvironment ? 1 : 0;
     parameters_.environmentSize = scene.environmentSize;
     parameters_.environmentCells = scene.environmentCellCount;

@@ -100,13 +100,24 @@ void SceneCheck::checkMaterials() const
         const Material& material = scene_.materials[i];
         require(isReflectance(material.baseColor), "material", i, "has a base colour outside 0 to 1");
         require(isRadiance(material.emission), "material", i, "has an emission that is negative or not finite");
-        require(std::isfinite(material.ior) && (material.ior >= 1.0F || (material.ior == 0.0F && !material.glass)), "material", i,
+        require(std::isfinite(material.ior) && (material.ior >= 1.0F || (material.ior == 0.0F && !material.solid)), "material", i,
                 "has an index of refraction below 1 or not finite");
         const auto isShare = [](float value) { return value >= 0.0F && value <= 1.0F; };
+        const auto isNumber = [](float value) { return std::isfinite(value) && value >= 0.0F; };
         require(isShare(material.metallic) && isShare(material.roughness) && isShare(material.specular) && isShare(material.alpha),
                 "material", i, "has a metallic, roughness, specular or alpha outside 0 to 1");
         require(isRadiance(material.specularColor) && std::isfinite(material.normalScale) && material.alphaCutoff >= 0.0F, "material", i,
                 "has a specular colour, normal scale or alpha cutoff that is negative or not finite");
+        require(isShare(material.transmission) && isShare(material.diffuseTransmission) && isShare(material.clearcoat) &&
+                    isShare(material.clearcoatRoughness) && isShare(material.sheenRoughness) && isShare(material.anisotropy) &&
+                    isShare(material.iridescence),
+                "material", i, "has a share or a roughness of a layer outside 0 to 1");
+        require(isReflectance(material.diffuseTransmissionColor) && isReflectance(material.sheenColor) && isRadiance(material.absorption),
+                "material", i, "has a colour of a layer outside 0 to 1, or an absorption that is negative or not finite");
+        require(isNumber(material.dispersion) && isNumber(material.iridescenceThicknessMinimum) &&
+                    isNumber(material.iridescenceThicknessMaximum) && std::isfinite(material.anisotropyRotation) &&
+                    std::isfinite(material.clearcoatNormalScale) && std::isfinite(material.iridescenceIor) && material.iridescenceIor >= 1.0F,
+                "material", i, "has a dispersion, film or rotation that is negative or not finite");
         for (const std::optional<Texture>* texture : texturesOf(material)) {
             require(!*texture || ((*texture)->image < scene_.images.size() && (*texture)->uvSet <= 1), "material", i,
                     "has a texture without an image");

@@ -133,6 +133,30 @@ std::optional<Environment> chooseEnvironment(const GltfFile& file, const LoadOpt
     return environment;
 }
 
+std::vector<std::string> readVariants(const GltfFile& file)
+{
+    std::vector<std::string> names;
+    const auto extension = file.model.extensions.find("KHR_materials_variants");
+    const tinygltf::Value variants = extension == file.model.extensions.end() ? tinygltf::Value() : extension->second.Get("variants");
+    for (std::size_t i = 0; variants.IsArray() && i < variants.ArrayLen(); ++i) {
+        names.push_back(variants.Get(static_cast<int>(i)).Get("name").Get<std::string>());
+    }
+    return names;
+}
+
+std::optional<std::size_t> findVariant(const GltfFile& file, const std::vector<std::string>& variants, const std::string& name)
+{
+    const auto found = std::find(variants.begin(), variants.end(), name);
+    if (name.empty() || found != variants.end()) {
+        return name.empty() ? std::nullopt : std::optional<std::size_t>(found - variants.begin());
+    }
+    std::string known;
+    for (const std::string& other : variants) {
+        known += (known.empty() ? "\"" : ", \"") + other + "\"";
+    }
+    refuse(file, "it has no variant \"" + name + "\"; expected " + (known.empty() ? "no --variant, since it has none" : "one of " + known));
+}
+
 // The file's materials, then the default one. Those of unused ones say nothing.
 void readMaterials(const GltfFile& file, const LoadOptions& options, Scene& scene, Warnings& warnings)
 {
@@ -148,19 +172,30 @@ void readMaterials(const GltfFile& file, const LoadOptions& options, Scene& scen
     }
 }
 
+// The texture coordinates that the material's tangents follow, if it needs any.
+std::optional<std::uint32_t> uvSetOfTangents(const Material& material)
+{
+    for (const auto* texture : {&material.normalTexture, &material.clearcoatNormalTexture, &material.anisotropyTexture}) {
+        if (*texture) {
+            return (*texture)->uvSet;
+        }
+    }
+    return material.anisotropy > 0.0F ? std::optional<std::uint32_t>(0) : std::nullopt;
+}
+
 // Gives tangents to every mesh that is drawn with a normal map and has none, by the texture coordinates of that map. Flat meshes have those
 // of their faces, whatever the file says.
 void giveTangents(Scene& scene, Warnings& warnings)
 {
     for (Mesh& mesh : scene.meshes) {
-        const std::optional<Texture>& map = scene.materials[mesh.material].normalTexture;
-        if (!map || (!mesh.tangents.empty() && !mesh.normals.empty())) {
+        const std::optional<std::uint32_t> uvSet = uvSetOfTangents(scene.materials[mesh.material]);
+        if (!uvSet || (!mesh.tangents.empty() && !mesh.normals.empty())) {
             continue;
         }
         mesh.tangents.clear();
-        if ((map->uvSet == 0 ? mesh.uv0 : mesh.uv1).empty()) {
-            warnings.add("normal maps without texture coordinates are ignored", mesh.name);
-        } else if (addTangents(mesh, map->uvSet == 1) > 0) {
+        if ((*uvSet == 0 ? mesh.uv0 : mesh.uv1).empty()) {
+            warnings.add("normal maps and anisotropy without texture coordinates are ignored", mesh.name);
+        } else if (addTangents(mesh, *uvSet == 1) > 0) {
             warnings.add("texture coordinates of normal maps have no area in some triangles", mesh.name);
         }
     }
@@ -170,8 +205,10 @@ void giveTangents(Scene& scene, Warnings& warnings)
 
 Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options)
 {
-    const GltfFile file = readGltfFile(path);
+    GltfFile file = readGltfFile(path);
     Scene scene;
+    scene.variants = readVariants(file);
+    file.variant = findVariant(file, scene.variants, options.variant);
     scene.file = file.path;
     scene.files = file.files;
     scene.materials.resize(file.model.materials.size() + 1);

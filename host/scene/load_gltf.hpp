@@ -21,6 +21,7 @@ struct LoadOptions {
     float environmentRotation = 0.0F;              // of a map about +y, radians, added to the file's
     bool environmentBackground = true;             // the camera sees the environment
     MissingTextures missingTextures = MissingTextures::Refuse;
+    std::string variant;       // of KHR_materials_variants; empty: the file's own materials
     float aspectRatio = 1.0F;  // of the picture, for the framed camera if the file has none
 };
 

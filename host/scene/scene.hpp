@@ -39,22 +39,54 @@ struct Material {
     float ior = 1.5F;               // 0: infinite
     float specular = 1.0F;          // strength of the dielectric's reflection
     glm::vec3 specularColor{1.0F};  // of that reflection at normal incidence; may exceed 1
-    bool glass = false;             // a smooth solid dielectric, tinted by the base colour
     glm::vec3 emission{0.0F};       // radiance, W/(sr m^2)
     bool doubleSided = false;       // emits from both sides; scattering is always two-sided
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alpha = 1.0F, alphaCutoff = 0.5F;
     float normalScale = 1.0F;
+    // KHR_materials_transmission, _volume, _dispersion, _diffuse_transmission.
+    float transmission = 0.0F;
+    bool solid = false;           // what transmits encloses a medium; else it is a thin wall
+    glm::vec3 absorption{0.0F};   // of the medium, 1/m
+    float dispersion = 0.0F;      // of the medium: 20 / Abbe number
+    float diffuseTransmission = 0.0F;
+    glm::vec3 diffuseTransmissionColor{1.0F};
+    // _clearcoat, _sheen, _anisotropy, _iridescence.
+    float clearcoat = 0.0F, clearcoatRoughness = 0.0F, clearcoatNormalScale = 1.0F;
+    glm::vec3 sheenColor{0.0F};
+    float sheenRoughness = 0.0F;
+    float anisotropy = 0.0F, anisotropyRotation = 0.0F;  // radians, counter-clockwise from the tangent
+    float iridescence = 0.0F, iridescenceIor = 1.3F;
+    float iridescenceThicknessMinimum = 100.0F, iridescenceThicknessMaximum = 400.0F;  // nm
+    bool unlit = false;   // _unlit: the base colour, for the camera alone
+    bool glossy = false;  // _pbrSpecularGlossiness: specularColor is F0, and roughness the glossiness
     std::optional<Texture> baseColorTexture, metallicRoughnessTexture, normalTexture, emissiveTexture, specularTexture,
-        specularColorTexture;
+        specularColorTexture, transmissionTexture, diffuseTransmissionTexture, diffuseTransmissionColorTexture, clearcoatTexture,
+        clearcoatRoughnessTexture, clearcoatNormalTexture, sheenColorTexture, sheenRoughnessTexture, anisotropyTexture,
+        iridescenceTexture, iridescenceThicknessTexture;
 };
 
 // Every texture that a material may have.
 template <class SomeMaterial>
 auto texturesOf(SomeMaterial& m)
 {
-    return std::array{&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture,
-                      &m.emissiveTexture,  &m.specularTexture,          &m.specularColorTexture};
+    return std::array{&m.baseColorTexture,
+                      &m.metallicRoughnessTexture,
+                      &m.normalTexture,
+                      &m.emissiveTexture,
+                      &m.specularTexture,
+                      &m.specularColorTexture,
+                      &m.transmissionTexture,
+                      &m.diffuseTransmissionTexture,
+                      &m.diffuseTransmissionColorTexture,
+                      &m.clearcoatTexture,
+                      &m.clearcoatRoughnessTexture,
+                      &m.clearcoatNormalTexture,
+                      &m.sheenColorTexture,
+                      &m.sheenRoughnessTexture,
+                      &m.anisotropyTexture,
+                      &m.iridescenceTexture,
+                      &m.iridescenceThicknessTexture};
 }
 
 // Nothing but a diffuse lobe.
@@ -143,6 +175,7 @@ struct Scene {
     std::vector<PunctualLight> lights;
     std::vector<Camera> cameras;  // never empty after load_gltf: one is framed where the file has none
     std::optional<Environment> environment;
+    std::vector<std::string> variants;  // names in KHR_materials_variants
     std::vector<std::string> warnings;  // one line each: what was ignored, mapped, dropped or framed
 };
 

@@ -41,4 +41,15 @@ vec2 fetchAverageAlbedo(AlbedoRow row)
     return both.xy + (both.zw - both.xy) * row.weight;
 }
 
+// The albedo of the sheen lobe for the colour white, which may exceed 1.
+float fetchSheenAlbedo(AlbedoRow row, float cosine)
+{
+    float x = sqrt(sqrt(min(cosine, 1.0))) * float(kAlbedoSize - 1u);
+    int column = min(int(x), int(kAlbedoSize) - 2);
+    int at = int(kAlbedoSize * (kAlbedoSize + 1u)) + row.row * int(kAlbedoSize) + column;
+    vec4 corners = uintBitsToFloat(texelFetch(sceneAlbedos, at));
+    vec2 both = corners.xz + (corners.yw - corners.xz) * (x - float(column));
+    return both.x + (both.y - both.x) * row.weight;
+}
+
 #endif

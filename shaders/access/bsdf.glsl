@@ -11,17 +11,51 @@
 #include "principled.glsl"
 
 struct Bsdf {
-    uint lobe;    // kLambert, kMirror, kDielectric, kPrincipled
+    uint lobe;    // kLambert ...
     vec3 color;   // albedo, reflectance at normal incidence, or tint
     float eta;    // dielectric: index beyond the interface over that on wo's side
     Frame frame;  // z: the shading normal on wo's side
     vec3 ng;      // unit, on wo's side
+    uint medium;  // that the surface encloses, or 0
     Principled principled;
 };
 
 bool isDielectric(uint lobe) { return hasFeature(kFeatureDielectric) && lobe == kDielectric; }
 bool isMirror(uint lobe) { return hasFeature(kFeatureMirror) && lobe == kMirror; }
 bool isPrincipled(uint lobe) { return hasFeature(kFeaturePrincipled) && lobe == kPrincipled; }
+
+// The frame whose x axis is the tangent, as far as that is not along n.
+Frame makeFrame(vec3 n, vec3 tangent)
+{
+    vec3 x = tangent - n * dot(n, tangent);
+    float square = dot(x, x);
+    if (!(square > 1e-12 * dot(tangent, tangent))) {
+        return makeFrame(n);
+    }
+    x /= sqrt(square);
+    return Frame(x, cross(n, x), n);
+}
+
+// wo in the shading frame, not along the surface: there lobes divide by its cosine.
+vec3 outgoing(Frame frame, vec3 wo)
+{
+    vec3 local = frameFromWorld(frame, wo);
+    return vec3(local.xy, max(local.z, 1e-6));
+}
+
+Principled makePrincipled(SurfaceInteraction si, SurfaceMaterial material, Frame frame, vec3 wo)
+{
+    PrincipledInput m;
+    m.data = material.principled;
+    m.layers = material.layers;
+    m.baseColor = material.data.baseColor;
+    m.filmThickness = material.filmThickness;
+    m.eta = material.iors.y / material.iors.x;
+    m.passesStraight = hasFeature(kFeatureThinWalls) && passesStraight(material.data);
+    vec3 coatNormal = dot(material.coatNormal, wo) > 0.0 ? material.coatNormal : si.ng;
+    m.coatNormal = frameFromWorld(frame, coatNormal);
+    return makePrincipled(m, outgoing(frame, wo));
+}
 
 // For a dielectric the shading normal alone decides on which side wo is, and so which index is in front, even against the geometric normal.
 // If the geometric normal decided, light could enter by one shading normal and be totally reflected by the others for ever: a furnace of
@@ -32,7 +66,7 @@ Bsdf makeBsdf(SurfaceInteraction si, SurfaceMaterial material, vec3 wo)
     MaterialData data = material.data;
     bool dielectric = isDielectric(data.lobe);
     bool behind = dot(si.ns, wo) < 0.0;
-    float eta = si.front != behind ? data.ior : 1.0 / data.ior;
+    float eta = behind ? material.iors.x / material.iors.y : material.iors.y / material.iors.x;
     vec3 ns = dielectric ? faceForward(si.ns, wo) : visibleNormal(si, wo);
     Bsdf bsdf;
     bsdf.lobe = data.lobe;
@@ -41,17 +75,29 @@ Bsdf makeBsdf(SurfaceInteraction si, SurfaceMaterial material, vec3 wo)
     bsdf.ng = si.ng;
     if (isPrincipled(data.lobe)) {
         ns = reflectingNormal(ns, si.ng, wo);
-        bsdf.principled = makePrincipled(material.principled, data.baseColor, dot(ns, wo));
     }
     bsdf.frame = makeFrame(ns);
+    bsdf.medium = mediumOf(material);
+    if (isPrincipled(data.lobe)) {
+        if (hasFeature(kFeatureAnisotropy) && material.layers.anisotropy > 0.0) {
+            bsdf.frame = makeFrame(ns, material.tangent);
+        }
+        bsdf.principled = makePrincipled(si, material, bsdf.frame, wo);
+    }
     return bsdf;
 }
 
 // Whether any lobe can be evaluated, so that sampling lights makes sense.
 bool hasNonDelta(Bsdf bsdf)
 {
-    bool principled = isPrincipled(bsdf.lobe) && !(bsdf.principled.smooth_ && bsdf.principled.specularProbability == 1.0);
+    bool principled = isPrincipled(bsdf.lobe) && !isDeltaOnly(bsdf.principled);
     return bsdf.lobe == kLambert || principled;
+}
+
+// Whether a lobe that is not delta transmits.
+bool transmitsDiffusely(Bsdf bsdf)
+{
+    return hasFeature(kFeatureTransmission | kFeatureDiffuseTransmission) && isPrincipled(bsdf.lobe) && hasNonDelta(bsdf);
 }
 
 // All lobes that are not delta. Directions in world space, unit, away from the surface.
@@ -59,13 +105,14 @@ BsdfEval evalBsdf(Bsdf bsdf, vec3 wo, vec3 wi)
 {
     vec3 local = frameFromWorld(bsdf.frame, wi);
     bool reflects = hasNonDelta(bsdf) && local.z > 0.0 && dot(wi, bsdf.ng) > 0.0;
-    if (isPrincipled(bsdf.lobe) && reflects) {
-        return evalPrincipled(bsdf.principled, frameFromWorld(bsdf.frame, wo), local);
+    bool through = transmitsDiffusely(bsdf) && local.z < 0.0 && dot(wi, bsdf.ng) < 0.0;
+    if (isPrincipled(bsdf.lobe) && (reflects || through)) {
+        return evalPrincipled(bsdf.principled, outgoing(bsdf.frame, wo), local);
     }
     return BsdfEval(reflects ? evalLambert(bsdf.color, local) : vec3(0.0), reflects ? pdfLambert(local) : 0.0);
 }
 
-// If the sampled direction points through the geometric surface, a mirror reflects about the geometric normal instead, and any other
+// If the sampled direction is on the wrong side of the geometric surface, a mirror reflects about the geometric normal instead, and any other
 // surface absorbs the light.
 BsdfSample sampleReflection(Bsdf bsdf, vec3 wo, vec2 u, float uLobe)
 {
@@ -75,12 +122,13 @@ BsdfSample sampleReflection(Bsdf bsdf, vec3 wo, vec2 u, float uLobe)
     }
     BsdfSample s;
     if (isPrincipled(bsdf.lobe)) {
-        s = samplePrincipled(bsdf.principled, frameFromWorld(bsdf.frame, wo), u, uLobe);
+        s = samplePrincipled(bsdf.principled, outgoing(bsdf.frame, wo), u, uLobe);
     } else {
         s = sampleLambert(bsdf.color, u);
     }
     s.wi = worldFromFrame(bsdf.frame, s.wi);
-    s.weight = dot(s.wi, bsdf.ng) > 0.0 ? s.weight : vec3(0.0);
+    float outwards = (s.flags & kBsdfTransmission) != 0u ? -dot(s.wi, bsdf.ng) : dot(s.wi, bsdf.ng);
+    s.weight = outwards > 0.0 ? s.weight : vec3(0.0);
     return s;
 }
 

@@ -8,11 +8,10 @@
 #include "notes.glsl"
 #include "pass.glsl"
 
-// For BSDFs whose non-delta lobes only reflect. With non-delta transmission the side is unknown before wi is: p must then be the point
-// itself.
+// If a lobe that is not delta transmits, the side is unknown before wi is: p is then the point itself.
 LightContext makeLightContext(SurfaceInteraction si, Bsdf bsdf)
 {
-    return LightContext(offsetRayOrigin(si, si.ng), si.ng, bsdf.frame.z);
+    return LightContext(transmitsDiffusely(bsdf) ? si.p : offsetRayOrigin(si, si.ng), si.ng, bsdf.frame.z);
 }
 
 // The context of the vertex that the path's ray has left.

@@ -9,15 +9,19 @@
 
 layout(constant_id = kSpecFeatures) const uint kFeatures = kAllFeatures;
 
-// Whether the scene needs the feature, one of shared/features.h.
+// Whether the scene needs the feature of shared/features.h, or one of several.
 bool hasFeature(uint feature)
 {
     return (kFeatures & feature) != 0u;
 }
 
-// Lights that a ray may hit by chance.
+// What has a LayersData.
+const uint kLayerFeatures = kFeatureClearcoat | kFeatureSheen | kFeatureAnisotropy | kFeatureIridescence | kFeatureTransmission |
+                            kFeatureDiffuseTransmission | kFeatureMedia;
+
+// Light that a ray may hit by chance.
 bool hasEnvironment() { return hasFeature(kFeatureEnvironment); }
-bool hasEmissiveSurfaces() { return hasFeature(kFeatureTriangleLights) || hasFeature(kFeatureSphereLights); }
+bool hasEmissiveSurfaces() { return hasFeature(kFeatureTriangleLights | kFeatureSphereLights | kFeatureUnlit); }
 
 layout(constant_id = kSpecStackLevels) const uint kStackLevels = kMaxStackLevels;
 layout(constant_id = kSpecTexelViews) const uint kTexelViews = kMaxTexelViews;

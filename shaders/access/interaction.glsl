@@ -112,7 +112,7 @@ vec3 reflectingNormal(vec3 ns, vec3 ng, vec3 wo)
 // Radiance that the surface itself sends towards wo.
 vec3 emittedRadiance(SurfaceInteraction si, MaterialData material)
 {
-    return si.emitter != 0u && (si.front || material.doubleSided != 0u) ? material.emission : vec3(0.0);
+    return si.emitter != 0u && (si.front || (material.flags & kDoubleSided) != 0u) ? material.emission : vec3(0.0);
 }
 
 // The point, moved to the side of the surface that w points to, beyond its error bound.

@@ -78,10 +78,10 @@ float pdfLight(LightContext context, LightHit hit)
     return pdfSurfaceLight(light, fetchEmitter(hit.emitter).areaPdf, context, hit.t, hit.cosine);
 }
 
-// Whether its emission changes over the surface, by a texture or by coverage.
+// Whether its emission changes over the surface, by a texture, coverage or a coat.
 bool isUneven(FlatLight light)
 {
-    return (hasFeature(kFeatureTextures) || hasFeature(kFeatureAlpha)) && light.uneven != 0u;
+    return hasFeature(kFeatureTextures | kFeatureAlpha | kFeatureClearcoat) && light.uneven != 0u;
 }
 
 LightSample sampleTriangleLight(FlatLight light, LightContext context, uvec2 choice, vec2 u)
@@ -106,7 +106,7 @@ LightSample sampleTriangleLight(FlatLight light, LightContext context, uvec2 cho
     bool faces = cosine > 0.0;
     vec3 radiance = light.intensity;
     if (isUneven(light)) {
-        radiance *= emissionFactor(record, point, barycentric);
+        radiance *= emissionFactor(record, point, barycentric, cosine);
     }
     return LightSample(faces ? towards / distance_ : vec3(0.0), faces ? radiance / pdf : vec3(0.0), faces ? pdf : 0.0, target,
                        emitter.primitive, 1.0);
@@ -128,11 +128,12 @@ LightSample sampleSphereCone(FlatLight light, FlatEmitter emitter, vec3 outward,
     float pdf = light.probability * pdfCone(sin2);
     vec3 point = light.position + light.radius * n;
     vec3 target = offsetPoint(point, n, sphereErrorBound(light.position, light.radius));
+    vec3 wi = worldFromFrame(frame, vec3(local.xy, -local.z));
     vec3 radiance = light.intensity;
     if (isUneven(light)) {
-        radiance *= emissionFactor(fetchRecord(emitter.record), point, vec2(0.0));
+        radiance *= emissionFactor(fetchRecord(emitter.record), point, vec2(0.0), abs(dot(n, wi)));
     }
-    return LightSample(worldFromFrame(frame, vec3(local.xy, -local.z)), radiance / pdf, pdf, target, emitter.primitive, 1.0);
+    return LightSample(wi, radiance / pdf, pdf, target, emitter.primitive, 1.0);
 }
 
 // From within a sphere that emits inwards too: uniform over its area.
@@ -150,7 +151,7 @@ LightSample sampleSphereArea(FlatLight light, FlatEmitter emitter, LightContext 
     vec3 target = offsetPoint(point, -n, sphereErrorBound(light.position, light.radius));
     vec3 radiance = light.intensity;
     if (isUneven(light)) {
-        radiance *= emissionFactor(fetchRecord(emitter.record), point, vec2(0.0));
+        radiance *= emissionFactor(fetchRecord(emitter.record), point, vec2(0.0), cosine);
     }
     return LightSample(towards / distance_, radiance / pdf, pdf, target, emitter.primitive, 1.0);
 }

@@ -4,6 +4,7 @@
 
 #include "interaction.glsl"
 #include "lib/lat_long.glsl"
+#include "lib/thin_film.glsl"
 #include "parameters.glsl"
 #include "texture.glsl"
 
@@ -31,6 +32,9 @@ vec4 textureCoordinates(SurfaceInteraction si)
 // The same at a point of a record that is not yet an interaction.
 vec4 textureCoordinates(Record record, vec3 point, vec2 barycentric)
 {
+    if (!hasFeature(kFeatureTextures)) {
+        return vec4(0.0);
+    }
     if (isSphere(record)) {
         return latLongFromDirection(normalizeSafely(point - floatsOf(record.t0))).xyxy;
     }
@@ -39,23 +43,37 @@ vec4 textureCoordinates(Record record, vec3 point, vec2 barycentric)
 
 // glTF 2.0, section 3.9.3. The frame is that of MikkTSpace: interpolated normal and tangent, neither of unit length. On the back the whole
 // normal is turned. Not finite or zero: the normal stays.
-vec3 mappedNormal(SurfaceInteraction si, vec4 uv, PrincipledData data)
+vec3 mappedNormal(SurfaceInteraction si, vec4 uv, uint texture_, float scale)
 {
     float side = si.front ? 1.0 : -1.0;
     vec4 tangent = vertexAttribute(render.firstTangent, si);
     vec3 n = hasFeature(kFeatureSmooth) ? vertexNormal(si.primitive, si.barycentric) : vec3(0.0);
     n = dot(n, n) > 0.0 ? n : side * si.ng;
     vec3 bitangent = cross(n, tangent.xyz) * (tangent.w < 0.0 ? -1.0 : 1.0);
-    vec3 local = (2.0 * sampleTexture(data.normalTexture, uv).xyz - 1.0) * vec3(data.normalScale, data.normalScale, 1.0);
+    vec3 local = (2.0 * sampleTexture(texture_, uv).xyz - 1.0) * vec3(scale, scale, 1.0);
     vec3 mapped = tangent.xyz * local.x + bitangent * local.y + n * local.z;
     float square = dot(mapped, mapped);
     return square > 0.0 && dot(tangent.xyz, tangent.xyz) > 0.0 ? side * mapped / sqrt(square) : si.ns;
+}
+
+bool isUnlit(MaterialData data)
+{
+    return hasFeature(kFeatureUnlit) && data.lobe == kUnlit;
+}
+
+// Whether the light that it transmits passes straight, and is transparency.glsl's.
+bool passesStraight(MaterialData data)
+{
+    return (data.flags & kThinWall) != 0u;
 }
 
 // Coverage at a point of a record with alpha, in [0, 1].
 float alphaOf(Record record, vec3 point, vec2 barycentric)
 {
     MaterialData material = fetchMaterial(materialOf(record));
+    if (material.alphaCutoff == kOpaque) {
+        return 1.0;
+    }
     float alpha = material.alpha;
     if (hasFeature(kFeaturePrincipled) && material.principled != 0u) {
         if (hasFeature(kFeatureVertexColors) && render.firstColor != 0u && !isSphere(record)) {
@@ -70,13 +88,25 @@ float alphaOf(Record record, vec3 point, vec2 barycentric)
     return material.alphaCutoff >= 0.0 ? masked : alpha;
 }
 
-// What texture and coverage multiply a material's emission by, at a point of a record.
-vec3 emissionFactor(Record record, vec3 point, vec2 barycentric)
+// What a clearcoat leaves of emission, which lies below it: by its Fresnel reflectance at the geometric normal. `cosine`: against that.
+float passedCoat(float clearcoat, float cosine)
+{
+    return 1.0 - clearcoat * (0.04 + 0.96 * schlickWeight(cosine));
+}
+
+// What texture, coat and coverage multiply a material's emission by, at a point of a record. cosine: of the direction it leaves in.
+vec3 emissionFactor(Record record, vec3 point, vec2 barycentric, float cosine)
 {
     MaterialData data = fetchMaterial(materialOf(record));
     vec3 factor = vec3(1.0);
-    if (hasFeature(kFeatureTextures) && data.principled != 0u) {
-        factor = sampleTexture(fetchPrincipled(data.principled).emissiveTexture, textureCoordinates(record, point, barycentric)).rgb;
+    if (hasFeature(kFeatureTextures | kFeatureClearcoat) && data.principled != 0u) {
+        PrincipledData p = fetchPrincipled(data.principled);
+        vec4 uv = textureCoordinates(record, point, barycentric);
+        factor = sampleTexture(p.emissiveTexture, uv).rgb;
+        if (hasFeature(kFeatureClearcoat) && p.layers != 0u) {
+            LayersData layers = fetchLayers(p.layers);
+            factor *= passedCoat(layers.clearcoat * sampleTexture(layers.clearcoatTexture, uv).r, cosine);
+        }
     }
     return hasAlpha(record) ? factor * alphaOf(record, point, barycentric) : factor;
 }
@@ -84,21 +114,81 @@ vec3 emissionFactor(Record record, vec3 point, vec2 barycentric)
 struct SurfaceMaterial {
     MaterialData data;          // base colour and emission with textures
     PrincipledData principled;  // with textures; only of principled materials
+    LayersData layers;          // with textures; factors are 0 if there is none
+    float filmThickness;        // nm
+    vec3 tangent;               // of anisotropy, in world space; of any length
+    vec3 coatNormal;            // unit, turned with ng
+    vec2 iors;                  // of a solid that transmits: on wo's side, and beyond the surface
 };
 
-void applyTextures(inout SurfaceInteraction si, vec4 uv, inout SurfaceMaterial material)
+const LayersData kNoLayers = LayersData(0.0, 0.0, 0u, 0u, vec3(0.0), 0.0, 0u, 0u, 0u, 1.0, 0.0, 1.0, 0.0, 0u, 0.0, 1.3, 0.0, 0.0, 0u, 0u,
+                                        0.0, 0u, vec3(0.0), 0.0, 0u, 0u, 0u, 0u);
+
+// Number of the medium that the surface encloses, or 0.
+uint mediumOf(SurfaceMaterial material)
+{
+    return material.layers.medium;
+}
+
+void applyTextures(vec4 uv, inout SurfaceMaterial material)
 {
     PrincipledData p = material.principled;
     vec4 rough = sampleTexture(p.metallicRoughnessTexture, uv);
+    vec4 specularColor = sampleTexture(p.specularColorTexture, uv);
     material.data.baseColor *= sampleTexture(p.baseColorTexture, uv).rgb;
     material.data.emission *= sampleTexture(p.emissiveTexture, uv).rgb;
     material.principled.metallic *= rough.b;
     material.principled.roughness *= rough.g;
     material.principled.specular *= sampleTexture(p.specularTexture, uv).a;
-    material.principled.specularColor *= sampleTexture(p.specularColorTexture, uv).rgb;
-    if (hasFeature(kFeatureNormalMaps) && p.normalTexture != 0u) {
-        si.ns = mappedNormal(si, uv, p);
+    material.principled.specularColor *= specularColor.rgb;
+    if (hasFeature(kFeatureGlossiness) && p.glossy != 0u) {
+        material.principled.roughness *= specularColor.a;
     }
+}
+
+void applyLayerTextures(vec4 uv, inout SurfaceMaterial material)
+{
+    LayersData l = material.layers;
+    if (hasFeature(kFeatureClearcoat)) {
+        material.layers.clearcoat *= sampleTexture(l.clearcoatTexture, uv).r;
+        material.layers.clearcoatRoughness *= sampleTexture(l.clearcoatRoughnessTexture, uv).g;
+    }
+    if (hasFeature(kFeatureSheen)) {
+        material.layers.sheenColor *= sampleTexture(l.sheenColorTexture, uv).rgb;
+        material.layers.sheenRoughness *= sampleTexture(l.sheenRoughnessTexture, uv).a;
+    }
+    if (hasFeature(kFeatureAnisotropy) && l.anisotropyTexture != 0u) {
+        vec3 a = sampleTexture(l.anisotropyTexture, uv).xyz;
+        vec2 d = 2.0 * a.xy - 1.0;
+        float size = length(d);
+        d = size > 0.0 ? d / size : vec2(1.0, 0.0);
+        material.layers.anisotropy *= a.z;
+        material.layers.anisotropyCosine = l.anisotropyCosine * d.x - l.anisotropySine * d.y;
+        material.layers.anisotropySine = l.anisotropySine * d.x + l.anisotropyCosine * d.y;
+    }
+    if (hasFeature(kFeatureIridescence)) {
+        material.layers.iridescence *= sampleTexture(l.iridescenceTexture, uv).r;
+        material.filmThickness = mix(l.iridescenceThicknessMinimum, l.iridescenceThicknessMaximum,
+                                     sampleTexture(l.iridescenceThicknessTexture, uv).g);
+    }
+    if (hasFeature(kFeatureTransmission)) {
+        material.layers.transmission *= sampleTexture(l.transmissionTexture, uv).r;
+    }
+    if (hasFeature(kFeatureDiffuseTransmission)) {
+        material.layers.diffuseTransmission *= sampleTexture(l.diffuseTransmissionTexture, uv).a;
+        material.layers.diffuseTransmissionColor *= sampleTexture(l.diffuseTransmissionColorTexture, uv).rgb;
+    }
+}
+
+// The tangent that anisotropy turns from: of the mesh, or on a sphere the way that longitude grows.
+vec3 surfaceTangent(SurfaceInteraction si, LayersData layers)
+{
+    vec3 outward = si.front ? si.ng : -si.ng;
+    vec4 tangent = isOnSphere(si) ? vec4(outward.z == 0.0 && outward.x == 0.0 ? vec3(1.0, 0.0, 0.0) : vec3(-outward.z, 0.0, outward.x), 1.0)
+                                  : vertexAttribute(render.firstTangent, si);
+    vec3 n = si.front ? si.ns : -si.ns;
+    vec3 bitangent = cross(n, tangent.xyz) * (tangent.w < 0.0 ? -1.0 : 1.0);
+    return tangent.xyz * layers.anisotropyCosine + bitangent * layers.anisotropySine;
 }
 
 // May change the interaction's shading normal.
@@ -106,13 +196,39 @@ SurfaceMaterial materialAt(inout SurfaceInteraction si)
 {
     SurfaceMaterial material;
     material.data = fetchMaterial(si.material);
+    material.layers = kNoLayers;
+    material.coatNormal = si.ns;
+    material.iors = si.front ? vec2(1.0, material.data.ior) : vec2(material.data.ior, 1.0);
     if (hasFeature(kFeaturePrincipled) && material.data.principled != 0u) {
         material.principled = fetchPrincipled(material.data.principled);
+        bool layered = hasFeature(kLayerFeatures) && material.principled.layers != 0u;
+        if (layered) {
+            material.layers = fetchLayers(material.principled.layers);
+            material.filmThickness = material.layers.iridescenceThicknessMaximum;
+        }
         if (hasFeature(kFeatureVertexColors) && render.firstColor != 0u) {
             material.data.baseColor *= vertexAttribute(render.firstColor, si).rgb;
         }
         if (hasFeature(kFeatureTextures)) {
-            applyTextures(si, textureCoordinates(si), material);
+            vec4 uv = textureCoordinates(si);
+            applyTextures(uv, material);
+            if (layered) {
+                applyLayerTextures(uv, material);
+            }
+            if (hasFeature(kFeatureNormalMaps) && hasFeature(kFeatureClearcoat) && material.layers.clearcoatNormalTexture != 0u) {
+                material.coatNormal = mappedNormal(si, uv, material.layers.clearcoatNormalTexture, material.layers.clearcoatNormalScale);
+            }
+            if (hasFeature(kFeatureNormalMaps) && material.principled.normalTexture != 0u) {
+                si.ns = mappedNormal(si, uv, material.principled.normalTexture, material.principled.normalScale);
+            }
+        }
+        if (hasFeature(kFeatureAnisotropy) && material.layers.anisotropy > 0.0) {
+            material.tangent = surfaceTangent(si, material.layers);
+        }
+        if (hasFeature(kFeatureGlossiness) && material.principled.glossy != 0u) {
+            vec3 specular = material.principled.specularColor;
+            material.principled.roughness = 1.0 - material.principled.roughness;
+            material.data.baseColor *= 1.0 - clamp(max(specular.r, max(specular.g, specular.b)), 0.0, 1.0);
         }
     }
     return material;

@@ -4,6 +4,7 @@
 #define GLIM_ACCESS_NEXT_RAY
 
 #include "bsdf.glsl"
+#include "lib/media.glsl"
 #include "lib/octahedral.glsl"
 #include "notes.glsl"
 #include "pass.glsl"
@@ -21,8 +22,16 @@ BsdfSample sampleNextRay(SampleId id, Bsdf bsdf, vec3 wo, uint bounce, out float
 // course. `throughput` includes the sample's weight.
 float continuationOf(BsdfSample s, vec3 throughput, float etaScale, uint bounce);
 
-// Samples the BSDF and plays roulette. False if the path ends: ray and state are then of no use.
-bool bouncePath(SampleId id, SurfaceInteraction si, Bsdf bsdf, vec3 wo, out PathRay ray, inout PathState state)
+// The media that a ray which leaves the surface is in.
+uint mediaOfNextRay(uint media, SurfaceInteraction si, Bsdf bsdf, vec3 wi)
+{
+    bool crosses = bsdf.medium != 0u && dot(wi, si.ng) < 0.0;
+    uint after = crosses ? mediaBeyond(media, bsdf.medium, si.front) : media;
+    return hasFeature(kFeatureMedia) ? after : 0u;
+}
+
+// Samples the BSDF and plays roulette. False if the path ends: ray and state are then of no use. `media`: of the ray that has arrived.
+bool bouncePath(SampleId id, SurfaceInteraction si, Bsdf bsdf, vec3 wo, uint media, out PathRay ray, inout PathState state)
 {
     float uRoulette;
     BsdfSample s = sampleNextRay(id, bsdf, wo, state.bounce, uRoulette);
@@ -35,6 +44,7 @@ bool bouncePath(SampleId id, SurfaceInteraction si, Bsdf bsdf, vec3 wo, out Path
         noteContinuation(continuation);
     }
     ray = spawnRay(si, s.wi);
+    ray.media = mediaOfNextRay(media, si, bsdf, s.wi);
     state = PathState(throughput / continuation, s.pdf, max(0.0, dot(s.wi, bsdf.frame.z)), etaScale, state.bounce + 1u,
                       encodeNormal(bsdf.frame.z));
     return scatters && uRoulette < continuation;

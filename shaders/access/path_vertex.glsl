@@ -8,6 +8,7 @@
 #include "first_hit.glsl"
 #include "lib/mis.glsl"
 #include "lib/roulette.glsl"
+#include "media.glsl"
 #include "next_ray.glsl"
 
 struct VertexResult {
@@ -35,7 +36,8 @@ float misWeightOfHit(PathState state, float lightPdf)
 // Environment light that an escaping ray has hit, times throughput and MIS weight.
 vec3 shadeMiss(PathRay ray, PathState state)
 {
-    return state.throughput * weightedEnvironment(ray, state);
+    vec3 environment = state.throughput * weightedEnvironment(ray, state);
+    return hasFeature(kFeatureMedia) ? environment * mediaTransmittance(ray.media, kInfinity) : environment;
 }
 
 float misWeightOfSample(float lightPdf, float bsdfPdf)
@@ -60,18 +62,31 @@ VertexResult shadeSurface(SampleId id, PathRay ray, PathHit hit, PathState state
     vec3 wo = -ray.direction;
     SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
     SurfaceMaterial material = materialAt(si);
+    if (hasFeature(kFeatureMedia)) {
+        state.throughput *= mediaTransmittance(ray.media, hit.t);
+        setIndices(id, si, material, ray.media, state.throughput);
+    }
     Bsdf bsdf = makeBsdf(si, material, wo);
     noteSurface(si, bsdf.frame.z);
     VertexResult result;
     result.emitted = vec3(0.0);
     if (hasEmissiveSurfaces()) {
+        if (hasFeature(kFeatureClearcoat)) {
+            material.data.emission *= passedCoat(material.layers.clearcoat, dot(si.ng, wo));
+        }
         result.emitted = state.throughput * weightedEmission(si, material.data, ray, hit, state);
+        if (isUnlit(material.data)) {
+            result.emitted = state.throughput * material.data.baseColor;
+        }
     }
     result.firstHit = makeFirstHit(si, material.data, wo);
     result.hasShadowRay = samplesLights(state.bounce, render.maxBounces, render.minPathLength, render.lightCount) && hasNonDelta(bsdf) &&
                           sampleDirectLight(id, si, bsdf, wo, state, result.shadowRay);
+    if (hasFeature(kFeatureMedia) && result.hasShadowRay) {
+        result.shadowRay.contribution *= mediaTransmittance(ray.media, si, bsdf.medium, result.shadowRay);
+    }
     result.state = state;
-    result.hasNextRay = state.bounce < render.maxBounces && bouncePath(id, si, bsdf, wo, result.ray, result.state);
+    result.hasNextRay = state.bounce < render.maxBounces && bouncePath(id, si, bsdf, wo, ray.media, result.ray, result.state);
     return result;
 }
 

@@ -1,31 +1,71 @@
-// The glTF material at a point (glTF 2.0, appendix B; KHR_materials_ior and _specular): one GGX lobe over a diffuse base.
+// The glTF material at a point (glTF 2.0, appendix B, and the KHR_materials extensions), from the outside in: a clearcoat, sheen, and an
+// interface of GGX microfacets, which reflects and transmits, over a diffuse base.
 //
 // Metal and dielectric share the distribution of microfacets, and Schlick's reflectance is linear in F0 and F90. So the mix of the two
 // BSDFs by `metallic` is exactly one GGX lobe with mixed F0 and F90, and a diffuse lobe of colour base (1 - metallic). The specification's
 // own coupling of the two reflects up to 1.68 of the light; here the diffuse lobe gets what the interface lets through both ways, and
 // light that single scattering loses between microfacets comes back (lib/bsdf/multiple_scattering.glsl). Both are sampled by the cosine.
+// A coat or sheen leaves to what is below the lesser of 1 - E(wo) and 1 - E(wi): reciprocal, and no energy is created over any base.
 #ifndef GLIM_ACCESS_PRINCIPLED
 #define GLIM_ACCESS_PRINCIPLED
 
 #include "albedo_table.glsl"
 #include "lib/bsdf/ggx.glsl"
+#include "lib/bsdf/ggx_transmission.glsl"
 #include "lib/bsdf/multiple_scattering.glsl"
+#include "lib/bsdf/sheen.glsl"
+#include "lib/frame.glsl"
 #include "lib/fresnel.glsl"
-#include "lib/luminance.glsl"
+#include "lib/thin_film.glsl"
 
-// A lobe that is not black is sampled with at least this probability.
+// A lobe that is not black is sampled with at least this probability, before all of them are scaled to 1.
 const float kLeastLobeProbability = 0.02;
+const float kCoatF0 = 0.04;  // of the index 1.5
+
+// The material's numbers at the point, with textures. Directions and frames of this file are in the shading frame, z on wo's side.
+struct PrincipledInput {
+    PrincipledData data;
+    LayersData layers;
+    vec3 baseColor;
+    vec3 coatNormal;        // unit, on wo's side
+    float filmThickness;    // nm
+    float eta;              // index beyond the surface over that on wo's side
+    bool passesStraight;    // light that a smooth thin wall transmits is not this BSDF's (transparency.glsl)
+};
 
 struct Principled {
+    // The interface.
     vec2 alpha;
-    bool smooth_;            // the GGX lobe is a delta lobe
+    bool smooth_;          // a delta lobe
     vec3 f0;
     float f90;
+    vec3 transmitted;      // colour of light that it transmits, times its share; 0: none
+    vec3 dielectricF0;     // of the part that is not metal, which transmits
+    float dielectricF90;
+    vec3 metalF0;
+    float metallic;
+    float eta;
+    bool solid;             // refracts; else a thin wall
+    vec3 film;              // share, index, thickness in nm
+    // What lies below it.
     vec2 baseReflectance;    // F0 and F90 of the interface over the diffuse lobe, by its strongest channel
     float baseFms;           // its multipleScatteringFresnel
     vec3 scattered, diffuse; // of the cosine lobes: what does not depend on wi (evalCosineLobes)
+    vec3 diffuseThrough;     // of the cosine lobe on the far side
     AlbedoRow row;
-    float specularProbability;
+    // What lies above it.
+    float coat;
+    vec2 coatAlpha;
+    bool coatSmooth;
+    Frame coatFrame;
+    AlbedoRow coatRow;
+    float coatAlbedo;   // at wo
+    vec3 sheen;
+    float sheenAlpha, sheenAlbedo, sheenMost;  // most: of the channels
+    AlbedoRow sheenRow;
+    float passed;       // what both leave of light from wo
+    // Probabilities of the lobes; they add up to 1.
+    float pInterface, pDiffuse, pCoat, pSheen, pThrough;
 };
 
 float interfaceAlbedo(Principled p, vec2 ab)
@@ -33,72 +73,414 @@ float interfaceAlbedo(Principled p, vec2 ab)
     return interfaceAlbedo(ab, p.baseReflectance.xxx, p.baseReflectance.y, p.baseFms.xxx).x;
 }
 
-// `cosine`: of wo against the shading normal, above 0.
-Principled makePrincipled(PrincipledData data, vec3 baseColor, float cosine)
+// Lobes are chosen by the mean of the channels: by luminance, a blue lobe's weights would be up to 14 times those of a white one.
+float channelMean(vec3 v) { return (v.r + v.g + v.b) * (1.0 / 3.0); }
+
+float greatest(vec3 v) { return max(v.r, max(v.g, v.b)); }
+
+// Schlick's weight, or for a solid that transmits that of the exact Fresnel reflectance, which is 1 on total internal reflection.
+float exactWeight(float cosine, float eta)
 {
+    float f0 = (eta - 1.0) * (eta - 1.0) / ((eta + 1.0) * (eta + 1.0));
+    return clamp((fresnelDielectric(cosine, eta) - f0) / (1.0 - f0), 0.0, 1.0);
+}
+
+// With the film, if there is one, over a base of reflectance f0. Within a solid the film is what it is for light from outside.
+vec3 withFilm(Principled p, vec3 f, vec3 f0, float cosine)
+{
+    if (!hasFeature(kFeatureIridescence) || !(p.film.x > 0.0)) {
+        return f;
+    }
+    float outside = p.solid && p.eta < 1.0 ? sqrt(max(0.0, refractedCosine2(cosine, p.eta))) : cosine;
+    return mix(f, filmReflectance(outside, p.film.y, p.film.z, f0), p.film.x);
+}
+
+// Reflectance of the part that is not metal. cosine: against the microfacet.
+vec3 dielectricFresnel(Principled p, float cosine)
+{
+    float s = p.solid ? exactWeight(cosine, p.eta) : schlickWeight(cosine);
+    vec3 f = p.dielectricF0 + (p.dielectricF90 - p.dielectricF0) * s;
+    return p.solid && s >= 1.0 ? vec3(1.0) : withFilm(p, f, p.dielectricF0, cosine);
+}
+
+// Reflectance of the whole interface: without film and refraction the mixture of both parts is Schlick's with mixed F0 and F90.
+vec3 interfaceFresnel(Principled p, float cosine)
+{
+    float s = schlickWeight(cosine);
+    if (hasFeature(kFeatureTransmission | kFeatureIridescence) && (p.solid || p.film.x > 0.0)) {
+        vec3 metal = withFilm(p, p.metalF0 + (1.0 - p.metalF0) * s, p.metalF0, cosine);
+        return mix(dielectricFresnel(p, cosine), metal, p.metallic);
+    }
+    return p.f0 + (p.f90 - p.f0) * s;
+}
+
+// What the interface leaves to the lobes below it, of light at this cosine; `ab` is its fetchAlbedo. At a solid that transmits, whose
+// reflectance has no table, less than that: both directions' shares multiply without a norm.
+float passedInterface(Principled p, vec2 ab, float cosine)
+{
+    float passed = 1.0 - interfaceAlbedo(p, ab);
+    if (hasFeature(kFeatureTransmission) && p.solid) {
+        passed = min(passed, 1.0 - greatest(dielectricFresnel(p, cosine)));
+    }
+    return passed;
+}
+
+bool transmits(Principled p)
+{
+    return hasFeature(kFeatureTransmission) && greatest(p.transmitted) > 0.0;
+}
+
+// Of what the interface samples, the share that it reflects at a microfacet.
+float reflectedShare(Principled p, vec3 reflected, float cosine)
+{
+    if (!transmits(p)) {
+        return 1.0;
+    }
+    float r = channelMean(reflected), t = channelMean(p.transmitted * (1.0 - dielectricFresnel(p, cosine)));
+    return r + t > 0.0 ? r / (r + t) : 1.0;
+}
+
+float sheenAlbedoAt(Principled p, float cosine) { return fetchSheenAlbedo(p.sheenRow, cosine); }
+
+float coatAlbedoAt(Principled p, float cosine)
+{
+    vec2 ab = fetchAlbedo(p.coatRow, cosine);
+    return kCoatF0 * ab.x + ab.y;
+}
+
+// What coat and sheen leave to what is below, of light from a direction whose cosines against their normals are given.
+float passedLayers(Principled p, float coatAlbedo, float sheenAlbedo)
+{
+    float passed = 1.0;
+    if (hasFeature(kFeatureClearcoat)) {
+        passed *= 1.0 - p.coat * coatAlbedo;
+    }
+    if (hasFeature(kFeatureSheen)) {
+        passed *= max(0.0, 1.0 - p.sheenMost * sheenAlbedo);
+    }
+    return passed;
+}
+
+void setCoat(inout Principled p, PrincipledInput m, vec3 wo)
+{
+    p.coat = m.layers.clearcoat;
+    float alpha = m.layers.clearcoatRoughness * m.layers.clearcoatRoughness;
+    p.coatSmooth = alpha < kMinAlpha;
+    p.coatAlpha = vec2(max(alpha, kMinAlpha));
+    p.coatRow = albedoRow(alpha);
+    p.coatFrame = makeFrame(dot(m.coatNormal, wo) > 0.0 ? m.coatNormal : vec3(0.0, 0.0, 1.0));
+    p.coatAlbedo = coatAlbedoAt(p, dot(p.coatFrame.z, wo));
+}
+
+void setSheen(inout Principled p, PrincipledInput m, vec3 wo)
+{
+    float roughness = max(m.layers.sheenRoughness, kMinSheenRoughness);
+    p.sheen = m.layers.sheenRoughness >= kMinSheenRoughness ? m.layers.sheenColor : vec3(0.0);
+    p.sheenMost = greatest(p.sheen);
+    p.sheenAlpha = roughness * roughness;
+    p.sheenRow = albedoRow(p.sheenAlpha);
+    p.sheenAlbedo = sheenAlbedoAt(p, wo.z);
+}
+
+void setTransmission(inout Principled p, PrincipledInput m)
+{
+    p.solid = m.layers.transmission > 0.0 && m.layers.medium != 0u;
+    p.eta = p.solid ? m.eta : 1.0;
+    bool bends = abs(p.eta - 1.0) >= kMinEtaStep;
+    p.smooth_ = p.smooth_ || (p.solid && !bends);
+    float share = p.smooth_ && !p.solid && m.passesStraight ? 0.0 : m.layers.transmission;
+    p.transmitted = m.baseColor * share * (1.0 - m.data.metallic);
+}
+
+// `wo`: z above 0.
+Principled makePrincipled(PrincipledInput m, vec3 wo)
+{
+    PrincipledData data = m.data;
     Principled p;
-    float alpha = data.roughness * data.roughness;
+    float alpha = data.roughness * data.roughness, tableAlpha = alpha;
     p.alpha = vec2(alpha);
-    p.smooth_ = alpha < kMinAlpha;
-    vec3 dielectric = min(data.reflectance * data.specularColor, vec3(1.0)) * data.specular;
-    p.f0 = mix(dielectric, baseColor, data.metallic);
+    if (hasFeature(kFeatureAnisotropy)) {
+        float strength = m.layers.anisotropy;
+        p.alpha.x = mix(alpha, 1.0, strength * strength);
+        tableAlpha = sqrt(0.5 * (p.alpha.x * p.alpha.x + alpha * alpha));
+    }
+    p.smooth_ = p.alpha.x < kMinAlpha;
+    p.alpha = max(p.alpha, kMinAlpha);
+    float reflectance = data.reflectance;
+    if (hasFeature(kFeatureTransmission) && m.layers.transmission > 0.0 && m.layers.medium != 0u) {
+        reflectance = (m.eta - 1.0) * (m.eta - 1.0) / ((m.eta + 1.0) * (m.eta + 1.0));
+    }
+    vec3 dielectric = min(reflectance * data.specularColor, vec3(1.0)) * data.specular;
+    p.f0 = mix(dielectric, m.baseColor, data.metallic);
     p.f90 = mix(data.specular, 1.0, data.metallic);
-    p.baseReflectance = vec2(max(dielectric.r, max(dielectric.g, dielectric.b)), data.specular);
-    p.row = albedoRow(alpha);
-    vec2 ab = fetchAlbedo(p.row, cosine);
+    p.dielectricF0 = dielectric;
+    p.dielectricF90 = data.specular;
+    p.metalF0 = m.baseColor;
+    p.metallic = data.metallic;
+    p.transmitted = vec3(0.0);
+    p.film = vec3(0.0);
+    p.solid = false;
+    p.eta = 1.0;
+    if (hasFeature(kFeatureTransmission)) {
+        setTransmission(p, m);
+    }
+    vec3 tableF0 = p.f0, tableDielectric = dielectric, tableMetal = m.baseColor;
+    if (hasFeature(kFeatureIridescence)) {
+        p.film = vec3(m.layers.iridescence, m.layers.iridescenceIor, m.filmThickness);
+        if (p.film.x > 0.0) {
+            // The tables are linear in F0: those that Schlick needs to give the film's reflectance at wo.
+            float s = schlickWeight(wo.z), rest = 1.0 - min(s, 0.999);
+            vec3 metal = withFilm(p, p.metalF0 + (1.0 - p.metalF0) * s, p.metalF0, wo.z);
+            tableDielectric = clamp((dielectricFresnel(p, wo.z) - data.specular * s) / rest, 0.0, 1.0);
+            tableMetal = clamp((metal - s) / rest, 0.0, 1.0);
+            tableF0 = mix(tableDielectric, tableMetal, data.metallic);
+        }
+    }
+    p.baseReflectance = vec2(greatest(tableDielectric), data.specular);
+    p.row = albedoRow(tableAlpha);
+    vec2 ab = fetchAlbedo(p.row, wo.z);
     vec2 average = fetchAverageAlbedo(p.row);
     p.baseFms = multipleScatteringFresnel(average, p.baseReflectance.xxx, p.baseReflectance.y).x;
     // Mixed like the two BSDFs, for it is convex in F0: of the mixed F0, a white half-metal of roughness 1 would reflect .78 of the light.
-    vec3 fms = mix(multipleScatteringFresnel(average, dielectric, data.specular),
-                   multipleScatteringFresnel(average, baseColor, 1.0), data.metallic);
+    vec3 fms = mix(multipleScatteringFresnel(average, tableDielectric, data.specular), multipleScatteringFresnel(average, tableMetal, 1.0),
+                   data.metallic);
     vec3 scattered = fms * (1.0 - ab.x - ab.y);
-    vec3 diffuse = baseColor * (1.0 - data.metallic) * (1.0 - interfaceAlbedo(p, ab));
-    float specular = luminanceOf(singleScatteringAlbedo(ab, p.f0, p.f90));
-    float below = luminanceOf(scattered + diffuse);
-    float probability = clamp(specular / (specular + below), kLeastLobeProbability, 1.0 - kLeastLobeProbability);
-    p.specularProbability = !(specular > 0.0) ? 0.0 : !(below > 0.0) ? 1.0 : probability;
+    float below = (1.0 - data.metallic) * passedInterface(p, ab, wo.z);
+    vec3 through = vec3(0.0);
+    vec3 diffuse = m.baseColor * below;
+    if (hasFeature(kFeatureTransmission)) {
+        diffuse *= 1.0 - m.layers.transmission;
+    }
+    if (hasFeature(kFeatureDiffuseTransmission)) {
+        float left = hasFeature(kFeatureTransmission) ? 1.0 - m.layers.transmission : 1.0;
+        through = m.layers.diffuseTransmissionColor * (below * left * m.layers.diffuseTransmission);
+        diffuse *= 1.0 - m.layers.diffuseTransmission;
+    }
+    p.coat = p.sheenMost = p.coatAlbedo = p.sheenAlbedo = 0.0;
+    if (hasFeature(kFeatureClearcoat)) {
+        setCoat(p, m, wo);
+    }
+    if (hasFeature(kFeatureSheen)) {
+        setSheen(p, m, wo);
+    }
+    p.passed = passedLayers(p, p.coatAlbedo, p.sheenAlbedo);
+    vec3 albedo = singleScatteringAlbedo(ab, tableF0, p.f90);
+    if (hasFeature(kFeatureTransmission)) {
+        albedo = p.solid ? interfaceFresnel(p, wo.z) : albedo;
+        albedo += p.transmitted * (1.0 - dielectricFresnel(p, wo.z));
+    }
+    vec4 weights = vec4(channelMean(albedo), channelMean(scattered + diffuse), 0.0, channelMean(through));
+    float sheenWeight = 0.0;
+    if (hasFeature(kFeatureClearcoat)) {
+        weights *= p.passed;
+        weights.z = p.coat * p.coatAlbedo;
+    }
+    if (hasFeature(kFeatureSheen)) {
+        weights *= hasFeature(kFeatureClearcoat) ? 1.0 : p.passed;
+        sheenWeight = channelMean(p.sheen) * min(p.sheenAlbedo, 1.0);
+    }
+    float sum = max(weights.x + weights.y + weights.z + weights.w + sheenWeight, 1e-30);
+    vec4 probability = mix(clamp(weights / sum, kLeastLobeProbability, 1.0), vec4(0.0), lessThanEqual(weights, vec4(0.0)));
+    p.pSheen = sheenWeight > 0.0 ? max(sheenWeight / sum, kLeastLobeProbability) : 0.0;
+    float scale = 1.0 / max(probability.x + probability.y + probability.z + probability.w + p.pSheen, 1e-30);
+    p.pInterface = probability.x * scale;
+    p.pDiffuse = probability.y * scale;
+    p.pCoat = probability.z * scale;
+    p.pThrough = probability.w * scale;
+    p.pSheen *= scale;
+    float diffuseScale = 1.0 / (kPi * (p.solid ? 1.0 : max(1.0 - interfaceAlbedo(p, average), 1e-6)));
     p.scattered = scattered / (kPi * max(1.0 - average.x - average.y, 1e-6));
-    p.diffuse = diffuse / (kPi * max(1.0 - interfaceAlbedo(p, average), 1e-6));
+    p.diffuse = diffuse * diffuseScale;
+    p.diffuseThrough = through * diffuseScale;
+    if (hasFeature(kFeatureDiffuseTransmission) && m.layers.medium != 0u) {
+        // Into another index, as at a smooth interface; otherwise light that enters by one lobe and leaves by the other is gained or lost.
+        p.eta = m.eta;
+        p.diffuseThrough /= m.eta * m.eta;
+    }
     return p;
 }
 
-// Both diffuse lobes times |cos|, in sr^-1. `cosine`: of wi, above 0.
+// Both diffuse lobes above the surface times |cos|, in sr^-1. `cosine`: of wi, above 0.
 vec3 evalCosineLobes(Principled p, float cosine)
 {
     vec2 ab = fetchAlbedo(p.row, cosine);
-    return (p.scattered * (1.0 - ab.x - ab.y) + p.diffuse * (1.0 - interfaceAlbedo(p, ab))) * cosine;
+    return (p.scattered * (1.0 - ab.x - ab.y) + p.diffuse * passedInterface(p, ab, cosine)) * cosine;
 }
 
-vec3 fresnelSchlick(Principled p, float cosine)
+// Whether all lobes are delta.
+bool isDeltaOnly(Principled p)
 {
-    float m = clamp(1.0 - cosine, 0.0, 1.0), m2 = m * m;
-    return p.f0 + (p.f90 - p.f0) * (m2 * m2 * m);
+    return p.smooth_ && p.pDiffuse + p.pSheen + p.pThrough + (p.coatSmooth ? 0.0 : p.pCoat) == 0.0;
 }
 
-// All lobes that are not delta. Directions in the shading frame with z > 0.
-BsdfEval evalPrincipled(Principled p, vec3 wo, vec3 wi)
+// Light that leaves below the surface. wi.z < 0.
+BsdfEval evalBelow(Principled p, vec3 wo, vec3 wi)
 {
-    BsdfEval result = BsdfEval(evalCosineLobes(p, wi.z), (1.0 - p.specularProbability) * pdfCosineHemisphere(wi.z));
-    if (!p.smooth_) {
-        result.f += fresnelSchlick(p, dot(wo, halfVector(wo, wi))) * evalGgx(wo, wi, p.alpha);
-        result.pdf += p.specularProbability * pdfGgx(wo, wi, p.alpha);
+    BsdfEval result = BsdfEval(vec3(0.0), 0.0);
+    if (hasFeature(kFeatureDiffuseTransmission)) {
+        result = BsdfEval(p.diffuseThrough * passedInterface(p, fetchAlbedo(p.row, -wi.z), -wi.z) * -wi.z,
+                          p.pThrough * pdfCosineHemisphere(-wi.z));
+    }
+    if (transmits(p) && !p.smooth_) {
+        vec3 mirrored = vec3(wi.xy, -wi.z);
+        vec3 h = p.solid ? refractionNormal(wo, wi, p.eta) : halfVector(wo, mirrored);
+        if (h.z > 0.0) {
+            float cosine = dot(wo, h);
+            float share = (1.0 - reflectedShare(p, interfaceFresnel(p, cosine), cosine)) * p.pInterface;
+            float f = p.solid ? evalGgxTransmission(wo, wi, h, p.alpha, p.eta) : evalGgx(wo, mirrored, p.alpha);
+            float pdf = p.solid ? pdfGgxTransmission(wo, wi, h, p.alpha, p.eta) : pdfGgx(wo, mirrored, p.alpha);
+            result.f += p.transmitted * (1.0 - dielectricFresnel(p, cosine)) * f;
+            result.pdf += share * pdf;
+        }
     }
     return result;
 }
 
-// Directions in the shading frame. The weight is that of all lobes together, divided by the density of the mixture.
+BsdfEval evalAbove(Principled p, vec3 wo, vec3 wi)
+{
+    BsdfEval result = BsdfEval(evalCosineLobes(p, wi.z), p.pDiffuse * pdfCosineHemisphere(wi.z));
+    if (!p.smooth_) {
+        float cosine = dot(wo, halfVector(wo, wi));
+        vec3 f = interfaceFresnel(p, cosine);
+        result.f += f * evalGgx(wo, wi, p.alpha);
+        result.pdf += p.pInterface * reflectedShare(p, f, cosine) * pdfGgx(wo, wi, p.alpha);
+    }
+    return result;
+}
+
+// All lobes that are not delta.
+BsdfEval evalPrincipled(Principled p, vec3 wo, vec3 wi)
+{
+    bool above = wi.z > 0.0;
+    BsdfEval result;
+    if (above || !hasFeature(kFeatureTransmission | kFeatureDiffuseTransmission)) {
+        result = evalAbove(p, wo, wi);
+    } else {
+        result = evalBelow(p, wo, wi);
+    }
+    float coatAlbedo = 0.0, sheenAlbedo = 0.0;
+    vec3 coatWi = wi;
+    if (hasFeature(kFeatureClearcoat)) {
+        coatWi = frameFromWorld(p.coatFrame, wi);
+        coatAlbedo = coatAlbedoAt(p, abs(coatWi.z));
+    }
+    if (hasFeature(kFeatureSheen)) {
+        sheenAlbedo = sheenAlbedoAt(p, abs(wi.z));
+    }
+    if (hasFeature(kFeatureClearcoat | kFeatureSheen)) {
+        result.f *= min(p.passed, passedLayers(p, coatAlbedo, sheenAlbedo));
+    }
+    if (hasFeature(kFeatureSheen) && above && p.sheenMost > 0.0) {
+        float left = hasFeature(kFeatureClearcoat) ? min(1.0 - p.coat * p.coatAlbedo, 1.0 - p.coat * coatAlbedo) : 1.0;
+        result.f += p.sheen * (left * evalSheen(wo, wi, p.sheenAlpha) * sheenScale(p.sheenAlbedo, sheenAlbedo) * wi.z);
+        result.pdf += p.pSheen * kPdfSheen;
+    }
+    if (hasFeature(kFeatureClearcoat) && above && coatWi.z > 0.0 && p.coat > 0.0 && !p.coatSmooth) {
+        vec3 coatWo = frameFromWorld(p.coatFrame, wo);
+        float fresnel = kCoatF0 + (1.0 - kCoatF0) * schlickWeight(dot(coatWo, halfVector(coatWo, coatWi)));
+        result.f += p.coat * fresnel * evalGgx(coatWo, coatWi, p.coatAlpha);
+        result.pdf += p.pCoat * pdfGgx(coatWo, coatWi, p.coatAlpha);
+    }
+    return result;
+}
+
+const uint kLobeInterface = 0u;
+const uint kLobeDiffuse = 1u;
+const uint kLobeCoat = 2u;
+const uint kLobeSheen = 3u;
+const uint kLobeThrough = 4u;
+
+// Which lobe u, in [0, 1), falls to; u becomes its place in the lobe's share.
+uint chooseLobe(Principled p, inout float u)
+{
+    uint lobe = kLobeInterface;
+    float share = p.pInterface;
+    // The order ends with lobes that always exist, so that rounding cannot choose one of probability 0.
+    if (hasFeature(kFeatureClearcoat) && u < p.pCoat) {
+        lobe = kLobeCoat;
+        share = p.pCoat;
+    } else {
+        u -= hasFeature(kFeatureClearcoat) ? p.pCoat : 0.0;
+        if (hasFeature(kFeatureSheen) && u < p.pSheen) {
+            lobe = kLobeSheen;
+            share = p.pSheen;
+        } else {
+            u -= hasFeature(kFeatureSheen) ? p.pSheen : 0.0;
+            if (hasFeature(kFeatureDiffuseTransmission) && u < p.pThrough) {
+                lobe = kLobeThrough;
+                share = p.pThrough;
+            } else {
+                u -= hasFeature(kFeatureDiffuseTransmission) ? p.pThrough : 0.0;
+                if (!(u < p.pInterface)) {
+                    u -= p.pInterface;
+                    lobe = kLobeDiffuse;
+                    share = p.pDiffuse;
+                }
+            }
+        }
+    }
+    u = clamp(u / max(share, 1e-30), 0.0, 0.99999994);
+    return lobe;
+}
+
+// Sampled at a microfacet h on wo's side: whether it transmits, and the direction.
+vec3 sampleInterface(Principled p, vec3 wo, vec3 h, float u, out bool below)
+{
+    float cosine = dot(wo, h);
+    below = transmits(p) && u >= reflectedShare(p, interfaceFresnel(p, cosine), cosine);
+    vec3 mirrored = 2.0 * cosine * h - wo;
+    vec3 through = p.solid ? refractThrough(wo, h, abs(p.eta - 1.0) >= kMinEtaStep ? p.eta : 1.0) : vec3(mirrored.xy, -mirrored.z);
+    return below ? through : mirrored;
+}
+
+// The weight of a delta lobe's direction is its reflectance or transmittance over its probability.
+BsdfSample sampleDelta(Principled p, uint lobe, vec3 wo, float u)
+{
+    if (hasFeature(kFeatureClearcoat) && lobe == kLobeCoat) {
+        float cosine = dot(wo, p.coatFrame.z);
+        float fresnel = kCoatF0 + (1.0 - kCoatF0) * schlickWeight(cosine);
+        return BsdfSample(2.0 * cosine * p.coatFrame.z - wo, vec3(p.coat * fresnel / p.pCoat), 0.0, 1.0, kBsdfDelta);
+    }
+    bool below;
+    vec3 wi = sampleInterface(p, wo, vec3(0.0, 0.0, 1.0), u, below);
+    vec3 f = interfaceFresnel(p, wo.z);
+    float share = reflectedShare(p, f, wo.z);
+    if (!below) {
+        return BsdfSample(wi, f * p.passed / (p.pInterface * share), 0.0, 1.0, kBsdfDelta);
+    }
+    float eta = p.solid ? p.eta : 1.0;
+    vec3 weight = p.transmitted * (1.0 - dielectricFresnel(p, wo.z)) * p.passed / (p.pInterface * (1.0 - share) * eta * eta);
+    return BsdfSample(wi, weight, 0.0, eta, kBsdfDelta | kBsdfTransmission);
+}
+
+// The weight is that of all lobes together, divided by the density of the mixture. uLobe chooses the lobe.
 BsdfSample samplePrincipled(Principled p, vec3 wo, vec2 u, float uLobe)
 {
-    bool specular = uLobe < p.specularProbability;
-    if (specular && p.smooth_) {
-        return BsdfSample(vec3(-wo.xy, wo.z), fresnelSchlick(p, wo.z) / p.specularProbability, 0.0, 1.0, kBsdfDelta);
+    uint lobe = chooseLobe(p, uLobe);
+    if ((lobe == kLobeInterface && p.smooth_) || (hasFeature(kFeatureClearcoat) && lobe == kLobeCoat && p.coatSmooth)) {
+        return sampleDelta(p, lobe, wo, uLobe);
     }
-    vec3 wi = specular ? sampleGgx(wo, p.alpha, u) : sampleCosineHemisphere(u);
-    if (!(wi.z > 0.0)) {
+    bool below = false;
+    vec3 wi;
+    if (hasFeature(kFeatureClearcoat) && lobe == kLobeCoat) {
+        wi = worldFromFrame(p.coatFrame, sampleGgx(frameFromWorld(p.coatFrame, wo), p.coatAlpha, u));
+    } else if (hasFeature(kFeatureSheen) && lobe == kLobeSheen) {
+        wi = sampleSheen(u);
+    } else if (lobe == kLobeInterface) {
+        wi = sampleInterface(p, wo, sampleVisibleNormal(wo, p.alpha, u), uLobe, below);
+    } else {
+        wi = sampleCosineHemisphere(u);
+        below = lobe == kLobeThrough;
+        wi.z = below ? -wi.z : wi.z;
+    }
+    bool valid = below ? wi.z < 0.0 : wi.z > 0.0;
+    if (!valid) {
         return BsdfSample(wi, vec3(0.0), 0.0, 1.0, 0u);
     }
     BsdfEval all = evalPrincipled(p, wo, wi);
-    return BsdfSample(wi, all.f / all.pdf, all.pdf, 1.0, 0u);
+    bool bends = lobe == kLobeThrough || p.solid;
+    float eta = below && bends ? p.eta : 1.0;
+    return BsdfSample(wi, all.pdf > 0.0 ? all.f / all.pdf : vec3(0.0), all.pdf, eta, below ? kBsdfTransmission : 0u);
 }
 
 #endif

@@ -48,7 +48,53 @@ PrincipledData fetchPrincipled(uint principled)
         c = texelFetch(sceneMaterials, at + 2);
         d = texelFetch(sceneMaterials, at + 3);
     }
-    return PrincipledData(a.x, a.y, a.z, a.w, b.xyz, b.w, c.x, c.y, c.z, c.w, d.x, d.y, d.zw);
+    bool layered = hasFeature(kLayerFeatures);
+    if (!hasFeature(kFeatureTextures) && layered) {
+        d = texelFetch(sceneMaterials, at + 3);
+    }
+    return PrincipledData(a.x, a.y, a.z, a.w, b.xyz, b.w, c.x, c.y, c.z, c.w, d.x, d.y, layered ? d.z : 0u, d.w);
+}
+
+// Only what the scene's features need; the rest is 0.
+LayersData fetchLayers(uint layers)
+{
+    int at = int(layers);
+    uvec4 a = uvec4(0u), b = uvec4(0u), c = uvec4(0u), d = uvec4(0u), e = uvec4(0u), f = uvec4(0u), g = uvec4(0u), h = uvec4(0u);
+    if (hasFeature(kFeatureClearcoat)) {
+        a = texelFetch(sceneMaterials, at);
+    }
+    if (hasFeature(kFeatureSheen)) {
+        b = texelFetch(sceneMaterials, at + 1);
+    }
+    if (hasFeature(kFeatureTextures) && hasFeature(kFeatureSheen | kFeatureClearcoat)) {
+        c = texelFetch(sceneMaterials, at + 2);
+    }
+    if (hasFeature(kFeatureAnisotropy)) {
+        d = texelFetch(sceneMaterials, at + 3);
+    }
+    if (hasFeature(kFeatureIridescence)) {
+        e = texelFetch(sceneMaterials, at + 4);
+    }
+    if (hasFeature(kFeatureIridescence | kFeatureTransmission)) {
+        f = texelFetch(sceneMaterials, at + 5);
+    }
+    if (hasFeature(kFeatureDiffuseTransmission)) {
+        g = texelFetch(sceneMaterials, at + 6);
+    }
+    if (hasFeature(kFeatureDiffuseTransmission | kFeatureTransmission | kFeatureMedia)) {
+        h = texelFetch(sceneMaterials, at + 7);
+    }
+    vec4 bf = uintBitsToFloat(b), df = uintBitsToFloat(d), ef = uintBitsToFloat(e), gf = uintBitsToFloat(g);
+    return LayersData(uintBitsToFloat(a.x), uintBitsToFloat(a.y), a.z, a.w, bf.xyz, bf.w, c.x, c.y, c.z, uintBitsToFloat(c.w), df.x, df.y,
+                      df.z, d.w, ef.x, ef.y, ef.z, ef.w, f.x, f.y, uintBitsToFloat(f.z), f.w, gf.xyz, gf.w, h.x, h.y, h.z, h.w);
+}
+
+MediumData fetchMedium(uint firstMedium, uint medium)
+{
+    int at = int(firstMedium + (medium - 1u) * kMediumTexels);
+    vec4 a = uintBitsToFloat(texelFetch(sceneMaterials, at));
+    vec4 b = hasFeature(kFeatureDispersion) ? uintBitsToFloat(texelFetch(sceneMaterials, at + 1)) : vec4(0.0);
+    return MediumData(a.xyz, a.w, b.x, b.yzw);
 }
 
 FlatLight fetchLight(uint light)

@@ -1,10 +1,11 @@
-// Surfaces that are transparent in places. Closest hits are accepted with probability alpha, by a number that depends on (pixel, sample,
+// Surfaces that are transparent in places, and smooth thin walls, which light passes straight. Closest hits are accepted by a number that depends on (pixel, sample,
 // bounce, primitive) alone; shadow rays multiply what each surface lets through, in the order along the ray. So neither depends on the
 // tree, on the schedule or on how primitives were split.
 #ifndef GLIM_ACCESS_TRANSPARENCY
 #define GLIM_ACCESS_TRANSPARENCY
 
 #include "bvh_traversal.glsl"
+#include "lib/luminance.glsl"
 #include "material.glsl"
 #include "pass.glsl"
 #include "status.glsl"
@@ -12,27 +13,77 @@
 // Surfaces that a ray passes; the next one counts as opaque, and the ray is counted.
 const uint kMaxPassed = 256u;
 
-float alphaOf(Record record, PathRay ray, PathHit hit)
+// What a smooth thin wall transmits straight, per channel: (1 - F) times the base colour. By the geometric normal.
+vec3 straightTransmittance(Record record, MaterialData data, vec3 direction, vec3 point, vec2 barycentric)
 {
-    return alphaOf(record, ray.origin + ray.direction * hit.t, hit.barycentric);
+    PrincipledData p = fetchPrincipled(data.principled);
+    LayersData layers = fetchLayers(p.layers);
+    vec3 color = data.baseColor;
+    vec4 uv = textureCoordinates(record, point, barycentric);
+    if (hasFeature(kFeatureVertexColors) && render.firstColor != 0u && !isSphere(record)) {
+        color *= vertexAttribute(render.firstColor, primitiveOf(record), barycentric).rgb;
+    }
+    color *= sampleTexture(p.baseColorTexture, uv).rgb;
+    color *= layers.transmission * sampleTexture(layers.transmissionTexture, uv).r * (1.0 - p.metallic);
+    vec3 n = isSphere(record) ? normalizeSafely(point - floatsOf(record.t0))
+                              : triangleNormal(floatsOf(record.t0), floatsOf(record.t1), floatsOf(record.t2));
+    vec3 f0 = min(p.reflectance * p.specularColor, vec3(1.0)) * p.specular;
+    return color * (1.0 - f0 - (p.specular - f0) * schlickWeight(abs(dot(n, direction))));
 }
 
-// The two sides of a sphere draw for themselves.
-bool isPassed(SampleId id, uint bounce, Record record, PathRay ray, PathHit hit)
+// A surface on the way of a ray.
+struct Crossing {
+    float alpha;   // coverage
+    vec3 through;  // what goes on behind it: 1 - alpha, and what the covered part transmits straight
+};
+
+// seesUnlit: the ray is the camera's. direction: unit.
+Crossing crossingAt(Record record, PathRay ray, vec3 direction, PathHit hit, bool seesUnlit)
 {
+    vec3 point = ray.origin + ray.direction * hit.t;
+    MaterialData data = fetchMaterial(materialOf(record));
+    if (isUnlit(data) && !seesUnlit) {
+        return Crossing(0.0, vec3(1.0));
+    }
+    float alpha = alphaOf(record, point, hit.barycentric);
+    Crossing crossing = Crossing(alpha, vec3(1.0 - alpha));
+    if (hasFeature(kFeatureThinWalls) && passesStraight(data)) {
+        crossing.through += alpha * straightTransmittance(record, data, direction, point, hit.barycentric);
+    }
+    return crossing;
+}
+
+// Whether the ray goes on behind the surface; `weight` is then or otherwise what its throughput is multiplied by. The two sides of a sphere
+// draw for themselves.
+bool isPassed(SampleId id, uint bounce, Record record, PathRay ray, PathHit hit, out vec3 weight)
+{
+    Crossing crossing = crossingAt(record, ray, ray.direction, hit, bounce == 0u);
     bool leaves = isSphere(record) && dot(ray.origin + ray.direction * hit.t - floatsOf(record.t0), ray.direction) > 0.0;
     uint bits = hash4(uvec4(id.pixel, id.index, kDimensionAlpha | bounce << 1u | uint(leaves), id.seed ^ primitiveOf(record) * 0x9e3779b9u)).x;
-    return unitFloat(bits) >= alphaOf(record, ray, hit);
+    if (!hasFeature(kFeatureThinWalls)) {
+        weight = vec3(1.0);
+        return unitFloat(bits) >= crossing.alpha;
+    }
+    float probability = luminanceOf(crossing.through);
+    bool passes = !(unitFloat(bits) < 1.0 - probability);
+    weight = passes ? crossing.through / probability : vec3(crossing.alpha / (1.0 - probability));
+    return passes;
 }
 
+struct VisibleHit {
+    PathHit hit;
+    vec3 weight;  // of the path's throughput
+};
+
 // The closest hit that the ray does not pass.
-PathHit traceVisible(SampleId id, uint bounce, PathRay ray, inout Steps steps)
+VisibleHit traceVisible(SampleId id, uint bounce, PathRay ray, inout Steps steps)
 {
     Query query = anyHit();
     if (!hasFeature(kFeatureAlpha)) {
-        return traceClosest(ray, query, steps);
+        return VisibleHit(traceClosest(ray, query, steps), vec3(1.0));
     }
     PathHit hit;
+    vec3 weight = vec3(1.0);
     uint passed = 0u;
     bool passes = false;
     do {
@@ -40,7 +91,11 @@ PathHit traceVisible(SampleId id, uint bounce, PathRay ray, inout Steps steps)
         passes = false;
         if (hit.record != kNoRecord) {
             Record record = fetchRecord(hit.record);
-            passes = hasAlpha(record) && isPassed(id, bounce, record, ray, hit);
+            if (hasAlpha(record)) {
+                vec3 factor;
+                passes = isPassed(id, bounce, record, ray, hit, factor);
+                weight *= factor;
+            }
             query.afterT = hit.t;
             query.afterPrimitive = primitiveOf(record);
         }
@@ -49,49 +104,55 @@ PathHit traceVisible(SampleId id, uint bounce, PathRay ray, inout Steps steps)
     if (passes) {
         reportTransparencyCap();
     }
-    return hit;
+    return VisibleHit(hit, weight);
 }
 
-// What the shadow ray's way lets through, in [0, 1].
-float transmittance(ShadowRay shadow, inout Steps steps)
+// What the shadow ray's way lets through, per channel, in [0, 1].
+vec3 transmittance(ShadowRay shadow, inout Steps steps)
 {
     bool metAlpha;
-    float clear = isUnoccluded(shadow, steps, metAlpha) ? 1.0 : 0.0;
+    vec3 clear = vec3(isUnoccluded(shadow, steps, metAlpha) ? 1.0 : 0.0);
     if (!hasFeature(kFeatureAlpha)) {
         return clear;
     }
     PathRay ray = PathRay(shadow.origin, shadow.source, shadow.direction, 0u);
+    vec3 direction = normalizeSafely(shadow.direction);
     Query query = Query(shadow.tMax, 0.0, kNoPrimitive, shadow.target, true);
     uint passed = 0u;
-    bool going = metAlpha && clear > 0.0;
+    bool going = metAlpha && clear.x > 0.0;
     if (going) {
         do {
-        PathHit hit = traceClosest(ray, query, steps);
-        going = hit.record != kNoRecord;
-        if (going) {
-            Record record = fetchRecord(hit.record);
-            clear *= 1.0 - alphaOf(record, ray, hit);
-            query.afterT = hit.t;
-            query.afterPrimitive = primitiveOf(record);
-            going = clear > 0.0;
-        }
-        ++passed;
+            PathHit hit = traceClosest(ray, query, steps);
+            going = hit.record != kNoRecord;
+            if (going) {
+                Record record = fetchRecord(hit.record);
+                clear *= crossingAt(record, ray, direction, hit, false).through;
+                query.afterT = hit.t;
+                query.afterPrimitive = primitiveOf(record);
+                going = any(greaterThan(clear, vec3(0.0)));
+            }
+            ++passed;
         } while (going && passed <= kMaxPassed);
     }
     if (going) {
         reportTransparencyCap();
-        clear = 0.0;
+        clear = vec3(0.0);
     }
     return clear;
 }
 
+bool isClear(vec3 transmittance_)
+{
+    return hasFeature(kFeatureThinWalls) ? any(greaterThan(transmittance_, vec3(0.0))) : transmittance_.x > 0.0;
+}
+
 // What is left of a contribution; without alpha its bits.
-vec3 attenuated(vec3 contribution, float clear)
+vec3 attenuated(vec3 contribution, vec3 clear)
 {
     return hasFeature(kFeatureAlpha) ? contribution * clear : contribution;
 }
 
-float transmittance(ShadowRay shadow)
+vec3 transmittance(ShadowRay shadow)
 {
     Steps uncounted = Steps(0u, 0u);
     return transmittance(shadow, uncounted);

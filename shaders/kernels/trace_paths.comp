@@ -58,10 +58,10 @@ void visitMiss(inout Path path)
 void traceShadowRay(inout Path path, ShadowRay ray, inout Work work)
 {
     Steps steps = Steps(0u, 0u);
-    float clear = transmittance(ray, steps);
+    vec3 clear = transmittance(ray, steps);
     ++work.shadow;
     work.steps += steps.nodes + steps.primitives;
-    if (clear > 0.0) {
+    if (isClear(clear)) {
         addLight(path, attenuated(ray.contribution, clear), path.state.bounce + 1u);
     }
 }
@@ -88,14 +88,17 @@ bool visitSurface(inout Path path, PathHit hit, inout Work work)
 bool advance(inout Path path, inout Work work)
 {
     Steps steps = Steps(0u, 0u);
-    PathHit hit = traceVisible(path.id, path.state.bounce, path.ray, steps);
+    VisibleHit visible = traceVisible(path.id, path.state.bounce, path.ray, steps);
     ++work.closest;
     work.steps += steps.nodes + steps.primitives;
-    if (hit.record == kNoRecord) {
+    if (hasFeature(kFeatureThinWalls)) {
+        path.state.throughput *= visible.weight;
+    }
+    if (visible.hit.record == kNoRecord) {
         visitMiss(path);
         return false;
     }
-    return visitSurface(path, hit, work);
+    return visitSurface(path, visible.hit, work);
 }
 
 void traceShare(uint entry, uint end, inout Work work)

@@ -16,8 +16,8 @@ void main()
     if (entry < queueSizes.shadow) {
         uint slot = shadowQueue[entry];
         ShadowRay ray = fetchShadowRay(slot);
-        float clear = transmittance(ray);
-        if (clear > 0.0) {
+        vec3 clear = transmittance(ray);
+        if (isClear(clear)) {
             addRadiance(slot, attenuated(ray.contribution, clear), pass.bounce + 1u);
         }
     }

@@ -18,6 +18,7 @@ const uint kDimensionLobe = 4u;     // which lobe; the second number is roulette
 const uint kDimensionsPerBounce = 5u;
 // Whether a surface that is transparent in places is met, apart from all these: with the bounce in the lower bits.
 const uint kDimensionAlpha = 0x40000000u;
+const uint kDimensionWavelength = 0x20000000u;
 
 // Bounces with Sobol' points; beyond them paths are too blurred to gain, and independent numbers are cheaper.
 const uint kSobolBounces = 4u;

@@ -23,6 +23,17 @@ GLIM_CONST uint kFeatureAlpha = 0x2000u;           // primitives that are transp
 GLIM_CONST uint kFeatureEnvironmentMap = 0x4000u;  // with kFeatureEnvironment
 GLIM_CONST uint kFeatureTextureTransforms = 0x8000u;
 GLIM_CONST uint kFeatureWideTextures = 0x10000u;  // of 16 bits per channel
+GLIM_CONST uint kFeatureClearcoat = 0x20000u;
+GLIM_CONST uint kFeatureSheen = 0x40000u;
+GLIM_CONST uint kFeatureAnisotropy = 0x80000u;
+GLIM_CONST uint kFeatureIridescence = 0x100000u;
+GLIM_CONST uint kFeatureTransmission = 0x200000u;  // by the GGX lobe, of solids and thin walls
+GLIM_CONST uint kFeatureDiffuseTransmission = 0x400000u;
+GLIM_CONST uint kFeatureMedia = 0x800000u;  // absorption, or solids within each other
+GLIM_CONST uint kFeatureDispersion = 0x1000000u;
+GLIM_CONST uint kFeatureThinWalls = 0x2000000u;  // smooth ones, which light passes straight; with kFeatureAlpha
+GLIM_CONST uint kFeatureUnlit = 0x4000000u;      // with kFeatureAlpha
+GLIM_CONST uint kFeatureGlossiness = 0x8000000u;
 GLIM_CONST uint kAllFeatures = 0xffffffffu;       // of any scene
 
 GLIM_SHARED_END

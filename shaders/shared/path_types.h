@@ -11,7 +11,7 @@ struct PathRay {
     vec3 origin;
     uint source;     // primitive that the ray leaves, or kNoPrimitive
     vec3 direction;  // unit
-    uint unused;
+    uint media;      // that it is in, and whether it has a wavelength (lib/media.glsl)
 };
 
 struct PathHit {
@@ -160,6 +160,7 @@ struct RenderParameters {
     uint canarySteps;                        // 3, unknown to the compiler
     uint triangleCount;                      // primitives from here on are spheres
     uint firstUv, firstTangent, firstColor;  // sections of the vertices (scene_types.h)
+    uint firstMedium;                        // texel of the first MediumData
     uint hidesEnvironment;                   // 1: from the camera
     uvec2 environmentSize;                   // texels of the map
     uvec2 environmentCells;                  // of its sampler

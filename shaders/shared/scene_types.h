@@ -43,28 +43,36 @@ GLIM_CONST uint kLambert = 0u;
 GLIM_CONST uint kMirror = 1u;
 GLIM_CONST uint kDielectric = 2u;
 GLIM_CONST uint kPrincipled = 3u;  // everything else that glTF has
+GLIM_CONST uint kUnlit = 4u;       // the base colour as the camera sees it; no other ray meets it
 
 // Materials, lights and emitters are read as texels too (scene.glsl): on llvmpipe, loading one word of a storage buffer costs as much as
 // loading the four of a texel. So structs are whole texels, and each vec3 shares one with a scalar.
 GLIM_CONST uint kMaterialTexels = 3u;
 GLIM_CONST uint kPrincipledTexels = 4u;
+GLIM_CONST uint kLayersTexels = 8u;
+GLIM_CONST uint kMediumTexels = 2u;
 GLIM_CONST uint kTextureTexels = 3u;
 GLIM_CONST uint kLightTexels = 5u;
 GLIM_CONST uint kEmitterTexels = 2u;
 
+GLIM_CONST uint kDoubleSided = 1u;  // emits from both sides
+GLIM_CONST float kCoverage = -1.0;   // alpha is the share of light that the surface meets
+GLIM_CONST float kOpaque = -2.0;     // alpha is 1, whatever textures say
+GLIM_CONST uint kThinWall = 2u;     // light passes it straight (access/transparency.glsl): it is smooth and has no medium
+
 struct MaterialData {
     vec3 baseColor;
-    uint lobe;      // kLambert ...
-    vec3 emission;  // radiance, W/(sr m^2)
-    float ior;
-    uint doubleSided;   // 1: emits from both sides
+    uint lobe;          // kLambert ...
+    vec3 emission;      // radiance, W/(sr m^2)
+    float ior;          // of a solid that transmits
+    uint flags;         // kDoubleSided | kThinWall
     uint principled;    // texel of its PrincipledData, if it has one
     float alpha;        // of primitives with kAlphaBit, before textures
-    float alphaCutoff;  // of those: below it they are transparent, else opaque; negative: alpha is coverage
+    float alphaCutoff;  // of those: below it they are transparent, else opaque; or kCoverage or kOpaque
 };
 
-// The rest of a material. It lies in the buffer of the materials, behind them, and behind that the textures. A texture is the texel of its
-// TextureData, or 0.
+// The rest of a material. It lies in the buffer of the materials, behind them; behind that the layers, the textures and the media. A
+// texture is the texel of its TextureData, or 0.
 struct PrincipledData {
     float metallic;
     float roughness;
@@ -77,9 +85,49 @@ struct PrincipledData {
     uint normalTexture;
     uint emissiveTexture;       // sRGB
     uint specularTexture;       // A
-    uint specularColorTexture;  // sRGB
-    uvec2 unused;
+    uint specularColorTexture;  // sRGB; with `glossy` its alpha multiplies the glossiness
+    uint layers;                // texel of its LayersData, or 0
+    uint glossy;                // 1: KHR_materials_pbrSpecularGlossiness; roughness is the glossiness
 };
+
+// What the extensions add. The factor 0 leaves a layer out.
+struct LayersData {
+    float clearcoat;
+    float clearcoatRoughness;
+    uint clearcoatTexture;           // R
+    uint clearcoatRoughnessTexture;  // G
+    vec3 sheenColor;
+    float sheenRoughness;
+    uint sheenColorTexture;      // sRGB
+    uint sheenRoughnessTexture;  // A
+    uint clearcoatNormalTexture;
+    float clearcoatNormalScale;
+    float anisotropy;
+    float anisotropyCosine, anisotropySine;  // of its rotation, counter-clockwise from the tangent
+    uint anisotropyTexture;                  // RG direction, B strength
+    float iridescence;
+    float iridescenceIor;
+    float iridescenceThicknessMinimum, iridescenceThicknessMaximum;  // nm
+    uint iridescenceTexture;                                         // R
+    uint iridescenceThicknessTexture;                                // G
+    float transmission;
+    uint transmissionTexture;  // R
+    vec3 diffuseTransmissionColor;
+    float diffuseTransmission;
+    uint diffuseTransmissionTexture;       // A
+    uint diffuseTransmissionColorTexture;  // sRGB
+    uint medium;                           // number of what it encloses, from 1 on; 0: a thin wall
+    uint unused;
+};
+
+// What is inside a solid that transmits. Medium 1 is at RenderParameters::firstMedium.
+struct MediumData {
+    vec3 absorption;  // 1/m
+    float ior;        // at 587.6 nm
+    float spread;     // of the index over wavelengths (lib/dispersion.glsl)
+    vec3 unused;
+};
+GLIM_CONST uint kMaxMedia = 127u;
 
 // How a material's property uses an image.
 struct TextureData {
@@ -110,7 +158,8 @@ GLIM_CONST uint kTexelViewBits = 27u;
 GLIM_CONST uint kMaxTexelViews = 8u;
 
 // The table of albedos (access/albedo_table.glsl): texel (i, j) is (a, b at column i, a, b at column i + 1) of row j, for the fourth roots
-// i / (kAlbedoSize - 1) of the cosine and j / (kAlbedoSize - 1) of alpha. One more row holds their averages over the hemisphere, by alpha.
+// i / (kAlbedoSize - 1) of the cosine and j / (kAlbedoSize - 1) of alpha. One more row holds their averages over the hemisphere, by alpha. Scenes with
+// sheen have another table behind it: texel (i, j) is the sheen's albedo at (i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1).
 GLIM_CONST uint kAlbedoSize = 64u;
 
 GLIM_CONST uint kTriangleLight = 0u;  // all triangles of one instance of an emissive mesh, chosen by area

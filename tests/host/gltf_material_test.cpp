@@ -1,10 +1,12 @@
 // Which glTF material becomes which of glim's, and the lines that say what is left out.
+#include "host/error.hpp"
 #include "host/flatten/flatten_materials.hpp"
 #include "tests/support/gltf_builder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace glim::test {
 namespace {
@@ -106,7 +108,8 @@ TEST(GltfMaterial, TheSimplestLobeIsChosen)
 TEST(GltfMaterial, SolidGlassIsExact)
 {
     const Mapped solid = map(glass());
-    EXPECT_TRUE(solid.material.glass);
+    EXPECT_TRUE(solid.material.solid);
+    EXPECT_EQ(solid.material.transmission, 1.0F);
     EXPECT_EQ(solid.material.ior, 1.75F);
     EXPECT_EQ(ofMaterials(solid.warnings), Lines{});
     json material = glass();
@@ -131,26 +134,120 @@ TEST(GltfMaterial, TheDefaultsAreThoseOfTheSpecification)
     }
 }
 
-TEST(GltfMaterial, SaysWhatGlassLoses)
+// KHR_materials_volume: the share (attenuationColor) is left after attenuationDistance.
+TEST(GltfMaterial, AttenuationIsAbsorptionPerMetre)
 {
     json material = glass();
-    material["pbrMetallicRoughness"] = {{"metallicFactor", 0.5}, {"roughnessFactor", 0.25}};
-    material["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 0.5;
-    material["extensions"]["KHR_materials_volume"] = {{"attenuationDistance", 2}, {"attenuationColor", {1, 0, 0}}};
-    const Lines lines = ofMaterials(map(material).warnings);
-    for (const char* part : {"partial transmission", "thin-walled", "attenuation", "rough glass", "metallic"}) {
-        EXPECT_TRUE(mentions(lines, part)) << part;
-    }
-    EXPECT_EQ(lines.size(), 5U);
+    material["extensions"]["KHR_materials_volume"]["attenuationColor"] = {1, 0, 0.5};
+    EXPECT_EQ(map(material).material.absorption, glm::vec3(0.0F)) << "without a distance it is endless";
+    material["extensions"]["KHR_materials_volume"]["attenuationDistance"] = 2;
+    const glm::vec3 absorption = map(material).material.absorption;
+    EXPECT_EQ(absorption.r, 0.0F);
+    EXPECT_TRUE(std::isfinite(absorption.g));
+    EXPECT_GT(absorption.g, 6.0F) << "black, as nearly as float can tell";
+    EXPECT_FLOAT_EQ(absorption.b, 0.5F * std::log(2.0F));
+    EXPECT_EQ(ofMaterials(map(material).warnings), Lines{});
 }
 
-TEST(GltfMaterial, WhiteOrEndlessAttenuationIsNone)
+TEST(GltfMaterial, SmoothSolidGlassAloneIsTheSimpleLobe)
 {
-    json material = glass();
-    material["extensions"]["KHR_materials_volume"]["attenuationColor"] = {1, 0, 0};
-    EXPECT_EQ(ofMaterials(map(material).warnings), Lines{});
-    material["extensions"]["KHR_materials_volume"] = {{"thicknessFactor", 1}, {"attenuationDistance", 1}};
-    EXPECT_EQ(ofMaterials(map(material).warnings), Lines{});
+    EXPECT_EQ(lobeOf(map(glass()).material), kDielectric);
+    const std::pair<const char*, json> others[] = {
+        {"/pbrMetallicRoughness/roughnessFactor", 0.25},
+        {"/pbrMetallicRoughness/metallicFactor", 0.5},
+        {"/extensions/KHR_materials_transmission/transmissionFactor", 0.5},
+        {"/extensions/KHR_materials_volume/thicknessFactor", 0},
+        {"/extensions/KHR_materials_specular/specularFactor", 0.5},
+        {"/extensions/KHR_materials_clearcoat/clearcoatFactor", 0.5},
+    };
+    for (const auto& [place, value] : others) {
+        json material = glass();
+        material[json::json_pointer(place)] = value;
+        EXPECT_EQ(lobeOf(map(material).material), kPrincipled) << place;
+    }
+}
+
+TEST(GltfMaterial, ReadsEveryLayer)
+{
+    const json extensions = {
+        {"KHR_materials_clearcoat", {{"clearcoatFactor", 0.5}, {"clearcoatRoughnessFactor", 0.25}}},
+        {"KHR_materials_sheen", {{"sheenColorFactor", {0.1, 0.2, 0.3}}, {"sheenRoughnessFactor", 0.4}}},
+        {"KHR_materials_anisotropy", {{"anisotropyStrength", 0.6}, {"anisotropyRotation", -1.5}}},
+        {"KHR_materials_iridescence",
+         {{"iridescenceFactor", 0.7}, {"iridescenceIor", 1.8}, {"iridescenceThicknessMinimum", 10}, {"iridescenceThicknessMaximum", 20}}},
+        {"KHR_materials_diffuse_transmission", {{"diffuseTransmissionFactor", 0.8}, {"diffuseTransmissionColorFactor", {0.5, 1, 0}}}},
+        {"KHR_materials_volume", {{"thicknessFactor", 1}}},
+        {"KHR_materials_dispersion", {{"dispersion", 0.9}}}};
+    const Mapped mapped = map({{"extensions", extensions}});
+    const Material& m = mapped.material;
+    EXPECT_EQ(ofMaterials(mapped.warnings), Lines{});
+    EXPECT_EQ(m.clearcoat, 0.5F);
+    EXPECT_EQ(m.clearcoatRoughness, 0.25F);
+    EXPECT_EQ(m.sheenColor, glm::vec3(0.1F, 0.2F, 0.3F));
+    EXPECT_EQ(m.sheenRoughness, 0.4F);
+    EXPECT_EQ(m.anisotropy, 0.6F);
+    EXPECT_EQ(m.anisotropyRotation, -1.5F);
+    EXPECT_EQ(m.iridescence, 0.7F);
+    EXPECT_EQ(m.iridescenceIor, 1.8F);
+    EXPECT_EQ(m.iridescenceThicknessMinimum, 10.0F);
+    EXPECT_EQ(m.iridescenceThicknessMaximum, 20.0F);
+    EXPECT_EQ(m.diffuseTransmission, 0.8F);
+    EXPECT_EQ(m.diffuseTransmissionColor, glm::vec3(0.5F, 1.0F, 0.0F));
+    EXPECT_TRUE(m.solid);
+    EXPECT_EQ(m.dispersion, 0.9F);
+}
+
+TEST(GltfMaterial, SpecularGlossinessReplacesMetallicRoughness)
+{
+    const json glossiness = {{"diffuseFactor", {0.1, 0.2, 0.3, 0.4}}, {"specularFactor", {0.5, 0.6, 0.7}}, {"glossinessFactor", 0.75}};
+    const Material m = map({{"pbrMetallicRoughness", {{"metallicFactor", 1}, {"roughnessFactor", 0.9}}},
+                            {"extensions", {{"KHR_materials_pbrSpecularGlossiness", glossiness}}}})
+                           .material;
+    EXPECT_TRUE(m.glossy);
+    EXPECT_EQ(m.metallic, 0.0F);
+    EXPECT_EQ(m.baseColor, glm::vec3(0.1F, 0.2F, 0.3F));
+    EXPECT_EQ(m.alpha, 0.4F);
+    EXPECT_EQ(m.specularColor, glm::vec3(0.5F, 0.6F, 0.7F));
+    EXPECT_EQ(m.roughness, 0.75F) << "the glossiness, until it is flattened";
+    EXPECT_EQ(m.ior, 0.0F);
+}
+
+TEST(GltfMaterial, UnlitEmitsNothing)
+{
+    const Material m = map({{"emissiveFactor", {1, 1, 1}}, {"extensions", {{"KHR_materials_unlit", json::object()}}}}).material;
+    EXPECT_TRUE(m.unlit);
+    EXPECT_EQ(m.emission, glm::vec3(0.0F));
+    EXPECT_EQ(lobeOf(m), kUnlit);
+}
+
+TEST(GltfMaterial, VariantsChooseAmongMaterials)
+{
+    GltfBuilder builder;
+    builder.append("materials", lambert());
+    json red = lambert();
+    red["name"] = "red";
+    builder.append("materials", red);
+    builder.document["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "day"}}, {{"name", "night"}}};
+    const std::size_t mesh = builder.addTriangleMesh();
+    json& primitive = builder.document["meshes"][mesh]["primitives"][0];
+    primitive["material"] = 0;
+    primitive["extensions"]["KHR_materials_variants"]["mappings"] = {{{"material", 1}, {"variants", {1}}}};
+    builder.addNode({{"mesh", mesh}});
+    LoadOptions options;
+    const auto materialOf = [&](const std::string& variant) {
+        options.variant = variant;
+        const Scene scene = load(builder, options);
+        return scene.materials[scene.meshes[0].material].name;
+    };
+    EXPECT_EQ(materialOf(""), "clay");
+    EXPECT_EQ(materialOf("day"), "clay");
+    EXPECT_EQ(materialOf("night"), "red");
+    try {
+        materialOf("noon");
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_TRUE(mentions({error.what()}, "has no variant \"noon\"; expected one of \"day\", \"night\"")) << error.what();
+    }
 }
 
 TEST(GltfMaterial, OneLineForEachExtensionThatIsIgnored)
@@ -158,7 +255,7 @@ TEST(GltfMaterial, OneLineForEachExtensionThatIsIgnored)
     GltfBuilder builder;
     for (int i = 0; i < 5; ++i) {
         json material = lambert();
-        material["extensions"]["KHR_materials_sheen"] = json::object();
+        material["extensions"]["VENDOR_toon"] = json::object();
         builder.append("materials", material);
         const std::size_t mesh = builder.addTriangleMesh();
         builder.document["meshes"][mesh]["primitives"][0]["material"] = i;
@@ -167,7 +264,7 @@ TEST(GltfMaterial, OneLineForEachExtensionThatIsIgnored)
     const Lines lines = ofMaterials(load(builder).warnings);
     ASSERT_EQ(lines.size(), 1U);
     EXPECT_EQ(lines[0],
-              "KHR_materials_sheen is ignored: materials[0] (\"clay\"), materials[1] (\"clay\"), materials[2] (\"clay\") and 2 more");
+              "VENDOR_toon is ignored: materials[0] (\"clay\"), materials[1] (\"clay\"), materials[2] (\"clay\") and 2 more");
 }
 
 TEST(GltfMaterial, UnusedMaterialsSayNothing)
@@ -175,14 +272,14 @@ TEST(GltfMaterial, UnusedMaterialsSayNothing)
     GltfBuilder builder;
     builder.append("materials", lambert());
     json other = lambert();
-    other["extensions"]["KHR_materials_sheen"] = json::object();
+    other["extensions"]["VENDOR_toon"] = json::object();
     builder.append("materials", other);
     const std::size_t mesh = builder.addTriangleMesh();
     builder.document["meshes"][mesh]["primitives"][0]["material"] = 0;
     builder.addNode({{"mesh", mesh}});
     const Scene scene = load(builder);
     EXPECT_EQ(scene.materials.size(), 2U);
-    EXPECT_FALSE(mentions(scene.warnings, "KHR_materials_sheen"));
+    EXPECT_FALSE(mentions(scene.warnings, "VENDOR_toon"));
 }
 
 }  // namespace

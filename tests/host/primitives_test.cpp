@@ -145,7 +145,9 @@ TEST(FlattenScene, UnusedMaterialsAddNoFeature)
 {
     Scene scene = sceneWith({square(false)}, {{"", 0}});
     scene.materials.resize(2);
-    scene.materials[1].glass = true;
+    scene.materials[1].transmission = 1.0F;
+    scene.materials[1].solid = true;
+    scene.materials[1].metallic = scene.materials[1].roughness = 0.0F;
     EXPECT_EQ(flattened(scene).features & kFeatureDielectric, 0U);
     scene.meshes[0].material = 1;
     EXPECT_EQ(flattened(scene).features & kFeatureDielectric, kFeatureDielectric);

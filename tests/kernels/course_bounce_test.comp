@@ -28,7 +28,7 @@ void main()
         SurfaceMaterial material = materialAt(c.si);
         Bsdf bsdf = makeBsdf(c.si, material, wo);
         PathState before = c.state;
-        bool alive = bouncePath(SampleId(render.seed, TEST_THREAD, 0u), c.si, bsdf, wo, c.ray, c.state);
+        bool alive = bouncePath(SampleId(render.seed, TEST_THREAD, 0u), c.si, bsdf, wo, 0u, c.ray, c.state);
         EXPECT_TRUE(!alive || c.state.bounce == before.bounce + 1u);
         results[TEST_THREAD] = Result(uint(alive), c.ray, c.state);
     }

@@ -27,7 +27,7 @@ void main()
         SurfaceMaterial material = materialAt(c.si);
         Bsdf bsdf = makeBsdf(c.si, material, wo);
         PathState before = c.state;
-        bool alive = bouncePath(SampleId(render.seed, TEST_THREAD, 0u), c.si, bsdf, wo, c.ray, c.state);
+        bool alive = bouncePath(SampleId(render.seed, TEST_THREAD, 0u), c.si, bsdf, wo, 0u, c.ray, c.state);
         EXPECT_TRUE(!alive || c.state.bounce == before.bounce + 1u);
         EXPECT_TRUE(!alive || distance(decodeNormal(c.state.normal), bsdf.frame.z) < 7e-5);
         // The sampled direction can be evaluated, with the same density, unless it is of a delta lobe.

@@ -28,7 +28,9 @@ std::uint32_t SceneBuilder::mirror(const glm::vec3& reflectance)
 std::uint32_t SceneBuilder::glass(float ior)
 {
     Material material;
-    material.glass = true;
+    material.transmission = 1.0F;
+    material.solid = true;
+    material.metallic = material.roughness = 0.0F;
     material.ior = ior;
     return addMaterial(material);
 }

@@ -26,7 +26,10 @@ Film renderBy(Schedule schedule, const FlatScene& flat, const FlatCamera& camera
     settings.schedule = schedule;
     Renderer renderer(testDevice(), flat, camera, settings);
     Film film = renderer.render([](const RenderProgress&) { return true; });
-    EXPECT_EQ(renderer.statistics().nonFinite, 0U);
+    EXPECT_EQ(renderer.statistics().nonFinite, 0U)
+        << (renderer.statistics().located.empty() ? std::string()
+                                                  : "pixel " + std::to_string(renderer.statistics().located[0].pixel) + ", sample " +
+                                                        std::to_string(renderer.statistics().located[0].sampleIndex));
     return film;
 }
 

@@ -10,7 +10,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 300u;
+GLIM_CONST uint kSharedWords = 341u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -35,6 +35,8 @@ struct EverySharedStruct {
     ChosenPixel chosen;
     MaterialData material;
     PrincipledData principled;
+    LayersData layers;
+    MediumData medium;
     TextureData texture_;
     AliasEntry alias;
     FlatLight light;
@@ -47,7 +49,7 @@ GLIM_SHARED_END
 
 #ifdef F3
 // clang-format off
-F3(ray.origin) U(ray.source) F3(ray.direction) U(ray.unused)
+F3(ray.origin) U(ray.source) F3(ray.direction) U(ray.media)
 U(hit.record) F(hit.t) F2(hit.barycentric)
 F3(state.throughput) F(state.pdf) F(state.cosine) F(state.etaScale) U(state.bounce) U(state.normal)
 F3(radiance.radiance) F(radiance.clamped)
@@ -79,7 +81,7 @@ U(parameters.camera.kind) F3(parameters.camera.lensRight) F3(parameters.camera.l
 U(parameters.width) U(parameters.height) U(parameters.seed) U(parameters.maxBounces) U(parameters.minPathLength)
 U(parameters.maxPathLength) U(parameters.lightCount) U(parameters.environmentLight) F3(parameters.environment)
 F(parameters.clampIndirect) U(parameters.canarySteps) U(parameters.triangleCount) U(parameters.firstUv) U(parameters.firstTangent)
-U(parameters.firstColor) U(parameters.hidesEnvironment) U2(parameters.environmentSize) U2(parameters.environmentCells)
+U(parameters.firstColor) U(parameters.firstMedium) U(parameters.hidesEnvironment) U2(parameters.environmentSize) U2(parameters.environmentCells)
 F2(parameters.environmentTurn)
 U(course_.recordCount) F(course_.continuation) F(course_.tolerance) U(course_.constantSamples)
 U(pixelMoments.count) U(pixelMoments.blocks) F3(pixelMoments.mean) F3(pixelMoments.squares) F(pixelMoments.alpha)
@@ -87,11 +89,20 @@ F3(pixelMoments.albedo) F3(pixelMoments.normal) F(pixelMoments.depth) F(pixelMom
 U(luminanceMoments.count) F(luminanceMoments.mean) F(luminanceMoments.squares) U(luminanceMoments.met)
 F(brightest.luminance) U(brightest.sampleIndex)
 U(chosen.pixel) U(chosen.samplesBefore)
-F3(material.baseColor) U(material.lobe) F3(material.emission) F(material.ior) U(material.doubleSided) U(material.principled) F(material.alpha)
+F3(material.baseColor) U(material.lobe) F3(material.emission) F(material.ior) U(material.flags) U(material.principled) F(material.alpha)
 F(material.alphaCutoff)
 F(principled.metallic) F(principled.roughness) F(principled.reflectance) F(principled.specular) F3(principled.specularColor)
 F(principled.normalScale) U(principled.baseColorTexture) U(principled.metallicRoughnessTexture) U(principled.normalTexture)
-U(principled.emissiveTexture) U(principled.specularTexture) U(principled.specularColorTexture) U2(principled.unused)
+U(principled.emissiveTexture) U(principled.specularTexture) U(principled.specularColorTexture) U(principled.layers) U(principled.glossy)
+F(layers.clearcoat) F(layers.clearcoatRoughness) U(layers.clearcoatTexture) U(layers.clearcoatRoughnessTexture)
+F3(layers.sheenColor) F(layers.sheenRoughness) U(layers.sheenColorTexture) U(layers.sheenRoughnessTexture)
+U(layers.clearcoatNormalTexture) F(layers.clearcoatNormalScale) F(layers.anisotropy) F(layers.anisotropyCosine)
+F(layers.anisotropySine) U(layers.anisotropyTexture) F(layers.iridescence) F(layers.iridescenceIor)
+F(layers.iridescenceThicknessMinimum) F(layers.iridescenceThicknessMaximum) U(layers.iridescenceTexture)
+U(layers.iridescenceThicknessTexture) F(layers.transmission) U(layers.transmissionTexture) F3(layers.diffuseTransmissionColor)
+F(layers.diffuseTransmission) U(layers.diffuseTransmissionTexture) U(layers.diffuseTransmissionColorTexture) U(layers.medium)
+U(layers.unused)
+F3(medium.absorption) F(medium.ior) F(medium.spread) F3(medium.unused)
 U(texture_.firstTexel) U(texture_.size) U(texture_.flags) U(texture_.unused) F3(texture_.rowU) U(texture_.unusedU) F3(texture_.rowV)
 U(texture_.unusedV)
 U(alias.threshold) U(alias.other)

@@ -15,9 +15,24 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kSupportedExtensions[] = {
-    "EXT_texture_webp",     "KHR_lights_punctual",    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",    "KHR_materials_specular", "KHR_materials_transmission",
-    "KHR_materials_volume", "KHR_mesh_quantization",  "KHR_texture_transform",
+    "EXT_texture_webp",
+    "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_dispersion",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
 };
 
 std::string excerpt(const json& value)
@@ -193,6 +208,13 @@ void checkGltfJson(const std::string& path, const json& document)
     const JsonCheck check(path, document);
     for (const SchemaRule& rule : kSchemaRules) {
         check.apply(rule);
+    }
+    for (const char* slot : kTextureSlots) {
+        for (SchemaRule rule : kTextureRules) {
+            const std::string place = "materials[]." + std::string(slot) + rule.path;
+            rule.path = place.c_str();
+            check.apply(rule);
+        }
     }
     const json& asset = document.at("asset");
     const std::string version = asset.value("version", ""), minVersion = asset.value("minVersion", "2.0");

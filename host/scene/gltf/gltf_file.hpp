@@ -39,6 +39,7 @@ struct GltfFile {
     std::vector<std::vector<unsigned char>> buffers;  // each at least as long as its byteLength
     std::vector<EncodedImage> images;
     std::vector<GltfTexture> textures;
+    std::optional<std::size_t> variant;  // of KHR_materials_variants, that is to be drawn
     bool animated = false;
 };
 

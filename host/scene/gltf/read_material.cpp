@@ -1,13 +1,24 @@
 #include "host/scene/gltf/read_material.hpp"
 
+#include "host/scene/gltf/check_gltf_json.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace glim {
 namespace {
 
-constexpr const char* kKnownExtensions[] = {"KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular",
-                                            "KHR_materials_transmission", "KHR_materials_volume"};
+constexpr const char* kSpecular = "KHR_materials_specular";
+constexpr const char* kTransmission = "KHR_materials_transmission";
+constexpr const char* kVolume = "KHR_materials_volume";
+constexpr const char* kDiffuseTransmission = "KHR_materials_diffuse_transmission";
+constexpr const char* kClearcoat = "KHR_materials_clearcoat";
+constexpr const char* kSheen = "KHR_materials_sheen";
+constexpr const char* kAnisotropy = "KHR_materials_anisotropy";
+constexpr const char* kIridescence = "KHR_materials_iridescence";
+constexpr const char* kGlossiness = "KHR_materials_pbrSpecularGlossiness";
+
+constexpr double kLeastAttenuation = 1e-6;  // of a channel: black would absorb all at once
 
 const tinygltf::Value* findProperty(const tinygltf::Material& source, const char* extension, const char* name)
 {
@@ -15,10 +26,10 @@ const tinygltf::Value* findProperty(const tinygltf::Material& source, const char
     return found == source.extensions.end() || !found->second.Has(name) ? nullptr : &found->second.Get(name);
 }
 
-double numberOr(const tinygltf::Material& source, const char* extension, const char* name, double fallback)
+float numberOr(const tinygltf::Material& source, const char* extension, const char* name, double fallback)
 {
     const tinygltf::Value* value = findProperty(source, extension, name);
-    return value == nullptr ? fallback : value->GetNumberAsDouble();
+    return static_cast<float>(value == nullptr ? fallback : value->GetNumberAsDouble());
 }
 
 glm::vec3 colorOr(const tinygltf::Material& source, const char* extension, const char* name, const glm::vec3& fallback)
@@ -70,8 +81,9 @@ private:
         const auto transform = info.extensions.find("KHR_texture_transform");
         return readTexture(info.index, info.texCoord, transform == info.extensions.end() ? nullptr : &transform->second);
     }
-    float readIor() const;
-    bool readGlass();
+    void readTransmission(Material& material);
+    void readLayers(Material& material);
+    void readGlossiness(Material& material);
     void warnOfExtensions();
     void ignore(bool condition, const std::string& what)
     {
@@ -136,43 +148,89 @@ void MaterialReader::readTextures(Material& material)
     material.normalTexture = readTexture(source_.normalTexture);
     material.normalScale = static_cast<float>(source_.normalTexture.scale);
     material.emissiveTexture = readTexture(source_.emissiveTexture);
-    material.specularTexture = readTexture("KHR_materials_specular", "specularTexture");
-    material.specularColorTexture = readTexture("KHR_materials_specular", "specularColorTexture");
+    material.specularTexture = readTexture(kSpecular, "specularTexture");
+    material.specularColorTexture = readTexture(kSpecular, "specularColorTexture");
 }
 
-float MaterialReader::readIor() const
+void MaterialReader::readTransmission(Material& material)
 {
-    const double ior = numberOr(source_, "KHR_materials_ior", "ior", 1.5);
-    if (ior < 1.0 && ior != 0.0) {
-        refuse(file_, place_ + " has the index of refraction " + toText(ior) + "; expected 0 or at least 1");
+    material.ior = numberOr(source_, "KHR_materials_ior", "ior", 1.5);
+    if (material.ior < 1.0F && material.ior != 0.0F) {
+        refuse(file_, place_ + " has the index of refraction " + toText(material.ior) + "; expected 0 or at least 1");
     }
-    return static_cast<float>(ior);
+    material.transmission = numberOr(source_, kTransmission, "transmissionFactor", 0.0);
+    material.transmissionTexture = readTexture(kTransmission, "transmissionTexture");
+    material.diffuseTransmission = numberOr(source_, kDiffuseTransmission, "diffuseTransmissionFactor", 0.0);
+    material.diffuseTransmissionTexture = readTexture(kDiffuseTransmission, "diffuseTransmissionTexture");
+    material.diffuseTransmissionColor = colorOr(source_, kDiffuseTransmission, "diffuseTransmissionColorFactor", glm::vec3(1.0F));
+    material.diffuseTransmissionColorTexture = readTexture(kDiffuseTransmission, "diffuseTransmissionColorTexture");
+    const bool transmits = material.transmission > 0.0F || material.diffuseTransmission > 0.0F;
+    material.solid = transmits && numberOr(source_, kVolume, "thicknessFactor", 0.0) > 0.0F;
+    if (!material.solid) {
+        return;
+    }
+    if (material.ior == 0.0F) {
+        refuse(file_, place_ + " is glass with the index of refraction 0; expected at least 1");
+    }
+    const glm::dvec3 color = glm::max(glm::dvec3(colorOr(source_, kVolume, "attenuationColor", glm::vec3(1.0F))), kLeastAttenuation);
+    const tinygltf::Value* distance = findProperty(source_, kVolume, "attenuationDistance");
+    if (distance != nullptr) {
+        material.absorption = glm::min(-glm::log(color) / distance->GetNumberAsDouble(), 1e30);
+    }
+    material.dispersion = numberOr(source_, "KHR_materials_dispersion", "dispersion", 0.0);
 }
 
-// Whether the material transmits. All that does is smooth solid glass so far.
-bool MaterialReader::readGlass()
+void MaterialReader::readLayers(Material& material)
 {
-    const double transmission = numberOr(source_, "KHR_materials_transmission", "transmissionFactor", 0.0);
-    if (!(transmission > 0.0)) {
-        return false;
+    material.clearcoat = numberOr(source_, kClearcoat, "clearcoatFactor", 0.0);
+    material.clearcoatRoughness = numberOr(source_, kClearcoat, "clearcoatRoughnessFactor", 0.0);
+    material.clearcoatTexture = readTexture(kClearcoat, "clearcoatTexture");
+    material.clearcoatRoughnessTexture = readTexture(kClearcoat, "clearcoatRoughnessTexture");
+    material.clearcoatNormalTexture = readTexture(kClearcoat, "clearcoatNormalTexture");
+    const tinygltf::Value* normal = findProperty(source_, kClearcoat, "clearcoatNormalTexture");
+    if (normal != nullptr && normal->Has("scale")) {
+        material.clearcoatNormalScale = static_cast<float>(normal->Get("scale").GetNumberAsDouble());
     }
-    const tinygltf::PbrMetallicRoughness& pbr = source_.pbrMetallicRoughness;
-    const bool attenuates = findProperty(source_, "KHR_materials_volume", "attenuationDistance") != nullptr &&
-                            colorOr(source_, "KHR_materials_volume", "attenuationColor", glm::vec3(1.0F)) != glm::vec3(1.0F);
-    ignore(transmission < 1.0 || findProperty(source_, "KHR_materials_transmission", "transmissionTexture") != nullptr,
-           "partial transmission is drawn as full transmission");
-    ignore(numberOr(source_, "KHR_materials_volume", "thicknessFactor", 0.0) == 0.0, "thin-walled glass is drawn as solid glass");
-    ignore(attenuates, "attenuation in a volume is ignored");
-    ignore(pbr.roughnessFactor > 0.0, "rough glass is drawn as smooth glass");
-    ignore(pbr.metallicFactor > 0.0, "the metallic part of glass is ignored");
-    return true;
+    material.sheenColor = colorOr(source_, kSheen, "sheenColorFactor", glm::vec3(0.0F));
+    material.sheenRoughness = numberOr(source_, kSheen, "sheenRoughnessFactor", 0.0);
+    material.sheenColorTexture = readTexture(kSheen, "sheenColorTexture");
+    material.sheenRoughnessTexture = readTexture(kSheen, "sheenRoughnessTexture");
+    material.anisotropy = numberOr(source_, kAnisotropy, "anisotropyStrength", 0.0);
+    material.anisotropyRotation = numberOr(source_, kAnisotropy, "anisotropyRotation", 0.0);
+    material.anisotropyTexture = readTexture(kAnisotropy, "anisotropyTexture");
+    material.iridescence = numberOr(source_, kIridescence, "iridescenceFactor", 0.0);
+    material.iridescenceIor = numberOr(source_, kIridescence, "iridescenceIor", 1.3);
+    material.iridescenceThicknessMinimum = numberOr(source_, kIridescence, "iridescenceThicknessMinimum", 100.0);
+    material.iridescenceThicknessMaximum = numberOr(source_, kIridescence, "iridescenceThicknessMaximum", 400.0);
+    material.iridescenceTexture = readTexture(kIridescence, "iridescenceTexture");
+    material.iridescenceThicknessTexture = readTexture(kIridescence, "iridescenceThicknessTexture");
+}
+
+// Replaces metallic and roughness, where the file has both: KHR_materials_pbrSpecularGlossiness is the better version of the two.
+void MaterialReader::readGlossiness(Material& material)
+{
+    if (source_.extensions.count(kGlossiness) == 0) {
+        return;
+    }
+    material.glossy = true;
+    material.metallic = 0.0F;
+    material.ior = 0.0F;  // reflects by the specular colour alone
+    material.specular = 1.0F;
+    material.roughness = numberOr(source_, kGlossiness, "glossinessFactor", 1.0);
+    material.specularColor = colorOr(source_, kGlossiness, "specularFactor", glm::vec3(1.0F));
+    material.baseColor = colorOr(source_, kGlossiness, "diffuseFactor", glm::vec3(1.0F));
+    const tinygltf::Value* diffuse = findProperty(source_, kGlossiness, "diffuseFactor");
+    material.alpha = diffuse == nullptr ? 1.0F : static_cast<float>(diffuse->Get(3).GetNumberAsDouble());
+    material.baseColorTexture = readTexture(kGlossiness, "diffuseTexture");
+    material.specularColorTexture = readTexture(kGlossiness, "specularGlossinessTexture");
+    material.metallicRoughnessTexture.reset();
+    material.specularTexture.reset();
 }
 
 void MaterialReader::warnOfExtensions()
 {
     for (const auto& [name, extension] : source_.extensions) {
-        const bool known = std::find(std::begin(kKnownExtensions), std::end(kKnownExtensions), name) != std::end(kKnownExtensions);
-        ignore(!known, name + " is ignored");
+        ignore(!isSupportedExtension(name), name + " is ignored");
     }
 }
 
@@ -180,16 +238,14 @@ Material MaterialReader::read()
 {
     const std::vector<double>& color = source_.pbrMetallicRoughness.baseColorFactor;
     const std::vector<double>& emissive = source_.emissiveFactor;
-    const double strength = numberOr(source_, "KHR_materials_emissive_strength", "emissiveStrength", 1.0);
+    const auto strength = static_cast<double>(numberOr(source_, "KHR_materials_emissive_strength", "emissiveStrength", 1.0));
     Material material;
     material.name = source_.name;
     material.baseColor = glm::dvec3(color[0], color[1], color[2]);
     material.metallic = static_cast<float>(source_.pbrMetallicRoughness.metallicFactor);
     material.roughness = static_cast<float>(source_.pbrMetallicRoughness.roughnessFactor);
-    material.ior = readIor();
-    material.specular = static_cast<float>(numberOr(source_, "KHR_materials_specular", "specularFactor", 1.0));
-    material.specularColor = colorOr(source_, "KHR_materials_specular", "specularColorFactor", glm::vec3(1.0F));
-    material.glass = readGlass();
+    material.specular = numberOr(source_, kSpecular, "specularFactor", 1.0);
+    material.specularColor = colorOr(source_, kSpecular, "specularColorFactor", glm::vec3(1.0F));
     material.emission = strength * glm::dvec3(emissive[0], emissive[1], emissive[2]);
     material.doubleSided = source_.doubleSided;
     material.alphaMode = source_.alphaMode == "MASK"    ? AlphaMode::Mask
@@ -198,10 +254,14 @@ Material MaterialReader::read()
     material.alpha = static_cast<float>(color[3]);
     material.alphaCutoff = static_cast<float>(source_.alphaCutoff);
     readTextures(material);
-    warnOfExtensions();
-    if (material.glass && material.ior == 0.0F) {
-        refuse(file_, place_ + " is glass with the index of refraction 0; expected at least 1");
+    readTransmission(material);
+    readLayers(material);
+    readGlossiness(material);
+    material.unlit = source_.extensions.count("KHR_materials_unlit") > 0;
+    if (material.unlit) {
+        material.emission = glm::vec3(0.0F);
     }
+    warnOfExtensions();
     return material;
 }
 

@@ -90,6 +90,26 @@ std::vector<Value> readAttribute(const GltfFile& file, const tinygltf::Primitive
     return values;
 }
 
+// KHR_materials_variants: the mapping that lists the variant, else the primitive's own.
+int materialOf(const GltfFile& file, const tinygltf::Primitive& primitive)
+{
+    const auto extension = primitive.extensions.find("KHR_materials_variants");
+    if (!file.variant || extension == primitive.extensions.end() || !extension->second.Has("mappings")) {
+        return primitive.material;
+    }
+    const tinygltf::Value& mappings = extension->second.Get("mappings");
+    for (std::size_t i = 0; i < mappings.ArrayLen(); ++i) {
+        const tinygltf::Value& mapping = mappings.Get(static_cast<int>(i));
+        const tinygltf::Value variants = mapping.Has("variants") ? mapping.Get("variants") : tinygltf::Value();
+        for (std::size_t j = 0; variants.IsArray() && j < variants.ArrayLen(); ++j) {
+            if (static_cast<std::size_t>(variants.Get(static_cast<int>(j)).GetNumberAsInt()) == *file.variant) {
+                return mapping.Get("material").GetNumberAsInt();
+            }
+        }
+    }
+    return primitive.material;
+}
+
 std::optional<Mesh> readPrimitive(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& place, Warnings& warnings)
 {
     const auto position = primitive.attributes.find("POSITION");
@@ -112,7 +132,8 @@ std::optional<Mesh> readPrimitive(const GltfFile& file, const tinygltf::Primitiv
     const std::vector<std::uint32_t> order = readVertexOrder(file, primitive, count, place);
     checkVertexCount(file, order.size(), primitive.mode, place);
     mesh.indices = listTriangles(order, primitive.mode);
-    mesh.material = static_cast<std::uint32_t>(primitive.material < 0 ? static_cast<int>(file.model.materials.size()) : primitive.material);
+    const int material = materialOf(file, primitive);
+    mesh.material = static_cast<std::uint32_t>(material < 0 ? static_cast<int>(file.model.materials.size()) : material);
     if (!primitive.targets.empty()) {
         warnings.add("morph targets are ignored", place);
     }

@@ -25,7 +25,7 @@ void visit(uint slot)
     SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
     SurfaceMaterial material = materialAt(si);
     vec3 wo = -ray.direction;
-    if (bouncePath(sampleOfSlot(slot), si, makeBsdf(si, material, wo), wo, ray, state)) {
+    if (bouncePath(sampleOfSlot(slot), si, makeBsdf(si, material, wo), wo, 0u, ray, state)) {
         pathRays[slot] = ray;
         pathStates[slot] = state;
         nextQueue[atomicAdd(queueTails.next, 1u)] = slot;

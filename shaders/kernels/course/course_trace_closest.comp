@@ -27,7 +27,7 @@ void main()
     if (entry < queueSizes.closest) {
         uint slot = activeQueue[entry];
         Steps uncounted = Steps(0u, 0u);
-        pathHits[slot] = kBruteForce ? scanRecords(slot) : traceVisible(sampleOfSlot(slot), pass.bounce, fetchRay(slot), uncounted);
+        pathHits[slot] = kBruteForce ? scanRecords(slot) : traceVisible(sampleOfSlot(slot), pass.bounce, fetchRay(slot), uncounted).hit;
     }
     checkLoopBudget(render.canarySteps);
 }

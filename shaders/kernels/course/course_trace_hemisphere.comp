@@ -41,7 +41,7 @@ void visit(uint slot)
     PathRay ray = PathRay(shadow.origin, shadow.source, shadow.direction, 0u);
     SampleId id = splitSample(sampleOfSlot(slot), kNoLightIndex, lightRound.lightSample, lightRound.lightSamples);
     Steps uncounted = Steps(0u, 0u);
-    PathHit hit = kBruteForce ? scanRecords(slot, ray, shadow) : traceVisible(id, pass.bounce + 1u, ray, uncounted);
+    PathHit hit = kBruteForce ? scanRecords(slot, ray, shadow) : traceVisible(id, pass.bounce + 1u, ray, uncounted).hit;
     if (lightRound.endRecord == course.recordCount) {
         addShareOfRadiance(slot, shadow.contribution * radianceFound(ray, hit), pass.bounce + 1u);
     }

@@ -27,8 +27,8 @@ void main()
     if (entry < queueSizes.shadow) {
         uint slot = shadowQueue[entry];
         ShadowRay ray = fetchShadowRay(slot);
-        float clear = kBruteForce ? float(isUnoccludedSoFar(slot, ray)) : transmittance(ray);
-        if (clear > 0.0 && lightRound.endRecord == course.recordCount) {
+        vec3 clear = kBruteForce ? vec3(isUnoccludedSoFar(slot, ray) ? 1.0 : 0.0) : transmittance(ray);
+        if (isClear(clear) && lightRound.endRecord == course.recordCount) {
             addShareOfRadiance(slot, attenuated(ray.contribution, clear), pass.bounce + 1u);
         }
     }

@@ -1,0 +1,103 @@
+#include "host/flatten/media.hpp"
+
+#include "host/error.hpp"
+
+#include <algorithm>
+
+namespace glim {
+namespace {
+
+struct Solid {
+    std::uint32_t medium;
+    glm::dvec3 lo, hi;
+};
+
+bool overlap(const Solid& a, const Solid& b)
+{
+    return glm::all(glm::lessThan(a.lo, b.hi)) && glm::all(glm::lessThan(b.lo, a.hi));
+}
+
+Solid boxOf(const Scene& scene, const MeshInstance& instance, std::uint32_t medium)
+{
+    Solid solid{medium, glm::dvec3(1e300), glm::dvec3(-1e300)};
+    for (const glm::dvec3& position : scene.meshes[instance.mesh].positions) {
+        const glm::dvec3 p = instance.worldFromMesh * glm::dvec4(position, 1.0);
+        solid.lo = glm::min(solid.lo, p);
+        solid.hi = glm::max(solid.hi, p);
+    }
+    return solid;
+}
+
+// By their bounding boxes.
+bool differentMediaOverlap(const std::vector<Solid>& solids)
+{
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            if (solids[i].medium != solids[j].medium && overlap(solids[i], solids[j])) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+class MediaFinder {
+public:
+    explicit MediaFinder(const Scene& scene)
+        : scene_(scene)
+    {
+        found_.ofMaterial.assign(scene.materials.size(), 0);
+    }
+
+    std::uint32_t numberOf(std::uint32_t material)
+    {
+        const Material& source = scene_.materials[material];
+        std::uint32_t& number = found_.ofMaterial[material];
+        if (!source.solid || number != 0) {
+            return number;
+        }
+        const MediumData medium{source.absorption, source.ior, (source.ior - 1.0F) * source.dispersion / 20.0F, vec3(0.0F)};
+        const auto known = std::ranges::find_if(found_.media, [&medium](const MediumData& other) {
+            return other.absorption == medium.absorption && other.ior == medium.ior && other.spread == medium.spread;
+        });
+        number = static_cast<std::uint32_t>(known - found_.media.begin()) + 1;
+        if (known == found_.media.end()) {
+            found_.media.push_back(medium);
+        }
+        if (found_.media.size() > kMaxMedia) {
+            throw InputError(scene_.file + ": more than " + std::to_string(kMaxMedia) +
+                             " different volumes (index, attenuation, dispersion); expected fewer");
+        }
+        found_.disperses = found_.disperses || medium.spread > 0.0F;
+        found_.tracked = found_.tracked || found_.disperses || medium.absorption != vec3(0.0F);
+        return number;
+    }
+
+    Media find()
+    {
+        std::vector<Solid> solids;
+        for (const MeshInstance& instance : scene_.instances) {
+            if (const std::uint32_t medium = numberOf(scene_.meshes[instance.mesh].material)) {
+                solids.push_back(boxOf(scene_, instance, medium));
+            }
+        }
+        for (const Sphere& sphere : scene_.spheres) {
+            if (const std::uint32_t medium = numberOf(sphere.material)) {
+                const glm::dvec3 center = sphere.center, radius(static_cast<double>(sphere.radius));
+                solids.push_back({medium, center - radius, center + radius});
+            }
+        }
+        found_.tracked = found_.tracked || differentMediaOverlap(solids);
+        return std::move(found_);
+    }
+
+private:
+    const Scene& scene_;
+    Media found_;
+};
+
+}  // namespace
+
+Media findMedia(const Scene& scene) { return MediaFinder(scene).find(); }
+
+}  // namespace glim

@@ -1,0 +1,43 @@
+// Transmission through an interface of GGX microfacets: Walter et al., "Microfacet Models for Refraction through Rough Surfaces" (2007),
+// with the masking of ggx.glsl, and through a thin wall. Directions are in the shading frame: wo.z > 0, wi.z < 0. `eta`: index beyond the
+// interface over that on wo's side. Fresnel transmittance and colour are left to the caller.
+#ifndef GLIM_LIB_BSDF_GGX_TRANSMISSION
+#define GLIM_LIB_BSDF_GGX_TRANSMISSION
+
+#include "ggx.glsl"
+#include "lib/fresnel.glsl"
+
+// Closer to 1 an interface bends nothing that float could tell, and has no half vector.
+const float kMinEtaStep = 1e-4;
+
+// The microfacet's normal, on the upper side, that refracts wo to wi; z <= 0 if there is none.
+vec3 refractionNormal(vec3 wo, vec3 wi, float eta)
+{
+    vec3 h = wo + eta * wi;
+    h /= length(h);
+    h = eta > 1.0 ? -h : h;
+    return dot(wo, h) > 0.0 && dot(wi, h) < 0.0 ? h : vec3(0.0, 0.0, -1.0);
+}
+
+// |d h / d wi|, eq. 17.
+float refractionJacobian(vec3 wo, vec3 wi, vec3 h, float eta)
+{
+    float denominator = dot(wo, h) + eta * dot(wi, h);
+    return eta * eta * -dot(wi, h) / (denominator * denominator);
+}
+
+// For a transmittance of 1, times |cos| of wi, of radiance, which the change of its solid angle scales by 1 / eta^2 (Veach 1997, section
+// 5.2). Eq. 21.
+float evalGgxTransmission(vec3 wo, vec3 wi, vec3 h, vec2 alpha, float eta)
+{
+    float lambdas = -wi.z * stretchedLength(wo, alpha) + wo.z * stretchedLength(wi, alpha);
+    return 2.0 * dot(wo, h) * distributionGgx(h, alpha) * refractionJacobian(wo, wi, h, eta) * -wi.z / (lambdas * eta * eta);
+}
+
+// Density of refracting wo at a visible normal.
+float pdfGgxTransmission(vec3 wo, vec3 wi, vec3 h, vec2 alpha, float eta)
+{
+    return 2.0 * dot(wo, h) * distributionGgx(h, alpha) / (wo.z + stretchedLength(wo, alpha)) * refractionJacobian(wo, wi, h, eta);
+}
+
+#endif

@@ -1,0 +1,52 @@
+// The Charlie sheen of KHR_materials_sheen: Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF" (2017). alpha: the square of
+// sheenRoughness. Directions are in the shading frame with z > 0. It is sampled over the whole hemisphere uniformly: at grazing view it is
+// as wide as that.
+#ifndef GLIM_LIB_BSDF_SHEEN
+#define GLIM_LIB_BSDF_SHEEN
+
+#include "lib/portable.glsl"
+#include "lib/warp.glsl"
+
+const float kMinSheenRoughness = 0.01;  // below, the lobe is left out: it is narrower than float can resolve
+
+const float kPdfSheen = 0.5 / kPi;
+
+vec3 sampleSheen(vec2 u)
+{
+    vec2 circle = sampleCircle(u.x);
+    return vec3(sqrt(u.y * (2.0 - u.y)) * circle, 1.0 - u.y);
+}
+
+// The fitted masking function Lambda, section 3.
+float maskingFit(float x, vec4 fit, float e)
+{
+    return fit.x / (1.0 + fit.y * portablePow(x, fit.z)) + fit.w * x + e;
+}
+
+float sheenMasking(float cosine, float alpha)
+{
+    float t = (1.0 - alpha) * (1.0 - alpha);
+    vec4 fit = mix(vec4(21.5473, 3.82987, 0.19823, -1.97760), vec4(25.3245, 3.32435, 0.16801, -1.27393), t);
+    float e = mix(-4.32054, -4.85967, t);
+    float x = min(cosine, 1.0 - cosine);
+    float l = maskingFit(x, fit, e);
+    return portableExp(cosine < 0.5 ? l : 2.0 * maskingFit(0.5, fit, e) - l);
+}
+
+// For the colour white, times |cos| of wi, in sr^-1. Its albedo exceeds 1 at low roughness: see sheenScale.
+float evalSheen(vec3 wo, vec3 wi, float alpha)
+{
+    vec3 h = wo + wi;
+    h /= length(h);
+    float sine = sqrt(max(0.0, (1.0 - h.z) * (1.0 + h.z)));
+    float d = (2.0 + 1.0 / alpha) * portablePow(sine, 1.0 / alpha) * (0.5 / kPi);
+    return d / ((1.0 + sheenMasking(wo.z, alpha) + sheenMasking(wi.z, alpha)) * 4.0 * wo.z);
+}
+
+// What brings the albedo to at most 1 for both directions, and stays reciprocal. e: the albedos.
+float sheenScale(float eOut, float eIn)
+{
+    return 1.0 / max(1.0, max(eOut, eIn));
+}
+
+#endif
