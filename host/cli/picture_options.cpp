@@ -67,8 +67,8 @@ void addPicture(const Command& command, PictureOptions& options, const std::stri
                      [&options](float degrees) { options.environmentRotation = degrees; });
     addEnum(command, "--environment-background", "B", "Whether the camera sees the environment: on or off [on]", {"off", "on"},
             options.environmentBackground);
-    addEnum(command, "--missing-textures", "T", "Images that cannot be read: refuse the scene, or grey in their place [refuse]", {"refuse", "grey"},
-            options.missingTextures);
+    addEnum(command, "--missing-textures", "T", "Images that cannot be read: refuse the scene, or grey in their place [refuse]",
+            {"refuse", "grey"}, options.missingTextures);
     command.add("--size", "WxH", "Pixels, each side 1 to 65535 [" + height + " high, width by the camera's aspect ratio]",
                 [&options](const std::string& text) { options.size = parseSize(text); });
 }

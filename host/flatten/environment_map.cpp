@@ -1,11 +1,13 @@
 #include "host/flatten/environment_map.hpp"
 
-#include "host/flatten/alias_table.hpp"
+#include "host/flatten/piecewise_constant.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <span>
 
 namespace glim {
 namespace {
@@ -14,6 +16,7 @@ constexpr double kPi = std::numbers::pi;
 
 // Beyond this number of texels, blocks of them make a cell.
 constexpr std::uint64_t kMaxCells = std::uint64_t{1} << 23;
+constexpr std::uint32_t kMaxCellsAcross = 65536;  // indices of 16 bits
 
 // Where light sampling joins BSDF sampling by MIS, it pays to leave the darker part of the map to the other one: Karlik et al., "MIS
 // Compensation" (2019). A share of plain weights keeps every estimator without MIS unbiased.
@@ -60,7 +63,7 @@ CellGrid chooseCells(const RadianceMap& map)
         grid.width = (map.width + grid.block - 1) / grid.block;
         grid.height = (map.height + grid.block - 1) / grid.block;
         grid.block *= 2;
-    } while (std::uint64_t{grid.width} * grid.height > kMaxCells);
+    } while (std::uint64_t{grid.width} * grid.height > kMaxCells || std::max(grid.width, grid.height) > kMaxCellsAcross);
     grid.block /= 2;
     return grid;
 }
@@ -104,6 +107,36 @@ uvec4 rowBounds(std::uint32_t row, const CellGrid& grid)
     return {bits(halfSine2(from, grid.height)), bits(halfSine2(from + 1, grid.height)), bits(lower ? 1.0 : 0.0), 0};
 }
 
+uvec4 texelOf(const PiecewiseConstantEntry& entry, double pdf)
+{
+    return {entry.first, entry.last, std::bit_cast<std::uint32_t>(static_cast<float>(pdf)), entry.searchBegin | entry.searchEnd << 16U};
+}
+
+// Cells of all rows, then two texels for each row: its entry among rows, and its bounds.
+std::vector<uvec4> makeCells(const std::vector<double>& weights, const CellGrid& grid)
+{
+    std::vector<double> sums(grid.height);
+    for (std::uint32_t row = 0; row < grid.height; ++row) {
+        const auto begin = weights.begin() + static_cast<std::ptrdiff_t>(std::size_t{row} * grid.width);
+        sums[row] = std::accumulate(begin, begin + grid.width, 0.0);
+    }
+    const std::vector<PiecewiseConstantEntry> rows = buildPiecewiseConstant(sums);
+    std::vector<uvec4> cells;
+    cells.reserve(weights.size() + 2 * std::size_t{grid.height});
+    for (std::uint32_t row = 0; row < grid.height; ++row) {
+        const double pdfOfRow = probabilityOf(rows[row]) / solidAngle(row, grid);
+        const std::span<const double> ofRow = std::span(weights).subspan(std::size_t{row} * grid.width, grid.width);
+        for (const PiecewiseConstantEntry& cell : buildPiecewiseConstant(ofRow)) {
+            cells.push_back(texelOf(cell, pdfOfRow * probabilityOf(cell)));
+        }
+    }
+    for (std::uint32_t row = 0; row < grid.height; ++row) {
+        cells.push_back(texelOf(rows[row], 0.0));
+        cells.push_back(rowBounds(row, grid));
+    }
+    return cells;
+}
+
 }  // namespace
 
 double flattenEnvironmentMap(FlatScene& flat, const RadianceMap& map)
@@ -128,22 +161,13 @@ double flattenEnvironmentMap(FlatScene& flat, const RadianceMap& map)
             weight = (std::max(weight, 1e-6 * mean) * kPlainShare + compensated * (1.0 - kPlainShare)) * solidAngle(row, grid);
         }
     }
-    const AliasTable table = buildAliasTable(weights);
     flat.environmentTexels.reserve(map.texels.size());
     for (const glm::vec3& texel : map.texels) {
         flat.environmentTexels.push_back(packTexel(texel));
     }
     flat.environmentSize = {map.width, map.height};
     flat.environmentCellCount = {grid.width, grid.height};
-    flat.environmentCells.reserve(weights.size() + grid.height);
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-        const double pdf = table.probabilities[i] / solidAngle(static_cast<std::uint32_t>(i / grid.width), grid);
-        flat.environmentCells.emplace_back(table.entries[i].threshold, table.entries[i].other,
-                                           std::bit_cast<std::uint32_t>(static_cast<float>(pdf)), 0);
-    }
-    for (std::uint32_t row = 0; row < grid.height; ++row) {
-        flat.environmentCells.push_back(rowBounds(row, grid));
-    }
+    flat.environmentCells = makeCells(weights, grid);
     return integral;
 }
 

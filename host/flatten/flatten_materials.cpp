@@ -134,7 +134,9 @@ public:
                 place(*texture, firstTexture, kTextureTexels);
             }
         }
-        flat_.media = std::move(media_.media);
+        if (media_.tracked) {
+            flat_.media = std::move(media_.media);
+        }
         flat_.firstMedium = firstTexture + static_cast<std::uint32_t>(flat_.textures.size() * kTextureTexels);
     }
 

@@ -15,11 +15,12 @@ struct Softbox {
     double radiance;
 };
 
+// White that faces the key light is just below a radiance of 1, and the framed camera sees none of the boxes directly.
 constexpr Softbox kSoftboxes[] = {
-    {-50.0, 42.0, 24.0, 20.0, 9.0},  // key
-    {65.0, 18.0, 16.0, 28.0, 2.6},   // fill
-    {165.0, 38.0, 30.0, 12.0, 5.0},  // rim, from behind
-    {0.0, 88.0, 180.0, 16.0, 2.2},   // overhead
+    {-45.0, 42.0, 26.0, 22.0, 3.2},  // key
+    {75.0, 20.0, 18.0, 30.0, 1.2},   // fill
+    {130.0, 40.0, 24.0, 14.0, 2.0},  // rim, from behind
+    {0.0, 88.0, 180.0, 18.0, 0.5},   // overhead
 };
 
 double smoothStep(double x)
@@ -33,7 +34,7 @@ double inside(double distance, double half) { return smoothStep((half - std::abs
 
 double radianceAt(double azimuth, double elevation)
 {
-    double radiance = 0.16 + 0.42 * smoothStep((elevation + 30.0) / 120.0);
+    double radiance = 0.12 + 0.22 * smoothStep((elevation + 30.0) / 120.0);
     for (const Softbox& box : kSoftboxes) {
         const double across = std::remainder(azimuth - box.azimuth, 360.0) * std::cos(elevation * kPi / 180.0);
         radiance +=

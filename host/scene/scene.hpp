@@ -46,9 +46,9 @@ struct Material {
     float normalScale = 1.0F;
     // KHR_materials_transmission, _volume, _dispersion, _diffuse_transmission.
     float transmission = 0.0F;
-    bool solid = false;           // what transmits encloses a medium; else it is a thin wall
-    glm::vec3 absorption{0.0F};   // of the medium, 1/m
-    float dispersion = 0.0F;      // of the medium: 20 / Abbe number
+    bool solid = false;          // what transmits encloses a medium; else it is a thin wall
+    glm::vec3 absorption{0.0F};  // of the medium, 1/m
+    float dispersion = 0.0F;     // of the medium: 20 / Abbe number
     float diffuseTransmission = 0.0F;
     glm::vec3 diffuseTransmissionColor{1.0F};
     // _clearcoat, _sheen, _anisotropy, _iridescence.
@@ -58,12 +58,12 @@ struct Material {
     float anisotropy = 0.0F, anisotropyRotation = 0.0F;  // radians, counter-clockwise from the tangent
     float iridescence = 0.0F, iridescenceIor = 1.3F;
     float iridescenceThicknessMinimum = 100.0F, iridescenceThicknessMaximum = 400.0F;  // nm
-    bool unlit = false;   // _unlit: the base colour, for the camera alone
+    bool unlit = false;                                                                // _unlit: the base colour, for the camera alone
     bool glossy = false;  // _pbrSpecularGlossiness: specularColor is F0, and roughness the glossiness
     std::optional<Texture> baseColorTexture, metallicRoughnessTexture, normalTexture, emissiveTexture, specularTexture,
         specularColorTexture, transmissionTexture, diffuseTransmissionTexture, diffuseTransmissionColorTexture, clearcoatTexture,
-        clearcoatRoughnessTexture, clearcoatNormalTexture, sheenColorTexture, sheenRoughnessTexture, anisotropyTexture,
-        iridescenceTexture, iridescenceThicknessTexture;
+        clearcoatRoughnessTexture, clearcoatNormalTexture, sheenColorTexture, sheenRoughnessTexture, anisotropyTexture, iridescenceTexture,
+        iridescenceThicknessTexture;
 };
 
 // Every texture that a material may have.

@@ -196,10 +196,10 @@ LightSample sampleEnvironment(FlatLight light, LightContext context, vec2 u)
     return LightSample(wi, light.intensity / pdf, pdf, context.p + wi, kNoPrimitive, kInfinity);
 }
 
-LightSample sampleEnvironmentMap(FlatLight light, LightContext context, uvec2 choice, vec2 u)
+LightSample sampleEnvironmentMap(FlatLight light, LightContext context, uvec2 choice)
 {
     float pdf;
-    vec3 wi = sampleEnvironmentMap(choice, u, pdf);
+    vec3 wi = sampleEnvironmentMap(choice, pdf);
     pdf *= light.probability;
     return LightSample(wi, environmentRadiance(wi) / pdf, pdf, context.p + wi, kNoPrimitive, kInfinity);
 }
@@ -215,7 +215,7 @@ LightSample sampleLight(FlatLight light, LightContext context, uvec2 choice, vec
     }
     if (hasEnvironment() && light.kind == kEnvironmentLight) {
         if (hasEnvironmentMap()) {
-            return sampleEnvironmentMap(light, context, choice, u);
+            return sampleEnvironmentMap(light, context, choice);
         }
         return sampleEnvironment(light, context, u);
     }
