@@ -372,7 +372,7 @@ BsdfEval evalPrincipled(Principled p, vec3 wo, vec3 wi)
     }
     if (hasFeature(kFeatureSheen) && above && p.sheenMost > 0.0) {
         float left = hasFeature(kFeatureClearcoat) ? min(1.0 - p.coat * p.coatAlbedo, 1.0 - p.coat * coatAlbedo) : 1.0;
-        result.f += p.sheen * (left * evalSheen(wo, wi, p.sheenAlpha) * sheenScale(p.sheenAlbedo, sheenAlbedo) * wi.z);
+        result.f += p.sheen * (left * evalSheen(wo, wi, p.sheenAlpha) * sheenScale(p.sheenAlbedo, sheenAlbedo));
         result.pdf += p.pSheen * kPdfSheen;
     }
     if (hasFeature(kFeatureClearcoat) && above && coatWi.z > 0.0 && p.coat > 0.0 && !p.coatSmooth) {

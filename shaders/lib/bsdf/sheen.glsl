@@ -38,7 +38,7 @@ float evalSheen(vec3 wo, vec3 wi, float alpha)
 {
     vec3 h = wo + wi;
     h /= length(h);
-    float sine = sqrt(max(0.0, (1.0 - h.z) * (1.0 + h.z)));
+    float sine = length(h.xy);
     float d = (2.0 + 1.0 / alpha) * portablePow(sine, 1.0 / alpha) * (0.5 / kPi);
     return d / ((1.0 + sheenMasking(wo.z, alpha) + sheenMasking(wi.z, alpha)) * 4.0 * wo.z);
 }

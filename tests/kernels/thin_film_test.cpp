@@ -1,0 +1,20 @@
+#include "test_kernels.hpp"
+#include "tests/support/oracle_cases.hpp"
+
+#include <gtest/gtest.h>
+
+namespace glim {
+namespace {
+
+struct Case {
+    float cosine, ior, thickness;
+    vec3 baseF0, reflectance, tolerance;
+};
+
+TEST(ThinFilmTest, IsTheReferences)
+{
+    compareWithOracle("thin film, absolute", test_kernels::thin_film_test, oracleCases<Case>("film_cases"));
+}
+
+}  // namespace
+}  // namespace glim

@@ -1,0 +1,37 @@
+// The tables of albedos of GGX and sheen, as kernels read them at kBindAlbedos.
+#pragma once
+
+#include "host/flatten/albedo_table.hpp"
+#include "host/gpu/buffer.hpp"
+#include "shaders/shared/bindings.h"
+#include "tests/support/test_device.hpp"
+
+#include <map>
+
+namespace glim {
+
+class AlbedoBuffer {
+public:
+    AlbedoBuffer()
+        : buffer_(testDevice(), "albedo table", BufferKind::Texel, table().size() * sizeof(uvec4))
+    {
+        upload(buffer_, std::span<const uvec4>(table()));
+    }
+    std::map<std::uint32_t, const Buffer*> bound() const { return {{kBindAlbedos, &buffer_}}; }
+
+private:
+    static const std::vector<uvec4>& table()
+    {
+        static const std::vector<uvec4> kTable = [] {
+            std::vector<uvec4> all = makeAlbedoTable();
+            const std::vector<uvec4> sheen = makeSheenTable();
+            all.insert(all.end(), sheen.begin(), sheen.end());
+            return all;
+        }();
+        return kTable;
+    }
+
+    Buffer buffer_;
+};
+
+}  // namespace glim
