@@ -102,7 +102,7 @@ public:
             return;
         }
         const AliasTable table = buildAliasTable(weights);
-        FlatLight light = surfaceLight(kTriangleLight, material, static_cast<std::uint32_t>(emitting.size()));
+        FlatLight light = surfaceLight(kTriangleLight, id, static_cast<std::uint32_t>(emitting.size()));
         flat_.features |= kFeatureTriangleLights;
         for (std::size_t i = 0; i < emitting.size(); ++i) {
             addEmitter(emitting[i], static_cast<float>(table.probabilities[i] / areas[i]), table.entries[i]);
@@ -118,7 +118,7 @@ public:
         }
         const double radius = static_cast<double>(sphere.radius);
         const double surface = 4.0 * kPi * radius * radius;
-        FlatLight light = surfaceLight(kSphereLight, material, 1);
+        FlatLight light = surfaceLight(kSphereLight, sphere.material, 1);
         flat_.features |= kFeatureSphereLights;
         light.position = sphere.center;
         light.radius = sphere.radius;
@@ -203,13 +203,14 @@ private:
         return texture.mean(uvs);
     }
 
-    FlatLight surfaceLight(std::uint32_t kind, const Material& material, std::uint32_t emitters) const
+    FlatLight surfaceLight(std::uint32_t kind, std::uint32_t id, std::uint32_t emitters) const
     {
+        const Material& material = scene_.materials[id];
         FlatLight light{};
         light.kind = kind;
         light.firstEmitter = static_cast<std::uint32_t>(flat_.emitters.size());
         light.emitterCount = emitters;
-        light.intensity = material.emission;
+        light.intensity = flat_.materials[id].emission;  // a texture of one colour is part of it
         light.doubleSided = material.doubleSided ? 1 : 0;
         light.uneven = material.emissiveTexture || material.alphaMode != AlphaMode::Opaque || material.clearcoat > 0.0F ? 1 : 0;
         return light;

@@ -291,6 +291,18 @@ TEST(LoadGltf, DecodesTheImagesThatMaterialsUse)
     EXPECT_TRUE(texture->nearest);
 }
 
+// Exporters write an image once for each texture.
+TEST(LoadGltf, DecodesImagesOfTheSameBytesOnce)
+{
+    GltfBuilder builder = texturedTriangle({{"name", "wood"}, {"uri", kTwoTexels}});
+    builder.append("images", {{"name", "wood again"}, {"uri", kTwoTexels}});
+    builder.append("textures", {{"source", 1}});
+    builder.document["materials"][0]["emissiveTexture"] = {{"index", 1}};
+    const Scene scene = load(builder);
+    EXPECT_EQ(scene.images.size(), 1U);
+    EXPECT_EQ(scene.materials.at(0).emissiveTexture.value().image, 0U);
+}
+
 TEST(LoadGltf, NamesImagesThatAreMissingOrBroken)
 {
     EXPECT_NE(refusal(texturedTriangle({{"name", "wood"}, {"uri", "no such file.png"}})).find("no such file.png"), std::string::npos);

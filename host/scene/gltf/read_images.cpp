@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <map>
+#include <string_view>
+#include <tuple>
 
 namespace glim {
 namespace {
@@ -28,7 +30,10 @@ public:
     void read(std::optional<Texture>& texture)
     {
         if (texture) {
-            const auto [known, fresh] = images_.try_emplace(texture->image, static_cast<std::uint32_t>(scene_.images.size()));
+            const EncodedImage& source = file_.images[texture->image];
+            const EncodedImage::Range range = source.range.value_or(EncodedImage::Range());
+            const auto [known, fresh] = images_.try_emplace(Source(source.uri, range.buffer, range.offset, range.length),
+                                                            static_cast<std::uint32_t>(scene_.images.size()));
             if (fresh) {
                 scene_.images.push_back({nameOf(texture->image), decode(texture->image)});
             }
@@ -75,11 +80,14 @@ private:
         }
     }
 
+    // Where an image's bytes are: files may name the same ones by several images.
+    using Source = std::tuple<std::string_view, std::uint32_t, std::uint64_t, std::uint64_t>;
+
     const GltfFile& file_;
     const LoadOptions& options_;
     Scene& scene_;
     Warnings& warnings_;
-    std::map<std::uint32_t, std::uint32_t> images_;  // the scene's by the file's
+    std::map<Source, std::uint32_t> images_;  // the scene's
 };
 
 }  // namespace
