@@ -185,9 +185,15 @@ void setSheen(inout Principled p, PrincipledInput m, vec3 wo)
 void setTransmission(inout Principled p, PrincipledInput m)
 {
     p.solid = m.layers.transmission > 0.0 && m.layers.medium != 0u;
-    p.eta = p.solid ? m.eta : 1.0;
-    bool bends = abs(p.eta - 1.0) >= kMinEtaStep;
-    p.smooth_ = p.smooth_ || (p.solid && !bends);
+    p.eta = p.solid && abs(m.eta - 1.0) >= kMinEtaStep ? m.eta : 1.0;
+    if (p.solid && p.eta == 1.0) {
+        // No interface: Schlick's F90, and with it multiple scattering, would make a rough ball of index 1 visible.
+        p.smooth_ = true;
+        p.dielectricF0 = vec3(0.0);
+        p.dielectricF90 = 0.0;
+        p.f0 = m.baseColor * m.data.metallic;
+        p.f90 = m.data.metallic;
+    }
     float share = p.smooth_ && !p.solid && m.passesStraight ? 0.0 : m.layers.transmission;
     p.transmitted = m.baseColor * share * (1.0 - m.data.metallic);
 }
@@ -224,25 +230,25 @@ Principled makePrincipled(PrincipledInput m, vec3 wo)
     if (hasFeature(kFeatureTransmission)) {
         setTransmission(p, m);
     }
-    vec3 tableF0 = p.f0, tableDielectric = dielectric, tableMetal = m.baseColor;
+    vec3 tableF0 = p.f0, tableDielectric = p.dielectricF0, tableMetal = m.baseColor;
     if (hasFeature(kFeatureIridescence)) {
         p.film = vec3(m.layers.iridescence, m.layers.iridescenceIor, m.filmThickness);
         if (p.film.x > 0.0) {
             // The tables are linear in F0: those that Schlick needs to give the film's reflectance at wo.
             float s = schlickWeight(wo.z), rest = 1.0 - min(s, 0.999);
             vec3 metal = withFilm(p, p.metalF0 + (1.0 - p.metalF0) * s, p.metalF0, wo.z);
-            tableDielectric = clamp((dielectricFresnel(p, wo.z) - data.specular * s) / rest, 0.0, 1.0);
+            tableDielectric = clamp((dielectricFresnel(p, wo.z) - p.dielectricF90 * s) / rest, 0.0, 1.0);
             tableMetal = clamp((metal - s) / rest, 0.0, 1.0);
             tableF0 = mix(tableDielectric, tableMetal, data.metallic);
         }
     }
-    p.baseReflectance = vec2(greatest(tableDielectric), data.specular);
+    p.baseReflectance = vec2(greatest(tableDielectric), p.dielectricF90);
     p.row = albedoRow(tableAlpha);
     vec2 ab = fetchAlbedo(p.row, wo.z);
     vec2 average = fetchAverageAlbedo(p.row);
     p.baseFms = multipleScatteringFresnel(average, p.baseReflectance.xxx, p.baseReflectance.y).x;
     // Mixed like the two BSDFs, for it is convex in F0: of the mixed F0, a white half-metal of roughness 1 would reflect .78 of the light.
-    vec3 fms = mix(multipleScatteringFresnel(average, tableDielectric, data.specular), multipleScatteringFresnel(average, tableMetal, 1.0),
+    vec3 fms = mix(multipleScatteringFresnel(average, tableDielectric, p.dielectricF90), multipleScatteringFresnel(average, tableMetal, 1.0),
                    data.metallic);
     vec3 scattered = fms * (1.0 - ab.x - ab.y);
     float below = (1.0 - data.metallic) * passedInterface(p, ab, wo.z);
