@@ -70,7 +70,7 @@ Bsdf makeBsdf(SurfaceInteraction si, SurfaceMaterial material, vec3 wo)
     vec3 ns = dielectric ? faceForward(si.ns, wo) : visibleNormal(si, wo);
     Bsdf bsdf;
     bsdf.lobe = data.lobe;
-    bsdf.color = data.baseColor;
+    bsdf.color = isUnlit(data) ? vec3(0.0) : data.baseColor;  // the path ends there
     bsdf.eta = dielectric ? eta : 1.0;
     bsdf.ng = si.ng;
     if (isPrincipled(data.lobe)) {

@@ -279,12 +279,12 @@ TEST(MaterialTest, UnlitSurfacesShowTheirColourAndShadeNothing)
         .perspective({0, 1, 5}, {0, 1, 0}, 0.05F);
     Scene scene = builder.scene();
     scene.materials[unlit].unlit = true;
-    expectMean("an unlit ball", renderScene(scene, squareSettings(16, 16)), glm::dvec3(0.25, 0.5, 1.0));
+    RenderSettings settings = squareSettings(16, 64);
+    settings.bounces = 2;
+    expectMean("an unlit ball", renderScene(scene, settings), glm::dvec3(0.25, 0.5, 1.0));
     scene.cameras[0].forward = glm::normalize(glm::vec3(0, -1, -5));
     Scene empty = scene;
     empty.spheres.clear();
-    RenderSettings settings = squareSettings(16, 64);
-    settings.bounces = 2;
     scene.cameras[0].position = empty.cameras[0].position = {0, 0.3F, 1.9F};
     expectSameMean("the floor below", renderScene(scene, settings), renderScene(empty, settings));
 }
