@@ -19,8 +19,10 @@ def check(options):
     from mitsuba_check.renderers import Glim, Mitsuba, Renders, import_mitsuba
     import_mitsuba()
     from mitsuba_check.report import collect, to_json, to_table, warn_of_size
-    from mitsuba_check.scene import read_scene
+    from mitsuba_check.scene import has_light, read_scene
     scene = read_scene(options.scene)
+    if options.environment is None and not has_light(scene):
+        raise CheckError("%s: has no light, and Mitsuba does not have glim's studio: name an --environment" % options.scene)
     options.size = options.size or (max(1, round(128 * scene.camera.aspect)), 128)
     warning = warn_of_size(*scene.bounds())
     if warning:

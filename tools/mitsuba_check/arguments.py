@@ -1,6 +1,7 @@
 """The command line of tools/against_mitsuba.py."""
 
 import argparse
+import os
 import re
 
 MIN_SEEDS = 8
@@ -40,9 +41,11 @@ def size(text):
     return int(found[1]), int(found[2])
 
 
-def color(text):
+def environment(text):
+    if os.path.isfile(text):
+        return text
     if not re.fullmatch(r"\d*\.?\d+(,\d*\.?\d+){2}", text):
-        raise argparse.ArgumentTypeError("%s: expected R,G,B, each from 0" % text)
+        raise argparse.ArgumentTypeError("%s: expected a map or R,G,B, each from 0" % text)
     return [float(part) for part in text.split(",")]
 
 
@@ -56,6 +59,7 @@ def parse_arguments(arguments=None):
                         help="independent renders of each, at least %d [%d]" % (MIN_SEEDS, MIN_SEEDS))
     parser.add_argument("--bounces", type=whole(0), default=64, metavar="N",
                         help="most surface events between camera and light [64]")
-    parser.add_argument("--environment", type=color, metavar="R,G,B", help="constant radiance from everywhere")
+    parser.add_argument("--environment", type=environment, metavar="E",
+                        help=".hdr or .exr map, or constant radiance R,G,B, from everywhere [the file's]")
     parser.add_argument("--json", action="store_true", help="print JSON instead of a table")
     return parser.parse_args(arguments)

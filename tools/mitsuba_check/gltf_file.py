@@ -10,9 +10,13 @@ import numpy as np
 
 from .errors import CheckError
 
-KINDS = {5121: np.dtype("u1"), 5123: np.dtype("<u2"), 5125: np.dtype("<u4"), 5126: np.dtype("<f4")}
-EXTENSIONS = {"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular",
-              "KHR_materials_transmission", "KHR_materials_volume"}
+KINDS = {5120: np.dtype("i1"), 5121: np.dtype("u1"), 5122: np.dtype("<i2"), 5123: np.dtype("<u2"), 5125: np.dtype("<u4"),
+         5126: np.dtype("<f4")}
+COLUMNS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
+EXTENSIONS = {"KHR_lights_punctual", "KHR_materials_anisotropy", "KHR_materials_clearcoat", "KHR_materials_diffuse_transmission",
+              "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_iridescence",
+              "KHR_materials_pbrSpecularGlossiness", "KHR_materials_sheen", "KHR_materials_specular", "KHR_materials_transmission",
+              "KHR_materials_unlit", "KHR_materials_variants", "KHR_materials_volume", "KHR_mesh_quantization", "KHR_texture_transform"}
 # The errors that a file raises if it does not follow glTF; `glim inspect` says more.
 BROKEN = (AttributeError, IndexError, KeyError, TypeError, ValueError, struct.error)
 GLB_MAGIC, JSON_CHUNK = b"glTF", 0x4E4F534A
@@ -63,25 +67,39 @@ class GltfFile:
 
     def read_buffer(self, entry, chunk):
         uri = entry.get("uri")
-        if uri is None:
-            return chunk
+        return chunk if uri is None else self.read_uri(uri)
+
+    def path_of(self, uri):
+        return os.path.join(os.path.dirname(self.path), urllib.parse.unquote(uri))
+
+    def read_uri(self, uri):
         if uri.startswith("data:"):
             return base64.b64decode(uri.partition(",")[2])
-        with open(os.path.join(os.path.dirname(self.path), urllib.parse.unquote(uri)), "rb") as file:
+        with open(self.path_of(uri), "rb") as file:
             return file.read()
 
+    def image(self, index):
+        """The bytes of an image's file."""
+        entry = self.json["images"][index]
+        if "uri" in entry:
+            return self.read_uri(entry["uri"])
+        view = self.json["bufferViews"][entry["bufferView"]]
+        first = view.get("byteOffset", 0)
+        return bytes(self.buffers[view["buffer"]][first:first + view["byteLength"]])
+
     def array(self, index, what):
-        """An accessor as rows: float32 as it is; whole numbers only for indices."""
+        """An accessor as rows: floats as they are, normalised whole numbers as floats, others only for indices and positions."""
         accessor = self.json["accessors"][index]
         kind = KINDS.get(accessor["componentType"])
         plain = kind is not None and "sparse" not in accessor and "bufferView" in accessor
-        if not plain or (kind.kind == "f") == (what == "indices"):
+        if not plain or what == "indices" and kind.kind != "u":
             self.refuse("accessors[%d] (%s) is sparse or of another type, which is not exported" % (index, what))
         view = self.json["bufferViews"][accessor["bufferView"]]
-        columns = {"SCALAR": 1, "VEC3": 3}[accessor["type"]]
+        columns = COLUMNS[accessor["type"]]
         stride = view.get("byteStride") or columns * kind.itemsize
-        return np.ndarray((accessor["count"], columns), kind, self.buffers[view["buffer"]],
+        rows = np.ndarray((accessor["count"], columns), kind, self.buffers[view["buffer"]],
                           view.get("byteOffset", 0) + accessor.get("byteOffset", 0), (stride, kind.itemsize))
+        return np.maximum(rows / float(np.iinfo(kind).max), -1) if accessor.get("normalized", False) else rows
 
     def scene(self):
         return self.json["scenes"][self.json.get("scene", 0)]

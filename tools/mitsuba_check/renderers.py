@@ -84,6 +84,10 @@ class Mitsuba:
         return np.array(dict(self.mi.Bitmap(path).split())["<root>"], float)[..., :3]
 
 
+def text_of(environment):
+    return environment if isinstance(environment, str) else ",".join("%r" % c for c in environment)
+
+
 class Glim:
     def __init__(self, options, folder):
         self.options, self.folder = options, folder
@@ -101,7 +105,7 @@ class Glim:
     def add_render(self, seed, renders, read):
         exr, stats = os.path.join(self.folder, "glim.exr"), os.path.join(self.folder, "glim.json")
         options = self.options
-        more = [] if options.environment is None else ["--environment", ",".join("%r" % c for c in options.environment)]
+        more = [] if options.environment is None else ["--environment", text_of(options.environment)]
         began = time.perf_counter()
         self.run("render", options.scene, "-o", exr, "--stats", stats, "--size", "%dx%d" % options.size, "--progress", "none",
                  "--spp", str(options.spp), "--seed", str(seed), "--bounces", str(options.bounces), *more)

@@ -1,24 +1,14 @@
 """A scene as plain values in world coordinates, read from glTF as glim reads it (scenes/README.md)."""
 
 import math
-from dataclasses import dataclass, field
+import os
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from .gltf_file import BROKEN, GltfFile
-
-
-@dataclass
-class Material:
-    kind: str  # lambert, mirror or glass
-    color: list
-    emission: list
-    ior: float = 1.5
-    double_sided: bool = False
-
-    @property
-    def emits(self):
-        return max(self.emission) > 0
+from .materials import read_material
+from .tangents import corner_tangents, unit_rows
 
 
 @dataclass
@@ -27,6 +17,9 @@ class Mesh:
     positions: np.ndarray  # n x 3
     triangles: np.ndarray  # n x 3, counter-clockwise seen from the front
     normals: np.ndarray = None  # as many as positions; without, triangles are flat
+    uvs: list = field(default_factory=list)  # of set 0 and set 1, n x 2 or None; empty: there are none
+    colors: np.ndarray = None  # n x 4
+    tangents: np.ndarray = None  # n x 4, the last column the sign of the bitangent
 
 
 @dataclass
@@ -56,12 +49,20 @@ class Camera:
 
 
 @dataclass
+class Environment:
+    path: str
+    strength: float = 1.0
+
+
+@dataclass
 class Scene:
+    file: GltfFile = None
     materials: list = field(default_factory=list)
     meshes: list = field(default_factory=list)
     spheres: list = field(default_factory=list)
     lights: list = field(default_factory=list)
     camera: Camera = None
+    environment: Environment = None
 
     def bounds(self):
         """Centre and half diagonal of the box around everything that rays can meet."""
@@ -76,29 +77,43 @@ def unit(vector):
     return vector / np.linalg.norm(vector)
 
 
-def read_material(entry):
-    extensions, pbr = entry.get("extensions", {}), entry.get("pbrMetallicRoughness", {})
+def has_light(scene):
+    """Else glim lights it by its studio. A lamp with a texture does not count, as there."""
+    used = {shape.material for shape in scene.meshes + scene.spheres}
+    lamps = [scene.materials[i] for i in used if scene.materials[i].emits and "emissiveTexture" not in scene.materials[i].textures]
+    return bool(lamps or scene.lights or scene.environment)
 
-    def value(extension, name, otherwise):
-        return extensions.get("KHR_materials_" + extension, {}).get(name, otherwise)
-    metal = pbr.get("metallicFactor", 1) > 0.5 and pbr.get("roughnessFactor", 1) < 0.2
-    kind = "glass" if value("transmission", "transmissionFactor", 0) > 0 else "mirror" if metal else "lambert"
-    strength = value("emissive_strength", "emissiveStrength", 1)
-    return Material(kind, pbr.get("baseColorFactor", [1, 1, 1, 1])[:3],
-                    [strength * e for e in entry.get("emissiveFactor", (0, 0, 0))], value("ior", "ior", 1.5),
-                    entry.get("doubleSided", False))
+
+def boxes_of_solids(scene):
+    """Material and box of everything that is drawn."""
+    for mesh in scene.meshes:
+        yield mesh.material, mesh.positions.min(axis=0), mesh.positions.max(axis=0)
+    for sphere in scene.spheres:
+        yield sphere.material, sphere.center - sphere.radius, sphere.center + sphere.radius
+
+
+def solids_meet(scene):
+    """Whether boxes of solids of different media overlap."""
+    solids = []
+    for index, low, high in boxes_of_solids(scene):
+        material = scene.materials[index]
+        if material.solid:
+            solids.append(((material.ior, *material.absorption), low, high))
+    return any(a[0] != b[0] and np.all(a[1] < b[2]) and np.all(b[1] < a[2])
+               for i, a in enumerate(solids) for b in solids[:i])
 
 
 class Reader:
     def __init__(self, path):
-        self.file, self.scene = GltfFile(path), Scene()
-        self.scene.materials = [read_material(entry) for entry in self.file.json.get("materials", ())]
+        self.file = GltfFile(path)
+        self.scene = Scene(self.file)
+        self.scene.materials = [read_material(self.file.json, entry) for entry in self.file.json.get("materials", ())]
         self.default_material = len(self.scene.materials)
-        self.scene.materials.append(read_material({}))
+        self.scene.materials.append(read_material(self.file.json, {}))
 
     def read(self):
         if "environment" in self.file.scene().get("extras", {}):
-            self.file.refuse("has an environment map, which is not exported")
+            self.add_environment(self.file.scene()["extras"]["environment"])
         for node, matrix in self.file.placed_nodes():
             for primitive in self.file.json["meshes"][node["mesh"]]["primitives"] if "mesh" in node else ():
                 self.add_mesh(primitive, matrix)
@@ -113,7 +128,14 @@ class Reader:
         if not self.scene.meshes and not self.scene.spheres:
             self.file.refuse("has no triangle and no sphere, expected something to draw")
         self.check_lamps()
+        self.check_materials()
         return self.scene
+
+    def add_environment(self, entry):
+        path = self.file.path_of(entry["file"])
+        if not os.path.exists(path):
+            self.file.refuse("has an environment map, %s, which cannot be read" % entry["file"])
+        self.scene.environment = Environment(path, entry.get("strength", 1.0))
 
     def add_mesh(self, primitive, matrix):
         if primitive.get("mode", 4) != 4:
@@ -127,7 +149,44 @@ class Reader:
             normals = self.file.array(attributes["NORMAL"], "NORMAL") @ np.linalg.inv(linear)
             normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30)
         material = primitive.get("material", self.default_material)
-        self.scene.meshes.append(Mesh(material, points, triangles[:, ::-1] if mirrored else triangles, normals))
+        mesh = Mesh(material, points, triangles[:, ::-1] if mirrored else triangles, normals, self.uvs_of(attributes),
+                    self.colors_of(attributes))
+        if "TANGENT" in attributes:
+            given = self.file.array(attributes["TANGENT"], "TANGENT")
+            sign = -given[:, 3:] if mirrored else given[:, 3:]
+            mesh.tangents = np.concatenate([unit_rows(given[:, :3] @ linear.T), sign], axis=1)
+        self.scene.meshes.append(self.with_tangents(mesh))
+
+    def uvs_of(self, attributes):
+        sets = [self.file.array(attributes[name], name) if name in attributes else None for name in ("TEXCOORD_0", "TEXCOORD_1")]
+        return sets if any(uv is not None for uv in sets) else []
+
+    def colors_of(self, attributes):
+        if "COLOR_0" not in attributes:
+            return None
+        colors = np.clip(self.file.array(attributes["COLOR_0"], "COLOR_0"), 0, 1)
+        return colors if colors.shape[1] == 4 else np.concatenate([colors, np.ones((len(colors), 1))], axis=1)
+
+    def with_tangents(self, mesh):
+        """The mesh by corners, if its material needs tangents that it has not; flat triangles have those of their faces."""
+        uv_set = self.scene.materials[mesh.material].tangent_set()
+        if uv_set is None or (mesh.tangents is not None and mesh.normals is not None):
+            return mesh
+        if not mesh.uvs or mesh.uvs[uv_set] is None:
+            return replace(mesh, tangents=None)
+        corners = mesh.triangles.ravel()
+
+        def by_corner(rows):
+            return None if rows is None else rows[corners]
+        positions, uv = mesh.positions[mesh.triangles], mesh.uvs[uv_set][mesh.triangles].astype(float)
+        if mesh.normals is None:
+            normals = unit_rows(np.cross(positions[:, 1] - positions[:, 0], positions[:, 2] - positions[:, 0]))[:, None, :]
+            normals = np.repeat(normals, 3, axis=1)
+        else:
+            normals = mesh.normals[mesh.triangles]
+        return Mesh(mesh.material, mesh.positions[corners], np.arange(len(corners), dtype=np.uint32).reshape(-1, 3),
+                    by_corner(mesh.normals), [by_corner(uv_) for uv_ in mesh.uvs], by_corner(mesh.colors),
+                    corner_tangents(positions, normals, uv).reshape(-1, 4))
 
     def add_sphere(self, sphere, matrix):
         scales = np.linalg.norm(matrix[:3, :3], axis=0)
@@ -156,8 +215,10 @@ class Reader:
         """Mitsuba's emitters shine from one side. A sphere seen only from outside needs no other; glass that emits does."""
         for shape in self.scene.meshes + self.scene.spheres:
             material = self.scene.materials[shape.material]
-            if material.emits and material.kind == "glass":
+            if material.emits and material.transmission > 0:
                 self.file.refuse("has glass that emits light, which is not exported")
+            if material.emits and material.clearcoat > 0:
+                self.file.refuse("has a lamp under a clearcoat, which is not exported")
         inner = [mesh.positions for mesh in self.scene.meshes] + [self.scene.camera.position[None]]
         inner += [sphere.center[None] for sphere in self.scene.spheres] + [light.position[None] for light in self.scene.lights]
         points = np.concatenate(inner)
@@ -166,6 +227,12 @@ class Reader:
             distances = np.linalg.norm(points - sphere.center, axis=1)
             if material.emits and material.double_sided and np.count_nonzero(distances < sphere.radius) > 1:
                 self.file.refuse("has something within a sphere that emits inwards, which is not exported")
+
+
+    def check_materials(self):
+        used = {shape.material for shape in self.scene.meshes + self.scene.spheres}
+        for name in sorted({name for index in used for name in self.scene.materials[index].unknown}):
+            self.file.refuse("uses %s, which is not exported" % name)
 
 
 def read_scene(path):
