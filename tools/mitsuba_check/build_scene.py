@@ -48,10 +48,11 @@ class Images:
 class Appearance:
     """What a shape of some material is given: its BSDF and emitter."""
 
-    def __init__(self, material, images, on_sphere=False, attributes=()):
+    def __init__(self, material, images, on_sphere=False, attributes=(), meets=False):
+        """meets: solids of the scene meet, so that glass does not always end at air."""
         self.material = material
-        colored = "vertex_color" in attributes
-        kind = material.kind(colored)
+        kind = material.kind("vertex_color" in attributes)
+        kind = "principled" if meets and kind == "glass" else kind
         self.surface, self.lobes = None, None
         if kind == "principled" or material.transparent or material.unlit or "emissiveTexture" in material.textures:
             from .gltf_bsdf import Lobes, Surface
@@ -98,11 +99,11 @@ def attributes_of(mesh):
     return found
 
 
-def make_mesh(name, mesh, material, images):
+def make_mesh(name, mesh, material, images, meets):
     """Flat triangles unless there are normals."""
     attributes, properties = attributes_of(mesh), mi.Properties()
     uv = mesh.uvs[0] if mesh.uvs else None
-    look = Appearance(material, images, attributes=set(attributes) | ({"uv"} if uv is not None else set()))
+    look = Appearance(material, images, attributes=set(attributes) | ({"uv"} if uv is not None else set()), meets=meets)
     for key, entry in {"bsdf": look.bsdf(), **look.emitter()}.items():
         properties[key] = mi.load_dict(entry) if isinstance(entry, dict) else entry
     made = mi.Mesh(name, vertex_count=len(mesh.positions), face_count=len(mesh.triangles),
@@ -135,17 +136,17 @@ class Shapes:
     """Those that all rays see, those that only the camera sees, and the numbers of media by the shape's name."""
 
     def __init__(self, scene):
-        self.scene, self.images = scene, Images(scene.file)
+        self.meet, self.images = solids_meet(scene), Images(scene.file)
         self.plain, self.unlit, self.numbers, self.media = {}, {}, {}, []
         for (index, _has, _lamp), same in groups_of(scene).items():
             material, mesh = scene.materials[index], join(same)
             if material.emits and material.double_sided:
                 mesh = two_sheets(mesh)
             name = "mesh_%d" % (len(self.plain) + len(self.unlit))
-            self.add(name, material, make_mesh(name, mesh, material, self.images))
+            self.add(name, material, make_mesh(name, mesh, material, self.images, self.meet))
         for i, sphere in enumerate(scene.spheres):
             material = scene.materials[sphere.material]
-            look = Appearance(material, self.images, on_sphere=True)
+            look = Appearance(material, self.images, on_sphere=True, meets=self.meet)
             self.add("sphere_%d" % i, material,
                      {"type": "sphere", "center": list(map(float, sphere.center)), "radius": float(sphere.radius),
                       "bsdf": look.bsdf(), **look.emitter()})
@@ -160,7 +161,7 @@ class Shapes:
 
     def integrator(self, bounces):
         depth = bounces + FIRST_SEGMENT
-        if solids_meet(self.scene):
+        if self.meet:
             from .integrator import Media, integrator_class
             media = Media(self.numbers, [ior for ior, _ in self.media], [absorption for _, absorption in self.media])
             found = integrator_class(mi.variant())(depth, media)

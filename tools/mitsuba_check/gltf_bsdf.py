@@ -606,8 +606,8 @@ class Lobes:
             chosen = remaining & (rest < share) if name != names[-1] else remaining
             lobes[name] = chosen
             lobes[name + " u"] = dr.clip(rest / dr.maximum(share, 1e-30), 0, 0.9999999)
-            remaining &= ~chosen
-            rest -= share
+            remaining = remaining & ~chosen
+            rest = rest - share
         h = p.lobe.normal(p.wo, v)
         h = dr.select(p.is_smooth, mi.Vector3f(0, 0, 1), h)
         cosine = dr.dot(p.wo, h)
