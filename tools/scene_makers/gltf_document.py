@@ -6,7 +6,8 @@ import math
 import os
 import struct
 
-FLOAT, UNSIGNED_SHORT, UNSIGNED_INT = 5126, 5123, 5125
+FLOAT, SHORT, UNSIGNED_SHORT, UNSIGNED_INT = 5126, 5122, 5123, 5125
+WRAPS = {"repeat": 10497, "mirror": 33648, "clamp": 33071}
 
 
 def to_float32(value):
@@ -48,6 +49,7 @@ class Document:
         }
         self.extensions = set()
         self.data = bytearray()
+        self.files = {}  # what else to write beside the document: names and bytes
 
     def append(self, collection, entry):
         self.json.setdefault(collection, []).append(entry)
@@ -65,6 +67,12 @@ class Document:
             "bufferView": self.view(pack("f", [c for p in points for c in p]), target=34962),
             "componentType": FLOAT, "count": len(points), "type": "VEC3",
             "min": [to_float32(min(c)) for c in columns], "max": [to_float32(max(c)) for c in columns]})
+
+    def vectors(self, values):
+        """Two to four floats per vertex."""
+        return self.append("accessors", {
+            "bufferView": self.view(pack("f", [c for v in values for c in v]), target=34962), "componentType": FLOAT,
+            "count": len(values), "type": "VEC%d" % len(values[0])})
 
     def indices(self, indices):
         small = max(indices) < 65535
@@ -97,9 +105,90 @@ class Document:
             self.extensions.update(extensions)
         return self.append("materials", entry)
 
-    def primitive(self, points, indices, material):
-        return {"attributes": {"POSITION": self.positions(points)}, "indices": self.indices(indices),
-                "material": material}
+    def texture(self, image, wrap=("repeat", "repeat"), nearest=False):
+        """Of a PNG file's bytes, or of another texture's image."""
+        if isinstance(image, bytes):
+            source = self.append("images", {"mimeType": "image/png", "bufferView": self.view(image)})
+        else:
+            source = self.json["textures"][image]["source"]
+        sampler = {"magFilter": 9728 if nearest else 9729, "wrapS": WRAPS[wrap[0]], "wrapT": WRAPS[wrap[1]]}
+        if sampler not in self.json.setdefault("samplers", []):
+            self.json["samplers"].append(sampler)
+        return self.append("textures", {"source": source, "sampler": self.json["samplers"].index(sampler)})
+
+    def use(self, texture, uv_set=0, transform=None, **more):
+        """A material's use of a texture; `transform` as in KHR_texture_transform."""
+        entry = {"index": texture, **more}
+        if uv_set:
+            entry["texCoord"] = uv_set
+        if transform:
+            entry["extensions"] = {"KHR_texture_transform": transform}
+            self.extensions.add("KHR_texture_transform")
+        return entry
+
+    def surface_material(self, name, color=(1.0, 1.0, 1.0), metallic=0.0, roughness=0.5, alpha=1.0, base=None,
+                         metal_rough=None, normal=None, extensions=None, **more):
+        """glTF's whole material: `base`, `metal_rough` and `normal` are textures or uses of them, `extensions` lack KHR_materials_."""
+        def as_use(texture):
+            return {"index": texture} if isinstance(texture, int) else texture
+        core = {"baseColorFactor": [*color, alpha], "metallicFactor": metallic, "roughnessFactor": roughness}
+        if base is not None:
+            core["baseColorTexture"] = as_use(base)
+        if metal_rough is not None:
+            core["metallicRoughnessTexture"] = as_use(metal_rough)
+        entry = {"name": name, "pbrMetallicRoughness": core, **more}
+        if normal is not None:
+            entry["normalTexture"] = as_use(normal)
+        if extensions:
+            entry["extensions"] = {"KHR_materials_" + key: value for key, value in extensions.items()}
+            self.extensions.update(entry["extensions"])
+        return self.append("materials", entry)
+
+    def primitive(self, points, indices, material, **attributes):
+        """`attributes`: lists of vectors by their glTF names."""
+        names = {"POSITION": self.positions(points)}
+        for name, values in attributes.items():
+            names[name] = self.vectors(values)
+        return {"attributes": names, "indices": self.indices(indices), "material": material}
+
+    def surface(self, name, surface, material, uv=True, **properties):
+        """A node with a mesh from surfaces.py."""
+        attributes = {"NORMAL": surface.normals, **({"TEXCOORD_0": surface.uvs} if uv else {}), **surface.more}
+        primitive = self.primitive(surface.points, surface.indices, material, **attributes)
+        return self.node(name, mesh=self.mesh(primitive), **properties)
+
+    def quantized(self, values, code, limit):
+        """Vectors of 16 bits, in steps of four bytes."""
+        width = len(values[0])
+        rows = [[int(math.floor(c * limit + 0.5)) for c in v] + [0] * (width % 2) for v in values]
+        view = self.view(pack(code, [c for row in rows for c in row]), target=34962, byteStride=2 * len(rows[0]))
+        entry = {"bufferView": view, "componentType": UNSIGNED_SHORT if code == "H" else SHORT, "normalized": True,
+                 "count": len(values), "type": "VEC%d" % width}
+        return entry, rows
+
+    def small_surface(self, name, surface, material, uv=True):
+        """The same with half the bytes (KHR_mesh_quantization). Texture coordinates lie from 0 to 1."""
+        self.extensions.add("KHR_mesh_quantization")
+        self.json["extensionsRequired"] = ["KHR_mesh_quantization"]
+        columns = list(zip(*surface.points))
+        middle = [(min(c) + max(c)) / 2.0 for c in columns]
+        half = max(max(c) - min(c) for c in columns) / 2.0
+        entry, rows = self.quantized([[(c - m) / half for c, m in zip(p, middle)] for p in surface.points], "h", 32767)
+        columns = list(zip(*rows))[:3]
+        entry.update(min=[min(c) for c in columns], max=[max(c) for c in columns])
+        names = {"POSITION": self.append("accessors", entry),
+                 "NORMAL": self.append("accessors", self.quantized(surface.normals, "h", 32767)[0])}
+        if uv:
+            names["TEXCOORD_0"] = self.append("accessors", self.quantized(surface.uvs, "H", 65535)[0])
+        for key, values in surface.more.items():
+            names[key] = self.append("accessors", self.quantized(values, "H", 65535)[0])
+        primitive = {"attributes": names, "indices": self.indices(surface.indices), "material": material}
+        return self.node(name, mesh=self.mesh(primitive), translation=middle, scale=[half] * 3)
+
+    def environment(self, file, content, strength=1.0):
+        """A map beside the document that lights its scene."""
+        self.files[file] = content
+        self.json["scenes"][0]["extras"] = {"environment": {"file": file, "strength": strength}}
 
     def mesh(self, *primitives):
         return self.append("meshes", {"primitives": list(primitives)})
@@ -130,6 +219,12 @@ class Document:
         lights.append({"name": name, **light})
         return self.node(name, extensions={"KHR_lights_punctual": {"light": len(lights) - 1}}, **properties)
 
+    def copy(self, name, node, material, place):
+        """The mesh of a node again, with another material and its centre elsewhere."""
+        source = self.json["nodes"][node]
+        primitive = {**self.json["meshes"][source["mesh"]]["primitives"][0], "material": material}
+        return self.node(name, mesh=self.mesh(primitive), translation=list(place), scale=source["scale"])
+
     def finish(self, embed):
         document = dict(self.json)
         if self.extensions:
@@ -147,6 +242,8 @@ class Document:
         else:
             content = to_text(self.finish(embed=True)).encode()
         write_whole(path, content)
+        for name, content in self.files.items():
+            write_whole(os.path.join(os.path.dirname(path), name), content)
 
 
 def to_text(document):

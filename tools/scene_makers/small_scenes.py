@@ -4,7 +4,9 @@ import colorsys
 import math
 
 from .gltf_document import Document, look_at
+from .material_scenes import MATERIAL_SCENES
 from .shapes import block, brilliant, icosahedron, rest_on_face, turn
+from .showcase import showcase
 
 WHITE, RED, GREEN = (0.73, 0.73, 0.71), (0.63, 0.065, 0.05), (0.14, 0.45, 0.091)
 
@@ -150,6 +152,6 @@ def many_lights():
     return document
 
 
-SMALL_SCENES = {function.__name__: function for function in (
+SMALL_SCENES = {**MATERIAL_SCENES, **{function.__name__: function for function in (
     cornell, cornell_spheres, cornell_mirror_glass, cornell_gems, light_point, light_spot, light_directional, furnace,
-    veach_mis, many_lights)}
+    veach_mis, many_lights, showcase)}}
