@@ -50,6 +50,19 @@ def radiance_map(width, height, radiance):
     return b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % (height, width) + bytes(pixels)
 
 
+def softboxes(boxes, ambient):
+    """A sky for radiance_map: boxes of (azimuth, elevation, half width, half height, RGB), edges 6 degrees wide, over ambient(azimuth, elevation)."""
+    def radiance(azimuth, elevation):
+        color = ambient(azimuth, elevation)
+        for middle, height, half_width, half_height, added in boxes:
+            across = ((azimuth - middle + 180.0) % 360.0 - 180.0) * math.cos(math.radians(elevation))
+            inside = smooth_step(half_width + 3.0, half_width - 3.0, abs(across))
+            inside *= smooth_step(half_height + 3.0, half_height - 3.0, abs(elevation - height))
+            color = tuple(c + inside * r for c, r in zip(color, added))
+        return color
+    return radiance
+
+
 def smooth_step(low, high, x):
     t = min(max((x - low) / (high - low), 0.0), 1.0)
     return t * t * (3.0 - 2.0 * t)

@@ -3,11 +3,19 @@
 import math
 
 from .gltf_document import Document, look_at
-from .made_images import GREY, PALETTE, RGB, RGBA, hash01, normal_map, png, ramp, sample, turbulence
+from .made_images import GREY, PALETTE, RGB, RGBA, hash01, normal_map, png, radiance_map, ramp, sample, smooth_step, softboxes, turbulence
 from .showcase import drape, leaf_picture, tumbler
 from .surfaces import ball, rectangle
 
 GOLD, COPPER = (1.0, 0.766, 0.336), (0.955, 0.638, 0.538)
+
+
+def light_by_softboxes(document):
+    """The one map of these scenes; the built-in studio may change."""
+    boxes = ((-50.0, 42.0, 28.0, 22.0, (4.0, 3.9, 3.6)), (70.0, 20.0, 16.0, 30.0, (1.2, 1.4, 1.7)), (150.0, 40.0, 30.0, 14.0, (2.0, 2.0, 2.2)))
+    def ambient(azimuth, elevation):
+        return (0.15 + 0.25 * smooth_step(-30.0, 90.0, elevation),) * 3
+    document.environment("softboxes.hdr", radiance_map(64, 32, softboxes(boxes, ambient)))
 
 
 def checker(document, light=188, dark=90):
@@ -32,6 +40,7 @@ def solid(ior=1.5, attenuation=None, distance=1.0, **more):
 def materials():
     document = Document()
     document.camera("front", (0.0, 0.0, 16.0), (0.0, 0.0, 0.0), 22.6, 1.0)
+    light_by_softboxes(document)
     document.surface("wall", rectangle((-3.4, -3.4, -1.0), (6.8, 0.0, 0.0), (0.0, 6.8, 0.0)), checkered(document, "wall", 34))
 
     def make(name, *values, **more):
@@ -87,6 +96,7 @@ def textures():
     """Sixteen unlit squares, 90 cm wide, and a pair of half squares that are lit."""
     document = Document()
     document.camera("front", (0.0, 0.0, 12.0), (0.0, 0.0, 0.0), 20.0, 1.0)
+    light_by_softboxes(document)
     arrow = [(40, 60, 160), (200, 60, 40), (230, 200, 60), (240, 240, 240)]  # no turn or mirror image of it is the same
     picture = png([[0, 0, 1, 2], [0, 3, 1, 1], [0, 3, 3, 0], [2, 0, 0, 0]], PALETTE, 2, arrow)
     first = document.texture(picture)
@@ -137,6 +147,7 @@ def normal_map_scene():
     """Two rows of four panels with the same domes: a mirror above, a rough plane below."""
     document = Document()
     document.camera("front", (0.0, 0.0, 9.0), (0.0, 0.0, 0.0), 26.0, 1.0)
+    light_by_softboxes(document)
     def dome(u, v):
         x, y = (u * 2.0) % 1.0 - 0.5, (v * 2.0) % 1.0 - 0.5
         return math.sqrt(max(0.16 - x * x - y * y, 0.0))
@@ -200,6 +211,7 @@ def alpha():
 def liquid():
     document = Document()
     document.camera("front", (0.0, 1.35, 5.0), (0.0, 0.5, 0.0), 24.0, 1.0)
+    light_by_softboxes(document)
     document.surface("floor", rectangle((-2.0, 0.0, 1.5), (4.0, 0.0, 0.0), (0.0, 0.0, -4.0)), checkered(document, "floor", 16))
     glass = document.surface_material("glass", roughness=0.0, extensions=solid())
     wine = document.surface_material("wine", roughness=0.0, extensions=solid(1.34, (0.75, 0.05, 0.08), 0.12))
@@ -219,6 +231,7 @@ def car_paint():
     """Three balls: paint and coat, paint alone, and a coat like orange peel."""
     document = Document()
     document.camera("front", (0.0, 1.2, 4.6), (0.0, 0.62, 0.0), 26.0, 1.0)
+    light_by_softboxes(document)
     document.surface("floor", rectangle((-2.0, 0.0, 1.5), (4.0, 0.0, 0.0), (0.0, 0.0, -4.0)), checkered(document, "floor", 16))
     def flake(u, v):  # flat flakes, each tilted by itself
         i, j = int(u * 32), int(v * 32)
@@ -243,6 +256,7 @@ def car_paint():
 def cloth():
     document = Document()
     document.camera("front", (0.0, 1.3, 4.6), (0.0, 0.48, 0.0), 24.0, 1.0)
+    light_by_softboxes(document)
     document.surface("floor", rectangle((-2.0, 0.0, 1.5), (4.0, 0.0, 0.0), (0.0, 0.0, -4.0)), checkered(document, "floor", 16))
     stripes = document.texture(png([[(255, 60, 60)] * 2 + [(70, 110, 255)] * 2], RGB), nearest=True)
     velvet = document.surface_material("velvet", (0.03, 0.02, 0.05), roughness=1.0, doubleSided=True, extensions={"sheen": {

@@ -3,23 +3,21 @@
 import math
 
 from .gltf_document import Document
-from .made_images import (PALETTE, hash01, mix, normal_map, png, radiance_map, ramp, sample, shades, smooth_step, turbulence)
+from .made_images import (PALETTE, hash01, mix, normal_map, png, radiance_map, ramp, sample, shades, smooth_step, softboxes, turbulence)
 from .shapes import brilliant, rest_on_face, turn
 from .surfaces import box, joined, lathe, patch, rectangle, rotation, smooth_curve, torus
 
 
 # Azimuth (0 is towards the camera, 90 to the right), elevation, half width, half height in degrees; radiance.
-SOFTBOXES = ((-56.0, 43.0, 40.0, 27.0, (8.6, 7.1, 5.2)), (82.0, 26.0, 16.0, 34.0, (2.2, 3.1, 4.6)), (20.0, 84.0, 180.0, 14.0, (2.4, 2.4, 2.5)))
+SOFTBOXES = ((-50.0, 46.0, 46.0, 32.0, (5.4, 4.5, 3.35)), (84.0, 32.0, 20.0, 30.0, (1.9, 2.6, 3.7)), (10.0, 80.0, 60.0, 8.0, (2.4, 2.4, 2.4)))
 
 
-def studio_sky(azimuth, elevation):
-    color = mix((0.10, 0.105, 0.12), (0.34, 0.38, 0.46), smooth_step(-20.0, 70.0, elevation))
-    for middle, height, half_width, half_height, radiance in SOFTBOXES:
-        across = ((azimuth - middle + 180.0) % 360.0 - 180.0) * math.cos(math.radians(elevation))
-        inside = 1.0 if half_width >= 180.0 else smooth_step(half_width + 3.0, half_width - 3.0, abs(across))
-        inside *= smooth_step(half_height + 3.0, half_height - 3.0, abs(elevation - height))
-        color = tuple(c + inside * r for c, r in zip(color, radiance))
-    return color
+def ambient(azimuth, elevation):
+    """Nothing below the table and little behind the wall, where light would only be sampled in vain."""
+    front = smooth_step(-0.5, 0.6, math.cos(math.radians(azimuth)) + max(elevation - 50.0, 0.0) / 60.0)
+    strength = smooth_step(-4.0, 4.0, elevation) * (0.1 + 0.9 * front)
+    color = mix((0.36, 0.38, 0.43), (0.46, 0.50, 0.58), smooth_step(0.0, 70.0, elevation))
+    return tuple(max(strength * c, 1e-3) for c in color)
 
 
 def wood(u, v):
@@ -47,11 +45,11 @@ MARBLE = ramp(((0.0, (0.22, 0.24, 0.27)), (0.6, (0.80, 0.80, 0.80)), (1.0, (0.95
 
 def dents(u, v):
     """A hammered sheet: the distance from the nearest blow of a jittered, repeating grid."""
-    n, nearest = 7, 9.0
+    n, nearest = 6, 9.0
     x, y = u * n, v * n
-    for i in range(int(math.floor(x)) - 1, int(math.floor(x)) + 2):
-        for j in range(int(math.floor(y)) - 1, int(math.floor(y)) + 2):
-            cx, cy = i + 0.2 + 0.6 * hash01(i % n, j % n, 1), j + 0.2 + 0.6 * hash01(i % n, j % n, 2)
+    for i in range(math.floor(x) - 1, math.floor(x) + 2):
+        for j in range(math.floor(y) - 1, math.floor(y) + 2):
+            cx, cy = i + hash01(i % n, j % n, 1), j + hash01(i % n, j % n, 2)
             nearest = min(nearest, (x - cx) ** 2 + (y - cy) ** 2)
     return min(nearest, 0.6)
 
@@ -138,12 +136,12 @@ def branch(start, end, rise, leaves, size, seed):
 def showcase():
     document = Document()
     document.camera("front", (0.1, 1.5, 5.4), (0.02, 0.72, 0.0), 25.4, 1.5)
-    document.environment("showcase.hdr", radiance_map(128, 64, studio_sky))
+    document.environment("showcase.hdr", radiance_map(128, 64, softboxes(SOFTBOXES, ambient)))
 
     boards = document.texture(shades(128, 128, wood, WOOD))
     table = document.surface_material("table", roughness=0.32, base=document.use(boards, transform={"scale": [3.0, 3.0]}))
     document.surface("table", rectangle((-4.5, 0.0, 2.6), (9.0, 0.0, 0.0), (0.0, 0.0, -4.5)), table)
-    plaster = document.surface_material("plaster", (0.13, 0.215, 0.235), roughness=0.9)
+    plaster = document.surface_material("plaster", (0.2, 0.31, 0.33), roughness=0.9)
     bend = math.radians(150.0)
     document.small_surface("wall", patch(lambda s, t: (3.4 * math.sin((s - 0.5) * bend), -1.0 + 3.6 * t,
                                                        1.0 - 3.4 * math.cos((s - 0.5) * bend)), 32, 1), plaster, uv=False)
@@ -153,12 +151,12 @@ def showcase():
     document.surface("slab", slab, stone)
 
     blows = document.texture(normal_map(48, 48, dents, 0.06))
-    copper = document.surface_material("hammered copper", (0.955, 0.56, 0.42), 1.0, 0.27,
+    copper = document.surface_material("hammered copper", (0.94, 0.50, 0.33), 1.0, 0.27,
                                        normal=document.use(blows, transform={"scale": [4.0, 3.0]}), doubleSided=True)
     document.small_surface("vase", vase().placed((-0.98, 0.112, -0.45)), copper)
 
     stems, leaves, tints = zip(*(branch((-0.98, 1.0, -0.45), end, rise, count, size, seed) for end, rise, count, size, seed in (
-        ((-1.62, 1.78, -0.35), 0.14, 7, 0.34, 1), ((-0.9, 1.96, -0.75), 0.05, 8, 0.34, 2), ((-0.34, 1.72, -0.2), 0.16, 7, 0.34, 3))))
+        ((-1.62, 1.78, -0.35), 0.14, 9, 0.32, 1), ((-0.9, 1.96, -0.75), 0.05, 9, 0.34, 2), ((-0.34, 1.72, -0.2), 0.16, 9, 0.32, 3))))
     bark = document.surface_material("bark", (0.16, 0.1, 0.06), roughness=0.7)
     document.small_surface("stems", joined(stems), bark, uv=False)
     green = document.surface_material("leaf", roughness=0.42, base=document.texture(leaf_picture(), ("clamp", "clamp")),
@@ -188,12 +186,12 @@ def showcase():
     amethyst = document.surface_material("amethyst", roughness=0.0, extensions={
         "transmission": {"transmissionFactor": 1.0}, "ior": {"ior": 1.75},
         "volume": {"thicknessFactor": 1.0, "attenuationDistance": 0.16, "attenuationColor": [0.62, 0.3, 0.9]}})
-    resting = rest_on_face([[0.17 * c for c in p] for p in jewel], faces, -1, 0.001)
+    resting = rest_on_face([[0.2 * c for c in p] for p in jewel], faces, -1, 0.001)
     document.shape("amethyst", turn(resting, 30.0, (0.85, 0.0, 0.75)), faces, amethyst)
 
     gold = document.surface_material("gold", (1.0, 0.766, 0.336), 1.0, 0.22)
     document.small_surface("ring", torus(0.26, 0.068, 44, 14).placed((-0.5, 0.068, 0.78)), gold, uv=False)
-    film = document.surface_material("film on metal", (0.92, 0.92, 0.95), 1.0, 0.2, extensions={
-        "iridescence": {"iridescenceFactor": 1.0, "iridescenceIor": 1.6, "iridescenceThicknessMaximum": 330.0}})
+    film = document.surface_material("film on metal", (0.3, 0.3, 0.32), 1.0, 0.2, extensions={
+        "iridescence": {"iridescenceFactor": 1.0, "iridescenceIor": 1.8, "iridescenceThicknessMaximum": 310.0}})
     document.sphere("bead", (-0.5, 0.15, 0.78), 0.15, film)
     return document
