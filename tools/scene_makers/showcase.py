@@ -4,7 +4,6 @@ import math
 
 from .gltf_document import Document
 from .made_images import (PALETTE, hash01, mix, normal_map, png, radiance_map, ramp, sample, shades, smooth_step, softboxes, turbulence)
-from .shapes import brilliant, rest_on_face, turn
 from .surfaces import box, joined, lathe, patch, rectangle, rotation, smooth_curve, torus
 
 
@@ -182,12 +181,8 @@ def showcase():
     document.small_surface("tumbler", cup.placed((0.2, 0.001, 0.35)), glass, uv=False)
     document.small_surface("whisky", drink.placed((0.2, 0.001, 0.35)), whisky, uv=False)
 
-    jewel, faces = brilliant(8)
-    amethyst = document.surface_material("amethyst", roughness=0.0, extensions={
-        "transmission": {"transmissionFactor": 1.0}, "ior": {"ior": 1.75},
-        "volume": {"thicknessFactor": 1.0, "attenuationDistance": 0.16, "attenuationColor": [0.62, 0.3, 0.9]}})
-    resting = rest_on_face([[0.2 * c for c in p] for p in jewel], faces, -1, 0.001)
-    document.shape("amethyst", turn(resting, 30.0, (0.85, 0.0, 0.75)), faces, amethyst)
+    egg = lathe(smooth_curve([(0.0, 0.0), (0.085, 0.022), (0.15, 0.12), (0.125, 0.26), (0.06, 0.36), (0.0, 0.385)], 3), 28)
+    document.small_surface("egg", egg.placed((0.83, 0.001, 0.72), matrix=rotation((0.0, 1.0, 0.0), 40.0)), stone)
 
     gold = document.surface_material("gold", (1.0, 0.766, 0.336), 1.0, 0.22)
     document.small_surface("ring", torus(0.26, 0.068, 44, 14).placed((-0.5, 0.068, 0.78)), gold, uv=False)
