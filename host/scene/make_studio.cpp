@@ -53,7 +53,7 @@ RadianceMap makeStudio()
     map.texels.reserve(std::size_t{map.width} * map.height);
     for (std::uint32_t y = 0; y < map.height; ++y) {
         for (std::uint32_t x = 0; x < map.width; ++x) {
-            const double azimuth = 180.0 - 360.0 * (x + 0.5) / map.width;  // the middle of the map is -z, and +x to its right
+            const double azimuth = 360.0 - 360.0 * (x + 0.5) / map.width;  // the middle of the map is -z, and +x to its right
             map.texels.emplace_back(static_cast<float>(radianceAt(azimuth, 90.0 - 180.0 * (y + 0.5) / map.height)));
         }
     }

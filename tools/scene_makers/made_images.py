@@ -40,11 +40,12 @@ def png(rows, color_type=RGB, depth=8, palette=(), alphas=()):
 
 
 def radiance_map(width, height, radiance):
-    """A Radiance .hdr file without run lengths. `radiance(azimuth, elevation)` gives RGB; degrees, azimuth 0 is +z and 90 is +x."""
+    """A Radiance .hdr file without run lengths. `radiance(azimuth, elevation)` gives RGB; degrees, azimuth 0 is +z and 90 is +x. The map's middle is -z."""
     pixels = bytearray()
     for y in range(height):
         for x in range(width):
-            color = radiance(180.0 - 360.0 * (x + 0.5) / width, 90.0 - 180.0 * (y + 0.5) / height)
+            azimuth = 180.0 - (360.0 * (x + 0.5) / width + 180.0) % 360.0
+            color = radiance(azimuth, 90.0 - 180.0 * (y + 0.5) / height)
             exponent = math.frexp(max(color))[1]
             pixels += bytes(int(math.ldexp(c, 8 - exponent)) for c in color) + bytes([exponent + 128])
     return b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % (height, width) + bytes(pixels)

@@ -12,7 +12,7 @@ GOLD, COPPER = (1.0, 0.766, 0.336), (0.955, 0.638, 0.538)
 
 def light_by_softboxes(document):
     """The one map of these scenes; the built-in studio may change."""
-    boxes = ((-50.0, 42.0, 28.0, 22.0, (4.0, 3.9, 3.6)), (70.0, 20.0, 16.0, 30.0, (1.2, 1.4, 1.7)), (150.0, 40.0, 30.0, 14.0, (2.0, 2.0, 2.2)))
+    boxes = ((130.0, 42.0, 28.0, 22.0, (4.0, 3.9, 3.6)), (-110.0, 20.0, 16.0, 30.0, (1.2, 1.4, 1.7)), (-30.0, 40.0, 30.0, 14.0, (2.0, 2.0, 2.2)))
     def ambient(azimuth, elevation):
         return (0.15 + 0.25 * smooth_step(-30.0, 90.0, elevation),) * 3
     document.environment("softboxes.hdr", radiance_map(64, 32, softboxes(boxes, ambient)))

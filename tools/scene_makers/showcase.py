@@ -8,15 +8,20 @@ from .surfaces import box, joined, lathe, patch, rectangle, rotation, smooth_cur
 
 
 # Azimuth (0 is towards the camera, 90 to the right), elevation, half width, half height in degrees; radiance.
-SOFTBOXES = ((-50.0, 46.0, 46.0, 32.0, (5.4, 4.5, 3.35)), (84.0, 32.0, 20.0, 30.0, (1.9, 2.6, 3.7)), (10.0, 80.0, 60.0, 8.0, (2.4, 2.4, 2.4)))
+SOFTBOXES = ((-50.0, 46.0, 44.0, 31.0, (5.4, 4.5, 3.35)), (112.0, 34.0, 20.0, 28.0, (2.2, 3.0, 4.2)), (-128.0, 30.0, 10.0, 28.0, (1.5, 1.4, 1.3)),
+             (10.0, 80.0, 60.0, 8.0, (2.2, 2.2, 2.2)))
 
 
 def ambient(azimuth, elevation):
-    """Nothing below the table and little behind the wall, where light would only be sampled in vain."""
-    front = smooth_step(-0.5, 0.6, math.cos(math.radians(azimuth)) + max(elevation - 50.0, 0.0) / 60.0)
-    strength = smooth_step(-4.0, 4.0, elevation) * (0.1 + 0.9 * front)
-    color = mix((0.36, 0.38, 0.43), (0.46, 0.50, 0.58), smooth_step(0.0, 70.0, elevation))
-    return tuple(max(strength * c, 1e-3) for c in color)
+    """Around the camera the dim room; behind the table a backdrop with a glow; nothing below the table, where it would only cost samples."""
+    away = math.hypot((azimuth % 360.0 - 180.0) / 24.0, (elevation + 3.0) / 15.0)
+    glow = math.exp(-0.5 * away * away)
+    backdrop = mix((0.022, 0.034, 0.038), (0.17, 0.25, 0.265), glow)
+    room = mix((0.34, 0.36, 0.40), (0.46, 0.50, 0.58), smooth_step(0.0, 70.0, elevation))
+    behind = smooth_step(70.0, 110.0, abs((azimuth + 180.0) % 360.0 - 180.0))
+    seen = smooth_step(-4.0, 4.0, elevation) * (1.0 - behind) * 0.9 + 0.1 * smooth_step(0.0, 20.0, elevation)
+    shown = behind * smooth_step(-40.0, -20.0, elevation)
+    return tuple(max(seen * r + shown * b, 1e-3) for r, b in zip(room, backdrop))
 
 
 def wood(u, v):
@@ -138,12 +143,11 @@ def showcase():
     document.environment("showcase.hdr", radiance_map(128, 64, softboxes(SOFTBOXES, ambient)))
 
     boards = document.texture(shades(128, 128, wood, WOOD))
-    table = document.surface_material("table", roughness=0.32, base=document.use(boards, transform={"scale": [3.0, 3.0]}))
-    document.surface("table", rectangle((-4.5, 0.0, 2.6), (9.0, 0.0, 0.0), (0.0, 0.0, -4.5)), table)
-    plaster = document.surface_material("plaster", (0.2, 0.31, 0.33), roughness=0.9)
-    bend = math.radians(150.0)
-    document.small_surface("wall", patch(lambda s, t: (3.4 * math.sin((s - 0.5) * bend), -1.0 + 3.6 * t,
-                                                       1.0 - 3.4 * math.cos((s - 0.5) * bend)), 32, 1), plaster, uv=False)
+    table = document.surface_material("table", roughness=0.32, base=boards)
+    top = patch(lambda s, t: (3.4 * (1.0 - t) * math.sin(-2.0 * math.pi * s), 0.0, 1.0 - 3.4 * (1.0 - t) * math.cos(2.0 * math.pi * s)), 96, 1,
+                lambda s, t: (0.0, 1.0, 0.0))
+    top.uvs = [(p[0] / 3.0 + 0.5, p[2] / 1.5) for p in top.points]
+    document.surface("table", top, table)
 
     stone = document.surface_material("marble", roughness=0.12, base=document.texture(shades(96, 96, marble, MARBLE)))
     slab = box((-0.55, 0.001, -0.5), (0.55, 0.11, 0.5)).placed((-0.98, 0.0, -0.45), matrix=rotation((0.0, 1.0, 0.0), 14.0))
