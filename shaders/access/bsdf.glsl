@@ -23,7 +23,6 @@ struct Bsdf {
 bool isDielectric(uint lobe) { return hasFeature(kFeatureDielectric) && lobe == kDielectric; }
 bool isMirror(uint lobe) { return hasFeature(kFeatureMirror) && lobe == kMirror; }
 bool isPrincipled(uint lobe) { return hasFeature(kFeaturePrincipled) && lobe == kPrincipled; }
-bool scattersNothing(uint lobe) { return hasFeature(kFeatureUnlit) && lobe == kUnlit; }
 
 // The frame whose x axis is the tangent, as far as that is not along n.
 Frame makeFrame(vec3 n, vec3 tangent)
@@ -129,7 +128,7 @@ BsdfSample sampleReflection(Bsdf bsdf, vec3 wo, vec2 u, float uLobe)
     }
     s.wi = worldFromFrame(bsdf.frame, s.wi);
     float outwards = (s.flags & kBsdfTransmission) != 0u ? -dot(s.wi, bsdf.ng) : dot(s.wi, bsdf.ng);
-    s.weight = outwards > 0.0 && !scattersNothing(bsdf.lobe) ? s.weight : vec3(0.0);
+    s.weight = outwards > 0.0 ? s.weight : vec3(0.0);
     return s;
 }
 
