@@ -3,8 +3,10 @@
 #include "host/json.hpp"
 #include "host/render/prepare_scene.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <optional>
 
@@ -66,6 +68,70 @@ Json objectOf(const Entries& entries)
     return json;
 }
 
+// How many materials have each lobe, of those that some material has.
+Counts lobesOf(const FlatScene& flat)
+{
+    constexpr const char* kLobes[] = {"diffuse", "mirror", "glass", "glTF", "unlit"};
+    constexpr std::uint32_t kLayers = kFeatureClearcoat | kFeatureSheen | kFeatureAnisotropy | kFeatureIridescence | kFeatureTransmission |
+                                      kFeatureDiffuseTransmission | kFeatureThinWalls;
+    Counts counts;
+    const auto add = [&counts](const char* name, std::ptrdiff_t count) {
+        if (count > 0) {
+            counts.emplace_back(name, static_cast<std::size_t>(count));
+        }
+    };
+    for (std::uint32_t lobe = 0; lobe < std::size(kLobes); ++lobe) {
+        add(kLobes[lobe], std::ranges::count(flat.materials, lobe, &MaterialData::lobe));
+    }
+    for (const Feature& feature : kFeatures) {
+        const auto has = [&feature](std::uint32_t features) { return (features & feature.bit & kLayers) != 0; };
+        add(feature.name, std::ranges::count_if(flat.materialFeatures, has));
+    }
+    return counts;
+}
+
+Json texturesOf(const PreparedScene& prepared)
+{
+    Json textures = Json::array();
+    for (std::size_t i = 0; i < prepared.scene.images.size(); ++i) {
+        const TextureImage& image = prepared.scene.images[i];
+        textures.append(
+            {{"name", image.name}, {"width", image.pixels.width}, {"height", image.pixels.height}, {"bytes", prepared.flat.imageBytes[i]}});
+    }
+    return textures;
+}
+
+std::uint64_t environmentBytes(const PreparedScene& prepared)
+{
+    return textureBytes(prepared.flat) - prepared.flat.texels.size() * sizeof(prepared.flat.texels[0]);
+}
+
+Json environmentOf(const PreparedScene& prepared)
+{
+    if (!prepared.scene.environment) {
+        return nullptr;
+    }
+    const Environment& environment = *prepared.scene.environment;
+    Json json = {{"source", environment.source},
+                 {"radiance", Json::array({environment.radiance.r, environment.radiance.g, environment.radiance.b})},
+                 {"map", nullptr}};
+    if (environment.map) {
+        json.set("map", {{"width", environment.map->width}, {"height", environment.map->height}, {"bytes", environmentBytes(prepared)}});
+    }
+    return json;
+}
+
+Json mediaOf(const PreparedScene& prepared)
+{
+    Json media = Json::array();
+    for (const MediumData& medium : prepared.flat.media) {
+        media.append({{"ior", medium.ior},
+                      {"absorption", Json::array({medium.absorption.r, medium.absorption.g, medium.absorption.b})},
+                      {"spread", medium.spread}});
+    }
+    return media;
+}
+
 void printJson(const InspectOptions& options, const PreparedScene& prepared)
 {
     Json cameras = Json::array();
@@ -85,6 +151,10 @@ void printJson(const InspectOptions& options, const PreparedScene& prepared)
                        {"loadSeconds", prepared.loadSeconds},
                        {"deviceBytes", sizeInBytes(prepared.flat)},
                        {"textureBytes", textureBytes(prepared.flat)},
+                       {"lobes", objectOf(lobesOf(prepared.flat))},
+                       {"textures", texturesOf(prepared)},
+                       {"environment", environmentOf(prepared)},
+                       {"media", mediaOf(prepared)},
                        {"variants", prepared.scene.variants},
                        {"needs", objectOf(needsOf(prepared.flat.features))},
                        {"cameras", cameras},
@@ -107,6 +177,37 @@ std::string pointText(const glm::dvec3& p)
     return text;
 }
 
+std::string mebibytes(std::uint64_t bytes) { return threeDigits(static_cast<double>(bytes) / (1 << 20)) + " MiB"; }
+
+void printLooks(const PreparedScene& prepared)
+{
+    const char* separator = "  lobes: ";
+    for (const auto& [name, count] : lobesOf(prepared.flat)) {
+        std::cout << separator << name << ' ' << count;
+        separator = ", ";
+    }
+    std::cout << '\n';
+    for (std::size_t i = 0; i < prepared.scene.images.size(); ++i) {
+        const TextureImage& image = prepared.scene.images[i];
+        const std::uint64_t bytes = prepared.flat.imageBytes[i];
+        std::cout << "  texture " << image.name << ", " << image.pixels.width << 'x' << image.pixels.height << ", "
+                  << (bytes > 0 ? mebibytes(bytes) : "of one colour") << '\n';
+    }
+    if (prepared.scene.environment) {
+        const Environment& environment = *prepared.scene.environment;
+        std::cout << "  environment: " << environment.source;
+        if (environment.map) {
+            std::cout << ", " << environment.map->width << 'x' << environment.map->height << ", " << mebibytes(environmentBytes(prepared));
+        }
+        std::cout << '\n';
+    }
+    for (std::size_t i = 0; i < prepared.flat.media.size(); ++i) {
+        const MediumData& medium = prepared.flat.media[i];
+        std::cout << "  medium " << i + 1 << ": index " << threeDigits(static_cast<double>(medium.ior)) << ", absorption "
+                  << pointText(glm::dvec3(medium.absorption)) << " per metre" << (medium.spread > 0.0F ? ", dispersive" : "") << '\n';
+    }
+}
+
 void printText(const InspectOptions& options, const PreparedScene& prepared)
 {
     std::cout << options.scene.string() << '\n';
@@ -117,8 +218,8 @@ void printText(const InspectOptions& options, const PreparedScene& prepared)
     std::cout << "  bounds " << pointText(bounds.low) << " to " << pointText(bounds.high) << " m\n"
               << "  BVH: " << prepared.bvh.nodes.size() << " nodes, depth " << prepared.bvh.depth << ", surface-area cost "
               << threeDigits(static_cast<double>(prepared.bvh.cost)) << ", built in " << threeDigits(prepared.buildSeconds) << " s\n"
-              << "  on the device: " << threeDigits(static_cast<double>(sizeInBytes(prepared.flat)) / (1 << 20)) << " MiB, "
-              << threeDigits(static_cast<double>(textureBytes(prepared.flat)) / (1 << 20)) << " MiB of it textures\n  needs:";
+              << "  on the device: " << mebibytes(sizeInBytes(prepared.flat)) << ", " << mebibytes(textureBytes(prepared.flat))
+              << " of it textures\n  needs:";
     const char* separator = " ";
     for (const auto& [name, needed] : needsOf(prepared.flat.features)) {
         if (needed) {
@@ -127,6 +228,7 @@ void printText(const InspectOptions& options, const PreparedScene& prepared)
         }
     }
     std::cout << (*separator == ' ' ? " nothing but flat diffuse triangles\n" : "\n");
+    printLooks(prepared);
     for (const std::string& variant : prepared.scene.variants) {
         std::cout << "  variant \"" << variant << "\"\n";
     }

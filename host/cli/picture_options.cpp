@@ -69,6 +69,10 @@ void addPicture(const Command& command, PictureOptions& options, const std::stri
             options.environmentBackground);
     addEnum(command, "--missing-textures", "T", "Images that cannot be read: refuse the scene, or grey in their place [refuse]",
             {"refuse", "grey"}, options.missingTextures);
+    addNumber<std::uint32_t>(
+        command,
+        {"--max-texture", "N", "Scale larger images down to N pixels a side or less", 1, kMaxImageSide, std::to_string(kMaxImageSide)},
+        [&options](std::uint32_t pixels) { options.maxTexture = pixels; });
     command.add("--size", "WxH", "Pixels, each side 1 to 65535 [" + height + " high, width by the camera's aspect ratio]",
                 [&options](const std::string& text) { options.size = parseSize(text); });
 }
@@ -166,6 +170,7 @@ LoadOptions loadOptionsOf(const PictureOptions& options)
     load.environmentRotation = glm::radians(options.environmentRotation);
     load.environmentBackground = options.environmentBackground;
     load.missingTextures = options.missingTextures;
+    load.maxTexture = options.maxTexture;
     if (options.size) {
         load.aspectRatio = static_cast<float>(options.size->x) / static_cast<float>(options.size->y);
     }

@@ -25,6 +25,7 @@ struct PictureOptions {
     float environmentRotation = 0.0F;  // degrees
     bool environmentBackground = true;
     MissingTextures missingTextures = MissingTextures::Refuse;
+    std::uint32_t maxTexture = kMaxImageSide;
     double exposure = 0.0;
     Lens lens;
     SplitRule split = SplitRule::Sah;

@@ -19,17 +19,18 @@
 namespace glim {
 namespace {
 
-void checkTargets(const RenderOptions& options)
+// `inputs`: files that are not to be overwritten.
+void checkTargets(const RenderOptions& options, const std::vector<std::filesystem::path>& inputs)
 {
-    checkTarget(options.output, ".exr", {options.scene});
+    checkTarget(options.output, ".exr", inputs);
     if (options.png) {
-        checkTarget(*options.png, ".png", {options.scene});
+        checkTarget(*options.png, ".png", inputs);
     }
     if (options.rates) {
-        checkTarget(*options.rates, ".png", {options.scene});
+        checkTarget(*options.rates, ".png", inputs);
     }
     if (options.stats) {
-        checkTarget(*options.stats, ".json", {options.scene});
+        checkTarget(*options.stats, ".json", inputs);
     }
 }
 
@@ -103,11 +104,12 @@ std::optional<ControlBias> measureBias(Renderer& renderer, const Film& film, con
 
 ExitCode runRender(const RenderOptions& options)
 {
-    checkTargets(options);
+    checkTargets(options, {options.scene});
     const InterruptWatch watch;
     const VulkanInstance instance;
     Device device(instance, options.device);
     const PreparedScene prepared = prepareScene(options.scene, loadOptionsOf(options), options.split);
+    checkTargets(options, prepared.scene.files);  // textures and maps among them
     if (options.settings.aov == Aov::Radiance) {
         warnIfNoLights(prepared);
     }

@@ -1,5 +1,6 @@
 #include "host/cli/render_report.hpp"
 
+#include "host/cli/exposure_advice.hpp"
 #include "host/cli/film_report.hpp"
 #include "host/cli/output_file.hpp"
 #include "host/render/film_file.hpp"
@@ -163,11 +164,13 @@ Json statisticsOf(const RenderReport& report)
             {"raysPerSecond", perSecond(rays, s.renderSeconds)},
             {"kernels", kernelsOf(s)},
             {"longestDispatchSeconds", s.longestDispatch},
+            {"textureBytes", textureBytes(report.prepared.flat)},
             {"peakMemory", {{"host", peakHostMemory()}, {"device", s.peakDeviceMemory}}},
             {"nonFinite", nonFiniteOf(s, report.film.width)},
             {"loopCapHits", s.loopCaps},
             {"overflows", s.overflows},
             {"transparencyCaps", s.transparencyCaps},
+            {"mediaCaps", s.mediaCaps},
             {"clampIndirect", clampingOf(report.film, report.options)},
             {"estimate", estimateOf(report.film, report.options.settings)},
             {"pixelsWithoutEstimate", pixelsWithoutError(report.film)},
@@ -185,6 +188,16 @@ void warnOfGaps(const Film& film)
     }
 }
 
+void warnOfExposure(const RenderReport& report)
+{
+    const RenderOptions& options = report.options;
+    if (options.png && options.settings.aov == Aov::Radiance) {
+        if (const auto advice = adviseExposure(report.film, options.exposure)) {
+            std::cerr << "glim: " << options.png->string() << ' ' << *advice << ".\n";
+        }
+    }
+}
+
 void warnOfBias(const RenderReport& report)
 {
     if (report.statistics.nonFinite > 0) {
@@ -192,6 +205,14 @@ void warnOfBias(const RenderReport& report)
         std::cerr << "glim: " << report.statistics.nonFinite << " samples were not finite and were discarded; the first: pixel ("
                   << first.pixel % report.film.width << ", " << first.pixel / report.film.width << "), sample " << first.sampleIndex
                   << ".\n";
+    }
+    if (report.statistics.transparencyCaps > 0) {
+        std::cerr << "glim: " << report.statistics.transparencyCaps
+                  << " rays met more transparent surfaces in a row than they may pass; the next one was opaque to them.\n";
+    }
+    if (report.statistics.mediaCaps > 0) {
+        std::cerr << "glim: " << report.statistics.mediaCaps
+                  << " rays entered a solid within four others and forgot the outermost, so what these rays meet there is wrong.\n";
     }
     if (std::isfinite(report.options.settings.clampIndirect)) {
         const auto [removed, kept] = computeClampedEnergy(report.film);
@@ -265,6 +286,7 @@ void printSuspects(const RenderReport& report)
 void printSummary(const RenderReport& report)
 {
     warnOfGaps(report.film);
+    warnOfExposure(report);
     warnOfBias(report);
     const RenderStatistics& s = report.statistics;
     const double pixels = static_cast<double>(report.film.pixels.size());

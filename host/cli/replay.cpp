@@ -9,6 +9,7 @@
 #include "host/text.hpp"
 
 #include <iostream>
+#include <iterator>
 
 namespace glim {
 namespace {
@@ -29,6 +30,11 @@ constexpr const char* kEnds[] = {
     "ends: the next ray could only add light already sampled here",
     "ends: roulette",
 };
+
+// By PathNote::lobe.
+constexpr const char* kLobes[] = {"diffuse", "mirror", "glass", "interface", "diffuse base", "clearcoat", "sheen", "diffuse transmission"};
+static_assert(std::size(kLobes) == kPrincipled + kLobeThrough + 1);
+constexpr std::uint32_t kDelta = 1, kTransmitted = 2;  // lib/bsdf/bsdf_sample.glsl
 
 // Exact: reads back as the same bits.
 std::string textOf(const glm::vec3& v)
@@ -61,6 +67,63 @@ void printSurface(const ReplayReport& report, const PathVertex& vertex)
     std::cout << textOf(met) << ", material " << met.material << ", at " << pointText(worldOf(report.prepared, note.point)) << ", "
               << exactText(vertex.hit.t) << " m on\n  " << (note.front != 0 ? "front" : "back") << ", normal " << textOf(note.ng)
               << (note.ns == note.ng ? "" : ", shading normal " + textOf(note.ns)) << ", cosine " << exactText(cosineOf(vertex)) << "\n";
+}
+
+// What the material has there besides its base colour: name in the text, name in the JSON.
+struct MaterialNumber {
+    const char* text;
+    const char* json;
+    float PathNote::*value;
+};
+constexpr MaterialNumber kMaterialNumbers[] = {{"metallic", "metallic", &PathNote::metallic},
+                                               {"roughness", "roughness", &PathNote::roughness},
+                                               {"transmission", "transmission", &PathNote::transmission},
+                                               {"diffuse transmission", "diffuseTransmission", &PathNote::diffuseTransmission},
+                                               {"clearcoat", "clearcoat", &PathNote::clearcoat},
+                                               {"clearcoat roughness", "clearcoatRoughness", &PathNote::clearcoatRoughness},
+                                               {"sheen roughness", "sheenRoughness", &PathNote::sheenRoughness},
+                                               {"anisotropy", "anisotropy", &PathNote::anisotropy},
+                                               {"iridescence", "iridescence", &PathNote::iridescence},
+                                               {"film thickness in nm", "filmThickness", &PathNote::filmThickness}};
+
+void printMaterial(const ReplayReport& report, const PathNote& note)
+{
+    std::cout << "  base colour " << textOf(note.baseColor);
+    for (const MaterialNumber& number : kMaterialNumbers) {
+        if (note.*number.value != 0.0F) {
+            std::cout << ", " << number.text << " " << exactText(note.*number.value);
+        }
+    }
+    if (note.sheenColor != glm::vec3(0.0F)) {
+        std::cout << ", sheen colour " << textOf(note.sheenColor);
+    }
+    if (note.alpha != 1.0F) {
+        std::cout << ", alpha " << exactText(note.alpha);
+    }
+    if (note.medium != 0) {
+        const MediumData& medium = report.prepared.flat.media[note.medium - 1];
+        std::cout << "\n  reached through medium " << note.medium << ": index " << exactText(medium.ior) << ", absorption "
+                  << textOf(medium.absorption) << " per metre";
+    }
+    std::cout << "\n";
+}
+
+Json materialJson(const ReplayReport& report, const PathNote& note)
+{
+    Json json = {{"baseColor", Json::array({note.baseColor.r, note.baseColor.g, note.baseColor.b})}};
+    for (const MaterialNumber& number : kMaterialNumbers) {
+        json.set(number.json, note.*number.value);
+    }
+    json.set("sheenColor", Json::array({note.sheenColor.r, note.sheenColor.g, note.sheenColor.b}));
+    json.set("alpha", note.alpha);
+    json.set("medium", nullptr);
+    if (note.medium != 0) {
+        const MediumData& medium = report.prepared.flat.media[note.medium - 1];
+        json.set("medium", {{"number", note.medium},
+                            {"ior", medium.ior},
+                            {"absorption", Json::array({medium.absorption.r, medium.absorption.g, medium.absorption.b})}});
+    }
+    return json;
 }
 
 void printArrival(const PathVertex& vertex)
@@ -102,7 +165,9 @@ void printScattering(const PathVertex& vertex)
 {
     std::cout << "  " << kEnds[static_cast<int>(vertex.end)];
     if (vertex.end == PathEnd::Continues) {
-        std::cout << " with pdf " << exactText(vertex.after.pdf) << ", weight " << textOf(vertex.bsdf.weight) << ", throughput "
+        std::cout << " by its " << kLobes[vertex.bsdf.lobe] << " lobe" << ((vertex.bsdf.lobeFlags & kDelta) != 0 ? ", delta" : "")
+                  << ((vertex.bsdf.lobeFlags & kTransmitted) != 0 ? ", to the other side" : "") << ", with pdf "
+                  << exactText(vertex.after.pdf) << ", weight " << textOf(vertex.bsdf.weight) << ", throughput "
                   << textOf(vertex.after.throughput);
     }
     if (vertex.bsdf.continuation > 0.0F) {
@@ -120,6 +185,7 @@ void printVertex(const ReplayReport& report, const PathVertex& vertex)
         return;
     }
     printSurface(report, vertex);
+    printMaterial(report, vertex.surface);
     printArrival(vertex);
     for (const SampledLight& each : vertex.sampledLights) {
         printSampledLight(report, each);
@@ -140,6 +206,7 @@ Json surfaceJson(const ReplayReport& report, const PathVertex& vertex)
     return {{"object", met.object},
             {"triangle", met.triangle ? Json(*met.triangle) : Json()},
             {"material", met.material},
+            {"values", materialJson(report, vertex.surface)},
             {"position", jsonOf(worldOf(report.prepared, vertex.surface.point))},
             {"distance", vertex.hit.t},
             {"front", vertex.surface.front != 0},
@@ -184,8 +251,12 @@ Json vertexJson(const ReplayReport& report, const PathVertex& vertex)
                  {"continuation", vertex.bsdf.continuation},
                  {"next", nullptr}};
     if (vertex.end == PathEnd::Continues) {
-        json.set("next",
-                 {{"weight", jsonOf(vertex.bsdf.weight)}, {"pdf", vertex.after.pdf}, {"throughput", jsonOf(vertex.after.throughput)}});
+        json.set("next", {{"lobe", kLobes[vertex.bsdf.lobe]},
+                          {"delta", (vertex.bsdf.lobeFlags & kDelta) != 0},
+                          {"transmitted", (vertex.bsdf.lobeFlags & kTransmitted) != 0},
+                          {"weight", jsonOf(vertex.bsdf.weight)},
+                          {"pdf", vertex.after.pdf},
+                          {"throughput", jsonOf(vertex.after.throughput)}});
     }
     return json;
 }

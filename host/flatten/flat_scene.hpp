@@ -60,7 +60,8 @@ struct FlatScene {
     std::uint32_t firstMedium = 0;
     std::vector<std::uint32_t> materialFeatures;  // what each material needs, used or not; not on the device
     std::vector<std::uint32_t> texels;            // of images, a byte per channel
-    std::vector<uvec4> albedos;                   // empty without kFeaturePrincipled
+    std::vector<std::uint64_t> imageBytes;  // of each image of the scene; 0: of one colour, which is in the factors. Not on the device
+    std::vector<uvec4> albedos;             // empty without kFeaturePrincipled
     std::vector<FlatLight> lights;
     std::vector<FlatEmitter> emitters;
     std::uint32_t features = 0;                   // kFeatureSpheres ...: what the scene needs

@@ -2,6 +2,7 @@
 
 #include "host/error.hpp"
 #include "host/flatten/media.hpp"
+#include "host/image/srgb.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +13,6 @@ namespace {
 
 // Below this roughness a metal is a mirror: its alpha is below that of the GGX lobe's limit (lib/bsdf/ggx.glsl).
 constexpr float kMirrorAlpha = 1e-3F;
-
-double linearFromSrgb(double s) { return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4); }
 
 bool isTextured(const Material& material)
 {
@@ -65,6 +64,7 @@ public:
         for (const TextureImage& image : scene.images) {
             colors_.push_back(oneColor(image.pixels));
         }
+        flat.imageBytes.assign(scene.images.size(), 0);
     }
 
     void add(std::uint32_t id, bool colored)
@@ -318,12 +318,9 @@ private:
         }
         const DecodedImage& image = scene_.images[id].pixels;
         const std::size_t texels = std::size_t{image.width} * image.height, words = image.rgba16.empty() ? texels : 2 * texels;
-        constexpr std::size_t kMost = std::size_t{kMaxTexelViews} << kTexelViewBits;
-        if (flat_.texels.size() + words > kMost) {
-            throw InputError(scene_.file + ": its images have more than " + std::to_string(kMost) +
-                             " texels; expected fewer (--max-texture N scales them down)");
-        }
+        static_assert(kMaxTextureBytes == (sizeof(std::uint32_t) * kMaxTexelViews) << kTexelViewBits);
         flat_.texels.reserve(flat_.texels.size() + words);
+        flat_.imageBytes[id] = words * sizeof(std::uint32_t);
         for (std::size_t i = 0; i < texels; ++i) {
             if (image.rgba16.empty()) {
                 const std::uint8_t* t = &image.rgba8[4 * i];

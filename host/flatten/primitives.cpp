@@ -106,7 +106,8 @@ private:
         worldFromMesh_ = glm::dmat3(instance.worldFromMesh);
         worldFromNormal_ = computeWorldFromNormal(worldFromMesh_);
         vertexOf_.assign(mesh.positions.size(), kNotYet);
-        const bool attributes = !mesh.normals.empty() || !mesh.colors.empty() || !mesh.tangents.empty() || (mapped_ && !(mesh.uv0.empty() && mesh.uv1.empty()));
+        const bool attributes =
+            !mesh.normals.empty() || !mesh.colors.empty() || !mesh.tangents.empty() || (mapped_ && !(mesh.uv0.empty() && mesh.uv1.empty()));
         // Without indices, triangles side by side repeat each other's vertices. A table of half-empty slots finds them.
         const bool unindexed = attributes && mesh.indices.size() <= mesh.positions.size();
         slots_.assign(unindexed ? std::bit_ceil(2 * mesh.indices.size()) : 0, kNotYet);

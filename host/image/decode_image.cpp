@@ -11,6 +11,8 @@
 
 #include <jpeglib.h>
 
+#include <jerror.h>
+
 #include <csetjmp>
 
 namespace glim {
@@ -63,7 +65,7 @@ public:
     {
         constexpr png_alloc_size_t kMaxChunk = png_alloc_size_t{64} << 20;
         png_set_user_limits(png_, 0x7fffffff, 0x7fffffff);  // sizes are refused with a sentence of ours
-        png_set_chunk_cache_max(png_, 128);
+        png_set_chunk_cache_max(png_, 4);                   // of texts and suggested palettes, which nobody reads
         png_set_chunk_malloc_max(png_, kMaxChunk);
         png_set_read_fn(png_, &source, readPng);
     }
@@ -130,6 +132,14 @@ DecodedImage decodePng(Bytes bytes)
     image.height = png_get_image_height(reader.png(), reader.info());
     checkSize("PNG", image.width, image.height);
     const bool wide = png_get_bit_depth(reader.png(), reader.info()) == 16;
+    image.hasAlpha = (png_get_color_type(reader.png(), reader.info()) & PNG_COLOR_MASK_ALPHA) != 0 ||
+                     png_get_valid(reader.png(), reader.info(), PNG_INFO_tRNS) != 0;
+    // No byte of deflate stands for more than 1032 others: a header that promises more costs no memory.
+    constexpr std::uint64_t kMostDeflated = 1032;
+    if (bytes.size() * kMostDeflated < png_get_rowbytes(reader.png(), reader.info()) * std::uint64_t{image.height}) {
+        source.error = "it ends early";
+        require(false);
+    }
     require(expandPng(reader, wide));
     const std::size_t rowBytes = std::size_t{image.width} * (wide ? 8 : 4), bytesInAll = rowBytes * image.height;
     wide ? image.rgba16.resize(bytesInAll / 2) : image.rgba8.resize(bytesInAll);
@@ -142,7 +152,7 @@ DecodedImage decodePng(Bytes bytes)
     return image;
 }
 
-// libjpeg leaves by longjmp too. A warning of its is damage to the picture.
+// libjpeg leaves by longjmp too.
 struct JpegErrors {
     jpeg_error_mgr base;
     std::jmp_buf leave;
@@ -156,9 +166,11 @@ struct JpegErrors {
     std::longjmp(errors.leave, 1);
 }
 
-void leaveOnWarning(j_common_ptr jpeg, int level)
+// Some warnings mean that a part of the picture is made up. Others, as of bytes between markers, hold for files that show well.
+void leaveOnDamage(j_common_ptr jpeg, int level)
 {
-    if (level < 0) {
+    const int code = jpeg->err->msg_code;
+    if (level < 0 && (code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER || code == JWRN_HUFF_BAD_CODE || code == JWRN_ARITH_BAD_CODE)) {
         leaveJpeg(jpeg);
     }
 }
@@ -168,7 +180,9 @@ void limitScans(j_common_ptr jpeg)
 {
     constexpr int kMaxScans = 500;
     if (jpeg->is_decompressor != 0 && reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number > kMaxScans) {
-        leaveJpeg(jpeg);
+        auto& errors = *reinterpret_cast<JpegErrors*>(jpeg->err);
+        std::snprintf(errors.message, sizeof errors.message, "it has more than %d scans", kMaxScans);
+        std::longjmp(errors.leave, 1);
     }
 }
 
@@ -181,7 +195,7 @@ struct JpegReader {
     {
         jpeg.err = jpeg_std_error(&errors.base);
         errors.base.error_exit = leaveJpeg;
-        errors.base.emit_message = leaveOnWarning;
+        errors.base.emit_message = leaveOnDamage;
         progress.progress_monitor = limitScans;
         jpeg_create_decompress(&jpeg);
         jpeg.progress = &progress;
@@ -260,6 +274,7 @@ DecodedImage decodeWebp(Bytes bytes)
     image.width = static_cast<std::uint32_t>(features.width);
     image.height = static_cast<std::uint32_t>(features.height);
     checkSize("WebP", image.width, image.height);
+    image.hasAlpha = features.has_alpha != 0;
     image.rgba8.resize(std::size_t{image.width} * image.height * 4);
     if (WebPDecodeRGBAInto(bytes.data(), bytes.size(), image.rgba8.data(), image.rgba8.size(), features.width * 4) == nullptr) {
         throw InputError("is a broken WebP");

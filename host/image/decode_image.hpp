@@ -12,6 +12,7 @@ inline constexpr std::uint32_t kMaxImageSide = 16384;
 // RGBA, rows from the top, as the file holds it: nothing is converted to linear. One of the two vectors is filled.
 struct DecodedImage {
     std::uint32_t width = 0, height = 0;
+    bool hasAlpha = false;  // the file has such a channel or a transparent colour; else alpha is 1
     std::vector<std::uint8_t> rgba8;
     std::vector<std::uint16_t> rgba16;
 };

@@ -2,6 +2,7 @@
 
 #include "host/error.hpp"
 #include "host/image/atomic_file.hpp"
+#include "host/image/srgb.hpp"
 
 #include <png.h>
 
@@ -87,7 +88,7 @@ bool encode(PngSink& sink, const Rows& rows)
 std::uint8_t srgbByte(double linear)
 {
     const double x = std::clamp(linear, 0.0, 1.0);
-    const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
+    const double encoded = srgbFromLinear(x);
     return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
 }
 

@@ -16,6 +16,16 @@ using Clock = std::chrono::steady_clock;
 
 double secondsBetween(Clock::time_point begin, Clock::time_point end) { return std::chrono::duration<double>(end - begin).count(); }
 
+void sayTextureMemory(const FlatScene& flat)
+{
+    constexpr std::uint64_t kWorthSaying = std::uint64_t{64} << 20U;
+    const std::uint64_t all = textureBytes(flat), images = flat.texels.size() * sizeof(flat.texels[0]);
+    if (all > kWorthSaying) {
+        std::cerr << "glim: textures take " << (images >> 20U) << " MiB on the device and the environment " << ((all - images) >> 20U)
+                  << " MiB" << (images > kWorthSaying ? "; --max-texture N scales textures down" : "") << '\n';
+    }
+}
+
 }  // namespace
 
 PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions& options, SplitRule split,
@@ -35,6 +45,11 @@ PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions&
     prepared.bvh = buildSceneBvh(prepared.primitives, split);
     prepared.split = split;
     prepared.flat = flattenScene(prepared.scene, prepared.primitives, prepared.bvh);
+    sayTextureMemory(prepared.flat);
+    for (TextureImage& image : prepared.scene.images) {
+        image.pixels.rgba8 = {};  // the flat scene has them
+        image.pixels.rgba16 = {};
+    }
     prepared.loadSeconds = secondsBetween(start, loaded);
     prepared.buildSeconds = secondsBetween(loaded, Clock::now());
     return prepared;

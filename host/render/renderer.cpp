@@ -261,6 +261,7 @@ void Renderer::readCounters()
     statistics_.loopCaps = status.loopCaps;
     statistics_.overflows = status.overflows;
     statistics_.transparencyCaps = status.transparencyCaps;
+    statistics_.mediaCaps = status.mediaCaps;
     statistics_.nonFinite = status.nonFinite;
     statistics_.located.assign(status.located, status.located + std::min(status.nonFinite, kMaxLocated));
     statistics_.kernels = wavefront_->statistics();

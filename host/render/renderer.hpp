@@ -19,11 +19,11 @@ struct RenderStatistics {
     double longestDispatch = 0.0;  // seconds, on the device, after compilation
     std::uint64_t samples = 0;     // over all pixels
     std::uint64_t cameraAndBounceRays = 0, shadowRays = 0;
-    std::uint32_t transparencyCaps = 0;         // as in Status
-    std::uint32_t loopCaps = 0, overflows = 0;  // as in Status; a render with any of them throws
-    std::uint32_t nonFinite = 0;                // samples left out
-    std::vector<Located> located;               // the first of them
-    std::uint64_t peakDeviceMemory = 0;         // bytes
+    std::uint32_t transparencyCaps = 0, mediaCaps = 0;  // as in Status
+    std::uint32_t loopCaps = 0, overflows = 0;          // as in Status; a render with any of them throws
+    std::uint32_t nonFinite = 0;                        // samples left out
+    std::vector<Located> located;                       // the first of them
+    std::uint64_t peakDeviceMemory = 0;                 // bytes
 };
 
 struct RenderProgress {

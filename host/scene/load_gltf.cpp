@@ -5,6 +5,7 @@
 #include "host/scene/frame_camera.hpp"
 #include "host/scene/gltf/check_gltf_json.hpp"
 #include "host/scene/gltf/read_geometry.hpp"
+#include "host/scene/gltf/read_image_light.hpp"
 #include "host/scene/gltf/read_images.hpp"
 #include "host/scene/gltf/read_lights_cameras.hpp"
 #include "host/scene/gltf/read_material.hpp"
@@ -20,9 +21,10 @@ namespace {
 void noteIgnoredParts(const GltfFile& file, const std::vector<PlacedNode>& nodes, Warnings& warnings)
 {
     for (const std::string& extension : file.model.extensionsUsed) {
+        const ExtensionEffect effect = effectOf(extension);
         const bool ofMaterials = extension.find("_materials_") != std::string::npos;  // noted with each material
-        if (!isSupportedExtension(extension) && !ofMaterials) {
-            warnings.add("the extension " + extension + " is ignored");
+        if ((effect == ExtensionEffect::Looks && !ofMaterials) || effect == ExtensionEffect::Content) {
+            warnings.add("extensions are ignored", extension);
         }
     }
     const bool skinned =
@@ -40,6 +42,7 @@ Environment readMap(const std::filesystem::path& path, const LoadOptions& option
     Environment environment;
     environment.map = std::make_shared<RadianceMap>(readRadianceMap(path));
     environment.rotation = options.environmentRotation;
+    environment.source = path.string();
     scene.files.push_back(path);
     if (environment.map->repaired > 0) {
         warnings.add(path.string() + " holds " + counted(environment.map->repaired, "texel") +
@@ -49,13 +52,9 @@ Environment readMap(const std::filesystem::path& path, const LoadOptions& option
 }
 
 // scenes[i].extras.environment: {"file", "strength"}.
-std::optional<Environment> readFileEnvironment(const GltfFile& file, const LoadOptions& options, Scene& scene, Warnings& warnings)
+std::optional<Environment> readNamedMap(const GltfFile& file, const LoadOptions& options, std::size_t index, Scene& scene,
+                                        Warnings& warnings)
 {
-    if (file.model.scenes.empty()) {
-        return std::nullopt;
-    }
-    const auto first = static_cast<std::size_t>(std::max(file.model.defaultScene, 0));
-    const std::size_t index = options.scene.value_or(first);
     const tinygltf::Value& extras = file.model.scenes[index].extras;
     if (!extras.IsObject() || !extras.Has("environment")) {
         return std::nullopt;
@@ -82,6 +81,23 @@ std::optional<Environment> readFileEnvironment(const GltfFile& file, const LoadO
     return environment;
 }
 
+std::optional<Environment> readFileEnvironment(const GltfFile& file, const LoadOptions& options, Scene& scene, Warnings& warnings)
+{
+    if (file.model.scenes.empty()) {
+        return std::nullopt;
+    }
+    const auto first = static_cast<std::size_t>(std::max(file.model.defaultScene, 0));
+    const std::size_t index = options.scene.value_or(first);
+    std::optional<Environment> environment = readNamedMap(file, options, index, scene, warnings);
+    if (!environment) {
+        environment = readImageLight(file, index, scene);
+        if (environment) {
+            environment->rotation = options.environmentRotation;
+        }
+    }
+    return environment;
+}
+
 std::vector<bool> findUsedMaterials(const Scene& scene)
 {
     std::vector<bool> used(scene.materials.size(), false);
@@ -98,6 +114,7 @@ Environment makeStudioEnvironment(const LoadOptions& options)
 {
     Environment environment;
     environment.map = std::make_shared<RadianceMap>(makeStudio());
+    environment.source = "studio";
     environment.rotation = options.environmentRotation;
     environment.background = options.environmentBackground;
     return environment;
@@ -121,6 +138,7 @@ std::optional<Environment> chooseEnvironment(const GltfFile& file, const LoadOpt
         environment = readFileEnvironment(file, options, scene, warnings);
     } else if (const auto* radiance = std::get_if<glm::vec3>(&*options.environment)) {
         environment.emplace().radiance = *radiance;
+        environment->source = "constant";
     } else if (const auto* path = std::get_if<std::filesystem::path>(&*options.environment)) {
         environment = readMap(*path, options, scene, warnings);
     }

@@ -21,8 +21,9 @@ struct LoadOptions {
     float environmentRotation = 0.0F;              // of a map about +y, radians, added to the file's
     bool environmentBackground = true;             // the camera sees the environment
     MissingTextures missingTextures = MissingTextures::Refuse;
-    std::string variant;       // of KHR_materials_variants; empty: the file's own materials
-    float aspectRatio = 1.0F;  // of the picture, for the framed camera if the file has none
+    std::uint32_t maxTexture = kMaxImageSide;  // images with a longer side are scaled down
+    std::string variant;                       // of KHR_materials_variants; empty: the file's own materials
+    float aspectRatio = 1.0F;                  // of the picture, for the framed camera if the file has none
 };
 
 // Reads and checks a whole file; the result has passed checkScene. Throws InputError with one sentence that names file, place, value and

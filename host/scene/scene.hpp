@@ -24,7 +24,7 @@ enum class AlphaMode : std::uint32_t { Opaque, Mask, Blend };
 // How a property of a material uses an image.
 struct Texture {
     std::uint32_t image = 0;
-    std::uint32_t uvSet = 0;  // 0 or 1
+    std::uint32_t uvSet = 0;  // 0 or 1: of the mesh's uv0 and uv1
     Wrap wrapS = Wrap::Repeat, wrapT = Wrap::Repeat;
     bool nearest = false;  // else bilinear
     // Coordinates of the image are (dot(rowU, (u, v, 1)), dot(rowV, (u, v, 1))).
@@ -58,8 +58,9 @@ struct Material {
     float anisotropy = 0.0F, anisotropyRotation = 0.0F;  // radians, counter-clockwise from the tangent
     float iridescence = 0.0F, iridescenceIor = 1.3F;
     float iridescenceThicknessMinimum = 100.0F, iridescenceThicknessMaximum = 400.0F;  // nm
-    bool unlit = false;                                                                // _unlit: the base colour, for the camera alone
-    bool glossy = false;  // _pbrSpecularGlossiness: specularColor is F0, and roughness the glossiness
+    std::array<std::uint32_t, 2> uvSets{0, 1};  // the sets of the file that uv0 and uv1 of the material's meshes are
+    bool unlit = false;                         // _unlit: the base colour, for the camera alone
+    bool glossy = false;                        // _pbrSpecularGlossiness: specularColor is F0, and roughness the glossiness
     std::optional<Texture> baseColorTexture, metallicRoughnessTexture, normalTexture, emissiveTexture, specularTexture,
         specularColorTexture, transmissionTexture, diffuseTransmissionTexture, diffuseTransmissionColorTexture, clearcoatTexture,
         clearcoatRoughnessTexture, clearcoatNormalTexture, sheenColorTexture, sheenRoughnessTexture, anisotropyTexture, iridescenceTexture,
@@ -87,6 +88,14 @@ auto texturesOf(SomeMaterial& m)
                       &m.anisotropyTexture,
                       &m.iridescenceTexture,
                       &m.iridescenceThicknessTexture};
+}
+
+// Of these, those whose RGB is a colour, in sRGB; the others hold numbers.
+template <class SomeMaterial>
+auto colorTexturesOf(SomeMaterial& m)
+{
+    return std::array{&m.baseColorTexture, &m.emissiveTexture, &m.specularColorTexture, &m.diffuseTransmissionColorTexture,
+                      &m.sheenColorTexture};
 }
 
 // Nothing but a diffuse lobe.
@@ -120,6 +129,9 @@ struct MeshInstance {
     glm::dmat4 worldFromMesh{1.0};  // affine and invertible; if it mirrors, front sides stay front sides
 };
 
+// What all images of a scene may take: as much as kernels address.
+inline constexpr std::uint64_t kMaxTextureBytes = std::uint64_t{1} << 32U;
+
 struct TextureImage {
     std::string name;  // as messages name it
     DecodedImage pixels;
@@ -132,6 +144,7 @@ struct Environment {
     std::shared_ptr<const RadianceMap> map;
     float rotation = 0.0F;   // of the map about +y, counter-clockwise seen from above, radians
     bool background = true;  // the camera sees it
+    std::string source;      // the map's file, studio, EXT_lights_image_based or constant
 };
 
 struct Sphere {
@@ -165,7 +178,7 @@ struct Camera {
 
 struct Scene {
     std::string file;
-    std::vector<std::filesystem::path> files;  // the files it was read from: `file` and its buffers'
+    std::vector<std::filesystem::path> files;  // the files it was read from: `file`, its buffers, images and map
     glm::dvec3 origin{0.0};
     std::vector<Mesh> meshes;
     std::vector<MeshInstance> instances;

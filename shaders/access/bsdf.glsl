@@ -138,4 +138,10 @@ BsdfSample sampleBsdf(Bsdf bsdf, vec3 wo, vec2 u, float uLobe)
     return isDielectric(bsdf.lobe) ? sampleDielectric(bsdf.color, bsdf.eta, wo, bsdf.frame.z, uLobe) : sampleReflection(bsdf, wo, u, uLobe);
 }
 
+// Which lobe sampleBsdf chooses: kLambert, kMirror or kDielectric, or kPrincipled + kLobeInterface ...
+uint sampledLobe(Bsdf bsdf, float uLobe)
+{
+    return isPrincipled(bsdf.lobe) ? kPrincipled + chooseLobe(bsdf.principled, uLobe) : bsdf.lobe;
+}
+
 #endif

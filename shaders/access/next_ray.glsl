@@ -8,6 +8,7 @@
 #include "lib/octahedral.glsl"
 #include "notes.glsl"
 #include "pass.glsl"
+#include "status.glsl"
 
 // Uses the sampler dimensions of the bounce. uRoulette, in [0, 1), is the random number for roulette.
 BsdfSample sampleNextRay(SampleId id, Bsdf bsdf, vec3 wo, uint bounce, out float uRoulette)
@@ -15,7 +16,11 @@ BsdfSample sampleNextRay(SampleId id, Bsdf bsdf, vec3 wo, uint bounce, out float
     vec2 u = unitFloat(samplePair(id, bounceDimension(bounce, kDimensionBsdf), kSobol));
     vec2 lobe = unitFloat(samplePair(id, bounceDimension(bounce, kDimensionLobe), kSobol));
     uRoulette = lobe.y;
-    return sampleBsdf(bsdf, wo, u, lobe.x);
+    BsdfSample s = sampleBsdf(bsdf, wo, u, lobe.x);
+    if (kNotes) {
+        noteLobe(sampledLobe(bsdf, lobe.x), s.flags);
+    }
+    return s;
 }
 
 // Roulette's probability that the sampled ray is traced. The including file defines it: path_vertex.glsl, and course/bounce.glsl for the
@@ -27,6 +32,9 @@ uint mediaOfNextRay(uint media, SurfaceInteraction si, Bsdf bsdf, vec3 wi)
 {
     bool crosses = bsdf.medium != 0u && dot(wi, si.ng) < 0.0;
     uint after = crosses ? mediaBeyond(media, bsdf.medium, si.front) : media;
+    if (hasFeature(kFeatureMedia) && crosses && si.front && isFull(media)) {
+        reportMediaCap();
+    }
     return hasFeature(kFeatureMedia) ? after : 0u;
 }
 

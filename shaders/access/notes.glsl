@@ -2,7 +2,8 @@
 #ifndef GLIM_ACCESS_NOTES
 #define GLIM_ACCESS_NOTES
 
-#include "interaction.glsl"
+#include "lib/media.glsl"
+#include "material.glsl"
 
 layout(set = 0, binding = kBindNote, scalar) writeonly buffer NoteBuffer { PathNote pathNote; };
 
@@ -14,6 +15,29 @@ void noteSurface(SurfaceInteraction si, vec3 ns)
         pathNote.ng = si.ng;
         pathNote.ns = ns;
         pathNote.front = uint(si.front);
+    }
+}
+
+// `media`: of the ray that has arrived.
+void noteMaterial(SurfaceInteraction si, PathHit hit, SurfaceMaterial material, uint media)
+{
+    if (kNotes) {
+        Record record = fetchRecord(hit.record);
+        bool principled = hasFeature(kFeaturePrincipled) && material.data.principled != 0u;
+        pathNote.baseColor = material.data.baseColor;
+        pathNote.metallic = principled ? material.principled.metallic : 0.0;
+        pathNote.roughness = principled ? material.principled.roughness : 0.0;
+        pathNote.transmission = material.layers.transmission;
+        pathNote.diffuseTransmission = material.layers.diffuseTransmission;
+        pathNote.clearcoat = material.layers.clearcoat;
+        pathNote.clearcoatRoughness = material.layers.clearcoatRoughness;
+        pathNote.sheenColor = material.layers.sheenColor;
+        pathNote.sheenRoughness = material.layers.sheenRoughness;
+        pathNote.anisotropy = material.layers.anisotropy;
+        pathNote.iridescence = material.layers.iridescence;
+        pathNote.filmThickness = material.layers.iridescence > 0.0 ? material.filmThickness : 0.0;
+        pathNote.alpha = hasAlpha(record) ? alphaOf(record, si.p, hit.barycentric) : 1.0;
+        pathNote.medium = innermost(media);
     }
 }
 
@@ -38,6 +62,14 @@ void noteLightSample(float pdf, float bsdfPdf, float weight)
         pathNote.lightPdf = pdf;
         pathNote.bsdfPdf = bsdfPdf;
         pathNote.misWeightOfLight = weight;
+    }
+}
+
+void noteLobe(uint lobe, uint flags)
+{
+    if (kNotes) {
+        pathNote.lobe = lobe;
+        pathNote.lobeFlags = flags;
     }
 }
 

@@ -62,12 +62,14 @@ VertexResult shadeSurface(SampleId id, PathRay ray, PathHit hit, PathState state
     vec3 wo = -ray.direction;
     SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
     SurfaceMaterial material = materialAt(si);
+    uint arrivedIn = ray.media;
     if (hasFeature(kFeatureMedia)) {
         state.throughput *= mediaTransmittance(ray.media, hit.t);
         setIndices(id, si, material, ray.media, state.throughput);
     }
     Bsdf bsdf = makeBsdf(si, material, wo);
     noteSurface(si, bsdf.frame.z);
+    noteMaterial(si, hit, material, arrivedIn);
     VertexResult result;
     result.emitted = vec3(0.0);
     if (hasEmissiveSurfaces()) {

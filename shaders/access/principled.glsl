@@ -390,12 +390,6 @@ BsdfEval evalPrincipled(Principled p, vec3 wo, vec3 wi)
     return result;
 }
 
-const uint kLobeInterface = 0u;
-const uint kLobeDiffuse = 1u;
-const uint kLobeCoat = 2u;
-const uint kLobeSheen = 3u;
-const uint kLobeThrough = 4u;
-
 // Which lobe u, in [0, 1), falls to; u becomes its place in the lobe's share.
 uint chooseLobe(Principled p, inout float u)
 {

@@ -30,6 +30,11 @@ void reportTransparencyCap()
     atomicAdd(status.transparencyCaps, 1u);
 }
 
+void reportMediaCap()
+{
+    atomicAdd(status.mediaCaps, 1u);
+}
+
 void reportNonFinite(uint pixel, uint sampleIndex)
 {
     uint place = atomicAdd(status.nonFinite, 1u);

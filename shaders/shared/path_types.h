@@ -56,15 +56,28 @@ GLIM_CONST uint kNoLightIndex = 0xffffffffu;
 // What happened at a path's vertex, as far as no other buffer holds it. Lengths and directions as in PathRay, pdfs per steradian.
 struct PathNote {
     vec3 point;
-    vec3 ng;               // unit geometric normal on the side that the path came from
-    vec3 ns;               // unit, the BSDF's
-    uint front;            // 1: that side is the front
-    float lightPdfOfHit;   // of light sampling, for the light that the ray has hit; 0: not evaluated
-    float misWeightOfHit;  // MIS weight of that light; 1 unless noted
-    uint light;            // index of the sampled light, or kNoLightIndex
-    float lightPdf;        // of choosing that light and that direction; 0: a point, spot or directional light
-    float bsdfPdf;         // of BSDF sampling, for that direction
+    vec3 ng;         // unit geometric normal on the side that the path came from
+    vec3 ns;         // unit, the BSDF's
+    uint front;      // 1: that side is the front
+    vec3 baseColor;  // the material's numbers there, with textures and vertex colours
+    float metallic;  // this and the next ones are 0 where the material has none
+    float roughness;
+    float transmission, diffuseTransmission;
+    float clearcoat, clearcoatRoughness;
+    vec3 sheenColor;
+    float sheenRoughness;
+    float anisotropy;
+    float iridescence, filmThickness;  // thickness in nm
+    float alpha;                       // coverage
+    uint medium;                       // innermost of those that the ray came through, or 0
+    float lightPdfOfHit;               // of light sampling, for the light that the ray has hit; 0: not evaluated
+    float misWeightOfHit;              // MIS weight of that light; 1 unless noted
+    uint light;                        // index of the sampled light, or kNoLightIndex
+    float lightPdf;                    // of choosing that light and that direction; 0: a point, spot or directional light
+    float bsdfPdf;                     // of BSDF sampling, for that direction
     float misWeightOfLight;
+    uint lobe;           // that the next direction was sampled from: kLambert, kMirror or kDielectric, or kPrincipled + kLobeInterface ...
+    uint lobeFlags;      // kBsdfDelta | kBsdfTransmission
     vec3 weight;         // of the sampled direction: BSDF * |cos| / pdf
     vec3 throughput;     // with that weight, before roulette
     float continuation;  // roulette's probability to continue; 0: the path ended before
@@ -101,6 +114,7 @@ struct Status {
     uint loopCaps;                 // threads whose loops the driver cut short: the picture is wrong
     uint overflows;                // queue entries beyond one per slot: the picture is wrong
     uint transparencyCaps;         // rays that passed more transparent surfaces than they may: the next one counted as opaque
+    uint mediaCaps;                // rays that entered more media than a path keeps: the outermost was forgotten
     uint nonFinite;                // samples that were not finite, and are in no average
     Located located[kMaxLocated];  // the first of them to be counted
 };

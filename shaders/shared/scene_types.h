@@ -45,6 +45,13 @@ GLIM_CONST uint kDielectric = 2u;
 GLIM_CONST uint kPrincipled = 3u;  // everything else that glTF has
 GLIM_CONST uint kUnlit = 4u;       // the base colour as the camera sees it; no other ray meets it
 
+// The lobes of kPrincipled (access/principled.glsl).
+GLIM_CONST uint kLobeInterface = 0u;
+GLIM_CONST uint kLobeDiffuse = 1u;
+GLIM_CONST uint kLobeCoat = 2u;
+GLIM_CONST uint kLobeSheen = 3u;
+GLIM_CONST uint kLobeThrough = 4u;  // diffuse transmission
+
 // Materials, lights and emitters are read as texels too (scene.glsl): on llvmpipe, loading one word of a storage buffer costs as much as
 // loading the four of a texel. So structs are whole texels, and each vec3 shares one with a scalar.
 GLIM_CONST uint kMaterialTexels = 3u;

@@ -223,8 +223,8 @@ TEST(GltfAccessor, EveryAttributeHasAValuePerPosition)
 {
     const std::pair<const char*, const char*> counts[] = {{"NORMAL", " has 2 normals; expected as many as its 3 positions"},
                                                           {"TANGENT", " has 2 tangents; expected"},
-                                                          {"TEXCOORD_0", " has 2 texture coordinates; expected"},
-                                                          {"TEXCOORD_1", " has 2 texture coordinates of the second set; expected"},
+                                                          {"TEXCOORD_0", " has 2 texture coordinates of set 0; expected"},
+                                                          {"TEXCOORD_1", " has 2 texture coordinates of set 1; expected"},
                                                           {"COLOR_0", " has 2 vertex colours; expected"}};
     for (const auto& [name, sentence] : counts) {
         GltfBuilder builder;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <initializer_list>
 #include <string_view>
 
 namespace glim {
@@ -15,6 +16,7 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kSupportedExtensions[] = {
+    "EXT_lights_image_based",
     "EXT_texture_webp",
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
@@ -32,6 +34,7 @@ constexpr const char* kSupportedExtensions[] = {
     "KHR_materials_variants",
     "KHR_materials_volume",
     "KHR_mesh_quantization",
+    "KHR_node_visibility",
     "KHR_texture_transform",
 };
 
@@ -180,15 +183,17 @@ private:
     const json& document_;
 };
 
-// Extensions of materials change how things look; without the others geometry or images may be missing.
-bool changesLooksOnly(const std::string& extension) { return extension.find("_materials_") != std::string::npos; }
+bool holdsOneOf(const std::string& name, std::initializer_list<const char*> parts)
+{
+    return std::any_of(parts.begin(), parts.end(), [&name](const char* part) { return name.find(part) != std::string::npos; });
+}
 
 void checkExtensions(const std::string& path, const json& document)
 {
     for (const json& extension : document.value("extensionsRequired", json::array())) {
-        if (!isSupportedExtension(extension.get<std::string>()) && !changesLooksOnly(extension.get<std::string>())) {
+        if (effectOf(extension.get<std::string>()) == ExtensionEffect::Content) {
             throw InputError(path + ": extensionsRequired names " + extension.get<std::string>() +
-                             ", without which glim cannot read it; expected only extensions that the README lists");
+                             ", without which geometry or images may be missing; expected a file that does not need it");
         }
     }
 }
@@ -198,6 +203,22 @@ void checkExtensions(const std::string& path, const json& document)
 bool isSupportedExtension(const std::string& name)
 {
     return std::find(std::begin(kSupportedExtensions), std::end(kSupportedExtensions), name) != std::end(kSupportedExtensions);
+}
+
+ExtensionEffect effectOf(const std::string& name)
+{
+    if (isSupportedExtension(name)) {
+        return ExtensionEffect::Supported;
+    }
+    if (holdsOneOf(name, {"_materials_", "_lights_", "_environment", "_techniques_"})) {
+        return ExtensionEffect::Looks;
+    }
+    // Packed textures and levels of detail come beside the core's own.
+    if (holdsOneOf(name, {"_animation", "_xmp", "_audio", "_physics", "_interactivity", "_hoverability", "_selectability", "_metadata",
+                          "_features", "_packing_", "MSFT_lod", "VRM"})) {
+        return ExtensionEffect::None;
+    }
+    return ExtensionEffect::Content;
 }
 
 void checkGltfJson(const std::string& path, const json& document)

@@ -11,7 +11,15 @@ namespace glim {
 // glTF's own words (accessors[3].count). tinygltf checks none of this.
 void checkGltfJson(const std::string& path, const nlohmann::json& document);
 
-// What extensionsRequired may name.
 bool isSupportedExtension(const std::string& name);
+
+// What a still picture lacks where glim does not read an extension. An unknown one counts as Content.
+enum class ExtensionEffect {
+    Supported,
+    None,     // such as animation and metadata
+    Looks,    // materials and lights
+    Content,  // geometry or images; a file that requires it is refused
+};
+ExtensionEffect effectOf(const std::string& name);
 
 }  // namespace glim

@@ -115,6 +115,8 @@ constexpr SchemaRule kSchemaRules[] = {
     schema::number("materials[].extensions.KHR_materials_volume.attenuationDistance", Need::Optional, kPositive),
     schema::numbers("materials[].extensions.KHR_materials_volume.attenuationColor", 3, 0, 1),
     schema::number("materials[].extensions.KHR_materials_dispersion.dispersion", Need::Optional, 0),
+    schema::numbers("materials[].extensions.KHR_materials_volume_scatter.multiscatterColor", 3, 0, 1),
+    schema::number("materials[].extensions.KHR_materials_volume_scatter.scatterAnisotropy", Need::Optional, -1, 1),
     schema::number("materials[].extensions.KHR_materials_diffuse_transmission.diffuseTransmissionFactor", Need::Optional, 0, 1),
     schema::numbers("materials[].extensions.KHR_materials_diffuse_transmission.diffuseTransmissionColorFactor", 3, 0, 1),
     schema::number("materials[].extensions.KHR_materials_clearcoat.clearcoatFactor", Need::Optional, 0, 1),
@@ -163,12 +165,19 @@ constexpr SchemaRule kSchemaRules[] = {
     schema::number("extensions.KHR_lights_punctual.lights[].spot.innerConeAngle", Need::Optional, 0, kHalfPi),
     schema::number("extensions.KHR_lights_punctual.lights[].spot.outerConeAngle", Need::Optional, kPositive, kHalfPi),
 
+    schema::other("extensions.EXT_lights_image_based.lights", JsonKind::Array, Need::Required),
+    schema::number("extensions.EXT_lights_image_based.lights[].intensity", Need::Optional, 0),
+    schema::numbers("extensions.EXT_lights_image_based.lights[].rotation", 4),
+    schema::other("extensions.EXT_lights_image_based.lights[].specularImages", JsonKind::Array, Need::Required),
+    schema::index("extensions.EXT_lights_image_based.lights[].specularImages[][]", "images"),
+
     schema::other("nodes[].name", JsonKind::String),
     schema::index("nodes[].children[]", "nodes"),
     schema::index("nodes[].mesh", "meshes"),
     schema::index("nodes[].camera", "cameras"),
     schema::index("nodes[].skin", "skins"),
     schema::index("nodes[].extensions.KHR_lights_punctual.light", "extensions.KHR_lights_punctual.lights", Need::Required),
+    schema::other("nodes[].extensions.KHR_node_visibility.visible", JsonKind::Bool),
     schema::numbers("nodes[].matrix", 16),
     schema::numbers("nodes[].translation", 3),
     schema::numbers("nodes[].rotation", 4),
@@ -177,6 +186,7 @@ constexpr SchemaRule kSchemaRules[] = {
     schema::index("nodes[].extras.sphere.material", "materials"),
     schema::other("scenes[].name", JsonKind::String),
     schema::index("scenes[].nodes[]", "nodes"),
+    schema::index("scenes[].extensions.EXT_lights_image_based.light", "extensions.EXT_lights_image_based.lights", Need::Required),
     schema::index("scene", "scenes"),
 };
 

@@ -115,6 +115,14 @@ glm::dmat4 parentFromNode(const GltfFile& file, std::size_t index)
     return matrix;
 }
 
+// KHR_node_visibility, which holds for what hangs below the node too.
+bool isVisible(const GltfFile& file, std::size_t index)
+{
+    const auto extension = file.model.nodes[index].extensions.find("KHR_node_visibility");
+    const bool known = extension != file.model.nodes[index].extensions.end() && extension->second.Has("visible");
+    return !known || extension->second.Get("visible").Get<bool>();
+}
+
 }  // namespace
 
 std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& options, Warnings& warnings)
@@ -131,6 +139,10 @@ std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& opti
     while (!pending.empty()) {
         PlacedNode node = pending.back();
         pending.pop_back();
+        if (!isVisible(file, node.index)) {
+            warnings.add("invisible nodes are left out", nodeLabel(file, node.index));
+            continue;
+        }
         node.worldFromNode = node.worldFromNode * parentFromNode(file, node.index);
         placed.push_back(node);
         const std::vector<int>& children = file.model.nodes[node.index].children;

@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include <cctype>
+#include <optional>
 #include <sstream>
+#include <string_view>
 
 namespace glim {
 namespace {
@@ -29,13 +31,43 @@ std::string percentDecode(const std::string& uri)
     return decoded;
 }
 
+std::optional<std::uint32_t> base64Digit(char c)
+{
+    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const std::size_t digit = kDigits.find(c == '-' ? '+' : c == '_' ? '/' : c);
+    return digit == std::string_view::npos ? std::nullopt : std::optional(static_cast<std::uint32_t>(digit));
+}
+
+// Base64 (RFC 4648) of any media type.
 std::vector<unsigned char> decodeDataUri(const std::string& path, const std::string& place, const std::string& uri)
 {
-    std::vector<unsigned char> bytes;
-    std::string mimeType;
-    if (!tinygltf::DecodeDataURI(&bytes, mimeType, uri, 0, false)) {
-        throw InputError(path + ": " + place + ".uri starts with \"" + uri.substr(0, uri.find(',')).substr(0, 48) +
+    const std::size_t comma = uri.find(',');
+    const std::string header = uri.substr(0, comma);
+    if (comma == std::string::npos || header.find(";base64") == std::string::npos) {
+        throw InputError(path + ": " + place + ".uri starts with \"" + header.substr(0, 48) +
                          "\"; expected base64 data of a buffer or an image");
+    }
+    std::vector<unsigned char> bytes;
+    bytes.reserve((uri.size() - comma) / 4 * 3);
+    std::uint32_t group = 0, digits = 0;
+    for (std::size_t i = comma + 1; i < uri.size() && uri[i] != '='; ++i) {
+        const std::optional<std::uint32_t> digit = base64Digit(uri[i]);
+        if (!digit) {
+            throw InputError(path + ": " + place + ".uri has the byte " + std::to_string(static_cast<unsigned char>(uri[i])) +
+                             " in its data; expected base64");
+        }
+        group = group << 6U | *digit;
+        if (++digits % 4 == 0) {
+            bytes.insert(bytes.end(), {static_cast<unsigned char>(group >> 16U & 255U), static_cast<unsigned char>(group >> 8U & 255U),
+                                       static_cast<unsigned char>(group & 255U)});
+        }
+    }
+    if (digits % 4 >= 2) {
+        group <<= 6U * (4 - digits % 4);
+        bytes.push_back(static_cast<unsigned char>(group >> 16U & 255U));
+        if (digits % 4 == 3) {
+            bytes.push_back(static_cast<unsigned char>(group >> 8U & 255U));
+        }
     }
     return bytes;
 }

@@ -1,6 +1,7 @@
 #include "host/scene/gltf/read_images.hpp"
 
 #include "host/error.hpp"
+#include "host/image/shrink_image.hpp"
 
 #include <algorithm>
 #include <map>
@@ -18,6 +19,22 @@ DecodedImage makeGrey()
     return grey;
 }
 
+std::string nameOf(const GltfFile& file, std::size_t image)
+{
+    const EncodedImage& source = file.images[image];
+    const bool named = source.name.empty() && !isDataUri(source.uri);
+    return label("images", image, named ? source.uri : source.name);
+}
+
+DecodedImage decodeNamed(const GltfFile& file, std::size_t image, std::span<const unsigned char> bytes)
+{
+    try {
+        return decodeImage(bytes);
+    } catch (const InputError& error) {
+        refuse(file, nameOf(file, image) + " " + error.what());
+    }
+}
+
 class ImageReader {
 public:
     ImageReader(const GltfFile& file, const LoadOptions& options, Scene& scene, Warnings& warnings)
@@ -27,80 +44,94 @@ public:
           warnings_(warnings)
     {}
 
-    void read(std::optional<Texture>& texture)
+    void read(Texture& texture, bool isColor)
     {
-        if (texture) {
-            const EncodedImage& source = file_.images[texture->image];
-            const EncodedImage::Range range = source.range.value_or(EncodedImage::Range());
-            const auto [known, fresh] = images_.try_emplace(Source(source.uri, range.buffer, range.offset, range.length),
-                                                            static_cast<std::uint32_t>(scene_.images.size()));
-            if (fresh) {
-                scene_.images.push_back({nameOf(texture->image), decode(texture->image)});
-            }
-            texture->image = known->second;
-        }
+        const auto known = images_.find({sourceOf(texture.image), isColor});
+        texture.image = known == images_.end() ? add(texture.image, isColor) : known->second;
     }
 
 private:
-    std::string nameOf(std::size_t image) const
+    // Where an image's bytes are: files may name the same ones by several images.
+    using Source = std::tuple<std::string_view, std::uint32_t, std::uint64_t, std::uint64_t>;
+
+    Source sourceOf(std::uint32_t image) const
     {
         const EncodedImage& source = file_.images[image];
-        const bool named = source.name.empty() && !isDataUri(source.uri);
-        return label("images", image, named ? source.uri : source.name);
+        const EncodedImage::Range range = source.range.value_or(EncodedImage::Range());
+        return {source.uri, range.buffer, range.offset, range.length};
     }
 
-    DecodedImage decode(std::size_t image) const
+    std::uint32_t add(std::uint32_t image, bool isColor)
     {
-        const EncodedImage& source = file_.images[image];
+        DecodedImage pixels = decode(image);
+        const bool fits = std::max(pixels.width, pixels.height) <= options_.maxTexture;
+        pixels = shrinkImage(std::move(pixels), options_.maxTexture, isColor);
+        bytes_ += pixels.rgba8.size() + 2 * pixels.rgba16.size();
+        if (bytes_ > kMaxTextureBytes) {
+            refuse(file_, "its textures take more than " + std::to_string(kMaxTextureBytes >> 20U) +
+                              " MiB; expected less (--max-texture N scales them down)");
+        }
+        const auto index = static_cast<std::uint32_t>(scene_.images.size());
+        scene_.images.push_back({nameOf(file_, image), std::move(pixels)});
+        images_[{sourceOf(image), isColor}] = index;
+        if (fits) {
+            images_[{sourceOf(image), !isColor}] = index;
+        }
+        return index;
+    }
+
+    DecodedImage decode(std::uint32_t image) const
+    {
         try {
-            if (!source.range) {
-                const std::vector<unsigned char> bytes = readUri(file_.path, "images[" + std::to_string(image) + "]", source.uri);
-                return decodeBytes(bytes, image);
-            }
-            const std::vector<unsigned char>& buffer = file_.buffers[source.range->buffer];
-            if (source.range->offset > buffer.size() || source.range->length > buffer.size() - source.range->offset) {
-                refuse(file_, nameOf(image) + " ends past its buffer; expected a bufferView within it");
-            }
-            return decodeBytes(std::span(buffer).subspan(source.range->offset, source.range->length), image);
+            return readImage(file_, image, scene_);
         } catch (const InputError& error) {
             if (options_.missingTextures == MissingTextures::Refuse) {
                 throw;
             }
-            warnings_.add(error.what() + std::string("; it is drawn grey"));
+            std::string reason = error.what();
+            reason.erase(0, reason.rfind(file_.path + ": ", 0) == 0 ? file_.path.size() + 2 : 0);
+            warnings_.add("images that cannot be read are drawn grey", reason);
             return makeGrey();
         }
     }
-
-    DecodedImage decodeBytes(std::span<const unsigned char> bytes, std::size_t image) const
-    {
-        try {
-            return decodeImage(bytes);
-        } catch (const InputError& error) {
-            refuse(file_, nameOf(image) + " " + error.what());
-        }
-    }
-
-    // Where an image's bytes are: files may name the same ones by several images.
-    using Source = std::tuple<std::string_view, std::uint32_t, std::uint64_t, std::uint64_t>;
 
     const GltfFile& file_;
     const LoadOptions& options_;
     Scene& scene_;
     Warnings& warnings_;
-    std::map<Source, std::uint32_t> images_;  // the scene's
+    std::map<std::pair<Source, bool>, std::uint32_t> images_;  // the scene's, by the bytes and whether they are colours
+    std::uint64_t bytes_ = 0;
 };
 
 }  // namespace
+
+DecodedImage readImage(const GltfFile& file, std::size_t image, Scene& scene)
+{
+    const EncodedImage& source = file.images[image];
+    if (!source.range) {
+        const std::vector<unsigned char> bytes = readUri(file.path, "images[" + std::to_string(image) + "]", source.uri);
+        if (!isDataUri(source.uri)) {
+            scene.files.push_back(externalFile(file.path, source.uri));
+        }
+        return decodeNamed(file, image, bytes);
+    }
+    const std::vector<unsigned char>& buffer = file.buffers[source.range->buffer];
+    if (source.range->offset > buffer.size() || source.range->length > buffer.size() - source.range->offset) {
+        refuse(file, nameOf(file, image) + " ends past its buffer; expected a bufferView within it");
+    }
+    return decodeNamed(file, image, std::span(buffer).subspan(source.range->offset, source.range->length));
+}
 
 void readImages(const GltfFile& file, const LoadOptions& options, const std::vector<bool>& used, Scene& scene, Warnings& warnings)
 {
     ImageReader reader(file, options, scene, warnings);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const auto colors = colorTexturesOf(scene.materials[i]);
         for (std::optional<Texture>* texture : texturesOf(scene.materials[i])) {
-            if (used[i]) {
-                reader.read(*texture);
-            } else {
+            if (!used[i]) {
                 texture->reset();
+            } else if (texture->has_value()) {
+                reader.read(**texture, std::find(colors.begin(), colors.end(), texture) != colors.end());
             }
         }
     }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <set>
 
 namespace glim {
 namespace {
@@ -84,6 +86,7 @@ private:
     void readTransmission(Material& material);
     void readLayers(Material& material);
     void readGlossiness(Material& material);
+    void chooseUvSets(Material& material);
     void warnOfExtensions();
     void ignore(bool condition, const std::string& what)
     {
@@ -120,10 +123,6 @@ std::optional<Texture> MaterialReader::readTexture(int index, int uvSet, const t
     texture.nearest = source.nearest;
     if (transform != nullptr) {
         transformTexture(*transform, texture);
-    }
-    if (texture.uvSet > 1) {
-        ignore(true, "texture coordinates beyond TEXCOORD_1 are replaced by TEXCOORD_0");
-        texture.uvSet = 0;
     }
     return texture;
 }
@@ -175,7 +174,7 @@ void MaterialReader::readTransmission(Material& material)
     const glm::dvec3 color = glm::max(glm::dvec3(colorOr(source_, kVolume, "attenuationColor", glm::vec3(1.0F))), kLeastAttenuation);
     const tinygltf::Value* distance = findProperty(source_, kVolume, "attenuationDistance");
     if (distance != nullptr) {
-        material.absorption = glm::min(-glm::log(color) / distance->GetNumberAsDouble(), 1e30);
+        material.absorption = glm::min((0.0 - glm::log(color)) / distance->GetNumberAsDouble(), 1e30);  // no -0
     }
     material.dispersion = numberOr(source_, "KHR_materials_dispersion", "dispersion", 0.0);
 }
@@ -227,10 +226,33 @@ void MaterialReader::readGlossiness(Material& material)
     material.specularTexture.reset();
 }
 
+// A mesh keeps two sets: the lowest two that the material's textures use.
+void MaterialReader::chooseUvSets(Material& material)
+{
+    std::set<std::uint32_t> used;
+    for (const std::optional<Texture>* texture : texturesOf(material)) {
+        if (*texture) {
+            used.insert((*texture)->uvSet);
+        }
+    }
+    if (used.empty() || *used.rbegin() <= 1) {
+        return;
+    }
+    ignore(used.size() > 2, "of more than two sets of texture coordinates the highest are replaced by the lowest");
+    material.uvSets[0] = *used.begin();
+    material.uvSets[1] = used.size() > 1 ? *std::next(used.begin()) : *used.begin();
+    for (std::optional<Texture>* texture : texturesOf(material)) {
+        if (*texture) {
+            (*texture)->uvSet = (*texture)->uvSet == material.uvSets[1] && used.size() > 1 ? 1 : 0;
+        }
+    }
+}
+
 void MaterialReader::warnOfExtensions()
 {
     for (const auto& [name, extension] : source_.extensions) {
-        ignore(!isSupportedExtension(name), name + " is ignored");
+        const bool scatter = name == "KHR_materials_volume_scatter";
+        ignore(!isSupportedExtension(name), name + (scatter ? " is ignored (light does not scatter within solids)" : " is ignored"));
     }
 }
 
@@ -261,6 +283,7 @@ Material MaterialReader::read()
     if (material.unlit) {
         material.emission = glm::vec3(0.0F);
     }
+    chooseUvSets(material);
     warnOfExtensions();
     return material;
 }

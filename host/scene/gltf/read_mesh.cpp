@@ -1,7 +1,9 @@
 #include "host/scene/gltf/read_mesh.hpp"
 
 #include "host/scene/gltf/read_accessor.hpp"
+#include "host/scene/gltf/read_material.hpp"
 
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -110,6 +112,20 @@ int materialOf(const GltfFile& file, const tinygltf::Primitive& primitive)
     return primitive.material;
 }
 
+std::array<std::uint32_t, 2> uvSetsOf(const GltfFile& file, int material)
+{
+    Warnings unheard;
+    return readMaterial(file, material, unheard).uvSets;
+}
+
+std::vector<glm::vec2> readUvs(const GltfFile& file, const tinygltf::Primitive& primitive, std::uint32_t set, std::size_t vertexCount,
+                               const std::string& place)
+{
+    const std::string attribute = "TEXCOORD_" + std::to_string(set);
+    return readAttribute<glm::vec2>(file, primitive, attribute.c_str(), ("texture coordinates of set " + std::to_string(set)).c_str(),
+                                    vertexCount, place);
+}
+
 std::optional<Mesh> readPrimitive(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& place, Warnings& warnings)
 {
     const auto position = primitive.attributes.find("POSITION");
@@ -126,13 +142,13 @@ std::optional<Mesh> readPrimitive(const GltfFile& file, const tinygltf::Primitiv
     const std::size_t count = mesh.positions.size();
     mesh.normals = readAttribute<glm::dvec3>(file, primitive, "NORMAL", "normals", count, place);
     mesh.tangents = readAttribute<glm::vec4>(file, primitive, "TANGENT", "tangents", count, place);
-    mesh.uv0 = readAttribute<glm::vec2>(file, primitive, "TEXCOORD_0", "texture coordinates", count, place);
-    mesh.uv1 = readAttribute<glm::vec2>(file, primitive, "TEXCOORD_1", "texture coordinates of the second set", count, place);
+    const int material = materialOf(file, primitive);
+    mesh.uv0 = readUvs(file, primitive, uvSetsOf(file, material)[0], count, place);
+    mesh.uv1 = readUvs(file, primitive, uvSetsOf(file, material)[1], count, place);
     mesh.colors = readAttribute<glm::vec4>(file, primitive, "COLOR_0", "vertex colours", count, place);
     const std::vector<std::uint32_t> order = readVertexOrder(file, primitive, count, place);
     checkVertexCount(file, order.size(), primitive.mode, place);
     mesh.indices = listTriangles(order, primitive.mode);
-    const int material = materialOf(file, primitive);
     mesh.material = static_cast<std::uint32_t>(material < 0 ? static_cast<int>(file.model.materials.size()) : material);
     if (!primitive.targets.empty()) {
         warnings.add("morph targets are ignored", place);

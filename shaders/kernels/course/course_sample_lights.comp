@@ -37,6 +37,7 @@ void visitSurface(uint slot, PathRay ray, PathHit hit, PathState state)
     SurfaceMaterial material = materialAt(si);
     Bsdf bsdf = makeBsdf(si, material, wo);
     noteSurface(si, bsdf.frame.z);
+    noteMaterial(si, hit, material, 0u);
     bool first = lightRound.addsEmission != 0u;
     if (first && pass.bounce == 0u) {
         pathFirstHits[slot] = makeFirstHit(si, material.data, wo);

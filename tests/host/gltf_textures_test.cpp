@@ -1,0 +1,319 @@
+// Where a glTF file keeps its images, which texture coordinates they use, and lights made of images.
+#include "host/error.hpp"
+#include "tests/support/encode_images.hpp"
+#include "tests/support/gltf_builder.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace glim::test {
+namespace {
+
+using nlohmann::json;
+using Texels = std::vector<std::uint8_t>;
+
+const Texels kRed{200, 10, 20, 255};
+
+Bytes redPng() { return encodePng(1, 1, {200, 10, 20}); }
+
+// A triangle with six sets of texture coordinates, of which set i is i everywhere.
+GltfBuilder triangleOfSets()
+{
+    GltfBuilder builder;
+    const std::size_t mesh = builder.addTriangleMesh();
+    json& primitive = builder.document["meshes"][mesh]["primitives"][0];
+    for (int set = 0; set < 6; ++set) {
+        const std::vector<float> uv(6, static_cast<float>(set));
+        primitive["attributes"]["TEXCOORD_" + std::to_string(set)] = builder.addAccessor(toBytes(uv), kFloat, "VEC2", 3);
+    }
+    primitive["material"] = 0;
+    builder.addNode({{"mesh", mesh}});
+    return builder;
+}
+
+// Its base colour is `image`.
+GltfBuilder texturedTriangle(const json& image)
+{
+    GltfBuilder builder = triangleOfSets();
+    builder.append("images", image);
+    builder.append("textures", {{"source", 0}});
+    builder.append("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+    return builder;
+}
+
+std::string base64Uri(const std::string& type, const Bytes& bytes)
+{
+    GltfBuilder builder;
+    builder.addAov(bytes);
+    const std::string uri = json::parse(builder.toGltf())["buffers"][0]["uri"];
+    return "data:" + type + uri.substr(uri.find(';'));
+}
+
+std::string asText(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
+
+bool mentions(const std::vector<std::string>& lines, const std::string& part)
+{
+    return std::any_of(lines.begin(), lines.end(), [&part](const std::string& line) { return line.find(part) != std::string::npos; });
+}
+
+TEST(GltfTextures, ImagesInDataUrisOfAnyType)
+{
+    const Bytes webp = encodeWebp(1, 1, {200, 10, 20, 255});
+    EXPECT_EQ(load(texturedTriangle({{"uri", base64Uri("image/png", redPng())}})).images.at(0).pixels.rgba8, kRed);
+    EXPECT_EQ(load(texturedTriangle({{"uri", base64Uri("image/webp", webp)}})).images.at(0).pixels.rgba8, kRed);
+    EXPECT_EQ(load(texturedTriangle({{"uri", base64Uri("image/png;charset=x", redPng())}})).images.at(0).pixels.rgba8, kRed);
+    // What the file says of the type does not matter.
+    EXPECT_EQ(load(texturedTriangle({{"uri", base64Uri("image/jpeg", redPng())}, {"mimeType", "image/jpeg"}})).images.at(0).pixels.rgba8,
+              kRed);
+    EXPECT_NE(refusal(texturedTriangle({{"uri", "data:image/png,abc"}})).find("expected base64 data"), std::string::npos);
+    EXPECT_NE(refusal(texturedTriangle({{"uri", "data:image/png;base64,iVB*"}})).find("has the byte 42 in its data"), std::string::npos);
+    EXPECT_NE(refusal(texturedTriangle({{"uri", "data:image/png;base64"}})).find("expected base64 data"), std::string::npos);
+}
+
+TEST(GltfTextures, ImagesInBufferViews)
+{
+    GltfBuilder builder = texturedTriangle({{"mimeType", "image/png"}});
+    builder.document["images"][0]["bufferView"] = builder.addAov(redPng());
+    const std::string path = writeTemporary("image_in_view.glb", builder.toGlb());
+    EXPECT_EQ(loadGltf(path).images.at(0).pixels.rgba8, kRed);
+}
+
+TEST(GltfTextures, ImagesInFilesBesideAndBelow)
+{
+    const ScratchFolder folder;
+    std::filesystem::create_directories(folder.path() / "maps" / "of wood");
+    writeText(folder.path() / "my file.png", asText(redPng()));
+    writeText(folder.path() / "maps" / "of wood" / "a+b.png", asText(redPng()));
+    for (const std::string uri : {"my%20file.png", "my file.png", "maps/of%20wood/a+b.png", "./maps/of wood/a%2Bb.png"}) {
+        writeText(folder / "scene.glb", texturedTriangle({{"uri", uri}}).toGlb());
+        const Scene scene = loadGltf(folder / "scene.glb");
+        EXPECT_EQ(scene.images.at(0).pixels.rgba8, kRed) << uri;
+        ASSERT_EQ(scene.files.size(), 2U) << "a preview watches it";
+        EXPECT_TRUE(std::filesystem::exists(scene.files[1])) << scene.files[1];
+    }
+}
+
+TEST(GltfTextures, BrokenOnesAreNamedOrGrey)
+{
+    const std::string path =
+        writeTemporary("broken_image.gltf", texturedTriangle({{"uri", "data:image/png;base64,AAEC"}, {"name", "wood"}}).toGltf());
+    const std::string sentence = "images[0] (\"wood\") is of an unknown kind (it begins with 00 01 02); expected PNG, JPEG or WebP";
+    EXPECT_EQ(loadRefusal(path), path + ": " + sentence);
+    LoadOptions options;
+    options.missingTextures = MissingTextures::Grey;
+    const Scene scene = loadGltf(path, options);
+    EXPECT_EQ(scene.images.at(0).pixels.rgba8, (Texels{128, 128, 128, 255}));
+    EXPECT_TRUE(mentions(scene.warnings, "images that cannot be read are drawn grey: " + sentence))
+        << ::testing::PrintToString(scene.warnings);
+    EXPECT_NE(loadRefusal(writeTemporary("lost_image.gltf", texturedTriangle({{"uri", "lost.png"}}).toGltf()))
+                  .find("images[0] names the file \"lost.png\""),
+              std::string::npos);
+}
+
+// An image that is used for colours and for numbers is averaged both ways, if it is scaled down at all.
+TEST(GltfTextures, LargeImagesAreScaledDownByTheirUse)
+{
+    GltfBuilder builder = texturedTriangle({{"uri", base64Uri("image/png", encodePng(2, 1, {0, 0, 0, 255, 255, 255}))}});
+    builder.document["materials"][0]["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {{"index", 0}};
+    builder.document["materials"][0]["emissiveTexture"] = {{"index", 0}};
+    EXPECT_EQ(load(builder).images.size(), 1U);
+    LoadOptions options;
+    options.maxTexture = 1;
+    const Scene scene = load(builder, options);
+    ASSERT_EQ(scene.images.size(), 2U);
+    const Material& material = scene.materials[0];
+    EXPECT_EQ(material.baseColorTexture->image, material.emissiveTexture->image);
+    EXPECT_EQ(scene.images[material.baseColorTexture->image].pixels.rgba8, (Texels{188, 188, 188, 255}));
+    EXPECT_EQ(scene.images[material.metallicRoughnessTexture->image].pixels.rgba8, (Texels{128, 128, 128, 255}));
+}
+
+// Two sets of any number, each with its texture.
+TEST(GltfTextures, AnyTwoSetsOfTextureCoordinates)
+{
+    const auto loadSets = [](int color, int emission, int normal) {
+        GltfBuilder builder = texturedTriangle({{"uri", base64Uri("image/png", redPng())}});
+        json& material = builder.document["materials"][0];
+        material["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = color;
+        material["emissiveTexture"] = {{"index", 0}, {"texCoord", emission}};
+        material["occlusionTexture"] = {{"index", 0}, {"texCoord", 5}};  // nobody reads it
+        if (normal >= 0) {
+            material["normalTexture"] = {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"texCoord", normal}}}}}};
+        }
+        return load(builder);
+    };
+    const auto coordinateOf = [](const Scene& scene, const std::optional<Texture>& texture) {
+        return (texture->uvSet == 0 ? scene.meshes[0].uv0 : scene.meshes[0].uv1).at(0).x;
+    };
+    for (const auto& [color, emission] : {std::pair(0, 0), {0, 1}, {1, 0}, {2, 2}, {0, 3}, {4, 1}, {5, 2}}) {
+        const Scene scene = loadSets(color, emission, -1);
+        EXPECT_EQ(coordinateOf(scene, scene.materials[0].baseColorTexture), static_cast<float>(color));
+        EXPECT_EQ(coordinateOf(scene, scene.materials[0].emissiveTexture), static_cast<float>(emission));
+        EXPECT_FALSE(mentions(scene.warnings, "texture coordinates"));
+    }
+    const Scene scene = loadSets(1, 2, 4);
+    EXPECT_EQ(coordinateOf(scene, scene.materials[0].emissiveTexture), 2.0F);
+    EXPECT_EQ(coordinateOf(scene, scene.materials[0].normalTexture), 1.0F);
+    EXPECT_TRUE(
+        mentions(scene.warnings, "of more than two sets of texture coordinates the highest are replaced by the lowest: materials[0]"));
+}
+
+// Six faces, whose left halves are of one value and whose right halves of another.
+GltfBuilder litByImages(const std::vector<std::pair<int, int>>& halves, bool jpeg = false)
+{
+    GltfBuilder builder;
+    builder.addNode({{"mesh", builder.addTriangleMesh()}});
+    json faces = json::array();
+    for (const auto& [left, right] : halves) {
+        Bytes values;
+        for (int i = 0; i < 16 * 16; ++i) {
+            values.push_back(static_cast<unsigned char>(i % 16 < 8 ? left : right));
+        }
+        const Bytes file = jpeg ? encodeJpeg(16, 16, values, JpegColors::Grey) : encodePng(16, 16, values, {PNG_COLOR_TYPE_GRAY});
+        faces.push_back(builder.append("images", {{"uri", base64Uri("image/png", file)}}));
+    }
+    builder.document["extensions"]["EXT_lights_image_based"]["lights"] = {
+        {{"intensity", 3}, {"specularImages", {faces}}, {"specularImageSize", 16}, {"irradianceCoefficients", json::array()}}};
+    builder.document["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 0;
+    return builder;
+}
+
+float linear(int value) { return static_cast<float>(std::pow((value / 255.0 + 0.055) / 1.055, 2.4)); }
+
+// Of the direction (x, y, z): lib/lat_long.glsl.
+float radianceTowards(const RadianceMap& map, double x, double y, double z)
+{
+    constexpr double kPi = 3.14159265358979323846;
+    const double u = 0.5 + std::atan2(x, -z) / (2.0 * kPi), v = std::acos(y / std::sqrt(x * x + y * y + z * z)) / kPi;
+    const auto column = std::min(static_cast<std::uint32_t>(u * map.width), map.width - 1);
+    return map.texels[std::min(static_cast<std::uint32_t>(v * map.height), map.height - 1) * map.width + column].x;
+}
+
+const std::vector<std::pair<int, int>> kFaces{{40, 60}, {80, 100}, {120, 140}, {160, 180}, {200, 210}, {220, 230}};
+
+// Seen from inside, each face is where its axis points, and its left half is to the left.
+TEST(GltfTextures, FacesOfACubeLightTheScene)
+{
+    const Scene scene = load(litByImages(kFaces));
+    ASSERT_TRUE(scene.environment && scene.environment->map);
+    EXPECT_EQ(scene.environment->radiance, glm::vec3(3.0F));
+    const RadianceMap& map = *scene.environment->map;
+    EXPECT_EQ(map.width, 64U);
+    EXPECT_EQ(map.height, 32U);
+    const double s = 0.5;
+    const std::pair<glm::dvec3, int> expected[] = {{{1, 0, -s}, 40}, {{1, 0, s}, 60},   {{-1, 0, s}, 80},   {{-1, 0, -s}, 100},
+                                                   {{s, 1, 0}, 120}, {{-s, 1, 0}, 140}, {{s, -1, 0}, 160},  {{-s, -1, 0}, 180},
+                                                   {{s, 0, 1}, 200}, {{-s, 0, 1}, 210}, {{-s, 0, -1}, 220}, {{s, 0, -1}, 230}};
+    for (const auto& [w, value] : expected) {
+        EXPECT_NEAR(radianceTowards(map, w.x, w.y, w.z), linear(value), 1e-4F) << w.x << " " << w.y << " " << w.z;
+    }
+    EXPECT_FALSE(mentions(scene.warnings, "EXT_lights_image_based"));
+    EXPECT_FALSE(mentions(scene.warnings, "no light"));
+    const Scene jpegs = load(litByImages(kFaces, true));
+    EXPECT_NEAR(radianceTowards(*jpegs.environment->map, 1, 0, -s), linear(40), 0.01F);
+    LoadOptions dark;
+    dark.environment = BuiltInEnvironment::None;
+    EXPECT_FALSE(load(litByImages(kFaces), dark).environment);
+}
+
+// A quarter turn to the left about +y takes what was at -z to -x.
+TEST(GltfTextures, LightsOfImagesAreTurned)
+{
+    GltfBuilder builder = litByImages(kFaces);
+    const double half = std::sqrt(0.5);
+    builder.document["extensions"]["EXT_lights_image_based"]["lights"][0]["rotation"] = {0, half, 0, half};
+    const RadianceMap map = *load(builder).environment->map;
+    EXPECT_NEAR(radianceTowards(map, -1, 0, 0.5), linear(220), 1e-4F);
+    EXPECT_NEAR(radianceTowards(map, -1, 0, -0.5), linear(230), 1e-4F);
+}
+
+// A PNG with alpha holds what colours are divided by.
+TEST(GltfTextures, FacesWithAlphaAreDividedByIt)
+{
+    GltfBuilder builder = litByImages(kFaces);
+    Bytes values;
+    for (int i = 0; i < 16 * 16; ++i) {
+        values.insert(values.end(), {200, 100, 50, 51});
+    }
+    builder.document["images"][4]["uri"] = base64Uri("image/png", encodePng(16, 16, values, {PNG_COLOR_TYPE_RGBA}));
+    const Scene scene = load(builder);
+    EXPECT_NEAR(radianceTowards(*scene.environment->map, 0, 0, 1), 5.0F * linear(200), 1e-4F);
+}
+
+TEST(GltfTextures, BrokenFacesAreNamed)
+{
+    const std::string place = "extensions.EXT_lights_image_based.lights[0]";
+    GltfBuilder broken = litByImages(kFaces);
+    broken.document["images"][2]["uri"] = "data:image/png;base64,AAEC";
+    EXPECT_NE(refusal(broken).find("images[2] is of an unknown kind"), std::string::npos) << refusal(broken);
+    GltfBuilder five = litByImages({kFaces.begin(), kFaces.begin() + 5});
+    EXPECT_NE(refusal(five).find(place + ".specularImages[0] has not six images"), std::string::npos) << refusal(five);
+    GltfBuilder oblong = litByImages(kFaces);
+    oblong.document["images"][1]["uri"] = base64Uri("image/png", encodePng(2, 1, {0, 0, 0, 255, 255, 255}));
+    EXPECT_NE(refusal(oblong).find(place + ".specularImages[0][1] is 2x1 pixels; expected a square"), std::string::npos) << refusal(oblong);
+    GltfBuilder small = litByImages(kFaces);
+    small.document["images"][5]["uri"] = base64Uri("image/png", redPng());
+    EXPECT_NE(refusal(small).find(place + ".specularImages[0][5] is 1 pixels wide; expected 16"), std::string::npos) << refusal(small);
+    GltfBuilder wrong = litByImages(kFaces);
+    wrong.document["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 1;
+    EXPECT_NE(refusal(wrong).find("EXT_lights_image_based.light is 1; expected an index into"), std::string::npos) << refusal(wrong);
+    LoadOptions other;
+    other.environment = glm::vec3(1.0F);
+    EXPECT_TRUE(load(broken, other).environment) << "nobody reads the faces";
+}
+
+TEST(GltfTextures, RequiredExtensionsAreRefusedIfContentMayBeMissing)
+{
+    const auto require = [](const char* extension) {
+        GltfBuilder builder;
+        builder.addNode({{"mesh", builder.addTriangleMesh()}});
+        builder.document["extensionsRequired"] = {extension};
+        builder.document["extensionsUsed"] = {extension};
+        return builder;
+    };
+    for (const char* extension : {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_texture_basisu", "EXT_texture_avif",
+                                  "MSFT_texture_dds", "EXT_mesh_gpu_instancing", "KHR_gaussian_splatting", "VENDOR_unknown"}) {
+        EXPECT_NE(refusal(require(extension)).find(std::string("extensionsRequired names ") + extension + ", without which"),
+                  std::string::npos);
+    }
+    for (const char* extension : {"KHR_materials_unlit", "KHR_node_visibility", "KHR_mesh_quantization"}) {
+        EXPECT_FALSE(mentions(load(require(extension)).warnings, extension)) << "supported";
+    }
+    for (const char* extension :
+         {"KHR_animation_pointer", "KHR_xmp_json_ld", "KHR_node_selectability", "EXT_mesh_features", "KHR_audio_emitter"}) {
+        EXPECT_FALSE(mentions(load(require(extension)).warnings, extension)) << "it changes no still picture";
+    }
+    for (const char* extension : {"EXT_lights_ies", "KHR_lights_area"}) {
+        EXPECT_TRUE(mentions(load(require(extension)).warnings, std::string("extensions are ignored: ") + extension));
+    }
+}
+
+TEST(GltfTextures, ScatteringWithinSolidsIsSaidToBeIgnored)
+{
+    GltfBuilder builder = texturedTriangle({{"uri", base64Uri("image/png", redPng())}});
+    builder.document["extensionsRequired"] = {"KHR_materials_volume_scatter"};
+    json& extension = builder.document["materials"][0]["extensions"]["KHR_materials_volume_scatter"];
+    extension = {{"multiscatterColor", {0.5, 0.25, 1}}, {"scatterAnisotropy", 0.5}};
+    EXPECT_TRUE(
+        mentions(load(builder).warnings, "KHR_materials_volume_scatter is ignored (light does not scatter within solids): materials[0]"));
+    extension["scatterAnisotropy"] = 2;
+    EXPECT_NE(refusal(builder).find("scatterAnisotropy is 2; expected a number from -1 to 1"), std::string::npos) << refusal(builder);
+}
+
+TEST(GltfTextures, InvisibleNodesAndWhatHangsBelowAreLeftOut)
+{
+    GltfBuilder builder;
+    const std::size_t mesh = builder.addTriangleMesh();
+    builder.addNode({{"mesh", mesh}});
+    const std::size_t child = builder.append("nodes", {{"mesh", mesh}, {"extensions", {{"KHR_node_visibility", {{"visible", true}}}}}});
+    builder.addNode(
+        {{"name", "ghost"}, {"mesh", mesh}, {"children", {child}}, {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}});
+    const Scene scene = load(builder);
+    EXPECT_EQ(scene.instances.size(), 1U);
+    EXPECT_TRUE(mentions(scene.warnings, "invisible nodes are left out: nodes[2] (\"ghost\")")) << ::testing::PrintToString(scene.warnings);
+}
+
+}  // namespace
+}  // namespace glim::test
