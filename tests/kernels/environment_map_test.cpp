@@ -20,8 +20,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 struct Case {
-    uvec2 choice;
-    vec2 u;
+    uvec2 u;
     vec3 w;
 };
 
@@ -123,7 +122,7 @@ std::vector<Case> randomCases(std::size_t count, std::uint64_t seed)
     Random random(seed);
     std::vector<Case> cases(count);
     for (Case& c : cases) {
-        c = {{random.bits(), random.bits()}, {random.unitFloat(), random.unitFloat()}, random.direction()};
+        c = {{random.bits(), random.bits()}, random.direction()};
     }
     return cases;
 }

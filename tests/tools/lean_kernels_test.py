@@ -32,6 +32,17 @@ USERS = {
     "EnvironmentMap": ["sample_lights_and_bounce"],
     "TextureTransforms": ["sample_lights_and_bounce"],
     "WideTextures": ["sample_lights_and_bounce"],
+    "Clearcoat": ["sample_lights_and_bounce"],
+    "Sheen": ["sample_lights_and_bounce"],
+    "Anisotropy": ["sample_lights_and_bounce"],
+    "Iridescence": ["sample_lights_and_bounce"],
+    "Transmission": ["sample_lights_and_bounce"],
+    "DiffuseTransmission": ["sample_lights_and_bounce"],
+    "Media": ["sample_lights_and_bounce"],
+    "Dispersion": ["sample_lights_and_bounce"],
+    "ThinWalls": ["trace_closest", "trace_shadow"],
+    "Unlit": ["trace_closest", "trace_shadow", "sample_lights_and_bounce"],
+    "Glossiness": ["sample_lights_and_bounce"],
 }
 # What a feature needs before it has any code.
 NEEDS = {
@@ -41,6 +52,17 @@ NEEDS = {
     "EnvironmentMap": ["Environment"],
     "TextureTransforms": ["Principled", "Textures"],
     "WideTextures": ["Principled", "Textures"],
+    "Clearcoat": ["Principled"],
+    "Sheen": ["Principled"],
+    "Anisotropy": ["Principled"],
+    "Iridescence": ["Principled"],
+    "Transmission": ["Principled"],
+    "DiffuseTransmission": ["Principled"],
+    "Media": ["Principled"],
+    "Dispersion": ["Principled", "Media"],
+    "ThinWalls": ["Principled", "Alpha"],
+    "Unlit": ["Alpha"],
+    "Glossiness": ["Principled"],
 }
 KERNELS = USERS["Spheres"]
 
