@@ -98,7 +98,8 @@ TEST(DecodeImageTest, JpegsWithHarmlessFlawsDecode)
 {
     const Bytes jpeg = encodeJpeg(8, 8, Bytes(64, 90), JpegColors::Grey);
     Bytes flawed = jpeg;
-    flawed.insert(flawed.begin() + 2, {0x00, 0x00});
+    const std::ptrdiff_t secondMarker = 4 + 256 * jpeg[4] + jpeg[5];  // behind the first segment, whose length is at byte 4
+    flawed.insert(flawed.begin() + secondMarker, {0x00, 0x00});
     EXPECT_EQ(decodeImage(flawed).rgba8, decodeImage(jpeg).rgba8);
 }
 
@@ -207,7 +208,7 @@ TEST(ShrinkImageTest, OddSidesAreWeightedByArea)
     DecodedImage image;
     image.width = 5;
     image.height = 1;
-    for (const std::uint8_t value : {10, 20, 60, 100, 200}) {
+    for (const std::uint8_t value : Texels{10, 20, 60, 100, 200}) {
         image.rgba8.insert(image.rgba8.end(), {value, value, value, 255});
     }
     const DecodedImage small = shrinkImage(image, 3, false);

@@ -1,0 +1,44 @@
+// What does not fit into a device's memory is refused with the total, and with the option that makes textures smaller if they are much of it.
+#include "host/render/check_memory.hpp"
+
+#include "host/error.hpp"
+
+#include <gtest/gtest.h>
+
+namespace glim {
+namespace {
+
+constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20U;
+
+std::string refusalOf(std::uint64_t textureBytes, std::uint64_t deviceMemory)
+{
+    PreparedScene prepared;
+    prepared.scene.file = "a.glb";
+    prepared.flat.texels.resize(textureBytes / sizeof(std::uint32_t));
+    RenderSettings settings;
+    settings.width = settings.height = 16;
+    settings.pathCapacity = 1024;
+    DeviceDescription device;
+    device.name = "toy";
+    device.software = false;
+    device.memory = deviceMemory;
+    try {
+        checkMemory(prepared, settings, device);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(CheckMemoryTest, TexturesThatDoNotFitNameTheOption)
+{
+    EXPECT_EQ(refusalOf(8 * kMebibyte, 64 * kMebibyte), "");
+    const std::string much = refusalOf(8 * kMebibyte, 2 * kMebibyte);
+    EXPECT_EQ(much.rfind("a.glb: the scene and a picture of 16x16 need 8 MiB, which is 6 MiB more memory than device \"toy\" has; ", 0), 0U) << much;
+    EXPECT_NE(much.find("8 MiB are textures, which --max-texture N scales down."), std::string::npos) << much;
+    const std::string little = refusalOf(16, 1);
+    EXPECT_NE(little.find("more memory than device \"toy\" has."), std::string::npos) << little;
+}
+
+}  // namespace
+}  // namespace glim

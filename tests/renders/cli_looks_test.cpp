@@ -1,0 +1,246 @@
+// What the program says of materials, textures, environments and exposure, and how it refuses what it cannot use.
+#include "tests/support/encode_images.hpp"
+#include "tests/support/gltf_builder.hpp"
+#include "tests/support/run_glim.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <regex>
+
+namespace glim::test {
+namespace {
+
+using nlohmann::json;
+using Arguments = std::vector<std::string>;
+
+class LooksTest : public ::testing::Test {
+protected:
+    GlimRun run(const Arguments& arguments) const
+    {
+        GlimCall call;
+        call.arguments = arguments;
+        call.folder = folder_.path();
+        return runGlim(call);
+    }
+    GlimRun render(const Arguments& options) const
+    {
+        Arguments arguments{"render", "scene.gltf", "-o", "x.exr", "--size", "8x8", "--spp", "2"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return run(arguments);
+    }
+    json jsonIn(const char* name) const { return json::parse(bytesOfFile(folder_ / name)); }
+
+    // A coated triangle that fills the view, with a texture of 4x2 texels.
+    void writeCoated() const
+    {
+        GltfBuilder builder;
+        const std::size_t mesh = builder.addTriangleMesh();
+        json& primitive = builder.document["meshes"][mesh]["primitives"][0];
+        primitive["attributes"]["TEXCOORD_0"] = builder.addAccessor(toBytes(std::vector<float>(6, 0.125F)), kFloat, "VEC2", 3);
+        primitive["material"] = 0;
+        Bytes texels;
+        for (int i = 0; i < 8; ++i) {
+            texels.insert(texels.end(), {static_cast<unsigned char>(i % 4 == 0 ? 255 : 0), 255, 255});
+        }
+        const Bytes png = encodePng(4, 2, texels);
+        writeText(folder_ / "wood.png", {png.begin(), png.end()});
+        builder.append("images", {{"uri", "wood.png"}});
+        builder.append("samplers", {{"magFilter", 9728}});
+        builder.append("textures", {{"source", 0}, {"sampler", 0}});
+        builder.append("materials", {{"name", "paint"},
+                                     {"pbrMetallicRoughness",
+                                      {{"baseColorFactor", {0.5, 0.25, 0.125, 1}},
+                                       {"metallicFactor", 0.25},
+                                       {"roughnessFactor", 0.5},
+                                       {"baseColorTexture", {{"index", 0}}}}},
+                                     {"extensions", {{"KHR_materials_clearcoat", {{"clearcoatFactor", 0.75}}}}}});
+        builder.addNode({{"mesh", mesh}});
+        builder.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.1}, {"znear", 0.1}}}});
+        builder.addNode({{"camera", 0}, {"translation", {0.25, 0.25, 2}}});
+        writeText(folder_ / "scene.gltf", builder.toGltf());
+    }
+    // A ball of glass that absorbs red, with a camera before it.
+    void writeBall() const
+    {
+        GltfBuilder builder;
+        builder.append("materials", {{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0}}},
+                                     {"extensions",
+                                      {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+                                       {"KHR_materials_volume",
+                                        {{"thicknessFactor", 1}, {"attenuationDistance", 1}, {"attenuationColor", {0.5, 1, 1}}}}}}});
+        builder.addNode({{"extras", {{"sphere", {{"radius", 1}, {"material", 0}}}}}});
+        builder.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.1}, {"znear", 0.1}}}});
+        builder.addNode({{"camera", 0}, {"translation", {0, 0, 5}}});
+        writeText(folder_ / "scene.gltf", builder.toGltf());
+    }
+
+    ScratchFolder folder_;
+};
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST_F(LooksTest, InspectListsLobesTexturesEnvironmentAndMedia)
+{
+    writeCoated();
+    const json coated = json::parse(run({"inspect", "scene.gltf", "--json"}).out);
+    EXPECT_EQ(coated.at("lobes"), json({{"glTF", 1}, {"clearcoat", 1}}));
+    EXPECT_EQ(coated.at("textures"), json::array({{{"name", "images[0] (\"wood.png\")"}, {"width", 4}, {"height", 2}, {"bytes", 32}}}));
+    EXPECT_EQ(coated.at("environment").at("source"), "studio");
+    EXPECT_EQ(coated.at("environment").at("map").at("width"), 1024);
+    EXPECT_EQ(coated.at("textureBytes"), coated.at("environment").at("map").at("bytes").get<int>() + 32);
+    const std::string text = run({"inspect", "scene.gltf"}).out;
+    for (const char* line : {"  lobes: glTF 1, clearcoat 1\n", "  texture images[0] (\"wood.png\"), 4x2, ", "  environment: studio, 1024x512, 12 MiB\n"}) {
+        EXPECT_TRUE(contains(text, line)) << text << "lacks: " << line;
+    }
+    writeBall();
+    const json ball = json::parse(run({"inspect", "scene.gltf", "--json"}).out);
+    EXPECT_EQ(ball.at("lobes"), json({{"glass", 1}}));
+    ASSERT_EQ(ball.at("media").size(), 1U);
+    EXPECT_EQ(ball.at("media")[0].at("ior"), 1.5);
+    EXPECT_NEAR(ball.at("media")[0].at("absorption")[0], std::log(2.0), 1e-6);
+    EXPECT_EQ(ball.at("media")[0].at("absorption")[1], 0);
+    EXPECT_TRUE(contains(run({"inspect", "scene.gltf"}).out, "  medium 1: index 1.5, absorption (0.693, 0, 0) per metre\n"));
+}
+
+TEST_F(LooksTest, ReplaysShowMaterialsAndLobes)
+{
+    writeCoated();
+    std::map<std::string, int> lobes;
+    for (int sample = 0; sample < 24; ++sample) {
+        const GlimRun replay = run({"render", "scene.gltf", "--size", "8x8", "--environment", "1,1,1", "--replay", "4,4," + std::to_string(sample),
+                                    "--stats", "r.json"});
+        ASSERT_EQ(replay.exitCode, 0) << replay.err;
+        EXPECT_TRUE(contains(replay.out, "\n  base colour (0.5, 0.25, 0.125), metallic 0.25, roughness 0.5, clearcoat 0.75\n")) << replay.out;
+        const json vertex = jsonIn("r.json").at("vertices").at(0);
+        const json values = vertex.at("surface").at("values");
+        EXPECT_EQ(values.at("baseColor"), json({0.5, 0.25, 0.125}));
+        EXPECT_EQ(values.at("clearcoat"), 0.75);
+        EXPECT_EQ(values.at("alpha"), 1);
+        EXPECT_TRUE(values.at("medium").is_null());
+        const json next = vertex.at("next");
+        if (!next.is_null()) {
+            ++lobes[next.at("lobe")];
+            EXPECT_EQ(next.at("delta"), next.at("lobe") == "clearcoat") << "the coat alone is smooth";
+            EXPECT_EQ(next.at("pdf") == 0, next.at("delta"));
+            EXPECT_TRUE(contains(replay.out, " by its " + next.at("lobe").get<std::string>() + " lobe"));
+        }
+    }
+    EXPECT_GT(lobes["interface"] + lobes["diffuse base"], 10);
+    writeBall();
+    const GlimRun replay = run({"render", "scene.gltf", "--size", "8x8", "--environment", "1,1,1", "--replay", "4,4,1", "--stats", "r.json"});
+    const json vertices = jsonIn("r.json").at("vertices");
+    EXPECT_EQ(vertices.at(0).at("next").at("lobe"), "glass");
+    EXPECT_EQ(vertices.at(0).at("next").at("delta"), true);
+    EXPECT_EQ(vertices.at(0).at("next").at("transmitted"), true);
+    EXPECT_EQ(vertices.at(1).at("surface").at("values").at("medium").at("number"), 1);
+    EXPECT_TRUE(contains(replay.out, " by its glass lobe, delta, to the other side, with pdf 0")) << replay.out;
+    EXPECT_TRUE(contains(replay.out, "reached through medium 1: index 1.5, absorption (0.69314")) << replay.out;
+}
+
+TEST_F(LooksTest, PicturesThatShowNothingSaySo)
+{
+    writeCoated();
+    const GlimRun burnt = render({"--environment", "20000,20000,20000", "--png", "x.png"});
+    EXPECT_EQ(burnt.exitCode, 0);
+    std::smatch match;
+    ASSERT_TRUE(std::regex_search(burnt.err, match, std::regex("glim: x.png is burnt out: [0-9]+ % of what it shows is white; --exposure (-[0-9.]+) shows it\\.\n")))
+        << burnt.err;
+    EXPECT_FALSE(contains(render({"--environment", "20000,20000,20000", "--png", "x.png", "--exposure", match[1]}).err, "burnt"));
+    EXPECT_FALSE(contains(render({"--environment", "20000,20000,20000"}).err, "burnt")) << "an EXR has no exposure";
+    EXPECT_TRUE(contains(render({"--environment", "1e-4,1e-4,1e-4", "--png", "x.png"}).err, "x.png is almost black: its mean is "));
+    EXPECT_FALSE(contains(render({"--environment", "1,1,1", "--png", "x.png"}).err, "--exposure"));
+}
+
+TEST_F(LooksTest, TexturesAreScaledDownOnDemand)
+{
+    writeCoated();
+    const auto bytes = [this](const Arguments& options) {
+        Arguments all{"--environment", "1,1,1", "--stats", "s.json"};
+        all.insert(all.end(), options.begin(), options.end());
+        const GlimRun run = render(all);
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        return jsonIn("s.json").at("textureBytes").get<int>();
+    };
+    EXPECT_EQ(bytes({}), 4 * 2 * 4);
+    EXPECT_EQ(bytes({"--max-texture", "4"}), 4 * 2 * 4);
+    EXPECT_EQ(bytes({"--max-texture", "3"}), 2 * 1 * 4);
+    EXPECT_EQ(bytes({"--max-texture", "1"}), 0) << "one colour is part of the factor";
+}
+
+TEST_F(LooksTest, LargeTexturesAreStatedBeforeTheRender)
+{
+    writeCoated();
+    Bytes texels(std::size_t{4096} * 4100 * 3, 7);
+    texels[0] = 8;
+    const Bytes png = encodePng(4096, 4100, texels);
+    writeText(folder_ / "wood.png", {png.begin(), png.end()});
+    EXPECT_TRUE(contains(render({"--environment", "1,1,1"}).err,
+                         "glim: textures take 64 MiB on the device and the environment 0 MiB; --max-texture N scales textures down\n"));
+    EXPECT_FALSE(contains(render({"--environment", "1,1,1", "--max-texture", "2048"}).err, "textures take"));
+}
+
+TEST_F(LooksTest, NoTextureAndNoMapIsOverwritten)
+{
+    writeCoated();
+    const std::string texture = bytesOfFile(folder_ / "wood.png");
+    const GlimRun run = render({"--png", "wood.png"});
+    EXPECT_EQ(run.exitCode, 1);
+    EXPECT_TRUE(contains(run.err, "glim: wood.png: cannot be written: it is the input ")) << run.err;
+    EXPECT_EQ(bytesOfFile(folder_ / "wood.png"), texture);
+    ASSERT_EQ(render({"-o", "x.exr"}).exitCode == 0, false) << "-o twice";
+    ASSERT_EQ(render({}).exitCode, 0);
+    const std::string map = bytesOfFile(folder_ / "x.exr");
+    EXPECT_TRUE(contains(render({"--environment", "x.exr"}).err, "x.exr: cannot be written: it is the input"));
+    EXPECT_EQ(bytesOfFile(folder_ / "x.exr"), map);
+}
+
+// Each mistake is one sentence, and leaves nothing behind.
+TEST_F(LooksTest, WhatCannotBeUsedIsRefused)
+{
+    writeCoated();
+    writeText(folder_ / "empty.hdr", "");
+    writeText(folder_ / "half.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 4\nab");
+    writeText(folder_ / "text.exr", "this is no picture");
+    std::filesystem::copy_file(folder_ / "wood.png", folder_ / "picture.hdr");
+    std::filesystem::create_directory(folder_ / "folder.exr");
+    const std::ptrdiff_t entries = folder_.entries();
+    const std::pair<Arguments, std::pair<int, std::string>> cases[] = {
+        {{"--environment", "wood.png"}, {2, "--environment: \"wood.png\": expected the name of a .hdr or .exr map"}},
+        {{"--environment", "picture.hdr"}, {1, "picture.hdr: is neither OpenEXR nor Radiance (.hdr); expected one of these"}},
+        {{"--environment", "empty.hdr"}, {1, "empty.hdr: is neither OpenEXR nor Radiance"}},
+        {{"--environment", "half.hdr"}, {1, "half.hdr: ends in row 0 of 4"}},
+        {{"--environment", "text.exr"}, {1, "text.exr: is neither OpenEXR nor Radiance"}},
+        {{"--environment", "folder.exr"}, {1, "folder.exr: is a folder"}},
+        {{"--environment", "none.hdr"}, {1, "none.hdr: cannot be opened: No such file"}},
+        {{"--environment", "1,1"}, {2, "--environment: \"1,1\": expected"}},
+        {{"--environment", ""}, {2, "--environment: \"\": expected"}},
+        {{"--environment-rotation", "nan"}, {2, "--environment-rotation: \"nan\": expected a number from -360 to 360"}},
+        {{"--environment-rotation", "1e9"}, {2, "--environment-rotation: \"1e9\": expected a number"}},
+        {{"--environment-background", "ON"}, {2, "expected off or on"}},
+        {{"--missing-textures", "Grey"}, {2, "expected refuse or grey"}},
+        {{"--max-texture", "0"}, {2, "--max-texture: \"0\": expected a whole number from 1 to 16384"}},
+        {{"--max-texture", "-5"}, {2, "--max-texture: \"-5\": expected a whole number"}},
+        {{"--max-texture", "16385"}, {2, "--max-texture: \"16385\": expected a whole number"}},
+        {{"--max-texture", "big"}, {2, "--max-texture: \"big\": expected a whole number"}},
+        {{"--max-texture"}, {2, "--max-texture"}},
+        {{"--variant", "night"}, {1, "scene.gltf: it has no variant \"night\"; expected no --variant, since it has none"}},
+    };
+    for (const auto& [options, expected] : cases) {
+        Arguments arguments = options;
+        arguments.insert(arguments.end(), {"--png", "x.png", "--stats", "s.json"});
+        if (options.size() == 1) {
+            arguments = {"--png", "x.png", options[0]};
+        }
+        const GlimRun run = render(arguments);
+        EXPECT_EQ(run.exitCode, expected.first) << options.back() << run.err;
+        EXPECT_TRUE(contains(run.err, expected.second)) << run.err << "lacks: " << expected.second;
+        EXPECT_LE(countLines(run.err), expected.first == 1 ? 1U : 2U) << run.err;
+        EXPECT_EQ(run.out, "");
+        EXPECT_EQ(folder_.entries(), entries) << options.back();
+    }
+}
+
+}  // namespace
+}  // namespace glim::test
