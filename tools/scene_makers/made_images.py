@@ -17,7 +17,7 @@ def stored(data):
 
 
 def png(rows, color_type=RGB, depth=8, palette=(), alphas=()):
-    """A PNG file of `rows` of pixels: numbers (grey, palette) or tuples of them, below 2^depth. `palette` has RGB triples, `alphas` its alphas."""
+    """A PNG file of `rows` of pixels: numbers (grey, palette) or tuples of them, below 2^depth. `palette` has RGB triples."""
     packed = bytearray()
     for row in rows:
         numbers = [c for pixel in row for c in (pixel if isinstance(pixel, tuple) else (pixel,))]
@@ -40,7 +40,7 @@ def png(rows, color_type=RGB, depth=8, palette=(), alphas=()):
 
 
 def radiance_map(width, height, radiance):
-    """A Radiance .hdr file without run lengths. `radiance(azimuth, elevation)` gives RGB; degrees, azimuth 0 is +z and 90 is +x. The map's middle is -z."""
+    """A Radiance .hdr file without run lengths. radiance(azimuth, elevation) gives RGB; degrees, azimuth 0 is +z and 90 is +x."""
     pixels = bytearray()
     for y in range(height):
         for x in range(width):
@@ -52,7 +52,7 @@ def radiance_map(width, height, radiance):
 
 
 def softboxes(boxes, ambient):
-    """A sky for radiance_map: boxes of (azimuth, elevation, half width, half height, RGB), edges 6 degrees wide, over ambient(azimuth, elevation)."""
+    """A sky for radiance_map: boxes of (azimuth, elevation, half width, half height, RGB), with soft edges, over an ambient sky."""
     def radiance(azimuth, elevation):
         color = ambient(azimuth, elevation)
         for middle, height, half_width, half_height, added in boxes:

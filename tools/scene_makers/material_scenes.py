@@ -12,7 +12,8 @@ GOLD, COPPER = (1.0, 0.766, 0.336), (0.955, 0.638, 0.538)
 
 def light_by_softboxes(document):
     """The one map of these scenes; the built-in studio may change."""
-    boxes = ((130.0, 42.0, 28.0, 22.0, (4.0, 3.9, 3.6)), (-110.0, 20.0, 16.0, 30.0, (1.2, 1.4, 1.7)), (-30.0, 40.0, 30.0, 14.0, (2.0, 2.0, 2.2)))
+    boxes = ((130.0, 42.0, 28.0, 22.0, (4.0, 3.9, 3.6)), (-110.0, 20.0, 16.0, 30.0, (1.2, 1.4, 1.7)),
+             (-30.0, 40.0, 30.0, 14.0, (2.0, 2.0, 2.2)))
     def ambient(azimuth, elevation):
         return (0.15 + 0.25 * smooth_step(-30.0, 90.0, elevation),) * 3
     document.environment("softboxes.hdr", radiance_map(64, 32, softboxes(boxes, ambient)))
@@ -172,8 +173,8 @@ def normal_map_scene():
 def alpha():
     document = Document()
     document.camera("front", (0.0, 1.5, 5.2), (0.0, 0.62, 0.0), 30.0, 1.0)
-    document.surface("floor", rectangle((-3.0, 0.0, 2.0), (6.0, 0.0, 0.0), (0.0, 0.0, -4.5)),
-                     document.surface_material("floor", (0.5, 0.5, 0.5), 0.0, 1.0, extensions={"specular": {"specularFactor": 0.0}}), uv=False)
+    floor = document.surface_material("floor", (0.5, 0.5, 0.5), 0.0, 1.0, extensions={"specular": {"specularFactor": 0.0}})
+    document.surface("floor", rectangle((-3.0, 0.0, 2.0), (6.0, 0.0, 0.0), (0.0, 0.0, -4.5)), floor, uv=False)
     document.surface("wall", rectangle((-3.0, 0.0, -2.5), (6.0, 0.0, 0.0), (0.0, 3.5, 0.0)), checkered(document, "wall", 16))
 
     ring = png(sample(32, 32, lambda u, v: 1 + int(255 * v) // 20 if 0.22 < math.hypot(u - 0.5, v - 0.5) < 0.48 else 0), PALETTE, 4,

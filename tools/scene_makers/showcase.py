@@ -8,16 +8,16 @@ from .surfaces import box, joined, lathe, patch, rectangle, rotation, smooth_cur
 
 
 # Azimuth (0 is towards the camera, 90 to the right), elevation, half width, half height in degrees; radiance.
-SOFTBOXES = ((-50.0, 46.0, 44.0, 31.0, (5.4, 4.5, 3.35)), (112.0, 34.0, 20.0, 28.0, (2.2, 3.0, 4.2)), (-128.0, 30.0, 10.0, 28.0, (1.5, 1.4, 1.3)),
-             (10.0, 80.0, 60.0, 8.0, (2.2, 2.2, 2.2)))
+SOFTBOXES = ((-68.0, 42.0, 36.0, 27.0, (5.0, 4.15, 3.05)), (112.0, 34.0, 20.0, 28.0, (2.2, 3.0, 4.2)),
+             (-128.0, 30.0, 10.0, 28.0, (1.5, 1.4, 1.3)), (20.0, 78.0, 50.0, 9.0, (1.5, 1.5, 1.55)))
 
 
 def ambient(azimuth, elevation):
-    """Around the camera the dim room; behind the table a backdrop with a glow; nothing below the table, where it would only cost samples."""
-    away = math.hypot((azimuth % 360.0 - 180.0) / 24.0, (elevation + 3.0) / 15.0)
+    """Around the camera a dim room, behind the table a backdrop with a glow, below it nothing: light there would only cost samples."""
+    away = math.hypot((azimuth % 360.0 - 180.0) / 17.0, (elevation + 7.0) / 11.0)
     glow = math.exp(-0.5 * away * away)
-    backdrop = mix((0.022, 0.034, 0.038), (0.17, 0.25, 0.265), glow)
-    room = mix((0.34, 0.36, 0.40), (0.46, 0.50, 0.58), smooth_step(0.0, 70.0, elevation))
+    backdrop = mix((0.020, 0.033, 0.038), (0.15, 0.235, 0.25), glow)
+    room = mix((0.17, 0.18, 0.21), (0.28, 0.31, 0.37), smooth_step(0.0, 70.0, elevation))
     behind = smooth_step(70.0, 110.0, abs((azimuth + 180.0) % 360.0 - 180.0))
     seen = smooth_step(-4.0, 4.0, elevation) * (1.0 - behind) * 0.9 + 0.1 * smooth_step(0.0, 20.0, elevation)
     shown = behind * smooth_step(-40.0, -20.0, elevation)
@@ -89,9 +89,10 @@ def tumbler(radius, height):
     glass += [(radius * (0.95 + 0.05 * k / 4) - wall, height * k / 4) for k in (3, 2)]
     glass += [(radius * 0.96 - wall, bottom + 0.05), (radius * 0.92 - wall, bottom + 0.01), (radius * 0.84 - wall, bottom), (0.0, bottom)]
     reach, level = 0.4 * wall, 0.55 * height
-    liquid = [(0.0, bottom - reach), (radius * 0.84 - wall, bottom - reach), (radius * 0.92 - wall + 0.7 * reach, bottom + 0.01 - 0.7 * reach),
-              (radius * 0.96 - wall + reach, bottom + 0.05), (radius * 0.975 - wall + reach, level), (radius * 0.975 - wall + reach, level),
-              (0.0, level)]
+    side = radius * 0.975 - wall + reach
+    liquid = [(0.0, bottom - reach), (radius * 0.84 - wall, bottom - reach),
+              (radius * 0.92 - wall + 0.7 * reach, bottom + 0.01 - 0.7 * reach), (radius * 0.96 - wall + reach, bottom + 0.05),
+              (side, level), (side, level), (0.0, level)]
     return lathe(glass, 36), lathe(liquid, 36)
 
 
@@ -144,8 +145,10 @@ def showcase():
 
     boards = document.texture(shades(128, 128, wood, WOOD))
     table = document.surface_material("table", roughness=0.32, base=boards)
-    top = patch(lambda s, t: (3.4 * (1.0 - t) * math.sin(-2.0 * math.pi * s), 0.0, 1.0 - 3.4 * (1.0 - t) * math.cos(2.0 * math.pi * s)), 96, 1,
-                lambda s, t: (0.0, 1.0, 0.0))
+    def on_table(s, t):
+        a, r = 2.0 * math.pi * s, 3.4 * (1.0 - t)
+        return (-math.sin(a) * r, 0.0, 1.0 - math.cos(a) * r)
+    top = patch(on_table, 96, 1, lambda s, t: (0.0, 1.0, 0.0))
     top.uvs = [(p[0] / 3.0 + 0.5, p[2] / 1.5) for p in top.points]
     document.surface("table", top, table)
 

@@ -43,7 +43,7 @@ def joined(surfaces):
 
 
 def patch(point, columns, rows, normal=None):
-    """point(s, t) over the unit square, uv (s, 1 - t). The front shows s to the right and t upwards. Normals by differences, unless given."""
+    """point(s, t) over the unit square, uv (s, 1 - t). The front shows s to the right and t upwards. Normals by differences, or given."""
     at = [(i / columns, j / rows) for j in range(rows + 1) for i in range(columns + 1)]
     h = 1e-4
     def by_differences(s, t):
@@ -80,7 +80,7 @@ def torus(radius, thickness, columns=48, rows=20):
 
 
 def lathe(profile, columns=40):
-    """Turns the profile, a list of (radius, y), about the vertical axis; its right side is outside as it climbs. A point given twice is an edge."""
+    """Turns a profile of (radius, y) about the vertical axis; its right side as it climbs is outside. A point given twice is an edge."""
     runs, run = [], [profile[0]]
     for p in profile[1:]:
         if p == run[-1]:
