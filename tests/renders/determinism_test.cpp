@@ -1,6 +1,8 @@
 // The same seed gives the same bits, however the work is cut and whatever else is compiled in.
 #include "host/render/film_file.hpp"
 #include "host/render/merge_films.hpp"
+#include "host/scene/load_gltf.hpp"
+#include "places.h"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/named.hpp"
 #include "tests/support/render_scene.hpp"
@@ -93,21 +95,37 @@ TEST(MergedRenderTest, H34PagesMergeToTheBitsOfTheSingleRun)
     EXPECT_TRUE(sameBits(merged.film, readFilm(folder / "whole.exr")));
 }
 
-// FNV-1a of all moments of a render that runs every kernel path. It changes when the picture is meant to change, and must be
-// the same on every software driver: tools/test --driver checks that.
-constexpr std::uint64_t kMixedSceneHash = 0x3aa0ee0199276766ULL;
-
-TEST(DriverAgreementTest, H34TheSameBitsOnEverySoftwareDriver)
+// FNV-1a of all moments.
+std::uint64_t hashOf(const Film& film)
 {
-    const Film film = renderScene(mixedScene(), squareSettings(64, 64));
     std::uint64_t hash = 14695981039346656037ULL;
     for (const std::byte byte : std::as_bytes(std::span<const PixelMoments>(film.pixels))) {
         hash = (hash ^ static_cast<std::uint64_t>(byte)) * 1099511628211ULL;
     }
-    std::printf("mixed scene on %s: %#018llx\n", film.device.c_str(), static_cast<unsigned long long>(hash));
+    return hash;
+}
+
+// These renders run every path of a kernel. Their hashes change when the picture is meant to change, and must be the same on every
+// software driver: tools/test --driver checks that.
+void expectHash(const std::string& name, const Film& film, std::uint64_t expected)
+{
+    const std::uint64_t hash = hashOf(film);
+    std::printf("%s on %s: %#018llx\n", name.c_str(), film.device.c_str(), static_cast<unsigned long long>(hash));
     if (testDevice().description().software) {
-        EXPECT_EQ(hash, kMixedSceneHash);
+        EXPECT_EQ(hash, expected);
     }
+}
+
+TEST(DriverAgreementTest, H34TheSameBitsOnEverySoftwareDriver)
+{
+    expectHash("mixed scene", renderScene(mixedScene(), squareSettings(64, 64)), 0x3aa0ee0199276766ULL);
+}
+
+TEST(DriverAgreementTest, H34EveryMaterialTheSameBits)
+{
+    RenderSettings settings = squareSettings(48, 64);
+    settings.schedule = Schedule::Persistent;  // GoldenTest compares the two
+    expectHash("materials", renderScene(loadGltf(GLIM_SOURCE_DIR "/scenes/materials.gltf"), settings), 0xf13fa3b06a9a3cb4ULL);
 }
 
 }  // namespace
