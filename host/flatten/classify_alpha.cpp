@@ -29,13 +29,13 @@ bool hasAlpha(const Mesh& mesh)
 
 }  // namespace
 
-const AlphaClassifier::Shares& AlphaClassifier::sharesOf(std::uint32_t id)
+const AlphaClassifier::Shares& AlphaClassifier::sharesOf(const Material& material)
 {
-    const auto known = shares_.find(id);
+    const Rule rule(material.baseColorTexture->image, material.alphaMode, material.alphaCutoff, material.alpha);
+    const auto known = shares_.find(rule);
     if (known != shares_.end()) {
         return known->second;
     }
-    const Material& material = scene_.materials[id];
     const DecodedImage& image = scene_.images[material.baseColorTexture->image].pixels;
     const auto sumsOf = [&](Coverage coverage) {
         return BoxSums(image.width, image.height, [&](std::uint32_t x, std::uint32_t y) {
@@ -43,7 +43,7 @@ const AlphaClassifier::Shares& AlphaClassifier::sharesOf(std::uint32_t id)
             return coverageOf(material, alpha) == coverage ? 1U : 0U;
         });
     };
-    return shares_.emplace(id, Shares{sumsOf(Coverage::Opaque), sumsOf(Coverage::Transparent)}).first->second;
+    return shares_.emplace(rule, Shares{sumsOf(Coverage::Opaque), sumsOf(Coverage::Transparent)}).first->second;
 }
 
 Coverage AlphaClassifier::classify(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners)
@@ -67,7 +67,7 @@ Coverage AlphaClassifier::classify(const Mesh& mesh, const std::array<std::uint3
     for (std::size_t v = 0; v < 3 && !uv.empty(); ++v) {
         at[v] = uv[corners[v]];
     }
-    const Shares& shares = sharesOf(mesh.material);
+    const Shares& shares = sharesOf(material);
     const UvBox box = uvBoxOf(texture, at);
     return shares.opaque.mean(box, texture) == 1.0        ? Coverage::Opaque
            : shares.transparent.mean(box, texture) == 1.0 ? Coverage::Transparent

@@ -4,6 +4,7 @@
 #include "host/flatten/box_sums.hpp"
 
 #include <map>
+#include <tuple>
 
 namespace glim {
 
@@ -23,10 +24,13 @@ private:
     struct Shares {
         BoxSums opaque, transparent;
     };
-    const Shares& sharesOf(std::uint32_t material);
+    const Shares& sharesOf(const Material& material);
+
+    // What a texel's coverage depends on: image, mode, cutoff and factor. Sums are as large as images, and materials may share one.
+    using Rule = std::tuple<std::uint32_t, AlphaMode, float, float>;
 
     const Scene& scene_;
-    std::map<std::uint32_t, Shares> shares_;  // by material
+    std::map<Rule, Shares> shares_;
 };
 
 }  // namespace glim

@@ -17,12 +17,11 @@ constexpr double kPi = std::numbers::pi;
 // A colour counts by its strongest channel, which does not change when channels are swapped.
 double strength(const glm::vec3& color) { return static_cast<double>(std::max({color.r, color.g, color.b})); }
 
-// The mean strength of a texture over a triangle's texture coordinates, about; 0 only where the texture is black all over.
-class EmissiveTexture {
+// The strength of an image's texels in linear light, about; 0 only where a texel is black.
+class EmissiveImage {
 public:
-    EmissiveTexture(const Texture& texture, const DecodedImage& image)
-        : texture_(texture),
-          sums_(image.width, image.height, [&image](std::uint32_t x, std::uint32_t y) {
+    explicit EmissiveImage(const DecodedImage& image)
+        : sums_(image.width, image.height, [&image](std::uint32_t x, std::uint32_t y) {
               const std::size_t at = 4 * (std::size_t{y} * image.width + x);
               std::uint32_t strongest = 0;
               for (std::size_t c = 0; c < 3; ++c) {
@@ -32,19 +31,19 @@ public:
           })
     {}
 
-    double mean(const glm::vec4 (&uvs)[3]) const
+    // Over a triangle's texture coordinates, set 0 and set 1; 0 only where the texture is black all over it.
+    double mean(const Texture& texture, const glm::vec4 (&uvs)[3]) const
     {
         glm::vec2 uv[3];
         for (int v = 0; v < 3; ++v) {
-            uv[v] = texture_.uvSet == 0 ? glm::vec2(uvs[v].x, uvs[v].y) : glm::vec2(uvs[v].z, uvs[v].w);
+            uv[v] = texture.uvSet == 0 ? glm::vec2(uvs[v].x, uvs[v].y) : glm::vec2(uvs[v].z, uvs[v].w);
         }
-        return sums_.mean(uvBoxOf(texture_, uv), texture_) / kOne;
+        return sums_.mean(uvBoxOf(texture, uv), texture) / kOne;
     }
 
 private:
     static constexpr double kOne = 1 << 20;
 
-    const Texture& texture_;
     BoxSums sums_;
 };
 
@@ -190,17 +189,15 @@ private:
         if (!material.emissiveTexture) {
             return 1.0;
         }
-        const auto known = textures_.find(id);
-        const EmissiveTexture& texture =
-            known != textures_.end()
-                ? known->second
-                : textures_.emplace(id, EmissiveTexture(*material.emissiveTexture, scene_.images[material.emissiveTexture->image].pixels))
-                      .first->second;
+        const std::uint32_t image = material.emissiveTexture->image;
+        const auto known = images_.find(image);
+        const EmissiveImage& sums =
+            known != images_.end() ? known->second : images_.emplace(image, EmissiveImage(scene_.images[image].pixels)).first->second;
         glm::vec4 uvs[3];
         for (int v = 0; v < 3; ++v) {
             uvs[v] = primitives_.vertexUvs[primitives_.vertexIndices[triangle][v]];
         }
-        return texture.mean(uvs);
+        return sums.mean(*material.emissiveTexture, uvs);
     }
 
     FlatLight surfaceLight(std::uint32_t kind, std::uint32_t id, std::uint32_t emitters) const
@@ -235,7 +232,7 @@ private:
     std::span<const std::uint32_t> recordOf_;
     double radius_;
     std::vector<double> powers_;
-    std::map<std::uint32_t, EmissiveTexture> textures_;  // by material
+    std::map<std::uint32_t, EmissiveImage> images_;  // by image
 };
 
 }  // namespace
