@@ -13,6 +13,13 @@ int testRounds();
 // P(X >= x) for a chi-square distribution with `freedom` degrees of freedom.
 double chiSquareTail(double x, double freedom);
 
+// Pearson's chi-square of counts against expected counts.
+struct ChiSquare {
+    double statistic, cells, p;
+    double impossible;  // counted where none is expected
+};
+ChiSquare chiSquareOf(std::span<const double> counts, std::span<const double> expected);
+
 // Pearson's test of counts against expected counts. Cells with an expected count below 5 are pooled. `tests` is the number of
 // comparisons of the family. Prints the p-value.
 void expectCounts(const std::string& what, std::span<const double> counts, std::span<const double> expected, std::size_t tests);
@@ -22,6 +29,9 @@ void expectSampleMean(const std::string& what, std::span<const double> values, d
 
 // |correlation| * sqrt(n) of two series, which is normally distributed if they are independent.
 double correlationScore(std::span<const double> a, std::span<const double> b);
+
+// The least p-value that a family of `tests` comparisons allows.
+double familyLevel(std::size_t tests);
 
 // The largest |z| that a family of `tests` comparisons allows.
 double scoreLimit(std::size_t tests);
