@@ -23,6 +23,7 @@ struct Bsdf {
 bool isDielectric(uint lobe) { return hasFeature(kFeatureDielectric) && lobe == kDielectric; }
 bool isMirror(uint lobe) { return hasFeature(kFeatureMirror) && lobe == kMirror; }
 bool isPrincipled(uint lobe) { return hasFeature(kFeaturePrincipled) && lobe == kPrincipled; }
+bool scattersNothing(uint lobe) { return hasFeature(kFeatureUnlit) && lobe == kUnlit; }
 
 // The frame whose x axis is the tangent, as far as that is not along n.
 Frame makeFrame(vec3 n, vec3 tangent)
@@ -70,7 +71,7 @@ Bsdf makeBsdf(SurfaceInteraction si, SurfaceMaterial material, vec3 wo)
     vec3 ns = dielectric ? faceForward(si.ns, wo) : visibleNormal(si, wo);
     Bsdf bsdf;
     bsdf.lobe = data.lobe;
-    bsdf.color = isUnlit(data) ? vec3(0.0) : data.baseColor;  // the path ends there
+    bsdf.color = data.baseColor;
     bsdf.eta = dielectric ? eta : 1.0;
     bsdf.ng = si.ng;
     if (isPrincipled(data.lobe)) {
@@ -128,7 +129,7 @@ BsdfSample sampleReflection(Bsdf bsdf, vec3 wo, vec2 u, float uLobe)
     }
     s.wi = worldFromFrame(bsdf.frame, s.wi);
     float outwards = (s.flags & kBsdfTransmission) != 0u ? -dot(s.wi, bsdf.ng) : dot(s.wi, bsdf.ng);
-    s.weight = outwards > 0.0 ? s.weight : vec3(0.0);
+    s.weight = outwards > 0.0 && !scattersNothing(bsdf.lobe) ? s.weight : vec3(0.0);
     return s;
 }
 

@@ -55,7 +55,8 @@ class Appearance:
         kind = "principled" if meets and kind == "glass" else kind
         self.surface, self.lobes = None, None
         if kind == "principled" or material.transparent or material.unlit or "emissiveTexture" in material.textures:
-            from .gltf_bsdf import Lobes, Surface
+            from .gltf_lobes import Lobes
+            from .gltf_surface import Surface
             pixels = images.of(material)
             self.surface = Surface(material, pixels, on_sphere, attributes)
             self.lobes = Lobes(material, pixels) if kind == "principled" and not (material.smooth_glass or material.unlit) else None

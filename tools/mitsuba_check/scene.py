@@ -228,7 +228,6 @@ class Reader:
             if material.emits and material.double_sided and np.count_nonzero(distances < sphere.radius) > 1:
                 self.file.refuse("has something within a sphere that emits inwards, which is not exported")
 
-
     def check_materials(self):
         used = {shape.material for shape in self.scene.meshes + self.scene.spheres}
         for name in sorted({name for index in used for name in self.scene.materials[index].unknown}):
