@@ -106,8 +106,7 @@ Option addChoice(const Command& command, const std::string& name, const std::str
 
 Option addExposure(const Command& command, double& exposure, const std::string& picture)
 {
-    return addNumber<double>(command,
-                             {"--exposure", "EV", "Exposure of " + picture + " in stops, not of the EXR", -100.0, 100.0, "0"},
+    return addNumber<double>(command, {"--exposure", "EV", "Exposure of " + picture + " in stops, not of the EXR", -100.0, 100.0, "0"},
                              [&exposure](double stops) { exposure = stops; });
 }
 

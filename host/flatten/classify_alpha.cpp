@@ -77,10 +77,10 @@ Coverage AlphaClassifier::classify(const Mesh& mesh, const std::array<std::uint3
 Coverage AlphaClassifier::classify(const Sphere& sphere) const
 {
     const Material& material = scene_.materials[sphere.material];
-    return material.unlit || passesStraight(material)  ? Coverage::Mixed
-           : material.alphaMode == AlphaMode::Opaque ? Coverage::Opaque
-           : material.baseColorTexture             ? Coverage::Mixed
-                                                   : coverageOf(material, material.alpha);
+    return material.unlit || passesStraight(material) ? Coverage::Mixed
+           : material.alphaMode == AlphaMode::Opaque  ? Coverage::Opaque
+           : material.baseColorTexture                ? Coverage::Mixed
+                                                      : coverageOf(material, material.alpha);
 }
 
 }  // namespace glim

@@ -64,8 +64,9 @@ static_assert(sizeof(FlatEmitter) == kEmitterTexels * sizeof(uvec4));
 std::uint64_t sizeInBytes(const FlatScene& scene)
 {
     return bytesOf(scene.nodes) + bytesOf(scene.records) + bytesOf(scene.triangles) + bytesOf(scene.vertices) + bytesOf(scene.materials) +
-           bytesOf(scene.lights) + bytesOf(scene.emitters) + bytesOf(scene.principled) + bytesOf(scene.layers) + bytesOf(scene.textures) + bytesOf(scene.media) + bytesOf(scene.texels) +
-           bytesOf(scene.albedos) + bytesOf(scene.environmentTexels) + bytesOf(scene.environmentCells);
+           bytesOf(scene.lights) + bytesOf(scene.emitters) + bytesOf(scene.principled) + bytesOf(scene.layers) + bytesOf(scene.textures) +
+           bytesOf(scene.media) + bytesOf(scene.texels) + bytesOf(scene.albedos) + bytesOf(scene.environmentTexels) +
+           bytesOf(scene.environmentCells);
 }
 
 std::uint64_t textureBytes(const FlatScene& scene)

@@ -12,10 +12,7 @@ struct Solid {
     glm::dvec3 lo, hi;
 };
 
-bool overlap(const Solid& a, const Solid& b)
-{
-    return glm::all(glm::lessThan(a.lo, b.hi)) && glm::all(glm::lessThan(b.lo, a.hi));
-}
+bool overlap(const Solid& a, const Solid& b) { return glm::all(glm::lessThan(a.lo, b.hi)) && glm::all(glm::lessThan(b.lo, a.hi)); }
 
 Solid boxOf(const Scene& scene, const MeshInstance& instance, std::uint32_t medium)
 {

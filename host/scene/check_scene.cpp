@@ -116,7 +116,8 @@ void SceneCheck::checkMaterials() const
                 "material", i, "has a colour of a layer outside 0 to 1, or an absorption that is negative or not finite");
         require(isNumber(material.dispersion) && isNumber(material.iridescenceThicknessMinimum) &&
                     isNumber(material.iridescenceThicknessMaximum) && std::isfinite(material.anisotropyRotation) &&
-                    std::isfinite(material.clearcoatNormalScale) && std::isfinite(material.iridescenceIor) && material.iridescenceIor >= 1.0F,
+                    std::isfinite(material.clearcoatNormalScale) && std::isfinite(material.iridescenceIor) &&
+                    material.iridescenceIor >= 1.0F,
                 "material", i, "has a dispersion, film or rotation that is negative or not finite");
         for (const std::optional<Texture>* texture : texturesOf(material)) {
             require(!*texture || ((*texture)->image < scene_.images.size() && (*texture)->uvSet <= 1), "material", i,

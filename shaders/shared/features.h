@@ -34,7 +34,7 @@ GLIM_CONST uint kFeatureDispersion = 0x1000000u;
 GLIM_CONST uint kFeatureThinWalls = 0x2000000u;  // smooth ones, which light passes straight; with kFeatureAlpha
 GLIM_CONST uint kFeatureUnlit = 0x4000000u;      // with kFeatureAlpha
 GLIM_CONST uint kFeatureGlossiness = 0x8000000u;
-GLIM_CONST uint kAllFeatures = 0xffffffffu;       // of any scene
+GLIM_CONST uint kAllFeatures = 0xffffffffu;  // of any scene
 
 GLIM_SHARED_END
 #endif

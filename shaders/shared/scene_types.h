@@ -63,8 +63,8 @@ GLIM_CONST uint kLightTexels = 5u;
 GLIM_CONST uint kEmitterTexels = 2u;
 
 GLIM_CONST uint kDoubleSided = 1u;  // emits from both sides
-GLIM_CONST float kCoverage = -1.0;   // alpha is the share of light that the surface meets
-GLIM_CONST float kOpaque = -2.0;     // alpha is 1, whatever textures say
+GLIM_CONST float kCoverage = -1.0;  // alpha is the share of light that the surface meets
+GLIM_CONST float kOpaque = -2.0;    // alpha is 1, whatever textures say
 GLIM_CONST uint kThinWall = 2u;     // light passes it straight (access/transparency.glsl): it is smooth and has no medium
 
 struct MaterialData {
@@ -165,8 +165,8 @@ GLIM_CONST uint kTexelViewBits = 27u;
 GLIM_CONST uint kMaxTexelViews = 8u;
 
 // The table of albedos (access/albedo_table.glsl): texel (i, j) is (a, b at column i, a, b at column i + 1) of row j, for the fourth roots
-// i / (kAlbedoSize - 1) of the cosine and j / (kAlbedoSize - 1) of alpha. One more row holds their averages over the hemisphere, by alpha. Scenes with
-// sheen have another table behind it: texel (i, j) is the sheen's albedo at (i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1).
+// i / (kAlbedoSize - 1) of the cosine and j / (kAlbedoSize - 1) of alpha. One more row holds their averages over the hemisphere, by alpha.
+// Scenes with sheen have another table behind it: texel (i, j) is the sheen's albedo at (i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1).
 GLIM_CONST uint kAlbedoSize = 64u;
 
 GLIM_CONST uint kTriangleLight = 0u;  // all triangles of one instance of an emissive mesh, chosen by area

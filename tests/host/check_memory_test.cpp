@@ -1,4 +1,5 @@
-// What does not fit into a device's memory is refused with the total, and with the option that makes textures smaller if they are much of it.
+// What does not fit into a device's memory is refused with the total, and with the option that makes textures smaller if they are much of
+// it.
 #include "host/render/check_memory.hpp"
 
 #include "host/error.hpp"
@@ -34,7 +35,8 @@ TEST(CheckMemoryTest, TexturesThatDoNotFitNameTheOption)
 {
     EXPECT_EQ(refusalOf(8 * kMebibyte, 64 * kMebibyte), "");
     const std::string much = refusalOf(8 * kMebibyte, 2 * kMebibyte);
-    EXPECT_EQ(much.rfind("a.glb: the scene and a picture of 16x16 need 8 MiB, which is 6 MiB more memory than device \"toy\" has; ", 0), 0U) << much;
+    EXPECT_EQ(much.rfind("a.glb: the scene and a picture of 16x16 need 8 MiB, which is 6 MiB more memory than device \"toy\" has; ", 0), 0U)
+        << much;
     EXPECT_NE(much.find("8 MiB are textures, which --max-texture N scales down."), std::string::npos) << much;
     const std::string little = refusalOf(16, 1);
     EXPECT_NE(little.find("more memory than device \"toy\" has."), std::string::npos) << little;

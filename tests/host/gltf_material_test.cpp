@@ -263,8 +263,7 @@ TEST(GltfMaterial, OneLineForEachExtensionThatIsIgnored)
     }
     const Lines lines = ofMaterials(load(builder).warnings);
     ASSERT_EQ(lines.size(), 1U);
-    EXPECT_EQ(lines[0],
-              "VENDOR_toon is ignored: materials[0] (\"clay\"), materials[1] (\"clay\"), materials[2] (\"clay\") and 2 more");
+    EXPECT_EQ(lines[0], "VENDOR_toon is ignored: materials[0] (\"clay\"), materials[1] (\"clay\"), materials[2] (\"clay\") and 2 more");
 }
 
 TEST(GltfMaterial, UnusedMaterialsSayNothing)

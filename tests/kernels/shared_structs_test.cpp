@@ -11,9 +11,9 @@ namespace {
 // Words, all of them named in shared_fields.h, without padding.
 static_assert(sizeof(PathRay) == 32 && sizeof(PathHit) == 16 && sizeof(PathState) == 32 && sizeof(PathRadiance) == 16);
 static_assert(sizeof(FirstHit) == 32 && sizeof(ShadowRay) == 48 && sizeof(QueueSizes) == 32 && sizeof(QueueTails) == 8);
-static_assert(sizeof(RayCounts) == 16 && sizeof(Located) == 8 && sizeof(Status) == 16 + 8 * kMaxLocated);
+static_assert(sizeof(RayCounts) == 16 && sizeof(Located) == 8 && sizeof(Status) == 20 + 8 * kMaxLocated);
 static_assert(sizeof(BlockSums) == 52 && sizeof(Pass) == 32 && sizeof(PixelMoments) == 68);
-static_assert(sizeof(PathNote) == 92 && sizeof(BrightestSample) == 8);
+static_assert(sizeof(PathNote) == 172 && sizeof(BrightestSample) == 8);
 static_assert(sizeof(MaterialData) == 48 && sizeof(AliasEntry) == 8 && sizeof(FlatLight) == 80);
 static_assert(sizeof(PrincipledData) == 64 && sizeof(LayersData) == 128 && sizeof(MediumData) == 32 && sizeof(TextureData) == 48);
 static_assert(sizeof(FlatEmitter) == 32 && sizeof(FlatCamera) == 80 && sizeof(DisplayPass) == 44);

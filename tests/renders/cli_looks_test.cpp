@@ -65,11 +65,12 @@ protected:
     void writeBall() const
     {
         GltfBuilder builder;
-        builder.append("materials", {{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0}}},
-                                     {"extensions",
-                                      {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
-                                       {"KHR_materials_volume",
-                                        {{"thicknessFactor", 1}, {"attenuationDistance", 1}, {"attenuationColor", {0.5, 1, 1}}}}}}});
+        builder.append(
+            "materials",
+            {{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0}}},
+             {"extensions",
+              {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+               {"KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationDistance", 1}, {"attenuationColor", {0.5, 1, 1}}}}}}});
         builder.addNode({{"extras", {{"sphere", {{"radius", 1}, {"material", 0}}}}}});
         builder.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.1}, {"znear", 0.1}}}});
         builder.addNode({{"camera", 0}, {"translation", {0, 0, 5}}});
@@ -91,7 +92,8 @@ TEST_F(LooksTest, InspectListsLobesTexturesEnvironmentAndMedia)
     EXPECT_EQ(coated.at("environment").at("map").at("width"), 1024);
     EXPECT_EQ(coated.at("textureBytes"), coated.at("environment").at("map").at("bytes").get<int>() + 32);
     const std::string text = run({"inspect", "scene.gltf"}).out;
-    for (const char* line : {"  lobes: glTF 1, clearcoat 1\n", "  texture images[0] (\"wood.png\"), 4x2, ", "  environment: studio, 1024x512, 12 MiB\n"}) {
+    for (const char* line :
+         {"  lobes: glTF 1, clearcoat 1\n", "  texture images[0] (\"wood.png\"), 4x2, ", "  environment: studio, 1024x512, 12 MiB\n"}) {
         EXPECT_TRUE(contains(text, line)) << text << "lacks: " << line;
     }
     writeBall();
@@ -109,10 +111,11 @@ TEST_F(LooksTest, ReplaysShowMaterialsAndLobes)
     writeCoated();
     std::map<std::string, int> lobes;
     for (int sample = 0; sample < 24; ++sample) {
-        const GlimRun replay = run({"render", "scene.gltf", "--size", "8x8", "--environment", "1,1,1", "--replay", "4,4," + std::to_string(sample),
-                                    "--stats", "r.json"});
+        const GlimRun replay = run({"render", "scene.gltf", "--size", "8x8", "--environment", "1,1,1", "--replay",
+                                    "4,4," + std::to_string(sample), "--stats", "r.json"});
         ASSERT_EQ(replay.exitCode, 0) << replay.err;
-        EXPECT_TRUE(contains(replay.out, "\n  base colour (0.5, 0.25, 0.125), metallic 0.25, roughness 0.5, clearcoat 0.75\n")) << replay.out;
+        EXPECT_TRUE(contains(replay.out, "\n  base colour (0.5, 0.25, 0.125), metallic 0.25, roughness 0.5, clearcoat 0.75\n"))
+            << replay.out;
         const json vertex = jsonIn("r.json").at("vertices").at(0);
         const json values = vertex.at("surface").at("values");
         EXPECT_EQ(values.at("baseColor"), json({0.5, 0.25, 0.125}));
@@ -129,7 +132,8 @@ TEST_F(LooksTest, ReplaysShowMaterialsAndLobes)
     }
     EXPECT_GT(lobes["interface"] + lobes["diffuse base"], 10);
     writeBall();
-    const GlimRun replay = run({"render", "scene.gltf", "--size", "8x8", "--environment", "1,1,1", "--replay", "4,4,1", "--stats", "r.json"});
+    const GlimRun replay =
+        run({"render", "scene.gltf", "--size", "8x8", "--environment", "1,1,1", "--replay", "4,4,1", "--stats", "r.json"});
     const json vertices = jsonIn("r.json").at("vertices");
     EXPECT_EQ(vertices.at(0).at("next").at("lobe"), "glass");
     EXPECT_EQ(vertices.at(0).at("next").at("delta"), true);
@@ -145,7 +149,8 @@ TEST_F(LooksTest, PicturesThatShowNothingSaySo)
     const GlimRun burnt = render({"--environment", "20000,20000,20000", "--png", "x.png"});
     EXPECT_EQ(burnt.exitCode, 0);
     std::smatch match;
-    ASSERT_TRUE(std::regex_search(burnt.err, match, std::regex("glim: x.png is burnt out: [0-9]+ % of what it shows is white; --exposure (-[0-9.]+) shows it\\.\n")))
+    ASSERT_TRUE(std::regex_search(
+        burnt.err, match, std::regex("glim: x.png is burnt out: [0-9]+ % of what it shows is white; --exposure (-[0-9.]+) shows it\\.\n")))
         << burnt.err;
     EXPECT_FALSE(contains(render({"--environment", "20000,20000,20000", "--png", "x.png", "--exposure", match[1]}).err, "burnt"));
     EXPECT_FALSE(contains(render({"--environment", "20000,20000,20000"}).err, "burnt")) << "an EXR has no exposure";

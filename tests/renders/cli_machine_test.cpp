@@ -129,8 +129,8 @@ TEST(CommandLineTest, InspectCountsWhatIsThere)
     const std::string digits = R"([-+.e0-9]{1,9})", point = "\\(" + digits + ", " + digits + ", " + digits + "\\)";
     for (const std::string& line : {std::string("triangles 2"), std::string("spheres 1"), "bounds " + point + " to " + point + " m",
                                     "BVH: [0-9]+ nodes, depth [0-9]+, surface-area cost " + digits + ", built in " + digits + " s",
-                                    "on the device: " + digits + " MiB, " + digits + " MiB of it textures", std::string("needs: [A-Za-z ]+(, [A-Za-z ]+)*"),
-                                    std::string("camera 0 \"framed\", perspective")}) {
+                                    "on the device: " + digits + " MiB, " + digits + " MiB of it textures",
+                                    std::string("needs: [A-Za-z ]+(, [A-Za-z ]+)*"), std::string("camera 0 \"framed\", perspective")}) {
         EXPECT_TRUE(std::regex_search(text.out, std::regex("\n  " + line + "\n"))) << text.out << "lacks: " << line;
     }
     EXPECT_EQ(folder.entries(), 1);

@@ -10,7 +10,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 341u;
+GLIM_CONST uint kSharedWords = 362u;
 
 struct EverySharedStruct {
     PathRay ray;

@@ -135,7 +135,6 @@ constexpr SchemaRule kSchemaRules[] = {
     schema::other("extensions.KHR_materials_variants.variants", JsonKind::Array, Need::Required),
     schema::other("extensions.KHR_materials_variants.variants[].name", JsonKind::String, Need::Required),
 
-
     schema::other("meshes[].name", JsonKind::String),
     schema::other("meshes[].primitives", JsonKind::Array, Need::Required),
     schema::other("meshes[].primitives[].attributes", JsonKind::Object, Need::Required),
