@@ -43,14 +43,14 @@ vec4 textureCoordinates(Record record, vec3 point, vec2 barycentric)
 
 // glTF 2.0, section 3.9.3. The frame is that of MikkTSpace: interpolated normal and tangent, neither of unit length. On the back the whole
 // normal is turned. Not finite or zero: the normal stays.
-vec3 mappedNormal(SurfaceInteraction si, vec4 uv, uint texture_, float scale)
+vec3 mappedNormal(SurfaceInteraction si, vec3 texel, float scale)
 {
     float side = si.front ? 1.0 : -1.0;
     vec4 tangent = vertexAttribute(render.firstTangent, si);
     vec3 n = hasFeature(kFeatureSmooth) ? vertexNormal(si.primitive, si.barycentric) : vec3(0.0);
     n = dot(n, n) > 0.0 ? n : side * si.ng;
     vec3 bitangent = cross(n, tangent.xyz) * (tangent.w < 0.0 ? -1.0 : 1.0);
-    vec3 local = (2.0 * sampleTexture(texture_, uv).xyz - 1.0) * vec3(scale, scale, 1.0);
+    vec3 local = (2.0 * texel - 1.0) * vec3(scale, scale, 1.0);
     vec3 mapped = tangent.xyz * local.x + bitangent * local.y + n * local.z;
     float square = dot(mapped, mapped);
     return square > 0.0 && dot(tangent.xyz, tangent.xyz) > 0.0 ? side * mapped / sqrt(square) : si.ns;
@@ -130,54 +130,109 @@ uint mediumOf(SurfaceMaterial material)
     return material.layers.medium;
 }
 
-void applyTextures(vec4 uv, inout SurfaceMaterial material)
+// Every texture of a material.
+const uint kSlotBaseColor = 0u;
+const uint kSlotMetallicRoughness = 1u;
+const uint kSlotNormal = 2u;
+const uint kSlotEmissive = 3u;
+const uint kSlotSpecular = 4u;
+const uint kSlotSpecularColor = 5u;
+const uint kSlotClearcoat = 6u;
+const uint kSlotClearcoatRoughness = 7u;
+const uint kSlotClearcoatNormal = 8u;
+const uint kSlotSheenColor = 9u;
+const uint kSlotSheenRoughness = 10u;
+const uint kSlotAnisotropy = 11u;
+const uint kSlotIridescence = 12u;
+const uint kSlotIridescenceThickness = 13u;
+const uint kSlotTransmission = 14u;
+const uint kSlotDiffuseTransmission = 15u;
+const uint kSlotDiffuseTransmissionColor = 16u;
+const uint kSlots = 17u;
+
+uint[kSlots] texturesOf(PrincipledData p, LayersData l)
 {
-    PrincipledData p = material.principled;
-    vec4 rough = sampleTexture(p.metallicRoughnessTexture, uv);
-    vec4 specularColor = sampleTexture(p.specularColorTexture, uv);
-    material.data.baseColor *= sampleTexture(p.baseColorTexture, uv).rgb;
-    material.data.emission *= sampleTexture(p.emissiveTexture, uv).rgb;
-    material.principled.metallic *= rough.b;
-    material.principled.roughness *= rough.g;
-    material.principled.specular *= sampleTexture(p.specularTexture, uv).a;
-    material.principled.specularColor *= specularColor.rgb;
-    if (hasFeature(kFeatureGlossiness) && p.glossy != 0u) {
-        material.principled.roughness *= specularColor.a;
+    return uint[kSlots](p.baseColorTexture, p.metallicRoughnessTexture, hasFeature(kFeatureNormalMaps) ? p.normalTexture : 0u,
+                        hasEmissiveSurfaces() ? p.emissiveTexture : 0u, p.specularTexture, p.specularColorTexture, l.clearcoatTexture,
+                        l.clearcoatRoughnessTexture, hasFeature(kFeatureNormalMaps) ? l.clearcoatNormalTexture : 0u, l.sheenColorTexture,
+                        l.sheenRoughnessTexture, l.anisotropyTexture, l.iridescenceTexture, l.iridescenceThicknessTexture,
+                        l.transmissionTexture, l.diffuseTransmissionTexture, l.diffuseTransmissionColorTexture);
+}
+
+void turnAnisotropy(vec3 texel, inout LayersData layers)
+{
+    vec2 d = 2.0 * texel.xy - 1.0;
+    float size = length(d);
+    d = size > 0.0 ? d / size : vec2(1.0, 0.0);
+    vec2 turn = vec2(layers.anisotropyCosine, layers.anisotropySine);
+    layers.anisotropy *= texel.z;
+    layers.anisotropyCosine = turn.x * d.x - turn.y * d.y;
+    layers.anisotropySine = turn.y * d.x + turn.x * d.y;
+}
+
+struct SampledNormals {
+    vec3 base, coat;  // as normal maps store them
+};
+
+void applyTexel(uint slot, vec4 texel, inout SurfaceMaterial material, inout SampledNormals normals)
+{
+    if (slot == kSlotBaseColor) material.data.baseColor *= texel.rgb;
+    if (slot == kSlotEmissive) material.data.emission *= texel.rgb;
+    if (slot == kSlotMetallicRoughness) {
+        material.principled.metallic *= texel.b;
+        material.principled.roughness *= texel.g;
+    }
+    if (slot == kSlotSpecular) material.principled.specular *= texel.a;
+    if (slot == kSlotSpecularColor) {
+        material.principled.specularColor *= texel.rgb;
+        bool glossy = hasFeature(kFeatureGlossiness) && material.principled.glossy != 0u;
+        material.principled.roughness *= glossy ? texel.a : 1.0;
+    }
+    if (slot == kSlotNormal) normals.base = texel.xyz;
+    if (hasFeature(kFeatureClearcoat)) {
+        if (slot == kSlotClearcoat) material.layers.clearcoat *= texel.r;
+        if (slot == kSlotClearcoatRoughness) material.layers.clearcoatRoughness *= texel.g;
+        if (slot == kSlotClearcoatNormal) normals.coat = texel.xyz;
+    }
+    if (hasFeature(kFeatureSheen)) {
+        if (slot == kSlotSheenColor) material.layers.sheenColor *= texel.rgb;
+        if (slot == kSlotSheenRoughness) material.layers.sheenRoughness *= texel.a;
+    }
+    if (hasFeature(kFeatureAnisotropy) && slot == kSlotAnisotropy) turnAnisotropy(texel.xyz, material.layers);
+    if (hasFeature(kFeatureIridescence)) {
+        if (slot == kSlotIridescence) material.layers.iridescence *= texel.r;
+        if (slot == kSlotIridescenceThickness) {
+            material.filmThickness =
+                mix(material.layers.iridescenceThicknessMinimum, material.layers.iridescenceThicknessMaximum, texel.g);
+        }
+    }
+    if (hasFeature(kFeatureTransmission) && slot == kSlotTransmission) material.layers.transmission *= texel.r;
+    if (hasFeature(kFeatureDiffuseTransmission)) {
+        if (slot == kSlotDiffuseTransmission) material.layers.diffuseTransmission *= texel.a;
+        if (slot == kSlotDiffuseTransmissionColor) material.layers.diffuseTransmissionColor *= texel.rgb;
     }
 }
 
-void applyLayerTextures(vec4 uv, inout SurfaceMaterial material)
+// A loop over the textures that the material has: one copy of the code that samples them, and no time for those that it has not.
+SampledNormals applyTextures(vec4 uv, inout SurfaceMaterial material)
 {
-    LayersData l = material.layers;
-    if (hasFeature(kFeatureClearcoat)) {
-        material.layers.clearcoat *= sampleTexture(l.clearcoatTexture, uv).r;
-        material.layers.clearcoatRoughness *= sampleTexture(l.clearcoatRoughnessTexture, uv).g;
+    uint textures[kSlots] = texturesOf(material.principled, material.layers);
+    uint left = 0u;
+    for (uint slot = 0u; slot < kSlots; ++slot) {
+        left |= textures[slot] != 0u ? 1u << slot : 0u;
     }
-    if (hasFeature(kFeatureSheen)) {
-        material.layers.sheenColor *= sampleTexture(l.sheenColorTexture, uv).rgb;
-        material.layers.sheenRoughness *= sampleTexture(l.sheenRoughnessTexture, uv).a;
+    SampledNormals normals = SampledNormals(vec3(0.5, 0.5, 1.0), vec3(0.5, 0.5, 1.0));
+    if (left != 0u) {
+        do {
+            uint slot = uint(findLSB(left)), texture_ = 0u;
+            for (uint i = 0u; i < kSlots; ++i) {
+                texture_ = i == slot ? textures[i] : texture_;
+            }
+            applyTexel(slot, sampleTexture(texture_, uv), material, normals);
+            left &= left - 1u;
+        } while (left != 0u);
     }
-    if (hasFeature(kFeatureAnisotropy) && l.anisotropyTexture != 0u) {
-        vec3 a = sampleTexture(l.anisotropyTexture, uv).xyz;
-        vec2 d = 2.0 * a.xy - 1.0;
-        float size = length(d);
-        d = size > 0.0 ? d / size : vec2(1.0, 0.0);
-        material.layers.anisotropy *= a.z;
-        material.layers.anisotropyCosine = l.anisotropyCosine * d.x - l.anisotropySine * d.y;
-        material.layers.anisotropySine = l.anisotropySine * d.x + l.anisotropyCosine * d.y;
-    }
-    if (hasFeature(kFeatureIridescence)) {
-        material.layers.iridescence *= sampleTexture(l.iridescenceTexture, uv).r;
-        material.filmThickness = mix(l.iridescenceThicknessMinimum, l.iridescenceThicknessMaximum,
-                                     sampleTexture(l.iridescenceThicknessTexture, uv).g);
-    }
-    if (hasFeature(kFeatureTransmission)) {
-        material.layers.transmission *= sampleTexture(l.transmissionTexture, uv).r;
-    }
-    if (hasFeature(kFeatureDiffuseTransmission)) {
-        material.layers.diffuseTransmission *= sampleTexture(l.diffuseTransmissionTexture, uv).a;
-        material.layers.diffuseTransmissionColor *= sampleTexture(l.diffuseTransmissionColorTexture, uv).rgb;
-    }
+    return normals;
 }
 
 // The tangent that anisotropy turns from: of the mesh, or on a sphere the way that longitude grows.
@@ -210,16 +265,12 @@ SurfaceMaterial materialAt(inout SurfaceInteraction si)
             material.data.baseColor *= vertexAttribute(render.firstColor, si).rgb;
         }
         if (hasFeature(kFeatureTextures)) {
-            vec4 uv = textureCoordinates(si);
-            applyTextures(uv, material);
-            if (layered) {
-                applyLayerTextures(uv, material);
-            }
+            SampledNormals normals = applyTextures(textureCoordinates(si), material);
             if (hasFeature(kFeatureNormalMaps) && hasFeature(kFeatureClearcoat) && material.layers.clearcoatNormalTexture != 0u) {
-                material.coatNormal = mappedNormal(si, uv, material.layers.clearcoatNormalTexture, material.layers.clearcoatNormalScale);
+                material.coatNormal = mappedNormal(si, normals.coat, material.layers.clearcoatNormalScale);
             }
             if (hasFeature(kFeatureNormalMaps) && material.principled.normalTexture != 0u) {
-                si.ns = mappedNormal(si, uv, material.principled.normalTexture, material.principled.normalScale);
+                si.ns = mappedNormal(si, normals.base, material.principled.normalScale);
             }
         }
         if (hasFeature(kFeatureAnisotropy) && material.layers.anisotropy > 0.0) {

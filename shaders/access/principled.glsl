@@ -33,6 +33,13 @@ struct PrincipledInput {
     bool passesStraight;    // light that a smooth thin wall transmits is not this BSDF's (transparency.glsl)
 };
 
+// Reflectance at a microfacet.
+struct InterfaceFresnel {
+    vec3 dielectric;  // of the part that is not metal
+    vec3 metal;
+    vec3 both;        // of their mixture
+};
+
 struct Principled {
     // The interface.
     vec2 alpha;
@@ -47,6 +54,7 @@ struct Principled {
     float eta;
     bool solid;             // refracts; else a thin wall
     vec3 film;              // share, index, thickness in nm
+    InterfaceFresnel fresnel;  // at wo
     // What lies below it.
     vec2 baseReflectance;    // F0 and F90 of the interface over the diffuse lobe, by its strongest channel
     float baseFms;           // its multipleScatteringFresnel
@@ -85,42 +93,43 @@ float exactWeight(float cosine, float eta)
     return clamp((fresnelDielectric(cosine, eta) - f0) / (1.0 - f0), 0.0, 1.0);
 }
 
-// With the film, if there is one, over a base of reflectance f0. Within a solid the film is what it is for light from outside.
-vec3 withFilm(Principled p, vec3 f, vec3 f0, float cosine)
+// Without film and refraction the mixture of both parts is Schlick's with mixed F0 and F90. Within a solid a film is what it is for light
+// from outside. `cosine`: against the microfacet. The film's reflectance is in a loop: one copy of its code for both parts.
+InterfaceFresnel interfaceFresnel(Principled p, float cosine)
 {
-    if (!hasFeature(kFeatureIridescence) || !(p.film.x > 0.0)) {
+    float s = schlickWeight(cosine), solidS = p.solid ? exactWeight(cosine, p.eta) : s;
+    InterfaceFresnel f;
+    f.dielectric = p.dielectricF0 + (p.dielectricF90 - p.dielectricF0) * solidS;
+    f.metal = p.metalF0 + (1.0 - p.metalF0) * s;
+    if (!hasFeature(kFeatureTransmission | kFeatureIridescence) || !(p.solid || p.film.x > 0.0)) {
+        f.both = p.f0 + (p.f90 - p.f0) * s;
         return f;
     }
-    float outside = p.solid && p.eta < 1.0 ? sqrt(max(0.0, refractedCosine2(cosine, p.eta))) : cosine;
-    return mix(f, filmReflectance(outside, p.film.y, p.film.z, f0), p.film.x);
-}
-
-// Reflectance of the part that is not metal. cosine: against the microfacet.
-vec3 dielectricFresnel(Principled p, float cosine)
-{
-    float s = p.solid ? exactWeight(cosine, p.eta) : schlickWeight(cosine);
-    vec3 f = p.dielectricF0 + (p.dielectricF90 - p.dielectricF0) * s;
-    return p.solid && s >= 1.0 ? vec3(1.0) : withFilm(p, f, p.dielectricF0, cosine);
-}
-
-// Reflectance of the whole interface: without film and refraction the mixture of both parts is Schlick's with mixed F0 and F90.
-vec3 interfaceFresnel(Principled p, float cosine)
-{
-    float s = schlickWeight(cosine);
-    if (hasFeature(kFeatureTransmission | kFeatureIridescence) && (p.solid || p.film.x > 0.0)) {
-        vec3 metal = withFilm(p, p.metalF0 + (1.0 - p.metalF0) * s, p.metalF0, cosine);
-        return mix(dielectricFresnel(p, cosine), metal, p.metallic);
+    if (hasFeature(kFeatureIridescence) && p.film.x > 0.0) {
+        float outside = p.solid && p.eta < 1.0 ? sqrt(max(0.0, refractedCosine2(cosine, p.eta))) : cosine;
+        bool ofMetal = !(p.metallic < 1.0);
+        bool done;
+        do {
+            vec3 film = filmReflectance(outside, p.film.y, p.film.z, ofMetal ? p.metalF0 : p.dielectricF0);
+            vec3 mixed = mix(ofMetal ? f.metal : f.dielectric, film, p.film.x);
+            f.metal = ofMetal ? mixed : f.metal;
+            f.dielectric = ofMetal ? f.dielectric : mixed;
+            done = ofMetal || !(p.metallic > 0.0);
+            ofMetal = true;
+        } while (!done);
     }
-    return p.f0 + (p.f90 - p.f0) * s;
+    f.dielectric = p.solid && solidS >= 1.0 ? vec3(1.0) : f.dielectric;
+    f.both = mix(f.dielectric, f.metal, p.metallic);
+    return f;
 }
 
-// What the interface leaves to the lobes below it, of light at this cosine; `ab` is its fetchAlbedo. At a solid that transmits, whose
-// reflectance has no table, less than that: both directions' shares multiply without a norm.
-float passedInterface(Principled p, vec2 ab, float cosine)
+// What the interface leaves to the lobes below it, of light at a cosine; `ab` is its fetchAlbedo, `dielectric` the reflectance there. At a
+// solid that transmits, whose reflectance has no table, less than that: both directions' shares multiply without a norm.
+float passedInterface(Principled p, vec2 ab, vec3 dielectric)
 {
     float passed = 1.0 - interfaceAlbedo(p, ab);
     if (hasFeature(kFeatureTransmission) && p.solid) {
-        passed = min(passed, 1.0 - greatest(dielectricFresnel(p, cosine)));
+        passed = min(passed, 1.0 - greatest(dielectric));
     }
     return passed;
 }
@@ -131,12 +140,12 @@ bool transmits(Principled p)
 }
 
 // Of what the interface samples, the share that it reflects at a microfacet.
-float reflectedShare(Principled p, vec3 reflected, float cosine)
+float reflectedShare(Principled p, InterfaceFresnel fresnel)
 {
     if (!transmits(p)) {
         return 1.0;
     }
-    float r = channelMean(reflected), t = channelMean(p.transmitted * (1.0 - dielectricFresnel(p, cosine)));
+    float r = channelMean(fresnel.both), t = channelMean(p.transmitted * (1.0 - fresnel.dielectric));
     return r + t > 0.0 ? r / (r + t) : 1.0;
 }
 
@@ -230,15 +239,17 @@ Principled makePrincipled(PrincipledInput m, vec3 wo)
     if (hasFeature(kFeatureTransmission)) {
         setTransmission(p, m);
     }
-    vec3 tableF0 = p.f0, tableDielectric = p.dielectricF0, tableMetal = m.baseColor;
     if (hasFeature(kFeatureIridescence)) {
         p.film = vec3(m.layers.iridescence, m.layers.iridescenceIor, m.filmThickness);
+    }
+    p.fresnel = interfaceFresnel(p, wo.z);
+    vec3 tableF0 = p.f0, tableDielectric = p.dielectricF0, tableMetal = m.baseColor;
+    if (hasFeature(kFeatureIridescence)) {
         if (p.film.x > 0.0) {
             // The tables are linear in F0: those that Schlick needs to give the film's reflectance at wo.
             float s = schlickWeight(wo.z), rest = 1.0 - min(s, 0.999);
-            vec3 metal = withFilm(p, p.metalF0 + (1.0 - p.metalF0) * s, p.metalF0, wo.z);
-            tableDielectric = clamp((dielectricFresnel(p, wo.z) - p.dielectricF90 * s) / rest, 0.0, 1.0);
-            tableMetal = clamp((metal - s) / rest, 0.0, 1.0);
+            tableDielectric = clamp((p.fresnel.dielectric - p.dielectricF90 * s) / rest, 0.0, 1.0);
+            tableMetal = clamp((p.fresnel.metal - s) / rest, 0.0, 1.0);
             tableF0 = mix(tableDielectric, tableMetal, data.metallic);
         }
     }
@@ -251,7 +262,7 @@ Principled makePrincipled(PrincipledInput m, vec3 wo)
     vec3 fms = mix(multipleScatteringFresnel(average, tableDielectric, p.dielectricF90), multipleScatteringFresnel(average, tableMetal, 1.0),
                    data.metallic);
     vec3 scattered = fms * (1.0 - ab.x - ab.y);
-    float below = (1.0 - data.metallic) * passedInterface(p, ab, wo.z);
+    float below = (1.0 - data.metallic) * passedInterface(p, ab, p.fresnel.dielectric);
     vec3 through = vec3(0.0);
     vec3 diffuse = m.baseColor * below;
     if (hasFeature(kFeatureTransmission)) {
@@ -272,8 +283,8 @@ Principled makePrincipled(PrincipledInput m, vec3 wo)
     p.passed = passedLayers(p, p.coatAlbedo, p.sheenAlbedo);
     vec3 albedo = singleScatteringAlbedo(ab, tableF0, p.f90);
     if (hasFeature(kFeatureTransmission)) {
-        albedo = p.solid ? interfaceFresnel(p, wo.z) : albedo;
-        albedo += p.transmitted * (1.0 - dielectricFresnel(p, wo.z));
+        albedo = p.solid ? p.fresnel.both : albedo;
+        albedo += p.transmitted * (1.0 - p.fresnel.dielectric);
     }
     vec4 weights = vec4(channelMean(albedo), channelMean(scattered + diffuse), 0.0, channelMean(through));
     float sheenWeight = 0.0;
@@ -306,50 +317,69 @@ Principled makePrincipled(PrincipledInput m, vec3 wo)
     return p;
 }
 
-// Both diffuse lobes above the surface times |cos|, in sr^-1. `cosine`: of wi, above 0.
-vec3 evalCosineLobes(Principled p, float cosine)
-{
-    vec2 ab = fetchAlbedo(p.row, cosine);
-    return (p.scattered * (1.0 - ab.x - ab.y) + p.diffuse * passedInterface(p, ab, cosine)) * cosine;
-}
-
 // Whether all lobes are delta.
 bool isDeltaOnly(Principled p)
 {
     return p.smooth_ && p.pDiffuse + p.pSheen + p.pThrough + (p.coatSmooth ? 0.0 : p.pCoat) == 0.0;
 }
 
+// What evalAbove and evalBelow need.
+struct InterfaceEval {
+    vec3 h;                        // the microfacet's normal; z <= 0 if there is none
+    InterfaceFresnel fresnel;      // there
+    vec2 ab;                       // fetchAlbedo at wi
+    vec3 dielectric;               // reflectance at wi
+};
+
+// The interface's Fresnel reflectance at h and, of a solid, at wi too: in a loop, for one copy of its code.
+InterfaceEval evalInterface(Principled p, vec3 wo, vec3 wi)
+{
+    bool above = wi.z > 0.0;
+    vec3 mirrored = vec3(wi.xy, abs(wi.z));
+    InterfaceEval e;
+    e.h = halfVector(wo, mirrored);
+    if (hasFeature(kFeatureTransmission) && !above && p.solid) {
+        e.h = refractionNormal(wo, wi, p.eta);
+    }
+    e.ab = fetchAlbedo(p.row, mirrored.z);
+    bool atWi = false, done;
+    do {
+        InterfaceFresnel fresnel = interfaceFresnel(p, atWi ? mirrored.z : dot(wo, e.h));
+        if (!atWi) {
+            e.fresnel = fresnel;
+        }
+        e.dielectric = fresnel.dielectric;
+        done = atWi || !p.solid;
+        atWi = true;
+    } while (!done);
+    return e;
+}
+
 // Light that leaves below the surface. wi.z < 0.
-BsdfEval evalBelow(Principled p, vec3 wo, vec3 wi)
+BsdfEval evalBelow(Principled p, InterfaceEval e, vec3 wo, vec3 wi)
 {
     BsdfEval result = BsdfEval(vec3(0.0), 0.0);
     if (hasFeature(kFeatureDiffuseTransmission)) {
-        result = BsdfEval(p.diffuseThrough * passedInterface(p, fetchAlbedo(p.row, -wi.z), -wi.z) * -wi.z,
-                          p.pThrough * pdfCosineHemisphere(-wi.z));
+        result = BsdfEval(p.diffuseThrough * passedInterface(p, e.ab, e.dielectric) * -wi.z, p.pThrough * pdfCosineHemisphere(-wi.z));
     }
-    if (transmits(p) && !p.smooth_) {
+    if (transmits(p) && !p.smooth_ && e.h.z > 0.0) {
         vec3 mirrored = vec3(wi.xy, -wi.z);
-        vec3 h = p.solid ? refractionNormal(wo, wi, p.eta) : halfVector(wo, mirrored);
-        if (h.z > 0.0) {
-            float cosine = dot(wo, h);
-            float share = (1.0 - reflectedShare(p, interfaceFresnel(p, cosine), cosine)) * p.pInterface;
-            float f = p.solid ? evalGgxTransmission(wo, wi, h, p.alpha, p.eta) : evalGgx(wo, mirrored, p.alpha);
-            float pdf = p.solid ? pdfGgxTransmission(wo, wi, h, p.alpha, p.eta) : pdfGgx(wo, mirrored, p.alpha);
-            result.f += p.transmitted * (1.0 - dielectricFresnel(p, cosine)) * f;
-            result.pdf += share * pdf;
-        }
+        float share = (1.0 - reflectedShare(p, e.fresnel)) * p.pInterface;
+        float f = p.solid ? evalGgxTransmission(wo, wi, e.h, p.alpha, p.eta) : evalGgx(wo, mirrored, p.alpha);
+        float pdf = p.solid ? pdfGgxTransmission(wo, wi, e.h, p.alpha, p.eta) : pdfGgx(wo, mirrored, p.alpha);
+        result.f += p.transmitted * (1.0 - e.fresnel.dielectric) * f;
+        result.pdf += share * pdf;
     }
     return result;
 }
 
-BsdfEval evalAbove(Principled p, vec3 wo, vec3 wi)
+BsdfEval evalAbove(Principled p, InterfaceEval e, vec3 wo, vec3 wi)
 {
-    BsdfEval result = BsdfEval(evalCosineLobes(p, wi.z), p.pDiffuse * pdfCosineHemisphere(wi.z));
+    vec3 diffuse = p.scattered * (1.0 - e.ab.x - e.ab.y) + p.diffuse * passedInterface(p, e.ab, e.dielectric);
+    BsdfEval result = BsdfEval(diffuse * wi.z, p.pDiffuse * pdfCosineHemisphere(wi.z));
     if (!p.smooth_) {
-        float cosine = dot(wo, halfVector(wo, wi));
-        vec3 f = interfaceFresnel(p, cosine);
-        result.f += f * evalGgx(wo, wi, p.alpha);
-        result.pdf += p.pInterface * reflectedShare(p, f, cosine) * pdfGgx(wo, wi, p.alpha);
+        result.f += e.fresnel.both * evalGgx(wo, wi, p.alpha);
+        result.pdf += p.pInterface * reflectedShare(p, e.fresnel) * pdfGgx(wo, wi, p.alpha);
     }
     return result;
 }
@@ -358,11 +388,12 @@ BsdfEval evalAbove(Principled p, vec3 wo, vec3 wi)
 BsdfEval evalPrincipled(Principled p, vec3 wo, vec3 wi)
 {
     bool above = wi.z > 0.0;
+    InterfaceEval e = evalInterface(p, wo, wi);
     BsdfEval result;
     if (above || !hasFeature(kFeatureTransmission | kFeatureDiffuseTransmission)) {
-        result = evalAbove(p, wo, wi);
+        result = evalAbove(p, e, wo, wi);
     } else {
-        result = evalBelow(p, wo, wi);
+        result = evalBelow(p, e, wo, wi);
     }
     float coatAlbedo = 0.0, sheenAlbedo = 0.0;
     vec3 coatWi = wi;
@@ -424,10 +455,10 @@ uint chooseLobe(Principled p, inout float u)
 }
 
 // Sampled at a microfacet h on wo's side: whether it transmits, and the direction.
-vec3 sampleInterface(Principled p, vec3 wo, vec3 h, float u, out bool below)
+vec3 sampleInterface(Principled p, InterfaceFresnel fresnel, vec3 wo, vec3 h, float u, out bool below)
 {
     float cosine = dot(wo, h);
-    below = transmits(p) && u >= reflectedShare(p, interfaceFresnel(p, cosine), cosine);
+    below = transmits(p) && u >= reflectedShare(p, fresnel);
     vec3 mirrored = 2.0 * cosine * h - wo;
     vec3 through = p.solid ? refractThrough(wo, h, abs(p.eta - 1.0) >= kMinEtaStep ? p.eta : 1.0) : vec3(mirrored.xy, -mirrored.z);
     return below ? through : mirrored;
@@ -442,14 +473,13 @@ BsdfSample sampleDelta(Principled p, uint lobe, vec3 wo, float u)
         return BsdfSample(2.0 * cosine * p.coatFrame.z - wo, vec3(p.coat * fresnel / p.pCoat), 0.0, 1.0, kBsdfDelta);
     }
     bool below;
-    vec3 wi = sampleInterface(p, wo, vec3(0.0, 0.0, 1.0), u, below);
-    vec3 f = interfaceFresnel(p, wo.z);
-    float share = reflectedShare(p, f, wo.z);
+    vec3 wi = sampleInterface(p, p.fresnel, wo, vec3(0.0, 0.0, 1.0), u, below);
+    float share = reflectedShare(p, p.fresnel);
     if (!below) {
-        return BsdfSample(wi, f * p.passed / (p.pInterface * share), 0.0, 1.0, kBsdfDelta);
+        return BsdfSample(wi, p.fresnel.both * p.passed / (p.pInterface * share), 0.0, 1.0, kBsdfDelta);
     }
     float eta = p.solid ? p.eta : 1.0;
-    vec3 weight = p.transmitted * (1.0 - dielectricFresnel(p, wo.z)) * p.passed / (p.pInterface * (1.0 - share) * eta * eta);
+    vec3 weight = p.transmitted * (1.0 - p.fresnel.dielectric) * p.passed / (p.pInterface * (1.0 - share) * eta * eta);
     return BsdfSample(wi, weight, 0.0, eta, kBsdfDelta | kBsdfTransmission);
 }
 
@@ -467,7 +497,12 @@ BsdfSample samplePrincipled(Principled p, vec3 wo, vec2 u, float uLobe)
     } else if (hasFeature(kFeatureSheen) && lobe == kLobeSheen) {
         wi = sampleSheen(u);
     } else if (lobe == kLobeInterface) {
-        wi = sampleInterface(p, wo, sampleVisibleNormal(wo, p.alpha, u), uLobe, below);
+        vec3 h = sampleVisibleNormal(wo, p.alpha, u);
+        InterfaceFresnel fresnel = p.fresnel;
+        if (transmits(p)) {
+            fresnel = interfaceFresnel(p, dot(wo, h));
+        }
+        wi = sampleInterface(p, fresnel, wo, h, uLobe, below);
     } else {
         wi = sampleCosineHemisphere(u);
         below = lobe == kLobeThrough;

@@ -62,30 +62,31 @@ vec4 decodedTexel(TextureData data, uint x, uint y)
     return (data.flags & kSrgb) != 0u ? vec4(linearFromSrgb(value.rgb), value.a) : value;
 }
 
-vec4 sampleBilinear(TextureData data, vec2 at)
-{
-    TexelPair x = bilinearTexels(at.x, data.size & 0xffffu, data.flags >> kWrapS & 3u);
-    TexelPair y = bilinearTexels(at.y, data.size >> 16u, data.flags >> kWrapT & 3u);
-    vec4 upper = mix(decodedTexel(data, x.first, y.first), decodedTexel(data, x.second, y.first), x.weight);
-    vec4 lower = mix(decodedTexel(data, x.first, y.second), decodedTexel(data, x.second, y.second), x.weight);
-    return mix(upper, lower, y.weight);
-}
-
-// `uv`: the texture coordinates of set 0 and set 1. White if there is no texture.
+// `uv`: the texture coordinates of set 0 and set 1. White if there is no texture. The loop over texels keeps kernels small: drivers inline
+// every call.
 vec4 sampleTexture(uint texture_, vec4 uv)
 {
-    vec4 value = vec4(1.0);
-    if (hasFeature(kFeatureTextures) && texture_ != 0u) {
-        TextureData data = fetchTexture(texture_);
-        vec2 at = (data.flags & kSecondUv) != 0u ? uv.zw : uv.xy;
-        at = vec2(dot(data.rowU.xy, at) + data.rowU.z, dot(data.rowV.xy, at) + data.rowV.z);
-        if ((data.flags & kNearest) != 0u) {
-            value = decodedTexel(data, nearestTexel(at.x, data.size & 0xffffu, data.flags >> kWrapS & 3u),
-                                 nearestTexel(at.y, data.size >> 16u, data.flags >> kWrapT & 3u));
-        } else {
-            value = sampleBilinear(data, at);
-        }
+    if (!hasFeature(kFeatureTextures) || texture_ == 0u) {
+        return vec4(1.0);
     }
+    TextureData data = fetchTexture(texture_);
+    uvec2 size = uvec2(data.size & 0xffffu, data.size >> 16u), wrap = uvec2(data.flags >> kWrapS & 3u, data.flags >> kWrapT & 3u);
+    vec2 at = (data.flags & kSecondUv) != 0u ? uv.zw : uv.xy;
+    at = vec2(dot(data.rowU.xy, at) + data.rowU.z, dot(data.rowV.xy, at) + data.rowV.z);
+    bool nearest = (data.flags & kNearest) != 0u;
+    TexelPair x = bilinearTexels(at.x, size.x, wrap.x), y = bilinearTexels(at.y, size.y, wrap.y);
+    if (nearest) {
+        x = TexelPair(nearestTexel(at.x, size.x, wrap.x), 0u, 0.0);
+        y = TexelPair(nearestTexel(at.y, size.y, wrap.y), 0u, 0.0);
+    }
+    vec4 value = vec4(0.0);
+    uint texel = 0u, count = nearest ? 1u : 4u;
+    do {
+        bool right = (texel & 1u) != 0u, lower = (texel & 2u) != 0u;
+        float weight = (right ? x.weight : 1.0 - x.weight) * (lower ? y.weight : 1.0 - y.weight);
+        value += weight * decodedTexel(data, right ? x.second : x.first, lower ? y.second : y.first);
+        ++texel;
+    } while (texel < count);
     return value;
 }
 
