@@ -1,5 +1,6 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/parse.hpp"
+#include "host/cli/picture_options.hpp"
 #include "host/json.hpp"
 #include "host/render/prepare_scene.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 
 struct InspectOptions {
     std::filesystem::path scene;
-    std::optional<std::size_t> sceneIndex;
+    LoadOptions load;
     bool json = false;
 };
 
@@ -240,7 +241,7 @@ void printText(const InspectOptions& options, const PreparedScene& prepared)
 
 void runInspect(const InspectOptions& options)
 {
-    const PreparedScene prepared = prepareScene(options.scene, {options.sceneIndex, {}});
+    const PreparedScene prepared = prepareScene(options.scene, options.load);
     warnIfNoLights(prepared);
     if (options.json) {
         printJson(options, prepared);
@@ -257,7 +258,8 @@ void addInspect(CommandLine& line)
     const Command command = line.addCommand("inspect", "Print what a scene contains, costs and needs");
     command.beginGroup("Picture");
     command.addPath("SCENE", "FILE", "Scene, .gltf or .glb", options->scene).require();
-    addSceneIndex(command, options->sceneIndex);
+    addSceneIndex(command, options->load.scene);
+    addTextures(command, options->load.missingTextures, options->load.maxTexture);
     command.beginGroup("Output");
     command.addFlag("--json", "Print JSON with every digit; sizes in bytes", options->json);
     command.onRun([options] {

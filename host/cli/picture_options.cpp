@@ -67,14 +67,19 @@ void addPicture(const Command& command, PictureOptions& options, const std::stri
                      [&options](float degrees) { options.environmentRotation = degrees; });
     addEnum(command, "--environment-background", "B", "Whether the camera sees the environment: on or off [on]", {"off", "on"},
             options.environmentBackground);
+    addTextures(command, options.missingTextures, options.maxTexture);
+    command.add("--size", "WxH", "Pixels, each side 1 to 65535 [" + height + " high, width by the camera's aspect ratio]",
+                [&options](const std::string& text) { options.size = parseSize(text); });
+}
+
+void addTextures(const Command& command, MissingTextures& missing, std::uint32_t& largest)
+{
     addEnum(command, "--missing-textures", "T", "Images that cannot be read: refuse the scene, or grey in their place [refuse]",
-            {"refuse", "grey"}, options.missingTextures);
+            {"refuse", "grey"}, missing);
     addNumber<std::uint32_t>(
         command,
         {"--max-texture", "N", "Scale larger images down to N pixels a side or less", 1, kMaxImageSide, std::to_string(kMaxImageSide)},
-        [&options](std::uint32_t pixels) { options.maxTexture = pixels; });
-    command.add("--size", "WxH", "Pixels, each side 1 to 65535 [" + height + " high, width by the camera's aspect ratio]",
-                [&options](const std::string& text) { options.size = parseSize(text); });
+        [&largest](std::uint32_t pixels) { largest = pixels; });
 }
 
 void addCamera(const Command& command, PictureOptions& options)

@@ -34,6 +34,7 @@ struct PictureOptions {
 
 // Each adds options to the help's current group. They write into `options` or `settings`, which must outlive the command.
 void addPicture(const Command& command, PictureOptions& options, const std::string& height = "512");  // default of --size
+void addTextures(const Command& command, MissingTextures& missing, std::uint32_t& largest);
 void addSampleCount(const Command& command, RenderSettings& settings, const std::string& sppDefault, const std::string& rangeDefault);
 void addAdaptive(const Command& command, RenderSettings& settings);
 void addSampler(const Command& command, RenderSettings& settings);
