@@ -97,7 +97,8 @@ def transmission_cases(rng):
                 u = np.concatenate([rng.random((60, 2)), np.ones((60, 1))], axis=1)
                 refracted, carries = transmission.sample_glass(v, alpha, eta, u)
                 others = mirror(sample_uniform_hemisphere(rng.random((12, 2))))
-                refracted = refracted[carries & (refracted[:, 2] < -1e-3) & (np.abs(dot(refracted, refracted) - 1) < 1e-6)]  # not reflected totally
+                bent = np.abs(dot(refracted, refracted) - 1) < 1e-6  # not reflected totally
+                refracted = refracted[carries & (refracted[:, 2] < -1e-3) & bent]
                 l = rounded(np.concatenate([refracted[:12], others]))
                 h, cosine, _, valid, _ = transmission.refraction_terms(v, l, eta)
                 # Where rounding decides whether a facet refracts v to l, the kernel may say either.
@@ -290,7 +291,8 @@ MATERIALS = (
     Material(transmission=0.6, metallic=0.5, anisotropy=0.5),
     Material(transmission=0.7, solid=1, metallic=0.5, film=0.6, clearcoat=0.5, clearcoat_roughness=0.3),
     Material(diffuse_transmission=0.4, diffuse_transmission_color=(0.3, 1, 0.6), roughness=0.3),
-    Material(diffuse_transmission=0.4, diffuse_transmission_color=(0.3, 1, 0.6), transmission=0.5, sheen_color=(0.5, 0.5, 0.5), sheen_roughness=0.4),
+    Material(diffuse_transmission=0.4, diffuse_transmission_color=(0.3, 1, 0.6), transmission=0.5, sheen_color=(0.5, 0.5, 0.5),
+             sheen_roughness=0.4),
 )
 
 
