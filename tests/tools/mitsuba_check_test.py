@@ -214,7 +214,9 @@ class MaterialTest(unittest.TestCase):
         self.assertEqual(self.read(pbrMetallicRoughness=smooth, extensions=glass).kind(), "glass")
         del glass["KHR_materials_volume"]
         thin = self.read(pbrMetallicRoughness=smooth, extensions=glass)
-        self.assertEqual((thin.kind(), thin.passes_straight), ("principled", True))
+        self.assertEqual((thin.kind(), thin.passes_straight, thin.lets_through), ("principled", True, True))
+        self.assertTrue(self.read(alphaMode="MASK").lets_through)
+        self.assertFalse(self.read().lets_through)
         self.assertFalse(self.read(pbrMetallicRoughness={**smooth, "roughnessFactor": 0.5}, extensions=glass).passes_straight)
 
     def test_textures(self):

@@ -139,6 +139,8 @@ class Shapes:
     def __init__(self, scene):
         self.meet, self.images = solids_meet(scene), Images(scene.file)
         self.plain, self.unlit, self.numbers, self.media = {}, {}, {}, []
+        used = {shape.material for shape in scene.meshes + scene.spheres}
+        self.lets_through = any(scene.materials[i].lets_through for i in used)
         for (index, _has, _lamp), same in groups_of(scene).items():
             material, mesh = scene.materials[index], join(same)
             if material.emits and material.double_sided:
@@ -167,7 +169,8 @@ class Shapes:
             media = Media(self.numbers, [ior for ior, _ in self.media], [absorption for _, absorption in self.media])
             found = integrator_class(mi.variant())(depth, media)
         else:
-            found = {"type": "path", "max_depth": depth}
+            # Of the two, `volpath` alone lets what surfaces pass straight through to its light samples.
+            found = {"type": "volpath" if self.lets_through else "path", "max_depth": depth}
         if self.unlit:
             from .integrator import unlit_class
             inner = mi.load_dict(found) if isinstance(found, dict) else found

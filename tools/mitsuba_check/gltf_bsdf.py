@@ -51,7 +51,13 @@ def bsdf_class(_variant):
                 pdf *= dr.select(passes | delta, 1, 1 - share)
             kind = dr.select(delta, dr.select(under, +flags.DeltaTransmission, +flags.DeltaReflection),
                              dr.select(under, +flags.GlossyTransmission, +flags.GlossyReflection))
+            kind = dr.select(passes, +flags.Null, kind)
             return self.result(si, wi, pdf, eta, kind), weight & active
+
+        def eval_null_transmission(self, si, active=True):
+            if not self.surface.material.passes_straight:
+                return mi.Color3f(0)
+            return self.straight(self.point(si, active)) & active
 
         def result(self, si, wi, pdf, eta, kind):
             sample = mi.BSDFSample3f()

@@ -79,6 +79,11 @@ class Material:
                 not self.specular_textures and not (replace(self, transmission=0.0, diffuse_transmission=0.0).layered))
 
     @property
+    def lets_through(self):
+        """Whether light may go on behind it as if it were not there."""
+        return self.transparent or self.passes_straight
+
+    @property
     def specular_textures(self):
         return bool({"specularTexture", "specularColorTexture"} & set(self.textures))
 
