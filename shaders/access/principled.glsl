@@ -259,8 +259,8 @@ Principled makePrincipled(PrincipledInput m, vec3 wo)
     vec2 average = fetchAverageAlbedo(p.row);
     p.baseFms = multipleScatteringFresnel(average, p.baseReflectance.xxx, p.baseReflectance.y).x;
     // Mixed like the two BSDFs, for it is convex in F0: of the mixed F0, a white half-metal of roughness 1 would reflect .78 of the light.
-    vec3 fms = mix(multipleScatteringFresnel(average, tableDielectric, p.dielectricF90), multipleScatteringFresnel(average, tableMetal, 1.0),
-                   data.metallic);
+    vec3 fms = mix(multipleScatteringFresnel(average, tableDielectric, p.dielectricF90),
+                   multipleScatteringFresnel(average, tableMetal, 1.0), data.metallic);
     vec3 scattered = fms * (1.0 - ab.x - ab.y);
     float below = (1.0 - data.metallic) * passedInterface(p, ab, p.fresnel.dielectric);
     vec3 through = vec3(0.0);
