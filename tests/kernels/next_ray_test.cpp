@@ -70,7 +70,7 @@ protected:
     KernelTest test(const EmbeddedShader& shader = test_kernels::next_ray_test)
     {
         KernelTest test = scene_->test(shader);
-        test.buffers({{kBindNote, &note_}});
+        test.buffers({{kBindNote, &note_}}).specialize(kSpecFeatures, scene_->flat.features | kFeatureMirror | kFeatureDielectric);
         test.parameters().seed = 3;
         test.parameters().maxBounces = 64;
         return test;

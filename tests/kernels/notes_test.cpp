@@ -1,6 +1,7 @@
 #include "shaders/shared/bindings.h"
 #include "test_kernels.hpp"
-#include "tests/support/kernel_test.hpp"
+#include "tests/support/build_scene.hpp"
+#include "tests/support/scene_on_device.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +12,11 @@ PathNote noteOf(bool asked)
 {
     Buffer note(testDevice(), "test's note", BufferKind::Storage, sizeof(PathNote));
     upload(note, std::span<const PathNote>(std::vector<PathNote>(1)));
-    KernelTest test(test_kernels::notes_test);
-    test.specialize(kSpecNotes, asked).buffers({{kBindNote, &note}}).threads(1).run();
+    SceneBuilder builder;
+    builder.sphere(vec3(0.0F), 1.0F, builder.lambert(vec3(0.5F)));
+    const SceneOnDevice scene(builder.scene());
+    KernelTest test = scene.test(test_kernels::notes_test);
+    test.specialize(kSpecFeatures, kFeaturePrincipled).specialize(kSpecNotes, asked).buffers({{kBindNote, &note}}).threads(1).run();
     return download<PathNote>(note, 1)[0];
 }
 

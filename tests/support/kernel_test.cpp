@@ -64,8 +64,10 @@ void KernelTest::run()
     upload(reportBuffer, std::span<const Report>(&report, 1));
 
     const Buffer noChoice(device, "chosen pixels", BufferKind::Storage, 2 * sizeof(uint));
+    Buffer status(device, "status", BufferKind::Storage, sizeof(Status));
+    upload(status, std::span<const Status>(std::vector<Status>(1)));
     std::map<std::uint32_t, const Buffer*> bound = buffers_;
-    bound.insert({kBindChosenPixels, &noChoice});
+    bound.insert({{kBindChosenPixels, &noChoice}, {kBindStatus, &status}});
     bound[kBindReport] = &reportBuffer;
     if (cases_) {
         bound[kBindCases] = &*cases_;

@@ -31,13 +31,13 @@ struct SceneOnDevice {
     // The primitive that stands at a record; kNoPrimitive for none.
     std::uint32_t idOf(std::uint32_t record) const { return record == kNoRecord ? kNoPrimitive : bvh.order[record]; }
 
-    // `kernel` over this scene; camera and number of lights are in its parameters.
+    // `kernel` over this scene, compiled for what the scene needs; camera and number of lights are in its parameters.
     KernelTest test(const EmbeddedShader& kernel) const
     {
         KernelTest test(kernel);
         test.buffers(device.buffers());
         test.parameters().camera = camera;
-        test.specialize(kSpecStackLevels, flat.stackLevels);
+        test.specialize(kSpecStackLevels, flat.stackLevels).specialize(kSpecFeatures, flat.features).specialize(kSpecTexelViews, 1);
         test.parameters().lightCount = static_cast<std::uint32_t>(flat.lights.size());
         return test;
     }

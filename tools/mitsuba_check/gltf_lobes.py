@@ -396,7 +396,7 @@ class Lobes:
         f *= dr.minimum(p.passed, self.passed_layers(p, coat_albedo, sheen_albedo))
         if max(m.sheen_color) > 0:
             left = 1 - p.coat * dr.maximum(p.coat_kept, coat_albedo) if m.clearcoat > 0 else mi.Float(1)
-            scale = left * wi.z / dr.maximum(1, dr.maximum(p.sheen_kept, sheen_albedo))
+            scale = left / dr.maximum(1, dr.maximum(p.sheen_kept, sheen_albedo))
             f += dr.select(above, p.sheen * (scale * sheen_lobe(p.wo, safe, p.sheen_alpha)), 0)
             pdf += dr.select(above, p.shares["sheen"] / (2 * math.pi), 0)
         if m.clearcoat > 0 and self.coat_rough:
