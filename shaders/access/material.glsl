@@ -67,25 +67,30 @@ bool passesStraight(MaterialData data)
     return (data.flags & kThinWall) != 0u;
 }
 
-// Coverage at a point of a record with alpha, in [0, 1].
+// Coverage, in [0, 1], of a material whose alpha with textures and vertex colours is given.
+float coverageOf(MaterialData material, float alpha)
+{
+    float masked = alpha >= material.alphaCutoff ? 1.0 : 0.0;
+    return material.alphaCutoff == kOpaque ? 1.0 : material.alphaCutoff >= 0.0 ? masked : alpha;
+}
+
+// Colour 0 of a record's vertices; white if it has none.
+vec4 vertexColor(Record record, vec2 barycentric)
+{
+    bool colored = hasFeature(kFeatureVertexColors) && render.firstColor != 0u && !isSphere(record);
+    return colored ? vertexAttribute(render.firstColor, primitiveOf(record), barycentric) : vec4(1.0);
+}
+
+// Coverage at a point of a record with alpha.
 float alphaOf(Record record, vec3 point, vec2 barycentric)
 {
     MaterialData material = fetchMaterial(materialOf(record));
-    if (material.alphaCutoff == kOpaque) {
-        return 1.0;
-    }
     float alpha = material.alpha;
     if (hasFeature(kFeaturePrincipled) && material.principled != 0u) {
-        if (hasFeature(kFeatureVertexColors) && render.firstColor != 0u && !isSphere(record)) {
-            alpha *= vertexAttribute(render.firstColor, primitiveOf(record), barycentric).a;
-        }
-        if (hasFeature(kFeatureTextures)) {
-            uint texture_ = fetchPrincipled(material.principled).baseColorTexture;
-            alpha *= sampleTexture(texture_, textureCoordinates(record, point, barycentric)).a;
-        }
+        uint texture_ = fetchPrincipled(material.principled).baseColorTexture;
+        alpha *= vertexColor(record, barycentric).a * sampleTexture(texture_, textureCoordinates(record, point, barycentric)).a;
     }
-    float masked = alpha >= material.alphaCutoff ? 1.0 : 0.0;
-    return material.alphaCutoff >= 0.0 ? masked : alpha;
+    return coverageOf(material, alpha);
 }
 
 // What a clearcoat leaves of emission, which lies below it: by its Fresnel reflectance at the geometric normal. `cosine`: against that.
@@ -94,21 +99,31 @@ float passedCoat(float clearcoat, float cosine)
     return 1.0 - clearcoat * (0.04 + 0.96 * schlickWeight(cosine));
 }
 
+const LayersData kNoLayers = LayersData(0.0, 0.0, 0u, 0u, vec3(0.0), 0.0, 0u, 0u, 0u, 1.0, 0.0, 1.0, 0.0, 0u, 0.0, 1.3, 0.0, 0.0, 0u, 0u,
+                                        0.0, 0u, vec3(0.0), 0.0, 0u, 0u, 0u, 0u);
+
 // What texture, coat and coverage multiply a material's emission by, at a point of a record. cosine: of the direction it leaves in.
 vec3 emissionFactor(Record record, vec3 point, vec2 barycentric, float cosine)
 {
     MaterialData data = fetchMaterial(materialOf(record));
     vec3 factor = vec3(1.0);
-    if (hasFeature(kFeatureTextures | kFeatureClearcoat) && data.principled != 0u) {
+    float alpha = data.alpha;
+    if (hasFeature(kFeaturePrincipled) && data.principled != 0u) {
         PrincipledData p = fetchPrincipled(data.principled);
-        vec4 uv = textureCoordinates(record, point, barycentric);
-        factor = sampleTexture(p.emissiveTexture, uv).rgb;
-        if (hasFeature(kFeatureClearcoat) && p.layers != 0u) {
-            LayersData layers = fetchLayers(p.layers);
-            factor *= passedCoat(layers.clearcoat * sampleTexture(layers.clearcoatTexture, uv).r, cosine);
+        bool coated = hasFeature(kFeatureClearcoat) && p.layers != 0u;
+        LayersData layers = kNoLayers;
+        if (coated) {
+            layers = fetchLayers(p.layers);
         }
+        uvec3 textures = uvec3(p.emissiveTexture, layers.clearcoatTexture, hasAlpha(record) ? p.baseColorTexture : 0u);
+        ThreeTexels texels = sampleTextures(textures, textureCoordinates(record, point, barycentric));
+        factor = texels.x.rgb;
+        if (coated) {
+            factor *= passedCoat(layers.clearcoat * texels.y.r, cosine);
+        }
+        alpha *= vertexColor(record, barycentric).a * texels.z.a;
     }
-    return hasAlpha(record) ? factor * alphaOf(record, point, barycentric) : factor;
+    return hasAlpha(record) ? factor * coverageOf(data, alpha) : factor;
 }
 
 struct SurfaceMaterial {
@@ -120,9 +135,6 @@ struct SurfaceMaterial {
     vec3 coatNormal;            // unit, turned with ng
     vec2 iors;                  // of a solid that transmits: on wo's side, and beyond the surface
 };
-
-const LayersData kNoLayers = LayersData(0.0, 0.0, 0u, 0u, vec3(0.0), 0.0, 0u, 0u, 0u, 1.0, 0.0, 1.0, 0.0, 0u, 0.0, 1.3, 0.0, 0.0, 0u, 0u,
-                                        0.0, 0u, vec3(0.0), 0.0, 0u, 0u, 0u, 0u);
 
 // Number of the medium that the surface encloses, or 0.
 uint mediumOf(SurfaceMaterial material)

@@ -90,4 +90,23 @@ vec4 sampleTexture(uint texture_, vec4 uv)
     return value;
 }
 
+struct ThreeTexels {
+    vec4 x, y, z;
+};
+
+// Three textures at once, in a loop for one copy of the code.
+ThreeTexels sampleTextures(uvec3 textures, vec4 uv)
+{
+    ThreeTexels texels = ThreeTexels(vec4(1.0), vec4(1.0), vec4(1.0));
+    uint i = 0u, count = textures.z != 0u ? 3u : textures.y != 0u ? 2u : 1u;
+    do {
+        vec4 texel = sampleTexture(i == 0u ? textures.x : i == 1u ? textures.y : textures.z, uv);
+        texels.x = i == 0u ? texel : texels.x;
+        texels.y = i == 1u ? texel : texels.y;
+        texels.z = i == 2u ? texel : texels.z;
+        ++i;
+    } while (i < count);
+    return texels;
+}
+
 #endif

@@ -13,22 +13,13 @@
 // Surfaces that a ray passes; the next one counts as opaque, and the ray is counted.
 const uint kMaxPassed = 256u;
 
-// What a smooth thin wall transmits straight, per channel: (1 - F) times the base colour. By the geometric normal.
-vec3 straightTransmittance(Record record, MaterialData data, vec3 direction, vec3 point, vec2 barycentric)
+// What the interface of a smooth thin wall transmits straight, per channel: 1 - F, by the geometric normal.
+vec3 straightFresnel(Record record, PrincipledData p, vec3 direction, vec3 point)
 {
-    PrincipledData p = fetchPrincipled(data.principled);
-    LayersData layers = fetchLayers(p.layers);
-    vec3 color = data.baseColor;
-    vec4 uv = textureCoordinates(record, point, barycentric);
-    if (hasFeature(kFeatureVertexColors) && render.firstColor != 0u && !isSphere(record)) {
-        color *= vertexAttribute(render.firstColor, primitiveOf(record), barycentric).rgb;
-    }
-    color *= sampleTexture(p.baseColorTexture, uv).rgb;
-    color *= layers.transmission * sampleTexture(layers.transmissionTexture, uv).r * (1.0 - p.metallic);
     vec3 n = isSphere(record) ? normalizeSafely(point - floatsOf(record.t0))
                               : triangleNormal(floatsOf(record.t0), floatsOf(record.t1), floatsOf(record.t2));
     vec3 f0 = min(p.reflectance * p.specularColor, vec3(1.0)) * p.specular;
-    return color * (1.0 - f0 - (p.specular - f0) * schlickWeight(abs(dot(n, direction))));
+    return 1.0 - f0 - (p.specular - f0) * schlickWeight(abs(dot(n, direction)));
 }
 
 // A surface on the way of a ray.
@@ -45,10 +36,27 @@ Crossing crossingAt(Record record, PathRay ray, vec3 direction, PathHit hit, boo
     if (isUnlit(data) && !seesUnlit) {
         return Crossing(0.0, vec3(1.0));
     }
-    float alpha = alphaOf(record, point, hit.barycentric);
+    float alpha = data.alpha;
+    vec3 straight = vec3(0.0);
+    if (hasFeature(kFeaturePrincipled) && data.principled != 0u) {
+        PrincipledData p = fetchPrincipled(data.principled);
+        bool thin = hasFeature(kFeatureThinWalls) && passesStraight(data);
+        LayersData layers = kNoLayers;
+        if (thin) {
+            layers = fetchLayers(p.layers);
+        }
+        vec4 uv = textureCoordinates(record, point, hit.barycentric), color = vertexColor(record, hit.barycentric);
+        ThreeTexels texels = sampleTextures(uvec3(p.baseColorTexture, layers.transmissionTexture, 0u), uv);
+        alpha *= color.a * texels.x.a;
+        if (thin) {
+            straight = data.baseColor * color.rgb * texels.x.rgb * (layers.transmission * texels.y.r * (1.0 - p.metallic)) *
+                       straightFresnel(record, p, direction, point);
+        }
+    }
+    alpha = coverageOf(data, alpha);
     Crossing crossing = Crossing(alpha, vec3(1.0 - alpha));
-    if (hasFeature(kFeatureThinWalls) && passesStraight(data)) {
-        crossing.through += alpha * straightTransmittance(record, data, direction, point, hit.barycentric);
+    if (hasFeature(kFeatureThinWalls)) {
+        crossing.through += alpha * straight;
     }
     return crossing;
 }
