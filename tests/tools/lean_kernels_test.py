@@ -62,7 +62,7 @@ NEEDS = {
     "Dispersion": ["Principled", "Media"],
     "ThinWalls": ["Principled", "Alpha"],
     "Unlit": ["Alpha"],
-    "Glossiness": ["Principled"],
+    "Glossiness": ["Principled", "Textures"],
 }
 KERNELS = USERS["Spheres"]
 
