@@ -22,7 +22,7 @@ TEST(MakeStudio, TheKeyLightIsAboveTheViewerToTheLeft)
             const double phi = 2.0 * std::numbers::pi * ((x + 0.5) / map.width - 0.5);
             const glm::dvec3 d(std::cos(elevation) * std::sin(phi), std::sin(elevation), -std::cos(elevation) * std::cos(phi));
             const double radiance = map.texels[std::size_t{y} * map.width + x].x;
-            key += radiance > 0.7 * most ? std::cos(elevation) * d : glm::dvec3(0.0);
+            key += radiance > 0.7F * most ? std::cos(elevation) * d : glm::dvec3(0.0);
             (d.z > 0.0 ? front : back) += radiance * std::cos(elevation);
         }
     }
