@@ -8,8 +8,9 @@
 #include "parameters.glsl"
 #include "scene.glsl"
 
-layout(set = 0, binding = kBindEnvironment) uniform usamplerBuffer sceneEnvironment;            // environmentTexel
-layout(set = 0, binding = kBindEnvironmentCells) uniform usamplerBuffer sceneEnvironmentCells;  // cells, then two texels for each of their rows
+layout(set = 0, binding = kBindEnvironment) uniform usamplerBuffer sceneEnvironment;  // environmentTexel
+// All cells, then two texels for each of their rows.
+layout(set = 0, binding = kBindEnvironmentCells) uniform usamplerBuffer sceneEnvironmentCells;
 
 // Else the environment is constant.
 bool hasEnvironmentMap()

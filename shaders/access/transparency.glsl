@@ -1,6 +1,6 @@
-// Surfaces that are transparent in places, and smooth thin walls, which light passes straight. Closest hits are accepted by a number that depends on (pixel, sample,
-// bounce, primitive) alone; shadow rays multiply what each surface lets through, in the order along the ray. So neither depends on the
-// tree, on the schedule or on how primitives were split.
+// Surfaces that are transparent in places, and smooth thin walls, which light passes straight. Closest hits are accepted by a number that
+// depends on (pixel, sample, bounce, primitive) alone; shadow rays multiply what each surface lets through, in the order along the ray. So
+// neither depends on the tree, on the schedule or on how primitives were split.
 #ifndef GLIM_ACCESS_TRANSPARENCY
 #define GLIM_ACCESS_TRANSPARENCY
 
