@@ -84,7 +84,8 @@ public:
                 solids.push_back({medium, center - radius, center + radius});
             }
         }
-        found_.tracked = found_.tracked || differentMediaOverlap(solids);
+        // Of one medium only, thousands of solids need no comparison.
+        found_.tracked = found_.tracked || (found_.media.size() > 1 && differentMediaOverlap(solids));
         return std::move(found_);
     }
 

@@ -25,7 +25,7 @@ bool isMirror(uint lobe) { return hasFeature(kFeatureMirror) && lobe == kMirror;
 bool isPrincipled(uint lobe) { return hasFeature(kFeaturePrincipled) && lobe == kPrincipled; }
 bool scattersNothing(uint lobe) { return hasFeature(kFeatureUnlit) && lobe == kUnlit; }
 
-// The frame whose x axis is the tangent, as far as that is not along n.
+// The frame whose x axis is the tangent. A tangent within 1e-6 rad of n, where float has lost its direction, gives any frame.
 Frame makeFrame(vec3 n, vec3 tangent)
 {
     vec3 x = tangent - n * dot(n, tangent);

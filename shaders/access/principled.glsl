@@ -58,7 +58,7 @@ struct Principled {
     // What lies below it.
     vec2 baseReflectance;    // F0 and F90 of the interface over the diffuse lobe, by its strongest channel
     float baseFms;           // its multipleScatteringFresnel
-    vec3 scattered, diffuse; // of the cosine lobes: what does not depend on wi (evalCosineLobes)
+    vec3 scattered, diffuse; // of the cosine lobes: what does not depend on wi (evalAbove)
     vec3 diffuseThrough;     // of the cosine lobe on the far side
     AlbedoRow row;
     // What lies above it.
@@ -328,7 +328,7 @@ struct InterfaceEval {
     vec3 h;                        // the microfacet's normal; z <= 0 if there is none
     InterfaceFresnel fresnel;      // there
     vec2 ab;                       // fetchAlbedo at wi
-    vec3 dielectric;               // reflectance at wi
+    vec3 dielectric;               // of a solid: reflectance at wi
 };
 
 // The interface's Fresnel reflectance at h and, of a solid, at wi too: in a loop, for one copy of its code.
