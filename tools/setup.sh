@@ -10,7 +10,7 @@ buildPackages=(
     "cmake                     configures the build"
     "ninja-build               runs the build"
     "glslang-tools             compiles the kernels to SPIR-V"
-    "spirv-tools               checks the SPIR-V"
+    "spirv-tools               checks and specializes the SPIR-V"
     "libvulkan-dev             Vulkan headers and loader"
     "mesa-vulkan-drivers       Vulkan drivers, among them a software one"
     "libglm-dev                vectors and matrices"

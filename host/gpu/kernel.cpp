@@ -127,26 +127,18 @@ Kernel::Kernel(const KernelLayout& layout, const EmbeddedShader& shader, const S
       name_(shader.name)
 {
     const VkDevice device = layout.device().handle();
+    const std::vector<std::uint32_t> spirv = specialize(shader, specialization);
     VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-    moduleInfo.codeSize = shader.words().size_bytes();
-    moduleInfo.pCode = shader.begin;
+    moduleInfo.codeSize = spirv.size() * sizeof(std::uint32_t);
+    moduleInfo.pCode = spirv.data();
     VkShaderModule module = VK_NULL_HANDLE;
     check(vkCreateShaderModule(device, &moduleInfo, nullptr, &module), "load kernel " + name_);
 
-    std::vector<VkSpecializationMapEntry> entries;
-    std::vector<std::uint32_t> values;
-    for (const auto& [id, value] : specialization) {
-        entries.push_back({id, static_cast<std::uint32_t>(values.size() * sizeof(value)), sizeof(value)});
-        values.push_back(value);
-    }
-    const VkSpecializationInfo constants{static_cast<std::uint32_t>(entries.size()), entries.data(), values.size() * sizeof(std::uint32_t),
-                                         values.data()};
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     info.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
     info.stage.module = module;
     info.stage.pName = "main";
-    info.stage.pSpecializationInfo = &constants;
     info.layout = layout.pipelineLayout();
     const VkResult result = vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_);
     vkDestroyShaderModule(device, module, nullptr);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/gpu/buffer.hpp"
-#include "host/gpu/embedded_shader.hpp"
+#include "host/gpu/specialize.hpp"
 #include "host/gpu/storage_image.hpp"
 
 #include <map>
@@ -58,9 +58,6 @@ private:
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
 };
-
-// The values of specialization constants by constant_id. Booleans are 0 or 1.
-using Specialization = std::map<std::uint32_t, std::uint32_t>;
 
 class Kernel {
 public:

@@ -20,10 +20,10 @@ struct Bsdf {
     Principled principled;
 };
 
-bool isDielectric(uint lobe) { return hasFeature(kFeatureDielectric) && lobe == kDielectric; }
-bool isMirror(uint lobe) { return hasFeature(kFeatureMirror) && lobe == kMirror; }
-bool isPrincipled(uint lobe) { return hasFeature(kFeaturePrincipled) && lobe == kPrincipled; }
-bool scattersNothing(uint lobe) { return hasFeature(kFeatureUnlit) && lobe == kUnlit; }
+#define isDielectric(lobe) (hasFeature(kFeatureDielectric) && (lobe) == kDielectric)
+#define isMirror(lobe) (hasFeature(kFeatureMirror) && (lobe) == kMirror)
+#define isPrincipled(lobe) (hasFeature(kFeaturePrincipled) && (lobe) == kPrincipled)
+#define scattersNothing(lobe) (hasFeature(kFeatureUnlit) && (lobe) == kUnlit)
 
 // The frame whose x axis is the tangent. A tangent within 1e-6 rad of n, where float has lost its direction, gives any frame.
 Frame makeFrame(vec3 n, vec3 tangent)
@@ -96,47 +96,97 @@ bool hasNonDelta(Bsdf bsdf)
 }
 
 // Whether a lobe that is not delta transmits.
-bool transmitsDiffusely(Bsdf bsdf)
-{
-    return hasFeature(kFeatureTransmission | kFeatureDiffuseTransmission) && isPrincipled(bsdf.lobe) && hasNonDelta(bsdf);
-}
+#define transmitsDiffusely(bsdf) \
+    (hasFeature(kFeatureTransmission | kFeatureDiffuseTransmission) && isPrincipled((bsdf).lobe) && hasNonDelta(bsdf))
 
-// All lobes that are not delta. Directions in world space, unit, away from the surface.
-BsdfEval evalBsdf(Bsdf bsdf, vec3 wo, vec3 wi)
+// `local`: wi in the shading frame. `outwards`: its cosine against bsdf.ng.
+BsdfEval evalInFrame(Bsdf bsdf, vec3 wo, vec3 local, float outwards)
 {
-    vec3 local = frameFromWorld(bsdf.frame, wi);
-    bool reflects = hasNonDelta(bsdf) && local.z > 0.0 && dot(wi, bsdf.ng) > 0.0;
-    bool through = transmitsDiffusely(bsdf) && local.z < 0.0 && dot(wi, bsdf.ng) < 0.0;
+    bool reflects = hasNonDelta(bsdf) && local.z > 0.0 && outwards > 0.0;
+    bool through = transmitsDiffusely(bsdf) && local.z < 0.0 && outwards < 0.0;
     if (isPrincipled(bsdf.lobe) && (reflects || through)) {
         return evalPrincipled(bsdf.principled, outgoing(bsdf.frame, wo), local);
     }
     return BsdfEval(reflects ? evalLambert(bsdf.color, local) : vec3(0.0), reflects ? pdfLambert(local) : 0.0);
 }
 
-// If the sampled direction is on the wrong side of the geometric surface, a mirror reflects about the geometric normal instead, and any other
-// surface absorbs the light.
-BsdfSample sampleReflection(Bsdf bsdf, vec3 wo, vec2 u, float uLobe)
+// All lobes that are not delta. Directions in world space, unit, away from the surface.
+BsdfEval evalBsdf(Bsdf bsdf, vec3 wo, vec3 wi)
 {
+    return evalInFrame(bsdf, wo, frameFromWorld(bsdf.frame, wi), dot(wi, bsdf.ng));
+}
+
+// If the sampled direction is on the wrong side of the geometric surface, a mirror reflects about the geometric normal instead, and any other
+// surface absorbs the light. `local`: wi in the shading frame, of a sample that is still unweighted.
+BsdfSample sampleReflection(Bsdf bsdf, vec3 wo, vec2 u, float uLobe, out vec3 local)
+{
+    local = vec3(0.0);
     if (isMirror(bsdf.lobe)) {
         BsdfSample mirrored = sampleMirror(bsdf.color, wo, bsdf.frame.z);
         return dot(mirrored.wi, bsdf.ng) > 0.0 ? mirrored : sampleMirror(bsdf.color, wo, bsdf.ng);
     }
     BsdfSample s;
     if (isPrincipled(bsdf.lobe)) {
-        s = samplePrincipled(bsdf.principled, outgoing(bsdf.frame, wo), u, uLobe);
+        s = samplePrincipledDirection(bsdf.principled, outgoing(bsdf.frame, wo), u, uLobe);
     } else {
         s = sampleLambert(bsdf.color, u);
     }
-    s.wi = worldFromFrame(bsdf.frame, s.wi);
+    local = s.wi;
+    s.wi = worldFromFrame(bsdf.frame, local);
     float outwards = (s.flags & kBsdfTransmission) != 0u ? -dot(s.wi, bsdf.ng) : dot(s.wi, bsdf.ng);
     s.weight = outwards > 0.0 && !scattersNothing(bsdf.lobe) ? s.weight : vec3(0.0);
+    return s;
+}
+
+BsdfSample sampleUnweighted(Bsdf bsdf, vec3 wo, vec2 u, float uLobe, out vec3 local)
+{
+    BsdfSample s;
+    if (isDielectric(bsdf.lobe)) {
+        s = sampleDielectric(bsdf.color, bsdf.eta, wo, bsdf.frame.z, uLobe);
+    } else {
+        s = sampleReflection(bsdf, wo, u, uLobe, local);
+    }
     return s;
 }
 
 // Chooses a lobe by uLobe and a direction by u, both in [0, 1).
 BsdfSample sampleBsdf(Bsdf bsdf, vec3 wo, vec2 u, float uLobe)
 {
-    return isDielectric(bsdf.lobe) ? sampleDielectric(bsdf.color, bsdf.eta, wo, bsdf.frame.z, uLobe) : sampleReflection(bsdf, wo, u, uLobe);
+    vec3 local;
+    BsdfSample s = sampleUnweighted(bsdf, wo, u, uLobe, local);
+    if (hasFeature(kFeaturePrincipled)) {
+        s = weighted(s, evalInFrame(bsdf, wo, local, dot(s.wi, bsdf.ng)));
+    }
+    return s;
+}
+
+struct BsdfPair {
+    BsdfEval light;
+    BsdfSample next;
+};
+
+// evalBsdf and sampleBsdf at once: in a loop, for one copy of the code of evalPrincipled.
+BsdfPair evalAndSampleBsdf(Bsdf bsdf, vec3 wo, vec3 lightWi, vec2 u, float uLobe)
+{
+    vec3 local;
+    BsdfPair pair;
+    pair.next = sampleUnweighted(bsdf, wo, u, uLobe, local);
+    if (!hasFeature(kFeaturePrincipled)) {
+        pair.light = evalBsdf(bsdf, wo, lightWi);
+        return pair;
+    }
+    bool ofNext = false;
+    do {
+        vec3 wi = ofNext ? pair.next.wi : lightWi;
+        BsdfEval f = evalInFrame(bsdf, wo, ofNext ? local : frameFromWorld(bsdf.frame, lightWi), dot(wi, bsdf.ng));
+        if (ofNext) {
+            pair.next = weighted(pair.next, f);
+        } else {
+            pair.light = f;
+        }
+        ofNext = !ofNext;
+    } while (ofNext);
+    return pair;
 }
 
 // Which lobe sampleBsdf chooses: kLambert, kMirror or kDielectric, or kPrincipled + kLobeInterface ...

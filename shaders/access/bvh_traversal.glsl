@@ -26,13 +26,16 @@ TraversalRay makeTraversalRay(vec3 origin, vec3 direction)
 
 TriangleHit intersectTriangle(TraversalRay traversal, Record record, float tMax);
 
+float intersectRecordSphere(TraversalRay traversal, Record record, float tMax, bool isSource)
+{
+    return intersectSphere(traversal.origin, traversal.direction, floatsOf(record.t0), uintBitsToFloat(record.t1.x), tMax, isSource);
+}
+
 // t in (0, tMax] and barycentrics, or t < 0. A ray never meets the triangle it leaves; a sphere only from within.
 TriangleHit intersectRecord(TraversalRay traversal, Record record, float tMax, bool isSource)
 {
     if (isSphere(record)) {
-        float t = intersectSphere(traversal.origin, traversal.direction, floatsOf(record.t0), uintBitsToFloat(record.t1.x), tMax,
-                                  isSource);
-        return TriangleHit(t, vec2(0.0), 1.0);
+        return TriangleHit(intersectRecordSphere(traversal, record, tMax, isSource), vec2(0.0), 1.0);
     }
     return isSource ? kNoTriangleHit : intersectTriangle(traversal, record, tMax);
 }
@@ -105,7 +108,7 @@ void meetRecord(TraversalRay traversal, uint index, uint source, Query query, in
     bool counts = true;
     if (hasFeature(kFeatureAlpha)) {
         if (isSphere(record) && !isAfter(query, hit.t, primitive)) {
-            hit = intersectRecord(traversal, record, best.hit.t, true);  // the far side
+            hit = TriangleHit(intersectRecordSphere(traversal, record, best.hit.t, true), vec2(0.0), 1.0);  // the far side
         }
         counts = isAfter(query, hit.t, primitive) && primitive != query.target && (hasAlpha(record) || !query.alphaOnly);
     }

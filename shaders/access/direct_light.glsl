@@ -59,14 +59,16 @@ uint chooseLight(SampleId id, uint bounce)
     return selectLight(samplePair(id, bounceDimension(bounce, kDimensionLight), kSobol), render.lightCount);
 }
 
-// Samples the chosen light and makes the shadow ray, which starts on the side of wi. Its contribution counts if nothing is in the way.
-// False if that is zero.
-bool sampleChosenLight(SampleId id, FlatLight chosen, SurfaceInteraction si, Bsdf bsdf, vec3 wo, PathState state, out ShadowRay ray)
+LightSample sampleChosenLight(SampleId id, FlatLight chosen, SurfaceInteraction si, Bsdf bsdf, uint bounce)
 {
-    LightSample light = sampleLight(chosen, makeLightContext(si, bsdf),
-                                    samplePair(id, bounceDimension(state.bounce, kDimensionEmitter), kSobol),
-                                    unitFloat(samplePair(id, bounceDimension(state.bounce, kDimensionPoint), kSobol)));
-    BsdfEval f = evalBsdf(bsdf, wo, light.wi);
+    return sampleLight(chosen, makeLightContext(si, bsdf), samplePair(id, bounceDimension(bounce, kDimensionEmitter), kSobol),
+                       unitFloat(samplePair(id, bounceDimension(bounce, kDimensionPoint), kSobol)));
+}
+
+// The shadow ray of a light sample, which starts on the side of wi. Its contribution counts if nothing is in the way. False if that is zero.
+// f: the BSDF at light.wi.
+bool makeShadowRay(SurfaceInteraction si, LightSample light, BsdfEval f, PathState state, out ShadowRay ray)
+{
     float weight = misWeightOfSample(light.pdf, f.pdf);
     if (f.pdf > 0.0) {
         noteLightSample(light.pdf, f.pdf, weight);

@@ -13,10 +13,7 @@ layout(set = 0, binding = kBindEnvironment) uniform usamplerBuffer sceneEnvironm
 layout(set = 0, binding = kBindEnvironmentCells) uniform usamplerBuffer sceneEnvironmentCells;
 
 // Else the environment is constant.
-bool hasEnvironmentMap()
-{
-    return hasFeature(kFeatureEnvironmentMap) && render.environmentSize.x > 0u;
-}
+#define hasEnvironmentMap() (hasFeature(kFeatureEnvironmentMap) && render.environmentSize.x > 0u)
 
 // Three mantissas of 18 bits and an exponent.
 vec3 environmentTexel(uint x, uint y)

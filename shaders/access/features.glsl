@@ -9,19 +9,17 @@
 
 layout(constant_id = kSpecFeatures) const uint kFeatures = kAllFeatures;
 
-// Whether the scene needs the feature of shared/features.h, or one of several.
-bool hasFeature(uint feature)
-{
-    return (kFeatures & feature) != 0u;
-}
+// Whether the scene needs the feature of shared/features.h, or one of several. This and what is built on it are macros, so that the host
+// finds the constant where it decides a branch (host/gpu/specialize.hpp).
+#define hasFeature(feature) ((kFeatures & (feature)) != 0u)
 
 // What has a LayersData.
 const uint kLayerFeatures = kFeatureClearcoat | kFeatureSheen | kFeatureAnisotropy | kFeatureIridescence | kFeatureTransmission |
                             kFeatureDiffuseTransmission | kFeatureMedia;
 
 // Light that a ray may hit by chance.
-bool hasEnvironment() { return hasFeature(kFeatureEnvironment); }
-bool hasEmissiveSurfaces() { return hasFeature(kFeatureTriangleLights | kFeatureSphereLights | kFeatureUnlit); }
+#define hasEnvironment() hasFeature(kFeatureEnvironment)
+#define hasEmissiveSurfaces() hasFeature(kFeatureTriangleLights | kFeatureSphereLights | kFeatureUnlit)
 
 layout(constant_id = kSpecStackLevels) const uint kStackLevels = kMaxStackLevels;
 layout(constant_id = kSpecTexelViews) const uint kTexelViews = kMaxTexelViews;

@@ -79,12 +79,18 @@ float pdfLight(LightContext context, LightHit hit)
 }
 
 // Whether its emission changes over the surface, by a texture, coverage or a coat.
-bool isUneven(FlatLight light)
-{
-    return hasFeature(kFeatureTextures | kFeatureAlpha | kFeatureClearcoat) && light.uneven != 0u;
-}
+#define isUneven(light) (hasFeature(kFeatureTextures | kFeatureAlpha | kFeatureClearcoat) && (light).uneven != 0u)
 
-LightSample sampleTriangleLight(FlatLight light, LightContext context, uvec2 choice, vec2 u)
+// A sampled point of an emitter.
+struct EmitterPoint {
+    uint record;
+    vec3 p;
+    vec2 barycentric;
+    float cosine;  // of the direction that its light leaves in
+};
+
+// The samplers of surface lights give the light's own intensity as radiance, not divided by the pdf (sampleSurfaceLight).
+LightSample sampleTriangleLight(FlatLight light, LightContext context, uvec2 choice, vec2 u, out EmitterPoint at)
 {
     uint bin = chooseBin(choice.x, light.emitterCount);
     AliasEntry entry = fetchEmitter(light.firstEmitter + bin).alias;
@@ -104,16 +110,12 @@ LightSample sampleTriangleLight(FlatLight light, LightContext context, uvec2 cho
     float pdf = pdfSurfaceLight(light, emitter.areaPdf, context, distance_, cosine);
     vec3 target = offsetPoint(point, facing > 0.0 ? n : -n, triangleErrorBound(v0, e1, e2));
     bool faces = cosine > 0.0;
-    vec3 radiance = light.intensity;
-    if (isUneven(light)) {
-        radiance *= emissionFactor(record, point, barycentric, cosine);
-    }
-    return LightSample(faces ? towards / distance_ : vec3(0.0), faces ? radiance / pdf : vec3(0.0), faces ? pdf : 0.0, target,
-                       emitter.primitive, 1.0);
+    at = EmitterPoint(emitter.record, point, barycentric, cosine);
+    return LightSample(faces ? towards / distance_ : vec3(0.0), light.intensity, faces ? pdf : 0.0, target, emitter.primitive, 1.0);
 }
 
 // From outside: uniform in the cone.
-LightSample sampleSphereCone(FlatLight light, FlatEmitter emitter, vec3 outward, float sin2, vec2 u)
+LightSample sampleSphereCone(FlatLight light, FlatEmitter emitter, vec3 outward, float sin2, vec2 u, out EmitterPoint at)
 {
     vec3 local = sampleCone(u, sin2);
     // The point of the sphere in the sampled direction, by its angle at the centre (pbrt-v4, section 6.2.4). Only shadow rays aim at it. wi
@@ -129,15 +131,12 @@ LightSample sampleSphereCone(FlatLight light, FlatEmitter emitter, vec3 outward,
     vec3 point = light.position + light.radius * n;
     vec3 target = offsetPoint(point, n, sphereErrorBound(light.position, light.radius));
     vec3 wi = worldFromFrame(frame, vec3(local.xy, -local.z));
-    vec3 radiance = light.intensity;
-    if (isUneven(light)) {
-        radiance *= emissionFactor(fetchRecord(emitter.record), point, vec2(0.0), abs(dot(n, wi)));
-    }
-    return LightSample(wi, radiance / pdf, pdf, target, emitter.primitive, 1.0);
+    at = EmitterPoint(emitter.record, point, vec2(0.0), abs(dot(n, wi)));
+    return LightSample(wi, light.intensity, pdf, target, emitter.primitive, 1.0);
 }
 
 // From within a sphere that emits inwards too: uniform over its area.
-LightSample sampleSphereArea(FlatLight light, FlatEmitter emitter, LightContext context, vec2 u)
+LightSample sampleSphereArea(FlatLight light, FlatEmitter emitter, LightContext context, vec2 u, out EmitterPoint at)
 {
     vec3 n = sampleSphere(u);
     vec3 point = light.position + light.radius * n;
@@ -149,22 +148,35 @@ LightSample sampleSphereArea(FlatLight light, FlatEmitter emitter, LightContext 
     }
     float pdf = pdfSurfaceLight(light, emitter.areaPdf, context, distance_, cosine);
     vec3 target = offsetPoint(point, -n, sphereErrorBound(light.position, light.radius));
-    vec3 radiance = light.intensity;
-    if (isUneven(light)) {
-        radiance *= emissionFactor(fetchRecord(emitter.record), point, vec2(0.0), cosine);
-    }
-    return LightSample(towards / distance_, radiance / pdf, pdf, target, emitter.primitive, 1.0);
+    at = EmitterPoint(emitter.record, point, vec2(0.0), cosine);
+    return LightSample(towards / distance_, light.intensity, pdf, target, emitter.primitive, 1.0);
 }
 
-LightSample sampleSphereLight(FlatLight light, LightContext context, vec2 u)
+LightSample sampleSphereLight(FlatLight light, LightContext context, vec2 u, out EmitterPoint at)
 {
     FlatEmitter emitter = fetchEmitter(light.firstEmitter);
     vec3 outward = context.p - light.position;
     float sin2;
     if (seesCone(outward, light.radius, sin2)) {
-        return sampleSphereCone(light, emitter, outward, sin2, u);
+        return sampleSphereCone(light, emitter, outward, sin2, u, at);
     }
-    return light.doubleSided != 0u ? sampleSphereArea(light, emitter, context, u) : kNoLight;
+    return light.doubleSided != 0u ? sampleSphereArea(light, emitter, context, u, at) : kNoLight;
+}
+
+LightSample sampleSurfaceLight(FlatLight light, LightContext context, uvec2 choice, vec2 u)
+{
+    EmitterPoint at;
+    LightSample s = kNoLight;
+    if (hasFeature(kFeatureSphereLights) && light.kind == kSphereLight) {
+        s = sampleSphereLight(light, context, u, at);
+    } else if (hasFeature(kFeatureTriangleLights)) {
+        s = sampleTriangleLight(light, context, choice, u, at);
+    }
+    if (isUneven(light) && s.pdf > 0.0) {
+        s.radiance *= emissionFactor(fetchRecord(at.record), at.p, at.barycentric, at.cosine);
+    }
+    s.radiance = s.pdf > 0.0 ? s.radiance / s.pdf : vec3(0.0);
+    return s;
 }
 
 LightSample samplePunctualLight(FlatLight light, vec3 from)
@@ -207,11 +219,8 @@ LightSample sampleEnvironmentMap(FlatLight light, LightContext context, uvec2 ch
 // The density includes `light.probability`. choice: two words of random bits, u in [0, 1)^2.
 LightSample sampleLight(FlatLight light, LightContext context, uvec2 choice, vec2 u)
 {
-    if (hasFeature(kFeatureTriangleLights) && light.kind == kTriangleLight) {
-        return sampleTriangleLight(light, context, choice, u);
-    }
-    if (hasFeature(kFeatureSphereLights) && light.kind == kSphereLight) {
-        return sampleSphereLight(light, context, u);
+    if (hasFeature(kFeatureTriangleLights | kFeatureSphereLights) && (light.kind == kTriangleLight || light.kind == kSphereLight)) {
+        return sampleSurfaceLight(light, context, choice, u);
     }
     if (hasEnvironment() && light.kind == kEnvironmentLight) {
         if (hasEnvironmentMap()) {

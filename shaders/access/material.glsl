@@ -8,10 +8,7 @@
 #include "parameters.glsl"
 #include "texture.glsl"
 
-bool isOnSphere(SurfaceInteraction si)
-{
-    return hasFeature(kFeatureSpheres) && si.primitive >= render.triangleCount;
-}
+#define isOnSphere(si) (hasFeature(kFeatureSpheres) && (si).primitive >= render.triangleCount)
 
 // A section of the vertices, interpolated; of a sphere that of vertex 0.
 vec4 vertexAttribute(uint first, SurfaceInteraction si)
@@ -56,10 +53,7 @@ vec3 mappedNormal(SurfaceInteraction si, vec3 texel, float scale)
     return square > 0.0 && dot(tangent.xyz, tangent.xyz) > 0.0 ? side * mapped / sqrt(square) : si.ns;
 }
 
-bool isUnlit(MaterialData data)
-{
-    return hasFeature(kFeatureUnlit) && data.lobe == kUnlit;
-}
+#define isUnlit(data) (hasFeature(kFeatureUnlit) && (data).lobe == kUnlit)
 
 // Whether the light that it transmits passes straight, and is transparency.glsl's.
 bool passesStraight(MaterialData data)

@@ -10,17 +10,17 @@
 #include "pass.glsl"
 #include "status.glsl"
 
-// Uses the sampler dimensions of the bounce. uRoulette, in [0, 1), is the random number for roulette.
-BsdfSample sampleNextRay(SampleId id, Bsdf bsdf, vec3 wo, uint bounce, out float uRoulette)
+// A bounce's random numbers, in [0, 1).
+struct BounceNumbers {
+    vec2 direction;
+    float lobe, roulette;
+};
+
+BounceNumbers numbersOfBounce(SampleId id, uint bounce)
 {
-    vec2 u = unitFloat(samplePair(id, bounceDimension(bounce, kDimensionBsdf), kSobol));
+    vec2 direction = unitFloat(samplePair(id, bounceDimension(bounce, kDimensionBsdf), kSobol));
     vec2 lobe = unitFloat(samplePair(id, bounceDimension(bounce, kDimensionLobe), kSobol));
-    uRoulette = lobe.y;
-    BsdfSample s = sampleBsdf(bsdf, wo, u, lobe.x);
-    if (kNotes) {
-        noteLobe(sampledLobe(bsdf, lobe.x), s.flags);
-    }
-    return s;
+    return BounceNumbers(direction, lobe.x, lobe.y);
 }
 
 // Roulette's probability that the sampled ray is traced. The including file defines it: path_vertex.glsl, and course/bounce.glsl for the
@@ -38,11 +38,12 @@ uint mediaOfNextRay(uint media, SurfaceInteraction si, Bsdf bsdf, vec3 wi)
     return hasFeature(kFeatureMedia) ? after : 0u;
 }
 
-// Samples the BSDF and plays roulette. False if the path ends: ray and state are then of no use. `media`: of the ray that has arrived.
-bool bouncePath(SampleId id, SurfaceInteraction si, Bsdf bsdf, vec3 wo, uint media, out PathRay ray, inout PathState state)
+// Spawns the sampled ray if roulette lets it. False if the path ends: ray and state are then of no use. `media`: of the ray that has arrived.
+bool continuePath(BsdfSample s, BounceNumbers u, SurfaceInteraction si, Bsdf bsdf, uint media, out PathRay ray, inout PathState state)
 {
-    float uRoulette;
-    BsdfSample s = sampleNextRay(id, bsdf, wo, state.bounce, uRoulette);
+    if (kNotes) {
+        noteLobe(sampledLobe(bsdf, u.lobe), s.flags);
+    }
     vec3 throughput = state.throughput * s.weight;
     noteBounce(s.weight, throughput);
     float etaScale = state.etaScale * (s.eta * s.eta);
@@ -55,7 +56,14 @@ bool bouncePath(SampleId id, SurfaceInteraction si, Bsdf bsdf, vec3 wo, uint med
     ray.media = mediaOfNextRay(media, si, bsdf, s.wi);
     state = PathState(throughput / continuation, s.pdf, max(0.0, dot(s.wi, bsdf.frame.z)), etaScale, state.bounce + 1u,
                       encodeNormal(bsdf.frame.z));
-    return scatters && uRoulette < continuation;
+    return scatters && u.roulette < continuation;
+}
+
+// Samples the BSDF, and continues the path.
+bool bouncePath(SampleId id, SurfaceInteraction si, Bsdf bsdf, vec3 wo, uint media, out PathRay ray, inout PathState state)
+{
+    BounceNumbers u = numbersOfBounce(id, state.bounce);
+    return continuePath(sampleBsdf(bsdf, wo, u.direction, u.lobe), u, si, bsdf, media, ray, state);
 }
 
 #endif

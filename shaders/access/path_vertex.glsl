@@ -50,11 +50,11 @@ float continuationOf(BsdfSample s, vec3 throughput, float etaScale, uint bounce)
     return continuationProbability(throughput, etaScale, bounce);
 }
 
-bool sampleDirectLight(SampleId id, SurfaceInteraction si, Bsdf bsdf, vec3 wo, PathState state, out ShadowRay ray)
+LightSample sampleDirectLight(SampleId id, SurfaceInteraction si, Bsdf bsdf, uint bounce)
 {
-    uint chosen = chooseLight(id, state.bounce);
+    uint chosen = chooseLight(id, bounce);
     noteLight(chosen);
-    return sampleChosenLight(id, fetchLight(chosen), si, bsdf, wo, state, ray);
+    return sampleChosenLight(id, fetchLight(chosen), si, bsdf, bounce);
 }
 
 VertexResult shadeSurface(SampleId id, PathRay ray, PathHit hit, PathState state)
@@ -82,13 +82,19 @@ VertexResult shadeSurface(SampleId id, PathRay ray, PathHit hit, PathState state
         }
     }
     result.firstHit = makeFirstHit(si, material.data, wo);
-    result.hasShadowRay = samplesLights(state.bounce, render.maxBounces, render.minPathLength, render.lightCount) && hasNonDelta(bsdf) &&
-                          sampleDirectLight(id, si, bsdf, wo, state, result.shadowRay);
+    bool samples = samplesLights(state.bounce, render.maxBounces, render.minPathLength, render.lightCount) && hasNonDelta(bsdf);
+    LightSample light = kNoLight;
+    if (samples) {
+        light = sampleDirectLight(id, si, bsdf, state.bounce);
+    }
+    BounceNumbers u = numbersOfBounce(id, state.bounce);
+    BsdfPair pair = evalAndSampleBsdf(bsdf, wo, light.wi, u.direction, u.lobe);
+    result.hasShadowRay = samples && makeShadowRay(si, light, pair.light, state, result.shadowRay);
     if (hasFeature(kFeatureMedia) && result.hasShadowRay) {
         result.shadowRay.contribution *= mediaTransmittance(ray.media, si, bsdf.medium, result.shadowRay);
     }
     result.state = state;
-    result.hasNextRay = state.bounce < render.maxBounces && bouncePath(id, si, bsdf, wo, ray.media, result.ray, result.state);
+    result.hasNextRay = state.bounce < render.maxBounces && continuePath(pair.next, u, si, bsdf, ray.media, result.ray, result.state);
     return result;
 }
 

@@ -134,10 +134,7 @@ float passedInterface(Principled p, vec2 ab, vec3 dielectric)
     return passed;
 }
 
-bool transmits(Principled p)
-{
-    return hasFeature(kFeatureTransmission) && greatest(p.transmitted) > 0.0;
-}
+#define transmits(p) (hasFeature(kFeatureTransmission) && greatest((p).transmitted) > 0.0)
 
 // Of what the interface samples, the share that it reflects at a microfacet.
 float reflectedShare(Principled p, InterfaceFresnel fresnel)
@@ -483,8 +480,8 @@ BsdfSample sampleDelta(Principled p, uint lobe, vec3 wo, float u)
     return BsdfSample(wi, weight, 0.0, eta, kBsdfDelta | kBsdfTransmission);
 }
 
-// The weight is that of all lobes together, divided by the density of the mixture. uLobe chooses the lobe.
-BsdfSample samplePrincipled(Principled p, vec3 wo, vec2 u, float uLobe)
+// uLobe chooses the lobe. Unweighted unless delta: the weight is that of all lobes together, divided by the density of the mixture.
+BsdfSample samplePrincipledDirection(Principled p, vec3 wo, vec2 u, float uLobe)
 {
     uint lobe = chooseLobe(p, uLobe);
     if ((lobe == kLobeInterface && p.smooth_) || (hasFeature(kFeatureClearcoat) && lobe == kLobeCoat && p.coatSmooth)) {
@@ -512,10 +509,15 @@ BsdfSample samplePrincipled(Principled p, vec3 wo, vec2 u, float uLobe)
     if (!valid) {
         return BsdfSample(wi, vec3(0.0), 0.0, 1.0, 0u);
     }
-    BsdfEval all = evalPrincipled(p, wo, wi);
     bool bends = lobe == kLobeThrough || p.solid;
     float eta = below && bends ? p.eta : 1.0;
-    return BsdfSample(wi, all.pdf > 0.0 ? all.f / all.pdf : vec3(0.0), all.pdf, eta, below ? kBsdfTransmission : 0u);
+    return BsdfSample(wi, vec3(0.0), 0.0, eta, kBsdfUnweighted | (below ? kBsdfTransmission : 0u));
+}
+
+BsdfSample samplePrincipled(Principled p, vec3 wo, vec2 u, float uLobe)
+{
+    BsdfSample s = samplePrincipledDirection(p, wo, u, uLobe);
+    return weighted(s, evalPrincipled(p, wo, s.wi));
 }
 
 #endif

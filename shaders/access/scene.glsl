@@ -122,10 +122,7 @@ uint primitiveOf(Record record)
     return record.t0.w;
 }
 
-bool isSphere(Record record)
-{
-    return hasFeature(kFeatureSpheres) && (record.t1.w & kSphereBit) != 0u;
-}
+#define isSphere(record) (hasFeature(kFeatureSpheres) && ((record).t1.w & kSphereBit) != 0u)
 
 bool isSliver(Record record)
 {
@@ -133,10 +130,7 @@ bool isSliver(Record record)
 }
 
 // Neither opaque nor transparent all over.
-bool hasAlpha(Record record)
-{
-    return hasFeature(kFeatureAlpha) && (record.t1.w & kAlphaBit) != 0u;
-}
+#define hasAlpha(record) (hasFeature(kFeatureAlpha) && ((record).t1.w & kAlphaBit) != 0u)
 
 uint materialOf(Record record)
 {

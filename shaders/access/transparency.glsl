@@ -63,9 +63,8 @@ Crossing crossingAt(Record record, PathRay ray, vec3 direction, PathHit hit, boo
 
 // Whether the ray goes on behind the surface; `weight` is then or otherwise what its throughput is multiplied by. The two sides of a sphere
 // draw for themselves.
-bool isPassed(SampleId id, uint bounce, Record record, PathRay ray, PathHit hit, out vec3 weight)
+bool isPassed(SampleId id, uint bounce, Record record, PathRay ray, PathHit hit, Crossing crossing, out vec3 weight)
 {
-    Crossing crossing = crossingAt(record, ray, ray.direction, hit, bounce == 0u);
     bool leaves = isSphere(record) && dot(ray.origin + ray.direction * hit.t - floatsOf(record.t0), ray.direction) > 0.0;
     uint bits = hash4(uvec4(id.pixel, id.index, kDimensionAlpha | bounce << 1u | uint(leaves), id.seed ^ primitiveOf(record) * 0x9e3779b9u)).x;
     if (!hasFeature(kFeatureThinWalls)) {
@@ -80,71 +79,79 @@ bool isPassed(SampleId id, uint bounce, Record record, PathRay ray, PathHit hit,
 
 struct VisibleHit {
     PathHit hit;
-    vec3 weight;  // of the path's throughput
+    vec3 weight;  // of what the ray carries
 };
 
-// The closest hit that the ray does not pass.
-VisibleHit traceVisible(SampleId id, uint bounce, PathRay ray, inout Steps steps)
+// A ray on its way through surfaces with alpha.
+struct Passage {
+    PathRay ray;
+    vec3 direction;  // unit
+    Query query;
+    bool isShadow;  // each surface dims it; else each stops it or lets it pass
+};
+
+Passage passageOf(PathRay ray)
 {
-    Query query = anyHit();
+    return Passage(ray, ray.direction, anyHit(), false);
+}
+
+// Only surfaces with alpha are looked for.
+Passage passageOf(ShadowRay ray)
+{
+    return Passage(PathRay(ray.origin, ray.source, ray.direction, 0u), normalizeSafely(ray.direction),
+                   Query(ray.tMax, 0.0, kNoPrimitive, ray.target, true), true);
+}
+
+// The first hit that the ray does not pass, or of a shadow ray what all of them let through. Both in one function, so that trace_paths has
+// one copy of the traversal. `id`, `bounce`: not of shadow rays.
+VisibleHit follow(SampleId id, uint bounce, Passage passage, inout Steps steps)
+{
     if (!hasFeature(kFeatureAlpha)) {
-        return VisibleHit(traceClosest(ray, query, steps), vec3(1.0));
+        return VisibleHit(traceClosest(passage.ray, passage.query, steps), vec3(1.0));
     }
     PathHit hit;
     vec3 weight = vec3(1.0);
     uint passed = 0u;
     bool passes = false;
     do {
-        hit = traceClosest(ray, query, steps);
+        hit = traceClosest(passage.ray, passage.query, steps);
         passes = false;
         if (hit.record != kNoRecord) {
             Record record = fetchRecord(hit.record);
             if (hasAlpha(record)) {
-                vec3 factor;
-                passes = isPassed(id, bounce, record, ray, hit, factor);
+                Crossing crossing = crossingAt(record, passage.ray, passage.direction, hit, !passage.isShadow && bounce == 0u);
+                vec3 factor = crossing.through;
+                passes = any(greaterThan(weight * factor, vec3(0.0)));
+                if (!passage.isShadow) {
+                    passes = isPassed(id, bounce, record, passage.ray, hit, crossing, factor);
+                }
                 weight *= factor;
             }
-            query.afterT = hit.t;
-            query.afterPrimitive = primitiveOf(record);
+            passage.query.afterT = hit.t;
+            passage.query.afterPrimitive = primitiveOf(record);
         }
         ++passed;
     } while (passes && passed <= kMaxPassed);
     if (passes) {
         reportTransparencyCap();
+        weight = passage.isShadow ? vec3(0.0) : weight;
     }
     return VisibleHit(hit, weight);
 }
 
-// What the shadow ray's way lets through, per channel, in [0, 1].
-vec3 transmittance(ShadowRay shadow, inout Steps steps)
+VisibleHit traceVisible(SampleId id, uint bounce, PathRay ray, inout Steps steps)
 {
+    return follow(id, bounce, passageOf(ray), steps);
+}
+
+// What the shadow ray's way lets through, per channel, in [0, 1].
+vec3 transmittance(ShadowRay ray)
+{
+    Steps uncounted = Steps(0u, 0u);
     bool metAlpha;
-    vec3 clear = vec3(isUnoccluded(shadow, steps, metAlpha) ? 1.0 : 0.0);
-    if (!hasFeature(kFeatureAlpha)) {
-        return clear;
-    }
-    PathRay ray = PathRay(shadow.origin, shadow.source, shadow.direction, 0u);
-    vec3 direction = normalizeSafely(shadow.direction);
-    Query query = Query(shadow.tMax, 0.0, kNoPrimitive, shadow.target, true);
-    uint passed = 0u;
-    bool going = metAlpha && clear.x > 0.0;
-    if (going) {
-        do {
-            PathHit hit = traceClosest(ray, query, steps);
-            going = hit.record != kNoRecord;
-            if (going) {
-                Record record = fetchRecord(hit.record);
-                clear *= crossingAt(record, ray, direction, hit, false).through;
-                query.afterT = hit.t;
-                query.afterPrimitive = primitiveOf(record);
-                going = any(greaterThan(clear, vec3(0.0)));
-            }
-            ++passed;
-        } while (going && passed <= kMaxPassed);
-    }
-    if (going) {
-        reportTransparencyCap();
-        clear = vec3(0.0);
+    vec3 clear = vec3(isUnoccluded(ray, uncounted, metAlpha) ? 1.0 : 0.0);
+    if (hasFeature(kFeatureAlpha) && metAlpha && clear.x > 0.0) {
+        clear = follow(SampleId(0u, 0u, 0u), 0u, passageOf(ray), uncounted).weight;
     }
     return clear;
 }
@@ -158,12 +165,6 @@ bool isClear(vec3 transmittance_)
 vec3 attenuated(vec3 contribution, vec3 clear)
 {
     return hasFeature(kFeatureAlpha) ? contribution * clear : contribution;
-}
-
-vec3 transmittance(ShadowRay shadow)
-{
-    Steps uncounted = Steps(0u, 0u);
-    return transmittance(shadow, uncounted);
 }
 
 #endif

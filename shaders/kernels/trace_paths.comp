@@ -47,58 +47,81 @@ void addLight(inout Path path, vec3 contribution, uint pathLength)
 
 void visitMiss(inout Path path)
 {
-    if (path.state.bounce == 0u) {
-        pathFirstHits[path.slot] = makeNoFirstHit();
-    }
     if (hasEnvironment()) {
         addLight(path, shadeMiss(path.ray, path.state), path.state.bounce);
     }
 }
 
-void traceShadowRay(inout Path path, ShadowRay ray, inout Work work)
+// The shadow ray that is followed through surfaces with alpha, if `passage` is a shadow ray's.
+struct Dimmed {
+    Passage passage;
+    vec3 contribution;
+    uint pathLength;
+};
+
+// Its light is added, or is still `dimmed` by surfaces.
+void traceShadowRay(inout Path path, ShadowRay ray, inout Work work, inout Steps steps, inout Dimmed dimmed)
 {
-    Steps steps = Steps(0u, 0u);
-    vec3 clear = transmittance(ray, steps);
+    bool metAlpha;
+    bool clear = isUnoccluded(ray, steps, metAlpha);
     ++work.shadow;
-    work.steps += steps.nodes + steps.primitives;
-    if (isClear(clear)) {
-        addLight(path, attenuated(ray.contribution, clear), path.state.bounce + 1u);
+    if (hasFeature(kFeatureAlpha) && clear && metAlpha) {
+        dimmed = Dimmed(passageOf(ray), ray.contribution, path.state.bounce + 1u);
+    } else if (clear) {
+        addLight(path, ray.contribution, path.state.bounce + 1u);
     }
 }
 
 // Adds light in the order in which the wavefront does. False if the path ends.
-bool visitSurface(inout Path path, PathHit hit, inout Work work)
+bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps steps, inout Dimmed dimmed, out FirstHit firstHit)
 {
     VertexResult vertex = shadeSurface(path.id, path.ray, hit, path.state);
-    if (path.state.bounce == 0u) {
-        pathFirstHits[path.slot] = vertex.firstHit;
-    }
+    firstHit = vertex.firstHit;
     if (hasEmissiveSurfaces()) {
         addLight(path, vertex.emitted, path.state.bounce);
     }
     if (vertex.hasShadowRay) {
-        traceShadowRay(path, vertex.shadowRay, work);
+        traceShadowRay(path, vertex.shadowRay, work, steps, dimmed);
     }
     path.ray = vertex.ray;
     path.state = vertex.state;
     return vertex.hasNextRay;
 }
 
-// Traces the path to its next surface. False if the path ends.
+// Traces the path to its next surface. False if the path ends. The loop goes on for a shadow ray that meets alpha.
 bool advance(inout Path path, inout Work work)
 {
     Steps steps = Steps(0u, 0u);
-    VisibleHit visible = traceVisible(path.id, path.state.bounce, path.ray, steps);
-    ++work.closest;
+    Dimmed dimmed = Dimmed(passageOf(path.ray), vec3(0.0), 0u);
+    bool alive = false;
+    bool again = false;
+    do {
+        VisibleHit met = follow(path.id, path.state.bounce, dimmed.passage, steps);
+        again = false;
+        if (hasFeature(kFeatureAlpha) && dimmed.passage.isShadow) {
+            if (isClear(met.weight)) {
+                addLight(path, dimmed.contribution * met.weight, dimmed.pathLength);
+            }
+        } else {
+            ++work.closest;
+            if (hasFeature(kFeatureThinWalls)) {
+                path.state.throughput *= met.weight;
+            }
+            bool isFirst = path.state.bounce == 0u;
+            FirstHit firstHit = makeNoFirstHit();
+            if (met.hit.record == kNoRecord) {
+                visitMiss(path);
+            } else {
+                alive = visitSurface(path, met.hit, work, steps, dimmed, firstHit);
+                again = dimmed.passage.isShadow;
+            }
+            if (isFirst) {
+                pathFirstHits[path.slot] = firstHit;
+            }
+        }
+    } while (hasFeature(kFeatureAlpha) && again);
     work.steps += steps.nodes + steps.primitives;
-    if (hasFeature(kFeatureThinWalls)) {
-        path.state.throughput *= visible.weight;
-    }
-    if (visible.hit.record == kNoRecord) {
-        visitMiss(path);
-        return false;
-    }
-    return visitSurface(path, visible.hit, work);
+    return alive;
 }
 
 void traceShare(uint entry, uint end, inout Work work)
@@ -111,16 +134,16 @@ void traceShare(uint entry, uint end, inout Work work)
                 path = takePath(activeQueue[entry]);
             }
             alive = advance(path, work);
-            if (!alive) {
+            bool isLast = work.steps >= kStepsPerThread;
+            if (!alive || isLast) {
                 pathRadiance[path.slot] = path.light;
-                entry += kNeighbours;
             }
+            if (alive && isLast) {
+                pathRays[path.slot] = path.ray;
+                pathStates[path.slot] = path.state;
+            }
+            entry += alive ? 0u : kNeighbours;
         } while (entry < end && work.steps < kStepsPerThread);
-    }
-    if (alive) {
-        pathRays[path.slot] = path.ray;
-        pathStates[path.slot] = path.state;
-        pathRadiance[path.slot] = path.light;
     }
     for (; entry < end; entry += kNeighbours) {
         nextQueue[atomicAdd(queueTails.next, 1u)] = activeQueue[entry];

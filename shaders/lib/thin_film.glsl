@@ -21,21 +21,20 @@ float schlickWeight(float cosine)
 }
 
 // One Gaussian of the fits: its response to a path difference, phase in radians per wave number.
-vec3 gaussianResponse(float amplitude, float wavenumber, float variance, float phase, vec3 shift)
+float gaussianResponse(float amplitude, float wavenumber, float variance, float phase, float shift)
 {
     float size = amplitude * sqrt(2.0 * kPi * variance) * portableExp(-variance * phase * phase) / 1.0685e-7;
-    vec3 turns = (wavenumber * phase + shift) * (0.5 / kPi);
-    turns = fract(turns + 0.5);  // sampleCircle begins at -pi
-    return size * vec3(sampleCircle(turns.x).x, sampleCircle(turns.y).x, sampleCircle(turns.z).x);
+    float turns = (wavenumber * phase + shift) * (0.5 / kPi);
+    return size * sampleCircle(fract(turns + 0.5)).x;  // sampleCircle begins at -pi
 }
 
 // Linear Rec.709 response to the path difference in nm; the shifts of the phase are per channel.
 vec3 filmResponse(float difference, vec3 shift)
 {
     float phase = 2.0 * kPi * 1e-9 * difference;
-    float x = gaussianResponse(5.4856e-13, 1.6810e6, 4.3278e9, phase, shift).x + gaussianResponse(9.7470e-14, 2.2399e6, 4.5282e9, phase, shift).x;
-    float y = gaussianResponse(4.4201e-13, 1.7953e6, 9.3046e9, phase, shift).y;
-    float z = gaussianResponse(5.2481e-13, 2.2084e6, 6.6121e9, phase, shift).z;
+    float x = gaussianResponse(5.4856e-13, 1.6810e6, 4.3278e9, phase, shift.x) + gaussianResponse(9.7470e-14, 2.2399e6, 4.5282e9, phase, shift.x);
+    float y = gaussianResponse(4.4201e-13, 1.7953e6, 9.3046e9, phase, shift.y);
+    float z = gaussianResponse(5.2481e-13, 2.2084e6, 6.6121e9, phase, shift.z);
     return vec3(3.2404542 * x - 1.5371385 * y - 0.4985314 * z, -0.9692660 * x + 1.8760108 * y + 0.0415560 * z,
                 0.0556434 * x - 0.2040259 * y + 1.0572252 * z);
 }
@@ -62,8 +61,13 @@ vec3 filmReflectance(float cosine, float filmIor, float thickness, vec3 baseF0)
     vec3 both = min(outer * inner, vec3(0.9999));
     vec3 once = through * through * inner / (1.0 - both);
     vec3 power = sqrt(both);
-    vec3 sum = outer + once + (once - through) * power * 2.0 * filmResponse(difference, shift);
-    sum += (once - through) * both * 2.0 * filmResponse(2.0 * difference, 2.0 * shift);
+    vec3 sum = outer + once, damping = power;
+    float m = 1.0;
+    do {
+        sum += (once - through) * damping * 2.0 * filmResponse(m * difference, m * shift);
+        damping = both;
+        m += 1.0;
+    } while (m <= 2.0);
     return clamp(sum, 0.0, 1.0);
 }
 

@@ -31,9 +31,13 @@ void main()
         EXPECT_TRUE(!alive || c.state.bounce == before.bounce + 1u);
         EXPECT_TRUE(!alive || distance(decodeNormal(c.state.normal), bsdf.frame.z) < 7e-5);
         // The sampled direction can be evaluated, with the same density, unless it is of a delta lobe.
-        float uRoulette;
-        BsdfSample s = sampleNextRay(SampleId(render.seed, TEST_THREAD, 0u), bsdf, wo, before.bounce, uRoulette);
+        BounceNumbers u = numbersOfBounce(SampleId(render.seed, TEST_THREAD, 0u), before.bounce);
+        BsdfSample s = sampleBsdf(bsdf, wo, u.direction, u.lobe);
         BsdfEval f = evalBsdf(bsdf, wo, s.wi);
+        // Together they give the same.
+        vec3 elsewhere = normalize(bsdf.frame.z + 0.5 * bsdf.frame.x);
+        BsdfPair pair = evalAndSampleBsdf(bsdf, wo, elsewhere, u.direction, u.lobe);
+        EXPECT_TRUE(pair.next == s && pair.light == evalBsdf(bsdf, wo, elsewhere));
         bool delta = (s.flags & kBsdfDelta) != 0u;
         EXPECT_TRUE(delta != hasNonDelta(bsdf) && delta == (s.pdf == 0.0));
         EXPECT_TRUE(!delta || f.pdf == 0.0 && f.f == vec3(0.0));

@@ -37,7 +37,8 @@ bool sampleLightOfRound(SampleId id, SurfaceInteraction si, Bsdf bsdf, vec3 wo, 
         id = splitSample(id, lightRound.light, lightRound.lightSample, lightRound.lightSamples);
         light.probability = 1.0;
     }
-    return sampleChosenLight(id, light, si, bsdf, wo, state, ray);
+    LightSample sampled = sampleChosenLight(id, light, si, bsdf, state.bounce);
+    return makeShadowRay(si, sampled, evalBsdf(bsdf, wo, sampled.wi), state, ray);
 }
 
 #endif

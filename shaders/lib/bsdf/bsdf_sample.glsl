@@ -10,6 +10,7 @@ struct BsdfEval {
 
 const uint kBsdfDelta = 1u;
 const uint kBsdfTransmission = 2u;
+const uint kBsdfUnweighted = 4u;  // `weight` and `pdf` are still to be set, by `weighted`
 
 // A sampled direction. A weight of zero ends the path.
 struct BsdfSample {
@@ -19,5 +20,16 @@ struct BsdfSample {
     float eta;    // index of refraction on wi's side over that on wo's; 1 for reflection
     uint flags;
 };
+
+// `f`: the BSDF at s.wi. Samples that have their weight keep it.
+BsdfSample weighted(BsdfSample s, BsdfEval f)
+{
+    if ((s.flags & kBsdfUnweighted) != 0u) {
+        s.weight = f.pdf > 0.0 ? f.f / f.pdf : vec3(0.0);
+        s.pdf = f.pdf;
+        s.flags &= ~kBsdfUnweighted;
+    }
+    return s;
+}
 
 #endif

@@ -1,0 +1,91 @@
+#include "host/gpu/specialize.hpp"
+#include "kernels.hpp"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/features.h"
+
+#include <gtest/gtest.h>
+#include <spirv-tools/libspirv.hpp>
+
+#include <set>
+
+namespace glim {
+namespace {
+
+// Numbers of the SPIR-V specification, sections 3.20 and 3.49.
+constexpr std::uint32_t kOpDecorate = 71, kNoContraction = 42, kSpecId = 1;
+const std::set<std::uint32_t> kFloatArithmetic = {127, 129, 131, 133, 136, 140, 141, 142, 143, 144, 145, 146, 147, 148};
+
+const EmbeddedShader* const kKernels[] = {&kernels::accumulate,
+                                          &kernels::course_bounce,
+                                          &kernels::course_sample_lights,
+                                          &kernels::generate_rays,
+                                          &kernels::sample_lights_and_bounce,
+                                          &kernels::show_aov,
+                                          &kernels::size_dispatch,
+                                          &kernels::trace_closest,
+                                          &kernels::trace_paths,
+                                          &kernels::trace_shadow};
+
+const uint kFeatureMasks[] = {0, kFeatureTriangleLights, kFeatureMirror | kFeatureDielectric | kFeatureSphereLights, kFeaturePrincipled,
+                              kFeaturePrincipled | kFeatureTextures | kFeatureNormalMaps | kFeatureEnvironment | kFeatureEnvironmentMap,
+                              kAllFeatures};
+
+struct Marks {
+    std::size_t specIds = 0, unmarked = 0, floats = 0;
+};
+
+Marks marksOf(const std::vector<std::uint32_t>& words)
+{
+    Marks marks;
+    std::set<std::uint32_t> exact;
+    for (std::size_t at = 5; at < words.size(); at += words[at] >> 16) {
+        const std::uint32_t opcode = words[at] & 0xffff;
+        if (opcode == kOpDecorate) {
+            marks.specIds += words[at + 2] == kSpecId;
+            if (words[at + 2] == kNoContraction) {
+                exact.insert(words[at + 1]);
+            }
+        }
+        if (kFloatArithmetic.count(opcode) != 0) {
+            ++marks.floats;
+            marks.unmarked += exact.count(words[at + 2]) == 0;
+        }
+    }
+    return marks;
+}
+
+TEST(SpecializeTest, KernelsStayValidAndExact)
+{
+    spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_2);
+    std::string message;
+    tools.SetMessageConsumer([&message](spv_message_level_t, const char*, const spv_position_t&, const char* text) { message = text; });
+    spvtools::ValidatorOptions options;
+    options.SetScalarBlockLayout(true);
+    for (const EmbeddedShader* kernel : kKernels) {
+        for (const uint features : kFeatureMasks) {
+            SCOPED_TRACE(std::string(kernel->name) + " with features " + std::to_string(features));
+            const std::vector<std::uint32_t> words = specialize(*kernel, {{kSpecWorkgroup, 64}, {kSpecFeatures, features}});
+            EXPECT_TRUE(tools.Validate(words.data(), words.size(), options)) << message;
+            const Marks marks = marksOf(words);
+            EXPECT_EQ(marks.specIds, 0U);
+            EXPECT_EQ(marks.unmarked, 0U) << "of " << marks.floats << " float operations";
+        }
+    }
+}
+
+// The size of the code decides how long drivers take to start. 2: measured 2.4.
+TEST(SpecializeTest, CodeThatASceneDoesNotNeedIsGone)
+{
+    const auto size = [](uint features) { return specialize(kernels::trace_paths, {{kSpecFeatures, features}}).size(); };
+    EXPECT_LT(2 * size(kFeatureTriangleLights), size(kAllFeatures));
+}
+
+TEST(SpecializeTest, BrokenCodeIsRefused)
+{
+    const std::uint32_t words[] = {0x07230203, 0x00010500, 0, 10, 0, 0x00030000};
+    const EmbeddedShader broken{"broken", words, words + 6};
+    EXPECT_ANY_THROW(specialize(broken, {}));
+}
+
+}  // namespace
+}  // namespace glim
