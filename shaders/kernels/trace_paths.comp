@@ -47,6 +47,9 @@ void addLight(inout Path path, vec3 contribution, uint pathLength)
 
 void visitMiss(inout Path path)
 {
+    if (path.state.bounce == 0u) {
+        pathFirstHits[path.slot] = makeNoFirstHit();
+    }
     if (hasEnvironment()) {
         addLight(path, shadeMiss(path.ray, path.state), path.state.bounce);
     }
@@ -73,10 +76,12 @@ void traceShadowRay(inout Path path, ShadowRay ray, inout Work work, inout Steps
 }
 
 // Adds light in the order in which the wavefront does. False if the path ends.
-bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps steps, inout Dimmed dimmed, out FirstHit firstHit)
+bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps steps, inout Dimmed dimmed)
 {
     VertexResult vertex = shadeSurface(path.id, path.ray, hit, path.state);
-    firstHit = vertex.firstHit;
+    if (path.state.bounce == 0u) {
+        pathFirstHits[path.slot] = vertex.firstHit;
+    }
     if (hasEmissiveSurfaces()) {
         addLight(path, vertex.emitted, path.state.bounce);
     }
@@ -107,16 +112,11 @@ bool advance(inout Path path, inout Work work)
             if (hasFeature(kFeatureThinWalls)) {
                 path.state.throughput *= met.weight;
             }
-            bool isFirst = path.state.bounce == 0u;
-            FirstHit firstHit = makeNoFirstHit();
             if (met.hit.record == kNoRecord) {
                 visitMiss(path);
             } else {
-                alive = visitSurface(path, met.hit, work, steps, dimmed, firstHit);
+                alive = visitSurface(path, met.hit, work, steps, dimmed);
                 again = dimmed.passage.isShadow;
-            }
-            if (isFirst) {
-                pathFirstHits[path.slot] = firstHit;
             }
         }
     } while (hasFeature(kFeatureAlpha) && again);
@@ -134,16 +134,16 @@ void traceShare(uint entry, uint end, inout Work work)
                 path = takePath(activeQueue[entry]);
             }
             alive = advance(path, work);
-            bool isLast = work.steps >= kStepsPerThread;
-            if (!alive || isLast) {
+            if (!alive) {
                 pathRadiance[path.slot] = path.light;
+                entry += kNeighbours;
             }
-            if (alive && isLast) {
-                pathRays[path.slot] = path.ray;
-                pathStates[path.slot] = path.state;
-            }
-            entry += alive ? 0u : kNeighbours;
         } while (entry < end && work.steps < kStepsPerThread);
+    }
+    if (alive) {
+        pathRays[path.slot] = path.ray;
+        pathStates[path.slot] = path.state;
+        pathRadiance[path.slot] = path.light;
     }
     for (; entry < end; entry += kNeighbours) {
         nextQueue[atomicAdd(queueTails.next, 1u)] = activeQueue[entry];
