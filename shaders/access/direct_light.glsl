@@ -21,12 +21,6 @@ LightContext previousContext(PathRay ray, PathState state)
     return LightContext(ray.origin, n, n);
 }
 
-LightHit makeLightHit(SurfaceInteraction si, PathRay ray, PathHit hit)
-{
-    uint emitter = si.emitter - 1u;
-    return LightHit(fetchEmitter(emitter).light, emitter, hit.t, abs(dot(si.ng, ray.direction)), ray.direction);
-}
-
 // MIS weights. The including file defines them: path_vertex.glsl, and course/direct_light.glsl for the course. The first is of light that
 // a ray has hit, if light sampling has the density lightPdf for it; the second is of a light sample, a delta light's if lightPdf is 0.
 float misWeightOfHit(PathState state, float lightPdf);
@@ -39,8 +33,7 @@ vec3 weightedEnvironment(PathRay ray, PathState state)
         return vec3(0.0);
     }
     vec3 radiance = hasEnvironmentMap() ? environmentRadiance(ray.direction) : render.environment;
-    LightHit hit = LightHit(render.environmentLight, 0u, kInfinity, state.cosine, ray.direction);
-    return radiance * misWeightOfHit(state, pdfLight(previousContext(ray, state), hit));
+    return radiance * misWeightOfHit(state, pdfEnvironment(ray.direction, state.cosine));
 }
 
 // Radiance that the surface at the end of a ray emits back along it, times its MIS weight.
@@ -50,7 +43,8 @@ vec3 weightedEmission(SurfaceInteraction si, MaterialData material, PathRay ray,
     if (all(equal(emission, vec3(0.0))) || !(state.pdf > 0.0)) {
         return emission;
     }
-    return emission * misWeightOfHit(state, pdfLight(previousContext(ray, state), makeLightHit(si, ray, hit)));
+    float pdf = pdfEmitter(previousContext(ray, state), si.emitter - 1u, hit.t, abs(dot(si.ng, ray.direction)));
+    return emission * misWeightOfHit(state, pdf);
 }
 
 // One light by power.

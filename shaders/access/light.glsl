@@ -19,15 +19,6 @@ struct LightContext {
     vec3 ns;  // unit; for a chance hit PathState's, rounded: code that selects lights by it must round it in both cases
 };
 
-// A light met by chance.
-struct LightHit {
-    uint light;
-    uint emitter;   // index; of surfaces
-    float t;        // distance
-    float cosine;   // |cos| at the emitter; for the environment: at ns, PathState's, unrounded
-    vec3 wi;        // the ray's direction
-};
-
 // Light that could arrive at a point.
 struct LightSample {
     vec3 wi;           // unit, towards the light
@@ -68,14 +59,18 @@ float pdfSurfaceLight(FlatLight light, float areaPdf, LightContext context, floa
     return light.probability * areaPdf * t * t / cosine;
 }
 
-// Density per steradian with which selecting and sampling lights would have found the hit.
-float pdfLight(LightContext context, LightHit hit)
+// Density per steradian with which selecting and sampling lights would have found the emitter that a ray has hit at distance t and
+// |cos| `cosine`.
+float pdfEmitter(LightContext context, uint emitter, float t, float cosine)
 {
-    FlatLight light = fetchLight(hit.light);
-    if (hasEnvironment() && light.kind == kEnvironmentLight) {
-        return light.probability * (hasEnvironmentMap() ? pdfEnvironmentMap(hit.wi) : pdfCosineHemisphere(hit.cosine));
-    }
-    return pdfSurfaceLight(light, fetchEmitter(hit.emitter).areaPdf, context, hit.t, hit.cosine);
+    FlatEmitter data = fetchEmitter(emitter);
+    return pdfSurfaceLight(fetchLight(data.light), data.areaPdf, context, t, cosine);
+}
+
+// The same of the environment in the direction wi. cosine: against the normal that lights were sampled for.
+float pdfEnvironment(vec3 wi, float cosine)
+{
+    return fetchLight(render.environmentLight).probability * (hasEnvironmentMap() ? pdfEnvironmentMap(wi) : pdfCosineHemisphere(cosine));
 }
 
 // Whether its emission changes over the surface, by a texture, coverage or a coat.

@@ -4,7 +4,7 @@
 // Metal and dielectric share the distribution of microfacets, and Schlick's reflectance is linear in F0 and F90. So the mix of the two
 // BSDFs by `metallic` is exactly one GGX lobe with mixed F0 and F90, and a diffuse lobe of colour base (1 - metallic). The specification's
 // own coupling of the two reflects up to 1.68 of the light; here the diffuse lobe gets what the interface lets through both ways, and
-// light that single scattering loses between microfacets comes back (lib/bsdf/multiple_scattering.glsl). Both are sampled by the cosine.
+// light that single scattering loses between microfacets comes back (lib/bsdf/multiple_scattering.glsl). Both make up the diffuse lobe.
 // A coat or sheen leaves to what is below the lesser of 1 - E(wo) and 1 - E(wi): reciprocal, and no energy is created over any base.
 #ifndef GLIM_ACCESS_PRINCIPLED
 #define GLIM_ACCESS_PRINCIPLED
@@ -58,7 +58,9 @@ struct Principled {
     // What lies below it.
     vec2 baseReflectance;    // F0 and F90 of the interface over the diffuse lobe, by its strongest channel
     float baseFms;           // its multipleScatteringFresnel
-    vec3 scattered, diffuse; // of the cosine lobes: what does not depend on wi (evalAbove)
+    vec3 scattered, diffuse; // of the diffuse lobe: what does not depend on wi (evalAbove)
+    float scatteredShare;    // of its samples: by sampleMultipleScattering, else by the cosine
+    float scatteredAlpha;
     vec3 diffuseThrough;     // of the cosine lobe on the far side
     AlbedoRow row;
     // What lies above it.
@@ -304,6 +306,8 @@ Principled makePrincipled(PrincipledInput m, vec3 wo)
     p.pSheen *= scale;
     float diffuseScale = 1.0 / (kPi * (p.solid ? 1.0 : max(1.0 - interfaceAlbedo(p, average), 1e-6)));
     p.scattered = scattered / (kPi * max(1.0 - average.x - average.y, 1e-6));
+    p.scatteredShare = channelMean(scattered) / max(channelMean(scattered + diffuse), 1e-30);
+    p.scatteredAlpha = max(tableAlpha, kMinAlpha);
     p.diffuse = diffuse * diffuseScale;
     p.diffuseThrough = through * diffuseScale;
     if (hasFeature(kFeatureDiffuseTransmission) && m.layers.medium != 0u) {
@@ -370,10 +374,15 @@ BsdfEval evalBelow(Principled p, InterfaceEval e, vec3 wo, vec3 wi)
     return result;
 }
 
+float pdfDiffuse(Principled p, float cosine)
+{
+    return mix(pdfCosineHemisphere(cosine), pdfMultipleScattering(cosine, p.scatteredAlpha), p.scatteredShare);
+}
+
 BsdfEval evalAbove(Principled p, InterfaceEval e, vec3 wo, vec3 wi)
 {
     vec3 diffuse = p.scattered * (1.0 - e.ab.x - e.ab.y) + p.diffuse * passedInterface(p, e.ab, e.dielectric);
-    BsdfEval result = BsdfEval(diffuse * wi.z, p.pDiffuse * pdfCosineHemisphere(wi.z));
+    BsdfEval result = BsdfEval(diffuse * wi.z, p.pDiffuse * pdfDiffuse(p, wi.z));
     if (!p.smooth_) {
         result.f += e.fresnel.both * evalGgx(wo, wi, p.alpha);
         result.pdf += p.pInterface * reflectedShare(p, e.fresnel) * pdfGgx(wo, wi, p.alpha);
@@ -500,6 +509,8 @@ BsdfSample samplePrincipledDirection(Principled p, vec3 wo, vec2 u, float uLobe)
             fresnel = interfaceFresnel(p, dot(wo, h));
         }
         wi = sampleInterface(p, fresnel, wo, h, uLobe, below);
+    } else if (lobe == kLobeDiffuse && uLobe < p.scatteredShare) {
+        wi = sampleMultipleScattering(u, p.scatteredAlpha);
     } else {
         wi = sampleCosineHemisphere(u);
         below = lobe == kLobeThrough;

@@ -66,12 +66,11 @@ void comparePdf(Receiver receiver, LightSample light, inout Result result)
         return;
     }
     SurfaceInteraction met = makeSurfaceInteraction(PathRay(origin, receiver.surface.primitive, light.wi, 0u), hit);
-    FlatEmitter emitter = fetchEmitter(met.emitter - 1u);
     float cosine = abs(dot(met.ng, light.wi));
     // Nearer to grazing the rounding of the directions alone is more than the tolerance.
     if (cosine > 3e-3) {
         LightContext context = LightContext(origin, receiver.surface.ns, receiver.surface.ns);
-        float pdf = pdfLight(context, LightHit(emitter.light, met.emitter - 1u, hit.t, cosine, light.wi));
+        float pdf = pdfEmitter(context, met.emitter - 1u, hit.t, cosine);
         result.pdfError = max(result.pdfError, abs(pdf - light.pdf) / light.pdf);
         ++result.compared;
     }

@@ -6,6 +6,9 @@
 #ifndef GLIM_LIB_BSDF_MULTIPLE_SCATTERING
 #define GLIM_LIB_BSDF_MULTIPLE_SCATTERING
 
+#include "lib/portable.glsl"
+#include "lib/warp.glsl"
+
 // F0 a + F90 b for single scattering; `x` is a, `y` is b.
 vec3 singleScatteringAlbedo(vec2 ab, vec3 f0, float f90)
 {
@@ -25,6 +28,23 @@ vec3 multipleScatteringFresnel(vec2 average, vec3 f0, float f90)
 vec3 interfaceAlbedo(vec2 ab, vec3 f0, float f90, vec3 fms)
 {
     return singleScatteringAlbedo(ab, f0, f90) + fms * (1.0 - ab.x - ab.y);
+}
+
+// Multiply scattered light goes as cos (1 - a - b). Of a rather smooth interface that is nearly all along the surface: 1 - a - b falls as
+// alpha^2 / cos^2 there. So the density of the cosine is proportional to cos / (cos^2 + alpha^2), by inversion. By the cosine alone, weights
+// reach 65.
+vec3 sampleMultipleScattering(vec2 u, float alpha)
+{
+    float alpha2 = alpha * alpha;
+    float cosine2 = min(alpha2 * (portableExp2(u.x * portableLog2(1.0 + 1.0 / alpha2)) - 1.0), 1.0);
+    return vec3(sampleCircle(u.y) * sqrt(1.0 - cosine2), sqrt(cosine2));
+}
+
+// Per steradian. cosine > 0.
+float pdfMultipleScattering(float cosine, float alpha)
+{
+    float alpha2 = alpha * alpha;
+    return cosine / ((cosine * cosine + alpha2) * (kPi * 0.69314718056) * portableLog2(1.0 + 1.0 / alpha2));
 }
 
 #endif
