@@ -26,7 +26,10 @@ const EmbeddedShader* const kKernels[] = {&kernels::accumulate,
                                           &kernels::trace_paths,
                                           &kernels::trace_shadow};
 
-const uint kFeatureMasks[] = {0, kFeatureTriangleLights, kFeatureMirror | kFeatureDielectric | kFeatureSphereLights, kFeaturePrincipled,
+const uint kFeatureMasks[] = {0,
+                              kFeatureTriangleLights,
+                              kFeatureMirror | kFeatureDielectric | kFeatureSphereLights,
+                              kFeaturePrincipled,
                               kFeaturePrincipled | kFeatureTextures | kFeatureNormalMaps | kFeatureEnvironment | kFeatureEnvironmentMap,
                               kAllFeatures};
 

@@ -378,8 +378,8 @@ TEST(BsdfSamplingTest, MixturesFollowTheirDensity)
     EXPECT_LE(summary.weights[summary.weights.size() / 2], 2.0F);
 }
 
-// What a rather smooth metal scatters more than once goes along the surface: (1 - E(wi)) / (1 - mean E) is 100 and more there. Sampled by the
-// cosine, weights were 65.
+// What a rather smooth metal scatters more than once goes along the surface: (1 - E(wi)) / (1 - mean E) is 100 and more there. Sampled by
+// the cosine, weights were 65.
 TEST(BsdfSamplingTest, MetalsSeenAlongTheSurfaceHaveSmallWeights)
 {
     std::vector<BsdfCase> cases;
