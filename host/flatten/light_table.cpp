@@ -132,6 +132,7 @@ public:
         }
         FlatLight light{};
         light.position = punctual.position;
+        light.radius = punctual.range;
         light.direction = punctual.direction;
         light.intensity = punctual.intensity;
         light.cosInner = punctual.cosInner;

@@ -186,8 +186,10 @@ LightSample samplePunctualLight(FlatLight light, vec3 from)
         return kNoLight;
     }
     vec3 wi = towards / sqrt(distance2);
-    float falloff =
-        light.kind == kSpotLight ? spotFalloff(-dot(wi, light.direction), light.cosInner, light.cosOuter) : 1.0;
+    float falloff = rangeFalloff(distance2, light.radius);
+    if (light.kind == kSpotLight) {
+        falloff *= spotFalloff(-dot(wi, light.direction), light.cosInner, light.cosOuter);
+    }
     return LightSample(wi, light.intensity * falloff / distance2 / light.probability, 0.0, light.position, kNoPrimitive, 1.0);
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace glim::test {
 namespace {
@@ -66,13 +67,10 @@ TEST(GltfLights, SpotConesComeAsCosines)
     EXPECT_LT(glm::length(narrow.direction - glm::vec3(1, 0, 0)), kTolerance);
 }
 
-TEST(GltfLights, ARangeIsIgnoredAndSaidSo)
+TEST(GltfLights, ReadsTheRange)
 {
-    GltfBuilder builder = withTriangle();
-    builder.document["extensions"]["KHR_lights_punctual"]["lights"] = json::array({{{"type", "point"}, {"range", 3}}});
-    builder.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
-    const Scene scene = load(builder);
-    EXPECT_NE(::testing::PrintToString(scene.warnings).find("the range of lights is ignored: lights[0]"), std::string::npos);
+    EXPECT_EQ(readLight({{"type", "point"}, {"range", 3}}).range, 3.0F) << "scale does not change it";
+    EXPECT_EQ(readLight({{"type", "point"}}).range, std::numeric_limits<float>::infinity());
 }
 
 Scene readCamera(const json& camera, json node)

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace glim {
 namespace {
@@ -13,6 +14,8 @@ namespace {
 struct Case {
     float cosine, cosInner, cosOuter;
     float falloff;
+    float distance = 1.0F, range = std::numeric_limits<float>::infinity();
+    float window = 1.0F;
 };
 
 // The falloff with a ramp of .001 at least, as KHR_lights_punctual suggests it.
@@ -46,6 +49,22 @@ TEST(PunctualTest, H16SpotFalloff)
     }
     printHardCase("H16", "spots from .2 degrees", static_cast<double>(cases.size()), "falloff within rounding",
                   "a ramp of at least .001: off by " + figure(static_cast<double>(worst)));
+}
+
+// KHR_lights_punctual: max(min(1 - (distance / range)^4, 1), 0), before the inverse square.
+TEST(PunctualTest, RangeFalloff)
+{
+    std::vector<Case> cases;
+    for (const float range : {1e-3F, 2.0F, 1e6F}) {
+        for (int i = 0; i <= 40; ++i) {
+            Case c{1.0F, 1.0F, 0.0F, 1.0F, 0.05F * static_cast<float>(i) * range, range, 0.0F};
+            c.window =
+                static_cast<float>(std::clamp(1.0 - std::pow(static_cast<double>(c.distance) / static_cast<double>(range), 4.0), 0.0, 1.0));
+            cases.push_back(c);
+        }
+    }
+    cases.push_back({1.0F, 1.0F, 0.0F, 1.0F, 1e10F});  // no range
+    KernelTest(test_kernels::punctual_test).cases(cases).run();
 }
 
 }  // namespace

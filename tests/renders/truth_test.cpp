@@ -110,6 +110,9 @@ TEST(TruthTest, H16T9PointDirectionalAndSpotLight)
     PunctualLight light{"", PunctualLight::Kind::Point, glm::vec3(position), glm::vec3(down), glm::vec3(3, 5, 7), 0.95F, 0.9F};
     const glm::dvec3 fromPoint = reflected(glm::dvec3(3, 5, 7) * cosine / distance2);
     expectExactMean(renderScene(floorScene().light(light).scene(), direct(32)), fromPoint);
+    light.range = 1.5F * static_cast<float>(std::sqrt(distance2));
+    expectExactMean(renderScene(floorScene().light(light).scene(), direct(32)), fromPoint * (1.0 - 16.0 / 81.0));
+    light.range = std::numeric_limits<float>::infinity();
     light.kind = PunctualLight::Kind::Spot;
     expectExactMean(renderScene(floorScene().light(light).scene(), direct(32)), fromPoint);
     light.kind = PunctualLight::Kind::Directional;

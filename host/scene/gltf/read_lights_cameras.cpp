@@ -20,7 +20,7 @@ std::string nameOf(const GltfFile& file, const PlacedNode& node, const std::stri
     return name.empty() ? own : name;
 }
 
-PunctualLight readLight(const GltfFile& file, const PlacedNode& node, std::size_t index, const Scene& scene, Warnings& warnings)
+PunctualLight readLight(const GltfFile& file, const PlacedNode& node, std::size_t index, const Scene& scene)
 {
     const tinygltf::Light& source = file.model.lights[index];
     const std::string place = label("lights", index, source.name);
@@ -46,7 +46,7 @@ PunctualLight readLight(const GltfFile& file, const PlacedNode& node, std::size_
         light.cosOuter = static_cast<float>(std::cos(source.spot.outerConeAngle));
     }
     if (source.range > 0.0) {
-        warnings.add("the range of lights is ignored", place);
+        light.range = static_cast<float>(source.range);
     }
     return light;
 }
@@ -94,7 +94,7 @@ void readLightsAndCameras(const GltfFile& file, const std::vector<PlacedNode>& n
         const tinygltf::Node& source = file.model.nodes[node.index];
         if (const auto light = source.extensions.find("KHR_lights_punctual"); light != source.extensions.end()) {
             const auto index = static_cast<std::size_t>(light->second.Get("light").GetNumberAsInt());
-            scene.lights.push_back(readLight(file, node, index, scene, warnings));
+            scene.lights.push_back(readLight(file, node, index, scene));
         }
         if (source.camera >= 0) {
             scene.cameras.push_back(readCamera(file, node, static_cast<std::size_t>(source.camera), scene, warnings));
