@@ -26,7 +26,7 @@ TraversalRay makeTraversalRay(vec3 origin, vec3 direction)
 
 TriangleHit intersectTriangle(TraversalRay traversal, Record record, float tMax);
 
-float intersectRecordSphere(TraversalRay traversal, Record record, float tMax, bool isSource)
+float intersectSphere(TraversalRay traversal, Record record, float tMax, bool isSource)
 {
     return intersectSphere(traversal.origin, traversal.direction, floatsOf(record.t0), uintBitsToFloat(record.t1.x), tMax, isSource);
 }
@@ -35,7 +35,7 @@ float intersectRecordSphere(TraversalRay traversal, Record record, float tMax, b
 TriangleHit intersectRecord(TraversalRay traversal, Record record, float tMax, bool isSource)
 {
     if (isSphere(record)) {
-        return TriangleHit(intersectRecordSphere(traversal, record, tMax, isSource), vec2(0.0), 1.0);
+        return TriangleHit(intersectSphere(traversal, record, tMax, isSource), vec2(0.0), 1.0);
     }
     return isSource ? kNoTriangleHit : intersectTriangle(traversal, record, tMax);
 }
@@ -108,7 +108,7 @@ void meetRecord(TraversalRay traversal, uint index, uint source, Query query, in
     bool counts = true;
     if (hasFeature(kFeatureAlpha)) {
         if (isSphere(record) && !isAfter(query, hit.t, primitive)) {
-            hit = TriangleHit(intersectRecordSphere(traversal, record, best.hit.t, true), vec2(0.0), 1.0);  // the far side
+            hit = TriangleHit(intersectSphere(traversal, record, best.hit.t, true), vec2(0.0), 1.0);  // the far side
         }
         counts = isAfter(query, hit.t, primitive) && primitive != query.target && (hasAlpha(record) || !query.alphaOnly);
     }
