@@ -11,7 +11,6 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -159,12 +158,12 @@ struct PunctualLight {
     enum class Kind : std::uint32_t { Point, Directional, Spot };
     std::string name;
     Kind kind = Kind::Point;
-    glm::vec3 position{0.0F};                              // point, spot
-    glm::vec3 direction{0.0F, 0.0F, -1};                   // unit, the way light travels; directional, spot
-    glm::vec3 intensity{1.0F};                             // point, spot: W/sr; directional: W/m^2 on a surface facing it
-    float cosInner = 1.0F;                                 // spot: full intensity inside this angle,
-    float cosOuter = 0.0F;                                 // none outside this one
-    float range = std::numeric_limits<float>::infinity();  // point, spot: metres beyond which there is no light
+    glm::vec3 position{0.0F};             // point, spot
+    glm::vec3 direction{0.0F, 0.0F, -1};  // unit, the way light travels; directional, spot
+    glm::vec3 intensity{1.0F};            // point, spot: W/sr; directional: W/m^2 on a surface facing it
+    float cosInner = 1.0F;                // spot: full intensity inside this angle,
+    float cosOuter = 0.0F;                // none outside this one
+    float range = 0.0F;                   // point, spot: metres beyond which there is no light; 0: no limit
 };
 
 struct Camera {

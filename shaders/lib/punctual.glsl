@@ -10,11 +10,11 @@ float spotFalloff(float cosine, float cosInner, float cosOuter)
     return cosine <= cosOuter ? 0.0 : cosine >= cosInner ? 1.0 : ramp * ramp;
 }
 
-// What a light's range leaves of it at a squared distance: the window that KHR_lights_punctual recommends. range > 0; infinity: no window.
+// What a light's range leaves of it at a squared distance: the window that KHR_lights_punctual recommends. range 0: no window.
 float rangeFalloff(float distance2, float range)
 {
     float share = distance2 / (range * range);
-    return clamp(1.0 - share * share, 0.0, 1.0);
+    return range > 0.0 ? clamp(1.0 - share * share, 0.0, 1.0) : 1.0;
 }
 
 #endif

@@ -189,7 +189,7 @@ struct FlatLight {
     uint emitterCount;
     float probability;  // of choosing this light, as the alias table implements it
     vec3 position;      // sphere: centre; point, spot
-    float radius;       // sphere; point, spot: their range, or infinity
+    float radius;       // sphere; point, spot: their range, or 0
     vec3 direction;     // spot, directional: unit, the way light travels
     float cosInner;     // spot
     vec3 intensity;     // surfaces, constant environment: radiance; point, spot: W/sr; directional: W/m^2

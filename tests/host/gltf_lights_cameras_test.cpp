@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 namespace glim::test {
 namespace {
@@ -70,7 +69,7 @@ TEST(GltfLights, SpotConesComeAsCosines)
 TEST(GltfLights, ReadsTheRange)
 {
     EXPECT_EQ(readLight({{"type", "point"}, {"range", 3}}).range, 3.0F) << "scale does not change it";
-    EXPECT_EQ(readLight({{"type", "point"}}).range, std::numeric_limits<float>::infinity());
+    EXPECT_EQ(readLight({{"type", "point"}}).range, 0.0F);
 }
 
 Scene readCamera(const json& camera, json node)

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace glim {
 namespace {
@@ -14,7 +13,7 @@ namespace {
 struct Case {
     float cosine, cosInner, cosOuter;
     float falloff;
-    float distance = 1.0F, range = std::numeric_limits<float>::infinity();
+    float distance = 1.0F, range = 0.0F;
     float window = 1.0F;
 };
 

@@ -112,7 +112,7 @@ TEST(TruthTest, H16T9PointDirectionalAndSpotLight)
     expectExactMean(renderScene(floorScene().light(light).scene(), direct(32)), fromPoint);
     light.range = 1.5F * static_cast<float>(std::sqrt(distance2));
     expectExactMean(renderScene(floorScene().light(light).scene(), direct(32)), fromPoint * (1.0 - 16.0 / 81.0));
-    light.range = std::numeric_limits<float>::infinity();
+    light.range = 0.0F;
     light.kind = PunctualLight::Kind::Spot;
     expectExactMean(renderScene(floorScene().light(light).scene(), direct(32)), fromPoint);
     light.kind = PunctualLight::Kind::Directional;
