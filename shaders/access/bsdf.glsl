@@ -118,9 +118,8 @@ BsdfEval evalBsdf(Bsdf bsdf, vec3 wo, vec3 wi)
 
 // If the sampled direction is on the wrong side of the geometric surface, a mirror reflects about the geometric normal instead, and any other
 // surface absorbs the light. `local`: wi in the shading frame, of a sample that is still unweighted.
-BsdfSample sampleReflection(Bsdf bsdf, vec3 wo, vec2 u, float uLobe, out vec3 local)
+BsdfSample sampleReflection(Bsdf bsdf, vec3 wo, vec2 u, float uLobe, inout vec3 local)
 {
-    local = vec3(0.0);
     if (isMirror(bsdf.lobe)) {
         BsdfSample mirrored = sampleMirror(bsdf.color, wo, bsdf.frame.z);
         return dot(mirrored.wi, bsdf.ng) > 0.0 ? mirrored : sampleMirror(bsdf.color, wo, bsdf.ng);
@@ -138,9 +137,11 @@ BsdfSample sampleReflection(Bsdf bsdf, vec3 wo, vec2 u, float uLobe, out vec3 lo
     return s;
 }
 
+// sampleBsdf without evaluating the principled BSDF at the direction: such a sample is still unweighted.
 BsdfSample sampleUnweighted(Bsdf bsdf, vec3 wo, vec2 u, float uLobe, out vec3 local)
 {
     BsdfSample s;
+    local = vec3(0.0);
     if (isDielectric(bsdf.lobe)) {
         s = sampleDielectric(bsdf.color, bsdf.eta, wo, bsdf.frame.z, uLobe);
     } else {

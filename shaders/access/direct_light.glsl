@@ -53,6 +53,7 @@ uint chooseLight(SampleId id, uint bounce)
     return selectLight(samplePair(id, bounceDimension(bounce, kDimensionLight), kSobol), render.lightCount);
 }
 
+// Uses the sampler dimensions of the bounce.
 LightSample sampleChosenLight(SampleId id, FlatLight chosen, SurfaceInteraction si, Bsdf bsdf, uint bounce)
 {
     return sampleLight(chosen, makeLightContext(si, bsdf), samplePair(id, bounceDimension(bounce, kDimensionEmitter), kSobol),

@@ -306,6 +306,7 @@ Principled makePrincipled(PrincipledInput m, vec3 wo)
     p.pSheen *= scale;
     float diffuseScale = 1.0 / (kPi * (p.solid ? 1.0 : max(1.0 - interfaceAlbedo(p, average), 1e-6)));
     p.scattered = scattered / (kPi * max(1.0 - average.x - average.y, 1e-6));
+    // 1e-30: a black lobe gives 0, not 0 / 0.
     p.scatteredShare = channelMean(scattered) / max(channelMean(scattered + diffuse), 1e-30);
     p.scatteredAlpha = max(tableAlpha, kMinAlpha);
     p.diffuse = diffuse * diffuseScale;

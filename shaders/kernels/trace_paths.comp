@@ -55,28 +55,28 @@ void visitMiss(inout Path path)
     }
 }
 
-// The shadow ray that is followed through surfaces with alpha, if `passage` is a shadow ray's.
-struct Dimmed {
+// What advance() follows: the path's ray, then a shadow ray that meets alpha and the light that it carries.
+struct Followed {
     Passage passage;
     vec3 contribution;
     uint pathLength;
 };
 
-// Its light is added, or is still `dimmed` by surfaces.
-void traceShadowRay(inout Path path, ShadowRay ray, inout Work work, inout Steps steps, inout Dimmed dimmed)
+// Adds the light, unless surfaces with alpha dim it first: then the ray is `followed` next.
+void traceShadowRay(inout Path path, ShadowRay ray, inout Work work, inout Steps steps, inout Followed followed)
 {
     bool metAlpha;
     bool clear = isUnoccluded(ray, steps, metAlpha);
     ++work.shadow;
     if (hasFeature(kFeatureAlpha) && clear && metAlpha) {
-        dimmed = Dimmed(passageOf(ray), ray.contribution, path.state.bounce + 1u);
+        followed = Followed(passageOf(ray), ray.contribution, path.state.bounce + 1u);
     } else if (clear) {
         addLight(path, ray.contribution, path.state.bounce + 1u);
     }
 }
 
 // Adds light in the order in which the wavefront does. False if the path ends.
-bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps steps, inout Dimmed dimmed)
+bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps steps, inout Followed followed)
 {
     VertexResult vertex = shadeSurface(path.id, path.ray, hit, path.state);
     if (path.state.bounce == 0u) {
@@ -86,7 +86,7 @@ bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps ste
         addLight(path, vertex.emitted, path.state.bounce);
     }
     if (vertex.hasShadowRay) {
-        traceShadowRay(path, vertex.shadowRay, work, steps, dimmed);
+        traceShadowRay(path, vertex.shadowRay, work, steps, followed);
     }
     path.ray = vertex.ray;
     path.state = vertex.state;
@@ -97,15 +97,15 @@ bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps ste
 bool advance(inout Path path, inout Work work)
 {
     Steps steps = Steps(0u, 0u);
-    Dimmed dimmed = Dimmed(passageOf(path.ray), vec3(0.0), 0u);
+    Followed followed = Followed(passageOf(path.ray), vec3(0.0), 0u);
     bool alive = false;
     bool again = false;
     do {
-        VisibleHit met = follow(path.id, path.state.bounce, dimmed.passage, steps);
+        VisibleHit met = follow(path.id, path.state.bounce, followed.passage, steps);
         again = false;
-        if (hasFeature(kFeatureAlpha) && dimmed.passage.isShadow) {
+        if (hasFeature(kFeatureAlpha) && followed.passage.isShadow) {
             if (isClear(met.weight)) {
-                addLight(path, dimmed.contribution * met.weight, dimmed.pathLength);
+                addLight(path, followed.contribution * met.weight, followed.pathLength);
             }
         } else {
             ++work.closest;
@@ -115,8 +115,8 @@ bool advance(inout Path path, inout Work work)
             if (met.hit.record == kNoRecord) {
                 visitMiss(path);
             } else {
-                alive = visitSurface(path, met.hit, work, steps, dimmed);
-                again = dimmed.passage.isShadow;
+                alive = visitSurface(path, met.hit, work, steps, followed);
+                again = followed.passage.isShadow;
             }
         }
     } while (hasFeature(kFeatureAlpha) && again);

@@ -1,9 +1,13 @@
-// H3, H37, H38: the program's kernels carry the marks that ask the driver for exact arithmetic.
+// H3, H37, H38: the program's kernels carry the marks that ask the driver for exact arithmetic, as they are embedded and as it gets them.
+#include "host/gpu/specialize.hpp"
 #include "kernels.hpp"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/features.h"
 #include "tests/support/named.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 namespace glim {
@@ -24,24 +28,41 @@ test::Named<const EmbeddedShader*> named(const EmbeddedShader& shader) { return 
 
 class FloatMarksTest : public testing::TestWithParam<test::Named<const EmbeddedShader*>> {};
 
-TEST_P(FloatMarksTest, H3H37H38EveryOperationIsExact)
-{
-    const std::span<const std::uint32_t> words = GetParam().value->words();
-    std::set<std::uint32_t> marked, arithmetic;
+struct Marks {
+    std::set<std::uint32_t> marked, arithmetic;  // ids
     bool keepsInfinity = false;
+};
+
+Marks marksOf(std::span<const std::uint32_t> words)
+{
+    Marks marks;
     for (std::size_t at = 5; at < words.size(); at += words[at] >> 16) {
         const std::uint32_t opcode = words[at] & 0xffff;
         if (opcode == kOpDecorate && words[at + 2] == kNoContraction) {
-            marked.insert(words[at + 1]);
+            marks.marked.insert(words[at + 1]);
         }
-        keepsInfinity = keepsInfinity || (opcode == kOpExecutionMode && words[at + 2] == kSignedZeroInfNanPreserve && words[at + 3] == 32);
+        marks.keepsInfinity =
+            marks.keepsInfinity || (opcode == kOpExecutionMode && words[at + 2] == kSignedZeroInfNanPreserve && words[at + 3] == 32);
         if (isFloatArithmetic(opcode)) {
-            arithmetic.insert(words[at + 2]);
+            marks.arithmetic.insert(words[at + 2]);
         }
     }
-    EXPECT_TRUE(keepsInfinity);
-    EXPECT_EQ(arithmetic, marked);
-    EXPECT_EQ(arithmetic.empty(), GetParam().value == &kernels::size_dispatch);
+    return marks;
+}
+
+TEST_P(FloatMarksTest, H3H37H38EveryOperationIsExact)
+{
+    const Marks embedded = marksOf(GetParam().value->words());
+    EXPECT_TRUE(embedded.keepsInfinity);
+    EXPECT_EQ(embedded.arithmetic, embedded.marked);
+    EXPECT_EQ(embedded.arithmetic.empty(), GetParam().value == &kernels::size_dispatch);
+    for (const uint features : {uint{0}, kFeatureTriangleLights | kFeatureMirror, kFeaturePrincipled | kFeatureTextures, kAllFeatures}) {
+        SCOPED_TRACE("features " + std::to_string(features));
+        const Marks given = marksOf(specialize(*GetParam().value, {{kSpecFeatures, features}}));
+        EXPECT_TRUE(given.keepsInfinity);
+        EXPECT_TRUE(std::includes(given.marked.begin(), given.marked.end(), given.arithmetic.begin(), given.arithmetic.end()));
+        EXPECT_EQ(given.arithmetic.empty(), GetParam().value == &kernels::size_dispatch);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, FloatMarksTest,
