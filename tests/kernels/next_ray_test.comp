@@ -39,9 +39,11 @@ void main()
         BsdfPair pair = evalAndSampleBsdf(bsdf, wo, elsewhere, u.direction, u.lobe);
         EXPECT_TRUE(pair.next == s && pair.light == evalBsdf(bsdf, wo, elsewhere));
         bool delta = (s.flags & kBsdfDelta) != 0u;
-        EXPECT_TRUE(delta != hasNonDelta(bsdf) && delta == (s.pdf == 0.0));
+        bool absorbed = s.weight == vec3(0.0);  // a microfacet sent the ray below the surface
+        EXPECT_TRUE(delta != hasNonDelta(bsdf) && (absorbed || delta == (s.pdf == 0.0)));
         EXPECT_TRUE(!delta || f.pdf == 0.0 && f.f == vec3(0.0));
-        bool grazing = dot(s.wi, bsdf.ng) < 1e-5 || dot(s.wi, bsdf.frame.z) < 1e-3;
+        // Rounding of wi changes a cosine of .01 by 6e-6 of it.
+        bool grazing = dot(s.wi, bsdf.ng) < 1e-5 || dot(s.wi, bsdf.frame.z) < 1e-2;
         EXPECT_TRUE(delta || grazing || abs(f.pdf - s.pdf) <= 1e-5 * s.pdf);
         EXPECT_TRUE(delta || grazing || distance(f.f / s.pdf, s.weight) <= 2e-5 * length(s.weight));
         results[TEST_THREAD] = Result(uint(alive), c.ray, c.state);

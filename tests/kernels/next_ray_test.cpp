@@ -19,6 +19,7 @@ using glm::dot;
 using glm::dvec3;
 
 constexpr uint kOf[] = {kLambert, kMirror, kDielectric};  // by material
+constexpr uint kMetal = 3;
 constexpr double kIndex = 1.5;
 const vec3 kColor(0.9F, 0.6F, 0.3F);
 
@@ -57,14 +58,18 @@ Case makeCase(Random& random, uint material, uint bounce, double lean)
 
 class NextRayTest : public testing::Test {
 protected:
-    // Materials 0 to 2; and something to be a scene.
+    // Materials 0 to 3; and something to be a scene.
     NextRayTest()
     {
         SceneBuilder builder;
         builder.sphere(vec3(0.0F), 1.0F, builder.lambert(kColor));
         builder.mirror(kColor);
         builder.glass(static_cast<float>(kIndex));
-        scene_.emplace(builder.scene());
+        builder.sphere(vec3(3.0F), 1.0F, builder.lambert(kColor));
+        Scene scene = builder.scene();
+        scene.materials[kMetal].metallic = 0.5F;
+        scene.materials[kMetal].roughness = 0.7F;
+        scene_.emplace(scene);
         upload(note_, std::span<const PathNote>(std::vector<PathNote>(1)));
     }
     KernelTest test(const EmbeddedShader& shader = test_kernels::next_ray_test)
@@ -198,6 +203,18 @@ TEST_F(NextRayTest, GlassTakesTheShadingNormalsSide)
     }
     EXPECT_GT(passed, all.size() / 2);
     EXPECT_GT(behind, all.size() / 50);
+}
+
+// The kernel compares evalAndSampleBsdf with the two calls apart.
+TEST_F(NextRayTest, AHalfMetalIsEvaluatedAndSampledAtOnce)
+{
+    ASSERT_NE(scene_->flat.features & kFeaturePrincipled, 0U);
+    const std::vector<Case> all = cases(4000, kMetal, 0, 0.0);
+    std::size_t alive = 0;
+    for (const Result& r : run(test(), all)) {
+        alive += r.alive;
+    }
+    EXPECT_GT(alive, all.size() / 2);
 }
 
 TEST_F(NextRayTest, RouletteKeepsTheMean)
