@@ -32,7 +32,6 @@ Counts countsOf(const PreparedScene& prepared)
             {"materials", prepared.scene.materials.size()},
             {"images", prepared.scene.images.size()},
             {"lights", prepared.flat.lights.size()},
-            {"emitters", prepared.flat.emitters.size()},
             {"cameras", prepared.scene.cameras.size()}};
 }
 

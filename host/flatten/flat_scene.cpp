@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <span>
-#include <utility>
 
 namespace glim {
 namespace {
@@ -57,14 +56,14 @@ static_assert(sizeof(PrincipledData) == kPrincipledTexels * sizeof(uvec4));
 static_assert(sizeof(LayersData) == kLayersTexels * sizeof(uvec4));
 static_assert(sizeof(MediumData) == kMediumTexels * sizeof(uvec4));
 static_assert(sizeof(TextureData) == kTextureTexels * sizeof(uvec4));
-static_assert(sizeof(FlatEmitter) == kEmitterTexels * sizeof(uvec4));
+static_assert(sizeof(LightNode) == kLightNodeTexels * sizeof(uvec4));
 
 }  // namespace
 
 std::uint64_t sizeInBytes(const FlatScene& scene)
 {
     return bytesOf(scene.nodes) + bytesOf(scene.records) + bytesOf(scene.triangles) + bytesOf(scene.vertices) + bytesOf(scene.materials) +
-           bytesOf(scene.lights) + bytesOf(scene.emitters) + bytesOf(scene.principled) + bytesOf(scene.layers) + bytesOf(scene.textures) +
+           bytesOf(scene.lights) + bytesOf(scene.lightNodes) + bytesOf(scene.principled) + bytesOf(scene.layers) + bytesOf(scene.textures) +
            bytesOf(scene.media) + bytesOf(scene.texels) + bytesOf(scene.albedos) + bytesOf(scene.environmentTexels) +
            bytesOf(scene.environmentCells);
 }
@@ -92,12 +91,11 @@ std::uint64_t fingerprint(const FlatScene& scene)
             addNormals(print, scene, primitive);
         }
     }
-    for (FlatEmitter emitter : scene.emitters) {
-        emitter.record = std::exchange(emitter.primitive, 0);  // as in films from before that field existed
-        print.add(std::vector<FlatEmitter>{emitter});
-    }
     print.add(scene.materials);
-    print.add(scene.lights);
+    for (FlatLight light : scene.lights) {
+        light.record = 0;
+        print.add(std::vector<FlatLight>{light});
+    }
     print.add(scene.principled);
     print.add(scene.layers);
     print.add(scene.textures);

@@ -44,7 +44,10 @@ constexpr Feature kFeatures[] = {{kFeatureSpheres, "spheres"},
                                  {kFeatureDispersion, "dispersion"},
                                  {kFeatureThinWalls, "thin walls"},
                                  {kFeatureUnlit, "unlit materials"},
-                                 {kFeatureGlossiness, "specular-glossiness"}};
+                                 {kFeatureGlossiness, "specular-glossiness"},
+                                 {kFeatureRectangleLights, "rectangle lights"},
+                                 {kFeatureFewLights, "several lights"},
+                                 {kFeatureLightTree, "light tree"}};
 
 struct FlatScene {
     std::vector<uvec4> nodes;
@@ -63,7 +66,9 @@ struct FlatScene {
     std::vector<std::uint64_t> imageBytes;  // of each image of the scene; 0: of one colour, which is in the factors. Not on the device
     std::vector<uvec4> albedos;             // empty without kFeaturePrincipled
     std::vector<FlatLight> lights;
-    std::vector<FlatEmitter> emitters;
+    std::vector<LightNode> lightNodes;
+    std::uint32_t finiteLights = 0;               // the first lights
+    float finiteShare = 0.0F;                     // probability of choosing one of these
     std::uint32_t features = 0;                   // kFeatureSpheres ...: what the scene needs
     std::uint32_t stackLevels = kMaxStackLevels;  // of the traversal stack
     vec3 environment{0.0F};                       // radiance, or what multiplies that of the map

@@ -1,13 +1,15 @@
 #include "host/flatten/light_table.hpp"
 
-#include "host/flatten/alias_table.hpp"
 #include "host/flatten/box_sums.hpp"
 #include "host/flatten/environment_map.hpp"
+#include "host/flatten/light_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 
 namespace glim {
 namespace {
@@ -21,7 +23,8 @@ double strength(const glm::vec3& color) { return static_cast<double>(std::max({c
 class EmissiveImage {
 public:
     explicit EmissiveImage(const DecodedImage& image)
-        : sums_(image.width, image.height, [&image](std::uint32_t x, std::uint32_t y) {
+        : height_(image.height),
+          sums_(image.width, image.height, [&image](std::uint32_t x, std::uint32_t y) {
               const std::size_t at = 4 * (std::size_t{y} * image.width + x);
               std::uint32_t strongest = 0;
               for (std::size_t c = 0; c < 3; ++c) {
@@ -38,91 +41,154 @@ public:
         for (int v = 0; v < 3; ++v) {
             uv[v] = texture.uvSet == 0 ? glm::vec2(uvs[v].x, uvs[v].y) : glm::vec2(uvs[v].z, uvs[v].w);
         }
-        return sums_.mean(uvBoxOf(texture, uv), texture) / kOne;
+        const UvBox box = uvBoxOf(texture, uv);
+        const double rows = static_cast<double>(box.high.y - box.low.y) * height_;
+        if (!(rows > 1.0) || !(rows < 1e6)) {
+            return sums_.mean(box, texture) / kOne;
+        }
+        return meanOfStrips(texture, uv, box, std::min(static_cast<std::uint32_t>(rows), kMostStrips)) / kOne;
     }
 
 private:
     static constexpr double kOne = 1 << 20;
+    static constexpr std::uint32_t kMostStrips = 64;
 
+    // The triangle is cut into strips along the image's rows, each of which counts by its width.
+    double meanOfStrips(const Texture& texture, const glm::vec2 (&uv)[3], const UvBox& box, std::uint32_t strips) const
+    {
+        glm::vec2 at[3];
+        for (int v = 0; v < 3; ++v) {
+            at[v] = {glm::dot(texture.rowU, glm::vec3(uv[v], 1.0F)), glm::dot(texture.rowV, glm::vec3(uv[v], 1.0F))};
+        }
+        double sum = 0.0, weight = 0.0;
+        for (std::uint32_t strip = 0; strip < strips; ++strip) {
+            const float step = (box.high.y - box.low.y) / static_cast<float>(strips);
+            const UvBox part = stripOf(at, box.low.y + step * static_cast<float>(strip), box.low.y + step * static_cast<float>(strip + 1));
+            const double width = std::max(0.0, static_cast<double>(part.high.x - part.low.x));
+            sum += width * sums_.mean(part, texture);
+            weight += width;
+        }
+        return weight > 0.0 ? sum / weight : sums_.mean(box, texture);
+    }
+
+    // The box of what lies between two rows.
+    static UvBox stripOf(const glm::vec2 (&at)[3], float low, float high)
+    {
+        UvBox part{{INFINITY, low}, {-INFINITY, high}};
+        const auto hold = [&part](float x) {
+            part.low.x = std::min(part.low.x, x);
+            part.high.x = std::max(part.high.x, x);
+        };
+        for (int v = 0; v < 3; ++v) {
+            const glm::vec2 &a = at[v], &b = at[(v + 1) % 3];
+            if (a.y >= low && a.y <= high) {
+                hold(a.x);
+            }
+            for (const float y : {low, high}) {
+                if ((a.y < y) != (b.y < y)) {
+                    hold(a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)));
+                }
+            }
+        }
+        return part.low.x <= part.high.x ? part : UvBox{{at[0].x, low}, {at[0].x, high}};
+    }
+
+    std::uint32_t height_;
     BoxSums sums_;
 };
 
-double area(const Triangle& triangle) { return 0.5 * glm::length(faceNormal(triangle)); }
+// A light on the way to the table.
+struct FiniteLight {
+    FlatLight light;
+    LightBounds bounds;
+};
 
-// Half the diagonal of the scene's box, metres. Directional lights and the environment shine on a disk of this radius.
-double sceneRadius(const Primitives& primitives)
+FiniteLight polygonLight(const FlatLight& surface, const glm::vec3& corner, const glm::vec3& edge1, const glm::vec3& edge2, bool rectangle)
 {
-    glm::dvec3 lo(1e300), hi(-1e300);
-    for (const Triangle& triangle : primitives.triangles) {
-        for (const glm::vec3& v : triangle.vertices) {
-            lo = glm::min(lo, glm::dvec3(v));
-            hi = glm::max(hi, glm::dvec3(v));
-        }
+    const glm::dvec3 normal = glm::cross(glm::dvec3(edge1), glm::dvec3(edge2));
+    const double doubled = glm::length(normal);
+    FlatLight light = surface;
+    light.kind |= rectangle ? kRectangleLight : kTriangleLight;
+    light.position = corner;
+    light.edge1 = edge1;
+    light.edge2 = edge2;
+    light.size = static_cast<float>(rectangle ? doubled : 0.5 * doubled);
+    const glm::vec3 ends[4] = {corner, corner + edge1, corner + edge2, corner + (edge1 + edge2)};
+    LightBounds bounds;
+    bounds.low = bounds.high = corner;
+    for (int i = 0; i < (rectangle ? 4 : 3); ++i) {
+        bounds.low = glm::min(bounds.low, ends[i]);
+        bounds.high = glm::max(bounds.high, ends[i]);
     }
-    for (const Sphere& sphere : primitives.spheres) {
-        lo = glm::min(lo, glm::dvec3(sphere.center) - static_cast<double>(sphere.radius));
-        hi = glm::max(hi, glm::dvec3(sphere.center) + static_cast<double>(sphere.radius));
-    }
-    return 0.5 * glm::length(hi - lo);
+    bounds.radius = 0.5F * glm::length(bounds.high - bounds.low);
+    bounds.axis = glm::vec3(normal / doubled);
+    bounds.twoSided = (light.kind & kDoubleSidedLight) != 0;
+    return {light, bounds};
 }
 
-// Collects lights with their powers in watts (up to a factor common to all).
+// The light of two triangles that are a rectangle's halves, the corner opposite the diagonal being `corner` of the first; or nothing.
+std::optional<FiniteLight> rectangleLight(const FlatLight& surface, const Triangle& half, int corner, const Triangle& other)
+{
+    const glm::vec3& at = half.vertices[corner];
+    const glm::vec3 edge1 = half.vertices[(corner + 1) % 3] - at, edge2 = half.vertices[(corner + 2) % 3] - at;
+    const glm::dvec3 opposite = glm::dvec3(at) + glm::dvec3(edge1) + glm::dvec3(edge2);
+    // Coordinates are rounded to 2^-24 of their size.
+    const glm::dvec3 size = glm::abs(glm::dvec3(at)) + glm::abs(glm::dvec3(edge1)) + glm::abs(glm::dvec3(edge2));
+    const double slack = 0x1p-22 * std::max({size.x, size.y, size.z});
+    const bool square =
+        std::abs(glm::dot(glm::dvec3(edge1), glm::dvec3(edge2))) <= slack * glm::length(glm::dvec3(edge1) + glm::dvec3(edge2));
+    const bool whole =
+        std::ranges::any_of(other.vertices, [&](const glm::vec3& v) { return glm::length(glm::dvec3(v) - opposite) <= slack; });
+    const bool sameFront = glm::dot(faceNormal(half), faceNormal(other)) > 0.0;
+    return square && whole && sameFront ? std::optional(polygonLight(surface, at, edge1, edge2, true)) : std::nullopt;
+}
+
+// Collects the lights.
 class LightTable {
 public:
     LightTable(FlatScene& flat, const Scene& scene, const Primitives& primitives, std::span<const std::uint32_t> recordOf)
         : flat_(flat),
           scene_(scene),
           primitives_(primitives),
-          recordOf_(recordOf),
-          radius_(sceneRadius(primitives))
+          recordOf_(recordOf)
     {}
 
     void addInstance(std::size_t instance)
     {
         const std::uint32_t id = scene_.meshes[scene_.instances[instance].mesh].material;
         const Material& material = scene_.materials[id];
-        const std::uint32_t first = primitives_.firstTriangles[instance], count = primitives_.firstTriangles[instance + 1] - first;
-        if (count == 0 || !(strength(material.emission) > 0.0)) {
+        const std::uint32_t first = primitives_.firstTriangles[instance], end = primitives_.firstTriangles[instance + 1];
+        if (!(strength(material.emission) > 0.0)) {
             return;
         }
-        std::vector<double> areas, weights;
-        std::vector<std::uint32_t> emitting;
-        double total = 0.0;
-        for (std::uint32_t i = first; i < first + count; ++i) {
-            const double strength = emissionOf(id, i);
-            if (strength > 0.0) {
-                emitting.push_back(i);
-                areas.push_back(area(primitives_.triangles[i]));
-                weights.push_back(areas.back() * strength);
-                total += weights.back();
+        const FlatLight surface = surfaceLight(id);
+        const std::vector<std::uint32_t> otherHalf = (surface.kind & kUnevenLight) == 0
+                                                         ? findRectangles(surface, first, end)
+                                                         : std::vector<std::uint32_t>(end - first, kNoPrimitive);
+        for (std::uint32_t i = first; i < end; ++i) {
+            const double factor = emissionOf(id, i);
+            const std::uint32_t other = otherHalf[i - first];
+            if (factor > 0.0 && (other == kNoPrimitive || i < other)) {
+                addPolygon(surface, i, other, factor);
             }
         }
-        if (emitting.empty()) {
-            return;
-        }
-        const AliasTable table = buildAliasTable(weights);
-        FlatLight light = surfaceLight(kTriangleLight, id, static_cast<std::uint32_t>(emitting.size()));
-        flat_.features |= kFeatureTriangleLights;
-        for (std::size_t i = 0; i < emitting.size(); ++i) {
-            addEmitter(emitting[i], static_cast<float>(table.probabilities[i] / areas[i]), table.entries[i]);
-        }
-        add(light, kPi * total * strength(material.emission) * (material.doubleSided ? 2.0 : 1.0));
     }
 
     void addSphere(const Sphere& sphere, std::size_t index)
     {
-        const Material& material = scene_.materials[sphere.material];
-        if (!(strength(material.emission) > 0.0)) {
+        if (!(strength(scene_.materials[sphere.material].emission) > 0.0)) {
             return;
         }
-        const double radius = static_cast<double>(sphere.radius);
-        const double surface = 4.0 * kPi * radius * radius;
-        FlatLight light = surfaceLight(kSphereLight, sphere.material, 1);
-        flat_.features |= kFeatureSphereLights;
+        FlatLight light = surfaceLight(sphere.material);
+        light.kind |= kSphereLight;
         light.position = sphere.center;
-        light.radius = sphere.radius;
-        addEmitter(static_cast<std::uint32_t>(primitives_.triangles.size() + index), static_cast<float>(1.0 / surface), {0xffffffffU, 0});
-        add(light, kPi * surface * strength(material.emission) * (material.doubleSided ? 2.0 : 1.0));
+        light.size = sphere.radius;
+        light.primitive = static_cast<std::uint32_t>(primitives_.triangles.size() + index);
+        light.record = recordOf_[light.primitive];
+        const LightBounds bounds{sphere.center - sphere.radius, sphere.center + sphere.radius, sphere.radius};
+        const double radius = static_cast<double>(sphere.radius);
+        flat_.features |= kFeatureSphereLights;
+        add({light, bounds}, kPi * radius * radius * strength(light.intensity));
     }
 
     void addPunctual(const PunctualLight& punctual)
@@ -132,22 +198,26 @@ public:
         }
         FlatLight light{};
         light.position = punctual.position;
-        light.radius = punctual.range;
-        light.direction = punctual.direction;
+        light.size = punctual.range;
+        light.edge1 = punctual.direction;
         light.intensity = punctual.intensity;
         light.cosInner = punctual.cosInner;
         light.cosOuter = punctual.cosOuter;
-        double steradians = 4.0 * kPi;
+        flat_.features |= kFeaturePunctualLights;
+        if (punctual.kind == PunctualLight::Kind::Directional) {
+            light.kind = kDirectionalLight;
+            infinite_.push_back(light);
+            irradiances_.push_back(strength(punctual.intensity));
+            return;
+        }
+        LightBounds bounds{punctual.position, punctual.position};
         light.kind = kPointLight;
         if (punctual.kind == PunctualLight::Kind::Spot) {
             light.kind = kSpotLight;
-            steradians = 2.0 * kPi * (1.0 - 0.5 * static_cast<double>(punctual.cosInner + punctual.cosOuter));
-        } else if (punctual.kind == PunctualLight::Kind::Directional) {
-            light.kind = kDirectionalLight;
-            steradians = kPi * radius_ * radius_;  // square metres here: W/m^2 over the scene's disk
+            bounds.axis = punctual.direction;
+            bounds.cosEmission = punctual.cosOuter;
         }
-        flat_.features |= kFeaturePunctualLights;
-        add(light, strength(punctual.intensity) * steradians);
+        add({light, bounds}, strength(punctual.intensity));
     }
 
     void addEnvironment(const Environment& environment)
@@ -165,20 +235,29 @@ public:
         light.intensity = radiance;
         flat_.features |= kFeatureEnvironment;
         flat_.environment = radiance;
-        flat_.environmentLight = static_cast<std::uint32_t>(flat_.lights.size());
-        add(light, integral * kPi * radius_ * radius_ * strength(radiance));
+        infinite_.push_back(light);
+        irradiances_.push_back(integral * strength(radiance));
     }
 
-    // Turns powers into probabilities.
     void finish()
     {
-        if (flat_.lights.empty()) {
-            return;
+        const auto count = static_cast<std::uint32_t>(finite_.size());
+        flat_.finiteLights = count;
+        flat_.finiteShare = infinite_.empty() ? 1.0F : count == 0 ? 0.0F : 0.5F;
+        flat_.features |= count > kFewLights ? kFeatureLightTree : count > 1 ? kFeatureFewLights : 0U;
+        if (count > 0) {
+            pushFinite();
         }
-        const AliasTable table = buildAliasTable(powers_);
-        for (std::size_t i = 0; i < flat_.lights.size(); ++i) {
-            flat_.lights[i].alias = table.entries[i];
-            flat_.lights[i].probability = static_cast<float>(table.probabilities[i]);
+        double sum = 0.0;
+        for (const double irradiance : irradiances_) {
+            sum += irradiance;
+        }
+        for (std::size_t i = 0; i < infinite_.size(); ++i) {
+            infinite_[i].probability = static_cast<float>((1.0 - static_cast<double>(flat_.finiteShare)) * irradiances_[i] / sum);
+            if (infinite_[i].kind == kEnvironmentLight) {
+                flat_.environmentLight = static_cast<std::uint32_t>(flat_.lights.size());
+            }
+            flat_.lights.push_back(infinite_[i]);
         }
     }
 
@@ -201,38 +280,109 @@ private:
         return sums.mean(*material.emissiveTexture, uvs);
     }
 
-    FlatLight surfaceLight(std::uint32_t kind, std::uint32_t id, std::uint32_t emitters) const
+    FlatLight surfaceLight(std::uint32_t id) const
     {
         const Material& material = scene_.materials[id];
+        const bool uneven = material.emissiveTexture || material.alphaMode != AlphaMode::Opaque || material.clearcoat > 0.0F;
         FlatLight light{};
-        light.kind = kind;
-        light.firstEmitter = static_cast<std::uint32_t>(flat_.emitters.size());
-        light.emitterCount = emitters;
+        light.kind = (material.doubleSided ? kDoubleSidedLight : 0U) | (uneven ? kUnevenLight : 0U);
         light.intensity = flat_.materials[id].emission;  // a texture of one colour is part of it
-        light.doubleSided = material.doubleSided ? 1 : 0;
-        light.uneven = material.emissiveTexture || material.alphaMode != AlphaMode::Opaque || material.clearcoat > 0.0F ? 1 : 0;
         return light;
     }
 
-    void addEmitter(std::uint32_t primitive, float areaPdf, AliasEntry alias)
+    // For each triangle the one that makes it a rectangle, or kNoPrimitive.
+    std::vector<std::uint32_t> findRectangles(const FlatLight& surface, std::uint32_t first, std::uint32_t end) const
     {
-        const std::uint32_t record = recordOf_[primitive];
-        flat_.emitters.push_back({alias, record, static_cast<std::uint32_t>(flat_.lights.size()), areaPdf, primitive, uvec2(0)});
-        flat_.records[record * kRecordTexels + 2].w = static_cast<std::uint32_t>(flat_.emitters.size());
+        using Ends = std::array<float, 6>;
+        std::vector<std::uint32_t> otherHalf(end - first, kNoPrimitive);
+        std::map<Ends, std::uint32_t> open;  // triangles by their longest side
+        for (std::uint32_t i = first; i < end; ++i) {
+            const int corner = cornerOf(primitives_.triangles[i]);
+            const glm::vec3 &a = primitives_.triangles[i].vertices[(corner + 1) % 3],
+                            &b = primitives_.triangles[i].vertices[(corner + 2) % 3];
+            const Ends ends{a.x, a.y, a.z, b.x, b.y, b.z}, turned{b.x, b.y, b.z, a.x, a.y, a.z};
+            const auto found = open.find(std::max(ends, turned));
+            if (found == open.end()) {
+                open.emplace(std::max(ends, turned), i);
+            } else if (rectangleLight(surface, primitives_.triangles[found->second], cornerOf(primitives_.triangles[found->second]),
+                                      primitives_.triangles[i])) {
+                otherHalf[i - first] = found->second;
+                otherHalf[found->second - first] = i;
+                open.erase(found);
+            }
+        }
+        return otherHalf;
     }
 
-    void add(const FlatLight& light, double power)
+    // The corner opposite the longest side.
+    static int cornerOf(const Triangle& triangle)
     {
-        flat_.lights.push_back(light);
+        int corner = 0;
+        float longest = -1.0F;
+        for (int i = 0; i < 3; ++i) {
+            const glm::vec3 side = triangle.vertices[(i + 2) % 3] - triangle.vertices[(i + 1) % 3];
+            if (glm::dot(side, side) > longest) {
+                longest = glm::dot(side, side);
+                corner = i;
+            }
+        }
+        return corner;
+    }
+
+    // other: the other half of a rectangle, or kNoPrimitive.
+    void addPolygon(const FlatLight& surface, std::uint32_t primitive, std::uint32_t other, double factor)
+    {
+        const Triangle& triangle = primitives_.triangles[primitive];
+        const glm::vec3& v0 = triangle.vertices[0];
+        FiniteLight light = other == kNoPrimitive ? polygonLight(surface, v0, triangle.vertices[1] - v0, triangle.vertices[2] - v0, false)
+                                                  : *rectangleLight(surface, triangle, cornerOf(triangle), primitives_.triangles[other]);
+        light.light.primitive = primitive;
+        light.light.otherPrimitive = other;
+        light.light.record = recordOf_[primitive];
+        flat_.features |= other == kNoPrimitive ? kFeatureTriangleLights : kFeatureRectangleLights;
+        add(light, factor * static_cast<double>(light.light.size) * strength(surface.intensity));
+    }
+
+    void add(const FiniteLight& light, double power)
+    {
+        finite_.push_back(light);
         powers_.push_back(power);
+    }
+
+    // In the order of the tree's leaves, and marks the records that emit.
+    void pushFinite()
+    {
+        // Relative to the strongest, so that sums of them are finite.
+        const double strongest = *std::ranges::max_element(powers_);
+        std::vector<LightBounds> bounds;
+        bounds.reserve(finite_.size());
+        for (std::size_t i = 0; i < finite_.size(); ++i) {
+            bounds.push_back(finite_[i].bounds);
+            bounds.back().power = std::max(static_cast<float>(powers_[i] / strongest), 1e-30F);
+        }
+        const LightTree tree = buildLightTree(bounds);
+        flat_.lightNodes = tree.nodes;
+        for (const std::uint32_t i : tree.order) {
+            const FlatLight& light = finite_[i].light;
+            flat_.lights.push_back(light);
+            const std::uint32_t kind = light.kind & kLightKindMask, mark = static_cast<std::uint32_t>(flat_.lights.size());
+            if (kind <= kSphereLight) {
+                flat_.records[std::size_t{recordOf_[light.primitive]} * kRecordTexels + 2].w = mark;
+            }
+            if (kind == kRectangleLight) {
+                flat_.records[std::size_t{recordOf_[light.otherPrimitive]} * kRecordTexels + 2].w = mark;
+            }
+        }
     }
 
     FlatScene& flat_;
     const Scene& scene_;
     const Primitives& primitives_;
     std::span<const std::uint32_t> recordOf_;
-    double radius_;
-    std::vector<double> powers_;
+    std::vector<FiniteLight> finite_;
+    std::vector<double> powers_;  // of these, W/sr
+    std::vector<FlatLight> infinite_;
+    std::vector<double> irradiances_;                // of these, W/m^2
     std::map<std::uint32_t, EmissiveImage> images_;  // by image
 };
 

@@ -35,7 +35,7 @@ std::vector<PiecewiseConstantEntry> buildPiecewiseConstant(std::span<const doubl
         return entry;
     };
     for (std::uint64_t i = 0; i < count; ++i) {
-        // The words that `chooseBin` of lib/alias.glsl maps to i.
+        // The words that `chooseBin` of lib/hash.glsl maps to i.
         entries[i].searchBegin = advanceTo((i * kWords + count - 1) / count);
         entries[i].searchEnd = advanceTo(((i + 1) * kWords + count - 1) / count - 1);
     }

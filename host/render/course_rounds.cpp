@@ -42,7 +42,7 @@ std::vector<LightRound> lightRounds(const FlatScene& scene, const RenderSettings
     if (rounds.empty()) {
         rounds.push_back({false, kNoLightIndex});
     }
-    constexpr std::uint32_t kHitByRays = kFeatureTriangleLights | kFeatureSphereLights | kFeatureEnvironment;
+    constexpr std::uint32_t kHitByRays = kFeatureTriangleLights | kFeatureRectangleLights | kFeatureSphereLights | kFeatureEnvironment;
     if (settings.course.direct == DirectLight::Hemisphere && (scene.features & kHitByRays) != 0) {
         for (std::uint32_t i = 0; i < settings.course.lightSamples; ++i) {
             rounds.push_back({true, kNoLightIndex, i, settings.course.lightSamples});

@@ -10,7 +10,7 @@ std::string quoted(const std::string& name) { return name.empty() ? "without a n
 // Compares values, not indices: the flat scene leaves out lights without power.
 bool isSame(const PunctualLight& light, const FlatLight& flat)
 {
-    return light.position == flat.position && light.direction == flat.direction && light.intensity == flat.intensity &&
+    return light.position == flat.position && light.direction == flat.edge1 && light.intensity == flat.intensity &&
            light.cosInner == flat.cosInner && light.cosOuter == flat.cosOuter;
 }
 
@@ -53,8 +53,8 @@ std::string describeLight(const PreparedScene& prepared, std::uint32_t light)
     if (source.kind == kEnvironmentLight) {
         return "environment";
     }
-    if (source.kind == kTriangleLight || source.kind == kSphereLight) {
-        return describeRecord(prepared, prepared.flat.emitters[source.firstEmitter].record).object;
+    if ((source.kind & kLightKindMask) <= kSphereLight) {
+        return describePrimitive(prepared.scene, prepared.primitives, source.primitive).object;
     }
     return describePunctual(prepared.scene, source);
 }

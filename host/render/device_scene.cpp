@@ -62,7 +62,7 @@ DeviceScene::DeviceScene(Device& device, const FlatScene& scene)
       vertices_(uploaded(device, "scene's vertices", BufferKind::Texel, scene.vertices)),
       materials_(uploaded(device, "scene's materials", BufferKind::Texel, materialTexels(scene))),
       lights_(uploaded(device, "scene's lights", BufferKind::Texel, scene.lights)),
-      emitters_(uploaded(device, "scene's emitters", BufferKind::Texel, scene.emitters)),
+      lightNodes_(uploaded(device, "scene's light tree", BufferKind::Texel, scene.lightNodes)),
       albedos_(uploaded(device, "albedo table", BufferKind::Texel, scene.albedos)),
       environment_(uploaded(device, "environment map", BufferKind::Texel8, scene.environmentTexels)),
       environmentCells_(uploaded(device, "environment map's cells", BufferKind::Texel, scene.environmentCells)),
@@ -72,8 +72,8 @@ DeviceScene::DeviceScene(Device& device, const FlatScene& scene)
 std::vector<BindingSlot> DeviceScene::slots()
 {
     std::vector<BindingSlot> slots{{kBindEnvironment, BufferKind::Texel8}};
-    for (const std::uint32_t binding : {kBindNodes, kBindRecords, kBindTriangles, kBindVertices, kBindMaterials, kBindLights, kBindEmitters,
-                                        kBindAlbedos, kBindEnvironmentCells}) {
+    for (const std::uint32_t binding : {kBindNodes, kBindRecords, kBindTriangles, kBindVertices, kBindMaterials, kBindLights,
+                                        kBindLightNodes, kBindAlbedos, kBindEnvironmentCells}) {
         slots.push_back({binding, BufferKind::Texel});
     }
     for (std::uint32_t view = 0; view < kMaxTexelViews; ++view) {
@@ -90,7 +90,7 @@ std::map<std::uint32_t, const Buffer*> DeviceScene::buffers() const
                                                    {kBindVertices, &vertices_},
                                                    {kBindMaterials, &materials_},
                                                    {kBindLights, &lights_},
-                                                   {kBindEmitters, &emitters_},
+                                                   {kBindLightNodes, &lightNodes_},
                                                    {kBindAlbedos, &albedos_},
                                                    {kBindEnvironment, &environment_},
                                                    {kBindEnvironmentCells, &environmentCells_}};

@@ -17,7 +17,7 @@ public:
     std::map<std::uint32_t, const Buffer*> buffers() const;
 
 private:
-    Buffer nodes_, records_, triangles_, vertices_, materials_, lights_, emitters_, albedos_, environment_, environmentCells_;
+    Buffer nodes_, records_, triangles_, vertices_, materials_, lights_, lightNodes_, albedos_, environment_, environmentCells_;
     std::vector<Buffer> images_;  // 2^kTexelViewBits texels each
 };
 

@@ -26,6 +26,8 @@ DeviceParameters::DeviceParameters(Device& device, const FlatScene& scene, const
     parameters_.minPathLength = lengths.min;
     parameters_.maxPathLength = lengths.max;
     parameters_.lightCount = static_cast<std::uint32_t>(scene.lights.size());
+    parameters_.finiteLights = scene.finiteLights;
+    parameters_.finiteShare = scene.finiteShare;
     parameters_.environmentLight = scene.environmentLight;
     parameters_.environment = scene.environment;
     parameters_.clampIndirect = settings.clampIndirect;

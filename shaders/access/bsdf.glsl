@@ -4,6 +4,7 @@
 #define GLIM_ACCESS_BSDF
 
 #include "interaction.glsl"
+#include "lib/octahedral.glsl"
 #include "lib/bsdf/dielectric.glsl"
 #include "lib/bsdf/lambert.glsl"
 #include "lib/bsdf/mirror.glsl"
@@ -98,6 +99,17 @@ bool hasNonDelta(Bsdf bsdf)
 // Whether a lobe that is not delta transmits.
 #define transmitsDiffusely(bsdf) \
     (hasFeature(kFeatureTransmission | kFeatureDiffuseTransmission) && isPrincipled((bsdf).lobe) && hasNonDelta(bsdf))
+
+// PathState::normal of a vertex, for the choice of lights.
+uint horizonOf(Bsdf bsdf)
+{
+    return !choosesLights() ? 0u : transmitsDiffusely(bsdf) ? kNoHorizon : encodeNormal(bsdf.frame.z);
+}
+
+vec3 decodeHorizon(uint normal)
+{
+    return normal == kNoHorizon ? vec3(0.0) : decodeNormal(normal);
+}
 
 // `local`: wi in the shading frame. `outwards`: its cosine against bsdf.ng.
 BsdfEval evalInFrame(Bsdf bsdf, vec3 wo, vec3 local, float outwards)

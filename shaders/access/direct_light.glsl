@@ -11,13 +11,13 @@
 // If a lobe that is not delta transmits, the side is unknown before wi is: p is then the point itself.
 LightContext makeLightContext(SurfaceInteraction si, Bsdf bsdf)
 {
-    return LightContext(transmitsDiffusely(bsdf) ? si.p : offsetRayOrigin(si, si.ng), si.ng, bsdf.frame.z);
+    return LightContext(transmitsDiffusely(bsdf) ? si.p : offsetRayOrigin(si, si.ng), bsdf.frame.z, decodeHorizon(horizonOf(bsdf)));
 }
 
 // The context of the vertex that the path's ray has left.
 LightContext previousContext(PathRay ray, PathState state)
 {
-    vec3 n = decodeNormal(state.normal);
+    vec3 n = decodeHorizon(state.normal);
     return LightContext(ray.origin, n, n);
 }
 
@@ -43,21 +43,20 @@ vec3 weightedEmission(SurfaceInteraction si, MaterialData material, PathRay ray,
     if (all(equal(emission, vec3(0.0))) || !(state.pdf > 0.0)) {
         return emission;
     }
-    float pdf = pdfEmitter(previousContext(ray, state), si.emitter - 1u, hit.t, abs(dot(si.ng, ray.direction)));
+    float pdf = pdfSurfaceLight(previousContext(ray, state), si.light - 1u, hit.t, abs(dot(si.ng, ray.direction)));
     return emission * misWeightOfHit(state, pdf);
 }
 
-// One light by power.
-uint chooseLight(SampleId id, uint bounce)
+// Uses the sampler dimensions of the bounce.
+LightChoice chooseLight(SampleId id, LightContext context, uint bounce)
 {
-    return selectLight(samplePair(id, bounceDimension(bounce, kDimensionLight), kSobol), render.lightCount);
+    return chooseLight(context, samplePair(id, bounceDimension(bounce, kDimensionLight), kSobol));
 }
 
-// Uses the sampler dimensions of the bounce.
-LightSample sampleChosenLight(SampleId id, FlatLight chosen, SurfaceInteraction si, Bsdf bsdf, uint bounce)
+LightSample sampleChosenLight(SampleId id, LightChoice choice, LightContext context, uint bounce)
 {
-    return sampleLight(chosen, makeLightContext(si, bsdf), samplePair(id, bounceDimension(bounce, kDimensionEmitter), kSobol),
-                       unitFloat(samplePair(id, bounceDimension(bounce, kDimensionPoint), kSobol)));
+    return sampleLight(fetchLight(choice.light), choice.probability, context,
+                       samplePair(id, bounceDimension(bounce, kDimensionPoint), kSobol));
 }
 
 // The shadow ray of a light sample, which starts on the side of wi. Its contribution counts if nothing is in the way. False if that is zero.

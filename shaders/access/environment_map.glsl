@@ -3,7 +3,7 @@
 #ifndef GLIM_ACCESS_ENVIRONMENT_MAP
 #define GLIM_ACCESS_ENVIRONMENT_MAP
 
-#include "lib/alias.glsl"
+#include "lib/hash.glsl"
 #include "lib/lat_long.glsl"
 #include "parameters.glsl"
 #include "scene.glsl"

@@ -19,7 +19,13 @@ const uint kLayerFeatures = kFeatureClearcoat | kFeatureSheen | kFeatureAnisotro
 
 // Light that a ray may hit by chance.
 #define hasEnvironment() hasFeature(kFeatureEnvironment)
-#define hasEmissiveSurfaces() hasFeature(kFeatureTriangleLights | kFeatureSphereLights | kFeatureUnlit)
+#define hasEmissiveSurfaces() hasFeature(kFeatureTriangleLights | kFeatureRectangleLights | kFeatureSphereLights | kFeatureUnlit)
+
+const uint kFiniteLights = kFeatureTriangleLights | kFeatureRectangleLights | kFeatureSphereLights | kFeaturePunctualLights;
+const uint kInfiniteLights = kFeatureEnvironment | kFeaturePunctualLights;
+
+// Whether there are several finite lights, of which one is chosen.
+#define choosesLights() hasFeature(kFeatureFewLights | kFeatureLightTree)
 
 layout(constant_id = kSpecStackLevels) const uint kStackLevels = kMaxStackLevels;
 layout(constant_id = kSpecTexelViews) const uint kTexelViews = kMaxTexelViews;

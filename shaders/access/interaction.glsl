@@ -16,18 +16,20 @@ struct SurfaceInteraction {
     bool front;        // wo is on the front side
     uint material;
     uint primitive;
-    uint emitter;      // index + 1, or 0
+    uint light;        // index + 1, or 0
 };
 
-// The unit normal of a triangle, counter-clockwise front; from its two longest edges, which cancel least.
-vec3 triangleNormal(vec3 v0, vec3 v1, vec3 v2)
+// The unit normal of a triangle, counter-clockwise front, from its sides one after the other: the two longest cancel least.
+vec3 triangleNormalFromSides(vec3 a, vec3 b, vec3 c)
 {
-    vec3 a = v1 - v0;
-    vec3 b = v2 - v1;
-    vec3 c = v0 - v2;
     vec3 l = vec3(dot(a, a), dot(b, b), dot(c, c));
     vec3 n = l.x <= l.y && l.x <= l.z ? cross(b, c) : l.y <= l.z ? cross(c, a) : cross(a, b);
     return normalizeSafely(n);
+}
+
+vec3 triangleNormal(vec3 v0, vec3 v1, vec3 v2)
+{
+    return triangleNormalFromSides(v1 - v0, v2 - v1, v0 - v2);
 }
 
 // Interpolates the section of the vertices that begins at texel `first` (scene_types.h).
@@ -112,7 +114,7 @@ vec3 reflectingNormal(vec3 ns, vec3 ng, vec3 wo)
 // Radiance that the surface itself sends towards wo.
 vec3 emittedRadiance(SurfaceInteraction si, MaterialData material)
 {
-    return si.emitter != 0u && (si.front || (material.flags & kDoubleSided) != 0u) ? material.emission : vec3(0.0);
+    return si.light != 0u && (si.front || (material.flags & kDoubleSided) != 0u) ? material.emission : vec3(0.0);
 }
 
 // The point, moved to the side of the surface that w points to, beyond its error bound.

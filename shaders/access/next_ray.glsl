@@ -55,7 +55,7 @@ bool continuePath(BsdfSample s, BounceNumbers u, SurfaceInteraction si, Bsdf bsd
     ray = spawnRay(si, s.wi);
     ray.media = mediaOfNextRay(media, si, bsdf, s.wi);
     state = PathState(throughput / continuation, s.pdf, max(0.0, dot(s.wi, bsdf.frame.z)), etaScale, state.bounce + 1u,
-                      encodeNormal(bsdf.frame.z));
+                      horizonOf(bsdf));
     return scatters && u.roulette < continuation;
 }
 

@@ -52,9 +52,10 @@ float continuationOf(BsdfSample s, vec3 throughput, float etaScale, uint bounce)
 
 LightSample sampleDirectLight(SampleId id, SurfaceInteraction si, Bsdf bsdf, uint bounce)
 {
-    uint chosen = chooseLight(id, bounce);
-    noteLight(chosen);
-    return sampleChosenLight(id, fetchLight(chosen), si, bsdf, bounce);
+    LightContext context = makeLightContext(si, bsdf);
+    LightChoice choice = chooseLight(id, context, bounce);
+    noteLight(choice.light);
+    return sampleChosenLight(id, choice, context, bounce);
 }
 
 VertexResult shadeSurface(SampleId id, PathRay ray, PathHit hit, PathState state)

@@ -11,7 +11,7 @@ layout(set = 0, binding = kBindTriangles) uniform usamplerBuffer sceneTriangles;
 layout(set = 0, binding = kBindVertices) uniform usamplerBuffer sceneVertices;
 layout(set = 0, binding = kBindMaterials) uniform usamplerBuffer sceneMaterials;
 layout(set = 0, binding = kBindLights) uniform usamplerBuffer sceneLights;
-layout(set = 0, binding = kBindEmitters) uniform usamplerBuffer sceneEmitters;
+layout(set = 0, binding = kBindLightNodes) uniform usamplerBuffer sceneLightNodes;
 
 // Three texels; scene_types.h says what is in them.
 struct Record {
@@ -105,16 +105,18 @@ FlatLight fetchLight(uint light)
     uvec4 c = texelFetch(sceneLights, at + 2);
     uvec4 d = texelFetch(sceneLights, at + 3);
     uvec4 e = texelFetch(sceneLights, at + 4);
-    return FlatLight(a.x, a.y, a.z, uintBitsToFloat(a.w), floatsOf(b), uintBitsToFloat(b.w), floatsOf(c),
-                     uintBitsToFloat(c.w), floatsOf(d), uintBitsToFloat(d.w), AliasEntry(e.x, e.y), e.z, e.w);
+    return FlatLight(a.x, a.y, a.z, a.w, floatsOf(b), uintBitsToFloat(b.w), floatsOf(c), uintBitsToFloat(c.w), floatsOf(d),
+                     uintBitsToFloat(d.w), floatsOf(e), uintBitsToFloat(e.w));
 }
 
-FlatEmitter fetchEmitter(uint emitter)
+LightNode fetchLightNode(uint node)
 {
-    int at = int(emitter * kEmitterTexels);
-    uvec4 a = texelFetch(sceneEmitters, at);
-    uvec4 b = texelFetch(sceneEmitters, at + 1);
-    return FlatEmitter(AliasEntry(a.x, a.y), a.z, a.w, uintBitsToFloat(b.x), b.y, b.zw);
+    int at = int(node * kLightNodeTexels);
+    uvec4 a = texelFetch(sceneLightNodes, at);
+    uvec4 b = texelFetch(sceneLightNodes, at + 1);
+    uvec4 c = texelFetch(sceneLightNodes, at + 2);
+    return LightNode(floatsOf(a), uintBitsToFloat(a.w), floatsOf(b), uintBitsToFloat(b.w), uintBitsToFloat(c.x), uintBitsToFloat(c.y), c.z,
+                     c.w);
 }
 
 uint primitiveOf(Record record)

@@ -29,4 +29,13 @@ vec2 unitFloat(uvec2 bits)
     return vec2(unitFloat(bits.x), unitFloat(bits.y));
 }
 
+// Uniform over [0, count): the upper word of bits * count. Probabilities of two values differ by at most 2^-32. With u * count from a
+// 24-bit float they would differ by more.
+uint chooseBin(uint bits, uint count)
+{
+    uint high, low;
+    umulExtended(bits, count, high, low);
+    return high;
+}
+
 #endif

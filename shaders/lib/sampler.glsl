@@ -10,12 +10,11 @@
 const uint kDimensionPixel = 0u;
 const uint kDimensionLens = 0xffffffffu;
 const uint kDimensionBounce = 1u;
-const uint kDimensionLight = 0u;    // which light: bin, threshold
-const uint kDimensionEmitter = 1u;  // which of its triangles: bin, threshold
-const uint kDimensionPoint = 2u;    // where on it
-const uint kDimensionBsdf = 3u;     // direction of the next ray
-const uint kDimensionLobe = 4u;     // which lobe; the second number is roulette's
-const uint kDimensionsPerBounce = 5u;
+const uint kDimensionLight = 0u;  // which light
+const uint kDimensionPoint = 1u;  // where on it
+const uint kDimensionBsdf = 2u;   // direction of the next ray
+const uint kDimensionLobe = 3u;   // which lobe; the second number is roulette's
+const uint kDimensionsPerBounce = 4u;
 // Whether a surface that is transparent in places is met, apart from all these: with the bounce in the lower bits.
 const uint kDimensionAlpha = 0x40000000u;
 const uint kDimensionWavelength = 0x20000000u;

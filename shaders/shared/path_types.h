@@ -26,8 +26,11 @@ struct PathState {
     float cosine;    // of the ray's direction against the shading normal it left, >= 0
     float etaScale;  // product of squared relative indices: throughput * etaScale is without refraction's scaling of radiance
     uint bounce;     // surfaces met
-    uint normal;     // shading normal where the ray started, octahedral (lib/octahedral.glsl)
+    uint normal;     // shading normal where the ray started, octahedral (lib/octahedral.glsl), or kNoHorizon
 };
+
+// PathState::normal of a surface that transmits: lights on both sides count.
+GLIM_CONST uint kNoHorizon = 0x80008000u;
 
 struct PathRadiance {
     vec3 radiance;
@@ -168,6 +171,8 @@ struct RenderParameters {
     uint minPathLength;  // least number of surfaces between camera and light, for light that counts
     uint maxPathLength;
     uint lightCount;
+    uint finiteLights;                       // the first of them
+    float finiteShare;                       // probability of choosing one of these
     uint environmentLight;                   // index, if the scene has an environment
     vec3 environment;                        // radiance, W/(sr m^2)
     float clampIndirect;                     // infinity: off

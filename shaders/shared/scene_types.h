@@ -17,8 +17,8 @@ GLIM_CONST uint kMaxLeafRecords = 3u;
 GLIM_CONST uint kFirstNodeBit = 24u;  // 8 leaves have as many records at most
 
 // Records are in the order of the leaves, three texels each. A primitive may have several, all alike:
-//   triangle: (v0.xyz, primitive id) (v1.xyz, material, | kSliverBit) (v2.xyz, emitter + 1 or 0)
-//   sphere:   (centre.xyz, primitive id) (radius, 0, 0, material | kSphereBit) (0, 0, 0, emitter + 1 or 0)
+//   triangle: (v0.xyz, primitive id) (v1.xyz, material, | kSliverBit) (v2.xyz, light + 1 or 0)
+//   sphere:   (centre.xyz, primitive id) (radius, 0, 0, material | kSphereBit) (0, 0, 0, light + 1 or 0)
 // The primitive id is the index in the scene (triangles, then spheres). A ray's source and target are primitive ids, and the lower id wins
 // a tie, so pictures do not depend on the tree.
 //
@@ -52,15 +52,15 @@ GLIM_CONST uint kLobeCoat = 2u;
 GLIM_CONST uint kLobeSheen = 3u;
 GLIM_CONST uint kLobeThrough = 4u;  // diffuse transmission
 
-// Materials, lights and emitters are read as texels too (scene.glsl): on llvmpipe, loading one word of a storage buffer costs as much as
-// loading the four of a texel. So structs are whole texels, and each vec3 shares one with a scalar.
+// Materials, lights and nodes of lights are read as texels too (scene.glsl): on llvmpipe, loading one word of a storage buffer costs as
+// much as loading the four of a texel. So structs are whole texels, and each vec3 shares one with a scalar.
 GLIM_CONST uint kMaterialTexels = 3u;
 GLIM_CONST uint kPrincipledTexels = 4u;
 GLIM_CONST uint kLayersTexels = 8u;
 GLIM_CONST uint kMediumTexels = 2u;
 GLIM_CONST uint kTextureTexels = 3u;
 GLIM_CONST uint kLightTexels = 5u;
-GLIM_CONST uint kEmitterTexels = 2u;
+GLIM_CONST uint kLightNodeTexels = 3u;
 
 GLIM_CONST uint kDoubleSided = 1u;  // emits from both sides
 GLIM_CONST float kCoverage = -1.0;  // alpha is the share of light that the surface meets
@@ -169,45 +169,49 @@ GLIM_CONST uint kMaxTexelViews = 8u;
 // Scenes with sheen have another table behind it: texel (i, j) is the sheen's albedo at (i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1).
 GLIM_CONST uint kAlbedoSize = 64u;
 
-GLIM_CONST uint kTriangleLight = 0u;  // all triangles of one instance of an emissive mesh, chosen by area
-GLIM_CONST uint kSphereLight = 1u;
-GLIM_CONST uint kPointLight = 2u;
-GLIM_CONST uint kSpotLight = 3u;
-GLIM_CONST uint kDirectionalLight = 4u;
-GLIM_CONST uint kEnvironmentLight = 5u;
+GLIM_CONST uint kTriangleLight = 0u;
+GLIM_CONST uint kRectangleLight = 1u;  // two triangles
+GLIM_CONST uint kSphereLight = 2u;
+GLIM_CONST uint kPointLight = 3u;
+GLIM_CONST uint kSpotLight = 4u;
+GLIM_CONST uint kDirectionalLight = 5u;
+GLIM_CONST uint kEnvironmentLight = 6u;
+GLIM_CONST uint kLightKindMask = 0xffu;
+GLIM_CONST uint kDoubleSidedLight = 0x100u;
+GLIM_CONST uint kUnevenLight = 0x200u;  // its emission changes over the surface
 
-// One entry of an alias table (Walker 1977; Vose 1991). The bin is kept if the second random number is below the threshold (of 2^32);
-// otherwise it is replaced by `other`.
-struct AliasEntry {
-    uint threshold;
-    uint other;
-};
-
+// Each primitive that emits is a light of its own; two triangles that make a rectangle are one. Finite lights come first, in the order of
+// the light tree's leaves; infinite ones, the directional lights and the environment, last.
 struct FlatLight {
-    uint kind;
-    uint firstEmitter;  // triangles and sphere: its emitters [firstEmitter, firstEmitter + emitterCount)
-    uint emitterCount;
-    float probability;  // of choosing this light, as the alias table implements it
-    vec3 position;      // sphere: centre; point, spot
-    float radius;       // sphere; point, spot: their range, or 0
-    vec3 direction;     // spot, directional: unit, the way light travels
-    float cosInner;     // spot
-    vec3 intensity;     // surfaces, constant environment: radiance; point, spot: W/sr; directional: W/m^2
-    float cosOuter;     // spot
-    AliasEntry alias;
-    uint doubleSided;
-    uint uneven;  // 1: its emission changes over the surface
+    uint kind;            // kTriangleLight ..., | kDoubleSidedLight | kUnevenLight
+    uint record;          // triangle, sphere: one of its records
+    uint primitive;       // triangle, sphere; rectangle: of the half at `position`
+    uint otherPrimitive;  // rectangle: of the other half
+    vec3 intensity;       // surfaces, constant environment: radiance; point, spot: W/sr; directional: W/m^2
+    float probability;    // infinite lights: of choosing this one
+    vec3 position;        // triangle: vertex 0; rectangle: a corner; sphere: centre; point, spot
+    float size;           // triangle, rectangle: area; sphere: radius; point, spot: their range, or 0
+    vec3 edge1;           // triangle: to vertex 1; rectangle: a side; spot, directional: unit direction, the way light travels
+    float cosInner;       // spot
+    vec3 edge2;           // triangle: to vertex 2; rectangle: the other side
+    float cosOuter;       // spot
 };
 
-// A primitive that emits.
-struct FlatEmitter {
-    AliasEntry alias;  // among its light's emitters, indices relative to firstEmitter
-    uint record;       // one of its records
-    uint light;
-    float areaPdf;  // of a point on it, per m^2, once its light is chosen; as the alias table implements it
-    uint primitive;
-    uvec2 unused;
+// A node of the light tree: bounds of the lights below it (lib/light_bounds.glsl). With at most kFewLights lights, these are the nodes, in
+// their order. Otherwise node 0 is the root, and the two children of a node follow one another.
+struct LightNode {
+    vec3 center;  // of a sphere around the lights
+    float radius;
+    vec3 axis;           // unit, of the cone of their normals or directions
+    float power;         // sum of radiance * projected area, or intensity, W/sr
+    float cosNormals;    // of the cone's half angle
+    float cosEmission;   // of the angle from a normal or a direction at which the last light ends
+    uint child;          // the first of two, | kTwoSidedNode; 0 or that bit alone: a leaf
+    uint firstOfSecond;  // the first light of the second child; of a leaf: its light
 };
+GLIM_CONST uint kTwoSidedNode = 0x80000000u;  // each of its lights emits from both sides
+GLIM_CONST uint kFewLights = 16u;
+GLIM_CONST float kUniformShare = 0.1f;  // of the choices between finite lights that ignore importance
 
 GLIM_CONST uint kPerspective = 0u;
 GLIM_CONST uint kOrthographic = 1u;

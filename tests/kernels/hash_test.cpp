@@ -18,6 +18,7 @@ struct Case {
     uvec4 hash;
     uint bits;
     float unit;
+    uint bin;
 };
 
 // pcg4d as Jarzynski and Olano 2020 define it, word by word modulo 2^32.
@@ -49,7 +50,8 @@ std::vector<Case> hashCases()
         const uvec4 counter(i % 64, i / 64, i % 7, i % 3);
         // The 256 numbers that round to 1.0 as float(u) / 2^32, the smallest ones, and some between.
         const uint bits = i < 512 ? 0xffffffffU - i : (i < 1024 ? i - 512 : i * 65537U);
-        cases.push_back({counter, pcg4d(counter), bits, static_cast<float>(std::floor(bits / 256.0) / 16777216.0)});
+        cases.push_back({counter, pcg4d(counter), bits, static_cast<float>(std::floor(bits / 256.0) / 16777216.0),
+                         static_cast<uint>(std::uint64_t{bits} * 1000003 >> 32)});
     }
     return cases;
 }

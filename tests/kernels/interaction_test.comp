@@ -8,7 +8,7 @@
 struct Result {
     PathHit hit;
     vec3 point, errorBound, ng, ns;
-    uint front, material, emitter;
+    uint front, material, light;
     vec3 emitted;
 };
 
@@ -36,10 +36,10 @@ void main()
             MaterialData material = fetchMaterial(s.material);
             vec3 emitted = emittedRadiance(s, material);
             SurfaceInteraction dark = s;
-            dark.emitter = 0u;
+            dark.light = 0u;
             EXPECT_TRUE(emittedRadiance(dark, material) == vec3(0.0));
             results[TEST_THREAD] = Result(hit, s.p, s.errorBound, s.ng, s.ns, uint(s.front), s.material,
-                                          s.emitter, emitted);
+                                          s.light, emitted);
         }
     }
     endTest();

@@ -15,7 +15,7 @@ namespace {
 struct Result {
     PathHit hit;
     vec3 point, errorBound, ng, ns;
-    uint front, material, emitter;
+    uint front, material, light;
     vec3 emitted;
 };
 
@@ -193,9 +193,9 @@ TEST_P(SurfaceTest, IsTheOneOfTheScene)
         }
         const bool isTriangle = id < onDevice.primitives.triangles.size();
         EXPECT_EQ(r.material, isTriangle ? (id < 150 ? kFlat : kSmooth) : kRound);
-        EXPECT_EQ(r.emitter > 0, r.material != kFlat);
-        if (r.emitter > 0) {
-            EXPECT_EQ(onDevice.flat.emitters[r.emitter - 1].primitive, id);
+        EXPECT_EQ(r.light > 0, r.material != kFlat);
+        if (r.light > 0) {
+            EXPECT_EQ(onDevice.flat.lights[r.light - 1].primitive, id);
         }
         checkEmission(scene.materials[r.material], r);
         if (isTriangle) {

@@ -4,7 +4,7 @@
 #include "expect.glsl"
 #include "access/interaction.glsl"
 #include "access/traverse.glsl"
-#include "lib/alias.glsl"
+#include "lib/hash.glsl"
 #include "lib/frame.glsl"
 #include "lib/warp.glsl"
 #include "primitive_met.glsl"

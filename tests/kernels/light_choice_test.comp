@@ -1,36 +1,50 @@
-// One thread is one sample of a light from the origin: which light, which part of it, and where that lies. If this light were the
-// only choice, the sample would be the same, and its pdf greater by 1 / probability.
+// One thread is one choice of a light for one receiver, and a sample of it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
 #include "access/light.glsl"
 
+struct Case {
+    vec3 p;
+    vec3 horizon;
+};
+
 struct Result {
     uint light;
+    float probability;
     uint primitive;
     vec3 wi;
     uint lit;
 };
 
+layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
 layout(set = 0, binding = kBindResults, scalar) writeonly buffer Results { Result results[]; };
 
-void main()
+void drawLight(LightContext context)
 {
-    uvec4 a = hash4(uvec4(TEST_THREAD, 0u, 0u, render.seed));
-    uvec4 b = hash4(uvec4(TEST_THREAD, 1u, 0u, render.seed));
-    uint chosen = selectLight(a.xy, render.lightCount);
-    EXPECT_TRUE(chosen < render.lightCount);
-    LightContext context = LightContext(vec3(0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 1.0, 0.0));
-    FlatLight flatLight = fetchLight(chosen);
-    LightSample light = sampleLight(flatLight, context, a.zw, unitFloat(b.xy));
-    float probability = flatLight.probability;
-    flatLight.probability = 1.0;
-    LightSample certain = sampleLight(flatLight, context, a.zw, unitFloat(b.xy));
+    uvec4 bits = hash4(uvec4(TEST_THREAD, 0u, 0u, render.seed));
+    LightChoice choice = chooseLight(context, bits.xy);
+    EXPECT_TRUE(choice.light < render.lightCount);
+    bool finite = choice.light < render.finiteLights;
+    // To the same bits, or MIS weights of a light that is sampled and of one that is hit do not add up.
+    EXPECT_TRUE(!finite || choice.probability == probabilityOfLight(context, choice.light));
+    EXPECT_TRUE(finite || choice.probability == fetchLight(choice.light).probability);
+    FlatLight flatLight = fetchLight(choice.light);
+    LightSample light = sampleLight(flatLight, choice.probability, context, bits.zw);
+    LightSample certain = sampleLight(flatLight, 1.0, context, bits.zw);
     EXPECT_TRUE(certain.wi == light.wi && certain.target == light.target);
     EXPECT_TRUE(certain.primitive == light.primitive && certain.tMax == light.tMax);
     // At most four products and quotients differ, half an ulp each, in the one and in the other.
-    EXPECT_CLOSE(certain.pdf * probability, light.pdf, 5e-7);
-    EXPECT_NEAR_VECTOR(certain.radiance, light.radiance * probability, 7e-7 * length(certain.radiance));
-    results[TEST_THREAD] = Result(chosen, light.primitive, light.wi, uint(light.radiance != vec3(0.0)));
+    EXPECT_CLOSE(certain.pdf * choice.probability, light.pdf, 5e-7);
+    EXPECT_NEAR_VECTOR(certain.radiance, light.radiance * choice.probability, 7e-7 * length(certain.radiance));
+    results[TEST_THREAD] =
+        Result(choice.light, choice.probability, light.primitive, light.wi, uint(light.radiance != vec3(0.0)));
+}
+
+// `sampleCount` threads for each receiver.
+void main()
+{
+    Case c = cases[TEST_THREAD / pass.sampleCount];
+    drawLight(LightContext(c.p, c.horizon == vec3(0.0) ? vec3(0.0, 1.0, 0.0) : c.horizon, c.horizon));
     endTest();
 }

@@ -70,7 +70,7 @@ void comparePdf(Receiver receiver, LightSample light, inout Result result)
     // Nearer to grazing the rounding of the directions alone is more than the tolerance.
     if (cosine > 3e-3) {
         LightContext context = LightContext(origin, receiver.surface.ns, receiver.surface.ns);
-        float pdf = pdfEmitter(context, met.emitter - 1u, hit.t, cosine);
+        float pdf = pdfSurfaceLight(context, met.light - 1u, hit.t, cosine);
         result.pdfError = max(result.pdfError, abs(pdf - light.pdf) / light.pdf);
         ++result.compared;
     }
@@ -84,11 +84,10 @@ void main()
     Result result = Result(0.0, kInfinity, 0.0, 0.0, 0.0, 0u, 0u, receiver.error);
     for (uint i = 0u; i < render.maxBounces; ++i) {
         uvec4 a = hash4(uvec4(TEST_THREAD, i, 0u, render.seed));
-        uvec4 b = hash4(uvec4(TEST_THREAD, i, 1u, render.seed));
-        uint chosen = selectLight(a.xy, render.lightCount);
         // At the point itself, for which the host knows the irradiance; makeLightContext moves it by its error bound.
-        LightContext context = LightContext(receiver.surface.p, receiver.surface.ng, receiver.surface.ns);
-        LightSample light = sampleLight(fetchLight(chosen), context, a.zw, unitFloat(b.xy));
+        LightContext context = LightContext(receiver.surface.p, receiver.surface.ns, receiver.surface.ns);
+        LightChoice choice = chooseLight(context, a.xy);
+        LightSample light = sampleLight(fetchLight(choice.light), choice.probability, context, a.zw);
         float one = estimate(receiver, light);
         EXPECT_TRUE(one >= 0.0 && !isinf(one));
         EXPECT_TRUE(light.radiance.r == 0.0 || abs(dot(light.wi, light.wi) - 1.0) < 1e-6);

@@ -66,6 +66,7 @@ protected:
         builder.mirror(kColor);
         builder.glass(static_cast<float>(kIndex));
         builder.sphere(vec3(3.0F), 1.0F, builder.lambert(kColor));
+        builder.light({}).light({});  // lights are chosen by the normal
         Scene scene = builder.scene();
         scene.materials[kMetal].metallic = 0.5F;
         scene.materials[kMetal].roughness = 0.7F;

@@ -22,15 +22,15 @@ void main()
             id = splitSample(id, c.light, c.k, c.count);
         }
         uvec2 pair = samplePair(id, c.dimension, c.sobol != 0u);
-        // After the pixel's dimension and four bounces of five.
-        bool late = c.dimension >= 1u + 4u * 5u && c.dimension != kDimensionLens;
+        // After the pixel's dimension and four bounces of four.
+        bool late = c.dimension >= 1u + 4u * 4u && c.dimension != kDimensionLens;
         EXPECT_TRUE(c.sobol != 0u && !late || pair == independentPair(id, c.dimension));
         EXPECT_TRUE(c.sobol == 0u || late || pair != independentPair(id, c.dimension));
         // No two uses share a dimension.
         uint bounce = TEST_THREAD % 64u;
-        uint uses[5] = uint[](kDimensionLight, kDimensionEmitter, kDimensionPoint, kDimensionBsdf, kDimensionLobe);
-        for (uint k = 0u; k < 5u; ++k) {
-            EXPECT_EQUAL(bounceDimension(bounce, uses[k]), 1u + 5u * bounce + k);
+        uint uses[4] = uint[](kDimensionLight, kDimensionPoint, kDimensionBsdf, kDimensionLobe);
+        for (uint k = 0u; k < 4u; ++k) {
+            EXPECT_EQUAL(bounceDimension(bounce, uses[k]), 1u + 4u * bounce + k);
         }
         EXPECT_TRUE(kDimensionPixel == 0u && kDimensionLens == 0xffffffffu);
         results[TEST_THREAD] = pair;

@@ -14,7 +14,7 @@ struct Case {
     uint material;
     vec3 baseColor;
     vec3 emission;
-    uint light;       // + 1; 0 where it does not emit
+    uint emits;
     vec3 cameraPosition;
 };
 
@@ -41,13 +41,15 @@ void main()
         MaterialData material = fetchMaterial(c.material);
         EXPECT_TRUE(material.baseColor == c.baseColor);
         EXPECT_TRUE(material.emission == c.emission);
-        EXPECT_EQUAL(uint(record.t2.w != 0u), uint(c.light != 0u));
+        EXPECT_EQUAL(uint(record.t2.w != 0u), c.emits);
         if (record.t2.w != 0u) {
-            FlatEmitter emitter = fetchEmitter(record.t2.w - 1u);
-            EXPECT_EQUAL(emitter.primitive, c.id);
-            EXPECT_EQUAL(primitiveOf(fetchRecord(emitter.record)), c.id);
-            EXPECT_EQUAL(emitter.light, c.light - 1u);
-            EXPECT_TRUE(fetchLight(emitter.light).intensity == c.emission);
+            FlatLight light = fetchLight(record.t2.w - 1u);
+            EXPECT_EQUAL(light.primitive, c.id);
+            EXPECT_EQUAL(primitiveOf(fetchRecord(light.record)), c.id);
+            EXPECT_EQUAL(light.kind, c.triangle != 0u ? kTriangleLight : kSphereLight);
+            EXPECT_TRUE(light.intensity == c.emission && light.position == c.corners[0]);
+            EXPECT_TRUE(c.triangle == 0u ? light.size == c.corners[1].x
+                                         : light.edge1 == c.corners[1] - c.corners[0] && light.edge2 == c.corners[2] - c.corners[0]);
         }
         EXPECT_TRUE(render.camera.position == c.cameraPosition);
     }

@@ -20,7 +20,7 @@ struct Case {
     uint material;
     vec3 baseColor;
     vec3 emission;
-    uint light;
+    uint emits;
     vec3 cameraPosition;
 };
 
@@ -71,13 +71,13 @@ Case caseOf(const Scene& scene, const Primitives& primitives, std::uint32_t id)
         }
         c.sliver = id == kSliver ? 1 : 0;
         c.material = mesh;
-        c.light = mesh;
+        c.emits = mesh;
     } else {
         const Sphere& sphere = scene.spheres[id - triangles];
         c.corners[0] = sphere.center;
         c.corners[1] = vec3(sphere.radius, 0.0F, 0.0F);
         c.material = sphere.material;
-        c.light = sphere.material == 2 ? 2 + (id - triangles) / 2 : 0;  // after the mesh's one light
+        c.emits = sphere.material == 2 ? 1 : 0;
     }
     c.baseColor = scene.materials[c.material].baseColor;
     c.emission = scene.materials[c.material].emission;

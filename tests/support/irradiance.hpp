@@ -16,7 +16,7 @@ struct IrradianceEstimate {
     double mean, standardError;
     double least, most;     // of single samples
     double pdf;             // of some sample
-    double pdfError;        // largest relative difference of sampleLight's pdf and pdfEmitter
+    double pdfError;        // largest relative difference of sampleLight's pdf and pdfSurfaceLight
     std::size_t compared;   // samples in pdfError
     std::size_t elsewhere;  // samples towards a surface light whose direction meets something else
     double surfaceError;    // metres

@@ -39,6 +39,8 @@ struct SceneOnDevice {
         test.parameters().camera = camera;
         test.specialize(kSpecStackLevels, flat.stackLevels).specialize(kSpecFeatures, flat.features).specialize(kSpecTexelViews, 1);
         test.parameters().lightCount = static_cast<std::uint32_t>(flat.lights.size());
+        test.parameters().finiteLights = flat.finiteLights;
+        test.parameters().finiteShare = flat.finiteShare;
         return test;
     }
 

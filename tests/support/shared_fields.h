@@ -10,7 +10,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 362u;
+GLIM_CONST uint kSharedWords = 366u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -38,9 +38,8 @@ struct EverySharedStruct {
     LayersData layers;
     MediumData medium;
     TextureData texture_;
-    AliasEntry alias;
     FlatLight light;
-    FlatEmitter emitter;
+    LightNode lightNode;
     DisplayPass display;
 };
 
@@ -82,7 +81,7 @@ U(pass_.lightRound.lightSamples) U(pass_.lightRound.addsEmission) U(pass_.lightR
 F3(parameters.camera.position) F3(parameters.camera.right) F3(parameters.camera.up) F3(parameters.camera.forward)
 U(parameters.camera.kind) F3(parameters.camera.lensRight) F3(parameters.camera.lensUp) F(parameters.camera.inverseFocus)
 U(parameters.width) U(parameters.height) U(parameters.seed) U(parameters.maxBounces) U(parameters.minPathLength)
-U(parameters.maxPathLength) U(parameters.lightCount) U(parameters.environmentLight) F3(parameters.environment)
+U(parameters.maxPathLength) U(parameters.lightCount) U(parameters.finiteLights) F(parameters.finiteShare) U(parameters.environmentLight) F3(parameters.environment)
 F(parameters.clampIndirect) U(parameters.canarySteps) U(parameters.triangleCount) U(parameters.firstUv) U(parameters.firstTangent)
 U(parameters.firstColor) U(parameters.firstMedium) U(parameters.hidesEnvironment) U2(parameters.environmentSize) U2(parameters.environmentCells)
 F2(parameters.environmentTurn)
@@ -108,12 +107,10 @@ U(layers.unused)
 F3(medium.absorption) F(medium.ior) F(medium.spread) F3(medium.unused)
 U(texture_.firstTexel) U(texture_.size) U(texture_.flags) U(texture_.unused) F3(texture_.rowU) U(texture_.unusedU) F3(texture_.rowV)
 U(texture_.unusedV)
-U(alias.threshold) U(alias.other)
-U(light.kind) U(light.firstEmitter) U(light.emitterCount) F(light.probability) U(light.alias.threshold) U(light.alias.other)
-F3(light.position) F(light.radius) F3(light.direction) F(light.cosInner) F3(light.intensity) F(light.cosOuter)
-U(light.doubleSided) U(light.uneven)
-U(emitter.record) U(emitter.light) F(emitter.areaPdf) U(emitter.alias.threshold) U(emitter.alias.other) U(emitter.primitive)
-U2(emitter.unused)
+U(light.kind) U(light.record) U(light.primitive) U(light.otherPrimitive) F3(light.intensity) F(light.probability) F3(light.position)
+F(light.size) F3(light.edge1) F(light.cosInner) F3(light.edge2) F(light.cosOuter)
+F3(lightNode.center) F(lightNode.radius) F3(lightNode.axis) F(lightNode.power) F(lightNode.cosNormals) F(lightNode.cosEmission)
+U(lightNode.child) U(lightNode.firstOfSecond)
 U(display.width) U(display.height) U(display.filmWidth) U(display.filmHeight) U(display.tileBegin) U(display.tileCount)
 F(display.scale) F(display.low) F(display.high) U(display.textWidth) U(display.textHeight)
 // clang-format on

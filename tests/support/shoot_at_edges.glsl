@@ -3,7 +3,7 @@
 #ifndef GLIM_TESTS_SHOOT_AT_EDGES
 #define GLIM_TESTS_SHOOT_AT_EDGES
 
-#include "lib/alias.glsl"
+#include "lib/hash.glsl"
 #include "lib/frame.glsl"
 
 struct Setup {

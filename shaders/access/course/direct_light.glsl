@@ -26,18 +26,18 @@ float misWeightOfSample(float lightPdf, float bsdfPdf)
     return kDirect == kDirectLights ? weight / float(lightRound.lightSamples) : weight;
 }
 
-// Samples the light that the round names, or one by power. A named light is certain: its probability is 1.
+// Samples the light that the round names, or a chosen one. A named light is certain: its probability is 1.
 bool sampleLightOfRound(SampleId id, SurfaceInteraction si, Bsdf bsdf, vec3 wo, PathState state, out ShadowRay ray)
 {
-    bool named = kDirect != kDirectMis;
-    uint chosen = named ? lightRound.light : chooseLight(id, state.bounce);
-    noteLight(chosen);
-    FlatLight light = fetchLight(chosen);
-    if (named) {
+    LightContext context = makeLightContext(si, bsdf);
+    LightChoice choice = LightChoice(lightRound.light, 1.0);
+    if (kDirect == kDirectMis) {
+        choice = chooseLight(id, context, state.bounce);
+    } else {
         id = splitSample(id, lightRound.light, lightRound.lightSample, lightRound.lightSamples);
-        light.probability = 1.0;
     }
-    LightSample sampled = sampleChosenLight(id, light, si, bsdf, state.bounce);
+    noteLight(choice.light);
+    LightSample sampled = sampleChosenLight(id, choice, context, state.bounce);
     return makeShadowRay(si, sampled, evalBsdf(bsdf, wo, sampled.wi), state, ray);
 }
 

@@ -1,0 +1,247 @@
+#include "host/flatten/light_tree.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace glim {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr std::uint32_t kBins = 16;
+constexpr std::uint32_t kMostUnevenLevels = 32;  // below these, halves have equal numbers of lights: no tree is deeper than 64
+
+struct Item {
+    LightBounds bounds;
+    std::uint32_t light;
+};
+
+vec3 centerOf(const LightBounds& bounds) { return 0.5F * (bounds.low + bounds.high); }
+
+// What some lights have in common. `axes` is the sum of their axes, turned to one side if all are two-sided.
+struct Cluster {
+    vec3 low{INFINITY}, high{-INFINITY};
+    vec3 axes{0.0F};
+    float power = 0.0F;
+    float cosEmission = 1.0F;
+    bool twoSided = true;
+    std::uint32_t count = 0;
+
+    void add(const LightBounds& light, const vec3& front)
+    {
+        low = glm::min(low, light.low);
+        high = glm::max(high, light.high);
+        axes += light.twoSided && glm::dot(light.axis, front) < 0.0F ? -light.axis : light.axis;
+        power += light.power;
+        cosEmission = std::min(cosEmission, light.cosEmission);
+        twoSided = twoSided && light.twoSided;
+        ++count;
+    }
+    void add(const Cluster& other)
+    {
+        low = glm::min(low, other.low);
+        high = glm::max(high, other.high);
+        axes += other.axes;
+        power += other.power;
+        cosEmission = std::min(cosEmission, other.cosEmission);
+        twoSided = twoSided && other.twoSided;
+        count += other.count;
+    }
+};
+
+// The measure of directions that a cluster shines in (section 4.3). Its cone of normals is that of a spherical cap with the same mean of
+// unit vectors, (1 + cos) / 2: it needs no second pass, and one light that faces elsewhere does not open it.
+float orientationCost(const Cluster& cluster)
+{
+    const float cosNormals = std::clamp(2.0F * glm::length(cluster.axes) / static_cast<float>(cluster.count) - 1.0F, -1.0F, 1.0F);
+    const float normals = std::acos(cosNormals), sinNormals = std::sin(normals);
+    const float reach = std::min(normals + std::acos(std::clamp(cluster.cosEmission, -1.0F, 1.0F)), kPi);
+    return 2.0F * kPi * (1.0F - cosNormals) +
+           0.5F * kPi * (2.0F * reach * sinNormals - std::cos(normals - 2.0F * reach) - 2.0F * normals * sinNormals + cosNormals);
+}
+
+// Power times directions times extent. The squared diagonal tells apart clusters along a line, whose boxes have no surface.
+float costOf(const Cluster& cluster)
+{
+    if (cluster.count == 0) {
+        return 0.0F;
+    }
+    const vec3 d = cluster.high - cluster.low;
+    const float surface = 2.0F * (d.x * d.y + d.y * d.z + d.z * d.x);
+    return cluster.power * orientationCost(cluster) * (surface + 0.01F * glm::dot(d, d));
+}
+
+class Builder {
+public:
+    explicit Builder(std::span<const LightBounds> lights)
+    {
+        items_.reserve(lights.size());
+        for (const LightBounds& light : lights) {
+            items_.push_back({light, static_cast<std::uint32_t>(items_.size())});
+        }
+    }
+
+    LightTree build()
+    {
+        const auto count = static_cast<std::uint32_t>(items_.size());
+        if (count <= kFewLights) {
+            for (std::uint32_t i = 0; i < count; ++i) {
+                nodes_.push_back(leaf(i));
+            }
+        } else {
+            nodes_.reserve(2 * std::size_t{count});
+            nodes_.emplace_back();
+            split(0, 0, count, 0);
+        }
+        LightTree tree{std::move(nodes_), {}};
+        for (const Item& item : items_) {
+            tree.order.push_back(item.light);
+        }
+        return tree;
+    }
+
+private:
+    LightNode leaf(std::uint32_t at) const
+    {
+        const LightBounds& b = items_[at].bounds;
+        const bool everywhere = b.axis == vec3(0.0F);
+        return {centerOf(b),
+                b.radius,
+                everywhere ? vec3(0, 0, 1) : b.axis,
+                b.power,
+                everywhere ? -1.0F : 1.0F,
+                b.cosEmission,
+                b.twoSided ? kTwoSidedNode : 0U,
+                at};
+    }
+
+    void split(std::uint32_t node, std::uint32_t begin, std::uint32_t end, std::uint32_t level)
+    {
+        if (end - begin == 1) {
+            nodes_[node] = leaf(begin);
+            return;
+        }
+        Cluster cluster;
+        for (std::uint32_t i = begin; i < end; ++i) {
+            cluster.add(items_[i].bounds, items_[begin].bounds.axis);
+        }
+        const std::uint32_t middle = partition(cluster, begin, end, level), child = static_cast<std::uint32_t>(nodes_.size());
+        nodes_[node] = inner(cluster, begin, end);
+        nodes_[node].child |= child;
+        nodes_[node].firstOfSecond = middle;
+        nodes_.resize(nodes_.size() + 2);
+        split(child, begin, middle, level + 1);
+        split(child + 1, middle, end, level + 1);
+    }
+
+    LightNode inner(const Cluster& cluster, std::uint32_t begin, std::uint32_t end) const
+    {
+        const float length = glm::length(cluster.axes);
+        const vec3 axis = length > 0.0F ? cluster.axes / length : vec3(0, 0, 1);
+        float cosNormals = length > 0.0F ? 1.0F : -1.0F;
+        for (std::uint32_t i = begin; i < end; ++i) {
+            const LightBounds& light = items_[i].bounds;
+            const float cosine = glm::dot(axis, light.axis);
+            cosNormals = std::min(cosNormals, light.axis == vec3(0.0F) ? -1.0F : cluster.twoSided ? std::abs(cosine) : cosine);
+            // A light that shines both ways among some that do not shines against the axis too.
+            cosNormals = light.twoSided && !cluster.twoSided ? -1.0F : cosNormals;
+        }
+        cosNormals = std::clamp(cosNormals - 1e-6F, -1.0F, 1.0F);  // the rounding of axis and dot
+        const vec3 half = 0.5F * (cluster.high - cluster.low);
+        return {cluster.low + half,
+                glm::length(half),
+                axis,
+                cluster.power,
+                cosNormals,
+                cluster.cosEmission,
+                cluster.twoSided ? kTwoSidedNode : 0U,
+                0};
+    }
+
+    // Orders the items so that those of the first child come first, and returns the first of the second child.
+    std::uint32_t partition(const Cluster& cluster, std::uint32_t begin, std::uint32_t end, std::uint32_t level)
+    {
+        vec3 low(INFINITY), high(-INFINITY);
+        for (std::uint32_t i = begin; i < end; ++i) {
+            low = glm::min(low, centerOf(items_[i].bounds));
+            high = glm::max(high, centerOf(items_[i].bounds));
+        }
+        const vec3 extent = high - low;
+        const Split best = level < kMostUnevenLevels && end - begin > 2 ? findSplit(low, extent, begin, end, cluster) : Split{};
+        const auto first = items_.begin() + begin, last = items_.begin() + end;
+        if (best.cost < INFINITY) {
+            const auto middle = std::partition(first, last, [&](const Item& item) {
+                return binOf(centerOf(item.bounds)[best.axis], low[best.axis], extent[best.axis]) < best.bin;
+            });
+            return static_cast<std::uint32_t>(middle - items_.begin());
+        }
+        const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+        const auto middle = first + (end - begin) / 2;
+        std::nth_element(first, middle, last, [axis](const Item& a, const Item& b) {
+            return std::pair(centerOf(a.bounds)[axis], a.light) < std::pair(centerOf(b.bounds)[axis], b.light);
+        });
+        return begin + (end - begin) / 2;
+    }
+
+    struct Split {
+        float cost = INFINITY;
+        int axis = 0;
+        std::uint32_t bin = 0;  // the first of the second child
+    };
+
+    static std::uint32_t binOf(float x, float low, float extent)
+    {
+        return std::min(static_cast<std::uint32_t>((x - low) / extent * kBins), kBins - 1);
+    }
+
+    Split findSplit(const vec3& low, const vec3& extent, std::uint32_t begin, std::uint32_t end, const Cluster& cluster) const
+    {
+        std::array<std::array<Cluster, kBins>, 3> bins;
+        for (std::uint32_t i = begin; i < end; ++i) {
+            const vec3 center = centerOf(items_[i].bounds);
+            for (int axis = 0; axis < 3; ++axis) {
+                if (extent[axis] > 0.0F) {
+                    bins[axis][binOf(center[axis], low[axis], extent[axis])].add(items_[i].bounds, cluster.axes);
+                }
+            }
+        }
+        const vec3 size = cluster.high - cluster.low;
+        const float longest = std::max({size.x, size.y, size.z});
+        Split best;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (extent[axis] > 0.0F) {
+                findSplit(bins[axis], axis, longest / size[axis], best);
+            }
+        }
+        return best;
+    }
+
+    // `thinness`: cutting a long side is better than cutting a short one.
+    static void findSplit(const std::array<Cluster, kBins>& bins, int axis, float thinness, Split& best)
+    {
+        std::array<float, kBins> costOfRest{};
+        Cluster rest;
+        for (std::uint32_t bin = kBins - 1; bin > 0; --bin) {
+            rest.add(bins[bin]);
+            costOfRest[bin] = rest.count == 0 ? INFINITY : costOf(rest);
+        }
+        Cluster first;
+        for (std::uint32_t bin = 1; bin < kBins; ++bin) {
+            first.add(bins[bin - 1]);
+            const float cost = thinness * (costOf(first) + costOfRest[bin]);
+            if (first.count > 0 && cost < best.cost) {
+                best = {cost, axis, bin};
+            }
+        }
+    }
+
+    std::vector<Item> items_;
+    std::vector<LightNode> nodes_;
+};
+
+}  // namespace
+
+LightTree buildLightTree(std::span<const LightBounds> lights) { return Builder(lights).build(); }
+
+}  // namespace glim
