@@ -16,24 +16,24 @@ def say(text):
 
 def check(options):
     # Only now: --help and a refusal need neither NumPy nor Mitsuba.
-    from mitsuba_check.renderers import Glim, Mitsuba, Renders, import_mitsuba
+    from mitsuba_check.renderers import Glim, Mitsuba, Renders, build_glim, import_mitsuba
     import_mitsuba()
     from mitsuba_check.report import collect, to_json, to_table, warn_of_size
-    from mitsuba_check.scene import has_light, read_scene
+    from mitsuba_check.scene import read_scene, require_light, size_of
     scene = read_scene(options.scene)
-    if options.environment is None and not has_light(scene):
-        raise CheckError("%s: has no light, and Mitsuba does not have glim's studio: name an --environment" % options.scene)
-    options.size = options.size or (max(1, round(128 * scene.camera.aspect)), 128)
+    if options.environment is None:
+        require_light(scene, ": name an --environment")
+    options.size = options.size or size_of(scene, 128)
     warning = warn_of_size(*scene.bounds())
     if warning:
         say(warning)
     mitsuba, renders = Mitsuba(scene, options), (Renders(), Renders())
     say(mitsuba.explanation)
     with tempfile.TemporaryDirectory(prefix="glim-against-mitsuba-") as folder:
-        glim = Glim(options, folder)
+        glim = Glim(options, folder, build_glim())
         for seed in range(options.seeds):
             # By turns, so that a change of the machine's speed affects both.
-            glim.add_render(seed, renders[0], mitsuba.read)
+            glim.add_render(seed, renders[0])
             mitsuba.add_render(seed, renders[1])
             say("%d of %d renders of each" % (seed + 1, options.seeds))
     found = collect(options, glim, mitsuba, renders)

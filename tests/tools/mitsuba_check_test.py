@@ -487,6 +487,7 @@ class CommandTest(unittest.TestCase):
         exr = os.path.join(ROOT, "scenes", "nowhere.exr")
         for module, script, arguments, part in (
                 ("mitsuba", "against_mitsuba.py", ["scenes/cornell.gltf"], "pip install mitsuba numpy"),
+                ("mitsuba", "efficiency", ["scenes/cornell.gltf"], "pip install mitsuba numpy"),
                 ("flip_evaluator", "flip.py", [exr, exr], "pip install flip-evaluator")):
             done = self.run_without(module, script, *arguments)
             self.assertEqual(done.returncode, 1)

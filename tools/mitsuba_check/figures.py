@@ -60,12 +60,12 @@ def ratio_of(a, b):
     return {"value": ma / mb, "low": ma / mb * math.exp(-reach), "high": ma / mb * math.exp(reach)}
 
 
-def block_sums(renders):
-    """Sums over blocks of 8 x 8 pixels, which are smaller at the rim: seed x block x channel."""
+def block_sums(renders, side=BLOCK):
+    """Sums over square blocks of pixels, which are smaller at the rim: seed x block x channel."""
     seeds, height, width, channels = renders.shape
-    filled = np.zeros((seeds, -(-height // BLOCK) * BLOCK, -(-width // BLOCK) * BLOCK, channels))
+    filled = np.zeros((seeds, -(-height // side) * side, -(-width // side) * side, channels))
     filled[:, :height, :width] = renders
-    blocks = filled.reshape(seeds, filled.shape[1] // BLOCK, BLOCK, filled.shape[2] // BLOCK, BLOCK, channels)
+    blocks = filled.reshape(seeds, filled.shape[1] // side, side, filled.shape[2] // side, side, channels)
     return blocks.sum(axis=(2, 4)).reshape(seeds, -1, channels)
 
 

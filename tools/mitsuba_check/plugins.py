@@ -1,6 +1,8 @@
 """What glTF has and Mitsuba does not have: a mirror with Schlick's Fresnel, and a spot with the falloff of KHR_lights_punctual. These
 classes can be defined only after a variant of Mitsuba is chosen."""
 
+from functools import lru_cache
+
 import mitsuba as mi
 
 
@@ -71,6 +73,7 @@ def make_spot():
     return Spot
 
 
+@lru_cache(maxsize=None)
 def register_plugins():
     mi.register_bsdf("schlick_mirror", lambda properties: make_mirror()(properties))
     mi.register_emitter("ramped_spot", lambda properties: make_spot()(properties))

@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 import time
+from functools import lru_cache
 
 import numpy as np
 
@@ -27,6 +28,7 @@ EXPLANATIONS = {
 }
 
 
+@lru_cache(maxsize=None)
 def choose_variant():
     """An LLVM of the wrong version ends the process, so another process tries it."""
     tried = subprocess.run([sys.executable, "-B", "-c", TRY_LLVM], capture_output=True, check=False)
@@ -54,6 +56,13 @@ def import_mitsuba():
     return mitsuba
 
 
+def read_picture(path):
+    """R, G and B of an EXR, whatever other layers it has."""
+    mi = import_mitsuba()
+    mi.set_variant(choose_variant())
+    return np.array(dict(mi.Bitmap(path).split())["<root>"], float)[..., :3]
+
+
 class Mitsuba:
     def __init__(self, scene, options):
         mi = self.mi = import_mitsuba()
@@ -79,38 +88,53 @@ class Mitsuba:
         picture = self.render(seed, self.spp)
         renders.add(picture, time.perf_counter() - began, self.start)
 
-    def read(self, path):
-        """A picture that glim wrote: R, G and B of all its layers."""
-        return np.array(dict(self.mi.Bitmap(path).split())["<root>"], float)[..., :3]
-
 
 def text_of(environment):
     return environment if isinstance(environment, str) else ",".join("%r" % c for c in environment)
 
 
+def build_glim():
+    """The program to run, which tools/glim builds if need be."""
+    named = os.environ.get("GLIM_BINARY")
+    if not named:
+        run_glim(os.path.join(ROOT, "tools", "glim"), "--version", show_errors=True)  # minutes the first time
+    return named or os.path.join(ROOT, "build", "glim")
+
+
+def run_glim(program, *arguments, show_errors=False, driver=None):
+    """driver: the ICD file of the Vulkan driver to run on."""
+    environment = {**os.environ, "VK_DRIVER_FILES": driver, "VK_ICD_FILENAMES": driver} if driver else None
+    done = subprocess.run([program, *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, env=environment,
+                          stderr=None if show_errors else subprocess.PIPE, text=True, check=False)
+    if done.returncode != 0:
+        lines = (done.stderr or "").strip().splitlines() or ["see above" if show_errors else "it said nothing"]
+        raise CheckError("glim %s ended with exit code %d: %s" % (arguments[0], done.returncode, lines[-1]))
+
+
 class Glim:
-    def __init__(self, options, folder):
-        self.options, self.folder = options, folder
-        self.launcher = os.environ.get("GLIM_BINARY") or os.path.join(ROOT, "tools", "glim")
-        self.device = None
-        self.run("--version", show_errors=True)  # builds, for minutes the first time
+    def __init__(self, options, folder, program, driver=None):
+        self.options, self.folder, self.program, self.driver = options, folder, program, driver
+        self.device, self.stats = None, None
 
-    def run(self, *arguments, show_errors=False):
-        done = subprocess.run([self.launcher, *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                              stderr=None if show_errors else subprocess.PIPE, text=True, check=False)
-        if done.returncode != 0:
-            lines = (done.stderr or "").strip().splitlines() or ["see above" if show_errors else "it said nothing"]
-            raise CheckError("glim %s ended with exit code %d: %s" % (arguments[0], done.returncode, lines[-1]))
-
-    def add_render(self, seed, renders, read):
+    def render(self, seed, spp):
+        """The path of the picture."""
         exr, stats = os.path.join(self.folder, "glim.exr"), os.path.join(self.folder, "glim.json")
+        for path in (exr, stats):
+            if os.path.exists(path):
+                os.remove(path)
         options = self.options
         more = [] if options.environment is None else ["--environment", text_of(options.environment)]
-        began = time.perf_counter()
-        self.run("render", options.scene, "-o", exr, "--stats", stats, "--size", "%dx%d" % options.size, "--progress", "none",
-                 "--spp", str(options.spp), "--seed", str(seed), "--bounces", str(options.bounces), *more)
-        whole = time.perf_counter() - began
+        run_glim(self.program, "render", options.scene, "-o", exr, "--stats", stats, "--size", "%dx%d" % options.size, "--progress",
+                 "none", "--spp", str(spp), "--seed", str(seed), "--bounces", str(options.bounces), *more, driver=self.driver)
+        if not (os.path.exists(exr) and os.path.exists(stats)):
+            raise CheckError("%s wrote no picture: it is not glim" % self.program)
         with open(stats, encoding="utf-8") as file:
-            content = json.load(file)
-        self.device = content["device"]["name"]
-        renders.add(read(exr), content["seconds"]["render"], whole - content["seconds"]["render"])
+            self.stats = json.load(file)
+        self.device = self.stats["device"]["name"]
+        return exr
+
+    def add_render(self, seed, renders):
+        began = time.perf_counter()
+        exr = self.render(seed, self.options.spp)
+        whole, rendering = time.perf_counter() - began, self.stats["seconds"]["render"]
+        renders.add(read_picture(exr), rendering, whole - rendering)

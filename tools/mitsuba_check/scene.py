@@ -84,6 +84,16 @@ def has_light(scene):
     return bool(lamps or scene.lights or scene.environment)
 
 
+def require_light(scene, remedy=""):
+    if not has_light(scene):
+        scene.file.refuse("has no light, and Mitsuba does not have glim's studio" + remedy)
+
+
+def size_of(scene, height):
+    """Pixels of that height by the camera's aspect ratio."""
+    return max(1, round(height * scene.camera.aspect)), height
+
+
 def boxes_of_solids(scene):
     """Material and box of everything that is drawn."""
     for mesh in scene.meshes:
