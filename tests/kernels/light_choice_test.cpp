@@ -117,7 +117,7 @@ Scene randomLights(std::uint32_t count)
             builder.light({"", PunctualLight::Kind::Point, at, {0, 0, -1}, 0.01F * strength});
         } else {
             const float outer = std::abs(uniform(random));
-            builder.light({"", PunctualLight::Kind::Spot, at, direction, 0.01F * strength, 0.5F * (1.0F + outer), outer});
+            builder.light({"", PunctualLight::Kind::Spot, at, direction, 0.01F * strength, 0.5F * outer, outer});
         }
     }
     return builder.scene();
@@ -347,8 +347,8 @@ std::vector<Trap> traps()
         {"spots of 90 degrees and of .1",
          copies(32,
                 [&](SceneBuilder& b, std::uint32_t i) {
-                    const float outer = i % 2 == 0 ? 0.0F : 0.999998F;
-                    b.light({"", PunctualLight::Kind::Spot, {x(i), 2, 0}, {0, -1, 0}, vec3(1.0F), 0.5F * (1.0F + outer), outer});
+                    const float outer = i % 2 == 0 ? 1.0F : 2e-6F;
+                    b.light({"", PunctualLight::Kind::Spot, {x(i), 2, 0}, {0, -1, 0}, vec3(1.0F), 0.5F * outer, outer});
                 }),
          {{{3, 0, 0}, {0, 1, 0}}, {{3, 4, 0}, {0, -1, 0}}}},
         {"nothing faces the receiver",
@@ -457,9 +457,9 @@ TEST(LightChoiceTest, CertainLightsLackTheirProbability)
         .polygon({vec3(-1, 3, -1), {1, 3, -1}, {1, 3, 1}}, builder.lambert(vec3(0.0F), vec3(1.0F), true))
         .sphere({3, 1, 0}, 0.5F, builder.lambert(vec3(0.0F), vec3(2.0F)))
         .sphere({0, 0, 1}, 5.0F, builder.lambert(vec3(0.0F), vec3(0.1F), true))
-        .light({"", PunctualLight::Kind::Point, {0, 0.9F, 0}, {0, 0, -1}, vec3(3.0F, 7.0F, 0.0F), 1.0F, 0.0F})
-        .light({"", PunctualLight::Kind::Spot, {0, 0.9F, 0}, {0, -1, 0}, vec3(90.0F), 0.9F, 0.5F})
-        .light({"", PunctualLight::Kind::Directional, {0, 0, 0}, {0, -1, 0}, vec3(1.5F), 1.0F, 0.0F})
+        .light({"", PunctualLight::Kind::Point, {0, 0.9F, 0}, {0, 0, -1}, vec3(3.0F, 7.0F, 0.0F)})
+        .light({"", PunctualLight::Kind::Spot, {0, 0.9F, 0}, {0, -1, 0}, vec3(90.0F), 0.1F, 0.5F})
+        .light({"", PunctualLight::Kind::Directional, {0, 0, 0}, {0, -1, 0}, vec3(1.5F)})
         .environment(vec3(0.2F));
     const SceneOnDevice scene(builder.scene());
     ASSERT_EQ(scene.flat.lights.size(), 8U);
