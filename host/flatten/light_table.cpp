@@ -244,7 +244,7 @@ public:
         const auto count = static_cast<std::uint32_t>(finite_.size());
         flat_.finiteLights = count;
         flat_.finiteShare = infinite_.empty() ? 1.0F : count == 0 ? 0.0F : 0.5F;
-        flat_.features |= count > kFewLights ? kFeatureLightTree : count > 1 ? kFeatureFewLights : 0U;
+        flat_.features |= count > 1 ? kFeatureLightTree : 0U;
         if (count > 0) {
             pushFinite();
         }

@@ -85,16 +85,13 @@ public:
     LightTree build()
     {
         const auto count = static_cast<std::uint32_t>(items_.size());
-        if (count <= kFewLights) {
-            for (std::uint32_t i = 0; i < count; ++i) {
-                nodes_.push_back(leaf(i));
-            }
-        } else {
-            nodes_.reserve(2 * std::size_t{count});
-            nodes_.emplace_back();
-            split(0, 0, count, 0);
-        }
-        LightTree tree{std::move(nodes_), {}};
+        halves_.reserve(2 * std::size_t{count});
+        halves_.emplace_back();
+        split(0, 0, count, 0);
+        LightTree tree;
+        tree.nodes.reserve(2 * std::size_t{count});
+        tree.nodes.push_back(halves_[0].node);
+        collapse(tree.nodes, 0, 0);
         for (const Item& item : items_) {
             tree.order.push_back(item.light);
         }
@@ -102,6 +99,13 @@ public:
     }
 
 private:
+    // A node of the binary tree.
+    struct Half {
+        LightNode node;
+        std::uint32_t child = 0;  // the first of two; 0: a leaf
+        float cost = 0.0F;
+    };
+
     LightNode leaf(std::uint32_t at) const
     {
         const LightBounds& b = items_[at].bounds;
@@ -116,21 +120,45 @@ private:
                 at};
     }
 
+    // Gives node `wide` of `nodes` the children of half `binary`; those that cost most are replaced by their own while there is room.
+    void collapse(std::vector<LightNode>& nodes, std::size_t wide, std::uint32_t binary)
+    {
+        if (halves_[binary].child == 0) {
+            return;
+        }
+        std::vector<std::uint32_t> children{halves_[binary].child, halves_[binary].child + 1};
+        while (children.size() < kMostLightChildren) {
+            const auto dearest = std::ranges::max_element(children, {}, [this](std::uint32_t i) { return halves_[i].cost; });
+            if (halves_[*dearest].child == 0) {
+                break;
+            }
+            const std::uint32_t child = halves_[*dearest].child;
+            *dearest = child;
+            children.insert(dearest + 1, child + 1);
+        }
+        const auto first = static_cast<std::uint32_t>(nodes.size());
+        nodes[wide].children |= first | static_cast<std::uint32_t>(children.size()) << kLightChildBits;
+        for (const std::uint32_t child : children) {
+            nodes.push_back(halves_[child].node);
+        }
+        for (std::size_t i = 0; i < children.size(); ++i) {
+            collapse(nodes, first + i, children[i]);
+        }
+    }
+
     void split(std::uint32_t node, std::uint32_t begin, std::uint32_t end, std::uint32_t level)
     {
         if (end - begin == 1) {
-            nodes_[node] = leaf(begin);
+            halves_[node].node = leaf(begin);
             return;
         }
         Cluster cluster;
         for (std::uint32_t i = begin; i < end; ++i) {
             cluster.add(items_[i].bounds, items_[begin].bounds.axis);
         }
-        const std::uint32_t middle = partition(cluster, begin, end, level), child = static_cast<std::uint32_t>(nodes_.size());
-        nodes_[node] = inner(cluster, begin, end);
-        nodes_[node].child |= child;
-        nodes_[node].firstOfSecond = middle;
-        nodes_.resize(nodes_.size() + 2);
+        const std::uint32_t middle = partition(cluster, begin, end, level), child = static_cast<std::uint32_t>(halves_.size());
+        halves_[node] = {inner(cluster, begin, end), child, costOf(cluster)};
+        halves_.resize(halves_.size() + 2);
         split(child, begin, middle, level + 1);
         split(child + 1, middle, end, level + 1);
     }
@@ -156,7 +184,7 @@ private:
                 cosNormals,
                 cluster.cosEmission,
                 cluster.twoSided ? kTwoSidedNode : 0U,
-                0};
+                begin};
     }
 
     // Orders the items so that those of the first child come first, and returns the first of the second child.
@@ -237,7 +265,7 @@ private:
     }
 
     std::vector<Item> items_;
-    std::vector<LightNode> nodes_;
+    std::vector<Half> halves_;
 };
 
 }  // namespace

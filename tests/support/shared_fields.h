@@ -110,7 +110,7 @@ U(texture_.unusedV)
 U(light.kind) U(light.record) U(light.primitive) U(light.otherPrimitive) F3(light.intensity) F(light.probability) F3(light.position)
 F(light.size) F3(light.edge1) F(light.versineInner) F3(light.edge2) F(light.versineOuter)
 F3(lightNode.center) F(lightNode.radius) F3(lightNode.axis) F(lightNode.power) F(lightNode.cosNormals) F(lightNode.cosEmission)
-U(lightNode.child) U(lightNode.firstOfSecond)
+U(lightNode.children) U(lightNode.firstLight)
 U(display.width) U(display.height) U(display.filmWidth) U(display.filmHeight) U(display.tileBegin) U(display.tileCount)
 F(display.scale) F(display.low) F(display.high) U(display.textWidth) U(display.textHeight)
 // clang-format on
