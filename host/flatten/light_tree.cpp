@@ -55,8 +55,9 @@ struct Cluster {
 float orientationCost(const Cluster& cluster)
 {
     const float cosNormals = std::clamp(2.0F * glm::length(cluster.axes) / static_cast<float>(cluster.count) - 1.0F, -1.0F, 1.0F);
-    const float normals = std::acos(cosNormals), sinNormals = std::sin(normals);
-    const float reach = std::min(normals + std::acos(std::clamp(cluster.cosEmission, -1.0F, 1.0F)), kPi);
+    const float normals = std::acos(cosNormals), sinNormals = std::sqrt((1.0F - cosNormals) * (1.0F + cosNormals));
+    const float emission = cluster.cosEmission == 0.0F ? 0.5F * kPi : std::acos(std::clamp(cluster.cosEmission, -1.0F, 1.0F));
+    const float reach = std::min(normals + emission, kPi);
     return 2.0F * kPi * (1.0F - cosNormals) +
            0.5F * kPi * (2.0F * reach * sinNormals - std::cos(normals - 2.0F * reach) - 2.0F * normals * sinNormals + cosNormals);
 }
@@ -64,9 +65,6 @@ float orientationCost(const Cluster& cluster)
 // Power times directions times extent. The squared diagonal tells apart clusters along a line, whose boxes have no surface.
 float costOf(const Cluster& cluster)
 {
-    if (cluster.count == 0) {
-        return 0.0F;
-    }
     const vec3 d = cluster.high - cluster.low;
     const float surface = 2.0F * (d.x * d.y + d.y * d.z + d.z * d.x);
     return cluster.power * orientationCost(cluster) * (surface + 0.01F * glm::dot(d, d));
@@ -200,7 +198,7 @@ private:
         const auto first = items_.begin() + begin, last = items_.begin() + end;
         if (best.cost < INFINITY) {
             const auto middle = std::partition(first, last, [&](const Item& item) {
-                return binOf(centerOf(item.bounds)[best.axis], low[best.axis], extent[best.axis]) < best.bin;
+                return binOf(centerOf(item.bounds)[best.axis], low[best.axis], extent[best.axis], binsFor(end - begin)) < best.bin;
             });
             return static_cast<std::uint32_t>(middle - items_.begin());
         }
@@ -218,48 +216,55 @@ private:
         std::uint32_t bin = 0;  // the first of the second child
     };
 
-    static std::uint32_t binOf(float x, float low, float extent)
+    static std::uint32_t binOf(float x, float low, float extent, std::uint32_t bins)
     {
-        return std::min(static_cast<std::uint32_t>((x - low) / extent * kBins), kBins - 1);
+        return std::min(static_cast<std::uint32_t>((x - low) / extent * static_cast<float>(bins)), bins - 1);
     }
+
+    // As many bins as lights, kBins at most.
+    static std::uint32_t binsFor(std::uint32_t lights) { return std::min(lights, kBins); }
 
     Split findSplit(const vec3& low, const vec3& extent, std::uint32_t begin, std::uint32_t end, const Cluster& cluster) const
     {
-        std::array<std::array<Cluster, kBins>, 3> bins;
-        for (std::uint32_t i = begin; i < end; ++i) {
-            const vec3 center = centerOf(items_[i].bounds);
-            for (int axis = 0; axis < 3; ++axis) {
-                if (extent[axis] > 0.0F) {
-                    bins[axis][binOf(center[axis], low[axis], extent[axis])].add(items_[i].bounds, cluster.axes);
-                }
-            }
-        }
+        const std::uint32_t count = binsFor(end - begin);
         const vec3 size = cluster.high - cluster.low;
         const float longest = std::max({size.x, size.y, size.z});
         Split best;
         for (int axis = 0; axis < 3; ++axis) {
-            if (extent[axis] > 0.0F) {
-                findSplit(bins[axis], axis, longest / size[axis], best);
+            if (!(extent[axis] > 0.0F)) {
+                continue;
             }
+            std::array<Cluster, kBins> bins;
+            for (std::uint32_t i = begin; i < end; ++i) {
+                const LightBounds& light = items_[i].bounds;
+                bins[binOf(centerOf(light)[axis], low[axis], extent[axis], count)].add(light, cluster.axes);
+            }
+            findSplit(std::span(bins).first(count), axis, longest / size[axis], best);
         }
         return best;
     }
 
     // `thinness`: cutting a long side is better than cutting a short one.
-    static void findSplit(const std::array<Cluster, kBins>& bins, int axis, float thinness, Split& best)
+    static void findSplit(std::span<const Cluster> bins, int axis, float thinness, Split& best)
     {
         std::array<float, kBins> costOfRest{};
         Cluster rest;
-        for (std::uint32_t bin = kBins - 1; bin > 0; --bin) {
-            rest.add(bins[bin]);
-            costOfRest[bin] = rest.count == 0 ? INFINITY : costOf(rest);
+        for (std::size_t bin = bins.size() - 1; bin > 0; --bin) {
+            if (bins[bin].count > 0) {
+                rest.add(bins[bin]);
+                costOfRest[bin] = costOf(rest);
+            }
         }
+        // A split before an empty bin is one before the next bin that is not.
         Cluster first;
-        for (std::uint32_t bin = 1; bin < kBins; ++bin) {
+        for (std::size_t bin = 1; bin < bins.size(); ++bin) {
             first.add(bins[bin - 1]);
+            if (bins[bin].count == 0 || first.count == 0) {
+                continue;
+            }
             const float cost = thinness * (costOf(first) + costOfRest[bin]);
-            if (first.count > 0 && cost < best.cost) {
-                best = {cost, axis, bin};
+            if (cost < best.cost) {
+                best = {cost, axis, static_cast<std::uint32_t>(bin)};
             }
         }
     }
