@@ -72,6 +72,9 @@ std::string pictureText(const BenchOptions& options)
     if (options.environment) {
         text += " environment=" + describeEnvironment(*options.environment);
     }
+    if (options.sun) {
+        text += " sun=" + describeSun(*options.sun);
+    }
     return text;
 }
 

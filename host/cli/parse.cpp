@@ -195,6 +195,22 @@ std::string describeEnvironment(const EnvironmentChoice& choice)
     return std::get<BuiltInEnvironment>(choice) == BuiltInEnvironment::None ? "none" : "studio";
 }
 
+Sun parseSun(const std::string& text)
+{
+    glm::dvec3 triple(0.0);
+    if (!parseTriple(text, triple) || std::abs(triple.x) > 360.0 || std::abs(triple.y) > 90.0 || !(triple.z >= 0.0 && triple.z <= 1e30)) {
+        throw UsageError("--sun", "\"" + text +
+                                      "\": expected azimuth and elevation in degrees, within 360 and 90, and an irradiance >= 0 in "
+                                      "W/m^2, as in 30,45,1000");
+    }
+    return {triple.x, triple.y, static_cast<float>(triple.z)};
+}
+
+std::string describeSun(const Sun& sun)
+{
+    return exactText(sun.azimuth) + "," + exactText(sun.elevation) + "," + exactText(sun.irradiance);
+}
+
 glm::vec3 parseRadiance(const std::string& text)
 {
     glm::vec3 radiance(0.0F);

@@ -28,6 +28,8 @@ std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& text);  //
 // "none", "studio", numbers or a file.
 EnvironmentChoice parseEnvironment(const std::string& text);
 std::string describeEnvironment(const EnvironmentChoice& choice);
+Sun parseSun(const std::string& text);  // "30,45,1000"
+std::string describeSun(const Sun& sun);
 glm::vec3 parseRadiance(const std::string& text);                           // "1,1,1", >= 0; a file is refused
 SamplePlace parseSample(const std::string& text);                           // "12,40,7"
 glm::dvec3 parsePoint(const std::string& option, const std::string& text);  // "1,2.5,-3"

@@ -67,6 +67,8 @@ void addPicture(const Command& command, PictureOptions& options, const std::stri
                      [&options](float degrees) { options.environmentRotation = degrees; });
     addEnum(command, "--environment-background", "B", "Whether the camera sees the environment: on or off [on]", {"off", "on"},
             options.environmentBackground);
+    command.add("--sun", "AZIMUTH,ELEVATION,IRRADIANCE", "A directional light: degrees to the right of -z and above the horizon, W/m^2",
+                [&options](const std::string& text) { options.sun = parseSun(text); });
     addTextures(command, options.missingTextures, options.maxTexture);
     command.add("--size", "WxH", "Pixels, each side 1 to 65535 [" + height + " high, width by the camera's aspect ratio]",
                 [&options](const std::string& text) { options.size = parseSize(text); });
@@ -180,6 +182,7 @@ LoadOptions loadOptionsOf(const PictureOptions& options)
     load.environment = options.environment;
     load.environmentRotation = glm::radians(options.environmentRotation);
     load.environmentBackground = options.environmentBackground;
+    load.sun = options.sun;
     load.missingTextures = options.missingTextures;
     load.maxTexture = options.maxTexture;
     if (options.size) {

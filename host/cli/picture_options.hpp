@@ -24,6 +24,7 @@ struct PictureOptions {
     std::string variant;
     float environmentRotation = 0.0F;  // degrees
     bool environmentBackground = true;
+    std::optional<Sun> sun;
     MissingTextures missingTextures = MissingTextures::Refuse;
     std::uint32_t maxTexture = kMaxImageSide;
     double exposure = 0.0;

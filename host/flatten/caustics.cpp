@@ -17,6 +17,8 @@ constexpr double kPi = std::numbers::pi;
 constexpr float kMinAlpha = 1e-3F;
 // Above the largest difference of two indices that the kernels take for none (kMinEtaStep of lib/bsdf/ggx_transmission.glsl).
 constexpr float kSameIor = 2e-4F;
+// Of the versine of a spot that grazes a target, as in shaders/lib/caustic_target.glsl.
+constexpr double kSlack = 1e-6;
 // Targets grow by this share, for rounding.
 constexpr double kMargin = 1e-4;
 
@@ -206,7 +208,7 @@ double shareOf(const FlatLight& light, const BoundingSphere& target)
     cosine = isDoubleSided(light) ? std::abs(cosine) : cosine;
     const double nearest = std::max(0.0, std::acos(cosine) - spread);
     if (kind == kSpotLight) {
-        return std::cos(nearest) > static_cast<double>(light.cosOuter) ? 0.5 * (1.0 - std::sqrt(1.0 - sin2)) : 0.0;
+        return 1.0 - std::cos(nearest) < static_cast<double>(light.versineOuter) + kSlack ? 0.5 * (1.0 - std::sqrt(1.0 - sin2)) : 0.0;
     }
     return sin2 * std::max(0.0, std::cos(nearest));
 }

@@ -46,8 +46,7 @@ constexpr Feature kFeatures[] = {{kFeatureSpheres, "spheres"},
                                  {kFeatureUnlit, "unlit materials"},
                                  {kFeatureGlossiness, "specular-glossiness"},
                                  {kFeatureRectangleLights, "rectangle lights"},
-                                 {kFeatureFewLights, "several lights"},
-                                 {kFeatureLightTree, "light tree"},
+                                 {kFeatureLightTree, "several lights"},
                                  {kFeatureCaustics, "caustics"}};
 
 struct FlatScene {

@@ -201,8 +201,8 @@ public:
         light.size = punctual.range;
         light.edge1 = punctual.direction;
         light.intensity = punctual.intensity;
-        light.cosInner = punctual.cosInner;
-        light.cosOuter = punctual.cosOuter;
+        light.versineInner = punctual.versineInner;
+        light.versineOuter = punctual.versineOuter;
         flat_.features |= kFeaturePunctualLights;
         if (punctual.kind == PunctualLight::Kind::Directional) {
             light.kind = kDirectionalLight;
@@ -215,7 +215,7 @@ public:
         if (punctual.kind == PunctualLight::Kind::Spot) {
             light.kind = kSpotLight;
             bounds.axis = punctual.direction;
-            bounds.cosEmission = punctual.cosOuter;
+            bounds.cosEmission = 1.0F - punctual.versineOuter - 1e-6F;
         }
         add({light, bounds}, strength(punctual.intensity));
     }
@@ -244,7 +244,7 @@ public:
         const auto count = static_cast<std::uint32_t>(finite_.size());
         flat_.finiteLights = count;
         flat_.finiteShare = infinite_.empty() ? 1.0F : count == 0 ? 0.0F : 0.5F;
-        flat_.features |= count > kFewLights ? kFeatureLightTree : count > 1 ? kFeatureFewLights : 0U;
+        flat_.features |= count > 1 ? kFeatureLightTree : 0U;
         if (count > 0) {
             pushFinite();
         }
@@ -266,7 +266,7 @@ private:
     double emissionOf(std::uint32_t id, std::uint32_t triangle)
     {
         const Material& material = scene_.materials[id];
-        if (!material.emissiveTexture) {
+        if (!hasEmissiveImage(material)) {
             return 1.0;
         }
         const std::uint32_t image = material.emissiveTexture->image;
@@ -280,13 +280,19 @@ private:
         return sums.mean(*material.emissiveTexture, uvs);
     }
 
+    // An image of one colour is part of the factors.
+    bool hasEmissiveImage(const Material& material) const
+    {
+        return material.emissiveTexture && flat_.imageBytes[material.emissiveTexture->image] > 0;
+    }
+
     FlatLight surfaceLight(std::uint32_t id) const
     {
         const Material& material = scene_.materials[id];
-        const bool uneven = material.emissiveTexture || material.alphaMode != AlphaMode::Opaque || material.clearcoat > 0.0F;
+        const bool uneven = hasEmissiveImage(material) || material.alphaMode != AlphaMode::Opaque || material.clearcoat > 0.0F;
         FlatLight light{};
         light.kind = (material.doubleSided ? kDoubleSidedLight : 0U) | (uneven ? kUnevenLight : 0U);
-        light.intensity = flat_.materials[id].emission;  // a texture of one colour is part of it
+        light.intensity = flat_.materials[id].emission;
         return light;
     }
 

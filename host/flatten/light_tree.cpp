@@ -55,8 +55,9 @@ struct Cluster {
 float orientationCost(const Cluster& cluster)
 {
     const float cosNormals = std::clamp(2.0F * glm::length(cluster.axes) / static_cast<float>(cluster.count) - 1.0F, -1.0F, 1.0F);
-    const float normals = std::acos(cosNormals), sinNormals = std::sin(normals);
-    const float reach = std::min(normals + std::acos(std::clamp(cluster.cosEmission, -1.0F, 1.0F)), kPi);
+    const float normals = std::acos(cosNormals), sinNormals = std::sqrt((1.0F - cosNormals) * (1.0F + cosNormals));
+    const float emission = cluster.cosEmission == 0.0F ? 0.5F * kPi : std::acos(std::clamp(cluster.cosEmission, -1.0F, 1.0F));
+    const float reach = std::min(normals + emission, kPi);
     return 2.0F * kPi * (1.0F - cosNormals) +
            0.5F * kPi * (2.0F * reach * sinNormals - std::cos(normals - 2.0F * reach) - 2.0F * normals * sinNormals + cosNormals);
 }
@@ -64,9 +65,6 @@ float orientationCost(const Cluster& cluster)
 // Power times directions times extent. The squared diagonal tells apart clusters along a line, whose boxes have no surface.
 float costOf(const Cluster& cluster)
 {
-    if (cluster.count == 0) {
-        return 0.0F;
-    }
     const vec3 d = cluster.high - cluster.low;
     const float surface = 2.0F * (d.x * d.y + d.y * d.z + d.z * d.x);
     return cluster.power * orientationCost(cluster) * (surface + 0.01F * glm::dot(d, d));
@@ -85,16 +83,13 @@ public:
     LightTree build()
     {
         const auto count = static_cast<std::uint32_t>(items_.size());
-        if (count <= kFewLights) {
-            for (std::uint32_t i = 0; i < count; ++i) {
-                nodes_.push_back(leaf(i));
-            }
-        } else {
-            nodes_.reserve(2 * std::size_t{count});
-            nodes_.emplace_back();
-            split(0, 0, count, 0);
-        }
-        LightTree tree{std::move(nodes_), {}};
+        halves_.reserve(2 * std::size_t{count});
+        halves_.emplace_back();
+        split(0, 0, count, 0);
+        LightTree tree;
+        tree.nodes.reserve(2 * std::size_t{count});
+        tree.nodes.push_back(halves_[0].node);
+        collapse(tree.nodes, 0, 0);
         for (const Item& item : items_) {
             tree.order.push_back(item.light);
         }
@@ -102,6 +97,13 @@ public:
     }
 
 private:
+    // A node of the binary tree.
+    struct Half {
+        LightNode node;
+        std::uint32_t child = 0;  // the first of two; 0: a leaf
+        float cost = 0.0F;
+    };
+
     LightNode leaf(std::uint32_t at) const
     {
         const LightBounds& b = items_[at].bounds;
@@ -116,21 +118,45 @@ private:
                 at};
     }
 
+    // Gives node `wide` of `nodes` the children of half `binary`; those that cost most are replaced by their own while there is room.
+    void collapse(std::vector<LightNode>& nodes, std::size_t wide, std::uint32_t binary)
+    {
+        if (halves_[binary].child == 0) {
+            return;
+        }
+        std::vector<std::uint32_t> children{halves_[binary].child, halves_[binary].child + 1};
+        while (children.size() < kMostLightChildren) {
+            const auto dearest = std::ranges::max_element(children, {}, [this](std::uint32_t i) { return halves_[i].cost; });
+            if (halves_[*dearest].child == 0) {
+                break;
+            }
+            const std::uint32_t child = halves_[*dearest].child;
+            *dearest = child;
+            children.insert(dearest + 1, child + 1);
+        }
+        const auto first = static_cast<std::uint32_t>(nodes.size());
+        nodes[wide].children |= first | static_cast<std::uint32_t>(children.size()) << kLightChildBits;
+        for (const std::uint32_t child : children) {
+            nodes.push_back(halves_[child].node);
+        }
+        for (std::size_t i = 0; i < children.size(); ++i) {
+            collapse(nodes, first + i, children[i]);
+        }
+    }
+
     void split(std::uint32_t node, std::uint32_t begin, std::uint32_t end, std::uint32_t level)
     {
         if (end - begin == 1) {
-            nodes_[node] = leaf(begin);
+            halves_[node].node = leaf(begin);
             return;
         }
         Cluster cluster;
         for (std::uint32_t i = begin; i < end; ++i) {
             cluster.add(items_[i].bounds, items_[begin].bounds.axis);
         }
-        const std::uint32_t middle = partition(cluster, begin, end, level), child = static_cast<std::uint32_t>(nodes_.size());
-        nodes_[node] = inner(cluster, begin, end);
-        nodes_[node].child |= child;
-        nodes_[node].firstOfSecond = middle;
-        nodes_.resize(nodes_.size() + 2);
+        const std::uint32_t middle = partition(cluster, begin, end, level), child = static_cast<std::uint32_t>(halves_.size());
+        halves_[node] = {inner(cluster, begin, end), child, costOf(cluster)};
+        halves_.resize(halves_.size() + 2);
         split(child, begin, middle, level + 1);
         split(child + 1, middle, end, level + 1);
     }
@@ -156,7 +182,7 @@ private:
                 cosNormals,
                 cluster.cosEmission,
                 cluster.twoSided ? kTwoSidedNode : 0U,
-                0};
+                begin};
     }
 
     // Orders the items so that those of the first child come first, and returns the first of the second child.
@@ -172,7 +198,7 @@ private:
         const auto first = items_.begin() + begin, last = items_.begin() + end;
         if (best.cost < INFINITY) {
             const auto middle = std::partition(first, last, [&](const Item& item) {
-                return binOf(centerOf(item.bounds)[best.axis], low[best.axis], extent[best.axis]) < best.bin;
+                return binOf(centerOf(item.bounds)[best.axis], low[best.axis], extent[best.axis], binsFor(end - begin)) < best.bin;
             });
             return static_cast<std::uint32_t>(middle - items_.begin());
         }
@@ -190,54 +216,61 @@ private:
         std::uint32_t bin = 0;  // the first of the second child
     };
 
-    static std::uint32_t binOf(float x, float low, float extent)
+    static std::uint32_t binOf(float x, float low, float extent, std::uint32_t bins)
     {
-        return std::min(static_cast<std::uint32_t>((x - low) / extent * kBins), kBins - 1);
+        return std::min(static_cast<std::uint32_t>((x - low) / extent * static_cast<float>(bins)), bins - 1);
     }
+
+    // As many bins as lights, kBins at most.
+    static std::uint32_t binsFor(std::uint32_t lights) { return std::min(lights, kBins); }
 
     Split findSplit(const vec3& low, const vec3& extent, std::uint32_t begin, std::uint32_t end, const Cluster& cluster) const
     {
-        std::array<std::array<Cluster, kBins>, 3> bins;
-        for (std::uint32_t i = begin; i < end; ++i) {
-            const vec3 center = centerOf(items_[i].bounds);
-            for (int axis = 0; axis < 3; ++axis) {
-                if (extent[axis] > 0.0F) {
-                    bins[axis][binOf(center[axis], low[axis], extent[axis])].add(items_[i].bounds, cluster.axes);
-                }
-            }
-        }
+        const std::uint32_t count = binsFor(end - begin);
         const vec3 size = cluster.high - cluster.low;
         const float longest = std::max({size.x, size.y, size.z});
         Split best;
         for (int axis = 0; axis < 3; ++axis) {
-            if (extent[axis] > 0.0F) {
-                findSplit(bins[axis], axis, longest / size[axis], best);
+            if (!(extent[axis] > 0.0F)) {
+                continue;
             }
+            std::array<Cluster, kBins> bins;
+            for (std::uint32_t i = begin; i < end; ++i) {
+                const LightBounds& light = items_[i].bounds;
+                bins[binOf(centerOf(light)[axis], low[axis], extent[axis], count)].add(light, cluster.axes);
+            }
+            findSplit(std::span(bins).first(count), axis, longest / size[axis], best);
         }
         return best;
     }
 
     // `thinness`: cutting a long side is better than cutting a short one.
-    static void findSplit(const std::array<Cluster, kBins>& bins, int axis, float thinness, Split& best)
+    static void findSplit(std::span<const Cluster> bins, int axis, float thinness, Split& best)
     {
         std::array<float, kBins> costOfRest{};
         Cluster rest;
-        for (std::uint32_t bin = kBins - 1; bin > 0; --bin) {
-            rest.add(bins[bin]);
-            costOfRest[bin] = rest.count == 0 ? INFINITY : costOf(rest);
+        for (std::size_t bin = bins.size() - 1; bin > 0; --bin) {
+            if (bins[bin].count > 0) {
+                rest.add(bins[bin]);
+                costOfRest[bin] = costOf(rest);
+            }
         }
+        // A split before an empty bin is one before the next bin that is not.
         Cluster first;
-        for (std::uint32_t bin = 1; bin < kBins; ++bin) {
+        for (std::size_t bin = 1; bin < bins.size(); ++bin) {
             first.add(bins[bin - 1]);
+            if (bins[bin].count == 0 || first.count == 0) {
+                continue;
+            }
             const float cost = thinness * (costOf(first) + costOfRest[bin]);
-            if (first.count > 0 && cost < best.cost) {
-                best = {cost, axis, bin};
+            if (cost < best.cost) {
+                best = {cost, axis, static_cast<std::uint32_t>(bin)};
             }
         }
     }
 
     std::vector<Item> items_;
-    std::vector<LightNode> nodes_;
+    std::vector<Half> halves_;
 };
 
 }  // namespace

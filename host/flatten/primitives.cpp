@@ -1,6 +1,7 @@
 #include "host/flatten/primitives.hpp"
 
 #include "host/flatten/classify_alpha.hpp"
+#include "host/flatten/lift_lamps.hpp"
 #include "host/text.hpp"
 
 #include <algorithm>
@@ -240,6 +241,11 @@ std::uint32_t Primitives::instanceOf(std::uint32_t triangle) const
     return static_cast<std::uint32_t>(after - firstTriangles.begin() - 1);
 }
 
-Primitives makePrimitives(const Scene& scene) { return PrimitiveMaker(scene).make(); }
+Primitives makePrimitives(const Scene& scene)
+{
+    Primitives primitives = PrimitiveMaker(scene).make();
+    liftLamps(scene, primitives);
+    return primitives;
+}
 
 }  // namespace glim

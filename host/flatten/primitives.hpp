@@ -28,7 +28,7 @@ struct Primitives {
 };
 
 // Triangles without area and primitives that are transparent all over are dropped; normals that are zero or not finite are replaced by the
-// face normal.
+// face normal; lamps in the plane of another surface are lifted (lift_lamps.hpp).
 Primitives makePrimitives(const Scene& scene);
 
 }  // namespace glim

@@ -11,7 +11,7 @@ std::string quoted(const std::string& name) { return name.empty() ? "without a n
 bool isSame(const PunctualLight& light, const FlatLight& flat)
 {
     return light.position == flat.position && light.direction == flat.edge1 && light.intensity == flat.intensity &&
-           light.cosInner == flat.cosInner && light.cosOuter == flat.cosOuter;
+           light.versineInner == flat.versineInner && light.versineOuter == flat.versineOuter;
 }
 
 std::string describePunctual(const Scene& scene, const FlatLight& flat)

@@ -17,7 +17,7 @@ enum class Accelerator { Bvh, None };
 // How direct light is estimated at a hit. All have the same expectation: each samples the lights that no ray can hit (point, spot,
 // directional).
 enum class DirectLight {
-    Mis,         // one light by power and one BSDF sample, weighted by the power heuristic
+    Mis,         // one light by importance and one BSDF sample, weighted by the power heuristic
     Lights,      // every light, lightSamples times each
     Hemisphere,  // lightSamples directions, uniform over the hemisphere
     Bsdf,        // the BSDF sample alone

@@ -135,7 +135,7 @@ void SceneCheck::checkLights() const
         require(isFinite(light.position), "light", i, "has a position that is not finite");
         require(isUnit(light.direction), "light", i, "has a direction that is not of unit length");
         require(isRadiance(light.intensity), "light", i, "has an intensity that is negative or not finite");
-        require(light.kind != PunctualLight::Kind::Spot || light.cosInner > light.cosOuter, "light", i,
+        require(light.kind != PunctualLight::Kind::Spot || light.versineInner < light.versineOuter, "light", i,
                 "has an inner cone that is not inside the outer one");
     }
 }

@@ -14,6 +14,7 @@
 #include "host/text.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace glim {
 namespace {
@@ -151,6 +152,18 @@ std::optional<Environment> chooseEnvironment(const GltfFile& file, const LoadOpt
     return environment;
 }
 
+PunctualLight lightOf(const Sun& sun)
+{
+    const double azimuth = glm::radians(sun.azimuth), elevation = glm::radians(sun.elevation);
+    PunctualLight light;
+    light.name = "sun";
+    light.kind = PunctualLight::Kind::Directional;
+    light.direction =
+        -glm::vec3(glm::dvec3(std::sin(azimuth) * std::cos(elevation), std::sin(elevation), -std::cos(azimuth) * std::cos(elevation)));
+    light.intensity = glm::vec3(sun.irradiance);
+    return light;
+}
+
 std::vector<std::string> readVariants(const GltfFile& file)
 {
     std::vector<std::string> names;
@@ -238,6 +251,9 @@ Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options)
     readMaterials(file, options, scene, warnings);
     giveTangents(scene, warnings);
     readLightsAndCameras(file, nodes, scene, warnings);
+    if (options.sun) {
+        scene.lights.push_back(lightOf(*options.sun));
+    }
     if (!options.environment && !hasLight(scene)) {
         scene.environment = makeStudioEnvironment(options);
         warnings.add("the scene has no light: the built-in studio lights it (--environment none keeps it dark)");

@@ -15,11 +15,18 @@ enum class MissingTextures { Refuse, Grey };
 enum class BuiltInEnvironment { None, Studio };
 using EnvironmentChoice = std::variant<BuiltInEnvironment, glm::vec3, std::filesystem::path>;
 
+// A directional light from `azimuth` to the right of -z and `elevation` above the horizon, in degrees.
+struct Sun {
+    double azimuth, elevation;
+    float irradiance;  // W/m^2 on a surface that faces it
+};
+
 struct LoadOptions {
     std::optional<std::size_t> scene;              // index into the file's scenes; if absent its default scene, else the first
     std::optional<EnvironmentChoice> environment;  // replaces the file's
     float environmentRotation = 0.0F;              // of a map about +y, radians, added to the file's
     bool environmentBackground = true;             // the camera sees the environment
+    std::optional<Sun> sun;
     MissingTextures missingTextures = MissingTextures::Refuse;
     std::uint32_t maxTexture = kMaxImageSide;  // images with a longer side are scaled down
     std::string variant;                       // of KHR_materials_variants; empty: the file's own materials

@@ -161,8 +161,8 @@ struct PunctualLight {
     glm::vec3 position{0.0F};             // point, spot
     glm::vec3 direction{0.0F, 0.0F, -1};  // unit, the way light travels; directional, spot
     glm::vec3 intensity{1.0F};            // point, spot: W/sr; directional: W/m^2 on a surface facing it
-    float cosInner = 1.0F;                // spot: full intensity inside this angle,
-    float cosOuter = 0.0F;                // none outside this one
+    float versineInner = 0.0F;            // 1 - cos; spot: full intensity inside this angle,
+    float versineOuter = 1.0F;            // none outside this one
     float range = 0.0F;                   // point, spot: metres beyond which there is no light; 0: no limit
 };
 

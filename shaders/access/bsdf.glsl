@@ -103,7 +103,7 @@ bool hasNonDelta(Bsdf bsdf)
 // PathState::normal of a vertex, for the choice of lights.
 uint horizonOf(Bsdf bsdf)
 {
-    return !choosesLights() ? 0u : transmitsDiffusely(bsdf) ? kNoHorizon : encodeNormal(bsdf.frame.z);
+    return !hasFeature(kFeatureLightTree) ? 0u : transmitsDiffusely(bsdf) ? kNoHorizon : encodeNormal(bsdf.frame.z);
 }
 
 vec3 decodeHorizon(uint normal)

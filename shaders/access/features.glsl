@@ -24,9 +24,6 @@ const uint kLayerFeatures = kFeatureClearcoat | kFeatureSheen | kFeatureAnisotro
 const uint kFiniteLights = kFeatureTriangleLights | kFeatureRectangleLights | kFeatureSphereLights | kFeaturePunctualLights;
 const uint kInfiniteLights = kFeatureEnvironment | kFeaturePunctualLights;
 
-// Whether there are several finite lights, of which one is chosen.
-#define choosesLights() hasFeature(kFeatureFewLights | kFeatureLightTree)
-
 layout(constant_id = kSpecStackLevels) const uint kStackLevels = kMaxStackLevels;
 layout(constant_id = kSpecTexelViews) const uint kTexelViews = kMaxTexelViews;
 layout(constant_id = kSpecSobol) const bool kSobol = true;

@@ -6,6 +6,8 @@
 #include "lib/frame.glsl"
 #include "lib/infinity.glsl"
 #include "lib/punctual.glsl"
+#include "lib/spherical_rectangle.glsl"
+#include "lib/spherical_triangle.glsl"
 #include "lib/warp.glsl"
 #include "environment_map.glsl"
 #include "light_choice.glsl"
@@ -45,6 +47,51 @@ bool seesCone(vec3 from, float radius, out float sin2)
     return sin2 < 1.0;
 }
 
+// Triangles and rectangles are sampled by solid angle above about this many steradians. Below it, the points of a light that is not seen
+// edge-on are about as far away as each other, and sampling by area has as little noise.
+const float kNear = 3e-4;
+
+bool isNear(FlatLight light, vec3 p)
+{
+    vec3 from = light.position - p;
+    return light.size > kNear * dot(from, from);
+}
+
+SphericalRectangle rectangleSeenFrom(FlatLight light, vec3 p)
+{
+    float length1 = length(light.edge1), length2 = length(light.edge2);
+    return makeSphericalRectangle(p, light.position, light.edge1 / length1, light.edge2 / length2, length1, length2);
+}
+
+float solidAngleOf(FlatLight light, vec3 p)
+{
+    float solidAngle = 0.0;
+    if (isRectangleLight(light)) {
+        solidAngle = rectangleSeenFrom(light, p).solidAngle;
+    } else if (hasFeature(kFeatureTriangleLights)) {
+        solidAngle = makeSphericalTriangle(p, light.position, light.edge1, light.edge2).solidAngle;
+    }
+    return solidAngle;
+}
+
+// Where on the light, in lengths of its edges; and the solid angle, if the light is near.
+vec2 samplePolygon(FlatLight light, vec3 p, vec2 u, out float solidAngle)
+{
+    bool near = isNear(light, p);
+    vec2 at = u;
+    solidAngle = 0.0;
+    if (isRectangleLight(light)) {
+        SphericalRectangle rectangle = rectangleSeenFrom(light, p);
+        at = near ? sampleSphericalRectangle(rectangle, u) : u;
+        solidAngle = rectangle.solidAngle;
+    } else if (hasFeature(kFeatureTriangleLights)) {
+        SphericalTriangle triangle = makeSphericalTriangle(p, light.position, light.edge1, light.edge2);
+        at = near ? sampleSphericalTriangle(triangle, u) : sampleTriangle(u);
+        solidAngle = triangle.solidAngle;
+    }
+    return at;
+}
+
 // Density per steradian of a direction towards a point of `light` at distance t, which it meets at |cos| `cosine`; the light's
 // probability included.
 float pdfSurfaceLight(FlatLight light, float probability, LightContext context, float t, float cosine)
@@ -56,7 +103,7 @@ float pdfSurfaceLight(FlatLight light, float probability, LightContext context, 
         }
         return probability * t * t / (4.0 * kPi * light.size * light.size * cosine);
     }
-    return probability * t * t / (light.size * cosine);
+    return probability * (isNear(light, context.p) ? 1.0 / solidAngleOf(light, context.p) : t * t / (light.size * cosine));
 }
 
 // Density per steradian with which choosing and sampling lights would have found the light that a ray has hit at distance t and |cos|
@@ -90,18 +137,19 @@ vec3 normalOfLight(FlatLight light)
 // The samplers of surface lights give the light's own intensity as radiance, not divided by the pdf (sampleSurfaceLight).
 LightSample samplePolygonLight(FlatLight light, float probability, LightContext context, vec2 u, out LightPoint at)
 {
-    bool rectangle = isRectangleLight(light);
-    vec2 barycentric = rectangle ? u : sampleTriangle(u);
+    float solidAngle;
+    vec2 barycentric = samplePolygon(light, context.p, u, solidAngle);
     vec3 point = trianglePoint(light.position, light.edge1, light.edge2, barycentric);
     vec3 n = normalOfLight(light);
     vec3 towards = point - context.p;
     float distance_ = length(towards);
     float facing = -dot(n, towards) / distance_;
     float cosine = isDoubleSided(light) ? abs(facing) : facing;
-    float pdf = pdfSurfaceLight(light, probability, context, distance_, cosine);
+    bool near = isNear(light, context.p);
+    float pdf = probability * (near ? 1.0 / solidAngle : distance_ * distance_ / (light.size * cosine));
     vec3 target = offsetPoint(point, facing > 0.0 ? n : -n, triangleErrorBound(light.position, light.edge1, light.edge2));
-    bool faces = cosine > 0.0;
-    uint primitive = rectangle && barycentric.x + barycentric.y > 1.0 ? light.otherPrimitive : light.primitive;
+    bool faces = cosine > 0.0 && (!near || solidAngle > 0.0);
+    uint primitive = isRectangleLight(light) && barycentric.x + barycentric.y > 1.0 ? light.otherPrimitive : light.primitive;
     at = LightPoint(point, barycentric, cosine);
     return LightSample(faces ? towards / distance_ : vec3(0.0), light.intensity, faces ? pdf : 0.0, target, primitive, 1.0);
 }
@@ -183,7 +231,7 @@ LightSample samplePunctualLight(FlatLight light, float probability, vec3 from)
     vec3 wi = towards / sqrt(distance2);
     float falloff = rangeFalloff(distance2, light.size);
     if (kindOf(light) == kSpotLight) {
-        falloff *= spotFalloff(-dot(wi, light.edge1), light.cosInner, light.cosOuter);
+        falloff *= spotFalloff(versine(-wi, light.edge1), light.versineInner, light.versineOuter);
     }
     return LightSample(wi, light.intensity * falloff / distance2 / probability, 0.0, light.position, kNoPrimitive, 1.0);
 }

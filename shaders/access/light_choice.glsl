@@ -19,82 +19,57 @@ struct LightChoice {
     float probability;
 };
 
-float importanceOf(uint node, LightContext context)
+uint childCount(LightNode node)
 {
-    return lightImportance(fetchLightNode(node), context.p, context.horizon);
+    return (node.children & ~kTwoSidedNode) >> kLightChildBits;
 }
 
-// Of at most kFewLights lights one in proportion to importance, by u in [0, 1); or, if `light` is one of them, that one. If none has any
-// importance, all are alike.
-LightChoice chooseOfFewLights(LightContext context, float u, uint light)
-{
-    float importances[kFewLights];
-    float sum = 0.0;
-    uint i = 0u;
-    do {
-        importances[i] = importanceOf(i, context);
-        sum += importances[i];
-    } while (++i < render.finiteLights);
-    bool dark = !(sum > 0.0);
-    sum = dark ? float(render.finiteLights) : sum;
-    float below = 0.0, chosen = 0.0;
-    uint at = 0u;
-    i = 0u;
-    do {
-        float importance = dark ? 1.0 : importances[i];
-        bool takes = light == kNoLightIndex ? importance > 0.0 && u * sum >= below : light == i;
-        at = takes ? i : at;
-        chosen = takes ? importance : chosen;
-        below += importance;
-    } while (++i < render.finiteLights);
-    return LightChoice(at, chosen / sum);
-}
-
-// Share of the first of two nodes. Where neither has any importance, their powers count.
-float shareOfFirst(LightNode first, LightNode second, LightContext context)
-{
-    float a = lightImportance(first, context.p, context.horizon), b = lightImportance(second, context.p, context.horizon);
-    bool dark = !(a + b > 0.0);
-    a = dark ? first.power : a;
-    b = dark ? second.power : b;
-    return a / (a + b);
-}
-
-// Levels of the tree that one random word is enough for: 24 bits, of which an even choice takes one.
-const uint kLevelsPerWord = 8u;
+// Levels of the tree that one random word is enough for: 24 bits, of which a choice among eight takes three.
+const uint kLevelsPerWord = 4u;
 
 // Walks down the tree to a light by random bits; or to `light`, if it is one.
 LightChoice walkLightTree(LightContext context, uint bits, uint light)
 {
     LightNode node = fetchLightNode(0u);
     float u = unitFloat(bits), probability = 1.0;
+    bool draws = light == kNoLightIndex;
     uint level = 0u;
     do {
-        uint child = node.child & ~kTwoSidedNode;
-        LightNode first = fetchLightNode(child), second = fetchLightNode(child + 1u);
-        float share = shareOfFirst(first, second, context);
-        bool goesFirst = light == kNoLightIndex ? u < share : light < node.firstOfSecond;
-        u = min(goesFirst ? u / share : (u - share) / (1.0 - share), 0.99999994);
-        probability *= goesFirst ? share : 1.0 - share;
-        node = goesFirst ? first : second;
+        uint first = node.children & ((1u << kLightChildBits) - 1u), count = childCount(node);
+        float importances[kMostLightChildren];
+        float sum = 0.0, chosen = 0.0, before = 0.0;
+        uint at = 0u, i = 0u;
+        do {
+            LightNode child = fetchLightNode(first + i);
+            float importance = lightImportance(child, context.p, context.horizon);
+            importances[i] = importance;
+            sum += importance;
+            bool takes = !draws && child.firstLight <= light;
+            at = takes ? i : at;
+            chosen = takes ? importance : chosen;
+        } while (++i < count);
+        bool dark = !(sum > 0.0);  // none has any importance: all are alike
+        sum = dark ? float(count) : sum;
+        chosen = dark ? 1.0 : chosen;
+        float below = 0.0, target = u * sum;
+        i = 0u;
+        do {
+            float importance = dark ? 1.0 : importances[i];
+            bool takes = draws && importance > 0.0 && target >= below;
+            at = takes ? i : at;
+            chosen = takes ? importance : chosen;
+            before = takes ? below : before;
+            below += importance;
+        } while (++i < count);
+        u = min((target - before) / chosen, 0.99999994);
+        probability *= chosen / sum;
+        node = fetchLightNode(first + at);
         ++level;
         if (level % kLevelsPerWord == 0u) {
             u = unitFloat(hash4(uvec4(bits, level, 0u, 0u)).x);
         }
-    } while ((node.child & ~kTwoSidedNode) != 0u);
-    return LightChoice(node.firstOfSecond, probability);
-}
-
-LightChoice chooseByImportance(LightContext context, uint bits, uint light)
-{
-    bool few = hasFeature(kFeatureFewLights) && render.finiteLights <= kFewLights;
-    LightChoice choice = LightChoice(0u, 1.0);
-    if (few) {
-        choice = chooseOfFewLights(context, unitFloat(bits), light);
-    } else if (hasFeature(kFeatureLightTree)) {
-        choice = walkLightTree(context, bits, light);
-    }
-    return choice;
+    } while (childCount(node) > 0u);
+    return LightChoice(node.firstLight, probability);
 }
 
 // Probability of a finite light whose importance has the share `byImportance`.
@@ -123,15 +98,16 @@ LightChoice chooseLight(LightContext context, uvec2 bits)
 {
     float u = unitFloat(bits.y);
     LightChoice choice = LightChoice(0u, 1.0);
-    if (hasFeature(kFiniteLights) && u < render.finiteShare) {
+    bool finite = !hasFeature(kInfiniteLights) || (hasFeature(kFiniteLights) && u < render.finiteShare);
+    if (finite) {
         choice.probability = render.finiteShare;
-        if (choosesLights()) {
+        if (hasFeature(kFeatureLightTree)) {
             bool uniform_ = u < kUniformShare * render.finiteShare;
             uint light = uniform_ ? chooseBin(bits.x, render.finiteLights) : kNoLightIndex;
-            choice = chooseByImportance(context, bits.x, light);
+            choice = walkLightTree(context, bits.x, light);
             choice.probability = mixedProbability(choice.probability);
         }
-    } else if (hasFeature(kInfiniteLights)) {
+    } else {
         choice = chooseInfiniteLight(u);
     }
     return choice;
@@ -140,7 +116,7 @@ LightChoice chooseLight(LightContext context, uvec2 bits)
 // The probability with which chooseLight chooses a finite light, to the same bits.
 float probabilityOfLight(LightContext context, uint light)
 {
-    return choosesLights() ? mixedProbability(chooseByImportance(context, 0u, light).probability) : render.finiteShare;
+    return hasFeature(kFeatureLightTree) ? mixedProbability(walkLightTree(context, 0u, light).probability) : render.finiteShare;
 }
 
 #endif

@@ -122,13 +122,32 @@ LightRay sampleDirectionalEmission(FlatLight light, float uTarget, vec2 u)
     return LightRay(PathRay(origin, kNoPrimitive, light.edge1, 0u), light.intensity * (sum / covers), 0.0);
 }
 
+// Of all targets, together at most.
+float solidAngleOfTargets(Emitter emitter)
+{
+    float sum = 0.0;
+    uint i = 0u;
+    do {
+        sum += coneOf(fetchTarget(i), emitter).solidAngle;
+    } while (++i < render.causticTargets);
+    return sum;
+}
+
+// A spot that is narrower than the targets is sampled by its own cone.
 LightRay samplePointEmission(FlatLight light, float uTarget, vec2 u)
 {
     bool spot = kindOf(light) == kSpotLight;
-    float pdf;
     vec3 axis = spot ? light.edge1 : vec3(0.0, 0.0, 1.0);
-    vec3 w = sampleTargets(Emitter(light.position, spot ? kEmitsSpot : kEmitsAround, axis, light.cosInner, light.cosOuter), uTarget, u, pdf);
-    float falloff = spot ? spotFalloff(dot(w, light.edge1), light.cosInner, light.cosOuter) : 1.0;
+    Emitter emitter = Emitter(light.position, spot ? kEmitsSpot : kEmitsAround, axis, light.versineInner, light.versineOuter);
+    float pdf;
+    vec3 w = sampleTargets(emitter, uTarget, u, pdf);
+    float outer = light.versineOuter;
+    if (spot && outer < 1.0 && 2.0 * kPi * outer < solidAngleOfTargets(emitter)) {
+        float sin2 = outer * (2.0 - outer);
+        w = worldFromFrame(makeFrame(axis), sampleCone(u, sin2));
+        pdf = pdf > 0.0 ? pdfCone(sin2) : 0.0;
+    }
+    float falloff = spot ? spotFalloff(versine(w, axis), light.versineInner, outer) : 1.0;
     if (!(pdf > 0.0) || !(falloff > 0.0)) {
         return kNoLightRay;
     }

@@ -12,12 +12,15 @@ const uint kEmitsInFront = 1u;    // one side of a surface, by the cosine
 const uint kEmitsFromBoth = 2u;   // both sides
 const uint kEmitsSpot = 3u;
 
+// Float's rounding of a cosine, so that a spot that grazes a target still reaches it.
+const float kSlack = 1e-6;
+
 // A point that emits.
 struct Emitter {
     vec3 p;
     uint profile;             // kEmitsAround ...
     vec3 axis;                // unit: normal or direction
-    float cosInner, cosOuter; // of a spot
+    float inner, outer;       // of a spot: versines (punctual.glsl)
 };
 
 // The directions from an emitter to a target.
@@ -43,7 +46,7 @@ TargetCone coneOf(vec4 target, Emitter emitter)
     cosine = emitter.profile == kEmitsFromBoth ? abs(cosine) : cosine;
     cosine = clamp(cosine, -1.0, 1.0);
     float nearest = cosOfRest(cosine, sinFromCos(cosine), sqrt(1.0 - cone.sin2), sqrt(cone.sin2));
-    float most = emitter.profile == kEmitsSpot     ? spotFalloff(nearest, emitter.cosInner, emitter.cosOuter)
+    float most = emitter.profile == kEmitsSpot     ? spotFalloff(max(0.0, 1.0 - nearest - kSlack), emitter.inner, emitter.outer)
                  : emitter.profile == kEmitsAround ? 1.0
                                                    : max(nearest, 0.0);
     cone.importance = cone.solidAngle * (cone.around ? 1.0 : most);

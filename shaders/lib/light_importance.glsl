@@ -20,27 +20,27 @@ float sinFromCos(float c) { return sqrt(max(0.0, (1.0 - c) * (1.0 + c))); }
 
 // About the irradiance at p on a surface with the unit normal n, or across the light's way if n is 0. It is 0 only where no light of the
 // node reaches the front of that surface, to float's rounding. Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive
-// Tree Splitting", 2018, section 3; with cosines instead of angles. Within the sphere both angles are unknown and the distance counts as the
-// radius, so that the unit of length does not matter.
+// Tree Splitting", 2018, section 3; with cosines instead of angles, and an upper bound of the cosine at the receiver that needs no sine.
+// Within the sphere both angles are unknown and the distance counts as the radius, so that the unit of length does not matter. Sums of
+// importances are finite: powers are at most 1.
 float lightImportance(LightNode node, vec3 p, vec3 n)
 {
     vec3 towards = node.center - p;
     float distance2 = dot(towards, towards);
     float radius2 = node.radius * node.radius;
-    bool outside = distance2 > radius2;
-    vec3 wi = towards / sqrt(max(distance2, 1e-37));
-    float sin2 = outside ? radius2 / distance2 : 0.0;
-    float sinSphere = sqrt(sin2), cosSphere = sqrt(1.0 - sin2);
-    float cosAxis = -dot(node.axis, wi);
-    cosAxis = clamp((node.child & kTwoSidedNode) != 0u ? abs(cosAxis) : cosAxis, -1.0, 1.0);
+    float inverse = 1.0 / max(max(distance2, radius2), 1e-30);
+    float inverseDistance = sqrt(inverse);
+    float sinSphere = min(node.radius * inverseDistance, 1.0);
+    float cosSphere = sqrt((1.0 - sinSphere) * (1.0 + sinSphere));
+    float cosAxis = -dot(node.axis, towards) * inverseDistance;
+    cosAxis = clamp((node.children & kTwoSidedNode) != 0u ? abs(cosAxis) : cosAxis, -1.0, 1.0);
     float sinAxis = sinFromCos(cosAxis), sinNormals = sinFromCos(node.cosNormals);
     float cosNearest = cosOfRest(cosAxis, sinAxis, node.cosNormals, sinNormals);
     float sinNearest = sinOfRest(cosAxis, sinAxis, node.cosNormals, sinNormals);
     float cosEmitted = cosOfRest(cosNearest, sinNearest, cosSphere, sinSphere);
-    float cosArriving = dot(n, wi);
-    float cosReceived = n == vec3(0.0) ? 1.0 : cosOfRest(cosArriving, sinFromCos(cosArriving), cosSphere, sinSphere);
-    float seen = cosEmitted > node.cosEmission ? max(cosEmitted, 0.0) * max(cosReceived, 0.0) : 0.0;
-    return node.power * (outside ? seen / distance2 : 1.0 / max(radius2, 1e-37));
+    float cosReceived = n == vec3(0.0) ? 1.0 : clamp(dot(n, towards) * inverseDistance * cosSphere + sinSphere, 0.0, 1.0);
+    float seen = cosEmitted > node.cosEmission ? max(cosEmitted, 0.0) * cosReceived : 0.0;
+    return node.power * inverse * (distance2 > radius2 ? seen : 1.0);
 }
 
 #endif

@@ -1,4 +1,5 @@
-// Powers and exponentials from additions and products alone: all drivers give the same bits. Vulkan allows pow and exp2 larger errors.
+// Powers, exponentials and angles from additions, products and quotients alone: all drivers give the same bits. Vulkan allows pow, exp2,
+// sin, cos and atan larger errors.
 #ifndef GLIM_LIB_PORTABLE
 #define GLIM_LIB_PORTABLE
 
@@ -44,6 +45,44 @@ float portableExp(float x)
 float portablePow(float x, float y)
 {
     return x > 1e-37 ? portableExp2(y * portableLog2(x)) : 0.0;
+}
+
+// The angle of the point (x, y) from the x axis, in [-pi, pi], off by 2.2e-7 of its size; 0 at (0, 0). The polynomial is a minimax fit for
+// slopes up to tan(pi/8).
+float portableAtan2(float y, float x)
+{
+    float high = max(abs(x), abs(y));
+    float low = min(abs(x), abs(y));
+    bool steep = low > 0.41421356 * high;
+    float above = steep ? low - high : low;
+    float below = steep ? low + high : high;
+    float slope = below > 0.0 ? above / below : 0.0;
+    float s2 = slope * slope;
+    float p = 0.08060309;
+    p = p * s2 - 0.1387985;
+    p = p * s2 + 0.19977926;
+    p = p * s2 - 0.33332955;
+    float angle = slope + slope * (s2 * p);
+    angle = steep ? 0.785398163 + angle : angle;
+    angle = abs(y) > abs(x) ? 1.57079633 - angle : angle;
+    angle = x < 0.0 ? 3.14159265 - angle : angle;
+    return y < 0.0 ? -angle : angle;
+}
+
+// (cos x, sin x) for |x| <= pi/2; the cosine is off by 1.3e-7, the sine by 1.3e-7 of its size. Minimax fits.
+vec2 portableCosSin(float x)
+{
+    float x2 = x * x;
+    float c = -2.6193815e-7;
+    c = c * x2 + 2.47693042e-5;
+    c = c * x2 - 1.38885692e-3;
+    c = c * x2 + 4.16666558e-2;
+    c = c * x2 - 0.5;
+    float s = 2.60578059e-6;
+    s = s * x2 - 1.98096029e-4;
+    s = s * x2 + 8.33306625e-3;
+    s = s * x2 - 0.166666596;
+    return vec2(1.0 + x2 * c, x + x * (x2 * s));
 }
 
 #endif

@@ -192,26 +192,27 @@ struct FlatLight {
     vec3 position;        // triangle: vertex 0; rectangle: a corner; sphere: centre; point, spot
     float size;           // triangle, rectangle: area; sphere: radius; point, spot: their range, or 0
     vec3 edge1;           // triangle: to vertex 1; rectangle: a side; spot, directional: unit direction, the way light travels
-    float cosInner;       // spot
+    float versineInner;   // spot: 1 - cos of the angle up to which it has all its intensity
     vec3 edge2;           // triangle: to vertex 2; rectangle: the other side
-    float cosOuter;       // spot
+    float versineOuter;   // spot: of the angle from which on it has none
 };
 
-// A node of the light tree: bounds of the lights below it (lib/light_bounds.glsl). With at most kFewLights lights, these are the nodes, in
-// their order. Otherwise node 0 is the root, and the two children of a node follow one another.
+// A node of the light tree: bounds of the lights below it (lib/light_importance.glsl). Node 0 is the root. The children of a node follow
+// one another, in the order of their lights.
 struct LightNode {
     vec3 center;  // of a sphere around the lights
     float radius;
-    vec3 axis;           // unit, of the cone of their normals or directions
-    float power;         // sum of radiance * projected area, or intensity, W/sr
-    float cosNormals;    // of the cone's half angle
-    float cosEmission;   // of the angle from a normal or a direction at which the last light ends
-    uint child;          // the first of two, | kTwoSidedNode; 0 or that bit alone: a leaf
-    uint firstOfSecond;  // the first light of the second child; of a leaf: its light
+    vec3 axis;          // unit, of the cone of their normals or directions
+    float power;        // sum of radiance * projected area, or intensity, W/sr
+    float cosNormals;   // of the cone's half angle
+    float cosEmission;  // of the angle from a normal or a direction at which the last light ends
+    uint children;      // the first one | their number << kLightChildBits | kTwoSidedNode; a leaf has none
+    uint firstLight;    // below it; of a leaf: its light
 };
+GLIM_CONST uint kLightChildBits = 27u;
+GLIM_CONST uint kMostLightChildren = 8u;
 GLIM_CONST uint kTwoSidedNode = 0x80000000u;  // each of its lights emits from both sides
-GLIM_CONST uint kFewLights = 16u;
-GLIM_CONST float kUniformShare = 0.1f;  // of the choices between finite lights that ignore importance
+GLIM_CONST float kUniformShare = 0.1f;        // of the choices between finite lights that ignore importance
 
 // Where light paths are aimed (kFeatureCaustics): kMaxCausticTargets texels, a bounding sphere each (centre, radius); another one around
 // the whole scene; then for each light but the environment the random words that choose it (first, last, where to search: first entry, last

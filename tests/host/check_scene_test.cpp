@@ -66,7 +66,7 @@ const Breakage kBreakages[] = {
     {"light 0 has an inner cone",
      [](Scene& s) {
          s.lights[0].kind = PunctualLight::Kind::Spot;
-         s.lights[0].cosInner = -0.5F;
+         s.lights[0].versineInner = 1.5F;
      }},
     {"camera 0 has axes",
      [](Scene& s) {

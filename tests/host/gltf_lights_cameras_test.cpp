@@ -54,15 +54,36 @@ TEST(GltfLights, DirectionalLightsTravelAlongTheirMinusZ)
     EXPECT_EQ(light.intensity, glm::vec3(1.0F));
 }
 
-TEST(GltfLights, SpotConesComeAsCosines)
+// LoadOptions::sun: azimuth from -z towards +x, elevation above the horizon.
+TEST(GltfLights, ASunCanBeAdded)
+{
+    const auto directionOf = [](double azimuth, double elevation) {
+        LoadOptions options;
+        options.sun = Sun{azimuth, elevation, 7.0F};
+        const Scene scene = load(withTriangle(), options);
+        EXPECT_EQ(scene.lights.size(), 1U);
+        EXPECT_FALSE(scene.environment) << "a sun lights the scene, so that no studio does";
+        EXPECT_EQ(scene.lights.at(0).kind, PunctualLight::Kind::Directional);
+        EXPECT_EQ(scene.lights.at(0).intensity, glm::vec3(7.0F));
+        return scene.lights.at(0).direction;
+    };
+    EXPECT_LT(glm::length(directionOf(0, 0) - glm::vec3(0, 0, 1)), kTolerance);
+    EXPECT_LT(glm::length(directionOf(90, 0) - glm::vec3(-1, 0, 0)), kTolerance);
+    EXPECT_LT(glm::length(directionOf(45, 90) - glm::vec3(0, -1, 0)), kTolerance);
+}
+
+TEST(GltfLights, SpotConesComeAsVersines)
 {
     const PunctualLight plain = readLight({{"type", "spot"}, {"spot", json::object()}});
     EXPECT_EQ(plain.kind, PunctualLight::Kind::Spot);
-    EXPECT_EQ(plain.cosInner, 1.0F);
-    EXPECT_FLOAT_EQ(plain.cosOuter, std::sqrt(0.5F)) << "pi / 4 unless told otherwise";
+    EXPECT_EQ(plain.versineInner, 0.0F);
+    EXPECT_FLOAT_EQ(plain.versineOuter, 1.0F - std::sqrt(0.5F)) << "pi / 4 unless told otherwise";
     const PunctualLight narrow = readLight({{"type", "spot"}, {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}});
-    EXPECT_FLOAT_EQ(narrow.cosInner, std::cos(0.25F));
-    EXPECT_FLOAT_EQ(narrow.cosOuter, std::cos(0.5F));
+    EXPECT_FLOAT_EQ(narrow.versineInner, 1.0F - std::cos(0.25F));
+    EXPECT_FLOAT_EQ(narrow.versineOuter, 1.0F - std::cos(0.5F));
+    const PunctualLight beam = readLight({{"type", "spot"}, {"spot", {{"innerConeAngle", 1e-4}, {"outerConeAngle", 2e-4}}}});
+    EXPECT_NEAR(beam.versineInner, 5e-9F, 1e-15F);
+    EXPECT_NEAR(beam.versineOuter, 2e-8F, 4e-15F);
     EXPECT_LT(glm::length(narrow.direction - glm::vec3(1, 0, 0)), kTolerance);
 }
 

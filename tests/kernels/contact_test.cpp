@@ -94,7 +94,7 @@ TEST(ContactTest, H10SphereOnTheFloorCastsItsShadowToTheContact)
     SceneBuilder builder;
     builder.quad(floorQuad(), builder.lambert(vec3(0.5F)));
     builder.sphere({0, 0.5F, 0}, 0.5F, builder.lambert(vec3(0.0F)));
-    builder.light({"", PunctualLight::Kind::Point, vec3(lamp), {0, 0, -1}, vec3(2.0F), 1.0F, 0.0F});
+    builder.light({"", PunctualLight::Kind::Point, vec3(lamp), {0, 0, -1}, vec3(2.0F)});
     std::vector<Receiver> receivers;
     int dark = 0;
     for (const float x : {-3.0F, -1.0F, -0.6F, -0.3F, -0.1F, -0.01F, 0.01F, 0.1F, 0.2F, 0.3F, 0.5F, 1.0F, 4.0F}) {

@@ -30,13 +30,13 @@ TEST(LightTest, H16PointAndDirectionalAreExact)
 {
     SceneBuilder point;
     addSpeck(point);
-    point.light({"", PunctualLight::Kind::Point, {1, 2, 3}, {0, 0, -1}, vec3(5.0F), 1.0F, 0.0F});
+    point.light({"", PunctualLight::Kind::Point, {1, 2, 3}, {0, 0, -1}, vec3(5.0F)});
     const double d2 = 14.0, along = 2.0;
     expectExactIrradiance("T9 point", point.scene(),
                           {{vec3(0.0F), {0, 1, 0}, 5.0 * along / (d2 * std::sqrt(d2))}, {vec3(0.0F), {0, -1, 0}, 0.0}});
     SceneBuilder directional;
     addSpeck(directional);
-    directional.light({"", PunctualLight::Kind::Directional, {0, 0, 0}, {0.6F, -0.8F, 0}, vec3(3.0F), 1.0F, 0.0F});
+    directional.light({"", PunctualLight::Kind::Directional, {0, 0, 0}, {0.6F, -0.8F, 0}, vec3(3.0F)});
     expectExactIrradiance("T9 directional", directional.scene(),
                           {{vec3(7.0F), {0, 1, 0}, 2.4}, {vec3(7.0F), {-0.6F, 0.8F, 0}, 3.0}, {vec3(0.0F), {0, -1, 0}, 0.0}});
 }
@@ -46,7 +46,7 @@ TEST(LightTest, SpotFallsOffBetweenItsCones)
     const double inner = 0.95, outer = 0.8, height = 2.0, intensity = 7.0;
     SceneBuilder spot;
     addSpeck(spot);
-    spot.light({"", PunctualLight::Kind::Spot, {0, 2, 0}, {0, -1, 0}, vec3(7.0F), 0.95F, 0.8F});
+    spot.light({"", PunctualLight::Kind::Spot, {0, 2, 0}, {0, -1, 0}, vec3(7.0F), 0.05F, 0.2F});
     std::vector<Receiver> receivers;
     for (const float x : {0.0F, 0.5F, 0.8F, 1.0F, 1.3F, 2.0F, -1.1F}) {
         const double d2 = static_cast<double>(x * x) + height * height, cosine = height / std::sqrt(d2);
@@ -167,8 +167,8 @@ TEST(LightTest, SumsOverAllLights)
     SceneBuilder builder;
     const auto lamp = builder.lambert(vec3(0.0F), vec3(1.0F));
     builder.polygon(kPentagon, lamp).sphere({8, 3, 0}, 0.5F, builder.lambert(vec3(0.0F), vec3(4.0F)));
-    builder.light({"", PunctualLight::Kind::Point, {-3, 1, 0}, {0, 0, -1}, vec3(2.0F), 1.0F, 0.0F})
-        .light({"", PunctualLight::Kind::Directional, {0, 0, 0}, {-0.8F, -0.6F, 0}, vec3(0.25F), 1.0F, 0.0F});
+    builder.light({"", PunctualLight::Kind::Point, {-3, 1, 0}, {0, 0, -1}, vec3(2.0F)})
+        .light({"", PunctualLight::Kind::Directional, {0, 0, 0}, {-0.8F, -0.6F, 0}, vec3(0.25F)});
     const vec3 point(0.5F, 0, 0);
     const double directional = 0.25 * 0.6;
     const double pointLight = 2.0 / std::pow(3.5 * 3.5 + 1.0, 1.5);

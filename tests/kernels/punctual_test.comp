@@ -5,7 +5,9 @@
 #include "lib/punctual.glsl"
 
 struct Case {
-    float cosine, cosInner, cosOuter;
+    vec3 a, b;
+    float angle;
+    float inner, outer;
     float falloff;
     float distance_, range;
     float window;
@@ -17,7 +19,10 @@ void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        EXPECT_NEAR(spotFalloff(c.cosine, c.cosInner, c.cosOuter), c.falloff, 2e-6);
+        // Differences are exact to half an ulp of the vectors; products and sums add some.
+        EXPECT_NEAR(versine(c.a, c.b), c.angle, 4e-7 * c.angle + 1e-20);
+        // The ramp divides rounding by its width.
+        EXPECT_NEAR(spotFalloff(versine(c.a, c.b), c.inner, c.outer), c.falloff, 2e-6 * (1.0 + c.outer / max(c.outer - c.inner, 1e-10)));
         EXPECT_NEAR(rangeFalloff(c.distance_ * c.distance_, c.range), c.window, 1e-6);
     }
     endTest();

@@ -71,7 +71,7 @@ TEST(SamplerTest, H33BlocksAreNets)
         for (std::uint32_t block = 0; block < 1000; ++block) {
             const std::uint32_t first = firstSample + block % 5 * sampleCount;
             for (std::uint32_t i = 0; i < sampleCount; ++i) {
-                cases.push_back({9, block * 7, first + i, block % 22 == 21 ? kLens : block % 22, 1});
+                cases.push_back({9, block * 7, first + i, block % 18 == 17 ? kLens : block % 18, 1});
             }
         }
         return cases;
@@ -100,7 +100,7 @@ TEST(SamplerTest, SamplesOfALightAreNets)
         std::vector<Case> cases;
         for (std::uint32_t light = 0; light < 300; ++light) {
             for (std::uint32_t i = 0; i < 96; ++i) {
-                cases.push_back({9, light * 7, i / count, 1 + light % 20, 1, light % 5, i % count, count});
+                cases.push_back({9, light * 7, i / count, 1 + light % 16, 1, light % 5, i % count, count});
             }
         }
         SCOPED_TRACE(std::to_string(count) + " samples of each light");

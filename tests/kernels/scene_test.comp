@@ -48,8 +48,9 @@ void main()
             EXPECT_EQUAL(primitiveOf(fetchRecord(light.record)), c.id);
             EXPECT_EQUAL(light.kind, c.triangle != 0u ? kTriangleLight : kSphereLight);
             EXPECT_TRUE(light.intensity == c.emission && light.position == c.corners[0]);
-            EXPECT_TRUE(c.triangle == 0u ? light.size == c.corners[1].x
-                                         : light.edge1 == c.corners[1] - c.corners[0] && light.edge2 == c.corners[2] - c.corners[0]);
+            bool round_ = c.triangle == 0u;
+            EXPECT_TRUE(round_ || light.edge1 == c.corners[1] - c.corners[0] && light.edge2 == c.corners[2] - c.corners[0]);
+            EXPECT_CLOSE(light.size, round_ ? c.corners[1].x : 0.5 * length(cross(light.edge1, light.edge2)), 1e-5);
         }
         EXPECT_TRUE(render.camera.position == c.cameraPosition);
     }

@@ -107,7 +107,7 @@ TEST(AlphaTest, ShadowsOfCardsMultiply)
         cards.push_back(builder.lambert(glm::vec3(0.2F)));
         builder.quad({glm::vec3(-1, y, 1), {1, y, 1}, {1, y, -1}, {-1, y, -1}}, cards.back());
     }
-    builder.light({"", PunctualLight::Kind::Point, {0.0F, 2.0F, 0.0F}, {0, 0, -1}, glm::vec3(7.0F), 1.0F, 0.0F})
+    builder.light({"", PunctualLight::Kind::Point, {0.0F, 2.0F, 0.0F}, {0, 0, -1}, glm::vec3(7.0F)})
         .orthographic({0.03F, 0.05F, 0.02F}, {0, 0, 0}, 1e-3F);
     Scene scene = builder.scene();
     for (const std::uint32_t card : cards) {

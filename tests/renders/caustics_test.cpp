@@ -78,8 +78,8 @@ double irradianceAt(const PunctualLight& light, const glm::dvec3& p)
     const double distance2 = glm::dot(towards, towards), distance = std::sqrt(distance2);
     double intensity = static_cast<double>(light.intensity.r);
     if (light.kind == PunctualLight::Kind::Spot) {
-        const double cosine = -glm::dot(towards, glm::dvec3(light.direction)) / distance;
-        const double ramp = (cosine - static_cast<double>(light.cosOuter)) / static_cast<double>(light.cosInner - light.cosOuter);
+        const double versine = 1.0 + glm::dot(towards, glm::dvec3(light.direction)) / distance;
+        const double ramp = (static_cast<double>(light.versineOuter) - versine) / static_cast<double>(light.versineOuter - light.versineInner);
         intensity *= std::pow(std::clamp(ramp, 0.0, 1.0), 2.0);
     }
     if (light.range > 0.0F) {
@@ -121,7 +121,7 @@ TEST_P(MirroredLightTest, IsAnImageOfIt)
 {
     const PunctualLight light = GetParam().value;
     const Scene scene = floorAndMirror(light).scene();
-    RenderSettings settings = squareSettings(32, samplesFor(1024));
+    RenderSettings settings = squareSettings(32, samplesFor(8192));
     settings.bounces = 2;
     const Film film = renderScene(scene, settings);
     ASSERT_FALSE(film.splats.empty());
@@ -132,9 +132,11 @@ INSTANTIATE_TEST_SUITE_P(
     Lights, MirroredLightTest,
     testing::Values(test::Named{"point", PunctualLight{"", PunctualLight::Kind::Point, {0.5F, 1.2F, 0.3F}, {0, 0, -1}, glm::vec3(3.0F)}},
                     test::Named{"range", PunctualLight{"", PunctualLight::Kind::Point, {0.1F, 0.6F, 0.1F}, {0, 0, -1}, glm::vec3(3.0F),
-                                                       1.0F, 0.0F, 50.0F}},
+                                                       0.0F, 1.0F, 1.6F}},
                     test::Named{"spot", PunctualLight{"", PunctualLight::Kind::Spot, {0.5F, 1.2F, 0.3F},
-                                                      glm::normalize(glm::vec3(-1.5F, -0.6F, -0.3F)), glm::vec3(3.0F), 0.95F, 0.8F}},
+                                                      glm::normalize(glm::vec3(-1.5F, -0.6F, -0.3F)), glm::vec3(3.0F), 0.1F, 0.4F}},
+                    test::Named{"narrowSpot", PunctualLight{"", PunctualLight::Kind::Spot, {0.5F, 1.2F, 0.3F},
+                                                            glm::normalize(glm::vec3(-1.5F, -0.6F, -0.3F)), glm::vec3(3.0F), 1e-4F, 3e-4F}},
                     test::Named{"directional", PunctualLight{"", PunctualLight::Kind::Directional, {0, 0, 0},
                                                              glm::normalize(glm::vec3(-0.7F, -0.6F, 0.1F)), glm::vec3(3.0F)}}),
     test::nameOfParameter);

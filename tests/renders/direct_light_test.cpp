@@ -200,7 +200,7 @@ TEST(LightSamplesTest, CountPerLightAndHit)
     const auto lamp = builder.lambert(glm::vec3(0.0F), glm::vec3(5.0F));
     builder.quad({glm::vec3(-5, 0, 5), {5, 0, 5}, {5, 0, -5}, {-5, 0, -5}}, builder.lambert(glm::vec3(0.5F)))
         .quad({glm::vec3(-1, 1, -1), {1, 1, -1}, {1, 1, 1}, {-1, 1, 1}}, lamp)
-        .light({"", PunctualLight::Kind::Point, {0, 0.8F, 0}, {0, 0, -1}, glm::vec3(1.0F), 1.0F, 0.0F})
+        .light({"", PunctualLight::Kind::Point, {0, 0.8F, 0}, {0, 0, -1}, glm::vec3(1.0F)})
         .orthographic({0.0F, 0.5F, 0.0F}, {0, 0, 0}, 0.3F);
     const FlatScene flat = flattened(builder.scene());
     const Camera camera = builder.scene().cameras.front();

@@ -107,7 +107,7 @@ TEST(TruthTest, H16T9PointDirectionalAndSpotLight)
     const glm::dvec3 position(0.5, 2.0, -0.7);
     const double distance2 = glm::dot(position, position), cosine = position.y / std::sqrt(distance2);
     const glm::dvec3 down = -position / std::sqrt(distance2);
-    PunctualLight light{"", PunctualLight::Kind::Point, glm::vec3(position), glm::vec3(down), glm::vec3(3, 5, 7), 0.95F, 0.9F};
+    PunctualLight light{"", PunctualLight::Kind::Point, glm::vec3(position), glm::vec3(down), glm::vec3(3, 5, 7), 0.05F, 0.1F};
     const glm::dvec3 fromPoint = reflected(glm::dvec3(3, 5, 7) * cosine / distance2);
     expectExactMean(renderScene(floorScene().light(light).scene(), direct(32)), fromPoint);
     light.range = 1.5F * static_cast<float>(std::sqrt(distance2));

@@ -125,7 +125,7 @@ Scene mixedScene()
         .sphere({0.2F, -0.4F, -0.7F}, 0.6F, builder.mirror(glm::vec3(0.9F)))
         .sphere({1.1F, -0.4F, 0.4F}, 0.6F, builder.glass(1.5F))
         .sphere({-0.4F, -0.8F, 0.9F}, 0.15F, builder.lambert(glm::vec3(0.1F), glm::vec3(2.0F, 1.0F, 3.0F)))
-        .light({"", PunctualLight::Kind::Point, {0.5F, 1.0F, 1.0F}, {0, 0, -1}, glm::vec3(1.5F), 1.0F, 0.0F})
+        .light({"", PunctualLight::Kind::Point, {0.5F, 1.0F, 1.0F}, {0, 0, -1}, glm::vec3(1.5F)})
         .environment(glm::vec3(0.1F, 0.15F, 0.2F))
         .perspective({0.0F, 0.4F, 4.0F}, {0, 0, 0}, 0.8F);
     return builder.scene();

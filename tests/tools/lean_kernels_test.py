@@ -44,6 +44,8 @@ USERS = {
     "Unlit": ["trace_closest", "trace_shadow", "sample_lights_and_bounce"],
     "Glossiness": ["sample_lights_and_bounce"],
     "Caustics": ["sample_lights_and_bounce"],
+    "RectangleLights": ["sample_lights_and_bounce"],
+    "LightTree": ["sample_lights_and_bounce"],
 }
 # What a feature needs before it has any code.
 NEEDS = {

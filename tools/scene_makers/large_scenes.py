@@ -4,6 +4,7 @@ import math
 import random
 
 from .gltf_document import Document
+from .shapes import block, icosahedron, turn
 from .small_scenes import cornell_room
 
 BUNNY = "/usr/share/glmark2/models/bunny.obj"
@@ -129,6 +130,22 @@ def cone(sides, radius, bottom, top):
     return points, indices
 
 
+def lamps(count):
+    """The Cornell box, lit by `count` icosahedra of 20 triangles, of 16 brightnesses from 1 to 8."""
+    document, source = Document(), random.Random(4)
+    white = cornell_room(document, light=0)
+    solid, faces = block((-0.3, 0.0, -0.3), (0.3, 0.6, 0.3))
+    document.shape("block", turn(solid, -17.0, (0.0, 0.0, 0.0)), faces, white)
+    points, indices = icosahedron()
+    shades = [document.material("lamp %d" % i, emission=[2.0 ** (i / 5.0) * c for c in (1.0, 0.8, 0.6)]) for i in range(16)]
+    size = 0.25 * count ** (-1.0 / 3.0)
+    meshes = [document.mesh(document.primitive([[size * c for c in p] for p in points], indices, shade)) for shade in shades]
+    for i in range(count):
+        place = [source.uniform(-0.9, 0.9), source.uniform(0.7, 1.9), source.uniform(-0.9, 0.9)]
+        document.node("lamp %d" % i, mesh=meshes[source.randrange(16)], translation=place)
+    return document
+
+
 def cornell_bunny():
     """The Stanford bunny of Debian's glmark2-data, standing in the Cornell box."""
     points, indices = [], []
@@ -151,4 +168,4 @@ def cornell_bunny():
     return document
 
 
-LARGE_SCENES = {function.__name__: function for function in (terrain, menger, slivers, coincident, growing, forest)}
+LARGE_SCENES = {function.__name__: function for function in (terrain, menger, slivers, coincident, growing, forest, lamps)}

@@ -12,7 +12,7 @@ WHITE, RED, GREEN = (0.73, 0.73, 0.71), (0.63, 0.065, 0.05), (0.14, 0.45, 0.091)
 
 
 def cornell_room(document, light=0.5, radiance=(22.0, 19.0, 14.0)):
-    """Two metres wide, open to the camera; the light hangs 1 cm below the ceiling and shines down."""
+    """Two metres wide, open to the camera; the light hangs 1 cm below the ceiling and shines down. light=0: without it."""
     white, red, green = (document.material(*m) for m in (("white", WHITE), ("red", RED), ("green", GREEN)))
     document.camera("front", (0.0, 1.0, 3.95), (0.0, 1.0, 0.0), 37.4, 1.0)
     document.quad("floor", [[-1, 0, 1], [1, 0, 1], [1, 0, -1], [-1, 0, -1]], white)
@@ -20,8 +20,9 @@ def cornell_room(document, light=0.5, radiance=(22.0, 19.0, 14.0)):
     document.quad("back", [[-1, 0, -1], [1, 0, -1], [1, 2, -1], [-1, 2, -1]], white)
     document.quad("left", [[-1, 0, 1], [-1, 0, -1], [-1, 2, -1], [-1, 2, 1]], red)
     document.quad("right", [[1, 0, -1], [1, 0, 1], [1, 2, 1], [1, 2, -1]], green)
-    lamp, h = document.material("lamp", emission=radiance), light / 2
-    document.quad("lamp", [[-h, 1.99, -h], [h, 1.99, -h], [h, 1.99, h], [-h, 1.99, h]], lamp)
+    if light > 0:
+        lamp, h = document.material("lamp", emission=radiance), light / 2
+        document.quad("lamp", [[-h, 1.99, -h], [h, 1.99, -h], [h, 1.99, h], [-h, 1.99, h]], lamp)
     return white
 
 

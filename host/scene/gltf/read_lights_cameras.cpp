@@ -5,6 +5,9 @@
 namespace glim {
 namespace {
 
+// 1 - cos, without cancellation.
+float versine(double angle) { return static_cast<float>(2.0 * std::pow(std::sin(0.5 * angle), 2.0)); }
+
 glm::vec3 readPosition(const GltfFile& file, const PlacedNode& node, const Scene& scene)
 {
     const glm::vec3 position(glm::dvec3(node.worldFromNode[3]) - scene.origin);
@@ -42,8 +45,8 @@ PunctualLight readLight(const GltfFile& file, const PlacedNode& node, std::size_
             refuse(file, place + " has the inner cone angle " + toText(source.spot.innerConeAngle) +
                              "; expected less than the outer one, " + toText(source.spot.outerConeAngle));
         }
-        light.cosInner = static_cast<float>(std::cos(source.spot.innerConeAngle));
-        light.cosOuter = static_cast<float>(std::cos(source.spot.outerConeAngle));
+        light.versineInner = versine(source.spot.innerConeAngle);
+        light.versineOuter = versine(source.spot.outerConeAngle);
     }
     if (source.range > 0.0) {
         light.range = static_cast<float>(source.range);
