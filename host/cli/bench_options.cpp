@@ -88,6 +88,7 @@ void addBenchOptions(const Command& command, BenchOptions& options)
     addCamera(command, options);
     addSampling(command, options);
     addLightTransport(command, options.settings);
+    addCaustics(command, options.settings);
     addCourseEstimators(command, options.settings);
     addDevice(command, options);
     addOutput(command, options);

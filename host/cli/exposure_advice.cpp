@@ -22,7 +22,7 @@ double luminanceOf(const glm::dvec3& c) { return 0.2126 * c.r + 0.7152 * c.g + 0
 std::vector<glm::dvec3> findShown(const Film& film)
 {
     std::vector<glm::dvec3> surfaces, all;
-    for (const PixelMoments& pixel : film.pixels) {
+    for (const PixelMoments& pixel : shownPixels(film)) {
         const glm::dvec3 mean(pixel.mean);
         if (pixel.count > 0 && std::isfinite(mean.r + mean.g + mean.b)) {
             all.push_back(mean);

@@ -12,7 +12,7 @@ template <class Value>
 double computeMean(const Film& film, Value value)
 {
     double sum = 0.0;
-    for (const PixelMoments& pixel : film.pixels) {
+    for (const PixelMoments& pixel : shownPixels(film)) {
         sum += static_cast<double>(value(pixel));
     }
     return sum / static_cast<double>(film.pixels.size());

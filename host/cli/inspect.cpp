@@ -201,6 +201,10 @@ void printLooks(const PreparedScene& prepared)
         }
         std::cout << '\n';
     }
+    if ((prepared.flat.features & kFeatureCaustics) != 0) {
+        std::cout << "  caustics: by light paths from " << prepared.flat.causticLights << " lights to " << prepared.flat.causticTargets
+                  << " places with specular surfaces\n";
+    }
     for (std::size_t i = 0; i < prepared.flat.media.size(); ++i) {
         const MediumData& medium = prepared.flat.media[i];
         std::cout << "  medium " << i + 1 << ": index " << threeDigits(static_cast<double>(medium.ior)) << ", absorption "

@@ -130,6 +130,12 @@ void addLightTransport(const Command& command, RenderSettings& settings)
                      [&settings](float limit) { settings.clampIndirect = limit; });
 }
 
+void addCaustics(const Command& command, RenderSettings& settings)
+{
+    addEnum(command, "--caustics", "C", "Light paths for caustics in scenes that have lamps and specular surfaces: on or off [on]",
+            {"off", "on"}, settings.caustics);
+}
+
 void addCourseEstimators(const Command& command, RenderSettings& settings)
 {
     command.beginGroup("Course estimators (Berkeley CS 184)");

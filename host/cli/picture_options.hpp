@@ -43,6 +43,7 @@ void addSampler(const Command& command, RenderSettings& settings);
 // Each adds a whole group of the help.
 void addCamera(const Command& command, PictureOptions& options);
 void addLightTransport(const Command& command, RenderSettings& settings);
+void addCaustics(const Command& command, RenderSettings& settings);
 void addCourseEstimators(const Command& command, RenderSettings& settings);
 void addDevice(const Command& command, PictureOptions& options);
 

@@ -52,6 +52,7 @@ void addRenderOptions(const Command& command, RenderOptions& options)
     addAdaptive(command, options.settings);
     addSampler(command, options.settings);
     addLightTransport(command, options.settings);
+    addCaustics(command, options.settings);
     addCourseEstimators(command, options.settings);
     addCourseRule(command, options.settings);
     addDevice(command, options);

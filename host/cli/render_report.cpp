@@ -4,6 +4,7 @@
 #include "host/cli/film_report.hpp"
 #include "host/cli/output_file.hpp"
 #include "host/render/film_file.hpp"
+#include "host/render/parameters.hpp"
 
 #include <sys/resource.h>
 #include <algorithm>
@@ -171,6 +172,7 @@ Json statisticsOf(const RenderReport& report)
             {"overflows", s.overflows},
             {"transparencyCaps", s.transparencyCaps},
             {"mediaCaps", s.mediaCaps},
+            {"lightPathsPerSample", report.film.splats.empty() ? Json(nullptr) : Json(lightPathCount(report.film.width, report.film.height))},
             {"clampIndirect", clampingOf(report.film, report.options)},
             {"estimate", estimateOf(report.film, report.options.settings)},
             {"pixelsWithoutEstimate", pixelsWithoutError(report.film)},
@@ -226,6 +228,11 @@ std::string format(const char* pattern, auto... values)
     char text[256];
     std::snprintf(text, sizeof text, pattern, values...);
     return text;
+}
+
+std::string causticsText(const RenderReport& report)
+{
+    return report.film.splats.empty() ? "" : format(", caustics by %u light paths a sample", lightPathCount(report.film.width, report.film.height));
 }
 
 std::string rangeText(const RenderReport& report)
@@ -295,7 +302,7 @@ void printSummary(const RenderReport& report)
               << rangeText(report)
               << format(" in %.2f s (%.3g Msamples/s, %.3g Mrays/s)", s.renderSeconds, 1e-6 * perSecond(s.samples, s.renderSeconds),
                         1e-6 * perSecond(s.cameraAndBounceRays + s.shadowRays, s.renderSeconds))
-              << savingText(report) << qualityText(report) << ", on " << report.device.name << " (" << report.device.kind << ")\n";
+              << causticsText(report) << savingText(report) << qualityText(report) << ", on " << report.device.name << " (" << report.device.kind << ")\n";
     printSuspects(report);
 }
 

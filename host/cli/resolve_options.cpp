@@ -31,7 +31,8 @@ void resolveAov(const Command& command, RenderSettings& settings)
         return;
     }
     const std::string nothing = "has no effect with --view " + command.textOf("--view");
-    refuseIfGiven(command, {"--bounces", "--direct", "--light-samples", "--paths", "--roulette", "--clamp-indirect"}, nothing);
+    refuseIfGiven(command, {"--bounces", "--direct", "--light-samples", "--paths", "--roulette", "--clamp-indirect", "--caustics"},
+                  nothing);
     refuseIfGiven(command, {"--adaptive", "--rates", "--suspects", "--target-rmse", "--target-relmse"}, nothing);
     if (settings.aov != Aov::Albedo) {
         refuseIfGiven(command, {"--exposure"}, nothing);

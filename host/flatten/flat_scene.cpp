@@ -65,7 +65,7 @@ std::uint64_t sizeInBytes(const FlatScene& scene)
     return bytesOf(scene.nodes) + bytesOf(scene.records) + bytesOf(scene.triangles) + bytesOf(scene.vertices) + bytesOf(scene.materials) +
            bytesOf(scene.lights) + bytesOf(scene.lightNodes) + bytesOf(scene.principled) + bytesOf(scene.layers) + bytesOf(scene.textures) +
            bytesOf(scene.media) + bytesOf(scene.texels) + bytesOf(scene.albedos) + bytesOf(scene.environmentTexels) +
-           bytesOf(scene.environmentCells);
+           bytesOf(scene.environmentCells) + bytesOf(scene.caustics);
 }
 
 std::uint64_t textureBytes(const FlatScene& scene)
@@ -105,6 +105,7 @@ std::uint64_t fingerprint(const FlatScene& scene)
     if (!scene.environmentTexels.empty() || scene.hidesEnvironment) {
         print.add(std::vector<vec3>{scene.environment, vec3(scene.environmentTurn, scene.hidesEnvironment ? 1.0F : 0.0F)});
     }
+    print.add(scene.caustics);  // films with caustics by path tracing are others
     return print.state();
 }
 

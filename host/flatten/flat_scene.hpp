@@ -46,7 +46,8 @@ constexpr Feature kFeatures[] = {{kFeatureSpheres, "spheres"},
                                  {kFeatureUnlit, "unlit materials"},
                                  {kFeatureGlossiness, "specular-glossiness"},
                                  {kFeatureRectangleLights, "rectangle lights"},
-                                 {kFeatureLightTree, "several lights"}};
+                                 {kFeatureLightTree, "several lights"},
+                                 {kFeatureCaustics, "caustics"}};
 
 struct FlatScene {
     std::vector<uvec4> nodes;
@@ -77,6 +78,9 @@ struct FlatScene {
     std::vector<uvec4> environmentCells;
     uvec2 environmentSize{0}, environmentCellCount{0};
     std::uint32_t environmentLight = 0;  // index among lights, if the scene has kFeatureEnvironment
+    std::vector<uvec4> caustics;         // as scene_types.h says; empty without kFeatureCaustics
+    std::uint32_t causticTargets = 0, causticLights = 0;
+    float brightness = 0.0F;  // about the radiance, W/(sr m^2), that the brightest light gives a white surface; of caustics
 };
 
 // How many bytes the scene takes on the device.

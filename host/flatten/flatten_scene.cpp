@@ -1,6 +1,7 @@
 #include "host/flatten/flatten_scene.hpp"
 
 #include "host/flatten/albedo_table.hpp"
+#include "host/flatten/caustics.hpp"
 #include "host/flatten/flatten_materials.hpp"
 #include "host/flatten/light_table.hpp"
 #include "host/flatten/pack_nodes.hpp"
@@ -143,6 +144,7 @@ FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const W
     const std::vector<std::uint32_t> recordOf = pushRecords(flat, scene, primitives, bvh);
     addLights(flat, scene, primitives, recordOf);
     markOtherRecords(flat, bvh.order, recordOf);
+    addCaustics(flat, scene, primitives);
     return flat;
 }
 

@@ -15,7 +15,7 @@ struct PiecewiseConstantEntry {
     std::uint32_t searchBegin, searchEnd;  // entry i: the entries that random words in [i, i + 1) / n of all fall to
 };
 
-// One entry per weight, at most 65,536. Weights are at least 0, one above. Every entry keeps a positive probability.
+// One entry per weight. Weights are at least 0, one above. Every entry keeps a positive probability.
 std::vector<PiecewiseConstantEntry> buildPiecewiseConstant(std::span<const double> weights);
 
 // Exactly that with which an entry is sampled.

@@ -53,7 +53,7 @@ std::vector<Part> partsOf(const Film& film, const std::function<double(std::size
 {
     std::vector<Part> parts;
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
-        const PixelMoments& pixel = film.pixels[i];
+        const PixelMoments pixel = shownPixel(film, i);
         if (pixel.blocks >= 2) {
             const glm::vec3 variance = varianceOfMean(pixel);
             double sum = 0.0;

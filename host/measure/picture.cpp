@@ -30,7 +30,7 @@ std::vector<glm::vec3> colors(const Image& image, const std::string& layer, cons
 Picture pictureOf(const Film& film)
 {
     Picture picture{film.width, film.height, {}, {}};
-    for (const PixelMoments& pixel : film.pixels) {
+    for (const PixelMoments& pixel : shownPixels(film)) {
         picture.radiance.push_back(pixel.mean);
         picture.variance.push_back(varianceOfMean(pixel));
     }

@@ -16,7 +16,7 @@ constexpr int kRadius = 3;  // radius of the neighbourhood: 7x7
 double epsilonOf(const Film& film)
 {
     double sum = 0.0;
-    for (const PixelMoments& pixel : film.pixels) {
+    for (const PixelMoments& pixel : shownPixels(film)) {
         sum += static_cast<double>(pixel.mean.r + pixel.mean.g + pixel.mean.b) / 3.0;
     }
     const double mean = sum / static_cast<double>(film.pixels.size());

@@ -1,7 +1,8 @@
 #include "host/render/check_memory.hpp"
 
 #include "host/error.hpp"
-#include "host/render/path_buffers.hpp"
+#include "host/render/parameters.hpp"
+#include "host/render/splats.hpp"
 
 #include <unistd.h>
 
@@ -10,10 +11,13 @@ namespace glim {
 void checkMemory(const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device)
 {
     const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
-    const std::uint64_t onDevice =
-        sizeInBytes(prepared.flat) + PathBuffers::sizeInBytes(settings.pathCapacity) + pixels * Tile::bytesPerPixel(settings);
+    const bool light = tracesLight(prepared.flat, settings);
+    const std::uint64_t onDevice = sizeInBytes(prepared.flat) + PathBuffers::sizeInBytes(settings.pathCapacity) +
+                                   pixels * Tile::bytesPerPixel(settings) + (light ? SplatBuffer::bytesFor(settings) : 0);
     // The film and its planes in the file; --adaptive neighbours has a second film.
-    const std::uint64_t onHost = pixels * (isNeighbours(settings.adaptive) ? 3 : 2) * sizeof(PixelMoments);
+    const std::uint64_t films = isNeighbours(settings.adaptive) ? 3 : 2;
+    const std::uint64_t onHost =
+        pixels * (films * sizeof(PixelMoments) + (light ? films * sizeof(SplatMoments) + SplatSums::kPixelBytes : 0));
     const std::uint64_t memory = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
     const auto refuse = [&](std::uint64_t needed, const std::string& owner, std::uint64_t there) {
         if (needed > there) {

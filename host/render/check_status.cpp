@@ -13,6 +13,11 @@ void refuseBrokenStatus(const DeviceDescription& device, const PathBuffers& path
                           "the scene's BVH takes more steps per ray than this driver allows (Mesa's software driver has no such "
                           "limit from version 24 on).");
     }
+    if (status.splatOverflows > 0) {
+        throw DeviceError("On \"" + device.name + "\" " + std::to_string(status.splatOverflows) +
+                          " light paths brought a pixel more light than it can hold, so the picture would be wrong; "
+                          "--caustics off traces no light paths.");
+    }
     if (status.overflows > 0) {
         throw DeviceError("Queues on \"" + device.name + "\" are " + std::to_string(status.overflows) +
                           " entries longer than there are paths, so the picture would be wrong.");

@@ -66,6 +66,7 @@ DeviceScene::DeviceScene(Device& device, const FlatScene& scene)
       albedos_(uploaded(device, "albedo table", BufferKind::Texel, scene.albedos)),
       environment_(uploaded(device, "environment map", BufferKind::Texel8, scene.environmentTexels)),
       environmentCells_(uploaded(device, "environment map's cells", BufferKind::Texel, scene.environmentCells)),
+      caustics_(uploaded(device, "targets of light paths", BufferKind::Texel, scene.caustics)),
       images_(uploadImages(device, scene.texels))
 {}
 
@@ -73,7 +74,7 @@ std::vector<BindingSlot> DeviceScene::slots()
 {
     std::vector<BindingSlot> slots{{kBindEnvironment, BufferKind::Texel8}};
     for (const std::uint32_t binding : {kBindNodes, kBindRecords, kBindTriangles, kBindVertices, kBindMaterials, kBindLights,
-                                        kBindLightNodes, kBindAlbedos, kBindEnvironmentCells}) {
+                                        kBindLightNodes, kBindAlbedos, kBindEnvironmentCells, kBindCaustics}) {
         slots.push_back({binding, BufferKind::Texel});
     }
     for (std::uint32_t view = 0; view < kMaxTexelViews; ++view) {
@@ -93,7 +94,8 @@ std::map<std::uint32_t, const Buffer*> DeviceScene::buffers() const
                                                    {kBindLightNodes, &lightNodes_},
                                                    {kBindAlbedos, &albedos_},
                                                    {kBindEnvironment, &environment_},
-                                                   {kBindEnvironmentCells, &environmentCells_}};
+                                                   {kBindEnvironmentCells, &environmentCells_},
+                                                   {kBindCaustics, &caustics_}};
     for (std::uint32_t view = 0; view < kMaxTexelViews; ++view) {
         buffers[kBindTexels + view] = &images_[std::min<std::size_t>(view, images_.size() - 1)];
     }

@@ -1,9 +1,23 @@
 #include "host/render/film.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace glim {
+namespace {
+
+// Blocks whose means have the spread of the sum of two independent means. Welch, "The Generalization of 'Student's' Problem when Several
+// Different Population Variances are Involved", 1947.
+std::uint32_t jointBlocks(double varianceA, std::uint32_t blocksA, double varianceB, std::uint32_t blocksB)
+{
+    const double least = std::min(blocksA, blocksB) - 1.0, most = blocksA + blocksB - 2.0;
+    const double spread = varianceA * varianceA / (blocksA - 1.0) + varianceB * varianceB / (blocksB - 1.0);
+    const double sum = varianceA + varianceB, degrees = sum * sum / spread;
+    return 1 + static_cast<std::uint32_t>(std::lround(std::isfinite(degrees) ? std::clamp(degrees, least, most) : least));
+}
+
+}  // namespace
 
 PixelMoments foldMoments(const PixelMoments& a, const PixelMoments& b)
 {
@@ -28,6 +42,33 @@ PixelMoments foldMoments(const PixelMoments& a, const PixelMoments& b)
     return sum;
 }
 
+SplatMoments foldMoments(const SplatMoments& a, const SplatMoments& b)
+{
+    PixelMoments first{}, second{};
+    const auto copy = [](PixelMoments& to, const SplatMoments& from) {
+        to.count = from.count;
+        to.blocks = from.blocks;
+        to.mean = from.mean;
+        to.squares = from.squares;
+        to.clamped = from.clamped;
+    };
+    copy(first, a);
+    copy(second, b);
+    const PixelMoments sum = foldMoments(first, second);
+    return {sum.count, sum.blocks, sum.mean, sum.squares, sum.clamped};
+}
+
+void foldSplats(std::vector<SplatMoments>& film, const std::vector<SplatMoments>& page)
+{
+    if (film.empty()) {
+        film = page;
+        return;
+    }
+    for (std::size_t i = 0; i < page.size(); ++i) {
+        film[i] = foldMoments(film[i], page[i]);
+    }
+}
+
 void foldPage(Film& film, std::size_t begin, const std::vector<PixelMoments>& page)
 {
     const auto pixels = film.pixels.begin() + static_cast<std::ptrdiff_t>(begin);
@@ -41,6 +82,35 @@ glm::vec3 varianceOfMean(const PixelMoments& moments)
         return glm::vec3(std::numeric_limits<float>::quiet_NaN());
     }
     return moments.squares / (static_cast<float>(moments.blocks - 1) * static_cast<float>(moments.count));
+}
+
+PixelMoments shownPixel(const Film& film, std::size_t i)
+{
+    PixelMoments pixel = film.pixels[i];
+    if (film.splats.empty() || pixel.count == 0) {
+        return pixel;
+    }
+    const SplatMoments& splat = film.splats[i];
+    const PixelMoments light{splat.count, splat.blocks, splat.mean, splat.squares};
+    pixel.mean += splat.mean;
+    pixel.clamped += splat.clamped;
+    if (pixel.blocks < 2 || splat.blocks < 2) {
+        pixel.blocks = std::min(pixel.blocks, splat.blocks);
+        return pixel;
+    }
+    const glm::vec3 a = varianceOfMean(film.pixels[i]), b = varianceOfMean(light), sum = a + b;
+    pixel.blocks = jointBlocks(static_cast<double>(a.r + a.g + a.b), pixel.blocks, static_cast<double>(b.r + b.g + b.b), splat.blocks);
+    pixel.squares = sum * (static_cast<float>(pixel.blocks - 1) * static_cast<float>(pixel.count));
+    return pixel;
+}
+
+std::vector<PixelMoments> shownPixels(const Film& film)
+{
+    std::vector<PixelMoments> pixels = film.pixels;
+    for (std::size_t i = 0; i < film.splats.size(); ++i) {
+        pixels[i] = shownPixel(film, i);
+    }
+    return pixels;
 }
 
 }  // namespace glim

@@ -17,9 +17,18 @@ struct FilmIdentity {
     std::uint32_t seed = 0;
 };
 
+// What light paths have brought to a pixel: caustics, which camera paths leave out. Samples are those of the picture, the same for all
+// pixels.
+struct SplatMoments {
+    std::uint32_t count = 0, blocks = 0;
+    glm::vec3 mean{0.0F}, squares{0.0F};  // as in PixelMoments
+    float clamped = 0.0F;
+};
+
 struct Film {
     std::uint32_t width = 0, height = 0;
-    std::vector<PixelMoments> pixels;                                   // row 0 at the top, left to right
+    std::vector<PixelMoments> pixels;                                   // row 0 at the top, left to right; of camera paths
+    std::vector<SplatMoments> splats;                                   // of light paths; empty if there were none
     std::vector<std::pair<std::uint32_t, std::uint32_t>> sampleRanges;  // [begin, end), ascending, disjoint
     bool complete = true;                                               // each pixel has all of sampleRanges or, if adaptive, its own share
     FilmIdentity identity;
@@ -32,10 +41,20 @@ struct Film {
 // film equal to the single run bit for bit.
 PixelMoments foldMoments(const PixelMoments& a, const PixelMoments& b);
 
+SplatMoments foldMoments(const SplatMoments& a, const SplatMoments& b);
+
+// Folds `page` onto `film`. Either may be empty.
+void foldSplats(std::vector<SplatMoments>& film, const std::vector<SplatMoments>& page);
+
 // Folds `page` onto the pixels of `film` from index `begin` on.
 void foldPage(Film& film, std::size_t begin, const std::vector<PixelMoments>& page);
 
 // Variance of a pixel's mean from its block means; NaN where fewer than two blocks are known.
 glm::vec3 varianceOfMean(const PixelMoments& moments);
+
+// The pixel as the film shows it: its moments with the mean, the variance of the mean and the clamped light of camera and light paths
+// together.
+PixelMoments shownPixel(const Film& film, std::size_t i);
+std::vector<PixelMoments> shownPixels(const Film& film);
 
 }  // namespace glim

@@ -17,9 +17,12 @@ namespace fs = std::filesystem;
 namespace glim {
 namespace {
 
-constexpr double kFormat = 1;  // of the layers and attributes below; raise it when an older reader would misread them
+// Of the layers and attributes below; an older reader would misread a film with light paths, whose R, G, B are no moments.
+constexpr double kFormat = 1, kFormatWithSplats = 2;
 
-// Consecutive 32-bit members of PixelMoments, one letter each.
+double formatOf(const Film& film) { return film.splats.empty() ? kFormat : kFormatWithSplats; }
+
+// Consecutive 32-bit members of PixelMoments or SplatMoments, one letter each.
 struct Layer {
     const char* prefix;
     const char* letters;
@@ -29,20 +32,30 @@ struct Layer {
 static_assert(std::is_standard_layout_v<PixelMoments> && sizeof(PixelMoments) == 17 * sizeof(float));
 
 constexpr Layer kFloatLayers[] = {
-    {"", "RGB", offsetof(PixelMoments, mean)},
-    {"", "A", offsetof(PixelMoments, alpha)},
-    {"squares.", "RGB", offsetof(PixelMoments, squares)},
-    {"albedo.", "RGB", offsetof(PixelMoments, albedo)},
-    {"normal.", "XYZ", offsetof(PixelMoments, normal)},
-    {"depth.", "Z", offsetof(PixelMoments, depth)},
-    {"clamped.", "X", offsetof(PixelMoments, clamped)},
+    {"", "A", offsetof(PixelMoments, alpha)},           {"squares.", "RGB", offsetof(PixelMoments, squares)},
+    {"albedo.", "RGB", offsetof(PixelMoments, albedo)}, {"normal.", "XYZ", offsetof(PixelMoments, normal)},
+    {"depth.", "Z", offsetof(PixelMoments, depth)},     {"clamped.", "X", offsetof(PixelMoments, clamped)},
 };
 constexpr Layer kCountLayers[] = {
     {"count.", "X", offsetof(PixelMoments, count)},
     {"blocks.", "X", offsetof(PixelMoments, blocks)},
 };
+constexpr Layer kMeanLayers[] = {{"", "RGB", offsetof(PixelMoments, mean)}};
+constexpr Layer kCameraLayers[] = {{"camera.", "RGB", offsetof(PixelMoments, mean)}};  // with splats, instead
 
-// Calls visit(channel name, offset in PixelMoments) for every channel of the layers.
+static_assert(std::is_standard_layout_v<SplatMoments> && sizeof(SplatMoments) == 9 * sizeof(float));
+
+constexpr Layer kSplatLayers[] = {
+    {"splats.", "RGB", offsetof(SplatMoments, mean)},
+    {"splatSquares.", "RGB", offsetof(SplatMoments, squares)},
+    {"splatClamped.", "X", offsetof(SplatMoments, clamped)},
+};
+constexpr Layer kSplatCountLayers[] = {
+    {"splatCount.", "X", offsetof(SplatMoments, count)},
+    {"splatBlocks.", "X", offsetof(SplatMoments, blocks)},
+};
+
+// Calls visit(channel name, offset in the moments) for every channel of the layers.
 template <class Layers, class Visit>
 void forEachChannel(const Layers& layers, Visit visit)
 {
@@ -55,8 +68,8 @@ void forEachChannel(const Layers& layers, Visit visit)
     }
 }
 
-template <class Value>
-std::vector<Value> planeOf(const std::vector<PixelMoments>& pixels, std::size_t offset)
+template <class Value, class Moments>
+std::vector<Value> planeOf(const std::vector<Moments>& pixels, std::size_t offset)
 {
     std::vector<Value> plane(pixels.size());
     for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -65,9 +78,9 @@ std::vector<Value> planeOf(const std::vector<PixelMoments>& pixels, std::size_t 
     return plane;
 }
 
-template <class Value>
+template <class Value, class Moments>
 void takePlane(const fs::path& path, const std::map<std::string, std::vector<Value>>& planes, const std::string& name, std::size_t offset,
-               std::vector<PixelMoments>& pixels)
+               std::vector<Moments>& pixels)
 {
     const auto plane = planes.find(name);
     if (plane == planes.end()) {
@@ -95,13 +108,38 @@ void addErrors(const std::vector<PixelMoments>& pixels, Image& image)
     }
 }
 
+template <class Layers, class Moments>
+void addLayers(const Layers& layers, const std::vector<Moments>& pixels, Image& image)
+{
+    forEachChannel(layers, [&](const std::string& name, std::size_t offset) { image.channels[name] = planeOf<float>(pixels, offset); });
+}
+
+template <class Layers, class Moments>
+void addCounts(const Layers& layers, const std::vector<Moments>& pixels, Image& image)
+{
+    forEachChannel(layers,
+                   [&](const std::string& name, std::size_t offset) { image.counts[name] = planeOf<std::uint32_t>(pixels, offset); });
+}
+
+template <class Layers, class Moments>
+void takeLayers(const fs::path& path, const Layers& layers, const Image& image, std::vector<Moments>& pixels)
+{
+    forEachChannel(layers, [&](const std::string& name, std::size_t offset) { takePlane(path, image.channels, name, offset, pixels); });
+}
+
+template <class Layers, class Moments>
+void takeCounts(const fs::path& path, const Layers& layers, const Image& image, std::vector<Moments>& pixels)
+{
+    forEachChannel(layers, [&](const std::string& name, std::size_t offset) { takePlane(path, image.counts, name, offset, pixels); });
+}
+
 Image imageOf(const Film& film)
 {
     Image image;
     image.width = film.width;
     image.height = film.height;
     image.attributes = {{"software", "glim " GLIM_VERSION},
-                        {"glim:film", kFormat},
+                        {"glim:film", formatOf(film)},
                         {"glim:sceneFile", film.sceneFile},
                         {"glim:scene", film.identity.scene},
                         {"glim:settings", film.identity.settings},
@@ -110,11 +148,16 @@ Image imageOf(const Film& film)
                         {"glim:complete", film.complete ? 1.0 : 0.0},
                         {"glim:seconds", film.seconds},
                         {"glim:device", film.device}};
-    forEachChannel(kFloatLayers,
-                   [&](const std::string& name, std::size_t offset) { image.channels[name] = planeOf<float>(film.pixels, offset); });
-    forEachChannel(kCountLayers,
-                   [&](const std::string& name, std::size_t offset) { image.counts[name] = planeOf<std::uint32_t>(film.pixels, offset); });
-    addErrors(film.pixels, image);
+    const std::vector<PixelMoments> shown = shownPixels(film);
+    addLayers(kMeanLayers, shown, image);
+    addLayers(kFloatLayers, film.pixels, image);
+    addCounts(kCountLayers, film.pixels, image);
+    if (!film.splats.empty()) {
+        addLayers(kCameraLayers, film.pixels, image);
+        addLayers(kSplatLayers, film.splats, image);
+        addCounts(kSplatCountLayers, film.splats, image);
+    }
+    addErrors(shown, image);
     return image;
 }
 
@@ -149,9 +192,9 @@ std::optional<decltype(Film::sampleRanges)> parseRanges(const std::string& text)
 Film filmOfHeader(const fs::path& path, const Image& image)
 {
     const double format = attribute<double>(path, image, "glim:film");
-    if (format != kFormat) {
+    if (format != kFormat && format != kFormatWithSplats) {
         throw InputError(path.string() + ": is a film of format " + std::to_string(std::lround(format)) + ", expected format " +
-                         std::to_string(std::lround(kFormat)) + ".");
+                         std::to_string(std::lround(kFormat)) + " or " + std::to_string(std::lround(kFormatWithSplats)) + ".");
     }
     const double seed = attribute<double>(path, image, "glim:seed");
     if (!(seed >= 0 && seed <= std::numeric_limits<std::uint32_t>::max() && seed == std::floor(seed))) {
@@ -197,10 +240,16 @@ Film readFilm(const fs::path& path)
     const Image image = readExr(path);
     Film film = filmOfHeader(path, image);
     film.pixels.resize(std::size_t{film.width} * film.height);
-    forEachChannel(kFloatLayers,
-                   [&](const std::string& name, std::size_t offset) { takePlane(path, image.channels, name, offset, film.pixels); });
-    forEachChannel(kCountLayers,
-                   [&](const std::string& name, std::size_t offset) { takePlane(path, image.counts, name, offset, film.pixels); });
+    takeLayers(path, kFloatLayers, image, film.pixels);
+    takeCounts(path, kCountLayers, image, film.pixels);
+    if (attribute<double>(path, image, "glim:film") == kFormat) {
+        takeLayers(path, kMeanLayers, image, film.pixels);
+        return film;
+    }
+    film.splats.resize(film.pixels.size());
+    takeLayers(path, kCameraLayers, image, film.pixels);
+    takeLayers(path, kSplatLayers, image, film.splats);
+    takeCounts(path, kSplatCountLayers, image, film.splats);
     return film;
 }
 

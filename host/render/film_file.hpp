@@ -6,6 +6,10 @@
 // albedo.RGB, normal.XYZ, depth.Z   as in PixelMoments; depth is infinity where every sample missed
 // count.X, blocks.X, squares.RGB, clamped.X   the rest of PixelMoments, which merging needs
 //
+// With light paths, R, G, B and variance are of camera and light paths together, and there are more layers for merging:
+// camera.RGB   PixelMoments::mean
+// splats.RGB, splatSquares.RGB, splatClamped.X, splatCount.X, splatBlocks.X   SplatMoments
+//
 // Layers end in one letter, as Blender expects; the attributes are named glim:*.
 #pragma once
 

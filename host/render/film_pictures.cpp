@@ -18,7 +18,7 @@ void writeFilmPng(const std::filesystem::path& path, const Film& film, Aov aov, 
 {
     const DisplayRange range = computeRange(film, aov);
     std::vector<Rgb8> colors;
-    for (const PixelMoments& pixel : film.pixels) {
+    for (const PixelMoments& pixel : shownPixels(film)) {
         colors.push_back(displayColor(pixel, aov, range, exposure));
     }
     writePng(path, film.width, film.height, colors);

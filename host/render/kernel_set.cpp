@@ -1,6 +1,7 @@
 #include "host/render/kernel_set.hpp"
 
 #include "host/render/course.hpp"
+#include "host/render/parameters.hpp"
 #include "kernels.hpp"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/course_types.h"
@@ -29,7 +30,7 @@ std::uint32_t rouletteOf(Roulette roulette)
 Specialization specialize(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
 {
     return {{kSpecWorkgroup, settings.workgroup},
-            {kSpecFeatures, scene.features},
+            {kSpecFeatures, scene.features & ~(tracesLight(scene, settings) ? 0U : kFeatureCaustics)},
             {kSpecStackLevels, scene.stackLevels},
             {kSpecTexelViews, static_cast<std::uint32_t>((scene.texels.size() >> kTexelViewBits) + 1)},
             {kSpecSobol, settings.sampler == Sampler::Sobol},
@@ -75,6 +76,9 @@ KernelSet::KernelSet(const KernelLayout& layout, const FlatScene& scene, const F
         compile(traceClosest, kernels::trace_closest, production);
         compile(traceShadow, kernels::trace_shadow, production);
     }
+    if (tracesLight(scene, settings)) {
+        compile(traceLightPaths, kernels::trace_light_paths, production);
+    }
     compile(generateRays, kernels::generate_rays, production);
     compile(accumulate, kernels::accumulate, production);
     compile(sizeDispatch, kernels::size_dispatch, production);
@@ -94,8 +98,8 @@ std::vector<const Kernel*> KernelSet::all() const
 {
     std::vector<const Kernel*> kernels;
     for (const std::optional<Kernel>* kernel :
-         {&sizeDispatch, &generateRays, &traceClosest, &sampleLightsAndBounce, &traceShadow, &tracePaths, &accumulate, &showAov,
-          &course.traceClosest, &course.sampleLights, &course.traceShadow, &course.bounce, &course.sampleHemisphere,
+         {&sizeDispatch, &generateRays, &traceClosest, &sampleLightsAndBounce, &traceShadow, &tracePaths, &traceLightPaths, &accumulate,
+          &showAov, &course.traceClosest, &course.sampleLights, &course.traceShadow, &course.bounce, &course.sampleHemisphere,
           &course.traceHemisphere, &course.addLuminance, &course.choosePixels}) {
         if (*kernel) {
             kernels.push_back(&**kernel);

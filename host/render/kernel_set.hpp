@@ -27,6 +27,7 @@ struct KernelSet {
     std::optional<Kernel> generateRays, sizeDispatch, accumulate;
     std::optional<Kernel> traceClosest, sampleLightsAndBounce, traceShadow;  // of the wavefront
     std::optional<Kernel> tracePaths;                                        // of the persistent schedule
+    std::optional<Kernel> traceLightPaths;                                   // of caustics
     std::optional<Kernel> showAov;                                           // of AOVs other than radiance
     CourseKernels course;
 };

@@ -158,6 +158,7 @@ MergePlan planMerge(const std::vector<Film>& films, const std::vector<std::strin
 void foldFilm(Film& film, const Film& next)
 {
     foldPage(film, 0, next.pixels);
+    foldSplats(film.splats, next.splats);
     foldHeader(film, next);
 }
 

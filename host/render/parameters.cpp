@@ -1,6 +1,9 @@
 #include "host/render/parameters.hpp"
 
+#include "host/render/course.hpp"
+
 #include <algorithm>
+#include <cmath>
 
 namespace glim {
 
@@ -15,6 +18,25 @@ PathLengths pathLengths(const RenderSettings& settings)
     }
     lengths.maxBounces = settings.aov == Aov::Radiance ? std::min(settings.bounces, lengths.max) : 0;
     return lengths;
+}
+
+bool tracesLight(const FlatScene& scene, const RenderSettings& settings)
+{
+    return (scene.features & kFeatureCaustics) != 0 && settings.caustics && settings.aov == Aov::Radiance &&
+           pathLengths(settings).maxBounces >= 2 && !usesCourseEstimators(settings) && !isCourse(settings.adaptive);
+}
+
+std::uint32_t lightPathCount(std::uint32_t width, std::uint32_t height)
+{
+    return static_cast<std::uint32_t>((std::uint64_t{width} * height + 9) / 10);
+}
+
+float splatScale(const FlatScene& scene)
+{
+    if (!(scene.brightness > 0.0F) || !std::isfinite(scene.brightness)) {
+        return 0x1p32F;
+    }
+    return std::exp2(static_cast<float>(std::clamp(32 - std::ilogb(scene.brightness), -100, 100)));
 }
 
 DeviceParameters::DeviceParameters(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
@@ -41,6 +63,9 @@ DeviceParameters::DeviceParameters(Device& device, const FlatScene& scene, const
     parameters_.environmentSize = scene.environmentSize;
     parameters_.environmentCells = scene.environmentCellCount;
     parameters_.environmentTurn = scene.environmentTurn;
+    parameters_.causticTargets = scene.causticTargets;
+    parameters_.causticLights = scene.causticLights;
+    parameters_.splatScale = splatScale(scene);
     setCamera(camera, settings.width, settings.height);
 }
 
@@ -49,6 +74,7 @@ void DeviceParameters::setCamera(const FlatCamera& camera, std::uint32_t width, 
     parameters_.camera = camera;
     parameters_.width = width;
     parameters_.height = height;
+    parameters_.lightPaths = lightPathCount(width, height);
     upload(buffer_, std::span<const RenderParameters>(&parameters_, 1));
 }
 

@@ -46,6 +46,7 @@ std::vector<BindingSlot> kernelSlots()
         slots.push_back({binding, binding <= kBindShadowRays ? BufferKind::Both : BufferKind::Storage, binding + kTexelsOf});
     }
     slots.push_back({kBindParameters, BufferKind::Storage});
+    slots.push_back({kBindSplats, BufferKind::Storage});
     slots.push_back({kBindCourseParameters, BufferKind::Storage});
     return slots;
 }

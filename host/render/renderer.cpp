@@ -46,7 +46,9 @@ Renderer::Renderer(Device& device, const FlatScene& scene, const FlatCamera& cam
       sceneFingerprint_(fingerprint(scene)),
       start_(Clock::now()),
       passSize_(scene, settings),
-      wavefront_(std::make_unique<Wavefront>(device, scene, camera, settings))
+      wavefront_(std::make_unique<Wavefront>(device, scene, camera, settings)),
+      lightPassSize_(scene, settings),
+      splatScale_(tracesLight(scene, settings) ? splatScale(scene) : 0.0F)
 {
     open(camera);
 }
@@ -57,7 +59,9 @@ Renderer::Renderer(const Renderer& other, const FlatScene& scene, const FlatCame
       sceneFingerprint_(other.sceneFingerprint_),
       start_(Clock::now()),
       passSize_(scene, settings),
-      wavefront_(std::make_unique<Wavefront>(device_, other.wavefront_->shared(), scene, camera, settings))
+      wavefront_(std::make_unique<Wavefront>(device_, other.wavefront_->shared(), scene, camera, settings)),
+      lightPassSize_(scene, settings),
+      splatScale_(tracesLight(scene, settings) ? splatScale(scene) : 0.0F)
 {
     open(camera);
 }
@@ -130,6 +134,11 @@ void Renderer::begin(const FlatCamera& camera)
         chosenBlocks_ = BlockQueue(film_.pixels.size(), (half + kBlockSamples - 1) / kBlockSamples * kBlockSamples);
         common_ = film_;
     }
+    if (splatScale_ > 0.0F) {
+        splats_ = wavefront_->makeSplatBuffer(SplatBuffer::countFor(settings_));
+        splatSums_.emplace(film_.pixels.size(), splatScale_);
+    }
+    lightSample_ = settings_.sampleBegin;
     timesToTarget_ = std::numeric_limits<double>::infinity();
     sweeping_ = false;
     tile_ = 0;
@@ -151,6 +160,7 @@ Film Renderer::render(const RenderObserver& observer, const StoppingCriterion& c
         begin = Clock::now();
     }
     foldPages(film_, tiles_);
+    foldSplats(film_);
     statistics_.renderSeconds = secondsSince(start_);
     readCounters();
     describe(film_);
@@ -166,6 +176,10 @@ Film Renderer::film()
         copies.back()->copySamples(*tile, 0);
     }
     foldPages(film, copies);
+    if (splatSums_) {
+        SplatSums sums = *splatSums_;
+        sums.foldInto(film.splats);
+    }
     readCounters();
     describe(film);
     return film;
@@ -216,12 +230,56 @@ bool Renderer::runPass(const Pass& pass, const std::function<bool()>& shouldCont
     return true;
 }
 
+// Light paths go before the camera's, so that a render that is stopped lacks none. Samples that only chosen pixels have need none of their
+// own, but then all light paths are as many as if every pixel had the mean of samples, in whole blocks.
+std::uint32_t Renderer::lightEnd() const
+{
+    return choosing_ ? std::max(commonEnd_, roundEnd_ / kBlockSamples * kBlockSamples) : sweepEnd();
+}
+
+// Whole samples, of one block.
+bool Renderer::runLightPass(const std::function<bool()>& shouldContinue)
+{
+    const std::uint32_t paths = lightPathCount(settings_.width, settings_.height), pixels = settings_.width * settings_.height;
+    const std::uint32_t block = lightSample_ < kBlockSamples ? kFirstBlockSamples : kBlockSamples;
+    const std::uint32_t most = std::min(lightEnd(), (lightSample_ / block + 1) * block) - lightSample_;
+    const std::uint32_t samples = std::clamp(lightPassSize_.paths() / paths, 1U, most), all = samples * paths;
+    std::vector<Splat> found;
+    for (std::uint32_t pixel = 0; pixel < pixels; pixel += splats_->count()) {
+        splats_->clear();
+        for (std::uint32_t first = 0; first < all;) {
+            const std::uint32_t count = std::min(all - first, lightPassSize_.paths());
+            const auto traced = wavefront_->traceLight(*splats_, pixel, lightSample_, first, count, shouldContinue);
+            refuseBrokenStatus(device_.description(), wavefront_->paths());
+            if (!traced) {
+                return false;
+            }
+            statistics_.passSeconds += traced->total;
+            statistics_.longestDispatch = std::max(statistics_.longestDispatch, traced->longest);
+            lightPassSize_.learn(count, *traced);
+            first += count;
+        }
+        const std::vector<Splat> band = splats_->read(std::min(splats_->count(), pixels - pixel));
+        found.insert(found.end(), band.begin(), band.end());
+    }
+    splatSums_->add(found, lightSample_, samples);
+    lightSample_ += samples;
+    return true;
+}
+
 // Closes the open blocks, which may be partial in adaptive renders and at the end, and folds all pages into `film`.
 void Renderer::foldPages(Film& film, const std::vector<std::unique_ptr<Tile>>& tiles)
 {
     for (const auto& tile : tiles) {
         wavefront_->closeBlocks(*tile);
         foldPage(film, tile->begin(), tile->takePages());
+    }
+}
+
+void Renderer::foldSplats(Film& film)
+{
+    if (splatSums_) {
+        splatSums_->foldInto(film.splats);
     }
 }
 
@@ -287,6 +345,9 @@ bool Renderer::advance(const std::function<bool()>& shouldContinue)
     if (isDone()) {
         return false;
     }
+    if (splatSums_ && lightSample_ < lightEnd()) {
+        return runLightPass(shouldContinue);
+    }
     // Each chosen pixel of a round has its own first sample.
     const Pass pass = choosing_ ? nextPass(0, sweepSamples_) : nextPass(sample_, sweepEnd() - sample_);
     if (!runPass(pass, shouldContinue)) {
@@ -342,6 +403,7 @@ void Renderer::endSweep()
         }
     } else if (sample_ % kPageSamples == 0) {
         foldPages(film_, tiles_);
+        foldSplats(film_);
         foldVersion_ = nextFoldVersion();
     }
 }
@@ -391,6 +453,7 @@ void Renderer::startChoosing()
 void Renderer::endRound()
 {
     foldPages(film_, tiles_);
+    foldSplats(film_);
     foldVersion_ = nextFoldVersion();
     choosing_ = false;
     sweeping_ = false;
@@ -406,6 +469,8 @@ void Renderer::foldCommon()
         foldPage(film_, tile->begin(), pages);
         foldPage(common_, tile->begin(), pages);
     }
+    foldSplats(film_);
+    common_.splats = film_.splats;
     foldVersion_ = nextFoldVersion();
 }
 

@@ -91,6 +91,8 @@ private:
     void begin(const FlatCamera& camera);
     void describe(Film& film) const;
     bool runPass(const Pass& pass, const std::function<bool()>& shouldContinue);
+    std::uint32_t lightEnd() const;
+    bool runLightPass(const std::function<bool()>& shouldContinue);
     bool asks(const RenderObserver& observer);
     // Unique over all renderers, so that the folded pages of one are never taken for those of another.
     static std::uint64_t nextFoldVersion();
@@ -109,6 +111,7 @@ private:
     bool chooseSweep(BlockQueue& blocks);
 
     void foldPages(Film& film, const std::vector<std::unique_ptr<Tile>>& tiles);
+    void foldSplats(Film& film);
     bool isOver(const RenderObserver& observer);
     bool isGoodEnough(const StoppingCriterion& criterion);
     void readCounters();
@@ -136,6 +139,13 @@ private:
     std::uint64_t pictureSamples_ = 0, plannedSamples_ = 0;
     std::uint64_t testedSamples_ = 0;  // pictureSamples_ when the criterion was last tested
     double timesToTarget_ = 0.0;       // the criterion's last answer; infinite before the first
+
+    // Caustics, of scenes that need light paths.
+    std::unique_ptr<SplatBuffer> splats_;
+    std::optional<SplatSums> splatSums_;
+    PassSize lightPassSize_;
+    float splatScale_;
+    std::uint32_t lightSample_ = 0;  // first sample without light paths
 
     // For --adaptive neighbours.
     Film common_;                     // the samples that all pixels share

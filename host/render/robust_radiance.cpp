@@ -55,7 +55,7 @@ std::vector<glm::dvec3> robustRadiance(std::uint32_t width, std::uint32_t height
 std::vector<glm::dvec3> robustRadiance(const Film& film)
 {
     std::vector<glm::vec3> radiance, variance;
-    for (const PixelMoments& pixel : film.pixels) {
+    for (const PixelMoments& pixel : shownPixels(film)) {
         radiance.push_back(pixel.mean);
         variance.push_back(varianceOfMean(pixel));
     }

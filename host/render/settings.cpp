@@ -42,6 +42,9 @@ std::string describeSettings(const RenderSettings& settings)
     if (std::isfinite(settings.clampIndirect)) {
         text << " clamp-indirect=" << exactText(settings.clampIndirect);
     }
+    if (!settings.caustics) {
+        text << " caustics=off";
+    }
     return text.str();
 }
 

@@ -41,12 +41,12 @@ std::vector<Suspect> findSuspects(Renderer& renderer, const Film& film)
         return {};
     }
     double picture = 0.0;
-    for (const PixelMoments& pixel : film.pixels) {
+    for (const PixelMoments& pixel : shownPixels(film)) {
         picture += luminanceOf(pixel.mean);
     }
     std::vector<Suspect> suspects;
     for (const Brightest& each : findBrightest(renderer, renderer.settings().suspects)) {
-        const PixelMoments& pixel = film.pixels[each.pixel];
+        const PixelMoments pixel = shownPixel(film, each.pixel);
         const PathRadiance path = renderer.traceSample(each.pixel, each.sampleIndex);
         const double luminance = luminanceOf(path.radiance), part = luminance / pixel.count;
         suspects.push_back({each.pixel, each.sampleIndex, path.radiance, luminance, part / luminanceOf(pixel.mean), part / picture});

@@ -13,6 +13,8 @@
 // Nearly always one dispatch of trace_paths suffices: its threads put a path aside only once they have taken as many steps as a dispatch
 // may take. No path waits for others, nor for memory between its steps.
 //
+// Caustics: trace_light_paths, and again after size_dispatch for paths that were too long for one dispatch, for each sample of the picture.
+//
 // AOVs insert show_aov before accumulate. The course's estimators have bounces of their own (course.hpp).
 #include "host/render/wavefront.hpp"
 
@@ -83,11 +85,21 @@ void Wavefront::setCamera(const FlatCamera& camera, std::uint32_t width, std::ui
     parameters_.setCamera(camera, width, height);
 }
 
-std::unique_ptr<Tile> Wavefront::makeTile(std::uint32_t begin, std::uint32_t count)
+BufferMap Wavefront::constants() const
 {
     BufferMap constants = shared_.scene.buffers();
     constants.insert({{kBindParameters, &parameters_.buffer()}, {kBindCourseParameters, &course_.parameters()}});
-    return std::make_unique<Tile>(device_, layout_, constants, shared_.paths, begin, count, settings_);
+    return constants;
+}
+
+std::unique_ptr<Tile> Wavefront::makeTile(std::uint32_t begin, std::uint32_t count)
+{
+    return std::make_unique<Tile>(device_, layout_, constants(), shared_.paths, begin, count, settings_);
+}
+
+std::unique_ptr<SplatBuffer> Wavefront::makeSplatBuffer(std::uint32_t count)
+{
+    return std::make_unique<SplatBuffer>(device_, layout_, constants(), shared_.paths, count);
 }
 
 // llvmpipe compiles a kernel at its first dispatch. This one has nothing to do, so that no timed dispatch pays for that.
@@ -95,12 +107,15 @@ void Wavefront::compile()
 {
     const auto start = std::chrono::steady_clock::now();
     const std::unique_ptr<Tile> tile = makeTile(0, 1);
+    const std::unique_ptr<SplatBuffer> splats = makeSplatBuffer(1);
     CoursePass nothing{passOf(*tile), {}};
     nothing.pass.bounce = 1;
     nothing.pass.sizes = kSizesPaths | kSizesShadow;
     Commands commands(device_);
     for (const Kernel* kernel : kernels_.all()) {
-        commands.dispatch(*kernel, tile->bindings(0), std::as_bytes(std::span<const CoursePass, 1>(&nothing, 1)), 1);
+        const bool light = kernels_.traceLightPaths && kernel == &*kernels_.traceLightPaths;
+        commands.dispatch(*kernel, light ? splats->bindings(0) : tile->bindings(0),
+                          std::as_bytes(std::span<const CoursePass, 1>(&nothing, 1)), 1);
     }
     commands.submitAndWait();
     compileSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -212,6 +227,38 @@ void Wavefront::tracePersistently(Recording& recording, const Tile& tile, Pass& 
         recording.finish();
         alive = isAnyPathAlive(recording);
     }
+}
+
+std::optional<PassSeconds> Wavefront::traceLight(const SplatBuffer& splats, std::uint32_t pixel, std::uint32_t firstSample,
+                                                 std::uint32_t first, std::uint32_t count, const std::function<bool()>& shouldContinue)
+{
+    Pass pass{};
+    pass.tileBegin = pixel;
+    pass.firstPixel = first;
+    pass.pixelCount = count;
+    pass.firstSample = firstSample;
+    pass.sampleCount = 1;
+    Recording recording(device_, statistics_, settings_.portion, shouldContinue);
+    const std::uint32_t share = settings_.workgroup * kPathsPerThread;
+    // Fills the queue that the next dispatch reads, as generate_rays does.
+    recording.dispatch(*kernels_.traceLightPaths, splats.bindings(1), pass, (count + share - 1) / share);
+    pass.bounce = 1;
+    bool alive = true;
+    for (std::uint32_t parity = 0; alive; parity = 1 - parity) {
+        const Bindings& bindings = splats.bindings(parity);
+        recordSize(recording, bindings, pass, kSizesShares);
+        recording.finish();
+        alive = isAnyPathAlive(recording);
+        if (alive) {
+            recording.dispatchIndirect(*kernels_.traceLightPaths, bindings, pass, shared_.paths.queueSizes(),
+                                       offsetof(QueueSizes, closestGroups));
+        }
+    }
+    if (recording.isStopped()) {
+        shared_.paths.emptyQueues();
+        return std::nullopt;
+    }
+    return PassSeconds{recording.longest(), recording.total()};
 }
 
 PathRadiance Wavefront::traceSample(std::uint32_t pixel, std::uint32_t sample, const PathWatch& watch)

@@ -8,6 +8,7 @@
 #include "host/render/pass_size.hpp"
 #include "host/render/path_buffers.hpp"
 #include "host/render/recording.hpp"
+#include "host/render/splats.hpp"
 
 #include <memory>
 
@@ -41,11 +42,18 @@ public:
     // A tile of the film's pixels, all of them chosen.
     std::unique_ptr<Tile> makeTile(std::uint32_t begin, std::uint32_t count);
 
+    // For the picture's bands of pixels.
+    std::unique_ptr<SplatBuffer> makeSplatBuffer(std::uint32_t count);
+
     // An empty pass over `tile`.
     Pass passOf(const Tile& tile) const;
     // Traces the pass and adds its samples to the film. Returns the time it took. Returns nothing, and leaves the film as it was, if
     // `shouldContinue`, asked after each portion of dispatches, ended it.
     std::optional<PassSeconds> trace(const Tile& tile, Pass pass, const std::function<bool()>& shouldContinue);
+    // Traces `count` light paths from number `first` on, counted from the first of sample `firstSample`, and adds what they bring to the
+    // pixels from `pixel` on to `splats`. Returns nothing if `shouldContinue` ended it; what is in `splats` is then of no use.
+    std::optional<PassSeconds> traceLight(const SplatBuffer& splats, std::uint32_t pixel, std::uint32_t firstSample, std::uint32_t first,
+                                          std::uint32_t count, const std::function<bool()>& shouldContinue);
     // Traces one sample of one pixel, and adds it to no film. If the watch takes radiance, returns what it has left.
     PathRadiance traceSample(std::uint32_t pixel, std::uint32_t sample, const PathWatch& watch = nullptr);
     // Traces a pass that is added to no film, and calls `watch` after each kernel.
@@ -67,6 +75,7 @@ public:
 
 private:
     void compile();
+    BufferMap constants() const;
     void tracePaths(Recording& recording, const Tile& tile, Pass& pass);
     void traceByWavefront(Recording& recording, const Tile& tile, Pass& pass);
     void tracePersistently(Recording& recording, const Tile& tile, Pass& pass);

@@ -3,6 +3,7 @@
 #define GLIM_ACCESS_DIRECT_LIGHT
 
 #include "bsdf.glsl"
+#include "lib/media.glsl"
 #include "lib/octahedral.glsl"
 #include "light.glsl"
 #include "notes.glsl"
@@ -40,6 +41,9 @@ vec3 weightedEnvironment(PathRay ray, PathState state)
 vec3 weightedEmission(SurfaceInteraction si, MaterialData material, PathRay ray, PathHit hit, PathState state)
 {
     vec3 emission = emittedRadiance(si, material);
+    if (hasFeature(kFeatureCaustics) && !(state.pdf > 0.0) && (ray.media & kIsDiffuseFirst) != 0u) {
+        return vec3(0.0);  // a caustic, which light paths have
+    }
     if (all(equal(emission, vec3(0.0))) || !(state.pdf > 0.0)) {
         return emission;
     }

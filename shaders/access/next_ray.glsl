@@ -54,6 +54,10 @@ bool continuePath(BsdfSample s, BounceNumbers u, SurfaceInteraction si, Bsdf bsd
     }
     ray = spawnRay(si, s.wi);
     ray.media = mediaOfNextRay(media, si, bsdf, s.wi);
+    if (hasFeature(kFeatureCaustics)) {
+        bool diffuse = state.bounce == 0u ? (s.flags & kBsdfDelta) == 0u : (media & kIsDiffuseFirst) != 0u;
+        ray.media |= diffuse ? kIsDiffuseFirst : 0u;
+    }
     state = PathState(throughput / continuation, s.pdf, max(0.0, dot(s.wi, bsdf.frame.z)), etaScale, state.bounce + 1u,
                       horizonOf(bsdf));
     return scatters && u.roulette < continuation;

@@ -35,6 +35,11 @@ void reportMediaCap()
     atomicAdd(status.mediaCaps, 1u);
 }
 
+void reportSplatOverflow()
+{
+    atomicAdd(status.splatOverflows, 1u);
+}
+
 void reportNonFinite(uint pixel, uint sampleIndex)
 {
     uint place = atomicAdd(status.nonFinite, 1u);

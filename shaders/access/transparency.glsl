@@ -88,18 +88,19 @@ struct Passage {
     vec3 direction;  // unit
     Query query;
     bool isShadow;  // each surface dims it; else each stops it or lets it pass
+    bool fromCamera;  // of shadow rays: it sees unlit surfaces
 };
 
 Passage passageOf(PathRay ray)
 {
-    return Passage(ray, ray.direction, anyHit(), false);
+    return Passage(ray, ray.direction, anyHit(), false, false);
 }
 
 // Only surfaces with alpha are looked for.
 Passage passageOf(ShadowRay ray)
 {
     return Passage(PathRay(ray.origin, ray.source, ray.direction, 0u), normalizeSafely(ray.direction),
-                   Query(ray.tMax, 0.0, kNoPrimitive, ray.target, true), true);
+                   Query(ray.tMax, 0.0, kNoPrimitive, ray.target, true), true, false);
 }
 
 // The first hit that the ray does not pass, or of a shadow ray what all of them let through. Both in one function, so that trace_paths has
@@ -119,7 +120,8 @@ VisibleHit follow(SampleId id, uint bounce, Passage passage, inout Steps steps)
         if (hit.record != kNoRecord) {
             Record record = fetchRecord(hit.record);
             if (hasAlpha(record)) {
-                Crossing crossing = crossingAt(record, passage.ray, passage.direction, hit, !passage.isShadow && bounce == 0u);
+                bool fromCamera = passage.fromCamera || (!passage.isShadow && bounce == 0u);
+                Crossing crossing = crossingAt(record, passage.ray, passage.direction, hit, fromCamera);
                 vec3 factor = crossing.through;
                 passes = any(greaterThan(weight * factor, vec3(0.0)));
                 if (!passage.isShadow) {

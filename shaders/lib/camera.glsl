@@ -44,4 +44,35 @@ PathRay lensRay(FlatCamera camera, vec2 film, vec2 disk)
     return PathRay(origin, kNoPrimitive, aside(camera.forward, turn), 0u);
 }
 
+// A point as the camera sees it.
+struct CameraConnection {
+    vec3 origin;   // of the ray that sees the point
+    vec3 wo;       // unit, from the point towards it
+    vec2 film;     // coordinates of that ray
+    float weight;  // share of the film per area across wo, 1/m^2; 0: the point is not in front of the camera
+};
+
+// The ray of lensRay that leaves the aperture at `disk` and meets p. The weight is the camera's importance times cos / distance^2 on its side
+// (pbrt-v3, section 16.1.1); the mean of the film's radiance is radiance times weight, integrated over areas across wo.
+CameraConnection connectToCamera(FlatCamera camera, vec3 p, vec2 disk)
+{
+    vec3 aperture = disk.x * camera.lensRight + disk.y * camera.lensUp;
+    vec3 from = p - camera.position - aperture;
+    float depth = dot(from, camera.forward), right2 = dot(camera.right, camera.right), up2 = dot(camera.up, camera.up);
+    bool orthographic = camera.kind == kOrthographic;
+    // Along the ray, one unit of depth.
+    vec3 along = orthographic ? camera.forward - aperture * camera.inverseFocus : from / depth;
+    vec3 across = orthographic ? from - depth * along : along - camera.forward + aperture * camera.inverseFocus;
+    float stretch2 = dot(along, along), stretch = sqrt(stretch2);  // 1 / cos
+    float weight = stretch / sqrt(right2 * up2) * (orthographic ? 1.0 : stretch2 / dot(from, from));
+    return CameraConnection(p - along * depth, -along / stretch, vec2(dot(across, camera.right) / right2, dot(across, camera.up) / up2),
+                            depth > 0.0 ? 0.25 * weight : 0.0);
+}
+
+// The inverse of filmFromPixel.
+vec2 pixelFromFilm(vec2 film, vec2 size)
+{
+    return (vec2(film.x, -film.y) + 1.0) * 0.5 * size;
+}
+
 #endif

@@ -7,6 +7,8 @@ const uint kMediumBits = 7u;
 const uint kMediumMask = 0x7fu;
 const uint kMediaMask = 0xfffffffu;
 const uint kHasWavelength = 0x80000000u;  // beside them: the path has met dispersion
+// The camera path's first scattering was not specular: light tracing finds what it meets after specular ones (kFeatureCaustics).
+const uint kIsDiffuseFirst = 0x40000000u;
 
 uint innermost(uint media)
 {

@@ -19,6 +19,14 @@ const uint kDimensionsPerBounce = 4u;
 const uint kDimensionAlpha = 0x40000000u;
 const uint kDimensionWavelength = 0x20000000u;
 
+// Of light paths: which light and target, where on the light, the direction; then kDimensionsPerBounce for each surface.
+const uint kDimensionEmitter = 0u;
+const uint kDimensionEmission = 1u;
+const uint kDimensionAim = 2u;
+const uint kDimensionLightBounce = 3u;
+// Where a light path's vertex sees the camera's lens, apart from all these, plus the bounce.
+const uint kDimensionCameraLens = 0x10000000u;
+
 // Bounces with Sobol' points; beyond them paths are too blurred to gain, and independent numbers are cheaper.
 const uint kSobolBounces = 4u;
 
@@ -54,6 +62,23 @@ uvec2 samplePair(SampleId id, uint dimension, bool sobol)
 {
     bool early = dimension < bounceDimension(kSobolBounces, 0u) || dimension == kDimensionLens;
     return sobol && early ? sobolPair(id, dimension) : independentPair(id, dimension);
+}
+
+// Light path number `path` of one sample of the picture. Its numbers are apart from those of any pixel's paths.
+SampleId lightPathId(uint seed, uint path, uint sampleIndex)
+{
+    return SampleId(hash4(uvec4(seed, 0x6c696768u, 0x74u, 0u)).x, path, sampleIndex);
+}
+
+// One sequence of points for all light paths of a block, `paths` for each of its samples.
+uvec2 lightPathPair(SampleId id, uint paths, uint dimension, bool sobol)
+{
+    if (!sobol) {
+        return independentPair(id, dimension);
+    }
+    uint inBlock = id.index % blockSamples(id.index), block = (id.index - inBlock) / kFirstBlockSamples;
+    uvec4 seeds = hash4(uvec4(0xffffffffu, block | 0x80000000u, dimension, id.seed));
+    return scrambledSobolPoint(inBlock * paths + id.pixel, seeds.xyz);
 }
 
 #endif

@@ -19,6 +19,7 @@ GLIM_CONST uint kBindVertices = 34u;
 GLIM_CONST uint kBindAlbedos = 35u;
 GLIM_CONST uint kBindEnvironment = 36u;
 GLIM_CONST uint kBindEnvironmentCells = 37u;
+GLIM_CONST uint kBindCaustics = 38u;
 GLIM_CONST uint kBindTexels = 40u;  // and the next ones, kMaxTexelViews in all
 // parameters.glsl
 GLIM_CONST uint kBindParameters = 6u;
@@ -39,6 +40,7 @@ GLIM_CONST uint kBindBlocks = 19u;
 GLIM_CONST uint kBindPages = 20u;
 GLIM_CONST uint kBindLuminance = 21u;
 GLIM_CONST uint kBindBrightest = 23u;
+GLIM_CONST uint kBindSplats = 39u;
 // pass.glsl
 GLIM_CONST uint kBindChosenPixels = 22u;
 // notes.glsl

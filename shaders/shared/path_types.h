@@ -118,6 +118,7 @@ struct Status {
     uint overflows;                // queue entries beyond one per slot: the picture is wrong
     uint transparencyCaps;         // rays that passed more transparent surfaces than they may: the next one counted as opaque
     uint mediaCaps;                // rays that entered more media than a path keeps: the outermost was forgotten
+    uint splatOverflows;           // splats beyond what a pixel can hold: the picture is wrong
     uint nonFinite;                // samples that were not finite, and are in no average
     Located located[kMaxLocated];  // the first of them to be counted
 };
@@ -131,6 +132,12 @@ struct BlockSums {
     vec3 normal;
     float depth;  // the nearest
     float clamped;
+};
+
+// Light that light paths have brought to a pixel: 64 bits in two words, the lower one first, so that no order of additions changes a bit.
+struct Splat {
+    uvec2 red, green, blue;
+    uvec2 clamped;  // as in PathRadiance
 };
 
 GLIM_CONST uint kEndsBlock = 1u;   // accumulate folds the block into the page afterwards, whole or not
@@ -184,6 +191,9 @@ struct RenderParameters {
     uvec2 environmentSize;                   // texels of the map
     uvec2 environmentCells;                  // of its sampler
     vec2 environmentTurn;                    // cosine and sine of its rotation
+    uint causticTargets, causticLights;      // how many there are (scene_types.h)
+    uint lightPaths;                         // per sample of the picture
+    float splatScale;                        // units of a splat per W/(sr m^2), a power of two
 };
 
 // Whether a path samples lights at the surface that it meets after `bounce` others. That light has then met bounce + 1 surfaces. At the

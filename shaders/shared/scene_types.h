@@ -214,6 +214,13 @@ GLIM_CONST uint kMostLightChildren = 8u;
 GLIM_CONST uint kTwoSidedNode = 0x80000000u;  // each of its lights emits from both sides
 GLIM_CONST float kUniformShare = 0.1f;        // of the choices between finite lights that ignore importance
 
+// Where light paths are aimed (kFeatureCaustics): kMaxCausticTargets texels, a bounding sphere each (centre, radius); another one around
+// the whole scene; then for each light but the environment the random words that choose it (first, last, where to search: first entry, last
+// entry).
+GLIM_CONST uint kMaxCausticTargets = 8u;
+GLIM_CONST uint kSceneSphere = kMaxCausticTargets;
+GLIM_CONST uint kFirstCausticLight = kMaxCausticTargets + 1u;
+
 GLIM_CONST uint kPerspective = 0u;
 GLIM_CONST uint kOrthographic = 1u;
 

@@ -71,7 +71,7 @@ std::uint32_t samplesFor(std::uint32_t spp, std::uint32_t factor) { return std::
 MeanEstimate meanOf(const Film& film)
 {
     glm::dvec3 sum(0.0), variance(0.0);
-    for (const PixelMoments& pixel : film.pixels) {
+    for (const PixelMoments& pixel : shownPixels(film)) {
         sum += glm::dvec3(pixel.mean);
         variance += glm::dvec3(varianceOfMean(pixel));
     }
@@ -82,7 +82,7 @@ MeanEstimate meanOf(const Film& film)
 void expectEverywhere(const Film& film, const glm::dvec3& truth, int bounces)
 {
     double worst = 0.0;
-    for (const PixelMoments& pixel : film.pixels) {
+    for (const PixelMoments& pixel : shownPixels(film)) {
         const glm::dvec3 error = glm::abs(glm::dvec3(pixel.mean) - truth) / truth;
         worst = std::max({worst, error.r, error.g, error.b});
     }
@@ -91,7 +91,9 @@ void expectEverywhere(const Film& film, const glm::dvec3& truth, int bounces)
 
 bool sameBits(const Film& a, const Film& b)
 {
-    return a.pixels.size() == b.pixels.size() && std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(PixelMoments)) == 0;
+    return a.pixels.size() == b.pixels.size() && a.splats.size() == b.splats.size() &&
+           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(PixelMoments)) == 0 &&
+           (a.splats.empty() || std::memcmp(a.splats.data(), b.splats.data(), a.splats.size() * sizeof(SplatMoments)) == 0);
 }
 
 void expectSameMean(const std::string& name, const Film& a, const Film& b)

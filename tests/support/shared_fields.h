@@ -10,7 +10,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 366u;
+GLIM_CONST uint kSharedWords = 379u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -26,6 +26,7 @@ struct EverySharedStruct {
     Located located;
     Status status;
     BlockSums blockSums;
+    Splat splat;
     CoursePass pass_;
     RenderParameters parameters;
     CourseParameters course_;
@@ -64,7 +65,7 @@ U(queueSizes.closest) U(queueSizes.shadow) U3(queueSizes.closestGroups) U3(queue
 U(queueTails.next) U(queueTails.shadow)
 U2(rayCounts.closest) U2(rayCounts.shadow)
 U(located.pixel) U(located.sampleIndex)
-U(status.loopCaps) U(status.overflows) U(status.transparencyCaps) U(status.mediaCaps) U(status.nonFinite) U(status.located[0].pixel) U(status.located[0].sampleIndex)
+U(status.loopCaps) U(status.overflows) U(status.transparencyCaps) U(status.mediaCaps) U(status.splatOverflows) U(status.nonFinite) U(status.located[0].pixel) U(status.located[0].sampleIndex)
 U(status.located[1].pixel) U(status.located[1].sampleIndex) U(status.located[2].pixel) U(status.located[2].sampleIndex)
 U(status.located[3].pixel) U(status.located[3].sampleIndex) U(status.located[4].pixel) U(status.located[4].sampleIndex)
 U(status.located[5].pixel) U(status.located[5].sampleIndex) U(status.located[6].pixel) U(status.located[6].sampleIndex)
@@ -75,6 +76,7 @@ U(status.located[13].pixel) U(status.located[13].sampleIndex) U(status.located[1
 U(status.located[15].pixel) U(status.located[15].sampleIndex)
 U(blockSums.count) F3(blockSums.radiance) F(blockSums.alpha) F3(blockSums.albedo) F3(blockSums.normal) F(blockSums.depth)
 F(blockSums.clamped)
+U2(splat.red) U2(splat.green) U2(splat.blue) U2(splat.clamped)
 U(pass_.pass.tileBegin) U(pass_.pass.firstPixel) U(pass_.pass.pixelCount) U(pass_.pass.firstSample) U(pass_.pass.sampleCount)
 U(pass_.pass.bounce) U(pass_.pass.accumulate) U(pass_.pass.sizes) U(pass_.lightRound.light) U(pass_.lightRound.lightSample)
 U(pass_.lightRound.lightSamples) U(pass_.lightRound.addsEmission) U(pass_.lightRound.firstRecord) U(pass_.lightRound.endRecord)
@@ -84,7 +86,8 @@ U(parameters.width) U(parameters.height) U(parameters.seed) U(parameters.maxBoun
 U(parameters.maxPathLength) U(parameters.lightCount) U(parameters.finiteLights) F(parameters.finiteShare) U(parameters.environmentLight) F3(parameters.environment)
 F(parameters.clampIndirect) U(parameters.canarySteps) U(parameters.triangleCount) U(parameters.firstUv) U(parameters.firstTangent)
 U(parameters.firstColor) U(parameters.firstMedium) U(parameters.hidesEnvironment) U2(parameters.environmentSize) U2(parameters.environmentCells)
-F2(parameters.environmentTurn)
+F2(parameters.environmentTurn) U(parameters.causticTargets) U(parameters.causticLights) U(parameters.lightPaths)
+F(parameters.splatScale)
 U(course_.recordCount) F(course_.continuation) F(course_.tolerance) U(course_.constantSamples)
 U(pixelMoments.count) U(pixelMoments.blocks) F3(pixelMoments.mean) F3(pixelMoments.squares) F(pixelMoments.alpha)
 F3(pixelMoments.albedo) F3(pixelMoments.normal) F(pixelMoments.depth) F(pixelMoments.clamped)

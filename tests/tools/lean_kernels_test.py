@@ -43,6 +43,7 @@ USERS = {
     "ThinWalls": ["trace_closest", "trace_shadow"],
     "Unlit": ["trace_closest", "trace_shadow", "sample_lights_and_bounce"],
     "Glossiness": ["sample_lights_and_bounce"],
+    "Caustics": ["sample_lights_and_bounce"],
     "RectangleLights": ["sample_lights_and_bounce"],
     "LightTree": ["sample_lights_and_bounce"],
 }

@@ -1,0 +1,181 @@
+// Begins light paths: at lights, towards specular surfaces. host/flatten/caustics.hpp makes what they choose from.
+#ifndef GLIM_ACCESS_LIGHT_PATH
+#define GLIM_ACCESS_LIGHT_PATH
+
+#include "lib/caustic_target.glsl"
+#include "light.glsl"
+#include "pass.glsl"
+
+layout(set = 0, binding = kBindCaustics) uniform usamplerBuffer sceneCaustics;
+
+struct LightRay {
+    PathRay ray;
+    vec3 flux;    // over the density of the ray, W; 0: there is none
+    float range;  // of the light, at the first surface; 0: unlimited
+};
+
+const LightRay kNoLightRay = LightRay(PathRay(vec3(0.0), kNoPrimitive, vec3(0.0, 0.0, 1.0), 0u), vec3(0.0), 0.0);
+
+vec4 fetchTarget(uint target)
+{
+    return uintBitsToFloat(texelFetch(sceneCaustics, int(target)));
+}
+
+// The light that a random word chooses, and its probability.
+LightChoice chooseCausticLight(uint word)
+{
+    uvec4 entry = texelFetch(sceneCaustics, int(kFirstCausticLight + chooseBin(word, render.causticLights)));
+    uint low = entry.z, high = entry.w, middle;
+    bool found;
+    do {
+        middle = low + ((high - low) >> 1u);
+        entry = texelFetch(sceneCaustics, int(kFirstCausticLight + middle));
+        bool below = word < entry.x, above = word > entry.y;
+        high = below ? middle - 1u : high;
+        low = above ? middle + 1u : low;
+        found = !below && !above;
+    } while (!found && low <= high);
+    return LightChoice(middle, (float(entry.y - entry.x) + 1.0) * (1.0 / 4294967296.0));
+}
+
+// A direction to one of the targets, chosen by importance; and its density per steradian, by any of them. 0: the emitter reaches no target.
+vec3 sampleTargets(Emitter emitter, float uTarget, vec2 u, out float pdf)
+{
+    float sum = 0.0;
+    uint i = 0u;
+    do {
+        sum += coneOf(fetchTarget(i), emitter).importance;
+    } while (++i < render.causticTargets);
+    float below = 0.0;
+    uint chosen = 0u;
+    i = 0u;
+    do {
+        float importance = coneOf(fetchTarget(i), emitter).importance;
+        chosen = importance > 0.0 && uTarget * sum >= below ? i : chosen;
+        below += importance;
+    } while (++i < render.causticTargets);
+    vec3 w = sampleTargetCone(coneOf(fetchTarget(chosen), emitter), emitter, u);
+    pdf = 0.0;
+    i = 0u;
+    do {
+        TargetCone cone = coneOf(fetchTarget(i), emitter);
+        pdf += i == chosen || isInCone(cone, w) ? cone.importance / cone.solidAngle : 0.0;
+    } while (++i < render.causticTargets);
+    pdf = sum > 0.0 ? pdf / sum : 0.0;
+    return w;
+}
+
+// From a uniform point of a surface light.
+LightRay sampleSurfaceEmission(FlatLight light, vec2 uPoint, float uTarget, vec2 u)
+{
+    bool sphere = isSphereLight(light), rectangle = isRectangleLight(light);
+    vec2 barycentric = rectangle ? uPoint : sampleTriangle(uPoint);
+    vec3 n = sphere ? sampleSphere(uPoint) : normalOfLight(light);
+    vec3 p = sphere ? light.position + light.size * n : trianglePoint(light.position, light.edge1, light.edge2, barycentric);
+    float area = sphere ? 4.0 * kPi * light.size * light.size : light.size;
+    float pdf;
+    vec3 w = sampleTargets(Emitter(p, isDoubleSided(light) ? kEmitsFromBoth : kEmitsInFront, n, 0.0, 0.0), uTarget, u, pdf);
+    float facing = dot(n, w), cosine = isDoubleSided(light) ? abs(facing) : facing;
+    if (!(pdf > 0.0) || !(cosine > 0.0)) {
+        return kNoLightRay;
+    }
+    vec3 radiance = light.intensity;
+    if (isUneven(light)) {
+        radiance *= emissionFactor(fetchRecord(light.record), p, barycentric, cosine);
+    }
+    vec3 error = sphere ? sphereErrorBound(light.position, light.size) : triangleErrorBound(light.position, light.edge1, light.edge2);
+    uint primitive = rectangle && barycentric.x + barycentric.y > 1.0 ? light.otherPrimitive : light.primitive;
+    return LightRay(PathRay(offsetPoint(p, facing > 0.0 ? n : -n, error), primitive, w, 0u), radiance * (area * cosine / pdf), 0.0);
+}
+
+// Through a uniform point of the targets' shadows on a plane across the light, from before the whole scene.
+LightRay sampleDirectionalEmission(FlatLight light, float uTarget, vec2 u)
+{
+    float sum = 0.0;
+    uint i = 0u;
+    do {
+        vec4 target = fetchTarget(i);
+        sum += kPi * target.w * target.w;
+    } while (++i < render.causticTargets);
+    float below = 0.0;
+    uint chosen = 0u;
+    i = 0u;
+    do {
+        float radius = fetchTarget(i).w;
+        chosen = uTarget * sum >= below ? i : chosen;
+        below += kPi * radius * radius;
+    } while (++i < render.causticTargets);
+    vec4 target = fetchTarget(chosen);
+    vec2 disk = sampleDisk(u) * target.w;
+    Frame frame = makeFrame(light.edge1);
+    vec3 p = target.xyz + frame.x * disk.x + frame.y * disk.y;
+    float covers = 0.0;
+    i = 0u;
+    do {
+        vec4 other = fetchTarget(i);
+        vec3 offset = p - other.xyz;
+        vec3 across = offset - light.edge1 * dot(offset, light.edge1);
+        covers += i == chosen || dot(across, across) <= other.w * other.w ? 1.0 : 0.0;
+    } while (++i < render.causticTargets);
+    vec4 scene = fetchTarget(kSceneSphere);
+    vec3 origin = p - light.edge1 * (dot(p - scene.xyz, light.edge1) + 1.01 * scene.w);
+    return LightRay(PathRay(origin, kNoPrimitive, light.edge1, 0u), light.intensity * (sum / covers), 0.0);
+}
+
+// Of all targets, together at most.
+float solidAngleOfTargets(Emitter emitter)
+{
+    float sum = 0.0;
+    uint i = 0u;
+    do {
+        sum += coneOf(fetchTarget(i), emitter).solidAngle;
+    } while (++i < render.causticTargets);
+    return sum;
+}
+
+// A spot that is narrower than the targets is sampled by its own cone.
+LightRay samplePointEmission(FlatLight light, float uTarget, vec2 u)
+{
+    bool spot = kindOf(light) == kSpotLight;
+    vec3 axis = spot ? light.edge1 : vec3(0.0, 0.0, 1.0);
+    Emitter emitter = Emitter(light.position, spot ? kEmitsSpot : kEmitsAround, axis, light.versineInner, light.versineOuter);
+    float pdf;
+    vec3 w = sampleTargets(emitter, uTarget, u, pdf);
+    float outer = light.versineOuter;
+    if (spot && outer < 1.0 && 2.0 * kPi * outer < solidAngleOfTargets(emitter)) {
+        float sin2 = outer * (2.0 - outer);
+        w = worldFromFrame(makeFrame(axis), sampleCone(u, sin2));
+        pdf = pdf > 0.0 ? pdfCone(sin2) : 0.0;
+    }
+    float falloff = spot ? spotFalloff(versine(w, axis), light.versineInner, outer) : 1.0;
+    if (!(pdf > 0.0) || !(falloff > 0.0)) {
+        return kNoLightRay;
+    }
+    return LightRay(PathRay(light.position, kNoPrimitive, w, 0u), light.intensity * (falloff / pdf), light.size);
+}
+
+// The flux includes the light's probability.
+LightRay sampleEmission(SampleId id)
+{
+    uvec2 which = lightPathPair(id, render.lightPaths, kDimensionEmitter, kSobol);
+    vec2 uPoint = unitFloat(lightPathPair(id, render.lightPaths, kDimensionEmission, kSobol));
+    vec2 u = unitFloat(lightPathPair(id, render.lightPaths, kDimensionAim, kSobol));
+    LightChoice choice = chooseCausticLight(which.x);
+    FlatLight light = fetchLight(choice.light);
+    uint kind = kindOf(light);
+    float uTarget = unitFloat(which.y);
+    LightRay from = kNoLightRay;
+    if (hasFeature(kFeatureTriangleLights | kFeatureRectangleLights | kFeatureSphereLights) && kind <= kSphereLight) {
+        from = sampleSurfaceEmission(light, uPoint, uTarget, u);
+    } else if (hasFeature(kFeaturePunctualLights)) {
+        if (kind == kDirectionalLight) {
+            from = sampleDirectionalEmission(light, uTarget, u);
+        } else {
+            from = samplePointEmission(light, uTarget, u);
+        }
+    }
+    from.flux /= choice.probability;
+    return from;
+}
+
+#endif

@@ -1,0 +1,159 @@
+// A light path's vertex: where light from a lamp, once it has met a specular surface, is sent to the camera and scatters on.
+#ifndef GLIM_ACCESS_LIGHT_VERTEX
+#define GLIM_ACCESS_LIGHT_VERTEX
+
+#include "bsdf.glsl"
+#include "lib/camera.glsl"
+#include "lib/roulette.glsl"
+#include "media.glsl"
+#include "next_ray.glsl"
+
+float continuationOf(BsdfSample s, vec3 throughput, float etaScale, uint bounce)
+{
+    return continuationProbability(throughput, 1.0, bounce);
+}
+
+struct LightVertex {
+    bool hasSplat;
+    uint pixel;
+    ShadowRay cameraRay;  // its contribution: to a sample of the pixel, over the path's flux
+    bool hasNextRay;
+    PathRay ray;      // the next one
+    PathState state;  // and its state
+};
+
+// The surface as seen from its other side.
+void turn(inout SurfaceInteraction si, inout SurfaceMaterial material)
+{
+    si.ng = -si.ng;
+    si.ns = -si.ns;
+    si.front = !si.front;
+    material.coatNormal = -material.coatNormal;
+    material.iors = material.iors.yx;
+}
+
+// The BSDF that a path from the camera, which leaves towards wo, has at the point.
+Bsdf bsdfTowards(vec3 wo, SurfaceInteraction si, SurfaceMaterial material)
+{
+    if (dot(wo, si.ng) < 0.0) {
+        turn(si, material);
+    }
+    return makeBsdf(si, material, wo);
+}
+
+// Veach 1997, section 5.3.2: what the BSDF of particles is of that of radiance, if the shading normal is not the geometric one. Here from f
+// * cos against ns of the light's direction wi, and per area across wo.
+float adjointFactor(vec3 ng, vec3 wi, vec3 wo)
+{
+    return abs(dot(wo, ng)) / max(abs(dot(wi, ng)), 1e-12);
+}
+
+// What a specular sample's weight, that of radiance, becomes for particles: without refraction's scaling, and corrected as above.
+vec3 specularWeight(BsdfSample s, vec3 wi, vec3 ng, vec3 ns)
+{
+    bool refracts = (s.flags & kBsdfTransmission) != 0u;
+    float shading = refracts ? abs(dot(wi, ns)) / max(abs(dot(s.wi, ns)), 1e-12) : 1.0;
+    return s.weight * (s.eta * s.eta * shading * adjointFactor(ng, wi, s.wi));
+}
+
+BounceNumbers numbersOfLightBounce(SampleId id, uint bounce)
+{
+    uint dimension = kDimensionLightBounce + bounce * kDimensionsPerBounce;
+    vec2 direction = unitFloat(independentPair(id, dimension + kDimensionBsdf));
+    vec2 lobe = unitFloat(independentPair(id, dimension + kDimensionLobe));
+    return BounceNumbers(direction, lobe.x, lobe.y);
+}
+
+CameraConnection connect(SampleId id, SurfaceInteraction si, uint bounce)
+{
+    vec2 disk = vec2(0.0);
+    if (kLens) {
+        disk = sampleDisk(unitFloat(independentPair(id, kDimensionCameraLens + bounce)));
+    }
+    return connectToCamera(render.camera, si.p, disk);
+}
+
+// Whether the picture shows the connection's film coordinates; `pixel` is then where.
+bool isInPicture(CameraConnection connection, out uint pixel)
+{
+    vec2 at = pixelFromFilm(connection.film, vec2(render.width, render.height));
+    bool inside = connection.weight > 0.0 && at.x >= 0.0 && at.y >= 0.0 && at.x < float(render.width) && at.y < float(render.height);
+    uvec2 place = uvec2(inside ? at : vec2(0.0));
+    pixel = min(place.y, render.height - 1u) * render.width + min(place.x, render.width - 1u);
+    return inside;
+}
+
+// A lamp within a solid sends light into a medium that no path has entered yet.
+uint mediaOfArrival(uint media, SurfaceInteraction si, SurfaceMaterial material)
+{
+    uint medium = mediumOf(material);
+    bool startedWithin = medium != 0u && !si.front && !isInMedium(media, medium);
+    return startedWithin ? enterMedium(media, medium) : media;
+}
+
+// state.throughput: over the path's flux. The first scattering must be specular: what is not has no next ray.
+LightVertex shadeLightVertex(SampleId id, PathRay ray, PathHit hit, PathState state)
+{
+    vec3 wi = -ray.direction;
+    SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
+    SurfaceMaterial material = materialAt(si);
+    if (hasFeature(kFeatureMedia)) {
+        ray.media = mediaOfArrival(ray.media, si, material);
+        state.throughput *= mediaTransmittance(ray.media, hit.t);
+        setIndices(id, si, material, ray.media, state.throughput);
+    }
+    CameraConnection connection = connect(id, si, state.bounce);
+    LightVertex vertex;
+    bool inPicture = isInPicture(connection, vertex.pixel), isFirst = state.bounce == 0u;
+    BounceNumbers u = numbersOfLightBounce(id, state.bounce);
+    // The BSDF of light's own direction is sampled. What it scatters to the camera and onwards is evaluated by the BSDFs that a path from the
+    // camera has there. All in a loop, for one copy of the code.
+    const uint kSamples = 0u, kToCamera = 1u, kOnwards = 2u;
+    uint left = 1u << kSamples;
+    Bsdf sampled;
+    BsdfSample next;
+    BsdfEval toCamera = BsdfEval(vec3(0.0), 0.0), onwards = toCamera;
+    do {
+        uint now = uint(findLSB(left));
+        left &= left - 1u;
+        vec3 wo = now == kSamples ? wi : now == kToCamera ? connection.wo : next.wi, to = wi;
+        Bsdf bsdf = bsdfTowards(wo, si, material);
+        vec3 local = frameFromWorld(bsdf.frame, wi);
+        if (now == kSamples) {
+            sampled = bsdf;
+            next = sampleUnweighted(bsdf, wo, u.direction, u.lobe, local);
+            to = next.wi;
+        }
+        BsdfEval f = evalInFrame(bsdf, wo, local, dot(to, bsdf.ng));
+        if (now == kSamples) {
+            next = weighted(next, f);
+            bool scatters = !isFirst && hasNonDelta(bsdf);
+            left |= scatters && inPicture ? 1u << kToCamera : 0u;
+            left |= scatters && (next.flags & kBsdfDelta) == 0u ? 1u << kOnwards : 0u;
+        } else if (now == kToCamera) {
+            toCamera = f;
+        } else {
+            onwards = f;
+        }
+    } while (left != 0u);
+    float pixels = float(render.width) * float(render.height);
+    vec3 contribution = state.throughput * toCamera.f * (adjointFactor(si.ng, wi, connection.wo) * connection.weight) *
+                        (pixels / float(render.lightPaths));
+    vec3 origin = offsetRayOrigin(si, connection.wo);
+    vertex.cameraRay = ShadowRay(origin, si.primitive, connection.origin - origin, kNoPrimitive, contribution, 1.0);
+    vertex.hasSplat = any(notEqual(contribution, vec3(0.0))) && state.bounce + 1u >= render.minPathLength;
+    bool specular = (next.flags & kBsdfDelta) != 0u;
+    vec3 weight = specular          ? specularWeight(next, wi, si.ng, sampled.frame.z)
+                  : next.pdf > 0.0 ? onwards.f * (adjointFactor(si.ng, wi, next.wi) / next.pdf)
+                                   : vec3(0.0);
+    vec3 throughput = state.throughput * weight;
+    float continuation = continuationProbability(throughput, 1.0, state.bounce);
+    vertex.ray = spawnRay(si, next.wi);
+    vertex.ray.media = mediaOfNextRay(ray.media, si, sampled, next.wi);
+    vertex.state = PathState(throughput / continuation, 0.0, 0.0, 1.0, state.bounce + 1u, 0u);
+    bool ends = state.bounce + 1u >= min(render.maxBounces, render.maxPathLength) || (isFirst && !specular);
+    vertex.hasNextRay = !ends && any(notEqual(throughput, vec3(0.0))) && u.roulette < continuation;
+    return vertex;
+}
+
+#endif

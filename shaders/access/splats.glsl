@@ -1,0 +1,60 @@
+// Adds light to the pixels that a light path has found, in fixed point.
+#ifndef GLIM_ACCESS_SPLATS
+#define GLIM_ACCESS_SPLATS
+
+#include "lib/clamp_indirect.glsl"
+#include "lib/finite.glsl"
+#include "parameters.glsl"
+#include "shared/path_types.h"
+#include "status.glsl"
+
+// The picture's pixels from Pass::tileBegin on.
+layout(set = 0, binding = kBindSplats, scalar) buffer SplatsBuffer { Splat splats[]; };
+
+const float kMostUnits = 4611686018427387904.0;  // 2^62
+
+// Adds a number of units below kMostUnits.
+#define ADD_UNITS(sum, units) \
+    { \
+        float rounded = floor((units) + 0.5); \
+        uint high = uint(rounded * (1.0 / 4294967296.0)); \
+        uint low = uint(rounded - float(high) * 4294967296.0); \
+        if (low != 0u) { \
+            uint before = atomicAdd(sum.x, low); \
+            high += before + low < before ? 1u : 0u; \
+        } \
+        if (high != 0u) { \
+            uint before = atomicAdd(sum.y, high); \
+            if (before + high < before) { \
+                reportSplatOverflow(); \
+            } \
+        } \
+    }
+
+// contribution: to a sample of the picture's pixel. pathLength: surfaces met between camera and light.
+void addSplat(uint pixel, uint sampleIndex, vec3 contribution, uint pathLength)
+{
+    uint at = pixel - pass.tileBegin;
+    if (pixel < pass.tileBegin || at >= uint(splats.length())) {
+        return;
+    }
+    if (!isFinite(contribution)) {
+        reportNonFinite(pixel, sampleIndex);
+        return;
+    }
+    ClampedLight light = clampIndirect(contribution, pathLength, render.clampIndirect);
+    vec3 units = light.kept * render.splatScale;
+    float removed = light.removed * render.splatScale;
+    if (!(max(max(units.r, units.g), max(units.b, removed)) < kMostUnits)) {
+        reportSplatOverflow();
+        return;
+    }
+    ADD_UNITS(splats[at].red, units.r)
+    ADD_UNITS(splats[at].green, units.g)
+    ADD_UNITS(splats[at].blue, units.b)
+    if (removed > 0.0) {
+        ADD_UNITS(splats[at].clamped, removed)
+    }
+}
+
+#endif
