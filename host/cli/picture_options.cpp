@@ -67,7 +67,7 @@ void addPicture(const Command& command, PictureOptions& options, const std::stri
                      [&options](float degrees) { options.environmentRotation = degrees; });
     addEnum(command, "--environment-background", "B", "Whether the camera sees the environment: on or off [on]", {"off", "on"},
             options.environmentBackground);
-    command.add("--sun", "AZIMUTH,ELEVATION,IRRADIANCE", "A directional light: degrees to the right of -z and above the horizon, W/m^2",
+    command.add("--sun", "AZIMUTH,ELEVATION,E", "A directional light: degrees right of -z, degrees up, W/m^2",
                 [&options](const std::string& text) { options.sun = parseSun(text); });
     addTextures(command, options.missingTextures, options.maxTexture);
     command.add("--size", "WxH", "Pixels, each side 1 to 65535 [" + height + " high, width by the camera's aspect ratio]",
@@ -132,8 +132,8 @@ void addLightTransport(const Command& command, RenderSettings& settings)
 
 void addCaustics(const Command& command, RenderSettings& settings)
 {
-    addEnum(command, "--caustics", "C", "Light paths for caustics in scenes that have lamps and specular surfaces: on or off [on]",
-            {"off", "on"}, settings.caustics);
+    addEnum(command, "--caustics", "C", "Caustics of lamps and specular surfaces by light paths: on or off [on]", {"off", "on"},
+            settings.caustics);
 }
 
 void addCourseEstimators(const Command& command, RenderSettings& settings)

@@ -68,7 +68,7 @@ struct FlatScene {
     std::vector<FlatLight> lights;
     std::vector<LightNode> lightNodes;
     std::uint32_t finiteLights = 0;               // the first lights
-    float finiteShare = 0.0F;                     // probability of choosing one of these
+    float infiniteImportance = 0.0F;              // as in RenderParameters
     std::uint32_t features = 0;                   // kFeatureSpheres ...: what the scene needs
     std::uint32_t stackLevels = kMaxStackLevels;  // of the traversal stack
     vec3 environment{0.0F};                       // radiance, or what multiplies that of the map

@@ -236,15 +236,14 @@ public:
         flat_.features |= kFeatureEnvironment;
         flat_.environment = radiance;
         infinite_.push_back(light);
-        irradiances_.push_back(integral * strength(radiance));
+        irradiances_.push_back(0.25 * integral * strength(radiance));  // of a surface that faces anywhere, on average
     }
 
     void finish()
     {
         const auto count = static_cast<std::uint32_t>(finite_.size());
         flat_.finiteLights = count;
-        flat_.finiteShare = infinite_.empty() ? 1.0F : count == 0 ? 0.0F : 0.5F;
-        flat_.features |= count > 1 ? kFeatureLightTree : 0U;
+        flat_.features |= count > 1 || (count == 1 && !infinite_.empty()) ? kFeatureLightTree : 0U;
         if (count > 0) {
             pushFinite();
         }
@@ -252,8 +251,11 @@ public:
         for (const double irradiance : irradiances_) {
             sum += irradiance;
         }
+        if (count > 0) {
+            flat_.infiniteImportance = static_cast<float>(std::min(sum / *std::ranges::max_element(powers_), 1e30));
+        }
         for (std::size_t i = 0; i < infinite_.size(); ++i) {
-            infinite_[i].probability = static_cast<float>((1.0 - static_cast<double>(flat_.finiteShare)) * irradiances_[i] / sum);
+            infinite_[i].probability = static_cast<float>(irradiances_[i] / sum);
             if (infinite_[i].kind == kEnvironmentLight) {
                 flat_.environmentLight = static_cast<std::uint32_t>(flat_.lights.size());
             }

@@ -89,6 +89,10 @@ public:
         LightTree tree;
         tree.nodes.reserve(2 * std::size_t{count});
         tree.nodes.push_back(halves_[0].node);
+        if (count == 1) {
+            tree.nodes.push_back(halves_[0].node);  // the root has a child in any case
+            tree.nodes[0].children |= 1U | 1U << kLightChildBits;
+        }
         collapse(tree.nodes, 0, 0);
         for (const Item& item : items_) {
             tree.order.push_back(item.light);

@@ -49,7 +49,7 @@ DeviceParameters::DeviceParameters(Device& device, const FlatScene& scene, const
     parameters_.maxPathLength = lengths.max;
     parameters_.lightCount = static_cast<std::uint32_t>(scene.lights.size());
     parameters_.finiteLights = scene.finiteLights;
-    parameters_.finiteShare = scene.finiteShare;
+    parameters_.infiniteImportance = scene.infiniteImportance;
     parameters_.environmentLight = scene.environmentLight;
     parameters_.environment = scene.environment;
     parameters_.clampIndirect = settings.clampIndirect;

@@ -34,7 +34,7 @@ vec3 weightedEnvironment(PathRay ray, PathState state)
         return vec3(0.0);
     }
     vec3 radiance = hasEnvironmentMap() ? environmentRadiance(ray.direction) : render.environment;
-    return radiance * misWeightOfHit(state, pdfEnvironment(ray.direction, state.cosine));
+    return radiance * misWeightOfHit(state, pdfEnvironment(previousContext(ray, state), ray.direction, state.cosine));
 }
 
 // Radiance that the surface at the end of a ray emits back along it, times its MIS weight.

@@ -114,9 +114,9 @@ float pdfSurfaceLight(LightContext context, uint light, float t, float cosine)
 }
 
 // The same of the environment in the direction wi. cosine: against the normal that lights were sampled for.
-float pdfEnvironment(vec3 wi, float cosine)
+float pdfEnvironment(LightContext context, vec3 wi, float cosine)
 {
-    return fetchLight(render.environmentLight).probability * (hasEnvironmentMap() ? pdfEnvironmentMap(wi) : pdfCosineHemisphere(cosine));
+    return probabilityOfLight(context, render.environmentLight) * (hasEnvironmentMap() ? pdfEnvironmentMap(wi) : pdfCosineHemisphere(cosine));
 }
 
 // Whether its emission changes over the surface, by a texture, coverage or a coat.

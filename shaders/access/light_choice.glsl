@@ -72,17 +72,29 @@ LightChoice walkLightTree(LightContext context, uint bits, uint light)
     return LightChoice(node.firstLight, probability);
 }
 
-// Probability of a finite light whose importance has the share `byImportance`.
-float mixedProbability(float byImportance)
+// Probability of choosing among the finite lights: their importance against that of the infinite ones. Neither has less than .1 where there
+// are both: something may be in the way of the other.
+float finiteShareAt(LightContext context)
 {
-    return render.finiteShare * (kUniformShare / float(render.finiteLights) + (1.0 - kUniformShare) * byImportance);
+    float share = hasFeature(kFiniteLights) && render.finiteLights > 0u ? 1.0 : 0.0;
+    if (hasFeature(kFeatureLightTree) && hasFeature(kInfiniteLights) && render.infiniteImportance > 0.0 && share > 0.0) {
+        float importance = lightImportance(fetchLightNode(0u), context.p, context.horizon);
+        share = 0.1 + 0.8 * importance / (importance + render.infiniteImportance);
+    }
+    return share;
 }
 
-// The first infinite light for which u is below the sum of probabilities; u in [finiteShare, 1).
+// Of a finite light whose importance among those has the share `byImportance`.
+float mixedProbability(float finiteShare, float byImportance)
+{
+    return finiteShare * (kUniformShare / float(render.finiteLights) + (1.0 - kUniformShare) * byImportance);
+}
+
+// The first infinite light for which u in [0, 1) is below the sum of probabilities.
 LightChoice chooseInfiniteLight(float u)
 {
     LightChoice choice = LightChoice(render.finiteLights - 1u, 0.0);
-    float sum = render.finiteShare;
+    float sum = 0.0;
     bool more;
     do {
         ++choice.light;
@@ -96,27 +108,32 @@ LightChoice chooseInfiniteLight(float u)
 // Two random words.
 LightChoice chooseLight(LightContext context, uvec2 bits)
 {
-    float u = unitFloat(bits.y);
+    float u = unitFloat(bits.y), finiteShare = finiteShareAt(context);
     LightChoice choice = LightChoice(0u, 1.0);
-    bool finite = !hasFeature(kInfiniteLights) || (hasFeature(kFiniteLights) && u < render.finiteShare);
+    bool finite = !hasFeature(kInfiniteLights) || (hasFeature(kFiniteLights) && u < finiteShare);
     if (finite) {
-        choice.probability = render.finiteShare;
+        choice.probability = finiteShare;
         if (hasFeature(kFeatureLightTree)) {
-            bool uniform_ = u < kUniformShare * render.finiteShare;
+            bool uniform_ = u < kUniformShare * finiteShare;
             uint light = uniform_ ? chooseBin(bits.x, render.finiteLights) : kNoLightIndex;
             choice = walkLightTree(context, bits.x, light);
-            choice.probability = mixedProbability(choice.probability);
+            choice.probability = mixedProbability(finiteShare, choice.probability);
         }
     } else {
-        choice = chooseInfiniteLight(u);
+        choice = chooseInfiniteLight((u - finiteShare) / (1.0 - finiteShare));
+        choice.probability *= 1.0 - finiteShare;
     }
     return choice;
 }
 
-// The probability with which chooseLight chooses a finite light, to the same bits.
+// The probability with which chooseLight chooses a light, to the same bits.
 float probabilityOfLight(LightContext context, uint light)
 {
-    return hasFeature(kFeatureLightTree) ? mixedProbability(walkLightTree(context, 0u, light).probability) : render.finiteShare;
+    float finiteShare = finiteShareAt(context);
+    if (hasFeature(kInfiniteLights) && light >= render.finiteLights) {
+        return fetchLight(light).probability * (1.0 - finiteShare);
+    }
+    return hasFeature(kFeatureLightTree) ? mixedProbability(finiteShare, walkLightTree(context, 0u, light).probability) : finiteShare;
 }
 
 #endif

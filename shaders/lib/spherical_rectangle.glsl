@@ -7,8 +7,8 @@
 
 #include "portable.glsl"
 
-// In steradians. Points lie within 3e-4 of the light's size above it (width 1e-3 of the distance): the error is 3e-7 of distance / width.
-// There is no largest one.
+// In steradians. From here on, samples lie within 3e-4 of the light's size of where they belong: the error is 3e-7 of distance / width, and
+// at most 2e-5 in a plane .001 away. There is no largest one.
 const float kSmallestSphericalRectangle = 1e-6;
 
 // Relative to the point at its foot in the rectangle's plane.
@@ -19,9 +19,9 @@ struct SphericalRectangle {
     float solidAngle;  // 0 in the plane, on the rectangle too: no direction to sample
 };
 
-// tan(solid angle / 2) is the phase of the product of the corners' projectors on spin states; three of them give Van Oosterom and
-// Strackee's formula ("The Solid Angle of a Plane Triangle", 1983). Off by 6e-7 of the solid angle, plus 6e-8 of size / distance to the
-// rim's nearest point if that is close.
+// Half the solid angle is the phase of the trace of the product of (1 + sigma.corner) / 2 over unit corners, sigma: Pauli's matrices. With
+// three corners that is the formula of Van Oosterom and Strackee, "The Solid Angle of a Plane Triangle", 1983. Off by 7e-7 of its size, plus
+// 6e-8 of size / distance to the rim (5e-5 over a rim .001 away). The height's own rounding comes on top, 1e-7 of distance / height.
 float solidAngleOfRectangle(vec2 low, vec2 size, float height)
 {
     vec2 high = low + size;

@@ -179,7 +179,7 @@ struct RenderParameters {
     uint maxPathLength;
     uint lightCount;
     uint finiteLights;                       // the first of them
-    float finiteShare;                       // probability of choosing one of these
+    float infiniteImportance;                // of the others, in the unit of the light tree's
     uint environmentLight;                   // index, if the scene has an environment
     vec3 environment;                        // radiance, W/(sr m^2)
     float clampIndirect;                     // infinity: off

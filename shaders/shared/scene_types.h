@@ -188,7 +188,7 @@ struct FlatLight {
     uint primitive;       // triangle, sphere; rectangle: of the half at `position`
     uint otherPrimitive;  // rectangle: of the other half
     vec3 intensity;       // surfaces, constant environment: radiance; point, spot: W/sr; directional: W/m^2
-    float probability;    // infinite lights: of choosing this one
+    float probability;    // infinite lights: of choosing this one among them
     vec3 position;        // triangle: vertex 0; rectangle: a corner; sphere: centre; point, spot
     float size;           // triangle, rectangle: area; sphere: radius; point, spot: their range, or 0
     vec3 edge1;           // triangle: to vertex 1; rectangle: a side; spot, directional: unit direction, the way light travels

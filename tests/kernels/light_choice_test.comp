@@ -25,10 +25,8 @@ void drawLight(LightContext context)
     uvec4 bits = hash4(uvec4(TEST_THREAD, 0u, 0u, render.seed));
     LightChoice choice = chooseLight(context, bits.xy);
     EXPECT_TRUE(choice.light < render.lightCount);
-    bool finite = choice.light < render.finiteLights;
     // To the same bits, or MIS weights of a light that is sampled and of one that is hit do not add up.
-    EXPECT_TRUE(!finite || choice.probability == probabilityOfLight(context, choice.light));
-    EXPECT_TRUE(finite || choice.probability == fetchLight(choice.light).probability);
+    EXPECT_TRUE(choice.probability == probabilityOfLight(context, choice.light));
     FlatLight flatLight = fetchLight(choice.light);
     LightSample light = sampleLight(flatLight, choice.probability, context, bits.zw);
     LightSample certain = sampleLight(flatLight, 1.0, context, bits.zw);

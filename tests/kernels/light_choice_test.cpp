@@ -130,7 +130,7 @@ TEST(LightChoiceTest, DrawsWithTheProbabilitiesThatItStates)
     }
 }
 
-// Suns, an environment and finite lights: each group has its share, in which suns count by irradiance.
+// Suns, an environment and finite lights: groups count by what arrives, and so do the infinite ones among each other.
 TEST(LightChoiceTest, SunsAndEnvironmentsAreSiblingsOfTheTree)
 {
     SceneBuilder builder;
@@ -140,11 +140,14 @@ TEST(LightChoiceTest, SunsAndEnvironmentsAreSiblingsOfTheTree)
         .environment(vec3(0.25F));
     expectDistribution("suns", builder.scene(), kReceivers);
     const std::vector<double> p = probabilities(SceneOnDevice(builder.scene()), {kReceivers[0]})[0];
-    const std::vector<double> irradiances = {1.0, 3.0, kPi};
+    // Of a constant environment pi L arrives. The lamp is seen within its bounding sphere of sqrt(2) m, 2 m away: 45 degrees wide, so that
+    // its cosines count as 1.
+    const std::vector<double> irradiances = {1.0, 3.0, 0.25 * kPi};
+    const double infinite = 4.0 + 0.25 * kPi, lamp = 4.0 / 4.0, share = 0.1 + 0.8 * lamp / (lamp + infinite);
     ASSERT_EQ(p.size(), 4U);
-    EXPECT_EQ(p[0], 0.5);
+    EXPECT_NEAR(p[0], share, 1e-6);
     for (std::size_t i = 0; i < 3; ++i) {
-        EXPECT_NEAR(p[i + 1], 0.5 * irradiances[i] / (4.0 + kPi), 1e-7);
+        EXPECT_NEAR(p[i + 1], (1.0 - share) * irradiances[i] / infinite, 1e-6);
     }
 }
 

@@ -16,8 +16,7 @@ void main()
 {
     if (isTestThread()) {
         LightContext context = LightContext(cases[0].p, vec3(0.0), cases[0].horizon);
-        bool finite = TEST_THREAD < render.finiteLights;
-        results[TEST_THREAD] = finite ? probabilityOfLight(context, TEST_THREAD) : fetchLight(TEST_THREAD).probability;
+        results[TEST_THREAD] = probabilityOfLight(context, TEST_THREAD);
         EXPECT_TRUE(results[TEST_THREAD] > 0.0);
     }
     endTest();

@@ -40,7 +40,7 @@ struct SceneOnDevice {
         test.specialize(kSpecStackLevels, flat.stackLevels).specialize(kSpecFeatures, flat.features).specialize(kSpecTexelViews, 1);
         test.parameters().lightCount = static_cast<std::uint32_t>(flat.lights.size());
         test.parameters().finiteLights = flat.finiteLights;
-        test.parameters().finiteShare = flat.finiteShare;
+        test.parameters().infiniteImportance = flat.infiniteImportance;
         return test;
     }
 

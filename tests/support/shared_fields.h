@@ -83,7 +83,7 @@ U(pass_.lightRound.lightSamples) U(pass_.lightRound.addsEmission) U(pass_.lightR
 F3(parameters.camera.position) F3(parameters.camera.right) F3(parameters.camera.up) F3(parameters.camera.forward)
 U(parameters.camera.kind) F3(parameters.camera.lensRight) F3(parameters.camera.lensUp) F(parameters.camera.inverseFocus)
 U(parameters.width) U(parameters.height) U(parameters.seed) U(parameters.maxBounces) U(parameters.minPathLength)
-U(parameters.maxPathLength) U(parameters.lightCount) U(parameters.finiteLights) F(parameters.finiteShare) U(parameters.environmentLight) F3(parameters.environment)
+U(parameters.maxPathLength) U(parameters.lightCount) U(parameters.finiteLights) F(parameters.infiniteImportance) U(parameters.environmentLight) F3(parameters.environment)
 F(parameters.clampIndirect) U(parameters.canarySteps) U(parameters.triangleCount) U(parameters.firstUv) U(parameters.firstTangent)
 U(parameters.firstColor) U(parameters.firstMedium) U(parameters.hidesEnvironment) U2(parameters.environmentSize) U2(parameters.environmentCells)
 F2(parameters.environmentTurn) U(parameters.causticTargets) U(parameters.causticLights) U(parameters.lightPaths)
