@@ -36,7 +36,7 @@ GLIM_CONST uint kFeatureUnlit = 0x4000000u;      // with kFeatureAlpha
 GLIM_CONST uint kFeatureGlossiness = 0x8000000u;
 GLIM_CONST uint kFeatureRectangleLights = 0x10000000u;
 GLIM_CONST uint kFeatureLightTree = 0x20000000u;  // several finite lights
-GLIM_CONST uint kFeatureCaustics = 0x40000000u;  // traced from lights to specular surfaces
+GLIM_CONST uint kFeatureCaustics = 0x40000000u;   // traced from lights to specular surfaces
 GLIM_CONST uint kAllFeatures = 0xffffffffu;       // of any scene
 
 GLIM_SHARED_END

@@ -79,7 +79,8 @@ double irradianceAt(const PunctualLight& light, const glm::dvec3& p)
     double intensity = static_cast<double>(light.intensity.r);
     if (light.kind == PunctualLight::Kind::Spot) {
         const double versine = 1.0 + glm::dot(towards, glm::dvec3(light.direction)) / distance;
-        const double ramp = (static_cast<double>(light.versineOuter) - versine) / static_cast<double>(light.versineOuter - light.versineInner);
+        const double ramp =
+            (static_cast<double>(light.versineOuter) - versine) / static_cast<double>(light.versineOuter - light.versineInner);
         intensity *= std::pow(std::clamp(ramp, 0.0, 1.0), 2.0);
     }
     if (light.range > 0.0F) {
@@ -105,7 +106,7 @@ Picture floorPicture(const PunctualLight& light, const Camera& camera, std::uint
         for (int sub = 0; sub < 16; ++sub) {
             const double x = (i % side + (sub % 4 + 0.5) / 4.0) / side, y = (i / side + (sub / 4 + 0.5) / 4.0) / side;
             glm::dvec3 p = glm::dvec3(camera.position) + static_cast<double>(kHalf) * ((2.0 * x - 1.0) * glm::dvec3(camera.right) +
-                                                                                      (1.0 - 2.0 * y) * glm::dvec3(camera.up));
+                                                                                       (1.0 - 2.0 * y) * glm::dvec3(camera.up));
             p.y = 0.0;
             sum += irradianceAt(light, p) + irradianceAt(mirrored(light), p);
         }
@@ -130,15 +131,27 @@ TEST_P(MirroredLightTest, IsAnImageOfIt)
 
 INSTANTIATE_TEST_SUITE_P(
     Lights, MirroredLightTest,
-    testing::Values(test::Named{"point", PunctualLight{"", PunctualLight::Kind::Point, {0.5F, 1.2F, 0.3F}, {0, 0, -1}, glm::vec3(3.0F)}},
-                    test::Named{"range", PunctualLight{"", PunctualLight::Kind::Point, {0.1F, 0.6F, 0.1F}, {0, 0, -1}, glm::vec3(3.0F),
-                                                       0.0F, 1.0F, 1.6F}},
-                    test::Named{"spot", PunctualLight{"", PunctualLight::Kind::Spot, {0.5F, 1.2F, 0.3F},
-                                                      glm::normalize(glm::vec3(-1.5F, -0.6F, -0.3F)), glm::vec3(3.0F), 0.1F, 0.4F}},
-                    test::Named{"narrowSpot", PunctualLight{"", PunctualLight::Kind::Spot, {0.5F, 1.2F, 0.3F},
-                                                            glm::normalize(glm::vec3(-1.5F, -0.6F, -0.3F)), glm::vec3(3.0F), 1e-4F, 3e-4F}},
-                    test::Named{"directional", PunctualLight{"", PunctualLight::Kind::Directional, {0, 0, 0},
-                                                             glm::normalize(glm::vec3(-0.7F, -0.6F, 0.1F)), glm::vec3(3.0F)}}),
+    testing::Values(
+        test::Named{"point", PunctualLight{"", PunctualLight::Kind::Point, {0.5F, 1.2F, 0.3F}, {0, 0, -1}, glm::vec3(3.0F)}},
+        test::Named{"range",
+                    PunctualLight{"", PunctualLight::Kind::Point, {0.1F, 0.6F, 0.1F}, {0, 0, -1}, glm::vec3(3.0F), 0.0F, 1.0F, 1.6F}},
+        test::Named{"spot", PunctualLight{"",
+                                          PunctualLight::Kind::Spot,
+                                          {0.5F, 1.2F, 0.3F},
+                                          glm::normalize(glm::vec3(-1.5F, -0.6F, -0.3F)),
+                                          glm::vec3(3.0F),
+                                          0.1F,
+                                          0.4F}},
+        test::Named{"narrowSpot", PunctualLight{"",
+                                                PunctualLight::Kind::Spot,
+                                                {0.5F, 1.2F, 0.3F},
+                                                glm::normalize(glm::vec3(-1.5F, -0.6F, -0.3F)),
+                                                glm::vec3(3.0F),
+                                                1e-4F,
+                                                3e-4F}},
+        test::Named{"directional",
+                    PunctualLight{
+                        "", PunctualLight::Kind::Directional, {0, 0, 0}, glm::normalize(glm::vec3(-0.7F, -0.6F, 0.1F)), glm::vec3(3.0F)}}),
     test::nameOfParameter);
 
 // A white floor and back wall, a lamp above, and what the variants add.
@@ -271,8 +284,9 @@ const NamedVariant kVariants[] = {
          };
          return v;
      }},
-    {"smoothGlass",
-     [] { return changed(room(), [](Scene& scene) { addSmooth(scene, solid(), {0.3F, -0.3F, 0.3F}, 0.6F); }); }},
+    {"smoothGlass", [] { return changed(room(), [](Scene& scene) {
+                             addSmooth(scene, solid(), {0.3F, -0.3F, 0.3F}, 0.6F);
+                         }); }},
     {"smoothMirror",
      [] {
          return changed(room(), [](Scene& scene) {
@@ -281,10 +295,9 @@ const NamedVariant kVariants[] = {
              addSmooth(scene, metal, {0.3F, -0.3F, 0.3F}, 0.6F);
          });
      }},
-    {"smoothReceiver",
-     [] {
-         return changed(balls(), [](Scene& scene) { addSmooth(scene, plastic(0.6F), {0.0F, -0.7F, 1.0F}, 0.3F); });
-     }},
+    {"smoothReceiver", [] { return changed(balls(), [](Scene& scene) {
+                                addSmooth(scene, plastic(0.6F), {0.0F, -0.7F, 1.0F}, 0.3F);
+                            }); }},
     {"coat",
      [] {
          return changed(balls(), [](Scene& scene) {
@@ -293,8 +306,9 @@ const NamedVariant kVariants[] = {
              addSmooth(scene, m, {0.0F, -0.6F, 1.0F}, 0.4F);
          });
      }},
-    {"polished",
-     [] { return changed(balls(), [](Scene& scene) { addSmooth(scene, plastic(0.0F), {0.0F, -0.6F, 1.0F}, 0.4F); }); }},
+    {"polished", [] { return changed(balls(), [](Scene& scene) {
+                          addSmooth(scene, plastic(0.0F), {0.0F, -0.6F, 1.0F}, 0.4F);
+                      }); }},
     {"absorption",
      [] {
          return changed(balls(), [](Scene& scene) {
@@ -529,6 +543,14 @@ TEST(CausticsSceneTest, NeedsLampsAndSpecularSurfaces)
     addGlass(sky);
     sky.environment(glm::vec3(1.0F));
     EXPECT_FALSE(needs(sky.scene()));
+    // A mirror for a wall and a lamp for a ceiling: camera paths meet it more often.
+    SceneBuilder bright;
+    bright.quad({glm::vec3(-1, 1, -1), {1, 1, -1}, {1, 1, 1}, {-1, 1, 1}}, bright.lambert(glm::vec3(0.0F), glm::vec3(1.0F)))
+        .quad({glm::vec3(-1, -1, -1), {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}}, bright.mirror(glm::vec3(0.9F)))
+        .quad({glm::vec3(-1, -1, 1), {1, -1, 1}, {1, -1, -1}, {-1, -1, -1}}, bright.lambert(glm::vec3(0.7F)));
+    EXPECT_FALSE(needs(bright.scene()));
+    bright.light({"", PunctualLight::Kind::Point, {0, 0, 0}, {0, 0, -1}, glm::vec3(1.0F)});
+    EXPECT_TRUE(needs(bright.scene()));
     Scene rough = room().builder.scene();
     addSmooth(rough, plastic(0.1F), {0, 0, 0}, 0.5F);
     EXPECT_FALSE(needs(rough));
