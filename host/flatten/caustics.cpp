@@ -27,6 +27,7 @@ double strength(const glm::vec3& color) { return static_cast<double>(std::max({c
 struct BoundingSphere {
     glm::dvec3 center;
     double radius;
+    double area = 0.0;  // of the surfaces within
 };
 
 BoundingSphere boundingSphere(std::span<const BoundingSphere> spheres)
@@ -39,8 +40,15 @@ BoundingSphere boundingSphere(std::span<const BoundingSphere> spheres)
     BoundingSphere bound{0.5 * (low + high), 0.0};
     for (const BoundingSphere& sphere : spheres) {
         bound.radius = std::max(bound.radius, glm::length(sphere.center - bound.center) + sphere.radius);
+        bound.area += sphere.area;
     }
     return bound;
+}
+
+BoundingSphere sphereOf(const Sphere& sphere)
+{
+    const double radius = static_cast<double>(sphere.radius);
+    return {sphere.center, radius, 4.0 * kPi * radius * radius};
 }
 
 BoundingSphere boundingSphere(std::span<const Triangle> triangles)
@@ -57,6 +65,8 @@ BoundingSphere boundingSphere(std::span<const Triangle> triangles)
         for (const glm::vec3& v : triangle.vertices) {
             bound.radius = std::max(bound.radius, glm::length(glm::dvec3(v) - bound.center));
         }
+        const glm::dvec3 v0 = triangle.vertices[0];
+        bound.area += 0.5 * glm::length(glm::cross(glm::dvec3(triangle.vertices[1]) - v0, glm::dvec3(triangle.vertices[2]) - v0));
     }
     return bound;
 }
@@ -135,7 +145,7 @@ std::vector<BoundingSphere> findTargets(const FlatScene& flat, const Scene& scen
     }
     for (const Sphere& sphere : primitives.spheres) {
         if (specular[sphere.material]) {
-            targets.push_back({sphere.center, static_cast<double>(sphere.radius)});
+            targets.push_back(sphereOf(sphere));
         }
     }
     return targets;
@@ -243,6 +253,63 @@ double brightnessOf(const FlatLight& light, double sceneRadius)
     return kind == kDirectionalLight ? intensity : kind <= kSphereLight ? intensity : intensity / (sceneRadius * sceneRadius);
 }
 
+bool isPunctual(const FlatLight& light) { return (light.kind & kLightKindMask) > kSphereLight; }
+
+// The probability, about, that a specular ray from the target meets the lamp.
+double shareOfLamp(const FlatLight& light, const BoundingSphere& target)
+{
+    const bool sphere = (light.kind & kLightKindMask) == kSphereLight;
+    const double size = static_cast<double>(light.size), area = sphere ? kPi * size * size : size;
+    const glm::dvec3 middle = glm::dvec3(light.position) + (sphere ? glm::dvec3(0.0) : 0.5 * glm::dvec3(light.edge1 + light.edge2));
+    const double distance = std::max(glm::length(middle - target.center), 0.5 * target.radius);
+    return std::min(1.0, area / (kPi * distance * distance));
+}
+
+// Whether light paths meet caustics more often than camera paths do, in a room of this surface area: per sample of a pixel, a tenth of the
+// share of light paths that hit what they are aimed at, against the chance that a diffuse ray meets a target and then a lamp. The factor is
+// measured, with lamps of three sizes, balls and a mirror for a wall (tests/bench/EXPERIMENTS.md). Camera paths never find a light without
+// extent.
+bool areLightPathsBetter(std::span<const FlatLight> lights, std::span<const double> fluxes, std::span<const BoundingSphere> targets,
+                         double roomArea)
+{
+    constexpr double kLightPaths = 0.1, kFactor = 0.6;
+    double hits = 0.0, weights = 0.0, chance = 0.0;
+    for (const BoundingSphere& target : targets) {
+        // The mean area that a convex body shows is a quarter of its surface (Cauchy).
+        const double shown = std::min(1.0, 0.25 * target.area / (kPi * target.radius * target.radius));
+        double share = 0.0;
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            if (isPunctual(lights[i]) && fluxes[i] > 0.0) {
+                return true;
+            }
+            share += shareOfLamp(lights[i], target);
+        }
+        const double weight = kPi * target.radius * target.radius;
+        hits += weight * shown;
+        weights += weight;
+        chance += std::min(1.0, target.area / roomArea) * std::min(1.0, share);
+    }
+    return kLightPaths * hits >= kFactor * chance * weights;
+}
+
+// Of the box around everything.
+double roomArea(const Primitives& primitives)
+{
+    glm::dvec3 low(INFINITY), high(-INFINITY);
+    for (const Triangle& triangle : primitives.triangles) {
+        for (const glm::vec3& v : triangle.vertices) {
+            low = glm::min(low, glm::dvec3(v));
+            high = glm::max(high, glm::dvec3(v));
+        }
+    }
+    for (const Sphere& sphere : primitives.spheres) {
+        low = glm::min(low, glm::dvec3(sphere.center - sphere.radius));
+        high = glm::max(high, glm::dvec3(sphere.center + sphere.radius));
+    }
+    const glm::dvec3 side = high - low;
+    return 2.0 * (side.x * side.y + side.y * side.z + side.z * side.x);
+}
+
 uvec4 texelOf(const BoundingSphere& sphere)
 {
     const glm::vec3 center(sphere.center);
@@ -265,7 +332,7 @@ void addCaustics(FlatScene& flat, const Scene& scene, const Primitives& primitiv
         all.push_back(boundingSphere(primitives.triangles));
     }
     for (const Sphere& sphere : primitives.spheres) {
-        all.push_back({sphere.center, static_cast<double>(sphere.radius)});
+        all.push_back(sphereOf(sphere));
     }
     const BoundingSphere whole = boundingSphere(std::span<const BoundingSphere>(all));
     std::vector<double> fluxes;
@@ -275,7 +342,7 @@ void addCaustics(FlatScene& flat, const Scene& scene, const Primitives& primitiv
         sum += fluxes.back();
         brightness = std::max(brightness, brightnessOf(flat.lights[i], whole.radius));
     }
-    if (!(sum > 0.0)) {
+    if (!(sum > 0.0) || !areLightPathsBetter(std::span(flat.lights).first(lights), fluxes, targets, roomArea(primitives))) {
         return;
     }
     flat.features |= kFeatureCaustics;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 
 namespace glim {
 namespace {
@@ -44,6 +45,46 @@ TEST(FilmFile, ReadsBackEveryBit)
     const Film header = readFilmHeader(folder / "a.exr");
     EXPECT_TRUE(header.pixels.empty());
     EXPECT_EQ(header.sampleRanges, film.sampleRanges);
+}
+
+// With light paths.
+Film filmWithSplats()
+{
+    Film film = simulateFilm(0, 128);
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+        const float x = static_cast<float>(i + 1) / 7.0F;
+        film.splats.push_back({128, 3, {x, 2.0F * x, 0.1F}, {x * x, x, 3.0F}, 0.5F * x});
+    }
+    return film;
+}
+
+TEST(FilmFile, ReadsBackEveryBitOfSplats)
+{
+    const ScratchFolder folder;
+    const Film film = filmWithSplats();
+    writeFilm(folder / "a.exr", film);
+    const Film back = readFilm(folder / "a.exr");
+    EXPECT_TRUE(sameBits(back.pixels, film.pixels));
+    ASSERT_EQ(back.splats.size(), film.splats.size());
+    EXPECT_EQ(std::memcmp(back.splats.data(), film.splats.data(), film.splats.size() * sizeof(SplatMoments)), 0);
+}
+
+TEST(FilmFile, ShowsCameraAndLightPathsTogether)
+{
+    const ScratchFolder folder;
+    const Film film = filmWithSplats();
+    writeFilm(folder / "a.exr", film);
+    const Image image = readExr(folder / "a.exr");
+    const PixelMoments& pixel = film.pixels[9];
+    const SplatMoments& splat = film.splats[9];
+    EXPECT_EQ(image.channels.at("G")[9], pixel.mean.g + splat.mean.g);
+    EXPECT_EQ(image.channels.at("camera.G")[9], pixel.mean.g);
+    const float variance = varianceOfMean(pixel).g + splat.squares.g / (2.0F * 128.0F);
+    EXPECT_NEAR(image.channels.at("variance.G")[9], variance, 1e-6F * variance);
+    // Between the fewer blocks of the two and those of both.
+    const std::uint32_t blocks = shownPixel(film, 9).blocks;
+    EXPECT_GE(blocks, 3U);
+    EXPECT_LE(blocks, pixel.blocks + 2);
 }
 
 TEST(FilmFile, TheSameFilmGivesTheSameBytes)

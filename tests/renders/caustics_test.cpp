@@ -543,6 +543,14 @@ TEST(CausticsSceneTest, NeedsLampsAndSpecularSurfaces)
     addGlass(sky);
     sky.environment(glm::vec3(1.0F));
     EXPECT_FALSE(needs(sky.scene()));
+    // A mirror for a wall and a lamp for a ceiling: camera paths meet it more often.
+    SceneBuilder bright;
+    bright.quad({glm::vec3(-1, 1, -1), {1, 1, -1}, {1, 1, 1}, {-1, 1, 1}}, bright.lambert(glm::vec3(0.0F), glm::vec3(1.0F)))
+        .quad({glm::vec3(-1, -1, -1), {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}}, bright.mirror(glm::vec3(0.9F)))
+        .quad({glm::vec3(-1, -1, 1), {1, -1, 1}, {1, -1, -1}, {-1, -1, -1}}, bright.lambert(glm::vec3(0.7F)));
+    EXPECT_FALSE(needs(bright.scene()));
+    bright.light({"", PunctualLight::Kind::Point, {0, 0, 0}, {0, 0, -1}, glm::vec3(1.0F)});
+    EXPECT_TRUE(needs(bright.scene()));
     Scene rough = room().builder.scene();
     addSmooth(rough, plastic(0.1F), {0, 0, 0}, 0.5F);
     EXPECT_FALSE(needs(rough));

@@ -1,0 +1,34 @@
+// One thread connects one point to one camera.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "expect.glsl"
+#include "lib/camera.glsl"
+
+struct Case {
+    FlatCamera camera;
+    vec2 film, disk;  // expected, and given
+    vec3 p;
+    vec3 wo;       // expected, as is this
+    float weight;
+};
+
+layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
+
+void main()
+{
+    if (isTestThread()) {
+        Case c = cases[TEST_THREAD];
+        CameraConnection connection = connectToCamera(c.camera, c.p, c.disk);
+        EXPECT_NEAR_VECTOR(connection.film, c.film, 2e-5);
+        EXPECT_NEAR_VECTOR(connection.wo, c.wo, 2e-5);
+        EXPECT_NEAR(connection.weight, c.weight, 2e-4 * c.weight);
+        PathRay ray = lensRay(c.camera, connection.film, c.disk);
+        EXPECT_NEAR_VECTOR(connection.origin, ray.origin, 2e-4);
+        EXPECT_NEAR_VECTOR(connection.wo, -ray.direction, 2e-5);
+        vec2 size = vec2(640.0, 480.0);
+        EXPECT_NEAR_VECTOR(filmFromPixel(pixelFromFilm(c.film, size), size), c.film, 1e-6);
+        vec3 behind = 2.0 * c.camera.position - c.p;
+        EXPECT_TRUE(connectToCamera(c.camera, behind, c.disk).weight == 0.0);
+    }
+    endTest();
+}
