@@ -26,6 +26,13 @@ constexpr double kPi = std::numbers::pi;
 // Of each z-test: some 20 pictures, two tests each.
 constexpr double kLevel = 1e-3 / 40;
 
+RenderSettings causticSettings(std::uint32_t side, std::uint32_t spp)
+{
+    RenderSettings settings = squareSettings(side, spp);
+    settings.caustics = true;
+    return settings;
+}
+
 Film renderWith(const FlatScene& flat, const FlatCamera& camera, RenderSettings settings, bool caustics)
 {
     settings.caustics = caustics;
@@ -68,8 +75,9 @@ SceneBuilder floorAndMirror(const PunctualLight& light)
     return builder;
 }
 
-// Irradiance that the light gives the floor at p, without occlusion.
-double irradianceAt(const PunctualLight& light, const glm::dvec3& p)
+// Irradiance that the light gives the floor at p, without occlusion. Its range counts to the first surface, which is the mirror after
+// `part` of the way.
+double irradianceAt(const PunctualLight& light, const glm::dvec3& p, double part = 1.0)
 {
     if (light.kind == PunctualLight::Kind::Directional) {
         return static_cast<double>(light.intensity.r) * std::max(0.0, -static_cast<double>(light.direction.y));
@@ -84,7 +92,7 @@ double irradianceAt(const PunctualLight& light, const glm::dvec3& p)
         intensity *= std::pow(std::clamp(ramp, 0.0, 1.0), 2.0);
     }
     if (light.range > 0.0F) {
-        const double share = distance2 / std::pow(static_cast<double>(light.range), 2.0);
+        const double share = part * part * distance2 / std::pow(static_cast<double>(light.range), 2.0);
         intensity *= std::clamp(1.0 - share * share, 0.0, 1.0);
     }
     return intensity * towards.y / distance / distance2;
@@ -108,7 +116,9 @@ Picture floorPicture(const PunctualLight& light, const Camera& camera, std::uint
             glm::dvec3 p = glm::dvec3(camera.position) + static_cast<double>(kHalf) * ((2.0 * x - 1.0) * glm::dvec3(camera.right) +
                                                                                        (1.0 - 2.0 * y) * glm::dvec3(camera.up));
             p.y = 0.0;
-            sum += irradianceAt(light, p) + irradianceAt(mirrored(light), p);
+            const PunctualLight image = mirrored(light);
+            const double behind = -1.0 - static_cast<double>(image.position.x);
+            sum += irradianceAt(light, p) + irradianceAt(image, p, behind / (behind + 1.0 + p.x));
         }
         picture.radiance.push_back(kRho * static_cast<float>(sum / (16.0 * kPi)));
     }
@@ -122,7 +132,7 @@ TEST_P(MirroredLightTest, IsAnImageOfIt)
 {
     const PunctualLight light = GetParam().value;
     const Scene scene = floorAndMirror(light).scene();
-    RenderSettings settings = squareSettings(32, samplesFor(8192));
+    RenderSettings settings = causticSettings(32, samplesFor(8192));
     settings.bounces = 2;
     const Film film = renderScene(scene, settings);
     ASSERT_FALSE(film.splats.empty());
@@ -159,7 +169,7 @@ struct Variant {
     SceneBuilder builder;
     Lens lens;
     std::function<void(Scene&)> change = [](Scene&) {};
-    RenderSettings settings = squareSettings(32, samplesFor(2048));
+    RenderSettings settings = causticSettings(32, samplesFor(2048));
 };
 
 enum class Lamp { Rectangle, TwoSidedTriangle, Sphere, TwoSidedSphere };
@@ -414,7 +424,7 @@ TEST(CausticsOfLightsTest, DirectionalLightIsAPointFarAway)
         addGlass(b);
         addMirror(b);
         b.light(light).perspective({0.0F, 2.0F, 4.0F}, {0, -1, 0}, 0.8F);
-        return renderScene(b.scene(), squareSettings(32, samplesFor(512)));
+        return renderScene(b.scene(), causticSettings(32, samplesFor(512)));
     };
     const Film sun = render({"", PunctualLight::Kind::Directional, {0, 0, 0}, direction, glm::vec3(3.0F)});
     const Film lamp = render({"", PunctualLight::Kind::Point, -kDistance * direction, direction, glm::vec3(3.0F * kDistance * kDistance)});
@@ -432,7 +442,7 @@ TEST(CausticsOfLightsTest, DirectionalLightIsAPointFarAway)
     EXPECT_LE(std::abs(a - b), twoSidedLimit(kLevel) * std::hypot(errorOf(sun), errorOf(lamp)) + 0.01 * b);
 }
 
-RenderSettings small(std::uint32_t spp) { return squareSettings(40, spp); }
+RenderSettings small(std::uint32_t spp) { return causticSettings(40, spp); }
 
 class CausticsFilmTest : public testing::Test {
 protected:
