@@ -132,7 +132,7 @@ void addLightTransport(const Command& command, RenderSettings& settings)
 
 void addCaustics(const Command& command, RenderSettings& settings)
 {
-    addEnum(command, "--caustics", "C", "Caustics of lamps and specular surfaces by light paths: on or off [off]", {"off", "on"},
+    addEnum(command, "--caustics", "C", "Caustics of lamps and specular surfaces by light paths: on or off [on]", {"off", "on"},
             settings.caustics);
 }
 

@@ -60,6 +60,7 @@ void addPreview(CommandLine& line)
     command.onParsed([command, options] {
         resolvePicture(command, *options);
         resolveEnd(command, options->settings);
+        options->settings.caustics = false;  // their light would come in blocks of samples, seconds late
         if (options->settings.schedule == Schedule::Auto) {
             options->settings.schedule = Schedule::Wavefront;
         }

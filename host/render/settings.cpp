@@ -42,8 +42,8 @@ std::string describeSettings(const RenderSettings& settings)
     if (std::isfinite(settings.clampIndirect)) {
         text << " clamp-indirect=" << exactText(settings.clampIndirect);
     }
-    if (settings.caustics) {
-        text << " caustics=on";
+    if (!settings.caustics) {
+        text << " caustics=off";
     }
     return text.str();
 }

@@ -73,7 +73,7 @@ struct RenderSettings {
     // sampleEnd on average; half of these are the same for all pixels.
     Adaptive adaptive = Adaptive::Off;
     float clampIndirect = std::numeric_limits<float>::infinity();
-    bool caustics = false;  // by light paths, in scenes that need it (tracesLight)
+    bool caustics = true;  // by light paths, in scenes that need it (tracesLight)
     CourseSettings course;
     std::optional<double> seconds;  // stop sampling after this long
 

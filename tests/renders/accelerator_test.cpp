@@ -82,6 +82,7 @@ protected:
         settings.bounces = 3;
         settings.course.direct = GetParam().value;
         settings.course.lightSamples = 2;
+        settings.caustics = false;  // the course has none
     }
     RenderSettings settings = squareSettings(12, 4);
 };

@@ -23,6 +23,7 @@ RenderSettings adaptive(std::uint32_t side, std::uint32_t mostSpp, std::uint32_t
     settings.sampler = Sampler::Independent;
     settings.adaptive = Adaptive::Course;
     settings.course.batch = batch;
+    settings.caustics = false;  // as in every render of this rule
     settings.bounces = 3;
     return settings;
 }

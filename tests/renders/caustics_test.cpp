@@ -26,13 +26,6 @@ constexpr double kPi = std::numbers::pi;
 // Of each z-test: some 20 pictures, two tests each.
 constexpr double kLevel = 1e-3 / 40;
 
-RenderSettings causticSettings(std::uint32_t side, std::uint32_t spp)
-{
-    RenderSettings settings = squareSettings(side, spp);
-    settings.caustics = true;
-    return settings;
-}
-
 Film renderWith(const FlatScene& flat, const FlatCamera& camera, RenderSettings settings, bool caustics)
 {
     settings.caustics = caustics;
@@ -132,7 +125,7 @@ TEST_P(MirroredLightTest, IsAnImageOfIt)
 {
     const PunctualLight light = GetParam().value;
     const Scene scene = floorAndMirror(light).scene();
-    RenderSettings settings = causticSettings(32, samplesFor(8192));
+    RenderSettings settings = squareSettings(32, samplesFor(8192));
     settings.bounces = 2;
     const Film film = renderScene(scene, settings);
     ASSERT_FALSE(film.splats.empty());
@@ -169,7 +162,7 @@ struct Variant {
     SceneBuilder builder;
     Lens lens;
     std::function<void(Scene&)> change = [](Scene&) {};
-    RenderSettings settings = causticSettings(32, samplesFor(2048));
+    RenderSettings settings = squareSettings(32, samplesFor(2048));
 };
 
 enum class Lamp { Rectangle, TwoSidedTriangle, Sphere, TwoSidedSphere };
@@ -424,7 +417,7 @@ TEST(CausticsOfLightsTest, DirectionalLightIsAPointFarAway)
         addGlass(b);
         addMirror(b);
         b.light(light).perspective({0.0F, 2.0F, 4.0F}, {0, -1, 0}, 0.8F);
-        return renderScene(b.scene(), causticSettings(32, samplesFor(512)));
+        return renderScene(b.scene(), squareSettings(32, samplesFor(512)));
     };
     const Film sun = render({"", PunctualLight::Kind::Directional, {0, 0, 0}, direction, glm::vec3(3.0F)});
     const Film lamp = render({"", PunctualLight::Kind::Point, -kDistance * direction, direction, glm::vec3(3.0F * kDistance * kDistance)});
@@ -442,7 +435,7 @@ TEST(CausticsOfLightsTest, DirectionalLightIsAPointFarAway)
     EXPECT_LE(std::abs(a - b), twoSidedLimit(kLevel) * std::hypot(errorOf(sun), errorOf(lamp)) + 0.01 * b);
 }
 
-RenderSettings small(std::uint32_t spp) { return causticSettings(40, spp); }
+RenderSettings small(std::uint32_t spp) { return squareSettings(40, spp); }
 
 class CausticsFilmTest : public testing::Test {
 protected:

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <utility>
 
 namespace glim {
 namespace {
@@ -17,6 +18,13 @@ namespace {
 FlatCamera cameraOf(const Scene& scene, const RenderSettings& settings)
 {
     return flattenCamera(scene.cameras.front(), static_cast<float>(settings.width) / static_cast<float>(settings.height));
+}
+
+// Light paths go first.
+void advanceToSamples(Renderer& renderer)
+{
+    while (renderer.pictureSamples() == 0 && renderer.advance()) {
+    }
 }
 
 class StepsTest : public testing::Test {
@@ -34,9 +42,13 @@ TEST_F(StepsTest, FilmsAreThoseOfWholeRenders)
 {
     Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
     int films = 0;
+    std::uint64_t samples = 0;
     while (renderer.advance()) {
         const std::uint32_t count = renderer.sampleCount();
         const bool whole = renderer.pictureSamples() == std::uint64_t{count} * 24 * 24;
+        if (renderer.pictureSamples() == std::exchange(samples, renderer.pictureSamples())) {
+            continue;  // light paths are ahead of the camera's
+        }
         if (!whole || (count > 4 && count != 32 && count != 256 && count != 290)) {
             continue;
         }
@@ -189,7 +201,7 @@ TEST_F(StepsTest, AWindowKeepsTheCoarsePictureUnderTheFine)
     settings.pathCapacity = 64;
     Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
     renderer.restart(cameraOf(scene, settings), 3, 3);
-    renderer.advance();
+    advanceToSamples(renderer);
     display.draw(renderer, Aov::Albedo, {}, 0.0);
     display.cover({});
     const std::vector<Rgb8> coarse = shownBy(display);
@@ -197,7 +209,7 @@ TEST_F(StepsTest, AWindowKeepsTheCoarsePictureUnderTheFine)
         EXPECT_EQ(coarse[i], coarse[i / 24 / 8 * 8 * 24 + i % 24 / 8 * 8]) << "blocks of eight";
     }
     renderer.restart(cameraOf(scene, settings), 24, 24);
-    renderer.advance();
+    advanceToSamples(renderer);
     ASSERT_EQ(renderer.pictureSamples(), 64U);
     display.draw(renderer, Aov::Albedo, {}, 0.0);
     display.cover({});

@@ -84,7 +84,7 @@ PreviewTest::Watched PreviewTest::watch(std::size_t pictures, const std::string&
 Film PreviewTest::render(const std::string& options) const
 {
     GlimCall made;
-    made.arguments = {"render", scene, "-o", "r.exr", "--png", "r.png"};
+    made.arguments = {"render", scene, "-o", "r.exr", "--png", "r.png", "--caustics", "off"};  // as in the window
     std::istringstream words(options);
     for (std::string word; words >> word;) {
         made.arguments.push_back(word);
