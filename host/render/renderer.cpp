@@ -234,14 +234,15 @@ bool Renderer::runPass(const Pass& pass, const std::function<bool()>& shouldCont
 // own, but then all light paths are as many as if every pixel had the mean of samples, in whole blocks.
 std::uint32_t Renderer::lightEnd() const
 {
-    return choosing_ ? std::max(commonEnd_, roundEnd_ / kBlockSamples * kBlockSamples) : sweepEnd();
+    const std::uint32_t ofRound = std::max(commonEnd_, roundEnd_ / kBlockSamples * kBlockSamples);
+    return isNeighbours(settings_.adaptive) ? ofRound : sweepEnd();
 }
 
 // Whole samples, of one block.
 bool Renderer::runLightPass(const std::function<bool()>& shouldContinue)
 {
     const std::uint32_t paths = lightPathCount(settings_.width, settings_.height), pixels = settings_.width * settings_.height;
-    const std::uint32_t block = lightSample_ < kBlockSamples ? kFirstBlockSamples : kBlockSamples;
+    const std::uint32_t block = blockSamples(lightSample_);
     const std::uint32_t most = std::min(lightEnd(), (lightSample_ / block + 1) * block) - lightSample_;
     const std::uint32_t samples = std::clamp(lightPassSize_.paths() / paths, 1U, most), all = samples * paths;
     std::vector<Splat> found;
@@ -298,7 +299,7 @@ bool Renderer::isOver(const RenderObserver& observer)
 // to be low, and takes time.
 bool Renderer::isGoodEnough(const StoppingCriterion& criterion)
 {
-    const bool whole = isNeighbours(settings_.adaptive) ? isBetweenRounds() : sample_ % kBlockSamples == 0;
+    const bool whole = isNeighbours(settings_.adaptive) ? isBetweenRounds() : sample_ % blockSamples(sample_ - 1) == 0;
     const bool ends = !sweeping_ && whole && sampleCount() >= leastSamplesForError(settings_.sampleBegin);
     if (!ends || static_cast<double>(pictureSamples_) < 1.1 * static_cast<double>(testedSamples_)) {
         return false;

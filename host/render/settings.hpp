@@ -42,12 +42,16 @@ enum class Aov : std::uint32_t { Radiance, Normal, Depth, Albedo, BvhSteps, Samp
 // gets more samples the noisier its neighbours are, relative to their radiance or in absolute terms (allocate_samples.hpp).
 enum class Adaptive { Off, Course, CourseLiteral, Neighbours, NeighboursAbsolute };
 
-// The fewest samples from `begin` on whose error can be estimated: two blocks. The first kBlockSamples of a pixel are two.
-inline std::uint32_t leastSamplesForError(std::uint32_t begin) { return begin == 0 ? kBlockSamples : 2 * kBlockSamples; }
+// The fewest samples from `begin` on whose error can be estimated: up to the end of a second block.
+inline std::uint32_t leastSamplesForError(std::uint32_t begin)
+{
+    const std::uint32_t second = (begin / blockSamples(begin) + 1) * blockSamples(begin);
+    return second + blockSamples(second) - begin;
+}
 
 // The samples of every pixel that Neighbours begins with. Two blocks are the fewest that give a variance; 48 neighbours give it well
 // enough.
-inline constexpr std::uint32_t kPilotSamples = kBlockSamples;
+inline constexpr std::uint32_t kPilotSamples = 2 * kFirstBlockSamples;
 
 // The estimators of the course, beside the production path (course.hpp). With these defaults the production kernels trace.
 struct CourseSettings {

@@ -17,7 +17,7 @@ BufferMap joined(BufferMap a, const BufferMap& b)
     return a;
 }
 
-bool endsBlock(std::uint32_t end) { return end % (end < kBlockSamples ? kFirstBlockSamples : kBlockSamples) == 0; }
+bool endsBlock(std::uint32_t end) { return end % blockSamples(end - 1) == 0; }
 
 }  // namespace
 

@@ -46,9 +46,6 @@ uvec2 independentPair(SampleId id, uint dimension)
     return hash4(uvec4(id.pixel, id.index, dimension, id.seed)).xy;
 }
 
-// The number of samples in the block of sample `index`.
-uint blockSamples(uint index) { return index < kBlockSamples ? kFirstBlockSamples : kBlockSamples; }
-
 // Each block has a scramble of its own, so that block means are independent and give the variance.
 uvec2 sobolPair(SampleId id, uint dimension)
 {

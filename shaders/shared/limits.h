@@ -9,9 +9,8 @@ GLIM_SHARED_BEGIN
 GLIM_CONST uint kMaxStackLevels = 24u;
 
 // A pixel's samples come in blocks, aligned to the absolute sample index. Each block has a scramble of its own, and the variance is
-// estimated from the block means. The first kBlockSamples samples are two half blocks, so that the error is known that early. A page is the
-// fold of its blocks, the film the fold of its pages.
-GLIM_CONST uint kBlockSamples = 64u;
+// estimated from the block means. A page is the fold of its blocks, the film the fold of its pages.
+GLIM_CONST uint kBlockSamples = 128u;
 GLIM_CONST uint kFirstBlockSamples = 32u;
 GLIM_CONST uint kPageSamples = 256u;
 
@@ -28,6 +27,13 @@ GLIM_CONST uint kStepsPerThread = 512u;
 // After this many equal samples a pixel may count as constant. If one sample in 200 is not black, so many have shown one with probability
 // .994. Where no surface is in sight fewer are enough (course_choose_pixels).
 GLIM_CONST uint kConstantSamples = 1024u;
+
+// The number of samples in the block of sample `index`: 32, 32, 64, 128, 128 ... Large blocks have less noise, but the error is known from two
+// blocks on.
+GLIM_FUNCTION uint blockSamples(uint index)
+{
+    return index < 2u * kFirstBlockSamples ? kFirstBlockSamples : index < kBlockSamples ? kBlockSamples / 2u : kBlockSamples;
+}
 
 GLIM_SHARED_END
 #endif

@@ -138,7 +138,7 @@ TEST(AllocateSamplesTest, WhoHasEnoughGetsNoMore)
 {
     const std::vector<double> shares{0.5, 1.0, 1.5};
     EXPECT_EQ(allocateBlocks(shares, {320, 320, 320}, 320.0), (std::vector<std::uint32_t>{0, 0, 0}));
-    EXPECT_EQ(allocateBlocks(shares, {3200, 320, 320}, 1300.0), (std::vector<std::uint32_t>{0, 0, 1}));
+    EXPECT_EQ(allocateBlocks(shares, {6400, 640, 640}, 2600.0), (std::vector<std::uint32_t>{0, 0, 1}));
 }
 
 // --- whether choosing pixels biases ---
@@ -154,21 +154,21 @@ public:
 
     static constexpr double kTruth = 1.1;
 
-    void addBlocks(PixelMoments& moments, std::uint32_t blocks, std::uint32_t blockSamples)
+    void addBlocks(PixelMoments& moments, std::uint32_t blocks, std::uint32_t samples)
     {
         for (std::uint32_t i = 0; i < blocks; ++i) {
             PixelMoments block{};
-            block.count = blockSamples;
+            block.count = samples;
             block.blocks = 1;
-            double sum = blockSamples;
-            while (left_ < blockSamples) {
+            double sum = samples;
+            while (left_ < samples) {
                 sum += 1000.0;
                 const double used = left_;
                 skip();
                 left_ += used;
             }
-            left_ -= blockSamples;
-            block.mean = glm::vec3(static_cast<float>(sum / blockSamples));
+            left_ -= samples;
+            block.mean = glm::vec3(static_cast<float>(sum / samples));
             moments = foldMoments(moments, block);
         }
     }
@@ -194,13 +194,14 @@ double errorOfRounds(std::uint64_t seed, bool asksChosenOnes)
     for (PixelMoments& pixel : common.pixels) {
         spikes.addBlocks(pixel, 2, kFirstBlockSamples);
     }
-    std::uint32_t commonSamples = kBlockSamples;
+    std::uint32_t commonSamples = 2 * kFirstBlockSamples;
     for (const std::uint32_t mean : {96U, 128U, 192U, 256U}) {
         const std::uint32_t wanted = std::max(64U, mean / 2 / kBlockSamples * kBlockSamples);
-        for (PixelMoments& pixel : common.pixels) {
-            spikes.addBlocks(pixel, (wanted - commonSamples) / kBlockSamples, kBlockSamples);
+        for (; commonSamples < wanted; commonSamples += blockSamples(commonSamples)) {
+            for (PixelMoments& pixel : common.pixels) {
+                spikes.addBlocks(pixel, 1, blockSamples(commonSamples));
+            }
         }
-        commonSamples = wanted;
         all = common;
         for (std::size_t i = 0; i < chosen.size() && asksChosenOnes; ++i) {
             all.pixels[i] = foldMoments(common.pixels[i], chosenMoments[i]);
@@ -257,7 +258,7 @@ TEST(BlockQueueTest, GivesEveryBlockOnceAndInOrder)
         for (std::size_t i = 0; i < wanted.size(); ++i) {
             EXPECT_EQ(next[i], 64 + kBlockSamples * wanted[i]);
         }
-        EXPECT_EQ(queue.samples(), (std::vector<std::uint32_t>{0, 64, 13 * 64, 64 * 64}));
+        EXPECT_EQ(queue.samples(), (std::vector<std::uint32_t>{0, kBlockSamples, 13 * kBlockSamples, 64 * kBlockSamples}));
         EXPECT_EQ(queue.begin(), 64U);
         EXPECT_EQ(queue.end(), next[3]);
         EXPECT_TRUE(queue.isEmpty());

@@ -77,7 +77,8 @@ TEST(SamplerTest, H33BlocksAreNets)
         return cases;
     };
     expectNets(pairsOf(casesOf(0, kFirstBlockSamples)), 5);
-    expectNets(pairsOf(casesOf(kBlockSamples, kBlockSamples)), 6);
+    expectNets(pairsOf(casesOf(kBlockSamples / 2, kBlockSamples / 2)), 6);
+    expectNets(pairsOf(casesOf(kBlockSamples, kBlockSamples)), 7);
 }
 
 // Blocks are scrambled each by itself: no two of a pixel's have a point in common.

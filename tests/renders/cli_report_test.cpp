@@ -119,12 +119,12 @@ TEST(CommandLineTest, ATargetEndsARender)
     EXPECT_LT(estimate.at("relmse95")[0], estimate.at("relmse"));
     EXPECT_GT(estimate.at("relmse95")[1], estimate.at("relmse"));
     const std::uint32_t samples = stats.at("sampleRange")[1];
-    EXPECT_EQ(samples % kBlockSamples, 0U) << "blocks are whole";
+    EXPECT_EQ(samples % blockSamples(samples - 1), 0U) << "blocks are whole";
     EXPECT_EQ(stats.at("samples"), std::uint64_t{samples} * 16 * 16);
     EXPECT_TRUE(readFilmHeader(workplace.file("x.exr")).complete);
     expectText(summary, ", estimated relMSE [0-9.e-]+ \\[[0-9.e-]+, [0-9.e-]+\\], RMSE [0-9.]+ % \\[[0-9.]+, [0-9.]+\\] of the mean");
     if (samples > 64) {
-        const json before = workplace.render({"--spp", std::to_string(samples / 2 / kBlockSamples * kBlockSamples)}).second;
+        const json before = workplace.render({"--spp", std::to_string(samples / 2 / 64 * 64)}).second;
         EXPECT_GT(before.at("estimate").at("rmseOfMean"), 0.15) << "no sooner";
     }
     const double reached = estimate.at("relmse");
@@ -150,7 +150,7 @@ TEST(CommandLineTest, TargetsWithoutMeaningAreRefused)
     }
     refuses({"--target-relmse", "0"}, "--target-relmse");
     refuses({"--target-relmse", "0.1", "--spp", "63"}, "estimated from 64 samples on");
-    refuses({"--target-relmse", "0.1", "--samples", "64:100"}, "estimated from 128 samples on");
+    refuses({"--target-relmse", "0.1", "--samples", "64:100"}, "estimated from 192 samples on");
     refuses({"--target-relmse", "0.1", "--view", "normal"}, "has no effect with");
     refuses({"--target-rmse", "1%", "--adaptive", "course"}, "a rule of its own");
     EXPECT_FALSE(std::filesystem::exists(workplace.file("x.exr")));

@@ -10,7 +10,7 @@ namespace glim::test {
 // Of the block that the sample is in.
 inline std::uint32_t blockEnd(std::uint32_t sample)
 {
-    const std::uint32_t size = sample < kBlockSamples ? kFirstBlockSamples : kBlockSamples;
+    const std::uint32_t size = blockSamples(sample);
     return (sample / size + 1) * size;
 }
 

@@ -84,10 +84,13 @@ PreviewTest::Watched PreviewTest::watch(std::size_t pictures, const std::string&
 Film PreviewTest::render(const std::string& options) const
 {
     GlimCall made;
-    made.arguments = {"render", scene, "-o", "r.exr", "--png", "r.png", "--caustics", "off"};  // as in the window
+    made.arguments = {"render", scene, "-o", "r.exr", "--png", "r.png"};
     std::istringstream words(options);
     for (std::string word; words >> word;) {
         made.arguments.push_back(word);
+    }
+    if (options.find("--view") == std::string::npos) {
+        made.arguments.insert(made.arguments.end(), {"--caustics", "off"});  // as in the window
     }
     if (options.find("--size") == std::string::npos) {
         made.arguments.insert(made.arguments.end(), {"--size", size()});
