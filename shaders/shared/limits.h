@@ -28,8 +28,8 @@ GLIM_CONST uint kStepsPerThread = 512u;
 // .994. Where no surface is in sight fewer are enough (course_choose_pixels).
 GLIM_CONST uint kConstantSamples = 1024u;
 
-// The number of samples in the block of sample `index`: 32, 32, 64, 128, 128 ... Large blocks have less noise, but the error is known from two
-// blocks on.
+// The number of samples in the block of sample `index`: 32, 32, 64, 128, 128 ... Large blocks have less noise, but the error is known from
+// two blocks on.
 GLIM_FUNCTION uint blockSamples(uint index)
 {
     return index < 2u * kFirstBlockSamples ? kFirstBlockSamples : index < kBlockSamples ? kBlockSamples / 2u : kBlockSamples;

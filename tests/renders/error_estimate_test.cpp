@@ -213,7 +213,8 @@ TEST(ErrorEstimateBlocksTest, H30BlocksOfThreeSizes)
 }
 
 INSTANTIATE_TEST_SUITE_P(Samplers, ErrorEstimateTest,
-                         testing::Values(test::Named{"sobol", Ways{Sampler::Sobol, false}}, test::Named{"independent", Ways{Sampler::Independent, false}},
+                         testing::Values(test::Named{"sobol", Ways{Sampler::Sobol, false}},
+                                         test::Named{"independent", Ways{Sampler::Independent, false}},
                                          test::Named{"light_paths", Ways{Sampler::Sobol, true}}),
                          test::nameOfParameter);
 
