@@ -96,6 +96,7 @@ TEST(AdaptiveTest, StopsWhereTheRuleSaysSo)
 {
     RenderSettings settings = adaptive(12, 96, 16);
     settings.course.tolerance = 0.2F;
+    settings.schedule = Schedule::Wavefront;
     const Film film = renderScene(mixedScene(), settings);
     settings.adaptive = Adaptive::Off;
     std::vector<std::vector<double>> luminances(film.pixels.size());

@@ -38,15 +38,6 @@ protected:
 // A scene with a caustic. By camera paths, more than a few pixels make up the error.
 Scene glassRoom() { return loadGltf(GLIM_SOURCE_DIR "/scenes/cornell_mirror_glass.gltf"); }
 
-std::vector<Film> renderSeeds(const Scene& scene, RenderSettings settings)
-{
-    std::vector<Film> films;
-    for (settings.seed = 0; settings.seed < kSeeds; ++settings.seed) {
-        films.push_back(renderScene(scene, settings));
-    }
-    return films;
-}
-
 std::vector<glm::dvec3> meanPicture(const std::vector<Film>& films)
 {
     std::vector<glm::dvec3> mean(films[0].pixels.size(), glm::dvec3(0.0));
@@ -153,7 +144,7 @@ bool holds(const Interval& interval, double error) { return error >= interval.lo
 
 TEST_P(ErrorEstimateTest, H30IsTheSpreadOfOtherSeeds)
 {
-    const Spread spread = spreadOf(renderSeeds(glassRoom(), settings));
+    const Spread spread = spreadOf(renderSeeds(glassRoom(), settings, kSeeds));
     double told = 0.0, covered = 0.0;
     for (std::size_t i = 0; i < kSeeds; ++i) {
         const ErrorEstimate& estimate = spread.estimates[i];
@@ -175,7 +166,7 @@ TEST_P(ErrorEstimateTest, H30IsTheSpreadOfOtherSeeds)
 // fraction of the truth.
 TEST_P(ErrorEstimateTest, H30RelativeErrorsAreRelativeToTheTruth)
 {
-    const std::vector<Film> films = renderSeeds(glassRoom(), settings);
+    const std::vector<Film> films = renderSeeds(glassRoom(), settings, kSeeds);
     const Spread spread = spreadOf(films);
     double covered = 0.0, naive = 0.0, truth = 0.0;
     for (std::size_t i = 0; i < kSeeds; ++i) {
@@ -199,7 +190,7 @@ TEST(ErrorEstimateBlocksTest, H30BlocksOfThreeSizes)
     RenderSettings settings = squareSettings(64, 2 * kBlockSamples);
     settings.bounces = 1;
     const Scene scene = loadGltf(GLIM_SOURCE_DIR "/scenes/light_directional.gltf");
-    const std::vector<double> ratios = spreadOf(renderSeeds(scene, settings)).ratios(&SquaredErrors::mse);
+    const std::vector<double> ratios = spreadOf(renderSeeds(scene, settings, kSeeds)).ratios(&SquaredErrors::mse);
     double mean = 0.0, squares = 0.0;
     for (const double ratio : ratios) {
         mean += ratio / kSeeds;

@@ -58,6 +58,20 @@ Film renderScene(const Scene& scene, const RenderSettings& settings)
     return renderFlat(flattened(scene), scene.cameras.front(), settings);
 }
 
+std::vector<Film> renderSeeds(const Scene& scene, const RenderSettings& settings, std::uint32_t count)
+{
+    const FlatScene flat = flattened(scene);
+    const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
+    const FlatCamera camera = flattenCamera(scene.cameras.front(), aspect);
+    Renderer renderer(testDevice(), flat, camera, settings);
+    std::vector<Film> films;
+    for (std::uint32_t seed = 0; seed < count; ++seed) {
+        renderer.restart(camera, seed);
+        films.push_back(renderer.render([](const RenderProgress&) { return true; }));
+    }
+    return films;
+}
+
 RenderSettings squareSettings(std::uint32_t side, std::uint32_t spp)
 {
     RenderSettings settings;

@@ -6,6 +6,8 @@
 #include "host/render/renderer.hpp"
 #include "host/scene/scene.hpp"
 
+#include <vector>
+
 namespace glim {
 
 FlatScene flattened(const Scene& scene, SplitRule rule = SplitRule::Sah);
@@ -14,6 +16,9 @@ FlatScene flattened(const Scene& scene, SplitRule rule = SplitRule::Sah);
 // can.
 Film renderScene(const Scene& scene, const RenderSettings& settings);
 Film renderFlat(const FlatScene& flat, const Camera& camera, const RenderSettings& settings);
+
+// With seeds 0 to count - 1, by one renderer and one schedule.
+std::vector<Film> renderSeeds(const Scene& scene, const RenderSettings& settings, std::uint32_t count);
 
 // Square, with samples [0, spp).
 RenderSettings squareSettings(std::uint32_t side, std::uint32_t spp);
