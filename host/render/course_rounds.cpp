@@ -1,6 +1,7 @@
 #include "host/render/course_rounds.hpp"
 
 #include "host/error.hpp"
+#include "host/render/course.hpp"
 #include "shaders/shared/course_types.h"
 
 #include <algorithm>
@@ -23,10 +24,22 @@ void refuseTooMany(const FlatScene& scene, const RenderSettings& settings)
     }
 }
 
+// Its kernels do without what few of the course's scenes have.
+void refuseMissing(const FlatScene& scene, const RenderSettings& settings)
+{
+    const bool clear = (scene.features & kFeatureAlpha) != 0, media = (scene.features & kFeatureMedia) != 0;
+    if (usesCourseEstimators(settings) && (clear || media)) {
+        throw InputError(std::string("the scene has ") + (clear ? "surfaces that are transparent in places" : "solids that absorb light") +
+                         ", which the course's estimators do not know; expected the defaults of --direct, --roulette, --accelerator and "
+                         "--intersector.");
+    }
+}
+
 }  // namespace
 
 std::vector<LightRound> lightRounds(const FlatScene& scene, const RenderSettings& settings)
 {
+    refuseMissing(scene, settings);
     refuseTooMany(scene, settings);
     std::vector<LightRound> rounds;
     if (settings.course.direct == DirectLight::Mis && !scene.lights.empty()) {

@@ -94,13 +94,13 @@ TEST(AdaptiveTest, DoesNotDependOnHowTheWorkIsCut)
 // The stop rule, pixel by pixel, from the luminances of uniform renders of one sample each.
 TEST(AdaptiveTest, StopsWhereTheRuleSaysSo)
 {
-    RenderSettings settings = adaptive(12, 64, 16);
+    RenderSettings settings = adaptive(12, 96, 16);
     settings.course.tolerance = 0.2F;
     settings.schedule = Schedule::Wavefront;
     const Film film = renderScene(mixedScene(), settings);
     settings.adaptive = Adaptive::Off;
     std::vector<std::vector<double>> luminances(film.pixels.size());
-    for (std::uint32_t s = 0; s < 64; ++s) {
+    for (std::uint32_t s = 0; s < 96; ++s) {
         settings.sampleBegin = s;
         settings.sampleEnd = s + 1;
         const Film one = renderScene(mixedScene(), settings);
@@ -112,7 +112,7 @@ TEST(AdaptiveTest, StopsWhereTheRuleSaysSo)
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
         std::uint32_t n = 0;
         bool done = false;
-        while (!done && n < 64) {
+        while (!done && n < 96) {
             n += 16;
             const double mean = std::accumulate(luminances[i].begin(), luminances[i].begin() + n, 0.0) / n;
             double squares = 0.0;
@@ -121,7 +121,7 @@ TEST(AdaptiveTest, StopsWhereTheRuleSaysSo)
             }
             const auto& all = luminances[i];
             const bool constant = std::all_of(all.begin(), all.begin() + n, [&](double x) { return x == all[0]; });
-            done = !constant && 1.64 * std::sqrt(squares / (n - 1.0) / n) <= 0.2 * mean;
+            done = !constant && 1.96 * std::sqrt(squares / (n - 1.0) / n) <= 0.2 * mean;
         }
         EXPECT_EQ(film.pixels[i].count, n) << i;
     }

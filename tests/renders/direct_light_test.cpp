@@ -1,7 +1,11 @@
 // --direct: four ways to estimate direct light, which have the same mean.
+#include "host/error.hpp"
 #include "host/flatten/flatten_scene.hpp"
+#include "host/scene/load_gltf.hpp"
+#include "places.h"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/render_scene.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/test_device.hpp"
 #include "tests/support/test_meshes.hpp"
 
@@ -210,6 +214,18 @@ TEST(LightSamplesTest, CountPerLightAndHit)
     EXPECT_EQ(shadowRays(flat, camera, DirectLight::Lights, 5), 6 * hits);
     EXPECT_EQ(shadowRays(flat, camera, DirectLight::Hemisphere, 5), 6 * hits);
     EXPECT_EQ(shadowRays(flat, camera, DirectLight::Bsdf, 1), hits);
+}
+
+// A picture without them would be wrong.
+TEST(DirectLightRefusalTest, OfWhatTheCourseDoesNotKnow)
+{
+    RenderSettings settings = squareSettings(8, 1);
+    settings.course.direct = DirectLight::Bsdf;
+    const auto render = [&](const char* file) {
+        return [&, file] { renderScene(loadGltf(std::string(GLIM_SOURCE_DIR "/scenes/") + file), settings); };
+    };
+    test::expectRefusal<InputError>(render("liquid.gltf"), "solids that absorb light");
+    test::expectRefusal<InputError>(render("textures.gltf"), "transparent in places");
 }
 
 }  // namespace
