@@ -24,12 +24,12 @@ void refuseTooMany(const FlatScene& scene, const RenderSettings& settings)
     }
 }
 
-// Its kernels do without what few of the course's scenes have.
+// The course's kernels have no code for these.
 void refuseMissing(const FlatScene& scene, const RenderSettings& settings)
 {
     const bool clear = (scene.features & kFeatureAlpha) != 0, media = (scene.features & kFeatureMedia) != 0;
     if (usesCourseEstimators(settings) && (clear || media)) {
-        throw InputError(std::string("the scene has ") + (clear ? "surfaces that are transparent in places" : "solids that absorb light") +
+        throw InputError(std::string("the scene has ") + (clear ? "surfaces that are transparent in places" : "solids that absorb light or lie within each other") +
                          ", which the course's estimators do not know; expected the defaults of --direct, --roulette, --accelerator and "
                          "--intersector.");
     }
