@@ -29,7 +29,8 @@ void refuseMissing(const FlatScene& scene, const RenderSettings& settings)
 {
     const bool clear = (scene.features & kFeatureAlpha) != 0, media = (scene.features & kFeatureMedia) != 0;
     if (usesCourseEstimators(settings) && (clear || media)) {
-        throw InputError(std::string("the scene has ") + (clear ? "surfaces that are transparent in places" : "solids that absorb light or lie within each other") +
+        throw InputError(std::string("the scene has ") +
+                         (clear ? "surfaces that are transparent in places" : "solids that absorb light or lie within each other") +
                          ", which the course's estimators do not know; expected the defaults of --direct, --roulette, --accelerator and "
                          "--intersector.");
     }
