@@ -414,7 +414,7 @@ std::uint64_t Renderer::choosePixels()
 {
     std::uint64_t chosen = 0;
     for (const auto& tile : tiles_) {
-        wavefront_->choosePixels(*tile);
+        wavefront_->choosePixels(*tile, sample_ - settings_.sampleBegin);
         chosen += tile->chosenCount();
     }
     return chosen;

@@ -326,11 +326,12 @@ void Wavefront::closeBlocks(const Tile& tile)
     recording.finish();
 }
 
-void Wavefront::choosePixels(Tile& tile)
+void Wavefront::choosePixels(Tile& tile, std::uint32_t samples)
 {
     tile.chooseNone();
     CoursePass all{passOf(tile), {}};
     all.pass.pixelCount = tile.count();
+    all.pass.firstSample = samples;
     Recording recording(device_, statistics_);
     recording.dispatch(*kernels_.course.choosePixels, tile.bindings(0), all, groupsOf(tile.count()));
     recording.finish();

@@ -65,8 +65,8 @@ public:
     std::vector<bool> traceShadowRays(const Tile& tile, std::span<const ShadowRay> rays);
     // Folds the open blocks of all pixels, chosen or not, into their pages.
     void closeBlocks(const Tile& tile);
-    // Chooses the pixels that still need samples.
-    void choosePixels(Tile& tile);
+    // Chooses the pixels that have `samples` samples and still need some.
+    void choosePixels(Tile& tile, std::uint32_t samples);
 
     const PathBuffers& paths() const { return shared_.paths; }
     Schedule schedule() const { return schedule_; }  // never Auto
