@@ -4,8 +4,7 @@
 
 #include "lib/clamp_indirect.glsl"
 #include "lib/finite.glsl"
-#include "parameters.glsl"
-#include "shared/path_types.h"
+#include "pass.glsl"
 #include "status.glsl"
 
 // The picture's pixels from Pass::tileBegin on.
@@ -16,7 +15,7 @@ const float kMostUnits = 4611686018427387904.0;  // 2^62
 // Adds a number of units below kMostUnits.
 #define ADD_UNITS(sum, units) \
     { \
-        float rounded = floor((units) + 0.5); \
+        float rounded = roundEven(units); \
         uint high = uint(rounded * (1.0 / 4294967296.0)); \
         uint low = uint(rounded - float(high) * 4294967296.0); \
         if (low != 0u) { \

@@ -53,9 +53,10 @@ TargetCone coneOf(vec4 target, Emitter emitter)
     return cone;
 }
 
+// By versines: cosines of cones below .001 are 1 to within a few roundings.
 bool isInCone(TargetCone cone, vec3 w)
 {
-    return cone.around || dot(w, cone.axis) >= sqrt(1.0 - cone.sin2);
+    return cone.around || versine(w, cone.axis) <= oneMinusCosCone(cone.sin2);
 }
 
 // Uniform over the cone's solid angle; u in [0, 1)^2.
