@@ -46,11 +46,9 @@ Renderer::Renderer(Device& device, const FlatScene& scene, const FlatCamera& cam
       sceneFingerprint_(fingerprint(scene)),
       start_(Clock::now()),
       passSize_(scene, settings),
-      wavefront_(std::make_unique<Wavefront>(device, scene, camera, settings)),
-      lightPassSize_(scene, settings),
-      splatScale_(tracesLight(scene, settings) ? splatScale(scene) : 0.0F)
+      wavefront_(std::make_unique<Wavefront>(device, scene, camera, settings))
 {
-    open(camera);
+    open(scene, camera);
 }
 
 Renderer::Renderer(const Renderer& other, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
@@ -59,15 +57,16 @@ Renderer::Renderer(const Renderer& other, const FlatScene& scene, const FlatCame
       sceneFingerprint_(other.sceneFingerprint_),
       start_(Clock::now()),
       passSize_(scene, settings),
-      wavefront_(std::make_unique<Wavefront>(device_, other.wavefront_->shared(), scene, camera, settings)),
-      lightPassSize_(scene, settings),
-      splatScale_(tracesLight(scene, settings) ? splatScale(scene) : 0.0F)
+      wavefront_(std::make_unique<Wavefront>(device_, other.wavefront_->shared(), scene, camera, settings))
 {
-    open(camera);
+    open(scene, camera);
 }
 
-void Renderer::open(const FlatCamera& camera)
+void Renderer::open(const FlatScene& scene, const FlatCamera& camera)
 {
+    if (tracesLight(scene, settings_)) {
+        light_.emplace(scene, settings_);
+    }
     makeTiles();
     refuseBrokenStatus(device_.description(), wavefront_->paths());
     statistics_.schedule = wavefront_->schedule();
@@ -134,11 +133,9 @@ void Renderer::begin(const FlatCamera& camera)
         chosenBlocks_ = BlockQueue(film_.pixels.size(), (half + kBlockSamples - 1) / kBlockSamples * kBlockSamples);
         common_ = film_;
     }
-    if (splatScale_ > 0.0F) {
-        splats_ = wavefront_->makeSplatBuffer(SplatBuffer::countFor(settings_));
-        splatSums_.emplace(film_.pixels.size(), splatScale_);
+    if (light_) {
+        light_->begin(*wavefront_, settings_);
     }
-    lightSample_ = settings_.sampleBegin;
     timesToTarget_ = std::numeric_limits<double>::infinity();
     sweeping_ = false;
     tile_ = 0;
@@ -176,9 +173,8 @@ Film Renderer::film()
         copies.back()->copySamples(*tile, 0);
     }
     foldPages(film, copies);
-    if (splatSums_) {
-        SplatSums sums = *splatSums_;
-        sums.foldInto(film.splats);
+    if (light_) {
+        light_->copyInto(film.splats);
     }
     readCounters();
     describe(film);
@@ -224,8 +220,7 @@ bool Renderer::runPass(const Pass& pass, const std::function<bool()>& shouldCont
     pixel_ += pass.pixelCount;
     pictureSamples_ += paths;
     statistics_.samples += paths;
-    statistics_.passSeconds += seconds.total;
-    statistics_.longestDispatch = std::max(statistics_.longestDispatch, seconds.longest);
+    addSeconds(seconds);
     passSize_.learn(paths, seconds);
     return true;
 }
@@ -238,34 +233,21 @@ std::uint32_t Renderer::lightEnd() const
     return isNeighbours(settings_.adaptive) ? ofRound : sweepEnd();
 }
 
-// Whole samples, of one block.
 bool Renderer::runLightPass(const std::function<bool()>& shouldContinue)
 {
-    const std::uint32_t paths = lightPathCount(settings_.width, settings_.height), pixels = settings_.width * settings_.height;
-    const std::uint32_t block = blockSamples(lightSample_);
-    const std::uint32_t most = std::min(lightEnd(), (lightSample_ / block + 1) * block) - lightSample_;
-    const std::uint32_t samples = std::clamp(lightPassSize_.paths() / paths, 1U, most), all = samples * paths;
-    std::vector<Splat> found;
-    for (std::uint32_t pixel = 0; pixel < pixels; pixel += splats_->count()) {
-        splats_->clear();
-        for (std::uint32_t first = 0; first < all;) {
-            const std::uint32_t count = std::min(all - first, lightPassSize_.paths());
-            const auto traced = wavefront_->traceLight(*splats_, pixel, lightSample_, first, count, shouldContinue);
-            refuseBrokenStatus(device_.description(), wavefront_->paths());
-            if (!traced) {
-                return false;
-            }
-            statistics_.passSeconds += traced->total;
-            statistics_.longestDispatch = std::max(statistics_.longestDispatch, traced->longest);
-            lightPassSize_.learn(count, *traced);
-            first += count;
-        }
-        const std::vector<Splat> band = splats_->read(std::min(splats_->count(), pixels - pixel));
-        found.insert(found.end(), band.begin(), band.end());
+    const auto seconds = light_->trace(*wavefront_, lightEnd(), shouldContinue);
+    refuseBrokenStatus(device_.description(), wavefront_->paths());
+    if (!seconds) {
+        return false;
     }
-    splatSums_->add(found, lightSample_, samples);
-    lightSample_ += samples;
+    addSeconds(*seconds);
     return true;
+}
+
+void Renderer::addSeconds(const PassSeconds& seconds)
+{
+    statistics_.passSeconds += seconds.total;
+    statistics_.longestDispatch = std::max(statistics_.longestDispatch, seconds.longest);
 }
 
 // Closes the open blocks, which may be partial in adaptive renders and at the end, and folds all pages into `film`.
@@ -279,8 +261,8 @@ void Renderer::foldPages(Film& film, const std::vector<std::unique_ptr<Tile>>& t
 
 void Renderer::foldSplats(Film& film)
 {
-    if (splatSums_) {
-        splatSums_->foldInto(film.splats);
+    if (light_) {
+        light_->foldInto(film.splats);
     }
 }
 
@@ -346,7 +328,7 @@ bool Renderer::advance(const std::function<bool()>& shouldContinue)
     if (isDone()) {
         return false;
     }
-    if (splatSums_ && lightSample_ < lightEnd()) {
+    if (light_ && light_->sample() < lightEnd()) {
         return runLightPass(shouldContinue);
     }
     // Each chosen pixel of a round has its own first sample.

@@ -3,6 +3,7 @@
 
 #include "host/render/block_queue.hpp"
 #include "host/render/film.hpp"
+#include "host/render/light_passes.hpp"
 #include "host/render/pass_size.hpp"
 #include "host/render/wavefront.hpp"
 
@@ -86,13 +87,14 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
-    void open(const FlatCamera& camera);
+    void open(const FlatScene& scene, const FlatCamera& camera);
     void makeTiles();
     void begin(const FlatCamera& camera);
     void describe(Film& film) const;
     bool runPass(const Pass& pass, const std::function<bool()>& shouldContinue);
     std::uint32_t lightEnd() const;
     bool runLightPass(const std::function<bool()>& shouldContinue);
+    void addSeconds(const PassSeconds& seconds);
     bool asks(const RenderObserver& observer);
     // Unique over all renderers, so that the folded pages of one are never taken for those of another.
     static std::uint64_t nextFoldVersion();
@@ -140,12 +142,7 @@ private:
     std::uint64_t testedSamples_ = 0;  // pictureSamples_ when the criterion was last tested
     double timesToTarget_ = 0.0;       // the criterion's last answer; infinite before the first
 
-    // Caustics, of scenes that need light paths.
-    std::unique_ptr<SplatBuffer> splats_;
-    std::optional<SplatSums> splatSums_;
-    PassSize lightPassSize_;
-    float splatScale_;
-    std::uint32_t lightSample_ = 0;  // first sample without light paths
+    std::optional<LightPasses> light_;  // of scenes whose caustics need them
 
     // For --adaptive neighbours.
     Film common_;                     // the samples that all pixels share

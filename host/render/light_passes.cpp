@@ -1,0 +1,51 @@
+#include "host/render/light_passes.hpp"
+
+#include "shaders/shared/limits.h"
+
+#include <algorithm>
+
+namespace glim {
+
+LightPasses::LightPasses(const FlatScene& scene, const RenderSettings& settings)
+    : size_(scene, settings),
+      scale_(splatScale(scene))
+{}
+
+void LightPasses::begin(Wavefront& wavefront, const RenderSettings& settings)
+{
+    width_ = settings.width;
+    height_ = settings.height;
+    splats_ = wavefront.makeSplatBuffer(SplatBuffer::countFor(settings));
+    sums_.emplace(std::size_t{width_} * height_, scale_);
+    sample_ = settings.sampleBegin;
+}
+
+std::optional<PassSeconds> LightPasses::trace(Wavefront& wavefront, std::uint32_t end, const std::function<bool()>& shouldContinue)
+{
+    const std::uint32_t paths = lightPathCount(width_, height_), pixels = width_ * height_;
+    const std::uint32_t block = blockSamples(sample_);
+    const std::uint32_t most = std::min(end, (sample_ / block + 1) * block) - sample_;
+    const std::uint32_t samples = std::clamp(size_.paths() / paths, 1U, most), all = samples * paths;
+    PassSeconds seconds{0.0, 0.0};
+    std::vector<Splat> found;
+    for (std::uint32_t pixel = 0; pixel < pixels; pixel += splats_->count()) {
+        splats_->clear();
+        for (std::uint32_t first = 0; first < all;) {
+            const std::uint32_t count = std::min(all - first, size_.paths());
+            const auto traced = wavefront.traceLight(*splats_, pixel, sample_, first, count, shouldContinue);
+            if (!traced) {
+                return std::nullopt;
+            }
+            seconds = {std::max(seconds.longest, traced->longest), seconds.total + traced->total};
+            size_.learn(count, *traced);
+            first += count;
+        }
+        const std::vector<Splat> band = splats_->read(std::min(splats_->count(), pixels - pixel));
+        found.insert(found.end(), band.begin(), band.end());
+    }
+    sums_->add(found, sample_, samples);
+    sample_ += samples;
+    return seconds;
+}
+
+}  // namespace glim

@@ -1,0 +1,34 @@
+// Passes of light paths, for caustics: which samples of the picture have theirs, and the light that they have brought.
+#pragma once
+
+#include "host/render/wavefront.hpp"
+
+namespace glim {
+
+class LightPasses {
+public:
+    // For scenes and settings that tracesLight() is true of.
+    LightPasses(const FlatScene& scene, const RenderSettings& settings);
+
+    // Starts a picture.
+    void begin(Wavefront& wavefront, const RenderSettings& settings);
+    // The first sample that has no light paths yet.
+    std::uint32_t sample() const { return sample_; }
+    // Traces those of some samples before `end`, all of one block. Returns the time that it took; nothing if `shouldContinue` ended it, and
+    // the samples then have none.
+    std::optional<PassSeconds> trace(Wavefront& wavefront, std::uint32_t end, const std::function<bool()>& shouldContinue);
+
+    // Folds the light so far into `film`; copies leave it open, so that more may come.
+    void foldInto(std::vector<SplatMoments>& film) { sums_->foldInto(film); }
+    void copyInto(std::vector<SplatMoments>& film) const { SplatSums(*sums_).foldInto(film); }
+
+private:
+    PassSize size_;
+    float scale_;
+    std::uint32_t width_ = 0, height_ = 0;
+    std::unique_ptr<SplatBuffer> splats_;
+    std::optional<SplatSums> sums_;
+    std::uint32_t sample_ = 0;
+};
+
+}  // namespace glim
