@@ -18,8 +18,9 @@ public:
     // the samples then have none.
     std::optional<PassSeconds> trace(Wavefront& wavefront, std::uint32_t end, const std::function<bool()>& shouldContinue);
 
-    // Folds the light so far into `film`; copies leave it open, so that more may come.
+    // Closes the open block, whole or not, and folds the light so far into `film`.
     void foldInto(std::vector<SplatMoments>& film) { sums_->foldInto(film); }
+    // What foldInto would give; sampling may go on.
     void copyInto(std::vector<SplatMoments>& film) const { SplatSums(*sums_).foldInto(film); }
 
 private:
