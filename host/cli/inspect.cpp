@@ -32,7 +32,9 @@ Counts countsOf(const PreparedScene& prepared)
             {"materials", prepared.scene.materials.size()},
             {"images", prepared.scene.images.size()},
             {"lights", prepared.flat.lights.size()},
-            {"cameras", prepared.scene.cameras.size()}};
+            {"cameras", prepared.scene.cameras.size()},
+            {"skins", prepared.scene.skins},
+            {"morph targets", prepared.scene.morphTargets}};
 }
 
 Needs needsOf(std::uint32_t features)
@@ -138,6 +140,10 @@ void printJson(const InspectOptions& options, const PreparedScene& prepared)
     for (const Camera& camera : prepared.scene.cameras) {
         cameras.append({{"name", camera.name}, {"kind", kindOf(camera)}});
     }
+    Json animations = Json::array();
+    for (const Animation& animation : prepared.scene.animations) {
+        animations.append({{"name", animation.name}, {"seconds", animation.duration}});
+    }
     const Bounds bounds = boundsOf(prepared);
     const Json json = {{"scene", options.scene.string()},
                        {"counts", objectOf(countsOf(prepared))},
@@ -156,6 +162,7 @@ void printJson(const InspectOptions& options, const PreparedScene& prepared)
                        {"environment", environmentOf(prepared)},
                        {"media", mediaOf(prepared)},
                        {"variants", prepared.scene.variants},
+                       {"animations", animations},
                        {"needs", objectOf(needsOf(prepared.flat.features))},
                        {"cameras", cameras},
                        {"warnings", prepared.scene.warnings}};
@@ -236,6 +243,10 @@ void printText(const InspectOptions& options, const PreparedScene& prepared)
     for (const std::string& variant : prepared.scene.variants) {
         std::cout << "  variant \"" << variant << "\"\n";
     }
+    for (std::size_t i = 0; i < prepared.scene.animations.size(); ++i) {
+        const Animation& animation = prepared.scene.animations[i];
+        std::cout << "  animation " << i << " \"" << animation.name << "\", " << threeDigits(animation.duration) << " s\n";
+    }
     for (std::size_t i = 0; i < prepared.scene.cameras.size(); ++i) {
         const Camera& camera = prepared.scene.cameras[i];
         std::cout << "  camera " << i << " \"" << camera.name << "\", " << kindOf(camera) << '\n';
@@ -262,6 +273,7 @@ void addInspect(CommandLine& line)
     command.beginGroup("Picture");
     command.addPath("SCENE", "FILE", "Scene, .gltf or .glb", options->scene).require();
     addSceneIndex(command, options->load.scene);
+    addAnimation(command, options->load.at, options->load.animation);
     addTextures(command, options->load.missingTextures, options->load.maxTexture);
     command.beginGroup("Output");
     command.addFlag("--json", "Print JSON with every digit; sizes in bytes", options->json);

@@ -61,6 +61,7 @@ void addPicture(const Command& command, PictureOptions& options, const std::stri
     addSceneIndex(command, options.sceneIndex);
     command.add("--variant", "NAME", "Variant of the file's materials [the file's own materials]",
                 [&options](const std::string& text) { options.variant = text; });
+    addAnimation(command, options.at, options.animation);
     command.add("--environment", "E", ".hdr or .exr map, radiance R,G,B, studio or none [the file's, else studio if unlit]",
                 [&options](const std::string& text) { options.environment = parseEnvironment(text); });
     addNumber<float>(command, {"--environment-rotation", "DEG", "Turn of the map about the vertical axis", -360.0F, 360.0F, "0"},
@@ -72,6 +73,14 @@ void addPicture(const Command& command, PictureOptions& options, const std::stri
     addTextures(command, options.missingTextures, options.maxTexture);
     command.add("--size", "WxH", "Pixels, each side 1 to 65535 [" + height + " high, width by the camera's aspect ratio]",
                 [&options](const std::string& text) { options.size = parseSize(text); });
+}
+
+void addAnimation(const Command& command, std::optional<double>& at, std::string& animation)
+{
+    const Option time = addNumber<double>(command, {"--at", "SECONDS", "Time of the file's animation", 0.0, 1e9, "the file's rest pose"},
+                                          [&at](double seconds) { at = seconds; });
+    command.add("--animation", "NAME|INDEX", "Animation that --at plays [0]", [&animation](const std::string& text) { animation = text; })
+        .needs(time);
 }
 
 void addTextures(const Command& command, MissingTextures& missing, std::uint32_t& largest)
@@ -179,6 +188,8 @@ LoadOptions loadOptionsOf(const PictureOptions& options)
     LoadOptions load;
     load.scene = options.sceneIndex;
     load.variant = options.variant;
+    load.at = options.at;
+    load.animation = options.animation;
     load.environment = options.environment;
     load.environmentRotation = glm::radians(options.environmentRotation);
     load.environmentBackground = options.environmentBackground;

@@ -21,7 +21,8 @@ struct PictureOptions {
     std::optional<std::string> device, camera;
     std::optional<Pose> pose;
     std::optional<EnvironmentChoice> environment;
-    std::string variant;
+    std::string variant, animation;
+    std::optional<double> at;          // seconds
     float environmentRotation = 0.0F;  // degrees
     bool environmentBackground = true;
     std::optional<Sun> sun;
@@ -35,6 +36,7 @@ struct PictureOptions {
 
 // Each adds options to the help's current group. They write into `options` or `settings`, which must outlive the command.
 void addPicture(const Command& command, PictureOptions& options, const std::string& height = "512");  // default of --size
+void addAnimation(const Command& command, std::optional<double>& at, std::string& animation);
 void addTextures(const Command& command, MissingTextures& missing, std::uint32_t& largest);
 void addSampleCount(const Command& command, RenderSettings& settings, const std::string& sppDefault, const std::string& rangeDefault);
 void addAdaptive(const Command& command, RenderSettings& settings);

@@ -3,6 +3,7 @@
 #include "host/error.hpp"
 #include "host/scene/check_scene.hpp"
 #include "host/scene/frame_camera.hpp"
+#include "host/scene/gltf/animate_gltf.hpp"
 #include "host/scene/gltf/check_gltf_json.hpp"
 #include "host/scene/gltf/read_geometry.hpp"
 #include "host/scene/gltf/read_image_light.hpp"
@@ -19,7 +20,7 @@
 namespace glim {
 namespace {
 
-void noteIgnoredParts(const GltfFile& file, const std::vector<PlacedNode>& nodes, Warnings& warnings)
+void noteIgnoredParts(const GltfFile& file, Warnings& warnings)
 {
     for (const std::string& extension : file.model.extensionsUsed) {
         const ExtensionEffect effect = effectOf(extension);
@@ -28,13 +29,52 @@ void noteIgnoredParts(const GltfFile& file, const std::vector<PlacedNode>& nodes
             warnings.add("extensions are ignored", extension);
         }
     }
-    const bool skinned =
-        std::any_of(nodes.begin(), nodes.end(), [&](const PlacedNode& node) { return file.model.nodes[node.index].skin >= 0; });
-    if (skinned) {
-        warnings.add("skins are ignored: their meshes stand in the rest pose of their nodes");
+}
+
+std::vector<Animation> listAnimations(const GltfFile& file)
+{
+    std::vector<Animation> animations;
+    for (std::size_t i = 0; i < file.animations.size(); ++i) {
+        animations.push_back({file.animations[i].name, durationOf(file, i)});
     }
-    if (file.animated) {
-        warnings.add("animations are ignored");
+    return animations;
+}
+
+std::size_t countMorphTargets(const GltfFile& file)
+{
+    std::size_t count = 0;
+    for (const tinygltf::Mesh& mesh : file.model.meshes) {
+        count += mesh.primitives.empty() ? 0 : mesh.primitives[0].targets.size();
+    }
+    return count;
+}
+
+std::string describeAnimation(const std::vector<Animation>& animations, std::size_t index)
+{
+    return std::to_string(index) + " (\"" + animations[index].name + "\", " + toText(animations[index].duration) + " s)";
+}
+
+std::size_t findAnimation(const GltfFile& file, const std::vector<Animation>& animations, const std::string& choice)
+{
+    std::string known;
+    for (std::size_t i = 0; i < animations.size(); ++i) {
+        if (choice.empty() || animations[i].name == choice || std::to_string(i) == choice) {
+            return i;
+        }
+        known += (known.empty() ? "" : ", ") + describeAnimation(animations, i);
+    }
+    refuse(file, "it has no animation" + (choice.empty() ? "" : " \"" + choice + "\"") + "; expected " +
+                     (known.empty() ? "no --at, since it has none" : "one of " + known));
+}
+
+// The rest pose is what the file's nodes, weights and materials say, without any animation.
+void chooseTime(GltfFile& file, const LoadOptions& options, const std::vector<Animation>& animations, Warnings& warnings)
+{
+    if (options.at) {
+        animateGltf(file, findAnimation(file, animations, options.animation), *options.at, warnings);
+    } else if (!animations.empty()) {
+        warnings.add("the scene is drawn in its rest pose: --at SECONDS poses it by animation " + describeAnimation(animations, 0) +
+                     (animations.size() == 1 ? "" : ", --animation by another of " + std::to_string(animations.size())));
     }
 }
 
@@ -242,11 +282,15 @@ Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options)
     file.variant = findVariant(file, scene.variants, options.variant);
     scene.file = file.path;
     scene.files = file.files;
+    scene.animations = listAnimations(file);
+    scene.skins = file.skins.size();
+    scene.morphTargets = countMorphTargets(file);
     scene.materials.resize(file.model.materials.size() + 1);
     Warnings warnings;
+    chooseTime(file, options, scene.animations, warnings);
     const std::vector<PlacedNode> nodes = placeNodes(file, options, warnings);
     scene.environment = chooseEnvironment(file, options, scene, warnings);
-    noteIgnoredParts(file, nodes, warnings);
+    noteIgnoredParts(file, warnings);
     readGeometry(file, nodes, scene, warnings);
     readMaterials(file, options, scene, warnings);
     giveTangents(scene, warnings);

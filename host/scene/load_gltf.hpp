@@ -30,6 +30,8 @@ struct LoadOptions {
     MissingTextures missingTextures = MissingTextures::Refuse;
     std::uint32_t maxTexture = kMaxImageSide;  // images with a longer side are scaled down
     std::string variant;                       // of KHR_materials_variants; empty: the file's own materials
+    std::optional<double> at;                  // seconds into the animation; if absent the file's rest pose
+    std::string animation;                     // name or index; empty: the first
     float aspectRatio = 1.0F;                  // of the picture, for the framed camera if the file has none
 };
 

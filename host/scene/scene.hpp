@@ -177,6 +177,12 @@ struct Camera {
     std::optional<float> aspectRatio;                          // width / height, where the file names one
 };
 
+// A motion of the file, which poses the scene at a time.
+struct Animation {
+    std::string name;
+    double duration = 0.0;  // seconds
+};
+
 struct Scene {
     std::string file;
     std::vector<std::filesystem::path> files;  // the files it was read from: `file`, its buffers, images and map
@@ -190,7 +196,9 @@ struct Scene {
     std::vector<Camera> cameras;  // never empty after load_gltf: one is framed where the file has none
     std::optional<Environment> environment;
     std::vector<std::string> variants;  // names in KHR_materials_variants
-    std::vector<std::string> warnings;  // one line each: what was ignored, mapped, dropped or framed
+    std::vector<Animation> animations;
+    std::size_t skins = 0, morphTargets = 0;  // of the file
+    std::vector<std::string> warnings;        // one line each: what was ignored, mapped, dropped or framed
 };
 
 }  // namespace glim

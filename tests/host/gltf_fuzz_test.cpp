@@ -45,14 +45,14 @@ std::string mutate(std::string text, std::mt19937& random)
     return text;
 }
 
-void fuzz(const std::string& original, const std::string& name)
+void fuzz(const std::string& original, const std::string& name, const LoadOptions& options = {})
 {
     int loaded = 0;
     for (int i = 0; i < kMutants; ++i) {
         std::mt19937 random(static_cast<std::uint32_t>(i));
         const std::string path = writeTemporary(name, mutate(original, random));
         try {
-            const Scene scene = loadGltf(path);
+            const Scene scene = loadGltf(path, options);
             checkScene(scene);
             ++loaded;
         } catch (const InputError& error) {
@@ -84,6 +84,32 @@ TEST(GltfFuzz, SurvivesMutantsOfBinaryFiles)
     builder.addNode({{"children", {0}}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1}}});
     builder.addNode({{"extras", {{"sphere", {{"radius", 1.5}}}}}});
     fuzz(builder.toGlb(), "mutant.glb");
+}
+
+TEST(GltfFuzz, SurvivesMutantsOfPoses)
+{
+    GltfBuilder builder;
+    const std::size_t positions = builder.addVec3({0, 0, 0, 1, 0, 0, 0, 1, 0});
+    const std::size_t joints = builder.addAccessor({0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, kUnsignedByte, "VEC4", 3);
+    const std::size_t weights = builder.addAccessor(toBytes<float>({0.5F, 0.5F, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}), kFloat, "VEC4", 3);
+    const std::size_t mesh = builder.addMesh({{"attributes", {{"POSITION", positions}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}}},
+                                              {"targets", {{{"POSITION", positions}}}}});
+    builder.addNode({{"mesh", mesh}, {"skin", 0}, {"weights", {0.5}}});
+    builder.addNode({{"translation", {1, 2, 3}}});
+    const std::vector<float> bind{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    builder.append("skins", {{"joints", {0, 1}}, {"inverseBindMatrices", builder.addAccessor(toBytes(bind), kFloat, "MAT4", 2)}});
+    const std::size_t times = builder.addAccessor(toBytes<float>({0, 1}), kFloat, "SCALAR", 2);
+    const std::size_t turns = builder.addAccessor(toBytes<float>({0, 0, 0, 1, 0, 1, 0, 0}), kFloat, "VEC4", 2);
+    builder.append(
+        "animations",
+        {{"samplers", {{{"input", times}, {"output", turns}}, {{"input", times}, {"output", times}}}},
+         {"channels",
+          {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "rotation"}}}},
+           {{"sampler", 1},
+            {"target", {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", "/nodes/0/weights/0"}}}}}}}}}}});
+    LoadOptions options;
+    options.at = 0.5;
+    fuzz(builder.toGltf(), "mutant.gltf", options);
 }
 
 }  // namespace

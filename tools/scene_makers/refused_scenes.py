@@ -85,6 +85,33 @@ def glb(cut=0, magic=b"glTF", version=2):
     return bytes(content[:len(content) - cut])
 
 
+def skin(joints=(0,), joint=0, matrices=0):
+    """The triangle follows `joint` of the skin."""
+    def make(document):
+        accessor = lambda code, kind, values, component: document.append("accessors", {
+            "bufferView": document.view(pack(code, values)), "componentType": component, "count": 3, "type": kind})
+        document.json["meshes"][0]["primitives"][0]["attributes"].update(
+            JOINTS_0=accessor("B", "VEC4", [joint, 0, 0, 0] * 3, 5121), WEIGHTS_0=accessor("f", "VEC4", [1, 0, 0, 0] * 3, 5126))
+        document.json["skins"] = [{"joints": list(joints)}]
+        document.json["nodes"][0]["skin"] = 0
+        if matrices:
+            identity = [float(i % 5 == 0) for i in range(16)]
+            document.json["skins"][0]["inverseBindMatrices"] = document.append("accessors", {
+                "bufferView": document.view(pack("f", identity * matrices)), "componentType": 5126, "count": matrices, "type": "MAT4"})
+    return build(make)
+
+
+def animation(times=(0.0, 1.0), channel=0):
+    """Moves the triangle."""
+    def make(document):
+        numbers = lambda kind, values: document.append("accessors", {
+            "bufferView": document.view(pack("f", values)), "componentType": 5126, "count": 2, "type": kind})
+        document.json["animations"] = [{
+            "samplers": [{"input": numbers("SCALAR", times), "output": numbers("VEC3", [0.0] * 6)}],
+            "channels": [{"sampler": 0, "target": {"node": channel, "path": "translation"}}]}]
+    return build(make)
+
+
 def perspective(yfov, **more):
     return {"type": "perspective", "perspective": {"yfov": yfov, "znear": 0.1, **more}}
 
@@ -145,6 +172,13 @@ REFUSED = {
     "beyond_float.gltf": lambda: put("nodes", 0, "scale", [1e39, 1e39, 1e39]),
     "nothing_to_draw.gltf": lambda: put("scenes", 0, "nodes", []),
     "only_flat_triangles.gltf": lambda: build(lambda d: d.data.__setitem__(slice(36, 42), struct.pack("<3H", 0, 1, 1))),
+    # skins, morph targets, animations
+    "no_such_joint.gltf": lambda: skin(joints=(0, 5)),
+    "joint_past_end.gltf": lambda: skin(joint=1),
+    "few_bind_matrices.gltf": lambda: skin(joints=(0, 0), matrices=1),
+    "weight_without_target.gltf": lambda: put("meshes", 0, "weights", [1]),
+    "no_such_animated_node.gltf": lambda: animation(channel=2),
+    "nan_time.gltf": lambda: animation(times=(0.0, float("nan"))),
     # spheres, materials, lights, cameras, environment
     "stretched_sphere.gltf": lambda: sphere(scale=[1, 2, 1]),
     "negative_radius.gltf": lambda: build(lambda d: d.sphere("ball", (0, 0, 0), -1.0, 0)),

@@ -18,6 +18,7 @@ using nlohmann::json;
 constexpr const char* kSupportedExtensions[] = {
     "EXT_lights_image_based",
     "EXT_texture_webp",
+    "KHR_animation_pointer",
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",
@@ -219,6 +220,23 @@ ExtensionEffect effectOf(const std::string& name)
         return ExtensionEffect::None;
     }
     return ExtensionEffect::Content;
+}
+
+const SchemaRule* findRule(const std::string& path)
+{
+    for (const SchemaRule& rule : kSchemaRules) {
+        if (path == rule.path) {
+            return &rule;
+        }
+    }
+    for (const char* slot : kTextureSlots) {
+        for (const SchemaRule& rule : kTextureRules) {
+            if (path == "materials[]." + std::string(slot) + rule.path) {
+                return &rule;
+            }
+        }
+    }
+    return nullptr;
 }
 
 void checkGltfJson(const std::string& path, const json& document)

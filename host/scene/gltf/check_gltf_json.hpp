@@ -11,6 +11,10 @@ namespace glim {
 // glTF's own words (accessors[3].count). tinygltf checks none of this.
 void checkGltfJson(const std::string& path, const nlohmann::json& document);
 
+// What the schema says of a property, by a path such as materials[].alphaCutoff; null if glim does not read it.
+struct SchemaRule;
+const SchemaRule* findRule(const std::string& path);
+
 bool isSupportedExtension(const std::string& name);
 
 // What a still picture lacks where glim does not read an extension. An unknown one counts as Content.

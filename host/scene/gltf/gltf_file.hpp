@@ -1,11 +1,14 @@
 // A glTF file with checked JSON and its buffers in memory. All readers in this folder begin with it.
 #pragma once
 
+#include "host/scene/keyframes.hpp"
 #include "host/scene/scene.hpp"
 
 #include <tiny_gltf.h>
+#include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,16 +34,38 @@ struct GltfTexture {
     bool nearest = false;
 };
 
+struct GltfSkin {
+    std::string name;
+    std::vector<std::size_t> joints;  // nodes
+    std::optional<std::size_t> inverseBindMatrices;
+};
+
+struct GltfAnimation {
+    struct Sampler {
+        std::size_t input = 0, output = 0;
+        Interpolation interpolation = Interpolation::Linear;
+    };
+    struct Channel {
+        std::size_t sampler = 0;
+        std::string pointer;  // to a property, as KHR_animation_pointer has it; empty: to nothing
+    };
+    std::string name;
+    std::vector<Sampler> samplers;
+    std::vector<Channel> channels;
+};
+
 struct GltfFile {
     std::string path;                          // as given, for messages
     std::vector<std::filesystem::path> files;  // this one and those of its buffers
-    // Index properties are in range, numbers have their type. Holds no buffers, images, skins or animations.
+    // Index properties are in range, numbers have their type. Holds none of what is listed below.
     tinygltf::Model model;
+    std::shared_ptr<const nlohmann::json> document;   // of an animated file: what the model was parsed from
     std::vector<std::vector<unsigned char>> buffers;  // each at least as long as its byteLength
     std::vector<EncodedImage> images;
     std::vector<GltfTexture> textures;
+    std::vector<GltfSkin> skins;
+    std::vector<GltfAnimation> animations;
     std::optional<std::size_t> variant;  // of KHR_materials_variants, that is to be drawn
-    bool animated = false;
 };
 
 GltfFile readGltfFile(const std::filesystem::path& file);

@@ -3,6 +3,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include <cmath>
+#include <map>
 
 namespace glim {
 namespace {
@@ -151,6 +152,25 @@ std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& opti
         }
     }
     return placed;
+}
+
+std::vector<glm::dmat4> worldFromNodes(const GltfFile& file, const std::vector<std::size_t>& nodes)
+{
+    const std::vector<int> parents = findParents(file);
+    std::map<int, glm::dmat4> worlds{{kNone, glm::dmat4(1.0)}};
+    std::vector<glm::dmat4> result;
+    for (const std::size_t node : nodes) {
+        std::vector<int> chain;
+        for (auto at = static_cast<int>(node); worlds.count(at) == 0; at = parents[static_cast<std::size_t>(at)]) {
+            chain.push_back(at);
+        }
+        for (auto at = chain.rbegin(); at != chain.rend(); ++at) {
+            const auto index = static_cast<std::size_t>(*at);
+            worlds[*at] = worlds[parents[index]] * parentFromNode(file, index);
+        }
+        result.push_back(worlds[static_cast<int>(node)]);
+    }
+    return result;
 }
 
 glm::dmat3 readLinear(const GltfFile& file, const PlacedNode& node)

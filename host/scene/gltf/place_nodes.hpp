@@ -17,6 +17,9 @@ struct PlacedNode {
 // In document order, parents first. Checks that the nodes form trees.
 std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& options, Warnings& warnings);
 
+// Where `nodes` stand in the world, visible or not. The nodes form trees.
+std::vector<glm::dmat4> worldFromNodes(const GltfFile& file, const std::vector<std::size_t>& nodes);
+
 // The linear part of a node that carries a shape, camera or light. Refuses a singular one.
 glm::dmat3 readLinear(const GltfFile& file, const PlacedNode& node);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <type_traits>
@@ -182,7 +183,7 @@ std::vector<Value> readVectors(const GltfFile& file, std::size_t accessor, const
 {
     const std::string place = placeOf(accessor, use);
     const int type = file.model.accessors[accessor].type;
-    const bool short4 = Value::length() == 4 && type == TINYGLTF_TYPE_VEC3;
+    const bool short4 = std::is_same_v<Value, glm::vec4> && type == TINYGLTF_TYPE_VEC3;
     const int components = short4 ? 3 : Value::length();
     // tinygltf's number for a vector type is its count of components.
     checkAccessor(file, accessor, components, ("VEC" + std::to_string(components)).c_str(), place);
@@ -199,6 +200,33 @@ std::vector<Value> readVectors(const GltfFile& file, std::size_t accessor, const
 template std::vector<glm::dvec3> readVectors(const GltfFile&, std::size_t, const std::string&);
 template std::vector<glm::vec2> readVectors(const GltfFile&, std::size_t, const std::string&);
 template std::vector<glm::vec4> readVectors(const GltfFile&, std::size_t, const std::string&);
+template std::vector<glm::dvec4> readVectors(const GltfFile&, std::size_t, const std::string&);
+
+template <class Value>
+std::vector<Value> readAttribute(const GltfFile& file, const std::map<std::string, int>& attributes, const std::string& attribute,
+                                 const std::string& plural, std::size_t vertexCount, const std::string& place)
+{
+    const auto found = attributes.find(attribute);
+    if (found == attributes.end()) {
+        return {};
+    }
+    std::vector<Value> values = readVectors<Value>(file, static_cast<std::size_t>(found->second), attribute + " of " + place);
+    if (values.size() != vertexCount) {
+        refuse(file, place + " has " + std::to_string(values.size()) + " " + plural + "; expected as many as its " +
+                         std::to_string(vertexCount) + " positions");
+    }
+    return values;
+}
+
+using Attributes = std::map<std::string, int>;
+template std::vector<glm::dvec3> readAttribute(const GltfFile&, const Attributes&, const std::string&, const std::string&, std::size_t,
+                                               const std::string&);
+template std::vector<glm::vec2> readAttribute(const GltfFile&, const Attributes&, const std::string&, const std::string&, std::size_t,
+                                              const std::string&);
+template std::vector<glm::vec4> readAttribute(const GltfFile&, const Attributes&, const std::string&, const std::string&, std::size_t,
+                                              const std::string&);
+template std::vector<glm::dvec4> readAttribute(const GltfFile&, const Attributes&, const std::string&, const std::string&, std::size_t,
+                                               const std::string&);
 
 std::vector<std::uint32_t> readIndices(const GltfFile& file, std::size_t accessor, const std::string& use)
 {
@@ -207,6 +235,50 @@ std::vector<std::uint32_t> readIndices(const GltfFile& file, std::size_t accesso
     checkIndexType(file, file.model.accessors[accessor].componentType, place);
     const auto convert = [](const Decoder& decoder, const unsigned char* bytes) { return static_cast<std::uint32_t>(decoder(bytes, 0)); };
     return readElements<std::uint32_t>(file, accessor, 1, place, convert);
+}
+
+std::vector<double> readNumbers(const GltfFile& file, std::size_t accessor, std::size_t components, const std::string& use)
+{
+    const std::string place = placeOf(accessor, use);
+    const bool scalar = components == 1;
+    checkAccessor(file, accessor, scalar ? TINYGLTF_TYPE_SCALAR : static_cast<int>(components),
+                  (scalar ? "SCALAR" : "VEC" + std::to_string(components)).c_str(), place);
+    const auto convert = [components](const Decoder& decoder, const unsigned char* bytes) {
+        glm::dvec4 value(0.0);
+        for (std::size_t c = 0; c < components; ++c) {
+            value[static_cast<int>(c)] = decoder(bytes, c);
+        }
+        return value;
+    };
+    std::vector<double> numbers;
+    for (const glm::dvec4& value : readElements<glm::dvec4>(file, accessor, components, place, convert)) {
+        for (std::size_t c = 0; c < components; ++c) {
+            numbers.push_back(value[static_cast<int>(c)]);
+            if (!std::isfinite(numbers.back())) {
+                refuse(file, place + " holds " + toText(numbers.back()) + " in element " +
+                                 std::to_string((numbers.size() - 1) / components) + "; expected finite numbers");
+            }
+        }
+    }
+    return numbers;
+}
+
+std::vector<glm::dmat4> readMatrices(const GltfFile& file, std::size_t accessor, const std::string& use)
+{
+    const std::string place = placeOf(accessor, use);
+    checkAccessor(file, accessor, TINYGLTF_TYPE_MAT4, "MAT4", place);
+    if (file.model.accessors[accessor].componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {  // others have padding
+        refuse(file, place + ".componentType is " + std::to_string(file.model.accessors[accessor].componentType) +
+                         "; expected 5126 for matrices");
+    }
+    const auto convert = [](const Decoder& decoder, const unsigned char* bytes) {
+        glm::dmat4 matrix;
+        for (int i = 0; i < 16; ++i) {
+            matrix[i / 4][i % 4] = decoder(bytes, static_cast<std::size_t>(i));
+        }
+        return matrix;
+    };
+    return readElements<glm::dmat4>(file, accessor, 16, place, convert);
 }
 
 }  // namespace glim

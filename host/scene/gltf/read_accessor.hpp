@@ -6,13 +6,24 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <map>
 
 namespace glim {
 
 // `use` says what the accessor is for in messages: "POSITION of meshes[0].primitives[1]".
-// Value is glm::dvec3, glm::vec2 or glm::vec4; a vec4 may also come from VEC3, then with w = 1. Values may be NaN or infinite.
+// Value is glm::dvec3, glm::dvec4, glm::vec2 or glm::vec4; a vec4 may also come from VEC3, then with w = 1. Values may be NaN or infinite.
 template <class Value>
 std::vector<Value> readVectors(const GltfFile& file, std::size_t accessor, const std::string& use);
+
+// An attribute of a primitive or of a morph target; empty if there is none. `plural` says what it holds in messages: "normals".
+template <class Value>
+std::vector<Value> readAttribute(const GltfFile& file, const std::map<std::string, int>& attributes, const std::string& attribute,
+                                 const std::string& plural, std::size_t vertexCount, const std::string& place);
+
+// 1 to 4 finite numbers per element, one element after the other.
+std::vector<double> readNumbers(const GltfFile& file, std::size_t accessor, std::size_t components, const std::string& use);
+
+std::vector<glm::dmat4> readMatrices(const GltfFile& file, std::size_t accessor, const std::string& use);
 
 std::vector<std::uint32_t> readIndices(const GltfFile& file, std::size_t accessor, const std::string& use);
 

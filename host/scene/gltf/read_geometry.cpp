@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 
 namespace glim {
 namespace {
@@ -104,7 +105,8 @@ public:
     void finish();
 
 private:
-    void addInstances(const PlacedNode& node, int mesh);
+    void addInstances(const PlacedNode& node, std::size_t mesh);
+    const std::vector<std::uint32_t>& meshesOf(std::size_t node, std::size_t mesh);
     void countTriangles();
     Box computeBox() const;
     void checkVertices(std::size_t instance) const;
@@ -114,8 +116,9 @@ private:
     Scene& scene_;
     Warnings& warnings_;
     std::uint32_t defaultMaterial_;
-    std::map<int, std::vector<std::uint32_t>> meshes_;  // the scene's meshes by mesh of the file
-    std::vector<std::size_t> nodes_;                    // by instance
+    // The scene's meshes by mesh of the file, skin and weights of morph targets: nodes that agree in these share them.
+    std::map<std::tuple<std::size_t, int, std::vector<double>>, std::vector<std::uint32_t>> meshes_;
+    std::vector<std::size_t> nodes_;  // by instance
     std::vector<WorldSphere> spheres_;
     std::size_t triangles_ = 0, emptySpheres_ = 0;
 };
@@ -124,7 +127,7 @@ void GeometryReader::addNode(const PlacedNode& node)
 {
     const tinygltf::Node& source = file_.model.nodes[node.index];
     if (source.mesh >= 0) {
-        addInstances(node, source.mesh);
+        addInstances(node, static_cast<std::size_t>(source.mesh));
     }
     if (source.extras.IsObject() && source.extras.Has("sphere")) {
         WorldSphere sphere = readSphere(file_, node, defaultMaterial_);
@@ -136,19 +139,36 @@ void GeometryReader::addNode(const PlacedNode& node)
     }
 }
 
-void GeometryReader::addInstances(const PlacedNode& node, int mesh)
+const std::vector<std::uint32_t>& GeometryReader::meshesOf(std::size_t node, std::size_t mesh)
 {
-    if (meshes_.count(mesh) == 0) {
-        std::vector<std::uint32_t>& ids = meshes_[mesh];
-        for (Mesh& read : readMeshes(file_, static_cast<std::size_t>(mesh), warnings_)) {
-            ids.push_back(static_cast<std::uint32_t>(scene_.meshes.size()));
+    const int skin = file_.model.nodes[node].skin;
+    MeshPose pose;
+    pose.weights = morphWeightsOf(file_, node);
+    const auto [found, isNew] = meshes_.try_emplace({mesh, skin, pose.weights});
+    if (isNew) {
+        if (skin >= 0) {
+            pose.skin = static_cast<std::size_t>(skin);
+            pose.worldFromBind = placeJoints(file_, *pose.skin);
+        }
+        for (Mesh& read : readMeshes(file_, mesh, pose, warnings_)) {
+            found->second.push_back(static_cast<std::uint32_t>(scene_.meshes.size()));
             scene_.meshes.push_back(std::move(read));
         }
     }
-    readLinear(file_, node);  // refuses a singular one
-    for (const std::uint32_t id : meshes_[mesh]) {
-        const std::string& name = file_.model.nodes[node.index].name;
-        scene_.instances.push_back({name.empty() ? scene_.meshes[id].name : name, id, node.worldFromNode});
+    return found->second;
+}
+
+// glTF 2.0, section 3.7.3.3: a skinned mesh does not follow its node, only the skin's joints.
+void GeometryReader::addInstances(const PlacedNode& node, std::size_t mesh)
+{
+    const tinygltf::Node& source = file_.model.nodes[node.index];
+    const bool skinned = source.skin >= 0;
+    if (!skinned) {
+        readLinear(file_, node);  // refuses a singular one
+    }
+    for (const std::uint32_t id : meshesOf(node.index, mesh)) {
+        scene_.instances.push_back(
+            {source.name.empty() ? scene_.meshes[id].name : source.name, id, skinned ? glm::dmat4(1.0) : node.worldFromNode});
         nodes_.push_back(node.index);
     }
 }

@@ -2,6 +2,7 @@
 #include "host/scene/gltf/check_gltf_json.hpp"
 #include "host/scene/gltf/gltf_container.hpp"
 #include "host/scene/gltf/gltf_file.hpp"
+#include "host/scene/gltf/parse_model.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -174,70 +175,51 @@ std::vector<GltfTexture> listTextures(const json& document)
     return textures;
 }
 
-// tinygltf 2.7 refuses index accessors without a bufferView, though sparse ones may lack it. They borrow one while it parses. Returns the
-// borrowers.
-std::vector<std::size_t> lendBufferViews(json& document)
+std::vector<GltfSkin> listSkins(const json& document)
 {
-    std::vector<std::size_t> borrowers;
-    if (!document.contains("accessors")) {
-        return borrowers;
-    }
-    for (std::size_t i = 0; i < document["accessors"].size(); ++i) {
-        json& accessor = document["accessors"][i];
-        if (!accessor.contains("bufferView") && accessor.contains("sparse")) {
-            accessor["bufferView"] = accessor["sparse"]["indices"]["bufferView"];
-            borrowers.push_back(i);
+    std::vector<GltfSkin> skins;
+    for (const json& entry : document.value("skins", json::array())) {
+        GltfSkin skin{entry.value("name", ""), entry["joints"].get<std::vector<std::size_t>>(), std::nullopt};
+        if (entry.contains("inverseBindMatrices")) {
+            skin.inverseBindMatrices = entry["inverseBindMatrices"].get<std::size_t>();
         }
+        skins.push_back(std::move(skin));
     }
-    return borrowers;
+    return skins;
 }
 
-// tinygltf narrows whole numbers in extras and extensions to int.
-void widenIntegers(json& value)
+GltfAnimation listAnimation(const json& entry)
 {
-    if (value.is_number_integer()) {
-        value = value.get<double>();
-    } else if (value.is_structured()) {
-        for (json& member : value) {
-            widenIntegers(member);
-        }
+    GltfAnimation animation;
+    animation.name = entry.value("name", "");
+    for (const json& source : entry["samplers"]) {
+        const std::string interpolation = source.value("interpolation", "LINEAR");
+        animation.samplers.push_back({source["input"].get<std::size_t>(), source["output"].get<std::size_t>(),
+                                      interpolation == "STEP"     ? Interpolation::Step
+                                      : interpolation == "LINEAR" ? Interpolation::Linear
+                                                                  : Interpolation::CubicSpline});
     }
+    for (const json& source : entry["channels"]) {
+        const json& target = source["target"];
+        const std::string path = target["path"].get<std::string>();
+        GltfAnimation::Channel channel{source["sampler"].get<std::size_t>(), ""};
+        if (path == "pointer") {
+            channel.pointer = target.value(json::json_pointer("/extensions/KHR_animation_pointer/pointer"), "");
+        } else if (target.contains("node")) {
+            channel.pointer = "/nodes/" + target["node"].dump() + "/" + path;
+        }
+        animation.channels.push_back(std::move(channel));
+    }
+    return animation;
 }
 
-void widenMembers(json& document, const char* collection, const char* member)
+std::vector<GltfAnimation> listAnimations(const json& document)
 {
-    if (!document.contains(collection)) {
-        return;
+    std::vector<GltfAnimation> animations;
+    for (const json& entry : document.value("animations", json::array())) {
+        animations.push_back(listAnimation(entry));
     }
-    for (json& element : document[collection]) {
-        if (element.contains(member)) {
-            widenIntegers(element[member]);
-        }
-    }
-}
-
-// tinygltf gets nothing but checked JSON: it opens no file, decodes no image, and cannot stumble over what glim does not read. The JSON
-// is parsed twice, before the checks and again by tinygltf, because tinygltf accepts only text, checks little of it, and does not expose
-// the document that it has parsed.
-tinygltf::Model parseModel(const std::string& path, json document)
-{
-    for (const char* unread : {"buffers", "images", "textures", "samplers", "skins", "animations"}) {
-        document.erase(unread);
-    }
-    const std::vector<std::size_t> borrowers = lendBufferViews(document);
-    widenMembers(document, "materials", "extensions");
-    widenMembers(document, "nodes", "extras");
-    const std::string text = document.dump();
-    tinygltf::TinyGLTF parser;
-    tinygltf::Model model;
-    std::string error, warning;
-    if (!parser.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()), "")) {
-        throw InputError(path + ": not valid glTF: " + error.substr(0, error.find('\n')));
-    }
-    for (const std::size_t borrower : borrowers) {
-        model.accessors[borrower].bufferView = -1;
-    }
-    return model;
+    return animations;
 }
 
 }  // namespace
@@ -255,7 +237,14 @@ GltfFile readGltfFile(const std::filesystem::path& file)
     result.files = listFiles(path, document);
     result.images = listImages(document);
     result.textures = listTextures(document);
-    result.animated = document.contains("animations");
+    result.skins = listSkins(document);
+    result.animations = listAnimations(document);
+    for (const char* listed : {"buffers", "images", "textures", "samplers", "skins", "animations"}) {
+        document.erase(listed);
+    }
+    if (!result.animations.empty()) {
+        result.document = std::make_shared<const json>(document);
+    }
     result.model = parseModel(path, std::move(document));
     return result;
 }

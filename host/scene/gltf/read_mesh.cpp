@@ -74,24 +74,6 @@ void checkVertexCount(const GltfFile& file, std::size_t count, int mode, const s
     }
 }
 
-// Reads one value per position; none if the primitive does not have the attribute.
-template <class Value>
-std::vector<Value> readAttribute(const GltfFile& file, const tinygltf::Primitive& primitive, const char* attribute, const char* plural,
-                                 std::size_t vertexCount, const std::string& place)
-{
-    const auto found = primitive.attributes.find(attribute);
-    if (found == primitive.attributes.end()) {
-        return {};
-    }
-    const std::string use = attribute + (" of " + place);
-    std::vector<Value> values = readVectors<Value>(file, static_cast<std::size_t>(found->second), use);
-    if (values.size() != vertexCount) {
-        refuse(file, place + " has " + std::to_string(values.size()) + " " + plural + "; expected as many as its " +
-                         std::to_string(vertexCount) + " positions");
-    }
-    return values;
-}
-
 // KHR_materials_variants: the mapping that lists the variant, else the primitive's own.
 int materialOf(const GltfFile& file, const tinygltf::Primitive& primitive)
 {
@@ -122,8 +104,8 @@ std::vector<glm::vec2> readUvs(const GltfFile& file, const tinygltf::Primitive& 
                                const std::string& place)
 {
     const std::string attribute = "TEXCOORD_" + std::to_string(set);
-    return readAttribute<glm::vec2>(file, primitive, attribute.c_str(), ("texture coordinates of set " + std::to_string(set)).c_str(),
-                                    vertexCount, place);
+    return readAttribute<glm::vec2>(file, primitive.attributes, attribute, "texture coordinates of set " + std::to_string(set), vertexCount,
+                                    place);
 }
 
 std::optional<Mesh> readPrimitive(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& place, Warnings& warnings)
@@ -140,31 +122,29 @@ std::optional<Mesh> readPrimitive(const GltfFile& file, const tinygltf::Primitiv
     Mesh mesh;
     mesh.positions = readPositions(file, static_cast<std::size_t>(position->second), place);
     const std::size_t count = mesh.positions.size();
-    mesh.normals = readAttribute<glm::dvec3>(file, primitive, "NORMAL", "normals", count, place);
-    mesh.tangents = readAttribute<glm::vec4>(file, primitive, "TANGENT", "tangents", count, place);
+    mesh.normals = readAttribute<glm::dvec3>(file, primitive.attributes, "NORMAL", "normals", count, place);
+    mesh.tangents = readAttribute<glm::vec4>(file, primitive.attributes, "TANGENT", "tangents", count, place);
     const int material = materialOf(file, primitive);
     mesh.uv0 = readUvs(file, primitive, uvSetsOf(file, material)[0], count, place);
     mesh.uv1 = readUvs(file, primitive, uvSetsOf(file, material)[1], count, place);
-    mesh.colors = readAttribute<glm::vec4>(file, primitive, "COLOR_0", "vertex colours", count, place);
+    mesh.colors = readAttribute<glm::vec4>(file, primitive.attributes, "COLOR_0", "vertex colours", count, place);
     const std::vector<std::uint32_t> order = readVertexOrder(file, primitive, count, place);
     checkVertexCount(file, order.size(), primitive.mode, place);
     mesh.indices = listTriangles(order, primitive.mode);
     mesh.material = static_cast<std::uint32_t>(material < 0 ? static_cast<int>(file.model.materials.size()) : material);
-    if (!primitive.targets.empty()) {
-        warnings.add("morph targets are ignored", place);
-    }
     return mesh;
 }
 
 }  // namespace
 
-std::vector<Mesh> readMeshes(const GltfFile& file, std::size_t mesh, Warnings& warnings)
+std::vector<Mesh> readMeshes(const GltfFile& file, std::size_t mesh, const MeshPose& pose, Warnings& warnings)
 {
     const tinygltf::Mesh& source = file.model.meshes[mesh];
     std::vector<Mesh> meshes;
     for (std::size_t i = 0; i < source.primitives.size(); ++i) {
         const std::string place = label("meshes", mesh, source.name) + ".primitives[" + std::to_string(i) + "]";
         if (std::optional<Mesh> read = readPrimitive(file, source.primitives[i], place, warnings)) {
+            poseMesh(file, source.primitives[i], pose, place, *read, warnings);
             read->name = source.primitives.size() == 1 ? source.name : source.name + "." + std::to_string(i);
             meshes.push_back(std::move(*read));
         }

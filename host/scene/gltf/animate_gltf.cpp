@@ -1,0 +1,241 @@
+#include "host/scene/gltf/animate_gltf.hpp"
+
+#include "host/scene/gltf/check_gltf_json.hpp"
+#include "host/scene/gltf/gltf_schema.hpp"
+#include "host/scene/gltf/parse_model.hpp"
+#include "host/scene/gltf/read_accessor.hpp"
+#include "host/text.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <set>
+
+namespace glim {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kVisible = "nodes[].extensions.KHR_node_visibility.visible";
+
+// A pointer (RFC 6901) in steps: /nodes/3/scale is nodes, 3, scale. Names that glim reads need no unescaping.
+std::vector<std::string> split(const std::string& pointer)
+{
+    std::vector<std::string> steps;
+    for (std::size_t at = 0; at < pointer.size();) {
+        const std::size_t end = std::min(pointer.find('/', at + 1), pointer.size());
+        steps.push_back(pointer.substr(at + 1, end - at - 1));
+        at = end;
+    }
+    return steps;
+}
+
+bool isIndex(const std::string& step) { return !step.empty() && step.find_first_not_of("0123456789") == std::string::npos; }
+
+// The schema's path of a pointer: nodes[].scale.
+std::string pathOf(const std::vector<std::string>& steps)
+{
+    std::string path;
+    for (const std::string& step : steps) {
+        path += isIndex(step) ? "[]" : (path.empty() ? "" : ".") + step;
+    }
+    return path;
+}
+
+// A property that an animation changes.
+struct Property {
+    json* parent = nullptr;  // in the document
+    std::string name;        // in its parent: a member, or an index
+    bool array = false;      // of `width` numbers; else one number
+    bool boolean = false, rotation = false;
+    std::size_t width = 1;       // numbers per value
+    std::size_t components = 1;  // of the accessor's elements
+    double min = 0.0, max = 0.0;
+};
+
+class Animator {
+public:
+    Animator(const GltfFile& file, std::size_t animation, Warnings& warnings)
+        : file_(file),
+          animation_(file.animations[animation]),
+          place_(label("animations", animation, animation_.name)),
+          warnings_(warnings),
+          document_(*file.document)
+    {}
+
+    void apply(std::size_t channel, double seconds);
+    json takeDocument() { return std::move(document_); }
+
+private:
+    std::optional<Property> findProperty(const std::string& pointer, const std::string& place);
+    json* findParent(const std::vector<std::string>& steps);
+    void spellOutWeights(const std::vector<std::string>& steps, const std::string& place);
+    std::vector<double> readTimes(const GltfAnimation::Sampler& sampler) const;
+    Keyframes readKeyframes(const GltfAnimation::Sampler& sampler, const Property& property, const std::string& place) const;
+    void set(const Property& property, std::vector<double> value, const std::string& pointer);
+
+    const GltfFile& file_;
+    const GltfAnimation& animation_;
+    std::string place_;
+    Warnings& warnings_;
+    json document_;
+    std::set<std::string> targets_;  // pointers of the channels so far
+};
+
+// What holds the last step; null if the file does not have it.
+json* Animator::findParent(const std::vector<std::string>& steps)
+{
+    json* at = &document_;
+    for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
+        const bool element = at->is_array() && isIndex(steps[i]) && steps[i].size() < 10 && std::stoul(steps[i]) < at->size();
+        if (!element && !(at->is_object() && at->contains(steps[i]))) {
+            return nullptr;
+        }
+        at = element ? &(*at)[std::stoul(steps[i])] : &(*at)[steps[i]];
+    }
+    const std::string& last = steps.back();
+    const bool element = at->is_array() && isIndex(last) && last.size() < 10 && std::stoul(last) < at->size();
+    return element || (at->is_object() && !isIndex(last)) ? at : nullptr;
+}
+
+// Weights that the file leaves out are those of the mesh, or zeros.
+void Animator::spellOutWeights(const std::vector<std::string>& steps, const std::string& place)
+{
+    json* owner = findParent({steps[0], steps[1], "weights"});
+    if (owner == nullptr) {
+        return;
+    }
+    const bool isNode = steps[0] == "nodes";
+    const json* mesh = !isNode ? owner : owner->contains("mesh") ? &document_["meshes"][(*owner)["mesh"].get<std::size_t>()] : nullptr;
+    const json primitives = mesh == nullptr ? json::array() : (*mesh)["primitives"];
+    const std::size_t count = primitives.empty() ? 0 : primitives[0].value("targets", json::array()).size();
+    if (count == 0) {
+        refuse(file_, place + " animates the weights of " + steps[0] + "[" + steps[1] + "], which has no morph targets; expected some");
+    }
+    if (!owner->contains("weights")) {
+        (*owner)["weights"] = mesh->value("weights", json(std::vector<double>(count, 0.0)));
+    }
+}
+
+std::optional<Property> Animator::findProperty(const std::string& pointer, const std::string& place)
+{
+    const std::vector<std::string> steps = split(pointer);
+    const std::string path = pathOf(steps);
+    const bool allWeights = path == "nodes[].weights" || path == "meshes[].weights";
+    const SchemaRule* rule = findRule(allWeights ? path + "[]" : path);
+    const bool vector = rule != nullptr && rule->kind == JsonKind::Numbers && rule->count <= 4;
+    if (rule == nullptr || !(vector || rule->kind == JsonKind::Number || path == kVisible)) {
+        warnings_.add("animations of what glim does not draw are ignored", pointer);
+        return std::nullopt;
+    }
+    if (allWeights || path == "nodes[].weights[]" || path == "meshes[].weights[]") {
+        spellOutWeights(steps, place);
+    }
+    Property property{findParent(steps), steps.back(), allWeights || vector, path == kVisible};
+    if (property.parent == nullptr) {
+        refuse(file_, place + " points to " + pointer + "; expected a property that the file has");
+    }
+    if (steps[0] == "nodes" && steps.size() == 3 && property.parent->contains("matrix")) {
+        refuse(file_, place + " animates " + pointer + " of a node with a matrix; expected translation, rotation and scale");
+    }
+    property.rotation = vector && rule->count == 4 && steps.back() == "rotation";
+    property.components = vector ? rule->count : 1;
+    property.width = allWeights ? (*property.parent)["weights"].size() : property.components;
+    property.min = rule->min;
+    property.max = rule->max;
+    return property;
+}
+
+std::vector<double> Animator::readTimes(const GltfAnimation::Sampler& sampler) const
+{
+    const std::string use = "times of " + place_;
+    std::vector<double> times = readNumbers(file_, sampler.input, 1, use);
+    for (std::size_t i = 1; i < times.size(); ++i) {
+        if (!(times[i] > times[i - 1])) {
+            refuse(file_, "accessors[" + std::to_string(sampler.input) + "] (" + use + ") holds " + toText(times[i]) + " after " +
+                              toText(times[i - 1]) + " in element " + std::to_string(i) + "; expected increasing times");
+        }
+    }
+    return times;
+}
+
+Keyframes Animator::readKeyframes(const GltfAnimation::Sampler& sampler, const Property& property, const std::string& place) const
+{
+    Keyframes keyframes{sampler.interpolation, property.rotation, property.width, readTimes(sampler)};
+    keyframes.values = readNumbers(file_, sampler.output, property.components, "values of " + place);
+    const std::size_t perKey = property.width * (sampler.interpolation == Interpolation::CubicSpline ? 3 : 1);
+    if (keyframes.values.size() != keyframes.times.size() * perKey) {
+        refuse(file_, place + " has " + counted(keyframes.values.size() / property.components, "value") + " for " +
+                          counted(keyframes.times.size(), "time") + "; expected " +
+                          std::to_string(keyframes.times.size() * perKey / property.components));
+    }
+    if (property.boolean && sampler.interpolation != Interpolation::Step) {
+        refuse(file_, place + " interpolates what is true or false; expected STEP");
+    }
+    return keyframes;
+}
+
+void Animator::set(const Property& property, std::vector<double> value, const std::string& pointer)
+{
+    for (double& number : value) {
+        const double clamped = std::clamp(number, property.min, property.max);
+        if (clamped != number) {
+            warnings_.add("animated values outside the range of their property are clamped", pointer);
+            number = clamped;
+        }
+    }
+    json& target = property.parent->is_array() ? (*property.parent)[std::stoul(property.name)] : (*property.parent)[property.name];
+    if (property.boolean) {
+        target = value[0] != 0.0;
+    } else if (property.array) {
+        target = value;
+    } else {
+        target = value[0];
+    }
+}
+
+void Animator::apply(std::size_t channel, double seconds)
+{
+    const auto& [sampler, pointer] = animation_.channels[channel];
+    const std::string place = place_ + ".channels[" + std::to_string(channel) + "]";
+    if (sampler >= animation_.samplers.size()) {
+        refuse(file_,
+               place + ".sampler is " + std::to_string(sampler) + "; expected one below " + std::to_string(animation_.samplers.size()));
+    }
+    if (pointer.empty()) {
+        return;
+    }
+    if (!targets_.insert(pointer).second) {
+        refuse(file_, place + " animates " + pointer + ", as another channel does; expected one channel for each property");
+    }
+    if (const std::optional<Property> property = findProperty(pointer, place)) {
+        set(*property, valueAt(readKeyframes(animation_.samplers[sampler], *property, place), seconds), pointer);
+    }
+}
+
+}  // namespace
+
+double durationOf(const GltfFile& file, std::size_t animation)
+{
+    const GltfAnimation& source = file.animations[animation];
+    std::set<std::size_t> inputs;
+    for (const GltfAnimation::Sampler& sampler : source.samplers) {
+        inputs.insert(sampler.input);
+    }
+    double duration = 0.0;
+    for (const std::size_t input : inputs) {
+        duration = std::max(duration, readNumbers(file, input, 1, "times of " + label("animations", animation, source.name)).back());
+    }
+    return duration;
+}
+
+void animateGltf(GltfFile& file, std::size_t animation, double seconds, Warnings& warnings)
+{
+    Animator animator(file, animation, warnings);
+    for (std::size_t i = 0; i < file.animations[animation].channels.size(); ++i) {
+        animator.apply(i, seconds);
+    }
+    file.model = parseModel(file.path, animator.takeDocument());
+}
+
+}  // namespace glim

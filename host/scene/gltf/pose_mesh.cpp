@@ -1,0 +1,182 @@
+#include "host/scene/gltf/pose_mesh.hpp"
+
+#include "host/scene/deform_mesh.hpp"
+#include "host/scene/gltf/place_nodes.hpp"
+#include "host/scene/gltf/read_accessor.hpp"
+#include "host/text.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glim {
+namespace {
+
+// How far a vertex's weights may add up to something else than 1, and how far a matrix may be from affine: both are rounded in files.
+constexpr double kWeightRounding = 1e-3;
+constexpr double kAffineRounding = 1e-5;
+
+std::string skinLabel(const GltfFile& file, std::size_t skin) { return label("skins", skin, file.skins[skin].name); }
+
+std::vector<glm::dmat4> readBindMatrices(const GltfFile& file, std::size_t index)
+{
+    const GltfSkin& skin = file.skins[index];
+    if (!skin.inverseBindMatrices) {
+        return std::vector<glm::dmat4>(skin.joints.size(), glm::dmat4(1.0));
+    }
+    const std::string use = "inverseBindMatrices of " + skinLabel(file, index);
+    std::vector<glm::dmat4> matrices = readMatrices(file, *skin.inverseBindMatrices, use);
+    if (matrices.size() < skin.joints.size()) {
+        refuse(file, skinLabel(file, index) + " has " + std::to_string(matrices.size()) +
+                         " inverseBindMatrices; expected one for each of its " + std::to_string(skin.joints.size()) + " joints");
+    }
+    for (std::size_t i = 0; i < skin.joints.size(); ++i) {
+        const glm::dvec4 row = glm::transpose(matrices[i])[3];
+        if (!(glm::length(row - glm::dvec4(0, 0, 0, 1)) <= kAffineRounding)) {
+            refuse(file, use + " hold the last row " + toText(row.x) + " " + toText(row.y) + " " + toText(row.z) + " " + toText(row.w) +
+                             " in element " + std::to_string(i) + "; expected 0 0 0 1");
+        }
+    }
+    return matrices;
+}
+
+std::size_t countSets(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& place)
+{
+    std::size_t sets = 0;
+    for (;; ++sets) {
+        const std::string joints = "JOINTS_" + std::to_string(sets), weights = "WEIGHTS_" + std::to_string(sets);
+        const bool hasJoints = primitive.attributes.count(joints) > 0, hasWeights = primitive.attributes.count(weights) > 0;
+        if (hasJoints != hasWeights) {
+            refuse(file,
+                   place + " has " + (hasJoints ? joints : weights) + " without " + (hasJoints ? weights : joints) + "; expected both");
+        }
+        if (!hasJoints) {
+            break;
+        }
+    }
+    if (sets == 0) {
+        refuse(file, place + " has no JOINTS_0, though a node gives it a skin; expected joints and weights");
+    }
+    return sets;
+}
+
+void checkInfluence(const GltfFile& file, const GltfSkin& skin, double joint, double weight, const std::string& where)
+{
+    if (!(weight >= 0.0 && std::isfinite(weight))) {
+        refuse(file, where + " has a joint of weight " + toText(weight) + "; expected weights from 0");
+    }
+    if (weight > 0.0 && !(joint >= 0.0 && joint < static_cast<double>(skin.joints.size()) && joint == std::floor(joint))) {
+        refuse(file, where + " follows joint " + toText(joint) + "; expected one below " + std::to_string(skin.joints.size()));
+    }
+}
+
+// Makes the weights of a vertex add up to 1. A vertex without any follows its first joint. Returns whether it had to.
+bool normalizeWeights(Influences& influences, std::size_t vertex)
+{
+    const auto begin = influences.weights.begin() + static_cast<std::ptrdiff_t>(vertex * influences.perVertex);
+    const auto end = begin + static_cast<std::ptrdiff_t>(influences.perVertex);
+    double sum = 0.0;
+    std::for_each(begin, end, [&sum](double weight) { sum += weight; });
+    if (std::abs(sum - 1.0) <= kWeightRounding) {
+        return false;
+    }
+    if (sum == 0.0) {
+        *begin = sum = 1.0;
+    }
+    std::for_each(begin, end, [sum](double& weight) { weight /= sum; });
+    return true;
+}
+
+Influences readInfluences(const GltfFile& file, const tinygltf::Primitive& primitive, const GltfSkin& skin, std::size_t vertexCount,
+                          const std::string& place, Warnings& warnings)
+{
+    const std::size_t sets = countSets(file, primitive, place);
+    Influences influences;
+    influences.perVertex = 4 * sets;
+    influences.joints.resize(vertexCount * influences.perVertex);
+    influences.weights.resize(vertexCount * influences.perVertex);
+    for (std::size_t set = 0; set < sets; ++set) {
+        const std::string number = std::to_string(set);
+        const auto joints = readAttribute<glm::dvec4>(file, primitive.attributes, "JOINTS_" + number, "joints", vertexCount, place);
+        const auto weights = readAttribute<glm::dvec4>(file, primitive.attributes, "WEIGHTS_" + number, "weights", vertexCount, place);
+        for (std::size_t i = 0; i < vertexCount; ++i) {
+            for (int c = 0; c < 4; ++c) {
+                checkInfluence(file, skin, joints[i][c], weights[i][c], "vertex " + std::to_string(i) + " of " + place);
+                const std::size_t at = i * influences.perVertex + 4 * set + static_cast<std::size_t>(c);
+                influences.joints[at] = weights[i][c] > 0.0 ? static_cast<std::uint32_t>(joints[i][c]) : 0U;
+                influences.weights[at] = weights[i][c];
+            }
+        }
+    }
+    bool normalized = false;
+    for (std::size_t i = 0; i < vertexCount; ++i) {
+        normalized = normalizeWeights(influences, i) || normalized;
+    }
+    if (normalized) {
+        warnings.add("weights of joints that do not add up to 1 are normalised", place);
+    }
+    return influences;
+}
+
+// Those of weight 0 are not read.
+std::vector<MorphTarget> readMorphTargets(const GltfFile& file, const tinygltf::Primitive& primitive, const std::vector<double>& weights,
+                                          std::size_t vertexCount, const std::string& place, Warnings& warnings)
+{
+    if (primitive.targets.size() != weights.size()) {
+        refuse(file, place + " has " + counted(primitive.targets.size(), "morph target") + " and " + counted(weights.size(), "weight") +
+                         "; expected as many of both");
+    }
+    std::vector<MorphTarget> targets;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        if (weights[i] == 0.0) {
+            continue;
+        }
+        const std::string targetPlace = place + ".targets[" + std::to_string(i) + "]";
+        const auto read = [&](const char* attribute, const char* plural) {
+            return readAttribute<glm::dvec3>(file, primitive.targets[i], attribute, plural, vertexCount, targetPlace);
+        };
+        targets.push_back({weights[i], read("POSITION", "positions"), read("NORMAL", "normals"), read("TANGENT", "tangents")});
+        for (const auto& [attribute, accessor] : primitive.targets[i]) {
+            if (attribute != "POSITION" && attribute != "NORMAL" && attribute != "TANGENT") {
+                warnings.add("morph targets move positions, normals and tangents only", attribute + " of " + targetPlace);
+            }
+        }
+    }
+    return targets;
+}
+
+}  // namespace
+
+std::vector<double> morphWeightsOf(const GltfFile& file, std::size_t node)
+{
+    const tinygltf::Node& source = file.model.nodes[node];
+    std::vector<double> weights = source.weights;
+    if (weights.empty() && source.mesh >= 0) {
+        weights = file.model.meshes[static_cast<std::size_t>(source.mesh)].weights;
+    }
+    return std::ranges::all_of(weights, [](double weight) { return weight == 0.0; }) ? std::vector<double>() : weights;
+}
+
+std::vector<glm::dmat4> placeJoints(const GltfFile& file, std::size_t skin)
+{
+    std::vector<glm::dmat4> matrices = readBindMatrices(file, skin);
+    const std::vector<glm::dmat4> worldFromJoint = worldFromNodes(file, file.skins[skin].joints);
+    for (std::size_t i = 0; i < worldFromJoint.size(); ++i) {
+        matrices[i] = worldFromJoint[i] * matrices[i];
+    }
+    return matrices;
+}
+
+void poseMesh(const GltfFile& file, const tinygltf::Primitive& primitive, const MeshPose& pose, const std::string& place, Mesh& mesh,
+              Warnings& warnings)
+{
+    const std::size_t vertexCount = mesh.positions.size();
+    if (!pose.weights.empty()) {
+        morphMesh(mesh, readMorphTargets(file, primitive, pose.weights, vertexCount, place, warnings));
+    }
+    if (pose.skin) {
+        const Influences influences = readInfluences(file, primitive, file.skins[*pose.skin], vertexCount, place, warnings);
+        skinMesh(mesh, influences, pose.worldFromBind);
+    }
+}
+
+}  // namespace glim
