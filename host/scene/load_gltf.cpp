@@ -51,7 +51,8 @@ std::size_t countMorphTargets(const GltfFile& file)
 
 std::string describeAnimation(const std::vector<Animation>& animations, std::size_t index)
 {
-    return std::to_string(index) + " (\"" + animations[index].name + "\", " + toText(animations[index].duration) + " s)";
+    const std::string& name = animations[index].name;
+    return std::to_string(index) + " (" + (name.empty() ? "" : "\"" + name + "\", ") + toText(animations[index].duration) + " s)";
 }
 
 std::size_t findAnimation(const GltfFile& file, const std::vector<Animation>& animations, const std::string& choice)

@@ -36,10 +36,10 @@ struct AnimatedTriangle : GltfBuilder {
                     const char* interpolation = "LINEAR")
     {
         const std::size_t width = std::string(type) == "SCALAR" ? 1 : static_cast<std::size_t>(type[3] - '0');
-        addChannel(target, times, addAccessor(toBytes(values), kFloat, type, values.size() / width), interpolation);
+        connect(target, times, addAccessor(toBytes(values), kFloat, type, values.size() / width), interpolation);
     }
 
-    void addChannel(const json& target, const std::vector<float>& times, std::size_t values, const char* interpolation)
+    void connect(const json& target, const std::vector<float>& times, std::size_t values, const char* interpolation)
     {
         json& animation = document["animations"].back();
         const std::size_t input = addAccessor(toBytes(times), kFloat, "SCALAR", times.size());
@@ -156,7 +156,7 @@ TEST(GltfAnimation, RotationsMayBeBytes)
     AnimatedTriangle builder;
     const std::size_t values = builder.addAccessor({0, 0, 0, 127, 0, 0, 127, 0}, kByte, "VEC4", 2);
     builder.document["accessors"][values]["normalized"] = true;
-    builder.addChannel(nodeTarget("rotation"), {0, 1}, values, "LINEAR");
+    builder.connect(nodeTarget("rotation"), {0, 1}, values, "LINEAR");
     expectNear(vertex(loadAt(builder, 0.5), 1), {0, 1, 0});
 }
 
@@ -180,7 +180,7 @@ TEST(GltfAnimation, PointsToVisibility)
     AnimatedTriangle builder;
     builder.addNode({{"mesh", 0}, {"extensions", {{"KHR_node_visibility", {{"visible", true}}}}}});
     const std::size_t values = builder.addAccessor({1, 0}, kUnsignedByte, "SCALAR", 2);
-    builder.addChannel(pointerTarget("/nodes/1/extensions/KHR_node_visibility/visible"), {0, 1}, values, "STEP");
+    builder.connect(pointerTarget("/nodes/1/extensions/KHR_node_visibility/visible"), {0, 1}, values, "STEP");
     EXPECT_EQ(loadAt(builder, 0.5).instances.size(), 2U);
     EXPECT_EQ(loadAt(builder, 1.0).instances.size(), 1U);
     EXPECT_EQ(load(builder).instances.size(), 2U);
@@ -252,14 +252,14 @@ TEST(GltfAnimation, SaysWhatItDoesNotAnimate)
     builder.document["materials"] = json::array({{{"occlusionTexture", {{"index", 0}}}}});
     builder.document["textures"] = json::array({json::object()});
     for (const char* pointer : {"/materials/0/occlusionTexture/strength", "/asset/generator", "/nodes/0/matrix", "/materials/0/doubleSided",
-                                "/accessors/0/normalized", "", "x", "/"}) {
+                                "/accessors/0/normalized", "", "x", "/", "xnodes/0/scale"}) {
         builder.addChannel(pointerTarget(pointer), {0}, {1}, "SCALAR", "STEP");
     }
     builder.addChannel({{"path", "translation"}}, {0}, {9, 9, 9}, "VEC3");  // no node: nothing
     const Scene scene = loadAt(builder, 0.0);
     EXPECT_TRUE(warns(scene,
                       "animations of what glim does not draw are ignored: /materials/0/occlusionTexture/strength, /asset/generator, "
-                      "/nodes/0/matrix and 4 more"));
+                      "/nodes/0/matrix and 5 more"));
     expectNear(vertex(scene, 0), {0, 0, 0});
 }
 

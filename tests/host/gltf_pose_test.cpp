@@ -112,9 +112,9 @@ TEST(GltfPose, TwoJointsAreBlended)
 TEST(GltfPose, AVertexMayFollowEightJoints)
 {
     SkinnedTriangle builder({{0.5F, 0.125F, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, {0.25F, 0.125F, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}});
-    builder.finish({{"translation", {4, 0, 0}}}, {{"translation", {0, 8, 0}}});
+    builder.finish({{"translation", {4, 0, 0}}}, {{"translation", {0, 8, 1}}});
     const Scene scene = load(builder);
-    expectNear(vertex(scene, 0), {3, 2, 0});
+    expectNear(vertex(scene, 0), {3, 2, 0.25});
     expectNear(vertex(scene, 1), {5, 0, 0});
 }
 
@@ -335,7 +335,7 @@ TEST(GltfPose, RefusesBrokenMorphTargets)
     target["POSITION"] = 77;
     expectRefusal(builder, "meshes[0].primitives[0].targets[0].POSITION is 77; expected an index into accessors");
     target["POSITION"] = builder.addVec3({0, 0, NAN, 0, 0, 0, 0, 0, 0});
-    expectRefusal(builder, "nodes[0] places a point at 0 0 nan; expected coordinates that fit a float");
+    expectRefusal(builder, "nodes[0] places a point at nan nan nan; expected coordinates that fit a float");
 }
 
 }  // namespace

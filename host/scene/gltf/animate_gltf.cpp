@@ -22,7 +22,7 @@ constexpr const char* kVisible = "nodes[].extensions.KHR_node_visibility.visible
 std::vector<std::string> split(const std::string& pointer)
 {
     std::vector<std::string> steps;
-    for (std::size_t at = 0; at < pointer.size();) {
+    for (std::size_t at = 0; at < pointer.size() && pointer[at] == '/';) {
         const std::size_t end = std::min(pointer.find('/', at + 1), pointer.size());
         steps.push_back(pointer.substr(at + 1, end - at - 1));
         at = end;
@@ -31,6 +31,16 @@ std::vector<std::string> split(const std::string& pointer)
 }
 
 bool isIndex(const std::string& step) { return !step.empty() && step.find_first_not_of("0123456789") == std::string::npos; }
+
+// Null if there is no such member or element.
+json* follow(json& at, const std::string& step)
+{
+    constexpr std::size_t kMostDigits = 9;
+    if (at.is_array() && isIndex(step) && step.size() <= kMostDigits && std::stoul(step) < at.size()) {
+        return &at[std::stoul(step)];
+    }
+    return at.is_object() && at.contains(step) ? &at[step] : nullptr;
+}
 
 // The schema's path of a pointer: nodes[].scale.
 std::string pathOf(const std::vector<std::string>& steps)
@@ -87,15 +97,13 @@ json* Animator::findParent(const std::vector<std::string>& steps)
 {
     json* at = &document_;
     for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
-        const bool element = at->is_array() && isIndex(steps[i]) && steps[i].size() < 10 && std::stoul(steps[i]) < at->size();
-        if (!element && !(at->is_object() && at->contains(steps[i]))) {
+        at = follow(*at, steps[i]);
+        if (at == nullptr) {
             return nullptr;
         }
-        at = element ? &(*at)[std::stoul(steps[i])] : &(*at)[steps[i]];
     }
-    const std::string& last = steps.back();
-    const bool element = at->is_array() && isIndex(last) && last.size() < 10 && std::stoul(last) < at->size();
-    return element || (at->is_object() && !isIndex(last)) ? at : nullptr;
+    const bool hasRoom = at->is_object() || follow(*at, steps.back()) != nullptr;  // a member may be left out, an element may not
+    return hasRoom ? at : nullptr;
 }
 
 // Weights that the file leaves out are those of the mesh, or zeros.
