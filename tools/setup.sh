@@ -20,6 +20,8 @@ buildPackages=(
     "libpng-dev                reads and writes PNG"
     "libjpeg62-turbo-dev       reads JPEG"
     "libwebp-dev               reads WebP"
+    "libdraco-dev              reads compressed meshes"
+    "libmeshoptimizer-dev      reads compressed meshes of another kind"
     "libcli11-dev              reads the command line"
     "libglfw3-dev              opens the preview's window"
     "libstb-dev                draws the preview's text"
