@@ -9,9 +9,8 @@
 
 namespace glim {
 
-// More bytes or elements than this for each compressed byte are refused before memory is asked for them. What the formats can reach: 64
-// (the first bitstream of meshopt) and 1024 (its second, where two bits stand for 256 bytes); Draco's has no limit, but flat grids stay
-// below 1000.
+// More bytes or elements than this for each compressed byte are refused before memory is asked for them. The bitstreams of meshopt cannot
+// reach more than 64 (the first one) or 1024 (the second, where two bits can stand for 256 bytes).
 constexpr std::uint64_t kMaxCompression = 1024;
 
 // EXT_meshopt_compression and KHR_meshopt_compression, as far as libmeshoptimizer knows their bitstreams. What a fallback holds is not
