@@ -17,7 +17,7 @@ Scene hillsIn(const AddGeometry& add)
 
 TEST(CompressedScene, EqualContainersGiveEqualFilms)
 {
-    const RenderSettings settings = squareSettings(32, 16);
+    const RenderSettings settings = squareSettings(16, 256);
     const Film plain = renderScene(hillsIn(addPlain), settings);
     EXPECT_TRUE(sameBits(renderScene(hillsIn(meshopt("INDICES")), settings), plain));
     EXPECT_TRUE(sameBits(renderScene(hillsIn(draco({.edgebreaker = false})), settings), plain));
