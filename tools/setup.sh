@@ -20,6 +20,8 @@ buildPackages=(
     "libpng-dev                reads and writes PNG"
     "libjpeg62-turbo-dev       reads JPEG"
     "libwebp-dev               reads WebP"
+    "libdraco-dev              reads compressed meshes"
+    "libmeshoptimizer-dev      reads compressed meshes of another kind"
     "libcli11-dev              reads the command line"
     "libglfw3-dev              opens the preview's window"
     "libstb-dev                draws the preview's text"
@@ -41,6 +43,7 @@ testPackages=(
     "x11-xserver-utils         tells it how dense its pixels are"
     "xdotool                   presses its keys and moves its mouse"
     "xauth                     lets a session by hand on it (xvfb-run)"
+    "python3-venv              installs what the test of tools/to_gltf needs"
     "${studyPackages[@]}"
     "${formatPackages[@]}"
 )

@@ -3,6 +3,7 @@
 #include "host/cli/picture_options.hpp"
 #include "host/json.hpp"
 #include "host/render/prepare_scene.hpp"
+#include "host/text.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -92,6 +93,11 @@ Counts lobesOf(const FlatScene& flat)
     return counts;
 }
 
+std::size_t singleSided(const Scene& scene)
+{
+    return static_cast<std::size_t>(std::ranges::count(scene.materials, false, &Material::doubleSided));
+}
+
 Json texturesOf(const PreparedScene& prepared)
 {
     Json textures = Json::array();
@@ -158,6 +164,7 @@ void printJson(const InspectOptions& options, const PreparedScene& prepared)
                        {"deviceBytes", sizeInBytes(prepared.flat)},
                        {"textureBytes", textureBytes(prepared.flat)},
                        {"lobes", objectOf(lobesOf(prepared.flat))},
+                       {"singleSided", singleSided(prepared.scene)},
                        {"textures", texturesOf(prepared)},
                        {"environment", environmentOf(prepared)},
                        {"media", mediaOf(prepared)},
@@ -194,6 +201,9 @@ void printLooks(const PreparedScene& prepared)
         separator = ", ";
     }
     std::cout << '\n';
+    if (const std::size_t count = singleSided(prepared.scene); count > 0) {
+        std::cout << "  single-sided: " << counted(count, "material") << "; back faces are drawn too, but emit nothing\n";
+    }
     for (std::size_t i = 0; i < prepared.scene.images.size(); ++i) {
         const TextureImage& image = prepared.scene.images[i];
         const std::uint64_t bytes = prepared.flat.imageBytes[i];

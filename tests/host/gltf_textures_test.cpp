@@ -273,12 +273,13 @@ TEST(GltfTextures, RequiredExtensionsAreRefusedIfContentMayBeMissing)
         builder.document["extensionsUsed"] = {extension};
         return builder;
     };
-    for (const char* extension : {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_texture_basisu", "EXT_texture_avif",
-                                  "MSFT_texture_dds", "EXT_mesh_gpu_instancing", "KHR_gaussian_splatting", "VENDOR_unknown"}) {
+    for (const char* extension : {"KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds", "EXT_mesh_gpu_instancing",
+                                  "KHR_gaussian_splatting", "VENDOR_unknown"}) {
         EXPECT_NE(refusal(require(extension)).find(std::string("extensionsRequired names ") + extension + ", without which"),
                   std::string::npos);
     }
-    for (const char* extension : {"KHR_materials_unlit", "KHR_node_visibility", "KHR_mesh_quantization"}) {
+    for (const char* extension :
+         {"KHR_materials_unlit", "KHR_node_visibility", "KHR_mesh_quantization", "KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
         EXPECT_FALSE(mentions(load(require(extension)).warnings, extension)) << "supported";
     }
     for (const char* extension :
@@ -288,6 +289,14 @@ TEST(GltfTextures, RequiredExtensionsAreRefusedIfContentMayBeMissing)
     for (const char* extension : {"EXT_lights_ies", "KHR_lights_area"}) {
         EXPECT_TRUE(mentions(load(require(extension)).warnings, std::string("extensions are ignored: ") + extension));
     }
+}
+
+TEST(GltfTextures, RequiredExtensionsOfMaterialsAreSaidToBeIgnored)
+{
+    GltfBuilder builder = texturedTriangle({{"uri", base64Uri("image/png", redPng())}});
+    builder.document["extensionsRequired"] = {"KHR_materials_to_come"};
+    builder.document["materials"][0]["extensions"]["KHR_materials_to_come"] = {{"glow", 1}};
+    EXPECT_TRUE(mentions(load(builder).warnings, "KHR_materials_to_come is ignored: materials[0]"));
 }
 
 TEST(GltfTextures, ScatteringWithinSolidsIsSaidToBeIgnored)

@@ -110,6 +110,30 @@ TEST(LoadGltf, AppliesParentsAfterChildren)
     EXPECT_EQ(vertex(load(builder), 0, 1), glm::vec3(20, 0, 5));
 }
 
+TEST(LoadGltf, RootsBelowNodesOutsideTheSceneAreDrawnWithoutThem)
+{
+    GltfBuilder builder = oneTriangle({{"name", "leaf"}, {"translation", {1, 0, 0}}});
+    builder.append("nodes", {{"children", {0}}, {"translation", {0, 7, 0}}});
+    for (const bool inAnotherScene : {false, true}) {
+        if (inAnotherScene) {
+            builder.document["scenes"].push_back({{"nodes", {1}}});
+        }
+        const Scene scene = load(builder);
+        EXPECT_EQ(vertex(scene, 0, 0), glm::vec3(1, 0, 0));
+        EXPECT_TRUE(hasWarning(scene.warnings,
+                               "roots of the scene are drawn without the transforms of their parents, which the scene does not "
+                               "hold: nodes[0] (\"leaf\")"));
+    }
+    LoadOptions other;
+    other.scene = 1;
+    EXPECT_EQ(vertex(load(builder, other), 0, 0), glm::vec3(1, 7, 0));
+    EXPECT_FALSE(hasWarning(load(builder, other).warnings, "roots of the scene"));
+    EXPECT_FALSE(hasWarning(load(oneTriangle()).warnings, "roots of the scene"));
+    builder.document["scenes"][0]["nodes"] = {0, 1};
+    EXPECT_NE(refusal(builder).find("nodes[0] (\"leaf\") is met twice in its scene, as a root or below one; expected it once"),
+              std::string::npos);
+}
+
 TEST(LoadGltf, ReadsHierarchiesDeeperThanTheCallStack)
 {
     GltfBuilder builder;

@@ -106,6 +106,19 @@ TEST_F(LooksTest, InspectListsLobesTexturesEnvironmentAndMedia)
     EXPECT_TRUE(contains(run({"inspect", "scene.gltf"}).out, "  medium 1: index 1.5, absorption (0.693, 0, 0) per metre\n"));
 }
 
+TEST_F(LooksTest, InspectSaysWhatBecomesOfSingleSidedMaterials)
+{
+    writeBall();
+    EXPECT_EQ(json::parse(run({"inspect", "scene.gltf", "--json"}).out).at("singleSided"), 1);
+    const char* line = "  single-sided: 1 material; back faces are drawn too, but emit nothing\n";
+    EXPECT_TRUE(contains(run({"inspect", "scene.gltf"}).out, line));
+    json document = jsonIn("scene.gltf");
+    document["materials"][0]["doubleSided"] = true;
+    writeText(folder_ / "scene.gltf", document.dump());
+    EXPECT_EQ(json::parse(run({"inspect", "scene.gltf", "--json"}).out).at("singleSided"), 0);
+    EXPECT_FALSE(contains(run({"inspect", "scene.gltf"}).out, "single-sided"));
+}
+
 TEST_F(LooksTest, ReplaysShowMaterialsAndLobes)
 {
     writeCoated();

@@ -89,6 +89,7 @@ std::string GltfBuilder::toGltf() const
     if (!bytes_.empty()) {
         copy["buffers"] =
             json::array({{{"byteLength", bytes_.size()}, {"uri", "data:application/octet-stream;base64," + toBase64(bytes_)}}});
+        copy["buffers"].insert(copy["buffers"].end(), otherBuffers.begin(), otherBuffers.end());
     }
     return copy.dump();
 }
@@ -97,6 +98,7 @@ std::string GltfBuilder::toGlb() const
 {
     json copy = document;
     copy["buffers"] = json::array({{{"byteLength", bytes_.size()}}});
+    copy["buffers"].insert(copy["buffers"].end(), otherBuffers.begin(), otherBuffers.end());
     std::string text = copy.dump();
     text.resize((text.size() + 3) / 4 * 4, ' ');
     std::string binary(bytes_.begin(), bytes_.end());

@@ -44,6 +44,7 @@ public:
     const Bytes& bytes() const { return bytes_; }
 
     nlohmann::json document;
+    nlohmann::json otherBuffers = nlohmann::json::array();  // after the one that grows
 
 private:
     Bytes bytes_;

@@ -40,9 +40,9 @@ def look_at(eye, target, up=(0.0, 1.0, 0.0)):
 
 
 class Document:
-    def __init__(self):
+    def __init__(self, generator="glim tools/make_scenes.py"):
         self.json = {
-            "asset": {"version": "2.0", "generator": "glim tools/make_scenes.py"},
+            "asset": {"version": "2.0", "generator": generator},
             "scene": 0,
             "scenes": [{"nodes": []}],
             "nodes": [],

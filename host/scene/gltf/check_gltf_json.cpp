@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <span>
 #include <string_view>
 
 namespace glim {
@@ -17,8 +18,10 @@ using nlohmann::json;
 
 constexpr const char* kSupportedExtensions[] = {
     "EXT_lights_image_based",
+    "EXT_meshopt_compression",
     "EXT_texture_webp",
     "KHR_animation_pointer",
+    "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",
@@ -35,6 +38,7 @@ constexpr const char* kSupportedExtensions[] = {
     "KHR_materials_variants",
     "KHR_materials_volume",
     "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
     "KHR_node_visibility",
     "KHR_texture_transform",
 };
@@ -75,6 +79,15 @@ public:
     {}
 
     void apply(const SchemaRule& rule) const { visit(rule, rule.path, document_, ""); }
+    // Rules whose paths begin at `place`.
+    void applyAt(const std::string& place, std::span<const SchemaRule> rules) const
+    {
+        for (SchemaRule rule : rules) {
+            const std::string path = place + rule.path;
+            rule.path = path.c_str();
+            apply(rule);
+        }
+    }
 
 private:
     void require(bool right, const std::string& place, const json& value, const std::string& expected) const
@@ -245,12 +258,12 @@ void checkGltfJson(const std::string& path, const json& document)
     for (const SchemaRule& rule : kSchemaRules) {
         check.apply(rule);
     }
-    for (const char* slot : kTextureSlots) {
-        for (SchemaRule rule : kTextureRules) {
-            const std::string place = "materials[]." + std::string(slot) + rule.path;
-            rule.path = place.c_str();
-            check.apply(rule);
-        }
+    for (const std::string slot : kTextureSlots) {
+        check.applyAt("materials[]." + slot, kTextureRules);
+    }
+    for (const std::string name : kMeshoptExtensions) {
+        check.applyAt("buffers[].extensions." + name, kMeshoptBufferRules);
+        check.applyAt("bufferViews[].extensions." + name, kMeshoptViewRules);
     }
     const json& asset = document.at("asset");
     const std::string version = asset.value("version", ""), minVersion = asset.value("minVersion", "2.0");

@@ -9,20 +9,25 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace glim {
 
+using Buffers = std::vector<std::vector<unsigned char>>;
+
+struct BufferRange {
+    std::size_t buffer = 0;
+    std::uint64_t offset = 0, length = 0;
+};
+
 // An encoded image: in a file of its own, or in a range of one of the buffers.
 struct EncodedImage {
-    struct Range {
-        std::uint32_t buffer = 0;
-        std::uint64_t offset = 0, length = 0;
-    };
     std::string name;
-    std::string uri;             // relative to the glTF file, or data:
-    std::optional<Range> range;  // where there is no uri
+    std::string uri;                   // relative to the glTF file, or data:
+    std::optional<BufferRange> range;  // where there is no uri
 };
 
 // A texture with its sampler.
@@ -57,10 +62,10 @@ struct GltfAnimation {
 struct GltfFile {
     std::string path;                          // as given, for messages
     std::vector<std::filesystem::path> files;  // this one and those of its buffers
-    // Index properties are in range, numbers have their type. Holds none of what is listed below.
+    // Index properties are in range, numbers have their type, nothing is compressed. Holds none of what is listed below.
     tinygltf::Model model;
-    std::shared_ptr<const nlohmann::json> document;   // of an animated file: what the model was parsed from
-    std::vector<std::vector<unsigned char>> buffers;  // each at least as long as its byteLength
+    std::shared_ptr<const nlohmann::json> document;  // of an animated file: what the model was parsed from
+    Buffers buffers;                                 // the file's, each at least as long as its byteLength, then what was decompressed
     std::vector<EncodedImage> images;
     std::vector<GltfTexture> textures;
     std::vector<GltfSkin> skins;
@@ -75,6 +80,12 @@ std::vector<unsigned char> readUri(const std::string& path, const std::string& p
 bool isDataUri(const std::string& uri);
 // Where a uri that is not data: points.
 std::filesystem::path externalFile(const std::string& path, const std::string& uri);
+
+// What an object with `buffer`, `byteOffset` and `byteLength` names.
+BufferRange rangeOf(const nlohmann::json& view);
+// Refuses a range that ends past its buffer. `place` names what has the range.
+std::span<const unsigned char> findBytes(const std::string& path, const Buffers& buffers, const BufferRange& range,
+                                         const std::string& place);
 
 // Throws InputError: "<path>: <sentence>".
 [[noreturn]] void refuse(const GltfFile& file, const std::string& sentence);

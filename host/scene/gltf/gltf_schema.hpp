@@ -142,6 +142,9 @@ constexpr SchemaRule kSchemaRules[] = {
     schema::index("meshes[].primitives[].indices", "accessors"),
     schema::index("meshes[].primitives[].material", "materials"),
     schema::whole("meshes[].primitives[].mode", Need::Optional, 0, 6),
+    schema::index("meshes[].primitives[].extensions.KHR_draco_mesh_compression.bufferView", "bufferViews", Need::Required),
+    schema::other("meshes[].primitives[].extensions.KHR_draco_mesh_compression.attributes", JsonKind::Object, Need::Required),
+    schema::whole("meshes[].primitives[].extensions.KHR_draco_mesh_compression.attributes{}", Need::Optional, 0, kMaxInt),
     schema::index("meshes[].primitives[].extensions.KHR_materials_variants.mappings[].material", "materials", Need::Required),
     schema::index("meshes[].primitives[].extensions.KHR_materials_variants.mappings[].variants[]",
                   "extensions.KHR_materials_variants.variants"),
@@ -240,5 +243,18 @@ constexpr SchemaRule kTextureRules[] = {
     schema::number(".extensions.KHR_texture_transform.rotation"),
     schema::whole(".extensions.KHR_texture_transform.texCoord", Need::Optional, 0, kMaxInt),
 };
+
+// The second one's first bitstream is that of the other.
+constexpr const char* kMeshoptExtensions[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
+constexpr SchemaRule kMeshoptViewRules[] = {
+    schema::index(".buffer", "buffers", Need::Required),
+    schema::whole(".byteOffset"),
+    schema::whole(".byteLength", Need::Required, 1),
+    schema::whole(".byteStride", Need::Required, 1, 256),
+    schema::whole(".count", Need::Required, 1),
+    schema::oneOf(".mode", "ATTRIBUTES, TRIANGLES, INDICES", Need::Required),
+    schema::oneOf(".filter", "NONE, OCTAHEDRAL, QUATERNION, EXPONENTIAL"),
+};
+constexpr SchemaRule kMeshoptBufferRules[] = {schema::other(".fallback", JsonKind::Bool)};
 
 }  // namespace glim

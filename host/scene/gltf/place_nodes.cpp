@@ -67,17 +67,15 @@ std::vector<int> findRoots(const GltfFile& file, const LoadOptions& options, con
     return roots;
 }
 
-void checkRoots(const GltfFile& file, const std::vector<int>& roots, const std::vector<int>& parents)
+// A root may hang below a node that the scene does not draw: some exporters put all their roots below a node of no scene.
+void noteParentsOfRoots(const GltfFile& file, const std::vector<int>& roots, const std::vector<int>& parents, Warnings& warnings)
 {
-    std::vector<bool> listed(parents.size(), false);
     for (const int root : roots) {
         const auto index = static_cast<std::size_t>(root);
-        if (parents[index] != kNone || listed[index]) {
-            refuse(file, nodeLabel(file, index) + " is listed by a scene " +
-                             (listed[index] ? "twice" : "and is a child of nodes[" + std::to_string(parents[index]) + "]") +
-                             "; expected each root once");
+        if (parents[index] != kNone) {
+            warnings.add("roots of the scene are drawn without the transforms of their parents, which the scene does not hold",
+                         nodeLabel(file, index));
         }
-        listed[index] = true;
     }
 }
 
@@ -131,15 +129,20 @@ std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& opti
     const std::vector<int> parents = findParents(file);
     checkAcyclic(file, parents);
     const std::vector<int> roots = findRoots(file, options, parents, warnings);
-    checkRoots(file, roots, parents);
+    noteParentsOfRoots(file, roots, parents, warnings);
 
     std::vector<PlacedNode> placed, pending;  // no recursion: hierarchies may be deeper than the call stack
     for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
         pending.push_back({static_cast<std::size_t>(*root), glm::dmat4(1.0)});
     }
+    std::vector<bool> met(parents.size(), false);
     while (!pending.empty()) {
         PlacedNode node = pending.back();
         pending.pop_back();
+        if (met[node.index]) {
+            refuse(file, nodeLabel(file, node.index) + " is met twice in its scene, as a root or below one; expected it once");
+        }
+        met[node.index] = true;
         if (!isVisible(file, node.index)) {
             warnings.add("invisible nodes are left out", nodeLabel(file, node.index));
             continue;

@@ -32,12 +32,9 @@ struct Layout {
 Elements findElements(const GltfFile& file, std::size_t viewIndex, const Layout& layout, const std::string& place)
 {
     const tinygltf::BufferView& view = file.model.bufferViews[viewIndex];
-    const std::vector<unsigned char>& buffer = file.buffers[static_cast<std::size_t>(view.buffer)];
     const std::string viewPlace = "bufferViews[" + std::to_string(viewIndex) + "]";
-    if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset) {
-        refuse(file, viewPlace + " ends at byte " + std::to_string(view.byteOffset + view.byteLength) + "; expected at most the " +
-                         std::to_string(buffer.size()) + " of buffers[" + std::to_string(view.buffer) + "]");
-    }
+    const BufferRange range{static_cast<std::size_t>(view.buffer), view.byteOffset, view.byteLength};
+    const std::span<const unsigned char> bytes = findBytes(file.path, file.buffers, range, viewPlace);
     const std::size_t stride = view.byteStride == 0 ? layout.elementSize : view.byteStride;
     if (stride < layout.elementSize) {
         refuse(file, viewPlace + ".byteStride is " + std::to_string(stride) + "; expected at least the " +
@@ -49,7 +46,7 @@ Elements findElements(const GltfFile& file, std::size_t viewIndex, const Layout&
         refuse(file, place + " claims " + std::to_string(layout.count) + " elements; expected at most the " + std::to_string(room) +
                          " that fit into " + viewPlace);
     }
-    return {buffer.data() + view.byteOffset + layout.offset, stride, layout.count};
+    return {bytes.data() + layout.offset, stride, layout.count};
 }
 
 template <typename Component>

@@ -1,11 +1,14 @@
 #include "host/error.hpp"
 #include "host/scene/gltf/check_gltf_json.hpp"
+#include "host/scene/gltf/decompress.hpp"
 #include "host/scene/gltf/gltf_container.hpp"
 #include "host/scene/gltf/gltf_file.hpp"
+#include "host/scene/gltf/gltf_schema.hpp"
 #include "host/scene/gltf/parse_model.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cctype>
 #include <optional>
 #include <sstream>
@@ -86,13 +89,25 @@ std::vector<unsigned char> readExternal(const std::string& path, const std::stri
     }
 }
 
-std::vector<std::vector<unsigned char>> readBuffers(const std::string& path, const json& document, GltfContainer& container)
+// Holds nothing but what readers that cannot decompress would need.
+bool isFallback(const json& buffer)
 {
-    std::vector<std::vector<unsigned char>> buffers;
+    const json extensions = buffer.value("extensions", json::object());
+    return std::any_of(std::begin(kMeshoptExtensions), std::end(kMeshoptExtensions),
+                       [&](const char* name) { return extensions.value(name, json::object()).value("fallback", false); });
+}
+
+Buffers readBuffers(const std::string& path, const json& document, GltfContainer& container)
+{
+    Buffers buffers;
     for (const json& entry : document.value("buffers", json::array())) {
         const std::string place = "buffers[" + std::to_string(buffers.size()) + "]";
         const std::string uri = entry.value("uri", "");
         std::vector<unsigned char> bytes;
+        if (isFallback(entry)) {
+            buffers.emplace_back();
+            continue;
+        }
         if (!entry.contains("uri")) {
             if (!buffers.empty() || !container.binary) {
                 throw InputError(path + ": " + place + " has no uri; expected one in all but the first buffer of a .glb");
@@ -116,7 +131,7 @@ std::vector<std::filesystem::path> listFiles(const std::string& path, const json
     std::vector<std::filesystem::path> files{path};
     for (const json& buffer : document.value("buffers", json::array())) {
         const std::string uri = buffer.value("uri", "data:");
-        if (!isDataUri(uri)) {
+        if (!isDataUri(uri) && !isFallback(buffer)) {
             files.push_back(externalFile(path, uri));
         }
     }
@@ -130,8 +145,7 @@ std::vector<EncodedImage> listImages(const json& document)
         EncodedImage image{entry.value("name", ""), entry.value("uri", ""), std::nullopt};
         if (entry.contains("bufferView")) {
             const json& view = document["bufferViews"][entry["bufferView"].get<std::size_t>()];
-            image.range = {view["buffer"].get<std::uint32_t>(), view.value("byteOffset", std::uint64_t{0}),
-                           view["byteLength"].get<std::uint64_t>()};
+            image.range = rangeOf(view);
         }
         images.push_back(std::move(image));
     }
@@ -235,6 +249,8 @@ GltfFile readGltfFile(const std::filesystem::path& file)
     result.path = path;
     result.buffers = readBuffers(path, document, container);
     result.files = listFiles(path, document);
+    decompressViews(path, document, result.buffers);
+    decompressPrimitives(path, document, result.buffers);
     result.images = listImages(document);
     result.textures = listTextures(document);
     result.skins = listSkins(document);
@@ -259,6 +275,22 @@ std::filesystem::path externalFile(const std::string& path, const std::string& u
 std::vector<unsigned char> readUri(const std::string& path, const std::string& place, const std::string& uri)
 {
     return isDataUri(uri) ? decodeDataUri(path, place, uri) : readExternal(path, place, uri);
+}
+
+BufferRange rangeOf(const json& view)
+{
+    return {view["buffer"].get<std::size_t>(), view.value("byteOffset", std::uint64_t{0}), view["byteLength"].get<std::uint64_t>()};
+}
+
+std::span<const unsigned char> findBytes(const std::string& path, const Buffers& buffers, const BufferRange& range,
+                                         const std::string& place)
+{
+    const std::vector<unsigned char>& buffer = buffers[range.buffer];
+    if (range.offset > buffer.size() || range.length > buffer.size() - range.offset) {
+        throw InputError(path + ": " + place + " ends at byte " + std::to_string(range.offset + range.length) + "; expected at most the " +
+                         std::to_string(buffer.size()) + " of buffers[" + std::to_string(range.buffer) + "]");
+    }
+    return std::span(buffer).subspan(range.offset, range.length);
 }
 
 void refuse(const GltfFile& file, const std::string& sentence) { throw InputError(file.path + ": " + sentence); }

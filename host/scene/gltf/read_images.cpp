@@ -52,12 +52,12 @@ public:
 
 private:
     // Where an image's bytes are: files may name the same ones by several images.
-    using Source = std::tuple<std::string_view, std::uint32_t, std::uint64_t, std::uint64_t>;
+    using Source = std::tuple<std::string_view, std::size_t, std::uint64_t, std::uint64_t>;
 
     Source sourceOf(std::uint32_t image) const
     {
         const EncodedImage& source = file_.images[image];
-        const EncodedImage::Range range = source.range.value_or(EncodedImage::Range());
+        const BufferRange range = source.range.value_or(BufferRange());
         return {source.uri, range.buffer, range.offset, range.length};
     }
 
@@ -115,11 +115,7 @@ DecodedImage readImage(const GltfFile& file, std::size_t image, Scene& scene)
         }
         return decodeNamed(file, image, bytes);
     }
-    const std::vector<unsigned char>& buffer = file.buffers[source.range->buffer];
-    if (source.range->offset > buffer.size() || source.range->length > buffer.size() - source.range->offset) {
-        refuse(file, nameOf(file, image) + " ends past its buffer; expected a bufferView within it");
-    }
-    return decodeNamed(file, image, std::span(buffer).subspan(source.range->offset, source.range->length));
+    return decodeNamed(file, image, findBytes(file.path, file.buffers, *source.range, nameOf(file, image)));
 }
 
 void readImages(const GltfFile& file, const LoadOptions& options, const std::vector<bool>& used, Scene& scene, Warnings& warnings)

@@ -1,0 +1,118 @@
+#include "host/error.hpp"
+#include "host/scene/gltf/decompress.hpp"
+#include "host/scene/gltf/gltf_schema.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <meshoptimizer.h>
+
+namespace glim {
+namespace {
+
+using nlohmann::json;
+
+using Decode = int (*)(void* decoded, std::size_t count, std::size_t stride, const unsigned char* bytes, std::size_t size);
+
+Decode decoderOf(const std::string& mode)
+{
+    if (mode == "ATTRIBUTES") {
+        return meshopt_decodeVertexBuffer;
+    }
+    return mode == "TRIANGLES" ? Decode{meshopt_decodeIndexBuffer} : Decode{meshopt_decodeIndexSequence};
+}
+
+class ViewDecoder {
+public:
+    // `source` is the extension of a buffer view, `place` its name in messages.
+    ViewDecoder(const std::string& path, const std::string& place, const json& source)
+        : path_(path),
+          place_(place),
+          mode_(source.at("mode").get<std::string>()),
+          filter_(source.value("filter", "NONE")),
+          count_(source.at("count").get<std::uint64_t>()),
+          stride_(source.at("byteStride").get<std::uint64_t>())
+    {
+        check();
+    }
+
+    void checkSize(std::uint64_t viewLength, std::uint64_t compressed) const
+    {
+        require(viewLength / stride_ == count_ && viewLength % stride_ == 0,
+                " has " + std::to_string(count_) + " elements of " + std::to_string(stride_) + " bytes; expected as many bytes as the " +
+                    std::to_string(viewLength) + " of its bufferView");
+        require(viewLength / kMaxCompression <= compressed, " claims " + std::to_string(viewLength) + " bytes; expected at most " +
+                                                                std::to_string(kMaxCompression * compressed) + " of its " +
+                                                                std::to_string(compressed));
+    }
+
+    std::vector<unsigned char> decode(std::span<const unsigned char> bytes) const
+    {
+        std::vector<unsigned char> decoded(count_ * stride_);
+        require(decoderOf(mode_)(decoded.data(), count_, stride_, bytes.data(), bytes.size()) == 0,
+                " holds " + std::to_string(bytes.size()) + " bytes that are damaged or of an unknown version; expected " +
+                    std::to_string(count_) + " elements in mode " + mode_);
+        if (filter_ == "OCTAHEDRAL") {
+            meshopt_decodeFilterOct(decoded.data(), count_, stride_);
+        } else if (filter_ == "QUATERNION") {
+            meshopt_decodeFilterQuat(decoded.data(), count_, stride_);
+        } else if (filter_ == "EXPONENTIAL") {
+            meshopt_decodeFilterExp(decoded.data(), count_, stride_);
+        }
+        return decoded;
+    }
+
+private:
+    void require(bool right, const std::string& rest) const
+    {
+        if (!right) {
+            throw InputError(path_ + ": " + place_ + rest);
+        }
+    }
+
+    // What the decoders take for granted.
+    void check() const
+    {
+        const std::string stride = ".byteStride is " + std::to_string(stride_) + "; expected ";
+        if (mode_ == "ATTRIBUTES") {
+            require(stride_ % 4 == 0, stride + "a multiple of 4 in mode ATTRIBUTES");
+            require(filter_ != "OCTAHEDRAL" || stride_ == 4 || stride_ == 8, stride + "4 or 8 for the filter OCTAHEDRAL");
+            require(filter_ != "QUATERNION" || stride_ == 8, stride + "8 for the filter QUATERNION");
+            return;
+        }
+        require(stride_ == 2 || stride_ == 4, stride + "2 or 4 in mode " + mode_);
+        require(filter_ == "NONE", ".filter is \"" + filter_ + "\"; expected NONE in mode " + mode_);
+        require(mode_ != "TRIANGLES" || count_ % 3 == 0,
+                ".count is " + std::to_string(count_) + "; expected a multiple of 3 in mode TRIANGLES");
+    }
+
+    const std::string& path_;
+    std::string place_, mode_, filter_;
+    std::uint64_t count_, stride_;
+};
+
+}  // namespace
+
+void decompressViews(const std::string& path, json& document, Buffers& buffers)
+{
+    json none = json::array();
+    json& views = document.contains("bufferViews") ? document["bufferViews"] : none;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        json& view = views[i];
+        for (const std::string name : kMeshoptExtensions) {
+            if (!view.contains("extensions") || !view["extensions"].contains(name)) {
+                continue;
+            }
+            const json& source = view["extensions"][name];
+            const std::string place = "bufferViews[" + std::to_string(i) + "].extensions." + name;
+            const ViewDecoder decoder(path, place, source);
+            const std::span<const unsigned char> bytes = findBytes(path, buffers, rangeOf(source), place);
+            decoder.checkSize(view["byteLength"].get<std::uint64_t>(), bytes.size());
+            buffers.push_back(decoder.decode(bytes));
+            view["buffer"] = buffers.size() - 1;
+            view["byteOffset"] = 0;
+            view.erase("extensions");
+        }
+    }
+}
+
+}  // namespace glim

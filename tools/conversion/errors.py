@@ -1,0 +1,5 @@
+"""What ends a conversion with one sentence."""
+
+
+class ConversionError(Exception):
+    pass
