@@ -19,8 +19,8 @@ SCENES = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--large", nargs=2, metavar=("NAME", "N"),
-                        help="write one large scene instead: %s of N triangles, forest of N trees, lamps of N lamps, menger of level N"
-                        % ", ".join(n for n in LARGE_SCENES if n not in ("forest", "lamps", "menger")))
+                        help="write one large scene instead: %s of N triangles, forest and grove of N trees, city of N houses, lamps of N lamps, menger of level N"
+                        % ", ".join(n for n in LARGE_SCENES if n not in ("forest", "grove", "city", "lamps", "menger")))
     parser.add_argument("-o", "--output", metavar="FILE", help="where to write the large scene (.glb or .gltf)")
     parser.add_argument("--fetch", action="store_true",
                         help="write scenes/cornell_bunny.glb from Debian's glmark2-data instead")

@@ -1,6 +1,7 @@
 #include "host/bench/kernel_rates.hpp"
 
 #include "host/bench/trace_timer.hpp"
+#include "host/render/course_rounds.hpp"
 #include "host/render/measure_schedules.hpp"
 
 #include <algorithm>
@@ -25,8 +26,10 @@ std::vector<Variant> variantsOf(const RenderSettings& settings, const FlatScene&
         }
     }
     variants.push_back({"for any scene", settings, kAllFeatures, kMaxStackLevels});
-    variants.push_back({"Moller-Trumbore", settings, scene.features, scene.stackLevels});
-    variants.back().settings.course.intersector = Intersector::MollerTrumbore;
+    if (!missingInCourse(scene.features)) {
+        variants.push_back({"Moller-Trumbore", settings, scene.features, scene.stackLevels});
+        variants.back().settings.course.intersector = Intersector::MollerTrumbore;
+    }
     return variants;
 }
 

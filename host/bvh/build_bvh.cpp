@@ -30,10 +30,11 @@ struct Part {
 
 class Builder {
 public:
-    Builder(std::span<const Box> boxes, SplitRule rule, unsigned threads)
+    Builder(std::span<const Box> boxes, SplitRule rule, unsigned threads, std::uint32_t leafSize)
         : count_(static_cast<std::uint32_t>(boxes.size())),
           rule_(rule),
           threads_(threads),
+          leafSize_(leafSize),
           references_(std::make_unique_for_overwrite<Reference[]>(count_)),
           scratch_(std::make_unique_for_overwrite<Reference[]>(count_))
     {
@@ -78,7 +79,7 @@ private:
     NodeSplit split(const Task& task)
     {
         const std::size_t count = task.end - task.begin;
-        return splitNode({&references_[task.begin], count}, {&scratch_[task.begin], count}, task.bounds, task.depth, rule_);
+        return splitNode({&references_[task.begin], count}, {&scratch_[task.begin], count}, task.bounds, task.depth, rule_, leafSize_);
     }
 
     // Splits level by level.
@@ -160,16 +161,17 @@ private:
     const std::uint32_t count_;
     const SplitRule rule_;
     const unsigned threads_;
+    const std::uint32_t leafSize_;
     const std::unique_ptr<Reference[]> references_, scratch_;
     std::vector<Part> parts_;
 };
 
 }  // namespace
 
-Bvh buildBvh(std::span<const Box> boxes, SplitRule rule, unsigned threads)
+Bvh buildBvh(std::span<const Box> boxes, SplitRule rule, unsigned threads, std::uint32_t leafSize)
 {
     assert(!boxes.empty() && boxes.size() <= std::numeric_limits<std::uint32_t>::max() / 2);
-    return Builder(boxes, rule, threads).build();
+    return Builder(boxes, rule, threads, leafSize).build();
 }
 
 }  // namespace glim

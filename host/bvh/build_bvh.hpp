@@ -8,8 +8,8 @@
 
 namespace glim {
 
-// Where a node is split. Mean and Median split along the axis on which the boxes' centres spread most, down to leaves of at most two
-// primitives, as Berkeley's course CS 184 does.
+// Where a node is split. Mean and Median split along the axis on which the boxes' centres spread most, down to leaves of at most
+// `leafSize` primitives: two, as in Berkeley's course CS 184.
 enum class SplitRule {
     Sah,     // the cheapest by the surface-area heuristic: of all splits of at most 4 primitives, else of those between 32 bins per axis
     Mean,    // at the mean of the centres, or at their median if the mean leaves a side empty
@@ -18,6 +18,7 @@ enum class SplitRule {
 
 // Takes one box per primitive, at least one; boxes are finite with lo <= hi. The same boxes give the same tree, to the bit, on any number
 // of threads.
-Bvh buildBvh(std::span<const Box> boxes, SplitRule rule = SplitRule::Sah, unsigned threads = std::thread::hardware_concurrency());
+Bvh buildBvh(std::span<const Box> boxes, SplitRule rule = SplitRule::Sah, unsigned threads = std::thread::hardware_concurrency(),
+             std::uint32_t leafSize = 2);
 
 }  // namespace glim

@@ -100,9 +100,10 @@ struct Task {
 // Builds wide nodes from the top down, to subtrees of a given size.
 class Collapser {
 public:
-    Collapser(const Bvh& bvh, const std::vector<Subtree>& subtrees)
+    Collapser(const Bvh& bvh, const std::vector<Subtree>& subtrees, std::uint32_t firstInstance)
         : bvh_(bvh),
           subtrees_(subtrees),
+          firstInstance_(firstInstance),
           rootArea_(computeHalfArea(bvh.nodes[0].box))
     {
         wide_.box = bvh.nodes[0].box;
@@ -149,12 +150,23 @@ private:
                 tasks_.push_back({child.first, static_cast<std::uint32_t>(wide_.nodes.size()), task.depth + 1});
                 child = {child.kind, static_cast<std::uint32_t>(wide_.nodes.size()), 0, child.box};
                 wide_.nodes.emplace_back();
+            } else if (child.kind == WideChild::Kind::Leaf && subtrees_[child.first].hasInstance) {
+                child = addInstance(child, subtrees_[child.first].first);
+                wide_.depth = std::max(wide_.depth, task.depth + 1);
             } else if (child.kind == WideChild::Kind::Leaf) {
                 wide_.cost += shareOf(child.box) * child.count;
                 child.first = addLeaf(subtrees_[child.first]);
             }
         }
         wide_.nodes[task.wide] = node;
+    }
+
+    WideChild addInstance(const WideChild& leaf, std::uint32_t entry)
+    {
+        const auto node = static_cast<std::uint32_t>(wide_.nodes.size());
+        wide_.instances.push_back({node, bvh_.order[entry] - firstInstance_, 0});
+        wide_.nodes.emplace_back();
+        return {WideChild::Kind::Inner, node, 0, leaf.box};
     }
 
     std::uint32_t addLeaf(const Subtree& leaf)
@@ -167,6 +179,7 @@ private:
 
     const Bvh& bvh_;
     const std::vector<Subtree>& subtrees_;
+    const std::uint32_t firstInstance_;
     const double rootArea_;
     WideBvh wide_;
     std::vector<Task> tasks_;
@@ -184,6 +197,9 @@ void append(WideBvh& wide, const WideBvh& part, std::uint32_t at)
             child.first += child.kind == WideChild::Kind::Inner ? firstNode : child.kind == WideChild::Kind::Leaf ? firstEntry : 0;
         }
     }
+    for (const InstanceNode& instance : part.instances) {
+        wide.instances.push_back({instance.node + firstNode, instance.instance, 0});
+    }
     wide.order.insert(wide.order.end(), part.order.begin(), part.order.end());
     wide.depth = std::max(wide.depth, part.depth);
     wide.cost += part.cost;
@@ -191,13 +207,13 @@ void append(WideBvh& wide, const WideBvh& part, std::uint32_t at)
 
 }  // namespace
 
-WideBvh collapseBvh(const Bvh& bvh, unsigned threads)
+WideBvh collapseBvh(const Bvh& bvh, unsigned threads, std::uint32_t firstInstance)
 {
     constexpr std::uint32_t kMostAlone = 8192;  // one thread builds a subtree of at most this many primitives
-    const std::vector<Subtree> subtrees = examineSubtrees(bvh, threads);
-    Collapser top(bvh, subtrees);
+    const std::vector<Subtree> subtrees = examineSubtrees(bvh, threads, firstInstance);
+    Collapser top(bvh, subtrees, firstInstance);
     const std::vector<Task> tasks = top.collapse(0, 1, kMostAlone);
-    std::vector<Collapser> parts(tasks.size(), Collapser(bvh, subtrees));
+    std::vector<Collapser> parts(tasks.size(), Collapser(bvh, subtrees, firstInstance));
     parallelFor(tasks.size(), threads, [&](std::size_t i) { parts[i].collapse(tasks[i].binary, tasks[i].depth, 0); });
     WideBvh wide = std::move(top.result());
     wide.order.reserve(bvh.order.size());

@@ -32,11 +32,12 @@ RootShare shareRoots(const Subtree& left, const Subtree& right, std::uint32_t ro
     return best;
 }
 
-Subtree makeLeaf(const BvhNode& node)
+Subtree makeLeaf(const BvhNode& node, bool hasInstance)
 {
     Subtree subtree{};
     subtree.cost.fill(static_cast<float>(computeHalfArea(node.box)) * static_cast<float>(node.count) * kPrimitiveCost);
     subtree.isLeaf = true;
+    subtree.hasInstance = hasInstance;
     subtree.first = node.first;
     subtree.count = node.count;
     return subtree;
@@ -48,8 +49,10 @@ Subtree join(const BvhNode& node, const Subtree& left, const Subtree& right)
     subtree.first = left.first;
     subtree.count = left.count + right.count;
     const auto area = static_cast<float>(computeHalfArea(node.box));
-    const float asLeaf = subtree.count <= kMaxLeafRecords ? area * static_cast<float>(subtree.count) * kPrimitiveCost
-                                                          : std::numeric_limits<float>::infinity();
+    subtree.hasInstance = left.hasInstance || right.hasInstance;
+    const float asLeaf = subtree.count <= kMaxLeafRecords && !subtree.hasInstance
+                             ? area * static_cast<float>(subtree.count) * kPrimitiveCost
+                             : std::numeric_limits<float>::infinity();
     subtree.height = static_cast<std::uint8_t>(1 + std::max(left.height, right.height));
     const RootShare asNode = shareRoots(left, right, kBvhWidth);
     subtree.nodeToLeft = asNode.toLeft;
@@ -71,9 +74,10 @@ struct Part {
 
 class Examiner {
 public:
-    Examiner(const Bvh& bvh, unsigned threads)
+    Examiner(const Bvh& bvh, unsigned threads, std::uint32_t firstInstance)
         : bvh_(bvh),
           threads_(threads),
+          firstInstance_(firstInstance),
           subtrees_(bvh.nodes.size())
     {}
 
@@ -112,11 +116,13 @@ private:
     void examine(std::uint32_t index)
     {
         const BvhNode& node = bvh_.nodes[index];
-        subtrees_[index] = node.count > 0 ? makeLeaf(node) : join(node, subtrees_[node.first], subtrees_[node.first + 1]);
+        subtrees_[index] = node.count > 0 ? makeLeaf(node, bvh_.order[node.first] >= firstInstance_)
+                                          : join(node, subtrees_[node.first], subtrees_[node.first + 1]);
     }
 
     const Bvh& bvh_;
     const unsigned threads_;
+    const std::uint32_t firstInstance_;
     std::vector<Subtree> subtrees_;
     std::vector<Part> parts_;
     std::vector<std::uint32_t> top_;  // parents first
@@ -124,6 +130,9 @@ private:
 
 }  // namespace
 
-std::vector<Subtree> examineSubtrees(const Bvh& bvh, unsigned threads) { return Examiner(bvh, threads).examine(); }
+std::vector<Subtree> examineSubtrees(const Bvh& bvh, unsigned threads, std::uint32_t firstInstance)
+{
+    return Examiner(bvh, threads, firstInstance).examine();
+}
 
 }  // namespace glim

@@ -17,12 +17,14 @@ struct Subtree {
     std::array<std::uint8_t, kMostRoots> toLeft;  // how many of these roots are on the left side; 0: fewer are as cheap, or this is a leaf
     std::uint8_t nodeToLeft;                      // the same for the kBvhWidth children of a node
     bool isLeaf;                                  // a single root is cheapest as a leaf
+    bool hasInstance;                             // it holds an instance, which must be a leaf of its own
     std::uint8_t height;                          // inner nodes on the longest path, in the binary tree
     std::uint32_t first, count;                   // primitives
 };
 
-// Returns one entry per node of the tree. Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide
-// BVHs", HPG 2017, section 3.2: for each binary node and each i, the least cost of a forest of at most i roots that covers its subtree.
-std::vector<Subtree> examineSubtrees(const Bvh& bvh, unsigned threads);
+// Returns one entry per node of the tree. Primitives from `firstInstance` on are instances. Ylitie, Karras, Laine, "Efficient Incoherent
+// Ray Traversal on GPUs Through Compressed Wide BVHs", HPG 2017, section 3.2: for each binary node and each i, the least cost of a forest
+// of at most i roots that covers its subtree.
+std::vector<Subtree> examineSubtrees(const Bvh& bvh, unsigned threads, std::uint32_t firstInstance);
 
 }  // namespace glim

@@ -7,21 +7,19 @@
 namespace glim {
 namespace {
 
-constexpr std::uint32_t kMaxLeafSize = 2;
-
 // Inner nodes on the longest path below a node of `count` primitives if all splits from here on are median splits.
-std::uint32_t levelsOfMedianSplits(std::uint32_t count)
+std::uint32_t levelsOfMedianSplits(std::uint32_t count, std::uint32_t leafSize)
 {
-    static_assert(kMaxBvhDepth >= 31, "2^32 primitives in leaves of 2 need 31 median splits");
+    static_assert(kMaxBvhDepth >= 32, "2^32 primitives in leaves of 1 need 32 median splits");
     const auto levels = static_cast<std::uint32_t>(std::bit_width(count - 1));
-    constexpr auto kLeafLevels = static_cast<std::uint32_t>(std::bit_width(kMaxLeafSize - 1));
-    return levels > kLeafLevels ? levels - kLeafLevels : 0;
+    const auto leafLevels = static_cast<std::uint32_t>(std::bit_width(leafSize - 1));
+    return levels > leafLevels ? levels - leafLevels : 0;
 }
 
 // Whether both sides of a split have primitives, and the larger side fits into the remaining depth.
-bool isAdmissible(std::uint32_t left, std::uint32_t count, std::uint32_t depth)
+bool isAdmissible(std::uint32_t left, std::uint32_t count, std::uint32_t depth, std::uint32_t leafSize)
 {
-    return left > 0 && left < count && depth + 1 + levelsOfMedianSplits(std::max(left, count - left)) <= kMaxBvhDepth;
+    return left > 0 && left < count && depth + 1 + levelsOfMedianSplits(std::max(left, count - left), leafSize) <= kMaxBvhDepth;
 }
 
 // The axis on which the centres spread most.
@@ -65,10 +63,10 @@ NodeSplit splitAtMean(std::span<Reference> references, const NodeBounds& bounds)
 }  // namespace
 
 NodeSplit splitNode(std::span<Reference> references, std::span<Reference> scratch, const NodeBounds& bounds, std::uint32_t depth,
-                    SplitRule rule)
+                    SplitRule rule, std::uint32_t leafSize)
 {
     const auto count = static_cast<std::uint32_t>(references.size());
-    if (count == 1 || (count <= kMaxLeafSize && (rule != SplitRule::Sah || depth == kMaxBvhDepth))) {
+    if (count == 1 || (count <= leafSize && (rule != SplitRule::Sah || depth == kMaxBvhDepth))) {
         return {};
     }
     NodeSplit split;
@@ -77,10 +75,10 @@ NodeSplit splitNode(std::span<Reference> references, std::span<Reference> scratc
     } else if (rule == SplitRule::Mean) {
         split = splitAtMean(references, bounds);
     }
-    if (split.left == 0 && count <= kMaxLeafSize) {
+    if (split.left == 0 && count <= leafSize) {
         return {};
     }
-    return isAdmissible(split.left, count, depth) ? split : splitAtMedian(references);
+    return isAdmissible(split.left, count, depth, leafSize) ? split : splitAtMedian(references);
 }
 
 }  // namespace glim

@@ -15,6 +15,6 @@ struct NodeSplit {
 // Reorders the references of a node that has `depth` inner nodes above it; `scratch` has room for as many. The result depends on their
 // order and on nothing else.
 NodeSplit splitNode(std::span<Reference> references, std::span<Reference> scratch, const NodeBounds& bounds, std::uint32_t depth,
-                    SplitRule rule);
+                    SplitRule rule, std::uint32_t leafSize);
 
 }  // namespace glim

@@ -36,12 +36,29 @@ struct WideNode {
     std::array<WideChild, kBvhWidth> children;
 };
 
+// A node without children that stands for an instance of a shared mesh and leads to its tree.
+struct InstanceNode {
+    std::uint32_t node;
+    std::uint32_t instance;
+    std::uint32_t root = 0;  // of the mesh's tree, or a node of it
+};
+
+// A part of the arrays: the tree of a shared mesh, whose root is `firstNode`.
+struct MeshTree {
+    Box box;
+    std::uint32_t firstNode;
+    std::uint32_t firstEntry;  // in `order`
+    std::uint32_t entryCount;
+};
+
 struct WideBvh {
     Box box;
     std::vector<WideNode> nodes;
     std::vector<std::uint32_t> order;
-    std::uint32_t depth = 0;  // nodes on the longest path
-    double cost = 0.0;        // expected node visits + primitive tests of a line that meets the root
+    std::vector<InstanceNode> instances;
+    std::vector<MeshTree> meshTrees;  // of the meshes that instances share, behind the scene's own tree
+    std::uint32_t depth = 0;          // nodes on the longest path
+    double cost = 0.0;                // expected node visits + primitive tests of a line that meets the root
 };
 
 }  // namespace glim

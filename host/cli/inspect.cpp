@@ -3,6 +3,7 @@
 #include "host/cli/picture_options.hpp"
 #include "host/json.hpp"
 #include "host/render/prepare_scene.hpp"
+#include "host/scene/share_meshes.hpp"
 #include "host/text.hpp"
 
 #include <algorithm>
@@ -26,7 +27,7 @@ using Needs = std::vector<std::pair<const char*, bool>>;
 
 Counts countsOf(const PreparedScene& prepared)
 {
-    return {{"triangles", prepared.primitives.triangles.size()},
+    return {{"triangles", prepared.primitives.computeTriangleCount()},
             {"spheres", prepared.scene.spheres.size()},
             {"meshes", prepared.scene.meshes.size()},
             {"instances", prepared.scene.instances.size()},
@@ -46,6 +47,37 @@ Needs needsOf(std::uint32_t features)
     }
     return needs;
 }
+
+// Instances of meshes that have several, whether these share their meshes, and why.
+struct Instancing {
+    std::size_t meshes = 0, instances = 0;
+    std::uint64_t triangles = 0;  // that the meshes have
+    bool shared = false;
+    const char* reason = "";
+};
+
+Instancing instancingOf(const PreparedScene& prepared)
+{
+    Instancing instancing;
+    instancing.shared = !prepared.primitives.placements.empty();
+    if (instancing.shared) {
+        instancing.meshes = prepared.primitives.sharedMeshes.size();
+        instancing.instances = prepared.primitives.placements.size();
+        for (const SharedMesh& mesh : prepared.primitives.sharedMeshes) {
+            instancing.triangles += mesh.triangles.size();
+        }
+        instancing.reason = "one by one the scene's instances would have more than 4194304 triangles";
+        return instancing;
+    }
+    for (const MeshUse& use : countMeshUses(prepared.scene)) {
+        instancing.meshes += use.instances > 1 ? 1 : 0;
+        instancing.instances += use.instances > 1 ? use.instances : 0;
+        instancing.triangles += use.instances > 1 ? use.triangles : 0;
+    }
+    instancing.reason = "rays are faster so, and the scene has at most 4194304 triangles, or those that have more emit";
+    return instancing;
+}
+static_assert(kMostFlatTriangles == 4194304);
 
 struct Bounds {
     glm::dvec3 low, high;  // world coordinates, metres
@@ -151,6 +183,7 @@ void printJson(const InspectOptions& options, const PreparedScene& prepared)
         animations.append({{"name", animation.name}, {"seconds", animation.duration}});
     }
     const Bounds bounds = boundsOf(prepared);
+    const Instancing instancing = instancingOf(prepared);
     const Json json = {{"scene", options.scene.string()},
                        {"counts", objectOf(countsOf(prepared))},
                        {"bounds", {{"low", pointOf(bounds.low)}, {"high", pointOf(bounds.high)}}},
@@ -160,6 +193,12 @@ void printJson(const InspectOptions& options, const PreparedScene& prepared)
                          {"depth", prepared.bvh.depth},
                          {"surfaceAreaCost", prepared.bvh.cost},
                          {"buildSeconds", prepared.buildSeconds}}},
+                       {"instancing",
+                        {{"shared", instancing.shared},
+                         {"meshes", instancing.meshes},
+                         {"instances", instancing.instances},
+                         {"meshTriangles", instancing.triangles},
+                         {"reason", instancing.reason}}},
                        {"loadSeconds", prepared.loadSeconds},
                        {"deviceBytes", sizeInBytes(prepared.flat)},
                        {"textureBytes", textureBytes(prepared.flat)},
@@ -234,6 +273,11 @@ void printText(const InspectOptions& options, const PreparedScene& prepared)
     std::cout << options.scene.string() << '\n';
     for (const auto& [name, count] : countsOf(prepared)) {
         std::cout << "  " << name << ' ' << count << '\n';
+    }
+    if (const Instancing instancing = instancingOf(prepared); instancing.instances > 0) {
+        std::cout << "  " << instancing.instances << " instances of " << instancing.meshes << (instancing.meshes == 1 ? " mesh" : " meshes")
+                  << " (" << counted(instancing.triangles, "triangle") << ") " << (instancing.shared ? "share these" : "are flattened")
+                  << ": " << instancing.reason << '\n';
     }
     const Bounds bounds = boundsOf(prepared);
     std::cout << "  bounds " << pointText(bounds.low) << " to " << pointText(bounds.high) << " m\n"

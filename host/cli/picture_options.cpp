@@ -96,7 +96,8 @@ void addTextures(const Command& command, MissingTextures& missing, std::uint32_t
 void addCamera(const Command& command, PictureOptions& options)
 {
     command.beginGroup("Camera");
-    command.add("--camera", "NAME|INDEX", "Camera of the file [0]", [&options](const std::string& text) { options.camera = text; });
+    command.add("--camera", "NAME|INDEX", "Camera of the file, or framed: one that sees the whole scene [0]",
+                [&options](const std::string& text) { options.camera = text; });
     addPose(command, options);
     addLens(command, options);
 }
@@ -196,6 +197,7 @@ LoadOptions loadOptionsOf(const PictureOptions& options)
     load.sun = options.sun;
     load.missingTextures = options.missingTextures;
     load.maxTexture = options.maxTexture;
+    load.framed = options.camera == "framed";
     if (options.size) {
         load.aspectRatio = static_cast<float>(options.size->x) / static_cast<float>(options.size->y);
     }

@@ -1,10 +1,14 @@
 #include "host/flatten/build_scene_bvh.hpp"
 
 #include "host/bvh/collapse_bvh.hpp"
+#include "host/bvh/parallel_for.hpp"
+#include "host/flatten/place_instances.hpp"
 #include "host/flatten/split_triangles.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <thread>
 
 namespace glim {
 namespace {
@@ -13,10 +17,11 @@ namespace {
 // which has .85; the others have .96 and more, and at .96 shadow rays take 1.7 times as long (tests/bench/EXPERIMENTS.md).
 constexpr double kWorthwhile = 0.9;
 
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
 // Rounded outwards.
 Box boxOf(const Sphere& sphere)
 {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
     Box box{sphere.center - sphere.radius, sphere.center + sphere.radius};
     for (int k = 0; k < 3; ++k) {
         box.lo[k] = std::nextafter(box.lo[k], -kInfinity);
@@ -25,27 +30,22 @@ Box boxOf(const Sphere& sphere)
     return box;
 }
 
-}  // namespace
-
-std::vector<Box> primitiveBoxes(const Primitives& primitives)
+std::vector<Box> boxesOf(std::span<const Triangle> triangles)
 {
     std::vector<Box> boxes;
-    boxes.reserve(primitives.count());
-    for (const Triangle& t : primitives.triangles) {
+    boxes.reserve(triangles.size());
+    for (const Triangle& t : triangles) {
         boxes.push_back({glm::min(t.vertices[0], glm::min(t.vertices[1], t.vertices[2])),
                          glm::max(t.vertices[0], glm::max(t.vertices[1], t.vertices[2]))});
-    }
-    for (const Sphere& sphere : primitives.spheres) {
-        boxes.push_back(boxOf(sphere));
     }
     return boxes;
 }
 
-WideBvh buildSceneBvh(const Primitives& primitives, SplitRule rule)
+// `boxes`: of the triangles, then of other primitives.
+WideBvh buildTree(const std::vector<Triangle>& triangles, std::vector<Box> boxes, SplitRule rule)
 {
-    std::vector<Box> boxes = primitiveBoxes(primitives);
     WideBvh bvh = collapseBvh(buildBvh(boxes, rule));
-    const Pieces pieces = rule == SplitRule::Sah ? splitTriangles(primitives.triangles, std::move(boxes)) : Pieces{};
+    const Pieces pieces = rule == SplitRule::Sah ? splitTriangles(triangles, std::move(boxes)) : Pieces{};
     if (pieces.boxes.empty()) {
         return bvh;
     }
@@ -58,6 +58,118 @@ WideBvh buildSceneBvh(const Primitives& primitives, SplitRule rule)
     }
     ofPieces.box = bvh.box;  // without the pieces' margin
     return ofPieces;
+}
+
+// Trees that follow one another share the stack.
+constexpr std::uint32_t kMostDepthOfTwo = kMaxWideDepth / 2;
+
+WideBvh buildMeshTree(const SharedMesh& mesh, SplitRule rule)
+{
+    WideBvh tree = buildTree(mesh.triangles, boxesOf(mesh.triangles), rule);
+    return tree.depth <= kMostDepthOfTwo ? tree : collapseBvh(buildBvh(boxesOf(mesh.triangles), SplitRule::Median));
+}
+
+// Where a ray enters an instance: at a node of the mesh's tree, for all that is below.
+struct Entry {
+    std::uint32_t placement;
+    std::uint32_t node;
+};
+
+std::vector<Box> childBoxes(const WideNode& node)
+{
+    std::vector<Box> boxes;
+    for (const WideChild& child : node.children) {
+        if (child.kind != WideChild::Kind::Nothing) {
+            boxes.push_back(child.box);
+        }
+    }
+    return boxes;
+}
+
+glm::vec3 farthestOf(std::span<const Box> boxes)
+{
+    glm::vec3 farthest(0.0F);
+    for (const Box& box : boxes) {
+        farthest = glm::max(farthest, glm::max(glm::abs(box.lo), glm::abs(box.hi)));
+    }
+    return farthest;
+}
+
+WideBvh buildTopTree(const Primitives& primitives, std::span<const WideBvh> trees, SplitRule rule)
+{
+    const auto firstInstance = static_cast<std::uint32_t>(primitives.count());
+    std::vector<Box> boxes = primitiveBoxes(primitives);
+    for (const Placement& placement : primitives.placements) {
+        boxes.push_back(placeBoxes(placement, childBoxes(trees[placement.sharedMesh].nodes[0])));
+    }
+    const glm::vec3 farthest = farthestOf(boxes);
+    for (std::size_t i = 0; i < primitives.placements.size(); ++i) {
+        const glm::vec3 error = errorOfRays(primitives.placements[i], farthest);
+        Box& box = boxes[firstInstance + i];
+        box = {box.lo - error, box.hi + error};
+    }
+    WideBvh top =
+        collapseBvh(buildBvh(boxes, rule, std::thread::hardware_concurrency(), 1), std::thread::hardware_concurrency(), firstInstance);
+    if (top.depth > kMostDepthOfTwo) {
+        top = collapseBvh(buildBvh(boxes, SplitRule::Median, std::thread::hardware_concurrency(), 1), std::thread::hardware_concurrency(),
+                          firstInstance);
+    }
+    return top;
+}
+
+// Puts a mesh's tree behind the others. Its triangles have the ids from `firstId` on.
+void append(WideBvh& bvh, const WideBvh& tree, std::uint32_t firstId)
+{
+    const auto firstNode = static_cast<std::uint32_t>(bvh.nodes.size()), firstEntry = static_cast<std::uint32_t>(bvh.order.size());
+    bvh.meshTrees.push_back({tree.box, firstNode, firstEntry, static_cast<std::uint32_t>(tree.order.size())});
+    for (WideNode node : tree.nodes) {
+        for (WideChild& child : node.children) {
+            child.first += child.kind == WideChild::Kind::Inner ? firstNode : child.kind == WideChild::Kind::Leaf ? firstEntry : 0;
+        }
+        bvh.nodes.push_back(node);
+    }
+    for (const std::uint32_t triangle : tree.order) {
+        bvh.order.push_back(firstId + triangle);
+    }
+}
+
+WideBvh buildTwoLevels(const Primitives& primitives, SplitRule rule)
+{
+    std::vector<WideBvh> trees;
+    trees.reserve(primitives.sharedMeshes.size());
+    std::uint32_t depth = 0;
+    for (const SharedMesh& mesh : primitives.sharedMeshes) {
+        trees.push_back(mesh.triangles.empty() ? WideBvh{} : buildMeshTree(mesh, rule));
+        depth = std::max(depth, trees.back().depth);
+    }
+    WideBvh bvh = buildTopTree(primitives, trees, rule);
+    bvh.depth += depth;
+    auto firstId = static_cast<std::uint32_t>(primitives.count());
+    for (std::size_t i = 0; i < trees.size(); ++i) {
+        append(bvh, trees[i], firstId);
+        firstId += static_cast<std::uint32_t>(primitives.sharedMeshes[i].triangles.size());
+    }
+    for (InstanceNode& node : bvh.instances) {
+        node.root = bvh.meshTrees[primitives.placements[node.instance].sharedMesh].firstNode;
+    }
+    return bvh;
+}
+
+}  // namespace
+
+std::vector<Box> primitiveBoxes(const Primitives& primitives)
+{
+    std::vector<Box> boxes = boxesOf(primitives.triangles);
+    for (const Sphere& sphere : primitives.spheres) {
+        boxes.push_back(boxOf(sphere));
+    }
+    return boxes;
+}
+
+WideBvh buildSceneBvh(const Primitives& primitives, SplitRule rule)
+{
+    return primitives.placements.empty() ? buildTree(primitives.triangles, primitiveBoxes(primitives), rule)
+                                         : buildTwoLevels(primitives, rule);
 }
 
 }  // namespace glim

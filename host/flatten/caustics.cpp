@@ -25,8 +25,8 @@ constexpr double kMargin = 1e-4;
 double strength(const glm::vec3& color) { return static_cast<double>(std::max({color.r, color.g, color.b})); }
 
 struct BoundingSphere {
-    glm::dvec3 center;
-    double radius;
+    glm::dvec3 center{0.0};
+    double radius = 0.0;
     double area = 0.0;  // of the surfaces within
 };
 
@@ -69,6 +69,29 @@ BoundingSphere boundingSphere(std::span<const Triangle> triangles)
         bound.area += 0.5 * glm::length(glm::cross(glm::dvec3(triangle.vertices[1]) - v0, glm::dvec3(triangle.vertices[2]) - v0));
     }
     return bound;
+}
+
+// About the mesh's sphere; its area is about that of a uniform scale.
+BoundingSphere sphereOf(const Placement& placement, const BoundingSphere& mesh)
+{
+    const glm::dmat3& linear = placement.linear;
+    // The Frobenius norm is at least the greatest stretch.
+    const double stretch = std::sqrt(glm::dot(linear[0], linear[0]) + glm::dot(linear[1], linear[1]) + glm::dot(linear[2], linear[2]));
+    const double scale = std::cbrt(std::abs(glm::determinant(linear)));
+    return {linear * mesh.center + placement.translation, stretch * mesh.radius, mesh.area * scale * scale};
+}
+
+// Of each instance of a shared mesh.
+std::vector<BoundingSphere> spheresOfPlacements(const Primitives& primitives)
+{
+    std::vector<BoundingSphere> meshes, spheres;
+    for (const SharedMesh& mesh : primitives.sharedMeshes) {
+        meshes.push_back(mesh.triangles.empty() ? BoundingSphere{} : boundingSphere(mesh.triangles));
+    }
+    for (const Placement& placement : primitives.placements) {
+        spheres.push_back(sphereOf(placement, meshes[placement.sharedMesh]));
+    }
+    return spheres;
 }
 
 // The least value of a channel, in [0, 1].
@@ -133,7 +156,8 @@ private:
     std::vector<bool> specular_;
 };
 
-std::vector<BoundingSphere> findTargets(const FlatScene& flat, const Scene& scene, const Primitives& primitives)
+std::vector<BoundingSphere> findTargets(const FlatScene& flat, const Scene& scene, const Primitives& primitives,
+                                        std::span<const BoundingSphere> placed)
 {
     const SpecularMaterials specular(flat, scene);
     std::vector<BoundingSphere> targets;
@@ -141,6 +165,11 @@ std::vector<BoundingSphere> findTargets(const FlatScene& flat, const Scene& scen
         const std::uint32_t first = primitives.firstTriangles[i], end = primitives.firstTriangles[i + 1];
         if (end > first && specular[scene.meshes[scene.instances[i].mesh].material]) {
             targets.push_back(boundingSphere(std::span(primitives.triangles).subspan(first, end - first)));
+        }
+    }
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        if (specular[scene.meshes[primitives.sharedMeshes[primitives.placements[i].sharedMesh].mesh].material]) {
+            targets.push_back(placed[i]);
         }
     }
     for (const Sphere& sphere : primitives.spheres) {
@@ -293,7 +322,7 @@ bool areLightPathsBetter(std::span<const FlatLight> lights, std::span<const doub
 }
 
 // Of the box around everything.
-double roomArea(const Primitives& primitives)
+double roomArea(const Primitives& primitives, std::span<const BoundingSphere> placed)
 {
     glm::dvec3 low(INFINITY), high(-INFINITY);
     for (const Triangle& triangle : primitives.triangles) {
@@ -305,6 +334,10 @@ double roomArea(const Primitives& primitives)
     for (const Sphere& sphere : primitives.spheres) {
         low = glm::min(low, glm::dvec3(sphere.center - sphere.radius));
         high = glm::max(high, glm::dvec3(sphere.center + sphere.radius));
+    }
+    for (const BoundingSphere& sphere : placed) {
+        low = glm::min(low, sphere.center - sphere.radius);
+        high = glm::max(high, sphere.center + sphere.radius);
     }
     const glm::dvec3 side = high - low;
     return 2.0 * (side.x * side.y + side.y * side.z + side.z * side.x);
@@ -321,13 +354,14 @@ uvec4 texelOf(const BoundingSphere& sphere)
 
 void addCaustics(FlatScene& flat, const Scene& scene, const Primitives& primitives)
 {
-    std::vector<BoundingSphere> targets = findTargets(flat, scene, primitives);
+    const std::vector<BoundingSphere> placed = spheresOfPlacements(primitives);
+    std::vector<BoundingSphere> targets = findTargets(flat, scene, primitives, placed);
     const std::size_t lights = flat.lights.size() - ((flat.features & kFeatureEnvironment) != 0 ? 1 : 0);
     if (targets.empty() || lights == 0) {
         return;
     }
     targets = grouped(std::move(targets));
-    std::vector<BoundingSphere> all;
+    std::vector<BoundingSphere> all = placed;
     if (!primitives.triangles.empty()) {
         all.push_back(boundingSphere(primitives.triangles));
     }
@@ -342,7 +376,7 @@ void addCaustics(FlatScene& flat, const Scene& scene, const Primitives& primitiv
         sum += fluxes.back();
         brightness = std::max(brightness, brightnessOf(flat.lights[i], whole.radius));
     }
-    if (!(sum > 0.0) || !areLightPathsBetter(std::span(flat.lights).first(lights), fluxes, targets, roomArea(primitives))) {
+    if (!(sum > 0.0) || !areLightPathsBetter(std::span(flat.lights).first(lights), fluxes, targets, roomArea(primitives, placed))) {
         return;
     }
     flat.features |= kFeatureCaustics;

@@ -1,6 +1,7 @@
 #include "host/flatten/flat_scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <span>
 
@@ -56,6 +57,7 @@ static_assert(sizeof(PrincipledData) == kPrincipledTexels * sizeof(uvec4));
 static_assert(sizeof(LayersData) == kLayersTexels * sizeof(uvec4));
 static_assert(sizeof(MediumData) == kMediumTexels * sizeof(uvec4));
 static_assert(sizeof(TextureData) == kTextureTexels * sizeof(uvec4));
+static_assert(sizeof(InstanceData) == kInstanceTexels * sizeof(uvec4));
 static_assert(sizeof(LightNode) == kLightNodeTexels * sizeof(uvec4));
 
 }  // namespace
@@ -65,7 +67,7 @@ std::uint64_t sizeInBytes(const FlatScene& scene)
     return bytesOf(scene.nodes) + bytesOf(scene.records) + bytesOf(scene.triangles) + bytesOf(scene.vertices) + bytesOf(scene.materials) +
            bytesOf(scene.lights) + bytesOf(scene.lightNodes) + bytesOf(scene.principled) + bytesOf(scene.layers) + bytesOf(scene.textures) +
            bytesOf(scene.media) + bytesOf(scene.texels) + bytesOf(scene.albedos) + bytesOf(scene.environmentTexels) +
-           bytesOf(scene.environmentCells) + bytesOf(scene.caustics);
+           bytesOf(scene.environmentCells) + bytesOf(scene.caustics) + bytesOf(scene.instances);
 }
 
 std::uint64_t textureBytes(const FlatScene& scene)
@@ -104,6 +106,12 @@ std::uint64_t fingerprint(const FlatScene& scene)
     print.add(scene.environmentTexels);
     if (!scene.environmentTexels.empty() || scene.hidesEnvironment) {
         print.add(std::vector<vec3>{scene.environment, vec3(scene.environmentTurn, scene.hidesEnvironment ? 1.0F : 0.0F)});
+    }
+    for (std::size_t at = 0; at < scene.instances.size(); at += kInstanceTexels) {
+        std::array<uvec4, kInstanceTexels> instance{};
+        std::copy_n(scene.instances.begin() + static_cast<std::ptrdiff_t>(at), kInstanceTexels, instance.begin());
+        instance[0].w = instance[1].w = 0;  // records
+        print.addBytes(std::as_bytes(std::span(instance)));
     }
     print.add(scene.caustics);  // films with caustics by path tracing are others
     return print.state();

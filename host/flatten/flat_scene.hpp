@@ -47,13 +47,16 @@ constexpr Feature kFeatures[] = {{kFeatureSpheres, "spheres"},
                                  {kFeatureGlossiness, "specular-glossiness"},
                                  {kFeatureRectangleLights, "rectangle lights"},
                                  {kFeatureLightTree, "several lights"},
-                                 {kFeatureCaustics, "caustics"}};
+                                 {kFeatureCaustics, "caustics"},
+                                 {kFeatureInstances, "instances"}};
 
 struct FlatScene {
     std::vector<uvec4> nodes;
     std::vector<uvec4> records;              // for traversal, in the order of the BVH's leaves
     std::vector<uvec4> triangles, vertices;  // for shading; empty if no triangle has vertex attributes
+    std::vector<uvec4> instances;            // of shared meshes; empty without kFeatureInstances
     std::uint32_t triangleCount = 0;
+    std::uint32_t firstInstanceRecord = 0;                        // records from here on are those of instances (scene_types.h)
     std::uint32_t firstUv = 0, firstTangent = 0, firstColor = 0;  // sections of `vertices`
     std::vector<MaterialData> materials;
     std::vector<PrincipledData> principled;  // behind the materials, in the same buffer

@@ -1,10 +1,12 @@
 #include "host/flatten/flatten_scene.hpp"
 
+#include "host/error.hpp"
 #include "host/flatten/albedo_table.hpp"
 #include "host/flatten/caustics.hpp"
 #include "host/flatten/flatten_materials.hpp"
 #include "host/flatten/light_table.hpp"
 #include "host/flatten/pack_nodes.hpp"
+#include "host/flatten/place_instances.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -55,6 +57,9 @@ std::vector<std::uint32_t> pushRecords(FlatScene& flat, const Scene& scene, cons
     flat.records.reserve(bvh.order.size() * kRecordTexels);
     for (std::uint32_t record = 0; record < bvh.order.size(); ++record) {
         const std::uint32_t id = bvh.order[record];
+        if (id >= primitives.count()) {
+            break;  // shared meshes follow
+        }
         recordOf[id] = record;
         const bool alpha = !primitives.hasAlpha.empty() && primitives.hasAlpha[id];
         flat.features |= alpha ? kFeatureAlpha : 0U;
@@ -67,12 +72,71 @@ std::vector<std::uint32_t> pushRecords(FlatScene& flat, const Scene& scene, cons
     return recordOf;
 }
 
+void pushSharedRecords(FlatScene& flat, const Scene& scene, const Primitives& primitives, const WideBvh& bvh)
+{
+    auto firstId = static_cast<std::uint32_t>(primitives.count());
+    for (std::size_t i = 0; i < bvh.meshTrees.size(); ++i) {
+        const SharedMesh& mesh = primitives.sharedMeshes[i];
+        const std::uint32_t material = scene.meshes[mesh.mesh].material;
+        for (std::uint32_t k = 0; k < bvh.meshTrees[i].entryCount; ++k) {
+            const std::uint32_t triangle = bvh.order[bvh.meshTrees[i].firstEntry + k] - firstId;
+            flat.features |= mesh.hasAlpha[triangle] ? kFeatureAlpha : 0U;
+            pushTriangle(flat, mesh.triangles[triangle], firstId + triangle, material, mesh.hasAlpha[triangle]);
+        }
+        firstId += static_cast<std::uint32_t>(mesh.triangles.size());
+    }
+}
+
+// After all records.
+void pushInstances(FlatScene& flat, const Primitives& primitives, const WideBvh& bvh)
+{
+    constexpr std::uint64_t kMost = kNoRecord;
+    std::vector<std::uint32_t> firstIds{static_cast<std::uint32_t>(primitives.count())};  // by shared mesh
+    for (const SharedMesh& mesh : primitives.sharedMeshes) {
+        firstIds.push_back(firstIds.back() + static_cast<std::uint32_t>(mesh.triangles.size()));
+    }
+    flat.firstInstanceRecord = static_cast<std::uint32_t>(bvh.order.size());
+    std::uint64_t record = flat.firstInstanceRecord, primitive = primitives.count();
+    for (const Placement& placement : primitives.placements) {
+        const MeshTree& tree = bvh.meshTrees[placement.sharedMesh];
+        InstanceData data = placeInstance(placement, tree.box);
+        data.beginRecord = static_cast<std::uint32_t>(record);
+        data.firstRecord = data.beginRecord - tree.firstEntry;
+        data.firstPrimitive = static_cast<std::uint32_t>(primitive) - firstIds[placement.sharedMesh];
+        record += tree.entryCount;
+        primitive += primitives.sharedMeshes[placement.sharedMesh].triangles.size();
+        if (std::max(record, primitive) >= kMost) {
+            throw InputError("the scene's instances have " + std::to_string(primitives.computeTriangleCount()) +
+                             " triangles; expected fewer than 4294967295.");
+        }
+        const auto* texels = reinterpret_cast<const uvec4*>(&data);
+        flat.instances.insert(flat.instances.end(), texels, texels + kInstanceTexels);
+    }
+    for (const InstanceNode& node : bvh.instances) {
+        const auto rows = meshFromScene(primitives.placements[node.instance]);
+        uvec4* texels = &flat.nodes[std::size_t{node.node} * kNodeTexels];
+        const uvec4* instance = &flat.instances[std::size_t{node.instance} * kInstanceTexels];
+        texels[0] = std::bit_cast<uvec4>(rows[0]);
+        texels[1] = {node.root, 0, 0, 0};
+        texels[2] = std::bit_cast<uvec4>(rows[1]);
+        texels[3] = std::bit_cast<uvec4>(rows[2]);
+        texels[4] = {instance[1].w, instance[2].w, 0, 0};
+    }
+    flat.features |= primitives.placements.empty() ? 0U : kFeatureInstances;
+}
+
 void pushShading(FlatScene& flat, const Primitives& primitives)
 {
     flat.triangleCount = static_cast<std::uint32_t>(primitives.triangles.size());
     flat.triangles.reserve(primitives.vertexIndices.size());
     for (const glm::uvec3& vertices : primitives.vertexIndices) {
         flat.triangles.emplace_back(vertices, 0U);
+    }
+    for (const SharedMesh& mesh : primitives.sharedMeshes) {
+        flat.triangles.resize(mesh.vertexIndices.empty() ? flat.triangles.size() : std::max(flat.triangles.size(), primitives.count()));
+        for (const glm::uvec3& vertices : mesh.vertexIndices) {
+            flat.triangles.emplace_back(vertices, 0U);
+        }
     }
     for (const glm::vec3& normal : primitives.vertexNormals) {
         flat.vertices.push_back(texel(normal, 0));
@@ -107,7 +171,7 @@ void markOtherRecords(FlatScene& flat, std::span<const std::uint32_t> order, std
     if (order.size() == recordOf.size()) {
         return;  // each primitive has one
     }
-    for (std::size_t record = 0; record < order.size(); ++record) {
+    for (std::size_t record = 0; record < order.size() && order[record] < recordOf.size(); ++record) {
         const std::size_t marked = recordOf[order[record]];
         flat.records[record * kRecordTexels + 2].w = flat.records[marked * kRecordTexels + 2].w;
     }
@@ -142,6 +206,8 @@ FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const W
     }
     pushShading(flat, primitives);
     const std::vector<std::uint32_t> recordOf = pushRecords(flat, scene, primitives, bvh);
+    pushSharedRecords(flat, scene, primitives, bvh);
+    pushInstances(flat, primitives, bvh);
     addLights(flat, scene, primitives, recordOf);
     markOtherRecords(flat, bvh.order, recordOf);
     addCaustics(flat, scene, primitives);

@@ -107,8 +107,11 @@ Content contentOf(const WideNode& node)
 
 std::array<uvec4, kNodeTexels> pack(const WideNode& node, float pad)
 {
-    const Box bounds = boundsOf(node, pad);
     const Content content = contentOf(node);
+    if ((content.entries[0] | content.entries[1]) == 0) {
+        return {};  // an instance, which flatten_scene.cpp fills in
+    }
+    const Box bounds = boundsOf(node, pad);
     std::array<Planes, 3> planes;
     std::uint32_t exponents = content.inner << 24;
     for (int axis = 0; axis < 3; ++axis) {
@@ -129,13 +132,21 @@ std::array<uvec4, kNodeTexels> pack(const WideNode& node, float pad)
 std::vector<uvec4> packNodes(const WideBvh& bvh)
 {
     constexpr std::size_t kBlock = 1024;
-    const float pad = padOf(bvh.box);
     std::vector<uvec4> texels(bvh.nodes.size() * kNodeTexels);
-    parallelFor((bvh.nodes.size() + kBlock - 1) / kBlock, std::thread::hardware_concurrency(), [&](std::size_t block) {
-        for (std::size_t i = block * kBlock; i < std::min((block + 1) * kBlock, bvh.nodes.size()); ++i) {
-            std::ranges::copy(pack(bvh.nodes[i], pad), texels.begin() + static_cast<std::ptrdiff_t>(i * kNodeTexels));
-        }
-    });
+    const auto packTree = [&](const Box& box, std::size_t begin, std::size_t end) {
+        const float pad = padOf(box);
+        parallelFor((end - begin + kBlock - 1) / kBlock, std::thread::hardware_concurrency(), [&](std::size_t block) {
+            const std::size_t first = begin + block * kBlock;
+            for (std::size_t i = first; i < std::min(first + kBlock, end); ++i) {
+                std::ranges::copy(pack(bvh.nodes[i], pad), texels.begin() + static_cast<std::ptrdiff_t>(i * kNodeTexels));
+            }
+        });
+    };
+    packTree(bvh.box, 0, bvh.meshTrees.empty() ? bvh.nodes.size() : bvh.meshTrees[0].firstNode);
+    for (std::size_t i = 0; i < bvh.meshTrees.size(); ++i) {
+        packTree(bvh.meshTrees[i].box, bvh.meshTrees[i].firstNode,
+                 i + 1 < bvh.meshTrees.size() ? bvh.meshTrees[i + 1].firstNode : bvh.nodes.size());
+    }
     return texels;
 }
 

@@ -45,29 +45,30 @@ public:
     explicit PrimitiveMaker(const Scene& scene)
         : scene_(scene)
     {
-        std::size_t count = 0;
         for (const MeshInstance& instance : scene.instances) {
-            count += scene.meshes[instance.mesh].indices.size() / 3;
             const Mesh& mesh = scene.meshes[instance.mesh];
             smooth_ = smooth_ || !mesh.normals.empty();
             mapped_ = mapped_ || isTextured(mesh.material);
             tangents_ = tangents_ || !mesh.tangents.empty();
             colored_ = colored_ || !mesh.colors.empty();
         }
-        made_.triangles.reserve(count);
         if (smooth_ || mapped_ || tangents_ || colored_) {
-            made_.vertexIndices.reserve(count);
             addVertex(Vertex());
         }
     }
 
-    Primitives make()
+    Primitives make(std::uint64_t mostFlatTriangles)
     {
+        const std::vector<bool> shared = chooseSharedMeshes(countMeshUses(scene_), mostFlatTriangles);
         for (const MeshInstance& instance : scene_.instances) {
             made_.firstTriangles.push_back(static_cast<std::uint32_t>(made_.triangles.size()));
-            addInstance(instance);
+            if (!shared[instance.mesh]) {
+                const PlacedMesh placed(scene_, instance);
+                addTriangles(scene_.meshes[instance.mesh], placed, glm::dmat3(instance.worldFromMesh));
+            }
         }
         made_.firstTriangles.push_back(static_cast<std::uint32_t>(made_.triangles.size()));
+        shareMeshes(shared);
         for (const Sphere& sphere : scene_.spheres) {
             addPrimitive(alpha_.classify(sphere), [&] { made_.spheres.push_back(sphere); });
         }
@@ -100,11 +101,9 @@ private:
         }
     }
 
-    void addInstance(const MeshInstance& instance)
+    void addTriangles(const Mesh& mesh, const PlacedMesh& placed, const glm::dmat3& worldFromMesh)
     {
-        const Mesh& mesh = scene_.meshes[instance.mesh];
-        const PlacedMesh placed(scene_, instance);
-        worldFromMesh_ = glm::dmat3(instance.worldFromMesh);
+        worldFromMesh_ = worldFromMesh;
         worldFromNormal_ = computeWorldFromNormal(worldFromMesh_);
         vertexOf_.assign(mesh.positions.size(), kNotYet);
         const bool attributes =
@@ -126,6 +125,58 @@ private:
                 }
             });
         }
+    }
+
+    void shareMeshes(const std::vector<bool>& shared)
+    {
+        std::vector<std::uint32_t> indexOf(scene_.meshes.size(), kNotYet);
+        for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
+            const MeshInstance& instance = scene_.instances[i];
+            if (!shared[instance.mesh]) {
+                continue;
+            }
+            std::uint32_t& index = indexOf[instance.mesh];
+            if (index == kNotYet) {
+                index = static_cast<std::uint32_t>(made_.sharedMeshes.size());
+                made_.sharedMeshes.push_back(shareMesh(instance.mesh));
+            }
+            const glm::dmat3 linear(instance.worldFromMesh);
+            const glm::dvec3 translation =
+                linear * made_.sharedMeshes[index].center + (glm::dvec3(instance.worldFromMesh[3]) - scene_.origin);
+            if (!made_.sharedMeshes[index].triangles.empty()) {
+                made_.placements.push_back({i, index, linear, translation});
+            }
+        }
+    }
+
+    // Adds the triangles at the end and takes them away.
+    SharedMesh shareMesh(std::uint32_t id)
+    {
+        const Mesh& mesh = scene_.meshes[id];
+        SharedMesh shared;
+        shared.mesh = id;
+        shared.center = centerOf(mesh);
+        const std::size_t triangles = made_.triangles.size(), indices = made_.vertexIndices.size();
+        addTriangles(mesh, PlacedMesh(mesh, glm::dmat3(1.0), -shared.center), glm::dmat3(1.0));
+        const auto takeFrom = [](auto& values, std::size_t first, auto& taken) {
+            const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
+            taken.assign(begin, values.end());
+            values.erase(begin, values.end());
+        };
+        takeFrom(made_.triangles, triangles, shared.triangles);
+        takeFrom(made_.vertexIndices, indices, shared.vertexIndices);
+        takeFrom(made_.hasAlpha, triangles, shared.hasAlpha);
+        return shared;
+    }
+
+    static glm::dvec3 centerOf(const Mesh& mesh)
+    {
+        glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
+        for (const std::uint32_t index : mesh.indices) {
+            low = glm::min(low, mesh.positions[index]);
+            high = glm::max(high, mesh.positions[index]);
+        }
+        return 0.5 * low + 0.5 * high;
     }
 
     glm::uvec3 addVertices(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners, const glm::dvec3& faceNormal)
@@ -241,9 +292,18 @@ std::uint32_t Primitives::instanceOf(std::uint32_t triangle) const
     return static_cast<std::uint32_t>(after - firstTriangles.begin() - 1);
 }
 
-Primitives makePrimitives(const Scene& scene)
+std::uint64_t Primitives::computeTriangleCount() const
 {
-    Primitives primitives = PrimitiveMaker(scene).make();
+    std::uint64_t count = triangles.size();
+    for (const Placement& placement : placements) {
+        count += sharedMeshes[placement.sharedMesh].triangles.size();
+    }
+    return count;
+}
+
+Primitives makePrimitives(const Scene& scene, std::uint64_t mostFlatTriangles)
+{
+    Primitives primitives = PrimitiveMaker(scene).make(mostFlatTriangles);
     liftLamps(scene, primitives);
     return primitives;
 }

@@ -2,14 +2,35 @@
 #pragma once
 
 #include "host/scene/placed_mesh.hpp"
+#include "host/scene/share_meshes.hpp"
 
 namespace glim {
 
-// The triangles of all instances, one instance after the other, then the scene's spheres. A primitive's id counts through both.
+// A mesh that instances share, in a space of its own: the mesh's, with `center` as origin.
+struct SharedMesh {
+    std::uint32_t mesh = 0;
+    glm::dvec3 center{0.0};
+    std::vector<Triangle> triangles;
+    std::vector<glm::uvec3> vertexIndices;  // as in Primitives
+    std::vector<bool> hasAlpha;             // by triangle
+};
+
+// An instance of a shared mesh. A point p of that mesh's space is at linear * p + translation, relative to the scene's origin.
+struct Placement {
+    std::uint32_t instance = 0;  // of the scene
+    std::uint32_t sharedMesh = 0;
+    glm::dmat3 linear{1.0};
+    glm::dvec3 translation{0.0};
+};
+
+// The triangles of all instances that share no mesh, one instance after the other, then the scene's spheres. A primitive's id counts
+// through both.
 struct Primitives {
     std::vector<Triangle> triangles;
     std::vector<Sphere> spheres;
     std::vector<std::uint32_t> firstTriangles;  // by instance, then the number of all triangles
+    std::vector<SharedMesh> sharedMeshes;
+    std::vector<Placement> placements;
 
     // What shading reads of vertices; all are empty if no mesh has any of it. Vertex 0 is that of triangles without attributes.
     std::vector<glm::uvec3> vertexIndices;  // by triangle
@@ -24,11 +45,12 @@ struct Primitives {
     std::vector<std::string> warnings;  // one line each: what was dropped or replaced
 
     std::size_t count() const { return triangles.size() + spheres.size(); }
+    std::uint64_t computeTriangleCount() const;  // those of shared meshes once for each instance
     std::uint32_t instanceOf(std::uint32_t triangle) const;
 };
 
-// Triangles without area and primitives that are transparent all over are dropped; normals that are zero or not finite are replaced by the
-// face normal; lamps in the plane of another surface are lifted (lift_lamps.hpp).
-Primitives makePrimitives(const Scene& scene);
+// Meshes are shared as scene/share_meshes.hpp says. Triangles without area and primitives that are transparent all over are dropped;
+// normals that are zero or not finite are replaced by the face normal; lamps in the plane of another surface are lifted (lift_lamps.hpp).
+Primitives makePrimitives(const Scene& scene, std::uint64_t mostFlatTriangles = kMostFlatTriangles);
 
 }  // namespace glim

@@ -24,19 +24,28 @@ void refuseTooMany(const FlatScene& scene, const RenderSettings& settings)
     }
 }
 
-// The course's kernels have no code for these.
 void refuseMissing(const FlatScene& scene, const RenderSettings& settings)
 {
-    const bool clear = (scene.features & kFeatureAlpha) != 0, media = (scene.features & kFeatureMedia) != 0;
-    if (usesCourseEstimators(settings) && (clear || media)) {
-        throw InputError(std::string("the scene has ") +
-                         (clear ? "surfaces that are transparent in places" : "solids that absorb light or lie within each other") +
+    const std::optional<std::string> missing = missingInCourse(scene.features);
+    if (missing && usesCourseEstimators(settings)) {
+        throw InputError("the scene has " + *missing +
                          ", which the course's estimators do not know; expected the defaults of --direct, --roulette, --accelerator and "
                          "--intersector.");
     }
 }
 
 }  // namespace
+
+std::optional<std::string> missingInCourse(std::uint32_t features)
+{
+    if ((features & kFeatureAlpha) != 0) {
+        return "surfaces that are transparent in places";
+    }
+    if ((features & kFeatureMedia) != 0) {
+        return "solids that absorb light or lie within each other";
+    }
+    return (features & kFeatureInstances) != 0 ? std::optional<std::string>("instances that share meshes") : std::nullopt;
+}
 
 std::vector<LightRound> lightRounds(const FlatScene& scene, const RenderSettings& settings)
 {

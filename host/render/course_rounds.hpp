@@ -4,6 +4,9 @@
 #include "host/flatten/flat_scene.hpp"
 #include "host/render/settings.hpp"
 
+#include <optional>
+#include <string>
+
 namespace glim {
 
 struct LightRound {
@@ -13,7 +16,11 @@ struct LightRound {
     std::uint32_t samples = 1;
 };
 
-// Returns at least one round; the first is not over the hemisphere. Throws InputError if a hit would need more than a million rays.
+// What of the scene the course's kernels have no code for, as in "instances that share meshes"; nothing if they know all of it.
+std::optional<std::string> missingInCourse(std::uint32_t features);
+
+// Returns at least one round; the first is not over the hemisphere. Throws InputError if a hit would need more than a million rays, or if
+// the settings ask for the course's kernels and these do not know the scene.
 std::vector<LightRound> lightRounds(const FlatScene& scene, const RenderSettings& settings);
 
 }  // namespace glim

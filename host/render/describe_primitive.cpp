@@ -34,6 +34,25 @@ PrimitiveDescription describePrimitive(const Scene& scene, const Primitives& pri
             quoted(scene.materials[scene.meshes[instance.mesh].material].name)};
 }
 
+PrimitiveDescription describeInstanceRecord(const PreparedScene& prepared, std::uint32_t record)
+{
+    const std::vector<uvec4>& data = prepared.flat.instances;
+    std::size_t index = 0;
+    while ((index + 1) * kInstanceTexels < data.size() && data[(index + 1) * kInstanceTexels].w <= record) {
+        ++index;
+    }
+    const uvec4* instance = &data[index * kInstanceTexels];
+    const std::uint32_t shared = prepared.flat.records[std::size_t{record - instance[1].w} * kRecordTexels].w;
+    const Placement& placement = prepared.primitives.placements[index];
+    auto first = static_cast<std::uint32_t>(prepared.primitives.count());
+    for (std::uint32_t mesh = 0; mesh < placement.sharedMesh; ++mesh) {
+        first += static_cast<std::uint32_t>(prepared.primitives.sharedMeshes[mesh].triangles.size());
+    }
+    const MeshInstance& placed = prepared.scene.instances[placement.instance];
+    return {"instance " + quoted(placed.name), shared - first,
+            quoted(prepared.scene.materials[prepared.scene.meshes[placed.mesh].material].name)};
+}
+
 }  // namespace
 
 std::string textOf(const PrimitiveDescription& primitive)
@@ -43,6 +62,9 @@ std::string textOf(const PrimitiveDescription& primitive)
 
 PrimitiveDescription describeRecord(const PreparedScene& prepared, std::uint32_t record)
 {
+    if (record >= prepared.flat.firstInstanceRecord && !prepared.flat.instances.empty()) {
+        return describeInstanceRecord(prepared, record);
+    }
     const std::uint32_t id = prepared.flat.records[std::size_t{record} * kRecordTexels].w;
     return describePrimitive(prepared.scene, prepared.primitives, id);
 }

@@ -67,6 +67,7 @@ DeviceScene::DeviceScene(Device& device, const FlatScene& scene)
       environment_(uploaded(device, "environment map", BufferKind::Texel8, scene.environmentTexels)),
       environmentCells_(uploaded(device, "environment map's cells", BufferKind::Texel, scene.environmentCells)),
       caustics_(uploaded(device, "targets of light paths", BufferKind::Texel, scene.caustics)),
+      instances_(uploaded(device, "scene's instances", BufferKind::Texel, scene.instances)),
       images_(uploadImages(device, scene.texels))
 {}
 
@@ -74,7 +75,7 @@ std::vector<BindingSlot> DeviceScene::slots()
 {
     std::vector<BindingSlot> slots{{kBindEnvironment, BufferKind::Texel8}};
     for (const std::uint32_t binding : {kBindNodes, kBindRecords, kBindTriangles, kBindVertices, kBindMaterials, kBindLights,
-                                        kBindLightNodes, kBindAlbedos, kBindEnvironmentCells, kBindCaustics}) {
+                                        kBindLightNodes, kBindAlbedos, kBindEnvironmentCells, kBindCaustics, kBindInstances}) {
         slots.push_back({binding, BufferKind::Texel});
     }
     for (std::uint32_t view = 0; view < kMaxTexelViews; ++view) {
@@ -95,7 +96,8 @@ std::map<std::uint32_t, const Buffer*> DeviceScene::buffers() const
                                                    {kBindAlbedos, &albedos_},
                                                    {kBindEnvironment, &environment_},
                                                    {kBindEnvironmentCells, &environmentCells_},
-                                                   {kBindCaustics, &caustics_}};
+                                                   {kBindCaustics, &caustics_},
+                                                   {kBindInstances, &instances_}};
     for (std::uint32_t view = 0; view < kMaxTexelViews; ++view) {
         buffers[kBindTexels + view] = &images_[std::min<std::size_t>(view, images_.size() - 1)];
     }

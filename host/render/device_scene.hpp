@@ -18,7 +18,7 @@ public:
 
 private:
     Buffer nodes_, records_, triangles_, vertices_, materials_, lights_, lightNodes_, albedos_, environment_, environmentCells_;
-    Buffer caustics_;
+    Buffer caustics_, instances_;
     std::vector<Buffer> images_;  // 2^kTexelViewBits texels each
 };
 

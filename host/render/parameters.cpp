@@ -55,6 +55,8 @@ DeviceParameters::DeviceParameters(Device& device, const FlatScene& scene, const
     parameters_.clampIndirect = settings.clampIndirect;
     parameters_.canarySteps = 3;
     parameters_.triangleCount = scene.triangleCount;
+    parameters_.instanceCount = static_cast<std::uint32_t>(scene.instances.size() / kInstanceTexels);
+    parameters_.firstInstanceRecord = scene.firstInstanceRecord;
     parameters_.firstUv = scene.firstUv;
     parameters_.firstTangent = scene.firstTangent;
     parameters_.firstColor = scene.firstColor;

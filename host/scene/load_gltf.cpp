@@ -306,6 +306,8 @@ Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options)
     if (scene.cameras.empty()) {
         scene.cameras.push_back(frameCamera(scene, options.aspectRatio));
         warnings.add("the scene has no camera: one is framed on its bounding box");
+    } else if (options.framed) {
+        scene.cameras.push_back(frameCamera(scene, options.aspectRatio));
     }
     scene.warnings = warnings.lines();
     checkScene(scene);

@@ -32,7 +32,8 @@ struct LoadOptions {
     std::string variant;                       // of KHR_materials_variants; empty: the file's own materials
     std::optional<double> at;                  // seconds into the animation; if absent the file's rest pose
     std::string animation;                     // name or index; empty: the first
-    float aspectRatio = 1.0F;                  // of the picture, for the framed camera if the file has none
+    float aspectRatio = 1.0F;                  // of the picture, for the framed camera
+    bool framed = false;                       // adds it to the file's cameras; it is always there if the file has none
 };
 
 // Reads and checks a whole file; the result has passed checkScene. Throws InputError with one sentence that names file, place, value and

@@ -1,5 +1,7 @@
 #include "host/scene/placed_mesh.hpp"
 
+#include "host/scene/share_meshes.hpp"
+
 #include <limits>
 
 namespace glim {
@@ -11,12 +13,14 @@ glm::dvec3 faceNormal(const Triangle& triangle)
 }
 
 PlacedMesh::PlacedMesh(const Scene& scene, const MeshInstance& instance)
-    : mesh_(&scene.meshes[instance.mesh])
-{
-    const glm::dmat3 linear(instance.worldFromMesh);
     // Moved close to zero first, so that far from the world's origin nothing is rounded away.
-    const glm::dvec3 translation = glm::dvec3(instance.worldFromMesh[3]) - scene.origin;
-    second_ = glm::determinant(linear) < 0.0 ? 2 : 1;
+    : PlacedMesh(scene.meshes[instance.mesh], glm::dmat3(instance.worldFromMesh), glm::dvec3(instance.worldFromMesh[3]) - scene.origin)
+{}
+
+PlacedMesh::PlacedMesh(const Mesh& mesh, const glm::dmat3& linear, const glm::dvec3& translation)
+    : mesh_(&mesh),
+      second_(glm::determinant(linear) < 0.0 ? 2 : 1)
+{
     positions_.reserve(mesh_->positions.size());
     for (const glm::dvec3& position : mesh_->positions) {
         positions_.emplace_back(linear * position + translation);  // the one place where vertices become float32
@@ -35,9 +39,31 @@ Triangle PlacedMesh::triangle(std::size_t triangle) const
     return {{positions_[a], positions_[b], positions_[c]}};
 }
 
-WorldBox computeWorldBox(const Scene& scene)
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+WorldBox computeMeshBox(const Mesh& mesh)
 {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    WorldBox box{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
+    for (const std::uint32_t index : mesh.indices) {
+        box = {glm::min(box.low, glm::vec3(mesh.positions[index])), glm::max(box.high, glm::vec3(mesh.positions[index]))};
+    }
+    return box;
+}
+
+// Of what the box holds, as the instance places it.
+WorldBox placeBox(const Scene& scene, const MeshInstance& instance, const WorldBox& box)
+{
+    const glm::dmat3 linear(instance.worldFromMesh);
+    const glm::dvec3 center = 0.5 * (glm::dvec3(box.low) + glm::dvec3(box.high)), half = glm::dvec3(box.high) - center;
+    const glm::dvec3 placed = linear * center + glm::dvec3(instance.worldFromMesh[3]) - scene.origin;
+    const glm::dvec3 extent = glm::abs(linear[0]) * half.x + glm::abs(linear[1]) * half.y + glm::abs(linear[2]) * half.z;
+    return {glm::vec3(placed - extent), glm::vec3(placed + extent)};
+}
+
+WorldBox computeTriangleBox(const Scene& scene)
+{
     WorldBox box{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
     for (const MeshInstance& instance : scene.instances) {
         const PlacedMesh placed(scene, instance);
@@ -51,6 +77,31 @@ WorldBox computeWorldBox(const Scene& scene)
             }
         }
     }
+    return box;
+}
+
+// Quicker, and larger where meshes are turned.
+WorldBox computeBoxOfMeshBoxes(const Scene& scene)
+{
+    std::vector<WorldBox> meshes;
+    for (const Mesh& mesh : scene.meshes) {
+        meshes.push_back(computeMeshBox(mesh));
+    }
+    WorldBox box{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
+    for (const MeshInstance& instance : scene.instances) {
+        if (!scene.meshes[instance.mesh].indices.empty()) {
+            const WorldBox placed = placeBox(scene, instance, meshes[instance.mesh]);
+            box = {glm::min(box.low, placed.low), glm::max(box.high, placed.high)};
+        }
+    }
+    return box;
+}
+
+}  // namespace
+
+WorldBox computeWorldBox(const Scene& scene)
+{
+    WorldBox box = countTriangles(countMeshUses(scene)) > kMostFlatTriangles ? computeBoxOfMeshBoxes(scene) : computeTriangleBox(scene);
     for (const Sphere& sphere : scene.spheres) {
         box = {glm::min(box.low, sphere.center - sphere.radius), glm::max(box.high, sphere.center + sphere.radius)};
     }

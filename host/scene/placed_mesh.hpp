@@ -19,6 +19,8 @@ glm::dvec3 faceNormal(const Triangle& triangle);
 class PlacedMesh {
 public:
     PlacedMesh(const Scene& scene, const MeshInstance& instance);
+    // Places each position at linear * position + translation.
+    PlacedMesh(const Mesh& mesh, const glm::dmat3& linear, const glm::dvec3& translation);
 
     std::size_t triangleCount() const { return mesh_->indices.size() / 3; }
     // Indices of the mesh's vertices. If the instance mirrors, two are swapped, so that the front stays the front.

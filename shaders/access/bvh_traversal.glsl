@@ -63,7 +63,40 @@ void visitNode(TraversalRay traversal, uint node, float tMax, out NodeGroup chil
     uint hits = hitsOfNode(head, content, texelFetch(sceneNodes, at + 2), texelFetch(sceneNodes, at + 3), texelFetch(sceneNodes, at + 4),
                            traversal.origin, traversal.reciprocal, traversal.octant, tMax);
     children = NodeGroup(content.x, (hits & kNodeBits) | head.w >> 24u);
+    if (hasFeature(kFeatureInstances)) {
+        bool isInstance = (content.z | content.w) == 0u;
+        children.left = isInstance ? kRootGroup.left | kEntersInstance : children.left;
+    }
     records = Records(content.y, hits & ~kNodeBits);
+}
+
+// What leads from the mesh that is traversed to the instance: to be added to its records and primitive ids. 0 outside instances.
+struct InstanceOffsets {
+    uint record;
+    uint primitive;
+};
+
+const InstanceOffsets kNoOffsets = InstanceOffsets(0u, 0u);
+
+// Where the next group enters or leaves the instance `node`, the ray changes its space. Its direction is not made unit, so t stays what it
+// is. All triangles of an instance see the same bits of the ray: within it, the tests stay watertight.
+void changeSpace(vec3 origin, vec3 direction, uint node, inout NodeGroup group, inout TraversalRay traversal, inout InstanceOffsets offsets)
+{
+    if ((group.left & (kEntersInstance | kLeavesInstance)) != 0u) {
+        offsets = kNoOffsets;
+        if ((group.left & kEntersInstance) != 0u) {
+            int at = int(node * kNodeTexels);
+            vec4 x = uintBitsToFloat(texelFetch(sceneNodes, at));
+            vec4 y = uintBitsToFloat(texelFetch(sceneNodes, at + 2));
+            vec4 z = uintBitsToFloat(texelFetch(sceneNodes, at + 3));
+            uvec4 data = texelFetch(sceneNodes, at + 4);
+            offsets = InstanceOffsets(data.x, data.y);
+            origin = vec3(dot(x.xyz, origin) + x.w, dot(y.xyz, origin) + y.w, dot(z.xyz, origin) + z.w);
+            direction = vec3(dot(x.xyz, direction), dot(y.xyz, direction), dot(z.xyz, direction));
+        }
+        traversal = makeTraversalRay(origin, direction);
+        group.left &= ~(kEntersInstance | kLeavesInstance);
+    }
 }
 
 struct Closest {
@@ -100,10 +133,10 @@ bool isAfter(Query query, float t, uint primitive)
 }
 
 // Ties go to the lower primitive, so that the result does not depend on the tree.
-void meetRecord(TraversalRay traversal, uint index, uint source, Query query, inout Closest best)
+void meetRecord(TraversalRay traversal, InstanceOffsets offsets, uint index, uint source, Query query, inout Closest best)
 {
     Record record = fetchRecord(index);
-    uint primitive = primitiveOf(record);
+    uint primitive = primitiveOf(record) + offsets.primitive;
     TriangleHit hit = intersectRecord(traversal, record, best.hit.t, primitive == source);
     bool counts = true;
     if (hasFeature(kFeatureAlpha)) {
@@ -113,13 +146,13 @@ void meetRecord(TraversalRay traversal, uint index, uint source, Query query, in
         counts = isAfter(query, hit.t, primitive) && primitive != query.target && (hasAlpha(record) || !query.alphaOnly);
     }
     if (counts && hit.t > 0.0 && (hit.t < best.hit.t || primitive < best.primitive)) {
-        best = Closest(index, primitive, hit);
+        best = Closest(index + offsets.record, primitive, hit);
     }
 }
 
 void meetRecord(TraversalRay traversal, uint index, uint source, inout Closest best)
 {
-    meetRecord(traversal, index, source, anyHit(), best);
+    meetRecord(traversal, kNoOffsets, index, source, anyHit(), best);
 }
 
 // What a traversal has done.
@@ -138,6 +171,7 @@ PathHit traceClosest(PathRay ray, Query query, inout Steps steps)
     best.hit.t = query.tMax;
     TraversalStack stack = makeTraversalStack();
     NodeGroup group = kRootGroup;
+    InstanceOffsets offsets = kNoOffsets;
     do {
         uint node = takeNode(group, traversal.octant);
         NodeGroup children;
@@ -146,11 +180,17 @@ PathHit traceClosest(PathRay ray, Query query, inout Steps steps)
         ++steps.nodes;
         if (records.left != 0u) {
             do {
-                meetRecord(traversal, takeRecord(records), ray.source, query, best);
+                meetRecord(traversal, offsets, takeRecord(records), ray.source, query, best);
                 ++steps.primitives;
             } while (records.left != 0u);
         }
+        if (hasFeature(kFeatureInstances)) {
+            markWayBack(stack, children, group);
+        }
         group = nextGroup(stack, children, group);
+        if (hasFeature(kFeatureInstances)) {
+            changeSpace(ray.origin, ray.direction, node, group, traversal, offsets);
+        }
     } while (hasAny(group));
     return hitOf(best);
 }
@@ -168,6 +208,7 @@ bool isUnoccluded(ShadowRay ray, inout Steps steps, out bool metAlpha)
     TraversalRay traversal = makeTraversalRay(ray.origin, ray.direction);
     TraversalStack stack = makeTraversalStack();
     NodeGroup group = kRootGroup;
+    InstanceOffsets offsets = kNoOffsets;
     bool going = true;
     bool occluded = false;
     do {
@@ -176,14 +217,18 @@ bool isUnoccluded(ShadowRay ray, inout Steps steps, out bool metAlpha)
         Records records;
         visitNode(traversal, node, ray.tMax, children, records);
         ++steps.nodes;
+        if (hasFeature(kFeatureInstances)) {
+            markWayBack(stack, children, group);
+        }
         group = nextGroup(stack, children, group);
         going = hasAny(group);
         if (records.left != 0u) {
             do {
                 Record record = fetchRecord(takeRecord(records));
-                TriangleHit hit = intersectRecord(traversal, record, ray.tMax, primitiveOf(record) == ray.source);
+                uint primitive = primitiveOf(record) + offsets.primitive;
+                TriangleHit hit = intersectRecord(traversal, record, ray.tMax, primitive == ray.source);
                 ++steps.primitives;
-                bool met = hit.t > 0.0 && primitiveOf(record) != ray.target;
+                bool met = hit.t > 0.0 && primitive != ray.target;
                 if (hasFeature(kFeatureAlpha)) {
                     metAlpha = metAlpha || (met && hasAlpha(record));
                     met = met && !hasAlpha(record);
@@ -192,6 +237,9 @@ bool isUnoccluded(ShadowRay ray, inout Steps steps, out bool metAlpha)
                 going = going && !met;
                 records.left = met ? 0u : records.left;
             } while (records.left != 0u);
+        }
+        if (hasFeature(kFeatureInstances)) {
+            changeSpace(ray.origin, ray.direction, node, group, traversal, offsets);
         }
     } while (going);
     return !occluded;

@@ -4,7 +4,7 @@
 
 #include "lib/frame.glsl"
 #include "lib/offset_point.glsl"
-#include "scene.glsl"
+#include "placed_record.glsl"
 #include "shared/path_types.h"
 
 struct SurfaceInteraction {
@@ -17,6 +17,8 @@ struct SurfaceInteraction {
     uint material;
     uint primitive;
     uint light;        // index + 1, or 0
+    uint triangle;     // as in PlacedRecord
+    uint instance;     // that places the triangle, or kNoInstance
 };
 
 // The unit normal of a triangle, counter-clockwise front, from its sides one after the other: the two longest cancel least.
@@ -32,6 +34,16 @@ vec3 triangleNormal(vec3 v0, vec3 v1, vec3 v2)
     return triangleNormalFromSides(v1 - v0, v2 - v1, v0 - v2);
 }
 
+// That of a placed triangle. It is placed as a normal, because rounding the sides would tilt a thin triangle. A mirrored front stays the front.
+vec3 placedNormal(PlacedRecord placed)
+{
+    vec3 n = triangleNormal(floatsOf(placed.record.t0), floatsOf(placed.record.t1), floatsOf(placed.record.t2));
+    if (hasFeature(kFeatureInstances) && placed.instance != kNoInstance) {
+        n = normalizeSafely(placeNormal(fetchInstance(placed.instance), n));
+    }
+    return n;
+}
+
 // Interpolates the section of the vertices that begins at texel `first` (scene_types.h).
 vec4 vertexAttribute(uint first, uint triangle, vec2 barycentric)
 {
@@ -41,10 +53,38 @@ vec4 vertexAttribute(uint first, uint triangle, vec2 barycentric)
            uintBitsToFloat(texelFetch(sceneVertices, vertices.z)) * barycentric.y;
 }
 
-// Interpolated vertex normal of a triangle, or zero where it is flat.
-vec3 vertexNormal(uint triangle, vec2 barycentric)
+// The unit vector along v, or 0.
+vec3 normalizeOrZero(vec3 v)
 {
-    return vertexAttribute(0u, triangle, barycentric).xyz;
+    float square = dot(v, v);
+    return square > 0.0 ? v / sqrt(square) : vec3(0.0);
+}
+
+// A normal or tangent of a vertex as its instance places it.
+vec4 placedDirection(InstanceData instance, uint at, bool isNormal)
+{
+    vec4 direction = uintBitsToFloat(texelFetch(sceneVertices, int(at)));
+    float sign_ = !isNormal && instance.mirrors != 0u ? -1.0 : 1.0;  // cross(normal, tangent) turns round
+    return vec4(normalizeOrZero(isNormal ? placeNormal(instance, direction.xyz) : placeVector(instance, direction.xyz)), sign_ * direction.w);
+}
+
+// Interpolated normals or tangents of the vertices, in the section that begins at texel `first`. Each is placed and made unit before, as
+// where meshes are not shared.
+vec4 vertexDirection(uint first, bool isNormal, uint triangle, uint instance, vec2 barycentric)
+{
+    if (hasFeature(kFeatureInstances) && instance != kNoInstance) {
+        InstanceData data = fetchInstance(instance);
+        uvec3 vertices = texelFetch(sceneTriangles, int(triangle)).xyz + first;
+        return placedDirection(data, vertices.x, isNormal) * (1.0 - barycentric.x - barycentric.y) +
+               placedDirection(data, vertices.y, isNormal) * barycentric.x + placedDirection(data, vertices.z, isNormal) * barycentric.y;
+    }
+    return vertexAttribute(first, triangle, barycentric);
+}
+
+// Interpolated vertex normal of a triangle, or zero where it is flat.
+vec3 vertexNormal(uint triangle, uint instance, vec2 barycentric)
+{
+    return vertexDirection(0u, true, triangle, instance, barycentric).xyz;
 }
 
 SurfaceInteraction interactionWithSphere(Record record, vec3 near)
@@ -54,19 +94,23 @@ SurfaceInteraction interactionWithSphere(Record record, vec3 near)
     vec3 n = near - center;
     n = n / length(n);
     return SurfaceInteraction(center + radius * n, sphereErrorBound(center, radius), n, n, vec2(0.0), true, materialOf(record),
-                              primitiveOf(record), record.t2.w);
+                              primitiveOf(record), record.t2.w, 0u, kNoInstance);
 }
 
-SurfaceInteraction interactionWithTriangle(Record record, vec2 barycentric)
+SurfaceInteraction interactionWithTriangle(PlacedRecord placed, vec2 barycentric)
 {
-    vec3 v0 = floatsOf(record.t0);
-    vec3 e1 = floatsOf(record.t1) - v0;
-    vec3 e2 = floatsOf(record.t2) - v0;
-    vec3 n = triangleNormal(v0, floatsOf(record.t1), floatsOf(record.t2));
-    SurfaceInteraction si = SurfaceInteraction(trianglePoint(v0, e1, e2, barycentric), triangleErrorBound(v0, e1, e2), n, n, barycentric,
-                                               true, materialOf(record), primitiveOf(record), record.t2.w);
+    Record record = placed.record;
+    PlacedTriangle triangle = placedTriangle(placed);
+    vec3 v0 = triangle.v0, e1 = triangle.e1, e2 = triangle.e2;
+    vec3 n = placedNormal(placed);
+    vec3 errorBound = triangleErrorBound(v0, e1, e2);
+    if (hasFeature(kFeatureInstances) && placed.instance != kNoInstance) {
+        errorBound += fetchInstance(placed.instance).errorBound;
+    }
+    SurfaceInteraction si = SurfaceInteraction(trianglePoint(v0, e1, e2, barycentric), errorBound, n, n, barycentric, true,
+                                               materialOf(record), primitiveOf(record), record.t2.w, placed.triangle, placed.instance);
     if (hasFeature(kFeatureSmooth)) {
-        vec3 smoothed = vertexNormal(primitiveOf(record), barycentric);
+        vec3 smoothed = vertexNormal(placed.triangle, placed.instance, barycentric);
         float square = dot(smoothed, smoothed);
         si.ns = square > 0.0 ? smoothed / sqrt(square) : n;
     }
@@ -76,12 +120,12 @@ SurfaceInteraction interactionWithTriangle(Record record, vec2 barycentric)
 // Once per hit. Both normals are flipped if the geometric one is not on the side of wo = -ray.direction.
 SurfaceInteraction makeSurfaceInteraction(PathRay ray, PathHit hit)
 {
-    Record record = fetchRecord(hit.record);
+    PlacedRecord placed = fetchPlacedRecord(hit.record);
     SurfaceInteraction si;
-    if (isSphere(record)) {
-        si = interactionWithSphere(record, ray.origin + ray.direction * hit.t);
+    if (isSphere(placed.record)) {
+        si = interactionWithSphere(placed.record, ray.origin + ray.direction * hit.t);
     } else {
-        si = interactionWithTriangle(record, hit.barycentric);
+        si = interactionWithTriangle(placed, hit.barycentric);
     }
     si.front = dot(si.ng, ray.direction) < 0.0;
     float side = si.front ? 1.0 : -1.0;

@@ -212,7 +212,7 @@ LightSample sampleSurfaceLight(FlatLight light, float probability, LightContext 
         s = samplePolygonLight(light, probability, context, u, at);
     }
     if (isUneven(light) && s.pdf > 0.0) {
-        s.radiance *= emissionFactor(fetchRecord(light.record), at.p, at.barycentric, at.cosine);
+        s.radiance *= emissionFactor(fetchPlacedRecord(light.record), at.p, at.barycentric, at.cosine);
     }
     s.radiance = s.pdf > 0.0 ? s.radiance / s.pdf : vec3(0.0);
     return s;

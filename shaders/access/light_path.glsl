@@ -81,7 +81,7 @@ LightRay sampleSurfaceEmission(FlatLight light, vec2 uPoint, float uTarget, vec2
     }
     vec3 radiance = light.intensity;
     if (isUneven(light)) {
-        radiance *= emissionFactor(fetchRecord(light.record), p, barycentric, cosine);
+        radiance *= emissionFactor(fetchPlacedRecord(light.record), p, barycentric, cosine);
     }
     vec3 error = sphere ? sphereErrorBound(light.position, light.size) : triangleErrorBound(light.position, light.edge1, light.edge2);
     uint primitive = rectangle && barycentric.x + barycentric.y > 1.0 ? light.otherPrimitive : light.primitive;

@@ -8,13 +8,20 @@
 #include "parameters.glsl"
 #include "texture.glsl"
 
-#define isOnSphere(si) (hasFeature(kFeatureSpheres) && (si).primitive >= render.triangleCount)
+#define isOnSphere(si) (hasFeature(kFeatureSpheres) && (si).primitive >= render.triangleCount && (si).instance == kNoInstance)
 
 // A section of the vertices, interpolated; of a sphere that of vertex 0.
 vec4 vertexAttribute(uint first, SurfaceInteraction si)
 {
     bool sphere = isOnSphere(si);
-    return vertexAttribute(first, sphere ? 0u : si.primitive, sphere ? vec2(0.0) : si.barycentric);
+    return vertexAttribute(first, sphere ? 0u : si.triangle, sphere ? vec2(0.0) : si.barycentric);
+}
+
+// The mesh's tangent, and the sign of the bitangent.
+vec4 vertexTangent(SurfaceInteraction si)
+{
+    bool sphere = isOnSphere(si);
+    return vertexDirection(render.firstTangent, false, sphere ? 0u : si.triangle, si.instance, sphere ? vec2(0.0) : si.barycentric);
 }
 
 // Texture coordinates of set 0 and set 1. Spheres are mapped by longitude and latitude, as an environment is.
@@ -27,15 +34,15 @@ vec4 textureCoordinates(SurfaceInteraction si)
 }
 
 // The same at a point of a record that is not yet an interaction.
-vec4 textureCoordinates(Record record, vec3 point, vec2 barycentric)
+vec4 textureCoordinates(PlacedRecord placed, vec3 point, vec2 barycentric)
 {
     if (!hasFeature(kFeatureTextures)) {
         return vec4(0.0);
     }
-    if (isSphere(record)) {
-        return latLongFromDirection(normalizeSafely(point - floatsOf(record.t0))).xyxy;
+    if (isSphere(placed.record)) {
+        return latLongFromDirection(normalizeSafely(point - floatsOf(placed.record.t0))).xyxy;
     }
-    return vertexAttribute(render.firstUv, primitiveOf(record), barycentric);
+    return vertexAttribute(render.firstUv, placed.triangle, barycentric);
 }
 
 // glTF 2.0, section 3.9.3. The frame is that of MikkTSpace: interpolated normal and tangent, neither of unit length. On the back the whole
@@ -43,8 +50,8 @@ vec4 textureCoordinates(Record record, vec3 point, vec2 barycentric)
 vec3 mappedNormal(SurfaceInteraction si, vec3 texel, float scale)
 {
     float side = si.front ? 1.0 : -1.0;
-    vec4 tangent = vertexAttribute(render.firstTangent, si);
-    vec3 n = hasFeature(kFeatureSmooth) ? vertexNormal(si.primitive, si.barycentric) : vec3(0.0);
+    vec4 tangent = vertexTangent(si);
+    vec3 n = hasFeature(kFeatureSmooth) ? vertexNormal(si.triangle, si.instance, si.barycentric) : vec3(0.0);
     n = dot(n, n) > 0.0 ? n : side * si.ng;
     vec3 bitangent = cross(n, tangent.xyz) * (tangent.w < 0.0 ? -1.0 : 1.0);
     vec3 local = (2.0 * texel - 1.0) * vec3(scale, scale, 1.0);
@@ -69,20 +76,20 @@ float coverageOf(MaterialData material, float alpha)
 }
 
 // Colour 0 of a record's vertices; white if it has none.
-vec4 vertexColor(Record record, vec2 barycentric)
+vec4 vertexColor(PlacedRecord placed, vec2 barycentric)
 {
-    bool colored = hasFeature(kFeatureVertexColors) && render.firstColor != 0u && !isSphere(record);
-    return colored ? vertexAttribute(render.firstColor, primitiveOf(record), barycentric) : vec4(1.0);
+    bool colored = hasFeature(kFeatureVertexColors) && render.firstColor != 0u && !isSphere(placed.record);
+    return colored ? vertexAttribute(render.firstColor, placed.triangle, barycentric) : vec4(1.0);
 }
 
 // Coverage at a point of a record with alpha.
-float alphaOf(Record record, vec3 point, vec2 barycentric)
+float alphaOf(PlacedRecord placed, vec3 point, vec2 barycentric)
 {
-    MaterialData material = fetchMaterial(materialOf(record));
+    MaterialData material = fetchMaterial(materialOf(placed.record));
     float alpha = material.alpha;
     if (hasFeature(kFeaturePrincipled) && material.principled != 0u) {
         uint texture_ = fetchPrincipled(material.principled).baseColorTexture;
-        alpha *= vertexColor(record, barycentric).a * sampleTexture(texture_, textureCoordinates(record, point, barycentric)).a;
+        alpha *= vertexColor(placed, barycentric).a * sampleTexture(texture_, textureCoordinates(placed, point, barycentric)).a;
     }
     return coverageOf(material, alpha);
 }
@@ -97,9 +104,9 @@ const LayersData kNoLayers = LayersData(0.0, 0.0, 0u, 0u, vec3(0.0), 0.0, 0u, 0u
                                         0.0, 0u, vec3(0.0), 0.0, 0u, 0u, 0u, 0u);
 
 // What texture, coat and coverage multiply a material's emission by, at a point of a record. cosine: of the direction it leaves in.
-vec3 emissionFactor(Record record, vec3 point, vec2 barycentric, float cosine)
+vec3 emissionFactor(PlacedRecord placed, vec3 point, vec2 barycentric, float cosine)
 {
-    MaterialData data = fetchMaterial(materialOf(record));
+    MaterialData data = fetchMaterial(materialOf(placed.record));
     vec3 factor = vec3(1.0);
     float alpha = data.alpha;
     if (hasFeature(kFeaturePrincipled) && data.principled != 0u) {
@@ -109,15 +116,15 @@ vec3 emissionFactor(Record record, vec3 point, vec2 barycentric, float cosine)
         if (coated) {
             layers = fetchLayers(p.layers);
         }
-        uvec3 textures = uvec3(p.emissiveTexture, layers.clearcoatTexture, hasAlpha(record) ? p.baseColorTexture : 0u);
-        ThreeTexels texels = sampleTextures(textures, textureCoordinates(record, point, barycentric));
+        uvec3 textures = uvec3(p.emissiveTexture, layers.clearcoatTexture, hasAlpha(placed.record) ? p.baseColorTexture : 0u);
+        ThreeTexels texels = sampleTextures(textures, textureCoordinates(placed, point, barycentric));
         factor = texels.x.rgb;
         if (coated) {
             factor *= passedCoat(layers.clearcoat * texels.y.r, cosine);
         }
-        alpha *= vertexColor(record, barycentric).a * texels.z.a;
+        alpha *= vertexColor(placed, barycentric).a * texels.z.a;
     }
-    return hasAlpha(record) ? factor * coverageOf(data, alpha) : factor;
+    return hasAlpha(placed.record) ? factor * coverageOf(data, alpha) : factor;
 }
 
 struct SurfaceMaterial {
@@ -246,7 +253,7 @@ vec3 surfaceTangent(SurfaceInteraction si, LayersData layers)
 {
     vec3 outward = si.front ? si.ng : -si.ng;
     vec4 tangent = isOnSphere(si) ? vec4(outward.z == 0.0 && outward.x == 0.0 ? vec3(1.0, 0.0, 0.0) : vec3(-outward.z, 0.0, outward.x), 1.0)
-                                  : vertexAttribute(render.firstTangent, si);
+                                  : vertexTangent(si);
     vec3 n = si.front ? si.ns : -si.ns;
     vec3 bitangent = cross(n, tangent.xyz) * (tangent.w < 0.0 ? -1.0 : 1.0);
     return tangent.xyz * layers.anisotropyCosine + bitangent * layers.anisotropySine;

@@ -12,6 +12,7 @@ layout(set = 0, binding = kBindVertices) uniform usamplerBuffer sceneVertices;
 layout(set = 0, binding = kBindMaterials) uniform usamplerBuffer sceneMaterials;
 layout(set = 0, binding = kBindLights) uniform usamplerBuffer sceneLights;
 layout(set = 0, binding = kBindLightNodes) uniform usamplerBuffer sceneLightNodes;
+layout(set = 0, binding = kBindInstances) uniform usamplerBuffer sceneInstances;
 
 // Three texels; scene_types.h says what is in them.
 struct Record {
@@ -27,6 +28,17 @@ Record fetchRecord(uint record)
 vec3 floatsOf(uvec4 texel)
 {
     return uintBitsToFloat(texel.xyz);
+}
+
+InstanceData fetchInstance(uint instance)
+{
+    int at = int(instance * kInstanceTexels);
+    uvec4 a = texelFetch(sceneInstances, at);
+    uvec4 b = texelFetch(sceneInstances, at + 1);
+    uvec4 c = texelFetch(sceneInstances, at + 2);
+    uvec4 d = texelFetch(sceneInstances, at + 3);
+    uvec4 e = texelFetch(sceneInstances, at + 4);
+    return InstanceData(floatsOf(a), a.w, floatsOf(b), b.w, floatsOf(c), c.w, floatsOf(d), d.w, floatsOf(e), e.w);
 }
 
 MaterialData fetchMaterial(uint material)

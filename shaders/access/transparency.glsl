@@ -14,10 +14,9 @@
 const uint kMaxPassed = 256u;
 
 // What the interface of a smooth thin wall transmits straight, per channel: 1 - F, by the geometric normal.
-vec3 straightFresnel(Record record, PrincipledData p, vec3 direction, vec3 point)
+vec3 straightFresnel(PlacedRecord placed, PrincipledData p, vec3 direction, vec3 point)
 {
-    vec3 n = isSphere(record) ? normalizeSafely(point - floatsOf(record.t0))
-                              : triangleNormal(floatsOf(record.t0), floatsOf(record.t1), floatsOf(record.t2));
+    vec3 n = isSphere(placed.record) ? normalizeSafely(point - floatsOf(placed.record.t0)) : placedNormal(placed);
     vec3 f0 = min(p.reflectance * p.specularColor, vec3(1.0)) * p.specular;
     return 1.0 - f0 - (p.specular - f0) * schlickWeight(abs(dot(n, direction)));
 }
@@ -29,10 +28,10 @@ struct Crossing {
 };
 
 // seesUnlit: the ray is the camera's. direction: unit.
-Crossing crossingAt(Record record, PathRay ray, vec3 direction, PathHit hit, bool seesUnlit)
+Crossing crossingAt(PlacedRecord placed, PathRay ray, vec3 direction, PathHit hit, bool seesUnlit)
 {
     vec3 point = ray.origin + ray.direction * hit.t;
-    MaterialData data = fetchMaterial(materialOf(record));
+    MaterialData data = fetchMaterial(materialOf(placed.record));
     if (isUnlit(data) && !seesUnlit) {
         return Crossing(0.0, vec3(1.0));
     }
@@ -45,12 +44,12 @@ Crossing crossingAt(Record record, PathRay ray, vec3 direction, PathHit hit, boo
         if (thin) {
             layers = fetchLayers(p.layers);
         }
-        vec4 uv = textureCoordinates(record, point, hit.barycentric), color = vertexColor(record, hit.barycentric);
+        vec4 uv = textureCoordinates(placed, point, hit.barycentric), color = vertexColor(placed, hit.barycentric);
         ThreeTexels texels = sampleTextures(uvec3(p.baseColorTexture, layers.transmissionTexture, 0u), uv);
         alpha *= color.a * texels.x.a;
         if (thin) {
             straight = data.baseColor * color.rgb * texels.x.rgb * (layers.transmission * texels.y.r * (1.0 - p.metallic)) *
-                       straightFresnel(record, p, direction, point);
+                       straightFresnel(placed, p, direction, point);
         }
     }
     alpha = coverageOf(data, alpha);
@@ -118,10 +117,11 @@ VisibleHit follow(SampleId id, uint bounce, Passage passage, inout Steps steps)
         hit = traceClosest(passage.ray, passage.query, steps);
         passes = false;
         if (hit.record != kNoRecord) {
-            Record record = fetchRecord(hit.record);
+            PlacedRecord placed = fetchPlacedRecord(hit.record);
+            Record record = placed.record;
             if (hasAlpha(record)) {
                 bool fromCamera = passage.fromCamera || (!passage.isShadow && bounce == 0u);
-                Crossing crossing = crossingAt(record, passage.ray, passage.direction, hit, fromCamera);
+                Crossing crossing = crossingAt(placed, passage.ray, passage.direction, hit, fromCamera);
                 vec3 factor = crossing.through;
                 passes = any(greaterThan(weight * factor, vec3(0.0)));
                 if (!passage.isShadow) {

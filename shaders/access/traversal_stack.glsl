@@ -15,6 +15,10 @@ struct NodeGroup {
 const NodeGroup kRootGroup = NodeGroup(0u, 0x80000000u);
 const NodeGroup kEmptyGroup = NodeGroup(0u, 0u);
 
+// Further bits of `left`: the group is the root of an instance's mesh; or it is the first one to visit after an instance.
+const uint kEntersInstance = 0x100u;
+const uint kLeavesInstance = 0x200u;
+
 bool hasAny(NodeGroup group)
 {
     return group.left >= 1u << kFirstNodeBit;
@@ -69,6 +73,14 @@ NodeGroup nextGroup(inout TraversalStack stack, NodeGroup children, NodeGroup gr
     }
     stack.levels[0] = choose(pushes, group, stack.levels[0]);
     return next;
+}
+
+// If the children are those of an instance: what comes after them, which is the rest of `group` or else the top of the stack, leaves it.
+void markWayBack(inout TraversalStack stack, NodeGroup children, inout NodeGroup group)
+{
+    bool enters = (children.left & kEntersInstance) != 0u;
+    group.left |= enters && hasAny(group) ? kLeavesInstance : 0u;
+    stack.levels[0].left |= enters && !hasAny(group) ? kLeavesInstance : 0u;
 }
 
 #endif

@@ -21,6 +21,7 @@ GLIM_CONST uint kBindEnvironment = 36u;
 GLIM_CONST uint kBindEnvironmentCells = 37u;
 GLIM_CONST uint kBindCaustics = 38u;
 GLIM_CONST uint kBindTexels = 40u;  // and the next ones, kMaxTexelViews in all
+GLIM_CONST uint kBindInstances = 48u;
 // parameters.glsl
 GLIM_CONST uint kBindParameters = 6u;
 // paths.glsl

@@ -37,6 +37,7 @@ GLIM_CONST uint kFeatureGlossiness = 0x8000000u;
 GLIM_CONST uint kFeatureRectangleLights = 0x10000000u;
 GLIM_CONST uint kFeatureLightTree = 0x20000000u;  // several lights, one at least finite: which is chosen depends on the point
 GLIM_CONST uint kFeatureCaustics = 0x40000000u;   // traced from lights to specular surfaces
+GLIM_CONST uint kFeatureInstances = 0x80000000u;  // that share meshes
 GLIM_CONST uint kAllFeatures = 0xffffffffu;       // of any scene
 
 GLIM_SHARED_END

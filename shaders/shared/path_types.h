@@ -178,13 +178,15 @@ struct RenderParameters {
     uint minPathLength;  // least number of surfaces between camera and light, for light that counts
     uint maxPathLength;
     uint lightCount;
-    uint finiteLights;                       // the first of them
-    float infiniteImportance;                // of the others, in the unit of the light tree's
-    uint environmentLight;                   // index, if the scene has an environment
-    vec3 environment;                        // radiance, W/(sr m^2)
-    float clampIndirect;                     // infinity: off
-    uint canarySteps;                        // 3, unknown to the compiler
-    uint triangleCount;                      // primitives from here on are spheres
+    uint finiteLights;         // the first of them
+    float infiniteImportance;  // of the others, in the unit of the light tree's
+    uint environmentLight;     // index, if the scene has an environment
+    vec3 environment;          // radiance, W/(sr m^2)
+    float clampIndirect;       // infinity: off
+    uint canarySteps;          // 3, unknown to the compiler
+    uint triangleCount;        // primitives from here on are spheres
+    uint instanceCount;
+    uint firstInstanceRecord;                // records from here on are those of instances (scene_types.h)
     uint firstUv, firstTangent, firstColor;  // sections of the vertices (scene_types.h)
     uint firstMedium;                        // texel of the first MediumData
     uint hidesEnvironment;                   // 1: from the camera

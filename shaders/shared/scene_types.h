@@ -12,6 +12,9 @@ GLIM_SHARED_BEGIN
 // if child i is a node. Child nodes follow one another from the first node on, in the order of the children; so do the records of leaves
 // from the first record on. An entry is one byte per child. Its lower five bits are a place in the word of hits, its upper three the bits
 // to set there: bit kFirstNodeBit + i of an inner child, or a bit for each of a leaf's records, counted from the first. 0: no child.
+//
+// With kFeatureInstances, a node without entries is an instance of a shared mesh, which has a tree of its own:
+//   (row 0 of meshFromWorld) (root of the mesh's tree, 0, 0, 0) (row 1) (row 2) (firstRecord, firstPrimitive of its InstanceData, 0, 0)
 GLIM_CONST uint kNodeTexels = 5u;
 GLIM_CONST uint kMaxLeafRecords = 3u;
 GLIM_CONST uint kFirstNodeBit = 24u;  // 8 leaves have as many records at most
@@ -27,6 +30,10 @@ GLIM_CONST uint kFirstNodeBit = 24u;  // 8 leaves have as many records at most
 // (xyz, 0), at firstUv + i its texture coordinates (set 0, set 1), at firstTangent + i its tangent (xyz, sign of the bitangent), at
 // firstColor + i its colour (RenderParameters). Flat triangles have the normal 0. Vertex 0 is that of triangles without any attribute.
 // Scenes that need none of it have neither buffer.
+//
+// Shared meshes come last, in a space of their own. Their triangles have the primitive ids after the scene's spheres. A hit of an instance
+// has a record and a primitive id of its own: those of the mesh plus firstRecord and firstPrimitive, modulo 2^32. The records of instances
+// begin at RenderParameters::firstInstanceRecord, in the order of the instances; no buffer has them.
 GLIM_CONST uint kRecordTexels = 3u;
 GLIM_CONST uint kSphereBit = 0x80000000u;
 GLIM_CONST uint kSliverBit = 0x40000000u;  // thinner than kSliverHeight
@@ -61,6 +68,22 @@ GLIM_CONST uint kMediumTexels = 2u;
 GLIM_CONST uint kTextureTexels = 3u;
 GLIM_CONST uint kLightTexels = 5u;
 GLIM_CONST uint kLightNodeTexels = 3u;
+
+// An instance of a shared mesh. In these terms a point of the mesh's space is linear * p + translation in the scene's.
+struct InstanceData {
+    vec3 column0;      // of the linear part
+    uint beginRecord;  // the first of its records
+    vec3 column1;
+    uint firstRecord;  // its records minus those of the mesh
+    vec3 column2;
+    uint firstPrimitive;  // its primitive ids minus those of the mesh
+    vec3 translation;
+    uint mirrors;     // 1: the linear part has a negative determinant
+    vec3 errorBound;  // of a point of it, from rounding both ways
+    uint unused;
+};
+GLIM_CONST uint kInstanceTexels = 5u;
+GLIM_CONST uint kNoInstance = 0xffffffffu;
 
 GLIM_CONST uint kDoubleSided = 1u;  // emits from both sides
 GLIM_CONST float kCoverage = -1.0;  // alpha is the share of light that the surface meets

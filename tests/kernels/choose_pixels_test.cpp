@@ -52,7 +52,7 @@ struct Place {
 
 // The last `idle` entries of the luminances are no pixels of the tile.
 Outcome choosePixels(const std::vector<LuminanceMoments>& luminances, std::uint32_t constantSamples, std::size_t idle = 100,
-                     const Place& place = {20000, 1, 0})
+                     const Place& place = {20000, 1, 0}, std::uint32_t samples = 0)
 {
     const KernelLayout layout(testDevice(), kernelSlots(), sizeof(CoursePass));
     const Kernel kernel(layout, kernels::course_choose_pixels, {{kSpecWorkgroup, kWorkgroup}, {kSpecChosen, 1}});
@@ -78,6 +78,7 @@ Outcome choosePixels(const std::vector<LuminanceMoments>& luminances, std::uint3
     const Bindings bindings(layout, bound);
     CoursePass push{};
     Pass& pass = push.pass;
+    pass.firstSample = samples;
     pass.tileBegin = place.begin;
     pass.pixelCount = static_cast<std::uint32_t>(luminances.size() - idle);
     Commands commands(testDevice());
@@ -133,6 +134,20 @@ TEST(ChoosePixelsTest, ListsNoneOrAll)
     EXPECT_EQ(all.count, 4900U);
     EXPECT_EQ(cautious.count, 4900U);
     EXPECT_EQ(choosePixels(std::vector<LuminanceMoments>(1), 0, 0).count, 1U);
+}
+
+// Noisy pixels of 16, 32 and 48 samples, of which the last have all that there have been so far.
+TEST(ChoosePixelsTest, PixelsThatWereLeftOutStayOut)
+{
+    std::vector<LuminanceMoments> luminances;
+    for (std::uint32_t i = 0; i < 3000; ++i) {
+        luminances.push_back({16 + i % 3 * 16, 0.5F, 100.0F, 1});
+    }
+    const Outcome outcome = choosePixels(luminances, 0, 0, {20000, 1, 0}, 48);
+    expectAList(outcome);
+    for (std::size_t pixel = 0; pixel < luminances.size(); ++pixel) {
+        EXPECT_EQ(outcome.timesChosen[pixel], luminances[pixel].count == 48 ? 1U : 0U) << pixel;
+    }
 }
 
 // A tile that begins and ends within rows, with few chosen pixels.

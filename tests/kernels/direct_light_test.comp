@@ -33,7 +33,7 @@ void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        SurfaceInteraction si = SurfaceInteraction(c.point, vec3(0.0), c.ng, c.ns, vec2(0.0), true, 0u, 77u, 0u);
+        SurfaceInteraction si = SurfaceInteraction(c.point, vec3(0.0), c.ng, c.ns, vec2(0.0), true, 0u, 77u, 0u, 0u, kNoInstance);
         ShadowRay shadow = ShadowRay(vec3(0.0), 0u, vec3(0.0), 0u, vec3(0.0), 0.0);
         SurfaceMaterial material = materialAt(si);
         Bsdf bsdf = makeBsdf(si, material, c.ns);

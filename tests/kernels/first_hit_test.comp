@@ -16,7 +16,7 @@ void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        SurfaceInteraction si = SurfaceInteraction(c.point, vec3(0.0), -c.ns, c.ns, vec2(0.0), true, 0u, 0u, 0u);
+        SurfaceInteraction si = SurfaceInteraction(c.point, vec3(0.0), -c.ns, c.ns, vec2(0.0), true, 0u, 0u, 0u, 0u, kNoInstance);
         FirstHit hit = makeFirstHit(si, MaterialData(c.baseColor, kLambert, vec3(9.0), 1.5, 0u, 0u, 0.0, 0.0), c.ns);
         EXPECT_NEAR(hit.depth, c.depth, c.tolerance);
         EXPECT_TRUE(hit.albedo == c.baseColor);

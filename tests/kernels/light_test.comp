@@ -34,7 +34,7 @@ struct Receiver {
 Receiver makeReceiver(Case c)
 {
     if (c.height == 0.0) {
-        return Receiver(SurfaceInteraction(c.point, vec3(0.0), c.normal, c.normal, vec2(0.0), true, 0u, kNoPrimitive, 0u), 0.0);
+        return Receiver(SurfaceInteraction(c.point, vec3(0.0), c.normal, c.normal, vec2(0.0), true, 0u, kNoPrimitive, 0u, 0u, kNoInstance), 0.0);
     }
     PathRay ray = PathRay(c.point + c.normal * c.height, kNoPrimitive, -c.normal, 0u);
     PathHit hit = traceClosest(ray);

@@ -27,7 +27,7 @@ const vec3 kColor(0.9F, 0.6F, 0.3F);
 struct SurfaceInteraction {
     vec3 p, errorBound, ng, ns;
     vec2 uv;
-    uint front, material, primitive, emitter;
+    uint front, material, primitive, light, triangle, instance;
 };
 
 struct Case {
@@ -49,8 +49,17 @@ Case makeCase(Random& random, uint material, uint bounce, double lean)
     const dvec3 n = random.direction();
     dvec3 wo = random.direction();
     wo = dot(wo, n) < 0.0 ? -wo : wo;
-    c.si = {
-        random.normalVector(), vec3(1e-6F), n, glm::normalize(n + lean * random.direction()), vec2(0.0F), random.below(2), material, 77, 0};
+    c.si = {random.normalVector(),
+            vec3(1e-6F),
+            n,
+            glm::normalize(n + lean * random.direction()),
+            vec2(0.0F),
+            random.below(2),
+            material,
+            77,
+            0,
+            0,
+            kNoInstance};
     c.ray = {vec3(0.0F), 5, -wo, 0};
     c.state = {{random.uniform(0.1, 1.0), random.uniform(0.1, 1.0), random.uniform(0.1, 1.0)}, 0.5F, 0.5F, 1.0F, bounce, 0};
     return c;

@@ -28,8 +28,8 @@ void main()
 {
     if (TEST_THREAD == 0u) {
         vec3 ng = vec3(4.0, 5.0, 6.0);
-        noteSurface(SurfaceInteraction(vec3(1.0, 2.0, 3.0), vec3(0.0), ng, vec3(0.0), vec2(0.0), true, 0u, 0u, 0u), vec3(7.0, 8.0, 9.0));
-        noteMaterial(SurfaceInteraction(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec2(0.0), true, 0u, 0u, 0u), PathHit(0u, 0.0, vec2(0.0)),
+        noteSurface(SurfaceInteraction(vec3(1.0, 2.0, 3.0), vec3(0.0), ng, vec3(0.0), vec2(0.0), true, 0u, 0u, 0u, 0u, kNoInstance), vec3(7.0, 8.0, 9.0));
+        noteMaterial(SurfaceInteraction(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec2(0.0), true, 0u, 0u, 0u, 0u, kNoInstance), PathHit(0u, 0.0, vec2(0.0)),
                      notedMaterial(), 5u | 6u << kMediumBits);
         noteHitLight(10.0, 11.0);
         noteLight(12u);

@@ -167,6 +167,15 @@ TEST(BenchKernelsTest, TellsWhichVariantIsFastest)
     EXPECT_EQ(countLines(run.out), 2U + 18U + 1U) << run.out;
 }
 
+// The course's kernels do not know them.
+TEST(CommandLineTest, KernelRatesOfTransparentSurfacesLeaveTheCourseOut)
+{
+    const GlimRun run = runGlim({"bench", "--kernels", sceneFile("alpha.gltf"), "--size", "16x16"});
+    EXPECT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_NE(run.out.find("as rendered"), std::string::npos) << run.out;
+    EXPECT_EQ(run.out.find("Moller"), std::string::npos) << run.out;
+}
+
 TEST(BenchKernelsTest, NeedsNoScene)
 {
     const GlimRun run = runGlim({"bench", "--kernels", "--size", "16x16"});

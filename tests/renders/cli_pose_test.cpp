@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-class PoseTest : public ::testing::Test {
+class CommandLinePoseTest : public ::testing::Test {
 protected:
     // A triangle that grows from 1 m to 3 m in two seconds, and a skin that nobody wears.
     void SetUp() override
@@ -43,7 +43,7 @@ protected:
     ScratchFolder folder_;
 };
 
-TEST_F(PoseTest, InspectListsAnimationsAndPosesTheScene)
+TEST_F(CommandLinePoseTest, InspectListsAnimationsAndPosesTheScene)
 {
     const GlimRun rest = run({"inspect", "scene.gltf"});
     EXPECT_NE(rest.out.find("  animation 0 \"grow\", 2 s\n"), std::string::npos) << rest.out;
@@ -54,7 +54,7 @@ TEST_F(PoseTest, InspectListsAnimationsAndPosesTheScene)
     EXPECT_EQ(posed.at("bounds").at("high"), json::array({2, 2, 0}));
 }
 
-TEST_F(PoseTest, FilmsOfTwoTimesAreNotMerged)
+TEST_F(CommandLinePoseTest, FilmsOfTwoTimesAreNotMerged)
 {
     render("1", "0:2", "a.exr");
     render("1", "2:4", "b.exr");
@@ -65,7 +65,7 @@ TEST_F(PoseTest, FilmsOfTwoTimesAreNotMerged)
     EXPECT_NE(refused.err.find("scene, camera or environment"), std::string::npos) << refused.err;
 }
 
-TEST_F(PoseTest, AnAnimationNeedsATime)
+TEST_F(CommandLinePoseTest, AnAnimationNeedsATime)
 {
     const GlimRun refused = run({"render", "scene.gltf", "--animation", "grow", "-o", "x.exr"});
     EXPECT_EQ(refused.exitCode, 2);

@@ -21,7 +21,7 @@ struct SceneOnDevice {
           flat(flattenScene(scene, primitives, bvh)),
           device(testDevice(), flat),
           camera(flattenCamera(view, 1.0F)),
-          recordOf(primitives.count())
+          recordOf(flat.records.size() / kRecordTexels)
     {
         for (std::uint32_t record = 0; record < bvh.order.size(); ++record) {
             recordOf[bvh.order[record]] = record;
@@ -38,6 +38,9 @@ struct SceneOnDevice {
         test.buffers(device.buffers());
         test.parameters().camera = camera;
         test.specialize(kSpecStackLevels, flat.stackLevels).specialize(kSpecFeatures, flat.features).specialize(kSpecTexelViews, 1);
+        test.parameters().triangleCount = flat.triangleCount;
+        test.parameters().instanceCount = static_cast<std::uint32_t>(flat.instances.size() / kInstanceTexels);
+        test.parameters().firstInstanceRecord = flat.firstInstanceRecord;
         test.parameters().lightCount = static_cast<std::uint32_t>(flat.lights.size());
         test.parameters().finiteLights = flat.finiteLights;
         test.parameters().infiniteImportance = flat.infiniteImportance;

@@ -10,7 +10,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 379u;
+GLIM_CONST uint kSharedWords = 401u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -41,6 +41,7 @@ struct EverySharedStruct {
     TextureData texture_;
     FlatLight light;
     LightNode lightNode;
+    InstanceData instance;
     DisplayPass display;
 };
 
@@ -84,7 +85,7 @@ F3(parameters.camera.position) F3(parameters.camera.right) F3(parameters.camera.
 U(parameters.camera.kind) F3(parameters.camera.lensRight) F3(parameters.camera.lensUp) F(parameters.camera.inverseFocus)
 U(parameters.width) U(parameters.height) U(parameters.seed) U(parameters.maxBounces) U(parameters.minPathLength)
 U(parameters.maxPathLength) U(parameters.lightCount) U(parameters.finiteLights) F(parameters.infiniteImportance) U(parameters.environmentLight) F3(parameters.environment)
-F(parameters.clampIndirect) U(parameters.canarySteps) U(parameters.triangleCount) U(parameters.firstUv) U(parameters.firstTangent)
+F(parameters.clampIndirect) U(parameters.canarySteps) U(parameters.triangleCount) U(parameters.instanceCount) U(parameters.firstInstanceRecord) U(parameters.firstUv) U(parameters.firstTangent)
 U(parameters.firstColor) U(parameters.firstMedium) U(parameters.hidesEnvironment) U2(parameters.environmentSize) U2(parameters.environmentCells)
 F2(parameters.environmentTurn) U(parameters.causticTargets) U(parameters.causticLights) U(parameters.lightPaths)
 F(parameters.splatScale)
@@ -114,6 +115,8 @@ U(light.kind) U(light.record) U(light.primitive) U(light.otherPrimitive) F3(ligh
 F(light.size) F3(light.edge1) F(light.versineInner) F3(light.edge2) F(light.versineOuter)
 F3(lightNode.center) F(lightNode.radius) F3(lightNode.axis) F(lightNode.power) F(lightNode.cosNormals) F(lightNode.cosEmission)
 U(lightNode.children) U(lightNode.firstLight)
+F3(instance.column0) U(instance.beginRecord) F3(instance.column1) U(instance.firstRecord) F3(instance.column2) U(instance.firstPrimitive)
+F3(instance.translation) U(instance.mirrors) F3(instance.errorBound) U(instance.unused)
 U(display.width) U(display.height) U(display.filmWidth) U(display.filmHeight) U(display.tileBegin) U(display.tileCount)
 F(display.scale) F(display.low) F(display.high) U(display.textWidth) U(display.textHeight)
 // clang-format on

@@ -46,6 +46,7 @@ USERS = {
     "Caustics": ["sample_lights_and_bounce"],
     "RectangleLights": ["sample_lights_and_bounce"],
     "LightTree": ["sample_lights_and_bounce"],
+    "Instances": ["trace_closest", "trace_shadow", "sample_lights_and_bounce"],
 }
 # What a feature needs before it has any code.
 NEEDS = {

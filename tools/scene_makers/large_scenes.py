@@ -130,6 +130,79 @@ def cone(sides, radius, bottom, top):
     return points, indices
 
 
+def bumpy_ball(subdivisions):
+    """20 * 4^subdivisions triangles around the origin, 3.2 high."""
+    points, indices = icosahedron()
+    points = [tuple(c / math.sqrt(sum(k * k for k in p)) for c in p) for p in points]
+    for _ in range(subdivisions):
+        halves, finer = {}, []
+
+        def half(a, b):
+            if (min(a, b), max(a, b)) not in halves:
+                middle = [points[a][k] + points[b][k] for k in range(3)]
+                length = math.sqrt(sum(c * c for c in middle))
+                halves[min(a, b), max(a, b)] = len(points)
+                points.append(tuple(c / length for c in middle))
+            return halves[min(a, b), max(a, b)]
+
+        for a, b, c in zip(indices[::3], indices[1::3], indices[2::3]):
+            x, y, z = half(a, b), half(b, c), half(c, a)
+            finer += [a, x, z, b, y, x, c, z, y, x, y, z]
+        indices = finer
+    waves = [1 + 0.25 * math.sin(7 * x) * math.sin(6 * y + 1) * math.sin(5 * z + 2) for x, y, z in points]
+    return [[w * x, 1.6 * w * y, w * z] for w, (x, y, z) in zip(waves, points)], indices
+
+
+def grove(count):
+    """`count` instances of one tree of 20,480 triangles, which overlap."""
+    document, source = sunlit(), random.Random(5)
+    side = 1.5 * math.sqrt(count)
+    document.quad("ground", [[-side, 0, side], [side, 0, side], [side, 0, -side], [-side, 0, -side]],
+                  document.material("ground", (0.4, 0.35, 0.3)))
+    tree = document.mesh(document.primitive(*bumpy_ball(5), document.material("leaf", (0.25, 0.45, 0.15))))
+    for i in range(count):
+        size, angle = source.uniform(0.6, 1.3), source.uniform(0, math.pi)
+        document.node("tree %d" % i, mesh=tree, rotation=[0, math.sin(angle), 0, math.cos(angle)],
+                      translation=[source.uniform(-side, side), 1.6 * size, source.uniform(-side, side)],
+                      scale=[size, size * source.uniform(0.8, 1.4), size])
+    return document
+
+
+def city(count):
+    """`count` instances of a fifth as many houses, of 432 to 6,912 triangles, in streets."""
+    document, source = sunlit(), random.Random(6)
+    rows = math.ceil(math.sqrt(count))
+    document.quad("ground", [[-2.0 * rows, 0, 2.0 * rows], [2.0 * rows, 0, 2.0 * rows], [2.0 * rows, 0, -2.0 * rows],
+                             [-2.0 * rows, 0, -2.0 * rows]], document.material("ground", (0.4, 0.4, 0.4)))
+    plaster = [document.material("plaster %d" % i, color) for i, color in
+               enumerate([(0.7, 0.65, 0.55), (0.6, 0.6, 0.62), (0.5, 0.3, 0.2)])]
+    houses = [document.mesh(document.primitive(*house(source.choice([6, 8, 12, 16, 24]), i), plaster[i % 3]))
+              for i in range(max(1, count // 5))]
+    for i in range(count):
+        height = source.uniform(0.6, 4)
+        document.node("house %d" % i, mesh=houses[i % len(houses)], scale=[1.2, height, 1.2],
+                      translation=[3.2 * (i % rows - rows / 2), height, 3.2 * (i // rows - rows / 2)])
+    return document
+
+
+def house(cells, style):
+    """[-1, 1]^3 with uneven sides of cells x cells squares."""
+    points, indices = [], []
+    for axis, sign in [(axis, sign) for axis in range(3) for sign in (-1, 1)]:
+        first = len(points)
+        for u, v in [(2 * i / cells - 1, 2 * j / cells - 1) for i in range(cells + 1) for j in range(cells + 1)]:
+            point = [0.0, 0.0, 0.0]
+            point[axis] = sign * (1 + 0.06 * math.sin(9 * u + style) * math.sin(8 * v))
+            point[(axis + 1) % 3], point[(axis + 2) % 3] = u, v
+            points.append(point)
+        for i in range(cells):
+            for j in range(cells):
+                a = first + i * (cells + 1) + j
+                square = [a, a + cells + 1, a + cells + 2, a + 1][::sign]
+                indices += [square[k] for k in (0, 1, 2, 0, 2, 3)]
+    return points, indices
+
+
 def lamps(count):
     """The Cornell box, lit by `count` icosahedra of 20 triangles, of 16 brightnesses from 1 to 8."""
     document, source = Document(), random.Random(4)
@@ -168,4 +241,5 @@ def cornell_bunny():
     return document
 
 
-LARGE_SCENES = {function.__name__: function for function in (terrain, menger, slivers, coincident, growing, forest, lamps)}
+LARGE_SCENES = {function.__name__: function for function in (terrain, menger, slivers, coincident, growing, forest, grove, city,
+                                                                lamps)}

@@ -18,6 +18,7 @@ using nlohmann::json;
 
 constexpr const char* kSupportedExtensions[] = {
     "EXT_lights_image_based",
+    "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "EXT_texture_webp",
     "KHR_animation_pointer",

@@ -1,10 +1,14 @@
 #include "host/scene/gltf/read_geometry.hpp"
 
+#include "host/scene/gltf/check_size.hpp"
+#include "host/scene/gltf/read_instancing.hpp"
 #include "host/scene/gltf/read_mesh.hpp"
 #include "host/scene/placed_mesh.hpp"
+#include "host/scene/share_meshes.hpp"
 #include "host/text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -106,8 +110,13 @@ public:
 
 private:
     void addInstances(const PlacedNode& node, std::size_t mesh);
+    void addInstance(const PlacedNode& placed, std::size_t mesh);
     const std::vector<std::uint32_t>& meshesOf(std::size_t node, std::size_t mesh);
     void countTriangles();
+    static std::array<glm::dvec3, 8> cornersOf(const Mesh& mesh);
+    // The vertices of the instance's mesh; of a scene with very many the corners of a box around them.
+    template <class Visit>
+    void forEachPoint(const MeshInstance& instance, const Visit& visit) const;
     Box computeBox() const;
     void checkVertices(std::size_t instance) const;
     void requireSomething() const;
@@ -118,7 +127,8 @@ private:
     std::uint32_t defaultMaterial_;
     // The scene's meshes by mesh of the file, skin and weights of morph targets: nodes that agree in these share them.
     std::map<std::tuple<std::size_t, int, std::vector<double>>, std::vector<std::uint32_t>> meshes_;
-    std::vector<std::size_t> nodes_;  // by instance
+    std::vector<std::size_t> nodes_;                      // by instance
+    std::vector<std::array<glm::dvec3, 8>> meshCorners_;  // by mesh of the scene, if it has more than kMostFlatTriangles
     std::vector<WorldSphere> spheres_;
     std::size_t triangles_ = 0, emptySpheres_ = 0;
 };
@@ -162,14 +172,23 @@ const std::vector<std::uint32_t>& GeometryReader::meshesOf(std::size_t node, std
 void GeometryReader::addInstances(const PlacedNode& node, std::size_t mesh)
 {
     const tinygltf::Node& source = file_.model.nodes[node.index];
-    const bool skinned = source.skin >= 0;
-    if (!skinned) {
-        readLinear(file_, node);  // refuses a singular one
+    if (source.skin >= 0) {
+        addInstance({node.index, glm::dmat4(1.0)}, mesh);
+        return;
     }
-    for (const std::uint32_t id : meshesOf(node.index, mesh)) {
-        scene_.instances.push_back(
-            {source.name.empty() ? scene_.meshes[id].name : source.name, id, skinned ? glm::dmat4(1.0) : node.worldFromNode});
-        nodes_.push_back(node.index);
+    for (const glm::dmat4& nodeFromInstance : readInstanceTransforms(file_, node.index)) {
+        const PlacedNode instance{node.index, node.worldFromNode * nodeFromInstance};
+        readLinear(file_, instance);  // refuses a singular one
+        addInstance(instance, mesh);
+    }
+}
+
+void GeometryReader::addInstance(const PlacedNode& placed, std::size_t mesh)
+{
+    const std::string& name = file_.model.nodes[placed.index].name;
+    for (const std::uint32_t id : meshesOf(placed.index, mesh)) {
+        scene_.instances.push_back({name.empty() ? scene_.meshes[id].name : name, id, placed.worldFromNode});
+        nodes_.push_back(placed.index);
     }
 }
 
@@ -181,6 +200,42 @@ void GeometryReader::countTriangles()
     if (triangles_ > std::numeric_limits<std::uint32_t>::max()) {
         refuse(file_, "the scene has " + std::to_string(triangles_) + " triangles; expected at most 4294967295");
     }
+    if (triangles_ > kMostFlatTriangles) {
+        for (const Mesh& mesh : scene_.meshes) {
+            meshCorners_.push_back(cornersOf(mesh));
+        }
+    }
+}
+
+std::array<glm::dvec3, 8> GeometryReader::cornersOf(const Mesh& mesh)
+{
+    Box box;
+    for (const std::uint32_t index : mesh.indices) {
+        box.extend(mesh.positions[index]);
+    }
+    std::array<glm::dvec3, 8> corners;
+    for (std::size_t i = 0; i < 8; ++i) {
+        corners[i] = {(i & 1U) != 0 ? box.max.x : box.min.x, (i & 2U) != 0 ? box.max.y : box.min.y, (i & 4U) != 0 ? box.max.z : box.min.z};
+    }
+    return corners;
+}
+
+template <class Visit>
+void GeometryReader::forEachPoint(const MeshInstance& instance, const Visit& visit) const
+{
+    const Mesh& mesh = scene_.meshes[instance.mesh];
+    if (mesh.indices.empty()) {
+        return;
+    }
+    if (!meshCorners_.empty()) {
+        for (const glm::dvec3& corner : meshCorners_[instance.mesh]) {
+            visit(corner);
+        }
+        return;
+    }
+    for (const std::uint32_t index : mesh.indices) {
+        visit(mesh.positions[index]);
+    }
 }
 
 Box GeometryReader::computeBox() const
@@ -188,14 +243,13 @@ Box GeometryReader::computeBox() const
     Box box;
     for (std::size_t i = 0; i < scene_.instances.size(); ++i) {
         const MeshInstance& instance = scene_.instances[i];
-        const Mesh& mesh = scene_.meshes[instance.mesh];
         const glm::dmat3 linear(instance.worldFromMesh);
         const glm::dvec3 translation(instance.worldFromMesh[3]);
-        for (const std::uint32_t index : mesh.indices) {
-            const glm::dvec3 world = linear * mesh.positions[index] + translation;
+        forEachPoint(instance, [&](const glm::dvec3& point) {
+            const glm::dvec3 world = linear * point + translation;
             checkPoint(file_, nodes_[i], world, isFinite(world));
             box.extend(world);
-        }
+        });
     }
     for (const WorldSphere& sphere : spheres_) {
         checkPoint(file_, sphere.node, sphere.center, isFinite(sphere.center));
@@ -209,12 +263,9 @@ Box GeometryReader::computeBox() const
 void GeometryReader::checkVertices(std::size_t instance) const
 {
     const MeshInstance& placed = scene_.instances[instance];
-    const Mesh& mesh = scene_.meshes[placed.mesh];
     const glm::dmat3 linear(placed.worldFromMesh);
     const glm::dvec3 translation = glm::dvec3(placed.worldFromMesh[3]) - scene_.origin;
-    for (const std::uint32_t index : mesh.indices) {
-        toFloat(file_, nodes_[instance], linear * mesh.positions[index] + translation);
-    }
+    forEachPoint(placed, [&](const glm::dvec3& point) { toFloat(file_, nodes_[instance], linear * point + translation); });
 }
 
 void GeometryReader::requireSomething() const
@@ -254,6 +305,7 @@ void GeometryReader::finish()
 
 void readGeometry(const GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& scene, Warnings& warnings)
 {
+    checkSize(file, nodes);
     GeometryReader reader(file, scene, warnings);
     for (const PlacedNode& node : nodes) {
         reader.addNode(node);

@@ -36,7 +36,7 @@ bool isEmpty(uint pixel)
 void main()
 {
     uint pixel = interleavedInvocation();
-    if (pixel < pass.pixelCount && filmLuminance[pixel].count == pass.firstSample &&
+    if (pixel < pass.pixelCount && filmLuminance[pixel].count >= pass.firstSample &&
         !isAccurate(filmLuminance[pixel], course.tolerance, course.constantSamples) && !isEmpty(pixel)) {
         chosenPixels[atomicAdd(chosenCount, 1u)] = ChosenPixel(pixel, 0u);
     }

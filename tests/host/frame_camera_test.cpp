@@ -1,0 +1,72 @@
+// The framed camera: the box around the scene is in the middle of the picture and fills it up to the margin.
+#include "host/scene/frame_camera.hpp"
+#include "tests/support/gltf_builder.hpp"
+#include "tests/support/test_meshes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace glim {
+namespace {
+
+struct Extent {
+    glm::dvec2 low{1e30}, high{-1e30};
+};
+
+// Of the corners of [low, high] in the picture, from -1 to 1 on each axis.
+Extent seen(const Camera& camera, const glm::dvec3& low, const glm::dvec3& high, double aspectRatio)
+{
+    Extent extent;
+    const double slope = std::tan(0.5 * static_cast<double>(camera.yfov));
+    for (unsigned i = 0; i < 8; ++i) {
+        const glm::dvec3 corner((i & 1U) != 0 ? high.x : low.x, (i & 2U) != 0 ? high.y : low.y, (i & 4U) != 0 ? high.z : low.z);
+        const glm::dvec3 way = corner - glm::dvec3(camera.position);
+        const double depth = glm::dot(way, glm::dvec3(camera.forward));
+        EXPECT_GT(depth, 0.0);
+        const glm::dvec2 at(glm::dot(way, glm::dvec3(camera.right)) / (depth * slope * aspectRatio),
+                            glm::dot(way, glm::dvec3(camera.up)) / (depth * slope));
+        extent.low = glm::min(extent.low, at);
+        extent.high = glm::max(extent.high, at);
+    }
+    return extent;
+}
+
+TEST(FrameCamera, CentresAndFillsWhateverTheShape)
+{
+    for (const glm::vec3& half : {glm::vec3(1, 1, 1), glm::vec3(8, 1, 1), glm::vec3(1, 9, 1), glm::vec3(1, 1, 20), glm::vec3(5, 0.01F, 5),
+                                  glm::vec3(1e-4F, 2e-4F, 1e-4F), glm::vec3(0.001F, 40, 0.001F)}) {
+        Triangles box = sliverBox(2);
+        for (Triangle& triangle : box) {
+            for (glm::vec3& vertex : triangle.vertices) {
+                vertex = half * vertex + 3.0F * half;
+            }
+        }
+        const Scene scene = sceneOf(box);
+        for (const float aspectRatio : {0.25F, 1.0F, 1.7F, 5.0F}) {
+            const Camera camera = frameCamera(scene, aspectRatio);
+            const Extent extent = seen(camera, 2.0F * half, 4.0F * half, static_cast<double>(aspectRatio));
+            const double fills = std::max(extent.high.x, extent.high.y);
+            EXPECT_NEAR(extent.high.x, -extent.low.x, 1e-5) << half.x << ' ' << half.y << ' ' << half.z << ", " << aspectRatio;
+            EXPECT_NEAR(extent.high.y, -extent.low.y, 1e-5) << half.x << ' ' << half.y << ' ' << half.z << ", " << aspectRatio;
+            EXPECT_NEAR(fills, 0.9, 1e-5) << half.x << ' ' << half.y << ' ' << half.z << ", " << aspectRatio;
+        }
+    }
+}
+
+TEST(FrameCamera, IsThereForFilesWithCamerasIfAskedFor)
+{
+    test::GltfBuilder builder;
+    builder.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}});
+    builder.addNode({{"mesh", builder.addTriangleMesh()}});
+    builder.addNode({{"camera", 0}});
+    EXPECT_EQ(test::load(builder).cameras.size(), 1U);
+    LoadOptions options;
+    options.framed = true;
+    const Scene scene = test::load(builder, options);
+    ASSERT_EQ(scene.cameras.size(), 2U);
+    EXPECT_EQ(scene.cameras[1].name, "framed");
+}
+
+}  // namespace
+}  // namespace glim

@@ -1,0 +1,75 @@
+// One thread is one ray from inside a closed convex mesh, of which every instance is one: at an edge, at a vertex, or anywhere. What it hits
+// is left outwards again.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "expect.glsl"
+#include "access/interaction.glsl"
+#include "access/traverse.glsl"
+#include "lib/hash.glsl"
+#include "lib/warp.glsl"
+
+struct Tally {
+    uint rays[3];
+    uint misses[3];
+    uint astray[3];        // hits of another instance, or not where the ray was aimed
+    uint again;            // rays that left outwards and met the instance again
+    uint largestOffset;    // bits of a float: how far the ray that leaves starts from the hit, in bounds of its error
+    uint wrongSide;        // geometric normals that do not face the inside
+};
+
+layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { float tolerance; };  // of the distance, in sizes of the instance
+layout(set = 0, binding = kBindResults, scalar) buffer Results { Tally tally; };
+
+uvec4 randomBits(uint dimension)
+{
+    return hash4(uvec4(TEST_THREAD, dimension, 0u, render.seed));
+}
+
+float largest(vec3 v)
+{
+    return max(abs(v.x), max(abs(v.y), abs(v.z)));
+}
+
+void leave(PathRay ray, PathHit hit, uint index)
+{
+    SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
+    atomicAdd(tally.wrongSide, si.front ? 1u : 0u);
+    vec3 wi = worldFromFrame(makeFrame(-si.ng), sampleCosineHemisphere(unitFloat(randomBits(2u).xy)));
+    PathRay next = spawnRay(si, wi);
+    EXPECT_EQUAL(next.source, si.primitive);
+    float bounds = largest((next.origin - si.p) / (si.errorBound + 1.2e-7 * abs(si.p)));
+    atomicMax(tally.largestOffset, floatBitsToUint(bounds));
+    PathHit met = traceClosest(next);
+    bool again = met.record != kNoRecord && fetchPlacedRecord(met.record).instance == index;
+    ShadowRay shadow = ShadowRay(next.origin, next.source, wi, kNoPrimitive, vec3(1.0), kInfinity);
+    EXPECT_TRUE(isUnoccluded(shadow) == (met.record == kNoRecord));
+    atomicAdd(tally.again, again ? 1u : 0u);
+}
+
+void main()
+{
+    uint kind = TEST_THREAD % 3u;
+    uvec4 a = randomBits(0u), b = randomBits(1u);
+    uint index = chooseBin(a.w, render.instanceCount);
+    InstanceData instance = fetchInstance(index);
+    Record record = fetchRecord(chooseBin(a.x, uint(textureSize(sceneRecords)) / kRecordTexels));
+    vec3 v0 = floatsOf(record.t0), v1 = floatsOf(record.t1), v2 = floatsOf(record.t2);
+    vec2 inside = sampleTriangle(unitFloat(a.yz));
+    vec3 aim = kind == 0u ? v0 + (v1 - v0) * (0.05 + 0.9 * unitFloat(a.y)) : kind == 1u ? v0 : v0 + (v1 - v0) * inside.x + (v2 - v0) * inside.y;
+    vec3 origin = placePoint(instance, 0.3 * (1.0 - 2.0 * vec3(unitFloat(b.xy), unitFloat(b.z))));
+    vec3 target = placePoint(instance, aim);
+    vec3 direction = (b.w & 1u) != 0u ? normalizeSafely(target - origin) : target - origin;
+    PathRay ray = PathRay(origin, kNoPrimitive, direction, 0u);
+    PathHit hit = traceClosest(ray);
+    EXPECT_TRUE(isinf(hit.t) == (hit.record == kNoRecord));
+    atomicAdd(tally.rays[kind], 1u);
+    if (hit.record == kNoRecord) {
+        atomicAdd(tally.misses[kind], 1u);
+    } else {
+        float size = largest(abs(instance.column0) + abs(instance.column1) + abs(instance.column2));
+        bool there = abs(hit.t * length(direction) - length(target - origin)) <= tolerance * size;
+        atomicAdd(tally.astray[kind], there && fetchPlacedRecord(hit.record).instance == index ? 0u : 1u);
+        leave(ray, hit, index);
+    }
+    endTest();
+}

@@ -1,0 +1,131 @@
+// Scenes whose instances share meshes, against the same scenes with every instance flattened.
+#include "host/flatten/build_scene_bvh.hpp"
+#include "host/flatten/flatten_scene.hpp"
+#include "tests/support/build_scene.hpp"
+#include "tests/support/render_scene.hpp"
+#include "tests/support/test_meshes.hpp"
+
+#include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+
+namespace glim {
+namespace {
+
+FlatScene flattenedWith(const Scene& scene, std::uint64_t mostFlatTriangles, SplitRule rule = SplitRule::Sah)
+{
+    const Primitives primitives = makePrimitives(scene, mostFlatTriangles);
+    return flattenScene(scene, primitives, buildSceneBvh(primitives, rule));
+}
+
+void addInstance(Scene& scene, std::uint32_t mesh, const glm::dvec3& at, double angle, const glm::dvec3& scale)
+{
+    const glm::dmat4 turned = glm::rotate(glm::translate(glm::dmat4(1.0), at), angle, glm::normalize(glm::dvec3(0.3, 1.0, 0.2)));
+    scene.instances.push_back({"", mesh, glm::scale(turned, scale)});
+}
+
+// The mesh that was added last, alone.
+std::uint32_t addShape(Scene& scene, const Triangles& triangles, std::uint32_t material, const std::vector<glm::vec3>& normals = {})
+{
+    addMesh(scene, triangles, material, normals);
+    scene.instances.pop_back();
+    return static_cast<std::uint32_t>(scene.meshes.size() - 1);
+}
+
+// A floor, a lamp that two instances share, smooth and angular balls, glass, a sphere of the scene's own and cards that are half
+// transparent.
+Scene yard()
+{
+    SceneBuilder builder;
+    const auto floor = builder.lambert(glm::vec3(0.6F)), red = builder.lambert(glm::vec3(0.7F, 0.2F, 0.1F));
+    const auto metal = builder.lambert(glm::vec3(0.8F)), glass = builder.glass(1.5F), card = builder.lambert(glm::vec3(0.2F, 0.6F, 0.2F));
+    const auto lamp = builder.lambert(glm::vec3(0.0F), glm::vec3(9.0F));
+    builder.quad({glm::vec3(-6, 0, 6), {6, 0, 6}, {6, 0, -6}, {-6, 0, -6}}, floor)
+        .sphere({-2.6F, 0.5F, 0.4F}, 0.5F, red)
+        .environment(glm::vec3(0.2F, 0.3F, 0.4F))
+        .perspective({0.5F, 3.0F, 7.0F}, {0, 0.6F, 0}, 0.6F);
+    Scene scene = builder.scene();
+    scene.materials[metal].metallic = 1.0F;
+    scene.materials[metal].roughness = 0.4F;
+    scene.materials[card].alphaMode = AlphaMode::Blend;
+    scene.materials[card].alpha = 0.5F;
+    const Triangles ball = icosphere(2), cards = strips(3, 5);
+    const std::uint32_t smooth = addShape(scene, ball, metal, verticesOf(ball)), angular = addShape(scene, ball, red);
+    const std::uint32_t clear = addShape(scene, icosphere(3), glass), leaves = addShape(scene, cards, card);
+    const std::uint32_t light = addShape(scene, icosphere(1), lamp);
+    addInstance(scene, smooth, {-1.5, 0.7, -1.0}, 0.4, glm::dvec3(0.7));
+    addInstance(scene, smooth, {0.0, 0.6, -1.6}, 1.4, {0.9, 0.6, -0.4});
+    addInstance(scene, smooth, {1.6, 0.4, 0.4}, 2.4, {0.2, 0.4, 0.7});
+    addInstance(scene, angular, {0.2, 0.35, 1.2}, 0.1, {-0.3, 0.35, 0.3});
+    addInstance(scene, angular, {2.6, 0.8, -1.5}, 0.9, glm::dvec3(0.8));
+    addInstance(scene, clear, {-0.9, 0.5, 1.0}, 0.0, glm::dvec3(0.45));
+    addInstance(scene, clear, {1.0, 0.4, 1.8}, 0.3, {0.5, 0.35, -0.5});
+    addInstance(scene, leaves, {-2.0, 1.2, 1.6}, 0.5, glm::dvec3(0.4));
+    addInstance(scene, leaves, {2.2, 1.0, 1.4}, 2.0, {0.3, -0.5, 0.4});
+    addInstance(scene, light, {-1.5, 3.2, 1.0}, 0.0, glm::dvec3(0.3));
+    addInstance(scene, light, {2.0, 3.0, 0.0}, 0.2, {0.4, 0.2, 0.3});
+    return scene;
+}
+
+TEST(SharedMeshesTest, LookLikeFlattenedOnes)
+{
+    const Scene scene = yard();
+    const FlatScene flat = flattenedWith(scene, 1U << 20), shared = flattenedWith(scene, 0);
+    EXPECT_EQ(flat.features & kFeatureInstances, 0U);
+    EXPECT_NE(shared.features & kFeatureInstances, 0U);
+    EXPECT_LT(shared.records.size(), flat.records.size());
+    EXPECT_EQ(shared.lights.size(), flat.lights.size()) << "each lamp of each instance is a light";
+    RenderSettings settings = squareSettings(48, samplesFor(256));
+    const Film expected = renderFlat(flat, scene.cameras.front(), settings);
+    settings.seed = 1;
+    expectSameMean("shared meshes", renderFlat(shared, scene.cameras.front(), settings), expected);
+}
+
+// What the first surface is: the same samples of both scenes see the same, but for rays that rounding takes past an edge.
+TEST(SharedMeshesTest, HaveTheNormalsAndDepthsOfFlattenedOnes)
+{
+    Scene scene = yard();
+    for (Material& material : scene.materials) {
+        material.alphaMode = AlphaMode::Opaque;  // else it is the primitives' ids that decide what a sample sees
+    }
+    RenderSettings settings = squareSettings(96, 1);
+    settings.bounces = 0;
+    const Film flat = renderFlat(flattenedWith(scene, 1U << 20), scene.cameras.front(), settings);
+    const Film shared = renderFlat(flattenedWith(scene, 0), scene.cameras.front(), settings);
+    std::size_t different = 0, covered = 0;
+    for (std::size_t i = 0; i < flat.pixels.size(); ++i) {
+        const PixelMoments &a = flat.pixels[i], &b = shared.pixels[i];
+        covered += std::isfinite(a.depth) ? 1 : 0;
+        const bool same = std::isinf(a.depth) ? std::isinf(b.depth)
+                                              : std::abs(a.depth - b.depth) <= 1e-5F * a.depth &&
+                                                    glm::length(a.normal - b.normal) <= 1e-4F && a.albedo == b.albedo;
+        different += same ? 0 : 1;
+    }
+    std::printf("%zu of %zu pixels differ\n", different, covered);
+    EXPECT_GT(covered, 4000U);
+    EXPECT_LE(different, 2U);
+}
+
+TEST(SharedMeshesTest, DoNotDependOnTheTree)
+{
+    const Scene scene = yard();
+    RenderSettings settings = squareSettings(32, 32);
+    settings.schedule = Schedule::Persistent;
+    const Film sah = renderFlat(flattenedWith(scene, 0), scene.cameras.front(), settings);
+    EXPECT_TRUE(sameBits(sah, renderFlat(flattenedWith(scene, 0, SplitRule::Median), scene.cameras.front(), settings)));
+    EXPECT_TRUE(sameBits(sah, renderFlat(flattenedWith(scene, 0, SplitRule::Mean), scene.cameras.front(), settings)));
+}
+
+TEST(SharedMeshesTest, AreInTheFingerprint)
+{
+    Scene scene = yard();
+    const std::uint64_t before = fingerprint(flattenedWith(scene, 0));
+    EXPECT_NE(before, fingerprint(flattenedWith(scene, 1U << 20)));
+    EXPECT_EQ(before, fingerprint(flattenedWith(scene, 0, SplitRule::Median)));
+    scene.instances[1].worldFromMesh[3].x += 1e-3;
+    EXPECT_NE(before, fingerprint(flattenedWith(scene, 0)));
+}
+
+}  // namespace
+}  // namespace glim
