@@ -7,6 +7,8 @@
 #include "shaders/shared/bindings.h"
 #include "tests/support/kernel_test.hpp"
 
+#include <algorithm>
+
 namespace glim {
 
 struct SceneOnDevice {
@@ -21,9 +23,10 @@ struct SceneOnDevice {
           flat(flattenScene(scene, primitives, bvh)),
           device(testDevice(), flat),
           camera(flattenCamera(view, 1.0F)),
-          recordOf(flat.records.size() / kRecordTexels)
+          recordOf(primitives.count())
     {
         for (std::uint32_t record = 0; record < bvh.order.size(); ++record) {
+            recordOf.resize(std::max<std::size_t>(recordOf.size(), bvh.order[record] + 1));  // shared meshes come after the primitives
             recordOf[bvh.order[record]] = record;
         }
     }
