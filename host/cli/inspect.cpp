@@ -53,7 +53,7 @@ struct Instancing {
     std::size_t meshes = 0, instances = 0;
     std::uint64_t triangles = 0;  // that the meshes have
     bool shared = false;
-    const char* reason = "";
+    std::string reason;
 };
 
 Instancing instancingOf(const PreparedScene& prepared)
@@ -66,7 +66,7 @@ Instancing instancingOf(const PreparedScene& prepared)
         for (const SharedMesh& mesh : prepared.primitives.sharedMeshes) {
             instancing.triangles += mesh.triangles.size();
         }
-        instancing.reason = "one by one the scene's instances would have more than 4194304 triangles";
+        instancing.reason = "the scene has more than " + std::to_string(kMostFlatTriangles) + " triangles, counted once for each instance";
         return instancing;
     }
     for (const MeshUse& use : countMeshUses(prepared.scene)) {
@@ -74,10 +74,10 @@ Instancing instancingOf(const PreparedScene& prepared)
         instancing.instances += use.instances > 1 ? use.instances : 0;
         instancing.triangles += use.instances > 1 ? use.triangles : 0;
     }
-    instancing.reason = "rays are faster so, and the scene has at most 4194304 triangles, or those that have more emit";
+    instancing.reason = "rays are faster so, and the scene has at most " + std::to_string(kMostFlatTriangles) +
+                        " triangles, or all meshes that could be shared emit";
     return instancing;
 }
-static_assert(kMostFlatTriangles == 4194304);
 
 struct Bounds {
     glm::dvec3 low, high;  // world coordinates, metres

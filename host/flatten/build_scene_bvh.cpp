@@ -144,10 +144,8 @@ WideBvh buildTwoLevels(const Primitives& primitives, SplitRule rule)
     }
     WideBvh bvh = buildTopTree(primitives, trees, rule);
     bvh.depth += depth;
-    auto firstId = static_cast<std::uint32_t>(primitives.count());
     for (std::size_t i = 0; i < trees.size(); ++i) {
-        append(bvh, trees[i], firstId);
-        firstId += static_cast<std::uint32_t>(primitives.sharedMeshes[i].triangles.size());
+        append(bvh, trees[i], primitives.sharedMeshes[i].firstId);
     }
     for (InstanceNode& node : bvh.instances) {
         node.root = bvh.meshTrees[primitives.placements[node.instance].sharedMesh].firstNode;

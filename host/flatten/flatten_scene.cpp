@@ -74,16 +74,14 @@ std::vector<std::uint32_t> pushRecords(FlatScene& flat, const Scene& scene, cons
 
 void pushSharedRecords(FlatScene& flat, const Scene& scene, const Primitives& primitives, const WideBvh& bvh)
 {
-    auto firstId = static_cast<std::uint32_t>(primitives.count());
     for (std::size_t i = 0; i < bvh.meshTrees.size(); ++i) {
         const SharedMesh& mesh = primitives.sharedMeshes[i];
         const std::uint32_t material = scene.meshes[mesh.mesh].material;
         for (std::uint32_t k = 0; k < bvh.meshTrees[i].entryCount; ++k) {
-            const std::uint32_t triangle = bvh.order[bvh.meshTrees[i].firstEntry + k] - firstId;
+            const std::uint32_t triangle = bvh.order[bvh.meshTrees[i].firstEntry + k] - mesh.firstId;
             flat.features |= mesh.hasAlpha[triangle] ? kFeatureAlpha : 0U;
-            pushTriangle(flat, mesh.triangles[triangle], firstId + triangle, material, mesh.hasAlpha[triangle]);
+            pushTriangle(flat, mesh.triangles[triangle], mesh.firstId + triangle, material, mesh.hasAlpha[triangle]);
         }
-        firstId += static_cast<std::uint32_t>(mesh.triangles.size());
     }
 }
 
@@ -91,20 +89,17 @@ void pushSharedRecords(FlatScene& flat, const Scene& scene, const Primitives& pr
 void pushInstances(FlatScene& flat, const Primitives& primitives, const WideBvh& bvh)
 {
     constexpr std::uint64_t kMost = kNoRecord;
-    std::vector<std::uint32_t> firstIds{static_cast<std::uint32_t>(primitives.count())};  // by shared mesh
-    for (const SharedMesh& mesh : primitives.sharedMeshes) {
-        firstIds.push_back(firstIds.back() + static_cast<std::uint32_t>(mesh.triangles.size()));
-    }
     flat.firstInstanceRecord = static_cast<std::uint32_t>(bvh.order.size());
     std::uint64_t record = flat.firstInstanceRecord, primitive = primitives.count();
     for (const Placement& placement : primitives.placements) {
         const MeshTree& tree = bvh.meshTrees[placement.sharedMesh];
+        const SharedMesh& mesh = primitives.sharedMeshes[placement.sharedMesh];
         InstanceData data = placeInstance(placement, tree.box);
         data.beginRecord = static_cast<std::uint32_t>(record);
         data.firstRecord = data.beginRecord - tree.firstEntry;
-        data.firstPrimitive = static_cast<std::uint32_t>(primitive) - firstIds[placement.sharedMesh];
+        data.firstPrimitive = static_cast<std::uint32_t>(primitive) - mesh.firstId;
         record += tree.entryCount;
-        primitive += primitives.sharedMeshes[placement.sharedMesh].triangles.size();
+        primitive += mesh.triangles.size();
         if (std::max(record, primitive) >= kMost) {
             throw InputError("the scene's instances have " + std::to_string(primitives.computeTriangleCount()) +
                              " triangles; expected fewer than 4294967295.");

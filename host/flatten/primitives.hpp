@@ -9,6 +9,7 @@ namespace glim {
 // A mesh that instances share, in a space of its own: the mesh's, with `center` as origin.
 struct SharedMesh {
     std::uint32_t mesh = 0;
+    std::uint32_t firstId = 0;  // of its triangles, in its own space: after the scene's primitives and the shared meshes before it
     glm::dvec3 center{0.0};
     std::vector<Triangle> triangles;
     std::vector<glm::uvec3> vertexIndices;  // as in Primitives

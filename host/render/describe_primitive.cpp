@@ -44,12 +44,8 @@ PrimitiveDescription describeInstanceRecord(const PreparedScene& prepared, std::
     const uvec4* instance = &data[index * kInstanceTexels];
     const std::uint32_t shared = prepared.flat.records[std::size_t{record - instance[1].w} * kRecordTexels].w;
     const Placement& placement = prepared.primitives.placements[index];
-    auto first = static_cast<std::uint32_t>(prepared.primitives.count());
-    for (std::uint32_t mesh = 0; mesh < placement.sharedMesh; ++mesh) {
-        first += static_cast<std::uint32_t>(prepared.primitives.sharedMeshes[mesh].triangles.size());
-    }
     const MeshInstance& placed = prepared.scene.instances[placement.instance];
-    return {"instance " + quoted(placed.name), shared - first,
+    return {"instance " + quoted(placed.name), shared - prepared.primitives.sharedMeshes[placement.sharedMesh].firstId,
             quoted(prepared.scene.materials[prepared.scene.meshes[placed.mesh].material].name)};
 }
 

@@ -1,6 +1,7 @@
 // Scenes whose instances share meshes, against the same scenes with every instance flattened.
 #include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
+#include "host/render/describe_primitive.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/test_meshes.hpp"
@@ -115,6 +116,32 @@ TEST(SharedMeshesTest, DoNotDependOnTheTree)
     const Film sah = renderFlat(flattenedWith(scene, 0), scene.cameras.front(), settings);
     EXPECT_TRUE(sameBits(sah, renderFlat(flattenedWith(scene, 0, SplitRule::Median), scene.cameras.front(), settings)));
     EXPECT_TRUE(sameBits(sah, renderFlat(flattenedWith(scene, 0, SplitRule::Mean), scene.cameras.front(), settings)));
+}
+
+// Each record of an instance has the instance's name and the triangle's number in the mesh.
+TEST(SharedMeshesTest, AreNamedByTheirInstances)
+{
+    PreparedScene prepared;
+    prepared.scene = yard();
+    for (std::size_t i = 0; i < prepared.scene.instances.size(); ++i) {
+        prepared.scene.instances[i].name = std::to_string(i);
+    }
+    prepared.primitives = makePrimitives(prepared.scene, 0);
+    prepared.bvh = buildSceneBvh(prepared.primitives);
+    prepared.flat = flattenScene(prepared.scene, prepared.primitives, prepared.bvh);
+    std::uint32_t record = prepared.flat.firstInstanceRecord;
+    for (const Placement& placement : prepared.primitives.placements) {
+        const SharedMesh& mesh = prepared.primitives.sharedMeshes[placement.sharedMesh];
+        const MeshTree& tree = prepared.bvh.meshTrees[placement.sharedMesh];
+        for (std::uint32_t k = 0; k < tree.entryCount; ++k) {
+            const PrimitiveDescription found = describeRecord(prepared, record++);
+            EXPECT_EQ(found.object, "instance \"" + std::to_string(placement.instance) + "\"");
+            ASSERT_TRUE(found.triangle);
+            EXPECT_EQ(*found.triangle, prepared.bvh.order[tree.firstEntry + k] - mesh.firstId);
+            EXPECT_LT(*found.triangle, mesh.triangles.size());
+        }
+    }
+    EXPECT_GT(prepared.primitives.placements.size(), 5U);
 }
 
 TEST(SharedMeshesTest, AreInTheFingerprint)
