@@ -1,5 +1,5 @@
 // One thread is one ray from inside a closed convex mesh, of which every instance is one: at an edge, at a vertex, or anywhere. What it hits
-// is left outwards again.
+// is left outwards again. Another ray comes from outside and grazes a vertex: if it meets a triangle there, the tree must find one.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
@@ -12,6 +12,8 @@ struct Tally {
     uint rays[3];
     uint misses[3];
     uint astray[3];        // hits of another instance, or not where the ray was aimed
+    uint grazing;          // rays from outside that meet the triangle
+    uint lost;             // of which the tree has found nothing
     uint again;            // rays that left outwards and met the instance again
     uint largestOffset;    // bits of a float: how far the ray that leaves starts from the hit, in bounds of its error
     uint wrongSide;        // geometric normals that do not face the inside
@@ -46,6 +48,40 @@ void leave(PathRay ray, PathHit hit, uint index)
     atomicAdd(tally.again, again ? 1u : 0u);
 }
 
+// The ray in the space of the instance's mesh.
+TraversalRay enter(vec3 origin, vec3 direction, InstanceData instance)
+{
+    uint node = 0u;  // the instances' nodes are among the first
+    for (uint i = 0u; i < 32u; ++i) {
+        uvec4 content = texelFetch(sceneNodes, int(i * kNodeTexels + 1u));
+        bool found = (content.z | content.w) == 0u && texelFetch(sceneNodes, int(i * kNodeTexels + 4u)).x == instance.firstRecord;
+        node = found ? i : node;
+    }
+    EXPECT_TRUE(node != 0u);
+    TraversalRay traversal;
+    InstanceOffsets offsets;
+    NodeGroup group = NodeGroup(0u, kEntersInstance);
+    changeSpace(origin, direction, node, group, traversal, offsets);
+    EXPECT_EQUAL(offsets.primitive, instance.firstPrimitive);
+    return traversal;
+}
+
+// From 3 away, along the mesh at the record's first vertex.
+void graze(Record record, InstanceData instance)
+{
+    vec3 v0 = floatsOf(record.t0);
+    uvec4 bits = randomBits(3u);
+    Frame frame = makeFrame(normalizeSafely(v0));
+    float angle = 6.2831853 * unitFloat(bits.x);
+    vec3 beside = frame.x * cos(angle) + frame.y * sin(angle);
+    vec3 origin = placePoint(instance, v0 + 3.0 * beside);
+    vec3 direction = placePoint(instance, v0) - origin;
+    if (intersectRecord(enter(origin, direction, instance), record, kInfinity, false).t > 0.0) {
+        atomicAdd(tally.grazing, 1u);
+        atomicAdd(tally.lost, traceClosest(PathRay(origin, kNoPrimitive, direction, 0u)).record == kNoRecord ? 1u : 0u);
+    }
+}
+
 void main()
 {
     uint kind = TEST_THREAD % 3u;
@@ -54,6 +90,7 @@ void main()
     InstanceData instance = fetchInstance(index);
     Record record = fetchRecord(chooseBin(a.x, uint(textureSize(sceneRecords)) / kRecordTexels));
     vec3 v0 = floatsOf(record.t0), v1 = floatsOf(record.t1), v2 = floatsOf(record.t2);
+    graze(record, instance);
     vec2 inside = sampleTriangle(unitFloat(a.yz));
     vec3 aim = kind == 0u ? v0 + (v1 - v0) * (0.05 + 0.9 * unitFloat(a.y)) : kind == 1u ? v0 : v0 + (v1 - v0) * inside.x + (v2 - v0) * inside.y;
     vec3 origin = placePoint(instance, 0.3 * (1.0 - 2.0 * vec3(unitFloat(b.xy), unitFloat(b.z))));
