@@ -1,6 +1,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/parse.hpp"
 #include "host/cli/picture_options.hpp"
+#include "host/cli/resolve_options.hpp"
 #include "host/json.hpp"
 #include "host/render/prepare_scene.hpp"
 #include "host/scene/share_meshes.hpp"
@@ -135,8 +136,7 @@ Json texturesOf(const PreparedScene& prepared)
     Json textures = Json::array();
     for (std::size_t i = 0; i < prepared.scene.images.size(); ++i) {
         const TextureImage& image = prepared.scene.images[i];
-        textures.append(
-            {{"name", image.name}, {"width", image.pixels.width}, {"height", image.pixels.height}, {"bytes", prepared.flat.imageBytes[i]}});
+        textures.append({{"name", image.name}, {"width", image.width}, {"height", image.height}, {"bytes", prepared.flat.imageBytes[i]}});
     }
     return textures;
 }
@@ -246,7 +246,7 @@ void printLooks(const PreparedScene& prepared)
     for (std::size_t i = 0; i < prepared.scene.images.size(); ++i) {
         const TextureImage& image = prepared.scene.images[i];
         const std::uint64_t bytes = prepared.flat.imageBytes[i];
-        std::cout << "  texture " << image.name << ", " << image.pixels.width << 'x' << image.pixels.height << ", "
+        std::cout << "  texture " << image.name << ", " << image.width << 'x' << image.height << ", "
                   << (bytes > 0 ? mebibytes(bytes) : "of one colour") << '\n';
     }
     if (prepared.scene.environment) {
@@ -331,6 +331,7 @@ void addInspect(CommandLine& line)
     addTextures(command, options->load.missingTextures, options->load.maxTexture);
     command.beginGroup("Output");
     command.addFlag("--json", "Print JSON with every digit; sizes in bytes", options->json);
+    command.onParsed([command, options] { resolveAnimation(command, options->load.at.has_value()); });
     command.onRun([options] {
         runInspect(*options);
         return ExitCode::Done;

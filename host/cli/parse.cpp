@@ -129,6 +129,20 @@ glm::uvec2 parseSize(const std::string& text)
     return size;
 }
 
+FrameRange parseFrames(const std::string& text)
+{
+    constexpr std::uint32_t kMostFrame = 999999999;
+    const std::vector<std::string> parts = split(text, ':');
+    FrameRange range;
+    const bool numbers = (parts.size() == 2 || parts.size() == 3) && parseNumber(parts[0], range.first) &&
+                         parseNumber(parts[1], range.last) && (parts.size() == 2 || parseNumber(parts[2], range.step));
+    if (!numbers || range.first > range.last || range.last > kMostFrame || range.step == 0) {
+        throw UsageError("--frames",
+                         "\"" + text + "\": expected FIRST:LAST or FIRST:LAST:STEP with FIRST <= LAST and STEP >= 1, as in 1:250");
+    }
+    return range;
+}
+
 std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& text)
 {
     const std::vector<std::string> parts = split(text, ':');

@@ -23,8 +23,14 @@ struct SamplePlace {
     std::uint32_t x, y, sample;
 };
 
+// Frames `first`, `first` + `step` ... up to `last`.
+struct FrameRange {
+    std::uint32_t first = 0, last = 0, step = 1;
+};
+
 glm::uvec2 parseSize(const std::string& text);                                // "640x480"
 std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& text);  // "0:256", begin < end
+FrameRange parseFrames(const std::string& text);                              // "1:250" or "1:250:5", first <= last
 // "none", "studio", numbers or a file.
 EnvironmentChoice parseEnvironment(const std::string& text);
 std::string describeEnvironment(const EnvironmentChoice& choice);

@@ -77,10 +77,9 @@ void addPicture(const Command& command, PictureOptions& options, const std::stri
 
 void addAnimation(const Command& command, std::optional<double>& at, std::string& animation)
 {
-    const Option time = addNumber<double>(command, {"--at", "SECONDS", "Time of the file's animation", 0.0, 1e9, "the file's rest pose"},
-                                          [&at](double seconds) { at = seconds; });
-    command.add("--animation", "NAME|INDEX", "Animation that --at plays [0]", [&animation](const std::string& text) { animation = text; })
-        .needs(time);
+    addNumber<double>(command, {"--at", "SECONDS", "Time of the file's animation", 0.0, 1e9, "the file's rest pose"},
+                      [&at](double seconds) { at = seconds; });
+    command.add("--animation", "NAME|INDEX", "Animation that is played [0]", [&animation](const std::string& text) { animation = text; });
 }
 
 void addTextures(const Command& command, MissingTextures& missing, std::uint32_t& largest)
@@ -93,10 +92,10 @@ void addTextures(const Command& command, MissingTextures& missing, std::uint32_t
         [&largest](std::uint32_t pixels) { largest = pixels; });
 }
 
-void addCamera(const Command& command, PictureOptions& options)
+void addCamera(const Command& command, PictureOptions& options, const std::string& more)
 {
     command.beginGroup("Camera");
-    command.add("--camera", "NAME|INDEX", "Camera of the file, or framed: one that sees the whole scene [0]",
+    command.add("--camera", "NAME|INDEX", "Camera of the file, or framed: one that sees the whole scene" + more + " [0]",
                 [&options](const std::string& text) { options.camera = text; });
     addPose(command, options);
     addLens(command, options);

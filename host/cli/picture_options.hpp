@@ -42,8 +42,8 @@ void addSampleCount(const Command& command, RenderSettings& settings, const std:
 void addAdaptive(const Command& command, RenderSettings& settings);
 void addSampler(const Command& command, RenderSettings& settings);
 
-// Each adds a whole group of the help.
-void addCamera(const Command& command, PictureOptions& options);
+// Each adds a whole group of the help. `more`: what else --camera may be.
+void addCamera(const Command& command, PictureOptions& options, const std::string& more = "");
 void addLightTransport(const Command& command, RenderSettings& settings);
 void addCaustics(const Command& command, RenderSettings& settings);
 void addCourseEstimators(const Command& command, RenderSettings& settings);

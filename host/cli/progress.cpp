@@ -30,10 +30,11 @@ void addProgress(const Command& command, ProgressStyle& style)
               });
 }
 
-ProgressPrinter::ProgressPrinter(ProgressStyle style, std::optional<double> timeLimit, std::uint64_t pixels)
+ProgressPrinter::ProgressPrinter(ProgressStyle style, std::optional<double> timeLimit, std::uint64_t pixels, const SequencePlace& place)
     : style_(style),
       timeLimit_(timeLimit),
-      pixels_(pixels)
+      pixels_(pixels),
+      place_(place)
 {
     if (style == ProgressStyle::Auto) {
         style_ = isatty(STDERR_FILENO) != 0 ? ProgressStyle::Bar : ProgressStyle::None;
@@ -52,30 +53,37 @@ void ProgressPrinter::print(const RenderProgress& progress)
         share = std::clamp(progress.seconds / *timeLimit_, share, 1.0);
     }
     const double remaining = share > 0.0 ? progress.seconds * (1.0 / share - 1.0) : 0.0;
+    const double perPicture = place_.rendered > 0 ? place_.seconds / static_cast<double>(place_.rendered) : progress.seconds + remaining;
+    const double all = remaining + perPicture * static_cast<double>(place_.count - place_.index - 1);
     if (style_ == ProgressStyle::Bar) {
-        printBar(progress, share, remaining);
+        printBar(progress, share, all);
     } else {
-        printJson(progress, share, remaining);
+        printJson(progress, share, remaining, all);
     }
 }
 
-void ProgressPrinter::printBar(const RenderProgress& progress, double share, double remaining) const
+void ProgressPrinter::printBar(const RenderProgress& progress, double share, double all) const
 {
+    const std::string picture =
+        place_.count > 1 ? "picture " + std::to_string(place_.index + 1) + " of " + std::to_string(place_.count) + " " : "";
     const int filled = static_cast<int>(share * kBarWidth);
-    std::fprintf(stderr, "\r\033[K[%s%s] %3.0f %%  %.3g samples/pixel  %.3g Msamples/s  ETA %.0f s",
+    std::fprintf(stderr, "\r\033[K%s[%s%s] %3.0f %%  %.3g samples/pixel  %.3g Msamples/s  ETA %.0f s", picture.c_str(),
                  std::string(static_cast<std::size_t>(filled), '#').c_str(),
                  std::string(static_cast<std::size_t>(kBarWidth - filled), '.').c_str(), 100.0 * share,
-                 static_cast<double>(progress.samples) / static_cast<double>(pixels_), 1e-6 * rate(progress), remaining);
+                 static_cast<double>(progress.samples) / static_cast<double>(pixels_), 1e-6 * rate(progress), all);
 }
 
-void ProgressPrinter::printJson(const RenderProgress& progress, double share, double remaining) const
+void ProgressPrinter::printJson(const RenderProgress& progress, double share, double remaining, double all) const
 {
-    const Json line = {{"done", share},
+    const Json line = {{"picture", place_.index + 1},
+                       {"pictures", place_.count},
+                       {"done", share},
                        {"samples", progress.samples},
                        {"totalSamples", progress.totalSamples},
                        {"seconds", progress.seconds},
                        {"samplesPerSecond", rate(progress)},
-                       {"etaSeconds", remaining}};
+                       {"etaSeconds", remaining},
+                       {"allEtaSeconds", all}};
     std::fprintf(stderr, "%s\n", line.dump().c_str());
 }
 

@@ -19,6 +19,21 @@ void addTargets(const Command& command, ErrorTarget& target)
                       [&target](double value) { target.relMse = value; });
 }
 
+void addSequence(const Command& command, RenderOptions& options)
+{
+    SequenceOptions& sequence = options.sequence;
+    command.beginGroup("Several pictures");
+    const Option frames =
+        command.add("--frames", "A:B[:STEP]", "Frames A to B of the animation; each number replaces #### in names of files",
+                    [&sequence](const std::string& text) { sequence.frames = parseFrames(text); });
+    addNumber<double>(command, {"--fps", "N", "Frames per second of --frames", 1e-3, 1e6, "24"}, [&sequence](double fps) {
+        sequence.fps = fps;
+    }).needs(frames);
+    addNumber<std::uint32_t>(command, {"--turntable", "N", "Pictures from a circle around the scene", 1, 100000, "off"},
+                             [&sequence](std::uint32_t count) { sequence.turntable = count; });
+    command.addPath("--cameras", "FILE.json", "Pictures by an array of cameras: host/cli/README.md", sequence.cameras);
+}
+
 void addOutput(const Command& command, RenderOptions& options)
 {
     command.beginGroup("Output");
@@ -45,7 +60,8 @@ void addRenderOptions(const Command& command, RenderOptions& options)
     command.addPath("SCENE", "FILE", "Scene, .gltf or .glb", options.scene).require();
     addPicture(command, options);
     addAov(command, options);
-    addCamera(command, options);
+    addCamera(command, options, ", or all");
+    addSequence(command, options);
     command.beginGroup("Sampling and stopping");
     addSampleCount(command, options.settings, "64; 4 with a --view other than shaded", "0:64");
     addTargets(command, options.target);

@@ -5,12 +5,14 @@
 #include "host/cli/parse.hpp"
 #include "host/cli/picture_options.hpp"
 #include "host/cli/progress.hpp"
+#include "host/cli/sequence.hpp"
 
 namespace glim {
 
 struct RenderOptions : PictureOptions {
     std::filesystem::path output;
     std::optional<std::filesystem::path> png, rates, stats;
+    SequenceOptions sequence;
     std::optional<SamplePlace> replay;  // instead of a picture
     ProgressStyle progress = ProgressStyle::Auto;
     ErrorTarget target;

@@ -163,7 +163,63 @@ void resolveTarget(const Command& command, RenderOptions& options)
     }
 }
 
+// The options that name the files of a picture.
+constexpr const char* kOutputs[] = {"--output", "--png", "--rates", "--stats"};
+
+void checkNames(const Command& command)
+{
+    for (const char* output : kOutputs) {
+        if (!command.isGiven(output)) {
+            continue;
+        }
+        const std::string name = std::filesystem::path(command.textOf(output)).filename().string();
+        const std::size_t begin = name.find('#');
+        if (begin == std::string::npos || name.find('#', name.find_first_not_of('#', begin)) != std::string::npos) {
+            refuse(command, output, "names one file for several pictures; expected one run of # in its name, as in out.####.exr");
+        }
+    }
+}
+
+// What chooses the pictures of a sequence excludes what chooses the same for one picture.
+void resolveSequence(const Command& command, const RenderOptions& options)
+{
+    const SequenceOptions& sequence = options.sequence;
+    if (!isSequence(sequence, options)) {
+        return;
+    }
+    if (sequence.frames) {
+        refuseIfGiven(command, {"--at"}, "--frames chooses the times");
+    }
+    if (sequence.frames || sequence.turntable > 0) {
+        refuseIfGiven(command, {"--cameras"}, "expected only one of --frames, --turntable and --cameras");
+    }
+    if (sequence.frames && sequence.turntable > 0) {
+        refuseIfGiven(command, {"--turntable"}, "expected only one of --frames, --turntable and --cameras");
+    }
+    if (sequence.frames && options.camera == "all") {
+        refuseIfGiven(command, {"--camera"}, "--frames shows one camera; expected its name or index");
+    }
+    if (sequence.turntable > 0 || sequence.cameras) {
+        refuseIfGiven(command, {"--camera", "--look-from"},
+                      std::string(sequence.cameras ? "--cameras" : "--turntable") + " chooses the cameras");
+    }
+    if (options.camera == "all") {
+        refuseIfGiven(command, {"--look-from"}, "would make all cameras one; expected a single --camera");
+    }
+    if (options.replay) {
+        refuse(command, "--replay", "expected the options of one picture");
+    }
+    checkNames(command);
+}
+
 }  // namespace
+
+void resolveAnimation(const Command& command, bool hasTime)
+{
+    if (!hasTime) {
+        refuseIfGiven(command, {"--animation"}, "without a time nothing is played; expected --at");
+    }
+}
 
 std::uint32_t mostSamples(const RenderSettings& settings)
 {
@@ -172,6 +228,7 @@ std::uint32_t mostSamples(const RenderSettings& settings)
 
 void resolvePicture(const Command& command, PictureOptions& options)
 {
+    resolveAnimation(command, options.at.has_value());
     resolveAdaptive(command, options.settings);
     resolveTime(command, options.settings);
     resolveLight(command, options);
@@ -188,6 +245,8 @@ void resolveLight(const Command& command, PictureOptions& options)
 
 void resolveRender(const Command& command, RenderOptions& options)
 {
+    resolveAnimation(command, options.at || options.sequence.frames);
+    resolveSequence(command, options);
     resolveAov(command, options.settings);
     resolveAdaptive(command, options.settings);
     resolveTime(command, options.settings);

@@ -12,6 +12,9 @@ void resolveRender(const Command& command, RenderOptions& options);
 // The part of resolvePicture that concerns light transport and the device.
 void resolveLight(const Command& command, PictureOptions& options);
 
+// Refuses --animation without a time.
+void resolveAnimation(const Command& command, bool hasTime);
+
 // The largest number of samples per pixel: the sampler counts samples of lights in 32 bits.
 std::uint32_t mostSamples(const RenderSettings& settings);
 

@@ -153,7 +153,35 @@ WideBvh buildTwoLevels(const Primitives& primitives, SplitRule rule)
     return bvh;
 }
 
+bool areSame(const Triangle& a, const Triangle& b)
+{
+    return a.vertices[0] == b.vertices[0] && a.vertices[1] == b.vertices[1] && a.vertices[2] == b.vertices[2];
+}
+
+bool areSame(const Sphere& a, const Sphere& b) { return a.center == b.center && a.radius == b.radius; }
+
+bool areSame(const Placement& a, const Placement& b)
+{
+    return a.sharedMesh == b.sharedMesh && a.linear == b.linear && a.translation == b.translation;
+}
+
+bool areSame(const SharedMesh& a, const SharedMesh& b);
+
+template <class T>
+bool areAllSame(const std::vector<T>& a, const std::vector<T>& b)
+{
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const T& x, const T& y) { return areSame(x, y); });
+}
+
+bool areSame(const SharedMesh& a, const SharedMesh& b) { return areAllSame(a.triangles, b.triangles); }
+
 }  // namespace
+
+bool haveSameSurfaces(const Primitives& a, const Primitives& b)
+{
+    return areAllSame(a.triangles, b.triangles) && areAllSame(a.spheres, b.spheres) && areAllSame(a.sharedMeshes, b.sharedMeshes) &&
+           areAllSame(a.placements, b.placements);
+}
 
 std::vector<Box> primitiveBoxes(const Primitives& primitives)
 {

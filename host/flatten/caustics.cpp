@@ -123,7 +123,7 @@ public:
 private:
     bool isSmooth(float roughness, const std::optional<Texture>& texture) const
     {
-        const float least = roughness * (texture ? leastOf(scene_.images[texture->image].pixels, 1) : 1.0F);
+        const float least = roughness * (texture ? leastOf(*scene_.images[texture->image].pixels, 1) : 1.0F);
         return least * least < kMinAlpha;
     }
 

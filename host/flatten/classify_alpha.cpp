@@ -36,7 +36,7 @@ const AlphaClassifier::Shares& AlphaClassifier::sharesOf(const Material& materia
     if (known != shares_.end()) {
         return known->second;
     }
-    const DecodedImage& image = scene_.images[material.baseColorTexture->image].pixels;
+    const DecodedImage& image = *scene_.images[material.baseColorTexture->image].pixels;
     const auto sumsOf = [&](Coverage coverage) {
         return BoxSums(image.width, image.height, [&](std::uint32_t x, std::uint32_t y) {
             const float alpha = material.alpha * alphaOf(image, std::size_t{y} * image.width + x);

@@ -139,8 +139,13 @@ std::vector<uvec4> makeCells(const std::vector<double>& weights, const CellGrid&
 
 }  // namespace
 
-double flattenEnvironmentMap(FlatScene& flat, const RadianceMap& map)
+void flattenEnvironmentMap(FlatScene& flat, std::shared_ptr<const RadianceMap> source)
 {
+    if (flat.environmentMap == source) {
+        return;
+    }
+    flat.environmentMap = std::move(source);
+    const RadianceMap& map = *flat.environmentMap;
     const CellGrid grid = chooseCells(map);
     std::vector<double> weights = meansOfCells(map, grid);
     double integral = 0.0;
@@ -149,8 +154,9 @@ double flattenEnvironmentMap(FlatScene& flat, const RadianceMap& map)
             integral += weights[std::size_t{row} * grid.width + x] * solidAngle(row, grid);
         }
     }
+    flat.environmentIntegral = integral;
     if (!(integral > 0.0)) {
-        return 0.0;
+        return;
     }
     const double mean = integral / (4.0 * kPi);
     for (std::uint32_t row = 0; row < grid.height; ++row) {
@@ -168,7 +174,6 @@ double flattenEnvironmentMap(FlatScene& flat, const RadianceMap& map)
     flat.environmentSize = {map.width, map.height};
     flat.environmentCellCount = {grid.width, grid.height};
     flat.environmentCells = makeCells(weights, grid);
-    return integral;
 }
 
 }  // namespace glim

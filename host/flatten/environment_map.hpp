@@ -2,12 +2,11 @@
 #pragma once
 
 #include "host/flatten/flat_scene.hpp"
-#include "host/image/radiance_map.hpp"
 
 namespace glim {
 
-// Fills the environment's part of `flat`. Returns the integral of the map's strongest channel over all directions; 0 if it is black, and
-// then nothing else is filled.
-double flattenEnvironmentMap(FlatScene& flat, const RadianceMap& map);
+// Fills the part of `flat` that is of an environment map, unless it is of this one already. Of a black map only the integral is filled,
+// which is 0.
+void flattenEnvironmentMap(FlatScene& flat, std::shared_ptr<const RadianceMap> map);
 
 }  // namespace glim

@@ -1,11 +1,13 @@
 // The scene as the arrays that kernels read. shaders/shared/scene_types.h says what is in their elements.
 #pragma once
 
+#include "host/image/radiance_map.hpp"
 #include "shaders/shared/features.h"
 #include "shaders/shared/limits.h"
 #include "shaders/shared/scene_types.h"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -70,13 +72,15 @@ struct FlatScene {
     std::vector<uvec4> albedos;             // empty without kFeaturePrincipled
     std::vector<FlatLight> lights;
     std::vector<LightNode> lightNodes;
-    std::uint32_t finiteLights = 0;               // the first lights
-    float infiniteImportance = 0.0F;              // as in RenderParameters
-    std::uint32_t features = 0;                   // kFeatureSpheres ...: what the scene needs
-    std::uint32_t stackLevels = kMaxStackLevels;  // of the traversal stack
-    vec3 environment{0.0F};                       // radiance, or what multiplies that of the map
-    bool hidesEnvironment = false;                // from the camera
-    vec2 environmentTurn{1.0F, 0.0F};             // cosine and sine of the map's rotation
+    std::uint32_t finiteLights = 0;                     // the first lights
+    float infiniteImportance = 0.0F;                    // as in RenderParameters
+    std::uint32_t features = 0;                         // kFeatureSpheres ...: what the scene needs
+    std::uint32_t stackLevels = kMaxStackLevels;        // of the traversal stack
+    vec3 environment{0.0F};                             // radiance, or what multiplies that of the map
+    bool hidesEnvironment = false;                      // from the camera
+    vec2 environmentTurn{1.0F, 0.0F};                   // cosine and sine of the map's rotation
+    std::shared_ptr<const RadianceMap> environmentMap;  // that the following is of; null: there is none
+    double environmentIntegral = 0.0;                   // of its strongest channel over all directions
     std::vector<uvec2> environmentTexels;
     std::vector<uvec4> environmentCells;
     uvec2 environmentSize{0}, environmentCellCount{0};

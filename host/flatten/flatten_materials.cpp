@@ -62,7 +62,7 @@ public:
           media_(findMedia(scene))
     {
         for (const TextureImage& image : scene.images) {
-            colors_.push_back(oneColor(image.pixels));
+            colors_.push_back(oneColor(*image.pixels));
         }
         flat.imageBytes.assign(scene.images.size(), 0);
     }
@@ -292,7 +292,7 @@ private:
         if (!texture) {
             return 0;
         }
-        const DecodedImage& image = scene_.images[texture->image].pixels;
+        const DecodedImage& image = *scene_.images[texture->image].pixels;
         const bool transformed = texture->rowU != glm::vec3(1, 0, 0) || texture->rowV != glm::vec3(0, 1, 0);
         const bool wide = !image.rgba16.empty();
         TextureData data{};
@@ -316,7 +316,7 @@ private:
         if (!fresh) {
             return known->second;
         }
-        const DecodedImage& image = scene_.images[id].pixels;
+        const DecodedImage& image = *scene_.images[id].pixels;
         const std::size_t texels = std::size_t{image.width} * image.height, words = image.rgba16.empty() ? texels : 2 * texels;
         static_assert(kMaxTextureBytes == (sizeof(std::uint32_t) * kMaxTexelViews) << kTexelViewBits);
         flat_.texels.reserve(flat_.texels.size() + words);

@@ -7,8 +7,9 @@
 
 namespace glim {
 
-// `primitives`: those of the scene; `bvh.order` holds each at least once.
-FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const WideBvh& bvh);
+// `primitives`: those of the scene; `bvh.order` holds each at least once. What is of the environment map is taken from `previous` if that
+// has the same one.
+FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const WideBvh& bvh, FlatScene previous = {});
 
 // A thin lens, in metres. Radius 0 is a pinhole; its focal distance does not matter.
 struct Lens {

@@ -223,8 +223,14 @@ public:
     void addEnvironment(const Environment& environment)
     {
         const glm::vec3& radiance = environment.radiance;
-        const double integral = environment.map && strength(radiance) > 0.0 ? flattenEnvironmentMap(flat_, *environment.map) : 4.0 * kPi;
-        if (!(strength(radiance) > 0.0) || !(integral > 0.0)) {
+        if (!(strength(radiance) > 0.0)) {
+            return;
+        }
+        if (environment.map) {
+            flattenEnvironmentMap(flat_, environment.map);
+        }
+        const double integral = environment.map ? flat_.environmentIntegral : 4.0 * kPi;
+        if (!(integral > 0.0)) {
             return;
         }
         flat_.features |= environment.map ? kFeatureEnvironmentMap : 0U;
@@ -274,7 +280,7 @@ private:
         const std::uint32_t image = material.emissiveTexture->image;
         const auto known = images_.find(image);
         const EmissiveImage& sums =
-            known != images_.end() ? known->second : images_.emplace(image, EmissiveImage(scene_.images[image].pixels)).first->second;
+            known != images_.end() ? known->second : images_.emplace(image, EmissiveImage(*scene_.images[image].pixels)).first->second;
         glm::vec4 uvs[3];
         for (int v = 0; v < 3; ++v) {
             uvs[v] = primitives_.vertexUvs[primitives_.vertexIndices[triangle][v]];

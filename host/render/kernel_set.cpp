@@ -54,8 +54,9 @@ Specialization specializeCourse(Specialization constants, const RenderSettings& 
 
 KernelSet::KernelSet(const KernelLayout& layout, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings,
                      Schedule schedule)
+    : specialization(specialize(scene, camera, settings))
 {
-    const Specialization production = specialize(scene, camera, settings), ofCourse = specializeCourse(production, settings);
+    const Specialization &production = specialization, ofCourse = specializeCourse(production, settings);
     std::vector<std::future<void>> compiling;
     const auto compile = [&](std::optional<Kernel>& kernel, const EmbeddedShader& shader, const Specialization& constants) {
         compiling.push_back(std::async(std::launch::async, [&] { kernel.emplace(layout, shader, constants); }));
@@ -106,6 +107,21 @@ std::vector<const Kernel*> KernelSet::all() const
         }
     }
     return kernels;
+}
+
+CompiledKernels::CompiledKernels(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings,
+                                 Schedule schedule)
+    : layout(device, kernelSlots(), sizeof(CoursePass)),
+      set(layout, scene, camera, settings, schedule)
+{}
+
+bool CompiledKernels::serve(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings) const
+{
+    Specialization needed = specialize(scene, camera, settings);
+    if (needed[kSpecStackLevels] <= set.specialization.at(kSpecStackLevels)) {
+        needed[kSpecStackLevels] = set.specialization.at(kSpecStackLevels);  // a deeper stack does as well
+    }
+    return set.specialization == needed;
 }
 
 }  // namespace glim

@@ -24,12 +24,24 @@ struct KernelSet {
 
     std::vector<const Kernel*> all() const;
 
+    Specialization specialization;  // of the production kernels; that of the course's follows from it and the settings
     std::optional<Kernel> generateRays, sizeDispatch, accumulate;
     std::optional<Kernel> traceClosest, sampleLightsAndBounce, traceShadow;  // of the wavefront
     std::optional<Kernel> tracePaths;                                        // of the persistent schedule
     std::optional<Kernel> traceLightPaths;                                   // of caustics
     std::optional<Kernel> showAov;                                           // of AOVs other than radiance
     CourseKernels course;
+};
+
+// Kernels with the layout of their bindings. Renders of several scenes may share them.
+struct CompiledKernels {
+    CompiledKernels(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings, Schedule schedule);
+
+    // Whether they are also those of another scene and camera with the same settings.
+    bool serve(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings) const;
+
+    KernelLayout layout;
+    KernelSet set;
 };
 
 }  // namespace glim

@@ -69,9 +69,14 @@ PathBuffers::PathBuffers(Device& device, std::uint32_t capacity)
 {
     upload(queueSizes_, std::span<const QueueSizes>(std::vector<QueueSizes>(1)));
     emptyQueues();
+    clearCounters();
+    takeNote();
+}
+
+void PathBuffers::clearCounters()
+{
     upload(rayCounts_, std::span<const RayCounts>(std::vector<RayCounts>(1)));
     upload(status_, std::span<const Status>(std::vector<Status>(1)));
-    takeNote();
 }
 
 void PathBuffers::emptyQueues() { upload(queueTails_, std::span<const QueueTails>(std::vector<QueueTails>(1))); }

@@ -32,6 +32,8 @@ public:
     // Stores the shadow rays in the first slots, each with a contribution of 1, and makes these slots the shadow queue. Clears their
     // radiance.
     void queueShadowRays(std::span<const ShadowRay> rays);
+    // Of rays and of what went wrong.
+    void clearCounters();
     // To be called after a pass that was not finished.
     void emptyQueues();
     // Return and reset the radiance of slot 0 and the note.

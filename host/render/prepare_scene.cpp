@@ -26,33 +26,56 @@ void sayTextureMemory(const FlatScene& flat)
     }
 }
 
-}  // namespace
+void sayWarnings(const Scene& scene, const Scene& previous)
+{
+    for (const std::string& warning : scene.warnings) {
+        if (std::find(previous.warnings.begin(), previous.warnings.end(), warning) == previous.warnings.end()) {
+            std::cerr << "glim: " << warning << '\n';
+        }
+    }
+}
 
-PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions& options, SplitRule split,
-                           const std::function<void(const std::string&)>& stage)
+using Stage = std::function<void(const std::string&)>;
+
+// `start`: when loading began.
+PreparedScene prepare(Scene scene, SplitRule split, Clock::time_point start, PreparedScene previous, const Stage& stage)
 {
     PreparedScene prepared;
-    const Clock::time_point start = Clock::now();
-    stage("loading " + file.filename().string());
-    prepared.scene = loadGltf(file, options);
+    prepared.scene = std::move(scene);
     prepared.primitives = makePrimitives(prepared.scene);
     prepared.scene.warnings.insert(prepared.scene.warnings.end(), prepared.primitives.warnings.begin(), prepared.primitives.warnings.end());
-    for (const std::string& warning : prepared.scene.warnings) {
-        std::cerr << "glim: " << warning << '\n';
-    }
+    sayWarnings(prepared.scene, previous.scene);
     const Clock::time_point loaded = Clock::now();
-    stage("building the BVH of " + std::to_string(prepared.primitives.count()) + " primitives");
-    prepared.bvh = buildSceneBvh(prepared.primitives, split);
+    const bool moved = !haveSameSurfaces(prepared.primitives, previous.primitives);
+    if (moved) {
+        stage("building the BVH of " + std::to_string(prepared.primitives.count()) + " primitives");
+    }
+    prepared.bvh = moved ? buildSceneBvh(prepared.primitives, split) : std::move(previous.bvh);
     prepared.split = split;
-    prepared.flat = flattenScene(prepared.scene, prepared.primitives, prepared.bvh);
-    sayTextureMemory(prepared.flat);
+    prepared.flat = flattenScene(prepared.scene, prepared.primitives, prepared.bvh, std::move(previous.flat));
     for (TextureImage& image : prepared.scene.images) {
-        image.pixels.rgba8 = {};  // the flat scene has them
-        image.pixels.rgba16 = {};
+        image.pixels = nullptr;  // the flat scene has them
     }
     prepared.loadSeconds = secondsBetween(start, loaded);
     prepared.buildSeconds = secondsBetween(loaded, Clock::now());
     return prepared;
+}
+
+}  // namespace
+
+PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions& options, SplitRule split, const Stage& stage)
+{
+    const Clock::time_point start = Clock::now();
+    stage("loading " + file.filename().string());
+    PreparedScene prepared = prepare(loadGltf(file, options), split, start, {}, stage);
+    sayTextureMemory(prepared.flat);
+    return prepared;
+}
+
+PreparedScene prepareScene(SceneFile& file, std::optional<double> seconds, SplitRule split, PreparedScene previous)
+{
+    const Clock::time_point start = Clock::now();
+    return prepare(file.sceneAt(seconds), split, start, std::move(previous), [](const std::string&) {});
 }
 
 void warnIfNoLights(const PreparedScene& prepared)

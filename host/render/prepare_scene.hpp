@@ -30,6 +30,10 @@ PreparedScene prepareScene(
 // Warns on stderr if the scene has no light.
 void warnIfNoLights(const PreparedScene& prepared);
 
+// The scene of a file at `seconds` into its animation, or if absent in its rest pose. `previous`, which holds nothing afterwards, is the
+// scene at another time: its BVH is used again if no surface has moved, and what it warned of is not printed again.
+PreparedScene prepareScene(SceneFile& file, std::optional<double> seconds, SplitRule split, PreparedScene previous = {});
+
 // The camera of that name or index (the first if absent). Throws InputError that lists the cameras.
 const Camera& findCamera(const Scene& scene, const std::optional<std::string>& choice);
 

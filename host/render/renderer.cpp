@@ -38,12 +38,26 @@ std::uint32_t usualRoundEnd(std::uint32_t samples)
     return samples < middle ? middle : 2 * power;
 }
 
+FilmIdentity identify(std::uint64_t sceneFingerprint, bool sharesMeshes, const FlatCamera& camera, const RenderSettings& settings)
+{
+    const char* sharing = sharesMeshes ? " meshes=shared" : "";  // rounds otherwise than flattened ones
+    return {fingerprint(sceneFingerprint, camera), describeSettings(settings) + sharing, settings.seed};
+}
+
+bool sharesMeshes(const FlatScene& scene) { return (scene.features & kFeatureInstances) != 0; }
+
 }  // namespace
+
+FilmIdentity identify(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
+{
+    return identify(fingerprint(scene), sharesMeshes(scene), camera, settings);
+}
 
 Renderer::Renderer(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
     : device_(device),
       settings_(settings),
       sceneFingerprint_(fingerprint(scene)),
+      sharesMeshes_(sharesMeshes(scene)),
       start_(Clock::now()),
       passSize_(scene, settings),
       wavefront_(std::make_unique<Wavefront>(device, scene, camera, settings))
@@ -55,6 +69,7 @@ Renderer::Renderer(const Renderer& other, const FlatScene& scene, const FlatCame
     : device_(other.device_),
       settings_(settings),
       sceneFingerprint_(other.sceneFingerprint_),
+      sharesMeshes_(other.sharesMeshes_),
       start_(Clock::now()),
       passSize_(scene, settings),
       wavefront_(std::make_unique<Wavefront>(device_, other.wavefront_->shared(), scene, camera, settings))
@@ -108,6 +123,31 @@ void Renderer::restart(const FlatCamera& camera, std::uint32_t width, std::uint3
     begin(camera);
 }
 
+void Renderer::restart(const FlatScene& scene, const FlatCamera& camera, std::uint32_t width, std::uint32_t height)
+{
+    settings_.width = width;
+    settings_.height = height;
+    sceneFingerprint_ = fingerprint(scene);
+    sharesMeshes_ = sharesMeshes(scene);
+    const std::shared_ptr<const CompiledKernels> kernels = wavefront_->kernels();
+    light_.reset();
+    tiles_.clear();
+    spare_.clear();
+    spareSize_ = {0, 0};
+    wavefront_.reset();  // so that no two scenes are on the device
+    start_ = Clock::now();
+    wavefront_ = std::make_unique<Wavefront>(device_, scene, camera, settings_, kernels);
+    statistics_ = {};
+    open(scene, camera);
+}
+
+void Renderer::clearStatistics()
+{
+    statistics_ = {};
+    statistics_.schedule = wavefront_->schedule();
+    wavefront_->clearStatistics();
+}
+
 void Renderer::restart(const FlatCamera& camera, std::uint32_t seed)
 {
     settings_.seed = seed;
@@ -121,7 +161,7 @@ void Renderer::begin(const FlatCamera& camera)
     film_.width = settings_.width;
     film_.height = settings_.height;
     film_.pixels.resize(std::size_t{film_.width} * film_.height);
-    film_.identity = {fingerprint(sceneFingerprint_, camera), describeSettings(settings_), settings_.seed};
+    film_.identity = identify(sceneFingerprint_, sharesMeshes_, camera, settings_);
     film_.device = device_.description().name + ", " + device_.description().driver;
     foldVersion_ = 0;
     sample_ = settings_.sampleBegin;

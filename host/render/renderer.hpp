@@ -38,6 +38,9 @@ using StoppingCriterion = std::function<double(const Film&)>;
 // Called several times a second. False ends the render after the current pass or, if that takes seconds, without it.
 using RenderObserver = std::function<bool(const RenderProgress&)>;
 
+// The identity of the film that a renderer makes of them.
+FilmIdentity identify(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
+
 class Renderer {
 public:
     // Uploads the scene and compiles the kernels for what it needs.
@@ -69,6 +72,8 @@ public:
     PathRadiance traceSample(std::uint32_t pixel, std::uint32_t sample) { return wavefront_->traceSample(pixel, sample); }
     // Starts another picture of the scene. The camera has a lens if and only if the first one had.
     void restart(const FlatCamera& camera, std::uint32_t width, std::uint32_t height);
+    // Starts a picture of another scene. Keeps the kernels if they serve it.
+    void restart(const FlatScene& scene, const FlatCamera& camera, std::uint32_t width, std::uint32_t height);
     // Starts the same picture from other random numbers.
     void restart(const FlatCamera& camera, std::uint32_t seed);
 
@@ -83,6 +88,8 @@ public:
 
     const RenderSettings& settings() const { return settings_; }
     const RenderStatistics& statistics() const { return statistics_; }
+    // Those of the next picture begin at 0, as if the scene had been there before.
+    void clearStatistics();
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -121,6 +128,7 @@ private:
     Device& device_;
     RenderSettings settings_;
     std::uint64_t sceneFingerprint_;
+    bool sharesMeshes_;
     RenderStatistics statistics_;
     Clock::time_point start_;
     PassSize passSize_;

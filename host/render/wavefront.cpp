@@ -50,7 +50,8 @@ Schedule chooseSchedule(const RenderSettings& settings, const DeviceDescription&
     return !course && (known ? settings.fastest == Schedule::Persistent : device.software) ? Schedule::Persistent : Schedule::Wavefront;
 }
 
-Wavefront::Wavefront(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
+Wavefront::Wavefront(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings,
+                     std::shared_ptr<const CompiledKernels> kernels)
     : device_(device),
       settings_(settings),
       lightCount_(static_cast<std::uint32_t>(scene.lights.size())),
@@ -59,8 +60,11 @@ Wavefront::Wavefront(Device& device, const FlatScene& scene, const FlatCamera& c
       shared_(*own_),
       parameters_(device, scene, camera, settings),
       course_(device, scene, settings),
-      layout_(device, kernelSlots(), sizeof(CoursePass)),
-      kernels_(layout_, scene, camera, settings, schedule_)
+      compiled_(kernels && kernels->serve(scene, camera, settings)
+                    ? std::move(kernels)
+                    : std::make_shared<CompiledKernels>(device, scene, camera, settings, schedule_)),
+      layout_(compiled_->layout),
+      kernels_(compiled_->set)
 {
     compile();
 }
@@ -74,8 +78,9 @@ Wavefront::Wavefront(Device& device, SharedResources& shared, const FlatScene& s
       shared_(shared),
       parameters_(device, scene, camera, settings),
       course_(device, scene, settings),
-      layout_(device, kernelSlots(), sizeof(CoursePass)),
-      kernels_(layout_, scene, camera, settings, schedule_)
+      compiled_(std::make_shared<CompiledKernels>(device, scene, camera, settings, schedule_)),
+      layout_(compiled_->layout),
+      kernels_(compiled_->set)
 {
     compile();
 }
@@ -83,6 +88,12 @@ Wavefront::Wavefront(Device& device, SharedResources& shared, const FlatScene& s
 void Wavefront::setCamera(const FlatCamera& camera, std::uint32_t width, std::uint32_t height)
 {
     parameters_.setCamera(camera, width, height);
+}
+
+void Wavefront::clearStatistics()
+{
+    statistics_.clear();
+    shared_.paths.clearCounters();
 }
 
 BufferMap Wavefront::constants() const

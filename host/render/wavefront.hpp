@@ -28,12 +28,14 @@ struct SharedResources {
 
 class Wavefront {
 public:
-    // Uploads the scene and compiles the kernels for what it needs.
-    Wavefront(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
+    // Uploads the scene and compiles the kernels for what it needs, unless `kernels`, compiled for the same settings, serve it too.
+    Wavefront(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings,
+              std::shared_ptr<const CompiledKernels> kernels = nullptr);
 
     // Uses the resources of another one of the same scene, which must outlive this one and be idle while it traces.
     Wavefront(Device& device, SharedResources& shared, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
     SharedResources& shared() { return shared_; }
+    std::shared_ptr<const CompiledKernels> kernels() const { return compiled_; }
 
     // Sets the camera of the following passes. It has a lens if and only if the first one had.
     void setCamera(const FlatCamera& camera, std::uint32_t width, std::uint32_t height);
@@ -72,6 +74,8 @@ public:
     Schedule schedule() const { return schedule_; }  // never Auto
     double compileSeconds() const { return compileSeconds_; }
     const std::map<std::string, KernelStatistics>& statistics() const { return statistics_; }
+    // Counters on the device too.
+    void clearStatistics();
 
 private:
     void compile();
@@ -97,8 +101,9 @@ private:
     SharedResources& shared_;
     DeviceParameters parameters_;
     CourseEstimators course_;
-    KernelLayout layout_;
-    KernelSet kernels_;
+    std::shared_ptr<const CompiledKernels> compiled_;
+    const KernelLayout& layout_;
+    const KernelSet& kernels_;
 };
 
 }  // namespace glim

@@ -3,7 +3,6 @@
 #include "host/scene/placed_mesh.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -13,13 +12,13 @@ namespace {
 // What stays free on each side of the picture, as a share of it.
 constexpr double kMargin = 0.05;
 
-// The corners of a box as a camera sees them from far away along one axis of its picture: how far aside, and how much nearer than the
-// box's centre.
+// The corners of a shape as a camera sees them from far away along one axis of its picture: how far aside, and how much nearer than the
+// shape's centre.
 struct Corner {
     double aside, nearer;
 };
 
-using Corners = std::array<Corner, 8>;
+using Corners = std::vector<Corner>;
 
 // Where the camera stands on that axis, if corners at the least and the greatest slope against the view direction are to be as steep as
 // each other: `aside`. `distance` of the camera from the centre: where this slope is `slope`.
@@ -37,7 +36,7 @@ Place fit(const Corners& corners, double slope)
     return {0.5 * (high + low), 0.5 * (high - low) / slope};
 }
 
-// Where the box's picture is in the middle for a camera at `distance`, which is at least that of fit(corners, slope).
+// Where the shape's picture is in the middle for a camera at `distance`, which is at least that of fit(corners, slope).
 double centered(const Corners& corners, double slope, double distance)
 {
     double flat = 0.0, steep = slope;
@@ -48,34 +47,86 @@ double centered(const Corners& corners, double slope, double distance)
     return fit(corners, steep).aside;
 }
 
+// Axes and place of a camera, the place relative to the shape's centre.
+struct Framing {
+    glm::dvec3 backward, right, up, position;
+    double distance;
+};
+
+// `corners` are those of a convex shape, relative to its centre. From the front, a little from the right and above.
+Framing frame(const std::vector<glm::dvec3>& corners, double yfov, double aspectRatio)
+{
+    Framing framing{};
+    framing.backward = glm::normalize(glm::dvec3(0.4, 0.3, 1.0));
+    framing.right = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), framing.backward));
+    framing.up = glm::cross(framing.backward, framing.right);
+    Corners across, upwards;
+    double nearest = 0.0;
+    for (const glm::dvec3& corner : corners) {
+        const double nearer = glm::dot(corner, framing.backward);
+        across.push_back({glm::dot(corner, framing.right), nearer});
+        upwards.push_back({glm::dot(corner, framing.up), nearer});
+        nearest = std::max(nearest, nearer);
+    }
+    const double slope = (1.0 - 2.0 * kMargin) * std::tan(0.5 * yfov), wide = slope * aspectRatio;
+    framing.distance = std::max({fit(across, wide).distance, fit(upwards, slope).distance, 1.01 * nearest});
+    framing.position = framing.distance * framing.backward + centered(across, wide, framing.distance) * framing.right +
+                       centered(upwards, slope, framing.distance) * framing.up;
+    return framing;
+}
+
+glm::dvec3 centerOf(const WorldBox& box) { return 0.5 * glm::dvec3(box.low) + 0.5 * glm::dvec3(box.high); }
+
+glm::dvec3 turnAboutY(const glm::dvec3& v, double angle)
+{
+    return {std::cos(angle) * v.x + std::sin(angle) * v.z, v.y, std::cos(angle) * v.z - std::sin(angle) * v.x};
+}
+
 }  // namespace
 
 Camera frameCamera(const Scene& scene, float aspectRatio)
 {
-    const auto [low, high] = computeWorldBox(scene);
+    const WorldBox box = computeWorldBox(scene);
+    const glm::dvec3 center = centerOf(box);
+    std::vector<glm::dvec3> corners;
+    for (std::size_t i = 0; i < 8; ++i) {
+        corners.push_back(glm::dvec3((i & 1U) != 0 ? box.high.x : box.low.x, (i & 2U) != 0 ? box.high.y : box.low.y,
+                                     (i & 4U) != 0 ? box.high.z : box.low.z) -
+                          center);
+    }
     Camera camera;
     camera.name = "framed";
-    const glm::dvec3 center = 0.5 * glm::dvec3(low) + 0.5 * glm::dvec3(high);
-    const glm::dvec3 backward = glm::normalize(glm::dvec3(0.4, 0.3, 1.0));
-    const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), backward)), up = glm::cross(backward, right);
-    Corners across{}, upwards{};
-    double nearest = 0.0;
-    for (std::size_t i = 0; i < 8; ++i) {
-        const glm::dvec3 corner =
-            glm::dvec3((i & 1U) != 0 ? high.x : low.x, (i & 2U) != 0 ? high.y : low.y, (i & 4U) != 0 ? high.z : low.z) - center;
-        const double nearer = glm::dot(corner, backward);
-        across[i] = {glm::dot(corner, right), nearer};
-        upwards[i] = {glm::dot(corner, up), nearer};
-        nearest = std::max(nearest, nearer);
-    }
-    const double slope = (1.0 - 2.0 * kMargin) * std::tan(0.5 * static_cast<double>(camera.yfov));
-    const double wide = slope * static_cast<double>(aspectRatio);
-    const double distance = std::max({fit(across, wide).distance, fit(upwards, slope).distance, 1.01 * nearest});
-    camera.position = center + distance * backward + centered(across, wide, distance) * right + centered(upwards, slope, distance) * up;
-    camera.forward = -backward;
-    camera.right = right;
-    camera.up = up;
+    const Framing framing = frame(corners, static_cast<double>(camera.yfov), static_cast<double>(aspectRatio));
+    camera.position = center + framing.position;
+    camera.forward = -framing.backward;
+    camera.right = framing.right;
+    camera.up = framing.up;
     return camera;
+}
+
+std::vector<Pose> frameTurntable(const Scene& scene, float aspectRatio, std::uint32_t count)
+{
+    constexpr int kSides = 64;  // of the prism around the cylinder that the box turns in
+    constexpr double kTurn = 6.283185307179586;
+    const WorldBox box = computeWorldBox(scene);
+    const glm::dvec3 center = centerOf(box), half = 0.5 * (glm::dvec3(box.high) - glm::dvec3(box.low));
+    const double radius = std::hypot(half.x, half.z) / std::cos(0.5 * kTurn / kSides);
+    std::vector<glm::dvec3> corners;
+    for (int i = 0; i < kSides; ++i) {
+        const glm::dvec3 side = turnAboutY({0.0, 0.0, radius}, kTurn * i / kSides);
+        corners.push_back(side + glm::dvec3(0.0, half.y, 0.0));
+        corners.push_back(side - glm::dvec3(0.0, half.y, 0.0));
+    }
+    const Framing framing = frame(corners, static_cast<double>(Camera().yfov), static_cast<double>(aspectRatio));
+    std::vector<Pose> poses;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const double angle = kTurn * i / count;
+        Pose pose;
+        pose.from = scene.origin + center + turnAboutY(framing.position, angle);
+        pose.at = pose.from - framing.distance * turnAboutY(framing.backward, angle);
+        poses.push_back(pose);
+    }
+    return poses;
 }
 
 }  // namespace glim

@@ -1,7 +1,7 @@
-// Makes a camera that sees a whole scene.
+// Makes cameras that see a whole scene.
 #pragma once
 
-#include "host/scene/scene.hpp"
+#include "host/scene/pose.hpp"
 
 namespace glim {
 
@@ -9,5 +9,9 @@ namespace glim {
 // (width over height) the box is in the middle, 5 % of the picture away from two opposite sides at least. The scene has at least one
 // triangle or sphere.
 Camera frameCamera(const Scene& scene, float aspectRatio);
+
+// `count` poses of that camera on a circle about the vertical axis of the box, the first from the same side, the others counter-clockwise
+// seen from above. All are at one distance, from which the box, however it is turned, has the same margins.
+std::vector<Pose> frameTurntable(const Scene& scene, float aspectRatio, std::uint32_t count);
 
 }  // namespace glim

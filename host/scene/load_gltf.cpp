@@ -65,24 +65,25 @@ std::size_t findAnimation(const GltfFile& file, const std::vector<Animation>& an
         known += (known.empty() ? "" : ", ") + describeAnimation(animations, i);
     }
     refuse(file, "it has no animation" + (choice.empty() ? "" : " \"" + choice + "\"") + "; expected " +
-                     (known.empty() ? "no --at, since it has none" : "one of " + known));
+                     (known.empty() ? "no --at and no --frames, since it has none" : "one of " + known));
 }
 
 // The rest pose is what the file's nodes, weights and materials say, without any animation.
-void chooseTime(GltfFile& file, const LoadOptions& options, const std::vector<Animation>& animations, Warnings& warnings)
+void chooseTime(GltfFile& file, const LoadOptions& options, std::optional<double> seconds, const std::vector<Animation>& animations,
+                Warnings& warnings)
 {
-    if (options.at) {
-        animateGltf(file, findAnimation(file, animations, options.animation), *options.at, warnings);
+    if (seconds) {
+        animateGltf(file, findAnimation(file, animations, options.animation), *seconds, warnings);
     } else if (!animations.empty()) {
         warnings.add("the scene is drawn in its rest pose: --at SECONDS poses it by animation " + describeAnimation(animations, 0) +
                      (animations.size() == 1 ? "" : ", --animation by another of " + std::to_string(animations.size())));
     }
 }
 
-Environment readMap(const std::filesystem::path& path, const LoadOptions& options, Scene& scene, Warnings& warnings)
+Environment readMap(const std::filesystem::path& path, const LoadOptions& options, DecodedParts& decoded, Scene& scene, Warnings& warnings)
 {
     Environment environment;
-    environment.map = std::make_shared<RadianceMap>(readRadianceMap(path));
+    environment.map = decoded.findMap(path.string(), [&path] { return readRadianceMap(path); });
     environment.rotation = options.environmentRotation;
     environment.source = path.string();
     scene.files.push_back(path);
@@ -94,8 +95,8 @@ Environment readMap(const std::filesystem::path& path, const LoadOptions& option
 }
 
 // scenes[i].extras.environment: {"file", "strength"}.
-std::optional<Environment> readNamedMap(const GltfFile& file, const LoadOptions& options, std::size_t index, Scene& scene,
-                                        Warnings& warnings)
+std::optional<Environment> readNamedMap(const GltfFile& file, const LoadOptions& options, std::size_t index, DecodedParts& decoded,
+                                        Scene& scene, Warnings& warnings)
 {
     const tinygltf::Value& extras = file.model.scenes[index].extras;
     if (!extras.IsObject() || !extras.Has("environment")) {
@@ -110,7 +111,7 @@ std::optional<Environment> readNamedMap(const GltfFile& file, const LoadOptions&
     const std::string name = source.Get("file").Get<std::string>();
     Environment environment;
     try {
-        environment = readMap(externalFile(file.path, name), options, scene, warnings);
+        environment = readMap(externalFile(file.path, name), options, decoded, scene, warnings);
     } catch (const InputError& error) {
         refuse(file, place + " names the map \"" + name + "\", which cannot be read (" + error.what() + ")");
     }
@@ -123,16 +124,17 @@ std::optional<Environment> readNamedMap(const GltfFile& file, const LoadOptions&
     return environment;
 }
 
-std::optional<Environment> readFileEnvironment(const GltfFile& file, const LoadOptions& options, Scene& scene, Warnings& warnings)
+std::optional<Environment> readFileEnvironment(const GltfFile& file, const LoadOptions& options, DecodedParts& decoded, Scene& scene,
+                                               Warnings& warnings)
 {
     if (file.model.scenes.empty()) {
         return std::nullopt;
     }
     const auto first = static_cast<std::size_t>(std::max(file.model.defaultScene, 0));
     const std::size_t index = options.scene.value_or(first);
-    std::optional<Environment> environment = readNamedMap(file, options, index, scene, warnings);
+    std::optional<Environment> environment = readNamedMap(file, options, index, decoded, scene, warnings);
     if (!environment) {
-        environment = readImageLight(file, index, scene);
+        environment = readImageLight(file, index, decoded, scene);
         if (environment) {
             environment->rotation = options.environmentRotation;
         }
@@ -152,11 +154,11 @@ std::vector<bool> findUsedMaterials(const Scene& scene)
     return used;
 }
 
-Environment makeStudioEnvironment(const LoadOptions& options)
+Environment makeStudioEnvironment(const LoadOptions& options, DecodedParts& decoded)
 {
     Environment environment;
-    environment.map = std::make_shared<RadianceMap>(makeStudio());
     environment.source = "studio";
+    environment.map = decoded.findMap(environment.source, makeStudio);
     environment.rotation = options.environmentRotation;
     environment.background = options.environmentBackground;
     return environment;
@@ -173,19 +175,20 @@ bool hasLight(const Scene& scene)
     return lamp || !scene.lights.empty() || scene.environment;
 }
 
-std::optional<Environment> chooseEnvironment(const GltfFile& file, const LoadOptions& options, Scene& scene, Warnings& warnings)
+std::optional<Environment> chooseEnvironment(const GltfFile& file, const LoadOptions& options, DecodedParts& decoded, Scene& scene,
+                                             Warnings& warnings)
 {
     std::optional<Environment> environment;
     if (!options.environment) {
-        environment = readFileEnvironment(file, options, scene, warnings);
+        environment = readFileEnvironment(file, options, decoded, scene, warnings);
     } else if (const auto* radiance = std::get_if<glm::vec3>(&*options.environment)) {
         environment.emplace().radiance = *radiance;
         environment->source = "constant";
     } else if (const auto* path = std::get_if<std::filesystem::path>(&*options.environment)) {
-        environment = readMap(*path, options, scene, warnings);
+        environment = readMap(*path, options, decoded, scene, warnings);
     }
     if (options.environment == EnvironmentChoice(BuiltInEnvironment::Studio)) {
-        environment = makeStudioEnvironment(options);
+        environment = makeStudioEnvironment(options, decoded);
     }
     if (environment) {
         environment->background = options.environmentBackground;
@@ -230,7 +233,7 @@ std::optional<std::size_t> findVariant(const GltfFile& file, const std::vector<s
 }
 
 // The file's materials, then the default one. Those of unused ones say nothing.
-void readMaterials(const GltfFile& file, const LoadOptions& options, Scene& scene, Warnings& warnings)
+void readMaterials(const GltfFile& file, const LoadOptions& options, DecodedParts& decoded, Scene& scene, Warnings& warnings)
 {
     const std::vector<bool> used = findUsedMaterials(scene);
     Warnings unheard;
@@ -238,7 +241,7 @@ void readMaterials(const GltfFile& file, const LoadOptions& options, Scene& scen
         const int index = i + 1 < scene.materials.size() ? static_cast<int>(i) : -1;
         scene.materials[i] = readMaterial(file, index, used[i] ? warnings : unheard);
     }
-    readImages(file, options, used, scene, warnings);
+    readImages(file, options, used, decoded, scene, warnings);
     if (!used.back()) {
         scene.materials.pop_back();
     }
@@ -273,45 +276,104 @@ void giveTangents(Scene& scene, Warnings& warnings)
     }
 }
 
+// What a framed camera was framed on.
+struct Framed {
+    Camera camera;
+    glm::dvec3 origin;  // of the scene
+};
+
+Camera placeFramed(const Framed& framed, const glm::dvec3& origin)
+{
+    Camera camera = framed.camera;
+    camera.position = glm::dvec3(camera.position) + framed.origin - origin;
+    return camera;
+}
+
 }  // namespace
 
-Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options)
+struct SceneFile::Contents {
+    GltfFile file;
+    LoadOptions options;
+    std::vector<Animation> animations;
+    DecodedParts decoded;
+    std::optional<Framed> framed;  // on the rest pose
+    bool posed = false;            // the file's model is not in its rest pose
+
+    Framed frameRestPose();
+    Camera frame(const Scene& scene);
+};
+
+Framed SceneFile::Contents::frameRestPose()
 {
-    GltfFile file = readGltfFile(path);
+    restoreRestPose(file);
+    posed = false;
+    Scene rest;
+    rest.materials.resize(file.model.materials.size() + 1);
+    Warnings unheard;
+    readGeometry(file, placeNodes(file, options, unheard), rest, unheard);
+    return {frameCamera(rest, options.aspectRatio), rest.origin};
+}
+
+Camera SceneFile::Contents::frame(const Scene& scene)
+{
+    if (!posed) {
+        return frameCamera(scene, options.aspectRatio);
+    }
+    framed = framed ? framed : frameRestPose();
+    return placeFramed(*framed, scene.origin);
+}
+
+SceneFile::SceneFile(const std::filesystem::path& file, const LoadOptions& options)
+    : contents_(std::make_unique<Contents>(Contents{readGltfFile(file), options, {}, {}, {}}))
+{
+    contents_->animations = listAnimations(contents_->file);
+}
+
+SceneFile::~SceneFile() = default;
+
+Scene SceneFile::sceneAt(std::optional<double> seconds)
+{
+    auto& [file, options, animations, decoded, framed, posed] = *contents_;
     Scene scene;
     scene.variants = readVariants(file);
     file.variant = findVariant(file, scene.variants, options.variant);
     scene.file = file.path;
     scene.files = file.files;
-    scene.animations = listAnimations(file);
+    scene.animations = animations;
     scene.skins = file.skins.size();
     scene.morphTargets = countMorphTargets(file);
     scene.materials.resize(file.model.materials.size() + 1);
     Warnings warnings;
-    chooseTime(file, options, scene.animations, warnings);
+    if (posed) {
+        restoreRestPose(file);
+    }
+    chooseTime(file, options, seconds, animations, warnings);
+    posed = seconds.has_value();
     const std::vector<PlacedNode> nodes = placeNodes(file, options, warnings);
-    scene.environment = chooseEnvironment(file, options, scene, warnings);
+    scene.environment = chooseEnvironment(file, options, decoded, scene, warnings);
     noteIgnoredParts(file, warnings);
     readGeometry(file, nodes, scene, warnings);
-    readMaterials(file, options, scene, warnings);
+    readMaterials(file, options, decoded, scene, warnings);
     giveTangents(scene, warnings);
     readLightsAndCameras(file, nodes, scene, warnings);
     if (options.sun) {
         scene.lights.push_back(lightOf(*options.sun));
     }
     if (!options.environment && !hasLight(scene)) {
-        scene.environment = makeStudioEnvironment(options);
+        scene.environment = makeStudioEnvironment(options, decoded);
         warnings.add("the scene has no light: the built-in studio lights it (--environment none keeps it dark)");
     }
     if (scene.cameras.empty()) {
-        scene.cameras.push_back(frameCamera(scene, options.aspectRatio));
         warnings.add("the scene has no camera: one is framed on its bounding box");
-    } else if (options.framed) {
-        scene.cameras.push_back(frameCamera(scene, options.aspectRatio));
+    }
+    if (scene.cameras.empty() || options.framed) {
+        scene.cameras.push_back(contents_->frame(scene));
     }
     scene.warnings = warnings.lines();
     checkScene(scene);
     return scene;
 }
+
+Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options) { return SceneFile(path, options).sceneAt(options.at); }
 
 }  // namespace glim

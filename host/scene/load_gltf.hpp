@@ -4,6 +4,7 @@
 #include "host/scene/scene.hpp"
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <variant>
 
@@ -36,8 +37,25 @@ struct LoadOptions {
     bool framed = false;                       // adds it to the file's cameras; it is always there if the file has none
 };
 
-// Reads and checks a whole file; the result has passed checkScene. Throws InputError with one sentence that names file, place, value and
-// what was expected.
+// A file that is read once, with its buffers, images and maps, and gives its scene at one time after another. Throws InputError with one
+// sentence that names file, place, value and what was expected.
+class SceneFile {
+public:
+    explicit SceneFile(const std::filesystem::path& file, const LoadOptions& options = {});
+    ~SceneFile();
+    SceneFile(const SceneFile&) = delete;
+    SceneFile& operator=(const SceneFile&) = delete;
+
+    // The scene at `seconds` into the animation; if absent in the file's rest pose. It has passed checkScene. A framed camera sees the
+    // whole rest pose, at any time.
+    Scene sceneAt(std::optional<double> seconds);
+
+private:
+    struct Contents;
+    std::unique_ptr<Contents> contents_;
+};
+
+// The scene at options.at.
 Scene loadGltf(const std::filesystem::path& file, const LoadOptions& options = {});
 
 }  // namespace glim

@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace glim {
@@ -133,8 +134,19 @@ struct MeshInstance {
 inline constexpr std::uint64_t kMaxTextureBytes = std::uint64_t{1} << 32U;
 
 struct TextureImage {
-    std::string name;  // as messages name it
-    DecodedImage pixels;
+    TextureImage(std::string nameInMessages, std::shared_ptr<const DecodedImage> decoded)
+        : name(std::move(nameInMessages)),
+          width(decoded->width),
+          height(decoded->height),
+          pixels(std::move(decoded))
+    {}
+    TextureImage(std::string nameInMessages, const DecodedImage& decoded)
+        : TextureImage(std::move(nameInMessages), std::make_shared<DecodedImage>(decoded))
+    {}
+
+    std::string name;
+    std::uint32_t width, height;
+    std::shared_ptr<const DecodedImage> pixels;
 };
 
 // Radiance from infinitely far: a latitude-longitude map whose middle is -z and whose first row is +y, or the same radiance from

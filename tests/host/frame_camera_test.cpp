@@ -1,9 +1,11 @@
 // The framed camera: the box around the scene is in the middle of the picture and fills it up to the margin.
 #include "host/scene/frame_camera.hpp"
+#include "host/scene/pose.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <cmath>
 
@@ -50,6 +52,39 @@ TEST(FrameCamera, CentresAndFillsWhateverTheShape)
             EXPECT_NEAR(extent.high.x, -extent.low.x, 1e-5) << half.x << ' ' << half.y << ' ' << half.z << ", " << aspectRatio;
             EXPECT_NEAR(extent.high.y, -extent.low.y, 1e-5) << half.x << ' ' << half.y << ' ' << half.z << ", " << aspectRatio;
             EXPECT_NEAR(fills, 0.9, 1e-5) << half.x << ' ' << half.y << ' ' << half.z << ", " << aspectRatio;
+        }
+    }
+}
+
+// The box turns about its axis. From every side it is within the margin, and from one it reaches it.
+TEST(FrameCamera, TurntablesShowTheBoxFromEverySide)
+{
+    constexpr std::uint32_t kPictures = 360;
+    for (const glm::vec3& half : {glm::vec3(1, 1, 1), glm::vec3(8, 1, 1), glm::vec3(1, 9, 1), glm::vec3(5, 0.01F, 2)}) {
+        Triangles box = sliverBox(2);
+        for (Triangle& triangle : box) {
+            for (glm::vec3& vertex : triangle.vertices) {
+                vertex *= half;
+            }
+        }
+        Scene scene = sceneOf(box);
+        scene.origin = {1000.0, 0.0, -7.0};
+        scene.instances[0].worldFromMesh = glm::translate(glm::dmat4(1.0), scene.origin);
+        for (const float aspectRatio : {0.5F, 1.7F}) {
+            const std::vector<Pose> poses = frameTurntable(scene, aspectRatio, kPictures);
+            ASSERT_EQ(poses.size(), kPictures);
+            double farthest = 0.0;
+            for (const Pose& pose : poses) {
+                const Camera camera = placeCamera(Camera(), pose, scene.origin);
+                const Extent extent = seen(camera, -half, half, static_cast<double>(aspectRatio));
+                farthest = std::max({farthest, extent.high.x, -extent.low.x, extent.high.y, -extent.low.y});
+                EXPECT_NEAR(glm::length(pose.from - scene.origin), glm::length(poses[0].from - scene.origin), 1e-9);
+            }
+            EXPECT_LT(farthest, 0.9 + 1e-5) << half.x << ' ' << half.y << ' ' << half.z << ", " << aspectRatio;
+            EXPECT_GT(farthest, 0.895) << half.x << ' ' << half.y << ' ' << half.z << ", " << aspectRatio;
+            const glm::dvec3 first = poses[0].from - scene.origin, quarter = poses[kPictures / 4].from - scene.origin;
+            EXPECT_NEAR(quarter.x, first.z, 1e-9);  // counter-clockwise from above: from +z to +x
+            EXPECT_NEAR(quarter.z, -first.x, 1e-9);
         }
     }
 }

@@ -120,7 +120,7 @@ TEST(GltfAnimation, IsChosenByNameOrIndex)
     GltfBuilder still;
     still.addNode({{"mesh", still.addTriangleMesh()}});
     options.animation = "";
-    EXPECT_NE(refusal(still, options).find("it has no animation; expected no --at, since it has none"), std::string::npos);
+    EXPECT_NE(refusal(still, options).find("it has no animation; expected no --at and no --frames, since it has none"), std::string::npos);
 }
 
 // Half way through 4 s of a spline for two weights, whose tangents only the first has: 0.5 + 4 (2 - 0)/8 and 0.5.

@@ -62,11 +62,11 @@ bool mentions(const std::vector<std::string>& lines, const std::string& part)
 TEST(GltfTextures, ImagesInDataUrisOfAnyType)
 {
     const Bytes webp = encodeWebp(1, 1, {200, 10, 20, 255});
-    EXPECT_EQ(load(texturedTriangle({{"uri", base64Uri("image/png", redPng())}})).images.at(0).pixels.rgba8, kRed);
-    EXPECT_EQ(load(texturedTriangle({{"uri", base64Uri("image/webp", webp)}})).images.at(0).pixels.rgba8, kRed);
-    EXPECT_EQ(load(texturedTriangle({{"uri", base64Uri("image/png;charset=x", redPng())}})).images.at(0).pixels.rgba8, kRed);
+    EXPECT_EQ(load(texturedTriangle({{"uri", base64Uri("image/png", redPng())}})).images.at(0).pixels->rgba8, kRed);
+    EXPECT_EQ(load(texturedTriangle({{"uri", base64Uri("image/webp", webp)}})).images.at(0).pixels->rgba8, kRed);
+    EXPECT_EQ(load(texturedTriangle({{"uri", base64Uri("image/png;charset=x", redPng())}})).images.at(0).pixels->rgba8, kRed);
     // What the file says of the type does not matter.
-    EXPECT_EQ(load(texturedTriangle({{"uri", base64Uri("image/jpeg", redPng())}, {"mimeType", "image/jpeg"}})).images.at(0).pixels.rgba8,
+    EXPECT_EQ(load(texturedTriangle({{"uri", base64Uri("image/jpeg", redPng())}, {"mimeType", "image/jpeg"}})).images.at(0).pixels->rgba8,
               kRed);
     EXPECT_NE(refusal(texturedTriangle({{"uri", "data:image/png,abc"}})).find("expected base64 data"), std::string::npos);
     EXPECT_NE(refusal(texturedTriangle({{"uri", "data:image/png;base64,iVB*"}})).find("has the byte 42 in its data"), std::string::npos);
@@ -78,7 +78,7 @@ TEST(GltfTextures, ImagesInBufferViews)
     GltfBuilder builder = texturedTriangle({{"mimeType", "image/png"}});
     builder.document["images"][0]["bufferView"] = builder.addAov(redPng());
     const std::string path = writeTemporary("image_in_view.glb", builder.toGlb());
-    EXPECT_EQ(loadGltf(path).images.at(0).pixels.rgba8, kRed);
+    EXPECT_EQ(loadGltf(path).images.at(0).pixels->rgba8, kRed);
 }
 
 TEST(GltfTextures, ImagesInFilesBesideAndBelow)
@@ -90,7 +90,7 @@ TEST(GltfTextures, ImagesInFilesBesideAndBelow)
     for (const std::string uri : {"my%20file.png", "my file.png", "maps/of%20wood/a+b.png", "./maps/of wood/a%2Bb.png"}) {
         writeText(folder / "scene.glb", texturedTriangle({{"uri", uri}}).toGlb());
         const Scene scene = loadGltf(folder / "scene.glb");
-        EXPECT_EQ(scene.images.at(0).pixels.rgba8, kRed) << uri;
+        EXPECT_EQ(scene.images.at(0).pixels->rgba8, kRed) << uri;
         ASSERT_EQ(scene.files.size(), 2U) << "a preview watches it";
         EXPECT_TRUE(std::filesystem::exists(scene.files[1])) << scene.files[1];
     }
@@ -105,7 +105,7 @@ TEST(GltfTextures, BrokenOnesAreNamedOrGrey)
     LoadOptions options;
     options.missingTextures = MissingTextures::Grey;
     const Scene scene = loadGltf(path, options);
-    EXPECT_EQ(scene.images.at(0).pixels.rgba8, (Texels{128, 128, 128, 255}));
+    EXPECT_EQ(scene.images.at(0).pixels->rgba8, (Texels{128, 128, 128, 255}));
     EXPECT_TRUE(mentions(scene.warnings, "images that cannot be read are drawn grey: " + sentence))
         << ::testing::PrintToString(scene.warnings);
     EXPECT_NE(loadRefusal(writeTemporary("lost_image.gltf", texturedTriangle({{"uri", "lost.png"}}).toGltf()))
@@ -126,8 +126,8 @@ TEST(GltfTextures, LargeImagesAreScaledDownByTheirUse)
     ASSERT_EQ(scene.images.size(), 2U);
     const Material& material = scene.materials[0];
     EXPECT_EQ(material.baseColorTexture->image, material.emissiveTexture->image);
-    EXPECT_EQ(scene.images[material.baseColorTexture->image].pixels.rgba8, (Texels{188, 188, 188, 255}));
-    EXPECT_EQ(scene.images[material.metallicRoughnessTexture->image].pixels.rgba8, (Texels{128, 128, 128, 255}));
+    EXPECT_EQ(scene.images[material.baseColorTexture->image].pixels->rgba8, (Texels{188, 188, 188, 255}));
+    EXPECT_EQ(scene.images[material.metallicRoughnessTexture->image].pixels->rgba8, (Texels{128, 128, 128, 255}));
 }
 
 // Two sets of any number, each with its texture.

@@ -305,8 +305,8 @@ TEST(LoadGltf, DecodesTheImagesThatMaterialsUse)
     builder.append("images", {{"uri", "nobody reads it.png"}});
     const Scene scene = load(builder);
     ASSERT_EQ(scene.images.size(), 1U);
-    EXPECT_EQ(scene.images[0].pixels.width, 2U);
-    EXPECT_EQ(scene.images[0].pixels.rgba8, (std::vector<std::uint8_t>{255, 0, 0, 128, 0, 255, 0, 255}));
+    EXPECT_EQ(scene.images[0].width, 2U);
+    EXPECT_EQ(scene.images[0].pixels->rgba8, (std::vector<std::uint8_t>{255, 0, 0, 128, 0, 255, 0, 255}));
     const std::optional<Texture>& texture = scene.materials.at(0).baseColorTexture;
     ASSERT_TRUE(texture);
     EXPECT_EQ(texture->uvSet, 1U);

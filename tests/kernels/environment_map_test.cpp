@@ -81,7 +81,7 @@ class MapOnDevice {
 public:
     explicit MapOnDevice(const RadianceMap& map, float rotation = 0.0F)
     {
-        flattenEnvironmentMap(flat, map);
+        flattenEnvironmentMap(flat, std::make_shared<RadianceMap>(map));
         flat.environmentTurn = {std::cos(rotation), std::sin(rotation)};
         texels_.emplace(testDevice(), "test's map", BufferKind::Texel8, flat.environmentTexels.size() * sizeof(uvec2));
         upload(*texels_, std::span<const uvec2>(flat.environmentTexels));
@@ -297,7 +297,8 @@ TEST(EnvironmentMapTest, CellsOfSeveralTexels)
 TEST(EnvironmentMapTest, ABlackMapIsNone)
 {
     FlatScene flat;
-    EXPECT_EQ(flattenEnvironmentMap(flat, mapOf(4, 2, vec3(0.0F))), 0.0);
+    flattenEnvironmentMap(flat, std::make_shared<RadianceMap>(mapOf(4, 2, vec3(0.0F))));
+    EXPECT_EQ(flat.environmentIntegral, 0.0);
     EXPECT_TRUE(flat.environmentTexels.empty() && flat.environmentCells.empty());
 }
 

@@ -69,7 +69,7 @@ TEST_F(CommandLinePoseTest, AnAnimationNeedsATime)
 {
     const GlimRun refused = run({"render", "scene.gltf", "--animation", "grow", "-o", "x.exr"});
     EXPECT_EQ(refused.exitCode, 2);
-    EXPECT_NE(refused.err.find("--animation requires --at"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("--animation: \"grow\": without a time nothing is played; expected --at"), std::string::npos) << refused.err;
 }
 
 }  // namespace

@@ -349,7 +349,7 @@ TEST(HardMaterialTest, H50ManyInstancesOfOneImage)
                   samplesOf(settings),
                   figure(static_cast<double>(textureBytes(flat)) / 1048576.0) + " MiB of texels; mean " + describe(meanOf(film)),
                   "a copy for each material: " + figure(static_cast<double>(textureBytes(flat)) / 1048576.0 * kMaterials) + " MiB");
-    expectMean("many instances of one image", film, glm::dvec3(meanAlbedo(scene.images[0].pixels)));
+    expectMean("many instances of one image", film, glm::dvec3(meanAlbedo(*scene.images[0].pixels)));
 }
 
 // A lamp above a floor; its emission has a texture.

@@ -246,4 +246,6 @@ void animateGltf(GltfFile& file, std::size_t animation, double seconds, Warnings
     file.model = parseModel(file.path, animator.takeDocument());
 }
 
+void restoreRestPose(GltfFile& file) { file.model = parseModel(file.path, *file.document); }
+
 }  // namespace glim

@@ -13,4 +13,7 @@ double durationOf(const GltfFile& file, std::size_t animation);
 // one: a channel sets what its pointer points to. Values outside the range of their property are clamped, as those of splines may be.
 void animateGltf(GltfFile& file, std::size_t animation, double seconds, Warnings& warnings);
 
+// Undoes animateGltf.
+void restoreRestPose(GltfFile& file);
+
 }  // namespace glim

@@ -3,6 +3,7 @@
 #include "host/error.hpp"
 #include "host/image/srgb.hpp"
 #include "host/scene/gltf/read_images.hpp"
+#include "host/text.hpp"
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -135,7 +136,7 @@ glm::dquat readRotation(const GltfFile& file, const tinygltf::Value& light, cons
 
 }  // namespace
 
-std::optional<Environment> readImageLight(const GltfFile& file, std::size_t sceneOfFile, Scene& scene)
+std::optional<Environment> readImageLight(const GltfFile& file, std::size_t sceneOfFile, DecodedParts& decoded, Scene& scene)
 {
     const auto use = file.model.scenes[sceneOfFile].extensions.find(kName);
     if (use == file.model.scenes[sceneOfFile].extensions.end()) {
@@ -145,7 +146,10 @@ std::optional<Environment> readImageLight(const GltfFile& file, std::size_t scen
     const tinygltf::Value& light = file.model.extensions.at(kName).Get("lights").Get(index);
     const std::string place = std::string("extensions.") + kName + ".lights[" + std::to_string(index) + "]";
     Environment environment;
-    environment.map = std::make_shared<RadianceMap>(unrollCube(readCube(file, light, place, scene), readRotation(file, light, place)));
+    const glm::dquat rotation = readRotation(file, light, place);
+    const std::string name =
+        place + " " + exactText(rotation.w) + "," + exactText(rotation.x) + "," + exactText(rotation.y) + "," + exactText(rotation.z);
+    environment.map = decoded.findMap(name, [&] { return unrollCube(readCube(file, light, place, scene), rotation); });
     environment.source = kName;
     environment.radiance = glm::vec3(light.Has("intensity") ? static_cast<float>(light.Get("intensity").GetNumberAsDouble()) : 1.0F);
     return environment;

@@ -35,11 +35,20 @@ DecodedImage decodeNamed(const GltfFile& file, std::size_t image, std::span<cons
     }
 }
 
+void noteFile(const GltfFile& file, std::size_t image, Scene& scene)
+{
+    const EncodedImage& source = file.images[image];
+    if (!source.range && !isDataUri(source.uri)) {
+        scene.files.push_back(externalFile(file.path, source.uri));
+    }
+}
+
 class ImageReader {
 public:
-    ImageReader(const GltfFile& file, const LoadOptions& options, Scene& scene, Warnings& warnings)
+    ImageReader(const GltfFile& file, const LoadOptions& options, DecodedParts& decoded, Scene& scene, Warnings& warnings)
         : file_(file),
           options_(options),
+          decoded_(decoded),
           scene_(scene),
           warnings_(warnings)
     {}
@@ -63,21 +72,35 @@ private:
 
     std::uint32_t add(std::uint32_t image, bool isColor)
     {
-        DecodedImage pixels = decode(image);
-        const bool fits = std::max(pixels.width, pixels.height) <= options_.maxTexture;
-        pixels = shrinkImage(std::move(pixels), options_.maxTexture, isColor);
-        bytes_ += pixels.rgba8.size() + 2 * pixels.rgba16.size();
+        const std::shared_ptr<const DecodedImage> pixels = find(image, isColor);
+        bytes_ += pixels->rgba8.size() + 2 * pixels->rgba16.size();
         if (bytes_ > kMaxTextureBytes) {
             refuse(file_, "its textures take more than " + std::to_string(kMaxTextureBytes >> 20U) +
                               " MiB; expected less (--max-texture N scales them down)");
         }
         const auto index = static_cast<std::uint32_t>(scene_.images.size());
-        scene_.images.push_back({nameOf(file_, image), std::move(pixels)});
+        scene_.images.emplace_back(nameOf(file_, image), pixels);
         images_[{sourceOf(image), isColor}] = index;
-        if (fits) {
+        if (decoded_.images[{image, !isColor}] == pixels) {
             images_[{sourceOf(image), !isColor}] = index;
         }
         return index;
+    }
+
+    std::shared_ptr<const DecodedImage> find(std::uint32_t image, bool isColor)
+    {
+        std::shared_ptr<const DecodedImage>& pixels = decoded_.images[{image, isColor}];
+        if (pixels) {
+            noteFile(file_, image, scene_);
+            return pixels;
+        }
+        DecodedImage original = decode(image);
+        const bool fits = std::max(original.width, original.height) <= options_.maxTexture;
+        pixels = std::make_shared<DecodedImage>(shrinkImage(std::move(original), options_.maxTexture, isColor));
+        if (fits) {
+            decoded_.images[{image, !isColor}] = pixels;
+        }
+        return pixels;
     }
 
     DecodedImage decode(std::uint32_t image) const
@@ -97,6 +120,7 @@ private:
 
     const GltfFile& file_;
     const LoadOptions& options_;
+    DecodedParts& decoded_;
     Scene& scene_;
     Warnings& warnings_;
     std::map<std::pair<Source, bool>, std::uint32_t> images_;  // the scene's, by the bytes and whether they are colours
@@ -110,17 +134,16 @@ DecodedImage readImage(const GltfFile& file, std::size_t image, Scene& scene)
     const EncodedImage& source = file.images[image];
     if (!source.range) {
         const std::vector<unsigned char> bytes = readUri(file.path, "images[" + std::to_string(image) + "]", source.uri);
-        if (!isDataUri(source.uri)) {
-            scene.files.push_back(externalFile(file.path, source.uri));
-        }
+        noteFile(file, image, scene);
         return decodeNamed(file, image, bytes);
     }
     return decodeNamed(file, image, findBytes(file.path, file.buffers, *source.range, nameOf(file, image)));
 }
 
-void readImages(const GltfFile& file, const LoadOptions& options, const std::vector<bool>& used, Scene& scene, Warnings& warnings)
+void readImages(const GltfFile& file, const LoadOptions& options, const std::vector<bool>& used, DecodedParts& decoded, Scene& scene,
+                Warnings& warnings)
 {
-    ImageReader reader(file, options, scene, warnings);
+    ImageReader reader(file, options, decoded, scene, warnings);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const auto colors = colorTexturesOf(scene.materials[i]);
         for (std::optional<Texture>* texture : texturesOf(scene.materials[i])) {

@@ -1,0 +1,318 @@
+#include "host/cli/render_sequence.hpp"
+
+#include "host/cli/fastest_schedule.hpp"
+#include "host/cli/interrupt.hpp"
+#include "host/cli/output_file.hpp"
+#include "host/cli/render_report.hpp"
+#include "host/flatten/camera_options.hpp"
+#include "host/render/check_memory.hpp"
+#include "host/render/film_file.hpp"
+#include "host/render/film_pictures.hpp"
+
+#include <algorithm>
+#include <iomanip>
+#include <iostream>
+
+namespace glim {
+namespace {
+
+// `inputs`: files that are not to be overwritten.
+void checkTargets(const RenderOptions& options, const std::vector<std::filesystem::path>& inputs)
+{
+    checkTarget(options.output, ".exr", inputs);
+    if (options.png) {
+        checkTarget(*options.png, ".png", inputs);
+    }
+    if (options.rates) {
+        checkTarget(*options.rates, ".png", inputs);
+    }
+    if (options.stats) {
+        checkTarget(*options.stats, ".json", inputs);
+    }
+}
+
+// A picture with holes is better than none, but not better than an existing one.
+bool wouldRuin(const std::filesystem::path& output, const Film& film)
+{
+    std::error_code ignored;
+    return std::filesystem::exists(output, ignored) &&
+           std::any_of(film.pixels.begin(), film.pixels.end(), [](const PixelMoments& p) { return p.count == 0; });
+}
+
+std::string stopReason(int signal, const Film& film, const RenderSettings& settings, bool isGood, bool isDone)
+{
+    if (signal != 0) {
+        return nameOfSignal(signal);
+    }
+    if (isGood) {
+        return "target";
+    }
+    if (!isDone) {
+        return "time";
+    }
+    const bool calm = isCourse(settings.adaptive) && std::none_of(film.pixels.begin(), film.pixels.end(),
+                                                                  [&](const PixelMoments& p) { return p.count >= settings.sampleEnd; });
+    return calm ? "tolerance" : "samples";
+}
+
+void writePngs(const RenderOptions& options, const Film& film)
+{
+    if (options.png) {
+        writeFilmPng(*options.png, film, aovOf(film), options.exposure);
+    }
+    if (options.rates) {
+        writeFilmPng(*options.rates, film, Aov::SampleCount, 0.0);
+    }
+}
+
+// Seconds that writing took.
+double writePictures(const RenderOptions& options, const Film& film)
+{
+    const auto start = std::chrono::steady_clock::now();
+    writeFilm(options.output, film);
+    writePngs(options, film);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+struct Rendered {
+    Film film;
+    bool isGood = false;  // the target is reached
+};
+
+Rendered renderPicture(Renderer& renderer, const ErrorTarget& target, ProgressPrinter& progress, const InterruptWatch& watch)
+{
+    Rendered rendered;
+    const auto observe = [&](const RenderProgress& now) {
+        progress.print(now);
+        return watch.signal() == 0;
+    };
+    const auto criterion = [&](const Film& film) {
+        const double times = timesToTarget(film, target);
+        rendered.isGood = times <= 1.0;
+        return times;
+    };
+    rendered.film = renderer.render(observe, target.isGiven() ? StoppingCriterion(criterion) : nullptr);
+    return rendered;
+}
+
+std::optional<ControlBias> measureBias(Renderer& renderer, const Film& film, const InterruptWatch& watch)
+{
+    if (renderer.settings().adaptive == Adaptive::Off) {
+        return std::nullopt;
+    }
+    const auto control = renderer.sampleControl(film, [&] { return watch.signal() == 0; });
+    return control ? estimateControlBias(film, *control) : std::nullopt;
+}
+
+// Whether a film has all samples that were asked for.
+bool isWhole(const Film& film, const RenderOptions& options)
+{
+    const RenderSettings& settings = options.settings;
+    if (!film.complete) {
+        return false;
+    }
+    if (settings.seconds || isCourse(settings.adaptive)) {
+        return true;
+    }
+    const bool all = isNeighbours(settings.adaptive) ? computeRates(film).mean >= settings.sampleEnd
+                                                     : film.sampleRanges.front().first == settings.sampleBegin &&
+                                                           film.sampleRanges.front().second == settings.sampleEnd;
+    return all || (options.target.isGiven() && timesToTarget(film, options.target) <= 1.0);
+}
+
+// Renders one picture after another, with one file, one device and one set of kernels for all of them.
+class SequenceRenderer {
+public:
+    SequenceRenderer(const RenderOptions& options, const InterruptWatch& watch)
+        : options_(options),
+          watch_(watch),
+          device_(instance_, options.device),
+          file_(options.scene, loadOptions()),
+          time_(firstTime(options.sequence, options)),
+          prepared_(prepareScene(file_, time_, options.split)),
+          shots_(listShots(options.sequence, options, prepared_.scene))
+    {}
+
+    ExitCode renderAll();
+
+private:
+    LoadOptions loadOptions() const;
+    RenderOptions optionsOf(const Shot& shot) const;
+    void openScene(std::optional<double> time);
+    ExitCode renderShot(const RenderOptions& options);
+    bool keep(const RenderOptions& options, const FlatCamera& camera, const RenderSettings& settings) const;
+    void openRenderer(const FlatCamera& camera, RenderSettings& settings);
+    ExitCode writeShot(const RenderOptions& options, const RenderSettings& settings, Film film, bool isGood);
+
+    const RenderOptions& options_;
+    const InterruptWatch& watch_;
+    VulkanInstance instance_;
+    Device device_;
+    SceneFile file_;
+    std::optional<double> time_;  // of the scene
+    PreparedScene prepared_;
+    std::vector<Shot> shots_;
+    SequencePlace place_;
+    std::optional<Renderer> renderer_;
+    bool isSceneNew_ = true;  // to the renderer
+};
+
+LoadOptions SequenceRenderer::loadOptions() const
+{
+    LoadOptions load = loadOptionsOf(options_);
+    load.framed = load.framed || options_.sequence.turntable > 0;
+    return load;
+}
+
+RenderOptions SequenceRenderer::optionsOf(const Shot& shot) const
+{
+    RenderOptions options = options_;
+    if (isSequence(options_.sequence, options_)) {
+        options.output = numberedPath(options.output, shot.number);
+        for (std::optional<std::filesystem::path>* file : {&options.png, &options.rates, &options.stats}) {
+            *file = *file ? std::optional(numberedPath(**file, shot.number)) : std::nullopt;
+        }
+    }
+    options.at = shot.at;
+    options.camera = shot.camera;
+    options.pose = shot.pose;
+    return options;
+}
+
+void SequenceRenderer::openScene(std::optional<double> time)
+{
+    if (time != time_) {
+        prepared_ = prepareScene(file_, time, options_.split, std::move(prepared_));
+        time_ = time;
+        isSceneNew_ = true;
+    }
+}
+
+ExitCode SequenceRenderer::renderAll()
+{
+    for (const Shot& shot : shots_) {
+        checkTargets(optionsOf(shot), prepared_.scene.files);
+    }
+    if (options_.settings.aov == Aov::Radiance) {
+        warnIfNoLights(prepared_);
+    }
+    place_.count = shots_.size();
+    for (const Shot& shot : shots_) {
+        openScene(shot.at);
+        const ExitCode code = renderShot(optionsOf(shot));
+        if (code != ExitCode::Done) {
+            return code;
+        }
+        ++place_.index;
+    }
+    if (place_.count > 1) {
+        std::cout << place_.rendered << " of " << place_.count << " pictures rendered in " << std::fixed << std::setprecision(2)
+                  << place_.seconds << " s" << (place_.rendered < place_.count ? ", the others were there\n" : "\n");
+    }
+    return ExitCode::Done;
+}
+
+ExitCode SequenceRenderer::renderShot(const RenderOptions& options)
+{
+    const auto start = std::chrono::steady_clock::now();
+    const Camera camera = cameraOf(prepared_.scene, options);
+    RenderSettings settings = settingsFor(options, camera);
+    checkMemory(prepared_, settings, device_.description());
+    if (watch_.signal() != 0) {
+        return finish(watch_.signal(), place_.rendered == 0 ? "nothing was rendered or written"
+                                                            : options.output.string() + " and what follows was not rendered");
+    }
+    const FlatCamera flatCamera =
+        flattenCamera(camera, static_cast<float>(settings.width) / static_cast<float>(settings.height), options.lens);
+    if (place_.count > 1 && keep(options, flatCamera, settings)) {
+        return ExitCode::Done;
+    }
+    openRenderer(flatCamera, settings);
+    ProgressPrinter progress(options.progress, settings.seconds, std::uint64_t{settings.width} * settings.height, place_);
+    auto [film, isGood] = renderPicture(*renderer_, options.target, progress, watch_);
+    progress.finish();
+    const ExitCode code = writeShot(options, settings, std::move(film), isGood);
+    ++place_.rendered;
+    place_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return code;
+}
+
+// Keeps a film that is whole already; its PNGs may be of another exposure, and are drawn again.
+bool SequenceRenderer::keep(const RenderOptions& options, const FlatCamera& camera, const RenderSettings& settings) const
+{
+    std::error_code ignored;
+    if (!std::filesystem::exists(options.output, ignored) || (options.stats && !std::filesystem::exists(*options.stats, ignored))) {
+        return false;
+    }
+    Film film;
+    try {
+        film = readFilm(options.output);
+    } catch (const InputError&) {
+        return false;  // as a render of one picture overwrites whatever is there
+    }
+    FilmIdentity identity = identify(prepared_.flat, camera, settings);
+    identity.settings += describeCamera(options.pose, options.lens);
+    const bool same = film.identity.scene == identity.scene && film.identity.settings == identity.settings &&
+                      film.width == settings.width && film.height == settings.height;
+    if (!same || !isWhole(film, options)) {
+        return false;
+    }
+    writePngs(options, film);
+    std::cout << options.output.string() << ": is whole and was kept\n";
+    return true;
+}
+
+void SequenceRenderer::openRenderer(const FlatCamera& camera, RenderSettings& settings)
+{
+    if (!renderer_) {
+        settings.fastest = fastestSchedule(device_, prepared_.flat, camera, settings);
+        renderer_.emplace(device_, prepared_.flat, camera, settings);
+    } else if (isSceneNew_) {
+        renderer_->restart(prepared_.flat, camera, settings.width, settings.height);
+    } else {
+        renderer_->clearStatistics();
+        renderer_->restart(camera, settings.width, settings.height);
+    }
+    isSceneNew_ = false;
+}
+
+ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const RenderSettings& settings, Film film, bool isGood)
+{
+    if (watch_.signal() != 0 && renderer_->statistics().samples == 0) {
+        return finish(watch_.signal(), "no sample was finished, and nothing is written");
+    }
+    if (watch_.signal() != 0 && wouldRuin(options.output, film)) {
+        return finish(watch_.signal(), "some pixels had no sample yet, so " + options.output.string() + " is left as it was");
+    }
+    film.sceneFile = options.scene.string();
+    film.identity.settings += describeCamera(options.pose, options.lens);  // so that the film can be made again from what its file says
+    const double writeSeconds = writePictures(options, film);
+    // Before the control, whose samples are no suspects.
+    std::vector<Suspect> suspects = findSuspects(*renderer_, film);
+    const auto bias = measureBias(*renderer_, film, watch_);
+    const RenderReport report{options,
+                              prepared_,
+                              film,
+                              renderer_->statistics(),
+                              device_.description(),
+                              stopReason(watch_.signal(), film, settings, isGood, renderer_->isDone()),
+                              writeSeconds,
+                              std::move(suspects),
+                              bias};
+    if (options.stats) {
+        writeStatistics(*options.stats, report);
+    }
+    printSummary(report);
+    return finish(watch_.signal(), "what was finished is in " + options.output.string());
+}
+
+}  // namespace
+
+ExitCode renderSequence(const RenderOptions& options)
+{
+    checkTargets(options, {options.scene});
+    const InterruptWatch watch;
+    return SequenceRenderer(options, watch).renderAll();
+}
+
+}  // namespace glim

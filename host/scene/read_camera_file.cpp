@@ -1,0 +1,167 @@
+#include "host/scene/read_camera_file.hpp"
+
+#include "host/error.hpp"
+#include "host/scene/gltf/gltf_container.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace glim {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kPi = 3.14159265358979323846;
+
+class EntryReader {
+public:
+    EntryReader(const std::string& file, std::size_t index, const json& entry)
+        : file_(file),
+          place_("[" + std::to_string(index) + "]"),
+          entry_(entry)
+    {}
+
+    CameraEntry read() const
+    {
+        checkMembers();
+        CameraEntry result;
+        if (entry_.contains("camera")) {
+            result.camera = readCamera();
+        }
+        if (entry_.contains("matrix")) {
+            result.pose = poseOf(readNumbers<16>("matrix"));
+        } else if (entry_.contains("from")) {
+            result.pose = readPose();
+        }
+        if (entry_.contains("yfov")) {
+            result.yfov = readNumber("yfov");
+            if (!(*result.yfov > 0.0 && *result.yfov < kPi)) {
+                refuse(place_ + ".yfov is " + entry_["yfov"].dump() + "; expected radians between 0 and pi");
+            }
+        }
+        return result;
+    }
+
+private:
+    [[noreturn]] void refuse(const std::string& sentence) const { throw InputError(file_ + ": " + sentence + "."); }
+
+    void checkMembers() const
+    {
+        if (!entry_.is_object()) {
+            refuse(place_ + " is " + entry_.dump().substr(0, 40) + "; expected an object");
+        }
+        constexpr std::array kMembers{"camera", "from", "at", "up", "zoom", "matrix", "yfov"};
+        for (const auto& [name, value] : entry_.items()) {
+            if (std::find(kMembers.begin(), kMembers.end(), name) == kMembers.end()) {
+                refuse(place_ + " has a member \"" + name + "\"; expected camera, from, at, up, zoom, matrix or yfov");
+            }
+        }
+        if (entry_.contains("from") != entry_.contains("at")) {
+            refuse(place_ + " has only one of from and at; expected both");
+        }
+        for (const char* other : {"from", "zoom", "up"}) {
+            const bool excluded = entry_.contains("matrix") || (other != std::string("from") && !entry_.contains("from"));
+            if (excluded && entry_.contains(other)) {
+                refuse(place_ + " has a member \"" + other + "\"" + (entry_.contains("matrix") ? " beside matrix" : " without from") +
+                       "; expected from, at, up and zoom, or matrix");
+            }
+        }
+        if (entry_.contains("zoom") && entry_.contains("yfov")) {
+            refuse(place_ + " has both zoom and yfov; expected one of them");
+        }
+    }
+
+    std::string readCamera() const
+    {
+        const json& camera = entry_["camera"];
+        if (camera.is_number_unsigned()) {
+            return std::to_string(camera.get<std::uint64_t>());
+        }
+        if (!camera.is_string()) {
+            refuse(place_ + ".camera is " + camera.dump().substr(0, 40) + "; expected a name or an index");
+        }
+        return camera.get<std::string>();
+    }
+
+    double readNumber(const char* name) const
+    {
+        if (!entry_[name].is_number()) {
+            refuse(place_ + "." + name + " is " + entry_[name].dump().substr(0, 40) + "; expected a number");
+        }
+        return entry_[name].get<double>();
+    }
+
+    template <std::size_t N>
+    std::array<double, N> readNumbers(const char* name) const
+    {
+        const json& value = entry_[name];
+        std::array<double, N> numbers{};
+        bool valid = value.is_array() && value.size() == N;
+        for (std::size_t i = 0; valid && i < N; ++i) {
+            valid = value[i].is_number() && std::isfinite(value[i].get<double>());
+            numbers[i] = valid ? value[i].get<double>() : 0.0;
+        }
+        if (!valid) {
+            refuse(place_ + "." + name + " is " + value.dump().substr(0, 40) + "; expected " + std::to_string(N) + " finite numbers");
+        }
+        return numbers;
+    }
+
+    glm::dvec3 readPoint(const char* name) const
+    {
+        const auto [x, y, z] = readNumbers<3>(name);
+        return {x, y, z};
+    }
+
+    Pose readPose() const
+    {
+        Pose pose;
+        pose.from = readPoint("from");
+        pose.at = readPoint("at");
+        pose.up = entry_.contains("up") ? readPoint("up") : pose.up;
+        pose.zoom = entry_.contains("zoom") ? readNumber("zoom") : pose.zoom;
+        if (!(pose.zoom > 0.0 && std::isfinite(pose.zoom))) {
+            refuse(place_ + ".zoom is " + entry_["zoom"].dump() + "; expected a number above 0");
+        }
+        return pose;
+    }
+
+    // A glTF camera looks along its -z, and its +y is up.
+    Pose poseOf(const std::array<double, 16>& m) const
+    {
+        const glm::dvec3 up(m[4], m[5], m[6]), backward(m[8], m[9], m[10]);
+        if (!(glm::length(glm::cross(up, backward)) > 0.0) || m[3] != 0.0 || m[7] != 0.0 || m[11] != 0.0 || m[15] != 1.0) {
+            refuse(place_ + ".matrix is not the pose of a camera; expected axes that differ and a last row of 0, 0, 0, 1");
+        }
+        Pose pose;
+        pose.from = {m[12], m[13], m[14]};
+        pose.at = pose.from - glm::normalize(backward);
+        pose.up = up;
+        return pose;
+    }
+
+    const std::string& file_;
+    std::string place_;
+    const json& entry_;
+};
+
+}  // namespace
+
+std::vector<CameraEntry> readCameraFile(const std::filesystem::path& file)
+{
+    const std::vector<unsigned char> bytes = readBytes(file);
+    const json document = parseJson(file.string(), std::string(bytes.begin(), bytes.end()));
+    if (!document.is_array() || document.empty()) {
+        throw InputError(file.string() + ": expected an array of at least one camera.");
+    }
+    std::vector<CameraEntry> entries;
+    for (std::size_t i = 0; i < document.size(); ++i) {
+        entries.push_back(EntryReader(file.string(), i, document[i]).read());
+    }
+    return entries;
+}
+
+}  // namespace glim

@@ -1,0 +1,229 @@
+// Several pictures by one call: frames, turntables and lists of cameras.
+#include "host/render/film_file.hpp"
+#include "tests/support/gltf_builder.hpp"
+#include "tests/support/run_glim.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/support/simulated_film.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace glim::test {
+namespace {
+
+using nlohmann::json;
+
+class SequenceTest : public ::testing::Test {
+protected:
+    // A triangle that grows from 1 m to 3 m in two seconds. No camera, if `cameras` is 0.
+    void writeScene(int cameras)
+    {
+        GltfBuilder builder;
+        builder.addNode({{"mesh", builder.addTriangleMesh()}});
+        for (int i = 0; i < cameras; ++i) {
+            builder.append(
+                "cameras",
+                {{"name", "camera " + std::to_string(i)}, {"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
+            builder.addNode({{"camera", i}, {"translation", {0.5 * i, 0.25, 5 - i}}});
+        }
+        const std::size_t times = builder.addAccessor(toBytes<float>({0, 2}), kFloat, "SCALAR", 2);
+        builder.append("animations", {{"name", "grow"},
+                                      {"samplers", {{{"input", times}, {"output", builder.addVec3({1, 1, 1, 3, 3, 3})}}}},
+                                      {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}}}});
+        writeText(folder_ / "scene.gltf", builder.toGltf());
+    }
+    GlimRun run(std::vector<std::string> arguments) const
+    {
+        GlimCall call;
+        call.arguments = {"render", "scene.gltf", "--size", "12x8"};
+        call.arguments.insert(call.arguments.end(), arguments.begin(), arguments.end());
+        call.folder = folder_.path();
+        return runGlim(call);
+    }
+    GlimRun expectDone(const std::vector<std::string>& arguments) const
+    {
+        GlimRun done = run(arguments);
+        EXPECT_EQ(done.exitCode, 0) << done.err;
+        return done;
+    }
+    Film film(const char* name) const { return readFilm(folder_ / name); }
+    json statistics(const char* name) const { return json::parse(bytesOfFile(folder_ / name)); }
+    // Whether two films are of the same scene and have the same bits.
+    void expectSame(const char* a, const char* b) const
+    {
+        const Film one = film(a), other = film(b);
+        EXPECT_TRUE(sameBits(one.pixels, other.pixels)) << a << ", " << b;
+        EXPECT_EQ(one.identity.scene, other.identity.scene) << a << ", " << b;
+        EXPECT_EQ(one.identity.settings, other.identity.settings) << a << ", " << b;
+    }
+
+    ScratchFolder folder_;
+};
+
+TEST_F(SequenceTest, FramesAreThePicturesOfTheirTimes)
+{
+    writeScene(1);
+    expectDone({"--frames", "0:10:5", "--fps", "10", "--spp", "2", "-o", "f.###.exr", "--png", "p#.png", "--stats", "s.##.json"});
+    EXPECT_EQ(folder_.entries(), 1 + 3 * 3);
+    int i = 0;
+    for (const auto& [at, name, stats] :
+         {std::tuple("0", "f.000.exr", "s.00.json"), {"0.5", "f.005.exr", "s.05.json"}, {"1", "f.010.exr", "s.10.json"}}) {
+        expectDone({"--at", at, "--spp", "2", "-o", "one.exr", "--stats", "one.json"});
+        expectSame(name, "one.exr");
+        // Counters begin anew with each picture.
+        EXPECT_EQ(statistics(stats).at("rays"), statistics("one.json").at("rays")) << name;
+        EXPECT_EQ(statistics(stats).at("samples"), 12 * 8 * 2);
+        EXPECT_TRUE(std::filesystem::exists(folder_.path() / ("p" + std::to_string(5 * i++) + ".png")));
+    }
+    EXPECT_FALSE(sameBits(film("f.000.exr").pixels, film("f.010.exr").pixels));
+}
+
+TEST_F(SequenceTest, WholeFilmsAreKept)
+{
+    writeScene(1);
+    const std::vector<std::string> frames{"--frames", "1:3", "--spp", "3", "-o", "f#.exr", "--png", "f#.png"};
+    expectDone(frames);
+    const auto written = [this](const char* name) { return std::filesystem::last_write_time(folder_ / name); };
+    expectDone({"--at", "0.125", "--spp", "3", "-o", "f3.exr"});  // of the right time
+    expectDone({"--at", "0.125", "--spp", "2", "-o", "f2.exr"});  // of too few samples, and of another time
+    writeText(folder_ / "f1.exr", "no film");
+    const auto third = written("f3.exr");
+    const GlimRun again = expectDone(frames);
+    EXPECT_NE(again.out.find("f3.exr: is whole and was kept\n2 of 3 pictures rendered in "), std::string::npos) << again.out;
+    EXPECT_EQ(written("f3.exr"), third);
+    expectDone({"--at", "0.041666666666666664", "--spp", "3", "-o", "one.exr"});
+    expectSame("f1.exr", "one.exr");
+
+    std::filesystem::remove(folder_ / "f2.png");
+    EXPECT_NE(expectDone(frames).out.find("0 of 3 pictures"), std::string::npos);
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "f2.png"));
+    for (const std::vector<std::string>& other :
+         std::vector<std::vector<std::string>>{{"--seed", "1"}, {"--environment", "1,2,3"}, {"--stats", "s#.json"}}) {
+        std::vector<std::string> changed = frames;
+        changed.insert(changed.end(), other.begin(), other.end());
+        EXPECT_NE(expectDone(changed).out.find("3 of 3 pictures"), std::string::npos) << other[0];
+    }
+}
+
+// What the camera sees at the end is larger than the picture: the camera is the one of the rest pose.
+TEST_F(SequenceTest, AFramedCameraStaysWhereItIs)
+{
+    writeScene(0);
+    expectDone({"--frames", "0:2:2", "--fps", "1", "--spp", "16", "--view", "depth", "-o", "f#.exr"});
+    const Film begin = film("f0.exr"), end = film("f2.exr");
+    const auto covered = [](const Film& film) {
+        return std::count_if(film.pixels.begin(), film.pixels.end(), [](const PixelMoments& pixel) { return pixel.alpha > 0.5F; });
+    };
+    EXPECT_GT(covered(begin), 12 * 8 / 10);
+    EXPECT_GT(covered(end), 2 * covered(begin));
+    expectDone({"--at", "2", "--spp", "16", "--view", "depth", "-o", "one.exr"});
+    expectSame("f2.exr", "one.exr");
+}
+
+TEST_F(SequenceTest, TurntablesGoAroundTheScene)
+{
+    writeScene(1);
+    expectDone({"--turntable", "4", "--spp", "16", "--view", "normal", "-o", "t#.exr"});
+    for (const char* name : {"t0.exr", "t1.exr", "t2.exr", "t3.exr"}) {
+        const std::vector<PixelMoments> pixels = film(name).pixels;
+        EXPECT_FALSE(std::all_of(pixels.begin(), pixels.end(), [](const PixelMoments& pixel) { return pixel.alpha == 0.0F; })) << name;
+    }
+    EXPECT_FALSE(sameBits(film("t0.exr").pixels, film("t1.exr").pixels));
+    EXPECT_FALSE(sameBits(film("t0.exr").pixels, film("t2.exr").pixels));
+}
+
+TEST_F(SequenceTest, CamerasOfTheFileAreAllRendered)
+{
+    writeScene(3);
+    expectDone({"--camera", "all", "--spp", "2", "-o", "c#.exr"});
+    for (const char* index : {"0", "1", "2"}) {
+        expectDone({"--camera", index, "--spp", "2", "-o", "one.exr"});
+        expectSame(("c" + std::string(index) + ".exr").c_str(), "one.exr");
+    }
+}
+
+TEST_F(SequenceTest, CamerasMayBeListed)
+{
+    writeScene(2);
+    writeText(folder_ / "list.json", R"([{"from": [1, 2, 3], "at": [0, 0, 0], "up": [1, 1, 0], "zoom": 2},
+        {"camera": "camera 1"}, {"camera": 1, "matrix": [0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 4, 0.5, 0.25, 1]},
+        {"yfov": 0.5}])");
+    expectDone({"--cameras", "list.json", "--spp", "2", "-o", "c#.exr", "--lens-radius", "0.1", "--focal-distance", "3"});
+    const std::vector<std::string> lens{"--spp", "2", "-o", "one.exr", "--lens-radius", "0.1", "--focal-distance", "3"};
+    const auto expectPicture = [&](const char* name, std::vector<std::string> options) {
+        options.insert(options.end(), lens.begin(), lens.end());
+        expectDone(options);
+        expectSame(name, "one.exr");
+    };
+    expectPicture("c0.exr", {"--look-from", "1,2,3", "--look-at", "0,0,0", "--look-up", "1,1,0", "--zoom", "2"});
+    expectPicture("c1.exr", {"--camera", "1"});
+    expectPicture("c2.exr", {"--camera", "1", "--look-from", "4,0.5,0.25", "--look-at", "3,0.5,0.25"});
+    // tan(.5) / tan(.25)
+    expectPicture("c3.exr", {"--look-from", "0,0.25,5", "--look-at", "0,0.25,4", "--zoom", "2.139493927324549"});
+}
+
+TEST_F(SequenceTest, ListsOfCamerasThatAreWrongAreRefused)
+{
+    writeScene(1);
+    const auto refusal = [this](const std::string& list) {
+        writeText(folder_ / "list.json", list);
+        const GlimRun refused = run({"--cameras", "list.json", "-o", "c#.exr"});
+        EXPECT_EQ(refused.exitCode, 1);
+        EXPECT_EQ(folder_.entries(), 2) << "something was written";
+        return refused.err;
+    };
+    const auto expect = [&](const std::string& list, const std::string& sentence) {
+        const std::string err = refusal(list);
+        EXPECT_NE(err.find("list.json: " + sentence), std::string::npos) << err << "lacks: " << sentence;
+    };
+    expect("[", "not JSON: syntax error at byte 2");
+    expect("[]", "expected an array of at least one camera.");
+    expect("[3]", "[0] is 3; expected an object.");
+    expect(R"([{}, {"form": [0, 0, 0]}])", "[1] has a member \"form\"; expected camera, from, at, up, zoom, matrix or yfov.");
+    expect(R"([{"from": [0, 0, 1]}])", "[0] has only one of from and at; expected both.");
+    expect(R"([{"from": [0, 0], "at": [0, 0, 0]}])", "[0].from is [0,0]; expected 3 finite numbers.");
+    expect(R"([{"zoom": 2}])", "[0] has a member \"zoom\" without from; expected from, at, up and zoom, or matrix.");
+    expect(R"([{"yfov": 4}])", "[0].yfov is 4; expected radians between 0 and pi.");
+    expect(R"([{"camera": 7}])", "[0]: scene.gltf: camera \"7\": expected one of 0 \"camera 0\".");
+    expect(R"([{}, {"from": [1, 1, 1], "at": [1, 1, 1]}])", "[1]: --look-at: is where --look-from is; expected another point.");
+    expect(R"([{"matrix": [1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1]}])",
+           "[0].matrix is not the pose of a camera; expected axes that differ and a last row of 0, 0, 0, 1.");
+}
+
+TEST_F(SequenceTest, OptionsThatContradictEachOtherAreRefused)
+{
+    writeScene(1);
+    const auto expect = [this](const std::vector<std::string>& arguments, const std::string& sentence) {
+        const GlimRun refused = run(arguments);
+        EXPECT_EQ(refused.exitCode, 2) << sentence;
+        EXPECT_NE(refused.err.find(sentence), std::string::npos) << refused.err << "lacks: " << sentence;
+    };
+    expect({"--frames", "2:1", "-o", "f#.exr"}, "--frames: \"2:1\": expected FIRST:LAST or FIRST:LAST:STEP");
+    expect({"--frames", "1:2", "-o", "f.exr"}, "--output: \"f.exr\": names one file for several pictures");
+    expect({"--frames", "1:2", "-o", "f#.exr", "--png", "#-#.png"}, "--png: \"#-#.png\": names one file for several pictures");
+    expect({"--frames", "1:2", "--at", "1", "-o", "f#.exr"}, "--at: \"1\": --frames chooses the times");
+    expect({"--frames", "1:2", "--turntable", "3", "-o", "f#.exr"}, "expected only one of --frames, --turntable and --cameras");
+    expect({"--frames", "1:2", "--camera", "all", "-o", "f#.exr"}, "--camera: \"all\": --frames shows one camera");
+    expect({"--turntable", "3", "--camera", "0", "-o", "f#.exr"}, "--camera: \"0\": --turntable chooses the cameras");
+    expect({"--fps", "3", "-o", "f.exr"}, "--fps requires --frames");
+    expect({"--camera", "all", "--replay", "1,1,1"}, "--replay");
+}
+
+TEST_F(SequenceTest, ProgressSaysWhichPicture)
+{
+    writeScene(1);
+    const GlimRun done = expectDone({"--frames", "0:2", "--spp", "2", "--progress", "json", "-o", "f#.exr"});
+    const std::string last = done.err.substr(done.err.rfind('{', done.err.size() - 3));
+    const json line = json::parse(done.err.substr(done.err.rfind("{\"picture\"")));
+    EXPECT_EQ(line.at("picture"), 3) << last;
+    EXPECT_EQ(line.at("pictures"), 3);
+    EXPECT_EQ(line.at("etaSeconds"), 0.0);
+    EXPECT_EQ(line.at("allEtaSeconds"), 0.0);
+    const json first = json::parse(
+        done.err.substr(done.err.find("{\"picture\""), done.err.find('\n', done.err.find("{\"picture\"")) - done.err.find("{\"picture\"")));
+    EXPECT_EQ(first.at("picture"), 1);
+    EXPECT_GT(first.at("allEtaSeconds"), 0.0);
+}
+
+}  // namespace
+}  // namespace glim::test
