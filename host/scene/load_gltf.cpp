@@ -239,7 +239,9 @@ void readMaterials(const GltfFile& file, const LoadOptions& options, Scene& scen
         scene.materials[i] = readMaterial(file, index, used[i] ? warnings : unheard);
     }
     readImages(file, options, used, scene, warnings);
-    if (!used.back()) {
+    if (used.back()) {
+        scene.defaultMaterial = static_cast<std::uint32_t>(scene.materials.size() - 1);
+    } else {
         scene.materials.pop_back();
     }
 }
@@ -273,6 +275,16 @@ void giveTangents(Scene& scene, Warnings& warnings)
     }
 }
 
+template <class Entries>
+std::vector<std::string> namesOf(const Entries& entries)
+{
+    std::vector<std::string> names;
+    for (const auto& entry : entries) {
+        names.push_back(entry.name);
+    }
+    return names;
+}
+
 }  // namespace
 
 Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options)
@@ -283,6 +295,8 @@ Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options)
     file.variant = findVariant(file, scene.variants, options.variant);
     scene.file = file.path;
     scene.files = file.files;
+    scene.nodeNames = namesOf(file.model.nodes);
+    scene.meshNames = namesOf(file.model.meshes);
     scene.animations = listAnimations(file);
     scene.skins = file.skins.size();
     scene.morphTargets = countMorphTargets(file);
