@@ -27,6 +27,17 @@ std::uint32_t rouletteOf(Roulette roulette)
     return roulette == Roulette::Throughput ? kRouletteThroughput : roulette == Roulette::Fixed ? kRouletteFixed : kRouletteNone;
 }
 
+Specialization specializeCourse(Specialization constants, const RenderSettings& settings)
+{
+    constants[kSpecMollerTrumbore] = settings.course.intersector == Intersector::MollerTrumbore;
+    constants[kSpecBruteForce] = settings.course.accelerator == Accelerator::None;
+    constants[kSpecDirect] = directOf(settings.course.direct);
+    constants[kSpecRoulette] = rouletteOf(settings.course.roulette);
+    return constants;
+}
+
+}  // namespace
+
 Specialization specialize(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
 {
     return {{kSpecWorkgroup, settings.workgroup},
@@ -40,17 +51,6 @@ Specialization specialize(const FlatScene& scene, const FlatCamera& camera, cons
             {kSpecSuspects, settings.suspects > 0},
             {kSpecNotes, settings.notes}};
 }
-
-Specialization specializeCourse(Specialization constants, const RenderSettings& settings)
-{
-    constants[kSpecMollerTrumbore] = settings.course.intersector == Intersector::MollerTrumbore;
-    constants[kSpecBruteForce] = settings.course.accelerator == Accelerator::None;
-    constants[kSpecDirect] = directOf(settings.course.direct);
-    constants[kSpecRoulette] = rouletteOf(settings.course.roulette);
-    return constants;
-}
-
-}  // namespace
 
 KernelSet::KernelSet(const KernelLayout& layout, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings,
                      Schedule schedule)

@@ -16,6 +16,9 @@ struct CourseKernels {
     std::optional<Kernel> addLuminance, choosePixels;         // of --adaptive course
 };
 
+// The constants of the production kernels.
+Specialization specialize(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
+
 // A kernel is absent if the settings do not need it.
 struct KernelSet {
     // Compiles all kernels in parallel, for the chosen schedule.

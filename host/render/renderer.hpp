@@ -82,6 +82,8 @@ public:
     std::uint64_t foldVersion() const { return foldVersion_; }
 
     const RenderSettings& settings() const { return settings_; }
+    Device& device() const { return device_; }
+    SharedResources& shared() const { return wavefront_->shared(); }
     const RenderStatistics& statistics() const { return statistics_; }
 
 private:

@@ -1,0 +1,37 @@
+// Traces the camera rays of a picture's samples again, without shading.
+#pragma once
+
+#include "host/render/wavefront.hpp"
+
+namespace glim {
+
+class CameraRays {
+public:
+    // `settings`: the picture's. Uses the resources of its renderer, which must outlive this and be idle while rays are traced. Compiles
+    // three kernels.
+    CameraRays(Device& device, SharedResources& shared, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
+
+    // How many rays a trace should have at most: fewer where they take long.
+    std::uint32_t rayCount() const { return passSize_.paths(); }
+    // What samples [firstSample, firstSample + sampleCount) of each pixel see first, one pixel after the other. As in the picture, a
+    // sample passes surfaces with alpha by chance. Throws DeviceError as Renderer::render does.
+    std::vector<PathHit> trace(std::span<const std::uint32_t> pixels, std::uint32_t firstSample, std::uint32_t sampleCount);
+
+private:
+    Bindings bind(std::uint32_t parity) const;
+    void compile();
+    void choose(std::span<const std::uint32_t> pixels);
+
+    Device& device_;
+    RenderSettings settings_;
+    PathBuffers& paths_;
+    const DeviceScene& scene_;
+    PassSize passSize_;
+    DeviceParameters parameters_;
+    Buffer chosen_;  // as a Tile's
+    KernelLayout layout_;
+    Kernel generateRays_, sizeDispatch_, traceClosest_;
+    Bindings even_, odd_;
+};
+
+}  // namespace glim
