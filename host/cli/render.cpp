@@ -9,6 +9,7 @@
 #include "host/render/check_memory.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/film_pictures.hpp"
+#include "host/render/identify.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,6 +29,9 @@ void checkTargets(const RenderOptions& options, const std::vector<std::filesyste
     }
     if (options.rates) {
         checkTarget(*options.rates, ".png", inputs);
+    }
+    if (options.ids) {
+        checkTarget(*options.ids, ".exr", inputs);
     }
     if (options.stats) {
         checkTarget(*options.stats, ".json", inputs);
@@ -69,6 +73,19 @@ double writePictures(const RenderOptions& options, const Film& film)
     if (options.rates) {
         writeFilmPng(*options.rates, film, Aov::SampleCount, 0.0);
     }
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Seconds that identifying and writing took, if it was asked for.
+std::optional<double> identify(const RenderOptions& options, const Renderer& renderer, const PreparedScene& prepared,
+                               const FlatCamera& camera, const Film& film)
+{
+    if (!options.ids) {
+        return std::nullopt;
+    }
+    const auto start = std::chrono::steady_clock::now();
+    Identifier identifier(renderer, prepared, camera);
+    writeIds(*options.ids, identifier, film);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -136,6 +153,7 @@ ExitCode runRender(const RenderOptions& options)
     film.sceneFile = options.scene.string();
     film.identity.settings += describeCamera(options.pose, options.lens);  // so that the film can be made again from what its file says
     const double writeSeconds = writePictures(options, film);
+    const std::optional<double> idSeconds = identify(options, renderer, prepared, flatCamera, film);
     // Before the control, whose samples are no suspects.
     std::vector<Suspect> suspects = findSuspects(renderer, film);
     const auto bias = measureBias(renderer, film, watch);
@@ -146,6 +164,7 @@ ExitCode runRender(const RenderOptions& options)
                               device.description(),
                               stopReason(watch.signal(), film, settings, isGood, renderer.isDone()),
                               writeSeconds,
+                              idSeconds,
                               std::move(suspects),
                               bias};
     if (options.stats) {

@@ -10,7 +10,7 @@ namespace glim {
 
 struct RenderOptions : PictureOptions {
     std::filesystem::path output;
-    std::optional<std::filesystem::path> png, rates, stats;
+    std::optional<std::filesystem::path> png, rates, ids, stats;
     std::optional<SamplePlace> replay;  // instead of a picture
     ProgressStyle progress = ProgressStyle::Auto;
     ErrorTarget target;
