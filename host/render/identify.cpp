@@ -20,11 +20,6 @@ constexpr std::uint32_t kBandPixels = 1U << 16;
 
 std::string indexChannel(std::size_t kind) { return kKindNames[kind] + std::string(".X"); }
 
-// How many samples of a pixel show something.
-struct Share {
-    std::uint32_t id, samples;
-};
-
 // One for each id; the largest first, equal ones by id.
 std::vector<Share> rank(std::vector<Share> shares)
 {
@@ -130,42 +125,44 @@ std::uint32_t Identifier::objectOf(const PathHit& hit) const
     return static_cast<std::uint32_t>(prepared_.scene.instances.size() + id - primitives.triangles.size());
 }
 
-// The objects that the samples of each pixel show. The first pixel has the most samples.
-std::vector<std::vector<std::uint32_t>> Identifier::meet(const Film& film, std::span<const std::uint32_t> pixels)
+// The objects that the samples of each pixel show, run by run. The first pixel has the most samples.
+std::vector<std::vector<Share>> Identifier::meet(const Film& film, std::span<const std::uint32_t> pixels)
 {
     const std::uint32_t most = film.pixels[pixels[0]].count, begin = film.sampleRanges.front().first;
-    std::vector<std::vector<std::uint32_t>> objects(pixels.size());
+    std::vector<std::vector<Share>> objects(pixels.size());
     for (std::uint32_t sample = 0, samples = 0; sample < most; sample += samples) {
         samples = std::min(most - sample, rays_.rayCount() / static_cast<std::uint32_t>(pixels.size()));
         const std::vector<PathHit> hits = rays_.trace(pixels, begin + sample, samples);
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             const std::uint32_t count = film.pixels[pixels[i]].count;
             for (std::uint32_t k = 0; k < samples && sample + k < count; ++k) {
-                objects[i].push_back(objectOf(hits[i * samples + k]));
+                const std::uint32_t object = objectOf(hits[i * samples + k]);
+                if (objects[i].empty() || objects[i].back().id != object) {
+                    objects[i].push_back({object, 0});
+                }
+                ++objects[i].back().samples;
             }
         }
     }
     return objects;
 }
 
-void Identifier::write(std::size_t pixel, std::vector<std::uint32_t> objects, Planes& planes) const
+void Identifier::write(std::size_t pixel, std::vector<Share> objects, std::uint32_t samples, Planes& planes) const
 {
-    std::vector<Share> met(objects.size());
-    std::ranges::transform(objects, met.begin(), [](std::uint32_t object) { return Share{object, 1}; });
-    met = rank(std::move(met));
+    objects = rank(std::move(objects));
     for (std::size_t kind = 0; kind < kKinds; ++kind) {
         std::vector<Share> indices, mattes;
-        for (const auto& [object, samples] : met) {
-            indices.push_back({object == kNoIndex ? kNoIndex : objects_[object].indices[kind], samples});
-            if (object != kNoIndex) {
-                mattes.push_back({objects_[object].mattes[kind], samples});
+        for (const Share& share : objects) {
+            indices.push_back({share.id == kNoIndex ? kNoIndex : objects_[share.id].indices[kind], share.samples});
+            if (share.id != kNoIndex) {
+                mattes.push_back({objects_[share.id].mattes[kind], share.samples});
             }
         }
         planes.indices[kind][pixel] = rank(std::move(indices)).front().id;
         mattes = rank(std::move(mattes));
         for (std::size_t i = 0; i < std::min(kMatteRanks, mattes.size()); ++i) {
             planes.ids[kind][i][pixel] = std::bit_cast<float>(mattes[i].id);
-            planes.coverages[kind][i][pixel] = static_cast<float>(mattes[i].samples) / static_cast<float>(objects.size());
+            planes.coverages[kind][i][pixel] = static_cast<float>(mattes[i].samples) / static_cast<float>(samples);
         }
     }
 }
@@ -187,7 +184,7 @@ Image Identifier::rows(const Film& film, std::uint32_t first, std::uint32_t coun
         const auto traced = std::span(pixels).subspan(i, std::min(most, pixels.size() - i));
         auto objects = meet(film, traced);
         for (std::size_t k = 0; k < traced.size(); ++k) {
-            write(traced[k] - begin, std::move(objects[k]), planes);
+            write(traced[k] - begin, std::move(objects[k]), film.pixels[traced[k]].count, planes);
         }
         i += traced.size();
     }

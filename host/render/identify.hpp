@@ -20,6 +20,11 @@
 
 namespace glim {
 
+// How many samples of a pixel show something.
+struct Share {
+    std::uint32_t id, samples;
+};
+
 class Identifier {
 public:
     // `renderer` has rendered the scene; it must be idle while pixels are identified.
@@ -43,8 +48,8 @@ private:
     void addObject(const std::array<std::uint32_t, kKinds>& indices);
     std::string nameOf(std::size_t kind, std::uint32_t index) const;
     std::uint32_t objectOf(const PathHit& hit) const;
-    std::vector<std::vector<std::uint32_t>> meet(const Film& film, std::span<const std::uint32_t> pixels);
-    void write(std::size_t pixel, std::vector<std::uint32_t> objects, Planes& planes) const;
+    std::vector<std::vector<Share>> meet(const Film& film, std::span<const std::uint32_t> pixels);
+    void write(std::size_t pixel, std::vector<Share> objects, std::uint32_t samples, Planes& planes) const;
 
     const PreparedScene& prepared_;
     CameraRays rays_;
