@@ -43,7 +43,7 @@ testPackages=(
     "x11-xserver-utils         tells it how dense its pixels are"
     "xdotool                   presses its keys and moves its mouse"
     "xauth                     lets a session by hand on it (xvfb-run)"
-    "python3-venv              installs what the test of tools/to_gltf needs"
+    "python3-venv              installs what two tests need from PyPI"
     "${studyPackages[@]}"
     "${formatPackages[@]}"
 )

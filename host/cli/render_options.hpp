@@ -11,7 +11,7 @@ namespace glim {
 
 struct RenderOptions : PictureOptions {
     std::filesystem::path output;
-    std::optional<std::filesystem::path> png, rates, stats;
+    std::optional<std::filesystem::path> png, rates, ids, stats;
     SequenceOptions sequence;
     std::optional<SamplePlace> replay;  // instead of a picture
     ProgressStyle progress = ProgressStyle::Auto;

@@ -16,6 +16,7 @@ struct RenderReport {
     const DeviceDescription& device;
     std::string stopReason;  // "samples", "time", "tolerance", "target", or the signal's name
     double writeSeconds;
+    std::optional<double> idSeconds;  // of --ids
     std::vector<Suspect> suspects;
     std::optional<ControlBias> bias;  // of adaptive renders
 };

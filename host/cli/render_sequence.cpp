@@ -8,6 +8,7 @@
 #include "host/render/check_memory.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/film_pictures.hpp"
+#include "host/render/identify.hpp"
 
 #include <algorithm>
 #include <iomanip>
@@ -25,6 +26,9 @@ void checkTargets(const RenderOptions& options, const std::vector<std::filesyste
     }
     if (options.rates) {
         checkTarget(*options.rates, ".png", inputs);
+    }
+    if (options.ids) {
+        checkTarget(*options.ids, ".exr", inputs);
     }
     if (options.stats) {
         checkTarget(*options.stats, ".json", inputs);
@@ -141,8 +145,9 @@ private:
     void openScene(std::optional<double> time);
     ExitCode renderShot(const RenderOptions& options);
     bool keep(const RenderOptions& options, const FlatCamera& camera, const RenderSettings& settings) const;
+    std::optional<double> writeIdentities(const RenderOptions& options, const FlatCamera& camera, const Film& film);
     void openRenderer(const FlatCamera& camera, RenderSettings& settings);
-    ExitCode writeShot(const RenderOptions& options, const RenderSettings& settings, Film film, bool isGood);
+    ExitCode writeShot(const RenderOptions& options, const RenderSettings& settings, const FlatCamera& camera, Film film, bool isGood);
 
     const RenderOptions& options_;
     const InterruptWatch& watch_;
@@ -155,6 +160,7 @@ private:
     SequencePlace place_;
     std::optional<Renderer> renderer_;
     bool isSceneNew_ = true;  // to the renderer
+    std::shared_ptr<const CameraRayKernels> rayKernels_;
 };
 
 LoadOptions SequenceRenderer::loadOptions() const
@@ -169,7 +175,7 @@ RenderOptions SequenceRenderer::optionsOf(const Shot& shot) const
     RenderOptions options = options_;
     if (isSequence(options_.sequence, options_)) {
         options.output = numberedPath(options.output, shot.number);
-        for (std::optional<std::filesystem::path>* file : {&options.png, &options.rates, &options.stats}) {
+        for (std::optional<std::filesystem::path>* file : {&options.png, &options.rates, &options.ids, &options.stats}) {
             *file = *file ? std::optional(numberedPath(**file, shot.number)) : std::nullopt;
         }
     }
@@ -231,7 +237,7 @@ ExitCode SequenceRenderer::renderShot(const RenderOptions& options)
     ProgressPrinter progress(options.progress, settings.seconds, std::uint64_t{settings.width} * settings.height, place_);
     auto [film, isGood] = renderPicture(*renderer_, options.target, progress, watch_);
     progress.finish();
-    const ExitCode code = writeShot(options, settings, std::move(film), isGood);
+    const ExitCode code = writeShot(options, settings, flatCamera, std::move(film), isGood);
     ++place_.rendered;
     place_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return code;
@@ -240,8 +246,11 @@ ExitCode SequenceRenderer::renderShot(const RenderOptions& options)
 // Keeps a film that is whole already; its PNGs may be of another exposure, and are drawn again.
 bool SequenceRenderer::keep(const RenderOptions& options, const FlatCamera& camera, const RenderSettings& settings) const
 {
-    std::error_code ignored;
-    if (!std::filesystem::exists(options.output, ignored) || (options.stats && !std::filesystem::exists(*options.stats, ignored))) {
+    const auto exists = [](const std::filesystem::path& file) {
+        std::error_code ignored;
+        return std::filesystem::exists(file, ignored);
+    };
+    if (!exists(options.output) || (options.ids && !exists(*options.ids)) || (options.stats && !exists(*options.stats))) {
         return false;
     }
     Film film;
@@ -250,7 +259,7 @@ bool SequenceRenderer::keep(const RenderOptions& options, const FlatCamera& came
     } catch (const InputError&) {
         return false;  // as a render of one picture overwrites whatever is there
     }
-    FilmIdentity identity = identify(prepared_.flat, camera, settings);
+    FilmIdentity identity = identityOf(prepared_.flat, camera, settings);
     identity.settings += describeCamera(options.pose, options.lens);
     const bool same = film.identity.scene == identity.scene && film.identity.settings == identity.settings &&
                       film.width == settings.width && film.height == settings.height;
@@ -276,7 +285,21 @@ void SequenceRenderer::openRenderer(const FlatCamera& camera, RenderSettings& se
     isSceneNew_ = false;
 }
 
-ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const RenderSettings& settings, Film film, bool isGood)
+// Seconds that it took, if it was asked for.
+std::optional<double> SequenceRenderer::writeIdentities(const RenderOptions& options, const FlatCamera& camera, const Film& film)
+{
+    if (!options.ids) {
+        return std::nullopt;
+    }
+    const auto start = std::chrono::steady_clock::now();
+    Identifier identifier(*renderer_, prepared_, camera, rayKernels_);
+    writeIds(*options.ids, identifier, film);
+    rayKernels_ = identifier.kernels();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const RenderSettings& settings, const FlatCamera& camera, Film film,
+                                     bool isGood)
 {
     if (watch_.signal() != 0 && renderer_->statistics().samples == 0) {
         return finish(watch_.signal(), "no sample was finished, and nothing is written");
@@ -287,6 +310,7 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const RenderS
     film.sceneFile = options.scene.string();
     film.identity.settings += describeCamera(options.pose, options.lens);  // so that the film can be made again from what its file says
     const double writeSeconds = writePictures(options, film);
+    const std::optional<double> idSeconds = writeIdentities(options, camera, film);
     // Before the control, whose samples are no suspects.
     std::vector<Suspect> suspects = findSuspects(*renderer_, film);
     const auto bias = measureBias(*renderer_, film, watch_);
@@ -297,6 +321,7 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const RenderS
                               device_.description(),
                               stopReason(watch_.signal(), film, settings, isGood, renderer_->isDone()),
                               writeSeconds,
+                              idSeconds,
                               std::move(suspects),
                               bias};
     if (options.stats) {

@@ -97,7 +97,8 @@ void resolveReplay(const Command& command, RenderOptions& options)
     if (!options.replay) {
         return;
     }
-    refuseIfGiven(command, {"--output", "--png", "--rates", "--progress", "--time", "--suspects", "--target-rmse", "--target-relmse"},
+    refuseIfGiven(command,
+                  {"--output", "--png", "--rates", "--ids", "--progress", "--time", "--suspects", "--target-rmse", "--target-relmse"},
                   "has no effect with --replay, which makes no picture");
     if (options.settings.aov != Aov::Radiance) {
         refuse(command, "--view", "has no light paths to replay; expected --view shaded");
@@ -164,7 +165,7 @@ void resolveTarget(const Command& command, RenderOptions& options)
 }
 
 // The options that name the files of a picture.
-constexpr const char* kOutputs[] = {"--output", "--png", "--rates", "--stats"};
+constexpr const char* kOutputs[] = {"--output", "--png", "--rates", "--ids", "--stats"};
 
 void checkNames(const Command& command)
 {
@@ -256,6 +257,9 @@ void resolveRender(const Command& command, RenderOptions& options)
     checkReplay(command, options);
     if (options.png && options.rates && options.png->lexically_normal() == options.rates->lexically_normal()) {
         refuse(command, "--rates", "expected another file than that of --png");
+    }
+    if (options.ids && options.ids->lexically_normal() == options.output.lexically_normal()) {
+        refuse(command, "--ids", "expected another file than that of --output");
     }
 }
 

@@ -21,6 +21,7 @@
 #include <cstring>
 #include <fstream>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace fs = std::filesystem;
@@ -160,24 +161,28 @@ Imf::Header headerOf(const Image& image)
             header.insert(name, Imf::StringAttribute(std::get<std::string>(value)));
         }
     }
-    return header;
-}
-
-void writeStream(ExrStream& stream, const Image& image)
-{
-    Imf::Header header = headerOf(image);
-    Imf::FrameBuffer frame;
     for (const auto& [name, plane] : image.channels) {
         header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-        frame.insert(name, sliceOf(Imf::FLOAT, plane, header.dataWindow()));
     }
     for (const auto& [name, plane] : image.counts) {
         header.channels().insert(name, Imf::Channel(Imf::UINT));
-        frame.insert(name, sliceOf(Imf::UINT, plane, header.dataWindow()));
     }
-    Imf::OutputFile file(stream, header);
-    file.setFrameBuffer(frame);
-    file.writePixels(static_cast<int>(image.height));
+    return header;
+}
+
+// The slices of `rows`, whose first row is number `first` of the picture.
+Imf::FrameBuffer frameOf(const Image& rows, std::uint32_t first)
+{
+    const auto x = static_cast<int>(rows.width) - 1, y = static_cast<int>(first);
+    const Imath::Box2i window({0, y}, {x, y + static_cast<int>(rows.height) - 1});
+    Imf::FrameBuffer frame;
+    for (const auto& [name, plane] : rows.channels) {
+        frame.insert(name, sliceOf(Imf::FLOAT, plane, window));
+    }
+    for (const auto& [name, plane] : rows.counts) {
+        frame.insert(name, sliceOf(Imf::UINT, plane, window));
+    }
+    return frame;
 }
 
 }  // namespace
@@ -208,14 +213,48 @@ Image readExrHeader(const fs::path& path)
     return image;
 }
 
+struct ExrWriter::Output {
+    Output(const fs::path& target, const Image& picture)
+        : path(target),
+          atomic(target),
+          stream(atomic, target.string())
+    {
+        guarded(path, "cannot be written", [&] { file.emplace(stream, headerOf(picture)); });
+    }
+
+    fs::path path;
+    AtomicFile atomic;
+    ExrStream stream;
+    std::optional<Imf::OutputFile> file;
+    std::uint32_t rows = 0;  // written so far
+};
+
+ExrWriter::ExrWriter(const fs::path& path, const Image& picture)
+    : output_(std::make_unique<Output>(path, picture))
+{}
+
+ExrWriter::~ExrWriter() = default;
+
+void ExrWriter::write(const Image& rows)
+{
+    guarded(output_->path, "cannot be written", [&] {
+        output_->file->setFrameBuffer(frameOf(rows, output_->rows));
+        output_->file->writePixels(static_cast<int>(rows.height));
+    });
+    output_->rows += rows.height;
+}
+
+void ExrWriter::commit()
+{
+    guarded(output_->path, "cannot be written", [&] { output_->file.reset(); });  // which writes the table of rows
+    output_->atomic.commit();
+}
+
 void writeExr(const fs::path& path, const Image& image)
 {
-    AtomicFile file(path);
-    guarded(path, "cannot be written", [&] {
-        ExrStream stream(file, path.string());
-        writeStream(stream, image);
-    });
-    file.commit();
+    ExrWriter writer(path, image);
+    writer.write(image);
+    writer.commit();
 }
 
 }  // namespace glim

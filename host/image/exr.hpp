@@ -4,6 +4,7 @@
 #include "host/image/image.hpp"
 
 #include <filesystem>
+#include <memory>
 
 namespace glim {
 
@@ -17,5 +18,21 @@ Image readExrHeader(const std::filesystem::path& path);
 
 // Writes float32 and uint32 scan lines with ZIP compression and the chromaticities of Rec.709. Equal images give equal bytes.
 void writeExr(const std::filesystem::path& path, const Image& image);
+
+// Does the same in bands of rows, for pictures that are not in memory as a whole. Without `commit` nothing remains.
+class ExrWriter {
+public:
+    // `picture` has the size, the attributes and the names of the channels. Their values are not read.
+    ExrWriter(const std::filesystem::path& path, const Image& picture);
+    ~ExrWriter();
+
+    // The next rows, from the top; all channels.
+    void write(const Image& rows);
+    void commit();
+
+private:
+    struct Output;
+    std::unique_ptr<Output> output_;
+};
 
 }  // namespace glim

@@ -1,6 +1,7 @@
 #include "host/render/describe_primitive.hpp"
 
 #include <algorithm>
+#include <ranges>
 
 namespace glim {
 namespace {
@@ -36,12 +37,8 @@ PrimitiveDescription describePrimitive(const Scene& scene, const Primitives& pri
 
 PrimitiveDescription describeInstanceRecord(const PreparedScene& prepared, std::uint32_t record)
 {
-    const std::vector<uvec4>& data = prepared.flat.instances;
-    std::size_t index = 0;
-    while ((index + 1) * kInstanceTexels < data.size() && data[(index + 1) * kInstanceTexels].w <= record) {
-        ++index;
-    }
-    const uvec4* instance = &data[index * kInstanceTexels];
+    const std::uint32_t index = placementOf(prepared.flat, record);
+    const uvec4* instance = &prepared.flat.instances[std::size_t{index} * kInstanceTexels];
     const std::uint32_t shared = prepared.flat.records[std::size_t{record - instance[1].w} * kRecordTexels].w;
     const Placement& placement = prepared.primitives.placements[index];
     const MeshInstance& placed = prepared.scene.instances[placement.instance];
@@ -56,9 +53,18 @@ std::string textOf(const PrimitiveDescription& primitive)
     return primitive.object + (primitive.triangle ? ", triangle " + std::to_string(*primitive.triangle) : "");
 }
 
+bool isOfInstance(const FlatScene& flat, std::uint32_t record) { return record >= flat.firstInstanceRecord && !flat.instances.empty(); }
+
+std::uint32_t placementOf(const FlatScene& flat, std::uint32_t record)
+{
+    const auto indices = std::views::iota(std::size_t{0}, flat.instances.size() / kInstanceTexels);
+    const auto after = std::ranges::upper_bound(indices, record, {}, [&](std::size_t i) { return flat.instances[i * kInstanceTexels].w; });
+    return static_cast<std::uint32_t>(after - indices.begin() - 1);
+}
+
 PrimitiveDescription describeRecord(const PreparedScene& prepared, std::uint32_t record)
 {
-    if (record >= prepared.flat.firstInstanceRecord && !prepared.flat.instances.empty()) {
+    if (isOfInstance(prepared.flat, record)) {
         return describeInstanceRecord(prepared, record);
     }
     const std::uint32_t id = prepared.flat.records[std::size_t{record} * kRecordTexels].w;

@@ -17,6 +17,10 @@ struct PrimitiveDescription {
 // As in: instance "floor", triangle 3.
 std::string textOf(const PrimitiveDescription& primitive);
 
+// Whether the record is one of the instances' (scene_types.h), and which of the primitives' placements it then belongs to.
+bool isOfInstance(const FlatScene& flat, std::uint32_t record);
+std::uint32_t placementOf(const FlatScene& flat, std::uint32_t record);
+
 PrimitiveDescription describeRecord(const PreparedScene& prepared, std::uint32_t record);
 
 // As in: spot light "lamp", or: environment.

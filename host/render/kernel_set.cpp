@@ -6,6 +6,7 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/course_types.h"
 
+#include <algorithm>
 #include <future>
 
 namespace glim {
@@ -27,6 +28,17 @@ std::uint32_t rouletteOf(Roulette roulette)
     return roulette == Roulette::Throughput ? kRouletteThroughput : roulette == Roulette::Fixed ? kRouletteFixed : kRouletteNone;
 }
 
+Specialization specializeCourse(Specialization constants, const RenderSettings& settings)
+{
+    constants[kSpecMollerTrumbore] = settings.course.intersector == Intersector::MollerTrumbore;
+    constants[kSpecBruteForce] = settings.course.accelerator == Accelerator::None;
+    constants[kSpecDirect] = directOf(settings.course.direct);
+    constants[kSpecRoulette] = rouletteOf(settings.course.roulette);
+    return constants;
+}
+
+}  // namespace
+
 Specialization specialize(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
 {
     return {{kSpecWorkgroup, settings.workgroup},
@@ -41,16 +53,12 @@ Specialization specialize(const FlatScene& scene, const FlatCamera& camera, cons
             {kSpecNotes, settings.notes}};
 }
 
-Specialization specializeCourse(Specialization constants, const RenderSettings& settings)
+bool serves(const Specialization& compiled, Specialization needed)
 {
-    constants[kSpecMollerTrumbore] = settings.course.intersector == Intersector::MollerTrumbore;
-    constants[kSpecBruteForce] = settings.course.accelerator == Accelerator::None;
-    constants[kSpecDirect] = directOf(settings.course.direct);
-    constants[kSpecRoulette] = rouletteOf(settings.course.roulette);
-    return constants;
+    std::uint32_t& levels = needed[kSpecStackLevels];
+    levels = std::max(levels, compiled.at(kSpecStackLevels));  // a deeper stack does as well
+    return compiled == needed;
 }
-
-}  // namespace
 
 KernelSet::KernelSet(const KernelLayout& layout, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings,
                      Schedule schedule)
@@ -114,14 +122,5 @@ CompiledKernels::CompiledKernels(Device& device, const FlatScene& scene, const F
     : layout(device, kernelSlots(), sizeof(CoursePass)),
       set(layout, scene, camera, settings, schedule)
 {}
-
-bool CompiledKernels::serve(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings) const
-{
-    Specialization needed = specialize(scene, camera, settings);
-    if (needed[kSpecStackLevels] <= set.specialization.at(kSpecStackLevels)) {
-        needed[kSpecStackLevels] = set.specialization.at(kSpecStackLevels);  // a deeper stack does as well
-    }
-    return set.specialization == needed;
-}
 
 }  // namespace glim

@@ -16,6 +16,12 @@ struct CourseKernels {
     std::optional<Kernel> addLuminance, choosePixels;         // of --adaptive course
 };
 
+// The constants of the production kernels.
+Specialization specialize(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
+
+// Whether kernels with the constants `compiled` do for those that are `needed`.
+bool serves(const Specialization& compiled, Specialization needed);
+
 // A kernel is absent if the settings do not need it.
 struct KernelSet {
     // Compiles all kernels in parallel, for the chosen schedule.
@@ -36,9 +42,6 @@ struct KernelSet {
 // Kernels with the layout of their bindings. Renders of several scenes may share them.
 struct CompiledKernels {
     CompiledKernels(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings, Schedule schedule);
-
-    // Whether they are also those of another scene and camera with the same settings.
-    bool serve(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings) const;
 
     KernelLayout layout;
     KernelSet set;

@@ -38,7 +38,7 @@ std::uint32_t usualRoundEnd(std::uint32_t samples)
     return samples < middle ? middle : 2 * power;
 }
 
-FilmIdentity identify(std::uint64_t sceneFingerprint, bool sharesMeshes, const FlatCamera& camera, const RenderSettings& settings)
+FilmIdentity identityOf(std::uint64_t sceneFingerprint, bool sharesMeshes, const FlatCamera& camera, const RenderSettings& settings)
 {
     const char* sharing = sharesMeshes ? " meshes=shared" : "";  // rounds otherwise than flattened ones
     return {fingerprint(sceneFingerprint, camera), describeSettings(settings) + sharing, settings.seed};
@@ -48,9 +48,9 @@ bool sharesMeshes(const FlatScene& scene) { return (scene.features & kFeatureIns
 
 }  // namespace
 
-FilmIdentity identify(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
+FilmIdentity identityOf(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
 {
-    return identify(fingerprint(scene), sharesMeshes(scene), camera, settings);
+    return identityOf(fingerprint(scene), sharesMeshes(scene), camera, settings);
 }
 
 Renderer::Renderer(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
@@ -161,7 +161,7 @@ void Renderer::begin(const FlatCamera& camera)
     film_.width = settings_.width;
     film_.height = settings_.height;
     film_.pixels.resize(std::size_t{film_.width} * film_.height);
-    film_.identity = identify(sceneFingerprint_, sharesMeshes_, camera, settings_);
+    film_.identity = identityOf(sceneFingerprint_, sharesMeshes_, camera, settings_);
     film_.device = device_.description().name + ", " + device_.description().driver;
     foldVersion_ = 0;
     sample_ = settings_.sampleBegin;

@@ -39,7 +39,7 @@ using StoppingCriterion = std::function<double(const Film&)>;
 using RenderObserver = std::function<bool(const RenderProgress&)>;
 
 // The identity of the film that a renderer makes of them.
-FilmIdentity identify(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
+FilmIdentity identityOf(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
 
 class Renderer {
 public:
@@ -87,6 +87,8 @@ public:
     std::uint64_t foldVersion() const { return foldVersion_; }
 
     const RenderSettings& settings() const { return settings_; }
+    Device& device() const { return device_; }
+    SharedResources& shared() const { return wavefront_->shared(); }
     const RenderStatistics& statistics() const { return statistics_; }
     // Those of the next picture begin at 0, as if the scene had been there before.
     void clearStatistics();

@@ -60,7 +60,7 @@ Wavefront::Wavefront(Device& device, const FlatScene& scene, const FlatCamera& c
       shared_(*own_),
       parameters_(device, scene, camera, settings),
       course_(device, scene, settings),
-      compiled_(kernels && kernels->serve(scene, camera, settings)
+      compiled_(kernels && serves(kernels->set.specialization, specialize(scene, camera, settings))
                     ? std::move(kernels)
                     : std::make_shared<CompiledKernels>(device, scene, camera, settings, schedule_)),
       layout_(compiled_->layout),

@@ -242,7 +242,9 @@ void readMaterials(const GltfFile& file, const LoadOptions& options, DecodedPart
         scene.materials[i] = readMaterial(file, index, used[i] ? warnings : unheard);
     }
     readImages(file, options, used, decoded, scene, warnings);
-    if (!used.back()) {
+    if (used.back()) {
+        scene.defaultMaterial = static_cast<std::uint32_t>(scene.materials.size() - 1);
+    } else {
         scene.materials.pop_back();
     }
 }
@@ -274,6 +276,16 @@ void giveTangents(Scene& scene, Warnings& warnings)
             warnings.add("texture coordinates of normal maps have no area in some triangles", mesh.name);
         }
     }
+}
+
+template <class Entries>
+std::vector<std::string> namesOf(const Entries& entries)
+{
+    std::vector<std::string> names;
+    for (const auto& entry : entries) {
+        names.push_back(entry.name);
+    }
+    return names;
 }
 
 // What a framed camera was framed on.
@@ -339,6 +351,8 @@ Scene SceneFile::sceneAt(std::optional<double> seconds)
     file.variant = findVariant(file, scene.variants, options.variant);
     scene.file = file.path;
     scene.files = file.files;
+    scene.nodeNames = namesOf(file.model.nodes);
+    scene.meshNames = namesOf(file.model.meshes);
     scene.animations = animations;
     scene.skins = file.skins.size();
     scene.morphTargets = countMorphTargets(file);

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -110,6 +111,9 @@ inline Material makeLambert(const glm::vec3& albedo, const glm::vec3& emission =
     return material;
 }
 
+// Of what the file does not have.
+inline constexpr std::uint32_t kNoIndex = std::numeric_limits<std::uint32_t>::max();
+
 // Indexed triangles of one material. Attributes are per vertex: one for each position, or none if the file has none.
 struct Mesh {
     std::string name;
@@ -121,6 +125,7 @@ struct Mesh {
     std::vector<glm::vec4> colors;       // linear, with alpha
     std::vector<std::uint32_t> indices;  // three per triangle, counter-clockwise seen from the front
     std::uint32_t material = 0;
+    std::uint32_t fileMesh = kNoIndex;  // the file's mesh that this is a primitive of
 };
 
 // A mesh placed in the world.
@@ -128,6 +133,7 @@ struct MeshInstance {
     std::string name;
     std::uint32_t mesh = 0;
     glm::dmat4 worldFromMesh{1.0};  // affine and invertible; if it mirrors, front sides stay front sides
+    std::uint32_t node = kNoIndex;  // of the file
 };
 
 // What all images of a scene may take: as much as kernels address.
@@ -164,6 +170,7 @@ struct Sphere {
     glm::vec3 center{0.0F};
     float radius = 1.0F;  // metres, >= 0
     std::uint32_t material = 0;
+    std::uint32_t node = kNoIndex;  // of the file
 };
 
 struct PunctualLight {
@@ -202,7 +209,9 @@ struct Scene {
     std::vector<Mesh> meshes;
     std::vector<MeshInstance> instances;
     std::vector<Sphere> spheres;
-    std::vector<Material> materials;
+    std::vector<Material> materials;                // in the file's order
+    std::optional<std::uint32_t> defaultMaterial;   // the one of them that the file does not have
+    std::vector<std::string> nodeNames, meshNames;  // of all that the file has, in its order; empty without a name
     std::vector<TextureImage> images;
     std::vector<PunctualLight> lights;
     std::vector<Camera> cameras;  // never empty after load_gltf: one is framed where the file has none

@@ -185,7 +185,9 @@ TEST(RenderOptions, WhatDoesNotGoTogetherIsRefused)
         {"--adaptive course --batch 64 --max-spp 32", "--batch", "64", "--max-spp, which is 32"},
         {"--adaptive course --max-spp 31", "--max-spp", "31", "--batch, which is 32"},
         {"--png a.png --rates a.png", "--rates", "a.png", "--png"},
-        {"--png a.png --rates ./a.png", "--rates", "./a.png", "--png"}};
+        {"--png a.png --rates ./a.png", "--rates", "./a.png", "--png"},
+        {"--ids x.exr", "--ids", "x.exr", "--output"},
+        {"--ids ./x.exr", "--ids", "./x.exr", "--output"}};
     for (const auto& [options, option, value, other] : cases) {
         expectRefused(options, option + ": \"" + value + "\": ");
         expectRefused(options, other);
@@ -229,7 +231,8 @@ TEST(RenderOptions, ReplaysTakeTheSamplesThatARenderWouldHave)
 
 TEST(RenderOptions, ReplaysRefuseWhatIsOfPictures)
 {
-    for (const std::string option : {"--output x.exr", "--png p.png", "--rates r.png", "--progress json", "--time 1", "--suspects 3"}) {
+    for (const std::string option :
+         {"--output x.exr", "--png p.png", "--rates r.png", "--ids i.exr", "--progress json", "--time 1", "--suspects 3"}) {
         const std::string name = option.substr(0, option.find(' ')), value = option.substr(name.size() + 1);
         expectRefused("--replay 1,2,3 " + option, name + ": \"" + value + "\": has no effect with --replay");
     }

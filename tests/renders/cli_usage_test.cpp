@@ -274,6 +274,8 @@ TEST(CommandLineTest, OutputsThatCannotBeWrittenAreRefusedBeforeAnyWork)
         {{"-o", good, "--png", (folder / "none/x.png").string()}, "does not exist"},
         {{"-o", good, "--rates", (folder / "x.jpg").string()}, "does not end in .png"},
         {{"-o", good, "--rates", (folder / "none/x.png").string()}, "does not exist"},
+        {{"-o", good, "--ids", (folder / "x.png").string()}, "does not end in .exr"},
+        {{"-o", good, "--ids", (folder / "none/x.exr").string()}, "does not exist"},
         {{"-o", good, "--stats", (folder / "x.txt").string()}, "does not end in .json"},
         {{"-o", good, "--stats", (folder / "none/x.json").string()}, "does not exist"}};
     for (const auto& [options, part] : cases) {

@@ -1,4 +1,4 @@
-"""A Python environment of its own for what PyPI brings, made once, in the folder of the build."""
+"""Python environments of their own for what PyPI brings, each made once, in a folder of the build."""
 
 import fcntl
 import os
@@ -8,17 +8,7 @@ import sys
 
 from conversion.errors import ConversionError
 
-REQUIREMENTS = ["trimesh==5.2.0", "numpy"]
-FOLDER = os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__)))), "build", "to_gltf")
-STAMP = os.path.join(FOLDER, "requirements")
-PYTHON = os.path.join(FOLDER, "bin", "python")
-
-
-def is_made():
-    if not os.path.exists(STAMP):
-        return False
-    with open(STAMP) as stamp:
-        return stamp.read() == "\n".join(REQUIREMENTS)
+BUILD = os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__)))), "build")
 
 
 def run(command, sentence):
@@ -28,24 +18,38 @@ def run(command, sentence):
         raise ConversionError("%s (%s)" % (sentence, lines[-1].strip()))
 
 
-def make(say):
-    say("installing %s from PyPI into build/to_gltf" % " and ".join(REQUIREMENTS))
-    shutil.rmtree(FOLDER, ignore_errors=True)
-    run([sys.executable, "-m", "venv", FOLDER],
-        "cannot make a Python environment in build/to_gltf; expected Python's venv, which Debian calls python3-venv")
-    run([PYTHON, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *REQUIREMENTS],
-        "cannot install %s; expected a connection to PyPI" % " and ".join(REQUIREMENTS))
-    with open(STAMP, "w") as stamp:
-        stamp.write("\n".join(REQUIREMENTS))
+class Environment:
+    def __init__(self, name, requirements):
+        self.name = name
+        self.requirements = requirements
+        self.folder = os.path.join(BUILD, name)
+        self.stamp = os.path.join(self.folder, "requirements")
+        self.python = os.path.join(self.folder, "bin", "python")
 
+    def is_made(self):
+        if not os.path.exists(self.stamp):
+            return False
+        with open(self.stamp) as stamp:
+            return stamp.read() == "\n".join(self.requirements)
 
-def enter_environment(say):
-    """Returns within the environment: elsewhere it makes one if there is none, and starts the program again in it."""
-    if os.path.realpath(sys.prefix) == FOLDER:
-        return
-    os.makedirs(os.path.dirname(FOLDER), exist_ok=True)
-    with open(FOLDER + ".lock", "w") as lock:  # one makes it, the others wait
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        if not is_made():
-            make(say)
-    os.execv(PYTHON, [PYTHON, *sys.argv])
+    def make(self, say):
+        packages = " and ".join(self.requirements)
+        say("installing %s from PyPI into build/%s" % (packages, self.name))
+        shutil.rmtree(self.folder, ignore_errors=True)
+        run([sys.executable, "-m", "venv", self.folder],
+            "cannot make a Python environment in build/%s; expected Python's venv, which Debian calls python3-venv" % self.name)
+        run([self.python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *self.requirements],
+            "cannot install %s; expected a connection to PyPI" % packages)
+        with open(self.stamp, "w") as stamp:
+            stamp.write("\n".join(self.requirements))
+
+    def enter(self, say):
+        """Returns within the environment: elsewhere it makes one if there is none, and starts the program again in it."""
+        if os.path.realpath(sys.prefix) == self.folder:
+            return
+        os.makedirs(BUILD, exist_ok=True)
+        with open(self.folder + ".lock", "w") as lock:  # one makes it, the others wait
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            if not self.is_made():
+                self.make(say)
+        os.execv(self.python, [self.python, *sys.argv])

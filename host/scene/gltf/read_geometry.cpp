@@ -27,7 +27,6 @@ constexpr int kOriginBits = 8;
 struct WorldSphere {
     Sphere sphere;  // without its centre
     glm::dvec3 center;
-    std::size_t node;
 };
 
 struct Box {
@@ -85,7 +84,7 @@ WorldSphere readSphere(const GltfFile& file, const PlacedNode& node, std::uint32
         }
     }
     WorldSphere world;
-    world.node = node.index;
+    world.sphere.node = static_cast<std::uint32_t>(node.index);
     world.center = glm::dvec3(node.worldFromNode[3]);
     world.sphere.name = file.model.nodes[node.index].name;
     world.sphere.radius = static_cast<float>(scale * source.Get("radius").GetNumberAsDouble());
@@ -118,7 +117,7 @@ private:
     template <class Visit>
     void forEachPoint(const MeshInstance& instance, const Visit& visit) const;
     Box computeBox() const;
-    void checkVertices(std::size_t instance) const;
+    void checkVertices(const MeshInstance& placed) const;
     void requireSomething() const;
 
     const GltfFile& file_;
@@ -127,7 +126,6 @@ private:
     std::uint32_t defaultMaterial_;
     // The scene's meshes by mesh of the file, skin and weights of morph targets: nodes that agree in these share them.
     std::map<std::tuple<std::size_t, int, std::vector<double>>, std::vector<std::uint32_t>> meshes_;
-    std::vector<std::size_t> nodes_;                      // by instance
     std::vector<std::array<glm::dvec3, 8>> meshCorners_;  // by mesh of the scene, if it has more than kMostFlatTriangles
     std::vector<WorldSphere> spheres_;
     std::size_t triangles_ = 0, emptySpheres_ = 0;
@@ -187,8 +185,8 @@ void GeometryReader::addInstance(const PlacedNode& placed, std::size_t mesh)
 {
     const std::string& name = file_.model.nodes[placed.index].name;
     for (const std::uint32_t id : meshesOf(placed.index, mesh)) {
-        scene_.instances.push_back({name.empty() ? scene_.meshes[id].name : name, id, placed.worldFromNode});
-        nodes_.push_back(placed.index);
+        scene_.instances.push_back(
+            {name.empty() ? scene_.meshes[id].name : name, id, placed.worldFromNode, static_cast<std::uint32_t>(placed.index)});
     }
 }
 
@@ -241,18 +239,17 @@ void GeometryReader::forEachPoint(const MeshInstance& instance, const Visit& vis
 Box GeometryReader::computeBox() const
 {
     Box box;
-    for (std::size_t i = 0; i < scene_.instances.size(); ++i) {
-        const MeshInstance& instance = scene_.instances[i];
+    for (const MeshInstance& instance : scene_.instances) {
         const glm::dmat3 linear(instance.worldFromMesh);
         const glm::dvec3 translation(instance.worldFromMesh[3]);
         forEachPoint(instance, [&](const glm::dvec3& point) {
             const glm::dvec3 world = linear * point + translation;
-            checkPoint(file_, nodes_[i], world, isFinite(world));
+            checkPoint(file_, instance.node, world, isFinite(world));
             box.extend(world);
         });
     }
     for (const WorldSphere& sphere : spheres_) {
-        checkPoint(file_, sphere.node, sphere.center, isFinite(sphere.center));
+        checkPoint(file_, sphere.sphere.node, sphere.center, isFinite(sphere.center));
         box.extend(sphere.center - static_cast<double>(sphere.sphere.radius));
         box.extend(sphere.center + static_cast<double>(sphere.sphere.radius));
     }
@@ -260,12 +257,11 @@ Box GeometryReader::computeBox() const
 }
 
 // Refuses vertices that, relative to the origin, do not fit float32.
-void GeometryReader::checkVertices(std::size_t instance) const
+void GeometryReader::checkVertices(const MeshInstance& placed) const
 {
-    const MeshInstance& placed = scene_.instances[instance];
     const glm::dmat3 linear(placed.worldFromMesh);
     const glm::dvec3 translation = glm::dvec3(placed.worldFromMesh[3]) - scene_.origin;
-    forEachPoint(placed, [&](const glm::dvec3& point) { toFloat(file_, nodes_[instance], linear * point + translation); });
+    forEachPoint(placed, [&](const glm::dvec3& point) { toFloat(file_, placed.node, linear * point + translation); });
 }
 
 void GeometryReader::requireSomething() const
@@ -286,11 +282,11 @@ void GeometryReader::finish()
 {
     countTriangles();
     scene_.origin = triangles_ + spheres_.size() == 0 ? glm::dvec3(0.0) : computeOrigin(computeBox());
-    for (std::size_t i = 0; i < scene_.instances.size(); ++i) {
-        checkVertices(i);
+    for (const MeshInstance& instance : scene_.instances) {
+        checkVertices(instance);
     }
     for (WorldSphere& sphere : spheres_) {
-        sphere.sphere.center = toFloat(file_, sphere.node, sphere.center - scene_.origin);
+        sphere.sphere.center = toFloat(file_, sphere.sphere.node, sphere.center - scene_.origin);
         scene_.spheres.push_back(sphere.sphere);
     }
     if (emptySpheres_ > 0) {

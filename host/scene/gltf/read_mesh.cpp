@@ -146,6 +146,7 @@ std::vector<Mesh> readMeshes(const GltfFile& file, std::size_t mesh, const MeshP
         if (std::optional<Mesh> read = readPrimitive(file, source.primitives[i], place, warnings)) {
             poseMesh(file, source.primitives[i], pose, place, *read, warnings);
             read->name = source.primitives.size() == 1 ? source.name : source.name + "." + std::to_string(i);
+            read->fileMesh = static_cast<std::uint32_t>(mesh);
             meshes.push_back(std::move(*read));
         }
     }

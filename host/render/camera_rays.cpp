@@ -1,0 +1,104 @@
+#include "host/render/camera_rays.hpp"
+
+#include "host/render/check_status.hpp"
+#include "kernels.hpp"
+#include "shaders/shared/bindings.h"
+
+#include <cstddef>
+#include <utility>
+
+namespace glim {
+namespace {
+
+// Neighbours: passes go over lists of pixels.
+RenderSettings settingsOfRays(RenderSettings settings)
+{
+    settings.adaptive = Adaptive::Neighbours;
+    settings.aov = Aov::Radiance;
+    settings.bounces = 0;
+    settings.suspects = 0;
+    settings.course = {};
+    return settings;
+}
+
+}  // namespace
+
+CameraRayKernels::CameraRayKernels(Device& device, const Specialization& constants)
+    : specialization(constants),
+      layout(device, kernelSlots(), sizeof(Pass)),
+      generateRays(layout, kernels::generate_rays, constants),
+      sizeDispatch(layout, kernels::size_dispatch, constants),
+      traceClosest(layout, kernels::trace_closest, constants)
+{}
+
+CameraRays::CameraRays(Device& device, SharedResources& shared, const FlatScene& scene, const FlatCamera& camera,
+                       const RenderSettings& settings, std::shared_ptr<const CameraRayKernels> kernels)
+    : device_(device),
+      settings_(settingsOfRays(settings)),
+      paths_(shared.paths),
+      scene_(shared.scene),
+      passSize_(scene, settings_),
+      parameters_(device, scene, camera, settings_),
+      chosen_(device, "chosen pixels", BufferKind::Storage, sizeof(uint) + settings_.pathCapacity * sizeof(ChosenPixel)),
+      kernels_(kernels && serves(kernels->specialization, specialize(scene, camera, settings_))
+                   ? std::move(kernels)
+                   : std::make_shared<CameraRayKernels>(device, specialize(scene, camera, settings_))),
+      even_(bind(0)),
+      odd_(bind(1))
+{
+    compile();
+}
+
+Bindings CameraRays::bind(std::uint32_t parity) const
+{
+    BufferMap buffers = scene_.buffers();
+    buffers.merge(paths_.buffers(parity));
+    buffers.insert({{kBindParameters, &parameters_.buffer()}, {kBindChosenPixels, &chosen_}});
+    return Bindings(kernels_->layout, buffers);
+}
+
+// As Wavefront::compile.
+void CameraRays::compile()
+{
+    choose({});
+    Pass nothing{};
+    nothing.bounce = 1;
+    nothing.sizes = kSizesPaths;
+    Commands commands(device_);
+    for (const Kernel* kernel : {&kernels_->sizeDispatch, &kernels_->generateRays, &kernels_->traceClosest}) {
+        commands.dispatch(*kernel, even_, std::as_bytes(std::span<const Pass, 1>(&nothing, 1)), 1);
+    }
+    commands.submitAndWait();
+}
+
+void CameraRays::choose(std::span<const std::uint32_t> pixels)
+{
+    std::vector<uint> list{static_cast<uint>(pixels.size())};
+    for (const std::uint32_t pixel : pixels) {
+        const ChosenPixel chosen{pixel, 0};
+        list.insert(list.end(), {chosen.pixel, chosen.samplesBefore});
+    }
+    upload(chosen_, std::span<const uint>(list));
+}
+
+std::vector<PathHit> CameraRays::trace(std::span<const std::uint32_t> pixels, std::uint32_t firstSample, std::uint32_t sampleCount)
+{
+    choose(pixels);
+    Pass pass{};
+    pass.pixelCount = static_cast<std::uint32_t>(pixels.size());
+    pass.firstSample = firstSample;
+    pass.sampleCount = sampleCount;
+    pass.sizes = kSizesPaths;
+    const std::uint32_t rays = pass.pixelCount * sampleCount;
+    std::map<std::string, KernelStatistics> statistics;
+    Recording recording(device_, statistics);
+    recording.dispatch(kernels_->generateRays, odd_, pass, (rays + settings_.workgroup - 1) / settings_.workgroup);
+    recording.dispatch(kernels_->sizeDispatch, even_, pass, 1);
+    recording.dispatchIndirect(kernels_->traceClosest, even_, pass, paths_.queueSizes(), offsetof(QueueSizes, closestGroups));
+    recording.finish();
+    refuseBrokenStatus(device_.description(), paths_);
+    passSize_.learn(rays, {recording.longest(), recording.total()});
+    return download<PathHit>(paths_.hits(), rays);
+}
+
+}  // namespace glim

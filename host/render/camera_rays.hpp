@@ -1,0 +1,47 @@
+// Traces the camera rays of a picture's samples again, without shading.
+#pragma once
+
+#include "host/render/wavefront.hpp"
+
+namespace glim {
+
+struct CameraRayKernels {
+    CameraRayKernels(Device& device, const Specialization& constants);
+
+    Specialization specialization;
+    KernelLayout layout;
+    Kernel generateRays, sizeDispatch, traceClosest;
+};
+
+class CameraRays {
+public:
+    // `settings`: the picture's. Uses the resources of its renderer, which must outlive this and be idle while rays are traced. Compiles
+    // its kernels unless `kernels` serve the scene too.
+    CameraRays(Device& device, SharedResources& shared, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings,
+               std::shared_ptr<const CameraRayKernels> kernels = nullptr);
+
+    std::shared_ptr<const CameraRayKernels> kernels() const { return kernels_; }
+
+    // How many rays a trace should have at most: fewer where they take long.
+    std::uint32_t rayCount() const { return passSize_.paths(); }
+    // What samples [firstSample, firstSample + sampleCount) of each pixel see first, one pixel after the other. As in the picture, a
+    // sample passes surfaces with alpha by chance. Throws DeviceError as Renderer::render does.
+    std::vector<PathHit> trace(std::span<const std::uint32_t> pixels, std::uint32_t firstSample, std::uint32_t sampleCount);
+
+private:
+    Bindings bind(std::uint32_t parity) const;
+    void compile();
+    void choose(std::span<const std::uint32_t> pixels);
+
+    Device& device_;
+    RenderSettings settings_;
+    PathBuffers& paths_;
+    const DeviceScene& scene_;
+    PassSize passSize_;
+    DeviceParameters parameters_;
+    Buffer chosen_;  // as a Tile's
+    std::shared_ptr<const CameraRayKernels> kernels_;
+    Bindings even_, odd_;
+};
+
+}  // namespace glim
