@@ -201,10 +201,11 @@ TEST(IdentifyTest, HolesOfMasksShowWhatIsBehind)
     Scene scene = builder.scene();
     scene.materials[mask].alphaMode = AlphaMode::Mask;
     scene.materials[mask].baseColorTexture.emplace().nearest = true;
-    scene.images.push_back({"halves", {}});
-    scene.images[0].pixels.width = 2;
-    scene.images[0].pixels.height = 1;
-    scene.images[0].pixels.rgba8 = {255, 255, 255, 0, 255, 255, 255, 255};
+    DecodedImage halves;
+    halves.width = 2;
+    halves.height = 1;
+    halves.rgba8 = {255, 255, 255, 0, 255, 255, 255, 255};
+    scene.images.push_back({"halves", halves});
     scene.meshes[0].uv0 = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
     const auto [film, ids] = identify(prepare(scene), squareSettings(8, 16));
     for (std::size_t pixel = 0; pixel < 64; ++pixel) {
