@@ -106,16 +106,16 @@ Camera frameCamera(const Scene& scene, float aspectRatio)
 
 std::vector<Pose> frameTurntable(const Scene& scene, float aspectRatio, std::uint32_t count)
 {
-    constexpr int kSides = 64;  // of the prism around the cylinder that the box turns in
+    constexpr int kSides = 64;  // of the prism around the cylinder that the scene turns in
     constexpr double kTurn = 6.283185307179586;
     const WorldBox box = computeWorldBox(scene);
-    const glm::dvec3 center = centerOf(box), half = 0.5 * (glm::dvec3(box.high) - glm::dvec3(box.low));
-    const double radius = std::hypot(half.x, half.z) / std::cos(0.5 * kTurn / kSides);
+    const glm::dvec3 center = centerOf(box), up(0.0, 0.5 * (static_cast<double>(box.high.y) - static_cast<double>(box.low.y)), 0.0);
+    const double radius = computeRadius(scene, center) / std::cos(0.5 * kTurn / kSides);
     std::vector<glm::dvec3> corners;
     for (int i = 0; i < kSides; ++i) {
         const glm::dvec3 side = turnAboutY({0.0, 0.0, radius}, kTurn * i / kSides);
-        corners.push_back(side + glm::dvec3(0.0, half.y, 0.0));
-        corners.push_back(side - glm::dvec3(0.0, half.y, 0.0));
+        corners.push_back(side + up);
+        corners.push_back(side - up);
     }
     const Framing framing = frame(corners, static_cast<double>(Camera().yfov), static_cast<double>(aspectRatio));
     std::vector<Pose> poses;

@@ -11,7 +11,7 @@ namespace glim {
 Camera frameCamera(const Scene& scene, float aspectRatio);
 
 // `count` poses of that camera on a circle about the vertical axis of the box, the first from the same side, the others counter-clockwise
-// seen from above. All are at one distance, from which the box, however it is turned, has the same margins.
+// seen from above. All are at one distance, from which the scene has these margins in all of them together.
 std::vector<Pose> frameTurntable(const Scene& scene, float aspectRatio, std::uint32_t count);
 
 }  // namespace glim

@@ -2,6 +2,9 @@
 
 #include "host/scene/share_meshes.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace glim {
@@ -62,23 +65,29 @@ WorldBox placeBox(const Scene& scene, const MeshInstance& instance, const WorldB
     return {glm::vec3(placed - extent), glm::vec3(placed + extent)};
 }
 
-WorldBox computeTriangleBox(const Scene& scene)
+// Calls `take` with every vertex of a triangle that has a surface.
+template <class Take>
+void visitVertices(const Scene& scene, Take take)
 {
-    WorldBox box{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
     for (const MeshInstance& instance : scene.instances) {
         const PlacedMesh placed(scene, instance);
         for (std::size_t i = 0; i < placed.triangleCount(); ++i) {
             const Triangle triangle = placed.triangle(i);
-            if (faceNormal(triangle) == glm::dvec3(0.0)) {
-                continue;  // has no surface
-            }
-            for (const glm::vec3& vertex : triangle.vertices) {
-                box = {glm::min(box.low, vertex), glm::max(box.high, vertex)};
+            if (faceNormal(triangle) != glm::dvec3(0.0)) {
+                std::for_each(std::begin(triangle.vertices), std::end(triangle.vertices), take);
             }
         }
     }
+}
+
+WorldBox computeTriangleBox(const Scene& scene)
+{
+    WorldBox box{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
+    visitVertices(scene, [&box](const glm::vec3& vertex) { box = {glm::min(box.low, vertex), glm::max(box.high, vertex)}; });
     return box;
 }
+
+bool isLarge(const Scene& scene) { return countTriangles(countMeshUses(scene)) > kMostFlatTriangles; }
 
 // Quicker, and larger where meshes are turned.
 WorldBox computeBoxOfMeshBoxes(const Scene& scene)
@@ -101,11 +110,27 @@ WorldBox computeBoxOfMeshBoxes(const Scene& scene)
 
 WorldBox computeWorldBox(const Scene& scene)
 {
-    WorldBox box = countTriangles(countMeshUses(scene)) > kMostFlatTriangles ? computeBoxOfMeshBoxes(scene) : computeTriangleBox(scene);
+    WorldBox box = isLarge(scene) ? computeBoxOfMeshBoxes(scene) : computeTriangleBox(scene);
     for (const Sphere& sphere : scene.spheres) {
         box = {glm::min(box.low, sphere.center - sphere.radius), glm::max(box.high, sphere.center + sphere.radius)};
     }
     return box;
+}
+
+double computeRadius(const Scene& scene, const glm::dvec3& center)
+{
+    if (isLarge(scene)) {
+        const WorldBox box = computeWorldBox(scene);
+        const glm::dvec3 far = glm::max(glm::dvec3(box.high) - center, center - glm::dvec3(box.low));
+        return std::hypot(far.x, far.z);
+    }
+    double radius = 0.0;
+    const auto distance = [&center](const glm::dvec3& point) { return std::hypot(point.x - center.x, point.z - center.z); };
+    visitVertices(scene, [&](const glm::vec3& vertex) { radius = std::max(radius, distance(vertex)); });
+    for (const Sphere& sphere : scene.spheres) {
+        radius = std::max(radius, distance(sphere.center) + static_cast<double>(sphere.radius));
+    }
+    return radius;
 }
 
 }  // namespace glim

@@ -40,4 +40,7 @@ struct WorldBox {
 
 WorldBox computeWorldBox(const Scene& scene);
 
+// How far anything that has a surface reaches from the vertical axis through `center`; of large scenes, how far their box does.
+double computeRadius(const Scene& scene, const glm::dvec3& center);
+
 }  // namespace glim

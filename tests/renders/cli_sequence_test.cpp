@@ -135,9 +135,10 @@ TEST_F(SequenceTest, TurntablesGoAroundTheScene)
 TEST_F(SequenceTest, CamerasOfTheFileAreAllRendered)
 {
     writeScene(3);
-    expectDone({"--camera", "all", "--spp", "2", "-o", "c#.exr"});
+    expectDone({"--camera", "all", "--spp", "2", "-o", "c#.exr", "--stats", "c#.json"});
     for (const char* index : {"0", "1", "2"}) {
-        expectDone({"--camera", index, "--spp", "2", "-o", "one.exr"});
+        expectDone({"--camera", index, "--spp", "2", "-o", "one.exr", "--stats", "one.json"});
+        EXPECT_EQ(statistics(("c" + std::string(index) + ".json").c_str()).at("rays"), statistics("one.json").at("rays")) << index;
         expectSame(("c" + std::string(index) + ".exr").c_str(), "one.exr");
     }
 }

@@ -1,4 +1,6 @@
 // H7, H8: the same scene at any scale and place gives the same picture.
+#include "host/flatten/build_scene_bvh.hpp"
+#include "host/flatten/flatten_scene.hpp"
 #include "host/flatten/primitives.hpp"
 #include "host/measure/z_test.hpp"
 #include "tests/support/build_scene.hpp"
@@ -147,6 +149,71 @@ TEST(ScaleAndPlaceTest, H8SmallOrLargeAndFarAway)
         const ZTest z = compare(renderRoom(roomAt(scale, shift), seed++), unit);
         printHardCase("H8", "room of " + figure(scale) + " at " + figure(shift), samplesOf(unit), describe(z));
         EXPECT_TRUE(z.agrees()) << scale << " at " << shift << ": " << describe(z);
+    }
+}
+
+// A closed room and a box in it, each of a mesh that has another instance outside, under a sky that is a million times as bright as the
+// lamp's light on the walls. The nodes stand below one with this scale and place.
+Scene roomOfInstances(const glm::dvec3& scale, double shift)
+{
+    SceneBuilder room, box, lamp;
+    for (SceneBuilder* builder : {&room, &box, &lamp}) {
+        builder->lambert(glm::vec3(0.5F));
+    }
+    room.cube(1.0F, 0, true);
+    box.cube(0.3F, 0, false);
+    lamp.quad({glm::vec3(-0.4F, 0.9F, -0.4F), {0.4F, 0.9F, -0.4F}, {0.4F, 0.9F, 0.4F}, {-0.4F, 0.9F, 0.4F}}, 0);
+    test::GltfBuilder builder;
+    builder.append("materials", lambert(0.7, 0.0));
+    builder.append("materials", lambert(0.4, 0.0));
+    builder.append("materials", lambert(0.0, 1.0));
+    builder.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
+    const std::size_t walls = addMesh(builder, room.scene(), 0), body = addMesh(builder, box.scene(), 1);
+    const json turn = {0.1, 0.3, 0.05, 0.9};
+    builder.append("nodes", {{"mesh", walls}});
+    builder.append("nodes", {{"mesh", walls}, {"translation", {3, 0.5, 0}}, {"rotation", turn}});
+    builder.append("nodes", {{"mesh", body}, {"translation", {-0.375, -0.5625, -0.3125}}, {"rotation", turn}});
+    builder.append("nodes", {{"mesh", body}, {"translation", {0.4, -0.7, 0.2}}, {"scale", {1, -0.5, 0.7}}});
+    builder.append("nodes", {{"mesh", addMesh(builder, lamp.scene(), 2)}});
+    builder.append("nodes", {{"translation", {0, 0, 0.9375}}, {"camera", 0}});
+    builder.addNode({{"children", {0, 1, 2, 3, 4, 5}}, {"translation", {shift, -shift, shift}}, {"scale", {scale.x, scale.y, scale.z}}});
+    LoadOptions options;
+    options.environment = glm::vec3(1e5F);
+    return test::load(builder, options);
+}
+
+Film renderShared(const Scene& scene, std::uint64_t mostFlatTriangles, std::uint32_t seed)
+{
+    const Primitives primitives = makePrimitives(scene, mostFlatTriangles);
+    const FlatScene flat = flattenScene(scene, primitives, buildSceneBvh(primitives));
+    EXPECT_EQ((flat.features & kFeatureInstances) != 0, mostFlatTriangles == 0);
+    RenderSettings settings = squareSettings(kSide, samplesFor(16));
+    settings.bounces = 4;
+    settings.seed = seed;
+    settings.sampler = Sampler::Independent;
+    return renderFlat(flat, scene.cameras.front(), settings);
+}
+
+// A ray that leaves the room meets the sky, and one such sample is seen.
+TEST(ScaleAndPlaceTest, H1H7H8RoomsThatAreInstances)
+{
+    std::uint32_t seed = 0;
+    for (const auto& [scale, shift] : {std::pair{glm::dvec3(1.0), 0.0},
+                                       {glm::dvec3(-1.0, 1.0, 1.0), 0.0},
+                                       {glm::dvec3(4.0, 1.0, 0.02), 0.0},
+                                       {glm::dvec3(1e-4), 1e3},
+                                       {glm::dvec3(1e4), 0.0},
+                                       {glm::dvec3(1.0, -1.5, 1.0), 1e9},
+                                       {glm::dvec3(1e4), 1e9}}) {
+        const Scene scene = roomOfInstances(scale, shift);
+        const Film shared = renderShared(scene, 0, seed++), flat = renderShared(scene, 1U << 20U, seed++);
+        const ZTest z = compare(shared, flat);
+        const std::string name = "shared room of " + figure(scale.x) + ", " + figure(scale.z) + " at " + figure(shift);
+        printHardCase("H1, H7, H8", name, samplesOf(shared), describe(z));
+        EXPECT_TRUE(z.agrees()) << name << ": " << describe(z);
+        for (const PixelMoments& pixel : shared.pixels) {
+            EXPECT_LT(pixel.mean.g, 10.0F) << name << ": a ray left the room";
+        }
     }
 }
 

@@ -1,0 +1,93 @@
+// A scene file at one time after another: what is read once, and what is made again.
+#include "host/render/prepare_scene.hpp"
+#include "tests/support/encode_images.hpp"
+#include "tests/support/gltf_builder.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace glim::test {
+namespace {
+
+using nlohmann::json;
+
+class SceneFileTest : public ::testing::Test {
+protected:
+    // A textured triangle under an environment map of the file. Its colour changes between 0 and 1 s, its size between 1 and 2 s.
+    void SetUp() override
+    {
+        GltfBuilder builder;
+        const std::size_t uvs = builder.addAccessor(toBytes<float>({0, 0, 1, 0, 0, 1}), kFloat, "VEC2", 3);
+        builder.addNode({{"mesh", builder.addTriangleMesh()}});
+        json& primitive = builder.document["meshes"][0]["primitives"][0];
+        primitive["material"] = 0;
+        primitive["attributes"]["TEXCOORD_0"] = uvs;
+        const Bytes texels = encodePng(2, 1, {200, 10, 20, 30, 140, 50});
+        writeText(folder_ / "image.png", std::string(texels.begin(), texels.end()));
+        builder.append("images", {{"uri", "image.png"}});
+        builder.append("textures", {{"source", 0}});
+        builder.append("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+        const std::size_t first = builder.addAccessor(toBytes<float>({0, 1}), kFloat, "SCALAR", 2);
+        const std::size_t second = builder.addAccessor(toBytes<float>({1, 2}), kFloat, "SCALAR", 2);
+        const std::size_t colors = builder.addAccessor(toBytes<float>({1, 1, 1, 1, 0.5F, 0.25F, 0, 1}), kFloat, "VEC4", 2);
+        const json pointer = {{"pointer", "/materials/0/pbrMetallicRoughness/baseColorFactor"}};
+        builder.append("animations",
+                       {{"samplers",
+                         {{{"input", first}, {"output", colors}}, {{"input", second}, {"output", builder.addVec3({1, 1, 1, 3, 3, 3})}}}},
+                        {"channels",
+                         {{{"sampler", 0}, {"target", {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", pointer}}}}}},
+                          {{"sampler", 1}, {"target", {{"node", 0}, {"path", "scale"}}}}}}});
+        builder.document["extensionsUsed"] = {"KHR_animation_pointer"};
+        writeText(folder_ / "scene.gltf", builder.toGltf());
+    }
+    LoadOptions studio() const
+    {
+        LoadOptions options;
+        options.environment = BuiltInEnvironment::Studio;
+        return options;
+    }
+
+    ScratchFolder folder_;
+};
+
+TEST_F(SceneFileTest, IsReadOnce)
+{
+    SceneFile file(folder_ / "scene.gltf", studio());
+    const Scene before = file.sceneAt(0.0);
+    std::filesystem::remove(folder_ / "image.png");
+    std::filesystem::remove(folder_ / "scene.gltf");
+    const Scene after = file.sceneAt(1.0);
+    EXPECT_EQ(after.images.at(0).pixels, before.images.at(0).pixels);
+    EXPECT_EQ(after.environment->map, before.environment->map);
+    EXPECT_EQ(after.files, before.files) << "pictures must not be written over them";
+    EXPECT_EQ(before.materials.at(0).baseColor, glm::vec3(1.0F));
+    EXPECT_EQ(after.materials.at(0).baseColor, glm::vec3(0.5F, 0.25F, 0.0F));
+    EXPECT_EQ(file.sceneAt(std::nullopt).materials.at(0).baseColor, glm::vec3(1.0F)) << "the rest pose";
+}
+
+// Each scene of a sequence is the one that a fresh start gives.
+TEST_F(SceneFileTest, KeepsWhatDoesNotMove)
+{
+    SceneFile file(folder_ / "scene.gltf", studio());
+    PreparedScene prepared;
+    const void *nodes = nullptr, *texels = nullptr;
+    for (const double seconds : {0.0, 0.5, 1.5, 1.0}) {
+        prepared = prepareScene(file, seconds, SplitRule::Sah, std::move(prepared));
+        LoadOptions options = studio();
+        options.at = seconds;
+        const PreparedScene fresh = prepareScene(folder_ / "scene.gltf", options);
+        EXPECT_EQ(fingerprint(prepared.flat), fingerprint(fresh.flat)) << seconds;
+        EXPECT_EQ(prepared.flat.nodes, fresh.flat.nodes) << seconds;
+        EXPECT_EQ(prepared.flat.environmentCells, fresh.flat.environmentCells) << seconds;
+        EXPECT_EQ(prepared.flat.features, fresh.flat.features) << seconds;
+        // What is kept is moved, not made again.
+        EXPECT_EQ(prepared.bvh.nodes.data() == nodes, seconds == 0.5) << seconds;
+        EXPECT_EQ(prepared.flat.environmentTexels.data() == texels, seconds != 0.0) << seconds;
+        nodes = prepared.bvh.nodes.data();
+        texels = prepared.flat.environmentTexels.data();
+    }
+}
+
+}  // namespace
+}  // namespace glim::test
