@@ -32,12 +32,12 @@ protected:
         const std::size_t second = builder.addAccessor(toBytes<float>({1, 2}), kFloat, "SCALAR", 2);
         const std::size_t colors = builder.addAccessor(toBytes<float>({1, 1, 1, 1, 0.5F, 0.25F, 0, 1}), kFloat, "VEC4", 2);
         const json pointer = {{"pointer", "/materials/0/pbrMetallicRoughness/baseColorFactor"}};
-        builder.append("animations",
-                       {{"samplers",
-                         {{{"input", first}, {"output", colors}}, {{"input", second}, {"output", builder.addVec3({1, 1, 1, 3, 3, 3})}}}},
-                        {"channels",
-                         {{{"sampler", 0}, {"target", {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", pointer}}}}}},
-                          {{"sampler", 1}, {"target", {{"node", 0}, {"path", "scale"}}}}}}});
+        builder.append(
+            "animations",
+            {{"samplers", {{{"input", first}, {"output", colors}}, {{"input", second}, {"output", builder.addVec3({1, 1, 1, 3, 3, 3})}}}},
+             {"channels",
+              {{{"sampler", 0}, {"target", {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", pointer}}}}}},
+               {{"sampler", 1}, {"target", {{"node", 0}, {"path", "scale"}}}}}}});
         builder.document["extensionsUsed"] = {"KHR_animation_pointer"};
         writeText(folder_ / "scene.gltf", builder.toGltf());
     }

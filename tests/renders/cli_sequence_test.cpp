@@ -81,27 +81,29 @@ TEST_F(SequenceTest, FramesAreThePicturesOfTheirTimes)
 TEST_F(SequenceTest, WholeFilmsAreKept)
 {
     writeScene(1);
-    const std::vector<std::string> frames{"--frames", "1:3", "--spp", "3", "-o", "f#.exr", "--png", "f#.png"};
+    const std::vector<std::string> frames{"--frames", "1:4", "--spp", "3", "-o", "f#.exr", "--png", "f#.png"};
     expectDone(frames);
     const auto written = [this](const char* name) { return std::filesystem::last_write_time(folder_ / name); };
-    expectDone({"--at", "0.125", "--spp", "3", "-o", "f3.exr"});  // of the right time
-    expectDone({"--at", "0.125", "--spp", "2", "-o", "f2.exr"});  // of too few samples, and of another time
+    expectDone({"--at", "0.125", "--spp", "3", "-o", "f3.exr"});                // of the right time
+    expectDone({"--at", "0.08333333333333333", "--spp", "2", "-o", "f2.exr"});  // of too few samples
+    expectDone({"--at", "0.1", "--spp", "3", "-o", "f4.exr"});                  // of another time
     writeText(folder_ / "f1.exr", "no film");
     const auto third = written("f3.exr");
     const GlimRun again = expectDone(frames);
-    EXPECT_NE(again.out.find("f3.exr: is whole and was kept\n2 of 3 pictures rendered in "), std::string::npos) << again.out;
+    EXPECT_NE(again.out.find("3 of 4 pictures rendered in "), std::string::npos) << again.out;
+    EXPECT_NE(again.out.find("f3.exr: is whole and was kept\n"), std::string::npos) << again.out;
     EXPECT_EQ(written("f3.exr"), third);
     expectDone({"--at", "0.041666666666666664", "--spp", "3", "-o", "one.exr"});
     expectSame("f1.exr", "one.exr");
 
     std::filesystem::remove(folder_ / "f2.png");
-    EXPECT_NE(expectDone(frames).out.find("0 of 3 pictures"), std::string::npos);
+    EXPECT_NE(expectDone(frames).out.find("0 of 4 pictures"), std::string::npos);
     EXPECT_TRUE(std::filesystem::exists(folder_ / "f2.png"));
     for (const std::vector<std::string>& other :
          std::vector<std::vector<std::string>>{{"--seed", "1"}, {"--environment", "1,2,3"}, {"--stats", "s#.json"}}) {
         std::vector<std::string> changed = frames;
         changed.insert(changed.end(), other.begin(), other.end());
-        EXPECT_NE(expectDone(changed).out.find("3 of 3 pictures"), std::string::npos) << other[0];
+        EXPECT_NE(expectDone(changed).out.find("4 of 4 pictures"), std::string::npos) << other[0];
     }
 }
 
