@@ -108,7 +108,7 @@ TEST(SharedMeshesTest, HaveTheNormalsAndDepthsOfFlattenedOnes)
     EXPECT_LE(different, 2U);
 }
 
-TEST(SharedMeshesTest, DoNotDependOnTheTree)
+TEST(SharedMeshesTest, DoNotDependOnTheTreeOrTheSchedule)
 {
     const Scene scene = yard();
     RenderSettings settings = squareSettings(32, 32);
@@ -116,6 +116,8 @@ TEST(SharedMeshesTest, DoNotDependOnTheTree)
     const Film sah = renderFlat(flattenedWith(scene, 0), scene.cameras.front(), settings);
     EXPECT_TRUE(sameBits(sah, renderFlat(flattenedWith(scene, 0, SplitRule::Median), scene.cameras.front(), settings)));
     EXPECT_TRUE(sameBits(sah, renderFlat(flattenedWith(scene, 0, SplitRule::Mean), scene.cameras.front(), settings)));
+    settings.schedule = Schedule::Wavefront;
+    EXPECT_TRUE(sameBits(sah, renderFlat(flattenedWith(scene, 0), scene.cameras.front(), settings)));
 }
 
 // Each record of an instance has the instance's name and the triangle's number in the mesh.
