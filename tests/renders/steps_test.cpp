@@ -40,6 +40,7 @@ protected:
 
 TEST_F(StepsTest, FilmsAreThoseOfWholeRenders)
 {
+    settings.schedule = Schedule::Persistent;
     Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
     int films = 0;
     std::uint64_t samples = 0;
@@ -54,6 +55,7 @@ TEST_F(StepsTest, FilmsAreThoseOfWholeRenders)
         }
         RenderSettings same = settings;
         same.sampleEnd = count;
+        same.schedule = Schedule::Wavefront;  // the renderer's is the persistent one
         const Film film = renderer.film(), expected = renderScene(scene, same);
         EXPECT_TRUE(sameBits(film, expected)) << count << " samples";
         EXPECT_EQ(film.sampleRanges, expected.sampleRanges);
