@@ -108,9 +108,12 @@ TEST(SplitRulePictureTest, EveryRuleGivesTheBitsOfTheOthers)
     RenderSettings settings = squareSettings(24, 32);
     for (const Scene& scene : {meshScene(), mixedScene(), tiledScene(), aslantScene()}) {
         const FlatScene sah = flattened(scene);
+        settings.schedule = Schedule::Auto;
         const Film film = renderFlat(sah, scene.cameras.front(), settings);
-        for (const SplitRule rule : {SplitRule::Mean, SplitRule::Median}) {
+        for (const auto& [rule, schedule] :
+             {std::pair(SplitRule::Mean, Schedule::Wavefront), std::pair(SplitRule::Median, Schedule::Persistent)}) {
             const FlatScene other = flattened(scene, rule);
+            settings.schedule = schedule;
             EXPECT_NE(other.nodes, sah.nodes);
             // Their films may be merged.
             EXPECT_EQ(fingerprint(other), fingerprint(sah));

@@ -4,6 +4,7 @@
 #include "tests/support/build_scene.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/render_scene.hpp"
+#include "tests/support/single_samples.hpp"
 #include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
@@ -45,6 +46,7 @@ TEST(AdaptiveTest, EveryPixelHasTheBitsOfAUniformRenderOfItsCount)
     const auto pixels = pixelsByCount(film);
     EXPECT_GE(pixels.size(), 4U);
     settings.adaptive = Adaptive::Off;
+    settings.schedule = Schedule::Persistent;  // the film is that of both
     for (const auto& [count, indices] : pixels) {
         EXPECT_TRUE(count % settings.course.batch == 0 || count == 320U) << count;
         settings.sampleEnd = count;
@@ -65,6 +67,7 @@ TEST(AdaptiveTest, BatchesMayEndWithinABlock)
     settings.course.tolerance = 0.15F;
     const Film film = renderScene(mixedScene(), settings);
     settings.adaptive = Adaptive::Off;
+    settings.schedule = Schedule::Persistent;  // the film is that of both
     for (const auto& [count, indices] : pixelsByCount(film)) {
         EXPECT_EQ(count % 100, 0U);
         settings.sampleEnd = count;
@@ -88,19 +91,15 @@ TEST(AdaptiveTest, DoesNotDependOnHowTheWorkIsCut)
     EXPECT_TRUE(sameBits(film, renderScene(mixedScene(), settings)));
 }
 
-// The stop rule, pixel by pixel, from the luminances of uniform renders of one sample each.
+// The stop rule, pixel by pixel, from the luminances of single samples.
 TEST(AdaptiveTest, StopsWhereTheRuleSaysSo)
 {
     RenderSettings settings = adaptive(12, 96, 16);
     settings.course.tolerance = 0.2F;
-    settings.schedule = Schedule::Wavefront;
     const Film film = renderScene(mixedScene(), settings);
     settings.adaptive = Adaptive::Off;
     std::vector<std::vector<double>> luminances(film.pixels.size());
-    for (std::uint32_t s = 0; s < 96; ++s) {
-        settings.sampleBegin = s;
-        settings.sampleEnd = s + 1;
-        const Film one = renderScene(mixedScene(), settings);
+    for (const Film& one : renderSingleSamples(mixedScene(), settings)) {
         for (std::size_t i = 0; i < one.pixels.size(); ++i) {
             const glm::dvec3 mean(one.pixels[i].mean);
             luminances[i].push_back(0.2126 * mean.r + 0.7152 * mean.g + 0.0722 * mean.b);

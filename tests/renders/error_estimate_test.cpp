@@ -8,6 +8,7 @@
 #include "tests/support/hard_case.hpp"
 #include "tests/support/named.hpp"
 #include "tests/support/render_scene.hpp"
+#include "tests/support/single_samples.hpp"
 #include "tests/support/statistics.hpp"
 
 #include <gtest/gtest.h>
@@ -85,16 +86,11 @@ SquaredErrors squaredErrors(const Film& film, const std::vector<glm::dvec3>& mea
 // What s^2 / n says of the mean square error of a render with Sobol' points; s from the first samples of a block.
 double errorBySamples()
 {
-    constexpr std::uint32_t kFirst = 8;  // a render each
+    constexpr std::uint32_t kFirst = 8;
     const Scene scene = glassRoom();
-    RenderSettings settings = squareSettings(kSide, kSamples);
+    RenderSettings settings = squareSettings(kSide, kFirst);
     settings.caustics = false;
-    std::vector<Film> films;
-    for (std::uint32_t i = 0; i < kFirst; ++i) {
-        settings.sampleBegin = i;
-        settings.sampleEnd = i + 1;
-        films.push_back(renderScene(scene, settings));
-    }
+    const std::vector<Film> films = renderSingleSamples(scene, settings);
     const std::vector<glm::dvec3> mean = meanPicture(films);
     double variance = 0.0;
     for (const Film& film : films) {

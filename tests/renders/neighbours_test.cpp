@@ -51,6 +51,7 @@ Scene halfEmptyScene()
 Film uniform(const Scene& scene, RenderSettings settings, std::uint32_t begin, std::uint32_t end)
 {
     settings.adaptive = Adaptive::Off;
+    settings.schedule = Schedule::Persistent;
     settings.sampleBegin = begin;
     settings.sampleEnd = end;
     return renderScene(scene, settings);

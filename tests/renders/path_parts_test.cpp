@@ -13,12 +13,13 @@ namespace {
 
 constexpr std::uint32_t kBounces = 6, kSamples = 64;
 
-Film render(PathParts paths, std::uint32_t bounces, DirectLight direct)
+Film render(PathParts paths, std::uint32_t bounces, DirectLight direct, Schedule schedule = Schedule::Auto)
 {
     RenderSettings settings = squareSettings(40, kSamples);
     settings.bounces = bounces;
     settings.paths = paths;
     settings.course.direct = direct;
+    settings.schedule = schedule;
     return renderScene(mixedScene(), settings);
 }
 
@@ -58,18 +59,20 @@ INSTANTIATE_TEST_SUITE_P(Ways, PathPartsTest,
 
 TEST(PathPartsTest, AreWhatFewerBouncesGive)
 {
+    // AddUpToAll and ScheduleTest compare the schedules.
+    const auto by = [](PathParts paths, std::uint32_t bounces) { return render(paths, bounces, DirectLight::Mis, Schedule::Persistent); };
     const auto sameMeans = [](const Film& a, const Film& b) {
         return std::equal(a.pixels.begin(), a.pixels.end(), b.pixels.begin(),
                           [](const PixelMoments& x, const PixelMoments& y) { return x.mean == y.mean; });
     };
-    const Film none = render(PathParts::All, 0, DirectLight::Mis), one = render(PathParts::All, 1, DirectLight::Mis);
-    EXPECT_TRUE(sameMeans(render(PathParts::Emission, 100, DirectLight::Mis), none));
+    const Film none = by(PathParts::All, 0), one = by(PathParts::All, 1);
+    EXPECT_TRUE(sameMeans(by(PathParts::Emission, 100), none));
     EXPECT_FALSE(sameMeans(none, one));
-    EXPECT_TRUE(sameMeans(render(PathParts::Direct, 1, DirectLight::Mis), render(PathParts::Direct, 100, DirectLight::Mis)));
-    EXPECT_EQ(meanOf(render(PathParts::Indirect, 1, DirectLight::Mis)).mean, glm::dvec3(0.0));
+    EXPECT_TRUE(sameMeans(by(PathParts::Direct, 1), by(PathParts::Direct, 100)));
+    EXPECT_EQ(meanOf(by(PathParts::Indirect, 1)).mean, glm::dvec3(0.0));
     double last = meanOf(one).mean.g;
     for (const std::uint32_t bounces : {2U, 3U, 100U}) {
-        const double mean = meanOf(render(PathParts::All, bounces, DirectLight::Mis)).mean.g;
+        const double mean = meanOf(by(PathParts::All, bounces)).mean.g;
         EXPECT_GT(mean, last) << bounces;
         last = mean;
     }

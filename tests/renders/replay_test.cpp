@@ -6,6 +6,7 @@
 #include "host/scene/load_gltf.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/run_glim.hpp"
+#include "tests/support/single_samples.hpp"
 #include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
@@ -250,15 +251,11 @@ TEST_F(ReplayTest, SuspectsAreTheBrightestSamples)
     constexpr std::uint32_t kSamples = 12;
     load("cornell_mirror_glass.gltf");
     for (const Adaptive adaptive : {Adaptive::Off, Adaptive::Course}) {
-        std::vector<Film> singles;
-        for (std::uint32_t sample = 0; sample < kSamples; ++sample) {
-            RenderSettings settings = smallSettings(sample, sample + 1);
-            settings.sampler = Sampler::Independent;
-            settings.caustics = adaptive == Adaptive::Off;  // the course has none
-            singles.push_back(render(settings));
-        }
         RenderSettings settings = smallSettings(0, kSamples);
         settings.sampler = Sampler::Independent;
+        settings.caustics = adaptive == Adaptive::Off;  // the course has none
+        const std::vector<Film> singles = renderSingleSamples(scene_, settings);
+        settings.caustics = true;
         settings.suspects = 30;
         settings.adaptive = adaptive;
         settings.course.tolerance = 0.5F;

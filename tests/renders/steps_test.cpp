@@ -40,6 +40,7 @@ protected:
 
 TEST_F(StepsTest, FilmsAreThoseOfWholeRenders)
 {
+    settings.schedule = Schedule::Persistent;
     Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
     int films = 0;
     std::uint64_t samples = 0;
@@ -54,6 +55,7 @@ TEST_F(StepsTest, FilmsAreThoseOfWholeRenders)
         }
         RenderSettings same = settings;
         same.sampleEnd = count;
+        same.schedule = Schedule::Wavefront;  // the renderer's is the persistent one
         const Film film = renderer.film(), expected = renderScene(scene, same);
         EXPECT_TRUE(sameBits(film, expected)) << count << " samples";
         EXPECT_EQ(film.sampleRanges, expected.sampleRanges);
@@ -67,6 +69,7 @@ TEST_F(StepsTest, FilmsAreThoseOfWholeRenders)
 TEST_F(StepsTest, OtherCamerasBeginAgain)
 {
     settings.sampleEnd = 40;
+    settings.schedule = Schedule::Persistent;
     Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
     renderer.advance();
     for (const glm::uvec2 size : {glm::uvec2(24, 24), glm::uvec2(7, 30), glm::uvec2(7, 30)}) {
@@ -78,7 +81,9 @@ TEST_F(StepsTest, OtherCamerasBeginAgain)
         EXPECT_EQ(renderer.pictureSamples(), 0U);
         while (renderer.advance()) {
         }
-        const Film film = renderer.film(), expected = renderScene(moved, settings);
+        RenderSettings same = settings;
+        same.schedule = Schedule::Wavefront;
+        const Film film = renderer.film(), expected = renderScene(moved, same);
         EXPECT_TRUE(sameBits(film, expected));
         EXPECT_EQ(film.identity.scene, expected.identity.scene);
         EXPECT_EQ(film.identity.settings, expected.identity.settings);
@@ -90,7 +95,7 @@ TEST_F(StepsTest, PassesThatAreGivenUpAreTracedAgain)
 {
     settings.sampleEnd = 8;
     settings.course.direct = DirectLight::Lights;
-    settings.course.lightSamples = 32;
+    settings.course.lightSamples = 16;
     Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
     int calls = 0, given = 0;
     while (!renderer.isDone()) {
@@ -107,10 +112,12 @@ TEST_F(StepsTest, AdaptiveFilmsToo)
     settings.sampler = Sampler::Independent;
     settings.sampleEnd = 300;
     settings.course.tolerance = 0.2F;
+    settings.schedule = Schedule::Persistent;
     Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
     while (renderer.advance()) {
         renderer.film();
     }
+    settings.schedule = Schedule::Wavefront;
     EXPECT_TRUE(sameBits(renderer.film(), renderScene(scene, settings)));
 }
 
