@@ -187,7 +187,7 @@ Film renderShared(const Scene& scene, std::uint64_t mostFlatTriangles, std::uint
     const Primitives primitives = makePrimitives(scene, mostFlatTriangles);
     const FlatScene flat = flattenScene(scene, primitives, buildSceneBvh(primitives));
     EXPECT_EQ((flat.features & kFeatureInstances) != 0, mostFlatTriangles == 0);
-    RenderSettings settings = squareSettings(kSide, samplesFor(16));
+    RenderSettings settings = squareSettings(kSide, samplesFor(64));
     settings.bounces = 4;
     settings.seed = seed;
     settings.sampler = Sampler::Independent;
