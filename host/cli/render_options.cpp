@@ -29,9 +29,16 @@ void addSequence(const Command& command, RenderOptions& options)
     addNumber<double>(command, {"--fps", "N", "Frames per second of --frames", 1e-3, 1e6, "24"}, [&sequence](double fps) {
         sequence.fps = fps;
     }).needs(frames);
-    addNumber<std::uint32_t>(command, {"--turntable", "N", "Pictures from a circle around the scene", 1, 100000, "off"},
-                             [&sequence](std::uint32_t count) { sequence.turntable = count; });
-    command.addPath("--cameras", "FILE.json", "Pictures by an array of cameras: host/cli/README.md", sequence.cameras);
+    const Option turntable =
+        addNumber<std::uint32_t>(command, {"--turntable", "N", "Pictures from a circle around the scene", 1, 100000, "off"},
+                                 [&sequence](std::uint32_t count) { sequence.turntable = count; });
+    const Option cameras =
+        command.addPath("--cameras", "FILE.json", "Pictures by an array of cameras: host/cli/README.md", sequence.cameras);
+    frames.excludes(command.option("--at")).excludes(turntable).excludes(cameras);
+    turntable.excludes(cameras);
+    for (const Option* chooser : {&turntable, &cameras}) {
+        chooser->excludes(command.option("--camera")).excludes(command.option("--look-from"));
+    }
 }
 
 void addOutput(const Command& command, RenderOptions& options)

@@ -129,6 +129,7 @@ class SequenceRenderer {
 public:
     SequenceRenderer(const RenderOptions& options, const InterruptWatch& watch)
         : options_(options),
+          isSequence_(isSequence(options.sequence, options)),
           watch_(watch),
           device_(instance_, options.device),
           file_(options.scene, loadOptions()),
@@ -150,6 +151,7 @@ private:
     ExitCode writeShot(const RenderOptions& options, const RenderSettings& settings, const FlatCamera& camera, Film film, bool isGood);
 
     const RenderOptions& options_;
+    const bool isSequence_;
     const InterruptWatch& watch_;
     VulkanInstance instance_;
     Device device_;
@@ -173,7 +175,7 @@ LoadOptions SequenceRenderer::loadOptions() const
 RenderOptions SequenceRenderer::optionsOf(const Shot& shot) const
 {
     RenderOptions options = options_;
-    if (isSequence(options_.sequence, options_)) {
+    if (isSequence_) {
         options.output = numberedPath(options.output, shot.number);
         for (std::optional<std::filesystem::path>* file : {&options.png, &options.rates, &options.ids, &options.stats}) {
             *file = *file ? std::optional(numberedPath(**file, shot.number)) : std::nullopt;
@@ -211,7 +213,7 @@ ExitCode SequenceRenderer::renderAll()
         }
         ++place_.index;
     }
-    if (place_.count > 1) {
+    if (isSequence_) {
         std::cout << place_.rendered << " of " << place_.count << " pictures rendered in " << std::fixed << std::setprecision(2)
                   << place_.seconds << " s" << (place_.rendered < place_.count ? ", the others were there\n" : "\n");
     }
@@ -230,7 +232,7 @@ ExitCode SequenceRenderer::renderShot(const RenderOptions& options)
     }
     const FlatCamera flatCamera =
         flattenCamera(camera, static_cast<float>(settings.width) / static_cast<float>(settings.height), options.lens);
-    if (place_.count > 1 && keep(options, flatCamera, settings)) {
+    if (isSequence_ && keep(options, flatCamera, settings)) {
         return ExitCode::Done;
     }
     openRenderer(flatCamera, settings);
@@ -259,7 +261,7 @@ bool SequenceRenderer::keep(const RenderOptions& options, const FlatCamera& came
     } catch (const InputError&) {
         return false;  // as a render of one picture overwrites whatever is there
     }
-    FilmIdentity identity = identityOf(prepared_.flat, camera, settings);
+    FilmIdentity identity = identityOf(SceneIdentity(prepared_.flat), camera, settings);
     identity.settings += describeCamera(options.pose, options.lens);
     const bool same = film.identity.scene == identity.scene && film.identity.settings == identity.settings &&
                       film.width == settings.width && film.height == settings.height;

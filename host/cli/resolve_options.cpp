@@ -164,6 +164,17 @@ void resolveTarget(const Command& command, RenderOptions& options)
     }
 }
 
+// Whether two outputs are one file, at least with some number: a#.exr and a##.exr are with 10.
+bool mayBeSame(const std::filesystem::path& a, const std::filesystem::path& b)
+{
+    const auto withoutRun = [](const std::filesystem::path& path) {
+        std::string name = path.lexically_normal().string();
+        name.erase(std::unique(name.begin(), name.end(), [](char x, char y) { return x == '#' && y == '#'; }), name.end());
+        return name;
+    };
+    return withoutRun(a) == withoutRun(b);
+}
+
 // The options that name the files of a picture.
 constexpr const char* kOutputs[] = {"--output", "--png", "--rates", "--ids", "--stats"};
 
@@ -181,31 +192,13 @@ void checkNames(const Command& command)
     }
 }
 
-// What chooses the pictures of a sequence excludes what chooses the same for one picture.
 void resolveSequence(const Command& command, const RenderOptions& options)
 {
-    const SequenceOptions& sequence = options.sequence;
-    if (!isSequence(sequence, options)) {
+    if (!isSequence(options.sequence, options)) {
         return;
     }
-    if (sequence.frames) {
-        refuseIfGiven(command, {"--at"}, "--frames chooses the times");
-    }
-    if (sequence.frames || sequence.turntable > 0) {
-        refuseIfGiven(command, {"--cameras"}, "expected only one of --frames, --turntable and --cameras");
-    }
-    if (sequence.frames && sequence.turntable > 0) {
-        refuseIfGiven(command, {"--turntable"}, "expected only one of --frames, --turntable and --cameras");
-    }
-    if (sequence.frames && options.camera == "all") {
-        refuseIfGiven(command, {"--camera"}, "--frames shows one camera; expected its name or index");
-    }
-    if (sequence.turntable > 0 || sequence.cameras) {
-        refuseIfGiven(command, {"--camera", "--look-from"},
-                      std::string(sequence.cameras ? "--cameras" : "--turntable") + " chooses the cameras");
-    }
     if (options.camera == "all") {
-        refuseIfGiven(command, {"--look-from"}, "would make all cameras one; expected a single --camera");
+        refuseIfGiven(command, {"--frames", "--look-from"}, "has one camera; expected its name or index as --camera");
     }
     if (options.replay) {
         refuse(command, "--replay", "expected the options of one picture");
@@ -255,10 +248,10 @@ void resolveRender(const Command& command, RenderOptions& options)
     resolveTarget(command, options);
     resolveLight(command, options);
     checkReplay(command, options);
-    if (options.png && options.rates && options.png->lexically_normal() == options.rates->lexically_normal()) {
+    if (options.png && options.rates && mayBeSame(*options.png, *options.rates)) {
         refuse(command, "--rates", "expected another file than that of --png");
     }
-    if (options.ids && options.ids->lexically_normal() == options.output.lexically_normal()) {
+    if (options.ids && mayBeSame(*options.ids, options.output)) {
         refuse(command, "--ids", "expected another file than that of --output");
     }
 }

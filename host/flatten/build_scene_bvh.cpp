@@ -133,6 +133,15 @@ void append(WideBvh& bvh, const WideBvh& tree, std::uint32_t firstId)
     }
 }
 
+// A root without children.
+WideBvh makeEmptyTree()
+{
+    WideBvh tree;
+    tree.nodes.resize(1);
+    tree.depth = 1;
+    return tree;
+}
+
 WideBvh buildTwoLevels(const Primitives& primitives, SplitRule rule)
 {
     std::vector<WideBvh> trees;
@@ -194,6 +203,9 @@ std::vector<Box> primitiveBoxes(const Primitives& primitives)
 
 WideBvh buildSceneBvh(const Primitives& primitives, SplitRule rule)
 {
+    if (primitives.count() == 0 && primitives.placements.empty()) {
+        return makeEmptyTree();  // of a scene that is transparent all over
+    }
     return primitives.placements.empty() ? buildTree(primitives.triangles, primitiveBoxes(primitives), rule)
                                          : buildTwoLevels(primitives, rule);
 }

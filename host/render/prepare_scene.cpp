@@ -46,13 +46,16 @@ PreparedScene prepare(Scene scene, SplitRule split, Clock::time_point start, Pre
     prepared.scene.warnings.insert(prepared.scene.warnings.end(), prepared.primitives.warnings.begin(), prepared.primitives.warnings.end());
     sayWarnings(prepared.scene, previous.scene);
     const Clock::time_point loaded = Clock::now();
-    const bool moved = !haveSameSurfaces(prepared.primitives, previous.primitives);
+    const bool first = previous.bvh.nodes.empty(), moved = first || !haveSameSurfaces(prepared.primitives, previous.primitives);
     if (moved) {
         stage("building the BVH of " + std::to_string(prepared.primitives.count()) + " primitives");
     }
     prepared.bvh = moved ? buildSceneBvh(prepared.primitives, split) : std::move(previous.bvh);
     prepared.split = split;
     prepared.flat = flattenScene(prepared.scene, prepared.primitives, prepared.bvh, std::move(previous.flat));
+    if (first) {
+        sayTextureMemory(prepared.flat);
+    }
     for (TextureImage& image : prepared.scene.images) {
         image.pixels = nullptr;  // the flat scene has them
     }
@@ -67,9 +70,7 @@ PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions&
 {
     const Clock::time_point start = Clock::now();
     stage("loading " + file.filename().string());
-    PreparedScene prepared = prepare(loadGltf(file, options), split, start, {}, stage);
-    sayTextureMemory(prepared.flat);
-    return prepared;
+    return prepare(loadGltf(file, options), split, start, {}, stage);
 }
 
 PreparedScene prepareScene(SceneFile& file, std::optional<double> seconds, SplitRule split, PreparedScene previous)

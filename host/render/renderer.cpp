@@ -38,26 +38,12 @@ std::uint32_t usualRoundEnd(std::uint32_t samples)
     return samples < middle ? middle : 2 * power;
 }
 
-FilmIdentity identityOf(std::uint64_t sceneFingerprint, bool sharesMeshes, const FlatCamera& camera, const RenderSettings& settings)
-{
-    const char* sharing = sharesMeshes ? " meshes=shared" : "";  // rounds otherwise than flattened ones
-    return {fingerprint(sceneFingerprint, camera), describeSettings(settings) + sharing, settings.seed};
-}
-
-bool sharesMeshes(const FlatScene& scene) { return (scene.features & kFeatureInstances) != 0; }
-
 }  // namespace
-
-FilmIdentity identityOf(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
-{
-    return identityOf(fingerprint(scene), sharesMeshes(scene), camera, settings);
-}
 
 Renderer::Renderer(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
     : device_(device),
       settings_(settings),
-      sceneFingerprint_(fingerprint(scene)),
-      sharesMeshes_(sharesMeshes(scene)),
+      sceneIdentity_(scene),
       start_(Clock::now()),
       passSize_(scene, settings),
       wavefront_(std::make_unique<Wavefront>(device, scene, camera, settings))
@@ -68,8 +54,7 @@ Renderer::Renderer(Device& device, const FlatScene& scene, const FlatCamera& cam
 Renderer::Renderer(const Renderer& other, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
     : device_(other.device_),
       settings_(settings),
-      sceneFingerprint_(other.sceneFingerprint_),
-      sharesMeshes_(other.sharesMeshes_),
+      sceneIdentity_(other.sceneIdentity_),
       start_(Clock::now()),
       passSize_(scene, settings),
       wavefront_(std::make_unique<Wavefront>(device_, other.wavefront_->shared(), scene, camera, settings))
@@ -127,8 +112,7 @@ void Renderer::restart(const FlatScene& scene, const FlatCamera& camera, std::ui
 {
     settings_.width = width;
     settings_.height = height;
-    sceneFingerprint_ = fingerprint(scene);
-    sharesMeshes_ = sharesMeshes(scene);
+    sceneIdentity_ = SceneIdentity(scene);
     const std::shared_ptr<const CompiledKernels> kernels = wavefront_->kernels();
     light_.reset();
     tiles_.clear();
@@ -161,7 +145,7 @@ void Renderer::begin(const FlatCamera& camera)
     film_.width = settings_.width;
     film_.height = settings_.height;
     film_.pixels.resize(std::size_t{film_.width} * film_.height);
-    film_.identity = identityOf(sceneFingerprint_, sharesMeshes_, camera, settings_);
+    film_.identity = identityOf(sceneIdentity_, camera, settings_);
     film_.device = device_.description().name + ", " + device_.description().driver;
     foldVersion_ = 0;
     sample_ = settings_.sampleBegin;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/render/block_queue.hpp"
-#include "host/render/film.hpp"
+#include "host/render/film_identity.hpp"
 #include "host/render/light_passes.hpp"
 #include "host/render/pass_size.hpp"
 #include "host/render/wavefront.hpp"
@@ -37,9 +37,6 @@ using StoppingCriterion = std::function<double(const Film&)>;
 
 // Called several times a second. False ends the render after the current pass or, if that takes seconds, without it.
 using RenderObserver = std::function<bool(const RenderProgress&)>;
-
-// The identity of the film that a renderer makes of them.
-FilmIdentity identityOf(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
 
 class Renderer {
 public:
@@ -129,8 +126,7 @@ private:
 
     Device& device_;
     RenderSettings settings_;
-    std::uint64_t sceneFingerprint_;
-    bool sharesMeshes_;
+    SceneIdentity sceneIdentity_;
     RenderStatistics statistics_;
     Clock::time_point start_;
     PassSize passSize_;

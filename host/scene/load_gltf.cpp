@@ -336,15 +336,18 @@ Camera SceneFile::Contents::frame(const Scene& scene)
 }
 
 SceneFile::SceneFile(const std::filesystem::path& file, const LoadOptions& options)
-    : contents_(std::make_unique<Contents>(Contents{readGltfFile(file), options, {}, {}, {}}))
-{
-    contents_->animations = listAnimations(contents_->file);
-}
+    : path_(file),
+      options_(options)
+{}
 
 SceneFile::~SceneFile() = default;
 
 Scene SceneFile::sceneAt(std::optional<double> seconds)
 {
+    if (!contents_) {
+        contents_ = std::make_unique<Contents>(Contents{readGltfFile(path_), options_, {}, {}, {}});
+        contents_->animations = listAnimations(contents_->file);
+    }
     auto& [file, options, animations, decoded, framed, posed] = *contents_;
     Scene scene;
     scene.variants = readVariants(file);

@@ -37,22 +37,24 @@ struct LoadOptions {
     bool framed = false;                       // adds it to the file's cameras; it is always there if the file has none
 };
 
-// A file that is read once, with its buffers, images and maps, and gives its scene at one time after another. Throws InputError with one
-// sentence that names file, place, value and what was expected.
+// A file that gives its scene at one time after another, and is read once, with its buffers, images and maps.
 class SceneFile {
 public:
+    // Reads nothing yet.
     explicit SceneFile(const std::filesystem::path& file, const LoadOptions& options = {});
     ~SceneFile();
     SceneFile(const SceneFile&) = delete;
     SceneFile& operator=(const SceneFile&) = delete;
 
     // The scene at `seconds` into the animation; if absent in the file's rest pose. It has passed checkScene. A framed camera sees the
-    // whole rest pose, at any time.
+    // whole rest pose, at any time. Throws InputError with one sentence that names file, place, value and what was expected.
     Scene sceneAt(std::optional<double> seconds);
 
 private:
     struct Contents;
-    std::unique_ptr<Contents> contents_;
+    std::filesystem::path path_;
+    LoadOptions options_;
+    std::unique_ptr<Contents> contents_;  // null before the first scene
 };
 
 // The scene at options.at.

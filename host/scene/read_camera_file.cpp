@@ -62,11 +62,12 @@ private:
         if (entry_.contains("from") != entry_.contains("at")) {
             refuse(place_ + " has only one of from and at; expected both");
         }
-        for (const char* other : {"from", "zoom", "up"}) {
-            const bool excluded = entry_.contains("matrix") || (other != std::string("from") && !entry_.contains("from"));
-            if (excluded && entry_.contains(other)) {
-                refuse(place_ + " has a member \"" + other + "\"" + (entry_.contains("matrix") ? " beside matrix" : " without from") +
-                       "; expected from, at, up and zoom, or matrix");
+        if (entry_.contains("matrix") && entry_.contains("from")) {
+            refuse(place_ + " has both matrix and from; expected one of them");
+        }
+        for (const char* member : {"up", "zoom"}) {
+            if (entry_.contains(member) && !entry_.contains("from")) {
+                refuse(place_ + " has a member \"" + member + "\" without from; expected from and at with it");
             }
         }
         if (entry_.contains("zoom") && entry_.contains("yfov")) {

@@ -81,6 +81,23 @@ Scene cardsInFrontOfCards()
     return scene;
 }
 
+// No primitive is left, and rays meet the sky.
+TEST(AlphaTest, AScenesOnlySurfaceMayBeTransparentAllOver)
+{
+    SceneBuilder builder;
+    const auto clear = builder.lambert(glm::vec3(0.5F));
+    builder.cube(1.0F, clear, false).environment(glm::vec3(0.25F)).perspective({0, 0, 5}, {0, 0, 0}, 0.3F);
+    Scene scene = builder.scene();
+    scene.materials[clear].alphaMode = AlphaMode::Blend;
+    scene.materials[clear].alpha = 0.0F;
+    const FlatScene flat = flattened(scene);
+    EXPECT_EQ(flat.records.size(), 0U);
+    EXPECT_EQ(flat.nodes.size(), kNodeTexels) << "a root";
+    for (const PixelMoments& pixel : renderFlat(flat, scene.cameras.front(), squareSettings(4, 2)).pixels) {
+        EXPECT_EQ(pixel.mean, glm::vec3(0.25F));
+    }
+}
+
 TEST(AlphaTest, CardsInFrontOfCardsWhateverTheTree)
 {
     const Scene scene = cardsInFrontOfCards();

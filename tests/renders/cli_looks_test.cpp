@@ -190,7 +190,7 @@ TEST_F(LooksTest, LargeTexturesAreStatedBeforeTheRender)
     texels[0] = 8;
     const Bytes png = encodePng(4096, 4100, texels);
     writeText(folder_ / "wood.png", {png.begin(), png.end()});
-    EXPECT_TRUE(contains(run({"inspect", "scene.gltf"}).err,
+    EXPECT_TRUE(contains(render({}).err,
                          "glim: textures take 64 MiB on the device and the environment 12 MiB; --max-texture N scales textures down\n"));
     EXPECT_FALSE(contains(run({"inspect", "scene.gltf", "--max-texture", "2048"}).err, "textures take"));
 }

@@ -78,6 +78,14 @@ TEST_F(SequenceTest, FramesAreThePicturesOfTheirTimes)
     EXPECT_FALSE(sameBits(film("f.000.exr").pixels, film("f.010.exr").pixels));
 }
 
+TEST_F(SequenceTest, OfOnePictureToo)
+{
+    writeScene(1);
+    const std::vector<std::string> frame{"--frames", "3:3", "--spp", "2", "-o", "f#.exr"};
+    expectDone(frame);
+    EXPECT_NE(expectDone(frame).out.find("f3.exr: is whole and was kept\n0 of 1 pictures"), std::string::npos);
+}
+
 TEST_F(SequenceTest, WholeFilmsAreKept)
 {
     writeScene(1);
@@ -185,7 +193,7 @@ TEST_F(SequenceTest, ListsOfCamerasThatAreWrongAreRefused)
     expect(R"([{}, {"form": [0, 0, 0]}])", "[1] has a member \"form\"; expected camera, from, at, up, zoom, matrix or yfov.");
     expect(R"([{"from": [0, 0, 1]}])", "[0] has only one of from and at; expected both.");
     expect(R"([{"from": [0, 0], "at": [0, 0, 0]}])", "[0].from is [0,0]; expected 3 finite numbers.");
-    expect(R"([{"zoom": 2}])", "[0] has a member \"zoom\" without from; expected from, at, up and zoom, or matrix.");
+    expect(R"([{"zoom": 2}])", "[0] has a member \"zoom\" without from; expected from and at with it.");
     expect(R"([{"yfov": 4}])", "[0].yfov is 4; expected radians between 0 and pi.");
     expect(R"([{"camera": 7}])", "[0]: scene.gltf: camera \"7\": expected one of 0 \"camera 0\".");
     expect(R"([{}, {"from": [1, 1, 1], "at": [1, 1, 1]}])", "[1]: --look-at: is where --look-from is; expected another point.");
@@ -204,10 +212,12 @@ TEST_F(SequenceTest, OptionsThatContradictEachOtherAreRefused)
     expect({"--frames", "2:1", "-o", "f#.exr"}, "--frames: \"2:1\": expected FIRST:LAST or FIRST:LAST:STEP");
     expect({"--frames", "1:2", "-o", "f.exr"}, "--output: \"f.exr\": names one file for several pictures");
     expect({"--frames", "1:2", "-o", "f#.exr", "--png", "#-#.png"}, "--png: \"#-#.png\": names one file for several pictures");
-    expect({"--frames", "1:2", "--at", "1", "-o", "f#.exr"}, "--at: \"1\": --frames chooses the times");
-    expect({"--frames", "1:2", "--turntable", "3", "-o", "f#.exr"}, "expected only one of --frames, --turntable and --cameras");
-    expect({"--frames", "1:2", "--camera", "all", "-o", "f#.exr"}, "--camera: \"all\": --frames shows one camera");
-    expect({"--turntable", "3", "--camera", "0", "-o", "f#.exr"}, "--camera: \"0\": --turntable chooses the cameras");
+    expect({"--frames", "1:2", "--at", "1", "-o", "f#.exr"}, "--at excludes --frames");
+    expect({"--frames", "1:2", "--turntable", "3", "-o", "f#.exr"}, "--frames excludes --turntable");
+    expect({"--frames", "1:2", "--camera", "all", "-o", "f#.exr"},
+           "--frames: \"1:2\": has one camera; expected its name or index as --camera");
+    expect({"--turntable", "3", "--camera", "0", "-o", "f#.exr"}, "--camera excludes --turntable");
+    expect({"--frames", "1:20", "-o", "f#.exr", "--ids", "f##.exr"}, "--ids: \"f##.exr\": expected another file than that of --output");
     expect({"--fps", "3", "-o", "f.exr"}, "--fps requires --frames");
     expect({"--camera", "all", "--replay", "1,1,1"}, "--replay");
 }

@@ -40,8 +40,13 @@ std::size_t addMesh(test::GltfBuilder& builder, const Scene& scene, std::size_t 
     return builder.addMesh({{"attributes", {{"POSITION", builder.addVec3(positions)}}}, {"material", material}});
 }
 
-// A closed room of albedo .7 whose walls emit a little, with a lamp, a tilted box and a ball; all of it under one root node.
-Scene roomAt(double scale, double shift)
+// The meshes of a closed room, of a box and of a lamp, with materials 0, 1 and 2; and a camera.
+struct RoomMeshes {
+    test::GltfBuilder builder;
+    std::size_t room, box, lamp;
+};
+
+RoomMeshes meshesOfRoom(double wallEmission)
 {
     SceneBuilder room, box, lamp;
     for (SceneBuilder* builder : {&room, &box, &lamp}) {
@@ -50,16 +55,24 @@ Scene roomAt(double scale, double shift)
     room.cube(1.0F, 0, true);
     box.cube(0.3F, 0, false);
     lamp.quad({glm::vec3(-0.4F, 0.9F, -0.4F), {0.4F, 0.9F, -0.4F}, {0.4F, 0.9F, 0.4F}, {-0.4F, 0.9F, 0.4F}}, 0);
-    test::GltfBuilder builder;
-    builder.append("materials", lambert(0.7, 0.125));
-    builder.append("materials", lambert(0.4, 0.0));
-    builder.append("materials", lambert(0.0, 1.0));
-    builder.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
-    builder.append("nodes", {{"mesh", addMesh(builder, room.scene(), 0)}});
-    builder.append(
-        "nodes",
-        {{"mesh", addMesh(builder, box.scene(), 1)}, {"translation", {-0.375, -0.5625, -0.3125}}, {"rotation", {0.1, 0.3, 0.05, 0.9}}});
-    builder.append("nodes", {{"mesh", addMesh(builder, lamp.scene(), 2)}});
+    RoomMeshes meshes{};
+    meshes.builder.append("materials", lambert(0.7, wallEmission));
+    meshes.builder.append("materials", lambert(0.4, 0.0));
+    meshes.builder.append("materials", lambert(0.0, 1.0));
+    meshes.builder.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
+    meshes.room = addMesh(meshes.builder, room.scene(), 0);
+    meshes.box = addMesh(meshes.builder, box.scene(), 1);
+    meshes.lamp = addMesh(meshes.builder, lamp.scene(), 2);
+    return meshes;
+}
+
+// A closed room of albedo .7 whose walls emit a little, with a lamp, a tilted box and a ball; all of it under one root node.
+Scene roomAt(double scale, double shift)
+{
+    auto [builder, room, box, lamp] = meshesOfRoom(0.125);
+    builder.append("nodes", {{"mesh", room}});
+    builder.append("nodes", {{"mesh", box}, {"translation", {-0.375, -0.5625, -0.3125}}, {"rotation", {0.1, 0.3, 0.05, 0.9}}});
+    builder.append("nodes", {{"mesh", lamp}});
     builder.append("nodes", {{"translation", {0.4375, -0.625, 0.125}}, {"extras", {{"sphere", {{"radius", 0.35}, {"material", 1}}}}}});
     builder.append("nodes", {{"translation", {0, 0, 0.9375}}, {"camera", 0}});
     builder.addNode({{"children", {0, 1, 2, 3, 4}}, {"translation", {shift, -shift, shift}}, {"scale", {scale, scale, scale}}});
@@ -156,25 +169,13 @@ TEST(ScaleAndPlaceTest, H8SmallOrLargeAndFarAway)
 // lamp's light on the walls. The nodes stand below one with this scale and place.
 Scene roomOfInstances(const glm::dvec3& scale, double shift)
 {
-    SceneBuilder room, box, lamp;
-    for (SceneBuilder* builder : {&room, &box, &lamp}) {
-        builder->lambert(glm::vec3(0.5F));
-    }
-    room.cube(1.0F, 0, true);
-    box.cube(0.3F, 0, false);
-    lamp.quad({glm::vec3(-0.4F, 0.9F, -0.4F), {0.4F, 0.9F, -0.4F}, {0.4F, 0.9F, 0.4F}, {-0.4F, 0.9F, 0.4F}}, 0);
-    test::GltfBuilder builder;
-    builder.append("materials", lambert(0.7, 0.0));
-    builder.append("materials", lambert(0.4, 0.0));
-    builder.append("materials", lambert(0.0, 1.0));
-    builder.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
-    const std::size_t walls = addMesh(builder, room.scene(), 0), body = addMesh(builder, box.scene(), 1);
+    auto [builder, walls, body, lamp] = meshesOfRoom(0.0);
     const json turn = {0.1, 0.3, 0.05, 0.9};
     builder.append("nodes", {{"mesh", walls}});
     builder.append("nodes", {{"mesh", walls}, {"translation", {3, 0.5, 0}}, {"rotation", turn}});
     builder.append("nodes", {{"mesh", body}, {"translation", {-0.375, -0.5625, -0.3125}}, {"rotation", turn}});
     builder.append("nodes", {{"mesh", body}, {"translation", {0.4, -0.7, 0.2}}, {"scale", {1, -0.5, 0.7}}});
-    builder.append("nodes", {{"mesh", addMesh(builder, lamp.scene(), 2)}});
+    builder.append("nodes", {{"mesh", lamp}});
     builder.append("nodes", {{"translation", {0, 0, 0.9375}}, {"camera", 0}});
     builder.addNode({{"children", {0, 1, 2, 3, 4, 5}}, {"translation", {shift, -shift, shift}}, {"scale", {scale.x, scale.y, scale.z}}});
     LoadOptions options;

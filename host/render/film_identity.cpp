@@ -1,0 +1,16 @@
+#include "host/render/film_identity.hpp"
+
+namespace glim {
+
+SceneIdentity::SceneIdentity(const FlatScene& scene)
+    : fingerprint(glim::fingerprint(scene)),
+      sharesMeshes((scene.features & kFeatureInstances) != 0)
+{}
+
+FilmIdentity identityOf(const SceneIdentity& scene, const FlatCamera& camera, const RenderSettings& settings)
+{
+    return {fingerprint(scene.fingerprint, camera), describeSettings(settings) + (scene.sharesMeshes ? " meshes=shared" : ""),
+            settings.seed};
+}
+
+}  // namespace glim
