@@ -89,5 +89,18 @@ TEST_F(SceneFileTest, KeepsWhatDoesNotMove)
     }
 }
 
+// Nothing is left to hit, and nothing was there before: the tree is a root.
+TEST_F(SceneFileTest, ASceneWithoutAnyPrimitiveHasATree)
+{
+    GltfBuilder builder;
+    builder.addNode({{"mesh", builder.addTriangleMesh()}});
+    builder.document["meshes"][0]["primitives"][0]["material"] = 0;
+    builder.append("materials", {{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0}}}}});
+    writeText(folder_ / "clear.gltf", builder.toGltf());
+    const PreparedScene prepared = prepareScene(folder_ / "clear.gltf", studio());
+    EXPECT_EQ(prepared.primitives.count(), 0U);
+    EXPECT_EQ(prepared.flat.nodes.size(), kNodeTexels);
+}
+
 }  // namespace
 }  // namespace glim::test

@@ -78,6 +78,30 @@ TEST_F(SequenceTest, FramesAreThePicturesOfTheirTimes)
     EXPECT_FALSE(sameBits(film("f.000.exr").pixels, film("f.010.exr").pixels));
 }
 
+// The material is diffuse alone at first, then also metal, which other kernels draw.
+TEST_F(SequenceTest, KernelsAreThoseThatEachPictureNeeds)
+{
+    GltfBuilder builder;
+    builder.addNode({{"mesh", builder.addTriangleMesh()}});
+    builder.document["meshes"][0]["primitives"][0]["material"] = 0;
+    builder.append("materials", {{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0.5}}},
+                                 {"extensions", {{"KHR_materials_specular", {{"specularFactor", 0}}}}}});
+    const std::size_t times = builder.addAccessor(toBytes<float>({0, 1}), kFloat, "SCALAR", 2);
+    const std::size_t values = builder.addAccessor(toBytes<float>({0, 1}), kFloat, "SCALAR", 2);
+    const json pointer = {{"pointer", "/materials/0/pbrMetallicRoughness/metallicFactor"}};
+    builder.append(
+        "animations",
+        {{"samplers", {{{"input", times}, {"output", values}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", pointer}}}}}}}}});
+    builder.document["extensionsUsed"] = {"KHR_animation_pointer", "KHR_materials_specular"};
+    writeText(folder_ / "scene.gltf", builder.toGltf());
+    expectDone({"--frames", "0:1", "--fps", "1", "--spp", "8", "-o", "f#.exr"});
+    for (const char* second : {"0", "1"}) {
+        expectDone({"--at", second, "--spp", "8", "-o", "one.exr"});
+        expectSame(("f" + std::string(second) + ".exr").c_str(), "one.exr");
+    }
+}
+
 TEST_F(SequenceTest, OfOnePictureToo)
 {
     writeScene(1);

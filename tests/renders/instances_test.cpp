@@ -80,7 +80,10 @@ TEST(SharedMeshesTest, LookLikeFlattenedOnes)
     RenderSettings settings = squareSettings(48, samplesFor(256));
     const Film expected = renderFlat(flat, scene.cameras.front(), settings);
     settings.seed = 1;
-    expectSameMean("shared meshes", renderFlat(shared, scene.cameras.front(), settings), expected);
+    const Film film = renderFlat(shared, scene.cameras.front(), settings);
+    expectSameMean("shared meshes", film, expected);
+    EXPECT_NE(film.identity.settings.find(" meshes=shared"), std::string::npos) << film.identity.settings;
+    EXPECT_EQ(expected.identity.settings.find("meshes="), std::string::npos) << expected.identity.settings;
 }
 
 // What the first surface is: the same samples of both scenes see the same, but for rays that rounding takes past an edge.
