@@ -49,6 +49,7 @@ struct MeshTree {
     std::uint32_t firstNode;
     std::uint32_t firstEntry;  // in `order`
     std::uint32_t entryCount;
+    std::uint32_t depth;
 };
 
 struct WideBvh {

@@ -141,10 +141,7 @@ Json texturesOf(const PreparedScene& prepared)
     return textures;
 }
 
-std::uint64_t environmentBytes(const PreparedScene& prepared)
-{
-    return textureBytes(prepared.flat) - prepared.flat.texels.size() * sizeof(prepared.flat.texels[0]);
-}
+std::uint64_t environmentBytes(const PreparedScene& prepared) { return textureBytes(prepared.flat) - imageBytes(prepared.flat); }
 
 Json environmentOf(const PreparedScene& prepared)
 {

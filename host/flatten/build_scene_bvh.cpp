@@ -1,7 +1,7 @@
 #include "host/flatten/build_scene_bvh.hpp"
 
 #include "host/bvh/collapse_bvh.hpp"
-#include "host/bvh/parallel_for.hpp"
+#include "host/bvh/refit_bvh.hpp"
 #include "host/flatten/place_instances.hpp"
 #include "host/flatten/split_triangles.hpp"
 
@@ -95,12 +95,13 @@ glm::vec3 farthestOf(std::span<const Box> boxes)
     return farthest;
 }
 
-WideBvh buildTopTree(const Primitives& primitives, std::span<const WideBvh> trees, SplitRule rule)
+// The boxes of primitives, then those of instances. `roots`: of the shared meshes' trees.
+std::vector<Box> boxesOfTop(const Primitives& primitives, std::span<const WideNode> roots)
 {
     const auto firstInstance = static_cast<std::uint32_t>(primitives.count());
     std::vector<Box> boxes = primitiveBoxes(primitives);
     for (const Placement& placement : primitives.placements) {
-        boxes.push_back(placeBoxes(placement, childBoxes(trees[placement.sharedMesh].nodes[0])));
+        boxes.push_back(placeBoxes(placement, childBoxes(roots[placement.sharedMesh])));
     }
     const glm::vec3 farthest = farthestOf(boxes);
     for (std::size_t i = 0; i < primitives.placements.size(); ++i) {
@@ -108,6 +109,13 @@ WideBvh buildTopTree(const Primitives& primitives, std::span<const WideBvh> tree
         Box& box = boxes[firstInstance + i];
         box = {box.lo - error, box.hi + error};
     }
+    return boxes;
+}
+
+WideBvh buildTopTree(const Primitives& primitives, std::span<const WideNode> roots, SplitRule rule)
+{
+    const auto firstInstance = static_cast<std::uint32_t>(primitives.count());
+    const std::vector<Box> boxes = boxesOfTop(primitives, roots);
     WideBvh top =
         collapseBvh(buildBvh(boxes, rule, std::thread::hardware_concurrency(), 1), std::thread::hardware_concurrency(), firstInstance);
     if (top.depth > kMostDepthOfTwo) {
@@ -115,51 +123,6 @@ WideBvh buildTopTree(const Primitives& primitives, std::span<const WideBvh> tree
                           firstInstance);
     }
     return top;
-}
-
-// Puts a mesh's tree behind the others. Its triangles have the ids from `firstId` on.
-void append(WideBvh& bvh, const WideBvh& tree, std::uint32_t firstId)
-{
-    const auto firstNode = static_cast<std::uint32_t>(bvh.nodes.size()), firstEntry = static_cast<std::uint32_t>(bvh.order.size());
-    bvh.meshTrees.push_back({tree.box, firstNode, firstEntry, static_cast<std::uint32_t>(tree.order.size())});
-    for (WideNode node : tree.nodes) {
-        for (WideChild& child : node.children) {
-            child.first += child.kind == WideChild::Kind::Inner ? firstNode : child.kind == WideChild::Kind::Leaf ? firstEntry : 0;
-        }
-        bvh.nodes.push_back(node);
-    }
-    for (const std::uint32_t triangle : tree.order) {
-        bvh.order.push_back(firstId + triangle);
-    }
-}
-
-// A root without children.
-WideBvh makeEmptyTree()
-{
-    WideBvh tree;
-    tree.nodes.resize(1);
-    tree.depth = 1;
-    return tree;
-}
-
-WideBvh buildTwoLevels(const Primitives& primitives, SplitRule rule)
-{
-    std::vector<WideBvh> trees;
-    trees.reserve(primitives.sharedMeshes.size());
-    std::uint32_t depth = 0;
-    for (const SharedMesh& mesh : primitives.sharedMeshes) {
-        trees.push_back(mesh.triangles.empty() ? WideBvh{} : buildMeshTree(mesh, rule));
-        depth = std::max(depth, trees.back().depth);
-    }
-    WideBvh bvh = buildTopTree(primitives, trees, rule);
-    bvh.depth += depth;
-    for (std::size_t i = 0; i < trees.size(); ++i) {
-        append(bvh, trees[i], primitives.sharedMeshes[i].firstId);
-    }
-    for (InstanceNode& node : bvh.instances) {
-        node.root = bvh.meshTrees[primitives.placements[node.instance].sharedMesh].firstNode;
-    }
-    return bvh;
 }
 
 bool areSame(const Triangle& a, const Triangle& b)
@@ -184,13 +147,107 @@ bool areAllSame(const std::vector<T>& a, const std::vector<T>& b)
 
 bool areSame(const SharedMesh& a, const SharedMesh& b) { return areAllSame(a.triangles, b.triangles); }
 
-}  // namespace
+// Puts a mesh's tree behind the others. Its triangles have the ids from `firstId` on.
+void append(WideBvh& bvh, const WideBvh& tree, std::uint32_t firstId)
+{
+    const auto firstNode = static_cast<std::uint32_t>(bvh.nodes.size()), firstEntry = static_cast<std::uint32_t>(bvh.order.size());
+    bvh.meshTrees.push_back({tree.box, firstNode, firstEntry, static_cast<std::uint32_t>(tree.order.size()), tree.depth});
+    for (WideNode node : tree.nodes) {
+        for (WideChild& child : node.children) {
+            child.first += child.kind == WideChild::Kind::Inner ? firstNode : child.kind == WideChild::Kind::Leaf ? firstEntry : 0;
+        }
+        bvh.nodes.push_back(node);
+    }
+    for (const std::uint32_t triangle : tree.order) {
+        bvh.order.push_back(firstId + triangle);
+    }
+}
+
+// The tree that `append` has put there, but for its cost.
+WideBvh extract(const WideBvh& bvh, std::size_t mesh, std::uint32_t firstId)
+{
+    const MeshTree& place = bvh.meshTrees[mesh];
+    const std::size_t endNode = mesh + 1 < bvh.meshTrees.size() ? bvh.meshTrees[mesh + 1].firstNode : bvh.nodes.size();
+    WideBvh tree;
+    tree.box = place.box;
+    tree.depth = place.depth;
+    for (WideNode node : std::span(bvh.nodes).subspan(place.firstNode, endNode - place.firstNode)) {
+        for (WideChild& child : node.children) {
+            child.first -= child.kind == WideChild::Kind::Inner  ? place.firstNode
+                           : child.kind == WideChild::Kind::Leaf ? place.firstEntry
+                                                                 : 0;
+        }
+        tree.nodes.push_back(node);
+    }
+    for (const std::uint32_t triangle : std::span(bvh.order).subspan(place.firstEntry, place.entryCount)) {
+        tree.order.push_back(triangle - firstId);
+    }
+    return tree;
+}
+
+// A root without children.
+WideBvh makeEmptyTree()
+{
+    WideBvh tree;
+    tree.nodes.resize(1);
+    tree.depth = 1;
+    return tree;
+}
+
+WideBvh buildTwoLevels(const Primitives& primitives, SplitRule rule, const WideBvh& previous, const Primitives& before)
+{
+    std::vector<WideBvh> trees;
+    trees.reserve(primitives.sharedMeshes.size());
+    std::vector<WideNode> roots;
+    std::uint32_t depth = 0;
+    for (std::size_t i = 0; i < primitives.sharedMeshes.size(); ++i) {
+        const SharedMesh& mesh = primitives.sharedMeshes[i];
+        const bool same = i < previous.meshTrees.size() && areSame(mesh, before.sharedMeshes[i]);
+        trees.push_back(same                     ? extract(previous, i, before.sharedMeshes[i].firstId)
+                        : mesh.triangles.empty() ? WideBvh{}
+                                                 : buildMeshTree(mesh, rule));
+        roots.push_back(trees.back().nodes.empty() ? WideNode{} : trees.back().nodes[0]);
+        depth = std::max(depth, trees.back().depth);
+    }
+    WideBvh bvh = buildTopTree(primitives, roots, rule);
+    bvh.depth += depth;
+    for (std::size_t i = 0; i < trees.size(); ++i) {
+        append(bvh, trees[i], primitives.sharedMeshes[i].firstId);
+    }
+    for (InstanceNode& node : bvh.instances) {
+        node.root = bvh.meshTrees[primitives.placements[node.instance].sharedMesh].firstNode;
+    }
+    return bvh;
+}
 
 bool haveSameSurfaces(const Primitives& a, const Primitives& b)
 {
     return areAllSame(a.triangles, b.triangles) && areAllSame(a.spheres, b.spheres) && areAllSame(a.sharedMeshes, b.sharedMeshes) &&
            areAllSame(a.placements, b.placements);
 }
+
+// Whether a tree over `before` is one over the primitives once it is refitted: it is not over pieces, and only what is flattened and where
+// instances are may differ.
+bool canRefit(const WideBvh& bvh, const Primitives& before, const Primitives& primitives)
+{
+    const std::size_t entries = bvh.meshTrees.empty() ? bvh.order.size() : bvh.meshTrees.front().firstEntry;
+    const auto sameMesh = [](const Placement& a, const Placement& b) { return a.sharedMesh == b.sharedMesh; };
+    return entries == primitives.count() && before.triangles.size() == primitives.triangles.size() &&
+           before.spheres.size() == primitives.spheres.size() && areAllSame(before.sharedMeshes, primitives.sharedMeshes) &&
+           std::equal(before.placements.begin(), before.placements.end(), primitives.placements.begin(), primitives.placements.end(),
+                      sameMesh);
+}
+
+std::vector<WideNode> rootsOf(const WideBvh& bvh)
+{
+    std::vector<WideNode> roots;
+    for (const MeshTree& tree : bvh.meshTrees) {
+        roots.push_back(tree.entryCount == 0 ? WideNode{} : bvh.nodes[tree.firstNode]);
+    }
+    return roots;
+}
+
+}  // namespace
 
 std::vector<Box> primitiveBoxes(const Primitives& primitives)
 {
@@ -207,7 +264,20 @@ WideBvh buildSceneBvh(const Primitives& primitives, SplitRule rule)
         return makeEmptyTree();  // of a scene that is transparent all over
     }
     return primitives.placements.empty() ? buildTree(primitives.triangles, primitiveBoxes(primitives), rule)
-                                         : buildTwoLevels(primitives, rule);
+                                         : buildTwoLevels(primitives, rule, {}, {});
+}
+
+WideBvh updateSceneBvh(WideBvh previous, const Primitives& before, const Primitives& primitives, SplitRule rule)
+{
+    if (haveSameSurfaces(before, primitives)) {
+        return previous;
+    }
+    if (canRefit(previous, before, primitives)) {
+        if (auto refitted = refitBvh(previous, boxesOfTop(primitives, rootsOf(previous)), 1.0 / kWorthwhile)) {
+            return *std::move(refitted);
+        }
+    }
+    return primitives.placements.empty() ? buildSceneBvh(primitives, rule) : buildTwoLevels(primitives, rule, previous, before);
 }
 
 }  // namespace glim

@@ -1,5 +1,6 @@
 #include "host/flatten/environment_map.hpp"
 
+#include "host/flatten/fingerprint.hpp"
 #include "host/flatten/piecewise_constant.hpp"
 
 #include <algorithm>
@@ -139,26 +140,22 @@ std::vector<uvec4> makeCells(const std::vector<double>& weights, const CellGrid&
 
 }  // namespace
 
-void flattenEnvironmentMap(FlatScene& flat, std::shared_ptr<const RadianceMap> source)
+PackedEnvironment packEnvironmentMap(std::shared_ptr<const RadianceMap> source)
 {
-    if (flat.environmentMap == source) {
-        return;
-    }
-    flat.environmentMap = std::move(source);
-    const RadianceMap& map = *flat.environmentMap;
+    PackedEnvironment packed;
+    packed.source = std::move(source);
+    const RadianceMap& map = *packed.source;
     const CellGrid grid = chooseCells(map);
     std::vector<double> weights = meansOfCells(map, grid);
-    double integral = 0.0;
     for (std::uint32_t row = 0; row < grid.height; ++row) {
         for (std::uint32_t x = 0; x < grid.width; ++x) {
-            integral += weights[std::size_t{row} * grid.width + x] * solidAngle(row, grid);
+            packed.integral += weights[std::size_t{row} * grid.width + x] * solidAngle(row, grid);
         }
     }
-    flat.environmentIntegral = integral;
-    if (!(integral > 0.0)) {
-        return;
+    if (!(packed.integral > 0.0)) {
+        return packed;
     }
-    const double mean = integral / (4.0 * kPi);
+    const double mean = packed.integral / (4.0 * kPi);
     for (std::uint32_t row = 0; row < grid.height; ++row) {
         for (std::uint32_t x = 0; x < grid.width; ++x) {
             double& weight = weights[std::size_t{row} * grid.width + x];
@@ -167,13 +164,17 @@ void flattenEnvironmentMap(FlatScene& flat, std::shared_ptr<const RadianceMap> s
             weight = (std::max(weight, 1e-6 * mean) * kPlainShare + compensated * (1.0 - kPlainShare)) * solidAngle(row, grid);
         }
     }
-    flat.environmentTexels.reserve(map.texels.size());
+    packed.texels.reserve(map.texels.size());
     for (const glm::vec3& texel : map.texels) {
-        flat.environmentTexels.push_back(packTexel(texel));
+        packed.texels.push_back(packTexel(texel));
     }
-    flat.environmentSize = {map.width, map.height};
-    flat.environmentCellCount = {grid.width, grid.height};
-    flat.environmentCells = makeCells(weights, grid);
+    packed.size = {map.width, map.height};
+    packed.cellCount = {grid.width, grid.height};
+    packed.cells = makeCells(weights, grid);
+    Fingerprint print;
+    print.add(packed.texels);
+    packed.fingerprint = print.state();
+    return packed;
 }
 
 }  // namespace glim

@@ -5,8 +5,7 @@
 
 namespace glim {
 
-// Fills the part of `flat` that is of an environment map, unless it is of this one already. Of a black map only the integral is filled,
-// which is 0.
-void flattenEnvironmentMap(FlatScene& flat, std::shared_ptr<const RadianceMap> map);
+// Of a black map only the integral is filled, which is 0.
+PackedEnvironment packEnvironmentMap(std::shared_ptr<const RadianceMap> map);
 
 }  // namespace glim

@@ -1,5 +1,7 @@
 #include "host/flatten/flat_scene.hpp"
 
+#include "host/flatten/fingerprint.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -7,29 +9,6 @@
 
 namespace glim {
 namespace {
-
-// FNV-1a, 64 bits (Fowler, Noll, Vo): not cryptographic.
-class Fingerprint {
-public:
-    explicit Fingerprint(std::uint64_t state = 14695981039346656037ULL)
-        : state_(state)
-    {}
-    template <class T>
-    void add(const std::vector<T>& values)
-    {
-        addBytes(std::as_bytes(std::span<const T>(values)));
-    }
-    void addBytes(std::span<const std::byte> bytes)
-    {
-        for (const std::byte byte : bytes) {
-            state_ = (state_ ^ static_cast<std::uint64_t>(byte)) * 1099511628211ULL;
-        }
-    }
-    std::uint64_t state() const { return state_; }
-
-private:
-    std::uint64_t state_;
-};
 
 // Adds three normals per primitive, as when each primitive had its own: films from that time can still be merged and resumed.
 void addNormals(Fingerprint& print, const FlatScene& scene, std::size_t primitive)
@@ -66,14 +45,15 @@ std::uint64_t sizeInBytes(const FlatScene& scene)
 {
     return bytesOf(scene.nodes) + bytesOf(scene.records) + bytesOf(scene.triangles) + bytesOf(scene.vertices) + bytesOf(scene.materials) +
            bytesOf(scene.lights) + bytesOf(scene.lightNodes) + bytesOf(scene.principled) + bytesOf(scene.layers) + bytesOf(scene.textures) +
-           bytesOf(scene.media) + bytesOf(scene.texels) + bytesOf(scene.albedos) + bytesOf(scene.environmentTexels) +
-           bytesOf(scene.environmentCells) + bytesOf(scene.caustics) + bytesOf(scene.instances);
+           bytesOf(scene.media) + bytesOf(scene.albedos) + bytesOf(scene.caustics) + bytesOf(scene.instances) + textureBytes(scene);
 }
 
 std::uint64_t textureBytes(const FlatScene& scene)
 {
-    return bytesOf(scene.texels) + bytesOf(scene.environmentTexels) + bytesOf(scene.environmentCells);
+    return imageBytes(scene) + bytesOf(scene.environmentMap->texels) + bytesOf(scene.environmentMap->cells);
 }
+
+std::uint64_t imageBytes(const FlatScene& scene) { return bytesOf(scene.images->texels); }
 
 std::uint64_t fingerprint(const FlatScene& scene)
 {
@@ -102,9 +82,13 @@ std::uint64_t fingerprint(const FlatScene& scene)
     print.add(scene.layers);
     print.add(scene.textures);
     print.add(scene.media);
-    print.add(scene.texels);
-    print.add(scene.environmentTexels);
-    if (!scene.environmentTexels.empty() || scene.hidesEnvironment) {
+    if (!scene.images->texels.empty()) {
+        print.add(std::vector<std::uint64_t>{scene.images->fingerprint});
+    }
+    if (!scene.environmentMap->texels.empty()) {
+        print.add(std::vector<std::uint64_t>{scene.environmentMap->fingerprint});
+    }
+    if (!scene.environmentMap->texels.empty() || scene.hidesEnvironment) {
         print.add(std::vector<vec3>{scene.environment, vec3(scene.environmentTurn, scene.hidesEnvironment ? 1.0F : 0.0F)});
     }
     for (std::size_t at = 0; at < scene.instances.size(); at += kInstanceTexels) {

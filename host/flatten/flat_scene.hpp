@@ -1,6 +1,7 @@
 // The scene as the arrays that kernels read. shaders/shared/scene_types.h says what is in their elements.
 #pragma once
 
+#include "host/image/decode_image.hpp"
 #include "host/image/radiance_map.hpp"
 #include "shaders/shared/features.h"
 #include "shaders/shared/limits.h"
@@ -52,6 +53,23 @@ constexpr Feature kFeatures[] = {{kFeatureSpheres, "spheres"},
                                  {kFeatureCaustics, "caustics"},
                                  {kFeatureInstances, "instances"}};
 
+// The images of a scene as kernels read them: each once, however many textures use it.
+struct PackedImages {
+    std::vector<std::weak_ptr<const DecodedImage>> sources;  // in this order
+    std::vector<std::uint32_t> texels;                       // a byte per channel
+    std::uint64_t fingerprint = 0;
+};
+
+// An environment map as kernels read it (shaders/access/environment_map.glsl).
+struct PackedEnvironment {
+    std::shared_ptr<const RadianceMap> source;  // null: there is no map
+    double integral = 0.0;                      // of its strongest channel over all directions
+    std::vector<uvec2> texels;                  // empty, as the cells are, if the map is black
+    std::vector<uvec4> cells;                   // by which it is sampled
+    uvec2 size{0}, cellCount{0};
+    std::uint64_t fingerprint = 0;  // of the texels
+};
+
 struct FlatScene {
     std::vector<uvec4> nodes;
     std::vector<uvec4> records;              // for traversal, in the order of the BVH's leaves
@@ -67,23 +85,19 @@ struct FlatScene {
     std::vector<MediumData> media;           // behind these, from texel firstMedium on
     std::uint32_t firstMedium = 0;
     std::vector<std::uint32_t> materialFeatures;  // what each material needs, used or not; not on the device
-    std::vector<std::uint32_t> texels;            // of images, a byte per channel
+    std::shared_ptr<const PackedImages> images = std::make_shared<PackedImages>();  // never null
     std::vector<std::uint64_t> imageBytes;  // of each image of the scene; 0: of one colour, which is in the factors. Not on the device
     std::vector<uvec4> albedos;             // empty without kFeaturePrincipled
     std::vector<FlatLight> lights;
     std::vector<LightNode> lightNodes;
-    std::uint32_t finiteLights = 0;                     // the first lights
-    float infiniteImportance = 0.0F;                    // as in RenderParameters
-    std::uint32_t features = 0;                         // kFeatureSpheres ...: what the scene needs
-    std::uint32_t stackLevels = kMaxStackLevels;        // of the traversal stack
-    vec3 environment{0.0F};                             // radiance, or what multiplies that of the map
-    bool hidesEnvironment = false;                      // from the camera
-    vec2 environmentTurn{1.0F, 0.0F};                   // cosine and sine of the map's rotation
-    std::shared_ptr<const RadianceMap> environmentMap;  // that the following is of; null: there is none
-    double environmentIntegral = 0.0;                   // of its strongest channel over all directions
-    std::vector<uvec2> environmentTexels;
-    std::vector<uvec4> environmentCells;
-    uvec2 environmentSize{0}, environmentCellCount{0};
+    std::uint32_t finiteLights = 0;               // the first lights
+    float infiniteImportance = 0.0F;              // as in RenderParameters
+    std::uint32_t features = 0;                   // kFeatureSpheres ...: what the scene needs
+    std::uint32_t stackLevels = kMaxStackLevels;  // of the traversal stack
+    vec3 environment{0.0F};                       // radiance, or what multiplies that of the map
+    bool hidesEnvironment = false;                // from the camera
+    vec2 environmentTurn{1.0F, 0.0F};             // cosine and sine of the map's rotation
+    std::shared_ptr<const PackedEnvironment> environmentMap = std::make_shared<PackedEnvironment>();  // never null
     std::uint32_t environmentLight = 0;  // index among lights, if the scene has kFeatureEnvironment
     std::vector<uvec4> caustics;         // as scene_types.h says; empty without kFeatureCaustics
     std::uint32_t causticTargets = 0, causticLights = 0;
@@ -93,8 +107,9 @@ struct FlatScene {
 // How many bytes the scene takes on the device.
 std::uint64_t sizeInBytes(const FlatScene& scene);
 
-// Of these, those of images and environment maps.
+// Of these, those of images and environment maps, and those of images alone.
 std::uint64_t textureBytes(const FlatScene& scene);
+std::uint64_t imageBytes(const FlatScene& scene);
 
 // A fingerprint of all of the above except the tree.
 std::uint64_t fingerprint(const FlatScene& scene);

@@ -1,6 +1,7 @@
 #include "host/flatten/flatten_materials.hpp"
 
 #include "host/error.hpp"
+#include "host/flatten/fingerprint.hpp"
 #include "host/flatten/media.hpp"
 #include "host/image/srgb.hpp"
 
@@ -52,6 +53,48 @@ std::optional<glm::dvec4> oneColor(const DecodedImage& image)
         return glm::dvec4(values[0], values[1], values[2], values[3]) / most;
     };
     return image.rgba16.empty() ? find(image.rgba8, 255.0) : find(image.rgba16, 65535.0);
+}
+
+static_assert(kMaxTextureBytes == (sizeof(std::uint32_t) * kMaxTexelViews) << kTexelViewBits);
+
+std::size_t wordsOf(const DecodedImage& image)
+{
+    const std::size_t texels = std::size_t{image.width} * image.height;
+    return image.rgba16.empty() ? texels : 2 * texels;
+}
+
+void appendTexels(std::vector<std::uint32_t>& texels, const DecodedImage& image)
+{
+    for (std::size_t i = 0; i < image.rgba8.size(); i += 4) {
+        const std::uint8_t* t = &image.rgba8[i];
+        texels.push_back(t[0] | t[1] << 8U | t[2] << 16U | static_cast<std::uint32_t>(t[3]) << 24U);
+    }
+    for (std::size_t i = 0; i < image.rgba16.size(); i += 2) {
+        const std::uint32_t a = image.rgba16[i], b = image.rgba16[i + 1];
+        texels.push_back(a >> 8U | (a & 0xffU) << 8U | (b >> 8U) << 16U | (b & 0xffU) << 24U);
+    }
+}
+
+using Images = std::vector<std::shared_ptr<const DecodedImage>>;
+
+bool areOf(const PackedImages& packed, const Images& images)
+{
+    return std::equal(packed.sources.begin(), packed.sources.end(), images.begin(), images.end(),
+                      [](const auto& source, const auto& image) { return source.lock() == image; });
+}
+
+PackedImages packImages(const Images& images, std::size_t words)
+{
+    PackedImages packed;
+    packed.sources.assign(images.begin(), images.end());
+    packed.texels.reserve(words);
+    for (const auto& image : images) {
+        appendTexels(packed.texels, *image);
+    }
+    Fingerprint print;
+    print.add(packed.texels);
+    packed.fingerprint = print.state();
+    return packed;
 }
 
 class MaterialFlattener {
@@ -107,9 +150,13 @@ public:
         flat_.materialFeatures.push_back(features_);
     }
 
-    // Turns counts into texels of the buffer: materials, principled, layers, textures, media.
+    // Turns counts into texels of the buffer: materials, principled, layers, textures, media. Packs the images, unless the scene has
+    // those of another time.
     void finish()
     {
+        if (!areOf(*flat_.images, images_)) {
+            flat_.images = std::make_shared<PackedImages>(packImages(images_, texelCount_));
+        }
         const auto first = static_cast<std::uint32_t>(flat_.materials.size() * kMaterialTexels);
         const auto firstLayers = first + static_cast<std::uint32_t>(flat_.principled.size() * kPrincipledTexels);
         const auto firstTexture = firstLayers + static_cast<std::uint32_t>(flat_.layers.size() * kLayersTexels);
@@ -312,27 +359,11 @@ private:
     // Each image once, however many textures use it.
     std::uint32_t addImage(std::uint32_t id)
     {
-        const auto [known, fresh] = firstTexels_.try_emplace(id, static_cast<std::uint32_t>(flat_.texels.size()));
-        if (!fresh) {
-            return known->second;
-        }
-        const DecodedImage& image = *scene_.images[id].pixels;
-        const std::size_t texels = std::size_t{image.width} * image.height, words = image.rgba16.empty() ? texels : 2 * texels;
-        static_assert(kMaxTextureBytes == (sizeof(std::uint32_t) * kMaxTexelViews) << kTexelViewBits);
-        flat_.texels.reserve(flat_.texels.size() + words);
-        flat_.imageBytes[id] = words * sizeof(std::uint32_t);
-        for (std::size_t i = 0; i < texels; ++i) {
-            if (image.rgba16.empty()) {
-                const std::uint8_t* t = &image.rgba8[4 * i];
-                flat_.texels.push_back(t[0] | t[1] << 8U | t[2] << 16U | static_cast<std::uint32_t>(t[3]) << 24U);
-            } else {
-                const std::uint16_t* t = &image.rgba16[4 * i];
-                const auto bytes = [](std::uint32_t a, std::uint32_t b) {
-                    return a >> 8U | (a & 0xffU) << 8U | (b >> 8U) << 16U | (b & 0xffU) << 24U;
-                };
-                flat_.texels.push_back(bytes(t[0], t[1]));
-                flat_.texels.push_back(bytes(t[2], t[3]));
-            }
+        const auto [known, fresh] = firstTexels_.try_emplace(id, texelCount_);
+        if (fresh) {
+            flat_.imageBytes[id] = wordsOf(*scene_.images[id].pixels) * sizeof(std::uint32_t);
+            images_.push_back(scene_.images[id].pixels);
+            texelCount_ += static_cast<std::uint32_t>(wordsOf(*scene_.images[id].pixels));
         }
         return known->second;
     }
@@ -343,6 +374,8 @@ private:
     std::uint32_t features_ = 0;                          // of the material that is added
     std::vector<std::optional<glm::dvec4>> colors_;       // by image
     std::map<std::uint32_t, std::uint32_t> firstTexels_;  // by image
+    Images images_;                                       // that textures use
+    std::uint32_t texelCount_ = 0;                        // of these
 };
 
 }  // namespace

@@ -13,8 +13,8 @@ std::uint32_t lobeOf(const Material& material);
 // layer or texture changes.
 bool passesStraight(const Material& material);
 
-// Fills materials, principled, layers, textures, media and texels of `flat`. An image of one colour becomes part of the factor that it
-// multiplies. colored[i]: some mesh of material i has vertex colours.
+// Fills materials, principled, layers, textures, media and images of `flat`; the images may be those of another time. An image of one
+// colour becomes part of the factor that it multiplies. colored[i]: some mesh of material i has vertex colours.
 void flattenMaterials(FlatScene& flat, const Scene& scene, const std::vector<bool>& colored);
 
 }  // namespace glim

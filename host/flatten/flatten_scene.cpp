@@ -172,18 +172,6 @@ void markOtherRecords(FlatScene& flat, std::span<const std::uint32_t> order, std
     }
 }
 
-void takeEnvironmentMap(FlatScene& flat, const Scene& scene, FlatScene& previous)
-{
-    if (scene.environment && scene.environment->map == previous.environmentMap && scene.environment->radiance != glm::vec3(0.0F)) {
-        flat.environmentMap = std::move(previous.environmentMap);
-        flat.environmentIntegral = previous.environmentIntegral;
-        flat.environmentTexels = std::move(previous.environmentTexels);
-        flat.environmentCells = std::move(previous.environmentCells);
-        flat.environmentSize = previous.environmentSize;
-        flat.environmentCellCount = previous.environmentCellCount;
-    }
-}
-
 // A multiple of four, so that scenes of about the same size share compiled kernels.
 std::uint32_t stackLevelsOf(const WideBvh& bvh) { return std::max((bvh.depth + 1) / 4 * 4, 4U); }
 
@@ -191,10 +179,13 @@ static_assert(kMaxStackLevels % 4 == 0);
 
 }  // namespace
 
-FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const WideBvh& bvh, FlatScene previous)
+FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const WideBvh& bvh, const FlatScene& previous)
 {
     FlatScene flat;
-    takeEnvironmentMap(flat, scene, previous);
+    flat.images = previous.images;
+    if (scene.environment && scene.environment->radiance != glm::vec3(0.0F) && scene.environment->map == previous.environmentMap->source) {
+        flat.environmentMap = previous.environmentMap;
+    }
     flat.nodes = packNodes(bvh);
     flat.stackLevels = stackLevelsOf(bvh);
     flat.features = primitives.spheres.empty() ? 0U : kFeatureSpheres;

@@ -7,9 +7,9 @@
 
 namespace glim {
 
-// `primitives`: those of the scene; `bvh.order` holds each at least once. What is of the environment map is taken from `previous` if that
-// has the same one.
-FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const WideBvh& bvh, FlatScene previous = {});
+// `primitives`: those of the scene; `bvh.order` holds each at least once. Images and environment maps that `previous` has packed are
+// shared with it.
+FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const WideBvh& bvh, const FlatScene& previous = {});
 
 // A thin lens, in metres. Radius 0 is a pinhole; its focal distance does not matter.
 struct Lens {

@@ -226,10 +226,10 @@ public:
         if (!(strength(radiance) > 0.0)) {
             return;
         }
-        if (environment.map) {
-            flattenEnvironmentMap(flat_, environment.map);
+        if (environment.map && flat_.environmentMap->source != environment.map) {
+            flat_.environmentMap = std::make_shared<PackedEnvironment>(packEnvironmentMap(environment.map));
         }
-        const double integral = environment.map ? flat_.environmentIntegral : 4.0 * kPi;
+        const double integral = environment.map ? flat_.environmentMap->integral : 4.0 * kPi;
         if (!(integral > 0.0)) {
             return;
         }

@@ -21,7 +21,7 @@ void checkMemory(const PreparedScene& prepared, const RenderSettings& settings, 
     const std::uint64_t memory = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
     const auto refuse = [&](std::uint64_t needed, const std::string& owner, std::uint64_t there) {
         if (needed > there) {
-            const std::uint64_t textures = prepared.flat.texels.size() * sizeof(prepared.flat.texels[0]);
+            const std::uint64_t textures = imageBytes(prepared.flat);
             throw InputError(prepared.scene.file + ": the scene and a picture of " + std::to_string(settings.width) + "x" +
                              std::to_string(settings.height) + " need " + std::to_string(needed >> 20) + " MiB, which is " +
                              std::to_string((needed - there) >> 20) + " MiB more memory than " + owner + " has" +

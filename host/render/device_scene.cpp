@@ -55,8 +55,26 @@ std::vector<Buffer> uploadImages(Device& device, const std::vector<std::uint32_t
 
 }  // namespace
 
-DeviceScene::DeviceScene(Device& device, const FlatScene& scene)
-    : nodes_(uploaded(device, "scene's BVH nodes", BufferKind::Texel, scene.nodes)),
+DeviceTextures::DeviceTextures(Device& device, const FlatScene& scene)
+    : images_(scene.images),
+      environmentMap_(scene.environmentMap),
+      imageViews_(uploadImages(device, images_->texels)),
+      environment_(uploaded(device, "environment map", BufferKind::Texel8, environmentMap_->texels)),
+      environmentCells_(uploaded(device, "environment map's cells", BufferKind::Texel, environmentMap_->cells))
+{}
+
+void DeviceTextures::addTo(std::map<std::uint32_t, const Buffer*>& buffers) const
+{
+    buffers[kBindEnvironment] = &environment_;
+    buffers[kBindEnvironmentCells] = &environmentCells_;
+    for (std::uint32_t view = 0; view < kMaxTexelViews; ++view) {
+        buffers[kBindTexels + view] = &imageViews_[std::min<std::size_t>(view, imageViews_.size() - 1)];
+    }
+}
+
+DeviceScene::DeviceScene(Device& device, const FlatScene& scene, std::shared_ptr<const DeviceTextures> textures)
+    : textures_(textures && textures->serve(scene) ? std::move(textures) : std::make_shared<DeviceTextures>(device, scene)),
+      nodes_(uploaded(device, "scene's BVH nodes", BufferKind::Texel, scene.nodes)),
       records_(uploaded(device, "scene's records", BufferKind::Texel, scene.records)),
       triangles_(uploaded(device, "scene's triangles for shading", BufferKind::Texel, scene.triangles)),
       vertices_(uploaded(device, "scene's vertices", BufferKind::Texel, scene.vertices)),
@@ -64,11 +82,8 @@ DeviceScene::DeviceScene(Device& device, const FlatScene& scene)
       lights_(uploaded(device, "scene's lights", BufferKind::Texel, scene.lights)),
       lightNodes_(uploaded(device, "scene's light tree", BufferKind::Texel, scene.lightNodes)),
       albedos_(uploaded(device, "albedo table", BufferKind::Texel, scene.albedos)),
-      environment_(uploaded(device, "environment map", BufferKind::Texel8, scene.environmentTexels)),
-      environmentCells_(uploaded(device, "environment map's cells", BufferKind::Texel, scene.environmentCells)),
       caustics_(uploaded(device, "targets of light paths", BufferKind::Texel, scene.caustics)),
-      instances_(uploaded(device, "scene's instances", BufferKind::Texel, scene.instances)),
-      images_(uploadImages(device, scene.texels))
+      instances_(uploaded(device, "scene's instances", BufferKind::Texel, scene.instances))
 {}
 
 std::vector<BindingSlot> DeviceScene::slots()
@@ -86,21 +101,11 @@ std::vector<BindingSlot> DeviceScene::slots()
 
 std::map<std::uint32_t, const Buffer*> DeviceScene::buffers() const
 {
-    std::map<std::uint32_t, const Buffer*> buffers{{kBindNodes, &nodes_},
-                                                   {kBindRecords, &records_},
-                                                   {kBindTriangles, &triangles_},
-                                                   {kBindVertices, &vertices_},
-                                                   {kBindMaterials, &materials_},
-                                                   {kBindLights, &lights_},
-                                                   {kBindLightNodes, &lightNodes_},
-                                                   {kBindAlbedos, &albedos_},
-                                                   {kBindEnvironment, &environment_},
-                                                   {kBindEnvironmentCells, &environmentCells_},
-                                                   {kBindCaustics, &caustics_},
-                                                   {kBindInstances, &instances_}};
-    for (std::uint32_t view = 0; view < kMaxTexelViews; ++view) {
-        buffers[kBindTexels + view] = &images_[std::min<std::size_t>(view, images_.size() - 1)];
-    }
+    std::map<std::uint32_t, const Buffer*> buffers{
+        {kBindNodes, &nodes_},         {kBindRecords, &records_},    {kBindTriangles, &triangles_},   {kBindVertices, &vertices_},
+        {kBindMaterials, &materials_}, {kBindLights, &lights_},      {kBindLightNodes, &lightNodes_}, {kBindAlbedos, &albedos_},
+        {kBindCaustics, &caustics_},   {kBindInstances, &instances_}};
+    textures_->addTo(buffers);
     return buffers;
 }
 

@@ -6,20 +6,36 @@
 
 namespace glim {
 
+// The images and the environment map of a scene, on the device.
+class DeviceTextures {
+public:
+    DeviceTextures(Device& device, const FlatScene& scene);
+
+    // Whether they are those of `scene`.
+    bool serve(const FlatScene& scene) const { return images_ == scene.images && environmentMap_ == scene.environmentMap; }
+    void addTo(std::map<std::uint32_t, const Buffer*>& buffers) const;
+
+private:
+    std::shared_ptr<const PackedImages> images_;
+    std::shared_ptr<const PackedEnvironment> environmentMap_;
+    std::vector<Buffer> imageViews_;  // 2^kTexelViewBits texels each
+    Buffer environment_, environmentCells_;
+};
+
 class DeviceScene {
 public:
-    // Throws DeviceError, saying by how much, if the scene exceeds the device.
-    DeviceScene(Device& device, const FlatScene& scene);
+    // Uses `textures` if they serve the scene. Throws DeviceError, saying by how much, if the scene exceeds the device.
+    DeviceScene(Device& device, const FlatScene& scene, std::shared_ptr<const DeviceTextures> textures = nullptr);
 
     // The binding slots of scene.glsl.
     static std::vector<BindingSlot> slots();
     // The buffers for all these slots.
     std::map<std::uint32_t, const Buffer*> buffers() const;
+    const std::shared_ptr<const DeviceTextures>& textures() const { return textures_; }
 
 private:
-    Buffer nodes_, records_, triangles_, vertices_, materials_, lights_, lightNodes_, albedos_, environment_, environmentCells_;
-    Buffer caustics_, instances_;
-    std::vector<Buffer> images_;  // 2^kTexelViewBits texels each
+    std::shared_ptr<const DeviceTextures> textures_;
+    Buffer nodes_, records_, triangles_, vertices_, materials_, lights_, lightNodes_, albedos_, caustics_, instances_;
 };
 
 }  // namespace glim

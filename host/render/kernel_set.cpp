@@ -44,7 +44,7 @@ Specialization specialize(const FlatScene& scene, const FlatCamera& camera, cons
     return {{kSpecWorkgroup, settings.workgroup},
             {kSpecFeatures, scene.features & ~(tracesLight(scene, settings) ? 0U : kFeatureCaustics)},
             {kSpecStackLevels, scene.stackLevels},
-            {kSpecTexelViews, static_cast<std::uint32_t>((scene.texels.size() >> kTexelViewBits) + 1)},
+            {kSpecTexelViews, static_cast<std::uint32_t>((scene.images->texels.size() >> kTexelViewBits) + 1)},
             {kSpecSobol, settings.sampler == Sampler::Sobol},
             {kSpecLens, camera.lensRight != vec3(0.0F)},
             {kSpecChosen, settings.adaptive != Adaptive::Off},

@@ -62,8 +62,8 @@ DeviceParameters::DeviceParameters(Device& device, const FlatScene& scene, const
     parameters_.firstColor = scene.firstColor;
     parameters_.firstMedium = scene.firstMedium;
     parameters_.hidesEnvironment = scene.hidesEnvironment ? 1 : 0;
-    parameters_.environmentSize = scene.environmentSize;
-    parameters_.environmentCells = scene.environmentCellCount;
+    parameters_.environmentSize = scene.environmentMap->size;
+    parameters_.environmentCells = scene.environmentMap->cellCount;
     parameters_.environmentTurn = scene.environmentTurn;
     parameters_.causticTargets = scene.causticTargets;
     parameters_.causticLights = scene.causticLights;

@@ -19,7 +19,7 @@ double secondsBetween(Clock::time_point begin, Clock::time_point end) { return s
 void sayTextureMemory(const FlatScene& flat)
 {
     constexpr std::uint64_t kWorthSaying = std::uint64_t{64} << 20U;
-    const std::uint64_t all = textureBytes(flat), images = flat.texels.size() * sizeof(flat.texels[0]);
+    const std::uint64_t all = textureBytes(flat), images = imageBytes(flat);
     if (all > kWorthSaying) {
         std::cerr << "glim: textures take " << (images >> 20U) << " MiB on the device and the environment " << ((all - images) >> 20U)
                   << " MiB" << (images > kWorthSaying ? "; --max-texture N scales textures down" : "") << '\n';
@@ -46,13 +46,14 @@ PreparedScene prepare(Scene scene, SplitRule split, Clock::time_point start, Pre
     prepared.scene.warnings.insert(prepared.scene.warnings.end(), prepared.primitives.warnings.begin(), prepared.primitives.warnings.end());
     sayWarnings(prepared.scene, previous.scene);
     const Clock::time_point loaded = Clock::now();
-    const bool first = previous.bvh.nodes.empty(), moved = first || !haveSameSurfaces(prepared.primitives, previous.primitives);
-    if (moved) {
+    const bool first = previous.bvh.nodes.empty();
+    if (first) {
         stage("building the BVH of " + std::to_string(prepared.primitives.count()) + " primitives");
     }
-    prepared.bvh = moved ? buildSceneBvh(prepared.primitives, split) : std::move(previous.bvh);
+    prepared.bvh = first ? buildSceneBvh(prepared.primitives, split)
+                         : updateSceneBvh(std::move(previous.bvh), previous.primitives, prepared.primitives, split);
     prepared.split = split;
-    prepared.flat = flattenScene(prepared.scene, prepared.primitives, prepared.bvh, std::move(previous.flat));
+    prepared.flat = flattenScene(prepared.scene, prepared.primitives, prepared.bvh, previous.flat);
     if (first) {
         sayTextureMemory(prepared.flat);
     }

@@ -31,7 +31,7 @@ PreparedScene prepareScene(
 void warnIfNoLights(const PreparedScene& prepared);
 
 // The scene of a file at `seconds` into its animation, or if absent in its rest pose. `previous`, which holds nothing afterwards, is the
-// scene at another time: its BVH is used again if no surface has moved, and what it warned of is not printed again.
+// scene at another time: its textures are used again and its BVH is updated, and what it warned of is not printed again.
 PreparedScene prepareScene(SceneFile& file, std::optional<double> seconds, SplitRule split, PreparedScene previous = {});
 
 // The camera of that name or index (the first if absent). Throws InputError that lists the cameras.

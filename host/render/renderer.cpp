@@ -113,14 +113,14 @@ void Renderer::restart(const FlatScene& scene, const FlatCamera& camera, std::ui
     settings_.width = width;
     settings_.height = height;
     sceneIdentity_ = SceneIdentity(scene);
-    const std::shared_ptr<const CompiledKernels> kernels = wavefront_->kernels();
+    LastingResources lasting = wavefront_->lasting();
     light_.reset();
     tiles_.clear();
     spare_.clear();
     spareSize_ = {0, 0};
     wavefront_.reset();  // so that no two scenes are on the device
     start_ = Clock::now();
-    wavefront_ = std::make_unique<Wavefront>(device_, scene, camera, settings_, kernels);
+    wavefront_ = std::make_unique<Wavefront>(device_, scene, camera, settings_, std::move(lasting));
     statistics_ = {};
     open(scene, camera);
 }

@@ -51,17 +51,17 @@ Schedule chooseSchedule(const RenderSettings& settings, const DeviceDescription&
 }
 
 Wavefront::Wavefront(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings,
-                     std::shared_ptr<const CompiledKernels> kernels)
+                     LastingResources lasting)
     : device_(device),
       settings_(settings),
       lightCount_(static_cast<std::uint32_t>(scene.lights.size())),
       schedule_(chooseSchedule(settings, device.description())),
-      own_(SharedResources{DeviceScene(device, scene), PathBuffers(device, settings.pathCapacity)}),
+      own_(SharedResources{DeviceScene(device, scene, std::move(lasting.textures)), PathBuffers(device, settings.pathCapacity)}),
       shared_(*own_),
       parameters_(device, scene, camera, settings),
       course_(device, scene, settings),
-      compiled_(kernels && serves(kernels->set.specialization, specialize(scene, camera, settings))
-                    ? std::move(kernels)
+      compiled_(lasting.kernels && serves(lasting.kernels->set.specialization, specialize(scene, camera, settings))
+                    ? std::move(lasting.kernels)
                     : std::make_shared<CompiledKernels>(device, scene, camera, settings, schedule_)),
       layout_(compiled_->layout),
       kernels_(compiled_->set)

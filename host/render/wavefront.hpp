@@ -26,16 +26,22 @@ struct SharedResources {
     PathBuffers paths;
 };
 
+// What the scene at another time may use again.
+struct LastingResources {
+    std::shared_ptr<const CompiledKernels> kernels;
+    std::shared_ptr<const DeviceTextures> textures;
+};
+
 class Wavefront {
 public:
-    // Uploads the scene and compiles the kernels for what it needs, unless `kernels`, compiled for the same settings, serve it too.
+    // Uploads the scene and compiles the kernels for what it needs, unless those of `lasting`, made for the same settings, serve it too.
     Wavefront(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings,
-              std::shared_ptr<const CompiledKernels> kernels = nullptr);
+              LastingResources lasting = {});
 
     // Uses the resources of another one of the same scene, which must outlive this one and be idle while it traces.
     Wavefront(Device& device, SharedResources& shared, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
     SharedResources& shared() { return shared_; }
-    std::shared_ptr<const CompiledKernels> kernels() const { return compiled_; }
+    LastingResources lasting() const { return {compiled_, shared_.scene.textures()}; }
 
     // Sets the camera of the following passes. It has a lens if and only if the first one had.
     void setCamera(const FlatCamera& camera, std::uint32_t width, std::uint32_t height);

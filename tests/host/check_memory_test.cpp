@@ -15,7 +15,9 @@ std::string refusalOf(std::uint64_t textureBytes, std::uint64_t deviceMemory)
 {
     PreparedScene prepared;
     prepared.scene.file = "a.glb";
-    prepared.flat.texels.resize(textureBytes / sizeof(std::uint32_t));
+    auto images = std::make_shared<PackedImages>();
+    images->texels.resize(textureBytes / sizeof(std::uint32_t));
+    prepared.flat.images = images;
     RenderSettings settings;
     settings.width = settings.height = 16;
     settings.pathCapacity = 1024;

@@ -1,6 +1,7 @@
 // The wide tree keeps the invariants of wide_bvh.hpp, and no other choice of nodes would be cheaper.
 #include "host/bvh/collapse_bvh.hpp"
 #include "host/bvh/build_bvh.hpp"
+#include "host/bvh/refit_bvh.hpp"
 #include "host/bvh/surface_area.hpp"
 #include "host/flatten/build_scene_bvh.hpp"
 #include "shaders/shared/scene_types.h"
@@ -95,6 +96,39 @@ TEST(CollapseBvhTest, KeepsItsInvariants)
             EXPECT_EQ(order, all);
         }
     }
+}
+
+// The refitted tree is one over the boxes where they are now, and its cost is what a walk finds.
+TEST(RefitBvhTest, KeepsTheInvariants)
+{
+    Random random(5);
+    for (const SplitRule rule : {SplitRule::Sah, SplitRule::Median}) {
+        std::vector<Box> boxes = primitiveBoxes(primitivesOf(randomTriangles(3000, 0.1F, 1)));
+        const WideBvh built = collapseBvh(buildBvh(boxes, rule));
+        for (Box& box : boxes) {
+            const glm::vec3 step = 0.1F * glm::vec3(random.direction());
+            box = {box.lo + step, box.hi + step};
+        }
+        const std::optional<WideBvh> refitted = refitBvh(built, boxes, 1e9);
+        ASSERT_TRUE(refitted);
+        EXPECT_EQ(refitted->order, built.order);
+        EXPECT_EQ(refitted->cost, built.cost);
+        const Walked walked = Walker(*refitted, boxes).walk();
+        EXPECT_GT(walked.cost, built.cost);
+        EXPECT_TRUE(refitBvh(built, boxes, 1.001 * walked.cost / built.cost));
+        EXPECT_FALSE(refitBvh(built, boxes, 0.999 * walked.cost / built.cost));
+    }
+}
+
+TEST(RefitBvhTest, IsBuiltAgainIfTooCostly)
+{
+    Triangles mesh = randomTriangles(3000, 0.1F, 1);
+    const Primitives before = primitivesOf(mesh);
+    std::ranges::reverse(mesh);
+    const Primitives after = primitivesOf(mesh);
+    const WideBvh built = buildSceneBvh(before);
+    EXPECT_EQ(updateSceneBvh(built, before, after).order, buildSceneBvh(after).order);
+    EXPECT_NE(built.order, buildSceneBvh(after).order);
 }
 
 // A path of kMaxBvhDepth inner nodes that shrink. Each has seven leaves on its left side, as large as itself. The cheapest wide

@@ -71,7 +71,8 @@ TEST_F(SceneFileTest, KeepsWhatDoesNotMove)
 {
     SceneFile file(folder_ / "scene.gltf", studio());
     PreparedScene prepared;
-    const void *nodes = nullptr, *texels = nullptr;
+    const void* nodes = nullptr;
+    FlatScene before;
     for (const double seconds : {0.0, 0.5, 1.5, 1.0}) {
         prepared = prepareScene(file, seconds, SplitRule::Sah, std::move(prepared));
         LoadOptions options = studio();
@@ -79,13 +80,15 @@ TEST_F(SceneFileTest, KeepsWhatDoesNotMove)
         const PreparedScene fresh = prepareScene(folder_ / "scene.gltf", options);
         EXPECT_EQ(fingerprint(prepared.flat), fingerprint(fresh.flat)) << seconds;
         EXPECT_EQ(prepared.flat.nodes, fresh.flat.nodes) << seconds;
-        EXPECT_EQ(prepared.flat.environmentCells, fresh.flat.environmentCells) << seconds;
+        EXPECT_EQ(prepared.flat.environmentMap->cells, fresh.flat.environmentMap->cells) << seconds;
         EXPECT_EQ(prepared.flat.features, fresh.flat.features) << seconds;
-        // What is kept is moved, not made again.
+        EXPECT_EQ(prepared.flat.images->texels, fresh.flat.images->texels) << seconds;
+        // What is kept is moved or shared, not made again.
         EXPECT_EQ(prepared.bvh.nodes.data() == nodes, seconds == 0.5) << seconds;
-        EXPECT_EQ(prepared.flat.environmentTexels.data() == texels, seconds != 0.0) << seconds;
+        EXPECT_EQ(prepared.flat.environmentMap == before.environmentMap, seconds != 0.0) << seconds;
+        EXPECT_EQ(prepared.flat.images == before.images, seconds != 0.0) << seconds;
         nodes = prepared.bvh.nodes.data();
-        texels = prepared.flat.environmentTexels.data();
+        before = prepared.flat;
     }
 }
 

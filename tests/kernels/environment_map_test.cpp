@@ -79,31 +79,31 @@ glm::dvec3 radianceOf(const RadianceMap& map, const glm::dvec2& at)
 // A map on the device, looked up and sampled.
 class MapOnDevice {
 public:
-    explicit MapOnDevice(const RadianceMap& map, float rotation = 0.0F)
+    explicit MapOnDevice(const RadianceMap& radiance, float rotation = 0.0F)
+        : map(packEnvironmentMap(std::make_shared<RadianceMap>(radiance))),
+          turn_(std::cos(rotation), std::sin(rotation))
     {
-        flattenEnvironmentMap(flat, std::make_shared<RadianceMap>(map));
-        flat.environmentTurn = {std::cos(rotation), std::sin(rotation)};
-        texels_.emplace(testDevice(), "test's map", BufferKind::Texel8, flat.environmentTexels.size() * sizeof(uvec2));
-        upload(*texels_, std::span<const uvec2>(flat.environmentTexels));
-        cells_.emplace(testDevice(), "test's cells", BufferKind::Texel, flat.environmentCells.size() * sizeof(uvec4));
-        upload(*cells_, std::span<const uvec4>(flat.environmentCells));
+        texels_.emplace(testDevice(), "test's map", BufferKind::Texel8, map.texels.size() * sizeof(uvec2));
+        upload(*texels_, std::span<const uvec2>(map.texels));
+        cells_.emplace(testDevice(), "test's cells", BufferKind::Texel, map.cells.size() * sizeof(uvec4));
+        upload(*cells_, std::span<const uvec4>(map.cells));
     }
 
     std::vector<Result> results(const std::vector<Case>& cases) const
     {
         KernelTest test(test_kernels::environment_map_test);
         test.parameters().environment = vec3(1.0F);
-        test.parameters().environmentSize = flat.environmentSize;
-        test.parameters().environmentCells = flat.environmentCellCount;
-        test.parameters().environmentTurn = flat.environmentTurn;
+        test.parameters().environmentSize = map.size;
+        test.parameters().environmentCells = map.cellCount;
+        test.parameters().environmentTurn = turn_;
         test.buffers({{kBindEnvironment, &*texels_}, {kBindEnvironmentCells, &*cells_}});
         test.cases(cases).resultsOf<Result>(cases.size()).run();
         return test.results<Result>();
     }
 
-    std::uint32_t rows() const { return flat.environmentCellCount.y; }
-    std::uint32_t columns() const { return flat.environmentCellCount.x; }
-    double pdfOfCell(std::size_t cell) const { return static_cast<double>(std::bit_cast<float>(flat.environmentCells[cell].z)); }
+    std::uint32_t rows() const { return map.cellCount.y; }
+    std::uint32_t columns() const { return map.cellCount.x; }
+    double pdfOfCell(std::size_t cell) const { return static_cast<double>(std::bit_cast<float>(map.cells[cell].z)); }
     // Exact: 2 pi (cos a - cos b) per row.
     double solidAngle(std::uint32_t row) const
     {
@@ -111,9 +111,10 @@ public:
         return 4.0 * kPi / columns() * std::sin(0.5 * (a + b)) * std::sin(0.5 * (b - a));
     }
 
-    FlatScene flat;
+    PackedEnvironment map;
 
 private:
+    vec2 turn_;
     std::optional<Buffer> texels_, cells_;
 };
 
@@ -284,7 +285,7 @@ TEST(EnvironmentMapTest, CellsOfSeveralTexels)
     map.texels[std::size_t{1000} * 5000 + 4999] = vec3(1e5F);
     map.texels[2500] = vec3(1e6F);
     const MapOnDevice device(map);
-    EXPECT_EQ(device.flat.environmentCellCount, uvec2(2500, 1000));
+    EXPECT_EQ(device.map.cellCount, uvec2(2500, 1000));
     EXPECT_NEAR(sumOfProbabilities(device), 1.0, 1e-6);
     std::vector<double> estimates;
     for (const Result& r : device.results(randomCases(100000, 8))) {
@@ -296,10 +297,9 @@ TEST(EnvironmentMapTest, CellsOfSeveralTexels)
 
 TEST(EnvironmentMapTest, ABlackMapIsNone)
 {
-    FlatScene flat;
-    flattenEnvironmentMap(flat, std::make_shared<RadianceMap>(mapOf(4, 2, vec3(0.0F))));
-    EXPECT_EQ(flat.environmentIntegral, 0.0);
-    EXPECT_TRUE(flat.environmentTexels.empty() && flat.environmentCells.empty());
+    const PackedEnvironment map = packEnvironmentMap(std::make_shared<RadianceMap>(mapOf(4, 2, vec3(0.0F))));
+    EXPECT_EQ(map.integral, 0.0);
+    EXPECT_TRUE(map.texels.empty() && map.cells.empty());
 }
 
 }  // namespace

@@ -341,7 +341,7 @@ TEST(HardMaterialTest, H50ManyInstancesOfOneImage)
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     std::printf("flattened in %.2f s\n", seconds.count());
     EXPECT_EQ(flat.features & kFeatureAlpha, 0U);
-    EXPECT_EQ(flat.texels.size(), 512U * 512U);
+    EXPECT_EQ(flat.images->texels.size(), 512U * 512U);
     EXPECT_EQ(textureBytes(flat), textureBytes(flattened(one)));
     const RenderSettings settings = persistent(32, 32, 128);
     const Film film = renderFlat(flat, scene.cameras[0], settings);

@@ -1,6 +1,7 @@
 // Scenes whose instances share meshes, against the same scenes with every instance flattened.
 #include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
+#include "host/flatten/pack_nodes.hpp"
 #include "host/render/describe_primitive.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/render_scene.hpp"
@@ -147,6 +148,57 @@ TEST(SharedMeshesTest, AreNamedByTheirInstances)
         }
     }
     EXPECT_GT(prepared.primitives.placements.size(), 5U);
+}
+
+// When something else has moved. Trees by another rule tell which are kept.
+TEST(SharedMeshesTest, KeepTheirTrees)
+{
+    Scene scene = yard();
+    const Primitives before = makePrimitives(scene, 0);
+    const WideBvh sah = buildSceneBvh(before), median = buildSceneBvh(before, SplitRule::Median);
+    scene.instances.back().worldFromMesh[3].y += 1.0;  // a lamp, flattened
+    scene.instances[1].worldFromMesh[3].x += 0.1;
+    scene.meshes[scene.instances[1].mesh].positions[5] *= 1.01;
+    const std::uint32_t deformed = scene.instances[1].mesh;
+    const Primitives after = makePrimitives(scene, 0);
+    const WideBvh fresh = buildSceneBvh(after), kept = updateSceneBvh(sah, before, after);
+    EXPECT_EQ(packNodes(kept), packNodes(fresh));
+    EXPECT_EQ(kept.order, fresh.order);
+    EXPECT_EQ(kept.depth, fresh.depth);
+    const WideBvh mixed = updateSceneBvh(median, before, after);
+    ASSERT_GT(after.sharedMeshes.size(), 2U);
+    for (std::size_t i = 0; i < after.sharedMeshes.size(); ++i) {
+        const WideBvh& source = after.sharedMeshes[i].mesh == deformed ? fresh : median;
+        const auto orderOf = [i](const WideBvh& bvh) {
+            const auto begin = bvh.order.begin() + bvh.meshTrees[i].firstEntry;
+            return std::vector<std::uint32_t>(begin, begin + bvh.meshTrees[i].entryCount);
+        };
+        EXPECT_EQ(orderOf(mixed), orderOf(source)) << i;
+    }
+}
+
+// A tree that is refitted finds what a new one finds.
+TEST(SharedMeshesTest, MoveInARefittedTree)
+{
+    Scene scene = yard();
+    for (const std::uint64_t mostFlat : {std::uint64_t{0}, std::uint64_t{1} << 20U}) {
+        const Primitives before = makePrimitives(scene, mostFlat);
+        const WideBvh built = buildSceneBvh(before);
+        Scene moved = scene;
+        for (std::size_t i = 1; i < moved.instances.size(); ++i) {
+            moved.instances[i].worldFromMesh[3] += glm::dvec4(i % 2 == 1 ? 0.2 : -0.2, 0.1, 0.05, 0);
+        }
+        const Primitives primitives = makePrimitives(moved, mostFlat);
+        const WideBvh updated = updateSceneBvh(built, before, primitives), fresh = buildSceneBvh(primitives);
+        EXPECT_EQ(updated.order, built.order);
+        EXPECT_NE(updated.order, fresh.order);
+        const FlatScene flat = flattenScene(moved, primitives, updated), other = flattenScene(moved, primitives, fresh);
+        EXPECT_EQ(fingerprint(flat), fingerprint(other));
+        RenderSettings settings = squareSettings(32, 32);
+        settings.schedule = Schedule::Persistent;
+        EXPECT_TRUE(sameBits(renderFlat(flat, moved.cameras.front(), settings), renderFlat(other, moved.cameras.front(), settings)))
+            << mostFlat;
+    }
 }
 
 TEST(SharedMeshesTest, AreInTheFingerprint)
