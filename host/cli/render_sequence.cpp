@@ -9,6 +9,8 @@
 #include "host/render/film_file.hpp"
 #include "host/render/film_pictures.hpp"
 #include "host/render/identify.hpp"
+#include "host/render/merge_films.hpp"
+#include "shaders/shared/limits.h"
 
 #include <algorithm>
 #include <iomanip>
@@ -78,24 +80,40 @@ double writePictures(const RenderOptions& options, const Film& film)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+// So that the film can be made again from what its file says.
+void labelFilm(Film& film, const RenderOptions& options)
+{
+    film.sceneFile = options.scene.string();
+    film.identity.settings += describeCamera(options.pose, options.lens);
+}
+
 struct Rendered {
     Film film;
     bool isGood = false;  // the target is reached
+    Film pages;           // of an interrupted render: what can be continued
 };
 
-Rendered renderPicture(Renderer& renderer, const ErrorTarget& target, ProgressPrinter& progress, const InterruptWatch& watch)
+Rendered renderPicture(Renderer& renderer, const RenderOptions& options, CheckpointWriter& checkpoints, ProgressPrinter& progress,
+                       const InterruptWatch& watch)
 {
     Rendered rendered;
+    const bool uniform = options.settings.adaptive == Adaptive::Off;
     const auto observe = [&](const RenderProgress& now) {
         progress.print(now);
+        if (uniform) {
+            checkpoints.offer(renderer, takeCheckpointRequest());
+        }
+        if (watch.signal() != 0 && options.checkpoint.isGiven()) {
+            rendered.pages = renderer.checkpoint();
+        }
         return watch.signal() == 0;
     };
     const auto criterion = [&](const Film& film) {
-        const double times = timesToTarget(film, target);
+        const double times = timesToTarget(film, options.target);
         rendered.isGood = times <= 1.0;
         return times;
     };
-    rendered.film = renderer.render(observe, target.isGiven() ? StoppingCriterion(criterion) : nullptr);
+    rendered.film = renderer.render(observe, options.target.isGiven() ? StoppingCriterion(criterion) : nullptr);
     return rendered;
 }
 
@@ -115,12 +133,14 @@ bool isWhole(const Film& film, const RenderOptions& options)
     if (!film.complete) {
         return false;
     }
-    if (settings.seconds || isCourse(settings.adaptive)) {
+    const bool resumes = options.checkpoint.resume;
+    if (isCourse(settings.adaptive) || (settings.seconds && !resumes)) {
         return true;
     }
-    const bool all = isNeighbours(settings.adaptive) ? computeRates(film).mean >= settings.sampleEnd
-                                                     : film.sampleRanges.front().first == settings.sampleBegin &&
-                                                           film.sampleRanges.front().second == settings.sampleEnd;
+    const auto [begin, end] = film.sampleRanges.front();
+    const bool all = isNeighbours(settings.adaptive)
+                         ? computeRates(film).mean >= settings.sampleEnd
+                         : begin == settings.sampleBegin && (end == settings.sampleEnd || (resumes && end > settings.sampleEnd));
     return all || (options.target.isGiven() && timesToTarget(film, options.target) <= 1.0);
 }
 
@@ -147,6 +167,7 @@ private:
     bool keep(const RenderOptions& options, const FlatCamera& camera, const RenderSettings& settings) const;
     std::optional<double> writeIdentities(const RenderOptions& options, const FlatCamera& camera, const Film& film);
     void openRenderer(const FlatCamera& camera, RenderSettings& settings);
+    void resume(const RenderOptions& options, const RenderSettings& settings);
     ExitCode writeShot(const RenderOptions& options, const RenderSettings& settings, const FlatCamera& camera, Film film, bool isGood);
 
     const RenderOptions& options_;
@@ -230,13 +251,25 @@ ExitCode SequenceRenderer::renderShot(const RenderOptions& options)
     }
     const FlatCamera flatCamera =
         flattenCamera(camera, static_cast<float>(settings.width) / static_cast<float>(settings.height), options.lens);
-    if (place_.count > 1 && keep(options, flatCamera, settings)) {
+    std::optional<OutputLock> lock;
+    if (options.checkpoint.isGiven()) {
+        lock.emplace(options.output);
+    }
+    if ((place_.count > 1 || options.checkpoint.resume) && keep(options, flatCamera, settings)) {
         return ExitCode::Done;
     }
     openRenderer(flatCamera, settings);
+    if (options.checkpoint.resume) {
+        resume(options, settings);
+    }
+    CheckpointWriter checkpoints(options.checkpoint, options.output, [&options](Film& film) { labelFilm(film, options); });
     ProgressPrinter progress(options.progress, settings.seconds, std::uint64_t{settings.width} * settings.height, place_);
-    auto [film, isGood] = renderPicture(*renderer_, options.target, progress, watch_);
+    auto [film, isGood, pages] = renderPicture(*renderer_, options, checkpoints, progress, watch_);
     progress.finish();
+    checkpoints.finish();
+    if (!pages.sampleRanges.empty()) {
+        film = std::move(pages);  // what --resume can continue
+    }
     const ExitCode code = writeShot(options, settings, flatCamera, std::move(film), isGood);
     ++place_.rendered;
     place_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -250,20 +283,29 @@ bool SequenceRenderer::keep(const RenderOptions& options, const FlatCamera& came
         std::error_code ignored;
         return std::filesystem::exists(file, ignored);
     };
-    if (!exists(options.output) || (options.ids && !exists(*options.ids)) || (options.stats && !exists(*options.stats))) {
+    if (!exists(options.output)) {
         return false;
     }
     Film film;
     try {
         film = readFilm(options.output);
     } catch (const InputError&) {
+        if (options.checkpoint.resume) {
+            throw;
+        }
         return false;  // as a render of one picture overwrites whatever is there
     }
-    FilmIdentity identity = identityOf(prepared_.flat, camera, settings);
-    identity.settings += describeCamera(options.pose, options.lens);
-    const bool same = film.identity.scene == identity.scene && film.identity.settings == identity.settings &&
-                      film.width == settings.width && film.height == settings.height;
-    if (!same || !isWhole(film, options)) {
+    Film expected;
+    expected.width = settings.width;
+    expected.height = settings.height;
+    expected.identity = identityOf(prepared_.flat, camera, settings);
+    labelFilm(expected, options);
+    const std::string difference = describeDifference(film, expected);
+    if (!difference.empty() && options.checkpoint.resume) {
+        throw InputError(options.output.string() + ": cannot be resumed: " + difference + ".");
+    }
+    const bool lacksFiles = (options.ids && !exists(*options.ids)) || (options.stats && !exists(*options.stats));
+    if (!difference.empty() || !isWhole(film, options) || lacksFiles) {
         return false;
     }
     writePngs(options, film);
@@ -283,6 +325,29 @@ void SequenceRenderer::openRenderer(const FlatCamera& camera, RenderSettings& se
         renderer_->restart(camera, settings.width, settings.height);
     }
     isSceneNew_ = false;
+}
+
+// keep() has looked whether the film is of this picture.
+void SequenceRenderer::resume(const RenderOptions& options, const RenderSettings& settings)
+{
+    std::error_code ignored;
+    if (!std::filesystem::exists(options.output, ignored)) {
+        return;
+    }
+    Film film = readFilm(options.output);
+    if (!film.complete) {
+        std::cerr << "glim: " << options.output.string() << " has no whole page of " << kPageSamples
+                  << " samples, so the render begins anew\n";
+        return;
+    }
+    const auto [begin, end] = film.sampleRanges.front();
+    if (film.sampleRanges.size() > 1 || begin != settings.sampleBegin || end % kPageSamples != 0 || end > settings.sampleEnd) {
+        throw InputError(options.output.string() + ": cannot be resumed: it holds samples " + sampleRangesText(film) + ", expected " +
+                         std::to_string(settings.sampleBegin) + " to a multiple of " + std::to_string(kPageSamples) +
+                         " (glim merge joins other ranges).");
+    }
+    std::cerr << "glim: " << options.output.string() << " is resumed at sample " << end << '\n';
+    renderer_->resume(std::move(film));
 }
 
 // Seconds that it took, if it was asked for.
@@ -307,8 +372,7 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const RenderS
     if (watch_.signal() != 0 && wouldRuin(options.output, film)) {
         return finish(watch_.signal(), "some pixels had no sample yet, so " + options.output.string() + " is left as it was");
     }
-    film.sceneFile = options.scene.string();
-    film.identity.settings += describeCamera(options.pose, options.lens);  // so that the film can be made again from what its file says
+    labelFilm(film, options);
     const double writeSeconds = writePictures(options, film);
     const std::optional<double> idSeconds = writeIdentities(options, camera, film);
     // Before the control, whose samples are no suspects.

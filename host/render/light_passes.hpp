@@ -12,6 +12,8 @@ public:
 
     // Starts a picture.
     void begin(Wavefront& wavefront, const RenderSettings& settings);
+    // The samples before `sample`, the first of a page, have theirs in a film already.
+    void skipTo(std::uint32_t sample) { sample_ = sample; }
     // The first sample that has no light paths yet.
     std::uint32_t sample() const { return sample_; }
     // Traces those of some samples before `end`, all of one block. Returns the time that it took; nothing if `shouldContinue` ended it, and

@@ -46,6 +46,21 @@ FilmIdentity identityOf(std::uint64_t sceneFingerprint, bool sharesMeshes, const
 
 bool sharesMeshes(const FlatScene& scene) { return (scene.features & kFeatureInstances) != 0; }
 
+// After how many samples a render with a target last judged its error, of those up to `end`: at ends of blocks, at least a tenth apart.
+std::uint32_t lastJudged(std::uint32_t begin, std::uint32_t end)
+{
+    std::uint32_t judged = 0;
+    for (std::uint32_t sample = begin; sample < end;) {
+        const std::uint32_t block = blockSamples(sample);
+        sample = (sample / block + 1) * block;
+        const std::uint32_t count = sample - begin;
+        if (sample <= end && count >= leastSamplesForError(begin) && count >= 1.1 * judged) {
+            judged = count;
+        }
+    }
+    return judged;
+}
+
 }  // namespace
 
 FilmIdentity identityOf(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
@@ -181,9 +196,38 @@ void Renderer::begin(const FlatCamera& camera)
     tile_ = 0;
     pixel_ = 0;
     chosen_ = film_.pixels.size();
-    pictureSamples_ = testedSamples_ = 0;
+    pictureSamples_ = testedSamples_ = resumedSamples_ = 0;
+    resumedSeconds_ = 0.0;
+    foldedEnd_ = sample_;
     plannedSamples_ = chosen_ * (settings_.sampleEnd - settings_.sampleBegin);
     start_ = Clock::now();
+}
+
+void Renderer::resume(Film film)
+{
+    const FilmIdentity identity = film_.identity;  // without what a film's file says of its camera
+    film_ = std::move(film);
+    film_.identity = identity;
+    sample_ = foldedEnd_ = film_.sampleRanges.back().second;
+    if (light_) {
+        light_->skipTo(sample_);
+    }
+    resumedSeconds_ = film_.seconds;
+    pictureSamples_ = resumedSamples_ = statistics_.resumedSamples = film_.pixels.size() * sampleCount();
+    testedSamples_ = film_.pixels.size() * lastJudged(settings_.sampleBegin, sample_);
+    foldVersion_ = nextFoldVersion();
+}
+
+Film Renderer::checkpoint() const
+{
+    Film film = film_;
+    film.sampleRanges.clear();
+    if (foldedEnd_ > settings_.sampleBegin) {
+        film.sampleRanges = {{settings_.sampleBegin, foldedEnd_}};
+    }
+    film.complete = true;
+    film.seconds = resumedSeconds_ + secondsSince(start_);
+    return film;
 }
 
 Film Renderer::render(const RenderObserver& observer, const StoppingCriterion& criterion)
@@ -243,7 +287,7 @@ void Renderer::describe(Film& film) const
         const bool even = pictureSamples_ > 0 && pictureSamples_ == film.pixels.size() * sampleCount();
         film.complete = isDone() || (even && !isCourse(settings_.adaptive));
     }
-    film.seconds = secondsSince(start_);
+    film.seconds = resumedSeconds_ + secondsSince(start_);
 }
 
 // Returns false if `shouldContinue` ended the pass before it was done.
@@ -308,7 +352,7 @@ void Renderer::foldSplats(Film& film)
 
 bool Renderer::asks(const RenderObserver& observer)
 {
-    ended_ = !observer({pictureSamples_, plannedSamples_, secondsSince(start_)}) || ended_;
+    ended_ = !observer({pictureSamples_, plannedSamples_, secondsSince(start_), resumedSamples_}) || ended_;
     return !ended_;
 }
 
@@ -427,6 +471,7 @@ void Renderer::endSweep()
     } else if (sample_ % kPageSamples == 0) {
         foldPages(film_, tiles_);
         foldSplats(film_);
+        foldedEnd_ = sample_;
         foldVersion_ = nextFoldVersion();
     }
 }

@@ -17,8 +17,9 @@ struct RenderStatistics {
     double uploadSeconds = 0.0, compileSeconds = 0.0, renderSeconds = 0.0;
     double passSeconds = 0.0;  // device time of all passes; 0 if unknown
     std::map<std::string, KernelStatistics> kernels;
-    double longestDispatch = 0.0;  // seconds, on the device, after compilation
-    std::uint64_t samples = 0;     // over all pixels
+    double longestDispatch = 0.0;      // seconds, on the device, after compilation
+    std::uint64_t samples = 0;         // over all pixels
+    std::uint64_t resumedSamples = 0;  // of earlier runs, not among these
     std::uint64_t cameraAndBounceRays = 0, shadowRays = 0;
     std::uint32_t transparencyCaps = 0, mediaCaps = 0;  // as in Status
     std::uint32_t loopCaps = 0, overflows = 0;          // as in Status; a render with any of them throws
@@ -30,6 +31,7 @@ struct RenderStatistics {
 struct RenderProgress {
     std::uint64_t samples, totalSamples;  // over all pixels; in adaptive renders, totalSamples assumes that no further pixel ends early
     double seconds;
+    std::uint64_t resumedSamples = 0;  // of `samples`, those of earlier runs
 };
 
 // By what factor the samples of the film so far must still grow; at most 1 ends the render.
@@ -53,6 +55,12 @@ public:
     // samples; its counts say how many each pixel has. Throws DeviceError if the driver cut a loop short or a queue overflowed: no film
     // is better than a wrong one. To be called once per picture.
     Film render(const RenderObserver& observer, const StoppingCriterion& criterion = nullptr);
+
+    // Continues `film`, of this picture with fewer samples, as if there had been no interruption. It must be one range from sampleBegin on
+    // that ends with a page, and sampling must be uniform. To be called before render.
+    void resume(Film film);
+    // The film as it was at the end of the last page; no sample ranges before the first. Uniform sampling alone.
+    Film checkpoint() const;
 
     // After an adaptive render: takes new samples of one pixel in a hundred (of 64 or so in small pictures), as many as `film` has of
     // each. They are independent of the samples that the allocation was based on, and are in no statistics. Returns nothing if
@@ -148,7 +156,9 @@ private:
     std::size_t tile_ = 0;      // the tile of the next pass
     std::uint32_t pixel_ = 0;   // its first pixel, among the tile's chosen ones
     std::uint64_t chosen_ = 0;  // pixels that the sweep goes over
-    std::uint64_t pictureSamples_ = 0, plannedSamples_ = 0;
+    std::uint64_t pictureSamples_ = 0, plannedSamples_ = 0, resumedSamples_ = 0;
+    double resumedSeconds_ = 0.0;
+    std::uint32_t foldedEnd_ = 0;      // the end of the samples in film_
     std::uint64_t testedSamples_ = 0;  // pictureSamples_ when the criterion was last tested
     double timesToTarget_ = 0.0;       // the criterion's last answer; infinite before the first
 
