@@ -178,6 +178,16 @@ SamplePlace parseSample(const std::string& text)
     return place;
 }
 
+double parseDuration(const std::string& option, const std::string& text)
+{
+    const double unit = text.empty() ? 0.0 : text.back() == 's' ? 1.0 : text.back() == 'm' ? 60.0 : text.back() == 'h' ? 3600.0 : 0.0;
+    double value = 0.0;
+    if (unit == 0.0 || !parseNumber(text.substr(0, text.size() - 1), value) || !(value > 0.0) || !std::isfinite(value)) {
+        throw UsageError(option, "\"" + text + "\": expected a time above 0 with its unit, as in 90s, 5m or 1h");
+    }
+    return value * unit;
+}
+
 float parseSurvival(const std::string& text)
 {
     const std::string start = "fixed:";

@@ -40,6 +40,7 @@ glm::vec3 parseRadiance(const std::string& text);                           // "
 SamplePlace parseSample(const std::string& text);                           // "12,40,7"
 glm::dvec3 parsePoint(const std::string& option, const std::string& text);  // "1,2.5,-3"
 double parsePercent(const std::string& option, const std::string& text);    // "1%", in (0, 1000]; returns 1 for 100%
+double parseDuration(const std::string& option, const std::string& text);   // "90s", "5m" or "1h", > 0; returns seconds
 float parseSurvival(const std::string& text);                               // "fixed:0.7", in (0, 1]
 
 // An option whose value is one number (uint32_t, float or double) in [low, high]; never NaN. The help shows `what`, the range and, in

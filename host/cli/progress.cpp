@@ -16,7 +16,7 @@ constexpr double kInterval = 0.1;  // seconds
 
 double rate(const RenderProgress& progress)
 {
-    return progress.seconds > 0.0 ? static_cast<double>(progress.samples) / progress.seconds : 0.0;
+    return progress.seconds > 0.0 ? static_cast<double>(progress.samples - progress.resumedSamples) / progress.seconds : 0.0;
 }
 
 }  // namespace
@@ -52,7 +52,8 @@ void ProgressPrinter::print(const RenderProgress& progress)
     if (timeLimit_) {
         share = std::clamp(progress.seconds / *timeLimit_, share, 1.0);
     }
-    const double remaining = share > 0.0 ? progress.seconds * (1.0 / share - 1.0) : 0.0;
+    const double resumed = static_cast<double>(progress.resumedSamples) / static_cast<double>(progress.totalSamples);
+    const double remaining = share > resumed ? progress.seconds * (1.0 - share) / (share - resumed) : 0.0;
     const double perPicture = place_.rendered > 0 ? place_.seconds / static_cast<double>(place_.rendered) : progress.seconds + remaining;
     const double all = remaining + perPicture * static_cast<double>(place_.count - place_.index - 1);
     if (style_ == ProgressStyle::Bar) {

@@ -50,6 +50,7 @@ void addOutput(const Command& command, RenderOptions& options)
     command.addPath("--rates", "R.png", "Also draw the samples per pixel, blue (fewest) to red (most)", options.rates);
     command.addPath("--ids", "I.exr", "Also write which nodes, meshes and materials each pixel shows, and Cryptomatte", options.ids);
     command.addPath("--stats", "S.json", "Also write times, counts and estimated errors, or the path of --replay", options.stats);
+    addCheckpoint(command, options.checkpoint);
     addProgress(command, options.progress);
     addNumber<std::uint32_t>(command, {"--suspects", "N", "List the brightest samples, the firefly candidates", 1, 1000, "off"},
                              [&options](std::uint32_t count) { options.settings.suspects = count; });

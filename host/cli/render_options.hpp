@@ -1,6 +1,7 @@
 // The options of `glim render`.
 #pragma once
 
+#include "host/cli/checkpoint_writer.hpp"
 #include "host/cli/film_report.hpp"
 #include "host/cli/parse.hpp"
 #include "host/cli/picture_options.hpp"
@@ -13,6 +14,7 @@ struct RenderOptions : PictureOptions {
     std::filesystem::path output;
     std::optional<std::filesystem::path> png, rates, ids, stats;
     SequenceOptions sequence;
+    CheckpointOptions checkpoint;
     std::optional<SamplePlace> replay;  // instead of a picture
     ProgressStyle progress = ProgressStyle::Auto;
     ErrorTarget target;

@@ -162,6 +162,7 @@ Json statisticsOf(const RenderReport& report)
           {"write", report.writeSeconds},
           {"ids", report.idSeconds}}},
         {"samples", s.samples},
+        {"resumedSamples", s.resumedSamples},
         {"samplesPerSecond", perSecond(s.samples, s.renderSeconds)},
         {"rays", {{"closest", s.cameraAndBounceRays}, {"shadow", s.shadowRays}, {"total", rays}}},
         {"raysPerSecond", perSecond(rays, s.renderSeconds)},
@@ -302,7 +303,9 @@ void printSummary(const RenderReport& report)
     const RenderStatistics& s = report.statistics;
     const double pixels = static_cast<double>(report.film.pixels.size());
     std::cout << report.options.output.string()
-              << format(": %ux%u, %.4g samples per pixel", report.film.width, report.film.height, static_cast<double>(s.samples) / pixels)
+              << format(": %ux%u, %.4g samples per pixel", report.film.width, report.film.height,
+                        static_cast<double>(s.samples + s.resumedSamples) / pixels)
+              << (s.resumedSamples > 0 ? format(", of which %.4g resumed,", static_cast<double>(s.resumedSamples) / pixels) : "")
               << rangeText(report)
               << format(" in %.2f s (%.3g Msamples/s, %.3g Mrays/s)", s.renderSeconds, 1e-6 * perSecond(s.samples, s.renderSeconds),
                         1e-6 * perSecond(s.cameraAndBounceRays + s.shadowRays, s.renderSeconds))

@@ -9,6 +9,8 @@
 #include "host/render/film_file.hpp"
 #include "host/render/film_pictures.hpp"
 #include "host/render/identify.hpp"
+#include "host/render/merge_films.hpp"
+#include "shaders/shared/limits.h"
 
 #include <algorithm>
 #include <iomanip>
@@ -70,32 +72,53 @@ void writePngs(const RenderOptions& options, const Film& film)
 }
 
 // Seconds that writing took.
-double writePictures(const RenderOptions& options, const Film& film)
+double writePictures(const RenderOptions& options, const Film& film, const std::optional<Checkpoint>& checkpoint)
 {
     const auto start = std::chrono::steady_clock::now();
-    writeFilm(options.output, film);
+    if (checkpoint) {
+        writeFilm(options.output, film, *checkpoint);
+    } else {
+        writeFilm(options.output, film);
+    }
     writePngs(options, film);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// So that the film can be made again from what its file says.
+void labelFilm(Film& film, const RenderOptions& options)
+{
+    film.sceneFile = options.scene.string();
+    film.identity.settings += describeCamera(options.pose, options.lens);
 }
 
 struct Rendered {
     Film film;
     bool isGood = false;  // the target is reached
+    std::optional<Checkpoint> checkpoint;
 };
 
-Rendered renderPicture(Renderer& renderer, const ErrorTarget& target, ProgressPrinter& progress, const InterruptWatch& watch)
+Rendered renderPicture(Renderer& renderer, const RenderOptions& options, CheckpointWriter& writer, ProgressPrinter& progress,
+                       const InterruptWatch& watch)
 {
     Rendered rendered;
     const auto observe = [&](const RenderProgress& now) {
         progress.print(now);
+        if (now.betweenPasses && watch.signal() == 0) {
+            writer.offer(renderer);
+        }
         return watch.signal() == 0;
     };
     const auto criterion = [&](const Film& film) {
-        const double times = timesToTarget(film, target);
+        const double times = timesToTarget(film, options.target);
         rendered.isGood = times <= 1.0;
         return times;
     };
-    rendered.film = renderer.render(observe, target.isGiven() ? StoppingCriterion(criterion) : nullptr);
+    const auto atEnd = [&] {
+        if (watch.signal() != 0 || options.checkpoint.isGiven()) {
+            rendered.checkpoint = renderer.checkpoint();
+        }
+    };
+    rendered.film = renderer.render(observe, options.target.isGiven() ? StoppingCriterion(criterion) : nullptr, atEnd);
     return rendered;
 }
 
@@ -108,20 +131,22 @@ std::optional<ControlBias> measureBias(Renderer& renderer, const Film& film, con
     return control ? estimateControlBias(film, *control) : std::nullopt;
 }
 
-// Whether a film has all samples that were asked for.
-bool isWhole(const Film& film, const RenderOptions& options)
+// Whether a film has all samples that were asked for. `ends`: it is no checkpoint, which might reach a target where nobody has looked.
+bool isWhole(const Film& film, bool ends, const RenderOptions& options)
 {
     const RenderSettings& settings = options.settings;
     if (!film.complete) {
         return false;
     }
-    if (settings.seconds || isCourse(settings.adaptive)) {
+    const bool resumes = options.checkpoint.resume;
+    if (isCourse(settings.adaptive) || (settings.seconds && !resumes)) {
         return true;
     }
-    const bool all = isNeighbours(settings.adaptive) ? computeRates(film).mean >= settings.sampleEnd
-                                                     : film.sampleRanges.front().first == settings.sampleBegin &&
-                                                           film.sampleRanges.front().second == settings.sampleEnd;
-    return all || (options.target.isGiven() && timesToTarget(film, options.target) <= 1.0);
+    const auto [begin, end] = film.sampleRanges.front();
+    const bool all = isNeighbours(settings.adaptive)
+                         ? computeRates(film).mean >= settings.sampleEnd
+                         : begin == settings.sampleBegin && (end == settings.sampleEnd || (resumes && end > settings.sampleEnd));
+    return all || (ends && options.target.isGiven() && timesToTarget(film, options.target) <= 1.0);
 }
 
 // Renders one picture after another, with one file, one device and one set of kernels for all of them.
@@ -148,7 +173,8 @@ private:
     bool keep(const RenderOptions& options, const FlatCamera& camera, const RenderSettings& settings) const;
     std::optional<double> writeIdentities(const RenderOptions& options, const FlatCamera& camera, const Film& film);
     void openRenderer(const FlatCamera& camera, RenderSettings& settings);
-    ExitCode writeShot(const RenderOptions& options, const RenderSettings& settings, const FlatCamera& camera, Film film, bool isGood);
+    void resume(const RenderOptions& options);
+    ExitCode writeShot(const RenderOptions& options, const RenderSettings& settings, const FlatCamera& camera, Rendered rendered);
 
     const RenderOptions& options_;
     const bool isSequence_;
@@ -232,14 +258,23 @@ ExitCode SequenceRenderer::renderShot(const RenderOptions& options)
     }
     const FlatCamera flatCamera =
         flattenCamera(camera, static_cast<float>(settings.width) / static_cast<float>(settings.height), options.lens);
-    if (isSequence_ && keep(options, flatCamera, settings)) {
+    std::optional<OutputLock> lock;
+    if (options.checkpoint.isGiven()) {
+        lock.emplace(options.output);
+    }
+    if ((isSequence_ || options.checkpoint.resume) && keep(options, flatCamera, settings)) {
         return ExitCode::Done;
     }
     openRenderer(flatCamera, settings);
+    if (options.checkpoint.resume) {
+        resume(options);
+    }
+    CheckpointWriter writer(options.checkpoint, options.output, [&options](Film& film) { labelFilm(film, options); });
     ProgressPrinter progress(options.progress, settings.seconds, std::uint64_t{settings.width} * settings.height, place_);
-    auto [film, isGood] = renderPicture(*renderer_, options.target, progress, watch_);
+    Rendered rendered = renderPicture(*renderer_, options, writer, progress, watch_);
     progress.finish();
-    const ExitCode code = writeShot(options, settings, flatCamera, std::move(film), isGood);
+    writer.finish();
+    const ExitCode code = writeShot(options, settings, flatCamera, std::move(rendered));
     ++place_.rendered;
     place_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return code;
@@ -252,20 +287,31 @@ bool SequenceRenderer::keep(const RenderOptions& options, const FlatCamera& came
         std::error_code ignored;
         return std::filesystem::exists(file, ignored);
     };
-    if (!exists(options.output) || (options.ids && !exists(*options.ids)) || (options.stats && !exists(*options.stats))) {
+    if (!exists(options.output)) {
         return false;
     }
     Film film;
+    bool ends = true;
     try {
         film = readFilm(options.output);
+        ends = !isCheckpoint(options.output);
     } catch (const InputError&) {
+        if (options.checkpoint.resume) {
+            throw;
+        }
         return false;  // as a render of one picture overwrites whatever is there
     }
-    FilmIdentity identity = identityOf(SceneIdentity(prepared_.flat), camera, settings);
-    identity.settings += describeCamera(options.pose, options.lens);
-    const bool same = film.identity.scene == identity.scene && film.identity.settings == identity.settings &&
-                      film.width == settings.width && film.height == settings.height;
-    if (!same || !isWhole(film, options)) {
+    Film expected;
+    expected.width = settings.width;
+    expected.height = settings.height;
+    expected.identity = identityOf(SceneIdentity(prepared_.flat), camera, settings);
+    labelFilm(expected, options);
+    const std::string difference = describeDifference(film, expected);
+    if (!difference.empty() && options.checkpoint.resume) {
+        throw InputError(options.output.string() + ": cannot be resumed: " + difference + ".");
+    }
+    const bool lacksFiles = (options.ids && !exists(*options.ids)) || (options.stats && !exists(*options.stats));
+    if (!difference.empty() || !isWhole(film, ends, options) || lacksFiles) {
         return false;
     }
     writePngs(options, film);
@@ -287,6 +333,38 @@ void SequenceRenderer::openRenderer(const FlatCamera& camera, RenderSettings& se
     isSceneNew_ = false;
 }
 
+// keep() has looked whether the film is of this picture.
+void SequenceRenderer::resume(const RenderOptions& options)
+{
+    std::error_code ignored;
+    if (!std::filesystem::exists(options.output, ignored)) {
+        return;
+    }
+    const Film film = readFilmHeader(options.output);
+    const std::uint32_t first = renderer_->settings().sampleBegin;
+    const auto refuse = [&](const std::string& reason) {
+        throw InputError(options.output.string() + ": cannot be resumed: it has samples " + sampleRangesText(film) + ", " + reason + ".");
+    };
+    if (film.sampleRanges.front().first != first) {
+        refuse("expected them to begin at " + std::to_string(first));
+    }
+    std::optional<Checkpoint> checkpoint = readCheckpoint(options.output);
+    if (!checkpoint && !film.complete && film.sampleRanges.front().second - first <= kBlockSamples) {
+        std::cerr << "glim: " << options.output.string() << " has no finished block of samples, so the render begins anew\n";
+        return;
+    }
+    if (!checkpoint) {
+        refuse("expected one range that ends with a page of " + std::to_string(kPageSamples) + "; `glim merge` adds others");
+    }
+    if (!renderer_->canResume(*checkpoint)) {
+        refuse(isNeighbours(renderer_->settings().adaptive) ? "planned for another --spp" : "more than were asked for");
+    }
+    renderer_->resume(*std::move(checkpoint));
+    std::cerr << "glim: " << options.output.string() << " is resumed at "
+              << static_cast<double>(renderer_->statistics().resumedSamples) / static_cast<double>(film.width * std::size_t{film.height})
+              << " samples per pixel\n";
+}
+
 // Seconds that it took, if it was asked for.
 std::optional<double> SequenceRenderer::writeIdentities(const RenderOptions& options, const FlatCamera& camera, const Film& film)
 {
@@ -300,18 +378,18 @@ std::optional<double> SequenceRenderer::writeIdentities(const RenderOptions& opt
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const RenderSettings& settings, const FlatCamera& camera, Film film,
-                                     bool isGood)
+ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const RenderSettings& settings, const FlatCamera& camera,
+                                     Rendered rendered)
 {
+    Film& film = rendered.film;
     if (watch_.signal() != 0 && renderer_->statistics().samples == 0) {
         return finish(watch_.signal(), "no sample was finished, and nothing is written");
     }
     if (watch_.signal() != 0 && wouldRuin(options.output, film)) {
         return finish(watch_.signal(), "some pixels had no sample yet, so " + options.output.string() + " is left as it was");
     }
-    film.sceneFile = options.scene.string();
-    film.identity.settings += describeCamera(options.pose, options.lens);  // so that the film can be made again from what its file says
-    const double writeSeconds = writePictures(options, film);
+    labelFilm(film, options);
+    const double writeSeconds = writePictures(options, film, rendered.checkpoint);
     const std::optional<double> idSeconds = writeIdentities(options, camera, film);
     // Before the control, whose samples are no suspects.
     std::vector<Suspect> suspects = findSuspects(*renderer_, film);
@@ -321,7 +399,7 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const RenderS
                               film,
                               renderer_->statistics(),
                               device_.description(),
-                              stopReason(watch_.signal(), film, settings, isGood, renderer_->isDone()),
+                              stopReason(watch_.signal(), film, settings, rendered.isGood, renderer_->isDone()),
                               writeSeconds,
                               idSeconds,
                               std::move(suspects),

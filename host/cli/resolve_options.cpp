@@ -110,6 +110,23 @@ void resolveReplay(const Command& command, RenderOptions& options)
     }
 }
 
+void resolveCheckpoint(const Command& command, const RenderOptions& options)
+{
+    if (!options.checkpoint.isGiven()) {
+        refuseIfGiven(command, {"--on-checkpoint"}, "without --checkpoint or --resume there are no checkpoints");
+    }
+    if (isCourse(options.settings.adaptive)) {
+        refuseIfGiven(command, {"--checkpoint", "--resume"},
+                      "a pixel of --adaptive course stops by its luminances, which no film holds; expected --adaptive off or neighbours");
+    }
+    if (options.replay) {
+        refuseIfGiven(command, {"--checkpoint", "--resume"}, "has no effect with --replay, which makes no picture");
+    }
+    if (options.settings.suspects > 0) {
+        refuseIfGiven(command, {"--resume"}, "the brightest samples of earlier runs are not kept; expected no --suspects");
+    }
+}
+
 void checkReplay(const Command& command, const RenderOptions& options)
 {
     const RenderSettings& settings = options.settings;
@@ -248,6 +265,7 @@ void resolveRender(const Command& command, RenderOptions& options)
     resolveTarget(command, options);
     resolveLight(command, options);
     checkReplay(command, options);
+    resolveCheckpoint(command, options);
     if (options.png && options.rates && mayBeSame(*options.png, *options.rates)) {
         refuse(command, "--rates", "expected another file than that of --png");
     }

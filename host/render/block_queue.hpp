@@ -30,6 +30,13 @@ public:
           blocks_(pixels, 0)
     {}
 
+    // What `samples()` and `blocks()` have returned.
+    BlockQueue(std::uint32_t begin, std::vector<std::uint32_t> samples, std::vector<std::uint32_t> blocks)
+        : begin_(begin),
+          samples_(std::move(samples)),
+          blocks_(std::move(blocks))
+    {}
+
     void add(const std::vector<std::uint32_t>& blocks);
     // Takes the same number of blocks of every pixel that still needs as many: the largest power of two that some pixel needs, at most
     // `mostSamples` but at least one block. Returns nothing once all are taken.
@@ -37,6 +44,8 @@ public:
 
     // The samples taken of each pixel, and the first index beyond all of them.
     const std::vector<std::uint32_t>& samples() const { return samples_; }
+    // The blocks that are still to be taken of each.
+    const std::vector<std::uint32_t>& blocks() const { return blocks_; }
     std::uint32_t begin() const { return begin_; }
     std::uint32_t end() const;
     bool isEmpty() const;

@@ -22,6 +22,8 @@ constexpr double kFormat = 1, kFormatWithSplats = 2;
 
 double formatOf(const Film& film) { return film.splats.empty() ? kFormat : kFormatWithSplats; }
 
+constexpr const char* kProgress = "glim:progress";  // of checkpoints
+
 // Consecutive 32-bit members of PixelMoments or SplatMoments, one letter each.
 struct Layer {
     const char* prefix;
@@ -57,11 +59,11 @@ constexpr Layer kSplatCountLayers[] = {
 
 // Calls visit(channel name, offset in the moments) for every channel of the layers.
 template <class Layers, class Visit>
-void forEachChannel(const Layers& layers, Visit visit)
+void forEachChannel(const Layers& layers, const std::string& group, Visit visit)
 {
     for (const Layer& layer : layers) {
         for (std::size_t i = 0; layer.letters[i] != '\0'; ++i) {
-            std::string name = layer.prefix;
+            std::string name = group + layer.prefix;
             name += layer.letters[i];
             visit(name, layer.offset + i * sizeof(float));
         }
@@ -109,28 +111,36 @@ void addErrors(const std::vector<PixelMoments>& pixels, Image& image)
 }
 
 template <class Layers, class Moments>
-void addLayers(const Layers& layers, const std::vector<Moments>& pixels, Image& image)
+void addLayers(const Layers& layers, const std::vector<Moments>& pixels, Image& image, const std::string& group = "")
 {
-    forEachChannel(layers, [&](const std::string& name, std::size_t offset) { image.channels[name] = planeOf<float>(pixels, offset); });
+    forEachChannel(layers, group, [&](const std::string& name, std::size_t offset) { image.channels[name] = planeOf<float>(pixels, offset); });
 }
 
 template <class Layers, class Moments>
-void addCounts(const Layers& layers, const std::vector<Moments>& pixels, Image& image)
+void addCounts(const Layers& layers, const std::vector<Moments>& pixels, Image& image, const std::string& group = "")
 {
-    forEachChannel(layers,
+    forEachChannel(layers, group,
                    [&](const std::string& name, std::size_t offset) { image.counts[name] = planeOf<std::uint32_t>(pixels, offset); });
 }
 
 template <class Layers, class Moments>
-void takeLayers(const fs::path& path, const Layers& layers, const Image& image, std::vector<Moments>& pixels)
+void takeLayers(const fs::path& path, const Layers& layers, const Image& image, std::vector<Moments>& pixels, const std::string& group = "")
 {
-    forEachChannel(layers, [&](const std::string& name, std::size_t offset) { takePlane(path, image.channels, name, offset, pixels); });
+    forEachChannel(layers, group, [&](const std::string& name, std::size_t offset) { takePlane(path, image.channels, name, offset, pixels); });
 }
 
 template <class Layers, class Moments>
-void takeCounts(const fs::path& path, const Layers& layers, const Image& image, std::vector<Moments>& pixels)
+void takeCounts(const fs::path& path, const Layers& layers, const Image& image, std::vector<Moments>& pixels, const std::string& group = "")
 {
-    forEachChannel(layers, [&](const std::string& name, std::size_t offset) { takePlane(path, image.counts, name, offset, pixels); });
+    forEachChannel(layers, group, [&](const std::string& name, std::size_t offset) { takePlane(path, image.counts, name, offset, pixels); });
+}
+
+void addSplats(const std::vector<SplatMoments>& splats, Image& image, const std::string& group = "")
+{
+    if (!splats.empty()) {
+        addLayers(kSplatLayers, splats, image, group);
+        addCounts(kSplatCountLayers, splats, image, group);
+    }
 }
 
 Image imageOf(const Film& film)
@@ -154,11 +164,45 @@ Image imageOf(const Film& film)
     addCounts(kCountLayers, film.pixels, image);
     if (!film.splats.empty()) {
         addLayers(kCameraLayers, film.pixels, image);
-        addLayers(kSplatLayers, film.splats, image);
-        addCounts(kSplatCountLayers, film.splats, image);
+        addSplats(film.splats, image);
     }
     addErrors(shown, image);
     return image;
+}
+
+void addGroup(const std::vector<PixelMoments>& pixels, const std::vector<SplatMoments>& splats, Image& image, const std::string& group)
+{
+    if (!pixels.empty()) {
+        addLayers(kMeanLayers, pixels, image, group);
+        addLayers(kFloatLayers, pixels, image, group);
+        addCounts(kCountLayers, pixels, image, group);
+    }
+    addSplats(splats, image, group);
+}
+
+bool isEmpty(const std::vector<PixelMoments>& pixels)
+{
+    return std::ranges::all_of(pixels, [](const PixelMoments& pixel) { return pixel.count == 0; });
+}
+
+// What a checkpoint has folded is the film itself, nothing, or in layers of its own.
+constexpr const char *kAll = "all", *kNothing = "nothing", *kApart = "apart";
+
+const char* placeOfFolded(const Film& film, const Checkpoint& checkpoint)
+{
+    const bool same = checkpoint.page.empty() && checkpoint.pageSplats.empty() && film.sampleRanges == checkpoint.film.sampleRanges;
+    return same ? kAll : isEmpty(checkpoint.film.pixels) ? kNothing : kApart;
+}
+
+std::string progressText(const Checkpoint& checkpoint, const std::string& folded)
+{
+    std::ostringstream text;
+    text << folded << ' ' << checkpoint.sample << ' ' << checkpoint.pixelsAhead << ' ' << checkpoint.lightSample;
+    if (const auto& adaptive = checkpoint.adaptive) {
+        text << ' ' << adaptive->mean << ' ' << adaptive->roundEnd << ' ' << adaptive->commonEnd << ' ' << adaptive->chosenBegin << ' '
+             << adaptive->choosing;
+    }
+    return text.str();
 }
 
 template <class Value>
@@ -202,7 +246,7 @@ Film filmOfHeader(const fs::path& path, const Image& image)
     }
     const auto samples = attribute<std::string>(path, image, "glim:samples");
     const auto ranges = parseRanges(samples);
-    if (!ranges) {
+    if (!ranges || ranges->empty()) {
         throw InputError(path.string() + ": its sample ranges are \"" + samples +
                          "\", expected ascending disjoint ranges such as \"0:256 512:768\".");
     }
@@ -220,6 +264,78 @@ Film filmOfHeader(const fs::path& path, const Image& image)
     return film;
 }
 
+void takeSplats(const fs::path& path, const Image& image, std::vector<SplatMoments>& splats, const std::string& group = "")
+{
+    takeLayers(path, kSplatLayers, image, splats, group);
+    takeCounts(path, kSplatCountLayers, image, splats, group);
+}
+
+// Leaves empty what the group does not have.
+void takeGroup(const fs::path& path, const Image& image, std::vector<PixelMoments>& pixels, std::vector<SplatMoments>& splats,
+               const std::string& group)
+{
+    const std::size_t count = std::size_t{image.width} * image.height;
+    if (image.channels.contains(group + "R")) {
+        pixels.resize(count);
+        takeLayers(path, kMeanLayers, image, pixels, group);
+        takeLayers(path, kFloatLayers, image, pixels, group);
+        takeCounts(path, kCountLayers, image, pixels, group);
+    }
+    if (image.channels.contains(group + "splats.R")) {
+        splats.resize(count);
+        takeSplats(path, image, splats, group);
+    }
+}
+
+Film filmOfImage(const fs::path& path, const Image& image)
+{
+    Film film = filmOfHeader(path, image);
+    film.pixels.resize(std::size_t{film.width} * film.height);
+    takeLayers(path, kFloatLayers, image, film.pixels);
+    takeCounts(path, kCountLayers, image, film.pixels);
+    if (attribute<double>(path, image, "glim:film") == kFormat) {
+        takeLayers(path, kMeanLayers, image, film.pixels);
+        return film;
+    }
+    film.splats.resize(film.pixels.size());
+    takeLayers(path, kCameraLayers, image, film.pixels);
+    takeSplats(path, image, film.splats);
+    return film;
+}
+
+Checkpoint checkpointOfImage(const fs::path& path, const Image& image)
+{
+    Checkpoint checkpoint;
+    checkpoint.film = filmOfImage(path, image);
+    const std::size_t pixels = checkpoint.film.pixels.size();
+    const auto text = attribute<std::string>(path, image, kProgress);
+    std::istringstream stream(text);
+    std::string folded;
+    stream >> folded >> checkpoint.sample >> checkpoint.pixelsAhead >> checkpoint.lightSample;
+    if (AdaptiveProgress a; !stream.fail() && !stream.eof()) {
+        stream >> a.mean >> a.roundEnd >> a.commonEnd >> a.chosenBegin >> a.choosing;
+        checkpoint.adaptive = a;
+    }
+    if (stream.fail() || !stream.eof() || checkpoint.pixelsAhead >= pixels || (folded != kAll && folded != kNothing && folded != kApart)) {
+        throw InputError(path.string() + ": is damaged: its progress is \"" + text + "\".");
+    }
+    if (folded != kAll) {
+        checkpoint.film.pixels.assign(pixels, PixelMoments{});
+        checkpoint.film.splats.clear();
+        takeGroup(path, image, checkpoint.film.pixels, checkpoint.film.splats, "folded.");
+        takeGroup(path, image, checkpoint.page, checkpoint.pageSplats, "page.");
+    }
+    if (checkpoint.adaptive) {
+        takeGroup(path, image, checkpoint.common, checkpoint.commonSplats, "common.");
+        checkpoint.common.resize(pixels);
+        checkpoint.chosen.resize(pixels);
+        checkpoint.blocksLeft.resize(pixels);
+        takePlane(path, image.counts, "chosen.X", 0, checkpoint.chosen);
+        takePlane(path, image.counts, "blocksLeft.X", 0, checkpoint.blocksLeft);
+    }
+    return checkpoint;
+}
+
 }  // namespace
 
 std::string sampleRangesText(const Film& film)
@@ -235,23 +351,32 @@ std::string sampleRangesText(const Film& film)
 
 void writeFilm(const fs::path& path, const Film& film) { writeExr(path, imageOf(film)); }
 
-Film readFilm(const fs::path& path)
+void writeFilm(const fs::path& path, const Film& film, const Checkpoint& checkpoint)
+{
+    Image image = imageOf(film);
+    const char* folded = placeOfFolded(film, checkpoint);
+    if (folded == kApart) {
+        addGroup(checkpoint.film.pixels, checkpoint.film.splats, image, "folded.");
+    }
+    addGroup(checkpoint.page, checkpoint.pageSplats, image, "page.");
+    addGroup(checkpoint.common, checkpoint.commonSplats, image, "common.");
+    if (checkpoint.adaptive) {
+        image.counts["chosen.X"] = checkpoint.chosen;
+        image.counts["blocksLeft.X"] = checkpoint.blocksLeft;
+    }
+    image.attributes[kProgress] = progressText(checkpoint, folded);
+    writeExr(path, image);
+}
+
+Film readFilm(const fs::path& path) { return filmOfImage(path, readExr(path)); }
+
+std::optional<Checkpoint> readCheckpoint(const fs::path& path)
 {
     const Image image = readExr(path);
-    Film film = filmOfHeader(path, image);
-    film.pixels.resize(std::size_t{film.width} * film.height);
-    takeLayers(path, kFloatLayers, image, film.pixels);
-    takeCounts(path, kCountLayers, image, film.pixels);
-    if (attribute<double>(path, image, "glim:film") == kFormat) {
-        takeLayers(path, kMeanLayers, image, film.pixels);
-        return film;
-    }
-    film.splats.resize(film.pixels.size());
-    takeLayers(path, kCameraLayers, image, film.pixels);
-    takeLayers(path, kSplatLayers, image, film.splats);
-    takeCounts(path, kSplatCountLayers, image, film.splats);
-    return film;
+    return image.attributes.contains(kProgress) ? checkpointOfImage(path, image) : checkpointOf(filmOfImage(path, image));
 }
+
+bool isCheckpoint(const fs::path& path) { return readExrHeader(path).attributes.contains(kProgress); }
 
 Film readFilmHeader(const fs::path& path) { return filmOfHeader(path, readExrHeader(path)); }
 

@@ -10,16 +10,27 @@
 // camera.RGB   PixelMoments::mean
 // splats.RGB, splatSquares.RGB, splatClamped.X, splatCount.X, splatBlocks.X   SplatMoments
 //
+// A checkpoint is such a film and has more layers: page.* and folded.*, the finished blocks of the last page and the pages before it; with
+// --adaptive neighbours common.*, chosen.X and blocksLeft.X (checkpoint.hpp). The attribute glim:progress says where the render is.
+//
 // Layers end in one letter, as Blender expects; the attributes are named glim:*.
 #pragma once
 
-#include "host/render/film.hpp"
+#include "host/render/checkpoint.hpp"
 
 #include <filesystem>
 
 namespace glim {
 
 void writeFilm(const std::filesystem::path& path, const Film& film);
+
+// A film and what a later render needs to go on from its finished blocks.
+void writeFilm(const std::filesystem::path& path, const Film& film, const Checkpoint& checkpoint);
+
+bool isCheckpoint(const std::filesystem::path& path);
+
+// Returns nothing if the film cannot be continued. Refuses (InputError) what readFilm refuses, and damaged checkpoints.
+std::optional<Checkpoint> readCheckpoint(const std::filesystem::path& path);
 
 // Refuses (InputError) files that writeFilm did not write.
 Film readFilm(const std::filesystem::path& path);

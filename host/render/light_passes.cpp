@@ -20,6 +20,14 @@ void LightPasses::begin(Wavefront& wavefront, const RenderSettings& settings)
     sample_ = settings.sampleBegin;
 }
 
+void LightPasses::resume(std::uint32_t finishedSample, std::vector<SplatMoments> page)
+{
+    sample_ = finishedSample;
+    if (!page.empty()) {
+        sums_->setPage(std::move(page));
+    }
+}
+
 std::optional<PassSeconds> LightPasses::trace(Wavefront& wavefront, std::uint32_t end, const std::function<bool()>& shouldContinue)
 {
     const std::uint32_t paths = lightPathCount(width_, height_), pixels = width_ * height_;

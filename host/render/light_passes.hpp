@@ -23,6 +23,11 @@ public:
     // What foldInto would give; sampling may go on.
     void copyInto(std::vector<SplatMoments>& film) const { SplatSums(*sums_).foldInto(film); }
 
+    // The light of finished blocks that is not folded, and the first sample that it lacks.
+    const std::vector<SplatMoments>& page() const { return sums_->page(); }
+    std::uint32_t finishedSample() const { return sample_ - sums_->openSamples(); }
+    void resume(std::uint32_t finishedSample, std::vector<SplatMoments> page);
+
 private:
     PassSize size_;
     float scale_;

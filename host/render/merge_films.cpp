@@ -15,12 +15,6 @@ namespace {
 
 using SampleRange = std::pair<std::uint32_t, std::uint32_t>;
 
-[[noreturn]] void refuse(const std::string& name, const std::string& first, const std::string& what, const std::string& value,
-                         const std::string& expected)
-{
-    throw InputError(name + ": cannot be merged with " + first + ": its " + what + " is " + value + ", expected " + expected + ".");
-}
-
 std::string quoted(const std::string& text) { return '"' + text + '"'; }
 
 // The first "key=value" in which the settings differ.
@@ -39,20 +33,8 @@ std::pair<std::string, std::string> firstDifference(const std::string& a, const 
 
 void checkSamePicture(const Film& film, const std::string& name, const Film& first, const std::string& firstName)
 {
-    auto size = [](const Film& of) { return std::to_string(of.width) + "x" + std::to_string(of.height); };
-    if (size(film) != size(first)) {
-        refuse(name, firstName, "size", size(film), size(first));
-    }
-    if (film.identity.scene != first.identity.scene) {
-        refuse(name, firstName, "scene, camera or environment", quoted(film.identity.scene) + " (" + film.sceneFile + ")",
-               quoted(first.identity.scene) + " (" + first.sceneFile + ")");
-    }
-    if (film.identity.seed != first.identity.seed) {
-        refuse(name, firstName, "seed", std::to_string(film.identity.seed), std::to_string(first.identity.seed));
-    }
-    if (film.identity.settings != first.identity.settings) {
-        const auto [value, expected] = firstDifference(film.identity.settings, first.identity.settings);
-        refuse(name, firstName, "setting", quoted(value), quoted(expected));
+    if (const std::string difference = describeDifference(film, first); !difference.empty()) {
+        throw InputError(name + ": cannot be merged with " + firstName + ": " + difference + ".");
     }
 }
 
@@ -132,6 +114,29 @@ bool continuesExactly(const Film& film, const Film& next)
     }
     const auto [begin, end] = next.sampleRanges.front();
     return begin == film.sampleRanges.front().second && begin % kPageSamples == 0 && end - begin <= kPageSamples;
+}
+
+std::string describeDifference(const Film& film, const Film& first)
+{
+    const auto sizeOf = [](const Film& of) { return std::to_string(of.width) + "x" + std::to_string(of.height); };
+    const auto describe = [](const std::string& what, const std::string& value, const std::string& expected) {
+        return "its " + what + " is " + value + ", expected " + expected;
+    };
+    if (sizeOf(film) != sizeOf(first)) {
+        return describe("size", sizeOf(film), sizeOf(first));
+    }
+    if (film.identity.scene != first.identity.scene) {
+        return describe("scene, camera or environment", quoted(film.identity.scene) + " (" + film.sceneFile + ")",
+                        quoted(first.identity.scene) + " (" + first.sceneFile + ")");
+    }
+    if (film.identity.seed != first.identity.seed) {
+        return describe("seed", std::to_string(film.identity.seed), std::to_string(first.identity.seed));
+    }
+    if (film.identity.settings != first.identity.settings) {
+        const auto [value, expected] = firstDifference(film.identity.settings, first.identity.settings);
+        return describe("setting", quoted(value), quoted(expected));
+    }
+    return {};
 }
 
 MergePlan planMerge(const std::vector<Film>& films, const std::vector<std::string>& names)

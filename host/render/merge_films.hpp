@@ -20,6 +20,9 @@ struct MergePlan {
 // Looks at the headers only. Refuses different pictures and overlapping samples (InputError, which uses `names`).
 MergePlan planMerge(const std::vector<Film>& films, const std::vector<std::string>& names);
 
+// In what `film` is of another picture than `first`, as in "its seed is 1, expected 0"; empty if it is of the same.
+std::string describeDifference(const Film& film, const Film& first);
+
 // Whether both are of the same picture and have a sample in common.
 bool shareSamples(const Film& a, const Film& b);
 

@@ -77,6 +77,8 @@ public:
 
     // Reads the pages and empties them.
     std::vector<PixelMoments> takePages();
+    std::vector<PixelMoments> readPages() const { return download<PixelMoments>(pages_, count_); }
+    void writePages(std::span<const PixelMoments> pages) { upload(pages_, pages); }
     // Empties everything; all pixels are chosen.
     void clear();
     // Copies the samples of count() pixels of `other`, from its pixel `first` on.

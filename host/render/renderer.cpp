@@ -71,7 +71,7 @@ void Renderer::open(const FlatScene& scene, const FlatCamera& camera)
     refuseBrokenStatus(device_.description(), wavefront_->paths());
     statistics_.schedule = wavefront_->schedule();
     statistics_.compileSeconds = wavefront_->compileSeconds();
-    statistics_.uploadSeconds = secondsSince(start_) - statistics_.compileSeconds;
+    statistics_.uploadSeconds = secondsSinceStart() - statistics_.compileSeconds;
     begin(camera);
 }
 
@@ -165,24 +165,33 @@ void Renderer::begin(const FlatCamera& camera)
     tile_ = 0;
     pixel_ = 0;
     chosen_ = film_.pixels.size();
-    pictureSamples_ = testedSamples_ = 0;
+    pictureSamples_ = testedSamples_ = resumedSamples_ = 0;
+    resumedSeconds_ = 0.0;
+    aheadEnd_ = 0;
+    ended_ = false;
     plannedSamples_ = chosen_ * (settings_.sampleEnd - settings_.sampleBegin);
     start_ = Clock::now();
 }
 
-Film Renderer::render(const RenderObserver& observer, const StoppingCriterion& criterion)
+Film Renderer::render(const RenderObserver& observer, const StoppingCriterion& criterion, const std::function<void()>& atEnd)
 {
     start_ = Clock::now();
     plannedSamples_ =
         criterion ? film_.pixels.size() * leastSamplesForError(settings_.sampleBegin) : plannedSamples_;  // until it is known better
     Clock::time_point begin = start_;
     const auto shouldContinue = [&] { return asks(observer) || secondsSince(begin) < settings_.passSeconds; };
-    while (advance(shouldContinue) && !isOver(observer) && !(criterion && isGoodEnough(criterion))) {
-        begin = Clock::now();
+    const auto isEnough = [&] { return criterion && isGoodEnough(criterion); };
+    if (!(resumedSamples_ > 0 && isEnough())) {
+        while (advance(shouldContinue) && !isOver(observer) && !isEnough()) {
+            begin = Clock::now();
+        }
+    }
+    if (atEnd) {
+        atEnd();
     }
     foldPages(film_, tiles_);
     foldSplats(film_);
-    statistics_.renderSeconds = secondsSince(start_);
+    statistics_.renderSeconds = secondsSinceStart();
     readCounters();
     describe(film_);
     return std::move(film_);
@@ -227,7 +236,7 @@ void Renderer::describe(Film& film) const
         const bool even = pictureSamples_ > 0 && pictureSamples_ == film.pixels.size() * sampleCount();
         film.complete = isDone() || (even && !isCourse(settings_.adaptive));
     }
-    film.seconds = secondsSince(start_);
+    film.seconds = resumedSeconds_ + secondsSinceStart();
 }
 
 // Returns false if `shouldContinue` ended the pass before it was done.
@@ -290,15 +299,15 @@ void Renderer::foldSplats(Film& film)
     }
 }
 
-bool Renderer::asks(const RenderObserver& observer)
+bool Renderer::asks(const RenderObserver& observer, bool betweenPasses)
 {
-    ended_ = !observer({pictureSamples_, plannedSamples_, secondsSince(start_)}) || ended_;
+    ended_ = !observer({pictureSamples_, plannedSamples_, secondsSinceStart(), resumedSamples_, betweenPasses}) || ended_;
     return !ended_;
 }
 
 bool Renderer::isOver(const RenderObserver& observer)
 {
-    return !asks(observer) || (settings_.seconds && secondsSince(start_) >= *settings_.seconds);
+    return !asks(observer, true) || (settings_.seconds && secondsSinceStart() >= *settings_.seconds);
 }
 
 // Judges whenever blocks end and there are a tenth more samples than last time. Judging more often would stop where the estimate happens
@@ -337,6 +346,9 @@ void Renderer::readCounters()
 // covers its picture evenly. Later blocks are swept whole, which keeps the rays of a pixel together.
 std::uint32_t Renderer::sweepEnd() const
 {
+    if (sample_ < aheadEnd_) {
+        return aheadEnd_;
+    }
     const std::uint32_t done = sample_ - settings_.sampleBegin;
     const std::uint32_t last = isNeighbours(settings_.adaptive) ? commonEnd_ : settings_.sampleEnd;
     const std::uint32_t count = done < kBlockSamples ? std::max(1U, std::bit_floor(done)) : kBlockSamples;
@@ -356,7 +368,7 @@ bool Renderer::advance(const std::function<bool()>& shouldContinue)
         return runLightPass(shouldContinue);
     }
     // Each chosen pixel of a round has its own first sample.
-    const Pass pass = choosing_ ? nextPass(0, sweepSamples_) : nextPass(sample_, sweepEnd() - sample_);
+    const Pass pass = choosing_ ? nextPass(0, sweep_.sampleCount) : nextPass(sample_, sweepEnd() - sample_);
     if (!runPass(pass, shouldContinue)) {
         return false;
     }
@@ -364,6 +376,16 @@ bool Renderer::advance(const std::function<bool()>& shouldContinue)
         endSweep();
     }
     return true;
+}
+
+// How many pixels have the current sweep's samples.
+std::size_t Renderer::pixelsDone() const
+{
+    std::size_t done = pixel_;
+    for (std::size_t i = 0; i < tile_; ++i) {
+        done += tiles_[i]->chosenCount();
+    }
+    return done;
 }
 
 // Finds the tile of the sweep's next pixel; false if there is none.
@@ -497,7 +519,7 @@ std::optional<Film> Renderer::sampleControl(const Film& film, const std::functio
     bool going = true;
     while (going && chooseSweep(blocks)) {
         do {
-            going = runPass(nextPass(0, sweepSamples_), shouldContinue);
+            going = runPass(nextPass(0, sweep_.sampleCount), shouldContinue);
         } while (going && findTile());
     }
     statistics_ = before;
@@ -513,15 +535,15 @@ std::optional<Film> Renderer::sampleControl(const Film& film, const std::functio
 // Starts the next sweep over `blocks`; false if none are left.
 bool Renderer::chooseSweep(BlockQueue& blocks)
 {
-    const auto sweep = blocks.take(passSize_.paths());
+    auto sweep = blocks.take(passSize_.paths());
     if (!sweep) {
         return false;
     }
-    sweepSamples_ = sweep->sampleCount;
-    auto from = sweep->pixels.begin();
+    sweep_ = *std::move(sweep);
+    auto from = sweep_.pixels.begin();
     for (const auto& tile : tiles_) {
         std::vector<ChosenPixel> chosen;
-        for (; from != sweep->pixels.end() && from->pixel < tile->begin() + tile->count(); ++from) {
+        for (; from != sweep_.pixels.end() && from->pixel < tile->begin() + tile->count(); ++from) {
             chosen.push_back({from->pixel - tile->begin(), from->sample});
         }
         tile->choose(chosen);

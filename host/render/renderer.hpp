@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/render/block_queue.hpp"
+#include "host/render/checkpoint.hpp"
 #include "host/render/film_identity.hpp"
 #include "host/render/light_passes.hpp"
 #include "host/render/pass_size.hpp"
@@ -17,8 +18,9 @@ struct RenderStatistics {
     double uploadSeconds = 0.0, compileSeconds = 0.0, renderSeconds = 0.0;
     double passSeconds = 0.0;  // device time of all passes; 0 if unknown
     std::map<std::string, KernelStatistics> kernels;
-    double longestDispatch = 0.0;  // seconds, on the device, after compilation
-    std::uint64_t samples = 0;     // over all pixels
+    double longestDispatch = 0.0;      // seconds, on the device, after compilation
+    std::uint64_t samples = 0;         // over all pixels
+    std::uint64_t resumedSamples = 0;  // of earlier runs, not among these
     std::uint64_t cameraAndBounceRays = 0, shadowRays = 0;
     std::uint32_t transparencyCaps = 0, mediaCaps = 0;  // as in Status
     std::uint32_t loopCaps = 0, overflows = 0;          // as in Status; a render with any of them throws
@@ -30,6 +32,8 @@ struct RenderStatistics {
 struct RenderProgress {
     std::uint64_t samples, totalSamples;  // over all pixels; in adaptive renders, totalSamples assumes that no further pixel ends early
     double seconds;
+    std::uint64_t resumedSamples = 0;  // of `samples`, those of earlier runs
+    bool betweenPasses = false;        // Renderer::checkpoint() may be called
 };
 
 // By what factor the samples of the film so far must still grow; at most 1 ends the render.
@@ -49,7 +53,16 @@ public:
     // Samples until sampleEnd, the stopping rule, the time limit, the observer or the criterion (if any) ends it. The film has all finished
     // samples; its counts say how many each pixel has. Throws DeviceError if the driver cut a loop short or a queue overflowed: no film
     // is better than a wrong one. To be called once per picture.
-    Film render(const RenderObserver& observer, const StoppingCriterion& criterion = nullptr);
+    // Calls `atEnd`, if any, before what is not folded yet is.
+    Film render(const RenderObserver& observer, const StoppingCriterion& criterion = nullptr, const std::function<void()>& atEnd = nullptr);
+
+    // What there is between two passes or at the end, but for blocks that are not finished. Nothing before the first block, or if the adaptive rule is
+    // the course's.
+    std::optional<Checkpoint> checkpoint() const;
+    // Goes on from a checkpoint of this picture, which the settings must allow, as if there had been no interruption. To be called before
+    // render.
+    bool canResume(const Checkpoint& checkpoint) const;
+    void resume(Checkpoint checkpoint);
 
     // After an adaptive render: takes new samples of one pixel in a hundred (of 64 or so in small pictures), as many as `film` has of
     // each. They are independent of the samples that the allocation was based on, and are in no statistics. Returns nothing if
@@ -96,12 +109,13 @@ private:
     void open(const FlatScene& scene, const FlatCamera& camera);
     void makeTiles();
     void begin(const FlatCamera& camera);
+    double secondsSinceStart() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
     void describe(Film& film) const;
     bool runPass(const Pass& pass, const std::function<bool()>& shouldContinue);
     std::uint32_t lightEnd() const;
     bool runLightPass(const std::function<bool()>& shouldContinue);
     void addSeconds(const PassSeconds& seconds);
-    bool asks(const RenderObserver& observer);
+    bool asks(const RenderObserver& observer, bool betweenPasses = false);
     // Unique over all renderers, so that the folded pages of one are never taken for those of another.
     static std::uint64_t nextFoldVersion();
 
@@ -109,6 +123,7 @@ private:
     bool isBetweenRounds() const { return mean_ == roundEnd_; }
     std::uint32_t sweepEnd() const;
     bool findTile();
+    std::size_t pixelsDone() const;
     Pass nextPass(std::uint32_t firstSample, std::uint32_t sampleCount) const;
     void endSweep();
     std::uint64_t choosePixels();
@@ -144,7 +159,9 @@ private:
     std::size_t tile_ = 0;      // the tile of the next pass
     std::uint32_t pixel_ = 0;   // its first pixel, among the tile's chosen ones
     std::uint64_t chosen_ = 0;  // pixels that the sweep goes over
-    std::uint64_t pictureSamples_ = 0, plannedSamples_ = 0;
+    std::uint64_t pictureSamples_ = 0, plannedSamples_ = 0, resumedSamples_ = 0;
+    double resumedSeconds_ = 0.0;
+    std::uint32_t aheadEnd_ = 0;       // of the sweep that a checkpoint had begun
     std::uint64_t testedSamples_ = 0;  // pictureSamples_ when the criterion was last tested
     double timesToTarget_ = 0.0;       // the criterion's last answer; infinite before the first
 
@@ -155,7 +172,7 @@ private:
     std::uint32_t commonEnd_ = 0;     // their number at the end of the current round
     BlockQueue chosenBlocks_;         // the samples of chosen pixels
     bool choosing_ = false;           // the current sweep is over chosen pixels
-    std::uint32_t sweepSamples_ = 0;  // samples per pixel of that sweep
+    Sweep sweep_;                     // that one
     std::uint32_t mean_ = 0;          // mean samples per pixel after the last round
     std::uint32_t roundEnd_ = 0;      // the same after the current round
 };

@@ -1,6 +1,7 @@
 #include "host/render/splats.hpp"
 
 #include "host/gpu/commands.hpp"
+#include "host/render/checkpoint.hpp"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/limits.h"
 
@@ -16,8 +17,6 @@ BufferMap joined(BufferMap a, const BufferMap& b)
     a.insert(b.begin(), b.end());
     return a;
 }
-
-bool endsBlock(std::uint32_t end) { return end % blockSamples(end - 1) == 0; }
 
 }  // namespace
 

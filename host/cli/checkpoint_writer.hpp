@@ -1,0 +1,68 @@
+// Writes a film while it is rendered, so that a later run can continue it.
+#pragma once
+
+#include "host/cli/command.hpp"
+#include "host/render/renderer.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <future>
+#include <optional>
+#include <string>
+
+namespace glim {
+
+struct CheckpointOptions {
+    std::optional<double> seconds;  // between two checkpoints
+    bool resume = false;
+    std::string command;  // for the shell, after each checkpoint
+
+    bool isGiven() const { return seconds || resume; }
+};
+
+void addCheckpoint(const Command& command, CheckpointOptions& options);
+
+class CheckpointWriter {
+public:
+    // `label`: what is known of the film besides what the renderer knows (scene file, camera).
+    CheckpointWriter(const CheckpointOptions& options, std::filesystem::path output, std::function<void(Film&)> label);
+    // Waits for the checkpoint under way.
+    ~CheckpointWriter();
+    CheckpointWriter(const CheckpointWriter&) = delete;
+    CheckpointWriter& operator=(const CheckpointWriter&) = delete;
+
+    // To be called often, between passes. Starts a checkpoint in a thread of its own if it is time for one or SIGUSR1 has asked for one.
+    // Writing takes at most a hundredth of the time. One that cannot be written is said so on stderr, and the render goes on.
+    void offer(const Renderer& renderer);
+    // Waits for the one under way.
+    void finish();
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    double write(const Checkpoint& checkpoint) const;
+
+    CheckpointOptions options_;
+    std::filesystem::path output_;
+    std::function<void(Film&)> label_;
+    bool asked_ = false;  // by the user, and not done yet
+    Clock::time_point last_;
+    double interval_ = 0.0;        // seconds; the first checkpoint comes with the first finished block
+    std::future<double> writing_;  // gives the seconds that it took
+};
+
+// One process at a time may write a file: throws InputError, which names the other process, if there is one. The lock is a file beside
+// `output`, which is removed at the end.
+class OutputLock {
+public:
+    explicit OutputLock(const std::filesystem::path& output);
+    ~OutputLock();
+    OutputLock(const OutputLock&) = delete;
+    OutputLock& operator=(const OutputLock&) = delete;
+
+private:
+    std::filesystem::path path_;
+    int file_ = -1;
+};
+
+}  // namespace glim

@@ -1,0 +1,187 @@
+// Renders that stop and go on from their films: the bits are those of renders without an interruption.
+#include "host/flatten/flatten_scene.hpp"
+#include "host/measure/error_estimate.hpp"
+#include "host/render/film_file.hpp"
+#include "tests/support/build_scene.hpp"
+#include "tests/support/render_scene.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/support/test_device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace glim {
+namespace {
+
+// Renders in pieces, each of which begins with the file of the one before and ends after some passes.
+class Pieces {
+public:
+    Pieces(const Scene& scene, const RenderSettings& settings, const StoppingCriterion& criterion = nullptr)
+        : flat_(flattened(scene)),
+          camera_(flattenCamera(scene.cameras.front(), 1.0F)),
+          renderer_(testDevice(), flat_, camera_, settings),
+          criterion_(criterion)
+    {}
+
+    Film renderAtOnce()
+    {
+        restart();
+        return renderer_.render([](const RenderProgress&) { return true; }, criterion_);
+    }
+
+    // `passesOf`: of each piece.
+    Film renderInPieces(const std::function<int()>& passesOf)
+    {
+        for (pieces = 1;; ++pieces) {
+            restart();
+            if (std::filesystem::exists(file_)) {
+                std::optional<Checkpoint> checkpoint = readCheckpoint(file_);
+                EXPECT_TRUE(checkpoint && renderer_.canResume(*checkpoint));
+                renderer_.resume(*std::move(checkpoint));
+            }
+            int left = passesOf();
+            bool ended = false;
+            std::optional<Checkpoint> checkpoint;
+            const auto observe = [&](const RenderProgress& now) {
+                left -= now.betweenPasses ? 1 : 0;
+                ended = left <= 0;
+                return !ended;
+            };
+            const Film film = renderer_.render(observe, criterion_, [&] { checkpoint = renderer_.checkpoint(); });
+            if (renderer_.isDone() || !ended) {
+                return film;
+            }
+            if (checkpoint) {
+                apart += checkpoint->page.empty() ? 0 : 1;
+                ahead += checkpoint->pixelsAhead > 0 ? 1 : 0;
+                choosing += checkpoint->adaptive && checkpoint->adaptive->choosing ? 1 : 0;
+                writeFilm(file_, film, *checkpoint);
+                EXPECT_TRUE(sameBits(readFilm(file_), film));
+            }
+        }
+    }
+
+    int pieces = 0, apart = 0, ahead = 0, choosing = 0;
+
+private:
+    void restart() { renderer_.restart(camera_, renderer_.settings().width, renderer_.settings().height); }
+
+    FlatScene flat_;
+    FlatCamera camera_;
+    Renderer renderer_;
+    StoppingCriterion criterion_;
+    test::ScratchFolder folder_;
+    std::filesystem::path file_ = folder_ / "film.exr";
+};
+
+// Of several tiles, and passes of a few hundred samples.
+RenderSettings inSmallPasses(std::uint32_t side, std::uint32_t spp)
+{
+    RenderSettings settings = squareSettings(side, spp);
+    settings.tilePixels = 100;
+    settings.pathCapacity = 1024;
+    return settings;
+}
+
+std::function<int()> randomPasses(int most)
+{
+    return [random = std::mt19937(1), most]() mutable { return 1 + static_cast<int>(random() % static_cast<unsigned>(most)); };
+}
+
+class ResumeTest : public ::testing::TestWithParam<Schedule> {};
+
+// The mixed scene has light paths.
+TEST_P(ResumeTest, UniformRendersHaveTheBitsOfOneRun)
+{
+    for (const auto& [begin, end] : {std::pair{0U, 900U}, std::pair{200U, 700U}}) {
+        RenderSettings settings = inSmallPasses(16, end);
+        settings.sampleBegin = begin;
+        settings.schedule = GetParam();
+        Pieces pieces(mixedScene(), settings);
+        const Film whole = pieces.renderAtOnce();
+        const Film film = pieces.renderInPieces(randomPasses(40));
+        EXPECT_TRUE(sameBits(film, whole));
+        EXPECT_EQ(film.sampleRanges, whole.sampleRanges);
+        EXPECT_TRUE(film.complete);
+        EXPECT_GT(pieces.pieces, 6);
+        EXPECT_GT(pieces.apart, 3);
+        EXPECT_GT(pieces.ahead, 3);
+        EXPECT_FALSE(whole.splats.empty());
+    }
+}
+
+TEST_P(ResumeTest, AdaptiveRendersHaveTheBitsOfOneRun)
+{
+    RenderSettings settings = inSmallPasses(16, 640);
+    settings.adaptive = Adaptive::Neighbours;
+    settings.schedule = GetParam();
+    Pieces pieces(mixedScene(), settings);
+    const Film whole = pieces.renderAtOnce(), film = pieces.renderInPieces(randomPasses(40));
+    EXPECT_TRUE(sameBits(film, whole));
+    EXPECT_EQ(film.sampleRanges, whole.sampleRanges);
+    EXPECT_TRUE(film.complete);
+    EXPECT_GT(pieces.pieces, 6);
+    EXPECT_GT(pieces.choosing, 2);
+    EXPECT_GT(pieces.ahead, 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Schedules, ResumeTest, ::testing::Values(Schedule::Wavefront, Schedule::Persistent));
+
+// The error is judged at the same numbers of samples.
+TEST(ResumeTargetTest, StopsWhereOneRunDoes)
+{
+    const auto criterion = [](const Film& film) { return estimateError(film).value().errors.relMse / 6e-4; };
+    for (const Adaptive adaptive : {Adaptive::Off, Adaptive::Neighbours}) {
+        RenderSettings settings = inSmallPasses(16, 8192);
+        settings.adaptive = adaptive;
+        Pieces pieces(mixedScene(), settings, criterion);
+        const Film whole = pieces.renderAtOnce(), film = pieces.renderInPieces(randomPasses(30));
+        EXPECT_TRUE(sameBits(film, whole));
+        EXPECT_EQ(film.sampleRanges, whole.sampleRanges);
+        EXPECT_LT(film.sampleRanges.front().second, 8192U);
+        EXPECT_GT(film.sampleRanges.front().second, 200U) << "a target that is met later tells more";
+        EXPECT_GT(pieces.pieces, 4);
+    }
+}
+
+// Films without a checkpoint go on if they end with a page, or lie within one and end with a block.
+TEST(ResumeFilmTest, AnyFilmThatEndsWithAPageGoesOn)
+{
+    for (const std::uint32_t end : {64U, 512U, 640U}) {
+        RenderSettings settings = squareSettings(12, end);
+        settings.schedule = Schedule::Persistent;
+        const Scene scene = mixedScene();
+        std::optional<Checkpoint> checkpoint = checkpointOf(renderScene(scene, settings));
+        ASSERT_EQ(checkpoint.has_value(), end != 640U) << end;
+        if (!checkpoint) {
+            continue;
+        }
+        settings.sampleEnd = 800;
+        const FlatScene flat = flattened(scene);
+        Renderer renderer(testDevice(), flat, flattenCamera(scene.cameras.front(), 1.0F), settings);
+        renderer.resume(*std::move(checkpoint));
+        EXPECT_TRUE(sameBits(renderer.render([](const RenderProgress&) { return true; }), renderScene(scene, settings))) << end;
+        EXPECT_EQ(renderer.statistics().samples, 144U * (800U - end));
+    }
+}
+
+TEST(ResumeFilmTest, WhatLacksSamplesDoesNot)
+{
+    RenderSettings settings = squareSettings(4, 256);
+    settings.schedule = Schedule::Persistent;
+    Film film = renderScene(mixedScene(), settings);
+    film.complete = false;
+    EXPECT_FALSE(checkpointOf(film));
+    film.complete = true;
+    EXPECT_TRUE(checkpointOf(film));
+    film.sampleRanges = {{0, 128}, {256, 384}};
+    EXPECT_FALSE(checkpointOf(film));
+    film.sampleRanges = {{0, 100}};
+    EXPECT_FALSE(checkpointOf(film)) << "within a block";
+    film.sampleRanges = {{128, 384}};
+    EXPECT_FALSE(checkpointOf(film)) << "over two pages";
+}
+
+}  // namespace
+}  // namespace glim
