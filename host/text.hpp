@@ -2,6 +2,8 @@
 #pragma once
 
 #include <charconv>
+#include <cstdint>
+#include <cstdio>
 #include <string>
 
 namespace glim {
@@ -12,6 +14,14 @@ std::string exactText(T value)
 {
     char text[32];
     return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+// 16 digits.
+inline std::string hexadecimal(std::uint64_t value)
+{
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(value));
+    return digits;
 }
 
 // "1 sphere", "2 spheres".

@@ -17,6 +17,7 @@ buildPackages=(
     "libtinygltf-dev           reads glTF"
     "nlohmann-json3-dev        reads and writes JSON"
     "libopenexr-dev            reads and writes EXR"
+    "libssl-dev                computes SHA-256 of films"
     "libpng-dev                reads and writes PNG"
     "libjpeg62-turbo-dev       reads JPEG"
     "libwebp-dev               reads WebP"

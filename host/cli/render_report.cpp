@@ -163,6 +163,7 @@ Json statisticsOf(const RenderReport& report)
           {"ids", report.idSeconds}}},
         {"samples", s.samples},
         {"resumedSamples", s.resumedSamples},
+        {"digest", digestOf(report.film)},
         {"samplesPerSecond", perSecond(s.samples, s.renderSeconds)},
         {"rays", {{"closest", s.cameraAndBounceRays}, {"shadow", s.shadowRays}, {"total", rays}}},
         {"raysPerSecond", perSecond(rays, s.renderSeconds)},

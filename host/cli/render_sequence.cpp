@@ -7,6 +7,7 @@
 #include "host/flatten/camera_options.hpp"
 #include "host/render/check_memory.hpp"
 #include "host/render/film_file.hpp"
+#include "host/render/film_origin.hpp"
 #include "host/render/film_pictures.hpp"
 #include "host/render/identify.hpp"
 #include "host/render/merge_films.hpp"
@@ -307,6 +308,10 @@ bool SequenceRenderer::keep(const RenderOptions& options, const FlatCamera& came
     expected.identity = identityOf(SceneIdentity(prepared_.flat), camera, settings);
     labelFilm(expected, options);
     const std::string difference = describeDifference(film, expected);
+    if (options.checkpoint.resume && film.identity.kernels != expected.identity.kernels) {
+        throw InputError(options.output.string() + ": cannot be resumed: it is by another version of glim's kernels; " +
+                         "`glim merge` adds samples that this one renders.");
+    }
     if (!difference.empty() && options.checkpoint.resume) {
         throw InputError(options.output.string() + ": cannot be resumed: " + difference + ".");
     }
@@ -363,6 +368,10 @@ void SequenceRenderer::resume(const RenderOptions& options)
     std::cerr << "glim: " << options.output.string() << " is resumed at "
               << static_cast<double>(renderer_->statistics().resumedSamples) / static_cast<double>(film.width * std::size_t{film.height})
               << " samples per pixel\n";
+    if (film.arithmetic != arithmeticFingerprint(device_)) {
+        std::cerr << "glim: " << device_.description().name << " rounds otherwise than " << film.device
+                  << " did, so the film will equal a single run up to rounding\n";
+    }
 }
 
 // Seconds that it took, if it was asked for.

@@ -1,6 +1,6 @@
 #include "host/flatten/environment_map.hpp"
 
-#include "host/flatten/fingerprint.hpp"
+#include "host/fingerprint.hpp"
 #include "host/flatten/piecewise_constant.hpp"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 #include "host/flatten/flat_scene.hpp"
 
-#include "host/flatten/fingerprint.hpp"
+#include "host/fingerprint.hpp"
+#include "host/text.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <span>
 
 namespace glim {
@@ -105,9 +105,7 @@ std::string fingerprint(std::uint64_t scene, const FlatCamera& camera)
 {
     Fingerprint print(scene);
     print.add(std::vector<FlatCamera>{camera});
-    char digits[17];
-    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(print.state()));
-    return digits;
+    return hexadecimal(print.state());
 }
 
 }  // namespace glim

@@ -1,7 +1,7 @@
 #include "host/flatten/flatten_materials.hpp"
 
 #include "host/error.hpp"
-#include "host/flatten/fingerprint.hpp"
+#include "host/fingerprint.hpp"
 #include "host/flatten/media.hpp"
 #include "host/image/srgb.hpp"
 

@@ -1,8 +1,12 @@
 #include "host/image/atomic_file.hpp"
 
 #include "host/error.hpp"
+#include "host/fingerprint.hpp"
+#include "host/text.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <sys/types.h>
 #include <unistd.h>
 
@@ -74,6 +78,57 @@ void checkTarget(const fs::path& path, const fs::path& target)
     }
 }
 
+// One per target, so that a leftover is found. Hidden, and never too long.
+std::string temporaryName(const fs::path& target)
+{
+    Fingerprint print;
+    const std::string name = target.filename().string();
+    print.addBytes(std::as_bytes(std::span(name)));
+    return ".glim-" + hexadecimal(print.state()) + ".partial";
+}
+
+// Waits for the process that is about to rename the file, if there is one, and removes what a killed one has left.
+void removeLeftover(const fs::path& path)
+{
+    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) {
+        return;
+    }
+    flock(file, LOCK_EX);
+    struct stat mine = {}, there = {};
+    if (fstat(file, &mine) == 0 && stat(path.c_str(), &there) == 0 && mine.st_ino == there.st_ino) {
+        unlink(path.c_str());
+    }
+    close(file);
+}
+
+// Locked, unlike a leftover.
+int openNew(const fs::path& path)
+{
+    int file = -1;
+    do {
+        file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (file < 0 && errno == EEXIST) {
+            removeLeftover(path);
+            errno = EEXIST;
+        }
+    } while (file < 0 && errno == EEXIST);
+    if (file >= 0) {
+        flock(file, LOCK_EX);
+    }
+    return file;
+}
+
+// Else a power cut might bring the old file back. Some file systems cannot, and are left alone.
+void syncFolder(const fs::path& folder)
+{
+    const int file = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (file >= 0) {
+        fsync(file);
+        close(file);
+    }
+}
+
 }  // namespace
 
 void checkWritable(const fs::path& path, std::string_view extension)
@@ -92,27 +147,44 @@ AtomicFile::AtomicFile(const fs::path& path)
       target_(followLinks(path))
 {
     checkWritable(path, "");
-    const std::string stem = ".glim-" + std::to_string(getpid()) + "-";
-    for (unsigned attempt = 0; descriptor_ < 0; ++attempt) {
-        temporary_ = folderOf(target_) / (stem + std::to_string(attempt) + ".partial");
-        descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor_ < 0 && errno != EEXIST) {
-            fail();
-        }
+    const fs::path folder = folderOf(target_);
+    temporary_ = folder / temporaryName(target_);
+    // Has no name until it is whole, so nothing is left of it whatever happens. Some file systems lack this.
+    const bool canLink = access("/proc/self/fd", X_OK) == 0;
+    descriptor_ = canLink ? open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666) : -1;
+    if (descriptor_ < 0 && (!canLink || errno == EOPNOTSUPP || errno == EISDIR || errno == ENOENT)) {
+        named_ = true;
+        descriptor_ = openNew(temporary_);
+    }
+    if (descriptor_ < 0) {
+        fail();
     }
 }
 
 AtomicFile::~AtomicFile()
 {
+    if (descriptor_ >= 0 && named_) {
+        unlink(temporary_.c_str());
+    }
     if (descriptor_ >= 0) {
         close(descriptor_);
-        unlink(temporary_.c_str());
     }
 }
 
 void AtomicFile::write(const void* bytes, std::size_t count)
 {
-    const char* rest = static_cast<const char*>(bytes);
+    const char* begin = static_cast<const char*>(bytes);
+    buffer_.insert(buffer_.end(), begin, begin + count);
+    position_ += count;
+    if (buffer_.size() >= kBufferBytes) {
+        flush();
+    }
+}
+
+void AtomicFile::flush()
+{
+    const char* rest = buffer_.data();
+    std::size_t count = buffer_.size();
     while (count > 0) {
         const ssize_t written = ::write(descriptor_, rest, count);
         if (written < 0 && errno == EINTR) {
@@ -123,12 +195,13 @@ void AtomicFile::write(const void* bytes, std::size_t count)
         }
         rest += written;
         count -= static_cast<std::size_t>(written);
-        position_ += static_cast<std::uint64_t>(written);
     }
+    buffer_.clear();
 }
 
 void AtomicFile::seek(std::uint64_t position)
 {
+    flush();
     if (lseek(descriptor_, static_cast<off_t>(position), SEEK_SET) < 0) {
         fail();
     }
@@ -137,11 +210,28 @@ void AtomicFile::seek(std::uint64_t position)
 
 void AtomicFile::commit()
 {
-    if (fsync(descriptor_) != 0 || rename(temporary_.c_str(), target_.c_str()) != 0) {
+    flush();
+    if (fsync(descriptor_) != 0) {
+        fail();
+    }
+    if (!named_) {
+        // Whoever replaces a target holds this lock meanwhile: a temporary name that nobody has locked is left from a killed process.
+        flock(descriptor_, LOCK_EX);
+        const std::string open = "/proc/self/fd/" + std::to_string(descriptor_);
+        while (linkat(AT_FDCWD, open.c_str(), AT_FDCWD, temporary_.c_str(), AT_SYMLINK_FOLLOW) != 0) {
+            if (errno != EEXIST) {
+                fail();
+            }
+            removeLeftover(temporary_);
+        }
+        named_ = true;
+    }
+    if (rename(temporary_.c_str(), target_.c_str()) != 0) {
         fail();
     }
     close(descriptor_);
     descriptor_ = -1;
+    syncFolder(folderOf(target_));
 }
 
 void AtomicFile::fail() const { refuse(name_, std::strerror(errno)); }

@@ -1,11 +1,13 @@
-// A file that appears under its name either complete or not at all. It is written beside the target under a temporary name; `commit`
-// syncs it to the disk and renames it. Without `commit` nothing remains.
+// A file that appears under its name either complete or not at all. It is written beside the target without a name; `commit` syncs it to
+// the disk, gives it a temporary name and renames it. Without `commit` nothing remains, even of a killed process. One that is killed
+// within `commit` may leave the temporary name, which the next write to the target removes.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 namespace glim {
 
@@ -26,13 +28,18 @@ public:
     void commit();
 
 private:
+    static constexpr std::size_t kBufferBytes = std::size_t{1} << 20U;
+
+    void flush();
     [[noreturn]] void fail() const;  // throws InputError with the reason from errno
 
     std::filesystem::path name_;    // as the caller gave it, for messages
     std::filesystem::path target_;  // after following symbolic links, which stay as they are
     std::filesystem::path temporary_;
+    std::vector<char> buffer_;  // written, but not to the file yet
     std::uint64_t position_ = 0;
     int descriptor_ = -1;
+    bool named_ = false;  // there is a file called temporary_
 };
 
 }  // namespace glim

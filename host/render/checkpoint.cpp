@@ -1,5 +1,6 @@
 #include "host/render/checkpoint.hpp"
 
+#include "host/digest.hpp"
 #include "shaders/shared/limits.h"
 
 namespace glim {
@@ -34,6 +35,25 @@ std::optional<Checkpoint> checkpointOf(Film film)
         checkpoint.film.pixels.resize(checkpoint.page.size());
     }
     return checkpoint;
+}
+
+std::string digestOf(const Checkpoint& checkpoint)
+{
+    Digest digest;
+    digest.add(std::vector<std::uint32_t>{checkpoint.sample, checkpoint.pixelsAhead, checkpoint.lightSample});
+    if (const auto& adaptive = checkpoint.adaptive) {
+        digest.add(std::vector<std::uint32_t>{adaptive->mean, adaptive->roundEnd, adaptive->commonEnd, adaptive->chosenBegin,
+                                              adaptive->choosing ? 1U : 0U});
+    }
+    for (const auto* moments : {&checkpoint.film.pixels, &checkpoint.page, &checkpoint.common}) {
+        digest.add(*moments);
+    }
+    for (const auto* moments : {&checkpoint.film.splats, &checkpoint.pageSplats, &checkpoint.commonSplats}) {
+        digest.add(*moments);
+    }
+    digest.add(checkpoint.chosen);
+    digest.add(checkpoint.blocksLeft);
+    return digest.finish();
 }
 
 }  // namespace glim

@@ -39,6 +39,9 @@ Film filmOf(Checkpoint checkpoint);
 // if it lacks samples.
 std::optional<Checkpoint> checkpointOf(Film film);
 
+// SHA-256 of all of it but its film's time and device.
+std::string digestOf(const Checkpoint& checkpoint);
+
 // The end of the block that begins with this sample.
 std::uint32_t blockEnd(std::uint32_t sample);
 bool endsBlock(std::uint32_t end);

@@ -1,8 +1,11 @@
 #include "host/render/film.hpp"
 
+#include "host/digest.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace glim {
 namespace {
@@ -18,6 +21,21 @@ std::uint32_t jointBlocks(double varianceA, std::uint32_t blocksA, double varian
 }
 
 }  // namespace
+
+std::string digestOf(const Film& film)
+{
+    Digest digest;
+    for (const std::string& text : {film.identity.scene, film.identity.settings, film.identity.kernels, film.arithmetic}) {
+        digest.add(text);
+    }
+    digest.add(std::vector<std::uint32_t>{film.identity.seed, film.width, film.height, film.complete ? 1U : 0U});
+    for (const auto& [begin, end] : film.sampleRanges) {
+        digest.add(std::vector<std::uint32_t>{begin, end});
+    }
+    digest.add(film.pixels);
+    digest.add(film.splats);
+    return digest.finish();
+}
 
 PixelMoments foldMoments(const PixelMoments& a, const PixelMoments& b)
 {
@@ -66,6 +84,18 @@ void foldSplats(std::vector<SplatMoments>& film, const std::vector<SplatMoments>
     }
     for (std::size_t i = 0; i < page.size(); ++i) {
         film[i] = foldMoments(film[i], page[i]);
+    }
+}
+
+bool isOfOneDevice(const Film& film) { return film.arithmetic.find(' ') == std::string::npos; }
+
+void addArithmetic(Film& film, const std::string& arithmetic)
+{
+    std::istringstream words(arithmetic);
+    for (std::string word; words >> word;) {
+        if (film.arithmetic.find(word) == std::string::npos) {
+            film.arithmetic += (film.arithmetic.empty() ? "" : " ") + word;
+        }
     }
 }
 

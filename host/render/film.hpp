@@ -15,6 +15,7 @@ struct FilmIdentity {
     std::string scene;     // hash of what was rendered: geometry, materials, lights, camera
     std::string settings;  // every option that changes a sample: "seed=1 sampler=sobol bounces=64 ..."
     std::uint32_t seed = 0;
+    std::string kernels;  // fingerprint (film_origin.hpp); films of others are not of the same bits, but may be merged
 };
 
 // What light paths have brought to a pixel: caustics, which camera paths leave out. Samples are those of the picture, the same for all
@@ -32,10 +33,14 @@ struct Film {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> sampleRanges;  // [begin, end), ascending, disjoint
     bool complete = true;                                               // each pixel has all of sampleRanges or, if adaptive, its own share
     FilmIdentity identity;
-    double seconds = 0.0;   // spent sampling
-    std::string device;     // names the device and driver
-    std::string sceneFile;  // as given
+    double seconds = 0.0;    // spent sampling
+    std::string device;      // names the device and driver
+    std::string arithmetic;  // fingerprints (film_origin.hpp) of all devices, with spaces between them
+    std::string sceneFile;   // as given
 };
+
+// SHA-256 of what makes the film: its identity, sample ranges and moments, not when and where it was rendered.
+std::string digestOf(const Film& film);
 
 // Chan, Golub, LeVeque 1983 for the mean and the sum of squares between blocks. Exactly this order of float32 operations makes a merged
 // film equal to the single run bit for bit.
@@ -45,6 +50,10 @@ SplatMoments foldMoments(const SplatMoments& a, const SplatMoments& b);
 
 // Folds `page` onto `film`. Either may be empty.
 void foldSplats(std::vector<SplatMoments>& film, const std::vector<SplatMoments>& page);
+
+// Whether all of it is of one arithmetic: only then can it be bit-identical to a single run.
+bool isOfOneDevice(const Film& film);
+void addArithmetic(Film& film, const std::string& arithmetic);
 
 // Folds `page` onto the pixels of `film` from index `begin` on.
 void foldPage(Film& film, std::size_t begin, const std::vector<PixelMoments>& page);

@@ -22,7 +22,7 @@ constexpr double kFormat = 1, kFormatWithSplats = 2;
 
 double formatOf(const Film& film) { return film.splats.empty() ? kFormat : kFormatWithSplats; }
 
-constexpr const char* kProgress = "glim:progress";  // of checkpoints
+constexpr const char *kProgress = "glim:progress", *kProgressDigest = "glim:progressDigest";  // of checkpoints
 
 // Consecutive 32-bit members of PixelMoments or SplatMoments, one letter each.
 struct Layer {
@@ -113,7 +113,8 @@ void addErrors(const std::vector<PixelMoments>& pixels, Image& image)
 template <class Layers, class Moments>
 void addLayers(const Layers& layers, const std::vector<Moments>& pixels, Image& image, const std::string& group = "")
 {
-    forEachChannel(layers, group, [&](const std::string& name, std::size_t offset) { image.channels[name] = planeOf<float>(pixels, offset); });
+    forEachChannel(layers, group,
+                   [&](const std::string& name, std::size_t offset) { image.channels[name] = planeOf<float>(pixels, offset); });
 }
 
 template <class Layers, class Moments>
@@ -126,13 +127,15 @@ void addCounts(const Layers& layers, const std::vector<Moments>& pixels, Image& 
 template <class Layers, class Moments>
 void takeLayers(const fs::path& path, const Layers& layers, const Image& image, std::vector<Moments>& pixels, const std::string& group = "")
 {
-    forEachChannel(layers, group, [&](const std::string& name, std::size_t offset) { takePlane(path, image.channels, name, offset, pixels); });
+    forEachChannel(layers, group,
+                   [&](const std::string& name, std::size_t offset) { takePlane(path, image.channels, name, offset, pixels); });
 }
 
 template <class Layers, class Moments>
 void takeCounts(const fs::path& path, const Layers& layers, const Image& image, std::vector<Moments>& pixels, const std::string& group = "")
 {
-    forEachChannel(layers, group, [&](const std::string& name, std::size_t offset) { takePlane(path, image.counts, name, offset, pixels); });
+    forEachChannel(layers, group,
+                   [&](const std::string& name, std::size_t offset) { takePlane(path, image.counts, name, offset, pixels); });
 }
 
 void addSplats(const std::vector<SplatMoments>& splats, Image& image, const std::string& group = "")
@@ -157,7 +160,10 @@ Image imageOf(const Film& film)
                         {"glim:samples", sampleRangesText(film)},
                         {"glim:complete", film.complete ? 1.0 : 0.0},
                         {"glim:seconds", film.seconds},
-                        {"glim:device", film.device}};
+                        {"glim:device", film.device},
+                        {"glim:kernels", film.identity.kernels},
+                        {"glim:arithmetic", film.arithmetic},
+                        {"glim:digest", digestOf(film)}};
     const std::vector<PixelMoments> shown = shownPixels(film);
     addLayers(kMeanLayers, shown, image);
     addLayers(kFloatLayers, film.pixels, image);
@@ -215,6 +221,21 @@ Value attribute(const fs::path& path, const Image& image, const std::string& nam
     return std::get<Value>(entry->second);
 }
 
+// Films of earlier builds lack some.
+std::string textIfPresent(const Image& image, const std::string& name)
+{
+    const auto entry = image.attributes.find(name);
+    const auto* text = entry == image.attributes.end() ? nullptr : std::get_if<std::string>(&entry->second);
+    return text == nullptr ? std::string() : *text;
+}
+
+void checkDigest(const fs::path& path, const std::string& what, const std::string& digest, const std::string& expected)
+{
+    if (!expected.empty() && digest != expected) {
+        throw InputError(path.string() + ": is damaged: the SHA-256 of " + what + " is " + digest + ", expected " + expected + ".");
+    }
+}
+
 // Returns ascending disjoint ranges, or nothing.
 std::optional<decltype(Film::sampleRanges)> parseRanges(const std::string& text)
 {
@@ -261,6 +282,8 @@ Film filmOfHeader(const fs::path& path, const Image& image)
     film.seconds = attribute<double>(path, image, "glim:seconds");
     film.device = attribute<std::string>(path, image, "glim:device");
     film.sceneFile = attribute<std::string>(path, image, "glim:sceneFile");
+    film.identity.kernels = textIfPresent(image, "glim:kernels");
+    film.arithmetic = textIfPresent(image, "glim:arithmetic");
     return film;
 }
 
@@ -295,11 +318,12 @@ Film filmOfImage(const fs::path& path, const Image& image)
     takeCounts(path, kCountLayers, image, film.pixels);
     if (attribute<double>(path, image, "glim:film") == kFormat) {
         takeLayers(path, kMeanLayers, image, film.pixels);
-        return film;
+    } else {
+        film.splats.resize(film.pixels.size());
+        takeLayers(path, kCameraLayers, image, film.pixels);
+        takeSplats(path, image, film.splats);
     }
-    film.splats.resize(film.pixels.size());
-    takeLayers(path, kCameraLayers, image, film.pixels);
-    takeSplats(path, image, film.splats);
+    checkDigest(path, "its samples", digestOf(film), textIfPresent(image, "glim:digest"));
     return film;
 }
 
@@ -333,6 +357,7 @@ Checkpoint checkpointOfImage(const fs::path& path, const Image& image)
         takePlane(path, image.counts, "chosen.X", 0, checkpoint.chosen);
         takePlane(path, image.counts, "blocksLeft.X", 0, checkpoint.blocksLeft);
     }
+    checkDigest(path, "its checkpoint", digestOf(checkpoint), textIfPresent(image, kProgressDigest));
     return checkpoint;
 }
 
@@ -364,6 +389,7 @@ void writeFilm(const fs::path& path, const Film& film, const Checkpoint& checkpo
         image.counts["chosen.X"] = checkpoint.chosen;
         image.counts["blocksLeft.X"] = checkpoint.blocksLeft;
     }
+    image.attributes[kProgressDigest] = digestOf(checkpoint);
     image.attributes[kProgress] = progressText(checkpoint, folded);
     writeExr(path, image);
 }

@@ -13,6 +13,8 @@
 // A checkpoint is such a film and has more layers: page.* and folded.*, the finished blocks of the last page and the pages before it; with
 // --adaptive neighbours common.*, chosen.X and blocksLeft.X (checkpoint.hpp). The attribute glim:progress says where the render is.
 //
+// The attribute glim:digest is the film's SHA-256 (film.hpp), by which damage is noticed.
+//
 // Layers end in one letter, as Blender expects; the attributes are named glim:*.
 #pragma once
 

@@ -1,5 +1,7 @@
 #include "host/render/film_identity.hpp"
 
+#include "host/render/film_origin.hpp"
+
 namespace glim {
 
 SceneIdentity::SceneIdentity(const FlatScene& scene)
@@ -10,7 +12,7 @@ SceneIdentity::SceneIdentity(const FlatScene& scene)
 FilmIdentity identityOf(const SceneIdentity& scene, const FlatCamera& camera, const RenderSettings& settings)
 {
     return {fingerprint(scene.fingerprint, camera), describeSettings(settings) + (scene.sharesMeshes ? " meshes=shared" : ""),
-            settings.seed};
+            settings.seed, kernelsFingerprint()};
 }
 
 }  // namespace glim

@@ -5,6 +5,8 @@
 // Which pixels share a pass depends on measured time. The order of a pixel's samples and all sums do not.
 #include "host/render/renderer.hpp"
 
+#include "host/render/film_origin.hpp"
+
 #include "host/render/allocate_samples.hpp"
 #include "host/render/check_status.hpp"
 #include "shaders/shared/bindings.h"
@@ -147,6 +149,7 @@ void Renderer::begin(const FlatCamera& camera)
     film_.pixels.resize(std::size_t{film_.width} * film_.height);
     film_.identity = identityOf(sceneIdentity_, camera, settings_);
     film_.device = device_.description().name + ", " + device_.description().driver;
+    film_.arithmetic = arithmeticFingerprint(device_);
     foldVersion_ = 0;
     sample_ = settings_.sampleBegin;
     mean_ = roundEnd_ = commonEnd_ = 0;

@@ -56,8 +56,8 @@ public:
     // Calls `atEnd`, if any, before what is not folded yet is.
     Film render(const RenderObserver& observer, const StoppingCriterion& criterion = nullptr, const std::function<void()>& atEnd = nullptr);
 
-    // What there is between two passes or at the end, but for blocks that are not finished. Nothing before the first block, or if the adaptive rule is
-    // the course's.
+    // What there is between two passes or at the end, but for blocks that are not finished. Nothing before the first block, or if the
+    // adaptive rule is the course's.
     std::optional<Checkpoint> checkpoint() const;
     // Goes on from a checkpoint of this picture, which the settings must allow, as if there had been no interruption. To be called before
     // render.
@@ -168,13 +168,13 @@ private:
     std::optional<LightPasses> light_;  // of scenes whose caustics need them
 
     // For --adaptive neighbours.
-    Film common_;                     // the samples that all pixels share
-    std::uint32_t commonEnd_ = 0;     // their number at the end of the current round
-    BlockQueue chosenBlocks_;         // the samples of chosen pixels
-    bool choosing_ = false;           // the current sweep is over chosen pixels
-    Sweep sweep_;                     // that one
-    std::uint32_t mean_ = 0;          // mean samples per pixel after the last round
-    std::uint32_t roundEnd_ = 0;      // the same after the current round
+    Film common_;                  // the samples that all pixels share
+    std::uint32_t commonEnd_ = 0;  // their number at the end of the current round
+    BlockQueue chosenBlocks_;      // the samples of chosen pixels
+    bool choosing_ = false;        // the current sweep is over chosen pixels
+    Sweep sweep_;                  // that one
+    std::uint32_t mean_ = 0;       // mean samples per pixel after the last round
+    std::uint32_t roundEnd_ = 0;   // the same after the current round
 };
 
 }  // namespace glim

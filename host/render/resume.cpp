@@ -3,6 +3,7 @@
 #include "shaders/shared/limits.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace glim {
 namespace {
@@ -92,9 +93,10 @@ bool Renderer::canResume(const Checkpoint& checkpoint) const
 
 void Renderer::resume(Checkpoint checkpoint)
 {
-    const FilmIdentity identity = film_.identity;  // without what a film's file says of its camera
-    film_ = std::move(checkpoint.film);
-    film_.identity = identity;
+    const Film fresh = std::exchange(film_, std::move(checkpoint.film));
+    film_.identity = fresh.identity;  // without what a film's file says of its camera
+    film_.device += film_.device.find(fresh.device) == std::string::npos ? "; " + fresh.device : "";
+    addArithmetic(film_, fresh.arithmetic);
     resumedSeconds_ = film_.seconds;
     sample_ = checkpoint.sample;
     aheadEnd_ = checkpoint.pixelsAhead > 0 ? blockEnd(sample_) : 0;

@@ -55,6 +55,8 @@ GLIM_CONST uint kBindFolded = 26u;
 GLIM_CONST uint kBindText = 27u;
 GLIM_CONST uint kBindPicture = 28u;
 GLIM_CONST uint kBindShown = 29u;
+// arithmetic.glsl
+GLIM_CONST uint kBindProbed = 49u;
 // tests
 GLIM_CONST uint kBindCases = 30u;
 GLIM_CONST uint kBindReport = 31u;

@@ -1,0 +1,24 @@
+// One thread is one input. Writes what the driver makes of it with the operations that kernels use and that drivers may round differently
+// (Vulkan, "Precision and Operation of SPIR-V Instructions").
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "access/arithmetic.glsl"
+
+void main()
+{
+    uint i = gl_GlobalInvocationID.x;
+    uint bits = i * 747796405u + 2891336453u;  // of a linear congruential generator
+    bits ^= bits >> 16u;
+    float unit = float(bits >> 8u) * (1.0 / 16777216.0) + 1e-7;  // above 0, at most 1
+    float angle = (unit - 0.5) * 12.0;
+    float wide = unit * float(1u << (i % 31u));
+    uint first = i * kProbedOperations;
+    probed[first] = sqrt(wide);
+    probed[first + 1u] = unit / (wide + 0.37);
+    probed[first + 2u] = sin(angle);
+    probed[first + 3u] = cos(angle);
+    probed[first + 4u] = log2(wide);
+    probed[first + 5u] = pow(unit, 2.4);
+    probed[first + 6u] = length(vec3(unit, angle, wide));
+    probed[first + 7u] = unit * angle + wide;
+}

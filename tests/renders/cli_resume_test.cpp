@@ -1,0 +1,259 @@
+// --checkpoint and --resume: whatever ends a render, the same command goes on with the bits of one run.
+#include "host/image/exr.hpp"
+#include "host/render/film_file.hpp"
+#include "shaders/shared/limits.h"
+#include "tests/support/run_glim.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/support/simulated_film.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+namespace glim::test {
+namespace {
+
+class CommandLineResumeTest : public ::testing::Test {
+protected:
+    GlimCall call(std::vector<std::string> arguments) const
+    {
+        GlimCall call;
+        call.arguments = {"render", sceneFile("cornell.gltf"), "-o", film_.string()};
+        call.arguments.insert(call.arguments.end(), arguments.begin(), arguments.end());
+        if (std::ranges::find(arguments, "--size") == arguments.end()) {
+            call.arguments.insert(call.arguments.end(), {"--size", "12x12"});
+        }
+        call.folder = folder_.path();
+        return call;
+    }
+    // Fails the n-th call that writes.
+    static GlimCall failing(GlimCall call, int at, const char* how, const std::filesystem::path& folder)
+    {
+        call.environment["LD_PRELOAD"] = GLIM_FAIL_AT_CALL;
+        call.environment["GLIM_FAIL_FOLDER"] = folder.string();
+        call.environment["GLIM_FAIL_AT"] = std::to_string(at);
+        call.environment["GLIM_FAIL_HOW"] = how;
+        return call;
+    }
+    void expectDone(const std::vector<std::string>& arguments) const
+    {
+        const GlimRun run = runGlim(call(arguments));
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+    }
+    void expectRefused(const std::vector<std::string>& arguments, const std::string& reason) const
+    {
+        const std::string before = bytesOfFile(film_);
+        const GlimRun run = runGlim(call(arguments));
+        EXPECT_EQ(run.exitCode, 1) << run.out << run.err;
+        EXPECT_NE(run.err.find(reason), std::string::npos) << run.err;
+        EXPECT_EQ(countLines(run.err), 1U) << run.err;
+        EXPECT_EQ(bytesOfFile(film_), before);
+    }
+    std::string digestOfOneRun(const std::string& samples)
+    {
+        expectDone({"--spp", samples});
+        const std::string digest = digestOf(readFilm(film_));
+        std::filesystem::remove(film_);
+        return digest;
+    }
+
+    ScratchFolder folder_;
+    std::filesystem::path film_ = folder_ / "film.exr";
+};
+
+// Every third of the calls that write a checkpoint or the film at the end; all of them with --long.
+TEST_F(CommandLineResumeTest, KilledWithinAnyWriteItGoesOnWithTheSameBits)
+{
+    const std::string expected = digestOfOneRun("400");
+    const int step = std::getenv("GLIM_LONG") != nullptr ? 1 : 3;
+    int kills = 0, whole = 0, renders = 0;
+    for (int at = 1; renders == 0 || at < 4; at += step) {
+        std::filesystem::remove(film_);
+        const GlimRun killed = runGlim(failing(call({"--spp", "400", "--resume"}), at, "kill", folder_.path()));
+        renders += killed.signal == 0 ? 1 : 0;
+        kills += killed.signal == SIGKILL ? 1 : 0;
+        EXPECT_TRUE(killed.signal == SIGKILL || killed.exitCode == 0) << killed.err;
+        if (std::filesystem::exists(film_)) {
+            whole += killed.signal != 0 ? 1 : 0;
+            readFilm(film_);
+        }
+        expectDone({"--spp", "400", "--resume"});
+        EXPECT_EQ(digestOf(readFilm(film_)), expected) << "killed at call " << at;
+        EXPECT_EQ(folder_.entries(), 1U) << "killed at call " << at;
+    }
+    EXPECT_GT(kills, 20 / step);
+    EXPECT_GT(whole, 9 / step) << "a checkpoint was there when the end was being written";
+}
+
+TEST_F(CommandLineResumeTest, KilledAtAnyMomentItGoesOnWithTheSameBits)
+{
+    const std::string expected = digestOfOneRun("3000");
+    int kills = 0;
+    for (std::size_t lines = 1;; ++lines) {
+        GlimCall killed = call({"--spp", "3000", "--resume", "--checkpoint", "0.01s", "--progress", "json"});
+        killed.signalWhen = [lines](const std::string& err) { return countLines(err) > lines; };
+        killed.signal = lines % 2 == 0 ? SIGTERM : SIGKILL;
+        const GlimRun run = runGlim(killed);
+        if (run.exitCode == 0) {
+            break;
+        }
+        ++kills;
+        ASSERT_LT(kills, 30);
+    }
+    EXPECT_GT(kills, 1);
+    EXPECT_EQ(digestOf(readFilm(film_)), expected);
+    EXPECT_EQ(folder_.entries(), 1U);
+}
+
+TEST_F(CommandLineResumeTest, GoesOnFromAFilmOfFewerSamples)
+{
+    const std::string expected = digestOfOneRun("640");
+    expectDone({"--spp", "256"});
+    expectDone({"--spp", "300", "--resume"});
+    const GlimRun run = runGlim(call({"--spp", "640", "--resume"}));
+    EXPECT_NE(run.err.find("is resumed at 256 samples per pixel"), std::string::npos) << "the last block was not whole: " << run.err;
+    EXPECT_EQ(digestOf(readFilm(film_)), expected);
+    const std::string before = bytesOfFile(film_);
+    const GlimRun fewer = runGlim(call({"--spp", "300", "--resume"}));
+    EXPECT_EQ(fewer.exitCode, 0) << fewer.err;
+    EXPECT_NE(fewer.out.find("is whole and was kept"), std::string::npos) << fewer.out;
+    EXPECT_EQ(bytesOfFile(film_), before);
+}
+
+TEST_F(CommandLineResumeTest, NeighboursGoOn)
+{
+    expectDone({"--spp", "512", "--adaptive", "neighbours"});
+    const std::string expected = digestOf(readFilm(film_));
+    std::filesystem::remove(film_);
+    GlimCall stopped = call({"--spp", "512", "--adaptive", "neighbours", "--resume", "--progress", "json"});
+    stopped.signalWhen = hasLine;
+    stopped.signal = SIGINT;
+    EXPECT_EQ(runGlim(stopped).exitCode, 128 + SIGINT);
+    expectDone({"--spp", "512", "--adaptive", "neighbours", "--resume"});
+    EXPECT_EQ(digestOf(readFilm(film_)), expected);
+    expectRefused({"--spp", "1024", "--adaptive", "neighbours", "--resume"}, "planned for another --spp");
+}
+
+TEST_F(CommandLineResumeTest, UserSignalWritesAndGoesOn)
+{
+    const std::string expected = digestOfOneRun("4000");
+    GlimCall asked = call({"--spp", "4000", "--progress", "json", "--checkpoint", "1h", "--on-checkpoint", "cp \"$GLIM_FILM\" seen.exr"});
+    asked.signalWhen = hasLine;
+    asked.signal = SIGUSR1;
+    const GlimRun run = runGlim(asked);
+    EXPECT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_EQ(digestOf(readFilm(film_)), expected);
+    const Film seen = readFilm(folder_ / "seen.exr");
+    EXPECT_LT(seen.sampleRanges.front().second, 4000U);
+    EXPECT_TRUE(isCheckpoint(folder_ / "seen.exr"));
+    std::filesystem::rename(folder_ / "seen.exr", film_);
+    expectDone({"--spp", "4000", "--resume"});
+    EXPECT_EQ(digestOf(readFilm(film_)), expected);
+}
+
+TEST_F(CommandLineResumeTest, FailedCommandsAndFullDisksAreSaidAndTheRenderGoesOn)
+{
+    const GlimRun run = runGlim(call({"--spp", "300", "--checkpoint", "1m", "--on-checkpoint", "exit 7"}));
+    EXPECT_EQ(run.exitCode, 0);
+    EXPECT_NE(run.err.find("--on-checkpoint: the command failed with status 7"), std::string::npos) << run.err;
+    const std::string before = bytesOfFile(film_);
+    // After those of the lock.
+    const GlimRun full = runGlim(failing(call({"--spp", "600", "--resume"}), 6, "full", folder_.path()));
+    EXPECT_EQ(full.exitCode, 1);
+    EXPECT_NE(full.err.find("no checkpoint: "), std::string::npos) << full.err;
+    EXPECT_NE(full.err.find("film.exr: cannot be written: No space left on device"), std::string::npos) << full.err;
+    EXPECT_EQ(bytesOfFile(film_), before);
+    EXPECT_EQ(folder_.entries(), 1U);
+}
+
+TEST_F(CommandLineResumeTest, OneProcessWrites)
+{
+    expectDone({"--spp", "32"});
+    const int lock = open((film_.string() + ".lock").c_str(), O_RDWR | O_CREAT, 0600);
+    ASSERT_GE(lock, 0);
+    ASSERT_EQ(flock(lock, LOCK_EX), 0);
+    ASSERT_EQ(write(lock, "4711", 4), 4);
+    expectRefused({"--spp", "64", "--resume"}, "film.exr: is written by another glim, process 4711; expected only one.");
+    close(lock);
+    expectDone({"--spp", "64", "--resume"});
+    EXPECT_EQ(folder_.entries(), 1U) << "the lock of a process that is gone is taken, and removed";
+}
+
+TEST_F(CommandLineResumeTest, OtherFilmsAreRefusedAndLeft)
+{
+    expectDone({"--spp", "64"});
+    expectRefused({"--spp", "128", "--resume", "--seed", "1"}, "cannot be resumed: its seed is 0, expected 1");
+    expectRefused({"--spp", "128", "--resume", "--bounces", "3"}, "its setting is \"bounces=64\", expected \"bounces=3\"");
+    expectRefused({"--spp", "128", "--resume", "--size", "10x12"}, "its size is 12x12, expected 10x12");
+    expectRefused({"--spp", "128", "--resume", "--look-from", "0,1,2", "--look-at", "0,1,0"}, "its scene, camera or environment");
+    expectRefused({"--samples", "256:512", "--resume"}, "it has samples 0:64, expected them to begin at 256");
+    Film film = readFilm(film_);
+    film.identity.kernels = "0123456789abcdef";
+    writeFilm(film_, film);
+    expectRefused({"--spp", "128", "--resume"}, "it is by another version of glim's kernels");
+    expectDone({"--spp", "300"});
+    expectRefused({"--spp", "600", "--resume"}, "it has samples 0:300, expected one range that ends with a page of 256");
+    writeText(film_, "no film");
+    expectRefused({"--spp", "600", "--resume"}, "is not an OpenEXR file");
+}
+
+TEST_F(CommandLineResumeTest, DamagedFilmsAreRefused)
+{
+    expectDone({"--spp", "400", "--resume"});
+    ASSERT_TRUE(isCheckpoint(film_));
+    const Image image = readExr(film_);
+    for (const auto& [channel, sentence] :
+         {std::pair{"R", "the SHA-256 of its samples is "}, {"page.R", "the SHA-256 of its checkpoint is "}}) {
+        Image damaged = image;
+        ASSERT_TRUE(damaged.channels.contains(channel));
+        damaged.channels[channel][7] = std::nextafter(damaged.channels[channel][7], 1e9F);
+        writeExr(film_, damaged);
+        expectRefused({"--spp", "500", "--resume"}, sentence);
+    }
+    for (const char* progress : {"", "apart", "apart 384 999 384", "elsewhere 384 0 384", "apart 384 0 384 1 1"}) {
+        Image damaged = image;
+        damaged.attributes["glim:progress"] = progress;
+        writeExr(film_, damaged);
+        expectRefused({"--spp", "500", "--resume"}, std::string("is damaged: its progress is \"") + progress + "\"");
+    }
+}
+
+// What rounds otherwise goes on, and the film says so for ever.
+TEST_F(CommandLineResumeTest, AnotherArithmeticIsSaid)
+{
+    expectDone({"--spp", "256"});
+    Film film = readFilm(film_);
+    film.arithmetic = "0123456789abcdef";
+    film.device = "another device";
+    writeFilm(film_, film);
+    const GlimRun run = runGlim(call({"--spp", "512", "--resume"}));
+    EXPECT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_NE(run.err.find("rounds otherwise than another device did"), std::string::npos) << run.err;
+    EXPECT_FALSE(isOfOneDevice(readFilm(film_)));
+    GlimCall merge;
+    merge.arguments = {"merge", film_.string(), "-o", film_.string()};
+    EXPECT_NE(runGlim(merge).err.find("equal to a single run up to rounding"), std::string::npos);
+}
+
+TEST_F(CommandLineResumeTest, WhatCannotBeContinuedIsRefusedAtOnce)
+{
+    for (const auto& arguments : std::vector<std::vector<std::string>>{{"--resume", "--adaptive", "course"},
+                                                                       {"--checkpoint", "5m", "--adaptive", "course"},
+                                                                       {"--on-checkpoint", "true"},
+                                                                       {"--checkpoint", "5"},
+                                                                       {"--checkpoint", "0s"},
+                                                                       {"--checkpoint", "5 m"},
+                                                                       {"--resume", "--suspects", "3"},
+                                                                       {"--resume", "--replay", "1,1,1"}}) {
+        const GlimRun run = runGlim(call(arguments));
+        EXPECT_EQ(run.exitCode, 2) << run.err;
+    }
+    EXPECT_EQ(folder_.entries(), 0U);
+}
+
+}  // namespace
+}  // namespace glim::test
