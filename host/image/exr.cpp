@@ -15,6 +15,7 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/ImfVersion.h>
 
 #include <cerrno>
@@ -23,6 +24,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <thread>
 
 namespace fs = std::filesystem;
 
@@ -49,6 +51,16 @@ void checkIsExr(const fs::path& path)
     if (!stream || !Imf::isImfMagic(magic)) {
         throw InputError(path.string() + ": is not an OpenEXR file.");
     }
+}
+
+// Most of the time of a file is compression. Returns the number of threads.
+int useAllCores()
+{
+    static const int threads = [] {
+        Imf::setGlobalThreadCount(static_cast<int>(std::thread::hardware_concurrency()));
+        return Imf::globalThreadCount();
+    }();
+    return threads;
 }
 
 // Runs `step` and turns OpenEXR's exceptions into InputError.
@@ -192,7 +204,7 @@ Image readExr(const fs::path& path)
     checkIsExr(path);
     Image image;
     guarded(path, "is damaged, or not an OpenEXR picture", [&] {
-        Imf::InputFile file(path.c_str());
+        Imf::InputFile file(path.c_str(), useAllCores());
         if (!file.isComplete()) {
             throw InputError(path.string() + ": is incomplete: rows of pixels are missing.");
         }
@@ -219,7 +231,7 @@ struct ExrWriter::Output {
           atomic(target),
           stream(atomic, target.string())
     {
-        guarded(path, "cannot be written", [&] { file.emplace(stream, headerOf(picture)); });
+        guarded(path, "cannot be written", [&] { file.emplace(stream, headerOf(picture), useAllCores()); });
     }
 
     fs::path path;
