@@ -1,4 +1,5 @@
 // Nodes that are scaled to a plane, a line or a point: what has a size is left out, with one warning; what has a direction stays.
+#include "host/flatten/build_scene_bvh.hpp"
 #include "host/render/prepare_scene.hpp"
 #include "tests/support/gltf_builder.hpp"
 
@@ -58,6 +59,9 @@ TEST(GltfFlattened, ASceneOfNothingElseIsEmptyAndFramed)
     const Scene scene = load(builder);
     EXPECT_TRUE(scene.instances.empty());
     EXPECT_EQ(scene.cameras.at(0).name, "framed");
+    const WideBvh bvh = buildSceneBvh(makePrimitives(scene));
+    EXPECT_EQ(bvh.box.lo, glm::vec3(0.0F));
+    EXPECT_EQ(bvh.box.hi, glm::vec3(0.0F));
 }
 
 TEST(GltfFlattened, AnAnimationMayPassThroughZero)
