@@ -1,6 +1,8 @@
 // Errors that are not bugs in glim: a bad file, a bad option, a failing driver. `main` prints the sentence and exits with the code.
 #pragma once
 
+#include "host/message.hpp"
+
 #include <stdexcept>
 #include <string>
 
@@ -8,16 +10,21 @@ namespace glim {
 
 enum class ExitCode : int { Done = 0, BadInput = 1, Usage = 2, Device = 3, HungUp = 129, Interrupted = 130, Terminated = 143 };
 
-// One sentence: which file, which place in it, which value, what was expected.
+// One sentence: which file, which place in it, which value, what was expected. It is escaped at once, since what() would end at a byte of
+// 0.
 class InputError : public std::runtime_error {
 public:
-    using std::runtime_error::runtime_error;
+    explicit InputError(const std::string& sentence)
+        : std::runtime_error(escaped(sentence))
+    {}
 };
 
 // One sentence: which device or driver call, what it answered, what was expected of it.
 class DeviceError : public std::runtime_error {
 public:
-    using std::runtime_error::runtime_error;
+    explicit DeviceError(const std::string& sentence)
+        : std::runtime_error(escaped(sentence))
+    {}
 };
 
 }  // namespace glim

@@ -2,6 +2,8 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/version.hpp"
 #include "host/error.hpp"
+#include "host/memory.hpp"
+#include "host/message.hpp"
 
 #include <iostream>
 #include <new>
@@ -10,7 +12,7 @@ namespace {
 
 int fail(glim::ExitCode code, const std::string& sentence)
 {
-    std::cerr << "glim: " << sentence << (sentence.back() == '.' ? "\n" : ".\n");
+    glim::say(sentence.back() == '.' ? sentence : sentence + '.');
     return static_cast<int>(code);
 }
 
@@ -32,14 +34,15 @@ int main(int argc, char** argv)
     try {
         exitCode = line.run({argv + 1, argv + argc});
     } catch (const glim::UsageError& error) {
-        std::cerr << "glim: " << error.what() << "\nRun with --help for more information.\n";
+        glim::say(error.what());
+        std::cerr << "Run with --help for more information.\n";
         return static_cast<int>(glim::ExitCode::Usage);
     } catch (const glim::InputError& error) {
         return fail(glim::ExitCode::BadInput, error.what());
     } catch (const glim::DeviceError& error) {
         return fail(glim::ExitCode::Device, error.what());
     } catch (const std::bad_alloc&) {
-        return fail(glim::ExitCode::BadInput, "There is not enough memory for this scene and picture.");
+        return fail(glim::ExitCode::BadInput, "For this scene and picture " + glim::memorySentence());
     }
     if (!std::cout.flush()) {
         return fail(glim::ExitCode::BadInput, "The results could not be written to standard output");

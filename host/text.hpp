@@ -30,4 +30,11 @@ inline std::string counted(std::size_t count, const std::string& noun)
     return std::to_string(count) + ' ' + noun + (count == 1 ? "" : "s");
 }
 
+// How many names a sentence lists, and what follows them: nothing or " and 4 more".
+constexpr std::size_t kMostListed = 20;
+inline std::string moreThanListed(std::size_t count)
+{
+    return count > kMostListed ? " and " + std::to_string(count - kMostListed) + " more" : "";
+}
+
 }  // namespace glim

@@ -2,6 +2,7 @@
 
 #include "host/bench/summarize_bench.hpp"
 #include "host/error.hpp"
+#include "host/input_file.hpp"
 #include "host/json.hpp"
 #include "host/text.hpp"
 
@@ -181,6 +182,7 @@ std::string benchCsv(const std::vector<SceneBench>& benches)
 
 std::vector<SceneBench> readBenches(const std::filesystem::path& file)
 {
+    requireFile(file, "a JSON file of `glim bench`");
     std::ifstream stream(file, std::ios::binary);
     if (!stream) {
         throw InputError(file.string() + ": cannot be read, expected a JSON file of `glim bench`.");

@@ -2,17 +2,18 @@
 
 #include "host/cli/parse.hpp"
 #include "host/error.hpp"
+#include "host/message.hpp"
 #include "host/render/film_file.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <iostream>
 
 namespace glim {
 namespace {
@@ -93,7 +94,7 @@ void CheckpointWriter::finish()
     try {
         interval_ = std::max(interval_, writing_.get() / kMostShare);
     } catch (const InputError& error) {
-        std::cerr << "glim: no checkpoint: " << error.what() << '\n';
+        say("no checkpoint: " + std::string(error.what()));
     }
 }
 
@@ -104,7 +105,7 @@ double CheckpointWriter::write(const Checkpoint& checkpoint) const
     const double seconds = secondsSince(start);
     if (!options_.command.empty()) {
         if (const int status = std::system(options_.command.c_str()); status != 0) {
-            std::cerr << "glim: --on-checkpoint: the command failed with status " << (status >> 8) << '\n';
+            say("--on-checkpoint: the command failed with status " + std::to_string(status >> 8));
         }
     }
     return seconds;
@@ -126,7 +127,7 @@ OutputLock::OutputLock(const std::filesystem::path& output)
     }
     const std::string process = std::to_string(getpid());
     if (ftruncate(file_, 0) != 0 || write(file_, process.data(), process.size()) < 0) {
-        std::cerr << "glim: " << path_.string() << " cannot be written, so another glim will not learn who holds it\n";
+        say(path_.string() + " cannot be written, so another glim will not learn who holds it");
     }
 }
 

@@ -21,9 +21,11 @@ namespace glim {
 // A mistake in the command itself, in one sentence without a full stop. `main` exits with ExitCode::Usage.
 class UsageError : public std::runtime_error {
 public:
-    using std::runtime_error::runtime_error;
+    explicit UsageError(const std::string& sentence)
+        : std::runtime_error(escaped(sentence))
+    {}
     UsageError(const std::string& option, const std::string& why)
-        : std::runtime_error(option + ": " + why)
+        : UsageError(option + ": " + why)
     {}
 };
 

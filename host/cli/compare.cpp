@@ -4,6 +4,7 @@
 #include "host/image/exr.hpp"
 #include "host/image/png.hpp"
 #include "host/measure/error_picture.hpp"
+#include "host/message.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/merge_films.hpp"
 #include "host/render/settings.hpp"
@@ -31,7 +32,7 @@ std::optional<Film> filmOf(const std::filesystem::path& path, const Image& image
     }
     const Film film = readFilmHeader(path);
     if (!film.complete) {
-        std::cerr << "glim: " << path.string() << " comes from a render that was stopped early: some pixels have fewer samples or none.\n";
+        say(path.string() + " comes from a render that was stopped early: some pixels have fewer samples or none.");
     }
     return film;
 }
@@ -59,12 +60,12 @@ void writeDifferences(const CompareOptions& options, const Picture& picture, con
 {
     if (options.difference) {
         writeExr(*options.difference, signedDifference(picture, reference));
-        std::cerr << "Wrote A - B to " << options.difference->string() << ".\n";
+        std::cerr << "Wrote A - B to " << escaped(options.difference->string()) << ".\n";
     }
     if (options.differencePng) {
         const ErrorPicture drawn = drawErrors(picture, reference, epsilon);
         writePng(*options.differencePng, picture.width, picture.height, drawn.pixels);
-        std::cerr << "Wrote (x-r) / sqrt(r^2 + eps) to " << options.differencePng->string() << ": blue " << -drawn.scale
+        std::cerr << "Wrote (x-r) / sqrt(r^2 + eps) to " << escaped(options.differencePng->string()) << ": blue " << -drawn.scale
                   << " and less (too dark), white 0, red " << drawn.scale << " and more (too bright).\n";
     }
 }
@@ -88,7 +89,7 @@ void runCompare(const CompareOptions& options)
     if (options.json) {
         printJson(report);
     } else {
-        std::cout << "A = " << options.picture.string() << ", B = " << options.reference.string() << " (the reference)\n";
+        std::cout << "A = " << escaped(options.picture.string()) << ", B = " << escaped(options.reference.string()) << " (the reference)\n";
         printTable(report);
     }
 }

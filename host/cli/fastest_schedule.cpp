@@ -4,13 +4,13 @@
 #include "host/cli/version.hpp"
 #include "host/error.hpp"
 #include "host/image/atomic_file.hpp"
+#include "host/message.hpp"
 #include "host/render/measure_schedules.hpp"
 
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <iterator>
 
 namespace glim {
@@ -60,6 +60,10 @@ std::string keyOf(const DeviceDescription& device) { return device.name + ", " +
 
 Json readRemembered()
 {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(rememberedFile(), ignored)) {
+        return Json::object();
+    }
     std::ifstream file(rememberedFile());
     const std::optional<Json> json = Json::parse({std::istreambuf_iterator<char>(file), {}});
     return json && json->isObject() ? *json : Json::object();
@@ -77,9 +81,9 @@ void remember(const DeviceDescription& device, const ScheduleRates& rates)
 void report(const ScheduleRates& rates)
 {
     char text[128];
-    std::snprintf(text, sizeof text, "glim: measured once on this device: persistent %.2f, wavefront %.2f Msamples/s; kept in ",
+    std::snprintf(text, sizeof text, "measured once on this device: persistent %.2f, wavefront %.2f Msamples/s; kept in ",
                   1e-6 * rates.persistent, 1e-6 * rates.wavefront);
-    std::cerr << text << rememberedFile().string() << '\n';
+    say(text + rememberedFile().string());
 }
 
 }  // namespace
@@ -109,7 +113,7 @@ Schedule fastestSchedule(Device& device, const FlatScene& scene, const FlatCamer
         remember(device.description(), rates);
         report(rates);
     } catch (const InputError& error) {  // the disk is full, say
-        std::cerr << "glim: the faster schedule will be measured again: " << error.what() << '\n';
+        say("the faster schedule will be measured again: " + std::string(error.what()));
     }
     return rates.fastest();
 }

@@ -3,6 +3,7 @@
 #include "host/cli/picture_options.hpp"
 #include "host/cli/resolve_options.hpp"
 #include "host/json.hpp"
+#include "host/message.hpp"
 #include "host/render/prepare_scene.hpp"
 #include "host/scene/share_meshes.hpp"
 #include "host/text.hpp"
@@ -243,12 +244,12 @@ void printLooks(const PreparedScene& prepared)
     for (std::size_t i = 0; i < prepared.scene.images.size(); ++i) {
         const TextureImage& image = prepared.scene.images[i];
         const std::uint64_t bytes = prepared.flat.imageBytes[i];
-        std::cout << "  texture " << image.name << ", " << image.width << 'x' << image.height << ", "
+        std::cout << "  texture " << escaped(shortened(image.name)) << ", " << image.width << 'x' << image.height << ", "
                   << (bytes > 0 ? mebibytes(bytes) : "of one colour") << '\n';
     }
     if (prepared.scene.environment) {
         const Environment& environment = *prepared.scene.environment;
-        std::cout << "  environment: " << environment.source;
+        std::cout << "  environment: " << escaped(environment.source);
         if (environment.map) {
             std::cout << ", " << environment.map->width << 'x' << environment.map->height << ", " << mebibytes(environmentBytes(prepared));
         }
@@ -267,7 +268,7 @@ void printLooks(const PreparedScene& prepared)
 
 void printText(const InspectOptions& options, const PreparedScene& prepared)
 {
-    std::cout << options.scene.string() << '\n';
+    std::cout << escaped(options.scene.string()) << '\n';
     for (const auto& [name, count] : countsOf(prepared)) {
         std::cout << "  " << name << ' ' << count << '\n';
     }
@@ -292,15 +293,15 @@ void printText(const InspectOptions& options, const PreparedScene& prepared)
     std::cout << (*separator == ' ' ? " nothing but flat diffuse triangles\n" : "\n");
     printLooks(prepared);
     for (const std::string& variant : prepared.scene.variants) {
-        std::cout << "  variant \"" << variant << "\"\n";
+        std::cout << "  variant " << escaped(inQuotes(variant)) << '\n';
     }
     for (std::size_t i = 0; i < prepared.scene.animations.size(); ++i) {
         const Animation& animation = prepared.scene.animations[i];
-        std::cout << "  animation " << i << " \"" << animation.name << "\", " << threeDigits(animation.duration) << " s\n";
+        std::cout << "  animation " << i << ' ' << escaped(inQuotes(animation.name)) << ", " << threeDigits(animation.duration) << " s\n";
     }
     for (std::size_t i = 0; i < prepared.scene.cameras.size(); ++i) {
         const Camera& camera = prepared.scene.cameras[i];
-        std::cout << "  camera " << i << " \"" << camera.name << "\", " << kindOf(camera) << '\n';
+        std::cout << "  camera " << i << ' ' << escaped(inQuotes(camera.name)) << ", " << kindOf(camera) << '\n';
     }
 }
 

@@ -1,6 +1,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/output_file.hpp"
 #include "host/cli/parse.hpp"
+#include "host/message.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/film_pictures.hpp"
 #include "host/render/merge_films.hpp"
@@ -30,7 +31,7 @@ void runMerge(const MergeOptions& options)
     if (!options.png.empty()) {
         writeFilmPng(options.png, merged.film, aovOf(merged.film), options.exposure);
     }
-    std::cerr << "Merged " << options.inputs.size() << " films into " << options.output.string() << ", samples "
+    std::cerr << "Merged " << options.inputs.size() << " films into " << escaped(options.output.string()) << ", samples "
               << sampleRangesText(merged.film) << ": "
               << (merged.exact           ? "bit-identical to a single run."
                   : merged.film.complete ? "equal to a single run up to rounding."

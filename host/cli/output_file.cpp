@@ -10,6 +10,11 @@ namespace glim {
 void checkTarget(const fs::path& target, std::string_view extension, const std::vector<fs::path>& inputs)
 {
     checkWritable(target, extension);
+    std::error_code error;
+    static_cast<void>(fs::status(target, error));
+    if (error == std::errc::filename_too_long) {
+        throw InputError(target.string() + ": cannot be written: " + error.message() + ".");
+    }
     for (const fs::path& input : inputs) {
         std::error_code ignored;
         if (fs::equivalent(target, input, ignored)) {

@@ -3,6 +3,7 @@
 #include "host/cli/exposure_advice.hpp"
 #include "host/cli/film_report.hpp"
 #include "host/cli/output_file.hpp"
+#include "host/message.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/parameters.hpp"
 
@@ -199,7 +200,7 @@ void warnOfExposure(const RenderReport& report)
     const RenderOptions& options = report.options;
     if (options.png && options.settings.aov == Aov::Radiance) {
         if (const auto advice = adviseExposure(report.film, options.exposure)) {
-            std::cerr << "glim: " << options.png->string() << ' ' << *advice << ".\n";
+            say(options.png->string() + ' ' + *advice + '.');
         }
     }
 }
@@ -303,7 +304,7 @@ void printSummary(const RenderReport& report)
     warnOfBias(report);
     const RenderStatistics& s = report.statistics;
     const double pixels = static_cast<double>(report.film.pixels.size());
-    std::cout << report.options.output.string()
+    std::cout << escaped(report.options.output.string())
               << format(": %ux%u, %.4g samples per pixel", report.film.width, report.film.height,
                         static_cast<double>(s.samples + s.resumedSamples) / pixels)
               << (s.resumedSamples > 0 ? format(", of which %.4g resumed,", static_cast<double>(s.resumedSamples) / pixels) : "")

@@ -5,15 +5,18 @@
 #include "host/cli/output_file.hpp"
 #include "host/cli/render_report.hpp"
 #include "host/flatten/camera_options.hpp"
+#include "host/message.hpp"
 #include "host/render/check_memory.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/film_origin.hpp"
 #include "host/render/film_pictures.hpp"
 #include "host/render/identify.hpp"
 #include "host/render/merge_films.hpp"
+#include "host/text.hpp"
 #include "shaders/shared/limits.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 
@@ -355,7 +358,7 @@ void SequenceRenderer::resume(const RenderOptions& options)
     }
     std::optional<Checkpoint> checkpoint = readCheckpoint(options.output);
     if (!checkpoint && !film.complete && film.sampleRanges.front().second - first <= kBlockSamples) {
-        std::cerr << "glim: " << options.output.string() << " has no finished block of samples, so the render begins anew\n";
+        say(options.output.string() + " has no finished block of samples, so the render begins anew");
         return;
     }
     if (!checkpoint) {
@@ -365,12 +368,12 @@ void SequenceRenderer::resume(const RenderOptions& options)
         refuse(isNeighbours(renderer_->settings().adaptive) ? "planned for another --spp" : "more than were asked for");
     }
     renderer_->resume(*std::move(checkpoint));
-    std::cerr << "glim: " << options.output.string() << " is resumed at "
-              << static_cast<double>(renderer_->statistics().resumedSamples) / static_cast<double>(film.width * std::size_t{film.height})
-              << " samples per pixel\n";
+    const auto pixels = static_cast<double>(film.width * std::size_t{film.height});
+    say(options.output.string() + " is resumed at " +
+        exactText(std::round(100.0 * static_cast<double>(renderer_->statistics().resumedSamples) / pixels) / 100.0) + " samples per pixel");
     if (film.arithmetic != arithmeticFingerprint(device_)) {
-        std::cerr << "glim: " << device_.description().name << " rounds otherwise than " << film.device
-                  << " did, so the film will equal a single run up to rounding\n";
+        say(device_.description().name + " rounds otherwise than " + film.device +
+            " did, so the film will equal a single run up to rounding");
     }
 }
 

@@ -189,6 +189,7 @@ WideBvh extract(const WideBvh& bvh, std::size_t mesh, std::uint32_t firstId)
 WideBvh makeEmptyTree()
 {
     WideBvh tree;
+    tree.box = {glm::vec3(0.0F), glm::vec3(0.0F)};
     tree.nodes.resize(1);
     tree.depth = 1;
     return tree;

@@ -1,9 +1,12 @@
 #include "host/gpu/device.hpp"
 
+#include "host/memory.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <cstring>
 #include <iterator>
+#include <thread>
 
 namespace glim {
 namespace {
@@ -202,6 +205,9 @@ std::vector<DeviceDescription> listDevices(const VulkanInstance& instance)
     return descriptions;
 }
 
+// Measured on two cores (2026-11-25, Mesa 22.3.6): 1,045 MiB.
+std::uint64_t driverAddresses() { return (832 + 128 * std::uint64_t{std::thread::hardware_concurrency()}) << 20U; }
+
 Device::Device(const VulkanInstance& instance, const std::optional<std::string>& choice, VkSurfaceKHR surface, MemoryPolicy memoryPolicy)
     : instance_(instance),
       memoryPolicy_(memoryPolicy)
@@ -210,6 +216,10 @@ Device::Device(const VulkanInstance& instance, const std::optional<std::string>&
     description_ = chosen.description;
     physical_ = chosen.physical;
     queueFamily_ = chosen.queueFamily;
+    if (const auto limit = addressLimit(); description_.software && limit && limit->bytes < driverAddresses()) {
+        throw DeviceError("Device \"" + description_.name + "\" needs " + std::to_string(driverAddresses() >> 20U) +
+                          " MiB of addresses; a limit (ulimit -v) allows the process " + std::to_string(limit->bytes >> 20U) + " MiB.");
+    }
 
     const float priority = 1.0F;
     VkDeviceQueueCreateInfo queueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};

@@ -28,6 +28,9 @@ struct DeviceDescription {
     std::string missing;                  // the first feature that glim needs and this device lacks; empty if usable
 };
 
+// What Mesa's software driver takes of a limit on addresses, most of it while it compiles. It crashes where this is not there.
+std::uint64_t driverAddresses();
+
 // All devices that Vulkan shows, best first: discrete, integrated, virtual, other, software. Vulkan's order decides within a kind.
 std::vector<DeviceDescription> listDevices(const VulkanInstance& instance);
 

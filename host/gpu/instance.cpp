@@ -1,5 +1,7 @@
 #include "host/gpu/instance.hpp"
 
+#include "host/memory.hpp"
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -76,7 +78,11 @@ void requireValidationLayer()
 void check(VkResult result, const std::string& action)
 {
     if (result < 0) {
-        throw DeviceError("Vulkan could not " + action + ": " + nameOf(result) + ".");
+        const std::optional<AddressLimit> limit = addressLimit();
+        throw DeviceError("Vulkan could not " + action + ": " + nameOf(result) +
+                          (limit ? "; of the addresses that a limit (ulimit -v) allows the process, " + std::to_string(limit->left >> 20U) +
+                                       " MiB are left."
+                                 : "."));
     }
 }
 

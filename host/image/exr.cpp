@@ -2,6 +2,8 @@
 
 #include "host/error.hpp"
 #include "host/image/atomic_file.hpp"
+#include "host/input_file.hpp"
+#include "host/memory.hpp"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticities.h>
@@ -34,18 +36,19 @@ namespace {
 // A damaged header may claim any size. A file with more pixels is refused before memory is allocated.
 constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 30;
 
+// Deflate makes 1032 bytes of one at most, and PXR24 four of three.
+constexpr std::uint64_t kMostInflation = 1400;
+
 std::size_t pixelCount(const Image& image) { return std::size_t{image.width} * image.height; }
 
 void checkIsExr(const fs::path& path)
 {
-    std::error_code ignored;
-    if (fs::is_directory(path, ignored)) {
-        throw InputError(path.string() + ": is a folder, not an OpenEXR file.");
-    }
+    requireFile(path, "an OpenEXR file");
     std::ifstream stream(path, std::ios::binary);
     if (!stream) {
         throw InputError(path.string() + ": cannot be opened: " + std::strerror(errno) + ".");
     }
+    Imf::Header::setMaxImageSize(kMaxExrSide, kMaxExrSide);
     char magic[4] = {};
     stream.read(magic, sizeof magic);
     if (!stream || !Imf::isImfMagic(magic)) {
@@ -70,6 +73,8 @@ void guarded(const fs::path& path, const char* failure, const std::function<void
         step();
     } catch (const InputError&) {
         throw;
+    } catch (const std::bad_alloc&) {
+        throw InputError(path.string() + ": " + memorySentence() + ".");
     } catch (const std::exception& error) {
         throw InputError(path.string() + ": " + failure + " (" + error.what() + ").");
     }
@@ -124,15 +129,53 @@ Imf::Slice sliceOf(Imf::PixelType type, const std::vector<Value>& plane, const I
                             sizeof(Value));
 }
 
+// Refuses more pixels than the bytes of the file can be decompressed to.
+void checkInflation(const fs::path& path, const Imf::Header& header, const Image& image)
+{
+    constexpr std::uint64_t kSmall = std::uint64_t{1} << 24;
+    const Imf::Compression method = header.compression();
+    if (method != Imf::NO_COMPRESSION && method != Imf::RLE_COMPRESSION && method != Imf::ZIPS_COMPRESSION &&
+        method != Imf::ZIP_COMPRESSION && method != Imf::PXR24_COMPRESSION) {
+        return;
+    }
+    std::uint64_t bytes = 0;
+    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
+        bytes += pixelCount(image) * (channel.channel().type == Imf::HALF ? 2 : 4);
+    }
+    if (const std::uint64_t size = fs::file_size(path); bytes > kSmall + kMostInflation * size) {
+        throw InputError(path.string() + ": its data window of " + std::to_string(image.width) + "x" + std::to_string(image.height) +
+                         " pixels has " + std::to_string(bytes >> 20U) + " MiB, expected what its " + std::to_string(size) +
+                         " bytes can hold.");
+    }
+}
+
+// Decompresses one row, which most damage to the header makes impossible, before memory is allocated for all.
+void tryFirstRow(Imf::InputFile& file)
+{
+    const Imath::Box2i window = file.header().dataWindow();
+    std::vector<float> row(static_cast<std::size_t>(std::int64_t{window.max.x} - window.min.x + 1));
+    Imf::FrameBuffer frame;
+    for (auto channel = file.header().channels().begin(); channel != file.header().channels().end(); ++channel) {
+        const Imf::PixelType type = channel.channel().type == Imf::UINT ? Imf::UINT : Imf::FLOAT;
+        frame.insert(channel.name(), sliceOf(type, row, {window.min, {window.max.x, window.min.y}}));
+    }
+    file.setFrameBuffer(frame);
+    file.readPixels(window.min.y);
+}
+
 void readChannels(const fs::path& path, Imf::InputFile& file, Image& image)
 {
     const Imf::Header& header = file.header();
     const Imath::Box2i window = header.dataWindow();
+    checkInflation(path, header, image);
     Imf::FrameBuffer frame;
     for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
         if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1) {
             throw InputError(path.string() + ": its channel " + channel.name() + " is subsampled, expected a value for every pixel.");
         }
+    }
+    tryFirstRow(file);
+    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
         if (channel.channel().type == Imf::UINT) {
             auto& plane = image.counts[channel.name()];
             plane.resize(pixelCount(image));

@@ -1,7 +1,9 @@
 #include "host/image/radiance_map.hpp"
 
 #include "host/error.hpp"
+#include "host/image/exr.hpp"
 #include "host/image/hdr.hpp"
+#include "host/input_file.hpp"
 
 #include <OpenEXR/ImfArray.h>
 #include <OpenEXR/ImfChannelList.h>
@@ -45,6 +47,7 @@ std::array<std::string, 3> chooseChannels(const std::string& path, const Imf::Ch
 
 RadianceMap readExrMap(const std::string& path)
 {
+    Imf::Header::setMaxImageSize(kMaxExrSide, kMaxExrSide);
     Imf::InputFile file(path.c_str());
     const Imath::Box2i display = file.header().displayWindow(), data = file.header().dataWindow();
     const std::int64_t width = std::int64_t{display.max.x} - display.min.x + 1, height = std::int64_t{display.max.y} - display.min.y + 1;
@@ -96,10 +99,7 @@ void repair(RadianceMap& map)
 
 std::string readStart(const std::filesystem::path& file)
 {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(file, ignored)) {
-        throw InputError(file.string() + ": is a folder; expected a .hdr or .exr map");
-    }
+    requireFile(file, "a .hdr or .exr map");
     std::ifstream stream(file, std::ios::binary);
     if (!stream) {
         throw InputError(file.string() + ": cannot be opened: " + std::strerror(errno));

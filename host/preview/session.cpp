@@ -4,6 +4,8 @@
 #include "host/flatten/camera_options.hpp"
 #include "host/measure/compare_images.hpp"
 #include "host/measure/picture.hpp"
+#include "host/memory.hpp"
+#include "host/message.hpp"
 #include "host/render/check_memory.hpp"
 #include "host/render/describe_primitive.hpp"
 #include "shaders/shared/limits.h"
@@ -147,7 +149,7 @@ void Session::takeScene()
             throw;
         }
         const bool isMemory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
-        trouble_ = isMemory ? options_.scene.string() + ": out of memory" : error.what();
+        trouble_ = isMemory ? options_.scene.string() + ": " + memorySentence() : error.what();
         tell(trouble_);
     }
     const std::string stage = loader_.stage();
@@ -328,7 +330,7 @@ void Session::say(const std::string& text)
 
 void Session::tell(const std::string& text)
 {
-    std::cerr << "glim: " << text << '\n';
+    glim::say(text);
     say(text);
 }
 

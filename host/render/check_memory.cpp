@@ -1,10 +1,9 @@
 #include "host/render/check_memory.hpp"
 
 #include "host/error.hpp"
+#include "host/memory.hpp"
 #include "host/render/parameters.hpp"
 #include "host/render/splats.hpp"
-
-#include <unistd.h>
 
 namespace glim {
 
@@ -18,7 +17,6 @@ void checkMemory(const PreparedScene& prepared, const RenderSettings& settings, 
     const std::uint64_t films = isNeighbours(settings.adaptive) ? 3 : 2;
     const std::uint64_t onHost =
         pixels * (films * sizeof(PixelMoments) + (light ? films * sizeof(SplatMoments) + SplatSums::kPixelBytes : 0));
-    const std::uint64_t memory = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
     const auto refuse = [&](std::uint64_t needed, const std::string& owner, std::uint64_t there) {
         if (needed > there) {
             const std::uint64_t textures = imageBytes(prepared.flat);
@@ -31,10 +29,13 @@ void checkMemory(const PreparedScene& prepared, const RenderSettings& settings, 
         }
     };
     if (device.software) {
-        refuse(onHost + onDevice, "this machine", memory);
+        refuse(onHost + onDevice, "this machine", machineBytes());
+        if (const std::optional<AddressLimit> limit = addressLimit()) {
+            refuse(onHost + onDevice + driverAddresses(), "the process, by its limit (ulimit -v),", limit->bytes);
+        }
         return;
     }
-    refuse(onHost, "this machine", memory);
+    refuse(onHost, "this machine", machineBytes());
     refuse(onDevice, "device \"" + device.name + "\"", device.memory);
 }
 

@@ -1,12 +1,14 @@
 #include "host/render/describe_primitive.hpp"
 
+#include "host/message.hpp"
+
 #include <algorithm>
 #include <ranges>
 
 namespace glim {
 namespace {
 
-std::string quoted(const std::string& name) { return name.empty() ? "without a name" : "\"" + name + "\""; }
+std::string named(const std::string& name) { return name.empty() ? "without a name" : escaped(inQuotes(name)); }
 
 // Compares values, not indices: the flat scene leaves out lights without power.
 bool isSame(const PunctualLight& light, const FlatLight& flat)
@@ -20,19 +22,19 @@ std::string describePunctual(const Scene& scene, const FlatLight& flat)
     const auto found =
         std::find_if(scene.lights.begin(), scene.lights.end(), [&](const PunctualLight& light) { return isSame(light, flat); });
     const std::string kind = flat.kind == kPointLight ? "point" : flat.kind == kSpotLight ? "spot" : "directional";
-    return kind + " light " + quoted(found->name);
+    return kind + " light " + named(found->name);
 }
 
 PrimitiveDescription describePrimitive(const Scene& scene, const Primitives& primitives, std::uint32_t id)
 {
     if (id >= primitives.triangles.size()) {
         const Sphere& sphere = primitives.spheres[id - primitives.triangles.size()];
-        return {"sphere " + quoted(sphere.name), std::nullopt, quoted(scene.materials[sphere.material].name)};
+        return {"sphere " + named(sphere.name), std::nullopt, named(scene.materials[sphere.material].name)};
     }
     const std::uint32_t index = primitives.instanceOf(id);
     const MeshInstance& instance = scene.instances[index];
-    return {"instance " + quoted(instance.name), id - primitives.firstTriangles[index],
-            quoted(scene.materials[scene.meshes[instance.mesh].material].name)};
+    return {"instance " + named(instance.name), id - primitives.firstTriangles[index],
+            named(scene.materials[scene.meshes[instance.mesh].material].name)};
 }
 
 PrimitiveDescription describeInstanceRecord(const PreparedScene& prepared, std::uint32_t record)
@@ -42,8 +44,8 @@ PrimitiveDescription describeInstanceRecord(const PreparedScene& prepared, std::
     const std::uint32_t shared = prepared.flat.records[std::size_t{record - instance[1].w} * kRecordTexels].w;
     const Placement& placement = prepared.primitives.placements[index];
     const MeshInstance& placed = prepared.scene.instances[placement.instance];
-    return {"instance " + quoted(placed.name), shared - prepared.primitives.sharedMeshes[placement.sharedMesh].firstId,
-            quoted(prepared.scene.materials[prepared.scene.meshes[placed.mesh].material].name)};
+    return {"instance " + named(placed.name), shared - prepared.primitives.sharedMeshes[placement.sharedMesh].firstId,
+            named(prepared.scene.materials[prepared.scene.meshes[placed.mesh].material].name)};
 }
 
 }  // namespace

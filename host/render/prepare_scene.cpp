@@ -3,11 +3,16 @@
 #include "host/error.hpp"
 #include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
+#include "host/memory.hpp"
+#include "host/message.hpp"
+#include "host/text.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iostream>
+#include <new>
+#include <set>
 
 namespace glim {
 namespace {
@@ -28,14 +33,31 @@ void sayTextureMemory(const FlatScene& flat)
 
 void sayWarnings(const Scene& scene, const Scene& previous)
 {
+    constexpr std::size_t kMostLines = 20;
+    const std::set<std::string> known(previous.warnings.begin(), previous.warnings.end());
+    std::size_t count = 0;
     for (const std::string& warning : scene.warnings) {
-        if (std::find(previous.warnings.begin(), previous.warnings.end(), warning) == previous.warnings.end()) {
-            std::cerr << "glim: " << warning << '\n';
+        if (known.count(warning) == 0 && ++count <= kMostLines) {
+            say(warning);
         }
+    }
+    if (count > kMostLines) {
+        say("and " + counted(count - kMostLines, "more warning"));
     }
 }
 
 using Stage = std::function<void(const std::string&)>;
+
+// Loads and prepares the scene of `file`. A lack of memory becomes an InputError.
+PreparedScene within(const std::filesystem::path& file, const std::function<PreparedScene()>& prepare)
+{
+    const MemoryGuard guard(file);
+    try {
+        return prepare();
+    } catch (const std::bad_alloc&) {
+        throw InputError(file.string() + ": " + memorySentence());
+    }
+}
 
 // `start`: when loading began.
 PreparedScene prepare(Scene scene, SplitRule split, Clock::time_point start, PreparedScene previous, const Stage& stage)
@@ -71,13 +93,14 @@ PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions&
 {
     const Clock::time_point start = Clock::now();
     stage("loading " + file.filename().string());
-    return prepare(loadGltf(file, options), split, start, {}, stage);
+    return within(file, [&] { return prepare(loadGltf(file, options), split, start, {}, stage); });
 }
 
 PreparedScene prepareScene(SceneFile& file, std::optional<double> seconds, SplitRule split, PreparedScene previous)
 {
     const Clock::time_point start = Clock::now();
-    return prepare(file.sceneAt(seconds), split, start, std::move(previous), [](const std::string&) {});
+    const auto unheard = [](const std::string&) {};
+    return within(file.path(), [&] { return prepare(file.sceneAt(seconds), split, start, std::move(previous), unheard); });
 }
 
 void warnIfNoLights(const PreparedScene& prepared)
@@ -97,9 +120,12 @@ const Camera& findCamera(const Scene& scene, const std::optional<std::string>& c
         if (scene.cameras[i].name == *choice || std::to_string(i) == *choice) {
             return scene.cameras[i];
         }
-        list += (i == 0 ? "" : ", ") + std::to_string(i) + " \"" + scene.cameras[i].name + "\"";
+        if (i < kMostListed) {
+            list += (i == 0 ? "" : ", ") + std::to_string(i) + " " + inQuotes(scene.cameras[i].name);
+        }
     }
-    throw InputError(scene.file + ": camera \"" + *choice + "\": expected one of " + list + ".");
+    list += moreThanListed(scene.cameras.size());
+    throw InputError(scene.file + ": camera " + inQuotes(*choice) + ": expected one of " + list + ".");
 }
 
 glm::uvec2 defaultSize(const Camera& camera)
@@ -107,8 +133,8 @@ glm::uvec2 defaultSize(const Camera& camera)
     constexpr std::uint32_t kHeight = 512;
     const bool orthographic = camera.kind == Camera::Kind::Orthographic;
     const float aspectRatio = orthographic ? camera.halfWidth / camera.halfHeight : camera.aspectRatio.value_or(1.0F);
-    const float width = std::round(static_cast<float>(kHeight) * aspectRatio);
-    return {static_cast<std::uint32_t>(std::clamp(width, 1.0F, 65535.0F)), kHeight};
+    const float bounded = std::clamp(aspectRatio, 1.0F / kMostAspectRatio, kMostAspectRatio);
+    return {static_cast<std::uint32_t>(std::round(static_cast<float>(kHeight) * bounded)), kHeight};
 }
 
 }  // namespace glim

@@ -162,7 +162,7 @@ void SceneCheck::checkCameras() const
 
 void checkScene(const Scene& scene)
 {
-    if (scene.instances.empty() && scene.spheres.empty()) {
+    if (scene.instances.empty() && scene.spheres.empty() && scene.flattened == 0) {
         throw InputError(scene.file + ": the scene has no mesh and no sphere; expected at least one");
     }
     const SceneCheck check(scene);

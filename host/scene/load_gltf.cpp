@@ -1,6 +1,7 @@
 #include "host/scene/load_gltf.hpp"
 
 #include "host/error.hpp"
+#include "host/message.hpp"
 #include "host/scene/check_scene.hpp"
 #include "host/scene/frame_camera.hpp"
 #include "host/scene/gltf/animate_gltf.hpp"
@@ -16,9 +17,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace glim {
 namespace {
+
+constexpr double kMaxFloat = std::numeric_limits<float>::max();
 
 void noteIgnoredParts(const GltfFile& file, Warnings& warnings)
 {
@@ -26,7 +30,7 @@ void noteIgnoredParts(const GltfFile& file, Warnings& warnings)
         const ExtensionEffect effect = effectOf(extension);
         const bool ofMaterials = extension.find("_materials_") != std::string::npos;  // noted with each material
         if ((effect == ExtensionEffect::Looks && !ofMaterials) || effect == ExtensionEffect::Content) {
-            warnings.add("extensions are ignored", extension);
+            warnings.add("extensions are ignored", shortened(extension));
         }
     }
 }
@@ -52,7 +56,7 @@ std::size_t countMorphTargets(const GltfFile& file)
 std::string describeAnimation(const std::vector<Animation>& animations, std::size_t index)
 {
     const std::string& name = animations[index].name;
-    return std::to_string(index) + " (" + (name.empty() ? "" : "\"" + name + "\", ") + toText(animations[index].duration) + " s)";
+    return std::to_string(index) + " (" + (name.empty() ? "" : inQuotes(name) + ", ") + toText(animations[index].duration) + " s)";
 }
 
 std::size_t findAnimation(const GltfFile& file, const std::vector<Animation>& animations, const std::string& choice)
@@ -62,10 +66,13 @@ std::size_t findAnimation(const GltfFile& file, const std::vector<Animation>& an
         if (choice.empty() || animations[i].name == choice || std::to_string(i) == choice) {
             return i;
         }
-        known += (known.empty() ? "" : ", ") + describeAnimation(animations, i);
+        if (i < kMostListed) {
+            known += (known.empty() ? "" : ", ") + describeAnimation(animations, i);
+        }
     }
-    refuse(file, "it has no animation" + (choice.empty() ? "" : " \"" + choice + "\"") + "; expected " +
-                     (known.empty() ? "no --at and no --frames, since it has none" : "one of " + known));
+    refuse(file,
+           "it has no animation" + (choice.empty() ? "" : ' ' + inQuotes(choice)) + "; expected " +
+               (known.empty() ? "no --at and no --frames, since it has none" : "one of " + known + moreThanListed(animations.size())));
 }
 
 // The rest pose is what the file's nodes, weights and materials say, without any animation.
@@ -113,13 +120,16 @@ std::optional<Environment> readNamedMap(const GltfFile& file, const LoadOptions&
     try {
         environment = readMap(externalFile(file.path, name), options, decoded, scene, warnings);
     } catch (const InputError& error) {
-        refuse(file, place + " names the map \"" + name + "\", which cannot be read (" + error.what() + ")");
+        refuse(file, place + " names the map " + inQuotes(name) + ", which cannot be read (" + error.what() + ")");
     }
     if (source.Has("strength")) {
-        if (!source.Get("strength").IsNumber() || !(source.Get("strength").GetNumberAsDouble() >= 0.0)) {
-            refuse(file, place + ".strength is not a number from 0; expected one");
+        const tinygltf::Value& strength = source.Get("strength");
+        const double factor = strength.IsNumber() ? strength.GetNumberAsDouble() : -1.0;
+        if (!(factor >= 0.0 && factor <= kMaxFloat)) {
+            refuse(file, place + ".strength is " + (strength.IsNumber() ? toText(factor) : "not a number") +
+                             "; expected a number from 0 that fits a float");
         }
-        environment.radiance = glm::vec3(static_cast<float>(source.Get("strength").GetNumberAsDouble()));
+        environment.radiance = glm::vec3(static_cast<float>(factor));
     }
     return environment;
 }
@@ -226,10 +236,11 @@ std::optional<std::size_t> findVariant(const GltfFile& file, const std::vector<s
         return name.empty() ? std::nullopt : std::optional<std::size_t>(found - variants.begin());
     }
     std::string known;
-    for (const std::string& other : variants) {
-        known += (known.empty() ? "\"" : ", \"") + other + "\"";
+    for (std::size_t i = 0; i < std::min(variants.size(), kMostListed); ++i) {
+        known += (known.empty() ? "" : ", ") + inQuotes(variants[i]);
     }
-    refuse(file, "it has no variant \"" + name + "\"; expected " + (known.empty() ? "no --variant, since it has none" : "one of " + known));
+    refuse(file, "it has no variant " + inQuotes(name) + "; expected " +
+                     (known.empty() ? "no --variant, since it has none" : "one of " + known + moreThanListed(variants.size())));
 }
 
 // The file's materials, then the default one. Those of unused ones say nothing.

@@ -114,7 +114,7 @@ WorldBox computeWorldBox(const Scene& scene)
     for (const Sphere& sphere : scene.spheres) {
         box = {glm::min(box.low, sphere.center - sphere.radius), glm::max(box.high, sphere.center + sphere.radius)};
     }
-    return box;
+    return box.low.x <= box.high.x ? box : WorldBox{glm::vec3(-1.0F), glm::vec3(1.0F)};
 }
 
 double computeRadius(const Scene& scene, const glm::dvec3& center)

@@ -33,7 +33,7 @@ private:
     std::vector<glm::vec3> positions_;  // by vertex
 };
 
-// The bounds of everything that has a surface.
+// The bounds of everything that has a surface; 2 m of each axis where nothing has.
 struct WorldBox {
     glm::vec3 low, high;  // relative to the scene's origin
 };

@@ -185,6 +185,9 @@ struct PunctualLight {
     float range = 0.0F;                   // point, spot: metres beyond which there is no light; 0: no limit
 };
 
+// The default size of a picture follows its camera's aspect ratio up to this, and down to its inverse.
+inline constexpr float kMostAspectRatio = 16.0F;
+
 struct Camera {
     enum class Kind : std::uint32_t { Perspective, Orthographic };
     std::string name;
@@ -209,6 +212,7 @@ struct Scene {
     std::vector<Mesh> meshes;
     std::vector<MeshInstance> instances;
     std::vector<Sphere> spheres;
+    std::size_t flattened = 0;  // meshes and spheres of the file that are left out as their nodes are scaled to a plane, a line or a point
     std::vector<Material> materials;                // in the file's order
     std::optional<std::uint32_t> defaultMaterial;   // the one of them that the file does not have
     std::vector<std::string> nodeNames, meshNames;  // of all that the file has, in its order; empty without a name

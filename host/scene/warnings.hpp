@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -9,17 +10,18 @@ namespace glim {
 
 class Warnings {
 public:
-    void add(const std::string& sentence) { kinds_.push_back({sentence, {}}); }
+    void add(const std::string& sentence)
+    {
+        places_.try_emplace(sentence, kinds_.size());
+        kinds_.push_back({sentence, {}});
+    }
     // One more thing that the sentence holds for.
     void add(const std::string& sentence, const std::string& name)
     {
-        for (auto& [kind, names] : kinds_) {
-            if (kind == sentence) {
-                names.push_back(name);
-                return;
-            }
+        if (places_.count(sentence) == 0) {
+            add(sentence);
         }
-        kinds_.push_back({sentence, {name}});
+        kinds_[places_.at(sentence)].second.push_back(name);
     }
 
     // "the sentence: first, second, third and 4 more", in the order in which each kind was met first.
@@ -39,6 +41,7 @@ public:
 
 private:
     std::vector<std::pair<std::string, std::vector<std::string>>> kinds_;
+    std::unordered_map<std::string, std::size_t> places_;  // of each sentence in kinds_
 };
 
 }  // namespace glim

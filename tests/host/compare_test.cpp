@@ -250,7 +250,7 @@ TEST_F(CompareCommand, RefusesBadInput)
     const auto refused = [&](const std::vector<std::string>& arguments, const std::string& part) {
         expectRefusal<InputError>([&] { run(arguments); }, part);
     };
-    refused({a, folder / "missing.exr"}, "missing.exr: cannot be opened");
+    refused({a, folder / "missing.exr"}, "missing.exr: cannot be read");
     refused({folder / "missing.exr", b, "--diff", folder / "d.png"}, "does not end in .exr");  // before any work
     refused({folder / "missing.exr", b, "--diff-png", folder / "d.exr"}, "does not end in .png");
     Image small = readExr(b);

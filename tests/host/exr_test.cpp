@@ -1,5 +1,6 @@
 #include "host/image/exr.hpp"
 #include "host/error.hpp"
+#include "host/image/radiance_map.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -185,7 +186,7 @@ TEST(Exr, RefusesWhatItCannotReadWhole)
     auto expectUnreadable = [&](const char* name, const std::string& part) {
         expectRefusal<InputError>([&] { readExr(folder / name); }, (folder / name).string() + ": " + part);
     };
-    expectUnreadable("missing.exr", "cannot be opened: No such file");
+    expectUnreadable("missing.exr", "cannot be read: No such file");
     std::filesystem::create_directory(folder / "folder.exr");
     expectUnreadable("folder.exr", "is a folder");
     writeText(folder / "empty.exr", "");
@@ -207,6 +208,46 @@ TEST(Exr, RefusesEveryTruncation)
     for (std::size_t length = 4; length < bytes.size(); length += 37) {
         writeText(folder / "cut.exr", bytes.substr(0, length));
         EXPECT_THROW(readExr(folder / "cut.exr"), InputError) << length << " of " << bytes.size();
+    }
+}
+
+// The last column and row that a header names, at the end of its data window.
+void claimCorner(std::string& bytes, std::int32_t x, std::int32_t y)
+{
+    const std::string name("dataWindow\0box2i\0", 17);
+    const std::size_t corner = bytes.find(name) + name.size() + 4 + 8;
+    std::memcpy(&bytes[corner], &x, sizeof x);
+    std::memcpy(&bytes[corner + 4], &y, sizeof y);
+}
+
+TEST(Exr, RefusesDamagedWindowsBeforeTheyCostMemory)
+{
+    for (const Imf::Compression compression : {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION,
+                                               Imf::B44_COMPRESSION, Imf::DWAA_COMPRESSION}) {
+        const ScratchFolder folder;
+        Imf::Header header(40, 40);
+        header.compression() = compression;
+        const std::vector<float> pixels(1600);
+        Imf::FrameBuffer frame;
+        for (const char* name : {"R", "G", "B"}) {
+            header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+            frame.insert(name, Imf::Slice::Make(Imf::FLOAT, pixels.data(), {0, 0}, 40, 40));
+        }
+        {
+            Imf::OutputFile file((folder / "a.exr").c_str(), header);
+            file.setFrameBuffer(frame);
+            file.writePixels(40);
+        }
+        const std::string sound = bytesOfFile(folder / "a.exr");
+        const std::pair<std::int32_t, std::int32_t> corners[] = {
+            {1 << 17, 39}, {39, 1 << 17}, {1 << 20, 1 << 10}, {39, 0x7ffffffe}, {0x7ffffffe, 39}};
+        for (const auto& [x, y] : corners) {
+            std::string bytes = sound;
+            claimCorner(bytes, x, y);
+            writeText(folder / "a.exr", bytes);
+            EXPECT_THROW(readExr(folder / "a.exr"), InputError) << compression << ": " << x << " " << y;
+            EXPECT_THROW(readRadianceMap(folder / "a.exr"), InputError) << compression << ": " << x << " " << y;
+        }
     }
 }
 

@@ -235,5 +235,18 @@ TEST(GltfAccessor, EveryAttributeHasAValuePerPosition)
     }
 }
 
+// All zeros: no triangle of them has a surface.
+TEST(GltfAccessor, IndicesMayLackABufferView)
+{
+    GltfBuilder builder;
+    builder.addNode({{"mesh", builder.addTriangleMesh()}});
+    const std::size_t positions = builder.addVec3({0, 0, 0, 1, 0, 0, 0, 1, 0});
+    const std::size_t zeros = builder.append("accessors", {{"componentType", kUnsignedShort}, {"type", "SCALAR"}, {"count", 3}});
+    builder.addNode({{"mesh", builder.addMesh({{"attributes", {{"POSITION", positions}}}, {"indices", zeros}})}});
+    const Scene scene = load(builder);
+    EXPECT_EQ(scene.meshes.at(1).indices, (std::vector<std::uint32_t>{0, 0, 0}));
+    EXPECT_EQ(makePrimitives(scene).triangles.size(), 1U);
+}
+
 }  // namespace
 }  // namespace glim::test

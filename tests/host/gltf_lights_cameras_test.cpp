@@ -46,6 +46,15 @@ TEST(GltfLights, ReadsPointLights)
     EXPECT_EQ(light.intensity, glm::vec3(20, 10, 0)) << "scale does not change it";
 }
 
+TEST(GltfLights, RefusesWhatDoesNotFitAFloatWithItsValue)
+{
+    GltfBuilder builder = withTriangle();
+    builder.document["extensions"]["KHR_lights_punctual"]["lights"] = json::array({{{"type", "point"}, {"intensity", 1e39}}});
+    builder.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    EXPECT_NE(refusal(builder).find("lights[0] has the intensity 1e+39 and the colour 1; expected a product that fits a float"),
+              std::string::npos);
+}
+
 TEST(GltfLights, DirectionalLightsTravelAlongTheirMinusZ)
 {
     const PunctualLight light = readLight({{"type", "directional"}});

@@ -335,7 +335,7 @@ TEST(GltfPose, RefusesBrokenMorphTargets)
     target["POSITION"] = 77;
     expectRefusal(builder, "meshes[0].primitives[0].targets[0].POSITION is 77; expected an index into accessors");
     target["POSITION"] = builder.addVec3({0, 0, NAN, 0, 0, 0, 0, 0, 0});
-    expectRefusal(builder, "nodes[0] places a point at nan nan nan; expected coordinates that fit a float");
+    expectRefusal(builder, "nodes[0] places a point at nan nan nan; expected finite coordinates");
 }
 
 }  // namespace

@@ -59,11 +59,13 @@ TEST(GltfRefused, IncompleteCamerasAndSpots)
     builder.addNode({{"mesh", builder.addTriangleMesh()}});
     for (const char* type : {"perspective", "orthographic"}) {
         builder.document["cameras"] = nlohmann::json::array({{{"type", type}}});
-        EXPECT_NE(refusal(builder).find("not valid glTF"), std::string::npos);
+        EXPECT_NE(refusal(builder).find(std::string("cameras[0].") + type + " is missing; expected an object, as its type is " + type),
+                  std::string::npos);
     }
     builder.document.erase("cameras");
     builder.document["extensions"]["KHR_lights_punctual"]["lights"] = nlohmann::json::array({{{"type", "spot"}}});
-    EXPECT_NE(refusal(builder).find("not valid glTF"), std::string::npos);
+    EXPECT_NE(refusal(builder).find("extensions.KHR_lights_punctual.lights[0].spot is missing; expected an object, as its type is spot"),
+              std::string::npos);
 }
 
 TEST(GltfRefused, MemoryThatNoByteOfTheFilePaysFor)
@@ -74,6 +76,22 @@ TEST(GltfRefused, MemoryThatNoByteOfTheFilePaysFor)
     EXPECT_NE(refusal(builder).find("claims 4500000 elements without a bufferView"), std::string::npos);
     builder.document["accessors"][positions]["count"] = 1000000000000;
     EXPECT_NE(refusal(builder).find("the scene has 333333333333 triangles in 1 instance"), std::string::npos);
+}
+
+TEST(GltfRefused, TheStrengthOfAMapWithItsValue)
+{
+    GltfBuilder builder;
+    builder.addNode({{"mesh", builder.addTriangleMesh()}});
+    const std::filesystem::path folder = std::filesystem::path(writeTemporary("strength.gltf", "")).parent_path();
+    const std::string map = std::filesystem::relative(kScenes / "showcase.hdr", folder).string();
+    for (const auto& [strength, said] :
+         {std::pair<nlohmann::json, const char*>(-1, "is -1"), {1e39, "is 1e+39"}, {"x", "is not a number"}}) {
+        builder.document["scenes"][0]["extras"] = {{"environment", {{"file", map}, {"strength", strength}}}};
+        const std::string sentence = loadRefusal(writeTemporary("strength.gltf", builder.toGltf()));
+        EXPECT_NE(sentence.find(std::string("scenes[0].extras.environment.strength ") + said + "; expected a number from 0"),
+                  std::string::npos)
+            << sentence;
+    }
 }
 
 TEST(GltfRefused, SingularNodesThatCarryNothingAreHarmless)

@@ -67,7 +67,42 @@ TEST(LoadGltf, ReadsExternalBuffersBesideTheFile)
 TEST(LoadGltf, RefusesWhatIsNotAFile)
 {
     EXPECT_NE(loadRefusal("/nonexistent/x.gltf").find("/nonexistent/x.gltf: cannot be read: No such file"), std::string::npos);
-    EXPECT_NE(loadRefusal(GLIM_SOURCE_DIR).find("is a directory"), std::string::npos);
+    EXPECT_NE(loadRefusal(GLIM_SOURCE_DIR).find("is a folder; expected a .gltf or a .glb file"), std::string::npos);
+}
+
+// The files are sparse: terabytes that take no room.
+TEST(LoadGltf, RefusesAWrongBeginningBeforeReadingOn)
+{
+    const std::pair<const char*, const char*> cases[] = {{"large.glb", "does not start with the bytes \"glTF\""},
+                                                         {"large.gltf", "is not glTF: it begins with the byte 0; expected a .gltf"}};
+    for (const auto& [name, sentence] : cases) {
+        const std::string path = writeTemporary(name, "");
+        std::filesystem::resize_file(path, std::uintmax_t{1} << 40U);
+        EXPECT_NE(loadRefusal(path).find(sentence), std::string::npos);
+        std::filesystem::resize_file(path, 0);
+    }
+}
+
+TEST(LoadGltf, ReadsNoMoreOfABufferThanItNeeds)
+{
+    GltfBuilder builder;
+    builder.addNode({{"mesh", builder.addTriangleMesh()}});
+    const Bytes& bytes = builder.bytes();
+    const std::string buffer = writeTemporary("large.bin", std::string(bytes.begin(), bytes.end()));
+    std::filesystem::resize_file(buffer, std::uintmax_t{1} << 40U);
+    builder.document["buffers"] = json::array({{{"byteLength", bytes.size()}, {"uri", "large.bin"}}});
+    EXPECT_EQ(loadText(builder.document.dump()).instances.size(), 1U);
+    std::filesystem::resize_file(buffer, 0);
+}
+
+TEST(LoadGltf, OtherFormatsAreCalledSo)
+{
+    EXPECT_NE(
+        loadRefusal(writeTemporary("a.obj", "v 0 0 0\n"))
+            .find("is not glTF: it begins with the byte 118; expected a .gltf or a .glb file, which tools/to_gltf makes of .obj files"),
+        std::string::npos);
+    const std::string text = loadRefusal(writeTemporary("a.txt", "v 0 0 0\n"));
+    EXPECT_EQ(text.find("to_gltf"), std::string::npos) << text;
 }
 
 TEST(LoadGltf, RefusesDeepJsonBeforeAnyParserRecurses)

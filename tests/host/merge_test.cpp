@@ -160,7 +160,7 @@ TEST(MergeCommand, RefusesAndWritesNothing)
     const std::string a = folder / "a.exr", c = folder / "c.exr";
     writeFilm(a, simulateFilm(0, 256));
     expectRefusal<InputError>([&] { runMerge({a, a, "-o", c}); }, "both hold samples 0:256");
-    expectRefusal<InputError>([&] { runMerge({a, "missing.exr", "-o", c}); }, "missing.exr: cannot be opened");
+    expectRefusal<InputError>([&] { runMerge({a, "missing.exr", "-o", c}); }, "missing.exr: cannot be read");
     expectRefusal<InputError>([&] { runMerge({"missing.exr", "-o", folder / "c.jpg"}); }, "does not end in .exr");
     EXPECT_THROW(runMerge({a}), UsageError);
     EXPECT_THROW(runMerge({a, "-o", c, "--exposure", "1"}), UsageError);

@@ -226,7 +226,7 @@ TEST_F(LooksTest, WhatCannotBeUsedIsRefused)
         {{"--environment", "half.hdr"}, {1, "half.hdr: ends in row 0 of 4"}},
         {{"--environment", "text.exr"}, {1, "text.exr: is neither OpenEXR nor Radiance"}},
         {{"--environment", "folder.exr"}, {1, "folder.exr: is a folder"}},
-        {{"--environment", "none.hdr"}, {1, "none.hdr: cannot be opened: No such file"}},
+        {{"--environment", "none.hdr"}, {1, "none.hdr: cannot be read: No such file"}},
         {{"--environment", "1,1"}, {2, "--environment: \"1,1\": expected"}},
         {{"--environment", ""}, {2, "--environment: \"\": expected"}},
         {{"--sun", "30,45"}, {2, "--sun: \"30,45\": expected azimuth and elevation in degrees"}},

@@ -331,7 +331,7 @@ TEST(CommandLineTest, RefusedScenesLeaveTheTargetAsItWas)
     EXPECT_EQ(bytesOfFile(target), "what was here before");
     EXPECT_EQ(folder.entries(), 1);
     expectSentence(runGlim({"inspect", sceneFile("refused/not_json.gltf")}), 1, "not JSON: syntax error at byte 30.\n");
-    expectSentence(runGlim({"inspect", ""}), 1, "The scene's file name is empty.\n");
+    expectSentence(runGlim({"inspect", ""}), 1, "A file name is empty; expected that of a .gltf or a .glb file.\n");
 }
 
 TEST(CommandLineTest, WhatTheSceneDoesNotHaveIsNamedWithWhatItHas)

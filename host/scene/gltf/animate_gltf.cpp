@@ -1,5 +1,6 @@
 #include "host/scene/gltf/animate_gltf.hpp"
 
+#include "host/message.hpp"
 #include "host/scene/gltf/check_gltf_json.hpp"
 #include "host/scene/gltf/gltf_schema.hpp"
 #include "host/scene/gltf/parse_model.hpp"
@@ -133,7 +134,7 @@ std::optional<Property> Animator::findProperty(const std::string& pointer, const
     const SchemaRule* rule = findRule(allWeights ? path + "[]" : path);
     const bool vector = rule != nullptr && rule->kind == JsonKind::Numbers && rule->count <= 4;
     if (rule == nullptr || !(vector || rule->kind == JsonKind::Number || path == kVisible)) {
-        warnings_.add("animations of what glim does not draw are ignored", pointer);
+        warnings_.add("animations of what glim does not draw are ignored", shortened(pointer));
         return std::nullopt;
     }
     if (allWeights || path == "nodes[].weights[]" || path == "meshes[].weights[]") {
@@ -188,7 +189,7 @@ void Animator::set(const Property& property, std::vector<double> value, const st
     for (double& number : value) {
         const double clamped = std::clamp(number, property.min, property.max);
         if (clamped != number) {
-            warnings_.add("animated values outside the range of their property are clamped", pointer);
+            warnings_.add("animated values outside the range of their property are clamped", shortened(pointer));
             number = clamped;
         }
     }

@@ -1,6 +1,7 @@
 #include "host/scene/gltf/check_gltf_json.hpp"
 
 #include "host/error.hpp"
+#include "host/message.hpp"
 #include "host/scene/gltf/gltf_file.hpp"
 #include "host/scene/gltf/gltf_schema.hpp"
 
@@ -44,11 +45,7 @@ constexpr const char* kSupportedExtensions[] = {
     "KHR_texture_transform",
 };
 
-std::string excerpt(const json& value)
-{
-    const std::string text = value.is_object() ? "an object" : value.is_array() ? "an array" : value.dump();
-    return text.size() <= 40 ? text : text.substr(0, 40) + "...";
-}
+std::string excerpt(const json& value) { return shortened(value.is_object() ? "an object" : value.is_array() ? "an array" : value.dump()); }
 
 std::string describeRange(const SchemaRule& rule)
 {
@@ -110,7 +107,7 @@ private:
         } else if (rest.substr(0, 2) == "{}") {
             require(value.is_object(), place, value, "an object");
             for (const auto& [key, member] : value.items()) {
-                visit(rule, rest.substr(2), member, place + "." + key);
+                visit(rule, rest.substr(2), member, place + "." + shortened(key));
             }
         } else {
             visitMember(rule, rest.front() == '.' ? rest.substr(1) : rest, value, place);
@@ -207,8 +204,24 @@ void checkExtensions(const std::string& path, const json& document)
 {
     for (const json& extension : document.value("extensionsRequired", json::array())) {
         if (effectOf(extension.get<std::string>()) == ExtensionEffect::Content) {
-            throw InputError(path + ": extensionsRequired names " + extension.get<std::string>() +
+            throw InputError(path + ": extensionsRequired names " + shortened(extension.get<std::string>()) +
                              ", without which geometry or images may be missing; expected a file that does not need it");
+        }
+    }
+}
+
+// Elements of `collection` have an object of the name that `nameOf` gives, unless it is empty.
+template <class NameOf>
+void checkParts(const std::string& path, const json& document, const json::json_pointer& collection, const NameOf& nameOf)
+{
+    const json elements = document.value(collection, json::array());
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+        const std::string type = elements[i]["type"].get<std::string>(), name = nameOf(type);
+        if (!name.empty() && !elements[i].contains(name)) {
+            std::string place = collection.to_string().substr(1);
+            std::replace(place.begin(), place.end(), '/', '.');
+            throw InputError(path + ": " + place + "[" + std::to_string(i) + "]." + name +
+                             " is missing; expected an object, as its type is " + type);
         }
     }
 }
@@ -266,10 +279,14 @@ void checkGltfJson(const std::string& path, const json& document)
         check.applyAt("buffers[].extensions." + name, kMeshoptBufferRules);
         check.applyAt("bufferViews[].extensions." + name, kMeshoptViewRules);
     }
+    checkParts(path, document, json::json_pointer("/cameras"), [](const std::string& type) { return type; });
+    checkParts(path, document, json::json_pointer("/extensions/KHR_lights_punctual/lights"),
+               [](const std::string& type) { return std::string(type == "spot" ? "spot" : ""); });
     const json& asset = document.at("asset");
     const std::string version = asset.value("version", ""), minVersion = asset.value("minVersion", "2.0");
     if (version.rfind("2.", 0) != 0 || minVersion != "2.0") {
-        throw InputError(path + ": asset asks for glTF " + (asset.contains("minVersion") ? minVersion : version) + "; expected 2.0");
+        throw InputError(path + ": asset asks for glTF " + shortened(asset.contains("minVersion") ? minVersion : version) +
+                         "; expected 2.0");
     }
     checkExtensions(path, document);
 }

@@ -1,11 +1,9 @@
 #include "host/scene/gltf/check_size.hpp"
 
+#include "host/memory.hpp"
 #include "host/scene/gltf/read_instancing.hpp"
 #include "host/scene/share_meshes.hpp"
 #include "host/text.hpp"
-
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 
@@ -14,14 +12,6 @@ namespace {
 
 // What they take at least while the tree is built, measured with flat triangles without any attribute (tests/bench/README.md).
 constexpr std::uint64_t kBytesPerTriangle = 200, kBytesPerVertex = 24, kBytesPerInstance = 400;
-
-std::uint64_t availableBytes()
-{
-    const auto pages = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)), page = static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
-    rlimit limit{};
-    const bool limited = getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
-    return limited ? std::min<std::uint64_t>(pages * page, limit.rlim_cur) : pages * page;
-}
 
 bool mayEmit(const GltfFile& file, const tinygltf::Primitive& primitive)
 {

@@ -1,13 +1,16 @@
 #include "host/scene/gltf/gltf_container.hpp"
 
 #include "host/error.hpp"
+#include "host/input_file.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <string_view>
 
 namespace glim {
 namespace {
@@ -26,24 +29,77 @@ std::uint32_t readU32(const std::vector<unsigned char>& bytes, std::size_t at)
            std::uint32_t{bytes[at + 3]} << 24U;
 }
 
-GltfContainer splitChunks(const std::string& path, const std::vector<unsigned char>& bytes, std::size_t length)
+// Reads a file piece by piece, so that a wrong beginning is found before gigabytes are read.
+class PieceReader {
+public:
+    PieceReader(const std::filesystem::path& file, const std::string& expected)
+        : path_(file.string())
+    {
+        requireFile(file, expected);
+        stream_.open(file, std::ios::binary | std::ios::ate);
+        const std::streamoff size = stream_ ? static_cast<std::streamoff>(stream_.tellg()) : -1;
+        if (size < 0) {
+            throw InputError(path_ + ": cannot be read: " + std::strerror(errno));
+        }
+        size_ = static_cast<std::uint64_t>(size);
+        stream_.seekg(0);
+    }
+
+    std::uint64_t size() const { return size_; }
+    void seek(std::uint64_t position) { stream_.seekg(static_cast<std::streamoff>(position)); }
+
+    // A vector or a string.
+    template <class Bytes>
+    void fill(Bytes& bytes)
+    {
+        if (!stream_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()))) {
+            throw InputError(path_ + ": cannot be read to its end: " + std::strerror(errno));
+        }
+    }
+    std::vector<unsigned char> read(std::uint64_t count)
+    {
+        std::vector<unsigned char> bytes(count);
+        fill(bytes);
+        return bytes;
+    }
+
+private:
+    std::string path_;
+    std::ifstream stream_;
+    std::uint64_t size_ = 0;
+};
+
+// A .glb (glTF 2.0, section 4), whose first 12 bytes are `header`.
+GltfContainer readChunks(const std::string& path, PieceReader& reader, const std::vector<unsigned char>& header)
 {
+    const std::uint32_t version = readU32(header, 4);
+    const std::uint64_t length = readU32(header, 8);
+    if (version != 2) {
+        throw InputError(path + ": the binary container has version " + std::to_string(version) + "; expected 2");
+    }
+    if (length > reader.size()) {
+        throw InputError(path + ": the file is truncated: it holds " + std::to_string(reader.size()) + " bytes; expected " +
+                         std::to_string(length));
+    }
     GltfContainer container;
-    std::size_t at = kHeaderSize;
+    std::uint64_t at = kHeaderSize;
     for (int chunk = 0; at < length; ++chunk) {
         const std::string place = path + ": chunk " + std::to_string(chunk) + " of the binary container";
-        if (length - at < kChunkHeaderSize || length - at - kChunkHeaderSize < readU32(bytes, at)) {
+        reader.seek(at);
+        const bool hasHeader = length - at >= kChunkHeaderSize;
+        const std::vector<unsigned char> start = hasHeader ? reader.read(kChunkHeaderSize) : std::vector<unsigned char>();
+        if (!hasHeader || length - at - kChunkHeaderSize < readU32(start, 0)) {
             throw InputError(place + " is truncated at byte " + std::to_string(length) + "; expected its whole content");
         }
-        const std::uint32_t size = readU32(bytes, at), type = readU32(bytes, at + 4);
-        const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(at + kChunkHeaderSize);
+        const std::uint32_t size = readU32(start, 0), type = readU32(start, 4);
         if (chunk == 0 && type != kJsonChunk) {
             throw InputError(place + " has type " + std::to_string(type) + "; expected JSON first");
         }
         if (chunk == 0) {
-            container.json.assign(begin, begin + size);
+            container.json.resize(size);
+            reader.fill(container.json);
         } else if (chunk == 1 && type == kBinChunk) {
-            container.binary.emplace(begin, begin + size);
+            container.binary = reader.read(size);
         }
         at += kChunkHeaderSize + size;
     }
@@ -51,6 +107,23 @@ GltfContainer splitChunks(const std::string& path, const std::vector<unsigned ch
         throw InputError(path + ": the binary container has no JSON chunk; expected one");
     }
     return container;
+}
+
+// Refuses what cannot be a .gltf by its first byte that is no space.
+void checkJsonStart(const std::filesystem::path& file, const std::vector<unsigned char>& start)
+{
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF", kSpaces = " \t\r\n";
+    std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
+    text.remove_prefix(text.substr(0, 3) == kByteOrderMark ? 3 : 0);
+    const std::size_t first = text.find_first_not_of(kSpaces);
+    if (first == std::string_view::npos || text[first] == '{' || text[first] == '[') {
+        return;
+    }
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    const bool converted = extension == ".obj" || extension == ".ply";
+    throw InputError(file.string() + ": is not glTF: it begins with the byte " + std::to_string(static_cast<unsigned char>(text[first])) +
+                     "; expected a .gltf or a .glb file" + (converted ? ", which tools/to_gltf makes of " + extension + " files" : ""));
 }
 
 int computeDepth(const std::string& text)
@@ -75,53 +148,37 @@ int computeDepth(const std::string& text)
 
 }  // namespace
 
-std::vector<unsigned char> readBytes(const std::filesystem::path& file)
+std::vector<unsigned char> readBytes(const std::filesystem::path& file, std::uint64_t most)
 {
-    if (file.empty()) {
-        throw InputError("The scene's file name is empty");
-    }
-    std::error_code ignored;
-    std::ifstream stream(file, std::ios::binary | std::ios::ate);
-    const std::streamoff size = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
-    if (std::filesystem::is_directory(file, ignored)) {
-        throw InputError(file.string() + ": is a directory; expected a file");
-    }
-    if (size < 0) {
-        throw InputError(file.string() + ": cannot be read: " + std::strerror(errno));
-    }
-    std::vector<unsigned char> bytes(static_cast<std::size_t>(size));
-    stream.seekg(0);
-    stream.read(reinterpret_cast<char*>(bytes.data()), size);
-    if (!stream) {
-        throw InputError(file.string() + ": cannot be read to its end: " + std::strerror(errno));
-    }
-    return bytes;
+    PieceReader reader(file, "a file");
+    return reader.read(std::min(reader.size(), most));
 }
 
-GltfContainer openContainer(const std::string& path, std::vector<unsigned char> bytes)
+GltfContainer openContainer(const std::filesystem::path& file)
 {
-    if (bytes.empty()) {
+    constexpr std::uint64_t kStart = 4096;
+    const std::string path = file.string();
+    PieceReader reader(file, "a .gltf or a .glb file");
+    const std::vector<unsigned char> start = reader.read(std::min(reader.size(), kStart));
+    if (start.empty()) {
         throw InputError(path + ": the file is empty; expected glTF");
     }
-    if (bytes.size() < 4 || readU32(bytes, 0) != kMagic) {
-        if (std::filesystem::path(path).extension() == ".glb") {
-            throw InputError(path + ": does not start with the bytes \"glTF\"; expected them in a .glb");
+    if (start.size() >= 4 && readU32(start, 0) == kMagic) {
+        if (start.size() < kHeaderSize) {
+            throw InputError(path + ": the binary container is truncated at byte " + std::to_string(start.size()) +
+                             "; expected a header of 12");
         }
-        return {std::string(bytes.begin(), bytes.end()), std::nullopt};
+        return readChunks(path, reader, start);
     }
-    if (bytes.size() < kHeaderSize) {
-        throw InputError(path + ": the binary container is truncated at byte " + std::to_string(bytes.size()) +
-                         "; expected a header of 12");
+    if (file.extension() == ".glb") {
+        throw InputError(path + ": does not start with the bytes \"glTF\"; expected them in a .glb");
     }
-    const std::uint32_t version = readU32(bytes, 4), length = readU32(bytes, 8);
-    if (version != 2) {
-        throw InputError(path + ": the binary container has version " + std::to_string(version) + "; expected 2");
-    }
-    if (length > bytes.size()) {
-        throw InputError(path + ": the file is truncated: it holds " + std::to_string(bytes.size()) + " bytes; expected " +
-                         std::to_string(length));
-    }
-    return splitChunks(path, bytes, length);
+    checkJsonStart(file, start);
+    GltfContainer container;
+    container.json.resize(reader.size());
+    reader.seek(0);
+    reader.fill(container.json);
+    return container;
 }
 
 nlohmann::json parseJson(const std::string& path, const std::string& text)

@@ -3,7 +3,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,12 +17,12 @@ struct GltfContainer {
     std::optional<std::vector<unsigned char>> binary;  // the BIN chunk of a .glb
 };
 
-// Throws InputError: "<file>: cannot be read: <reason>".
-std::vector<unsigned char> readBytes(const std::filesystem::path& file);
+// At most the first `most` bytes. Throws InputError: "<file>: cannot be read: <reason>".
+std::vector<unsigned char> readBytes(const std::filesystem::path& file, std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 
-// Splits a .glb (glTF 2.0, section 4) into its chunks. A file that does not begin with its magic number is taken for JSON, unless its name
-// ends in .glb.
-GltfContainer openContainer(const std::string& path, std::vector<unsigned char> bytes);
+// Reads a .glb (glTF 2.0, section 4) chunk by chunk. A file that does not begin with its magic number is taken for JSON, unless its name
+// ends in .glb or it begins as no JSON does.
+GltfContainer openContainer(const std::filesystem::path& file);
 
 // Refuses JSON that is nested too deeply, before a recursive parser sees it.
 nlohmann::json parseJson(const std::string& path, const std::string& text);

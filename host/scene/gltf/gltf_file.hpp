@@ -8,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -75,8 +76,9 @@ struct GltfFile {
 
 GltfFile readGltfFile(const std::filesystem::path& file);
 
-// The bytes of a uri: base64 in it, or a file relative to the glTF file. `place` names what has the uri.
-std::vector<unsigned char> readUri(const std::string& path, const std::string& place, const std::string& uri);
+// The bytes of a uri: data in it, or at most the first `most` of a file relative to the glTF file. `place` names what has the uri.
+std::vector<unsigned char> readUri(const std::string& path, const std::string& place, const std::string& uri,
+                                   std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 bool isDataUri(const std::string& uri);
 // Where a uri that is not data: points.
 std::filesystem::path externalFile(const std::string& path, const std::string& uri);

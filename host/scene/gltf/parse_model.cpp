@@ -9,21 +9,23 @@ namespace {
 
 using nlohmann::json;
 
-// tinygltf 2.7 refuses index accessors without a bufferView, though sparse ones may lack it. They borrow one while it parses. Returns the
-// borrowers.
-std::vector<std::size_t> lendBufferViews(json& document)
+// tinygltf 2.7 refuses index accessors without a bufferView, though they may lack it. They borrow an additional one, the last, while it
+// parses. Returns the borrowers.
+std::vector<std::size_t> lendBufferView(json& document)
 {
     std::vector<std::size_t> borrowers;
-    if (!document.contains("accessors")) {
+    if (!document.contains("accessors") || document["accessors"].empty()) {
         return borrowers;
     }
+    json& views = document["bufferViews"];
     for (std::size_t i = 0; i < document["accessors"].size(); ++i) {
         json& accessor = document["accessors"][i];
-        if (!accessor.contains("bufferView") && accessor.contains("sparse")) {
-            accessor["bufferView"] = accessor["sparse"]["indices"]["bufferView"];
+        if (!accessor.contains("bufferView")) {
+            accessor["bufferView"] = views.size();
             borrowers.push_back(i);
         }
     }
+    views.push_back({{"buffer", 0}, {"byteLength", 1}});
     return borrowers;
 }
 
@@ -58,7 +60,7 @@ void widenMembers(json& document, const char* collection, const char* member)
 // the document that it has parsed.
 tinygltf::Model parseModel(const std::string& path, json document)
 {
-    const std::vector<std::size_t> borrowers = lendBufferViews(document);
+    const std::vector<std::size_t> borrowers = lendBufferView(document);
     widenMembers(document, "materials", "extensions");
     widenMembers(document, "nodes", "extras");
     const std::string text = document.dump();
@@ -70,6 +72,9 @@ tinygltf::Model parseModel(const std::string& path, json document)
     }
     for (const std::size_t borrower : borrowers) {
         model.accessors[borrower].bufferView = -1;
+    }
+    if (!model.accessors.empty()) {
+        model.bufferViews.pop_back();
     }
     return model;
 }

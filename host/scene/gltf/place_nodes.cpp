@@ -93,25 +93,53 @@ glm::dmat4 readMatrix(const GltfFile& file, std::size_t index)
     return matrix;
 }
 
+glm::dmat3 readRotation(const GltfFile& file, std::size_t index)
+{
+    const tinygltf::Node& node = file.model.nodes[index];
+    if (node.rotation.empty()) {
+        return glm::dmat3(1.0);
+    }
+    const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
+    if (!(glm::length(rotation) > 0.0)) {
+        refuse(file, nodeLabel(file, index) + ".rotation is 0; expected a unit quaternion");
+    }
+    return glm::mat3_cast(glm::normalize(rotation));
+}
+
 glm::dmat4 parentFromNode(const GltfFile& file, std::size_t index)
 {
     const tinygltf::Node& node = file.model.nodes[index];
     if (!node.matrix.empty()) {
         return readMatrix(file, index);
     }
-    glm::dmat4 matrix(1.0);
-    if (!node.rotation.empty()) {
-        const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-        if (!(glm::length(rotation) > 0.0)) {
-            refuse(file, nodeLabel(file, index) + ".rotation is 0; expected a unit quaternion");
-        }
-        matrix = glm::dmat4(glm::mat3_cast(glm::normalize(rotation)));
-    }
+    glm::dmat4 matrix(readRotation(file, index));
     for (int c = 0; c < 3; ++c) {
         matrix[c] *= node.scale.empty() ? 1.0 : node.scale[static_cast<std::size_t>(c)];
         matrix[3][c] = node.translation.empty() ? 0.0 : node.translation[static_cast<std::size_t>(c)];
     }
     return matrix;
+}
+
+double spanOf(const glm::dmat3& linear) { return glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]); }
+
+bool isInvertible(const glm::dmat3& linear) { return std::abs(glm::determinant(linear)) > kSingular * spanOf(linear); }
+
+// Of a matrix that flattens no axes are known.
+glm::dmat3 parentFromAxes(const GltfFile& file, std::size_t index, const glm::dmat3& parentFromNode)
+{
+    if (isInvertible(parentFromNode)) {
+        return parentFromNode;
+    }
+    return file.model.nodes[index].matrix.empty() ? readRotation(file, index) : glm::dmat3(1.0);
+}
+
+glm::dmat3 requireInvertible(const GltfFile& file, std::size_t node, const glm::dmat3& linear)
+{
+    if (!isInvertible(linear)) {
+        refuse(file, nodeLabel(file, node) + " has a singular transform (determinant " + toText(glm::determinant(linear)) +
+                         "); expected one that can be inverted");
+    }
+    return linear;
 }
 
 // KHR_node_visibility, which holds for what hangs below the node too.
@@ -147,11 +175,13 @@ std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& opti
             warnings.add("invisible nodes are left out", nodeLabel(file, node.index));
             continue;
         }
-        node.worldFromNode = node.worldFromNode * parentFromNode(file, node.index);
+        const glm::dmat4 own = parentFromNode(file, node.index);
+        node.worldFromNode = node.worldFromNode * own;
+        node.worldFromAxes = node.worldFromAxes * parentFromAxes(file, node.index, glm::dmat3(own));
         placed.push_back(node);
         const std::vector<int>& children = file.model.nodes[node.index].children;
         for (auto child = children.rbegin(); child != children.rend(); ++child) {
-            pending.push_back({static_cast<std::size_t>(*child), node.worldFromNode});
+            pending.push_back({static_cast<std::size_t>(*child), node.worldFromNode, node.worldFromAxes});
         }
     }
     return placed;
@@ -176,15 +206,20 @@ std::vector<glm::dmat4> worldFromNodes(const GltfFile& file, const std::vector<s
     return result;
 }
 
-glm::dmat3 readLinear(const GltfFile& file, const PlacedNode& node)
+bool isFlattening(const PlacedNode& node)
 {
     const glm::dmat3 linear(node.worldFromNode);
-    const double span = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
-    if (!(std::abs(glm::determinant(linear)) > kSingular * span)) {
-        refuse(file, nodeLabel(file, node.index) + " has a singular transform (determinant " + toText(glm::determinant(linear)) +
-                         "); expected one that can be inverted");
-    }
-    return linear;
+    return std::isfinite(spanOf(linear)) && !isInvertible(linear);
+}
+
+glm::dmat3 readLinear(const GltfFile& file, const PlacedNode& node)
+{
+    return requireInvertible(file, node.index, glm::dmat3(node.worldFromNode));
+}
+
+glm::dmat3 readAxes(const GltfFile& file, const PlacedNode& node)
+{
+    return isFlattening(node) ? requireInvertible(file, node.index, node.worldFromAxes) : readLinear(file, node);
 }
 
 }  // namespace glim

@@ -1,5 +1,6 @@
 #include "host/scene/gltf/pose_mesh.hpp"
 
+#include "host/message.hpp"
 #include "host/scene/deform_mesh.hpp"
 #include "host/scene/gltf/place_nodes.hpp"
 #include "host/scene/gltf/read_accessor.hpp"
@@ -137,7 +138,7 @@ std::vector<MorphTarget> readMorphTargets(const GltfFile& file, const tinygltf::
         targets.push_back({weights[i], read("POSITION", "positions"), read("NORMAL", "normals"), read("TANGENT", "tangents")});
         for (const auto& [attribute, accessor] : primitive.targets[i]) {
             if (attribute != "POSITION" && attribute != "NORMAL" && attribute != "TANGENT") {
-                warnings.add("morph targets move positions, normals and tangents only", attribute + " of " + targetPlace);
+                warnings.add("morph targets move positions, normals and tangents only", shortened(attribute) + " of " + targetPlace);
             }
         }
     }

@@ -42,25 +42,20 @@ struct Box {
 
 bool isFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-void checkPoint(const GltfFile& file, std::size_t node, const glm::dvec3& point, bool fits)
+void checkPoint(const GltfFile& file, std::size_t node, const glm::dvec3& point)
 {
-    if (!fits) {
+    if (!isFinite(point)) {
         refuse(file, nodeLabel(file, node) + " places a point at " + toText(point.x) + " " + toText(point.y) + " " + toText(point.z) +
-                         "; expected coordinates that fit a float");
+                         "; expected finite coordinates");
     }
 }
 
-glm::vec3 toFloat(const GltfFile& file, std::size_t node, const glm::dvec3& point)
-{
-    const glm::vec3 rounded(point);
-    checkPoint(file, node, point, isFinite(rounded));
-    return rounded;
-}
+double extentOf(const Box& box) { return std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z}); }
 
 glm::dvec3 computeOrigin(const Box& box)
 {
     const glm::dvec3 center = 0.5 * box.min + 0.5 * box.max;
-    const double extent = std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z});
+    const double extent = extentOf(box);
     if (!std::isfinite(extent) || extent == 0.0) {
         return center;
     }
@@ -108,6 +103,8 @@ public:
     void finish();
 
 private:
+    void addSphere(const PlacedNode& node);
+    void leaveOut(const PlacedNode& node);
     void addInstances(const PlacedNode& node, std::size_t mesh);
     void addInstance(const PlacedNode& placed, std::size_t mesh);
     const std::vector<std::uint32_t>& meshesOf(std::size_t node, std::size_t mesh);
@@ -117,7 +114,7 @@ private:
     template <class Visit>
     void forEachPoint(const MeshInstance& instance, const Visit& visit) const;
     Box computeBox() const;
-    void checkVertices(const MeshInstance& placed) const;
+    void checkExtent(const Box& box) const;
     void requireSomething() const;
 
     const GltfFile& file_;
@@ -138,13 +135,28 @@ void GeometryReader::addNode(const PlacedNode& node)
         addInstances(node, static_cast<std::size_t>(source.mesh));
     }
     if (source.extras.IsObject() && source.extras.Has("sphere")) {
-        WorldSphere sphere = readSphere(file_, node, defaultMaterial_);
-        if (sphere.sphere.radius > 0.0F) {
-            spheres_.push_back(std::move(sphere));
-        } else {
-            ++emptySpheres_;
-        }
+        addSphere(node);
     }
+}
+
+void GeometryReader::addSphere(const PlacedNode& node)
+{
+    if (isFlattening(node)) {
+        leaveOut(node);
+        return;
+    }
+    WorldSphere sphere = readSphere(file_, node, defaultMaterial_);
+    if (sphere.sphere.radius > 0.0F) {
+        spheres_.push_back(std::move(sphere));
+    } else {
+        ++emptySpheres_;
+    }
+}
+
+void GeometryReader::leaveOut(const PlacedNode& node)
+{
+    ++scene_.flattened;
+    warnings_.add("meshes and spheres that are scaled to a plane, a line or a point are left out", nodeLabel(file_, node.index));
 }
 
 const std::vector<std::uint32_t>& GeometryReader::meshesOf(std::size_t node, std::size_t mesh)
@@ -176,7 +188,11 @@ void GeometryReader::addInstances(const PlacedNode& node, std::size_t mesh)
     }
     for (const glm::dmat4& nodeFromInstance : readInstanceTransforms(file_, node.index)) {
         const PlacedNode instance{node.index, node.worldFromNode * nodeFromInstance};
-        readLinear(file_, instance);  // refuses a singular one
+        if (isFlattening(instance)) {
+            leaveOut(instance);
+            continue;
+        }
+        readLinear(file_, instance);  // refuses one that is not finite
         addInstance(instance, mesh);
     }
 }
@@ -244,24 +260,30 @@ Box GeometryReader::computeBox() const
         const glm::dvec3 translation(instance.worldFromMesh[3]);
         forEachPoint(instance, [&](const glm::dvec3& point) {
             const glm::dvec3 world = linear * point + translation;
-            checkPoint(file_, instance.node, world, isFinite(world));
+            checkPoint(file_, instance.node, world);
             box.extend(world);
         });
     }
     for (const WorldSphere& sphere : spheres_) {
-        checkPoint(file_, sphere.sphere.node, sphere.center, isFinite(sphere.center));
+        checkPoint(file_, sphere.sphere.node, sphere.center);
         box.extend(sphere.center - static_cast<double>(sphere.sphere.radius));
         box.extend(sphere.center + static_cast<double>(sphere.sphere.radius));
     }
     return box;
 }
 
-// Refuses vertices that, relative to the origin, do not fit float32.
-void GeometryReader::checkVertices(const MeshInstance& placed) const
+// Areas and volumes of what is drawn have to fit float32. What is too small may be one moment of an animation, whose picture is empty
+// rightly.
+void GeometryReader::checkExtent(const Box& box) const
 {
-    const glm::dmat3 linear(placed.worldFromMesh);
-    const glm::dvec3 translation = glm::dvec3(placed.worldFromMesh[3]) - scene_.origin;
-    forEachPoint(placed, [&](const glm::dvec3& point) { toFloat(file_, placed.node, linear * point + translation); });
+    constexpr double kLeast = 1e-12, kMost = 1e18;
+    const double extent = extentOf(box);
+    if (extent > kMost) {
+        refuse(file_, "the scene is " + toText(extent) + " m large; expected at most " + toText(kMost) + " m");
+    }
+    if (extent > 0.0 && extent < kLeast) {
+        warnings_.add("the scene is " + toText(extent) + " m large: below " + toText(kLeast) + " m its picture may lack what is there");
+    }
 }
 
 void GeometryReader::requireSomething() const
@@ -281,18 +303,19 @@ void GeometryReader::requireSomething() const
 void GeometryReader::finish()
 {
     countTriangles();
-    scene_.origin = triangles_ + spheres_.size() == 0 ? glm::dvec3(0.0) : computeOrigin(computeBox());
-    for (const MeshInstance& instance : scene_.instances) {
-        checkVertices(instance);
+    if (triangles_ + spheres_.size() > 0) {
+        const Box box = computeBox();
+        checkExtent(box);
+        scene_.origin = computeOrigin(box);
     }
     for (WorldSphere& sphere : spheres_) {
-        sphere.sphere.center = toFloat(file_, sphere.sphere.node, sphere.center - scene_.origin);
+        sphere.sphere.center = sphere.center - scene_.origin;
         scene_.spheres.push_back(sphere.sphere);
     }
     if (emptySpheres_ > 0) {
         warnings_.add("left out " + counted(emptySpheres_, "sphere") + " of zero radius");
     }
-    if (scene_.spheres.empty()) {
+    if (scene_.spheres.empty() && scene_.flattened == 0) {
         requireSomething();
     }
 }

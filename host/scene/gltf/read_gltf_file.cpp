@@ -1,4 +1,5 @@
 #include "host/error.hpp"
+#include "host/message.hpp"
 #include "host/scene/gltf/check_gltf_json.hpp"
 #include "host/scene/gltf/decompress.hpp"
 #include "host/scene/gltf/gltf_container.hpp"
@@ -42,23 +43,22 @@ std::optional<std::uint32_t> base64Digit(char c)
     return digit == std::string_view::npos ? std::nullopt : std::optional(static_cast<std::uint32_t>(digit));
 }
 
-// Base64 (RFC 4648) of any media type.
-std::vector<unsigned char> decodeDataUri(const std::string& path, const std::string& place, const std::string& uri)
+// RFC 4648, with or without "=" at its end. `place` names the uri.
+std::vector<unsigned char> decodeBase64(const std::string& place, std::string_view data)
 {
-    const std::size_t comma = uri.find(',');
-    const std::string header = uri.substr(0, comma);
-    if (comma == std::string::npos || header.find(";base64") == std::string::npos) {
-        throw InputError(path + ": " + place + ".uri starts with \"" + header.substr(0, 48) +
-                         "\"; expected base64 data of a buffer or an image");
+    const std::size_t end = data.find_last_not_of('=');
+    const std::size_t size = end == std::string_view::npos ? 0 : end + 1;
+    if (data.size() - size > 2 || size % 4 == 1) {
+        throw InputError(place + " has data of " + std::to_string(size) + " digits and " + std::to_string(data.size() - size) +
+                         " equals signs; expected base64");
     }
     std::vector<unsigned char> bytes;
-    bytes.reserve((uri.size() - comma) / 4 * 3);
+    bytes.reserve(size / 4 * 3);
     std::uint32_t group = 0, digits = 0;
-    for (std::size_t i = comma + 1; i < uri.size() && uri[i] != '='; ++i) {
-        const std::optional<std::uint32_t> digit = base64Digit(uri[i]);
+    for (const char c : data.substr(0, size)) {
+        const std::optional<std::uint32_t> digit = base64Digit(c);
         if (!digit) {
-            throw InputError(path + ": " + place + ".uri has the byte " + std::to_string(static_cast<unsigned char>(uri[i])) +
-                             " in its data; expected base64");
+            throw InputError(place + " has the byte " + std::to_string(static_cast<unsigned char>(c)) + " in its data; expected base64");
         }
         group = group << 6U | *digit;
         if (++digits % 4 == 0) {
@@ -76,16 +76,35 @@ std::vector<unsigned char> decodeDataUri(const std::string& path, const std::str
     return bytes;
 }
 
-std::vector<unsigned char> readExternal(const std::string& path, const std::string& place, const std::string& uri)
+// RFC 2397, of any media type: base64 or, without the word, text.
+std::vector<unsigned char> decodeDataUri(const std::string& path, const std::string& place, const std::string& uri)
 {
-    const std::filesystem::path relative = percentDecode(uri);
-    if (relative.empty() || relative.is_absolute() || uri.find(':') != std::string::npos) {
-        throw InputError(path + ": " + place + ".uri is \"" + uri + "\"; expected a path relative to the glTF file");
+    constexpr std::string_view kBase64 = ";base64";
+    const std::size_t comma = uri.find(',');
+    if (comma == std::string::npos) {
+        throw InputError(path + ": " + place + ".uri is " + inQuotes(uri) + "; expected a comma between the media type and the data");
+    }
+    const std::string_view header = std::string_view(uri).substr(0, comma);
+    const bool isBase64 = header.size() >= kBase64.size() && header.substr(header.size() - kBase64.size()) == kBase64;
+    const bool isEncoded = !isBase64 || uri.find('%', comma) != std::string::npos;
+    const std::string decoded = isEncoded ? percentDecode(uri.substr(comma + 1)) : "";
+    if (!isBase64) {
+        return {decoded.begin(), decoded.end()};
+    }
+    return decodeBase64(path + ": " + place + ".uri", isEncoded ? std::string_view(decoded) : std::string_view(uri).substr(comma + 1));
+}
+
+std::vector<unsigned char> readExternal(const std::string& path, const std::string& place, const std::string& uri, std::uint64_t most)
+{
+    const std::string decoded = percentDecode(uri);
+    const std::filesystem::path relative = decoded;
+    if (relative.empty() || relative.is_absolute() || uri.find(':') != std::string::npos || decoded.find('\0') != std::string::npos) {
+        throw InputError(path + ": " + place + ".uri is " + inQuotes(uri) + "; expected a path relative to the glTF file");
     }
     try {
-        return readBytes(externalFile(path, uri));
+        return readBytes(externalFile(path, uri), most);
     } catch (const InputError& error) {
-        throw InputError(path + ": " + place + " names the file \"" + uri + "\", which cannot be read (" + error.what() + ")");
+        throw InputError(path + ": " + place + " names the file " + inQuotes(uri) + ", which cannot be read (" + error.what() + ")");
     }
 }
 
@@ -102,6 +121,7 @@ Buffers readBuffers(const std::string& path, const json& document, GltfContainer
     Buffers buffers;
     for (const json& entry : document.value("buffers", json::array())) {
         const std::string place = "buffers[" + std::to_string(buffers.size()) + "]";
+        const auto expected = entry.at("byteLength").get<std::uint64_t>();
         const std::string uri = entry.value("uri", "");
         std::vector<unsigned char> bytes;
         if (isFallback(entry)) {
@@ -114,9 +134,8 @@ Buffers readBuffers(const std::string& path, const json& document, GltfContainer
             }
             bytes = std::move(*container.binary);
         } else {
-            bytes = readUri(path, place, uri);
+            bytes = readUri(path, place, uri, expected);
         }
-        const auto expected = entry.at("byteLength").get<std::uint64_t>();
         if (bytes.size() < expected) {
             throw InputError(path + ": " + place + " holds " + std::to_string(bytes.size()) + " bytes; expected its byteLength " +
                              std::to_string(expected));
@@ -241,7 +260,7 @@ std::vector<GltfAnimation> listAnimations(const json& document)
 GltfFile readGltfFile(const std::filesystem::path& file)
 {
     const std::string path = file.string();
-    GltfContainer container = openContainer(path, readBytes(file));
+    GltfContainer container = openContainer(file);
     json document = parseJson(path, container.json);
     checkGltfJson(path, document);
 
@@ -272,9 +291,9 @@ std::filesystem::path externalFile(const std::string& path, const std::string& u
     return std::filesystem::path(path).parent_path() / percentDecode(uri);
 }
 
-std::vector<unsigned char> readUri(const std::string& path, const std::string& place, const std::string& uri)
+std::vector<unsigned char> readUri(const std::string& path, const std::string& place, const std::string& uri, std::uint64_t most)
 {
-    return isDataUri(uri) ? decodeDataUri(path, place, uri) : readExternal(path, place, uri);
+    return isDataUri(uri) ? decodeDataUri(path, place, uri) : readExternal(path, place, uri, most);
 }
 
 BufferRange rangeOf(const json& view)
@@ -298,7 +317,7 @@ void refuse(const GltfFile& file, const std::string& sentence) { throw InputErro
 std::string label(const char* collection, std::size_t index, const std::string& name)
 {
     const std::string place = std::string(collection) + "[" + std::to_string(index) + "]";
-    return name.empty() ? place : place + " (\"" + name + "\")";
+    return name.empty() ? place : place + " (" + inQuotes(name) + ")";
 }
 
 std::string nodeLabel(const GltfFile& file, std::size_t node) { return label("nodes", node, file.model.nodes[node].name); }

@@ -30,10 +30,14 @@ PunctualLight readLight(const GltfFile& file, const PlacedNode& node, std::size_
     PunctualLight light;
     light.name = nameOf(file, node, source.name);
     light.position = readPosition(file, node, scene);
-    light.direction = -glm::normalize(readLinear(file, node)[2]);
+    light.direction = -glm::normalize(readAxes(file, node)[2]);
     for (int c = 0; c < 3; ++c) {
         const double color = source.color.empty() ? 1.0 : source.color[static_cast<std::size_t>(c)];
         light.intensity[c] = static_cast<float>(source.intensity * color);
+        if (!std::isfinite(light.intensity[c])) {
+            refuse(file, place + " has the intensity " + toText(source.intensity) + " and the colour " + toText(color) +
+                             "; expected a product that fits a float");
+        }
     }
     if (source.type == "point") {
         light.kind = PunctualLight::Kind::Point;
@@ -57,7 +61,7 @@ PunctualLight readLight(const GltfFile& file, const PlacedNode& node, std::size_
 // A camera's transform is a rotation and a translation: glTF gives scale no meaning here.
 void readCameraPose(const GltfFile& file, const PlacedNode& node, Camera& camera)
 {
-    const glm::dmat3 linear = readLinear(file, node);
+    const glm::dmat3 linear = readAxes(file, node);
     const glm::dvec3 forward = -glm::normalize(linear[2]);
     const glm::dvec3 up = glm::normalize(linear[1] - forward * glm::dot(forward, linear[1]));
     camera.forward = forward;
@@ -85,6 +89,10 @@ Camera readCamera(const GltfFile& file, const PlacedNode& node, std::size_t inde
         camera.halfWidth = static_cast<float>(source.orthographic.xmag);
         camera.halfHeight = static_cast<float>(source.orthographic.ymag);
         camera.aspectRatio = static_cast<float>(source.orthographic.xmag / source.orthographic.ymag);
+    }
+    if (const float ratio = camera.aspectRatio.value_or(1.0F); !(ratio <= kMostAspectRatio && ratio * kMostAspectRatio >= 1.0F)) {
+        warnings.add("cameras of an aspect ratio beyond 16:1 or 1:16 get a picture of that shape, unless --size says another",
+                     nodeLabel(file, node.index) + " " + toText(static_cast<double>(ratio)));
     }
     return camera;
 }

@@ -1,5 +1,6 @@
 #include "host/scene/gltf/read_material.hpp"
 
+#include "host/message.hpp"
 #include "host/scene/gltf/check_gltf_json.hpp"
 
 #include <algorithm>
@@ -252,7 +253,8 @@ void MaterialReader::warnOfExtensions()
 {
     for (const auto& [name, extension] : source_.extensions) {
         const bool scatter = name == "KHR_materials_volume_scatter";
-        ignore(!isSupportedExtension(name), name + (scatter ? " is ignored (light does not scatter within solids)" : " is ignored"));
+        ignore(!isSupportedExtension(name),
+               shortened(name) + (scatter ? " is ignored (light does not scatter within solids)" : " is ignored"));
     }
 }
 

@@ -1,0 +1,13 @@
+// Files that commands read.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace glim {
+
+// Throws InputError unless `file` is a regular file or a link to one: reading from a pipe could wait for ever, and a device may have no
+// end. `expected` as in "an OpenEXR file".
+void requireFile(const std::filesystem::path& file, const std::string& expected);
+
+}  // namespace glim

@@ -1,0 +1,19 @@
+// Sentences for the user, with words of files and of the command line in them, which may hold anything.
+#pragma once
+
+#include <string>
+
+namespace glim {
+
+// UTF-8 that a terminal shows and does not obey: control characters and bytes that are not UTF-8 become \xNN. Escaping twice changes
+// nothing.
+std::string escaped(const std::string& text);
+
+// At most 80 bytes, "..." in place of the others.
+std::string shortened(const std::string& text);
+std::string inQuotes(const std::string& text);  // the same in quotes
+
+// Prints the line "glim: SENTENCE" on stderr, escaped. One of more than 8 KiB loses its middle.
+void say(const std::string& sentence);
+
+}  // namespace glim
