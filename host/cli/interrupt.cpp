@@ -1,7 +1,8 @@
 #include "host/cli/interrupt.hpp"
 
+#include "host/message.hpp"
+
 #include <csignal>
-#include <iostream>
 
 namespace glim {
 namespace {
@@ -56,7 +57,7 @@ ExitCode finish(int signal, const std::string& what)
     if (signal == 0) {
         return ExitCode::Done;
     }
-    std::cerr << "glim: stopped by " << nameOfSignal(signal) << "; " << what << ".\n";
+    say("stopped by " + std::string(nameOfSignal(signal)) + "; " + what + ".");
     return signal == SIGINT ? ExitCode::Interrupted : signal == SIGTERM ? ExitCode::Terminated : ExitCode::HungUp;
 }
 

@@ -191,12 +191,18 @@ bool isEmpty(const std::vector<PixelMoments>& pixels)
     return std::ranges::all_of(pixels, [](const PixelMoments& pixel) { return pixel.count == 0; });
 }
 
+template <class Moments>
+bool areSame(const std::vector<Moments>& a, const std::vector<Moments>& b)
+{
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0);
+}
+
 // What a checkpoint has folded is the film itself, nothing, or in layers of its own.
 constexpr const char *kAll = "all", *kNothing = "nothing", *kApart = "apart";
 
 const char* placeOfFolded(const Film& film, const Checkpoint& checkpoint)
 {
-    const bool same = checkpoint.page.empty() && checkpoint.pageSplats.empty() && film.sampleRanges == checkpoint.film.sampleRanges;
+    const bool same = areSame(film.pixels, checkpoint.film.pixels) && areSame(film.splats, checkpoint.film.splats);
     return same ? kAll : isEmpty(checkpoint.film.pixels) ? kNothing : kApart;
 }
 
