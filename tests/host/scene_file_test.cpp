@@ -92,6 +92,22 @@ TEST_F(SceneFileTest, KeepsWhatDoesNotMove)
     }
 }
 
+// What is packed is kept by image, not by place.
+TEST_F(SceneFileTest, ImagesOfAnotherFileAreItsOwn)
+{
+    SceneFile file(folder_ / "scene.gltf", studio());
+    PreparedScene prepared = prepareScene(file, 0.0, SplitRule::Sah);
+    const Bytes texels = encodePng(2, 1, {1, 2, 3, 4, 5, 6});
+    writeText(folder_ / "image.png", std::string(texels.begin(), texels.end()));
+    SceneFile other(folder_ / "scene.gltf", studio());
+    const std::vector<std::uint32_t> before = prepared.flat.images->texels;
+    prepared = prepareScene(other, 0.0, SplitRule::Sah, std::move(prepared));
+    const PreparedScene fresh = prepareScene(folder_ / "scene.gltf", studio());
+    EXPECT_EQ(prepared.flat.images->texels, fresh.flat.images->texels);
+    EXPECT_EQ(fingerprint(prepared.flat), fingerprint(fresh.flat));
+    EXPECT_NE(prepared.flat.images->texels, before);
+}
+
 // Nothing is left to hit, and nothing was there before: the tree is a root.
 TEST_F(SceneFileTest, ASceneWithoutAnyPrimitiveHasATree)
 {
