@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <csignal>
 #include <cstdlib>
 #include <cstring>
 
@@ -20,18 +19,6 @@ namespace {
 
 constexpr double kDefaultInterval = 300.0;
 constexpr double kMostShare = 0.01;  // of the time, for writing
-
-volatile std::sig_atomic_t requested = 0;
-
-void rememberRequest(int) { requested = 1; }
-
-// Whether the user asked for a checkpoint by SIGUSR1 since the last call.
-bool takeRequest()
-{
-    const bool was = requested != 0;
-    requested = 0;
-    return was;
-}
 
 double secondsSince(std::chrono::steady_clock::time_point start)
 {
@@ -56,31 +43,27 @@ CheckpointWriter::CheckpointWriter(const CheckpointOptions& options, std::filesy
       last_(Clock::now())
 {
     setenv("GLIM_FILM", output_.c_str(), 1);  // of the command; here, while no other thread reads the environment
-    std::signal(SIGUSR1, rememberRequest);
 }
 
-CheckpointWriter::~CheckpointWriter()
-{
-    finish();
-    std::signal(SIGUSR1, SIG_DFL);
-}
+CheckpointWriter::~CheckpointWriter() { finish(); }
 
-void CheckpointWriter::offer(const Renderer& renderer)
+void CheckpointWriter::offer(const Renderer& renderer, bool asked)
 {
-    const bool now = takeRequest();
-    asked_ = asked_ || now;
-    const bool idle = !writing_.valid() || writing_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-    const bool due = asked_ || (options_.isGiven() && secondsSince(last_) >= interval_);
-    if (!due || !idle) {
+    asked_ = asked_ || asked;
+    if (writing_.valid() && writing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
         return;
     }
     finish();
+    if (!asked_ && !(options_.isGiven() && secondsSince(last_) >= interval_)) {
+        return;
+    }
     std::optional<Checkpoint> checkpoint = renderer.checkpoint();
     if (!checkpoint) {
         return;
     }
     asked_ = false;
     last_ = Clock::now();
+    samplesPerPixel_ = static_cast<double>(renderer.pictureSamples()) / static_cast<double>(checkpoint->film.pixels.size());
     label_(checkpoint->film);
     writing_ = std::async(std::launch::async, [this, checkpoint = *std::move(checkpoint)] { return write(checkpoint); });
 }
@@ -93,9 +76,16 @@ void CheckpointWriter::finish()
     interval_ = options_.seconds.value_or(kDefaultInterval);
     try {
         interval_ = std::max(interval_, writing_.get() / kMostShare);
+        writtenSamples_ = samplesPerPixel_;
+        written_ = Clock::now();
     } catch (const InputError& error) {
         say("no checkpoint: " + std::string(error.what()));
     }
+}
+
+std::optional<WrittenCheckpoint> CheckpointWriter::lastWritten() const
+{
+    return writtenSamples_ ? std::optional(WrittenCheckpoint{*writtenSamples_, secondsSince(written_)}) : std::nullopt;
 }
 
 double CheckpointWriter::write(const Checkpoint& checkpoint) const

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/cli/command.hpp"
+#include "host/cli/progress.hpp"
 #include "host/render/renderer.hpp"
 
 #include <chrono>
@@ -31,11 +32,12 @@ public:
     CheckpointWriter(const CheckpointWriter&) = delete;
     CheckpointWriter& operator=(const CheckpointWriter&) = delete;
 
-    // To be called often, between passes. Starts a checkpoint in a thread of its own if it is time for one or SIGUSR1 has asked for one.
+    // To be called often, between passes. Starts a checkpoint in a thread of its own if it is time for one or the user has asked for one.
     // Writing takes at most a hundredth of the time. One that cannot be written is said so on stderr, and the render goes on.
-    void offer(const Renderer& renderer);
+    void offer(const Renderer& renderer, bool asked);
     // Waits for the one under way.
     void finish();
+    std::optional<WrittenCheckpoint> lastWritten() const;
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -45,8 +47,11 @@ private:
     CheckpointOptions options_;
     std::filesystem::path output_;
     std::function<void(Film&)> label_;
-    bool asked_ = false;  // by the user, and not done yet
-    Clock::time_point last_;
+    bool asked_ = false;                    // by the user, and not done yet
+    Clock::time_point last_;                // when the last one began
+    double samplesPerPixel_ = 0.0;          // of that one
+    std::optional<double> writtenSamples_;  // the same of the last one that was written
+    Clock::time_point written_;
     double interval_ = 0.0;        // seconds; the first checkpoint comes with the first finished block
     std::future<double> writing_;  // gives the seconds that it took
 };

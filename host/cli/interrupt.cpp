@@ -8,13 +8,15 @@ namespace glim {
 namespace {
 
 // A signal handler can reach nothing but a global.
-volatile std::sig_atomic_t received = 0;
+volatile std::sig_atomic_t received = 0, requested = 0;
 
 void remember(int signal)
 {
     received = signal;
     std::signal(signal, SIG_DFL);
 }
+
+void request(int) { requested = 1; }
 
 // A signal that was ignored when glim started stays ignored, as nohup and scripts' background jobs ask.
 void watch(int signal)
@@ -39,6 +41,7 @@ InterruptWatch::InterruptWatch()
     watch(SIGTERM);
     watch(SIGHUP);
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGUSR1, request);
 }
 
 InterruptWatch::~InterruptWatch()
@@ -46,6 +49,14 @@ InterruptWatch::~InterruptWatch()
     unwatch(SIGINT);
     unwatch(SIGTERM);
     unwatch(SIGHUP);
+    std::signal(SIGUSR1, SIG_DFL);
+}
+
+bool InterruptWatch::takeRequest() const
+{
+    const bool was = requested != 0;
+    requested = 0;
+    return was;
 }
 
 int InterruptWatch::signal() const { return received; }

@@ -1,4 +1,4 @@
-// SIGINT, SIGTERM and SIGHUP, to be polled between passes.
+// SIGINT, SIGTERM, SIGHUP and SIGUSR1, to be polled between passes.
 #pragma once
 
 #include "host/error.hpp"
@@ -7,8 +7,8 @@
 
 namespace glim {
 
-// While an InterruptWatch exists, the first of these signals is only remembered; a second one ends the program as usual. A reader that
-// goes away (SIGPIPE) ends nothing.
+// While an InterruptWatch exists, the first of the first three is only remembered; a second one ends the program as usual. SIGUSR1 asks
+// for a checkpoint. A reader that goes away (SIGPIPE) ends nothing.
 class InterruptWatch {
 public:
     InterruptWatch();
@@ -16,7 +16,8 @@ public:
     InterruptWatch(const InterruptWatch&) = delete;
     InterruptWatch& operator=(const InterruptWatch&) = delete;
 
-    int signal() const;  // 0: none yet
+    int signal() const;        // 0: none yet
+    bool takeRequest() const;  // whether SIGUSR1 has come since the last call
 };
 
 const char* nameOfSignal(int signal);

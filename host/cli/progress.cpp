@@ -41,7 +41,7 @@ ProgressPrinter::ProgressPrinter(ProgressStyle style, std::optional<double> time
     }
 }
 
-void ProgressPrinter::print(const RenderProgress& progress)
+void ProgressPrinter::print(const RenderProgress& progress, const std::optional<WrittenCheckpoint>& checkpoint)
 {
     const bool complete = progress.samples == progress.totalSamples;
     if (style_ == ProgressStyle::None || (progress.seconds - last_ < kInterval && !complete)) {
@@ -59,7 +59,7 @@ void ProgressPrinter::print(const RenderProgress& progress)
     if (style_ == ProgressStyle::Bar) {
         printBar(progress, share, all);
     } else {
-        printJson(progress, share, remaining, all);
+        printJson(progress, share, remaining, all, checkpoint);
     }
 }
 
@@ -74,17 +74,21 @@ void ProgressPrinter::printBar(const RenderProgress& progress, double share, dou
                  static_cast<double>(progress.samples) / static_cast<double>(pixels_), 1e-6 * rate(progress), all);
 }
 
-void ProgressPrinter::printJson(const RenderProgress& progress, double share, double remaining, double all) const
+void ProgressPrinter::printJson(const RenderProgress& progress, double share, double remaining, double all,
+                                const std::optional<WrittenCheckpoint>& checkpoint) const
 {
-    const Json line = {{"picture", place_.index + 1},
-                       {"pictures", place_.count},
-                       {"done", share},
-                       {"samples", progress.samples},
-                       {"totalSamples", progress.totalSamples},
-                       {"seconds", progress.seconds},
-                       {"samplesPerSecond", rate(progress)},
-                       {"etaSeconds", remaining},
-                       {"allEtaSeconds", all}};
+    Json line = {{"picture", place_.index + 1},
+                 {"pictures", place_.count},
+                 {"done", share},
+                 {"samples", progress.samples},
+                 {"totalSamples", progress.totalSamples},
+                 {"seconds", progress.seconds},
+                 {"samplesPerSecond", rate(progress)},
+                 {"etaSeconds", remaining},
+                 {"allEtaSeconds", all}};
+    if (checkpoint) {
+        line.set("checkpoint", Json{{"samplesPerPixel", checkpoint->samplesPerPixel}, {"secondsAgo", checkpoint->secondsAgo}});
+    }
     std::fprintf(stderr, "%s\n", line.dump().c_str());
 }
 

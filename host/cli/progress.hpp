@@ -20,20 +20,26 @@ struct SequencePlace {
     double seconds = 0.0;  // of the rendered ones
 };
 
+// The last one that was written.
+struct WrittenCheckpoint {
+    double samplesPerPixel, secondsAgo;
+};
+
 class ProgressPrinter {
 public:
     // Auto: a bar on a terminal, nothing elsewhere. `timeLimit`: seconds, if time ends the render and not samples.
     ProgressPrinter(ProgressStyle style, std::optional<double> timeLimit, std::uint64_t pixels, const SequencePlace& place = {});
 
     // Prints at most ten times a second.
-    void print(const RenderProgress& progress);
+    void print(const RenderProgress& progress, const std::optional<WrittenCheckpoint>& checkpoint = {});
     // Removes the bar.
     void finish();
 
 private:
     // `remaining`: seconds to the end of this picture; `all`: to that of the last one.
     void printBar(const RenderProgress& progress, double share, double all) const;
-    void printJson(const RenderProgress& progress, double share, double remaining, double all) const;
+    void printJson(const RenderProgress& progress, double share, double remaining, double all,
+                   const std::optional<WrittenCheckpoint>& checkpoint) const;
 
     ProgressStyle style_;
     std::optional<double> timeLimit_;

@@ -106,9 +106,9 @@ Rendered renderPicture(Renderer& renderer, const RenderOptions& options, Checkpo
 {
     Rendered rendered;
     const auto observe = [&](const RenderProgress& now) {
-        progress.print(now);
+        progress.print(now, writer.lastWritten());
         if (now.betweenPasses && watch.signal() == 0) {
-            writer.offer(renderer);
+            writer.offer(renderer, watch.takeRequest());
         }
         return watch.signal() == 0;
     };
@@ -255,7 +255,7 @@ ExitCode SequenceRenderer::renderShot(const RenderOptions& options)
     const auto start = std::chrono::steady_clock::now();
     const Camera camera = cameraOf(prepared_.scene, options);
     RenderSettings settings = settingsFor(options, camera);
-    checkMemory(prepared_, settings, device_.description());
+    checkMemory(prepared_, settings, device_.description(), options.checkpoint.isGiven());
     if (watch_.signal() != 0) {
         return finish(watch_.signal(), place_.rendered == 0 ? "nothing was rendered or written"
                                                             : options.output.string() + " and what follows was not rendered");

@@ -8,7 +8,7 @@
 namespace glim {
 
 // To be called before anything is allocated: Linux grants memory that is not there and later kills the program that uses it. Throws
-// InputError if the picture does not fit.
-void checkMemory(const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device);
+// InputError if the picture does not fit, with its checkpoints if there are to be any.
+void checkMemory(const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device, bool checkpoints = false);
 
 }  // namespace glim
