@@ -85,7 +85,7 @@ TEST_F(CommandLineResumeTest, KilledWithinAnyWriteItGoesOnWithTheSameBits)
         EXPECT_EQ(digestOf(readFilm(film_)), expected) << "killed at call " << at;
         EXPECT_EQ(folder_.entries(), 1U) << "killed at call " << at;
     }
-    EXPECT_GT(kills, 20 / step);
+    EXPECT_GT(kills, 12 / step);  // as many as there are for the lock, one checkpoint and the end
     EXPECT_GT(whole, 0) << "a checkpoint was there when the end was being written";
 }
 
