@@ -2,6 +2,7 @@
 
 #include "host/cli/parse.hpp"
 #include "host/error.hpp"
+#include "host/image/atomic_file.hpp"
 #include "host/message.hpp"
 #include "host/render/film_file.hpp"
 
@@ -104,17 +105,22 @@ double CheckpointWriter::write(const Checkpoint& checkpoint) const
 OutputLock::OutputLock(const std::filesystem::path& output)
     : path_(output.string() + ".lock")
 {
-    file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (file_ < 0) {
-        throw InputError(path_.string() + ": cannot be made: " + std::strerror(errno) + ".");
-    }
-    if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
-        char process[16] = {};
-        const ssize_t length = read(file_, process, sizeof process - 1);
-        close(file_);
-        throw InputError(output.string() + ": is written by another glim" +
-                         (length > 0 ? ", process " + std::string(process) : std::string()) + "; expected only one.");
-    }
+    do {
+        if (file_ >= 0) {
+            close(file_);  // its owner has removed it between our two calls
+        }
+        file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (file_ < 0) {
+            throw InputError(path_.string() + ": cannot be made: " + std::strerror(errno) + ".");
+        }
+        if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
+            char process[16] = {};
+            const ssize_t length = read(file_, process, sizeof process - 1);
+            close(file_);
+            throw InputError(output.string() + ": is written by another glim" +
+                             (length > 0 ? ", process " + std::string(process) : std::string()) + "; expected only one.");
+        }
+    } while (!isFileAt(path_, file_));
     const std::string process = std::to_string(getpid());
     if (ftruncate(file_, 0) != 0 || write(file_, process.data(), process.size()) < 0) {
         say(path_.string() + " cannot be written, so another glim will not learn who holds it");

@@ -135,10 +135,17 @@ std::optional<ControlBias> measureBias(Renderer& renderer, const Film& film, con
     return control ? estimateControlBias(film, *control) : std::nullopt;
 }
 
-// Whether a film has all samples that were asked for. `ends`: it is no checkpoint, which might reach a target where nobody has looked.
-bool isWhole(const Film& film, bool ends, const RenderOptions& options)
+bool isThere(const std::filesystem::path& file)
+{
+    std::error_code ignored;
+    return std::filesystem::exists(file, ignored);
+}
+
+// Whether a film has all samples that were asked for. A checkpoint does not end at a target: it might reach one where nobody has looked.
+bool isWhole(const StoredFilm& stored, const RenderOptions& options)
 {
     const RenderSettings& settings = options.settings;
+    const Film& film = stored.film;
     if (!film.complete) {
         return false;
     }
@@ -150,7 +157,7 @@ bool isWhole(const Film& film, bool ends, const RenderOptions& options)
     const bool all = isNeighbours(settings.adaptive)
                          ? computeRates(film).mean >= settings.sampleEnd
                          : begin == settings.sampleBegin && (end == settings.sampleEnd || (resumes && end > settings.sampleEnd));
-    return all || (ends && options.target.isGiven() && timesToTarget(film, options.target) <= 1.0);
+    return all || (!stored.checkpoint && options.target.isGiven() && timesToTarget(film, options.target) <= 1.0);
 }
 
 // Renders one picture after another, with one file, one device and one set of kernels for all of them.
@@ -174,10 +181,11 @@ private:
     RenderOptions optionsOf(const Shot& shot) const;
     void openScene(std::optional<double> time);
     ExitCode renderShot(const RenderOptions& options);
-    bool keep(const RenderOptions& options, const FlatCamera& camera, const RenderSettings& settings) const;
+    std::optional<StoredFilm> readOutput(const RenderOptions& options, const FlatCamera& camera, const RenderSettings& settings) const;
+    bool keep(const RenderOptions& options, const StoredFilm& stored) const;
     std::optional<double> writeIdentities(const RenderOptions& options, const FlatCamera& camera, const Film& film);
     void openRenderer(const FlatCamera& camera, RenderSettings& settings);
-    void resume(const RenderOptions& options);
+    void resume(const RenderOptions& options, StoredFilm stored);
     ExitCode writeShot(const RenderOptions& options, const RenderSettings& settings, const FlatCamera& camera, Rendered rendered);
 
     const RenderOptions& options_;
@@ -266,13 +274,18 @@ ExitCode SequenceRenderer::renderShot(const RenderOptions& options)
     if (options.checkpoint.isGiven()) {
         lock.emplace(options.output);
     }
-    if ((isSequence_ || options.checkpoint.resume) && keep(options, flatCamera, settings)) {
+    std::optional<StoredFilm> stored;
+    if (isSequence_ || options.checkpoint.resume) {
+        stored = readOutput(options, flatCamera, settings);
+    }
+    if (stored && keep(options, *stored)) {
         return ExitCode::Done;
     }
     openRenderer(flatCamera, settings);
-    if (options.checkpoint.resume) {
-        resume(options);
+    if (stored && options.checkpoint.resume) {
+        resume(options, *std::move(stored));
     }
+    stored.reset();
     CheckpointWriter writer(options.checkpoint, options.output, [&options](Film& film) { labelFilm(film, options); });
     ProgressPrinter progress(options.progress, settings.seconds, std::uint64_t{settings.width} * settings.height, place_);
     Rendered rendered = renderPicture(*renderer_, options, writer, progress, watch_);
@@ -284,46 +297,44 @@ ExitCode SequenceRenderer::renderShot(const RenderOptions& options)
     return code;
 }
 
-// Keeps a film that is whole already; its PNGs may be of another exposure, and are drawn again.
-bool SequenceRenderer::keep(const RenderOptions& options, const FlatCamera& camera, const RenderSettings& settings) const
+// The film at --output, if it is of this picture. A film that cannot be resumed is refused; others are rendered anew.
+std::optional<StoredFilm> SequenceRenderer::readOutput(const RenderOptions& options, const FlatCamera& camera,
+                                                       const RenderSettings& settings) const
 {
-    const auto exists = [](const std::filesystem::path& file) {
-        std::error_code ignored;
-        return std::filesystem::exists(file, ignored);
-    };
-    if (!exists(options.output)) {
-        return false;
+    if (!isThere(options.output)) {
+        return std::nullopt;
     }
-    Film film;
-    bool ends = true;
+    StoredFilm stored;
     try {
-        film = readFilm(options.output);
-        ends = !isCheckpoint(options.output);
+        stored = readStoredFilm(options.output);
     } catch (const InputError&) {
         if (options.checkpoint.resume) {
             throw;
         }
-        return false;  // as a render of one picture overwrites whatever is there
+        return std::nullopt;
     }
     Film expected;
     expected.width = settings.width;
     expected.height = settings.height;
     expected.identity = identityOf(SceneIdentity(prepared_.flat), camera, settings);
     labelFilm(expected, options);
-    const std::string difference = describeDifference(film, expected);
-    if (options.checkpoint.resume && film.identity.kernels != expected.identity.kernels) {
-        throw InputError(options.output.string() + ": cannot be resumed: it is by another version of glim's kernels; " +
-                         "`glim merge` adds samples that this one renders.");
-    }
+    const bool others = stored.film.identity.kernels != expected.identity.kernels;
+    const std::string difference = others ? "it is by another version of glim's kernels; `glim merge` adds samples that this one renders"
+                                          : describeDifference(stored.film, expected);
     if (!difference.empty() && options.checkpoint.resume) {
         throw InputError(options.output.string() + ": cannot be resumed: " + difference + ".");
     }
-    const bool lacksFiles = (options.ids && !exists(*options.ids)) || (options.stats && !exists(*options.stats));
-    if (!difference.empty() || !isWhole(film, ends, options) || lacksFiles) {
+    return difference.empty() ? std::optional(std::move(stored)) : std::nullopt;
+}
+
+// Keeps a film that is whole already; its PNGs may be of another exposure, and are drawn again.
+bool SequenceRenderer::keep(const RenderOptions& options, const StoredFilm& stored) const
+{
+    if (!isWhole(stored, options) || (options.ids && !isThere(*options.ids)) || (options.stats && !isThere(*options.stats))) {
         return false;
     }
-    writePngs(options, film);
-    std::cout << options.output.string() << ": is whole and was kept\n";
+    writePngs(options, stored.film);
+    std::cout << escaped(options.output.string()) << ": is whole and was kept\n";
     return true;
 }
 
@@ -341,39 +352,35 @@ void SequenceRenderer::openRenderer(const FlatCamera& camera, RenderSettings& se
     isSceneNew_ = false;
 }
 
-// keep() has looked whether the film is of this picture.
-void SequenceRenderer::resume(const RenderOptions& options)
+// Goes on from the film at --output, which is of this picture.
+void SequenceRenderer::resume(const RenderOptions& options, StoredFilm stored)
 {
-    std::error_code ignored;
-    if (!std::filesystem::exists(options.output, ignored)) {
-        return;
-    }
-    const Film film = readFilmHeader(options.output);
-    const std::uint32_t first = renderer_->settings().sampleBegin;
+    const std::string samples = sampleRangesText(stored.film), arithmetic = stored.film.arithmetic, device = stored.film.device;
     const auto refuse = [&](const std::string& reason) {
-        throw InputError(options.output.string() + ": cannot be resumed: it has samples " + sampleRangesText(film) + ", " + reason + ".");
+        throw InputError(options.output.string() + ": cannot be resumed: it has samples " + samples + ", " + reason + ".");
     };
-    if (film.sampleRanges.front().first != first) {
-        refuse("expected them to begin at " + std::to_string(first));
+    const auto [begin, end] = stored.film.sampleRanges.front();
+    const RenderSettings& settings = renderer_->settings();
+    if (begin != settings.sampleBegin) {
+        refuse("expected them to begin at " + std::to_string(settings.sampleBegin));
     }
-    std::optional<Checkpoint> checkpoint = readCheckpoint(options.output);
-    if (!checkpoint && !film.complete && film.sampleRanges.front().second - first <= kBlockSamples) {
+    if (!stored.checkpoint && !stored.film.complete && end - begin <= kBlockSamples) {
         say(options.output.string() + " has no finished block of samples, so the render begins anew");
         return;
     }
+    std::optional<Checkpoint> checkpoint = stored.checkpoint ? std::move(stored.checkpoint) : checkpointOf(std::move(stored.film));
     if (!checkpoint) {
         refuse("expected one range that ends with a page of " + std::to_string(kPageSamples) + "; `glim merge` adds others");
     }
     if (!renderer_->canResume(*checkpoint)) {
-        refuse(isNeighbours(renderer_->settings().adaptive) ? "planned for another --spp" : "more than were asked for");
+        refuse(isNeighbours(settings.adaptive) ? "planned for another --spp" : "more than were asked for");
     }
     renderer_->resume(*std::move(checkpoint));
-    const auto pixels = static_cast<double>(film.width * std::size_t{film.height});
+    const double pixels = static_cast<double>(settings.width) * settings.height;
     say(options.output.string() + " is resumed at " +
         exactText(std::round(100.0 * static_cast<double>(renderer_->statistics().resumedSamples) / pixels) / 100.0) + " samples per pixel");
-    if (film.arithmetic != arithmeticFingerprint(device_)) {
-        say(device_.description().name + " rounds otherwise than " + film.device +
-            " did, so the film will equal a single run up to rounding");
+    if (arithmetic != arithmeticFingerprint(device_)) {
+        say(device_.description().name + " rounds otherwise than " + device + " did, so the film will equal a single run up to rounding");
     }
 }
 

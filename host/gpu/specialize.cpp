@@ -9,7 +9,6 @@
 namespace glim {
 namespace {
 
-// Takes .2 s of CPU time for a render's kernels.
 // Drivers do set constants themselves, but Mesa translates the whole kernel and inlines every call before it drops what they make
 // unreachable: that took .9 s for trace_paths. No pass here changes arithmetic: SPIRV-Tools folds no operation that is NoContraction.
 std::vector<std::uint32_t> optimize(const EmbeddedShader& shader, const Specialization& specialization)
@@ -42,14 +41,17 @@ std::vector<std::uint32_t> optimize(const EmbeddedShader& shader, const Speciali
 std::vector<std::uint32_t> specialize(const EmbeddedShader& shader, const Specialization& specialization)
 {
     static std::mutex mutex;
-    static std::map<std::pair<const std::uint32_t*, Specialization>, std::vector<std::uint32_t>> known;
-    const std::lock_guard lock(mutex);
+    static std::map<std::pair<const std::uint32_t*, Specialization>, std::vector<std::uint32_t>> known;  // .2 s of CPU time a render
     const std::pair key(shader.begin, specialization);
-    auto entry = known.find(key);
-    if (entry == known.end()) {
-        entry = known.emplace(key, optimize(shader, specialization)).first;
+    {
+        const std::lock_guard lock(mutex);
+        if (const auto entry = known.find(key); entry != known.end()) {
+            return entry->second;
+        }
     }
-    return entry->second;
+    const std::vector<std::uint32_t> specialized = optimize(shader, specialization);  // several kernels at a time
+    const std::lock_guard lock(mutex);
+    return known.emplace(key, specialized).first->second;
 }
 
 }  // namespace glim

@@ -95,8 +95,7 @@ void removeLeftover(const fs::path& path)
         return;
     }
     flock(file, LOCK_EX);
-    struct stat mine = {}, there = {};
-    if (fstat(file, &mine) == 0 && stat(path.c_str(), &there) == 0 && mine.st_ino == there.st_ino) {
+    if (isFileAt(path, file)) {
         unlink(path.c_str());
     }
     close(file);
@@ -130,6 +129,12 @@ void syncFolder(const fs::path& folder)
 }
 
 }  // namespace
+
+bool isFileAt(const fs::path& path, int descriptor)
+{
+    struct stat open = {}, named = {};
+    return fstat(descriptor, &open) == 0 && stat(path.c_str(), &named) == 0 && open.st_ino == named.st_ino && open.st_dev == named.st_dev;
+}
 
 void checkWritable(const fs::path& path, std::string_view extension)
 {

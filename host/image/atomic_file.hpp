@@ -15,6 +15,9 @@ namespace glim {
 // its folder is missing, a folder or a device has its name, or permission is missing. Creates and changes nothing.
 void checkWritable(const std::filesystem::path& path, std::string_view extension);
 
+// Whether the open file is still the one of this name.
+bool isFileAt(const std::filesystem::path& path, int descriptor);
+
 class AtomicFile {
 public:
     explicit AtomicFile(const std::filesystem::path& path);

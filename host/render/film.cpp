@@ -87,7 +87,7 @@ void foldSplats(std::vector<SplatMoments>& film, const std::vector<SplatMoments>
     }
 }
 
-bool isOfOneDevice(const Film& film) { return film.arithmetic.find(' ') == std::string::npos; }
+bool isOfOneArithmetic(const Film& film) { return film.arithmetic.find(' ') == std::string::npos; }
 
 void addArithmetic(Film& film, const std::string& arithmetic)
 {

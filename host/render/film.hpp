@@ -52,7 +52,7 @@ SplatMoments foldMoments(const SplatMoments& a, const SplatMoments& b);
 void foldSplats(std::vector<SplatMoments>& film, const std::vector<SplatMoments>& page);
 
 // Whether all of it is of one arithmetic: only then can it be bit-identical to a single run.
-bool isOfOneDevice(const Film& film);
+bool isOfOneArithmetic(const Film& film);
 void addArithmetic(Film& film, const std::string& arithmetic);
 
 // Folds `page` onto the pixels of `film` from index `begin` on.

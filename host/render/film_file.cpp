@@ -237,7 +237,7 @@ std::string textIfPresent(const Image& image, const std::string& name)
 
 void checkDigest(const fs::path& path, const std::string& what, const std::string& digest, const std::string& expected)
 {
-    if (!expected.empty() && digest != expected) {
+    if (digest != expected) {
         throw InputError(path.string() + ": is damaged: the SHA-256 of " + what + " is " + digest + ", expected " + expected + ".");
     }
 }
@@ -329,14 +329,16 @@ Film filmOfImage(const fs::path& path, const Image& image)
         takeLayers(path, kCameraLayers, image, film.pixels);
         takeSplats(path, image, film.splats);
     }
-    checkDigest(path, "its samples", digestOf(film), textIfPresent(image, "glim:digest"));
+    if (const std::string digest = textIfPresent(image, "glim:digest"); !digest.empty()) {
+        checkDigest(path, "its samples", digestOf(film), digest);
+    }
     return film;
 }
 
-Checkpoint checkpointOfImage(const fs::path& path, const Image& image)
+Checkpoint checkpointOfImage(const fs::path& path, const Image& image, const Film& film)
 {
     Checkpoint checkpoint;
-    checkpoint.film = filmOfImage(path, image);
+    checkpoint.film = film;
     const std::size_t pixels = checkpoint.film.pixels.size();
     const auto text = attribute<std::string>(path, image, kProgress);
     std::istringstream stream(text);
@@ -363,7 +365,7 @@ Checkpoint checkpointOfImage(const fs::path& path, const Image& image)
         takePlane(path, image.counts, "chosen.X", 0, checkpoint.chosen);
         takePlane(path, image.counts, "blocksLeft.X", 0, checkpoint.blocksLeft);
     }
-    checkDigest(path, "its checkpoint", digestOf(checkpoint), textIfPresent(image, kProgressDigest));
+    checkDigest(path, "its checkpoint", digestOf(checkpoint), attribute<std::string>(path, image, kProgressDigest));
     return checkpoint;
 }
 
@@ -402,13 +404,15 @@ void writeFilm(const fs::path& path, const Film& film, const Checkpoint& checkpo
 
 Film readFilm(const fs::path& path) { return filmOfImage(path, readExr(path)); }
 
-std::optional<Checkpoint> readCheckpoint(const fs::path& path)
+StoredFilm readStoredFilm(const fs::path& path)
 {
     const Image image = readExr(path);
-    return image.attributes.contains(kProgress) ? checkpointOfImage(path, image) : checkpointOf(filmOfImage(path, image));
+    StoredFilm stored{filmOfImage(path, image), std::nullopt};
+    if (image.attributes.contains(kProgress)) {
+        stored.checkpoint = checkpointOfImage(path, image, stored.film);
+    }
+    return stored;
 }
-
-bool isCheckpoint(const fs::path& path) { return readExrHeader(path).attributes.contains(kProgress); }
 
 Film readFilmHeader(const fs::path& path) { return filmOfHeader(path, readExrHeader(path)); }
 

@@ -29,13 +29,17 @@ void writeFilm(const std::filesystem::path& path, const Film& film);
 // A film and what a later render needs to go on from its finished blocks.
 void writeFilm(const std::filesystem::path& path, const Film& film, const Checkpoint& checkpoint);
 
-bool isCheckpoint(const std::filesystem::path& path);
-
-// Returns nothing if the film cannot be continued. Refuses (InputError) what readFilm refuses, and damaged checkpoints.
-std::optional<Checkpoint> readCheckpoint(const std::filesystem::path& path);
-
 // Refuses (InputError) files that writeFilm did not write.
 Film readFilm(const std::filesystem::path& path);
+
+// What a file holds.
+struct StoredFilm {
+    Film film;
+    std::optional<Checkpoint> checkpoint;  // if it was written with one
+};
+
+// Refuses (InputError) what readFilm refuses, and damaged checkpoints.
+StoredFilm readStoredFilm(const std::filesystem::path& path);
 
 // All but `pixels`.
 Film readFilmHeader(const std::filesystem::path& path);

@@ -17,7 +17,7 @@ constexpr std::uint64_t kHostVersion = 1;
 
 std::string probe(Device& device)
 {
-    const KernelLayout layout(device, {{kBindProbed, BufferKind::Readback}}, sizeof(std::uint32_t));
+    const KernelLayout layout(device, {{kBindProbed, BufferKind::Readback}}, 0);
     const Kernel kernel(layout, kernels::probe_arithmetic, {{kSpecWorkgroup, 64}});
     constexpr std::size_t kCount = std::size_t{kProbedInputs} * kProbedOperations;
     const Buffer results(device, "probed arithmetic", BufferKind::Readback, kCount * sizeof(float));

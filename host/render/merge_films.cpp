@@ -117,7 +117,7 @@ bool continuesExactly(const Film& film, const Film& next)
         return false;
     }
     const auto [begin, end] = next.sampleRanges.front();
-    const bool alike = film.identity.kernels == next.identity.kernels && film.arithmetic == next.arithmetic && isOfOneDevice(film);
+    const bool alike = film.identity.kernels == next.identity.kernels && film.arithmetic == next.arithmetic && isOfOneArithmetic(film);
     return alike && begin == film.sampleRanges.front().second && begin % kPageSamples == 0 && end - begin <= kPageSamples;
 }
 
@@ -156,7 +156,7 @@ MergePlan planMerge(const std::vector<Film>& films, const std::vector<std::strin
     std::stable_sort(plan.order.begin(), plan.order.end(),
                      [&](std::size_t a, std::size_t b) { return firstSample(films[a]) < firstSample(films[b]); });
     Film merged = films.at(plan.order[0]);
-    plan.exact = merged.complete && merged.sampleRanges.size() == 1 && isOfOneDevice(merged);
+    plan.exact = merged.complete && merged.sampleRanges.size() == 1 && isOfOneArithmetic(merged);
     for (std::size_t i = 1; i < films.size(); ++i) {
         const Film& next = films[plan.order[i]];
         plan.exact = plan.exact && continuesExactly(merged, next);

@@ -162,7 +162,7 @@ private:
     std::uint64_t pictureSamples_ = 0, plannedSamples_ = 0, resumedSamples_ = 0;
     double resumedSeconds_ = 0.0;
     std::uint32_t aheadEnd_ = 0;       // of the sweep that a checkpoint had begun
-    std::uint64_t testedSamples_ = 0;  // pictureSamples_ when the criterion was last tested
+    std::uint64_t judgedSamples_ = 0;  // pictureSamples_ when the criterion was last asked
     double timesToTarget_ = 0.0;       // the criterion's last answer; infinite before the first
 
     std::optional<LightPasses> light_;  // of scenes whose caustics need them

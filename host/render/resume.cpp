@@ -8,20 +8,6 @@
 namespace glim {
 namespace {
 
-// After how many samples a render with a target last judged its error, before it has those up to `end`: at ends of blocks, at least a
-// tenth apart.
-std::uint32_t lastJudged(std::uint32_t begin, std::uint32_t end)
-{
-    std::uint32_t judged = 0;
-    for (std::uint32_t sample = blockEnd(begin); sample < end; sample = blockEnd(sample)) {
-        const std::uint32_t count = sample - begin;
-        if (count >= leastSamplesForError(begin) && count >= 1.1 * judged) {
-            judged = count;
-        }
-    }
-    return judged;
-}
-
 // The last end of a block up to `sample`, but not before `begin`.
 std::uint32_t finishedBlocks(std::uint32_t begin, std::uint32_t sample)
 {
@@ -87,7 +73,8 @@ std::optional<Checkpoint> Renderer::checkpoint() const
 
 bool Renderer::canResume(const Checkpoint& checkpoint) const
 {
-    return checkpoint.sample <= settings_.sampleEnd && checkpoint.adaptive.has_value() == isNeighbours(settings_.adaptive) &&
+    const std::uint32_t end = checkpoint.pixelsAhead > 0 ? blockEnd(checkpoint.sample) : checkpoint.sample;
+    return end <= settings_.sampleEnd && checkpoint.adaptive.has_value() == isNeighbours(settings_.adaptive) &&
            (!checkpoint.adaptive || checkpoint.adaptive->chosenBegin == chosenBlocks_.begin());
 }
 
@@ -111,7 +98,6 @@ void Renderer::resume(Checkpoint checkpoint)
     }
     pictureSamples_ = film_.pixels.size() * (sample_ - settings_.sampleBegin);
     pictureSamples_ += sweeping_ ? std::uint64_t{checkpoint.pixelsAhead} * (aheadEnd_ - sample_) : 0;
-    testedSamples_ = film_.pixels.size() * lastJudged(settings_.sampleBegin, sample_);
     if (checkpoint.adaptive) {
         const AdaptiveProgress& adaptive = *checkpoint.adaptive;
         mean_ = adaptive.mean;
@@ -123,7 +109,6 @@ void Renderer::resume(Checkpoint checkpoint)
             pictureSamples_ += samples;
         }
         chosenBlocks_ = BlockQueue(adaptive.chosenBegin, std::move(checkpoint.chosen), std::move(checkpoint.blocksLeft));
-        testedSamples_ = 0;  // it is judged after every round
         choosing_ = adaptive.choosing && chooseSweep(chosenBlocks_);
         if (adaptive.choosing && !choosing_) {
             endRound();

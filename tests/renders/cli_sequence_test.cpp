@@ -128,6 +128,11 @@ TEST_F(SequenceTest, WholeFilmsAreKept)
     expectDone({"--at", "0.041666666666666664", "--spp", "3", "-o", "one.exr"});
     expectSame("f1.exr", "one.exr");
 
+    Film older = film("f3.exr");
+    older.identity.kernels = "0123456789abcdef";
+    writeFilm(folder_ / "f3.exr", older);
+    EXPECT_NE(expectDone(frames).out.find("1 of 4 pictures"), std::string::npos) << "a film of other kernels has other bits";
+
     std::filesystem::remove(folder_ / "f2.png");
     EXPECT_NE(expectDone(frames).out.find("0 of 4 pictures"), std::string::npos);
     EXPECT_TRUE(std::filesystem::exists(folder_ / "f2.png"));

@@ -36,7 +36,7 @@ public:
         for (pieces = 1;; ++pieces) {
             restart();
             if (std::filesystem::exists(file_)) {
-                std::optional<Checkpoint> checkpoint = readCheckpoint(file_);
+                std::optional<Checkpoint> checkpoint = readStoredFilm(file_).checkpoint;
                 EXPECT_TRUE(checkpoint && renderer_.canResume(*checkpoint));
                 renderer_.resume(*std::move(checkpoint));
             }
@@ -50,6 +50,7 @@ public:
             };
             const Film film = renderer_.render(observe, criterion_, [&] { checkpoint = renderer_.checkpoint(); });
             if (renderer_.isDone() || !ended) {
+                end = film.sampleRanges.front().second;
                 return film;
             }
             if (checkpoint) {
@@ -63,6 +64,7 @@ public:
     }
 
     int pieces = 0, apart = 0, ahead = 0, choosing = 0;
+    std::uint32_t end = 0;  // of the samples
 
 private:
     void restart() { renderer_.restart(camera_, renderer_.settings().width, renderer_.settings().height); }
@@ -89,6 +91,17 @@ std::function<int()> randomPasses(int most)
     return [random = std::mt19937(1), most]() mutable { return 1 + static_cast<int>(random() % static_cast<unsigned>(most)); };
 }
 
+// A render in pieces against one at once.
+void expectTheBitsOfOneRun(Pieces& pieces, int passes)
+{
+    const Film whole = pieces.renderAtOnce(), film = pieces.renderInPieces(randomPasses(passes));
+    EXPECT_TRUE(sameBits(film, whole));
+    EXPECT_EQ(film.sampleRanges, whole.sampleRanges);
+    EXPECT_EQ(film.complete, whole.complete);
+    EXPECT_EQ(film.splats.empty(), whole.splats.empty());
+    EXPECT_GT(pieces.pieces, 4);
+}
+
 class ResumeTest : public ::testing::TestWithParam<Schedule> {};
 
 // The mixed scene has light paths.
@@ -99,15 +112,9 @@ TEST_P(ResumeTest, UniformRendersHaveTheBitsOfOneRun)
         settings.sampleBegin = begin;
         settings.schedule = GetParam();
         Pieces pieces(mixedScene(), settings);
-        const Film whole = pieces.renderAtOnce();
-        const Film film = pieces.renderInPieces(randomPasses(40));
-        EXPECT_TRUE(sameBits(film, whole));
-        EXPECT_EQ(film.sampleRanges, whole.sampleRanges);
-        EXPECT_TRUE(film.complete);
-        EXPECT_GT(pieces.pieces, 6);
+        expectTheBitsOfOneRun(pieces, 40);
         EXPECT_GT(pieces.apart, 3);
         EXPECT_GT(pieces.ahead, 3);
-        EXPECT_FALSE(whole.splats.empty());
     }
 }
 
@@ -117,11 +124,7 @@ TEST_P(ResumeTest, AdaptiveRendersHaveTheBitsOfOneRun)
     settings.adaptive = Adaptive::Neighbours;
     settings.schedule = GetParam();
     Pieces pieces(mixedScene(), settings);
-    const Film whole = pieces.renderAtOnce(), film = pieces.renderInPieces(randomPasses(40));
-    EXPECT_TRUE(sameBits(film, whole));
-    EXPECT_EQ(film.sampleRanges, whole.sampleRanges);
-    EXPECT_TRUE(film.complete);
-    EXPECT_GT(pieces.pieces, 6);
+    expectTheBitsOfOneRun(pieces, 40);
     EXPECT_GT(pieces.choosing, 2);
     EXPECT_GT(pieces.ahead, 2);
 }
@@ -136,12 +139,9 @@ TEST(ResumeTargetTest, StopsWhereOneRunDoes)
         RenderSettings settings = inSmallPasses(16, 8192);
         settings.adaptive = adaptive;
         Pieces pieces(mixedScene(), settings, criterion);
-        const Film whole = pieces.renderAtOnce(), film = pieces.renderInPieces(randomPasses(30));
-        EXPECT_TRUE(sameBits(film, whole));
-        EXPECT_EQ(film.sampleRanges, whole.sampleRanges);
-        EXPECT_LT(film.sampleRanges.front().second, 8192U);
-        EXPECT_GT(film.sampleRanges.front().second, 200U) << "a target that is met later tells more";
-        EXPECT_GT(pieces.pieces, 4);
+        expectTheBitsOfOneRun(pieces, 30);
+        EXPECT_GT(pieces.end, 200U) << "a target that is met later tells more";
+        EXPECT_LT(pieces.end, 8192U);
     }
 }
 
@@ -164,6 +164,22 @@ TEST(ResumeFilmTest, AnyFilmThatEndsWithAPageGoesOn)
         EXPECT_TRUE(sameBits(renderer.render([](const RenderProgress&) { return true; }), renderScene(scene, settings))) << end;
         EXPECT_EQ(renderer.statistics().samples, 144U * (800U - end));
     }
+}
+
+// Nor does one for which fewer samples are asked than some pixels have, or one of another way to sample.
+TEST(ResumeFilmTest, CheckpointsBeyondTheEndDoNot)
+{
+    RenderSettings settings = squareSettings(4, 300);
+    const FlatScene flat = flattened(mixedScene());
+    const Renderer renderer(testDevice(), flat, flattenCamera(mixedScene().cameras.front(), 1.0F), settings);
+    Checkpoint checkpoint;
+    checkpoint.sample = 256;
+    EXPECT_TRUE(renderer.canResume(checkpoint));
+    checkpoint.pixelsAhead = 1;
+    EXPECT_FALSE(renderer.canResume(checkpoint)) << "that pixel has the samples up to 384";
+    checkpoint.pixelsAhead = 0;
+    checkpoint.adaptive.emplace();
+    EXPECT_FALSE(renderer.canResume(checkpoint));
 }
 
 TEST(ResumeFilmTest, WhatLacksSamplesDoesNot)
