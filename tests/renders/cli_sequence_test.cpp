@@ -137,7 +137,7 @@ TEST_F(SequenceTest, WholeFilmsAreKept)
     EXPECT_NE(expectDone(frames).out.find("0 of 4 pictures"), std::string::npos);
     EXPECT_TRUE(std::filesystem::exists(folder_ / "f2.png"));
     for (const std::vector<std::string>& other :
-         std::vector<std::vector<std::string>>{{"--seed", "1"}, {"--environment", "1,2,3"}, {"--stats", "s#.json"}}) {
+         std::vector<std::vector<std::string>>{{"--bounces", "3"}, {"--seed", "1"}, {"--environment", "1,2,3"}, {"--stats", "s#.json"}}) {
         std::vector<std::string> changed = frames;
         changed.insert(changed.end(), other.begin(), other.end());
         EXPECT_NE(expectDone(changed).out.find("4 of 4 pictures"), std::string::npos) << other[0];
