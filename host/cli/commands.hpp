@@ -6,6 +6,7 @@
 namespace glim {
 
 void addRender(CommandLine& line);   // render SCENE -o OUT.exr, with and without --replay
+void addServe(CommandLine& line);    // serve: renders by requests on standard input
 void addPreview(CommandLine& line);  // preview SCENE
 void addInspect(CommandLine& line);  // inspect SCENE: its contents, costs and needs
 void addDevices(CommandLine& line);  // devices: what Vulkan offers

@@ -44,7 +44,7 @@ void runMerge(const MergeOptions& options)
 void addMerge(CommandLine& line)
 {
     auto options = std::make_shared<MergeOptions>();
-    const Command command = line.addCommand("merge", "Merge renders of one scene over different samples into one");
+    const Command command = line.addCommand("merge", "Merge renders of one picture over different samples or rows into one");
     command.beginGroup("Picture");
     command.addPaths("films", "A.exr", "Films written by glim render or glim merge, in any order", options->inputs).require();
     command.beginGroup("Output");
@@ -54,7 +54,8 @@ void addMerge(CommandLine& line)
     command.setFooter(
         "The films must agree in scene, camera, size, seed and settings, and their samples (render --samples) must\n"
         "not overlap. Adjacent ranges of 256 samples, starting at a multiple of 256, give the bits of a single run;\n"
-        "other ranges give it up to rounding, and the command says so.");
+        "other ranges give it up to rounding, and the command says so. Films of some rows (render --rows) must adjoin\n"
+        "and have the same samples.");
     command.onRun([options] {
         runMerge(*options);
         return ExitCode::Done;

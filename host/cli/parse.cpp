@@ -155,6 +155,16 @@ std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& text)
     return range;
 }
 
+std::pair<std::uint32_t, std::uint32_t> parseRows(const std::string& text)
+{
+    const std::vector<std::string> parts = split(text, ':');
+    std::pair<std::uint32_t, std::uint32_t> rows;
+    if (parts.size() != 2 || !parseNumber(parts[0], rows.first) || !parseNumber(parts[1], rows.second) || rows.first >= rows.second) {
+        throw UsageError("--rows", "\"" + text + "\": expected BEGIN:END with BEGIN < END, as in 0:270");
+    }
+    return rows;
+}
+
 double parsePercent(const std::string& option, const std::string& text)
 {
     double percent = 0.0;

@@ -36,12 +36,13 @@ EnvironmentChoice parseEnvironment(const std::string& text);
 std::string describeEnvironment(const EnvironmentChoice& choice);
 Sun parseSun(const std::string& text);  // "30,45,1000"
 std::string describeSun(const Sun& sun);
-glm::vec3 parseRadiance(const std::string& text);                           // "1,1,1", >= 0; a file is refused
-SamplePlace parseSample(const std::string& text);                           // "12,40,7"
-glm::dvec3 parsePoint(const std::string& option, const std::string& text);  // "1,2.5,-3"
-double parsePercent(const std::string& option, const std::string& text);    // "1%", in (0, 1000]; returns 1 for 100%
-double parseDuration(const std::string& option, const std::string& text);   // "90s", "5m" or "1h", > 0; returns seconds
-float parseSurvival(const std::string& text);                               // "fixed:0.7", in (0, 1]
+glm::vec3 parseRadiance(const std::string& text);                            // "1,1,1", >= 0; a file is refused
+std::pair<std::uint32_t, std::uint32_t> parseRows(const std::string& text);  // "0:270"
+SamplePlace parseSample(const std::string& text);                            // "12,40,7"
+glm::dvec3 parsePoint(const std::string& option, const std::string& text);   // "1,2.5,-3"
+double parsePercent(const std::string& option, const std::string& text);     // "1%", in (0, 1000]; returns 1 for 100%
+double parseDuration(const std::string& option, const std::string& text);    // "90s", "5m" or "1h", > 0; returns seconds
+float parseSurvival(const std::string& text);                                // "fixed:0.7", in (0, 1]
 
 // An option whose value is one number (uint32_t, float or double) in [low, high]; never NaN. The help shows `what`, the range and, in
 // brackets, the default.

@@ -71,6 +71,7 @@ void addPicture(const Command& command, PictureOptions& options, const std::stri
     command.add("--sun", "AZIMUTH,ELEVATION,E", "A directional light: degrees right of -z, degrees up, W/m^2",
                 [&options](const std::string& text) { options.sun = parseSun(text); });
     addTextures(command, options.missingTextures, options.maxTexture);
+    command.addFlag("--confine", "Refuse files that the scene names outside of its folder", options.confined);
     command.add("--size", "WxH", "Pixels, each side 1 to 65535 [" + height + " high, width by the camera's aspect ratio]",
                 [&options](const std::string& text) { options.size = parseSize(text); });
 }
@@ -195,6 +196,7 @@ LoadOptions loadOptionsOf(const PictureOptions& options)
     load.environmentBackground = options.environmentBackground;
     load.sun = options.sun;
     load.missingTextures = options.missingTextures;
+    load.confined = options.confined;
     load.maxTexture = options.maxTexture;
     load.framed = options.camera == "framed";
     if (options.size) {
@@ -215,6 +217,10 @@ RenderSettings settingsFor(const PictureOptions& options, const Camera& camera)
     const glm::uvec2 size = options.size.value_or(defaultSize(camera));
     settings.width = size.x;
     settings.height = size.y;
+    if (settings.rows && settings.rows->second > size.y) {
+        throw UsageError("--rows", std::to_string(settings.rows->first) + ":" + std::to_string(settings.rows->second) +
+                                       ": the picture has " + std::to_string(size.y) + " rows");
+    }
     return settings;
 }
 

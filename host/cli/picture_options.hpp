@@ -27,6 +27,7 @@ struct PictureOptions {
     bool environmentBackground = true;
     std::optional<Sun> sun;
     MissingTextures missingTextures = MissingTextures::Refuse;
+    bool confined = false;  // the files that the scene names lie in its folder
     std::uint32_t maxTexture = kMaxImageSide;
     double exposure = 0.0;
     Lens lens;

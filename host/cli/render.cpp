@@ -21,7 +21,7 @@ void addRender(CommandLine& line)
             runReplay(*options);
             return ExitCode::Done;
         }
-        return renderSequence(*options);
+        return RenderSession().render(*options);
     });
 }
 

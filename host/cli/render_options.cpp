@@ -69,6 +69,8 @@ void addRenderOptions(const Command& command, RenderOptions& options)
     command.addPath("SCENE", "FILE", "Scene, .gltf or .glb", options.scene).require();
     addPicture(command, options);
     addAov(command, options);
+    command.add("--rows", "BEGIN:END", "Only rows BEGIN to END - 1 of the picture, for `glim merge`, from 0 at the top [all]",
+                [&options](const std::string& text) { options.settings.rows = parseRows(text); });
     addCamera(command, options, ", or all");
     addSequence(command, options);
     command.beginGroup("Sampling and stopping");

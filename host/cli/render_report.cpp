@@ -142,49 +142,57 @@ Json suspectsOf(const RenderReport& report)
     return list;
 }
 
+std::uint32_t lightPathsOf(const Film& film) { return lightPathCount(film.width, film.rowsAbove + film.height + film.rowsBelow); }
+
+Json rowsOf(const Film& film)
+{
+    const bool all = film.rowsAbove == 0 && film.rowsBelow == 0;
+    return all ? Json() : Json::array({film.rowsAbove, film.rowsAbove + film.height});
+}
+
 Json statisticsOf(const RenderReport& report)
 {
     const RenderStatistics& s = report.statistics;
     const std::uint64_t rays = s.cameraAndBounceRays + s.shadowRays;
-    return {
-        {"scene", report.options.scene.string()},
-        {"size", Json::array({report.film.width, report.film.height})},
-        {"sampleRange", Json::array({report.film.sampleRanges[0].first, report.film.sampleRanges[0].second})},
-        {"settings", report.film.identity.settings},
-        {"schedule", nameOf(s.schedule)},
-        {"stopReason", report.stopReason},
-        {"device", {{"name", report.device.name}, {"driver", report.device.driver}, {"kind", report.device.kind}}},
-        {"seconds",
-         {{"load", report.prepared.loadSeconds},
-          {"build", report.prepared.buildSeconds},
-          {"upload", s.uploadSeconds},
-          {"compile", s.compileSeconds},
-          {"render", s.renderSeconds},
-          {"write", report.writeSeconds},
-          {"ids", report.idSeconds}}},
-        {"samples", s.samples},
-        {"resumedSamples", s.resumedSamples},
-        {"digest", digestOf(report.film)},
-        {"samplesPerSecond", perSecond(s.samples, s.renderSeconds)},
-        {"rays", {{"closest", s.cameraAndBounceRays}, {"shadow", s.shadowRays}, {"total", rays}}},
-        {"raysPerSecond", perSecond(rays, s.renderSeconds)},
-        {"kernels", kernelsOf(s)},
-        {"longestDispatchSeconds", s.longestDispatch},
-        {"textureBytes", textureBytes(report.prepared.flat)},
-        {"peakMemory", {{"host", peakHostMemory()}, {"device", s.peakDeviceMemory}}},
-        {"nonFinite", nonFiniteOf(s, report.film.width)},
-        {"loopCapHits", s.loopCaps},
-        {"overflows", s.overflows},
-        {"transparencyCaps", s.transparencyCaps},
-        {"mediaCaps", s.mediaCaps},
-        {"lightPathsPerSample", report.film.splats.empty() ? Json(nullptr) : Json(lightPathCount(report.film.width, report.film.height))},
-        {"clampIndirect", clampingOf(report.film, report.options)},
-        {"estimate", estimateOf(report.film, report.options.settings)},
-        {"pixelsWithoutEstimate", pixelsWithoutError(report.film)},
-        {"bvh", bvhOf(report)},
-        {"adaptive", adaptiveOf(report)},
-        {"steps", stepsOf(report)},
-        {"suspects", suspectsOf(report)}};
+    return {{"scene", report.options.scene.string()},
+            {"size", Json::array({report.film.width, report.film.height})},
+            {"rows", rowsOf(report.film)},
+            {"sampleRange", Json::array({report.film.sampleRanges[0].first, report.film.sampleRanges[0].second})},
+            {"settings", report.film.identity.settings},
+            {"schedule", nameOf(s.schedule)},
+            {"stopReason", report.stopReason},
+            {"device", {{"name", report.device.name}, {"driver", report.device.driver}, {"kind", report.device.kind}}},
+            {"seconds",
+             {{"load", report.prepared.loadSeconds},
+              {"build", report.prepared.buildSeconds},
+              {"upload", s.uploadSeconds},
+              {"compile", s.compileSeconds},
+              {"render", s.renderSeconds},
+              {"write", report.writeSeconds},
+              {"ids", report.idSeconds}}},
+            {"samples", s.samples},
+            {"resumedSamples", s.resumedSamples},
+            {"digest", digestOf(report.film)},
+            {"samplesPerSecond", perSecond(s.samples, s.renderSeconds)},
+            {"rays", {{"closest", s.cameraAndBounceRays}, {"shadow", s.shadowRays}, {"total", rays}}},
+            {"raysPerSecond", perSecond(rays, s.renderSeconds)},
+            {"kernels", kernelsOf(s)},
+            {"longestDispatchSeconds", s.longestDispatch},
+            {"textureBytes", textureBytes(report.prepared.flat)},
+            {"peakMemory", {{"host", peakHostMemory()}, {"device", s.peakDeviceMemory}}},
+            {"nonFinite", nonFiniteOf(s, report.film.width)},
+            {"loopCapHits", s.loopCaps},
+            {"overflows", s.overflows},
+            {"transparencyCaps", s.transparencyCaps},
+            {"mediaCaps", s.mediaCaps},
+            {"lightPathsPerSample", report.film.splats.empty() ? Json(nullptr) : Json(lightPathsOf(report.film))},
+            {"clampIndirect", clampingOf(report.film, report.options)},
+            {"estimate", estimateOf(report.film, report.options.settings)},
+            {"pixelsWithoutEstimate", pixelsWithoutError(report.film)},
+            {"bvh", bvhOf(report)},
+            {"adaptive", adaptiveOf(report)},
+            {"steps", stepsOf(report)},
+            {"suspects", suspectsOf(report)}};
 }
 
 void warnOfGaps(const Film& film)
@@ -237,9 +245,7 @@ std::string format(const char* pattern, auto... values)
 
 std::string causticsText(const RenderReport& report)
 {
-    return report.film.splats.empty()
-               ? ""
-               : format(", caustics by %u light paths a sample", lightPathCount(report.film.width, report.film.height));
+    return report.film.splats.empty() ? "" : format(", caustics by %u light paths a sample", lightPathsOf(report.film));
 }
 
 std::string rangeText(const RenderReport& report)

@@ -160,24 +160,55 @@ bool isWhole(const StoredFilm& stored, const RenderOptions& options)
     return all || (!stored.checkpoint && options.target.isGiven() && timesToTarget(film, options.target) <= 1.0);
 }
 
+LoadOptions loadOptionsFor(const RenderOptions& options)
+{
+    LoadOptions load = loadOptionsOf(options);
+    load.framed = load.framed || options.sequence.turntable > 0;
+    load.at.reset();  // the sequence poses the scene
+    return load;
+}
+
+// Without what may differ between two pictures of one renderer.
+RenderSettings lastingSettings(RenderSettings settings)
+{
+    const RenderSettings other;
+    settings.sampleBegin = other.sampleBegin;
+    settings.sampleEnd = other.sampleEnd;
+    settings.seconds = other.seconds;
+    settings.seed = other.seed;
+    return settings;
+}
+
+// When files were written last, and how long they are.
+std::vector<std::pair<std::filesystem::file_time_type, std::uintmax_t>> stampsOf(const std::vector<std::filesystem::path>& files)
+{
+    std::vector<std::pair<std::filesystem::file_time_type, std::uintmax_t>> stamps;
+    std::error_code gone;
+    for (const std::filesystem::path& file : files) {
+        stamps.emplace_back(std::filesystem::last_write_time(file, gone), std::filesystem::file_size(file, gone));
+    }
+    return stamps;
+}
+
+}  // namespace
+
 // Renders one picture after another, with one file, one device and one set of kernels for all of them.
 class SequenceRenderer {
 public:
-    SequenceRenderer(const RenderOptions& options, const InterruptWatch& watch)
+    explicit SequenceRenderer(const RenderOptions& options)
         : options_(options),
-          isSequence_(isSequence(options.sequence, options)),
-          watch_(watch),
           device_(instance_, options.device),
-          file_(options.scene, loadOptions()),
+          file_(options.scene, loadOptionsFor(options)),
           time_(firstTime(options.sequence, options)),
           prepared_(prepareScene(file_, time_, options.split)),
-          shots_(listShots(options.sequence, options, prepared_.scene))
+          stamps_(stampsOf(prepared_.scene.files))
     {}
 
-    ExitCode renderAll();
+    // Whether it can render what these options ask for.
+    bool serves(const RenderOptions& options) const;
+    ExitCode renderAll(const RenderOptions& options, const InterruptWatch& watch);
 
 private:
-    LoadOptions loadOptions() const;
     RenderOptions optionsOf(const Shot& shot) const;
     void openScene(std::optional<double> time);
     ExitCode renderShot(const RenderOptions& options);
@@ -188,26 +219,28 @@ private:
     void resume(const RenderOptions& options, StoredFilm stored);
     ExitCode writeShot(const RenderOptions& options, const RenderSettings& settings, const FlatCamera& camera, Rendered rendered);
 
-    const RenderOptions& options_;
-    const bool isSequence_;
-    const InterruptWatch& watch_;
+    RenderOptions options_;
+    bool isSequence_ = false;
+    const InterruptWatch* watch_ = nullptr;  // of the request under way
     VulkanInstance instance_;
     Device device_;
     SceneFile file_;
     std::optional<double> time_;  // of the scene
     PreparedScene prepared_;
-    std::vector<Shot> shots_;
+    std::vector<std::pair<std::filesystem::file_time_type, std::uintmax_t>> stamps_;  // of its files
     SequencePlace place_;
     std::optional<Renderer> renderer_;
     bool isSceneNew_ = true;  // to the renderer
     std::shared_ptr<const CameraRayKernels> rayKernels_;
 };
 
-LoadOptions SequenceRenderer::loadOptions() const
+bool SequenceRenderer::serves(const RenderOptions& options) const
 {
-    LoadOptions load = loadOptionsOf(options_);
-    load.framed = load.framed || options_.sequence.turntable > 0;
-    return load;
+    const bool sameScene = options.scene == options_.scene && loadOptionsFor(options) == loadOptionsFor(options_) &&
+                           options.split == options_.split && stamps_ == stampsOf(prepared_.scene.files);
+    const bool sameLens = (options.lens.radius > 0.0F) == (options_.lens.radius > 0.0F);
+    return sameScene && sameLens && options.device == options_.device &&
+           lastingSettings(options.settings) == lastingSettings(options_.settings);
 }
 
 RenderOptions SequenceRenderer::optionsOf(const Shot& shot) const
@@ -234,16 +267,22 @@ void SequenceRenderer::openScene(std::optional<double> time)
     }
 }
 
-ExitCode SequenceRenderer::renderAll()
+ExitCode SequenceRenderer::renderAll(const RenderOptions& options, const InterruptWatch& watch)
 {
-    for (const Shot& shot : shots_) {
+    options_ = options;
+    isSequence_ = isSequence(options.sequence, options);
+    watch_ = &watch;
+    openScene(firstTime(options.sequence, options));
+    const std::vector<Shot> shots = listShots(options.sequence, options, prepared_.scene);
+    for (const Shot& shot : shots) {
         checkTargets(optionsOf(shot), prepared_.scene.files);
     }
     if (options_.settings.aov == Aov::Radiance) {
         warnIfNoLights(prepared_);
     }
-    place_.count = shots_.size();
-    for (const Shot& shot : shots_) {
+    place_ = {};
+    place_.count = shots.size();
+    for (const Shot& shot : shots) {
         openScene(shot.at);
         const ExitCode code = renderShot(optionsOf(shot));
         if (code != ExitCode::Done) {
@@ -264,9 +303,9 @@ ExitCode SequenceRenderer::renderShot(const RenderOptions& options)
     const Camera camera = cameraOf(prepared_.scene, options);
     RenderSettings settings = settingsFor(options, camera);
     checkMemory(prepared_, settings, device_.description(), options.checkpoint.isGiven());
-    if (watch_.signal() != 0) {
-        return finish(watch_.signal(), place_.rendered == 0 ? "nothing was rendered or written"
-                                                            : options.output.string() + " and what follows was not rendered");
+    if (watch_->signal() != 0) {
+        return finish(watch_->signal(), place_.rendered == 0 ? "nothing was rendered or written"
+                                                             : options.output.string() + " and what follows was not rendered");
     }
     const FlatCamera flatCamera =
         flattenCamera(camera, static_cast<float>(settings.width) / static_cast<float>(settings.height), options.lens);
@@ -287,8 +326,18 @@ ExitCode SequenceRenderer::renderShot(const RenderOptions& options)
     }
     stored.reset();
     CheckpointWriter writer(options.checkpoint, options.output, [&options](Film& film) { labelFilm(film, options); });
-    ProgressPrinter progress(options.progress, settings.seconds, std::uint64_t{settings.width} * settings.height, place_);
-    Rendered rendered = renderPicture(*renderer_, options, writer, progress, watch_);
+    ProgressPrinter progress(options.progress, settings.seconds, settings.pixelCount(), place_);
+    Rendered rendered;
+    try {
+        rendered = renderPicture(*renderer_, options, writer, progress, *watch_);
+    } catch (const DeviceError& error) {
+        progress.finish();
+        writer.finish();
+        const auto kept = writer.lastWritten();
+        throw DeviceError(error.what() + (kept ? " " + options.output.string() + " has the last checkpoint, of " +
+                                                     exactText(std::round(100.0 * kept->samplesPerPixel) / 100.0) + " samples per pixel."
+                                               : std::string()));
+    }
     progress.finish();
     writer.finish();
     const ExitCode code = writeShot(options, settings, flatCamera, std::move(rendered));
@@ -313,9 +362,7 @@ std::optional<StoredFilm> SequenceRenderer::readOutput(const RenderOptions& opti
         }
         return std::nullopt;
     }
-    Film expected;
-    expected.width = settings.width;
-    expected.height = settings.height;
+    Film expected = emptyFilm(settings);
     expected.identity = identityOf(SceneIdentity(prepared_.flat), camera, settings);
     labelFilm(expected, options);
     const bool others = stored.film.identity.kernels != expected.identity.kernels;
@@ -344,9 +391,11 @@ void SequenceRenderer::openRenderer(const FlatCamera& camera, RenderSettings& se
         settings.fastest = fastestSchedule(device_, prepared_.flat, camera, settings);
         renderer_.emplace(device_, prepared_.flat, camera, settings);
     } else if (isSceneNew_) {
+        renderer_->setSampling(settings);
         renderer_->restart(prepared_.flat, camera, settings.width, settings.height);
     } else {
         renderer_->clearStatistics();
+        renderer_->setSampling(settings);
         renderer_->restart(camera, settings.width, settings.height);
     }
     isSceneNew_ = false;
@@ -376,7 +425,7 @@ void SequenceRenderer::resume(const RenderOptions& options, StoredFilm stored)
         refuse(isNeighbours(settings.adaptive) ? "planned for another --spp" : "more than were asked for");
     }
     renderer_->resume(*std::move(checkpoint));
-    const double pixels = static_cast<double>(settings.width) * settings.height;
+    const double pixels = settings.pixelCount();
     say(options.output.string() + " is resumed at " +
         exactText(std::round(100.0 * static_cast<double>(renderer_->statistics().resumedSamples) / pixels) / 100.0) + " samples per pixel");
     if (arithmetic != arithmeticFingerprint(device_)) {
@@ -401,24 +450,24 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const RenderS
                                      Rendered rendered)
 {
     Film& film = rendered.film;
-    if (watch_.signal() != 0 && renderer_->statistics().samples == 0) {
-        return finish(watch_.signal(), "no sample was finished, and nothing is written");
+    if (watch_->signal() != 0 && renderer_->statistics().samples == 0) {
+        return finish(watch_->signal(), "no sample was finished, and nothing is written");
     }
-    if (watch_.signal() != 0 && wouldRuin(options.output, film)) {
-        return finish(watch_.signal(), "some pixels had no sample yet, so " + options.output.string() + " is left as it was");
+    if (watch_->signal() != 0 && wouldRuin(options.output, film)) {
+        return finish(watch_->signal(), "some pixels had no sample yet, so " + options.output.string() + " is left as it was");
     }
     labelFilm(film, options);
     const double writeSeconds = writePictures(options, film, rendered.checkpoint);
     const std::optional<double> idSeconds = writeIdentities(options, camera, film);
     // Before the control, whose samples are no suspects.
     std::vector<Suspect> suspects = findSuspects(*renderer_, film);
-    const auto bias = measureBias(*renderer_, film, watch_);
+    const auto bias = measureBias(*renderer_, film, *watch_);
     const RenderReport report{options,
                               prepared_,
                               film,
                               renderer_->statistics(),
                               device_.description(),
-                              stopReason(watch_.signal(), film, settings, rendered.isGood, renderer_->isDone()),
+                              stopReason(watch_->signal(), film, settings, rendered.isGood, renderer_->isDone()),
                               writeSeconds,
                               idSeconds,
                               std::move(suspects),
@@ -427,16 +476,24 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const RenderS
         writeStatistics(*options.stats, report);
     }
     printSummary(report);
-    return finish(watch_.signal(), "what was finished is in " + options.output.string());
+    return finish(watch_->signal(), "what was finished is in " + options.output.string());
 }
 
-}  // namespace
+RenderSession::RenderSession() = default;
+RenderSession::~RenderSession() = default;
 
-ExitCode renderSequence(const RenderOptions& options)
+ExitCode RenderSession::render(const RenderOptions& options)
 {
     checkTargets(options, {options.scene});
     const InterruptWatch watch;
-    return SequenceRenderer(options, watch).renderAll();
+    std::unique_ptr<SequenceRenderer> renderer = std::move(renderer_);  // none stays if anything is thrown
+    if (!renderer || !renderer->serves(options)) {
+        renderer.reset();  // so that no two scenes are on the device
+        renderer = std::make_unique<SequenceRenderer>(options);
+    }
+    const ExitCode code = renderer->renderAll(options, watch);
+    renderer_ = std::move(renderer);
+    return code;
 }
 
 }  // namespace glim

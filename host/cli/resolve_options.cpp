@@ -127,6 +127,14 @@ void resolveCheckpoint(const Command& command, const RenderOptions& options)
     }
 }
 
+void checkRows(const Command& command, const RenderSettings& settings)
+{
+    if (settings.rows) {
+        refuseIfGiven(command, {"--adaptive", "--target-rmse", "--target-relmse"}, "looks at the whole picture; expected no --rows");
+        refuseIfGiven(command, {"--ids", "--suspects", "--replay"}, "is of the whole picture; expected no --rows");
+    }
+}
+
 void checkReplay(const Command& command, const RenderOptions& options)
 {
     const RenderSettings& settings = options.settings;
@@ -266,6 +274,7 @@ void resolveRender(const Command& command, RenderOptions& options)
     resolveLight(command, options);
     checkReplay(command, options);
     resolveCheckpoint(command, options);
+    checkRows(command, options.settings);
     if (options.png && options.rates && mayBeSame(*options.png, *options.rates)) {
         refuse(command, "--rates", "expected another file than that of --png");
     }

@@ -139,7 +139,8 @@ std::string listOf(const std::vector<Candidate>& candidates)
 {
     std::string list;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-        list += (i == 0 ? "" : ", ") + std::to_string(i) + " \"" + candidates[i].description.name + "\"";
+        const DeviceDescription& d = candidates[i].description;
+        list += (i == 0 ? "" : ", ") + std::to_string(i) + " \"" + d.name + "\"" + (d.missing.empty() ? "" : ", which lacks " + d.missing);
     }
     return list.empty() ? "none" : list;
 }

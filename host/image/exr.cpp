@@ -20,6 +20,7 @@
 #include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/ImfVersion.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -118,6 +119,9 @@ void readHeader(const fs::path& path, const Imf::Header& header, Image& image)
     }
     image.width = static_cast<std::uint32_t>(width);
     image.height = static_cast<std::uint32_t>(height);
+    const auto gap = [](std::int64_t from, std::int64_t to) { return static_cast<std::uint32_t>(std::max(to - from, std::int64_t{0})); };
+    image.rowsAbove = gap(header.displayWindow().min.y, window.min.y);
+    image.rowsBelow = gap(window.max.y, header.displayWindow().max.y);
     readAttributes(header, image);
 }
 
@@ -206,7 +210,9 @@ private:
 
 Imf::Header headerOf(const Image& image)
 {
-    Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
+    const auto right = static_cast<int>(image.width) - 1, top = static_cast<int>(image.rowsAbove);
+    const int bottom = top + static_cast<int>(image.height) - 1;
+    Imf::Header header({{0, 0}, {right, bottom + static_cast<int>(image.rowsBelow)}}, {{0, top}, {right, bottom}});
     header.compression() = Imf::ZIP_COMPRESSION;
     Imf::addChromaticities(header, Imf::Chromaticities());  // the default is Rec.709 with the white D65
     for (const auto& [name, value] : image.attributes) {
@@ -272,7 +278,8 @@ struct ExrWriter::Output {
     Output(const fs::path& target, const Image& picture)
         : path(target),
           atomic(target),
-          stream(atomic, target.string())
+          stream(atomic, target.string()),
+          row(picture.rowsAbove)
     {
         guarded(path, "cannot be written", [&] { file.emplace(stream, headerOf(picture), useAllCores()); });
     }
@@ -281,7 +288,7 @@ struct ExrWriter::Output {
     AtomicFile atomic;
     ExrStream stream;
     std::optional<Imf::OutputFile> file;
-    std::uint32_t rows = 0;  // written so far
+    std::uint32_t row;  // the next one
 };
 
 ExrWriter::ExrWriter(const fs::path& path, const Image& picture)
@@ -293,10 +300,10 @@ ExrWriter::~ExrWriter() = default;
 void ExrWriter::write(const Image& rows)
 {
     guarded(output_->path, "cannot be written", [&] {
-        output_->file->setFrameBuffer(frameOf(rows, output_->rows));
+        output_->file->setFrameBuffer(frameOf(rows, output_->row));
         output_->file->writePixels(static_cast<int>(rows.height));
     });
-    output_->rows += rows.height;
+    output_->row += rows.height;
 }
 
 void ExrWriter::commit()

@@ -9,7 +9,7 @@ namespace glim {
 
 void checkMemory(const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device, bool checkpoints)
 {
-    const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
+    const std::uint64_t pixels = settings.pixelCount();
     const bool light = tracesLight(prepared.flat, settings);
     const std::uint64_t onDevice = sizeInBytes(prepared.flat) + PathBuffers::sizeInBytes(settings.pathCapacity) +
                                    pixels * Tile::bytesPerPixel(settings) + (light ? SplatBuffer::bytesFor(settings) : 0);

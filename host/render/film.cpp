@@ -29,6 +29,9 @@ std::string digestOf(const Film& film)
         digest.add(text);
     }
     digest.add(std::vector<std::uint32_t>{film.identity.seed, film.width, film.height, film.complete ? 1U : 0U});
+    if (film.rowsAbove > 0 || film.rowsBelow > 0) {
+        digest.add(std::vector<std::uint32_t>{film.rowsAbove, film.rowsBelow});
+    }
     for (const auto& [begin, end] : film.sampleRanges) {
         digest.add(std::vector<std::uint32_t>{begin, end});
     }

@@ -28,6 +28,7 @@ struct SplatMoments {
 
 struct Film {
     std::uint32_t width = 0, height = 0;
+    std::uint32_t rowsAbove = 0, rowsBelow = 0;                         // of the picture, which the film lacks
     std::vector<PixelMoments> pixels;                                   // row 0 at the top, left to right; of camera paths
     std::vector<SplatMoments> splats;                                   // of light paths; empty if there were none
     std::vector<std::pair<std::uint32_t, std::uint32_t>> sampleRanges;  // [begin, end), ascending, disjoint

@@ -151,6 +151,8 @@ Image imageOf(const Film& film)
     Image image;
     image.width = film.width;
     image.height = film.height;
+    image.rowsAbove = film.rowsAbove;
+    image.rowsBelow = film.rowsBelow;
     image.attributes = {{"software", "glim " GLIM_VERSION},
                         {"glim:film", formatOf(film)},
                         {"glim:sceneFile", film.sceneFile},
@@ -280,6 +282,8 @@ Film filmOfHeader(const fs::path& path, const Image& image)
     Film film;
     film.width = image.width;
     film.height = image.height;
+    film.rowsAbove = image.rowsAbove;
+    film.rowsBelow = image.rowsBelow;
     film.sampleRanges = *ranges;
     film.identity.scene = attribute<std::string>(path, image, "glim:scene");
     film.identity.settings = attribute<std::string>(path, image, "glim:settings");

@@ -14,6 +14,9 @@ struct SceneIdentity {
     bool sharesMeshes;  // which rounds otherwise than flattened ones
 };
 
+// A film without pixels, of the size that the settings ask for.
+Film emptyFilm(const RenderSettings& settings);
+
 FilmIdentity identityOf(const SceneIdentity& scene, const FlatCamera& camera, const RenderSettings& settings);
 
 }  // namespace glim

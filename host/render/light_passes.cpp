@@ -13,10 +13,11 @@ LightPasses::LightPasses(const FlatScene& scene, const RenderSettings& settings)
 
 void LightPasses::begin(Wavefront& wavefront, const RenderSettings& settings)
 {
-    width_ = settings.width;
-    height_ = settings.height;
+    paths_ = lightPathCount(settings.width, settings.height);
+    firstPixel_ = settings.firstPixel();
+    pixelCount_ = settings.pixelCount();
     splats_ = wavefront.makeSplatBuffer(SplatBuffer::countFor(settings));
-    sums_.emplace(std::size_t{width_} * height_, scale_);
+    sums_.emplace(pixelCount_, scale_);
     sample_ = settings.sampleBegin;
 }
 
@@ -30,17 +31,16 @@ void LightPasses::resume(std::uint32_t finishedSample, std::vector<SplatMoments>
 
 std::optional<PassSeconds> LightPasses::trace(Wavefront& wavefront, std::uint32_t end, const std::function<bool()>& shouldContinue)
 {
-    const std::uint32_t paths = lightPathCount(width_, height_), pixels = width_ * height_;
     const std::uint32_t block = blockSamples(sample_);
     const std::uint32_t most = std::min(end, (sample_ / block + 1) * block) - sample_;
-    const std::uint32_t samples = std::clamp(size_.paths() / paths, 1U, most), all = samples * paths;
+    const std::uint32_t samples = std::clamp(size_.paths() / paths_, 1U, most), all = samples * paths_;
     PassSeconds seconds{0.0, 0.0};
     std::vector<Splat> found;
-    for (std::uint32_t pixel = 0; pixel < pixels; pixel += splats_->count()) {
+    for (std::uint32_t pixel = 0; pixel < pixelCount_; pixel += splats_->count()) {
         splats_->clear();
         for (std::uint32_t first = 0; first < all;) {
             const std::uint32_t count = std::min(all - first, size_.paths());
-            const auto traced = wavefront.traceLight(*splats_, pixel, sample_, first, count, shouldContinue);
+            const auto traced = wavefront.traceLight(*splats_, firstPixel_ + pixel, sample_, first, count, shouldContinue);
             if (!traced) {
                 return std::nullopt;
             }
@@ -48,7 +48,7 @@ std::optional<PassSeconds> LightPasses::trace(Wavefront& wavefront, std::uint32_
             size_.learn(count, *traced);
             first += count;
         }
-        const std::vector<Splat> band = splats_->read(std::min(splats_->count(), pixels - pixel));
+        const std::vector<Splat> band = splats_->read(std::min(splats_->count(), pixelCount_ - pixel));
         found.insert(found.end(), band.begin(), band.end());
     }
     sums_->add(found, sample_, samples);

@@ -31,7 +31,8 @@ public:
 private:
     PassSize size_;
     float scale_;
-    std::uint32_t width_ = 0, height_ = 0;
+    std::uint32_t paths_ = 0;                        // of a sample
+    std::uint32_t firstPixel_ = 0, pixelCount_ = 0;  // of the film
     std::unique_ptr<SplatBuffer> splats_;
     std::optional<SplatSums> sums_;
     std::uint32_t sample_ = 0;

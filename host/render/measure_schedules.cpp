@@ -13,6 +13,7 @@ RenderSettings settingsOf(const RenderSettings& asked, Schedule schedule)
 {
     RenderSettings settings = asked;
     settings.width = settings.height = kSide;
+    settings.rows.reset();
     settings.sampleBegin = 0;
     settings.sampleEnd = kSamples;
     settings.adaptive = Adaptive::Off;

@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <sstream>
+#include <tuple>
+#include <utility>
 
 namespace fs = std::filesystem;
 
@@ -31,9 +34,44 @@ std::pair<std::string, std::string> firstDifference(const std::string& a, const 
     return {wordOfA, wordOfB};
 }
 
+bool haveSameRows(const Film& a, const Film& b) { return a.rowsAbove == b.rowsAbove && a.height == b.height; }
+
+std::string rowsText(const Film& film)
+{
+    return std::to_string(film.rowsAbove) + ":" + std::to_string(std::uint64_t{film.rowsAbove} + film.height);
+}
+
+std::string describe(const std::string& what, const std::string& value, const std::string& expected)
+{
+    return "its " + what + " is " + value + ", expected " + expected;
+}
+
+// As describeDifference, but for the rows.
+std::string describeOtherPicture(const Film& film, const Film& first)
+{
+    const auto sizeOf = [](const Film& of) {
+        return std::to_string(of.width) + "x" + std::to_string(std::uint64_t{of.rowsAbove} + of.height + of.rowsBelow);
+    };
+    if (sizeOf(film) != sizeOf(first)) {
+        return describe("size", sizeOf(film), sizeOf(first));
+    }
+    if (film.identity.scene != first.identity.scene) {
+        return describe("scene, camera or environment", quoted(film.identity.scene) + " (" + film.sceneFile + ")",
+                        quoted(first.identity.scene) + " (" + first.sceneFile + ")");
+    }
+    if (film.identity.seed != first.identity.seed) {
+        return describe("seed", std::to_string(film.identity.seed), std::to_string(first.identity.seed));
+    }
+    if (film.identity.settings != first.identity.settings) {
+        const auto [value, expected] = firstDifference(film.identity.settings, first.identity.settings);
+        return describe("setting", quoted(value), quoted(expected));
+    }
+    return {};
+}
+
 void checkSamePicture(const Film& film, const std::string& name, const Film& first, const std::string& firstName)
 {
-    if (const std::string difference = describeDifference(film, first); !difference.empty()) {
+    if (const std::string difference = describeOtherPicture(film, first); !difference.empty()) {
         throw InputError(name + ": cannot be merged with " + firstName + ": " + difference + ".");
     }
 }
@@ -46,11 +84,17 @@ void checkDisjoint(const std::vector<Film>& films, const std::vector<std::string
             ranges.emplace_back(range, i);
         }
     }
-    std::sort(ranges.begin(), ranges.end());
+    std::sort(ranges.begin(), ranges.end(), [&](const auto& a, const auto& b) {
+        const auto key = [&](const auto& entry) {
+            const auto& [range, film] = entry;
+            return std::tuple(films[film].rowsAbove, films[film].height, range, film);
+        };
+        return key(a) < key(b);
+    });
     for (std::size_t i = 1; i < ranges.size(); ++i) {
         const auto& [before, first] = ranges[i - 1];
         const auto& [range, second] = ranges[i];
-        if (range.first < before.second) {
+        if (haveSameRows(films[first], films[second]) && range.first < before.second) {
             throw InputError(names[second] + ": cannot be merged with " + names[first] + ": both hold samples " +
                              std::to_string(range.first) + ":" + std::to_string(std::min(range.second, before.second)) +
                              ", expected disjoint ranges.");
@@ -71,9 +115,9 @@ void addRanges(Film& film, const Film& next, bool joined)
     std::sort(ranges.begin(), ranges.end());
 }
 
-void foldHeader(Film& film, const Film& next)
+// Who rendered both, and how long.
+void addOrigin(Film& film, const Film& next)
 {
-    addRanges(film, next, continuesExactly(film, next));
     film.complete = film.complete && next.complete;
     film.seconds += next.seconds;
     if (film.device.find(next.device) == std::string::npos) {
@@ -83,6 +127,38 @@ void foldHeader(Film& film, const Film& next)
     if (film.identity.kernels != next.identity.kernels) {
         film.identity.kernels = "several";
     }
+}
+
+void foldHeader(Film& film, const Film& next)
+{
+    addRanges(film, next, continuesExactly(film, next));
+    addOrigin(film, next);
+}
+
+bool isOneRun(const Film& film) { return film.complete && film.sampleRanges.size() == 1 && isOfOneArithmetic(film); }
+
+// `below`: the next rows.
+void appendRows(Film& film, Film below)
+{
+    addOrigin(film, below);
+    film.height += below.height;
+    film.rowsBelow = below.rowsBelow;
+    film.pixels.insert(film.pixels.end(), below.pixels.begin(), below.pixels.end());
+    film.splats.insert(film.splats.end(), below.splats.begin(), below.splats.end());
+}
+
+// Whether bands of one run are one run together. Refuses `below` unless it is the next band of `above`, with the same samples.
+bool continuesBelow(const Film& above, const Film& below, const std::string& name)
+{
+    const std::string itsRows = name + ": cannot be merged: its rows " + rowsText(below);
+    if (below.rowsAbove != std::uint64_t{above.rowsAbove} + above.height) {
+        throw InputError(itsRows + " come after rows " + rowsText(above) + ", expected the same rows or those that begin where they end.");
+    }
+    if (below.sampleRanges != above.sampleRanges) {
+        throw InputError(itsRows + " have samples " + sampleRangesText(below) + ", expected " + sampleRangesText(above) + " as rows " +
+                         rowsText(above) + " have.");
+    }
+    return above.identity.kernels == below.identity.kernels && above.arithmetic == below.arithmetic;
 }
 
 // The settings without those that only choose which samples are taken.
@@ -123,25 +199,8 @@ bool continuesExactly(const Film& film, const Film& next)
 
 std::string describeDifference(const Film& film, const Film& first)
 {
-    const auto sizeOf = [](const Film& of) { return std::to_string(of.width) + "x" + std::to_string(of.height); };
-    const auto describe = [](const std::string& what, const std::string& value, const std::string& expected) {
-        return "its " + what + " is " + value + ", expected " + expected;
-    };
-    if (sizeOf(film) != sizeOf(first)) {
-        return describe("size", sizeOf(film), sizeOf(first));
-    }
-    if (film.identity.scene != first.identity.scene) {
-        return describe("scene, camera or environment", quoted(film.identity.scene) + " (" + film.sceneFile + ")",
-                        quoted(first.identity.scene) + " (" + first.sceneFile + ")");
-    }
-    if (film.identity.seed != first.identity.seed) {
-        return describe("seed", std::to_string(film.identity.seed), std::to_string(first.identity.seed));
-    }
-    if (film.identity.settings != first.identity.settings) {
-        const auto [value, expected] = firstDifference(film.identity.settings, first.identity.settings);
-        return describe("setting", quoted(value), quoted(expected));
-    }
-    return {};
+    const std::string difference = describeOtherPicture(film, first);
+    return difference.empty() && !haveSameRows(film, first) ? describe("range of rows", rowsText(film), rowsText(first)) : difference;
 }
 
 MergePlan planMerge(const std::vector<Film>& films, const std::vector<std::string>& names)
@@ -153,14 +212,23 @@ MergePlan planMerge(const std::vector<Film>& films, const std::vector<std::strin
         checkSamePicture(films[i], names[i], films[0], names[0]);
     }
     checkDisjoint(films, names);
-    std::stable_sort(plan.order.begin(), plan.order.end(),
-                     [&](std::size_t a, std::size_t b) { return firstSample(films[a]) < firstSample(films[b]); });
-    Film merged = films.at(plan.order[0]);
-    plan.exact = merged.complete && merged.sampleRanges.size() == 1 && isOfOneArithmetic(merged);
-    for (std::size_t i = 1; i < films.size(); ++i) {
-        const Film& next = films[plan.order[i]];
-        plan.exact = plan.exact && continuesExactly(merged, next);
-        foldHeader(merged, next);
+    std::stable_sort(plan.order.begin(), plan.order.end(), [&](std::size_t a, std::size_t b) {
+        const auto key = [&](const Film& film) { return std::tuple(film.rowsAbove, film.height, firstSample(film)); };
+        return key(films[a]) < key(films[b]);
+    });
+    std::vector<std::pair<Film, std::string>> bands;  // each with the name of its first film
+    for (const std::size_t i : plan.order) {
+        const Film& next = films[i];
+        if (!bands.empty() && haveSameRows(bands.back().first, next)) {
+            plan.exact = plan.exact && continuesExactly(bands.back().first, next);
+            foldHeader(bands.back().first, next);
+        } else {
+            plan.exact = plan.exact && isOneRun(next);
+            bands.emplace_back(next, names[i]);
+        }
+    }
+    for (std::size_t i = 1; i < bands.size(); ++i) {
+        plan.exact = continuesBelow(bands[i - 1].first, bands[i].first, bands[i].second) && plan.exact;
     }
     return plan;
 }
@@ -181,11 +249,25 @@ MergedFilm mergeFilms(const std::vector<fs::path>& files)
         names.push_back(file.string());
     }
     const MergePlan plan = planMerge(headers, names);
-    MergedFilm merged{readFilm(files[plan.order[0]]), plan.exact};
+    std::optional<Film> picture;
+    const auto append = [&picture](Film band) {
+        if (picture) {
+            appendRows(*picture, std::move(band));
+        } else {
+            picture = std::move(band);
+        }
+    };
+    Film band = readFilm(files[plan.order[0]]);
     for (std::size_t i = 1; i < files.size(); ++i) {
-        foldFilm(merged.film, readFilm(files[plan.order[i]]));
+        Film next = readFilm(files[plan.order[i]]);
+        if (haveSameRows(band, next)) {
+            foldFilm(band, next);
+        } else {
+            append(std::exchange(band, std::move(next)));
+        }
     }
-    return merged;
+    append(std::move(band));
+    return {*std::move(picture), plan.exact};
 }
 
 }  // namespace glim

@@ -1,9 +1,11 @@
-// Films of the same picture over disjoint sample ranges, folded in order of their samples.
+// Films of the same picture, folded in order of their samples, and bands of its rows, put together.
 //
 // A render is the left fold of its pages of kPageSamples. So a merge gives the bits of the single run if and only if the first film is
 // one contiguous run and each further one continues it from a page's beginning by at most that page. Such ranges are joined ("0:512").
 // Ranges that were merged only up to rounding stay apart ("0:512 512:1024"), so that a film never claims the bits of a run it does not
 // equal. A block that the ranges cut in two counts as two blocks.
+//
+// Films of some rows (--rows) are folded by themselves. Then the bands, which must be adjacent and have the same samples, become one film.
 #pragma once
 
 #include "host/render/film.hpp"
@@ -13,14 +15,14 @@
 namespace glim {
 
 struct MergePlan {
-    std::vector<std::size_t> order;  // indices of the films, by their first sample
+    std::vector<std::size_t> order;  // indices of the films, by their first row, then by their first sample
     bool exact = true;
 };
 
-// Looks at the headers only. Refuses different pictures and overlapping samples (InputError, which uses `names`).
+// Looks at the headers only. Refuses different pictures, overlapping samples and rows that do not fit (InputError, which uses `names`).
 MergePlan planMerge(const std::vector<Film>& films, const std::vector<std::string>& names);
 
-// In what `film` is of another picture than `first`, as in "its seed is 1, expected 0"; empty if it is of the same.
+// In what `film` is of another picture or other rows than `first`, as in "its seed is 1, expected 0"; empty if it is of the same.
 std::string describeDifference(const Film& film, const Film& first);
 
 // Whether both are of the same picture and have a sample in common.

@@ -87,10 +87,19 @@ std::uint64_t Renderer::nextFoldVersion()
 void Renderer::makeTiles()
 {
     tiles_.clear();
-    const std::uint32_t pixels = settings_.width * settings_.height;
-    for (std::uint32_t first = 0; first < pixels; first += settings_.tilePixels) {
-        tiles_.push_back(wavefront_->makeTile(first, std::min(settings_.tilePixels, pixels - first)));
+    const std::uint32_t end = settings_.firstPixel() + settings_.pixelCount();
+    for (std::uint32_t first = settings_.firstPixel(); first < end; first += settings_.tilePixels) {
+        tiles_.push_back(wavefront_->makeTile(first, std::min(settings_.tilePixels, end - first)));
     }
+}
+
+void Renderer::setSampling(const RenderSettings& settings)
+{
+    settings_.sampleBegin = settings.sampleBegin;
+    settings_.sampleEnd = settings.sampleEnd;
+    settings_.seconds = settings.seconds;
+    settings_.seed = settings.seed;
+    wavefront_->setSeed(settings.seed);
 }
 
 void Renderer::restart(const FlatCamera& camera, std::uint32_t width, std::uint32_t height)
@@ -144,10 +153,8 @@ void Renderer::restart(const FlatCamera& camera, std::uint32_t seed)
 
 void Renderer::begin(const FlatCamera& camera)
 {
-    film_ = {};
-    film_.width = settings_.width;
-    film_.height = settings_.height;
-    film_.pixels.resize(std::size_t{film_.width} * film_.height);
+    film_ = emptyFilm(settings_);
+    film_.pixels.resize(settings_.pixelCount());
     film_.identity = identityOf(sceneIdentity_, camera, settings_);
     film_.device = device_.description().name + ", " + device_.description().driver;
     film_.arithmetic = arithmeticFingerprint(device_);
@@ -292,7 +299,7 @@ void Renderer::foldPages(Film& film, const std::vector<std::unique_ptr<Tile>>& t
 {
     for (const auto& tile : tiles) {
         wavefront_->closeBlocks(*tile);
-        foldPage(film, tile->begin(), tile->takePages());
+        foldPage(film, tile->begin() - settings_.firstPixel(), tile->takePages());
     }
 }
 

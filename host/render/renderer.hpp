@@ -80,6 +80,8 @@ public:
     PathHit traceRay(const PathRay& ray) { return wavefront_->traceRays(*tiles_.front(), {&ray, 1})[0]; }
     // Traces one sample of a pixel again, and adds it to no film.
     PathRadiance traceSample(std::uint32_t pixel, std::uint32_t sample) { return wavefront_->traceSample(pixel, sample); }
+    // What the next picture has of samples, seed and time. The other settings must be the same as before.
+    void setSampling(const RenderSettings& settings);
     // Starts another picture of the scene. The camera has a lens if and only if the first one had.
     void restart(const FlatCamera& camera, std::uint32_t width, std::uint32_t height);
     // Starts a picture of another scene. Keeps the kernels if they serve it.

@@ -89,7 +89,7 @@ void Renderer::resume(Checkpoint checkpoint)
     aheadEnd_ = checkpoint.pixelsAhead > 0 ? blockEnd(sample_) : 0;
     sweeping_ = checkpoint.pixelsAhead > 0;
     for (std::size_t i = 0; i < tiles_.size() && !checkpoint.page.empty(); ++i) {
-        tiles_[i]->writePages(std::span(checkpoint.page).subspan(tiles_[i]->begin(), tiles_[i]->count()));
+        tiles_[i]->writePages(std::span(checkpoint.page).subspan(tiles_[i]->begin() - settings_.firstPixel(), tiles_[i]->count()));
     }
     tile_ = checkpoint.pixelsAhead / settings_.tilePixels;
     pixel_ = checkpoint.pixelsAhead % settings_.tilePixels;

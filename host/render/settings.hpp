@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace glim {
 
@@ -63,12 +64,15 @@ struct CourseSettings {
     float survival = 0.7F;     // probability, of Roulette::Fixed
     float tolerance = 0.05F;   // of Adaptive::Course
     std::uint32_t batch = 32;  // of Adaptive::Course: samples between two tests of a pixel
+
+    bool operator==(const CourseSettings&) const = default;
 };
 
 struct RenderSettings {
     std::uint32_t width = 512, height = 512;
-    std::uint32_t sampleBegin = 0, sampleEnd = 64;  // absolute indices, [begin, end)
-    std::uint32_t bounces = 64;                     // surfaces between camera and light
+    std::optional<std::pair<std::uint32_t, std::uint32_t>> rows;  // the film has only these of the picture, [begin, end)
+    std::uint32_t sampleBegin = 0, sampleEnd = 64;                // absolute indices, [begin, end)
+    std::uint32_t bounces = 64;                                   // surfaces between camera and light
     std::uint32_t seed = 0;
     Sampler sampler = Sampler::Sobol;
     PathParts paths = PathParts::All;
@@ -93,6 +97,13 @@ struct RenderSettings {
     std::uint32_t tilePixels = 1U << 20;    // most pixels of a tile: no buffer of the film exceeds 128 MiB, llvmpipe's limit
     std::uint32_t portion = 64;             // dispatches between two checks whether the pass goes on
     double passSeconds = 1.0;               // the most that a pass should take; callers wait for its end
+
+    std::uint32_t rowBegin() const { return rows ? rows->first : 0; }
+    std::uint32_t rowCount() const { return rows ? rows->second - rows->first : height; }
+    std::uint32_t firstPixel() const { return rowBegin() * width; }  // of the film, in the picture
+    std::uint32_t pixelCount() const { return rowCount() * width; }  // of the film
+
+    bool operator==(const RenderSettings&) const = default;
 };
 
 // The name that --schedule and the statistics use.

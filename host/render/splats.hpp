@@ -22,8 +22,7 @@ public:
     // The pixels of a band.
     static std::uint32_t countFor(const RenderSettings& settings)
     {
-        return static_cast<std::uint32_t>(
-            std::min<std::uint64_t>(std::uint64_t{settings.width} * settings.height, 4 * std::uint64_t{settings.tilePixels}));
+        return static_cast<std::uint32_t>(std::min<std::uint64_t>(settings.pixelCount(), 4 * std::uint64_t{settings.tilePixels}));
     }
     static std::uint64_t bytesFor(const RenderSettings& settings) { return countFor(settings) * sizeof(Splat); }
 

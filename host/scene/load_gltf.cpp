@@ -116,6 +116,9 @@ std::optional<Environment> readNamedMap(const GltfFile& file, const LoadOptions&
         return std::nullopt;
     }
     const std::string name = source.Get("file").Get<std::string>();
+    if (options.confined) {
+        refuseOutside(file.path, place, name);
+    }
     Environment environment;
     try {
         environment = readMap(externalFile(file.path, name), options, decoded, scene, warnings);
@@ -356,7 +359,7 @@ SceneFile::~SceneFile() = default;
 Scene SceneFile::sceneAt(std::optional<double> seconds)
 {
     if (!contents_) {
-        contents_ = std::make_unique<Contents>(Contents{readGltfFile(path_), options_, {}, {}, {}});
+        contents_ = std::make_unique<Contents>(Contents{readGltfFile(path_, options_.confined), options_, {}, {}, {}});
         contents_->animations = listAnimations(contents_->file);
     }
     auto& [file, options, animations, decoded, framed, posed] = *contents_;

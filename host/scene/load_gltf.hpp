@@ -20,6 +20,8 @@ using EnvironmentChoice = std::variant<BuiltInEnvironment, glm::vec3, std::files
 struct Sun {
     double azimuth, elevation;
     float irradiance;  // W/m^2 on a surface that faces it
+
+    bool operator==(const Sun&) const = default;
 };
 
 struct LoadOptions {
@@ -29,12 +31,15 @@ struct LoadOptions {
     bool environmentBackground = true;             // the camera sees the environment
     std::optional<Sun> sun;
     MissingTextures missingTextures = MissingTextures::Refuse;
+    bool confined = false;                     // refuses files that the scene names outside of its folder
     std::uint32_t maxTexture = kMaxImageSide;  // images with a longer side are scaled down
     std::string variant;                       // of KHR_materials_variants; empty: the file's own materials
     std::optional<double> at;                  // seconds into the animation; if absent the file's rest pose
     std::string animation;                     // name or index; empty: the first
     float aspectRatio = 1.0F;                  // of the picture, for the framed camera
     bool framed = false;                       // adds it to the file's cameras; it is always there if the file has none
+
+    bool operator==(const LoadOptions&) const = default;
 };
 
 // A file that gives its scene at one time after another, and is read once, with its buffers, images and maps.

@@ -118,6 +118,23 @@ TEST(Exr, IsFloatZipRec709FromTheTopLeft)
     EXPECT_FLOAT_EQ(primaries.white.x, 0.3127F);
 }
 
+TEST(Exr, RowsThatItLacksAreInTheDisplayWindowAlone)
+{
+    const ScratchFolder folder;
+    Image image = makeImage();
+    image.rowsAbove = 3;
+    image.rowsBelow = 2;
+    writeExr(folder / "a.exr", image);
+    const Imf::InputFile file((folder / "a.exr").c_str());
+    const int right = static_cast<int>(image.width) - 1, bottom = static_cast<int>(image.height) + 2;
+    EXPECT_EQ(file.header().dataWindow(), Imath::Box2i({0, 3}, {right, bottom}));
+    EXPECT_EQ(file.header().displayWindow(), Imath::Box2i({0, 0}, {right, bottom + 2}));
+    const Image read = readExr(folder / "a.exr");
+    EXPECT_EQ(read.rowsAbove, 3U);
+    EXPECT_EQ(read.rowsBelow, 2U);
+    EXPECT_EQ(read.counts, image.counts);
+}
+
 // Half values x + 100 y at the pixel (x, y) of a window with negative corner.
 template <class File>
 void writeHalves(File& file, std::vector<Imath::half>& pixels, const Imath::Box2i& window)

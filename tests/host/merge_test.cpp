@@ -183,6 +183,55 @@ TEST_F(MergeRefusal, OfAnotherSize)
     expectRefused("b.exr: cannot be merged with a.exr: its size is 7x6, expected 7x5.");
 }
 
+// Rows 0:5 and 5:10 of a picture.
+class MergeRows : public MergeRefusal {
+protected:
+    MergeRows()
+    {
+        b = simulateFilm(0, 256);
+        a.rowsBelow = b.rowsAbove = 5;
+    }
+};
+
+TEST_F(MergeRows, AreOneRunIfTheyHaveTheSameSamplesAndArithmetic)
+{
+    EXPECT_TRUE(planMerge({a, b}, {"a.exr", "b.exr"}).exact);
+    EXPECT_EQ(planMerge({b, a}, {"b.exr", "a.exr"}).order, (std::vector<std::size_t>{1, 0}));
+    b.arithmetic = "another";
+    EXPECT_FALSE(planMerge({a, b}, {"a.exr", "b.exr"}).exact);
+    b = a;
+    b.rowsAbove = 5;
+    b.rowsBelow = 0;
+    b.complete = false;
+    EXPECT_FALSE(planMerge({a, b}, {"a.exr", "b.exr"}).exact);
+}
+
+TEST_F(MergeRows, AreRefusedIfSomeAreMissingOrTwiceThere)
+{
+    a.rowsBelow = 6;
+    b.rowsAbove = 6;
+    expectRefused("b.exr: cannot be merged: its rows 6:11 come after rows 0:5, expected the same rows or those that begin where they end.");
+    a.rowsBelow = 4;
+    b.rowsAbove = 4;
+    expectRefused("its rows 4:9 come after rows 0:5");
+    b.rowsBelow = 4;
+    b.rowsAbove = 0;
+    b.height = 5;
+    expectRefused("both hold samples 0:256");
+}
+
+TEST_F(MergeRows, AreRefusedIfTheirSamplesDiffer)
+{
+    b.sampleRanges = {{0, 300}};
+    expectRefused("b.exr: cannot be merged: its rows 5:10 have samples 0:300, expected 0:256 as rows 0:5 have.");
+}
+
+TEST_F(MergeRows, OfAPictureOfAnotherSize)
+{
+    b.rowsBelow = 1;
+    expectRefused("its size is 7x11, expected 7x10.");
+}
+
 TEST_F(MergeRefusal, OfAnotherScene)
 {
     b.identity.scene = "77aa";

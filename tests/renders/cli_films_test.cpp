@@ -12,6 +12,7 @@
 #include <csignal>
 #include <fstream>
 #include <sstream>
+#include <tuple>
 
 namespace glim::test {
 namespace {
@@ -80,6 +81,42 @@ TEST(CommandLineTest, MergedPagesAreTheBitsOfTheSingleRun)
     const GlimRun inPlace = films.merge({"a.exr", "b.exr", "-o", "b.exr"});  // the output may replace an input
     EXPECT_EQ(inPlace.exitCode, 0) << inPlace.err;
     EXPECT_TRUE(sameBits(films.film("b.exr").pixels, films.film("whole.exr").pixels));
+}
+
+// The gems' scene has light paths.
+TEST(CommandLineTest, MergedBandsOfRowsAreTheBitsOfTheSingleRun)
+{
+    const Films films;
+    films.render("whole.exr", {"--samples", "0:300"}, "cornell_gems.gltf");
+    Arguments names;
+    for (const char* rows : {"3:4", "4:16", "0:3"}) {
+        for (const char* samples : {"256:300", "0:256"}) {
+            names.push_back("film" + std::to_string(names.size()) + ".exr");
+            films.render(names.back(), {"--samples", samples, "--rows", rows}, "cornell_gems.gltf");
+        }
+    }
+    names.insert(names.end(), {"-o", "merged.exr"});
+    const GlimRun run = films.merge(names);
+    EXPECT_NE(run.err.find("bit-identical to a single run"), std::string::npos) << run.err;
+    EXPECT_FALSE(films.film("whole.exr").splats.empty());
+    EXPECT_EQ(digestOf(films.film("merged.exr")), digestOf(films.film("whole.exr")));
+    const GlimRun two = films.merge({"film5.exr", "film4.exr", "film0.exr", "film1.exr", "-o", "two.exr"});
+    EXPECT_EQ(two.exitCode, 0) << two.err;
+    const Film part = films.film("two.exr"), whole = films.film("whole.exr");
+    EXPECT_EQ(std::tuple(part.rowsAbove, part.height, part.rowsBelow), std::tuple(0U, 4U, 12U));
+    EXPECT_TRUE(sameBits(part.pixels, {whole.pixels.begin(), whole.pixels.begin() + 64}));
+}
+
+TEST(CommandLineTest, RowsThatAreNotInThePictureAreRefused)
+{
+    const Films films;
+    for (const auto& [rows, reason] : {std::pair("0:17", "the picture has 16 rows"), std::pair("16:17", "the picture has 16 rows"),
+                                       std::pair("3:3", "expected BEGIN:END"), std::pair("-1:2", "expected BEGIN:END"),
+                                       std::pair("0:99999999999", "expected BEGIN:END")}) {
+        const GlimRun run = runGlim(films.call("a.exr", {"--spp", "1", "--rows", rows}));
+        EXPECT_EQ(run.exitCode, 2) << rows;
+        EXPECT_NE(run.err.find(reason), std::string::npos) << run.err;
+    }
 }
 
 TEST(CommandLineTest, MergeRefusesWhatDoesNotBelongTogether)

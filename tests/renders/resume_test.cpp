@@ -118,6 +118,22 @@ TEST_P(ResumeTest, UniformRendersHaveTheBitsOfOneRun)
     }
 }
 
+TEST_P(ResumeTest, RowsHaveTheBitsOfThePicture)
+{
+    RenderSettings settings = inSmallPasses(16, 300);
+    settings.schedule = GetParam();
+    const Film picture = Pieces(mixedScene(), settings).renderAtOnce();
+    Film expected;
+    expected.pixels.assign(picture.pixels.begin() + 3 * 16, picture.pixels.begin() + 15 * 16);
+    expected.splats.assign(picture.splats.begin() + 3 * 16, picture.splats.begin() + 15 * 16);
+    settings.rows = {3, 15};  // of two tiles
+    Pieces pieces(mixedScene(), settings);
+    const Film rows = pieces.renderAtOnce();
+    EXPECT_TRUE(sameBits(rows, expected));
+    EXPECT_NE(digestOf(rows), digestOf(picture));
+    expectTheBitsOfOneRun(pieces, 20);
+}
+
 TEST_P(ResumeTest, AdaptiveRendersHaveTheBitsOfOneRun)
 {
     RenderSettings settings = inSmallPasses(16, 640);

@@ -74,7 +74,8 @@ struct GltfFile {
     std::optional<std::size_t> variant;  // of KHR_materials_variants, that is to be drawn
 };
 
-GltfFile readGltfFile(const std::filesystem::path& file);
+// `confined`: refuses files that the document names outside of its folder.
+GltfFile readGltfFile(const std::filesystem::path& file, bool confined);
 
 // The bytes of a uri: data in it, or at most the first `most` of a file relative to the glTF file. `place` names what has the uri.
 std::vector<unsigned char> readUri(const std::string& path, const std::string& place, const std::string& uri,
@@ -82,6 +83,8 @@ std::vector<unsigned char> readUri(const std::string& path, const std::string& p
 bool isDataUri(const std::string& uri);
 // Where a uri that is not data: points.
 std::filesystem::path externalFile(const std::string& path, const std::string& uri);
+// Refuses a uri that points out of the folder of the glTF file, links followed.
+void refuseOutside(const std::string& path, const std::string& place, const std::string& uri);
 
 // What an object with `buffer`, `byteOffset` and `byteLength` names.
 BufferRange rangeOf(const nlohmann::json& view);

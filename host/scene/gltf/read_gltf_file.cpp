@@ -255,14 +255,31 @@ std::vector<GltfAnimation> listAnimations(const json& document)
     return animations;
 }
 
+void confine(const std::string& path, const json& document)
+{
+    for (const char* list : {"buffers", "images"}) {
+        std::size_t index = 0;
+        for (const json& entry : document.value(list, json::array())) {
+            const std::string uri = entry.value("uri", "data:");
+            if (!isDataUri(uri)) {
+                refuseOutside(path, std::string(list) + "[" + std::to_string(index) + "]", uri);
+            }
+            ++index;
+        }
+    }
+}
+
 }  // namespace
 
-GltfFile readGltfFile(const std::filesystem::path& file)
+GltfFile readGltfFile(const std::filesystem::path& file, bool confined)
 {
     const std::string path = file.string();
     GltfContainer container = openContainer(file);
     json document = parseJson(path, container.json);
     checkGltfJson(path, document);
+    if (confined) {
+        confine(path, document);
+    }
 
     GltfFile result;
     result.path = path;
@@ -289,6 +306,17 @@ bool isDataUri(const std::string& uri) { return uri.rfind("data:", 0) == 0; }
 std::filesystem::path externalFile(const std::string& path, const std::string& uri)
 {
     return std::filesystem::path(path).parent_path() / percentDecode(uri);
+}
+
+void refuseOutside(const std::string& path, const std::string& place, const std::string& uri)
+{
+    std::error_code unreadable;  // such a file is refused later, with its reason
+    const std::filesystem::path file = std::filesystem::weakly_canonical(externalFile(path, uri), unreadable);
+    const std::filesystem::path folder = std::filesystem::weakly_canonical(std::filesystem::absolute(path).parent_path(), unreadable);
+    if (std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first != folder.end()) {
+        throw InputError(path + ": " + place + " names the file " + inQuotes(uri) +
+                         "; expected one in the folder of the scene (--confine)");
+    }
 }
 
 std::vector<unsigned char> readUri(const std::string& path, const std::string& place, const std::string& uri, std::uint64_t most)

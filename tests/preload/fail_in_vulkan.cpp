@@ -1,0 +1,88 @@
+// Preloaded into glim: a driver that fails.
+//
+// GLIM_LOSE_DEVICE_AT  n: the n-th submission and everything that waits from there on answers VK_ERROR_DEVICE_LOST
+// GLIM_REFUSE_MEMORY_AT  n: the n-th allocation and all after it answer VK_ERROR_OUT_OF_DEVICE_MEMORY
+// GLIM_LACK_FEATURES  set: the device has none of Vulkan's features
+#include <dlfcn.h>
+
+#include <vulkan/vulkan.h>
+
+#include <atomic>
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
+
+namespace {
+
+template <class Function>
+Function original(const char* name)
+{
+    return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
+}
+
+// Whether the call after `before` others is to fail.
+bool isDue(const char* variable, int before)
+{
+    const char* at = std::getenv(variable);
+    return at != nullptr && before + 1 >= std::atoi(at);
+}
+
+std::atomic<int> submissions = 0, allocations = 0;
+
+bool isLost() { return isDue("GLIM_LOSE_DEVICE_AT", submissions - 1); }
+
+void clear(VkBool32* first, const VkBool32* last) { std::memset(first, 0, static_cast<std::size_t>(last - first + 1) * sizeof(VkBool32)); }
+
+}  // namespace
+
+extern "C" {
+
+VkResult vkQueueSubmit(VkQueue queue, uint32_t count, const VkSubmitInfo* submits, VkFence fence)
+{
+    ++submissions;
+    static const auto next = original<PFN_vkQueueSubmit>("vkQueueSubmit");
+    return isLost() ? VK_ERROR_DEVICE_LOST : next(queue, count, submits, fence);
+}
+
+VkResult vkQueueWaitIdle(VkQueue queue)
+{
+    static const auto next = original<PFN_vkQueueWaitIdle>("vkQueueWaitIdle");
+    return isLost() ? VK_ERROR_DEVICE_LOST : next(queue);
+}
+
+VkResult vkWaitForFences(VkDevice device, uint32_t count, const VkFence* fences, VkBool32 all, uint64_t timeout)
+{
+    static const auto next = original<PFN_vkWaitForFences>("vkWaitForFences");
+    return isLost() ? VK_ERROR_DEVICE_LOST : next(device, count, fences, all, timeout);
+}
+
+VkResult vkGetQueryPoolResults(VkDevice device, VkQueryPool pool, uint32_t first, uint32_t count, size_t bytes, void* data,
+                               VkDeviceSize stride, VkQueryResultFlags flags)
+{
+    static const auto next = original<PFN_vkGetQueryPoolResults>("vkGetQueryPoolResults");
+    return isLost() ? VK_ERROR_DEVICE_LOST : next(device, pool, first, count, bytes, data, stride, flags);
+}
+
+VkResult vkAllocateMemory(VkDevice device, const VkMemoryAllocateInfo* info, const VkAllocationCallbacks* callbacks, VkDeviceMemory* memory)
+{
+    static const auto next = original<PFN_vkAllocateMemory>("vkAllocateMemory");
+    return isDue("GLIM_REFUSE_MEMORY_AT", allocations++) ? VK_ERROR_OUT_OF_DEVICE_MEMORY : next(device, info, callbacks, memory);
+}
+
+void vkGetPhysicalDeviceFeatures2(VkPhysicalDevice device, VkPhysicalDeviceFeatures2* features)
+{
+    static const auto next = original<PFN_vkGetPhysicalDeviceFeatures2>("vkGetPhysicalDeviceFeatures2");
+    next(device, features);
+    if (std::getenv("GLIM_LACK_FEATURES") == nullptr) {
+        return;
+    }
+    clear(&features->features.robustBufferAccess, &features->features.inheritedQueries);
+    for (auto* part = static_cast<VkBaseOutStructure*>(features->pNext); part != nullptr; part = part->pNext) {
+        if (part->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES) {
+            auto& newer = reinterpret_cast<VkPhysicalDeviceVulkan12Features&>(*part);
+            clear(&newer.samplerMirrorClampToEdge, &newer.subgroupBroadcastDynamicId);
+        }
+    }
+}
+
+}  // extern "C"

@@ -1,0 +1,91 @@
+// A driver that fails: one sentence, exit code 3, and the last checkpoint stays.
+#include "host/render/film_file.hpp"
+#include "tests/support/run_glim.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace glim::test {
+namespace {
+
+class DeviceFaultTest : public ::testing::Test {
+protected:
+    GlimCall call() const
+    {
+        GlimCall call;
+        call.arguments = {"render",       sceneFile("cornell.gltf"),
+                          "--size",       "16x16",
+                          "--spp",        "400",
+                          "--checkpoint", "0.001s",
+                          "--resume",     "--progress",
+                          "none",         "-o",
+                          film_.string()};
+        return call;
+    }
+    GlimRun runWith(const std::string& variable, const std::string& value) const
+    {
+        GlimCall faulty = call();
+        faulty.environment["LD_PRELOAD"] = GLIM_FAIL_IN_VULKAN;
+        faulty.environment[variable] = value;
+        return runGlim(faulty);
+    }
+    static void expectSentence(const GlimRun& run, const std::string& part)
+    {
+        EXPECT_EQ(run.exitCode, 3) << run.err;
+        EXPECT_EQ(countLines(run.err), 1U) << run.err;
+        EXPECT_NE(run.err.find(part), std::string::npos) << run.err;
+    }
+
+    ScratchFolder folder_;
+    std::filesystem::path film_ = folder_ / "film.exr";
+};
+
+TEST_F(DeviceFaultTest, ALostDeviceLeavesTheLastCheckpoint)
+{
+    ASSERT_EQ(runGlim(call()).exitCode, 0);
+    const std::string expected = digestOf(readFilm(film_));
+    int faults = 0, checkpoints = 0;
+    for (int at = 1;; at += 1 + at / 3) {
+        std::filesystem::remove(film_);
+        const GlimRun run = runWith("GLIM_LOSE_DEVICE_AT", std::to_string(at));
+        if (run.exitCode == 0) {
+            break;
+        }
+        ++faults;
+        expectSentence(run, "VK_ERROR_DEVICE_LOST");
+        const bool kept = std::filesystem::exists(film_);
+        checkpoints += kept ? 1 : 0;
+        EXPECT_EQ(folder_.entries(), kept ? 1 : 0);
+        EXPECT_EQ(run.err.find("has the last checkpoint") != std::string::npos, kept) << run.err;
+        EXPECT_EQ(runGlim(call()).exitCode, 0);
+        EXPECT_EQ(digestOf(readFilm(film_)), expected) << at;
+    }
+    EXPECT_GT(faults, 5);
+    EXPECT_GT(checkpoints, 0);
+}
+
+TEST_F(DeviceFaultTest, MemoryThatIsRefusedIsNamed)
+{
+    int faults = 0;
+    for (int at = 1;; at += 3) {
+        const GlimRun run = runWith("GLIM_REFUSE_MEMORY_AT", std::to_string(at));
+        if (run.exitCode == 0) {
+            break;
+        }
+        ++faults;
+        expectSentence(run, "has no more memory (of ");
+        EXPECT_EQ(folder_.entries(), 0);
+    }
+    EXPECT_GT(faults, 5);
+}
+
+TEST_F(DeviceFaultTest, ADriverWithoutWhatGlimNeedsIsNotUsed)
+{
+    expectSentence(runWith("GLIM_LACK_FEATURES", "1"), "which lacks scalarBlockLayout");
+    EXPECT_EQ(folder_.entries(), 0);
+}
+
+}  // namespace
+}  // namespace glim::test

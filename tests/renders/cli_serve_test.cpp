@@ -1,0 +1,193 @@
+// glim serve: answers, and the bits of what it renders.
+#include "host/json.hpp"
+#include "host/render/film_file.hpp"
+#include "tests/support/run_glim.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <utility>
+
+extern char** environ;
+
+namespace glim::test {
+namespace {
+
+// `glim serve` as a program that talks to it: one request, one answer.
+class Server {
+public:
+    explicit Server(const std::filesystem::path& err)
+    {
+        int requests[2], answers[2];
+        EXPECT_EQ(pipe2(requests, O_CLOEXEC), 0);
+        EXPECT_EQ(pipe2(answers, O_CLOEXEC), 0);
+        posix_spawn_file_actions_t actions;
+        posix_spawn_file_actions_init(&actions);
+        posix_spawn_file_actions_adddup2(&actions, requests[0], 0);
+        posix_spawn_file_actions_adddup2(&actions, answers[1], 1);
+        posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_WRONLY | O_CREAT, 0600);
+        std::string program = GLIM_BINARY, command = "serve";
+        char* words[] = {program.data(), command.data(), nullptr};
+        EXPECT_EQ(posix_spawn(&process_, program.c_str(), &actions, nullptr, words, environ), 0);
+        posix_spawn_file_actions_destroy(&actions);
+        close(requests[0]);
+        close(answers[1]);
+        requests_ = fdopen(requests[1], "w");
+        answers_ = fdopen(answers[0], "r");
+    }
+    Server(const Server&) = delete;
+    Server& operator=(const Server&) = delete;
+    ~Server() { end(); }
+
+    void send(const std::string& line)
+    {
+        EXPECT_GE(std::fputs((line + "\n").c_str(), requests_), 0);
+        EXPECT_EQ(std::fflush(requests_), 0);
+    }
+    Json receive()
+    {
+        std::string line;
+        for (int c = 0; (c = std::getc(answers_)) != EOF && c != '\n';) {
+            line += static_cast<char>(c);
+        }
+        const auto answer = Json::parse(line);
+        EXPECT_TRUE(answer && answer->isObject()) << line;
+        return answer.value_or(Json::object());
+    }
+    Json ask(const std::vector<std::string>& words)
+    {
+        send(Json{{"id", "a"}, {"render", words}}.dump());
+        return receive();
+    }
+    void signal(int number) const { EXPECT_EQ(kill(process_, number), 0); }
+    // The status of waitpid.
+    int end()
+    {
+        int status = 0;
+        if (process_ > 0) {
+            std::fclose(requests_);
+            std::fclose(answers_);
+            waitpid(std::exchange(process_, 0), &status, 0);
+        }
+        return status;
+    }
+
+private:
+    pid_t process_ = 0;
+    std::FILE *requests_ = nullptr, *answers_ = nullptr;
+};
+
+class ServeTest : public ::testing::Test {
+protected:
+    void expectDone(const std::vector<std::string>& words) { EXPECT_EQ(server_.ask(words).at("code").number(), 0.0); }
+    std::string digestServed(std::vector<std::string> words)
+    {
+        words.insert(words.end(), {"-o", (folder_ / "served.exr").string()});
+        expectDone(words);
+        return digestOf(readFilm(folder_ / "served.exr"));
+    }
+    std::string digestAlone(std::vector<std::string> words)
+    {
+        words.insert(words.begin(), "render");
+        words.insert(words.end(), {"-o", (folder_ / "alone.exr").string()});
+        EXPECT_EQ(runGlim(words).exitCode, 0);
+        return digestOf(readFilm(folder_ / "alone.exr"));
+    }
+
+    ScratchFolder folder_;
+    Server server_{folder_ / "err"};
+};
+
+TEST_F(ServeTest, PicturesHaveTheBitsThatTheyHaveAlone)
+{
+    const std::string gems = sceneFile("cornell_gems.gltf"), spheres = sceneFile("cornell_spheres.gltf");
+    const std::vector<std::vector<std::string>> requests{
+        {gems, "--size", "16x12", "--samples", "256:300"},
+        {gems, "--size", "16x12", "--samples", "0:70"},
+        {gems, "--size", "32x24", "--spp", "8", "--seed", "3"},
+        {gems, "--size", "16x12", "--spp", "8", "--look-from", "0,1,3", "--look-at", "0,1,0"},
+        {gems, "--size", "16x12", "--spp", "8", "--bounces", "2"},
+        {gems, "--size", "16x12", "--spp", "8", "--lens-radius", ".1", "--focal-distance", "3"},
+        {gems, "--size", "16x12", "--spp", "80", "--adaptive", "neighbours"},
+        {gems, "--size", "16x12", "--spp", "128", "--adaptive", "neighbours", "--seed", "2"},
+        {spheres, "--size", "16x12", "--spp", "8"},
+        {spheres, "--size", "16x12", "--spp", "8", "--environment", ".1,.2,.3"},
+    };
+    for (const auto& words : requests) {
+        EXPECT_EQ(digestServed(words), digestAlone(words)) << words[3] << words[4] << words[5];
+    }
+}
+
+TEST_F(ServeTest, AFileThatHasChangedIsReadAgain)
+{
+    const std::filesystem::path scene = folder_ / "scene.gltf";
+    std::string text = bytesOfFile(sceneFile("cornell.gltf"));
+    std::ofstream(scene) << text;
+    const std::string before = digestServed({scene.string(), "--size", "8x8", "--spp", "4"});
+    const std::size_t color = text.find("\"baseColorFactor\"");
+    ASSERT_NE(color, std::string::npos);
+    const std::size_t red = text.find('[', color) + 1;
+    text.replace(red, text.find(',', red) - red, "0.25");
+    std::ofstream(scene) << text << ' ';
+    const std::string after = digestServed({scene.string(), "--size", "8x8", "--spp", "4"});
+    EXPECT_NE(after, before);
+    EXPECT_EQ(after, digestAlone({scene.string(), "--size", "8x8", "--spp", "4"}));
+}
+
+TEST_F(ServeTest, ARefusalIsASentenceAndNotTheEnd)
+{
+    const std::string scene = sceneFile("cornell.gltf"), film = (folder_ / "a.exr").string();
+    const auto expectRefused = [&](const Json& answer, int code, const std::string& reason) {
+        EXPECT_EQ(answer.at("code").number(), code);
+        EXPECT_NE(answer.at("error").text().find(reason), std::string::npos) << answer.dump();
+    };
+    expectRefused(server_.ask({scene, "-o", film, "--sp", "4"}), 2, "--sp");
+    expectRefused(server_.ask({"missing.gltf", "-o", film}), 1, "missing.gltf: cannot be read");
+    expectRefused(server_.ask({scene, "--replay", "1,1,1"}), 2, "--replay");
+    for (const char* line :
+         {"", "x", "[]", "{}", R"({"id":1})", R"({"id":1,"render":"x"})", R"({"id":1,"render":[1]})", R"({"render":[]})"}) {
+        server_.send(line);
+        expectRefused(server_.receive(), 2, "a request is not of the form");
+    }
+    server_.send(R"({"id":{"page":[7]},"render":[]})");
+    EXPECT_EQ(server_.receive().at("id").dump(), R"({"page":[7]})");
+    const Json done = server_.ask({scene, "--size", "8x8", "--spp", "4", "-o", film});
+    EXPECT_EQ(done.dump(), R"({"id":"a","code":0,"error":null})");
+    EXPECT_EQ(server_.end(), 0);
+}
+
+TEST_F(ServeTest, ASignalEndsItAfterTheAnswer)
+{
+    server_.send(Json{{"id", 1},
+                      {"render", std::vector<std::string>{sceneFile("cornell.gltf"), "--size", "64x64", "--spp", "1000000", "--progress",
+                                                          "json", "-o", (folder_ / "a.exr").string()}}}
+                     .dump());
+    while (!hasLine(bytesOfFile(folder_ / "err"))) {
+        usleep(1000);
+    }
+    server_.signal(SIGTERM);
+    EXPECT_EQ(server_.receive().at("code").number(), 143.0);
+    const int status = server_.end();
+    EXPECT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 143);
+    EXPECT_GT(readFilm(folder_ / "a.exr").pixels.front().count, 0U);
+}
+
+// Nothing is under way then.
+TEST_F(ServeTest, ASignalWhileItWaitsEndsItAtOnce)
+{
+    expectDone({sceneFile("cornell.gltf"), "--size", "8x8", "--spp", "4", "-o", (folder_ / "a.exr").string()});
+    server_.signal(SIGTERM);
+    EXPECT_TRUE(WIFSIGNALED(server_.end()));
+}
+
+}  // namespace
+}  // namespace glim::test
