@@ -76,9 +76,11 @@ void CheckpointWriter::finish()
     }
     interval_ = options_.seconds.value_or(kDefaultInterval);
     try {
-        interval_ = std::max(interval_, writing_.get() / kMostShare);
-        writtenSamples_ = samplesPerPixel_;
-        written_ = Clock::now();
+        if (const std::optional<double> seconds = writing_.get()) {
+            interval_ = std::max(interval_, *seconds / kMostShare);
+            writtenSamples_ = samplesPerPixel_;
+            written_ = Clock::now();
+        }
     } catch (const InputError& error) {
         say("no checkpoint: " + std::string(error.what()));
     }
@@ -89,10 +91,12 @@ std::optional<WrittenCheckpoint> CheckpointWriter::lastWritten() const
     return writtenSamples_ ? std::optional(WrittenCheckpoint{*writtenSamples_, secondsSince(written_)}) : std::nullopt;
 }
 
-double CheckpointWriter::write(const Checkpoint& checkpoint) const
+std::optional<double> CheckpointWriter::write(const Checkpoint& checkpoint) const
 {
     const auto start = Clock::now();
-    writeFilm(output_, filmOf(checkpoint), checkpoint);
+    if (!writeFilm(output_, filmOf(checkpoint), checkpoint, [this] { return !abandoned_; })) {
+        return std::nullopt;
+    }
     const double seconds = secondsSince(start);
     if (!options_.command.empty()) {
         if (const int status = std::system(options_.command.c_str()); status != 0) {

@@ -5,6 +5,7 @@
 #include "host/cli/progress.hpp"
 #include "host/render/renderer.hpp"
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <future>
@@ -37,12 +38,14 @@ public:
     void offer(const Renderer& renderer, bool asked);
     // Waits for the one under way.
     void finish();
+    // Gives up the one under way, without waiting for that: the film itself will be there soon.
+    void abandon() { abandoned_ = true; }
     std::optional<WrittenCheckpoint> lastWritten() const;
 
 private:
     using Clock = std::chrono::steady_clock;
 
-    double write(const Checkpoint& checkpoint) const;
+    std::optional<double> write(const Checkpoint& checkpoint) const;
 
     CheckpointOptions options_;
     std::filesystem::path output_;
@@ -52,8 +55,9 @@ private:
     double samplesPerPixel_ = 0.0;          // of that one
     std::optional<double> writtenSamples_;  // the same of the last one that was written
     Clock::time_point written_;
-    double interval_ = 0.0;        // seconds; the first checkpoint comes with the first finished block
-    std::future<double> writing_;  // gives the seconds that it took
+    double interval_ = 0.0;                       // seconds; the first checkpoint comes with the first finished block
+    std::future<std::optional<double>> writing_;  // gives the seconds that it took, or nothing if it was given up
+    std::atomic<bool> abandoned_ = false;
 };
 
 // One process at a time may write a file: throws InputError, which names the other process, if there is one. The lock is a file beside

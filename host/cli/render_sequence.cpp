@@ -107,7 +107,9 @@ Rendered renderPicture(Renderer& renderer, const RenderOptions& options, Checkpo
     Rendered rendered;
     const auto observe = [&](const RenderProgress& now) {
         progress.print(now, writer.lastWritten());
-        if (now.betweenPasses && watch.signal() == 0) {
+        if (watch.signal() != 0) {
+            writer.abandon();
+        } else if (now.betweenPasses) {
             writer.offer(renderer, watch.takeRequest());
         }
         return watch.signal() == 0;
@@ -339,6 +341,7 @@ ExitCode SequenceRenderer::renderShot(const RenderOptions& options)
                                                : std::string()));
     }
     progress.finish();
+    writer.abandon();
     writer.finish();
     const ExitCode code = writeShot(options, settings, flatCamera, std::move(rendered));
     ++place_.rendered;

@@ -214,6 +214,7 @@ Imf::Header headerOf(const Image& image)
     const int bottom = top + static_cast<int>(image.height) - 1;
     Imf::Header header({{0, 0}, {right, bottom + static_cast<int>(image.rowsBelow)}}, {{0, top}, {right, bottom}});
     header.compression() = Imf::ZIP_COMPRESSION;
+    header.zipCompressionLevel() = 2;                       // of a film, level 4 takes a fifth more time and 1 % less space
     Imf::addChromaticities(header, Imf::Chromaticities());  // the default is Rec.709 with the white D65
     for (const auto& [name, value] : image.attributes) {
         if (const auto* number = std::get_if<double>(&value)) {

@@ -13,8 +13,8 @@ void checkMemory(const PreparedScene& prepared, const RenderSettings& settings, 
     const bool light = tracesLight(prepared.flat, settings);
     const std::uint64_t onDevice = sizeInBytes(prepared.flat) + PathBuffers::sizeInBytes(settings.pathCapacity) +
                                    pixels * Tile::bytesPerPixel(settings) + (light ? SplatBuffer::bytesFor(settings) : 0);
-    // The film and its planes in the file; --adaptive neighbours has a second film. A checkpoint has a film, the last page and the film
-    // that it shows, with --adaptive neighbours the second film too, and the planes of all.
+    // The film and what its error is estimated with; --adaptive neighbours has a second film. A checkpoint has a film, the last page and
+    // the film that it shows, with --adaptive neighbours the second film too, and is copied once.
     const std::uint64_t second = isNeighbours(settings.adaptive) ? 1 : 0;
     const std::uint64_t films = 2 + second + (checkpoints ? 2 * (3 + second) : 0);
     const std::uint64_t onHost =

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <type_traits>
 
@@ -21,6 +22,8 @@ namespace {
 constexpr double kFormat = 1, kFormatWithSplats = 2;
 
 double formatOf(const Film& film) { return film.splats.empty() ? kFormat : kFormatWithSplats; }
+
+constexpr std::uint32_t kBandRows = 256;  // written at once: 16 blocks of OpenEXR, for as many cores
 
 constexpr const char *kProgress = "glim:progress", *kProgressDigest = "glim:progressDigest";  // of checkpoints
 
@@ -71,7 +74,7 @@ void forEachChannel(const Layers& layers, const std::string& group, Visit visit)
 }
 
 template <class Value, class Moments>
-std::vector<Value> planeOf(const std::vector<Moments>& pixels, std::size_t offset)
+std::vector<Value> planeOf(std::span<const Moments> pixels, std::size_t offset)
 {
     std::vector<Value> plane(pixels.size());
     for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -93,32 +96,32 @@ void takePlane(const fs::path& path, const std::map<std::string, std::vector<Val
     }
 }
 
-// Adds the variance of the mean and, for viewing, its standard error.
-void addErrors(const std::vector<PixelMoments>& pixels, Image& image)
+bool hasErrors(const Film& film)
 {
-    if (std::none_of(pixels.begin(), pixels.end(), [](const PixelMoments& pixel) { return pixel.blocks >= 2; })) {
-        return;
-    }
-    for (const PixelMoments& pixel : pixels) {
-        const glm::vec3 unknown(std::numeric_limits<float>::infinity());
-        const glm::vec3 variance = pixel.blocks >= 2 ? varianceOfMean(pixel) : unknown;
-        for (int c = 0; c < 3; ++c) {
-            const char letter = "RGB"[c];
-            image.channels[std::string("variance.") + letter].push_back(variance[c]);
-            image.channels[std::string("error.") + letter].push_back(std::sqrt(variance[c]));
+    return std::ranges::any_of(film.pixels, [](const PixelMoments& pixel) { return pixel.blocks >= 2; });
+}
+
+// Adds the variance of the mean and, for viewing, its standard error.
+void addErrors(std::span<const PixelMoments> pixels, Image& image)
+{
+    for (int c = 0; c < 3; ++c) {
+        auto &variances = image.channels[std::string("variance.") + "RGB"[c]], &errors = image.channels[std::string("error.") + "RGB"[c]];
+        for (const PixelMoments& pixel : pixels) {
+            variances.push_back(pixel.blocks >= 2 ? varianceOfMean(pixel)[c] : std::numeric_limits<float>::infinity());
+            errors.push_back(std::sqrt(variances.back()));
         }
     }
 }
 
 template <class Layers, class Moments>
-void addLayers(const Layers& layers, const std::vector<Moments>& pixels, Image& image, const std::string& group = "")
+void addLayers(const Layers& layers, std::span<const Moments> pixels, Image& image, const std::string& group = "")
 {
     forEachChannel(layers, group,
                    [&](const std::string& name, std::size_t offset) { image.channels[name] = planeOf<float>(pixels, offset); });
 }
 
 template <class Layers, class Moments>
-void addCounts(const Layers& layers, const std::vector<Moments>& pixels, Image& image, const std::string& group = "")
+void addCounts(const Layers& layers, std::span<const Moments> pixels, Image& image, const std::string& group = "")
 {
     forEachChannel(layers, group,
                    [&](const std::string& name, std::size_t offset) { image.counts[name] = planeOf<std::uint32_t>(pixels, offset); });
@@ -138,54 +141,52 @@ void takeCounts(const fs::path& path, const Layers& layers, const Image& image, 
                    [&](const std::string& name, std::size_t offset) { takePlane(path, image.counts, name, offset, pixels); });
 }
 
-void addSplats(const std::vector<SplatMoments>& splats, Image& image, const std::string& group = "")
+// A run of pixels.
+struct Run {
+    std::size_t begin, count;
+
+    template <class Value>
+    std::span<const Value> of(const std::vector<Value>& picture) const
+    {
+        return std::span(picture).subspan(begin, count);
+    }
+};
+
+void addSplats(const std::vector<SplatMoments>& splats, const Run& run, Image& image, const std::string& group = "")
 {
     if (!splats.empty()) {
-        addLayers(kSplatLayers, splats, image, group);
-        addCounts(kSplatCountLayers, splats, image, group);
+        addLayers(kSplatLayers, run.of(splats), image, group);
+        addCounts(kSplatCountLayers, run.of(splats), image, group);
     }
 }
 
-Image imageOf(const Film& film)
+void addFilm(const Film& film, const Run& run, bool errors, Image& image)
 {
-    Image image;
-    image.width = film.width;
-    image.height = film.height;
-    image.rowsAbove = film.rowsAbove;
-    image.rowsBelow = film.rowsBelow;
-    image.attributes = {{"software", "glim " GLIM_VERSION},
-                        {"glim:film", formatOf(film)},
-                        {"glim:sceneFile", film.sceneFile},
-                        {"glim:scene", film.identity.scene},
-                        {"glim:settings", film.identity.settings},
-                        {"glim:seed", static_cast<double>(film.identity.seed)},
-                        {"glim:samples", sampleRangesText(film)},
-                        {"glim:complete", film.complete ? 1.0 : 0.0},
-                        {"glim:seconds", film.seconds},
-                        {"glim:device", film.device},
-                        {"glim:kernels", film.identity.kernels},
-                        {"glim:arithmetic", film.arithmetic},
-                        {"glim:digest", digestOf(film)}};
-    const std::vector<PixelMoments> shown = shownPixels(film);
-    addLayers(kMeanLayers, shown, image);
-    addLayers(kFloatLayers, film.pixels, image);
-    addCounts(kCountLayers, film.pixels, image);
-    if (!film.splats.empty()) {
-        addLayers(kCameraLayers, film.pixels, image);
-        addSplats(film.splats, image);
+    std::vector<PixelMoments> shown(run.count);
+    for (std::size_t i = 0; i < run.count; ++i) {
+        shown[i] = shownPixel(film, run.begin + i);
     }
-    addErrors(shown, image);
-    return image;
+    addLayers(kMeanLayers, std::span<const PixelMoments>(shown), image);
+    addLayers(kFloatLayers, run.of(film.pixels), image);
+    addCounts(kCountLayers, run.of(film.pixels), image);
+    if (!film.splats.empty()) {
+        addLayers(kCameraLayers, run.of(film.pixels), image);
+        addSplats(film.splats, run, image);
+    }
+    if (errors) {
+        addErrors(shown, image);
+    }
 }
 
-void addGroup(const std::vector<PixelMoments>& pixels, const std::vector<SplatMoments>& splats, Image& image, const std::string& group)
+void addGroup(const std::vector<PixelMoments>& pixels, const std::vector<SplatMoments>& splats, const Run& run, Image& image,
+              const std::string& group)
 {
     if (!pixels.empty()) {
-        addLayers(kMeanLayers, pixels, image, group);
-        addLayers(kFloatLayers, pixels, image, group);
-        addCounts(kCountLayers, pixels, image, group);
+        addLayers(kMeanLayers, run.of(pixels), image, group);
+        addLayers(kFloatLayers, run.of(pixels), image, group);
+        addCounts(kCountLayers, run.of(pixels), image, group);
     }
-    addSplats(splats, image, group);
+    addSplats(splats, run, image, group);
 }
 
 bool isEmpty(const std::vector<PixelMoments>& pixels)
@@ -217,6 +218,79 @@ std::string progressText(const Checkpoint& checkpoint, const std::string& folded
              << adaptive->choosing;
     }
     return text.str();
+}
+
+void addCheckpoint(const Checkpoint& checkpoint, const char* folded, const Run& run, Image& image)
+{
+    if (folded == kApart) {
+        addGroup(checkpoint.film.pixels, checkpoint.film.splats, run, image, "folded.");
+    }
+    addGroup(checkpoint.page, checkpoint.pageSplats, run, image, "page.");
+    addGroup(checkpoint.common, checkpoint.commonSplats, run, image, "common.");
+    if (checkpoint.adaptive) {
+        const auto copy = [&run](const std::vector<std::uint32_t>& counts) {
+            const std::span<const std::uint32_t> part = run.of(counts);
+            return std::vector(part.begin(), part.end());
+        };
+        image.counts["chosen.X"] = copy(checkpoint.chosen);
+        image.counts["blocksLeft.X"] = copy(checkpoint.blocksLeft);
+    }
+}
+
+Image headerOf(const Film& film)
+{
+    Image image;
+    image.width = film.width;
+    image.height = film.height;
+    image.rowsAbove = film.rowsAbove;
+    image.rowsBelow = film.rowsBelow;
+    image.attributes = {{"software", "glim " GLIM_VERSION},
+                        {"glim:film", formatOf(film)},
+                        {"glim:sceneFile", film.sceneFile},
+                        {"glim:scene", film.identity.scene},
+                        {"glim:settings", film.identity.settings},
+                        {"glim:seed", static_cast<double>(film.identity.seed)},
+                        {"glim:samples", sampleRangesText(film)},
+                        {"glim:complete", film.complete ? 1.0 : 0.0},
+                        {"glim:seconds", film.seconds},
+                        {"glim:device", film.device},
+                        {"glim:kernels", film.identity.kernels},
+                        {"glim:arithmetic", film.arithmetic},
+                        {"glim:digest", digestOf(film)}};
+    return image;
+}
+
+// In bands of rows: all planes at once would take as much memory as the film again, and more time.
+bool write(const fs::path& path, const Film& film, const Checkpoint* checkpoint, const std::function<bool()>& shouldContinue)
+{
+    const char* folded = checkpoint == nullptr ? kNothing : placeOfFolded(film, *checkpoint);
+    const bool errors = hasErrors(film);
+    const auto addRows = [&](Image& image, std::size_t first, std::size_t count) {
+        const Run run{first * film.width, count * film.width};
+        addFilm(film, run, errors, image);
+        if (checkpoint != nullptr) {
+            addCheckpoint(*checkpoint, folded, run, image);
+        }
+    };
+    Image header = headerOf(film);
+    if (checkpoint != nullptr) {
+        header.attributes[kProgressDigest] = digestOf(*checkpoint);
+        header.attributes[kProgress] = progressText(*checkpoint, folded);
+    }
+    addRows(header, 0, 0);
+    ExrWriter writer(path, header);
+    Image band;
+    band.width = film.width;
+    for (std::uint32_t first = 0; first < film.height; first += band.height) {
+        if (!shouldContinue()) {
+            return false;
+        }
+        band.height = std::min(kBandRows, film.height - first);
+        addRows(band, first, band.height);
+        writer.write(band);
+    }
+    writer.commit();
+    return true;
 }
 
 template <class Value>
@@ -386,24 +460,14 @@ std::string sampleRangesText(const Film& film)
     return text.str();
 }
 
-void writeFilm(const fs::path& path, const Film& film) { writeExr(path, imageOf(film)); }
-
-void writeFilm(const fs::path& path, const Film& film, const Checkpoint& checkpoint)
+void writeFilm(const fs::path& path, const Film& film)
 {
-    Image image = imageOf(film);
-    const char* folded = placeOfFolded(film, checkpoint);
-    if (folded == kApart) {
-        addGroup(checkpoint.film.pixels, checkpoint.film.splats, image, "folded.");
-    }
-    addGroup(checkpoint.page, checkpoint.pageSplats, image, "page.");
-    addGroup(checkpoint.common, checkpoint.commonSplats, image, "common.");
-    if (checkpoint.adaptive) {
-        image.counts["chosen.X"] = checkpoint.chosen;
-        image.counts["blocksLeft.X"] = checkpoint.blocksLeft;
-    }
-    image.attributes[kProgressDigest] = digestOf(checkpoint);
-    image.attributes[kProgress] = progressText(checkpoint, folded);
-    writeExr(path, image);
+    write(path, film, nullptr, [] { return true; });
+}
+
+bool writeFilm(const fs::path& path, const Film& film, const Checkpoint& checkpoint, const std::function<bool()>& shouldContinue)
+{
+    return write(path, film, &checkpoint, shouldContinue);
 }
 
 Film readFilm(const fs::path& path) { return filmOfImage(path, readExr(path)); }

@@ -21,13 +21,17 @@
 #include "host/render/checkpoint.hpp"
 
 #include <filesystem>
+#include <functional>
 
 namespace glim {
 
 void writeFilm(const std::filesystem::path& path, const Film& film);
 
-// A film and what a later render needs to go on from its finished blocks.
-void writeFilm(const std::filesystem::path& path, const Film& film, const Checkpoint& checkpoint);
+// A film and what a later render needs to go on from its finished blocks. Returns false if `shouldContinue`, asked now and then, ended it;
+// the file is then as it was.
+bool writeFilm(
+    const std::filesystem::path& path, const Film& film, const Checkpoint& checkpoint,
+    const std::function<bool()>& shouldContinue = [] { return true; });
 
 // Refuses (InputError) files that writeFilm did not write.
 Film readFilm(const std::filesystem::path& path);
