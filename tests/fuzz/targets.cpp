@@ -179,8 +179,9 @@ Defect film(Bytes bytes)
             filmOf(*stored.checkpoint);
         }
     });
-    then(file.string() + ": ", [&] { mergeFilms({file, file}); });
-    then(file.string() + ": ", [&] { mergeFilms({other, file}); });
+    const std::string either = file.parent_path().string();
+    then(either, [&] { mergeFilms({file, file}); });
+    then(either, [&] { mergeFilms({other, file}); });
     return defect ? defect : lost;
 }
 
