@@ -110,8 +110,8 @@ void mutateAttributes(std::vector<Attribute>& attributes, Choice& choice)
         [[fallthrough]];
     default: mutateBytes(one.value, 8);
     }
-    for (std::string* word : {&one.name, &one.type}) {
-        word->erase(std::min(word->find('\0'), word->size()));
+    for (Attribute& attribute : attributes) {
+        attribute.name.erase(std::min(attribute.name.find('\0'), attribute.name.size()));
     }
 }
 

@@ -166,12 +166,9 @@ Defect findRoundTripDefect(const StoredFilm& stored)
 Defect film(Bytes bytes)
 {
     const fs::path file = folder().write("film.exr", bytes), other = anotherFilm();
-    Defect defect = findDefect(file.string() + ": ", [&] { readFilmHeader(file); });
-    const auto then = [&defect](const std::string& start, const std::function<void()>& step) {
-        defect = defect ? defect : findDefect(start, step);
-    };
+    const std::string either = file.parent_path().string();
     Defect lost;
-    then(file.string() + ": ", [&] {
+    Defect defect = findDefect(file.string() + ": ", [&] {
         const StoredFilm stored = readStoredFilm(file);
         lost = findRoundTripDefect(stored);
         checkpointOf(stored.film);
@@ -179,9 +176,9 @@ Defect film(Bytes bytes)
             filmOf(*stored.checkpoint);
         }
     });
-    const std::string either = file.parent_path().string();
-    then(either, [&] { mergeFilms({file, file}); });
-    then(either, [&] { mergeFilms({other, file}); });
+    for (const std::vector<fs::path>& files : {std::vector{file, file}, std::vector{other, file}}) {
+        defect = defect ? defect : findDefect(either, [&] { mergeFilms(files); });
+    }
     return defect ? defect : lost;
 }
 

@@ -125,6 +125,10 @@ TEST(DecodeImageTest, BrokenImagesAreRefusedWithASentence)
     const Bytes webp = encodeWebp(64, 64, rgba);
     Bytes flipped = png;
     flipped[flipped.size() / 2] ^= 0x10U;
+    PngFormat withText;
+    withText.chunks = {{"tEXt", {'a', 0, 'b'}}};
+    Bytes longText = encodePng(64, 64, noise, withText);
+    longText[33] = 0x74;  // the first byte of that chunk's length
     Bytes animated{'R', 'I', 'F', 'F', 22, 0, 0, 0, 'W', 'E', 'B', 'P', 'V', 'P', '8', 'X', 10, 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 3, 0, 0};
     const std::pair<Bytes, std::string> cases[] = {
         {{}, "is of an unknown kind (it is empty); expected PNG, JPEG or WebP"},
@@ -132,6 +136,7 @@ TEST(DecodeImageTest, BrokenImagesAreRefusedWithASentence)
         {{0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb}, "is a KTX2 texture"},
         {truncated(png, 100), "is a broken PNG (it ends early)"},
         {truncated(png, png.size() - 20), "is a broken PNG (it ends early)"},
+        {longText, "is a broken PNG (it ends early)"},
         {flipped, "is a broken PNG ("},
         {withPngSize(png, 0, 64), "is a broken PNG ("},
         {withPngSize(png, 16385, 64), "is a PNG of 16385x64 pixels; expected 1 to 16384 in each direction"},
