@@ -144,7 +144,7 @@ DecodedImage decodePng(Bytes bytes)
         }
     };
     if (endsWithinChunk(bytes)) {
-        source.error = "it ends early";
+        source.error = "it ends within a chunk";
         require(false);
     }
     require(readPngHeader(reader));

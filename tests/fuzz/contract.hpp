@@ -7,9 +7,8 @@
 
 namespace glim::fuzz {
 
-// CPU seconds of all threads, which do not count what else the machine does. Sanitizers take about three times as long, measured with the
-// corpus.
-constexpr double kMostSeconds = 1.0, kMostSanitizedSeconds = 4.0;
+// A second of CPU time of all threads, which leaves out what else the machine does; four with sanitizers, which are that much slower.
+double mostSeconds();
 
 // Runs `step` and says how it breaks the promise, if it does. It may throw InputError that begins with `start`. Memory is limited from
 // outside (tools/fuzz).

@@ -75,9 +75,38 @@ bool isDeep(const std::string& text)
 // Discarded where the text is no JSON, or one of which recursion would run out of stack.
 json parseTree(const std::string& text) { return isDeep(text) ? json(json::value_t::discarded) : json::parse(text, nullptr, false); }
 
-const double kNumbers[] = {0,    -1,    1,      2,      0.5,    3,        4,        255,   256,   65535,         65536,
-                           1e39, 1e-39, 1e-320, 1e308,  -1e308, 3.4e38,   1e-7,     1e7,   1e20,  2147483647,    2147483648,
-                           5120, 5121,  5123,   5125,   5126,   4294967295, 4294967296, 9007199254740992, 9007199254740994, 1.8446744073709552e19};
+const double kNumbers[] = {0,
+                           -1,
+                           1,
+                           2,
+                           0.5,
+                           3,
+                           4,
+                           255,
+                           256,
+                           65535,
+                           65536,
+                           1e39,
+                           1e-39,
+                           1e-320,
+                           1e308,
+                           -1e308,
+                           3.4e38,
+                           1e-7,
+                           1e7,
+                           1e20,
+                           2147483647,
+                           2147483648,
+                           5120,
+                           5121,
+                           5123,
+                           5125,
+                           5126,
+                           4294967295,
+                           4294967296,
+                           9007199254740992,
+                           9007199254740994,
+                           1.8446744073709552e19};
 
 class TreeMutator {
 public:

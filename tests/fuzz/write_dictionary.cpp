@@ -26,8 +26,8 @@ int main(int argc, char** argv)
     if (argc != 2) {
         return 2;
     }
-    std::set<std::string> words{"glTF", "data:,", "scene.gltf", "POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "COLOR_0", "JOINTS_0",
-                                "WEIGHTS_0"};
+    std::set<std::string> words{"glTF",    "data:,",     "scene.gltf", "POSITION", "NORMAL",
+                                "TANGENT", "TEXCOORD_0", "COLOR_0",    "JOINTS_0", "WEIGHTS_0"};
     for (const glim::SchemaRule& rule : glim::kSchemaRules) {
         addWords(rule.path, ".[]{}", words);
         if (rule.kind == glim::JsonKind::OneOf) {

@@ -84,13 +84,13 @@ GltfBuilder instanced()
     GltfBuilder builder;
     const std::size_t mesh = builder.addTriangleMesh();
     const std::size_t sparse = builder.addVec3({0, 0, 0, 1, 0, 0, 0, 1, 0});
-    builder.document["accessors"][sparse]["sparse"] = {
-        {"count", 1},
-        {"indices", {{"bufferView", builder.addAov({2})}, {"componentType", kUnsignedByte}}},
-        {"values", {{"bufferView", builder.addAov(toBytes<float>({0, 1, 0.5F}))}}}};
+    builder.document["accessors"][sparse]["sparse"] = {{"count", 1},
+                                                       {"indices", {{"bufferView", builder.addAov({2})}, {"componentType", kUnsignedByte}}},
+                                                       {"values", {{"bufferView", builder.addAov(toBytes<float>({0, 1, 0.5F}))}}}};
     builder.addNode({{"mesh", mesh},
                      {"extensions",
-                      {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", sparse}, {"SCALE", builder.addVec3({1, 1, 1, 2, 2, 2, 3, 1, 1})}}}}}}}});
+                      {{"EXT_mesh_gpu_instancing",
+                        {{"attributes", {{"TRANSLATION", sparse}, {"SCALE", builder.addVec3({1, 1, 1, 2, 2, 2, 3, 1, 1})}}}}}}}});
     builder.append("nodes", {{"mesh", mesh}, {"extensions", {{"KHR_node_visibility", {{"visible", true}}}}}});
     builder.addNode({{"children", {builder.document["nodes"].size() - 1}}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1}}});
     return builder;
