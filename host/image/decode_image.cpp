@@ -273,6 +273,12 @@ DecodedImage decodeJpeg(Bytes bytes)
     };
     require(readJpegHeader(reader, bytes));
     checkSize("JPEG", reader.jpeg.image_width, reader.jpeg.image_height);
+    // Huffman's codes have at least a bit for each block of 64 pixels: a header that promises more costs no memory.
+    constexpr std::uint64_t kMostPixelsPerByte = 512;
+    if (reader.jpeg.arith_code == FALSE &&
+        std::uint64_t{reader.jpeg.image_width} * reader.jpeg.image_height > kMostPixelsPerByte * bytes.size()) {
+        throw InputError("is a broken JPEG (it ends early)");
+    }
     DecodedImage image;
     image.width = reader.jpeg.image_width;
     image.height = reader.jpeg.image_height;

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace glim::test {
@@ -125,6 +126,10 @@ TEST(DecodeImageTest, BrokenImagesAreRefusedWithASentence)
     const Bytes webp = encodeWebp(64, 64, rgba);
     Bytes flipped = png;
     flipped[flipped.size() / 2] ^= 0x10U;
+    Bytes largeJpeg = jpeg;  // 16384x16384 pixels
+    const Bytes frame{0xff, 0xc0};
+    const auto size = std::search(largeJpeg.begin(), largeJpeg.end(), frame.begin(), frame.end()) + 5;
+    std::copy_n(Bytes{64, 0, 64, 0}.begin(), 4, size);
     PngFormat withText;
     withText.chunks = {{"tEXt", {'a', 0, 'b'}}};
     Bytes longText = encodePng(64, 64, noise, withText);
@@ -142,6 +147,7 @@ TEST(DecodeImageTest, BrokenImagesAreRefusedWithASentence)
         {withPngSize(png, 16385, 64), "is a PNG of 16385x64 pixels; expected 1 to 16384 in each direction"},
         {withPngSize(png, 0x7fffffff, 0x7fffffff), "pixels; expected 1 to 16384"},
         {withPngSize(png, 16384, 16384), "is a broken PNG (it ends early)"},
+        {largeJpeg, "is a broken JPEG (it ends early)"},
         {truncated(jpeg, 100), "is a broken JPEG ("},
         {truncated(progressive, 100), "is a broken JPEG ("},
         {truncated(jpeg, jpeg.size() - 10), "is a broken JPEG ("},
