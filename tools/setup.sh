@@ -37,6 +37,11 @@ studyPackages=(
 formatPackages=(
     "clang-format              keeps one style"
 )
+fuzzPackages=(
+    "clang-19                  compiles the fuzz targets"
+    "libclang-rt-19-dev        has libFuzzer and the sanitizers"
+    "llvm-19                   names the functions in their reports"
+)
 testPackages=(
     "libgtest-dev              runs the tests"
     "vulkan-validationlayers   checks every use of Vulkan in the tests"

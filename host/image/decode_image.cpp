@@ -33,6 +33,23 @@ void checkSize(const char* kind, std::uint32_t width, std::uint32_t height)
     }
 }
 
+// Whether a chunk is longer than the file. libpng allocates what the length says, of texts for example, even beyond its limit.
+bool endsWithinChunk(Bytes png)
+{
+    constexpr std::size_t kSignature = 8, kFrame = 12;  // length, type and checksum
+    for (Bytes left = png.subspan(kSignature); left.size() >= kFrame;) {
+        const std::size_t length = std::size_t{left[0]} << 24U | std::size_t{left[1]} << 16U | std::size_t{left[2]} << 8U | left[3];
+        if (startsWith(left, "IEND", 4)) {
+            return false;
+        }
+        if (length > left.size() - kFrame) {
+            return true;
+        }
+        left = left.subspan(kFrame + length);
+    }
+    return false;
+}
+
 // What libpng reads from, and what it says; libpng leaves by longjmp, past no destructor of these.
 struct PngSource {
     Bytes left;
@@ -126,6 +143,10 @@ DecodedImage decodePng(Bytes bytes)
             throw InputError("is a broken PNG (" + source.error + ")");
         }
     };
+    if (endsWithinChunk(bytes)) {
+        source.error = "it ends within a chunk";
+        require(false);
+    }
     require(readPngHeader(reader));
     DecodedImage image;
     image.width = png_get_image_width(reader.png(), reader.info());
@@ -252,6 +273,12 @@ DecodedImage decodeJpeg(Bytes bytes)
     };
     require(readJpegHeader(reader, bytes));
     checkSize("JPEG", reader.jpeg.image_width, reader.jpeg.image_height);
+    // Huffman's codes have at least a bit for each block of 64 pixels: a header that promises more costs no memory.
+    constexpr std::uint64_t kMostPixelsPerByte = 512;
+    if (reader.jpeg.arith_code == FALSE &&
+        std::uint64_t{reader.jpeg.image_width} * reader.jpeg.image_height > kMostPixelsPerByte * bytes.size()) {
+        throw InputError("is a broken JPEG (it ends early)");
+    }
     DecodedImage image;
     image.width = reader.jpeg.image_width;
     image.height = reader.jpeg.image_height;

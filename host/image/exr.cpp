@@ -2,6 +2,7 @@
 
 #include "host/error.hpp"
 #include "host/image/atomic_file.hpp"
+#include "host/image/exr_header.hpp"
 #include "host/input_file.hpp"
 #include "host/memory.hpp"
 
@@ -49,12 +50,12 @@ void checkIsExr(const fs::path& path)
     if (!stream) {
         throw InputError(path.string() + ": cannot be opened: " + std::strerror(errno) + ".");
     }
-    Imf::Header::setMaxImageSize(kMaxExrSide, kMaxExrSide);
     char magic[4] = {};
     stream.read(magic, sizeof magic);
     if (!stream || !Imf::isImfMagic(magic)) {
         throw InputError(path.string() + ": is not an OpenEXR file.");
     }
+    checkExrHeader(path);
 }
 
 // Most of the time of a file is compression. Returns the number of threads.

@@ -8,9 +8,6 @@
 
 namespace glim {
 
-// OpenEXR allocates by a header's height before anything can be checked. To be set before each file is opened.
-inline constexpr int kMaxExrSide = 1 << 18;
-
 // Reads the first part of a file of scan lines or tiles (the finest level) with any compression. The upper left pixel of the data
 // window becomes (0, 0). Half and float channels become float channels, unsigned ones counts. Attributes are kept if they are numbers
 // or strings and not OpenEXR's own.

@@ -35,6 +35,7 @@ private:
     std::string readLine();
     void readVariable(const std::string& line);
     void readResolution(const std::string& line);
+    void checkLength();
     int readByte(std::uint32_t row);
     Pixel readPixel(std::uint32_t row);
     void readRow(std::uint32_t row, std::vector<Pixel>& pixels);
@@ -102,6 +103,18 @@ void HdrReader::readResolution(const std::string& line)
     header_.xBackwards = (byY ? second : first)[0] == '-';
     header_.rows = static_cast<std::uint32_t>(rows);
     header_.columns = static_cast<std::uint32_t>(columns);
+}
+
+// Refuses a file that is too short for its rows, before memory is allocated. A row has a pixel, and where it is longer than a run two runs
+// or more.
+void HdrReader::checkLength()
+{
+    const std::streamoff begin = stream_.tellg(), least = header_.columns > 256 ? 12 : 4;
+    const std::streamoff rows = (stream_.seekg(0, std::ios::end).tellg() - begin) / least;
+    if (rows < header_.rows) {
+        refuse("ends in row " + std::to_string(rows) + " of " + std::to_string(header_.rows));
+    }
+    stream_.seekg(begin);
 }
 
 int HdrReader::readByte(std::uint32_t row)
@@ -182,6 +195,7 @@ RadianceMap HdrReader::read()
         readVariable(line);
     }
     readResolution(readLine());
+    checkLength();
     RadianceMap map;
     map.width = header_.rowsAreY ? header_.columns : header_.rows;
     map.height = header_.rowsAreY ? header_.rows : header_.columns;

@@ -1,7 +1,7 @@
 #include "host/image/radiance_map.hpp"
 
 #include "host/error.hpp"
-#include "host/image/exr.hpp"
+#include "host/image/exr_header.hpp"
 #include "host/image/hdr.hpp"
 #include "host/input_file.hpp"
 
@@ -47,7 +47,7 @@ std::array<std::string, 3> chooseChannels(const std::string& path, const Imf::Ch
 
 RadianceMap readExrMap(const std::string& path)
 {
-    Imf::Header::setMaxImageSize(kMaxExrSide, kMaxExrSide);
+    checkExrHeader(path);
     Imf::InputFile file(path.c_str());
     const Imath::Box2i display = file.header().displayWindow(), data = file.header().dataWindow();
     const std::int64_t width = std::int64_t{display.max.x} - display.min.x + 1, height = std::int64_t{display.max.y} - display.min.y + 1;

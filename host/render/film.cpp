@@ -14,7 +14,8 @@ namespace {
 // Different Population Variances are Involved", 1947.
 std::uint32_t jointBlocks(double varianceA, std::uint32_t blocksA, double varianceB, std::uint32_t blocksB)
 {
-    const double least = std::min(blocksA, blocksB) - 1.0, most = blocksA + blocksB - 2.0;
+    constexpr double kMost = 4294967294.0;  // a file may claim any number of blocks
+    const double least = std::min(blocksA, blocksB) - 1.0, most = std::min(static_cast<double>(blocksA) + blocksB - 2.0, kMost);
     const double spread = varianceA * varianceA / (blocksA - 1.0) + varianceB * varianceB / (blocksB - 1.0);
     const double sum = varianceA + varianceB, degrees = sum * sum / spread;
     return 1 + static_cast<std::uint32_t>(std::lround(std::isfinite(degrees) ? std::clamp(degrees, least, most) : least));

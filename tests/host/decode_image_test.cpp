@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace glim::test {
@@ -125,18 +126,28 @@ TEST(DecodeImageTest, BrokenImagesAreRefusedWithASentence)
     const Bytes webp = encodeWebp(64, 64, rgba);
     Bytes flipped = png;
     flipped[flipped.size() / 2] ^= 0x10U;
+    Bytes largeJpeg = jpeg;  // 16384x16384 pixels
+    const Bytes frame{0xff, 0xc0};
+    const auto size = std::search(largeJpeg.begin(), largeJpeg.end(), frame.begin(), frame.end()) + 5;
+    std::copy_n(Bytes{64, 0, 64, 0}.begin(), 4, size);
+    PngFormat withText;
+    withText.chunks = {{"tEXt", {'a', 0, 'b'}}};
+    Bytes longText = encodePng(64, 64, noise, withText);
+    longText[33] = 0x74;  // the first byte of that chunk's length
     Bytes animated{'R', 'I', 'F', 'F', 22, 0, 0, 0, 'W', 'E', 'B', 'P', 'V', 'P', '8', 'X', 10, 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 3, 0, 0};
     const std::pair<Bytes, std::string> cases[] = {
         {{}, "is of an unknown kind (it is empty); expected PNG, JPEG or WebP"},
         {{'G', 'I', 'F', '8'}, "is of an unknown kind (it begins with 47 49 46 38)"},
         {{0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb}, "is a KTX2 texture"},
-        {truncated(png, 100), "is a broken PNG (it ends early)"},
-        {truncated(png, png.size() - 20), "is a broken PNG (it ends early)"},
+        {truncated(png, 100), "is a broken PNG (it ends within a chunk)"},
+        {truncated(png, png.size() - 20), "is a broken PNG (it ends within a chunk)"},
+        {longText, "is a broken PNG (it ends within a chunk)"},
         {flipped, "is a broken PNG ("},
         {withPngSize(png, 0, 64), "is a broken PNG ("},
         {withPngSize(png, 16385, 64), "is a PNG of 16385x64 pixels; expected 1 to 16384 in each direction"},
         {withPngSize(png, 0x7fffffff, 0x7fffffff), "pixels; expected 1 to 16384"},
         {withPngSize(png, 16384, 16384), "is a broken PNG (it ends early)"},
+        {largeJpeg, "is a broken JPEG (it ends early)"},
         {truncated(jpeg, 100), "is a broken JPEG ("},
         {truncated(progressive, 100), "is a broken JPEG ("},
         {truncated(jpeg, jpeg.size() - 10), "is a broken JPEG ("},

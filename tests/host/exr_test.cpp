@@ -268,6 +268,26 @@ TEST(Exr, RefusesDamagedWindowsBeforeTheyCostMemory)
     }
 }
 
+// OpenEXR would allocate what the attribute's size says, or read the next attribute at a wrong place and allocate what it says.
+TEST(Exr, RefusesAttributesThatLieAboutTheirSize)
+{
+    using namespace std::string_literals;
+    const ScratchFolder folder;
+    writeExr(folder / "good.exr", makeImage());
+    const std::string good = bytesOfFile(folder / "good.exr");
+    const auto expectRefused = [&](const std::string& name, std::size_t byte, char value, const std::string& expected) {
+        std::string bytes = good;
+        bytes[bytes.find(name) + name.size() + byte] = value;
+        writeText(folder / "bad.exr", bytes);
+        expectRefusal<InputError>([&] { readExr(folder / "bad.exr"); }, expected);
+        expectRefusal<InputError>([&] { readExrHeader(folder / "bad.exr"); }, expected);
+        expectRefusal<InputError>([&] { readRadianceMap(folder / "bad.exr"); }, expected);
+    };
+    expectRefused("glim:scene\0string\0"s, 3, 0x7f, "its attribute \"glim:scene\" has 2130706439 bytes, expected at most the ");
+    expectRefused("dataWindow\0box2i\0"s, 0, 15, "its attribute \"dataWindow\" has 15 bytes, which make no \"box2i\"");
+    expectRefused("channels\0chlist\0"s, 0, 20, "its attribute \"channels\" has 20 bytes, which make no \"chlist\"");
+}
+
 TEST(Exr, RefusesAFileWhoseWriterStoppedEarly)
 {
     const ScratchFolder folder;

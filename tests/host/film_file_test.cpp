@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace glim {
 namespace {
@@ -67,6 +68,17 @@ TEST(FilmFile, ReadsBackEveryBitOfSplats)
     EXPECT_TRUE(sameBits(back.pixels, film.pixels));
     ASSERT_EQ(back.splats.size(), film.splats.size());
     EXPECT_EQ(std::memcmp(back.splats.data(), film.splats.data(), film.splats.size() * sizeof(SplatMoments)), 0);
+}
+
+// Asserts (tools/test --sanitize) see whether the sum of the blocks overflows.
+TEST(FilmFile, ReadsBackAnyNumberOfBlocks)
+{
+    Film film = filmWithSplats();
+    film.pixels[0].blocks = film.splats[0].blocks = std::numeric_limits<std::uint32_t>::max();
+    film.splats[1].blocks = std::numeric_limits<std::uint32_t>::max();
+    const ScratchFolder folder;
+    writeFilm(folder / "a.exr", film);
+    EXPECT_EQ(digestOf(readFilm(folder / "a.exr")), digestOf(film));
 }
 
 TEST(FilmFile, ShowsCameraAndLightPathsTogether)

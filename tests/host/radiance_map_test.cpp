@@ -95,6 +95,7 @@ TEST_F(RadianceMapTest, SaysWhatIsWrong)
     EXPECT_NE(refusal("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n").find("32-bit_rle_xyze"), std::string::npos);
     EXPECT_NE(refusal(kHeader + "-Y 99999 +X 99999\n").find("99999"), std::string::npos);
     EXPECT_NE(refusal(kHeader + "-Y 2 +X 1\n" + pixel(1, 2, 3, 4)).find("ends in row 1 of 2"), std::string::npos);
+    EXPECT_NE(refusal(kHeader + "-Y 8192 +X 16384\n" + std::string(8191 * 12, 'x')).find("ends in row 8191 of 8192"), std::string::npos);
     EXPECT_NE(refusal(kHeader + "-Y 1 +X 2\n" + pixel(1, 1, 1, 9)).find("a run of 9 pixels at pixel 0"), std::string::npos);
     EXPECT_NE(refusal("#?RADIANCE\n").find("no end of its header"), std::string::npos);
     EXPECT_THROW(readRadianceMap(folder_.path()), InputError);

@@ -1,0 +1,129 @@
+// Mutants of films. Damaged pixels fail at the film's digest, so half of the mutants are films that glim has read, changed and written.
+#include "host/error.hpp"
+#include "host/render/film_file.hpp"
+#include "tests/fuzz/mutate_exr.hpp"
+
+#include <unistd.h>
+
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace fs = std::filesystem;
+
+namespace glim::fuzz {
+namespace {
+
+// Nothing if the film cannot be read or written.
+class FilmMutator {
+public:
+    FilmMutator()
+        : file_("/dev/shm/glim-mutant-" + std::to_string(getpid()) + ".exr")
+    {}
+    ~FilmMutator()
+    {
+        std::error_code ignored;
+        fs::remove(file_, ignored);
+    }
+    FilmMutator(const FilmMutator&) = delete;
+    FilmMutator& operator=(const FilmMutator&) = delete;
+
+    std::string mutate(const std::string& bytes, Choice& choice) const
+    {
+        std::ofstream(file_, std::ios::binary) << bytes;
+        try {
+            StoredFilm stored = readStoredFilm(file_);
+            change(stored.film, choice);
+            if (stored.checkpoint && choice.oneIn(2)) {
+                change(*stored.checkpoint, choice);
+            }
+            if (stored.checkpoint) {
+                writeFilm(file_, stored.film, *stored.checkpoint);
+            } else {
+                writeFilm(file_, stored.film);
+            }
+        } catch (const InputError&) {
+            return "";
+        }
+        std::ifstream stream(file_, std::ios::binary);
+        return {std::istreambuf_iterator<char>(stream), {}};
+    }
+
+private:
+    template <class Moments>
+    static void change(std::vector<Moments>& moments, Choice& choice)
+    {
+        const std::uint32_t words[] = {0, 1, 0x7f800000, 0xff800000, 0x7fc00000, 0xffffffff, 0x7f7fffff, 1U << 31U, 1024};
+        if (!moments.empty()) {
+            auto* first = reinterpret_cast<unsigned char*>(&choice.of(moments));
+            std::memcpy(first + 4 * choice.below(sizeof(Moments) / 4), &choice.of(words), 4);
+        }
+    }
+
+    static void change(std::uint32_t& number, Choice& choice)
+    {
+        const std::uint32_t numbers[] = {0, 1, number + 1, number - 1, 64, 1024, 1U << 31U, 0xffffffffU};
+        number = choice.of(numbers);
+    }
+
+    static void change(Film& film, Choice& choice)
+    {
+        switch (choice.below(8)) {
+        case 0: change(film.pixels, choice); break;
+        case 1: change(film.splats, choice); break;
+        case 2: change(choice.of(film.sampleRanges).first, choice); break;
+        case 3: change(choice.of(film.sampleRanges).second, choice); break;
+        case 4: film.sampleRanges.emplace_back(choice.below(4096), choice.below(8192)); break;
+        case 5: film.complete = !film.complete; break;
+        case 6: mutateBytes(choice.oneIn(2) ? film.arithmetic : film.device, 8); break;
+        default: film.splats.assign(choice.oneIn(2) ? film.pixels.size() : 0, SplatMoments{});
+        }
+    }
+
+    static void change(Checkpoint& checkpoint, Choice& choice)
+    {
+        switch (choice.below(8)) {
+        case 0: change(checkpoint.page, choice); break;
+        case 1: change(checkpoint.film.pixels, choice); break;
+        case 2: change(checkpoint.sample, choice); break;
+        case 3: change(checkpoint.pixelsAhead, choice); break;
+        case 4: change(checkpoint.lightSample, choice); break;
+        case 5: checkpoint.pageSplats.assign(choice.oneIn(2) ? checkpoint.film.pixels.size() : 0, SplatMoments{}); break;
+        case 6: checkpoint.page.assign(choice.oneIn(2) ? checkpoint.film.pixels.size() : 0, PixelMoments{}); break;
+        default: changeAdaptive(checkpoint, choice);
+        }
+    }
+
+    static void changeAdaptive(Checkpoint& checkpoint, Choice& choice)
+    {
+        AdaptiveProgress adaptive = checkpoint.adaptive.value_or(AdaptiveProgress{});
+        change(choice.oneIn(2) ? adaptive.roundEnd : adaptive.chosenBegin, choice);
+        checkpoint.adaptive = adaptive;
+        for (auto* counts : {&checkpoint.chosen, &checkpoint.blocksLeft}) {
+            counts->resize(checkpoint.film.pixels.size());
+            change(*counts, choice);
+        }
+        checkpoint.common.resize(checkpoint.film.pixels.size());
+    }
+
+    fs::path file_;
+};
+
+}  // namespace
+}  // namespace glim::fuzz
+
+using namespace glim::fuzz;
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t room, unsigned seed)
+{
+    static const FilmMutator films;
+    Choice choice(seed);
+    std::string bytes(reinterpret_cast<const char*>(data), size);
+    std::string mutant = choice.oneIn(2) ? films.mutate(bytes, choice) : "";
+    if (mutant.empty()) {
+        mutateExr(bytes, choice);
+        mutant = std::move(bytes);
+    }
+    return handOver(mutant, data, size, room);
+}

@@ -1,0 +1,231 @@
+// Writes the first inputs of each target: write_seeds FOLDER. Fuzzing grows the corpus from these and from scenes/.
+#include "host/image/exr.hpp"
+#include "host/render/film_file.hpp"
+#include "shaders/shared/limits.h"
+#include "tests/support/compress_geometry.hpp"
+#include "tests/support/encode_images.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace glim::test {
+namespace {
+
+template <class Range>
+void writeFile(const fs::path& path, const Range& bytes)
+{
+    fs::create_directories(path.parent_path());
+    std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
+}
+
+Bytes smallPng() { return encodePng(2, 2, {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255}); }
+
+std::size_t addTexture(GltfBuilder& builder, const Bytes& image, const char* type)
+{
+    builder.append("images", {{"bufferView", builder.addAov(image)}, {"mimeType", type}});
+    builder.append("samplers", {{"wrapS", 33071}, {"magFilter", 9728}});
+    return builder.append("textures", {{"source", builder.document["images"].size() - 1}, {"sampler", 0}});
+}
+
+// Every attribute, a normal map, an alpha mask and most extensions of materials.
+GltfBuilder textured()
+{
+    GltfBuilder builder;
+    const json slot = {{"index", addTexture(builder, smallPng(), "image/png")},
+                       {"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0}}, {"rotation", 1}, {"scale", {2, 1}}}}}}};
+    const json webp = {{"index", addTexture(builder, encodeWebp(1, 1, {9, 8, 7, 6}), "image/webp")}};
+    const json jpeg = {{"index", addTexture(builder, encodeJpeg(2, 1, {9, 8}, JpegColors::Grey), "image/jpeg")}};
+    builder.append("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", slot}, {"metallicRoughnessTexture", jpeg}}},
+                                 {"normalTexture", slot},
+                                 {"emissiveTexture", webp},
+                                 {"emissiveFactor", {1, 0.5, 0}},
+                                 {"alphaMode", "MASK"},
+                                 {"extensions",
+                                  {{"KHR_materials_clearcoat", {{"clearcoatFactor", 1}, {"clearcoatNormalTexture", slot}}},
+                                   {"KHR_materials_transmission", {{"transmissionFactor", 0.5}}},
+                                   {"KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationDistance", 1}}},
+                                   {"KHR_materials_sheen", {{"sheenColorFactor", {1, 1, 0}}}},
+                                   {"KHR_materials_anisotropy", {{"anisotropyStrength", 0.5}}},
+                                   {"KHR_materials_iridescence", {{"iridescenceFactor", 1}}},
+                                   {"KHR_materials_dispersion", {{"dispersion", 1}}},
+                                   {"KHR_materials_specular", {{"specularFactor", 0.5}}}}}});
+    json primitive = addPlain(builder, makeHills(3));
+    primitive["material"] = 0;
+    builder.addNode({{"mesh", builder.addMesh(primitive)}, {"scale", {1, -2, 3}}});
+    builder.addNode({{"extras", {{"sphere", {{"radius", 1.5}, {"material", 0}}}}}});
+    return builder;
+}
+
+GltfBuilder lit()
+{
+    GltfBuilder builder;
+    builder.document["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.5}}}, {"range", 5}},
+        {{"type", "point"}, {"color", {1, 0, 0}}, {"intensity", 40}}};
+    builder.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}, {"aspectRatio", 2}}}});
+    builder.addNode({{"mesh", builder.addTriangleMesh()}, {"camera", 0}});
+    builder.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"rotation", {0, 0.6, 0, 0.8}}});
+    builder.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}});
+    // A cube of one image.
+    builder.append("images", {{"bufferView", builder.addAov(smallPng())}, {"mimeType", "image/png"}});
+    const json faces = {0, 0, 0, 0, 0, 0};
+    builder.document["extensions"]["EXT_lights_image_based"]["lights"] = {
+        {{"specularImages", json::array({faces})}, {"specularImageSize", 2}, {"intensity", 2}, {"rotation", {0, 0, 0, 1}}}};
+    builder.document["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 0;
+    return builder;
+}
+
+GltfBuilder instanced()
+{
+    GltfBuilder builder;
+    const std::size_t mesh = builder.addTriangleMesh();
+    const std::size_t sparse = builder.addVec3({0, 0, 0, 1, 0, 0, 0, 1, 0});
+    builder.document["accessors"][sparse]["sparse"] = {{"count", 1},
+                                                       {"indices", {{"bufferView", builder.addAov({2})}, {"componentType", kUnsignedByte}}},
+                                                       {"values", {{"bufferView", builder.addAov(toBytes<float>({0, 1, 0.5F}))}}}};
+    builder.addNode({{"mesh", mesh},
+                     {"extensions",
+                      {{"EXT_mesh_gpu_instancing",
+                        {{"attributes", {{"TRANSLATION", sparse}, {"SCALE", builder.addVec3({1, 1, 1, 2, 2, 2, 3, 1, 1})}}}}}}}});
+    builder.append("nodes", {{"mesh", mesh}, {"extensions", {{"KHR_node_visibility", {{"visible", true}}}}}});
+    builder.addNode({{"children", {builder.document["nodes"].size() - 1}}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1}}});
+    return builder;
+}
+
+GltfBuilder posed()
+{
+    GltfBuilder builder;
+    const std::size_t positions = builder.addVec3({0, 0, 0, 1, 0, 0, 0, 1, 0});
+    const std::size_t joints = builder.addAccessor({0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, kUnsignedByte, "VEC4", 3);
+    const std::size_t weights = builder.addAccessor(toBytes<float>({0.5F, 0.5F, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}), kFloat, "VEC4", 3);
+    const std::size_t mesh = builder.addMesh({{"attributes", {{"POSITION", positions}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}}},
+                                              {"targets", {{{"POSITION", positions}}}}});
+    builder.addNode({{"mesh", mesh}, {"skin", 0}, {"weights", {0.5}}});
+    builder.addNode({{"translation", {1, 2, 3}}});
+    builder.append("skins", {{"joints", {0, 1}}});
+    const std::size_t times = builder.addAccessor(toBytes<float>({0, 1}), kFloat, "SCALAR", 2);
+    const std::size_t turns = builder.addAccessor(toBytes<float>({0, 0, 0, 1, 0, 1, 0, 0}), kFloat, "VEC4", 2);
+    const json pointer = {{"KHR_animation_pointer", {{"pointer", "/nodes/0/weights/0"}}}};
+    builder.append("animations", {{"samplers", {{{"input", times}, {"output", turns}}, {{"input", times}, {"output", times}}}},
+                                  {"channels",
+                                   {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "rotation"}}}},
+                                    {{"sampler", 1}, {"target", {{"path", "pointer"}, {"extensions", pointer}}}}}}});
+    return builder;
+}
+
+void writeScenes(const fs::path& folder)
+{
+    const std::pair<const char*, GltfBuilder> scenes[] = {
+        {"textured", textured()},
+        {"lit", lit()},
+        {"instanced", instanced()},
+        {"posed", posed()},
+        {"draco", build(makeHills(3), draco({}))},
+        {"draco_sequential", build(makeHills(3), draco({false, 8, true}))},
+        {"meshopt", build(makeHills(3), meshopt("TRIANGLES"))},
+        {"meshopt_indices", build(makeHills(3), meshopt("INDICES"))},
+    };
+    for (const auto& [name, builder] : scenes) {
+        writeFile(folder / (std::string(name) + ".glb"), builder.toGlb());
+        writeFile(folder / (std::string(name) + ".gltf"), builder.toGltf());
+    }
+}
+
+void writeImages(const fs::path& folder)
+{
+    const Bytes rows(16, 77), wide(64, 200);
+    writeFile(folder / "rgb.png", smallPng());
+    writeFile(folder / "grey.png", encodePng(4, 4, rows, {PNG_COLOR_TYPE_GRAY}));
+    writeFile(folder / "bits.png", encodePng(8, 16, rows, {PNG_COLOR_TYPE_GRAY, 1}));
+    writeFile(folder / "wide.png", encodePng(4, 2, wide, {PNG_COLOR_TYPE_RGB_ALPHA, 16, true}));
+    PngFormat palette{PNG_COLOR_TYPE_PALETTE, 4, true};
+    palette.palette = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {9, 9, 9}, {9, 9, 9}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+    palette.transparentEntries = {128};
+    writeFile(folder / "palette.png", encodePng(8, 4, Bytes(16, 0x12), palette));
+    PngFormat clear{PNG_COLOR_TYPE_RGB};
+    clear.transparentColor = {77, 77, 77};
+    clear.chunks = {{"tEXt", {'a', 0, 'b'}}, {"gAMA", {0, 0, 177, 143}}};
+    writeFile(folder / "clear.png", encodePng(2, 2, Bytes(12, 77), clear));
+    writeFile(folder / "grey.jpg", encodeJpeg(4, 4, rows, JpegColors::Grey));
+    writeFile(folder / "rgb.jpg", encodeJpeg(17, 9, Bytes(17 * 9 * 3, 50), JpegColors::Rgb));
+    writeFile(folder / "progressive.jpg", encodeJpeg(17, 9, Bytes(17 * 9 * 3, 50), JpegColors::Rgb, true));
+    writeFile(folder / "cmyk.jpg", encodeJpeg(2, 2, rows, JpegColors::Cmyk));
+    writeFile(folder / "alpha.webp", encodeWebp(4, 4, wide));
+    const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\n\n";
+    writeFile(folder / "plain.hdr", header + "-Y 2 +X 2\n" + std::string("abcdefghijklmnop"));
+    writeFile(folder / "old.hdr", header + "+X 2 -Y 4\nabcd\1\1\1\3" + "abcd\1\1\1\3");
+    writeFile(folder / "new.hdr", header + "-Y 1 +X 8\n\2\2" + std::string("\0\b", 2) + "\x88x\x88y\x88z\x88\x80");
+    Image exr;
+    exr.width = 3;
+    exr.height = 2;
+    exr.attributes = {{"word", "x"}, {"number", 1.5}};
+    for (const char* name : {"R", "G", "B"}) {
+        exr.channels[name] = {0, 1, 2, 3, -4, 5};
+    }
+    exr.counts["count.X"] = {0, 1, 2, 3, 4, 5};
+    writeExr(folder / "rgb.exr", exr);
+}
+
+Film smallFilm(std::uint32_t begin, std::uint32_t end, bool splats)
+{
+    Film film;
+    film.width = 3;
+    film.height = 2;
+    film.sampleRanges = {{begin, end}};
+    film.identity = {"3f2a", "bounces=64 sampler=sobol", 1, "kernels"};
+    film.arithmetic = "abc";
+    film.device = "device";
+    film.sceneFile = "box.gltf";
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        PixelMoments pixel{};
+        pixel.count = end - begin;
+        pixel.blocks = 3;
+        pixel.mean = glm::vec3(0.1F * static_cast<float>(i), 1.0F, 2.0F);
+        pixel.squares = glm::vec3(0.3F);
+        pixel.alpha = 1.0F;
+        film.pixels.push_back(pixel);
+    }
+    if (splats) {
+        film.splats.assign(6, {end - begin, 2, glm::vec3(0.5F), glm::vec3(0.25F), 0.0F});
+    }
+    return film;
+}
+
+void writeFilms(const fs::path& folder)
+{
+    fs::create_directories(folder);
+    writeFilm(folder / "plain.exr", smallFilm(0, kPageSamples, false));
+    writeFilm(folder / "splats.exr", smallFilm(0, kPageSamples, true));
+    Film apart = smallFilm(0, 64, false);
+    apart.sampleRanges.emplace_back(128, 256);
+    writeFilm(folder / "apart.exr", apart);
+    Checkpoint checkpoint = checkpointOf(smallFilm(0, kPageSamples, true)).value();
+    writeFilm(folder / "whole_page.exr", filmOf(checkpoint), checkpoint);
+    checkpoint.page = checkpoint.film.pixels;
+    checkpoint.pageSplats = checkpoint.film.splats;
+    writeFilm(folder / "page.exr", filmOf(checkpoint), checkpoint);
+    checkpoint.adaptive = AdaptiveProgress{64, 128, 64, 128, true};
+    checkpoint.common = checkpoint.page;
+    checkpoint.chosen.assign(6, 4);
+    checkpoint.blocksLeft.assign(6, 2);
+    writeFilm(folder / "adaptive.exr", filmOf(checkpoint), checkpoint);
+}
+
+}  // namespace
+}  // namespace glim::test
+
+int main(int argc, char** argv)
+{
+    if (argc != 2) {
+        std::cerr << "usage: write_seeds FOLDER\n";
+        return 2;
+    }
+    const fs::path folder = argv[1];
+    glim::test::writeScenes(folder / "load");
+    glim::test::writeImages(folder / "image");
+    glim::test::writeFilms(folder / "film");
+}
