@@ -1,0 +1,96 @@
+"""The command line of tools/farm."""
+
+import argparse
+import os
+import re
+
+PAGE = 256  # samples: a render is the left fold of such pages (host/render/merge_films.hpp)
+
+DESCRIPTION = """Renders one picture, or the frames of an animation, by many workers. The result has the bits of one render on one machine,
+whatever dies meanwhile: the same command goes on. Options that are not listed here are those of `glim render`, such as --size 1920x1080."""
+EPILOG = """\
+Parts of the picture wait in OUT.exr.farm, which is removed when the picture is there. tools/farm.md says more.
+Exit codes: 0 done, 1 bad input or a worker's failure, 2 usage, 3 device, 130 or 143 stopped by SIGINT or SIGTERM."""
+
+SPLITS = "the farm hands out samples itself; expected --spp"
+STOPS = "the farm renders a number of samples that is known before; expected --spp"
+KEEPS = "the farm keeps what is rendered in OUT.exr.farm, and the same command goes on"
+ONE = "the farm renders one picture or --frames"
+ONLY_FILMS = "the farm writes films and their PNGs only"
+REFUSED = {
+    "--samples": SPLITS, "--time": STOPS, "--target-rmse": STOPS, "--target-relmse": STOPS, "--adaptive": STOPS,
+    "--checkpoint": KEEPS, "--resume": KEEPS, "--on-checkpoint": KEEPS, "--turntable": ONE, "--cameras": ONE,
+    "--stats": ONLY_FILMS, "--rates": ONLY_FILMS, "--ids": ONLY_FILMS, "--suspects": ONLY_FILMS, "--replay": ONLY_FILMS,
+    "--progress": "the farm has a progress of its own",
+}
+
+
+def whole(text):
+    if not re.fullmatch("[0-9]+", text) or not 1 <= int(text) <= 1 << 31:
+        raise argparse.ArgumentTypeError("cannot use '%s', expected a whole number from 1 to 2147483648" % text)
+    return int(text)
+
+
+def frames(text):
+    match = re.fullmatch("([0-9]{1,9}):([0-9]{1,9})", text)
+    if not match or int(match[1]) > int(match[2]):
+        raise argparse.ArgumentTypeError("cannot use '%s', expected A:B, the first and the last frame" % text)
+    return int(match[1]), int(match[2])
+
+
+def make_parser():
+    parser = argparse.ArgumentParser(prog="tools/farm", usage="tools/farm SCENE -o OUT.exr --spp N [OPTIONS]", description=DESCRIPTION,
+                                     epilog=EPILOG, allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter)
+    add = parser.add_argument
+    add("-o", "--output", metavar="OUT.exr", required=True, help="the film; with --frames a name with ####")
+    add("--png", metavar="P.png", help="also write an sRGB picture")
+    add("--exposure", metavar="EV", default="0", help="exposure of the PNG in stops [0]")
+    add("--spp", metavar="N", type=whole, required=True, help="samples per pixel")
+    add("--frames", metavar="A:B", type=frames, help="frames A to B of the animation, one task each")
+    add("--fps", metavar="F", help="frames per second [24]")
+    where = parser.add_mutually_exclusive_group()
+    where.add_argument("--local", metavar="N", type=whole, default=1, help="worker processes on this machine [1]")
+    where.add_argument("--scheduler", metavar="ADDRESS", help="use the workers of this scheduler of Dask, as in tls://head:8786")
+    for name, what in (("ca", "authority"), ("cert", "own certificate"), ("key", "own key")):
+        add("--tls-" + name, metavar="FILE.pem", help="TLS: the %s" % what)
+    add("--insecure", action="store_true", help="allow connections to other machines without TLS")
+    add("--any-device", action="store_true", help="mix devices that round differently: equal up to rounding")
+    return parser
+
+
+def parse_arguments(arguments):
+    """Returns the options, among them `scene`, and `others`: those of `glim render`, as they were given. Exits with code 2."""
+    parser = make_parser()
+    if not arguments or arguments[0] in ("-h", "--help"):
+        parser.parse_args(arguments)
+    if arguments[0].startswith("-"):
+        parser.error("the first argument is %s, expected the scene" % arguments[0])
+    options, others = parser.parse_known_args(arguments[1:])
+    options.scene, options.others = os.path.abspath(arguments[0]), others
+    refuse_others(parser, others)
+    refuse_combinations(parser, options)
+    options.output = os.path.realpath(options.output)
+    options.png = options.png and os.path.abspath(options.png)
+    return options
+
+
+def refuse_others(parser, others):
+    for other, value in zip(others, [*others[1:], ""]):
+        name, _, joined = other.partition("=")
+        if name in REFUSED:
+            parser.error("%s: %s" % (name, REFUSED[name]))
+        if name == "--camera" and "all" in (joined, value):
+            parser.error("--camera all: %s" % ONE)
+
+
+def refuse_combinations(parser, options):
+    for option, path, end in (("-o", options.output, ".exr"), ("--png", options.png, ".png")):
+        if path is not None and not path.lower().endswith(end):
+            parser.error("%s %s: expected a name that ends in %s" % (option, path, end))
+        if path is not None and ("#" in os.path.basename(path)) != (options.frames is not None):
+            parser.error("%s %s: expected --frames and a name with ####, or neither" % (option, path))
+    if options.fps is not None and options.frames is None:
+        parser.error("--fps: expected --frames as well")
+    tls = [options.tls_ca, options.tls_cert, options.tls_key]
+    if any(tls) and (not all(tls) or options.scheduler is None):
+        parser.error("TLS takes --tls-ca, --tls-cert, --tls-key and --scheduler together")

@@ -1,0 +1,46 @@
+"""glim on the driver's machine."""
+
+import os
+import subprocess
+import tempfile
+
+from render_farm.errors import FarmError
+from render_farm.exr_header import FilmHeader, read_header
+from render_farm.glim_child import last_sentence, render_film, run_glim
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
+
+
+def find_glim():
+    """The program to run, which tools/glim builds if need be."""
+    named = os.environ.get("GLIM_BINARY")
+    if not named and subprocess.run([os.path.join(ROOT, "tools", "glim"), "--version"], stdout=subprocess.DEVNULL, check=False).returncode:
+        raise FarmError("glim could not be built")
+    return os.path.abspath(named) if named else os.path.join(ROOT, "build", "glim")
+
+
+class Glim:
+    def __init__(self, program, folder):
+        """folder: where its relative names begin."""
+        self.program, self.folder = program, folder
+
+    def version(self):
+        try:
+            return subprocess.run([self.program, "--version"], stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
+        except (OSError, subprocess.CalledProcessError) as error:
+            raise FarmError("%s: is not glim: %s" % (self.program, error)) from error
+
+    def run(self, arguments):
+        """What glim says on stderr. Refuses (FarmError) with glim's sentence and exit code."""
+        code, said = run_glim(self.program, arguments, self.folder)
+        if code != 0:
+            raise FarmError(last_sentence(code, said), code if code > 0 else 1)
+        return said
+
+    def sample(self, arguments):
+        """The header of the picture's first sample: what it is a picture of, known before any worker is asked."""
+        with tempfile.TemporaryDirectory(prefix="glim-farm-") as scratch:
+            film, error, code = render_film(self.program, ["render", *arguments, "--samples", "0:1"], self.folder, scratch)
+        if film is None:
+            raise FarmError(error, code)
+        return FilmHeader(read_header(film, "the first sample"), "the first sample")

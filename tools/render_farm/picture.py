@@ -1,0 +1,221 @@
+"""One picture of many pages."""
+
+import os
+import re
+
+from render_farm.arguments import PAGE
+from render_farm.errors import FarmError
+from render_farm.exr_header import FilmHeader, read_film_header, read_header
+from render_farm.job_folder import sync_folder, write_whole
+
+BATCH = 16  # pages that are folded at a time: each fold writes the film anew
+EXACT = "bit-identical to a single run"
+
+
+class OtherClass(FarmError):
+    """A film of other kernels or of a device that rounds differently: not wrong, but not of this picture's bits."""
+
+
+def end_of(samples):
+    """The end of samples as in "0:256 256:512"; they must begin at 0 and leave nothing out."""
+    end = 0
+    for text in samples.split():
+        begin, next_end = map(int, text.split(":"))
+        if begin != end:
+            raise FarmError("its samples are %s, expected all from 0" % samples)
+        end = next_end
+    return end
+
+
+def check_identity(header, identity, name):
+    """Refuses (FarmError) a film of another picture, in what `identity` names. `name`: whose film it is."""
+    for what, expected in identity.items():
+        found = header.identity()[what]
+        if found != expected:
+            kind = OtherClass if what == "kernels" else FarmError
+            raise kind("%s: its %s is %s, expected %s" % (name, what, found, expected))
+
+
+class Picture:
+    """Its pages are parts 0 to count - 1. They are folded in order by `glim merge`, many at a time. Memory and disk hold those alone that
+    are not folded yet."""
+
+    part = "page"
+
+    def __init__(self, options, glim, folder, say):
+        self.options, self.glim, self.folder, self.say = options, glim, folder, say
+        self.count = -(-options.spp // PAGE)
+        self.parts = range(self.count)
+        self.folded = 0  # pages in folder.film
+        self.files = {}  # of pages that are not folded, by page
+        self.arithmetic = None  # of the picture's class; known from the first page on
+        self.finished = False
+
+    def open(self):
+        """Finds out what is asked and what is done. Returns the digests of the pages that are rendered already."""
+        self.header = self.glim.sample([self.options.scene, *self.options.others])
+        self.pixels = self.header.pixels
+        self.identity = self.header.identity()
+        if self.options.any_device:
+            del self.identity["kernels"]
+        self.folder.hold({"samples": self.options.spp, **self.header.identity()},
+                         {"plan": {"pages": self.count, "samplesPerPage": PAGE}, "glim": self.glim.version(),
+                          "command": [self.options.scene, *self.options.others]})
+        if self.is_there():
+            self.say("%s is whole and was kept" % self.options.output)
+            self.finished = True
+            return {}
+        done = self.read_folded()
+        done.update(self.read_pages())
+        return done
+
+    def is_there(self):
+        """Whether the picture is whole already: a run may have been killed before it could remove the folder."""
+        try:
+            header = read_film_header(self.options.output)
+            check_identity(header, self.identity, self.options.output)
+            whole = header.complete and end_of(header.samples) == self.options.spp
+        except (FarmError, OSError):
+            return False
+        return whole and self.merge([self.options.output], self.folder.film, self.png()) is not None
+
+    def read_folded(self):
+        if not os.path.exists(self.folder.film):
+            return {}
+        try:
+            header = read_film_header(self.folder.film)
+            check_identity(header, self.identity, self.folder.film)
+            end = end_of(header.samples)
+            if not header.complete or end > self.options.spp or (end % PAGE and end != self.options.spp):
+                raise FarmError("%s: its samples are %s" % (self.folder.film, header.samples))
+        except (FarmError, OSError) as error:
+            self.drop_file(self.folder.film, error)
+            return {}
+        self.folded, self.arithmetic = -(-end // PAGE), header.arithmetic
+        return {page: header.digest for page in range(self.folded)}
+
+    def read_pages(self):
+        done = {}
+        for name in sorted(os.listdir(self.folder.pages)):
+            path = os.path.join(self.folder.pages, name)
+            match = re.fullmatch(r"([0-9]{5,})\.([0-9a-f]{64})\.exr", name)
+            if not match or int(match[1]) < self.folded or int(match[1]) in done:
+                os.unlink(path)
+                continue
+            try:
+                with open(path, "rb") as file:
+                    header = self.check(int(match[1]), file.read(), path)
+                if header.digest != match[2]:
+                    raise FarmError("%s: its digest is %s" % (path, header.digest))
+            except (FarmError, OSError) as error:
+                self.drop_file(path, error)
+                continue
+            self.arithmetic = self.arithmetic or header.arithmetic
+            done[int(match[1])] = header.digest
+            self.files[int(match[1])] = path
+        return done
+
+    def drop_file(self, path, error):
+        self.say("%s; it is rendered again" % error)
+        os.unlink(path)
+
+    def range(self, page):
+        return "%d:%d" % (page * PAGE, min((page + 1) * PAGE, self.options.spp))
+
+    def arguments(self, page):
+        return ["render", self.options.scene, *self.options.others, "--samples", self.range(page)]
+
+    def samples(self, page):
+        """Of one pixel."""
+        return min(PAGE, self.options.spp - page * PAGE)
+
+    def check(self, page, film, name):
+        """The header of a page that may be taken. Refuses (FarmError) another's, and (OtherClass) one of another class."""
+        header = FilmHeader(read_header(film, name), name)
+        check_identity(header, self.identity, name)
+        if header.samples != self.range(page) or not header.complete:
+            raise FarmError("%s: its samples are %s, expected %s" % (name, header.samples, self.range(page)))
+        if not self.options.any_device and self.arithmetic not in (None, header.arithmetic):
+            raise OtherClass("%s: its device rounds differently: its arithmetic is %s, expected %s"
+                             % (name, header.arithmetic, self.arithmetic))
+        return header
+
+    def take(self, page, header, film):
+        """Keeps a page that was checked."""
+        path = os.path.join(self.folder.pages, "%05d.%s.exr" % (page, header.digest))
+        write_whole(path, film)
+        self.arithmetic = self.arithmetic or header.arithmetic
+        self.files[page] = path
+
+    def holds(self, page):
+        return page < self.folded or page in self.files
+
+    def suspend(self, page):
+        """Takes back a page that two hosts render differently, unless it is folded: then it may turn out right."""
+        if page in self.files:
+            os.unlink(self.files.pop(page))
+
+    def drop(self, pages):
+        """Forgets pages whose bits are in doubt. Returns all that is to be rendered again for that: if one is folded, all folded ones."""
+        again = set(pages)
+        if any(page < self.folded for page in pages):
+            self.say("pages in doubt are folded already: the picture begins anew")
+            again |= set(range(self.folded))
+            os.unlink(self.folder.film)
+            self.folded = 0
+        for page in pages & self.files.keys():
+            os.unlink(self.files.pop(page))
+        return again
+
+    def fold(self):
+        """Folds what can be folded; the last fold makes the picture. Returns pages that turned out damaged."""
+        run = self.folded
+        while run in self.files and run - self.folded < BATCH:
+            run += 1
+        if run < self.count and run - self.folded < BATCH:
+            return set()
+        batch = [self.files[page] for page in range(self.folded, run)]
+        before = [self.folder.film] if self.folded else []
+        said = self.merge(before + batch, self.folder.film, self.png() if run == self.count else [])
+        if said is None:
+            return self.drop_damaged(before, batch)
+        if EXACT not in said and not self.options.any_device:
+            raise FarmError("the pages to %s do not fold exactly: %s" % (self.range(run - 1), said))
+        for page in range(self.folded, run):
+            os.unlink(self.files.pop(page))
+        self.folded = run
+        if run == self.count:
+            os.replace(self.folder.film, self.options.output)
+            sync_folder(os.path.dirname(self.options.output))
+            self.finished = True
+        return set()
+
+    def merge(self, films, output, more=()):
+        """What glim said of a merge, or None if one of the films is damaged or of another picture."""
+        try:
+            return self.glim.run(["merge", *films, "-o", output, *more])
+        except FarmError as error:
+            if not any(film in str(error) for film in films):
+                raise
+            return None
+
+    def drop_damaged(self, before, batch):
+        damaged, trial = set(), os.path.join(self.folder.path, "trial.exr")
+        for page, film in zip(range(self.folded, self.folded + len(batch)), batch):
+            if self.merge([film], trial) is None:
+                self.drop_file(film, FarmError("%s: is damaged" % film))
+                del self.files[page]
+                damaged.add(page)
+        if before and self.merge(before, trial) is None:
+            self.say("%s: is damaged" % before[0])
+            damaged |= self.drop({0})
+        if not damaged:
+            raise FarmError("glim cannot merge the pages in %s" % self.folder.pages)
+        return damaged
+
+    def png(self):
+        return ["--png", self.options.png, "--exposure", self.options.exposure] if self.options.png else []
+
+    def close(self):
+        self.folder.remove()
+        return "%s: %s, %d samples per pixel" % (self.options.output, self.header.size, self.options.spp)

@@ -1,0 +1,37 @@
+"""Which connections may carry commands: Dask runs whatever it is sent."""
+
+import ipaddress
+import socket
+import urllib.parse
+
+from render_farm.errors import FarmError
+
+
+def is_loopback(host):
+    try:
+        return all(ipaddress.ip_address(found[4][0]).is_loopback for found in socket.getaddrinfo(host, None))
+    except OSError:
+        return False
+
+
+def is_private(address):
+    """Whether nobody on a network can listen or send commands there."""
+    parts = urllib.parse.urlsplit(address)
+    return parts.scheme == "tls" or is_loopback(parts.hostname)
+
+
+def check_address(options, say):
+    """Refuses (FarmError, usage) connections to other machines without TLS, unless that is allowed; then it says so."""
+    address = options.scheduler
+    parts = urllib.parse.urlsplit(address)
+    if parts.scheme not in ("tcp", "tls") or not parts.hostname:
+        raise FarmError("--scheduler %s: expected an address such as tls://head:8786" % address, 2)
+    if parts.scheme == "tls" and not options.tls_ca:
+        raise FarmError("--scheduler %s: expected --tls-ca, --tls-cert and --tls-key" % address, 2)
+    if parts.scheme == "tcp" and options.tls_ca:
+        raise FarmError("--scheduler %s: expected tls://, since there are certificates" % address, 2)
+    if not is_private(address):
+        if not options.insecure:
+            raise FarmError("--scheduler %s: anyone on the network could run programs on this machine and on the workers; "
+                            "expected tls:// or --insecure" % address, 2)
+        say("WARNING: without TLS anyone on the network can run programs on this machine and on the workers")
