@@ -20,6 +20,7 @@ class Animation:
     """Its parts are numbers of frames. Each is a film of its own, which gets its name when it is whole."""
 
     part = "frame"
+    has_class = True  # the kernels of the driver's glim; devices may differ from frame to frame
 
     def __init__(self, options, glim, folder, say):
         self.options, self.glim, self.folder, self.say = options, glim, folder, say
@@ -28,9 +29,14 @@ class Animation:
         self.count = len(self.parts)
         self.there = set()
 
+        self.finished = False
+
     @property
-    def finished(self):
+    def whole(self):
         return len(self.there) == self.count
+
+    def publish(self):
+        self.finished = True  # each frame has its name already
 
     def open(self):
         """Finds out what is asked and what is done. Returns the digests of the frames that are rendered already."""
@@ -49,6 +55,7 @@ class Animation:
             if os.path.exists(path) and self.is_there(frame, path):
                 done[frame] = read_film_header(path).digest
         self.there = set(done)
+        self.finished = self.whole
         if done:
             self.say("%d of %d frames are whole and were kept" % (len(done), self.count))
         return done
@@ -73,7 +80,7 @@ class Animation:
         return [self.options.scene, *self.options.others, "--frames", "%d:%d" % (frame, frame), *fps]
 
     def arguments(self, frame):
-        return ["render", *self.picture(frame), "--spp", str(self.options.spp)]
+        return [*self.picture(frame), "--spp", str(self.options.spp)]
 
     def samples(self, _frame):
         """Of one pixel."""
@@ -106,6 +113,9 @@ class Animation:
         """Takes back a frame that two hosts render differently."""
         self.drop({frame})
 
+    def settle(self):
+        pass
+
     def drop(self, frames):
         """Removes frames whose bits are in doubt. Returns them."""
         for frame in frames & self.there:
@@ -114,7 +124,7 @@ class Animation:
         return set(frames)
 
     def fold(self):
-        return set()
+        return set(), set()
 
     def close(self):
         self.folder.remove()

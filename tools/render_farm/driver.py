@@ -15,14 +15,23 @@ from render_farm.picture import OtherClass
 from render_farm.security import is_private
 
 TICK_SECONDS = 0.5
+PATIENCE_SECONDS = 60  # with workers of which none can be used, until another comes
 cloudpickle.register_pickle_by_value(glim_child)  # workers need not have this code
 
 
 def make_task(program, arguments, folder):
     """A function without arguments, which goes to a worker by value."""
     def task():
-        return glim_child.render_film(program, arguments, folder, distributed.get_worker().local_directory)
+        worker = distributed.get_worker()
+        if not hasattr(worker, "glim_servers"):
+            worker.glim_servers = glim_child.Servers()
+        return glim_child.serve_film(worker.glim_servers, program, arguments, folder, worker.local_directory)
     return task
+
+
+def end_server(dask_worker):
+    if hasattr(dask_worker, "glim_servers"):
+        dask_worker.glim_servers.end()
 
 
 class Driver:
@@ -34,10 +43,12 @@ class Driver:
         self.ledger = Ledger(set(picture.parts) - done.keys(), done)
         self.workers = set()
         self.barred = set()
+        self.others = set()  # of those that are barred: of another class
         self.busy = set()
         self.tasks = {}  # that follow a loan, by part and worker
         self.events = asyncio.Queue()
         self.folding = None
+        self.useless_since = None
 
     async def run(self):
         """Returns when the picture is whole. Refuses (FarmError) what keeps it from that."""
@@ -48,11 +59,14 @@ class Driver:
                 self.show()
                 await self.take_films()
                 await self.fold()
+                if self.picture.whole and not self.ledger.votes:
+                    self.picture.publish()
         finally:
             for task in self.tasks.values():
                 task.cancel()
             if self.folding:
                 await asyncio.wait([self.folding])
+        await self.client.run(end_server, on_error="ignore")
 
     async def look_at_workers(self):
         try:
@@ -70,18 +84,36 @@ class Driver:
             if not self.options.insecure and not is_private(worker):
                 self.bar(worker, "%s: it is reached without TLS" % worker)
         self.workers = now
-        if self.options.scheduler is None and now and not self.usable():
-            raise FarmError("no worker is left that can be used")
+        self.refuse_if_useless()
 
     def lost(self):
         return FarmError("the scheduler is gone; the same command goes on from %s" % self.picture.folder.path)
 
+    def refuse_if_useless(self):
+        """Refuses (FarmError) to wait for ever while workers are there and none can be used. Others may still come, but for local ones."""
+        if self.usable() or not self.workers:
+            self.useless_since = None
+            return
+        now = time.monotonic()
+        if self.useless_since is None:
+            self.useless_since = now
+        is_all = self.options.scheduler is None and len(self.workers) >= self.options.local
+        if is_all or now - self.useless_since >= PATIENCE_SECONDS:
+            raise FarmError("no worker is left that can be used; the same command goes on from %s" % self.picture.folder.path)
+
     def usable(self):
-        return {worker for worker in self.workers - self.barred if self.ledger.is_trusted(get_address_host(worker))}
+        return {worker for worker in self.workers - self.barred if self.ledger.may_work(get_address_host(worker))}
 
     def bar(self, worker, why):
+        if worker not in self.barred:
+            self.progress.say("%s; the worker is not used" % why)
         self.barred.add(worker)
-        self.progress.say("%s; the worker is not used" % why)
+
+    def reconsider_class(self):
+        """What decided the class was false, so that the workers of other classes may be of the right one."""
+        if not self.picture.has_class:
+            self.barred -= self.others
+            self.others = set()
 
     def hand_out(self):
         usable = self.usable()
@@ -100,7 +132,7 @@ class Driver:
             await distributed.wait(future)
             self.busy.discard(worker)
             self.events.put_nowait(None)
-            film, error, _code = await future
+            film, error = await future
         except Exception as caught:  # whatever Dask throws is a failure of this loan
             film, error = None, "%s: %s" % (type(caught).__name__, caught)
             self.busy.discard(worker)
@@ -127,6 +159,8 @@ class Driver:
             header = self.picture.check(part, film, "worker %s" % worker)
         except OtherClass as other:
             self.ledger.give_back(part, worker)
+            if worker not in self.barred:
+                self.others.add(worker)
             return self.bar(worker, other)
         except FarmError as wrong:
             return self.fail(part, worker, wrong)
@@ -140,9 +174,8 @@ class Driver:
         if receipt.kind in ("first", "settled") and not self.picture.holds(part):
             try:
                 self.picture.take(part, header, film)
-            except FarmError as damaged:
-                self.ledger.forget({part})
-                return self.fail(part, worker, damaged)
+            except FarmError:
+                return self.spoil(part)
             self.progress.add(self.picture.samples(part) * self.picture.pixels)
         return None
 
@@ -155,15 +188,29 @@ class Driver:
         for loser in sorted(receipt.distrusted):
             self.progress.say("host %s is not trusted any more: what it rendered of %s has wrong bits" % (loser, self.name(part)))
         self.ledger.forget(self.picture.drop(receipt.dropped) - ({part} if receipt.kind == "settled" else set()))
+        self.reconsider_class()
+        if not self.ledger.votes:
+            self.picture.settle()
 
     def fail(self, part, worker, why):
         if self.ledger.fail(part, worker):
             raise FarmError("%s failed too often, at last on worker %s: %s" % (self.name(part), worker, why))
         self.progress.say("%s failed on worker %s: %s" % (self.name(part), worker, why))
 
+    def spoil(self, part):
+        worker, too_many = self.ledger.spoil(part)
+        if worker is not None:
+            self.progress.say("%s came damaged from worker %s" % (self.name(part), worker))
+        if too_many:
+            self.bar(worker, "worker %s: too much of what it sends is damaged" % worker)
+
     async def fold(self):
         if self.folding and self.folding.done():
-            self.ledger.forget(self.folding.result())
+            damaged, again = self.folding.result()
+            self.ledger.forget(again)
+            for part in sorted(damaged):
+                self.spoil(part)
+            self.reconsider_class()
             self.folding = None
         if self.folding is None and not self.picture.finished:
             self.folding = asyncio.create_task(asyncio.to_thread(self.picture.fold))

@@ -6,7 +6,7 @@ import tempfile
 
 from render_farm.errors import FarmError
 from render_farm.exr_header import FilmHeader, read_header
-from render_farm.glim_child import last_sentence, render_film, run_glim
+from render_farm.glim_child import last_sentence, run_glim
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
 
@@ -39,8 +39,9 @@ class Glim:
 
     def sample(self, arguments):
         """The header of the picture's first sample: what it is a picture of, known before any worker is asked."""
-        with tempfile.TemporaryDirectory(prefix="glim-farm-") as scratch:
-            film, error, code = render_film(self.program, ["render", *arguments, "--samples", "0:1"], self.folder, scratch)
-        if film is None:
-            raise FarmError(error, code)
-        return FilmHeader(read_header(film, "the first sample"), "the first sample")
+        with tempfile.TemporaryDirectory(prefix="glim-farm-") as own:
+            name = "film.#.exr" if "--frames" in arguments else "film.exr"
+            self.run(["render", *arguments, "--samples", "0:1", "--confine", "--progress", "none", "-o", os.path.join(own, name)])
+            (name,) = [name for name in os.listdir(own) if name.endswith(".exr")]
+            with open(os.path.join(own, name), "rb") as file:
+                return FilmHeader(read_header(file.read(), "the first sample"), "the first sample")

@@ -5,6 +5,7 @@ import statistics
 
 MOST_FAILURES = 3  # of one part
 MOST_DEATHS = 10  # of workers that had one part; workers also die by preemption, which is no fault of the part
+MOST_DAMAGED = 3  # films of one worker
 EARLIER = "an earlier run"  # the host of parts that were done before
 
 
@@ -25,8 +26,11 @@ class Ledger:
         self.waiting = set(waiting)
         self.done = dict(done or {})
         self.hosts = {part: EARLIER for part in self.done}
+        self.makers = {}  # workers, of parts that are done
         self.loans = collections.defaultdict(dict)  # of a part: since when, by worker
-        self.failures = collections.defaultdict(collections.Counter)  # of a part, by worker
+        self.failures = collections.Counter()  # of a part
+        self.damaged = collections.Counter()  # films of a worker
+        self.avoided = collections.defaultdict(set)  # of a part: workers that failed at it
         self.deaths = collections.Counter()
         self.votes = {}  # of a disputed part: hosts by digest
         self.distrusted = set()
@@ -35,14 +39,15 @@ class Ledger:
     def is_trusted(self, host):
         return host not in self.distrusted
 
-    def is_suspended(self, host):
-        return any(host in hosts for votes in self.votes.values() for hosts in votes.values())
+    def may_work(self, host):
+        """Whether it is trusted, and no party to a dispute."""
+        return self.is_trusted(host) and not any(host in hosts for votes in self.votes.values() for hosts in votes.values())
 
     def lend(self, worker, host, workers, now):
         """The part that an idle worker is to render, or None. workers: all that could render one."""
-        if not self.is_trusted(host) or self.is_suspended(host):
+        if not self.may_work(host):
             return None
-        fit = (part for part in self.waiting if self.failures[part].keys() >= workers or worker not in self.failures[part])
+        fit = (part for part in self.waiting if self.avoided[part] >= workers or worker not in self.avoided[part])
         part = min(fit, default=None)
         if part is None and not self.waiting:
             part = self.straggler(worker, now)
@@ -77,8 +82,20 @@ class Ledger:
     def fail(self, part, worker):
         """Counts a failure. Returns whether the part has failed too often."""
         self.give_back(part, worker)
-        self.failures[part][worker] += 1
-        return part not in self.done and self.failures[part].total() >= MOST_FAILURES
+        self.failures[part] += 1
+        self.avoided[part].add(worker)
+        return part not in self.done and self.failures[part] >= MOST_FAILURES
+
+    def spoil(self, part):
+        """Lets a part wait again whose film turned out damaged, which is no failure of the part. Returns the worker that made the film, if it
+        was one of this run, and whether that worker has made too many of the kind."""
+        worker = self.makers.get(part)
+        self.forget({part})
+        if worker is None:
+            return None, False
+        self.avoided[part].add(worker)
+        self.damaged[worker] += 1
+        return worker, self.damaged[worker] >= MOST_DAMAGED
 
     def receive(self, part, worker, host, digest, now):
         """Takes a valid film of this digest. Returns its Receipt."""
@@ -86,9 +103,9 @@ class Ledger:
         if since is not None:
             self.seconds.append(now - since)
         if part in self.votes:
-            return self.vote(part, host, digest)
+            return self.vote(part, worker, host, digest)
         if part not in self.done:
-            self.finish(part, host, digest)
+            self.finish(part, worker, host, digest)
             return Receipt("first")
         if self.done[part] == digest:
             return Receipt("again")
@@ -98,7 +115,7 @@ class Ledger:
         self.forget({part})
         return Receipt("disputed")
 
-    def vote(self, part, host, digest):
+    def vote(self, part, worker, host, digest):
         votes = self.votes[part]
         votes.setdefault(digest, set()).add(host)
         if len(votes[digest]) < 2:
@@ -106,12 +123,12 @@ class Ledger:
         del self.votes[part]
         losers = set().union(*(hosts for other, hosts in votes.items() if other != digest)) - votes[digest]
         dropped = self.distrust(losers)
-        self.finish(part, host, digest)
+        self.finish(part, worker, host, digest)
         return Receipt("settled", losers, dropped)
 
-    def finish(self, part, host, digest):
+    def finish(self, part, worker, host, digest):
         self.waiting.discard(part)
-        self.done[part], self.hosts[part] = digest, host
+        self.done[part], self.hosts[part], self.makers[part] = digest, host, worker
 
     def distrust(self, hosts):
         self.distrusted |= hosts
@@ -124,5 +141,6 @@ class Ledger:
         for part in parts:
             self.done.pop(part, None)
             self.hosts.pop(part, None)
+            self.makers.pop(part, None)
             if not self.loans[part]:
                 self.waiting.add(part)

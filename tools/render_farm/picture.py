@@ -48,6 +48,7 @@ class Picture:
         self.parts = range(self.count)
         self.folded = 0  # pages in folder.film
         self.files = {}  # of pages that are not folded, by page
+        self.doubts = os.path.join(folder.path, "doubts")  # is there while a page is in dispute that is folded
         self.arithmetic = None  # of the picture's class; known from the first page on
         self.finished = False
 
@@ -65,6 +66,7 @@ class Picture:
             self.say("%s is whole and was kept" % self.options.output)
             self.finished = True
             return {}
+        self.drop_doubtful()
         done = self.read_folded()
         done.update(self.read_pages())
         return done
@@ -78,6 +80,12 @@ class Picture:
         except (FarmError, OSError):
             return False
         return whole and self.merge([self.options.output], self.folder.film, self.png()) is not None
+
+    def drop_doubtful(self):
+        """Two hosts differed on a page that was folded, and the run ended before it knew which was right."""
+        if os.path.exists(self.doubts) and os.path.exists(self.folder.film):
+            self.drop_file(self.folder.film, FarmError("%s: hosts differed on a page of it" % self.folder.film))
+        self.settle()
 
     def read_folded(self):
         if not os.path.exists(self.folder.film):
@@ -123,7 +131,7 @@ class Picture:
         return "%d:%d" % (page * PAGE, min((page + 1) * PAGE, self.options.spp))
 
     def arguments(self, page):
-        return ["render", self.options.scene, *self.options.others, "--samples", self.range(page)]
+        return [self.options.scene, *self.options.others, "--samples", self.range(page)]
 
     def samples(self, page):
         """Of one pixel."""
@@ -151,9 +159,16 @@ class Picture:
         return page < self.folded or page in self.files
 
     def suspend(self, page):
-        """Takes back a page that two hosts render differently, unless it is folded: then it may turn out right."""
+        """Takes back a page that two hosts render differently. If it is folded, it may turn out right."""
         if page in self.files:
             os.unlink(self.files.pop(page))
+        elif page < self.folded:
+            write_whole(self.doubts, b"")
+
+    def settle(self):
+        """No page is in dispute any more."""
+        if os.path.exists(self.doubts):
+            os.unlink(self.doubts)
 
     def drop(self, pages):
         """Forgets pages whose bits are in doubt. Returns all that is to be rendered again for that: if one is folded, all folded ones."""
@@ -165,15 +180,21 @@ class Picture:
             self.folded = 0
         for page in pages & self.files.keys():
             os.unlink(self.files.pop(page))
+        self.forget_class()
         return again
 
+    def forget_class(self):
+        """Without a page, the next one decides the class again."""
+        if not self.folded and not self.files:
+            self.arithmetic = None
+
     def fold(self):
-        """Folds what can be folded; the last fold makes the picture. Returns pages that turned out damaged."""
+        """Folds what can be folded; the last fold makes the picture. Returns pages that turned out damaged, and others to be rendered again."""
         run = self.folded
         while run in self.files and run - self.folded < BATCH:
             run += 1
-        if run < self.count and run - self.folded < BATCH:
-            return set()
+        if run == self.folded or (run < self.count and run - self.folded < BATCH):
+            return set(), set()
         batch = [self.files[page] for page in range(self.folded, run)]
         before = [self.folder.film] if self.folded else []
         said = self.merge(before + batch, self.folder.film, self.png() if run == self.count else [])
@@ -184,11 +205,7 @@ class Picture:
         for page in range(self.folded, run):
             os.unlink(self.files.pop(page))
         self.folded = run
-        if run == self.count:
-            os.replace(self.folder.film, self.options.output)
-            sync_folder(os.path.dirname(self.options.output))
-            self.finished = True
-        return set()
+        return set(), set()
 
     def merge(self, films, output, more=()):
         """What glim said of a merge, or None if one of the films is damaged or of another picture."""
@@ -200,18 +217,33 @@ class Picture:
             return None
 
     def drop_damaged(self, before, batch):
-        damaged, trial = set(), os.path.join(self.folder.path, "trial.exr")
+        damaged, again, trial = set(), set(), os.path.join(self.folder.path, "trial.exr")
         for page, film in zip(range(self.folded, self.folded + len(batch)), batch):
             if self.merge([film], trial) is None:
                 self.drop_file(film, FarmError("%s: is damaged" % film))
                 del self.files[page]
                 damaged.add(page)
+        self.forget_class()
         if before and self.merge(before, trial) is None:
             self.say("%s: is damaged" % before[0])
-            damaged |= self.drop({0})
-        if not damaged:
+            again = self.drop({0})
+        if not damaged | again:
             raise FarmError("glim cannot merge the pages in %s" % self.folder.pages)
-        return damaged
+        return damaged, again
+
+    @property
+    def has_class(self):
+        return self.arithmetic is not None
+
+    @property
+    def whole(self):
+        return self.folded == self.count
+
+    def publish(self):
+        """Gives the whole picture its name."""
+        os.replace(self.folder.film, self.options.output)
+        sync_folder(os.path.dirname(self.options.output))
+        self.finished = True
 
     def png(self):
         return ["--png", self.options.png, "--exposure", self.options.exposure] if self.options.png else []
