@@ -5,15 +5,18 @@ lists this test as skipped (exit code 77). The argument is glim's program."""
 import base64
 import json
 import os
+import signal
 import struct
 import subprocess
 import unittest
 from unittest import mock
 
-from farm_fixture import FARM, GLIM, SCENE, FarmCase, main
-from render_farm.arguments import parse_arguments
+from farm_fixture import FARM, GLIM, SCENE, SIZE, FarmCase, main, wait_until
+from render_farm.arguments import PAGE, parse_arguments
 from render_farm.errors import FarmError
 from render_farm.exr_header import read_film_header, read_header
+from render_farm.film_error import FilmError, is_rung, next_rung, read_film_error
+from render_farm.glim import Glim
 from render_farm.ledger import Ledger
 
 
@@ -102,7 +105,9 @@ class LedgerTest(unittest.TestCase):
 class CommandTest(unittest.TestCase):
     def test_refusals(self):
         good = ["a.glb", "-o", "a.exr", "--spp", "4"]
-        for more, words in ((["--target-rmse", "1%"], "number of samples that is known"), (["--samples=0:4"], "hands out samples itself"),
+        for more, words in ((["--time", "1"], "whole pages of samples"), (["--target-rmse", "1"], "as in 1%"),
+                            (["--target-relmse", "0"], "a number above 0"), (["--frames", "1:2", "--target-rmse", "1%", "-o", "a.#.exr"], "one picture"), 
+                            (["--samples=0:4"], "hands out samples itself"),
                             (["--resume"], "goes on"), (["--camera", "all"], "one picture"), (["--spp", "0"], "whole number"),
                             (["--frames", "1:2"], "####"), (["--fps", "3"], "--frames"), (["--frames", "2:1"], "A:B"),
                             (["--local", "2", "--scheduler", "tcp://h:1"], "not allowed"), (["--tls-ca", "a"], "together"),
@@ -138,6 +143,52 @@ class FilesTest(FarmCase):
         self.assertEqual(read_film_header(film).size, "8x4")
         with open(film, "rb") as file, self.assertRaisesRegex(FarmError, "a.exr: is damaged"):
             read_header(file.read(500), "a.exr")
+
+
+class TargetTest(FarmCase):
+    TARGET = .025
+
+    def error_of(self, spp):
+        film = self.path("%d.exr" % spp)
+        subprocess.run([GLIM, "render", SCENE, "-o", film, "--samples", "0:%d" % spp, "--size", SIZE, "--stats", self.path("stats.json")],
+                       check=True, stdout=subprocess.DEVNULL)
+        with open(self.path("stats.json"), encoding="utf-8") as file:
+            estimate = json.load(file)["estimate"]
+        error = read_film_error(Glim(GLIM, self.folder), film)
+        self.assertEqual((error.relmse, error.rmse), (estimate["relmse"], estimate["rmseOfMean"]))
+        return error.rmse
+
+    def test_stops_at_the_same_sample(self):
+        """With one worker, or with three after a run that was killed. It is the first rung at which the target is reached."""
+        target = ["--target-rmse", "%g%%" % (100 * self.TARGET)]
+        said = self.finish(self.start_farm(*target, spp=100000))
+        self.assertIn("the target is reached", said)
+        spp = int(read_film_header(self.out).samples.partition(":")[2])
+        self.assertGreater(spp, PAGE)
+        self.expect_whole(spp)
+        rungs = [pages * PAGE for pages in range(1, spp // PAGE + 1) if is_rung(pages)]
+        self.assertEqual([self.error_of(rung) <= self.TARGET for rung in rungs], [False] * (len(rungs) - 1) + [True])
+        os.unlink(self.out)
+        farm = self.start_farm(*target, glim=self.program('if page.number > 1:\n    wait_for(FOLDER, "never")'), spp=100000)
+        wait_until(lambda: os.path.exists(self.out + ".farm/film.exr"), "a page is folded")
+        os.kill(farm.pid, signal.SIGKILL)
+        farm.wait()
+        self.assertIn("its target is", self.finish(self.start_farm("--target-rmse", "9%", spp=100000), 1))
+        self.finish(self.start_farm(*target, "--local", "3", spp=100000))
+        self.expect_whole(spp)
+        self.assertIn("is whole and was kept", self.finish(self.start_farm(*target, spp=100000)))
+
+    def test_spp_is_the_bound(self):
+        said = self.finish(self.start_farm("--target-relmse", "1e-9", spp=300))
+        self.assertIn("the target is not reached", said)
+        self.expect_whole(300)
+
+    def test_rungs(self):
+        self.assertEqual([pages for pages in range(30) if is_rung(pages)], [*range(1, 12), 13, 15, 17, 19, 21, 24, 27])
+        self.assertEqual([next_rung(pages) for pages in (0, 1, 10, 11, 12, 13)], [1, 2, 11, 13, 13, 15])
+        error = FilmError(.01, .2)
+        self.assertEqual(error.times_to(FilmError(.02, None)), .5)
+        self.assertAlmostEqual(error.times_to(FilmError(.02, .1)), 4)
 
 
 class FramesTest(FarmCase):

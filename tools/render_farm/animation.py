@@ -20,6 +20,7 @@ class Animation:
     """Its parts are numbers of frames. Each is a film of its own, which gets its name when it is whole."""
 
     part = "frame"
+    error = None  # of the picture so far: frames have their own
     has_class = True  # the kernels of the driver's glim; devices may differ from frame to frame
 
     def __init__(self, options, glim, folder, say):
@@ -30,6 +31,10 @@ class Animation:
         self.there = set()
 
         self.finished = False
+
+    @property
+    def expected(self):
+        return self.count
 
     @property
     def whole(self):

@@ -4,6 +4,8 @@ import argparse
 import os
 import re
 
+from render_farm.film_error import FilmError
+
 PAGE = 256  # samples: a render is the left fold of such pages (host/render/merge_films.hpp)
 
 DESCRIPTION = """Renders one picture, or the frames of an animation, by many workers. The result has the bits of one render on one machine,
@@ -13,12 +15,12 @@ Parts of the picture wait in OUT.exr.farm, which is removed when the picture is 
 Exit codes: 0 done, 1 bad input or a worker's failure, 2 usage, 3 device, 130 or 143 stopped by SIGINT or SIGTERM."""
 
 SPLITS = "the farm hands out samples itself; expected --spp"
-STOPS = "the farm renders a number of samples that is known before; expected --spp"
+STOPS = "the farm hands out whole pages of samples; expected --spp, and --target-rmse or --target-relmse to stop before"
 KEEPS = "the farm keeps what is rendered in OUT.exr.farm, and the same command goes on"
 ONE = "the farm renders one picture or --frames"
 ONLY_FILMS = "the farm writes films and their PNGs only"
 REFUSED = {
-    "--samples": SPLITS, "--time": STOPS, "--target-rmse": STOPS, "--target-relmse": STOPS, "--adaptive": STOPS,
+    "--samples": SPLITS, "--time": STOPS, "--adaptive": STOPS,
     "--checkpoint": KEEPS, "--resume": KEEPS, "--on-checkpoint": KEEPS, "--turntable": ONE, "--cameras": ONE,
     "--stats": ONLY_FILMS, "--rates": ONLY_FILMS, "--ids": ONLY_FILMS, "--suspects": ONLY_FILMS, "--replay": ONLY_FILMS,
     "--progress": "the farm has a progress of its own",
@@ -38,6 +40,22 @@ def frames(text):
     return int(match[1]), int(match[2])
 
 
+def number(text, most, what):
+    value = float(text) if re.fullmatch(r"[0-9]*\.?[0-9]+(e-?[0-9]{1,2})?", text) else 0.0
+    if not 0 < value <= most:
+        raise argparse.ArgumentTypeError("cannot use '%s', expected %s" % (text, what))
+    return value
+
+
+def share(text):
+    what = "more than 0 and at most 1000 percent of the mean, as in 1%"
+    return number(text[:-1] if text.endswith("%") else "", 1000, what) / 100
+
+
+def error(text):
+    return number(text, 1e6, "a number above 0")
+
+
 def make_parser():
     parser = argparse.ArgumentParser(prog="tools/farm", usage="tools/farm SCENE -o OUT.exr --spp N [OPTIONS]", description=DESCRIPTION,
                                      epilog=EPILOG, allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -45,7 +63,9 @@ def make_parser():
     add("-o", "--output", metavar="OUT.exr", required=True, help="the film; with --frames a name with ####")
     add("--png", metavar="P.png", help="also write an sRGB picture")
     add("--exposure", metavar="EV", default="0", help="exposure of the PNG in stops [0]")
-    add("--spp", metavar="N", type=whole, required=True, help="samples per pixel")
+    add("--spp", metavar="N", type=whole, required=True, help="samples per pixel, at most with a target")
+    add("--target-rmse", metavar="P%", type=share, help="stop when the estimated RMSE is this share of the mean, as in 1%%")
+    add("--target-relmse", metavar="E", type=error, help="stop when the estimated relMSE is at most this")
     add("--frames", metavar="A:B", type=frames, help="frames A to B of the animation, one task each")
     add("--fps", metavar="F", help="frames per second [24]")
     where = parser.add_mutually_exclusive_group()
@@ -67,6 +87,8 @@ def parse_arguments(arguments):
         parser.error("the first argument is %s, expected the scene" % arguments[0])
     options, others = parser.parse_known_args(arguments[1:])
     options.scene, options.others = os.path.abspath(arguments[0]), others
+    has_target = options.target_rmse or options.target_relmse
+    options.target = FilmError(options.target_relmse, options.target_rmse) if has_target else None
     refuse_others(parser, others)
     refuse_combinations(parser, options)
     options.output = os.path.realpath(options.output)
@@ -89,6 +111,8 @@ def refuse_combinations(parser, options):
             parser.error("%s %s: expected a name that ends in %s" % (option, path, end))
         if path is not None and ("#" in os.path.basename(path)) != (options.frames is not None):
             parser.error("%s %s: expected --frames and a name with ####, or neither" % (option, path))
+    if options.frames and options.target:
+        parser.error("--target-rmse and --target-relmse: expected one picture, not --frames")
     if options.fps is not None and options.frames is None:
         parser.error("--fps: expected --frames as well")
     tls = [options.tls_ca, options.tls_cert, options.tls_key]

@@ -220,9 +220,10 @@ class Driver:
         return "%s %d" % (self.picture.part, part)
 
     def show(self):
-        left = sum(self.picture.samples(part) for part in self.picture.parts if part not in self.ledger.done)
-        self.progress.show(self.picture.part + "s", len(self.ledger.done), len(self.picture.parts), len(self.usable()), len(self.workers),
-                           left * self.picture.pixels)
+        parts = self.picture.parts[:self.picture.expected]
+        left = sum(self.picture.samples(part) for part in parts if part not in self.ledger.done)
+        self.progress.show("%d of %d %ss" % (len(self.ledger.done), len(parts), self.picture.part), (len(self.usable()), len(self.workers)),
+                           left * self.picture.pixels, self.picture.error, self.client.dashboard_link)
 
 
 async def until_signal(work):

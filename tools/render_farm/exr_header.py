@@ -47,6 +47,7 @@ class FilmHeader:
     """What a film of glim says of itself. Refuses (FarmError, which uses `name`) other pictures."""
 
     def __init__(self, attributes, name):
+        self.name = name
         try:
             left, top, right, bottom = attributes["dataWindow"]
             self.size = "%dx%d" % (right - left + 1, bottom - top + 1)

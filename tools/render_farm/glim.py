@@ -26,9 +26,16 @@ class Glim:
 
     def version(self):
         try:
-            return subprocess.run([self.program, "--version"], stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
-        except (OSError, subprocess.CalledProcessError) as error:
+            return self.read(["--version"]).strip()
+        except OSError as error:
             raise FarmError("%s: is not glim: %s" % (self.program, error)) from error
+
+    def read(self, arguments):
+        """What glim prints. Refuses (FarmError) with glim's sentence."""
+        done = subprocess.run([self.program, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=self.folder, check=False)
+        if done.returncode != 0:
+            raise FarmError(last_sentence(done.returncode, done.stderr))
+        return done.stdout
 
     def run(self, arguments):
         """What glim says on stderr. Refuses (FarmError) with glim's sentence and exit code."""

@@ -1,11 +1,13 @@
 """One picture of many pages."""
 
+import math
 import os
 import re
 
 from render_farm.arguments import PAGE
 from render_farm.errors import FarmError
 from render_farm.exr_header import FilmHeader, read_film_header, read_header
+from render_farm.film_error import is_rung, next_rung, read_film_error
 from render_farm.job_folder import sync_folder, write_whole
 
 BATCH = 16  # pages that are folded at a time: each fold writes the film anew
@@ -44,13 +46,17 @@ class Picture:
 
     def __init__(self, options, glim, folder, say):
         self.options, self.glim, self.folder, self.say = options, glim, folder, say
-        self.count = -(-options.spp // PAGE)
-        self.parts = range(self.count)
+        self.all = self.count = -(-options.spp // PAGE)  # count: of the pages needed, fewer once a target is reached
         self.folded = 0  # pages in folder.film
         self.files = {}  # of pages that are not folded, by page
         self.doubts = os.path.join(folder.path, "doubts")  # is there while a page is in dispute that is folded
         self.arithmetic = None  # of the picture's class; known from the first page on
+        self.error = None  # of the folded pages
         self.finished = False
+
+    @property
+    def parts(self):
+        return range(self.count)
 
     def open(self):
         """Finds out what is asked and what is done. Returns the digests of the pages that are rendered already."""
@@ -59,7 +65,8 @@ class Picture:
         self.identity = self.header.identity()
         if self.options.any_device:
             del self.identity["kernels"]
-        self.folder.hold({"samples": self.options.spp, **self.header.identity()},
+        target = self.options.target
+        self.folder.hold({"samples": self.options.spp, "target": target and vars(target), **self.header.identity()},
                          {"plan": {"pages": self.count, "samplesPerPage": PAGE}, "glim": self.glim.version(),
                           "command": [self.options.scene, *self.options.others]})
         if self.is_there():
@@ -68,6 +75,7 @@ class Picture:
             return {}
         self.drop_doubtful()
         done = self.read_folded()
+        self.judge()
         done.update(self.read_pages())
         return done
 
@@ -76,10 +84,39 @@ class Picture:
         try:
             header = read_film_header(self.options.output)
             check_identity(header, self.identity, self.options.output)
-            whole = header.complete and end_of(header.samples) == self.options.spp
+            pages = self.pages_of(header)
+            whole = self.is_end(pages, self.options.output)
         except (FarmError, OSError):
             return False
-        return whole and self.merge([self.options.output], self.folder.film, self.png()) is not None
+        if not whole or self.merge([self.options.output], self.folder.film, self.png()) is None:
+            self.error = None
+            return False
+        self.count = pages
+        return True
+
+    def pages_of(self, header):
+        """Refuses (FarmError) a film that ends within a page."""
+        end = end_of(header.samples)
+        if not header.complete or end > self.options.spp or (end % PAGE and end != self.options.spp):
+            raise FarmError("%s: its samples are %s" % (header.name, header.samples))
+        return -(-end // PAGE)
+
+    def is_end(self, pages, film):
+        """Whether the film of so many pages is the picture. Finds out its error."""
+        self.error = read_film_error(self.glim, film)
+        reached = self.options.target and is_rung(pages) and self.error and self.error.times_to(self.options.target) <= 1
+        return bool(reached) or pages == self.all
+
+    @property
+    def expected(self):
+        """How many pages it will have, as far as is known."""
+        if self.options.target is None or self.error is None:
+            return self.count
+        return min(self.count, math.ceil(self.folded * max(1, self.error.times_to(self.options.target))))
+
+    def judge(self):
+        if self.folded and self.is_end(self.folded, self.folder.film):
+            self.count = self.folded
 
     def drop_doubtful(self):
         """Two hosts differed on a page that was folded, and the run ended before it knew which was right."""
@@ -93,13 +130,10 @@ class Picture:
         try:
             header = read_film_header(self.folder.film)
             check_identity(header, self.identity, self.folder.film)
-            end = end_of(header.samples)
-            if not header.complete or end > self.options.spp or (end % PAGE and end != self.options.spp):
-                raise FarmError("%s: its samples are %s" % (self.folder.film, header.samples))
+            self.folded, self.arithmetic = self.pages_of(header), header.arithmetic
         except (FarmError, OSError) as error:
             self.drop_file(self.folder.film, error)
             return {}
-        self.folded, self.arithmetic = -(-end // PAGE), header.arithmetic
         return {page: header.digest for page in range(self.folded)}
 
     def read_pages(self):
@@ -177,7 +211,7 @@ class Picture:
             self.say("pages in doubt are folded already: the picture begins anew")
             again |= set(range(self.folded))
             os.unlink(self.folder.film)
-            self.folded = 0
+            self.folded, self.count, self.error = 0, self.all, None
         for page in pages & self.files.keys():
             os.unlink(self.files.pop(page))
         self.forget_class()
@@ -191,13 +225,14 @@ class Picture:
     def fold(self):
         """Folds what can be folded; the last fold makes the picture. Returns pages that turned out damaged, and others to be rendered again."""
         run = self.folded
-        while run in self.files and run - self.folded < BATCH:
+        end = min(self.folded + BATCH, self.count, next_rung(self.folded) if self.options.target else self.count)
+        while run in self.files and run < end:
             run += 1
-        if run == self.folded or (run < self.count and run - self.folded < BATCH):
+        if run < end or run == self.folded:
             return set(), set()
         batch = [self.files[page] for page in range(self.folded, run)]
         before = [self.folder.film] if self.folded else []
-        said = self.merge(before + batch, self.folder.film, self.png() if run == self.count else [])
+        said = self.merge(before + batch, self.folder.film)
         if said is None:
             return self.drop_damaged(before, batch)
         if EXACT not in said and not self.options.any_device:
@@ -205,6 +240,7 @@ class Picture:
         for page in range(self.folded, run):
             os.unlink(self.files.pop(page))
         self.folded = run
+        self.judge()
         return set(), set()
 
     def merge(self, films, output, more=()):
@@ -241,6 +277,12 @@ class Picture:
 
     def publish(self):
         """Gives the whole picture its name."""
+        if self.options.png and self.merge([self.folder.film], self.folder.film, self.png()) is None:
+            raise FarmError("%s: is damaged" % self.folder.film)
+        beyond = [page for page in self.files if page >= self.count]
+        if self.options.target:
+            reached = self.error and self.error.times_to(self.options.target) <= 1
+            self.say("the target is %s; %d pages beyond were not needed" % ("reached" if reached else "not reached", len(beyond)))
         os.replace(self.folder.film, self.options.output)
         sync_folder(os.path.dirname(self.options.output))
         self.finished = True
@@ -250,4 +292,5 @@ class Picture:
 
     def close(self):
         self.folder.remove()
-        return "%s: %s, %d samples per pixel" % (self.options.output, self.header.size, self.options.spp)
+        error = ", estimated %s" % self.error if self.error else ""
+        return "%s: %s, %d samples per pixel%s" % (self.options.output, self.header.size, min(self.count * PAGE, self.options.spp), error)

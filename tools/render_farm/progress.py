@@ -29,15 +29,17 @@ class Progress:
         """Counts samples of the whole picture that were rendered."""
         self.samples += samples
 
-    def show(self, name, done, count, usable, workers, samples_left):
-        """name: of the parts. samples_left: of the whole picture."""
+    def show(self, done, workers, samples_left, error, dashboard):
+        """done: in words. workers: that can be used, and all. samples_left: of the whole picture. error: of the picture so far, or None."""
         now = time.monotonic()
         self.begin = self.begin or now
         rate = self.samples / max(now - self.begin, 1e-3)
-        number = "%d" % usable if usable == workers else "%d of %d" % (usable, workers)
-        line = "%d of %d %s, %s worker%s" % (done, count, name, number, "s" * (number != "1"))
+        number = "%d" % workers[0] if workers[0] == workers[1] else "%d of %d" % workers
+        line = "%s, %s worker%s" % (done, number, "s" * (number != "1"))
         if rate > 0:
             line += ", %.3g Msamples/s, %s left" % (rate / 1e6, duration(samples_left / rate))
+        line += ", %s" % error if error else ""
+        line += ", %s" % dashboard
         if sys.stderr.isatty():
             if line != self.line:
                 print("\r\033[K" + line, end="", file=sys.stderr, flush=True)
