@@ -9,7 +9,7 @@ import signal
 import subprocess
 import time
 
-from farm_fixture import GLIM, LONG, WAIT_SECONDS, FarmCase, SchedulerCase, main, wait_until
+from farm_fixture import GLIM, LONG, SPP, WAIT_SECONDS, FarmCase, SchedulerCase, main, wait_until
 
 SLOW = "time.sleep(.3)"
 
@@ -179,23 +179,33 @@ class SchedulerTest(SchedulerCase):
         self.assertEqual(said.count("the worker is not used"), 2, said)
         self.expect_whole()
 
-    def start_hosts_that_differ(self):
-        """Both render whole films of one page, with digests that are right. Both have begun it before one ends it."""
+    def start_hosts_that_differ(self, spp=SPP):
+        """Two hosts render whole films of one page, with digests that are right. The honest one, which has two workers, sends its film of that
+        page once "other" is open, and the picture's last page once "last" is."""
         self.start_scheduler()
         self.start_worker(self.program("""
-            if claim(FOLDER, "forged", page.samples):
-                wait_for(FOLDER, "both")
+            if not claim(FOLDER, "forged", page.samples):
+                wait_for(FOLDER, "never")
+            wait_for(FOLDER, "both")
             return page.forge()"""), "127.0.0.2")
-        farm = self.farm()
+        farm = self.farm(spp=spp)
         wait_until(lambda: os.path.lexists(self.path("claim-forged")), "the forger has a page")
-        self.start_worker(self.program("""
+        honest = self.program("""
             if owner_of(FOLDER, "forged") == page.samples:
-                claim(FOLDER, "both")"""), "127.0.0.3")
+                claim(FOLDER, "both")
+                wait_for(FOLDER, "other")
+            if page.number == %d:
+                wait_for(FOLDER, "last")""" % ((spp - 1) // 256))
+        self.start_worker(honest, "127.0.0.3")
+        self.start_worker(honest, "127.0.0.3")
         return farm
 
     def test_hosts_that_differ(self):
         farm = self.start_hosts_that_differ()
-        wait_until(lambda: "decides" in farm.stderr.readline(), "two hosts differ")
+        wait_until(lambda: any("/00000." in page for page in self.pages()), "the forged page is there")
+        self.open("other")
+        wait_until(lambda: "a third decides" in farm.stderr.readline(), "two hosts differ")
+        self.open("last")
         self.start_worker(GLIM, "127.0.0.4")
         said = self.finish(farm)
         self.assertIn("host 127.0.0.2 is not trusted any more", said)
@@ -203,11 +213,16 @@ class SchedulerTest(SchedulerCase):
         self.expect_whole()
 
     def test_hosts_that_differ_without_a_third(self):
-        said = self.finish(self.start_hosts_that_differ(), 1)
-        self.assertIn("a third decides", said)
-        self.assertIn("no worker is left that can be used; the same command goes on", said)
-        self.finish(self.start_farm())
-        self.expect_whole()
+        """On a page that is folded already."""
+        spp = 20 * 256
+        farm = self.start_hosts_that_differ(spp)
+        wait_until(lambda: os.path.exists(self.out + ".farm/film.exr"), "the forged page is folded")
+        self.open("other")
+        wait_until(lambda: "a third decides" in farm.stderr.readline(), "two hosts differ")
+        self.open("last")
+        self.assertIn("no worker is left that can be used; the same command goes on", self.finish(farm, 1))
+        self.assertIn("hosts differed on a page of it; it is rendered again", self.finish(self.start_farm(spp=spp)))
+        self.expect_whole(spp)
 
     def test_first_page_of_another_class_is_damaged(self):
         """It decides the class, until it turns out damaged."""

@@ -46,9 +46,12 @@ def say(text):
     print(text, file=sys.stderr, flush=True)
 
 
-def main():
+def main(*more):
+    """more: what the test needs from PyPI besides Dask."""
     try:
         ENVIRONMENT.enter(say)
+        for requirement in more:
+            ENVIRONMENT.add(requirement, say)
     except ConversionError as error:
         say("skipped: %s" % error)
         sys.exit(77)
@@ -94,12 +97,15 @@ class FarmCase(unittest.TestCase):
 
     def program(self, mishap):
         """A program in glim's place. mishap: what it does when it is to render `page` (farm_stand_in.py), as lines of Python."""
-        path = self.path("glim-%d" % len([name for name in os.listdir(self.folder) if name.startswith("glim-")]))
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(PROGRAM % {"python": os.path.realpath(sys.executable), "here": HERE, "folder": self.folder, "glim": GLIM,
-                                  "mishap": textwrap.indent(textwrap.dedent(mishap), "    ")})
-        os.chmod(path, 0o755)
-        return path
+        name = "glim-%d" % len([name for name in os.listdir(self.folder) if name.startswith("glim-")])
+        return self.write_program(name, PROGRAM % {"python": os.path.realpath(sys.executable), "here": HERE, "folder": self.folder,
+                                                   "glim": GLIM, "mishap": textwrap.indent(textwrap.dedent(mishap), "    ")})
+
+    def write_program(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        os.chmod(self.path(name), 0o755)
+        return self.path(name)
 
     def start(self, command, glim, **more):
         process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
@@ -107,8 +113,8 @@ class FarmCase(unittest.TestCase):
         self.processes.append(process)
         return process
 
-    def start_farm(self, *more, glim=GLIM, spp=SPP):
-        return self.start([FARM, SCENE, "-o", self.out, "--spp", str(spp), "--size", SIZE, *more], glim)
+    def start_farm(self, *more, glim=GLIM, spp=SPP, **environment):
+        return self.start([FARM, SCENE, "-o", self.out, "--spp", str(spp), "--size", SIZE, *more], glim, **environment)
 
     def finish(self, farm, code=0):
         """What a farm says, which ends with this exit code."""

@@ -21,7 +21,7 @@ ONE = "the farm renders one picture or --frames"
 ONLY_FILMS = "the farm writes films and their PNGs only"
 REFUSED = {
     "--samples": SPLITS, "--time": STOPS, "--adaptive": STOPS,
-    "--checkpoint": KEEPS, "--resume": KEEPS, "--on-checkpoint": KEEPS, "--turntable": ONE, "--cameras": ONE,
+    "--checkpoint": KEEPS, "--resume": KEEPS, "--on-checkpoint": KEEPS, "--turntable": ONE, "--cameras": ONE, "--rows": ONE,
     "--stats": ONLY_FILMS, "--rates": ONLY_FILMS, "--ids": ONLY_FILMS, "--suspects": ONLY_FILMS, "--replay": ONLY_FILMS,
     "--progress": "the farm has a progress of its own",
 }
@@ -38,6 +38,33 @@ def frames(text):
     if not match or int(match[1]) > int(match[2]):
         raise argparse.ArgumentTypeError("cannot use '%s', expected A:B, the first and the last frame" % text)
     return int(match[1]), int(match[2])
+
+
+def bounds(text):
+    match = re.fullmatch("([0-9]{1,6}):([0-9]{1,6})", text)
+    if not match or not int(match[1]) <= int(match[2]) != 0:
+        raise argparse.ArgumentTypeError("cannot use '%s', expected A:B, the fewest and the most workers" % text)
+    return int(match[1]), int(match[2])
+
+
+def walltime(text):
+    """Seconds of Slurm's M, M:SS, H:MM:SS, D-H, D-H:MM or D-H:MM:SS, or 0."""
+    days, dash, rest = text.rpartition("-")
+    if not re.fullmatch(r"[0-9]{1,6}(:[0-9]{1,2}){0,2}", rest) or not re.fullmatch("[0-9]{1,4}" if dash else "", days):
+        return 0
+    numbers = [int(number) for number in rest.split(":")]
+    first = 3600 if dash or len(numbers) == 3 else 60
+    return int(days or 0) * 86400 + sum(number * unit for number, unit in zip(numbers, (first, first // 60, 1)))
+
+
+def slurm(text):
+    """Returns the `directives` of a job, and its `seconds`."""
+    options = [word.partition("=") for word in text.split()]
+    seconds = sum(walltime(value) for name, _, value in options if name == "time")
+    if not all(re.fullmatch("[a-z][a-z-]*", name) for name, _, _ in options) or not seconds:
+        raise argparse.ArgumentTypeError("cannot use '%s', expected options of sbatch as in 'partition=gpu gres=gpu:1 time=1:00:00', "
+                                         "the time among them" % text)
+    return argparse.Namespace(directives=["--" + "".join(option) for option in options], seconds=seconds)
 
 
 def number(text, most, what):
@@ -70,7 +97,9 @@ def make_parser():
     add("--fps", metavar="F", help="frames per second [24]")
     where = parser.add_mutually_exclusive_group()
     where.add_argument("--local", metavar="N", type=whole, default=1, help="worker processes on this machine [1]")
+    where.add_argument("--slurm", metavar="'NAME=VALUE ...'", type=slurm, help="jobs of Slurm with these options of sbatch, time among them")
     where.add_argument("--scheduler", metavar="ADDRESS", help="use the workers of this scheduler of Dask, as in tls://head:8786")
+    add("--workers", metavar="A:B", type=bounds, help="with --slurm: at least A workers, and at most B [0:40]")
     for name, what in (("ca", "authority"), ("cert", "own certificate"), ("key", "own key")):
         add("--tls-" + name, metavar="FILE.pem", help="TLS: the %s" % what)
     add("--insecure", action="store_true", help="allow connections to other machines without TLS")
@@ -115,6 +144,9 @@ def refuse_combinations(parser, options):
         parser.error("--target-rmse and --target-relmse: expected one picture, not --frames")
     if options.fps is not None and options.frames is None:
         parser.error("--fps: expected --frames as well")
+    if options.workers and not options.slurm:
+        parser.error("--workers: expected --slurm as well; --local takes a number of workers")
+    options.workers = options.workers or (0, 40)
     tls = [options.tls_ca, options.tls_cert, options.tls_key]
-    if any(tls) and (not all(tls) or options.scheduler is None):
-        parser.error("TLS takes --tls-ca, --tls-cert, --tls-key and --scheduler together")
+    if any(tls) and (not all(tls) or not (options.scheduler or options.slurm)):
+        parser.error("TLS takes --tls-ca, --tls-cert and --tls-key together, with --scheduler or --slurm")

@@ -38,20 +38,20 @@ class Driver:
     """Each part goes to a worker that the driver chooses: Dask carries films, and tells which workers live. A film comes back as the bytes
     that the task returns, so that workers need no folder in common with the driver, and the driver alone writes into the job's."""
 
-    def __init__(self, client, picture, done, options, progress):
-        self.client, self.picture, self.options, self.progress = client, picture, options, progress
+    def __init__(self, picture, done, options, progress):
+        self.picture, self.options, self.progress = picture, options, progress
         self.ledger = Ledger(set(picture.parts) - done.keys(), done)
         self.workers = set()
         self.barred = set()
         self.others = set()  # of those that are barred: of another class
         self.busy = set()
         self.tasks = {}  # that follow a loan, by part and worker
-        self.events = asyncio.Queue()
         self.folding = None
         self.useless_since = None
 
-    async def run(self):
-        """Returns when the picture is whole. Refuses (FarmError) what keeps it from that."""
+    async def run(self, client):
+        """Returns when the picture is whole. Refuses (FarmError) what keeps it from that. client: Dask's."""
+        self.client, self.events = client, asyncio.Queue()
         try:
             while not self.picture.finished:
                 await self.look_at_workers()
@@ -97,7 +97,7 @@ class Driver:
         now = time.monotonic()
         if self.useless_since is None:
             self.useless_since = now
-        is_all = self.options.scheduler is None and len(self.workers) >= self.options.local
+        is_all = not self.options.scheduler and not self.options.slurm and len(self.workers) >= self.options.local
         if is_all or now - self.useless_since >= PATIENCE_SECONDS:
             raise FarmError("no worker is left that can be used; the same command goes on from %s" % self.picture.folder.path)
 
@@ -216,13 +216,19 @@ class Driver:
             self.folding = asyncio.create_task(asyncio.to_thread(self.picture.fold))
             self.folding.add_done_callback(lambda _: self.events.put_nowait(None))
 
+    def left(self):
+        """The parts that are not done, as far as is known which are needed."""
+        return [part for part in self.picture.parts[:self.picture.expected] if part not in self.ledger.done]
+
+    def count_left(self):
+        return len(self.left())
+
     def name(self, part):
         return "%s %d" % (self.picture.part, part)
 
     def show(self):
-        parts = self.picture.parts[:self.picture.expected]
-        left = sum(self.picture.samples(part) for part in parts if part not in self.ledger.done)
-        self.progress.show("%d of %d %ss" % (len(self.ledger.done), len(parts), self.picture.part), (len(self.usable()), len(self.workers)),
+        left = sum(self.picture.samples(part) for part in self.left())
+        self.progress.show("%d of %d %ss" % (len(self.ledger.done), self.picture.expected, self.picture.part), (len(self.usable()), len(self.workers)),
                            left * self.picture.pixels, self.picture.error, self.client.dashboard_link)
 
 

@@ -20,8 +20,23 @@ def is_private(address):
     return parts.scheme == "tls" or is_loopback(parts.hostname)
 
 
-def check_address(options, say):
+def check_network(options, say):
     """Refuses (FarmError, usage) connections to other machines without TLS, unless that is allowed; then it says so."""
+    if options.slurm:
+        name, is_safe = "--slurm", bool(options.tls_ca)
+    elif options.scheduler is not None:
+        name, is_safe = "--scheduler %s" % options.scheduler, check_address(options)
+    else:
+        return
+    if not is_safe:
+        if not options.insecure:
+            raise FarmError("%s: anyone on the network could run programs on this machine and on the workers; expected %s or --insecure"
+                            % (name, "tls://" if options.scheduler else "--tls-ca, --tls-cert and --tls-key"), 2)
+        say("WARNING: without TLS anyone on the network can run programs on this machine and on the workers")
+
+
+def check_address(options):
+    """Whether the scheduler's address is private. Refuses (FarmError, usage) one that does not go with the other options."""
     address = options.scheduler
     parts = urllib.parse.urlsplit(address)
     if parts.scheme not in ("tcp", "tls") or not parts.hostname:
@@ -30,8 +45,4 @@ def check_address(options, say):
         raise FarmError("--scheduler %s: expected --tls-ca, --tls-cert and --tls-key" % address, 2)
     if parts.scheme == "tcp" and options.tls_ca:
         raise FarmError("--scheduler %s: expected tls://, since there are certificates" % address, 2)
-    if not is_private(address):
-        if not options.insecure:
-            raise FarmError("--scheduler %s: anyone on the network could run programs on this machine and on the workers; "
-                            "expected tls:// or --insecure" % address, 2)
-        say("WARNING: without TLS anyone on the network can run programs on this machine and on the workers")
+    return is_private(address)
