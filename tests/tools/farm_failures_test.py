@@ -228,25 +228,33 @@ class SchedulerTest(SchedulerCase):
         """It decides the class, until it turns out damaged."""
         self.start_scheduler()
         self.start_worker(self.program("""
+            if page.number > 0:
+                wait_for(FOLDER, "refused")
             page.relabel("arithmetic")
             return page.flip_film()"""), "127.0.0.2")
         farm = self.farm()
-        self.wait_for_pages(2)
+        self.wait_for_pages(1)
         self.start_worker()
+        wait_until(lambda: "expected 0123456789abcdef; the worker is not used" in farm.stderr.readline(), "the good worker is refused")
+        self.open("refused")
         said = self.finish(farm)
-        self.assertIn("its arithmetic is", said)
         self.assertIn("too much of what it sends is damaged", said)
         self.expect_whole()
 
     def test_tls(self):
-        ca, cert, key = (self.path(name) for name in ("cert.pem", "cert.pem", "key.pem"))
-        subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-keyout", key, "-out", cert, "-days", "2", "-subj",
-                        "/CN=farm", "-addext", "subjectAltName=IP:127.0.0.1"], check=True, stderr=subprocess.DEVNULL)
-        dask = ["--tls-ca-file", ca, "--tls-cert", cert, "--tls-key", key]
+        """Who has no certificate, or one of another authority, gets nothing."""
+        for name in ("ours", "other"):
+            subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-keyout", self.path(name + ".key"), "-out",
+                            self.path(name + ".pem"), "-days", "2", "-subj", "/CN=" + name, "-addext", "subjectAltName=IP:127.0.0.1"],
+                           check=True, stderr=subprocess.DEVNULL)
+        dask = ["--tls-ca-file", self.path("ours.pem"), "--tls-cert", self.path("ours.pem"), "--tls-key", self.path("ours.key")]
         self.start_scheduler("--protocol", "tls", *dask)
         self.start_worker(GLIM, "127.0.0.1", *dask)
         self.assertTrue(self.address.startswith("tls://"))
-        self.finish(self.farm("--tls-ca", ca, "--tls-cert", cert, "--tls-key", key))
+        for name in ("other", "ours"):
+            farm = self.farm("--tls-ca", self.path("ours.pem"), "--tls-cert", self.path(name + ".pem"), "--tls-key", self.path(name + ".key"))
+            said = self.finish(farm, int(name == "other"))
+            self.assertEqual("no scheduler answers" in said, name == "other", said)
         self.expect_whole()
         self.address = self.address.replace("tls://", "tcp://")
         self.assertIn("no scheduler answers", self.finish(self.farm(spp=4), 1))

@@ -106,5 +106,7 @@ def stand_in(glim, mishap):
     server = subprocess.Popen([glim, "serve"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
     for line in sys.stdin:
         request = json.loads(line)
+        if "--confine" not in request["render"]:
+            raise ValueError("files of the worker's machine can be read by a scene")
         code, error = mishap(Page(glim, server, request["render"]))
         print(json.dumps({"id": request["id"], "code": code, "error": error}), flush=True)

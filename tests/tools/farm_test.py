@@ -106,7 +106,10 @@ class CommandTest(unittest.TestCase):
     def test_refusals(self):
         good = ["a.glb", "-o", "a.exr", "--spp", "4"]
         for more, words in ((["--time", "1"], "whole pages of samples"), (["--target-rmse", "1"], "as in 1%"),
-                            (["--target-relmse", "0"], "a number above 0"), (["--frames", "1:2", "--target-rmse", "1%", "-o", "a.#.exr"], "one picture"), 
+                            (["--target-relmse", "0"], "a number above 0"), 
+                            (["--frames", "1:2", "--target-rmse", "1%", "-o", "a.#.exr"], "one picture"), (["--rows=0:4"], "one picture"),
+                            (["--slurm", "gres=gpu:1"], "the time among them"), (["--workers", "0:4"], "--slurm as well"),
+                            (["--slurm", "time=1:00", "--workers", "4:2"], "the fewest and the most"),
                             (["--samples=0:4"], "hands out samples itself"),
                             (["--resume"], "goes on"), (["--camera", "all"], "one picture"), (["--spp", "0"], "whole number"),
                             (["--frames", "1:2"], "####"), (["--fps", "3"], "--frames"), (["--frames", "2:1"], "A:B"),
@@ -120,8 +123,9 @@ class CommandTest(unittest.TestCase):
         self.assertEqual((options.others, options.spp), (["--size", "8x8", "--look-from", "-1,2,3"], 4))
 
     def test_no_commands_from_a_network_without_tls(self):
-        for address, words in (("tcp://10.0.0.1:8786", "--insecure"), ("tls://10.0.0.1:8786", "--tls-ca"), ("head:8786", "tls://")):
-            done = subprocess.run([FARM, SCENE, "-o", "a.exr", "--spp", "4", "--scheduler", address],
+        for option, value, words in (("--scheduler", "tcp://10.0.0.1:8786", "--insecure"), ("--scheduler", "tls://10.0.0.1:8786", "--tls-ca"),
+                                     ("--scheduler", "head:8786", "tls://"), ("--slurm", "time=1:00", "--insecure")):
+            done = subprocess.run([FARM, SCENE, "-o", "a.exr", "--spp", "4", option, value],
                                   stderr=subprocess.PIPE, text=True, check=False)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn(words, done.stderr)
@@ -134,6 +138,14 @@ class FilesTest(FarmCase):
         farm = self.start([FARM, self.path("bad.gltf"), "-o", self.out, "--spp", "4"], GLIM)
         self.assertIn("bad.gltf", self.finish(farm, 1))
         self.assertEqual(os.listdir(self.folder), ["bad.gltf"])
+
+    def test_files_of_other_folders(self):
+        with open(SCENE, encoding="utf-8") as file:
+            scene = json.load(file)
+        scene["buffers"][0]["uri"] = "../secret.bin"
+        with open(self.path("spy.gltf"), "w", encoding="utf-8") as file:
+            json.dump(scene, file)
+        self.assertIn("secret.bin", self.finish(self.start([FARM, self.path("spy.gltf"), "-o", self.out, "--spp", "4"], GLIM), 1))
 
     def test_headers(self):
         with self.assertRaisesRegex(FarmError, "a.exr: is damaged"):

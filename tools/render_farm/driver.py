@@ -1,6 +1,7 @@
 """Hands parts to workers and takes back films. To be imported within the environment that has Dask."""
 
 import asyncio
+import contextlib
 import signal
 import time
 
@@ -15,6 +16,7 @@ from render_farm.picture import OtherClass
 from render_farm.security import is_private
 
 TICK_SECONDS = 0.5
+ENDING_SECONDS = 5
 PATIENCE_SECONDS = 60  # with workers of which none can be used, until another comes
 cloudpickle.register_pickle_by_value(glim_child)  # workers need not have this code
 
@@ -66,7 +68,9 @@ class Driver:
                 task.cancel()
             if self.folding:
                 await asyncio.wait([self.folding])
-        await self.client.run(end_server, on_error="ignore")
+            if self.options.scheduler:  # whose workers live on
+                with contextlib.suppress(asyncio.TimeoutError, OSError):
+                    await asyncio.wait_for(self.client.run(end_server, on_error="ignore"), ENDING_SECONDS)
 
     async def look_at_workers(self):
         try:
@@ -227,9 +231,9 @@ class Driver:
         return "%s %d" % (self.picture.part, part)
 
     def show(self):
-        left = sum(self.picture.samples(part) for part in self.left())
-        self.progress.show("%d of %d %ss" % (len(self.ledger.done), self.picture.expected, self.picture.part), (len(self.usable()), len(self.workers)),
-                           left * self.picture.pixels, self.picture.error, self.client.dashboard_link)
+        left, all_parts = self.left(), self.picture.expected
+        self.progress.show("%d of %d %ss" % (all_parts - len(left), all_parts, self.picture.part), (len(self.usable()), len(self.workers)),
+                           sum(map(self.picture.samples, left)) * self.picture.pixels, self.picture.error, self.client.dashboard_link)
 
 
 async def until_signal(work):
