@@ -68,9 +68,9 @@ class Driver:
                 task.cancel()
             if self.folding:
                 await asyncio.wait([self.folding])
-            if self.options.scheduler:  # whose workers live on
-                with contextlib.suppress(asyncio.TimeoutError, OSError):
-                    await asyncio.wait_for(self.client.run(end_server, on_error="ignore"), ENDING_SECONDS)
+            # The workers of a scheduler live on, and others end faster without a page to wait for.
+            with contextlib.suppress(asyncio.TimeoutError, OSError):
+                await asyncio.wait_for(self.client.run(end_server, on_error="ignore"), ENDING_SECONDS)
 
     async def look_at_workers(self):
         try:

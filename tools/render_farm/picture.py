@@ -282,7 +282,7 @@ class Picture:
         beyond = [page for page in self.files if page >= self.count]
         if self.options.target:
             reached = self.error and self.error.times_to(self.options.target) <= 1
-            self.say("the target is %s; %d pages beyond were not needed" % ("reached" if reached else "not reached", len(beyond)))
+            self.say("the target is %s; pages beyond that were not needed: %d" % ("reached" if reached else "not reached", len(beyond)))
         os.replace(self.folder.film, self.options.output)
         sync_folder(os.path.dirname(self.options.output))
         self.finished = True
