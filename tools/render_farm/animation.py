@@ -128,8 +128,8 @@ class Animation:
         self.there -= frames
         return set(frames)
 
-    def fold(self):
-        return set(), set()
+    def foldable(self):
+        return range(0)
 
     def close(self):
         self.folder.remove()

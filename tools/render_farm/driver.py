@@ -216,8 +216,9 @@ class Driver:
                 self.spoil(part)
             self.reconsider_class()
             self.folding = None
-        if self.folding is None and not self.picture.finished:
-            self.folding = asyncio.create_task(asyncio.to_thread(self.picture.fold))
+        pages = self.picture.foldable() if self.folding is None else None
+        if pages:
+            self.folding = asyncio.create_task(asyncio.to_thread(self.picture.fold, pages))
             self.folding.add_done_callback(lambda _: self.events.put_nowait(None))
 
     def left(self):

@@ -222,24 +222,24 @@ class Picture:
         if not self.folded and not self.files:
             self.arithmetic = None
 
-    def fold(self):
-        """Folds what can be folded; the last fold makes the picture. Returns pages that turned out damaged, and others to be rendered again."""
-        run = self.folded
+    def foldable(self):
+        """The next pages to fold, if all of them are there."""
         end = min(self.folded + BATCH, self.count, next_rung(self.folded) if self.options.target else self.count)
-        while run in self.files and run < end:
-            run += 1
-        if run < end or run == self.folded:
-            return set(), set()
-        batch = [self.files[page] for page in range(self.folded, run)]
+        pages = range(self.folded, end)
+        return pages if all(page in self.files for page in pages) else range(0)
+
+    def fold(self, pages):
+        """Returns pages that turned out damaged, and others to be rendered again."""
+        batch = [self.files[page] for page in pages]
         before = [self.folder.film] if self.folded else []
         said = self.merge(before + batch, self.folder.film)
         if said is None:
             return self.drop_damaged(before, batch)
         if EXACT not in said and not self.options.any_device:
-            raise FarmError("the pages to %s do not fold exactly: %s" % (self.range(run - 1), said))
-        for page in range(self.folded, run):
+            raise FarmError("the pages to %s do not fold exactly: %s" % (self.range(pages[-1]), said))
+        for page in pages:
             os.unlink(self.files.pop(page))
-        self.folded = run
+        self.folded = pages.stop
         self.judge()
         return set(), set()
 
