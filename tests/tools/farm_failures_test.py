@@ -9,7 +9,7 @@ import signal
 import subprocess
 import time
 
-from farm_fixture import GLIM, LONG, SPP, WAIT_SECONDS, FarmCase, SchedulerCase, main, wait_until
+from farm_fixture import GLIM, LONG, SCENE, SIZE, SPP, WAIT_SECONDS, FarmCase, SchedulerCase, main, wait_until
 
 SLOW = "time.sleep(.3)"
 
@@ -93,10 +93,9 @@ class LocalTest(FarmCase):
         self.expect_whole()
 
     def test_whole_picture_of_a_farm_that_died_last(self):
-        farm = self.start_farm(spp=256)
-        self.finish(farm)
+        subprocess.run([GLIM, "render", SCENE, "-o", self.out, "--spp", "256", "--size", SIZE], check=True, stdout=subprocess.DEVNULL)
         os.makedirs(self.out + ".farm/pages")
-        said = self.finish(self.start_farm("--png", self.path("out.png"), spp=256))
+        said = self.finish(self.start_farm("--target-rmse", "1000%", "--png", self.path("out.png"), spp=512))
         self.assertIn("is whole and was kept", said)
         self.assertTrue(os.path.exists(self.path("out.png")))
         self.expect_whole(256)
@@ -154,6 +153,17 @@ class SchedulerTest(SchedulerCase):
         said = self.finish(farm)
         self.assertIn("is gone", said)
         self.expect_whole()
+
+    def test_worker_lets_go_of_the_scene(self):
+        """glim ends with the farm, though the worker lives on, and though it renders."""
+        self.start_scheduler()
+        worker = self.start_worker(self.program('claim(FOLDER, "child", os.getpid())\nwait_for(FOLDER, "never")'))
+        farm = self.farm()
+        wait_until(lambda: os.path.lexists(self.path("claim-child")), "a page is rendered")
+        farm.send_signal(signal.SIGINT)
+        self.finish(farm, 130)
+        wait_until(lambda: not os.path.exists("/proc/" + os.readlink(self.path("claim-child"))), "glim has ended")
+        self.assertIsNone(worker.poll())
 
     def test_workers_that_come_and_go(self):
         self.start_scheduler()

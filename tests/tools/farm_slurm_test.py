@@ -10,7 +10,8 @@ from render_farm.arguments import walltime
 from render_farm.environment import JOBQUEUE
 
 SBATCH = """#!/bin/sh
-setsid sh "$1" >/dev/null 2>&1 &
+script=$(cat "$1")
+setsid sh -c "$script" >/dev/null 2>&1 &
 cp "$1" "%(folder)s/job-$!"
 echo "Submitted batch job $!"
 """
@@ -41,7 +42,7 @@ class SlurmTest(FarmCase):
 
     def test_job(self):
         said = self.finish(self.start_slurm("partition=gpu gres=gpu:1 time=1:00:00", "--workers", "0:2"))
-        self.assertIn("WARNING: without TLS", said)
+        self.assertEqual(said.count("WARNING: without TLS"), 1, said)
         self.expect_whole()
         self.assertEqual(len(self.jobs()), 2)
         with open(self.path("job-%d" % self.jobs()[0]), encoding="utf-8") as file:

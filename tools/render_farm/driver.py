@@ -31,11 +31,6 @@ def make_task(program, arguments, folder):
     return task
 
 
-def end_server(dask_worker):
-    if hasattr(dask_worker, "glim_servers"):
-        dask_worker.glim_servers.end()
-
-
 class Driver:
     """Each part goes to a worker that the driver chooses: Dask carries films, and tells which workers live. A film comes back as the bytes
     that the task returns, so that workers need no folder in common with the driver, and the driver alone writes into the job's."""
@@ -70,7 +65,7 @@ class Driver:
                 await asyncio.wait([self.folding])
             # The workers of a scheduler live on, and others end faster without a page to wait for.
             with contextlib.suppress(asyncio.TimeoutError, OSError):
-                await asyncio.wait_for(self.client.run(end_server, on_error="ignore"), ENDING_SECONDS)
+                await asyncio.wait_for(self.client.run(glim_child.end_server_of, on_error="ignore"), ENDING_SECONDS)
 
     async def look_at_workers(self):
         try:

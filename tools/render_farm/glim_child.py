@@ -83,6 +83,12 @@ class Servers:
             self.server = None
 
 
+def end_server_of(dask_worker):
+    """Ends the server of a worker. (Dask knows its argument by this name.)"""
+    if hasattr(dask_worker, "glim_servers"):
+        dask_worker.glim_servers.end()
+
+
 def serve_film(servers, program, arguments, folder, scratch):
     """Has the server render one film in a folder of its own within `scratch`, which must exist.
 

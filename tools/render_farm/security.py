@@ -20,19 +20,18 @@ def is_private(address):
     return parts.scheme == "tls" or is_loopback(parts.hostname)
 
 
-def check_network(options, say):
-    """Refuses (FarmError, usage) connections to other machines without TLS, unless that is allowed; then it says so."""
+def check_network(options):
+    """Whether nobody else can send commands. Refuses (FarmError, usage) connections to other machines without TLS, unless they are allowed."""
     if options.slurm:
         name, is_safe = "--slurm", bool(options.tls_ca)
     elif options.scheduler is not None:
         name, is_safe = "--scheduler %s" % options.scheduler, check_address(options)
     else:
-        return
-    if not is_safe:
-        if not options.insecure:
-            raise FarmError("%s: anyone on the network could run programs on this machine and on the workers; expected %s or --insecure"
-                            % (name, "tls://" if options.scheduler else "--tls-ca, --tls-cert and --tls-key"), 2)
-        say("WARNING: without TLS anyone on the network can run programs on this machine and on the workers")
+        return True
+    if not is_safe and not options.insecure:
+        raise FarmError("%s: anyone on the network could run programs on this machine and on the workers; expected %s or --insecure"
+                        % (name, "tls://" if options.scheduler else "--tls-ca, --tls-cert and --tls-key"), 2)
+    return is_safe
 
 
 def check_address(options):
