@@ -147,11 +147,11 @@ class SchedulerTest(SchedulerCase):
         farm = self.farm()
         wait_until(lambda: os.path.lexists(self.path("claim-slow")), "the first worker renders")
         worker.send_signal(signal.SIGSTOP)
-        self.start_worker(self.program("time.sleep(1)"))
-        self.wait_for_pages(2)
+        self.start_worker(self.program('if page.number == 7:\n    wait_for(FOLDER, "continued")\n    time.sleep(2)'))
+        wait_until(lambda: "is gone" in farm.stderr.readline(), "the worker is given up")
         worker.send_signal(signal.SIGCONT)
-        said = self.finish(farm)
-        self.assertIn("is gone", said)
+        self.open("continued")
+        self.finish(farm)
         self.expect_whole()
 
     def test_worker_lets_go_of_the_scene(self):

@@ -31,7 +31,7 @@ class FilmError:
         return "relMSE %.3g, RMSE %.3g %% of the mean" % (self.relmse, 100 * self.rmse)
 
     def times_to(self, target):
-        """By what factor the samples must grow to reach the target; at most 1: it is reached. target: a FilmError, of which None is no target."""
+        """By what factor the samples must grow to reach the target; at most 1: it is reached. What is None in `target` is no target."""
         times = [] if target.relmse is None else [self.relmse / target.relmse]
         return max(times if target.rmse is None else [*times, (self.rmse / target.rmse) ** 2])
 

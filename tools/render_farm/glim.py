@@ -32,7 +32,7 @@ class Glim:
 
     def read(self, arguments):
         """What glim prints. Refuses (FarmError) with glim's sentence."""
-        done = subprocess.run([self.program, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=self.folder, check=False)
+        done = subprocess.run([self.program, *arguments], capture_output=True, text=True, cwd=self.folder, check=False)
         if done.returncode != 0:
             raise FarmError(last_sentence(done.returncode, done.stderr))
         return done.stdout
