@@ -49,7 +49,8 @@ testPackages=(
     "x11-xserver-utils         tells it how dense its pixels are"
     "xdotool                   presses its keys and moves its mouse"
     "xauth                     lets a session by hand on it (xvfb-run)"
-    "python3-venv              installs what two tests need from PyPI"
+    "python3-venv              installs what five tests need from PyPI"
+    "openssl                   makes certificates for the farm's tests"
     "${studyPackages[@]}"
     "${formatPackages[@]}"
 )

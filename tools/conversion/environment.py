@@ -1,6 +1,8 @@
 """Python environments of their own for what PyPI brings, each made once, in a folder of the build."""
 
+import contextlib
 import fcntl
+import importlib.metadata
 import os
 import shutil
 import subprocess
@@ -42,6 +44,16 @@ class Environment:
             "cannot install %s; expected a connection to PyPI" % packages)
         with open(self.stamp, "w") as stamp:
             stamp.write("\n".join(self.requirements))
+
+    def add(self, requirement, say):
+        """Within the environment: installs what few runs need, unless it is there."""
+        name, version = requirement.split("==")
+        with contextlib.suppress(importlib.metadata.PackageNotFoundError):
+            if importlib.metadata.version(name) == version:
+                return
+        say("installing %s from PyPI into build/%s" % (requirement, self.name))
+        run([self.python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", requirement],
+            "cannot install %s; expected a connection to PyPI" % requirement)
 
     def enter(self, say):
         """Returns within the environment: elsewhere it makes one if there is none, and starts the program again in it."""

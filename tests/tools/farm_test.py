@@ -1,0 +1,240 @@
+#!/usr/bin/env python3
+"""tools/farm without its accidents, which are those of farm_failures_test.py. It needs Dask from PyPI: where that cannot be had, ctest
+lists this test as skipped (exit code 77). The argument is glim's program."""
+
+import base64
+import json
+import os
+import signal
+import struct
+import subprocess
+import unittest
+from unittest import mock
+
+from farm_fixture import FARM, GLIM, LONG, SCENE, SIZE, FarmCase, main, wait_until
+from render_farm.arguments import PAGE, parse_arguments
+from render_farm.errors import FarmError
+from render_farm.exr_header import read_film_header, read_header
+from render_farm.film_error import FilmError, is_rung, next_rung, read_film_error
+from render_farm.glim import Glim
+from render_farm.ledger import Ledger
+
+
+class LedgerTest(unittest.TestCase):
+    def lend(self, ledger, worker, now=0.0, workers=("a", "b", "c")):
+        return ledger.lend(worker, worker, set(workers), now)
+
+    def test_in_order_and_only_once(self):
+        ledger = Ledger({2, 0, 1})
+        self.assertEqual([self.lend(ledger, worker) for worker in "abc"], [0, 1, 2])
+        self.assertEqual(ledger.receive(0, "a", "a", "x", 1.0).kind, "first")
+        self.assertEqual(ledger.done, {0: "x"})
+        self.assertIsNone(self.lend(ledger, "a", 1.9))
+
+    def test_straggler_goes_to_one_more_worker(self):
+        ledger = Ledger({0, 1})
+        self.lend(ledger, "a"), self.lend(ledger, "b")
+        ledger.receive(1, "b", "b", "x", 1.0)
+        self.assertIsNone(self.lend(ledger, "b", 1.9))
+        self.assertEqual(self.lend(ledger, "b", 2.0), 0)
+        self.assertIsNone(self.lend(ledger, "c", 9.0))
+        self.assertEqual(ledger.receive(0, "b", "b", "y", 3.0).kind, "first")
+        self.assertEqual(ledger.receive(0, "a", "a", "y", 4.0).kind, "again")
+        self.assertEqual((ledger.done, ledger.waiting), ({0: "y", 1: "x"}, set()))
+
+    def test_worker_that_dies(self):
+        ledger = Ledger({0})
+        for death in range(9):
+            self.assertEqual(self.lend(ledger, "a"), 0)
+            self.assertEqual(ledger.lose("a"), [], death)
+        self.lend(ledger, "a")
+        self.assertEqual(ledger.lose("a"), [0])
+
+    def test_failures_go_to_other_workers_first(self):
+        ledger = Ledger({0, 1})
+        self.assertEqual(self.lend(ledger, "a"), 0)
+        self.assertFalse(ledger.fail(0, "a"))
+        self.assertEqual(self.lend(ledger, "a"), 1)
+        self.assertEqual(self.lend(ledger, "b"), 0)
+        self.assertFalse(ledger.fail(0, "b"))
+        self.assertIsNone(self.lend(ledger, "b", workers="abc"))
+        self.assertEqual(self.lend(ledger, "b", workers="ab"), 0)
+        self.assertTrue(ledger.fail(0, "b"))
+
+    def test_worker_that_sends_damage(self):
+        ledger = Ledger({0, 1, 2, 3})
+        for part in range(3):
+            self.lend(ledger, "a"), ledger.receive(part, "a", "a", "x", 1.0)
+        self.assertEqual([ledger.spoil(part) for part in range(3)], [("a", False), ("a", False), ("a", True)])
+        self.assertEqual((ledger.done, ledger.waiting, ledger.failures.total()), ({}, {0, 1, 2, 3}, 0))
+        self.assertEqual(self.lend(ledger, "a"), 3)
+        self.assertIsNone(self.lend(ledger, "a"))
+        self.assertEqual(self.lend(ledger, "b"), 0)
+        self.assertEqual(self.lend(ledger, "a", workers="a"), 1)
+        self.assertEqual(Ledger(set(), {0: "x"}).spoil(0), (None, False))
+
+    def test_third_host_decides(self):
+        for first, second, third, loser in (("x", "y", "x", "b"), ("x", "y", "y", "a")):
+            ledger = Ledger({0, 1})
+            self.lend(ledger, "a"), ledger.receive(0, "a", "a", first, 1.0)
+            self.assertEqual(ledger.receive(0, "b", "b", second, 1.0).kind, "disputed")
+            self.assertNotIn(0, ledger.done)
+            self.assertIsNone(self.lend(ledger, "a"))
+            self.assertIsNone(self.lend(ledger, "b"))
+            self.assertEqual(self.lend(ledger, "c"), 0)
+            receipt = ledger.receive(0, "c", "c", third, 2.0)
+            self.assertEqual((receipt.kind, receipt.distrusted), ("settled", {loser}))
+            self.assertEqual((ledger.done, ledger.waiting), ({0: third}, {1}))
+            self.assertIsNone(self.lend(ledger, loser))
+            self.assertEqual(self.lend(ledger, "b" if loser == "a" else "a"), 1)
+
+    def test_what_a_distrusted_host_rendered_waits_again(self):
+        ledger = Ledger(set(), {0: "x", 1: "x"})
+        ledger.receive(1, "a", "a", "y", 1.0)
+        receipt = ledger.receive(1, "b", "b", "y", 1.0)
+        self.assertEqual((receipt.distrusted, receipt.dropped), ({"an earlier run"}, {0}))
+        self.assertEqual((ledger.done, ledger.waiting), ({1: "y"}, {0}))
+
+    def test_host_that_contradicts_itself(self):
+        ledger = Ledger({0})
+        self.lend(ledger, "a"), ledger.receive(0, "a", "a", "x", 1.0)
+        receipt = ledger.receive(0, "a2", "a", "y", 2.0)
+        self.assertEqual((receipt.distrusted, receipt.dropped, ledger.waiting), ({"a"}, {0}, {0}))
+
+
+class CommandTest(unittest.TestCase):
+    def test_refusals(self):
+        good = ["a.glb", "-o", "a.exr", "--spp", "4"]
+        for more, words in ((["--time", "1"], "whole pages of samples"), (["--target-rmse", "1"], "as in 1%"),
+                            (["--target-relmse", "0"], "a number above 0"), 
+                            (["--frames", "1:2", "--target-rmse", "1%", "-o", "a.#.exr"], "one picture"), (["--rows=0:4"], "one picture"),
+                            (["--slurm", "gres=gpu:1"], "the time among them"), (["--workers", "0:4"], "--slurm as well"),
+                            (["--slurm", "time=1:00", "--workers", "4:2"], "the fewest and the most"),
+                            (["--samples=0:4"], "hands out samples itself"),
+                            (["--resume"], "goes on"), (["--camera", "all"], "one picture"), (["--spp", "0"], "whole number"),
+                            (["--frames", "1:2"], "####"), (["--fps", "3"], "--frames"), (["--frames", "2:1"], "A:B"),
+                            (["--local", "2", "--scheduler", "tcp://h:1"], "not allowed"), (["--tls-ca", "a"], "together"),
+                            (["--png", "a.jpg"], ".png")):
+            with self.assertRaises(SystemExit) as caught, mock.patch("sys.stderr") as stderr:
+                parse_arguments(good + more)
+            self.assertEqual(caught.exception.code, 2, more)
+            self.assertIn(words, "".join(call.args[0] for call in stderr.write.call_args_list))
+        options = parse_arguments(good + ["--size", "8x8", "--look-from", "-1,2,3"])
+        self.assertEqual((options.others, options.spp), (["--size", "8x8", "--look-from", "-1,2,3"], 4))
+
+    def test_no_commands_from_a_network_without_tls(self):
+        for option, value, words in (("--scheduler", "tcp://10.0.0.1:8786", "--insecure"), ("--scheduler", "tls://10.0.0.1:8786", "--tls-ca"),
+                                     ("--scheduler", "head:8786", "tls://"), ("--slurm", "time=1:00", "--insecure")):
+            done = subprocess.run([FARM, SCENE, "-o", "a.exr", "--spp", "4", option, value],
+                                  stderr=subprocess.PIPE, text=True, check=False)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(words, done.stderr)
+
+
+class FilesTest(FarmCase):
+    def test_bad_scene_leaves_nothing(self):
+        with open(self.path("bad.gltf"), "w", encoding="utf-8") as file:
+            file.write("{}")
+        farm = self.start([FARM, self.path("bad.gltf"), "-o", self.out, "--spp", "4"], GLIM)
+        self.assertIn("bad.gltf", self.finish(farm, 1))
+        self.assertEqual(os.listdir(self.folder), ["bad.gltf"])
+
+    def test_files_of_other_folders(self):
+        with open(SCENE, encoding="utf-8") as file:
+            scene = json.load(file)
+        scene["buffers"][0]["uri"] = "../secret.bin"
+        with open(self.path("spy.gltf"), "w", encoding="utf-8") as file:
+            json.dump(scene, file)
+        self.assertIn("secret.bin", self.finish(self.start([FARM, self.path("spy.gltf"), "-o", self.out, "--spp", "4"], GLIM), 1))
+
+    def test_headers(self):
+        with self.assertRaisesRegex(FarmError, "a.exr: is damaged"):
+            read_header(b"no picture", "a.exr")
+        film = self.path("a.exr")
+        subprocess.run([GLIM, "render", SCENE, "-o", film, "--spp", "1", "--size", "8x4"], check=True, stdout=subprocess.DEVNULL)
+        self.assertEqual(read_film_header(film).size, "8x4")
+        with open(film, "rb") as file, self.assertRaisesRegex(FarmError, "a.exr: is damaged"):
+            read_header(file.read(500), "a.exr")
+
+
+class TargetTest(FarmCase):
+    TARGET = .035
+
+    def error_of(self, spp):
+        film = self.path("%d.exr" % spp)
+        subprocess.run([GLIM, "render", SCENE, "-o", film, "--samples", "0:%d" % spp, "--size", SIZE, "--stats", self.path("stats.json")],
+                       check=True, stdout=subprocess.DEVNULL)
+        with open(self.path("stats.json"), encoding="utf-8") as file:
+            estimate = json.load(file)["estimate"]
+        error = read_film_error(Glim(GLIM, self.folder), film)
+        self.assertEqual((error.relmse, error.rmse), (estimate["relmse"], estimate["rmseOfMean"]))
+        return error.rmse
+
+    def test_stops_at_the_same_sample(self):
+        """With one worker, or with three after a run that was killed. It is the first rung at which the target is reached."""
+        target = ["--target-rmse", "%g%%" % (100 * self.TARGET)]
+        said = self.finish(self.start_farm(*target, spp=100000))
+        self.assertIn("the target is reached", said)
+        spp = int(read_film_header(self.out).samples.partition(":")[2])
+        self.assertGreater(spp, PAGE)
+        self.expect_whole(spp)
+        rungs = [pages * PAGE for pages in range(1, spp // PAGE + 1) if is_rung(pages)]
+        self.assertEqual([self.error_of(rung) <= self.TARGET for rung in rungs], [False] * (len(rungs) - 1) + [True])
+        os.unlink(self.out)
+        farm = self.start_farm(*target, glim=self.program('if page.number > 1:\n    wait_for(FOLDER, "never")'), spp=100000)
+        wait_until(lambda: os.path.exists(self.out + ".farm/film.exr"), "a page is folded")
+        os.kill(farm.pid, signal.SIGKILL)
+        farm.wait()
+        self.assertIn("its target is", self.finish(self.start_farm("--target-rmse", "9%", spp=100000), 1))
+        self.finish(self.start_farm(*target, "--local", "3", spp=100000))
+        self.expect_whole(spp)
+
+    @LONG
+    def test_spp_is_the_bound(self):
+        said = self.finish(self.start_farm("--target-relmse", "1e-9", spp=300))
+        self.assertIn("the target is not reached", said)
+        self.expect_whole(300)
+
+    def test_rungs(self):
+        self.assertEqual([pages for pages in range(30) if is_rung(pages)], [*range(1, 12), 13, 15, 17, 19, 21, 24, 27])
+        self.assertEqual([next_rung(pages) for pages in (0, 1, 10, 11, 12, 13)], [1, 2, 11, 13, 13, 15])
+        error = FilmError(.01, .2)
+        self.assertEqual(error.times_to(FilmError(.02, None)), .5)
+        self.assertAlmostEqual(error.times_to(FilmError(.02, .1)), 4)
+
+
+class FramesTest(FarmCase):
+    def animated(self):
+        with open(SCENE, encoding="utf-8") as file:
+            scene = json.load(file)
+        content = struct.pack("<2f6f", 0, 1, 0, 0, 0, 0, .1, 0)
+        buffer, view, accessor = (len(scene[name]) for name in ("buffers", "bufferViews", "accessors"))
+        scene["buffers"].append({"byteLength": len(content), "uri": "data:application/octet-stream;base64," +
+                                 base64.b64encode(content).decode()})
+        scene["bufferViews"] += [{"buffer": buffer, "byteOffset": 0, "byteLength": 8}, {"buffer": buffer, "byteOffset": 8, "byteLength": 24}]
+        scene["accessors"] += [{"bufferView": view, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
+                               {"bufferView": view + 1, "componentType": 5126, "count": 2, "type": "VEC3"}]
+        node = next(index for index, node in enumerate(scene["nodes"]) if "mesh" in node)
+        scene["animations"] = [{"channels": [{"sampler": 0, "target": {"node": node, "path": "translation"}}],
+                                "samplers": [{"input": accessor, "output": accessor + 1}]}]
+        with open(self.path("moving.gltf"), "w", encoding="utf-8") as file:
+            json.dump(scene, file)
+        return self.path("moving.gltf")
+
+    def test_frames(self):
+        command = [self.animated(), "--frames", "1:3", "--fps", "4", "--size", "16x16", "--spp", "8", "-o"]
+        subprocess.run([GLIM, "render", *command, self.path("one.##.exr")], check=True, stdout=subprocess.DEVNULL)
+        expected = [read_film_header(self.path("one.%02d.exr" % frame)).digest for frame in (1, 2, 3)]
+        farm = [FARM, *command, self.path("out.##.exr"), "--png", self.path("out.##.png")]
+        self.finish(self.start(farm, GLIM))
+        os.replace(self.path("out.01.exr"), self.path("out.02.exr"))  # of another time
+        before = os.stat(self.path("out.03.exr")).st_mtime_ns
+        self.assertIn("1 of 3 frames are whole", self.finish(self.start(farm, GLIM)))
+        self.assertEqual([read_film_header(self.path("out.%02d.exr" % frame)).digest for frame in (1, 2, 3)], expected)
+        self.assertEqual(os.stat(self.path("out.03.exr")).st_mtime_ns, before)
+        self.assertTrue(os.path.exists(self.path("out.02.png")))
+        self.assertFalse(os.path.exists(self.path("out.##.exr.farm")))
+
+
+if __name__ == "__main__":
+    main()

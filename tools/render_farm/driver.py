@@ -1,0 +1,249 @@
+"""Hands parts to workers and takes back films. To be imported within the environment that has Dask."""
+
+import asyncio
+import contextlib
+import signal
+import time
+
+import cloudpickle
+import distributed
+from distributed.comm.addressing import get_address_host
+
+from render_farm import glim_child
+from render_farm.errors import FarmError
+from render_farm.ledger import Ledger
+from render_farm.picture import OtherClass
+from render_farm.security import is_private
+
+TICK_SECONDS = 0.5
+ENDING_SECONDS = 5
+PATIENCE_SECONDS = 60  # with workers of which none can be used, until another comes
+cloudpickle.register_pickle_by_value(glim_child)  # workers need not have this code
+
+
+def make_task(program, arguments, folder):
+    """A function without arguments, which goes to a worker by value."""
+    def task():
+        worker = distributed.get_worker()
+        if not hasattr(worker, "glim_servers"):
+            worker.glim_servers = glim_child.Servers()
+        return glim_child.serve_film(worker.glim_servers, program, arguments, folder, worker.local_directory)
+    return task
+
+
+class Driver:
+    """Each part goes to a worker that the driver chooses: Dask carries films, and tells which workers live. A film comes back as the bytes
+    that the task returns, so that workers need no folder in common with the driver, and the driver alone writes into the job's."""
+
+    def __init__(self, picture, done, options, progress):
+        self.picture, self.options, self.progress = picture, options, progress
+        self.ledger = Ledger(set(picture.parts) - done.keys(), done)
+        self.workers = set()
+        self.barred = set()
+        self.others = set()  # of those that are barred: of another class
+        self.busy = set()
+        self.tasks = {}  # that follow a loan, by part and worker
+        self.folding = None
+        self.useless_since = None
+
+    async def run(self, client):
+        """Returns when the picture is whole. Refuses (FarmError) what keeps it from that. client: Dask's."""
+        self.client, self.events = client, asyncio.Queue()
+        try:
+            while not self.picture.finished:
+                await self.look_at_workers()
+                self.hand_out()
+                self.show()
+                await self.take_films()
+                await self.fold()
+                if self.picture.whole and not self.ledger.votes:
+                    self.picture.publish()
+        finally:
+            for task in self.tasks.values():
+                task.cancel()
+            if self.folding:
+                await asyncio.wait([self.folding])
+            # The workers of a scheduler live on, and others end faster without a page to wait for.
+            with contextlib.suppress(asyncio.TimeoutError, OSError):
+                await asyncio.wait_for(self.client.run(glim_child.end_server_of, on_error="ignore"), ENDING_SECONDS)
+
+    async def look_at_workers(self):
+        try:
+            now = set(await self.client.scheduler.ncores())
+        except (OSError, AttributeError) as error:
+            raise self.lost() from error
+        for worker in self.workers - now:
+            self.progress.say("worker %s is gone" % worker)
+            self.busy.discard(worker)
+            for part in self.ledger.lose(worker):
+                raise FarmError("%s: too many workers died while they had it" % self.name(part))
+            for key in [key for key in self.tasks if key[1] == worker]:
+                self.tasks.pop(key).cancel()
+        for worker in now - self.workers:
+            if not self.options.insecure and not is_private(worker):
+                self.bar(worker, "%s: it is reached without TLS" % worker)
+        self.workers = now
+        self.refuse_if_useless()
+
+    def lost(self):
+        return FarmError("the scheduler is gone; the same command goes on from %s" % self.picture.folder.path)
+
+    def refuse_if_useless(self):
+        """Refuses (FarmError) to wait for ever while workers are there and none can be used. Others may still come, but for local ones."""
+        if self.usable() or not self.workers:
+            self.useless_since = None
+            return
+        now = time.monotonic()
+        if self.useless_since is None:
+            self.useless_since = now
+        is_all = not self.options.scheduler and not self.options.slurm and len(self.workers) >= self.options.local
+        if is_all or now - self.useless_since >= PATIENCE_SECONDS:
+            raise FarmError("no worker is left that can be used; the same command goes on from %s" % self.picture.folder.path)
+
+    def usable(self):
+        return {worker for worker in self.workers - self.barred if self.ledger.may_work(get_address_host(worker))}
+
+    def bar(self, worker, why):
+        if worker not in self.barred:
+            self.progress.say("%s; the worker is not used" % why)
+        self.barred.add(worker)
+
+    def reconsider_class(self):
+        """What decided the class was false, so that the workers of other classes may be of the right one."""
+        if not self.picture.has_class:
+            self.barred -= self.others
+            self.others = set()
+
+    def hand_out(self):
+        usable = self.usable()
+        for worker in sorted(usable - self.busy):
+            part = self.ledger.lend(worker, get_address_host(worker), usable, time.monotonic())
+            if part is None:
+                continue
+            task = make_task(self.picture.glim.program, self.picture.arguments(part), self.picture.glim.folder)
+            future = self.client.submit(task, workers=[worker], allow_other_workers=False, pure=False)
+            self.busy.add(worker)
+            self.tasks[part, worker] = asyncio.create_task(self.follow(part, worker, future))
+
+    async def follow(self, part, worker, future):
+        """Frees the worker as soon as it has rendered, before the film is here."""
+        try:
+            await distributed.wait(future)
+            self.busy.discard(worker)
+            self.events.put_nowait(None)
+            film, error = await future
+        except Exception as caught:  # whatever Dask throws is a failure of this loan
+            film, error = None, "%s: %s" % (type(caught).__name__, caught)
+            self.busy.discard(worker)
+        self.events.put_nowait((part, worker, film, error))
+
+    async def take_films(self):
+        try:
+            events = [await asyncio.wait_for(self.events.get(), TICK_SECONDS)]
+        except asyncio.TimeoutError:
+            return
+        while not self.events.empty():
+            events.append(self.events.get_nowait())
+        for event in filter(None, events):
+            await self.take(*event)
+
+    async def take(self, part, worker, film, error):
+        if self.tasks.pop((part, worker), None) is None:
+            return  # of a worker that is gone
+        if film is None:
+            if self.client.status != "running":
+                raise self.lost()
+            return self.fail(part, worker, error)
+        try:
+            header = self.picture.check(part, film, "worker %s" % worker)
+        except OtherClass as other:
+            self.ledger.give_back(part, worker)
+            if worker not in self.barred:
+                self.others.add(worker)
+            return self.bar(worker, other)
+        except FarmError as wrong:
+            return self.fail(part, worker, wrong)
+        host = get_address_host(worker)
+        if not self.ledger.is_trusted(host):
+            self.ledger.give_back(part, worker)
+            return None
+        receipt = self.ledger.receive(part, worker, host, header.digest, time.monotonic())
+        if receipt.kind in ("disputed", "settled"):
+            await self.resolve(part, host, receipt)
+        if receipt.kind in ("first", "settled") and not self.picture.holds(part):
+            try:
+                self.picture.take(part, header, film)
+            except FarmError:
+                return self.spoil(part)
+            self.progress.add(self.picture.samples(part) * self.picture.pixels)
+        return None
+
+    async def resolve(self, part, host, receipt):
+        if self.folding:
+            await asyncio.wait([self.folding])
+        if receipt.kind == "disputed" and not receipt.distrusted:
+            self.progress.say("%s: host %s renders other bits than another host; a third decides" % (self.name(part), host))
+            self.picture.suspend(part)
+        for loser in sorted(receipt.distrusted):
+            self.progress.say("host %s is not trusted any more: what it rendered of %s has wrong bits" % (loser, self.name(part)))
+        self.ledger.forget(self.picture.drop(receipt.dropped) - ({part} if receipt.kind == "settled" else set()))
+        self.reconsider_class()
+        if not self.ledger.votes:
+            self.picture.settle()
+
+    def fail(self, part, worker, why):
+        if self.ledger.fail(part, worker):
+            raise FarmError("%s failed too often, at last on worker %s: %s" % (self.name(part), worker, why))
+        self.progress.say("%s failed on worker %s: %s" % (self.name(part), worker, why))
+
+    def spoil(self, part):
+        worker, too_many = self.ledger.spoil(part)
+        if worker is not None:
+            self.progress.say("%s came damaged from worker %s" % (self.name(part), worker))
+        if too_many:
+            self.bar(worker, "worker %s: too much of what it sends is damaged" % worker)
+
+    async def fold(self):
+        if self.folding and self.folding.done():
+            damaged, again = self.folding.result()
+            self.ledger.forget(again)
+            for part in sorted(damaged):
+                self.spoil(part)
+            self.reconsider_class()
+            self.folding = None
+        pages = self.picture.foldable() if self.folding is None else None
+        if pages:
+            self.folding = asyncio.create_task(asyncio.to_thread(self.picture.fold, pages))
+            self.folding.add_done_callback(lambda _: self.events.put_nowait(None))
+
+    def left(self):
+        """The parts that are not done, as far as is known which are needed."""
+        return [part for part in self.picture.parts[:self.picture.expected] if part not in self.ledger.done]
+
+    def count_left(self):
+        return len(self.left())
+
+    def name(self, part):
+        return "%s %d" % (self.picture.part, part)
+
+    def show(self):
+        left, all_parts = self.left(), self.picture.expected
+        self.progress.show("%d of %d %ss" % (all_parts - len(left), all_parts, self.picture.part), (len(self.usable()), len(self.workers)),
+                           sum(map(self.picture.samples, left)) * self.picture.pixels, self.picture.error, self.client.dashboard_link)
+
+
+async def until_signal(work):
+    """Runs `work`. SIGINT and SIGTERM end it; returns the signal, or None."""
+    task, stopped = asyncio.ensure_future(work), []
+
+    def stop(number):
+        stopped.append(number)
+        task.cancel()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        asyncio.get_running_loop().add_signal_handler(number, stop, number)
+    try:
+        await task
+    except asyncio.CancelledError:
+        if not stopped:
+            raise
+    return stopped[0] if stopped else None

@@ -1,0 +1,45 @@
+"""How wrong a film still is by its own estimate, and when that is looked at."""
+
+import json
+import math
+
+FLOOR = 0.01  # of relMSE: this share of the squared mean is in its denominator (host/cli/README.md)
+
+
+def is_rung(pages):
+    """Whether a film of so many pages is looked at. That must not depend on how fast workers are: every page at first, then a tenth more."""
+    rung = 1
+    while rung < pages:
+        rung = next_rung(rung)
+    return rung == pages
+
+
+def next_rung(pages):
+    rung = 1
+    while rung <= pages:
+        rung += -(-rung // 10)
+    return rung
+
+
+class FilmError:
+    """Estimates: the relMSE, and the RMSE as a share of the picture's mean."""
+
+    def __init__(self, relmse, rmse):
+        self.relmse, self.rmse = relmse, rmse
+
+    def __str__(self):
+        return "relMSE %.3g, RMSE %.3g %% of the mean" % (self.relmse, 100 * self.rmse)
+
+    def times_to(self, target):
+        """By what factor the samples must grow to reach the target; at most 1: it is reached. What is None in `target` is no target."""
+        times = [] if target.relmse is None else [self.relmse / target.relmse]
+        return max(times if target.rmse is None else [*times, (self.rmse / target.rmse) ** 2])
+
+
+def read_film_error(glim, path):
+    """The FilmError of a film, or None if it has too few samples."""
+    said = json.loads(glim.read(["compare", path, path, "--json"]))
+    noise, mean = said["noise"], math.sqrt(said["relmse_epsilon"] / FLOOR)
+    if noise is None or noise["mse"] is None:
+        return None
+    return FilmError(noise["relmse"], math.sqrt(noise["mse"]) / mean if noise["mse"] > 0 else 0.0)

@@ -1,0 +1,70 @@
+"""The folder of a job, which is all that lasts: what is asked, and what is rendered already."""
+
+import fcntl
+import json
+import os
+import shutil
+
+from render_farm.errors import FarmError
+
+
+def sync_folder(path):
+    descriptor = os.open(path, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def write_whole(path, content):
+    """Writes the whole file or, with OSError, nothing that has its name."""
+    partial = path + ".partial"
+    try:
+        with open(partial, "wb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        os.rename(partial, path)
+    except OSError:
+        if os.path.exists(partial):
+            os.unlink(partial)
+        raise
+    sync_folder(os.path.dirname(path))
+
+
+class JobFolder:
+    """OUT.exr.farm, made and locked by `hold`. `pages` within it holds films that wait to be folded."""
+
+    def __init__(self, output):
+        self.path = output + ".farm"
+        self.pages = os.path.join(self.path, "pages")
+        self.film = os.path.join(self.path, "film.exr")
+
+    def hold(self, job, about):
+        """Keeps the job. job: what decides its bits. about: what else a reader wants to know. Refuses (FarmError) another job,
+        and another process on the same."""
+        self.take_lock()
+        path = os.path.join(self.path, "job.json")
+        if os.path.exists(path):
+            try:
+                with open(path, encoding="utf-8") as file:
+                    held = json.load(file)["job"]
+            except (ValueError, KeyError, TypeError) as error:
+                raise FarmError("%s: is damaged; remove %s to begin anew" % (path, self.path)) from error
+            for name in job:
+                if held.get(name) != job[name]:
+                    raise FarmError("%s holds another job: its %s is %s, expected %s; finish that one, or remove the folder"
+                                    % (self.path, name, json.dumps(held.get(name)), json.dumps(job[name])))
+        write_whole(path, json.dumps({"job": job, **about}, indent=1).encode())
+
+    def take_lock(self):
+        os.makedirs(self.pages, exist_ok=True)
+        self.lock = os.open(self.path, os.O_RDONLY | os.O_DIRECTORY)  # until this process ends
+        try:
+            fcntl.flock(self.lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError as error:
+            raise FarmError("%s: another farm works on it now" % self.path) from error
+
+    def remove(self):
+        shutil.rmtree(self.path)
+        sync_folder(os.path.dirname(self.path))
