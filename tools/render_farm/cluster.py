@@ -30,8 +30,12 @@ async def connect(options, wanted):
                 yield client
         return
     if options.scheduler is None:
-        async with distributed.LocalCluster(n_workers=options.local, threads_per_worker=1, processes=True, host="127.0.0.1",
-                                            dashboard_address="127.0.0.1:0", memory_limit=0, asynchronous=True) as cluster:
+        try:
+            cluster = await distributed.LocalCluster(n_workers=options.local, threads_per_worker=1, processes=True, host="127.0.0.1",
+                                                     dashboard_address="127.0.0.1:0", memory_limit=0, asynchronous=True)
+        except RuntimeError as error:  # a worker that is killed while it starts
+            raise FarmError("a worker of this machine did not start: %s" % error) from error
+        async with cluster:
             async with distributed.Client(cluster, asynchronous=True) as client:
                 yield client
         return
