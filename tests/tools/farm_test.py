@@ -139,6 +139,12 @@ class FilesTest(FarmCase):
         self.assertIn("bad.gltf", self.finish(farm, 1))
         self.assertEqual(os.listdir(self.folder), ["bad.gltf"])
 
+    def test_output_in_a_folder_that_is_not_there(self):
+        out = self.path("missing/out.exr")
+        said = self.finish(self.start([FARM, SCENE, "-o", out, "--spp", "4", "--size", "8x8"], GLIM), 1)
+        self.assertIn("the folder %s does not exist" % self.path("missing"), said)
+        self.assertEqual(os.listdir(self.folder), [])
+
     def test_files_of_other_folders(self):
         with open(SCENE, encoding="utf-8") as file:
             scene = json.load(file)

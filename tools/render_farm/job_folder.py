@@ -58,6 +58,8 @@ class JobFolder:
         write_whole(path, json.dumps({"job": job, **about}, indent=1).encode())
 
     def take_lock(self):
+        if not os.path.isdir(os.path.dirname(self.path)):
+            raise FarmError("%s: cannot be made: the folder %s does not exist" % (self.path, os.path.dirname(self.path)))
         os.makedirs(self.pages, exist_ok=True)
         self.lock = os.open(self.path, os.O_RDONLY | os.O_DIRECTORY)  # until this process ends
         try:
