@@ -69,7 +69,7 @@ void addRenderOptions(const Command& command, RenderOptions& options)
     command.addPath("SCENE", "FILE", "Scene, .gltf or .glb", options.scene).require();
     addPicture(command, options);
     addAov(command, options);
-    command.add("--rows", "BEGIN:END", "Only rows BEGIN to END - 1 of the picture, for `glim merge`, from 0 at the top [all]",
+    command.add("--rows", "BEGIN:END", "Only rows BEGIN to END - 1 of the picture, for `glim merge`, 0 at the top [all]",
                 [&options](const std::string& text) { options.settings.rows = parseRows(text); });
     addCamera(command, options, ", or all");
     addSequence(command, options);
