@@ -12,9 +12,6 @@
 namespace glim {
 namespace {
 
-// Pixels along a side: what fits OpenEXR viewers and keeps width * height within 32 bits.
-constexpr std::uint32_t kMaxSide = 65535;
-
 // The whole of `text` as a number, or nothing.
 template <class T>
 bool parseNumber(const std::string& text, T& value)
@@ -143,26 +140,15 @@ FrameRange parseFrames(const std::string& text)
     return range;
 }
 
-std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& text)
+std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& option, const std::string& text, std::uint32_t most)
 {
     const std::vector<std::string> parts = split(text, ':');
     std::pair<std::uint32_t, std::uint32_t> range;
     if (parts.size() != 2 || !parseNumber(parts[0], range.first) || !parseNumber(parts[1], range.second) || range.first >= range.second ||
-        range.second > kMaxSample) {
-        throw UsageError("--samples",
-                         "\"" + text + "\": expected BEGIN:END with BEGIN < END <= " + std::to_string(kMaxSample) + ", as in 0:256");
+        range.second > most) {
+        throw UsageError(option, "\"" + text + "\": expected BEGIN:END with BEGIN < END <= " + std::to_string(most) + ", as in 0:256");
     }
     return range;
-}
-
-std::pair<std::uint32_t, std::uint32_t> parseRows(const std::string& text)
-{
-    const std::vector<std::string> parts = split(text, ':');
-    std::pair<std::uint32_t, std::uint32_t> rows;
-    if (parts.size() != 2 || !parseNumber(parts[0], rows.first) || !parseNumber(parts[1], rows.second) || rows.first >= rows.second) {
-        throw UsageError("--rows", "\"" + text + "\": expected BEGIN:END with BEGIN < END, as in 0:270");
-    }
-    return rows;
 }
 
 double parsePercent(const std::string& option, const std::string& text)

@@ -18,6 +18,9 @@ namespace glim {
 // The largest sample index + 1: the sampler keeps one bit of the block number for itself.
 inline constexpr std::uint32_t kMaxSample = 1U << 31;
 
+// Pixels along a side: what fits OpenEXR viewers and keeps width * height within 32 bits.
+inline constexpr std::uint32_t kMaxSide = 65535;
+
 // Sample `sample` of the pixel in column x and row y, from the upper left corner.
 struct SamplePlace {
     std::uint32_t x, y, sample;
@@ -28,21 +31,21 @@ struct FrameRange {
     std::uint32_t first = 0, last = 0, step = 1;
 };
 
-glm::uvec2 parseSize(const std::string& text);                                // "640x480"
-std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& text);  // "0:256", begin < end
-FrameRange parseFrames(const std::string& text);                              // "1:250" or "1:250:5", first <= last
+glm::uvec2 parseSize(const std::string& text);  // "640x480"
+// "0:256", begin < end <= most.
+std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& option, const std::string& text, std::uint32_t most);
+FrameRange parseFrames(const std::string& text);  // "1:250" or "1:250:5", first <= last
 // "none", "studio", numbers or a file.
 EnvironmentChoice parseEnvironment(const std::string& text);
 std::string describeEnvironment(const EnvironmentChoice& choice);
 Sun parseSun(const std::string& text);  // "30,45,1000"
 std::string describeSun(const Sun& sun);
-glm::vec3 parseRadiance(const std::string& text);                            // "1,1,1", >= 0; a file is refused
-std::pair<std::uint32_t, std::uint32_t> parseRows(const std::string& text);  // "0:270"
-SamplePlace parseSample(const std::string& text);                            // "12,40,7"
-glm::dvec3 parsePoint(const std::string& option, const std::string& text);   // "1,2.5,-3"
-double parsePercent(const std::string& option, const std::string& text);     // "1%", in (0, 1000]; returns 1 for 100%
-double parseDuration(const std::string& option, const std::string& text);    // "90s", "5m" or "1h", > 0; returns seconds
-float parseSurvival(const std::string& text);                                // "fixed:0.7", in (0, 1]
+glm::vec3 parseRadiance(const std::string& text);                           // "1,1,1", >= 0; a file is refused
+SamplePlace parseSample(const std::string& text);                           // "12,40,7"
+glm::dvec3 parsePoint(const std::string& option, const std::string& text);  // "1,2.5,-3"
+double parsePercent(const std::string& option, const std::string& text);    // "1%", in (0, 1000]; returns 1 for 100%
+double parseDuration(const std::string& option, const std::string& text);   // "90s", "5m" or "1h", > 0; returns seconds
+float parseSurvival(const std::string& text);                               // "fixed:0.7", in (0, 1]
 
 // An option whose value is one number (uint32_t, float or double) in [low, high]; never NaN. The help shows `what`, the range and, in
 // brackets, the default.

@@ -109,7 +109,9 @@ void addSampleCount(const Command& command, RenderSettings& settings, const std:
     const Option samples =
         command.add("--samples", "BEGIN:END",
                     "Sample indices BEGIN to END - 1, for `glim merge`, 0 to " + std::to_string(kMaxSample) + " [" + rangeDefault + "]",
-                    [&settings](const std::string& text) { std::tie(settings.sampleBegin, settings.sampleEnd) = parseRange(text); });
+                    [&settings](const std::string& text) {
+                        std::tie(settings.sampleBegin, settings.sampleEnd) = parseRange("--samples", text, kMaxSample);
+                    });
     const Option time = addNumber<double>(command, {"--time", "SECONDS", "Stop after this time, at the end of a pass", 1e-3, 1e9, "off"},
                                           [&settings](double seconds) { settings.seconds = seconds; });
     spp.excludes(time).excludes(samples);

@@ -70,7 +70,7 @@ void addRenderOptions(const Command& command, RenderOptions& options)
     addPicture(command, options);
     addAov(command, options);
     command.add("--rows", "BEGIN:END", "Only rows BEGIN to END - 1 of the picture, for `glim merge`, 0 at the top [all]",
-                [&options](const std::string& text) { options.settings.rows = parseRows(text); });
+                [&options](const std::string& text) { options.settings.rows = parseRange("--rows", text, kMaxSide); });
     addCamera(command, options, ", or all");
     addSequence(command, options);
     command.beginGroup("Sampling and stopping");

@@ -1,9 +1,9 @@
 #include "host/cli/render_sequence.hpp"
 
-#include "host/cli/fastest_schedule.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/cli/output_file.hpp"
 #include "host/cli/render_report.hpp"
+#include "host/cli/scene_session.hpp"
 #include "host/flatten/camera_options.hpp"
 #include "host/message.hpp"
 #include "host/render/check_memory.hpp"
@@ -162,88 +162,34 @@ bool isWhole(const StoredFilm& stored, const RenderOptions& options)
     return all || (!stored.checkpoint && options.target.isGiven() && timesToTarget(film, options.target) <= 1.0);
 }
 
-LoadOptions loadOptionsFor(const RenderOptions& options)
-{
-    LoadOptions load = loadOptionsOf(options);
-    load.framed = load.framed || options.sequence.turntable > 0;
-    load.at.reset();  // the sequence poses the scene
-    return load;
-}
-
-// Without what may differ between two pictures of one renderer.
-RenderSettings lastingSettings(RenderSettings settings)
-{
-    const RenderSettings other;
-    settings.sampleBegin = other.sampleBegin;
-    settings.sampleEnd = other.sampleEnd;
-    settings.seconds = other.seconds;
-    settings.seed = other.seed;
-    return settings;
-}
-
-// When files were written last, and how long they are.
-std::vector<std::pair<std::filesystem::file_time_type, std::uintmax_t>> stampsOf(const std::vector<std::filesystem::path>& files)
-{
-    std::vector<std::pair<std::filesystem::file_time_type, std::uintmax_t>> stamps;
-    std::error_code gone;
-    for (const std::filesystem::path& file : files) {
-        stamps.emplace_back(std::filesystem::last_write_time(file, gone), std::filesystem::file_size(file, gone));
-    }
-    return stamps;
-}
-
 }  // namespace
 
-// Renders one picture after another, with one file, one device and one set of kernels for all of them.
+// Renders one picture after another.
 class SequenceRenderer {
 public:
     explicit SequenceRenderer(const RenderOptions& options)
-        : options_(options),
-          device_(instance_, options.device),
-          file_(options.scene, loadOptionsFor(options)),
-          time_(firstTime(options.sequence, options)),
-          prepared_(prepareScene(file_, time_, options.split)),
-          stamps_(stampsOf(prepared_.scene.files))
+        : session_(options)
     {}
 
-    // Whether it can render what these options ask for.
-    bool serves(const RenderOptions& options) const;
+    bool serves(const RenderOptions& options) const { return session_.serves(options); }
     ExitCode renderAll(const RenderOptions& options, const InterruptWatch& watch);
 
 private:
     RenderOptions optionsOf(const Shot& shot) const;
-    void openScene(std::optional<double> time);
     ExitCode renderShot(const RenderOptions& options);
     std::optional<StoredFilm> readOutput(const RenderOptions& options, const FlatCamera& camera, const RenderSettings& settings) const;
     bool keep(const RenderOptions& options, const StoredFilm& stored) const;
     std::optional<double> writeIdentities(const RenderOptions& options, const FlatCamera& camera, const Film& film);
-    void openRenderer(const FlatCamera& camera, RenderSettings& settings);
-    void resume(const RenderOptions& options, StoredFilm stored);
+    void resume(const RenderOptions& options, Renderer& renderer, StoredFilm stored) const;
     ExitCode writeShot(const RenderOptions& options, const RenderSettings& settings, const FlatCamera& camera, Rendered rendered);
 
     RenderOptions options_;
     bool isSequence_ = false;
     const InterruptWatch* watch_ = nullptr;  // of the request under way
-    VulkanInstance instance_;
-    Device device_;
-    SceneFile file_;
-    std::optional<double> time_;  // of the scene
-    PreparedScene prepared_;
-    std::vector<std::pair<std::filesystem::file_time_type, std::uintmax_t>> stamps_;  // of its files
+    SceneSession session_;
     SequencePlace place_;
-    std::optional<Renderer> renderer_;
-    bool isSceneNew_ = true;  // to the renderer
     std::shared_ptr<const CameraRayKernels> rayKernels_;
 };
-
-bool SequenceRenderer::serves(const RenderOptions& options) const
-{
-    const bool sameScene = options.scene == options_.scene && loadOptionsFor(options) == loadOptionsFor(options_) &&
-                           options.split == options_.split && stamps_ == stampsOf(prepared_.scene.files);
-    const bool sameLens = (options.lens.radius > 0.0F) == (options_.lens.radius > 0.0F);
-    return sameScene && sameLens && options.device == options_.device &&
-           lastingSettings(options.settings) == lastingSettings(options_.settings);
-}
 
 RenderOptions SequenceRenderer::optionsOf(const Shot& shot) const
 {
@@ -260,32 +206,23 @@ RenderOptions SequenceRenderer::optionsOf(const Shot& shot) const
     return options;
 }
 
-void SequenceRenderer::openScene(std::optional<double> time)
-{
-    if (time != time_) {
-        prepared_ = prepareScene(file_, time, options_.split, std::move(prepared_));
-        time_ = time;
-        isSceneNew_ = true;
-    }
-}
-
 ExitCode SequenceRenderer::renderAll(const RenderOptions& options, const InterruptWatch& watch)
 {
     options_ = options;
     isSequence_ = isSequence(options.sequence, options);
     watch_ = &watch;
-    openScene(firstTime(options.sequence, options));
-    const std::vector<Shot> shots = listShots(options.sequence, options, prepared_.scene);
+    session_.pose(firstTime(options.sequence, options));
+    const std::vector<Shot> shots = listShots(options.sequence, options, session_.prepared().scene);
     for (const Shot& shot : shots) {
-        checkTargets(optionsOf(shot), prepared_.scene.files);
+        checkTargets(optionsOf(shot), session_.prepared().scene.files);
     }
     if (options_.settings.aov == Aov::Radiance) {
-        warnIfNoLights(prepared_);
+        warnIfNoLights(session_.prepared());
     }
     place_ = {};
     place_.count = shots.size();
     for (const Shot& shot : shots) {
-        openScene(shot.at);
+        session_.pose(shot.at);
         const ExitCode code = renderShot(optionsOf(shot));
         if (code != ExitCode::Done) {
             return code;
@@ -302,9 +239,9 @@ ExitCode SequenceRenderer::renderAll(const RenderOptions& options, const Interru
 ExitCode SequenceRenderer::renderShot(const RenderOptions& options)
 {
     const auto start = std::chrono::steady_clock::now();
-    const Camera camera = cameraOf(prepared_.scene, options);
-    RenderSettings settings = settingsFor(options, camera);
-    checkMemory(prepared_, settings, device_.description(), options.checkpoint.isGiven());
+    const Camera camera = cameraOf(session_.prepared().scene, options);
+    const RenderSettings settings = settingsFor(options, camera);
+    checkMemory(session_.prepared(), settings, session_.device().description(), options.checkpoint.isGiven());
     if (watch_->signal() != 0) {
         return finish(watch_->signal(), place_.rendered == 0 ? "nothing was rendered or written"
                                                              : options.output.string() + " and what follows was not rendered");
@@ -322,16 +259,16 @@ ExitCode SequenceRenderer::renderShot(const RenderOptions& options)
     if (stored && keep(options, *stored)) {
         return ExitCode::Done;
     }
-    openRenderer(flatCamera, settings);
+    Renderer& renderer = session_.begin(flatCamera, settings);
     if (stored && options.checkpoint.resume) {
-        resume(options, *std::move(stored));
+        resume(options, renderer, *std::move(stored));
     }
     stored.reset();
     CheckpointWriter writer(options.checkpoint, options.output, [&options](Film& film) { labelFilm(film, options); });
     ProgressPrinter progress(options.progress, settings.seconds, settings.pixelCount(), place_);
     Rendered rendered;
     try {
-        rendered = renderPicture(*renderer_, options, writer, progress, *watch_);
+        rendered = renderPicture(renderer, options, writer, progress, *watch_);
     } catch (const DeviceError& error) {
         progress.finish();
         writer.finish();
@@ -366,7 +303,7 @@ std::optional<StoredFilm> SequenceRenderer::readOutput(const RenderOptions& opti
         return std::nullopt;
     }
     Film expected = emptyFilm(settings);
-    expected.identity = identityOf(SceneIdentity(prepared_.flat), camera, settings);
+    expected.identity = identityOf(SceneIdentity(session_.prepared().flat), camera, settings);
     labelFilm(expected, options);
     const bool others = stored.film.identity.kernels != expected.identity.kernels;
     const std::string difference = others ? "it is by another version of glim's kernels; `glim merge` adds samples that this one renders"
@@ -388,31 +325,15 @@ bool SequenceRenderer::keep(const RenderOptions& options, const StoredFilm& stor
     return true;
 }
 
-void SequenceRenderer::openRenderer(const FlatCamera& camera, RenderSettings& settings)
-{
-    if (!renderer_) {
-        settings.fastest = fastestSchedule(device_, prepared_.flat, camera, settings);
-        renderer_.emplace(device_, prepared_.flat, camera, settings);
-    } else if (isSceneNew_) {
-        renderer_->setSampling(settings);
-        renderer_->restart(prepared_.flat, camera, settings.width, settings.height);
-    } else {
-        renderer_->clearStatistics();
-        renderer_->setSampling(settings);
-        renderer_->restart(camera, settings.width, settings.height);
-    }
-    isSceneNew_ = false;
-}
-
 // Goes on from the film at --output, which is of this picture.
-void SequenceRenderer::resume(const RenderOptions& options, StoredFilm stored)
+void SequenceRenderer::resume(const RenderOptions& options, Renderer& renderer, StoredFilm stored) const
 {
     const std::string samples = sampleRangesText(stored.film), arithmetic = stored.film.arithmetic, device = stored.film.device;
     const auto refuse = [&](const std::string& reason) {
         throw InputError(options.output.string() + ": cannot be resumed: it has samples " + samples + ", " + reason + ".");
     };
     const auto [begin, end] = stored.film.sampleRanges.front();
-    const RenderSettings& settings = renderer_->settings();
+    const RenderSettings& settings = renderer.settings();
     if (begin != settings.sampleBegin) {
         refuse("expected them to begin at " + std::to_string(settings.sampleBegin));
     }
@@ -424,15 +345,16 @@ void SequenceRenderer::resume(const RenderOptions& options, StoredFilm stored)
     if (!checkpoint) {
         refuse("expected one range that ends with a page of " + std::to_string(kPageSamples) + "; `glim merge` adds others");
     }
-    if (!renderer_->canResume(*checkpoint)) {
+    if (!renderer.canResume(*checkpoint)) {
         refuse(isNeighbours(settings.adaptive) ? "planned for another --spp" : "more than were asked for");
     }
-    renderer_->resume(*std::move(checkpoint));
+    renderer.resume(*std::move(checkpoint));
     const double pixels = settings.pixelCount();
     say(options.output.string() + " is resumed at " +
-        exactText(std::round(100.0 * static_cast<double>(renderer_->statistics().resumedSamples) / pixels) / 100.0) + " samples per pixel");
-    if (arithmetic != arithmeticFingerprint(device_)) {
-        say(device_.description().name + " rounds otherwise than " + device + " did, so the film will equal a single run up to rounding");
+        exactText(std::round(100.0 * static_cast<double>(renderer.statistics().resumedSamples) / pixels) / 100.0) + " samples per pixel");
+    if (arithmetic != arithmeticFingerprint(renderer.device())) {
+        say(renderer.device().description().name + " rounds otherwise than " + device +
+            " did, so the film will equal a single run up to rounding");
     }
 }
 
@@ -443,7 +365,7 @@ std::optional<double> SequenceRenderer::writeIdentities(const RenderOptions& opt
         return std::nullopt;
     }
     const auto start = std::chrono::steady_clock::now();
-    Identifier identifier(*renderer_, prepared_, camera, rayKernels_);
+    Identifier identifier(session_.renderer(), session_.prepared(), camera, rayKernels_);
     writeIds(*options.ids, identifier, film);
     rayKernels_ = identifier.kernels();
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -453,7 +375,7 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const RenderS
                                      Rendered rendered)
 {
     Film& film = rendered.film;
-    if (watch_->signal() != 0 && renderer_->statistics().samples == 0) {
+    if (watch_->signal() != 0 && session_.renderer().statistics().samples == 0) {
         return finish(watch_->signal(), "no sample was finished, and nothing is written");
     }
     if (watch_->signal() != 0 && wouldRuin(options.output, film)) {
@@ -463,14 +385,14 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const RenderS
     const double writeSeconds = writePictures(options, film, rendered.checkpoint);
     const std::optional<double> idSeconds = writeIdentities(options, camera, film);
     // Before the control, whose samples are no suspects.
-    std::vector<Suspect> suspects = findSuspects(*renderer_, film);
-    const auto bias = measureBias(*renderer_, film, *watch_);
+    std::vector<Suspect> suspects = findSuspects(session_.renderer(), film);
+    const auto bias = measureBias(session_.renderer(), film, *watch_);
     const RenderReport report{options,
-                              prepared_,
+                              session_.prepared(),
                               film,
-                              renderer_->statistics(),
-                              device_.description(),
-                              stopReason(watch_->signal(), film, settings, rendered.isGood, renderer_->isDone()),
+                              session_.renderer().statistics(),
+                              session_.device().description(),
+                              stopReason(watch_->signal(), film, settings, rendered.isGood, session_.renderer().isDone()),
                               writeSeconds,
                               idSeconds,
                               std::move(suspects),

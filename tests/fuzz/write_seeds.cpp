@@ -96,34 +96,13 @@ GltfBuilder instanced()
     return builder;
 }
 
-GltfBuilder posed()
-{
-    GltfBuilder builder;
-    const std::size_t positions = builder.addVec3({0, 0, 0, 1, 0, 0, 0, 1, 0});
-    const std::size_t joints = builder.addAccessor({0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, kUnsignedByte, "VEC4", 3);
-    const std::size_t weights = builder.addAccessor(toBytes<float>({0.5F, 0.5F, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}), kFloat, "VEC4", 3);
-    const std::size_t mesh = builder.addMesh({{"attributes", {{"POSITION", positions}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}}},
-                                              {"targets", {{{"POSITION", positions}}}}});
-    builder.addNode({{"mesh", mesh}, {"skin", 0}, {"weights", {0.5}}});
-    builder.addNode({{"translation", {1, 2, 3}}});
-    builder.append("skins", {{"joints", {0, 1}}});
-    const std::size_t times = builder.addAccessor(toBytes<float>({0, 1}), kFloat, "SCALAR", 2);
-    const std::size_t turns = builder.addAccessor(toBytes<float>({0, 0, 0, 1, 0, 1, 0, 0}), kFloat, "VEC4", 2);
-    const json pointer = {{"KHR_animation_pointer", {{"pointer", "/nodes/0/weights/0"}}}};
-    builder.append("animations", {{"samplers", {{{"input", times}, {"output", turns}}, {{"input", times}, {"output", times}}}},
-                                  {"channels",
-                                   {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "rotation"}}}},
-                                    {{"sampler", 1}, {"target", {{"path", "pointer"}, {"extensions", pointer}}}}}}});
-    return builder;
-}
-
 void writeScenes(const fs::path& folder)
 {
     const std::pair<const char*, GltfBuilder> scenes[] = {
         {"textured", textured()},
         {"lit", lit()},
         {"instanced", instanced()},
-        {"posed", posed()},
+        {"posed", posedTriangle()},
         {"draco", build(makeHills(3), draco({}))},
         {"draco_sequential", build(makeHills(3), draco({false, 8, true}))},
         {"meshopt", build(makeHills(3), meshopt("TRIANGLES"))},

@@ -81,6 +81,20 @@ TEST(FilmFile, ReadsBackAnyNumberOfBlocks)
     EXPECT_EQ(digestOf(readFilm(folder / "a.exr")), digestOf(film));
 }
 
+TEST(FilmFile, ThatIsGivenUpLeavesTheFileAsItWas)
+{
+    const ScratchFolder folder;
+    writeFilm(folder / "a.exr", simulateFilm(0, 64));
+    const std::string before = bytesOfFile(folder / "a.exr");
+    Checkpoint checkpoint;
+    checkpoint.film = simulateFilm(0, 256);
+    EXPECT_FALSE(writeFilm(folder / "a.exr", checkpoint.film, checkpoint, [] { return false; }));
+    EXPECT_EQ(bytesOfFile(folder / "a.exr"), before);
+    EXPECT_EQ(folder.entries(), 1);
+    EXPECT_TRUE(writeFilm(folder / "a.exr", checkpoint.film, checkpoint));
+    EXPECT_NE(bytesOfFile(folder / "a.exr"), before);
+}
+
 TEST(FilmFile, ShowsCameraAndLightPathsTogether)
 {
     const ScratchFolder folder;

@@ -107,6 +107,28 @@ std::string GltfBuilder::toGlb() const
            std::string("BIN\0", 4) + binary;
 }
 
+GltfBuilder posedTriangle()
+{
+    GltfBuilder builder;
+    const std::size_t positions = builder.addVec3({0, 0, 0, 1, 0, 0, 0, 1, 0});
+    const std::size_t joints = builder.addAccessor({0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, kUnsignedByte, "VEC4", 3);
+    const std::size_t weights = builder.addAccessor(toBytes<float>({0.5F, 0.5F, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}), kFloat, "VEC4", 3);
+    const std::size_t mesh = builder.addMesh({{"attributes", {{"POSITION", positions}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}}},
+                                              {"targets", {{{"POSITION", positions}}}}});
+    builder.addNode({{"mesh", mesh}, {"skin", 0}, {"weights", {0.5}}});
+    builder.addNode({{"translation", {1, 2, 3}}});
+    const std::vector<float> bind{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    builder.append("skins", {{"joints", {0, 1}}, {"inverseBindMatrices", builder.addAccessor(toBytes(bind), kFloat, "MAT4", 2)}});
+    const std::size_t times = builder.addAccessor(toBytes<float>({0, 1}), kFloat, "SCALAR", 2);
+    const std::size_t turns = builder.addAccessor(toBytes<float>({0, 0, 0, 1, 0, 1, 0, 0}), kFloat, "VEC4", 2);
+    const json pointer = {{"KHR_animation_pointer", {{"pointer", "/nodes/0/weights/0"}}}};
+    builder.append("animations", {{"samplers", {{{"input", times}, {"output", turns}}, {{"input", times}, {"output", times}}}},
+                                  {"channels",
+                                   {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "rotation"}}}},
+                                    {{"sampler", 1}, {"target", {{"path", "pointer"}, {"extensions", pointer}}}}}}});
+    return builder;
+}
+
 std::string writeTemporary(const std::string& name, const std::string& content)
 {
     const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();

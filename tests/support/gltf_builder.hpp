@@ -50,6 +50,9 @@ private:
     Bytes bytes_;
 };
 
+// A triangle with a skin of two joints and a morph target; animation 0 turns a joint and moves the target's weight.
+GltfBuilder posedTriangle();
+
 // Writes below the test's own temporary folder; returns the path.
 std::string writeTemporary(const std::string& name, const std::string& content);
 

@@ -1,0 +1,83 @@
+#include "host/cli/scene_session.hpp"
+
+#include "host/cli/fastest_schedule.hpp"
+
+namespace glim {
+namespace {
+
+LoadOptions loadOptionsFor(const RenderOptions& options)
+{
+    LoadOptions load = loadOptionsOf(options);
+    load.framed = load.framed || options.sequence.turntable > 0;
+    load.at.reset();  // pose() says when
+    return load;
+}
+
+// Without what may differ between two pictures of one renderer.
+RenderSettings lastingSettings(RenderSettings settings)
+{
+    const RenderSettings other;
+    settings.sampleBegin = other.sampleBegin;
+    settings.sampleEnd = other.sampleEnd;
+    settings.seconds = other.seconds;
+    settings.seed = other.seed;
+    return settings;
+}
+
+}  // namespace
+
+SceneSession::SceneSession(const RenderOptions& options)
+    : options_(options),
+      device_(instance_, options.device),
+      file_(options.scene, loadOptionsFor(options)),
+      time_(firstTime(options.sequence, options)),
+      prepared_(prepareScene(file_, time_, options.split)),
+      stamps_(stampsOf(prepared_.scene.files))
+{}
+
+std::vector<SceneSession::Stamp> SceneSession::stampsOf(const std::vector<std::filesystem::path>& files)
+{
+    std::vector<Stamp> stamps;
+    std::error_code gone;
+    for (const std::filesystem::path& file : files) {
+        stamps.emplace_back(std::filesystem::last_write_time(file, gone), std::filesystem::file_size(file, gone));
+    }
+    return stamps;
+}
+
+bool SceneSession::serves(const RenderOptions& options) const
+{
+    const bool sameScene = options.scene == options_.scene && loadOptionsFor(options) == loadOptionsFor(options_) &&
+                           options.split == options_.split && stamps_ == stampsOf(prepared_.scene.files);
+    const bool sameLens = (options.lens.radius > 0.0F) == (options_.lens.radius > 0.0F);
+    return sameScene && sameLens && options.device == options_.device &&
+           lastingSettings(options.settings) == lastingSettings(options_.settings);
+}
+
+void SceneSession::pose(std::optional<double> time)
+{
+    if (time != time_) {
+        prepared_ = prepareScene(file_, time, options_.split, std::move(prepared_));
+        time_ = time;
+        isSceneNew_ = true;
+    }
+}
+
+Renderer& SceneSession::begin(const FlatCamera& camera, RenderSettings settings)
+{
+    if (!renderer_) {
+        settings.fastest = fastestSchedule(device_, prepared_.flat, camera, settings);
+        renderer_.emplace(device_, prepared_.flat, camera, settings);
+    } else if (isSceneNew_) {
+        renderer_->setSampling(settings);
+        renderer_->restart(prepared_.flat, camera, settings.width, settings.height);
+    } else {
+        renderer_->clearStatistics();
+        renderer_->setSampling(settings);
+        renderer_->restart(camera, settings.width, settings.height);
+    }
+    isSceneNew_ = false;
+    return *renderer_;
+}
+
+}  // namespace glim
