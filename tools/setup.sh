@@ -1,4 +1,4 @@
-# Shared by tools/glim, tools/test, tools/study and tools/plot_bench: installs what is missing, builds what has changed.
+# Shared by the programs in tools: installs what is missing, builds what has changed.
 # To be sourced by bash. Everything it says goes to stderr: stdout belongs to the program.
 
 root=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
@@ -34,6 +34,10 @@ studyPackages=(
     "python3                   measures, and writes the study's page"
     "python3-matplotlib        draws the study's plots"
 )
+venvPackages=(
+    "python3                   runs the tool"
+    "python3-venv              makes its environment for what comes from PyPI"
+)
 formatPackages=(
     "clang-format              keeps one style"
 )
@@ -49,7 +53,8 @@ testPackages=(
     "x11-xserver-utils         tells it how dense its pixels are"
     "xdotool                   presses its keys and moves its mouse"
     "xauth                     lets a session by hand on it (xvfb-run)"
-    "python3-venv              installs what five tests need from PyPI"
+    "python3-venv              installs what six tests need from PyPI"
+    "python3-dev               Python's headers, for the module"
     "openssl                   makes certificates for the farm's tests"
     "${studyPackages[@]}"
     "${formatPackages[@]}"
@@ -181,16 +186,23 @@ ensureBuilt() {
     ) 9>"$1/.lock"
 }
 
-# ensurePackages TOOL PACKAGE_LINE...: installs the packages if the tool is missing.
-ensurePackages() {
-    local tool=$1
-    shift
-    command -v "$tool" >/dev/null && return
-    isDebian || fail "$tool was not found and this is not Debian 12 or newer: $(namePackages "$@")"
+# ensure COMMAND SENTENCE PACKAGE_LINE...: installs the packages unless the command succeeds. The sentence says what is missing without them.
+ensure() {
+    local command=$1 missing=$2
+    shift 2
+    $command >/dev/null 2>&1 && return
+    isDebian || fail "$missing and this is not Debian 12 or newer: $(namePackages "$@")"
     mkdir -p "$root/build" 2>/dev/null && [[ -w $root/build ]] || fail "cannot write to $root/build, where the log goes"
     : >"$setupLog"
     installMissing "$@"
+    $command >/dev/null || fail "$missing, although it is installed"
 }
+
+# ensureTool TOOL PACKAGE_LINE...
+ensureTool() { ensure "command -v $1" "$1 was not found" "${@:2}"; }
+
+# Python and what makes its environments.
+ensureVenv() { ensure "python3 -m ensurepip --version" "no python3 with venv was found" "${venvPackages[@]}"; }
 
 # The first Python that has what the study needs; a user's own may shadow the system's.
 findPython() {
@@ -203,10 +215,6 @@ findPython() {
 
 # Prints which Python to run, after installing what is missing.
 ensurePython() {
-    findPython && return
-    isDebian || fail "no python3 with matplotlib was found: $(namePackages "${studyPackages[@]}")"
-    mkdir -p "$root/build" 2>/dev/null && [[ -w $root/build ]] || fail "cannot write to $root/build, where the log goes"
-    : >"$setupLog"
-    installMissing "${studyPackages[@]}"
-    findPython || fail "python3 cannot import matplotlib although it is installed"
+    ensure findPython "no python3 with matplotlib was found" "${studyPackages[@]}"
+    findPython
 }

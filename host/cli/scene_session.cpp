@@ -13,10 +13,11 @@ LoadOptions loadOptionsFor(const RenderOptions& options)
     return load;
 }
 
-// Without what may differ between two pictures of one renderer.
+// Without what may differ between two pictures of one session.
 RenderSettings lastingSettings(RenderSettings settings)
 {
     const RenderSettings other;
+    settings.rows = other.rows;
     settings.sampleBegin = other.sampleBegin;
     settings.sampleEnd = other.sampleEnd;
     settings.seconds = other.seconds;
@@ -65,7 +66,8 @@ void SceneSession::pose(std::optional<double> time)
 
 Renderer& SceneSession::begin(const FlatCamera& camera, RenderSettings settings)
 {
-    if (!renderer_) {
+    if (!renderer_ || renderer_->settings().rows != settings.rows) {
+        renderer_.reset();  // so that no two are on the device
         settings.fastest = fastestSchedule(device_, prepared_.flat, camera, settings);
         renderer_.emplace(device_, prepared_.flat, camera, settings);
     } else if (isSceneNew_) {

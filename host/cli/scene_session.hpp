@@ -14,17 +14,18 @@ public:
     // Reads the scene at the time of the first picture that the options ask for. Throws InputError, or DeviceError without a usable device.
     explicit SceneSession(const RenderOptions& options);
 
-    // Whether it can render what these options ask for: they differ from its own in nothing but samples, seed, size, camera, time and
-    // outputs, and no file of the scene has changed.
+    // Whether it can render what these options ask for: they differ from its own in nothing but samples, seed, size, rows, camera, time
+    // and outputs, and no file of the scene has changed.
     bool serves(const RenderOptions& options) const;
 
     // The scene at another time.
     void pose(std::optional<double> time);
-    // The renderer, at the beginning of a picture. The first one that is long measures which schedule is the faster one.
+    // The renderer, at the beginning of a picture. It is a new one if other rows are asked for. A new one for a long picture measures which
+    // schedule is the faster one.
     Renderer& begin(const FlatCamera& camera, RenderSettings settings);
 
     const PreparedScene& prepared() const { return prepared_; }
-    Device& device() { return device_; }
+    const Device& device() const { return device_; }
     Renderer& renderer() { return *renderer_; }  // after the first begin()
 
 private:

@@ -116,6 +116,7 @@ TEST_F(ServeTest, PicturesHaveTheBitsThatTheyHaveAlone)
         {gems, "--size", "16x12", "--spp", "8", "--look-from", "0,1,3", "--look-at", "0,1,0"},
         {gems, "--size", "16x12", "--spp", "8", "--lens-radius", ".1", "--focal-distance", "3"},
         {gems, "--size", "16x12", "--spp", "8", "--rows", "2:7"},
+        {gems, "--size", "16x12", "--spp", "8", "--rows", "7:8"},
         {gems, "--size", "16x12", "--spp", "8", "--bounces", "2"},
         {gems, "--size", "16x12", "--spp", "80", "--adaptive", "neighbours"},
         {gems, "--size", "16x12", "--spp", "128", "--adaptive", "neighbours", "--seed", "2"},

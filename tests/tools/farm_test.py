@@ -107,7 +107,8 @@ class CommandTest(unittest.TestCase):
         good = ["a.glb", "-o", "a.exr", "--spp", "4"]
         for more, words in ((["--time", "1"], "whole pages of samples"), (["--target-rmse", "1"], "as in 1%"),
                             (["--target-relmse", "0"], "a number above 0"), 
-                            (["--frames", "1:2", "--target-rmse", "1%", "-o", "a.#.exr"], "one picture"), (["--rows=0:4"], "one picture"),
+                            (["--frames", "1:2", "--target-rmse", "1%", "-o", "a.#.exr"], "one picture"), (["--rows=0:4"], "--bands"),
+                            (["--bands", "1001"], "from 1 to 1000"), (["--bands", "4", "--target-rmse", "1%"], "neither --frames nor"),
                             (["--slurm", "gres=gpu:1"], "the time among them"), (["--workers", "0:4"], "--slurm as well"),
                             (["--slurm", "time=1:00", "--workers", "4:2"], "the fewest and the most"),
                             (["--samples=0:4"], "hands out samples itself"),
@@ -207,6 +208,29 @@ class TargetTest(FarmCase):
         error = FilmError(.01, .2)
         self.assertEqual(error.times_to(FilmError(.02, None)), .5)
         self.assertAlmostEqual(error.times_to(FilmError(.02, .1)), 4)
+
+
+class BandsTest(FarmCase):
+    def test_driver_is_killed_and_a_band_is_damaged(self):
+        glim = self.program("""
+            if page.arguments[page.arguments.index("--rows") + 1] == "9:12":
+                wait_for(FOLDER, "never")
+        """)
+        farm = self.start_farm("--bands", "5", "--local", "2", glim=glim)
+        self.wait_for_pages(4)
+        os.kill(farm.pid, signal.SIGKILL)
+        farm.wait()
+        with open(self.pages()[3], "r+b") as file:
+            file.seek(-20, os.SEEK_END)
+            file.write(b"damage")
+        self.assertIn("its bands is 5, expected 4", self.finish(self.start_farm("--bands", "4"), 1))
+        said = self.finish(self.start_farm("--bands", "5"))
+        self.assertRegex(said, "00004.*is damaged; it is rendered again")
+        self.expect_whole()
+
+    def test_more_bands_than_rows(self):
+        self.assertIn("--bands 17: the picture has 16 rows", self.finish(self.start_farm("--bands", "17"), 1))
+        self.assertEqual(os.listdir(self.folder), [])
 
 
 class FramesTest(FarmCase):

@@ -21,7 +21,7 @@ ONE = "the farm renders one picture or --frames"
 ONLY_FILMS = "the farm writes films and their PNGs only"
 REFUSED = {
     "--samples": SPLITS, "--time": STOPS, "--adaptive": STOPS,
-    "--checkpoint": KEEPS, "--resume": KEEPS, "--on-checkpoint": KEEPS, "--turntable": ONE, "--cameras": ONE, "--rows": ONE,
+    "--checkpoint": KEEPS, "--resume": KEEPS, "--on-checkpoint": KEEPS, "--turntable": ONE, "--cameras": ONE, "--rows": "the farm cuts the picture itself; expected --bands",
     "--stats": ONLY_FILMS, "--rates": ONLY_FILMS, "--ids": ONLY_FILMS, "--suspects": ONLY_FILMS, "--replay": ONLY_FILMS,
     "--progress": "the farm has a progress of its own",
 }
@@ -30,6 +30,12 @@ REFUSED = {
 def whole(text):
     if not re.fullmatch("[0-9]+", text) or not 1 <= int(text) <= 1 << 31:
         raise argparse.ArgumentTypeError("cannot use '%s', expected a whole number from 1 to 2147483648" % text)
+    return int(text)
+
+
+def bands(text):
+    if not re.fullmatch("[0-9]{1,4}", text) or not 1 <= int(text) <= 1000:
+        raise argparse.ArgumentTypeError("cannot use '%s', expected a whole number from 1 to 1000" % text)
     return int(text)
 
 
@@ -93,6 +99,7 @@ def make_parser():
     add("--spp", metavar="N", type=whole, required=True, help="samples per pixel, at most with a target")
     add("--target-rmse", metavar="P%", type=share, help="stop when the estimated RMSE is this share of the mean, as in 1%%")
     add("--target-relmse", metavar="E", type=error, help="stop when the estimated relMSE is at most this")
+    add("--bands", metavar="N", type=bands, help="cut the picture into N bands of rows, one task each, not into pages of samples")
     add("--frames", metavar="A:B", type=frames, help="frames A to B of the animation, one task each")
     add("--fps", metavar="F", help="frames per second [24]")
     where = parser.add_mutually_exclusive_group()
@@ -142,6 +149,8 @@ def refuse_combinations(parser, options):
             parser.error("%s %s: expected --frames and a name with ####, or neither" % (option, path))
     if options.frames and options.target:
         parser.error("--target-rmse and --target-relmse: expected one picture, not --frames")
+    if options.bands and (options.frames or options.target):
+        parser.error("--bands: expected neither --frames nor a target; the error is known of whole pictures only")
     if options.fps is not None and options.frames is None:
         parser.error("--fps: expected --frames as well")
     if options.workers and not options.slurm:

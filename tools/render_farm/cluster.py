@@ -16,8 +16,11 @@ CONNECT_SECONDS = 10
 @contextlib.asynccontextmanager
 async def connect(options, wanted):
     """Yields a client. wanted: the number of workers that have something to do. Refuses (FarmError) a scheduler that does not answer."""
-    # The farm counts failures itself; Dask would blame a part for workers that died of other causes.
-    dask.config.set({"distributed.scheduler.allowed-failures": 1000, "distributed.scheduler.work-stealing": False})
+    dask.config.set({
+        # The farm counts failures itself; Dask would blame a part for workers that died of other causes.
+        "distributed.scheduler.allowed-failures": 1000, "distributed.scheduler.work-stealing": False,
+        # A part takes seconds to minutes; Dask's measurements of itself, up to a hundred a second, cost 3 % of a core a process.
+        "distributed.worker.profile.enabled": False, "distributed.admin.tick.interval": "1s", "distributed.admin.system-monitor.interval": "5s"})
     security = distributed.Security(
         require_encryption=True, tls_ca_file=options.tls_ca,
         **{"tls_%s_%s" % (role, what): value for role in ("client", "scheduler", "worker")

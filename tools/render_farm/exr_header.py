@@ -49,9 +49,10 @@ class FilmHeader:
     def __init__(self, attributes, name):
         self.name = name
         try:
-            left, top, right, bottom = attributes["dataWindow"]
-            self.size = "%dx%d" % (right - left + 1, bottom - top + 1)
-            self.pixels = (right - left + 1) * (bottom - top + 1)
+            _, _, right, bottom = attributes["displayWindow"]
+            self.width, self.height = right + 1, bottom + 1  # of the picture; the film may have some of its rows only
+            _, top, _, bottom = attributes["dataWindow"]
+            self.rows = "%d:%d" % (top, bottom + 1)
             self.scene = attributes["glim:scene"]
             self.settings = attributes["glim:settings"]
             self.seed = attributes["glim:seed"]
@@ -62,6 +63,8 @@ class FilmHeader:
             self.digest = attributes["glim:digest"]
         except KeyError as error:
             raise FarmError("%s: is no film of this glim: it lacks %s" % (name, error)) from error
+        self.size = "%dx%d" % (self.width, self.height)
+        self.pixels = self.width * self.height
 
     def identity(self):
         """What decides the bits, besides the samples and the device."""

@@ -46,7 +46,7 @@ class Picture:
 
     def __init__(self, options, glim, folder, say):
         self.options, self.glim, self.folder, self.say = options, glim, folder, say
-        self.all = self.count = -(-options.spp // PAGE)  # count: of the pages needed, fewer once a target is reached
+        self.all = self.count = 0  # count: of the pages needed, fewer once a target is reached; known once it is open
         self.folded = 0  # pages in folder.film
         self.files = {}  # of pages that are not folded, by page
         self.doubts = os.path.join(folder.path, "doubts")  # is there while a page is in dispute that is folded
@@ -58,6 +58,10 @@ class Picture:
     def parts(self):
         return range(self.count)
 
+    def count_parts(self):
+        """Refuses (FarmError) a plan that does not fit the picture."""
+        return -(-self.options.spp // PAGE)
+
     def open(self):
         """Finds out what is asked and what is done. Returns the digests of the pages that are rendered already."""
         self.header = self.glim.sample([self.options.scene, *self.options.others])
@@ -66,8 +70,10 @@ class Picture:
         if self.options.any_device:
             del self.identity["kernels"]
         target = self.options.target
-        self.folder.hold({"samples": self.options.spp, "target": target and vars(target), **self.header.identity()},
-                         {"plan": {"pages": self.count, "samplesPerPage": PAGE}, "glim": self.glim.version(),
+        self.all = self.count = self.count_parts()
+        self.folder.hold({"samples": self.options.spp, "target": target and vars(target), "bands": self.options.bands,
+                          **self.header.identity()},
+                         {"plan": {"%ss" % self.part: self.count}, "glim": self.glim.version(),
                           "command": [self.options.scene, *self.options.others]})
         if self.is_there():
             self.say("%s is whole and was kept" % self.options.output)
@@ -162,7 +168,12 @@ class Picture:
         os.unlink(path)
 
     def range(self, page):
+        """The samples that its film must have."""
         return "%d:%d" % (page * PAGE, min((page + 1) * PAGE, self.options.spp))
+
+    def rows(self, _page):
+        """The rows that its film must have."""
+        return "0:%d" % self.header.height
 
     def arguments(self, page):
         return [self.options.scene, *self.options.others, "--samples", self.range(page)]
@@ -177,6 +188,8 @@ class Picture:
         check_identity(header, self.identity, name)
         if header.samples != self.range(page) or not header.complete:
             raise FarmError("%s: its samples are %s, expected %s" % (name, header.samples, self.range(page)))
+        if header.rows != self.rows(page):
+            raise FarmError("%s: its rows are %s, expected %s" % (name, header.rows, self.rows(page)))
         if not self.options.any_device and self.arithmetic not in (None, header.arithmetic):
             raise OtherClass("%s: its device rounds differently: its arithmetic is %s, expected %s"
                              % (name, header.arithmetic, self.arithmetic))
@@ -208,7 +221,7 @@ class Picture:
         """Forgets pages whose bits are in doubt. Returns all that is to be rendered again for that: if one is folded, all folded ones."""
         again = set(pages)
         if any(page < self.folded for page in pages):
-            self.say("pages in doubt are folded already: the picture begins anew")
+            self.say("%ss in doubt are folded already: the picture begins anew" % self.part)
             again |= set(range(self.folded))
             os.unlink(self.folder.film)
             self.folded, self.count, self.error = 0, self.all, None
@@ -236,7 +249,7 @@ class Picture:
         if said is None:
             return self.drop_damaged(before, batch)
         if EXACT not in said and not self.options.any_device:
-            raise FarmError("the pages to %s do not fold exactly: %s" % (self.range(pages[-1]), said))
+            raise FarmError("%ss %d to %d do not fold exactly: %s" % (self.part, pages[0], pages[-1], said))
         for page in pages:
             os.unlink(self.files.pop(page))
         self.folded = pages.stop
@@ -264,7 +277,7 @@ class Picture:
             self.say("%s: is damaged" % before[0])
             again = self.drop({0})
         if not damaged | again:
-            raise FarmError("glim cannot merge the pages in %s" % self.folder.pages)
+            raise FarmError("glim cannot merge the films in %s" % self.folder.pages)
         return damaged, again
 
     @property
@@ -293,4 +306,4 @@ class Picture:
     def close(self):
         self.folder.remove()
         error = ", estimated %s" % self.error if self.error else ""
-        return "%s: %s, %d samples per pixel%s" % (self.options.output, self.header.size, min(self.count * PAGE, self.options.spp), error)
+        return "%s: %s, %s samples per pixel%s" % (self.options.output, self.header.size, self.range(self.count - 1).partition(":")[2], error)

@@ -1,0 +1,68 @@
+"""What tools/farm does."""
+
+import asyncio
+import os
+import sys
+
+sys.dont_write_bytecode = True  # beside the sources it would look like a change to build
+sys.path[0] = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
+
+from conversion.errors import ConversionError  # noqa: E402
+from render_farm.arguments import parse_arguments  # noqa: E402
+from render_farm.environment import ENVIRONMENT, JOBQUEUE  # noqa: E402
+from render_farm.errors import FarmError  # noqa: E402
+from render_farm.progress import Progress  # noqa: E402
+from render_farm.security import check_network  # noqa: E402
+
+
+async def render(picture, done, options, progress):
+    from render_farm.cluster import connect
+    from render_farm.driver import Driver
+    driver = Driver(picture, done, options, progress)
+    async with connect(options, driver.count_left) as client:
+        await driver.run(client)
+
+
+def farm(options, progress):
+    """Returns the exit code."""
+    from render_farm.animation import Animation
+    from render_farm.bands import Bands
+    from render_farm.driver import until_signal
+    from render_farm.glim import Glim, find_glim
+    from render_farm.job_folder import JobFolder
+    from render_farm.picture import Picture
+    glim = Glim(find_glim(), os.getcwd())
+    kind = Animation if options.frames else Bands if options.bands else Picture
+    picture = kind(options, glim, JobFolder(options.output), progress.say)
+    done = picture.open()
+    if not picture.finished:
+        stopped = asyncio.run(until_signal(render(picture, done, options, progress)))
+        if stopped is not None:
+            progress.say("stopped; the same command goes on from %s" % picture.folder.path)
+            return 128 + stopped
+    print(picture.close())
+    return 0
+
+
+def main():
+    options, progress = parse_arguments(sys.argv[1:]), Progress()
+    try:
+        is_safe = check_network(options)
+        ENVIRONMENT.enter(progress.say)
+        if not is_safe:
+            progress.say("WARNING: without TLS anyone on the network can run programs on this machine and on the workers")
+        if options.slurm:
+            ENVIRONMENT.add(JOBQUEUE, progress.say)
+        sys.exit(farm(options, progress))
+    except FarmError as error:
+        progress.say(str(error))
+        sys.exit(error.code)
+    except (ConversionError, OSError) as error:
+        progress.say(str(error))
+        sys.exit(1)
+    except KeyboardInterrupt:
+        sys.exit(130)
+
+
+if __name__ == "__main__":
+    main()
