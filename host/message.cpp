@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <utility>
 
 namespace glim {
 namespace {
@@ -66,12 +67,27 @@ std::string shortened(const std::string& text)
 
 std::string inQuotes(const std::string& text) { return '"' + shortened(text) + '"'; }
 
-void say(const std::string& sentence)
+namespace {
+
+MessageListener messageListener;
+
+void tell(const std::string& sentence, bool isWarning)
 {
     constexpr std::size_t kMost = 8192, kBegin = 6144, kEnd = 1024;
     const bool fits = sentence.size() <= kMost;
     const std::string bounded = fits ? sentence : sentence.substr(0, kBegin) + " ... " + sentence.substr(sentence.size() - kEnd);
-    std::cerr << "glim: " + escaped(bounded) + '\n';
+    if (messageListener) {
+        messageListener(escaped(bounded), isWarning);
+    } else {
+        std::cerr << "glim: " + escaped(bounded) + '\n';
+    }
 }
+
+}  // namespace
+
+void say(const std::string& sentence) { tell(sentence, false); }
+void warn(const std::string& sentence) { tell(sentence, true); }
+
+void listenToMessages(MessageListener listener) { messageListener = std::move(listener); }
 
 }  // namespace glim

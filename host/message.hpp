@@ -1,6 +1,7 @@
 // Sentences for the user, with words of files and of the command line in them, which may hold anything.
 #pragma once
 
+#include <functional>
 #include <string>
 
 namespace glim {
@@ -15,5 +16,11 @@ std::string inQuotes(const std::string& text);  // the same in quotes
 
 // Prints the line "glim: SENTENCE" on stderr, escaped. One of more than 8 KiB loses its middle.
 void say(const std::string& sentence);
+// The same, about something that may make a picture other than its user expects.
+void warn(const std::string& sentence);
+
+// Where sentences go instead of stderr, from any thread.
+using MessageListener = std::function<void(const std::string& sentence, bool isWarning)>;
+void listenToMessages(MessageListener listener);
 
 }  // namespace glim

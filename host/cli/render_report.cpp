@@ -195,44 +195,13 @@ Json statisticsOf(const RenderReport& report)
             {"suspects", suspectsOf(report)}};
 }
 
-void warnOfGaps(const Film& film)
-{
-    const auto gaps = std::count_if(film.pixels.begin(), film.pixels.end(), [](const PixelMoments& p) { return p.count == 0; });
-    if (gaps > 0) {
-        std::cerr << "glim: " << gaps << " of " << film.pixels.size() << " pixels have no sample and are black.\n";
-    }
-}
-
 void warnOfExposure(const RenderReport& report)
 {
     const RenderOptions& options = report.options;
     if (options.png && options.settings.aov == Aov::Radiance) {
         if (const auto advice = adviseExposure(report.film, options.exposure)) {
-            say(options.png->string() + ' ' + *advice + '.');
+            warn(options.png->string() + ' ' + *advice + '.');
         }
-    }
-}
-
-void warnOfBias(const RenderReport& report)
-{
-    if (report.statistics.nonFinite > 0) {
-        const Located& first = report.statistics.located[0];
-        std::cerr << "glim: " << report.statistics.nonFinite << " samples were not finite and were discarded; the first: pixel ("
-                  << first.pixel % report.film.width << ", " << first.pixel / report.film.width << "), sample " << first.sampleIndex
-                  << ".\n";
-    }
-    if (report.statistics.transparencyCaps > 0) {
-        std::cerr << "glim: " << report.statistics.transparencyCaps
-                  << " rays met more transparent surfaces in a row than they may pass; the next one was opaque to them.\n";
-    }
-    if (report.statistics.mediaCaps > 0) {
-        std::cerr << "glim: " << report.statistics.mediaCaps
-                  << " rays entered a solid within four others and forgot the outermost, so what these rays meet there is wrong.\n";
-    }
-    if (std::isfinite(report.options.settings.clampIndirect)) {
-        const auto [removed, kept] = computeClampedEnergy(report.film);
-        std::cerr << "glim: --clamp-indirect removed " << 100.0 * removed / (removed + kept) << " % of the picture's light (mean radiance "
-                  << removed << ").\n";
     }
 }
 
@@ -303,11 +272,36 @@ void printSuspects(const RenderReport& report)
 
 }  // namespace
 
+void warnOfPicture(const Film& film, const RenderStatistics& statistics, const RenderSettings& settings)
+{
+    const auto gaps = std::count_if(film.pixels.begin(), film.pixels.end(), [](const PixelMoments& p) { return p.count == 0; });
+    if (gaps > 0) {
+        warn(std::to_string(gaps) + " of " + std::to_string(film.pixels.size()) + " pixels have no sample and are black.");
+    }
+    if (statistics.nonFinite > 0) {
+        const Located& first = statistics.located[0];
+        warn(format("%u samples were not finite and were discarded; the first: pixel (%u, %u), sample %u.", statistics.nonFinite,
+                    first.pixel % film.width, first.pixel / film.width, first.sampleIndex));
+    }
+    if (statistics.transparencyCaps > 0) {
+        warn(std::to_string(statistics.transparencyCaps) +
+             " rays met more transparent surfaces in a row than they may pass; the next one was opaque to them.");
+    }
+    if (statistics.mediaCaps > 0) {
+        warn(std::to_string(statistics.mediaCaps) +
+             " rays entered a solid within four others and forgot the outermost, so what these rays meet there is wrong.");
+    }
+    if (std::isfinite(settings.clampIndirect)) {
+        const auto [removed, kept] = computeClampedEnergy(film);
+        warn(format("--clamp-indirect removed %g %% of the picture's light (mean radiance %g).", 100.0 * removed / (removed + kept),
+                    removed));
+    }
+}
+
 void printSummary(const RenderReport& report)
 {
-    warnOfGaps(report.film);
+    warnOfPicture(report.film, report.statistics, report.options.settings);
     warnOfExposure(report);
-    warnOfBias(report);
     const RenderStatistics& s = report.statistics;
     const double pixels = static_cast<double>(report.film.pixels.size());
     std::cout << escaped(report.options.output.string())

@@ -21,6 +21,8 @@ struct RenderReport {
     std::optional<ControlBias> bias;  // of adaptive renders
 };
 
+// Of what is wrong or missing in a picture, as far as it is known.
+void warnOfPicture(const Film& film, const RenderStatistics& statistics, const RenderSettings& settings);
 void printSummary(const RenderReport& report);
 void writeStatistics(const std::filesystem::path& path, const RenderReport& report);
 

@@ -2,18 +2,12 @@
 
 #include "host/cli/interrupt.hpp"
 #include "host/cli/output_file.hpp"
+#include "host/cli/render_picture.hpp"
 #include "host/cli/render_report.hpp"
-#include "host/cli/scene_session.hpp"
-#include "host/flatten/camera_options.hpp"
 #include "host/message.hpp"
-#include "host/render/check_memory.hpp"
-#include "host/render/film_file.hpp"
-#include "host/render/film_origin.hpp"
 #include "host/render/film_pictures.hpp"
 #include "host/render/identify.hpp"
-#include "host/render/merge_films.hpp"
 #include "host/text.hpp"
-#include "shaders/shared/limits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,23 +82,9 @@ double writePictures(const RenderOptions& options, const Film& film, const std::
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// So that the film can be made again from what its file says.
-void labelFilm(Film& film, const RenderOptions& options)
+RenderedFilm renderWatched(Renderer& renderer, const RenderOptions& options, CheckpointWriter& writer, ProgressPrinter& progress,
+                           const InterruptWatch& watch)
 {
-    film.sceneFile = options.scene.string();
-    film.identity.settings += describeCamera(options.pose, options.lens);
-}
-
-struct Rendered {
-    Film film;
-    bool isGood = false;  // the target is reached
-    std::optional<Checkpoint> checkpoint;
-};
-
-Rendered renderPicture(Renderer& renderer, const RenderOptions& options, CheckpointWriter& writer, ProgressPrinter& progress,
-                       const InterruptWatch& watch)
-{
-    Rendered rendered;
     const auto observe = [&](const RenderProgress& now) {
         progress.print(now, writer.lastWritten());
         if (watch.signal() != 0) {
@@ -114,18 +94,7 @@ Rendered renderPicture(Renderer& renderer, const RenderOptions& options, Checkpo
         }
         return watch.signal() == 0;
     };
-    const auto criterion = [&](const Film& film) {
-        const double times = timesToTarget(film, options.target);
-        rendered.isGood = times <= 1.0;
-        return times;
-    };
-    const auto atEnd = [&] {
-        if (watch.signal() != 0 || options.checkpoint.isGiven()) {
-            rendered.checkpoint = renderer.checkpoint();
-        }
-    };
-    rendered.film = renderer.render(observe, options.target.isGiven() ? StoppingCriterion(criterion) : nullptr, atEnd);
-    return rendered;
+    return renderPicture(renderer, options.target, observe, [&] { return watch.signal() != 0 || options.checkpoint.isGiven(); });
 }
 
 std::optional<ControlBias> measureBias(Renderer& renderer, const Film& film, const InterruptWatch& watch)
@@ -177,11 +146,10 @@ public:
 private:
     RenderOptions optionsOf(const Shot& shot) const;
     ExitCode renderShot(const RenderOptions& options);
-    std::optional<StoredFilm> readOutput(const RenderOptions& options, const FlatCamera& camera, const RenderSettings& settings) const;
+    std::optional<StoredFilm> readOutput(const RenderOptions& options, const PictureFrame& frame) const;
     bool keep(const RenderOptions& options, const StoredFilm& stored) const;
     std::optional<double> writeIdentities(const RenderOptions& options, const FlatCamera& camera, const Film& film);
-    void resume(const RenderOptions& options, Renderer& renderer, StoredFilm stored) const;
-    ExitCode writeShot(const RenderOptions& options, const RenderSettings& settings, const FlatCamera& camera, Rendered rendered);
+    ExitCode writeShot(const RenderOptions& options, const PictureFrame& frame, RenderedFilm rendered);
 
     RenderOptions options_;
     bool isSequence_ = false;
@@ -239,36 +207,32 @@ ExitCode SequenceRenderer::renderAll(const RenderOptions& options, const Interru
 ExitCode SequenceRenderer::renderShot(const RenderOptions& options)
 {
     const auto start = std::chrono::steady_clock::now();
-    const Camera camera = cameraOf(session_.prepared().scene, options);
-    const RenderSettings settings = settingsFor(options, camera);
-    checkMemory(session_.prepared(), settings, session_.device().description(), options.checkpoint.isGiven());
+    const PictureFrame frame = framePicture(session_, options);
     if (watch_->signal() != 0) {
         return finish(watch_->signal(), place_.rendered == 0 ? "nothing was rendered or written"
                                                              : options.output.string() + " and what follows was not rendered");
     }
-    const FlatCamera flatCamera =
-        flattenCamera(camera, static_cast<float>(settings.width) / static_cast<float>(settings.height), options.lens);
     std::optional<OutputLock> lock;
     if (options.checkpoint.isGiven()) {
         lock.emplace(options.output);
     }
     std::optional<StoredFilm> stored;
     if (isSequence_ || options.checkpoint.resume) {
-        stored = readOutput(options, flatCamera, settings);
+        stored = readOutput(options, frame);
     }
     if (stored && keep(options, *stored)) {
         return ExitCode::Done;
     }
-    Renderer& renderer = session_.begin(flatCamera, settings);
+    Renderer& renderer = session_.begin(frame.camera, frame.settings);
     if (stored && options.checkpoint.resume) {
-        resume(options, renderer, *std::move(stored));
+        resumeFrom(renderer, *std::move(stored), options.output.string());
     }
     stored.reset();
     CheckpointWriter writer(options.checkpoint, options.output, [&options](Film& film) { labelFilm(film, options); });
-    ProgressPrinter progress(options.progress, settings.seconds, settings.pixelCount(), place_);
-    Rendered rendered;
+    ProgressPrinter progress(options.progress, frame.settings.seconds, frame.settings.pixelCount(), place_);
+    RenderedFilm rendered;
     try {
-        rendered = renderPicture(renderer, options, writer, progress, *watch_);
+        rendered = renderWatched(renderer, options, writer, progress, *watch_);
     } catch (const DeviceError& error) {
         progress.finish();
         writer.finish();
@@ -280,15 +244,14 @@ ExitCode SequenceRenderer::renderShot(const RenderOptions& options)
     progress.finish();
     writer.abandon();
     writer.finish();
-    const ExitCode code = writeShot(options, settings, flatCamera, std::move(rendered));
+    const ExitCode code = writeShot(options, frame, std::move(rendered));
     ++place_.rendered;
     place_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return code;
 }
 
 // The film at --output, if it is of this picture. A film that cannot be resumed is refused; others are rendered anew.
-std::optional<StoredFilm> SequenceRenderer::readOutput(const RenderOptions& options, const FlatCamera& camera,
-                                                       const RenderSettings& settings) const
+std::optional<StoredFilm> SequenceRenderer::readOutput(const RenderOptions& options, const PictureFrame& frame) const
 {
     if (!isThere(options.output)) {
         return std::nullopt;
@@ -302,12 +265,7 @@ std::optional<StoredFilm> SequenceRenderer::readOutput(const RenderOptions& opti
         }
         return std::nullopt;
     }
-    Film expected = emptyFilm(settings);
-    expected.identity = identityOf(SceneIdentity(session_.prepared().flat), camera, settings);
-    labelFilm(expected, options);
-    const bool others = stored.film.identity.kernels != expected.identity.kernels;
-    const std::string difference = others ? "it is by another version of glim's kernels; `glim merge` adds samples that this one renders"
-                                          : describeDifference(stored.film, expected);
+    const std::string difference = describeOther(stored.film, session_, frame, options);
     if (!difference.empty() && options.checkpoint.resume) {
         throw InputError(options.output.string() + ": cannot be resumed: " + difference + ".");
     }
@@ -325,39 +283,6 @@ bool SequenceRenderer::keep(const RenderOptions& options, const StoredFilm& stor
     return true;
 }
 
-// Goes on from the film at --output, which is of this picture.
-void SequenceRenderer::resume(const RenderOptions& options, Renderer& renderer, StoredFilm stored) const
-{
-    const std::string samples = sampleRangesText(stored.film), arithmetic = stored.film.arithmetic, device = stored.film.device;
-    const auto refuse = [&](const std::string& reason) {
-        throw InputError(options.output.string() + ": cannot be resumed: it has samples " + samples + ", " + reason + ".");
-    };
-    const auto [begin, end] = stored.film.sampleRanges.front();
-    const RenderSettings& settings = renderer.settings();
-    if (begin != settings.sampleBegin) {
-        refuse("expected them to begin at " + std::to_string(settings.sampleBegin));
-    }
-    if (!stored.checkpoint && !stored.film.complete && end - begin <= kBlockSamples) {
-        say(options.output.string() + " has no finished block of samples, so the render begins anew");
-        return;
-    }
-    std::optional<Checkpoint> checkpoint = stored.checkpoint ? std::move(stored.checkpoint) : checkpointOf(std::move(stored.film));
-    if (!checkpoint) {
-        refuse("expected one range that ends with a page of " + std::to_string(kPageSamples) + "; `glim merge` adds others");
-    }
-    if (!renderer.canResume(*checkpoint)) {
-        refuse(isNeighbours(settings.adaptive) ? "planned for another --spp" : "more than were asked for");
-    }
-    renderer.resume(*std::move(checkpoint));
-    const double pixels = settings.pixelCount();
-    say(options.output.string() + " is resumed at " +
-        exactText(std::round(100.0 * static_cast<double>(renderer.statistics().resumedSamples) / pixels) / 100.0) + " samples per pixel");
-    if (arithmetic != arithmeticFingerprint(renderer.device())) {
-        say(renderer.device().description().name + " rounds otherwise than " + device +
-            " did, so the film will equal a single run up to rounding");
-    }
-}
-
 // Seconds that it took, if it was asked for.
 std::optional<double> SequenceRenderer::writeIdentities(const RenderOptions& options, const FlatCamera& camera, const Film& film)
 {
@@ -371,8 +296,7 @@ std::optional<double> SequenceRenderer::writeIdentities(const RenderOptions& opt
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const RenderSettings& settings, const FlatCamera& camera,
-                                     Rendered rendered)
+ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const PictureFrame& frame, RenderedFilm rendered)
 {
     Film& film = rendered.film;
     if (watch_->signal() != 0 && session_.renderer().statistics().samples == 0) {
@@ -383,7 +307,7 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const RenderS
     }
     labelFilm(film, options);
     const double writeSeconds = writePictures(options, film, rendered.checkpoint);
-    const std::optional<double> idSeconds = writeIdentities(options, camera, film);
+    const std::optional<double> idSeconds = writeIdentities(options, frame.camera, film);
     // Before the control, whose samples are no suspects.
     std::vector<Suspect> suspects = findSuspects(session_.renderer(), film);
     const auto bias = measureBias(session_.renderer(), film, *watch_);
@@ -392,7 +316,7 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const RenderS
                               film,
                               session_.renderer().statistics(),
                               session_.device().description(),
-                              stopReason(watch_->signal(), film, settings, rendered.isGood, session_.renderer().isDone()),
+                              stopReason(watch_->signal(), film, frame.settings, rendered.isGood, session_.renderer().isDone()),
                               writeSeconds,
                               idSeconds,
                               std::move(suspects),

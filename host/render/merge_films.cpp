@@ -240,14 +240,9 @@ void foldFilm(Film& film, const Film& next)
     foldHeader(film, next);
 }
 
-MergedFilm mergeFilms(const std::vector<fs::path>& files)
+MergedFilm mergeFilms(const std::vector<Film>& headers, const std::vector<std::string>& names,
+                      const std::function<Film(std::size_t)>& filmAt)
 {
-    std::vector<Film> headers;
-    std::vector<std::string> names;
-    for (const fs::path& file : files) {
-        headers.push_back(readFilmHeader(file));
-        names.push_back(file.string());
-    }
     const MergePlan plan = planMerge(headers, names);
     std::optional<Film> picture;
     const auto append = [&picture](Film band) {
@@ -257,9 +252,9 @@ MergedFilm mergeFilms(const std::vector<fs::path>& files)
             picture = std::move(band);
         }
     };
-    Film band = readFilm(files[plan.order[0]]);
-    for (std::size_t i = 1; i < files.size(); ++i) {
-        Film next = readFilm(files[plan.order[i]]);
+    Film band = filmAt(plan.order[0]);
+    for (std::size_t i = 1; i < headers.size(); ++i) {
+        Film next = filmAt(plan.order[i]);
         if (haveSameRows(band, next)) {
             foldFilm(band, next);
         } else {
@@ -268,6 +263,17 @@ MergedFilm mergeFilms(const std::vector<fs::path>& files)
     }
     append(std::move(band));
     return {*std::move(picture), plan.exact};
+}
+
+MergedFilm mergeFilms(const std::vector<fs::path>& files)
+{
+    std::vector<Film> headers;
+    std::vector<std::string> names;
+    for (const fs::path& file : files) {
+        headers.push_back(readFilmHeader(file));
+        names.push_back(file.string());
+    }
+    return mergeFilms(headers, names, [&](std::size_t i) { return readFilm(files[i]); });
 }
 
 }  // namespace glim

@@ -11,6 +11,7 @@
 #include "host/render/film.hpp"
 
 #include <filesystem>
+#include <functional>
 
 namespace glim {
 
@@ -39,7 +40,10 @@ struct MergedFilm {
     bool exact = true;  // the bits of a single run; otherwise equal up to rounding
 };
 
-// Reads the files one after the other: two films are in memory at a time.
+// Merges one film or more. Asks for each film once, in order; what planMerge needs are all but its pixels.
+MergedFilm mergeFilms(const std::vector<Film>& headers, const std::vector<std::string>& names,
+                      const std::function<Film(std::size_t)>& filmAt);
+// The same of files, of which two are in memory at a time.
 MergedFilm mergeFilms(const std::vector<std::filesystem::path>& files);
 
 }  // namespace glim

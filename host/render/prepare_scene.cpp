@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <iostream>
 #include <new>
 #include <set>
 
@@ -26,8 +25,8 @@ void sayTextureMemory(const FlatScene& flat)
     constexpr std::uint64_t kWorthSaying = std::uint64_t{64} << 20U;
     const std::uint64_t all = textureBytes(flat), images = imageBytes(flat);
     if (all > kWorthSaying) {
-        std::cerr << "glim: textures take " << (images >> 20U) << " MiB on the device and the environment " << ((all - images) >> 20U)
-                  << " MiB" << (images > kWorthSaying ? "; --max-texture N scales textures down" : "") << '\n';
+        say("textures take " + std::to_string(images >> 20U) + " MiB on the device and the environment " +
+            std::to_string((all - images) >> 20U) + " MiB" + (images > kWorthSaying ? "; --max-texture N scales textures down" : ""));
     }
 }
 
@@ -38,11 +37,11 @@ void sayWarnings(const Scene& scene, const Scene& previous)
     std::size_t count = 0;
     for (const std::string& warning : scene.warnings) {
         if (known.count(warning) == 0 && ++count <= kMostLines) {
-            say(warning);
+            warn(warning);
         }
     }
     if (count > kMostLines) {
-        say("and " + counted(count - kMostLines, "more warning"));
+        warn("and " + counted(count - kMostLines, "more warning"));
     }
 }
 
@@ -106,7 +105,7 @@ PreparedScene prepareScene(SceneFile& file, std::optional<double> seconds, Split
 void warnIfNoLights(const PreparedScene& prepared)
 {
     if (prepared.flat.lights.empty()) {
-        std::cerr << "glim: the scene has no light, so every picture of it is black; --environment 1,1,1 lights it\n";
+        warn("the scene has no light, so every picture of it is black; --environment 1,1,1 lights it");
     }
 }
 
