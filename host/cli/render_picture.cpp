@@ -49,7 +49,7 @@ void resumeFrom(Renderer& renderer, StoredFilm stored, const std::string& name)
     if (begin != settings.sampleBegin) {
         refuse("expected them to begin at " + std::to_string(settings.sampleBegin));
     }
-    if (!stored.checkpoint && !stored.film.complete && end - begin <= kBlockSamples) {
+    if (!stored.checkpoint && end - begin <= kBlockSamples) {
         say(name + " has no finished block of samples, so the render begins anew");
         return;
     }

@@ -2,6 +2,8 @@
 
 #include "host/cli/fastest_schedule.hpp"
 
+#include <algorithm>
+
 namespace glim {
 namespace {
 
@@ -48,8 +50,13 @@ std::vector<SceneSession::Stamp> SceneSession::stampsOf(const std::vector<std::f
 
 bool SceneSession::serves(const RenderOptions& options) const
 {
-    const bool sameScene = options.scene == options_.scene && loadOptionsFor(options) == loadOptionsFor(options_) &&
-                           options.split == options_.split && stamps_ == stampsOf(prepared_.scene.files);
+    LoadOptions load = loadOptionsFor(options);
+    const LoadOptions mine = loadOptionsFor(options_);
+    if (std::ranges::none_of(prepared_.scene.cameras, [](const Camera& camera) { return camera.name == "framed"; })) {
+        load.aspectRatio = mine.aspectRatio;
+    }
+    const bool sameScene =
+        options.scene == options_.scene && load == mine && options.split == options_.split && stamps_ == stampsOf(prepared_.scene.files);
     const bool sameLens = (options.lens.radius > 0.0F) == (options_.lens.radius > 0.0F);
     return sameScene && sameLens && options.device == options_.device &&
            lastingSettings(options.settings) == lastingSettings(options_.settings);

@@ -118,6 +118,8 @@ TEST_F(ServeTest, PicturesHaveTheBitsThatTheyHaveAlone)
         {gems, "--size", "16x12", "--spp", "8", "--rows", "2:7"},
         {gems, "--size", "16x12", "--spp", "8", "--rows", "7:8"},
         {gems, "--size", "16x12", "--spp", "8", "--bounces", "2"},
+        {gems, "--size", "16x12", "--spp", "8", "--camera", "framed"},
+        {gems, "--size", "12x16", "--spp", "8", "--camera", "framed"},
         {gems, "--size", "16x12", "--spp", "80", "--adaptive", "neighbours"},
         {gems, "--size", "16x12", "--spp", "128", "--adaptive", "neighbours", "--seed", "2"},
         {spheres, "--size", "16x12", "--spp", "8"},
@@ -125,6 +127,17 @@ TEST_F(ServeTest, PicturesHaveTheBitsThatTheyHaveAlone)
     };
     for (const auto& words : requests) {
         EXPECT_EQ(digestServed(words), digestAlone(words)) << words[3] << words[4] << words[5];
+    }
+}
+
+TEST_F(ServeTest, AnotherShapeOfThePictureKeepsTheKernels)
+{
+    const std::string stats = (folder_ / "stats.json").string();
+    for (const bool kept : {false, true}) {
+        digestServed({sceneFile("cornell.gltf"), "--size", kept ? "8x6" : "6x8", "--spp", "4", "--stats", stats});
+        const auto seconds = Json::parse(bytesOfFile(stats));
+        ASSERT_TRUE(seconds);
+        EXPECT_EQ(seconds->at("seconds").at("upload").number() == 0.0, kept);
     }
 }
 

@@ -56,9 +56,10 @@ class Environment:
             "cannot install %s; expected a connection to PyPI" % requirement)
 
     def build(self, source, folder):
-        """Within the environment: builds the Python package of a source tree in `folder`, where a second build is short, and installs it."""
-        run([self.python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-build-isolation", "--no-deps",
-             "--config-settings=build-dir=" + folder, source], "cannot build %s" % source)
+        """Within the environment: builds the Python package of a source tree in `folder`, where a second build is short, and installs it.
+        A failure (CalledProcessError) comes after the compiler's messages."""
+        subprocess.run([self.python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-build-isolation", "--no-deps",
+                        "--config-settings=build-dir=" + folder, source], check=True, stdout=sys.stderr)
 
     def enter(self, say):
         """Returns within the environment: elsewhere it makes one if there is none, and starts the program again in it."""

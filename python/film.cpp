@@ -1,0 +1,190 @@
+#include "python/film.hpp"
+
+#include "host/measure/error_estimate.hpp"
+#include "host/render/film_pictures.hpp"
+
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace nb = nanobind;
+
+namespace glim {
+namespace {
+
+// A layer of a film: a view without a copy, whose pixels are as far apart as those of the film.
+template <class T>
+using Layer = nb::ndarray<nb::numpy, const T>;
+
+constexpr std::int64_t kStride = sizeof(PixelMoments) / sizeof(float);
+static_assert(sizeof(PixelMoments) % sizeof(float) == 0);
+
+template <class T>
+Layer<T> layer(nb::handle owner, const T* first, std::size_t channels)
+{
+    const Film& film = nb::cast<const PythonFilm&>(owner).film();
+    const std::size_t shape[]{film.height, film.width, channels};
+    const std::int64_t strides[]{std::int64_t{film.width} * kStride, kStride, 1};
+    return Layer<T>(first, channels == 1 ? 2 : 3, shape, owner, strides);
+}
+
+// An array of its own, row by row.
+template <class T>
+Layer<T> copied(const Film& film, std::vector<T> values, std::size_t channels)
+{
+    auto* kept = new std::vector<T>(std::move(values));
+    const nb::capsule owner(kept, [](void* pointer) noexcept { delete static_cast<std::vector<T>*>(pointer); });
+    const std::size_t shape[]{film.height, film.width, channels};
+    return Layer<T>(kept->data(), channels == 1 ? 2 : 3, shape, owner);
+}
+
+template <class Member>
+auto floats(Member member, std::size_t channels)
+{
+    return [member, channels](nb::handle self) {
+        const PixelMoments& first = nb::cast<const PythonFilm&>(self).pixels().front();
+        return layer<float>(self, reinterpret_cast<const float*>(&(first.*member)), channels);
+    };
+}
+
+Layer<std::uint32_t> counts(nb::handle self)
+{
+    return layer<std::uint32_t>(self, &nb::cast<const PythonFilm&>(self).pixels().front().count, 1);
+}
+
+Layer<float> variance(const PythonFilm& film)
+{
+    std::vector<float> values;
+    values.reserve(3 * film.pixels().size());
+    for (const PixelMoments& pixel : film.pixels()) {
+        const glm::vec3 of = varianceOfMean(pixel);
+        values.insert(values.end(), {of.r, of.g, of.b});
+    }
+    return copied(film.film(), std::move(values), 3);
+}
+
+nb::object ids(nb::handle self)
+{
+    const PythonFilm& film = nb::cast<const PythonFilm&>(self);
+    if (film.ids().empty()) {
+        return nb::none();
+    }
+    nb::dict layers;
+    const std::size_t shape[]{film.film().height, film.film().width};
+    for (const auto& [kind, indices] : film.ids()) {
+        layers[kind.c_str()] = Layer<std::uint32_t>(indices.data(), 2, shape, self);
+    }
+    return layers;
+}
+
+// The estimate's figures in the order of glim.Error; None if the film does not know its error.
+nb::object estimate(const PythonFilm& film)
+{
+    const auto known = estimateError(film.film());
+    if (!known) {
+        return nb::none();
+    }
+    const auto root = [&](double meanSquare) { return relativeRoot(meanSquare, known->mean); };
+    return nb::make_tuple(root(known->errors.mse), root(known->mse.low), root(known->mse.high), known->errors.relMse, known->relMse.low,
+                          known->relMse.high, known->errors.mse, known->mean, known->isOfFew());
+}
+
+// Means of squares of pixels, so that the picture is at most `most` pixels wide. Takes what is left over at the right and below into the
+// last ones.
+Film shrunk(const Film& film, std::uint32_t most)
+{
+    const std::uint32_t side = (film.width + most - 1) / most;
+    Film small;
+    small.width = std::max(1U, film.width / side);
+    small.height = std::max(1U, film.height / side);
+    small.identity = film.identity;
+    small.pixels.resize(std::size_t{small.width} * small.height);
+    std::vector<std::uint32_t> counts(small.pixels.size());
+    for (std::uint32_t y = 0; y < film.height; ++y) {
+        for (std::uint32_t x = 0; x < film.width; ++x) {
+            const PixelMoments pixel = shownPixel(film, std::size_t{y} * film.width + x);
+            const std::size_t to = std::size_t{std::min(y / side, small.height - 1)} * small.width + std::min(x / side, small.width - 1);
+            const float share = 1.0F / static_cast<float>(++counts[to]);
+            PixelMoments& mean = small.pixels[to];
+            mean.count = std::max(mean.count, pixel.count);
+            mean.mean += (pixel.mean - mean.mean) * share;
+            mean.alpha += (pixel.alpha - mean.alpha) * share;
+            mean.albedo += (pixel.albedo - mean.albedo) * share;
+            mean.normal += (pixel.normal - mean.normal) * share;
+            mean.depth = counts[to] == 1 ? pixel.depth : std::min(mean.depth, pixel.depth);
+        }
+    }
+    return small;
+}
+
+void savePng(const PythonFilm& film, const std::filesystem::path& path, double exposure, std::optional<std::uint32_t> width)
+{
+    const Aov aov = aovOf(film.film());
+    if (width && *width < film.film().width) {
+        writeFilmPng(path, shrunk(film.film(), *width), aov, exposure);
+    } else {
+        writeFilmPng(path, film.film(), aov, exposure);
+    }
+}
+
+}  // namespace
+
+PythonFilm::PythonFilm(Film film, std::optional<Checkpoint> checkpoint)
+    : film_(std::move(film)),
+      checkpoint_(std::move(checkpoint))
+{
+    if (!film_.splats.empty()) {
+        shown_ = shownPixels(film_);
+    }
+}
+
+void PythonFilm::identify(Identifier& identifier)
+{
+    const Image image = identifier.rows(film_, 0, film_.height);
+    for (const char* kind : {"node", "mesh", "material"}) {
+        ids_[kind] = image.counts.at(std::string(kind) + ".X");
+    }
+}
+
+void bindFilm(nb::module_& module)
+{
+    constexpr auto own = nb::rv_policy::reference;  // an array names its owner itself
+    nb::class_<PythonFilm>(module, "Film")
+        .def_prop_ro("width", [](const PythonFilm& film) { return film.film().width; })
+        .def_prop_ro("height", [](const PythonFilm& film) { return film.film().height; })
+        .def_prop_ro("samples", [](const PythonFilm& film) { return film.film().sampleRanges; })
+        .def_prop_ro("complete", [](const PythonFilm& film) { return film.film().complete; })
+        .def_prop_ro("seconds", [](const PythonFilm& film) { return film.film().seconds; })
+        .def_prop_ro("device", [](const PythonFilm& film) { return film.film().device; })
+        .def_prop_ro("settings", [](const PythonFilm& film) { return film.film().identity.settings; })
+        .def_prop_ro("digest", [](const PythonFilm& film) { return digestOf(film.film()); })
+        .def_prop_ro("rgb", floats(&PixelMoments::mean, 3), own)
+        .def_prop_ro("alpha", floats(&PixelMoments::alpha, 1), own)
+        .def_prop_ro("albedo", floats(&PixelMoments::albedo, 3), own)
+        .def_prop_ro("normal", floats(&PixelMoments::normal, 3), own)
+        .def_prop_ro("depth", floats(&PixelMoments::depth, 1), own)
+        .def_prop_ro("count", &counts, own)
+        .def_prop_ro("variance", &variance, own)
+        .def_prop_ro("ids", &ids)
+        .def_prop_ro("estimate", &estimate)
+        .def("save", [](const PythonFilm& film, const std::filesystem::path& path) { writeFilm(path, film.film()); })
+        .def("save_png", &savePng, nb::arg("path"), nb::arg("exposure"), nb::arg("width").none());
+    module.def(
+        "read",
+        [](const std::filesystem::path& path) {
+            StoredFilm stored = readStoredFilm(path);
+            return std::make_shared<PythonFilm>(std::move(stored.film), std::move(stored.checkpoint));
+        },
+        nb::arg("path"));
+}
+
+}  // namespace glim

@@ -1,0 +1,40 @@
+// Films as Python sees them.
+#pragma once
+
+#include "host/render/film_file.hpp"
+#include "host/render/identify.hpp"
+
+#include <nanobind/nanobind.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace glim {
+
+// A film that never changes, so that arrays may be views of it.
+class PythonFilm {
+public:
+    // `checkpoint`: what a render needs to go on from besides the film.
+    PythonFilm(Film film, std::optional<Checkpoint> checkpoint);
+
+    const Film& film() const { return film_; }
+    StoredFilm stored() const { return {film_, checkpoint_}; }
+    // What the film shows, row 0 at the top.
+    const std::vector<PixelMoments>& pixels() const { return film_.splats.empty() ? film_.pixels : shown_; }
+
+    void identify(Identifier& identifier);
+    // Indices in the scene's file, by "node", "mesh" and "material"; empty unless identify() was called.
+    const std::map<std::string, std::vector<std::uint32_t>>& ids() const { return ids_; }
+
+private:
+    Film film_;
+    std::optional<Checkpoint> checkpoint_;
+    std::vector<PixelMoments> shown_;
+    std::map<std::string, std::vector<std::uint32_t>> ids_;
+};
+
+void bindFilm(nanobind::module_& module);
+
+}  // namespace glim

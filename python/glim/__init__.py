@@ -1,0 +1,308 @@
+"""glim renders glTF scenes by Vulkan, with the bits of its command line, and says how wrong the pictures are.
+
+    film = glim.render("scene.glb", spp=256, size=(640, 480))
+    film.rgb         # (480, 640, 3) float32, linear Rec.709 radiance in W/(sr m^2)
+    film.error.rmse  # estimated RMSE, as a share of the picture's mean radiance
+    film.save("scene.exr")
+"""
+
+import contextlib
+import logging
+import os
+import sys
+import tempfile
+import threading
+import warnings
+from typing import Any, Callable, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple, Union
+
+from glim._errors import DeviceError, InputError
+from glim._options import in_python, words_of
+
+__all__ = ["DeviceError", "Error", "Film", "GlimWarning", "InputError", "Scene", "devices", "load", "look_at", "merge", "read", "render"]
+
+Path = Union[str, "os.PathLike[str]"]
+Progress = Callable[[int, int, float], Any]
+
+_log = logging.getLogger("glim")
+_heard = threading.local()  # what the C++ side has said during a call of this thread
+
+
+class GlimWarning(UserWarning):
+    """Something may make a picture other than its user expects."""
+
+
+def _native():
+    """The C++ side, which needs Vulkan's loader: hence not before something is rendered or read."""
+    try:
+        from glim import _glim
+    except ImportError as error:
+        if "libvulkan" in str(error):
+            raise DeviceError("Vulkan's loader is missing (%s); Debian has it and a software device in libvulkan1 and mesa-vulkan-drivers."
+                              % error) from error
+        raise
+    if not _native.listens:
+        _glim.listen(_hear)
+        _native.listens = True
+    return _glim
+
+
+_native.listens = False
+
+
+def _warn(sentence):
+    """Names the line that called glim."""
+    level, frame = 1, sys._getframe()
+    while frame.f_back and frame.f_code.co_filename in (__file__, contextlib.__file__):
+        level, frame = level + 1, frame.f_back
+    warnings.warn(sentence, GlimWarning, stacklevel=level)
+
+
+def _hear(sentence, is_warning):
+    if hasattr(_heard, "sentences"):
+        _heard.sentences.append((sentence, is_warning))
+
+
+@contextlib.contextmanager
+def _call():
+    """Around a call of the C++ side: its sentences become warnings and lines of the log "glim", its errors name keyword arguments."""
+    _heard.sentences = []
+    try:
+        yield _native()
+    except (InputError, DeviceError) as error:
+        raise type(error)(in_python(str(error))) from None
+    finally:
+        sentences = _heard.__dict__.pop("sentences")
+        for sentence, is_warning in sentences:
+            if is_warning:
+                _warn(in_python(sentence))
+            else:
+                _log.info(in_python(sentence))
+
+
+class Error(NamedTuple):
+    """The estimated error of a film against the truth, from its own blocks of samples, with 95 % intervals. Biases (clamp_indirect) are
+    not in it. host/measure/error_estimate.hpp says how it is estimated."""
+
+    rmse: float  #: root of the mean square error, as a share of the picture's mean radiance
+    rmse_low: float
+    rmse_high: float
+    rel_mse: float  #: mean of (x - truth)^2 / (truth^2 + .01 mean^2)
+    rel_mse_low: float
+    rel_mse_high: float
+    mse: float  #: (W/(sr m^2))^2, mean over pixels and channels
+    mean: float  #: mean radiance over pixels and channels, W/(sr m^2)
+    is_of_few: bool  #: half of the MSE is in fewer than ten pixels, so that the intervals are unreliable
+
+
+class Film:
+    """A picture, what it shows, and what is known of its error. It never changes. The layers are views into it without a copy, read-only
+    and with gaps between their pixels: what needs dense arrays, as torch does, gets them by numpy.ascontiguousarray(film.rgb)."""
+
+    exact: Optional[bool] = None  #: of a merged film: whether it has the bits of a single render
+
+    def __init__(self, native, again=None):
+        self._native, self._again = native, again
+
+    @property
+    def width(self) -> int:
+        return self._native.width
+
+    @property
+    def height(self) -> int:
+        return self._native.height
+
+    @property
+    def rgb(self):
+        """(height, width, 3) float32: mean radiance, linear Rec.709, W/(sr m^2). Row 0 is at the top."""
+        return self._native.rgb
+
+    @property
+    def alpha(self):
+        """(height, width) float32: the share of samples that met a surface."""
+        return self._native.alpha
+
+    @property
+    def albedo(self):
+        """(height, width, 3) float32: mean base colour at the camera rays' hits; a miss counts as 0."""
+        return self._native.albedo
+
+    @property
+    def normal(self):
+        """(height, width, 3) float32: mean shading normal, world axes, towards the camera; a miss counts as 0."""
+        return self._native.normal
+
+    @property
+    def depth(self):
+        """(height, width) float32: nearest hit, metres along the view axis; infinite where all samples missed."""
+        return self._native.depth
+
+    @property
+    def count(self):
+        """(height, width) uint32: samples."""
+        return self._native.count
+
+    @property
+    def variance(self):
+        """(height, width, 3) float32: variance of rgb, from the means of blocks of samples; NaN where there are fewer than two blocks.
+        A copy."""
+        return self._native.variance
+
+    @property
+    def ids(self) -> Optional[Dict[str, Any]]:
+        """Of a film rendered with ids=True: for "node", "mesh" and "material" a (height, width) uint32 of indices in the scene's file, of
+        what covers most of the pixel; 4294967295 where that is nothing, or nothing of the file. Else None."""
+        return self._native.ids
+
+    @property
+    def error(self) -> Optional[Error]:
+        """The estimated error, or None if no pixel has two blocks of samples (65 samples or more)."""
+        estimate = self._native.estimate
+        return Error(*estimate) if estimate else None
+
+    @property
+    def samples(self) -> List[Tuple[int, int]]:
+        """Indices of its samples, [begin, end)."""
+        return self._native.samples
+
+    @property
+    def complete(self) -> bool:
+        """Whether no sample of these is missing: a render that was stopped leaves some out."""
+        return self._native.complete
+
+    @property
+    def seconds(self) -> float:
+        """Time spent sampling, also by earlier runs."""
+        return self._native.seconds
+
+    @property
+    def device(self) -> str:
+        return self._native.device
+
+    @property
+    def settings(self) -> str:
+        """The options that decide a sample, as in "seed=0 bounces=64 sampler=sobol"."""
+        return self._native.settings
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of what makes the film. Equal digests are equal bits."""
+        return self._native.digest
+
+    def resume(self, progress: Optional[Progress] = None, **options) -> "Film":
+        """Renders more samples, as in film.resume(spp=1024), and returns the film of all, with the bits of one render. Options are those
+        of the film but for the ones that are given. For films that this process has rendered; Scene.render(resume=film) takes others."""
+        if self._again is None:
+            raise InputError("the film was not rendered here; expected Scene.render(resume=film)")
+        scene, before = self._again
+        return scene.render(progress=progress, resume=self, **{**before, **options})
+
+    def save(self, path: Path, *, exposure: float = 0.0) -> None:
+        """Writes an EXR with all layers, which glim.read and `glim merge` read, or an sRGB PNG at this exposure in stops."""
+        with _call():
+            if os.fspath(path).lower().endswith(".png"):
+                self._native.save_png(path, exposure, None)
+            else:
+                self._native.save(path)
+
+    def _repr_png_(self) -> bytes:
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "film.png")
+            self._native.save_png(path, 0.0, 1024)
+            with open(path, "rb") as file:
+                return file.read()
+
+    def __repr__(self) -> str:
+        count = sum(end - begin for begin, end in self.samples)
+        error = self.error
+        known = ", estimated RMSE %.3g %% of the mean [%.3g, %.3g]" % tuple(100 * value for value in error[:3]) if error else ""
+        return "<glim.Film %dx%d, %d samples per pixel%s%s>" % (self.width, self.height, count, "" if self.complete else " at most", known)
+
+
+class Scene:
+    """A scene that stays on the device. It is read when it is first rendered, and again when one of its files has changed."""
+
+    def __init__(self, path: Path, **options):
+        self.path = path
+        self._options = options
+        words_of(options)
+        self._native = None
+        self._lock = threading.Lock()
+        self._last = None
+
+    @property
+    def last_film(self) -> Optional[Film]:
+        """The film of the last render, also if Ctrl-C or `progress` has stopped it. None if there is none."""
+        return self._last
+
+    def render(self, *, resume: Optional[Film] = None, ids: bool = False, progress: Optional[Progress] = None, **options) -> Film:
+        """Renders a picture.
+
+        resume: a film of the same picture with fewer samples, to go on from.
+        ids: whether film.ids is to be known, which traces camera rays again.
+        progress: called several times a second with samples so far and in all, over all pixels, and seconds. What it raises ends the
+            render, as Ctrl-C does: the film so far is last_film, and the exception's `film`.
+        options: those of `glim render --help-all`, with underscores: spp=256, size=(640, 480), camera="top", **look_at(...), seed=1,
+            target_rmse=.01 (a share of the mean), environment="sky.hdr", device="llvmpipe". They come on top of those of the scene.
+
+        Other threads may run meanwhile; one picture is rendered at a time. Raises InputError and DeviceError."""
+        asked = {**self._options, **options}
+        words = [self._scene_word(), *words_of(asked)]
+        with self._lock, _call() as native:
+            self._native = self._native or native.Scene()
+            try:
+                rendered = self._native.render(words, resume and resume._native, ids, progress)
+            except (InputError, DeviceError):
+                raise
+            except BaseException as stop:
+                stop.film = self._keep(asked, self._native.last_film)
+                raise
+            return self._keep(asked, rendered)
+
+    def _scene_word(self):
+        path = os.fspath(self.path)
+        return os.path.join(".", path) if path.startswith("-") else path
+
+    def _keep(self, asked, rendered):
+        self._last = Film(rendered, (self, asked)) if rendered else None
+        return self._last
+
+    def __repr__(self) -> str:
+        return "<glim.Scene %s>" % os.fspath(self.path)
+
+
+def load(scene: Path, **options) -> Scene:
+    """A scene for many pictures. options: defaults of its Scene.render."""
+    return Scene(scene, **options)
+
+
+def render(scene: Path, **options) -> Film:
+    """Renders one picture of a scene. The arguments are those of Scene.render."""
+    return Scene(scene).render(**options)
+
+
+def look_at(origin: Sequence[float], target: Sequence[float], up: Sequence[float] = (0, 1, 0), zoom: float = 1.0) -> Dict[str, Any]:
+    """Options of a camera at `origin` that sees `target` in the middle of the picture: scene.render(**glim.look_at((0, 1, 3), (0, 1, 0))).
+    World coordinates, metres. zoom: magnification of the scene's own camera."""
+    return {"look_from": tuple(origin), "look_at": tuple(target), "look_up": tuple(up), "zoom": zoom}
+
+
+def read(path: Path) -> Film:
+    """A film that glim has written."""
+    with _call() as native:
+        return Film(native.read(path))
+
+
+def merge(films: Iterable[Film]) -> Film:
+    """One film of films of the same picture with different samples, or of adjacent rows. `exact` says whether it has the bits of a single
+    render; else it equals one up to rounding."""
+    with _call() as native:
+        merged, exact = native.merge([film._native for film in films])
+        film = Film(merged)
+        film.exact = exact
+        return film
+
+
+def devices() -> List[Dict[str, Any]]:
+    """Vulkan's devices, the one that is used by default first: name, driver, kind, memory in bytes, usable, missing."""
+    with _call() as native:
+        return native.devices()

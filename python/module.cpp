@@ -1,0 +1,240 @@
+// The C++ side of `import glim`. The Python side (glim/__init__.py) turns keyword arguments into the words of `glim render`, whose parser
+// checks them here too.
+#include "host/cli/render_picture.hpp"
+#include "host/cli/render_report.hpp"
+#include "host/gpu/device.hpp"
+#include "host/render/film_pictures.hpp"
+#include "host/render/identify.hpp"
+#include "host/render/merge_films.hpp"
+#include "python/film.hpp"
+#include "shaders/shared/limits.h"
+
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <unistd.h>
+
+#include <atomic>
+#include <exception>
+#include <mutex>
+
+namespace nb = nanobind;
+
+namespace glim {
+namespace {
+
+// One picture at a time: the scenes of a process share its device.
+std::mutex rendering;
+// The process that has used Vulkan, which does not survive fork(); 0: none has.
+std::atomic<pid_t> user = 0;
+
+void refuseFork()
+{
+    pid_t nobody = 0;
+    if (!user.compare_exchange_strong(nobody, getpid()) && nobody != getpid()) {
+        throw DeviceError(
+            "this process was forked from one that has used glim, and Vulkan does not survive that; start it anew, as "
+            "multiprocessing's method spawn does.");
+    }
+}
+
+// What the module does with the output that these options ask for is the caller's.
+constexpr const char* kRefused[] = {"--png",      "--rates",  "--ids",       "--stats",   "--checkpoint", "--resume",  "--on-checkpoint",
+                                    "--progress", "--frames", "--turntable", "--cameras", "--replay",     "--suspects"};
+
+void parse(std::vector<std::string> words, RenderOptions& options)
+{
+    CommandLine line("", "", "");
+    const Command command = line.addCommand("render", "");
+    addRenderOptions(command, options);
+    command.onRun([&] {
+        for (const char* name : kRefused) {
+            if (command.isGiven(name)) {
+                throw UsageError(name, "is for the command line alone");
+            }
+        }
+        return ExitCode::Done;
+    });
+    words.insert(words.begin(), "render");
+    words.insert(words.end(), {"--output", "film.exr"});  // which is not written
+    line.run(words);
+}
+
+// Asks Python whether a render goes on. Python's exceptions wait until the film is done.
+class Watcher {
+public:
+    explicit Watcher(nb::object progress)
+        : progress_(std::move(progress))
+    {}
+
+    bool operator()(const RenderProgress& now)
+    {
+        const nb::gil_scoped_acquire gil;
+        try {
+            if (PyErr_CheckSignals() != 0) {
+                throw nb::python_error();
+            }
+            if (!progress_.is_none()) {
+                progress_(now.samples, now.totalSamples, now.seconds);
+            }
+        } catch (const nb::python_error&) {
+            failure_ = std::current_exception();
+        }
+        return !failure_;
+    }
+
+    std::exception_ptr failure() const { return failure_; }
+
+private:
+    nb::object progress_;
+    std::exception_ptr failure_;
+};
+
+class PythonScene {
+public:
+    // The last film of this scene, also if it was stopped; null if there is none, or if the last one had no sample.
+    std::shared_ptr<PythonFilm> lastFilm() const { return lastFilm_; }
+
+    std::shared_ptr<PythonFilm> render(const std::vector<std::string>& words, const std::shared_ptr<PythonFilm>& resumed, bool withIds,
+                                       nb::object progress)
+    {
+        refuseFork();
+        RenderOptions options;
+        parse(words, options);
+        Watcher watcher(std::move(progress));
+        {
+            const nb::gil_scoped_release release;
+            const std::lock_guard lock(rendering);
+            lastFilm_ = renderWithin(options, resumed.get(), withIds, watcher);
+        }
+        if (watcher.failure()) {
+            std::rethrow_exception(watcher.failure());
+        }
+        return lastFilm_;
+    }
+
+private:
+    std::shared_ptr<PythonFilm> renderWithin(const RenderOptions& options, const PythonFilm* resumed, bool withIds, Watcher& watcher)
+    {
+        std::unique_ptr<SceneSession> session = std::move(session_);  // none stays if anything is thrown
+        if (!session || !session->serves(options)) {
+            session.reset();
+            session = std::make_unique<SceneSession>(options);
+        }
+        session->pose(options.at);
+        if (options.settings.aov == Aov::Radiance) {
+            warnIfNoLights(session->prepared());
+        }
+        const PictureFrame frame = framePicture(*session, options);
+        if (resumed != nullptr) {
+            if (const std::string difference = describeOther(resumed->film(), *session, frame, options); !difference.empty()) {
+                throw InputError("the film cannot be resumed: " + difference + ".");
+            }
+        }
+        Renderer& renderer = session->begin(frame.camera, frame.settings);
+        if (resumed != nullptr) {
+            resumeFrom(renderer, resumed->stored(), "the film");
+        }
+        // Of whole pages by uniform sampling the film says all.
+        const bool wholePages = frame.settings.adaptive == Adaptive::Off && frame.settings.sampleEnd % kPageSamples == 0;
+        RenderedFilm rendered =
+            renderPicture(renderer, options.target, std::ref(watcher), [&] { return !wholePages || !renderer.isDone(); });
+        if (renderer.statistics().samples + renderer.statistics().resumedSamples == 0) {
+            session_ = std::move(session);
+            return nullptr;
+        }
+        labelFilm(rendered.film, options);
+        warnOfPicture(rendered.film, renderer.statistics(), options.settings);
+        auto film = std::make_shared<PythonFilm>(std::move(rendered.film), std::move(rendered.checkpoint));
+        if (withIds) {
+            Identifier identifier(renderer, session->prepared(), frame.camera, rayKernels_);
+            film->identify(identifier);
+            rayKernels_ = identifier.kernels();
+        }
+        session_ = std::move(session);
+        return film;
+    }
+
+    std::unique_ptr<SceneSession> session_;
+    std::shared_ptr<const CameraRayKernels> rayKernels_;
+    std::shared_ptr<PythonFilm> lastFilm_;
+};
+
+std::pair<std::shared_ptr<PythonFilm>, bool> merge(const std::vector<std::shared_ptr<PythonFilm>>& films)
+{
+    if (films.empty()) {
+        throw InputError("there are no films to merge.");
+    }
+    std::vector<Film> headers;
+    std::vector<std::string> names;
+    for (const auto& film : films) {
+        headers.push_back(film->film());
+        headers.back().pixels.clear();
+        headers.back().splats.clear();
+        names.push_back("film " + std::to_string(names.size()));
+    }
+    MergedFilm merged = mergeFilms(headers, names, [&](std::size_t i) { return films[i]->film(); });
+    return {std::make_shared<PythonFilm>(std::move(merged.film), std::nullopt), merged.exact};
+}
+
+nb::list devices()
+{
+    refuseFork();
+    nb::list list;
+    for (const DeviceDescription& device : listDevices(VulkanInstance())) {
+        nb::dict entry;
+        entry["name"] = device.name;
+        entry["driver"] = device.driver;
+        entry["kind"] = device.kind;
+        entry["memory"] = device.memory;
+        entry["usable"] = device.missing.empty();
+        entry["missing"] = device.missing;
+        list.append(entry);
+    }
+    return list;
+}
+
+void translate(const std::exception_ptr& thrown, void*)
+{
+    const auto raise = [](const char* name, const char* what) {
+        PyErr_SetString(nb::module_::import_("glim._errors").attr(name).ptr(), what);
+    };
+    try {
+        std::rethrow_exception(thrown);
+    } catch (const UsageError& error) {
+        raise("InputError", error.what());
+    } catch (const InputError& error) {
+        raise("InputError", error.what());
+    } catch (const DeviceError& error) {
+        raise("DeviceError", error.what());
+    }
+}
+
+}  // namespace
+
+NB_MODULE(_glim, module)
+{
+    nb::register_exception_translator(translate);
+    bindFilm(module);
+    nb::class_<PythonScene>(module, "Scene")
+        .def(nb::init<>())
+        .def("render", &PythonScene::render, nb::arg("words"), nb::arg("resumed").none(), nb::arg("ids"), nb::arg("progress").none())
+        .def_prop_ro("last_film", &PythonScene::lastFilm);
+    module.def("merge", &merge, nb::arg("films"), nb::call_guard<nb::gil_scoped_release>());
+    module.def("devices", &devices);
+    module.def("listen", [](nb::callable listener) {
+        listenToMessages([listener](const std::string& sentence, bool isWarning) {
+            const nb::gil_scoped_acquire gil;
+            listener(sentence, isWarning);
+        });
+        // Before the interpreter ends, which no reference to `listener` may outlive.
+        nb::module_::import_("atexit").attr("register")(nb::cpp_function([] { listenToMessages(nullptr); }));
+    });
+}
+
+}  // namespace glim

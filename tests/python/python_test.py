@@ -1,0 +1,338 @@
+#!/usr/bin/env python3
+"""`import glim`: the bits of the command line, lifetimes, threads, Ctrl-C. It needs numpy and nanobind from PyPI: where these cannot be
+had, ctest lists this test as skipped (exit code 77). The argument is glim's program."""
+
+import gc
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import warnings
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(ROOT, "tools"))
+from conversion.environment import Environment  # noqa: E402
+from conversion.errors import ConversionError  # noqa: E402
+
+GLIM = os.path.abspath(sys.argv[1])
+LONG = os.environ.get("GLIM_LONG")
+
+
+def scene(name):
+    return os.path.join(ROOT, "scenes", name + ".gltf")
+
+
+GEMS = scene("cornell_gems")  # has caustics, and so light paths
+
+
+def run_python(code, **environment):
+    """What a new process prints, which runs this code."""
+    return subprocess.run([sys.executable, "-c", code], env={**os.environ, **environment}, stdout=subprocess.PIPE, text=True, check=True).stdout
+
+
+def read_memory():
+    """Bytes of this process that are its own."""
+    with open("/proc/self/smaps_rollup", encoding="ascii") as rollup:
+        return sum(int(line.split()[1]) << 10 for line in rollup if line.startswith("Private_"))
+
+
+class PythonCase(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="glim-python-")
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def command_line(self, *words):
+        """The film and the statistics of `glim render`."""
+        subprocess.run([GLIM, "render", *words, "-o", self.path("one.exr"), "--stats", self.path("one.json"), "--progress", "none"],
+                       check=True, stdout=subprocess.DEVNULL)
+        with open(self.path("one.json"), encoding="utf-8") as stats:
+            return glim.read(self.path("one.exr")), json.load(stats)
+
+
+class BitsTest(PythonCase):
+    def test_of_the_command_line(self):
+        gems = glim.load(GEMS, size=(24, 16))
+        for words, options in ((["--spp", "80"], {"spp": 80}),
+                               (["--spp", "8", "--seed", "3"], {"spp": np.int64(8), "seed": 3}),
+                               (["--spp", "8", "--look-from", "0,1,3", "--look-at", "0.0,1.0,0.0", "--look-up", "0,1,0", "--zoom", "1.0"],
+                                {"spp": 8, **glim.look_at(np.array([0, 1, 3]), (0.0, 1.0, 0.0))}),
+                               (["--target-rmse", "9%"], {"target_rmse": .09}),
+                               (["--spp", "128", "--adaptive", "neighbours"], {"spp": 128, "adaptive": "neighbours"}),
+                               (["--samples", "256:300", "--caustics", "off"], {"samples": (256, 300), "caustics": False}),
+                               (["--spp", "4", "--rows", "3:7"], {"spp": 4, "rows": (3, 7)})):
+            film, _ = self.command_line(GEMS, "--size", "24x16", *words)
+            self.assertEqual(gems.render(**options).digest, film.digest, words)
+
+    def test_error_of_the_command_line(self):
+        film, stats = self.command_line(GEMS, "--size", "24x16", "--spp", "80")
+        error, estimate = film.error, stats["estimate"]
+        self.assertEqual((error.rmse, error.rel_mse, error.mse, error.mean),
+                         tuple(estimate[name] for name in ("rmseOfMean", "relmse", "mse", "mean")))
+        self.assertEqual([error.rmse_low, error.rmse_high, error.rel_mse_low, error.rel_mse_high],
+                         [*estimate["rmseOfMean95"], *estimate["relmse95"]])
+        self.assertIsNone(glim.render(GEMS, size="8x8", spp=4).error)
+
+    def test_a_changed_file_is_read_again(self):
+        path = self.path("scene.gltf")
+        shutil.copy(scene("cornell"), path)
+        for name in os.listdir(os.path.join(ROOT, "scenes")):
+            if name.startswith("cornell") and name.endswith(".bin"):
+                shutil.copy(os.path.join(ROOT, "scenes", name), self.folder)
+        kept = glim.load(path, size="8x8", spp=4)
+        before = kept.render().digest
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text.replace('"baseColorFactor"', '"extras"', 1))
+        self.assertNotEqual(kept.render().digest, before)
+        self.assertEqual(kept.render().digest, glim.render(path, size="8x8", spp=4).digest)
+
+
+class FilmTest(PythonCase):
+    def test_layers(self):
+        film = glim.render(scene("cornell"), size=(20, 12), spp=70, ids=True)
+        for name, shape, kind in (("rgb", (12, 20, 3), "float32"), ("alpha", (12, 20), "float32"), ("albedo", (12, 20, 3), "float32"),
+                                  ("normal", (12, 20, 3), "float32"), ("depth", (12, 20), "float32"), ("count", (12, 20), "uint32"),
+                                  ("variance", (12, 20, 3), "float32")):
+            layer = getattr(film, name)
+            self.assertEqual((layer.shape, str(layer.dtype)), (shape, kind), name)
+            self.assertFalse(layer.flags.writeable, name)
+        self.assertTrue((film.count == 70).all())
+        self.assertTrue(np.isfinite(film.variance).all() and (film.variance >= 0).all())
+        # The middle of the bottom row sees the floor of the box, which is white and looks up.
+        self.assertEqual(list(film.normal[-1, 7].round(4)), [0, 1, 0])
+        self.assertEqual(film.alpha[-1, 7], 1)
+        self.assertTrue(.5 < film.albedo[-1, 7].min() < 1 and 0 < film.depth[-1, 7] < 100)
+        # The films that it can be read back from have the same layers.
+        film.save(self.path("film.exr"))
+        again = glim.read(self.path("film.exr"))
+        self.assertEqual(again.digest, film.digest)
+        for name in ("rgb", "alpha", "albedo", "normal", "depth", "count", "variance"):
+            self.assertTrue(np.array_equal(getattr(again, name), getattr(film, name)), name)
+        self.assertEqual(sorted(film.ids), ["material", "mesh", "node"])
+        with open(scene("cornell"), encoding="utf-8") as file:
+            document = json.load(file)
+        node = film.ids["node"][-1, 7]
+        self.assertEqual(film.ids["mesh"][-1, 7], document["nodes"][node]["mesh"])
+        self.assertIsNone(again.ids)
+
+    def test_mean_is_of_the_samples(self):
+        """Radiance, not its neighbour in memory: a white environment alone is 1 everywhere."""
+        film = glim.render(scene("cornell"), size=(8, 8), spp=4, bounces=0, environment=(1, 1, 1), **glim.look_at((0, 50, 0), (0, 99, 1)))
+        self.assertTrue((film.rgb == 1).all() and (film.alpha == 0).all() and np.isinf(film.depth).all())
+
+    def test_views_outlive_the_film(self):
+        film = glim.render(GEMS, size=(64, 64), spp=2)
+        view, expected = film.rgb, film.rgb.copy()
+        self.assertTrue(np.shares_memory(view, film.rgb))
+        ids = glim.render(GEMS, size=(64, 64), spp=2, ids=True).ids["node"]
+        expected_ids = ids.copy()
+        del film
+        gc.collect()
+        others = [glim.render(GEMS, size=(64, 64), spp=2, seed=seed) for seed in range(1, 4)]
+        self.assertTrue(np.array_equal(view, expected) and np.array_equal(ids, expected_ids))
+        self.assertFalse(any(np.array_equal(view, other.rgb) for other in others))
+
+    def test_merge(self):
+        kept = glim.load(GEMS, size=(16, 12))
+        parts = [kept.render(samples=samples) for samples in ((256, 300), (0, 256))]
+        merged = glim.merge(parts)
+        self.assertTrue(merged.exact)
+        self.assertEqual(merged.digest, kept.render(spp=300).digest)
+        self.assertFalse(glim.merge([kept.render(samples=(0, 70)), kept.render(samples=(70, 90))]).exact)
+        bands = [kept.render(spp=4, rows=rows) for rows in ((5, 12), (0, 5))]
+        self.assertEqual(glim.merge(bands).digest, kept.render(spp=4).digest)
+        with self.assertRaisesRegex(glim.InputError, "both hold samples 0:256"):
+            glim.merge([parts[1], parts[1]])
+        with self.assertRaisesRegex(glim.InputError, "no films"):
+            glim.merge([])
+
+    def test_pictures(self):
+        film = glim.render(scene("cornell"), size=(1100, 10), spp=1)
+        film.save(self.path("film.png"), exposure=1)
+        with open(self.path("film.png"), "rb") as file:
+            self.assertEqual(file.read(24)[-8:], (1100).to_bytes(4, "big") + (10).to_bytes(4, "big"))
+        shown = film._repr_png_()
+        self.assertEqual((shown[:4], shown[16:24]), (b"\x89PNG", (550).to_bytes(4, "big") + (5).to_bytes(4, "big")))
+        self.assertIn("1100x10, 1 samples per pixel", repr(film))
+        self.assertRegex(repr(glim.render(GEMS, size=(8, 8), spp=80)), r"estimated RMSE [0-9.]+ % of the mean \[")
+
+    def test_resume(self):
+        kept = glim.load(GEMS, size=(16, 12))
+        for first, more in ((100, 300), (256, 300), (300, 900)):
+            film = kept.render(spp=first)
+            whole = kept.render(spp=more).digest
+            self.assertEqual(film.resume(spp=more).digest, whole, first)
+            film.save(self.path("film.exr"))
+            if first % 256 == 0:
+                self.assertEqual(kept.render(spp=more, resume=glim.read(self.path("film.exr"))).digest, whole)
+        with self.assertRaisesRegex(glim.InputError, "its seed is 0, expected 1"):
+            film.resume(spp=1000, seed=1)
+        with self.assertRaisesRegex(glim.InputError, "not rendered here"):
+            glim.read(self.path("film.exr")).resume(spp=1000)
+
+
+class UseTest(PythonCase):
+    def test_refusals(self):
+        for options, words in (({"spp": 0}, "^spp: .*expected"), ({"sppp": 1}, "sppp"), ({"size": "8"}, "^size: "),
+                               ({"png": "a.png"}, "^png: .*command line"), ({"time": object()}, "^time: "),
+                               ({"target_rmse": .01, "spp": 4}, "^target_rmse: .*64")):
+            with self.assertRaisesRegex(glim.InputError, words):
+                glim.render(GEMS, **options)
+        for name in ("help", "output", "Size"):
+            with self.assertRaisesRegex(TypeError, name):
+                glim.load(GEMS, **{name: True})
+        self.assertTrue(issubclass(glim.InputError, ValueError) and issubclass(glim.DeviceError, RuntimeError))
+        with self.assertRaisesRegex(glim.InputError, "missing.glb: cannot be"):
+            glim.render(self.path("missing.glb"))
+        with self.assertRaisesRegex(glim.InputError, "cannot be resumed|is not|not a film"):
+            glim.read(GEMS)
+        with self.assertRaisesRegex(glim.InputError, "no such device"):
+            glim.render(GEMS, device="no such GPU")
+        self.assertTrue(any(device["usable"] and device["memory"] > 0 for device in glim.devices()))
+
+    def test_warnings(self):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            glim.render(scene("cornell"), size=(8, 8), spp=1, environment="none")
+            self.assertEqual(caught, [])
+            glim.render(GEMS, size=(8, 8), spp=64, clamp_indirect=.1)
+        self.assertEqual([(one.category, one.filename) for one in caught], [(glim.GlimWarning, __file__)])
+        self.assertIn("clamp_indirect removed", str(caught[0].message))
+
+    def test_progress(self):
+        calls = []
+        film = glim.render(GEMS, size=(64, 64), spp=64, progress=lambda *call: calls.append(call))
+        self.assertEqual(calls, sorted(calls))
+        self.assertEqual(calls[-1][:2], (64 * 64 * 64, 64 * 64 * 64))
+
+        def stop(done, total, seconds):
+            if done > 0:
+                raise KeyError("enough")
+        with self.assertRaises(KeyError) as caught:
+            glim.render(GEMS, size=(64, 64), spp=100000, progress=stop)
+        stopped = caught.exception.film
+        self.assertLess(stopped.samples[-1][1], 100000)
+        self.assertGreater(stopped.count.sum(), 0)
+        self.assertEqual(film.digest, glim.render(GEMS, size=(64, 64), spp=64).digest)
+
+    def test_interrupts(self):
+        """Ctrl-C at 20 moments of a render: the film so far is kept, and goes on to the bits of a render without an interruption."""
+        kept = glim.load(GEMS, size=(48, 48), seed=5)
+        begin = time.monotonic()
+        whole = kept.render(spp=640)
+        seconds, stopped = time.monotonic() - begin, 0
+        for moment in range(1, 21):
+            timer = threading.Timer(seconds * moment / 20, os.kill, (os.getpid(), signal.SIGINT))
+            film = None
+            try:
+                timer.start()
+                film = kept.render(spp=640)
+                timer.join()
+                time.sleep(.01)  # for an interrupt that comes last
+            except KeyboardInterrupt as interrupt:
+                if film is None:
+                    film = interrupt.film
+                    self.assertIs(film, kept.last_film)
+                    stopped += film is None or film.digest != whole.digest
+            timer.join()
+            if film is not None:
+                self.assertGreater(film.count.sum(), 0)
+                self.assertEqual(kept.render(spp=640, resume=film).digest, whole.digest, moment)
+        self.assertGreater(stopped, 10)
+
+    def test_threads(self):
+        expected = [glim.render(GEMS, size=(32, 32), spp=64, seed=seed).digest for seed in (1, 2)]
+        digests, ticks = {}, 0
+
+        def render(seed):
+            kept = glim.load(GEMS, size=(32, 32), seed=seed)
+            digests[seed] = {kept.render(spp=64).digest for _ in range(5)}
+        threads = [threading.Thread(target=render, args=(seed,)) for seed in (1, 2)]
+        for thread in threads:
+            thread.start()
+        while any(thread.is_alive() for thread in threads):
+            ticks += 1
+            time.sleep(.001)
+        self.assertEqual([digests[seed] for seed in (1, 2)], [{digest} for digest in expected])
+        self.assertGreater(ticks, 50)  # Python went on meanwhile
+
+    def test_memory_stays(self):
+        kept = glim.load(GEMS, size=(16, 16), spp=1)
+
+        def render(count):
+            for seed in range(count):
+                kept.render(seed=seed, size=(16 + seed % 2, 16)).variance
+        render(200)
+        before = read_memory()
+        render(1000)
+        self.assertLess(read_memory() - before, 4 << 20)
+
+    def test_fork(self):
+        said = run_python("""
+import os, glim
+glim.render(%r, size=(8, 8), spp=1)
+if os.fork() == 0:
+    try:
+        glim.render(%r, size=(8, 8), spp=1)
+    except glim.DeviceError as error:
+        print(error, flush=True)
+    os._exit(0)
+os.wait()
+""" % (GEMS, GEMS))
+        self.assertIn("Vulkan does not survive", said)
+        # A process that has not used it may fork.
+        said = run_python("""
+import os, glim
+if os.fork() == 0:
+    print(glim.render(%r, size=(8, 8), spp=1).complete, flush=True)
+    os._exit(0)
+os.wait()
+""" % GEMS)
+        self.assertEqual(said, "True\n")
+
+    def test_without_vulkan(self):
+        code = """
+import glim
+try:
+    glim.render(%r)
+except glim.DeviceError as error:
+    print(error)
+""" % GEMS
+        with open(self.path("libvulkan.so.1"), "w", encoding="ascii") as file:
+            file.write("no library")
+        self.assertIn("libvulkan1 and mesa-vulkan-drivers", run_python(code, LD_LIBRARY_PATH=self.folder))
+        self.assertIn("mesa-vulkan-drivers", run_python(code, VK_DRIVER_FILES=self.path("none"), VK_ICD_FILENAMES=self.path("none")))
+
+
+def main():
+    environment = Environment("python", ["numpy==2.2.6", "nanobind==3.1.0", "nanobind-backend==1.0.0", "scikit-build-core==1.1.2"])
+
+    def say(text):
+        print(text, file=sys.stderr, flush=True)
+    try:
+        environment.enter(say)
+    except ConversionError as error:
+        say("skipped: %s" % error)
+        sys.exit(77)
+    environment.build(ROOT, os.path.join(ROOT, "build", "wheel"))
+    global glim, np
+    import glim
+    import numpy as np
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])
+
+
+if __name__ == "__main__":
+    main()
