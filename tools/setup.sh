@@ -129,18 +129,30 @@ showProgress() {
     return 0
 }
 
+# Prints what cmake is to know of the module for Python, a line each. The module comes with the tests where PyPI can be reached.
+describeModule() {
+    local preset=$1 tests=$2
+    if [[ $tests != OFF && $preset != debug && $preset != sanitize* ]] && python3 "$root/tools/python_environment.py" >>"$setupLog" 2>&1; then
+        printf '%s\n' -DGLIM_PYTHON_MODULE=ON "-DPython_EXECUTABLE=$root/build/python/bin/python"
+    else
+        echo "-DGLIM_PYTHON_MODULE=OFF"
+    fi
+}
+
 # configure DIRECTORY PRESET TESTS: runs cmake unless it has run here with the same arguments. TESTS: OFF, ON, or BENCH, which includes ON.
 configure() {
-    local directory=$1 preset=$2 tests=$3 key fresh=() before=
+    local directory=$1 preset=$2 tests=$3 key fresh=() before= module
     [[ -f $directory/.configured ]] && before=$(<"$directory/.configured")
     # A call that needs fewer packages leaves on what another call has turned on.
     [[ $before == *" ON "* && $tests == OFF ]] && tests=ON
     [[ $before == *" BENCH "* ]] && tests=BENCH
-    key="$preset $tests $root"
+    mapfile -t module < <(describeModule "$preset" "$tests")
+    key="$preset $tests ${module[0]} $root"
     [[ -f $directory/build.ninja && -f $directory/.configured && $(<"$directory/.configured") == "$key" ]] && return
     # CMake refuses a build directory that was moved along with its sources.
     [[ -f $directory/.configured && $(<"$directory/.configured") != *" $root" ]] && fresh=(--fresh)
-    (cd "$root" && cmake "${fresh[@]}" --preset "$preset" "-DGLIM_TESTS=${tests/BENCH/ON}" "-DGLIM_BENCH=${tests/#ON/OFF}") >>"$setupLog" 2>&1 || return
+    (cd "$root" && cmake "${fresh[@]}" --preset "$preset" "-DGLIM_TESTS=${tests/BENCH/ON}" "-DGLIM_BENCH=${tests/#ON/OFF}" "${module[@]}") \
+        >>"$setupLog" 2>&1 || return
     printf '%s' "$key" >"$directory/.configured"
 }
 
@@ -150,7 +162,7 @@ describeBuild() { echo "$1 $root $(git -c safe.directory="$root" -C "$root" rev-
 # isBuilt STAMP PRESET: no source is newer than the stamp, and it is of the same preset and commit. A few milliseconds.
 isBuilt() {
     [[ -x ${1%/*}/glim && -f $1 && $(<"$1") == "$(describeBuild "$2")" ]] || return
-    [[ -z $(cd "$root" && find CMakeLists.txt CMakePresets.json host shaders tests tools -newer "$1" -print -quit) ]]
+    [[ -z $(cd "$root" && find CMakeLists.txt CMakePresets.json host python shaders tests tools -newer "$1" -print -quit) ]]
 }
 
 # build DIRECTORY PRESET TESTS TARGET PACKAGE_LINE...: called under the lock.

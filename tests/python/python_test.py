@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""`import glim`: the bits of the command line, lifetimes, threads, Ctrl-C. It needs numpy and nanobind from PyPI: where these cannot be
-had, ctest lists this test as skipped (exit code 77). The argument is glim's program."""
+"""`import glim`: the bits of the command line, lifetimes, threads, Ctrl-C. The arguments are glim's program and the folder of the built
+package."""
 
 import gc
 import json
@@ -18,12 +18,11 @@ import warnings
 HERE = os.path.dirname(os.path.realpath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.join(ROOT, "tools"))
-from conversion.environment import Environment  # noqa: E402
-from conversion.errors import ConversionError  # noqa: E402
+sys.path.insert(0, sys.argv[2])
+import glim  # noqa: E402
+import numpy as np  # noqa: E402
 
 GLIM = os.path.abspath(sys.argv[1])
-LONG = os.environ.get("GLIM_LONG")
 
 
 def scene(name):
@@ -35,7 +34,7 @@ GEMS = scene("cornell_gems")  # has caustics, and so light paths
 
 def run_python(code, **environment):
     """What a new process prints, which runs this code."""
-    return subprocess.run([sys.executable, "-c", code], env={**os.environ, **environment}, stdout=subprocess.PIPE, text=True, check=True).stdout
+    return subprocess.run([sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": sys.argv[2], **environment}, stdout=subprocess.PIPE, text=True, check=True).stdout
 
 
 def read_memory():
@@ -317,22 +316,5 @@ except glim.DeviceError as error:
         self.assertIn("mesa-vulkan-drivers", run_python(code, VK_DRIVER_FILES=self.path("none"), VK_ICD_FILENAMES=self.path("none")))
 
 
-def main():
-    environment = Environment("python", ["numpy==2.2.6", "nanobind==3.1.0", "nanobind-backend==1.0.0", "scikit-build-core==1.1.2"])
-
-    def say(text):
-        print(text, file=sys.stderr, flush=True)
-    try:
-        environment.enter(say)
-    except ConversionError as error:
-        say("skipped: %s" % error)
-        sys.exit(77)
-    environment.build(ROOT, os.path.join(ROOT, "build", "wheel"))
-    global glim, np
-    import glim
-    import numpy as np
-    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])
-
-
 if __name__ == "__main__":
-    main()
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

@@ -55,19 +55,17 @@ class Environment:
         run([self.python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", requirement],
             "cannot install %s; expected a connection to PyPI" % requirement)
 
-    def build(self, source, folder):
-        """Within the environment: builds the Python package of a source tree in `folder`, where a second build is short, and installs it.
-        A failure (CalledProcessError) comes after the compiler's messages."""
-        subprocess.run([self.python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-build-isolation", "--no-deps",
-                        "--config-settings=build-dir=" + folder, source], check=True, stdout=sys.stderr)
-
-    def enter(self, say):
-        """Returns within the environment: elsewhere it makes one if there is none, and starts the program again in it."""
-        if os.path.realpath(sys.prefix) == self.folder:
-            return
+    def ensure(self, say):
+        """Makes it if there is none."""
         os.makedirs(BUILD, exist_ok=True)
         with open(self.folder + ".lock", "w") as lock:  # one makes it, the others wait
             fcntl.flock(lock, fcntl.LOCK_EX)
             if not self.is_made():
                 self.make(say)
+
+    def enter(self, say):
+        """Returns within the environment: elsewhere it makes one if there is none, and starts the program again in it."""
+        if os.path.realpath(sys.prefix) == self.folder:
+            return
+        self.ensure(say)
         os.execv(self.python, [self.python, *sys.argv])
