@@ -2,9 +2,11 @@
 """tools/farm without its accidents, which are those of farm_failures_test.py. It needs Dask from PyPI: where that cannot be had, ctest
 lists this test as skipped (exit code 77). The argument is glim's program."""
 
+import asyncio
 import base64
 import json
 import os
+import random
 import signal
 import struct
 import subprocess
@@ -100,6 +102,74 @@ class LedgerTest(unittest.TestCase):
         self.lend(ledger, "a"), ledger.receive(0, "a", "a", "x", 1.0)
         receipt = ledger.receive(0, "a2", "a", "y", 2.0)
         self.assertEqual((receipt.distrusted, receipt.dropped, ledger.waiting), ({"a"}, {0}, {0}))
+
+
+    def test_parts_wait_in_order_again(self):
+        """As with a set of which the least is taken, over many lendings, returns and failures."""
+        chance, ledger, waiting, out = random.Random(1), Ledger(range(50)), set(range(50)), []
+        for _ in range(2000):
+            if out and chance.random() < .5:
+                part = out.pop(chance.randrange(len(out)))
+                ledger.give_back(part, "a")
+                waiting.add(part)
+            elif waiting:
+                self.assertEqual(self.lend(ledger, "a"), min(waiting))
+                out.append(min(waiting))
+                waiting.remove(min(waiting))
+            self.assertEqual(ledger.waiting, waiting)
+        self.assertLess(len(ledger.order), 200)
+
+    def test_costs_of_many_parts(self):
+        """A lending looks at few of the parts: 20,000 of them would take ten seconds otherwise."""
+        compared = 0
+
+        class Part(int):
+            def __lt__(self, other):
+                nonlocal compared
+                compared += 1
+                return int(self) < int(other)
+        ledger = Ledger(map(Part, range(20000)))
+        compared = 0
+        for _ in range(1000):
+            part = self.lend(ledger, "a")
+            ledger.receive(part, "a", "a", "x", 1.0)
+        self.assertLess(compared, 1000 * 64)
+        self.assertEqual((len(ledger.loans), len(ledger.avoided)), (0, 0))
+
+
+class DriverTest(unittest.TestCase):
+    """The driver with a stand-in for Dask's client: 40 workers hand in two films each, all at the same time."""
+
+    WORKERS = 40
+
+    def drive(self, seconds):
+        from farm_driver_stand_in import StandInClient, StandInPicture, make_driver, without_dask
+        from render_farm.driver import Driver
+
+        class AtOnce(Driver):
+            async def take_films(self):
+                self.client.finish(len(self.client.addresses))
+                await super().take_films()
+
+            async def take(self, *about):
+                await super().take(*about)
+                self.client.sending -= 1
+        client = StandInClient(self.WORKERS)
+        picture = StandInPicture(client, 2 * self.WORKERS, seconds=seconds)
+        with without_dask():
+            asyncio.run(make_driver(AtOnce, picture).run(client))
+        return client, picture
+
+    def test_few_films_are_in_memory(self):
+        from render_farm.driver import MOST_FILMS
+        client, picture = self.drive(0)
+        self.assertEqual(picture.kept, set(picture.parts))
+        self.assertLessEqual(client.most_sending, MOST_FILMS)
+
+    def test_free_workers_do_not_wait_for_all_films(self):
+        """The first 40 films take .8 s to keep; the workers get their second parts before."""
+        _, picture = self.drive(.02)
+        self.assertGreaterEqual(picture.submitted[self.WORKERS // 2], 2 * self.WORKERS)
 
 
 class CommandTest(unittest.TestCase):

@@ -2,12 +2,13 @@
 
 import asyncio
 import contextlib
+import functools
 import signal
 import time
 
 import cloudpickle
 import distributed
-from distributed.comm.addressing import get_address_host
+from distributed.comm import addressing
 
 from render_farm import glim_child
 from render_farm.errors import FarmError
@@ -16,9 +17,12 @@ from render_farm.picture import OtherClass
 from render_farm.security import is_private
 
 TICK_SECONDS = 0.5
+TAKING_SECONDS = 0.1  # of films, before workers that are free get parts; a film of 4K takes a second to write
+MOST_FILMS = 8  # in the driver's memory; the others stay with their workers
 ENDING_SECONDS = 5
 PATIENCE_SECONDS = 60  # with workers of which none can be used, until another comes
 cloudpickle.register_pickle_by_value(glim_child)  # workers need not have this code
+host_of = functools.lru_cache(maxsize=None)(addressing.get_address_host)  # asked for each worker in each turn
 
 
 def make_task(program, arguments, folder):
@@ -43,8 +47,10 @@ class Driver:
         self.others = set()  # of those that are barred: of another class
         self.busy = set()
         self.tasks = {}  # that follow a loan, by part and worker
+        self.room = asyncio.Semaphore(MOST_FILMS)
         self.folding = None
         self.useless_since = None
+        self.shown = None  # when
 
     async def run(self, client):
         """Returns when the picture is whole. Refuses (FarmError) what keeps it from that. client: Dask's."""
@@ -101,7 +107,7 @@ class Driver:
             raise FarmError("no worker is left that can be used; the same command goes on from %s" % self.picture.folder.path)
 
     def usable(self):
-        return {worker for worker in self.workers - self.barred if self.ledger.may_work(get_address_host(worker))}
+        return {worker for worker in self.workers - self.barred if self.ledger.may_work(host_of(worker))}
 
     def bar(self, worker, why):
         if worker not in self.barred:
@@ -117,7 +123,7 @@ class Driver:
     def hand_out(self):
         usable = self.usable()
         for worker in sorted(usable - self.busy):
-            part = self.ledger.lend(worker, get_address_host(worker), usable, time.monotonic())
+            part = self.ledger.lend(worker, host_of(worker), usable, time.monotonic())
             if part is None:
                 continue
             task = make_task(self.picture.glim.program, self.picture.arguments(part), self.picture.glim.folder)
@@ -131,21 +137,28 @@ class Driver:
             await distributed.wait(future)
             self.busy.discard(worker)
             self.events.put_nowait(None)
-            film, error = await future
+            async with self.room:
+                taken = asyncio.Event()
+                self.events.put_nowait((part, worker, *await future, taken))
+                await taken.wait()
         except Exception as caught:  # whatever Dask throws is a failure of this loan
-            film, error = None, "%s: %s" % (type(caught).__name__, caught)
             self.busy.discard(worker)
-        self.events.put_nowait((part, worker, film, error))
+            self.events.put_nowait((part, worker, None, "%s: %s" % (type(caught).__name__, caught), asyncio.Event()))
 
     async def take_films(self):
         try:
-            events = [await asyncio.wait_for(self.events.get(), TICK_SECONDS)]
+            event = await asyncio.wait_for(self.events.get(), TICK_SECONDS)
         except asyncio.TimeoutError:
             return
-        while not self.events.empty():
-            events.append(self.events.get_nowait())
-        for event in filter(None, events):
-            await self.take(*event)
+        end = time.monotonic() + TAKING_SECONDS
+        while True:
+            if event is not None:
+                *about, taken = event
+                await self.take(*about)
+                taken.set()
+            if self.events.empty() or time.monotonic() >= end:
+                return
+            event = self.events.get_nowait()
 
     async def take(self, part, worker, film, error):
         if self.tasks.pop((part, worker), None) is None:
@@ -163,7 +176,7 @@ class Driver:
             return self.bar(worker, other)
         except FarmError as wrong:
             return self.fail(part, worker, wrong)
-        host = get_address_host(worker)
+        host = host_of(worker)
         if not self.ledger.is_trusted(host):
             self.ledger.give_back(part, worker)
             return None
@@ -172,7 +185,7 @@ class Driver:
             await self.resolve(part, host, receipt)
         if receipt.kind in ("first", "settled") and not self.picture.holds(part):
             try:
-                self.picture.take(part, header, film)
+                await asyncio.to_thread(self.picture.take, part, header, film)  # Dask's connections go on meanwhile
             except FarmError:
                 return self.spoil(part)
             self.progress.add(self.picture.samples(part) * self.picture.pixels)
@@ -227,6 +240,10 @@ class Driver:
         return "%s %d" % (self.picture.part, part)
 
     def show(self):
+        now = time.monotonic()
+        if self.shown is not None and now - self.shown < TICK_SECONDS:
+            return
+        self.shown = now
         left, all_parts = self.left(), self.picture.expected
         self.progress.show("%d of %d %ss" % (all_parts - len(left), all_parts, self.picture.part), (len(self.usable()), len(self.workers)),
                            sum(map(self.picture.samples, left)) * self.picture.pixels, self.picture.error, self.client.dashboard_link)

@@ -1,6 +1,7 @@
 """Who renders what: parts that wait, are lent to workers, or are done, and whom to trust."""
 
 import collections
+import heapq
 import statistics
 
 MOST_FAILURES = 3  # of one part
@@ -24,10 +25,11 @@ class Ledger:
     def __init__(self, waiting, done=None):
         """waiting: parts. done: digests by part, of an earlier run."""
         self.waiting = set(waiting)
+        self.order = sorted(waiting)  # a heap that has all that wait, and more: what waits no longer is left in it until it comes up
         self.done = dict(done or {})
         self.hosts = {part: EARLIER for part in self.done}
         self.makers = {}  # workers, of parts that are done
-        self.loans = collections.defaultdict(dict)  # of a part: since when, by worker
+        self.loans = {}  # of a part that is lent: since when, by worker
         self.failures = collections.Counter()  # of a part
         self.damaged = collections.Counter()  # films of a worker
         self.avoided = collections.defaultdict(set)  # of a part: workers that failed at it
@@ -47,18 +49,38 @@ class Ledger:
         """The part that an idle worker is to render, or None. workers: all that could render one."""
         if not self.may_work(host):
             return None
-        fit = (part for part in self.waiting if self.avoided[part] >= workers or worker not in self.avoided[part])
-        part = min(fit, default=None)
+        part = self.first_fit(worker, workers)
         if part is None and not self.waiting:
             part = self.straggler(worker, now)
         if part is not None:
             self.waiting.discard(part)
-            self.loans[part][worker] = now
+            self.loans.setdefault(part, {})[worker] = now
         return part
+
+    def first_fit(self, worker, workers):
+        """The first part that waits and that the worker may have: it has not failed at it, or all others have too."""
+        unfit = []
+        while self.order:
+            part = self.order[0]
+            if part in self.waiting:
+                avoided = self.avoided.get(part, ())
+                if worker not in avoided or avoided >= workers:
+                    break
+                unfit.append(part)
+            heapq.heappop(self.order)
+        first = self.order[0] if self.order else None
+        for part in unfit:
+            heapq.heappush(self.order, part)
+        return first
+
+    def let_wait(self, part):
+        if part not in self.waiting and part not in self.loans:
+            self.waiting.add(part)
+            heapq.heappush(self.order, part)
 
     def straggler(self, worker, now):
         """The part that is out longest, at one other worker, and for twice the time that parts take."""
-        patience = 2 * statistics.mean(self.seconds) if self.seconds else 0
+        patience = 2 * statistics.fmean(self.seconds) if self.seconds else 0
         out = [(min(loans.values()), part) for part, loans in self.loans.items()
                if part not in self.done and len(loans) == 1 and worker not in loans]
         since, part = min(out, default=(now, None))
@@ -66,9 +88,12 @@ class Ledger:
 
     def give_back(self, part, worker):
         """Ends a loan. A part that is neither done nor lent waits again. Returns since when it was out, or None if it was not."""
-        since = self.loans[part].pop(worker, None)
-        if not self.loans[part] and part not in self.done:
-            self.waiting.add(part)
+        loans = self.loans.get(part, {})
+        since = loans.pop(worker, None)
+        if not loans:
+            self.loans.pop(part, None)
+            if part not in self.done:
+                self.let_wait(part)
         return since
 
     def lose(self, worker):
@@ -142,5 +167,4 @@ class Ledger:
             self.done.pop(part, None)
             self.hosts.pop(part, None)
             self.makers.pop(part, None)
-            if not self.loans[part]:
-                self.waiting.add(part)
+            self.let_wait(part)
