@@ -10,6 +10,7 @@ import random
 import signal
 import struct
 import subprocess
+import time
 import unittest
 from unittest import mock
 
@@ -170,6 +171,37 @@ class DriverTest(unittest.TestCase):
         """The first 40 films take .8 s to keep; the workers get their second parts before."""
         _, picture = self.drive(.02)
         self.assertGreaterEqual(picture.submitted[self.WORKERS // 2], 2 * self.WORKERS)
+
+
+    def test_picture_is_published_after_its_last_fold(self):
+        from farm_driver_stand_in import StandInClient, StandInPicture, make_driver, without_dask
+        from render_farm.driver import TICK_SECONDS, Driver
+        test = self
+
+        class Folded(StandInPicture):
+            begun = ended = False
+            whole = property(lambda self: self.begun)
+
+            def foldable(self):
+                return self.parts if len(self.kept) == self.count and not self.begun else range(0)
+
+            def fold(self, _pages):
+                self.begun = True
+                time.sleep(2 * TICK_SECONDS)
+                self.ended = True
+                return set(), set()
+
+            def publish(self):
+                test.assertTrue(self.ended)
+                self.finished = True
+
+        class AtOnce(Driver):
+            async def take_films(self):
+                self.client.finish(1)
+                await super().take_films()
+        client = StandInClient(1)
+        with without_dask():
+            asyncio.run(make_driver(AtOnce, Folded(client, 2)).run(client))
 
 
 class CommandTest(unittest.TestCase):

@@ -62,7 +62,7 @@ class Driver:
                 self.show()
                 await self.take_films()
                 await self.fold()
-                if self.picture.whole and not self.ledger.votes:
+                if self.picture.whole and not self.folding and not self.ledger.votes:  # a fold ends by judging the film
                     self.picture.publish()
         finally:
             for task in self.tasks.values():
