@@ -104,7 +104,6 @@ class LedgerTest(unittest.TestCase):
         receipt = ledger.receive(0, "a2", "a", "y", 2.0)
         self.assertEqual((receipt.distrusted, receipt.dropped, ledger.waiting), ({"a"}, {0}, {0}))
 
-
     def test_parts_wait_in_order_again(self):
         """As with a set of which the least is taken, over many lendings, returns and failures."""
         chance, ledger, waiting, out = random.Random(1), Ledger(range(50)), set(range(50)), []
@@ -171,7 +170,6 @@ class DriverTest(unittest.TestCase):
         """The first 40 films take .8 s to keep; the workers get their second parts before."""
         _, picture = self.drive(.02)
         self.assertGreaterEqual(picture.submitted[self.WORKERS // 2], 2 * self.WORKERS)
-
 
     def test_picture_is_published_after_its_last_fold(self):
         from farm_driver_stand_in import StandInClient, StandInPicture, make_driver, without_dask
