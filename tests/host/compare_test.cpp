@@ -84,9 +84,15 @@ TEST(CompareImages, CountsNonFinitePixelsAndLeavesThemOut)
     EXPECT_DOUBLE_EQ(result.epsilon, 0.04);
 }
 
-TEST(CompareImages, RefusesOtherSizesAndNothingToCompare)
+TEST(CompareImages, RefusesOtherSizesOtherRowsAndNothingToCompare)
 {
     expectRefusal<InputError>([] { compareImages(makeTruth(4, 5), makeTruth(5, 4)); }, "are 4x5 and 5x4");
+    Film band;
+    band.width = band.height = 2;
+    band.pixels.resize(4);
+    Film below = band;
+    band.rowsBelow = below.rowsAbove = 2;
+    expectRefusal<InputError>([&] { compareImages(pictureOf(band), pictureOf(below)); }, "rows 0 and 2 of a larger one");
     const Picture nothing = uniform(2, glm::vec3(std::numeric_limits<float>::quiet_NaN()));
     expectRefusal<InputError>([&] { compareImages(nothing, uniform(2, glm::vec3(1.0F))); }, "No pixel is finite");
 }
