@@ -2,8 +2,8 @@
 """farm_survival.py GLIM [MINUTES]: a long render that is killed again and again. By hand: two hours by default, and as long again for the
 render without an interruption, beside it.
 
-A farm of two workers renders a picture, while a random one of its processes is killed about every three minutes: a worker, its glim, or,
-ten times in all, the driver itself, which the same command then starts again. At the end the film must have the SHA-256 of one `glim render`
+A farm of two workers renders a picture, while a random one of its processes is killed about every three minutes: a worker, its glim, or, each
+third time until it were ten, the driver itself, which the same command then starts again. At the end the film must have the SHA-256 of one `glim render`
 that nobody has disturbed. tests/README.md has the last result."""
 
 import json
@@ -70,7 +70,7 @@ def main():
                 try:
                     driver.wait(chance.uniform(0.5, 1.5) * interval)
                 except subprocess.TimeoutExpired:
-                    if kills["driver"] < DRIVER_KILLS and chance.random() < 0.3:
+                    if kills["driver"] < DRIVER_KILLS and sum(kills.values()) % 3 == 2:
                         driver.kill()
                         kills["driver"] += 1
                     elif others := family_of(driver.pid):
