@@ -232,7 +232,7 @@ class Scene:
     @property
     def last_film(self) -> Optional[Film]:
         """The film of the last render, also if Ctrl-C or `progress` has stopped it. None if there is none."""
-        return self._last
+        return self._film(*self._last) if self._last else None
 
     def render(self, *, resume: Optional[Film] = None, ids: bool = False, progress: Optional[Progress] = None, **options) -> Film:
         """Renders a picture.
@@ -263,8 +263,11 @@ class Scene:
         return os.path.join(".", path) if path.startswith("-") else path
 
     def _keep(self, asked, rendered):
-        self._last = Film(rendered, (self, asked)) if rendered else None
-        return self._last
+        self._last = (rendered, asked) if rendered else None  # not the Film, which refers to the scene: a cycle would keep the device
+        return self.last_film
+
+    def _film(self, rendered, asked):
+        return Film(rendered, (self, asked))
 
     def __repr__(self) -> str:
         return "<glim.Scene %s>" % os.fspath(self.path)

@@ -14,6 +14,7 @@ import threading
 import time
 import unittest
 import warnings
+import weakref
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
@@ -244,7 +245,7 @@ class UseTest(PythonCase):
             except KeyboardInterrupt as interrupt:
                 if film is None:
                     film = interrupt.film
-                    self.assertIs(film, kept.last_film)
+                    self.assertEqual(film and film.digest, kept.last_film and kept.last_film.digest)
                     stopped += film is None or film.digest != whole.digest
             timer.join()
             if film is not None:
@@ -278,6 +279,15 @@ class UseTest(PythonCase):
         before = read_memory()
         render(1000)
         self.assertLess(read_memory() - before, 4 << 20)
+
+    def test_scene_goes_with_its_last_reference(self):
+        """At once, and not when garbage is collected: it holds a device."""
+        kept = glim.load(GEMS, size=(8, 8), spp=1)
+        film, gone = kept.render(), weakref.ref(kept)
+        del kept
+        self.assertIsNotNone(gone())  # film.resume() needs it
+        del film
+        self.assertIsNone(gone())
 
     def test_fork(self):
         said = run_python("""
