@@ -98,8 +98,7 @@ nb::object estimate(const PythonFilm& film)
                           known->relMse.high, known->errors.mse, known->mean, known->isOfFew());
 }
 
-// Means of squares of pixels, so that the picture is at most `most` pixels wide. Takes what is left over at the right and below into the
-// last ones.
+// At most `most` pixels wide: each pixel is the mean of a square block. The last blocks take what is left over at the right and below.
 Film shrunk(const Film& film, std::uint32_t most)
 {
     const std::uint32_t side = (film.width + most - 1) / most;

@@ -43,7 +43,7 @@ void refuseFork()
     }
 }
 
-// What the module does with the output that these options ask for is the caller's.
+// Options that write files or make several pictures: in Python the caller does that.
 constexpr const char* kRefused[] = {"--png",      "--rates",  "--ids",       "--stats",   "--checkpoint", "--resume",  "--on-checkpoint",
                                     "--progress", "--frames", "--turntable", "--cameras", "--replay",     "--suspects"};
 
