@@ -7,6 +7,7 @@ import base64
 import json
 import os
 import random
+import shutil
 import signal
 import struct
 import subprocess
@@ -311,7 +312,7 @@ class TargetTest(FarmCase):
 
 
 class BandsTest(FarmCase):
-    def test_driver_is_killed_and_a_band_is_damaged(self):
+    def test_driver_is_killed_and_bands_are_damaged_or_of_other_rows(self):
         glim = self.program("""
             if page.arguments[page.arguments.index("--rows") + 1] == "9:12":
                 wait_for(FOLDER, "never")
@@ -320,11 +321,15 @@ class BandsTest(FarmCase):
         self.wait_for_pages(4)
         os.kill(farm.pid, signal.SIGKILL)
         farm.wait()
-        with open(self.pages()[3], "r+b") as file:
+        first, _, _, last = self.pages()
+        shutil.copy(last, last.replace("/00004.", "/00000."))
+        os.unlink(first)
+        with open(last, "r+b") as file:
             file.seek(-20, os.SEEK_END)
             file.write(b"damage")
         self.assertIn("its bands is 5, expected 4", self.finish(self.start_farm("--bands", "4"), 1))
         said = self.finish(self.start_farm("--bands", "5"))
+        self.assertRegex(said, "00000.*its rows are 12:16, expected 0:3; it is rendered again")
         self.assertRegex(said, "00004.*is damaged; it is rendered again")
         self.expect_whole()
 
