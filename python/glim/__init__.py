@@ -58,20 +58,20 @@ def _warn(sentence):
 
 
 def _hear(sentence, is_warning):
-    if hasattr(_heard, "sentences"):
+    if getattr(_heard, "sentences", None) is not None:
         _heard.sentences.append((sentence, is_warning))
 
 
 @contextlib.contextmanager
 def _call():
     """Around a call of the C++ side: its sentences become warnings and lines of the log "glim", its errors name keyword arguments."""
-    _heard.sentences = []
+    outer, _heard.sentences = getattr(_heard, "sentences", None), []  # `progress` may call, too
     try:
         yield _native()
     except (InputError, DeviceError) as error:
         raise type(error)(in_python(str(error))) from None
     finally:
-        sentences = _heard.__dict__.pop("sentences")
+        sentences, _heard.sentences = _heard.sentences, outer
         for sentence, is_warning in sentences:
             if is_warning:
                 _warn(in_python(sentence))
@@ -247,6 +247,8 @@ class Scene:
         Other threads may run meanwhile; one picture is rendered at a time. Raises InputError and DeviceError."""
         asked = {**self._options, **options}
         words = [self._scene_word(), *words_of(asked)]
+        if getattr(_heard, "sentences", None) is not None:
+            raise RuntimeError("glim: `progress` cannot render, as one picture is rendered at a time")
         with self._lock, _call() as native:
             self._native = self._native or native.Scene()
             try:

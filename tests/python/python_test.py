@@ -218,6 +218,12 @@ class UseTest(PythonCase):
         self.assertEqual(calls, sorted(calls))
         self.assertEqual(calls[-1][:2], (64 * 64 * 64, 64 * 64 * 64))
 
+        def nested(_done, _total, _seconds):
+            film.save(self.path("film.exr"))
+            glim.render(GEMS, size=(8, 8), spp=1)
+        with self.assertRaisesRegex(RuntimeError, "`progress` cannot render"):
+            glim.render(GEMS, size=(64, 64), spp=64, progress=nested)
+
         def stop(done, total, seconds):
             if done > 0:
                 raise KeyError("enough")

@@ -21,7 +21,8 @@ ONE = "the farm renders one picture or --frames"
 ONLY_FILMS = "the farm writes films and their PNGs only"
 REFUSED = {
     "--samples": SPLITS, "--time": STOPS, "--adaptive": STOPS,
-    "--checkpoint": KEEPS, "--resume": KEEPS, "--on-checkpoint": KEEPS, "--turntable": ONE, "--cameras": ONE, "--rows": "the farm cuts the picture itself; expected --bands",
+    "--checkpoint": KEEPS, "--resume": KEEPS, "--on-checkpoint": KEEPS, "--turntable": ONE, "--cameras": ONE,
+    "--rows": "the farm cuts the picture itself; expected --bands",
     "--stats": ONLY_FILMS, "--rates": ONLY_FILMS, "--ids": ONLY_FILMS, "--suspects": ONLY_FILMS, "--replay": ONLY_FILMS,
     "--progress": "the farm has a progress of its own",
 }
