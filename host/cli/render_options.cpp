@@ -47,6 +47,10 @@ void addOutput(const Command& command, RenderOptions& options)
     command.addPath("-o,--output", "OUT.exr", "Scene-linear EXR with layers; required without --replay", options.output).require();
     const Option png = command.addPath("--png", "P.png", "Also write an sRGB picture", options.png);
     addExposure(command, options.exposure, "the PNG").needs(png);
+    const Option denoise =
+        command.addFlag("--denoise", "Also write a denoised picture and its measured error; the PNG shows it", options.denoise);
+    command.addPath("--oidn", "PATH", "Library of Open Image Denoise that denoises instead, or its folder [glim's own]", options.oidn)
+        .needs(denoise);
     command.addPath("--rates", "R.png", "Also draw the samples per pixel, blue (fewest) to red (most)", options.rates);
     command.addPath("--ids", "I.exr", "Also write which nodes, meshes and materials each pixel shows, and Cryptomatte", options.ids);
     command.addPath("--stats", "S.json", "Also write times, counts and estimated errors, or the path of --replay", options.stats);

@@ -14,6 +14,8 @@ struct RenderOptions : PictureOptions {
     std::filesystem::path output;
     std::optional<std::filesystem::path> png, rates, ids, stats;
     SequenceOptions sequence;
+    bool denoise = false;
+    std::optional<std::filesystem::path> oidn;  // instead of glim's own denoiser
     CheckpointOptions checkpoint;
     std::optional<SamplePlace> replay;  // instead of a picture
     ProgressStyle progress = ProgressStyle::Auto;

@@ -188,6 +188,7 @@ Json statisticsOf(const RenderReport& report)
             {"lightPathsPerSample", report.film.splats.empty() ? Json(nullptr) : Json(lightPathsOf(report.film))},
             {"clampIndirect", clampingOf(report.film, report.options)},
             {"estimate", estimateOf(report.film, report.options.settings)},
+            {"denoised", report.denoising ? denoisingJson(*report.denoising) : Json(nullptr)},
             {"pixelsWithoutEstimate", pixelsWithoutError(report.film)},
             {"bvh", bvhOf(report)},
             {"adaptive", adaptiveOf(report)},
@@ -251,6 +252,9 @@ std::string qualityText(const RenderReport& report)
         const Interval& bias = report.bias->bias;
         text += format(", bias %+.2f %% [%+.2f, %+.2f] by %zu control pixels", 100.0 * bias.value, 100.0 * bias.low, 100.0 * bias.high,
                        report.bias->pixels);
+    }
+    if (report.denoising) {
+        text += denoisingText(*report.denoising);
     }
     return text;
 }

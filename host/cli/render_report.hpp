@@ -1,6 +1,7 @@
 // The report of a render: one line for people, JSON for machines.
 #pragma once
 
+#include "host/cli/denoising.hpp"
 #include "host/cli/render_options.hpp"
 #include "host/measure/control_bias.hpp"
 #include "host/render/prepare_scene.hpp"
@@ -18,7 +19,8 @@ struct RenderReport {
     double writeSeconds;
     std::optional<double> idSeconds;  // of --ids
     std::vector<Suspect> suspects;
-    std::optional<ControlBias> bias;  // of adaptive renders
+    std::optional<ControlBias> bias;     // of adaptive renders
+    std::optional<Denoising> denoising;  // of --denoise
 };
 
 // Of what is wrong or missing in a picture, as far as it is known.

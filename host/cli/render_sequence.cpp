@@ -4,6 +4,8 @@
 #include "host/cli/output_file.hpp"
 #include "host/cli/render_picture.hpp"
 #include "host/cli/render_report.hpp"
+#include "host/denoise/nl_means.hpp"
+#include "host/denoise/oidn.hpp"
 #include "host/message.hpp"
 #include "host/render/film_pictures.hpp"
 #include "host/render/identify.hpp"
@@ -70,15 +72,18 @@ void writePngs(const RenderOptions& options, const Film& film)
 }
 
 // Seconds that writing took.
-double writePictures(const RenderOptions& options, const Film& film, const std::optional<Checkpoint>& checkpoint)
+double writePictures(const RenderOptions& options, const RenderedFilm& rendered, const std::optional<Denoising>& denoising)
 {
     const auto start = std::chrono::steady_clock::now();
-    if (checkpoint) {
-        writeFilm(options.output, film, *checkpoint);
+    const Film& film = rendered.film;
+    if (denoising) {
+        writeFilm(options.output, film, {denoising->picture.radiance, denoising->picture.error, denoising->denoiser});
+    } else if (rendered.checkpoint) {
+        writeFilm(options.output, film, *rendered.checkpoint);
     } else {
         writeFilm(options.output, film);
     }
-    writePngs(options, film);
+    writePngs(options, denoising ? showDenoised(film, *denoising) : film);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -149,6 +154,7 @@ private:
     std::optional<StoredFilm> readOutput(const RenderOptions& options, const PictureFrame& frame) const;
     bool keep(const RenderOptions& options, const StoredFilm& stored) const;
     std::optional<double> writeIdentities(const RenderOptions& options, const FlatCamera& camera, const Film& film);
+    std::optional<Denoising> denoise();
     ExitCode writeShot(const RenderOptions& options, const PictureFrame& frame, RenderedFilm rendered);
 
     RenderOptions options_;
@@ -157,6 +163,8 @@ private:
     SceneSession session_;
     SequencePlace place_;
     std::shared_ptr<const CameraRayKernels> rayKernels_;
+    std::optional<NlMeans> nlMeans_;
+    std::optional<Oidn> oidn_;
 };
 
 RenderOptions SequenceRenderer::optionsOf(const Shot& shot) const
@@ -178,6 +186,10 @@ ExitCode SequenceRenderer::renderAll(const RenderOptions& options, const Interru
 {
     options_ = options;
     isSequence_ = isSequence(options.sequence, options);
+    oidn_.reset();
+    if (options.oidn) {
+        oidn_.emplace(*options.oidn);
+    }
     watch_ = &watch;
     session_.pose(firstTime(options.sequence, options));
     const std::vector<Shot> shots = listShots(options.sequence, options, session_.prepared().scene);
@@ -296,6 +308,30 @@ std::optional<double> SequenceRenderer::writeIdentities(const RenderOptions& opt
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+// Nothing if a signal has ended the render, or ends this.
+std::optional<Denoising> SequenceRenderer::denoise()
+{
+    const FilmHalves* halves = session_.renderer().halves();
+    if (halves == nullptr) {
+        return std::nullopt;
+    }
+    const auto start = std::chrono::steady_clock::now();
+    const auto shouldContinue = [this] { return watch_->signal() == 0; };
+    const auto denoiser = [&](const Film& film) {
+        return oidn_ ? std::optional(oidn_->denoise(film)) : nlMeans_->denoise(film, shouldContinue);
+    };
+    if (!oidn_ && !nlMeans_) {
+        nlMeans_.emplace(session_.renderer().device());
+    }
+    auto picture = shouldContinue() && hasBothHalves(*halves) ? denoiseHalves(*halves, denoiser) : std::nullopt;
+    if (!picture) {
+        say("the picture is not denoised: " + std::string(shouldContinue() ? "too few samples were finished" : "the render was ended"));
+        return std::nullopt;
+    }
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return Denoising{*std::move(picture), oidn_ ? oidn_->name() : "non-local means", seconds};
+}
+
 ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const PictureFrame& frame, RenderedFilm rendered)
 {
     Film& film = rendered.film;
@@ -306,7 +342,8 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const Picture
         return finish(watch_->signal(), "some pixels had no sample yet, so " + options.output.string() + " is left as it was");
     }
     labelFilm(film, options);
-    const double writeSeconds = writePictures(options, film, rendered.checkpoint);
+    const std::optional<Denoising> denoising = denoise();
+    const double writeSeconds = writePictures(options, rendered, denoising);
     const std::optional<double> idSeconds = writeIdentities(options, frame.camera, film);
     // Before the control, whose samples are no suspects.
     std::vector<Suspect> suspects = findSuspects(session_.renderer(), film);
@@ -320,7 +357,8 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const Picture
                               writeSeconds,
                               idSeconds,
                               std::move(suspects),
-                              bias};
+                              bias,
+                              denoising};
     if (options.stats) {
         writeStatistics(*options.stats, report);
     }

@@ -189,6 +189,29 @@ void resolveTarget(const Command& command, RenderOptions& options)
     }
 }
 
+void resolveDenoise(const Command& command, RenderOptions& options)
+{
+    if (!options.denoise) {
+        return;
+    }
+    const RenderSettings& settings = options.settings;
+    if (settings.aov != Aov::Radiance) {
+        refuse(command, "--view", "has next to no noise; expected no --denoise");
+    }
+    if (settings.adaptive != Adaptive::Off) {
+        refuse(command, "--adaptive", "gives pixels samples that are no two independent halves, which --denoise needs");
+    }
+    refuseIfGiven(command, {"--rows"}, "has no rows around it, which --denoise needs; expected the whole picture");
+    refuseIfGiven(command, {"--checkpoint", "--resume"}, "keeps no halves of the samples, which --denoise needs");
+    refuseIfGiven(command, {"--replay"}, "makes no picture; expected no --denoise");
+    const std::uint32_t least = leastSamplesForError(settings.sampleBegin), samples = settings.sampleEnd - settings.sampleBegin;
+    if (samples < least) {
+        refuse(command, command.isGiven("--samples") ? "--samples" : "--spp",
+               "--denoise needs two blocks of samples; expected " + std::to_string(least) + " or more");
+    }
+    options.settings.halves = true;
+}
+
 // Whether two outputs are one file, at least with some number: a#.exr and a##.exr are with 10.
 bool mayBeSame(const std::filesystem::path& a, const std::filesystem::path& b)
 {
@@ -274,6 +297,7 @@ void resolveRender(const Command& command, RenderOptions& options)
     resolveLight(command, options);
     checkReplay(command, options);
     resolveCheckpoint(command, options);
+    resolveDenoise(command, options);
     checkRows(command, options.settings);
     if (options.png && options.rates && mayBeSame(*options.png, *options.rates)) {
         refuse(command, "--rates", "expected another file than that of --png");

@@ -14,9 +14,10 @@ void checkMemory(const PreparedScene& prepared, const RenderSettings& settings, 
     const std::uint64_t onDevice = sizeInBytes(prepared.flat) + PathBuffers::sizeInBytes(settings.pathCapacity) +
                                    pixels * Tile::bytesPerPixel(settings) + (light ? SplatBuffer::bytesFor(settings) : 0);
     // The film and what its error is estimated with; --adaptive neighbours has a second film. A checkpoint has a film, the last page and
-    // the film that it shows, with --adaptive neighbours the second film too, and is copied once.
+    // the film that it shows, with --adaptive neighbours the second film too, and is copied once. Halves are two films, and two of their
+    // last page.
     const std::uint64_t second = isNeighbours(settings.adaptive) ? 1 : 0;
-    const std::uint64_t films = 2 + second + (checkpoints ? 2 * (3 + second) : 0);
+    const std::uint64_t films = 2 + second + (checkpoints ? 2 * (3 + second) : 0) + (settings.halves ? 4 : 0);
     const std::uint64_t onHost =
         pixels * (films * sizeof(PixelMoments) + (light ? films * sizeof(SplatMoments) + SplatSums::kPixelBytes : 0));
     const auto refuse = [&](std::uint64_t needed, const std::string& owner, std::uint64_t there) {

@@ -106,6 +106,8 @@ void addErrors(std::span<const PixelMoments> pixels, Image& image)
 {
     for (int c = 0; c < 3; ++c) {
         auto &variances = image.channels[std::string("variance.") + "RGB"[c]], &errors = image.channels[std::string("error.") + "RGB"[c]];
+        variances.clear();  // of the rows before
+        errors.clear();
         for (const PixelMoments& pixel : pixels) {
             variances.push_back(pixel.blocks >= 2 ? varianceOfMean(pixel)[c] : std::numeric_limits<float>::infinity());
             errors.push_back(std::sqrt(variances.back()));
@@ -237,6 +239,23 @@ void addCheckpoint(const Checkpoint& checkpoint, const char* folded, const Run& 
     }
 }
 
+void addColors(std::span<const glm::vec3> colors, const std::string& layer, Image& image)
+{
+    for (int c = 0; c < 3; ++c) {
+        std::vector<float>& channel = image.channels[layer + "RGB"[c]];
+        channel.clear();
+        for (const glm::vec3& color : colors) {
+            channel.push_back(color[c]);
+        }
+    }
+}
+
+void addDenoised(const DenoisedLayers& denoised, const Run& run, Image& image)
+{
+    addColors(denoised.radiance.subspan(run.begin, run.count), "denoised.", image);
+    addColors(denoised.error.subspan(run.begin, run.count), "denoisedError.", image);
+}
+
 Image headerOf(const Film& film)
 {
     Image image;
@@ -260,9 +279,16 @@ Image headerOf(const Film& film)
     return image;
 }
 
+// What a file may have besides the film.
+struct Additions {
+    const Checkpoint* checkpoint = nullptr;
+    const DenoisedLayers* denoised = nullptr;
+};
+
 // In bands of rows: all planes at once would take as much memory as the film again, and more time.
-bool write(const fs::path& path, const Film& film, const Checkpoint* checkpoint, const std::function<bool()>& shouldContinue)
+bool write(const fs::path& path, const Film& film, const Additions& additions, const std::function<bool()>& shouldContinue)
 {
+    const Checkpoint* checkpoint = additions.checkpoint;
     const char* folded = checkpoint == nullptr ? kNothing : placeOfFolded(film, *checkpoint);
     const bool errors = hasErrors(film);
     const auto addRows = [&](Image& image, std::size_t first, std::size_t count) {
@@ -271,8 +297,14 @@ bool write(const fs::path& path, const Film& film, const Checkpoint* checkpoint,
         if (checkpoint != nullptr) {
             addCheckpoint(*checkpoint, folded, run, image);
         }
+        if (additions.denoised != nullptr) {
+            addDenoised(*additions.denoised, run, image);
+        }
     };
     Image header = headerOf(film);
+    if (additions.denoised != nullptr) {
+        header.attributes["glim:denoiser"] = additions.denoised->denoiser;
+    }
     if (checkpoint != nullptr) {
         header.attributes[kProgressDigest] = digestOf(*checkpoint);
         header.attributes[kProgress] = progressText(*checkpoint, folded);
@@ -462,12 +494,17 @@ std::string sampleRangesText(const Film& film)
 
 void writeFilm(const fs::path& path, const Film& film)
 {
-    write(path, film, nullptr, [] { return true; });
+    write(path, film, {}, [] { return true; });
+}
+
+void writeFilm(const fs::path& path, const Film& film, const DenoisedLayers& denoised)
+{
+    write(path, film, {.denoised = &denoised}, [] { return true; });
 }
 
 bool writeFilm(const fs::path& path, const Film& film, const Checkpoint& checkpoint, const std::function<bool()>& shouldContinue)
 {
-    return write(path, film, &checkpoint, shouldContinue);
+    return write(path, film, {.checkpoint = &checkpoint}, shouldContinue);
 }
 
 Film readFilm(const fs::path& path) { return filmOfImage(path, readExr(path)); }

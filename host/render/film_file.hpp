@@ -13,6 +13,8 @@
 // A checkpoint is such a film and has more layers: page.* and folded.*, the finished blocks of the last page and the pages before it; with
 // --adaptive neighbours common.*, chosen.X and blocksLeft.X (checkpoint.hpp). The attribute glim:progress says where the render is.
 //
+// denoised.RGB, denoisedError.RGB   a denoised picture and its estimated RMSE, for viewing: reading a film ignores them
+//
 // The attribute glim:digest is the film's SHA-256 (film.hpp), by which damage is noticed.
 //
 // Layers end in one letter, as Blender expects; the attributes are named glim:*.
@@ -22,10 +24,19 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
+#include <string>
 
 namespace glim {
 
 void writeFilm(const std::filesystem::path& path, const Film& film);
+
+// What the file has besides the film.
+struct DenoisedLayers {
+    std::span<const glm::vec3> radiance, error;
+    std::string denoiser;
+};
+void writeFilm(const std::filesystem::path& path, const Film& film, const DenoisedLayers& denoised);
 
 // A film and what a later render needs to go on from its finished blocks. Returns false if `shouldContinue`, asked now and then, ended it;
 // the file is then as it was.

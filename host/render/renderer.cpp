@@ -158,6 +158,9 @@ void Renderer::begin(const FlatCamera& camera)
     film_.identity = identityOf(sceneIdentity_, camera, settings_);
     film_.device = device_.description().name + ", " + device_.description().driver;
     film_.arithmetic = arithmeticFingerprint(device_);
+    if (settings_.halves) {
+        halves_.emplace(settings_);
+    }
     foldVersion_ = 0;
     sample_ = settings_.sampleBegin;
     mean_ = roundEnd_ = commonEnd_ = 0;
@@ -200,6 +203,7 @@ Film Renderer::render(const RenderObserver& observer, const StoppingCriterion& c
     if (atEnd) {
         atEnd();
     }
+    takeHalves();
     foldPages(film_, tiles_);
     foldSplats(film_);
     statistics_.renderSeconds = secondsSinceStart();
@@ -208,21 +212,39 @@ Film Renderer::render(const RenderObserver& observer, const StoppingCriterion& c
     return std::move(film_);
 }
 
-Film Renderer::film()
+// What the device and the open block of light paths have, which is not folded yet.
+Film Renderer::pageSoFar()
 {
-    Film film = film_;
+    Film page;
+    page.pixels.resize(film_.pixels.size());
     std::vector<std::unique_ptr<Tile>> copies;
     for (const auto& tile : tiles_) {
         copies.push_back(wavefront_->makeTile(tile->begin(), tile->count()));
         copies.back()->copySamples(*tile, 0);
     }
-    foldPages(film, copies);
+    foldPages(page, copies);
     if (light_) {
-        light_->copyInto(film.splats);
+        light_->copyInto(page.splats);
     }
+    return page;
+}
+
+Film Renderer::film()
+{
+    Film film = film_;
+    const Film page = pageSoFar();
+    foldPage(film, 0, page.pixels);
+    glim::foldSplats(film.splats, page.splats);
     readCounters();
     describe(film);
     return film;
+}
+
+void Renderer::takeHalves()
+{
+    if (halves_) {
+        halves_->take(pageSoFar(), sweeping_ ? sweepEnd() : sample_);
+    }
 }
 
 PixelMoments Renderer::moments(std::uint32_t pixel)
@@ -361,7 +383,8 @@ std::uint32_t Renderer::sweepEnd() const
     const std::uint32_t done = sample_ - settings_.sampleBegin;
     const std::uint32_t last = isNeighbours(settings_.adaptive) ? commonEnd_ : settings_.sampleEnd;
     const std::uint32_t count = done < kBlockSamples ? std::max(1U, std::bit_floor(done)) : kBlockSamples;
-    const std::uint32_t end = std::min({last, (sample_ / kBlockSamples + 1) * kBlockSamples, sample_ + count});
+    const std::uint32_t most = halves_ ? FilmHalves::nextEnd(sample_) : (sample_ / kBlockSamples + 1) * kBlockSamples;
+    const std::uint32_t end = std::min({last, most, sample_ + count});
     return isCourse(settings_.adaptive) ? std::min(end, (sample_ / settings_.course.batch + 1) * settings_.course.batch) : end;
 }
 
@@ -434,6 +457,9 @@ void Renderer::endSweep()
     }
     tile_ = 0;
     findTile();
+    if (sample_ == FilmHalves::nextEnd(sample_ - 1)) {
+        takeHalves();
+    }
     if (isNeighbours(settings_.adaptive)) {
         if (sample_ == commonEnd_) {
             foldCommon();

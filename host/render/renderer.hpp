@@ -3,6 +3,7 @@
 
 #include "host/render/block_queue.hpp"
 #include "host/render/checkpoint.hpp"
+#include "host/render/film_halves.hpp"
 #include "host/render/film_identity.hpp"
 #include "host/render/light_passes.hpp"
 #include "host/render/pass_size.hpp"
@@ -76,6 +77,8 @@ public:
     // The film so far; sampling may go on.
     Film film();
     PixelMoments moments(std::uint32_t pixel);  // as in film(), but faster
+    // Of the film so far, at the end of a block or of the render; null unless the settings ask for them.
+    const FilmHalves* halves() const { return halves_ ? &*halves_ : nullptr; }
     // The hit of one ray, which is not part of the picture. Needs Schedule::Wavefront.
     PathHit traceRay(const PathRay& ray) { return wavefront_->traceRays(*tiles_.front(), {&ray, 1})[0]; }
     // Traces one sample of a pixel again, and adds it to no film.
@@ -135,6 +138,8 @@ private:
     void foldCommon();
     bool chooseSweep(BlockQueue& blocks);
 
+    Film pageSoFar();
+    void takeHalves();
     void foldPages(Film& film, const std::vector<std::unique_ptr<Tile>>& tiles);
     void foldSplats(Film& film);
     bool isOver(const RenderObserver& observer);
@@ -155,6 +160,7 @@ private:
     glm::uvec2 spareSize_{0, 0};
 
     Film film_;  // the pages folded so far
+    std::optional<FilmHalves> halves_;
     std::uint64_t foldVersion_ = 0;
     std::uint32_t sample_ = 0;  // first sample of the current sweep over all pixels
     bool sweeping_ = false;     // the sweep, or the round's chosen part, has had a pass

@@ -57,6 +57,10 @@ GLIM_CONST uint kBindPicture = 28u;
 GLIM_CONST uint kBindShown = 29u;
 // arithmetic.glsl
 GLIM_CONST uint kBindProbed = 49u;
+// denoise.glsl
+GLIM_CONST uint kBindNoisy = 50u;
+GLIM_CONST uint kBindPooled = 51u;
+GLIM_CONST uint kBindDenoised = 52u;
 // tests
 GLIM_CONST uint kBindCases = 30u;
 GLIM_CONST uint kBindReport = 31u;

@@ -158,6 +158,31 @@ TEST(FilmFile, VarianceIsThatOfTheMean)
     }
 }
 
+// Files are written in bands of rows.
+TEST(FilmFile, EveryRowHasItsOwnVariance)
+{
+    const ScratchFolder folder;
+    Film film = simulateFilm(0, 128);
+    film.width = 1;
+    film.height = 1100;
+    film.pixels.resize(1100, film.pixels[0]);
+    std::vector<glm::vec3> denoised, error;
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+        film.pixels[i].squares = glm::vec3(static_cast<float>(i + 1));
+        denoised.emplace_back(static_cast<float>(i), 1.0F, 2.0F);
+        error.emplace_back(3.0F, static_cast<float>(i), 4.0F);
+    }
+    writeFilm(folder / "a.exr", film, DenoisedLayers{denoised, error, "none"});
+    const Image image = readExr(folder / "a.exr");
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+        ASSERT_EQ(image.channels.at("variance.G")[i], varianceOfMean(film.pixels[i]).g) << i;
+        ASSERT_EQ(image.channels.at("error.G")[i], std::sqrt(varianceOfMean(film.pixels[i]).g)) << i;
+        ASSERT_EQ(image.channels.at("denoised.R")[i], static_cast<float>(i));
+        ASSERT_EQ(image.channels.at("denoisedError.G")[i], static_cast<float>(i));
+    }
+    EXPECT_EQ(digestOf(readFilm(folder / "a.exr")), digestOf(film));
+}
+
 TEST(FilmFile, UnknownVarianceIsLeftOutOrInfinite)
 {
     const ScratchFolder folder;

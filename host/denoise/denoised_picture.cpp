@@ -1,0 +1,243 @@
+#include "host/denoise/denoised_picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace glim {
+namespace {
+
+constexpr std::uint32_t kTile = 16;  // pixels a side
+
+// Two halves A and B of the samples, denoised to a and b, each without a look at the other half. With the truth t, the errors a - t and
+// A - t are independent of b - t and B - t, and the means of A - t and B - t are 0. The squared error of the picture (a + b) / 2 is
+//   ((a - t) + (b - t))^2 / 4 = (a - b)^2 / 4 + (a - t) (b - t),
+// and the last product has the mean of (A - a) (B - b), as the other terms of that have the mean 0. Nothing is assumed of the denoiser or
+// of the noise.
+struct PixelError {
+    double spread = 0.0;   // (a - b)^2 / 4
+    double product = 0.0;  // (A - a) (B - b)
+
+    double square() const { return spread + product; }
+};
+
+// Whether the sum is above 0 by more than chance gives. A tile is judged by the samples that its error is measured by. At three standard
+// errors that hardly flatters: one tile in 700 whose denoising neither helps nor hurts is taken for worse.
+class Verdict {
+public:
+    void add(double value)
+    {
+        sum_ += value;
+        squares_ += value * value;
+    }
+    bool isWorse() const { return sum_ > 3.0 * std::sqrt(squares_); }
+
+private:
+    double sum_ = 0.0, squares_ = 0.0;
+};
+
+// Calls visit(first pixel, pixels of a row, rows) for each square of `side` pixels.
+template <class Visit>
+void forEachTile(const Film& film, std::uint32_t side, Visit visit)
+{
+    for (std::uint32_t y = 0; y < film.height; y += side) {
+        for (std::uint32_t x = 0; x < film.width; x += side) {
+            std::vector<std::size_t> pixels;
+            for (std::uint32_t j = y; j < std::min(y + side, film.height); ++j) {
+                for (std::uint32_t i = x; i < std::min(x + side, film.width); ++i) {
+                    pixels.push_back(std::size_t{j} * film.width + i);
+                }
+            }
+            visit(pixels);
+        }
+    }
+}
+
+// The variance of a sum over pixels, from the differences between neighbouring squares of 8 pixels: denoised pixels share their noise with
+// those around them, and what changes slowly over the picture is no noise.
+double varianceOfSum(const Film& film, const std::vector<double>& values)
+{
+    std::vector<double> sums;
+    forEachTile(film, 8, [&](const std::vector<std::size_t>& pixels) {
+        sums.push_back(std::accumulate(pixels.begin(), pixels.end(), 0.0, [&](double sum, std::size_t i) { return sum + values[i]; }));
+    });
+    if (sums.size() < 2) {
+        return std::numeric_limits<double>::infinity();
+    }
+    double squares = 0.0;
+    for (std::size_t i = 1; i < sums.size(); ++i) {
+        squares += (sums[i] - sums[i - 1]) * (sums[i] - sums[i - 1]);
+    }
+    const auto count = static_cast<double>(sums.size());
+    return 0.5 * squares * count / (count - 1.0);
+}
+
+// The mean error with a 95 % interval for the true one. They differ by (A - a) (B - b) - (a - t) (b - t). The last product is unknown, but
+// if the noise is normal, products of independent equals have an eighth of the variance of (a - b)^2, and over any number of pixels:
+// Isserlis 1918. Errors are positive, so the interval is that of the logarithm.
+Interval intervalOf(const Film& film, const std::vector<PixelError>& errors)
+{
+    const auto count = static_cast<double>(errors.size());
+    double sum = 0.0;
+    std::vector<double> spreads, products;
+    for (const PixelError& error : errors) {
+        sum += error.square();
+        spreads.push_back(error.spread);
+        products.push_back(error.product);
+    }
+    const double variance = varianceOfSum(film, products) + 16.0 / 8.0 * varianceOfSum(film, spreads);
+    const double mean = sum / count, halfWidth = twoSidedLimit(0.05) * std::sqrt(variance) / count;
+    return mean > 0.0 ? Interval{mean, mean / std::exp(halfWidth / mean), mean * std::exp(halfWidth / mean)}
+                      : Interval{mean, 0.0, mean + halfWidth};
+}
+
+// Means over the squares of 17 pixels around each pixel.
+std::vector<glm::dvec3> averageAround(const Film& film, const std::vector<glm::dvec3>& values)
+{
+    constexpr int kRadius = 8;
+    const int width = static_cast<int>(film.width), height = static_cast<int>(film.height);
+    const auto along = [&](const std::vector<glm::dvec3>& from, int length, int step, int lines, int lineStep) {
+        std::vector<glm::dvec3> to(from.size());
+        for (int line = 0; line < lines; ++line) {
+            for (int i = 0; i < length; ++i) {
+                const int begin = std::max(0, i - kRadius), end = std::min(length, i + kRadius + 1);
+                glm::dvec3 sum(0.0);
+                for (int j = begin; j < end; ++j) {
+                    sum += from[static_cast<std::size_t>(line * lineStep + j * step)];
+                }
+                to[static_cast<std::size_t>(line * lineStep + i * step)] = sum / static_cast<double>(end - begin);
+            }
+        }
+        return to;
+    };
+    return along(along(values, width, 1, height, width), height, width, width, 1);
+}
+
+double meanOf(const glm::dvec3& value) { return (value.r + value.g + value.b) / 3.0; }
+
+// Both halves as they were and as they are denoised.
+class Measurement {
+public:
+    Measurement(const Film& first, const Film& second, std::vector<glm::vec3> a, std::vector<glm::vec3> b)
+        : size_(first),
+          noisyA_(radianceOf(first)),
+          noisyB_(radianceOf(second)),
+          a_(std::move(a)),
+          b_(std::move(b))
+    {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < a_.size(); ++i) {
+            sum += meanOf(radiance(i));
+        }
+        mean_ = sum / static_cast<double>(a_.size());
+        for (std::size_t i = 0; i < a_.size(); ++i) {
+            const glm::dvec3 denoised(radiance(i));
+            weights_.push_back(1.0 / (denoised * denoised + 0.01 * mean_ * mean_));
+        }
+    }
+
+    void keepNoisyTiles();
+    DenoisedPicture picture() const;
+
+private:
+    static std::vector<glm::vec3> radianceOf(const Film& film)
+    {
+        std::vector<glm::vec3> radiance;
+        for (const PixelMoments& pixel : shownPixels(film)) {
+            radiance.push_back(pixel.mean);
+        }
+        return radiance;
+    }
+
+    glm::vec3 radiance(std::size_t i) const { return 0.5F * (a_[i] + b_[i]); }
+    glm::dvec3 squaredError(std::size_t i) const { return squaredDifference(a_, b_, i) / 4.0 + product(i); }
+    glm::dvec3 noisySquaredError(std::size_t i) const { return squaredDifference(noisyA_, noisyB_, i) / 4.0; }
+    static glm::dvec3 squaredDifference(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b, std::size_t i)
+    {
+        const glm::dvec3 difference = glm::dvec3(a[i]) - glm::dvec3(b[i]);
+        return difference * difference;
+    }
+    glm::dvec3 product(std::size_t i) const
+    {
+        return (glm::dvec3(noisyA_[i]) - glm::dvec3(a_[i])) * (glm::dvec3(noisyB_[i]) - glm::dvec3(b_[i]));
+    }
+    PixelError errorOf(std::size_t i, const glm::dvec3& weight) const
+    {
+        return {meanOf(weight * squaredDifference(a_, b_, i)) / 4.0, meanOf(weight * product(i))};
+    }
+
+    const Film& size_;
+    std::vector<glm::vec3> noisyA_, noisyB_, a_, b_;
+    double mean_ = 0.0;
+    std::vector<glm::dvec3> weights_;  // of relMSE
+    std::size_t kept_ = 0;             // pixels that stay noisy
+};
+
+void Measurement::keepNoisyTiles()
+{
+    forEachTile(size_, kTile, [&](const std::vector<std::size_t>& pixels) {
+        Verdict absolute, relative;
+        for (const std::size_t i : pixels) {
+            const glm::dvec3 harm = squaredError(i) - noisySquaredError(i);
+            absolute.add(meanOf(harm));
+            relative.add(meanOf(weights_[i] * harm));
+        }
+        if (absolute.isWorse() || relative.isWorse()) {
+            kept_ += pixels.size();
+            for (const std::size_t i : pixels) {
+                a_[i] = noisyA_[i];
+                b_[i] = noisyB_[i];
+            }
+        }
+    });
+}
+
+DenoisedPicture Measurement::picture() const
+{
+    DenoisedPicture picture;
+    std::vector<PixelError> mse, relMse;
+    std::vector<glm::dvec3> squares;
+    const auto count = static_cast<double>(a_.size());
+    for (std::size_t i = 0; i < a_.size(); ++i) {
+        picture.radiance.push_back(radiance(i));
+        mse.push_back(errorOf(i, glm::dvec3(1.0)));
+        relMse.push_back(errorOf(i, weights_[i]));
+        squares.push_back(squaredError(i));
+        picture.measured.noisyMse += meanOf(noisySquaredError(i)) / count;
+        picture.measured.noisyRelMse += meanOf(weights_[i] * noisySquaredError(i)) / count;
+    }
+    picture.noisyShare = static_cast<double>(kept_) / count;
+    picture.measured.mean = mean_;
+    picture.measured.mse = intervalOf(size_, mse);
+    picture.measured.relMse = intervalOf(size_, relMse);
+    for (const glm::dvec3& square : averageAround(size_, squares)) {
+        picture.error.emplace_back(glm::sqrt(glm::max(square, glm::dvec3(0.0))));
+    }
+    return picture;
+}
+
+}  // namespace
+
+bool hasBothHalves(const FilmHalves& halves)
+{
+    return std::ranges::all_of(halves.films(), [](const Film& film) {
+        return !film.pixels.empty() && std::ranges::none_of(film.pixels, [](const PixelMoments& pixel) { return pixel.count == 0; });
+    });
+}
+
+std::optional<DenoisedPicture> denoiseHalves(const FilmHalves& halves, const Denoiser& denoiser)
+{
+    const auto& [first, second] = halves.films();
+    auto a = denoiser(first);
+    auto b = a ? denoiser(second) : std::nullopt;
+    if (!b) {
+        return std::nullopt;
+    }
+    Measurement measurement(first, second, *std::move(a), *std::move(b));
+    measurement.keepNoisyTiles();
+    return measurement.picture();
+}
+
+}  // namespace glim

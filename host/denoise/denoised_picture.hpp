@@ -1,0 +1,37 @@
+// A denoised picture, and how far it is from the truth, its bias included.
+#pragma once
+
+#include "host/measure/confidence.hpp"
+#include "host/render/film_halves.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace glim {
+
+// Returns the denoised radiance of each pixel of a film, or nothing if it was ended. It may do anything, but must know nothing except the
+// film.
+using Denoiser = std::function<std::optional<std::vector<glm::vec3>>(const Film&)>;
+
+struct DenoisedError {
+    Interval mse, relMse;
+    double noisyMse = 0.0, noisyRelMse = 0.0;  // of the mean of both halves, by the same samples
+    double mean = 0.0;                         // radiance over pixels and channels, W/(sr m^2)
+};
+
+struct DenoisedPicture {
+    std::vector<glm::vec3> radiance;
+    std::vector<glm::vec3> error;  // root of the mean square error of the pixels around, W/(sr m^2); 0 where none was found
+    DenoisedError measured;
+    double noisyShare = 0.0;  // of the pixels: these stayed as they were, because denoising made their tile worse
+};
+
+// Whether each pixel has samples in both halves.
+bool hasBothHalves(const FilmHalves& halves);
+
+// Denoises each half on its own; the picture is the mean of both results. Returns nothing if the denoiser was ended.
+std::optional<DenoisedPicture> denoiseHalves(const FilmHalves& halves, const Denoiser& denoiser);
+
+}  // namespace glim

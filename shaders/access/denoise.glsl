@@ -1,0 +1,34 @@
+// A band of the noisy picture, and what the denoiser makes of it. The push constants are not those of a pass that traces.
+#ifndef GLIM_ACCESS_DENOISE
+#define GLIM_ACCESS_DENOISE
+
+#include "shared/bindings.h"
+#include "shared/denoise_types.h"
+
+layout(push_constant, scalar) uniform DenoiseBlock { DenoisePass pass; };
+layout(local_size_x_id = kSpecWorkgroup) in;
+
+layout(set = 0, binding = kBindNoisy, scalar) readonly buffer NoisyBuffer { NoisyPixel noisy[]; };
+#if defined(WRITES_POOLED)
+layout(set = 0, binding = kBindPooled, scalar) writeonly buffer PooledBuffer { vec3 pooled[]; };
+#else
+layout(set = 0, binding = kBindPooled, scalar) readonly buffer PooledBuffer { vec3 pooled[]; };
+#endif
+layout(set = 0, binding = kBindDenoised, scalar) writeonly buffer DenoisedBuffer { vec3 denoised[]; };
+
+bool isInBand(ivec2 at)
+{
+    return at.x >= 0 && at.y >= 0 && at.x < int(pass.width) && at.y < int(pass.height);
+}
+
+uint pixelAt(ivec2 at)
+{
+    return uint(at.y) * pass.width + uint(at.x);
+}
+
+ivec2 placeOf(uint pixel)
+{
+    return ivec2(int(pixel % pass.width), int(pixel / pass.width));
+}
+
+#endif

@@ -1,0 +1,29 @@
+// One thread is one pixel. Averages the variance of the pixels around it: of few blocks of samples, a pixel's own is known badly.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define WRITES_POOLED
+#include "access/denoise.glsl"
+
+vec3 poolAround(ivec2 center)
+{
+    vec3 sum = vec3(0.0);
+    float count = 0.0;
+    for (int y = -kPoolRadius; y <= kPoolRadius; ++y) {
+        for (int x = -kPoolRadius; x <= kPoolRadius; ++x) {
+            ivec2 at = center + ivec2(x, y);
+            if (isInBand(at)) {
+                sum += noisy[pixelAt(at)].variance;
+                count += 1.0;
+            }
+        }
+    }
+    return sum / count;
+}
+
+void main()
+{
+    if (gl_GlobalInvocationID.x < pass.pixelCount) {
+        uint pixel = pass.firstPixel + gl_GlobalInvocationID.x;
+        pooled[pixel] = poolAround(placeOf(pixel));
+    }
+}

@@ -1,0 +1,171 @@
+// The measured error of a denoised picture: unbiased for any denoiser and any noise, and as far off as it says.
+#include "host/denoise/denoised_picture.hpp"
+#include "host/measure/confidence.hpp"
+#include "shaders/shared/limits.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace glim {
+namespace {
+
+constexpr std::uint32_t kSide = 64;
+
+glm::vec3 truthAt(std::size_t i)
+{
+    const auto x = static_cast<float>(i % kSide), y = static_cast<float>(i / kSide);
+    return glm::vec3(1.0F + std::sin(0.3F * x), x < 30.0F ? 0.3F : 2.0F, 0.5F + 0.01F * y);
+}
+
+using Noise = std::function<double(std::mt19937&)>;  // of mean 0 and variance 1
+
+// 64 samples: a block for each half, each taken in two parts.
+FilmHalves halvesOf(std::uint32_t seed, double deviation, const Noise& noise)
+{
+    std::mt19937 random(seed);
+    RenderSettings settings;
+    settings.width = settings.height = kSide;
+    FilmHalves halves(settings);
+    Film page;
+    page.pixels.resize(kSide * kSide);
+    for (std::uint32_t sample = 0; sample < 64;) {
+        const std::uint32_t end = FilmHalves::nextEnd(sample);
+        for (std::size_t i = 0; i < page.pixels.size(); ++i) {
+            PixelMoments block{};
+            block.count = end - sample;
+            block.blocks = 1;
+            for (int c = 0; c < 3; ++c) {
+                block.mean[c] = truthAt(i)[c] + static_cast<float>(deviation * noise(random));
+            }
+            page.pixels[i] = foldMoments(page.pixels[i], block);
+        }
+        halves.take(page, end);
+        sample = end;
+    }
+    return halves;
+}
+
+std::vector<glm::vec3> blur(const Film& film, int radius)
+{
+    std::vector<glm::vec3> result;
+    for (int i = 0; i < static_cast<int>(kSide * kSide); ++i) {
+        const int x = i % static_cast<int>(kSide), y = i / static_cast<int>(kSide), last = static_cast<int>(kSide) - 1;
+        glm::vec3 sum(0.0F);
+        float count = 0.0F;
+        for (int v = std::max(0, y - radius); v <= std::min(last, y + radius); ++v) {
+            for (int u = std::max(0, x - radius); u <= std::min(last, x + radius); ++u) {
+                sum += film.pixels[static_cast<std::size_t>(v) * kSide + static_cast<std::size_t>(u)].mean;
+                count += 1.0F;
+            }
+        }
+        result.push_back(sum / count);
+    }
+    return result;
+}
+
+double trueMse(const std::vector<glm::vec3>& radiance)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < radiance.size(); ++i) {
+        const glm::dvec3 error = glm::dvec3(radiance[i]) - glm::dvec3(truthAt(i));
+        sum += glm::dot(error, error) / 3.0;
+    }
+    return sum / static_cast<double>(radiance.size());
+}
+
+const Noise kNormal = [](std::mt19937& random) { return std::normal_distribution<>()(random); };
+const Noise kExponential = [](std::mt19937& random) { return std::exponential_distribution<>()(random) - 1.0; };
+
+struct Coverage {
+    int inside = 0;
+    double ratio = 0.0, ratioSquares = 0.0;  // of the measured to the true error
+};
+
+Coverage coverageOf(int films, double deviation, const Noise& noise, const Denoiser& denoiser)
+{
+    Coverage coverage;
+    for (int n = 0; n < films; ++n) {
+        const auto picture = denoiseHalves(halvesOf(static_cast<std::uint32_t>(n) + 1, deviation, noise), denoiser);
+        const double truth = trueMse(picture->radiance), ratio = picture->measured.mse.value / truth;
+        coverage.inside += picture->measured.mse.low <= truth && truth <= picture->measured.mse.high ? 1 : 0;
+        coverage.ratio += ratio / films;
+        coverage.ratioSquares += ratio * ratio / films;
+    }
+    return coverage;
+}
+
+class DenoisedError_ : public testing::TestWithParam<std::tuple<int, bool, double>> {};
+
+// Blurs of several widths under little and much noise: from pictures whose error is all noise to such whose error is all bias.
+TEST_P(DenoisedError_, IsUnbiasedAndItsIntervalHolds)
+{
+    const auto [radius, skewed, deviation] = GetParam();
+    constexpr int kFilms = 100;
+    const Coverage found = coverageOf(kFilms, deviation, skewed ? kExponential : kNormal,
+                                      [radius = radius](const Film& film) { return std::optional(blur(film, radius)); });
+    const double error = std::sqrt((found.ratioSquares - found.ratio * found.ratio) / (kFilms - 1));
+    EXPECT_NEAR(found.ratio, 1.0, twoSidedLimit(1e-4) * error + 0.01) << error;
+    // 95 of 100 on average; 86 or fewer have the probability 3e-4. Too wide intervals are allowed for: tiles of unlike error count as
+    // noise.
+    EXPECT_GE(found.inside, 87);
+    RecordProperty("inside", found.inside);
+    std::printf("radius %d, %s noise of %.2f: %d of %d intervals hold, measured / true %.3f +- %.3f\n", radius,
+                skewed ? "exponential" : "normal", deviation, found.inside, kFilms, found.ratio, error);
+}
+
+INSTANTIATE_TEST_SUITE_P(Blurs, DenoisedError_, testing::Combine(testing::Values(0, 1, 3), testing::Bool(), testing::Values(0.05, 0.5)));
+
+// One denoiser that ruins a corner: there the noisy pixels stay.
+TEST(DenoisedPicture, KeepsNoisyPixelsWhereDenoisingHurts)
+{
+    const FilmHalves halves = halvesOf(3, 0.1, kNormal);
+    const auto ruin = [](const Film& film) {
+        std::vector<glm::vec3> result = blur(film, 1);
+        for (std::size_t i = 0; i < result.size(); ++i) {
+            if (i % kSide < 16 && i / kSide < 16) {
+                result[i] += glm::vec3(1.0F);
+            }
+        }
+        return std::optional(result);
+    };
+    const auto picture = denoiseHalves(halves, ruin);
+    for (std::size_t y = 0; y < 16; ++y) {
+        for (std::size_t x = 0; x < 16; ++x) {
+            const std::size_t i = y * kSide + x;
+            const glm::vec3 noisy = 0.5F * (halves.films()[0].pixels[i].mean + halves.films()[1].pixels[i].mean);
+            EXPECT_EQ(picture->radiance[i], noisy);
+        }
+    }
+    EXPECT_GE(picture->noisyShare, 256.0 / (kSide * kSide));
+    EXPECT_LT(picture->noisyShare, 0.5);
+    EXPECT_NEAR(picture->measured.mse.value, trueMse(picture->radiance), 0.3 * trueMse(picture->radiance));
+    EXPECT_EQ(picture->error.size(), picture->radiance.size());
+}
+
+TEST(DenoisedPicture, IsNoneIfTheDenoiserWasEnded)
+{
+    EXPECT_FALSE(denoiseHalves(halvesOf(3, 0.1, kNormal), [](const Film&) { return std::nullopt; }));
+}
+
+TEST(FilmHalves, TakeTurnsByBlocks)
+{
+    EXPECT_EQ(FilmHalves::nextEnd(0), 16U);
+    EXPECT_EQ(FilmHalves::nextEnd(16), 32U);
+    EXPECT_EQ(FilmHalves::nextEnd(64), 96U);
+    EXPECT_EQ(FilmHalves::nextEnd(128), 192U);
+    EXPECT_EQ(FilmHalves::nextEnd(300), 320U);
+    const FilmHalves halves = halvesOf(1, 0.5, kNormal);
+    for (const Film& film : halves.films()) {
+        EXPECT_EQ(film.pixels[5].count, 32U);
+        EXPECT_EQ(film.pixels[5].blocks, 2U);
+    }
+    EXPECT_FALSE(hasBothHalves(FilmHalves(RenderSettings{})));
+    EXPECT_TRUE(hasBothHalves(halves));
+}
+
+}  // namespace
+}  // namespace glim
