@@ -125,14 +125,45 @@ Film shrunk(const Film& film, std::uint32_t most)
     return small;
 }
 
+void saveExr(const PythonFilm& film, const std::filesystem::path& path)
+{
+    if (const auto& denoising = film.denoising()) {
+        writeFilm(path, film.film(), {denoising->picture.radiance, denoising->picture.error, denoising->denoiser});
+    } else {
+        writeFilm(path, film.film());
+    }
+}
+
 void savePng(const PythonFilm& film, const std::filesystem::path& path, double exposure, std::optional<std::uint32_t> width)
 {
-    const Aov aov = aovOf(film.film());
-    if (width && *width < film.film().width) {
-        writeFilmPng(path, shrunk(film.film(), *width), aov, exposure);
-    } else {
-        writeFilmPng(path, film.film(), aov, exposure);
+    const Film shown = film.denoising() ? showDenoised(film.film(), film.denoising()->picture.radiance) : film.film();
+    const bool isWide = width && *width < shown.width;
+    writeFilmPng(path, isWide ? shrunk(shown, *width) : shown, aovOf(shown), exposure);
+}
+
+// None unless the film was denoised.
+nb::object denoised(const PythonFilm& film)
+{
+    if (!film.denoising()) {
+        return nb::none();
     }
+    std::vector<float> values;
+    for (const glm::vec3& radiance : film.denoising()->picture.radiance) {
+        values.insert(values.end(), {radiance.r, radiance.g, radiance.b});
+    }
+    return nb::cast(copied(film.film(), std::move(values), 3));
+}
+
+// As estimate(), of the denoised picture.
+nb::object measured(const PythonFilm& film)
+{
+    if (!film.denoising()) {
+        return nb::none();
+    }
+    const DenoisedError& known = film.denoising()->picture.measured;
+    const auto root = [&](double meanSquare) { return relativeRoot(meanSquare, known.mean); };
+    return nb::make_tuple(root(known.mse.value), root(known.mse.low), root(known.mse.high), known.relMse.value, known.relMse.low,
+                          known.relMse.high, known.mse.value, known.mean, false);
 }
 
 }  // namespace
@@ -175,7 +206,9 @@ void bindFilm(nb::module_& module)
         .def_prop_ro("variance", &variance, own)
         .def_prop_ro("ids", &ids)
         .def_prop_ro("estimate", &estimate)
-        .def("save", [](const PythonFilm& film, const std::filesystem::path& path) { writeFilm(path, film.film()); })
+        .def_prop_ro("denoised", &denoised)
+        .def_prop_ro("measured", &measured)
+        .def("save", &saveExr)
         .def("save_png", &savePng, nb::arg("path"), nb::arg("exposure"), nb::arg("width").none());
     module.def(
         "read",

@@ -1,6 +1,7 @@
 // Films as Python sees them.
 #pragma once
 
+#include "host/cli/denoising.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/identify.hpp"
 
@@ -24,6 +25,8 @@ public:
     // What the film shows, row 0 at the top.
     const std::vector<PixelMoments>& pixels() const { return film_.splats.empty() ? film_.pixels : shown_; }
 
+    void setDenoising(std::optional<Denoising> denoising) { denoising_ = std::move(denoising); }
+    const std::optional<Denoising>& denoising() const { return denoising_; }
     void identify(Identifier& identifier);
     // Indices in the scene's file, by "node", "mesh" and "material"; empty unless identify() was called.
     const std::map<std::string, std::vector<std::uint32_t>>& ids() const { return ids_; }
@@ -32,6 +35,7 @@ private:
     Film film_;
     std::optional<Checkpoint> checkpoint_;
     std::vector<PixelMoments> shown_;
+    std::optional<Denoising> denoising_;
     std::map<std::string, std::vector<std::uint32_t>> ids_;
 };
 

@@ -130,8 +130,12 @@ private:
         if (options.settings.aov == Aov::Radiance) {
             warnIfNoLights(session->prepared());
         }
+        session->denoiser().open(options);
         const PictureFrame frame = framePicture(*session, options);
         if (resumed != nullptr) {
+            if (options.denoise) {
+                throw InputError("--denoise needs two halves of the samples, which a film that is resumed does not keep.");
+            }
             if (const std::string difference = describeOther(resumed->film(), *session, frame, options); !difference.empty()) {
                 throw InputError("the film cannot be resumed: " + difference + ".");
             }
@@ -143,14 +147,16 @@ private:
         // Of whole pages by uniform sampling the film says all.
         const bool wholePages = frame.settings.adaptive == Adaptive::Off && frame.settings.sampleEnd % kPageSamples == 0;
         RenderedFilm rendered =
-            renderPicture(renderer, options.target, std::ref(watcher), [&] { return !wholePages || !renderer.isDone(); });
+            renderPicture(renderer, options, session->denoiser(), std::ref(watcher), [&] { return !wholePages || !renderer.isDone(); });
         if (renderer.statistics().samples + renderer.statistics().resumedSamples == 0) {
             session_ = std::move(session);
             return nullptr;
         }
         labelFilm(rendered.film, options);
+        std::optional<Denoising> denoising = session->denoiser().denoise(options, renderer, [&] { return !watcher.failure(); });
         warnOfPicture(rendered.film, renderer.statistics(), options.settings);
         auto film = std::make_shared<PythonFilm>(std::move(rendered.film), std::move(rendered.checkpoint));
+        film->setDenoising(std::move(denoising));
         if (withIds) {
             Identifier identifier(renderer, session->prepared(), frame.camera, rayKernels_);
             film->identify(identifier);

@@ -2,7 +2,10 @@
 
 #include "host/measure/error_estimate.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
+#include <utility>
 
 namespace glim {
 namespace {
@@ -16,11 +19,55 @@ std::string format(const char* pattern, auto... values)
 
 }  // namespace
 
-Film showDenoised(Film film, const Denoising& denoising)
+void FilmDenoiser::open(const RenderOptions& options)
+{
+    if (options.oidn && (!oidn_ || *options.oidn != oidnPath_)) {
+        oidn_.reset();
+        oidn_.emplace(*options.oidn);
+        oidnPath_ = *options.oidn;
+    }
+}
+
+std::optional<Denoising> FilmDenoiser::denoise(const RenderOptions& options, Renderer& renderer,
+                                               const std::function<bool()>& shouldContinue)
+{
+    const FilmHalves* halves = renderer.halves();
+    if (halves == nullptr || !hasBothHalves(*halves) || !shouldContinue()) {
+        return std::nullopt;
+    }
+    const auto start = std::chrono::steady_clock::now();
+    open(options);
+    if (!options.oidn && !nlMeans_) {
+        nlMeans_.emplace(renderer.device());
+    }
+    auto picture = denoiseHalves(*halves, [&](const Film& film) {
+        return options.oidn ? std::optional(oidn_->denoise(film)) : nlMeans_->denoise(film, shouldContinue);
+    });
+    if (!picture) {
+        return std::nullopt;
+    }
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return Denoising{*std::move(picture), options.oidn ? oidn_->name() : "non-local means", seconds};
+}
+
+double timesToTarget(const DenoisedError& error, const ErrorTarget& target)
+{
+    double times = 0.0;
+    if (target.relMse) {
+        times = error.relMse.value / *target.relMse;
+    }
+    if (target.rmse) {
+        const double root = relativeRoot(error.mse.value, error.mean) / *target.rmse;
+        times = std::max(times, root * root);
+    }
+    return times;
+}
+
+Film showDenoised(Film film, const std::vector<glm::vec3>& radiance)
 {
     film.splats.clear();
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
-        film.pixels[i].mean = denoising.picture.radiance[i];
+        film.pixels[i].mean = radiance[i];
     }
     return film;
 }

@@ -30,10 +30,11 @@ struct ClampedEnergy {
 };
 ClampedEnergy computeClampedEnergy(const Film& film);
 
-// The values of --target-rmse and --target-relmse.
+// --target-rmse, --target-relmse and --denoised.
 struct ErrorTarget {
     std::optional<double> rmse;  // relative to the picture's mean
     std::optional<double> relMse;
+    bool denoised = false;  // of the denoised picture
 
     bool isGiven() const { return rmse || relMse; }
 };

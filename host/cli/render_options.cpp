@@ -17,6 +17,7 @@ void addTargets(const Command& command, ErrorTarget& target)
                 [&target](const std::string& text) { target.rmse = parsePercent("--target-rmse", text); });
     addNumber<double>(command, {"--target-relmse", "E", "Stop when the estimated relMSE is at most this", 1e-12, 1e6, "off"},
                       [&target](double value) { target.relMse = value; });
+    command.addFlag("--denoised", "Targets are of the denoised picture, whose error is measured at every look", target.denoised);
 }
 
 void addSequence(const Command& command, RenderOptions& options)
@@ -51,6 +52,7 @@ void addOutput(const Command& command, RenderOptions& options)
         command.addFlag("--denoise", "Also write a denoised picture and its measured error; the PNG shows it", options.denoise);
     command.addPath("--oidn", "PATH", "Library of Open Image Denoise that denoises instead, or its folder [glim's own]", options.oidn)
         .needs(denoise);
+    command.option("--denoised").needs(denoise);
     command.addPath("--rates", "R.png", "Also draw the samples per pixel, blue (fewest) to red (most)", options.rates);
     command.addPath("--ids", "I.exr", "Also write which nodes, meshes and materials each pixel shows, and Cryptomatte", options.ids);
     command.addPath("--stats", "S.json", "Also write times, counts and estimated errors, or the path of --replay", options.stats);

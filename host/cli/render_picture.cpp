@@ -9,6 +9,7 @@
 #include "shaders/shared/limits.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace glim {
@@ -70,12 +71,23 @@ void resumeFrom(Renderer& renderer, StoredFilm stored, const std::string& name)
     }
 }
 
-RenderedFilm renderPicture(Renderer& renderer, const ErrorTarget& target, const RenderObserver& observer,
+RenderedFilm renderPicture(Renderer& renderer, const RenderOptions& options, FilmDenoiser& denoiser, const RenderObserver& observer,
                            const std::function<bool()>& keepsCheckpoint)
 {
     RenderedFilm rendered;
+    const ErrorTarget& target = options.target;
+    RenderProgress last{};
+    const RenderObserver observe = [&](const RenderProgress& now) {
+        last = now;
+        last.betweenPasses = false;
+        return observer(now);
+    };
+    const auto timesOfDenoised = [&] {
+        const auto denoising = denoiser.denoise(options, renderer, [&] { return observer(last); });
+        return denoising ? timesToTarget(denoising->picture.measured, target) : std::numeric_limits<double>::infinity();
+    };
     const auto criterion = [&](const Film& film) {
-        const double times = timesToTarget(film, target);
+        const double times = target.denoised ? timesOfDenoised() : timesToTarget(film, target);
         rendered.isGood = times <= 1.0;
         return times;
     };
@@ -84,7 +96,7 @@ RenderedFilm renderPicture(Renderer& renderer, const ErrorTarget& target, const 
             rendered.checkpoint = renderer.checkpoint();
         }
     };
-    rendered.film = renderer.render(observer, target.isGiven() ? StoppingCriterion(criterion) : nullptr, atEnd);
+    rendered.film = renderer.render(observe, target.isGiven() ? StoppingCriterion(criterion) : nullptr, atEnd);
     return rendered;
 }
 

@@ -36,7 +36,7 @@ struct RenderedFilm {
 };
 
 // Renders until the settings, the observer or the target, if one is given, ends it. `keepsCheckpoint` is asked at the end.
-RenderedFilm renderPicture(Renderer& renderer, const ErrorTarget& target, const RenderObserver& observer,
+RenderedFilm renderPicture(Renderer& renderer, const RenderOptions& options, FilmDenoiser& denoiser, const RenderObserver& observer,
                            const std::function<bool()>& keepsCheckpoint);
 
 }  // namespace glim

@@ -4,8 +4,6 @@
 #include "host/cli/output_file.hpp"
 #include "host/cli/render_picture.hpp"
 #include "host/cli/render_report.hpp"
-#include "host/denoise/nl_means.hpp"
-#include "host/denoise/oidn.hpp"
 #include "host/message.hpp"
 #include "host/render/film_pictures.hpp"
 #include "host/render/identify.hpp"
@@ -83,12 +81,12 @@ double writePictures(const RenderOptions& options, const RenderedFilm& rendered,
     } else {
         writeFilm(options.output, film);
     }
-    writePngs(options, denoising ? showDenoised(film, *denoising) : film);
+    writePngs(options, denoising ? showDenoised(film, denoising->picture.radiance) : film);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-RenderedFilm renderWatched(Renderer& renderer, const RenderOptions& options, CheckpointWriter& writer, ProgressPrinter& progress,
-                           const InterruptWatch& watch)
+RenderedFilm renderWatched(Renderer& renderer, const RenderOptions& options, FilmDenoiser& denoiser, CheckpointWriter& writer,
+                           ProgressPrinter& progress, const InterruptWatch& watch)
 {
     const auto observe = [&](const RenderProgress& now) {
         progress.print(now, writer.lastWritten());
@@ -99,7 +97,7 @@ RenderedFilm renderWatched(Renderer& renderer, const RenderOptions& options, Che
         }
         return watch.signal() == 0;
     };
-    return renderPicture(renderer, options.target, observe, [&] { return watch.signal() != 0 || options.checkpoint.isGiven(); });
+    return renderPicture(renderer, options, denoiser, observe, [&] { return watch.signal() != 0 || options.checkpoint.isGiven(); });
 }
 
 std::optional<ControlBias> measureBias(Renderer& renderer, const Film& film, const InterruptWatch& watch)
@@ -133,7 +131,8 @@ bool isWhole(const StoredFilm& stored, const RenderOptions& options)
     const bool all = isNeighbours(settings.adaptive)
                          ? computeRates(film).mean >= settings.sampleEnd
                          : begin == settings.sampleBegin && (end == settings.sampleEnd || (resumes && end > settings.sampleEnd));
-    return all || (!stored.checkpoint && options.target.isGiven() && timesToTarget(film, options.target) <= 1.0);
+    const bool mayBeShort = !stored.checkpoint && options.target.isGiven() && !options.target.denoised;
+    return all || (mayBeShort && timesToTarget(film, options.target) <= 1.0);
 }
 
 }  // namespace
@@ -154,7 +153,7 @@ private:
     std::optional<StoredFilm> readOutput(const RenderOptions& options, const PictureFrame& frame) const;
     bool keep(const RenderOptions& options, const StoredFilm& stored) const;
     std::optional<double> writeIdentities(const RenderOptions& options, const FlatCamera& camera, const Film& film);
-    std::optional<Denoising> denoise();
+    std::optional<Denoising> denoise(const RenderOptions& options);
     ExitCode writeShot(const RenderOptions& options, const PictureFrame& frame, RenderedFilm rendered);
 
     RenderOptions options_;
@@ -163,8 +162,6 @@ private:
     SceneSession session_;
     SequencePlace place_;
     std::shared_ptr<const CameraRayKernels> rayKernels_;
-    std::optional<NlMeans> nlMeans_;
-    std::optional<Oidn> oidn_;
 };
 
 RenderOptions SequenceRenderer::optionsOf(const Shot& shot) const
@@ -186,10 +183,7 @@ ExitCode SequenceRenderer::renderAll(const RenderOptions& options, const Interru
 {
     options_ = options;
     isSequence_ = isSequence(options.sequence, options);
-    oidn_.reset();
-    if (options.oidn) {
-        oidn_.emplace(*options.oidn);
-    }
+    session_.denoiser().open(options);
     watch_ = &watch;
     session_.pose(firstTime(options.sequence, options));
     const std::vector<Shot> shots = listShots(options.sequence, options, session_.prepared().scene);
@@ -244,7 +238,7 @@ ExitCode SequenceRenderer::renderShot(const RenderOptions& options)
     ProgressPrinter progress(options.progress, frame.settings.seconds, frame.settings.pixelCount(), place_);
     RenderedFilm rendered;
     try {
-        rendered = renderWatched(renderer, options, writer, progress, *watch_);
+        rendered = renderWatched(renderer, options, session_.denoiser(), writer, progress, *watch_);
     } catch (const DeviceError& error) {
         progress.finish();
         writer.finish();
@@ -290,7 +284,13 @@ bool SequenceRenderer::keep(const RenderOptions& options, const StoredFilm& stor
     if (!isWhole(stored, options) || (options.ids && !isThere(*options.ids)) || (options.stats && !isThere(*options.stats))) {
         return false;
     }
-    writePngs(options, stored.film);
+    if (!options.denoise) {
+        writePngs(options, stored.film);
+    } else if (const auto radiance = readDenoised(options.output)) {
+        writePngs(options, showDenoised(stored.film, *radiance));
+    } else {
+        return false;
+    }
     std::cout << escaped(options.output.string()) << ": is whole and was kept\n";
     return true;
 }
@@ -309,27 +309,17 @@ std::optional<double> SequenceRenderer::writeIdentities(const RenderOptions& opt
 }
 
 // Nothing if a signal has ended the render, or ends this.
-std::optional<Denoising> SequenceRenderer::denoise()
+std::optional<Denoising> SequenceRenderer::denoise(const RenderOptions& options)
 {
-    const FilmHalves* halves = session_.renderer().halves();
-    if (halves == nullptr) {
+    if (!options.denoise) {
         return std::nullopt;
     }
-    const auto start = std::chrono::steady_clock::now();
     const auto shouldContinue = [this] { return watch_->signal() == 0; };
-    const auto denoiser = [&](const Film& film) {
-        return oidn_ ? std::optional(oidn_->denoise(film)) : nlMeans_->denoise(film, shouldContinue);
-    };
-    if (!oidn_ && !nlMeans_) {
-        nlMeans_.emplace(session_.renderer().device());
-    }
-    auto picture = shouldContinue() && hasBothHalves(*halves) ? denoiseHalves(*halves, denoiser) : std::nullopt;
-    if (!picture) {
+    auto denoising = session_.denoiser().denoise(options, session_.renderer(), shouldContinue);
+    if (!denoising) {
         say("the picture is not denoised: " + std::string(shouldContinue() ? "too few samples were finished" : "the render was ended"));
-        return std::nullopt;
     }
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return Denoising{*std::move(picture), oidn_ ? oidn_->name() : "non-local means", seconds};
+    return denoising;
 }
 
 ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const PictureFrame& frame, RenderedFilm rendered)
@@ -342,7 +332,7 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const Picture
         return finish(watch_->signal(), "some pixels had no sample yet, so " + options.output.string() + " is left as it was");
     }
     labelFilm(film, options);
-    const std::optional<Denoising> denoising = denoise();
+    const std::optional<Denoising> denoising = denoise(options);
     const double writeSeconds = writePictures(options, rendered, denoising);
     const std::optional<double> idSeconds = writeIdentities(options, frame.camera, film);
     // Before the control, whose samples are no suspects.

@@ -191,6 +191,9 @@ void resolveTarget(const Command& command, RenderOptions& options)
 
 void resolveDenoise(const Command& command, RenderOptions& options)
 {
+    if (!options.target.isGiven()) {
+        refuseIfGiven(command, {"--denoised"}, "says what --target-rmse or --target-relmse is of; expected one of them");
+    }
     if (!options.denoise) {
         return;
     }

@@ -1,6 +1,7 @@
 // A scene on a device, for one picture after another.
 #pragma once
 
+#include "host/cli/denoising.hpp"
 #include "host/cli/render_options.hpp"
 #include "host/render/prepare_scene.hpp"
 #include "host/render/renderer.hpp"
@@ -27,6 +28,7 @@ public:
     const PreparedScene& prepared() const { return prepared_; }
     const Device& device() const { return device_; }
     Renderer& renderer() { return *renderer_; }  // after the first begin()
+    FilmDenoiser& denoiser() { return denoiser_; }
 
 private:
     using Stamp = std::pair<std::filesystem::file_time_type, std::uintmax_t>;  // last write and length
@@ -41,6 +43,7 @@ private:
     PreparedScene prepared_;
     std::vector<Stamp> stamps_;
     std::optional<Renderer> renderer_;
+    FilmDenoiser denoiser_;
     bool isSceneNew_ = true;  // to the renderer
 };
 

@@ -502,6 +502,22 @@ void writeFilm(const fs::path& path, const Film& film, const DenoisedLayers& den
     write(path, film, {.denoised = &denoised}, [] { return true; });
 }
 
+std::optional<std::vector<glm::vec3>> readDenoised(const fs::path& path)
+{
+    const Image image = readExr(path);
+    std::vector<glm::vec3> radiance(std::size_t{image.width} * image.height);
+    for (int c = 0; c < 3; ++c) {
+        const auto channel = image.channels.find(std::string("denoised.") + "RGB"[c]);
+        if (channel == image.channels.end()) {
+            return std::nullopt;
+        }
+        for (std::size_t i = 0; i < radiance.size(); ++i) {
+            radiance[i][c] = channel->second[i];
+        }
+    }
+    return radiance;
+}
+
 bool writeFilm(const fs::path& path, const Film& film, const Checkpoint& checkpoint, const std::function<bool()>& shouldContinue)
 {
     return write(path, film, {.checkpoint = &checkpoint}, shouldContinue);

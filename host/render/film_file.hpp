@@ -37,6 +37,8 @@ struct DenoisedLayers {
     std::string denoiser;
 };
 void writeFilm(const std::filesystem::path& path, const Film& film, const DenoisedLayers& denoised);
+// The denoised radiance that a film's file has besides, if it has.
+std::optional<std::vector<glm::vec3>> readDenoised(const std::filesystem::path& path);
 
 // A film and what a later render needs to go on from its finished blocks. Returns false if `shouldContinue`, asked now and then, ended it;
 // the file is then as it was.

@@ -160,6 +160,17 @@ class Film:
         return Error(*estimate) if estimate else None
 
     @property
+    def denoised(self):
+        """(height, width, 3) float32: the denoised picture of a film that was rendered with denoise=True, else None. W/(sr m^2). A copy."""
+        return self._native.denoised
+
+    @property
+    def denoised_error(self) -> Optional[Error]:
+        """The measured error of the denoised picture, its bias included, or None without one. The intervals are of 95 %."""
+        measured = self._native.measured
+        return Error(*measured) if measured else None
+
+    @property
     def samples(self) -> List[Tuple[int, int]]:
         """Indices of its samples, [begin, end)."""
         return self._native.samples

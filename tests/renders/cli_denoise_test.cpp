@@ -1,0 +1,165 @@
+// --denoise: what it adds to a film, and what it leaves as it was.
+#include "host/image/exr.hpp"
+#include "host/render/film_file.hpp"
+#include "tests/support/run_glim.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/support/simulated_film.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace glim::test {
+namespace {
+
+using nlohmann::json;
+
+class DenoiseTest : public ::testing::Test {
+protected:
+    GlimRun run(std::vector<std::string> arguments, const std::string& scene = "cornell_gems.gltf") const
+    {
+        GlimCall call;
+        call.arguments = {"render", sceneFile(scene), "--size", "48x40", "--progress", "none"};
+        call.arguments.insert(call.arguments.end(), arguments.begin(), arguments.end());
+        call.folder = folder_.path();
+        return runGlim(call);
+    }
+    void expectDone(const std::vector<std::string>& arguments, const std::string& scene = "cornell_gems.gltf") const
+    {
+        const GlimRun done = run(arguments, scene);
+        ASSERT_EQ(done.exitCode, 0) << done.err;
+    }
+    void expectRefusal(const std::vector<std::string>& arguments, const std::string& words) const
+    {
+        std::vector<std::string> all{"-o", "no.exr", "--denoise"};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        const GlimRun refused = run(all);
+        EXPECT_EQ(refused.exitCode, 2) << refused.err;
+        EXPECT_NE(refused.err.find(words), std::string::npos) << refused.err;
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "no.exr"));
+    }
+    json statistics(const char* name) const { return json::parse(bytesOfFile(folder_ / name)); }
+
+    ScratchFolder folder_;
+};
+
+// With light paths, and at counts of samples that end blocks and do not.
+TEST_F(DenoiseTest, TheFilmKeepsItsBits)
+{
+    for (const char* samples : {"0:64", "0:100", "0:300", "256:512", "100:300"}) {
+        expectDone({"--samples", samples, "-o", "plain.exr"});
+        expectDone({"--samples", samples, "-o", "denoised.exr", "--denoise"});
+        const Film plain = readFilm(folder_ / "plain.exr"), denoised = readFilm(folder_ / "denoised.exr");
+        EXPECT_EQ(digestOf(plain), digestOf(denoised)) << samples;
+    }
+}
+
+TEST_F(DenoiseTest, AddsLayersAndFigures)
+{
+    expectDone({"--spp", "128", "-o", "a.exr", "--denoise", "--png", "a.png", "--stats", "a.json"});
+    expectDone({"--spp", "128", "-o", "b.exr", "--png", "b.png", "--stats", "b.json"});
+    const Image image = readExr(folder_ / "a.exr");
+    const auto radiance = readDenoised(folder_ / "a.exr");
+    ASSERT_TRUE(radiance);
+    EXPECT_FALSE(readDenoised(folder_ / "b.exr"));
+    EXPECT_EQ(std::get<std::string>(image.attributes.at("glim:denoiser")), "non-local means");
+    double sum = 0.0, changed = 0.0;
+    for (std::size_t i = 0; i < radiance->size(); ++i) {
+        EXPECT_EQ((*radiance)[i].g, image.channels.at("denoised.G")[i]);
+        EXPECT_GE(image.channels.at("denoisedError.G")[i], 0.0F);
+        sum += static_cast<double>(image.channels.at("G")[i]);
+        changed += static_cast<double>(std::abs((*radiance)[i].g - image.channels.at("G")[i]));
+    }
+    EXPECT_GT(changed, 0.01 * sum);
+    EXPECT_LT(changed, 0.2 * sum);
+    EXPECT_NE(bytesOfFile(folder_ / "a.png"), bytesOfFile(folder_ / "b.png"));
+    EXPECT_EQ(statistics("b.json")["denoised"], nullptr);
+    const json known = statistics("a.json")["denoised"];
+    EXPECT_LT(known["relmse95"][0], known["relmse"]);
+    EXPECT_GT(known["relmse95"][1], known["relmse"]);
+    EXPECT_LT(known["relmse"], known["noisyRelmse"]);
+    // Both say how wrong the noisy picture is: one from blocks, the other from halves of unequal size.
+    const double ofHalves = known["noisyRelmse"], ofBlocks = statistics("a.json")["estimate"]["relmse"];
+    EXPECT_NEAR(ofHalves / ofBlocks, 4.0 / 3.0, 0.4);
+}
+
+TEST_F(DenoiseTest, MergedFilmsAreThoseOfTheirSamples)
+{
+    expectDone({"--samples", "0:256", "-o", "a.exr", "--denoise"});
+    expectDone({"--samples", "256:512", "-o", "b.exr", "--denoise"});
+    expectDone({"--spp", "512", "-o", "whole.exr"});
+    GlimCall call;
+    call.arguments = {"merge", "a.exr", "b.exr", "-o", "merged.exr"};
+    call.folder = folder_.path();
+    EXPECT_EQ(runGlim(call).exitCode, 0);
+    EXPECT_EQ(digestOf(readFilm(folder_ / "merged.exr")), digestOf(readFilm(folder_ / "whole.exr")));
+    EXPECT_FALSE(readDenoised(folder_ / "merged.exr"));
+}
+
+TEST_F(DenoiseTest, EndsAtATargetOfTheDenoisedPicture)
+{
+    expectDone({"--target-relmse", "0.0008", "--denoise", "--denoised", "-o", "a.exr", "--stats", "a.json"}, "cornell.gltf");
+    expectDone({"--target-relmse", "0.0008", "-o", "b.exr", "--stats", "b.json"}, "cornell.gltf");
+    const json denoised = statistics("a.json"), noisy = statistics("b.json");
+    EXPECT_EQ(denoised["stopReason"], "target");
+    EXPECT_LE(denoised["denoised"]["relmse"], 0.0008);
+    EXPECT_GT(denoised["estimate"]["relmse"], 0.0008);
+    EXPECT_LT(denoised["samples"], noisy["samples"]);
+}
+
+TEST_F(DenoiseTest, FramesThatAreThereKeepTheirDenoisedPicture)
+{
+    const std::vector<std::string> turntable{"--turntable", "2", "--spp", "64", "-o", "f#.exr", "--png", "f#.png"};
+    expectDone(turntable);
+    std::vector<std::string> denoised = turntable;
+    denoised.push_back("--denoise");
+    const GlimRun first = run(denoised);  // the films have none yet
+    EXPECT_NE(first.out.find("2 of 2 pictures rendered"), std::string::npos) << first.out;
+    const std::string png = bytesOfFile(folder_ / "f1.png");
+    const GlimRun second = run(denoised);
+    EXPECT_NE(second.out.find("0 of 2 pictures rendered"), std::string::npos) << second.out;
+    EXPECT_EQ(bytesOfFile(folder_ / "f1.png"), png);
+}
+
+TEST_F(DenoiseTest, RefusesWhatHasNoHalves)
+{
+    expectRefusal({"--spp", "63"}, "--spp: \"63\": --denoise needs two blocks of samples; expected 64 or more");
+    expectRefusal({"--adaptive", "neighbours"}, "--adaptive: \"neighbours\": gives pixels samples that are no two independent halves");
+    expectRefusal({"--view", "normal"}, "--view: \"normal\": has next to no noise; expected no --denoise");
+    expectRefusal({"--rows", "0:8"}, "--rows: \"0:8\": has no rows around it");
+    expectRefusal({"--checkpoint", "1m"}, "keeps no halves of the samples, which --denoise needs");
+    expectRefusal({"--denoised"}, "says what --target-rmse or --target-relmse is of; expected one of them");
+}
+
+TEST_F(DenoiseTest, RefusesWhatIsNoOpenImageDenoise)
+{
+    GlimRun refused = run({"--spp", "64", "-o", "no.exr", "--denoise", "--oidn", "."});
+    EXPECT_EQ(refused.exitCode, 1);
+    EXPECT_NE(refused.err.find(".: this folder has no libOpenImageDenoise.so.2"), std::string::npos) << refused.err;
+    refused = run({"--spp", "64", "-o", "no.exr", "--denoise", "--oidn", "libm.so.6"});
+    EXPECT_EQ(refused.exitCode, 1);
+    EXPECT_NE(refused.err.find("libm.so.6: is not Open Image Denoise 2: it has no function oidnNewDevice"), std::string::npos)
+        << refused.err;
+    refused = run({"--spp", "64", "-o", "no.exr", "--oidn", "libm.so.6"});
+    EXPECT_EQ(refused.exitCode, 2);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "no.exr"));
+}
+
+// A signal ends the render: what there is is written, and not denoised.
+TEST_F(DenoiseTest, IsLeftOutAtASignal)
+{
+    GlimCall call;
+    call.arguments = {"render", sceneFile("cornell.gltf"), "--size", "64x64", "--spp", "1000000", "-o", "a.exr", "--denoise", "--progress",
+                      "plain"};
+    call.folder = folder_.path();
+    call.signalWhen = hasLine;
+    call.signal = 15;
+    const GlimRun ended = runGlim(call);
+    EXPECT_EQ(ended.exitCode, 143);
+    EXPECT_NE(ended.err.find("the picture is not denoised: the render was ended"), std::string::npos) << ended.err;
+    EXPECT_FALSE(readDenoised(folder_ / "a.exr"));
+}
+
+}  // namespace
+}  // namespace glim::test
