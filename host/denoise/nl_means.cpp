@@ -2,7 +2,6 @@
 
 #include "kernels.hpp"
 #include "shaders/shared/bindings.h"
-#include "shaders/shared/denoise_types.h"
 
 #include <algorithm>
 #include <chrono>
@@ -11,8 +10,8 @@
 namespace glim {
 namespace {
 
-constexpr std::uint32_t kWorkgroup = 64, kFirstPixels = 4096;
-constexpr std::uint32_t kBandPixels = 1U << 21;  // 48 MiB of noisy pixels; no buffer exceeds 128 MiB, llvmpipe's limit
+constexpr std::uint32_t kWorkgroup = 64, kFirstThreads = 4096;
+constexpr std::uint32_t kBandPixels = 1U << 21;  // 88 MiB of distances; no buffer exceeds 128 MiB, llvmpipe's limit
 constexpr double kDispatchSeconds = 0.05;
 
 // The power of two nearest below the mean radiance: dividing by it changes no bit of the result.
@@ -48,44 +47,65 @@ struct NlMeans::Band {
     std::uint32_t width, begin, end, first, last;
 
     std::uint32_t height() const { return last - first; }
-    DenoisePass pass() const { return {width, height(), (begin - first) * width, (end - begin) * width}; }
 };
 
 NlMeans::NlMeans(Device& device)
     : device_(device),
-      layout_(device, {{kBindNoisy, BufferKind::Storage}, {kBindPooled, BufferKind::Storage}, {kBindDenoised, BufferKind::Readback}},
+      layout_(device,
+              {{kBindNoisy, BufferKind::Storage},
+               {kBindPooled, BufferKind::Storage},
+               {kBindDistances, BufferKind::Storage},
+               {kBindSums, BufferKind::Readback}},
               sizeof(DenoisePass)),
       pool_(layout_, kernels::pool_variance, {{kSpecWorkgroup, kWorkgroup}}),
-      denoise_(layout_, kernels::denoise, {{kSpecWorkgroup, kWorkgroup}})
+      compare_(layout_, kernels::compare_pixels, {{kSpecWorkgroup, kWorkgroup}}),
+      weigh_(layout_, kernels::weigh_patches, {{kSpecWorkgroup, kWorkgroup}})
 {}
 
-bool NlMeans::run(const Kernel& kernel, const Band& band, const Bindings& bindings, const std::function<bool()>& shouldContinue)
+bool NlMeans::run(const Kernel& kernel, const Bindings& bindings, DenoisePass pass, std::uint32_t count,
+                  const std::function<bool()>& shouldContinue)
 {
-    DenoisePass pass = band.pass();
-    if (&kernel == &pool_) {
-        pass.firstPixel = 0;
-        pass.pixelCount = band.width * band.height();
-    }
-    std::uint32_t& most = pixels_.try_emplace(&kernel, kFirstPixels).first->second;
-    const std::uint32_t end = pass.firstPixel + pass.pixelCount;
-    while (pass.firstPixel < end) {
+    std::uint32_t& most = threads_.try_emplace(&kernel, kFirstThreads).first->second;
+    for (pass.first = 0; pass.first < count; pass.first += pass.count) {
         if (!shouldContinue()) {
             return false;
         }
-        pass.pixelCount = std::min(end - pass.firstPixel, most);
+        pass.count = std::min(count - pass.first, most);
         const auto start = std::chrono::steady_clock::now();
         Commands commands(device_);
         commands.dispatch(kernel, bindings, std::as_bytes(std::span<const DenoisePass, 1>(&pass, 1)),
-                          (pass.pixelCount + kWorkgroup - 1) / kWorkgroup);
+                          (pass.count + kWorkgroup - 1) / kWorkgroup);
         commands.submitAndWait();
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        if (pass.pixelCount == most) {
+        if (pass.count == most) {
             const double wanted = most * std::clamp(kDispatchSeconds / seconds, 0.25, 2.0);
             most = std::clamp(static_cast<std::uint32_t>(wanted), kWorkgroup, device_.description().maxGroups * kWorkgroup);
         }
-        pass.firstPixel += pass.pixelCount;
     }
     return true;
+}
+
+// For each pixel of the band the weighted sum over its window.
+std::optional<std::vector<WeightedSum>> NlMeans::sumWindows(const Band& band, const std::vector<NoisyPixel>& noisy,
+                                                            const std::function<bool()>& shouldContinue)
+{
+    Buffer given(device_, "noisy pixels", BufferKind::Storage, noisy.size() * sizeof(NoisyPixel));
+    const Buffer pooled(device_, "pooled variance", BufferKind::Storage, noisy.size() * sizeof(glm::vec3));
+    const Buffer distances(device_, "distances of pixels", BufferKind::Storage, noisy.size() * kWindowWidth * sizeof(float));
+    const Buffer sums(device_, "sums over windows", BufferKind::Readback, noisy.size() * sizeof(WeightedSum));
+    upload(given, std::span<const NoisyPixel>(noisy));
+    Commands commands(device_);
+    commands.fillWithZero(sums);
+    commands.submitAndWait();
+    const Bindings bindings(layout_, {{kBindNoisy, &given}, {kBindPooled, &pooled}, {kBindDistances, &distances}, {kBindSums, &sums}});
+    const auto pixels = static_cast<std::uint32_t>(noisy.size());
+    const std::uint32_t strips = band.width * ((band.height() + kStripRows - 1) / kStripRows);
+    DenoisePass pass{band.width, band.height()};
+    bool goesOn = run(pool_, bindings, pass, pixels, shouldContinue);
+    for (pass.rowOffset = -kWindowRadius; pass.rowOffset <= kWindowRadius && goesOn; ++pass.rowOffset) {
+        goesOn = run(compare_, bindings, pass, pixels, shouldContinue) && run(weigh_, bindings, pass, strips, shouldContinue);
+    }
+    return goesOn ? std::optional(download<WeightedSum>(sums, noisy.size())) : std::nullopt;
 }
 
 std::optional<std::vector<glm::vec3>> NlMeans::denoise(const Film& film, const std::function<bool()>& shouldContinue)
@@ -93,7 +113,7 @@ std::optional<std::vector<glm::vec3>> NlMeans::denoise(const Film& film, const s
     const std::vector<PixelMoments> pixels = shownPixels(film);
     const float scale = scaleOf(pixels);
     constexpr std::uint32_t kMargin = kDenoiseMargin;
-    const std::uint32_t rows = std::max(1U, kBandPixels / film.width);
+    const std::uint32_t rows = kBandPixels / film.width - 2 * kMargin;  // a picture is at most 65,535 pixels wide
     std::vector<glm::vec3> result;
     for (std::uint32_t begin = 0; begin < film.height; begin += rows) {
         const std::uint32_t end = std::min(film.height, begin + rows);
@@ -102,17 +122,12 @@ std::optional<std::vector<glm::vec3>> NlMeans::denoise(const Film& film, const s
         for (std::size_t i = std::size_t{band.first} * film.width; i < std::size_t{band.last} * film.width; ++i) {
             noisy.push_back(noisyPixel(pixels[i], scale));
         }
-        Buffer noisyBuffer(device_, "noisy pixels", BufferKind::Storage, noisy.size() * sizeof(NoisyPixel));
-        const Buffer pooled(device_, "pooled variance", BufferKind::Storage, noisy.size() * sizeof(glm::vec3));
-        const Buffer denoised(device_, "denoised pixels", BufferKind::Readback, noisy.size() * sizeof(glm::vec3));
-        upload(noisyBuffer, std::span<const NoisyPixel>(noisy));
-        const Bindings bindings(layout_, {{kBindNoisy, &noisyBuffer}, {kBindPooled, &pooled}, {kBindDenoised, &denoised}});
-        if (!run(pool_, band, bindings, shouldContinue) || !run(denoise_, band, bindings, shouldContinue)) {
+        const auto sums = sumWindows(band, noisy, shouldContinue);
+        if (!sums) {
             return std::nullopt;
         }
-        const std::vector<glm::vec3> values = download<glm::vec3>(denoised, noisy.size());
         for (std::size_t i = std::size_t{begin - band.first} * film.width; i < std::size_t{end - band.first} * film.width; ++i) {
-            result.push_back(values[i] * scale);
+            result.push_back((*sums)[i].radiance / (*sums)[i].weight * scale);
         }
     }
     return result;

@@ -4,6 +4,7 @@
 
 #include "host/gpu/commands.hpp"
 #include "host/render/film.hpp"
+#include "shaders/shared/denoise_types.h"
 
 #include <functional>
 #include <optional>
@@ -21,12 +22,16 @@ public:
 
 private:
     struct Band;
-    bool run(const Kernel& kernel, const Band& band, const Bindings& bindings, const std::function<bool()>& shouldContinue);
+    // `count` threads of a kernel, in dispatches of about a twentieth of a second.
+    bool run(const Kernel& kernel, const Bindings& bindings, DenoisePass pass, std::uint32_t count,
+             const std::function<bool()>& shouldContinue);
+    std::optional<std::vector<WeightedSum>> sumWindows(const Band& band, const std::vector<NoisyPixel>& noisy,
+                                                       const std::function<bool()>& shouldContinue);
 
     Device& device_;
     KernelLayout layout_;
-    Kernel pool_, denoise_;
-    std::map<const Kernel*, std::uint32_t> pixels_;  // of a dispatch that takes about a twentieth of a second
+    Kernel pool_, compare_, weigh_;
+    std::map<const Kernel*, std::uint32_t> threads_;  // of a dispatch
 };
 
 }  // namespace glim

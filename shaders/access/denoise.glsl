@@ -9,12 +9,9 @@ layout(push_constant, scalar) uniform DenoiseBlock { DenoisePass pass; };
 layout(local_size_x_id = kSpecWorkgroup) in;
 
 layout(set = 0, binding = kBindNoisy, scalar) readonly buffer NoisyBuffer { NoisyPixel noisy[]; };
-#if defined(WRITES_POOLED)
-layout(set = 0, binding = kBindPooled, scalar) writeonly buffer PooledBuffer { vec3 pooled[]; };
-#else
-layout(set = 0, binding = kBindPooled, scalar) readonly buffer PooledBuffer { vec3 pooled[]; };
-#endif
-layout(set = 0, binding = kBindDenoised, scalar) writeonly buffer DenoisedBuffer { vec3 denoised[]; };
+layout(set = 0, binding = kBindPooled, scalar) buffer PooledBuffer { vec3 pooled[]; };
+layout(set = 0, binding = kBindDistances, scalar) buffer DistancesBuffer { float distances[]; };  // kWindowWidth for each pixel
+layout(set = 0, binding = kBindSums, scalar) buffer SumsBuffer { WeightedSum sums[]; };
 
 bool isInBand(ivec2 at)
 {

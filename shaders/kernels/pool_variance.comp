@@ -1,7 +1,6 @@
 // One thread is one pixel. Averages the variance of the pixels around it: of few blocks of samples, a pixel's own is known badly.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define WRITES_POOLED
 #include "access/denoise.glsl"
 
 vec3 poolAround(ivec2 center)
@@ -22,8 +21,8 @@ vec3 poolAround(ivec2 center)
 
 void main()
 {
-    if (gl_GlobalInvocationID.x < pass.pixelCount) {
-        uint pixel = pass.firstPixel + gl_GlobalInvocationID.x;
+    if (gl_GlobalInvocationID.x < pass.count) {
+        uint pixel = pass.first + gl_GlobalInvocationID.x;
         pooled[pixel] = poolAround(placeOf(pixel));
     }
 }

@@ -60,7 +60,8 @@ GLIM_CONST uint kBindProbed = 49u;
 // denoise.glsl
 GLIM_CONST uint kBindNoisy = 50u;
 GLIM_CONST uint kBindPooled = 51u;
-GLIM_CONST uint kBindDenoised = 52u;
+GLIM_CONST uint kBindDistances = 52u;
+GLIM_CONST uint kBindSums = 53u;
 // tests
 GLIM_CONST uint kBindCases = 30u;
 GLIM_CONST uint kBindReport = 31u;

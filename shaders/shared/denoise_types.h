@@ -5,10 +5,14 @@
 
 GLIM_SHARED_BEGIN
 
-// Radii of squares around a pixel, in pixels. Larger windows and patches were no better on six scenes (tests/denoising.md).
+// Radii of squares around a pixel, in pixels.
 GLIM_CONST int kPoolRadius = 2;    // over which the variance is averaged
 GLIM_CONST int kPatchRadius = 2;   // that is compared
 GLIM_CONST int kWindowRadius = 5;  // whose pixels are averaged
+GLIM_CONST int kWindowWidth = 2 * kWindowRadius + 1;
+
+// Rows that one thread of weigh_patches walks down.
+GLIM_CONST int kStripRows = 8;
 
 // The rows above and below that the result of a row depends on.
 GLIM_CONST int kDenoiseMargin = kWindowRadius + kPatchRadius + kPoolRadius;
@@ -19,10 +23,16 @@ struct NoisyPixel {
     vec3 variance;  // of the mean
 };
 
-// Push constants: pixels [firstPixel, firstPixel + pixelCount) of a band of `height` rows.
+struct WeightedSum {
+    vec3 radiance;
+    float weight;
+};
+
+// Push constants: threads [first, first + count) of a band of `height` rows. Pixels are compared with those `rowOffset` rows below.
 struct DenoisePass {
     uint width, height;
-    uint firstPixel, pixelCount;
+    uint first, count;
+    int rowOffset;
 };
 
 GLIM_SHARED_END

@@ -151,7 +151,7 @@ TEST_F(DenoiseTest, IsLeftOutAtASignal)
 {
     GlimCall call;
     call.arguments = {"render", sceneFile("cornell.gltf"), "--size", "64x64", "--spp", "1000000", "-o", "a.exr", "--denoise", "--progress",
-                      "plain"};
+                      "json"};
     call.folder = folder_.path();
     call.signalWhen = hasLine;
     call.signal = 15;

@@ -3,6 +3,7 @@
 #ifndef GLIM_TESTS_SHARED_FIELDS
 #define GLIM_TESTS_SHARED_FIELDS
 #include "../../shaders/shared/course_types.h"
+#include "../../shaders/shared/denoise_types.h"
 #include "../../shaders/shared/display_types.h"
 #include "../../shaders/shared/path_types.h"
 #include "../../shaders/shared/pixel_moments.h"
@@ -10,7 +11,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 401u;
+GLIM_CONST uint kSharedWords = 416u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -43,6 +44,9 @@ struct EverySharedStruct {
     LightNode lightNode;
     InstanceData instance;
     DisplayPass display;
+    NoisyPixel noisy;
+    WeightedSum weighted;
+    DenoisePass denoise;
 };
 
 GLIM_SHARED_END
@@ -119,5 +123,7 @@ F3(instance.column0) U(instance.beginRecord) F3(instance.column1) U(instance.fir
 F3(instance.translation) U(instance.mirrors) F3(instance.errorBound) U(instance.unused)
 U(display.width) U(display.height) U(display.filmWidth) U(display.filmHeight) U(display.tileBegin) U(display.tileCount)
 F(display.scale) F(display.low) F(display.high) U(display.textWidth) U(display.textHeight)
+F3(noisy.mean) F3(noisy.variance) F3(weighted.radiance) F(weighted.weight)
+U(denoise.width) U(denoise.height) U(denoise.first) U(denoise.count) U(denoise.rowOffset)
 // clang-format on
 #endif

@@ -1,0 +1,53 @@
+#!/usr/bin/env python3
+"""denoise_calibration.py PACKAGE [OIDN]: how often the intervals of denoised pictures contain their true errors. By hand: half an hour.
+
+PACKAGE is the folder of the built Python package, OIDN a library of Open Image Denoise or its folder. Each of six scenes is rendered with
+many seeds and denoised; a long render stands for the truth, and what it is known to be wrong by is taken into account. 95 % of the intervals
+should hold. tests/denoising.md has the last result."""
+
+import math
+import os
+import sys
+
+sys.path.insert(0, sys.argv[1])
+import glim  # noqa: E402
+import numpy as np  # noqa: E402
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
+SCENES = ["cornell", "cornell_gems", "cornell_mirror_glass", "many_lights", "showcase", "textures"]
+SIZE, SAMPLES, REFERENCE, SEEDS = (48, 48), 128, 16384, 100
+
+
+def true_errors(picture, reference, seen):
+    """MSE and relMSE of a picture, less what the reference is wrong by. relMSE as the renderer takes it: relative to the picture seen."""
+    square = (picture.astype(np.float64) - reference.rgb) ** 2 - reference.variance
+    mean = seen.mean(dtype=np.float64)
+    return square.mean(), (square / (seen.astype(np.float64) ** 2 + .01 * mean**2)).mean()
+
+
+def main():
+    oidn = sys.argv[2] if len(sys.argv) > 2 else None
+    held, films = 0, 0
+    for name in SCENES:
+        scene = glim.load(os.path.join(ROOT, "scenes", name + ".gltf"), size=SIZE)
+        reference = scene.render(samples=(1 << 20, (1 << 20) + REFERENCE))
+        inside, ratios = [0, 0], [[], []]
+        for seed in range(1, SEEDS + 1):
+            film = scene.render(spp=SAMPLES, seed=seed, denoise=True, **({"oidn": oidn} if oidn else {}))
+            error = film.denoised_error
+            scale = error.mean**2
+            for i, (low, value, high, truth) in enumerate(zip(
+                    (error.rmse_low**2 * scale, error.rel_mse_low), (error.mse, error.rel_mse), (error.rmse_high**2 * scale, error.rel_mse_high),
+                    true_errors(film.denoised, reference, film.denoised))):
+                inside[i] += low <= truth <= high
+                ratios[i].append(value / truth)
+        held += inside[1]
+        films += SEEDS
+        print("| %s | %d %% | %d %% | %.3f +- %.3f | %.3f +- %.3f |" % (
+            name, 100 * inside[0] / SEEDS, 100 * inside[1] / SEEDS,
+            *(figure for ratio in ratios for figure in (np.mean(ratio), np.std(ratio) / math.sqrt(SEEDS)))), flush=True)
+    print("relMSE: %.1f %% of %d films" % (100 * held / films, films))
+
+
+if __name__ == "__main__":
+    main()
