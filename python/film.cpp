@@ -1,6 +1,8 @@
 #include "python/film.hpp"
 
+#include "host/error.hpp"
 #include "host/measure/error_estimate.hpp"
+#include "host/message.hpp"
 #include "host/render/film_pictures.hpp"
 
 #include <nanobind/ndarray.h>
@@ -125,13 +127,21 @@ Film shrunk(const Film& film, std::uint32_t most)
     return small;
 }
 
-void savePng(const PythonFilm& film, const std::filesystem::path& path, double exposure, std::optional<std::uint32_t> width)
+void savePicture(const PythonFilm& film, const std::filesystem::path& path, std::optional<double> exposure, const std::string& tone,
+                 std::optional<std::uint32_t> width)
 {
     const Aov aov = aovOf(film.film());
+    Look look{exposure ? *exposure : chooseExposure(film.film(), aov), Tone::None};
+    for (const Tone known : {Tone::Neutral, Tone::Agx}) {
+        look.tone = tone == nameOf(known) ? known : look.tone;
+    }
+    if (tone != nameOf(look.tone)) {
+        throw InputError("tone: " + inQuotes(tone) + ": expected none, neutral or agx.");
+    }
     if (width && *width < film.film().width) {
-        writeFilmPng(path, shrunk(film.film(), *width), aov, exposure);
+        writeFilmPicture(path, shrunk(film.film(), *width), aov, look);
     } else {
-        writeFilmPng(path, film.film(), aov, exposure);
+        writeFilmPicture(path, film.film(), aov, look);
     }
 }
 
@@ -176,7 +186,7 @@ void bindFilm(nb::module_& module)
         .def_prop_ro("ids", &ids)
         .def_prop_ro("estimate", &estimate)
         .def("save", [](const PythonFilm& film, const std::filesystem::path& path) { writeFilm(path, film.film()); })
-        .def("save_png", &savePng, nb::arg("path"), nb::arg("exposure"), nb::arg("width").none());
+        .def("save_picture", &savePicture, nb::arg("path"), nb::arg("exposure").none(), nb::arg("tone"), nb::arg("width").none());
     module.def(
         "read",
         [](const std::filesystem::path& path) {

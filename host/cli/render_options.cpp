@@ -45,8 +45,8 @@ void addOutput(const Command& command, RenderOptions& options)
 {
     command.beginGroup("Output");
     command.addPath("-o,--output", "OUT.exr", "Scene-linear EXR with layers; required without --replay", options.output).require();
-    const Option png = command.addPath("--png", "P.png", "Also write an sRGB picture", options.png);
-    addExposure(command, options.exposure, "the PNG").needs(png);
+    addPictureFiles(command, options.pictures);
+    addLook(command, options.look, "the picture", "none; neutral in the built-in studio");
     command.addPath("--rates", "R.png", "Also draw the samples per pixel, blue (fewest) to red (most)", options.rates);
     command.addPath("--ids", "I.exr", "Also write which nodes, meshes and materials each pixel shows, and Cryptomatte", options.ids);
     command.addPath("--stats", "S.json", "Also write times, counts and estimated errors, or the path of --replay", options.stats);

@@ -21,9 +21,7 @@ namespace {
 void checkTargets(const RenderOptions& options, const std::vector<std::filesystem::path>& inputs)
 {
     checkTarget(options.output, ".exr", inputs);
-    if (options.png) {
-        checkTarget(*options.png, ".png", inputs);
-    }
+    checkPictureTargets(options.pictures, inputs);
     if (options.rates) {
         checkTarget(*options.rates, ".png", inputs);
     }
@@ -59,27 +57,27 @@ std::string stopReason(int signal, const Film& film, const RenderSettings& setti
     return calm ? "tolerance" : "samples";
 }
 
-void writePngs(const RenderOptions& options, const Film& film)
+// The look of the pictures, if there are any.
+std::optional<Look> drawFilm(const RenderOptions& options, const Film& film)
 {
-    if (options.png) {
-        writeFilmPng(*options.png, film, aovOf(film), options.exposure);
+    std::optional<Look> look;
+    if (options.pictures.areGiven()) {
+        look = chooseLook(options.look, film);
+        writePictures(options.pictures, film, *look);
     }
     if (options.rates) {
-        writeFilmPng(*options.rates, film, Aov::SampleCount, 0.0);
+        writeFilmPicture(*options.rates, film, Aov::SampleCount);
     }
+    return look;
 }
 
-// Seconds that writing took.
-double writePictures(const RenderOptions& options, const Film& film, const std::optional<Checkpoint>& checkpoint)
+void writeFilmOf(const RenderOptions& options, const Film& film, const std::optional<Checkpoint>& checkpoint)
 {
-    const auto start = std::chrono::steady_clock::now();
     if (checkpoint) {
         writeFilm(options.output, film, *checkpoint);
     } else {
         writeFilm(options.output, film);
     }
-    writePngs(options, film);
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 RenderedFilm renderWatched(Renderer& renderer, const RenderOptions& options, CheckpointWriter& writer, ProgressPrinter& progress,
@@ -164,7 +162,8 @@ RenderOptions SequenceRenderer::optionsOf(const Shot& shot) const
     RenderOptions options = options_;
     if (isSequence_) {
         options.output = numberedPath(options.output, shot.number);
-        for (std::optional<std::filesystem::path>* file : {&options.png, &options.rates, &options.ids, &options.stats}) {
+        for (std::optional<std::filesystem::path>* file :
+             {&options.pictures.png, &options.pictures.image, &options.rates, &options.ids, &options.stats}) {
             *file = *file ? std::optional(numberedPath(**file, shot.number)) : std::nullopt;
         }
     }
@@ -186,6 +185,9 @@ ExitCode SequenceRenderer::renderAll(const RenderOptions& options, const Interru
     }
     if (options_.settings.aov == Aov::Radiance) {
         warnIfNoLights(session_.prepared());
+    }
+    if (options_.pictures.areGiven() && options_.settings.aov == Aov::Radiance && !options_.look.tone) {
+        options_.look.tone = chooseTone(session_.prepared().scene);
     }
     place_ = {};
     place_.count = shots.size();
@@ -278,7 +280,7 @@ bool SequenceRenderer::keep(const RenderOptions& options, const StoredFilm& stor
     if (!isWhole(stored, options) || (options.ids && !isThere(*options.ids)) || (options.stats && !isThere(*options.stats))) {
         return false;
     }
-    writePngs(options, stored.film);
+    drawFilm(options, stored.film);
     std::cout << escaped(options.output.string()) << ": is whole and was kept\n";
     return true;
 }
@@ -306,7 +308,10 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const Picture
         return finish(watch_->signal(), "some pixels had no sample yet, so " + options.output.string() + " is left as it was");
     }
     labelFilm(film, options);
-    const double writeSeconds = writePictures(options, film, rendered.checkpoint);
+    const auto start = std::chrono::steady_clock::now();
+    writeFilmOf(options, film, rendered.checkpoint);
+    const std::optional<Look> look = drawFilm(options, film);
+    const double writeSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const std::optional<double> idSeconds = writeIdentities(options, frame.camera, film);
     // Before the control, whose samples are no suspects.
     std::vector<Suspect> suspects = findSuspects(session_.renderer(), film);
@@ -314,6 +319,7 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const Picture
     const RenderReport report{options,
                               session_.prepared(),
                               film,
+                              look,
                               session_.renderer().statistics(),
                               session_.device().description(),
                               stopReason(watch_->signal(), film, frame.settings, rendered.isGood, session_.renderer().isDone()),

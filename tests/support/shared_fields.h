@@ -10,7 +10,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 401u;
+GLIM_CONST uint kSharedWords = 402u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -118,6 +118,6 @@ U(lightNode.children) U(lightNode.firstLight)
 F3(instance.column0) U(instance.beginRecord) F3(instance.column1) U(instance.firstRecord) F3(instance.column2) U(instance.firstPrimitive)
 F3(instance.translation) U(instance.mirrors) F3(instance.errorBound) U(instance.unused)
 U(display.width) U(display.height) U(display.filmWidth) U(display.filmHeight) U(display.tileBegin) U(display.tileCount)
-F(display.scale) F(display.low) F(display.high) U(display.textWidth) U(display.textHeight)
+F(display.scale) U(display.tone) F(display.low) F(display.high) U(display.textWidth) U(display.textHeight)
 // clang-format on
 #endif
