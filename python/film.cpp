@@ -1,6 +1,8 @@
 #include "python/film.hpp"
 
+#include "host/error.hpp"
 #include "host/measure/error_estimate.hpp"
+#include "host/message.hpp"
 #include "host/render/film_pictures.hpp"
 
 #include <nanobind/ndarray.h>
@@ -134,11 +136,19 @@ void saveExr(const PythonFilm& film, const std::filesystem::path& path)
     }
 }
 
-void savePng(const PythonFilm& film, const std::filesystem::path& path, double exposure, std::optional<std::uint32_t> width)
+void savePicture(const PythonFilm& film, const std::filesystem::path& path, std::optional<double> exposure, const std::string& tone,
+                 std::optional<std::uint32_t> width)
 {
     const Film shown = film.denoising() ? showDenoised(film.film(), film.denoising()->picture.radiance) : film.film();
-    const bool isWide = width && *width < shown.width;
-    writeFilmPng(path, isWide ? shrunk(shown, *width) : shown, aovOf(shown), exposure);
+    const Aov aov = aovOf(shown);
+    Look look{exposure ? *exposure : chooseExposure(shown, aov), Tone::None};
+    for (const Tone known : {Tone::Neutral, Tone::Agx}) {
+        look.tone = tone == nameOf(known) ? known : look.tone;
+    }
+    if (tone != nameOf(look.tone)) {
+        throw InputError("tone: " + inQuotes(tone) + ": expected none, neutral or agx.");
+    }
+    writeFilmPicture(path, width && *width < shown.width ? shrunk(shown, *width) : shown, aov, look);
 }
 
 // None unless the film was denoised.
@@ -209,7 +219,7 @@ void bindFilm(nb::module_& module)
         .def_prop_ro("denoised", &denoised)
         .def_prop_ro("measured", &measured)
         .def("save", &saveExr)
-        .def("save_png", &savePng, nb::arg("path"), nb::arg("exposure"), nb::arg("width").none());
+        .def("save_picture", &savePicture, nb::arg("path"), nb::arg("exposure").none(), nb::arg("tone"), nb::arg("width").none());
     module.def(
         "read",
         [](const std::filesystem::path& path) {

@@ -44,8 +44,8 @@ void refuseFork()
 }
 
 // Options that write files or make several pictures: in Python the caller does that.
-constexpr const char* kRefused[] = {"--png",      "--rates",  "--ids",       "--stats",   "--checkpoint", "--resume",  "--on-checkpoint",
-                                    "--progress", "--frames", "--turntable", "--cameras", "--replay",     "--suspects"};
+constexpr const char* kRefused[] = {"--png",           "--image",    "--rates",  "--ids",       "--stats",   "--checkpoint", "--resume",
+                                    "--on-checkpoint", "--progress", "--frames", "--turntable", "--cameras", "--replay",     "--suspects"};
 
 void parse(std::vector<std::string> words, RenderOptions& options)
 {

@@ -1,5 +1,8 @@
 #include "host/cli/exposure_advice.hpp"
 
+#include "host/render/luminance.hpp"
+#include "shaders/shared/tone_mapping.h"
+
 #include <glm/glm.hpp>
 
 #include <algorithm>
@@ -17,8 +20,6 @@ constexpr double kDarkMean = 0.01;   // of the luminance
 // least .05 * .8: the advice needs no further advice.
 constexpr double kExceeding = 0.05, kShownAs = 0.9;
 
-double luminanceOf(const glm::dvec3& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }  // Rec.709
-
 std::vector<glm::dvec3> findShown(const Film& film)
 {
     std::vector<glm::dvec3> surfaces, all;
@@ -34,21 +35,31 @@ std::vector<glm::dvec3> findShown(const Film& film)
     return surfaces.empty() ? all : surfaces;
 }
 
+// Clipped in all channels. A tone clips nothing, so there it is white as bytes are.
+bool isWhite(const glm::dvec3& light, Tone tone)
+{
+    if (tone == Tone::None) {
+        return std::min({light.r, light.g, light.b}) > 1.0;
+    }
+    const glm::vec3 shown = mapTone(glm::vec3(light), static_cast<std::uint32_t>(tone));
+    return srgbByte(static_cast<double>(std::min({shown.r, shown.g, shown.b}))) == 255;
+}
+
 }  // namespace
 
-std::optional<std::string> adviseExposure(const Film& film, double exposure)
+std::optional<std::string> adviseExposure(const Film& film, const Look& look)
 {
     const std::vector<glm::dvec3> shown = findShown(film);
     if (shown.empty()) {
         return std::nullopt;
     }
-    const double scale = std::exp2(exposure), count = static_cast<double>(shown.size());
+    const double scale = std::exp2(look.exposure), count = static_cast<double>(shown.size());
     std::vector<double> luminances;
     double sum = 0.0, clipped = 0.0;
     for (const glm::dvec3& c : shown) {
         luminances.push_back(luminanceOf(c));
         sum += luminances.back();
-        clipped += std::min({c.r, c.g, c.b}) * scale > 1.0 ? 1.0 : 0.0;
+        clipped += isWhite(scale * c, look.tone) ? 1.0 : 0.0;
     }
     const bool burnt = clipped > kBurntShare * count, dark = sum * scale < kDarkMean * count;
     if (!burnt && !dark) {

@@ -1,9 +1,8 @@
 #include "host/cli/commands.hpp"
+#include "host/cli/look_options.hpp"
 #include "host/cli/output_file.hpp"
-#include "host/cli/parse.hpp"
 #include "host/message.hpp"
 #include "host/render/film_file.hpp"
-#include "host/render/film_pictures.hpp"
 #include "host/render/merge_films.hpp"
 
 #include <filesystem>
@@ -16,20 +15,19 @@ namespace {
 
 struct MergeOptions {
     std::vector<std::filesystem::path> inputs;
-    std::filesystem::path output, png;
-    double exposure = 0.0;
+    std::filesystem::path output;
+    PictureFiles pictures;
+    LookOptions look;
 };
 
 void runMerge(const MergeOptions& options)
 {
     checkTarget(options.output, ".exr", {});
-    if (!options.png.empty()) {
-        checkTarget(options.png, ".png", {});
-    }
+    checkPictureTargets(options.pictures, {});
     const MergedFilm merged = mergeFilms(options.inputs);
     writeFilm(options.output, merged.film);
-    if (!options.png.empty()) {
-        writeFilmPng(options.png, merged.film, aovOf(merged.film), options.exposure);
+    if (options.pictures.areGiven()) {
+        writePictures(options.pictures, merged.film, chooseLook(options.look, merged.film));
     }
     std::cerr << "Merged " << options.inputs.size() << " films into " << escaped(options.output.string()) << ", samples "
               << sampleRangesText(merged.film) << ": "
@@ -49,13 +47,14 @@ void addMerge(CommandLine& line)
     command.addPaths("films", "A.exr", "Films written by glim render or glim merge, in any order", options->inputs).require();
     command.beginGroup("Output");
     command.addPath("-o,--output", "C.exr", "Merged film; it may replace one of the inputs", options->output).require();
-    const Option png = command.addPath("--png", "C.png", "Also write an sRGB picture", options->png);
-    addExposure(command, options->exposure, "the PNG").needs(png);
+    addPictureFiles(command, options->pictures);
+    addLook(command, options->look, "the picture", "none");
     command.setFooter(
         "The films must agree in scene, camera, size, seed and settings, and their samples (render --samples) must\n"
         "not overlap. Adjacent ranges of 256 samples, starting at a multiple of 256, give the bits of a single run;\n"
         "other ranges give it up to rounding, and the command says so. Films of some rows (render --rows) must adjoin\n"
         "and have the same samples.");
+    command.onParsed([command, options] { resolvePictureFiles(command, options->pictures); });
     command.onRun([options] {
         runMerge(*options);
         return ExitCode::Done;

@@ -64,14 +64,14 @@ std::string textOf(T number)
 }
 
 template <class T>
-T parseBounded(const NumberOption<T>& option, const std::string& text)
+T parseBounded(const NumberOption<T>& option, const std::string& text, const std::string& others = "")
 {
     T value{};
     const std::string unsignedText = text.substr(text.rfind('+', 0) == 0 ? 1 : 0);
     // NaN fails both comparisons.
     if (!parseNumber(unsignedText, value) || !(value >= option.low && value <= option.high)) {
         throw UsageError(option.name, "\"" + text + "\": expected a " + (std::is_integral_v<T> ? "whole number" : "number") + " from " +
-                                          textOf(option.low) + " to " + textOf(option.high));
+                                          textOf(option.low) + " to " + textOf(option.high) + others);
     }
     return value;
 }
@@ -99,12 +99,6 @@ Option addChoice(const Command& command, const std::string& name, const std::str
         }
         store(static_cast<std::size_t>(found - names.begin()));
     });
-}
-
-Option addExposure(const Command& command, double& exposure, const std::string& picture)
-{
-    return addNumber<double>(command, {"--exposure", "EV", "Exposure of " + picture + " in stops, not of the EXR", -100.0, 100.0, "0"},
-                             [&exposure](double stops) { exposure = stops; });
 }
 
 Option addSceneIndex(const Command& command, std::optional<std::size_t>& index)
@@ -159,6 +153,14 @@ double parsePercent(const std::string& option, const std::string& text)
         throw UsageError(option, "\"" + text + "\": expected more than 0 and at most 1000 percent of the mean, as in 1%");
     }
     return 0.01 * percent;
+}
+
+std::optional<double> parseExposure(const std::string& text)
+{
+    if (text == "auto") {
+        return std::nullopt;
+    }
+    return parseBounded<double>({"--exposure", "", "", -100.0, 100.0, ""}, text, ", or auto");
 }
 
 SamplePlace parseSample(const std::string& text)

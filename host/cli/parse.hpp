@@ -45,6 +45,7 @@ SamplePlace parseSample(const std::string& text);                           // "
 glm::dvec3 parsePoint(const std::string& option, const std::string& text);  // "1,2.5,-3"
 double parsePercent(const std::string& option, const std::string& text);    // "1%", in (0, 1000]; returns 1 for 100%
 double parseDuration(const std::string& option, const std::string& text);   // "90s", "5m" or "1h", > 0; returns seconds
+std::optional<double> parseExposure(const std::string& text);               // "-1.5", in stops; nothing for "auto"
 float parseSurvival(const std::string& text);                               // "fixed:0.7", in (0, 1]
 
 // An option whose value is one number (uint32_t, float or double) in [low, high]; never NaN. The help shows `what`, the range and, in
@@ -69,9 +70,6 @@ Option addEnum(const Command& command, const std::string& name, const std::strin
 {
     return addChoice(command, name, unit, help, names, [&value](std::size_t i) { value = static_cast<Enum>(i); });
 }
-
-// --exposure, in stops, of `picture`, as in "the PNG".
-Option addExposure(const Command& command, double& exposure, const std::string& picture);
 
 // --scene of render and inspect.
 Option addSceneIndex(const Command& command, std::optional<std::size_t>& index);

@@ -3,6 +3,7 @@
 
 #include "host/bvh/build_bvh.hpp"
 #include "host/cli/command.hpp"
+#include "host/cli/look_options.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/render/settings.hpp"
 #include "host/scene/load_gltf.hpp"
@@ -29,7 +30,7 @@ struct PictureOptions {
     MissingTextures missingTextures = MissingTextures::Refuse;
     bool confined = false;  // the files that the scene names lie in its folder
     std::uint32_t maxTexture = kMaxImageSide;
-    double exposure = 0.0;
+    LookOptions look;
     Lens lens;
     SplitRule split = SplitRule::Sah;
     RenderSettings settings;  // all but width and height

@@ -17,7 +17,7 @@ struct WindowOptions : PictureOptions {
 void addWindow(const Command& command, WindowOptions& options)
 {
     command.beginGroup("Output");
-    addExposure(command, options.exposure, "the window and the PNG");
+    addLook(command, options.look, "the window and the PNG", "none; neutral in the built-in studio");
     addNumber<std::uint32_t>(command, {"--frames", "N", "Quit after showing this many pictures", 1, 1000000000, "never"},
                              [&options](std::uint32_t frames) { options.frames = frames; });
     command.addPath("--script", "FILE", "Replay the input that this file lists", options.script);
@@ -67,7 +67,7 @@ void addPreview(CommandLine& line)
     });
     command.onRun([options] {
         preview({options->scene, loadOptionsOf(*options), options->split, options->size, options->camera, options->device, options->pose,
-                 options->lens, options->exposure, options->settings, options->frames, options->script});
+                 options->lens, options->look, options->settings, options->frames, options->script});
         return ExitCode::Done;
     });
 }

@@ -46,8 +46,8 @@ void addOutput(const Command& command, RenderOptions& options)
 {
     command.beginGroup("Output");
     command.addPath("-o,--output", "OUT.exr", "Scene-linear EXR with layers; required without --replay", options.output).require();
-    const Option png = command.addPath("--png", "P.png", "Also write an sRGB picture", options.png);
-    addExposure(command, options.exposure, "the PNG").needs(png);
+    addPictureFiles(command, options.pictures);
+    addLook(command, options.look, "the picture", "none; neutral in the built-in studio");
     const Option denoise =
         command.addFlag("--denoise", "Also write a denoised picture and its measured error; the PNG shows it", options.denoise);
     command.addPath("--oidn", "PATH", "Library of Open Image Denoise that denoises instead, or its folder [glim's own]", options.oidn)

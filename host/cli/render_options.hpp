@@ -12,7 +12,8 @@ namespace glim {
 
 struct RenderOptions : PictureOptions {
     std::filesystem::path output;
-    std::optional<std::filesystem::path> png, rates, ids, stats;
+    PictureFiles pictures;
+    std::optional<std::filesystem::path> rates, ids, stats;
     SequenceOptions sequence;
     bool denoise = false;
     std::optional<std::filesystem::path> oidn;  // instead of glim's own denoiser

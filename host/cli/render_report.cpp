@@ -150,6 +150,11 @@ Json rowsOf(const Film& film)
     return all ? Json() : Json::array({film.rowsAbove, film.rowsAbove + film.height});
 }
 
+Json lookOf(const RenderReport& report)
+{
+    return report.look ? Json{{"exposure", report.look->exposure}, {"tone", nameOf(report.look->tone)}} : Json(nullptr);
+}
+
 Json statisticsOf(const RenderReport& report)
 {
     const RenderStatistics& s = report.statistics;
@@ -186,6 +191,7 @@ Json statisticsOf(const RenderReport& report)
             {"transparencyCaps", s.transparencyCaps},
             {"mediaCaps", s.mediaCaps},
             {"lightPathsPerSample", report.film.splats.empty() ? Json(nullptr) : Json(lightPathsOf(report.film))},
+            {"look", lookOf(report)},
             {"clampIndirect", clampingOf(report.film, report.options)},
             {"estimate", estimateOf(report.film, report.options.settings)},
             {"denoised", report.denoising ? denoisingJson(*report.denoising) : Json(nullptr)},
@@ -199,9 +205,9 @@ Json statisticsOf(const RenderReport& report)
 void warnOfExposure(const RenderReport& report)
 {
     const RenderOptions& options = report.options;
-    if (options.png && options.settings.aov == Aov::Radiance) {
-        if (const auto advice = adviseExposure(report.film, options.exposure)) {
-            warn(options.png->string() + ' ' + *advice + '.');
+    if (report.look && options.settings.aov == Aov::Radiance) {
+        if (const auto advice = adviseExposure(report.film, *report.look)) {
+            warn((options.pictures.png ? *options.pictures.png : *options.pictures.image).string() + ' ' + *advice + '.');
         }
     }
 }

@@ -13,6 +13,7 @@ struct RenderReport {
     const RenderOptions& options;
     const PreparedScene& prepared;
     const Film& film;
+    std::optional<Look> look;  // of the picture, if one was asked for
     const RenderStatistics& statistics;
     const DeviceDescription& device;
     std::string stopReason;  // "samples", "time", "tolerance", "target", or the signal's name

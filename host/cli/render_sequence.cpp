@@ -21,9 +21,7 @@ namespace {
 void checkTargets(const RenderOptions& options, const std::vector<std::filesystem::path>& inputs)
 {
     checkTarget(options.output, ".exr", inputs);
-    if (options.png) {
-        checkTarget(*options.png, ".png", inputs);
-    }
+    checkPictureTargets(options.pictures, inputs);
     if (options.rates) {
         checkTarget(*options.rates, ".png", inputs);
     }
@@ -59,30 +57,29 @@ std::string stopReason(int signal, const Film& film, const RenderSettings& setti
     return calm ? "tolerance" : "samples";
 }
 
-void writePngs(const RenderOptions& options, const Film& film)
+// The look of the pictures, if there are any.
+std::optional<Look> drawFilm(const RenderOptions& options, const Film& film)
 {
-    if (options.png) {
-        writeFilmPng(*options.png, film, aovOf(film), options.exposure);
+    std::optional<Look> look;
+    if (options.pictures.areGiven()) {
+        look = chooseLook(options.look, film);
+        writePictures(options.pictures, film, *look);
     }
     if (options.rates) {
-        writeFilmPng(*options.rates, film, Aov::SampleCount, 0.0);
+        writeFilmPicture(*options.rates, film, Aov::SampleCount);
     }
+    return look;
 }
 
-// Seconds that writing took.
-double writePictures(const RenderOptions& options, const RenderedFilm& rendered, const std::optional<Denoising>& denoising)
+void writeFilmOf(const RenderOptions& options, const RenderedFilm& rendered, const std::optional<Denoising>& denoising)
 {
-    const auto start = std::chrono::steady_clock::now();
-    const Film& film = rendered.film;
     if (denoising) {
-        writeFilm(options.output, film, {denoising->picture.radiance, denoising->picture.error, denoising->denoiser});
+        writeFilm(options.output, rendered.film, {denoising->picture.radiance, denoising->picture.error, denoising->denoiser});
     } else if (rendered.checkpoint) {
-        writeFilm(options.output, film, *rendered.checkpoint);
+        writeFilm(options.output, rendered.film, *rendered.checkpoint);
     } else {
-        writeFilm(options.output, film);
+        writeFilm(options.output, rendered.film);
     }
-    writePngs(options, denoising ? showDenoised(film, denoising->picture.radiance) : film);
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 RenderedFilm renderWatched(Renderer& renderer, const RenderOptions& options, FilmDenoiser& denoiser, CheckpointWriter& writer,
@@ -169,7 +166,8 @@ RenderOptions SequenceRenderer::optionsOf(const Shot& shot) const
     RenderOptions options = options_;
     if (isSequence_) {
         options.output = numberedPath(options.output, shot.number);
-        for (std::optional<std::filesystem::path>* file : {&options.png, &options.rates, &options.ids, &options.stats}) {
+        for (std::optional<std::filesystem::path>* file :
+             {&options.pictures.png, &options.pictures.image, &options.rates, &options.ids, &options.stats}) {
             *file = *file ? std::optional(numberedPath(**file, shot.number)) : std::nullopt;
         }
     }
@@ -192,6 +190,9 @@ ExitCode SequenceRenderer::renderAll(const RenderOptions& options, const Interru
     }
     if (options_.settings.aov == Aov::Radiance) {
         warnIfNoLights(session_.prepared());
+    }
+    if (options_.pictures.areGiven() && options_.settings.aov == Aov::Radiance && !options_.look.tone) {
+        options_.look.tone = chooseTone(session_.prepared().scene);
     }
     place_ = {};
     place_.count = shots.size();
@@ -285,9 +286,9 @@ bool SequenceRenderer::keep(const RenderOptions& options, const StoredFilm& stor
         return false;
     }
     if (!options.denoise) {
-        writePngs(options, stored.film);
+        drawFilm(options, stored.film);
     } else if (const auto radiance = readDenoised(options.output)) {
-        writePngs(options, showDenoised(stored.film, *radiance));
+        drawFilm(options, showDenoised(stored.film, *radiance));
     } else {
         return false;
     }
@@ -333,7 +334,10 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const Picture
     }
     labelFilm(film, options);
     const std::optional<Denoising> denoising = denoise(options);
-    const double writeSeconds = writePictures(options, rendered, denoising);
+    const auto start = std::chrono::steady_clock::now();
+    writeFilmOf(options, rendered, denoising);
+    const std::optional<Look> look = drawFilm(options, denoising ? showDenoised(film, denoising->picture.radiance) : film);
+    const double writeSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const std::optional<double> idSeconds = writeIdentities(options, frame.camera, film);
     // Before the control, whose samples are no suspects.
     std::vector<Suspect> suspects = findSuspects(session_.renderer(), film);
@@ -341,6 +345,7 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const Picture
     const RenderReport report{options,
                               session_.prepared(),
                               film,
+                              look,
                               session_.renderer().statistics(),
                               session_.device().description(),
                               stopReason(watch_->signal(), film, frame.settings, rendered.isGood, session_.renderer().isDone()),

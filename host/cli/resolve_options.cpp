@@ -1,6 +1,7 @@
 #include "host/cli/resolve_options.hpp"
 
 #include "host/cli/parse.hpp"
+#include "host/image/picture_file.hpp"
 #include "shaders/shared/limits.h"
 
 #include <algorithm>
@@ -34,6 +35,7 @@ void resolveAov(const Command& command, RenderSettings& settings)
     refuseIfGiven(command, {"--bounces", "--direct", "--light-samples", "--paths", "--roulette", "--clamp-indirect", "--caustics"},
                   nothing);
     refuseIfGiven(command, {"--adaptive", "--rates", "--suspects", "--target-rmse", "--target-relmse"}, nothing);
+    refuseIfGiven(command, {"--tone"}, nothing);
     if (settings.aov != Aov::Albedo) {
         refuseIfGiven(command, {"--exposure"}, nothing);
     }
@@ -97,9 +99,10 @@ void resolveReplay(const Command& command, RenderOptions& options)
     if (!options.replay) {
         return;
     }
-    refuseIfGiven(command,
-                  {"--output", "--png", "--rates", "--ids", "--progress", "--time", "--suspects", "--target-rmse", "--target-relmse"},
-                  "has no effect with --replay, which makes no picture");
+    refuseIfGiven(
+        command,
+        {"--output", "--png", "--image", "--rates", "--ids", "--progress", "--time", "--suspects", "--target-rmse", "--target-relmse"},
+        "has no effect with --replay, which makes no picture");
     if (options.settings.aov != Aov::Radiance) {
         refuse(command, "--view", "has no light paths to replay; expected --view shaded");
     }
@@ -227,7 +230,7 @@ bool mayBeSame(const std::filesystem::path& a, const std::filesystem::path& b)
 }
 
 // The options that name the files of a picture.
-constexpr const char* kOutputs[] = {"--output", "--png", "--rates", "--ids", "--stats"};
+constexpr const char* kOutputs[] = {"--output", "--png", "--image", "--rates", "--ids", "--stats"};
 
 void checkNames(const Command& command)
 {
@@ -240,6 +243,20 @@ void checkNames(const Command& command)
         if (begin == std::string::npos || name.find('#', name.find_first_not_of('#', begin)) != std::string::npos) {
             refuse(command, output, "names one file for several pictures; expected one run of # in its name, as in out.####.exr");
         }
+    }
+}
+
+void checkImage(const Command& command, const RenderOptions& options)
+{
+    const std::optional<std::filesystem::path>& image = options.pictures.image;
+    if (image &&
+        ((options.pictures.png && mayBeSame(*image, *options.pictures.png)) || (options.rates && mayBeSame(*image, *options.rates)))) {
+        refuse(command, "--image", "expected another file than those of --png and --rates");
+    }
+    const std::uint32_t longest = image ? longestSide(*pictureKindOf(*image)) : kMaxSide;
+    if (options.size && std::max(options.size->x, options.size->y) > longest) {
+        refuse(command, "--image",
+               "files of this kind hold at most " + std::to_string(longest) + " pixels a side; expected a smaller --size");
     }
 }
 
@@ -302,7 +319,9 @@ void resolveRender(const Command& command, RenderOptions& options)
     resolveCheckpoint(command, options);
     resolveDenoise(command, options);
     checkRows(command, options.settings);
-    if (options.png && options.rates && mayBeSame(*options.png, *options.rates)) {
+    resolvePictureFiles(command, options.pictures);
+    checkImage(command, options);
+    if (options.pictures.png && options.rates && mayBeSame(*options.pictures.png, *options.rates)) {
         refuse(command, "--rates", "expected another file than that of --png");
     }
     if (options.ids && mayBeSame(*options.ids, options.output)) {

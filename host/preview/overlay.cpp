@@ -60,8 +60,11 @@ std::vector<std::string> Session::figures()
         lines.push_back(format("estimated relMSE %.3g at %llu samples", *relMse_, static_cast<unsigned long long>(estimatedAt_)));
     }
     std::string view = nameOf(aov_);
-    if (options_.exposure != 0.0) {
-        view += format(", %+.1f EV", options_.exposure);
+    if (look_.exposure != 0.0) {
+        view += format(", %+.1f EV", look_.exposure);
+    }
+    if (aov_ == Aov::Radiance && look_.tone != Tone::None) {
+        view += std::string(", ") + glim::nameOf(look_.tone);
     }
     const std::string size = picture.scale() == 1 ? "full size" : "1/" + std::to_string(picture.scale()) + " size";
     lines.push_back(view + format(", %ux%u, ", display_.width(), display_.height()) + size);

@@ -23,11 +23,11 @@ std::string freeStem(const std::filesystem::path& scene)
     }
 }
 
-std::string writeBoth(const std::string& stem, const Film& film, Aov aov, double exposure)
+std::string writeBoth(const std::string& stem, const Film& film, Aov aov, const Look& look)
 {
     try {
         writeFilm(stem + ".exr", film);
-        writeFilmPng(stem + ".png", film, aov, exposure);
+        writeFilmPicture(stem + ".png", film, aov, look);
     } catch (const InputError& error) {
         return error.what();
     }
@@ -36,12 +36,12 @@ std::string writeBoth(const std::string& stem, const Film& film, Aov aov, double
 
 }  // namespace
 
-void PictureWriter::write(const std::filesystem::path& scene, Film film, Aov aov, double exposure)
+void PictureWriter::write(const std::filesystem::path& scene, Film film, Aov aov, const Look& look)
 {
     if (writing_.valid()) {
         writing_.wait();
     }
-    writing_ = std::async(std::launch::async, writeBoth, freeStem(scene), std::move(film), aov, exposure);
+    writing_ = std::async(std::launch::async, writeBoth, freeStem(scene), std::move(film), aov, look);
 }
 
 std::optional<std::string> PictureWriter::takeReport(bool wait)

@@ -15,7 +15,7 @@ class PictureWriter {
 public:
     // Starts to write `film` to SCENE-001.exr in the working folder, or to the next free number, and its `aov` to a PNG of the same name.
     // Waits for earlier files, whose report is lost unless it was taken.
-    void write(const std::filesystem::path& scene, Film film, Aov aov, double exposure);
+    void write(const std::filesystem::path& scene, Film film, Aov aov, const Look& look);
     // A sentence that says whether the files were written; nothing while they are being written, unless it should `wait`.
     std::optional<std::string> takeReport(bool wait);
 

@@ -3,6 +3,7 @@
 
 #include "host/bvh/build_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
+#include "host/render/film_pictures.hpp"
 #include "host/render/settings.hpp"
 #include "host/scene/load_gltf.hpp"
 #include "host/scene/pose.hpp"
@@ -20,7 +21,7 @@ struct PreviewOptions {
     std::optional<std::string> camera, device;
     std::optional<Pose> pose;
     Lens lens;
-    double exposure = 0.0;
+    LookOptions look;
     RenderSettings settings;
     std::optional<std::uint64_t> frames;  // ends after this many pictures
     std::optional<std::filesystem::path> script;

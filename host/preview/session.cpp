@@ -86,6 +86,7 @@ Session::Session(Window& window, EventQueue& events, const PreviewOptions& optio
       display_(device_),
       loader_(options.scene, options.load, options.split)
 {
+    look_.exposure = options.look.exposure.value_or(0.0);
     display_.resize(std::max(1U, window.pictureSize().x), std::max(1U, window.pictureSize().y));
 }
 
@@ -178,6 +179,7 @@ void Session::enter(std::unique_ptr<PreparedScene> prepared)
         }
     }
     warnIfNoLights(*prepared);
+    look_.tone = options_.look.tone ? *options_.look.tone : chooseTone(prepared->scene);
     auto light = std::make_unique<Refiner>(device_, *prepared, settings, options_.lens);
     viewpoint_->enter(prepared->scene);
     if (light_) {
@@ -268,7 +270,7 @@ void Session::present()
     const Clock::time_point start = Clock::now();
     if (light_) {
         measure();
-        display_.draw(refiner().renderer(), aov_, range_, options_.exposure);
+        display_.draw(refiner().renderer(), aov_, range_, look_);
     }
     const auto dotPixels = static_cast<std::uint32_t>(std::max(1.0F, std::round(window_.contentScale())));
     display_.cover(drawText(overlay(), dotPixels, display_.width()));
@@ -297,22 +299,27 @@ void Session::present()
     }
 }
 
-// Computes what needs the whole film, whenever its samples have doubled: the estimated error and the range of an AOV.
+// Computes what needs the whole film, whenever its samples have doubled: the estimated error, the range of an AOV and a chosen
+// exposure.
 void Session::measure()
 {
     const std::uint32_t samples = refiner().sampleCount();
     const bool ranged = aov_ == Aov::Depth || aov_ == Aov::SampleCount || aov_ == Aov::BvhSteps;
-    const bool first = ranged && measuredAov_ != aov_;
+    const bool exposed = !options_.look.exposure && (aov_ == Aov::Radiance || aov_ == Aov::Albedo);
+    const bool first = (ranged || exposed) && measuredAov_ != aov_;
     if (!first && (samples < 1 || samples < 2 * estimatedAt_ || isInputWaiting())) {
         return;
     }
-    if (!ranged && samples < leastSamplesForError(0)) {
+    if (!ranged && !exposed && samples < leastSamplesForError(0)) {
         return;
     }
     const Film film = refiner().renderer().film();
     estimatedAt_ = samples;
     measuredAov_ = aov_;
     range_ = computeRange(film, aov_);
+    if (exposed) {
+        look_.exposure = chooseExposure(film, aov_);
+    }
     if (aov_ == Aov::SampleCount) {
         range_.high = std::max(range_.high, 2.0F * range_.low);  // the scale should not show the present sweep alone
     }
@@ -381,7 +388,8 @@ void Session::press(char key)
     } else if (key == 'H') {
         overlayLevel_ = (overlayLevel_ + 1) % 3;
     } else if (key == '+' || key == '-') {
-        options_.exposure += key == '+' ? kExposureStep : -kExposureStep;
+        look_.exposure += key == '+' ? kExposureStep : -kExposureStep;
+        options_.look.exposure = look_.exposure;  // no longer chosen by the film
     } else if (key == ' ') {
         paused_ = !paused_;
     } else if (viewpoint_ && std::string("WASDQE").find(key) != std::string::npos) {
@@ -516,7 +524,10 @@ void Session::writePictures()
         tell(*report);
     }
     writes_ = false;
-    writer_.write(options_.scene, std::move(film), aov_, options_.exposure);
+    if (!options_.look.exposure) {
+        look_.exposure = chooseExposure(film, aov_);
+    }
+    writer_.write(options_.scene, std::move(film), aov_, look_);
 }
 
 void Session::printSummary() const

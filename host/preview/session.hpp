@@ -100,8 +100,9 @@ private:
     std::uint64_t frames_ = 0;
     std::optional<double> relMse_;  // estimated when the picture had estimatedAt_ samples
     std::uint64_t estimatedAt_ = 0;
+    Look look_;
     DisplayRange range_;
-    Aov measuredAov_ = Aov::Radiance;  // the AOV that range_ belongs to
+    std::optional<Aov> measuredAov_;  // the AOV that range_ and a chosen exposure belong to
     std::string title_;
     bool lightIsStale_ = false;  // the camera has moved since light_ was last shown
 };

@@ -2,6 +2,7 @@
 
 #include "host/image/heat_color.hpp"
 #include "shaders/shared/display_types.h"
+#include "shaders/shared/tone_mapping.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,15 +14,20 @@ namespace {
 static_assert(static_cast<std::uint32_t>(Aov::Radiance) == kAovRadiance && static_cast<std::uint32_t>(Aov::Normal) == kAovNormal);
 static_assert(static_cast<std::uint32_t>(Aov::Depth) == kAovDepth && static_cast<std::uint32_t>(Aov::Albedo) == kAovAlbedo);
 static_assert(static_cast<std::uint32_t>(Aov::SampleCount) == kAovSampleCount && static_cast<std::uint32_t>(Aov::BvhSteps) == kAovBvhSteps);
+static_assert(static_cast<std::uint32_t>(Tone::None) == kToneNone && static_cast<std::uint32_t>(Tone::Neutral) == kToneNeutral &&
+              static_cast<std::uint32_t>(Tone::Agx) == kToneAgx);
 
 bool isFinite(const glm::vec3& value) { return std::isfinite(value.x) && std::isfinite(value.y) && std::isfinite(value.z); }
 
 std::uint8_t plainByte(float value) { return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(value, 0.0F, 1.0F))); }
 
-Rgb8 srgb(const glm::vec3& linear, double exposure)
+Rgb8 srgb(const glm::vec3& linear, const Look& look)
 {
-    const glm::dvec3 scaled = std::exp2(exposure) * glm::dvec3(linear);
-    return {srgbByte(scaled.r), srgbByte(scaled.g), srgbByte(scaled.b)};
+    const double scale = std::exp2(look.exposure);
+    const glm::dvec3 shown = look.tone == Tone::None
+                                 ? scale * glm::dvec3(linear)
+                                 : glm::dvec3(mapTone(static_cast<float>(scale) * linear, static_cast<std::uint32_t>(look.tone)));
+    return {srgbByte(shown.r), srgbByte(shown.g), srgbByte(shown.b)};
 }
 
 Rgb8 normalColor(const PixelMoments& pixel)
@@ -59,6 +65,12 @@ std::optional<float> valueOf(const PixelMoments& pixel, Aov aov)
 
 }  // namespace
 
+const char* nameOf(Tone tone)
+{
+    constexpr const char* kNames[] = {"none", "neutral", "agx"};
+    return kNames[static_cast<std::size_t>(tone)];
+}
+
 DisplayRange computeRange(const Film& film, Aov aov)
 {
     if (aov != Aov::Depth && aov != Aov::SampleCount && aov != Aov::BvhSteps) {
@@ -83,7 +95,7 @@ DisplayRange computeRange(const Film& film, Aov aov)
     return {*least, *most};
 }
 
-Rgb8 displayColor(const PixelMoments& pixel, Aov aov, const DisplayRange& range, double exposure)
+Rgb8 displayColor(const PixelMoments& pixel, Aov aov, const DisplayRange& range, const Look& look)
 {
     if (!isFinite(pixel.mean)) {
         return kMagenta;
@@ -91,12 +103,12 @@ Rgb8 displayColor(const PixelMoments& pixel, Aov aov, const DisplayRange& range,
     switch (aov) {
     case Aov::Normal: return normalColor(pixel);
     case Aov::Depth: return depthColor(pixel, range);
-    case Aov::Albedo: return srgb(pixel.albedo, exposure);
+    case Aov::Albedo: return srgb(pixel.albedo, {look.exposure, Tone::None});
     case Aov::SampleCount: return heatColor(place(static_cast<float>(pixel.count), range, 1.0));
     case Aov::BvhSteps: return heatColor(place(pixel.mean.r, range, 1e-30));
     case Aov::Radiance: break;
     }
-    return srgb(pixel.mean, exposure);
+    return srgb(pixel.mean, look);
 }
 
 }  // namespace glim

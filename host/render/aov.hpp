@@ -7,8 +7,17 @@
 
 namespace glim {
 
+// How light becomes the colours of a picture. The values are those of kToneNone ... (shaders/shared/tone_mapping.h).
+enum class Tone : std::uint32_t { None, Neutral, Agx };
+const char* nameOf(Tone tone);  // none, neutral, agx
+struct Look {
+    double exposure = 0.0;  // stops, of radiance and albedo
+    Tone tone = Tone::None;
+};
+
 // How each is displayed:
-//   Radiance, Albedo   sRGB of clip(2^exposure x)
+//   Radiance           sRGB of clip(tone(2^exposure x))
+//   Albedo             sRGB of clip(2^exposure x)
 //   Normal             .5 + .5 n of the surfaces' mean normal, without a transfer curve; black where no ray met a surface
 //   Depth              of the nearest surface, linear from white (nearest of the picture) to dark grey (farthest); black where none
 //   SampleCount        samples of a pixel, heatColor from the fewest to the most of the picture; blue if all have the same
@@ -19,7 +28,7 @@ struct DisplayRange {
 };
 DisplayRange computeRange(const Film& film, Aov aov);
 
-// `exposure` is in stops and applies to radiance and albedo. Returns kMagenta if the mean is not finite.
-Rgb8 displayColor(const PixelMoments& pixel, Aov aov, const DisplayRange& range, double exposure);
+// Returns kMagenta if the mean is not finite.
+Rgb8 displayColor(const PixelMoments& pixel, Aov aov, const DisplayRange& range, const Look& look);
 
 }  // namespace glim

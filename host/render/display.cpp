@@ -67,7 +67,7 @@ void Display::takeFolded(const Renderer& renderer)
     }
 }
 
-void Display::draw(const Renderer& renderer, Aov aov, const DisplayRange& range, double exposure)
+void Display::draw(const Renderer& renderer, Aov aov, const DisplayRange& range, const Look& look)
 {
     takeFolded(renderer);
     DisplayPass pass{};
@@ -75,7 +75,8 @@ void Display::draw(const Renderer& renderer, Aov aov, const DisplayRange& range,
     pass.height = picture_->height();
     pass.filmWidth = renderer.settings().width;
     pass.filmHeight = renderer.settings().height;
-    pass.scale = static_cast<float>(std::exp2(exposure));
+    pass.scale = static_cast<float>(std::exp2(look.exposure));
+    pass.tone = static_cast<std::uint32_t>(look.tone);
     pass.low = range.low;
     pass.high = range.high;
     const bool anyFolded = renderer.foldVersion() != 0;

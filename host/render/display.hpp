@@ -19,8 +19,8 @@ public:
     // Sets the picture's size. It is black until something is drawn.
     void resize(std::uint32_t width, std::uint32_t height);
 
-    // Draws the renderer's film so far, stretched over the picture. `exposure` is in stops and applies to radiance and albedo.
-    void draw(const Renderer& renderer, Aov aov, const DisplayRange& range, double exposure);
+    // Draws the renderer's film so far, stretched over the picture.
+    void draw(const Renderer& renderer, Aov aov, const DisplayRange& range, const Look& look);
     // Puts text over the drawn picture.
     void cover(const TextBox& text);
     // The picture with its text, after cover().

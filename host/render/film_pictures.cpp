@@ -1,7 +1,12 @@
 #include "host/render/film_pictures.hpp"
 
+#include "host/image/picture_file.hpp"
+#include "host/message.hpp"
+#include "host/render/luminance.hpp"
 #include "host/render/settings.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace glim {
@@ -14,14 +19,38 @@ Aov aovOf(const Film& film)
     return found == aovs.end() ? Aov::Radiance : found->second;
 }
 
-void writeFilmPng(const std::filesystem::path& path, const Film& film, Aov aov, double exposure)
+void writeFilmPicture(const std::filesystem::path& path, const Film& film, Aov aov, const Look& look)
 {
     const DisplayRange range = computeRange(film, aov);
     std::vector<Rgb8> colors;
     for (const PixelMoments& pixel : shownPixels(film)) {
-        colors.push_back(displayColor(pixel, aov, range, exposure));
+        colors.push_back(displayColor(pixel, aov, range, look));
     }
-    writePng(path, film.width, film.height, colors);
+    writePicture(path, film.width, film.height, colors);
+}
+
+double chooseExposure(const Film& film, Aov aov)
+{
+    constexpr double kKey = 0.18, kMost = 100.0;
+    double sum = 0.0, count = 0.0;
+    for (const PixelMoments& pixel : shownPixels(film)) {
+        const double luminance = luminanceOf(glm::dvec3(aov == Aov::Albedo ? pixel.albedo : pixel.mean));
+        if (pixel.count > 0 && luminance > 0.0 && std::isfinite(luminance)) {
+            sum += std::log2(luminance);
+            count += 1.0;
+        }
+    }
+    const double stops = count > 0.0 ? std::log2(kKey) - sum / count : 0.0;
+    return std::clamp(std::round(100.0 * stops) / 100.0 + 0.0, -kMost, kMost);  // + 0 makes 0 of -0
+}
+
+Tone chooseTone(const Scene& scene)
+{
+    if (!scene.environment || scene.environment->source != "studio") {
+        return Tone::None;
+    }
+    say("the built-in studio lights the scene, so --tone is neutral");
+    return Tone::Neutral;
 }
 
 }  // namespace glim

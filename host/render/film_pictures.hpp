@@ -1,17 +1,32 @@
-// Films as PNGs to look at.
+// Films as pictures to look at.
 #pragma once
 
 #include "host/render/aov.hpp"
+#include "host/scene/scene.hpp"
 
 #include <filesystem>
-#include <string>
+#include <optional>
 
 namespace glim {
 
 // The AOV of the film's --view, which its settings name.
 Aov aovOf(const Film& film);
 
-// `exposure` is in stops and applies to radiance and albedo.
-void writeFilmPng(const std::filesystem::path& path, const Film& film, Aov aov, double exposure);
+// A file of the kind that the ending of `path` names (host/image/picture_file.hpp).
+void writeFilmPicture(const std::filesystem::path& path, const Film& film, Aov aov, const Look& look = {});
+
+// A look that need not be complete.
+struct LookOptions {
+    std::optional<double> exposure = 0.0;  // stops; absent: chosen by the film
+    std::optional<Tone> tone;              // absent: chosen by the scene's light
+};
+
+// The exposure in stops that shows the log-average luminance of what `aov` shows as .18 (Reinhard, Stark, Shirley and Ferwerda,
+// Photographic Tone Reproduction for Digital Images, SIGGRAPH 2002, section 3). Only positive and finite pixels count; 0 without any. It is
+// a multiple of .01, so that the number as it is printed gives the same picture.
+double chooseExposure(const Film& film, Aov aov);
+
+// Neutral where the built-in studio lights the scene, which it says. None elsewhere.
+Tone chooseTone(const Scene& scene);
 
 }  // namespace glim

@@ -1,12 +1,11 @@
 #include "host/render/suspects.hpp"
 
+#include "host/render/luminance.hpp"
+
 #include <algorithm>
 
 namespace glim {
 namespace {
-
-// Rec.709, as stop_rule.glsl has it.
-double luminanceOf(const glm::vec3& radiance) { return glm::dot(glm::dvec3(radiance), glm::dvec3(0.2126, 0.7152, 0.0722)); }
 
 struct Brightest {
     float luminance;

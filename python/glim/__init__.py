@@ -207,18 +207,19 @@ class Film:
         scene, before = self._again
         return scene.render(progress=progress, resume=self, **{**before, **options})
 
-    def save(self, path: Path, *, exposure: float = 0.0) -> None:
-        """Writes an EXR with all layers, which glim.read and `glim merge` read, or an sRGB PNG at this exposure in stops."""
+    def save(self, path: Path, *, exposure: Union[float, str] = 0.0, tone: str = "none") -> None:
+        """Writes an EXR with all layers, which glim.read and `glim merge` read, or an sRGB picture (.png, .jpg, .jpeg or .webp). Its
+        exposure is in stops or "auto", its tone mapping "none", "neutral" or "agx"."""
         with _call():
-            if os.fspath(path).lower().endswith(".png"):
-                self._native.save_png(path, exposure, None)
+            if os.fspath(path).lower().endswith((".png", ".jpg", ".jpeg", ".webp")):
+                self._native.save_picture(path, None if exposure == "auto" else exposure, tone, None)
             else:
                 self._native.save(path)
 
     def _repr_png_(self) -> bytes:
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "film.png")
-            self._native.save_png(path, 0.0, 1024)
+            self._native.save_picture(path, 0.0, "none", 1024)
             with open(path, "rb") as file:
                 return file.read()
 

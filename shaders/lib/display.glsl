@@ -5,6 +5,7 @@
 #include "finite.glsl"
 #include "shared/display_types.h"
 #include "shared/pixel_moments.h"
+#include "shared/tone_mapping.h"
 
 // Shown for pixels that are not finite.
 const vec3 kMagenta = vec3(1.0, 0.0, 1.0);
@@ -57,7 +58,7 @@ vec3 displayColor(PixelMoments pixel, uint aov, DisplayPass pass)
     case kAovAlbedo: return roundToBytes(encodeSrgb(pass.scale * pixel.albedo));
     case kAovSampleCount: return roundToBytes(heatColor((float(pixel.count) - pass.low) / max(1.0, pass.high - pass.low)));
     case kAovBvhSteps: return roundToBytes(heatColor((pixel.mean.r - pass.low) / max(1e-30, pass.high - pass.low)));
-    default: return roundToBytes(encodeSrgb(pass.scale * pixel.mean));
+    default: return roundToBytes(encodeSrgb(mapTone(pass.scale * pixel.mean, pass.tone)));
     }
 }
 

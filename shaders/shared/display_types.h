@@ -15,6 +15,7 @@ struct DisplayPass {
     uint filmWidth, filmHeight;
     uint tileBegin, tileCount;   // pixels of the film
     float scale;                 // 2^EV, of radiance and albedo
+    uint tone;                   // kToneNone ..., of radiance
     float low, high;             // ends of the scale of depths, samples or steps
     uint textWidth, textHeight;  // of the text in the upper left corner
 };

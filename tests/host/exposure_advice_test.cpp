@@ -39,10 +39,10 @@ double adviceIn(const std::string& sentence)
 TEST(ExposureAdviceTest, PicturesThatShowSomethingAreLeftAlone)
 {
     for (const float radiance : {0.05F, 0.5F, 1.0F, 1.2F}) {
-        EXPECT_EQ(adviseExposure(filmOf(radiance), 0.0), std::nullopt) << radiance;
+        EXPECT_EQ(adviseExposure(filmOf(radiance), {}), std::nullopt) << radiance;
     }
-    EXPECT_EQ(adviseExposure(filmOf(1000.0F), -10.0), std::nullopt);
-    EXPECT_EQ(adviseExposure(Film(), 0.0), std::nullopt);
+    EXPECT_EQ(adviseExposure(filmOf(1000.0F), {-10.0}), std::nullopt);
+    EXPECT_EQ(adviseExposure(Film(), {}), std::nullopt);
 }
 
 // A sun of 6,830 lx on white, and the same scene by candlelight; neither advice needs another.
@@ -50,11 +50,11 @@ TEST(ExposureAdviceTest, AdviceIsRightAtOnce)
 {
     for (const float radiance : {2.0F, 2174.0F, 1e20F, 1e-4F, 1e-20F}) {
         const Film film = filmOf(radiance);
-        const auto advice = adviseExposure(film, 0.0);
+        const auto advice = adviseExposure(film, {});
         ASSERT_TRUE(advice) << radiance;
         EXPECT_EQ(advice->rfind(radiance > 1.0F ? "is burnt out: " : "is almost black: ", 0), 0U) << *advice;
         EXPECT_NEAR(adviceIn(*advice), std::log2(0.9 / 0.955 / static_cast<double>(radiance)), 0.11) << *advice;
-        EXPECT_EQ(adviseExposure(film, adviceIn(*advice)), std::nullopt) << *advice;
+        EXPECT_EQ(adviseExposure(film, {adviceIn(*advice)}), std::nullopt) << *advice;
     }
 }
 
@@ -65,14 +65,14 @@ TEST(ExposureAdviceTest, OnlyWhiteCounts)
     for (int i = 0; i < 200; ++i) {
         film.pixels[static_cast<std::size_t>(i)].mean = vec3(9.0F);
     }
-    EXPECT_EQ(adviseExposure(film, 0.0), std::nullopt);
+    EXPECT_EQ(adviseExposure(film, {}), std::nullopt);
     film.pixels[500].mean = vec3(9.0F);
-    ASSERT_TRUE(adviseExposure(film, 0.0));
-    EXPECT_EQ(adviseExposure(film, 0.0)->rfind("is burnt out: 20 % of what it shows is white", 0), 0U);
+    ASSERT_TRUE(adviseExposure(film, {}));
+    EXPECT_EQ(adviseExposure(film, {})->rfind("is burnt out: 20 % of what it shows is white", 0), 0U);
     for (PixelMoments& pixel : film.pixels) {
         pixel.mean.b = std::min(pixel.mean.b, 0.9F);
     }
-    EXPECT_EQ(adviseExposure(film, 0.0), std::nullopt);
+    EXPECT_EQ(adviseExposure(film, {}), std::nullopt);
 }
 
 // A bright sky behind a scene says nothing about it, unless nothing else is there.
@@ -80,18 +80,18 @@ TEST(ExposureAdviceTest, SurfacesCountBeforeTheirBackground)
 {
     Film film = filmOf(0.5F);
     add(film, 5000, 30.0F, false);
-    EXPECT_EQ(adviseExposure(film, 0.0), std::nullopt);
+    EXPECT_EQ(adviseExposure(film, {}), std::nullopt);
     Film sky;
     add(sky, 100, 30.0F, false);
-    EXPECT_TRUE(adviseExposure(sky, 0.0));
+    EXPECT_TRUE(adviseExposure(sky, {}));
 }
 
 TEST(ExposureAdviceTest, BlackIsSaidWithoutAnExposure)
 {
-    EXPECT_EQ(adviseExposure(filmOf(0.0F), 0.0), "is black: no light reaches what it shows");
+    EXPECT_EQ(adviseExposure(filmOf(0.0F), {}), "is black: no light reaches what it shows");
     Film lamp = filmOf(0.0F);
     lamp.pixels[3].mean = vec3(1.0F);
-    EXPECT_EQ(adviseExposure(lamp, 0.0), std::nullopt) << "a lamp in the dark";
+    EXPECT_EQ(adviseExposure(lamp, {}), std::nullopt) << "a lamp in the dark";
 }
 
 }  // namespace

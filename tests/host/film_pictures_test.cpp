@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace glim {
@@ -44,7 +45,7 @@ std::vector<Rgb> picture(Aov aov, const std::vector<PixelMoments>& pixels, doubl
 {
     const ScratchFolder folder;
     const Film film = filmOf(aov, pixels);
-    writeFilmPng(folder / "a.png", film, aovOf(film), exposure);
+    writeFilmPicture(folder / "a.png", film, aovOf(film), {exposure});
     EXPECT_EQ(folder.entries(), 1);
     return test::decodePng(folder / "a.png");
 }
@@ -56,7 +57,7 @@ std::vector<Rgb> ratesPicture(const std::vector<std::uint32_t>& counts)
         pixels[i].count = counts[i];
     }
     const ScratchFolder folder;
-    writeFilmPng(folder / "r.png", filmOf(Aov::Radiance, pixels), Aov::SampleCount, 0.0);
+    writeFilmPicture(folder / "r.png", filmOf(Aov::Radiance, pixels), Aov::SampleCount);
     return test::decodePng(folder / "r.png");
 }
 
@@ -80,6 +81,46 @@ TEST(FilmPictures, LightAndAlbedoAreExposedSrgb)
                   (std::vector<Rgb>{{188, 0, 255}, {118, 0, 255}, kBad, kBad}));
         EXPECT_EQ(picture(aov, {pixel({0.25F, 0, 0})}, -1.0), (std::vector<Rgb>{{srgbByte(0.125), 0, 0}}));
     }
+}
+
+TEST(FilmPictures, TonesAreOfLightAlone)
+{
+    // Neutral: .3 loses .04, and 1 becomes 1 - .24^2 / (.96 + .24 - .76).
+    const std::vector<PixelMoments> pixels{pixel(glm::vec3(0.15F)), pixel(glm::vec3(0.5F)), pixel({kNan, 0, 0})};
+    const auto drawn = [&](Aov aov, Tone tone) {
+        std::vector<Rgb8> colors;
+        for (const PixelMoments& one : pixels) {
+            colors.push_back(displayColor(one, aov, {}, {1.0, tone}));
+        }
+        return colors;
+    };
+    const auto grey = [](double light) { return Rgb8{srgbByte(light), srgbByte(light), srgbByte(light)}; };
+    EXPECT_EQ(drawn(Aov::Radiance, Tone::Neutral), (std::vector<Rgb8>{grey(0.26), grey(1.0 - 0.0576 / 0.44), kMagenta}));
+    EXPECT_EQ(drawn(Aov::Albedo, Tone::Neutral), drawn(Aov::Albedo, Tone::None));
+    EXPECT_EQ(drawn(Aov::Normal, Tone::Agx), drawn(Aov::Normal, Tone::None));
+}
+
+TEST(FilmPictures, AnExposureIsChosenByTheLogAverage)
+{
+    const auto chosen = [](const std::vector<PixelMoments>& pixels) {
+        return chooseExposure(filmOf(Aov::Radiance, pixels), Aov::Radiance);
+    };
+    const PixelMoments dark = pixel(glm::vec3(0.09F)), bright = pixel(glm::vec3(0.36F));
+    EXPECT_EQ(chosen({dark, bright}), 0.0);
+    EXPECT_EQ(chosen({bright, bright}), -1.0);
+    EXPECT_EQ(chosen({dark}), 1.0);
+    EXPECT_EQ(chosen({pixel(glm::vec3(0.18F * std::exp2(7.3F)))}), -7.3);
+    EXPECT_EQ(chosen({pixel({0, 0.18F, 0})}), 0.48) << "-log2 of .7152, to a hundredth";
+    PixelMoments none = bright;
+    none.count = 0;
+    EXPECT_EQ(chosen({dark, pixel(glm::vec3(0)), pixel(glm::vec3(-1)), pixel({kNan, 1, 1}), pixel({kInfinity, 1, 1}), none}), 1.0)
+        << "others have no logarithm";
+    EXPECT_EQ(chosen({pixel(glm::vec3(0))}), 0.0);
+    EXPECT_EQ(chosen({}), 0.0);
+    EXPECT_EQ(chosen({pixel(glm::vec3(1e-38F))}), 100.0) << "as far as --exposure goes";
+    PixelMoments painted = bright;
+    painted.albedo = glm::vec3(0.09F);
+    EXPECT_EQ(chooseExposure(filmOf(Aov::Albedo, {painted}), Aov::Albedo), 1.0);
 }
 
 TEST(FilmPictures, NormalsAreBytesWithoutACurve)

@@ -47,9 +47,13 @@ const std::map<std::string, std::set<std::string>> kStandsOn{
 // How an include begins, and the folders of host/ that own what it brings. Vulkan's types pass on to render and preview
 // through gpu's headers.
 const std::vector<std::pair<std::string, std::set<std::string>>> kOwners{
-    {"tiny_gltf", {"scene"}}, {"OpenEXR/", {"image"}},      {"Imath/", {"image"}}, {"Imf", {"image"}},
-    {"draco/", {"scene"}},    {"meshoptimizer", {"scene"}}, {"png.h", {"image"}},  {"stb_", {"image"}},
-    {"GLFW/", {"preview"}},   {"vulkan/", {"gpu"}},         {"commit.h", {"cli"}}, {"kernels.hpp", {"render", "denoise"}},
+    {"tiny_gltf", {"scene"}}, {"OpenEXR/", {"image"}},
+    {"Imath/", {"image"}},    {"Imf", {"image"}},
+    {"draco/", {"scene"}},    {"meshoptimizer", {"scene"}},
+    {"png.h", {"image"}},     {"jpeglib.h", {"image"}},
+    {"webp/", {"image"}},     {"stb_", {"image"}},
+    {"GLFW/", {"preview"}},   {"vulkan/", {"gpu"}},
+    {"commit.h", {"cli"}},    {"kernels.hpp", {"render", "denoise"}},
     {"nlohmann/", {"scene"}},
 };
 

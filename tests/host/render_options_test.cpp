@@ -52,7 +52,7 @@ TEST(RenderOptions, DefaultsAreThoseOfTheSettings)
     EXPECT_EQ(options.settings.course.accelerator, Accelerator::Bvh);
     EXPECT_EQ(options.split, SplitRule::Sah);
     EXPECT_EQ(options.lens.radius, 0.0F);
-    EXPECT_FALSE(options.settings.seconds || options.png || options.rates || options.stats);
+    EXPECT_FALSE(options.settings.seconds || options.pictures.areGiven() || options.rates || options.stats);
 }
 
 TEST(RenderOptions, LightIsFoundAsAsked)
@@ -147,7 +147,7 @@ TEST(RenderOptions, ViewsTakeFewSamplesAndNoBounce)
     }
     EXPECT_EQ(settings("--view shaded").sampleEnd, 64U);
     EXPECT_EQ(settings("--view shaded --bounces 2").bounces, 2U);
-    EXPECT_EQ(parse("--view albedo --png p.png --exposure 1").exposure, 1.0);
+    EXPECT_EQ(parse("--view albedo --png p.png --exposure 1").look.exposure, 1.0);
 }
 
 TEST(RenderOptions, SampleCountersFitThirtyTwoBits)
@@ -210,6 +210,34 @@ TEST(RenderOptions, ViewsRefuseWhatHasNoMeaningThere)
     for (const std::string view : {"normal", "depth", "bvh-steps"}) {
         expectRefused("--png p.png --exposure 1 --view " + view, "--exposure: \"1\": has no effect with --view " + view);
     }
+}
+
+TEST(RenderOptions, PicturesHaveALook)
+{
+    EXPECT_EQ(parse("").look.exposure, 0.0);
+    EXPECT_EQ(parse("").look.tone, std::nullopt);
+    EXPECT_EQ(parse("--png p.png --exposure auto").look.exposure, std::nullopt);
+    EXPECT_EQ(parse("--image p.jpg --exposure +1.5").look.exposure, 1.5);
+    EXPECT_EQ(parse("--png p.png --tone none").look.tone, Tone::None);
+    EXPECT_EQ(parse("--png p.png --tone neutral").look.tone, Tone::Neutral);
+    EXPECT_EQ(parse("--image p.webp --tone agx").look.tone, Tone::Agx);
+    EXPECT_EQ(parse("--image p.JPEG --png p.png").pictures.image, "p.JPEG");
+    expectRefused("--exposure 1", "--exposure: \"1\": is of a picture; expected --png or --image with it");
+    expectRefused("--tone agx --rates r.png", "--tone: \"agx\": is of a picture; expected --png or --image with it");
+    expectRefused("--png p.png --tone aces", "--tone: \"aces\": expected none or neutral or agx");
+    expectRefused("--png p.png --exposure full", "--exposure: \"full\": expected a number from -100 to 100, or auto");
+    for (const std::string view : {"normal", "depth", "albedo", "bvh-steps"}) {
+        expectRefused("--png p.png --tone agx --view " + view, "--tone: \"agx\": has no effect with --view " + view);
+    }
+    for (const std::string name : {"p.gif", "p", "p.exr"}) {
+        expectRefused("--image " + name, "--image: \"" + name + "\": expected a name that ends in .png, .jpg, .jpeg or .webp");
+    }
+    expectRefused("--image p#.png --png p##.png", "--image: \"p#.png\": expected another file than those of --png and --rates");
+    expectRefused("--image p.png --rates p.png", "--image: \"p.png\": expected another file");
+    expectRefused("--image p.webp --size 16384x4",
+                  "--image: \"p.webp\": files of this kind hold at most 16383 pixels a side; expected a smaller --size");
+    EXPECT_EQ(parse("--image p.webp --size 16383x4").size->x, 16383U);
+    expectRefused("--image p.jpg --replay 0,0,1", "--image: \"p.jpg\": has no effect with --replay");
 }
 
 TEST(RenderOptions, ReplaysTakeTheSamplesThatARenderWouldHave)

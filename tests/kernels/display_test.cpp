@@ -53,12 +53,13 @@ TEST(DisplayTest, H40ColoursAreThoseOfTheHost)
         }
         const float low = i % 5 == 0 ? 7.0F : value(random);
         const DisplayRange range{low, i % 5 == 0 ? low : low + value(random)};
-        const double exposure = static_cast<double>(i % 7) - 3.0;
+        const Look look{static_cast<double>(i % 7) - 3.0, static_cast<Tone>(i / 6 % 3)};
         c.aov = static_cast<std::uint32_t>(aov);
-        c.display.scale = static_cast<float>(std::exp2(exposure));
+        c.display.scale = static_cast<float>(std::exp2(look.exposure));
+        c.display.tone = static_cast<std::uint32_t>(look.tone);
         c.display.low = range.low;
         c.display.high = range.high;
-        const Rgb8 color = displayColor(c.pixel, aov, range, exposure);
+        const Rgb8 color = displayColor(c.pixel, aov, range, look);
         c.expected = {color[0], color[1], color[2]};
     }
     KernelTest test(test_kernels::display_test);

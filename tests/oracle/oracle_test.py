@@ -21,6 +21,7 @@ import ggx  # noqa: E402
 import iridescence  # noqa: E402
 import media  # noqa: E402
 import sheen  # noqa: E402
+import tone  # noqa: E402
 import transmission  # noqa: E402
 from directions import at_cosine, dot, half_vector, mirror, per_channel, reflect, rotate_z, sample_uniform_hemisphere  # noqa: E402
 from quadrature import cosine_average, gauss, hemisphere  # noqa: E402
@@ -691,6 +692,41 @@ class MediaTest(OracleTestCase):
         self.assert_near(0.5 / (f - c), 30, 0.03)
         self.assertEqual(media.ior_at(500.0, 1.5, 0.0), 1.5)
         self.assertEqual(media.ior_at(2000.0, 1.05, 20.0), 1)
+
+
+class ToneTest(OracleTestCase):
+    def test_neutral_by_hand(self):
+        # 1 - .04 is above the start of compression, .76: 1 - .24^2 / (.96 + 1 - 1.52). Below, colours lose .04 or, if dark, less.
+        rows = np.array([[1, 1, 1], [0.5, 0.3, 0.2], [0.04, 0.3, 0.04], [0, 0, 0]])
+        expected = [[1 - 0.0576 / 0.44] * 3, [0.46, 0.26, 0.16], [0.01, 0.27, 0.01], [0, 0, 0]]
+        self.assert_near(tone.neutral(rows), expected, ROUNDING)
+
+    def test_neutral_is_continuous(self):
+        for scale in (0.08, 0.8):  # where the offset and where the compression begins
+            below, above = (tone.neutral(np.full(3, scale * (1 + e))) for e in (-1e-9, 1e-9))
+            self.assert_near(above, below, 1e-8)
+
+    def test_polynomial_is_the_fit_of_the_sigmoid(self):
+        x = np.linspace(0, 1, 4096)
+        curve = tone.agx_sigmoid(x)
+        fit = np.polyfit(x, curve, 6)
+        self.assert_near(np.mean((np.polyval(fit, x) - curve) ** 2), 3.6705141e-06, 1e-12)  # as Wrensch states it
+        self.assert_near(fit / tone.AGX_POLYNOMIAL, 1, 5e-4)  # four digits
+        self.assert_near(tone.agx_polynomial(x), curve, 0.006)
+        self.assert_near(tone.agx_sigmoid(np.array([0, 10 / 16.5, 1])), [0, 0.5, 1], ROUNDING)
+
+    def test_range_of_agx(self):
+        self.assert_near(2 ** np.array(tone.AGX_STOPS), 0.18 * 2 ** np.array([-10, 6.5]), 1e-5)
+
+    def test_light_stays_in_order_and_grey(self):
+        grey = np.geomspace(1e-6, 1e6, 2000)[:, None] * WHITE
+        for curve, tint in ((tone.neutral, 0), (tone.agx, 6e-4)):
+            shown = curve(grey)
+            self.assertTrue(np.all(np.diff(shown, axis=0) >= 0))
+            self.assert_near(shown, shown[:, :1], tint)
+            self.assert_near(shown[-1], 1, 0.004)
+            colours = curve(10 ** (12 * random(10000) - 6))
+            self.assertTrue(np.all((colours >= 0) & (colours <= 1)))
 
 
 if __name__ == "__main__":

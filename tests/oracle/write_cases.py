@@ -21,6 +21,7 @@ import ggx
 import iridescence
 import media
 import sheen
+import tone
 import transmission
 from directions import at_cosine, dot, half_vector, mirror, normalize, per_channel, sample_uniform_hemisphere
 
@@ -408,8 +409,20 @@ def principled_cases(rng):
     return np.concatenate(rows)
 
 
+def tone_cases(rng):
+    """Each colour by both tones: of any brightness, at the bounds of the curves, black, and as bright as floats are."""
+    greys = np.array([0, 1e-38, 0.04, 0.08, 0.08 + 1e-6, 0.18, 0.76, 0.8, 0.8 + 1e-6, 1, 1e6, 1e30, 3e38])
+    primaries = np.array([0.01, 0.5, 0.8, 4, 1e4, 1e30])[:, None, None] * np.eye(3)
+    colors = rounded(np.concatenate([10 ** rng.uniform(-6, 6, (2000, 3)), rng.random((2000, 3)), greys[:, None] * np.ones(3),
+                                     primaries.reshape(-1, 3)]))
+    rows = []
+    for number, curve in ((1.0, tone.neutral), (2.0, tone.agx)):
+        rows.append(columns(len(colors), colors, number, curve(np.minimum(colors, 1e30))))
+    return np.concatenate(rows)
+
+
 # The last one puts tables in the place of exact albedos.
-WRITERS = (ggx_cases, transmission_cases, sheen_cases, film_cases, multiple_scattering_cases, albedo_cases, ior_cases, principled_cases)
+WRITERS = (ggx_cases, transmission_cases, sheen_cases, film_cases, multiple_scattering_cases, albedo_cases, ior_cases, tone_cases, principled_cases)
 
 
 def main():

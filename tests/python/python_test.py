@@ -158,6 +158,15 @@ class FilmTest(PythonCase):
         film.save(self.path("film.png"), exposure=1)
         with open(self.path("film.png"), "rb") as file:
             self.assertEqual(file.read(24)[-8:], (1100).to_bytes(4, "big") + (10).to_bytes(4, "big"))
+        for name, begin in (("film.jpg", b"\xff\xd8\xff"), ("film.WEBP", b"RIFF"), ("agx.png", b"\x89PNG")):
+            film.save(self.path(name), exposure="auto", tone="agx")
+            with open(self.path(name), "rb") as file:
+                self.assertEqual(file.read(len(begin)), begin)
+        with open(self.path("agx.png"), "rb") as agx, open(self.path("film.png"), "rb") as plain:
+            self.assertNotEqual(agx.read(), plain.read())
+        with self.assertRaisesRegex(glim.InputError, 'tone: "aces": expected none, neutral or agx'):
+            film.save(self.path("none.png"), tone="aces")
+        self.assertFalse(os.path.exists(self.path("none.png")))
         shown = film._repr_png_()
         self.assertEqual((shown[:4], shown[16:24]), (b"\x89PNG", (550).to_bytes(4, "big") + (5).to_bytes(4, "big")))
         self.assertIn("1100x10, 1 samples per pixel", repr(film))

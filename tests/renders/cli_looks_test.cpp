@@ -1,4 +1,5 @@
 // What the program says of materials, textures, environments and exposure, and how it refuses what it cannot use.
+#include "host/image/decode_image.hpp"
 #include "tests/support/encode_images.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/run_glim.hpp"
@@ -8,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <regex>
+#include <set>
 
 namespace glim::test {
 namespace {
@@ -167,6 +169,79 @@ TEST_F(LooksTest, PicturesThatShowNothingSaySo)
         << burnt.err;
     EXPECT_FALSE(contains(render({"--environment", "20000,20000,20000", "--png", "x.png", "--exposure", match[1]}).err, "burnt"));
     EXPECT_FALSE(contains(render({"--environment", "20000,20000,20000"}).err, "burnt")) << "an EXR has no exposure";
+}
+
+TEST_F(LooksTest, ToneMappingIsOfPicturesAlone)
+{
+    std::filesystem::copy_file(sceneFile("cornell.gltf"), folder_ / "scene.gltf");
+    const auto drawn = [this](const Arguments& options) {
+        Arguments all{"--png", "x.png", "--stats", "s.json"};
+        all.insert(all.end(), options.begin(), options.end());
+        const GlimRun done = render(all);
+        EXPECT_EQ(done.exitCode, 0) << done.err;
+        EXPECT_FALSE(contains(done.err, "--tone")) << done.err;
+        return bytesOfFile(folder_ / "x.png");
+    };
+    const std::string plain = drawn({});
+    EXPECT_EQ(jsonIn("s.json").at("look"), json({{"exposure", 0}, {"tone", "none"}}));
+    const std::string digest = jsonIn("s.json").at("digest");
+    EXPECT_EQ(drawn({"--tone", "none"}), plain);
+    const std::string neutral = drawn({"--tone", "neutral"}), agx = drawn({"--tone", "agx", "--exposure", "1.5"});
+    EXPECT_EQ(jsonIn("s.json").at("look"), json({{"exposure", 1.5}, {"tone", "agx"}}));
+    EXPECT_EQ(jsonIn("s.json").at("digest"), digest) << "the film has no tone";
+    EXPECT_EQ((std::set<std::string>{plain, neutral, agx}.size()), 3U);
+    render({"--stats", "s.json"});
+    EXPECT_TRUE(jsonIn("s.json").at("look").is_null());
+    ASSERT_EQ(run({"merge", "x.exr", "-o", "y.exr", "--image", "y.png", "--tone", "agx", "--exposure", "1.5"}).exitCode, 0);
+    EXPECT_EQ(bytesOfFile(folder_ / "y.png"), agx);
+}
+
+TEST_F(LooksTest, TheStudioIsShownByNeutralUnlessToldOtherwise)
+{
+    writeCoated();
+    const std::string sentence = "glim: the built-in studio lights the scene, so --tone is neutral\n";
+    const GlimRun chosen = render({"--png", "a.png"});
+    EXPECT_TRUE(contains(chosen.err, sentence)) << chosen.err;
+    for (const char* tone : {"neutral", "none"}) {
+        EXPECT_FALSE(contains(render({"--png", "b.png", "--tone", tone}).err, sentence));
+        EXPECT_EQ(bytesOfFile(folder_ / "b.png") == bytesOfFile(folder_ / "a.png"), tone == std::string("neutral")) << tone;
+    }
+    EXPECT_TRUE(contains(render({"--png", "b.png", "--environment", "studio"}).err, sentence));
+    EXPECT_FALSE(contains(render({"--png", "b.png", "--environment", "1,1,1"}).err, sentence));
+    EXPECT_FALSE(contains(render({"--png", "b.png", "--view", "normal"}).err, sentence));
+    EXPECT_FALSE(contains(render({}).err, sentence)) << "there is no picture";
+}
+
+TEST_F(LooksTest, ExposureIsChosenAndSaid)
+{
+    std::filesystem::copy_file(sceneFile("cornell.gltf"), folder_ / "scene.gltf");
+    const GlimRun chosen = render({"--png", "a.png", "--exposure", "auto", "--stats", "s.json"});
+    std::smatch match;
+    ASSERT_TRUE(std::regex_search(
+        chosen.err, match,
+        std::regex("glim: --exposure auto is ([+-][0-9]+\\.[0-9][0-9]) stops, which show the log-average luminance as \\.18\n")))
+        << chosen.err;
+    EXPECT_EQ(jsonIn("s.json").at("look").at("exposure"), std::stod(match[1]));
+    EXPECT_EQ(chosen.err, render({"--png", "b.png", "--exposure", match[1]}).err + match.str());
+    EXPECT_EQ(bytesOfFile(folder_ / "b.png"), bytesOfFile(folder_ / "a.png"));
+    const GlimRun merged = run({"merge", "x.exr", "-o", "y.exr", "--png", "b.png", "--exposure", "auto"});
+    EXPECT_TRUE(contains(merged.err, match.str())) << merged.err;
+    EXPECT_EQ(bytesOfFile(folder_ / "b.png"), bytesOfFile(folder_ / "a.png"));
+}
+
+TEST_F(LooksTest, PicturesAreOfTheKindOfTheirName)
+{
+    std::filesystem::copy_file(sceneFile("cornell.gltf"), folder_ / "scene.gltf");
+    const auto pixelsOf = [this](const std::string& name) {
+        const std::string bytes = bytesOfFile(folder_ / name.c_str());
+        return decodeImage({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}).rgba8;
+    };
+    ASSERT_EQ(render({"--png", "x.png", "--image", "x.webp"}).exitCode, 0);
+    const std::vector<std::uint8_t> pixels = pixelsOf("x.png");
+    EXPECT_EQ(pixelsOf("x.webp"), pixels);
+    ASSERT_EQ(
+        run({"render", "scene.gltf", "-o", "f#.exr", "--size", "8x8", "--spp", "2", "--turntable", "2", "--image", "f#.jpeg"}).exitCode, 0);
+    EXPECT_EQ(bytesOfFile(folder_ / "f1.jpeg").substr(0, 3), "\xff\xd8\xff");
 }
 
 TEST_F(LooksTest, TexturesAreScaledDownOnDemand)

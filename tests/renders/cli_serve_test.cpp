@@ -106,6 +106,23 @@ protected:
     Server server_{folder_ / "err"};
 };
 
+TEST_F(ServeTest, DrawsPicturesAsARenderDoes)
+{
+    const auto words = [this](const char* film, const char* image) {
+        return std::vector<std::string>{
+            sceneFile("cornell.gltf"),  "--size", "8x8", "--spp",      "2",   "-o", (folder_ / film).string(), "--image",
+            (folder_ / image).string(), "--tone", "agx", "--exposure", "auto"};
+    };
+    expectDone(words("served.exr", "served.webp"));
+    std::vector<std::string> alone = words("alone.exr", "alone.webp");
+    alone.insert(alone.begin(), "render");
+    ASSERT_EQ(runGlim(alone).exitCode, 0);
+    EXPECT_EQ(bytesOfFile(folder_ / "served.webp"), bytesOfFile(folder_ / "alone.webp"));
+    const Json refused = server_.ask(words("served.exr", "served.gif"));
+    EXPECT_EQ(refused.at("code").number(), 2.0);
+    EXPECT_NE(refused.at("error").text().find("expected a name that ends in .png, .jpg, .jpeg or .webp"), std::string::npos);
+}
+
 TEST_F(ServeTest, PicturesHaveTheBitsThatTheyHaveAlone)
 {
     const std::string gems = sceneFile("cornell_gems.gltf"), spheres = sceneFile("cornell_spheres.gltf");

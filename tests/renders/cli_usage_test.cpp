@@ -214,7 +214,7 @@ TEST(CommandLineTest, NonsenseValuesAreUsageErrorsBeforeAnyWork)
         {{"--spp", "4", "--samples", "0:4"}, "--spp excludes --samples"},
         {{"--time", "nan"}, "--time: \"nan\": " + number},
         {{"--time", "0"}, number},
-        {{"--exposure", "nan"}, "--exposure: \"nan\": " + number + "-100 to 100"},
+        {{"--exposure", "nan"}, "--exposure: \"nan\": " + number + "-100 to 100, or auto"},
         {{"--clamp-indirect", "nan"}, number},
         {{"--clamp-indirect", "0"}, number},
         {{"--seed", "-1"}, "--seed: \"-1\": " + whole + "0 to 4294967295"},

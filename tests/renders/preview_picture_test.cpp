@@ -18,6 +18,23 @@ TEST_F(PreviewTest, ShowsAndWritesWhatARenderGives)
     EXPECT_EQ(countOthers(shown, rendered()), 0);
 }
 
+TEST_F(PreviewTest, ShowsTheTonesThatFilesHave)
+{
+    for (const std::string look : {"--tone neutral", "--tone agx --exposure 1.5", "--tone agx --exposure auto"}) {
+        std::istringstream words(look);
+        std::vector<std::string> options{std::istream_iterator<std::string>(words), {}};
+        options.insert(options.end(), {"--spp", "8"});
+        const Pixels shown = windowAtWriting(screen, std::string(kBare) + "0 samples 8\n0 key P\n", options);
+        render("--spp 8");
+        const Pixels plain = rendered();
+        render("--spp 8 " + look);
+        EXPECT_EQ(picture(1), rendered()) << look;
+        EXPECT_EQ(countOthers(shown, rendered()), 0) << look;
+        EXPECT_GT(countOthers(shown, plain), static_cast<int>(width * height / 2)) << look;
+        removePictures();
+    }
+}
+
 // Past the end of a page, where the host takes over the samples.
 TEST_F(PreviewTest, ShowsManySamples)
 {

@@ -188,11 +188,11 @@ TEST_F(StepsTest, AWindowShowsWhatFilesHold)
             Renderer& renderer = aov == Aov::BvhSteps ? steps : light;
             const Film film = renderer.film();
             const DisplayRange range = computeRange(film, aov);
-            display.draw(renderer, aov, range, 0.5);
+            display.draw(renderer, aov, range, {0.5, Tone::Neutral});
             display.cover({});
             std::vector<Rgb8> expected;
             for (const PixelMoments& pixel : film.pixels) {
-                expected.push_back(displayColor(pixel, aov, range, 0.5));
+                expected.push_back(displayColor(pixel, aov, range, {0.5, Tone::Neutral}));
             }
             EXPECT_LE(largestDifference(shownBy(display), expected), 1) << "aov " << static_cast<int>(aov) << ", " << samples;
         }
@@ -209,7 +209,7 @@ TEST_F(StepsTest, AWindowKeepsTheCoarsePictureUnderTheFine)
     Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
     renderer.restart(cameraOf(scene, settings), 3, 3);
     advanceToSamples(renderer);
-    display.draw(renderer, Aov::Albedo, {}, 0.0);
+    display.draw(renderer, Aov::Albedo, {}, {});
     display.cover({});
     const std::vector<Rgb8> coarse = shownBy(display);
     for (std::size_t i = 0; i < coarse.size(); ++i) {
@@ -218,12 +218,12 @@ TEST_F(StepsTest, AWindowKeepsTheCoarsePictureUnderTheFine)
     renderer.restart(cameraOf(scene, settings), 24, 24);
     advanceToSamples(renderer);
     ASSERT_EQ(renderer.pictureSamples(), 64U);
-    display.draw(renderer, Aov::Albedo, {}, 0.0);
+    display.draw(renderer, Aov::Albedo, {}, {});
     display.cover({});
     const std::vector<Rgb8> mixed = shownBy(display);
     const Film film = renderer.film();
     for (std::size_t i = 0; i < mixed.size(); ++i) {
-        EXPECT_EQ(mixed[i], i < 64 ? displayColor(film.pixels[i], Aov::Albedo, {}, 0.0) : coarse[i]) << i;
+        EXPECT_EQ(mixed[i], i < 64 ? displayColor(film.pixels[i], Aov::Albedo, {}, {}) : coarse[i]) << i;
     }
 }
 
@@ -234,7 +234,7 @@ TEST_F(StepsTest, TextLiesOverThePicture)
     settings.sampleEnd = 1;
     Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
     renderer.advance();
-    display.draw(renderer, Aov::Radiance, {}, 0.0);
+    display.draw(renderer, Aov::Radiance, {}, {});
     display.cover({});
     const std::vector<Rgb8> plain = shownBy(display);
     display.cover({2, 3, {255U | 255U << 8, 0U | 255U << 8, 0U, 255U | 255U << 8, 0U | 128U << 8, 255U}});

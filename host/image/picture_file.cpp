@@ -1,0 +1,41 @@
+#include "host/image/picture_file.hpp"
+
+#include "host/error.hpp"
+#include "host/image/jpeg.hpp"
+#include "host/image/webp.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <string>
+
+namespace glim {
+
+std::optional<PictureKind> pictureKindOf(const std::filesystem::path& path)
+{
+    static const std::map<std::string, PictureKind> kKinds{
+        {".png", PictureKind::Png}, {".jpg", PictureKind::Jpeg}, {".jpeg", PictureKind::Jpeg}, {".webp", PictureKind::Webp}};
+    std::string ending = path.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const auto found = kKinds.find(ending);
+    return found == kKinds.end() ? std::nullopt : std::optional(found->second);
+}
+
+void writePicture(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, const std::vector<Rgb8>& pixels)
+{
+    const std::optional<PictureKind> kind = pictureKindOf(path);
+    if (!kind) {
+        throw InputError(path.string() + ": cannot be written: its name does not end in " + kPictureEndings + ".");
+    }
+    if (std::max(width, height) > longestSide(*kind)) {
+        throw InputError(path.string() + ": cannot be written: a picture of " + std::to_string(width) + "x" + std::to_string(height) +
+                         " pixels; expected at most " + std::to_string(longestSide(*kind)) + " a side in a file of this kind.");
+    }
+    switch (*kind) {
+    case PictureKind::Png: return writePng(path, width, height, pixels);
+    case PictureKind::Jpeg: return writeJpeg(path, width, height, pixels);
+    case PictureKind::Webp: return writeWebp(path, width, height, pixels);
+    }
+}
+
+}  // namespace glim

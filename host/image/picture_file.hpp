@@ -1,0 +1,29 @@
+// Pictures for people to look at: 8 bits a channel, opaque, sRGB.
+#pragma once
+
+#include "host/image/png.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace glim {
+
+enum class PictureKind { Png, Jpeg, Webp };
+
+// By the ending of the name: .png, .jpg or .jpeg, .webp, in any case. Nothing for others.
+std::optional<PictureKind> pictureKindOf(const std::filesystem::path& path);
+// The endings, for sentences: ".png, .jpg, .jpeg or .webp".
+inline constexpr const char* kPictureEndings = ".png, .jpg, .jpeg or .webp";
+
+// The most pixels a side that files of this kind hold.
+constexpr std::uint32_t longestSide(PictureKind kind)
+{
+    return kind == PictureKind::Jpeg ? 65500 : kind == PictureKind::Webp ? 16383 : 0x7fffffff;
+}
+
+// Writes sRGB bytes to a file of the kind that its name says. Throws InputError if it cannot be, and then nothing is written.
+void writePicture(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, const std::vector<Rgb8>& pixels);
+
+}  // namespace glim
