@@ -41,6 +41,9 @@ venvPackages=(
 formatPackages=(
     "clang-format              keeps one style"
 )
+packagePackages=(
+    "dpkg-dev                  finds out what a package depends on"
+)
 fuzzPackages=(
     "clang-19                  compiles the fuzz targets"
     "libclang-rt-19-dev        has libFuzzer and the sanitizers"
@@ -55,6 +58,7 @@ testPackages=(
     "xauth                     lets a session by hand on it (xvfb-run)"
     "python3-venv              installs what six tests need from PyPI"
     "python3-dev               Python's headers, for the module"
+    "python3-yaml              reads the workflow that README.md shows"
     "openssl                   makes certificates for the farm's tests"
     "${studyPackages[@]}"
     "${formatPackages[@]}"
