@@ -102,7 +102,7 @@ std::optional<std::vector<WeightedSum>> NlMeans::sumWindows(const Band& band, co
     const std::uint32_t strips = band.width * ((band.height() + kStripRows - 1) / kStripRows);
     DenoisePass pass{band.width, band.height()};
     bool goesOn = run(pool_, bindings, pass, pixels, shouldContinue);
-    for (pass.rowOffset = -kWindowRadius; pass.rowOffset <= kWindowRadius && goesOn; ++pass.rowOffset) {
+    for (; pass.windowRow < kWindowWidth && goesOn; ++pass.windowRow) {
         goesOn = run(compare_, bindings, pass, pixels, shouldContinue) && run(weigh_, bindings, pass, strips, shouldContinue);
     }
     return goesOn ? std::optional(download<WeightedSum>(sums, noisy.size())) : std::nullopt;

@@ -18,6 +18,12 @@ bool isInBand(ivec2 at)
     return at.x >= 0 && at.y >= 0 && at.x < int(pass.width) && at.y < int(pass.height);
 }
 
+// From a pixel to the i-th of the row of its window that the pass is about.
+ivec2 offsetOf(int i)
+{
+    return ivec2(i, int(pass.windowRow)) - kWindowRadius;
+}
+
 uint pixelAt(ivec2 at)
 {
     return uint(at.y) * pass.width + uint(at.x);

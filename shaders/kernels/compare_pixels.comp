@@ -10,7 +10,7 @@ void comparePixel(uint pixel)
     vec3 mean = noisy[pixel].mean;
     vec3 variance = pooled[pixel];
     for (int i = 0; i < kWindowWidth; ++i) {
-        ivec2 at = place + ivec2(i - kWindowRadius, pass.rowOffset);
+        ivec2 at = place + offsetOf(i);
         if (isInBand(at)) {
             uint other = pixelAt(at);
             distances[pixel * uint(kWindowWidth) + uint(i)] = pixelDistance(mean, variance, noisy[other].mean, pooled[other]);

@@ -13,7 +13,7 @@ vec2 rowDistance(ivec2 center, int i)
     vec2 sum = vec2(0.0);
     for (int x = -kPatchRadius; x <= kPatchRadius; ++x) {
         ivec2 at = center + ivec2(x, 0);
-        if (isInBand(at) && isInBand(at + ivec2(i - kWindowRadius, pass.rowOffset))) {
+        if (isInBand(at) && isInBand(at + offsetOf(i))) {
             sum += vec2(distances[pixelAt(at) * uint(kWindowWidth) + uint(i)], 1.0);
         }
     }
@@ -22,7 +22,7 @@ vec2 rowDistance(ivec2 center, int i)
 
 void weigh(ivec2 place, int i, vec2 distance)
 {
-    ivec2 other = place + ivec2(i - kWindowRadius, pass.rowOffset);
+    ivec2 other = place + offsetOf(i);
     if (isInBand(place) && isInBand(other)) {
         float weight = patchWeight(distance.x / distance.y);
         uint pixel = pixelAt(place);

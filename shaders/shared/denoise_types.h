@@ -28,11 +28,12 @@ struct WeightedSum {
     float weight;
 };
 
-// Push constants: threads [first, first + count) of a band of `height` rows. Pixels are compared with those `rowOffset` rows below.
+// Push constants: threads [first, first + count) of a band of `height` rows. Pixels are compared with those of one row of their windows,
+// 0 being the uppermost.
 struct DenoisePass {
     uint width, height;
     uint first, count;
-    int rowOffset;
+    uint windowRow;
 };
 
 GLIM_SHARED_END

@@ -124,6 +124,6 @@ F3(instance.translation) U(instance.mirrors) F3(instance.errorBound) U(instance.
 U(display.width) U(display.height) U(display.filmWidth) U(display.filmHeight) U(display.tileBegin) U(display.tileCount)
 F(display.scale) U(display.tone) F(display.low) F(display.high) U(display.textWidth) U(display.textHeight)
 F3(noisy.mean) F3(noisy.variance) F3(weighted.radiance) F(weighted.weight)
-U(denoise.width) U(denoise.height) U(denoise.first) U(denoise.count) U(denoise.rowOffset)
+U(denoise.width) U(denoise.height) U(denoise.first) U(denoise.count) U(denoise.windowRow)
 // clang-format on
 #endif
