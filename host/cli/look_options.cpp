@@ -19,7 +19,7 @@ namespace {
 
 void addLook(const Command& command, LookOptions& look, const std::string& picture, const std::string& tone)
 {
-    command.add("--exposure", "EV", "Exposure of " + picture + " in stops, -100 to 100 or auto; not of the EXR [0]",
+    command.add("--exposure", "EV", "Exposure of " + picture + " in stops, -100 to 100 or auto; not the EXR's [0]",
                 [&look](const std::string& text) { look.exposure = parseExposure(text); });
     addChoice(command, "--tone", "T", "Tone mapping: none, neutral or agx [" + tone + "]",
               {nameOf(Tone::None), nameOf(Tone::Neutral), nameOf(Tone::Agx)}, [&look](std::size_t i) { look.tone = static_cast<Tone>(i); });
