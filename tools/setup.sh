@@ -43,6 +43,7 @@ formatPackages=(
 )
 packagePackages=(
     "dpkg-dev                  finds out what a package depends on"
+    "file                      tells cpack which files are programs"
 )
 fuzzPackages=(
     "clang-19                  compiles the fuzz targets"
