@@ -172,6 +172,26 @@ class FilmTest(PythonCase):
         self.assertIn("1100x10, 1 samples per pixel", repr(film))
         self.assertRegex(repr(glim.render(GEMS, size=(8, 8), spp=80)), r"estimated RMSE [0-9.]+ % of the mean \[")
 
+    def test_denoised(self):
+        plain, film = (glim.render(GEMS, size=(40, 32), spp=64, denoise=denoise) for denoise in (False, True))
+        self.assertEqual(film.digest, plain.digest)
+        self.assertIsNone(plain.denoised)
+        self.assertIsNone(plain.denoised_error)
+        self.assertEqual((film.denoised.shape, film.denoised.dtype), ((32, 40, 3), np.float32))
+        self.assertFalse(np.array_equal(film.denoised, film.rgb))
+        error = film.denoised_error
+        self.assertLess(error.rel_mse_low, error.rel_mse)
+        self.assertLess(error.rel_mse, film.error.rel_mse)
+        film.save(self.path("film.exr"))
+        self.assertEqual(glim.read(self.path("film.exr")).digest, film.digest)
+        subprocess.run([GLIM, "render", GEMS, "--size", "40x32", "--spp", "64", "--denoise", "-o", self.path("cli.exr"), "--png", self.path("cli.png")],
+                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        film.save(self.path("film.png"))
+        with open(self.path("film.png"), "rb") as mine, open(self.path("cli.png"), "rb") as other:
+            self.assertEqual(mine.read(), other.read())
+        with self.assertRaisesRegex(glim.InputError, "denoise needs two halves of the samples"):
+            film.resume(spp=128)
+
     def test_resume(self):
         kept = glim.load(GEMS, size=(16, 12))
         for first, more in ((100, 300), (256, 300), (300, 900)):
