@@ -1,5 +1,7 @@
 #include "host/denoise/denoised_picture.hpp"
 
+#include "host/render/robust_radiance.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,8 +16,8 @@ constexpr std::uint32_t kTile = 16;  // pixels a side
 // Two halves A and B of the samples, denoised to a and b, each without a look at the other half. With the truth t, the errors a - t and
 // A - t are independent of b - t and B - t, and the means of A - t and B - t are 0. The squared error of the picture (a + b) / 2 is
 //   ((a - t) + (b - t))^2 / 4 = (a - b)^2 / 4 + (a - t) (b - t),
-// and the last product has the mean of (A - a) (B - b), as the other terms of that have the mean 0. Nothing is assumed of the denoiser or
-// of the noise.
+// and the last product has the mean of (A - a) (B - b) = ((A - t) - (a - t)) ((B - t) - (b - t)), whose other three terms have the mean 0.
+// Nothing is assumed of the denoiser or of the noise.
 struct PixelError {
     double spread = 0.0;   // (a - b)^2 / 4
     double product = 0.0;  // (A - a) (B - b)
@@ -38,7 +40,7 @@ private:
     double sum_ = 0.0, squares_ = 0.0;
 };
 
-// Calls visit(first pixel, pixels of a row, rows) for each square of `side` pixels.
+// Calls visit(pixels) for each square of `side` pixels, row by row.
 template <class Visit>
 void forEachTile(const Film& film, std::uint32_t side, Visit visit)
 {
@@ -132,9 +134,10 @@ public:
             sum += meanOf(radiance(i));
         }
         mean_ = sum / static_cast<double>(a_.size());
-        for (std::size_t i = 0; i < a_.size(); ++i) {
-            const glm::dvec3 denoised(radiance(i));
-            weights_.push_back(1.0 / (denoised * denoised + 0.01 * mean_ * mean_));
+        // Relative to the denoised radiance, errors would seem up to a third too small: where few samples have found light, it is low
+        // together with what is known of its error.
+        for (const glm::dvec3& likely : robustRadiance(first, second)) {
+            weights_.push_back(1.0 / (likely * likely + 0.01 * mean_ * mean_));
         }
     }
 
@@ -142,6 +145,17 @@ public:
     DenoisedPicture picture() const;
 
 private:
+    // Of the mean of both halves.
+    static std::vector<glm::dvec3> robustRadiance(const Film& first, const Film& second)
+    {
+        const std::vector<PixelMoments> a = shownPixels(first), b = shownPixels(second);
+        std::vector<glm::vec3> radiance, variance;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            radiance.push_back(0.5F * (a[i].mean + b[i].mean));
+            variance.push_back(0.25F * (varianceOfMean(a[i]) + varianceOfMean(b[i])));
+        }
+        return glim::robustRadiance(first.width, first.height, radiance, variance);
+    }
     static std::vector<glm::vec3> radianceOf(const Film& film)
     {
         std::vector<glm::vec3> radiance;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""denoise_bench.py PACKAGE [OIDN]: CPU time to an error, noisy and denoised. By hand: half an hour.
+"""denoise_bench.py PACKAGE [OIDN]: CPU time to an error, noisy and denoised. By hand: ten minutes.
 
 PACKAGE is the folder of the built Python package, OIDN a library of Open Image Denoise or its folder. The error is relMSE against a long
 render, less what that is wrong by. The time is this process's, of sampling and denoising, so that other work on the machine counts little;
@@ -16,7 +16,7 @@ import numpy as np  # noqa: E402
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
 SCENES = ["cornell", "cornell_gems", "cornell_mirror_glass", "many_lights", "showcase", "textures"]
-SIZE, COUNTS, REFERENCE = (128, 128), (64, 256, 1024), 16384
+SIZE, COUNTS, REFERENCE = (96, 96), (64, 256, 1024), 4096
 
 
 def rel_mse(picture, reference):

@@ -163,6 +163,26 @@ TEST(FilmHalves, TakeTurnsByBlocks)
         EXPECT_EQ(film.pixels[5].count, 32U);
         EXPECT_EQ(film.pixels[5].blocks, 2U);
     }
+    // Parts of a block stay together. The variance is that between the parts.
+    FilmHalves known(RenderSettings{.width = 1, .height = 1});
+    Film page;
+    page.pixels.resize(1);
+    page.splats.resize(1);
+    for (const std::uint32_t end : {16U, 32U, 48U, 64U, 96U}) {
+        PixelMoments part{};
+        part.count = end <= 64 ? 16 : 32;
+        part.blocks = 1;
+        part.mean = glm::vec3(static_cast<float>(end / 16));  // 1, 2, 3, 4, 6
+        page.pixels[0] = foldMoments(page.pixels[0], part);
+        page.splats[0] = foldMoments(page.splats[0], {part.count, 1, 10.0F * part.mean, glm::vec3(0.0F), 0.0F});
+        known.take(page, end);
+    }
+    const auto& [first, second] = known.films();
+    EXPECT_NEAR(first.pixels[0].mean.r, (16.0F * 3.0F + 32.0F * 6.0F) / 64.0F, 1e-5F);
+    EXPECT_NEAR(second.pixels[0].mean.r, 3.5F, 1e-5F);
+    EXPECT_NEAR(second.splats[0].mean.r, 35.0F, 1e-4F);
+    EXPECT_NEAR(varianceOfMean(second.pixels[0]).r, 0.25F, 1e-5F);  // of 3 and 4
+    EXPECT_EQ(first.splats[0].count, 64U);
     EXPECT_FALSE(hasBothHalves(FilmHalves(RenderSettings{})));
     EXPECT_TRUE(hasBothHalves(halves));
 }
