@@ -57,8 +57,8 @@ TEST_F(DenoiseTest, TheFilmKeepsItsBits)
 
 TEST_F(DenoiseTest, AddsLayersAndFigures)
 {
-    expectDone({"--spp", "128", "-o", "a.exr", "--denoise", "--png", "a.png", "--stats", "a.json"});
-    expectDone({"--spp", "128", "-o", "b.exr", "--png", "b.png", "--stats", "b.json"});
+    expectDone({"--spp", "128", "-o", "a.exr", "--denoise", "--png", "a.png", "--stats", "a.json"}, "cornell.gltf");
+    expectDone({"--spp", "128", "-o", "b.exr", "--png", "b.png", "--stats", "b.json"}, "cornell.gltf");
     const Image image = readExr(folder_ / "a.exr");
     const auto radiance = readDenoised(folder_ / "a.exr");
     ASSERT_TRUE(radiance);
