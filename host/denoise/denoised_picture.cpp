@@ -1,7 +1,5 @@
 #include "host/denoise/denoised_picture.hpp"
 
-#include "host/render/robust_radiance.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -134,10 +132,12 @@ public:
             sum += meanOf(radiance(i));
         }
         mean_ = sum / static_cast<double>(a_.size());
-        // Relative to the denoised radiance, errors would seem up to a third too small: where few samples have found light, it is low
-        // together with what is known of its error.
-        for (const glm::dvec3& likely : robustRadiance(first, second)) {
-            weights_.push_back(1.0 / (likely * likely + 0.01 * mean_ * mean_));
+        // Relative to the denoised radiance. Where few samples have found light, it is low together with what is known of its error, so
+        // relMSE may be measured a third too small. The likely radiance of the noisy picture (robust_radiance.hpp) would make it twice too
+        // large where much noise is taken away, because both halves' noise is in it.
+        for (std::size_t i = 0; i < a_.size(); ++i) {
+            const glm::dvec3 denoised(radiance(i));
+            weights_.push_back(1.0 / (denoised * denoised + 0.01 * mean_ * mean_));
         }
     }
 
@@ -145,17 +145,6 @@ public:
     DenoisedPicture picture() const;
 
 private:
-    // Of the mean of both halves.
-    static std::vector<glm::dvec3> robustRadiance(const Film& first, const Film& second)
-    {
-        const std::vector<PixelMoments> a = shownPixels(first), b = shownPixels(second);
-        std::vector<glm::vec3> radiance, variance;
-        for (std::size_t i = 0; i < a.size(); ++i) {
-            radiance.push_back(0.5F * (a[i].mean + b[i].mean));
-            variance.push_back(0.25F * (varianceOfMean(a[i]) + varianceOfMean(b[i])));
-        }
-        return glim::robustRadiance(first.width, first.height, radiance, variance);
-    }
     static std::vector<glm::vec3> radianceOf(const Film& film)
     {
         std::vector<glm::vec3> radiance;
