@@ -172,8 +172,8 @@ nb::object measured(const PythonFilm& film)
     }
     const DenoisedError& known = film.denoising()->picture.measured;
     const auto root = [&](double meanSquare) { return relativeRoot(meanSquare, known.mean); };
-    return nb::make_tuple(root(known.mse.value), root(known.mse.low), root(known.mse.high), known.relMse.value, known.relMse.low,
-                          known.relMse.high, known.mse.value, known.mean, false);
+    return nb::make_tuple(root(known.mse.value), root(known.mse.low), root(known.mse.high), known.relMse, nb::none(), nb::none(),
+                          known.mse.value, known.mean, false);
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ double timesToTarget(const DenoisedError& error, const ErrorTarget& target)
 {
     double times = 0.0;
     if (target.relMse) {
-        times = error.relMse.value / *target.relMse;
+        times = error.relMse / *target.relMse;
     }
     if (target.rmse) {
         const double root = relativeRoot(error.mse.value, error.mean) / *target.rmse;
@@ -76,11 +76,9 @@ std::string denoisingText(const Denoising& denoising)
 {
     const DenoisedError& error = denoising.picture.measured;
     const auto percent = [&](double meanSquare) { return 100.0 * relativeRoot(meanSquare, error.mean); };
-    std::string text = format(", denoised: measured relMSE %.3g [%.3g, %.3g]", error.relMse.value, error.relMse.low, error.relMse.high);
-    if (error.relMse.value > 0.0) {
-        text += format(", noisy / %.3g", error.noisyRelMse / error.relMse.value);
-    }
-    text += format(", RMSE %.3g %% [%.3g, %.3g] of the mean", percent(error.mse.value), percent(error.mse.low), percent(error.mse.high));
+    std::string text = format(", denoised: measured RMSE %.3g %% [%.3g, %.3g] of the mean (noisy %.3g %%), relMSE about %.3g (noisy %.3g)",
+                              percent(error.mse.value), percent(error.mse.low), percent(error.mse.high), percent(error.noisyMse),
+                              error.relMse, error.noisyRelMse);
     if (denoising.picture.noisyShare > 0.0) {
         text += format(", %.2g %% of the pixels stayed noisy", 100.0 * denoising.picture.noisyShare);
     }
@@ -94,8 +92,7 @@ Json denoisingJson(const Denoising& denoising)
     const auto pair = [](const Interval& interval) { return Json::array({interval.low, interval.high}); };
     return {{"denoiser", denoising.denoiser},
             {"seconds", denoising.seconds},
-            {"relmse", error.relMse.value},
-            {"relmse95", pair(error.relMse)},
+            {"relmse", error.relMse},
             {"mse", error.mse.value},
             {"mse95", pair(error.mse)},
             {"rmseOfMean", root(error.mse.value)},

@@ -132,9 +132,8 @@ public:
             sum += meanOf(radiance(i));
         }
         mean_ = sum / static_cast<double>(a_.size());
-        // Relative to the denoised radiance. Where few samples have found light, it is low together with what is known of its error, so
-        // relMSE may be measured a third too small. The likely radiance of the noisy picture (robust_radiance.hpp) would make it twice too
-        // large where much noise is taken away, because both halves' noise is in it.
+        // The likely radiance of the noisy picture (robust_radiance.hpp) would make relMSE twice as large where much noise is taken away,
+        // because both halves' noise is in it.
         for (std::size_t i = 0; i < a_.size(); ++i) {
             const glm::dvec3 denoised(radiance(i));
             weights_.push_back(1.0 / (denoised * denoised + 0.01 * mean_ * mean_));
@@ -166,11 +165,6 @@ private:
     {
         return (glm::dvec3(noisyA_[i]) - glm::dvec3(a_[i])) * (glm::dvec3(noisyB_[i]) - glm::dvec3(b_[i]));
     }
-    PixelError errorOf(std::size_t i, const glm::dvec3& weight) const
-    {
-        return {meanOf(weight * squaredDifference(a_, b_, i)) / 4.0, meanOf(weight * product(i))};
-    }
-
     const Film& size_;
     std::vector<glm::vec3> noisyA_, noisyB_, a_, b_;
     double mean_ = 0.0;
@@ -200,21 +194,20 @@ void Measurement::keepNoisyTiles()
 DenoisedPicture Measurement::picture() const
 {
     DenoisedPicture picture;
-    std::vector<PixelError> mse, relMse;
+    std::vector<PixelError> mse;
     std::vector<glm::dvec3> squares;
     const auto count = static_cast<double>(a_.size());
     for (std::size_t i = 0; i < a_.size(); ++i) {
         picture.radiance.push_back(radiance(i));
-        mse.push_back(errorOf(i, glm::dvec3(1.0)));
-        relMse.push_back(errorOf(i, weights_[i]));
+        mse.push_back({meanOf(squaredDifference(a_, b_, i)) / 4.0, meanOf(product(i))});
         squares.push_back(squaredError(i));
+        picture.measured.relMse += meanOf(weights_[i] * squares.back()) / count;
         picture.measured.noisyMse += meanOf(noisySquaredError(i)) / count;
         picture.measured.noisyRelMse += meanOf(weights_[i] * noisySquaredError(i)) / count;
     }
     picture.noisyShare = static_cast<double>(kept_) / count;
     picture.measured.mean = mean_;
     picture.measured.mse = intervalOf(size_, mse);
-    picture.measured.relMse = intervalOf(size_, relMse);
     for (const glm::dvec3& square : averageAround(size_, squares)) {
         picture.error.emplace_back(glm::sqrt(glm::max(square, glm::dvec3(0.0))));
     }

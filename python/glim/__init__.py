@@ -87,8 +87,8 @@ class Error(NamedTuple):
     rmse_low: float
     rmse_high: float
     rel_mse: float  #: mean of (x - truth)^2 / (truth^2 + .01 mean^2)
-    rel_mse_low: float
-    rel_mse_high: float
+    rel_mse_low: Optional[float]  #: None of a denoised picture
+    rel_mse_high: Optional[float]
     mse: float  #: (W/(sr m^2))^2, mean over pixels and channels
     mean: float  #: mean radiance over pixels and channels, W/(sr m^2)
     is_of_few: bool  #: half of the MSE is in fewer than ten pixels, so that the intervals are unreliable
@@ -166,7 +166,8 @@ class Film:
 
     @property
     def denoised_error(self) -> Optional[Error]:
-        """The measured error of the denoised picture, its bias included, or None without one. The intervals are of 95 %."""
+        """The measured error of the denoised picture, its bias included, or None without one. rel_mse is relative to the denoised radiance,
+        which makes it too small where few samples have found light, and it has no interval."""
         measured = self._native.measured
         return Error(*measured) if measured else None
 

@@ -180,7 +180,8 @@ class FilmTest(PythonCase):
         self.assertEqual((film.denoised.shape, film.denoised.dtype), ((32, 40, 3), np.float32))
         self.assertFalse(np.array_equal(film.denoised, film.rgb))
         error = film.denoised_error
-        self.assertLess(error.rel_mse_low, error.rel_mse)
+        self.assertLess(error.rmse_low, error.rmse)
+        self.assertLess(error.rmse, error.rmse_high)
         self.assertLess(error.rel_mse, film.error.rel_mse)
         film.save(self.path("film.exr"))
         self.assertEqual(glim.read(self.path("film.exr")).digest, film.digest)
