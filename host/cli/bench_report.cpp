@@ -1,6 +1,7 @@
 #include "host/cli/bench_report.hpp"
 
 #include "host/bench/summarize_bench.hpp"
+#include "host/cli/format.hpp"
 #include "host/render/settings.hpp"
 
 #include <algorithm>
@@ -10,13 +11,6 @@
 
 namespace glim {
 namespace {
-
-std::string format(const char* pattern, auto... values)
-{
-    char text[256];
-    std::snprintf(text, sizeof text, pattern, values...);
-    return text;
-}
 
 std::string intervalText(const Interval& interval, int digits = 3)
 {

@@ -1,5 +1,6 @@
 #include "host/cli/denoising.hpp"
 
+#include "host/cli/format.hpp"
 #include "host/measure/error_estimate.hpp"
 
 #include <algorithm>
@@ -8,17 +9,6 @@
 #include <utility>
 
 namespace glim {
-namespace {
-
-std::string format(const char* pattern, auto... values)
-{
-    char text[256];
-    std::snprintf(text, sizeof text, pattern, values...);
-    return text;
-}
-
-}  // namespace
-
 void FilmDenoiser::open(const RenderOptions& options)
 {
     if (options.oidn && (!oidn_ || *options.oidn != oidnPath_)) {

@@ -1,5 +1,7 @@
 #include "host/cli/film_report.hpp"
 
+#include "host/cli/format.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -27,13 +29,6 @@ std::optional<ErrorEstimate> knownError(const Film& film, const RenderSettings& 
         return std::nullopt;
     }
     return estimateError(film);
-}
-
-std::string format(const char* pattern, auto... values)
-{
-    char text[256];
-    std::snprintf(text, sizeof text, pattern, values...);
-    return text;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "host/cli/exposure_advice.hpp"
 #include "host/cli/film_report.hpp"
+#include "host/cli/format.hpp"
 #include "host/cli/output_file.hpp"
 #include "host/message.hpp"
 #include "host/render/film_file.hpp"
@@ -210,13 +211,6 @@ void warnOfExposure(const RenderReport& report)
             warn((options.pictures.png ? *options.pictures.png : *options.pictures.image).string() + ' ' + *advice + '.');
         }
     }
-}
-
-std::string format(const char* pattern, auto... values)
-{
-    char text[256];
-    std::snprintf(text, sizeof text, pattern, values...);
-    return text;
 }
 
 std::string causticsText(const RenderReport& report)

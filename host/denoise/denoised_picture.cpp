@@ -134,6 +134,7 @@ public:
         mean_ = sum / static_cast<double>(a_.size());
         // The likely radiance of the noisy picture (robust_radiance.hpp) would make relMSE twice as large where much noise is taken away,
         // because both halves' noise is in it.
+        // .01 mean^2 is that of relMSE everywhere (compare_images.hpp).
         for (std::size_t i = 0; i < a_.size(); ++i) {
             const glm::dvec3 denoised(radiance(i));
             weights_.push_back(1.0 / (denoised * denoised + 0.01 * mean_ * mean_));
@@ -165,6 +166,7 @@ private:
     {
         return (glm::dvec3(noisyA_[i]) - glm::dvec3(a_[i])) * (glm::dvec3(noisyB_[i]) - glm::dvec3(b_[i]));
     }
+
     const Film& size_;
     std::vector<glm::vec3> noisyA_, noisyB_, a_, b_;
     double mean_ = 0.0;

@@ -14,7 +14,8 @@ constexpr std::uint32_t kWorkgroup = 64, kFirstThreads = 4096;
 constexpr std::uint32_t kBandPixels = 1U << 21;  // 88 MiB of distances; no buffer exceeds 128 MiB, llvmpipe's limit
 constexpr double kDispatchSeconds = 0.05;
 
-// The power of two nearest below the mean radiance: dividing by it changes no bit of the result.
+// The power of two nearest below the mean radiance: dividing by it changes no bit of the result. Squares of what is divided are normal
+// numbers; a mean radiance below 1e-30 W/(sr m^2) counts as black.
 float scaleOf(const std::vector<PixelMoments>& pixels)
 {
     double sum = 0.0;

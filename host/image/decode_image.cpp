@@ -1,19 +1,15 @@
 #include "host/image/decode_image.hpp"
 
 #include "host/error.hpp"
+#include "host/image/jpeg_errors.hpp"
 
 #include <png.h>
 #include <webp/decode.h>
 
 #include <algorithm>
-#include <cstdio>  // jpeglib.h needs it before itself
 #include <cstring>
 
-#include <jpeglib.h>
-
 #include <jerror.h>
-
-#include <csetjmp>
 
 namespace glim {
 namespace {
@@ -171,20 +167,6 @@ DecodedImage decodePng(Bytes bytes)
     }
     require(readPngRows(reader, rows));
     return image;
-}
-
-// libjpeg leaves by longjmp too.
-struct JpegErrors {
-    jpeg_error_mgr base;
-    std::jmp_buf leave;
-    char message[JMSG_LENGTH_MAX];
-};
-
-[[noreturn]] void leaveJpeg(j_common_ptr jpeg)
-{
-    auto& errors = *reinterpret_cast<JpegErrors*>(jpeg->err);
-    errors.base.format_message(jpeg, errors.message);
-    std::longjmp(errors.leave, 1);
 }
 
 // Some warnings mean that a part of the picture is made up. Others, as of bytes between markers, hold for files that show well.

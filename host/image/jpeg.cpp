@@ -2,33 +2,15 @@
 
 #include "host/error.hpp"
 #include "host/image/atomic_file.hpp"
+#include "host/image/jpeg_errors.hpp"
 
-#include <cstdio>  // jpeglib.h needs it before itself
 #include <cstdlib>
 #include <string>
-
-#include <jpeglib.h>
-
-#include <csetjmp>
 
 namespace glim {
 namespace {
 
 constexpr int kQuality = 95;
-
-// libjpeg leaves by longjmp, past no destructor of these.
-struct JpegErrors {
-    jpeg_error_mgr base;
-    std::jmp_buf leave;
-    char message[JMSG_LENGTH_MAX];
-};
-
-[[noreturn]] void leaveJpeg(j_common_ptr jpeg)
-{
-    auto& errors = *reinterpret_cast<JpegErrors*>(jpeg->err);
-    errors.base.format_message(jpeg, errors.message);
-    std::longjmp(errors.leave, 1);
-}
 
 struct JpegWriter {
     jpeg_compress_struct jpeg{};

@@ -3,7 +3,7 @@
 
 PACKAGE is the folder of the built Python package, OIDN a library of Open Image Denoise or its folder. The error is relMSE against a long
 render, less what that is wrong by. The time is this process's, of sampling and denoising, so that other work on the machine counts little;
-a second render of each kind is measured, after the first has compiled its kernels. tests/denoising.md has the last table."""
+a second render of each kind is measured, after the first has compiled its kernels."""
 
 import math
 import os

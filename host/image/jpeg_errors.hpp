@@ -1,0 +1,25 @@
+// What libjpeg does instead of ending the program: it leaves to where setjmp was called, past no destructor.
+#pragma once
+
+#include <cstdio>  // jpeglib.h needs it before itself
+
+#include <jpeglib.h>
+
+#include <csetjmp>
+
+namespace glim {
+
+struct JpegErrors {
+    jpeg_error_mgr base;
+    std::jmp_buf leave;
+    char message[JMSG_LENGTH_MAX];
+};
+
+[[noreturn]] inline void leaveJpeg(j_common_ptr jpeg)
+{
+    auto& errors = *reinterpret_cast<JpegErrors*>(jpeg->err);
+    errors.base.format_message(jpeg, errors.message);
+    std::longjmp(errors.leave, 1);
+}
+
+}  // namespace glim
