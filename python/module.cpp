@@ -153,10 +153,9 @@ private:
             return nullptr;
         }
         labelFilm(rendered.film, options);
-        std::optional<Denoising> denoising = session->denoiser().denoise(options, renderer, [&] { return !watcher.failure(); });
         warnOfPicture(rendered.film, renderer.statistics(), options.settings);
         auto film = std::make_shared<PythonFilm>(std::move(rendered.film), std::move(rendered.checkpoint));
-        film->setDenoising(std::move(denoising));
+        film->setDenoising(std::move(rendered.denoising));
         if (withIds) {
             Identifier identifier(renderer, session->prepared(), frame.camera, rayKernels_);
             film->identify(identifier);

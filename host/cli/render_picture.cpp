@@ -82,9 +82,10 @@ RenderedFilm renderPicture(Renderer& renderer, const RenderOptions& options, Fil
         last.betweenPasses = false;
         return observer(now);
     };
+    const auto denoise = [&] { rendered.denoising = denoiser.denoise(options, renderer, [&] { return observer(last); }); };
     const auto timesOfDenoised = [&] {
-        const auto denoising = denoiser.denoise(options, renderer, [&] { return observer(last); });
-        return denoising ? timesToTarget(denoising->picture.measured, target) : std::numeric_limits<double>::infinity();
+        denoise();
+        return rendered.denoising ? timesToTarget(rendered.denoising->picture.measured, target) : std::numeric_limits<double>::infinity();
     };
     const auto criterion = [&](const Film& film) {
         const double times = target.denoised ? timesOfDenoised() : timesToTarget(film, target);
@@ -97,6 +98,9 @@ RenderedFilm renderPicture(Renderer& renderer, const RenderOptions& options, Fil
         }
     };
     rendered.film = renderer.render(observe, target.isGiven() ? StoppingCriterion(criterion) : nullptr, atEnd);
+    if (options.denoise && !(target.denoised && rendered.isGood)) {
+        denoise();  // else the last look at the target did
+    }
     return rendered;
 }
 

@@ -33,9 +33,11 @@ struct RenderedFilm {
     Film film;  // without a label
     std::optional<Checkpoint> checkpoint;
     bool isGood = false;  // the target is reached
+    std::optional<Denoising> denoising;
 };
 
-// Renders until the settings, the observer or the target, if one is given, ends it. `keepsCheckpoint` is asked at the end.
+// Renders until the settings, the observer or the target, if one is given, ends it, and denoises if the options ask for it.
+// `keepsCheckpoint` is asked at the end.
 RenderedFilm renderPicture(Renderer& renderer, const RenderOptions& options, FilmDenoiser& denoiser, const RenderObserver& observer,
                            const std::function<bool()>& keepsCheckpoint);
 

@@ -150,7 +150,6 @@ private:
     std::optional<StoredFilm> readOutput(const RenderOptions& options, const PictureFrame& frame) const;
     bool keep(const RenderOptions& options, const StoredFilm& stored) const;
     std::optional<double> writeIdentities(const RenderOptions& options, const FlatCamera& camera, const Film& film);
-    std::optional<Denoising> denoise(const RenderOptions& options);
     ExitCode writeShot(const RenderOptions& options, const PictureFrame& frame, RenderedFilm rendered);
 
     RenderOptions options_;
@@ -309,20 +308,6 @@ std::optional<double> SequenceRenderer::writeIdentities(const RenderOptions& opt
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Nothing if a signal has ended the render, or ends this.
-std::optional<Denoising> SequenceRenderer::denoise(const RenderOptions& options)
-{
-    if (!options.denoise) {
-        return std::nullopt;
-    }
-    const auto shouldContinue = [this] { return watch_->signal() == 0; };
-    auto denoising = session_.denoiser().denoise(options, session_.renderer(), shouldContinue);
-    if (!denoising) {
-        say("the picture is not denoised: " + std::string(shouldContinue() ? "too few samples were finished" : "the render was ended"));
-    }
-    return denoising;
-}
-
 ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const PictureFrame& frame, RenderedFilm rendered)
 {
     Film& film = rendered.film;
@@ -333,7 +318,11 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const Picture
         return finish(watch_->signal(), "some pixels had no sample yet, so " + options.output.string() + " is left as it was");
     }
     labelFilm(film, options);
-    const std::optional<Denoising> denoising = denoise(options);
+    const std::optional<Denoising>& denoising = rendered.denoising;
+    if (options.denoise && !denoising) {
+        say("the picture is not denoised: " +
+            std::string(watch_->signal() == 0 ? "too few samples were finished" : "the render was ended"));
+    }
     const auto start = std::chrono::steady_clock::now();
     writeFilmOf(options, rendered, denoising);
     const std::optional<Look> look = drawFilm(options, denoising ? showDenoised(film, denoising->picture.radiance) : film);
