@@ -15,7 +15,7 @@ import numpy as np  # noqa: E402
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
 SCENES = ["cornell", "cornell_gems", "cornell_mirror_glass", "many_lights", "showcase", "textures"]
-SIZE, SAMPLES, REFERENCE, SEEDS = (48, 48), 128, 8192, 60
+SIZE, SAMPLES, REFERENCE, SEEDS = (48, 48), 128, 4096, 60
 
 
 def true_errors(picture, reference):
@@ -25,27 +25,40 @@ def true_errors(picture, reference):
     return square.mean(), (square / (truth**2 + .01 * truth.mean() ** 2)).mean()
 
 
+class Calibration:
+    def __init__(self):
+        self.inside, self.films, self.ratios = 0, 0, [[], []]
+
+    def add(self, film, truth):
+        error = film.denoised_error
+        scale = error.mean**2
+        self.inside += error.rmse_low**2 * scale <= truth[0] <= error.rmse_high**2 * scale
+        self.films += 1
+        self.ratios[0].append(error.mse / truth[0])
+        self.ratios[1].append(error.rel_mse / truth[1])
+
+    def __str__(self):
+        return " | ".join(["%d %%" % round(100 * self.inside / self.films), *(
+            "%.3f +- %.3f" % (np.mean(ratios), np.std(ratios) / math.sqrt(self.films)) for ratios in self.ratios)])
+
+
 def main():
-    oidn = sys.argv[2] if len(sys.argv) > 2 else None
-    held, films = 0, 0
+    engines = {"own": {}}
+    if len(sys.argv) > 2:
+        engines["OIDN"] = {"oidn": sys.argv[2]}
+    held = dict.fromkeys(engines, 0)
     for name in SCENES:
         scene = glim.load(os.path.join(ROOT, "scenes", name + ".gltf"), size=SIZE)
         reference = scene.render(samples=(1 << 20, (1 << 20) + REFERENCE))
-        inside, ratios = 0, [[], []]
-        for seed in range(1, SEEDS + 1):
-            film = scene.render(spp=SAMPLES, seed=seed, denoise=True, **({"oidn": oidn} if oidn else {}))
-            error = film.denoised_error
-            scale = error.mean**2
-            truth = true_errors(film.denoised, reference)
-            inside += error.rmse_low**2 * scale <= truth[0] <= error.rmse_high**2 * scale
-            ratios[0].append(error.mse / truth[0])
-            ratios[1].append(error.rel_mse / truth[1])
-        held += inside
-        films += SEEDS
-        print("| %s | %d %% | %.3f +- %.3f | %.3f +- %.3f |" % (
-            name, 100 * inside / SEEDS,
-            *(figure for ratio in ratios for figure in (np.mean(ratio), np.std(ratio) / math.sqrt(SEEDS)))), flush=True)
-    print("%.1f %% of %d films" % (100 * held / films, films))
+        for engine, options in engines.items():
+            calibration = Calibration()
+            for seed in range(1, SEEDS + 1):
+                film = scene.render(spp=SAMPLES, seed=seed, denoise=True, **options)
+                calibration.add(film, true_errors(film.denoised, reference))
+            held[engine] += calibration.inside
+            print("| %s | %s | %s |" % (name, engine, calibration), flush=True)
+    for engine, inside in held.items():
+        print("%s: %.1f %% of %d films" % (engine, 100 * inside / (SEEDS * len(SCENES)), SEEDS * len(SCENES)))
 
 
 if __name__ == "__main__":
