@@ -260,7 +260,7 @@ class UseTest(PythonCase):
 
     def test_interrupts(self):
         """Ctrl-C at 20 moments of a render: the film so far is kept, and goes on to the bits of a render without an interruption."""
-        kept = glim.load(GEMS, size=(48, 48), seed=5)
+        kept = glim.load(GEMS, size=(24, 24), seed=5)
         kept.render(spp=1)  # with this, the kernels are compiled
         begin = time.monotonic()
         whole = kept.render(spp=640)
