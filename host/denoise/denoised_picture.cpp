@@ -17,6 +17,7 @@ constexpr std::uint32_t kTile = 16;  // pixels a side
 struct PixelError {
     double spread = 0.0;   // (a - b)^2 / 4
     double product = 0.0;  // (A - a) (B - b)
+    double excess = 0.0;   // ((A - a)^2 - (B - b)^2) / 2
 
     double square() const { return spread + product; }
 };
@@ -53,20 +54,26 @@ void forEachTile(const Film& film, std::uint32_t side, Visit visit)
     }
 }
 
-// The mean error with a 95 % interval for the true one. They differ by (A - a) (B - b) - (a - t) (b - t) in every pixel. The first product
-// is seen: its square is its variance and, where there is bias, more. The second is not: its variance is v w, with the variances v of
-// a - t and w of b - t, and 16 spread^2 = (a - b)^4 has the mean 3 (v + w)^2 if the noise is normal and that of the channels is one
-// (Isserlis 1918). `balance` is 4 v w / (v + w)^2. Sums over tiles would know that neighbours share noise, but take errors that differ
-// from place to place for noise: twice too wide an interval. What neighbours share is small against the noise that was taken away, which
-// is in the first product and not shared. Errors are positive, so the interval is that of the logarithm.
+// The mean error with a 95 % interval for the true one. They differ by (A - a) (B - b) - (a - t) (b - t) in every pixel.
+// - Without bias the square of the first product is its variance; with bias it is more. The square of `excess` is its variance whatever
+//   the bias is, but more if the noise has long tails or the halves are unlike. The smaller sum is taken.
+// - The second product is not seen. Its variance is v w, with the variances v of a - t and w of b - t, and 16 spread^2 = (a - b)^4 has the
+//   mean 3 (v + w)^2. `balance` is 4 v w / (v + w)^2.
+// The moments are those of normal noise that all channels of a pixel have alike (Isserlis 1918). Sums over tiles would know that
+// neighbours share noise, but take errors that differ from place to place for noise: twice too wide an interval. What neighbours share is
+// small against the noise that was taken away, which is in the first product and not shared. Errors are positive, so the interval is that
+// of the logarithm.
 Interval intervalOf(const std::vector<PixelError>& errors, double balance)
 {
     const auto count = static_cast<double>(errors.size());
-    double sum = 0.0, variance = 0.0;
+    double sum = 0.0, products = 0.0, excesses = 0.0, spreads = 0.0;
     for (const PixelError& error : errors) {
         sum += error.square();
-        variance += error.product * error.product + 4.0 / 3.0 * balance * error.spread * error.spread;
+        products += error.product * error.product;
+        excesses += error.excess * error.excess;
+        spreads += error.spread * error.spread;
     }
+    const double variance = std::min(products, excesses) + 4.0 / 3.0 * balance * spreads;
     const double mean = sum / count, halfWidth = twoSidedLimit(0.05) * std::sqrt(variance) / count;
     return mean > 0.0 ? Interval{mean, mean / std::exp(halfWidth / mean), mean * std::exp(halfWidth / mean)}
                       : Interval{mean, 0.0, mean + halfWidth};
@@ -142,9 +149,16 @@ private:
         const glm::dvec3 difference = glm::dvec3(a[i]) - glm::dvec3(b[i]);
         return difference * difference;
     }
-    glm::dvec3 product(std::size_t i) const
+    // What was taken from a half.
+    static glm::dvec3 residual(const std::vector<glm::vec3>& noisy, const std::vector<glm::vec3>& denoised, std::size_t i)
     {
-        return (glm::dvec3(noisyA_[i]) - glm::dvec3(a_[i])) * (glm::dvec3(noisyB_[i]) - glm::dvec3(b_[i]));
+        return glm::dvec3(noisy[i]) - glm::dvec3(denoised[i]);
+    }
+    glm::dvec3 product(std::size_t i) const { return residual(noisyA_, a_, i) * residual(noisyB_, b_, i); }
+    PixelError errorOf(std::size_t i) const
+    {
+        const glm::dvec3 u = residual(noisyA_, a_, i), v = residual(noisyB_, b_, i);
+        return {meanOf(squaredDifference(a_, b_, i)) / 4.0, meanOf(u * v), meanOf(u * u - v * v) / 2.0};
     }
 
     // Of the halves' variances, which are as the inverse of their samples.
@@ -184,7 +198,7 @@ DenoisedPicture Measurement::picture() const
     const auto count = static_cast<double>(a_.size());
     for (std::size_t i = 0; i < a_.size(); ++i) {
         picture.radiance.push_back(radiance(i));
-        mse.push_back({meanOf(squaredDifference(a_, b_, i)) / 4.0, meanOf(product(i))});
+        mse.push_back(errorOf(i));
         squares.push_back(squaredError(i));
         picture.measured.relMse += meanOf(weights_[i] * squares.back()) / count;
         picture.measured.noisyMse += meanOf(noisySquaredError(i)) / count;
