@@ -61,12 +61,10 @@ PanelPainter::PanelPainter(const Device& device, VkFormat format)
     info.MinImageCount = info.ImageCount = kImages;
     info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
     info.CheckVkResultFn = [](VkResult result) { check(result, "draw the window's panels"); };
-#if IMGUI_VERSION_NUM >= 19000
-    info.RenderPass = pass_;
-    ImGui_ImplVulkan_Init(&info);
+    ImGui_ImplVulkan_Init(&info, pass_);
+#if IMGUI_VERSION_NUM >= 19000  // Debian 13
     ImGui_ImplVulkan_CreateFontsTexture();
 #else
-    ImGui_ImplVulkan_Init(&info, pass_);
     Commands commands(device);
     commands.record([](VkCommandBuffer buffer) { ImGui_ImplVulkan_CreateFontsTexture(buffer); });
     commands.submitAndWait();

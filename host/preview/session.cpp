@@ -28,6 +28,7 @@ constexpr double kPresentShare = 0.1;  // the most of the time that presenting m
 constexpr double kIdleSeconds = 0.05;
 constexpr double kExposureStep = 0.5;  // stops
 constexpr double kNoticeSeconds = 6.0;
+constexpr double kMeasureGrowth = 1.25;  // of the samples, from one measurement of the whole film to the next
 
 double secondsSince(std::chrono::steady_clock::time_point start)
 {
@@ -135,6 +136,9 @@ void Session::takeEvents(double seconds)
         inbox_.pop_front();
         ++handledEvents_;
     }
+    if (!changed_) {
+        reportShown();
+    }
 }
 
 // A scene that is refused, or that needs too much memory, ends the session only if no other scene is loaded. (A lost device fails
@@ -206,7 +210,6 @@ void Session::resize()
     if (light_) {
         show();
     }
-    changed_ = true;
 }
 
 // Moves the camera by half the scene's radius a second while keys are held, one step per picture.
@@ -295,12 +298,17 @@ void Session::present()
     if (light_) {
         ++frames_;
     }
+    reportShown();
+}
+
+void Session::reportShown()
+{
     if (light_ && !moved_) {
         window_.reportShown(refiner().sampleCount(), refiner().scale() == 1 && refiner().isDone(), handledEvents_);
     }
 }
 
-// Computes what needs the whole film, whenever its samples have doubled: the estimated error, the range of an AOV and a chosen
+// Computes what needs the whole film, now and then as its samples grow: the estimated error, the range of an AOV and a chosen
 // exposure.
 void Session::measure()
 {
@@ -308,7 +316,7 @@ void Session::measure()
     const bool ranged = aov_ == Aov::Depth || aov_ == Aov::SampleCount || aov_ == Aov::BvhSteps;
     const bool exposed = !options_.look.exposure && (aov_ == Aov::Radiance || aov_ == Aov::Albedo);
     const bool first = (ranged || exposed) && measuredAov_ != aov_;
-    if (!first && (samples < 1 || samples < 2 * estimatedAt_ || isInputWaiting())) {
+    if (!first && (samples < 1 || static_cast<double>(samples) < kMeasureGrowth * static_cast<double>(estimatedAt_) || isInputWaiting())) {
         return;
     }
     if (!ranged && !exposed && samples < leastSamplesForError(0)) {
@@ -347,7 +355,10 @@ void Session::handle(const Event& event)
     using Kind = Event::Kind;
     switch (event.kind) {
     case Kind::Close: closing_ = true; break;
-    case Kind::Resize: resize(); break;
+    case Kind::Resize:
+        resize();
+        changed_ = true;
+        break;
     case Kind::KeyUp: heldKeys_.erase(event.key); break;
     case Kind::FocusLost:
         heldKeys_.clear();

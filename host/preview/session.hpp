@@ -47,6 +47,7 @@ private:
     bool work();
     bool isPresentDue();
     void present();
+    void reportShown();
     void measure();
 
     // The user's actions.

@@ -286,6 +286,7 @@ TEST_F(PreviewTest, LoadsAChangedSceneAgainAndABrokenOneNot)
 
 TEST_F(PreviewTest, RefusesWhatItCannotShow)
 {
+    panels = true;
     const auto refusal = [&](GlimCall session, int exitCode, const char* sentence) {
         const GlimRun done = runGlim(session);
         EXPECT_EQ(done.exitCode, exitCode) << done.err;
