@@ -25,7 +25,7 @@ buildPackages=(
     "libmeshoptimizer-dev      reads compressed meshes of another kind"
     "libcli11-dev              reads the command line"
     "libglfw3-dev              opens the preview's window"
-    "libstb-dev                draws the preview's text"
+    "libimgui-dev              draws the window's panels"
 )
 benchPackages=(
     "libembree-dev             traces the same rays, for comparison"

@@ -29,8 +29,14 @@ public:
     void copy(VkBuffer source, std::uint64_t sourceOffset, VkBuffer target, std::uint64_t bytes, std::uint64_t targetOffset = 0);
     // Fills the image with black and brings it into the layout that kernels expect.
     void clear(const StorageImage& image);
-    // Scales `image` to `target`, a swapchain image of this size, and brings the target into the layout for presenting.
+    // Scales `image` to `target`, a swapchain image of this size, and brings the target into the layout of a colour attachment.
     void blit(const StorageImage& image, VkImage target, VkExtent2D size);
+    // Calls `write` with the command buffer, for libraries that write into one. They see to their own synchronisation.
+    template <class Write>
+    void record(Write&& write)
+    {
+        write(buffer_);
+    }
 
     // Runs all commands and waits for their end. It may be called once. `done`, if given, is signalled too. Throws DeviceError if
     // the device fails or the validation layers have printed a message.

@@ -47,14 +47,20 @@ std::uint64_t largestLocalHeap(VkPhysicalDevice physical)
     return largest;
 }
 
-// The index of the first compute queue family and the number of valid bits of its timestamps.
-std::optional<std::pair<std::uint32_t, std::uint32_t>> findComputeFamily(VkPhysicalDevice physical)
+std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice physical)
 {
     std::uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
-    for (std::uint32_t i = 0; i < count; ++i) {
+    return families;
+}
+
+// The index of the first compute queue family and the number of valid bits of its timestamps.
+std::optional<std::pair<std::uint32_t, std::uint32_t>> findComputeFamily(VkPhysicalDevice physical)
+{
+    const std::vector<VkQueueFamilyProperties> families = queueFamilies(physical);
+    for (std::uint32_t i = 0; i < families.size(); ++i) {
         if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) != 0) {
             return {{i, families[i].timestampValidBits}};
         }
@@ -156,6 +162,9 @@ bool isNamedBy(const std::string& choice, std::size_t index, const DeviceDescrip
 
 bool canPresent(const Candidate& candidate, VkSurfaceKHR surface)
 {
+    if ((queueFamilies(candidate.physical).at(candidate.queueFamily).queueFlags & VK_QUEUE_GRAPHICS_BIT) == 0) {
+        return false;  // panels are drawn by a graphics pipeline
+    }
     std::uint32_t count = 0;
     check(vkEnumerateDeviceExtensionProperties(candidate.physical, nullptr, &count, nullptr), "list extensions");
     std::vector<VkExtensionProperties> extensions(count);

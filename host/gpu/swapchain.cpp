@@ -1,7 +1,5 @@
 #include "host/gpu/swapchain.hpp"
 
-#include "host/gpu/commands.hpp"
-
 #include <algorithm>
 #include <iterator>
 
@@ -59,7 +57,8 @@ Swapchain::Swapchain(Device& device, VkSurfaceKHR surface)
     : device_(device),
       surface_(surface),
       format_(chooseFormat(device, surface)),
-      mode_(chooseMode(device, surface))
+      mode_(chooseMode(device, surface)),
+      painter_(device, format_.format)
 {
     const VkFenceCreateInfo info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     check(vkCreateFence(device.handle(), &info, nullptr, &acquired_), "create a fence");
@@ -75,11 +74,12 @@ Swapchain::~Swapchain()
 
 void Swapchain::destroyImages()
 {
-    for (const VkSemaphore semaphore : drawn_) {
-        vkDestroySemaphore(device_.handle(), semaphore, nullptr);
+    for (const Target& target : targets_) {
+        vkDestroyFramebuffer(device_.handle(), target.framebuffer, nullptr);
+        vkDestroyImageView(device_.handle(), target.view, nullptr);
+        vkDestroySemaphore(device_.handle(), target.drawn, nullptr);
     }
-    drawn_.clear();
-    images_.clear();
+    targets_.clear();
 }
 
 // Returns false if the window has no area.
@@ -103,7 +103,7 @@ bool Swapchain::rebuild(std::uint32_t width, std::uint32_t height)
     info.imageColorSpace = format_.colorSpace;
     info.imageExtent = extent_;
     info.imageArrayLayers = 1;
-    info.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    info.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     info.preTransform = surface.currentTransform;
     info.compositeAlpha = (surface.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR) != 0 ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
                                                                                                      : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
@@ -124,13 +124,32 @@ void Swapchain::getImages()
 {
     std::uint32_t count = 0;
     check(vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, nullptr), "list the swapchain's images");
-    images_.resize(count);
-    check(vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, images_.data()), "list the swapchain's images");
-    drawn_.resize(count, VK_NULL_HANDLE);
-    const VkSemaphoreCreateInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
-    for (VkSemaphore& semaphore : drawn_) {
-        check(vkCreateSemaphore(device_.handle(), &info, nullptr, &semaphore), "create a semaphore");
+    std::vector<VkImage> images(count);
+    check(vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, images.data()), "list the swapchain's images");
+    for (const VkImage image : images) {
+        targets_.push_back(makeTarget(image));
     }
+}
+
+Swapchain::Target Swapchain::makeTarget(VkImage image) const
+{
+    Target target{image};
+    VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+    view.image = image;
+    view.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    view.format = format_.format;
+    view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    check(vkCreateImageView(device_.handle(), &view, nullptr, &target.view), "create a view of the window's image");
+    VkFramebufferCreateInfo framebuffer{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
+    framebuffer.renderPass = painter_.pass();
+    framebuffer.attachmentCount = framebuffer.layers = 1;
+    framebuffer.pAttachments = &target.view;
+    framebuffer.width = extent_.width;
+    framebuffer.height = extent_.height;
+    check(vkCreateFramebuffer(device_.handle(), &framebuffer, nullptr, &target.framebuffer), "create a framebuffer");
+    const VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
+    check(vkCreateSemaphore(device_.handle(), &semaphore, nullptr, &target.drawn), "create a semaphore");
+    return target;
 }
 
 // The index of an image to draw to, or kNoImage.
@@ -148,25 +167,27 @@ std::uint32_t Swapchain::acquire()
     return image;
 }
 
-bool Swapchain::present(const StorageImage& image, std::uint32_t width, std::uint32_t height)
+bool Swapchain::present(const StorageImage& image, ImDrawData& panels, std::uint32_t width, std::uint32_t height)
 {
     if (stale_ && !rebuild(width, height)) {
         return false;
     }
-    const std::uint32_t target = acquire();
-    if (target == kNoImage) {
+    const std::uint32_t index = acquire();
+    if (index == kNoImage) {
         return false;
     }
+    const Target& target = targets_[index];
     Commands commands(device_);
-    commands.blit(image, images_[target], extent_);
-    commands.submitAndWait(drawn_[target]);
+    commands.blit(image, target.image, extent_);
+    painter_.draw(commands, target.framebuffer, extent_, panels);
+    commands.submitAndWait(target.drawn);
 
     VkPresentInfoKHR info{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
     info.waitSemaphoreCount = 1;
-    info.pWaitSemaphores = &drawn_[target];
+    info.pWaitSemaphores = &target.drawn;
     info.swapchainCount = 1;
     info.pSwapchains = &handle_;
-    info.pImageIndices = &target;
+    info.pImageIndices = &index;
     const VkResult result = vkQueuePresentKHR(device_.queue(), &info);
     stale_ = stale_ || result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR;
     if (result != VK_ERROR_OUT_OF_DATE_KHR) {

@@ -1,7 +1,7 @@
 // A window's surface and the images that it shows in turn.
 #pragma once
 
-#include "host/gpu/storage_image.hpp"
+#include "host/gpu/panel_painter.hpp"
 
 namespace glim {
 
@@ -26,33 +26,42 @@ private:
 // One thread owns it together with the device's queue.
 class Swapchain {
 public:
-    // `surface` outlives the swapchain, and `device` was chosen for it. Throws InputError if the surface has no 8-bit format
-    // without a transfer function (another would encode colours twice), or if images cannot be blitted to it.
+    // `surface` and ImGui's current context outlive the swapchain, and `device` was chosen for the surface. Throws InputError if
+    // the surface has no 8-bit format without a transfer function (another would encode colours twice), or if images cannot be
+    // blitted to it.
     Swapchain(Device& device, VkSurfaceKHR surface);
     ~Swapchain();
     Swapchain(const Swapchain&) = delete;
     Swapchain& operator=(const Swapchain&) = delete;
 
-    // Scales `image` to the window and shows it. `width` and `height` are the window's size in pixels, for surfaces that do not know
-    // it. Returns false if nothing was shown because the window has no area or is changing; the caller may try again later.
-    bool present(const StorageImage& image, std::uint32_t width, std::uint32_t height);
+    // Scales `image` to the window and shows it with `panels` over it. `width` and `height` are the window's size in pixels, for surfaces
+    // that do not know it. Returns false if nothing was shown because the window has no area or is changing; the caller may try again
+    // later.
+    bool present(const StorageImage& image, ImDrawData& panels, std::uint32_t width, std::uint32_t height);
 
 private:
+    struct Target {
+        VkImage image = VK_NULL_HANDLE;
+        VkImageView view = VK_NULL_HANDLE;
+        VkFramebuffer framebuffer = VK_NULL_HANDLE;
+        VkSemaphore drawn = VK_NULL_HANDLE;  // signalled when the image may be presented
+    };
     bool rebuild(std::uint32_t width, std::uint32_t height);
     void destroyImages();
     void getImages();
+    Target makeTarget(VkImage image) const;
     std::uint32_t acquire();
 
     Device& device_;
     VkSurfaceKHR surface_;
     VkSurfaceFormatKHR format_;
     VkPresentModeKHR mode_;
+    PanelPainter painter_;
     VkExtent2D extent_{0, 0};  // the size of the images; 0: there are none
     bool stale_ = true;        // the images no longer fit the surface
     VkSwapchainKHR handle_ = VK_NULL_HANDLE;
     VkFence acquired_ = VK_NULL_HANDLE;
-    std::vector<VkImage> images_;
-    std::vector<VkSemaphore> drawn_;  // one per image, signalled when it may be presented
+    std::vector<Target> targets_;
 };
 
 }  // namespace glim

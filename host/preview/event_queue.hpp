@@ -11,15 +11,19 @@
 
 namespace glim {
 
-// Positions and motions are in pixels of the picture; (0, 0) is its upper left corner.
+// Positions are in pixels of the picture; (0, 0) is its upper left corner.
 struct Event {
-    enum class Kind { KeyDown, KeyUp, Orbit, Pan, Scroll, Click, Resize, Close };
+    enum class Kind { KeyDown, KeyUp, Move, ButtonDown, ButtonUp, Scroll, FocusLost, Resize, Close };
     Kind kind;
     std::chrono::steady_clock::time_point when;
     char key = 0;              // for KeyDown and KeyUp: an upper-case letter, a digit, a sign or kEscape
-    glm::dvec2 amount{0.0};    // for Orbit and Pan: the motion of the mouse; for Scroll: y notches away from the user
-    glm::dvec2 position{0.0};  // for Click
+    glm::dvec2 position{0.0};  // of the mouse, for Move, ButtonDown, ButtonUp and Scroll
+    int button = 0;            // for ButtonDown and ButtonUp: kLeftButton, kRightButton or kMiddleButton
+    bool shift = false;        // for ButtonDown: whether the key is held
+    double notches = 0.0;      // for Scroll: away from the user
 };
+
+inline constexpr int kLeftButton = 0, kRightButton = 1, kMiddleButton = 2;
 
 inline constexpr char kEscape = 27;
 

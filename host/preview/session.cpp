@@ -27,6 +27,8 @@ constexpr double kFrameSeconds = 1.0 / 30.0, kMovingFrameSeconds = 1.0 / 60.0;
 constexpr double kPresentShare = 0.1;  // the most of the time that presenting may take while nothing moves
 constexpr double kIdleSeconds = 0.05;
 constexpr double kExposureStep = 0.5;  // stops
+constexpr double kNoticeSeconds = 6.0;
+constexpr double kMeasureGrowth = 1.25;  // of the samples, from one measurement of the whole film to the next
 
 double secondsSince(std::chrono::steady_clock::time_point start)
 {
@@ -82,6 +84,7 @@ Session::Session(Window& window, EventQueue& events, const PreviewOptions& optio
       instance_(Window::instanceExtensions()),
       surface_(instance_, window.createSurface(instance_)),
       device_(instance_, options.device, surface_.handle()),
+      gui_(std::max(1.0F, window.contentScale())),
       swapchain_(device_, surface_.handle()),
       display_(device_),
       loader_(options.scene, options.load, options.split)
@@ -132,7 +135,9 @@ void Session::takeEvents(double seconds)
         handle(inbox_.front());
         inbox_.pop_front();
         ++handledEvents_;
-        changed_ = true;
+    }
+    if (!changed_) {
+        reportShown();
     }
 }
 
@@ -205,7 +210,6 @@ void Session::resize()
     if (light_) {
         show();
     }
-    changed_ = true;
 }
 
 // Moves the camera by half the scene's radius a second while keys are held, one step per picture.
@@ -242,7 +246,7 @@ void Session::show()
     moved_ = shown_ = false;
     lightIsStale_ = aov_ == Aov::BvhSteps;
     estimatedAt_ = 0;
-    relMse_.reset();
+    errors_.clear();
     changed_ = true;
 }
 
@@ -272,10 +276,10 @@ void Session::present()
         measure();
         display_.draw(refiner().renderer(), aov_, range_, look_);
     }
-    const auto dotPixels = static_cast<std::uint32_t>(std::max(1.0F, std::round(window_.contentScale())));
-    display_.cover(drawText(overlay(), dotPixels, display_.width()));
+    buildPanels();
+    buildPanels();  // ImGui lays out a frame by the sizes of the one before
     const glm::uvec2 size = window_.pictureSize();
-    const bool shown = swapchain_.present(display_.shown(), size.x, size.y);
+    const bool shown = swapchain_.present(display_.picture(), gui_.drawn(), size.x, size.y);
     presented_ = Clock::now();
     presentSeconds_ = std::chrono::duration<double>(presented_ - start).count();
     if (!shown) {
@@ -294,12 +298,17 @@ void Session::present()
     if (light_) {
         ++frames_;
     }
+    reportShown();
+}
+
+void Session::reportShown()
+{
     if (light_ && !moved_) {
         window_.reportShown(refiner().sampleCount(), refiner().scale() == 1 && refiner().isDone(), handledEvents_);
     }
 }
 
-// Computes what needs the whole film, whenever its samples have doubled: the estimated error, the range of an AOV and a chosen
+// Computes what needs the whole film, now and then as its samples grow: the estimated error, the range of an AOV and a chosen
 // exposure.
 void Session::measure()
 {
@@ -307,7 +316,7 @@ void Session::measure()
     const bool ranged = aov_ == Aov::Depth || aov_ == Aov::SampleCount || aov_ == Aov::BvhSteps;
     const bool exposed = !options_.look.exposure && (aov_ == Aov::Radiance || aov_ == Aov::Albedo);
     const bool first = (ranged || exposed) && measuredAov_ != aov_;
-    if (!first && (samples < 1 || samples < 2 * estimatedAt_ || isInputWaiting())) {
+    if (!first && (samples < 1 || static_cast<double>(samples) < kMeasureGrowth * static_cast<double>(estimatedAt_) || isInputWaiting())) {
         return;
     }
     if (!ranged && !exposed && samples < leastSamplesForError(0)) {
@@ -323,8 +332,8 @@ void Session::measure()
     if (aov_ == Aov::SampleCount) {
         range_.high = std::max(range_.high, 2.0F * range_.low);  // the scale should not show the present sweep alone
     }
-    if (const auto errors = estimateErrors(pictureOf(film)); errors && aov_ != Aov::BvhSteps) {
-        relMse_ = errors->relMse;
+    if (const auto errors = estimateErrors(pictureOf(film)); errors && errors->relMse > 0.0 && aov_ != Aov::BvhSteps) {
+        errors_.push_back({refiner().seconds(), errors->relMse});
     }
 }
 
@@ -344,38 +353,62 @@ void Session::tell(const std::string& text)
 void Session::handle(const Event& event)
 {
     using Kind = Event::Kind;
-    if (event.kind == Kind::Close) {
-        closing_ = true;
-        return;
-    }
-    if (event.kind == Kind::Resize) {
+    switch (event.kind) {
+    case Kind::Close: closing_ = true; break;
+    case Kind::Resize:
         resize();
-        return;
-    }
-    if (event.kind == Kind::KeyUp) {
-        heldKeys_.erase(event.key);
-        return;
-    }
-    waiting_.push_back(event.when);
-    changed_ = true;
-    if (event.kind == Kind::KeyDown) {
+        changed_ = true;
+        break;
+    case Kind::KeyUp: heldKeys_.erase(event.key); break;
+    case Kind::FocusLost:
+        heldKeys_.clear();
+        gestures_.cancel();
+        gui_.point(event);
+        break;
+    case Kind::KeyDown:
+        waiting_.push_back(event.when);
         press(event.key);
-    } else if (event.kind == Kind::Click) {
-        clickAt(event.position);
-    } else if (viewpoint_) {
-        moveBy(event);
+        changed_ = true;
+        break;
+    default: handleMouse(event);
     }
 }
 
-void Session::moveBy(const Event& event)
+// The panels take what is theirs. The mouse may move over the picture without any answer.
+void Session::handleMouse(const Event& event)
+{
+    gui_.point(event);
+    buildPanels();
+    const bool panels = gui_.hasMouse();
+    const std::optional<Gesture> gesture = panels ? std::nullopt : gestures_.take(event);
+    if (panels || gesture || mouseIsPanels_) {
+        waiting_.push_back(event.when);
+        changed_ = true;
+    }
+    mouseIsPanels_ = panels;
+    if (gesture) {
+        follow(*gesture);
+    }
+}
+
+void Session::follow(const Gesture& gesture)
+{
+    if (gesture.kind == Gesture::Kind::Click) {
+        clickAt(gesture.position);
+    } else if (viewpoint_) {
+        moveBy(gesture);
+    }
+}
+
+void Session::moveBy(const Gesture& gesture)
 {
     const double height = static_cast<double>(display_.height());
     const Camera camera = viewpoint_->camera();
     viewpoint_->move([&](const Pose& pose) {
-        switch (event.kind) {
-        case Event::Kind::Orbit: return orbit(pose, event.amount, height);
-        case Event::Kind::Pan: return pan(pose, event.amount, 2.0 * halfHeightOf(camera, pose) / height);
-        default: return dolly(pose, event.amount.y, camera.kind);
+        switch (gesture.kind) {
+        case Gesture::Kind::Orbit: return orbit(pose, gesture.motion, height);
+        case Gesture::Kind::Pan: return pan(pose, gesture.motion, 2.0 * halfHeightOf(camera, pose) / height);
+        default: return dolly(pose, gesture.notches, camera.kind);
         }
     });
     moved_ = true;
@@ -386,10 +419,11 @@ void Session::press(char key)
     if (key == kEscape) {
         closing_ = true;
     } else if (key == 'H') {
-        overlayLevel_ = (overlayLevel_ + 1) % 3;
+        panelLevel_ = (panelLevel_ + 1) % 3;
     } else if (key == '+' || key == '-') {
-        look_.exposure += key == '+' ? kExposureStep : -kExposureStep;
-        options_.look.exposure = look_.exposure;  // no longer chosen by the film
+        setExposure(look_.exposure + (key == '+' ? kExposureStep : -kExposureStep));
+    } else if (key == 'T') {
+        setTone(static_cast<Tone>((static_cast<std::uint32_t>(look_.tone) + 1) % 3));
     } else if (key == ' ') {
         paused_ = !paused_;
     } else if (viewpoint_ && std::string("WASDQE").find(key) != std::string::npos) {
@@ -409,13 +443,11 @@ void Session::pressForScene(char key)
         viewpoint_->reset();
         moved_ = true;
     } else if (key >= '1' && key <= '9') {
-        if (viewpoint_->choose(static_cast<std::size_t>(key - '1'))) {
-            moved_ = true;
-        } else {
-            say(std::string("The file has no camera ") + key + ".");
-        }
+        chooseCamera(static_cast<std::size_t>(key - '1'));
     } else if (key == 'V') {
-        cycleAov();
+        const std::vector<Aov> order = layers();
+        const auto at = std::find(order.begin(), order.end(), aov_);
+        chooseLayer(at + 1 == order.end() ? order.front() : at[1]);
     } else if (key == 'P') {
         say("writing the picture");
         if (isWhole()) {
@@ -428,16 +460,42 @@ void Session::pressForScene(char key)
     }
 }
 
-// BVH steps need a film of their own. Without a BVH there are none.
-void Session::cycleAov()
+void Session::chooseCamera(std::size_t index)
 {
-    std::vector<Aov> order = {Aov::Radiance, Aov::Normal, Aov::Depth, Aov::Albedo, Aov::SampleCount};
-    if (options_.settings.course.accelerator != Accelerator::None) {
-        order.push_back(Aov::BvhSteps);
+    if (viewpoint_->choose(index)) {
+        moved_ = true;
+    } else {
+        say("The file has no camera " + std::to_string(index + 1) + ".");
     }
-    const auto at = std::find(order.begin(), order.end(), aov_);
-    const Aov next = at + 1 == order.end() ? order.front() : at[1];
-    if (next == Aov::BvhSteps && !steps_) {
+}
+
+void Session::setExposure(double exposure)
+{
+    look_.exposure = exposure;
+    options_.look.exposure = exposure;  // no longer chosen by the film
+}
+
+// Keeps the tone when the scene is loaded again.
+void Session::setTone(Tone tone)
+{
+    look_.tone = tone;
+    options_.look.tone = tone;
+}
+
+// What V steps through. Without a BVH it has no steps.
+std::vector<Aov> Session::layers() const
+{
+    std::vector<Aov> layers = {Aov::Radiance, Aov::Normal, Aov::Depth, Aov::Albedo, Aov::SampleCount};
+    if (options_.settings.course.accelerator != Accelerator::None) {
+        layers.push_back(Aov::BvhSteps);
+    }
+    return layers;
+}
+
+// BVH steps need a film of their own.
+void Session::chooseLayer(Aov aov)
+{
+    if (aov == Aov::BvhSteps && !steps_) {
         say("compiling kernels that count BVH steps");
         later_ = [this] {
             RenderSettings settings = options_.settings;
@@ -448,7 +506,7 @@ void Session::cycleAov()
             showAov(Aov::BvhSteps);
         };
     } else {
-        showAov(next);
+        showAov(aov);
     }
 }
 
@@ -463,6 +521,67 @@ void Session::showAov(Aov aov)
         show();
     }
     estimatedAt_ = 0;
+}
+
+void Session::buildPanels()
+{
+    const PanelChoices before{look_.exposure, look_.tone, aov_, viewpoint_ ? viewpoint_->index() : 0};
+    PanelChoices wanted = before;
+    gui_.frame({display_.width(), display_.height()}, [&] {
+        if (light_ && panelLevel_ > 0) {
+            wanted = showControls(figures(), before);
+        }
+        if (panelLevel_ > 1) {
+            showHelp();
+        }
+        if (!light_ || panelLevel_ > 0) {
+            showMessages(messages());
+        }
+    });
+    if (wanted.exposure != before.exposure) {
+        setExposure(wanted.exposure);
+    }
+    if (wanted.tone != before.tone) {
+        setTone(wanted.tone);
+    }
+    if (wanted.layer != before.layer) {
+        chooseLayer(wanted.layer);
+    }
+    if (wanted.camera != before.camera) {
+        chooseCamera(wanted.camera);
+    }
+}
+
+PanelFigures Session::figures() const
+{
+    Refiner& picture = refiner();
+    PanelFigures figures;
+    figures.samples = picture.renderer().sampleCount();
+    figures.seconds = picture.seconds();
+    figures.samplesPerSecond = picture.samplesPerSecond();
+    figures.state = paused_ ? "paused" : picture.isDone() && picture.scale() == 1 ? "done" : "";
+    figures.errors = errors_;
+    figures.size = {display_.width(), display_.height()};
+    figures.scale = picture.scale();
+    figures.device = device_.description().name;
+    figures.layers = layers();
+    for (const Camera& camera : viewpoint_->cameras()) {
+        figures.cameras.push_back(camera.name);
+    }
+    return figures;
+}
+
+// Of the scene that is being loaded, of one that is refused, and the last notice.
+std::vector<std::string> Session::messages() const
+{
+    const std::string notice = secondsSince(noticeTime_) < kNoticeSeconds ? notice_ : "";
+    std::vector<std::string> lines;
+    for (const std::string& line : {title_, trouble_, notice}) {
+        if (!line.empty() && std::find(lines.begin(), lines.end(), line) == lines.end()) {
+            lines.push_back(line);
+        }
+    }
+    return lines;
 }
 
 void Session::clickAt(const glm::dvec2& position)

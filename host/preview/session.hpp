@@ -2,7 +2,10 @@
 #pragma once
 
 #include "host/gpu/swapchain.hpp"
+#include "host/preview/gestures.hpp"
+#include "host/preview/gui.hpp"
 #include "host/preview/latency.hpp"
+#include "host/preview/panels.hpp"
 #include "host/preview/picture_writer.hpp"
 #include "host/preview/preview.hpp"
 #include "host/preview/refiner.hpp"
@@ -44,15 +47,22 @@ private:
     bool work();
     bool isPresentDue();
     void present();
+    void reportShown();
     void measure();
 
     // The user's actions.
     void handle(const Event& event);
-    void moveBy(const Event& event);
+    void handleMouse(const Event& event);
+    void follow(const Gesture& gesture);
+    void moveBy(const Gesture& gesture);
     void press(char key);
     void pressForScene(char key);
-    void cycleAov();
+    std::vector<Aov> layers() const;
+    void chooseLayer(Aov aov);
     void showAov(Aov aov);
+    void chooseCamera(std::size_t index);
+    void setExposure(double exposure);
+    void setTone(Tone tone);
     void clickAt(const glm::dvec2& position);
     std::string describeSamples(const glm::uvec2& pixel);
     void printCamera();
@@ -60,9 +70,10 @@ private:
     void say(const std::string& text);   // shows the text in the window
     void tell(const std::string& text);  // shows the text in the window and prints it to stderr
 
-    // The text over the picture (overlay.cpp).
-    std::vector<std::string> overlay();
-    std::vector<std::string> figures();
+    // The panels over the picture.
+    void buildPanels();
+    PanelFigures figures() const;
+    std::vector<std::string> messages() const;
 
     Window& window_;
     EventQueue& events_;
@@ -70,6 +81,7 @@ private:
     VulkanInstance instance_;
     Surface surface_;
     Device device_;
+    Gui gui_;
     Swapchain swapchain_;
     Display display_;
     SceneLoader loader_;
@@ -84,10 +96,12 @@ private:
     std::function<void()> later_;  // work that starts once the window shows the message about it
     bool writes_ = false;          // a picture is to be written once it is complete
     std::set<char> heldKeys_;      // pressed keys that move the camera
+    Gestures gestures_;
+    bool mouseIsPanels_ = false;  // since the last event of the mouse
     bool paused_ = false, closing_ = false;
-    int overlayLevel_ = 1;  // 0: nothing, 1: figures, 2: help too
-    std::string notice_;    // the last text of say()
-    std::string trouble_;   // why the present file is not shown; empty if it is
+    int panelLevel_ = 1;   // 0: nothing, 1: controls, 2: help too
+    std::string notice_;   // the last text of say()
+    std::string trouble_;  // why the present file is not shown; empty if it is
     Clock::time_point noticeTime_, flown_, presented_;
     double presentSeconds_ = 0.0;              // the time that the last present() took
     std::vector<Clock::time_point> waiting_;   // arrival times of the inputs that no picture answers yet
@@ -98,8 +112,8 @@ private:
     std::uint64_t handledEvents_ = 0;
     Latency latency_;
     std::uint64_t frames_ = 0;
-    std::optional<double> relMse_;  // estimated when the picture had estimatedAt_ samples
-    std::uint64_t estimatedAt_ = 0;
+    std::vector<ErrorPoint> errors_;  // of the present picture
+    std::uint64_t estimatedAt_ = 0;   // the samples that it had when it was measured last
     Look look_;
     DisplayRange range_;
     std::optional<Aov> measuredAov_;  // the AOV that range_ and a chosen exposure belong to

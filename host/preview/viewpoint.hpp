@@ -20,6 +20,7 @@ public:
     // Takes the cameras of `scene`, also when it has been loaded again. A moved camera stays where it is.
     void enter(const Scene& scene);
     Camera camera() const;
+    const std::vector<Camera>& cameras() const { return cameras_; }
     const Camera& fileCamera() const { return cameras_[index_]; }  // without the user's moves
     const Bounds& bounds() const { return bounds_; }
 

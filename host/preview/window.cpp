@@ -11,8 +11,10 @@
 namespace glim {
 namespace {
 
-constexpr double kClickPixels = 3.0;  // a click becomes a drag if the mouse moves as far
 constexpr double kWaitSeconds = 0.25;
+
+static_assert(kLeftButton == GLFW_MOUSE_BUTTON_LEFT && kRightButton == GLFW_MOUSE_BUTTON_RIGHT &&
+              kMiddleButton == GLFW_MOUSE_BUTTON_MIDDLE);
 
 Window* self(GLFWwindow* window) { return static_cast<Window*>(glfwGetWindowUserPointer(window)); }
 
@@ -68,14 +70,18 @@ Window::Window(const std::string& title, const glm::uvec2& size, EventQueue& eve
     glfwSetKeyCallback(window_,
                        [](GLFWwindow* w, int key, int scancode, int action, int) { self(w)->onKey(nameOf(key, scancode), action); });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int modifiers) {
-        const bool pans = button == GLFW_MOUSE_BUTTON_MIDDLE || (modifiers & GLFW_MOD_SHIFT) != 0;
-        self(w)->onButton(pans, button, action);
+        self(w)->onButton(button, action, (modifiers & GLFW_MOD_SHIFT) != 0);
     });
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) { self(w)->onCursor({x, y}); });
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double y) { self(w)->onScroll(y); });
     glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { self(w)->onResize(); });
     glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* w, float, float) { self(w)->onResize(); });
-    glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int has) { self(w)->onFocus(has == GLFW_TRUE); });
+    // A window without focus is not told when keys and buttons are released.
+    glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int has) {
+        if (has == GLFW_FALSE) {
+            self(w)->push({.kind = Event::Kind::FocusLost});
+        }
+    });
     glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) { self(w)->onClose(); });
     onResize();
 }
@@ -141,50 +147,26 @@ void Window::push(Event event)
 
 void Window::onKey(char key, int action)
 {
-    if (key == '\0' || action == GLFW_REPEAT) {
-        return;
+    if (key != '\0' && action != GLFW_REPEAT) {
+        push({.kind = action == GLFW_PRESS ? Event::Kind::KeyDown : Event::Kind::KeyUp, .key = key});
     }
-    if (action == GLFW_PRESS) {
-        heldKeys_.insert(key);
-    } else {
-        heldKeys_.erase(key);
-    }
-    push({action == GLFW_PRESS ? Event::Kind::KeyDown : Event::Kind::KeyUp, {}, key, {}, {}});
 }
 
-void Window::onButton(bool pans, int button, int action)
+void Window::onButton(int button, int action, bool shift)
 {
-    if (action == GLFW_PRESS && button_ < 0 && button != GLFW_MOUSE_BUTTON_RIGHT) {
-        button_ = button;
-        pans_ = pans;
-        dragged_ = false;
-        pressedAt_ = cursor_;
-    } else if (action == GLFW_RELEASE && button == button_) {
-        if (!dragged_ && !pans_) {
-            push({Event::Kind::Click, {}, '\0', {}, cursor_});
-        }
-        button_ = -1;
-    }
+    const auto kind = action == GLFW_PRESS ? Event::Kind::ButtonDown : Event::Kind::ButtonUp;
+    push({.kind = kind, .position = cursor_, .button = button, .shift = shift});
 }
 
 void Window::onCursor(const glm::dvec2& position)
 {
     int width = 0, height = 0;
     glfwGetWindowSize(window_, &width, &height);
-    const glm::dvec2 perUnit = glm::dvec2(pictureSize()) / glm::max(glm::dvec2(1.0), glm::dvec2(width, height));
-    const glm::dvec2 last = std::exchange(cursor_, position * perUnit);
-    if (button_ < 0) {
-        return;
-    }
-    if (dragged_) {
-        push({pans_ ? Event::Kind::Pan : Event::Kind::Orbit, {}, '\0', cursor_ - last, {}});
-    } else if (glm::length(cursor_ - pressedAt_) >= kClickPixels) {
-        dragged_ = true;
-        push({pans_ ? Event::Kind::Pan : Event::Kind::Orbit, {}, '\0', cursor_ - pressedAt_, {}});
-    }
+    cursor_ = position * glm::dvec2(pictureSize()) / glm::max(glm::dvec2(1.0), glm::dvec2(width, height));
+    push({.kind = Event::Kind::Move, .position = cursor_});
 }
 
-void Window::onScroll(double notches) { push({Event::Kind::Scroll, {}, '\0', {0.0, notches}, {}}); }
+void Window::onScroll(double notches) { push({.kind = Event::Kind::Scroll, .position = cursor_, .notches = notches}); }
 
 void Window::onResize()
 {
@@ -195,24 +177,13 @@ void Window::onResize()
     float x = 1.0F, y = 1.0F;
     glfwGetWindowContentScale(window_, &x, &y);
     contentScale_ = std::max(x, y);
-    push({Event::Kind::Resize, {}, '\0', {}, {}});
-}
-
-// A window without focus is not told when keys are released, so they count as released at once.
-void Window::onFocus(bool has)
-{
-    if (!has) {
-        for (const char key : std::exchange(heldKeys_, {})) {
-            push({Event::Kind::KeyUp, {}, key, {}, {}});
-        }
-        button_ = -1;
-    }
+    push({.kind = Event::Kind::Resize});
 }
 
 void Window::onClose()
 {
     glfwHideWindow(window_);
-    push({Event::Kind::Close, {}, '\0', {}, {}});
+    push({.kind = Event::Kind::Close});
 }
 
 void Window::carryOut(const Orders& orders)
@@ -265,8 +236,8 @@ void Window::perform(const ScriptStep& step)
     case Kind::Scroll: onScroll(step.notches); break;
     case Kind::Click:
         cursor_ = step.from;
-        onButton(false, GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS);
-        onButton(false, GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE);
+        onButton(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, false);
+        onButton(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, false);
         break;
     case Kind::Resize: glfwSetWindowSize(window_, static_cast<int>(step.size.x), static_cast<int>(step.size.y)); break;
     case Kind::Iconify: glfwIconifyWindow(window_); break;
@@ -284,14 +255,14 @@ void Window::drag(const ScriptStep& step)
     constexpr int kMoves = 4;
     const int button = step.pan ? GLFW_MOUSE_BUTTON_MIDDLE : GLFW_MOUSE_BUTTON_LEFT;
     cursor_ = step.from;
-    onButton(step.pan, button, GLFW_PRESS);
+    onButton(button, GLFW_PRESS, false);
     for (int i = 1; i <= kMoves; ++i) {
         int width = 0, height = 0;
         glfwGetWindowSize(window_, &width, &height);
         const glm::dvec2 unit = glm::dvec2(width, height) / glm::max(glm::dvec2(1.0), glm::dvec2(pictureSize()));
         onCursor(glm::mix(step.from, step.to, static_cast<double>(i) / kMoves) * unit);
     }
-    onButton(step.pan, button, GLFW_RELEASE);
+    onButton(button, GLFW_RELEASE, false);
 }
 
 }  // namespace glim

@@ -8,7 +8,6 @@
 #include <atomic>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -47,11 +46,10 @@ private:
     };
 
     void onKey(char key, int action);
-    void onButton(bool pans, int button, int action);
+    void onButton(int button, int action, bool shift);
     void onCursor(const glm::dvec2& position);
     void onScroll(double notches);
     void onResize();
-    void onFocus(bool has);
     void onClose();
     void push(Event event);
     void carryOut(const Orders& orders);
@@ -70,10 +68,7 @@ private:
     std::mutex mutex_;
     Orders orders_;
 
-    std::set<char> heldKeys_;
-    int button_ = -1;  // the button that is down, or -1
-    glm::dvec2 cursor_{0.0}, pressedAt_{0.0};
-    bool pans_ = false, dragged_ = false;
+    glm::dvec2 cursor_{0.0};
 };
 
 }  // namespace glim

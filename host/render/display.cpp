@@ -13,25 +13,17 @@ constexpr std::uint32_t kWorkgroup = 256;
 
 std::vector<BindingSlot> slots()
 {
-    return {{kBindBlocks, BufferKind::Storage},
-            {kBindPages, BufferKind::Storage},
-            {kBindFolded, BufferKind::Storage},
-            {kBindText, BufferKind::Storage}};
+    return {{kBindBlocks, BufferKind::Storage}, {kBindPages, BufferKind::Storage}, {kBindFolded, BufferKind::Storage}};
 }
 
 }  // namespace
 
 Display::Display(Device& device)
     : device_(device),
-      layout_(device, slots(), sizeof(DisplayPass), {kBindPicture, kBindShown}),
-      overlay_(layout_, kernels::overlay, {{kSpecWorkgroup, kWorkgroup}})
+      layout_(device, slots(), sizeof(DisplayPass), {kBindPicture})
 {}
 
-void Display::resize(std::uint32_t width, std::uint32_t height)
-{
-    picture_.emplace(device_, "window's picture", width, height);
-    shown_.emplace(device_, "window's picture with text", width, height);
-}
+void Display::resize(std::uint32_t width, std::uint32_t height) { picture_.emplace(device_, "window's picture", width, height); }
 
 const Kernel& Display::previewOf(Aov aov, bool folded)
 {
@@ -89,23 +81,6 @@ void Display::draw(const Renderer& renderer, Aov aov, const DisplayRange& range,
         pass.tileCount = tile.count();
         run(previewOf(aov, anyFolded), bindings, pass, tile.count());
     }
-}
-
-void Display::cover(const TextBox& text)
-{
-    const std::vector<std::uint32_t> none(1);
-    const std::vector<std::uint32_t>& pixels = text.pixels.empty() ? none : text.pixels;
-    if (!text_ || text_->size() < pixels.size() * sizeof(pixels[0])) {
-        text_ = std::make_unique<Buffer>(device_, "text's pixels", BufferKind::Storage, pixels.size() * sizeof(pixels[0]));
-    }
-    upload(*text_, std::span<const std::uint32_t>(pixels));
-    DisplayPass pass{};
-    pass.width = shown_->width();
-    pass.height = shown_->height();
-    pass.textWidth = text.width;
-    pass.textHeight = text.height;
-    run(overlay_, Bindings(layout_, {{kBindText, &*text_}}, {{kBindPicture, &*picture_}, {kBindShown, &*shown_}}), pass,
-        std::uint64_t{pass.width} * pass.height);
 }
 
 }  // namespace glim

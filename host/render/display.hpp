@@ -1,8 +1,7 @@
-// Draws a film for a window, with the kernels preview and overlay.
+// Draws a film for a window, with the kernel preview.
 #pragma once
 
 #include "host/gpu/commands.hpp"
-#include "host/image/text.hpp"
 #include "host/render/aov.hpp"
 #include "host/render/renderer.hpp"
 #include "shaders/shared/display_types.h"
@@ -21,12 +20,9 @@ public:
 
     // Draws the renderer's film so far, stretched over the picture.
     void draw(const Renderer& renderer, Aov aov, const DisplayRange& range, const Look& look);
-    // Puts text over the drawn picture.
-    void cover(const TextBox& text);
-    // The picture with its text, after cover().
-    const StorageImage& shown() const { return *shown_; }
-    std::uint32_t width() const { return shown_->width(); }
-    std::uint32_t height() const { return shown_->height(); }
+    const StorageImage& picture() const { return *picture_; }
+    std::uint32_t width() const { return picture_->width(); }
+    std::uint32_t height() const { return picture_->height(); }
 
 private:
     void run(const Kernel& kernel, const Bindings& bindings, const DisplayPass& pass, std::uint64_t threads);
@@ -35,10 +31,8 @@ private:
 
     Device& device_;
     KernelLayout layout_;
-    Kernel overlay_;
     std::map<std::pair<Aov, bool>, Kernel> previews_;  // by aov, and whether pages are folded; compiled when needed
-    std::optional<StorageImage> picture_, shown_;
-    std::unique_ptr<Buffer> text_;
+    std::optional<StorageImage> picture_;
     std::vector<std::unique_ptr<Buffer>> folded_;  // one per tile of the renderer's film
     std::uint64_t foldVersion_ = 0;                // the version that folded_ holds
 };

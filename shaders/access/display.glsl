@@ -15,9 +15,7 @@ layout(local_size_x_id = kSpecWorkgroup) in;
 DECLARE(kBindBlocks, BlockSums, filmBlocks);
 DECLARE(kBindPages, PixelMoments, filmPages);
 DECLARE(kBindFolded, PixelMoments, filmFolded);  // of the pages that the host has taken
-DECLARE(kBindText, uint, textPixels);            // brightness | opacity << 8, rows of textWidth
-layout(set = 0, binding = kBindPicture, rgba8) uniform image2D picture;
-layout(set = 0, binding = kBindShown, rgba8) writeonly uniform image2D shown;
+layout(set = 0, binding = kBindPicture, rgba8) writeonly uniform image2D picture;
 
 // All samples so far, as the host folds them.
 PixelMoments momentsOfPixel(uint pixel)

@@ -52,9 +52,7 @@ GLIM_CONST uint kBindStatus = 25u;
 GLIM_CONST uint kBindCourseParameters = 33u;
 // display.glsl, with blocks and pages
 GLIM_CONST uint kBindFolded = 26u;
-GLIM_CONST uint kBindText = 27u;
 GLIM_CONST uint kBindPicture = 28u;
-GLIM_CONST uint kBindShown = 29u;
 // arithmetic.glsl
 GLIM_CONST uint kBindProbed = 49u;
 // denoise.glsl

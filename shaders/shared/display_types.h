@@ -1,4 +1,4 @@
-// The parameters of the kernels that draw the window's picture.
+// The parameters of the kernel that draws the window's picture.
 #ifndef GLIM_SHARED_DISPLAY_TYPES_H
 #define GLIM_SHARED_DISPLAY_TYPES_H
 #include "bindings.h"
@@ -13,11 +13,10 @@ GLIM_CONST float kFarthestGrey = 0.125;
 struct DisplayPass {
     uint width, height;  // of the picture
     uint filmWidth, filmHeight;
-    uint tileBegin, tileCount;   // pixels of the film
-    float scale;                 // 2^EV, of radiance and albedo
-    uint tone;                   // kToneNone ..., of radiance
-    float low, high;             // ends of the scale of depths, samples or steps
-    uint textWidth, textHeight;  // of the text in the upper left corner
+    uint tileBegin, tileCount;  // pixels of the film
+    float scale;                // 2^EV, of radiance and albedo
+    uint tone;                  // kToneNone ..., of radiance
+    float low, high;            // ends of the scale of depths, samples or steps
 };
 
 GLIM_SHARED_END

@@ -51,10 +51,10 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kOwners{
     {"Imath/", {"image"}},    {"Imf", {"image"}},
     {"draco/", {"scene"}},    {"meshoptimizer", {"scene"}},
     {"png.h", {"image"}},     {"jpeglib.h", {"image"}},
-    {"webp/", {"image"}},     {"stb_", {"image"}},
+    {"webp/", {"image"}},     {"imgui", {"preview", "gpu"}},
     {"GLFW/", {"preview"}},   {"vulkan/", {"gpu"}},
     {"commit.h", {"cli"}},    {"kernels.hpp", {"render", "denoise"}},
-    {"nlohmann/", {"scene"}},
+    {"nlohmann/", {"scene"}}, {"backends/imgui", {"gpu"}},
 };
 
 // A library whose templates cost seconds in every file that includes it.
@@ -238,6 +238,8 @@ TEST(Includes, WhatIsAllowedPasses)
              Example{"host/scene/gltf/read.cpp", "#include <tiny_gltf.h>\n#include \"host/image/exr.hpp\"\n"},
              Example{"host/bvh/build_bvh.cpp", "#include \"shaders/shared/limits.h\"\n// #include \"host/gpu/device.hpp\"\n"},
              Example{"host/gpu/instance.hpp", "#include <vulkan/vulkan.h>\n#include \"host/error.hpp\"\n"},
+             Example{"host/gpu/panel_painter.cpp", "#include <backends/imgui_impl_vulkan.h>\n"},
+             Example{"host/preview/panels.cpp", "#include <imgui.h>\n"},
              Example{"shaders/lib/warp.glsl", "#include \"shared/limits.h\"\n#include \"sphere.glsl\"\n// uniform, acos\n"},
              Example{"shaders/access/scene.glsl", "#include \"lib/warp.glsl\"\nreadonly buffer B { float b[]; };\n"},
              Example{"shaders/shared/types.h", "#include \"vocabulary.h\"\n#include <cstdint>\n"},
@@ -269,6 +271,8 @@ TEST(Includes, EveryViolationIsFound)
              Example{"host/render/film.cpp", "#include <OpenEXR/ImfHeader.h>\n"},
              Example{"host/image/png.cpp", "#include <tiny_gltf.h>\n"},
              Example{"host/cli/preview.cpp", "#include <GLFW/glfw3.h>\n"},
+             Example{"host/cli/preview.cpp", "#include <imgui.h>\n"},
+             Example{"host/preview/gui.cpp", "#include <backends/imgui_impl_vulkan.h>\n"},
              Example{"host/render/renderer.cpp", "#include <vulkan/vulkan.h>\n"},
              Example{"host/scene/scene.hpp", "#include <vulkan/vulkan.h>\n"},
              Example{"shaders/shared/limits.h", "#include \"lib/warp.glsl\"\n"},

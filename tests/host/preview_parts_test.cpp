@@ -1,7 +1,6 @@
-// Scripts, text, waits and events of the window.
+// Scripts, waits, events and gestures of the window.
 #include "host/error.hpp"
-#include "host/image/text.hpp"
-#include "host/preview/event_queue.hpp"
+#include "host/preview/gestures.hpp"
 #include "host/preview/latency.hpp"
 #include "host/preview/script.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -58,34 +57,6 @@ TEST(ScriptTest, NamesTheLineThatIsBad)
     test::expectRefusal<InputError>([] { readScript("missing"); }, "missing: the script cannot be read");
 }
 
-TEST(TextTest, IsInkOnShade)
-{
-    const TextBox box = drawText({"Hi", "glim \xc3\xa9"}, 2, 500);
-    EXPECT_EQ(box.pixels.size(), std::size_t{box.width} * box.height);
-    EXPECT_EQ(box.height, 2U * (2 * 12 + 8));
-    const auto ink = std::count(box.pixels.begin(), box.pixels.end(), 255U | 255U << 8);
-    EXPECT_GT(ink, 100);
-    EXPECT_EQ(ink + std::count(box.pixels.begin(), box.pixels.end(), 150U << 8), std::ssize(box.pixels));
-    EXPECT_EQ(std::count(box.pixels.begin(), box.pixels.begin() + 8 * box.width, 255U | 255U << 8), 0) << "a margin";
-    EXPECT_TRUE(drawText({}, 1, 100).pixels.empty());
-    EXPECT_EQ(drawText({"a\tb"}, 1, 500).width, drawText({"abc\tb"}, 1, 500).width) << "columns";
-    EXPECT_EQ(drawText({"caf\xc3\xa9 a\tb\tc"}, 1, 500).pixels, drawText({"caf?? a\tb?c"}, 1, 500).pixels) << "not printable";
-    EXPECT_EQ(drawText({"caf\xc3\xa9 a"}, 1, 30).pixels, drawText({"caf??", "a"}, 1, 500).pixels) << "nor where it is cut";
-    const TextBox twice = drawText({"glim"}, 2, 500), once = drawText({"glim"}, 1, 500);
-    EXPECT_EQ(twice.width, 2 * once.width);
-    EXPECT_EQ(std::count(twice.pixels.begin(), twice.pixels.end(), 255U | 255U << 8),
-              4 * std::count(once.pixels.begin(), once.pixels.end(), 255U | 255U << 8));
-}
-
-TEST(TextTest, GoesOnBelow)
-{
-    const std::uint32_t width = drawText({"aaa bbb"}, 1, 500).width;
-    const TextBox broken = drawText({"aaa bbb ccc ddd"}, 1, width + 5), two = drawText({"aaa bbb", "ccc ddd"}, 1, 500);
-    EXPECT_EQ(broken.pixels, two.pixels);
-    EXPECT_EQ(drawText({"a longword b"}, 1, 30).height, drawText({"a", "longword", "b"}, 1, 500).height) << "cut where no blank is";
-    EXPECT_EQ(drawText({"word"}, 1, 1).pixels, drawText({"word"}, 1, 500).pixels);
-}
-
 TEST(LatencyTest, QuantilesAreOfTheWaits)
 {
     Latency latency;
@@ -105,7 +76,7 @@ TEST(EventQueueTest, KeepsTheOrderAndWaits)
     EXPECT_TRUE(queue.take(0.001).empty());
     std::thread user([&] {
         for (const char key : {'A', 'B', 'C'}) {
-            queue.push({Event::Kind::KeyDown, {}, key, {}, {}});
+            queue.push({.kind = Event::Kind::KeyDown, .key = key});
         }
     });
     std::string keys;
@@ -117,6 +88,50 @@ TEST(EventQueueTest, KeepsTheOrderAndWaits)
     user.join();
     EXPECT_EQ(keys, "ABC");
     EXPECT_TRUE(queue.isEmpty());
+}
+
+Event mouse(Event::Kind kind, glm::dvec2 position, int button = kLeftButton, bool shift = false)
+{
+    return {.kind = kind, .position = position, .button = button, .shift = shift};
+}
+
+TEST(GesturesTest, AClickBecomesADragThreePixelsOn)
+{
+    using Is = Gesture::Kind;
+    Gestures gestures;
+    EXPECT_FALSE(gestures.take(mouse(Event::Kind::Move, {9, 9}))) << "no button is down";
+    EXPECT_FALSE(gestures.take(mouse(Event::Kind::ButtonDown, {10, 10})));
+    EXPECT_FALSE(gestures.take(mouse(Event::Kind::Move, {12, 10})));
+    const auto click = gestures.take(mouse(Event::Kind::ButtonUp, {12, 10}));
+    ASSERT_TRUE(click && click->kind == Is::Click);
+    EXPECT_EQ(click->position, glm::dvec2(12, 10));
+
+    gestures.take(mouse(Event::Kind::ButtonDown, {10, 10}));
+    gestures.take(mouse(Event::Kind::Move, {11, 10}));
+    const auto first = gestures.take(mouse(Event::Kind::Move, {10, 13})), second = gestures.take(mouse(Event::Kind::Move, {11, 13}));
+    ASSERT_TRUE(first && second && first->kind == Is::Orbit && second->kind == Is::Orbit);
+    EXPECT_EQ(first->motion, glm::dvec2(0, 3)) << "since the press";
+    EXPECT_EQ(second->motion, glm::dvec2(1, 0)) << "since the last move";
+    EXPECT_FALSE(gestures.take(mouse(Event::Kind::ButtonUp, {11, 13}))) << "no click";
+    EXPECT_FALSE(gestures.take(mouse(Event::Kind::Move, {30, 30})));
+}
+
+TEST(GesturesTest, MiddleAndShiftPan)
+{
+    for (const bool shift : {false, true}) {
+        Gestures gestures;
+        const int button = shift ? kLeftButton : kMiddleButton;
+        gestures.take(mouse(Event::Kind::ButtonDown, {10, 10}, button, shift));
+        EXPECT_FALSE(gestures.take(mouse(Event::Kind::ButtonDown, {10, 10}, kRightButton))) << "a second button changes nothing";
+        EXPECT_FALSE(gestures.take(mouse(Event::Kind::ButtonUp, {10, 10}, kRightButton)));
+        const auto drag = gestures.take(mouse(Event::Kind::Move, {20, 10}));
+        EXPECT_TRUE(drag && drag->kind == Gesture::Kind::Pan) << shift;
+        gestures.cancel();
+        EXPECT_FALSE(gestures.take(mouse(Event::Kind::Move, {30, 10}))) << "after a cancel";
+    }
+    Gestures gestures;
+    const auto turn = gestures.take({.kind = Event::Kind::Scroll, .notches = 2.0});
+    EXPECT_TRUE(turn && turn->kind == Gesture::Kind::Dolly && turn->notches == 2.0);
 }
 
 }  // namespace

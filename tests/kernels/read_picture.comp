@@ -6,14 +6,14 @@
 
 layout(local_size_x_id = kSpecWorkgroup) in;
 layout(push_constant, scalar) uniform Size { uint width, height; };
-layout(set = 0, binding = kBindShown, rgba8) readonly uniform image2D shown;
+layout(set = 0, binding = kBindPicture, rgba8) readonly uniform image2D picture;
 layout(set = 0, binding = kBindResults, scalar) writeonly buffer Pixels { uint pixels[]; };
 
 void main()
 {
     uint id = gl_GlobalInvocationID.x;
     if (id < width * height) {
-        uvec3 bytes = uvec3(255.0 * imageLoad(shown, ivec2(id % width, id / width)).rgb + 0.5);
+        uvec3 bytes = uvec3(255.0 * imageLoad(picture, ivec2(id % width, id / width)).rgb + 0.5);
         pixels[id] = bytes.r | bytes.g << 8u | bytes.b << 16u;
     }
 }

@@ -8,11 +8,9 @@
 namespace glim::test {
 namespace {
 
-constexpr const char* kBare = "0 key H\n0 key H\n";  // without figures, so that all of the window is picture
-
 TEST_F(PreviewTest, ShowsAndWritesWhatARenderGives)
 {
-    const Pixels shown = windowAtWriting(screen, std::string(kBare) + "0 samples 8\n0 key P\n", {"--spp", "8"});
+    const Pixels shown = windowAtWriting(screen, "0 samples 8\n0 key P\n", {"--spp", "8"});
     EXPECT_TRUE(sameBits(film(1), render("--spp 8")));
     EXPECT_EQ(picture(1), rendered());
     EXPECT_EQ(countOthers(shown, rendered()), 0);
@@ -24,7 +22,7 @@ TEST_F(PreviewTest, ShowsTheTonesThatFilesHave)
         std::istringstream words(look);
         std::vector<std::string> options{std::istream_iterator<std::string>(words), {}};
         options.insert(options.end(), {"--spp", "8"});
-        const Pixels shown = windowAtWriting(screen, std::string(kBare) + "0 samples 8\n0 key P\n", options);
+        const Pixels shown = windowAtWriting(screen, "0 samples 8\n0 key P\n", options);
         render("--spp 8");
         const Pixels plain = rendered();
         render("--spp 8 " + look);
@@ -40,7 +38,7 @@ TEST_F(PreviewTest, ShowsManySamples)
 {
     width = 24;
     height = 18;
-    const Pixels shown = windowAtWriting(screen, std::string(kBare) + "0 samples 300\n0 key P\n", {"--spp", "300"});
+    const Pixels shown = windowAtWriting(screen, "0 samples 300\n0 key P\n", {"--spp", "300"});
     EXPECT_TRUE(sameBits(film(1), render("--spp 300")));
     EXPECT_EQ(countOthers(shown, rendered()), 0);
 }
@@ -92,7 +90,7 @@ TEST_F(PreviewTest, PrintsTheOptionsOfItsCamera)
 
 TEST_F(PreviewTest, NeverFlashesBlack)
 {
-    std::string script = std::string(kBare) + "0 samples 2\n0 key P\n";
+    std::string script = "0 samples 2\n0 key P\n";
     for (int i = 0; i < 30; ++i) {
         script += "0.04 drag left 10,10 16,12\n0.04 drag left 16,12 10,10\n";
         script += i % 5 == 4 ? "0.1 key V\n" : i % 5 == 2 ? "0.1 key +\n0 key -\n" : "";
@@ -105,14 +103,14 @@ TEST_F(PreviewTest, NeverFlashesBlack)
 
 TEST_F(PreviewTest, ShowsTheFlight)
 {
-    const Watched seen = watch(20, std::string(kBare) + "0 samples 2\n0 key P\n0 press W\n80 release W\n", {"--spp", "1"});
+    const Watched seen = watch(20, "0 samples 2\n0 key P\n0 press W\n80 release W\n", {"--spp", "1"});
     EXPECT_GE(seen.pictures.size(), 20U) << "while the key is down";
 }
 
 // The mouse moves more often than pictures are made.
 TEST_F(PreviewTest, ShowsPicturesThroughALongDrag)
 {
-    std::string script = std::string(kBare) + "0 samples 1\n0 key P\n";
+    std::string script = "0 samples 1\n0 key P\n";
     for (int i = 0; i < 20000; ++i) {
         script += "0.003 drag left 10,10 13,10\n";
     }
@@ -120,30 +118,22 @@ TEST_F(PreviewTest, ShowsPicturesThroughALongDrag)
     EXPECT_GE(seen.pictures.size(), 20U);
 }
 
-// On a display with small pixels the text has dots of two by two.
-TEST_F(PreviewTest, TextGrowsWithTheDensityOfTheDisplay)
+// On a display with small pixels the panels have twice the height and width.
+TEST_F(PreviewTest, PanelsGrowWithTheDensityOfTheDisplay)
 {
-    width = 400;
-    height = 100;
-    const auto doubled = [&](int density) {
+    width = 800;
+    height = 600;
+    panels = true;
+    const auto covered = [&](int density) {
         const VirtualScreen display(24, density);
         const Pixels window = windowAtWriting(display, "0 samples 1\n0 key P\n", {"--spp", "1"});
-        int ink = 0, whole = 0;
-        for (std::size_t y = 0; y < 40; y += 2) {
-            for (std::size_t x = 0; x < 200; x += 2) {
-                const std::size_t at = y * width + x;
-                const int white = static_cast<int>(std::count(&window[at], &window[at + 2], std::array{255, 255, 255})) +
-                                  static_cast<int>(std::count(&window[at + width], &window[at + width + 2], std::array{255, 255, 255}));
-                ink += white > 0 ? 1 : 0;
-                whole += white == 4 ? 1 : 0;
-            }
-        }
+        const int others = countOthers(window, picture(1));
         removePictures();
-        EXPECT_GT(ink, 100);
-        return static_cast<double>(whole) / ink;
+        return static_cast<double>(others);
     };
-    EXPECT_EQ(doubled(192), 1.0);
-    EXPECT_LT(doubled(96), 0.5);
+    const double once = covered(96);
+    EXPECT_GT(once, 100 * 100);
+    EXPECT_NEAR(covered(192) / once, 4.0, 0.5);
 }
 
 }  // namespace

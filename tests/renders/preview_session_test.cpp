@@ -42,8 +42,7 @@ TEST_F(PreviewTest, ViewsExposureAndClicks)
     EXPECT_NE(session.out.find("; 4 samples, mean ("), std::string::npos) << session.out;
 }
 
-// Through GLFW and X: real keys, drags and turns of the wheel do what the scripts' do. (No figures, or their seconds would
-// keep the pictures of two sessions apart.)
+// Through GLFW and X: real keys, drags and turns of the wheel do what the scripts' do.
 TEST_F(PreviewTest, KeyboardAndMouseOfTheScreen)
 {
     GlimCall session = call("", {"--spp", "1"});
@@ -139,20 +138,44 @@ TEST_F(PreviewTest, DigitsAreTheFilesCameras)
     EXPECT_TRUE(sameBits(film(3), first)) << "there is no camera 3";
 }
 
-TEST_F(PreviewTest, FiguresAndHelpComeAndGo)
+TEST_F(PreviewTest, PanelsAndHelpComeAndGo)
 {
-    width = 320;
-    height = 240;
+    width = 480;
+    height = 300;
+    panels = true;
     const auto covered = [&](const std::string& keys) {
         const Pixels window = windowAtWriting(screen, "0 samples 1\n" + keys + "0 key P\n", {"--spp", "1"});
         const int others = countOthers(window, picture(1));
         removePictures();
         return others;
     };
-    const int figures = covered(""), help = covered("0 key H\n"), bare = covered("0 key H\n0 key H\n");
-    EXPECT_GT(figures, 320 * 12);
-    EXPECT_GT(help, 2 * figures);
+    const int controls = covered(""), help = covered("0 key H\n"), bare = covered("0 key H\n0 key H\n");
+    EXPECT_GT(controls, 100 * 100);
+    EXPECT_GT(help, 1.5 * controls);
     EXPECT_EQ(bare, 0);
+}
+
+// Where the controls are is known from a look at the window. Keys do the same.
+TEST_F(PreviewTest, ControlsOfThePanelsDoWhatTheKeysDo)
+{
+    width = 320;
+    height = 240;
+    panels = true;
+    const auto session = [&](const std::string& steps) {
+        run("0 samples 1\n" + steps + "0.1 samples 1\n0 key P\n0 close\n", {"--spp", "1"});
+        const Pixels made = picture(1);
+        removePictures();
+        return made;
+    };
+    const auto expected = [&](const std::string& look) {
+        render("--spp 1 " + look);
+        return rendered();
+    };
+    EXPECT_EQ(session("0 drag left 90,37 0,37\n"), expected("--exposure -10")) << "the slider to its end, and no orbit";
+    EXPECT_EQ(session("0 click 60,60\n0.1 click 60,112\n"), expected("--tone agx")) << "the third of the tones";
+    EXPECT_EQ(session("0 click 60,83\n0.1 click 60,124\n"), expected("--view normal")) << "the second of the layers";
+    EXPECT_EQ(session("0 key T\n"), expected("--tone neutral"));
+    EXPECT_EQ(session("0 key T\n0 key T\n0 key T\n0 key V\n"), expected("--view normal"));
 }
 
 TEST_F(PreviewTest, PauseStopsSampling)
@@ -203,6 +226,7 @@ TEST_F(PreviewTest, AnswersEveryInput)
 {
     width = 640;
     height = 480;
+    panels = true;
     const GlimRun session = run(bytesOfFile(GLIM_SOURCE_DIR "/tests/renders/look_around.script"));
     int frames = 0, inputs = 0, median = -1, most = -1;
     const std::size_t last = session.err.rfind("glim: ");
@@ -262,6 +286,7 @@ TEST_F(PreviewTest, LoadsAChangedSceneAgainAndABrokenOneNot)
 
 TEST_F(PreviewTest, RefusesWhatItCannotShow)
 {
+    panels = true;
     const auto refusal = [&](GlimCall session, int exitCode, const char* sentence) {
         const GlimRun done = runGlim(session);
         EXPECT_EQ(done.exitCode, exitCode) << done.err;

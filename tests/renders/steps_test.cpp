@@ -144,11 +144,11 @@ TEST_F(StepsTest, OneRayMeetsWhatTheCameraSees)
 
 std::vector<Rgb8> shownBy(Display& display)
 {
-    const KernelLayout layout(testDevice(), {{kBindResults, BufferKind::Storage}}, 2 * sizeof(uint), {kBindShown});
+    const KernelLayout layout(testDevice(), {{kBindResults, BufferKind::Storage}}, 2 * sizeof(uint), {kBindPicture});
     const Kernel kernel(layout, test_kernels::read_picture, {{kSpecWorkgroup, 64}});
     const uint size[] = {display.width(), display.height()};
     Buffer pixels(testDevice(), "test's pixels", BufferKind::Readback, std::uint64_t{4} * size[0] * size[1]);
-    const Bindings bindings(layout, {{kBindResults, &pixels}}, {{kBindShown, &display.shown()}});
+    const Bindings bindings(layout, {{kBindResults, &pixels}}, {{kBindPicture, &display.picture()}});
     Commands commands(testDevice());
     commands.dispatch(kernel, bindings, std::as_bytes(std::span(size)), (size[0] * size[1] + 63) / 64);
     commands.submitAndWait();
@@ -189,7 +189,6 @@ TEST_F(StepsTest, AWindowShowsWhatFilesHold)
             const Film film = renderer.film();
             const DisplayRange range = computeRange(film, aov);
             display.draw(renderer, aov, range, {0.5, Tone::Neutral});
-            display.cover({});
             std::vector<Rgb8> expected;
             for (const PixelMoments& pixel : film.pixels) {
                 expected.push_back(displayColor(pixel, aov, range, {0.5, Tone::Neutral}));
@@ -210,7 +209,6 @@ TEST_F(StepsTest, AWindowKeepsTheCoarsePictureUnderTheFine)
     renderer.restart(cameraOf(scene, settings), 3, 3);
     advanceToSamples(renderer);
     display.draw(renderer, Aov::Albedo, {}, {});
-    display.cover({});
     const std::vector<Rgb8> coarse = shownBy(display);
     for (std::size_t i = 0; i < coarse.size(); ++i) {
         EXPECT_EQ(coarse[i], coarse[i / 24 / 8 * 8 * 24 + i % 24 / 8 * 8]) << "blocks of eight";
@@ -219,34 +217,11 @@ TEST_F(StepsTest, AWindowKeepsTheCoarsePictureUnderTheFine)
     advanceToSamples(renderer);
     ASSERT_EQ(renderer.pictureSamples(), 64U);
     display.draw(renderer, Aov::Albedo, {}, {});
-    display.cover({});
     const std::vector<Rgb8> mixed = shownBy(display);
     const Film film = renderer.film();
     for (std::size_t i = 0; i < mixed.size(); ++i) {
         EXPECT_EQ(mixed[i], i < 64 ? displayColor(film.pixels[i], Aov::Albedo, {}, {}) : coarse[i]) << i;
     }
-}
-
-TEST_F(StepsTest, TextLiesOverThePicture)
-{
-    Display display(testDevice());
-    display.resize(24, 24);
-    settings.sampleEnd = 1;
-    Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
-    renderer.advance();
-    display.draw(renderer, Aov::Radiance, {}, {});
-    display.cover({});
-    const std::vector<Rgb8> plain = shownBy(display);
-    display.cover({2, 3, {255U | 255U << 8, 0U | 255U << 8, 0U, 255U | 255U << 8, 0U | 128U << 8, 255U}});
-    const std::vector<Rgb8> covered = shownBy(display);
-    EXPECT_EQ(covered[0], (Rgb8{255, 255, 255}));
-    EXPECT_EQ(covered[1], (Rgb8{0, 0, 0}));
-    EXPECT_EQ(covered[24], plain[24]);
-    EXPECT_EQ(covered[25], (Rgb8{255, 255, 255}));
-    EXPECT_NEAR(covered[48][0], plain[48][0] * 127.0 / 255.0, 1.0);
-    EXPECT_EQ(covered[49], plain[49]);
-    display.cover({});
-    EXPECT_EQ(shownBy(display), plain) << "text leaves no trace";
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ void whenWritten(GlimCall session, const std::function<void()>& look)
 
 GlimCall PreviewTest::call(const std::string& script, const std::vector<std::string>& more) const
 {
-    std::ofstream(folder / "script") << script;
+    std::ofstream(folder / "script") << (panels ? "" : "0 key H\n0 key H\n") << script;
     GlimCall made;
     made.arguments = {"preview", scene, "--script", "script", "--size", size()};
     made.arguments.insert(made.arguments.end(), more.begin(), more.end());

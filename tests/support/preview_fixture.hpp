@@ -19,7 +19,8 @@ using Pixels = std::vector<std::array<int, 3>>;
 
 class PreviewTest : public testing::Test {
 protected:
-    // `glim preview` of `scene` in a folder of its own, with the steps of `script`, one per line.
+    // `glim preview` of `scene` in a folder of its own, with the steps of `script`, one per line. It first hides the panels, unless
+    // `panels`.
     GlimCall call(const std::string& script, const std::vector<std::string>& more = {}) const;
     // Expects no error and no message of the validation layers.
     GlimRun run(const std::string& script, const std::vector<std::string>& more = {}) const;
@@ -47,6 +48,7 @@ protected:
     VirtualScreen screen;
     std::string scene = sceneFile("cornell_spheres.gltf");
     std::uint32_t width = 96, height = 72;
+    bool panels = false;
 
 private:
     std::string size() const { return std::to_string(width) + "x" + std::to_string(height); }

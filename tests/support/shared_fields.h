@@ -11,7 +11,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 417u;
+GLIM_CONST uint kSharedWords = 415u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -122,7 +122,7 @@ U(lightNode.children) U(lightNode.firstLight)
 F3(instance.column0) U(instance.beginRecord) F3(instance.column1) U(instance.firstRecord) F3(instance.column2) U(instance.firstPrimitive)
 F3(instance.translation) U(instance.mirrors) F3(instance.errorBound) U(instance.unused)
 U(display.width) U(display.height) U(display.filmWidth) U(display.filmHeight) U(display.tileBegin) U(display.tileCount)
-F(display.scale) U(display.tone) F(display.low) F(display.high) U(display.textWidth) U(display.textHeight)
+F(display.scale) U(display.tone) F(display.low) F(display.high)
 F3(noisy.mean) F3(noisy.variance) F3(weighted.radiance) F(weighted.weight)
 U(denoise.width) U(denoise.height) U(denoise.first) U(denoise.count) U(denoise.windowRow)
 // clang-format on

@@ -1,0 +1,181 @@
+#include "host/preview/panels.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace glim {
+namespace {
+
+constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
+constexpr float kOpacity = 0.8F;
+constexpr float kExposureRange = 10.0F;  // stops to either side of 0
+constexpr int kLongestList = 5;          // cameras, before the list scrolls
+constexpr float kWidth = 17.0F;          // of the controls, in heights of the font
+constexpr float kPlotHeight = 5.0F;      // the same
+constexpr float kMessageWidth = 40.0F;   // the same
+
+constexpr std::pair<const char*, const char*> kHelp[] = {
+    {"drag", "orbit"},
+    {"shift-drag, middle-drag", "pan"},
+    {"wheel", "nearer, farther"},
+    {"W A S D Q E", "fly: forward, left, back, right, down, up"},
+    {"F", "frame the scene"},
+    {"R", "reset to the file's camera"},
+    {"1-9", "the file's cameras"},
+    {"+ -", "exposure"},
+    {"T", "next tone"},
+    {"V", "next layer"},
+    {"click", "print what is there"},
+    {"Space", "pause"},
+    {"P", "write PNG and EXR"},
+    {"C", "print the camera"},
+    {"H", "panels, help too, nothing"},
+    {"Esc", "quit"},
+};
+
+const char* nameOf(Aov aov)
+{
+    constexpr const char* kNames[] = {"shaded", "normal", "depth", "albedo", "BVH steps", "samples"};
+    return kNames[static_cast<int>(aov)];
+}
+
+// Lets the user choose among `values`, by the names that `name` gives.
+template <class Value, class Name>
+Value choose(const char* label, const std::vector<Value>& values, Value chosen, Name&& name)
+{
+    if (ImGui::BeginCombo(label, name(chosen))) {
+        for (const Value& value : values) {
+            if (ImGui::Selectable(name(value), value == chosen)) {
+                chosen = value;
+            }
+        }
+        ImGui::EndCombo();
+    }
+    return chosen;
+}
+
+std::size_t chooseCamera(const std::vector<std::string>& cameras, std::size_t chosen)
+{
+    const auto rows = static_cast<float>(std::min<int>(static_cast<int>(cameras.size()), kLongestList));
+    const float height = rows * ImGui::GetTextLineHeightWithSpacing() + 2.0F * ImGui::GetStyle().FramePadding.y;
+    if (ImGui::BeginListBox("camera", {0.0F, height})) {
+        for (std::size_t i = 0; i < cameras.size(); ++i) {
+            ImGui::PushID(static_cast<int>(i));  // two cameras may have one name
+            if (ImGui::Selectable((std::to_string(i + 1) + " " + cameras[i]).c_str(), i == chosen)) {
+                chosen = i;
+            }
+            ImGui::PopID();
+        }
+        ImGui::EndListBox();
+    }
+    return chosen;
+}
+
+// Both axes are logarithmic: where the error falls as one over the samples, the curve is a straight line.
+void plotErrors(const std::vector<ErrorPoint>& points)
+{
+    const ImVec2 size(ImGui::GetContentRegionAvail().x, kPlotHeight * ImGui::GetFontSize());
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    ImGui::Dummy(size);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg));
+    double high = 0.0, low = std::numeric_limits<double>::infinity();
+    for (const ErrorPoint& point : points) {
+        high = std::max(high, point.relMse);
+        low = std::min(low, point.relMse);
+    }
+    const double begin = std::log(points.front().seconds), end = std::max(begin + 1e-3, std::log(points.back().seconds));
+    const double top = std::log(high), bottom = std::min(top - 1e-3, std::log(low));
+    const float margin = 0.25F * ImGui::GetFontSize();
+    std::vector<ImVec2> curve;
+    for (const ErrorPoint& point : points) {
+        const auto x = static_cast<float>((std::log(point.seconds) - begin) / (end - begin));
+        const auto y = static_cast<float>((top - std::log(point.relMse)) / (top - bottom));
+        curve.emplace_back(corner.x + margin + x * (size.x - 2.0F * margin), corner.y + margin + y * (size.y - 2.0F * margin));
+    }
+    const ImU32 color = ImGui::GetColorU32(ImGuiCol_PlotLines);
+    list.AddPolyline(curve.data(), static_cast<int>(curve.size()), color, ImDrawFlags_None, 1.5F);
+    for (const ImVec2& at : curve) {
+        list.AddCircleFilled(at, 0.4F * margin + 1.0F, color);
+    }
+    ImGui::Text("%.3g s to %.3g s, logarithmic", points.front().seconds, points.back().seconds);
+}
+
+void showFigures(const PanelFigures& figures)
+{
+    ImGui::Text("%u sample%s in %.1f s%s%s", figures.samples, figures.samples == 1 ? "" : "s", figures.seconds,
+                figures.state.empty() ? "" : ", ", figures.state.c_str());
+    ImGui::Text("%.2f Msamples/s", figures.samplesPerSecond * 1e-6);
+    const std::string size = figures.scale == 1 ? "full size" : "1/" + std::to_string(figures.scale) + " size";
+    ImGui::Text("%ux%u, %s", figures.size.x, figures.size.y, size.c_str());
+    ImGui::TextUnformatted(figures.device.c_str());
+}
+
+}  // namespace
+
+PanelChoices showControls(const PanelFigures& figures, PanelChoices choices)
+{
+    ImGui::SetNextWindowPos({0.0F, 0.0F}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowBgAlpha(kOpacity);
+    if (ImGui::Begin("glim (H: help)###controls", nullptr, kFlags)) {
+        ImGui::PushItemWidth(kWidth * ImGui::GetFontSize() - ImGui::CalcTextSize("exposure").x);
+        auto exposure = static_cast<float>(choices.exposure);
+        if (ImGui::SliderFloat("exposure", &exposure, -kExposureRange, kExposureRange, "%+.1f EV", ImGuiSliderFlags_NoInput)) {
+            choices.exposure = static_cast<double>(exposure);
+        }
+        choices.tone = choose("tone", {Tone::None, Tone::Neutral, Tone::Agx}, choices.tone, [](Tone tone) { return glim::nameOf(tone); });
+        choices.layer = choose("layer", figures.layers, choices.layer, [](Aov layer) { return nameOf(layer); });
+        choices.camera = chooseCamera(figures.cameras, choices.camera);
+        ImGui::PopItemWidth();
+        ImGui::Separator();
+        showFigures(figures);
+        if (!figures.errors.empty()) {
+            ImGui::Separator();
+            ImGui::Text("estimated relMSE %.3g", figures.errors.back().relMse);
+            plotErrors(figures.errors);
+        }
+    }
+    ImGui::End();
+    return choices;
+}
+
+void showHelp()
+{
+    const float left = kWidth * ImGui::GetFontSize() + 8.0F * ImGui::GetStyle().WindowPadding.x;
+    ImGui::SetNextWindowPos({left, 0.0F}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowBgAlpha(kOpacity);
+    if (ImGui::Begin("keys and mouse", nullptr, kFlags) && ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+        for (const auto& [key, meaning] : kHelp) {
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(key);
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(meaning);
+        }
+        ImGui::EndTable();
+    }
+    ImGui::End();
+}
+
+void showMessages(const std::vector<std::string>& lines)
+{
+    if (lines.empty()) {
+        return;
+    }
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0.0F, size.y}, ImGuiCond_Always, {0.0F, 1.0F});
+    ImGui::SetNextWindowBgAlpha(kOpacity);
+    if (ImGui::Begin("messages", nullptr, kFlags | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoInputs)) {
+        ImGui::PushTextWrapPos(std::min(size.x - 2.0F * ImGui::GetStyle().WindowPadding.x, kMessageWidth * ImGui::GetFontSize()));
+        for (const std::string& line : lines) {
+            ImGui::TextUnformatted(line.c_str());
+        }
+        ImGui::PopTextWrapPos();
+    }
+    ImGui::End();
+}
+
+}  // namespace glim

@@ -1,0 +1,48 @@
+// The panels over the preview's picture.
+#pragma once
+
+#include "host/render/aov.hpp"
+
+#include <glm/glm.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace glim {
+
+// An estimate of the picture's error, at a time since its start.
+struct ErrorPoint {
+    double seconds, relMse;
+};
+
+// What the panels show, and the user does not change there.
+struct PanelFigures {
+    std::uint32_t samples = 0;
+    double seconds = 0.0, samplesPerSecond = 0.0;
+    std::string state;  // such as "paused"; empty while sampling
+    std::vector<ErrorPoint> errors;
+    glm::uvec2 size{0};
+    std::uint32_t scale = 1;  // the side of a film's pixel in pixels of the window
+    std::string device;
+    std::vector<Aov> layers;
+    std::vector<std::string> cameras;
+};
+
+// What the user changes in the panels.
+struct PanelChoices {
+    double exposure = 0.0;
+    Tone tone = Tone::None;
+    Aov layer = Aov::Radiance;
+    std::size_t camera = 0;
+    bool operator==(const PanelChoices&) const = default;
+};
+
+// The following functions belong into a frame (gui.hpp).
+// Returns `choices` with what the user changes in this frame.
+PanelChoices showControls(const PanelFigures& figures, PanelChoices choices);
+void showHelp();
+// In the lower left corner. Nothing if there are no lines.
+void showMessages(const std::vector<std::string>& lines);
+
+}  // namespace glim
