@@ -2,13 +2,10 @@
 
 #include "host/error.hpp"
 #include "host/flatten/camera_options.hpp"
-#include "host/measure/compare_images.hpp"
-#include "host/measure/picture.hpp"
 #include "host/memory.hpp"
 #include "host/message.hpp"
+#include "host/preview/pick.hpp"
 #include "host/render/check_memory.hpp"
-#include "host/render/describe_primitive.hpp"
-#include "shaders/shared/limits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +25,6 @@ constexpr double kPresentShare = 0.1;  // the most of the time that presenting m
 constexpr double kIdleSeconds = 0.05;
 constexpr double kExposureStep = 0.5;  // stops
 constexpr double kNoticeSeconds = 6.0;
-constexpr double kMeasureGrowth = 1.25;  // of the samples, from one measurement of the whole film to the next
 
 double secondsSince(std::chrono::steady_clock::time_point start)
 {
@@ -42,37 +38,6 @@ double halfHeightOf(const Camera& camera, const Pose& pose)
         return static_cast<double>(camera.halfHeight);  // includes the zoom
     }
     return std::tan(0.5 * static_cast<double>(camera.yfov)) * glm::length(pose.at - pose.from);
-}
-
-struct Pick {
-    glm::dvec3 position;  // world coordinates
-    double distance;      // metres from the ray's origin
-    PrimitiveDescription primitive;
-};
-
-// The ray through the centre of a pixel of a picture of this size, and through the middle of the lens.
-PathRay rayThrough(const FlatCamera& camera, const glm::uvec2& pixel, const glm::uvec2& size)
-{
-    const glm::vec2 film = 2.0F * (glm::vec2(pixel) + 0.5F) / glm::vec2(size) - 1.0F;
-    const glm::vec3 across = film.x * camera.right - film.y * camera.up;
-    return camera.kind == kOrthographic ? PathRay{camera.position + across, kNoPrimitive, camera.forward}
-                                        : PathRay{camera.position, kNoPrimitive, glm::normalize(camera.forward + across)};
-}
-
-// The surface behind the centre of a pixel.
-std::optional<Pick> pick(Renderer& renderer, const PreparedScene& prepared, const FlatCamera& camera, const glm::uvec2& pixel,
-                         const glm::uvec2& size)
-{
-    const PathRay ray = rayThrough(camera, pixel, size);
-    const PathHit hit = renderer.traceRay(ray);
-    if (hit.record == kNoRecord) {
-        return std::nullopt;
-    }
-    Pick found;
-    found.distance = static_cast<double>(hit.t);
-    found.position = prepared.scene.origin + glm::dvec3(ray.origin) + found.distance * glm::dvec3(ray.direction);
-    found.primitive = describeRecord(prepared, hit.record);
-    return found;
 }
 
 }  // namespace
@@ -245,8 +210,7 @@ void Session::show()
     waiting_.clear();
     moved_ = shown_ = false;
     lightIsStale_ = aov_ == Aov::BvhSteps;
-    estimatedAt_ = 0;
-    errors_.clear();
+    meter_.restart();
     changed_ = true;
 }
 
@@ -274,7 +238,7 @@ void Session::present()
     const Clock::time_point start = Clock::now();
     if (light_) {
         measure();
-        display_.draw(refiner().renderer(), aov_, range_, look_);
+        display_.draw(refiner().renderer(), aov_, meter_.range(), look_);
     }
     buildPanels();
     buildPanels();  // ImGui lays out a frame by the sizes of the one before
@@ -308,32 +272,11 @@ void Session::reportShown()
     }
 }
 
-// Computes what needs the whole film, now and then as its samples grow: the estimated error, the range of an AOV and a chosen
-// exposure.
 void Session::measure()
 {
-    const std::uint32_t samples = refiner().sampleCount();
-    const bool ranged = aov_ == Aov::Depth || aov_ == Aov::SampleCount || aov_ == Aov::BvhSteps;
     const bool exposed = !options_.look.exposure && (aov_ == Aov::Radiance || aov_ == Aov::Albedo);
-    const bool first = (ranged || exposed) && measuredAov_ != aov_;
-    if (!first && (samples < 1 || static_cast<double>(samples) < kMeasureGrowth * static_cast<double>(estimatedAt_) || isInputWaiting())) {
-        return;
-    }
-    if (!ranged && !exposed && samples < leastSamplesForError(0)) {
-        return;
-    }
-    const Film film = refiner().renderer().film();
-    estimatedAt_ = samples;
-    measuredAov_ = aov_;
-    range_ = computeRange(film, aov_);
-    if (exposed) {
-        look_.exposure = chooseExposure(film, aov_);
-    }
-    if (aov_ == Aov::SampleCount) {
-        range_.high = std::max(range_.high, 2.0F * range_.low);  // the scale should not show the present sweep alone
-    }
-    if (const auto errors = estimateErrors(pictureOf(film)); errors && errors->relMse > 0.0 && aov_ != Aov::BvhSteps) {
-        errors_.push_back({refiner().seconds(), errors->relMse});
+    if (meter_.measure(refiner(), aov_, exposed, isInputWaiting()) && exposed) {
+        look_.exposure = meter_.exposure();
     }
 }
 
@@ -520,7 +463,7 @@ void Session::showAov(Aov aov)
     } else if (leaves && stale) {
         show();
     }
-    estimatedAt_ = 0;
+    meter_.renew();
 }
 
 void Session::buildPanels()
@@ -560,7 +503,7 @@ PanelFigures Session::figures() const
     figures.seconds = picture.seconds();
     figures.samplesPerSecond = picture.samplesPerSecond();
     figures.state = paused_ ? "paused" : picture.isDone() && picture.scale() == 1 ? "done" : "";
-    figures.errors = errors_;
+    figures.errors = meter_.errors();
     figures.size = {display_.width(), display_.height()};
     figures.scale = picture.scale();
     figures.device = device_.description().name;
@@ -591,39 +534,10 @@ void Session::clickAt(const glm::dvec2& position)
     }
     const glm::uvec2 size(display_.width(), display_.height());
     const glm::uvec2 pixel(glm::clamp(position, glm::dvec2(0.0), glm::dvec2(size - 1U)));
-    std::string there = "nothing";
-    if (const std::optional<Pick> found = pick(refiner().renderer(), *prepared_, refiner().camera(), pixel, size)) {
-        char place[200];
-        std::snprintf(place, sizeof place, ", at (%.6g, %.6g, %.6g), %.6g m away", found->position.x, found->position.y, found->position.z,
-                      found->distance);
-        there = textOf(found->primitive) + ", material " + found->primitive.material + place;
-    }
-    std::cout << "pixel (" << pixel.x << ", " << pixel.y << ") of " << size.x << "x" << size.y << ": " << there << describeSamples(pixel)
-              << std::endl;
+    const std::string there = describeSurface(refiner(), *prepared_, pixel, size);
+    std::cout << "pixel (" << pixel.x << ", " << pixel.y << ") of " << size.x << "x" << size.y << ": " << there
+              << describeSamples(refiner(), pixel, aov_) << std::endl;
     say(there);
-}
-
-// For example "; 64 samples, mean (1, 1, 1) W/(sr m^2), standard error (.1, .1, .1)".
-std::string Session::describeSamples(const glm::uvec2& pixel)
-{
-    const RenderSettings& film = refiner().renderer().settings();
-    const glm::uvec2 place = pixel / refiner().scale();
-    const PixelMoments moments = refiner().renderer().moments(place.y * film.width + place.x);
-    const glm::vec3 error = glm::sqrt(varianceOfMean(moments));
-    char text[300];
-    std::snprintf(text, sizeof text, "; %u sample%s, mean (%.6g, %.6g, %.6g)%s", moments.count, moments.count == 1 ? "" : "s",
-                  static_cast<double>(moments.mean.r), static_cast<double>(moments.mean.g), static_cast<double>(moments.mean.b),
-                  aov_ == Aov::BvhSteps ? " node visits and primitive tests" : " W/(sr m^2)");
-    std::string known = text;
-    if (refiner().scale() > 1) {
-        known += " in a picture of 1/" + std::to_string(refiner().scale()) + " size";
-    }
-    if (moments.blocks < 2) {
-        return known + ", standard error known from 33 samples on";
-    }
-    std::snprintf(text, sizeof text, ", standard error (%.2g, %.2g, %.2g)", static_cast<double>(error.r), static_cast<double>(error.g),
-                  static_cast<double>(error.b));
-    return known + text;
 }
 
 void Session::printCamera()

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/gpu/swapchain.hpp"
+#include "host/preview/film_meter.hpp"
 #include "host/preview/gestures.hpp"
 #include "host/preview/gui.hpp"
 #include "host/preview/latency.hpp"
@@ -64,7 +65,6 @@ private:
     void setExposure(double exposure);
     void setTone(Tone tone);
     void clickAt(const glm::dvec2& position);
-    std::string describeSamples(const glm::uvec2& pixel);
     void printCamera();
     void writePictures();
     void say(const std::string& text);   // shows the text in the window
@@ -112,11 +112,8 @@ private:
     std::uint64_t handledEvents_ = 0;
     Latency latency_;
     std::uint64_t frames_ = 0;
-    std::vector<ErrorPoint> errors_;  // of the present picture
-    std::uint64_t estimatedAt_ = 0;   // the samples that it had when it was measured last
+    FilmMeter meter_;
     Look look_;
-    DisplayRange range_;
-    std::optional<Aov> measuredAov_;  // the AOV that range_ and a chosen exposure belong to
     std::string title_;
     bool lightIsStale_ = false;  // the camera has moved since light_ was last shown
 };
