@@ -119,12 +119,10 @@ public:
             sum += meanOf(radiance(i));
         }
         mean_ = sum / static_cast<double>(a_.size());
-        // The likely radiance of the noisy picture (robust_radiance.hpp) would make relMSE twice as large where much noise is taken away,
-        // because both halves' noise is in it.
         // .01 mean^2 is that of relMSE everywhere (compare_images.hpp).
         for (std::size_t i = 0; i < a_.size(); ++i) {
-            const glm::dvec3 denoised(radiance(i));
-            weights_.push_back(1.0 / (denoised * denoised + 0.01 * mean_ * mean_));
+            const glm::dvec3 noisy = 0.5 * (glm::dvec3(noisyA_[i]) + glm::dvec3(noisyB_[i]));
+            weights_.push_back(1.0 / (noisy * noisy + 0.01 * mean_ * mean_));
         }
     }
 

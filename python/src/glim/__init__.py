@@ -166,8 +166,8 @@ class Film:
 
     @property
     def denoised_error(self) -> Optional[Error]:
-        """The measured error of the denoised picture, its bias included, or None without one. rel_mse is relative to the denoised radiance,
-        which makes it too small where few samples have found light, and it has no interval."""
+        """The measured error of the denoised picture, its bias included, or None without one. rel_mse is relative to the noisy radiance,
+        not to the true one, and has no interval."""
         measured = self._native.measured
         return Error(*measured) if measured else None
 
