@@ -119,10 +119,8 @@ public:
             sum += meanOf(radiance(i));
         }
         mean_ = sum / static_cast<double>(a_.size());
-        // .01 mean^2 is that of relMSE everywhere (compare_images.hpp).
         for (std::size_t i = 0; i < a_.size(); ++i) {
-            const glm::dvec3 noisy = 0.5 * (glm::dvec3(noisyA_[i]) + glm::dvec3(noisyB_[i]));
-            weights_.push_back(1.0 / (noisy * noisy + 0.01 * mean_ * mean_));
+            weights_.push_back(weightOf(0.5 * (glm::dvec3(noisyA_[i]) + glm::dvec3(noisyB_[i]))));
         }
     }
 
@@ -159,6 +157,8 @@ private:
         return {meanOf(squaredDifference(a_, b_, i)) / 4.0, meanOf(u * v), meanOf(u * u - v * v) / 2.0};
     }
 
+    // Of a squared error in relMSE, relative to this radiance (compare_images.hpp).
+    glm::dvec3 weightOf(const glm::dvec3& radiance) const { return 1.0 / (radiance * radiance + 0.01 * mean_ * mean_); }
     // Of the halves' variances, which are as the inverse of their samples.
     static double balanceOf(double first, double second) { return 4.0 * first * second / ((first + second) * (first + second)); }
 
@@ -176,7 +176,7 @@ void Measurement::keepNoisyTiles()
         for (const std::size_t i : pixels) {
             const glm::dvec3 harm = squaredError(i) - noisySquaredError(i);
             absolute.add(meanOf(harm));
-            relative.add(meanOf(weights_[i] * harm));
+            relative.add(meanOf(weightOf(glm::dvec3(radiance(i))) * harm));  // the noisy radiance has the noise of `harm`, which flatters
         }
         if (absolute.isWorse() || relative.isWorse()) {
             kept_ += pixels.size();
