@@ -37,15 +37,15 @@ private:
     double sum_ = 0.0, squares_ = 0.0;
 };
 
-// Calls visit(pixels) for each square of `side` pixels, row by row.
+// Calls visit(pixels) for each tile, row by row.
 template <class Visit>
-void forEachTile(const Film& film, std::uint32_t side, Visit visit)
+void forEachTile(const Film& film, Visit visit)
 {
-    for (std::uint32_t y = 0; y < film.height; y += side) {
-        for (std::uint32_t x = 0; x < film.width; x += side) {
+    for (std::uint32_t y = 0; y < film.height; y += kTile) {
+        for (std::uint32_t x = 0; x < film.width; x += kTile) {
             std::vector<std::size_t> pixels;
-            for (std::uint32_t j = y; j < std::min(y + side, film.height); ++j) {
-                for (std::uint32_t i = x; i < std::min(x + side, film.width); ++i) {
+            for (std::uint32_t j = y; j < std::min(y + kTile, film.height); ++j) {
+                for (std::uint32_t i = x; i < std::min(x + kTile, film.width); ++i) {
                     pixels.push_back(std::size_t{j} * film.width + i);
                 }
             }
@@ -171,7 +171,7 @@ private:
 
 void Measurement::keepNoisyTiles()
 {
-    forEachTile(size_, kTile, [&](const std::vector<std::size_t>& pixels) {
+    forEachTile(size_, [&](const std::vector<std::size_t>& pixels) {
         Verdict absolute, relative;
         for (const std::size_t i : pixels) {
             const glm::dvec3 harm = squaredError(i) - noisySquaredError(i);

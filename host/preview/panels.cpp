@@ -88,6 +88,7 @@ void plotErrors(const std::vector<ErrorPoint>& points)
         high = std::max(high, point.relMse);
         low = std::min(low, point.relMse);
     }
+    // Lengths of the axes in logarithms: with one point they are some small number, by which it can be divided.
     const double begin = std::log(points.front().seconds), end = std::max(begin + 1e-3, std::log(points.back().seconds));
     const double top = std::log(high), bottom = std::min(top - 1e-3, std::log(low));
     const float margin = 0.25F * ImGui::GetFontSize();
