@@ -21,6 +21,7 @@ int main(int argc, char** argv)
     glim::addRender(line);
     glim::addServe(line);
     glim::addPreview(line);
+    glim::addView(line);
     glim::addInspect(line);
     glim::addDevices(line);
     glim::addCompare(line);

@@ -8,6 +8,7 @@ namespace glim {
 void addRender(CommandLine& line);   // render SCENE -o OUT.exr, with and without --replay
 void addServe(CommandLine& line);    // serve: renders by requests on standard input
 void addPreview(CommandLine& line);  // preview SCENE
+void addView(CommandLine& line);     // view A.exr [B.exr]: shows films in a window
 void addInspect(CommandLine& line);  // inspect SCENE: its contents, costs and needs
 void addDevices(CommandLine& line);  // devices: what Vulkan offers
 void addCompare(CommandLine& line);  // compare A.exr B.exr: how far A is from the reference B

@@ -231,6 +231,27 @@ Comparison compareImages(const Picture& picture, const Picture& reference)
     return result;
 }
 
+std::optional<SquaredErrors> measureErrors(const Picture& picture, const Picture& reference)
+{
+    const double epsilon = relativeEpsilon(reference);
+    SquaredErrors sums;
+    std::size_t compared = 0;
+    for (std::size_t i = 0; i < picture.radiance.size(); ++i) {
+        const glm::dvec3 x(picture.radiance[i]), r(reference.radiance[i]);
+        if (isFinite(x) && isFinite(r)) {
+            ++compared;
+            for (int c = 0; c < 3; ++c) {
+                addTerms(sums, (x[c] - r[c]) * (x[c] - r[c]), r[c], epsilon);
+            }
+        }
+    }
+    if (compared == 0) {
+        return std::nullopt;
+    }
+    divide(sums, 3.0 * static_cast<double>(compared));
+    return sums;
+}
+
 std::optional<SquaredErrors> estimateErrors(const Picture& picture)
 {
     return errorsRelativeTo(robustRadiance(picture.width, picture.height, picture.radiance, picture.variance), picture);

@@ -13,8 +13,12 @@ struct ErrorPicture {
     double scale = 0.0;        // the error of full colour; beyond it colours stay full
 };
 
-// Draws (x-r) / sqrt(r^2 + eps), the mean of the channels: the terms of relMSE before they are squared. Full colour is the
-// error that 95 % of the pixels stay below, so that few bright ones do not make all others white.
+// The error that 95 % of the pixels stay below, so that few bright ones do not make all others white; the largest one if that is 0, as
+// when only a corner differs. An error is the mean over the channels of (x-r) / sqrt(relative r^2 + epsilon). Pixels that are not finite do
+// not count.
+double chooseErrorScale(const Picture& picture, const Picture& reference, double relative, double epsilon);
+
+// Draws (x-r) / sqrt(r^2 + eps), the mean of the channels: the terms of relMSE before they are squared. Full colour is chooseErrorScale's.
 ErrorPicture drawErrors(const Picture& picture, const Picture& reference, double epsilon);
 
 }  // namespace glim

@@ -1,24 +1,20 @@
 #include "host/preview/panels.hpp"
 
+#include "host/window/widgets.hpp"
+
 #include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace glim {
 namespace {
 
-constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
-constexpr float kOpacity = 0.8F;
-constexpr float kExposureRange = 10.0F;  // stops to either side of 0
-constexpr int kLongestList = 5;          // cameras, before the list scrolls
-constexpr float kWidth = 17.0F;          // of the controls, in heights of the font
-constexpr float kPlotHeight = 5.0F;      // the same
-constexpr float kMessageWidth = 40.0F;   // the same
+constexpr int kLongestList = 5;      // cameras, before the list scrolls
+constexpr float kPlotHeight = 5.0F;  // in heights of the font
 
-constexpr std::pair<const char*, const char*> kHelp[] = {
+constexpr HelpLine kHelp[] = {
     {"drag", "orbit"},
     {"shift-drag, middle-drag", "pan"},
     {"wheel", "nearer, farther"},
@@ -41,21 +37,6 @@ const char* nameOf(Aov aov)
 {
     constexpr const char* kNames[] = {"shaded", "normal", "depth", "albedo", "BVH steps", "samples"};
     return kNames[static_cast<int>(aov)];
-}
-
-// Lets the user choose among `values`, by the names that `name` gives.
-template <class Value, class Name>
-Value choose(const char* label, const std::vector<Value>& values, Value chosen, Name&& name)
-{
-    if (ImGui::BeginCombo(label, name(chosen))) {
-        for (const Value& value : values) {
-            if (ImGui::Selectable(name(value), value == chosen)) {
-                chosen = value;
-            }
-        }
-        ImGui::EndCombo();
-    }
-    return chosen;
 }
 
 std::size_t chooseCamera(const std::vector<std::string>& cameras, std::size_t chosen)
@@ -120,18 +101,11 @@ void showFigures(const PanelFigures& figures)
 
 PanelChoices showControls(const PanelFigures& figures, PanelChoices choices)
 {
-    ImGui::SetNextWindowPos({0.0F, 0.0F}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowBgAlpha(kOpacity);
-    if (ImGui::Begin("glim (H: help)###controls", nullptr, kFlags)) {
-        ImGui::PushItemWidth(kWidth * ImGui::GetFontSize() - ImGui::CalcTextSize("exposure").x);
-        auto exposure = static_cast<float>(choices.exposure);
-        if (ImGui::SliderFloat("exposure", &exposure, -kExposureRange, kExposureRange, "%+.1f EV", ImGuiSliderFlags_NoInput)) {
-            choices.exposure = static_cast<double>(exposure);
-        }
-        choices.tone = choose("tone", {Tone::None, Tone::Neutral, Tone::Agx}, choices.tone, [](Tone tone) { return glim::nameOf(tone); });
+    if (beginPanel("glim (H: help)###controls")) {
+        choices.exposure = chooseExposure(choices.exposure);
+        choices.tone = chooseTone(choices.tone);
         choices.layer = choose("layer", figures.layers, choices.layer, [](Aov layer) { return nameOf(layer); });
         choices.camera = chooseCamera(figures.cameras, choices.camera);
-        ImGui::PopItemWidth();
         ImGui::Separator();
         showFigures(figures);
         if (!figures.errors.empty()) {
@@ -140,43 +114,10 @@ PanelChoices showControls(const PanelFigures& figures, PanelChoices choices)
             plotErrors(figures.errors);
         }
     }
-    ImGui::End();
+    endPanel();
     return choices;
 }
 
-void showHelp()
-{
-    const float left = kWidth * ImGui::GetFontSize() + 8.0F * ImGui::GetStyle().WindowPadding.x;
-    ImGui::SetNextWindowPos({left, 0.0F}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowBgAlpha(kOpacity);
-    if (ImGui::Begin("keys and mouse", nullptr, kFlags) && ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-        for (const auto& [key, meaning] : kHelp) {
-            ImGui::TableNextColumn();
-            ImGui::TextUnformatted(key);
-            ImGui::TableNextColumn();
-            ImGui::TextUnformatted(meaning);
-        }
-        ImGui::EndTable();
-    }
-    ImGui::End();
-}
-
-void showMessages(const std::vector<std::string>& lines)
-{
-    if (lines.empty()) {
-        return;
-    }
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({0.0F, size.y}, ImGuiCond_Always, {0.0F, 1.0F});
-    ImGui::SetNextWindowBgAlpha(kOpacity);
-    if (ImGui::Begin("messages", nullptr, kFlags | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoInputs)) {
-        ImGui::PushTextWrapPos(std::min(size.x - 2.0F * ImGui::GetStyle().WindowPadding.x, kMessageWidth * ImGui::GetFontSize()));
-        for (const std::string& line : lines) {
-            ImGui::TextUnformatted(line.c_str());
-        }
-        ImGui::PopTextWrapPos();
-    }
-    ImGui::End();
-}
+void showHelp() { showHelp(kHelp); }
 
 }  // namespace glim

@@ -42,7 +42,5 @@ struct PanelChoices {
 // Returns `choices` with what the user changes in this frame.
 PanelChoices showControls(const PanelFigures& figures, PanelChoices choices);
 void showHelp();
-// In the lower left corner. Nothing if there are no lines.
-void showMessages(const std::vector<std::string>& lines);
 
 }  // namespace glim

@@ -2,9 +2,7 @@
 
 #include "host/input_file.hpp"
 #include "host/preview/session.hpp"
-
-#include <exception>
-#include <thread>
+#include "host/window/run_window.hpp"
 
 namespace glim {
 
@@ -14,22 +12,11 @@ void preview(const PreviewOptions& options)
     requireFile(options.scene, "a .gltf or a .glb file");  // before the display is missed
     EventQueue events;
     Window window("glim", options.size.value_or(glm::uvec2(512, 512)), events);
-    std::exception_ptr failure;
-    std::thread renderer([&] {
-        try {
-            Session session(window, events, options);
-            session.run();
-            session.printSummary();
-        } catch (...) {
-            failure = std::current_exception();
-        }
-        window.finish();
+    runWindow(window, script, [&] {
+        Session session(window, events, options);
+        session.run();
+        session.printSummary();
     });
-    window.run(script);
-    renderer.join();
-    if (failure) {
-        std::rethrow_exception(failure);
-    }
 }
 
 }  // namespace glim

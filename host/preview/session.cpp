@@ -565,12 +565,8 @@ void Session::writePictures()
 
 void Session::printSummary() const
 {
-    std::fprintf(stderr, "glim: %llu frames", static_cast<unsigned long long>(frames_));
-    if (latency_.count() > 0) {
-        std::fprintf(stderr, "; %zu inputs, from input to picture %.0f ms (median), %.0f ms (99 %%), %.0f ms (longest)", latency_.count(),
-                     1e3 * latency_.quantile(0.5), 1e3 * latency_.quantile(0.99), 1e3 * latency_.quantile(1.0));
-    }
-    std::fprintf(stderr, "\n");
+    const std::string waits = latency_.describe();
+    glim::say(std::to_string(frames_) + " frames" + (waits.empty() ? "" : "; " + waits));
 }
 
 }  // namespace glim

@@ -3,17 +3,18 @@
 
 #include "host/gpu/swapchain.hpp"
 #include "host/preview/film_meter.hpp"
-#include "host/preview/gestures.hpp"
-#include "host/preview/gui.hpp"
-#include "host/preview/latency.hpp"
 #include "host/preview/panels.hpp"
 #include "host/preview/picture_writer.hpp"
 #include "host/preview/preview.hpp"
 #include "host/preview/refiner.hpp"
 #include "host/preview/scene_loader.hpp"
 #include "host/preview/viewpoint.hpp"
-#include "host/preview/window.hpp"
 #include "host/render/display.hpp"
+#include "host/window/gestures.hpp"
+#include "host/window/gui.hpp"
+#include "host/window/latency.hpp"
+#include "host/window/widgets.hpp"
+#include "host/window/window.hpp"
 
 #include <deque>
 #include <functional>

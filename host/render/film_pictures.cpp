@@ -31,11 +31,22 @@ void writeFilmPicture(const std::filesystem::path& path, const Film& film, Aov a
 
 double chooseExposure(const Film& film, Aov aov)
 {
+    std::vector<glm::vec3> pixels;
+    for (const PixelMoments& pixel : shownPixels(film)) {
+        if (pixel.count > 0) {
+            pixels.push_back(aov == Aov::Albedo ? pixel.albedo : pixel.mean);
+        }
+    }
+    return chooseExposure(pixels);
+}
+
+double chooseExposure(const std::vector<glm::vec3>& pixels)
+{
     constexpr double kKey = 0.18, kMost = 100.0;
     double sum = 0.0, count = 0.0;
-    for (const PixelMoments& pixel : shownPixels(film)) {
-        const double luminance = luminanceOf(glm::dvec3(aov == Aov::Albedo ? pixel.albedo : pixel.mean));
-        if (pixel.count > 0 && luminance > 0.0 && std::isfinite(luminance)) {
+    for (const glm::vec3& pixel : pixels) {
+        const double luminance = luminanceOf(glm::dvec3(pixel));
+        if (luminance > 0.0 && std::isfinite(luminance)) {
             sum += std::log2(luminance);
             count += 1.0;
         }

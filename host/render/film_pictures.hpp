@@ -25,6 +25,7 @@ struct LookOptions {
 // Photographic Tone Reproduction for Digital Images, SIGGRAPH 2002, section 3). Only positive and finite pixels count; 0 without any. It is
 // a multiple of .01, so that the number as it is printed gives the same picture.
 double chooseExposure(const Film& film, Aov aov);
+double chooseExposure(const std::vector<glm::vec3>& pixels);
 
 // Neutral where the built-in studio lights the scene, which it says. None elsewhere.
 Tone chooseTone(const Scene& scene);

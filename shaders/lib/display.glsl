@@ -29,21 +29,27 @@ vec3 heatColor(float value)
     return clamp(vec3(place - 2.0, place < 2.0 ? place : 4.0 - place, 2.0 - place), 0.0, 1.0);
 }
 
+// Blue, white, red at -1, 0, 1.
+vec3 differenceColor(float value)
+{
+    vec3 end = value < 0.0 ? vec3(0.0, 40.0, 200.0) / 255.0 : vec3(200.0, 0.0, 0.0) / 255.0;
+    return mix(vec3(1.0), end, min(abs(value), 1.0));
+}
+
 // Rounds each channel as an 8-bit image stores it, whatever the device's own rounding.
 vec3 roundToBytes(vec3 c)
 {
     return floor(255.0 * c + 0.5) / 255.0;
 }
 
-vec3 depthColor(PixelMoments pixel, float nearest, float farthest)
+vec3 depthColor(float depth, float nearest, float farthest)
 {
-    float share = clamp((pixel.depth - nearest) / max(1e-30, farthest - nearest), 0.0, 1.0);
-    return pixel.alpha > 0.0 ? vec3(mix(1.0, kFarthestGrey, share)) : vec3(0.0);
+    return vec3(mix(1.0, kFarthestGrey, clamp((depth - nearest) / max(1e-30, farthest - nearest), 0.0, 1.0)));
 }
 
-vec3 normalColor(PixelMoments pixel)
+vec3 vectorColor(vec3 v)
 {
-    return pixel.alpha > 0.0 ? clamp(0.5 + 0.5 * pixel.normal / pixel.alpha, 0.0, 1.0) : vec3(0.0);
+    return clamp(0.5 + 0.5 * v, 0.0, 1.0);
 }
 
 // `pixel` has at least one sample.
@@ -53,12 +59,40 @@ vec3 displayColor(PixelMoments pixel, uint aov, DisplayPass pass)
         return kMagenta;
     }
     switch (aov) {
-    case kAovNormal: return roundToBytes(normalColor(pixel));
-    case kAovDepth: return roundToBytes(depthColor(pixel, pass.low, pass.high));
+    case kAovNormal: return pixel.alpha > 0.0 ? roundToBytes(vectorColor(pixel.normal / pixel.alpha)) : vec3(0.0);
+    case kAovDepth: return pixel.alpha > 0.0 ? roundToBytes(depthColor(pixel.depth, pass.low, pass.high)) : vec3(0.0);
     case kAovAlbedo: return roundToBytes(encodeSrgb(pass.scale * pixel.albedo));
     case kAovSampleCount: return roundToBytes(heatColor((float(pixel.count) - pass.low) / max(1.0, pass.high - pass.low)));
     case kAovBvhSteps: return roundToBytes(heatColor((pixel.mean.r - pass.low) / max(1e-30, pass.high - pass.low)));
     default: return roundToBytes(encodeSrgb(mapTone(pass.scale * pixel.mean, pass.tone)));
+    }
+}
+
+// The terms of relMSE before they are squared, or plain differences; the mean of the channels.
+float signedDifference(vec3 x, vec3 r, float relative, float epsilon)
+{
+    vec3 difference = x - r;
+    vec3 terms = difference / sqrt(relative * r * r + epsilon);
+    return dot(mix(terms, vec3(0.0), equal(x, r)), vec3(1.0 / 3.0));  // also where nothing divides nothing
+}
+
+// `value` is the film's, `reference` that of the other film, which only differences need.
+vec3 viewColor(vec3 value, vec3 reference, ViewPass pass)
+{
+    bool differs = pass.shownAs == kShownAsDifference;
+    if (!isFinite(value) || (differs && !isFinite(reference))) {
+        return kMagenta;
+    }
+    switch (pass.shownAs) {
+    case kShownAsVector: return value == vec3(0.0) ? vec3(0.0) : roundToBytes(vectorColor(value));
+    case kShownAsDepth: return value.x == 0.0 ? vec3(0.0) : roundToBytes(depthColor(value.x, pass.low, pass.high));
+    case kShownAsHeat: {
+        float mean = dot(value, vec3(1.0 / 3.0));
+        return roundToBytes(heatColor((mean - pass.low) / max(1e-30, pass.high - pass.low)));
+    }
+    case kShownAsDifference:
+        return roundToBytes(differenceColor(pass.scale * signedDifference(value, reference, pass.relative, pass.epsilon)));
+    default: return roundToBytes(encodeSrgb(mapTone(pass.scale * value, pass.tone)));
     }
 }
 

@@ -53,6 +53,9 @@ GLIM_CONST uint kBindCourseParameters = 33u;
 // display.glsl, with blocks and pages
 GLIM_CONST uint kBindFolded = 26u;
 GLIM_CONST uint kBindPicture = 28u;
+// view.glsl, with the picture
+GLIM_CONST uint kBindViewed = 54u;
+GLIM_CONST uint kBindReference = 55u;
 // arithmetic.glsl
 GLIM_CONST uint kBindProbed = 49u;
 // denoise.glsl

@@ -19,5 +19,23 @@ struct DisplayPass {
     float low, high;            // ends of the scale of depths, samples or steps
 };
 
+// How the kernel view shows three numbers of a pixel.
+GLIM_CONST uint kShownAsColor = 0u;       // light
+GLIM_CONST uint kShownAsVector = 1u;      // with components from -1 to 1; black where all are 0
+GLIM_CONST uint kShownAsDepth = 2u;       // black where it is 0
+GLIM_CONST uint kShownAsHeat = 3u;        // the mean of the three
+GLIM_CONST uint kShownAsDifference = 4u;  // from the same pixel of the reference
+
+// Push constants: the window's picture, and the rectangle of it that shows a film.
+struct ViewPass {
+    uint width, height;             // of the picture
+    uint left, top, right, bottom;  // of the rectangle; right and bottom are the first column and row beyond it
+    uint shownAs;                   // kShownAsColor ...
+    float scale;                    // 2^EV, of colours; differences are multiplied by it
+    uint tone;                      // kToneNone ..., of colours
+    float low, high;                // ends of the scale of depths or heat
+    float relative, epsilon;        // a difference is divided by sqrt(relative r^2 + epsilon), with the reference r
+};
+
 GLIM_SHARED_END
 #endif

@@ -49,7 +49,7 @@ TEST(CommandLineTest, VersionNamesCommitAndBuild)
     EXPECT_EQ(run.err, "");
 }
 
-const std::vector<std::string> kCommands{"render", "serve", "preview", "inspect", "devices", "compare", "bench", "merge"};
+const std::vector<std::string> kCommands{"render", "serve", "preview", "view", "inspect", "devices", "compare", "bench", "merge"};
 
 std::vector<std::string> splitLines(const std::string& text)
 {

@@ -1,8 +1,8 @@
 // Scripts, waits, events and gestures of the window.
 #include "host/error.hpp"
-#include "host/preview/gestures.hpp"
-#include "host/preview/latency.hpp"
-#include "host/preview/script.hpp"
+#include "host/window/gestures.hpp"
+#include "host/window/latency.hpp"
+#include "host/window/script.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>

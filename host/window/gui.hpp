@@ -1,7 +1,7 @@
 // Dear ImGui's context, the window's size and its mouse.
 #pragma once
 
-#include "host/preview/event_queue.hpp"
+#include "host/window/event_queue.hpp"
 
 #include <chrono>
 #include <functional>

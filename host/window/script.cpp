@@ -1,7 +1,7 @@
-#include "host/preview/script.hpp"
+#include "host/window/script.hpp"
 
 #include "host/error.hpp"
-#include "host/preview/event_queue.hpp"
+#include "host/window/event_queue.hpp"
 
 #include <array>
 #include <cctype>

@@ -1,7 +1,7 @@
-// What the mouse asks of the camera.
+// What the mouse asks for.
 #pragma once
 
-#include "host/preview/event_queue.hpp"
+#include "host/window/event_queue.hpp"
 
 #include <optional>
 
@@ -13,7 +13,7 @@ struct Gesture {
     Kind kind;
     glm::dvec2 motion{0.0};    // of the mouse, for Orbit and Pan
     double notches = 0.0;      // for Dolly
-    glm::dvec2 position{0.0};  // for Click
+    glm::dvec2 position{0.0};  // for Dolly and Click
 };
 
 // Tells clicks from drags.

@@ -1,4 +1,4 @@
-#include "host/preview/gui.hpp"
+#include "host/window/gui.hpp"
 
 #include <imgui.h>
 

@@ -1,4 +1,4 @@
-#include "host/preview/gestures.hpp"
+#include "host/window/gestures.hpp"
 
 #include <utility>
 
@@ -13,7 +13,7 @@ std::optional<Gesture> Gestures::take(const Event& event)
 {
     using Kind = Event::Kind;
     if (event.kind == Kind::Scroll) {
-        return Gesture{.kind = Gesture::Kind::Dolly, .notches = event.notches};
+        return Gesture{.kind = Gesture::Kind::Dolly, .notches = event.notches, .position = event.position};
     }
     if (event.kind == Kind::ButtonDown && !button_ && event.button != kRightButton) {
         button_ = event.button;

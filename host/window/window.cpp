@@ -1,4 +1,4 @@
-#include "host/preview/window.hpp"
+#include "host/window/window.hpp"
 
 #include "host/error.hpp"
 
@@ -25,7 +25,18 @@ std::string reason()
     return text != nullptr ? text : "no reason given";
 }
 
-[[noreturn]] void refuse(const std::string& what) { throw InputError(what + " (" + reason() + "); `glim render` needs no window."); }
+[[noreturn]] void refuse(const std::string& what)
+{
+    throw InputError(what + " (" + reason() + "); `glim render --png` writes pictures without a window.");
+}
+
+// It may be called again.
+void initialize()
+{
+    if (glfwInit() == GLFW_FALSE) {
+        refuse("No window can be opened here");
+    }
+}
 
 // The key's name as the help has it, or '\0'. Letters, + and - follow the user's keyboard layout; other keys, and also + and -, are
 // found by their place on an American keyboard.
@@ -56,15 +67,13 @@ char nameOf(int key, int scancode)
 Window::Window(const std::string& title, const glm::uvec2& size, EventQueue& events)
     : events_(events)
 {
-    if (glfwInit() == GLFW_FALSE) {
-        refuse("No window can be opened here");
-    }
+    initialize();
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     window_ = glfwCreateWindow(static_cast<int>(size.x), static_cast<int>(size.y), title.c_str(), nullptr, nullptr);
     if (window_ == nullptr) {
         const std::string why = reason();
         glfwTerminate();
-        throw InputError("No window can be opened here (" + why + "); `glim render` needs none.");
+        throw InputError("No window can be opened here (" + why + "); `glim render --png` writes pictures without one.");
     }
     glfwSetWindowUserPointer(window_, this);
     glfwSetKeyCallback(window_,
@@ -90,6 +99,17 @@ Window::~Window()
 {
     glfwDestroyWindow(window_);
     glfwTerminate();
+}
+
+glm::uvec2 Window::screenSize()
+{
+    initialize();
+    GLFWmonitor* screen = glfwGetPrimaryMonitor();
+    int left = 0, top = 0, width = 0, height = 0;
+    if (screen != nullptr) {
+        glfwGetMonitorWorkarea(screen, &left, &top, &width, &height);
+    }
+    return {std::max(width, 1), std::max(height, 1)};
 }
 
 std::vector<const char*> Window::instanceExtensions()

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "host/gpu/instance.hpp"
-#include "host/preview/event_queue.hpp"
-#include "host/preview/script.hpp"
+#include "host/window/event_queue.hpp"
+#include "host/window/script.hpp"
 
 #include <atomic>
 #include <memory>
@@ -28,6 +28,9 @@ public:
 
     // Any thread may call the following functions.
     static std::vector<const char*> instanceExtensions();
+    // What a window may cover of the first screen. It may be called before there is a window, but only by the main thread. Throws
+    // InputError if there is no display.
+    static glm::uvec2 screenSize();
     // The caller owns the result. Throws InputError if Vulkan cannot present in this window.
     VkSurfaceKHR createSurface(const VulkanInstance& instance) const;
     glm::uvec2 pictureSize() const { return {pictureWidth_.load(), pictureHeight_.load()}; }  // pixels

@@ -1,0 +1,37 @@
+#include "host/view/view.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/look_options.hpp"
+#include "host/cli/parse.hpp"
+
+#include <memory>
+
+namespace glim {
+
+void addView(CommandLine& line)
+{
+    auto options = std::make_shared<ViewOptions>();
+    const Command command = line.addCommand("view", "Show finished films in a window: layers, differences, values of pixels");
+    command.beginGroup("Picture");
+    command.addPath("A", "A.exr", "Film, or any other OpenEXR file; read again when it changes", options->film).require();
+    command.addPath("B", "B.exr", "Another of the same size, to compare with", options->reference);
+    command.beginGroup("Window");
+    command.add("--size", "WxH", "Pixels of the window, each side 1 to 65535 [the film's, at least 640x480, at most the screen's]",
+                [options](const std::string& text) { options->size = parseSize(text); });
+    addLook(command, options->look, "colours", "none");
+    command.add("--device", "D", "Index or part of a name from `glim devices` [the first usable one]",
+                [options](const std::string& text) { options->device = text; });
+    command.addPath("--script", "FILE", "Replay the input that this file lists", options->script);
+    command.setFooter(
+        "Mouse: drag moves the picture, the wheel zooms, the panel shows the pixel under the mouse, a click prints\n"
+        "all its layers.\n"
+        "Keys: V next layer, B next of A, B and A - B, + - exposure, T next tone, F fits the window, 1 is a pixel for a\n"
+        "pixel, H shows the panel, a list of keys too, or the picture alone, Esc quits.\n"
+        "Exit codes: 0 done, 1 bad input or no display, 2 usage, 3 device.\n"
+        "host/cli/README.md says how each layer is shown.");
+    command.onRun([options] {
+        view(*options);
+        return ExitCode::Done;
+    });
+}
+
+}  // namespace glim

@@ -1,0 +1,37 @@
+// Draws the window's picture, with the kernel view.
+#pragma once
+
+#include "host/gpu/commands.hpp"
+#include "shaders/shared/display_types.h"
+
+#include <glm/glm.hpp>
+
+#include <optional>
+#include <span>
+
+namespace glim {
+
+class Painter {
+public:
+    explicit Painter(Device& device);
+
+    // Sets the picture's size, at least 1x1. It is black until something is drawn.
+    void resize(const glm::uvec2& size);
+    glm::uvec2 size() const { return {picture_->width(), picture_->height()}; }
+    const StorageImage& picture() const { return *picture_; }
+
+    // The values under the picture's pixels, as many as there are: of the film, and of the reference that differences are from.
+    void setValues(std::span<const glm::vec3> values) { upload(*values_, values); }
+    void setReference(std::span<const glm::vec3> values) { upload(*reference_, values); }
+    // `pass` without the picture's size.
+    void draw(ViewPass pass);
+
+private:
+    Device& device_;
+    KernelLayout layout_;
+    Kernel kernel_;
+    std::optional<StorageImage> picture_;
+    std::optional<Buffer> values_, reference_;
+};
+
+}  // namespace glim

@@ -1,0 +1,35 @@
+// Where a picture lies in a window: pure functions of places and sizes in pixels.
+#pragma once
+
+#include "host/measure/picture.hpp"
+
+#include <optional>
+
+namespace glim {
+
+struct Placement {
+    double zoom = 1.0;       // pixels of the window for the side of one of the picture
+    glm::dvec2 corner{0.0};  // the place in the window of the picture's upper left corner
+};
+
+// The picture in the middle, as large as the window allows; larger than its pixels by a whole number.
+Placement fit(const glm::uvec2& picture, const glm::uvec2& window);
+// The picture in the middle, a pixel for a pixel.
+Placement actualSize(const glm::uvec2& picture, const glm::uvec2& window);
+// Magnifies by `factor`, within 1/64 and 64; the point of the window stays over its point of the picture.
+Placement zoomAt(const Placement& placement, const glm::dvec2& point, double factor);
+
+// The picture's pixel under a point of the window; nothing beside the picture.
+std::optional<glm::uvec2> pixelAt(const Placement& placement, const glm::dvec2& point, const glm::uvec2& picture);
+
+// The part of the window that shows the picture: its pixels from `low` up to, but without, `high`.
+struct Rectangle {
+    glm::uvec2 low{0}, high{0};
+};
+Rectangle coveredBy(const Placement& placement, const glm::uvec2& picture, const glm::uvec2& window);
+
+// The picture's values under the window's pixels, row by row; those beside it are left as they are. A pixel of the window has the value
+// of the picture's pixel at its centre, or the mean of all that have their centre in it if the picture is made smaller.
+void layUnder(const Picture& picture, const Placement& placement, const glm::uvec2& window, std::vector<glm::vec3>& values);
+
+}  // namespace glim

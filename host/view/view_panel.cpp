@@ -1,0 +1,60 @@
+#include "host/view/view_panel.hpp"
+
+#include "host/window/widgets.hpp"
+
+#include <imgui.h>
+
+#include <numeric>
+
+namespace glim {
+namespace {
+
+constexpr HelpLine kHelp[] = {
+    {"drag", "move the picture"},
+    {"wheel", "zoom"},
+    {"F", "fit the window"},
+    {"1", "actual size"},
+    {"V", "next layer"},
+    {"B", "A, B or A - B"},
+    {"+ -", "exposure, or gain of A - B"},
+    {"T", "next tone"},
+    {"click", "print the pixel's layers"},
+    {"H", "panel, help too, nothing"},
+    {"Esc", "quit"},
+};
+
+const char* nameOf(Side side)
+{
+    constexpr const char* kNames[] = {"A", "B", "A - B"};
+    return kNames[static_cast<int>(side)];
+}
+
+}  // namespace
+
+ViewChoices showViewPanel(const ViewFigures& figures, ViewChoices choices)
+{
+    if (beginPanel("glim view (H: help)###controls")) {
+        std::vector<std::size_t> indices(figures.layers.size());
+        std::iota(indices.begin(), indices.end(), std::size_t{0});
+        choices.layer = choose("layer", indices, choices.layer, [&](std::size_t i) { return figures.layers[i].c_str(); });
+        if (figures.sides.size() > 1) {
+            choices.side = choose("film", figures.sides, choices.side, [](Side side) { return nameOf(side); });
+        }
+        ImGui::BeginDisabled(!figures.isExposed);
+        choices.exposure = chooseExposure(choices.exposure);
+        ImGui::EndDisabled();
+        ImGui::BeginDisabled(!figures.isToned);
+        choices.tone = chooseTone(choices.tone);
+        ImGui::EndDisabled();
+        ImGui::Separator();
+        for (const std::string& line : figures.lines) {
+            ImGui::TextUnformatted(line.c_str());
+        }
+    }
+    endPanel();
+    return choices;
+}
+
+void showViewHelp() { showHelp(kHelp); }
+
+}  // namespace glim

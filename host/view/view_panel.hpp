@@ -1,0 +1,35 @@
+// The viewer's panel.
+#pragma once
+
+#include "host/render/aov.hpp"
+
+#include <string>
+#include <vector>
+
+namespace glim {
+
+enum class Side { A, B, Difference };
+
+// What the user changes in the panel.
+struct ViewChoices {
+    std::size_t layer = 0;
+    Side side = Side::A;
+    double exposure = 0.0;  // stops
+    Tone tone = Tone::None;
+    bool operator==(const ViewChoices&) const = default;
+};
+
+// What the panel shows else.
+struct ViewFigures {
+    std::vector<std::string> layers;
+    std::vector<Side> sides;         // that the layer has
+    bool isExposed = false;          // whether the exposure changes the picture
+    bool isToned = false;            // the same of the tone
+    std::vector<std::string> lines;  // of text
+};
+
+// Belong into a frame (host/window/gui.hpp). showViewPanel returns `choices` with what the user changes in this frame.
+ViewChoices showViewPanel(const ViewFigures& figures, ViewChoices choices);
+void showViewHelp();
+
+}  // namespace glim

@@ -1,0 +1,426 @@
+#include "host/view/view_session.hpp"
+
+#include "host/error.hpp"
+#include "host/measure/compare_images.hpp"
+#include "host/measure/error_picture.hpp"
+#include "host/message.hpp"
+#include "host/window/widgets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <limits>
+#include <thread>
+#include <utility>
+
+namespace glim {
+namespace {
+
+constexpr double kIdleSeconds = 0.25;  // between looks at the files
+constexpr double kNoticeSeconds = 6.0;
+constexpr double kExposureStep = 0.5;     // stops
+constexpr double kNotchesToDouble = 4.0;  // of the wheel
+
+template <class... Values>
+std::string formatted(const char* format, Values... values)
+{
+    char text[256];
+    std::snprintf(text, sizeof text, format, values...);
+    return text;
+}
+
+DisplayRange joined(const DisplayRange& a, const DisplayRange& b) { return {std::min(a.low, b.low), std::max(a.high, b.high)}; }
+
+}  // namespace
+
+ViewSession::ViewSession(Window& window, EventQueue& events, const ViewOptions& options, ViewedFilms films)
+    : window_(window),
+      events_(events),
+      films_(std::move(films)),
+      instance_(Window::instanceExtensions()),
+      surface_(instance_, window.createSurface(instance_)),
+      device_(instance_, options.device, surface_.handle()),
+      gui_(std::max(1.0F, window.contentScale())),
+      swapchain_(device_, surface_.handle()),
+      painter_(device_),
+      exposure_(options.look.exposure.value_or(0.0)),
+      exposureIsAuto_(!options.look.exposure)
+{
+    choices_.tone = options.look.tone.value_or(Tone::None);
+    painter_.resize(glm::max(window.pictureSize(), 1U));
+    place(fit(films_.size(), painter_.size()));
+    chooseLayer(0);
+}
+
+void ViewSession::run()
+{
+    auto looked = Clock::now();
+    while (!closing_) {
+        for (const Event& event : events_.take(changed_ ? 0.0 : kIdleSeconds)) {
+            handle(event);
+            ++handledEvents_;
+        }
+        if (std::chrono::duration<double>(Clock::now() - looked).count() >= kIdleSeconds) {
+            readChangedFilms();
+            looked = Clock::now();
+        }
+        if (changed_) {
+            present();
+        } else {
+            window_.reportShown(0, true, handledEvents_);
+        }
+    }
+    if (latency_.count() > 0) {
+        say(latency_.describe());
+    }
+}
+
+void ViewSession::handle(const Event& event)
+{
+    using Kind = Event::Kind;
+    switch (event.kind) {
+    case Kind::Close: closing_ = true; break;
+    case Kind::Resize: resize(); break;
+    case Kind::KeyUp: break;
+    case Kind::KeyDown:
+        waiting_.push_back(event.when);
+        press(event.key);
+        buildPanels();  // what is hidden now takes no click any more
+        changed_ = true;
+        break;
+    case Kind::FocusLost:
+        gestures_.cancel();
+        gui_.point(event);
+        break;
+    default: handleMouse(event);
+    }
+}
+
+// The panels take what is theirs. Each move of the mouse is answered: the panel shows the pixel under it.
+void ViewSession::handleMouse(const Event& event)
+{
+    waiting_.push_back(event.when);
+    changed_ = true;
+    gui_.point(event);
+    pointer_ = event.position;
+    buildPanels();
+    if (gui_.hasMouse()) {
+        pointer_ = glm::dvec2(-1.0);
+    } else if (const std::optional<Gesture> gesture = gestures_.take(event)) {
+        follow(*gesture);
+    }
+}
+
+void ViewSession::follow(const Gesture& gesture)
+{
+    switch (gesture.kind) {
+    case Gesture::Kind::Orbit:
+    case Gesture::Kind::Pan: place({placement_.zoom, placement_.corner + gesture.motion}); break;
+    case Gesture::Kind::Dolly: place(zoomAt(placement_, gesture.position, std::exp2(gesture.notches / kNotchesToDouble))); break;
+    case Gesture::Kind::Click:
+        if (const auto pixel = pixelAt(placement_, gesture.position, films_.size())) {
+            print(*pixel);
+        }
+        return;
+    }
+    isFitted_ = false;
+}
+
+void ViewSession::press(char key)
+{
+    ViewChoices wanted = choices_;
+    wanted.exposure = exposure();
+    if (key == kEscape) {
+        closing_ = true;
+    } else if (key == 'H') {
+        panelLevel_ = (panelLevel_ + 1) % 3;
+    } else if (key == '+' || key == '-') {
+        wanted.exposure += key == '+' ? kExposureStep : -kExposureStep;
+    } else if (key == 'T') {
+        wanted.tone = static_cast<Tone>((static_cast<std::uint32_t>(choices_.tone) + 1) % 3);
+    } else if (key == 'V') {
+        wanted.layer = (choices_.layer + 1) % films_.layers().size();
+    } else if (key == 'B') {
+        const std::vector<Side> order = sides();
+        const auto at = std::find(order.begin(), order.end(), choices_.side);
+        wanted.side = at + 1 == order.end() ? order.front() : at[1];
+    } else if (key == 'F' || key == '1') {
+        place(key == 'F' ? fit(films_.size(), painter_.size()) : actualSize(films_.size(), painter_.size()));
+        isFitted_ = key == 'F';
+    }
+    change(wanted);
+}
+
+void ViewSession::resize()
+{
+    const glm::uvec2 size = window_.pictureSize();
+    changed_ = true;
+    if (size.x == 0 || size.y == 0 || size == painter_.size()) {
+        return;
+    }
+    painter_.resize(size);
+    place(isFitted_ ? fit(films_.size(), size) : placement_);
+}
+
+void ViewSession::place(const Placement& placement)
+{
+    placement_ = placement;
+    laid_ = drawn_ = false;
+    changed_ = true;
+}
+
+// Takes the values of a layer. A side that it lacks gives way to one that it has.
+void ViewSession::chooseLayer(std::size_t index)
+{
+    choices_.layer = index;
+    const ViewedLayer& layer = films_.layers()[index];
+    shown_ = {};
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+        values_[i] = layer.of[i] ? valuesOf(films_.image(i), *layer.of[i]) : Picture{};
+    }
+    const std::size_t first = layer.of[0] ? 0 : 1;
+    shown_.as = layer.of[first]->shownAs;
+    shown_.isLight = layer.of[first]->isLight;
+    shown_.range = rangeOf(films_.image(first), *layer.of[first], values_[first]);
+    if (layer.of[0] && layer.of[1]) {
+        shown_.range = joined(shown_.range, rangeOf(films_.image(1), *layer.of[1], values_[1]));
+    }
+    if (exposureIsAuto_ && shown_.as == ShownAs::Color) {
+        exposure_ = chooseExposure(values_[first].radiance);
+    }
+    const std::vector<Side> has = sides();
+    chooseSide(std::find(has.begin(), has.end(), choices_.side) != has.end() ? choices_.side : has.front());
+}
+
+void ViewSession::chooseSide(Side side)
+{
+    choices_.side = side;
+    laid_ = drawn_ = false;
+    if (side == Side::Difference && shown_.errorScale == 0.0) {
+        measureDifference();
+    }
+}
+
+// Colours differ relative to the reference, as in relMSE. Other layers have no such scale.
+void ViewSession::measureDifference()
+{
+    const bool isRelative = shown_.as == ShownAs::Color;
+    shown_.relative = isRelative ? 1.0 : 0.0;
+    shown_.epsilon = isRelative ? relativeEpsilon(values_[1]) : 1.0;
+    shown_.errorScale = chooseErrorScale(values_[0], values_[1], shown_.relative, shown_.epsilon);
+    const auto errors = shown_.isLight ? measureErrors(values_[0], values_[1]) : std::nullopt;
+    if (errors) {
+        shown_.error =
+            formatted("relMSE %.3g, RMSE %.3g %% of the mean", errors->relMse, 100.0 * std::sqrt(errors->mse) / meanRadiance(values_[1]));
+    }
+}
+
+void ViewSession::change(const ViewChoices& wanted)
+{
+    if (wanted.exposure != exposure()) {
+        exposure() = wanted.exposure;
+        exposureIsAuto_ = exposureIsAuto_ && choices_.side == Side::Difference;
+        drawn_ = false;
+    }
+    if (wanted.tone != choices_.tone) {
+        choices_.tone = wanted.tone;
+        drawn_ = false;
+    }
+    if (wanted.layer != choices_.layer) {
+        chooseLayer(wanted.layer);
+    } else if (wanted.side != choices_.side) {
+        chooseSide(wanted.side);
+    }
+}
+
+std::vector<Side> ViewSession::sides() const
+{
+    const ViewedLayer& layer = films_.layers()[choices_.layer];
+    std::vector<Side> has;
+    if (layer.of[0]) {
+        has.push_back(Side::A);
+    }
+    if (layer.of[1]) {
+        has.push_back(Side::B);
+    }
+    if (has.size() == 2) {
+        has.push_back(Side::Difference);
+    }
+    return has;
+}
+
+void ViewSession::tell(const std::string& text)
+{
+    say(text);
+    notice_ = text;
+    noticeTime_ = Clock::now();
+    changed_ = true;
+}
+
+void ViewSession::readChangedFilms()
+{
+    const glm::uvec2 before = films_.size();
+    const std::string name = films_.layers()[choices_.layer].name;
+    try {
+        if (!films_.readChanged()) {
+            return;
+        }
+    } catch (const InputError& error) {
+        tell(error.what());
+        return;
+    }
+    const auto& layers = films_.layers();
+    const auto same = std::find_if(layers.begin(), layers.end(), [&](const ViewedLayer& layer) { return layer.name == name; });
+    chooseLayer(same == layers.end() ? 0 : static_cast<std::size_t>(same - layers.begin()));
+    if (films_.size() != before) {
+        place(fit(films_.size(), painter_.size()));
+    }
+    tell(films_.title() + ": read again");
+}
+
+void ViewSession::draw()
+{
+    if (!laid_) {
+        for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+            const bool isSeen = choices_.side == Side::Difference || choices_.side == (i == 0 ? Side::A : Side::B);
+            if (isSeen) {
+                layUnder(values_[i], placement_, painter_.size(), under_[i]);
+            }
+        }
+        painter_.setValues(under_[choices_.side == Side::B ? 1 : 0]);
+        if (choices_.side == Side::Difference) {
+            painter_.setReference(under_[1]);
+        }
+        laid_ = true;
+    }
+    const Rectangle covered = coveredBy(placement_, films_.size(), painter_.size());
+    const bool differs = choices_.side == Side::Difference;
+    ViewPass pass{};
+    pass.left = covered.low.x;
+    pass.top = covered.low.y;
+    pass.right = covered.high.x;
+    pass.bottom = covered.high.y;
+    pass.shownAs = static_cast<std::uint32_t>(differs ? ShownAs::Difference : shown_.as == ShownAs::Ids ? ShownAs::Color : shown_.as);
+    pass.scale = static_cast<float>(std::exp2(exposure()) / (differs && shown_.errorScale > 0.0 ? shown_.errorScale : 1.0));
+    pass.tone = static_cast<std::uint32_t>(shown_.isLight ? choices_.tone : Tone::None);
+    pass.low = shown_.range.low;
+    pass.high = shown_.range.high;
+    pass.relative = static_cast<float>(shown_.relative);
+    pass.epsilon = static_cast<float>(shown_.epsilon);
+    painter_.draw(pass);
+    drawn_ = true;
+}
+
+void ViewSession::present()
+{
+    buildPanels();
+    buildPanels();  // ImGui lays out a frame by the sizes of the one before
+    if (!drawn_) {
+        draw();
+    }
+    const glm::uvec2 size = window_.pictureSize();
+    if (!swapchain_.present(painter_.picture(), gui_.drawn(), size.x, size.y)) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));  // the window is hidden or changing
+        return;
+    }
+    changed_ = false;
+    const Clock::time_point now = Clock::now();
+    for (const Clock::time_point came : std::exchange(waiting_, {})) {
+        latency_.add(std::chrono::duration<double>(now - came).count());
+    }
+    window_.reportShown(0, true, handledEvents_);
+}
+
+void ViewSession::buildPanels()
+{
+    ViewChoices before = choices_;
+    before.exposure = exposure();
+    ViewChoices wanted = before;
+    const bool isFresh = std::chrono::duration<double>(Clock::now() - noticeTime_).count() < kNoticeSeconds;
+    gui_.frame(painter_.size(), [&] {
+        if (panelLevel_ > 0) {
+            wanted = showViewPanel(figures(), before);
+            showMessages(isFresh && !notice_.empty() ? std::vector{notice_} : std::vector<std::string>{});
+        }
+        if (panelLevel_ > 1) {
+            showViewHelp();
+        }
+    });
+    change(wanted);
+}
+
+ViewFigures ViewSession::figures() const
+{
+    ViewFigures figures;
+    for (const ViewedLayer& layer : films_.layers()) {
+        figures.layers.push_back(layer.name);
+    }
+    const bool differs = choices_.side == Side::Difference;
+    figures.sides = sides();
+    figures.isExposed = differs || shown_.as == ShownAs::Color;
+    figures.isToned = !differs && shown_.isLight;
+    for (std::size_t i = 0; i < films_.count(); ++i) {
+        figures.lines.push_back(std::string(i == 0 ? "A " : "B ") + films_.path(i).filename().string());
+    }
+    const auto low = static_cast<double>(shown_.range.low), high = static_cast<double>(shown_.range.high);
+    figures.lines.push_back(formatted("%ux%u at %.4g %%", films_.size().x, films_.size().y, 100.0 * placement_.zoom));
+    if (differs) {
+        const double full = shown_.errorScale * std::exp2(-gain_);
+        figures.lines.push_back(formatted("blue %.3g, white 0, red %.3g%s", -full, full, shown_.relative > 0.0 ? ", relative" : ""));
+        figures.lines.push_back(shown_.error);
+    } else if (shown_.as == ShownAs::Depth) {
+        figures.lines.push_back(formatted("white %.4g, grey %.4g", low, high));
+    } else if (shown_.as == ShownAs::Heat) {
+        figures.lines.push_back(formatted("blue %.3g, red %.3g", low, high));
+    }
+    for (std::string& line : describePixel()) {
+        figures.lines.push_back(std::move(line));
+    }
+    return figures;
+}
+
+// The numbers of the layer under the mouse.
+std::vector<std::string> ViewSession::describePixel() const
+{
+    const auto place = pixelAt(placement_, pointer_, films_.size());
+    const std::size_t pixel = place ? std::size_t{place->y} * films_.size().x + place->x : 0;
+    std::vector<std::string> lines{place ? formatted("pixel (%u, %u)", place->x, place->y + films_.image(0).rowsAbove) : "pixel -"};
+    std::array<std::vector<double>, 2> numbers;
+    const ViewedLayer& layer = films_.layers()[choices_.layer];
+    for (std::size_t i = 0; i < films_.count(); ++i) {
+        if (place && layer.of[i]) {
+            numbers[i] = numbersOf(films_.image(i), *layer.of[i], pixel);
+        }
+        lines.push_back((i == 0 ? "A " : "B ") + textOf(numbers[i]));
+    }
+    if (films_.count() > 1) {
+        std::vector<double> differences;
+        for (std::size_t c = 0; c < std::min(numbers[0].size(), numbers[1].size()); ++c) {
+            differences.push_back(numbers[0][c] - numbers[1][c]);
+        }
+        lines.push_back("A - B " + textOf(differences));
+    }
+    return lines;
+}
+
+void ViewSession::print(const glm::uvec2& pixel) const
+{
+    const glm::uvec2 size = films_.size();
+    std::cout << "pixel (" << pixel.x << ", " << pixel.y + films_.image(0).rowsAbove << ") of " << size.x << "x" << size.y << '\n';
+    for (std::size_t i = 0; i < films_.count(); ++i) {
+        std::cout << escaped(films_.path(i).string()) << ':';
+        const char* separator = " ";
+        for (const ViewedLayer& layer : films_.layers()) {
+            if (layer.of[i]) {
+                std::cout << separator << escaped(layer.name) << ' '
+                          << textOf(numbersOf(films_.image(i), *layer.of[i], std::size_t{pixel.y} * size.x + pixel.x));
+                separator = ", ";
+            }
+        }
+        std::cout << '\n';
+    }
+    std::cout << std::flush;
+}
+
+}  // namespace glim

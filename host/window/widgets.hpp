@@ -1,0 +1,43 @@
+// Parts of the panels over a window's picture. They belong into a frame (gui.hpp).
+#pragma once
+
+#include "host/render/aov.hpp"
+
+#include <imgui.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace glim {
+
+// The panel of controls, in the upper left corner at first. Returns whether its contents show; endPanel follows in any case.
+bool beginPanel(const char* title);
+void endPanel();
+
+// Lets the user choose among `values`, by the names that `name` gives.
+template <class Value, class Name>
+Value choose(const char* label, const std::vector<Value>& values, Value chosen, Name&& name)
+{
+    if (ImGui::BeginCombo(label, name(chosen))) {
+        for (const Value& value : values) {
+            if (ImGui::Selectable(name(value), value == chosen)) {
+                chosen = value;
+            }
+        }
+        ImGui::EndCombo();
+    }
+    return chosen;
+}
+double chooseExposure(double stops);
+Tone chooseTone(Tone chosen);
+
+struct HelpLine {
+    const char *key, *meaning;
+};
+// Beside the panel of controls.
+void showHelp(std::span<const HelpLine> lines);
+// In the lower left corner. Nothing if there are no lines.
+void showMessages(const std::vector<std::string>& lines);
+
+}  // namespace glim
