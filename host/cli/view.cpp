@@ -15,7 +15,7 @@ void addView(CommandLine& line)
     command.addPath("A", "A.exr", "Film, or any other OpenEXR file; read again when it changes", options->film).require();
     command.addPath("B", "B.exr", "Another of the same size, to compare with", options->reference);
     command.beginGroup("Window");
-    command.add("--size", "WxH", "Pixels of the window, each side 1 to 65535 [the film's, at least 640x480, at most the screen's]",
+    command.add("--size", "WxH", "Pixels of the window, each side 1 to 65535 [the film's, from 640x480 to the screen's]",
                 [options](const std::string& text) { options->size = parseSize(text); });
     addLook(command, options->look, "colours", "none");
     command.add("--device", "D", "Index or part of a name from `glim devices` [the first usable one]",
