@@ -13,7 +13,7 @@ void addView(CommandLine& line)
     const Command command = line.addCommand("view", "Show finished films in a window: layers, differences, values of pixels");
     command.beginGroup("Picture");
     command.addPath("A", "A.exr", "Film, or any other OpenEXR file; read again when it changes", options->film).require();
-    command.addPath("B", "B.exr", "Another of the same size, to compare with", options->reference);
+    command.addPath("B", "B.exr", "A second film of the same size; A is compared with it", options->reference);
     command.beginGroup("Window");
     command.add("--size", "WxH", "Pixels of the window, each side 1 to 65535 [the film's, from 640x480 to the screen's]",
                 [options](const std::string& text) { options->size = parseSize(text); });
@@ -24,8 +24,8 @@ void addView(CommandLine& line)
     command.setFooter(
         "Mouse: drag moves the picture, the wheel zooms, the panel shows the pixel under the mouse, a click prints\n"
         "all its layers.\n"
-        "Keys: V next layer, B next of A, B and A - B, + - exposure, T next tone, F fits the window, 1 is a pixel for a\n"
-        "pixel, H shows the panel, a list of keys too, or the picture alone, Esc quits.\n"
+        "Keys: V next layer, B shows A, B or A - B in turn, + - exposure, T next tone, F fits the window, 1 shows the\n"
+        "actual size, H shows the panel, the panel and a list of keys, or neither, Esc quits.\n"
         "Exit codes: 0 done, 1 bad input or no display, 2 usage, 3 device.\n"
         "host/cli/README.md says how each layer is shown.");
     command.onRun([options] {

@@ -5,6 +5,7 @@
 #include "host/image/exr_header.hpp"
 #include "host/input_file.hpp"
 #include "host/memory.hpp"
+#include "host/message.hpp"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticities.h>
@@ -122,6 +123,7 @@ void readHeader(const fs::path& path, const Imf::Header& header, Image& image)
     image.height = static_cast<std::uint32_t>(height);
     const auto gap = [](std::int64_t from, std::int64_t to) { return static_cast<std::uint32_t>(std::max(to - from, std::int64_t{0})); };
     image.rowsAbove = gap(header.displayWindow().min.y, window.min.y);
+    image.columnsLeft = gap(header.displayWindow().min.x, window.min.x);
     image.rowsBelow = gap(window.max.y, header.displayWindow().max.y);
     readAttributes(header, image);
 }
@@ -258,6 +260,9 @@ Image readExr(const fs::path& path)
         Imf::InputFile file(path.c_str(), useAllCores());
         if (!file.isComplete()) {
             throw InputError(path.string() + ": is incomplete: rows of pixels are missing.");
+        }
+        if (Imf::isMultiPart(file.version())) {
+            warn(path.string() + ": of a file of several parts only the first is read");
         }
         readHeader(path, file.header(), image);
         readChannels(path, file, image);

@@ -23,6 +23,10 @@ void checkSizes(const Picture& picture, const Picture& reference)
         throw InputError("The pictures are " + std::to_string(picture.width) + "x" + std::to_string(picture.height) + " and " +
                          std::to_string(reference.width) + "x" + std::to_string(reference.height) + ", expected equal sizes.");
     }
+    if (picture.columnsLeft != reference.columnsLeft) {
+        throw InputError("The pictures begin with columns " + std::to_string(picture.columnsLeft) + " and " +
+                         std::to_string(reference.columnsLeft) + " of a larger one, expected the same columns.");
+    }
     if (picture.rowsAbove != reference.rowsAbove) {
         throw InputError("The pictures begin with rows " + std::to_string(picture.rowsAbove) + " and " +
                          std::to_string(reference.rowsAbove) + " of a larger one, expected the same rows.");

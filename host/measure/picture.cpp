@@ -29,7 +29,7 @@ std::vector<glm::vec3> colors(const Image& image, const std::string& layer, cons
 
 Picture pictureOf(const Film& film)
 {
-    Picture picture{film.width, film.height, {}, {}, film.rowsAbove};
+    Picture picture{film.width, film.height, {}, {}, film.rowsAbove, 0};
     for (const PixelMoments& pixel : shownPixels(film)) {
         picture.radiance.push_back(pixel.mean);
         picture.variance.push_back(varianceOfMean(pixel));
@@ -39,7 +39,7 @@ Picture pictureOf(const Film& film)
 
 Picture pictureOf(const Image& image, const std::string& name)
 {
-    Picture picture{image.width, image.height, colors(image, "", name), {}, image.rowsAbove};
+    Picture picture{image.width, image.height, colors(image, "", name), {}, image.rowsAbove, image.columnsLeft};
     if (image.channels.contains("variance.R")) {
         picture.variance = colors(image, "variance.", name);
     }

@@ -102,8 +102,8 @@ void showFigures(const PanelFigures& figures)
 PanelChoices showControls(const PanelFigures& figures, PanelChoices choices)
 {
     if (beginPanel("glim (H: help)###controls")) {
-        choices.exposure = chooseExposure(choices.exposure);
-        choices.tone = chooseTone(choices.tone);
+        choices.exposure = exposureSlider(choices.exposure);
+        choices.tone = toneCombo(choices.tone);
         choices.layer = choose("layer", figures.layers, choices.layer, [](Aov layer) { return nameOf(layer); });
         choices.camera = chooseCamera(figures.cameras, choices.camera);
         ImGui::Separator();

@@ -38,7 +38,7 @@ struct PanelChoices {
     bool operator==(const PanelChoices&) const = default;
 };
 
-// The following functions belong into a frame (gui.hpp).
+// Call these inside a frame (host/window/gui.hpp).
 // Returns `choices` with what the user changes in this frame.
 PanelChoices showControls(const PanelFigures& figures, PanelChoices choices);
 void showHelp();

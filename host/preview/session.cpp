@@ -13,7 +13,6 @@
 #include <exception>
 #include <iostream>
 #include <iterator>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -24,7 +23,6 @@ constexpr double kFrameSeconds = 1.0 / 30.0, kMovingFrameSeconds = 1.0 / 60.0;
 constexpr double kPresentShare = 0.1;  // the most of the time that presenting may take while nothing moves
 constexpr double kIdleSeconds = 0.05;
 constexpr double kExposureStep = 0.5;  // stops
-constexpr double kNoticeSeconds = 6.0;
 
 double secondsSince(std::chrono::steady_clock::time_point start)
 {
@@ -46,12 +44,9 @@ Session::Session(Window& window, EventQueue& events, const PreviewOptions& optio
     : window_(window),
       events_(events),
       options_(options),
-      instance_(Window::instanceExtensions()),
-      surface_(instance_, window.createSurface(instance_)),
-      device_(instance_, options.device, surface_.handle()),
-      gui_(std::max(1.0F, window.contentScale())),
-      swapchain_(device_, surface_.handle()),
-      display_(device_),
+      screen_(window, options.device),
+      gui_(screen_.gui()),
+      display_(screen_.device()),
       loader_(options.scene, options.load, options.split)
 {
     look_.exposure = options.look.exposure.value_or(0.0);
@@ -68,6 +63,7 @@ void Session::run()
         if (const auto report = writer_.takeReport(false)) {
             tell(*report);
         }
+        changed_ = notice_.expire() || changed_;
         fly();
         followCamera();
         if (isPresentDue()) {
@@ -136,7 +132,7 @@ void Session::enter(std::unique_ptr<PreparedScene> prepared)
     RenderSettings settings = options_.settings;
     settings.width = display_.width();
     settings.height = display_.height();
-    checkMemory(*prepared, settings, device_.description());
+    checkMemory(*prepared, settings, screen_.device().description());
     window_.setTitle("glim: compiling kernels for " + options_.scene.filename().string());
     if (!viewpoint_) {
         const Camera& chosen = findCamera(prepared->scene, options_.camera);
@@ -150,7 +146,7 @@ void Session::enter(std::unique_ptr<PreparedScene> prepared)
     }
     warnIfNoLights(*prepared);
     look_.tone = options_.look.tone ? *options_.look.tone : chooseTone(prepared->scene);
-    auto light = std::make_unique<Refiner>(device_, *prepared, settings, options_.lens);
+    auto light = std::make_unique<Refiner>(screen_.device(), *prepared, settings, options_.lens);
     viewpoint_->enter(prepared->scene);
     if (light_) {
         tell(options_.scene.string() + " has changed and is loaded again");
@@ -242,12 +238,10 @@ void Session::present()
     }
     buildPanels();
     buildPanels();  // ImGui lays out a frame by the sizes of the one before
-    const glm::uvec2 size = window_.pictureSize();
-    const bool shown = swapchain_.present(display_.picture(), gui_.drawn(), size.x, size.y);
+    const bool shown = screen_.present(display_.picture());
     presented_ = Clock::now();
     presentSeconds_ = std::chrono::duration<double>(presented_ - start).count();
     if (!shown) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));  // the window is hidden or changing
         return;
     }
     changed_ = moved_;
@@ -282,8 +276,7 @@ void Session::measure()
 
 void Session::say(const std::string& text)
 {
-    notice_ = text;
-    noticeTime_ = Clock::now();
+    notice_.show(text);
     changed_ = true;
 }
 
@@ -323,7 +316,7 @@ void Session::handleMouse(const Event& event)
     gui_.point(event);
     buildPanels();
     const bool panels = gui_.hasMouse();
-    const std::optional<Gesture> gesture = panels ? std::nullopt : gestures_.take(event);
+    const std::optional<Gesture> gesture = gestures_.take(event, panels);
     if (panels || gesture || mouseIsPanels_) {
         waiting_.push_back(event.when);
         changed_ = true;
@@ -506,7 +499,7 @@ PanelFigures Session::figures() const
     figures.errors = meter_.errors();
     figures.size = {display_.width(), display_.height()};
     figures.scale = picture.scale();
-    figures.device = device_.description().name;
+    figures.device = screen_.device().description().name;
     figures.layers = layers();
     for (const Camera& camera : viewpoint_->cameras()) {
         figures.cameras.push_back(camera.name);
@@ -517,9 +510,8 @@ PanelFigures Session::figures() const
 // Of the scene that is being loaded, of one that is refused, and the last notice.
 std::vector<std::string> Session::messages() const
 {
-    const std::string notice = secondsSince(noticeTime_) < kNoticeSeconds ? notice_ : "";
     std::vector<std::string> lines;
-    for (const std::string& line : {title_, trouble_, notice}) {
+    for (const std::string& line : {title_, trouble_, notice_.text()}) {
         if (!line.empty() && std::find(lines.begin(), lines.end(), line) == lines.end()) {
             lines.push_back(line);
         }

@@ -1,7 +1,6 @@
 // The preview's rendering thread. It owns the device, handles the user's input, renders and shows pictures.
 #pragma once
 
-#include "host/gpu/swapchain.hpp"
 #include "host/preview/film_meter.hpp"
 #include "host/preview/panels.hpp"
 #include "host/preview/picture_writer.hpp"
@@ -11,10 +10,10 @@
 #include "host/preview/viewpoint.hpp"
 #include "host/render/display.hpp"
 #include "host/window/gestures.hpp"
-#include "host/window/gui.hpp"
 #include "host/window/latency.hpp"
+#include "host/window/notice.hpp"
+#include "host/window/screen.hpp"
 #include "host/window/widgets.hpp"
-#include "host/window/window.hpp"
 
 #include <deque>
 #include <functional>
@@ -79,11 +78,8 @@ private:
     Window& window_;
     EventQueue& events_;
     PreviewOptions options_;
-    VulkanInstance instance_;
-    Surface surface_;
-    Device device_;
-    Gui gui_;
-    Swapchain swapchain_;
+    Screen screen_;
+    Gui& gui_;
     Display display_;
     SceneLoader loader_;
     PictureWriter writer_;
@@ -101,9 +97,9 @@ private:
     bool mouseIsPanels_ = false;  // since the last event of the mouse
     bool paused_ = false, closing_ = false;
     int panelLevel_ = 1;   // 0: nothing, 1: controls, 2: help too
-    std::string notice_;   // the last text of say()
+    Notice notice_;        // the last text of say()
     std::string trouble_;  // why the present file is not shown; empty if it is
-    Clock::time_point noticeTime_, flown_, presented_;
+    Clock::time_point flown_, presented_;
     double presentSeconds_ = 0.0;              // the time that the last present() took
     std::vector<Clock::time_point> waiting_;   // arrival times of the inputs that no picture answers yet
     std::vector<Clock::time_point> underWay_;  // arrival times of the inputs that the next picture answers

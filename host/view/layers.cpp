@@ -23,7 +23,11 @@ constexpr float kFarthestDepth = 1e9F;  // of a surface; other renderers write 1
 const std::set<std::string> kErrors{"error", "denoisedError", "variance", "squares"}, kIds{"node", "mesh", "material"};
 
 // The last part of a name with dots.
-std::string lastPart(const std::string& name) { return name.substr(name.rfind('.') == std::string::npos ? 0 : name.rfind('.') + 1); }
+std::string lastPart(const std::string& name)
+{
+    const std::size_t dot = name.rfind('.');
+    return dot == std::string::npos || dot == 0 ? name : name.substr(dot + 1);
+}
 
 // A layer's channels by the last part of their names.
 using Channels = std::map<std::string, std::string>;
@@ -69,9 +73,17 @@ std::optional<Layer> takeThree(Channels& channels, const std::string& prefix, co
 
 Layer single(const Image& image, const std::string& prefix, const std::string& channel, bool isAlone)
 {
-    const bool isId = kIds.contains(prefix) && image.counts.contains(channel);
-    const ShownAs shownAs = isId ? ShownAs::Ids : lastPart(channel) == "Z" ? ShownAs::Depth : ShownAs::Heat;
-    return {isAlone && !prefix.empty() ? prefix : channel, {channel}, shownAs};
+    const std::string last = lastPart(channel);
+    Layer layer{isAlone && !prefix.empty() ? prefix : channel, {channel}, ShownAs::Heat};
+    if (kIds.contains(prefix) && image.counts.contains(channel)) {
+        layer.shownAs = ShownAs::Ids;
+    } else if (last == "Z") {
+        layer.shownAs = ShownAs::Depth;
+    } else if (last == "Y" && isAlone) {  // luminance
+        layer.shownAs = ShownAs::Color;
+        layer.isExposed = layer.isToned = true;
+    }
+    return layer;
 }
 
 // A channel of either kind.
@@ -99,7 +111,7 @@ glm::vec3 colorOf(std::uint32_t id)
 }
 
 // Where alpha is known and 0, nothing was met.
-float depthOf(float depth, float alpha) { return alpha > 0.0F && std::abs(depth) < kFarthestDepth ? depth : 0.0F; }
+float depthOf(float depth, float alpha) { return alpha > 0.0F && !(std::abs(depth) >= kFarthestDepth) ? depth : 0.0F; }
 
 float meanOf(const glm::vec3& value) { return (value.x + value.y + value.z) / 3.0F; }
 
@@ -112,7 +124,8 @@ std::vector<Layer> layersOf(const Image& image)
         const std::string last = lastPart(prefix);
         const bool isAlone = channels.size() == 1;
         if (auto color = takeThree(channels, prefix, "RGB", kErrors.contains(last) ? ShownAs::Heat : ShownAs::Color)) {
-            color->isLight = color->shownAs == ShownAs::Color && last != "albedo" && !last.starts_with("Crypto");
+            color->isExposed = color->shownAs == ShownAs::Color && !last.starts_with("Crypto");
+            color->isToned = color->isExposed && last != "albedo";
             layers.push_back(*color);
         } else if (auto vector = takeThree(channels, prefix, "XYZ", ShownAs::Vector)) {
             layers.push_back(*vector);
@@ -130,14 +143,15 @@ Picture valuesOf(const Image& image, const Layer& layer)
     values.radiance.resize(std::size_t{image.width} * image.height);
     const auto plane = [&](std::size_t c) { return Plane(image, layer.channels[std::min(c, layer.channels.size() - 1)]); };
     const std::array<Plane, 3> planes{plane(0), plane(1), plane(2)};
+    const std::uint32_t* ids = layer.shownAs == ShownAs::Ids ? image.counts.at(layer.channels[0]).data() : nullptr;
     const auto alphas = image.channels.find("A");
     const bool isFilm = image.attributes.contains("glim:film");
     for (std::size_t i = 0; i < values.radiance.size(); ++i) {
         const float alpha = alphas == image.channels.end() ? 1.0F : alphas->second[i];
         glm::vec3& value = values.radiance[i];
         value = {planes[0][i], planes[1][i], planes[2][i]};
-        if (layer.shownAs == ShownAs::Ids) {
-            value = colorOf(image.counts.at(layer.channels[0])[i]);
+        if (ids != nullptr) {
+            value = colorOf(ids[i]);
         } else if (layer.shownAs == ShownAs::Depth) {
             value = glm::vec3(depthOf(value.x, alpha));
         } else if (layer.shownAs == ShownAs::Vector && isFilm) {
@@ -147,9 +161,12 @@ Picture valuesOf(const Image& image, const Layer& layer)
     return values;
 }
 
-DisplayRange rangeOf(const Image& image, const Layer& layer, const Picture& values)
+std::optional<DisplayRange> rangeOf(const Image& image, const Layer& layer, const Picture& values)
 {
-    const bool isDepth = layer.shownAs == ShownAs::Depth, areCounts = image.counts.contains(layer.channels[0]);
+    const bool isDepth = layer.shownAs == ShownAs::Depth;
+    if (!isDepth && layer.shownAs != ShownAs::Heat) {
+        return std::nullopt;
+    }
     std::vector<float> numbers;
     for (const glm::vec3& value : values.radiance) {
         const float number = isDepth ? value.x : meanOf(value);
@@ -158,16 +175,16 @@ DisplayRange rangeOf(const Image& image, const Layer& layer, const Picture& valu
         }
     }
     if (numbers.empty()) {
-        return {};
+        return std::nullopt;
     }
     const auto [least, most] = std::minmax_element(numbers.begin(), numbers.end());
-    if (isDepth || areCounts) {
-        return {*least, areCounts ? std::max(*least + 1.0F, *most) : *most};
+    if (isDepth || image.counts.contains(layer.channels[0])) {
+        return DisplayRange{*least, *most};
     }
     const float low = std::min(0.0F, *least);
     const auto high = numbers.begin() + static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(numbers.size() - 1));
     std::nth_element(numbers.begin(), high, numbers.end());
-    return {low, *high};
+    return DisplayRange{low, *high};
 }
 
 std::vector<double> numbersOf(const Image& image, const Layer& layer, std::size_t pixel)

@@ -5,6 +5,7 @@
 #include "host/measure/picture.hpp"
 #include "host/render/aov.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,21 +25,21 @@ struct Layer {
     std::string name;                   // "color" for R, G, B without a prefix
     std::vector<std::string> channels;  // one or three, and alpha if colours have it
     ShownAs shownAs = ShownAs::Color;
-    bool isLight = false;  // tone mapping applies
+    bool isExposed = false, isToned = false;  // whether exposure and tone change it
 };
 
-// R, G, B of one prefix make a layer, with A if there is one, and X, Y, Z do. Each other channel is a layer of its own. They are in the
-// order of their prefixes; that of colour has none and is first.
+// R, G, B of one prefix make a layer, with A if there is one, and so do X, Y, Z. Each other channel is a layer of its own. They are in the
+// order of their prefixes. Colour has none and comes first.
 std::vector<Layer> layersOf(const Image& image);
 
 // What the window shows of `layer`, as `radiance`, without variance: its three channels or one of them three times. Vectors of films of
-// glim are divided by alpha. A depth that is not finite, 1e9 and more (other renderers' infinity) or where alpha is 0 becomes 0. Ids become
-// colours; the largest, which stands for none, becomes black.
+// glim are divided by alpha. A depth becomes 0 if it is infinite, if it is 1e9 or more (so others write that nothing is there), or if alpha
+// is 0. Ids become colours; the largest stands for none and becomes black.
 Picture valuesOf(const Image& image, const Layer& layer);
 
-// The ends of the scale of depths, which are the nearest and the farthest; or of heat: all counts, or 0 and what 99.9 % of other numbers
-// stay below.
-DisplayRange rangeOf(const Image& image, const Layer& layer, const Picture& values);
+// The ends of the scale of depths and heat; nothing for other layers, and if no value is finite. Of depths and counts: the least and the
+// most. Of other numbers: 0, or the least if that is negative, and what 99.9 % stay below.
+std::optional<DisplayRange> rangeOf(const Image& image, const Layer& layer, const Picture& values);
 
 // The numbers of a pixel as the file has them.
 std::vector<double> numbersOf(const Image& image, const Layer& layer, std::size_t pixel);

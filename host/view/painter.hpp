@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace glim {
 
@@ -21,17 +22,25 @@ public:
     const StorageImage& picture() const { return *picture_; }
 
     // The values under the picture's pixels, as many as there are: of the film, and of the reference that differences are from.
-    void setValues(std::span<const glm::vec3> values) { upload(*values_, values); }
-    void setReference(std::span<const glm::vec3> values) { upload(*reference_, values); }
-    // `pass` without the picture's size.
+    void setValues(std::span<const glm::vec3> values);
+    void setReference(std::span<const glm::vec3> values);
+    // Draws by `pass`, after it has set the band.
     void draw(ViewPass pass);
 
 private:
+    // Rows of the picture. A large window has more values than a device allows in one buffer.
+    struct Band {
+        std::uint32_t firstRow, rows;
+        Buffer values, reference;
+    };
+
+    std::span<const glm::vec3> partOf(std::span<const glm::vec3> values, const Band& band) const;
+
     Device& device_;
     KernelLayout layout_;
     Kernel kernel_;
     std::optional<StorageImage> picture_;
-    std::optional<Buffer> values_, reference_;
+    std::vector<Band> bands_;
 };
 
 }  // namespace glim

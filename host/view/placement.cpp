@@ -76,17 +76,24 @@ std::optional<glm::uvec2> pixelAt(const Placement& placement, const glm::dvec2& 
 Rectangle coveredBy(const Placement& placement, const glm::uvec2& picture, const glm::uvec2& window)
 {
     // The pixels whose centres lie over the picture.
-    const glm::dvec2 low = placement.corner, high = placement.corner + placement.zoom * glm::dvec2(picture), end(window);
-    return {glm::uvec2(glm::clamp(glm::ceil(low - 0.5), glm::dvec2(0.0), end)),
-            glm::uvec2(glm::clamp(glm::ceil(high - 0.5), glm::dvec2(0.0), end))};
+    const glm::dvec2 corner = placement.corner, size = placement.zoom * glm::dvec2(picture), end(window);
+    Rectangle covered{glm::uvec2(glm::clamp(glm::ceil(corner - 0.5), glm::dvec2(0.0), end)),
+                      glm::uvec2(glm::clamp(glm::ceil(corner + size - 0.5), glm::dvec2(0.0), end))};
+    for (int k = 0; k < 2; ++k) {
+        if (size[k] < 1.0 && corner[k] >= 0.0 && corner[k] < end[k]) {
+            covered.low[k] = static_cast<std::uint32_t>(corner[k]);
+            covered.high[k] = covered.low[k] + 1;
+        }
+    }
+    return covered;
 }
 
-void layUnder(const Picture& picture, const Placement& placement, const glm::uvec2& window, std::vector<glm::vec3>& values)
+void layUnder(const Picture& picture, const Placement& placement, const glm::uvec2& window, bool averages, std::vector<glm::vec3>& values)
 {
     values.resize(std::size_t{window.x} * window.y);
     const Rectangle covered = coveredBy(placement, {picture.width, picture.height}, window);
-    // Magnified, what lies at the centre; else all of the pixel.
-    const double half = placement.zoom >= 1.0 ? 0.0 : 0.5;
+    // Half of what is averaged, in pixels of the window.
+    const double half = averages && placement.zoom < 1.0 ? 0.5 : 0.0;
     const auto spanAt = [&](std::uint32_t pixel, double corner, std::uint32_t count) {
         const double center = static_cast<double>(pixel) + 0.5 - corner;
         return spanOf((center - half) / placement.zoom, (center + half) / placement.zoom, count);

@@ -12,7 +12,7 @@ struct Placement {
     glm::dvec2 corner{0.0};  // the place in the window of the picture's upper left corner
 };
 
-// The picture in the middle, as large as the window allows; larger than its pixels by a whole number.
+// The picture in the middle, as large as the window allows. If it is magnified, the zoom is a whole number.
 Placement fit(const glm::uvec2& picture, const glm::uvec2& window);
 // The picture in the middle, a pixel for a pixel.
 Placement actualSize(const glm::uvec2& picture, const glm::uvec2& window);
@@ -22,14 +22,15 @@ Placement zoomAt(const Placement& placement, const glm::dvec2& point, double fac
 // The picture's pixel under a point of the window; nothing beside the picture.
 std::optional<glm::uvec2> pixelAt(const Placement& placement, const glm::dvec2& point, const glm::uvec2& picture);
 
-// The part of the window that shows the picture: its pixels from `low` up to, but without, `high`.
+// The part of the window that shows the picture: its pixels from `low` up to, but without, `high`. A picture that is thinner than a pixel
+// of the window has one.
 struct Rectangle {
     glm::uvec2 low{0}, high{0};
 };
 Rectangle coveredBy(const Placement& placement, const glm::uvec2& picture, const glm::uvec2& window);
 
 // The picture's values under the window's pixels, row by row; those beside it are left as they are. A pixel of the window has the value
-// of the picture's pixel at its centre, or the mean of all that have their centre in it if the picture is made smaller.
-void layUnder(const Picture& picture, const Placement& placement, const glm::uvec2& window, std::vector<glm::vec3>& values);
+// of the picture's pixel at its centre. If the picture is made smaller and `averages`, it has the mean of all that have their centre in it.
+void layUnder(const Picture& picture, const Placement& placement, const glm::uvec2& window, bool averages, std::vector<glm::vec3>& values);
 
 }  // namespace glim

@@ -20,6 +20,9 @@ void view(const ViewOptions& options)
     runWindow(window, script, [&] {
         ViewSession session(window, events, options, std::move(films));
         session.run();
+        if (options.script) {
+            session.printSummary();
+        }
     });
 }
 

@@ -41,10 +41,10 @@ ViewChoices showViewPanel(const ViewFigures& figures, ViewChoices choices)
             choices.side = choose("film", figures.sides, choices.side, [](Side side) { return nameOf(side); });
         }
         ImGui::BeginDisabled(!figures.isExposed);
-        choices.exposure = chooseExposure(choices.exposure);
+        choices.exposure = exposureSlider(choices.exposure);
         ImGui::EndDisabled();
         ImGui::BeginDisabled(!figures.isToned);
-        choices.tone = chooseTone(choices.tone);
+        choices.tone = toneCombo(choices.tone);
         ImGui::EndDisabled();
         ImGui::Separator();
         for (const std::string& line : figures.lines) {

@@ -19,7 +19,7 @@ struct ViewChoices {
     bool operator==(const ViewChoices&) const = default;
 };
 
-// What the panel shows else.
+// What else the panel shows.
 struct ViewFigures {
     std::vector<std::string> layers;
     std::vector<Side> sides;         // that the layer has
@@ -28,7 +28,7 @@ struct ViewFigures {
     std::vector<std::string> lines;  // of text
 };
 
-// Belong into a frame (host/window/gui.hpp). showViewPanel returns `choices` with what the user changes in this frame.
+// Call these inside a frame (host/window/gui.hpp). showViewPanel returns `choices` with what the user changes in it.
 ViewChoices showViewPanel(const ViewFigures& figures, ViewChoices choices);
 void showViewHelp();
 

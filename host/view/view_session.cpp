@@ -10,15 +10,12 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
-#include <limits>
-#include <thread>
 #include <utility>
 
 namespace glim {
 namespace {
 
-constexpr double kIdleSeconds = 0.25;  // between looks at the files
-constexpr double kNoticeSeconds = 6.0;
+constexpr double kIdleSeconds = 0.25;     // between looks at the files
 constexpr double kExposureStep = 0.5;     // stops
 constexpr double kNotchesToDouble = 4.0;  // of the wheel
 
@@ -38,12 +35,9 @@ ViewSession::ViewSession(Window& window, EventQueue& events, const ViewOptions& 
     : window_(window),
       events_(events),
       films_(std::move(films)),
-      instance_(Window::instanceExtensions()),
-      surface_(instance_, window.createSurface(instance_)),
-      device_(instance_, options.device, surface_.handle()),
-      gui_(std::max(1.0F, window.contentScale())),
-      swapchain_(device_, surface_.handle()),
-      painter_(device_),
+      screen_(window, options.device),
+      gui_(screen_.gui()),
+      painter_(screen_.device()),
       exposure_(options.look.exposure.value_or(0.0)),
       exposureIsAuto_(!options.look.exposure)
 {
@@ -65,12 +59,17 @@ void ViewSession::run()
             readChangedFilms();
             looked = Clock::now();
         }
+        changed_ = notice_.expire() || changed_;
         if (changed_) {
             present();
         } else {
             window_.reportShown(0, true, handledEvents_);
         }
     }
+}
+
+void ViewSession::printSummary() const
+{
     if (latency_.count() > 0) {
         say(latency_.describe());
     }
@@ -86,7 +85,7 @@ void ViewSession::handle(const Event& event)
     case Kind::KeyDown:
         waiting_.push_back(event.when);
         press(event.key);
-        buildPanels();  // what is hidden now takes no click any more
+        buildPanels();  // a hidden panel takes no clicks
         changed_ = true;
         break;
     case Kind::FocusLost:
@@ -103,11 +102,10 @@ void ViewSession::handleMouse(const Event& event)
     waiting_.push_back(event.when);
     changed_ = true;
     gui_.point(event);
-    pointer_ = event.position;
     buildPanels();
-    if (gui_.hasMouse()) {
-        pointer_ = glm::dvec2(-1.0);
-    } else if (const std::optional<Gesture> gesture = gestures_.take(event)) {
+    const bool isPanels = gui_.hasMouse();
+    pointer_ = isPanels ? std::nullopt : std::optional(event.position);
+    if (const std::optional<Gesture> gesture = gestures_.take(event, isPanels)) {
         follow(*gesture);
     }
 }
@@ -129,21 +127,20 @@ void ViewSession::follow(const Gesture& gesture)
 
 void ViewSession::press(char key)
 {
-    ViewChoices wanted = choices_;
-    wanted.exposure = exposure();
+    ViewChoices wanted = shownChoices();
     if (key == kEscape) {
         closing_ = true;
     } else if (key == 'H') {
         panelLevel_ = (panelLevel_ + 1) % 3;
-    } else if (key == '+' || key == '-') {
+    } else if ((key == '+' || key == '-') && isExposed()) {
         wanted.exposure += key == '+' ? kExposureStep : -kExposureStep;
-    } else if (key == 'T') {
+    } else if (key == 'T' && isToned()) {
         wanted.tone = static_cast<Tone>((static_cast<std::uint32_t>(choices_.tone) + 1) % 3);
     } else if (key == 'V') {
         wanted.layer = (choices_.layer + 1) % films_.layers().size();
     } else if (key == 'B') {
         const std::vector<Side> order = sides();
-        const auto at = std::find(order.begin(), order.end(), choices_.side);
+        const auto at = std::find(order.begin(), order.end(), side_);
         wanted.side = at + 1 == order.end() ? order.front() : at[1];
     } else if (key == 'F' || key == '1') {
         place(key == 'F' ? fit(films_.size(), painter_.size()) : actualSize(films_.size(), painter_.size()));
@@ -170,57 +167,55 @@ void ViewSession::place(const Placement& placement)
     changed_ = true;
 }
 
-// Takes the values of a layer. A side that it lacks gives way to one that it has.
+// Takes the values of a layer.
 void ViewSession::chooseLayer(std::size_t index)
 {
     choices_.layer = index;
     const ViewedLayer& layer = films_.layers()[index];
-    shown_ = {};
+    shown_ = {layer.of[0] ? *layer.of[0] : *layer.of[1], {}, {}};
+    std::optional<DisplayRange> range;
     for (std::size_t i = 0; i < values_.size(); ++i) {
         values_[i] = layer.of[i] ? valuesOf(films_.image(i), *layer.of[i]) : Picture{};
+        const auto own = layer.of[i] ? rangeOf(films_.image(i), *layer.of[i], values_[i]) : std::nullopt;
+        range = range && own ? joined(*range, *own) : own ? own : range;
     }
-    const std::size_t first = layer.of[0] ? 0 : 1;
-    shown_.as = layer.of[first]->shownAs;
-    shown_.isLight = layer.of[first]->isLight;
-    shown_.range = rangeOf(films_.image(first), *layer.of[first], values_[first]);
-    if (layer.of[0] && layer.of[1]) {
-        shown_.range = joined(shown_.range, rangeOf(films_.image(1), *layer.of[1], values_[1]));
+    shown_.range = range.value_or(DisplayRange{});
+    if (exposureIsAuto_ && shown_.layer.isExposed) {
+        exposure_ = chooseExposure(values_[layer.of[0] ? 0 : 1].radiance);
     }
-    if (exposureIsAuto_ && shown_.as == ShownAs::Color) {
-        exposure_ = chooseExposure(values_[first].radiance);
-    }
-    const std::vector<Side> has = sides();
-    chooseSide(std::find(has.begin(), has.end(), choices_.side) != has.end() ? choices_.side : has.front());
+    chooseSide(choices_.side);
 }
 
+// A side that the layer lacks gives way to one that it has, until there is a layer that has it.
 void ViewSession::chooseSide(Side side)
 {
     choices_.side = side;
+    const std::vector<Side> has = sides();
+    side_ = std::find(has.begin(), has.end(), side) != has.end() ? side : has.front();
     laid_ = drawn_ = false;
-    if (side == Side::Difference && shown_.errorScale == 0.0) {
-        measureDifference();
+    if (side_ == Side::Difference && !shown_.difference) {
+        shown_.difference = measureDifference();
     }
 }
 
 // Colours differ relative to the reference, as in relMSE. Other layers have no such scale.
-void ViewSession::measureDifference()
+ViewSession::Shown::Difference ViewSession::measureDifference() const
 {
-    const bool isRelative = shown_.as == ShownAs::Color;
-    shown_.relative = isRelative ? 1.0 : 0.0;
-    shown_.epsilon = isRelative ? relativeEpsilon(values_[1]) : 1.0;
-    shown_.errorScale = chooseErrorScale(values_[0], values_[1], shown_.relative, shown_.epsilon);
-    const auto errors = shown_.isLight ? measureErrors(values_[0], values_[1]) : std::nullopt;
-    if (errors) {
-        shown_.error =
+    const bool isRelative = shown_.layer.shownAs == ShownAs::Color;
+    Shown::Difference difference{isRelative ? 1.0 : 0.0, isRelative ? relativeEpsilon(values_[1]) : 1.0, 0.0, ""};
+    difference.scale = chooseErrorScale(values_[0], values_[1], difference.relative, difference.epsilon);
+    if (const auto errors = shown_.layer.isToned ? measureErrors(values_[0], values_[1]) : std::nullopt) {
+        difference.error =
             formatted("relMSE %.3g, RMSE %.3g %% of the mean", errors->relMse, 100.0 * std::sqrt(errors->mse) / meanRadiance(values_[1]));
     }
+    return difference;
 }
 
 void ViewSession::change(const ViewChoices& wanted)
 {
     if (wanted.exposure != exposure()) {
         exposure() = wanted.exposure;
-        exposureIsAuto_ = exposureIsAuto_ && choices_.side == Side::Difference;
+        exposureIsAuto_ = exposureIsAuto_ && side_ == Side::Difference;
         drawn_ = false;
     }
     if (wanted.tone != choices_.tone) {
@@ -229,7 +224,7 @@ void ViewSession::change(const ViewChoices& wanted)
     }
     if (wanted.layer != choices_.layer) {
         chooseLayer(wanted.layer);
-    } else if (wanted.side != choices_.side) {
+    } else if (wanted.side != side_) {
         chooseSide(wanted.side);
     }
 }
@@ -244,7 +239,7 @@ std::vector<Side> ViewSession::sides() const
     if (layer.of[1]) {
         has.push_back(Side::B);
     }
-    if (has.size() == 2) {
+    if (has.size() == 2 && shown_.layer.shownAs != ShownAs::Ids) {
         has.push_back(Side::Difference);
     }
     return has;
@@ -253,8 +248,7 @@ std::vector<Side> ViewSession::sides() const
 void ViewSession::tell(const std::string& text)
 {
     say(text);
-    notice_ = text;
-    noticeTime_ = Clock::now();
+    notice_.show(text);
     changed_ = true;
 }
 
@@ -262,52 +256,57 @@ void ViewSession::readChangedFilms()
 {
     const glm::uvec2 before = films_.size();
     const std::string name = films_.layers()[choices_.layer].name;
-    try {
-        if (!films_.readChanged()) {
-            return;
+    const ViewedFilms::Reading reading = films_.readChanged();
+    if (!reading.taken.empty()) {
+        const auto& layers = films_.layers();
+        const auto same = std::find_if(layers.begin(), layers.end(), [&](const ViewedLayer& layer) { return layer.name == name; });
+        chooseLayer(same == layers.end() ? 0 : static_cast<std::size_t>(same - layers.begin()));
+        if (films_.size() != before) {
+            place(fit(films_.size(), painter_.size()));
+            isFitted_ = true;
         }
-    } catch (const InputError& error) {
-        tell(error.what());
-        return;
     }
-    const auto& layers = films_.layers();
-    const auto same = std::find_if(layers.begin(), layers.end(), [&](const ViewedLayer& layer) { return layer.name == name; });
-    chooseLayer(same == layers.end() ? 0 : static_cast<std::size_t>(same - layers.begin()));
-    if (films_.size() != before) {
-        place(fit(films_.size(), painter_.size()));
+    for (const std::string& file : reading.taken) {
+        tell(file + ": read again");
     }
-    tell(films_.title() + ": read again");
+    if (!reading.trouble.empty()) {
+        tell(reading.trouble);
+    }
 }
 
 void ViewSession::draw()
 {
+    const bool differs = side_ == Side::Difference;
+    const ShownAs as = shown_.layer.shownAs;
     if (!laid_) {
+        const bool averages = as != ShownAs::Ids && as != ShownAs::Depth;  // means of ids, or of a depth and nothing, mean nothing
         for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
-            const bool isSeen = choices_.side == Side::Difference || choices_.side == (i == 0 ? Side::A : Side::B);
-            if (isSeen) {
-                layUnder(values_[i], placement_, painter_.size(), under_[i]);
+            if (differs || side_ == (i == 0 ? Side::A : Side::B)) {
+                layUnder(values_[i], placement_, painter_.size(), averages, under_[i]);
             }
         }
-        painter_.setValues(under_[choices_.side == Side::B ? 1 : 0]);
-        if (choices_.side == Side::Difference) {
+        painter_.setValues(under_[side_ == Side::B ? 1 : 0]);
+        if (differs) {
             painter_.setReference(under_[1]);
         }
         laid_ = true;
     }
     const Rectangle covered = coveredBy(placement_, films_.size(), painter_.size());
-    const bool differs = choices_.side == Side::Difference;
     ViewPass pass{};
     pass.left = covered.low.x;
     pass.top = covered.low.y;
     pass.right = covered.high.x;
     pass.bottom = covered.high.y;
-    pass.shownAs = static_cast<std::uint32_t>(differs ? ShownAs::Difference : shown_.as == ShownAs::Ids ? ShownAs::Color : shown_.as);
-    pass.scale = static_cast<float>(std::exp2(exposure()) / (differs && shown_.errorScale > 0.0 ? shown_.errorScale : 1.0));
-    pass.tone = static_cast<std::uint32_t>(shown_.isLight ? choices_.tone : Tone::None);
+    pass.shownAs = static_cast<std::uint32_t>(differs ? ShownAs::Difference : as == ShownAs::Ids ? ShownAs::Color : as);
+    pass.scale = isExposed() ? static_cast<float>(std::exp2(exposure())) : 1.0F;
+    pass.tone = static_cast<std::uint32_t>(isToned() ? choices_.tone : Tone::None);
     pass.low = shown_.range.low;
     pass.high = shown_.range.high;
-    pass.relative = static_cast<float>(shown_.relative);
-    pass.epsilon = static_cast<float>(shown_.epsilon);
+    if (differs) {
+        pass.scale /= static_cast<float>(shown_.difference->scale > 0.0 ? shown_.difference->scale : 1.0);
+        pass.relative = static_cast<float>(shown_.difference->relative);
+        pass.epsilon = static_cast<float>(shown_.difference->epsilon);
+    }
     painter_.draw(pass);
     drawn_ = true;
 }
@@ -319,9 +318,7 @@ void ViewSession::present()
     if (!drawn_) {
         draw();
     }
-    const glm::uvec2 size = window_.pictureSize();
-    if (!swapchain_.present(painter_.picture(), gui_.drawn(), size.x, size.y)) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));  // the window is hidden or changing
+    if (!screen_.present(painter_.picture())) {
         return;
     }
     changed_ = false;
@@ -334,14 +331,12 @@ void ViewSession::present()
 
 void ViewSession::buildPanels()
 {
-    ViewChoices before = choices_;
-    before.exposure = exposure();
+    const ViewChoices before = shownChoices();
     ViewChoices wanted = before;
-    const bool isFresh = std::chrono::duration<double>(Clock::now() - noticeTime_).count() < kNoticeSeconds;
     gui_.frame(painter_.size(), [&] {
         if (panelLevel_ > 0) {
             wanted = showViewPanel(figures(), before);
-            showMessages(isFresh && !notice_.empty() ? std::vector{notice_} : std::vector<std::string>{});
+            showMessages(notice_.text().empty() ? std::vector<std::string>{} : std::vector{notice_.text()});
         }
         if (panelLevel_ > 1) {
             showViewHelp();
@@ -356,22 +351,22 @@ ViewFigures ViewSession::figures() const
     for (const ViewedLayer& layer : films_.layers()) {
         figures.layers.push_back(layer.name);
     }
-    const bool differs = choices_.side == Side::Difference;
     figures.sides = sides();
-    figures.isExposed = differs || shown_.as == ShownAs::Color;
-    figures.isToned = !differs && shown_.isLight;
+    figures.isExposed = isExposed();
+    figures.isToned = isToned();
     for (std::size_t i = 0; i < films_.count(); ++i) {
         figures.lines.push_back(std::string(i == 0 ? "A " : "B ") + films_.path(i).filename().string());
     }
     const auto low = static_cast<double>(shown_.range.low), high = static_cast<double>(shown_.range.high);
     figures.lines.push_back(formatted("%ux%u at %.4g %%", films_.size().x, films_.size().y, 100.0 * placement_.zoom));
-    if (differs) {
-        const double full = shown_.errorScale * std::exp2(-gain_);
-        figures.lines.push_back(formatted("blue %.3g, white 0, red %.3g%s", -full, full, shown_.relative > 0.0 ? ", relative" : ""));
-        figures.lines.push_back(shown_.error);
-    } else if (shown_.as == ShownAs::Depth) {
+    if (side_ == Side::Difference) {
+        const double full = shown_.difference->scale * std::exp2(-gain_);
+        const char* unit = shown_.difference->relative > 0.0 ? ", relative" : "";
+        figures.lines.push_back(formatted("blue %.3g, white 0, red %.3g%s", -full, full, unit));
+        figures.lines.push_back(shown_.difference->error);
+    } else if (shown_.layer.shownAs == ShownAs::Depth) {
         figures.lines.push_back(formatted("white %.4g, grey %.4g", low, high));
-    } else if (shown_.as == ShownAs::Heat) {
+    } else if (shown_.layer.shownAs == ShownAs::Heat) {
         figures.lines.push_back(formatted("blue %.3g, red %.3g", low, high));
     }
     for (std::string& line : describePixel()) {
@@ -383,9 +378,10 @@ ViewFigures ViewSession::figures() const
 // The numbers of the layer under the mouse.
 std::vector<std::string> ViewSession::describePixel() const
 {
-    const auto place = pixelAt(placement_, pointer_, films_.size());
+    const auto place = pointer_ ? pixelAt(placement_, *pointer_, films_.size()) : std::nullopt;
     const std::size_t pixel = place ? std::size_t{place->y} * films_.size().x + place->x : 0;
-    std::vector<std::string> lines{place ? formatted("pixel (%u, %u)", place->x, place->y + films_.image(0).rowsAbove) : "pixel -"};
+    std::vector<std::string> lines{
+        place ? formatted("pixel (%u, %u)", place->x + films_.image(0).columnsLeft, place->y + films_.image(0).rowsAbove) : "pixel -"};
     std::array<std::vector<double>, 2> numbers;
     const ViewedLayer& layer = films_.layers()[choices_.layer];
     for (std::size_t i = 0; i < films_.count(); ++i) {
@@ -407,7 +403,8 @@ std::vector<std::string> ViewSession::describePixel() const
 void ViewSession::print(const glm::uvec2& pixel) const
 {
     const glm::uvec2 size = films_.size();
-    std::cout << "pixel (" << pixel.x << ", " << pixel.y + films_.image(0).rowsAbove << ") of " << size.x << "x" << size.y << '\n';
+    std::cout << "pixel (" << pixel.x + films_.image(0).columnsLeft << ", " << pixel.y + films_.image(0).rowsAbove << ") of " << size.x
+              << "x" << size.y << '\n';
     for (std::size_t i = 0; i < films_.count(); ++i) {
         std::cout << escaped(films_.path(i).string()) << ':';
         const char* separator = " ";

@@ -1,16 +1,15 @@
 // The viewer's thread. It owns the device, handles the user's input and shows the films.
 #pragma once
 
-#include "host/gpu/swapchain.hpp"
 #include "host/view/painter.hpp"
 #include "host/view/placement.hpp"
 #include "host/view/view.hpp"
 #include "host/view/view_panel.hpp"
 #include "host/view/viewed_films.hpp"
 #include "host/window/gestures.hpp"
-#include "host/window/gui.hpp"
 #include "host/window/latency.hpp"
-#include "host/window/window.hpp"
+#include "host/window/notice.hpp"
+#include "host/window/screen.hpp"
 
 namespace glim {
 
@@ -18,19 +17,24 @@ class ViewSession {
 public:
     ViewSession(Window& window, EventQueue& events, const ViewOptions& options, ViewedFilms films);
 
-    // Runs until the window is closed. Prints at its end how long the user waited for pictures.
+    // Runs until the window is closed.
     void run();
+    // Prints how long the user waited for pictures.
+    void printSummary() const;
 
 private:
     using Clock = std::chrono::steady_clock;
 
     // What the window shows of the chosen layer.
     struct Shown {
-        ShownAs as = ShownAs::Color;
-        bool isLight = false;
+        Layer layer;  // A's, or B's if only that has it
         DisplayRange range;
-        double relative = 0.0, epsilon = 1.0, errorScale = 0.0;  // of differences (host/measure/error_picture.hpp)
-        std::string error;                                       // of A against B, as a line of text
+        // How A - B is drawn (host/measure/error_picture.hpp), and how large it is, as a line of text.
+        struct Difference {
+            double relative, epsilon, scale;
+            std::string error;
+        };
+        std::optional<Difference> difference;  // once it is needed
     };
 
     // The user's input.
@@ -49,8 +53,11 @@ private:
 
     // The picture and its panel.
     std::vector<Side> sides() const;
-    double& exposure() { return choices_.side == Side::Difference ? gain_ : exposure_; }
-    void measureDifference();
+    ViewChoices shownChoices() { return {choices_.layer, side_, exposure(), choices_.tone}; }
+    double& exposure() { return side_ == Side::Difference ? gain_ : exposure_; }
+    bool isExposed() const { return side_ == Side::Difference || shown_.layer.isExposed; }
+    bool isToned() const { return side_ != Side::Difference && shown_.layer.isToned; }
+    Shown::Difference measureDifference() const;
     void draw();
     void present();
     void buildPanels();
@@ -60,14 +67,12 @@ private:
     Window& window_;
     EventQueue& events_;
     ViewedFilms films_;
-    VulkanInstance instance_;
-    Surface surface_;
-    Device device_;
-    Gui gui_;
-    Swapchain swapchain_;
+    Screen screen_;
+    Gui& gui_;
     Painter painter_;
 
-    ViewChoices choices_;
+    ViewChoices choices_;                 // of the user
+    Side side_ = Side::A;                 // that is shown: another one if the layer lacks the chosen one
     double exposure_ = 0.0, gain_ = 0.0;  // stops, of colours and of differences
     bool exposureIsAuto_ = false;
     std::array<Picture, 2> values_;  // of the layer, A's and B's; empty where a film has none
@@ -79,11 +84,10 @@ private:
     bool drawn_ = false;                           // whether the picture is
 
     Gestures gestures_;
-    glm::dvec2 pointer_{-1.0};
+    std::optional<glm::dvec2> pointer_;  // absent: over a panel
     bool closing_ = false;
     int panelLevel_ = 1;  // 0: nothing, 1: controls, 2: help too
-    std::string notice_;
-    Clock::time_point noticeTime_;
+    Notice notice_;
     bool changed_ = true;  // there is something new to present
     std::uint64_t handledEvents_ = 0;
     std::vector<Clock::time_point> waiting_;  // arrival times of the inputs that no picture answers yet

@@ -12,6 +12,18 @@ namespace {
 
 std::string sizeText(const Image& image) { return std::to_string(image.width) + "x" + std::to_string(image.height); }
 
+// Of a part of a larger picture.
+std::string placeText(const Image& image)
+{
+    const bool isPart = image.rowsAbove > 0 || image.columnsLeft > 0;
+    return isPart ? " from (" + std::to_string(image.columnsLeft) + ", " + std::to_string(image.rowsAbove) + ") on" : "";
+}
+
+bool isAlike(const ViewedLayer& known, const Layer& layer)
+{
+    return std::any_of(known.of.begin(), known.of.end(), [&](const auto& other) { return other && other->shownAs == layer.shownAs; });
+}
+
 std::filesystem::file_time_type timeOf(const std::filesystem::path& path)
 {
     std::error_code failed;
@@ -47,14 +59,12 @@ ViewedFilms::ViewedFilms(const std::filesystem::path& a, const std::optional<std
 
 std::optional<std::string> ViewedFilms::disagreement(const File& a, const Image& imageOfA, const File& b, const Image& imageOfB)
 {
-    if (imageOfA.width == imageOfB.width && imageOfA.height == imageOfB.height && imageOfA.rowsAbove == imageOfB.rowsAbove) {
+    if (imageOfA.width == imageOfB.width && imageOfA.height == imageOfB.height && imageOfA.rowsAbove == imageOfB.rowsAbove &&
+        imageOfA.columnsLeft == imageOfB.columnsLeft) {
         return std::nullopt;
     }
-    const auto rows = [](const Image& image) {
-        return image.rowsAbove > 0 ? " from row " + std::to_string(image.rowsAbove) + " on" : std::string();
-    };
-    return b.path.string() + ": is " + sizeText(imageOfB) + rows(imageOfB) + ", expected " + sizeText(imageOfA) + rows(imageOfA) + " as " +
-           a.path.string() + ".";
+    const auto sizeOf = [](const Image& image) { return sizeText(image) + placeText(image); };
+    return b.path.string() + ": is " + sizeOf(imageOfB) + ", expected " + sizeOf(imageOfA) + ", the size of " + a.path.string() + ".";
 }
 
 std::string ViewedFilms::title() const
@@ -71,41 +81,46 @@ void ViewedFilms::listLayers()
     layers_.clear();
     for (std::size_t i = 0; i < files_.size(); ++i) {
         for (Layer& layer : layersOf(files_[i].image)) {
-            const auto found = std::find_if(layers_.begin(), layers_.end(),
-                                            [&](const ViewedLayer& known) { return known.name == layer.name && !known.of[i]; });
+            const auto found = std::find_if(layers_.begin(), layers_.end(), [&](const ViewedLayer& known) {
+                return known.name == layer.name && !known.of[i] && isAlike(known, layer);
+            });
             ViewedLayer& entry = found != layers_.end() ? *found : layers_.emplace_back(ViewedLayer{layer.name, {}});
             entry.of[i] = std::move(layer);
         }
     }
 }
 
-bool ViewedFilms::readChanged()
+ViewedFilms::Reading ViewedFilms::readChanged()
 {
+    Reading reading;
     bool any = false;
     for (File& file : files_) {
         const auto time = timeOf(file.path);
-        if (time != std::filesystem::file_time_type::min() && time != file.time) {
-            file.time = time;
+        if (time == std::filesystem::file_time_type::min() || time == file.time) {
+            continue;
+        }
+        file.time = time;
+        try {
             file.fresh = read(file.path);
             any = true;
+        } catch (const InputError& error) {
+            reading.trouble = error.what();
         }
-    }
-    if (!any) {
-        return false;
     }
     const auto latest = [](const File& file) -> const Image& { return file.fresh ? *file.fresh : file.image; };
-    if (files_.size() > 1) {
-        if (const auto why = disagreement(files_[0], latest(files_[0]), files_[1], latest(files_[1]))) {
-            throw InputError(*why);
-        }
+    const auto why = files_.size() > 1 ? disagreement(files_[0], latest(files_[0]), files_[1], latest(files_[1])) : std::nullopt;
+    if (!any || why) {
+        reading.trouble = any ? *why : reading.trouble;
+        return reading;
     }
     for (File& file : files_) {
         if (file.fresh) {
             file.image = std::move(*std::exchange(file.fresh, std::nullopt));
+            reading.taken.push_back(file.path.filename().string());
         }
     }
     listLayers();
-    return true;
+    return reading;
 }
 
 }  // namespace glim

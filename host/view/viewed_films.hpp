@@ -10,7 +10,7 @@
 
 namespace glim {
 
-// A layer of either film, by its name.
+// The layers of both films that have one name and are shown alike, or one that has no such partner.
 struct ViewedLayer {
     std::string name;
     std::array<std::optional<Layer>, 2> of;  // A's and B's
@@ -29,9 +29,12 @@ public:
     // A's layers in their order, then those that only B has.
     const std::vector<ViewedLayer>& layers() const { return layers_; }
 
-    // Reads again the files that have been written since, and takes them once their sizes agree. Returns whether it has; throws InputError
-    // if one is refused, and keeps the former one.
-    bool readChanged();
+    // Reads again the files that have been written since. They are taken once their sizes agree; one that is refused stays as it was.
+    struct Reading {
+        std::vector<std::string> taken;  // names of files
+        std::string trouble;             // a sentence; empty if there is none
+    };
+    Reading readChanged();
 
 private:
     struct File {

@@ -14,7 +14,7 @@ namespace glim {
 // Positions are in pixels of the picture; (0, 0) is its upper left corner.
 struct Event {
     enum class Kind { KeyDown, KeyUp, Move, ButtonDown, ButtonUp, Scroll, FocusLost, Resize, Close };
-    Kind kind;
+    Kind kind;  // Resize also if the picture may be gone, so that it is shown again
     std::chrono::steady_clock::time_point when;
     char key = 0;              // for KeyDown and KeyUp: an upper-case letter, a digit, a sign or kEscape
     glm::dvec2 position{0.0};  // of the mouse, for Move, ButtonDown, ButtonUp and Scroll

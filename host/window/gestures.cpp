@@ -9,9 +9,12 @@ constexpr double kClickPixels = 3.0;  // a click becomes a drag if the mouse mov
 
 }  // namespace
 
-std::optional<Gesture> Gestures::take(const Event& event)
+std::optional<Gesture> Gestures::take(const Event& event, bool isPanels)
 {
     using Kind = Event::Kind;
+    if (isPanels && !button_) {
+        return std::nullopt;
+    }
     if (event.kind == Kind::Scroll) {
         return Gesture{.kind = Gesture::Kind::Dolly, .notches = event.notches, .position = event.position};
     }

@@ -19,8 +19,8 @@ struct Gesture {
 // Tells clicks from drags.
 class Gestures {
 public:
-    // Takes the events that no panel takes. Returns what one of them asks for.
-    std::optional<Gesture> take(const Event& event);
+    // Returns what the event asks for. `isPanels`: a panel has the mouse, and only a gesture that has begun beside it goes on.
+    std::optional<Gesture> take(const Event& event, bool isPanels);
     // Forgets the button that is down.
     void cancel() { button_.reset(); }
 

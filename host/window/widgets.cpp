@@ -28,14 +28,14 @@ void endPanel()
     ImGui::End();
 }
 
-double chooseExposure(double stops)
+double exposureSlider(double stops)
 {
     auto chosen = static_cast<float>(stops);
     const bool moved = ImGui::SliderFloat("exposure", &chosen, -kExposureRange, kExposureRange, "%+.1f EV", ImGuiSliderFlags_NoInput);
     return moved ? static_cast<double>(chosen) : stops;
 }
 
-Tone chooseTone(Tone chosen)
+Tone toneCombo(Tone chosen)
 {
     return choose("tone", {Tone::None, Tone::Neutral, Tone::Agx}, chosen, [](Tone tone) { return nameOf(tone); });
 }

@@ -1,4 +1,4 @@
-// Parts of the panels over a window's picture. They belong into a frame (gui.hpp).
+// Parts of the panels over a window's picture. Call these inside a frame (gui.hpp).
 #pragma once
 
 #include "host/render/aov.hpp"
@@ -20,17 +20,19 @@ template <class Value, class Name>
 Value choose(const char* label, const std::vector<Value>& values, Value chosen, Name&& name)
 {
     if (ImGui::BeginCombo(label, name(chosen))) {
-        for (const Value& value : values) {
-            if (ImGui::Selectable(name(value), value == chosen)) {
-                chosen = value;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            ImGui::PushID(static_cast<int>(i));  // two values may have one name
+            if (ImGui::Selectable(name(values[i]), values[i] == chosen)) {
+                chosen = values[i];
             }
+            ImGui::PopID();
         }
         ImGui::EndCombo();
     }
     return chosen;
 }
-double chooseExposure(double stops);
-Tone chooseTone(Tone chosen);
+double exposureSlider(double stops);
+Tone toneCombo(Tone chosen);
 
 struct HelpLine {
     const char *key, *meaning;

@@ -12,6 +12,7 @@ namespace glim {
 namespace {
 
 constexpr double kWaitSeconds = 0.25;
+constexpr std::uint32_t kLargestSide = 65535;  // of a window, in pixels
 
 static_assert(kLeftButton == GLFW_MOUSE_BUTTON_LEFT && kRightButton == GLFW_MOUSE_BUTTON_RIGHT &&
               kMiddleButton == GLFW_MOUSE_BUTTON_MIDDLE);
@@ -45,15 +46,15 @@ char nameOf(int key, int scancode)
     if (key == GLFW_KEY_ESCAPE) {
         return kEscape;
     }
+    const char* name = glfwGetKeyName(key, scancode);
+    if (name != nullptr && (name[0] == '+' || name[0] == '-') && name[1] == '\0') {
+        return name[0];
+    }
     if (key == GLFW_KEY_EQUAL || key == GLFW_KEY_KP_ADD) {
         return '+';
     }
     if (key == GLFW_KEY_MINUS || key == GLFW_KEY_KP_SUBTRACT) {
         return '-';
-    }
-    const char* name = glfwGetKeyName(key, scancode);
-    if (name != nullptr && (name[0] == '+' || name[0] == '-') && name[1] == '\0') {
-        return name[0];
     }
     if (name != nullptr && std::isalpha(static_cast<unsigned char>(name[0])) && name[1] == '\0') {
         return static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
@@ -84,6 +85,7 @@ Window::Window(const std::string& title, const glm::uvec2& size, EventQueue& eve
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) { self(w)->onCursor({x, y}); });
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double y) { self(w)->onScroll(y); });
     glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { self(w)->onResize(); });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { self(w)->onResize(); });
     glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* w, float, float) { self(w)->onResize(); });
     // A window without focus is not told when keys and buttons are released.
     glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int has) {
@@ -105,10 +107,11 @@ glm::uvec2 Window::screenSize()
 {
     initialize();
     GLFWmonitor* screen = glfwGetPrimaryMonitor();
-    int left = 0, top = 0, width = 0, height = 0;
-    if (screen != nullptr) {
-        glfwGetMonitorWorkarea(screen, &left, &top, &width, &height);
+    if (screen == nullptr) {
+        return glm::uvec2(kLargestSide);
     }
+    int left = 0, top = 0, width = 0, height = 0;
+    glfwGetMonitorWorkarea(screen, &left, &top, &width, &height);
     return {std::max(width, 1), std::max(height, 1)};
 }
 

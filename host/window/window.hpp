@@ -28,8 +28,8 @@ public:
 
     // Any thread may call the following functions.
     static std::vector<const char*> instanceExtensions();
-    // What a window may cover of the first screen. It may be called before there is a window, but only by the main thread. Throws
-    // InputError if there is no display.
+    // What a window may cover of the first screen. Only the main thread may call it, before there is a window, too. Throws InputError if
+    // there is no display.
     static glm::uvec2 screenSize();
     // The caller owns the result. Throws InputError if Vulkan cannot present in this window.
     VkSurfaceKHR createSurface(const VulkanInstance& instance) const;

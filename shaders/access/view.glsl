@@ -1,4 +1,4 @@
-// Pixels of one or two films, laid under those of the window. The push constants are not those of a pass that traces.
+// Pixels of one or two films, laid under those of a band of the window. The push constants are not those of a pass that traces.
 #ifndef GLIM_ACCESS_VIEW
 #define GLIM_ACCESS_VIEW
 

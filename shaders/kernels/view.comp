@@ -1,4 +1,4 @@
-// One thread is one pixel of the window, or several where the device has too few threads. Colours it by the film's pixel that is there.
+// One thread is one pixel of the band, or several where the device has too few threads. Colours it by the film's pixel that is there.
 // Reads pixels of one or two films. Updates the picture.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -9,15 +9,18 @@ const vec3 kAroundFilm = vec3(0.2);
 
 vec3 colorAt(uvec2 at, uint index)
 {
-    bool inside = at.x >= pass.left && at.x < pass.right && at.y >= pass.top && at.y < pass.bottom;
-    return inside ? viewColor(viewed[index], referenceOf[index], pass) : kAroundFilm;
+    if (at.x < pass.left || at.x >= pass.right || at.y < pass.top || at.y >= pass.bottom) {
+        return kAroundFilm;
+    }
+    vec3 reference = pass.shownAs == kShownAsDifference ? referenceOf[index] : vec3(0.0);
+    return viewColor(viewed[index], reference, pass);
 }
 
 void main()
 {
     uint threads = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
-    for (uint index = gl_GlobalInvocationID.x; index < pass.width * pass.height; index += threads) {
-        uvec2 at = uvec2(index % pass.width, index / pass.width);
+    for (uint index = gl_GlobalInvocationID.x; index < pass.width * pass.rows; index += threads) {
+        uvec2 at = uvec2(index % pass.width, pass.firstRow + index / pass.width);
         imageStore(picture, ivec2(at), vec4(colorAt(at, index), 1.0));
     }
 }

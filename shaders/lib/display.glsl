@@ -73,7 +73,7 @@ float signedDifference(vec3 x, vec3 r, float relative, float epsilon)
 {
     vec3 difference = x - r;
     vec3 terms = difference / sqrt(relative * r * r + epsilon);
-    return dot(mix(terms, vec3(0.0), equal(x, r)), vec3(1.0 / 3.0));  // also where nothing divides nothing
+    return dot(mix(terms, vec3(0.0), equal(x, r)), vec3(1.0 / 3.0));  // 0 where x is r, even if 0 / 0
 }
 
 // `value` is the film's, `reference` that of the other film, which only differences need.

@@ -11,8 +11,8 @@ const float kSimilarity = 0.5;
 // Keeps what is constant but for rounding alike: the square of 1e-5 of the picture's mean.
 const float kLeastVariance = 1e-10;
 
-// The squared difference of two means in units of their noise, less what noise alone gives: on average at most 0 if the pixels have the
-// same radiance. The mean of the three channels.
+// The squared difference of two means in units of their noise, less what noise alone gives, but of B's noise no more than A's. Where the
+// radiance is the same, it is 0 on average if B has no more noise than A, and above 0 if it has more. The mean of the three channels.
 float pixelDistance(vec3 meanA, vec3 varianceA, vec3 meanB, vec3 varianceB)
 {
     vec3 difference = meanA - meanB;

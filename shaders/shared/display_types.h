@@ -26,9 +26,9 @@ GLIM_CONST uint kShownAsDepth = 2u;       // black where it is 0
 GLIM_CONST uint kShownAsHeat = 3u;        // the mean of the three
 GLIM_CONST uint kShownAsDifference = 4u;  // from the same pixel of the reference
 
-// Push constants: the window's picture, and the rectangle of it that shows a film.
+// Push constants: a band of rows of the window's picture, and the rectangle of the picture that shows a film.
 struct ViewPass {
-    uint width, height;             // of the picture
+    uint width, firstRow, rows;     // of the band
     uint left, top, right, bottom;  // of the rectangle; right and bottom are the first column and row beyond it
     uint shownAs;                   // kShownAsColor ...
     float scale;                    // 2^EV, of colours; differences are multiplied by it

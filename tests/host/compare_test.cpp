@@ -93,6 +93,9 @@ TEST(CompareImages, RefusesOtherSizesOtherRowsAndNothingToCompare)
     Film below = band;
     band.rowsBelow = below.rowsAbove = 2;
     expectRefusal<InputError>([&] { compareImages(pictureOf(band), pictureOf(below)); }, "rows 0 and 2 of a larger one");
+    Picture aside = pictureOf(band);
+    aside.columnsLeft = 3;
+    expectRefusal<InputError>([&] { compareImages(pictureOf(band), aside); }, "columns 0 and 3 of a larger one");
     const Picture nothing = uniform(2, glm::vec3(std::numeric_limits<float>::quiet_NaN()));
     expectRefusal<InputError>([&] { compareImages(nothing, uniform(2, glm::vec3(1.0F))); }, "No pixel is finite");
 }

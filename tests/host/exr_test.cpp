@@ -8,7 +8,10 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfOutputPart.h>
+#include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfTiledOutputFile.h>
 #include <gtest/gtest.h>
 
@@ -177,6 +180,49 @@ TEST(Exr, ReadsHalfScanLinesOfAWindowFromBottomToTop)
         file.writePixels(5);
     }
     expectHalves(readExr(folder / "a.exr"));
+}
+
+TEST(Exr, KnowsWhereAPartOfALargerPictureLies)
+{
+    const ScratchFolder folder;
+    const Imath::Box2i window({7, 2}, {9, 5});
+    Imf::Header header(Imath::Box2i({1, 1}, {99, 99}), window);
+    header.channels().insert("R", Imf::Channel(Imf::HALF));
+    {
+        std::vector<Imath::half> pixels;
+        Imf::OutputFile file((folder / "a.exr").c_str(), header);
+        writeHalves(file, pixels, window);
+        file.writePixels(4);
+    }
+    const Image image = readExr(folder / "a.exr");
+    EXPECT_EQ(image.columnsLeft, 6U);
+    EXPECT_EQ(image.rowsAbove, 1U);
+    EXPECT_EQ(image.rowsBelow, 94U);
+}
+
+TEST(Exr, SaysThatOnlyTheFirstOfSeveralPartsIsRead)
+{
+    const ScratchFolder folder;
+    const Imath::Box2i window({0, 0}, {20, 4});
+    std::vector<Imf::Header> headers(2, Imf::Header(window, window));
+    for (std::size_t i = 0; i < 2; ++i) {
+        headers[i].channels().insert("R", Imf::Channel(Imf::HALF));
+        headers[i].setName("part " + std::to_string(i));
+        headers[i].setType(Imf::SCANLINEIMAGE);
+    }
+    {
+        Imf::MultiPartOutputFile file((folder / "a.exr").c_str(), headers.data(), 2);
+        for (int i = 0; i < 2; ++i) {
+            std::vector<Imath::half> pixels;
+            Imf::OutputPart part(file, i);
+            writeHalves(part, pixels, window);
+            part.writePixels(5);
+        }
+    }
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(readExr(folder / "a.exr").channels.at("R")[20], 20.0F);
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_NE(said.find("a.exr: of a file of several parts only the first is read"), std::string::npos) << said;
 }
 
 TEST(Exr, ReadsTheFinestLevelOfTiles)

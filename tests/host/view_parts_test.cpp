@@ -53,6 +53,7 @@ TEST(LayersTest, ChannelsAreGroupedAsTheirNamesSay)
                                  "B",
                                  "A",
                                  "Z",
+                                 ".R",
                                  "albedo.R",
                                  "albedo.G",
                                  "albedo.B",
@@ -78,24 +79,35 @@ TEST(LayersTest, ChannelsAreGroupedAsTheirNamesSay)
         const char* name;
         std::size_t channels;
         ShownAs as;
-        bool isLight;
+        bool isExposed, isToned;
     };
     const std::vector<Expected> expected{
-        {"color", 4, ShownAs::Color, true},         {"Z", 1, ShownAs::Depth, false},      {"CryptoAsset00", 4, ShownAs::Color, false},
-        {"View.Combined", 4, ShownAs::Color, true}, {"albedo", 3, ShownAs::Color, false}, {"count", 1, ShownAs::Heat, false},
-        {"denoisedError", 3, ShownAs::Heat, false}, {"depth", 1, ShownAs::Depth, false},  {"motion.X", 1, ShownAs::Heat, false},
-        {"motion.Y", 1, ShownAs::Heat, false},      {"node", 1, ShownAs::Ids, false},     {"normal", 3, ShownAs::Vector, false}};
+        {"color", 4, ShownAs::Color, true, true},         {".R", 1, ShownAs::Heat, false, false},
+        {"Z", 1, ShownAs::Depth, false, false},           {"CryptoAsset00", 4, ShownAs::Color, false, false},
+        {"View.Combined", 4, ShownAs::Color, true, true}, {"albedo", 3, ShownAs::Color, true, false},
+        {"count", 1, ShownAs::Heat, false, false},        {"denoisedError", 3, ShownAs::Heat, false, false},
+        {"depth", 1, ShownAs::Depth, false, false},       {"motion.X", 1, ShownAs::Heat, false, false},
+        {"motion.Y", 1, ShownAs::Heat, false, false},     {"node", 1, ShownAs::Ids, false, false},
+        {"normal", 3, ShownAs::Vector, false, false}};
     const std::vector<Layer> layers = layersOf(image);
     ASSERT_EQ(layers.size(), expected.size());
     for (std::size_t i = 0; i < layers.size(); ++i) {
         EXPECT_EQ(layers[i].name, expected[i].name);
         EXPECT_EQ(layers[i].channels.size(), expected[i].channels) << layers[i].name;
         EXPECT_EQ(layers[i].shownAs, expected[i].as) << layers[i].name;
-        EXPECT_EQ(layers[i].isLight, expected[i].isLight) << layers[i].name;
+        EXPECT_EQ(layers[i].isExposed, expected[i].isExposed) << layers[i].name;
+        EXPECT_EQ(layers[i].isToned, expected[i].isToned) << layers[i].name;
     }
     EXPECT_EQ(layers[0].channels, (std::vector<std::string>{"R", "G", "B", "A"}));
     EXPECT_EQ(textOf(numbersOf(image, layers[0], 1)), "0.5 1.5 2.5 3.5");
     EXPECT_EQ(textOf(numbersOf(image, layerOf(image, "count"), 3)), "10");
+}
+
+TEST(LayersTest, ALoneYIsLuminance)
+{
+    const Layer layer = layerOf(imageOf(1, 1, {"Y"}, {}), "Y");
+    EXPECT_EQ(layer.shownAs, ShownAs::Color);
+    EXPECT_TRUE(layer.isExposed && layer.isToned);
 }
 
 TEST(LayersTest, NumbersAreWrittenWithSixDigitsAndWholeOnesWithAll)
@@ -119,9 +131,15 @@ TEST(LayersTest, NormalsOfFilmsAreDividedByAlphaAndDepthsWithoutASurfaceAreNothi
     EXPECT_EQ(valuesOf(image, normal).radiance[2], glm::vec3(0.0F));
     const Picture depths = valuesOf(image, depth);
     EXPECT_EQ(depths.radiance, (std::vector<glm::vec3>{glm::vec3(3.0F), glm::vec3(2.0F), glm::vec3(0.0F), glm::vec3(0.0F)}));
-    const DisplayRange range = rangeOf(image, depth, depths);
-    EXPECT_EQ(range.low, 2.0F);
-    EXPECT_EQ(range.high, 3.0F);
+    const auto range = rangeOf(image, depth, depths);
+    ASSERT_TRUE(range);
+    EXPECT_EQ(range->low, 2.0F);
+    EXPECT_EQ(range->high, 3.0F);
+    EXPECT_FALSE(rangeOf(image, normal, valuesOf(image, normal)));
+    image.channels["depth.Z"] = {0.0F, 0.0F, 0.0F, std::numeric_limits<float>::infinity()};
+    EXPECT_FALSE(rangeOf(image, depth, valuesOf(image, depth))) << "nothing is there";
+    image.channels["depth.Z"][0] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_TRUE(std::isnan(valuesOf(image, depth).radiance[0].x)) << "is seen";
 }
 
 TEST(LayersTest, RangesOfHeat)
@@ -135,14 +153,14 @@ TEST(LayersTest, RangesOfHeat)
     image.channels["error.R"][7] = std::numeric_limits<float>::infinity();
     const auto range = [&](const char* name) {
         const Layer layer = layerOf(image, name);
-        return rangeOf(image, layer, valuesOf(image, layer));
+        return rangeOf(image, layer, valuesOf(image, layer)).value();
     };
     EXPECT_EQ(range("error").low, 0.0F);
     EXPECT_EQ(range("error").high, 998.0F) << "of 999 finite numbers the largest but one";
     EXPECT_EQ(range("count").low, 7.0F);
     EXPECT_EQ(range("count").high, 1006.0F);
     EXPECT_EQ(range("blocks").low, 5.0F);
-    EXPECT_EQ(range("blocks").high, 6.0F) << "no scale is empty";
+    EXPECT_EQ(range("blocks").high, 5.0F);
 }
 
 TEST(LayersTest, EachIdHasAColourAndNoneIsBlack)
@@ -208,7 +226,7 @@ TEST(PlacementTest, LaysTheValuesOfTheSamePixels)
     for (const Placement& placement : {Placement{1.0, {0, 0}}, Placement{3.0, {4, 5}}, Placement{2.3, {-6.4, 11.7}},
                                        Placement{64.0, {-100, -100}}, Placement{1.0, {100, 0}}, Placement{5.0, {30.5, 20.25}}}) {
         std::vector<glm::vec3> values(std::size_t{window.x} * window.y, glm::vec3(-1.0F));
-        layUnder(picture, placement, window, values);
+        layUnder(picture, placement, window, true, values);
         const Rectangle covered = coveredBy(placement, size, window);
         for (std::uint32_t y = 0; y < window.y; ++y) {
             for (std::uint32_t x = 0; x < window.x; ++x) {
@@ -227,13 +245,13 @@ TEST(PlacementTest, MakesSmallerByTheMean)
 {
     const Picture picture = numbered(12, 9);
     std::vector<glm::vec3> values;
-    layUnder(picture, {1.0 / 3.0, {0, 0}}, {4, 3}, values);
+    layUnder(picture, {1.0 / 3.0, {0, 0}}, {4, 3}, true, values);
     for (std::uint32_t y = 0; y < 3; ++y) {
         for (std::uint32_t x = 0; x < 4; ++x) {
             EXPECT_EQ(values[y * 4 + x], glm::vec3(3 * x + 1, 3 * y + 1, 0));
         }
     }
-    layUnder(picture, {0.4, {0.3, 0.2}}, {6, 5}, values);  // of 2.5 pixels a side, one has two or three centres
+    layUnder(picture, {0.4, {0.3, 0.2}}, {6, 5}, true, values);  // of 2.5 pixels a side, one has two or three centres
     const Rectangle covered = coveredBy({0.4, {0.3, 0.2}}, {12, 9}, {6, 5});
     for (std::uint32_t y = covered.low.y; y < covered.high.y; ++y) {
         for (std::uint32_t x = covered.low.x; x < covered.high.x; ++x) {
@@ -241,6 +259,27 @@ TEST(PlacementTest, MakesSmallerByTheMean)
             EXPECT_LT(glm::length(glm::dvec2(values[y * 6 + x]) - center), 1.0) << x << ", " << y;
         }
     }
+}
+
+// Of ids and depths, whose means are nothing.
+TEST(PlacementTest, MakesSmallerByTheCentreWhereMeansAreNothing)
+{
+    std::vector<glm::vec3> values;
+    layUnder(numbered(12, 9), {1.0 / 3.0, {0, 0}}, {4, 3}, false, values);
+    for (std::uint32_t i = 0; i < 12; ++i) {
+        EXPECT_EQ(values[i], glm::vec3(3 * (i % 4) + 1, 3 * (i / 4) + 1, 0));
+    }
+}
+
+TEST(PlacementTest, APictureThinnerThanAPixelIsSeen)
+{
+    const Rectangle covered = coveredBy(fit({3000, 1}, {640, 480}), {3000, 1}, {640, 480});
+    EXPECT_EQ(covered.high - covered.low, glm::uvec2(640, 1));
+    std::vector<glm::vec3> values;
+    layUnder(numbered(3000, 1), fit({3000, 1}, {640, 480}), {640, 480}, true, values);
+    EXPECT_NEAR(values[covered.low.y * 640 + 320].x, 1501.8F, 3.0F);
+    const Rectangle outside = coveredBy({0.01, {-5, 700}}, {3, 3}, {640, 480});
+    EXPECT_EQ(outside.high, outside.low) << "beside the window";
 }
 
 Image colors(std::uint32_t width, std::uint32_t height, std::uint32_t rowsAbove = 0)
@@ -256,9 +295,9 @@ TEST(ViewedFilmsTest, SizesAndRowsMustAgree)
     writeExr(folder / "a.exr", colors(4, 3));
     writeExr(folder / "b.exr", colors(3, 4));
     writeExr(folder / "c.exr", colors(4, 3, 2));
-    test::expectRefusal<InputError>([&] { ViewedFilms(folder / "a.exr", folder / "b.exr"); }, "b.exr: is 3x4, expected 4x3 as ");
+    test::expectRefusal<InputError>([&] { ViewedFilms(folder / "a.exr", folder / "b.exr"); }, "b.exr: is 3x4, expected 4x3, the size of ");
     test::expectRefusal<InputError>([&] { ViewedFilms(folder / "a.exr", folder / "c.exr"); },
-                                    "c.exr: is 4x3 from row 2 on, expected 4x3 as ");
+                                    "c.exr: is 4x3 from (0, 2) on, expected 4x3, the size of ");
     EXPECT_EQ(ViewedFilms(folder / "a.exr", std::nullopt).count(), 1U);
 }
 
@@ -293,31 +332,49 @@ TEST(ViewedFilmsTest, ReadsFilesThatChangeAndKeepsWhatItHasOfBrokenOnes)
     writeExr(a, colors(4, 3));
     writeExr(b, colors(4, 3));
     ViewedFilms films(a, b);
-    EXPECT_FALSE(films.readChanged());
+    const auto taken = [&films] { return films.readChanged().taken; };
+    const std::vector<std::string> none, onlyA{"a.exr"}, onlyB{"b.exr"}, both{"a.exr", "b.exr"};
+    EXPECT_EQ(taken(), none);
     Image brighter = colors(4, 3);
     brighter.channels["R"][0] = 9.0F;
     writeLater(a, brighter);
-    EXPECT_TRUE(films.readChanged());
+    EXPECT_EQ(taken(), onlyA);
     EXPECT_EQ(films.image(0).channels.at("R")[0], 9.0F);
-    EXPECT_FALSE(films.readChanged());
+    EXPECT_EQ(taken(), none);
 
+    brighter.channels["R"][0] = 10.0F;
+    writeLater(a, brighter);
     test::writeText(b, "no film");
     std::filesystem::last_write_time(b, std::filesystem::last_write_time(a) + std::chrono::seconds(5));
-    test::expectRefusal<InputError>([&] { films.readChanged(); }, "b.exr: ");
-    EXPECT_FALSE(films.readChanged()) << "not twice";
+    const ViewedFilms::Reading broken = films.readChanged();
+    EXPECT_EQ(broken.taken, onlyA) << "whatever B is";
+    EXPECT_NE(broken.trouble.find("b.exr: "), std::string::npos) << broken.trouble;
+    EXPECT_EQ(films.image(0).channels.at("R")[0], 10.0F);
     EXPECT_EQ(films.image(1).width, 4U);
+    EXPECT_EQ(films.readChanged().trouble, "") << "not twice";
     std::filesystem::remove(b);
-    EXPECT_FALSE(films.readChanged());
+    EXPECT_EQ(taken(), none);
 
     writeExr(b, colors(4, 3));
     std::filesystem::last_write_time(b, std::filesystem::last_write_time(a) + std::chrono::seconds(9));
-    EXPECT_TRUE(films.readChanged());
+    EXPECT_EQ(taken(), onlyB);
     writeLater(a, colors(6, 5));
-    test::expectRefusal<InputError>([&] { films.readChanged(); }, "b.exr: is 4x3, expected 6x5 as ");
+    const ViewedFilms::Reading larger = films.readChanged();
+    EXPECT_NE(larger.trouble.find("b.exr: is 4x3, expected 6x5, the size of "), std::string::npos) << larger.trouble;
     EXPECT_EQ(films.size(), glm::uvec2(4, 3));
+    EXPECT_EQ(taken(), none) << "still apart";
     writeLater(b, colors(6, 5));
-    EXPECT_TRUE(films.readChanged()) << "both have grown";
+    EXPECT_EQ(taken(), both) << "both have grown";
     EXPECT_EQ(films.size(), glm::uvec2(6, 5));
+}
+
+TEST(ViewedFilmsTest, LayersOfOneNameThatAreShownOtherwiseStayApart)
+{
+    const test::ScratchFolder folder;
+    writeExr(folder / "a.exr", imageOf(2, 2, {"depth.Z"}, {"node.X"}));
+    writeExr(folder / "b.exr", imageOf(2, 2, {"depth.V", "node.X"}, {}));
+    const ViewedFilms films(folder / "a.exr", folder / "b.exr");
+    EXPECT_EQ(films.layers().size(), 4U);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "host/error.hpp"
 #include "host/window/gestures.hpp"
 #include "host/window/latency.hpp"
+#include "host/window/notice.hpp"
 #include "host/window/script.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -99,21 +100,22 @@ TEST(GesturesTest, AClickBecomesADragThreePixelsOn)
 {
     using Is = Gesture::Kind;
     Gestures gestures;
-    EXPECT_FALSE(gestures.take(mouse(Event::Kind::Move, {9, 9}))) << "no button is down";
-    EXPECT_FALSE(gestures.take(mouse(Event::Kind::ButtonDown, {10, 10})));
-    EXPECT_FALSE(gestures.take(mouse(Event::Kind::Move, {12, 10})));
-    const auto click = gestures.take(mouse(Event::Kind::ButtonUp, {12, 10}));
+    EXPECT_FALSE(gestures.take(mouse(Event::Kind::Move, {9, 9}), false)) << "no button is down";
+    EXPECT_FALSE(gestures.take(mouse(Event::Kind::ButtonDown, {10, 10}), false));
+    EXPECT_FALSE(gestures.take(mouse(Event::Kind::Move, {12, 10}), false));
+    const auto click = gestures.take(mouse(Event::Kind::ButtonUp, {12, 10}), false);
     ASSERT_TRUE(click && click->kind == Is::Click);
     EXPECT_EQ(click->position, glm::dvec2(12, 10));
 
-    gestures.take(mouse(Event::Kind::ButtonDown, {10, 10}));
-    gestures.take(mouse(Event::Kind::Move, {11, 10}));
-    const auto first = gestures.take(mouse(Event::Kind::Move, {10, 13})), second = gestures.take(mouse(Event::Kind::Move, {11, 13}));
+    gestures.take(mouse(Event::Kind::ButtonDown, {10, 10}), false);
+    gestures.take(mouse(Event::Kind::Move, {11, 10}), false);
+    const auto first = gestures.take(mouse(Event::Kind::Move, {10, 13}), false),
+               second = gestures.take(mouse(Event::Kind::Move, {11, 13}), false);
     ASSERT_TRUE(first && second && first->kind == Is::Orbit && second->kind == Is::Orbit);
     EXPECT_EQ(first->motion, glm::dvec2(0, 3)) << "since the press";
     EXPECT_EQ(second->motion, glm::dvec2(1, 0)) << "since the last move";
-    EXPECT_FALSE(gestures.take(mouse(Event::Kind::ButtonUp, {11, 13}))) << "no click";
-    EXPECT_FALSE(gestures.take(mouse(Event::Kind::Move, {30, 30})));
+    EXPECT_FALSE(gestures.take(mouse(Event::Kind::ButtonUp, {11, 13}), false)) << "no click";
+    EXPECT_FALSE(gestures.take(mouse(Event::Kind::Move, {30, 30}), false));
 }
 
 TEST(GesturesTest, MiddleAndShiftPan)
@@ -121,17 +123,40 @@ TEST(GesturesTest, MiddleAndShiftPan)
     for (const bool shift : {false, true}) {
         Gestures gestures;
         const int button = shift ? kLeftButton : kMiddleButton;
-        gestures.take(mouse(Event::Kind::ButtonDown, {10, 10}, button, shift));
-        EXPECT_FALSE(gestures.take(mouse(Event::Kind::ButtonDown, {10, 10}, kRightButton))) << "a second button changes nothing";
-        EXPECT_FALSE(gestures.take(mouse(Event::Kind::ButtonUp, {10, 10}, kRightButton)));
-        const auto drag = gestures.take(mouse(Event::Kind::Move, {20, 10}));
+        gestures.take(mouse(Event::Kind::ButtonDown, {10, 10}, button, shift), false);
+        EXPECT_FALSE(gestures.take(mouse(Event::Kind::ButtonDown, {10, 10}, kRightButton), false)) << "a second button changes nothing";
+        EXPECT_FALSE(gestures.take(mouse(Event::Kind::ButtonUp, {10, 10}, kRightButton), false));
+        const auto drag = gestures.take(mouse(Event::Kind::Move, {20, 10}), false);
         EXPECT_TRUE(drag && drag->kind == Gesture::Kind::Pan) << shift;
         gestures.cancel();
-        EXPECT_FALSE(gestures.take(mouse(Event::Kind::Move, {30, 10}))) << "after a cancel";
+        EXPECT_FALSE(gestures.take(mouse(Event::Kind::Move, {30, 10}), false)) << "after a cancel";
     }
     Gestures gestures;
-    const auto turn = gestures.take({.kind = Event::Kind::Scroll, .notches = 2.0});
+    const auto turn = gestures.take({.kind = Event::Kind::Scroll, .notches = 2.0}, false);
     EXPECT_TRUE(turn && turn->kind == Gesture::Kind::Dolly && turn->notches == 2.0);
+}
+
+// A gesture keeps the mouse until its button goes up, wherever that is.
+TEST(GesturesTest, PanelsTakeWhatBeginsOverThem)
+{
+    Gestures gestures;
+    EXPECT_FALSE(gestures.take({.kind = Event::Kind::Scroll, .notches = 2.0}, true));
+    EXPECT_FALSE(gestures.take(mouse(Event::Kind::ButtonDown, {10, 10}), true));
+    EXPECT_FALSE(gestures.take(mouse(Event::Kind::Move, {20, 10}), false));
+    EXPECT_FALSE(gestures.take(mouse(Event::Kind::ButtonUp, {20, 10}), false));
+    gestures.take(mouse(Event::Kind::ButtonDown, {10, 10}), false);
+    EXPECT_TRUE(gestures.take(mouse(Event::Kind::Move, {20, 10}), true));
+    EXPECT_FALSE(gestures.take(mouse(Event::Kind::ButtonUp, {20, 10}), true));
+    EXPECT_FALSE(gestures.take(mouse(Event::Kind::Move, {30, 10}), false)) << "it has ended";
+}
+
+TEST(NoticeTest, HasATime)
+{
+    Notice notice;
+    EXPECT_FALSE(notice.expire());
+    notice.show("here");
+    EXPECT_EQ(notice.text(), "here");
+    EXPECT_FALSE(notice.expire()) << "not yet";
 }
 
 }  // namespace

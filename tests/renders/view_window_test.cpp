@@ -8,6 +8,8 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <set>
 
 namespace glim::test {
 namespace {
@@ -60,10 +62,10 @@ protected:
         EXPECT_EQ(done.err.find("validation"), std::string::npos) << done.err;
         return done;
     }
-    Pixels window() const
+    Pixels window() const { return windowOf(screen.pixels()); }
+    static Pixels windowOf(const Pixels& shown)
     {
         Pixels corner;
-        const Pixels shown = screen.pixels();
         for (std::size_t y = 0; y < 72; ++y) {
             const auto row = shown.begin() + static_cast<std::ptrdiff_t>(y * VirtualScreen::kWidth);
             corner.insert(corner.end(), row, row + 96);
@@ -119,6 +121,9 @@ TEST_F(ViewWindowTest, ShowsTheLayersThatARenderDraws)
     };
     EXPECT_EQ(countOthersAfter(steps(5), {"a.exr"}, png("a.png")), 0) << "the PNG of a denoised film is of its denoised layer";
     EXPECT_EQ(countOthersAfter(steps(4), {"a.exr"}, Pixels(96 * 72, {0, 0, 255})), 0) << "as many samples everywhere";
+    // Two films have one scale, here from 8 samples to 64.
+    EXPECT_EQ(countOthersAfter(steps(4), {"a.exr", "b.exr"}, Pixels(96 * 72, {255, 0, 0})), 0);
+    EXPECT_EQ(countOthersAfter(steps(4) + "0 key B\n", {"a.exr", "b.exr"}, Pixels(96 * 72, {0, 0, 255})), 0);
     EXPECT_EQ(countOthersAfter(steps(8), {"b.exr", "a.exr"}, png("a.png")), 0) << "a layer that only B has, after those of A";
     const std::pair<const char*, int> kViews[] = {{"albedo", 1}, {"depth", 7}, {"normal", 9}};
     for (const auto& [view, step] : kViews) {
@@ -134,9 +139,41 @@ TEST_F(ViewWindowTest, ShowsTheDifferencesThatCompareDraws)
     EXPECT_EQ(countOthersAfter("0 key B\n0 key B\n", {"b.exr", "a.exr"}, png("difference.png")), 0);
     EXPECT_EQ(countOthersAfter("0 key B\n0 key B\n", {"b.exr", "b.exr"}, Pixels(96 * 72, {255, 255, 255})), 0) << "of nothing";
     EXPECT_EQ(countOthersAfter("0 key B\n0 key B\n0 key B\n", {"b.exr", "a.exr"}, png("b.png")), 0) << "round again";
+    std::string pastLayersOfA = "0 key B\n0 key B\n";
+    for (int i = 0; i < 12; ++i) {
+        pastLayersOfA += "0 key V\n";
+    }
+    EXPECT_EQ(countOthersAfter(pastLayersOfA, {"b.exr", "a.exr"}, png("difference.png")), 0) << "A - B is kept past layers that lack it";
 }
 
 // At four times the size about the point (48, 36), moved by dragging, and fitted again.
+// Of ids, of which each has a colour: no exposure changes it, and A - B is not offered.
+TEST_F(ViewWindowTest, IdsKeepTheirColours)
+{
+    make({"render", sceneFile("cornell_spheres.gltf"), "-o", "c.exr", "--size", "96x72", "--spp", "8", "--ids", "i.exr"});
+    const auto shownAfter = [&](const std::string& script) {
+        Pixels shown;
+        GlimCall session = call(script, {"i.exr", "i.exr"});
+        session.signalWhen = [&](const std::string&) {
+            shown = windowOf(screen.calmPixels());
+            return std::set<std::array<int, 3>>(shown.begin(), shown.end()).size() > 3;
+        };
+        session.signal = SIGTERM;
+        runGlim(session);
+        return shown;
+    };
+    std::string toIds;
+    for (int i = 0; i < 10; ++i) {  // to the meshes, after nine layers of Cryptomatte and the materials
+        toIds += "0 key V\n";
+    }
+    const Pixels plain = shownAfter(toIds);
+    const std::vector<std::uint32_t> ids = readExr(*films / "i.exr").counts.at("mesh.X");
+    EXPECT_EQ((std::set<std::array<int, 3>>(plain.begin(), plain.end()).size()), (std::set<std::uint32_t>(ids.begin(), ids.end()).size()));
+    EXPECT_GT(std::set<std::uint32_t>(ids.begin(), ids.end()).size(), 4U);
+    EXPECT_EQ(countOthers(shownAfter(toIds + "0 key +\n0 key +\n"), plain), 0);
+    EXPECT_EQ(countOthers(shownAfter(toIds + "0 key B\n0 key B\n"), plain), 0);
+}
+
 TEST_F(ViewWindowTest, ZoomsAboutTheMouseAndFollowsIt)
 {
     const Pixels picture = png("b.png");
@@ -218,6 +255,32 @@ TEST_F(ViewWindowTest, TheWindowMayChangeItsSizeAndHide)
         {"a.exr", "b.exr"});
 }
 
+// X forgets what is in a window that it hides.
+TEST_F(ViewWindowTest, IsDrawnAgainWhenItIsUncovered)
+{
+    const Pixels picture = png("b.png");
+    const std::string command =
+        "DISPLAY=" + screen.name() + " xdotool search --onlyvisible --name '^glim: b.exr$' windowunmap --sync windowmap";
+    bool shown = false, hidden = false, again = false;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    GlimCall session = call("", {"b.exr"});
+    session.signalWhen = [&](const std::string&) {
+        const bool there = countOthers(window(), picture) == 0;
+        if (!shown && there) {
+            shown = true;
+            hidden = std::system(command.c_str()) == 0;
+        } else {
+            again = hidden && there;
+        }
+        return again || std::chrono::steady_clock::now() > end;
+    };
+    session.signal = SIGTERM;
+    runGlim(session);
+    EXPECT_TRUE(shown);
+    EXPECT_TRUE(hidden) << "is the package xdotool installed?";
+    EXPECT_TRUE(again);
+}
+
 TEST_F(ViewWindowTest, ShowsAFilmAgainThatHasChanged)
 {
     std::filesystem::copy_file(*films / "a.exr", *films / "changing.exr");
@@ -248,7 +311,7 @@ TEST_F(ViewWindowTest, RefusesBeforeTheDisplayIsMissed)
     const std::pair<Arguments, const char*> kCases[] = {
         {{"missing.exr"}, "glim: missing.exr: cannot be read: No such file or directory.\n"},
         {{"a.exr", "missing.exr"}, "glim: missing.exr: cannot be read: No such file or directory.\n"},
-        {{"a.exr", "small.exr"}, "glim: small.exr: is 32x32, expected 96x72 as a.exr.\n"},
+        {{"a.exr", "small.exr"}, "glim: small.exr: is 32x32, expected 96x72, the size of a.exr.\n"},
         {{"text.exr"}, "glim: text.exr: "},
         {{"a.exr", "--script", "none"}, "glim: none: the script cannot be read.\n"},
         {{"a.exr"}, "glim: No window can be opened here ("},

@@ -11,7 +11,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 428u;
+GLIM_CONST uint kSharedWords = 429u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -124,7 +124,7 @@ F3(instance.column0) U(instance.beginRecord) F3(instance.column1) U(instance.fir
 F3(instance.translation) U(instance.mirrors) F3(instance.errorBound) U(instance.unused)
 U(display.width) U(display.height) U(display.filmWidth) U(display.filmHeight) U(display.tileBegin) U(display.tileCount)
 F(display.scale) U(display.tone) F(display.low) F(display.high)
-U(view.width) U(view.height) U(view.left) U(view.top) U(view.right) U(view.bottom) U(view.shownAs) F(view.scale) U(view.tone)
+U(view.width) U(view.firstRow) U(view.rows) U(view.left) U(view.top) U(view.right) U(view.bottom) U(view.shownAs) F(view.scale) U(view.tone)
 F(view.low) F(view.high) F(view.relative) F(view.epsilon)
 F3(noisy.mean) F3(noisy.variance) F3(weighted.radiance) F(weighted.weight)
 U(denoise.width) U(denoise.height) U(denoise.first) U(denoise.count) U(denoise.windowRow)
