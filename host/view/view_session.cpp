@@ -41,7 +41,7 @@ ViewSession::ViewSession(Window& window, EventQueue& events, const ViewOptions& 
       exposure_(options.look.exposure.value_or(0.0)),
       exposureIsAuto_(!options.look.exposure)
 {
-    choices_.tone = options.look.tone.value_or(Tone::None);
+    tone_ = options.look.tone.value_or(Tone::None);
     painter_.resize(glm::max(window.pictureSize(), 1U));
     place(fit(films_.size(), painter_.size()));
     chooseLayer(0);
@@ -135,9 +135,9 @@ void ViewSession::press(char key)
     } else if ((key == '+' || key == '-') && isExposed()) {
         wanted.exposure += key == '+' ? kExposureStep : -kExposureStep;
     } else if (key == 'T' && isToned()) {
-        wanted.tone = static_cast<Tone>((static_cast<std::uint32_t>(choices_.tone) + 1) % 3);
+        wanted.tone = static_cast<Tone>((static_cast<std::uint32_t>(tone_) + 1) % 3);
     } else if (key == 'V') {
-        wanted.layer = (choices_.layer + 1) % films_.layers().size();
+        wanted.layer = (layer_ + 1) % films_.layers().size();
     } else if (key == 'B') {
         const std::vector<Side> order = sides();
         const auto at = std::find(order.begin(), order.end(), side_);
@@ -170,7 +170,7 @@ void ViewSession::place(const Placement& placement)
 // Takes the values of a layer.
 void ViewSession::chooseLayer(std::size_t index)
 {
-    choices_.layer = index;
+    layer_ = index;
     const ViewedLayer& layer = films_.layers()[index];
     shown_ = {layer.of[0] ? *layer.of[0] : *layer.of[1], {}, {}};
     std::optional<DisplayRange> range;
@@ -183,13 +183,13 @@ void ViewSession::chooseLayer(std::size_t index)
     if (exposureIsAuto_ && shown_.layer.isExposed) {
         exposure_ = chooseExposure(values_[layer.of[0] ? 0 : 1].radiance);
     }
-    chooseSide(choices_.side);
+    chooseSide(wantedSide_);
 }
 
 // A side that the layer lacks gives way to one that it has, until there is a layer that has it.
 void ViewSession::chooseSide(Side side)
 {
-    choices_.side = side;
+    wantedSide_ = side;
     const std::vector<Side> has = sides();
     side_ = std::find(has.begin(), has.end(), side) != has.end() ? side : has.front();
     laid_ = drawn_ = false;
@@ -218,11 +218,11 @@ void ViewSession::change(const ViewChoices& wanted)
         exposureIsAuto_ = exposureIsAuto_ && side_ == Side::Difference;
         drawn_ = false;
     }
-    if (wanted.tone != choices_.tone) {
-        choices_.tone = wanted.tone;
+    if (wanted.tone != tone_) {
+        tone_ = wanted.tone;
         drawn_ = false;
     }
-    if (wanted.layer != choices_.layer) {
+    if (wanted.layer != layer_) {
         chooseLayer(wanted.layer);
     } else if (wanted.side != side_) {
         chooseSide(wanted.side);
@@ -231,7 +231,7 @@ void ViewSession::change(const ViewChoices& wanted)
 
 std::vector<Side> ViewSession::sides() const
 {
-    const ViewedLayer& layer = films_.layers()[choices_.layer];
+    const ViewedLayer& layer = films_.layers()[layer_];
     std::vector<Side> has;
     if (layer.of[0]) {
         has.push_back(Side::A);
@@ -255,7 +255,7 @@ void ViewSession::tell(const std::string& text)
 void ViewSession::readChangedFilms()
 {
     const glm::uvec2 before = films_.size();
-    const std::string name = films_.layers()[choices_.layer].name;
+    const std::string name = films_.layers()[layer_].name;
     const ViewedFilms::Reading reading = films_.readChanged();
     if (!reading.taken.empty()) {
         const auto& layers = films_.layers();
@@ -299,7 +299,7 @@ void ViewSession::draw()
     pass.bottom = covered.high.y;
     pass.shownAs = static_cast<std::uint32_t>(differs ? ShownAs::Difference : as == ShownAs::Ids ? ShownAs::Color : as);
     pass.scale = isExposed() ? static_cast<float>(std::exp2(exposure())) : 1.0F;
-    pass.tone = static_cast<std::uint32_t>(isToned() ? choices_.tone : Tone::None);
+    pass.tone = static_cast<std::uint32_t>(isToned() ? tone_ : Tone::None);
     pass.low = shown_.range.low;
     pass.high = shown_.range.high;
     if (differs) {
@@ -383,7 +383,7 @@ std::vector<std::string> ViewSession::describePixel() const
     std::vector<std::string> lines{
         place ? formatted("pixel (%u, %u)", place->x + films_.image(0).columnsLeft, place->y + films_.image(0).rowsAbove) : "pixel -"};
     std::array<std::vector<double>, 2> numbers;
-    const ViewedLayer& layer = films_.layers()[choices_.layer];
+    const ViewedLayer& layer = films_.layers()[layer_];
     for (std::size_t i = 0; i < films_.count(); ++i) {
         if (place && layer.of[i]) {
             numbers[i] = numbersOf(films_.image(i), *layer.of[i], pixel);

@@ -53,7 +53,7 @@ private:
 
     // The picture and its panel.
     std::vector<Side> sides() const;
-    ViewChoices shownChoices() { return {choices_.layer, side_, exposure(), choices_.tone}; }
+    ViewChoices shownChoices() { return {layer_, side_, exposure(), tone_}; }
     double& exposure() { return side_ == Side::Difference ? gain_ : exposure_; }
     bool isExposed() const { return side_ == Side::Difference || shown_.layer.isExposed; }
     bool isToned() const { return side_ != Side::Difference && shown_.layer.isToned; }
@@ -71,8 +71,9 @@ private:
     Gui& gui_;
     Painter painter_;
 
-    ViewChoices choices_;                 // of the user
-    Side side_ = Side::A;                 // that is shown: another one if the layer lacks the chosen one
+    std::size_t layer_ = 0;
+    Side wantedSide_ = Side::A, side_ = Side::A;  // the user's, and what is shown: another one if the layer lacks it
+    Tone tone_ = Tone::None;
     double exposure_ = 0.0, gain_ = 0.0;  // stops, of colours and of differences
     bool exposureIsAuto_ = false;
     std::array<Picture, 2> values_;  // of the layer, A's and B's; empty where a film has none
