@@ -115,10 +115,10 @@ Coverage coverageOf(int films, double deviation, const Noise& noise, const Denoi
     return coverage;
 }
 
-class DenoisedError_ : public testing::TestWithParam<std::tuple<int, bool, double>> {};
+class DenoisedErrorTest : public testing::TestWithParam<std::tuple<int, bool, double>> {};
 
 // Blurs of several widths under little and much noise: from pictures whose error is all noise to such whose error is all bias.
-TEST_P(DenoisedError_, IsUnbiasedAndItsIntervalHolds)
+TEST_P(DenoisedErrorTest, IsUnbiasedAndItsIntervalHolds)
 {
     const auto [radius, skewed, deviation] = GetParam();
     constexpr int kFilms = 400;
@@ -137,7 +137,7 @@ TEST_P(DenoisedError_, IsUnbiasedAndItsIntervalHolds)
                 skewed ? "exponential" : "normal", deviation, found.inside, kFilms, std::sqrt(found.zSquares), found.ratio, error);
 }
 
-INSTANTIATE_TEST_SUITE_P(Blurs, DenoisedError_, testing::Combine(testing::Values(0, 1, 3), testing::Bool(), testing::Values(0.05, 0.5)));
+INSTANTIATE_TEST_SUITE_P(Blurs, DenoisedErrorTest, testing::Combine(testing::Values(0, 1, 3), testing::Bool(), testing::Values(0.05, 0.5)));
 
 // One denoiser that ruins a corner: there the noisy pixels stay.
 TEST(DenoisedPicture, KeepsNoisyPixelsWhereDenoisingHurts)
