@@ -65,7 +65,7 @@ vec3 colorOfDifference(const Case& c)
     return bytesOf(differenceColor(static_cast<double>(c.view.scale) * sum / 3.0));
 }
 
-TEST(ViewTest, ColoursAreThoseOfFilesAndOfCompare)
+TEST(ViewColorTest, ColoursAreThoseOfFilesAndOfCompare)
 {
     std::mt19937 random(11);
     std::lognormal_distribution<float> light(-1.0F, 2.0F);
@@ -98,7 +98,7 @@ TEST(ViewTest, ColoursAreThoseOfFilesAndOfCompare)
 }
 
 // Where the reference is black and nothing is added to it, any light is infinitely wrong, and none is right.
-TEST(ViewTest, ABlackReferenceLeavesOnlyRightAndWrong)
+TEST(ViewColorTest, ABlackReferenceLeavesOnlyRightAndWrong)
 {
     ViewPass view{};
     view.shownAs = kShownAsDifference;
