@@ -262,7 +262,7 @@ Image readExr(const fs::path& path)
             throw InputError(path.string() + ": is incomplete: rows of pixels are missing.");
         }
         if (Imf::isMultiPart(file.version())) {
-            warn(path.string() + ": of a file of several parts only the first is read");
+            warn(path.string() + ": has several parts, and only the first is read");
         }
         readHeader(path, file.header(), image);
         readChannels(path, file, image);

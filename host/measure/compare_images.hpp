@@ -62,7 +62,7 @@ struct Comparison {
 // Refuses (InputError) pictures of different sizes.
 Comparison compareImages(const Picture& picture, const Picture& reference);
 
-// Its `errors` alone, of pictures of one size, in a tenth of the time; nothing if no pixel is finite in both.
+// Its `errors` alone, of pictures of one size; nothing if no pixel is finite in both.
 std::optional<SquaredErrors> measureErrors(const Picture& picture, const Picture& reference);
 
 // The picture's expected distance from the truth if it is unbiased, from its own variance. Nothing where no variance is known.

@@ -139,7 +139,7 @@ std::vector<Layer> layersOf(const Image& image)
 
 Picture valuesOf(const Image& image, const Layer& layer)
 {
-    Picture values{image.width, image.height, {}, {}, image.rowsAbove};
+    Picture values{image.width, image.height, {}, {}, image.rowsAbove, image.columnsLeft};
     values.radiance.resize(std::size_t{image.width} * image.height);
     const auto plane = [&](std::size_t c) { return Plane(image, layer.channels[std::min(c, layer.channels.size() - 1)]); };
     const std::array<Plane, 3> planes{plane(0), plane(1), plane(2)};

@@ -42,9 +42,16 @@ vec3 roundToBytes(vec3 c)
     return floor(255.0 * c + 0.5) / 255.0;
 }
 
+// The place of a value on a scale from 0 to 1. On a scale without length it is 0: 1e-30 is below the distance of any two values that are
+// told apart.
+float placeOf(float value, float low, float high)
+{
+    return clamp((value - low) / max(1e-30, high - low), 0.0, 1.0);
+}
+
 vec3 depthColor(float depth, float nearest, float farthest)
 {
-    return vec3(mix(1.0, kFarthestGrey, clamp((depth - nearest) / max(1e-30, farthest - nearest), 0.0, 1.0)));
+    return vec3(mix(1.0, kFarthestGrey, placeOf(depth, nearest, farthest)));
 }
 
 vec3 vectorColor(vec3 v)
@@ -63,7 +70,7 @@ vec3 displayColor(PixelMoments pixel, uint aov, DisplayPass pass)
     case kAovDepth: return pixel.alpha > 0.0 ? roundToBytes(depthColor(pixel.depth, pass.low, pass.high)) : vec3(0.0);
     case kAovAlbedo: return roundToBytes(encodeSrgb(pass.scale * pixel.albedo));
     case kAovSampleCount: return roundToBytes(heatColor((float(pixel.count) - pass.low) / max(1.0, pass.high - pass.low)));
-    case kAovBvhSteps: return roundToBytes(heatColor((pixel.mean.r - pass.low) / max(1e-30, pass.high - pass.low)));
+    case kAovBvhSteps: return roundToBytes(heatColor(placeOf(pixel.mean.r, pass.low, pass.high)));
     default: return roundToBytes(encodeSrgb(mapTone(pass.scale * pixel.mean, pass.tone)));
     }
 }
@@ -86,10 +93,7 @@ vec3 viewColor(vec3 value, vec3 reference, ViewPass pass)
     switch (pass.shownAs) {
     case kShownAsVector: return value == vec3(0.0) ? vec3(0.0) : roundToBytes(vectorColor(value));
     case kShownAsDepth: return value.x == 0.0 ? vec3(0.0) : roundToBytes(depthColor(value.x, pass.low, pass.high));
-    case kShownAsHeat: {
-        float mean = dot(value, vec3(1.0 / 3.0));
-        return roundToBytes(heatColor((mean - pass.low) / max(1e-30, pass.high - pass.low)));
-    }
+    case kShownAsHeat: return roundToBytes(heatColor(placeOf(dot(value, vec3(1.0 / 3.0)), pass.low, pass.high)));
     case kShownAsDifference:
         return roundToBytes(differenceColor(pass.scale * signedDifference(value, reference, pass.relative, pass.epsilon)));
     default: return roundToBytes(encodeSrgb(mapTone(pass.scale * value, pass.tone)));

@@ -48,6 +48,18 @@ TEST(CompareImages, MetricsOfAKnownDifference)
     EXPECT_TRUE(std::isnan(result.ratioOfAll.low));
 }
 
+TEST(CompareImages, ErrorsAloneAreTheSame)
+{
+    Picture picture = addNoise(makeTruth(12, 9), 0.3F, 3), reference = addNoise(makeTruth(12, 9), 0.1F, 4);
+    picture.radiance[5].g = std::numeric_limits<float>::quiet_NaN();
+    reference.radiance[7].r = std::numeric_limits<float>::infinity();
+    const SquaredErrors expected = compareImages(picture, reference).errors, alone = measureErrors(picture, reference).value();
+    EXPECT_NEAR(alone.mse / expected.mse, 1.0, 1e-12);
+    EXPECT_NEAR(alone.relMse / expected.relMse, 1.0, 1e-12);
+    EXPECT_NEAR(alone.relMseAbsolute / expected.relMseAbsolute, 1.0, 1e-12);
+    EXPECT_FALSE(measureErrors(uniform(2, glm::vec3(std::numeric_limits<float>::quiet_NaN())), uniform(2, glm::vec3(1.0F))));
+}
+
 TEST(CompareImages, EpsilonFollowsTheBrightness)
 {
     const Comparison dim = compareImages(addNoise(makeTruth(8, 8), 0.2F, 1), makeTruth(8, 8));

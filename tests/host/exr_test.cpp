@@ -222,7 +222,7 @@ TEST(Exr, SaysThatOnlyTheFirstOfSeveralPartsIsRead)
     testing::internal::CaptureStderr();
     EXPECT_EQ(readExr(folder / "a.exr").channels.at("R")[20], 20.0F);
     const std::string said = testing::internal::GetCapturedStderr();
-    EXPECT_NE(said.find("a.exr: of a file of several parts only the first is read"), std::string::npos) << said;
+    EXPECT_NE(said.find("a.exr: has several parts, and only the first is read"), std::string::npos) << said;
 }
 
 TEST(Exr, ReadsTheFinestLevelOfTiles)

@@ -110,5 +110,16 @@ TEST(DrawErrors, OfNothingWrongIsWhiteAndOfNothingFiniteMagenta)
     EXPECT_EQ(drawErrors(lit, black, 0.0).pixels[0], differenceColor(1.0));
 }
 
+// Of 100 pixels that differ by 1, 2 ... 100, at a reference of 10.
+TEST(DrawErrors, TheScaleIsRelativeOrPlain)
+{
+    Picture picture{100, 1, {}, {}}, reference{100, 1, std::vector<glm::vec3>(100, glm::vec3(10.0F)), {}};
+    for (int i = 0; i < 100; ++i) {
+        picture.radiance.emplace_back(11.0F + static_cast<float>(i));
+    }
+    EXPECT_DOUBLE_EQ(chooseErrorScale(picture, reference, 0.0, 1.0), 96.0);
+    EXPECT_DOUBLE_EQ(chooseErrorScale(picture, reference, 1.0, 0.0), 9.6);
+}
+
 }  // namespace
 }  // namespace glim

@@ -62,16 +62,8 @@ protected:
         EXPECT_EQ(done.err.find("validation"), std::string::npos) << done.err;
         return done;
     }
+    static Pixels windowOf(const Pixels& shown) { return cornerOf(shown, 96, 72); }
     Pixels window() const { return windowOf(screen.pixels()); }
-    static Pixels windowOf(const Pixels& shown)
-    {
-        Pixels corner;
-        for (std::size_t y = 0; y < 72; ++y) {
-            const auto row = shown.begin() + static_cast<std::ptrdiff_t>(y * VirtualScreen::kWidth);
-            corner.insert(corner.end(), row, row + 96);
-        }
-        return corner;
-    }
     // Looks at the window until it shows `expected`, for half a minute. Returns how many pixels of it are others at the last look.
     int countOthersAfter(const std::string& script, const Arguments& arguments, const Pixels& expected) const
     {
@@ -147,6 +139,29 @@ TEST_F(ViewWindowTest, ShowsTheDifferencesThatCompareDraws)
 }
 
 // At four times the size about the point (48, 36), moved by dragging, and fitted again.
+// Its values are in two bands, of which the second begins above the screen's lower edge.
+TEST_F(ViewWindowTest, ALargeWindowIsDrawnInBands)
+{
+    constexpr std::size_t kWidth = VirtualScreen::kWidth, kHeight = VirtualScreen::kHeight;
+    const Pixels picture = png("b.png");
+    Pixels expected;
+    for (std::size_t i = 0; i < kWidth * kHeight; ++i) {  // 16 times as large, in the middle of 2000x1200
+        const std::size_t x = i % kWidth, y = i / kWidth;
+        expected.push_back(x < 232 || y < 24 ? std::array{51, 51, 51} : picture[(y - 24) / 16 * 96 + (x - 232) / 16]);
+    }
+    int others = -1;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    GlimCall session = call("", {"b.exr"});
+    session.arguments[2] = "2000x1200";
+    session.signalWhen = [&](const std::string&) {
+        others = countOthers(screen.pixels(), expected);
+        return others == 0 || std::chrono::steady_clock::now() > end;
+    };
+    session.signal = SIGTERM;
+    EXPECT_EQ(runGlim(session).err, "");
+    EXPECT_EQ(others, 0);
+}
+
 // Of ids, of which each has a colour: no exposure changes it, and A - B is not offered.
 TEST_F(ViewWindowTest, IdsKeepTheirColours)
 {

@@ -117,12 +117,12 @@ void PreviewTest::removePictures() const
     }
 }
 
-Pixels PreviewTest::windowOf(const Pixels& shown) const
+Pixels cornerOf(const Pixels& shown, std::size_t width, std::size_t height)
 {
     Pixels corner;
     for (std::size_t y = 0; y < height; ++y) {
         const auto row = shown.begin() + static_cast<std::ptrdiff_t>(y * VirtualScreen::kWidth);
-        corner.insert(corner.end(), row, row + width);
+        corner.insert(corner.end(), row, row + static_cast<std::ptrdiff_t>(width));
     }
     return corner;
 }

@@ -17,6 +17,9 @@ namespace glim::test {
 
 using Pixels = std::vector<std::array<int, 3>>;
 
+// The upper left part of a screen, where windows open.
+Pixels cornerOf(const Pixels& shown, std::size_t width, std::size_t height);
+
 class PreviewTest : public testing::Test {
 protected:
     // `glim preview` of `scene` in a folder of its own, with the steps of `script`, one per line. It first hides the panels, unless
@@ -34,7 +37,7 @@ protected:
     };
     Watched watch(std::size_t pictures, const std::string& script, const std::vector<std::string>& more = {}) const;
     // The part of the screen that is the window.
-    Pixels windowOf(const Pixels& shown) const;
+    Pixels windowOf(const Pixels& shown) const { return cornerOf(shown, width, height); }
 
     // What `glim render` makes of the same scene; `options` separated by blanks.
     Film render(const std::string& options) const;
