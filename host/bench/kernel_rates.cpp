@@ -13,7 +13,8 @@ namespace {
 struct Variant {
     std::string name;
     RenderSettings settings;
-    std::uint32_t features, stackLevels;
+    FeatureMask features;
+    std::uint32_t stackLevels;
 };
 
 std::vector<Variant> variantsOf(const RenderSettings& settings, const FlatScene& scene, const DeviceDescription& device)

@@ -41,7 +41,7 @@ Counts countsOf(const PreparedScene& prepared)
             {"morph targets", prepared.scene.morphTargets}};
 }
 
-Needs needsOf(std::uint32_t features)
+Needs needsOf(FeatureMask features)
 {
     Needs needs;
     for (const Feature& feature : kFeatures) {
@@ -109,8 +109,8 @@ Json objectOf(const Entries& entries)
 Counts lobesOf(const FlatScene& flat)
 {
     constexpr const char* kLobes[] = {"diffuse", "mirror", "glass", "glTF", "unlit"};
-    constexpr std::uint32_t kLayers = kFeatureClearcoat | kFeatureSheen | kFeatureAnisotropy | kFeatureIridescence | kFeatureTransmission |
-                                      kFeatureDiffuseTransmission | kFeatureThinWalls;
+    constexpr FeatureMask kLayers = kFeatureClearcoat | kFeatureSheen | kFeatureAnisotropy | kFeatureIridescence | kFeatureTransmission |
+                                    kFeatureDiffuseTransmission | kFeatureThinWalls;
     Counts counts;
     const auto add = [&counts](const char* name, std::ptrdiff_t count) {
         if (count > 0) {
@@ -121,7 +121,7 @@ Counts lobesOf(const FlatScene& flat)
         add(kLobes[lobe], std::ranges::count(flat.materials, lobe, &MaterialData::lobe));
     }
     for (const Feature& feature : kFeatures) {
-        const auto has = [&feature](std::uint32_t features) { return (features & feature.bit & kLayers) != 0; };
+        const auto has = [&feature](FeatureMask features) { return (features & feature.bit & kLayers) != 0; };
         add(feature.name, std::ranges::count_if(flat.materialFeatures, has));
     }
     return counts;

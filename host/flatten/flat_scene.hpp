@@ -16,7 +16,7 @@ namespace glim {
 
 // Readable names for the bits of shaders/shared/features.h.
 struct Feature {
-    std::uint32_t bit;
+    FeatureMask bit;
     const char* name;
 };
 
@@ -84,7 +84,7 @@ struct FlatScene {
     std::vector<TextureData> textures;       // behind these
     std::vector<MediumData> media;           // behind these, from texel firstMedium on
     std::uint32_t firstMedium = 0;
-    std::vector<std::uint32_t> materialFeatures;  // what each material needs, used or not; not on the device
+    std::vector<FeatureMask> materialFeatures;  // what each material needs, used or not; not on the device
     std::shared_ptr<const PackedImages> images = std::make_shared<PackedImages>();  // never null
     std::vector<std::uint64_t> imageBytes;  // of each image of the scene; 0: of one colour, which is in the factors. Not on the device
     std::vector<uvec4> albedos;             // empty without kFeaturePrincipled
@@ -92,7 +92,7 @@ struct FlatScene {
     std::vector<LightNode> lightNodes;
     std::uint32_t finiteLights = 0;               // the first lights
     float infiniteImportance = 0.0F;              // as in RenderParameters
-    std::uint32_t features = 0;                   // kFeatureSpheres ...: what the scene needs
+    FeatureMask features = 0;                     // kFeatureSpheres ...: what the scene needs
     std::uint32_t stackLevels = kMaxStackLevels;  // of the traversal stack
     vec3 environment{0.0F};                       // radiance, or what multiplies that of the map
     bool hidesEnvironment = false;                // from the camera

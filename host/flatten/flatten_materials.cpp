@@ -371,7 +371,7 @@ private:
     FlatScene& flat_;
     const Scene& scene_;
     Media media_;
-    std::uint32_t features_ = 0;                          // of the material that is added
+    FeatureMask features_ = 0;                            // of the material that is added
     std::vector<std::optional<glm::dvec4>> colors_;       // by image
     std::map<std::uint32_t, std::uint32_t> firstTexels_;  // by image
     Images images_;                                       // that textures use

@@ -36,7 +36,7 @@ void refuseMissing(const FlatScene& scene, const RenderSettings& settings)
 
 }  // namespace
 
-std::optional<std::string> missingInCourse(std::uint32_t features)
+std::optional<std::string> missingInCourse(FeatureMask features)
 {
     if ((features & kFeatureAlpha) != 0) {
         return "surfaces that are transparent in places";
@@ -65,7 +65,7 @@ std::vector<LightRound> lightRounds(const FlatScene& scene, const RenderSettings
     if (rounds.empty()) {
         rounds.push_back({false, kNoLightIndex});
     }
-    constexpr std::uint32_t kHitByRays = kFeatureTriangleLights | kFeatureRectangleLights | kFeatureSphereLights | kFeatureEnvironment;
+    constexpr FeatureMask kHitByRays = kFeatureTriangleLights | kFeatureRectangleLights | kFeatureSphereLights | kFeatureEnvironment;
     if (settings.course.direct == DirectLight::Hemisphere && (scene.features & kHitByRays) != 0) {
         for (std::uint32_t i = 0; i < settings.course.lightSamples; ++i) {
             rounds.push_back({true, kNoLightIndex, i, settings.course.lightSamples});

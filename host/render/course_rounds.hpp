@@ -17,7 +17,7 @@ struct LightRound {
 };
 
 // What of the scene the course's kernels have no code for, as in "instances that share meshes"; nothing if they know all of it.
-std::optional<std::string> missingInCourse(std::uint32_t features);
+std::optional<std::string> missingInCourse(FeatureMask features);
 
 // Returns at least one round; the first is not over the hemisphere. Throws InputError if a hit would need more than a million rays, or if
 // the settings ask for the course's kernels and these do not know the scene.

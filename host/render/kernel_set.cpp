@@ -39,18 +39,24 @@ Specialization specializeCourse(Specialization constants, const RenderSettings& 
 
 }  // namespace
 
+Specialization constantsOf(FeatureMask features)
+{
+    return {{kSpecFeatures, static_cast<std::uint32_t>(features)}, {kSpecUpperFeatures, static_cast<std::uint32_t>(features >> 32)}};
+}
+
 Specialization specialize(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
 {
-    return {{kSpecWorkgroup, settings.workgroup},
-            {kSpecFeatures, scene.features & ~(tracesLight(scene, settings) ? 0U : kFeatureCaustics)},
-            {kSpecStackLevels, scene.stackLevels},
-            {kSpecTexelViews, static_cast<std::uint32_t>((scene.images->texels.size() >> kTexelViewBits) + 1)},
-            {kSpecSobol, settings.sampler == Sampler::Sobol},
-            {kSpecLens, camera.lensRight != vec3(0.0F)},
-            {kSpecChosen, settings.adaptive != Adaptive::Off},
-            {kSpecAov, static_cast<std::uint32_t>(settings.aov)},
-            {kSpecSuspects, settings.suspects > 0},
-            {kSpecNotes, settings.notes}};
+    Specialization constants = constantsOf(scene.features & ~(tracesLight(scene, settings) ? 0U : kFeatureCaustics));
+    constants[kSpecWorkgroup] = settings.workgroup;
+    constants[kSpecStackLevels] = scene.stackLevels;
+    constants[kSpecTexelViews] = static_cast<std::uint32_t>((scene.images->texels.size() >> kTexelViewBits) + 1);
+    constants[kSpecSobol] = settings.sampler == Sampler::Sobol;
+    constants[kSpecLens] = camera.lensRight != vec3(0.0F);
+    constants[kSpecChosen] = settings.adaptive != Adaptive::Off;
+    constants[kSpecAov] = static_cast<std::uint32_t>(settings.aov);
+    constants[kSpecSuspects] = settings.suspects > 0;
+    constants[kSpecNotes] = settings.notes;
+    return constants;
 }
 
 bool serves(const Specialization& compiled, Specialization needed)

@@ -16,6 +16,9 @@ struct CourseKernels {
     std::optional<Kernel> addLuminance, choosePixels;         // of --adaptive course
 };
 
+// Those of what a scene needs: kFeatureSpheres ...
+Specialization constantsOf(FeatureMask features);
+
 // The constants of the production kernels.
 Specialization specialize(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
 

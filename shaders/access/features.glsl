@@ -7,22 +7,23 @@
 #include "shared/limits.h"
 #include "shared/scene_types.h"
 
-layout(constant_id = kSpecFeatures) const uint kFeatures = kAllFeatures;
+layout(constant_id = kSpecFeatures) const uint kLowerFeatures = 0xffffffffu;
+layout(constant_id = kSpecUpperFeatures) const uint kUpperFeatures = 0xffffffffu;
 
 // Whether the scene needs the feature of shared/features.h, or one of several. This and what is built on it are macros, so that the host
 // finds the constant where it decides a branch (host/gpu/specialize.hpp).
-#define hasFeature(feature) ((kFeatures & (feature)) != 0u)
+#define hasFeature(feature) ((kLowerFeatures & (feature).x | kUpperFeatures & (feature).y) != 0u)
 
 // What has a LayersData.
-const uint kLayerFeatures = kFeatureClearcoat | kFeatureSheen | kFeatureAnisotropy | kFeatureIridescence | kFeatureTransmission |
+const FeatureMask kLayerFeatures = kFeatureClearcoat | kFeatureSheen | kFeatureAnisotropy | kFeatureIridescence | kFeatureTransmission |
                             kFeatureDiffuseTransmission | kFeatureMedia;
 
 // Light that a ray may hit by chance.
 #define hasEnvironment() hasFeature(kFeatureEnvironment)
 #define hasEmissiveSurfaces() hasFeature(kFeatureTriangleLights | kFeatureRectangleLights | kFeatureSphereLights | kFeatureUnlit)
 
-const uint kFiniteLights = kFeatureTriangleLights | kFeatureRectangleLights | kFeatureSphereLights | kFeaturePunctualLights;
-const uint kInfiniteLights = kFeatureEnvironment | kFeaturePunctualLights;
+const FeatureMask kFiniteLights = kFeatureTriangleLights | kFeatureRectangleLights | kFeatureSphereLights | kFeaturePunctualLights;
+const FeatureMask kInfiniteLights = kFeatureEnvironment | kFeaturePunctualLights;
 
 layout(constant_id = kSpecStackLevels) const uint kStackLevels = kMaxStackLevels;
 layout(constant_id = kSpecTexelViews) const uint kTexelViews = kMaxTexelViews;

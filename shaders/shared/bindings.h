@@ -69,7 +69,8 @@ GLIM_CONST uint kBindReport = 31u;
 GLIM_CONST uint kBindResults = 32u;
 
 GLIM_CONST uint kSpecWorkgroup = 0u;
-GLIM_CONST uint kSpecFeatures = 1u;        // kFeatureSpheres ...: what the scene needs
+GLIM_CONST uint kSpecFeatures = 1u;        // kFeatureSpheres ...: what the scene needs, the lower 32 bits
+GLIM_CONST uint kSpecUpperFeatures = 2u;   // and the others
 GLIM_CONST uint kSpecSobol = 7u;           // else independent samples
 GLIM_CONST uint kSpecMollerTrumbore = 8u;  // of the course; else watertight
 GLIM_CONST uint kSpecBruteForce = 9u;      // of the course: every primitive against every ray; else the BVH

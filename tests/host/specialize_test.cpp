@@ -1,4 +1,4 @@
-#include "host/gpu/specialize.hpp"
+#include "host/render/kernel_set.hpp"
 #include "kernels.hpp"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/features.h"
@@ -20,12 +20,13 @@ const EmbeddedShader* const kKernels[] = {&kernels::accumulate,
                                           &kernels::trace_paths,
                                           &kernels::trace_shadow};
 
-const uint kFeatureMasks[] = {0,
-                              kFeatureTriangleLights,
-                              kFeatureMirror | kFeatureDielectric | kFeatureSphereLights,
-                              kFeaturePrincipled,
-                              kFeaturePrincipled | kFeatureTextures | kFeatureNormalMaps | kFeatureEnvironment | kFeatureEnvironmentMap,
-                              kAllFeatures};
+const FeatureMask kFeatureMasks[] = {
+    0,
+    kFeatureTriangleLights,
+    kFeatureMirror | kFeatureDielectric | kFeatureSphereLights,
+    kFeaturePrincipled,
+    kFeaturePrincipled | kFeatureTextures | kFeatureNormalMaps | kFeatureEnvironment | kFeatureEnvironmentMap,
+    kAllFeatures};
 
 TEST(SpecializeTest, KernelsStayValid)
 {
@@ -35,9 +36,9 @@ TEST(SpecializeTest, KernelsStayValid)
     spvtools::ValidatorOptions options;
     options.SetScalarBlockLayout(true);
     for (const EmbeddedShader* kernel : kKernels) {
-        for (const uint features : kFeatureMasks) {
+        for (const FeatureMask features : kFeatureMasks) {
             SCOPED_TRACE(std::string(kernel->name) + " with features " + std::to_string(features));
-            const std::vector<std::uint32_t> words = specialize(*kernel, {{kSpecWorkgroup, 64}, {kSpecFeatures, features}});
+            const std::vector<std::uint32_t> words = specialize(*kernel, constantsOf(features));
             EXPECT_TRUE(tools.Validate(words.data(), words.size(), options)) << message;
         }
     }
@@ -46,7 +47,7 @@ TEST(SpecializeTest, KernelsStayValid)
 // The size of the code decides how long drivers take to start. 2: measured 2.4.
 TEST(SpecializeTest, CodeThatASceneDoesNotNeedIsGone)
 {
-    const auto size = [](uint features) { return specialize(kernels::trace_paths, {{kSpecFeatures, features}}).size(); };
+    const auto size = [](FeatureMask features) { return specialize(kernels::trace_paths, constantsOf(features)).size(); };
     EXPECT_LT(2 * size(kFeatureTriangleLights), size(kAllFeatures));
 }
 

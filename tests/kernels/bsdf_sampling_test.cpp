@@ -107,9 +107,9 @@ bool transmits(const BsdfCase& c)
 }
 
 // Features of the kernels that the cases need: fewer compile faster.
-uint featuresOf(const std::vector<BsdfCase>& cases)
+FeatureMask featuresOf(const std::vector<BsdfCase>& cases)
 {
-    uint features = kFeaturePrincipled;
+    FeatureMask features = kFeaturePrincipled;
     for (const BsdfCase& c : cases) {
         const MaterialCase& m = c.material;
         features |= (m.clearcoat > 0.0F ? kFeatureClearcoat : 0U) | (m.sheenColor != vec3(0.0F) ? kFeatureSheen : 0U) |
@@ -125,7 +125,7 @@ public:
         : cases_(cases)
     {}
 
-    std::vector<SampledDirection> sample(uint points, uint count, uint features, uint seed = 1) const
+    std::vector<SampledDirection> sample(uint points, uint count, FeatureMask features, uint seed = 1) const
     {
         std::vector<BsdfCase> cases = cases_;
         for (BsdfCase& c : cases) {
@@ -135,7 +135,7 @@ public:
         KernelTest test(test_kernels::bsdf_sampling_test);
         test.parameters().seed = seed;
         test.pass().sampleCount = count;
-        test.buffers(albedos_.bound()).specialize(kSpecFeatures, features).cases(cases).resultsOf<SampledDirection>(threads);
+        test.buffers(albedos_.bound()).features(features).cases(cases).resultsOf<SampledDirection>(threads);
         test.threads(static_cast<std::uint32_t>(threads)).run();
         return test.results<SampledDirection>();
     }
@@ -154,7 +154,7 @@ public:
         }
         const std::size_t threads = sides.size() * kCells * kCells;
         KernelTest test(test_kernels::bsdf_cells_test);
-        test.buffers(albedos_.bound()).specialize(kSpecFeatures, featuresOf(cases_)).cases(cells).resultsOf<glm::vec4>(threads);
+        test.buffers(albedos_.bound()).features(featuresOf(cases_)).cases(cells).resultsOf<glm::vec4>(threads);
         test.threads(static_cast<std::uint32_t>(threads)).run();
         return test.results<glm::vec4>();
     }

@@ -5,9 +5,9 @@
 #include "access/features.glsl"
 
 struct Case {
-    uint features;
+    FeatureMask features;
     uint on;  // one bit per id
-    uint aov, stackLevels;
+    uint aov, stackLevels, unused;
 };
 
 layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case expected; };
@@ -17,16 +17,18 @@ bool isExpected(uint id)
     return (expected.on >> id & 1u) != 0u;
 }
 
-bool isNeeded(uint feature)
+bool isNeeded(FeatureMask feature)
 {
-    return (expected.features & feature) != 0u;
+    return (expected.features & feature) != FeatureMask(0u);
 }
 
 void main()
 {
     if (TEST_THREAD == 0u) {
         for (uint bit = 0u; bit < 32u; ++bit) {
-            EXPECT_TRUE(hasFeature(1u << bit) == isNeeded(1u << bit));
+            FeatureMask lower = FeatureMask(1u << bit, 0u), upper = FeatureMask(0u, 1u << bit);
+            EXPECT_TRUE(hasFeature(lower) == isNeeded(lower));
+            EXPECT_TRUE(hasFeature(upper) == isNeeded(upper));
         }
         EXPECT_TRUE(kSobol == isExpected(kSpecSobol));
         EXPECT_TRUE(kLens == isExpected(kSpecLens));

@@ -1,4 +1,5 @@
 #include "host/flatten/flat_scene.hpp"
+#include "host/render/kernel_set.hpp"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/course_types.h"
 #include "shaders/shared/limits.h"
@@ -13,9 +14,9 @@ namespace glim {
 namespace {
 
 struct Case {
-    uint features;
+    FeatureMask features;  // uvec2 on the device: the lower half first
     uint on;
-    uint aov, stackLevels;
+    uint aov, stackLevels, unused = 0;
 };
 
 // By default everything that a scene may need is on, and everything that a render may be asked for is off.
@@ -59,22 +60,22 @@ TEST(FeaturesTest, EachConstantFollowsItsOwnId)
 
 TEST(FeaturesTest, EachFeatureIsABitOfItsOwn)
 {
-    std::uint32_t seen = 0;
+    FeatureMask seen = 0;
     for (const Feature& feature : kFeatures) {
         SCOPED_TRACE(feature.name);
         EXPECT_TRUE(std::has_single_bit(feature.bit) && (seen & feature.bit) == 0);
         seen |= feature.bit;
     }
     // Of any two bits, some mask has the first without the second: a feature that follows, or also needs, another's bit is noticed.
-    for (uint digit = 0; digit < 5; ++digit) {
-        uint mask = 0;
-        for (uint bit = 0; bit < 32; ++bit) {
+    for (uint digit = 0; digit < 6; ++digit) {
+        FeatureMask mask = 0;
+        for (FeatureMask bit = 0; bit < 64; ++bit) {
             mask |= (bit >> digit & 1U) << bit;
         }
-        for (const uint features : {mask & kAllFeatures, ~mask & kAllFeatures}) {
+        for (const FeatureMask features : {mask, ~mask}) {
             Case expected = defaults();
             expected.features = features;
-            expectFeatures(expected, {{kSpecFeatures, features}});
+            expectFeatures(expected, constantsOf(features));
         }
     }
 }

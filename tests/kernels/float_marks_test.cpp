@@ -1,5 +1,5 @@
 // H3, H37, H38: the program's kernels carry the marks that ask the driver for exact arithmetic, as they are embedded and as it gets them.
-#include "host/gpu/specialize.hpp"
+#include "host/render/kernel_set.hpp"
 #include "kernels.hpp"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/features.h"
@@ -56,9 +56,10 @@ TEST_P(FloatMarksTest, H3H37H38EveryOperationIsExact)
     EXPECT_TRUE(embedded.keepsInfinity);
     EXPECT_EQ(embedded.arithmetic, embedded.marked);
     EXPECT_EQ(embedded.arithmetic.empty(), GetParam().value == &kernels::size_dispatch);
-    for (const uint features : {uint{0}, kFeatureTriangleLights | kFeatureMirror, kFeaturePrincipled | kFeatureTextures, kAllFeatures}) {
+    for (const FeatureMask features :
+         {FeatureMask{0}, kFeatureTriangleLights | kFeatureMirror, kFeaturePrincipled | kFeatureTextures, kAllFeatures}) {
         SCOPED_TRACE("features " + std::to_string(features));
-        const Marks given = marksOf(specialize(*GetParam().value, {{kSpecFeatures, features}}));
+        const Marks given = marksOf(specialize(*GetParam().value, constantsOf(features)));
         EXPECT_TRUE(given.keepsInfinity);
         EXPECT_TRUE(std::includes(given.marked.begin(), given.marked.end(), given.arithmetic.begin(), given.arithmetic.end()));
         EXPECT_EQ(given.arithmetic.empty(), GetParam().value == &kernels::size_dispatch);

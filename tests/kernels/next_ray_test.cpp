@@ -85,7 +85,7 @@ protected:
     KernelTest test(const EmbeddedShader& shader = test_kernels::next_ray_test)
     {
         KernelTest test = scene_->test(shader);
-        test.buffers({{kBindNote, &note_}}).specialize(kSpecFeatures, scene_->flat.features | kFeatureMirror | kFeatureDielectric);
+        test.buffers({{kBindNote, &note_}}).features(scene_->flat.features | kFeatureMirror | kFeatureDielectric);
         test.parameters().seed = 3;
         test.parameters().maxBounces = 64;
         return test;

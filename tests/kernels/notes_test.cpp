@@ -16,7 +16,7 @@ PathNote noteOf(bool asked)
     builder.sphere(vec3(0.0F), 1.0F, builder.lambert(vec3(0.5F)));
     const SceneOnDevice scene(builder.scene());
     KernelTest test = scene.test(test_kernels::notes_test);
-    test.specialize(kSpecFeatures, kFeaturePrincipled).specialize(kSpecNotes, asked).buffers({{kBindNote, &note}}).threads(1).run();
+    test.features(kFeaturePrincipled).specialize(kSpecNotes, asked).buffers({{kBindNote, &note}}).threads(1).run();
     return download<PathNote>(note, 1)[0];
 }
 

@@ -91,7 +91,7 @@ Scene sceneOf(const std::vector<Texture>& textures, const std::vector<DecodedIma
 std::vector<Result> lookedUp(const SceneOnDevice& scene, const std::vector<Case>& cases)
 {
     KernelTest test = scene.test(test_kernels::texture_test);
-    test.specialize(kSpecFeatures, kAllFeatures);  // no surface has these materials
+    test.features(kAllFeatures);  // no surface has these materials
     test.cases(cases).resultsOf<Result>(cases.size()).run();
     return test.results<Result>();
 }

@@ -159,9 +159,9 @@ TEST(TraverseSliverTest, H2KeepsItsHit)
         return vec3(std::bit_cast<float>(x), std::bit_cast<float>(y), std::bit_cast<float>(z));
     };
     const PathRay ray{bits(0x3e4b89e3, 0x3e85cdb0, 0x3e0c7dd7), kNoPrimitive, bits(0xbf5fb293, 0x3f3d1928, 0x3f5ce06a)};
-    for (const uint slivers : {0U, kFeatureSlivers}) {
+    for (const FeatureMask slivers : {FeatureMask{0}, kFeatureSlivers}) {
         KernelTest test = scene.test(test_kernels::traverse_test);
-        test.specialize(kSpecFeatures, slivers).cases(std::vector<Case>{{ray, kNoPrimitive, 1.0F}}).resultsOf<Result>(1).run();
+        test.features(slivers).cases(std::vector<Case>{{ray, kNoPrimitive, 1.0F}}).resultsOf<Result>(1).run();
         EXPECT_EQ(test.results<Result>()[0].hit.record != kNoRecord, slivers != 0);
     }
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host/gpu/commands.hpp"
+#include "host/render/kernel_set.hpp"
 #include "shaders/shared/course_types.h"
 #include "tests/support/test_device.hpp"
 
@@ -41,6 +42,13 @@ public:
     KernelTest& specialize(std::uint32_t id, std::uint32_t value)
     {
         specialization_[id] = value;
+        return *this;
+    }
+    KernelTest& features(FeatureMask features)
+    {
+        for (const auto& [id, value] : constantsOf(features)) {
+            specialization_[id] = value;
+        }
         return *this;
     }
     KernelTest& threads(std::uint32_t count)

@@ -11,7 +11,7 @@ import unittest
 from pathlib import Path
 
 SHARED = Path(__file__).resolve().parents[2] / "shaders/shared"
-BITS = {name: int(bit, 16) for name, bit in re.findall(r"kFeature(\w+) = (0x[0-9a-f]+)u", (SHARED / "features.h").read_text())}
+BITS = {name: 1 << int(bit) for name, bit in re.findall(r"GLIM_FEATURE\(kFeature(\w+), (\d+)\)", (SHARED / "features.h").read_text())}
 # Triangle lights stay on: without any light nothing is left to see.
 FEATURES = [name for name in BITS if name != "TriangleLights"]
 # The kernels that have code for each feature, once the others are off.
@@ -88,7 +88,7 @@ class LeanKernels(unittest.TestCase):
         """Bytes of the optimized kernel with these features and nothing that a render asks for."""
         mask = sum(BITS[name] for name in [*features, "TriangleLights"])
         off = " ".join(f"{spec_id(name)}:false" for name in ["Notes"])
-        defaults = f"{spec_id('Features')}:{mask} {off}"
+        defaults = f"{spec_id('Features')}:{mask & 0xffffffff} {spec_id('UpperFeatures')}:{mask >> 32} {off}"
         with tempfile.TemporaryDirectory() as scratch:
             out = Path(scratch) / "optimized.spv"
             subprocess.run(
