@@ -130,7 +130,7 @@ BenchJob prepareJob(const BenchOptions& options, const std::filesystem::path& sc
     job.settings.sampleEnd = std::bit_floor(mostSamples(job.settings));
     job.settings.fastest = rememberedSchedule(device);
     checkMemory(job.prepared, job.settings, device);
-    job.camera = flattenCamera(camera, static_cast<float>(size.x) / static_cast<float>(size.y), options.lens);
+    job.camera = flattenCamera(job.prepared, camera, static_cast<float>(size.x) / static_cast<float>(size.y), options.lens);
     job.bench = describeBench(options, scene, job.settings, device);
     return job;
 }

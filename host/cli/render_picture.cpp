@@ -20,7 +20,7 @@ PictureFrame framePicture(const SceneSession& session, const RenderOptions& opti
     const RenderSettings settings = settingsFor(options, camera);
     checkMemory(session.prepared(), settings, session.device().description(), options.checkpoint.isGiven());
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
-    return {flattenCamera(camera, aspect, options.lens), settings};
+    return {flattenCamera(session.prepared(), camera, aspect, options.lens), settings};
 }
 
 void labelFilm(Film& film, const RenderOptions& options)

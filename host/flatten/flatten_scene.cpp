@@ -7,6 +7,7 @@
 #include "host/flatten/light_table.hpp"
 #include "host/flatten/pack_nodes.hpp"
 #include "host/flatten/place_instances.hpp"
+#include "host/flatten/start_media.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -211,6 +212,7 @@ FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const W
     addLights(flat, scene, primitives, recordOf);
     markOtherRecords(flat, bvh.order, recordOf);
     addCaustics(flat, scene, primitives);
+    flat.features |= mayLampsBeInMedia(scene, flat) ? kFeatureLampsInMedia : 0U;
     return flat;
 }
 

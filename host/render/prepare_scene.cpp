@@ -2,7 +2,7 @@
 
 #include "host/error.hpp"
 #include "host/flatten/build_scene_bvh.hpp"
-#include "host/flatten/flatten_scene.hpp"
+#include "host/flatten/start_media.hpp"
 #include "host/memory.hpp"
 #include "host/message.hpp"
 #include "host/text.hpp"
@@ -125,6 +125,11 @@ const Camera& findCamera(const Scene& scene, const std::optional<std::string>& c
     }
     list += moreThanListed(scene.cameras.size());
     throw InputError(scene.file + ": camera " + inQuotes(*choice) + ": expected one of " + list + ".");
+}
+
+FlatCamera flattenCamera(const PreparedScene& prepared, const Camera& camera, float aspectRatio, const Lens& lens)
+{
+    return placeInMedia(flattenCamera(camera, aspectRatio, lens), prepared.scene, prepared.flat);
 }
 
 glm::uvec2 defaultSize(const Camera& camera)

@@ -3,7 +3,7 @@
 
 #include "host/bvh/build_bvh.hpp"
 #include "host/bvh/wide_bvh.hpp"
-#include "host/flatten/flat_scene.hpp"
+#include "host/flatten/flatten_scene.hpp"
 #include "host/flatten/primitives.hpp"
 #include "host/scene/load_gltf.hpp"
 
@@ -36,6 +36,9 @@ PreparedScene prepareScene(SceneFile& file, std::optional<double> seconds, Split
 
 // The camera of that name or index (the first if absent). Throws InputError that lists the cameras.
 const Camera& findCamera(const Scene& scene, const std::optional<std::string>& choice);
+
+// With the media that its rays begin in.
+FlatCamera flattenCamera(const PreparedScene& prepared, const Camera& camera, float aspectRatio, const Lens& lens);
 
 // The default size of a picture: 512 pixels high, and as wide as the camera's aspect ratio says.
 glm::uvec2 defaultSize(const Camera& camera);

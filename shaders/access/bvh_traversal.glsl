@@ -139,7 +139,7 @@ void meetRecord(TraversalRay traversal, InstanceOffsets offsets, uint index, uin
     uint primitive = primitiveOf(record) + offsets.primitive;
     TriangleHit hit = intersectRecord(traversal, record, best.hit.t, primitive == source);
     bool counts = true;
-    if (hasFeature(kFeatureAlpha)) {
+    if (hasFeature(kFeatureAlpha | kFeatureMedia)) {
         if (isSphere(record) && !isAfter(query, hit.t, primitive)) {
             hit = TriangleHit(intersectSphere(traversal, record, best.hit.t, true), vec2(0.0), 1.0);  // the far side
         }
