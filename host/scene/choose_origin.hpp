@@ -18,8 +18,8 @@ struct Place {
 };
 
 // The point from which the sum over all primitives of distance / size, which is what float32 loses, is least: the median, weighted by
-// 1 / size. However far away they lie, parts that have less than half of the weight do not move it far; and the largest coordinate is at most
-// twice what it is about the centre of the scene's box. `places` is not empty.
+// 1 / size. However far away they lie, parts that have less than half of the weight do not move it far; and the largest coordinate is at
+// most twice what it is about the centre of the scene's box. `places` is not empty.
 glm::dvec3 chooseOrigin(std::span<const Place> places);
 
 // A part that rounding to float32 shows in.

@@ -10,8 +10,8 @@ vec3 trianglePoint(vec3 v0, vec3 e1, vec3 e2, vec2 barycentric)
 
 // Bounds the rounding of trianglePoint, axis by axis: with u = 2^-24, u |v0 + s| for the last sum, and for s = e1 b1 + e2 b2 one u each for
 // the edges, the products and the sum, together u (|v0| + 4 max(|e1|, |e2|)). The box's extent is half the sum below, so 6 u of it are left.
-// Along the normal they also bound what a later test of a coplanar triangle of this size may add to its distance (planeDistance), where each
-// axis counts by its share of the normal. NVIDIA, "Solving Self-Intersection Artifacts in DirectX Raytracing", 2023 (optix-toolkit,
+// Along the normal they also hold the error of a later test of a coplanar triangle of this size (depthsOf), where each axis counts by its
+// share of the normal. NVIDIA, "Solving Self-Intersection Artifacts in DirectX Raytracing", 2023 (optix-toolkit,
 // SelfIntersectionAvoidance), has the same terms with the largest extent for all axes, as its test mixes the axes.
 vec3 triangleErrorBound(vec3 v0, vec3 e1, vec3 e2)
 {

@@ -19,7 +19,8 @@ using Places = std::vector<Place>;
 void add(Places& places, std::size_t count, const glm::dvec3& center, double radius, double size, std::uint32_t part, Random& random)
 {
     for (std::size_t i = 0; i < count; ++i) {
-        places.push_back({center + radius * std::cbrt(random.uniform()) * random.direction(), size * random.logUniform(0.3, 3.0), 1.0, part});
+        places.push_back(
+            {center + radius * std::cbrt(random.uniform()) * random.direction(), size * random.logUniform(0.3, 3.0), 1.0, part});
     }
 }
 
@@ -89,42 +90,47 @@ TEST_P(ChooseOriginTest, H52HoldsWhatIsDetailed)
     EXPECT_LE(ours, 2.0 * std::min(box, median));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Scenes, ChooseOriginTest,
-    testing::Values(Input{"a millimetre alone", [](Places& p, Random& r) { add(p, 2000, {1e3, 0, 0}, 1e-3, 3e-5, 0, r); }},
-                    Input{"1e7 m alone", [](Places& p, Random& r) { add(p, 2000, glm::dvec3(0), 1e7, 3e5, 0, r); }},
-                    Input{"a model and a stray card at 1e7 m",
-                          [](Places& p, Random& r) {
-                              add(p, 2000, glm::dvec3(0), 0.1, 0.01, 0, r);
-                              add(p, 2, {1e7, 0, 0}, 1.0, 1.0, 1, r);
-                          }},
-                    Input{"a model and strays of 1e-9 m at 1e6 m",
-                          [](Places& p, Random& r) {
-                              add(p, 2000, glm::dvec3(0), 0.1, 0.01, 0, r);
-                              add(p, 10, {0, 1e6, 0}, 1.0, 1e-9, 1, r);
-                          }},
-                    Input{"a room of 24 triangles and a stray one of 1e-6 m at 1e6 m",
-                          [](Places& p, Random& r) {
-                              add(p, 24, glm::dvec3(0), 3.0, 1.0, 0, r);
-                              add(p, 1, {0, 1e6, 0}, 1.0, 1e-6, 1, r);
-                          }},
-                    Input{"a room of 60 triangles and a sun of 1,280 at 1.5e8 m",
-                          [](Places& p, Random& r) {
-                              add(p, 60, glm::dvec3(0), 3.0, 1.0, 0, r);
-                              addShell(p, 1280, {1e8, 1e8, 3e7}, 7e5, 1e5, 1, r);
-                          }},
-                    Input{"a model of 500 triangles off the centre of a dome of 1e5 m",
-                          [](Places& p, Random& r) {
-                              add(p, 500, {3e4, -2e4, 1e4}, 0.5, 0.02, 0, r);
-                              addShell(p, 10000, glm::dvec3(0), 1e5, 3e3, 1, r);
-                          }},
-                    Input{"a watch 30 km from the middle of a terrain of 1e5 m",
-                          [](Places& p, Random& r) {
-                              add(p, 20000, {3e4, 20, 1e3}, 0.02, 3e-4, 0, r);
-                              add(p, 200000, glm::dvec3(0), 5e4, 100.0, 1, r);
-                          }},
-                    Input{"a million boxes of a city, 1e4 m wide", [](Places& p, Random& r) { add(p, 1000000, {5e6, 0, 5e6}, 1e4, 10.0, 0, r); }}),
-    [](const testing::TestParamInfo<Input>& parameter) { return "Scene" + std::to_string(parameter.index); });
+INSTANTIATE_TEST_SUITE_P(Scenes, ChooseOriginTest,
+                         testing::Values(Input{"a millimetre alone",
+                                               [](Places& p, Random& r) {
+                                                   add(p, 2000, {1e3, 0, 0}, 1e-3, 3e-5, 0, r);
+                                               }},
+                                         Input{"1e7 m alone", [](Places& p, Random& r) { add(p, 2000, glm::dvec3(0), 1e7, 3e5, 0, r); }},
+                                         Input{"a model and a stray card at 1e7 m",
+                                               [](Places& p, Random& r) {
+                                                   add(p, 2000, glm::dvec3(0), 0.1, 0.01, 0, r);
+                                                   add(p, 2, {1e7, 0, 0}, 1.0, 1.0, 1, r);
+                                               }},
+                                         Input{"a model and strays of 1e-9 m at 1e6 m",
+                                               [](Places& p, Random& r) {
+                                                   add(p, 2000, glm::dvec3(0), 0.1, 0.01, 0, r);
+                                                   add(p, 10, {0, 1e6, 0}, 1.0, 1e-9, 1, r);
+                                               }},
+                                         Input{"a room of 24 triangles and a stray one of 1e-6 m at 1e6 m",
+                                               [](Places& p, Random& r) {
+                                                   add(p, 24, glm::dvec3(0), 3.0, 1.0, 0, r);
+                                                   add(p, 1, {0, 1e6, 0}, 1.0, 1e-6, 1, r);
+                                               }},
+                                         Input{"a room of 60 triangles and a sun of 1,280 at 1.5e8 m",
+                                               [](Places& p, Random& r) {
+                                                   add(p, 60, glm::dvec3(0), 3.0, 1.0, 0, r);
+                                                   addShell(p, 1280, {1e8, 1e8, 3e7}, 7e5, 1e5, 1, r);
+                                               }},
+                                         Input{"a model of 500 triangles off the centre of a dome of 1e5 m",
+                                               [](Places& p, Random& r) {
+                                                   add(p, 500, {3e4, -2e4, 1e4}, 0.5, 0.02, 0, r);
+                                                   addShell(p, 10000, glm::dvec3(0), 1e5, 3e3, 1, r);
+                                               }},
+                                         Input{"a watch 30 km from the middle of a terrain of 1e5 m",
+                                               [](Places& p, Random& r) {
+                                                   add(p, 20000, {3e4, 20, 1e3}, 0.02, 3e-4, 0, r);
+                                                   add(p, 200000, glm::dvec3(0), 5e4, 100.0, 1, r);
+                                               }},
+                                         Input{"a million boxes of a city, 1e4 m wide",
+                                               [](Places& p, Random& r) {
+                                                   add(p, 1000000, {5e6, 0, 5e6}, 1e4, 10.0, 0, r);
+                                               }}),
+                         [](const testing::TestParamInfo<Input>& parameter) { return "Scene" + std::to_string(parameter.index); });
 
 TEST(ChooseOriginGridTest, MovesWithTheScene)
 {

@@ -96,8 +96,8 @@ TEST(LeavePiecesTest, H7MeetsNoRecordOfTheTriangle)
     EXPECT_GT(tally.selfHits, 10U) << "else nothing was tried";
 }
 
-// Neighbours and copies in one plane, tilted or along an axis. The rule that a ray skips its own triangle does not cover them: only the offset
-// helps.
+// Neighbours and copies in one plane, tilted or along an axis. The rule that a ray skips its own triangle does not cover them: only the
+// offset helps.
 TEST(CoplanarTest, H7RaysMeetNeitherNeighbourNorCopy)
 {
     for (const auto& [scale, tilt] : {std::pair{1e-4F, 1.0F}, {1.0F, 1.0F}, {1e5F, 1.0F}, {1e5F, 1e-5F}, {1e-4F, 0.0F}, {1e6F, 0.0F}}) {
@@ -113,10 +113,10 @@ TEST(CoplanarTest, H7RaysMeetNeitherNeighbourNorCopy)
         const Triangles copies = plane;
         plane.insert(plane.end(), copies.begin(), copies.end());
         const Tally tally = leave(placed(plane, scale, 0.0F), 0.0F, static_cast<std::uint32_t>(hardTrials(samplesFor(300'000, 20))));
-        printHardCase("H7", "coplanar neighbours and copies, size " + figure(5.0 * static_cast<double>(scale)) + ", tilt " +
-                                figure(static_cast<double>(tilt)),
-                      tally.left,
-                      std::to_string(tally.otherHits) + " meet one");
+        printHardCase("H7",
+                      "coplanar neighbours and copies, size " + figure(5.0 * static_cast<double>(scale)) + ", tilt " +
+                          figure(static_cast<double>(tilt)),
+                      tally.left, std::to_string(tally.otherHits) + " meet one");
         EXPECT_LT(tally.otherHits, tally.left / 10'000);
     }
 }

@@ -109,7 +109,8 @@ void count(Tally& tally, const Case& c, const Result& r)
     tally.inSphere += glm::distance(glm::dvec3(r.onSphere), glm::dvec3(c.v0)) > glm::length(e1) ? 0.0 : 1.0;
     tally.offset += glm::distance(glm::dvec3(r.origin), glm::dvec3(r.point));
     const glm::dvec3 across = glm::abs(glm::dvec3(c.normal));
-    tally.limit += 5e-6 * glm::dot(across, glm::max(glm::abs(e1), glm::abs(e2))) + 4.0 * 0x1p-23 * glm::dot(across, glm::abs(glm::dvec3(r.point)));
+    tally.limit +=
+        5e-6 * glm::dot(across, glm::max(glm::abs(e1), glm::abs(e2))) + 4.0 * 0x1p-23 * glm::dot(across, glm::abs(glm::dvec3(r.point)));
 }
 
 // A ray skips the triangle that it leaves (traverse.glsl): `self` counts the hits that only this rule prevents.
