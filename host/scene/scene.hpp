@@ -1,6 +1,6 @@
 // A scene as plain values: no Vulkan, no glTF. Meshes are in object space; instances place them in the world, in double. All other
-// positions are float32 relative to `origin`, which is the centre of the scene's bounding box in world coordinates (to 1/256 of its
-// extent) and was subtracted in double: far from the world's origin nothing is lost.
+// positions are float32 relative to `origin`, which lies amid the scene's primitives in world coordinates (choose_origin.hpp) and was
+// subtracted in double: far from the world's origin nothing is lost.
 #pragma once
 
 #include "host/image/decode_image.hpp"
