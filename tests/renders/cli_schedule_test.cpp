@@ -107,5 +107,27 @@ TEST_F(AutoScheduleTest, NothingIsMeasuredThatCannotBeKept)
     EXPECT_EQ(render(many_).err.find(said_), std::string::npos);
 }
 
+// In a scene whose caustics are by light paths. 2097152 is beyond the default.
+TEST(PathCapacityTest, ChangesNoBit)
+{
+    const ScratchFolder folder;
+    for (const char* schedule : {"wavefront", "persistent"}) {
+        const auto digest = [&](const std::vector<std::string>& more) {
+            GlimCall call;
+            call.arguments = {"render", sceneFile("cornell_mirror_glass.gltf"), "-o", "x.exr", "--size", "16x16", "--spp", "64", "--schedule",
+                              schedule, "--stats", "s.json"};
+            call.arguments.insert(call.arguments.end(), more.begin(), more.end());
+            call.folder = folder.path();
+            const GlimRun run = runGlim(call);
+            EXPECT_EQ(run.exitCode, 0) << run.err;
+            return json::parse(bytesOfFile(folder / "s.json")).at("digest").get<std::string>();
+        };
+        const std::string usual = digest({});
+        for (const char* capacity : {"129", "2097152"}) {
+            EXPECT_EQ(digest({"--path-capacity", capacity}), usual) << schedule << ' ' << capacity;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace glim::test
