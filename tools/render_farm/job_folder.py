@@ -1,5 +1,6 @@
 """The folder of a job, which is all that lasts: what is asked, and what is rendered already."""
 
+import contextlib
 import fcntl
 import json
 import os
@@ -32,6 +33,14 @@ def write_whole(path, content):
     sync_folder(os.path.dirname(path))
 
 
+def publish(new, path):
+    """Gives the file `new` the name `path`. It keeps the mode of a file that was there."""
+    with contextlib.suppress(FileNotFoundError):
+        shutil.copymode(path, new)
+    os.replace(new, path)
+    sync_folder(os.path.dirname(path))
+
+
 class JobFolder:
     """OUT.exr.farm, made and locked by `hold`. `pages` within it holds films that wait to be folded."""
 
@@ -60,12 +69,19 @@ class JobFolder:
     def take_lock(self):
         if not os.path.isdir(os.path.dirname(self.path)):
             raise FarmError("%s: cannot be made: the folder %s does not exist" % (self.path, os.path.dirname(self.path)))
+        if os.path.islink(self.path) or (os.path.exists(self.path) and not self.is_ours()):
+            raise FarmError("%s: is no folder of a farm; expected none of this name" % self.path)
         os.makedirs(self.pages, exist_ok=True)
         self.lock = os.open(self.path, os.O_RDONLY | os.O_DIRECTORY)  # until this process ends
         try:
             fcntl.flock(self.lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError as error:
             raise FarmError("%s: another farm works on it now" % self.path) from error
+
+    def is_ours(self):
+        """Nothing but a farm's folder may be removed at the end. One that was killed at the beginning has `pages` at most."""
+        return os.path.isdir(self.path) and (not set(os.listdir(self.path)) - {"pages", "job.json.partial"}
+                                             or os.path.exists(os.path.join(self.path, "job.json")))
 
     def remove(self):
         shutil.rmtree(self.path)
