@@ -6,7 +6,7 @@ import tempfile
 
 from render_farm.errors import FarmError
 from render_farm.exr_header import FilmHeader, read_film_header, read_header
-from render_farm.job_folder import publish, write_whole
+from whole_file import publish, write_whole
 from render_farm.picture import check_identity
 
 

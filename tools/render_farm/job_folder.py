@@ -1,44 +1,12 @@
 """The folder of a job, which is all that lasts: what is asked, and what is rendered already."""
 
-import contextlib
 import fcntl
 import json
 import os
 import shutil
 
 from render_farm.errors import FarmError
-
-
-def sync_folder(path):
-    descriptor = os.open(path, os.O_RDONLY | os.O_DIRECTORY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)
-
-
-def write_whole(path, content):
-    """Writes the whole file or, with OSError, nothing that has its name."""
-    partial = path + ".partial"
-    try:
-        with open(partial, "wb") as file:
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
-        os.rename(partial, path)
-    except OSError:
-        if os.path.exists(partial):
-            os.unlink(partial)
-        raise
-    sync_folder(os.path.dirname(path))
-
-
-def publish(new, path):
-    """Gives the file `new` the name `path`. It keeps the mode of a file that was there."""
-    with contextlib.suppress(FileNotFoundError):
-        shutil.copymode(path, new)
-    os.replace(new, path)
-    sync_folder(os.path.dirname(path))
+from whole_file import sync_folder, write_whole
 
 
 class JobFolder:
@@ -80,8 +48,8 @@ class JobFolder:
 
     def is_ours(self):
         """Nothing but a farm's folder may be removed at the end. One that was killed at the beginning has `pages` at most."""
-        return os.path.isdir(self.path) and (not set(os.listdir(self.path)) - {"pages", "job.json.partial"}
-                                             or os.path.exists(os.path.join(self.path, "job.json")))
+        return os.path.isdir(self.path) and (os.path.exists(os.path.join(self.path, "job.json"))
+                                             or all(name == "pages" or name.startswith(".glim-") for name in os.listdir(self.path)))
 
     def remove(self):
         shutil.rmtree(self.path)

@@ -8,7 +8,7 @@ from render_farm.arguments import PAGE
 from render_farm.errors import FarmError
 from render_farm.exr_header import FilmHeader, read_film_header, read_header
 from render_farm.film_error import is_rung, next_rung, read_film_error
-from render_farm.job_folder import publish, write_whole
+from whole_file import publish, write_whole
 
 BATCH = 16  # pages that are folded at a time: each fold writes the film anew
 EXACT = "bit-identical to a single run"

@@ -1,8 +1,9 @@
-"""What tools/farm says on terminals and to readers: python3 farm_progress_test.py"""
+"""What tools/farm says on terminals and to readers, and the files that tools write: python3 farm_files_test.py"""
 
 import fcntl
 import os
 import pty
+import resource
 import struct
 import subprocess
 import sys
@@ -14,7 +15,8 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(ROOT, "tools"))
 from render_farm.errors import FarmError  # noqa: E402
-from render_farm.job_folder import JobFolder, publish  # noqa: E402
+from render_farm.job_folder import JobFolder  # noqa: E402
+from whole_file import publish, write_whole  # noqa: E402
 
 PROGRAM = """
 import sys
@@ -104,6 +106,24 @@ class FilesTest(unittest.TestCase):
         with open(old, encoding="ascii") as file:
             self.assertEqual(file.read(), "new")
         self.assertEqual(os.stat(old).st_mode & 0o777, 0o640)
+
+    def test_a_file_that_would_grow_too_large_is_not_written(self):
+        path = self.write("old", "old")
+        limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (100, limits[1]))
+        self.addCleanup(resource.setrlimit, resource.RLIMIT_FSIZE, limits)
+        with self.assertRaisesRegex(OSError, "File too large.*old"):
+            write_whole(path, bytes(1000))
+        self.assertEqual(os.listdir(self.folder), ["old"])
+        write_whole(path, b"new")
+
+    def test_links_in_the_place_of_a_temporary_file_are_not_followed(self):
+        path = os.path.join(self.folder, "new")
+        self.write("mine", "mine")
+        os.symlink("mine", os.path.join(self.folder, ".glim-new.partial"))
+        write_whole(path, b"new")
+        with open(os.path.join(self.folder, "mine"), encoding="ascii") as file:
+            self.assertEqual(file.read(), "mine")
 
     def test_the_folder_of_another_is_left(self):
         output = os.path.join(self.folder, "out.exr")
