@@ -1,5 +1,6 @@
 #include "host/cli/render_picture.hpp"
 
+#include "host/cli/outcome.hpp"
 #include "host/flatten/camera_options.hpp"
 #include "host/message.hpp"
 #include "host/render/check_memory.hpp"
@@ -82,7 +83,15 @@ RenderedFilm renderPicture(Renderer& renderer, const RenderOptions& options, Fil
         last.betweenPasses = false;
         return observer(now);
     };
-    const auto denoise = [&] { rendered.denoising = denoiser.denoise(options, renderer, [&] { return observer(last); }); };
+    const auto denoise = [&] {
+        rendered.denoising.reset();
+        rendered.denoisingError = nullptr;
+        try {
+            rendered.denoising = denoiser.denoise(options, renderer, [&] { return observer(last); });
+        } catch (const std::exception&) {
+            rendered.denoisingError = std::current_exception();
+        }
+    };
     const auto timesOfDenoised = [&] {
         denoise();
         return rendered.denoising ? timesToTarget(rendered.denoising->picture.measured, target) : std::numeric_limits<double>::infinity();
@@ -93,8 +102,10 @@ RenderedFilm renderPicture(Renderer& renderer, const RenderOptions& options, Fil
         return times;
     };
     const auto atEnd = [&] {
-        if (keepsCheckpoint()) {
-            rendered.checkpoint = renderer.checkpoint();
+        try {
+            rendered.checkpoint = keepsCheckpoint() ? renderer.checkpoint() : std::nullopt;
+        } catch (const std::exception& error) {
+            say("the film has no checkpoint: " + reasonOf(error));
         }
     };
     rendered.film = renderer.render(observe, target.isGiven() ? StoppingCriterion(criterion) : nullptr, atEnd);

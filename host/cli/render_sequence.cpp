@@ -1,7 +1,9 @@
 #include "host/cli/render_sequence.hpp"
 
 #include "host/cli/interrupt.hpp"
+#include "host/cli/outcome.hpp"
 #include "host/cli/output_file.hpp"
+#include "host/cli/output_lock.hpp"
 #include "host/cli/render_picture.hpp"
 #include "host/cli/render_report.hpp"
 #include "host/message.hpp"
@@ -104,6 +106,18 @@ std::optional<ControlBias> measureBias(Renderer& renderer, const Film& film, con
     }
     const auto control = renderer.sampleControl(film, [&] { return watch.signal() == 0; });
     return control ? estimateControlBias(film, *control) : std::nullopt;
+}
+
+// For what only informs: it can fail, and the render is none the worse for it.
+template <class Inform>
+auto tryTo(const char* purpose, Inform inform) -> decltype(inform())
+{
+    try {
+        return inform();
+    } catch (const std::exception& error) {
+        say(std::string("it was not possible to ") + purpose + ": " + reasonOf(error));
+        return decltype(inform())();
+    }
 }
 
 bool isThere(const std::filesystem::path& file)
@@ -218,10 +232,7 @@ ExitCode SequenceRenderer::renderShot(const RenderOptions& options)
         return finish(watch_->signal(), place_.rendered == 0 ? "nothing was rendered or written"
                                                              : options.output.string() + " and what follows was not rendered");
     }
-    std::optional<OutputLock> lock;
-    if (options.checkpoint.isGiven()) {
-        lock.emplace(options.output);
-    }
+    const OutputLock lock(options.output);
     std::optional<StoredFilm> stored;
     if (isSequence_ || options.checkpoint.resume) {
         stored = readOutput(options, frame);
@@ -319,7 +330,7 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const Picture
     }
     labelFilm(film, options);
     const std::optional<Denoising>& denoising = rendered.denoising;
-    if (options.denoise && !denoising) {
+    if (options.denoise && !denoising && !rendered.denoisingError) {
         say("the picture is not denoised: " +
             std::string(watch_->signal() == 0 ? "too few samples were finished" : "the render was ended"));
     }
@@ -329,8 +340,8 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const Picture
     const double writeSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const std::optional<double> idSeconds = writeIdentities(options, frame.camera, film);
     // Before the control, whose samples are no suspects.
-    std::vector<Suspect> suspects = findSuspects(session_.renderer(), film);
-    const auto bias = measureBias(session_.renderer(), film, *watch_);
+    std::vector<Suspect> suspects = tryTo("find the brightest samples", [&] { return findSuspects(session_.renderer(), film); });
+    const auto bias = tryTo("measure the bias", [&] { return measureBias(session_.renderer(), film, *watch_); });
     const RenderReport report{options,
                               session_.prepared(),
                               film,
@@ -346,7 +357,10 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const Picture
     if (options.stats) {
         writeStatistics(*options.stats, report);
     }
-    printSummary(report);
+    tryTo("report on the film", [&] { printSummary(report); });
+    if (rendered.denoisingError) {
+        std::rethrow_exception(rendered.denoisingError);
+    }
     return finish(watch_->signal(), "what was finished is in " + options.output.string());
 }
 

@@ -8,7 +8,7 @@ from render_farm.arguments import PAGE
 from render_farm.errors import FarmError
 from render_farm.exr_header import FilmHeader, read_film_header, read_header
 from render_farm.film_error import is_rung, next_rung, read_film_error
-from render_farm.job_folder import sync_folder, write_whole
+from whole_file import publish, write_whole
 
 BATCH = 16  # pages that are folded at a time: each fold writes the film anew
 EXACT = "bit-identical to a single run"
@@ -296,8 +296,7 @@ class Picture:
         if self.options.target:
             reached = self.error and self.error.times_to(self.options.target) <= 1
             self.say("the target is %s; pages beyond that were not needed: %d" % ("reached" if reached else "not reached", len(beyond)))
-        os.replace(self.folder.film, self.options.output)
-        sync_folder(os.path.dirname(self.options.output))
+        publish(self.folder.film, self.options.output)
         self.finished = True
 
     def png(self):
