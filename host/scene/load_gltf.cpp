@@ -45,7 +45,7 @@ std::vector<Animation> listAnimations(const GltfFile& file)
     return animations;
 }
 
-std::size_t countMorphTargets(const GltfFile& file)
+std::size_t countAllMorphTargets(const GltfFile& file)
 {
     std::size_t count = 0;
     for (const tinygltf::Mesh& mesh : file.model.meshes) {
@@ -373,7 +373,7 @@ Scene SceneFile::sceneAt(std::optional<double> seconds)
     scene.meshNames = namesOf(file.model.meshes);
     scene.animations = animations;
     scene.skins = file.skins.size();
-    scene.morphTargets = countMorphTargets(file);
+    scene.morphTargets = countAllMorphTargets(file);
     scene.materials.resize(file.model.materials.size() + 1);
     Warnings warnings = file.warnings;
     if (posed) {

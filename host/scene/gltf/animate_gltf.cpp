@@ -199,7 +199,7 @@ std::vector<double> Animator::readTimes(const GltfAnimation::Sampler& sampler)
             times[i] = times[i - 1];
         } else if (!(times[i] > times[i - 1])) {
             refuse(file_, "accessors[" + std::to_string(sampler.input) + "] (" + use + ") holds " + toText(times[i]) + " after " +
-                              toText(times[i - 1]) + " in element " + std::to_string(i) + "; expected increasing times");
+                              toText(times[i - 1]) + " in element " + std::to_string(i) + "; expected times that do not decrease");
         }
     }
     return times;

@@ -95,6 +95,7 @@ Influences readInfluences(const GltfFile& file, const tinygltf::Primitive& primi
     influences.perVertex = 4 * sets;
     influences.joints.resize(vertexCount * influences.perVertex);
     influences.weights.resize(vertexCount * influences.perVertex);
+    bool negative = false;
     for (std::size_t set = 0; set < sets; ++set) {
         const std::string number = std::to_string(set);
         const auto joints = readAttribute<glm::dvec4>(file, primitive.attributes, "JOINTS_" + number, "joints", vertexCount, place);
@@ -112,7 +113,7 @@ Influences readInfluences(const GltfFile& file, const tinygltf::Primitive& primi
             }
         }
     }
-    bool normalized = false, negative = false;
+    bool normalized = false;
     if (negative) {
         warnings.add("weights of joints just below 0 count as 0", place);
     }
