@@ -4,6 +4,8 @@
 #include "host/bench/bench_record.hpp"
 #include "host/bench/bootstrap.hpp"
 
+#include <optional>
+
 namespace glim {
 
 struct PointSummary {
@@ -58,6 +60,7 @@ struct BenchComparison {
     Interval mse;
     Interval mean;  // of the pictures: 1 unless one is biased
     Interval samplesPerSecond;
+    std::optional<Interval> cpuEfficiency, samplesPerCpuSecond;  // by CPU seconds, where both benches know theirs
     Interval timeToError;  // until the first has the second's error, extrapolated along its slope
 };
 
