@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace glim {
 namespace {
@@ -66,7 +67,8 @@ Interval efficiencyBy(const SceneBench& bench, const std::vector<double>& second
 {
     const BenchPoint& last = bench.points.back();
     if (medianOf(seconds) <= 0.0) {
-        return {};
+        constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+        return {kUnknown, kUnknown, kUnknown};
     }
     return bootstrap({bench.seeds.size()}, [&](const Draw& draw) {
         const double error = meanOver(last.relMse, draw[0]) - bench.floor.relMse;

@@ -36,7 +36,7 @@ struct BenchSummary {
     Interval slope;  // of log relMSE over log samples, least squares
     ErrorFit fit;
     SlopeTest slopeTest;
-    // 1 / (relMSE * seconds) of the last point, by wall-clock and by kernel time (0: unknown). Only meaningful if unbiased.
+    // 1 / (relMSE * seconds) of the last point, by wall-clock and by kernel time (NaN: unknown). Only meaningful if unbiased.
     Interval efficiency, kernelEfficiency;
     double samplesPerSecond = 0.0;
 };

@@ -268,10 +268,10 @@ void printSuspects(const RenderReport& report)
     std::cout << "Brightest samples, at most one per pixel: " << report.suspects.size() << "\n";
     for (const Suspect& suspect : report.suspects) {
         const glm::dvec3 radiance(suspect.radiance);
-        char text[200];
-        std::snprintf(text, sizeof text, "  luminance %-9.4g (%.4g, %.4g, %.4g), %.3g %% of its pixel, %.3g %% of the picture: --replay ",
-                      suspect.luminance, radiance.r, radiance.g, radiance.b, 100.0 * suspect.shareOfPixel, 100.0 * suspect.shareOfPicture);
-        std::cout << text << replayOf(suspect, report.film.width) << "\n";
+        const auto percent = [](double share) { return std::isfinite(share) ? format("%.3g %%", 100.0 * share) : "an unknown share"; };
+        std::cout << format("  luminance %-9.4g (%.4g, %.4g, %.4g), ", suspect.luminance, radiance.r, radiance.g, radiance.b)
+                  << percent(suspect.shareOfPixel) << " of its pixel, " << percent(suspect.shareOfPicture) << " of the picture: --replay "
+                  << replayOf(suspect, report.film.width) << "\n";
     }
 }
 

@@ -56,7 +56,7 @@ void addTerms(SquaredErrors& sums, double square, double r, double epsilon)
     sums.mse += square;
     sums.relMseAbsolute += square / (r * r + kAbsoluteEpsilon);
     // Only a black reference has no epsilon; there an exact zero is right and anything else infinitely wrong.
-    sums.relMse += square > 0 ? square / (r * r + epsilon) : 0.0;
+    sums.relMse += square == 0.0 ? 0.0 : square / (r * r + epsilon);
 }
 
 void divide(SquaredErrors& sums, double terms)
@@ -230,7 +230,7 @@ TrimmedErrors trimErrors(const std::vector<SquaredErrors>& pixels)
         const double droppedSum = std::accumulate(terms.begin(), kept, 0.0);
         const double keptSum = std::accumulate(kept, terms.end(), 0.0);
         result.kept.*metric = keptSum / static_cast<double>(terms.size() - result.dropped);
-        result.share.*metric = droppedSum > 0 ? droppedSum / (droppedSum + keptSum) : 0.0;
+        result.share.*metric = droppedSum == 0.0 ? 0.0 : droppedSum / (droppedSum + keptSum);
     }
     return result;
 }
