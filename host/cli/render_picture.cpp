@@ -99,7 +99,8 @@ RenderedFilm renderPicture(Renderer& renderer, const RenderOptions& options, Fil
     const auto criterion = [&](const Film& film) {
         const double times = target.denoised ? timesOfDenoised() : timesToTarget(film, target);
         rendered.isGood = times <= 1.0;
-        return times;
+        rendered.isUnknown = std::isinf(times) && renderer.sampleCount() >= kSamplesOfUnknownError;
+        return rendered.isUnknown ? 0.0 : times;
     };
     const auto atEnd = [&] {
         try {
@@ -109,7 +110,7 @@ RenderedFilm renderPicture(Renderer& renderer, const RenderOptions& options, Fil
         }
     };
     rendered.film = renderer.render(observe, target.isGiven() ? StoppingCriterion(criterion) : nullptr, atEnd);
-    if (options.denoise && !(target.denoised && rendered.isGood)) {
+    if (options.denoise && !(target.denoised && (rendered.isGood || rendered.isUnknown))) {
         denoise();  // else the last look at the target did
     }
     return rendered;

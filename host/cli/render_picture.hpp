@@ -33,7 +33,8 @@ void resumeFrom(Renderer& renderer, StoredFilm stored, const std::string& name);
 struct RenderedFilm {
     Film film;  // without a label
     std::optional<Checkpoint> checkpoint;
-    bool isGood = false;  // the target is reached
+    bool isGood = false;     // the target is reached
+    bool isUnknown = false;  // the render has ended because its error stays unknown
     std::optional<Denoising> denoising;
     std::exception_ptr denoisingError;  // to be thrown once the film is safe; null if there was none
 };

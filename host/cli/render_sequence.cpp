@@ -1,5 +1,7 @@
 #include "host/cli/render_sequence.hpp"
 
+#include "host/cli/film_report.hpp"
+#include "host/cli/format.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/cli/outcome.hpp"
 #include "host/cli/output_file.hpp"
@@ -43,13 +45,17 @@ bool wouldRuin(const std::filesystem::path& output, const Film& film)
            std::any_of(film.pixels.begin(), film.pixels.end(), [](const PixelMoments& p) { return p.count == 0; });
 }
 
-std::string stopReason(int signal, const Film& film, const RenderSettings& settings, bool isGood, bool isDone)
+std::string stopReason(int signal, const RenderedFilm& rendered, const RenderSettings& settings, bool isDone)
 {
+    const Film& film = rendered.film;
     if (signal != 0) {
         return nameOfSignal(signal);
     }
-    if (isGood) {
+    if (rendered.isGood) {
         return "target";
+    }
+    if (rendered.isUnknown) {
+        return "unknown error";
     }
     if (!isDone) {
         return "time";
@@ -143,7 +149,8 @@ bool isWhole(const StoredFilm& stored, const RenderOptions& options)
                          ? computeRates(film).mean >= settings.sampleEnd
                          : begin == settings.sampleBegin && (end == settings.sampleEnd || (resumes && end > settings.sampleEnd));
     const bool mayBeShort = !stored.checkpoint && options.target.isGiven() && !options.target.denoised;
-    return all || (mayBeShort && timesToTarget(film, options.target) <= 1.0);
+    const double times = mayBeShort ? timesToTarget(film, options.target) : 2.0;
+    return all || times <= 1.0 || (std::isinf(times) && computeRates(film).mean >= kSamplesOfUnknownError);
 }
 
 }  // namespace
@@ -331,6 +338,12 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const Picture
     }
     labelFilm(film, options);
     const std::optional<Denoising>& denoising = rendered.denoising;
+    if (rendered.isUnknown && watch_->signal() == 0) {
+        warn(format("the target is not reached after %u samples per pixel, and the render ends, because the error is unknown: ",
+                    session_.renderer().sampleCount()) +
+             (estimateError(film) ? "it is not measured of the denoised picture" : whyUnknown(film)) +
+             "; without a target it has the samples that --spp asks for.");
+    }
     if (options.denoise && !denoising && !rendered.denoisingError) {
         say("the picture is not denoised: " +
             std::string(watch_->signal() == 0 ? "too few samples were finished" : "the render was ended"));
@@ -349,7 +362,7 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const Picture
                               look,
                               session_.renderer().statistics(),
                               session_.device().description(),
-                              stopReason(watch_->signal(), film, frame.settings, rendered.isGood, session_.renderer().isDone()),
+                              stopReason(watch_->signal(), rendered, frame.settings, session_.renderer().isDone()),
                               writeSeconds,
                               idSeconds,
                               std::move(suspects),
