@@ -52,7 +52,8 @@ constexpr Feature kFeatures[] = {{kFeatureSpheres, "spheres"},
                                  {kFeatureLightTree, "several lights"},
                                  {kFeatureCaustics, "caustics"},
                                  {kFeatureInstances, "instances"},
-                                 {kFeatureLampsInMedia, "lamps in volumes"}};
+                                 {kFeatureLampsInMedia, "lamps in volumes"},
+                                 {kFeatureLargeTriangles, "large triangles"}};
 
 // The images of a scene as kernels read them: each once, however many textures use it.
 struct PackedImages {

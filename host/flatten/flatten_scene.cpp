@@ -4,6 +4,7 @@
 #include "host/flatten/albedo_table.hpp"
 #include "host/flatten/caustics.hpp"
 #include "host/flatten/flatten_materials.hpp"
+#include "host/flatten/large_triangles.hpp"
 #include "host/flatten/light_table.hpp"
 #include "host/flatten/pack_nodes.hpp"
 #include "host/flatten/place_instances.hpp"
@@ -190,6 +191,7 @@ FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const W
     flat.nodes = packNodes(bvh);
     flat.stackLevels = stackLevelsOf(bvh);
     flat.features = primitives.spheres.empty() ? 0U : kFeatureSpheres;
+    flat.features |= hasLargeTriangles(scene, primitives) ? kFeatureLargeTriangles : 0U;
     flattenMaterials(flat, scene, findColored(scene));
     for (const MeshInstance& instance : scene.instances) {
         flat.features |= flat.materialFeatures[scene.meshes[instance.mesh].material];
