@@ -329,7 +329,8 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const Picture
     if (rendered.isUnknown && watch_->signal() == 0) {
         warn(format("the target is not reached after %u samples per pixel, and the render ends, because the error is unknown: ",
                     session_.renderer().sampleCount()) +
-             (estimateError(film) ? "it is not measured of the denoised picture" : whyUnknown(film)) + "; without a target it has the samples that --spp asks for.");
+             (estimateError(film) ? "it is not measured of the denoised picture" : whyUnknown(film)) +
+             "; without a target it has the samples that --spp asks for.");
     }
     if (options.denoise && !denoising) {
         say("the picture is not denoised: " +
