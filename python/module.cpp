@@ -153,6 +153,7 @@ private:
             return nullptr;
         }
         labelFilm(rendered.film, options);
+        warnIfUnknown(rendered);
         warnOfPicture(rendered.film, renderer.statistics(), options.settings);
         auto film = std::make_shared<PythonFilm>(std::move(rendered.film), std::move(rendered.checkpoint));
         film->setDenoising(std::move(rendered.denoising));
