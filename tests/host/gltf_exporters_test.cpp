@@ -93,7 +93,8 @@ TEST(GltfExporters, MissingColoursAreBlackAndOpaque)
         const json sparse = {{"count", 1},
                              {"indices", {{"bufferView", builder.addAov({1})}, {"componentType", kUnsignedByte}}},
                              {"values", {{"bufferView", builder.addAov(toBytes(value))}}}};
-        const std::size_t colors = builder.append("accessors", {{"componentType", kFloat}, {"type", type}, {"count", 3}, {"sparse", sparse}});
+        const std::size_t colors =
+            builder.append("accessors", {{"componentType", kFloat}, {"type", type}, {"count", 3}, {"sparse", sparse}});
         builder.document["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = colors;
         const Scene scene = load(builder);
         EXPECT_EQ(scene.meshes.at(0).colors.at(0), glm::vec4(0, 0, 0, opaque ? 1 : 0)) << type;
@@ -106,10 +107,11 @@ TEST(GltfExporters, MissingColoursAreBlackAndOpaque)
 TEST(GltfExporters, FactorsAreClampedIfTheyAreOffByRounding)
 {
     const double justAboveOne = 1.0 + std::ldexp(1.0, -23);
-    const json material = {{"pbrMetallicRoughness",
-                            {{"baseColorFactor", {1.00016, 0.5, 256.0 / 255.0, 1}}, {"metallicFactor", justAboveOne}, {"roughnessFactor", -1e-9}}},
-                           {"emissiveFactor", {-1e-7, 0, 2}},
-                           {"extensions", {{"KHR_materials_ior", {{"ior", 0.9999999}}}}}};
+    const json material = {
+        {"pbrMetallicRoughness",
+         {{"baseColorFactor", {1.00016, 0.5, 256.0 / 255.0, 1}}, {"metallicFactor", justAboveOne}, {"roughnessFactor", -1e-9}}},
+        {"emissiveFactor", {-1e-7, 0, 2}},
+        {"extensions", {{"KHR_materials_ior", {{"ior", 0.9999999}}}}}};
     const Scene scene = load(withMaterial(material));
     const Material& read = scene.materials.at(0);
     EXPECT_EQ(read.baseColor, glm::vec3(1.0F, 0.5F, 1.0F));
@@ -138,10 +140,10 @@ TEST(GltfExporters, ZerosThatStandForNoValue)
     EXPECT_EQ(warning(seen, kZeros), std::string(kZeros) + "cameras[0].perspective.aspectRatio");
     camera["perspective"]["yfov"] = 3.1415927;
     expectRefusal(withCamera(camera), "cameras[0].perspective.yfov is 3.1415927; expected a number above 0 to 3.14");
-    const Scene glass = load(withMaterial({{"extensions",
-                                            {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
-                                             {"KHR_materials_volume",
-                                              {{"thicknessFactor", 1}, {"attenuationDistance", 0}, {"attenuationColor", {0.5, 0.5, 0.5}}}}}}}));
+    const Scene glass = load(withMaterial(
+        {{"extensions",
+          {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+           {"KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationDistance", 0}, {"attenuationColor", {0.5, 0.5, 0.5}}}}}}}));
     EXPECT_EQ(glass.materials.at(0).absorption, glm::vec3(0.0F));
     GltfBuilder strided = withTriangle();
     strided.document["bufferViews"][0]["byteStride"] = 0;
@@ -222,8 +224,9 @@ TEST(GltfExporters, MembersThatAreNullCountAsLeftOut)
     const Scene scene = load(builder);
     EXPECT_EQ(scene.materials.at(0).baseColor, glm::vec3(1.0F));
     EXPECT_EQ(scene.materials.at(0).metallic, 0.5F);
-    EXPECT_EQ(warning(scene, "members that are null"), "members that are null count as left out: animations, materials[0].extensions, "
-                                                       "materials[0].name and 2 more");
+    EXPECT_EQ(warning(scene, "members that are null"),
+              "members that are null count as left out: animations, materials[0].extensions, "
+              "materials[0].name and 2 more");
     builder.document["accessors"][0]["count"] = nullptr;
     expectRefusal(builder, "accessors[0].count is missing; expected a whole number from 0");
 }
@@ -303,7 +306,8 @@ TEST(GltfExporters, WeightsJustBelowZeroCountAsZero)
     GltfBuilder builder = posedTriangle();
     json& attributes = builder.document["meshes"][0]["primitives"][0]["attributes"];
     attributes["WEIGHTS_0"] = builder.addAccessor(toBytes<float>({1, -1e-9F, 0, 0, 1, 0, 0, 0, 1, 0, -5e-4F, 0}), kFloat, "VEC4", 3);
-    EXPECT_EQ(warning(load(builder), "weights of joints just below 0"), "weights of joints just below 0 count as 0: meshes[0].primitives[0]");
+    EXPECT_EQ(warning(load(builder), "weights of joints just below 0"),
+              "weights of joints just below 0 count as 0: meshes[0].primitives[0]");
 }
 
 TEST(GltfExporters, OldFilesPointsAndLinesAreCalledSo)
@@ -325,8 +329,9 @@ TEST(GltfExporters, AUrlIsNoFile)
 {
     GltfBuilder builder = withTriangle();
     builder.otherBuffers.push_back({{"byteLength", 4}, {"uri", "https://example.org/a.bin"}});
-    expectRefusal(builder, "buffers[1].uri is \"https://example.org/a.bin\"; expected a path relative to the glTF file, as glim reads files and "
-                           "no URLs");
+    expectRefusal(builder,
+                  "buffers[1].uri is \"https://example.org/a.bin\"; expected a path relative to the glTF file, as glim reads files and "
+                  "no URLs");
     EXPECT_EQ(loadRefusal("https://example.org/a.glb"),
               "https://example.org/a.glb: is a URL; expected a .gltf or a .glb file, as glim reads files and no URLs");
 }
