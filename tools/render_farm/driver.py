@@ -4,6 +4,7 @@ import asyncio
 import contextlib
 import functools
 import signal
+import threading
 import time
 
 import cloudpickle
@@ -249,8 +250,16 @@ class Driver:
                            sum(map(self.picture.samples, left)) * self.picture.pixels, self.picture.error, self.client.dashboard_link)
 
 
+def keep_interrupts_from_children():
+    """Ctrl-C in a terminal is sent to every process of the farm, and is for the driver alone. A child has the mask of the thread that starts
+    it. So one thread takes the signal, and it starts none."""
+    threading.Thread(target=threading.Event().wait, daemon=True).start()
+    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+
+
 async def until_signal(work):
     """Runs `work`. SIGINT and SIGTERM end it; returns the signal, or None."""
+    keep_interrupts_from_children()
     task, stopped = asyncio.ensure_future(work), []
 
     def stop(number):
