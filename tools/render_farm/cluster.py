@@ -12,10 +12,10 @@ QUIET = logging.CRITICAL  # clusters set the level once more
 import dask  # noqa: E402
 import distributed  # noqa: E402
 
-from render_farm import no_http  # noqa: E402
 from render_farm.errors import FarmError  # noqa: E402
 
 CONNECT_SECONDS = 10
+NO_HTTP = os.path.join(os.path.dirname(os.path.realpath(__file__)), "no_http.py")
 
 
 @contextlib.asynccontextmanager
@@ -23,7 +23,7 @@ async def connect(options, wanted):
     """Yields a client. wanted: the number of workers that have something to do. Refuses (FarmError) a scheduler that does not answer."""
     with tempfile.TemporaryDirectory(prefix="glim-farm-") as scratch, dask.config.set({
         # Dask would take a folder in /tmp whose name anyone can guess and make first, and would import modules from it.
-        "temporary-directory": scratch, "distributed.worker.preload": [no_http.__file__],
+        "temporary-directory": scratch, "distributed.worker.preload": [NO_HTTP],
         # The farm counts failures itself; Dask would blame a part for workers that died of other causes.
         "distributed.scheduler.allowed-failures": 1000, "distributed.scheduler.work-stealing": False,
         # A part takes seconds to minutes; Dask's measurements of itself, up to a hundred a second, cost 3 % of a core a process.
@@ -54,9 +54,11 @@ def make_security(options):
 @contextlib.asynccontextmanager
 async def start_cluster(options, wanted):
     security, dashboard = make_security(options), "127.0.0.1:0" if options.dashboard else None
+    if not dashboard:
+        from render_farm import no_http  # noqa: F401
     if options.slurm:
         from render_farm.slurm import adapt, make_slurm_cluster
-        cluster = make_slurm_cluster(options, security, dashboard, QUIET)
+        cluster = make_slurm_cluster(options, security, dashboard, NO_HTTP, QUIET)
     else:
         cluster = distributed.LocalCluster(n_workers=options.local, threads_per_worker=1, processes=True, host="127.0.0.1", protocol="tls://",
                                            security=security, dashboard_address=dashboard, memory_limit=0, silence_logs=QUIET,
