@@ -123,6 +123,7 @@ BenchJob prepareJob(const BenchOptions& options, const std::filesystem::path& sc
 {
     BenchJob job{prepareScene(scene, loadOptionsOf(options), options.split), options.settings, {}, {}};
     warnIfNoLights(job.prepared);
+    sayIfCameraIsNumber(job.prepared.scene, options.camera);
     const Camera camera = cameraOf(job.prepared.scene, options);
     const glm::uvec2 size = sizeOf(options, camera);
     job.settings.width = size.x;

@@ -190,6 +190,7 @@ ExitCode SequenceRenderer::renderAll(const RenderOptions& options, const Interru
     if (options_.settings.aov == Aov::Radiance) {
         warnIfNoLights(session_.prepared());
     }
+    sayIfCameraIsNumber(session_.prepared().scene, options_.camera);
     if (options_.pictures.areGiven() && options_.settings.aov == Aov::Radiance && !options_.look.tone) {
         options_.look.tone = chooseTone(session_.prepared().scene);
     }

@@ -316,6 +316,7 @@ void runReplay(const RenderOptions& options)
     Device device(instance, options.device);
     const PreparedScene prepared = prepareScene(options.scene, loadOptionsOf(options), options.split);
     const Camera camera = cameraOf(prepared.scene, options);
+    sayIfCameraIsNumber(prepared.scene, options.camera);
     const RenderSettings settings = settingsFor(options, camera);
     refuseOutside(*options.replay, settings);
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);

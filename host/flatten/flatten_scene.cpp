@@ -218,8 +218,9 @@ FlatCamera flattenCamera(const Camera& camera, float aspectRatio, const Lens& le
 {
     const bool perspective = camera.kind == Camera::Kind::Perspective;
     const float halfHeight = perspective ? std::tan(0.5F * camera.yfov) : camera.halfHeight;
+    const float halfWidth = perspective ? halfHeight * aspectRatio : std::copysign(halfHeight * aspectRatio, camera.halfWidth);
     return {camera.position,
-            camera.right * (halfHeight * aspectRatio),
+            camera.right * halfWidth,
             camera.up * halfHeight,
             camera.forward,
             perspective ? kPerspective : kOrthographic,

@@ -195,7 +195,7 @@ struct Camera {
     glm::vec3 position{0.0F};
     glm::vec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};  // orthonormal; right x up = -forward
     float yfov = 0.7F;                                         // radians, perspective
-    float halfWidth = 1.0F, halfHeight = 1.0F;                 // metres, orthographic: glTF's xmag and ymag
+    float halfWidth = 1.0F, halfHeight = 1.0F;                 // metres, orthographic: glTF's xmag and ymag, negative if mirrored
     std::optional<float> aspectRatio;                          // width / height, where the file names one
 };
 

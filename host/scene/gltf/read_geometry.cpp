@@ -90,6 +90,19 @@ WorldSphere readSphere(const GltfFile& file, const PlacedNode& node, std::uint32
     return world;
 }
 
+// "points", "lines", both or neither: what the file's meshes are made of besides triangles.
+std::string listPointsAndLines(const GltfFile& file)
+{
+    bool points = false, lines = false;
+    for (const tinygltf::Mesh& mesh : file.model.meshes) {
+        for (const tinygltf::Primitive& primitive : mesh.primitives) {
+            points = points || primitive.mode == TINYGLTF_MODE_POINTS;
+            lines = lines || (primitive.mode > TINYGLTF_MODE_POINTS && primitive.mode < TINYGLTF_MODE_TRIANGLES);
+        }
+    }
+    return std::string(points ? "points" : "") + (points && lines ? " and " : "") + (lines ? "lines" : "");
+}
+
 class GeometryReader {
 public:
     GeometryReader(const GltfFile& file, Scene& scene, Warnings& warnings)
@@ -295,6 +308,9 @@ void GeometryReader::requireSomething() const
                 return;
             }
         }
+    }
+    if (const std::string others = listPointsAndLines(file_); triangles_ + emptySpheres_ == 0 && !others.empty()) {
+        refuse(file_, "the file holds " + others + ", which glim does not draw; expected triangles");
     }
     refuse(file_, "the scene has no triangle and no sphere to draw (" + std::to_string(triangles_) + " of zero area, " +
                       std::to_string(emptySpheres_) + " of zero radius); expected at least one");
