@@ -247,7 +247,8 @@ class Driver:
         self.shown = now
         left, all_parts = self.left(), self.picture.expected
         self.progress.show("%d of %d %ss" % (all_parts - len(left), all_parts, self.picture.part), (len(self.usable()), len(self.workers)),
-                           sum(map(self.picture.samples, left)) * self.picture.pixels, self.picture.error, self.client.dashboard_link)
+                           sum(map(self.picture.samples, left)) * self.picture.pixels, self.picture.error,
+                           self.client.dashboard_link if self.options.dashboard else None)
 
 
 def keep_interrupts_from_children():
