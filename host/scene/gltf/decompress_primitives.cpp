@@ -1,5 +1,5 @@
-#include "host/allocation_limit.hpp"
 #include "host/error.hpp"
+#include "host/memory.hpp"
 #include "host/scene/gltf/decompress.hpp"
 
 #include <nlohmann/json.hpp>
