@@ -197,6 +197,28 @@ TEST(GltfCosts, NumbersWithinDracoStreams)
     EXPECT_LT(peak, 64 * kMiB);
 }
 
+// A file lists how long its animations are. Each of these has times of its own, which are one and the same array.
+TEST(GltfCosts, TimesThatManyAnimationsName)
+{
+    const auto animated = [](std::size_t keys) {
+        GltfBuilder builder = build(makeHills(3), addPlain);
+        std::vector<float> times(keys);
+        for (std::size_t i = 0; i < keys; ++i) {
+            times[i] = static_cast<float>(i);
+        }
+        const std::size_t output = builder.addVec3(std::vector<float>(3 * keys));
+        for (int i = 0; i < 300; ++i) {
+            const std::size_t input = i == 0 ? builder.addAccessor(toBytes(times), kFloat, "SCALAR", keys)
+                                             : builder.append("accessors", builder.document["accessors"].back());
+            builder.append("animations", {{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}},
+                                          {"samplers", {{{"input", input}, {"output", output}}}}});
+        }
+        return builder;
+    };
+    EXPECT_EQ(load(animated(50), litByTheSky()).animations.at(299).duration, 49.0);
+    EXPECT_LT(secondsOf(animated(50'000)), 8.0 * secondsOf(animated(50)));
+}
+
 // A flat grid in whole steps of its quantization: many triangles from few bytes.
 Geometry makeFlat(std::uint32_t side)
 {
