@@ -170,6 +170,11 @@ TEST_F(RadianceMapTest, SaysWhatIsWrong)
     EXPECT_NE(refusal(kHeader + "-Y 8192 +X 16384\n" + std::string(8191 * 12, 'x')).find("ends in row 8191 of 8192"), std::string::npos);
     EXPECT_NE(refusal(kHeader + "-Y 1 +X 2\n" + pixel(1, 1, 1, 9)).find("a run of 9 pixels at pixel 0"), std::string::npos);
     EXPECT_NE(refusal("#?RADIANCE\n").find("no end of its header"), std::string::npos);
+    std::string lines = "#?RADIANCE\n";
+    for (int line = 0; line < 5000; ++line) {
+        lines += "A=1\n";
+    }
+    EXPECT_NE(refusal(lines).find("more than 4096 lines"), std::string::npos);
     EXPECT_THROW(readRadianceMap(folder_.path()), InputError);
     EXPECT_THROW(readRadianceMap(folder_.path() / "missing.exr"), InputError);
 }

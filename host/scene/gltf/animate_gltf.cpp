@@ -271,7 +271,7 @@ double durationOf(const GltfFile& file, std::size_t animation)
     }
     double duration = 0.0;
     for (const std::size_t input : inputs) {
-        duration = std::max(duration, readNumbers(file, input, 1, "times of " + label("animations", animation, source.name)).back());
+        duration = std::max(duration, readLastNumber(file, input, "times of " + label("animations", animation, source.name)));
     }
     return duration;
 }

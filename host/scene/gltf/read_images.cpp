@@ -137,7 +137,13 @@ DecodedImage readImage(const GltfFile& file, std::size_t image, Scene& scene, Wa
 {
     const EncodedImage& source = file.images[image];
     if (!source.range) {
-        const std::vector<unsigned char> bytes = readUri(file.path, "images[" + std::to_string(image) + "]", source.uri);
+        // A file of another kind may have gigabytes, and so may what follows a picture.
+        constexpr std::uint64_t kBeginning = 16, kMost = std::uint64_t{1} << 30U;
+        const std::string place = "images[" + std::to_string(image) + "]";
+        std::vector<unsigned char> bytes = readUri(file.path, place, source.uri, kBeginning);
+        if (!isDataUri(source.uri) && beginsAsImage(bytes)) {
+            bytes = readUri(file.path, place, source.uri, kMost);
+        }
         noteFile(file, image, scene);
         return decodeNamed(file, image, bytes, warnings);
     }
