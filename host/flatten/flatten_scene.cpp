@@ -2,6 +2,7 @@
 
 #include "host/error.hpp"
 #include "host/flatten/albedo_table.hpp"
+#include "host/flatten/anisotropic_albedo.hpp"
 #include "host/flatten/caustics.hpp"
 #include "host/flatten/flatten_materials.hpp"
 #include "host/flatten/large_triangles.hpp"
@@ -206,6 +207,11 @@ FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const W
     if ((flat.features & kFeatureSheen) != 0) {
         static const std::vector<uvec4> sheen = makeSheenTable();
         flat.albedos.insert(flat.albedos.end(), sheen.begin(), sheen.end());
+    }
+    if ((flat.features & kFeatureAnisotropy) != 0) {
+        static const std::vector<uvec4> anisotropic = makeAnisotropicAlbedoTable();  // .1 s of CPU time
+        flat.albedos.resize(kFirstAnisotropicAlbedo);
+        flat.albedos.insert(flat.albedos.end(), anisotropic.begin(), anisotropic.end());
     }
     pushShading(flat, primitives);
     const std::vector<std::uint32_t> recordOf = pushRecords(flat, scene, primitives, bvh);
