@@ -239,7 +239,7 @@ void printLooks(const PreparedScene& prepared)
     }
     std::cout << '\n';
     if (const std::size_t count = singleSided(prepared.scene); count > 0) {
-        std::cout << "  single-sided: " << counted(count, "material") << "; back faces are drawn too, but emit nothing\n";
+        std::cout << "  single-sided: " << counted(count, "material") << "; back faces are not drawn, except of what transmits\n";
     }
     for (std::size_t i = 0; i < prepared.scene.images.size(); ++i) {
         const TextureImage& image = prepared.scene.images[i];

@@ -51,7 +51,8 @@ constexpr Feature kFeatures[] = {{kFeatureSpheres, "spheres"},
                                  {kFeatureRectangleLights, "rectangle lights"},
                                  {kFeatureLightTree, "several lights"},
                                  {kFeatureCaustics, "caustics"},
-                                 {kFeatureInstances, "instances"}};
+                                 {kFeatureInstances, "instances"},
+                                 {kFeatureSingleSided, "single-sided surfaces"}};
 
 // The images of a scene as kernels read them: each once, however many textures use it.
 struct PackedImages {

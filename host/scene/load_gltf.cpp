@@ -373,6 +373,7 @@ Scene SceneFile::sceneAt(std::optional<double> seconds)
     scene.animations = animations;
     scene.skins = file.skins.size();
     scene.morphTargets = countMorphTargets(file);
+    scene.showsBackFaces = options.showsBackFaces;
     scene.materials.resize(file.model.materials.size() + 1);
     Warnings warnings;
     if (posed) {

@@ -47,6 +47,7 @@ USERS = {
     "RectangleLights": ["sample_lights_and_bounce"],
     "LightTree": ["sample_lights_and_bounce"],
     "Instances": ["trace_closest", "trace_shadow", "sample_lights_and_bounce"],
+    "SingleSided": ["trace_closest", "trace_shadow"],
 }
 # What a feature needs before it has any code.
 NEEDS = {
