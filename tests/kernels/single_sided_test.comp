@@ -11,8 +11,8 @@ struct Case {
 };
 
 struct Result {
-    float t;  // infinity: the ray meets nothing
-    uint fromBehind;  // of what it meets
+    float t;                   // infinity: the ray meets nothing
+    uint fromBehind;           // of what it meets
     uint forwards, backwards;  // whether the way is free, by either shadow ray
 };
 
@@ -46,9 +46,11 @@ void main()
             SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
             fromBehind = si.front ? 0u : 1u;
         }
+        float expected = hit.t;
         if (render.instanceCount == 0u) {
-            EXPECT_EQUAL(floatBitsToUint(hit.t), floatBitsToUint(closestOfAll(ray)));
+            expected = closestOfAll(ray);
         }
+        EXPECT_EQUAL(floatBitsToUint(hit.t), floatBitsToUint(expected));
         Steps steps = Steps(0u, 0u);
         bool metAlpha;
         bool forwards = isUnoccluded(ShadowRay(c.from, kNoPrimitive, c.to - c.from, kNoPrimitive, vec3(0.0), 1.0), kFronts, steps, metAlpha);
