@@ -19,10 +19,15 @@ const char* describe(fs::file_type type)
 
 }  // namespace
 
+bool isUrl(const std::string& name) { return name.find("://") != std::string::npos; }
+
 void requireFile(const fs::path& file, const std::string& expected)
 {
     if (file.empty()) {
         throw InputError("A file name is empty; expected that of " + expected);
+    }
+    if (isUrl(file.string())) {
+        throw InputError(file.string() + ": is a URL; expected " + expected + ", as glim reads files and no URLs");
     }
     std::error_code error;
     const fs::file_status status = fs::status(file, error);

@@ -6,7 +6,23 @@
 
 #include <iostream>
 
+#include <fcntl.h>
 #include <malloc.h>
+#include <csignal>
+
+namespace {
+
+// Else a file that glim writes could get the number of a standard stream that was closed, and messages would be written into it.
+void openStandardStreams()
+{
+    for (int stream = 0; stream < 3; ++stream) {
+        if (fcntl(stream, F_GETFD) == -1) {
+            open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);  // what was closed stays unusable
+        }
+    }
+}
+
+}  // namespace
 
 int main(int argc, char** argv)
 {
@@ -15,6 +31,8 @@ int main(int argc, char** argv)
     // With one arena their memory stays, a first render needs 13 % less, and none is slower (tests/README.md, "For hours").
     mallopt(M_ARENA_MAX, 1);
 #endif
+    openStandardStreams();
+    std::signal(SIGXFSZ, [](int) {});  // a file that grows too large is an error of the write
     glim::CommandLine line("glim: a path tracer in Vulkan compute kernels", glim::versionText(),
                            "`glim COMMAND --help` lists a command's options.\n"
                            "Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 129, 130 or 143 stopped by a signal.");

@@ -162,6 +162,10 @@ private:
             rayKernels_ = identifier.kernels();
         }
         session_ = std::move(session);
+        if (rendered.denoisingError) {
+            lastFilm_ = film;
+            std::rethrow_exception(rendered.denoisingError);
+        }
         return film;
     }
 

@@ -144,7 +144,8 @@ Json jsonOf(const Comparison& result, const std::optional<ZTest>& test)
                            {"value", result.maxError.value},
                            {"reference", result.maxError.reference}});
     json.set("pixels",
-             {{"compared", result.compared}, {"non_finite", result.nonFinite}, {"non_finite_in_reference", result.nonFiniteInReference}});
+             {{"compared", result.compared}, {"non_finite", result.nonFinite}, {"non_finite_in_reference", result.nonFiniteInReference},
+              {"without_variance", result.withoutVariance}});
     json.set("z_test", test ? jsonOf(*test) : Json());
     return json;
 }

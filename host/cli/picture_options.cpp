@@ -180,12 +180,14 @@ void addDevice(const Command& command, PictureOptions& options)
                 [&options](const std::string& text) { options.device = text; });
     addEnum(command, "--schedule", "S", "Kernel schedule: wavefront, persistent or auto, the faster one; same picture [auto]",
             {"auto", "wavefront", "persistent"}, options.settings.schedule);
+    addNumber<std::uint32_t>(command, {"--path-capacity", "N", "Paths in flight; same picture", kBlockSamples, 1U << 24U, "262144"},
+                             [&options](std::uint32_t paths) { options.settings.pathCapacity = paths; });
     addEnum(command, "--accelerator", "A", "Acceleration structure: bvh, or none (brute force) [bvh]", {"bvh", "none"},
             options.settings.course.accelerator);
     addEnum(command, "--split", "RULE", "Split of BVH nodes: sah, mean or median [sah]", {"sah", "mean", "median"}, options.split);
     addEnum(command, "--intersector", "I", "Triangle test: watertight or moller-trumbore [watertight]", {"watertight", "moller-trumbore"},
             options.settings.course.intersector);
-    command.hide({"--schedule", "--accelerator", "--split", "--intersector"});
+    command.hide({"--schedule", "--path-capacity", "--accelerator", "--split", "--intersector"});
 }
 
 LoadOptions loadOptionsOf(const PictureOptions& options)

@@ -316,10 +316,11 @@ void runReplay(const RenderOptions& options)
     Device device(instance, options.device);
     const PreparedScene prepared = prepareScene(options.scene, loadOptionsOf(options), options.split);
     const Camera camera = cameraOf(prepared.scene, options);
+    sayIfCameraIsNumber(prepared.scene, options.camera);
     const RenderSettings settings = settingsFor(options, camera);
     refuseOutside(*options.replay, settings);
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
-    Replay replay(device, prepared.flat, flattenCamera(camera, aspect, options.lens), settings);
+    Replay replay(device, prepared.flat, flattenCamera(prepared, camera, aspect, options.lens), settings);
     const SamplePlace& place = *options.replay;
     const ReplayReport report{options, prepared, settings, device.description(),
                               replay.trace(place.y * settings.width + place.x, place.sample)};

@@ -7,6 +7,7 @@
 #include "host/flatten/light_table.hpp"
 #include "host/flatten/pack_nodes.hpp"
 #include "host/flatten/place_instances.hpp"
+#include "host/flatten/start_media.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -225,6 +226,7 @@ FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const W
     addLights(flat, scene, primitives, recordOf);
     markOtherRecords(flat, bvh.order, recordOf);
     addCaustics(flat, scene, primitives);
+    flat.features |= mayLampsBeInMedia(scene, flat) ? kFeatureLampsInMedia : 0U;
     return flat;
 }
 
@@ -232,8 +234,9 @@ FlatCamera flattenCamera(const Camera& camera, float aspectRatio, const Lens& le
 {
     const bool perspective = camera.kind == Camera::Kind::Perspective;
     const float halfHeight = perspective ? std::tan(0.5F * camera.yfov) : camera.halfHeight;
+    const float halfWidth = perspective ? halfHeight * aspectRatio : std::copysign(halfHeight * aspectRatio, camera.halfWidth);
     return {camera.position,
-            camera.right * (halfHeight * aspectRatio),
+            camera.right * halfWidth,
             camera.up * halfHeight,
             camera.forward,
             perspective ? kPerspective : kOrthographic,

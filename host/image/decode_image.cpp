@@ -173,9 +173,26 @@ DecodedImage decodePng(Bytes bytes)
 void leaveOnDamage(j_common_ptr jpeg, int level)
 {
     const int code = jpeg->err->msg_code;
-    if (level < 0 && (code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER || code == JWRN_HUFF_BAD_CODE || code == JWRN_ARITH_BAD_CODE)) {
+    if (level < 0 && (code == JWRN_HIT_MARKER || code == JWRN_HUFF_BAD_CODE || code == JWRN_ARITH_BAD_CODE)) {
         leaveJpeg(jpeg);
     }
+    if (level < 0 && code == JWRN_JPEG_EOF) {
+        reinterpret_cast<JpegErrors*>(jpeg->err)->noEnd = true;
+    }
+}
+
+// Whether the scans so far hold the whole picture. Arithmetic codes may end early.
+bool hasAllScans(const jpeg_decompress_struct& jpeg)
+{
+    if (jpeg.arith_code != FALSE || jpeg.progressive_mode == FALSE) {
+        return jpeg.arith_code == FALSE && jpeg.comps_in_scan == jpeg.num_components;
+    }
+    for (int c = 0; c < jpeg.num_components; ++c) {
+        if (std::any_of(jpeg.coef_bits[c], jpeg.coef_bits[c] + DCTSIZE2, [](int missing) { return missing != 0; })) {
+            return false;
+        }
+    }
+    return true;
 }
 
 // A few bytes can ask for scans without end.
@@ -241,7 +258,12 @@ bool readJpegRows(JpegReader& reader, std::vector<std::uint8_t>& rgba, std::vect
             to[4 * x + 3] = 255;
         }
     }
+    const bool whole = hasAllScans(jpeg);
     jpeg_finish_decompress(&jpeg);
+    if (reader.errors.noEnd && !whole) {
+        std::snprintf(reader.errors.message, sizeof reader.errors.message, "it ends early");
+        return false;
+    }
     return true;
 }
 
@@ -267,6 +289,7 @@ DecodedImage decodeJpeg(Bytes bytes)
     image.rgba8.resize(std::size_t{image.width} * image.height * 4);
     std::vector<std::uint8_t> row(std::size_t{image.width} * 4);
     require(readJpegRows(reader, image.rgba8, row));
+    image.noEnd = reader.errors.noEnd;
     return image;
 }
 

@@ -13,6 +13,7 @@ inline constexpr std::uint32_t kMaxImageSide = 16384;
 struct DecodedImage {
     std::uint32_t width = 0, height = 0;
     bool hasAlpha = false;  // the file has such a channel or a transparent colour; else alpha is 1
+    bool noEnd = false;     // a JPEG whose end marker is missing, and nothing else
     std::vector<std::uint8_t> rgba8;
     std::vector<std::uint16_t> rgba16;
 };

@@ -57,6 +57,7 @@ std::string HdrReader::readLine()
         }
         line += static_cast<char>(c);
     }
+    line.resize(line.size() - (line.ends_with('\r') ? 1 : 0));  // Windows tools end lines with both
     return line;
 }
 

@@ -13,6 +13,7 @@ struct JpegErrors {
     jpeg_error_mgr base;
     std::jmp_buf leave;
     char message[JMSG_LENGTH_MAX];
+    bool noEnd;  // the data ended without an end marker
 };
 
 [[noreturn]] inline void leaveJpeg(j_common_ptr jpeg)

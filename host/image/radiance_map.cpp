@@ -19,6 +19,7 @@
 #include <cstring>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace glim {
 namespace {
@@ -32,17 +33,27 @@ void checkMapSize(const std::string& path, std::int64_t width, std::int64_t heig
     }
 }
 
-// The names of the file's channels for red, green and blue: R, G and B, or Y alone three times.
+// The names of the file's channels for red, green and blue: R, G and B, those of Blender's combined layer ("ViewLayer.Combined.R"), or Y
+// alone three times.
 std::array<std::string, 3> chooseChannels(const std::string& path, const Imf::ChannelList& channels)
 {
-    if (channels.findChannel("R") != nullptr && channels.findChannel("G") != nullptr && channels.findChannel("B") != nullptr) {
-        return {"R", "G", "B"};
+    std::vector<std::string> layers{""};
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+        if (const std::string name = channel.name(); name.ends_with(".Combined.R")) {
+            layers.push_back(name.substr(0, name.size() - 1));
+        }
+    }
+    for (const std::string& layer : layers) {
+        const std::array<std::string, 3> names{layer + "R", layer + "G", layer + "B"};
+        if (std::ranges::all_of(names, [&](const std::string& name) { return channels.findChannel(name) != nullptr; })) {
+            return names;
+        }
     }
     const bool chroma = channels.findChannel("RY") != nullptr || channels.findChannel("BY") != nullptr;
     if (channels.findChannel("Y") != nullptr && !chroma) {
         return {"Y", "Y", "Y"};
     }
-    throw InputError(path + ": has no channels R, G and B, nor Y alone; expected these");
+    throw InputError(path + ": has no channels R, G and B, nor a layer Combined with these, nor Y alone; expected one of these");
 }
 
 RadianceMap readExrMap(const std::string& path)

@@ -86,7 +86,7 @@ Pose frame(const Pose& pose, const Bounds& bounds, const Camera& camera, double 
     const double slope = std::tan(0.5 * static_cast<double>(camera.yfov)) * narrower;
     const bool orthographic = camera.kind == Camera::Kind::Orthographic;
     Pose moved = pose;
-    moved.zoom = orthographic ? static_cast<double>(camera.halfHeight) * narrower / bounds.radius : 1.0;
+    moved.zoom = orthographic ? std::abs(static_cast<double>(camera.halfHeight)) * narrower / bounds.radius : 1.0;
     const double distance = orthographic ? 2.0 * bounds.radius : bounds.radius / std::sin(std::atan(slope));
     moved.at = bounds.center;
     moved.from = bounds.center - distance * axesOf(pose).forward;

@@ -136,6 +136,7 @@ void Session::enter(std::unique_ptr<PreparedScene> prepared)
     window_.setTitle("glim: compiling kernels for " + options_.scene.filename().string());
     if (!viewpoint_) {
         const Camera& chosen = findCamera(prepared->scene, options_.camera);
+        sayIfCameraIsNumber(prepared->scene, options_.camera);
         if (options_.pose) {
             placeCamera(chosen, *options_.pose, prepared->scene.origin);  // refuses a pose without direction
         }

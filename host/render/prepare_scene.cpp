@@ -2,7 +2,7 @@
 
 #include "host/error.hpp"
 #include "host/flatten/build_scene_bvh.hpp"
-#include "host/flatten/flatten_scene.hpp"
+#include "host/flatten/start_media.hpp"
 #include "host/memory.hpp"
 #include "host/message.hpp"
 #include "host/text.hpp"
@@ -116,7 +116,12 @@ const Camera& findCamera(const Scene& scene, const std::optional<std::string>& c
     }
     std::string list;
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-        if (scene.cameras[i].name == *choice || std::to_string(i) == *choice) {
+        if (std::to_string(i) == *choice) {
+            return scene.cameras[i];
+        }
+    }
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        if (scene.cameras[i].name == *choice) {
             return scene.cameras[i];
         }
         if (i < kMostListed) {
@@ -127,11 +132,29 @@ const Camera& findCamera(const Scene& scene, const std::optional<std::string>& c
     throw InputError(scene.file + ": camera " + inQuotes(*choice) + ": expected one of " + list + ".");
 }
 
+FlatCamera flattenCamera(const PreparedScene& prepared, const Camera& camera, float aspectRatio, const Lens& lens)
+{
+    return placeInMedia(flattenCamera(camera, aspectRatio, lens), prepared.scene, prepared.flat);
+}
+
+void sayIfCameraIsNumber(const Scene& scene, const std::optional<std::string>& choice)
+{
+    if (!choice || choice->empty() || choice->find_first_not_of("0123456789") != std::string::npos) {
+        return;
+    }
+    const Camera& camera = findCamera(scene, choice);
+    const std::string index = std::to_string(&camera - scene.cameras.data());
+    const bool named = std::ranges::any_of(scene.cameras, [&](const Camera& other) { return &other != &camera && other.name == *choice; });
+    say("--camera " + *choice +
+        (index == *choice ? " is an index: the camera is " + inQuotes(camera.name) + (named ? ", not the one named " + inQuotes(*choice) : "")
+                          : " is a name: the camera has the index " + index));
+}
+
 glm::uvec2 defaultSize(const Camera& camera)
 {
     constexpr std::uint32_t kHeight = 512;
     const bool orthographic = camera.kind == Camera::Kind::Orthographic;
-    const float aspectRatio = orthographic ? camera.halfWidth / camera.halfHeight : camera.aspectRatio.value_or(1.0F);
+    const float aspectRatio = orthographic ? std::abs(camera.halfWidth / camera.halfHeight) : camera.aspectRatio.value_or(1.0F);
     const float bounded = std::clamp(aspectRatio, 1.0F / kMostAspectRatio, kMostAspectRatio);
     return {static_cast<std::uint32_t>(std::round(static_cast<float>(kHeight) * bounded)), kHeight};
 }

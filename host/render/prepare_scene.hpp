@@ -3,7 +3,7 @@
 
 #include "host/bvh/build_bvh.hpp"
 #include "host/bvh/wide_bvh.hpp"
-#include "host/flatten/flat_scene.hpp"
+#include "host/flatten/flatten_scene.hpp"
 #include "host/flatten/primitives.hpp"
 #include "host/scene/load_gltf.hpp"
 
@@ -34,8 +34,14 @@ void warnIfNoLights(const PreparedScene& prepared);
 // scene at another time: its textures are used again and its BVH is updated, and what it warned of is not printed again.
 PreparedScene prepareScene(SceneFile& file, std::optional<double> seconds, SplitRule split, PreparedScene previous = {});
 
-// The camera of that name or index (the first if absent). Throws InputError that lists the cameras.
+// The camera of that index, else of that name (the first if absent). Throws InputError that lists the cameras.
 const Camera& findCamera(const Scene& scene, const std::optional<std::string>& choice);
+
+// With the media that its rays begin in.
+FlatCamera flattenCamera(const PreparedScene& prepared, const Camera& camera, float aspectRatio, const Lens& lens);
+
+// Says on stderr whether a number was an index or a name.
+void sayIfCameraIsNumber(const Scene& scene, const std::optional<std::string>& choice);
 
 // The default size of a picture: 512 pixels high, and as wide as the camera's aspect ratio says.
 glm::uvec2 defaultSize(const Camera& camera);

@@ -150,9 +150,9 @@ void SceneCheck::checkCameras() const
                     glm::length(glm::cross(camera.right, camera.up) + camera.forward) <= kUnitTolerance,
                 "camera", i, "has axes that are not a right-handed orthonormal frame");
         require(!perspective || (camera.yfov > 0.0F && camera.yfov < kPi), "camera", i, "has a field of view outside 0 to pi");
-        require(perspective || (camera.halfWidth > 0.0F && camera.halfHeight > 0.0F && std::isfinite(camera.halfWidth) &&
+        require(perspective || (camera.halfWidth != 0.0F && camera.halfHeight != 0.0F && std::isfinite(camera.halfWidth) &&
                                 std::isfinite(camera.halfHeight)),
-                "camera", i, "has a width or height that is not positive and finite");
+                "camera", i, "has a width or height that is 0 or not finite");
         require(!camera.aspectRatio || (*camera.aspectRatio > 0.0F && std::isfinite(*camera.aspectRatio)), "camera", i,
                 "has an aspect ratio that is not positive and finite");
     }

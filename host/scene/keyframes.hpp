@@ -12,7 +12,7 @@ struct Keyframes {
     Interpolation interpolation = Interpolation::Linear;
     bool rotation = false;         // values are quaternions, x y z w
     std::size_t width = 1;         // numbers per value
-    std::vector<double> times;     // seconds, increasing; at least one
+    std::vector<double> times;     // seconds, not decreasing; at least one. The value jumps where two are equal
     std::vector<double> values{};  // a value per time; of a cubic spline its incoming tangent, the value and its outgoing tangent
 };
 

@@ -6,6 +6,7 @@
 #include "host/scene/frame_camera.hpp"
 #include "host/scene/gltf/animate_gltf.hpp"
 #include "host/scene/gltf/check_gltf_json.hpp"
+#include "host/scene/gltf/pose_mesh.hpp"
 #include "host/scene/gltf/read_geometry.hpp"
 #include "host/scene/gltf/read_image_light.hpp"
 #include "host/scene/gltf/read_images.hpp"
@@ -44,11 +45,11 @@ std::vector<Animation> listAnimations(const GltfFile& file)
     return animations;
 }
 
-std::size_t countMorphTargets(const GltfFile& file)
+std::size_t countAllMorphTargets(const GltfFile& file)
 {
     std::size_t count = 0;
     for (const tinygltf::Mesh& mesh : file.model.meshes) {
-        count += mesh.primitives.empty() ? 0 : mesh.primitives[0].targets.size();
+        count += countMorphTargets(mesh);
     }
     return count;
 }
@@ -372,10 +373,10 @@ Scene SceneFile::sceneAt(std::optional<double> seconds)
     scene.meshNames = namesOf(file.model.meshes);
     scene.animations = animations;
     scene.skins = file.skins.size();
-    scene.morphTargets = countMorphTargets(file);
+    scene.morphTargets = countAllMorphTargets(file);
     scene.showsBackFaces = options.showsBackFaces;
     scene.materials.resize(file.model.materials.size() + 1);
-    Warnings warnings;
+    Warnings warnings = file.warnings;
     if (posed) {
         restoreRestPose(file);
     }

@@ -2,6 +2,7 @@
 
 #include "host/error.hpp"
 #include "host/scene/gltf/gltf_container.hpp"
+#include "host/scene/gltf/gltf_schema.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -134,7 +135,7 @@ private:
     Pose poseOf(const std::array<double, 16>& m) const
     {
         const glm::dvec3 up(m[4], m[5], m[6]), backward(m[8], m[9], m[10]);
-        if (!(glm::length(glm::cross(up, backward)) > 0.0) || m[3] != 0.0 || m[7] != 0.0 || m[11] != 0.0 || m[15] != 1.0) {
+        if (!(glm::length(glm::cross(up, backward)) > 0.0) || glm::length(glm::dvec4(m[3], m[7], m[11], m[15] - 1.0)) > kAffineRounding) {
             refuse(place_ + ".matrix is not the pose of a camera; expected axes that differ and a last row of 0, 0, 0, 1");
         }
         Pose pose;

@@ -1,6 +1,6 @@
 // A scene as plain values: no Vulkan, no glTF. Meshes are in object space; instances place them in the world, in double. All other
-// positions are float32 relative to `origin`, which is the centre of the scene's bounding box in world coordinates (to 1/256 of its
-// extent) and was subtracted in double: far from the world's origin nothing is lost.
+// positions are float32 relative to `origin`, which lies amid the scene's primitives in world coordinates (choose_origin.hpp) and was
+// subtracted in double: far from the world's origin nothing is lost.
 #pragma once
 
 #include "host/image/decode_image.hpp"
@@ -199,7 +199,7 @@ struct Camera {
     glm::vec3 position{0.0F};
     glm::vec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};  // orthonormal; right x up = -forward
     float yfov = 0.7F;                                         // radians, perspective
-    float halfWidth = 1.0F, halfHeight = 1.0F;                 // metres, orthographic: glTF's xmag and ymag
+    float halfWidth = 1.0F, halfHeight = 1.0F;                 // metres, orthographic: glTF's xmag and ymag, negative if mirrored
     std::optional<float> aspectRatio;                          // width / height, where the file names one
 };
 

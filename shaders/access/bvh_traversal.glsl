@@ -166,7 +166,7 @@ bool isAfter(Query query, float t, uint primitive)
 }
 
 // Whether the query may be one that goes on behind a hit.
-#define mayGoOn(query) (hasFeature(kFeatureAlpha) || (hasFeature(kFeatureSingleSided) && (query).sides == (kFronts | kBacks)))
+#define mayGoOn(query) (hasFeature(kFeatureAlpha | kFeatureMedia) || (hasFeature(kFeatureSingleSided) && (query).sides == (kFronts | kBacks)))
 
 // Ties go to the lower primitive, so that the result does not depend on the tree.
 void meetRecord(TraversalRay traversal, InstanceOffsets offsets, uint index, uint source, Query query, inout Closest best)

@@ -18,6 +18,7 @@
 #include "access/light_vertex.glsl"
 #include "access/paths.glsl"
 #include "access/splats.glsl"
+#include "access/start_media.glsl"
 #include "access/traverse.glsl"
 
 struct LightPath {
@@ -56,6 +57,9 @@ LightPath takePath(uint entry)
         return LightPath(slot, id, fetchRay(slot), fetchState(slot), fetchRadiance(slot).radiance, 0.0);
     }
     LightRay light = sampleEmission(id);
+    if (hasFeature(kFeatureLampsInMedia)) {
+        light.ray.media = mediaAround(light.ray.origin);
+    }
     return LightPath(slot, id, light.ray, PathState(vec3(1.0), 0.0, 0.0, 1.0, 0u, 0u), light.flux, light.range);
 }
 

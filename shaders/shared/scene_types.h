@@ -159,6 +159,8 @@ struct MediumData {
     vec3 unused;
 };
 GLIM_CONST uint kMaxMedia = 127u;
+GLIM_CONST uint kMediumBits = 7u;      // of its number
+GLIM_CONST uint kMaxNestedMedia = 4u;  // that a ray remembers (lib/media.glsl)
 
 // How a material's property uses an image.
 struct TextureData {
@@ -248,6 +250,8 @@ GLIM_CONST uint kFirstCausticLight = kMaxCausticTargets + 1u;
 GLIM_CONST uint kPerspective = 0u;
 GLIM_CONST uint kOrthographic = 1u;
 
+GLIM_CONST uint kMediaVary = 0x10000000u;
+
 // For film coordinates (x, y) in [-1, 1], y up: perspective rays leave `position` along forward + x right + y up;
 // orthographic rays leave position + x right + y up along forward. A thin lens moves the origin by a point of the disk with
 // radii lensRight and lensUp, and turns the ray so that it meets the pinhole's ray at the depth 1 / inverseFocus.
@@ -260,6 +264,7 @@ struct FlatCamera {
     vec3 lensRight;  // 0: a pinhole
     vec3 lensUp;
     float inverseFocus;
+    uint media;  // in which its rays begin, as in PathRay; kMediaVary: those of one begin elsewhere than those of another
 };
 
 GLIM_SHARED_END

@@ -104,6 +104,35 @@ TEST(DecodeImageTest, JpegsWithHarmlessFlawsDecode)
     EXPECT_EQ(decodeImage(flawed).rgba8, decodeImage(jpeg).rgba8);
 }
 
+// What is missing besides the marker is made up, and refused: the last bits of a scan, or a scan of a progressive picture.
+TEST(DecodeImageTest, JpegsMayLackTheirEndMarkerAlone)
+{
+    Bytes values(64 * 64 * 3);
+    Random random(11);
+    for (unsigned char& value : values) {
+        value = static_cast<unsigned char>(random.below(256));
+    }
+    for (const bool progressive : {false, true}) {
+        const Bytes jpeg = encodeJpeg(64, 64, values, JpegColors::Rgb, progressive);
+        const DecodedImage whole = decodeImage(jpeg), open = decodeImage(truncated(jpeg, 2));
+        EXPECT_FALSE(whole.noEnd);
+        EXPECT_TRUE(open.noEnd);
+        EXPECT_EQ(open.rgba8, whole.rgba8);
+        EXPECT_EQ(decodeImage(truncated(jpeg, 1)).rgba8, whole.rgba8);
+        for (const std::size_t missing : {std::size_t{4}, std::size_t{40}, jpeg.size() / 2}) {
+            EXPECT_NE(refusalOf(truncated(jpeg, missing)).find("is a broken JPEG ("), std::string::npos) << missing;
+        }
+    }
+    const Bytes scan{0xff, 0xda}, jpeg = encodeJpeg(64, 64, values, JpegColors::Rgb, true);
+    std::size_t scans = 0;
+    for (auto at = std::search(jpeg.begin() + 2, jpeg.end(), scan.begin(), scan.end()); at != jpeg.end();
+         at = std::search(at + 2, jpeg.end(), scan.begin(), scan.end())) {
+        EXPECT_NE(refusalOf(truncated(jpeg, static_cast<std::size_t>(jpeg.end() - at))).find("is a broken JPEG ("), std::string::npos);
+        ++scans;
+    }
+    EXPECT_GT(scans, 4U);
+}
+
 TEST(DecodeImageTest, WebpsKeepAlpha)
 {
     const Texels rgba{1, 2, 3, 4, 250, 251, 252, 253};

@@ -1,4 +1,5 @@
 #include "host/flatten/primitives.hpp"
+#include "host/render/prepare_scene.hpp"
 #include "tests/support/gltf_builder.hpp"
 
 #include <gtest/gtest.h>
@@ -156,6 +157,28 @@ TEST(GltfCameras, ShearIsTakenOut)
     const Camera camera = readCamera(kPerspective, {{"matrix", matrix}}).cameras.at(0);
     EXPECT_EQ(camera.forward, glm::vec3(0, 0, -1));
     EXPECT_LT(glm::length(camera.up - glm::normalize(glm::vec3(0.5, 1, 0))), kTolerance);
+}
+
+TEST(GltfCameras, ANumberIsAnIndexBeforeItIsAName)
+{
+    GltfBuilder builder = withTriangle();
+    builder.append("cameras", kPerspective);
+    for (const char* name : {"1", "side", "7"}) {
+        builder.addNode({{"camera", 0}, {"name", name}});
+    }
+    const Scene scene = load(builder);
+    const auto said = [&scene](const std::optional<std::string>& choice) {
+        testing::internal::CaptureStderr();
+        sayIfCameraIsNumber(scene, choice);
+        return testing::internal::GetCapturedStderr();
+    };
+    EXPECT_EQ(findCamera(scene, "1").name, "side");
+    EXPECT_EQ(said("1"), "glim: --camera 1 is an index: the camera is \"side\", not the one named \"1\"\n");
+    EXPECT_EQ(findCamera(scene, "7").name, "7");
+    EXPECT_EQ(said("7"), "glim: --camera 7 is a name: the camera has the index 2\n");
+    EXPECT_EQ(said("2"), "glim: --camera 2 is an index: the camera is \"7\"\n");
+    EXPECT_EQ(findCamera(scene, "side").name, "side");
+    EXPECT_EQ(said("side") + said(std::nullopt), "");
 }
 
 TEST(GltfCameras, FramesTheWholeBoxWhereThereIsNone)

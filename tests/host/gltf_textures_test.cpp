@@ -107,8 +107,13 @@ TEST(GltfTextures, ImagesInFilesBesideAndBelow)
     const ScratchFolder folder;
     std::filesystem::create_directories(folder.path() / "maps" / "of wood");
     writeText(folder.path() / "my file.png", asText(redPng()));
-    writeText(folder.path() / "maps" / "of wood" / "a+b.png", asText(redPng()));
-    for (const std::string uri : {"my%20file.png", "my file.png", "maps/of%20wood/a+b.png", "./maps/of wood/a%2Bb.png"}) {
+    for (const char* name : {"a+b.png", "c:d.png", "50%25.png"}) {
+        writeText(folder.path() / "maps" / "of wood" / name, asText(redPng()));
+    }
+    writeText(folder.path() / "e\\f.png", asText(redPng()));
+    for (const std::string uri : {"my%20file.png", "my file.png", "maps/of%20wood/a+b.png", "./maps/of wood/a%2Bb.png", "maps/of wood/c:d.png",
+                                  "maps/of wood/50%25.png", "maps/of wood/50%2525.png", "maps\\of wood\\a+b.png", "maps\\of%20wood\\c%3Ad.png",
+                                  "e\\f.png"}) {
         writeText(folder / "scene.glb", texturedTriangle({{"uri", uri}}).toGlb());
         const Scene scene = loadGltf(folder / "scene.glb");
         EXPECT_EQ(scene.images.at(0).pixels->rgba8, kRed) << uri;
@@ -117,12 +122,21 @@ TEST(GltfTextures, ImagesInFilesBesideAndBelow)
     }
 }
 
+TEST(GltfTextures, AJpegWithoutItsEndIsDrawnAndSaidSo)
+{
+    Bytes jpeg = encodeJpeg(8, 8, Bytes(64, 90), JpegColors::Grey);
+    jpeg.resize(jpeg.size() - 2);
+    const Scene scene = load(texturedTriangle({{"uri", base64Uri("image/jpeg", jpeg)}, {"name", "wood"}}));
+    EXPECT_NEAR(scene.images.at(0).pixels->rgba8.at(0), 90, 1);
+    EXPECT_TRUE(mentions(scene.warnings, "JPEG images without their end marker are drawn: images[0] (\"wood\")"));
+}
+
 TEST(GltfTextures, BrokenOnesAreNamedOrGrey)
 {
     const std::string path =
         writeTemporary("broken_image.gltf", texturedTriangle({{"uri", "data:image/png;base64,AAEC"}, {"name", "wood"}}).toGltf());
     const std::string sentence = "images[0] (\"wood\") is of an unknown kind (it begins with 00 01 02); expected PNG, JPEG or WebP";
-    EXPECT_EQ(loadRefusal(path), path + ": " + sentence);
+    EXPECT_EQ(loadRefusal(path), path + ": " + sentence + " (--missing-textures grey draws it grey)");
     LoadOptions options;
     options.missingTextures = MissingTextures::Grey;
     const Scene scene = loadGltf(path, options);

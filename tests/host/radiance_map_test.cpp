@@ -1,6 +1,7 @@
 #include "host/image/radiance_map.hpp"
 
 #include "host/error.hpp"
+#include "host/image/exr.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -46,6 +47,35 @@ TEST_F(RadianceMapTest, PlainPixelsAreMantissasTimesAPowerOfTwo)
     ASSERT_EQ(map.height, 1U);
     EXPECT_EQ(map.texels[0], glm::vec3(1.0F, 0.5F, 0.25F));
     EXPECT_EQ(map.texels[1], glm::vec3(0.0F)) << "exponent 0 is black";
+}
+
+TEST_F(RadianceMapTest, HeadersMayEndTheirLinesAsWindowsDoes)
+{
+    const RadianceMap map = read("#?RADIANCE\r\nFORMAT=32-bit_rle_rgbe\r\nEXPOSURE=2\r\n\r\n-Y 1 +X 2\r\n" + pixel(128, 64, 32, 129) +
+                                 pixel('\r', '\n', 0, 136));
+    EXPECT_EQ(map.texels.at(0), glm::vec3(0.5F, 0.25F, 0.125F));
+    EXPECT_EQ(map.texels.at(1), glm::vec3(6.5F, 5.0F, 0.0F));
+}
+
+// What Blender calls multilayer: the picture is the combined pass of a view layer.
+TEST_F(RadianceMapTest, TheCombinedLayerOfSeveral)
+{
+    const auto write = [&](const std::vector<std::pair<std::string, float>>& channels) {
+        Image image;
+        image.width = 2;
+        image.height = 1;
+        for (const auto& [name, value] : channels) {
+            image.channels[name] = {value, value};
+        }
+        const std::filesystem::path file = folder_.path() / "layers.exr";
+        writeExr(file, image);
+        return file;
+    };
+    const std::vector<std::pair<std::string, float>> layers{
+        {"ViewLayer.Combined.R", 1.0F}, {"ViewLayer.Combined.G", 2.0F}, {"ViewLayer.Combined.B", 3.0F}, {"ViewLayer.Combined.A", 1.0F},
+        {"ViewLayer.Depth.Z", 9.0F},    {"ViewLayer.DiffCol.R", 7.0F},  {"ViewLayer.DiffCol.G", 7.0F},  {"ViewLayer.DiffCol.B", 7.0F}};
+    EXPECT_EQ(readRadianceMap(write(layers)).texels.at(1), glm::vec3(1, 2, 3));
+    EXPECT_THROW(readRadianceMap(write({layers.begin() + 4, layers.end()})), InputError) << "no layer is the picture";
 }
 
 TEST_F(RadianceMapTest, EveryOrderOfTheAxes)

@@ -29,7 +29,8 @@ struct Result {
 struct Row {
     const char* name;
     double size, place;
-    bool neighbours;  // rounding of their corners bends them by less than what is tested
+    bool neighbours;    // rounding of their corners bends them by less than what is tested
+    bool flat = false;  // along an axis, across which they have no extent
 };
 
 constexpr Row kRows[] = {
@@ -40,6 +41,9 @@ constexpr Row kRows[] = {
     {"unit at 1e6", 1.0, 1e6, false},
     {"size 1e5 near the origin", 1e5, 1.0, true},
     {"size 1e3 near the origin", 1e3, 1.0, true},
+    {"H51 a flat ground of 1e3 m", 1e3, 1.0, true, true},
+    {"H51 a flat ground of 1e5 m", 1e5, 1.0, true, true},
+    {"H51 a flat ground of 1e7 m", 1e7, 1.0, true, true},
 };
 
 void setNext(Case& c, Random& random)
@@ -65,7 +69,11 @@ Case caseOf(const Row& row, Random& random)
     c.barycentric = {b1, b2};
     glm::dvec3 normal(0.0);
     while (glm::length(normal) == 0.0) {  // at 1e6 rounding flattens some
-        const glm::dvec3 e1 = row.size * random.normalVector(), e2 = row.size * random.normalVector();
+        glm::dvec3 e1 = row.size * random.normalVector(), e2 = row.size * random.normalVector();
+        if (row.flat) {
+            const int axis = static_cast<int>(random.below(3));
+            e1[axis] = e2[axis] = 0.0;
+        }
         const glm::dvec3 v0 = row.place * random.direction() - b1 * e1 - b2 * e2;
         c.v0 = v0;
         c.v1 = v0 + e1;
@@ -100,7 +108,9 @@ void count(Tally& tally, const Case& c, const Result& r)
     tally.behind += glm::dot(glm::dvec3(r.origin) - glm::dvec3(c.v0), n) > 0.0 ? 0.0 : 1.0;
     tally.inSphere += glm::distance(glm::dvec3(r.onSphere), glm::dvec3(c.v0)) > glm::length(e1) ? 0.0 : 1.0;
     tally.offset += glm::distance(glm::dvec3(r.origin), glm::dvec3(r.point));
-    tally.limit += 5e-6 * std::max(glm::length(e1), glm::length(e2)) + 4.0 * 0x1p-23 * glm::length(glm::dvec3(r.point));
+    const glm::dvec3 across = glm::abs(glm::dvec3(c.normal));
+    tally.limit +=
+        5e-6 * glm::dot(across, glm::max(glm::abs(e1), glm::abs(e2))) + 4.0 * 0x1p-23 * glm::dot(across, glm::abs(glm::dvec3(r.point)));
 }
 
 // A ray skips the triangle that it leaves (traverse.glsl): `self` counts the hits that only this rule prevents.

@@ -1,5 +1,6 @@
 // Caustics by light paths, against path tracing.
 #include "host/flatten/flatten_scene.hpp"
+#include "host/flatten/start_media.hpp"
 #include "host/measure/confidence.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/caustic_films.hpp"
@@ -178,6 +179,15 @@ const NamedVariant kVariants[] = {
              addSmooth(scene, m, {0.0F, -0.6F, 1.0F}, 0.4F);
          });
      }},
+    {"underWater",  // with the camera and the lamp
+     [] {
+         return changed(balls(), [](Scene& scene) {
+             Material m = solid();
+             m.ior = 1.3F;
+             m.absorption = {0.05F, 0.1F, 0.2F};
+             addSmooth(scene, m, glm::vec3(0.0F), 9.0F);
+         });
+     }},
     {"dispersion",
      [] {
          return changed(room(), [](Scene& scene) {
@@ -292,7 +302,7 @@ TEST_P(CausticsTest, AgreeWithPathTracing)
     Scene scene = variant.builder.scene();
     variant.change(scene);
     const FlatScene flat = flattened(scene);
-    const FlatCamera camera = flattenCamera(scene.cameras.front(), 1.0F, variant.lens);
+    const FlatCamera camera = placeInMedia(flattenCamera(scene.cameras.front(), 1.0F, variant.lens), scene, flat);
     const Film light = renderCaustics(flat, camera, variant.settings, true);
     RenderSettings others = variant.settings;
     others.seed = 1;

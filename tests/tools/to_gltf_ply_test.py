@@ -46,6 +46,17 @@ class ToGltfPlyTest(unittest.TestCase):
         self.assertEqual(list(glb.json["meshes"][0]["primitives"][0]["attributes"]), ["POSITION"])
         self.assertEqual(glb.json["materials"][0]["pbrMetallicRoughness"]["metallicFactor"], 0.0)
 
+    def test_concave_faces_keep_their_area(self):
+        bent = ((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2))
+        faces = FACES.replace("face 2", "face 1")
+        for first in range(6):
+            order = [(first + i) % 6 for i in range(6)]
+            text = HEADER % 6 + faces + "end_header\n" + "".join("%d %d 0\n" % p for p in bent) + "6 %s\n" % " ".join(map(str, order))
+            p = self.convert(text).corners("POSITION")
+            areas = [0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) for a, b, c in zip(p[0::3], p[1::3], p[2::3])]
+            self.assertTrue(min(areas) > 0.0, areas)
+            self.assertAlmostEqual(sum(areas), 3.0)
+
     def test_normals_and_colours_of_vertices(self):
         glb = self.convert(square(NORMALS + COLORS, lambda x, y: "%d 0 %d %d 128 0" % (x, 1 - x, 255 * y)))
         self.assertEqual(glb.attribute("NORMAL"), [(0, 0, 1), (1, 0, 0), (1, 0, 0), (0, 0, 1)])

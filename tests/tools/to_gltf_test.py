@@ -12,7 +12,9 @@ import unittest
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "tools"))
+from conversion.smooth import dot  # noqa: E402
 from scene_makers import made_images as images  # noqa: E402
+from scene_makers.gltf_document import cross, subtract  # noqa: E402
 
 GLIM = sys.argv.pop() if len(sys.argv) > 1 else None
 
@@ -128,14 +130,33 @@ class ToGltfTest(unittest.TestCase):
             self.assert_near(n, [0, 0.6, 0.8])
         self.assertEqual(glb.corners("TEXCOORD_0"), [(0.0, 0.75), (1.0, 0.75), (0.0, 0.0)])
 
+    def expect_area(self, points, area, place=lambda x, y: (x, y, 0.0), error=1e-5):
+        """Of the polygon, from whichever corner its face begins: no triangle lies outside it or on another one."""
+        vertices = sorted(set(points))
+        text = "".join("v %.9g %.9g %.9g\n" % place(*p) for p in vertices)
+        for first in range(len(points)):
+            text += "o %d\nf %s\n" % (first, " ".join(str(vertices.index(p) + 1) for p in points[first:] + points[:first]))
+        glb = self.convert(text)
+        for first in range(len(points)):
+            p, normal, areas = glb.corners("POSITION", first), None, []
+            for a, b, c in zip(p[0::3], p[1::3], p[2::3]):
+                n = cross(subtract(b, a), subtract(c, a))
+                normal = normal or n
+                areas.append(math.copysign(0.5 * math.sqrt(dot(n, n)), dot(n, normal)))
+            self.assertTrue(min(areas) > 0.0, "%s from corner %d is cut outside itself: %s" % (points, first, areas))
+            self.assertLessEqual(abs(sum(areas) - area), error)
+
     def test_polygons_keep_their_area(self):
-        dart = "v 0 0 0\nv 2 -1 0\nv 0 2 0\nv -2 -1 0\n"
-        for order in ("1 2 3 4", "2 3 4 1", "3 4 1 2", "4 1 2 3"):
-            p = self.convert(dart + "f " + order).corners("POSITION")
-            areas = [0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
-                     for a, b, c in (p[0:3], p[3:6])]
-            self.assertTrue(min(areas) > 0.0, "the dart %s is cut outside itself: %s" % (order, areas))
-            self.assertAlmostEqual(sum(areas), 4.0)
+        self.expect_area([(0, 0), (2, -1), (0, 2), (-2, -1)], 4.0)
+        bent = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
+        self.expect_area(bent, 3.0)
+        self.expect_area(bent, math.sqrt(3.0) * 3.0, lambda x, y: (x, y, x - y))
+        self.expect_area(bent, 3.0, lambda x, y: (y, x, 0.01 * ((x * y) % 2)), 0.05)
+        comb = [(x, 0) for x in range(9)] + [(8 - x, 1 + x % 2 * 5) for x in range(9)]
+        self.expect_area(comb, 28.0)
+        # A square hole that a bridge reaches, which the face passes twice; a corner in the middle of an edge.
+        self.expect_area([(0, 0), (4, 0), (4, 4), (0, 4), (0, 0), (1, 1), (1, 3), (3, 3), (3, 1), (1, 1)], 12.0)
+        self.expect_area([(0, 0), (1, 0), (2, 0), (2, 2), (0, 2)], 4.0)
         self.assertEqual(len(self.convert("".join("v %g %g 0\n" % (math.cos(a), math.sin(a)) for a in range(6)) +
                                           "f 1 2 3 4 5 6").corners("POSITION")), 12)
 

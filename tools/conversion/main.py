@@ -12,9 +12,9 @@ from conversion.errors import ConversionError  # noqa: E402
 DESCRIPTION = """Converts OBJ and PLY to glTF, for glim and others.
 
 Of OBJ it keeps texture coordinates, normals, smoothing groups, vertex colours, and of its materials Kd, d, Tr, Ns, Pr, Pm, Ke, map_Kd and
-map_Ke. Polygons of more than four corners are cut into fans. PLY is read by trimesh, which the first call installs from PyPI into a Python
-environment of its own (build/to_gltf). Normals and colours are kept. Colours of vertices count as sRGB. Surfaces get both sides, since
-neither format has single-sided ones. Lengths stay what they are: glTF takes them for metres, and y for up."""
+map_Ke. PLY is read by trimesh, which the first call installs from PyPI into a Python environment of its own (build/to_gltf). Normals and
+colours are kept. Colours of vertices count as sRGB. Polygons of both may be concave. Surfaces get both sides, since neither format has
+single-sided ones. Lengths stay what they are: glTF takes them for metres, and y for up."""
 
 
 def parse_arguments():

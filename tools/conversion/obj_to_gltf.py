@@ -5,26 +5,16 @@ import os
 from conversion.colors import to_linear
 from conversion.read_mtl import MaterialWriter, read_mtl
 from conversion.read_obj import read_obj
-from conversion.smooth import dot, face_normal, give_normals
+from conversion.smooth import give_normals
+from conversion.triangulate import triangulate
 from scene_makers.gltf_document import Document
-
-
-def triangles_of(obj, face):
-    """Triangles of a face's corners. A quad is cut by the diagonal whose halves both face its front."""
-    corners = face.corners
-    if len(corners) == 4:
-        points = [obj.vertices[v] for v, _, _ in corners]
-        if dot(face_normal(points[:3]), face_normal([points[0], points[2], points[3]])) < 0.0:
-            corners = corners[1:] + corners[:1]
-    for i in range(1, len(corners) - 1):
-        yield corners[0], corners[i], corners[i + 1]
 
 
 def add_primitive(document, obj, faces, material):
     vertices, indices = {}, []
     for face in faces:
-        for triangle in triangles_of(obj, face):
-            indices += [vertices.setdefault(corner, len(vertices)) for corner in triangle]
+        for triangle in triangulate([obj.vertices[v] for v, _, _ in face.corners]):
+            indices += [vertices.setdefault(face.corners[i], len(vertices)) for i in triangle]
     attributes = {"NORMAL": [obj.normals[n] for _, _, n in vertices]}
     if any(uv is not None for _, uv, _ in vertices):
         uvs = [obj.uvs[uv] if uv is not None else [0.0, 0.0] for _, uv, _ in vertices]

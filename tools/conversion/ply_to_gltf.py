@@ -6,6 +6,7 @@ import trimesh
 
 from conversion.colors import to_linear
 from conversion.errors import ConversionError
+from conversion.triangulate import triangulate
 from scene_makers.gltf_document import Document
 
 LINEAR = [to_linear(i / 255.0) for i in range(256)]
@@ -16,9 +17,31 @@ def linear(rows):
     return [[LINEAR[r], LINEAR[g], LINEAR[b], a / 255.0] for r, g, b, a in rows.tolist()]
 
 
+def polygons_of(mesh):
+    """The faces as the file has them, which trimesh keeps beside its own, cut into fans."""
+    data = mesh.metadata["_ply_raw"]["face"]["data"]
+    names = data if isinstance(data, dict) else data.dtype.names or ()
+    for name in ("vertex_index", "vertex_indices"):
+        if name in names:
+            return data[name] if isinstance(data, dict) else data[name]["f1"]
+    return mesh.faces
+
+
+def corners_of(mesh):
+    """Indices of vertices, three for each triangle."""
+    polygons = polygons_of(mesh)
+    if all(len(polygon) == 3 for polygon in polygons):
+        return mesh.faces.reshape(-1).tolist()
+    points, corners = mesh.vertices.tolist(), []
+    for polygon in polygons:
+        for triangle in triangulate([points[v] for v in polygon]):
+            corners += [int(polygon[i]) for i in triangle]
+    return corners
+
+
 def ply_to_gltf(path, say):
     try:
-        mesh = trimesh.load(path, file_type="ply", process=False)
+        mesh = trimesh.load(path, file_type="ply", process=False, fix_texture=False)
     except Exception as error:  # trimesh raises what its parsers happen to meet
         raise ConversionError("%s: trimesh cannot read it (%s); expected PLY" % (path, error))
     if not isinstance(mesh, trimesh.Trimesh) or len(mesh.faces) == 0:
@@ -33,7 +56,7 @@ def ply_to_gltf(path, say):
         vertices, normals = vertices[faces.reshape(-1)], None if normals is None else normals[faces.reshape(-1)]
         faces = range(len(vertices))
     else:
-        faces = faces.reshape(-1).tolist()
+        faces = corners_of(mesh)
         if kind == "vertex":
             attributes["COLOR_0"] = linear(mesh.visual.vertex_colors)
     if normals is not None:

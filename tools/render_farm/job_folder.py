@@ -6,30 +6,7 @@ import os
 import shutil
 
 from render_farm.errors import FarmError
-
-
-def sync_folder(path):
-    descriptor = os.open(path, os.O_RDONLY | os.O_DIRECTORY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)
-
-
-def write_whole(path, content):
-    """Writes the whole file or, with OSError, nothing that has its name."""
-    partial = path + ".partial"
-    try:
-        with open(partial, "wb") as file:
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
-        os.rename(partial, path)
-    except OSError:
-        if os.path.exists(partial):
-            os.unlink(partial)
-        raise
-    sync_folder(os.path.dirname(path))
+from whole_file import sync_folder, write_whole
 
 
 class JobFolder:
@@ -60,12 +37,19 @@ class JobFolder:
     def take_lock(self):
         if not os.path.isdir(os.path.dirname(self.path)):
             raise FarmError("%s: cannot be made: the folder %s does not exist" % (self.path, os.path.dirname(self.path)))
+        if os.path.islink(self.path) or (os.path.exists(self.path) and not self.is_ours()):
+            raise FarmError("%s: is no folder of a farm; expected none of this name" % self.path)
         os.makedirs(self.pages, exist_ok=True)
         self.lock = os.open(self.path, os.O_RDONLY | os.O_DIRECTORY)  # until this process ends
         try:
             fcntl.flock(self.lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError as error:
             raise FarmError("%s: another farm works on it now" % self.path) from error
+
+    def is_ours(self):
+        """Nothing but a farm's folder may be removed at the end. One that was killed at the beginning has `pages` at most."""
+        return os.path.isdir(self.path) and (os.path.exists(os.path.join(self.path, "job.json"))
+                                             or all(name == "pages" or name.startswith(".glim-") for name in os.listdir(self.path)))
 
     def remove(self):
         shutil.rmtree(self.path)

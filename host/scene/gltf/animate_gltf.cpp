@@ -7,9 +7,12 @@
 #include "host/scene/gltf/read_accessor.hpp"
 #include "host/text.hpp"
 
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace glim {
@@ -81,8 +84,9 @@ private:
     std::optional<Property> findProperty(const std::string& pointer, const std::string& place);
     json* findParent(const std::vector<std::string>& steps);
     void spellOutWeights(const std::vector<std::string>& steps, const std::string& place);
-    std::vector<double> readTimes(const GltfAnimation::Sampler& sampler) const;
-    Keyframes readKeyframes(const GltfAnimation::Sampler& sampler, const Property& property, const std::string& place) const;
+    void replaceMatrix(json& node, const std::string& pointer, const std::string& place);
+    std::vector<double> readTimes(const GltfAnimation::Sampler& sampler);
+    Keyframes readKeyframes(const GltfAnimation::Sampler& sampler, const Property& property, const std::string& place);
     void set(const Property& property, std::vector<double> value, const std::string& pointer);
 
     const GltfFile& file_;
@@ -117,7 +121,10 @@ void Animator::spellOutWeights(const std::vector<std::string>& steps, const std:
     const bool isNode = steps[0] == "nodes";
     const json* mesh = !isNode ? owner : owner->contains("mesh") ? &document_["meshes"][(*owner)["mesh"].get<std::size_t>()] : nullptr;
     const json primitives = mesh == nullptr ? json::array() : (*mesh)["primitives"];
-    const std::size_t count = primitives.empty() ? 0 : primitives[0].value("targets", json::array()).size();
+    std::size_t count = 0;
+    for (const json& primitive : primitives) {
+        count = std::max(count, primitive.value("targets", json::array()).size());
+    }
     if (count == 0) {
         refuse(file_, place + " animates the weights of " + steps[0] + "[" + steps[1] + "], which has no morph targets; expected some");
     }
@@ -144,8 +151,9 @@ std::optional<Property> Animator::findProperty(const std::string& pointer, const
     if (property.parent == nullptr) {
         refuse(file_, place + " points to " + pointer + "; expected a property that the file has");
     }
-    if (steps[0] == "nodes" && steps.size() == 3 && property.parent->contains("matrix")) {
-        refuse(file_, place + " animates " + pointer + " of a node with a matrix; expected translation, rotation and scale");
+    const bool moves = path == "nodes[].translation" || path == "nodes[].rotation" || path == "nodes[].scale";
+    if (moves && property.parent->contains("matrix")) {
+        replaceMatrix(*property.parent, pointer, place);
     }
     property.rotation = vector && rule->count == 4 && steps.back() == "rotation";
     property.components = vector ? rule->count : 1;
@@ -155,20 +163,49 @@ std::optional<Property> Animator::findProperty(const std::string& pointer, const
     return property;
 }
 
-std::vector<double> Animator::readTimes(const GltfAnimation::Sampler& sampler) const
+// The matrix of a node that moves, in the parts that move.
+void Animator::replaceMatrix(json& node, const std::string& pointer, const std::string& place)
 {
+    constexpr double kOrthogonal = 1e-4;  // of columns of unit length
+    const auto m = node["matrix"].get<std::vector<double>>();
+    glm::dmat3 axes(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]);
+    glm::dvec3 scale(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]));
+    scale.x = glm::determinant(axes) < 0.0 ? -scale.x : scale.x;
+    const bool flat = scale.x == 0.0 || scale.y == 0.0 || scale.z == 0.0;
+    for (int c = 0; c < 3; ++c) {
+        axes[c] /= flat ? 1.0 : scale[c];
+    }
+    const glm::dvec3 cosines(glm::dot(axes[0], axes[1]), glm::dot(axes[1], axes[2]), glm::dot(axes[2], axes[0]));
+    if (flat || !(glm::length(cosines) <= kOrthogonal)) {
+        refuse(file_, place + " animates " + pointer + " of a node whose matrix shears or flattens; expected a node without a matrix");
+    }
+    const glm::dquat rotation = glm::quat_cast(axes);
+    node.erase("matrix");
+    node["translation"] = {m[12], m[13], m[14]};
+    node["rotation"] = {rotation.x, rotation.y, rotation.z, rotation.w};
+    node["scale"] = {scale.x, scale.y, scale.z};
+    warnings_.add("matrices of nodes that are animated count as translation, rotation and scale", shortened(pointer));
+}
+
+std::vector<double> Animator::readTimes(const GltfAnimation::Sampler& sampler)
+{
+    constexpr double kTimeRounding = 1e-5;  // relative: of float32, written with six digits
     const std::string use = "times of " + place_;
     std::vector<double> times = readNumbers(file_, sampler.input, 1, use);
     for (std::size_t i = 1; i < times.size(); ++i) {
-        if (!(times[i] > times[i - 1])) {
+        const bool jumps = times[i] <= times[i - 1] && times[i - 1] - times[i] <= kTimeRounding * std::abs(times[i]);
+        if (jumps) {
+            warnings_.add("values jump where times of keys do not increase", "accessors[" + std::to_string(sampler.input) + "] (" + use + ")");
+            times[i] = times[i - 1];
+        } else if (!(times[i] > times[i - 1])) {
             refuse(file_, "accessors[" + std::to_string(sampler.input) + "] (" + use + ") holds " + toText(times[i]) + " after " +
-                              toText(times[i - 1]) + " in element " + std::to_string(i) + "; expected increasing times");
+                              toText(times[i - 1]) + " in element " + std::to_string(i) + "; expected times that do not decrease");
         }
     }
     return times;
 }
 
-Keyframes Animator::readKeyframes(const GltfAnimation::Sampler& sampler, const Property& property, const std::string& place) const
+Keyframes Animator::readKeyframes(const GltfAnimation::Sampler& sampler, const Property& property, const std::string& place)
 {
     Keyframes keyframes{sampler.interpolation, property.rotation, property.width, readTimes(sampler)};
     keyframes.values = readNumbers(file_, sampler.output, property.components, "values of " + place);

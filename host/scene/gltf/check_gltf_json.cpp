@@ -8,7 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <initializer_list>
+#include <iterator>
 #include <span>
 #include <string_view>
 
@@ -64,16 +67,37 @@ bool isInRange(const SchemaRule& rule, const json& value)
     return value.is_number() && value.get<double>() >= rule.min && value.get<double>() <= rule.max;
 }
 
+// Whether a number is out of the rule's range by no more than rounding.
+bool isRoundedOut(const SchemaRule& rule, const json& value)
+{
+    if (!value.is_number() || isInRange(rule, value)) {
+        return false;
+    }
+    const double number = value.get<double>();
+    return number > rule.max ? number - rule.max <= rule.rounding : rule.min != kPositive && rule.min - number <= rule.rounding;
+}
+
+// JSON has one kind of number: 4.0 is 4, and -0 is 0.
+void makeWhole(json& value)
+{
+    const double number = value.is_number() ? value.get<double>() : 0.5;
+    if (!value.is_number_unsigned() && std::abs(number) <= kMaxWhole && number == std::floor(number)) {
+        number < 0.0 ? value = static_cast<std::int64_t>(number) : value = static_cast<std::uint64_t>(number);
+    }
+}
+
 bool isOneOf(const std::string& words, const json& value)
 {
     return value.is_string() && (", " + words + ",").find(", " + value.get<std::string>() + ",") != std::string::npos;
 }
 
+// Checks a document by the rules, and mends what is right but for its rounding or its spelling.
 class JsonCheck {
 public:
-    JsonCheck(const std::string& path, const json& document)
+    JsonCheck(const std::string& path, json& document, Warnings& warnings)
         : path_(path),
-          document_(document)
+          document_(document),
+          warnings_(warnings)
     {}
 
     void apply(const SchemaRule& rule) const { visit(rule, rule.path, document_, ""); }
@@ -95,7 +119,7 @@ private:
         }
     }
 
-    void visit(const SchemaRule& rule, std::string_view rest, const json& value, const std::string& place) const
+    void visit(const SchemaRule& rule, std::string_view rest, json& value, const std::string& place) const
     {
         if (rest.empty()) {
             checkValue(rule, value, place);
@@ -106,7 +130,7 @@ private:
             }
         } else if (rest.substr(0, 2) == "{}") {
             require(value.is_object(), place, value, "an object");
-            for (const auto& [key, member] : value.items()) {
+            for (auto& [key, member] : value.items()) {
                 visit(rule, rest.substr(2), member, place + "." + shortened(key));
             }
         } else {
@@ -114,7 +138,7 @@ private:
         }
     }
 
-    void visitMember(const SchemaRule& rule, std::string_view rest, const json& value, const std::string& place) const
+    void visitMember(const SchemaRule& rule, std::string_view rest, json& value, const std::string& place) const
     {
         const std::string name(rest.substr(0, rest.find_first_of(".[{")));
         rest.remove_prefix(name.size());
@@ -124,18 +148,36 @@ private:
         require(value.is_object(), place, value, "an object");
         const auto member = value.find(name);
         const std::string memberPlace = place.empty() ? name : place + "." + name;
-        if (member != value.end()) {
+        if (member != value.end() && rule.zeroIsNone && member->is_number() && member->get<double>() == 0.0) {
+            warnings_.add("zeros count as left out where glTF has no meaning for 0", memberPlace);
+            value.erase(member);
+        } else if (member != value.end()) {
             visit(rule, rest, *member, memberPlace);
         } else if (rest.empty() && rule.need == Need::Required) {
             throw InputError(path_ + ": " + memberPlace + " is missing; expected " + describe(rule));
         }
     }
 
-    void checkValue(const SchemaRule& rule, const json& value, const std::string& place) const
+    void checkValue(const SchemaRule& rule, json& value, const std::string& place) const
     {
+        if (rule.kind == JsonKind::Index || rule.kind == JsonKind::Whole) {
+            makeWhole(value);
+        } else if (rule.kind == JsonKind::Number) {
+            clampRounded(rule, value, place);
+        }
         require(isRight(rule, value), place, value, describe(rule));
         for (std::size_t i = 0; rule.kind == JsonKind::Numbers && i < value.size(); ++i) {
-            require(isInRange(rule, value[i]), place + "[" + std::to_string(i) + "]", value[i], "a number" + describeRange(rule));
+            const std::string element = place + "[" + std::to_string(i) + "]";
+            clampRounded(rule, value[i], element);
+            require(isInRange(rule, value[i]), element, value[i], "a number" + describeRange(rule));
+        }
+    }
+
+    void clampRounded(const SchemaRule& rule, json& value, const std::string& place) const
+    {
+        if (isRoundedOut(rule, value)) {
+            warnings_.add(kClamped, place + " " + excerpt(value));
+            value = std::clamp(value.get<double>(), rule.min, rule.max);
         }
     }
 
@@ -192,8 +234,68 @@ private:
     }
 
     const std::string& path_;
-    const json& document_;
+    json& document_;
+    Warnings& warnings_;
 };
+
+// Erases members that are null, wherever glim may read them. `place` is that of the value, and the same after the call.
+void eraseNulls(json& value, std::string& place, Warnings& warnings)
+{
+    const std::size_t length = place.size();
+    if (value.is_array()) {
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            if (value[i].is_structured()) {
+                eraseNulls(value[i], place += "[" + std::to_string(i) + "]", warnings);
+                place.resize(length);
+            }
+        }
+        return;
+    }
+    for (auto member = value.begin(); member != value.end();) {
+        const bool isNull = member->is_null();
+        if (isNull || (member->is_structured() && member.key() != "extras")) {
+            place += (length == 0 ? "" : ".") + shortened(member.key());
+            isNull ? warnings.add("members that are null count as left out", place) : eraseNulls(*member, place, warnings);
+            place.resize(length);
+        }
+        member = isNull ? value.erase(member) : std::next(member);
+    }
+}
+
+// Rounds last rows of matrices of nodes.
+void makeAffine(json& document, Warnings& warnings)
+{
+    json none = json::array();
+    json& nodes = document.contains("nodes") ? document["nodes"] : none;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const auto matrix = nodes[i].find("matrix");
+        if (matrix == nodes[i].end()) {
+            continue;
+        }
+        double error = 0.0;
+        for (std::size_t column = 0; column < 4; ++column) {
+            error = std::max(error, std::abs((*matrix)[4 * column + 3].get<double>() - (column == 3 ? 1.0 : 0.0)));
+        }
+        if (error > 0.0 && error <= kAffineRounding) {
+            for (std::size_t column = 0; column < 4; ++column) {
+                (*matrix)[4 * column + 3] = column == 3 ? 1.0 : 0.0;
+            }
+            warnings.add("last rows of matrices are rounded to 0 0 0 1", "nodes[" + std::to_string(i) + "]");
+        }
+    }
+}
+
+// glTF 1.0 has objects where 2.0 has arrays, and need not have an asset.
+bool isFirstVersion(const json& document)
+{
+    const json asset = document.value("asset", json::object());
+    const json version = asset.is_object() && asset.contains("version") ? asset["version"] : json();
+    if (version.is_string() || version.is_number()) {
+        return (version.is_string() ? version.get<std::string>() : version.dump()).rfind("1.", 0) == 0 || version == 1;
+    }
+    return std::ranges::any_of(std::array{"accessors", "bufferViews", "buffers", "meshes", "nodes", "scenes"},
+                               [&](const char* name) { return document.contains(name) && document[name].is_object(); });
+}
 
 bool holdsOneOf(const std::string& name, std::initializer_list<const char*> parts)
 {
@@ -266,9 +368,16 @@ const SchemaRule* findRule(const std::string& path)
     return nullptr;
 }
 
-void checkGltfJson(const std::string& path, const json& document)
+void checkGltfJson(const std::string& path, json& document, Warnings& warnings)
 {
-    const JsonCheck check(path, document);
+    if (document.is_object() && isFirstVersion(document)) {
+        throw InputError(path + ": is glTF 1.0; expected glTF 2.0, which converters for old files make of it");
+    }
+    if (document.is_object()) {
+        std::string place;
+        eraseNulls(document, place, warnings);
+    }
+    const JsonCheck check(path, document, warnings);
     for (const SchemaRule& rule : kSchemaRules) {
         check.apply(rule);
     }
@@ -279,6 +388,7 @@ void checkGltfJson(const std::string& path, const json& document)
         check.applyAt("buffers[].extensions." + name, kMeshoptBufferRules);
         check.applyAt("bufferViews[].extensions." + name, kMeshoptViewRules);
     }
+    makeAffine(document, warnings);
     checkParts(path, document, json::json_pointer("/cameras"), [](const std::string& type) { return type; });
     checkParts(path, document, json::json_pointer("/extensions/KHR_lights_punctual/lights"),
                [](const std::string& type) { return std::string(type == "spot" ? "spot" : ""); });

@@ -3,6 +3,7 @@
 
 #include "host/scene/keyframes.hpp"
 #include "host/scene/scene.hpp"
+#include "host/scene/warnings.hpp"
 
 #include <tiny_gltf.h>
 #include <nlohmann/json_fwd.hpp>
@@ -72,6 +73,7 @@ struct GltfFile {
     std::vector<GltfSkin> skins;
     std::vector<GltfAnimation> animations;
     std::optional<std::size_t> variant;  // of KHR_materials_variants, that is to be drawn
+    Warnings warnings;                   // of what was mended in its JSON
 };
 
 // `confined`: refuses files that the document names outside of its folder.
@@ -81,7 +83,8 @@ GltfFile readGltfFile(const std::filesystem::path& file, bool confined);
 std::vector<unsigned char> readUri(const std::string& path, const std::string& place, const std::string& uri,
                                    std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 bool isDataUri(const std::string& uri);
-// Where a uri that is not data: points.
+// Where a uri that is not data: points: to the first file that is there of its name as it is, decoded, and with slashes for backslashes, as
+// exporters write all three.
 std::filesystem::path externalFile(const std::string& path, const std::string& uri);
 // Refuses a uri that points out of the folder of the glTF file, links followed.
 void refuseOutside(const std::string& path, const std::string& place, const std::string& uri);

@@ -13,6 +13,13 @@ constexpr double kPositive = DBL_MIN;             // as a minimum: greater than 
 constexpr double kMaxWhole = 9007199254740992.0;  // 2^53
 constexpr double kMaxInt = 2147483647.0;          // what tinygltf has room for
 
+// How far a number may be out of its range by rounding: a step of 8 bits, in which many tools keep colours and factors.
+constexpr double kRounding = 0.004;
+constexpr const char* kClamped = "numbers that rounding has put out of their range are clamped";
+
+// How far the last row of a matrix may be from 0 0 0 1 by rounding.
+constexpr double kAffineRounding = 1e-4;
+
 struct SchemaRule {
     const char* path;  // `[]`: each element of an array, `{}`: each value of an object
     JsonKind kind;
@@ -20,6 +27,8 @@ struct SchemaRule {
     const char* target = nullptr;  // Index: path of the array that is indexed; OneOf: the words, separated by ", "
     std::size_t count = 0;         // Numbers: how many
     double min = -DBL_MAX, max = DBL_MAX;
+    double rounding = kRounding;  // Number, Numbers: what is out of range by less is clamped
+    bool zeroIsNone = false;      // exporters write 0 where there is no value
 };
 
 namespace schema {
@@ -44,6 +53,18 @@ constexpr SchemaRule numbers(const char* path, std::size_t count, double min = -
     return {path, JsonKind::Numbers, Need::Optional, nullptr, count, min, max};
 }
 
+constexpr SchemaRule exact(SchemaRule rule)
+{
+    rule.rounding = 0.0;
+    return rule;
+}
+
+constexpr SchemaRule zeroIsNone(SchemaRule rule)
+{
+    rule.zeroIsNone = true;
+    return rule;
+}
+
 constexpr SchemaRule oneOf(const char* path, const char* words, Need need = Need::Optional) { return {path, JsonKind::OneOf, need, words}; }
 
 constexpr SchemaRule other(const char* path, JsonKind kind, Need need = Need::Optional) { return {path, kind, need}; }
@@ -62,18 +83,18 @@ constexpr SchemaRule kSchemaRules[] = {
     schema::other("extensionsRequired[]", JsonKind::String),
 
     schema::other("buffers[].uri", JsonKind::String),
-    schema::whole("buffers[].byteLength", Need::Required, 1),
+    schema::whole("buffers[].byteLength", Need::Required),
     schema::index("bufferViews[].buffer", "buffers", Need::Required),
     schema::whole("bufferViews[].byteOffset"),
-    schema::whole("bufferViews[].byteLength", Need::Required, 1),
-    schema::whole("bufferViews[].byteStride", Need::Optional, 4, 252),
+    schema::whole("bufferViews[].byteLength", Need::Required),
+    schema::zeroIsNone(schema::whole("bufferViews[].byteStride", Need::Optional, 1, 252)),
     schema::index("accessors[].bufferView", "bufferViews"),
     schema::whole("accessors[].byteOffset"),
     schema::whole("accessors[].componentType", Need::Required, 5120, 5126),
-    schema::whole("accessors[].count", Need::Required, 1),
+    schema::whole("accessors[].count", Need::Required),  // 0 is refused where the accessor is read
     schema::oneOf("accessors[].type", "SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3, MAT4", Need::Required),
     schema::other("accessors[].normalized", JsonKind::Bool),
-    schema::whole("accessors[].sparse.count", Need::Required, 1, kMaxInt),
+    schema::whole("accessors[].sparse.count", Need::Required, 0, kMaxInt),
     schema::other("accessors[].sparse.indices", JsonKind::Object, Need::Required),
     schema::index("accessors[].sparse.indices.bufferView", "bufferViews", Need::Required),
     schema::whole("accessors[].sparse.indices.byteOffset", Need::Optional, 0, kMaxInt),
@@ -87,10 +108,10 @@ constexpr SchemaRule kSchemaRules[] = {
     schema::other("images[].mimeType", JsonKind::String),
     schema::index("images[].bufferView", "bufferViews"),
     schema::other("samplers", JsonKind::Array),
-    schema::whole("samplers[].magFilter", Need::Optional, 9728, 9729),
-    schema::whole("samplers[].minFilter", Need::Optional, 9728, 9987),
-    schema::whole("samplers[].wrapS", Need::Optional, 10497, 33648),
-    schema::whole("samplers[].wrapT", Need::Optional, 10497, 33648),
+    schema::whole("samplers[].magFilter", Need::Optional, -kMaxInt, kMaxInt),  // what glTF does not know is replaced
+    schema::whole("samplers[].minFilter", Need::Optional, -kMaxInt, kMaxInt),
+    schema::whole("samplers[].wrapS", Need::Optional, -kMaxInt, kMaxInt),
+    schema::whole("samplers[].wrapT", Need::Optional, -kMaxInt, kMaxInt),
     schema::other("textures[].name", JsonKind::String),
     schema::index("textures[].source", "images"),
     schema::index("textures[].sampler", "samplers"),
@@ -112,7 +133,7 @@ constexpr SchemaRule kSchemaRules[] = {
     schema::numbers("materials[].extensions.KHR_materials_specular.specularColorFactor", 3, 0),
     schema::number("materials[].extensions.KHR_materials_transmission.transmissionFactor", Need::Optional, 0, 1),
     schema::number("materials[].extensions.KHR_materials_volume.thicknessFactor", Need::Optional, 0),
-    schema::number("materials[].extensions.KHR_materials_volume.attenuationDistance", Need::Optional, kPositive),
+    schema::zeroIsNone(schema::number("materials[].extensions.KHR_materials_volume.attenuationDistance", Need::Optional, kPositive)),
     schema::numbers("materials[].extensions.KHR_materials_volume.attenuationColor", 3, 0, 1),
     schema::number("materials[].extensions.KHR_materials_dispersion.dispersion", Need::Optional, 0),
     schema::numbers("materials[].extensions.KHR_materials_volume_scatter.multiscatterColor", 3, 0, 1),
@@ -153,11 +174,11 @@ constexpr SchemaRule kSchemaRules[] = {
 
     schema::other("cameras[].name", JsonKind::String),
     schema::oneOf("cameras[].type", "perspective, orthographic", Need::Required),
-    schema::number("cameras[].perspective.yfov", Need::Required, kPositive, kMaxYfov),
-    schema::number("cameras[].perspective.aspectRatio", Need::Optional, kPositive),
-    schema::number("cameras[].perspective.znear", Need::Required, kPositive),
-    schema::number("cameras[].orthographic.xmag", Need::Required, kPositive),
-    schema::number("cameras[].orthographic.ymag", Need::Required, kPositive),
+    schema::exact(schema::number("cameras[].perspective.yfov", Need::Required, kPositive, kMaxYfov)),
+    schema::zeroIsNone(schema::number("cameras[].perspective.aspectRatio", Need::Optional, kPositive)),
+    schema::number("cameras[].perspective.znear", Need::Required, 0),  // nothing is clipped
+    schema::number("cameras[].orthographic.xmag", Need::Required),     // negative: mirrored; the reader refuses 0
+    schema::number("cameras[].orthographic.ymag", Need::Required),
     schema::number("cameras[].orthographic.znear", Need::Required),
     schema::number("cameras[].orthographic.zfar", Need::Required),
     schema::other("extensions.KHR_lights_punctual.lights", JsonKind::Array, Need::Required),
@@ -165,7 +186,7 @@ constexpr SchemaRule kSchemaRules[] = {
     schema::oneOf("extensions.KHR_lights_punctual.lights[].type", "point, directional, spot", Need::Required),
     schema::numbers("extensions.KHR_lights_punctual.lights[].color", 3, 0),
     schema::number("extensions.KHR_lights_punctual.lights[].intensity", Need::Optional, 0),
-    schema::number("extensions.KHR_lights_punctual.lights[].range", Need::Optional, kPositive),
+    schema::zeroIsNone(schema::number("extensions.KHR_lights_punctual.lights[].range", Need::Optional, kPositive)),
     schema::number("extensions.KHR_lights_punctual.lights[].spot.innerConeAngle", Need::Optional, 0, kHalfPi),
     schema::number("extensions.KHR_lights_punctual.lights[].spot.outerConeAngle", Need::Optional, kPositive, kHalfPi),
 
@@ -190,7 +211,7 @@ constexpr SchemaRule kSchemaRules[] = {
     schema::numbers("nodes[].translation", 3),
     schema::numbers("nodes[].rotation", 4),
     schema::numbers("nodes[].scale", 3),
-    schema::number("nodes[].extras.sphere.radius", Need::Required, 0),
+    schema::exact(schema::number("nodes[].extras.sphere.radius", Need::Required, 0)),
     schema::index("nodes[].extras.sphere.material", "materials"),
     schema::other("skins[].name", JsonKind::String),
     schema::other("skins[].joints", JsonKind::Array, Need::Required),

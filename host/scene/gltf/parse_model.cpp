@@ -29,6 +29,19 @@ std::vector<std::size_t> lendBufferView(json& document)
     return borrowers;
 }
 
+// tinygltf refuses strides that are no multiple of 4, which indices and packed small integers have.
+std::vector<std::size_t> takeStrides(json& document)
+{
+    std::vector<std::size_t> strides;
+    if (document.contains("bufferViews")) {
+        for (json& view : document["bufferViews"]) {
+            strides.push_back(view.value("byteStride", std::size_t{0}));
+            view.erase("byteStride");
+        }
+    }
+    return strides;
+}
+
 // tinygltf narrows whole numbers in extras and extensions to int.
 void widenIntegers(json& value)
 {
@@ -60,7 +73,7 @@ void widenMembers(json& document, const char* collection, const char* member)
 // the document that it has parsed.
 tinygltf::Model parseModel(const std::string& path, json document)
 {
-    const std::vector<std::size_t> borrowers = lendBufferView(document);
+    const std::vector<std::size_t> strides = takeStrides(document), borrowers = lendBufferView(document);
     widenMembers(document, "materials", "extensions");
     widenMembers(document, "nodes", "extras");
     const std::string text = document.dump();
@@ -75,6 +88,9 @@ tinygltf::Model parseModel(const std::string& path, json document)
     }
     if (!model.accessors.empty()) {
         model.bufferViews.pop_back();
+    }
+    for (std::size_t i = 0; i < strides.size(); ++i) {
+        model.bufferViews[i].byteStride = strides[i];
     }
     return model;
 }

@@ -2,6 +2,7 @@
 
 #include "host/message.hpp"
 #include "host/scene/deform_mesh.hpp"
+#include "host/scene/gltf/gltf_schema.hpp"
 #include "host/scene/gltf/place_nodes.hpp"
 #include "host/scene/gltf/read_accessor.hpp"
 #include "host/text.hpp"
@@ -12,9 +13,8 @@
 namespace glim {
 namespace {
 
-// How far a vertex's weights may add up to something else than 1, and how far a matrix may be from affine: both are rounded in files.
+// How far a vertex's weights may add up to something else than 1, and how far a weight may be below 0: both are rounded in files.
 constexpr double kWeightRounding = 1e-3;
-constexpr double kAffineRounding = 1e-5;
 
 std::string skinLabel(const GltfFile& file, std::size_t skin) { return label("skins", skin, file.skins[skin].name); }
 
@@ -95,12 +95,17 @@ Influences readInfluences(const GltfFile& file, const tinygltf::Primitive& primi
     influences.perVertex = 4 * sets;
     influences.joints.resize(vertexCount * influences.perVertex);
     influences.weights.resize(vertexCount * influences.perVertex);
+    bool negative = false;
     for (std::size_t set = 0; set < sets; ++set) {
         const std::string number = std::to_string(set);
         const auto joints = readAttribute<glm::dvec4>(file, primitive.attributes, "JOINTS_" + number, "joints", vertexCount, place);
-        const auto weights = readAttribute<glm::dvec4>(file, primitive.attributes, "WEIGHTS_" + number, "weights", vertexCount, place);
+        auto weights = readAttribute<glm::dvec4>(file, primitive.attributes, "WEIGHTS_" + number, "weights", vertexCount, place);
         for (std::size_t i = 0; i < vertexCount; ++i) {
             for (int c = 0; c < 4; ++c) {
+                if (weights[i][c] < 0.0 && weights[i][c] >= -kWeightRounding) {
+                    weights[i][c] = 0.0;
+                    negative = true;
+                }
                 checkInfluence(file, skin, joints[i][c], weights[i][c], "vertex " + std::to_string(i) + " of " + place);
                 const std::size_t at = i * influences.perVertex + 4 * set + static_cast<std::size_t>(c);
                 influences.joints[at] = weights[i][c] > 0.0 ? static_cast<std::uint32_t>(joints[i][c]) : 0U;
@@ -109,6 +114,9 @@ Influences readInfluences(const GltfFile& file, const tinygltf::Primitive& primi
         }
     }
     bool normalized = false;
+    if (negative) {
+        warnings.add("weights of joints just below 0 count as 0", place);
+    }
     for (std::size_t i = 0; i < vertexCount; ++i) {
         normalized = normalizeWeights(influences, i) || normalized;
     }
@@ -118,16 +126,22 @@ Influences readInfluences(const GltfFile& file, const tinygltf::Primitive& primi
     return influences;
 }
 
-// Those of weight 0 are not read.
-std::vector<MorphTarget> readMorphTargets(const GltfFile& file, const tinygltf::Primitive& primitive, const std::vector<double>& weights,
-                                          std::size_t vertexCount, const std::string& place, Warnings& warnings)
+// Those of weight 0 are not read. Some primitives of the mesh may lack the targets of others.
+std::vector<MorphTarget> readMorphTargets(const GltfFile& file, const tinygltf::Mesh& mesh, std::size_t index,
+                                          const std::vector<double>& weights, std::size_t vertexCount, const std::string& place,
+                                          Warnings& warnings)
 {
-    if (primitive.targets.size() != weights.size()) {
-        refuse(file, place + " has " + counted(primitive.targets.size(), "morph target") + " and " + counted(weights.size(), "weight") +
+    const tinygltf::Primitive& primitive = mesh.primitives[index];
+    const std::size_t count = primitive.targets.size();
+    if (count != weights.size() && !(count < weights.size() && countMorphTargets(mesh) == weights.size())) {
+        refuse(file, place + " has " + counted(count, "morph target") + " and " + counted(weights.size(), "weight") +
                          "; expected as many of both");
     }
+    if (count < weights.size()) {
+        warnings.add("morph targets that other parts of a mesh have do not move those without them", place);
+    }
     std::vector<MorphTarget> targets;
-    for (std::size_t i = 0; i < weights.size(); ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         if (weights[i] == 0.0) {
             continue;
         }
@@ -146,6 +160,15 @@ std::vector<MorphTarget> readMorphTargets(const GltfFile& file, const tinygltf::
 }
 
 }  // namespace
+
+std::size_t countMorphTargets(const tinygltf::Mesh& mesh)
+{
+    std::size_t count = 0;
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+        count = std::max(count, primitive.targets.size());
+    }
+    return count;
+}
 
 std::vector<double> morphWeightsOf(const GltfFile& file, std::size_t node)
 {
@@ -167,15 +190,15 @@ std::vector<glm::dmat4> placeJoints(const GltfFile& file, std::size_t skin)
     return matrices;
 }
 
-void poseMesh(const GltfFile& file, const tinygltf::Primitive& primitive, const MeshPose& pose, const std::string& place, Mesh& mesh,
-              Warnings& warnings)
+void poseMesh(const GltfFile& file, const tinygltf::Mesh& source, std::size_t primitive, const MeshPose& pose, const std::string& place,
+              Mesh& mesh, Warnings& warnings)
 {
     const std::size_t vertexCount = mesh.positions.size();
     if (!pose.weights.empty()) {
-        morphMesh(mesh, readMorphTargets(file, primitive, pose.weights, vertexCount, place, warnings));
+        morphMesh(mesh, readMorphTargets(file, source, primitive, pose.weights, vertexCount, place, warnings));
     }
     if (pose.skin) {
-        const Influences influences = readInfluences(file, primitive, file.skins[*pose.skin], vertexCount, place, warnings);
+        const Influences influences = readInfluences(file, source.primitives[primitive], file.skins[*pose.skin], vertexCount, place, warnings);
         skinMesh(mesh, influences, pose.worldFromBind);
     }
 }

@@ -14,14 +14,17 @@ struct MeshPose {
     std::vector<double> weights;            // of morph targets; empty if all are 0
 };
 
+// Of the primitive that has the most: others may lack some.
+std::size_t countMorphTargets(const tinygltf::Mesh& mesh);
+
 // The weights of the node's morph targets: its own, else its mesh's; empty if all are 0.
 std::vector<double> morphWeightsOf(const GltfFile& file, std::size_t node);
 
 // The matrices of a skin's joints, which go from the pose that the skin was bound in to the world.
 std::vector<glm::dmat4> placeJoints(const GltfFile& file, std::size_t skin);
 
-// Morphs and skins what was read from `primitive`. A skinned mesh is in world coordinates afterwards.
-void poseMesh(const GltfFile& file, const tinygltf::Primitive& primitive, const MeshPose& pose, const std::string& place, Mesh& mesh,
-              Warnings& warnings);
+// Morphs and skins what was read from a primitive of `source`. A skinned mesh is in world coordinates afterwards.
+void poseMesh(const GltfFile& file, const tinygltf::Mesh& source, std::size_t primitive, const MeshPose& pose, const std::string& place,
+              Mesh& mesh, Warnings& warnings);
 
 }  // namespace glim

@@ -151,7 +151,8 @@ std::vector<Value> readElements(const GltfFile& file, std::size_t index, std::si
             values.push_back(convert(decoder, elements.first + i * elements.stride));
         }
     } else {
-        values.resize(accessor.count, Value(0));
+        constexpr unsigned char kZeros[16 * sizeof(float)] = {};
+        values.resize(accessor.count, convert(decoder, kZeros));
     }
     if (accessor.sparse.isSparse) {
         replaceSparse(file, accessor, decoder, place, convert, values);
@@ -164,6 +165,9 @@ void checkAccessor(const GltfFile& file, std::size_t index, int type, const char
     const tinygltf::Accessor& accessor = file.model.accessors[index];
     if (accessor.type != type) {
         refuse(file, place + " has another type; expected " + typeName);
+    }
+    if (accessor.count == 0) {
+        refuse(file, place + ".count is 0; expected at least 1");
     }
     if (accessor.bufferView < 0 && accessor.count > kMaxUnbackedElements) {
         refuse(file, place + " claims " + std::to_string(accessor.count) + " elements without a bufferView; expected at most " +

@@ -1,4 +1,5 @@
 #include "host/error.hpp"
+#include "host/input_file.hpp"
 #include "host/message.hpp"
 #include "host/scene/gltf/check_gltf_json.hpp"
 #include "host/scene/gltf/decompress.hpp"
@@ -10,10 +11,12 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <optional>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 namespace glim {
 namespace {
@@ -94,12 +97,27 @@ std::vector<unsigned char> decodeDataUri(const std::string& path, const std::str
     return decodeBase64(path + ": " + place + ".uri", isEncoded ? std::string_view(decoded) : std::string_view(uri).substr(comma + 1));
 }
 
-std::vector<unsigned char> readExternal(const std::string& path, const std::string& place, const std::string& uri, std::uint64_t most)
+// The names of files that a uri may mean.
+std::array<std::string, 3> namesOf(const std::string& uri)
 {
     const std::string decoded = percentDecode(uri);
-    const std::filesystem::path relative = decoded;
-    if (relative.empty() || relative.is_absolute() || uri.find(':') != std::string::npos || decoded.find('\0') != std::string::npos) {
-        throw InputError(path + ": " + place + ".uri is " + inQuotes(uri) + "; expected a path relative to the glTF file");
+    std::string slashed = decoded;
+    std::replace(slashed.begin(), slashed.end(), '\\', '/');
+    return {uri, decoded, slashed};
+}
+
+bool isRelative(const std::string& name)
+{
+    return !name.empty() && !std::filesystem::path(name).is_absolute() && name.find('\0') == std::string::npos;
+}
+
+std::vector<unsigned char> readExternal(const std::string& path, const std::string& place, const std::string& uri, std::uint64_t most)
+{
+    const std::array<std::string, 3> names = namesOf(uri);
+    const bool url = isUrl(uri);
+    if (url || !std::all_of(names.begin(), names.end(), isRelative)) {
+        throw InputError(path + ": " + place + ".uri is " + inQuotes(uri) + "; expected a path relative to the glTF file" +
+                         (url ? ", as glim reads files and no URLs" : ""));
     }
     try {
         return readBytes(externalFile(path, uri), most);
@@ -128,12 +146,12 @@ Buffers readBuffers(const std::string& path, const json& document, GltfContainer
             buffers.emplace_back();
             continue;
         }
-        if (!entry.contains("uri")) {
+        if (!entry.contains("uri") && expected > 0) {
             if (!buffers.empty() || !container.binary) {
                 throw InputError(path + ": " + place + " has no uri; expected one in all but the first buffer of a .glb");
             }
             bytes = std::move(*container.binary);
-        } else {
+        } else if (expected > 0) {
             bytes = readUri(path, place, uri, expected);
         }
         if (bytes.size() < expected) {
@@ -171,19 +189,45 @@ std::vector<EncodedImage> listImages(const json& document)
     return images;
 }
 
+constexpr int kNearest = 9728, kLinear = 9729, kNearestMipmapNearest = 9984, kLinearMipmapNearest = 9985, kNearestMipmapLinear = 9986,
+              kLinearMipmapLinear = 9987;
+constexpr int kRepeat = 10497, kClampToEdge = 33071, kMirroredRepeat = 33648;
+
 Wrap wrapOf(const json& sampler, const char* member)
 {
-    constexpr int kClampToEdge = 33071, kMirroredRepeat = 33648;
-    const int value = sampler.value(member, 0);
+    const int value = sampler.value(member, kRepeat);
     return value == kClampToEdge ? Wrap::Clamp : value == kMirroredRepeat ? Wrap::Mirrored : Wrap::Repeat;
 }
 
 // Where there is no magFilter, magnification is bilinear; of minFilter only the filter within a level counts, and only without a magFilter.
 bool isNearest(const json& sampler)
 {
-    constexpr int kNearest = 9728, kNearestMipmapNearest = 9984, kNearestMipmapLinear = 9986;
-    const int filter = sampler.value("magFilter", sampler.value("minFilter", 0));
+    const int filter = sampler.value("magFilter", sampler.value("minFilter", kLinear));
     return filter == kNearest || filter == kNearestMipmapNearest || filter == kNearestMipmapLinear;
+}
+
+// Filters and wraps of no meaning to glTF are those of its defaults; a magFilter with mipmaps is the filter within a level.
+void warnOfSamplers(const json& document, Warnings& warnings)
+{
+    constexpr int kNone = 0;
+    const std::pair<const char*, std::vector<int>> members[] = {
+        {"magFilter", {kNone, kNearest, kLinear}},
+        {"minFilter",
+         {kNone, kNearest, kLinear, kNearestMipmapNearest, kLinearMipmapNearest, kNearestMipmapLinear, kLinearMipmapLinear}},
+        {"wrapS", {kNone, kRepeat, kClampToEdge, kMirroredRepeat}},
+        {"wrapT", {kNone, kRepeat, kClampToEdge, kMirroredRepeat}},
+    };
+    std::size_t index = 0;
+    for (const json& sampler : document.value("samplers", json::array())) {
+        for (const auto& [member, known] : members) {
+            const int value = sampler.value(member, kNone);
+            if (std::find(known.begin(), known.end(), value) == known.end()) {
+                warnings.add("filters and wraps that glTF does not know there count as the nearest that it knows",
+                             "samplers[" + std::to_string(index) + "]." + member + " " + std::to_string(value));
+            }
+        }
+        ++index;
+    }
 }
 
 // The image of an extension goes before the texture's own, which is there for readers that do not know the extension.
@@ -276,17 +320,18 @@ GltfFile readGltfFile(const std::filesystem::path& file, bool confined)
     const std::string path = file.string();
     GltfContainer container = openContainer(file);
     json document = parseJson(path, container.json);
-    checkGltfJson(path, document);
+    GltfFile result;
+    checkGltfJson(path, document, result.warnings);
     if (confined) {
         confine(path, document);
     }
 
-    GltfFile result;
     result.path = path;
     result.buffers = readBuffers(path, document, container);
     result.files = listFiles(path, document);
     decompressViews(path, document, result.buffers);
     decompressPrimitives(path, document, result.buffers);
+    warnOfSamplers(document, result.warnings);
     result.images = listImages(document);
     result.textures = listTextures(document);
     result.skins = listSkins(document);
@@ -305,7 +350,12 @@ bool isDataUri(const std::string& uri) { return uri.rfind("data:", 0) == 0; }
 
 std::filesystem::path externalFile(const std::string& path, const std::string& uri)
 {
-    return std::filesystem::path(path).parent_path() / percentDecode(uri);
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    const std::array<std::string, 3> names = namesOf(uri);
+    std::error_code unreadable;
+    const auto* const found =
+        std::find_if(names.begin(), names.end(), [&](const std::string& name) { return std::filesystem::exists(folder / name, unreadable); });
+    return folder / (found == names.end() ? names[1] : *found);
 }
 
 void refuseOutside(const std::string& path, const std::string& place, const std::string& uri)

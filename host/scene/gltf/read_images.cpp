@@ -73,6 +73,9 @@ private:
     std::uint32_t add(std::uint32_t image, bool isColor)
     {
         const std::shared_ptr<const DecodedImage> pixels = find(image, isColor);
+        if (pixels->noEnd) {
+            warnings_.add("JPEG images without their end marker are drawn", nameOf(file_, image));
+        }
         bytes_ += pixels->rgba8.size() + 2 * pixels->rgba16.size();
         if (bytes_ > kMaxTextureBytes) {
             refuse(file_, "its textures take more than " + std::to_string(kMaxTextureBytes >> 20U) +
@@ -109,7 +112,7 @@ private:
             return readImage(file_, image, scene_);
         } catch (const InputError& error) {
             if (options_.missingTextures == MissingTextures::Refuse) {
-                throw;
+                throw InputError(error.what() + std::string(" (--missing-textures grey draws it grey)"));
             }
             std::string reason = error.what();
             reason.erase(0, reason.rfind(file_.path + ": ", 0) == 0 ? file_.path.size() + 2 : 0);

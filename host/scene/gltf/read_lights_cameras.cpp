@@ -1,5 +1,9 @@
 #include "host/scene/gltf/read_lights_cameras.hpp"
 
+#include "host/scene/gltf/gltf_schema.hpp"
+
+#include <algorithm>
+#include <cfloat>
 #include <cmath>
 
 namespace glim {
@@ -23,7 +27,21 @@ std::string nameOf(const GltfFile& file, const PlacedNode& node, const std::stri
     return name.empty() ? own : name;
 }
 
-PunctualLight readLight(const GltfFile& file, const PlacedNode& node, std::size_t index, const Scene& scene)
+// Cones that are equal make a hard edge, which is a ramp over the last step of a float.
+void readCones(const GltfFile& file, const tinygltf::SpotLight& spot, const std::string& place, PunctualLight& light, Warnings& warnings)
+{
+    const double inner = spot.innerConeAngle, outer = spot.outerConeAngle;
+    if (inner > outer + kRounding * outer) {
+        refuse(file, place + " has the inner cone angle " + toText(inner) + "; expected at most the outer one, " + toText(outer));
+    }
+    if (static_cast<float>(inner) > static_cast<float>(outer)) {
+        warnings.add("inner cones that rounding has made larger than the outer ones are clamped", place);
+    }
+    light.versineOuter = std::max(versine(outer), FLT_MIN);
+    light.versineInner = std::min(versine(inner), std::nextafter(light.versineOuter, 0.0F));
+}
+
+PunctualLight readLight(const GltfFile& file, const PlacedNode& node, std::size_t index, const Scene& scene, Warnings& warnings)
 {
     const tinygltf::Light& source = file.model.lights[index];
     const std::string place = label("lights", index, source.name);
@@ -45,12 +63,7 @@ PunctualLight readLight(const GltfFile& file, const PlacedNode& node, std::size_
         light.kind = PunctualLight::Kind::Directional;
     } else {
         light.kind = PunctualLight::Kind::Spot;
-        if (source.spot.innerConeAngle >= source.spot.outerConeAngle) {
-            refuse(file, place + " has the inner cone angle " + toText(source.spot.innerConeAngle) +
-                             "; expected less than the outer one, " + toText(source.spot.outerConeAngle));
-        }
-        light.versineInner = versine(source.spot.innerConeAngle);
-        light.versineOuter = versine(source.spot.outerConeAngle);
+        readCones(file, source.spot, place, light, warnings);
     }
     if (source.range > 0.0) {
         light.range = static_cast<float>(source.range);
@@ -88,7 +101,11 @@ Camera readCamera(const GltfFile& file, const PlacedNode& node, std::size_t inde
         camera.kind = Camera::Kind::Orthographic;
         camera.halfWidth = static_cast<float>(source.orthographic.xmag);
         camera.halfHeight = static_cast<float>(source.orthographic.ymag);
-        camera.aspectRatio = static_cast<float>(source.orthographic.xmag / source.orthographic.ymag);
+        if (camera.halfWidth == 0.0F || camera.halfHeight == 0.0F) {
+            refuse(file, label("cameras", index, source.name) + " has the xmag " + toText(source.orthographic.xmag) + " and the ymag " +
+                             toText(source.orthographic.ymag) + "; expected numbers other than 0");
+        }
+        camera.aspectRatio = static_cast<float>(std::abs(source.orthographic.xmag / source.orthographic.ymag));
     }
     if (const float ratio = camera.aspectRatio.value_or(1.0F); !(ratio <= kMostAspectRatio && ratio * kMostAspectRatio >= 1.0F)) {
         warnings.add("cameras of an aspect ratio beyond 16:1 or 1:16 get a picture of that shape, unless --size says another",
@@ -105,7 +122,7 @@ void readLightsAndCameras(const GltfFile& file, const std::vector<PlacedNode>& n
         const tinygltf::Node& source = file.model.nodes[node.index];
         if (const auto light = source.extensions.find("KHR_lights_punctual"); light != source.extensions.end()) {
             const auto index = static_cast<std::size_t>(light->second.Get("light").GetNumberAsInt());
-            scene.lights.push_back(readLight(file, node, index, scene));
+            scene.lights.push_back(readLight(file, node, index, scene, warnings));
         }
         if (source.camera >= 0) {
             scene.cameras.push_back(readCamera(file, node, static_cast<std::size_t>(source.camera), scene, warnings));

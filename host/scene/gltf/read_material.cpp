@@ -2,6 +2,7 @@
 
 #include "host/message.hpp"
 #include "host/scene/gltf/check_gltf_json.hpp"
+#include "host/scene/gltf/gltf_schema.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -155,6 +156,10 @@ void MaterialReader::readTextures(Material& material)
 void MaterialReader::readTransmission(Material& material)
 {
     material.ior = numberOr(source_, "KHR_materials_ior", "ior", 1.5);
+    if (material.ior < 1.0F && 1.0 - static_cast<double>(material.ior) <= kRounding) {
+        warnings_.add(kClamped, place_ + " ior " + toText(material.ior));
+        material.ior = 1.0F;
+    }
     if (material.ior < 1.0F && material.ior != 0.0F) {
         refuse(file_, place_ + " has the index of refraction " + toText(material.ior) + "; expected 0 or at least 1");
     }

@@ -119,6 +119,11 @@ std::optional<Mesh> readPrimitive(const GltfFile& file, const tinygltf::Primitiv
         warnings.add(std::string(primitive.mode == TINYGLTF_MODE_POINTS ? "points" : "lines") + " are left out", place);
         return std::nullopt;
     }
+    const auto isEmpty = [&file](int accessor) { return accessor >= 0 && file.model.accessors[static_cast<std::size_t>(accessor)].count == 0; };
+    if (isEmpty(position->second) || isEmpty(primitive.indices)) {
+        warnings.add("meshes without vertices are left out", place);
+        return std::nullopt;
+    }
     Mesh mesh;
     mesh.positions = readPositions(file, static_cast<std::size_t>(position->second), place);
     const std::size_t count = mesh.positions.size();
@@ -144,7 +149,7 @@ std::vector<Mesh> readMeshes(const GltfFile& file, std::size_t mesh, const MeshP
     for (std::size_t i = 0; i < source.primitives.size(); ++i) {
         const std::string place = label("meshes", mesh, source.name) + ".primitives[" + std::to_string(i) + "]";
         if (std::optional<Mesh> read = readPrimitive(file, source.primitives[i], place, warnings)) {
-            poseMesh(file, source.primitives[i], pose, place, *read, warnings);
+            poseMesh(file, source, i, pose, place, *read, warnings);
             read->name = source.primitives.size() == 1 ? source.name : source.name + "." + std::to_string(i);
             read->fileMesh = static_cast<std::uint32_t>(mesh);
             meshes.push_back(std::move(*read));

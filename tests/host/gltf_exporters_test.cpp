@@ -1,0 +1,335 @@
+// Files as exporters write them: what is valid is drawn, what rounding has spoilt is mended with one warning a kind, what has no meaning is
+// refused.
+#include "host/flatten/flatten_scene.hpp"
+#include "tests/support/encode_images.hpp"
+#include "tests/support/gltf_builder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace glim::test {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kClamped = "numbers that rounding has put out of their range are clamped: ";
+
+GltfBuilder withTriangle()
+{
+    GltfBuilder builder;
+    builder.addNode({{"mesh", builder.addTriangleMesh()}});
+    return builder;
+}
+
+GltfBuilder withMaterial(const json& material)
+{
+    GltfBuilder builder = withTriangle();
+    builder.append("materials", material);
+    builder.document["meshes"][0]["primitives"][0]["material"] = 0;
+    return builder;
+}
+
+GltfBuilder withLight(const json& light)
+{
+    GltfBuilder builder = withTriangle();
+    builder.document["extensions"]["KHR_lights_punctual"]["lights"] = json::array({light});
+    builder.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    return builder;
+}
+
+GltfBuilder withSpot(double inner, double outer)
+{
+    return withLight({{"type", "spot"}, {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", outer}}}});
+}
+
+GltfBuilder withCamera(const json& camera)
+{
+    GltfBuilder builder = withTriangle();
+    builder.append("cameras", camera);
+    builder.addNode({{"camera", 0}});
+    return builder;
+}
+
+GltfBuilder orthographic(double xmag, double ymag)
+{
+    return withCamera({{"type", "orthographic"}, {"orthographic", {{"xmag", xmag}, {"ymag", ymag}, {"znear", 0}, {"zfar", 10}}}});
+}
+
+std::size_t count(const Scene& scene, const std::string& fragment)
+{
+    return static_cast<std::size_t>(
+        std::ranges::count_if(scene.warnings, [&](const std::string& line) { return line.find(fragment) != std::string::npos; }));
+}
+
+// The line that begins so; there is one.
+std::string warning(const Scene& scene, const std::string& beginning)
+{
+    std::string found;
+    for (const std::string& line : scene.warnings) {
+        if (line.starts_with(beginning)) {
+            EXPECT_EQ(found, "") << "is said twice";
+            found = line;
+        }
+    }
+    EXPECT_NE(found, "") << beginning << " is not said";
+    return found;
+}
+
+void expectRefusal(const GltfBuilder& builder, const std::string& sentence)
+{
+    const std::string message = refusal(builder);
+    EXPECT_NE(message.find(": " + sentence), std::string::npos) << message;
+}
+
+TEST(GltfExporters, MissingColoursAreBlackAndOpaque)
+{
+    for (const char* type : {"VEC3", "VEC4"}) {
+        GltfBuilder builder = withTriangle();
+        const bool opaque = std::string(type) == "VEC3";
+        const std::vector<float> value(opaque ? 3 : 4, 0.5F);
+        const json sparse = {{"count", 1},
+                             {"indices", {{"bufferView", builder.addAov({1})}, {"componentType", kUnsignedByte}}},
+                             {"values", {{"bufferView", builder.addAov(toBytes(value))}}}};
+        const std::size_t colors = builder.append("accessors", {{"componentType", kFloat}, {"type", type}, {"count", 3}, {"sparse", sparse}});
+        builder.document["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = colors;
+        const Scene scene = load(builder);
+        EXPECT_EQ(scene.meshes.at(0).colors.at(0), glm::vec4(0, 0, 0, opaque ? 1 : 0)) << type;
+        EXPECT_EQ(scene.meshes.at(0).colors.at(1), glm::vec4(0.5F, 0.5F, 0.5F, opaque ? 1.0F : 0.5F)) << type;
+        builder.document["accessors"][colors]["sparse"]["count"] = 0;
+        EXPECT_EQ(load(builder).meshes.at(0).colors.at(1), glm::vec4(0, 0, 0, opaque ? 1 : 0)) << "nothing is replaced";
+    }
+}
+
+TEST(GltfExporters, FactorsAreClampedIfTheyAreOffByRounding)
+{
+    const double justAboveOne = 1.0 + std::ldexp(1.0, -23);
+    const json material = {{"pbrMetallicRoughness",
+                            {{"baseColorFactor", {1.00016, 0.5, 256.0 / 255.0, 1}}, {"metallicFactor", justAboveOne}, {"roughnessFactor", -1e-9}}},
+                           {"emissiveFactor", {-1e-7, 0, 2}},
+                           {"extensions", {{"KHR_materials_ior", {{"ior", 0.9999999}}}}}};
+    const Scene scene = load(withMaterial(material));
+    const Material& read = scene.materials.at(0);
+    EXPECT_EQ(read.baseColor, glm::vec3(1.0F, 0.5F, 1.0F));
+    EXPECT_EQ(read.metallic, 1.0F);
+    EXPECT_EQ(read.roughness, 0.0F);
+    EXPECT_EQ(read.emission, glm::vec3(0, 0, 2));
+    EXPECT_EQ(read.ior, 1.0F);
+    EXPECT_EQ(warning(scene, kClamped), std::string(kClamped) + "materials[0].pbrMetallicRoughness.baseColorFactor[0] 1.00016, " +
+                                            "materials[0].pbrMetallicRoughness.baseColorFactor[2] 1.003921568627451, " +
+                                            "materials[0].pbrMetallicRoughness.metallicFactor 1.0000001192092896 and 3 more");
+    expectRefusal(withMaterial({{"pbrMetallicRoughness", {{"metallicFactor", 1.01}}}}),
+                  "materials[0].pbrMetallicRoughness.metallicFactor is 1.01; expected a number from 0 to 1");
+    expectRefusal(withMaterial({{"extensions", {{"KHR_materials_volume", {{"attenuationDistance", -0.001}}}}}}),
+                  "materials[0].extensions.KHR_materials_volume.attenuationDistance is -0.001; expected a number above 0");
+}
+
+TEST(GltfExporters, ZerosThatStandForNoValue)
+{
+    const char* kZeros = "zeros count as left out where glTF has no meaning for 0: ";
+    const Scene lit = load(withLight({{"type", "point"}, {"range", 0}}));
+    EXPECT_EQ(lit.lights.at(0).range, 0.0F);
+    EXPECT_EQ(warning(lit, kZeros), std::string(kZeros) + "extensions.KHR_lights_punctual.lights[0].range");
+    json camera = {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"aspectRatio", 0.0}, {"znear", 0}}}};
+    const Scene seen = load(withCamera(camera));
+    EXPECT_FALSE(seen.cameras.at(0).aspectRatio);
+    EXPECT_EQ(warning(seen, kZeros), std::string(kZeros) + "cameras[0].perspective.aspectRatio");
+    camera["perspective"]["yfov"] = 3.1415927;
+    expectRefusal(withCamera(camera), "cameras[0].perspective.yfov is 3.1415927; expected a number above 0 to 3.14");
+    const Scene glass = load(withMaterial({{"extensions",
+                                            {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+                                             {"KHR_materials_volume",
+                                              {{"thicknessFactor", 1}, {"attenuationDistance", 0}, {"attenuationColor", {0.5, 0.5, 0.5}}}}}}}));
+    EXPECT_EQ(glass.materials.at(0).absorption, glm::vec3(0.0F));
+    GltfBuilder strided = withTriangle();
+    strided.document["bufferViews"][0]["byteStride"] = 0;
+    EXPECT_EQ(warning(load(strided), kZeros), std::string(kZeros) + "bufferViews[0].byteStride");
+}
+
+TEST(GltfExporters, IndicesMayHaveAStride)
+{
+    GltfBuilder builder = withTriangle();
+    const std::size_t indices = builder.addAccessor(toBytes<std::uint16_t>({2, 0, 1}), kUnsignedShort, "SCALAR", 3);
+    builder.document["bufferViews"].back()["byteStride"] = 2;
+    builder.document["meshes"][0]["primitives"][0]["indices"] = indices;
+    const Scene scene = load(builder);
+    EXPECT_EQ(scene.meshes.at(0).indices, (std::vector<std::uint32_t>{2, 0, 1}));
+}
+
+// KHR_lights_punctual: the outer angle may be pi / 2, which a float32 rounds up.
+TEST(GltfExporters, ConesThatAreEqualOrRoundedHaveAHardEdge)
+{
+    const double angle = 0.4636476090008061;
+    const auto cone = [](const Scene& scene) { return std::pair(scene.lights.at(0).versineInner, scene.lights.at(0).versineOuter); };
+    const auto outerOf = [](double outer) { return static_cast<float>(2.0 * std::pow(std::sin(0.5 * outer), 2.0)); };
+    for (const double inner : {angle, std::nextafter(angle, 1.0), angle - 1e-9}) {
+        const Scene scene = load(withSpot(inner, angle));
+        EXPECT_EQ(cone(scene), std::pair(std::nextafter(outerOf(angle), 0.0F), outerOf(angle))) << inner;
+        EXPECT_EQ(count(scene, "cones"), 0U) << "they are equal as floats";
+    }
+    const Scene rounded = load(withSpot(1.001 * angle, angle));
+    EXPECT_EQ(cone(rounded).first, std::nextafter(outerOf(angle), 0.0F));
+    EXPECT_EQ(warning(rounded, "inner cones"), "inner cones that rounding has made larger than the outer ones are clamped: lights[0]");
+    const Scene wide = load(withSpot(0.0, static_cast<double>(static_cast<float>(std::numbers::pi / 2.0))));
+    EXPECT_EQ(cone(wide), std::pair(0.0F, outerOf(std::numbers::pi / 2.0)));
+    EXPECT_EQ(warning(wide, kClamped),
+              std::string(kClamped) + "extensions.KHR_lights_punctual.lights[0].spot.outerConeAngle 1.5707963705062866");
+    expectRefusal(withSpot(0.5, 0.25), "lights[0] has the inner cone angle 0.5; expected at most the outer one, 0.25");
+    expectRefusal(withSpot(0.0, 1.6), "extensions.KHR_lights_punctual.lights[0].spot.outerConeAngle is 1.6; expected a number above 0");
+}
+
+// glTF 2.0, section 3.10.3.1: the projection divides by xmag and ymag, so that negative ones mirror the picture.
+TEST(GltfExporters, OrthographicCamerasMayBeMirrored)
+{
+    for (const auto& [xmag, ymag] : {std::pair(2.0, 3.0), {-2.0, 3.0}, {2.0, -3.0}, {-2.0, -3.0}, {3.0, 3.0}}) {
+        const Scene scene = load(orthographic(xmag, ymag));
+        const Camera& camera = scene.cameras.at(0);
+        EXPECT_FLOAT_EQ(camera.aspectRatio.value_or(0.0F), static_cast<float>(std::abs(xmag / ymag)));
+        const FlatCamera flat = flattenCamera(camera, *camera.aspectRatio);
+        EXPECT_FLOAT_EQ(flat.right.x, static_cast<float>(xmag));
+        EXPECT_FLOAT_EQ(flat.up.y, static_cast<float>(ymag));
+    }
+    expectRefusal(orthographic(0.0, 1.0), "cameras[0] has the xmag 0 and the ymag 1; expected numbers other than 0");
+}
+
+TEST(GltfExporters, LastRowsOfMatricesAreRounded)
+{
+    const char* kRounded = "last rows of matrices are rounded to 0 0 0 1: ";
+    for (const auto& [at, value] : {std::pair(15, 0.9999999), {15, 1.00005}, {3, 1e-17}, {11, -1e-6}}) {
+        GltfBuilder builder = withTriangle();
+        json& matrix = builder.document["nodes"][0]["matrix"];
+        matrix = {1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1};
+        matrix[static_cast<std::size_t>(at)] = value;
+        const Scene scene = load(builder);
+        const glm::dmat4 expected(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 2, 0, 0), glm::dvec4(0, 0, 1, 0), glm::dvec4(5, 6, 7, 1));
+        EXPECT_EQ(scene.instances.at(0).worldFromMesh, expected) << value;
+        EXPECT_EQ(warning(scene, kRounded), std::string(kRounded) + "nodes[0]");
+        matrix[static_cast<std::size_t>(at)] = value < 0.5 ? 0.001 : 0.999;
+        expectRefusal(builder, "nodes[0].matrix has the last row ");
+    }
+}
+
+TEST(GltfExporters, MembersThatAreNullCountAsLeftOut)
+{
+    GltfBuilder builder = withMaterial({{"name", nullptr},
+                                        {"normalTexture", nullptr},
+                                        {"pbrMetallicRoughness", {{"baseColorFactor", nullptr}, {"metallicFactor", 0.5}}},
+                                        {"extensions", nullptr}});
+    builder.document["nodes"][0]["extras"] = {{"mine", nullptr}};
+    builder.document["animations"] = nullptr;
+    const Scene scene = load(builder);
+    EXPECT_EQ(scene.materials.at(0).baseColor, glm::vec3(1.0F));
+    EXPECT_EQ(scene.materials.at(0).metallic, 0.5F);
+    EXPECT_EQ(warning(scene, "members that are null"), "members that are null count as left out: animations, materials[0].extensions, "
+                                                       "materials[0].name and 2 more");
+    builder.document["accessors"][0]["count"] = nullptr;
+    expectRefusal(builder, "accessors[0].count is missing; expected a whole number from 0");
+}
+
+TEST(GltfExporters, WholeNumbersMayBeWrittenWithAPoint)
+{
+    GltfBuilder builder = withMaterial(json::object());
+    builder.document["accessors"][0]["count"] = 3.0;
+    builder.document["accessors"][0]["componentType"] = 5126.0;
+    builder.document["bufferViews"][0]["byteOffset"] = -0.0;
+    builder.document["nodes"][0]["mesh"] = 0.0;
+    builder.document["scenes"][0]["nodes"][0] = 0.0;
+    builder.document["scene"] = 0.0;
+    EXPECT_EQ(load(builder).instances.size(), 1U);
+    builder.document["nodes"][0]["mesh"] = 0.5;
+    expectRefusal(builder, "nodes[0].mesh is 0.5; expected an index into meshes, which has 1 entry");
+}
+
+TEST(GltfExporters, NothingMayBeEmptyThatIsRead)
+{
+    GltfBuilder builder = withTriangle();
+    const std::size_t view = builder.append("bufferViews", {{"buffer", 0}, {"byteLength", 0}});
+    const std::size_t empty =
+        builder.append("accessors", {{"bufferView", view}, {"componentType", kFloat}, {"type", "VEC3"}, {"count", 0}});
+    builder.otherBuffers.push_back({{"byteLength", 0}});
+    EXPECT_EQ(load(builder).warnings.size(), load(withTriangle()).warnings.size()) << "nobody reads it";
+    builder.addNode({{"mesh", builder.addMesh({{"attributes", {{"POSITION", empty}}}})}});
+    const Scene scene = load(builder);
+    EXPECT_EQ(scene.instances.size(), 1U);
+    EXPECT_EQ(warning(scene, "meshes without vertices are left out"), "meshes without vertices are left out: meshes[1].primitives[0]");
+    builder.document["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = empty;
+    expectRefusal(builder, "accessors[1] (NORMAL of meshes[0].primitives[0]).count is 0; expected at least 1");
+}
+
+TEST(GltfExporters, SamplersOfUnknownFiltersAndWraps)
+{
+    const auto textureOf = [](const json& sampler) {
+        GltfBuilder builder = withMaterial({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+        builder.append("images", {{"bufferView", builder.addAov(encodePng(1, 1, {1, 2, 3}))}});
+        builder.append("samplers", sampler);
+        builder.append("textures", {{"source", 0}, {"sampler", 0}});
+        return load(builder);
+    };
+    const char* kReplaced = "filters and wraps that glTF does not know there count as the nearest that it knows: samplers[0].";
+    const Scene linear = textureOf({{"magFilter", 9987}, {"wrapS", 33071}});
+    EXPECT_FALSE(linear.materials.at(0).baseColorTexture->nearest);
+    EXPECT_EQ(linear.materials.at(0).baseColorTexture->wrapS, Wrap::Clamp);
+    EXPECT_EQ(warning(linear, "filters"), std::string(kReplaced) + "magFilter 9987");
+    EXPECT_TRUE(textureOf({{"magFilter", 9984}}).materials.at(0).baseColorTexture->nearest);
+    const Scene unknown = textureOf({{"minFilter", -1}, {"wrapT", 10496}});  // GL_CLAMP
+    EXPECT_EQ(unknown.materials.at(0).baseColorTexture->wrapT, Wrap::Repeat);
+    EXPECT_EQ(warning(unknown, "filters"), std::string(kReplaced) + "minFilter -1, samplers[0].wrapT 10496");
+    EXPECT_EQ(count(textureOf({{"magFilter", 9728}, {"minFilter", 9987}, {"wrapS", 33648}}), "filters"), 0U);
+}
+
+TEST(GltfExporters, OnePrimitiveMayLackTheTargetsOfAnother)
+{
+    GltfBuilder builder;
+    const std::size_t positions = builder.addVec3({0, 0, 0, 1, 0, 0, 0, 1, 0}), deltas = builder.addVec3({0, 0, 2, 0, 0, 2, 0, 0, 2});
+    const json still = {{"attributes", {{"POSITION", positions}}}};
+    json moving = still;
+    moving["targets"] = json::array({{{"POSITION", deltas}}, {{"POSITION", deltas}}});
+    const std::size_t mesh = builder.append("meshes", {{"primitives", {still, moving}}, {"weights", {0.5, 1}}});
+    builder.addNode({{"mesh", mesh}});
+    const Scene scene = load(builder);
+    EXPECT_EQ(scene.meshes.at(0).positions.at(0).z, 0.0);
+    EXPECT_EQ(scene.meshes.at(1).positions.at(0).z, 3.0);
+    EXPECT_EQ(scene.morphTargets, 2U);
+    EXPECT_EQ(warning(scene, "morph targets"),
+              "morph targets that other parts of a mesh have do not move those without them: meshes[0].primitives[0]");
+    builder.document["meshes"][mesh]["weights"] = {0.5, 1, 1};
+    expectRefusal(builder, "meshes[0].primitives[0] has 0 morph targets and 3 weights; expected as many of both");
+}
+
+TEST(GltfExporters, WeightsJustBelowZeroCountAsZero)
+{
+    GltfBuilder builder = posedTriangle();
+    json& attributes = builder.document["meshes"][0]["primitives"][0]["attributes"];
+    attributes["WEIGHTS_0"] = builder.addAccessor(toBytes<float>({1, -1e-9F, 0, 0, 1, 0, 0, 0, 1, 0, -5e-4F, 0}), kFloat, "VEC4", 3);
+    EXPECT_EQ(warning(load(builder), "weights of joints just below 0"), "weights of joints just below 0 count as 0: meshes[0].primitives[0]");
+}
+
+TEST(GltfExporters, OldFilesPointsAndLinesAreCalledSo)
+{
+    const auto sentence = [](const json& document) { return loadRefusal(writeTemporary("old.gltf", document.dump())); };
+    for (const json& document : {json{{"asset", {{"version", "1.0"}}}, {"nodes", json::object()}}, json{{"asset", {{"version", 1.1}}}},
+                                 json{{"accessors", {{"accessor_1", json::object()}}}, {"meshes", json::object()}}}) {
+        EXPECT_NE(sentence(document).find("old.gltf: is glTF 1.0; expected glTF 2.0"), std::string::npos) << sentence(document);
+    }
+    GltfBuilder builder;
+    const std::size_t positions = builder.addVec3({0, 0, 0, 1, 0, 0});
+    builder.addNode({{"mesh", builder.addMesh({{"attributes", {{"POSITION", positions}}}, {"mode", 0}})}});
+    expectRefusal(builder, "the file holds points, which glim does not draw; expected triangles");
+    builder.addNode({{"mesh", builder.addMesh({{"attributes", {{"POSITION", positions}}}, {"mode", 3}})}});
+    expectRefusal(builder, "the file holds points and lines, which glim does not draw; expected triangles");
+}
+
+TEST(GltfExporters, AUrlIsNoFile)
+{
+    GltfBuilder builder = withTriangle();
+    builder.otherBuffers.push_back({{"byteLength", 4}, {"uri", "https://example.org/a.bin"}});
+    expectRefusal(builder, "buffers[1].uri is \"https://example.org/a.bin\"; expected a path relative to the glTF file, as glim reads files and "
+                           "no URLs");
+    EXPECT_EQ(loadRefusal("https://example.org/a.glb"),
+              "https://example.org/a.glb: is a URL; expected a .gltf or a .glb file, as glim reads files and no URLs");
+}
+
+}  // namespace
+}  // namespace glim::test
