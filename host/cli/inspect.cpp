@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <iostream>
 #include <iterator>
 #include <memory>
@@ -130,7 +131,7 @@ Counts lobesOf(const FlatScene& flat)
 
 std::size_t singleSided(const Scene& scene)
 {
-    return static_cast<std::size_t>(std::ranges::count(scene.materials, false, &Material::doubleSided));
+    return static_cast<std::size_t>(std::ranges::count_if(scene.materials, std::not_fn(meetsBackFaces)));
 }
 
 Json texturesOf(const PreparedScene& prepared)
@@ -257,7 +258,7 @@ void printLooks(const PreparedScene& prepared)
     }
     std::cout << '\n';
     if (const std::size_t count = singleSided(prepared.scene); count > 0) {
-        std::cout << "  single-sided: " << counted(count, "material") << "; back faces are drawn too, but emit nothing\n";
+        std::cout << "  single-sided: " << counted(count, "material") << ", whose back faces are not drawn (--back-faces)\n";
     }
     for (std::size_t i = 0; i < prepared.scene.images.size(); ++i) {
         const TextureImage& image = prepared.scene.images[i];

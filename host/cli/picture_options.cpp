@@ -70,6 +70,8 @@ void addPicture(const Command& command, PictureOptions& options, const std::stri
             options.environmentBackground);
     command.add("--sun", "AZIMUTH,ELEVATION,E", "A directional light: degrees right of -z, degrees up, W/m^2",
                 [&options](const std::string& text) { options.sun = parseSun(text); });
+    addEnum(command, "--back-faces", "B", "Back faces of single-sided opaque surfaces: culled or shown [culled]", {"culled", "shown"},
+            options.showsBackFaces);
     addTextures(command, options.missingTextures, options.maxTexture);
     command.addFlag("--confine", "Refuse files that the scene names outside of its folder", options.confined);
     command.add("--size", "WxH", "Pixels, each side 1 to 65535 [" + height + " high, width by the camera's aspect ratio]",
@@ -199,6 +201,7 @@ LoadOptions loadOptionsOf(const PictureOptions& options)
     load.environmentRotation = glm::radians(options.environmentRotation);
     load.environmentBackground = options.environmentBackground;
     load.sun = options.sun;
+    load.showsBackFaces = options.showsBackFaces;
     load.missingTextures = options.missingTextures;
     load.confined = options.confined;
     load.maxTexture = options.maxTexture;

@@ -32,29 +32,41 @@ bool isSliver(const Triangle& triangle)
     return glm::length(glm::cross(a, c)) < static_cast<double>(kSliverHeight) * square;
 }
 
+// What records say of each material.
+std::vector<std::uint32_t> materialWordsOf(const Scene& scene)
+{
+    std::vector<std::uint32_t> words;
+    for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
+        words.push_back(i | (scene.showsBackFaces || meetsBackFaces(scene.materials[i]) ? 0U : kSingleSidedBit));
+    }
+    return words;
+}
+
 void pushTriangle(FlatScene& flat, const Triangle& triangle, std::uint32_t id, std::uint32_t material, bool alpha)
 {
     const bool sliver = isSliver(triangle);
-    flat.features |= sliver ? kFeatureSlivers : 0U;
+    flat.features |= (sliver ? kFeatureSlivers : 0U) | ((material & kSingleSidedBit) != 0 ? kFeatureSingleSided : 0U);
     flat.records.push_back(texel(triangle.vertices[0], id));
     flat.records.push_back(texel(triangle.vertices[1], material | (sliver ? kSliverBit : 0U) | (alpha ? kAlphaBit : 0U)));
     flat.records.push_back(texel(triangle.vertices[2], 0));
 }
 
-void pushSphere(FlatScene& flat, const Sphere& sphere, std::uint32_t id, bool alpha)
+void pushSphere(FlatScene& flat, const Sphere& sphere, std::uint32_t id, std::uint32_t material, bool alpha)
 {
+    flat.features |= (material & kSingleSidedBit) != 0 ? kFeatureSingleSided : 0U;
     flat.records.push_back(texel(sphere.center, id));
-    flat.records.push_back(texel({sphere.radius, 0.0F, 0.0F}, sphere.material | kSphereBit | (alpha ? kAlphaBit : 0U)));
+    flat.records.push_back(texel({sphere.radius, 0.0F, 0.0F}, material | kSphereBit | (alpha ? kAlphaBit : 0U)));
     flat.records.push_back(texel({0.0F, 0.0F, 0.0F}, 0));
 }
 
 // Returns one record per primitive: the last one if it has several.
 std::vector<std::uint32_t> pushRecords(FlatScene& flat, const Scene& scene, const Primitives& primitives, const WideBvh& bvh)
 {
+    const std::vector<std::uint32_t> words = materialWordsOf(scene);
     std::vector<std::uint32_t> materials;  // by triangle
     materials.reserve(primitives.triangles.size());
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-        materials.resize(primitives.firstTriangles[i + 1], scene.meshes[scene.instances[i].mesh].material);
+        materials.resize(primitives.firstTriangles[i + 1], words[scene.meshes[scene.instances[i].mesh].material]);
     }
     std::vector<std::uint32_t> recordOf(primitives.count());
     flat.records.reserve(bvh.order.size() * kRecordTexels);
@@ -69,7 +81,8 @@ std::vector<std::uint32_t> pushRecords(FlatScene& flat, const Scene& scene, cons
         if (id < materials.size()) {
             pushTriangle(flat, primitives.triangles[id], id, materials[id], alpha);
         } else {
-            pushSphere(flat, primitives.spheres[id - materials.size()], id, alpha);
+            const Sphere& sphere = primitives.spheres[id - materials.size()];
+            pushSphere(flat, sphere, id, words[sphere.material], alpha);
         }
     }
     return recordOf;
@@ -77,9 +90,10 @@ std::vector<std::uint32_t> pushRecords(FlatScene& flat, const Scene& scene, cons
 
 void pushSharedRecords(FlatScene& flat, const Scene& scene, const Primitives& primitives, const WideBvh& bvh)
 {
+    const std::vector<std::uint32_t> words = materialWordsOf(scene);
     for (std::size_t i = 0; i < bvh.meshTrees.size(); ++i) {
         const SharedMesh& mesh = primitives.sharedMeshes[i];
-        const std::uint32_t material = scene.meshes[mesh.mesh].material;
+        const std::uint32_t material = words[scene.meshes[mesh.mesh].material];
         for (std::uint32_t k = 0; k < bvh.meshTrees[i].entryCount; ++k) {
             const std::uint32_t triangle = bvh.order[bvh.meshTrees[i].firstEntry + k] - mesh.firstId;
             flat.features |= mesh.hasAlpha[triangle] ? kFeatureAlpha : 0U;

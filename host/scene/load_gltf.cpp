@@ -374,6 +374,7 @@ Scene SceneFile::sceneAt(std::optional<double> seconds)
     scene.animations = animations;
     scene.skins = file.skins.size();
     scene.morphTargets = countAllMorphTargets(file);
+    scene.showsBackFaces = options.showsBackFaces;
     scene.materials.resize(file.model.materials.size() + 1);
     Warnings warnings = file.warnings;
     if (posed) {

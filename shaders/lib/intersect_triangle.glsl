@@ -6,7 +6,7 @@
 struct TriangleHit {
     float t;       // < 0: no hit
     vec2 weights;  // of v1 and v2
-    float sum;     // of all three
+    float sum;     // of all three; negative: the ray comes from behind
 };
 
 const TriangleHit kNoTriangleHit = TriangleHit(-1.0, vec2(0.0), 1.0);

@@ -47,6 +47,7 @@ GLIM_FEATURE(kFeatureLightTree, 29);       // several lights, one at least finit
 GLIM_FEATURE(kFeatureCaustics, 30);        // traced from lights to specular surfaces
 GLIM_FEATURE(kFeatureInstances, 31);       // that share meshes
 GLIM_FEATURE(kFeatureLampsInMedia, 32);    // with kFeatureMedia: lamps may lie in solids
+GLIM_FEATURE(kFeatureSingleSided, 33);     // surfaces that are not there for rays from behind
 GLIM_FEATURE(kFeatureLargeTriangles, 34);  // beside small or close things
 
 #ifdef __cplusplus

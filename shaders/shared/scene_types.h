@@ -20,8 +20,8 @@ GLIM_CONST uint kMaxLeafRecords = 3u;
 GLIM_CONST uint kFirstNodeBit = 24u;  // 8 leaves have as many records at most
 
 // Records are in the order of the leaves, three texels each. A primitive may have several, all alike:
-//   triangle: (v0.xyz, primitive id) (v1.xyz, material, | kSliverBit) (v2.xyz, light + 1 or 0)
-//   sphere:   (centre.xyz, primitive id) (radius, 0, 0, material | kSphereBit) (0, 0, 0, light + 1 or 0)
+//   triangle: (v0.xyz, primitive id) (v1.xyz, material | bits) (v2.xyz, light + 1 or 0)
+//   sphere:   (centre.xyz, primitive id) (radius, 0, 0, material | bits) (0, 0, 0, light + 1 or 0)
 // The primitive id is the index in the scene (triangles, then spheres). A ray's source and target are primitive ids, and the lower id wins
 // a tie, so pictures do not depend on the tree.
 //
@@ -38,7 +38,8 @@ GLIM_CONST uint kRecordTexels = 3u;
 GLIM_CONST uint kSphereBit = 0x80000000u;
 GLIM_CONST uint kSliverBit = 0x40000000u;  // thinner than kSliverHeight
 GLIM_CONST uint kAlphaBit = 0x20000000u;   // neither opaque all over nor transparent all over
-GLIM_CONST uint kMaterialMask = 0x1fffffffu;
+GLIM_CONST uint kSingleSidedBit = 0x10000000u;  // not there for rays from behind
+GLIM_CONST uint kMaterialMask = 0x0fffffffu;
 // Below this ratio of height to longest side, a triangle's edge functions are corrected by the rounding errors of their products.
 // Uncorrected, each is off by up to 2^-23 of that side's square, so that above this ratio a hit moves by less than 2^-11 of the side.
 GLIM_CONST float kSliverHeight = 9.765625e-4f;

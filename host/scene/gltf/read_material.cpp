@@ -170,7 +170,8 @@ void MaterialReader::readTransmission(Material& material)
     material.diffuseTransmissionColor = colorOr(source_, kDiffuseTransmission, "diffuseTransmissionColorFactor", glm::vec3(1.0F));
     material.diffuseTransmissionColorTexture = readTexture(kDiffuseTransmission, "diffuseTransmissionColorTexture");
     const bool transmits = material.transmission > 0.0F || material.diffuseTransmission > 0.0F;
-    material.solid = transmits && numberOr(source_, kVolume, "thicknessFactor", 0.0) > 0.0F;
+    material.thick = numberOr(source_, kVolume, "thicknessFactor", 0.0) > 0.0F;
+    material.solid = transmits && material.thick;
     if (!material.solid) {
         return;
     }
