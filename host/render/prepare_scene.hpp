@@ -27,6 +27,9 @@ PreparedScene prepareScene(
     const std::filesystem::path& file, const LoadOptions& options, SplitRule split = SplitRule::Sah,
     const std::function<void(const std::string&)>& stage = [](const std::string&) {});
 
+// Says on stderr whether a number was an index or a name.
+void sayIfCameraIsNumber(const Scene& scene, const std::optional<std::string>& choice);
+
 // Warns on stderr if the scene has no light.
 void warnIfNoLights(const PreparedScene& prepared);
 
@@ -39,9 +42,6 @@ const Camera& findCamera(const Scene& scene, const std::optional<std::string>& c
 
 // With the media that its rays begin in.
 FlatCamera flattenCamera(const PreparedScene& prepared, const Camera& camera, float aspectRatio, const Lens& lens);
-
-// Says on stderr whether a number was an index or a name.
-void sayIfCameraIsNumber(const Scene& scene, const std::optional<std::string>& choice);
 
 // The default size of a picture: 512 pixels high, and as wide as the camera's aspect ratio says.
 glm::uvec2 defaultSize(const Camera& camera);
