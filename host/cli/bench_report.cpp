@@ -90,13 +90,14 @@ void printComparison(const BenchComparison& comparison, const SceneBench& baseli
                      const std::string& whyNotByTurns)
 {
     const bool byTurns = whyNotByTurns.empty();
-    const auto byCpu = [](const std::optional<Interval>& ratio) { return ratio ? verdict(*ratio) : "unknown\n"; };
+    const auto timed = [&](const Interval& ratio) { return byTurns ? verdict(ratio) : intervalText(ratio) + '\n'; };
+    const auto byCpu = [&](const std::optional<Interval>& ratio) { return ratio ? timed(*ratio) : "unknown\n"; };
     std::cout << "against " << file << format(" after %u samples, seeds ", comparison.samples)
               << (comparison.paired ? "paired, " : "not paired, ") << (byTurns ? "by turns" : "not by turns") << ":\n  mean x              "
               << verdict(comparison.mean, 6) << "  MSE x               " << verdict(comparison.mse) << "  relMSE x            "
-              << verdict(comparison.error) << "  samples a second x  " << verdict(comparison.samplesPerSecond) << "    by CPU seconds x  "
-              << byCpu(comparison.samplesPerCpuSecond) << "  efficiency x        " << verdict(comparison.efficiency)
-              << "    by CPU seconds x  " << byCpu(comparison.cpuEfficiency) << "  time to its error x " << verdict(comparison.timeToError);
+              << verdict(comparison.error) << "  samples a second x  " << timed(comparison.samplesPerSecond) << "    by CPU seconds x  "
+              << byCpu(comparison.samplesPerCpuSecond) << "  efficiency x        " << timed(comparison.efficiency)
+              << "    by CPU seconds x  " << byCpu(comparison.cpuEfficiency) << "  time to its error x " << timed(comparison.timeToError);
     if (byTurns) {
         std::cout << "  not excluded: a load that slows one of the two more than the other, as where both wait for memory\n";
     } else {

@@ -1,6 +1,7 @@
 #include "host/render/film_file.hpp"
 #include "host/error.hpp"
 #include "host/image/exr.hpp"
+#include "host/measure/compare_images.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/simulated_film.hpp"
 
@@ -196,6 +197,14 @@ TEST(FilmFile, UnknownVarianceIsLeftOutOrInfinite)
         EXPECT_EQ(std::isinf(variance[pixel]), pixel == 2);
         EXPECT_FALSE(std::isnan(variance[pixel]));
     }
+    // The error of the others is known; that of a picture whose square overflowed is not.
+    const auto errorsOfFile = [&] {
+        writeFilm(folder / "b.exr", film);
+        return estimateErrors(pictureOf(readExr(folder / "b.exr"), "b.exr"));
+    };
+    EXPECT_EQ(errorsOfFile()->mse, estimateErrors(pictureOf(film))->mse);
+    film.pixels[3].squares.g = std::numeric_limits<float>::infinity();
+    EXPECT_FALSE(errorsOfFile());
 }
 
 class FilmFileRefusal : public testing::Test {

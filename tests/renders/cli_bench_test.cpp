@@ -80,6 +80,8 @@ TEST(BenchCommandTest, MeasuresWritesAndComparesWithAnEarlierBench)
     run = bench({"--spp", "64", "-o", second, "--reference", reference, "--against", first});
     EXPECT_TRUE(contains(run.out, ", not by turns:\n  mean x              1 [1, 1], does not exclude 1\n  MSE x               1 [1, 1]"))
         << run.out;
+    const std::size_t times = run.out.find("  samples a second x  ");
+    EXPECT_EQ(run.out.find("exclude 1", times), std::string::npos) << "what is not by turns decides nothing about times: " << run.out;
     EXPECT_TRUE(contains(run.out, ", because it has the same options. CPU seconds suffer less")) << run.out;
     EXPECT_TRUE(contains(bench({"--spp", "64", "-o", second, "--bounces", "2", "--against", first}).out,
                          "because its options ask for other light"));
