@@ -2,6 +2,7 @@
 
 #include "host/cli/outcome.hpp"
 #include "host/cli/parse.hpp"
+#include "host/error.hpp"
 #include "host/message.hpp"
 #include "host/render/film_file.hpp"
 
@@ -79,6 +80,8 @@ void CheckpointWriter::offer(const Renderer& renderer, bool asked)
     if (!isUnderWay(command_) && (asked_ || (options_.isGiven() && secondsSince(last_) >= interval_))) {
         try {
             begin(renderer);
+        } catch (const DeviceError&) {
+            throw;  // the render cannot go on either
         } catch (const std::exception& error) {
             fail(error);
         }
@@ -152,7 +155,8 @@ void CheckpointWriter::runCommand()
         commandFailed_.sayAgain("--on-checkpoint: the command cannot be run: " + std::string(std::strerror(error)));
         return;
     }
-    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {}
+    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    }
     if (status == 0) {
         commandFailed_.end();
     } else if (WIFSIGNALED(status)) {

@@ -43,7 +43,8 @@ public:
     // Auto: a bar on a terminal, nothing elsewhere.
     ProgressPrinter(ProgressStyle style, std::optional<double> timeLimit, std::uint64_t pixels, const SequencePlace& place = {});
 
-    // Prints at most ten times a second, and not while stderr takes nothing (a terminal that is stopped, a pipe that is full). Never throws.
+    // Prints at most ten times a second, and not while stderr takes nothing (a terminal that is stopped, a pipe that is full). Never
+    // throws.
     void print(const RenderProgress& progress, const std::optional<WrittenCheckpoint>& checkpoint = {});
     // Removes the bar.
     void finish();

@@ -107,6 +107,8 @@ RenderedFilm renderPicture(Renderer& renderer, const RenderOptions& options, Fil
     const auto atEnd = [&] {
         try {
             rendered.checkpoint = keepsCheckpoint() ? renderer.checkpoint() : std::nullopt;
+        } catch (const DeviceError&) {
+            throw;  // nor could the film be read
         } catch (const std::exception& error) {
             say("the film has no checkpoint: " + reasonOf(error));
         }

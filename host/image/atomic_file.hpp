@@ -44,10 +44,10 @@ private:
     void flush();
     [[noreturn]] void fail() const;  // throws InputError with the reason from errno
 
-    std::filesystem::path name_;    // as the caller gave it, for messages
-    std::filesystem::path target_;  // after following symbolic links, which stay as they are
+    std::filesystem::path name_;       // as the caller gave it, for messages
+    std::filesystem::path target_;     // after following symbolic links, which stay as they are
     std::filesystem::path temporary_;  // empty while the file has no name
-    std::vector<char> buffer_;  // written, but not to the file yet
+    std::vector<char> buffer_;         // written, but not to the file yet
     std::uint64_t position_ = 0;
     int descriptor_ = -1;
 };

@@ -376,8 +376,8 @@ Film filmOfHeader(const fs::path& path, const Image& image)
 {
     const double format = attribute<double>(path, image, "glim:film");
     if (!(format >= kUnsealed && format <= kFormatWithSplats && format == std::floor(format))) {
-        throw InputError(path.string() + ": is a film of format " + exactText(format) + ", expected format " + exactText(kUnsealed) + " to " +
-                         exactText(kFormatWithSplats) + ".");
+        throw InputError(path.string() + ": is a film of format " + exactText(format) + ", expected format " + exactText(kUnsealed) +
+                         " to " + exactText(kFormatWithSplats) + ".");
     }
     const double seed = attribute<double>(path, image, "glim:seed");
     if (!(seed >= 0 && seed <= std::numeric_limits<std::uint32_t>::max() && seed == std::floor(seed))) {

@@ -209,8 +209,9 @@ TEST_F(CommandLineResumeTest, OneProcessWrites)
     expectRefused({"--spp", "64", "--resume"}, "film.exr" + sentence);
     expectRefused({"--spp", "64"}, "film.exr" + sentence);
     const std::string link = (folder_ / "link.exr").string();
-    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"render", sceneFile("cornell.gltf"), "-o", link, "--size", "12x12"},
-                                                      {"merge", film_.string(), "-o", link}}) {
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"render", sceneFile("cornell.gltf"), "-o", link, "--size", "12x12"},
+          {"merge", film_.string(), "-o", link}}) {
         const GlimRun run = runGlim(arguments);
         EXPECT_EQ(run.exitCode, 1);
         EXPECT_EQ(run.err, "glim: " + link + sentence + "\n");

@@ -1,5 +1,5 @@
-// A film comes of a render whatever becomes of those who look at it: on a terminal, a narrow one, one that changes its size or hangs up, and
-// with readers that are gone or do not read.
+// A film comes of a render whatever becomes of those who look at it: on a terminal, a narrow one, one that changes its size or hangs up,
+// and with readers that are gone or do not read.
 #include "host/render/film_file.hpp"
 #include "tests/support/run_glim.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -133,8 +133,8 @@ TEST_F(TerminalTest, TheBarFitsATerminalThatChangesItsSize)
 
 TEST_F(TerminalTest, ATerminalThatHangsUpEndsTheRenderWithItsFilm)
 {
-    const GlimRun run = runOnTerminal(call({"--spp", "2000000000", "--png", "x.png"}), 80,
-                                      [](int, const std::string& shown) { return !showsBar(shown); });
+    const GlimRun run =
+        runOnTerminal(call({"--spp", "2000000000", "--png", "x.png"}), 80, [](int, const std::string& shown) { return !showsBar(shown); });
     EXPECT_EQ(run.exitCode, 128 + SIGHUP);
     EXPECT_GT(film().sampleRanges.front().second, 0U);
     EXPECT_EQ(folder_.entries(), 2);
@@ -162,12 +162,21 @@ TEST_F(TerminalTest, ReadersThatAreGoneEndNothing)
     }
 }
 
+// Else messages would go into the next file that is opened.
+TEST_F(TerminalTest, StandardStreamsThatAreClosedAreNoFiles)
+{
+    const char* command = "for i in 0 1 2; do readlink /proc/$PPID/fd/$i; done >streams";
+    runGlim(afterCommand("true", call({"--spp", "300", "--checkpoint", "1m", "--on-checkpoint", command}), "<&- >&- 2>&-"));
+    EXPECT_EQ(bytesOfFile(folder_ / "streams"), "/dev/null\n/dev/null\n/dev/null\n");
+}
+
 TEST_F(TerminalTest, ReadersThatDoNotReadAreNotWaitedFor)
 {
     const std::filesystem::path pipe = folder_ / "pipe";
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
     const int end = open(pipe.c_str(), O_RDWR | O_NONBLOCK);
-    while (write(end, "full", 4) > 0) {}
+    while (write(end, "full", 4) > 0) {
+    }
     runGlim(afterCommand("true", call({"--spp", "300", "--progress", "json"}), "2>pipe"));
     close(end);
     std::filesystem::remove(pipe);
