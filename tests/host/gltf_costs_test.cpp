@@ -239,10 +239,10 @@ TEST(GltfCosts, StreamsThatManyPartsName)
 {
     DracoOptions quantized;
     quantized.quantizationBits = 8;
-    GltfBuilder primitives = build(makeNothing(256), draco(quantized));
-    ASSERT_LT(primitives.bytes().size(), 4000U) << "390,150 indices, of which any file may have 4,194,304";
+    GltfBuilder primitives = build(makeNothing(64), draco(quantized));
+    ASSERT_LT(primitives.bytes().size(), 2800U) << "for 23,814 indices; 300 times as many are more than 4,194,304 and 1024 a byte";
     const json primitive = primitives.document["meshes"][0]["primitives"][0];
-    primitives.document["meshes"][0]["primitives"] = json(std::size_t{24}, primitive);
+    primitives.document["meshes"][0]["primitives"] = json(std::size_t{300}, primitive);
     EXPECT_NE(refusal(primitives).find("that are left for a file of this size"), std::string::npos);
 
     GltfBuilder views = build(makeHills(3), addPlain);
