@@ -81,8 +81,9 @@ protected:
     static std::string binary(std::uint64_t jsonSize, const std::string& text, const std::string& more)
     {
         constexpr std::uint64_t kSize = kHole - 256;
-        return withHole(writeTemporary("scene.glb", "glTF" + littleEndian(2) + littleEndian(kSize) + littleEndian(jsonSize) + "JSON" + text + more),
-                        kSize);
+        return withHole(
+            writeTemporary("scene.glb", "glTF" + littleEndian(2) + littleEndian(kSize) + littleEndian(jsonSize) + "JSON" + text + more),
+            kSize);
     }
 
     static GltfBuilder triangle()
@@ -94,7 +95,8 @@ protected:
 
     static void expectRefusal(const std::string& path, const std::string& words)
     {
-        EXPECT_LT(peakOf([&] { EXPECT_NE(loadRefusal(path, litByTheSky()).find(words), std::string::npos) << loadRefusal(path); }), 64 * kMiB);
+        EXPECT_LT(peakOf([&] { EXPECT_NE(loadRefusal(path, litByTheSky()).find(words), std::string::npos) << loadRefusal(path); }),
+                  64 * kMiB);
     }
 };
 
@@ -219,29 +221,28 @@ TEST(GltfCosts, TimesThatManyAnimationsName)
     EXPECT_LT(secondsOf(animated(50'000)), 8.0 * secondsOf(animated(50)));
 }
 
-// A flat grid in whole steps of its quantization: many triangles from few bytes.
-Geometry makeFlat(std::uint32_t side)
+// A grid without extent: many triangles from few bytes.
+Geometry makeNothing(std::uint32_t side)
 {
-    Geometry flat;
-    flat.indices = makeHills(side).indices;
+    Geometry nothing;
+    nothing.indices = makeHills(side).indices;
+    nothing.positions.resize(std::size_t{3} * side * side);
+    nothing.uvs.resize(std::size_t{2} * side * side);
+    nothing.colors.resize(std::size_t{4} * side * side);
     for (std::uint32_t i = 0; i < side * side; ++i) {
-        const auto x = static_cast<float>(i % side), y = static_cast<float>(i / side);
-        flat.positions.insert(flat.positions.end(), {x, y, 0.0F});
-        flat.normals.insert(flat.normals.end(), {0.0F, 0.0F, 1.0F});
-        flat.uvs.insert(flat.uvs.end(), {x, y});
-        flat.colors.insert(flat.colors.end(), {255, 255, 255, 255});
+        nothing.normals.insert(nothing.normals.end(), {0.0F, 0.0F, 1.0F});
     }
-    return flat;
+    return nothing;
 }
 
 TEST(GltfCosts, StreamsThatManyPartsName)
 {
     DracoOptions quantized;
     quantized.quantizationBits = 8;
-    GltfBuilder primitives = build(makeFlat(256), draco(quantized));
-    ASSERT_LT(primitives.bytes().size(), 8000U);
+    GltfBuilder primitives = build(makeNothing(64), draco(quantized));
+    ASSERT_LT(primitives.bytes().size(), 2800U) << "for 23,814 indices; 300 times as many are more than 4,194,304 and 1024 a byte";
     const json primitive = primitives.document["meshes"][0]["primitives"][0];
-    primitives.document["meshes"][0]["primitives"] = json(std::size_t{40}, primitive);
+    primitives.document["meshes"][0]["primitives"] = json(std::size_t{300}, primitive);
     EXPECT_NE(refusal(primitives).find("that are left for a file of this size"), std::string::npos);
 
     GltfBuilder views = build(makeHills(3), addPlain);
@@ -255,7 +256,7 @@ TEST(GltfCosts, StreamsThatManyPartsName)
     EXPECT_NE(refusal(views).find("that are left for a file of this size"), std::string::npos);
 }
 
-// The rules for a material are fifty times as many as those for an accessor. A material that has nothing costs no more for that.
+// The rules for a material are ten times as many as those for a node. A material that has nothing costs little for that.
 TEST(GltfCosts, EmptyMaterials)
 {
     constexpr std::size_t kMany = 20'000;
@@ -264,7 +265,7 @@ TEST(GltfCosts, EmptyMaterials)
         nodes.document["nodes"].push_back(json::object());
         materials.document["materials"].push_back(json::object());
     }
-    EXPECT_LT(secondsOf(materials), 4.0 * secondsOf(nodes));
+    EXPECT_LT(secondsOf(materials), 8.0 * secondsOf(nodes));
 }
 
 TEST(GltfCosts, ChainsOfNodes)

@@ -25,8 +25,8 @@ struct GltfContainer {
 std::vector<unsigned char> readBytes(const std::filesystem::path& file, std::uint64_t most = std::numeric_limits<std::uint64_t>::max(),
                                      std::uint64_t begin = 0);
 
-// Reads a .glb (glTF 2.0, section 4) chunk by chunk, without the content of its BIN chunk. A file that does not begin with its magic number is taken for JSON, unless its name
-// ends in .glb or it begins as no JSON does.
+// Reads a .glb (glTF 2.0, section 4) chunk by chunk, without the content of its BIN chunk. A file that does not begin with its magic number
+// is taken for JSON, unless its name ends in .glb or it begins as no JSON does.
 GltfContainer openContainer(const std::filesystem::path& file);
 
 // Refuses JSON that is nested too deeply, before a recursive parser sees it.
