@@ -101,8 +101,14 @@ Json Json::object()
 
 std::optional<Json> Json::parse(const std::string& text)
 {
-    const JsonConversion::Other other = JsonConversion::Other::parse(text, nullptr, false);
-    return other.is_discarded() ? std::nullopt : std::optional<Json>(JsonConversion::from(other));
+    constexpr int kMostLevels = 256;  // conversion and destructors recurse
+    bool deep = false;
+    const auto look = [&deep](int depth, JsonConversion::Other::parse_event_t /*event*/, const JsonConversion::Other& /*value*/) {
+        deep = deep || depth > kMostLevels;
+        return !deep;
+    };
+    const JsonConversion::Other other = JsonConversion::Other::parse(text, look, false);
+    return deep || other.is_discarded() ? std::nullopt : std::optional<Json>(JsonConversion::from(other));
 }
 
 void Json::append(Json element) { std::get<Array>(value_).push_back(std::move(element)); }

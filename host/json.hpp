@@ -54,7 +54,7 @@ public:
 
     static Json array(std::initializer_list<Json> elements = {});
     static Json object();
-    // Nothing if `text` is not JSON.
+    // Nothing if `text` is not JSON, or is nested hundreds of levels deep.
     static std::optional<Json> parse(const std::string& text);
 
     void append(Json element);                      // to an array

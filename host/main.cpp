@@ -9,6 +9,7 @@
 #include <fcntl.h>
 #include <malloc.h>
 #include <csignal>
+#include <cstdio>
 
 namespace {
 
@@ -46,7 +47,7 @@ int main(int argc, char** argv)
     glim::addBench(line);
     glim::addMerge(line);
     glim::Outcome outcome = glim::outcomeOf([&] { return line.run({argv + 1, argv + argc}); });
-    if (outcome.error.empty() && !std::cout.flush()) {
+    if (outcome.code == glim::ExitCode::Done && (!std::cout.flush() || std::ferror(stdout) != 0)) {
         outcome = {glim::ExitCode::BadInput, "The results could not be written to standard output."};
     }
     if (!outcome.error.empty()) {

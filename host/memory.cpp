@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <new>
 
 namespace glim {
@@ -16,6 +17,8 @@ namespace {
 
 // A handler of std::terminate can reach nothing but a global.
 std::string sentenceAtEnd;
+
+thread_local std::size_t largestAllocation = std::numeric_limits<std::size_t>::max();
 
 [[noreturn]] void endWithSentence()
 {
@@ -69,4 +72,42 @@ MemoryGuard::MemoryGuard(const std::filesystem::path& file)
 
 MemoryGuard::~MemoryGuard() { std::set_terminate(previous_); }
 
+AllocationLimit::AllocationLimit(std::size_t bytes) { largestAllocation = bytes; }
+
+AllocationLimit::~AllocationLimit() { largestAllocation = std::numeric_limits<std::size_t>::max(); }
+
 }  // namespace glim
+
+// Replaces the library's (C++20, [new.delete]). Its other forms would call these two, but those of sanitizers would not.
+void* operator new(std::size_t bytes)
+{
+    if (bytes > glim::largestAllocation) {
+        throw std::bad_alloc();
+    }
+    while (true) {
+        if (void* memory = std::malloc(bytes == 0 ? 1 : bytes)) {
+            return memory;
+        }
+        const std::new_handler handler = std::get_new_handler();
+        if (handler == nullptr) {
+            throw std::bad_alloc();
+        }
+        handler();
+    }
+}
+void* operator new[](std::size_t bytes) { return operator new(bytes); }
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept
+{
+    try {
+        return operator new(bytes);
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
+void* operator new[](std::size_t bytes, const std::nothrow_t& tag) noexcept { return operator new(bytes, tag); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
+void operator delete[](void* memory, const std::nothrow_t&) noexcept { std::free(memory); }

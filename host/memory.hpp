@@ -3,6 +3,7 @@
 
 #include "host/error.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <filesystem>
@@ -33,6 +34,16 @@ public:
 
 private:
     std::terminate_handler previous_;
+};
+
+// While it lives, operator new throws std::bad_alloc in this thread where more than so many bytes are asked for at once: for libraries that
+// take the sizes of their containers from a file. Limits do not nest.
+class AllocationLimit {
+public:
+    explicit AllocationLimit(std::size_t bytes);
+    ~AllocationLimit();
+    AllocationLimit(const AllocationLimit&) = delete;
+    AllocationLimit& operator=(const AllocationLimit&) = delete;
 };
 
 }  // namespace glim

@@ -100,12 +100,13 @@ public:
     // The last film of this scene, also if it was stopped; null if there is none, or if the last one had no sample.
     std::shared_ptr<PythonFilm> lastFilm() const { return lastFilm_; }
 
-    std::shared_ptr<PythonFilm> render(const std::vector<std::string>& words, const std::shared_ptr<PythonFilm>& resumed, bool withIds,
-                                       nb::object progress)
+    // `words`: as paths, since names of files need not be Unicode.
+    std::shared_ptr<PythonFilm> render(const std::vector<std::filesystem::path>& words, const std::shared_ptr<PythonFilm>& resumed,
+                                       bool withIds, nb::object progress)
     {
         refuseFork();
         RenderOptions options;
-        parse(words, options);
+        parse({words.begin(), words.end()}, options);
         Watcher watcher(std::move(progress));
         {
             const nb::gil_scoped_release release;
@@ -153,6 +154,7 @@ private:
             return nullptr;
         }
         labelFilm(rendered.film, options);
+        warnIfUnknown(rendered);
         warnOfPicture(rendered.film, renderer.statistics(), options.settings);
         auto film = std::make_shared<PythonFilm>(std::move(rendered.film), std::move(rendered.checkpoint));
         film->setDenoising(std::move(rendered.denoising));

@@ -94,9 +94,8 @@ BenchPoint pointOf(const Json& json, std::size_t seeds)
     BenchPoint point;
     point.samples = json.at("samples").count();
     const std::pair<const char*, std::vector<double>&> series[] = {
-        {"seconds", point.seconds}, {"cpuSeconds", point.cpuSeconds}, {"kernelSeconds", point.kernelSeconds},
-        {"mean", point.mean},       {"mse", point.mse},               {"relMse", point.relMse},
-        {"trimmedRelMse", point.trimmedRelMse}};
+        {"seconds", point.seconds}, {"cpuSeconds", point.cpuSeconds}, {"kernelSeconds", point.kernelSeconds}, {"mean", point.mean},
+        {"mse", point.mse},         {"relMse", point.relMse},         {"trimmedRelMse", point.trimmedRelMse}};
     for (const auto& [name, values] : series) {
         const bool isOlder = &values == &point.cpuSeconds && json.find(name) == nullptr;
         values = isOlder ? std::vector<double>(seeds, 0.0) : numbersOf(json.at(name));
@@ -179,8 +178,8 @@ std::string benchCsv(const std::vector<SceneBench>& benches)
         for (const BenchPoint& point : bench.points) {
             for (std::size_t i = 0; i < bench.seeds.size(); ++i) {
                 text += start + std::to_string(bench.seeds[i]) + "," + std::to_string(point.samples);
-                for (const double value : {point.seconds[i], point.cpuSeconds[i], point.kernelSeconds[i], point.mean[i], point.mse[i], point.relMse[i],
-                                           point.trimmedRelMse[i], bench.floor.mse, bench.floor.relMse}) {
+                for (const double value : {point.seconds[i], point.cpuSeconds[i], point.kernelSeconds[i], point.mean[i], point.mse[i],
+                                           point.relMse[i], point.trimmedRelMse[i], bench.floor.mse, bench.floor.relMse}) {
                     text.append(1, ',').append(exactText(value));
                 }
                 text.push_back('\n');

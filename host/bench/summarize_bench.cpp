@@ -88,8 +88,11 @@ struct Side {
 
 Side sideOf(const SceneBench& bench, const BenchPoint& point, const std::vector<std::size_t>& indices)
 {
-    return {meanOver(point.relMse, indices) - bench.floor.relMse, meanOver(point.mse, indices) - bench.floor.mse,
-            meanOver(point.mean, indices), medianOver(point.seconds, indices), medianOver(point.cpuSeconds, indices),
+    return {meanOver(point.relMse, indices) - bench.floor.relMse,
+            meanOver(point.mse, indices) - bench.floor.mse,
+            meanOver(point.mean, indices),
+            medianOver(point.seconds, indices),
+            medianOver(point.cpuSeconds, indices),
             slopeOver(bench, indices)};
 }
 

@@ -61,7 +61,7 @@ struct BenchComparison {
     Interval mean;  // of the pictures: 1 unless one is biased
     Interval samplesPerSecond;
     std::optional<Interval> cpuEfficiency, samplesPerCpuSecond;  // by CPU seconds, where both benches know theirs
-    Interval timeToError;  // until the first has the second's error, extrapolated along its slope
+    Interval timeToError;                                        // until the first has the second's error, extrapolated along its slope
 };
 
 BenchComparison compareBenches(const SceneBench& bench, const SceneBench& baseline);

@@ -178,7 +178,7 @@ bool makeReference(Device& device, const BenchJob& job, const RenderSettings& se
 // Empty if the baseline's options can be rendered again beside those of the job.
 std::string whyNotByTurns(const SceneBench& baseline, const BenchJob& job, const std::optional<BenchJob>& other)
 {
-    return !baseline.options                        ? "its file does not tell its options"
+    return !baseline.options                         ? "its file does not tell its options"
            : *baseline.options == *job.bench.options ? "it has the same options"
            : describeSettings(referenceSettings(other->settings, 1)) != describeSettings(referenceSettings(job.settings, 1))
                ? "its options ask for other light"

@@ -92,12 +92,11 @@ void printComparison(const BenchComparison& comparison, const SceneBench& baseli
     const bool byTurns = whyNotByTurns.empty();
     const auto byCpu = [](const std::optional<Interval>& ratio) { return ratio ? verdict(*ratio) : "unknown\n"; };
     std::cout << "against " << file << format(" after %u samples, seeds ", comparison.samples)
-              << (comparison.paired ? "paired, " : "not paired, ") << (byTurns ? "by turns" : "not by turns")
-              << ":\n  mean x              " << verdict(comparison.mean, 6) << "  MSE x               " << verdict(comparison.mse)
-              << "  relMSE x            " << verdict(comparison.error) << "  samples a second x  " << verdict(comparison.samplesPerSecond)
-              << "    by CPU seconds x  " << byCpu(comparison.samplesPerCpuSecond) << "  efficiency x        "
-              << verdict(comparison.efficiency) << "    by CPU seconds x  " << byCpu(comparison.cpuEfficiency) << "  time to its error x "
-              << verdict(comparison.timeToError);
+              << (comparison.paired ? "paired, " : "not paired, ") << (byTurns ? "by turns" : "not by turns") << ":\n  mean x              "
+              << verdict(comparison.mean, 6) << "  MSE x               " << verdict(comparison.mse) << "  relMSE x            "
+              << verdict(comparison.error) << "  samples a second x  " << verdict(comparison.samplesPerSecond) << "    by CPU seconds x  "
+              << byCpu(comparison.samplesPerCpuSecond) << "  efficiency x        " << verdict(comparison.efficiency)
+              << "    by CPU seconds x  " << byCpu(comparison.cpuEfficiency) << "  time to its error x " << verdict(comparison.timeToError);
     if (byTurns) {
         std::cout << "  not excluded: a load that slows one of the two more than the other, as where both wait for memory\n";
     } else {

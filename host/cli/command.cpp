@@ -1,5 +1,7 @@
 #include "host/cli/command.hpp"
 
+#include "host/message.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -209,6 +211,11 @@ Command CommandLine::addCommand(const std::string& name, const std::string& desc
 
 ExitCode CommandLine::run(std::vector<std::string> words)
 {
+    for (const std::string& word : words) {
+        if (word.find('\0') != std::string::npos) {  // a name of a file would end there
+            throw UsageError(inQuotes(word) + " has a null character; expected a text without one");
+        }
+    }
     std::reverse(words.begin(), words.end());  // as CLI11 takes them
     try {
         app_->parse(std::move(words));

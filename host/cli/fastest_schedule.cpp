@@ -74,10 +74,9 @@ double slowest(const std::vector<double>& rates) { return *std::ranges::min_elem
 void remember(const DeviceDescription& device, const ScheduleRates& rates)
 {
     Json json = readRemembered();
-    json.set(keyOf(device),
-             {{"version", versionText()},
-              {"fastest", nameOf(rates.fastest())},
-              {"samplesPerSecond", {{"wavefront", slowest(rates.wavefront)}, {"persistent", slowest(rates.persistent)}}}});
+    json.set(keyOf(device), {{"version", versionText()},
+                             {"fastest", nameOf(rates.fastest())},
+                             {"samplesPerSecond", {{"wavefront", slowest(rates.wavefront)}, {"persistent", slowest(rates.persistent)}}}});
     writeJson(rememberedFile(), json);
 }
 

@@ -87,9 +87,9 @@ std::string whyUnknown(const Film& film)
     }
     const double mean = computeMean(film, [](const PixelMoments& p) { return meanOf(p.mean); });
     const double variance = computeMean(film, [](const PixelMoments& p) { return meanOf(varianceOfMean(p)); });
-    return mean == 0.0                                          ? "the picture is black"
+    return mean == 0.0                                      ? "the picture is black"
            : std::isfinite(mean) && std::isfinite(variance) ? "its radiance is so small that float32 does not hold the squares"
-                                                                : "its radiance is so large that float32 does not hold the squares";
+                                                            : "its radiance is so large that float32 does not hold the squares";
 }
 
 Json estimateOf(const Film& film, const RenderSettings& settings)

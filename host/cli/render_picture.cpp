@@ -1,5 +1,6 @@
 #include "host/cli/render_picture.hpp"
 
+#include "host/cli/format.hpp"
 #include "host/cli/outcome.hpp"
 #include "host/flatten/camera_options.hpp"
 #include "host/message.hpp"
@@ -78,16 +79,17 @@ RenderedFilm renderPicture(Renderer& renderer, const RenderOptions& options, Fil
     RenderedFilm rendered;
     const ErrorTarget& target = options.target;
     RenderProgress last{};
+    bool goesOn = true;
     const RenderObserver observe = [&](const RenderProgress& now) {
         last = now;
         last.betweenPasses = false;
-        return observer(now);
+        return goesOn = observer(now);
     };
     const auto denoise = [&] {
         rendered.denoising.reset();
         rendered.denoisingError = nullptr;
         try {
-            rendered.denoising = denoiser.denoise(options, renderer, [&] { return observer(last); });
+            rendered.denoising = denoiser.denoise(options, renderer, [&] { return goesOn = observer(last); });
         } catch (const std::exception&) {
             rendered.denoisingError = std::current_exception();
         }
@@ -99,7 +101,7 @@ RenderedFilm renderPicture(Renderer& renderer, const RenderOptions& options, Fil
     const auto criterion = [&](const Film& film) {
         const double times = target.denoised ? timesOfDenoised() : timesToTarget(film, target);
         rendered.isGood = times <= 1.0;
-        rendered.isUnknown = std::isinf(times) && renderer.sampleCount() >= kSamplesOfUnknownError;
+        rendered.isUnknown = std::isinf(times) && goesOn && renderer.sampleCount() >= kSamplesOfUnknownError;
         return rendered.isUnknown ? 0.0 : times;
     };
     const auto atEnd = [&] {
@@ -114,6 +116,16 @@ RenderedFilm renderPicture(Renderer& renderer, const RenderOptions& options, Fil
         denoise();  // else the last look at the target did
     }
     return rendered;
+}
+
+void warnIfUnknown(const RenderedFilm& rendered)
+{
+    if (rendered.isUnknown) {
+        warn(format("the target is not reached after %.4g samples per pixel, and the render ends, because the error is unknown: ",
+                    computeRates(rendered.film).mean) +
+             (estimateError(rendered.film) ? "it is not measured of the denoised picture" : whyUnknown(rendered.film)) +
+             "; without a target it has the samples that --spp asks for.");
+    }
 }
 
 }  // namespace glim

@@ -44,4 +44,7 @@ struct RenderedFilm {
 RenderedFilm renderPicture(Renderer& renderer, const RenderOptions& options, FilmDenoiser& denoiser, const RenderObserver& observer,
                            const std::function<bool()>& keepsCheckpoint);
 
+// Says that the error of what was rendered stayed unknown, and why, if that ended the render.
+void warnIfUnknown(const RenderedFilm& rendered);
+
 }  // namespace glim

@@ -42,8 +42,7 @@ Json clampingOf(const Film& film, const RenderOptions& options)
         return nullptr;
     }
     const ClampedEnergy energy = computeClampedEnergy(film);
-    return {
-        {"limit", options.settings.clampIndirect}, {"removedMeanRadiance", energy.removed}, {"removedShare", energy.removedShare()}};
+    return {{"limit", options.settings.clampIndirect}, {"removedMeanRadiance", energy.removed}, {"removedShare", energy.removedShare()}};
 }
 
 Json bvhOf(const RenderReport& report)

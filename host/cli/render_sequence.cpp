@@ -1,7 +1,6 @@
 #include "host/cli/render_sequence.hpp"
 
 #include "host/cli/film_report.hpp"
-#include "host/cli/format.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/cli/outcome.hpp"
 #include "host/cli/output_file.hpp"
@@ -338,12 +337,7 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const Picture
     }
     labelFilm(film, options);
     const std::optional<Denoising>& denoising = rendered.denoising;
-    if (rendered.isUnknown && watch_->signal() == 0) {
-        warn(format("the target is not reached after %u samples per pixel, and the render ends, because the error is unknown: ",
-                    session_.renderer().sampleCount()) +
-             (estimateError(film) ? "it is not measured of the denoised picture" : whyUnknown(film)) +
-             "; without a target it has the samples that --spp asks for.");
-    }
+    warnIfUnknown(rendered);
     if (options.denoise && !denoising && !rendered.denoisingError) {
         say("the picture is not denoised: " +
             std::string(watch_->signal() == 0 ? "too few samples were finished" : "the render was ended"));

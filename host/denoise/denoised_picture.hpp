@@ -23,8 +23,8 @@ struct DenoisedError {
     double noisyMse = 0.0, noisyRelMse = 0.0;  // of the mean of both halves, by the same samples
     double mean = 0.0;                         // radiance over pixels and channels, W/(sr m^2)
 
-    // Not of a black picture, nor where float32 did not hold the radiance.
-    bool isKnown() const { return mean != 0.0 && std::isfinite(mean) && std::isfinite(mse.high) && std::isfinite(relMse); }
+    // Not of a black picture, whose relMSE is 0/0, nor where float32 did not hold the radiance.
+    bool isKnown() const { return std::isfinite(mean) && std::isfinite(mse.high) && std::isfinite(relMse); }
 };
 
 struct DenoisedPicture {

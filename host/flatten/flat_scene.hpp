@@ -53,7 +53,8 @@ constexpr Feature kFeatures[] = {{kFeatureSpheres, "spheres"},
                                  {kFeatureCaustics, "caustics"},
                                  {kFeatureInstances, "instances"},
                                  {kFeatureLampsInMedia, "lamps in volumes"},
-                                 {kFeatureSingleSided, "single-sided surfaces"}};
+                                 {kFeatureSingleSided, "single-sided surfaces"},
+                                 {kFeatureLargeTriangles, "large triangles"}};
 
 // The images of a scene as kernels read them: each once, however many textures use it.
 struct PackedImages {

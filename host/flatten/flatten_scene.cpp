@@ -2,8 +2,10 @@
 
 #include "host/error.hpp"
 #include "host/flatten/albedo_table.hpp"
+#include "host/flatten/anisotropic_albedo.hpp"
 #include "host/flatten/caustics.hpp"
 #include "host/flatten/flatten_materials.hpp"
+#include "host/flatten/large_triangles.hpp"
 #include "host/flatten/light_table.hpp"
 #include "host/flatten/pack_nodes.hpp"
 #include "host/flatten/place_instances.hpp"
@@ -204,6 +206,7 @@ FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const W
     flat.nodes = packNodes(bvh);
     flat.stackLevels = stackLevelsOf(bvh);
     flat.features = primitives.spheres.empty() ? 0U : kFeatureSpheres;
+    flat.features |= hasLargeTriangles(scene, primitives) ? kFeatureLargeTriangles : 0U;
     flattenMaterials(flat, scene, findColored(scene));
     for (const MeshInstance& instance : scene.instances) {
         flat.features |= flat.materialFeatures[scene.meshes[instance.mesh].material];
@@ -218,6 +221,11 @@ FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const W
     if ((flat.features & kFeatureSheen) != 0) {
         static const std::vector<uvec4> sheen = makeSheenTable();
         flat.albedos.insert(flat.albedos.end(), sheen.begin(), sheen.end());
+    }
+    if ((flat.features & kFeatureAnisotropy) != 0) {
+        static const std::vector<uvec4> anisotropic = makeAnisotropicAlbedoTable();  // .1 s of CPU time
+        flat.albedos.resize(kFirstAnisotropicAlbedo);
+        flat.albedos.insert(flat.albedos.end(), anisotropic.begin(), anisotropic.end());
     }
     pushShading(flat, primitives);
     const std::vector<std::uint32_t> recordOf = pushRecords(flat, scene, primitives, bvh);

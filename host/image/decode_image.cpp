@@ -314,6 +314,10 @@ DecodedImage decodeWebp(Bytes bytes)
     return image;
 }
 
+bool isPng(Bytes bytes) { return startsWith(bytes, "\x89PNG\r\n\x1a\n"); }
+bool isJpeg(Bytes bytes) { return startsWith(bytes, "\xff\xd8\xff"); }
+bool isWebp(Bytes bytes) { return startsWith(bytes, "RIFF") && startsWith(bytes, "WEBP", 8); }
+
 std::string firstBytes(Bytes bytes)
 {
     std::string text;
@@ -327,15 +331,17 @@ std::string firstBytes(Bytes bytes)
 
 }  // namespace
 
+bool beginsAsImage(Bytes bytes) { return isPng(bytes) || isJpeg(bytes) || isWebp(bytes); }
+
 DecodedImage decodeImage(Bytes bytes)
 {
-    if (startsWith(bytes, "\x89PNG\r\n\x1a\n")) {
+    if (isPng(bytes)) {
         return decodePng(bytes);
     }
-    if (startsWith(bytes, "\xff\xd8\xff")) {
+    if (isJpeg(bytes)) {
         return decodeJpeg(bytes);
     }
-    if (startsWith(bytes, "RIFF") && startsWith(bytes, "WEBP", 8)) {
+    if (isWebp(bytes)) {
         return decodeWebp(bytes);
     }
     const bool ktx = startsWith(bytes, "\xabKTX 20");

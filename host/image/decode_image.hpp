@@ -18,6 +18,9 @@ struct DecodedImage {
     std::vector<std::uint16_t> rgba16;
 };
 
+// Whether these are the first bytes of a kind that decodeImage knows; it looks at twelve.
+bool beginsAsImage(std::span<const unsigned char> bytes);
+
 // Tells the kind by the bytes. Throws InputError with what is wrong, as in "is a JPEG that ends early"; the caller names the image.
 DecodedImage decodeImage(std::span<const unsigned char> bytes);
 

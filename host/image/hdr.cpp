@@ -192,7 +192,12 @@ void HdrReader::readRow(std::uint32_t row, std::vector<Pixel>& pixels)
 
 RadianceMap HdrReader::read()
 {
+    constexpr int kMostLines = 4096;
+    int lines = 0;
     for (std::string line = readLine(); !line.empty(); line = readLine()) {
+        if (++lines > kMostLines) {
+            refuse("has more than " + std::to_string(kMostLines) + " lines in its header");
+        }
         readVariable(line);
     }
     readResolution(readLine());

@@ -242,8 +242,8 @@ Comparison compareImages(const Picture& picture, const Picture& reference)
     const std::vector<bool> comparable = findComparable(picture, reference, result);
     addErrors(picture, reference, comparable, result);
     addRatios(sumBlocks(picture, reference, comparable), result);
-    result.withoutVariance = picture.variance.empty() ? picture.radiance.size()
-                                                      : static_cast<std::size_t>(std::ranges::count_if(picture.variance, isUnknown));
+    result.withoutVariance =
+        picture.variance.empty() ? picture.radiance.size() : static_cast<std::size_t>(std::ranges::count_if(picture.variance, isUnknown));
     result.noise = estimateErrors(picture);
     result.referenceNoise = noiseOfReference(reference);
     return result;

@@ -145,8 +145,9 @@ void sayIfCameraIsNumber(const Scene& scene, const std::optional<std::string>& c
     const Camera& camera = findCamera(scene, choice);
     const std::string index = std::to_string(&camera - scene.cameras.data());
     const bool named = std::ranges::any_of(scene.cameras, [&](const Camera& other) { return &other != &camera && other.name == *choice; });
+    const std::string name = camera.name.empty() ? "" : ": the camera is " + inQuotes(camera.name);
     say("--camera " + *choice +
-        (index == *choice ? " is an index: the camera is " + inQuotes(camera.name) + (named ? ", not the one named " + inQuotes(*choice) : "")
+        (index == *choice ? " is an index" + name + (named ? ", not the one named " + inQuotes(*choice) : "")
                           : " is a name: the camera has the index " + index));
 }
 

@@ -53,8 +53,8 @@ std::vector<Suspect> findSuspects(Renderer& renderer, const Film& film)
         const PixelMoments pixel = shownPixel(film, each.pixel);
         const PathRadiance path = renderer.traceSample(each.pixel, each.sampleIndex);
         const double luminance = luminanceOf(path.radiance), part = luminance / pixel.count;
-        suspects.push_back({each.pixel, each.sampleIndex, path.radiance, luminance, shareOf(part, luminanceOf(pixel.mean)),
-                            shareOf(part, picture)});
+        suspects.push_back(
+            {each.pixel, each.sampleIndex, path.radiance, luminance, shareOf(part, luminanceOf(pixel.mean)), shareOf(part, picture)});
     }
     return suspects;
 }

@@ -11,19 +11,24 @@ namespace {
 // The origin is rounded to 2^-8 of the median size, so that subtracting it is exact even where it would need all 53 bits.
 constexpr int kOriginBits = 8;
 
-// So many of the smallest primitives count as the next larger one: else a tiny part that lies astray would have all the weight.
 constexpr std::size_t kTinyShare = 64, kTinyCount = 4;
 
 // A part is coarse if so many of its primitives are smaller than 64 times the spacing of coordinates.
 constexpr double kCoarseShare = 1.0 / 8.0, kLeastSteps = 64.0;
 
-std::vector<double> sortedSizes(std::span<const Place> places)
+double nthOf(std::vector<double> values, std::size_t n)
+{
+    const auto nth = values.begin() + static_cast<std::ptrdiff_t>(n);
+    std::nth_element(values.begin(), nth, values.end());
+    return *nth;
+}
+
+std::vector<double> sizesOf(std::span<const Place> places)
 {
     std::vector<double> sizes;
     for (const Place& place : places) {
         sizes.push_back(place.size);
     }
-    std::sort(sizes.begin(), sizes.end());
     return sizes;
 }
 
@@ -63,11 +68,16 @@ bool isCoarser(const CoarsePart& a, const CoarsePart& b) { return a.spacing * b.
 
 }  // namespace
 
+double fineSize(std::vector<double> sizes)
+{
+    const std::size_t n = std::min(sizes.size() / 2, sizes.size() / kTinyShare + kTinyCount);
+    return nthOf(std::move(sizes), n);
+}
+
 glm::dvec3 chooseOrigin(std::span<const Place> places)
 {
-    const std::vector<double> sizes = sortedSizes(places);
-    const double least = sizes[std::min(sizes.size() / 2, sizes.size() / kTinyShare + kTinyCount)];
-    const double grid = std::ldexp(1.0, std::ilogb(sizes[sizes.size() / 2]) - kOriginBits);
+    const double least = fineSize(sizesOf(places));
+    const double grid = std::ldexp(1.0, std::ilogb(nthOf(sizesOf(places), places.size() / 2)) - kOriginBits);
     glm::dvec3 origin;
     for (int axis = 0; axis < 3; ++axis) {
         std::vector<Weighted> values;

@@ -17,6 +17,10 @@ struct Place {
     std::uint32_t part;  // of the scene
 };
 
+// The size of fine primitives: all but the four smallest and the smallest 64th are at least as large, so that a tiny part that lies astray
+// does not count. `sizes` is not empty.
+double fineSize(std::vector<double> sizes);
+
 // The point from which the sum over all primitives of distance / size, which is what float32 loses, is least: the median, weighted by
 // 1 / size. However far away they lie, parts that have less than half of the weight do not move it far; and the largest coordinate is at
 // most twice what it is about the centre of the scene's box. `places` is not empty.

@@ -148,7 +148,7 @@ std::optional<Environment> readFileEnvironment(const GltfFile& file, const LoadO
     const std::size_t index = options.scene.value_or(first);
     std::optional<Environment> environment = readNamedMap(file, options, index, decoded, scene, warnings);
     if (!environment) {
-        environment = readImageLight(file, index, decoded, scene);
+        environment = readImageLight(file, index, decoded, scene, warnings);
         if (environment) {
             environment->rotation = options.environmentRotation;
         }

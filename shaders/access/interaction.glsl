@@ -103,14 +103,16 @@ SurfaceInteraction interactionWithTriangle(PlacedRecord placed, PathRay ray, Pat
     PlacedTriangle triangle = placedTriangle(placed);
     vec3 v0 = triangle.v0, e1 = triangle.e1, e2 = triangle.e2;
     vec3 n = placedNormal(placed);
-    vec3 errorBound = triangleErrorBound(v0, e1, e2);
+    vec3 errorBound = triangleErrorBound(v0, e1, e2, hasFeature(kFeatureLargeTriangles));
     if (hasFeature(kFeatureInstances) && placed.instance != kNoInstance) {
         errorBound += fetchInstance(placed.instance).errorBound;
     }
-    bool nearby = isNearby(hit.t, e1, e2);
     vec3 p = trianglePoint(v0, e1, e2, hit.barycentric);
-    p = nearby ? moveWithinPlane(p, ray.origin + ray.direction * hit.t, n) : p;
-    errorBound *= nearby ? 2.0 : 1.0;
+    if (hasFeature(kFeatureLargeTriangles)) {
+        bool nearby = isNearby(hit.t, e1, e2);
+        p = nearby ? moveWithinPlane(p, ray.origin + ray.direction * hit.t, n) : p;
+        errorBound *= nearby ? 2.0 : 1.0;
+    }
     SurfaceInteraction si = SurfaceInteraction(p, errorBound, n, n, hit.barycentric, true, materialOf(record), primitiveOf(record),
                                                record.t2.w, placed.triangle, placed.instance);
     if (hasFeature(kFeatureSmooth)) {

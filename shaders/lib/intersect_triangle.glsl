@@ -122,7 +122,7 @@ bool areBeside(vec2 a, vec2 b, vec2 c)
     return max(least.x, least.y) > 0 || max(most.x, most.y) > kMinusZero;
 }
 
-// t by one coordinate of the vertices, relative to the ray's origin, and the reciprocal of the direction's.
+// A coordinate of the vertices, relative to the ray's origin, and the reciprocal of the direction's: t of each vertex is their product.
 struct Depths {
     vec3 ofVertices;
     float reciprocal;
@@ -146,8 +146,9 @@ Depths depthsOf(vec3 a, vec3 b, vec3 c, Shear shear)
 // the sign of a*b - c*d is right or zero; two triangles compute negated values for their common edge; and zero counts as inside. For a ray
 // in the triangle's plane but beside the triangle, all three may round to zero. areBeside rejects such rays: they pass outside the
 // triangle's box across the ray, which no ray that meets the triangle does. A sliver's edge functions would be rounding noise, hence
-// `sliver`. Double hits on edges are left to the caller's tie rule. Hits need 0 < t <= tMax.
-TriangleHit intersectWatertight(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v2, float tMax, bool sliver)
+// `sliver`; t of a `large` one is taken from the axis that knows it best. Double hits on edges are left to the caller's tie rule. Hits need
+// 0 < t <= tMax.
+TriangleHit intersectWatertight(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v2, float tMax, bool sliver, bool large)
 {
     vec3 a = permute(v0 - origin, shear);
     vec3 b = permute(v1 - origin, shear);
@@ -160,7 +161,10 @@ TriangleHit intersectWatertight(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3
         e = edgeFunctionsAccurately(pa, pb, pc);
     }
     float det = e.x + e.y + e.z;
-    Depths depths = depthsOf(a, b, c, shear);
+    Depths depths = Depths(vec3(a.z, b.z, c.z), shear.s.z);
+    if (large) {
+        depths = depthsOf(a, b, c, shear);
+    }
     float t = depths.reciprocal * (e.x * depths.ofVertices.x + e.y * depths.ofVertices.y + e.z * depths.ofVertices.z) / det;
     bool hit = !haveBothSigns(e) && !areBeside(pa, pb, pc) && det != 0.0 && t > 0.0 && t <= tMax;
     return TriangleHit(hit ? t : -1.0, e.yz, det);

@@ -8,14 +8,16 @@ vec3 trianglePoint(vec3 v0, vec3 e1, vec3 e2, vec2 barycentric)
     return v0 + (e1 * barycentric.x + e2 * barycentric.y);
 }
 
-// Bounds the rounding of trianglePoint, axis by axis: with u = 2^-24, u |v0 + s| for the last sum, and for s = e1 b1 + e2 b2 one u each for
-// the edges, the products and the sum, together u (|v0| + 4 max(|e1|, |e2|)). The box's extent is half the sum below, so 6 u of it are left.
-// Along the normal they also hold the error of a later test of a coplanar triangle of this size (depthsOf), where each axis counts by its
-// share of the normal. NVIDIA, "Solving Self-Intersection Artifacts in DirectX Raytracing", 2023 (optix-toolkit,
-// SelfIntersectionAvoidance), has the same terms with the largest extent for all axes, as its test mixes the axes.
-vec3 triangleErrorBound(vec3 v0, vec3 e1, vec3 e2)
+// Bounds the rounding of trianglePoint, and along the normal that of a later test of a coplanar triangle of this size: NVIDIA, "Solving
+// Self-Intersection Artifacts in DirectX Raytracing", 2023 (optix-toolkit, SelfIntersectionAvoidance): 2^-24 |v0| + 3 * 2^-24 of the largest
+// extent, as that test mixes the axes. The test of `large` triangles does not (depthsOf): each axis counts by its own extent, as for the point.
+// That has u = 2^-24 of |v0 + s| for the last sum and, for s = e1 b1 + e2 b2, one each for the edges, the products and the sum: together
+// u (|v0| + 4 max(|e1|, |e2|)), and 6 u of it are allowed for.
+vec3 triangleErrorBound(vec3 v0, vec3 e1, vec3 e2, bool large)
 {
-    return 5.9604645e-8 * abs(v0) + 1.7881394e-7 * (abs(e1) + abs(e2) + abs(e1 - e2));
+    vec3 extent = abs(e1) + abs(e2) + abs(e1 - e2);
+    extent = large ? extent : vec3(max(extent.x, max(extent.y, extent.z)));
+    return 5.9604645e-8 * abs(v0) + 1.7881394e-7 * extent;
 }
 
 // Whether a hit at distance t is so near for the triangle's size that barycentric weights, which know the place to some 2^-23 of that size,

@@ -195,6 +195,21 @@ GLIM_CONST uint kMaxTexelViews = 8u;
 // Scenes with sheen have another table behind it: texel (i, j) is the sheen's albedo at (i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1).
 GLIM_CONST uint kAlbedoSize = 64u;
 
+// Scenes with anisotropy have a third table at kFirstAnisotropicAlbedo. A direction of the cosine z sees along its azimuth a lobe of the
+// width `along`, with alpha.x >= along >= alpha.y, and after the stretch by alpha that makes the distribution of microfacets uniform it has
+// the length `stretched`. Functions of (z / stretched, alpha.y / along, along / alpha.x, alpha.x) are smooth, also where widths vanish. At
+// equal steps of (z / stretched)^(3/4), both ratios and alpha.x^(3/4), the first of these the fastest, texel i is (E, c at i, E, c at
+// i + 1): E is the albedo for a reflectance of 1, and c the cosine over `stretched` at which Schlick's weight is its mean over the
+// reflected light. Behind it are averages over the hemisphere at equal steps of alpha.x^(1/2) and, faster, of alpha.y / alpha.x: (l, b at
+// i, l, b at i + 1), where 1 - a - b is l alpha.x.
+GLIM_CONST uint kFirstAnisotropicAlbedo = kAlbedoSize * (2u * kAlbedoSize + 1u);
+GLIM_CONST uint kAnisotropicCosines = 32u;
+GLIM_CONST uint kAnisotropicRatios = 6u;
+GLIM_CONST uint kAnisotropicAlphas = 12u;
+GLIM_CONST uint kAnisotropicAverageRatios = 12u;
+GLIM_CONST uint kAnisotropicAverageAlphas = 48u;
+GLIM_CONST uint kAnisotropicAlbedos = kAnisotropicCosines * kAnisotropicRatios * kAnisotropicRatios * kAnisotropicAlphas;
+
 GLIM_CONST uint kTriangleLight = 0u;
 GLIM_CONST uint kRectangleLight = 1u;  // two triangles
 GLIM_CONST uint kSphereLight = 2u;

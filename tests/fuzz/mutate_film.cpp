@@ -3,11 +3,11 @@
 #include "host/render/film_file.hpp"
 #include "tests/fuzz/mutate_exr.hpp"
 
-#include <unistd.h>
-
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <string>
 
 namespace fs = std::filesystem;
@@ -19,12 +19,17 @@ namespace {
 class FilmMutator {
 public:
     FilmMutator()
-        : file_("/dev/shm/glim-mutant-" + std::to_string(getpid()) + ".exr")
-    {}
+    {
+        std::string folder = "/dev/shm/glim-mutant-XXXXXX";  // anyone can write there
+        if (mkdtemp(folder.data()) == nullptr) {
+            throw std::runtime_error("no temporary folder: " + folder);
+        }
+        file_ = fs::path(folder) / "film.exr";
+    }
     ~FilmMutator()
     {
         std::error_code ignored;
-        fs::remove(file_, ignored);
+        fs::remove_all(file_.parent_path(), ignored);
     }
     FilmMutator(const FilmMutator&) = delete;
     FilmMutator& operator=(const FilmMutator&) = delete;

@@ -31,6 +31,13 @@ TEST(Json, MembersKeepTheirOrderAndNumbersTheirDigits)
     EXPECT_EQ(Json({{"a", Json::object()}}).dump(2), "{\n  \"a\": {}\n}");
 }
 
+TEST(Json, RefusesToRecurseWithoutEnd)
+{
+    EXPECT_TRUE(Json::parse(std::string(200, '[') + std::string(200, ']')));
+    EXPECT_FALSE(Json::parse(std::string(1'000'000, '[') + std::string(1'000'000, ']')));
+    EXPECT_FALSE(Json::parse(std::string(1'000'000, '[')));
+}
+
 TEST(Json, WhatJsonCannotSayIsReplaced)
 {
     EXPECT_EQ(Json(std::nan("")).dump(), "null");

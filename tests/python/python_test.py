@@ -172,6 +172,23 @@ class FilmTest(PythonCase):
         self.assertIn("1100x10, 1 samples per pixel", repr(film))
         self.assertRegex(repr(glim.render(GEMS, size=(8, 8), spp=80)), r"estimated RMSE [0-9.]+ % of the mean \[")
 
+    def test_unknown_error(self):
+        """Of a black picture and of radiance whose squares float32 does not hold: it meets no target, and ends the render."""
+        with open(scene("light_point"), encoding="utf-8") as file:
+            lamp = json.load(file)
+        for intensity in (0, 1e25):
+            lamp["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = intensity
+            with open(self.path("lamp.gltf"), "w", encoding="utf-8") as file:
+                json.dump(lamp, file)
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                film = glim.render(self.path("lamp.gltf"), size=(8, 8), target_rmse=10, denoise=True)
+            self.assertIn("the target is not reached after 1024 samples per pixel", str(caught[-1].message))
+            self.assertIsNone(film.error)
+            self.assertEqual(film.count.max(), 1024)
+            self.assertNotRegex(repr(film), "nan|inf|\\[0")
+            self.assertFalse(intensity == 0 and film.denoised_error)
+
     def test_denoised(self):
         plain, film = (glim.render(GEMS, size=(40, 32), spp=64, denoise=denoise) for denoise in (False, True))
         self.assertEqual(film.digest, plain.digest)
@@ -226,6 +243,43 @@ class UseTest(PythonCase):
         with self.assertRaisesRegex(glim.InputError, "no such device"):
             glim.render(GEMS, device="no such GPU")
         self.assertTrue(any(device["usable"] and device["memory"] > 0 for device in glim.devices()))
+
+    def test_arguments_of_other_types(self):
+        """One sentence of glim's own, that names the argument."""
+        film = glim.render(GEMS, size=(8, 8), spp=1)
+        for words, call in (("^films: cannot use 1, ", lambda: glim.merge([1])), ("^films: cannot use <glim.Film", lambda: glim.merge(film)),
+                            ("^films: cannot use 'ab', ", lambda: glim.merge("ab")), ("^path: cannot use 5, ", lambda: glim.read(5)),
+                            ("^scene: cannot use None, ", lambda: glim.render(None)), ("^resume: cannot use 5, ", lambda: glim.render(GEMS, resume=5)),
+                            ("^progress: cannot use 5, ", lambda: glim.render(GEMS, progress=5)),
+                            ("^bounces: .*true.*expected", lambda: glim.render(GEMS, bounces=True)),
+                            ("^size: cannot use True, ", lambda: glim.render(GEMS, size=(True, 8))),
+                            ("^camera: .*--spp|no camera", lambda: glim.render(GEMS, camera="--spp", spp=1)),
+                            ("^origin: cannot use 5, ", lambda: glim.look_at(5, (0, 0, 0))),
+                            ("^exposure: cannot use 'bright', ", lambda: film.save(self.path("a.png"), exposure="bright")),
+                            ("^exposure: cannot use 1e.?9", lambda: film.save(self.path("a.png"), exposure=1e9)),
+                            ("^exposure: cannot use nan", lambda: film.save(self.path("a.png"), exposure=float("nan"))),
+                            ("^tone: cannot use 5, ", lambda: film.save(self.path("a.png"), tone=5)),
+                            ("^path: cannot use 5, ", lambda: film.save(5))):
+            with self.assertRaisesRegex(glim.InputError, words):
+                call()
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_names_of_files(self):
+        """None is cut at a null character, bytes are names too, and an ending that is unknown is refused."""
+        film = glim.render(os.fsencode(GEMS), size=(8, 8), spp=1)
+        film.save(os.fsencode(self.path("film.EXR")))
+        self.assertEqual(glim.read(os.fsencode(self.path("film.EXR"))).digest, film.digest)
+        for call in (lambda name: glim.read(name), lambda name: glim.load(name), lambda name: film.save(name),
+                     lambda name: glim.render(GEMS, environment=name)):
+            with self.assertRaisesRegex(glim.InputError, "has a null character"):
+                call(self.path("film.EXR") + "\0.exr")
+        for name in ("film.npz", "film.bmp", "film", "film.exr.tif", "exr"):
+            with self.assertRaisesRegex(glim.InputError, "its name does not end in .exr, .png, .jpg, .jpeg or .webp"):
+                film.save(self.path(name))
+        odd = os.fsdecode(os.fsencode(self.folder) + b"/\xff.gltf")  # no Unicode
+        shutil.copy(scene("cornell"), odd)
+        self.assertEqual(glim.render(odd, size=(8, 8), spp=1).width, 8)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["film.EXR", os.path.basename(odd)])
 
     def test_warnings(self):
         with warnings.catch_warnings(record=True) as caught:

@@ -21,7 +21,7 @@ TEST(AutoScheduleTest, ASoftwareDeviceTakesThePersistentOneWhateverIsKept)
     const ScratchFolder folder;
     const auto render = [&](const std::vector<std::string>& more) {
         GlimCall call;
-        call.arguments = {"render", sceneFile("cornell.gltf"), "-o", "x.exr",   "--size", "64x64", "--spp",
+        call.arguments = {"render", sceneFile("cornell.gltf"), "-o",  "x.exr",   "--size", "64x64", "--spp",
                           "4096",   "--target-rmse",           "90%", "--stats", "s.json"};
         call.arguments.insert(call.arguments.end(), more.begin(), more.end());
         call.environment["GLIM_CACHE_DIR"] = (folder / "cache").string();
@@ -37,8 +37,9 @@ TEST(AutoScheduleTest, ASoftwareDeviceTakesThePersistentOneWhateverIsKept)
     const std::string device = first.at("device").at("name"), driver = first.at("device").at("driver");
     std::filesystem::create_directories(folder / "cache");
     const GlimRun version = runGlim({"--version"});
-    writeText(folder / "cache" / "schedules.json",
-              json{{device + ", " + driver, {{"version", version.out.substr(0, version.out.find('\n'))}, {"fastest", "wavefront"}}}}.dump());
+    writeText(
+        folder / "cache" / "schedules.json",
+        json{{device + ", " + driver, {{"version", version.out.substr(0, version.out.find('\n'))}, {"fastest", "wavefront"}}}}.dump());
     EXPECT_EQ(render({}).at("schedule"), "persistent");
     EXPECT_EQ(render({"--schedule", "wavefront"}).at("schedule"), "wavefront");
     EXPECT_EQ(render({"--accelerator", "none"}).at("schedule"), "wavefront");
@@ -49,8 +50,7 @@ TEST(AutoScheduleTest, RatesAreThoseOfTheDevicesClock)
     const Scene scene = mixedScene();
     RenderSettings settings = squareSettings(64, 4096);
     settings.schedule = Schedule::Auto;
-    const ScheduleRates rates =
-        measureSchedules(testDevice(), flattened(scene), flattenCamera(scene.cameras.front(), 1.0F), settings);
+    const ScheduleRates rates = measureSchedules(testDevice(), flattened(scene), flattenCamera(scene.cameras.front(), 1.0F), settings);
     ASSERT_EQ(rates.wavefront.size(), 5U);
     ASSERT_EQ(rates.persistent.size(), 5U);
     for (const std::vector<double>* each : {&rates.wavefront, &rates.persistent}) {

@@ -184,6 +184,10 @@ TEST_F(ServeTest, ARefusalIsASentenceAndNotTheEnd)
     expectRefused(server_.ask({scene, "-o", film, "--sp", "4"}), 2, "--sp");
     expectRefused(server_.ask({"missing.gltf", "-o", film}), 1, "missing.gltf: cannot be read");
     expectRefused(server_.ask({scene, "--replay", "1,1,1"}), 2, "--replay");
+    server_.send(R"({"id":1,"render":["scene.gltf\u0000.png","-o","a.exr"]})");
+    expectRefused(server_.receive(), 2, R"("scene.gltf\x00.png" has a null character)");
+    server_.send(std::string(1'000'000, '['));
+    expectRefused(server_.receive(), 2, "a request is not of the form");
     for (const char* line :
          {"", "x", "[]", "{}", R"({"id":1})", R"({"id":1,"render":"x"})", R"({"id":1,"render":[1]})", R"({"render":[]})"}) {
         server_.send(line);

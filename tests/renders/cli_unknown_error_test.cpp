@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <tuple>
+
 namespace glim::test {
 namespace {
 
@@ -73,24 +75,20 @@ const char* const kBlack = "the picture is black";
 
 TEST_F(UnknownErrorTest, OfRadianceBeyondFloat)
 {
-    expectUnknown(render(lit(1e22), {"--spp", "64"}), kLarge);
     expectUnknown(render(lit(1e37), {"--spp", "64"}), kLarge);
     expectUnknown(render(lit(1e-22), {"--spp", "64"}), kSmall);
-    expectUnknown(render(lit(0.0), {"--spp", "64"}), kBlack);
     EXPECT_GT(render(lit(1e3), {"--spp", "64"}).parsed.at("estimate").at("rmseOfMean"), 0.0);
 }
 
 TEST_F(UnknownErrorTest, MeetsNoTargetAndEndsTheRender)
 {
-    for (const auto& [candela, because] : {std::pair(1e22, kLarge), std::pair(0.0, kBlack)}) {
-        const std::string scene = lit(candela);
-        for (const char* target : {"--target-rmse=0.1%", "--target-rmse=1000%", "--target-relmse=1000"}) {
-            const Rendered rendered = render(scene, {target});
-            expectUnknown(rendered, because);
-            EXPECT_EQ(rendered.parsed.at("stopReason"), "unknown error");
-            EXPECT_EQ(samplesOf(), kSamplesOfUnknownError);
-            EXPECT_NE(rendered.run.err.find("the target is not reached after 1024 samples per pixel"), std::string::npos) << rendered.run.err;
-        }
+    for (const auto& [candela, target, because] :
+         {std::tuple(1e22, "--target-rmse=0.1%", kLarge), {1e22, "--target-relmse=1000", kLarge}, {0.0, "--target-rmse=1000%", kBlack}}) {
+        const Rendered rendered = render(lit(candela), {target});
+        expectUnknown(rendered, because);
+        EXPECT_EQ(rendered.parsed.at("stopReason"), "unknown error");
+        EXPECT_EQ(samplesOf(), kSamplesOfUnknownError);
+        EXPECT_NE(rendered.run.err.find("the target is not reached after 1024 samples per pixel"), std::string::npos) << rendered.run.err;
     }
     const Rendered less = render(lit(0.0), {"--target-rmse", "1%", "--spp", "128"});
     EXPECT_EQ(less.parsed.at("stopReason"), "samples");

@@ -253,21 +253,21 @@ class SchedulerTest(SchedulerCase):
 
     def test_tls(self):
         """Who has no certificate, or one of another authority, gets nothing."""
-        for name in ("ours", "other"):
-            subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-keyout", self.path(name + ".key"), "-out",
-                            self.path(name + ".pem"), "-days", "2", "-subj", "/CN=" + name, "-addext", "subjectAltName=IP:127.0.0.1"],
-                           check=True, stderr=subprocess.DEVNULL)
-        dask = ["--tls-ca-file", self.path("ours.pem"), "--tls-cert", self.path("ours.pem"), "--tls-key", self.path("ours.key")]
-        self.start_scheduler("--protocol", "tls", *dask)
-        self.start_worker(GLIM, "127.0.0.1", *dask)
+        from farm_strangers import listening, open_to_strangers
+        ours, other = self.tls, self.make_certificate("other")
+        scheduler = self.start_scheduler()
+        worker = self.start_worker()
         self.assertTrue(self.address.startswith("tls://"))
-        for name in ("other", "ours"):
-            farm = self.farm("--tls-ca", self.path("ours.pem"), "--tls-cert", self.path(name + ".pem"), "--tls-key", self.path(name + ".key"))
-            said = self.finish(farm, int(name == "other"))
-            self.assertEqual("no scheduler answers" in said, name == "other", said)
+        wait_until(lambda: listening(worker.pid)[0], "the worker listens")
+        places = listening(scheduler.pid)[0] | listening(worker.pid)[0]
+        self.assertEqual({place: why for place in places if (why := open_to_strangers(place))}, {})
+        for tls, words in ((other, "no scheduler answers"), ([*ours[:3], other[3], *ours[4:]], "do not go together"),
+                           (["--tls-ca", self.path("no.pem"), *ours[2:]], "no.pem")):
+            self.assertIn(words, self.finish(self.start_farm("--scheduler", self.address, *tls), 1))
+        self.finish(self.farm())
         self.expect_whole()
         self.address = self.address.replace("tls://", "tcp://")
-        self.assertIn("no scheduler answers", self.finish(self.farm(spp=4), 1))
+        self.assertIn("no scheduler answers", self.finish(self.start_farm("--scheduler", self.address, "--insecure", spp=4), 1))
 
 
 if __name__ == "__main__":

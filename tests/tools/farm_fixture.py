@@ -23,6 +23,7 @@ from render_farm.exr_header import read_film_header  # noqa: E402
 GLIM = os.path.abspath(sys.argv[1])
 SCENE = os.path.join(ROOT, "scenes", "cornell.gltf")
 FARM = os.path.join(ROOT, "tools", "farm")
+NO_HTTP = os.path.join(ROOT, "tools", "render_farm", "no_http.py")
 SIZE = "16x16"
 SPP = 2000  # 8 pages, of which the last is not a whole one
 WAIT_SECONDS = 300  # of a machine that is busy with other things
@@ -133,6 +134,13 @@ class FarmCase(unittest.TestCase):
     def wait_for_pages(self, count):
         wait_until(lambda: len(self.pages()) >= count, "%d pages are there" % count)
 
+    def make_certificate(self, name):
+        """NAME.pem, an authority of its own, and NAME.key. Returns the options with which the farm takes them."""
+        subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-keyout", self.path(name + ".key"), "-out",
+                        self.path(name + ".pem"), "-days", "2", "-subj", "/CN=" + name, "-addext", "subjectAltName=IP:127.0.0.1"],
+                       check=True, stderr=subprocess.DEVNULL)
+        return ["--tls-ca", self.path(name + ".pem"), "--tls-cert", self.path(name + ".pem"), "--tls-key", self.path(name + ".key")]
+
     def expect_whole(self, spp=SPP):
         """The bits of one render, of each sample once, and nothing left over."""
         header = read_film_header(self.out)
@@ -142,12 +150,17 @@ class FarmCase(unittest.TestCase):
 
 
 class SchedulerCase(FarmCase):
-    """With a scheduler and workers of the test's own."""
+    """With a scheduler and workers of the test's own, as farm.md starts them."""
+
+    def setUp(self):
+        super().setUp()
+        self.tls = self.make_certificate("ours")
+        self.dask = ["--no-dashboard", "--preload", NO_HTTP, "--tls-ca-file", *self.tls[1:]]
 
     def start_scheduler(self, *more, **environment):
         file = self.path("scheduler.json")
-        process = self.start([sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard",
-                              "--scheduler-file", file, *more], GLIM, **environment)
+        process = self.start([sys.executable, "-m", "distributed.cli.dask_scheduler", "--protocol", "tls", "--host", "127.0.0.1", "--port", "0",
+                              *self.dask, "--scheduler-file", file, *more], GLIM, **environment)
         wait_until(lambda: os.path.exists(file) and os.path.getsize(file), "the scheduler runs")
         with open(file, encoding="utf-8") as content:
             self.address = json.load(content)["address"]
@@ -156,7 +169,7 @@ class SchedulerCase(FarmCase):
 
     def start_worker(self, glim=GLIM, host="127.0.0.1", *more):
         return self.start([sys.executable, "-m", "distributed.cli.dask_worker", self.address, "--host", host, "--nthreads", "1",
-                           "--no-nanny", "--no-dashboard", "--local-directory", self.folder, *more], glim)
+                           "--no-nanny", *self.dask, "--local-directory", self.folder, *more], glim)
 
     def farm(self, *more, **options):
-        return self.start_farm("--scheduler", self.address, *more, **options)
+        return self.start_farm("--scheduler", self.address, *self.tls, *more, **options)

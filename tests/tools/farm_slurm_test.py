@@ -38,13 +38,24 @@ class SlurmTest(FarmCase):
         return [int(name[4:]) for name in os.listdir(self.folder) if name.startswith("job-")]
 
     def start_slurm(self, words, *more, glim=GLIM):
-        return self.start_farm("--slurm", words, "--insecure", *more, glim=glim, PATH=self.folder + ":" + os.environ["PATH"])
+        return self.start_farm("--slurm", words, *more, glim=glim, PATH=self.folder + ":" + os.environ["PATH"])
 
     def test_job(self):
-        said = self.finish(self.start_slurm("partition=gpu gres=gpu:1 time=1:00:00", "--workers", "0:2"))
-        self.assertEqual(said.count("WARNING: without TLS"), 1, said)
-        self.expect_whole()
+        from farm_strangers import listening, open_to_strangers
+        farm = self.start_slurm("partition=gpu gres=gpu:1 time=1:00:00", "--workers", "0:2", glim=self.program(
+            'claim(FOLDER, "worker-%d" % page.worker)\nwait_for(FOLDER, "done")'))
+        wait_until(lambda: sum(name.startswith("claim-worker-") for name in os.listdir(self.folder)) == 2, "both workers render")
         self.assertEqual(len(self.jobs()), 2)
+        keys = [name for name in os.listdir(self.out + ".farm") if name.startswith(".dask-jobqueue.worker.key")]
+        self.assertEqual(len(keys), 1)
+        for name, mode in (("", 0o700), (keys[0], 0o600)):
+            self.assertEqual(os.stat(os.path.join(self.out + ".farm", name)).st_mode & 0o777, mode)
+        places = set().union(*(listening(pid)[0] for pid in (farm.pid, *self.jobs())))
+        self.assertGreaterEqual(len(places), 5, "a scheduler, two workers and two nannies")
+        self.assertEqual({place: why for place in places if (why := open_to_strangers(place))}, {})
+        self.open("done")
+        self.finish(farm)
+        self.expect_whole()
         with open(self.path("job-%d" % self.jobs()[0]), encoding="utf-8") as file:
             script = file.read()
         for line in ("#SBATCH --partition=gpu\n", "#SBATCH --gres=gpu:1\n", "#SBATCH --time=1:00:00\n"):

@@ -7,6 +7,7 @@ import base64
 import json
 import os
 import random
+import re
 import shutil
 import signal
 import struct
@@ -15,7 +16,7 @@ import time
 import unittest
 from unittest import mock
 
-from farm_fixture import FARM, GLIM, LONG, SCENE, SIZE, FarmCase, main, wait_until
+from farm_fixture import FARM, GLIM, LONG, ROOT, SCENE, SIZE, FarmCase, main, wait_until
 from render_farm.arguments import PAGE, parse_arguments
 from render_farm.errors import FarmError
 from render_farm.exr_header import read_film_header, read_header
@@ -216,7 +217,9 @@ class CommandTest(unittest.TestCase):
                             (["--resume"], "goes on"), (["--camera", "all"], "one picture"), (["--spp", "0"], "whole number"),
                             (["--frames", "1:2"], "####"), (["--fps", "3"], "--frames"), (["--frames", "2:1"], "A:B"),
                             (["--local", "2", "--scheduler", "tcp://h:1"], "not allowed"), (["--tls-ca", "a"], "together"),
-                            (["--png", "a.jpg"], ".png")):
+                            (["--png", "a.jpg"], ".png"), (["--exposure", "bright"], "stops from -100"), (["--local", "9999"], "at most 1000"),
+                            (["--insecure"], "always have TLS"), (["--dashboard", "--scheduler", "tls://h:1"], "a dashboard of its own"),
+                            (["--slurm", "time=1:00", "-o", "a b.exr"], "cannot name")):
             with self.assertRaises(SystemExit) as caught, mock.patch("sys.stderr") as stderr:
                 parse_arguments(good + more)
             self.assertEqual(caught.exception.code, 2, more)
@@ -225,9 +228,10 @@ class CommandTest(unittest.TestCase):
         self.assertEqual((options.others, options.spp), (["--size", "8x8", "--look-from", "-1,2,3"], 4))
 
     def test_no_commands_from_a_network_without_tls(self):
-        for option, value, words in (("--scheduler", "tcp://10.0.0.1:8786", "--insecure"), ("--scheduler", "tls://10.0.0.1:8786", "--tls-ca"),
-                                     ("--scheduler", "head:8786", "tls://"), ("--slurm", "time=1:00", "--insecure")):
-            done = subprocess.run([FARM, SCENE, "-o", "a.exr", "--spp", "4", option, value],
+        for value, words in (("tcp://10.0.0.1:8786", "--insecure"), ("tcp://127.0.0.1:8786", "--insecure"),
+                             ("tls://10.0.0.1:8786", "--tls-ca"), ("head:8786", "such as tls://"), ("tls://head", "such as tls://"),
+                             ("tls://[::1", "such as tls://"), ("tls://head:99999", "such as tls://")):
+            done = subprocess.run([FARM, SCENE, "-o", "a.exr", "--spp", "4", "--scheduler", value],
                                   stderr=subprocess.PIPE, text=True, check=False)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn(words, done.stderr)
@@ -247,6 +251,22 @@ class FilesTest(FarmCase):
         self.assertIn("the folder %s does not exist" % self.path("missing"), said)
         self.assertEqual(os.listdir(self.folder), [])
 
+    def test_damaged_job(self):
+        """One sentence each, and no folder that is kept is touched."""
+        os.makedirs(self.out + ".farm")
+        for content in (b'{"job": []}', b"[]", b"{}", b"", b"\xff", b"[" * 100000, b'{"job": {"samples": {}}}'):
+            with open(self.out + ".farm/job.json", "wb") as file:
+                file.write(content)
+            said = self.finish(self.start_farm(spp=4), 1)
+            self.assertRegex(said, r"^farm: .*(job.json: is damaged|holds another job).*\n$")
+
+    def test_files_that_could_not_be_written_at_the_end(self):
+        for more, words in ((["--png", self.path("missing/a.png")], "the folder %s does not exist" % self.path("missing")),
+                            (["--png", self.path("folder.png")], "it is a folder")):
+            os.makedirs(self.path("folder.png"), exist_ok=True)
+            self.assertIn(words, self.finish(self.start_farm(*more, spp=4), 1))
+        self.assertEqual(os.listdir(self.folder), ["folder.png"])
+
     def test_files_of_other_folders(self):
         with open(SCENE, encoding="utf-8") as file:
             scene = json.load(file)
@@ -261,8 +281,87 @@ class FilesTest(FarmCase):
         film = self.path("a.exr")
         subprocess.run([GLIM, "render", SCENE, "-o", film, "--spp", "1", "--size", "8x4"], check=True, stdout=subprocess.DEVNULL)
         self.assertEqual(read_film_header(film).size, "8x4")
-        with open(film, "rb") as file, self.assertRaisesRegex(FarmError, "a.exr: is damaged"):
-            read_header(file.read(500), "a.exr")
+        with open(film, "rb") as file:
+            content = file.read()
+        with self.assertRaisesRegex(FarmError, "a.exr: is damaged"):
+            read_header(content[:500], "a.exr")
+        for old, new in ((b"glim:samples\0string\0\x03\0\0\x000:1", b"glim:samples\0string\0\x03\0\0\0x:1"),
+                         (b"displayWindow\0box2i\0", b"displayWindow\0string\0"), (b"glim:samples\0string\0", b"glim:samples\0int\0")):
+            self.assertEqual(content.count(old), 1, old)
+            damaged = self.path("damaged.exr")
+            with open(damaged, "wb") as file:
+                file.write(content.replace(old, new))
+            with self.assertRaisesRegex(FarmError, "damaged"):
+                read_film_header(damaged)
+
+
+class StrangersTest(FarmCase):
+    """Another user of this machine gets a refusal at every port, and finds no file that is not the farm's alone."""
+
+    def start_waiting(self, *more):
+        os.mkdir(self.path("tmp"))
+        farm = self.start_farm("--local", "2", *more, glim=self.program(
+            'claim(FOLDER, "worker-%d" % page.worker)\nwait_for(FOLDER, "done")'), TMPDIR=self.path("tmp"))
+        wait_until(lambda: sum(name.startswith("claim-worker-") for name in os.listdir(self.folder)) == 2, "both workers render")
+        return farm
+
+    def end(self, farm):
+        self.open("done")
+        said = self.finish(farm)
+        self.expect_whole()
+        self.assertEqual(os.listdir(self.path("tmp")), [])
+        return said
+
+    def test_every_port_refuses(self):
+        from farm_strangers import listening, open_to_strangers
+        farm = self.start_waiting()
+        places, unix = listening(farm.pid)
+        self.assertGreaterEqual(len(places), 5, "a scheduler, two workers and two nannies")
+        self.assertEqual({place: why for place in places if (why := open_to_strangers(place))}, {})
+        self.assertEqual(unix, set())
+        for path in (self.out + ".farm", *(os.path.join(self.path("tmp"), name) for name in os.listdir(self.path("tmp")))):
+            self.assertEqual(oct(os.stat(path).st_mode & 0o777), "0o700", path)
+        self.assertNotIn("dashboard", self.end(farm))
+
+    def test_stop_is_silent(self):
+        """Ctrl-C in a terminal, which is sent to all processes, while workers start and while they render; and SIGTERM to all."""
+        from farm_strangers import family_of
+        os.mkdir(self.path("tmp"))
+        glim = self.program('claim(FOLDER, "rendering")\nwait_for(FOLDER, "never")')
+        for number, begun in ((signal.SIGINT, lambda pid: len(family_of(pid)) > 2),
+                              (signal.SIGINT, lambda pid: os.path.lexists(self.path("claim-rendering"))),
+                              (signal.SIGTERM, lambda pid: os.path.lexists(self.path("claim-rendering")))):
+            farm = self.start_farm("--local", "2", glim=glim, TMPDIR=self.path("tmp"))
+            wait_until(lambda: os.path.exists(self.out + ".farm/job.json") and begun(farm.pid), "the farm is under way")
+            os.killpg(farm.pid, number)
+            said = self.finish(farm, 128 + number)
+            self.assertEqual([line for line in said.splitlines() if not re.match("farm: stopped|farm: worker .* is gone|farm: page .* failed|"
+                                                                                  "[0-9]+ of [0-9]+ pages", line)], [])
+            self.assertEqual(os.listdir(self.path("tmp")), [])
+            if os.path.lexists(self.path("claim-rendering")):
+                os.unlink(self.path("claim-rendering"))
+
+    @LONG
+    def test_dashboard_is_asked_for(self):
+        """It is the one port that answers, and the farm says so."""
+        from farm_strangers import listening, open_to_strangers
+        farm = self.start_waiting("--dashboard")
+        places, _ = listening(farm.pid)
+        answers = [place for place in places if open_to_strangers(place)]
+        said = self.end(farm)
+        self.assertEqual([place[0] for place in answers], ["127.0.0.1"])
+        self.assertIn("dashboard asks for no password", said)
+        self.assertIn("http://127.0.0.1:%d/" % answers[0][1], said)
+
+    def test_folder_of_someone_else(self):
+        """A stranger made the job's folder first, or a link of that name."""
+        os.symlink(self.folder, self.out + ".farm")
+        self.assertIn("is not a folder that can be used", self.finish(self.start_farm(spp=4), 1))
+        os.unlink(self.out + ".farm")
+        os.mkdir(self.out + ".farm")
+        if os.geteuid() == 0:
+            os.chown(self.out + ".farm", 65534, 65534)
+            self.assertIn("belongs to another user", self.finish(self.start_farm(spp=4), 1))
 
 
 class TargetTest(FarmCase):
@@ -302,6 +401,19 @@ class TargetTest(FarmCase):
         said = self.finish(self.start_farm("--target-relmse", "1e-9", spp=300))
         self.assertIn("the target is not reached", said)
         self.expect_whole(300)
+
+    def test_black_picture_ends(self):
+        """Its error stays unknown, which meets no target."""
+        with open(os.path.join(ROOT, "scenes", "light_point.gltf"), encoding="utf-8") as file:
+            scene = json.load(file)
+        for light in scene["extensions"]["KHR_lights_punctual"]["lights"]:
+            light["intensity"] = 0
+        with open(self.path("black.gltf"), "w", encoding="utf-8") as file:
+            json.dump(scene, file)
+        farm = self.start([FARM, self.path("black.gltf"), "-o", self.out, "--spp", "100000", "--size", "8x8", "--target-rmse", "9%"], GLIM)
+        self.assertIn("the target is not reached, for the error is unknown", self.finish(farm))
+        self.assertEqual(read_film_header(self.out).samples, "0:1024")
+        self.assertIsNone(read_film_error(Glim(GLIM, self.folder), self.out))
 
     def test_rungs(self):
         self.assertEqual([pages for pages in range(30) if is_rung(pages)], [*range(1, 12), 13, 15, 17, 19, 21, 24, 27])

@@ -6,6 +6,7 @@ import re
 
 from render_farm.film_error import FilmError
 
+MOST_LOCAL = 1000  # workers; each is three processes
 PAGE = 256  # samples: a render is the left fold of such pages (host/render/merge_films.hpp)
 
 DESCRIPTION = """Renders one picture, or the frames of an animation, by many workers. The result has the bits of one render on one machine,
@@ -81,6 +82,14 @@ def number(text, most, what):
     return value
 
 
+def exposure(text):
+    """As it is: glim reads it, but only when all is rendered."""
+    is_number = re.fullmatch(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)(e[+-]?[0-9]{1,2})?", text)
+    if text != "auto" and not (is_number and abs(float(text)) <= 100):
+        raise argparse.ArgumentTypeError("cannot use '%s', expected stops from -100 to 100, or auto" % text)
+    return text
+
+
 def share(text):
     what = "more than 0 and at most 1000 percent of the mean, as in 1%"
     return number(text[:-1] if text.endswith("%") else "", 1000, what) / 100
@@ -96,7 +105,7 @@ def make_parser():
     add = parser.add_argument
     add("-o", "--output", metavar="OUT.exr", required=True, help="the film; with --frames a name with ####")
     add("--png", metavar="P.png", help="also write an sRGB picture")
-    add("--exposure", metavar="EV", default="0", help="exposure of the PNG in stops [0]")
+    add("--exposure", metavar="EV", type=exposure, default="0", help="exposure of the PNG in stops [0]")
     add("--spp", metavar="N", type=whole, required=True, help="samples per pixel, at most with a target")
     add("--target-rmse", metavar="P%", type=share, help="stop when the estimated RMSE is this share of the mean, as in 1%%")
     add("--target-relmse", metavar="E", type=error, help="stop when the estimated relMSE is at most this")
@@ -110,7 +119,8 @@ def make_parser():
     add("--workers", metavar="A:B", type=bounds, help="with --slurm: at least A workers, and at most B [0:40]")
     for name, what in (("ca", "authority"), ("cert", "own certificate"), ("key", "own key")):
         add("--tls-" + name, metavar="FILE.pem", help="TLS: the %s" % what)
-    add("--insecure", action="store_true", help="allow connections to other machines without TLS")
+    add("--insecure", action="store_true", help="with --scheduler: allow one without TLS")
+    add("--dashboard", action="store_true", help="open Dask's dashboard on this machine; it asks nobody for a password")
     add("--any-device", action="store_true", help="mix devices that round differently: equal up to rounding")
     return parser
 
@@ -157,6 +167,15 @@ def refuse_combinations(parser, options):
     if options.workers and not options.slurm:
         parser.error("--workers: expected --slurm as well; --local takes a number of workers")
     options.workers = options.workers or (0, 40)
+    if options.insecure and not options.scheduler:
+        parser.error("--insecure: expected --scheduler as well; workers that the farm starts always have TLS")
+    if options.dashboard and options.scheduler:
+        parser.error("--dashboard: expected --local or --slurm; the scheduler decides on a dashboard of its own")
+    if options.local > MOST_LOCAL:
+        parser.error("--local %d: expected at most %d workers on one machine" % (options.local, MOST_LOCAL))
     tls = [options.tls_ca, options.tls_cert, options.tls_key]
-    if any(tls) and (not all(tls) or not (options.scheduler or options.slurm)):
-        parser.error("TLS takes --tls-ca, --tls-cert and --tls-key together, with --scheduler or --slurm")
+    if any(tls) and not all(tls):
+        parser.error("TLS takes --tls-ca, --tls-cert and --tls-key together")
+    for path in [os.path.realpath(options.output), *filter(None, tls)] if options.slurm else []:
+        if not re.fullmatch(r"[\w./+:,=@-]+", path, re.ASCII):
+            parser.error("--slurm: a job's script cannot name %s; expected a path of letters, digits and . / + : , = @ - _" % path)

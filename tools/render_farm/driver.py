@@ -4,6 +4,7 @@ import asyncio
 import contextlib
 import functools
 import signal
+import threading
 import time
 
 import cloudpickle
@@ -246,11 +247,20 @@ class Driver:
         self.shown = now
         left, all_parts = self.left(), self.picture.expected
         self.progress.show("%d of %d %ss" % (all_parts - len(left), all_parts, self.picture.part), (len(self.usable()), len(self.workers)),
-                           sum(map(self.picture.samples, left)) * self.picture.pixels, self.picture.error, self.client.dashboard_link)
+                           sum(map(self.picture.samples, left)) * self.picture.pixels, self.picture.error,
+                           self.client.dashboard_link if self.options.dashboard else None)
+
+
+def keep_interrupts_from_children():
+    """Ctrl-C in a terminal is sent to every process of the farm, and is for the driver alone. A child has the mask of the thread that starts
+    it. So one thread takes the signal, and it starts none."""
+    threading.Thread(target=threading.Event().wait, daemon=True).start()
+    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
 
 
 async def until_signal(work):
     """Runs `work`. SIGINT, SIGTERM and, unless it is ignored (nohup), SIGHUP end it; returns the signal, or None."""
+    keep_interrupts_from_children()
     task, stopped = asyncio.ensure_future(work), []
 
     def stop(number):

@@ -1,5 +1,6 @@
 """Headers of EXR files: what a film says of itself, without its pixels."""
 
+import re
 import struct
 
 from render_farm.errors import FarmError
@@ -57,12 +58,16 @@ class FilmHeader:
             self.settings = attributes["glim:settings"]
             self.seed = attributes["glim:seed"]
             self.samples = attributes["glim:samples"]
+            if not re.fullmatch("[0-9]{1,10}:[0-9]{1,10}( [0-9]{1,10}:[0-9]{1,10})*", self.samples):
+                raise ValueError
             self.complete = attributes["glim:complete"] == 1 and "glim:progress" not in attributes
             self.kernels = attributes["glim:kernels"]
             self.arithmetic = attributes["glim:arithmetic"]
             self.digest = attributes["glim:digest"]
         except KeyError as error:
             raise FarmError("%s: is no film of this glim: it lacks %s" % (name, error)) from error
+        except (TypeError, ValueError) as error:  # attributes of other types
+            raise FarmError("%s: is damaged: its header has values that no film has" % name) from error
         self.size = "%dx%d" % (self.width, self.height)
         self.pixels = self.width * self.height
 

@@ -1,5 +1,6 @@
 """The folder of a job, which is all that lasts: what is asked, and what is rendered already."""
 
+import contextlib
 import fcntl
 import json
 import os
@@ -7,6 +8,14 @@ import shutil
 
 from render_farm.errors import FarmError
 from whole_file import sync_folder, write_whole
+
+
+def check_place(path):
+    """Refuses (FarmError) the name of a file that could not be written once everything is rendered."""
+    if not os.path.isdir(os.path.dirname(path)):
+        raise FarmError("%s: cannot be made: the folder %s does not exist" % (path, os.path.dirname(path)))
+    if os.path.isdir(path):
+        raise FarmError("%s: cannot be made: it is a folder" % path)
 
 
 class JobFolder:
@@ -23,24 +32,36 @@ class JobFolder:
         self.take_lock()
         path = os.path.join(self.path, "job.json")
         if os.path.exists(path):
-            try:
-                with open(path, encoding="utf-8") as file:
-                    held = json.load(file)["job"]
-            except (ValueError, KeyError, TypeError) as error:
-                raise FarmError("%s: is damaged; remove %s to begin anew" % (path, self.path)) from error
+            held = self.read_job(path)
             for name in job:
                 if held.get(name) != job[name]:
                     raise FarmError("%s holds another job: its %s is %s, expected %s; finish that one, or remove the folder"
                                     % (self.path, name, json.dumps(held.get(name)), json.dumps(job[name])))
         write_whole(path, json.dumps({"job": job, **about}, indent=1).encode())
 
+    def read_job(self, path):
+        with contextlib.suppress(ValueError, RecursionError):  # what json.load raises
+            with open(path, encoding="utf-8") as file:
+                held = json.load(file)
+            if isinstance(held, dict) and isinstance(held.get("job"), dict):
+                return held["job"]
+        raise FarmError("%s: is damaged; remove %s to begin anew" % (path, self.path))
+
     def take_lock(self):
         if not os.path.isdir(os.path.dirname(self.path)):
             raise FarmError("%s: cannot be made: the folder %s does not exist" % (self.path, os.path.dirname(self.path)))
         if os.path.islink(self.path) or (os.path.exists(self.path) and not self.is_ours()):
             raise FarmError("%s: is no folder of a farm; expected none of this name" % self.path)
+        with contextlib.suppress(FileExistsError):
+            os.mkdir(self.path, 0o700)
+        try:
+            self.lock = os.open(self.path, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)  # until this process ends
+        except OSError as error:
+            raise FarmError("%s: is not a folder that can be used; remove it to begin anew (%s)" % (self.path, error.strerror)) from error
+        if os.fstat(self.lock).st_uid != os.geteuid():
+            raise FarmError("%s: belongs to another user, who could change what is rendered" % self.path)
+        os.fchmod(self.lock, 0o700)  # certificates of Slurm's jobs are in it
         os.makedirs(self.pages, exist_ok=True)
-        self.lock = os.open(self.path, os.O_RDONLY | os.O_DIRECTORY)  # until this process ends
         try:
             fcntl.flock(self.lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError as error:

@@ -2,14 +2,16 @@
 
 import asyncio
 import os
+import signal
 import sys
 
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # while there is nothing to clean up
 sys.dont_write_bytecode = True  # beside the sources it would look like a change to build
 sys.path[0] = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
 
 from conversion.errors import ConversionError  # noqa: E402
 from render_farm.arguments import parse_arguments  # noqa: E402
-from render_farm.environment import ENVIRONMENT, JOBQUEUE  # noqa: E402
+from render_farm.environment import DASHBOARD, ENVIRONMENT, JOBQUEUE  # noqa: E402
 from render_farm.errors import FarmError  # noqa: E402
 from render_farm.progress import Progress  # noqa: E402
 from render_farm.security import check_network  # noqa: E402
@@ -29,8 +31,10 @@ def farm(options, progress):
     from render_farm.bands import Bands
     from render_farm.driver import until_signal
     from render_farm.glim import Glim, find_glim
-    from render_farm.job_folder import JobFolder
+    from render_farm.job_folder import JobFolder, check_place
     from render_farm.picture import Picture
+    for path in filter(None, (options.output, options.png)):
+        check_place(path)
     glim = Glim(find_glim(), os.getcwd())
     kind = Animation if options.frames else Bands if options.bands else Picture
     picture = kind(options, glim, JobFolder(options.output), progress.say)
@@ -44,13 +48,22 @@ def farm(options, progress):
     return 0
 
 
+def stop(number, _frame):
+    sys.exit(128 + number)
+
+
 def main():
     options, progress = parse_arguments(sys.argv[1:]), Progress()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, stop)
     try:
         is_safe = check_network(options)
         ENVIRONMENT.enter(progress.say)
         if not is_safe:
-            progress.say("WARNING: without TLS anyone on the network can run programs on this machine and on the workers")
+            progress.say("WARNING: without TLS anyone who reaches the scheduler can run programs on this machine and on the workers")
+        if options.dashboard:
+            progress.say("WARNING: Dask's dashboard asks for no password; every user of this machine can look at it")
+            ENVIRONMENT.add(DASHBOARD, progress.say)
         if options.slurm:
             ENVIRONMENT.add(JOBQUEUE, progress.say)
         sys.exit(farm(options, progress))
@@ -60,8 +73,6 @@ def main():
     except (ConversionError, OSError) as error:
         progress.say(str(error))
         sys.exit(1)
-    except KeyboardInterrupt:
-        sys.exit(130)
 
 
 if __name__ == "__main__":

@@ -46,7 +46,8 @@ class Progress:
         self.samples += samples
 
     def show(self, done, workers, samples_left, error, dashboard):
-        """done: in words. workers: that can be used, and all. samples_left: of the whole picture. error: of the picture so far, or None."""
+        """done: in words. workers: that can be used, and all. samples_left: of the whole picture. error: of the picture so far, or None.
+        dashboard: its address, or None."""
         now = time.monotonic()
         self.begin = self.begin or now
         rate = self.samples / max(now - self.begin, 1e-3)
@@ -55,7 +56,7 @@ class Progress:
         if rate > 0:
             line += ", %.3g Msamples/s, %s left" % (rate / 1e6, duration(samples_left / rate))
         line += ", %s" % error if error else ""
-        line += ", %s" % dashboard
+        line += ", %s" % dashboard if dashboard else ""
         if os.isatty(STDERR):
             line = fit(line)
             if line != self.line:

@@ -1,44 +1,33 @@
 """Which connections may carry commands: Dask runs whatever it is sent."""
 
-import ipaddress
-import socket
 import urllib.parse
 
 from render_farm.errors import FarmError
 
 
-def is_loopback(host):
-    try:
-        return all(ipaddress.ip_address(found[4][0]).is_loopback for found in socket.getaddrinfo(host, None))
-    except OSError:
-        return False
-
-
 def is_private(address):
-    """Whether nobody on a network can listen or send commands there."""
-    parts = urllib.parse.urlsplit(address)
-    return parts.scheme == "tls" or is_loopback(parts.hostname)
+    """Whether nobody else can send commands there. On loopback that is every user of the machine."""
+    return address.startswith("tls://")
 
 
 def check_network(options):
-    """Whether nobody else can send commands. Refuses (FarmError, usage) connections to other machines without TLS, unless they are allowed."""
-    if options.slurm:
-        name, is_safe = "--slurm", bool(options.tls_ca)
-    elif options.scheduler is not None:
-        name, is_safe = "--scheduler %s" % options.scheduler, check_address(options)
-    else:
-        return True
+    """Whether nobody else can send commands. Refuses (FarmError, usage) a scheduler without TLS, unless it is allowed."""
+    is_safe = options.scheduler is None or check_address(options)
     if not is_safe and not options.insecure:
-        raise FarmError("%s: anyone on the network could run programs on this machine and on the workers; expected %s or --insecure"
-                        % (name, "tls://" if options.scheduler else "--tls-ca, --tls-cert and --tls-key"), 2)
+        raise FarmError("--scheduler %s: anyone who reaches it could run programs on this machine and on the workers; expected tls:// "
+                        "or --insecure" % options.scheduler, 2)
     return is_safe
 
 
 def check_address(options):
     """Whether the scheduler's address is private. Refuses (FarmError, usage) one that does not go with the other options."""
     address = options.scheduler
-    parts = urllib.parse.urlsplit(address)
-    if parts.scheme not in ("tcp", "tls") or not parts.hostname:
+    try:
+        parts = urllib.parse.urlsplit(address)
+        is_address = parts.scheme in ("tcp", "tls") and parts.hostname and parts.port
+    except ValueError:  # of a port or a bracket
+        is_address = False
+    if not is_address:
         raise FarmError("--scheduler %s: expected an address such as tls://head:8786" % address, 2)
     if parts.scheme == "tls" and not options.tls_ca:
         raise FarmError("--scheduler %s: expected --tls-ca, --tls-cert and --tls-key" % address, 2)

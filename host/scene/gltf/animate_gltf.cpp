@@ -195,7 +195,8 @@ std::vector<double> Animator::readTimes(const GltfAnimation::Sampler& sampler)
     for (std::size_t i = 1; i < times.size(); ++i) {
         const bool jumps = times[i] <= times[i - 1] && times[i - 1] - times[i] <= kTimeRounding * std::abs(times[i]);
         if (jumps) {
-            warnings_.add("values jump where times of keys do not increase", "accessors[" + std::to_string(sampler.input) + "] (" + use + ")");
+            warnings_.add("values jump where times of keys do not increase",
+                          "accessors[" + std::to_string(sampler.input) + "] (" + use + ")");
             times[i] = times[i - 1];
         } else if (!(times[i] > times[i - 1])) {
             refuse(file_, "accessors[" + std::to_string(sampler.input) + "] (" + use + ") holds " + toText(times[i]) + " after " +
@@ -270,7 +271,7 @@ double durationOf(const GltfFile& file, std::size_t animation)
     }
     double duration = 0.0;
     for (const std::size_t input : inputs) {
-        duration = std::max(duration, readNumbers(file, input, 1, "times of " + label("animations", animation, source.name)).back());
+        duration = std::max(duration, readLastNumber(file, input, "times of " + label("animations", animation, source.name)));
     }
     return duration;
 }

@@ -12,8 +12,12 @@
 #include <cmath>
 #include <initializer_list>
 #include <iterator>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace glim {
 namespace {
@@ -91,6 +95,72 @@ bool isOneOf(const std::string& words, const json& value)
     return value.is_string() && (", " + words + ",").find(", " + value.get<std::string>() + ",") != std::string::npos;
 }
 
+// Where a value is in the document. It is written out in messages alone: a document may have millions of values.
+struct Place {
+    const Place* parent = nullptr;  // none: the document
+    std::string_view name;          // of a member
+    std::optional<std::size_t> index;
+
+    std::string text() const
+    {
+        if (parent == nullptr) {
+            return "";
+        }
+        const std::string before = parent->text();
+        return index ? before + "[" + std::to_string(*index) + "]" : (before.empty() ? "" : before + ".") + shortened(std::string(name));
+    }
+};
+
+// What holds for the values at one path, and at the paths that begin with it. So the work of a check grows with the document, and not with
+// its elements times the rules for them.
+struct RuleNode {
+    std::vector<SchemaRule> rules;
+    std::vector<std::pair<std::string, RuleNode>> members;  // in the order of the rules
+    std::unique_ptr<RuleNode> elements, values;             // `[]`, `{}`
+
+    RuleNode& memberOf(std::string_view name)
+    {
+        const auto known = std::find_if(members.begin(), members.end(), [name](const auto& member) { return member.first == name; });
+        return known != members.end() ? known->second : members.emplace_back(name, RuleNode()).second;
+    }
+
+    // `rest`: what is left of the rule's path.
+    void add(const SchemaRule& rule, std::string_view rest)
+    {
+        if (rest.empty()) {
+            rules.push_back(rule);
+        } else if (rest.substr(0, 2) == "[]" || rest.substr(0, 2) == "{}") {
+            std::unique_ptr<RuleNode>& all = rest.front() == '[' ? elements : values;
+            all = all ? std::move(all) : std::make_unique<RuleNode>();
+            all->add(rule, rest.substr(2));
+        } else {
+            rest.remove_prefix(rest.front() == '.' ? 1 : 0);
+            const std::string_view name = rest.substr(0, rest.find_first_of(".[{"));
+            memberOf(name).add(rule, rest.substr(name.size()));
+        }
+    }
+    void add(const std::string& place, std::span<const SchemaRule> more)
+    {
+        for (const SchemaRule& rule : more) {
+            add(rule, place + rule.path);
+        }
+    }
+};
+
+RuleNode makeRules()
+{
+    RuleNode rules;
+    rules.add("", kSchemaRules);
+    for (const std::string slot : kTextureSlots) {
+        rules.add("materials[]." + slot, kTextureRules);
+    }
+    for (const std::string name : kMeshoptExtensions) {
+        rules.add("buffers[].extensions." + name, kMeshoptBufferRules);
+        rules.add("bufferViews[].extensions." + name, kMeshoptViewRules);
+    }
+    return rules;
+}
+
 // Checks a document by the rules, and mends what is right but for its rounding or its spelling.
 class JsonCheck {
 public:
@@ -100,83 +170,91 @@ public:
           warnings_(warnings)
     {}
 
-    void apply(const SchemaRule& rule) const { visit(rule, rule.path, document_, ""); }
-    // Rules whose paths begin at `place`.
-    void applyAt(const std::string& place, std::span<const SchemaRule> rules) const
-    {
-        for (SchemaRule rule : rules) {
-            const std::string path = place + rule.path;
-            rule.path = path.c_str();
-            apply(rule);
-        }
-    }
+    void apply(const RuleNode& rules) const { visit(rules, document_, Place()); }
 
 private:
-    void require(bool right, const std::string& place, const json& value, const std::string& expected) const
+    void require(bool right, const Place& place, const json& value, const SchemaRule& rule) const
     {
         if (!right) {
-            throw InputError(path_ + ": " + (place.empty() ? "the document" : place) + " is " + excerpt(value) + "; expected " + expected);
+            refuse(place, value, describe(rule));
         }
     }
 
-    void visit(const SchemaRule& rule, std::string_view rest, json& value, const std::string& place) const
+    [[noreturn]] void refuse(const Place& place, const json& value, const std::string& expected) const
     {
-        if (rest.empty()) {
+        throw InputError(path_ + ": " + (place.parent == nullptr ? "the document" : place.text()) + " is " + excerpt(value) +
+                         "; expected " + expected);
+    }
+
+    void visit(const RuleNode& node, json& value, const Place& place) const
+    {
+        for (const SchemaRule& rule : node.rules) {
             checkValue(rule, value, place);
-        } else if (rest.substr(0, 2) == "[]") {
-            require(value.is_array(), place, value, "an array");
-            for (std::size_t i = 0; i < value.size(); ++i) {
-                visit(rule, rest.substr(2), value[i], place + "[" + std::to_string(i) + "]");
-            }
-        } else if (rest.substr(0, 2) == "{}") {
-            require(value.is_object(), place, value, "an object");
+        }
+        if (node.elements && !value.is_array()) {
+            refuse(place, value, "an array");
+        }
+        for (std::size_t i = 0; node.elements && i < value.size(); ++i) {
+            visit(*node.elements, value[i], {&place, "", i});
+        }
+        const bool isExtras = place.name == "extras";  // which may hold anything
+        if ((node.values || (!node.members.empty() && !isExtras)) && !value.is_object()) {
+            refuse(place, value, "an object");
+        }
+        if (node.values) {
             for (auto& [key, member] : value.items()) {
-                visit(rule, rest.substr(2), member, place + "." + shortened(key));
+                visit(*node.values, member, {&place, key, {}});
             }
-        } else {
-            visitMember(rule, rest.front() == '.' ? rest.substr(1) : rest, value, place);
+        }
+        for (std::size_t i = 0; i < node.members.size() && value.is_object(); ++i) {
+            visitMember(node.members[i].second, value, {&place, node.members[i].first, {}});
         }
     }
 
-    void visitMember(const SchemaRule& rule, std::string_view rest, json& value, const std::string& place) const
+    void visitMember(const RuleNode& node, json& value, const Place& place) const
     {
-        const std::string name(rest.substr(0, rest.find_first_of(".[{")));
-        rest.remove_prefix(name.size());
-        if (!value.is_object() && place.size() > 7 && place.compare(place.size() - 7, 7, ".extras") == 0) {
-            return;  // extras may hold anything
-        }
-        require(value.is_object(), place, value, "an object");
-        const auto member = value.find(name);
-        const std::string memberPlace = place.empty() ? name : place + "." + name;
-        if (member != value.end() && rule.zeroIsNone && member->is_number() && member->get<double>() == 0.0) {
-            warnings_.add("zeros count as left out where glTF has no meaning for 0", memberPlace);
+        const auto member = value.find(place.name);
+        if (member == value.end()) {
+            for (const SchemaRule& rule : node.rules) {
+                if (rule.need == Need::Required) {
+                    throw InputError(path_ + ": " + place.text() + " is missing; expected " + describe(rule));
+                }
+            }
+        } else if (isNone(node, *member)) {
+            warnings_.add("zeros count as left out where glTF has no meaning for 0", place.text());
             value.erase(member);
-        } else if (member != value.end()) {
-            visit(rule, rest, *member, memberPlace);
-        } else if (rest.empty() && rule.need == Need::Required) {
-            throw InputError(path_ + ": " + memberPlace + " is missing; expected " + describe(rule));
+        } else {
+            visit(node, *member, place);
         }
     }
 
-    void checkValue(const SchemaRule& rule, json& value, const std::string& place) const
+    static bool isNone(const RuleNode& node, const json& value)
+    {
+        return value.is_number() && value.get<double>() == 0.0 &&
+               std::any_of(node.rules.begin(), node.rules.end(), [](const SchemaRule& rule) { return rule.zeroIsNone; });
+    }
+
+    void checkValue(const SchemaRule& rule, json& value, const Place& place) const
     {
         if (rule.kind == JsonKind::Index || rule.kind == JsonKind::Whole) {
             makeWhole(value);
         } else if (rule.kind == JsonKind::Number) {
             clampRounded(rule, value, place);
         }
-        require(isRight(rule, value), place, value, describe(rule));
+        require(isRight(rule, value), place, value, rule);
         for (std::size_t i = 0; rule.kind == JsonKind::Numbers && i < value.size(); ++i) {
-            const std::string element = place + "[" + std::to_string(i) + "]";
+            const Place element{&place, "", i};
             clampRounded(rule, value[i], element);
-            require(isInRange(rule, value[i]), element, value[i], "a number" + describeRange(rule));
+            if (!isInRange(rule, value[i])) {
+                refuse(element, value[i], "a number" + describeRange(rule));
+            }
         }
     }
 
-    void clampRounded(const SchemaRule& rule, json& value, const std::string& place) const
+    void clampRounded(const SchemaRule& rule, json& value, const Place& place) const
     {
         if (isRoundedOut(rule, value)) {
-            warnings_.add(kClamped, place + " " + excerpt(value));
+            warnings_.add(kClamped, place.text() + " " + excerpt(value));
             value = std::clamp(value.get<double>(), rule.min, rule.max);
         }
     }
@@ -222,7 +300,7 @@ private:
     {
         const json* at = &document_;
         while (!target.empty()) {
-            const std::string name(target.substr(0, target.find('.')));
+            const std::string_view name = target.substr(0, target.find('.'));
             target.remove_prefix(std::min(target.size(), name.size() + 1));
             const auto member = at->find(name);
             if (member == at->end()) {
@@ -377,17 +455,8 @@ void checkGltfJson(const std::string& path, json& document, Warnings& warnings)
         std::string place;
         eraseNulls(document, place, warnings);
     }
-    const JsonCheck check(path, document, warnings);
-    for (const SchemaRule& rule : kSchemaRules) {
-        check.apply(rule);
-    }
-    for (const std::string slot : kTextureSlots) {
-        check.applyAt("materials[]." + slot, kTextureRules);
-    }
-    for (const std::string name : kMeshoptExtensions) {
-        check.applyAt("buffers[].extensions." + name, kMeshoptBufferRules);
-        check.applyAt("bufferViews[].extensions." + name, kMeshoptViewRules);
-    }
+    static const RuleNode kRules = makeRules();
+    JsonCheck(path, document, warnings).apply(kRules);
     makeAffine(document, warnings);
     checkParts(path, document, json::json_pointer("/cameras"), [](const std::string& type) { return type; });
     checkParts(path, document, json::json_pointer("/extensions/KHR_lights_punctual/lights"),

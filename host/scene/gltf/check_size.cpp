@@ -13,6 +13,10 @@ namespace {
 // What they take at least while the tree is built, measured with flat triangles without any attribute (tests/bench/README.md).
 constexpr std::uint64_t kBytesPerTriangle = 200, kBytesPerVertex = 24, kBytesPerInstance = 400;
 
+// Elements of accessors without a bufferView cost a file nothing, and any number of primitives may use the same ones. So many are never too
+// many; beyond, files that leave out zeros, as of morph targets, have vertices that are there. An instance counts as many vertices.
+constexpr std::uint64_t kFewUnbacked = std::uint64_t{1} << 22U, kUnbackedPerByte = 16, kVerticesPerInstance = 16;
+
 bool mayEmit(const GltfFile& file, const tinygltf::Primitive& primitive)
 {
     if (primitive.material < 0) {
@@ -38,16 +42,55 @@ PrimitiveSize sizeOf(const GltfFile& file, const tinygltf::Primitive& primitive)
     return {primitive.mode == TINYGLTF_MODE_TRIANGLES ? order / 3 : order, vertices};
 }
 
+std::uint64_t countUnbacked(const GltfFile& file, int accessor)
+{
+    const tinygltf::Accessor& source = file.model.accessors[static_cast<std::size_t>(accessor)];
+    return source.bufferView < 0 ? source.count : 0;
+}
+
+std::uint64_t countUnbacked(const GltfFile& file, const tinygltf::Primitive& primitive)
+{
+    std::uint64_t count = primitive.indices >= 0 ? countUnbacked(file, primitive.indices) : 0;
+    for (const auto& [name, accessor] : primitive.attributes) {
+        count += countUnbacked(file, accessor);
+    }
+    for (const auto& target : primitive.targets) {
+        for (const auto& [name, accessor] : target) {
+            count += countUnbacked(file, accessor);
+        }
+    }
+    return count;
+}
+
+// Refuses a file that would take far more memory than it has bytes, before anything is read.
+void checkUnbacked(const GltfFile& file, const std::vector<std::uint64_t>& instancesOf, std::uint64_t unbackedInstances)
+{
+    std::uint64_t unbacked = kVerticesPerInstance * unbackedInstances;
+    for (std::size_t mesh = 0; mesh < instancesOf.size(); ++mesh) {
+        for (const tinygltf::Primitive& primitive : file.model.meshes[mesh].primitives) {
+            unbacked += instancesOf[mesh] > 0 ? countUnbacked(file, primitive) : 0;
+        }
+    }
+    if (const std::uint64_t most = kFewUnbacked + kUnbackedPerByte * countBytes(file.buffers); unbacked > most) {
+        refuse(file, "its primitives and instances use " + std::to_string(unbacked) +
+                         " elements of accessors without a bufferView, an instance as " + std::to_string(kVerticesPerInstance) +
+                         "; expected at most " + std::to_string(most) + " in a file of this size");
+    }
+}
+
 }  // namespace
 
 void checkSize(const GltfFile& file, const std::vector<PlacedNode>& nodes)
 {
     std::vector<std::uint64_t> instancesOf(file.model.meshes.size(), 0);
+    std::uint64_t unbackedInstances = 0;
     for (const PlacedNode& node : nodes) {
         if (const int mesh = file.model.nodes[node.index].mesh; mesh >= 0) {
             instancesOf[static_cast<std::size_t>(mesh)] += countInstances(file, node.index);
+            unbackedInstances += countUnbackedInstances(file, node.index);
         }
     }
+    checkUnbacked(file, instancesOf, unbackedInstances);
     std::vector<MeshUse> uses;  // by primitive
     std::uint64_t vertices = 0, instances = 0;
     for (std::size_t mesh = 0; mesh < instancesOf.size(); ++mesh) {

@@ -1,4 +1,5 @@
 #include "host/error.hpp"
+#include "host/memory.hpp"
 #include "host/scene/gltf/decompress.hpp"
 
 #include <nlohmann/json.hpp>
@@ -23,6 +24,10 @@ constexpr const char* kExtension = "KHR_draco_mesh_compression";
 // So few indices are never too many, however short their stream. Draco's streams have no limit of their own: a flat grid takes one byte for
 // 33 indices, but one for 1500 if its steps are whole steps of its quantization.
 constexpr std::uint64_t kFewElements = std::uint64_t{1} << 22U;
+
+// No container of a right stream needs more bytes: four components of 4 bytes for each corner, in a vector that has doubled, or the lists
+// of a small mesh. Wrong streams ask for 2^31 orientations of texture coordinates, of which a few bytes give any number in some seconds.
+constexpr std::uint64_t kBytesPerIndex = 32, kBytesOfSmallMesh = std::uint64_t{1} << 20U;
 
 draco::DecoderBuffer bufferOf(std::span<const unsigned char> bytes)
 {
@@ -56,11 +61,14 @@ std::optional<std::uint32_t> readFaceCount(std::span<const unsigned char> bytes)
 }
 
 // Damage shows in the status, or in what the library asks of its containers.
-draco::StatusOr<std::unique_ptr<draco::Mesh>> decodeStream(std::span<const unsigned char> bytes)
+draco::StatusOr<std::unique_ptr<draco::Mesh>> decodeStream(std::span<const unsigned char> bytes, std::uint64_t indexCount)
 {
     try {
+        const AllocationLimit limit(kBytesOfSmallMesh + kBytesPerIndex * indexCount);
         draco::DecoderBuffer buffer = bufferOf(bytes);
         return draco::Decoder().DecodeMeshFromBuffer(&buffer);
+    } catch (const std::bad_alloc&) {
+        return draco::Status(draco::Status::DRACO_ERROR, "it needs more memory than its triangles could fill");
     } catch (const std::exception& error) {
         return draco::Status(draco::Status::DRACO_ERROR, error.what());
     }
@@ -102,7 +110,8 @@ public:
     PrimitiveDecoder(const std::string& path, json& document, Buffers& buffers)
         : path_(path),
           document_(document),
-          buffers_(buffers)
+          buffers_(buffers),
+          room_(kFewElements + kMaxCompression * countBytes(buffers))
     {}
 
     // `place` names the primitive in messages.
@@ -140,7 +149,7 @@ private:
 
     const json& accessorOf(const json& index) const { return document_["accessors"][index.get<std::size_t>()]; }
 
-    std::unique_ptr<draco::Mesh> decodeMesh(std::span<const unsigned char> bytes, std::uint64_t indexCount) const
+    std::unique_ptr<draco::Mesh> decodeMesh(std::span<const unsigned char> bytes, std::uint64_t indexCount)
     {
         const std::optional<std::uint32_t> faces = readFaceCount(bytes);
         require(faces.has_value(), " does not begin with the header of a Draco mesh of bitstream 2.2; expected one");
@@ -148,7 +157,10 @@ private:
                                                              std::to_string(indexCount) + " indices of its accessor");
         require(indexCount <= std::max(kFewElements, kMaxCompression * bytes.size()),
                 " claims " + std::to_string(indexCount) + " indices in " + std::to_string(bytes.size()) + " bytes; expected fewer");
-        draco::StatusOr<std::unique_ptr<draco::Mesh>> mesh = decodeStream(bytes);
+        require(indexCount <= room_, " claims " + std::to_string(indexCount) + " indices; expected at most the " + std::to_string(room_) +
+                                         " that are left for a file of this size");
+        room_ -= indexCount;
+        draco::StatusOr<std::unique_ptr<draco::Mesh>> mesh = decodeStream(bytes, indexCount);
         require(mesh.ok(), " is damaged (" + mesh.status().error_msg_string() + "); expected a Draco mesh");
         return std::move(mesh).value();
     }
@@ -198,6 +210,7 @@ private:
     const std::string& path_;
     json& document_;
     Buffers& buffers_;
+    std::uint64_t room_;  // indices that primitives may still claim: many may name the same stream
     std::string place_;
 };
 

@@ -96,6 +96,7 @@ void decompressViews(const std::string& path, json& document, Buffers& buffers)
 {
     json none = json::array();
     json& views = document.contains("bufferViews") ? document["bufferViews"] : none;
+    std::uint64_t room = kMaxCompression * countBytes(buffers);  // views may overlap
     for (std::size_t i = 0; i < views.size(); ++i) {
         json& view = views[i];
         for (const std::string name : kMeshoptExtensions) {
@@ -106,7 +107,13 @@ void decompressViews(const std::string& path, json& document, Buffers& buffers)
             const std::string place = "bufferViews[" + std::to_string(i) + "].extensions." + name;
             const ViewDecoder decoder(path, place, source);
             const std::span<const unsigned char> bytes = findBytes(path, buffers, rangeOf(source), place);
-            decoder.checkSize(view["byteLength"].get<std::uint64_t>(), bytes.size());
+            const auto length = view["byteLength"].get<std::uint64_t>();
+            decoder.checkSize(length, bytes.size());
+            if (length > room) {
+                throw InputError(path + ": " + place + " claims " + std::to_string(length) + " bytes; expected at most the " +
+                                 std::to_string(room) + " that are left for a file of this size");
+            }
+            room -= length;
             buffers.push_back(decoder.decode(bytes));
             view["buffer"] = buffers.size() - 1;
             view["byteOffset"] = 0;

@@ -56,6 +56,19 @@ public:
             throw InputError(path_ + ": cannot be read to its end: " + std::strerror(errno));
         }
     }
+    // Text up to a byte 0, which no JSON has. Holes of a file read as such bytes, for gigabytes.
+    std::string readText(std::uint64_t count)
+    {
+        constexpr std::uint64_t kPiece = std::uint64_t{1} << 20U;
+        std::string text;
+        for (std::size_t end = 0; text.size() < count && end == text.size();) {
+            std::string piece(std::min(kPiece, count - text.size()), '\0');
+            fill(piece);
+            end = text.size() + piece.size();
+            text.append(piece, 0, piece.find('\0'));
+        }
+        return text;
+    }
     std::vector<unsigned char> read(std::uint64_t count)
     {
         std::vector<unsigned char> bytes(count);
@@ -96,10 +109,9 @@ GltfContainer readChunks(const std::string& path, PieceReader& reader, const std
             throw InputError(place + " has type " + std::to_string(type) + "; expected JSON first");
         }
         if (chunk == 0) {
-            container.json.resize(size);
-            reader.fill(container.json);
+            container.json = reader.readText(size);
         } else if (chunk == 1 && type == kBinChunk) {
-            container.binary = reader.read(size);
+            container.binary = {at + kChunkHeaderSize, size};
         }
         at += kChunkHeaderSize + size;
     }
@@ -148,10 +160,12 @@ int computeDepth(const std::string& text)
 
 }  // namespace
 
-std::vector<unsigned char> readBytes(const std::filesystem::path& file, std::uint64_t most)
+std::vector<unsigned char> readBytes(const std::filesystem::path& file, std::uint64_t most, std::uint64_t begin)
 {
     PieceReader reader(file, "a file");
-    return reader.read(std::min(reader.size(), most));
+    begin = std::min(begin, reader.size());
+    reader.seek(begin);
+    return reader.read(std::min(reader.size() - begin, most));
 }
 
 GltfContainer openContainer(const std::filesystem::path& file)
@@ -174,11 +188,8 @@ GltfContainer openContainer(const std::filesystem::path& file)
         throw InputError(path + ": does not start with the bytes \"glTF\"; expected them in a .glb");
     }
     checkJsonStart(file, start);
-    GltfContainer container;
-    container.json.resize(reader.size());
     reader.seek(0);
-    reader.fill(container.json);
-    return container;
+    return {reader.readText(reader.size()), std::nullopt};
 }
 
 nlohmann::json parseJson(const std::string& path, const std::string& text)

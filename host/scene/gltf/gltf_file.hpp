@@ -89,6 +89,7 @@ std::filesystem::path externalFile(const std::string& path, const std::string& u
 // Refuses a uri that points out of the folder of the glTF file, links followed.
 void refuseOutside(const std::string& path, const std::string& place, const std::string& uri);
 
+std::uint64_t countBytes(const Buffers& buffers);
 // What an object with `buffer`, `byteOffset` and `byteLength` names.
 BufferRange rangeOf(const nlohmann::json& view);
 // Refuses a range that ends past its buffer. `place` names what has the range.

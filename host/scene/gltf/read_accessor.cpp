@@ -112,27 +112,40 @@ Decoder makeDecoder(const GltfFile& file, int componentType, std::size_t compone
             static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(componentType))), components, normalized};
 }
 
-template <typename Value, typename Convert>
-void replaceSparse(const GltfFile& file, const tinygltf::Accessor& accessor, const Decoder& decoder, const std::string& place,
-                   const Convert& convert, std::vector<Value>& values)
+// The elements that a sparse accessor replaces, in increasing order.
+struct Sparse {
+    Decoder indexDecoder;
+    Elements indices, values;
+
+    std::size_t target(std::size_t i) const { return static_cast<std::size_t>(indexDecoder(indices.first + i * indices.stride, 0)); }
+    const unsigned char* value(std::size_t i) const { return values.first + i * values.stride; }
+};
+
+Sparse findSparse(const GltfFile& file, const tinygltf::Accessor& accessor, const Decoder& decoder, const std::string& place)
 {
     const auto& sparse = accessor.sparse;
     const auto count = static_cast<std::size_t>(sparse.count);
     checkIndexType(file, sparse.indices.componentType, place + ".sparse.indices");
     const Decoder indexDecoder = makeDecoder(file, sparse.indices.componentType, 1, false, place);
-    const Elements indices =
-        findElements(file, static_cast<std::size_t>(sparse.indices.bufferView),
-                     {static_cast<std::size_t>(sparse.indices.byteOffset), count, indexDecoder.size()}, place + ".sparse.indices");
-    const Elements replacements =
-        findElements(file, static_cast<std::size_t>(sparse.values.bufferView),
-                     {static_cast<std::size_t>(sparse.values.byteOffset), count, decoder.size()}, place + ".sparse.values");
-    for (std::size_t i = 0; i < count; ++i) {
-        const auto target = static_cast<std::size_t>(indexDecoder(indices.first + i * indices.stride, 0));
+    return {indexDecoder,
+            findElements(file, static_cast<std::size_t>(sparse.indices.bufferView),
+                         {static_cast<std::size_t>(sparse.indices.byteOffset), count, indexDecoder.size()}, place + ".sparse.indices"),
+            findElements(file, static_cast<std::size_t>(sparse.values.bufferView),
+                         {static_cast<std::size_t>(sparse.values.byteOffset), count, decoder.size()}, place + ".sparse.values")};
+}
+
+template <typename Value, typename Convert>
+void replaceSparse(const GltfFile& file, const tinygltf::Accessor& accessor, const Decoder& decoder, const std::string& place,
+                   const Convert& convert, std::vector<Value>& values)
+{
+    const Sparse sparse = findSparse(file, accessor, decoder, place);
+    for (std::size_t i = 0; i < sparse.indices.count; ++i) {
+        const std::size_t target = sparse.target(i);
         if (target >= values.size()) {
             refuse(file,
                    place + ".sparse replaces element " + std::to_string(target) + "; expected one below " + std::to_string(values.size()));
         }
-        values[target] = convert(decoder, replacements.first + i * replacements.stride);
+        values[target] = convert(decoder, sparse.value(i));
     }
 }
 
@@ -262,6 +275,30 @@ std::vector<double> readNumbers(const GltfFile& file, std::size_t accessor, std:
         }
     }
     return numbers;
+}
+
+double readLastNumber(const GltfFile& file, std::size_t index, const std::string& use)
+{
+    const std::string place = placeOf(index, use);
+    checkAccessor(file, index, TINYGLTF_TYPE_SCALAR, "SCALAR", place);
+    const tinygltf::Accessor& accessor = file.model.accessors[index];
+    const Decoder decoder = makeDecoder(file, accessor.componentType, 1, accessor.normalized, place);
+    const std::size_t last = accessor.count - 1;
+    double number = 0.0;
+    if (accessor.bufferView >= 0) {
+        const Elements elements =
+            findElements(file, static_cast<std::size_t>(accessor.bufferView), {accessor.byteOffset, accessor.count, decoder.size()}, place);
+        number = decoder(elements.first + last * elements.stride, 0);
+    }
+    if (accessor.sparse.isSparse && accessor.sparse.count > 0) {
+        const Sparse sparse = findSparse(file, accessor, decoder, place);
+        const std::size_t end = sparse.indices.count - 1;
+        number = sparse.target(end) == last ? decoder(sparse.value(end), 0) : number;
+    }
+    if (!std::isfinite(number)) {
+        refuse(file, place + " holds " + toText(number) + " in element " + std::to_string(last) + "; expected finite numbers");
+    }
+    return number;
 }
 
 std::vector<glm::dmat4> readMatrices(const GltfFile& file, std::size_t accessor, const std::string& use)

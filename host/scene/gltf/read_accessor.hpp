@@ -22,6 +22,8 @@ std::vector<Value> readAttribute(const GltfFile& file, const std::map<std::strin
 
 // 1 to 4 finite numbers per element, one element after the other.
 std::vector<double> readNumbers(const GltfFile& file, std::size_t accessor, std::size_t components, const std::string& use);
+// The last of scalars, without the others: any number of animations may name the same times.
+double readLastNumber(const GltfFile& file, std::size_t accessor, const std::string& use);
 
 std::vector<glm::dmat4> readMatrices(const GltfFile& file, std::size_t accessor, const std::string& use);
 

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -134,12 +135,50 @@ bool isFallback(const json& buffer)
                        [&](const char* name) { return extensions.value(name, json::object()).value("fallback", false); });
 }
 
-Buffers readBuffers(const std::string& path, const json& document, GltfContainer& container)
+// How many bytes of each buffer its views can reach: more than these need not be read, and a file may claim many.
+std::vector<std::uint64_t> listEnds(const json& document)
+{
+    std::vector<std::uint64_t> ends(document.value("buffers", json::array()).size(), 0);
+    const auto extend = [&ends](const json& view) {
+        const BufferRange range = rangeOf(view);
+        ends[range.buffer] = std::max(ends[range.buffer], range.offset + range.length);
+    };
+    for (const json& view : document.value("bufferViews", json::array())) {
+        extend(view);
+        const json extensions = view.value("extensions", json::object());
+        for (const char* name : kMeshoptExtensions) {
+            if (extensions.contains(name)) {
+                extend(extensions[name]);
+            }
+        }
+    }
+    return ends;
+}
+
+// Refuses a file that is shorter than its buffer, whatever part of it is read.
+void checkLength(const std::string& path, const std::string& place, std::uint64_t found, std::uint64_t expected)
+{
+    if (found < expected) {
+        throw InputError(path + ": " + place + " holds " + std::to_string(found) + " bytes; expected its byteLength " +
+                         std::to_string(expected));
+    }
+}
+
+std::uint64_t lengthOf(const std::filesystem::path& file)
+{
+    std::error_code unreadable;
+    const std::uintmax_t length = std::filesystem::file_size(file, unreadable);
+    return unreadable ? 0 : length;
+}
+
+Buffers readBuffers(const std::string& path, const json& document, const GltfContainer& container)
 {
     Buffers buffers;
+    const std::vector<std::uint64_t> ends = listEnds(document);
     for (const json& entry : document.value("buffers", json::array())) {
         const std::string place = "buffers[" + std::to_string(buffers.size()) + "]";
         const auto expected = entry.at("byteLength").get<std::uint64_t>();
+        const std::uint64_t needed = std::min(expected, ends[buffers.size()]);
         const std::string uri = entry.value("uri", "");
         std::vector<unsigned char> bytes;
         if (isFallback(entry)) {
@@ -150,13 +189,11 @@ Buffers readBuffers(const std::string& path, const json& document, GltfContainer
             if (!buffers.empty() || !container.binary) {
                 throw InputError(path + ": " + place + " has no uri; expected one in all but the first buffer of a .glb");
             }
-            bytes = std::move(*container.binary);
+            checkLength(path, place, container.binary->size, expected);
+            bytes = readBytes(path, needed, container.binary->begin);
         } else if (expected > 0) {
-            bytes = readUri(path, place, uri, expected);
-        }
-        if (bytes.size() < expected) {
-            throw InputError(path + ": " + place + " holds " + std::to_string(bytes.size()) + " bytes; expected its byteLength " +
-                             std::to_string(expected));
+            bytes = readUri(path, place, uri, needed);
+            checkLength(path, place, isDataUri(uri) ? bytes.size() : lengthOf(externalFile(path, uri)), expected);
         }
         buffers.push_back(std::move(bytes));
     }
@@ -212,8 +249,7 @@ void warnOfSamplers(const json& document, Warnings& warnings)
     constexpr int kNone = 0;
     const std::pair<const char*, std::vector<int>> members[] = {
         {"magFilter", {kNone, kNearest, kLinear}},
-        {"minFilter",
-         {kNone, kNearest, kLinear, kNearestMipmapNearest, kLinearMipmapNearest, kNearestMipmapLinear, kLinearMipmapLinear}},
+        {"minFilter", {kNone, kNearest, kLinear, kNearestMipmapNearest, kLinearMipmapNearest, kNearestMipmapLinear, kLinearMipmapLinear}},
         {"wrapS", {kNone, kRepeat, kClampToEdge, kMirroredRepeat}},
         {"wrapT", {kNone, kRepeat, kClampToEdge, kMirroredRepeat}},
     };
@@ -353,8 +389,8 @@ std::filesystem::path externalFile(const std::string& path, const std::string& u
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     const std::array<std::string, 3> names = namesOf(uri);
     std::error_code unreadable;
-    const auto* const found =
-        std::find_if(names.begin(), names.end(), [&](const std::string& name) { return std::filesystem::exists(folder / name, unreadable); });
+    const auto* const found = std::find_if(names.begin(), names.end(),
+                                           [&](const std::string& name) { return std::filesystem::exists(folder / name, unreadable); });
     return folder / (found == names.end() ? names[1] : *found);
 }
 
@@ -372,6 +408,12 @@ void refuseOutside(const std::string& path, const std::string& place, const std:
 std::vector<unsigned char> readUri(const std::string& path, const std::string& place, const std::string& uri, std::uint64_t most)
 {
     return isDataUri(uri) ? decodeDataUri(path, place, uri) : readExternal(path, place, uri, most);
+}
+
+std::uint64_t countBytes(const Buffers& buffers)
+{
+    return std::accumulate(buffers.begin(), buffers.end(), std::uint64_t{0},
+                           [](std::uint64_t sum, const std::vector<unsigned char>& buffer) { return sum + buffer.size(); });
 }
 
 BufferRange rangeOf(const json& view)

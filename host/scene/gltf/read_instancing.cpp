@@ -63,6 +63,21 @@ std::uint64_t countInstances(const GltfFile& file, std::size_t node)
     return 1;
 }
 
+std::uint64_t countUnbackedInstances(const GltfFile& file, std::size_t node)
+{
+    std::uint64_t count = 0;
+    for (const char* attribute : kAttributes) {
+        if (const std::optional<std::size_t> accessor = findAttribute(file, node, attribute)) {
+            const tinygltf::Accessor& source = file.model.accessors[*accessor];
+            if (source.bufferView >= 0) {
+                return 0;
+            }
+            count = source.count;
+        }
+    }
+    return count;
+}
+
 std::vector<glm::dmat4> readInstanceTransforms(const GltfFile& file, std::size_t node)
 {
     const std::uint64_t count = countInstances(file, node);

@@ -157,7 +157,7 @@ void MaterialReader::readTransmission(Material& material)
 {
     material.ior = numberOr(source_, "KHR_materials_ior", "ior", 1.5);
     if (material.ior < 1.0F && 1.0 - static_cast<double>(material.ior) <= kRounding) {
-        warnings_.add(kClamped, place_ + " ior " + toText(material.ior));
+        warnings_.add(kClamped, place_ + " (index of refraction)");
         material.ior = 1.0F;
     }
     if (material.ior < 1.0F && material.ior != 0.0F) {

@@ -8,6 +8,7 @@
 
 import contextlib
 import logging
+import math
 import os
 import sys
 import tempfile
@@ -16,7 +17,7 @@ import warnings
 from typing import Any, Callable, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 from glim._errors import DeviceError, InputError
-from glim._options import in_python, words_of
+from glim._options import in_python, path_of, words_of
 
 __all__ = ["DeviceError", "Error", "Film", "GlimWarning", "InputError", "Scene", "devices", "load", "look_at", "merge", "read", "render"]
 
@@ -92,6 +93,22 @@ class Error(NamedTuple):
     mse: float  #: (W/(sr m^2))^2, mean over pixels and channels
     mean: float  #: mean radiance over pixels and channels, W/(sr m^2)
     is_of_few: bool  #: half of the MSE is in fewer than ten pixels, so that the intervals are unreliable
+
+
+def _stops(exposure):
+    try:
+        stops = float(exposure)
+    except (TypeError, ValueError):
+        stops = math.nan
+    if isinstance(exposure, (bool, str, bytes)) or not -100 <= stops <= 100:
+        raise InputError("exposure: cannot use %r, expected stops from -100 to 100, or \"auto\"" % (exposure,))
+    return stops
+
+
+def _native_film(film, what):
+    if not isinstance(film, Film):
+        raise InputError("%s: cannot use %r, expected a glim.Film" % (what, film))
+    return film._native
 
 
 class Film:
@@ -209,13 +226,20 @@ class Film:
         return scene.render(progress=progress, resume=self, **{**before, **options})
 
     def save(self, path: Path, *, exposure: Union[float, str] = 0.0, tone: str = "none") -> None:
-        """Writes an EXR with all layers, which glim.read and `glim merge` read, or an sRGB picture (.png, .jpg, .jpeg or .webp). Its
+        """Writes an EXR with all layers (.exr), which glim.read and `glim merge` read, or an sRGB picture (.png, .jpg, .jpeg or .webp). Its
         exposure is in stops or "auto", its tone mapping "none", "neutral" or "agx"."""
+        name = path_of(path, "path")
+        stops = None if isinstance(exposure, str) and exposure == "auto" else _stops(exposure)
+        if not isinstance(tone, str):
+            raise InputError("tone: cannot use %r, expected none, neutral or agx" % (tone,))
+        ending = os.path.splitext(name)[1].lower()
         with _call():
-            if os.fspath(path).lower().endswith((".png", ".jpg", ".jpeg", ".webp")):
-                self._native.save_picture(path, None if exposure == "auto" else exposure, tone, None)
+            if ending in (".png", ".jpg", ".jpeg", ".webp"):
+                self._native.save_picture(name, stops, tone, None)
+            elif ending == ".exr":
+                self._native.save(name)
             else:
-                self._native.save(path)
+                raise InputError("%s: cannot be written: its name does not end in .exr, .png, .jpg, .jpeg or .webp." % name)
 
     def _repr_png_(self) -> bytes:
         with tempfile.TemporaryDirectory() as folder:
@@ -237,6 +261,7 @@ class Scene:
     def __init__(self, path: Path, **options):
         self.path = path
         self._options = options
+        path_of(path, "scene")
         words_of(options)
         self._native = None
         self._lock = threading.Lock()
@@ -260,12 +285,15 @@ class Scene:
         Other threads may run meanwhile; one picture is rendered at a time. Raises InputError and DeviceError."""
         asked = {**self._options, **options}
         words = [self._scene_word(), *words_of(asked)]
+        before = None if resume is None else _native_film(resume, "resume")
+        if progress is not None and not callable(progress):
+            raise InputError("progress: cannot use %r, expected a function" % (progress,))
         if getattr(_heard, "sentences", None) is not None:
             raise RuntimeError("glim: `progress` cannot render, as one picture is rendered at a time")
         with self._lock, _call() as native:
             self._native = self._native or native.Scene()
             try:
-                rendered = self._native.render(words, resume and resume._native, ids, progress)
+                rendered = self._native.render(words, before, bool(ids), progress)
             except (InputError, DeviceError):
                 raise
             except BaseException as stop:
@@ -274,7 +302,7 @@ class Scene:
             return self._keep(asked, rendered)
 
     def _scene_word(self):
-        path = os.fspath(self.path)
+        path = path_of(self.path, "scene")
         return os.path.join(".", path) if path.startswith("-") else path
 
     def _keep(self, asked, rendered):
@@ -285,7 +313,7 @@ class Scene:
         return Film(rendered, (self, asked))
 
     def __repr__(self) -> str:
-        return "<glim.Scene %s>" % os.fspath(self.path)
+        return "<glim.Scene %s>" % path_of(self.path, "scene")
 
 
 def load(scene: Path, **options) -> Scene:
@@ -301,20 +329,31 @@ def render(scene: Path, **options) -> Film:
 def look_at(origin: Sequence[float], target: Sequence[float], up: Sequence[float] = (0, 1, 0), zoom: float = 1.0) -> Dict[str, Any]:
     """Options of a camera at `origin` that sees `target` in the middle of the picture: scene.render(**glim.look_at((0, 1, 3), (0, 1, 0))).
     World coordinates, metres. zoom: magnification of the scene's own camera."""
-    return {"look_from": tuple(origin), "look_at": tuple(target), "look_up": tuple(up), "zoom": zoom}
+    return {"look_from": _point("origin", origin), "look_at": _point("target", target), "look_up": _point("up", up), "zoom": zoom}
+
+
+def _point(name, value):
+    try:
+        return tuple(value)
+    except TypeError:
+        raise InputError("%s: cannot use %r, expected three numbers" % (name, value)) from None
 
 
 def read(path: Path) -> Film:
     """A film that glim has written."""
+    name = path_of(path, "path")
     with _call() as native:
-        return Film(native.read(path))
+        return Film(native.read(name))
 
 
 def merge(films: Iterable[Film]) -> Film:
     """One film of films of the same picture with different samples, or of adjacent rows. `exact` says whether it has the bits of a single
     render; else it equals one up to rounding."""
+    if isinstance(films, (str, bytes)) or not isinstance(films, Iterable):
+        raise InputError("films: cannot use %r, expected a sequence of glim.Film" % (films,))
+    natives = [_native_film(film, "films") for film in films]
     with _call() as native:
-        merged, exact = native.merge([film._native for film in films])
+        merged, exact = native.merge(natives)
         film = Film(merged)
         film.exact = exact
         return film

@@ -12,6 +12,7 @@ import time
 import distributed
 
 from farm_scale import HEIGHT, PARTS, WIDTH
+from render_farm import no_http  # noqa: F401
 from whole_file import write_whole
 
 SIZE = "960x540"
@@ -111,7 +112,8 @@ async def measure_transfers(size):
     """CPU seconds from the end of a task until its bytes are here, over the loopback: through the scheduler, which is Dask's choice, and
     directly from the worker. Driver, scheduler and worker are one process here, which sends a quarter of the size."""
     found = {}
-    async with distributed.LocalCluster(n_workers=1, threads_per_worker=1, processes=False, protocol="tcp://", host="127.0.0.1",
+    async with distributed.LocalCluster(n_workers=1, threads_per_worker=1, processes=False, protocol="tls://", host="127.0.0.1",
+                                        security=distributed.Security.temporary(),
                                         dashboard_address=None, memory_limit=0, asynchronous=True) as cluster:
         async with distributed.Client(cluster, asynchronous=True) as client:
             for name, direct in (("scheduler", False), ("direct", True)):

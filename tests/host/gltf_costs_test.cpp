@@ -1,0 +1,284 @@
+// What files cost that claim more than they hold, or have very many parts: memory and work follow their bytes.
+#include "tests/support/compress_geometry.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+
+namespace glim::test {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::uint64_t kMiB = std::uint64_t{1} << 20U, kHole = std::uint64_t{1} << 32U;
+
+std::uint64_t statusBytes(const std::string& name)
+{
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);) {
+        if (line.rfind(name + ":", 0) == 0) {
+            return std::stoull(line.substr(name.size() + 1)) * 1024;
+        }
+    }
+    ADD_FAILURE() << "/proc/self/status has no " << name;
+    return 0;
+}
+
+// The most memory that `work` takes beyond what the process has.
+std::uint64_t peakOf(const std::function<void()>& work)
+{
+    std::ofstream("/proc/self/clear_refs") << 5;  // the peak begins anew
+    const std::uint64_t before = statusBytes("VmRSS");
+    work();
+    return std::max(statusBytes("VmHWM"), before) - before;
+}
+
+double threadSeconds()
+{
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+// Of loading it, in the least of three runs.
+double secondsOf(const GltfBuilder& builder)
+{
+    const std::string path = writeTemporary("scene.gltf", builder.toGltf());
+    double least = 1e9;
+    for (int run = 0; run < 3; ++run) {
+        const double begin = threadSeconds();
+        loadGltf(path, litByTheSky());
+        least = std::min(least, threadSeconds() - begin);
+    }
+    return least;
+}
+
+std::string littleEndian(std::uint64_t value)
+{
+    std::string bytes;
+    for (int byte = 0; byte < 4; ++byte) {
+        bytes += static_cast<char>(value >> 8U * byte & 255U);
+    }
+    return bytes;
+}
+
+// Gives the file a hole at its end, which reads as zeros and takes no room.
+std::string withHole(const std::string& path, std::uint64_t size = kHole)
+{
+    std::filesystem::resize_file(path, size);
+    return path;
+}
+
+class GltfHoles : public ::testing::Test {
+protected:
+    // A .glb of 4 GiB: all that comes after `text` and `more` is a hole.
+    static std::string binary(std::uint64_t jsonSize, const std::string& text, const std::string& more)
+    {
+        constexpr std::uint64_t kSize = kHole - 256;
+        return withHole(writeTemporary("scene.glb", "glTF" + littleEndian(2) + littleEndian(kSize) + littleEndian(jsonSize) + "JSON" + text + more),
+                        kSize);
+    }
+
+    static GltfBuilder triangle()
+    {
+        GltfBuilder builder;
+        builder.addNode({{"mesh", builder.addTriangleMesh()}});
+        return builder;
+    }
+
+    static void expectRefusal(const std::string& path, const std::string& words)
+    {
+        EXPECT_LT(peakOf([&] { EXPECT_NE(loadRefusal(path, litByTheSky()).find(words), std::string::npos) << loadRefusal(path); }), 64 * kMiB);
+    }
+};
+
+TEST_F(GltfHoles, BehindABinaryChunkAreNotRead)
+{
+    GltfBuilder builder = triangle();
+    builder.document["buffers"][0] = {{"byteLength", kHole - 4096}};
+    std::string text = builder.document.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    const std::string points(builder.bytes().begin(), builder.bytes().end());
+    const std::string path = binary(text.size(), text, littleEndian(kHole - 256 - 28 - text.size()) + std::string("BIN\0", 4) + points);
+    EXPECT_LT(peakOf([&] { EXPECT_EQ(loadGltf(path, litByTheSky()).meshes.at(0).positions.size(), 3U); }), 64 * kMiB);
+}
+
+TEST_F(GltfHoles, InJsonEndIt)
+{
+    expectRefusal(binary(kHole - 256 - 20, "", ""), "no JSON chunk");
+    expectRefusal(binary(kHole - 256 - 20, "{", ""), "not JSON");
+    expectRefusal(withHole(writeTemporary("scene.gltf", "{")), "not JSON: syntax error at byte 2");
+    const std::string path = withHole(writeTemporary("padded.gltf", triangle().toGltf()));
+    EXPECT_LT(peakOf([&] { EXPECT_EQ(loadGltf(path, litByTheSky()).meshes.size(), 1U); }), 64 * kMiB);
+}
+
+TEST_F(GltfHoles, OfBuffersAndImagesAreNotRead)
+{
+    GltfBuilder builder = triangle();
+    const std::string points(builder.bytes().begin(), builder.bytes().end());
+    withHole(writeTemporary("long.bin", points));
+    json document = builder.document;
+    document["buffers"][0] = {{"byteLength", kHole}, {"uri", "long.bin"}};
+    const std::string path = writeTemporary("scene.gltf", document.dump());
+    EXPECT_LT(peakOf([&] { EXPECT_EQ(loadGltf(path, litByTheSky()).meshes.at(0).positions.size(), 3U); }), 64 * kMiB);
+    document["buffers"][0]["byteLength"] = kHole + 1;
+    expectRefusal(writeTemporary("longer.gltf", document.dump()), "buffers[0] holds 4294967296 bytes; expected its byteLength 4294967297");
+
+    const std::size_t uvs = builder.addAccessor(toBytes(std::vector<float>(6)), kFloat, "VEC2", 3);
+    builder.document["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = uvs;
+    builder.document["meshes"][0]["primitives"][0]["material"] = 0;
+    builder.document["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    builder.document["textures"] = {{{"source", 0}}};
+    builder.document["images"] = {{{"uri", "image.png"}}};
+    withHole(writeTemporary("image.png", ""));
+    expectRefusal(writeTemporary("textured.gltf", builder.toGltf()), "is of an unknown kind (it begins with 00 00 00 00)");
+}
+
+TEST(GltfCosts, ElementsThatNoBytesPayFor)
+{
+    GltfBuilder builder;
+    const std::size_t zeros = builder.append("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", 4'194'303}});
+    json instanced = {{"mesh", builder.addTriangleMesh()}};
+    instanced["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", zeros}, {"SCALE", zeros}};
+    builder.addNode(instanced);
+    EXPECT_LT(peakOf([&] { EXPECT_NE(refusal(builder).find("67108848 elements of accessors without a bufferView"), std::string::npos); }),
+              64 * kMiB);
+
+    GltfBuilder repeated = build(makeHills(3), addPlain);
+    const std::size_t again = repeated.append("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", 4'194'303}});
+    for (int i = 0; i < 40; ++i) {
+        repeated.document["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", again}}}});
+    }
+    EXPECT_LT(peakOf([&] { EXPECT_NE(refusal(repeated).find("167772120 elements"), std::string::npos) << refusal(repeated); }), 64 * kMiB);
+}
+
+// Targets of zeros, as exporters of sparse ones leave them out, count with the vertices that they move.
+TEST(GltfCosts, ZerosOfMorphTargetsAreFree)
+{
+    constexpr std::size_t kSide = 200;
+    GltfBuilder builder = build(makeHills(kSide), addPlain);
+    const std::size_t zeros = builder.append("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", kSide * kSide}});
+    builder.document["meshes"][0]["primitives"][0]["targets"] = json(std::size_t{150}, json{{"POSITION", zeros}, {"NORMAL", zeros}});
+    EXPECT_EQ(load(builder, litByTheSky()).morphTargets, 150U) << "12,000,000 elements";
+}
+
+// Each four bytes of a stream are set to the largest number. One of them counts orientations of texture coordinates: the decoder would make
+// room for 2^31 of them, and fill it for seconds.
+TEST(GltfCosts, NumbersWithinDracoStreams)
+{
+    DracoOptions quantized;
+    quantized.quantizationBits = 8;
+    const GltfBuilder right = build(makeHills(6), draco(quantized));
+    const Bytes stream = encodeDraco(makeHills(6), quantized);
+    std::size_t refused = 0;
+    const std::uint64_t peak = peakOf([&] {
+        for (std::size_t at = 11; at + 4 <= stream.size(); ++at) {
+            Bytes damaged = stream;
+            const std::uint32_t largest = 0x7fffffff;
+            std::memcpy(&damaged[at], &largest, sizeof largest);
+            GltfBuilder builder = right;
+            builder.document["bufferViews"][0] = {{"buffer", 1}, {"byteLength", damaged.size()}};
+            builder.otherBuffers.push_back({{"byteLength", damaged.size()}, {"uri", "damaged.bin"}});
+            writeTemporary("damaged.bin", std::string(damaged.begin(), damaged.end()));
+            try {
+                load(builder, litByTheSky());
+            } catch (const std::exception&) {
+                ++refused;
+            }
+        }
+    });
+    EXPECT_GT(refused, stream.size() / 4);
+    EXPECT_LT(peak, 64 * kMiB);
+}
+
+// A file lists how long its animations are. Each of these has times of its own, which are one and the same array.
+TEST(GltfCosts, TimesThatManyAnimationsName)
+{
+    const auto animated = [](std::size_t keys) {
+        GltfBuilder builder = build(makeHills(3), addPlain);
+        std::vector<float> times(keys);
+        for (std::size_t i = 0; i < keys; ++i) {
+            times[i] = static_cast<float>(i);
+        }
+        const std::size_t output = builder.addVec3(std::vector<float>(3 * keys));
+        for (int i = 0; i < 300; ++i) {
+            const std::size_t input = i == 0 ? builder.addAccessor(toBytes(times), kFloat, "SCALAR", keys)
+                                             : builder.append("accessors", builder.document["accessors"].back());
+            builder.append("animations", {{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}},
+                                          {"samplers", {{{"input", input}, {"output", output}}}}});
+        }
+        return builder;
+    };
+    EXPECT_EQ(load(animated(50), litByTheSky()).animations.at(299).duration, 49.0);
+    EXPECT_LT(secondsOf(animated(50'000)), 8.0 * secondsOf(animated(50)));
+}
+
+// A flat grid in whole steps of its quantization: many triangles from few bytes.
+Geometry makeFlat(std::uint32_t side)
+{
+    Geometry flat;
+    flat.indices = makeHills(side).indices;
+    for (std::uint32_t i = 0; i < side * side; ++i) {
+        const auto x = static_cast<float>(i % side), y = static_cast<float>(i / side);
+        flat.positions.insert(flat.positions.end(), {x, y, 0.0F});
+        flat.normals.insert(flat.normals.end(), {0.0F, 0.0F, 1.0F});
+        flat.uvs.insert(flat.uvs.end(), {x, y});
+        flat.colors.insert(flat.colors.end(), {255, 255, 255, 255});
+    }
+    return flat;
+}
+
+TEST(GltfCosts, StreamsThatManyPartsName)
+{
+    DracoOptions quantized;
+    quantized.quantizationBits = 8;
+    GltfBuilder primitives = build(makeFlat(256), draco(quantized));
+    ASSERT_LT(primitives.bytes().size(), 8000U);
+    const json primitive = primitives.document["meshes"][0]["primitives"][0];
+    primitives.document["meshes"][0]["primitives"] = json(std::size_t{40}, primitive);
+    EXPECT_NE(refusal(primitives).find("that are left for a file of this size"), std::string::npos);
+
+    GltfBuilder views = build(makeHills(3), addPlain);
+    const MeshoptView zeros{"EXT_meshopt_compression", "ATTRIBUTES", "NONE", 16, 65536};
+    const Bytes stream = encodeAttributes(Bytes(zeros.stride * zeros.count), zeros.stride);
+    const std::size_t view = addMeshoptView(views, stream, zeros);
+    const std::size_t many = 1024 * views.bytes().size() / (zeros.stride * zeros.count) + 1;
+    for (std::size_t i = 0; i < many; ++i) {
+        views.document["bufferViews"].push_back(views.document["bufferViews"][view]);
+    }
+    EXPECT_NE(refusal(views).find("that are left for a file of this size"), std::string::npos);
+}
+
+// The rules for a material are fifty times as many as those for an accessor. A material that has nothing costs no more for that.
+TEST(GltfCosts, EmptyMaterials)
+{
+    constexpr std::size_t kMany = 20'000;
+    GltfBuilder nodes = build(makeHills(3), addPlain), materials = nodes;
+    for (std::size_t i = 0; i < kMany; ++i) {
+        nodes.document["nodes"].push_back(json::object());
+        materials.document["materials"].push_back(json::object());
+    }
+    EXPECT_LT(secondsOf(materials), 4.0 * secondsOf(nodes));
+}
+
+TEST(GltfCosts, ChainsOfNodes)
+{
+    const auto chain = [](std::size_t length) {
+        GltfBuilder builder = build(makeHills(3), addPlain);
+        builder.document["scenes"][0]["nodes"] = {1};
+        for (std::size_t i = 1; i <= length; ++i) {
+            builder.document["nodes"].push_back({{"children", {i == length ? 0 : i + 1}}, {"translation", {1e-9, 0, 0}}});
+        }
+        return builder;
+    };
+    EXPECT_LT(secondsOf(chain(40'000)), 8.0 * secondsOf(chain(10'000)));
+}
+
+}  // namespace
+}  // namespace glim::test
