@@ -10,11 +10,13 @@ import sys
 import tempfile
 import time
 import unittest
+import unittest.mock
 import zipfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 CHECK = os.path.join(ROOT, "tools", "device_check")
 sys.path.insert(0, CHECK)
+import machine  # noqa: E402
 from films import FilmError, digest_of, equal_pixels, mean_ratio, read_layers  # noqa: E402
 
 GLIM = sys.argv.pop()
@@ -122,6 +124,34 @@ class GpuCheck(unittest.TestCase):
         self.assertEqual(code, 0)
         self.assertEqual(list(results["steps"]), ["device"])
         self.assertIn("failed: CheckError: glim devices: exit code 3", table)
+
+    def test_nvidia_is_found_without_a_description(self):
+        folder = tempfile.mkdtemp(dir=self.scratch)
+        library = os.path.join(folder, "libEGL_nvidia.so.0")
+        with open(library, "w", encoding="utf-8"):
+            pass
+        with unittest.mock.patch.dict(os.environ, {"LD_LIBRARY_PATH": folder, "VK_DRIVER_FILES": "", "VK_ICD_FILENAMES": ""}), \
+                unittest.mock.patch("machine.find_icds", lambda: ["/etc/vulkan/icd.d/lvp_icd.json"]):
+            drivers, how = machine.choose_drivers(None, folder)
+            self.assertEqual(how, "written, for " + library)
+            written, others = drivers.split(":")
+            self.assertEqual(others, "/etc/vulkan/icd.d/lvp_icd.json")
+            with open(written, encoding="utf-8") as file:
+                self.assertEqual(json.load(file)["ICD"]["library_path"], library)
+            os.remove(library)
+            self.assertEqual(machine.choose_drivers(None, folder)[0], None)
+            self.assertEqual(machine.choose_drivers("a.json", folder), (os.path.abspath("a.json"), "given"))
+
+    def test_the_newer_library_is_taken(self):
+        folder = tempfile.mkdtemp(dir=self.scratch)
+        with open(os.path.join(folder, "libstdc++.so.6.0.33"), "w", encoding="utf-8"):
+            pass
+        os.symlink("libstdc++.so.6.0.33", os.path.join(folder, "libstdc++.so.6"))
+        with unittest.mock.patch.dict(os.environ, {"LD_LIBRARY_PATH": folder}):
+            self.assertTrue(machine.machine_has("libstdc++.so.6", "fallback/libstdc++.so.6.0.30"))
+            self.assertTrue(machine.machine_has("libstdc++.so.6", "fallback/libstdc++.so.6.0.33"))
+            self.assertFalse(machine.machine_has("libstdc++.so.6", "fallback/libstdc++.so.6.0.100"))
+        self.assertFalse(machine.machine_has("libnowhere.so.6", "fallback/libnowhere.so.6.0.1"))
 
     def test_films_are_compared_bit_by_bit(self):
         film = os.path.join(self.bundle, "films", "cornell.exr")
