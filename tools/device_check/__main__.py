@@ -27,8 +27,10 @@ def parse_arguments():
     run.add_argument("-o", "--output", default="gpu_check.out", metavar="FOLDER", help="where results go [gpu_check.out]")
     run.add_argument("--device", help="index or part of a name from `glim devices` [the first usable one]")
     run.add_argument("--driver", metavar="ICD.json", help="the Vulkan driver that this file describes")
-    run.add_argument("--path-capacity", type=int, metavar="N", help="paths in flight, for devices with small buffers [glim's; some for speed]")
-    run.add_argument("--patience", type=float, default=1.0, metavar="F", help="multiplies the time limit of each step, for slow devices [1]")
+    run.add_argument("--path-capacity", type=int, metavar="N",
+                     help="paths in flight, for devices with small buffers [glim's; three for speed]")
+    run.add_argument("--patience", type=float, default=1.0, metavar="F",
+                     help="multiplies the time limit of each step, for slow devices [1]")
     run.add_argument("--steps", metavar="A,B", help="only these [all of device,kernels,bits,golden,speed,copies,validation]")
     return parser.parse_args()
 
@@ -49,19 +51,23 @@ def run_checks(options):
     programs = unpack_programs(bundle, folder)
     check = Check(bundle, programs, manifest, options.device, options.path_capacity)
     runner = Runner(folder, environment_for(bundle, programs, folder, drivers, manifest["layer"]), options.patience)
-    runner.results.update(machine=describe_machine(), drivers={"files": drivers, "how": how}, bundle={k: manifest[k] for k in ("glim", "films", "glibc")})
-    steps = [("device", 10, check.find_device), ("kernels", 60, check.test_kernels), ("bits", 60, check.compare_bits),
-             ("golden", 60, check.compare_golden), ("speed", 180, check.measure_speed), ("copies", 40, check.measure_copies)]
+    runner.results.update(machine=describe_machine(), drivers={"files": drivers, "how": how},
+                          bundle={name: manifest[name] for name in ("glim", "films", "glibc")})
+    # Seconds, and the largest share of them for one program: where programs run one after the other, it is smaller.
+    steps = [("device", 10, 1, check.find_device), ("kernels", 60, 1 / 3, check.test_kernels), ("bits", 60, 1 / 3, check.compare_bits),
+             ("golden", 60, 1 / 3, check.compare_golden), ("speed", 180, 1 / 6, check.measure_speed),
+             ("copies", 40, 1 / 4, check.measure_copies)]
     if manifest["layer"]:
-        steps.append(("validation", 40, check.validate))
-    wanted = set((options.steps or ",".join(name for name, _, _ in steps)).split(",")) | {"device"}
-    unknown = wanted - {name for name, _, _ in steps}
+        steps.append(("validation", 40, 1 / 4, check.validate))
+    names = [step[0] for step in steps]
+    wanted = {"device", *(options.steps.split(",") if options.steps else names)}
+    unknown = wanted.difference(names)
     if unknown:
-        raise CheckError("--steps %s: the bundle has no such step; expected some of %s" % (",".join(sorted(unknown)), ",".join(n for n, _, _ in steps)))
-    for name, seconds, function in steps:
+        raise CheckError("--steps %s: the bundle has no such step; expected some of %s" % (",".join(sorted(unknown)), ",".join(names)))
+    for name, seconds, share, function in steps:
         if name in wanted:
             say("%s, at most %g s" % (name, seconds * options.patience))
-            runner.step(name, seconds, function)
+            runner.step(name, seconds, share, function)
             if name == "device" and "device" not in runner.results["steps"]["device"]:
                 break
     with open(runner.path("table.md"), encoding="utf-8") as file:

@@ -142,9 +142,9 @@ def draw_films(folder, glim):
     films = os.path.join(folder, "films")
     os.makedirs(films)
     for scene in BITS_SCENES:
-        words = render_words(glim, os.path.join(folder, "scenes", scene + ".gltf"), os.path.join(films, scene + ".exr"), BITS_SIZE, BITS_SIZE,
-                             BITS_SPP)
-        run(*words, "--device", "llvmpipe", stderr=subprocess.DEVNULL)
+        path, film = os.path.join(folder, "scenes", scene + ".gltf"), os.path.join(films, scene + ".exr")
+        words = render_words(glim, path, film, BITS_SIZE, BITS_SIZE)
+        run(*words, "--spp", str(BITS_SPP), "--device", "llvmpipe", stderr=subprocess.DEVNULL)
     devices = json.loads(run(glim, "devices", "--json"))
     return next("%s, %s" % (d["name"], d["driver"]) for d in devices if "llvmpipe" in d["name"])
 
@@ -164,7 +164,8 @@ def make_bundle(folder, build, say):
     pack(programs, os.path.join(folder, "programs.zip"))
     golden = golden_pictures()
     copy_data(folder, build, golden)
-    shutil.copytree(os.path.dirname(os.path.abspath(__file__)), os.path.join(folder, "gpu_check"), ignore=shutil.ignore_patterns("__pycache__"))
+    here = os.path.dirname(os.path.abspath(__file__))
+    shutil.copytree(here, os.path.join(folder, "gpu_check"), ignore=shutil.ignore_patterns("__pycache__"))
     say("drawing the films to compare with")
     manifest = {"gpu_check": 1, "glim": run(glim, "--version").strip(), "films": draw_films(folder, glim), "golden": golden,
                 "goldenSize": GOLDEN_SIZE, "kernelSuites": kernel_suites(), "layer": layer, "glibc": glibc}

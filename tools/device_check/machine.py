@@ -11,8 +11,9 @@ import zipfile
 
 ICD_FOLDERS = ("/etc/vulkan/icd.d", "/usr/local/etc/vulkan/icd.d", "/usr/local/share/vulkan/icd.d", "/usr/share/vulkan/icd.d",
                os.path.expanduser("~/.local/share/vulkan/icd.d"))
-LIBRARY_FOLDERS = ("/usr/lib/x86_64-linux-gnu", "/lib/x86_64-linux-gnu", "/usr/lib64", "/usr/lib", "/usr/local/nvidia/lib64", "/usr/local/lib",
-                   "/usr/local/cuda/compat")
+LIBRARY_FOLDERS = ("/usr/lib/x86_64-linux-gnu", "/lib/x86_64-linux-gnu", "/usr/lib64", "/usr/lib", "/usr/local/nvidia/lib64",
+                   "/usr/local/lib", "/usr/local/cuda/compat")
+ASKED_OF_NVIDIA = ("name", "driver_version", "memory.total", "clocks.max.sm", "pcie.link.gen.current", "pcie.link.width.current")
 NVIDIA_DRIVERS = ("libGLX_nvidia.so.0", "libEGL_nvidia.so.0")
 
 
@@ -38,10 +39,10 @@ def describe_machine():
         release[name] = value.strip('"')
     processors = re.findall(r"^model name\s*: (.*)", said_by("cat", "/proc/cpuinfo"), re.MULTILINE)
     return {"system": release.get("PRETTY_NAME", platform.platform()), "kernel": platform.release(), "libc": " ".join(platform.libc_ver()),
-            "python": platform.python_version(), "processors": os.cpu_count(), "processor": processors[0] if processors else platform.machine(),
+            "python": platform.python_version(), "processors": os.cpu_count(),
+            "processor": processors[0] if processors else platform.machine(),
             "nvidia": first_line("/proc/driver/nvidia/version"),
-            "nvidia-smi": said_by("nvidia-smi", "--format=csv,noheader",
-                                  "--query-gpu=name,driver_version,memory.total,clocks.max.sm,pcie.link.gen.current,pcie.link.width.current")}
+            "nvidia-smi": said_by("nvidia-smi", "--query-gpu=" + ",".join(ASKED_OF_NVIDIA), "--format=csv,noheader")}
 
 
 def find_icds():
@@ -101,8 +102,8 @@ def environment_for(bundle, programs, folder, drivers, layer):
         if not machine_has(name, path):
             os.symlink(os.path.abspath(path), os.path.join(fallback, name))
     libraries = [os.path.join(programs, "lib"), fallback, *filter(None, [os.environ.get("LD_LIBRARY_PATH")])]
-    environment = {**os.environ, "LD_LIBRARY_PATH": ":".join(libraries), "GLIM_CACHE_DIR": "", "GLIM_TEST_DATA": os.path.join(bundle, "tests"),
-                   **caches_in(os.path.join(folder, "cache"))}
+    environment = {**os.environ, "LD_LIBRARY_PATH": ":".join(libraries), "GLIM_CACHE_DIR": "",
+                   "GLIM_TEST_DATA": os.path.join(bundle, "tests"), **caches_in(os.path.join(folder, "cache"))}
     if drivers:
         environment.update(VK_DRIVER_FILES=drivers, VK_ICD_FILENAMES=drivers)
     if layer:

@@ -14,5 +14,5 @@ class CheckError(Exception):
     pass
 
 
-def render_words(glim, scene, film, width, height, spp, *more):
-    return [glim, "render", scene, "-o", film, "--size", "%dx%d" % (width, height), "--spp", str(spp), "--progress", "none", *more]
+def render_words(glim, scene, film, width, height, *more):
+    return [glim, "render", scene, "-o", film, "--size", "%dx%d" % (width, height), "--progress", "none", *more]

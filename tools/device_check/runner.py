@@ -15,15 +15,17 @@ class OutOfTime(Exception):
 
 
 class Outcome:
-    """Of a program. code: None if it ran out of time."""
+    """Of a program. code: None if it was ended."""
 
     def __init__(self, code, out, err, seconds):
         self.code, self.out, self.err, self.seconds = code, out, err, seconds
 
     def reason(self):
-        lines = [line for line in (self.err + "\n" + self.out).splitlines() if line.strip()]
-        said = lines[-1].strip()[:300] if lines else "it said nothing"
-        return "out of time" if self.code is None else "exit code %d: %s" % (self.code, said) if self.code >= 0 else "signal %d: %s" % (-self.code, said)
+        if self.code is None:
+            return "ended after %.0f s" % self.seconds
+        lines = [*self.err.splitlines(), *reversed(self.out.splitlines())]
+        said = next((line.strip()[:300] for line in lines if line.strip()), "it said nothing")
+        return "exit code %d: %s" % (self.code, said) if self.code >= 0 else "signal %d: %s" % (-self.code, said)
 
 
 class Runner:
@@ -32,7 +34,7 @@ class Runner:
     def __init__(self, folder, environment, patience):
         self.folder, self.environment, self.patience = folder, environment, patience
         self.results = {"steps": {}, "wrong": []}
-        self.deadline = None
+        self.deadline = self.longest = None
         self.at_once = max(1, min(8, os.cpu_count() or 1))
 
     def path(self, *names):
@@ -44,19 +46,21 @@ class Runner:
         return self.deadline - time.monotonic()
 
     def run(self, words, **environment):
-        """Ends the program and what it has started once the step's time is over."""
+        """Ends the program and what it has started once it has had its share of the step's time. OutOfTime: all of it is over."""
         if self.left() <= 0:
             raise OutOfTime
         begin = time.monotonic()
         process = subprocess.Popen(words, env={**self.environment, **environment}, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE, text=True, errors="replace", start_new_session=True)
         try:
-            out, err = process.communicate(timeout=max(0.0, self.left()))
+            out, err = process.communicate(timeout=max(0.0, min(self.left(), self.longest)))
             code = process.returncode
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
             out, err = process.communicate()
             code = None
+            if self.left() <= 0:
+                raise OutOfTime from None
         return Outcome(code, out, err, time.monotonic() - begin)
 
     def each(self, function, tasks):
@@ -80,11 +84,12 @@ class Runner:
                 file.write(text)
             os.replace(path + ".part", path)
 
-    def step(self, name, seconds, function):
+    def step(self, name, seconds, share, function):
+        """share: of the time, the most that one program gets. A kernel that compiles for minutes leaves time for the others."""
         record = self.results["steps"][name] = {"state": "under way"}
         self.write()
         begin = time.monotonic()
-        self.deadline = begin + seconds * self.patience
+        self.deadline, self.longest = begin + seconds * self.patience, share * seconds * self.patience
         try:
             record["state"] = "done" if function(self, record) is not False else "out of time"
         except OutOfTime:

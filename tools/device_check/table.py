@@ -19,7 +19,8 @@ def millions(row, name):
 
 
 def kernels_text(step):
-    return "%d of %d suites pass%s" % (len(step["passed"]), step["suites"], "" if not step["failed"] else ", %d fail" % len(step["failed"]))
+    return "%d of %d suites pass, %d fail, %d took too long" % (len(step["passed"]), step["suites"], len(step["failed"]),
+                                                                len(step["ended"]))
 
 
 def bits_text(step):
@@ -47,8 +48,8 @@ def validation_text(step):
     return "%d messages in %d renders" % (sum(map(len, step["messages"].values())), len(step["messages"]))
 
 
-TEXTS = {"kernels": ("passed", kernels_text), "bits": ("scenes", bits_text), "golden": ("pictures", golden_text), "speed": ("renders", speed_text),
-         "copies": ("copies", copies_text), "validation": ("messages", validation_text)}
+TEXTS = {"kernels": ("suites", kernels_text), "bits": ("scenes", bits_text), "golden": ("pictures", golden_text),
+         "speed": ("renders", speed_text), "copies": ("copies", copies_text), "validation": ("messages", validation_text)}
 
 
 def summary(results):
@@ -68,8 +69,9 @@ def device_lines(results):
         lines.append("%s, %s; %s, subgroups of %d, %d MiB." % (device["name"], device["driver"], device["kind"], device["subgroupSize"],
                                                               device["memory"] >> 20))
     if machine:
-        lines.append("%s, Linux %s, %s, %d processors (%s)%s." % (machine["system"], machine["kernel"], machine["libc"], machine["processors"],
-                                                                  machine["processor"], ", " + machine["nvidia"] if machine["nvidia"] else ""))
+        lines.append("%s, Linux %s, %s, %d processors (%s)%s." % (
+            machine["system"], machine["kernel"], machine["libc"], machine["processors"], machine["processor"],
+            ", " + machine["nvidia"] if machine["nvidia"] else ""))
     if "bundle" in results:
         lines.append("%s; films to compare with by %s." % (results["bundle"]["glim"], results["bundle"]["films"]))
     return "\n".join(lines) + "\n"
@@ -90,7 +92,8 @@ def bits_table(step):
 def golden_table(step):
     return rows_of(("scene", "verdict", "z of means", "limit"), [
         (scene, ("agrees" if entry["agree"] else "differs") if "agree" in entry else entry.get("failed", "not drawn"),
-         " ".join("%.2f" % z for z in entry.get("meanZ", [])), number(entry.get("meanLimit"))) for scene, entry in step["pictures"].items()])
+         " ".join("%.2f" % z for z in entry.get("meanZ", [])), number(entry.get("meanLimit")))
+        for scene, entry in step["pictures"].items()])
 
 
 def speed_tables(step):
@@ -100,8 +103,10 @@ def speed_tables(step):
          "" if "failed" in row else "%.2f of %.2f" % (row["deviceSeconds"], row["wallSeconds"])) for row in step["renders"]])
     compiled = rows_of(("showcase, compiling", "s"), [(name, number(value)) for name, value in step["compile"].items()])
     kinds = sorted({kind for rates in step["rays"].values() for kind in rates})
-    rays = rows_of(("Mrays/s", *kinds), [(scene, *(("" if kind not in rates else number(1e-6 * rates[kind]) if kind != "failed" else rates[kind])
-                                                  for kind in kinds)) for scene, rates in step["rays"].items()])
+
+    def cell(rates, kind):
+        return "" if kind not in rates else rates[kind] if kind == "failed" else number(1e-6 * rates[kind])
+    rays = rows_of(("Mrays/s", *kinds), [(scene, *(cell(rates, kind) for kind in kinds)) for scene, rates in step["rays"].items()])
     return "\n".join([renders, compiled] + ([rays] if kinds else []))
 
 
