@@ -8,9 +8,10 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
+from .errors import CheckError
 from .gltf_surface import frame_along, greatest, lerp, reflect, visible_normal
 from .materials import SMOOTH_ALPHA
-from .tables import COSINES, ROUGHNESSES, ggx_table, sheen_table
+from .tables import AZIMUTHS, COSINES, ROUGHNESSES, WIDTHS, anisotropic_table, ggx_table, sheen_table
 
 COAT_F0 = 0.04
 LEAST_SHARE = 0.02  # of the samples, of a lobe that is not black
@@ -56,6 +57,32 @@ class Table:
     def at(self, row, cosine):
         place = dr.sqrt(dr.sqrt(dr.clip(cosine, 0, 1)))
         return self.image.eval(mi.Point2f((place * (COSINES - 1) + 0.5) / COSINES, row))
+
+    def mean_at(self, row):
+        return self.means.eval(mi.Point2f(0.5, row))
+
+
+class AnisotropicTable:
+    """Azimuths x cosine^(1/4), between two values of roughness or of strength."""
+
+    def __init__(self, roughnesses, strengths):
+        if roughnesses[0] < roughnesses[1] and strengths[0] < strengths[1]:
+            raise CheckError("a material has textures of both roughness and anisotropy; expected one of them at most.")
+        self.roughnesses, self.strengths = roughnesses, strengths
+        rows, means = (np.repeat(part, 2, axis=0) if len(part) == 1 else part for part in anisotropic_table(roughnesses, strengths))
+        self.image = mi.Texture3f(mi.TensorXf(np.ascontiguousarray(rows, dtype=np.float32)))
+        self.means = mi.Texture2f(mi.TensorXf(np.ascontiguousarray(means[:, None], dtype=np.float32)))
+
+    def row(self, roughness, strength):
+        (low, high), (least, most) = self.roughnesses, self.strengths
+        if low == high and least == most:
+            return mi.Float(0.5)
+        place = (roughness - low) / (high - low) if low < high else (strength - least) / (most - least)
+        return (dr.clip(place, 0, 1) * (WIDTHS - 1) + 0.5) / WIDTHS
+
+    def at(self, row, w):
+        cosine, azimuth = dr.sqrt(dr.sqrt(dr.clip(w.z, 0, 1))), dr.atan2(abs(w.y), abs(w.x)) / (math.pi / 2)
+        return self.image.eval(mi.Point3f((cosine * (COSINES - 1) + 0.5) / COSINES, (azimuth * (AZIMUTHS - 1) + 0.5) / AZIMUTHS, row))
 
     def mean_at(self, row):
         return self.means.eval(mi.Point2f(0.5, row))
@@ -178,9 +205,9 @@ class Lobes:
             low, high = range_of(pixels.get("metallicRoughnessTexture"), 1, m.roughness)
         self.smooth, self.rough = low ** 2 < SMOOTH_ALPHA, high ** 2 >= SMOOTH_ALPHA or m.anisotropy > 0
         if m.anisotropy > 0:
-            least, most = range_of(pixels.get("anisotropyTexture"), 2, m.anisotropy)
-            low, high = self.mean_roughness(low * low, least), self.mean_roughness(high * high, most)
-        self.table = Table(low, high, *ggx_table(low, high))
+            self.table = AnisotropicTable((low, high), range_of(pixels.get("anisotropyTexture"), 2, m.anisotropy))
+        else:
+            self.table = Table(low, high, *ggx_table(low, high))
         if m.clearcoat > 0:
             low, high = range_of(pixels.get("clearcoatRoughnessTexture"), 1, m.clearcoat_roughness)
             self.coat_smooth, self.coat_rough = low ** 2 < SMOOTH_ALPHA, high ** 2 >= SMOOTH_ALPHA
@@ -190,11 +217,9 @@ class Lobes:
             self.sheen_table = Table(low, high, sheen_table(low, high))
         self.delta = self.smooth or (m.clearcoat > 0 and self.coat_smooth)
 
-    @staticmethod
-    def mean_roughness(alpha, strength):
-        """Of the isotropic lobe whose albedos stand for an anisotropic one's."""
-        along = alpha + (1 - alpha) * strength ** 2
-        return (0.5 * (along * along + alpha * alpha)) ** 0.25
+    def interface_albedo(self, p, w):
+        """a and b of a direction above the surface."""
+        return self.table.at(p.row, w if self.material.anisotropy > 0 else w.z)
 
     # What the interface reflects.
 
@@ -291,8 +316,8 @@ class Lobes:
             table_dielectric = dr.select(g.film > 0, dr.clip((self.dielectric_fresnel(p, wo.z) - p.specular * s) / rest, 0, 1),
                                          table_dielectric)
             table_metal = dr.select(g.film > 0, dr.clip((self.metal_fresnel(p, wo.z) - s) / rest, 0, 1), table_metal)
-        p.row = self.table.row(dr.sqrt(dr.sqrt(0.5 * (along * along + alpha * alpha))))
-        p.ab, average = self.table.at(p.row, wo.z), self.table.mean_at(p.row)
+        p.row = self.table.row(p.roughness, p.anisotropy) if m.anisotropy > 0 else self.table.row(p.roughness)
+        p.ab, average = self.interface_albedo(p, wo), self.table.mean_at(p.row)
         p.below_f0 = greatest(table_dielectric)
         p.below_multiple = self.multiple(average, p.below_f0, p.specular)
         multiple = lerp(self.multiple(average, table_dielectric, p.specular), self.multiple(average, table_metal, 1.0), p.metallic)
@@ -350,7 +375,7 @@ class Lobes:
     # Evaluation, of all lobes that are not delta.
 
     def eval_above(self, p, wi):
-        ab = self.table.at(p.row, wi.z)
+        ab = self.interface_albedo(p, wi)
         f = (p.scattered * (1 - ab[0] - ab[1]) + p.diffuse * self.passed_interface(p, ab, wi.z)) * wi.z
         pdf = p.shares["diffuse"] * wi.z / math.pi
         if self.rough:
@@ -362,7 +387,7 @@ class Lobes:
     def eval_below(self, p, wi):
         f, pdf = mi.Color3f(0), mi.Float(0)
         if self.material.diffuse_transmission > 0:
-            f += p.through * (self.passed_interface(p, self.table.at(p.row, -wi.z), -wi.z) * -wi.z)
+            f += p.through * (self.passed_interface(p, self.interface_albedo(p, below(wi)), -wi.z) * -wi.z)
             pdf += p.shares["through"] * -wi.z / math.pi
         if self.material.transmission > 0 and self.rough:
             h = dr.normalize(p.wo + below(wi))
