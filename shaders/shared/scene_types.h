@@ -36,8 +36,8 @@ GLIM_CONST uint kFirstNodeBit = 24u;  // 8 leaves have as many records at most
 // begin at RenderParameters::firstInstanceRecord, in the order of the instances; no buffer has them.
 GLIM_CONST uint kRecordTexels = 3u;
 GLIM_CONST uint kSphereBit = 0x80000000u;
-GLIM_CONST uint kSliverBit = 0x40000000u;  // thinner than kSliverHeight
-GLIM_CONST uint kAlphaBit = 0x20000000u;   // neither opaque all over nor transparent all over
+GLIM_CONST uint kSliverBit = 0x40000000u;       // thinner than kSliverHeight
+GLIM_CONST uint kAlphaBit = 0x20000000u;        // neither opaque all over nor transparent all over
 GLIM_CONST uint kSingleSidedBit = 0x10000000u;  // not there for rays from behind
 GLIM_CONST uint kMaterialMask = 0x0fffffffu;
 // Below this ratio of height to longest side, a triangle's edge functions are corrected by the rounding errors of their products.

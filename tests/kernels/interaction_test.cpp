@@ -45,6 +45,7 @@ protected:
         }
         Scene scene = sceneOf(placed(randomTriangles(150, 0.3F, 1), 1.0F, shift), spheres);
         scene.materials.resize(3);
+        scene.showsBackFaces = true;
         scene.materials[kSmooth].emission = glm::vec3(1.0F, 0.5F, 0.25F);
         scene.materials[kRound].emission = glm::vec3(0.0F, 3.0F, 7.0F);
         scene.materials[kRound].doubleSided = true;

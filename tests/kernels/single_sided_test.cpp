@@ -70,8 +70,8 @@ Tally tallyOf(const std::vector<Result>& results)
         tally.free += result.forwards;
         tally.disagree += result.forwards != result.backwards ? 1 : 0;
     }
-    std::printf("%zu rays, %zu hits, %zu from behind, %zu ways free, %zu of them one way only\n", results.size(), tally.hits, tally.fromBehind,
-                tally.free, tally.disagree);
+    std::printf("%zu rays, %zu hits, %zu from behind, %zu ways free, %zu of them one way only\n", results.size(), tally.hits,
+                tally.fromBehind, tally.free, tally.disagree);
     return tally;
 }
 

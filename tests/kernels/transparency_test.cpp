@@ -37,7 +37,7 @@ Scene cards()
 {
     SceneBuilder builder;
     for (const Card& card : kCards) {
-        const auto material = builder.lambert(glm::vec3(0.5F));
+        const auto material = builder.lambert(glm::vec3(0.5F), glm::vec3(0.0F), true);
         builder.quad({glm::vec3(card.x, -1, -1), {card.x, 1, -1}, {card.x, 1, 1}, {card.x, -1, 1}}, material);
     }
     builder.environment(glm::vec3(1.0F));

@@ -121,7 +121,7 @@ TEST(AlphaTest, ShadowsOfCardsMultiply)
     std::vector<std::uint32_t> cards;
     for (int i = 0; i < 6; ++i) {
         const float y = 1.0F + 0.1F * static_cast<float>(i);
-        cards.push_back(builder.lambert(glm::vec3(0.2F)));
+        cards.push_back(builder.lambert(glm::vec3(0.2F), glm::vec3(0.0F), true));
         builder.quad({glm::vec3(-1, y, 1), {1, y, 1}, {1, y, -1}, {-1, y, -1}}, cards.back());
     }
     builder.light({"", PunctualLight::Kind::Point, {0.0F, 2.0F, 0.0F}, {0, 0, -1}, glm::vec3(7.0F)})

@@ -118,7 +118,8 @@ TEST_F(LooksTest, InspectSaysWhatBecomesOfSingleSidedMaterials)
     };
     writeCoated();
     EXPECT_EQ(json::parse(run({"inspect", "scene.gltf", "--json"}).out).at("singleSided"), 1);
-    EXPECT_TRUE(contains(run({"inspect", "scene.gltf"}).out, "  single-sided: 1 material, whose back faces are not drawn (--back-faces)\n"));
+    EXPECT_TRUE(
+        contains(run({"inspect", "scene.gltf"}).out, "  single-sided: 1 material, whose back faces are not drawn (--back-faces)\n"));
     json document = jsonIn("scene.gltf");
     document["materials"][0]["doubleSided"] = true;
     writeText(folder_ / "scene.gltf", document.dump());

@@ -227,7 +227,8 @@ Scene yard()
 {
     SceneBuilder builder;
     const auto floor = builder.lambert(glm::vec3(0.125F)), red = builder.lambert(glm::vec3(0.25F));
-    const auto card = builder.lambert(glm::vec3(0.375F)), lamp = builder.lambert(glm::vec3(0.5F), glm::vec3(9.0F), true);
+    const auto card = builder.lambert(glm::vec3(0.375F), glm::vec3(0.0F), true),
+               lamp = builder.lambert(glm::vec3(0.5F), glm::vec3(9.0F), true);
     const auto metal = builder.mirror(glm::vec3(0.75F));
     builder.quad({glm::vec3(-6, 0, 6), {6, 0, 6}, {6, 0, -6}, {-6, 0, -6}}, floor)
         .sphere({-2.6F, 0.5F, 0.4F}, 0.5F, red)

@@ -89,7 +89,8 @@ SceneBuilder floorBelow(const std::function<void(SceneBuilder&)>& add)
     return builder;
 }
 
-// Light of the sky comes by light sampling and by bounces. Within a black sphere there is none, unless the sphere's back faces are not there.
+// Light of the sky comes by light sampling and by bounces. Within a black sphere there is none, unless the sphere's back faces are not
+// there.
 TEST(Sides, SkyShinesThroughBackFaces)
 {
     for (const bool doubleSided : {false, true}) {

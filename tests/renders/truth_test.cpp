@@ -199,7 +199,7 @@ TEST(TruthTest, T15ConcentricSpheres)
     const double l2 = rho2 * f * e / (1.0 - rho2 * (1.0 - f) - rho1 * rho2 * f);
     SceneBuilder builder;
     builder.sphere({0, 0, 0}, 1.0F, builder.lambert(glm::vec3(0.6F), glm::vec3(2.0F)))
-        .sphere({0, 0, 0}, 2.0F, builder.lambert(glm::vec3(0.7F)))
+        .sphere({0, 0, 0}, 2.0F, builder.lambert(glm::vec3(0.7F), glm::vec3(0.0F), true))
         .perspective({1.5F, 0, 0}, {1.6F, 0, 0}, 1.0F)  // at the outer sphere
         .perspective({1.5F, 0, 0}, {0, 0, 0}, 0.8F);    // at the inner one
     RenderSettings settings = squareSettings(128, samplesFor(64));
