@@ -6,7 +6,24 @@
 
 #include <iostream>
 
+#include <fcntl.h>
 #include <malloc.h>
+#include <csignal>
+#include <cstdio>
+
+namespace {
+
+// Else a file that glim writes could get the number of a standard stream that was closed, and messages would be written into it.
+void openStandardStreams()
+{
+    for (int stream = 0; stream < 3; ++stream) {
+        if (fcntl(stream, F_GETFD) == -1) {
+            open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);  // what was closed stays unusable
+        }
+    }
+}
+
+}  // namespace
 
 int main(int argc, char** argv)
 {
@@ -15,6 +32,8 @@ int main(int argc, char** argv)
     // With one arena their memory stays, a first render needs 13 % less, and none is slower (tests/README.md, "For hours").
     mallopt(M_ARENA_MAX, 1);
 #endif
+    openStandardStreams();
+    std::signal(SIGXFSZ, [](int) {});  // a file that grows too large is an error of the write
     glim::CommandLine line("glim: a path tracer in Vulkan compute kernels", glim::versionText(),
                            "`glim COMMAND --help` lists a command's options.\n"
                            "Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 129, 130 or 143 stopped by a signal.");
@@ -28,7 +47,7 @@ int main(int argc, char** argv)
     glim::addBench(line);
     glim::addMerge(line);
     glim::Outcome outcome = glim::outcomeOf([&] { return line.run({argv + 1, argv + argc}); });
-    if (outcome.error.empty() && !std::cout.flush()) {
+    if (outcome.code == glim::ExitCode::Done && (!std::cout.flush() || std::ferror(stdout) != 0)) {
         outcome = {glim::ExitCode::BadInput, "The results could not be written to standard output."};
     }
     if (!outcome.error.empty()) {

@@ -171,6 +171,9 @@ nb::object measured(const PythonFilm& film)
         return nb::none();
     }
     const DenoisedError& known = film.denoising()->picture.measured;
+    if (!known.isKnown()) {
+        return nb::none();
+    }
     const auto root = [&](double meanSquare) { return relativeRoot(meanSquare, known.mean); };
     return nb::make_tuple(root(known.mse.value), root(known.mse.low), root(known.mse.high), known.relMse, nb::none(), nb::none(),
                           known.mse.value, known.mean, false);

@@ -154,6 +154,7 @@ private:
             return nullptr;
         }
         labelFilm(rendered.film, options);
+        warnIfUnknown(rendered);
         warnOfPicture(rendered.film, renderer.statistics(), options.settings);
         auto film = std::make_shared<PythonFilm>(std::move(rendered.film), std::move(rendered.checkpoint));
         film->setDenoising(std::move(rendered.denoising));
@@ -163,6 +164,10 @@ private:
             rayKernels_ = identifier.kernels();
         }
         session_ = std::move(session);
+        if (rendered.denoisingError) {
+            lastFilm_ = film;
+            std::rethrow_exception(rendered.denoisingError);
+        }
         return film;
     }
 

@@ -8,7 +8,7 @@ import argparse
 import os
 import sys
 
-from scene_makers.gltf_document import write_whole
+from whole_file import write_whole
 from scene_makers.large_scenes import BUNNY, LARGE_SCENES, cornell_bunny
 from scene_makers.refused_scenes import REFUSED
 from scene_makers.small_scenes import SMALL_SCENES

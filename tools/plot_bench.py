@@ -2,6 +2,7 @@
 """Draws what `glim bench` has written: errors against seconds and against samples, a figure for each scene."""
 
 import argparse
+import io
 import json
 import os
 import sys
@@ -11,6 +12,7 @@ try:
     from study_page import plots
 except ImportError:
     sys.exit("tools/plot_bench.py: this python3 cannot import matplotlib; tools/plot_bench finds or installs one that can")
+from whole_file import write_whole  # noqa: E402
 
 
 def text_of(interval):
@@ -128,7 +130,9 @@ def main():
     for (scene, size), named in scenes.items():
         path = options.output if len(scenes) == 1 else "%s.%s-%dx%d%s" % (stem, scene, *size, extension)
         try:
-            draw_scene(scene, named).savefig(path, dpi=120)
+            figure = io.BytesIO()
+            draw_scene(scene, named).savefig(figure, format=extension[1:], dpi=120)
+            write_whole(path, figure.getvalue())
         except OSError as error:
             sys.exit("tools/plot_bench: %s: %s" % (path, error.strerror))
         print(path)

@@ -20,6 +20,7 @@ Json jsonOf(const BenchPoint& point, const PointSummary& summary)
 {
     return {{"samples", point.samples},
             {"seconds", point.seconds},
+            {"cpuSeconds", point.cpuSeconds},
             {"kernelSeconds", point.kernelSeconds},
             {"mean", point.mean},
             {"mse", point.mse},
@@ -61,6 +62,7 @@ Json jsonOf(const SceneBench& bench)
     return {{"scene", bench.scene},
             {"picture", bench.picture},
             {"settings", bench.settings},
+            {"options", bench.options ? Json(*bench.options) : Json(nullptr)},
             {"device", bench.device},
             {"version", bench.version},
             {"schedule", bench.schedule},
@@ -91,11 +93,12 @@ BenchPoint pointOf(const Json& json, std::size_t seeds)
 {
     BenchPoint point;
     point.samples = json.at("samples").count();
-    const std::pair<const char*, std::vector<double>&> series[] = {{"seconds", point.seconds}, {"kernelSeconds", point.kernelSeconds},
-                                                                   {"mean", point.mean},       {"mse", point.mse},
-                                                                   {"relMse", point.relMse},   {"trimmedRelMse", point.trimmedRelMse}};
+    const std::pair<const char*, std::vector<double>&> series[] = {
+        {"seconds", point.seconds}, {"cpuSeconds", point.cpuSeconds}, {"kernelSeconds", point.kernelSeconds}, {"mean", point.mean},
+        {"mse", point.mse},         {"relMse", point.relMse},         {"trimmedRelMse", point.trimmedRelMse}};
     for (const auto& [name, values] : series) {
-        values = numbersOf(json.at(name));
+        const bool isOlder = &values == &point.cpuSeconds && json.find(name) == nullptr;
+        values = isOlder ? std::vector<double>(seeds, 0.0) : numbersOf(json.at(name));
         if (values.size() != seeds) {
             throw InputError(std::string("its ") + name + " after " + std::to_string(point.samples) + " samples are " +
                              std::to_string(values.size()) + " numbers, expected " + std::to_string(seeds) + ", one for each seed");
@@ -114,6 +117,12 @@ SceneBench benchOf(const Json& json)
     bench.version = json.at("version").text();
     if (const Json* schedule = json.find("schedule")) {  // absent in older files
         bench.schedule = schedule->text();
+    }
+    if (const Json* options = json.find("options"); options != nullptr && options->dump() != "null") {  // absent in older files
+        bench.options.emplace();
+        for (const Json& word : options->elements()) {
+            bench.options->push_back(word.text());
+        }
     }
     bench.width = json.at("size").at(0).count();
     bench.height = json.at("size").at(1).count();
@@ -161,7 +170,7 @@ std::string benchJson(const std::vector<SceneBench>& benches)
 std::string benchCsv(const std::vector<SceneBench>& benches)
 {
     std::string text =
-        "scene,width,height,settings,seed,samples,seconds,kernel_seconds,mean,mse,relmse,trimmed_relmse,"
+        "scene,width,height,settings,seed,samples,seconds,cpu_seconds,kernel_seconds,mean,mse,relmse,trimmed_relmse,"
         "reference_mse,reference_relmse\n";
     for (const SceneBench& bench : benches) {
         const std::string start = quoted(bench.scene) + "," + std::to_string(bench.width) + "," + std::to_string(bench.height) + "," +
@@ -169,8 +178,8 @@ std::string benchCsv(const std::vector<SceneBench>& benches)
         for (const BenchPoint& point : bench.points) {
             for (std::size_t i = 0; i < bench.seeds.size(); ++i) {
                 text += start + std::to_string(bench.seeds[i]) + "," + std::to_string(point.samples);
-                for (const double value : {point.seconds[i], point.kernelSeconds[i], point.mean[i], point.mse[i], point.relMse[i],
-                                           point.trimmedRelMse[i], bench.floor.mse, bench.floor.relMse}) {
+                for (const double value : {point.seconds[i], point.cpuSeconds[i], point.kernelSeconds[i], point.mean[i], point.mse[i],
+                                           point.relMse[i], point.trimmedRelMse[i], bench.floor.mse, bench.floor.relMse}) {
                     text.append(1, ',').append(exactText(value));
                 }
                 text.push_back('\n');

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,8 @@ namespace glim {
 struct BenchPoint {
     std::uint32_t samples = 0;
     std::vector<double> seconds;        // spent sampling; evaluating the picture is not included
-    std::vector<double> kernelSeconds;  // the part of them spent in kernels on the device; 0 if unknown
+    std::vector<double> cpuSeconds;     // of all threads in that time; 0 if unknown
+    std::vector<double> kernelSeconds;  // the part of `seconds` spent in kernels on the device; 0 if unknown
     std::vector<double> mean;           // radiance over pixels and channels
     std::vector<double> mse, relMse;    // against the reference, including its own noise (measure/compare_images.hpp)
     std::vector<double> trimmedRelMse;  // without the worst .1 % of the pixels: beside relMse, never instead
@@ -39,6 +41,8 @@ struct SceneBench {
     std::string scene;     // file as given
     std::string picture;   // camera and whatever else identifies the picture, besides the scene
     std::string settings;  // describeSettings of the first seed
+    // Words of the command that say what is measured, but for device, seeds and samples. Nothing if they are not known.
+    std::optional<std::vector<std::string>> options;
     std::string device, version, schedule;
     std::uint32_t width = 0, height = 0;
     StartUp startUp;

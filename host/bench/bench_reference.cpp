@@ -52,7 +52,7 @@ Picture readReference(const std::filesystem::path& file, std::uint32_t width, st
                          sizeText(width, height) + " as of the bench.");
     }
     if (image.attributes.count("glim:film") > 0) {
-        const Film film = readFilmHeader(file);
+        const Film film = filmHeaderOf(file, image);
         if (film.identity.scene != scene) {
             throw InputError(file.string() + ": is a picture of another scene or camera (" + film.sceneFile +
                              "), expected one of the scene of the bench.");

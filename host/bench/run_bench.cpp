@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <ctime>
 #include <numeric>
 
 namespace glim {
@@ -39,6 +40,9 @@ double product(const std::vector<float>& a, const std::vector<float>& b, std::si
 constexpr std::uint32_t kPilotSeed = 0xb0000000U;
 constexpr double kPilotShare = 0.25;  // of the seconds; the rest is extrapolated from it
 
+// Of all threads, those of a software device included.
+double cpuSecondsOfProcess() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
 // Samples until every pixel has `samples`. Returns the seconds it took, or nothing if `shouldContinue` ended it.
 std::optional<double> sampleUntil(Renderer& renderer, std::uint32_t samples, const std::function<bool()>& shouldContinue)
 {
@@ -56,17 +60,20 @@ std::optional<double> sampleUntil(Renderer& renderer, std::uint32_t samples, con
 std::optional<std::vector<float>> renderSeed(Renderer& renderer, const Picture& reference, std::vector<BenchPoint>& points,
                                              const std::function<bool()>& shouldContinue)
 {
-    double seconds = 0.0;
+    double seconds = 0.0, cpuSeconds = 0.0;
     const double kernelStart = renderer.statistics().passSeconds;
     PictureError error;
     for (BenchPoint& point : points) {
+        const double cpuStart = cpuSecondsOfProcess();
         const auto taken = sampleUntil(renderer, point.samples, shouldContinue);
         if (!taken) {
             return std::nullopt;
         }
         seconds += *taken;
+        cpuSeconds += cpuSecondsOfProcess() - cpuStart;
         error = measureError(pictureOf(renderer.film()), reference);
         point.seconds.push_back(seconds);
+        point.cpuSeconds.push_back(cpuSeconds);
         point.kernelSeconds.push_back(renderer.statistics().passSeconds - kernelStart);
         point.mean.push_back(error.mean);
         point.mse.push_back(error.mse);
@@ -150,24 +157,31 @@ std::optional<std::uint32_t> chooseSamples(Renderer& renderer, const FlatCamera&
     return std::bit_floor(static_cast<std::uint32_t>(fitting));
 }
 
-std::optional<RenderedSeeds> renderSeeds(Renderer& renderer, const FlatCamera& camera, const std::vector<std::uint32_t>& seeds,
-                                         std::uint32_t samples, const Picture& reference, const BenchObserver& observer)
+std::optional<std::vector<RenderedSeeds>> renderSeeds(const std::vector<BenchSide>& sides, const std::vector<std::uint32_t>& seeds,
+                                                      std::uint32_t samples, const Picture& reference, const BenchObserver& observer)
 {
-    RenderedSeeds rendered;
-    for (std::uint32_t count = 1; count <= samples; count *= 2) {
-        rendered.points.push_back({count, {}, {}, {}, {}, {}, {}});
+    std::vector<RenderedSeeds> rendered(sides.size());
+    for (RenderedSeeds& side : rendered) {
+        for (std::uint32_t count = 1; count <= samples; count *= 2) {
+            side.points.push_back({count, {}, {}, {}, {}, {}, {}, {}});
+        }
     }
-    std::vector<std::vector<float>> terms;
-    for (std::size_t i = 0; i < seeds.size(); ++i) {
-        renderer.restart(camera, seeds[i]);
-        auto last =
-            renderSeed(renderer, reference, rendered.points, [&] { return observer(std::uint64_t{samples} * i + renderer.sampleCount()); });
+    std::vector<std::vector<std::vector<float>>> terms(sides.size());
+    for (std::size_t i = 0; i < seeds.size() * sides.size(); ++i) {
+        const std::size_t round = i / sides.size(), turn = (i + round) % sides.size();
+        const auto& [renderer, camera] = sides[turn];
+        renderer.restart(camera, seeds[round]);
+        auto last = renderSeed(renderer, reference, rendered[turn].points,
+                               [&, &renderer = renderer] { return observer(std::uint64_t{samples} * i + renderer.sampleCount()); });
         if (!last) {
             return std::nullopt;
         }
-        terms.push_back(std::move(*last));
+        terms[turn].push_back(std::move(*last));
     }
-    rendered.bias = estimateBias(terms, measureFloor(reference));
+    const Floor floor = measureFloor(reference);
+    for (std::size_t side = 0; side < sides.size(); ++side) {
+        rendered[side].bias = estimateBias(terms[side], floor);
+    }
     return rendered;
 }
 

@@ -40,8 +40,14 @@ struct RenderedSeeds {
     Bias bias;
 };
 
-// Renders each of `seeds` to `samples`, a power of two within the renderer's sampleEnd. Nothing if `observer` ended it.
-std::optional<RenderedSeeds> renderSeeds(Renderer& renderer, const FlatCamera& camera, const std::vector<std::uint32_t>& seeds,
-                                         std::uint32_t samples, const Picture& reference, const BenchObserver& observer);
+struct BenchSide {
+    Renderer& renderer;
+    const FlatCamera& camera;
+};
+
+// Renders each of `seeds` to `samples`, a power of two within the renderers' sampleEnd. Several sides take turns, a seed each, and the one
+// that begins changes: what comes and goes on the machine meets all of them. Nothing if `observer` ended it.
+std::optional<std::vector<RenderedSeeds>> renderSeeds(const std::vector<BenchSide>& sides, const std::vector<std::uint32_t>& seeds,
+                                                      std::uint32_t samples, const Picture& reference, const BenchObserver& observer);
 
 }  // namespace glim

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace glim {
 namespace {
@@ -66,7 +67,8 @@ Interval efficiencyBy(const SceneBench& bench, const std::vector<double>& second
 {
     const BenchPoint& last = bench.points.back();
     if (medianOf(seconds) <= 0.0) {
-        return {};
+        constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+        return {kUnknown, kUnknown, kUnknown};
     }
     return bootstrap({bench.seeds.size()}, [&](const Draw& draw) {
         const double error = meanOver(last.relMse, draw[0]) - bench.floor.relMse;
@@ -81,13 +83,17 @@ const BenchPoint& pointAt(const SceneBench& bench, std::uint32_t samples)
 
 // One bench's figures, for the renders of a draw.
 struct Side {
-    double error, mse, mean, seconds, slope;
+    double error, mse, mean, seconds, cpuSeconds, slope;
 };
 
 Side sideOf(const SceneBench& bench, const BenchPoint& point, const std::vector<std::size_t>& indices)
 {
-    return {meanOver(point.relMse, indices) - bench.floor.relMse, meanOver(point.mse, indices) - bench.floor.mse,
-            meanOver(point.mean, indices), medianOver(point.seconds, indices), slopeOver(bench, indices)};
+    return {meanOver(point.relMse, indices) - bench.floor.relMse,
+            meanOver(point.mse, indices) - bench.floor.mse,
+            meanOver(point.mean, indices),
+            medianOver(point.seconds, indices),
+            medianOver(point.cpuSeconds, indices),
+            slopeOver(bench, indices)};
 }
 
 }  // namespace
@@ -161,6 +167,10 @@ BenchComparison compareBenches(const SceneBench& bench, const SceneBench& baseli
     comparison.mse = ratio([](const Side& a, const Side& b) { return a.mse / b.mse; });
     comparison.mean = ratio([](const Side& a, const Side& b) { return a.mean / b.mean; });
     comparison.samplesPerSecond = ratio([](const Side& a, const Side& b) { return b.seconds / a.seconds; });
+    if (medianOf(mine.cpuSeconds) > 0.0 && medianOf(other.cpuSeconds) > 0.0) {
+        comparison.cpuEfficiency = ratio([](const Side& a, const Side& b) { return b.error * b.cpuSeconds / (a.error * a.cpuSeconds); });
+        comparison.samplesPerCpuSecond = ratio([](const Side& a, const Side& b) { return b.cpuSeconds / a.cpuSeconds; });
+    }
     comparison.timeToError =
         ratio([](const Side& a, const Side& b) { return a.seconds / b.seconds * std::pow(b.error / a.error, 1.0 / a.slope); });
     return comparison;

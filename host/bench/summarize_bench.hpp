@@ -4,6 +4,8 @@
 #include "host/bench/bench_record.hpp"
 #include "host/bench/bootstrap.hpp"
 
+#include <optional>
+
 namespace glim {
 
 struct PointSummary {
@@ -34,7 +36,7 @@ struct BenchSummary {
     Interval slope;  // of log relMSE over log samples, least squares
     ErrorFit fit;
     SlopeTest slopeTest;
-    // 1 / (relMSE * seconds) of the last point, by wall-clock and by kernel time (0: unknown). Only meaningful if unbiased.
+    // 1 / (relMSE * seconds) of the last point, by wall-clock and by kernel time (NaN: unknown). Only meaningful if unbiased.
     Interval efficiency, kernelEfficiency;
     double samplesPerSecond = 0.0;
 };
@@ -58,7 +60,8 @@ struct BenchComparison {
     Interval mse;
     Interval mean;  // of the pictures: 1 unless one is biased
     Interval samplesPerSecond;
-    Interval timeToError;  // until the first has the second's error, extrapolated along its slope
+    std::optional<Interval> cpuEfficiency, samplesPerCpuSecond;  // by CPU seconds, where both benches know theirs
+    Interval timeToError;                                        // until the first has the second's error, extrapolated along its slope
 };
 
 BenchComparison compareBenches(const SceneBench& bench, const SceneBench& baseline);

@@ -78,6 +78,26 @@ std::string pictureText(const BenchOptions& options)
     return text;
 }
 
+// The options of a baseline, to be rendered again beside those that were asked for. Refuses words that are none of them.
+BenchOptions optionsOf(const SceneBench& baseline, const std::string& file, const BenchOptions& asked)
+{
+    BenchOptions options;
+    CommandLine line("", "", "");
+    const Command command = line.addCommand("bench", "");
+    addBenchOptions(command, options);
+    command.onRun([] { return ExitCode::Done; });
+    std::vector<std::string> words{"bench", asked.scenes.front().string()};
+    words.insert(words.end(), baseline.options->begin(), baseline.options->end());
+    try {
+        line.run(words);
+    } catch (const UsageError& error) {
+        throw InputError(file + ": names options that this version of glim refuses: " + error.what() + ".");
+    }
+    options.settings.seed = asked.settings.seed;
+    options.seeds = asked.seeds;
+    return options;
+}
+
 // Refuses baselines without the picture of `bench`.
 const SceneBench& findBaseline(const std::vector<SceneBench>& baselines, const std::string& file, const SceneBench& bench)
 {
@@ -110,6 +130,7 @@ SceneBench describeBench(const BenchOptions& options, const std::filesystem::pat
     bench.scene = scene.string();
     bench.picture = pictureText(options);
     bench.settings = describeSettings(settings);
+    bench.options = options.words;
     bench.device = device.name + ", " + device.driver;
     bench.version = versionText();
     bench.width = settings.width;
@@ -131,7 +152,7 @@ BenchJob prepareJob(const BenchOptions& options, const std::filesystem::path& sc
     job.settings.sampleEnd = std::bit_floor(mostSamples(job.settings));
     job.settings.fastest = rememberedSchedule(device);
     checkMemory(job.prepared, job.settings, device);
-    job.camera = flattenCamera(camera, static_cast<float>(size.x) / static_cast<float>(size.y), options.lens);
+    job.camera = flattenCamera(job.prepared, camera, static_cast<float>(size.x) / static_cast<float>(size.y), options.lens);
     job.bench = describeBench(options, scene, job.settings, device);
     return job;
 }
@@ -154,13 +175,24 @@ bool makeReference(Device& device, const BenchJob& job, const RenderSettings& se
     return shouldContinue;
 }
 
-// Measures one scene into job.bench. False if the user stopped it.
-bool measure(Device& device, const BenchOptions& options, BenchJob& job, const InterruptWatch& watch)
+// Empty if the baseline's options can be rendered again beside those of the job.
+std::string whyNotByTurns(const SceneBench& baseline, const BenchJob& job, const std::optional<BenchJob>& other)
+{
+    return !baseline.options                         ? "its file does not tell its options"
+           : *baseline.options == *job.bench.options ? "it has the same options"
+           : describeSettings(referenceSettings(other->settings, 1)) != describeSettings(referenceSettings(job.settings, 1))
+               ? "its options ask for other light"
+               : "";
+}
+
+// Measures one scene into job.bench and, by turns, `other` into its own. False if the user stopped it.
+bool measure(Device& device, const BenchOptions& options, BenchJob& job, std::optional<BenchJob>& other, const InterruptWatch& watch)
 {
     SceneBench& bench = job.bench;
     BenchProgress progress(options.progress, watch, std::uint64_t{bench.width} * bench.height);
     const BenchObserver show = [&](std::uint64_t samples) { return progress.show(samples); };
     Renderer renderer(device, job.prepared.flat, job.camera, job.settings);
+    std::vector<BenchSide> sides{{renderer, job.camera}};
     bench.startUp = {job.prepared.loadSeconds, job.prepared.buildSeconds, renderer.statistics().uploadSeconds,
                      renderer.statistics().compileSeconds};
     bench.schedule = nameOf(renderer.statistics().schedule);
@@ -170,24 +202,38 @@ bool measure(Device& device, const BenchOptions& options, BenchJob& job, const I
     if (!fitting) {
         return false;
     }
+    std::optional<Renderer> otherRenderer;
+    if (other) {
+        otherRenderer.emplace(device, other->prepared.flat, other->camera, other->settings);
+        sides.push_back({*otherRenderer, other->camera});
+        if (!chooseSamples(*otherRenderer, other->camera, 0.0, *fitting, show)) {
+            return false;
+        }
+    }
     const std::uint32_t samples = options.samples.value_or(*fitting);
     const std::string identity = renderer.folded().identity.scene;
     const RenderSettings longRender = referenceSettings(job.settings, samples);
     bench.reference = options.reference.value_or(referenceOf(options, bench.scene)).string();
     const bool made = options.reference || (!options.makeReference && isReference(bench.reference, identity, longRender));
-    const std::uint64_t work = std::uint64_t{samples} * bench.seeds.size();
+    const std::uint64_t work = std::uint64_t{samples} * bench.seeds.size() * sides.size();
     progress.plan(made ? work : work + longRender.sampleEnd);
     if (!made && !makeReference(device, job, longRender, progress)) {
         return false;
     }
     const Picture reference = readReference(bench.reference, bench.width, bench.height, identity, bench.seeds);
-    bench.floor = measureFloor(reference);
-    auto rendered = renderSeeds(renderer, job.camera, bench.seeds, samples, reference, show);
-    if (rendered) {
-        bench.points = std::move(rendered->points);
-        bench.bias = rendered->bias;
+    auto rendered = renderSeeds(sides, bench.seeds, samples, reference, show);
+    if (!rendered) {
+        return false;
     }
-    return rendered.has_value();
+    for (BenchJob* each : {&job, other ? &*other : nullptr}) {
+        if (each != nullptr) {
+            each->bench.floor = measureFloor(reference);
+            each->bench.points = std::move(rendered->front().points);
+            each->bench.bias = rendered->front().bias;
+            rendered->erase(rendered->begin());
+        }
+    }
+    return true;
 }
 
 void checkTargets(const BenchOptions& options)
@@ -221,12 +267,24 @@ ExitCode runBench(const BenchOptions& options)
     for (const std::filesystem::path& scene : options.scenes) {
         BenchJob job = prepareJob(options, scene, device.description());
         const SceneBench* baseline = options.against ? &findBaseline(baselines, options.against->string(), job.bench) : nullptr;
-        if (watch.signal() != 0 || !measure(device, options, job, watch)) {
+        std::optional<BenchJob> other;
+        std::string apart;
+        if (baseline != nullptr) {
+            if (baseline->options && *baseline->options != *job.bench.options) {
+                other = prepareJob(optionsOf(*baseline, options.against->string(), options), scene, device.description());
+            }
+            apart = whyNotByTurns(*baseline, job, other);
+            if (!apart.empty()) {
+                other.reset();
+            }
+        }
+        if (watch.signal() != 0 || !measure(device, options, job, other, watch)) {
             return finish(watch.signal(), "no figures are written");
         }
         printBench(job.bench);
         if (baseline != nullptr) {
-            printComparison(compareBenches(job.bench, *baseline), options.against->string());
+            const SceneBench& against = other ? other->bench : *baseline;
+            printComparison(compareBenches(job.bench, against), against, options.against->string(), apart);
         }
         std::cout << std::flush;
         benches.push_back(std::move(job.bench));

@@ -125,7 +125,7 @@ bool measure(Device& device, const BenchOptions& options, const std::string& nam
     settings.height = size.y;
     settings.pathCapacity = std::max(settings.pathCapacity, size.x * size.y);
     checkMemory(prepared, settings, device.description());
-    const FlatCamera flat = flattenCamera(camera, static_cast<float>(size.x) / static_cast<float>(size.y), options.lens);
+    const FlatCamera flat = flattenCamera(prepared, camera, static_cast<float>(size.x) / static_cast<float>(size.y), options.lens);
     const auto show = [&, printer = RoundPrinter(options.progress)](int round) {
         printer.print(round);
         return watch.signal() == 0;

@@ -59,6 +59,8 @@ void resolveBench(const Command& command, BenchOptions& options)
         throw UsageError("SCENE is required");
     }
     options.outputGiven = command.isGiven("--output");
+    options.words = command.wordsGiven({"--output", "--reference", "--make-reference", "--against", "--kernels", "--progress", "--seconds",
+                                        "--spp", "--seeds", "--seed", "--device"});
     // For resolveLight, which also refuses more light samples than can be counted.
     options.settings.sampleEnd = options.samples.value_or(kLeastBenchSamples);
     resolveLight(command, options);

@@ -21,6 +21,7 @@ struct BenchOptions : PictureOptions {
     std::optional<std::uint32_t> samples;
     std::uint32_t seeds = 16;
     ProgressStyle progress = ProgressStyle::Auto;
+    std::vector<std::string> words;  // SceneBench::options
 };
 
 // Adds every option of `bench` to `command`; they write into `options`, which must outlive it.

@@ -86,13 +86,25 @@ void printBench(const SceneBench& bench)
               << bench.device << '\n';
 }
 
-void printComparison(const BenchComparison& comparison, const std::string& baseline)
+void printComparison(const BenchComparison& comparison, const SceneBench& baseline, const std::string& file,
+                     const std::string& whyNotByTurns)
 {
-    std::cout << "against " << baseline << format(" after %u samples, seeds ", comparison.samples)
-              << (comparison.paired ? "paired" : "not paired") << ":\n  mean x              " << verdict(comparison.mean, 6)
-              << "  MSE x               " << verdict(comparison.mse) << "  relMSE x            " << verdict(comparison.error)
-              << "  samples a second x  " << verdict(comparison.samplesPerSecond) << "  efficiency x        "
-              << verdict(comparison.efficiency) << "  time to its error x " << verdict(comparison.timeToError);
+    const bool byTurns = whyNotByTurns.empty();
+    const auto timed = [&](const Interval& ratio) { return byTurns ? verdict(ratio) : intervalText(ratio) + '\n'; };
+    const auto byCpu = [&](const std::optional<Interval>& ratio) { return ratio ? timed(*ratio) : "unknown\n"; };
+    std::cout << "against " << file << format(" after %u samples, seeds ", comparison.samples)
+              << (comparison.paired ? "paired, " : "not paired, ") << (byTurns ? "by turns" : "not by turns") << ":\n  mean x              "
+              << verdict(comparison.mean, 6) << "  MSE x               " << verdict(comparison.mse) << "  relMSE x            "
+              << verdict(comparison.error) << "  samples a second x  " << timed(comparison.samplesPerSecond) << "    by CPU seconds x  "
+              << byCpu(comparison.samplesPerCpuSecond) << "  efficiency x        " << timed(comparison.efficiency)
+              << "    by CPU seconds x  " << byCpu(comparison.cpuEfficiency) << "  time to its error x " << timed(comparison.timeToError);
+    if (byTurns) {
+        std::cout << "  not excluded: a load that slows one of the two more than the other, as where both wait for memory\n";
+    } else {
+        std::cout << "  not excluded: what slowed the machine in one of the two runs. The baseline's times are those of its own run, by "
+                  << baseline.version << " on " << baseline.device << ", because " << whyNotByTurns
+                  << ". CPU seconds suffer less from load, but as much from a slower clock.\n";
+    }
 }
 
 }  // namespace glim

@@ -1,16 +1,17 @@
 #include "host/cli/checkpoint_writer.hpp"
 
+#include "host/cli/outcome.hpp"
 #include "host/cli/parse.hpp"
 #include "host/error.hpp"
-#include "host/image/atomic_file.hpp"
 #include "host/message.hpp"
 #include "host/render/film_file.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
+#include <spawn.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <bit>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -20,13 +21,27 @@ namespace {
 
 constexpr double kDefaultInterval = 300.0;
 constexpr double kMostShare = 0.01;  // of the time, for writing
+constexpr std::chrono::seconds kPatience{2};
 
 double secondsSince(std::chrono::steady_clock::time_point start)
 {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+template <class Value>
+bool isUnderWay(const std::future<Value>& work)
+{
+    return work.valid() && work.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+}
+
 }  // namespace
+
+void RepeatedMessage::sayAgain(const std::string& sentence)
+{
+    if (std::has_single_bit(++times_)) {
+        say(sentence + (times_ > 1 ? " (" + std::to_string(times_) + " times in a row)" : ""));
+    }
+}
 
 void addCheckpoint(const Command& command, CheckpointOptions& options)
 {
@@ -46,18 +61,35 @@ CheckpointWriter::CheckpointWriter(const CheckpointOptions& options, std::filesy
     setenv("GLIM_FILM", output_.c_str(), 1);  // of the command; here, while no other thread reads the environment
 }
 
-CheckpointWriter::~CheckpointWriter() { finish(); }
+CheckpointWriter::~CheckpointWriter()
+{
+    finish();
+    if (command_.valid() && command_.wait_for(kPatience) != std::future_status::ready) {
+        say("--on-checkpoint: the command still runs and is waited for");
+        command_.wait();
+    }
+}
 
 void CheckpointWriter::offer(const Renderer& renderer, bool asked)
 {
     asked_ = asked_ || asked;
-    if (writing_.valid() && writing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    if (isUnderWay(writing_)) {
         return;
     }
     finish();
-    if (!asked_ && !(options_.isGiven() && secondsSince(last_) >= interval_)) {
-        return;
+    if (!isUnderWay(command_) && (asked_ || (options_.isGiven() && secondsSince(last_) >= interval_))) {
+        try {
+            begin(renderer);
+        } catch (const DeviceError&) {
+            throw;  // the render cannot go on either
+        } catch (const std::exception& error) {
+            fail(error);
+        }
     }
+}
+
+void CheckpointWriter::begin(const Renderer& renderer)
+{
     std::optional<Checkpoint> checkpoint = renderer.checkpoint();
     if (!checkpoint) {
         return;
@@ -80,10 +112,22 @@ void CheckpointWriter::finish()
             interval_ = std::max(interval_, *seconds / kMostShare);
             writtenSamples_ = samplesPerPixel_;
             written_ = Clock::now();
+            failed_.end();
+            if (!options_.command.empty()) {
+                command_ = std::async(std::launch::async, [this] { runCommand(); });
+            }
         }
-    } catch (const InputError& error) {
-        say("no checkpoint: " + std::string(error.what()));
+    } catch (const std::exception& error) {
+        fail(error);
     }
+}
+
+void CheckpointWriter::fail(const std::exception& error)
+{
+    asked_ = false;
+    last_ = Clock::now();
+    interval_ = options_.seconds.value_or(kDefaultInterval);
+    failed_.sayAgain("no checkpoint: " + reasonOf(error));
 }
 
 std::optional<WrittenCheckpoint> CheckpointWriter::lastWritten() const
@@ -97,45 +141,29 @@ std::optional<double> CheckpointWriter::write(const Checkpoint& checkpoint) cons
     if (!writeFilm(output_, filmOf(checkpoint), checkpoint, [this] { return !abandoned_; })) {
         return std::nullopt;
     }
-    const double seconds = secondsSince(start);
-    if (!options_.command.empty()) {
-        if (const int status = std::system(options_.command.c_str()); status != 0) {
-            say("--on-checkpoint: the command failed with status " + std::to_string(status >> 8));
-        }
-    }
-    return seconds;
+    return secondsSince(start);
 }
 
-OutputLock::OutputLock(const std::filesystem::path& output)
-    : path_(output.string() + ".lock")
+// std::system would keep SIGINT from glim meanwhile.
+void CheckpointWriter::runCommand()
 {
-    do {
-        if (file_ >= 0) {
-            close(file_);  // its owner has removed it between our two calls
-        }
-        file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-        if (file_ < 0) {
-            throw InputError(path_.string() + ": cannot be made: " + std::strerror(errno) + ".");
-        }
-        if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
-            char process[16] = {};
-            const ssize_t length = read(file_, process, sizeof process - 1);
-            close(file_);
-            throw InputError(output.string() + ": is written by another glim" +
-                             (length > 0 ? ", process " + std::string(process) : std::string()) + "; expected only one.");
-        }
-    } while (!isFileAt(path_, file_));
-    const std::string process = std::to_string(getpid());
-    if (ftruncate(file_, 0) != 0 || write(file_, process.data(), process.size()) < 0) {
-        say(path_.string() + " cannot be written, so another glim will not learn who holds it");
+    std::string shell = "sh", option = "-c";
+    char* const words[] = {shell.data(), option.data(), options_.command.data(), nullptr};
+    pid_t process = 0;
+    int status = 0;
+    if (const int error = posix_spawn(&process, "/bin/sh", nullptr, nullptr, words, environ); error != 0) {
+        commandFailed_.sayAgain("--on-checkpoint: the command cannot be run: " + std::string(std::strerror(error)));
+        return;
     }
-}
-
-OutputLock::~OutputLock()
-{
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-    close(file_);
+    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    }
+    if (status == 0) {
+        commandFailed_.end();
+    } else if (WIFSIGNALED(status)) {
+        commandFailed_.sayAgain("--on-checkpoint: the command was ended by signal " + std::to_string(WTERMSIG(status)));
+    } else {
+        commandFailed_.sayAgain("--on-checkpoint: the command failed with status " + std::to_string(WEXITSTATUS(status)));
+    }
 }
 
 }  // namespace glim

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <exception>
 #include <filesystem>
 #include <future>
 #include <optional>
@@ -24,19 +25,29 @@ struct CheckpointOptions {
 
 void addCheckpoint(const Command& command, CheckpointOptions& options);
 
+// Says what happens again and again the 1st, 2nd, 4th, 8th ... time in a row.
+class RepeatedMessage {
+public:
+    void sayAgain(const std::string& sentence);
+    void end() { times_ = 0; }
+
+private:
+    unsigned times_ = 0;
+};
+
 class CheckpointWriter {
 public:
     // `label`: what is known of the film besides what the renderer knows (scene file, camera).
     CheckpointWriter(const CheckpointOptions& options, std::filesystem::path output, std::function<void(Film&)> label);
-    // Waits for the checkpoint under way.
+    // Waits for the checkpoint under way and for the command after it.
     ~CheckpointWriter();
     CheckpointWriter(const CheckpointWriter&) = delete;
     CheckpointWriter& operator=(const CheckpointWriter&) = delete;
 
     // To be called often, between passes. Starts a checkpoint in a thread of its own if it is time for one or the user has asked for one.
-    // Writing takes at most a hundredth of the time. One that cannot be written is said so on stderr, and the render goes on.
+    // Writing takes at most a hundredth of the time. What cannot be written is said so on stderr, and the render goes on.
     void offer(const Renderer& renderer, bool asked);
-    // Waits for the one under way.
+    // Waits for the one under way, but not for the command, which may never end.
     void finish();
     // Gives up the one under way, without waiting for that: the film itself will be there soon.
     void abandon() { abandoned_ = true; }
@@ -45,7 +56,10 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
+    void begin(const Renderer& renderer);
     std::optional<double> write(const Checkpoint& checkpoint) const;
+    void fail(const std::exception& error);
+    void runCommand();
 
     CheckpointOptions options_;
     std::filesystem::path output_;
@@ -58,20 +72,8 @@ private:
     double interval_ = 0.0;                       // seconds; the first checkpoint comes with the first finished block
     std::future<std::optional<double>> writing_;  // gives the seconds that it took, or nothing if it was given up
     std::atomic<bool> abandoned_ = false;
-};
-
-// One process at a time may write a file: throws InputError, which names the other process, if there is one. The lock is a file beside
-// `output`, which is removed at the end.
-class OutputLock {
-public:
-    explicit OutputLock(const std::filesystem::path& output);
-    ~OutputLock();
-    OutputLock(const OutputLock&) = delete;
-    OutputLock& operator=(const OutputLock&) = delete;
-
-private:
-    std::filesystem::path path_;
-    int file_ = -1;
+    std::future<void> command_;
+    RepeatedMessage failed_, commandFailed_;
 };
 
 }  // namespace glim

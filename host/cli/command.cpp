@@ -167,6 +167,18 @@ bool Command::isGiven(const std::string& option) const { return app_->count(opti
 
 std::string Command::textOf(const std::string& option) const { return app_->get_option(option)->results().front(); }
 
+std::vector<std::string> Command::wordsGiven(const std::vector<std::string>& except) const
+{
+    std::vector<std::string> words;
+    for (const CLI::Option* option : app_->get_options()) {
+        const std::string name = option->get_lnames().empty() ? std::string() : "--" + option->get_lnames().front();
+        if (option->count() > 0 && !option->get_positional() && std::ranges::find(except, name) == except.end()) {
+            words.push_back(option->get_type_size() == 0 ? name : name + "=" + option->results().front());
+        }
+    }
+    return words;
+}
+
 void Command::onParsed(std::function<void()> check) const { app_->parse_complete_callback(std::move(check)); }
 
 void Command::onRun(std::function<ExitCode()> run) const

@@ -74,6 +74,9 @@ public:
     bool isGiven(const std::string& option) const;
     std::string textOf(const std::string& option) const;  // the value of an option that is given
 
+    // The options that are given, as in "--size=8x8", but for these and for arguments.
+    std::vector<std::string> wordsGiven(const std::vector<std::string>& except) const;
+
     // Called after the last option and before the command; throws UsageError.
     void onParsed(std::function<void()> check) const;
     void onRun(std::function<ExitCode()> run) const;

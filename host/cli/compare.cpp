@@ -30,7 +30,7 @@ std::optional<Film> filmOf(const std::filesystem::path& path, const Image& image
     if (image.attributes.count("glim:film") == 0) {
         return std::nullopt;
     }
-    const Film film = readFilmHeader(path);
+    const Film film = filmHeaderOf(path, image);
     if (!film.complete) {
         say(path.string() + " comes from a render that was stopped early: some pixels have fewer samples or none.");
     }

@@ -143,8 +143,10 @@ Json jsonOf(const Comparison& result, const std::optional<ZTest>& test)
                            {"channel", kChannels[result.maxError.channel]},
                            {"value", result.maxError.value},
                            {"reference", result.maxError.reference}});
-    json.set("pixels",
-             {{"compared", result.compared}, {"non_finite", result.nonFinite}, {"non_finite_in_reference", result.nonFiniteInReference}});
+    json.set("pixels", {{"compared", result.compared},
+                        {"non_finite", result.nonFinite},
+                        {"non_finite_in_reference", result.nonFiniteInReference},
+                        {"without_variance", result.withoutVariance}});
     json.set("z_test", test ? jsonOf(*test) : Json());
     return json;
 }

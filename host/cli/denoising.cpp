@@ -3,9 +3,9 @@
 #include "host/cli/format.hpp"
 #include "host/measure/error_estimate.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <limits>
 #include <utility>
 
 namespace glim {
@@ -42,15 +42,8 @@ std::optional<Denoising> FilmDenoiser::denoise(const RenderOptions& options, Ren
 
 double timesToTarget(const DenoisedError& error, const ErrorTarget& target)
 {
-    double times = 0.0;
-    if (target.relMse) {
-        times = error.relMse / *target.relMse;
-    }
-    if (target.rmse) {
-        const double root = relativeRoot(error.mse.value, error.mean) / *target.rmse;
-        times = std::max(times, root * root);
-    }
-    return times;
+    return error.isKnown() ? timesToTarget(target, error.relMse, relativeRoot(error.mse.value, error.mean))
+                           : std::numeric_limits<double>::infinity();
 }
 
 Film showDenoised(Film film, const std::vector<glm::vec3>& radiance)
@@ -65,6 +58,9 @@ Film showDenoised(Film film, const std::vector<glm::vec3>& radiance)
 std::string denoisingText(const Denoising& denoising)
 {
     const DenoisedError& error = denoising.picture.measured;
+    if (!error.isKnown()) {
+        return ", denoised: error unknown";
+    }
     const auto percent = [&](double meanSquare) { return 100.0 * relativeRoot(meanSquare, error.mean); };
     std::string text = format(", denoised: measured RMSE %.3g %% [%.3g, %.3g] of the mean (noisy %.3g %%), relMSE about %.3g (noisy %.3g)",
                               percent(error.mse.value), percent(error.mse.low), percent(error.mse.high), percent(error.noisyMse),
@@ -78,18 +74,18 @@ std::string denoisingText(const Denoising& denoising)
 Json denoisingJson(const Denoising& denoising)
 {
     const DenoisedError& error = denoising.picture.measured;
-    const auto root = [&](double meanSquare) { return relativeRoot(meanSquare, error.mean); };
-    const auto pair = [](const Interval& interval) { return Json::array({interval.low, interval.high}); };
+    const auto known = [&](double figure) { return error.isKnown() ? Json(figure) : Json(nullptr); };
+    const auto root = [&](double meanSquare) { return known(relativeRoot(meanSquare, error.mean)); };
     return {{"denoiser", denoising.denoiser},
             {"seconds", denoising.seconds},
-            {"relmse", error.relMse},
-            {"mse", error.mse.value},
-            {"mse95", pair(error.mse)},
+            {"relmse", known(error.relMse)},
+            {"mse", known(error.mse.value)},
+            {"mse95", Json::array({known(error.mse.low), known(error.mse.high)})},
             {"rmseOfMean", root(error.mse.value)},
             {"rmseOfMean95", Json::array({root(error.mse.low), root(error.mse.high)})},
             {"mean", error.mean},
-            {"noisyRelmse", error.noisyRelMse},
-            {"noisyMse", error.noisyMse},
+            {"noisyRelmse", known(error.noisyRelMse)},
+            {"noisyMse", known(error.noisyMse)},
             {"noisyShare", denoising.picture.noisyShare}};
 }
 

@@ -5,8 +5,8 @@
 #include "host/error.hpp"
 #include "host/image/atomic_file.hpp"
 #include "host/message.hpp"
-#include "host/render/measure_schedules.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -16,7 +16,7 @@
 namespace glim {
 namespace {
 
-// Samples of 512x512 pixels at 64 each: ten seconds on two cores without a GPU, of which measuring takes one.
+// Samples of 512x512 pixels at 64 each.
 constexpr std::uint64_t kLongRender = 1U << 24;
 
 bool isLong(const RenderSettings& settings)
@@ -69,12 +69,14 @@ Json readRemembered()
     return json && json->isObject() ? *json : Json::object();
 }
 
+double slowest(const std::vector<double>& rates) { return *std::ranges::min_element(rates); }
+
 void remember(const DeviceDescription& device, const ScheduleRates& rates)
 {
     Json json = readRemembered();
     json.set(keyOf(device), {{"version", versionText()},
                              {"fastest", nameOf(rates.fastest())},
-                             {"samplesPerSecond", {{"wavefront", rates.wavefront}, {"persistent", rates.persistent}}}});
+                             {"samplesPerSecond", {{"wavefront", slowest(rates.wavefront)}, {"persistent", slowest(rates.persistent)}}}});
     writeJson(rememberedFile(), json);
 }
 
@@ -82,7 +84,7 @@ void report(const ScheduleRates& rates)
 {
     char text[128];
     std::snprintf(text, sizeof text, "measured once on this device: persistent %.2f, wavefront %.2f Msamples/s; kept in ",
-                  1e-6 * rates.persistent, 1e-6 * rates.wavefront);
+                  1e-6 * slowest(rates.persistent), 1e-6 * slowest(rates.wavefront));
     say(text + rememberedFile().string());
 }
 
@@ -90,6 +92,9 @@ void report(const ScheduleRates& rates)
 
 Schedule rememberedSchedule(const DeviceDescription& device)
 {
+    if (device.software) {
+        return Schedule::Auto;
+    }
     const Json json = readRemembered();
     const Json* found = json.find(keyOf(device));
     const Json* version = found != nullptr ? found->find("version") : nullptr;
@@ -102,15 +107,18 @@ Schedule rememberedSchedule(const DeviceDescription& device)
                                                       : Schedule::Auto;
 }
 
-Schedule fastestSchedule(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
+Schedule fastestSchedule(const DeviceDescription& device, const RenderSettings& settings, const std::function<ScheduleRates()>& measure)
 {
-    const Schedule remembered = rememberedSchedule(device.description());
-    if (remembered != Schedule::Auto || !isLong(settings) || !canMeasureSchedules(settings) || !canRemember()) {
+    const Schedule remembered = rememberedSchedule(device);
+    if (device.software || remembered != Schedule::Auto || !isLong(settings) || !canMeasureSchedules(settings) || !canRemember()) {
         return remembered;
     }
-    const ScheduleRates rates = measureSchedules(device, scene, camera, settings);
+    const ScheduleRates rates = measure();
+    if (rates.fastest() == Schedule::Auto) {
+        return Schedule::Auto;
+    }
     try {
-        remember(device.description(), rates);
+        remember(device, rates);
         report(rates);
     } catch (const InputError& error) {  // the disk is full, say
         say("the faster schedule will be measured again: " + std::string(error.what()));

@@ -1,18 +1,20 @@
 // The faster schedule of a device, measured once and kept by device and driver in schedules.json in $GLIM_CACHE_DIR, $XDG_CACHE_HOME/glim
 // or ~/.cache/glim; another version of glim measures it again. If anything is wrong with that file, it counts as missing: no bit of a
-// picture depends on it.
+// picture depends on it. A software device is never measured: its time is that of a CPU which others use too, and it takes the persistent
+// schedule by design (tests/bench/README.md).
 #pragma once
 
-#include "host/flatten/flat_scene.hpp"
-#include "host/gpu/device.hpp"
-#include "host/render/settings.hpp"
+#include "host/render/measure_schedules.hpp"
+
+#include <functional>
 
 namespace glim {
 
-// Auto if it was not measured.
+// Auto if it was not measured, and for software devices.
 Schedule rememberedSchedule(const DeviceDescription& device);
 
-// Measures it if it is unknown, provided that this takes little of the picture's time and can be kept.
-Schedule fastestSchedule(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
+// Measures it if it is unknown, provided that this takes little of the picture's time and can be kept. What is within the noise is not
+// kept.
+Schedule fastestSchedule(const DeviceDescription& device, const RenderSettings& settings, const std::function<ScheduleRates()>& measure);
 
 }  // namespace glim

@@ -10,6 +10,8 @@
 namespace glim {
 namespace {
 
+double meanOf(const glm::dvec3& value) { return (value.r + value.g + value.b) / 3.0; }
+
 template <class Value>
 double computeMean(const Film& film, Value value)
 {
@@ -53,7 +55,7 @@ Steps computeSteps(const Film& film)
 ClampedEnergy computeClampedEnergy(const Film& film)
 {
     return {computeMean(film, [](const PixelMoments& p) { return p.clamped; }),
-            computeMean(film, [](const PixelMoments& p) { return p.mean.r + p.mean.g + p.mean.b; }) / 3.0};
+            computeMean(film, [](const PixelMoments& p) { return meanOf(p.mean); })};
 }
 
 double timesToTarget(const Film& film, const ErrorTarget& target)
@@ -62,21 +64,32 @@ double timesToTarget(const Film& film, const ErrorTarget& target)
     if (!estimate || pixelsWithoutError(film) > 0) {
         return std::numeric_limits<double>::infinity();
     }
-    double times = 0.0;
-    if (target.relMse) {
-        times = estimate->errors.relMse / *target.relMse;
-    }
-    if (target.rmse) {
-        const double root = relativeRoot(estimate->errors.mse, estimate->mean) / *target.rmse;
-        times = std::max(times, root * root);
-    }
-    return times;
+    return timesToTarget(target, estimate->errors.relMse, relativeRoot(estimate->errors.mse, estimate->mean));
+}
+
+double timesToTarget(const ErrorTarget& target, double relMse, double rmse)
+{
+    const double root = target.rmse ? rmse / *target.rmse : 0.0;
+    const double times = std::max(target.relMse ? relMse / *target.relMse : 0.0, root * root);
+    return std::isfinite(relMse) && std::isfinite(rmse) ? times : std::numeric_limits<double>::infinity();
 }
 
 std::size_t pixelsWithoutError(const Film& film)
 {
     return static_cast<std::size_t>(
         std::count_if(film.pixels.begin(), film.pixels.end(), [](const PixelMoments& pixel) { return pixel.blocks < 2; }));
+}
+
+std::string whyUnknown(const Film& film)
+{
+    if (const std::size_t pixels = pixelsWithoutError(film); pixels > 0) {
+        return std::to_string(pixels) + " pixels have too few samples";
+    }
+    const double mean = computeMean(film, [](const PixelMoments& p) { return meanOf(p.mean); });
+    const double variance = computeMean(film, [](const PixelMoments& p) { return meanOf(varianceOfMean(p)); });
+    return mean == 0.0                                      ? "the picture is black"
+           : std::isfinite(mean) && std::isfinite(variance) ? "its radiance is so small that float32 does not hold the squares"
+                                                            : "its radiance is so large that float32 does not hold the squares";
 }
 
 Json estimateOf(const Film& film, const RenderSettings& settings)
@@ -102,7 +115,7 @@ std::string errorText(const Film& film, const RenderSettings& settings)
 {
     const auto estimate = knownError(film, settings);
     if (!estimate) {
-        return format(", error unknown: %zu pixels have too few samples", pixelsWithoutError(film));
+        return ", error unknown: " + whyUnknown(film);
     }
     const auto percent = [&](double meanSquare) { return 100.0 * relativeRoot(meanSquare, estimate->mean); };
     std::string text =

@@ -27,6 +27,8 @@ Steps computeSteps(const Film& film);
 // The mean radiance that --clamp-indirect removed, and the one that is left.
 struct ClampedEnergy {
     double removed, kept;
+
+    double removedShare() const { return removed == 0.0 ? 0.0 : removed / (removed + kept); }
 };
 ClampedEnergy computeClampedEnergy(const Film& film);
 
@@ -41,9 +43,17 @@ struct ErrorTarget {
 
 // By what factor a film's samples must grow to reach the target; at most 1: it is reached. Infinite while its error is unknown.
 double timesToTarget(const Film& film, const ErrorTarget& target);
+// The same for a known relMSE and the RMSE relative to the mean; infinite unless both are finite.
+double timesToTarget(const ErrorTarget& target, double relMse, double rmse);
+
+// A render with a target ends after this many samples of a pixel if its error is still unknown.
+inline constexpr std::uint32_t kSamplesOfUnknownError = 1024;
 
 // The number of pixels with at most one block of samples.
 std::size_t pixelsWithoutError(const Film& film);
+
+// Of a film whose error is unknown, as in "the picture is black".
+std::string whyUnknown(const Film& film);
 
 // null where the error is unknown.
 Json estimateOf(const Film& film, const RenderSettings& settings);

@@ -9,7 +9,9 @@
 #include "host/text.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <functional>
 #include <iostream>
 #include <iterator>
 #include <memory>
@@ -129,7 +131,7 @@ Counts lobesOf(const FlatScene& flat)
 
 std::size_t singleSided(const Scene& scene)
 {
-    return static_cast<std::size_t>(std::ranges::count(scene.materials, false, &Material::doubleSided));
+    return static_cast<std::size_t>(std::ranges::count_if(scene.materials, std::not_fn(meetsBackFaces)));
 }
 
 Json texturesOf(const PreparedScene& prepared)
@@ -228,6 +230,23 @@ std::string pointText(const glm::dvec3& p)
     return text;
 }
 
+// As a float, whose text is short, unless that rounds by more than a ten-thousandth of `size`.
+std::string coordinateText(double value, double size)
+{
+    const auto rounded = static_cast<float>(value);
+    return std::abs(static_cast<double>(rounded) - value) > 1e-4 * size ? exactText(value) : exactText(rounded);
+}
+
+std::string textOf(const Bounds& bounds)
+{
+    const glm::dvec3 sides = bounds.high - bounds.low;
+    const double size = std::max({sides.x, sides.y, sides.z});
+    const auto corner = [size](const glm::dvec3& p) {
+        return "(" + coordinateText(p.x, size) + ", " + coordinateText(p.y, size) + ", " + coordinateText(p.z, size) + ")";
+    };
+    return corner(bounds.low) + " to " + corner(bounds.high) + " m";
+}
+
 std::string mebibytes(std::uint64_t bytes) { return threeDigits(static_cast<double>(bytes) / (1 << 20)) + " MiB"; }
 
 void printLooks(const PreparedScene& prepared)
@@ -239,7 +258,7 @@ void printLooks(const PreparedScene& prepared)
     }
     std::cout << '\n';
     if (const std::size_t count = singleSided(prepared.scene); count > 0) {
-        std::cout << "  single-sided: " << counted(count, "material") << "; back faces are drawn too, but emit nothing\n";
+        std::cout << "  single-sided: " << counted(count, "material") << ", whose back faces are not drawn (--back-faces)\n";
     }
     for (std::size_t i = 0; i < prepared.scene.images.size(); ++i) {
         const TextureImage& image = prepared.scene.images[i];
@@ -277,8 +296,7 @@ void printText(const InspectOptions& options, const PreparedScene& prepared)
                   << " (" << counted(instancing.triangles, "triangle") << ") " << (instancing.shared ? "share these" : "are flattened")
                   << ": " << instancing.reason << '\n';
     }
-    const Bounds bounds = boundsOf(prepared);
-    std::cout << "  bounds " << pointText(bounds.low) << " to " << pointText(bounds.high) << " m\n"
+    std::cout << "  bounds " << textOf(boundsOf(prepared)) << '\n'
               << "  BVH: " << prepared.bvh.nodes.size() << " nodes, depth " << prepared.bvh.depth << ", surface-area cost "
               << threeDigits(static_cast<double>(prepared.bvh.cost)) << ", built in " << threeDigits(prepared.buildSeconds) << " s\n"
               << "  on the device: " << mebibytes(sizeInBytes(prepared.flat)) << ", " << mebibytes(textureBytes(prepared.flat))

@@ -40,7 +40,7 @@ InterruptWatch::InterruptWatch()
     watch(SIGINT);
     watch(SIGTERM);
     watch(SIGHUP);
-    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGPIPE, [](int) {});  // programs that glim starts do not inherit a handler
     std::signal(SIGUSR1, request);
 }
 

@@ -1,6 +1,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/look_options.hpp"
 #include "host/cli/output_file.hpp"
+#include "host/cli/output_lock.hpp"
 #include "host/message.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/merge_films.hpp"
@@ -24,6 +25,7 @@ void runMerge(const MergeOptions& options)
 {
     checkTarget(options.output, ".exr", {});
     checkPictureTargets(options.pictures, {});
+    const OutputLock lock(options.output);
     const MergedFilm merged = mergeFilms(options.inputs);
     writeFilm(options.output, merged.film);
     if (options.pictures.areGiven()) {

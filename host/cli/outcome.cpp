@@ -12,6 +12,11 @@ std::string sentence(const std::string& text) { return text.ends_with('.') ? tex
 
 }  // namespace
 
+std::string reasonOf(const std::exception& error)
+{
+    return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ? memorySentence() : error.what();
+}
+
 Outcome outcomeOf(const std::function<ExitCode()>& command)
 {
     try {
@@ -22,8 +27,8 @@ Outcome outcomeOf(const std::function<ExitCode()>& command)
         return {ExitCode::BadInput, sentence(error.what())};
     } catch (const DeviceError& error) {
         return {ExitCode::Device, sentence(error.what())};
-    } catch (const std::bad_alloc&) {
-        return {ExitCode::BadInput, sentence("For this scene and picture " + memorySentence())};
+    } catch (const std::bad_alloc& error) {
+        return {ExitCode::BadInput, sentence("For this scene and picture " + reasonOf(error))};
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include "host/error.hpp"
 
+#include <exception>
 #include <functional>
 #include <string>
 
@@ -12,6 +13,9 @@ struct Outcome {
     ExitCode code = ExitCode::Done;
     std::string error;  // one sentence; empty if nothing was thrown
 };
+
+// For a sentence.
+std::string reasonOf(const std::exception& error);
 
 // Catches the errors that are not bugs in glim.
 Outcome outcomeOf(const std::function<ExitCode()>& command);

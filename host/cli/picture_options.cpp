@@ -70,6 +70,8 @@ void addPicture(const Command& command, PictureOptions& options, const std::stri
             options.environmentBackground);
     command.add("--sun", "AZIMUTH,ELEVATION,E", "A directional light: degrees right of -z, degrees up, W/m^2",
                 [&options](const std::string& text) { options.sun = parseSun(text); });
+    addEnum(command, "--back-faces", "B", "Back faces of single-sided opaque surfaces: culled or shown [culled]", {"culled", "shown"},
+            options.showsBackFaces);
     addTextures(command, options.missingTextures, options.maxTexture);
     command.addFlag("--confine", "Refuse files that the scene names outside of its folder", options.confined);
     command.add("--size", "WxH", "Pixels, each side 1 to 65535 [" + height + " high, width by the camera's aspect ratio]",
@@ -178,12 +180,14 @@ void addDevice(const Command& command, PictureOptions& options)
                 [&options](const std::string& text) { options.device = text; });
     addEnum(command, "--schedule", "S", "Kernel schedule: wavefront, persistent or auto, the faster one; same picture [auto]",
             {"auto", "wavefront", "persistent"}, options.settings.schedule);
+    addNumber<std::uint32_t>(command, {"--path-capacity", "N", "Paths in flight; same picture", kBlockSamples, 1U << 24U, "262144"},
+                             [&options](std::uint32_t paths) { options.settings.pathCapacity = paths; });
     addEnum(command, "--accelerator", "A", "Acceleration structure: bvh, or none (brute force) [bvh]", {"bvh", "none"},
             options.settings.course.accelerator);
     addEnum(command, "--split", "RULE", "Split of BVH nodes: sah, mean or median [sah]", {"sah", "mean", "median"}, options.split);
     addEnum(command, "--intersector", "I", "Triangle test: watertight or moller-trumbore [watertight]", {"watertight", "moller-trumbore"},
             options.settings.course.intersector);
-    command.hide({"--schedule", "--accelerator", "--split", "--intersector"});
+    command.hide({"--schedule", "--path-capacity", "--accelerator", "--split", "--intersector"});
 }
 
 LoadOptions loadOptionsOf(const PictureOptions& options)
@@ -197,6 +201,7 @@ LoadOptions loadOptionsOf(const PictureOptions& options)
     load.environmentRotation = glm::radians(options.environmentRotation);
     load.environmentBackground = options.environmentBackground;
     load.sun = options.sun;
+    load.showsBackFaces = options.showsBackFaces;
     load.missingTextures = options.missingTextures;
     load.confined = options.confined;
     load.maxTexture = options.maxTexture;

@@ -27,6 +27,7 @@ struct PictureOptions {
     float environmentRotation = 0.0F;  // degrees
     bool environmentBackground = true;
     std::optional<Sun> sun;
+    bool showsBackFaces = false;
     MissingTextures missingTextures = MissingTextures::Refuse;
     bool confined = false;  // the files that the scene names lie in its folder
     std::uint32_t maxTexture = kMaxImageSide;

@@ -1,22 +1,41 @@
 #include "host/cli/progress.hpp"
 
+#include "host/cli/format.hpp"
 #include "host/cli/parse.hpp"
 #include "host/json.hpp"
 
+#include <poll.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <optional>
 
 namespace glim {
 namespace {
 
-constexpr int kBarWidth = 30;
+constexpr std::size_t kBarWidth = 30;
 constexpr double kInterval = 0.1;  // seconds
 
 double rate(const RenderProgress& progress)
 {
     return progress.seconds > 0.0 ? static_cast<double>(progress.samples - progress.resumedSamples) / progress.seconds : 0.0;
+}
+
+// Whether a line can be written at once: a render waits for no reader.
+bool takesMore(int file)
+{
+    pollfd poll{file, POLLOUT, 0};
+    return ::poll(&poll, 1, 0) > 0 && (poll.revents & POLLOUT) != 0;
+}
+
+// Of the terminal as it is now; 0: unknown.
+unsigned columnsOf(int file)
+{
+    winsize size{};
+    return ioctl(file, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
 }
 
 }  // namespace
@@ -41,61 +60,92 @@ ProgressPrinter::ProgressPrinter(ProgressStyle style, std::optional<double> time
     }
 }
 
+ProgressEstimate estimateProgress(const RenderProgress& progress, std::optional<double> timeLimit)
+{
+    const auto shareOf = [&](std::uint64_t samples) {
+        return progress.totalSamples > 0 ? static_cast<double>(samples) / static_cast<double>(progress.totalSamples) : 0.0;
+    };
+    double share = shareOf(progress.samples);
+    if (timeLimit && *timeLimit > 0.0) {
+        share = std::max(share, progress.seconds / *timeLimit);
+    }
+    ProgressEstimate estimate{std::min(share, 1.0), std::nullopt};
+    const double begun = shareOf(progress.resumedSamples);
+    if (share > begun && share <= 1.0) {
+        estimate.remaining = progress.seconds * (1.0 - share) / (share - begun);
+    }
+    return estimate;
+}
+
+std::string fitBar(const std::string& bar, unsigned columns) { return columns == 0 ? bar : bar.substr(0, columns - 1); }
+
 void ProgressPrinter::print(const RenderProgress& progress, const std::optional<WrittenCheckpoint>& checkpoint)
 {
-    const bool complete = progress.samples == progress.totalSamples;
-    if (style_ == ProgressStyle::None || (progress.seconds - last_ < kInterval && !complete)) {
+    const bool completed = progress.samples == progress.totalSamples && progress.samples != lastSamples_;
+    if (style_ == ProgressStyle::None || (progress.seconds - last_ < kInterval && !completed) || !takesMore(STDERR_FILENO)) {
         return;
     }
     last_ = progress.seconds;
-    double share = static_cast<double>(progress.samples) / static_cast<double>(progress.totalSamples);
-    if (timeLimit_) {
-        share = std::clamp(progress.seconds / *timeLimit_, share, 1.0);
-    }
-    const double resumed = static_cast<double>(progress.resumedSamples) / static_cast<double>(progress.totalSamples);
-    const double remaining = share > resumed ? progress.seconds * (1.0 - share) / (share - resumed) : 0.0;
-    const double perPicture = place_.rendered > 0 ? place_.seconds / static_cast<double>(place_.rendered) : progress.seconds + remaining;
-    const double all = remaining + perPicture * static_cast<double>(place_.count - place_.index - 1);
-    if (style_ == ProgressStyle::Bar) {
-        printBar(progress, share, all);
-    } else {
-        printJson(progress, share, remaining, all, checkpoint);
+    lastSamples_ = progress.samples;
+    try {
+        write(progress, checkpoint);
+    } catch (const std::exception&) {
+        // No memory: a later line may succeed.
     }
 }
 
-void ProgressPrinter::printBar(const RenderProgress& progress, double share, double all) const
+void ProgressPrinter::write(const RenderProgress& progress, const std::optional<WrittenCheckpoint>& checkpoint) const
+{
+    const ProgressEstimate estimate = estimateProgress(progress, timeLimit_);
+    const std::string text = style_ == ProgressStyle::Bar ? "\r\033[K" + fitBar(barOf(progress, estimate), columnsOf(STDERR_FILENO))
+                                                          : jsonOf(progress, estimate, checkpoint) + '\n';
+    std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+std::optional<double> ProgressPrinter::estimateAll(const RenderProgress& progress, const ProgressEstimate& estimate) const
+{
+    if (!estimate.remaining) {
+        return std::nullopt;
+    }
+    const double perPicture =
+        place_.rendered > 0 ? place_.seconds / static_cast<double>(place_.rendered) : progress.seconds + *estimate.remaining;
+    return *estimate.remaining + perPicture * static_cast<double>(place_.count - place_.index - 1);
+}
+
+std::string ProgressPrinter::barOf(const RenderProgress& progress, const ProgressEstimate& estimate) const
 {
     const std::string picture =
         place_.count > 1 ? "picture " + std::to_string(place_.index + 1) + " of " + std::to_string(place_.count) + " " : "";
-    const int filled = static_cast<int>(share * kBarWidth);
-    std::fprintf(stderr, "\r\033[K%s[%s%s] %3.0f %%  %.3g samples/pixel  %.3g Msamples/s  ETA %.0f s", picture.c_str(),
-                 std::string(static_cast<std::size_t>(filled), '#').c_str(),
-                 std::string(static_cast<std::size_t>(kBarWidth - filled), '.').c_str(), 100.0 * share,
-                 static_cast<double>(progress.samples) / static_cast<double>(pixels_), 1e-6 * rate(progress), all);
+    const auto filled = static_cast<std::size_t>(estimate.share * kBarWidth);
+    const auto all = estimateAll(progress, estimate);
+    return picture + '[' + std::string(filled, '#') + std::string(kBarWidth - filled, '.') +
+           format("] %3.0f %%  %.3g samples/pixel  %.3g Msamples/s  ETA ", 100.0 * estimate.share,
+                  static_cast<double>(progress.samples) / static_cast<double>(pixels_), 1e-6 * rate(progress)) +
+           (all ? format("%.0f s", *all) : "unknown");
 }
 
-void ProgressPrinter::printJson(const RenderProgress& progress, double share, double remaining, double all,
-                                const std::optional<WrittenCheckpoint>& checkpoint) const
+std::string ProgressPrinter::jsonOf(const RenderProgress& progress, const ProgressEstimate& estimate,
+                                    const std::optional<WrittenCheckpoint>& checkpoint) const
 {
     Json line = {{"picture", place_.index + 1},
                  {"pictures", place_.count},
-                 {"done", share},
+                 {"done", estimate.share},
                  {"samples", progress.samples},
                  {"totalSamples", progress.totalSamples},
                  {"seconds", progress.seconds},
                  {"samplesPerSecond", rate(progress)},
-                 {"etaSeconds", remaining},
-                 {"allEtaSeconds", all}};
+                 {"etaSeconds", estimate.remaining},
+                 {"allEtaSeconds", estimateAll(progress, estimate)}};
     if (checkpoint) {
         line.set("checkpoint", Json{{"samplesPerPixel", checkpoint->samplesPerPixel}, {"secondsAgo", checkpoint->secondsAgo}});
     }
-    std::fprintf(stderr, "%s\n", line.dump().c_str());
+    return line.dump();
 }
 
 void ProgressPrinter::finish()
 {
     if (style_ == ProgressStyle::Bar && last_ >= 0.0) {
-        std::fprintf(stderr, "\r\033[K");
+        std::fputs("\r\033[K", stderr);
     }
 }
 

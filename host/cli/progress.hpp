@@ -5,6 +5,7 @@
 #include "host/render/renderer.hpp"
 
 #include <optional>
+#include <string>
 
 namespace glim {
 
@@ -25,27 +26,43 @@ struct WrittenCheckpoint {
     double samplesPerPixel, secondsAgo;
 };
 
+// How far a picture is.
+struct ProgressEstimate {
+    double share = 0.0;               // done, in [0, 1]
+    std::optional<double> remaining;  // seconds to its end, not negative; unknown at the beginning and past an end that was foretold
+};
+
+// `timeLimit`: seconds, if time ends the render and not samples.
+ProgressEstimate estimateProgress(const RenderProgress& progress, std::optional<double> timeLimit);
+
+// What a terminal of so many columns shows of a bar: it must not reach the last one, or the line might wrap. 0: unknown.
+std::string fitBar(const std::string& bar, unsigned columns);
+
 class ProgressPrinter {
 public:
-    // Auto: a bar on a terminal, nothing elsewhere. `timeLimit`: seconds, if time ends the render and not samples.
+    // Auto: a bar on a terminal, nothing elsewhere.
     ProgressPrinter(ProgressStyle style, std::optional<double> timeLimit, std::uint64_t pixels, const SequencePlace& place = {});
 
-    // Prints at most ten times a second.
+    // Prints at most ten times a second, and not while stderr takes nothing (a terminal that is stopped, a pipe that is full). Never
+    // throws.
     void print(const RenderProgress& progress, const std::optional<WrittenCheckpoint>& checkpoint = {});
     // Removes the bar.
     void finish();
 
 private:
-    // `remaining`: seconds to the end of this picture; `all`: to that of the last one.
-    void printBar(const RenderProgress& progress, double share, double all) const;
-    void printJson(const RenderProgress& progress, double share, double remaining, double all,
-                   const std::optional<WrittenCheckpoint>& checkpoint) const;
+    void write(const RenderProgress& progress, const std::optional<WrittenCheckpoint>& checkpoint) const;
+    // Seconds to the end of the last picture.
+    std::optional<double> estimateAll(const RenderProgress& progress, const ProgressEstimate& estimate) const;
+    std::string barOf(const RenderProgress& progress, const ProgressEstimate& estimate) const;
+    std::string jsonOf(const RenderProgress& progress, const ProgressEstimate& estimate,
+                       const std::optional<WrittenCheckpoint>& checkpoint) const;
 
     ProgressStyle style_;
     std::optional<double> timeLimit_;
     std::uint64_t pixels_;
     SequencePlace place_;
     double last_ = -1.0;
+    std::uint64_t lastSamples_ = 0;
 };
 
 }  // namespace glim

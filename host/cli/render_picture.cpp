@@ -1,5 +1,7 @@
 #include "host/cli/render_picture.hpp"
 
+#include "host/cli/format.hpp"
+#include "host/cli/outcome.hpp"
 #include "host/flatten/camera_options.hpp"
 #include "host/message.hpp"
 #include "host/render/check_memory.hpp"
@@ -20,7 +22,7 @@ PictureFrame framePicture(const SceneSession& session, const RenderOptions& opti
     const RenderSettings settings = settingsFor(options, camera);
     checkMemory(session.prepared(), settings, session.device().description(), options.checkpoint.isGiven());
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
-    return {flattenCamera(camera, aspect, options.lens), settings};
+    return {flattenCamera(session.prepared(), camera, aspect, options.lens), settings};
 }
 
 void labelFilm(Film& film, const RenderOptions& options)
@@ -77,12 +79,21 @@ RenderedFilm renderPicture(Renderer& renderer, const RenderOptions& options, Fil
     RenderedFilm rendered;
     const ErrorTarget& target = options.target;
     RenderProgress last{};
+    bool goesOn = true;
     const RenderObserver observe = [&](const RenderProgress& now) {
         last = now;
         last.betweenPasses = false;
-        return observer(now);
+        return goesOn = observer(now);
     };
-    const auto denoise = [&] { rendered.denoising = denoiser.denoise(options, renderer, [&] { return observer(last); }); };
+    const auto denoise = [&] {
+        rendered.denoising.reset();
+        rendered.denoisingError = nullptr;
+        try {
+            rendered.denoising = denoiser.denoise(options, renderer, [&] { return goesOn = observer(last); });
+        } catch (const std::exception&) {
+            rendered.denoisingError = std::current_exception();
+        }
+    };
     const auto timesOfDenoised = [&] {
         denoise();
         return rendered.denoising ? timesToTarget(rendered.denoising->picture.measured, target) : std::numeric_limits<double>::infinity();
@@ -90,18 +101,33 @@ RenderedFilm renderPicture(Renderer& renderer, const RenderOptions& options, Fil
     const auto criterion = [&](const Film& film) {
         const double times = target.denoised ? timesOfDenoised() : timesToTarget(film, target);
         rendered.isGood = times <= 1.0;
-        return times;
+        rendered.isUnknown = std::isinf(times) && goesOn && renderer.sampleCount() >= kSamplesOfUnknownError;
+        return rendered.isUnknown ? 0.0 : times;
     };
     const auto atEnd = [&] {
-        if (keepsCheckpoint()) {
-            rendered.checkpoint = renderer.checkpoint();
+        try {
+            rendered.checkpoint = keepsCheckpoint() ? renderer.checkpoint() : std::nullopt;
+        } catch (const DeviceError&) {
+            throw;  // nor could the film be read
+        } catch (const std::exception& error) {
+            say("the film has no checkpoint: " + reasonOf(error));
         }
     };
     rendered.film = renderer.render(observe, target.isGiven() ? StoppingCriterion(criterion) : nullptr, atEnd);
-    if (options.denoise && !(target.denoised && rendered.isGood)) {
+    if (options.denoise && !(target.denoised && (rendered.isGood || rendered.isUnknown))) {
         denoise();  // else the last look at the target did
     }
     return rendered;
+}
+
+void warnIfUnknown(const RenderedFilm& rendered)
+{
+    if (rendered.isUnknown) {
+        warn(format("the target is not reached after %.4g samples per pixel, and the render ends, because the error is unknown: ",
+                    computeRates(rendered.film).mean) +
+             (estimateError(rendered.film) ? "it is not measured of the denoised picture" : whyUnknown(rendered.film)) +
+             "; without a target it has the samples that --spp asks for.");
+    }
 }
 
 }  // namespace glim

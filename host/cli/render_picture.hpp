@@ -4,6 +4,7 @@
 #include "host/cli/scene_session.hpp"
 #include "host/render/film_file.hpp"
 
+#include <exception>
 #include <functional>
 #include <optional>
 #include <string>
@@ -32,13 +33,18 @@ void resumeFrom(Renderer& renderer, StoredFilm stored, const std::string& name);
 struct RenderedFilm {
     Film film;  // without a label
     std::optional<Checkpoint> checkpoint;
-    bool isGood = false;  // the target is reached
+    bool isGood = false;     // the target is reached
+    bool isUnknown = false;  // the render has ended because its error stays unknown
     std::optional<Denoising> denoising;
+    std::exception_ptr denoisingError;  // to be thrown once the film is safe; null if there was none
 };
 
 // Renders until the settings, the observer or the target, if one is given, ends it, and denoises if the options ask for it.
 // `keepsCheckpoint` is asked at the end.
 RenderedFilm renderPicture(Renderer& renderer, const RenderOptions& options, FilmDenoiser& denoiser, const RenderObserver& observer,
                            const std::function<bool()>& keepsCheckpoint);
+
+// Says that the error of what was rendered stayed unknown, and why, if that ended the render.
+void warnIfUnknown(const RenderedFilm& rendered);
 
 }  // namespace glim

@@ -41,8 +41,8 @@ Json clampingOf(const Film& film, const RenderOptions& options)
     if (!std::isfinite(options.settings.clampIndirect)) {
         return nullptr;
     }
-    const auto [removed, kept] = computeClampedEnergy(film);
-    return {{"limit", options.settings.clampIndirect}, {"removedMeanRadiance", removed}, {"removedShare", removed / (removed + kept)}};
+    const ClampedEnergy energy = computeClampedEnergy(film);
+    return {{"limit", options.settings.clampIndirect}, {"removedMeanRadiance", energy.removed}, {"removedShare", energy.removedShare()}};
 }
 
 Json bvhOf(const RenderReport& report)
@@ -267,10 +267,10 @@ void printSuspects(const RenderReport& report)
     std::cout << "Brightest samples, at most one per pixel: " << report.suspects.size() << "\n";
     for (const Suspect& suspect : report.suspects) {
         const glm::dvec3 radiance(suspect.radiance);
-        char text[200];
-        std::snprintf(text, sizeof text, "  luminance %-9.4g (%.4g, %.4g, %.4g), %.3g %% of its pixel, %.3g %% of the picture: --replay ",
-                      suspect.luminance, radiance.r, radiance.g, radiance.b, 100.0 * suspect.shareOfPixel, 100.0 * suspect.shareOfPicture);
-        std::cout << text << replayOf(suspect, report.film.width) << "\n";
+        const auto percent = [](double share) { return std::isfinite(share) ? format("%.3g %%", 100.0 * share) : "an unknown share"; };
+        std::cout << format("  luminance %-9.4g (%.4g, %.4g, %.4g), ", suspect.luminance, radiance.r, radiance.g, radiance.b)
+                  << percent(suspect.shareOfPixel) << " of its pixel, " << percent(suspect.shareOfPicture) << " of the picture: --replay "
+                  << replayOf(suspect, report.film.width) << "\n";
     }
 }
 
@@ -287,6 +287,10 @@ void warnOfPicture(const Film& film, const RenderStatistics& statistics, const R
         warn(format("%u samples were not finite and were discarded; the first: pixel (%u, %u), sample %u.", statistics.nonFinite,
                     first.pixel % film.width, first.pixel / film.width, first.sampleIndex));
     }
+    const auto unheld = std::count_if(film.pixels.begin(), film.pixels.end(), [](const PixelMoments& p) { return !isFinite(p.mean); });
+    if (unheld > 0 && settings.aov == Aov::Radiance) {
+        warn(format("%zu pixels are not finite: float32 does not hold the sums of their samples.", static_cast<std::size_t>(unheld)));
+    }
     if (statistics.transparencyCaps > 0) {
         warn(std::to_string(statistics.transparencyCaps) +
              " rays met more transparent surfaces in a row than they may pass; the next one was opaque to them.");
@@ -296,9 +300,9 @@ void warnOfPicture(const Film& film, const RenderStatistics& statistics, const R
              " rays entered a solid within four others and forgot the outermost, so what these rays meet there is wrong.");
     }
     if (std::isfinite(settings.clampIndirect)) {
-        const auto [removed, kept] = computeClampedEnergy(film);
-        warn(format("--clamp-indirect removed %g %% of the picture's light (mean radiance %g).", 100.0 * removed / (removed + kept),
-                    removed));
+        const ClampedEnergy energy = computeClampedEnergy(film);
+        warn(format("--clamp-indirect removed %g %% of the picture's light (mean radiance %g).", 100.0 * energy.removedShare(),
+                    energy.removed));
     }
 }
 

@@ -16,7 +16,7 @@ struct RenderReport {
     std::optional<Look> look;  // of the picture, if one was asked for
     const RenderStatistics& statistics;
     const DeviceDescription& device;
-    std::string stopReason;  // "samples", "time", "tolerance", "target", or the signal's name
+    std::string stopReason;  // "samples", "time", "tolerance", "target", "unknown error", or the signal's name
     double writeSeconds;
     std::optional<double> idSeconds;  // of --ids
     std::vector<Suspect> suspects;

@@ -1,7 +1,10 @@
 #include "host/cli/render_sequence.hpp"
 
+#include "host/cli/film_report.hpp"
 #include "host/cli/interrupt.hpp"
+#include "host/cli/outcome.hpp"
 #include "host/cli/output_file.hpp"
+#include "host/cli/output_lock.hpp"
 #include "host/cli/render_picture.hpp"
 #include "host/cli/render_report.hpp"
 #include "host/message.hpp"
@@ -41,13 +44,17 @@ bool wouldRuin(const std::filesystem::path& output, const Film& film)
            std::any_of(film.pixels.begin(), film.pixels.end(), [](const PixelMoments& p) { return p.count == 0; });
 }
 
-std::string stopReason(int signal, const Film& film, const RenderSettings& settings, bool isGood, bool isDone)
+std::string stopReason(int signal, const RenderedFilm& rendered, const RenderSettings& settings, bool isDone)
 {
+    const Film& film = rendered.film;
     if (signal != 0) {
         return nameOfSignal(signal);
     }
-    if (isGood) {
+    if (rendered.isGood) {
         return "target";
+    }
+    if (rendered.isUnknown) {
+        return "unknown error";
     }
     if (!isDone) {
         return "time";
@@ -106,6 +113,18 @@ std::optional<ControlBias> measureBias(Renderer& renderer, const Film& film, con
     return control ? estimateControlBias(film, *control) : std::nullopt;
 }
 
+// For what only informs: it can fail, and the render is none the worse for it.
+template <class Inform>
+auto tryTo(const char* purpose, Inform inform) -> decltype(inform())
+{
+    try {
+        return inform();
+    } catch (const std::exception& error) {
+        say(std::string("it was not possible to ") + purpose + ": " + reasonOf(error));
+        return decltype(inform())();
+    }
+}
+
 bool isThere(const std::filesystem::path& file)
 {
     std::error_code ignored;
@@ -129,7 +148,8 @@ bool isWhole(const StoredFilm& stored, const RenderOptions& options)
                          ? computeRates(film).mean >= settings.sampleEnd
                          : begin == settings.sampleBegin && (end == settings.sampleEnd || (resumes && end > settings.sampleEnd));
     const bool mayBeShort = !stored.checkpoint && options.target.isGiven() && !options.target.denoised;
-    return all || (mayBeShort && timesToTarget(film, options.target) <= 1.0);
+    const double times = mayBeShort ? timesToTarget(film, options.target) : 2.0;
+    return all || times <= 1.0 || (std::isinf(times) && computeRates(film).mean >= kSamplesOfUnknownError);
 }
 
 }  // namespace
@@ -219,10 +239,7 @@ ExitCode SequenceRenderer::renderShot(const RenderOptions& options)
         return finish(watch_->signal(), place_.rendered == 0 ? "nothing was rendered or written"
                                                              : options.output.string() + " and what follows was not rendered");
     }
-    std::optional<OutputLock> lock;
-    if (options.checkpoint.isGiven()) {
-        lock.emplace(options.output);
-    }
+    const OutputLock lock(options.output);
     std::optional<StoredFilm> stored;
     if (isSequence_ || options.checkpoint.resume) {
         stored = readOutput(options, frame);
@@ -320,7 +337,8 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const Picture
     }
     labelFilm(film, options);
     const std::optional<Denoising>& denoising = rendered.denoising;
-    if (options.denoise && !denoising) {
+    warnIfUnknown(rendered);
+    if (options.denoise && !denoising && !rendered.denoisingError) {
         say("the picture is not denoised: " +
             std::string(watch_->signal() == 0 ? "too few samples were finished" : "the render was ended"));
     }
@@ -330,15 +348,15 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const Picture
     const double writeSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const std::optional<double> idSeconds = writeIdentities(options, frame.camera, film);
     // Before the control, whose samples are no suspects.
-    std::vector<Suspect> suspects = findSuspects(session_.renderer(), film);
-    const auto bias = measureBias(session_.renderer(), film, *watch_);
+    std::vector<Suspect> suspects = tryTo("find the brightest samples", [&] { return findSuspects(session_.renderer(), film); });
+    const auto bias = tryTo("measure the bias", [&] { return measureBias(session_.renderer(), film, *watch_); });
     const RenderReport report{options,
                               session_.prepared(),
                               film,
                               look,
                               session_.renderer().statistics(),
                               session_.device().description(),
-                              stopReason(watch_->signal(), film, frame.settings, rendered.isGood, session_.renderer().isDone()),
+                              stopReason(watch_->signal(), rendered, frame.settings, session_.renderer().isDone()),
                               writeSeconds,
                               idSeconds,
                               std::move(suspects),
@@ -347,7 +365,10 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const Picture
     if (options.stats) {
         writeStatistics(*options.stats, report);
     }
-    printSummary(report);
+    tryTo("report on the film", [&] { printSummary(report); });
+    if (rendered.denoisingError) {
+        std::rethrow_exception(rendered.denoisingError);
+    }
     return finish(watch_->signal(), "what was finished is in " + options.output.string());
 }
 

@@ -320,7 +320,7 @@ void runReplay(const RenderOptions& options)
     const RenderSettings settings = settingsFor(options, camera);
     refuseOutside(*options.replay, settings);
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
-    Replay replay(device, prepared.flat, flattenCamera(camera, aspect, options.lens), settings);
+    Replay replay(device, prepared.flat, flattenCamera(prepared, camera, aspect, options.lens), settings);
     const SamplePlace& place = *options.replay;
     const ReplayReport report{options, prepared, settings, device.description(),
                               replay.trace(place.y * settings.width + place.x, place.sample)};

@@ -75,7 +75,8 @@ Renderer& SceneSession::begin(const FlatCamera& camera, RenderSettings settings)
 {
     if (!renderer_ || renderer_->settings().rows != settings.rows) {
         renderer_.reset();  // so that no two are on the device
-        settings.fastest = fastestSchedule(device_, prepared_.flat, camera, settings);
+        settings.fastest =
+            fastestSchedule(device_.description(), settings, [&] { return measureSchedules(device_, prepared_.flat, camera, settings); });
         renderer_.emplace(device_, prepared_.flat, camera, settings);
     } else if (isSceneNew_) {
         renderer_->setSampling(settings);

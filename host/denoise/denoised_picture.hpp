@@ -4,6 +4,7 @@
 #include "host/measure/confidence.hpp"
 #include "host/render/film_halves.hpp"
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -21,6 +22,9 @@ struct DenoisedError {
     double relMse = 0.0;
     double noisyMse = 0.0, noisyRelMse = 0.0;  // of the mean of both halves, by the same samples
     double mean = 0.0;                         // radiance over pixels and channels, W/(sr m^2)
+
+    // Not of a black picture, whose relMSE is 0/0, nor where float32 did not hold the radiance.
+    bool isKnown() const { return std::isfinite(mean) && std::isfinite(mse.high) && std::isfinite(relMse); }
 };
 
 struct DenoisedPicture {

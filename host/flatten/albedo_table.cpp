@@ -1,6 +1,7 @@
 #include "host/flatten/albedo_table.hpp"
 
 #include "host/bvh/parallel_for.hpp"
+#include "host/flatten/gauss_rule.hpp"
 
 #include <bit>
 #include <cmath>
@@ -13,37 +14,6 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr std::size_t kNodes = 32;
 
-struct Rule {
-    double nodes[kNodes], weights[kNodes];
-};
-
-// Gauss and Legendre's rule on [-1, 1], by Newton's iteration on the polynomial's zeros.
-Rule makeRule()
-{
-    Rule rule{};
-    for (std::size_t i = 0; i < kNodes; ++i) {
-        double x = std::cos(kPi * (static_cast<double>(i) + 0.75) / (static_cast<double>(kNodes) + 0.5)), slope = 1.0;
-        for (int iteration = 0; iteration < 100; ++iteration) {
-            double before = 1.0, here = x;
-            for (std::size_t n = 2; n <= kNodes; ++n) {
-                const auto k = static_cast<double>(n);
-                const double next = ((2.0 * k - 1.0) * x * here - (k - 1.0) * before) / k;
-                before = here;
-                here = next;
-            }
-            slope = static_cast<double>(kNodes) * (x * here - before) / (x * x - 1.0);
-            const double step = here / slope;
-            x -= step;
-            if (std::abs(step) < 1e-15) {
-                break;
-            }
-        }
-        rule.nodes[i] = x;
-        rule.weights[i] = 2.0 / ((1.0 - x * x) * slope * slope);
-    }
-    return rule;
-}
-
 double lambda(double cosine, double alpha)
 {
     const double tangent2 = (1.0 - cosine * cosine) / (cosine * cosine);
@@ -53,7 +23,7 @@ double lambda(double cosine, double alpha)
 // a and b at a cosine and an alpha above 0: the integral of F G2 (v.h) / (v.z h.z) over the normals h, D(h) h.z dh, whose reflection of v
 // is above the horizon. Slopes are alpha tan(beta) towards the azimuth phi; then D(h) h.z dh = sin(beta) cos(beta) / pi dbeta dphi. For
 // each phi the end of beta is known in closed form, so the integrand is smooth inside; substitutions put more nodes at the ends.
-glm::dvec2 integrateAlbedo(const Rule& rule, double cosine, double alpha)
+glm::dvec2 integrateAlbedo(const GaussRule& rule, double cosine, double alpha)
 {
     const double sine = std::sqrt((1.0 - cosine) * (1.0 + cosine)), lambdaV = lambda(cosine, alpha);
     glm::dvec2 sum(0.0);
@@ -86,7 +56,7 @@ double rounded(double value) { return std::ldexp(std::round(std::ldexp(value, 22
 double rootAt(std::size_t i) { return static_cast<double>(i) / (kAlbedoSize - 1); }
 
 // Of row j. A smooth surface, alpha 0, reflects what Schlick says; light along the surface all of it.
-std::vector<glm::dvec2> makeRow(const Rule& rule, std::size_t j)
+std::vector<glm::dvec2> makeRow(const GaussRule& rule, std::size_t j)
 {
     const double alpha = std::pow(rootAt(j), 4.0);
     std::vector<glm::dvec2> row;
@@ -132,7 +102,7 @@ double sheenLambda(double cosine, double alpha)
 }
 
 // Over wi with z = x^4 and the azimuth pi (1 - y^2) from wo's: dense at the horizon opposite to wo, where the lobe lies.
-double integrateSheen(const Rule& rule, double cosine, double alpha)
+double integrateSheen(const GaussRule& rule, double cosine, double alpha)
 {
     const double sine = std::sqrt((1.0 - cosine) * (1.0 + cosine)), lambdaV = sheenLambda(cosine, alpha);
     double sum = 0.0;
@@ -156,7 +126,7 @@ double integrateSheen(const Rule& rule, double cosine, double alpha)
 std::vector<uvec4> makeSheenTable()
 {
     constexpr double kLeastAlpha = 1e-4, kLeastCosine = 1e-5;  // kMinSheenRoughness squared; below, the lobe is not resolved
-    const Rule rule = makeRule();
+    const GaussRule rule(kNodes);
     std::vector<std::vector<double>> rows(kAlbedoSize);
     parallelFor(rows.size(), std::thread::hardware_concurrency(), [&](std::size_t j) {
         for (std::size_t i = 0; i < kAlbedoSize; ++i) {
@@ -177,7 +147,7 @@ std::vector<uvec4> makeSheenTable()
 
 std::vector<uvec4> makeAlbedoTable()
 {
-    const Rule rule = makeRule();
+    const GaussRule rule(kNodes);
     std::vector<std::vector<glm::dvec2>> rows(kAlbedoSize);
     parallelFor(rows.size(), std::thread::hardware_concurrency(), [&](std::size_t j) { rows[j] = makeRow(rule, j); });
     std::vector<uvec4> table;

@@ -51,7 +51,10 @@ constexpr Feature kFeatures[] = {{kFeatureSpheres, "spheres"},
                                  {kFeatureRectangleLights, "rectangle lights"},
                                  {kFeatureLightTree, "several lights"},
                                  {kFeatureCaustics, "caustics"},
-                                 {kFeatureInstances, "instances"}};
+                                 {kFeatureInstances, "instances"},
+                                 {kFeatureLampsInMedia, "lamps in volumes"},
+                                 {kFeatureSingleSided, "single-sided surfaces"},
+                                 {kFeatureLargeTriangles, "large triangles"}};
 
 // The images of a scene as kernels read them: each once, however many textures use it.
 struct PackedImages {
@@ -84,7 +87,8 @@ struct FlatScene {
     std::vector<TextureData> textures;       // behind these
     std::vector<MediumData> media;           // behind these, from texel firstMedium on
     std::uint32_t firstMedium = 0;
-    std::vector<FeatureMask> materialFeatures;  // what each material needs, used or not; not on the device
+    std::vector<std::uint32_t> mediumOfMaterial;  // its number; 0: none, or paths need not know. Not on the device
+    std::vector<FeatureMask> materialFeatures;    // what each material needs, used or not; not on the device
     std::shared_ptr<const PackedImages> images = std::make_shared<PackedImages>();  // never null
     std::vector<std::uint64_t> imageBytes;  // of each image of the scene; 0: of one colour, which is in the factors. Not on the device
     std::vector<uvec4> albedos;             // empty without kFeaturePrincipled

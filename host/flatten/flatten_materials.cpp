@@ -181,7 +181,9 @@ public:
                 place(*texture, firstTexture, kTextureTexels);
             }
         }
+        flat_.mediumOfMaterial.assign(scene_.materials.size(), 0);
         if (media_.tracked) {
+            flat_.mediumOfMaterial = std::move(media_.ofMaterial);
             flat_.media = std::move(media_.media);
         }
         flat_.firstMedium = firstTexture + static_cast<std::uint32_t>(flat_.textures.size() * kTextureTexels);

@@ -2,11 +2,14 @@
 
 #include "host/error.hpp"
 #include "host/flatten/albedo_table.hpp"
+#include "host/flatten/anisotropic_albedo.hpp"
 #include "host/flatten/caustics.hpp"
 #include "host/flatten/flatten_materials.hpp"
+#include "host/flatten/large_triangles.hpp"
 #include "host/flatten/light_table.hpp"
 #include "host/flatten/pack_nodes.hpp"
 #include "host/flatten/place_instances.hpp"
+#include "host/flatten/start_media.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -29,29 +32,41 @@ bool isSliver(const Triangle& triangle)
     return glm::length(glm::cross(a, c)) < static_cast<double>(kSliverHeight) * square;
 }
 
+// What records say of each material.
+std::vector<std::uint32_t> materialWordsOf(const Scene& scene)
+{
+    std::vector<std::uint32_t> words;
+    for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
+        words.push_back(i | (scene.showsBackFaces || meetsBackFaces(scene.materials[i]) ? 0U : kSingleSidedBit));
+    }
+    return words;
+}
+
 void pushTriangle(FlatScene& flat, const Triangle& triangle, std::uint32_t id, std::uint32_t material, bool alpha)
 {
     const bool sliver = isSliver(triangle);
-    flat.features |= sliver ? kFeatureSlivers : 0U;
+    flat.features |= (sliver ? kFeatureSlivers : 0U) | ((material & kSingleSidedBit) != 0 ? kFeatureSingleSided : 0U);
     flat.records.push_back(texel(triangle.vertices[0], id));
     flat.records.push_back(texel(triangle.vertices[1], material | (sliver ? kSliverBit : 0U) | (alpha ? kAlphaBit : 0U)));
     flat.records.push_back(texel(triangle.vertices[2], 0));
 }
 
-void pushSphere(FlatScene& flat, const Sphere& sphere, std::uint32_t id, bool alpha)
+void pushSphere(FlatScene& flat, const Sphere& sphere, std::uint32_t id, std::uint32_t material, bool alpha)
 {
+    flat.features |= (material & kSingleSidedBit) != 0 ? kFeatureSingleSided : 0U;
     flat.records.push_back(texel(sphere.center, id));
-    flat.records.push_back(texel({sphere.radius, 0.0F, 0.0F}, sphere.material | kSphereBit | (alpha ? kAlphaBit : 0U)));
+    flat.records.push_back(texel({sphere.radius, 0.0F, 0.0F}, material | kSphereBit | (alpha ? kAlphaBit : 0U)));
     flat.records.push_back(texel({0.0F, 0.0F, 0.0F}, 0));
 }
 
 // Returns one record per primitive: the last one if it has several.
 std::vector<std::uint32_t> pushRecords(FlatScene& flat, const Scene& scene, const Primitives& primitives, const WideBvh& bvh)
 {
+    const std::vector<std::uint32_t> words = materialWordsOf(scene);
     std::vector<std::uint32_t> materials;  // by triangle
     materials.reserve(primitives.triangles.size());
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-        materials.resize(primitives.firstTriangles[i + 1], scene.meshes[scene.instances[i].mesh].material);
+        materials.resize(primitives.firstTriangles[i + 1], words[scene.meshes[scene.instances[i].mesh].material]);
     }
     std::vector<std::uint32_t> recordOf(primitives.count());
     flat.records.reserve(bvh.order.size() * kRecordTexels);
@@ -66,7 +81,8 @@ std::vector<std::uint32_t> pushRecords(FlatScene& flat, const Scene& scene, cons
         if (id < materials.size()) {
             pushTriangle(flat, primitives.triangles[id], id, materials[id], alpha);
         } else {
-            pushSphere(flat, primitives.spheres[id - materials.size()], id, alpha);
+            const Sphere& sphere = primitives.spheres[id - materials.size()];
+            pushSphere(flat, sphere, id, words[sphere.material], alpha);
         }
     }
     return recordOf;
@@ -74,9 +90,10 @@ std::vector<std::uint32_t> pushRecords(FlatScene& flat, const Scene& scene, cons
 
 void pushSharedRecords(FlatScene& flat, const Scene& scene, const Primitives& primitives, const WideBvh& bvh)
 {
+    const std::vector<std::uint32_t> words = materialWordsOf(scene);
     for (std::size_t i = 0; i < bvh.meshTrees.size(); ++i) {
         const SharedMesh& mesh = primitives.sharedMeshes[i];
-        const std::uint32_t material = scene.meshes[mesh.mesh].material;
+        const std::uint32_t material = words[scene.meshes[mesh.mesh].material];
         for (std::uint32_t k = 0; k < bvh.meshTrees[i].entryCount; ++k) {
             const std::uint32_t triangle = bvh.order[bvh.meshTrees[i].firstEntry + k] - mesh.firstId;
             flat.features |= mesh.hasAlpha[triangle] ? kFeatureAlpha : 0U;
@@ -189,6 +206,7 @@ FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const W
     flat.nodes = packNodes(bvh);
     flat.stackLevels = stackLevelsOf(bvh);
     flat.features = primitives.spheres.empty() ? 0U : kFeatureSpheres;
+    flat.features |= hasLargeTriangles(scene, primitives) ? kFeatureLargeTriangles : 0U;
     flattenMaterials(flat, scene, findColored(scene));
     for (const MeshInstance& instance : scene.instances) {
         flat.features |= flat.materialFeatures[scene.meshes[instance.mesh].material];
@@ -204,6 +222,11 @@ FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const W
         static const std::vector<uvec4> sheen = makeSheenTable();
         flat.albedos.insert(flat.albedos.end(), sheen.begin(), sheen.end());
     }
+    if ((flat.features & kFeatureAnisotropy) != 0) {
+        static const std::vector<uvec4> anisotropic = makeAnisotropicAlbedoTable();  // .1 s of CPU time
+        flat.albedos.resize(kFirstAnisotropicAlbedo);
+        flat.albedos.insert(flat.albedos.end(), anisotropic.begin(), anisotropic.end());
+    }
     pushShading(flat, primitives);
     const std::vector<std::uint32_t> recordOf = pushRecords(flat, scene, primitives, bvh);
     pushSharedRecords(flat, scene, primitives, bvh);
@@ -211,6 +234,7 @@ FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const W
     addLights(flat, scene, primitives, recordOf);
     markOtherRecords(flat, bvh.order, recordOf);
     addCaustics(flat, scene, primitives);
+    flat.features |= mayLampsBeInMedia(scene, flat) ? kFeatureLampsInMedia : 0U;
     return flat;
 }
 

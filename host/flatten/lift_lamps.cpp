@@ -4,14 +4,18 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace glim {
 namespace {
 
 constexpr std::size_t kMostComparisons = 100'000'000;
-constexpr float kCoplanar = 0x1p-22F;  // of the coordinates: two roundings
-constexpr float kLift = 0x1p-18F;      // of the coordinates: what a hit at a grazing angle of .1 is off by
+constexpr std::size_t kCostOfPair = 64;  // whose boxes overlap, in comparisons
+constexpr float kCoplanar = 0x1p-22F;    // of the coordinates: two roundings
+constexpr float kLift = 0x1p-18F;        // of the coordinates: what a hit at a grazing angle of .1 is off by
 
 struct Box {
     glm::vec3 low, high;
@@ -58,14 +62,10 @@ bool overlapInPlane(const Triangle& a, const Triangle& b, const glm::dvec3& norm
     return true;
 }
 
-// How far the lamp must move, or 0.
-float liftOf(const Triangle& lamp, const Triangle& other)
+// How far the lamp must move, or 0, if their boxes overlap.
+float liftOf(const Triangle& lamp, const Box& box, const Triangle& other, const Box& otherBox)
 {
-    const Box box = boxOf(lamp), otherBox = boxOf(other);
     const float size = std::max(sizeOf(box), sizeOf(otherBox));
-    if (!overlap(box, otherBox, kCoplanar * size)) {
-        return 0.0F;
-    }
     const double slack = static_cast<double>(kCoplanar * size);
     const glm::dvec3 normal = glm::normalize(faceNormal(lamp)), at(lamp.vertices[0]);
     const bool coplanar =
@@ -73,41 +73,273 @@ float liftOf(const Triangle& lamp, const Triangle& other)
     return coplanar && overlapInPlane(lamp, other, normal, 4.0 * slack) ? kLift * size : 0.0F;
 }
 
+bool emits(const Material& material) { return material.emission != glm::vec3(0.0F); }
+
+bool isPassed(const Material& material) { return material.transmission > 0.0F || material.diffuseTransmission > 0.0F; }
+
+bool isSeenFromBehind(const Material& material) { return material.doubleSided || isPassed(material); }
+
+const Material& materialOf(const Scene& scene, const MeshInstance& instance)
+{
+    return scene.materials[scene.meshes[instance.mesh].material];
+}
+
+const Material& materialOf(const Scene& scene, const Primitives& primitives, std::uint32_t triangle)
+{
+    return materialOf(scene, scene.instances[primitives.instanceOf(triangle)]);
+}
+
+std::vector<std::uint32_t> findEmitting(const Scene& scene, const Primitives& primitives)
+{
+    std::vector<std::uint32_t> found;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        for (std::uint32_t t = primitives.firstTriangles[i];
+             emits(materialOf(scene, scene.instances[i])) && t < primitives.firstTriangles[i + 1]; ++t) {
+            found.push_back(t);
+        }
+    }
+    return found;
+}
+
+// What becomes of triangles: copies moved by these vectors, or nothing.
+using Copies = std::map<std::uint32_t, std::vector<glm::vec3>>;
+
+// In the order of the old triangles. Those that are not named stay.
+void replaceTriangles(Primitives& primitives, const Copies& copies)
+{
+    const std::vector<Triangle> triangles = std::exchange(primitives.triangles, {});
+    const std::vector<glm::uvec3> vertexIndices = std::exchange(primitives.vertexIndices, {});
+    const std::vector<bool> hasAlpha = std::exchange(primitives.hasAlpha, {});
+    const std::vector<std::uint32_t> ends = std::exchange(primitives.firstTriangles, {0});
+    const std::vector<glm::vec3> stays = {glm::vec3(0.0F)};
+    auto next = copies.begin();
+    for (std::uint32_t i = 0, instance = 1; instance < ends.size(); ++instance) {
+        for (; i < ends[instance]; ++i) {
+            const bool named = next != copies.end() && next->first == i;
+            for (const glm::vec3& by : named ? (next++)->second : stays) {
+                Triangle triangle = triangles[i];
+                for (glm::vec3& vertex : triangle.vertices) {
+                    vertex += by;
+                }
+                primitives.triangles.push_back(triangle);
+                if (!vertexIndices.empty()) {
+                    primitives.vertexIndices.push_back(vertexIndices[i]);
+                }
+                if (!hasAlpha.empty()) {
+                    primitives.hasAlpha.push_back(hasAlpha[i]);
+                }
+            }
+        }
+        primitives.firstTriangles.push_back(static_cast<std::uint32_t>(primitives.triangles.size()));
+    }
+    for (std::size_t i = triangles.size(); i < hasAlpha.size(); ++i) {
+        primitives.hasAlpha.push_back(hasAlpha[i]);  // of the spheres
+    }
+}
+
+// The same for the same vertices in any order.
+std::uint64_t hashOf(const Triangle& triangle)
+{
+    std::uint64_t sum = 0;
+    for (const glm::vec3& vertex : triangle.vertices) {
+        std::uint64_t hash = 14695981039346656037ULL;  // FNV-1a, a word at a time
+        for (int axis = 0; axis < 3; ++axis) {
+            hash = (hash ^ std::bit_cast<std::uint32_t>(vertex[axis] + 0.0F)) * 1099511628211ULL;  // -0 as 0
+        }
+        sum += hash ^ hash >> 29U;
+    }
+    return sum;
+}
+
+// Emitting triangles with the vertices of one before them that hides them.
+Copies findHidden(const Scene& scene, const Primitives& primitives)
+{
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> lamps;
+    for (const std::uint32_t lamp : findEmitting(scene, primitives)) {
+        lamps.emplace_back(hashOf(primitives.triangles[lamp]), lamp);
+    }
+    std::ranges::sort(lamps);
+    const auto hides = [&](std::uint32_t first, std::uint32_t second) {
+        const Triangle &a = primitives.triangles[first], &b = primitives.triangles[second];
+        const bool sameFront = glm::dot(faceNormal(a), faceNormal(b)) > 0.0;
+        return std::ranges::is_permutation(a.vertices, b.vertices) &&
+               (isSeenFromBehind(materialOf(scene, primitives, first)) ||
+                (sameFront && !isSeenFromBehind(materialOf(scene, primitives, second))));
+    };
+    Copies hidden;
+    constexpr std::size_t kMostStanding = 8;  // at one place: one to each side and one to both; more by chance
+    std::vector<std::uint32_t> standing;      // opaque ones of one hash
+    for (std::size_t i = 0; i < lamps.size(); ++i) {
+        if (i == 0 || lamps[i].first != lamps[i - 1].first) {
+            standing.clear();
+        }
+        const std::uint32_t lamp = lamps[i].second;
+        if (std::ranges::any_of(standing, [&](std::uint32_t first) { return hides(first, lamp); })) {
+            hidden[lamp];
+        } else if (standing.size() < kMostStanding && (primitives.hasAlpha.empty() || !primitives.hasAlpha[lamp])) {
+            standing.push_back(lamp);
+        }
+    }
+    return hidden;
+}
+
+// Of spheres in the same place the first that emits stays, or where none does all.
+std::size_t leaveOutSpheres(const Scene& scene, Primitives& primitives)
+{
+    using SpherePlace = std::array<float, 4>;
+    const auto placeOfSphere = [](const Sphere& sphere) {
+        return SpherePlace{sphere.center.x, sphere.center.y, sphere.center.z, sphere.radius};
+    };
+    const std::size_t triangles = primitives.triangles.size();
+    const auto isClear = [&](std::size_t i) { return !primitives.hasAlpha.empty() && primitives.hasAlpha[triangles + i]; };
+    std::map<SpherePlace, std::size_t> lamps;
+    for (std::size_t i = 0; i < primitives.spheres.size(); ++i) {
+        if (emits(scene.materials[primitives.spheres[i].material]) && !isClear(i)) {
+            lamps.emplace(placeOfSphere(primitives.spheres[i]), i);
+        }
+    }
+    if (lamps.empty()) {
+        return 0;
+    }
+    std::vector<Sphere> kept;
+    std::vector<bool> hasAlpha(primitives.hasAlpha.begin(),
+                               primitives.hasAlpha.begin() + static_cast<std::ptrdiff_t>(primitives.hasAlpha.empty() ? 0 : triangles));
+    for (std::size_t i = 0; i < primitives.spheres.size(); ++i) {
+        const auto lamp = lamps.find(placeOfSphere(primitives.spheres[i]));
+        if (lamp == lamps.end() || lamp->second == i || (isClear(i) && i < lamp->second)) {
+            kept.push_back(primitives.spheres[i]);
+            if (!primitives.hasAlpha.empty()) {
+                hasAlpha.push_back(isClear(i));
+            }
+        }
+    }
+    const std::size_t left = primitives.spheres.size() - kept.size();
+    primitives.spheres = std::move(kept);
+    primitives.hasAlpha = std::move(hasAlpha);
+    return left;
+}
+
+// A lamp and another triangle that overlap in one plane.
+struct Overlap {
+    std::uint32_t lamp, other;
+    float lift;
+};
+
+// Each triangle is compared with the lamps that begin near it along one axis. Nothing if there are too many to compare.
+std::vector<Overlap> findOverlaps(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& lamps)
+{
+    struct Lamp {
+        float begin;
+        std::uint32_t triangle;
+        Box box;
+    };
+    std::vector<Lamp> sorted;
+    Box all = boxOf(triangles[lamps[0]]);
+    for (const std::uint32_t lamp : lamps) {
+        const Box box = boxOf(triangles[lamp]);
+        all = {glm::min(all.low, box.low), glm::max(all.high, box.high)};
+        sorted.push_back({0.0F, lamp, box});
+    }
+    const glm::vec3 extent = all.high - all.low;
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    float widest = 0.0F;
+    for (Lamp& lamp : sorted) {
+        lamp.begin = lamp.box.low[axis];
+        widest = std::max(widest, lamp.box.high[axis] - lamp.begin);
+    }
+    std::ranges::sort(sorted, {}, [](const Lamp& lamp) { return std::pair(lamp.begin, lamp.triangle); });
+    const float lampSize = sizeOf(all);
+    std::vector<Overlap> overlaps;
+    std::size_t comparisons = 0;
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+        const Box box = boxOf(triangles[i]);
+        const float slack = 2.0F * kCoplanar * std::max(lampSize, sizeOf(box));
+        const auto first = std::ranges::lower_bound(sorted, box.low[axis] - widest - slack, {}, &Lamp::begin);
+        const auto end = std::ranges::upper_bound(sorted, box.high[axis] + slack, {}, &Lamp::begin);
+        comparisons += static_cast<std::size_t>(std::max(end - first, std::ptrdiff_t{0}));
+        for (auto lamp = first; lamp < end; ++lamp) {
+            if (lamp->triangle != i && overlap(lamp->box, box, kCoplanar * std::max(sizeOf(lamp->box), sizeOf(box)))) {
+                comparisons += kCostOfPair;
+                const float lift = liftOf(triangles[lamp->triangle], lamp->box, triangles[i], box);
+                if (lift > 0.0F) {
+                    overlaps.push_back({lamp->triangle, i, lift});
+                }
+            }
+        }
+        if (comparisons > kMostComparisons) {
+            return {};
+        }
+    }
+    return overlaps;
+}
+
+// What the lamps become: from the last one to the first, each above those that it must hide.
+Copies placeLamps(const Scene& scene, const Primitives& primitives, std::vector<Overlap> overlaps, const std::vector<std::uint32_t>& lamps)
+{
+    struct Sides {
+        float front = 0.0F, back = 0.0F;
+    };
+    std::ranges::sort(overlaps, std::greater(), [](const Overlap& overlap) { return std::pair(overlap.lamp, overlap.other); });
+    std::map<std::uint32_t, Sides> lifts;
+    for (const Overlap& overlap : overlaps) {
+        const bool sameFront =
+            glm::dot(faceNormal(primitives.triangles[overlap.lamp]), faceNormal(primitives.triangles[overlap.other])) > 0.0;
+        const bool isLamp = std::ranges::binary_search(lamps, overlap.other), isFirst = overlap.lamp < overlap.other;
+        const bool twoSided = materialOf(scene, primitives, overlap.lamp).doubleSided;
+        const bool otherTwoSided = isLamp && materialOf(scene, primitives, overlap.other).doubleSided;
+        const auto other = lifts.find(overlap.other);
+        const Sides below = other == lifts.end() ? Sides() : other->second;
+        // Against a lamp that shines to the same side, the first one is above it.
+        const auto raise = [&](float& lift, bool otherShines, float otherLift) {
+            if (!otherShines || isFirst) {
+                lift = std::max(lift, (otherShines ? otherLift : 0.0F) + overlap.lift);
+            }
+        };
+        Sides sides = lifts[overlap.lamp];
+        raise(sides.front, isLamp && (sameFront || otherTwoSided), sameFront ? below.front : below.back);
+        if (twoSided) {
+            raise(sides.back, isLamp && (!sameFront || otherTwoSided), sameFront ? below.back : below.front);
+        }
+        lifts[overlap.lamp] = sides;
+    }
+    Copies copies;
+    for (const auto& [lamp, sides] : lifts) {
+        const glm::dvec3 normal = glm::normalize(faceNormal(primitives.triangles[lamp]));
+        if (sides.front > 0.0F || sides.back > 0.0F) {
+            copies[lamp] = {glm::vec3(static_cast<double>(sides.front) * normal)};
+        }
+        if (sides.back > 0.0F) {
+            copies[lamp].emplace_back(static_cast<double>(-sides.back) * normal);
+        }
+    }
+    return copies;
+}
+
 }  // namespace
 
 void liftLamps(const Scene& scene, Primitives& primitives)
 {
-    std::vector<bool> emits;  // by triangle
-    std::vector<std::uint32_t> lamps;
-    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-        const Material& material = scene.materials[scene.meshes[scene.instances[i].mesh].material];
-        const bool lamp = material.emission != glm::vec3(0.0F) && !material.doubleSided && !material.emissiveTexture;
-        emits.resize(primitives.firstTriangles[i + 1], lamp);
+    const Copies hidden = findHidden(scene, primitives);
+    if (!hidden.empty()) {
+        replaceTriangles(primitives, hidden);
+        primitives.warnings.push_back("left out " + counted(hidden.size(), "emitting triangle") + " in the same place as another");
     }
-    for (std::uint32_t i = 0; i < emits.size(); ++i) {
-        if (emits[i]) {
-            lamps.push_back(i);
-        }
+    if (const std::size_t count = leaveOutSpheres(scene, primitives); count > 0) {
+        primitives.warnings.push_back("left out " + counted(count, "sphere") + " in the same place as one that emits");
     }
-    if (lamps.empty() || emits.size() > kMostComparisons / lamps.size()) {
+    std::vector<std::uint32_t> lamps = findEmitting(scene, primitives);
+    std::erase_if(lamps, [&](std::uint32_t lamp) {
+        const Material& material = materialOf(scene, primitives, lamp);
+        const bool isClear = isPassed(material) || (!primitives.hasAlpha.empty() && primitives.hasAlpha[lamp]);
+        return material.emissiveTexture || (material.doubleSided && isClear);
+    });
+    if (lamps.empty()) {
         return;
     }
-    std::size_t moved = 0;
-    for (const std::uint32_t lamp : lamps) {
-        float lift = 0.0F;
-        for (std::size_t other = 0; other < emits.size(); ++other) {
-            lift = std::max(lift, emits[other] ? 0.0F : liftOf(primitives.triangles[lamp], primitives.triangles[other]));
-        }
-        if (lift > 0.0F) {
-            ++moved;
-            const glm::vec3 by(static_cast<double>(lift) * glm::normalize(faceNormal(primitives.triangles[lamp])));
-            for (glm::vec3& vertex : primitives.triangles[lamp].vertices) {
-                vertex += by;
-            }
-        }
-    }
-    if (moved > 0) {
-        primitives.warnings.push_back(counted(moved, "emitting triangle") +
+    const auto moved = placeLamps(scene, primitives, findOverlaps(primitives.triangles, lamps), lamps);
+    if (!moved.empty()) {
+        replaceTriangles(primitives, moved);
+        primitives.warnings.push_back(counted(moved.size(), "emitting triangle") +
                                       " in the plane of another surface: moved by some millionths of their place to their front");
     }
 }

@@ -408,8 +408,8 @@ void addLights(FlatScene& flat, const Scene& scene, const Primitives& primitives
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         table.addInstance(i);
     }
-    for (std::size_t i = 0; i < scene.spheres.size(); ++i) {
-        table.addSphere(scene.spheres[i], i);
+    for (std::size_t i = 0; i < primitives.spheres.size(); ++i) {
+        table.addSphere(primitives.spheres[i], i);
     }
     for (const PunctualLight& light : scene.lights) {
         table.addPunctual(light);

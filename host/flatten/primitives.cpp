@@ -72,11 +72,6 @@ public:
         for (const Sphere& sphere : scene_.spheres) {
             addPrimitive(alpha_.classify(sphere), [&] { made_.spheres.push_back(sphere); });
         }
-        auto id = static_cast<std::uint32_t>(made_.count());
-        for (SharedMesh& mesh : made_.sharedMeshes) {
-            mesh.firstId = id;
-            id += static_cast<std::uint32_t>(mesh.triangles.size());
-        }
         if (std::find(made_.hasAlpha.begin(), made_.hasAlpha.end(), true) == made_.hasAlpha.end()) {
             made_.hasAlpha.clear();
         }
@@ -310,6 +305,11 @@ Primitives makePrimitives(const Scene& scene, std::uint64_t mostFlatTriangles)
 {
     Primitives primitives = PrimitiveMaker(scene).make(mostFlatTriangles);
     liftLamps(scene, primitives);
+    auto id = static_cast<std::uint32_t>(primitives.count());
+    for (SharedMesh& mesh : primitives.sharedMeshes) {
+        mesh.firstId = id;
+        id += static_cast<std::uint32_t>(mesh.triangles.size());
+    }
     return primitives;
 }
 

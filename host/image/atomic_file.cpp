@@ -14,8 +14,10 @@
 #include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <functional>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace fs = std::filesystem;
 
@@ -31,17 +33,6 @@ std::string lowerCase(std::string text)
 {
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
     return text;
-}
-
-// Follows symbolic links, also to a file that does not exist yet. For links in a circle the result is a link, which is refused later.
-fs::path followLinks(fs::path path)
-{
-    constexpr int kMostLinks = 40;  // as Linux
-    std::error_code ignored;
-    for (int i = 0; i < kMostLinks && fs::is_symlink(path, ignored); ++i) {
-        path = path.parent_path() / fs::read_symlink(path, ignored);
-    }
-    return path;
 }
 
 fs::path folderOf(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
@@ -78,44 +69,39 @@ void checkTarget(const fs::path& path, const fs::path& target)
     }
 }
 
-// One per target, so that a leftover is found. Hidden, and never too long.
-std::string temporaryName(const fs::path& target)
+// Removes what a killed process has left. False if the file is another's: of a process that is about to rename it, or not of glim.
+bool removeLeftover(const fs::path& path)
 {
-    Fingerprint print;
-    const std::string name = target.filename().string();
-    print.addBytes(std::as_bytes(std::span(name)));
-    return ".glim-" + hexadecimal(print.state()) + ".partial";
-}
-
-// Waits for the process that is about to rename the file, if there is one, and removes what a killed one has left.
-void removeLeftover(const fs::path& path)
-{
-    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    const int file = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (file < 0) {
-        return;
+        return errno == ENOENT;
     }
-    flock(file, LOCK_EX);
-    if (isFileAt(path, file)) {
-        unlink(path.c_str());
-    }
+    struct stat status = {};
+    const bool isOurs = fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == geteuid();
+    const bool isLeft = isOurs && flock(file, LOCK_EX | LOCK_NB) == 0;
+    const bool isGone = isLeft && (!isFileAt(path, file) || unlink(path.c_str()) == 0);
     close(file);
+    return isGone;
 }
 
-// Locked, unlike a leftover.
-int openNew(const fs::path& path)
+// Calls make(name), which makes a file beside `target` or fails as open does, until it succeeds. One name per target, so that a leftover is
+// found; others while that is taken. Returns the name, or none if it failed for another reason.
+fs::path nameBeside(const fs::path& target, const std::function<bool(const fs::path&)>& make)
 {
-    int file = -1;
-    do {
-        file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (file < 0 && errno == EEXIST) {
-            removeLeftover(path);
-            errno = EEXIST;
-        }
-    } while (file < 0 && errno == EEXIST);
-    if (file >= 0) {
-        flock(file, LOCK_EX);
+    constexpr int kMostNames = 100;
+    for (int i = 0; i < kMostNames; ++i) {
+        const fs::path name = hiddenBeside(target, (i == 0 ? "" : "." + std::to_string(i)) + ".partial");
+        do {
+            if (make(name)) {
+                return name;
+            }
+            if (errno != EEXIST) {
+                return {};
+            }
+        } while (removeLeftover(name));
     }
-    return file;
+    errno = EEXIST;
+    return {};
 }
 
 // Else a power cut might bring the old file back. Some file systems cannot, and are left alone.
@@ -128,7 +114,40 @@ void syncFolder(const fs::path& folder)
     }
 }
 
+// Owner and group are kept as far as the process may. Where the group is another, it gets what all others have.
+void keepMode(int file, const fs::path& replaced)
+{
+    struct stat old = {}, now = {};
+    if (stat(replaced.c_str(), &old) != 0) {
+        return;
+    }
+    if (fchown(file, old.st_uid, old.st_gid) != 0) {
+        static_cast<void>(!fchown(file, static_cast<uid_t>(-1), old.st_gid));
+    }
+    const bool sameGroup = fstat(file, &now) == 0 && now.st_gid == old.st_gid;
+    const mode_t others = old.st_mode & S_IRWXO;
+    fchmod(file, sameGroup ? old.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO) : (old.st_mode & S_IRWXU) | others << 3U | others);
+}
+
 }  // namespace
+
+fs::path followLinks(fs::path path)
+{
+    constexpr int kMostLinks = 40;  // as Linux
+    std::error_code ignored;
+    for (int i = 0; i < kMostLinks && fs::is_symlink(path, ignored); ++i) {
+        path = path.parent_path() / fs::read_symlink(path, ignored);
+    }
+    return path;
+}
+
+fs::path hiddenBeside(const fs::path& target, const std::string& ending)
+{
+    Fingerprint print;
+    const std::string name = target.filename().string();
+    print.addBytes(std::as_bytes(std::span(name)));
+    return folderOf(target) / (".glim-" + hexadecimal(print.state()) + ending);
+}
 
 bool isFileAt(const fs::path& path, int descriptor)
 {
@@ -153,13 +172,20 @@ AtomicFile::AtomicFile(const fs::path& path)
 {
     checkWritable(path, "");
     const fs::path folder = folderOf(target_);
-    temporary_ = folder / temporaryName(target_);
     // Has no name until it is whole, so nothing is left of it whatever happens. Some file systems lack this.
     const bool canLink = access("/proc/self/fd", X_OK) == 0;
     descriptor_ = canLink ? open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666) : -1;
     if (descriptor_ < 0 && (!canLink || errno == EOPNOTSUPP || errno == EISDIR || errno == ENOENT)) {
-        named_ = true;
-        descriptor_ = openNew(temporary_);
+        temporary_ = nameBeside(target_, [this](const fs::path& name) {
+            descriptor_ = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+            // A leftover is not locked. Somebody may have taken the file for one just now.
+            const bool isTaken = descriptor_ >= 0 && flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+            if (isTaken || (descriptor_ >= 0 && !isFileAt(name, descriptor_))) {
+                close(std::exchange(descriptor_, -1));
+                errno = EEXIST;
+            }
+            return descriptor_ >= 0;
+        });
     }
     if (descriptor_ < 0) {
         fail();
@@ -168,7 +194,7 @@ AtomicFile::AtomicFile(const fs::path& path)
 
 AtomicFile::~AtomicFile()
 {
-    if (descriptor_ >= 0 && named_) {
+    if (descriptor_ >= 0 && !temporary_.empty()) {
         unlink(temporary_.c_str());
     }
     if (descriptor_ >= 0) {
@@ -216,20 +242,20 @@ void AtomicFile::seek(std::uint64_t position)
 void AtomicFile::commit()
 {
     flush();
+    keepMode(descriptor_, target_);
     if (fsync(descriptor_) != 0) {
         fail();
     }
-    if (!named_) {
+    if (temporary_.empty()) {
         // Whoever replaces a target holds this lock meanwhile: a temporary name that nobody has locked is left from a killed process.
         flock(descriptor_, LOCK_EX);
         const std::string open = "/proc/self/fd/" + std::to_string(descriptor_);
-        while (linkat(AT_FDCWD, open.c_str(), AT_FDCWD, temporary_.c_str(), AT_SYMLINK_FOLLOW) != 0) {
-            if (errno != EEXIST) {
-                fail();
-            }
-            removeLeftover(temporary_);
+        temporary_ = nameBeside(target_, [&open](const fs::path& name) {
+            return linkat(AT_FDCWD, open.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+        });
+        if (temporary_.empty()) {
+            fail();
         }
-        named_ = true;
     }
     if (rename(temporary_.c_str(), target_.c_str()) != 0) {
         fail();

@@ -1,11 +1,13 @@
 // A file that appears under its name either complete or not at all. It is written beside the target without a name; `commit` syncs it to
-// the disk, gives it a temporary name and renames it. Without `commit` nothing remains, even of a killed process. One that is killed
-// within `commit` may leave the temporary name, which the next write to the target removes.
+// the disk, gives it a temporary name and renames it. It keeps the mode of the file that it replaces; a new one has that of the umask.
+// Without `commit` nothing remains, even of a killed process. One that is killed within `commit` may leave the temporary name, which the
+// next write to the target removes.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +16,12 @@ namespace glim {
 // Throws InputError if `path` could not be written: it has another extension than `extension` (".exr" in any case; empty allows all),
 // its folder is missing, a folder or a device has its name, or permission is missing. Creates and changes nothing.
 void checkWritable(const std::filesystem::path& path, std::string_view extension);
+
+// Follows symbolic links, also to a file that does not exist yet. For links in a circle the result is a link.
+std::filesystem::path followLinks(std::filesystem::path path);
+
+// A name beside `target`, a name without links. One per target and ending, hidden, and never too long.
+std::filesystem::path hiddenBeside(const std::filesystem::path& target, const std::string& ending);
 
 // Whether the open file is still the one of this name.
 bool isFileAt(const std::filesystem::path& path, int descriptor);
@@ -36,13 +44,12 @@ private:
     void flush();
     [[noreturn]] void fail() const;  // throws InputError with the reason from errno
 
-    std::filesystem::path name_;    // as the caller gave it, for messages
-    std::filesystem::path target_;  // after following symbolic links, which stay as they are
-    std::filesystem::path temporary_;
-    std::vector<char> buffer_;  // written, but not to the file yet
+    std::filesystem::path name_;       // as the caller gave it, for messages
+    std::filesystem::path target_;     // after following symbolic links, which stay as they are
+    std::filesystem::path temporary_;  // empty while the file has no name
+    std::vector<char> buffer_;         // written, but not to the file yet
     std::uint64_t position_ = 0;
     int descriptor_ = -1;
-    bool named_ = false;  // there is a file called temporary_
 };
 
 }  // namespace glim

@@ -28,8 +28,10 @@
 #include <fstream>
 #include <functional>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
 
 namespace fs = std::filesystem;
 
@@ -41,6 +43,8 @@ constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 30;
 
 // Deflate makes 1032 bytes of one at most, and PXR24 four of three.
 constexpr std::uint64_t kMostInflation = 1400;
+
+constexpr std::size_t kDigits = 64;  // of a SHA-256
 
 std::size_t pixelCount(const Image& image) { return std::size_t{image.width} * image.height; }
 
@@ -203,12 +207,26 @@ public:
         : OStream(name.c_str()),
           file_(file)
     {}
-    void write(const char bytes[], int count) override { file_.write(bytes, static_cast<std::size_t>(count)); }
+    void write(const char bytes[], int count) override
+    {
+        file_.write(bytes, static_cast<std::size_t>(count));
+        if (isHeader_) {
+            header_.append(bytes, static_cast<std::size_t>(count));
+        }
+    }
     std::uint64_t tellp() override { return file_.tell(); }
     void seekp(std::uint64_t position) override { file_.seek(position); }
+    // All that was written so far. To be called once.
+    std::string endHeader()
+    {
+        isHeader_ = false;
+        return std::move(header_);
+    }
 
 private:
     AtomicFile& file_;
+    std::string header_;
+    bool isHeader_ = true;
 };
 
 Imf::Header headerOf(const Image& image)
@@ -223,7 +241,7 @@ Imf::Header headerOf(const Image& image)
         if (const auto* number = std::get_if<double>(&value)) {
             header.insert(name, Imf::DoubleAttribute(*number));
         } else {
-            header.insert(name, Imf::StringAttribute(std::get<std::string>(value)));
+            header.insert(name, Imf::StringAttribute(name == kHeaderDigest ? std::string(kDigits, '0') : std::get<std::string>(value)));
         }
     }
     for (const auto& [name, plane] : image.channels) {
@@ -281,6 +299,19 @@ Image readExrHeader(const fs::path& path)
     return image;
 }
 
+void checkHeaderDigest(const fs::path& path, bool isSealed)
+{
+    std::ifstream stream(path, std::ios::binary);
+    const auto seal = findSeal(stream, kHeaderDigest);
+    if (!seal && isSealed) {
+        throw InputError(path.string() + ": is damaged: it has no attribute " + kHeaderDigest + ".");
+    }
+    if (seal && seal->text != seal->digest) {
+        throw InputError(path.string() + ": is damaged: the SHA-256 of its header is " + seal->digest + ", expected " +
+                         inQuotes(seal->text) + ".");
+    }
+}
+
 struct ExrWriter::Output {
     Output(const fs::path& target, const Image& picture)
         : path(target),
@@ -289,6 +320,8 @@ struct ExrWriter::Output {
           row(picture.rowsAbove)
     {
         guarded(path, "cannot be written", [&] { file.emplace(stream, headerOf(picture), useAllCores()); });
+        std::istringstream header(stream.endHeader());
+        seal = findSeal(header, kHeaderDigest);
     }
 
     fs::path path;
@@ -296,6 +329,7 @@ struct ExrWriter::Output {
     ExrStream stream;
     std::optional<Imf::OutputFile> file;
     std::uint32_t row;  // the next one
+    std::optional<HeaderSeal> seal;
 };
 
 ExrWriter::ExrWriter(const fs::path& path, const Image& picture)
@@ -316,6 +350,10 @@ void ExrWriter::write(const Image& rows)
 void ExrWriter::commit()
 {
     guarded(output_->path, "cannot be written", [&] { output_->file.reset(); });  // which writes the table of rows
+    if (const auto& seal = output_->seal) {
+        output_->atomic.seek(seal->position);
+        output_->atomic.write(seal->digest.data(), seal->digest.size());
+    }
     output_->atomic.commit();
 }
 

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 namespace glim {
 
@@ -15,6 +16,13 @@ Image readExr(const std::filesystem::path& path);
 
 // Reads only the size and the attributes.
 Image readExrHeader(const std::filesystem::path& path);
+
+// A text attribute that seals the header: writing a picture that has it, whatever its value, makes it the SHA-256 of the header's bytes
+// (HeaderSeal).
+inline const std::string kHeaderDigest = "glim:headerDigest";
+
+// Refuses a file whose header is not as it was sealed, and one that is not sealed if it has to be. To be called after reading.
+void checkHeaderDigest(const std::filesystem::path& path, bool isSealed);
 
 // Writes float32 and uint32 scan lines with ZIP compression and the chromaticities of Rec.709. Equal images give equal bytes.
 void writeExr(const std::filesystem::path& path, const Image& image);

@@ -1,5 +1,6 @@
 #include "host/image/exr_header.hpp"
 
+#include "host/digest.hpp"
 #include "host/error.hpp"
 
 #include <OpenEXR/ImfHeader.h>
@@ -8,6 +9,7 @@
 #include <cstdint>
 #include <fstream>
 #include <iterator>
+#include <span>
 #include <string>
 
 namespace fs = std::filesystem;
@@ -143,6 +145,35 @@ void checkExrHeader(const fs::path& path)
             throw InputError(attribute + " has " + std::to_string(bytes) + " bytes, which make no " + inQuotes(type) + ".");
         }
     }
+}
+
+std::optional<HeaderSeal> findSeal(std::istream& stream, const std::string& attribute)
+{
+    constexpr std::streamoff kBegin = 8;  // after the magic number and the version
+    std::optional<HeaderSeal> seal;
+    stream.seekg(kBegin);
+    std::string name, type;
+    while (std::getline(stream, name, '\0') && !name.empty() && std::getline(stream, type, '\0')) {
+        const std::streamoff bytes = readU32(stream);
+        if (name == attribute) {
+            seal = {static_cast<std::uint64_t>(stream.tellg()), std::string(static_cast<std::size_t>(bytes), '\0'), {}};
+            stream.read(seal->text.data(), bytes);
+        } else {
+            stream.seekg(bytes, std::ios::cur);
+        }
+    }
+    const std::streamoff end = stream.tellg();
+    if (!seal || end < 0) {
+        return std::nullopt;
+    }
+    std::string header(static_cast<std::size_t>(end), '\0');
+    stream.seekg(0);
+    stream.read(header.data(), end);
+    std::fill_n(header.begin() + static_cast<std::ptrdiff_t>(seal->position), seal->text.size(), '\0');
+    Digest digest;
+    digest.add(std::as_bytes(std::span(header)));
+    seal->digest = digest.finish();
+    return seal;
 }
 
 }  // namespace glim

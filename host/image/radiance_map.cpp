@@ -9,7 +9,9 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfVersion.h>
 
 #include <algorithm>
@@ -19,6 +21,7 @@
 #include <cstring>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace glim {
@@ -33,39 +36,65 @@ void checkMapSize(const std::string& path, std::int64_t width, std::int64_t heig
     }
 }
 
-// The names of the file's channels for red, green and blue: R, G and B, those of Blender's combined layer ("ViewLayer.Combined.R"), or Y
-// alone three times.
-std::array<std::string, 3> chooseChannels(const std::string& path, const Imf::ChannelList& channels)
+// Where a file holds its picture.
+struct Place {
+    int part = 0;
+    std::array<std::string, 3> channels;  // red, green and blue, or one name three times
+    int rank = 5;                         // the lower, the surer
+};
+
+// By the names of its channels: R, G and B, those of Blender's combined layer ("ViewLayer.Combined.R"), or Y alone. Of several parts each
+// may be a layer.
+Place findIn(const Imf::Header& header, int part, bool alone)
 {
-    std::vector<std::string> layers{""};
+    const Imf::ChannelList& channels = header.channels();
+    const auto has = [&](const std::string& name) { return channels.findChannel(name) != nullptr; };
+    std::vector<std::pair<std::string, int>> layers{{"", alone || (header.hasName() && header.name().ends_with("Combined")) ? 0 : 2}};
     for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
         if (const std::string name = channel.name(); name.ends_with(".Combined.R")) {
-            layers.push_back(name.substr(0, name.size() - 1));
+            layers.emplace_back(name.substr(0, name.size() - 1), 1);
         }
     }
-    for (const std::string& layer : layers) {
-        const std::array<std::string, 3> names{layer + "R", layer + "G", layer + "B"};
-        if (std::ranges::all_of(names, [&](const std::string& name) { return channels.findChannel(name) != nullptr; })) {
-            return names;
+    Place place;
+    for (const auto& [layer, rank] : layers) {
+        if (rank < place.rank && has(layer + "R") && has(layer + "G") && has(layer + "B")) {
+            place = {part, {layer + "R", layer + "G", layer + "B"}, rank};
         }
     }
-    const bool chroma = channels.findChannel("RY") != nullptr || channels.findChannel("BY") != nullptr;
-    if (channels.findChannel("Y") != nullptr && !chroma) {
-        return {"Y", "Y", "Y"};
+    const bool grey = has("Y") && !has("RY") && !has("BY");
+    return place.rank == Place().rank && grey ? Place{part, {"Y", "Y", "Y"}, 3} : place;
+}
+
+Place findPicture(const std::string& path, const Imf::MultiPartInputFile& file)
+{
+    Place best;
+    for (int part = 0; part < file.parts(); ++part) {
+        const Imf::Header& header = file.header(part);
+        if (header.hasType() && Imf::isDeepData(header.type())) {
+            continue;
+        }
+        if (const Place place = findIn(header, part, file.parts() == 1); place.rank < best.rank) {
+            best = place;
+        }
     }
-    throw InputError(path + ": has no channels R, G and B, nor a layer Combined with these, nor Y alone; expected one of these");
+    if (best.rank == Place().rank) {
+        throw InputError(path + ": has no channels R, G and B, nor a layer Combined with these, nor Y alone; expected one of these");
+    }
+    return best;
 }
 
 RadianceMap readExrMap(const std::string& path)
 {
     checkExrHeader(path);
-    Imf::InputFile file(path.c_str());
+    Imf::MultiPartInputFile parts(path.c_str());
+    const Place place = findPicture(path, parts);
+    Imf::InputPart file(parts, place.part);
+    const std::array<std::string, 3>& names = place.channels;
     const Imath::Box2i display = file.header().displayWindow(), data = file.header().dataWindow();
     const std::int64_t width = std::int64_t{display.max.x} - display.min.x + 1, height = std::int64_t{display.max.y} - display.min.y + 1;
     checkMapSize(path, width, height);
     const std::int64_t across = std::int64_t{data.max.x} - data.min.x + 1;
     checkMapSize(path, across, std::int64_t{data.max.y} - data.min.y + 1);
-    const std::array<std::string, 3> names = chooseChannels(path, file.header().channels());
     RadianceMap map;
     map.width = static_cast<std::uint32_t>(width);
     map.height = static_cast<std::uint32_t>(height);

@@ -2,6 +2,7 @@
 
 #include "host/error.hpp"
 #include "host/measure/confidence.hpp"
+#include "host/measure/float_range.hpp"
 #include "host/render/robust_radiance.hpp"
 
 #include <algorithm>
@@ -55,7 +56,7 @@ void addTerms(SquaredErrors& sums, double square, double r, double epsilon)
     sums.mse += square;
     sums.relMseAbsolute += square / (r * r + kAbsoluteEpsilon);
     // Only a black reference has no epsilon; there an exact zero is right and anything else infinitely wrong.
-    sums.relMse += square > 0 ? square / (r * r + epsilon) : 0.0;
+    sums.relMse += square == 0.0 ? 0.0 : square / (r * r + epsilon);
 }
 
 void divide(SquaredErrors& sums, double terms)
@@ -152,6 +153,13 @@ MeanRatio ratioWithin(double value, double standardError)
     return {value, value - halfWidth, value + halfWidth};
 }
 
+// `variance`, `radiance`: sums over so many pixels.
+bool isVarianceKnown(const glm::dvec3& variance, const glm::dvec3& radiance, std::size_t pixels)
+{
+    const double values = 3.0 * static_cast<double>(pixels);
+    return isWithinFloat((variance.r + variance.g + variance.b) / values, (radiance.r + radiance.g + radiance.b) / values);
+}
+
 void addRatios(const std::vector<Sums>& blocks, Comparison& result)
 {
     Sums total;
@@ -161,7 +169,8 @@ void addRatios(const std::vector<Sums>& blocks, Comparison& result)
         total.variance += block.variance;
         total.referenceVariance += block.referenceVariance;
     }
-    const bool knowsVariance = isFinite(total.variance) && isFinite(total.referenceVariance);
+    const bool knowsVariance = isVarianceKnown(total.variance, total.picture, result.compared) &&
+                               isVarianceKnown(total.referenceVariance, total.reference, result.compared);
     result.intervalSource = knowsVariance                 ? IntervalSource::Variance
                             : blocks.size() >= kMinBlocks ? IntervalSource::Blocks
                                                           : IntervalSource::None;
@@ -184,13 +193,15 @@ void addRatios(const std::vector<Sums>& blocks, Comparison& result)
     result.ratioOfAll = ratioOf({1, 1, 1});
 }
 
+bool isUnknown(const glm::vec3& variance) { return std::isnan(variance.x + variance.y + variance.z); }
+
 std::optional<SquaredErrors> errorsRelativeTo(const std::vector<glm::dvec3>& radiance, const Picture& picture)
 {
-    const double epsilon = relativeEpsilon(picture);
+    const double mean = meanRadiance(picture), epsilon = relativeEpsilon(picture);
     SquaredErrors sums;
     std::size_t known = 0;
     for (std::size_t i = 0; i < picture.variance.size(); ++i) {
-        if (isFinite(picture.radiance[i]) && isFinite(picture.variance[i])) {
+        if (isFinite(picture.radiance[i]) && !isUnknown(picture.variance[i])) {
             ++known;
             for (int c = 0; c < 3; ++c) {
                 addTerms(sums, static_cast<double>(picture.variance[i][c]), radiance[i][c], epsilon);
@@ -201,7 +212,8 @@ std::optional<SquaredErrors> errorsRelativeTo(const std::vector<glm::dvec3>& rad
         return std::nullopt;
     }
     divide(sums, 3.0 * static_cast<double>(known));
-    return sums;
+    const bool isKnown = isWithinFloat(sums.mse, mean) && isWithinFloat(sums.relMse * epsilon, mean);
+    return isKnown ? std::optional(sums) : std::nullopt;
 }
 
 }  // namespace
@@ -218,7 +230,7 @@ TrimmedErrors trimErrors(const std::vector<SquaredErrors>& pixels)
         const double droppedSum = std::accumulate(terms.begin(), kept, 0.0);
         const double keptSum = std::accumulate(kept, terms.end(), 0.0);
         result.kept.*metric = keptSum / static_cast<double>(terms.size() - result.dropped);
-        result.share.*metric = droppedSum > 0 ? droppedSum / (droppedSum + keptSum) : 0.0;
+        result.share.*metric = droppedSum == 0.0 ? 0.0 : droppedSum / (droppedSum + keptSum);
     }
     return result;
 }
@@ -230,6 +242,8 @@ Comparison compareImages(const Picture& picture, const Picture& reference)
     const std::vector<bool> comparable = findComparable(picture, reference, result);
     addErrors(picture, reference, comparable, result);
     addRatios(sumBlocks(picture, reference, comparable), result);
+    result.withoutVariance =
+        picture.variance.empty() ? picture.radiance.size() : static_cast<std::size_t>(std::ranges::count_if(picture.variance, isUnknown));
     result.noise = estimateErrors(picture);
     result.referenceNoise = noiseOfReference(reference);
     return result;
@@ -258,6 +272,9 @@ std::optional<SquaredErrors> measureErrors(const Picture& picture, const Picture
 
 std::optional<SquaredErrors> estimateErrors(const Picture& picture)
 {
+    if (!std::ranges::all_of(picture.radiance, [](const glm::vec3& radiance) { return isFinite(radiance); })) {
+        return std::nullopt;
+    }
     return errorsRelativeTo(robustRadiance(picture.width, picture.height, picture.radiance, picture.variance), picture);
 }
 

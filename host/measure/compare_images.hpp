@@ -48,6 +48,7 @@ struct MaxError {
 struct Comparison {
     std::size_t compared = 0;  // pixels
     std::size_t nonFinite = 0, nonFiniteInReference = 0;
+    std::size_t withoutVariance = 0;  // of the picture, whose noise leaves them out
     SquaredErrors errors;
     TrimmedErrors trimmed;
     double epsilon = 0.0;  // of relMse
@@ -65,9 +66,10 @@ Comparison compareImages(const Picture& picture, const Picture& reference);
 // Its `errors` alone, of pictures of one size; nothing if no pixel is finite in both.
 std::optional<SquaredErrors> measureErrors(const Picture& picture, const Picture& reference);
 
-// The picture's expected distance from the truth if it is unbiased, from its own variance. Nothing where no variance is known.
+// The picture's expected distance from the truth if it is unbiased, from its own variance. Nothing where no variance is known, where it
+// left float's range (float_range.hpp), and where a pixel is not finite.
 std::optional<SquaredErrors> estimateErrors(const Picture& picture);
-// The same for a reference, relative to its own values: to be subtracted from comparisons with it.
+// The same for a reference, relative to its own values and of its finite pixels: to be subtracted from comparisons with it.
 std::optional<SquaredErrors> noiseOfReference(const Picture& reference);
 
 // The mean over the channels of all finite pixels.

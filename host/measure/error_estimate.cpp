@@ -59,7 +59,7 @@ std::vector<Part> partsOf(const Film& film, const std::function<double(std::size
             double sum = 0.0;
             for (int c = 0; c < 3; ++c) {
                 const double square = static_cast<double>(variance[c]);
-                sum += square > 0.0 ? square * weight(i, c) : 0.0;
+                sum += square * weight(i, c);
             }
             parts.push_back({sum / 3.0, static_cast<double>(pixel.blocks)});
         }
@@ -85,9 +85,10 @@ std::optional<ErrorEstimate> estimateError(const Film& film)
     estimate.relMse = intervalOf(partsOf(film, [&](std::size_t i, int c) { return 1.0 / (likely[i][c] * likely[i][c] + epsilon); }));
     estimate.mean = meanRadiance(picture);
     estimate.pixelsOfHalf = countOfHalf(parts);
-    return estimate;
+    const bool isKnown = std::isfinite(estimate.mse.high) && std::isfinite(estimate.relMse.high);
+    return isKnown ? std::optional(estimate) : std::nullopt;
 }
 
-double relativeRoot(double meanSquare, double mean) { return meanSquare > 0.0 ? std::sqrt(meanSquare) / mean : 0.0; }
+double relativeRoot(double meanSquare, double mean) { return meanSquare <= 0.0 ? 0.0 : std::sqrt(meanSquare) / mean; }
 
 }  // namespace glim

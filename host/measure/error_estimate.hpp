@@ -20,10 +20,11 @@ struct ErrorEstimate {
     bool isOfFew() const { return pixelsOfHalf < 10 && errors.mse > 0.0; }
 };
 
-// Pixels of fewer than two blocks are left out; nothing if there are no others.
+// Pixels of fewer than two blocks are left out. Nothing if there are no others, if a pixel is not finite, and if float32 does not hold the
+// squares (float_range.hpp): never a false figure.
 std::optional<ErrorEstimate> estimateError(const Film& film);
 
-// The root of a mean square error, relative to `mean`.
+// The root of a mean square error, relative to `mean`. 0 if the measured error is negative; NaN stays NaN.
 double relativeRoot(double meanSquare, double mean);
 
 }  // namespace glim

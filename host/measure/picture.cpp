@@ -3,6 +3,7 @@
 #include "host/error.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace glim {
 namespace {
@@ -25,6 +26,16 @@ std::vector<glm::vec3> colors(const Image& image, const std::string& layer, cons
     return values;
 }
 
+// A film's file has infinity where fewer than two blocks tell nothing, and where a square overflowed.
+void clearUnknown(std::vector<glm::vec3>& variance, const std::vector<std::uint32_t>& blocks)
+{
+    for (std::size_t i = 0; i < variance.size(); ++i) {
+        if (blocks[i] < 2) {
+            variance[i] = glm::vec3(std::numeric_limits<float>::quiet_NaN());
+        }
+    }
+}
+
 }  // namespace
 
 Picture pictureOf(const Film& film)
@@ -42,6 +53,11 @@ Picture pictureOf(const Image& image, const std::string& name)
     Picture picture{image.width, image.height, colors(image, "", name), {}, image.rowsAbove, image.columnsLeft};
     if (image.channels.contains("variance.R")) {
         picture.variance = colors(image, "variance.", name);
+        for (const char* channel : {"blocks.X", "splatBlocks.X"}) {
+            if (const auto blocks = image.counts.find(channel); blocks != image.counts.end()) {
+                clearUnknown(picture.variance, blocks->second);
+            }
+        }
     }
     return picture;
 }

@@ -15,7 +15,7 @@ namespace glim {
 struct Picture {
     std::uint32_t width = 0, height = 0;
     std::vector<glm::vec3> radiance;               // row 0 at the top, left to right
-    std::vector<glm::vec3> variance;               // of each radiance as a mean; not finite: unknown there; empty: unknown
+    std::vector<glm::vec3> variance;               // of each radiance as a mean; NaN: unknown there; empty: unknown
     std::uint32_t rowsAbove = 0, columnsLeft = 0;  // of the whole, which this lacks
 };
 

@@ -1,5 +1,6 @@
 #include "host/preview/pick.hpp"
 
+#include "host/measure/float_range.hpp"
 #include "host/render/describe_primitive.hpp"
 #include "shaders/shared/limits.h"
 
@@ -8,6 +9,8 @@
 
 namespace glim {
 namespace {
+
+double meanOf(const glm::dvec3& value) { return (value.r + value.g + value.b) / 3.0; }
 
 struct Pick {
     glm::dvec3 position;  // world coordinates
@@ -59,7 +62,7 @@ std::string describeSamples(Refiner& refiner, const glm::uvec2& pixel, Aov aov)
     const RenderSettings& film = refiner.renderer().settings();
     const glm::uvec2 place = pixel / refiner.scale();
     const PixelMoments moments = refiner.renderer().moments(place.y * film.width + place.x);
-    const glm::vec3 error = glm::sqrt(varianceOfMean(moments));
+    const glm::vec3 variance = varianceOfMean(moments), error = glm::sqrt(variance);
     char text[300];
     std::snprintf(text, sizeof text, "; %u sample%s, mean (%.6g, %.6g, %.6g)%s", moments.count, moments.count == 1 ? "" : "s",
                   static_cast<double>(moments.mean.r), static_cast<double>(moments.mean.g), static_cast<double>(moments.mean.b),
@@ -70,6 +73,9 @@ std::string describeSamples(Refiner& refiner, const glm::uvec2& pixel, Aov aov)
     }
     if (moments.blocks < 2) {
         return known + ", standard error known from 33 samples on";
+    }
+    if (!isWithinFloat(meanOf(variance), meanOf(moments.mean))) {
+        return known + ", standard error unknown";
     }
     std::snprintf(text, sizeof text, ", standard error (%.2g, %.2g, %.2g)", static_cast<double>(error.r), static_cast<double>(error.g),
                   static_cast<double>(error.b));

@@ -31,13 +31,15 @@ RenderSettings startingSettings(RenderSettings settings)
 
 Refiner::Refiner(Device& device, const PreparedScene& prepared, const RenderSettings& settings, const Lens& lens)
     : settings_(settings),
+      prepared_(prepared),
       lens_(lens),
-      camera_(flattenCamera(prepared.scene.cameras.front(), 1.0F, lens)),
+      camera_(flattenCamera(prepared, prepared.scene.cameras.front(), 1.0F, lens)),
       renderer_(device, prepared.flat, camera_, startingSettings(settings))
 {}
 
 Refiner::Refiner(const Refiner& other, const PreparedScene& prepared, const RenderSettings& settings)
     : settings_(settings),
+      prepared_(prepared),
       lens_(other.lens_),
       camera_(other.camera_),
       renderer_(other.renderer_, prepared.flat, camera_, startingSettings(settings))
@@ -56,7 +58,7 @@ void Refiner::chooseMovingScale(double seconds)
 void Refiner::show(const Camera& camera, const glm::uvec2& size)
 {
     size_ = size;
-    camera_ = flattenCamera(camera, static_cast<float>(size.x) / static_cast<float>(size.y), lens_);
+    camera_ = flattenCamera(prepared_, camera, static_cast<float>(size.x) / static_cast<float>(size.y), lens_);
     moved_ = Clock::now();
     begin(movingScale_, true);
 }

@@ -12,7 +12,7 @@ namespace glim {
 
 class Refiner {
 public:
-    // Uploads the scene and compiles the kernels. The size in `settings` does not matter.
+    // Uploads the scene, which must stay, and compiles the kernels. The size in `settings` does not matter.
     Refiner(Device& device, const PreparedScene& prepared, const RenderSettings& settings, const Lens& lens);
     // Shares the resources of `other`, which is of the same scene and must outlive this one.
     Refiner(const Refiner& other, const PreparedScene& prepared, const RenderSettings& settings);
@@ -44,6 +44,7 @@ private:
     void advance(const std::function<bool()>& shouldContinue);
 
     RenderSettings settings_;
+    const PreparedScene& prepared_;
     Lens lens_;
     FlatCamera camera_;
     glm::uvec2 size_{1, 1};

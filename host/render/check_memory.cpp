@@ -9,6 +9,11 @@ namespace glim {
 
 void checkMemory(const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device, bool checkpoints)
 {
+    const std::uint64_t pathsAtOnce = std::uint64_t{device.maxGroups} * settings.workgroup;
+    if (settings.pathCapacity > pathsAtOnce) {
+        throw InputError("Device \"" + device.name + "\" starts at most " + std::to_string(pathsAtOnce) + " paths at once, expected " +
+                         std::to_string(settings.pathCapacity) + " (--path-capacity).");
+    }
     const std::uint64_t pixels = settings.pixelCount();
     const bool light = tracesLight(prepared.flat, settings);
     const std::uint64_t onDevice = sizeInBytes(prepared.flat) + PathBuffers::sizeInBytes(settings.pathCapacity) +

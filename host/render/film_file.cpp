@@ -2,6 +2,7 @@
 
 #include "host/error.hpp"
 #include "host/image/exr.hpp"
+#include "host/text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,10 +19,12 @@ namespace fs = std::filesystem;
 namespace glim {
 namespace {
 
-// Of the layers and attributes below; an older reader would misread a film with light paths, whose R, G, B are no moments.
-constexpr double kFormat = 1, kFormatWithSplats = 2;
+// Of the layers and attributes below; an older reader would misread a film with light paths, whose R, G, B are no moments. Films up to
+// glim 0.2 have no seal over their header; later ones are nothing without.
+constexpr double kUnsealed = 1, kUnsealedWithSplats = 2, kFormat = 3, kFormatWithSplats = 4;
 
 double formatOf(const Film& film) { return film.splats.empty() ? kFormat : kFormatWithSplats; }
+bool hasSplats(double format) { return format == kUnsealedWithSplats || format == kFormatWithSplats; }
 
 constexpr std::uint32_t kBandRows = 256;  // written at once: 16 blocks of OpenEXR, for as many cores
 
@@ -275,7 +278,8 @@ Image headerOf(const Film& film)
                         {"glim:device", film.device},
                         {"glim:kernels", film.identity.kernels},
                         {"glim:arithmetic", film.arithmetic},
-                        {"glim:digest", digestOf(film)}};
+                        {"glim:digest", digestOf(film)},
+                        {kHeaderDigest, ""}};  // which ExrWriter computes
     return image;
 }
 
@@ -371,9 +375,9 @@ std::optional<decltype(Film::sampleRanges)> parseRanges(const std::string& text)
 Film filmOfHeader(const fs::path& path, const Image& image)
 {
     const double format = attribute<double>(path, image, "glim:film");
-    if (format != kFormat && format != kFormatWithSplats) {
-        throw InputError(path.string() + ": is a film of format " + std::to_string(std::lround(format)) + ", expected format " +
-                         std::to_string(std::lround(kFormat)) + " or " + std::to_string(std::lround(kFormatWithSplats)) + ".");
+    if (!(format >= kUnsealed && format <= kFormatWithSplats && format == std::floor(format))) {
+        throw InputError(path.string() + ": is a film of format " + exactText(format) + ", expected format " + exactText(kUnsealed) +
+                         " to " + exactText(kFormatWithSplats) + ".");
     }
     const double seed = attribute<double>(path, image, "glim:seed");
     if (!(seed >= 0 && seed <= std::numeric_limits<std::uint32_t>::max() && seed == std::floor(seed))) {
@@ -432,12 +436,12 @@ Film filmOfImage(const fs::path& path, const Image& image)
     film.pixels.resize(std::size_t{film.width} * film.height);
     takeLayers(path, kFloatLayers, image, film.pixels);
     takeCounts(path, kCountLayers, image, film.pixels);
-    if (attribute<double>(path, image, "glim:film") == kFormat) {
-        takeLayers(path, kMeanLayers, image, film.pixels);
-    } else {
+    if (hasSplats(attribute<double>(path, image, "glim:film"))) {
         film.splats.resize(film.pixels.size());
         takeLayers(path, kCameraLayers, image, film.pixels);
         takeSplats(path, image, film.splats);
+    } else {
+        takeLayers(path, kMeanLayers, image, film.pixels);
     }
     if (const std::string digest = textIfPresent(image, "glim:digest"); !digest.empty()) {
         checkDigest(path, "its samples", digestOf(film), digest);
@@ -477,6 +481,16 @@ Checkpoint checkpointOfImage(const fs::path& path, const Image& image, const Fil
     }
     checkDigest(path, "its checkpoint", digestOf(checkpoint), attribute<std::string>(path, image, kProgressDigest));
     return checkpoint;
+}
+
+// Refuses a damaged header before what it says is taken for anything else.
+Image readSealed(const fs::path& path, Image (*read)(const fs::path&))
+{
+    Image image = read(path);
+    const auto format = image.attributes.find("glim:film");
+    const double* number = format == image.attributes.end() ? nullptr : std::get_if<double>(&format->second);
+    checkHeaderDigest(path, number != nullptr && *number >= kFormat);
+    return image;
 }
 
 }  // namespace
@@ -523,11 +537,11 @@ bool writeFilm(const fs::path& path, const Film& film, const Checkpoint& checkpo
     return write(path, film, {.checkpoint = &checkpoint}, shouldContinue);
 }
 
-Film readFilm(const fs::path& path) { return filmOfImage(path, readExr(path)); }
+Film readFilm(const fs::path& path) { return filmOfImage(path, readSealed(path, readExr)); }
 
 StoredFilm readStoredFilm(const fs::path& path)
 {
-    const Image image = readExr(path);
+    const Image image = readSealed(path, readExr);
     StoredFilm stored{filmOfImage(path, image), std::nullopt};
     if (image.attributes.contains(kProgress)) {
         stored.checkpoint = checkpointOfImage(path, image, stored.film);
@@ -535,6 +549,8 @@ StoredFilm readStoredFilm(const fs::path& path)
     return stored;
 }
 
-Film readFilmHeader(const fs::path& path) { return filmOfHeader(path, readExrHeader(path)); }
+Film readFilmHeader(const fs::path& path) { return filmOfHeader(path, readSealed(path, readExrHeader)); }
+
+Film filmHeaderOf(const fs::path& path, const Image& image) { return filmOfHeader(path, image); }
 
 }  // namespace glim

@@ -15,11 +15,12 @@
 //
 // denoised.RGB, denoisedError.RGB   a denoised picture and its estimated RMSE, for viewing: reading a film ignores them
 //
-// The attribute glim:digest is the film's SHA-256 (film.hpp), by which damage is noticed.
+// The attribute glim:digest is the film's SHA-256 (film.hpp), and glim:headerDigest that of the header, by which damage is noticed.
 //
 // Layers end in one letter, as Blender expects; the attributes are named glim:*.
 #pragma once
 
+#include "host/image/image.hpp"
 #include "host/render/checkpoint.hpp"
 
 #include <filesystem>
@@ -60,6 +61,8 @@ StoredFilm readStoredFilm(const std::filesystem::path& path);
 
 // All but `pixels`.
 Film readFilmHeader(const std::filesystem::path& path);
+// The same of a picture that was read, which another program may have changed since: for what it says of itself, not for its pixels.
+Film filmHeaderOf(const std::filesystem::path& path, const Image& image);
 
 // "0:256 512:768"
 std::string sampleRangesText(const Film& film);

@@ -1,13 +1,15 @@
 #include "host/render/measure_schedules.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 
 namespace glim {
 namespace {
 
-// 2^17 paths: a tenth of a second on two cores, and more than any GPU traces at once.
+// 2^17 paths: more than any GPU traces at once.
 constexpr std::uint32_t kSide = 128, kSamples = 8;
-constexpr int kRounds = 3;
+constexpr int kRounds = 5;
 
 RenderSettings settingsOf(const RenderSettings& asked, Schedule schedule)
 {
@@ -23,7 +25,13 @@ RenderSettings settingsOf(const RenderSettings& asked, Schedule schedule)
     return settings;
 }
 
-double samplesPerSecond(Renderer& renderer, const FlatCamera& camera) { return kSide * kSide * kSamples / timeRender(renderer, camera); }
+// By the device's own clock, which the load of the CPU does not slow. Infinite if the device has none.
+double samplesPerSecond(Renderer& renderer, const FlatCamera& camera)
+{
+    const double before = renderer.statistics().passSeconds;
+    timeRender(renderer, camera);
+    return kSide * kSide * kSamples / (renderer.statistics().passSeconds - before);
+}
 
 }  // namespace
 
@@ -42,16 +50,30 @@ bool canMeasureSchedules(const RenderSettings& settings)
     return settings.schedule == Schedule::Auto && chooseSchedule(wish, {}) == Schedule::Persistent;
 }
 
+Schedule ScheduleRates::fastest() const
+{
+    const auto isFaster = [](const std::vector<double>& a, const std::vector<double>& b) {
+        return !a.empty() && std::ranges::equal(a, b, [](double x, double y) { return x > kScheduleMargin * y; });
+    };
+    return isFaster(persistent, wavefront) ? Schedule::Persistent : isFaster(wavefront, persistent) ? Schedule::Wavefront : Schedule::Auto;
+}
+
 ScheduleRates measureSchedules(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
 {
     Renderer wavefront(device, scene, camera, settingsOf(settings, Schedule::Wavefront));
     Renderer persistent(wavefront, scene, camera, settingsOf(settings, Schedule::Persistent));
-    ScheduleRates best{0.0, 0.0};
-    for (int round = 0; round < kRounds; ++round) {
-        best.wavefront = std::max(best.wavefront, samplesPerSecond(wavefront, camera));
-        best.persistent = std::max(best.persistent, samplesPerSecond(persistent, camera));
+    ScheduleRates rates;
+    for (int round = 0; round <= kRounds; ++round) {
+        const double first = samplesPerSecond(wavefront, camera), second = samplesPerSecond(persistent, camera);
+        if (!std::isfinite(first) || !std::isfinite(second)) {
+            return {};
+        }
+        if (round > 0) {  // the first warms up
+            rates.wavefront.push_back(first);
+            rates.persistent.push_back(second);
+        }
     }
-    return best;
+    return rates;
 }
 
 }  // namespace glim

@@ -3,6 +3,8 @@
 
 #include "host/render/renderer.hpp"
 
+#include <vector>
+
 namespace glim {
 
 // Renders the whole picture again, from the same random numbers. Returns the seconds it took.
@@ -11,15 +13,17 @@ double timeRender(Renderer& renderer, const FlatCamera& camera);
 // False if a schedule was asked for by name, or if one of them cannot render these settings.
 bool canMeasureSchedules(const RenderSettings& settings);
 
-// Samples per second.
+// Samples per second of device time, an entry for each round.
 struct ScheduleRates {
-    double wavefront, persistent;
+    std::vector<double> wavefront, persistent;
 
-    Schedule fastest() const { return persistent > wavefront ? Schedule::Persistent : Schedule::Wavefront; }
+    // Auto unless one was faster by kScheduleMargin in every round: of two that are equally fast, one is ahead in five rounds in one case
+    // of 16, and hardly by that much.
+    Schedule fastest() const;
 };
+inline constexpr double kScheduleMargin = 1.05;
 
-// Renders the scene by both in turn, which canMeasureSchedules must allow. On two cores without a GPU this takes a second, or two if
-// nothing is compiled yet.
+// Renders the scene by both in turn, which canMeasureSchedules must allow; without entries if the device does not tell its time.
 ScheduleRates measureSchedules(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
 
 }  // namespace glim

@@ -2,7 +2,7 @@
 
 #include "host/error.hpp"
 #include "host/flatten/build_scene_bvh.hpp"
-#include "host/flatten/flatten_scene.hpp"
+#include "host/flatten/start_media.hpp"
 #include "host/memory.hpp"
 #include "host/message.hpp"
 #include "host/text.hpp"
@@ -102,6 +102,20 @@ PreparedScene prepareScene(SceneFile& file, std::optional<double> seconds, Split
     return within(file.path(), [&] { return prepare(file.sceneAt(seconds), split, start, std::move(previous), unheard); });
 }
 
+void sayIfCameraIsNumber(const Scene& scene, const std::optional<std::string>& choice)
+{
+    if (!choice || choice->empty() || choice->find_first_not_of("0123456789") != std::string::npos) {
+        return;
+    }
+    const Camera& camera = findCamera(scene, choice);
+    const std::string index = std::to_string(&camera - scene.cameras.data());
+    const bool named = std::ranges::any_of(scene.cameras, [&](const Camera& other) { return &other != &camera && other.name == *choice; });
+    const std::string name = camera.name.empty() ? "" : ": the camera is " + inQuotes(camera.name);
+    say("--camera " + *choice +
+        (index == *choice ? " is an index" + name + (named ? ", not the one named " + inQuotes(*choice) : "")
+                          : " is a name: the camera has the index " + index));
+}
+
 void warnIfNoLights(const PreparedScene& prepared)
 {
     if (prepared.flat.lights.empty()) {
@@ -132,17 +146,9 @@ const Camera& findCamera(const Scene& scene, const std::optional<std::string>& c
     throw InputError(scene.file + ": camera " + inQuotes(*choice) + ": expected one of " + list + ".");
 }
 
-void sayIfCameraIsNumber(const Scene& scene, const std::optional<std::string>& choice)
+FlatCamera flattenCamera(const PreparedScene& prepared, const Camera& camera, float aspectRatio, const Lens& lens)
 {
-    if (!choice || choice->empty() || choice->find_first_not_of("0123456789") != std::string::npos) {
-        return;
-    }
-    const Camera& camera = findCamera(scene, choice);
-    const std::string index = std::to_string(&camera - scene.cameras.data());
-    const bool named = std::ranges::any_of(scene.cameras, [&](const Camera& other) { return &other != &camera && other.name == *choice; });
-    say("--camera " + *choice +
-        (index == *choice ? " is an index: the camera is " + inQuotes(camera.name) + (named ? ", not the one named " + inQuotes(*choice) : "")
-                          : " is a name: the camera has the index " + index));
+    return placeInMedia(flattenCamera(camera, aspectRatio, lens), prepared.scene, prepared.flat);
 }
 
 glm::uvec2 defaultSize(const Camera& camera)

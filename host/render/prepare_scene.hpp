@@ -3,7 +3,7 @@
 
 #include "host/bvh/build_bvh.hpp"
 #include "host/bvh/wide_bvh.hpp"
-#include "host/flatten/flat_scene.hpp"
+#include "host/flatten/flatten_scene.hpp"
 #include "host/flatten/primitives.hpp"
 #include "host/scene/load_gltf.hpp"
 
@@ -27,6 +27,9 @@ PreparedScene prepareScene(
     const std::filesystem::path& file, const LoadOptions& options, SplitRule split = SplitRule::Sah,
     const std::function<void(const std::string&)>& stage = [](const std::string&) {});
 
+// Says on stderr whether a number was an index or a name.
+void sayIfCameraIsNumber(const Scene& scene, const std::optional<std::string>& choice);
+
 // Warns on stderr if the scene has no light.
 void warnIfNoLights(const PreparedScene& prepared);
 
@@ -37,8 +40,8 @@ PreparedScene prepareScene(SceneFile& file, std::optional<double> seconds, Split
 // The camera of that index, else of that name (the first if absent). Throws InputError that lists the cameras.
 const Camera& findCamera(const Scene& scene, const std::optional<std::string>& choice);
 
-// Says on stderr whether a number was an index or a name.
-void sayIfCameraIsNumber(const Scene& scene, const std::optional<std::string>& choice);
+// With the media that its rays begin in.
+FlatCamera flattenCamera(const PreparedScene& prepared, const Camera& camera, float aspectRatio, const Lens& lens);
 
 // The default size of a picture: 512 pixels high, and as wide as the camera's aspect ratio says.
 glm::uvec2 defaultSize(const Camera& camera);

@@ -3,6 +3,8 @@
 #include "host/render/luminance.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace glim {
 namespace {
@@ -11,6 +13,9 @@ struct Brightest {
     float luminance;
     std::uint32_t pixel, sampleIndex;
 };
+
+// NaN where float32 does not hold the whole.
+double shareOf(double part, double whole) { return std::isfinite(whole) ? part / whole : std::numeric_limits<double>::quiet_NaN(); }
 
 // The `count` pixels with the brightest samples, none of them black.
 std::vector<Brightest> findBrightest(const Renderer& renderer, std::size_t count)
@@ -48,7 +53,8 @@ std::vector<Suspect> findSuspects(Renderer& renderer, const Film& film)
         const PixelMoments pixel = shownPixel(film, each.pixel);
         const PathRadiance path = renderer.traceSample(each.pixel, each.sampleIndex);
         const double luminance = luminanceOf(path.radiance), part = luminance / pixel.count;
-        suspects.push_back({each.pixel, each.sampleIndex, path.radiance, luminance, part / luminanceOf(pixel.mean), part / picture});
+        suspects.push_back(
+            {each.pixel, each.sampleIndex, path.radiance, luminance, shareOf(part, luminanceOf(pixel.mean)), shareOf(part, picture)});
     }
     return suspects;
 }

@@ -148,7 +148,7 @@ std::optional<Environment> readFileEnvironment(const GltfFile& file, const LoadO
     const std::size_t index = options.scene.value_or(first);
     std::optional<Environment> environment = readNamedMap(file, options, index, decoded, scene, warnings);
     if (!environment) {
-        environment = readImageLight(file, index, decoded, scene);
+        environment = readImageLight(file, index, decoded, scene, warnings);
         if (environment) {
             environment->rotation = options.environmentRotation;
         }
@@ -374,6 +374,7 @@ Scene SceneFile::sceneAt(std::optional<double> seconds)
     scene.animations = animations;
     scene.skins = file.skins.size();
     scene.morphTargets = countAllMorphTargets(file);
+    scene.showsBackFaces = options.showsBackFaces;
     scene.materials.resize(file.model.materials.size() + 1);
     Warnings warnings = file.warnings;
     if (posed) {

@@ -30,6 +30,7 @@ struct LoadOptions {
     float environmentRotation = 0.0F;              // of a map about +y, radians, added to the file's
     bool environmentBackground = true;             // the camera sees the environment
     std::optional<Sun> sun;
+    bool showsBackFaces = false;
     MissingTextures missingTextures = MissingTextures::Refuse;
     bool confined = false;                     // refuses files that the scene names outside of its folder
     std::uint32_t maxTexture = kMaxImageSide;  // images with a longer side are scaled down

@@ -1,6 +1,6 @@
 // A scene as plain values: no Vulkan, no glTF. Meshes are in object space; instances place them in the world, in double. All other
-// positions are float32 relative to `origin`, which is the centre of the scene's bounding box in world coordinates (to 1/256 of its
-// extent) and was subtracted in double: far from the world's origin nothing is lost.
+// positions are float32 relative to `origin`, which lies amid the scene's primitives in world coordinates (choose_origin.hpp) and was
+// subtracted in double: far from the world's origin nothing is lost.
 #pragma once
 
 #include "host/image/decode_image.hpp"
@@ -42,12 +42,13 @@ struct Material {
     float specular = 1.0F;          // strength of the dielectric's reflection
     glm::vec3 specularColor{1.0F};  // of that reflection at normal incidence; may exceed 1
     glm::vec3 emission{0.0F};       // radiance, W/(sr m^2)
-    bool doubleSided = false;       // emits from both sides; scattering is always two-sided
+    bool doubleSided = false;       // emits from both sides; and rays meet its back faces, as those of what transmits (meetsBackFaces)
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alpha = 1.0F, alphaCutoff = 0.5F;
     float normalScale = 1.0F;
     // KHR_materials_transmission, _volume, _dispersion, _diffuse_transmission.
     float transmission = 0.0F;
+    bool thick = false;          // has a volume, even if nothing transmits
     bool solid = false;          // what transmits encloses a medium; else it is a thin wall
     glm::vec3 absorption{0.0F};  // of the medium, 1/m
     float dispersion = 0.0F;     // of the medium: 20 / Abbe number
@@ -99,6 +100,9 @@ auto colorTexturesOf(SomeMaterial& m)
     return std::array{&m.baseColorTexture, &m.emissiveTexture, &m.specularColorTexture, &m.diffuseTransmissionColorTexture,
                       &m.sheenColorTexture};
 }
+
+// Whether rays from behind meet it; glTF 2.0, section 3.9.6. Extensions that let light through leave no back face out.
+inline bool meetsBackFaces(const Material& m) { return m.doubleSided || m.transmission > 0.0F || m.thick || m.diffuseTransmission > 0.0F; }
 
 // Nothing but a diffuse lobe.
 inline Material makeLambert(const glm::vec3& albedo, const glm::vec3& emission = glm::vec3(0.0F), bool doubleSided = false)
@@ -215,6 +219,7 @@ struct Scene {
     std::size_t flattened = 0;  // meshes and spheres of the file that are left out as their nodes are scaled to a plane, a line or a point
     std::vector<Material> materials;                // in the file's order
     std::optional<std::uint32_t> defaultMaterial;   // the one of them that the file does not have
+    bool showsBackFaces = false;                    // of every material, as if meetsBackFaces
     std::vector<std::string> nodeNames, meshNames;  // of all that the file has, in its order; empty without a name
     std::vector<TextureImage> images;
     std::vector<PunctualLight> lights;

@@ -1,8 +1,10 @@
-// The table of the GGX lobe's directional albedos (host/flatten/albedo_table.hpp makes it).
+// The tables of directional albedos (host/flatten/albedo_table.hpp and anisotropic_albedo.hpp make them).
 #ifndef GLIM_ACCESS_ALBEDO_TABLE
 #define GLIM_ACCESS_ALBEDO_TABLE
 
 #include "features.glsl"
+#include "lib/bsdf/ggx.glsl"
+#include "lib/thin_film.glsl"
 #include "shared/scene_types.h"
 
 layout(set = 0, binding = kBindAlbedos) uniform usamplerBuffer sceneAlbedos;
@@ -50,6 +52,61 @@ float fetchSheenAlbedo(AlbedoRow row, float cosine)
     vec4 corners = uintBitsToFloat(texelFetch(sceneAlbedos, at));
     vec2 both = corners.xz + (corners.yw - corners.xz) * (x - float(column));
     return both.x + (both.y - both.x) * row.weight;
+}
+
+// Between which two steps of an axis a number lies.
+struct AlbedoCell {
+    int first;
+    float weight;  // of the other one
+};
+
+// x in [0, 1], but for rounding.
+AlbedoCell albedoCell(float x, uint count)
+{
+    float y = min(x, 1.0) * float(count - 1u);
+    int first = min(int(y), int(count) - 2);
+    return AlbedoCell(first, y - float(first));
+}
+
+vec4 mixTexels(int at, int step, float weight)
+{
+    vec4 lower = uintBitsToFloat(texelFetch(sceneAlbedos, at));
+    vec4 upper = uintBitsToFloat(texelFetch(sceneAlbedos, at + step));
+    return lower + (upper - lower) * weight;
+}
+
+// a and b of the lobe of two widths, alpha.x >= alpha.y >= kMinAlpha, at a direction on the upper side. Linear in four numbers: a + b is off
+// by less than 4e-3, b by 4e-2.
+vec2 fetchAlbedo(vec2 alpha, vec3 w)
+{
+    float sine = length(w.xy), stretched = stretchedLength(w, alpha);
+    float along = sine > 0.0 ? length(alpha * w.xy) / sine : alpha.x;
+    float seen = sqrt(w.z / stretched), size = sqrt(alpha.x);
+    AlbedoCell cosine = albedoCell(seen * sqrt(seen), kAnisotropicCosines);
+    AlbedoCell narrow = albedoCell(alpha.y / along, kAnisotropicRatios);
+    AlbedoCell wide = albedoCell(along / alpha.x, kAnisotropicRatios);
+    AlbedoCell large = albedoCell(size * sqrt(size), kAnisotropicAlphas);
+    const int kNarrow = int(kAnisotropicCosines), kWide = kNarrow * int(kAnisotropicRatios), kLarge = kWide * int(kAnisotropicRatios);
+    int at = int(kFirstAnisotropicAlbedo) + cosine.first + narrow.first * kNarrow + wide.first * kWide + large.first * kLarge;
+    vec4 a = mixTexels(at, kNarrow, narrow.weight), b = mixTexels(at + kWide, kNarrow, narrow.weight);
+    vec4 c = mixTexels(at + kLarge, kNarrow, narrow.weight), d = mixTexels(at + kLarge + kWide, kNarrow, narrow.weight);
+    vec4 lower = a + (b - a) * wide.weight, upper = c + (d - c) * wide.weight;
+    vec4 both = lower + (upper - lower) * large.weight;
+    vec2 entry = both.xy + (both.zw - both.xy) * cosine.weight;
+    float schlick = schlickWeight(min(entry.y * stretched, 1.0));
+    return vec2(entry.x * (1.0 - schlick), entry.x * schlick);
+}
+
+// Their averages.
+vec2 fetchAverageAlbedo(vec2 alpha)
+{
+    AlbedoCell ratio = albedoCell(alpha.y / alpha.x, kAnisotropicAverageRatios);
+    AlbedoCell size = albedoCell(sqrt(alpha.x), kAnisotropicAverageAlphas);
+    const int kSize = int(kAnisotropicAverageRatios);
+    int at = int(kFirstAnisotropicAlbedo + kAnisotropicAlbedos) + ratio.first + size.first * kSize;
+    vec4 both = mixTexels(at, kSize, size.weight);
+    vec2 entry = both.xy + (both.zw - both.xy) * ratio.weight;
+    return vec2(1.0 - entry.x * alpha.x - entry.y, entry.y);
 }
 
 #endif

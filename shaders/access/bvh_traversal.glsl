@@ -31,13 +31,45 @@ float intersectSphere(TraversalRay traversal, Record record, float tMax, bool is
     return intersectSphere(traversal.origin, traversal.direction, floatsOf(record.t0), uintBitsToFloat(record.t1.x), tMax, isSource);
 }
 
-// t in (0, tMax] and barycentrics, or t < 0. A ray never meets the triangle it leaves; a sphere only from within.
-TriangleHit intersectRecord(TraversalRay traversal, Record record, float tMax, bool isSource)
+// The sides from which a query meets single-sided surfaces: the fronts if its rays go as those of a path from the camera, the backs if they go
+// the other way. A path from a light meets both (light_traversal.glsl).
+const uint kFronts = 1u;
+const uint kBacks = 2u;
+
+// The far side, which a ray meets from within, if the near one does not count.
+float intersectSphere(TraversalRay traversal, Record record, float tMax, bool isSource, uint sides)
+{
+    float t = intersectSphere(traversal, record, tMax, isSource);
+    if (isSingleSided(record) && sides != (kFronts | kBacks)) {
+        bool fromWithin = dot(traversal.origin + t * traversal.direction - floatsOf(record.t0), traversal.direction) > 0.0;
+        if (sides == kBacks && !fromWithin) {
+            t = intersectSphere(traversal, record, tMax, true);
+        }
+        t = sides == kFronts && fromWithin ? -1.0 : t;
+    }
+    return t;
+}
+
+// t in (0, tMax] and barycentrics, or t < 0. A ray never meets the triangle it leaves; a sphere only from within. An instance that mirrors
+// leaves the sides as they are: a mirrored front stays the front.
+TriangleHit intersectRecord(TraversalRay traversal, Record record, float tMax, bool isSource, uint sides)
 {
     if (isSphere(record)) {
-        return TriangleHit(intersectSphere(traversal, record, tMax, isSource), vec2(0.0), 1.0);
+        return TriangleHit(intersectSphere(traversal, record, tMax, isSource, sides), vec2(0.0), 1.0);
     }
-    return isSource ? kNoTriangleHit : intersectTriangle(traversal, record, tMax);
+    TriangleHit hit = kNoTriangleHit;
+    if (!isSource) {
+        hit = intersectTriangle(traversal, record, tMax);
+    }
+    if (isSingleSided(record) && (sides & (hit.sum < 0.0 ? kBacks : kFronts)) == 0u) {
+        hit.t = -1.0;
+    }
+    return hit;
+}
+
+TriangleHit intersectRecord(TraversalRay traversal, Record record, float tMax, bool isSource)
+{
+    return intersectRecord(traversal, record, tMax, isSource, kFronts);
 }
 
 // Leaf records that are still to be tested: bit i of `left` stands for record first + i.
@@ -123,25 +155,29 @@ struct Query {
     uint afterPrimitive;
     uint target;           // not this primitive
     bool alphaOnly;        // only records with alpha
+    uint sides;            // of single-sided surfaces
 };
 
-Query anyHit() { return Query(kInfinity, 0.0, kNoPrimitive, kNoPrimitive, false); }
+Query anyHit() { return Query(kInfinity, 0.0, kNoPrimitive, kNoPrimitive, false, kFronts); }
 
 bool isAfter(Query query, float t, uint primitive)
 {
     return t > query.afterT || (t == query.afterT && primitive > query.afterPrimitive);
 }
 
+// Whether the query may be one that goes on behind a hit.
+#define mayGoOn(query) (hasFeature(kFeatureAlpha | kFeatureMedia) || (hasFeature(kFeatureSingleSided) && (query).sides == (kFronts | kBacks)))
+
 // Ties go to the lower primitive, so that the result does not depend on the tree.
 void meetRecord(TraversalRay traversal, InstanceOffsets offsets, uint index, uint source, Query query, inout Closest best)
 {
     Record record = fetchRecord(index);
     uint primitive = primitiveOf(record) + offsets.primitive;
-    TriangleHit hit = intersectRecord(traversal, record, best.hit.t, primitive == source);
+    TriangleHit hit = intersectRecord(traversal, record, best.hit.t, primitive == source, query.sides);
     bool counts = true;
-    if (hasFeature(kFeatureAlpha)) {
+    if (mayGoOn(query)) {
         if (isSphere(record) && !isAfter(query, hit.t, primitive)) {
-            hit = TriangleHit(intersectSphere(traversal, record, best.hit.t, true), vec2(0.0), 1.0);  // the far side
+            hit = TriangleHit(intersectSphere(traversal, record, best.hit.t, true, query.sides), vec2(0.0), 1.0);  // the far side
         }
         counts = isAfter(query, hit.t, primitive) && primitive != query.target && (hasAlpha(record) || !query.alphaOnly);
     }
@@ -202,7 +238,8 @@ PathHit traceClosest(PathRay ray)
 }
 
 // True if nothing but `target` and records with alpha lies between origin and origin + tMax * direction. `metAlpha`: some of these did.
-bool isUnoccluded(ShadowRay ray, inout Steps steps, out bool metAlpha)
+// `sides`: of single-sided surfaces.
+bool isUnoccluded(ShadowRay ray, uint sides, inout Steps steps, out bool metAlpha)
 {
     metAlpha = false;
     TraversalRay traversal = makeTraversalRay(ray.origin, ray.direction);
@@ -226,7 +263,7 @@ bool isUnoccluded(ShadowRay ray, inout Steps steps, out bool metAlpha)
             do {
                 Record record = fetchRecord(takeRecord(records));
                 uint primitive = primitiveOf(record) + offsets.primitive;
-                TriangleHit hit = intersectRecord(traversal, record, ray.tMax, primitive == ray.source);
+                TriangleHit hit = intersectRecord(traversal, record, ray.tMax, primitive == ray.source, sides);
                 ++steps.primitives;
                 bool met = hit.t > 0.0 && primitive != ray.target;
                 if (hasFeature(kFeatureAlpha)) {
@@ -249,7 +286,7 @@ bool isUnoccluded(ShadowRay ray)
 {
     Steps uncounted = Steps(0u, 0u);
     bool metAlpha;
-    return isUnoccluded(ray, uncounted, metAlpha);
+    return isUnoccluded(ray, kFronts, uncounted, metAlpha);
 }
 
 #endif

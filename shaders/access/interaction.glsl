@@ -97,20 +97,26 @@ SurfaceInteraction interactionWithSphere(Record record, vec3 near)
                               primitiveOf(record), record.t2.w, 0u, kNoInstance);
 }
 
-SurfaceInteraction interactionWithTriangle(PlacedRecord placed, vec2 barycentric)
+SurfaceInteraction interactionWithTriangle(PlacedRecord placed, PathRay ray, PathHit hit)
 {
     Record record = placed.record;
     PlacedTriangle triangle = placedTriangle(placed);
     vec3 v0 = triangle.v0, e1 = triangle.e1, e2 = triangle.e2;
     vec3 n = placedNormal(placed);
-    vec3 errorBound = triangleErrorBound(v0, e1, e2);
+    vec3 errorBound = triangleErrorBound(v0, e1, e2, hasFeature(kFeatureLargeTriangles));
     if (hasFeature(kFeatureInstances) && placed.instance != kNoInstance) {
         errorBound += fetchInstance(placed.instance).errorBound;
     }
-    SurfaceInteraction si = SurfaceInteraction(trianglePoint(v0, e1, e2, barycentric), errorBound, n, n, barycentric, true,
-                                               materialOf(record), primitiveOf(record), record.t2.w, placed.triangle, placed.instance);
+    vec3 p = trianglePoint(v0, e1, e2, hit.barycentric);
+    if (hasFeature(kFeatureLargeTriangles)) {
+        bool nearby = isNearby(hit.t, e1, e2);
+        p = nearby ? moveWithinPlane(p, ray.origin + ray.direction * hit.t, n) : p;
+        errorBound *= nearby ? 2.0 : 1.0;
+    }
+    SurfaceInteraction si = SurfaceInteraction(p, errorBound, n, n, hit.barycentric, true, materialOf(record), primitiveOf(record),
+                                               record.t2.w, placed.triangle, placed.instance);
     if (hasFeature(kFeatureSmooth)) {
-        vec3 smoothed = vertexNormal(placed.triangle, placed.instance, barycentric);
+        vec3 smoothed = vertexNormal(placed.triangle, placed.instance, hit.barycentric);
         float square = dot(smoothed, smoothed);
         si.ns = square > 0.0 ? smoothed / sqrt(square) : n;
     }
@@ -125,7 +131,7 @@ SurfaceInteraction makeSurfaceInteraction(PathRay ray, PathHit hit)
     if (isSphere(placed.record)) {
         si = interactionWithSphere(placed.record, ray.origin + ray.direction * hit.t);
     } else {
-        si = interactionWithTriangle(placed, hit.barycentric);
+        si = interactionWithTriangle(placed, ray, hit);
     }
     si.front = dot(si.ng, ray.direction) < 0.0;
     float side = si.front ? 1.0 : -1.0;

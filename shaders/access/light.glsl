@@ -147,7 +147,7 @@ LightSample samplePolygonLight(FlatLight light, float probability, LightContext 
     float cosine = isDoubleSided(light) ? abs(facing) : facing;
     bool near = isNear(light, context.p);
     float pdf = probability * (near ? 1.0 / solidAngle : distance_ * distance_ / (light.size * cosine));
-    vec3 target = offsetPoint(point, facing > 0.0 ? n : -n, triangleErrorBound(light.position, light.edge1, light.edge2));
+    vec3 target = offsetPoint(point, facing > 0.0 ? n : -n, triangleErrorBound(light.position, light.edge1, light.edge2, hasFeature(kFeatureLargeTriangles)));
     bool faces = cosine > 0.0 && (!near || solidAngle > 0.0);
     uint primitive = isRectangleLight(light) && barycentric.x + barycentric.y > 1.0 ? light.otherPrimitive : light.primitive;
     at = LightPoint(point, barycentric, cosine);

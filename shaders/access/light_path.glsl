@@ -83,7 +83,7 @@ LightRay sampleSurfaceEmission(FlatLight light, vec2 uPoint, float uTarget, vec2
     if (isUneven(light)) {
         radiance *= emissionFactor(fetchPlacedRecord(light.record), p, barycentric, cosine);
     }
-    vec3 error = sphere ? sphereErrorBound(light.position, light.size) : triangleErrorBound(light.position, light.edge1, light.edge2);
+    vec3 error = sphere ? sphereErrorBound(light.position, light.size) : triangleErrorBound(light.position, light.edge1, light.edge2, hasFeature(kFeatureLargeTriangles));
     uint primitive = rectangle && barycentric.x + barycentric.y > 1.0 ? light.otherPrimitive : light.primitive;
     return LightRay(PathRay(offsetPoint(p, facing > 0.0 ? n : -n, error), primitive, w, 0u), radiance * (area * cosine / pdf), 0.0);
 }

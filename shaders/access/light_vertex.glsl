@@ -83,14 +83,6 @@ bool isInPicture(CameraConnection connection, out uint pixel)
     return inside;
 }
 
-// A lamp within a solid sends light into a medium that no path has entered yet.
-uint mediaOfArrival(uint media, SurfaceInteraction si, SurfaceMaterial material)
-{
-    uint medium = mediumOf(material);
-    bool startedWithin = medium != 0u && !si.front && !isInMedium(media, medium);
-    return startedWithin ? enterMedium(media, medium) : media;
-}
-
 // state.throughput: over the path's flux. The first scattering must be specular: what is not has no next ray.
 LightVertex shadeLightVertex(SampleId id, PathRay ray, PathHit hit, PathState state)
 {
@@ -98,7 +90,6 @@ LightVertex shadeLightVertex(SampleId id, PathRay ray, PathHit hit, PathState st
     SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
     SurfaceMaterial material = materialAt(si);
     if (hasFeature(kFeatureMedia)) {
-        ray.media = mediaOfArrival(ray.media, si, material);
         state.throughput *= mediaTransmittance(ray.media, hit.t);
         setIndices(id, si, material, ray.media, state.throughput);
     }
@@ -141,6 +132,9 @@ LightVertex shadeLightVertex(SampleId id, PathRay ray, PathHit hit, PathState st
                         (pixels / float(render.lightPaths));
     vec3 origin = offsetRayOrigin(si, connection.wo);
     vertex.cameraRay = ShadowRay(origin, si.primitive, connection.origin - origin, kNoPrimitive, contribution, 1.0);
+    if (hasFeature(kFeatureMedia)) {
+        vertex.cameraRay.contribution *= mediaTransmittance(ray.media, si, sampled.medium, vertex.cameraRay);
+    }
     vertex.hasSplat = any(notEqual(contribution, vec3(0.0))) && state.bounce + 1u >= render.minPathLength;
     bool specular = (next.flags & kBsdfDelta) != 0u;
     vec3 weight = specular          ? specularWeight(next, wi, si.ng, sampled.frame.z)

@@ -62,7 +62,7 @@ struct Principled {
     float scatteredShare;    // of its samples: by sampleMultipleScattering, else by the cosine
     float scatteredAlpha;
     vec3 diffuseThrough;     // of the cosine lobe on the far side
-    AlbedoRow row;
+    AlbedoRow row;           // of a lobe of one width
     // What lies above it.
     float coat;
     vec2 coatAlpha;
@@ -77,6 +77,27 @@ struct Principled {
     // Probabilities of the lobes; they add up to 1.
     float pInterface, pDiffuse, pCoat, pSheen, pThrough;
 };
+
+// The interface's a and b at a direction on the upper side.
+vec2 fetchAlbedo(Principled p, vec3 w)
+{
+    if (hasFeature(kFeatureAnisotropy)) {
+        if (p.alpha.x != p.alpha.y) {
+            return fetchAlbedo(p.alpha, w);
+        }
+    }
+    return fetchAlbedo(p.row, w.z);
+}
+
+vec2 fetchAverageAlbedo(Principled p)
+{
+    if (hasFeature(kFeatureAnisotropy)) {
+        if (p.alpha.x != p.alpha.y) {
+            return fetchAverageAlbedo(p.alpha);
+        }
+    }
+    return fetchAverageAlbedo(p.row);
+}
 
 float interfaceAlbedo(Principled p, vec2 ab)
 {
@@ -254,8 +275,8 @@ Principled makePrincipled(PrincipledInput m, vec3 wo)
     }
     p.baseReflectance = vec2(greatest(tableDielectric), p.dielectricF90);
     p.row = albedoRow(tableAlpha);
-    vec2 ab = fetchAlbedo(p.row, wo.z);
-    vec2 average = fetchAverageAlbedo(p.row);
+    vec2 ab = fetchAlbedo(p, wo);
+    vec2 average = fetchAverageAlbedo(p);
     p.baseFms = multipleScatteringFresnel(average, p.baseReflectance.xxx, p.baseReflectance.y).x;
     // Mixed like the two BSDFs, for it is convex in F0: of the mixed F0, a white half-metal of roughness 1 would reflect .78 of the light.
     vec3 fms = mix(multipleScatteringFresnel(average, tableDielectric, p.dielectricF90),
@@ -343,7 +364,7 @@ InterfaceEval evalInterface(Principled p, vec3 wo, vec3 wi)
     if (hasFeature(kFeatureTransmission) && !above && p.solid) {
         e.h = refractionNormal(wo, wi, p.eta);
     }
-    e.ab = fetchAlbedo(p.row, mirrored.z);
+    e.ab = fetchAlbedo(p, mirrored);
     bool atWi = false, done;
     do {
         InterfaceFresnel fresnel = interfaceFresnel(p, atWi ? mirrored.z : dot(wo, e.h));

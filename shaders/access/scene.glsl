@@ -146,6 +146,9 @@ bool isSliver(Record record)
 // Neither opaque nor transparent all over.
 #define hasAlpha(record) (hasFeature(kFeatureAlpha) && ((record).t1.w & kAlphaBit) != 0u)
 
+// Not there for a ray of a path from the camera that comes from behind.
+#define isSingleSided(record) (hasFeature(kFeatureSingleSided) && ((record).t1.w & kSingleSidedBit) != 0u)
+
 uint materialOf(Record record)
 {
     return record.t1.w & kMaterialMask;

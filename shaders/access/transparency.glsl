@@ -13,10 +13,15 @@
 // Surfaces that a ray passes; the next one counts as opaque, and the ray is counted.
 const uint kMaxPassed = 256u;
 
+vec3 geometricNormal(PlacedRecord placed, vec3 point)
+{
+    return isSphere(placed.record) ? normalizeSafely(point - floatsOf(placed.record.t0)) : placedNormal(placed);
+}
+
 // What the interface of a smooth thin wall transmits straight, per channel: 1 - F, by the geometric normal.
 vec3 straightFresnel(PlacedRecord placed, PrincipledData p, vec3 direction, vec3 point)
 {
-    vec3 n = isSphere(placed.record) ? normalizeSafely(point - floatsOf(placed.record.t0)) : placedNormal(placed);
+    vec3 n = geometricNormal(placed, point);
     vec3 f0 = min(p.reflectance * p.specularColor, vec3(1.0)) * p.specular;
     return 1.0 - f0 - (p.specular - f0) * schlickWeight(abs(dot(n, direction)));
 }
@@ -95,11 +100,11 @@ Passage passageOf(PathRay ray)
     return Passage(ray, ray.direction, anyHit(), false, false);
 }
 
-// Only surfaces with alpha are looked for.
-Passage passageOf(ShadowRay ray)
+// Only surfaces with alpha are looked for. `sides`: of single-sided ones.
+Passage passageOf(ShadowRay ray, uint sides)
 {
     return Passage(PathRay(ray.origin, ray.source, ray.direction, 0u), normalizeSafely(ray.direction),
-                   Query(ray.tMax, 0.0, kNoPrimitive, ray.target, true), true, false);
+                   Query(ray.tMax, 0.0, kNoPrimitive, ray.target, true, sides), true, false);
 }
 
 // The first hit that the ray does not pass, or of a shadow ray what all of them let through. Both in one function, so that trace_paths has
@@ -151,9 +156,9 @@ vec3 transmittance(ShadowRay ray)
 {
     Steps uncounted = Steps(0u, 0u);
     bool metAlpha;
-    vec3 clear = vec3(isUnoccluded(ray, uncounted, metAlpha) ? 1.0 : 0.0);
+    vec3 clear = vec3(isUnoccluded(ray, kFronts, uncounted, metAlpha) ? 1.0 : 0.0);
     if (hasFeature(kFeatureAlpha) && metAlpha && clear.x > 0.0) {
-        clear = follow(SampleId(0u, 0u, 0u), 0u, passageOf(ray), uncounted).weight;
+        clear = follow(SampleId(0u, 0u, 0u), 0u, passageOf(ray, kFronts), uncounted).weight;
     }
     return clear;
 }

@@ -7,7 +7,7 @@
 TriangleHit intersectTriangle(TraversalRay traversal, Record record, float tMax)
 {
     return intersectWatertight(traversal.origin, traversal.shear, floatsOf(record.t0), floatsOf(record.t1), floatsOf(record.t2), tMax,
-                               isSliver(record));
+                               isSliver(record), hasFeature(kFeatureLargeTriangles));
 }
 
 #endif

@@ -1,5 +1,5 @@
 // One thread is one slot of the pass: a sample of a pixel. Starts its path at the camera.
-// Reads the parameters. Writes rays, states, radiance and the next queue, which holds all slots; size_dispatch knows that.
+// Reads the parameters, and the scene where rays begin in different media. Writes rays, states, radiance and the next queue, which holds all slots; size_dispatch knows that.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define WRITES_RAYS
@@ -7,7 +7,9 @@
 #define WRITES_RADIANCE
 #define WRITES_NEXT_QUEUE
 #include "access/paths.glsl"
+#include "access/start_media.glsl"
 #include "access/status.glsl"
+#include "access/traverse.glsl"
 #include "lib/camera.glsl"
 #include "lib/warp.glsl"
 
@@ -23,7 +25,9 @@ void main()
         SampleId id = sampleOfSlot(slot);
         vec2 jitter = unitFloat(samplePair(id, kDimensionPixel, kSobol));
         vec2 corner = vec2(id.pixel % render.width, id.pixel / render.width);
-        pathRays[slot] = rayThrough(render.camera, id, filmFromPixel(corner + jitter, vec2(render.width, render.height)));
+        PathRay ray = rayThrough(render.camera, id, filmFromPixel(corner + jitter, vec2(render.width, render.height)));
+        ray.media = hasFeature(kFeatureMedia) && render.camera.media == kMediaVary ? mediaAround(ray.origin) : render.camera.media;
+        pathRays[slot] = ray;
         pathStates[slot] = PathState(vec3(1.0), 0.0, 0.0, 1.0, 0u, 0u);
         pathRadiance[slot] = PathRadiance(vec3(0.0), 0.0);
         nextQueue[slot] = slot;

@@ -15,10 +15,6 @@ void main()
     uint first = i * kProbedOperations;
     probed[first] = sqrt(wide);
     probed[first + 1u] = unit / (wide + 0.37);
-    probed[first + 2u] = sin(angle);
-    probed[first + 3u] = cos(angle);
-    probed[first + 4u] = log2(wide);
-    probed[first + 5u] = pow(unit, 2.4);
-    probed[first + 6u] = length(vec3(unit, angle, wide));
-    probed[first + 7u] = unit * angle + wide;
+    probed[first + 2u] = length(vec3(unit, angle, wide));
+    probed[first + 3u] = unit * angle + wide;
 }

@@ -14,9 +14,11 @@
 #define UPDATES_QUEUE_TAILS
 #define UPDATES_RAY_COUNTS
 #include "access/light_path.glsl"
+#include "access/light_traversal.glsl"
 #include "access/light_vertex.glsl"
 #include "access/paths.glsl"
 #include "access/splats.glsl"
+#include "access/start_media.glsl"
 #include "access/traverse.glsl"
 
 struct LightPath {
@@ -55,6 +57,9 @@ LightPath takePath(uint entry)
         return LightPath(slot, id, fetchRay(slot), fetchState(slot), fetchRadiance(slot).radiance, 0.0);
     }
     LightRay light = sampleEmission(id);
+    if (hasFeature(kFeatureLampsInMedia)) {
+        light.ray.media = mediaAround(light.ray.origin);
+    }
     return LightPath(slot, id, light.ray, PathState(vec3(1.0), 0.0, 0.0, 1.0, 0u, 0u), light.flux, light.range);
 }
 
@@ -71,11 +76,11 @@ void traceCameraRay(LightPath path, LightVertex vertex, uint pathLength, inout W
 {
     ShadowRay ray = vertex.cameraRay;
     bool metAlpha;
-    bool clear = isUnoccluded(ray, steps, metAlpha);
+    bool clear = isUnoccluded(ray, kBacks, steps, metAlpha);
     vec3 contribution = path.flux * ray.contribution;
     ++work.shadow;
     if (hasFeature(kFeatureAlpha) && clear && metAlpha) {
-        followed = Followed(passageOf(ray), contribution, vertex.pixel, pathLength);
+        followed = Followed(passageOf(ray, kBacks), contribution, vertex.pixel, pathLength);
         followed.passage.fromCamera = true;
     } else if (clear) {
         addSplat(vertex.pixel, path.id.index, contribution, pathLength);
@@ -101,11 +106,11 @@ bool visitSurface(inout LightPath path, PathHit hit, inout Work work, inout Step
 bool advance(inout LightPath path, inout Work work)
 {
     Steps steps = Steps(0u, 0u);
-    Followed followed = Followed(passageOf(path.ray), vec3(0.0), 0u, 0u);
+    Followed followed = Followed(lightPassageOf(path.ray), vec3(0.0), 0u, 0u);
     bool alive = false;
     bool again = false;
     do {
-        VisibleHit met = follow(path.id, path.state.bounce + 1u, followed.passage, steps);  // no ray of it is the camera's
+        VisibleHit met = followLight(path.id, path.state.bounce + 1u, followed.passage, steps);  // no ray of it is the camera's
         again = false;
         if (hasFeature(kFeatureAlpha) && followed.passage.isShadow) {
             if (isClear(met.weight)) {
@@ -113,7 +118,7 @@ bool advance(inout LightPath path, inout Work work)
             }
         } else {
             ++work.closest;
-            if (hasFeature(kFeatureThinWalls)) {
+            if (hasFeature(kFeatureThinWalls | kFeatureSingleSided)) {
                 path.state.throughput *= met.weight;
             }
             if (met.hit.record != kNoRecord) {

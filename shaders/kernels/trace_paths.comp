@@ -66,10 +66,10 @@ struct Followed {
 void traceShadowRay(inout Path path, ShadowRay ray, inout Work work, inout Steps steps, inout Followed followed)
 {
     bool metAlpha;
-    bool clear = isUnoccluded(ray, steps, metAlpha);
+    bool clear = isUnoccluded(ray, kFronts, steps, metAlpha);
     ++work.shadow;
     if (hasFeature(kFeatureAlpha) && clear && metAlpha) {
-        followed = Followed(passageOf(ray), ray.contribution, path.state.bounce + 1u);
+        followed = Followed(passageOf(ray, kFronts), ray.contribution, path.state.bounce + 1u);
     } else if (clear) {
         addLight(path, ray.contribution, path.state.bounce + 1u);
     }

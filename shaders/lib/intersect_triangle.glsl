@@ -6,7 +6,7 @@
 struct TriangleHit {
     float t;       // < 0: no hit
     vec2 weights;  // of v1 and v2
-    float sum;     // of all three
+    float sum;     // of all three; negative: the ray comes from behind
 };
 
 const TriangleHit kNoTriangleHit = TriangleHit(-1.0, vec2(0.0), 1.0);
@@ -26,6 +26,7 @@ struct Component {
 struct Shear {
     vec3 s;  // shear x, shear y, scale z
     Component x, y, z;
+    vec2 reciprocal;  // of the direction's x and y after the permutation; 0: too small for that
 };
 
 float pick(vec3 v, Component component)
@@ -43,6 +44,9 @@ Component componentOf(uint index)
     return Component(index == 0u, index == 1u);
 }
 
+// Shorter components of a direction are too near to denormal numbers to be divided by.
+const float kLeastComponent = 1e-20;
+
 Shear makeShear(vec3 d)
 {
     vec3 a = abs(d);
@@ -50,9 +54,10 @@ Shear makeShear(vec3 d)
     bool flip = pick(d, componentOf(z)) < 0.0;
     uint next = z == 2u ? 0u : z + 1u;
     uint last = z == 0u ? 2u : z - 1u;
-    Shear shear = Shear(vec3(0.0), componentOf(flip ? last : next), componentOf(flip ? next : last), componentOf(z));
+    Shear shear = Shear(vec3(0.0), componentOf(flip ? last : next), componentOf(flip ? next : last), componentOf(z), vec2(0.0));
     vec3 p = permute(d, shear);
     shear.s = vec3(p.x / p.z, p.y / p.z, 1.0 / p.z);
+    shear.reciprocal = vec2(abs(p.x) > kLeastComponent ? 1.0 / p.x : 0.0, abs(p.y) > kLeastComponent ? 1.0 / p.y : 0.0);
     return shear;
 }
 
@@ -117,12 +122,33 @@ bool areBeside(vec2 a, vec2 b, vec2 c)
     return max(least.x, least.y) > 0 || max(most.x, most.y) > kMinusZero;
 }
 
+// A coordinate of the vertices, relative to the ray's origin, and the reciprocal of the direction's: t of each vertex is their product.
+struct Depths {
+    vec3 ofVertices;
+    float reciprocal;
+};
+
+// Any coordinate's weighted mean over the vertices is the ray's at t. The weights' errors are those of sheared vertices, which mix the axes;
+// they move t by the vertices' extent along the chosen axis, divided by the direction there. Woop et al. take the direction's largest axis;
+// this takes the least error of the three. So a flat ground along an axis, however large, gives t as if it were small; and the error's
+// share along the normal n is at most that of the weights times sum |n_k| extent_k, because min(extent_k / |d_k|) sum |n_k d_k| is.
+Depths depthsOf(vec3 a, vec3 b, vec3 c, Shear shear)
+{
+    vec3 extent = max(abs(b - a), abs(c - a));
+    vec3 error = extent * abs(vec3(shear.reciprocal, shear.s.z));
+    bool useX = shear.reciprocal.x != 0.0 && error.x < error.z;
+    bool useY = shear.reciprocal.y != 0.0 && error.y < (useX ? error.x : error.z);
+    vec3 ofVertices = useY ? vec3(a.y, b.y, c.y) : useX ? vec3(a.x, b.x, c.x) : vec3(a.z, b.z, c.z);
+    return Depths(ofVertices, useY ? shear.reciprocal.y : useX ? shear.reciprocal.x : shear.s.z);
+}
+
 // Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013, without the fallback to double. Rounding is monotone, so
 // the sign of a*b - c*d is right or zero; two triangles compute negated values for their common edge; and zero counts as inside. For a ray
 // in the triangle's plane but beside the triangle, all three may round to zero. areBeside rejects such rays: they pass outside the
 // triangle's box across the ray, which no ray that meets the triangle does. A sliver's edge functions would be rounding noise, hence
-// `sliver`. Double hits on edges are left to the caller's tie rule. Hits need 0 < t <= tMax.
-TriangleHit intersectWatertight(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v2, float tMax, bool sliver)
+// `sliver`; t of a `large` one is taken from the axis that knows it best. Double hits on edges are left to the caller's tie rule. Hits need
+// 0 < t <= tMax.
+TriangleHit intersectWatertight(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v2, float tMax, bool sliver, bool large)
 {
     vec3 a = permute(v0 - origin, shear);
     vec3 b = permute(v1 - origin, shear);
@@ -135,7 +161,11 @@ TriangleHit intersectWatertight(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3
         e = edgeFunctionsAccurately(pa, pb, pc);
     }
     float det = e.x + e.y + e.z;
-    float t = shear.s.z * (e.x * a.z + e.y * b.z + e.z * c.z) / det;
+    Depths depths = Depths(vec3(a.z, b.z, c.z), shear.s.z);
+    if (large) {
+        depths = depthsOf(a, b, c, shear);
+    }
+    float t = depths.reciprocal * (e.x * depths.ofVertices.x + e.y * depths.ofVertices.y + e.z * depths.ofVertices.z) / det;
     bool hit = !haveBothSigns(e) && !areBeside(pa, pb, pc) && det != 0.0 && t > 0.0 && t <= tMax;
     return TriangleHit(hit ? t : -1.0, e.yz, det);
 }

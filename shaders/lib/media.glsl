@@ -3,8 +3,9 @@
 #ifndef GLIM_LIB_MEDIA
 #define GLIM_LIB_MEDIA
 
-const uint kMediumBits = 7u;
-const uint kMediumMask = 0x7fu;
+#include "shared/scene_types.h"
+
+const uint kMediumMask = (1u << kMediumBits) - 1u;
 const uint kMediaMask = 0xfffffffu;
 const uint kHasWavelength = 0x80000000u;  // beside them: the path has met dispersion
 // The camera path's first scattering was not specular: light tracing finds what it meets after specular ones (kFeatureCaustics).

@@ -8,12 +8,32 @@ vec3 trianglePoint(vec3 v0, vec3 e1, vec3 e2, vec2 barycentric)
     return v0 + (e1 * barycentric.x + e2 * barycentric.y);
 }
 
-// Bounds the rounding of trianglePoint and of a later intersection with the triangle: NVIDIA, "Solving Self-Intersection Artifacts in
-// DirectX Raytracing", 2023 (optix-toolkit, SelfIntersectionAvoidance): 2^-24 |v0| + 3 * 2^-24 of the largest extent.
-vec3 triangleErrorBound(vec3 v0, vec3 e1, vec3 e2)
+// Bounds the rounding of trianglePoint, and along the normal that of a later test of a coplanar triangle of this size: NVIDIA, "Solving
+// Self-Intersection Artifacts in DirectX Raytracing", 2023 (optix-toolkit, SelfIntersectionAvoidance): 2^-24 |v0| + 3 * 2^-24 of the largest
+// extent, as that test mixes the axes. The test of `large` triangles does not (depthsOf): each axis counts by its own extent, as for the point.
+// That has u = 2^-24 of |v0 + s| for the last sum and, for s = e1 b1 + e2 b2, one each for the edges, the products and the sum: together
+// u (|v0| + 4 max(|e1|, |e2|)), and 6 u of it are allowed for.
+vec3 triangleErrorBound(vec3 v0, vec3 e1, vec3 e2, bool large)
 {
     vec3 extent = abs(e1) + abs(e2) + abs(e1 - e2);
-    return 5.9604645e-8 * abs(v0) + vec3(1.7881394e-7 * max(extent.x, max(extent.y, extent.z)));
+    extent = large ? extent : vec3(max(extent.x, max(extent.y, extent.z)));
+    return 5.9604645e-8 * abs(v0) + 1.7881394e-7 * extent;
+}
+
+// Whether a hit at distance t is so near for the triangle's size that barycentric weights, which know the place to some 2^-23 of that size,
+// say less of it than the ray does.
+bool isNearby(float t, vec3 e1, vec3 e2)
+{
+    vec3 extent = max(abs(e1), abs(e2));
+    return max(extent.x, max(extent.y, extent.z)) > 16.0 * t;
+}
+
+// `point` of a plane with the unit normal n, moved within the plane to where `near` lies, which is close to it. The way is short, so that
+// beside the rounding of `point`, only that of the sum counts: twice triangleErrorBound holds both.
+vec3 moveWithinPlane(vec3 point, vec3 near, vec3 n)
+{
+    vec3 way = near - point;
+    return point + (way - n * dot(n, way));
 }
 
 // Bounds the rounding of a point projected onto a sphere: that of the centre and of four operations on the radius.

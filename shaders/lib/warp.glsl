@@ -2,10 +2,12 @@
 #ifndef GLIM_LIB_WARP
 #define GLIM_LIB_WARP
 
+#include "portable.glsl"
+
 const float kPi = 3.14159265358979;
 
 // The unit disk, area-preserving and concentric. Shirley and Chiu, "A Low Distortion Map Between Disk and Square", 1997.
-// pdf 1/pi per unit area. Arguments of sin and cos stay within [-pi/4, pi/2].
+// pdf 1/pi per unit area.
 vec2 sampleDisk(vec2 u)
 {
     vec2 p = 2.0 * u - 1.0;
@@ -15,9 +17,8 @@ vec2 sampleDisk(vec2 u)
     bool wide = abs(p.x) > abs(p.y);
     float radius = wide ? p.x : p.y;
     float quarter = (kPi / 4.0) * (wide ? p.y / p.x : p.x / p.y);
-    float s = sin(quarter);
-    float c = cos(quarter);
-    return radius * (wide ? vec2(c, s) : vec2(s, c));
+    vec2 turn = portableCosSin(quarter);
+    return radius * (wide ? turn : turn.yx);
 }
 
 // The hemisphere about +z in proportion to the cosine (Malley's method). z > 0 unless the disk point is on the rim.
@@ -34,12 +35,14 @@ float pdfCosineHemisphere(float cosine)
     return max(cosine, 0.0) * (1.0 / kPi);
 }
 
-// A uniform point of the unit circle. Divided by its length, since Vulkan allows sin and cos an error of 2^-11.
+// A uniform point of the unit circle, at the angle pi (2 u - 1), within 2e-7. Angles of the left half are folded into the right
+// half, exactly.
 vec2 sampleCircle(float u)
 {
-    float phi = kPi * (2.0 * u - 1.0);
-    vec2 point = vec2(cos(phi), sin(phi));
-    return point / length(point);
+    float halfTurns = 2.0 * u - 1.0;
+    bool left = abs(halfTurns) > 0.5;
+    vec2 point = portableCosSin(kPi * (left ? sign(halfTurns) - halfTurns : halfTurns));
+    return vec2(left ? -point.x : point.x, point.y);
 }
 
 // The unit sphere, pdf 1/(4 pi) per steradian.

@@ -43,9 +43,12 @@ GLIM_FEATURE(kFeatureThinWalls, 25);  // smooth ones, which light passes straigh
 GLIM_FEATURE(kFeatureUnlit, 26);      // with kFeatureAlpha
 GLIM_FEATURE(kFeatureGlossiness, 27);
 GLIM_FEATURE(kFeatureRectangleLights, 28);
-GLIM_FEATURE(kFeatureLightTree, 29);  // several lights, one at least finite: which is chosen depends on the point
-GLIM_FEATURE(kFeatureCaustics, 30);   // traced from lights to specular surfaces
-GLIM_FEATURE(kFeatureInstances, 31);  // that share meshes
+GLIM_FEATURE(kFeatureLightTree, 29);       // several lights, one at least finite: which is chosen depends on the point
+GLIM_FEATURE(kFeatureCaustics, 30);        // traced from lights to specular surfaces
+GLIM_FEATURE(kFeatureInstances, 31);       // that share meshes
+GLIM_FEATURE(kFeatureLampsInMedia, 32);    // with kFeatureMedia: lamps may lie in solids
+GLIM_FEATURE(kFeatureSingleSided, 33);     // surfaces that are not there for rays from behind
+GLIM_FEATURE(kFeatureLargeTriangles, 34);  // beside small or close things
 
 #ifdef __cplusplus
 inline constexpr FeatureMask kAllFeatures = ~FeatureMask{0};  // of any scene

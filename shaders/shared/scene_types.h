@@ -20,8 +20,8 @@ GLIM_CONST uint kMaxLeafRecords = 3u;
 GLIM_CONST uint kFirstNodeBit = 24u;  // 8 leaves have as many records at most
 
 // Records are in the order of the leaves, three texels each. A primitive may have several, all alike:
-//   triangle: (v0.xyz, primitive id) (v1.xyz, material, | kSliverBit) (v2.xyz, light + 1 or 0)
-//   sphere:   (centre.xyz, primitive id) (radius, 0, 0, material | kSphereBit) (0, 0, 0, light + 1 or 0)
+//   triangle: (v0.xyz, primitive id) (v1.xyz, material | bits) (v2.xyz, light + 1 or 0)
+//   sphere:   (centre.xyz, primitive id) (radius, 0, 0, material | bits) (0, 0, 0, light + 1 or 0)
 // The primitive id is the index in the scene (triangles, then spheres). A ray's source and target are primitive ids, and the lower id wins
 // a tie, so pictures do not depend on the tree.
 //
@@ -38,7 +38,8 @@ GLIM_CONST uint kRecordTexels = 3u;
 GLIM_CONST uint kSphereBit = 0x80000000u;
 GLIM_CONST uint kSliverBit = 0x40000000u;  // thinner than kSliverHeight
 GLIM_CONST uint kAlphaBit = 0x20000000u;   // neither opaque all over nor transparent all over
-GLIM_CONST uint kMaterialMask = 0x1fffffffu;
+GLIM_CONST uint kSingleSidedBit = 0x10000000u;  // not there for rays from behind
+GLIM_CONST uint kMaterialMask = 0x0fffffffu;
 // Below this ratio of height to longest side, a triangle's edge functions are corrected by the rounding errors of their products.
 // Uncorrected, each is off by up to 2^-23 of that side's square, so that above this ratio a hit moves by less than 2^-11 of the side.
 GLIM_CONST float kSliverHeight = 9.765625e-4f;
@@ -158,6 +159,8 @@ struct MediumData {
     vec3 unused;
 };
 GLIM_CONST uint kMaxMedia = 127u;
+GLIM_CONST uint kMediumBits = 7u;      // of its number
+GLIM_CONST uint kMaxNestedMedia = 4u;  // that a ray remembers (lib/media.glsl)
 
 // How a material's property uses an image.
 struct TextureData {
@@ -191,6 +194,21 @@ GLIM_CONST uint kMaxTexelViews = 8u;
 // i / (kAlbedoSize - 1) of the cosine and j / (kAlbedoSize - 1) of alpha. One more row holds their averages over the hemisphere, by alpha.
 // Scenes with sheen have another table behind it: texel (i, j) is the sheen's albedo at (i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1).
 GLIM_CONST uint kAlbedoSize = 64u;
+
+// Scenes with anisotropy have a third table at kFirstAnisotropicAlbedo. A direction of the cosine z sees along its azimuth a lobe of the
+// width `along`, with alpha.x >= along >= alpha.y, and after the stretch by alpha that makes the distribution of microfacets uniform it has
+// the length `stretched`. Functions of (z / stretched, alpha.y / along, along / alpha.x, alpha.x) are smooth, also where widths vanish. At
+// equal steps of (z / stretched)^(3/4), both ratios and alpha.x^(3/4), the first of these the fastest, texel i is (E, c at i, E, c at
+// i + 1): E is the albedo for a reflectance of 1, and c the cosine over `stretched` at which Schlick's weight is its mean over the
+// reflected light. Behind it are averages over the hemisphere at equal steps of alpha.x^(1/2) and, faster, of alpha.y / alpha.x: (l, b at
+// i, l, b at i + 1), where 1 - a - b is l alpha.x.
+GLIM_CONST uint kFirstAnisotropicAlbedo = kAlbedoSize * (2u * kAlbedoSize + 1u);
+GLIM_CONST uint kAnisotropicCosines = 32u;
+GLIM_CONST uint kAnisotropicRatios = 6u;
+GLIM_CONST uint kAnisotropicAlphas = 12u;
+GLIM_CONST uint kAnisotropicAverageRatios = 12u;
+GLIM_CONST uint kAnisotropicAverageAlphas = 48u;
+GLIM_CONST uint kAnisotropicAlbedos = kAnisotropicCosines * kAnisotropicRatios * kAnisotropicRatios * kAnisotropicAlphas;
 
 GLIM_CONST uint kTriangleLight = 0u;
 GLIM_CONST uint kRectangleLight = 1u;  // two triangles
@@ -247,6 +265,8 @@ GLIM_CONST uint kFirstCausticLight = kMaxCausticTargets + 1u;
 GLIM_CONST uint kPerspective = 0u;
 GLIM_CONST uint kOrthographic = 1u;
 
+GLIM_CONST uint kMediaVary = 0x10000000u;
+
 // For film coordinates (x, y) in [-1, 1], y up: perspective rays leave `position` along forward + x right + y up;
 // orthographic rays leave position + x right + y up along forward. A thin lens moves the origin by a point of the disk with
 // radii lensRight and lensUp, and turns the ray so that it meets the pinhole's ray at the depth 1 / inverseFocus.
@@ -259,6 +279,7 @@ struct FlatCamera {
     vec3 lensRight;  // 0: a pinhole
     vec3 lensUp;
     float inverseFocus;
+    uint media;  // in which its rays begin, as in PathRay; kMediaVary: those of one begin elsewhere than those of another
 };
 
 GLIM_SHARED_END

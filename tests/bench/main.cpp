@@ -76,8 +76,9 @@ std::string countDifferent(const FlatScene& flat, const std::vector<PathHit>& ou
     return std::to_string(different) + " of " + std::to_string(ours.size());
 }
 
-void measure(Device& device, Place place, const BenchScene& bench)
+void measure(Device& device, Place place, BenchScene bench)
 {
+    bench.scene.showsBackFaces = true;  // as Embree does
     place.scene = bench.name;
     const auto start = std::chrono::steady_clock::now();
     const Primitives primitives = makePrimitives(bench.scene);

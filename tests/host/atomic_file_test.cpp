@@ -4,11 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <cstring>
 
 namespace glim {
 namespace {
@@ -114,6 +117,58 @@ TEST(AtomicFile, HasTheModeOfAnOrdinaryNewFile)
     struct stat status {};
     stat((folder / "a").c_str(), &status);
     EXPECT_EQ(status.st_mode & 0777U, 0640U);
+}
+
+TEST(AtomicFile, KeepsTheModeOfTheFileThatItReplaces)
+{
+    const ScratchFolder folder;
+    for (const mode_t mode : {0600U, 0664U, 0755U}) {
+        writeText(folder / "a", "old");
+        ASSERT_EQ(chmod((folder / "a").c_str(), mode), 0);
+        std::filesystem::create_symlink("a", folder / "link");
+        AtomicFile file(folder / "link");
+        file.write("new", 3);
+        file.commit();
+        struct stat status {};
+        stat((folder / "a").c_str(), &status);
+        EXPECT_EQ(status.st_mode & 07777U, mode);
+        EXPECT_EQ(bytesOfFile(folder / "a"), "new");
+        std::filesystem::remove(folder / "link");
+    }
+}
+
+// Those of other programs and users, which a folder for all may have.
+TEST(AtomicFile, PassesByWhatHasItsTemporaryName)
+{
+    const ScratchFolder folder;
+    const auto temporary = hiddenBeside(folder / "a", ".partial");
+    const auto expectWritten = [&](const char* what) {
+        AtomicFile file(folder / "a");
+        file.write(what, std::strlen(what));
+        file.commit();
+        EXPECT_EQ(bytesOfFile(folder / "a"), what);
+    };
+    writeText(folder / "foreign", "foreign");
+    std::filesystem::create_symlink("foreign", temporary);
+    expectWritten("link");
+    EXPECT_EQ(bytesOfFile(folder / "foreign"), "foreign");
+    EXPECT_TRUE(std::filesystem::is_symlink(temporary));
+    std::filesystem::remove(temporary);
+    ASSERT_EQ(mkfifo(temporary.c_str(), 0600), 0);
+    expectWritten("pipe");
+    std::filesystem::remove(temporary);
+    std::filesystem::create_directory(temporary);
+    expectWritten("folder");
+    std::filesystem::remove(temporary);
+    writeText(temporary, "of another process");
+    const int held = open(temporary.c_str(), O_RDWR);
+    ASSERT_EQ(flock(held, LOCK_EX), 0);
+    expectWritten("held");
+    close(held);
+    EXPECT_TRUE(std::filesystem::exists(temporary));
+    expectWritten("left");
+    EXPECT_FALSE(std::filesystem::exists(temporary)) << "a leftover";
+    EXPECT_EQ(folder.entries(), 2);
 }
 
 TEST(CheckWritable, AcceptsNewAndExistingFilesAndTouchesNothing)

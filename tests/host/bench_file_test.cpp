@@ -24,6 +24,7 @@ SceneBench someBench()
     bench.device = "llvmpipe";
     bench.version = "glim 1";
     bench.reference = "noise.exr";
+    bench.options = {"--size=8x8", "--sampler=independent"};
     bench.startUp = {0.1, 0.2, 0.3, 0.4};
     return bench;
 }
@@ -40,6 +41,17 @@ TEST(BenchFile, WhatIsReadIsWhatWasWritten)
     EXPECT_EQ(benches[0].points[6].relMse, someBench().points[6].relMse);
     EXPECT_EQ(benches[0].points[6].mean, someBench().points[6].mean);
     EXPECT_EQ(benches[0].startUp.compile, 0.4);
+    EXPECT_EQ(benches[0].options, someBench().options);
+    EXPECT_FALSE(benches[1].options);
+    EXPECT_EQ(benches[0].points[6].cpuSeconds, someBench().points[6].cpuSeconds);
+    auto older = nlohmann::json::parse(text);
+    for (auto& point : older["scenes"][0]["points"]) {
+        point.erase("cpuSeconds");
+    }
+    older["scenes"][0].erase("options");
+    writeText(folder / "bench.json", older.dump());
+    EXPECT_FALSE(readBenches(folder / "bench.json")[0].options);
+    EXPECT_EQ(readBenches(folder / "bench.json")[0].points[6].cpuSeconds, std::vector<double>(16, 0.0));
     EXPECT_EQ(benches[0].bias.squared, someBench().bias.squared);
 }
 
@@ -51,7 +63,7 @@ TEST(BenchFile, CsvHasALineForEveryRenderOfEveryPoint)
     const std::size_t second = text.find('\n') + 1;
     const std::string line = text.substr(second, text.find('\n', second) - second);
     EXPECT_EQ(line.rfind("\"scenes/\"\"noise\"\".gltf\",16,16,\"seed=0 bounces=64\",0,1,", 0), 0U) << line;
-    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 13) << line;
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 14) << line;
 }
 
 TEST(BenchFile, WhatIsNoBenchIsRefused)

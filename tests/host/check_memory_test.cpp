@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20U;
 
-std::string refusalOf(std::uint64_t textureBytes, std::uint64_t deviceMemory)
+std::string refusalOf(std::uint64_t textureBytes, std::uint64_t deviceMemory, std::uint32_t pathCapacity = 1024)
 {
     PreparedScene prepared;
     prepared.scene.file = "a.glb";
@@ -20,11 +20,12 @@ std::string refusalOf(std::uint64_t textureBytes, std::uint64_t deviceMemory)
     prepared.flat.images = images;
     RenderSettings settings;
     settings.width = settings.height = 16;
-    settings.pathCapacity = 1024;
+    settings.pathCapacity = pathCapacity;
     DeviceDescription device;
     device.name = "toy";
     device.software = false;
     device.memory = deviceMemory;
+    device.maxGroups = 32;
     try {
         checkMemory(prepared, settings, device);
     } catch (const InputError& error) {
@@ -42,6 +43,12 @@ TEST(CheckMemoryTest, TexturesThatDoNotFitNameTheOption)
     EXPECT_NE(much.find("8 MiB are textures, which --max-texture N scales down."), std::string::npos) << much;
     const std::string little = refusalOf(16, 1);
     EXPECT_NE(little.find("more memory than device \"toy\" has."), std::string::npos) << little;
+}
+
+TEST(CheckMemoryTest, PathsBeyondADispatchAreRefused)
+{
+    EXPECT_EQ(refusalOf(16, 64 * kMebibyte, 2048), "");
+    EXPECT_EQ(refusalOf(16, 64 * kMebibyte, 2049), "Device \"toy\" starts at most 2048 paths at once, expected 2049 (--path-capacity).");
 }
 
 }  // namespace

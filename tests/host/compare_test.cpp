@@ -167,12 +167,39 @@ TEST(EstimateErrors, OfAKnownVariance)
 {
     Picture picture = uniform(2, {1.0F, 2.0F, 6.0F});
     picture.variance.assign(4, {0.25F, 0.0F, 9.0F});
-    picture.variance[1].x = std::numeric_limits<float>::infinity();
+    picture.variance[1].x = std::numeric_limits<float>::quiet_NaN();
     EXPECT_DOUBLE_EQ(estimateErrors(picture)->mse, 9.25 / 3);
     EXPECT_DOUBLE_EQ(estimateErrors(picture)->relMse, (0.25 / 1.09 + 9 / 36.09) / 3);
     EXPECT_DOUBLE_EQ(compareImages(picture, picture).referenceNoise->relMseAbsolute, (0.25 / 1.01 + 9 / 36.01) / 3);
+    EXPECT_EQ(compareImages(picture, picture).withoutVariance, 1U);
+    picture.variance[1].x = std::numeric_limits<float>::infinity();
+    EXPECT_FALSE(estimateErrors(picture)) << "a square overflowed: without it the error would be too small";
+    EXPECT_FALSE(compareImages(picture, picture).noise);
+    picture.variance[1].x = 0.25F;
+    picture.radiance[2].y = std::numeric_limits<float>::infinity();
+    EXPECT_FALSE(estimateErrors(picture));
+    EXPECT_TRUE(noiseOfReference(picture)) << "of what is compared with it";
     picture.variance.clear();
     EXPECT_FALSE(estimateErrors(picture));
+}
+
+// Intervals from variances that float32 does not hold would be too narrow, or points.
+TEST(CompareImages, IntervalsOfSmallAndLargeRadianceComeFromBlocks)
+{
+    const Picture truth = makeTruth(64, 64), noisy = addNoise(truth, 0.1F, 3);
+    for (const int exponent : {0, -70, 70}) {
+        Picture picture = noisy, reference = truth;
+        for (Picture* each : {&picture, &reference}) {
+            for (std::size_t i = 0; i < each->radiance.size(); ++i) {
+                each->radiance[i] *= std::exp2(static_cast<float>(exponent));
+                each->variance[i] = glm::vec3(0.01F) * std::exp2(static_cast<float>(exponent)) * std::exp2(static_cast<float>(exponent));
+            }
+        }
+        const Comparison result = compareImages(picture, reference);
+        EXPECT_EQ(result.intervalSource, exponent == 0 ? IntervalSource::Variance : IntervalSource::Blocks) << exponent;
+        EXPECT_EQ(result.noise.has_value(), exponent == 0) << exponent;
+        EXPECT_LT(result.ratioOfAll.low, result.ratioOfAll.high) << exponent;
+    }
 }
 
 class CompareCommand : public testing::Test {

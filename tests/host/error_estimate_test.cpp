@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <limits>
 #include <random>
 
 namespace glim {
@@ -187,6 +188,56 @@ TEST(ErrorEstimate, IsThatOfThePicture)
     EXPECT_EQ(still.mse.high, 0.0) << "no variance, no error";
     EXPECT_FALSE(still.isOfFew());
     EXPECT_FALSE(estimateError(draw(smooth(), 16, 1, random))) << "one block says nothing of its error";
+}
+
+// The same numbers, times powers of two: where float32 holds the squares, the relative figures are the same; elsewhere there are none.
+TEST(ErrorEstimate, IsTheSameAtEveryRadianceOrUnknown)
+{
+    const auto drawScaled = [](int exponent) {
+        Random random(5);
+        Population population = smooth();
+        population.block = [&, block = population.block](std::uint32_t pixel, Random& r) { return std::ldexp(block(pixel, r), exponent); };
+        return estimateError(draw(population, 256, 4, random));
+    };
+    const ErrorEstimate once = *drawScaled(0);
+    const double root = relativeRoot(once.mse.value, once.mean);
+    int known = 0;
+    for (int exponent = -140; exponent <= 126; ++exponent) {
+        const auto scaled = drawScaled(exponent);
+        if (!scaled) {
+            EXPECT_TRUE(exponent < -40 || exponent > 60) << exponent;
+            continue;
+        }
+        ++known;
+        for (const auto& [figure, expected] : {std::pair(scaled->mse, once.mse), std::pair(scaled->relMse, once.relMse)}) {
+            EXPECT_NEAR(figure.low / figure.value, expected.low / expected.value, 1e-3) << exponent;
+            EXPECT_NEAR(figure.high / figure.value, expected.high / expected.value, 1e-3) << exponent;
+        }
+        EXPECT_NEAR(scaled->relMse.value, once.relMse.value, 2e-3 * once.relMse.value) << exponent;
+        EXPECT_NEAR(relativeRoot(scaled->mse.value, scaled->mean), root, 1e-3 * root) << exponent;
+    }
+    EXPECT_GT(known, 100);
+}
+
+TEST(ErrorEstimate, OfABlackPictureIsUnknown)
+{
+    Random random(1);
+    Film film = draw(smooth(), 64, 4, random);
+    for (PixelMoments& pixel : film.pixels) {
+        pixel.mean = pixel.squares = glm::vec3(0.0F);
+    }
+    EXPECT_FALSE(estimateError(film));
+    film.pixels[0].mean = glm::vec3(1.0F);
+    EXPECT_EQ(estimateError(film)->mse.high, 0.0);
+    for (const float broken : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+        film.pixels[1].squares.g = broken;
+        EXPECT_FALSE(estimateError(film));
+        film.pixels[1].squares.g = 0.0F;
+        film.pixels[1].mean.b = broken;
+        EXPECT_FALSE(estimateError(film));
+        film.pixels[1].mean.b = 0.0F;
+    }
+    EXPECT_TRUE(estimateError(film));
 }
 
 }  // namespace

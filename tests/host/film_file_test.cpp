@@ -1,6 +1,7 @@
 #include "host/render/film_file.hpp"
 #include "host/error.hpp"
 #include "host/image/exr.hpp"
+#include "host/measure/compare_images.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/simulated_film.hpp"
 
@@ -196,6 +197,14 @@ TEST(FilmFile, UnknownVarianceIsLeftOutOrInfinite)
         EXPECT_EQ(std::isinf(variance[pixel]), pixel == 2);
         EXPECT_FALSE(std::isnan(variance[pixel]));
     }
+    // The error of the others is known; that of a picture whose square overflowed is not.
+    const auto errorsOfFile = [&] {
+        writeFilm(folder / "b.exr", film);
+        return estimateErrors(pictureOf(readExr(folder / "b.exr"), "b.exr"));
+    };
+    EXPECT_EQ(errorsOfFile()->mse, estimateErrors(pictureOf(film))->mse);
+    film.pixels[3].squares.g = std::numeric_limits<float>::infinity();
+    EXPECT_FALSE(errorsOfFile());
 }
 
 class FilmFileRefusal : public testing::Test {
@@ -223,8 +232,8 @@ TEST_F(FilmFileRefusal, OfAnotherPicture)
 
 TEST_F(FilmFileRefusal, OfALaterFormat)
 {
-    image.attributes["glim:film"] = 3.0;
-    expectRefused("is a film of format 3, expected format 1 or 2");
+    image.attributes["glim:film"] = 5.0;
+    expectRefused("is a film of format 5, expected format 1 to 4");
 }
 
 TEST_F(FilmFileRefusal, OfALostChannel)
@@ -251,6 +260,62 @@ TEST_F(FilmFileRefusal, OfImpossibleSampleRanges)
     for (const char* ranges : {"64:0", "0:64 32:96", "0-64", "0:64x", "0:", "-1:5", "0:4294967296", "64:128 0:64"}) {
         image.attributes["glim:samples"] = std::string(ranges);
         expectRefused("its sample ranges are \"" + std::string(ranges) + "\"");
+    }
+}
+
+// Where the table of rows begins, after the empty name that ends the header.
+std::size_t headerEnd(const std::string& film)
+{
+    std::size_t at = 8;
+    while (film[at] != '\0') {
+        at = film.find('\0', film.find('\0', at) + 1) + 1;
+        std::uint32_t bytes = 0;
+        std::memcpy(&bytes, &film[at], sizeof bytes);
+        at += sizeof bytes + bytes;
+    }
+    return at + 1;
+}
+
+TEST(FilmFile, AnyDamageToTheHeaderIsNoticed)
+{
+    const ScratchFolder folder;
+    const auto path = folder / "a.exr";
+    Checkpoint checkpoint;
+    checkpoint.film = filmWithSplats();
+    checkpoint.sample = checkpoint.lightSample = checkpoint.film.sampleRanges[0].second;
+    writeFilm(path, checkpoint.film, checkpoint);
+    ASSERT_TRUE(readStoredFilm(path).checkpoint);
+    const std::string whole = bytesOfFile(path);
+    const std::size_t end = headerEnd(whole);
+    ASSERT_GT(end, 1500U);
+    for (std::size_t at = 0; at < end; ++at) {
+        for (const int flip : {1 << at % 8, 0xFF}) {
+            std::string damaged = whole;
+            damaged[at] = static_cast<char>(damaged[at] ^ flip);
+            test::writeText(path, damaged);
+            EXPECT_THROW(readFilmHeader(path), InputError) << "byte " << at << " of " << end << ", by " << flip;
+            if (at % 16 == 0) {
+                EXPECT_THROW(readStoredFilm(path), InputError) << "byte " << at << " of " << end << ", by " << flip;
+            }
+        }
+    }
+}
+
+// By glim 0.2: the formats 1 and 2, without a seal.
+TEST(FilmFile, EarlierFilmsAreRead)
+{
+    const ScratchFolder folder;
+    const auto path = folder / "a.exr";
+    for (const Film& film : {simulateFilm(0, 64), filmWithSplats()}) {
+        writeFilm(path, film);
+        Image image = readExr(path);
+        image.attributes["glim:film"] = film.splats.empty() ? 1.0 : 2.0;
+        image.attributes.erase("glim:headerDigest");
+        writeExr(path, image);
+        EXPECT_EQ(digestOf(readFilm(path)), digestOf(film));
+        image.attributes["glim:film"] = film.splats.empty() ? 3.0 : 4.0;
+        writeExr(path, image);
+        expectRefusal<InputError>([&] { readFilm(path); }, "is damaged: it has no attribute glim:headerDigest");
     }
 }
 

@@ -1,6 +1,8 @@
 // Files as exporters write them: what is valid is drawn, what rounding has spoilt is mended with one warning a kind, what has no meaning is
 // refused.
+#include "host/error.hpp"
 #include "host/flatten/flatten_scene.hpp"
+#include "host/scene/read_camera_file.hpp"
 #include "tests/support/encode_images.hpp"
 #include "tests/support/gltf_builder.hpp"
 
@@ -58,6 +60,14 @@ GltfBuilder orthographic(double xmag, double ymag)
     return withCamera({{"type", "orthographic"}, {"orthographic", {{"xmag", xmag}, {"ymag", ymag}, {"znear", 0}, {"zfar", 10}}}});
 }
 
+// Without the studio, which takes longer than the rest.
+Scene loadDark(const GltfBuilder& builder)
+{
+    LoadOptions options;
+    options.environment = BuiltInEnvironment::None;
+    return load(builder, options);
+}
+
 std::size_t count(const Scene& scene, const std::string& fragment)
 {
     return static_cast<std::size_t>(
@@ -93,24 +103,26 @@ TEST(GltfExporters, MissingColoursAreBlackAndOpaque)
         const json sparse = {{"count", 1},
                              {"indices", {{"bufferView", builder.addAov({1})}, {"componentType", kUnsignedByte}}},
                              {"values", {{"bufferView", builder.addAov(toBytes(value))}}}};
-        const std::size_t colors = builder.append("accessors", {{"componentType", kFloat}, {"type", type}, {"count", 3}, {"sparse", sparse}});
+        const std::size_t colors =
+            builder.append("accessors", {{"componentType", kFloat}, {"type", type}, {"count", 3}, {"sparse", sparse}});
         builder.document["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = colors;
-        const Scene scene = load(builder);
+        const Scene scene = loadDark(builder);
         EXPECT_EQ(scene.meshes.at(0).colors.at(0), glm::vec4(0, 0, 0, opaque ? 1 : 0)) << type;
         EXPECT_EQ(scene.meshes.at(0).colors.at(1), glm::vec4(0.5F, 0.5F, 0.5F, opaque ? 1.0F : 0.5F)) << type;
         builder.document["accessors"][colors]["sparse"]["count"] = 0;
-        EXPECT_EQ(load(builder).meshes.at(0).colors.at(1), glm::vec4(0, 0, 0, opaque ? 1 : 0)) << "nothing is replaced";
+        EXPECT_EQ(loadDark(builder).meshes.at(0).colors.at(1), glm::vec4(0, 0, 0, opaque ? 1 : 0)) << "nothing is replaced";
     }
 }
 
 TEST(GltfExporters, FactorsAreClampedIfTheyAreOffByRounding)
 {
     const double justAboveOne = 1.0 + std::ldexp(1.0, -23);
-    const json material = {{"pbrMetallicRoughness",
-                            {{"baseColorFactor", {1.00016, 0.5, 256.0 / 255.0, 1}}, {"metallicFactor", justAboveOne}, {"roughnessFactor", -1e-9}}},
-                           {"emissiveFactor", {-1e-7, 0, 2}},
-                           {"extensions", {{"KHR_materials_ior", {{"ior", 0.9999999}}}}}};
-    const Scene scene = load(withMaterial(material));
+    const json material = {
+        {"pbrMetallicRoughness",
+         {{"baseColorFactor", {1.00016, 0.5, 256.0 / 255.0, 1}}, {"metallicFactor", justAboveOne}, {"roughnessFactor", -1e-9}}},
+        {"emissiveFactor", {-1e-7, 0, 2}},
+        {"extensions", {{"KHR_materials_ior", {{"ior", 0.9999999}}}}}};
+    const Scene scene = loadDark(withMaterial(material));
     const Material& read = scene.materials.at(0);
     EXPECT_EQ(read.baseColor, glm::vec3(1.0F, 0.5F, 1.0F));
     EXPECT_EQ(read.metallic, 1.0F);
@@ -129,23 +141,23 @@ TEST(GltfExporters, FactorsAreClampedIfTheyAreOffByRounding)
 TEST(GltfExporters, ZerosThatStandForNoValue)
 {
     const char* kZeros = "zeros count as left out where glTF has no meaning for 0: ";
-    const Scene lit = load(withLight({{"type", "point"}, {"range", 0}}));
+    const Scene lit = loadDark(withLight({{"type", "point"}, {"range", 0}}));
     EXPECT_EQ(lit.lights.at(0).range, 0.0F);
     EXPECT_EQ(warning(lit, kZeros), std::string(kZeros) + "extensions.KHR_lights_punctual.lights[0].range");
     json camera = {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"aspectRatio", 0.0}, {"znear", 0}}}};
-    const Scene seen = load(withCamera(camera));
+    const Scene seen = loadDark(withCamera(camera));
     EXPECT_FALSE(seen.cameras.at(0).aspectRatio);
     EXPECT_EQ(warning(seen, kZeros), std::string(kZeros) + "cameras[0].perspective.aspectRatio");
     camera["perspective"]["yfov"] = 3.1415927;
     expectRefusal(withCamera(camera), "cameras[0].perspective.yfov is 3.1415927; expected a number above 0 to 3.14");
-    const Scene glass = load(withMaterial({{"extensions",
-                                            {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
-                                             {"KHR_materials_volume",
-                                              {{"thicknessFactor", 1}, {"attenuationDistance", 0}, {"attenuationColor", {0.5, 0.5, 0.5}}}}}}}));
+    const Scene glass = loadDark(withMaterial(
+        {{"extensions",
+          {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+           {"KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationDistance", 0}, {"attenuationColor", {0.5, 0.5, 0.5}}}}}}}));
     EXPECT_EQ(glass.materials.at(0).absorption, glm::vec3(0.0F));
     GltfBuilder strided = withTriangle();
     strided.document["bufferViews"][0]["byteStride"] = 0;
-    EXPECT_EQ(warning(load(strided), kZeros), std::string(kZeros) + "bufferViews[0].byteStride");
+    EXPECT_EQ(warning(loadDark(strided), kZeros), std::string(kZeros) + "bufferViews[0].byteStride");
 }
 
 TEST(GltfExporters, IndicesMayHaveAStride)
@@ -154,7 +166,7 @@ TEST(GltfExporters, IndicesMayHaveAStride)
     const std::size_t indices = builder.addAccessor(toBytes<std::uint16_t>({2, 0, 1}), kUnsignedShort, "SCALAR", 3);
     builder.document["bufferViews"].back()["byteStride"] = 2;
     builder.document["meshes"][0]["primitives"][0]["indices"] = indices;
-    const Scene scene = load(builder);
+    const Scene scene = loadDark(builder);
     EXPECT_EQ(scene.meshes.at(0).indices, (std::vector<std::uint32_t>{2, 0, 1}));
 }
 
@@ -165,14 +177,14 @@ TEST(GltfExporters, ConesThatAreEqualOrRoundedHaveAHardEdge)
     const auto cone = [](const Scene& scene) { return std::pair(scene.lights.at(0).versineInner, scene.lights.at(0).versineOuter); };
     const auto outerOf = [](double outer) { return static_cast<float>(2.0 * std::pow(std::sin(0.5 * outer), 2.0)); };
     for (const double inner : {angle, std::nextafter(angle, 1.0), angle - 1e-9}) {
-        const Scene scene = load(withSpot(inner, angle));
+        const Scene scene = loadDark(withSpot(inner, angle));
         EXPECT_EQ(cone(scene), std::pair(std::nextafter(outerOf(angle), 0.0F), outerOf(angle))) << inner;
         EXPECT_EQ(count(scene, "cones"), 0U) << "they are equal as floats";
     }
-    const Scene rounded = load(withSpot(1.001 * angle, angle));
+    const Scene rounded = loadDark(withSpot(1.001 * angle, angle));
     EXPECT_EQ(cone(rounded).first, std::nextafter(outerOf(angle), 0.0F));
     EXPECT_EQ(warning(rounded, "inner cones"), "inner cones that rounding has made larger than the outer ones are clamped: lights[0]");
-    const Scene wide = load(withSpot(0.0, static_cast<double>(static_cast<float>(std::numbers::pi / 2.0))));
+    const Scene wide = loadDark(withSpot(0.0, static_cast<double>(static_cast<float>(std::numbers::pi / 2.0))));
     EXPECT_EQ(cone(wide), std::pair(0.0F, outerOf(std::numbers::pi / 2.0)));
     EXPECT_EQ(warning(wide, kClamped),
               std::string(kClamped) + "extensions.KHR_lights_punctual.lights[0].spot.outerConeAngle 1.5707963705062866");
@@ -184,7 +196,7 @@ TEST(GltfExporters, ConesThatAreEqualOrRoundedHaveAHardEdge)
 TEST(GltfExporters, OrthographicCamerasMayBeMirrored)
 {
     for (const auto& [xmag, ymag] : {std::pair(2.0, 3.0), {-2.0, 3.0}, {2.0, -3.0}, {-2.0, -3.0}, {3.0, 3.0}}) {
-        const Scene scene = load(orthographic(xmag, ymag));
+        const Scene scene = loadDark(orthographic(xmag, ymag));
         const Camera& camera = scene.cameras.at(0);
         EXPECT_FLOAT_EQ(camera.aspectRatio.value_or(0.0F), static_cast<float>(std::abs(xmag / ymag)));
         const FlatCamera flat = flattenCamera(camera, *camera.aspectRatio);
@@ -202,13 +214,24 @@ TEST(GltfExporters, LastRowsOfMatricesAreRounded)
         json& matrix = builder.document["nodes"][0]["matrix"];
         matrix = {1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1};
         matrix[static_cast<std::size_t>(at)] = value;
-        const Scene scene = load(builder);
+        const Scene scene = loadDark(builder);
         const glm::dmat4 expected(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 2, 0, 0), glm::dvec4(0, 0, 1, 0), glm::dvec4(5, 6, 7, 1));
         EXPECT_EQ(scene.instances.at(0).worldFromMesh, expected) << value;
         EXPECT_EQ(warning(scene, kRounded), std::string(kRounded) + "nodes[0]");
         matrix[static_cast<std::size_t>(at)] = value < 0.5 ? 0.001 : 0.999;
         expectRefusal(builder, "nodes[0].matrix has the last row ");
     }
+}
+
+TEST(GltfExporters, MatricesOfCameraFilesToo)
+{
+    const auto read = [](double last) {
+        const json cameras = json::array({{{"matrix", {1, 0, 0, 0, 0, 1, 0, 1e-17, 0, 0, 1, 0, 5, 6, 7, last}}}});
+        return readCameraFile(writeTemporary("cameras.json", cameras.dump())).at(0).pose.value_or(Pose());
+    };
+    EXPECT_EQ(read(0.9999999).from, glm::dvec3(5, 6, 7));
+    EXPECT_EQ(read(0.9999999).at, glm::dvec3(5, 6, 6));
+    EXPECT_THROW(read(0.999), InputError);
 }
 
 TEST(GltfExporters, MembersThatAreNullCountAsLeftOut)
@@ -219,11 +242,12 @@ TEST(GltfExporters, MembersThatAreNullCountAsLeftOut)
                                         {"extensions", nullptr}});
     builder.document["nodes"][0]["extras"] = {{"mine", nullptr}};
     builder.document["animations"] = nullptr;
-    const Scene scene = load(builder);
+    const Scene scene = loadDark(builder);
     EXPECT_EQ(scene.materials.at(0).baseColor, glm::vec3(1.0F));
     EXPECT_EQ(scene.materials.at(0).metallic, 0.5F);
-    EXPECT_EQ(warning(scene, "members that are null"), "members that are null count as left out: animations, materials[0].extensions, "
-                                                       "materials[0].name and 2 more");
+    EXPECT_EQ(warning(scene, "members that are null"),
+              "members that are null count as left out: animations, materials[0].extensions, "
+              "materials[0].name and 2 more");
     builder.document["accessors"][0]["count"] = nullptr;
     expectRefusal(builder, "accessors[0].count is missing; expected a whole number from 0");
 }
@@ -237,7 +261,7 @@ TEST(GltfExporters, WholeNumbersMayBeWrittenWithAPoint)
     builder.document["nodes"][0]["mesh"] = 0.0;
     builder.document["scenes"][0]["nodes"][0] = 0.0;
     builder.document["scene"] = 0.0;
-    EXPECT_EQ(load(builder).instances.size(), 1U);
+    EXPECT_EQ(loadDark(builder).instances.size(), 1U);
     builder.document["nodes"][0]["mesh"] = 0.5;
     expectRefusal(builder, "nodes[0].mesh is 0.5; expected an index into meshes, which has 1 entry");
 }
@@ -249,9 +273,9 @@ TEST(GltfExporters, NothingMayBeEmptyThatIsRead)
     const std::size_t empty =
         builder.append("accessors", {{"bufferView", view}, {"componentType", kFloat}, {"type", "VEC3"}, {"count", 0}});
     builder.otherBuffers.push_back({{"byteLength", 0}});
-    EXPECT_EQ(load(builder).warnings.size(), load(withTriangle()).warnings.size()) << "nobody reads it";
+    EXPECT_EQ(loadDark(builder).warnings.size(), loadDark(withTriangle()).warnings.size()) << "nobody reads it";
     builder.addNode({{"mesh", builder.addMesh({{"attributes", {{"POSITION", empty}}}})}});
-    const Scene scene = load(builder);
+    const Scene scene = loadDark(builder);
     EXPECT_EQ(scene.instances.size(), 1U);
     EXPECT_EQ(warning(scene, "meshes without vertices are left out"), "meshes without vertices are left out: meshes[1].primitives[0]");
     builder.document["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = empty;
@@ -265,7 +289,7 @@ TEST(GltfExporters, SamplersOfUnknownFiltersAndWraps)
         builder.append("images", {{"bufferView", builder.addAov(encodePng(1, 1, {1, 2, 3}))}});
         builder.append("samplers", sampler);
         builder.append("textures", {{"source", 0}, {"sampler", 0}});
-        return load(builder);
+        return loadDark(builder);
     };
     const char* kReplaced = "filters and wraps that glTF does not know there count as the nearest that it knows: samplers[0].";
     const Scene linear = textureOf({{"magFilter", 9987}, {"wrapS", 33071}});
@@ -288,7 +312,7 @@ TEST(GltfExporters, OnePrimitiveMayLackTheTargetsOfAnother)
     moving["targets"] = json::array({{{"POSITION", deltas}}, {{"POSITION", deltas}}});
     const std::size_t mesh = builder.append("meshes", {{"primitives", {still, moving}}, {"weights", {0.5, 1}}});
     builder.addNode({{"mesh", mesh}});
-    const Scene scene = load(builder);
+    const Scene scene = loadDark(builder);
     EXPECT_EQ(scene.meshes.at(0).positions.at(0).z, 0.0);
     EXPECT_EQ(scene.meshes.at(1).positions.at(0).z, 3.0);
     EXPECT_EQ(scene.morphTargets, 2U);
@@ -303,7 +327,8 @@ TEST(GltfExporters, WeightsJustBelowZeroCountAsZero)
     GltfBuilder builder = posedTriangle();
     json& attributes = builder.document["meshes"][0]["primitives"][0]["attributes"];
     attributes["WEIGHTS_0"] = builder.addAccessor(toBytes<float>({1, -1e-9F, 0, 0, 1, 0, 0, 0, 1, 0, -5e-4F, 0}), kFloat, "VEC4", 3);
-    EXPECT_EQ(warning(load(builder), "weights of joints just below 0"), "weights of joints just below 0 count as 0: meshes[0].primitives[0]");
+    EXPECT_EQ(warning(loadDark(builder), "weights of joints just below 0"),
+              "weights of joints just below 0 count as 0: meshes[0].primitives[0]");
 }
 
 TEST(GltfExporters, OldFilesPointsAndLinesAreCalledSo)
@@ -325,8 +350,9 @@ TEST(GltfExporters, AUrlIsNoFile)
 {
     GltfBuilder builder = withTriangle();
     builder.otherBuffers.push_back({{"byteLength", 4}, {"uri", "https://example.org/a.bin"}});
-    expectRefusal(builder, "buffers[1].uri is \"https://example.org/a.bin\"; expected a path relative to the glTF file, as glim reads files and "
-                           "no URLs");
+    expectRefusal(builder,
+                  "buffers[1].uri is \"https://example.org/a.bin\"; expected a path relative to the glTF file, as glim reads files and "
+                  "no URLs");
     EXPECT_EQ(loadRefusal("https://example.org/a.glb"),
               "https://example.org/a.glb: is a URL; expected a .gltf or a .glb file, as glim reads files and no URLs");
 }

@@ -111,9 +111,9 @@ TEST(GltfTextures, ImagesInFilesBesideAndBelow)
         writeText(folder.path() / "maps" / "of wood" / name, asText(redPng()));
     }
     writeText(folder.path() / "e\\f.png", asText(redPng()));
-    for (const std::string uri : {"my%20file.png", "my file.png", "maps/of%20wood/a+b.png", "./maps/of wood/a%2Bb.png", "maps/of wood/c:d.png",
-                                  "maps/of wood/50%25.png", "maps/of wood/50%2525.png", "maps\\of wood\\a+b.png", "maps\\of%20wood\\c%3Ad.png",
-                                  "e\\f.png"}) {
+    for (const std::string uri :
+         {"my%20file.png", "my file.png", "maps/of%20wood/a+b.png", "./maps/of wood/a%2Bb.png", "maps/of wood/c:d.png",
+          "maps/of wood/50%25.png", "maps/of wood/50%2525.png", "maps\\of wood\\a+b.png", "maps\\of%20wood\\c%3Ad.png", "e\\f.png"}) {
         writeText(folder / "scene.glb", texturedTriangle({{"uri", uri}}).toGlb());
         const Scene scene = loadGltf(folder / "scene.glb");
         EXPECT_EQ(scene.images.at(0).pixels->rgba8, kRed) << uri;

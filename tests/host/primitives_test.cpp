@@ -120,8 +120,8 @@ TEST(PrimitivesTest, PiecesDuplicateNoNormals)
 }
 
 // The fingerprint of a scene, by which films are merged and resumed, as it was when the loader made three normals per triangle (but for the
-// framed camera, which stands elsewhere since then). One mesh is smooth, mirrored, and has a bad normal; beside it are a flat mesh and a
-// sphere.
+// framed camera and the scene's origin, which lie elsewhere since then). One mesh is smooth, mirrored, and has a bad normal; beside it are
+// a flat mesh and a sphere.
 TEST(PrimitivesTest, FingerprintsOfSmoothScenesAreWhatTheyWere)
 {
     test::GltfBuilder builder;
@@ -138,7 +138,76 @@ TEST(PrimitivesTest, FingerprintsOfSmoothScenesAreWhatTheyWere)
     builder.addNode({{"mesh", triangle}, {"translation", {2, 0, 0}}});
     builder.addNode({{"extras", {{"sphere", {{"radius", 0.5}, {"material", 0}}}}}, {"translation", {0, 2, 0}}});
     const Scene scene = test::load(builder, {.environment = glm::vec3(1.0F)});
-    EXPECT_EQ(fingerprint(fingerprint(flattened(scene)), flattenCamera(scene.cameras.front(), 1.0F)), "d6be3b78e3e9a02f");
+    EXPECT_EQ(fingerprint(fingerprint(flattened(scene)), flattenCamera(scene.cameras.front(), 1.0F)), "5dc20f9bba1117a8");
+}
+
+// Three squares in one place: a wall, and lamps of which one has a coverage.
+Scene squaresInOnePlace()
+{
+    Mesh lamp = square(true);
+    lamp.material = 1;
+    Scene scene = sceneWith({square(true), lamp, lamp}, {{"wall", 0}, {"lamp", 1}, {"again", 2}, {"clear", 2}});
+    scene.materials.resize(3);
+    scene.materials[1].emission = glm::vec3(1.0F);
+    scene.meshes.push_back(lamp);
+    scene.meshes[3].material = 2;
+    scene.instances[3].mesh = 3;
+    scene.materials[2].alphaMode = AlphaMode::Blend;
+    scene.materials[2].alpha = 0.5F;
+    scene.spheres = {{"ball", {3, 0, 0}, 1.0F, 2}};
+    return scene;
+}
+
+TEST(PrimitivesTest, AHiddenLampIsLeftOut)
+{
+    const Primitives primitives = makePrimitives(squaresInOnePlace());
+    EXPECT_EQ(primitives.firstTriangles, (std::vector<std::uint32_t>{0, 2, 4, 4, 6}));
+    EXPECT_EQ(primitives.vertexIndices.size(), 6U);
+    EXPECT_EQ(primitives.hasAlpha, (std::vector<bool>{false, false, false, false, true, true, true}));
+    EXPECT_EQ(primitives.triangles[0].vertices[0].z, 0.0F) << "a wall stays";
+    EXPECT_GT(primitives.triangles[2].vertices[0].z, 0.0F) << "a lamp is before it";
+    EXPECT_LT(primitives.triangles[2].vertices[0].z, 1e-5F);
+    EXPECT_EQ(primitives.warnings.size(), 2U);
+}
+
+TEST(PrimitivesTest, ADoubleSidedLampInAWallIsTwo)
+{
+    Scene scene = squaresInOnePlace();
+    scene.materials[1].doubleSided = true;
+    const Primitives primitives = makePrimitives(scene);
+    EXPECT_EQ(primitives.firstTriangles, (std::vector<std::uint32_t>{0, 2, 6, 6, 8}));
+    EXPECT_EQ(primitives.vertexIndices[3], primitives.vertexIndices[2]);
+    EXPECT_EQ(primitives.hasAlpha.size(), 9U);
+    EXPECT_GT(primitives.triangles[2].vertices[1].z, 0.0F);
+    EXPECT_LT(primitives.triangles[3].vertices[1].z, 0.0F);
+}
+
+TEST(PrimitivesTest, LampsApartStayWhereTheyAre)
+{
+    Scene scene = squaresInOnePlace();
+    scene.instances = {{"wall", 0},
+                       {"lamp", 1, glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0, 1e-6))},
+                       {"beside", 2, glm::translate(glm::dmat4(1.0), glm::dvec3(1, 0, 0))}};
+    const Primitives primitives = makePrimitives(scene);
+    EXPECT_EQ(primitives.triangles.size(), 6U);
+    EXPECT_EQ(primitives.triangles[2].vertices[0].z, 1e-6F);
+    EXPECT_EQ(primitives.triangles[4].vertices[0].z, 0.0F);
+    EXPECT_TRUE(primitives.warnings.empty());
+}
+
+// Shared meshes' triangles are numbered behind what is left out.
+TEST(PrimitivesTest, SharedMeshesFollowWhatIsLeft)
+{
+    Scene scene = squaresInOnePlace();
+    const std::vector<std::uint32_t> once = scene.meshes[0].indices;
+    for (int i = 0; i < 4; ++i) {
+        scene.meshes[0].indices.insert(scene.meshes[0].indices.end(), once.begin(), once.end());
+        scene.instances.push_back({"more", 0});
+    }
+    const Primitives primitives = makePrimitives(scene, 0);
+    ASSERT_EQ(primitives.sharedMeshes.size(), 1U);
+    EXPECT_EQ(primitives.firstTriangles, (std::vector<std::uint32_t>{0, 0, 2, 2, 4, 4, 4, 4, 4}));
+    EXPECT_EQ(primitives.sharedMeshes[0].firstId, 5U);
 }
 
 // Kernels are compiled for the lobes of what is drawn, not of what the file lists.

@@ -5,6 +5,13 @@
 #include "tests/support/random.hpp"
 #include "tests/support/scratch_folder.hpp"
 
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfMultiPartOutputFile.h>
+#include <OpenEXR/ImfOutputPart.h>
+#include <OpenEXR/ImfPartType.h>
+
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -76,6 +83,41 @@ TEST_F(RadianceMapTest, TheCombinedLayerOfSeveral)
         {"ViewLayer.Depth.Z", 9.0F},    {"ViewLayer.DiffCol.R", 7.0F},  {"ViewLayer.DiffCol.G", 7.0F},  {"ViewLayer.DiffCol.B", 7.0F}};
     EXPECT_EQ(readRadianceMap(write(layers)).texels.at(1), glm::vec3(1, 2, 3));
     EXPECT_THROW(readRadianceMap(write({layers.begin() + 4, layers.end()})), InputError) << "no layer is the picture";
+}
+
+// Blender may write each pass as a part of its own.
+TEST_F(RadianceMapTest, TheCombinedPartOfSeveral)
+{
+    const auto read = [&](const std::vector<std::pair<std::string, std::string>>& parts) {  // name and the beginning of its channels'
+        const Imath::Box2i window({0, 0}, {1, 0});
+        std::vector<Imf::Header> headers;
+        for (const auto& [name, layer] : parts) {
+            Imf::Header& header = headers.emplace_back(window, window);
+            header.setName(name);
+            header.setType(Imf::SCANLINEIMAGE);
+            for (const char* color : {"R", "G", "B"}) {
+                header.channels().insert(layer + color, Imf::Channel(Imf::FLOAT));
+            }
+        }
+        const std::filesystem::path path = folder_.path() / "parts.exr";
+        {
+            Imf::MultiPartOutputFile file(path.c_str(), headers.data(), static_cast<int>(headers.size()));
+            for (int i = 0; i < static_cast<int>(parts.size()); ++i) {
+                std::array<float, 2> row{static_cast<float>(i), static_cast<float>(i)};
+                Imf::FrameBuffer frame;
+                for (const char* color : {"R", "G", "B"}) {
+                    frame.insert(parts[static_cast<std::size_t>(i)].second + color, Imf::Slice::Make(Imf::FLOAT, row.data(), window));
+                }
+                Imf::OutputPart part(file, i);
+                part.setFrameBuffer(frame);
+                part.writePixels(1);
+            }
+        }
+        return readRadianceMap(path).texels.at(1);
+    };
+    EXPECT_EQ(read({{"ViewLayer.AO", ""}, {"ViewLayer.Combined", ""}, {"ViewLayer.DiffCol", ""}}), glm::vec3(1.0F));
+    EXPECT_EQ(read({{"a", "ViewLayer.AO."}, {"b", "ViewLayer.DiffCol."}, {"c", "ViewLayer.Combined."}}), glm::vec3(2.0F));
+    EXPECT_EQ(read({{"left", ""}, {"right", ""}}), glm::vec3(0.0F));
 }
 
 TEST_F(RadianceMapTest, EveryOrderOfTheAxes)

@@ -149,6 +149,16 @@ TEST(CompareBenches, FindsWhatIsFasterAndClaimsNothingElse)
     EXPECT_NEAR(paired.timeToError.value, 0.8, 1e-9);
     EXPECT_TRUE(excludesOne(paired.samplesPerSecond) && excludesOne(paired.efficiency) && excludesOne(paired.timeToError));
     EXPECT_FALSE(excludesOne(paired.error) || excludesOne(paired.mse) || excludesOne(paired.mean));
+    // By CPU seconds both took the same: a load made one of them slower.
+    EXPECT_NEAR(paired.samplesPerCpuSecond->value, 1.0, 1e-9);
+    EXPECT_NEAR(paired.cpuEfficiency->value, 1.0, 1e-9);
+    EXPECT_FALSE(excludesOne(*paired.cpuEfficiency));
+    SceneBench older = simulateBench(Flaw::None, 1);
+    for (BenchPoint& point : older.points) {
+        point.cpuSeconds.assign(point.cpuSeconds.size(), 0.0);
+    }
+    EXPECT_FALSE(compareBenches(faster, older).cpuEfficiency);
+    EXPECT_FALSE(compareBenches(older, faster).samplesPerCpuSecond);
     SceneBench other = simulateBench(Flaw::None, 2);
     for (std::uint32_t& seed : other.seeds) {
         seed += 100;

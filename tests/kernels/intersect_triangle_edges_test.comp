@@ -32,7 +32,7 @@ void main()
             uint back = c.turn >> 31u;
             vec3 v1 = corner[(first + 1u + back) % 3u];
             vec3 v2 = corner[(first + 2u - back) % 3u];
-            hits.x += intersectWatertight(c.origin, shear, v0, v1, v2, 1e30, false).t > 0.0 ? 1u : 0u;
+            hits.x += intersectWatertight(c.origin, shear, v0, v1, v2, 1e30, false, true).t > 0.0 ? 1u : 0u;
             hits.y += intersectMollerTrumbore(c.origin, c.direction, v0, v1, v2, 1e30).t > 0.0 ? 1u : 0u;
         }
         EXPECT_TRUE(hits.x >= 1u);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <limits>
 
 namespace glim {
@@ -24,6 +25,7 @@ struct Case {
     float t = -1.0F, tTolerance = 0.0F;
     vec2 barycentric{0.0F};
     float barycentricTolerance = 0.0F;
+    std::uint32_t plain = 0;
 };
 
 constexpr double kUnit = 0x1p-24;  // relative rounding error of one float operation
@@ -175,6 +177,54 @@ TEST(IntersectTriangleTest, AgreesWithDoubleAtAnyScaleAndPlace)
                 runCases(what, ordinaryCases(random, scale, shift));
             }
         }
+    }
+}
+
+// A ray that looks down at a flat ground from 1 cm to 10 m, which is as good as never near an edge.
+Case groundCase(Random& random, double size)
+{
+    Case c{};
+    c.plain = 1;
+    c.tmax = std::numeric_limits<float>::infinity();
+    const auto axis = static_cast<int>(random.below(3));
+    const double height = random.uniform(-2.0, 2.0);
+    const auto corner = [&](double angle) {
+        glm::vec3 v(0.0F);
+        v[axis] = static_cast<float>(height);
+        v[(axis + 1) % 3] = static_cast<float>(size * std::cos(angle));
+        v[(axis + 2) % 3] = static_cast<float>(size * std::sin(angle));
+        return v;
+    };
+    const double turn = random.uniform(0.0, 6.28);
+    c.v0 = corner(turn);
+    c.v1 = corner(turn + random.uniform(1.8, 2.4));
+    c.v2 = corner(turn - random.uniform(1.8, 2.4));
+    glm::dvec3 d = random.direction();
+    while (std::abs(d[axis]) < 0.02) {
+        d = random.direction();
+    }
+    c.direction = d;
+    glm::dvec3 from = 0.01 * size * random.direction();
+    from[axis] = height - random.logUniform(0.01, std::min(10.0, 0.002 * size)) * (d[axis] > 0.0 ? 1.0 : -1.0);
+    c.origin = from;
+    const double t = (static_cast<double>(c.v0[axis]) - static_cast<double>(c.origin[axis])) / static_cast<double>(c.direction[axis]);
+    c.verdict = Hit;
+    c.t = static_cast<float>(t);
+    // A difference, products, two sums, the weights' sum, a reciprocal and a division of 2.5 ulp each, and a product.
+    c.tTolerance = static_cast<float>((1.0 + 1.0 + 2.0 + 2.0 + 5.0 + 5.0 + 1.0) * kUnit * t);
+    c.barycentric = {1.0 / 3.0, 1.0 / 3.0};
+    c.barycentricTolerance = 1.0F;
+    return c;
+}
+
+TEST(IntersectTriangleTest, H51FlatGroundsGiveTheDistance)
+{
+    for (const double size : {1e2, 1e4, 1e6, 1e7}) {
+        Random random(11);
+        std::vector<Case> cases = ordinaryCases(random, 1.0, 0.0);  // so that every check of the kernel runs
+        std::generate_n(std::back_inserter(cases), 100000, [&] { return groundCase(random, size); });
+        KernelTest(test_kernels::intersect_triangle_test).cases(cases).run();
+        printHardCase("H51", "rays at a flat ground of " + figure(size) + " m", 1e5, "t within 1e-6 of it");
     }
 }
 

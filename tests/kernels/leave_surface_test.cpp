@@ -11,6 +11,7 @@
 #include <bit>
 #include <functional>
 #include <ostream>
+#include <utility>
 
 namespace glim {
 namespace {
@@ -30,11 +31,11 @@ struct Tally {
     uint naiveHits;
 };
 
-Tally leave(const Triangles& mesh, float reach, std::uint32_t rays)
+Tally leave(const Triangles& mesh, float reach, std::uint32_t rays, FeatureMask features = kAllFeatures)
 {
     const SceneOnDevice scene(sceneOf(mesh));
     KernelTest test = scene.test(test_kernels::leave_surface_test);
-    test.cases(std::vector<Setup>{{reach}}).resultsOf<Tally>(1).threads(std::min(rays / 64, kMostGroups) * 64).run();
+    test.features(features).cases(std::vector<Setup>{{reach}}).resultsOf<Tally>(1).threads(std::min(rays / 64, kMostGroups) * 64).run();
     return test.results<Tally>()[0];
 }
 
@@ -95,13 +96,13 @@ TEST(LeavePiecesTest, H7MeetsNoRecordOfTheTriangle)
     EXPECT_GT(tally.selfHits, 10U) << "else nothing was tried";
 }
 
-// Neighbours and copies in one tilted plane. The rule that a ray skips its own triangle does not cover them: only the offset
-// helps.
+// Neighbours and copies in one plane, tilted or along an axis. The rule that a ray skips its own triangle does not cover them: only the
+// offset helps.
 TEST(CoplanarTest, H7RaysMeetNeitherNeighbourNorCopy)
 {
-    for (const float scale : {1e-4F, 1.0F, 1e5F}) {
+    for (const auto& [scale, tilt] : {std::pair{1e-4F, 1.0F}, {1.0F, 1.0F}, {1e5F, 1.0F}, {1e5F, 1e-5F}, {1e-4F, 0.0F}, {1e6F, 0.0F}}) {
         Triangles plane;
-        const glm::vec3 u(0.31F, 0.17F, -0.23F), v(-0.11F, 0.29F, 0.05F);
+        const glm::vec3 u(0.31F, 0.17F * tilt, -0.23F), v(-0.11F, 0.29F * tilt, 0.05F);
         for (int i = -8; i < 8; ++i) {
             for (int j = -8; j < 8; ++j) {
                 const glm::vec3 a = static_cast<float>(i) * u + static_cast<float>(j) * v;
@@ -111,10 +112,15 @@ TEST(CoplanarTest, H7RaysMeetNeitherNeighbourNorCopy)
         }
         const Triangles copies = plane;
         plane.insert(plane.end(), copies.begin(), copies.end());
-        const Tally tally = leave(placed(plane, scale, 0.0F), 0.0F, static_cast<std::uint32_t>(hardTrials(samplesFor(300'000, 20))));
-        printHardCase("H7", "coplanar neighbours and copies, size " + figure(5.0 * static_cast<double>(scale)), tally.left,
-                      std::to_string(tally.otherHits) + " meet one");
-        EXPECT_LT(tally.otherHits, tally.left / 10'000);
+        for (const FeatureMask features : {kAllFeatures, kAllFeatures & ~kFeatureLargeTriangles}) {
+            const auto rays = static_cast<std::uint32_t>(hardTrials(samplesFor(300'000, 20)));
+            const Tally tally = leave(placed(plane, scale, 0.0F), 0.0F, rays, features);
+            printHardCase("H7",
+                          "coplanar neighbours and copies, size " + figure(5.0 * static_cast<double>(scale)) + ", tilt " +
+                              figure(static_cast<double>(tilt)) + (features == kAllFeatures ? ", by axes" : ""),
+                          tally.left, std::to_string(tally.otherHits) + " meet one");
+            EXPECT_LT(tally.otherHits, tally.left / 10'000);
+        }
     }
 }
 

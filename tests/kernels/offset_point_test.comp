@@ -12,6 +12,7 @@ struct Case {
     vec3 normal;          // unit, on the side of the ray
     vec3 direction;
     float from, side, next;
+    uint large;
 };
 
 struct Result {
@@ -30,12 +31,12 @@ void main()
         vec3 e1 = c.v1 - c.v0;
         vec3 e2 = c.v2 - c.v0;
         vec3 point = trianglePoint(c.v0, e1, e2, c.barycentric);
-        vec3 bound = triangleErrorBound(c.v0, e1, e2);
+        vec3 bound = triangleErrorBound(c.v0, e1, e2, c.large != 0u);
         vec3 origin = offsetPoint(point, c.normal, bound);
         EXPECT_TRUE(dot(origin - point, c.normal) > 0.0);
         Shear shear = makeShear(c.direction);
-        uint self = intersectWatertight(origin, shear, c.v0, c.v1, c.v2, 1e30, false).t > 0.0 ? 1u : 0u;
-        uint neighbour = intersectWatertight(origin, shear, c.v2, c.v1, c.v3, 1e30, false).t > 0.0 ? 1u : 0u;
+        uint self = intersectWatertight(origin, shear, c.v0, c.v1, c.v2, 1e30, false, c.large != 0u).t > 0.0 ? 1u : 0u;
+        uint neighbour = intersectWatertight(origin, shear, c.v2, c.v1, c.v3, 1e30, false, c.large != 0u).t > 0.0 ? 1u : 0u;
         // The same normal on a sphere about v0 with the radius |e1|.
         vec3 onSphere = offsetPoint(c.v0 + length(e1) * c.normal, c.normal, sphereErrorBound(c.v0, length(e1)));
         results[TEST_THREAD] = Result(point, bound, origin, onSphere, self, neighbour);

@@ -34,7 +34,8 @@ void main()
         uint primitives = recordFetches;
         Steps shadow = Steps(0u, 0u);
         bool metAlpha;
-        bool unoccluded = isUnoccluded(ShadowRay(ray.origin, ray.source, ray.direction, kNoPrimitive, vec3(0.0), kInfinity), shadow, metAlpha);
+        ShadowRay shadowRay = ShadowRay(ray.origin, ray.source, ray.direction, kNoPrimitive, vec3(0.0), kInfinity);
+        bool unoccluded = isUnoccluded(shadowRay, kFronts, shadow, metAlpha);
         bool spent = isLoopBudgetSpent(render.canarySteps);  // then no count is reliable
         EXPECT_TRUE(spent || steps.nodes == nodes);
         EXPECT_TRUE(spent || steps.primitives == primitives);

@@ -11,7 +11,7 @@ struct Case {
 
 struct Result {
     vec3 hemisphere, sphere, uniformHemisphere;
-    vec2 triangle;
+    vec2 triangle, circle;
 };
 
 layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
@@ -38,7 +38,7 @@ void main()
         EXPECT_CLOSE(pdfUniformHemisphere(), 0.159154943, 2e-7);
         vec2 b = sampleTriangle(c.u);
         EXPECT_TRUE(b.x >= 0.0 && b.y >= 0.0 && b.x + b.y <= 1.0);
-        results[TEST_THREAD] = Result(w, s, h, b);
+        results[TEST_THREAD] = Result(w, s, h, b, sampleCircle(c.u.y));
     }
     endTest();
 }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <numbers>
 
@@ -22,7 +23,7 @@ struct Case {
 
 struct Result {
     vec3 hemisphere, sphere, uniformHemisphere;
-    vec2 triangle;
+    vec2 triangle, circle;
 };
 
 // Shirley and Chiu's map by its definition: the square's concentric frames go to circles, arc length kept.
@@ -50,7 +51,7 @@ std::vector<Result> warped(const std::vector<vec2>& points)
     return test.results<Result>();
 }
 
-// The corners and middle of the square, their neighbours, and a grid.
+// The corners and middle of the square, their neighbours, both sides of where the circle is folded, and a grid.
 std::vector<vec2> hardPoints()
 {
     constexpr float kBelowOne = 1.0F - 0x1p-24F;
@@ -58,6 +59,11 @@ std::vector<vec2> hardPoints()
     for (const float x : {0.0F, 0x1p-24F, 0.5F, kBelowOne}) {
         for (const float y : {0.0F, 0x1p-24F, 0.5F, kBelowOne}) {
             points.emplace_back(x, y);
+        }
+    }
+    for (const float seam : {0.25F, 0.75F}) {
+        for (const float u : {seam, std::nextafter(seam, 0.0F), std::nextafter(seam, 1.0F)}) {
+            points.emplace_back(0.5F, u);
         }
     }
     for (int i = 0; i <= 64; ++i) {
@@ -73,6 +79,27 @@ glm::dvec3 onSphere(double z, double u)
 {
     const double r = std::sqrt((1.0 - z) * (1.0 + z)), phi = std::numbers::pi * (2.0 * u - 1.0);
     return {r * std::cos(phi), r * std::sin(phi), z};
+}
+
+// Against sine and cosine in double, on the whole circle and on both sides of its seams.
+TEST(WarpTest, CirclesAreExactAndOfUnitRadius)
+{
+    Random random(7);
+    std::vector<vec2> points = hardPoints();
+    for (int i = 0; i < 200000; ++i) {
+        points.emplace_back(0.5F, random.unitFloat());
+    }
+    const std::vector<Result> results = warped(points);
+    double worst = 0.0, worstRadius = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double phi = std::numbers::pi * (2.0 * static_cast<double>(points[i].y) - 1.0);
+        const glm::dvec2 circle(results[i].circle);
+        worst = std::max(worst, glm::distance(circle, glm::dvec2(std::cos(phi), std::sin(phi))));
+        worstRadius = std::max(worstRadius, std::abs(glm::length(circle) - 1.0));
+    }
+    std::printf("  points of the circle are off by %.3g, radii by %.3g\n", worst, worstRadius);
+    EXPECT_LE(worst, 2e-7);  // as warp.glsl states
+    EXPECT_LE(worstRadius, 1.5e-7);
 }
 
 // The kernel compares disk, hemisphere and densities; spheres are compared here, with Archimedes' map in double.

@@ -34,9 +34,17 @@ class Lobes:
     rotation: float = 0.0
 
     @property
+    def isotropic(self):
+        return self.alpha_x == self.alpha_y
+
+    @property
     def curves(self):
-        """Tables of the isotropic alpha of the same mean square; exact without anisotropy."""
-        return ggx.albedo_curves(float(np.sqrt((self.alpha_x**2 + self.alpha_y**2) / 2)))
+        """The albedos of the GGX lobe, functions of what `place` returns."""
+        return ggx.albedo_curves(float(self.alpha_x)) if self.isotropic else ggx.anisotropic_albedo(float(self.alpha_x), float(self.alpha_y))
+
+    def place(self, w):
+        """|cos| of directions (..., 3); of an anisotropic lobe the directions, mirrored to the upper side, in its frame."""
+        return np.abs(w[..., 2]) if self.isotropic else rotate_z(w, -self.rotation) * np.where(w[..., 2:] < 0, [1, 1, -1], 1)
 
 
 def anisotropic_alpha(roughness, strength):
@@ -66,9 +74,9 @@ def multiple_scattering_fresnel(curves, f0, f90):
     return f_avg**2 * curves.E1_avg / (1 - f_avg * (1 - curves.E1_avg))
 
 
-def specular_albedo(mu, curves, f0, f90):
-    """Directional albedo of the GGX lobe with multiple scattering: mu (...) and f0 (3,) or scalar give (..., 3) or (..., 1)."""
-    a, b = per_channel(curves.A(mu)), per_channel(curves.B(mu))
+def specular_albedo(place, curves, f0, f90):
+    """Directional albedo of the GGX lobe with multiple scattering, (..., 3) or (..., 1) as f0 has channels; place: Lobes.place."""
+    a, b = per_channel(curves.A(place)), per_channel(curves.B(place))
     return f0 * a + f90 * b + multiple_scattering_fresnel(curves, f0, f90) * (1 - a - b)
 
 
@@ -77,9 +85,9 @@ def specular_albedo_average(curves, f0, f90):
     return f0 * curves.A_avg + f90 * curves.B_avg + multiple_scattering_fresnel(curves, f0, f90) * (1 - curves.E1_avg)
 
 
-def interface_albedo(mu, lobes):
-    """Ed: what the interface over the diffuse lobe keeps from it; the shape of mu."""
-    return specular_albedo(mu, lobes.curves, lobes.coupling_f0, lobes.coupling_f90)[..., 0]
+def interface_albedo(place, lobes):
+    """Ed: what the interface over the diffuse lobe keeps from it."""
+    return specular_albedo(place, lobes.curves, lobes.coupling_f0, lobes.coupling_f90)[..., 0]
 
 
 def diffuse_coupling(v, l, lobes):
@@ -87,7 +95,7 @@ def diffuse_coupling(v, l, lobes):
     passed = 1 - specular_albedo_average(lobes.curves, lobes.coupling_f0, lobes.coupling_f90)
     if passed < 1e-12:
         return np.zeros(np.broadcast_shapes(v.shape, l.shape)[:-1])
-    return (1 - interface_albedo(np.abs(v[..., 2]), lobes)) * (1 - interface_albedo(np.abs(l[..., 2]), lobes)) / (np.pi * passed)
+    return (1 - interface_albedo(lobes.place(v), lobes)) * (1 - interface_albedo(lobes.place(l), lobes)) / (np.pi * passed)
 
 
 def eval_single_scattering(v, l, lobes):
@@ -100,7 +108,7 @@ def eval_single_scattering(v, l, lobes):
 def eval_multiple_scattering(v, l, lobes):
     """Fms (1 - E1(v)) (1 - E1(l)) / (pi (1 - E1_avg)) |nl| in 1/sr, per channel (..., 3): Kulla and Conty (2017)."""
     curves = lobes.curves
-    lost = (1 - curves.E1(v[..., 2])) * (1 - curves.E1(np.abs(l[..., 2]))) / (np.pi * (1 - curves.E1_avg))
+    lost = (1 - curves.E1(lobes.place(v))) * (1 - curves.E1(lobes.place(l))) / (np.pi * (1 - curves.E1_avg))
     return multiple_scattering_fresnel(curves, lobes.f0, lobes.f90) * per_channel(lost * np.maximum(l[..., 2], 0))
 
 
@@ -116,13 +124,12 @@ def eval(v, l, lobes):
 
 def specular_probability(v, lobes):
     """The probability to sample the GGX lobe, by luminance of the albedos; neither lobe falls below MIN_PROBABILITY unless it is black."""
-    mu = v[..., 2]
-    specular = specular_albedo(mu, lobes.curves, lobes.f0, lobes.f90) @ LUMINANCE
-    diffuse = (per_channel(1 - interface_albedo(mu, lobes)) * lobes.diffuse) @ LUMINANCE
+    specular = specular_albedo(lobes.place(v), lobes.curves, lobes.f0, lobes.f90) @ LUMINANCE
+    diffuse = (per_channel(1 - interface_albedo(lobes.place(v), lobes)) * lobes.diffuse) @ LUMINANCE
     if np.all(lobes.diffuse == 0):
-        return np.ones_like(mu)
+        return np.ones_like(v[..., 2])
     if np.all(lobes.f0 == 0) and lobes.f90 == 0:
-        return np.zeros_like(mu)
+        return np.zeros_like(v[..., 2])
     return np.clip(specular / (specular + diffuse), MIN_PROBABILITY, 1 - MIN_PROBABILITY)
 
 

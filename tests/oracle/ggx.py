@@ -153,3 +153,47 @@ class AlbedoCurves:
 @lru_cache(maxsize=None)
 def albedo_curves(alpha):
     return AlbedoCurves(alpha)
+
+
+class AnisotropicAlbedo:
+    """A and B of two alphas as functions of directions (..., 3), and their cosine averages; E1 = A + B.
+
+    A Chebyshev polynomial in sqrt(mu), and cosines of even multiples of the azimuth.
+    """
+
+    DEGREE, AZIMUTHS = 48, 64
+
+    def __init__(self, ax, ay):
+        nodes = np.polynomial.chebyshev.chebpts1(self.DEGREE + 1)
+        phi = (np.arange(self.AZIMUTHS) + 0.5) * np.pi / 2 / self.AZIMUTHS
+        v = at_cosine(((nodes + 1) / 2)[:, None] ** 2, phi)
+        values = np.stack([np.stack(directional_albedo(row, ax, ay, 96, 16), axis=-1) for row in v])
+        series = np.einsum("mpc,pk->mkc", values, self.cosines(phi) * np.where(np.arange(self.AZIMUTHS) > 0, 2, 1) / self.AZIMUTHS)
+        self.coefficients = np.polynomial.chebyshev.chebfit(nodes, series.reshape(len(nodes), -1), self.DEGREE).reshape(series.shape)
+        self.A_avg, self.B_avg = (cosine_average(lambda mu, c=c: self.at(mu, self.coefficients[:, 0, c])) for c in (0, 1))
+        self.E1_avg = self.A_avg + self.B_avg
+
+    def cosines(self, phi):
+        return np.cos(2 * np.asarray(phi)[..., None] * np.arange(self.AZIMUTHS))
+
+    @staticmethod
+    def at(mu, coefficients):
+        return np.polynomial.chebyshev.chebval(2 * np.sqrt(mu) - 1, coefficients, tensor=coefficients.ndim > 1)
+
+    def of(self, w, channel):
+        series = np.moveaxis(self.at(w[..., 2], self.coefficients[..., channel]), 0, -1)
+        return np.sum(series * self.cosines(np.arctan2(w[..., 1], w[..., 0])), axis=-1)
+
+    def A(self, w):
+        return self.of(w, 0)
+
+    def B(self, w):
+        return self.of(w, 1)
+
+    def E1(self, w):
+        return self.A(w) + self.B(w)
+
+
+@lru_cache(maxsize=None)
+def anisotropic_albedo(ax, ay):
+    return AnisotropicAlbedo(ax, ay)

@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
+import anisotropic_table
 import clearcoat
 import core
 import fresnel
@@ -229,6 +230,19 @@ class TabledCurves:
         return self.A_avg + self.B_avg
 
 
+class TabledAnisotropic(TabledCurves):
+    """ggx.AnisotropicAlbedo by the kernels' table."""
+
+    def __init__(self, ax, ay):
+        self.alpha = ax, ay
+        e, b = anisotropic_table.look_up_average(ax, ay)
+        self.average = e - b, b
+
+    def at(self, w):
+        e, b = anisotropic_table.look_up(w, *self.alpha)
+        return e - b, b
+
+
 @lru_cache(maxsize=None)
 def sheen_row(j):
     mu = np.maximum(root_of(np.arange(TABLE_SIZE)), sheen.MIN_COSINE)
@@ -354,7 +368,7 @@ def eval_principled(v, l, m):
     left = (1 - m.metallic) * (1 - m.transmission)
     if solid:
         shift = TabledCurves.shift  # 1 - F has the same absolute error
-        passed = [np.minimum(1 - core.interface_albedo(np.abs(w[..., 2]), lobes), 1 - shift - np.max(dielectric(np.abs(w[..., 2])), axis=-1))
+        passed = [np.minimum(1 - core.interface_albedo(lobes.place(w), lobes), 1 - shift - np.max(dielectric(np.abs(w[..., 2])), axis=-1))
                   for w in (v, l)]
         coupling = passed[0] * passed[1] / np.pi
     else:
@@ -378,7 +392,8 @@ def eval_principled(v, l, m):
 
 
 def principled_cases(rng):
-    ggx.albedo_curves, sheen.albedo_curve = lru_cache(maxsize=None)(TabledCurves), tabled_sheen
+    ggx.albedo_curves, ggx.anisotropic_albedo = lru_cache(maxsize=None)(TabledCurves), lru_cache(maxsize=None)(TabledAnisotropic)
+    sheen.albedo_curve = tabled_sheen
     rows = []
     for m in (m.rounded() for m in MATERIALS):
         alpha = np.maximum(core.anisotropic_alpha(m.roughness, m.anisotropy), ggx.MIN_ALPHA)

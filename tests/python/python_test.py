@@ -172,6 +172,23 @@ class FilmTest(PythonCase):
         self.assertIn("1100x10, 1 samples per pixel", repr(film))
         self.assertRegex(repr(glim.render(GEMS, size=(8, 8), spp=80)), r"estimated RMSE [0-9.]+ % of the mean \[")
 
+    def test_unknown_error(self):
+        """Of a black picture and of radiance whose squares float32 does not hold: it meets no target, and ends the render."""
+        with open(scene("light_point"), encoding="utf-8") as file:
+            lamp = json.load(file)
+        for intensity in (0, 1e25):
+            lamp["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = intensity
+            with open(self.path("lamp.gltf"), "w", encoding="utf-8") as file:
+                json.dump(lamp, file)
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                film = glim.render(self.path("lamp.gltf"), size=(8, 8), target_rmse=10, denoise=True)
+            self.assertIn("the target is not reached after 1024 samples per pixel", str(caught[-1].message))
+            self.assertIsNone(film.error)
+            self.assertEqual(film.count.max(), 1024)
+            self.assertNotRegex(repr(film), "nan|inf|\\[0")
+            self.assertFalse(intensity == 0 and film.denoised_error)
+
     def test_denoised(self):
         plain, film = (glim.render(GEMS, size=(40, 32), spp=64, denoise=denoise) for denoise in (False, True))
         self.assertEqual(film.digest, plain.digest)

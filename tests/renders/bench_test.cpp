@@ -46,9 +46,10 @@ protected:
         bench.floor = measureFloor(*reference);
         bench.seeds.resize(kSeeds);
         std::iota(bench.seeds.begin(), bench.seeds.end(), 1U);
-        auto rendered = renderSeeds(renderer, camera(), bench.seeds, kSamples, *reference, goOn);
-        bench.points = std::move(rendered->points);
-        bench.bias = rendered->bias;
+        const FlatCamera view = camera();
+        RenderedSeeds rendered = renderSeeds({{renderer, view}}, bench.seeds, kSamples, *reference, goOn)->front();
+        bench.points = std::move(rendered.points);
+        bench.bias = rendered.bias;
         return bench;
     }
 
@@ -74,10 +75,11 @@ TEST_F(BenchTest, PointsAreThoseOfPlainRenders)
 {
     RenderSettings settings = squareSettings(kSide, kSamples);
     Renderer renderer(testDevice(), *flat, camera(), settings);
-    const auto rendered = renderSeeds(renderer, camera(), {7, 3, 7}, kSamples, *reference, goOn);
-    ASSERT_EQ(rendered->points.size(), 7U);
+    const FlatCamera view = camera();
+    const RenderedSeeds rendered = renderSeeds({{renderer, view}}, {7, 3, 7}, kSamples, *reference, goOn)->front();
+    ASSERT_EQ(rendered.points.size(), 7U);
     for (const auto& [place, spp] : {std::pair{2U, 4U}, {5U, 32U}, {6U, 64U}}) {
-        const BenchPoint& point = rendered->points[place];
+        const BenchPoint& point = rendered.points[place];
         EXPECT_EQ(point.samples, spp);
         settings.seed = 3;
         settings.sampleEnd = spp;
@@ -87,8 +89,40 @@ TEST_F(BenchTest, PointsAreThoseOfPlainRenders)
         EXPECT_EQ(point.relMse[0], point.relMse[2]);
         EXPECT_NE(point.relMse[0], point.relMse[1]);
     }
-    for (std::size_t i = 1; i < rendered->points.size(); ++i) {
-        EXPECT_GT(rendered->points[i].seconds[0], rendered->points[i - 1].seconds[0]);
+    for (std::size_t i = 1; i < rendered.points.size(); ++i) {
+        EXPECT_GT(rendered.points[i].seconds[0], rendered.points[i - 1].seconds[0]);
+    }
+}
+
+// Each seed is rendered by both before the next, and neither is always the first.
+TEST_F(BenchTest, SidesTakeTurns)
+{
+    RenderSettings settings = squareSettings(kSide, kSamples);
+    Renderer first(testDevice(), *flat, camera(), settings);
+    settings.sampler = Sampler::Independent;
+    Renderer second(testDevice(), *flat, camera(), settings);
+    const FlatCamera view = camera();
+    std::string turns;
+    std::uint64_t last = 0;
+    const auto note = [&](std::uint64_t samples) {
+        const char now = first.sampleCount() > 0 && first.sampleCount() < kSamples ? 'a' : 'b';
+        const bool isNext = samples / kSamples > last / kSamples || turns.empty();
+        turns += isNext && samples % kSamples > 0 ? std::string(1, now) : std::string();
+        last = isNext && samples % kSamples > 0 ? samples : last;
+        return true;
+    };
+    const auto both = renderSeeds({{first, view}, {second, view}}, {1, 2, 3, 4}, kSamples, *reference, note);
+    EXPECT_EQ(turns, "abbaabba");
+    ASSERT_EQ(both->size(), 2U);
+    const auto alone = renderSeeds({{first, view}}, {1, 2, 3, 4}, kSamples, *reference, goOn);
+    EXPECT_EQ(both->front().points.back().relMse, alone->front().points.back().relMse);
+    EXPECT_EQ(both->front().bias.squared, alone->front().bias.squared);
+    EXPECT_NE(both->back().points.back().relMse, alone->front().points.back().relMse);
+    for (const RenderedSeeds& side : *both) {
+        for (const BenchPoint& point : side.points) {
+            EXPECT_EQ(point.cpuSeconds.size(), 4U);
+        }
+        EXPECT_GT(side.points.back().cpuSeconds[0], 0.0);
     }
 }
 

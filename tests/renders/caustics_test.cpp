@@ -1,5 +1,6 @@
 // Caustics by light paths, against path tracing.
 #include "host/flatten/flatten_scene.hpp"
+#include "host/flatten/start_media.hpp"
 #include "host/measure/confidence.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/caustic_films.hpp"
@@ -62,14 +63,17 @@ void addSmooth(Scene& scene, const Material& material, const glm::vec3& center, 
     addMesh(scene, placed, static_cast<std::uint32_t>(scene.materials.size() - 1), verticesOf(sphere));
 }
 
-// A pane before the camera's right half and between lamp and balls.
-void addPane(Scene& scene, const Material& material)
+// A pane before the camera's right half and between lamp and balls: their fronts face camera and lamp, or if turned their backs.
+void addPane(Scene& scene, const Material& material, bool turned = false)
 {
     scene.materials.push_back(material);
     const glm::vec3 a(0, -1, 1.2F), b(2, -1, 1.2F), c(2, 1, 1.2F), d(0, 1, 1.2F);
-    addMesh(scene, {{{a, b, c}}, {{a, c, d}}}, static_cast<std::uint32_t>(scene.materials.size() - 1));
+    const auto quad = [turned](const glm::vec3& p, const glm::vec3& q, const glm::vec3& r, const glm::vec3& s) {
+        return turned ? Triangles{{{r, q, p}}, {{s, r, p}}} : Triangles{{{p, q, r}}, {{p, r, s}}};
+    };
+    addMesh(scene, quad(a, b, c, d), static_cast<std::uint32_t>(scene.materials.size() - 1));
     const glm::vec3 e(0.2F, 0.6F, 1), f(2, 0.6F, 1), g(2, 0.6F, -1), h(0.2F, 0.6F, -1);
-    addMesh(scene, {{{e, f, g}}, {{e, g, h}}}, static_cast<std::uint32_t>(scene.materials.size() - 1));
+    addMesh(scene, quad(e, f, g, h), static_cast<std::uint32_t>(scene.materials.size() - 1));
 }
 
 Material solid()
@@ -175,6 +179,15 @@ const NamedVariant kVariants[] = {
              addSmooth(scene, m, {0.0F, -0.6F, 1.0F}, 0.4F);
          });
      }},
+    {"underWater",  // with the camera and the lamp
+     [] {
+         return changed(balls(), [](Scene& scene) {
+             Material m = solid();
+             m.ior = 1.3F;
+             m.absorption = {0.05F, 0.1F, 0.2F};
+             addSmooth(scene, m, glm::vec3(0.0F), 9.0F);
+         });
+     }},
     {"dispersion",
      [] {
          return changed(room(), [](Scene& scene) {
@@ -224,6 +237,48 @@ const NamedVariant kVariants[] = {
              addPane(scene, m);
          });
      }},
+    // Single-sided surfaces: light comes to the fronts of panes, where it scatters and passes, or ends at their backs.
+    {"fronts", [] { return changed(balls(), [](Scene& scene) { addPane(scene, plastic(0.7F)); }); }},
+    {"backs", [] { return changed(balls(), [](Scene& scene) { addPane(scene, plastic(0.7F), true); }); }},
+    {"mirrorFronts",
+     [] {
+         return changed(balls(), [](Scene& scene) {
+             Material metal;
+             metal.roughness = 0.0F;
+             addPane(scene, metal);
+         });
+     }},
+    {"alphaBacks",
+     [] {
+         return changed(balls(), [](Scene& scene) {
+             Material m = plastic(0.7F);
+             m.alphaMode = AlphaMode::Blend;
+             m.alpha = 0.4F;
+             addPane(scene, m, true);
+         });
+     }},
+    {"thinWallAndFronts",
+     [] {
+         return changed(balls(), [](Scene& scene) {
+             Material thin = plastic(0.0F), half = plastic(0.7F);
+             thin.transmission = 0.9F;
+             half.alphaMode = AlphaMode::Blend;
+             half.alpha = 0.4F;
+             addPane(scene, thin);
+             addPane(scene, half);
+             for (glm::dvec3& p : scene.meshes.back().positions) {
+                 p.y += 0.2;
+             }
+         });
+     }},
+    // Balls and camera are within a sphere, the lamp is not.
+    {"withinASphere",
+     [] {
+         Variant v = balls();
+         v.builder.sphere({0.1F, -0.6F, 0.3F}, 1.6F, v.builder.add(plastic(0.7F)));
+         v.change = [](Scene& scene) { scene.cameras.front().position = {0.1F, -0.1F, 1.5F}; };
+         return v;
+     }},
     {"threeBounces",
      [] {
          Variant v = balls();
@@ -247,7 +302,7 @@ TEST_P(CausticsTest, AgreeWithPathTracing)
     Scene scene = variant.builder.scene();
     variant.change(scene);
     const FlatScene flat = flattened(scene);
-    const FlatCamera camera = flattenCamera(scene.cameras.front(), 1.0F, variant.lens);
+    const FlatCamera camera = placeInMedia(flattenCamera(scene.cameras.front(), 1.0F, variant.lens), scene, flat);
     const Film light = renderCaustics(flat, camera, variant.settings, true);
     RenderSettings others = variant.settings;
     others.seed = 1;

@@ -59,7 +59,9 @@ TEST(BenchCommandTest, MeasuresWritesAndComparesWithAnEarlierBench)
     ASSERT_EQ(run.exitCode, 0) << run.err;
     EXPECT_EQ(bytesOfFile(reference), bytes);
     EXPECT_FALSE(std::filesystem::exists(folder / "b.cornell_spheres.exr"));
-    EXPECT_TRUE(contains(run.out, "after 64 samples, seeds paired")) << run.out;
+    EXPECT_TRUE(contains(run.out, "after 64 samples, seeds paired, by turns")) << run.out;
+    EXPECT_TRUE(contains(run.out, "\n  not excluded: a load that slows one of the two more than the other")) << run.out;
+    EXPECT_FALSE(contains(run.out, "by CPU seconds x  unknown")) << run.out;
     const std::size_t place = run.out.find("  efficiency x ");
     ASSERT_NE(place, std::string::npos);
     const std::string line = run.out.substr(place, run.out.find('\n', place) - place);
@@ -68,11 +70,21 @@ TEST(BenchCommandTest, MeasuresWritesAndComparesWithAnEarlierBench)
     // Points of 64 samples and less share every sample with the uniform render, so that their means are the same.
     run = bench({"--spp", "128", "-o", second, "--adaptive", "neighbours", "--reference", reference, "--against", first});
     ASSERT_EQ(run.exitCode, 0) << run.err;
-    EXPECT_TRUE(contains(run.out, "\n  mean x              1 [1, 1], does not exclude 1\n  MSE x               1 [1, 1]")) << run.out;
+    EXPECT_TRUE(contains(run.out, "after 128 samples, seeds paired, by turns")) << run.out;
     const SceneBench adaptive = readBenches(second)[0];
     EXPECT_EQ(adaptive.points.back().samples, 128U);
     EXPECT_TRUE(contains(adaptive.settings, " adaptive=neighbours")) << adaptive.settings;
     EXPECT_EQ(adaptive.points[6].relMse, benches[0].points[6].relMse);
+
+    // What cannot be rendered by turns says so: the same options, and other light.
+    run = bench({"--spp", "64", "-o", second, "--reference", reference, "--against", first});
+    EXPECT_TRUE(contains(run.out, ", not by turns:\n  mean x              1 [1, 1], does not exclude 1\n  MSE x               1 [1, 1]"))
+        << run.out;
+    const std::size_t times = run.out.find("  samples a second x  ");
+    EXPECT_EQ(run.out.find("exclude 1", times), std::string::npos) << "what is not by turns decides nothing about times: " << run.out;
+    EXPECT_TRUE(contains(run.out, ", because it has the same options. CPU seconds suffer less")) << run.out;
+    EXPECT_TRUE(contains(bench({"--spp", "64", "-o", second, "--bounces", "2", "--against", first}).out,
+                         "because its options ask for other light"));
 
     // An existing reference is used again, and two runs differ only in times.
     run = bench({"--spp", "64", "-o", first});

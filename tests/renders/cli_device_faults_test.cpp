@@ -66,6 +66,31 @@ TEST_F(DeviceFaultTest, ALostDeviceLeavesTheLastCheckpoint)
     EXPECT_GT(checkpoints, 0);
 }
 
+TEST_F(DeviceFaultTest, ADeviceThatIsLostAfterTheRenderLeavesTheFilm)
+{
+    GlimCall denoised;
+    denoised.arguments = {"render", sceneFile("cornell.gltf"), "--size", "16x16", "--spp", "64", "--denoise", "-o", film_.string()};
+    ASSERT_EQ(runGlim(denoised).exitCode, 0);
+    const std::string expected = digestOf(readFilm(film_));
+    denoised.environment["LD_PRELOAD"] = GLIM_FAIL_IN_VULKAN;
+    int kept = 0;
+    for (int at = 1;; at += 1 + at / 2) {
+        std::filesystem::remove(film_);
+        denoised.environment["GLIM_LOSE_DEVICE_AT"] = std::to_string(at);
+        const GlimRun run = runGlim(denoised);
+        if (run.exitCode == 0) {
+            break;
+        }
+        expectSentence(run, "VK_ERROR_DEVICE_LOST");
+        if (std::filesystem::exists(film_)) {
+            ++kept;
+            EXPECT_EQ(digestOf(readFilm(film_)), expected);
+            EXPECT_NE(run.out.find("64 samples per pixel"), std::string::npos) << run.out;
+        }
+    }
+    EXPECT_GT(kept, 0);
+}
+
 TEST_F(DeviceFaultTest, MemoryThatIsRefusedIsNamed)
 {
     int faults = 0;

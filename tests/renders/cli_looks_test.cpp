@@ -1,5 +1,6 @@
 // What the program says of materials, textures, environments and exposure, and how it refuses what it cannot use.
 #include "host/image/decode_image.hpp"
+#include "host/image/exr.hpp"
 #include "tests/support/encode_images.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/run_glim.hpp"
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <numeric>
 #include <regex>
 #include <set>
 
@@ -110,15 +112,44 @@ TEST_F(LooksTest, InspectListsLobesTexturesEnvironmentAndMedia)
 
 TEST_F(LooksTest, InspectSaysWhatBecomesOfSingleSidedMaterials)
 {
-    writeBall();
+    const auto expectNone = [this] {
+        EXPECT_EQ(json::parse(run({"inspect", "scene.gltf", "--json"}).out).at("singleSided"), 0);
+        EXPECT_FALSE(contains(run({"inspect", "scene.gltf"}).out, "  single-sided: "));
+    };
+    writeCoated();
     EXPECT_EQ(json::parse(run({"inspect", "scene.gltf", "--json"}).out).at("singleSided"), 1);
-    const char* line = "  single-sided: 1 material; back faces are drawn too, but emit nothing\n";
-    EXPECT_TRUE(contains(run({"inspect", "scene.gltf"}).out, line));
+    EXPECT_TRUE(contains(run({"inspect", "scene.gltf"}).out, "  single-sided: 1 material, whose back faces are not drawn (--back-faces)\n"));
     json document = jsonIn("scene.gltf");
     document["materials"][0]["doubleSided"] = true;
     writeText(folder_ / "scene.gltf", document.dump());
-    EXPECT_EQ(json::parse(run({"inspect", "scene.gltf", "--json"}).out).at("singleSided"), 0);
-    EXPECT_FALSE(contains(run({"inspect", "scene.gltf"}).out, "single-sided"));
+    expectNone();
+    writeBall();  // it transmits
+    expectNone();
+}
+
+// The triangle from behind, in a sky of radiance 1: it hides the sky or is not there, and its film is another one.
+TEST_F(LooksTest, BackFacesAreLeftOutUnlessAskedFor)
+{
+    writeCoated();
+    json document = jsonIn("scene.gltf");
+    document["nodes"][0]["rotation"] = {0, 1, 0, 0};
+    document["nodes"][0]["translation"] = {0.5, 0, 0};
+    writeText(folder_ / "scene.gltf", document.dump());
+    const auto meanOfFilm = [this](const Arguments& options) {
+        Arguments all{"--environment", "1,1,1"};
+        all.insert(all.end(), options.begin(), options.end());
+        const GlimRun run = render(all);
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        const std::vector<float> red = readExr((folder_ / "x.exr").string()).channels.at("R");
+        return std::accumulate(red.begin(), red.end(), 0.0) / static_cast<double>(red.size());
+    };
+    EXPECT_EQ(meanOfFilm({}), 1.0);
+    const GlimRun other = run({"render", "scene.gltf", "-o", "x.exr", "--size", "8x8", "--spp", "4", "--environment", "1,1,1",
+                               "--back-faces", "shown", "--resume"});
+    EXPECT_TRUE(contains(other.err, "its scene, camera or environment")) << other.err;
+    EXPECT_LT(meanOfFilm({"--back-faces", "shown"}), 0.9);
+    EXPECT_EQ(meanOfFilm({"--back-faces", "culled"}), 1.0);
+    EXPECT_EQ(render({"--back-faces", "hidden"}).exitCode, 2);
 }
 
 TEST_F(LooksTest, ReplaysShowMaterialsAndLobes)

@@ -101,6 +101,45 @@ TEST(CommandLineTest, ResultsThatCannotBeWrittenAreAFailure)
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
 }
 
+// As with a full disk: one sentence, and no file that is not whole.
+TEST(CommandLineTest, FilesThatWouldGrowTooLargeAreNotWritten)
+{
+    const ScratchFolder folder;
+    const std::string scene = sceneFile("cornell.gltf"), film = (folder / "film.exr").string();
+    for (const char* name : {"film.exr", "other.exr"}) {
+        const std::string seed = name[0] == 'f' ? "0" : "1";
+        ASSERT_EQ(runGlim({"render", scene, "-o", (folder / name).string(), "--size", "64x64", "--spp", "2", "--seed", seed}).exitCode, 0);
+    }
+    const std::vector<std::pair<const char*, std::vector<std::string>>> cases{
+        {"new.exr", {"render", scene, "-o", "new.exr", "--size", "64x64", "--spp", "2"}},
+        {"new.exr", {"render", scene, "-o", "new.exr", "--size", "64x64", "--spp", "64", "--denoise"}},
+        {"film.exr", {"render", scene, "-o", "film.exr", "--size", "64x64", "--spp", "4"}},
+        {"new.exr", {"merge", "film.exr", "-o", "new.exr"}},
+        {"d.exr", {"compare", "film.exr", "other.exr", "--diff", "d.exr"}},
+        {"d.png", {"compare", "film.exr", "other.exr", "--diff-png", "d.png"}},
+        {"r.json", {"render", scene, "--replay", "3,3,0", "--size", "64x64", "--stats", "r.json"}},
+    };
+    for (const auto& [file, arguments] : cases) {
+        SCOPED_TRACE(arguments[0] + " " + file);
+        GlimCall call;
+        call.arguments = arguments;
+        call.folder = folder.path();
+        const std::string before = bytesOfFile(film);
+        const GlimRun run = runGlim(afterCommand("ulimit -f 1", call));
+        EXPECT_EQ(run.signal, 0);
+        EXPECT_EQ(run.exitCode, 1);
+        EXPECT_TRUE(contains(run.err, std::string(file) + ": cannot be written: File too large.")) << run.err;
+        EXPECT_EQ(bytesOfFile(film), before);
+        EXPECT_EQ(folder.entries(), 2);
+    }
+    GlimCall inspect;
+    inspect.arguments = {"inspect", scene, "--json"};
+    inspect.folder = folder.path();
+    const GlimRun run = runGlim(afterCommand("ulimit -f 1", inspect, ">out"));
+    EXPECT_EQ(run.exitCode, 1);
+    EXPECT_EQ(run.err, "glim: The results could not be written to standard output.\n");
+}
+
 TEST(CommandLineTest, InspectCountsWhatIsThere)
 {
     const ScratchFolder folder;

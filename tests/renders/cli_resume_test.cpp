@@ -1,4 +1,5 @@
 // --checkpoint and --resume: whatever ends a render, the same command goes on with the bits of one run.
+#include "host/image/atomic_file.hpp"
 #include "host/image/exr.hpp"
 #include "host/render/film_file.hpp"
 #include "shaders/shared/limits.h"
@@ -8,6 +9,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
@@ -180,17 +182,71 @@ TEST_F(CommandLineResumeTest, FailedCommandsAndFullDisksAreSaidAndTheRenderGoesO
     EXPECT_EQ(folder_.entries(), 1U);
 }
 
+// A checkpoint that cannot be written is said the 1st, 2nd, 4th, 8th ... time.
+TEST_F(CommandLineResumeTest, MessagesThatRepeatBecomeRarer)
+{
+    GlimCall endless = failing(call({"--time", "2", "--checkpoint", "0.01s"}), 5, "full", folder_.path());
+    const GlimRun full = runGlim(endless);
+    EXPECT_EQ(full.exitCode, 1);
+    const std::size_t lines = countLines(full.err);
+    EXPECT_GE(lines, 4U) << full.err;
+    EXPECT_LE(lines, 10U) << full.err;
+    EXPECT_NE(full.err.find("No space left on device. (4 times in a row)"), std::string::npos) << full.err;
+    EXPECT_EQ(full.err.find("(3 times"), std::string::npos) << full.err;
+    EXPECT_EQ(folder_.entries(), 0U);
+}
+
 TEST_F(CommandLineResumeTest, OneProcessWrites)
 {
+    const std::filesystem::path lock = hiddenBeside(film_, ".lock");
     expectDone({"--spp", "32"});
-    const int lock = open((film_.string() + ".lock").c_str(), O_RDWR | O_CREAT, 0600);
-    ASSERT_GE(lock, 0);
-    ASSERT_EQ(flock(lock, LOCK_EX), 0);
-    ASSERT_EQ(write(lock, "4711", 4), 4);
-    expectRefused({"--spp", "64", "--resume"}, "film.exr: is written by another glim, process 4711; expected only one.");
-    close(lock);
+    std::filesystem::create_symlink("film.exr", folder_ / "link.exr");
+    writeText(lock, "glim 4711\n");
+    const int held = open(lock.c_str(), O_RDWR);
+    ASSERT_GE(held, 0);
+    ASSERT_EQ(flock(held, LOCK_EX), 0);
+    const std::string sentence = ": is written by another glim, process 4711; expected only one.";
+    expectRefused({"--spp", "64", "--resume"}, "film.exr" + sentence);
+    expectRefused({"--spp", "64"}, "film.exr" + sentence);
+    const std::string link = (folder_ / "link.exr").string();
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"render", sceneFile("cornell.gltf"), "-o", link, "--size", "12x12"},
+          {"merge", film_.string(), "-o", link}}) {
+        const GlimRun run = runGlim(arguments);
+        EXPECT_EQ(run.exitCode, 1);
+        EXPECT_EQ(run.err, "glim: " + link + sentence + "\n");
+    }
+    close(held);
     expectDone({"--spp", "64", "--resume"});
-    EXPECT_EQ(folder_.entries(), 1U) << "the lock of a process that is gone is taken, and removed";
+    EXPECT_EQ(folder_.entries(), 2U) << "the lock of a process that is gone is taken, and removed";
+}
+
+TEST_F(CommandLineResumeTest, ALockIsNothingButALock)
+{
+    const std::filesystem::path lock = hiddenBeside(film_, ".lock"), mine = folder_ / "mine";
+    const auto expectLeft = [&](const std::filesystem::path& file, const std::string& content) {
+        expectRefused({"--spp", "4"}, lock.string() + ": is not glim's lock; expected no file of this name.");
+        EXPECT_EQ(bytesOfFile(file), content);
+        EXPECT_TRUE(std::filesystem::exists(std::filesystem::symlink_status(lock)));
+        std::filesystem::remove(lock);
+    };
+    writeText(mine, "mine");
+    std::filesystem::create_symlink("mine", lock);
+    expectLeft(mine, "mine");
+    std::filesystem::create_symlink("nowhere", lock);
+    expectLeft(mine, "mine");
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "nowhere"));
+    for (const char* content : {"mine", "4711", "glim 47 11\n", "glim \n"}) {
+        writeText(lock, content);
+        expectLeft(lock, content);
+    }
+    ASSERT_EQ(mkfifo(lock.c_str(), 0600), 0);
+    expectRefused({"--spp", "4"}, "is not glim's lock");
+    std::filesystem::remove(lock);
+    // What the user calls so, as flock(1) does, is none of glim's business.
+    writeText(folder_ / "film.exr.lock", "mine");
+    expectDone({"--spp", "4"});
+    EXPECT_EQ(bytesOfFile(folder_ / "film.exr.lock"), "mine");
 }
 
 TEST_F(CommandLineResumeTest, OtherFilmsAreRefusedAndLeft)

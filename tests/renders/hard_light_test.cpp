@@ -91,6 +91,94 @@ TEST(HardLightTest, H10LightAgainstAWall)
     expectFloor("H10", "lamp between floor and wall", builder.scene(), irradianceOf(lamp));
 }
 
+// Of lamps in one place a ray meets the first (lift_lamps.hpp), and sampled lights agree: both lit the floor before.
+void expectFloorInAllWays(const std::string& name, const Scene& scene, double irradiance)
+{
+    for (const auto& [way, direct] :
+         {std::pair("mis", DirectLight::Mis), std::pair("lights", DirectLight::Lights), std::pair("bsdf", DirectLight::Bsdf)}) {
+        RenderSettings settings = squareSettings(32, 64);  // more would see the lift
+        settings.bounces = 1;
+        settings.course.direct = direct;
+        expectMean(name + ", " + way, renderScene(scene, settings), glm::dvec3(kAlbedo * irradiance / std::numbers::pi));
+    }
+}
+
+std::array<glm::vec3, 4> turned(const std::array<glm::vec3, 4>& corners) { return {corners[1], corners[2], corners[3], corners[0]}; }
+
+std::array<glm::vec3, 4> upside(const std::array<glm::vec3, 4>& corners) { return {corners[3], corners[2], corners[1], corners[0]}; }
+
+std::array<glm::vec3, 4> shifted(std::array<glm::vec3, 4> corners, const glm::vec3& by)
+{
+    for (glm::vec3& corner : corners) {
+        corner += by;
+    }
+    return corners;
+}
+
+struct LampQuad {
+    std::array<glm::vec3, 4> corners;
+    float radiance;
+    bool doubleSided = false;
+};
+
+Scene lampsAboveTheFloor(const std::vector<LampQuad>& lamps)
+{
+    SceneBuilder builder = floorScene();
+    for (const LampQuad& lamp : lamps) {
+        builder.quad(lamp.corners, builder.lambert(glm::vec3(0.0F), glm::vec3(lamp.radiance), lamp.doubleSided));
+    }
+    return builder.scene();
+}
+
+TEST(HardLightTest, OfLampsInOnePlaceTheFirstShines)
+{
+    const std::array<glm::vec3, 4> lamp = downQuad(0.5F, 1.5F), below = shifted(lamp, {0, -1e-6F, 0});
+    const double irradiance = irradianceOf(lamp);
+    expectFloorInAllWays("the same lamp twice", lampsAboveTheFloor({{lamp, 1.0F}, {lamp, 3.0F}}), irradiance);
+    expectFloorInAllWays("its corners in another order", lampsAboveTheFloor({{lamp, 1.0F}, {turned(turned(lamp)), 1.0F}}), irradiance);
+    expectFloorInAllWays("along the other diagonal", lampsAboveTheFloor({{lamp, 1.0F}, {turned(lamp), 3.0F}}), irradiance);
+    expectFloorInAllWays("doubled faces", lampsAboveTheFloor({{upside(lamp), 3.0F}, {lamp, 1.0F}}), irradiance);
+    expectFloorInAllWays("double-sided and one-sided", lampsAboveTheFloor({{lamp, 1.0F, true}, {lamp, 3.0F}}), irradiance);
+    expectFloorInAllWays("one-sided and double-sided", lampsAboveTheFloor({{lamp, 1.0F}, {turned(lamp), 3.0F, true}}), irradiance);
+    expectFloorInAllWays("from behind", lampsAboveTheFloor({{upside(lamp), 1.0F, true}, {turned(lamp), 3.0F, true}}), irradiance);
+    expectFloorInAllWays("1e-6 m apart", lampsAboveTheFloor({{lamp, 3.0F}, {below, 1.0F}}), irradiance);
+}
+
+TEST(HardLightTest, LampsThatOverlapInOnePlane)
+{
+    const std::array<glm::vec3, 4> lamp = downQuad(0.5F, 1.5F), aside = shifted(lamp, {0.4F, 0, 0}), farther = shifted(lamp, {0.7F, 0, 0});
+    const auto both = [](const auto& a, const auto& b) { return std::array{a[0], b[1], b[2], a[3]}; };
+    expectFloorInAllWays("two that overlap", lampsAboveTheFloor({{lamp, 1.0F}, {aside, 1.0F}}), irradianceOf(both(lamp, aside)));
+    // The last one is covered by both others.
+    const double seen = irradianceOf(both(lamp, aside)) + 3.0 * (irradianceOf(both(lamp, farther)) - irradianceOf(both(lamp, aside)));
+    expectFloorInAllWays("three that overlap", lampsAboveTheFloor({{aside, 1.0F}, {lamp, 1.0F}, {farther, 3.0F, true}}), seen);
+}
+
+TEST(HardLightTest, ADoubleSidedLampInTheCeiling)
+{
+    const std::array<glm::vec3, 4> lamp = downQuad(0.5F, 1.5F), ceiling = downQuad(2.0F, 1.5F);
+    for (const auto& corners : {lamp, upside(lamp)}) {
+        for (const auto& wall : {ceiling, upside(ceiling)}) {
+            SceneBuilder builder = floorScene();
+            builder.quad(wall, builder.lambert(glm::vec3(0.5F)));
+            builder.quad(corners, builder.lambert(glm::vec3(0.0F), glm::vec3(1.0F), true));
+            expectFloorInAllWays("a double-sided lamp in the ceiling", builder.scene(), irradianceOf(lamp));
+        }
+    }
+}
+
+TEST(HardLightTest, BallsInOnePlace)
+{
+    const double irradiance = irradianceOfSphere({0, 1.5, 0}, 0.5, {0, 1, 0});
+    for (const bool lit : {false, true}) {
+        SceneBuilder builder = floorScene();
+        const std::uint32_t first = builder.lambert(glm::vec3(0.0F), glm::vec3(1.0F)),
+                            other = builder.lambert(glm::vec3(0.5F), glm::vec3(lit ? 3.0F : 0.0F));
+        builder.sphere({0, 1.5F, 0}, 0.5F, lit ? first : other).sphere({0, 1.5F, 0}, 0.5F, lit ? other : first);
+        expectFloorInAllWays(lit ? "two lamps" : "a ball and a lamp", builder.scene(), irradiance);
+    }
+}
+
 // 24 lamps that the floor sees, and one in a closed black box, of ten times their power, which takes most of the choices.
 TEST(HardLightTest, H14AStrongLampThatIsHidden)
 {

@@ -8,6 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cstdio>
+
 namespace glim {
 namespace {
 
@@ -89,6 +92,30 @@ TEST_F(StagingTest, FillsAndCopies)
     EXPECT_TRUE(download<std::byte>(a, size) == first);
     EXPECT_TRUE(download<std::byte>(b, size) == middle);
     EXPECT_TRUE(download<std::byte>(c, size) == last);
+}
+
+// What tools/gpu_check reports.
+TEST_F(StagingTest, CopiesInGigabytesPerSecond)
+{
+    using Clock = std::chrono::steady_clock;
+    const Bytes sent = makeBytes(1 << 20, 3);
+    const std::uint64_t size = std::uint64_t{64} << 20U;
+    Bytes whole;
+    for (std::uint64_t i = 0; i < size; i += sent.size()) {
+        whole.insert(whole.end(), sent.begin(), sent.end());
+    }
+    Buffer buffer = storage(size);
+    const auto rate = [&](const auto& copy) {
+        copy();  // the first one also maps pages
+        const Clock::time_point begin = Clock::now();
+        copy();
+        return 1e-9 * static_cast<double>(size) / std::chrono::duration<double>(Clock::now() - begin).count();
+    };
+    const double up = rate([&] { buffer.upload(whole); });
+    Bytes back;
+    const double down = rate([&] { back = download<std::byte>(buffer, size); });
+    std::printf("upload %.3g GB/s, download %.3g GB/s\n", up, down);
+    EXPECT_TRUE(back == whole);
 }
 
 // The film's pages end at 256 samples; an adaptive render also chooses pixels, which the host looks at.

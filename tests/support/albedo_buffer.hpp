@@ -1,7 +1,8 @@
-// The tables of albedos of GGX and sheen, as kernels read them at kBindAlbedos.
+// The tables of albedos, as kernels read them at kBindAlbedos.
 #pragma once
 
 #include "host/flatten/albedo_table.hpp"
+#include "host/flatten/anisotropic_albedo.hpp"
 #include "host/gpu/buffer.hpp"
 #include "shaders/shared/bindings.h"
 #include "tests/support/test_device.hpp"
@@ -26,6 +27,8 @@ private:
             std::vector<uvec4> all = makeAlbedoTable();
             const std::vector<uvec4> sheen = makeSheenTable();
             all.insert(all.end(), sheen.begin(), sheen.end());
+            const std::vector<uvec4> anisotropic = makeAnisotropicAlbedoTable();
+            all.insert(all.end(), anisotropic.begin(), anisotropic.end());
             return all;
         }();
         return kTable;

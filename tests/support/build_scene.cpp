@@ -6,7 +6,7 @@
 
 namespace glim {
 
-std::uint32_t SceneBuilder::addMaterial(const Material& material)
+std::uint32_t SceneBuilder::add(const Material& material)
 {
     scene_.materials.push_back(material);
     return static_cast<std::uint32_t>(scene_.materials.size() - 1);
@@ -14,7 +14,7 @@ std::uint32_t SceneBuilder::addMaterial(const Material& material)
 
 std::uint32_t SceneBuilder::lambert(const glm::vec3& albedo, const glm::vec3& emission, bool doubleSided)
 {
-    return addMaterial(makeLambert(albedo, emission, doubleSided));
+    return add(makeLambert(albedo, emission, doubleSided));
 }
 
 std::uint32_t SceneBuilder::mirror(const glm::vec3& reflectance)
@@ -22,7 +22,7 @@ std::uint32_t SceneBuilder::mirror(const glm::vec3& reflectance)
     Material material;
     material.baseColor = reflectance;
     material.roughness = 0.0F;
-    return addMaterial(material);
+    return add(material);
 }
 
 std::uint32_t SceneBuilder::glass(float ior)
@@ -32,7 +32,7 @@ std::uint32_t SceneBuilder::glass(float ior)
     material.solid = true;
     material.metallic = material.roughness = 0.0F;
     material.ior = ior;
-    return addMaterial(material);
+    return add(material);
 }
 
 SceneBuilder& SceneBuilder::sphere(const glm::vec3& center, float radius, std::uint32_t material)

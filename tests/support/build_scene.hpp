@@ -9,7 +9,8 @@ namespace glim {
 
 class SceneBuilder {
 public:
-    // Returns the index of the material.
+    // Each returns the index of the material.
+    std::uint32_t add(const Material& material);
     std::uint32_t lambert(const glm::vec3& albedo, const glm::vec3& emission = glm::vec3(0.0F), bool doubleSided = false);
     std::uint32_t mirror(const glm::vec3& reflectance);
     std::uint32_t glass(float ior);
@@ -31,7 +32,6 @@ public:
 
 private:
     void addCamera(Camera camera, const glm::vec3& position, const glm::vec3& target);
-    std::uint32_t addMaterial(const Material& material);
 
     Scene scene_;
 };

@@ -4,6 +4,7 @@
 #include "places.h"
 #include "shaders/shared/bindings.h"
 #include "tests/support/report.h"
+#include "tests/support/test_data.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +16,10 @@ namespace {
 
 constexpr std::uint32_t kWorkgroup = 64;
 
-std::string sourceOf(const EmbeddedShader& shader) { return std::string(GLIM_SOURCE_DIR "/tests/kernels/") + shader.name + ".comp"; }
+std::string sourceOf(const EmbeddedShader& shader)
+{
+    return (testData("kernels", GLIM_SOURCE_DIR "/tests/kernels") / shader.name).string() + ".comp";
+}
 
 // The lines of the kernel's source that contain a check.
 std::vector<std::uint32_t> checkedLines(const std::string& file)

@@ -4,6 +4,7 @@
 #include "places.h"
 #include "shaders/shared/vocabulary.h"
 #include "tests/support/kernel_test.hpp"
+#include "tests/support/test_data.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -18,7 +19,7 @@ namespace glim {
 template <class Case>
 std::vector<Case> oracleCases(const std::string& name)
 {
-    const std::string path = std::string(GLIM_ORACLE_CASES "/") + name + ".bin";
+    const std::string path = (testData("oracle", GLIM_ORACLE_CASES) / (name + ".bin")).string();
     const std::uintmax_t size = std::filesystem::file_size(path);
     std::vector<Case> cases(size / sizeof(Case));
     std::ifstream file(path, std::ios::binary);

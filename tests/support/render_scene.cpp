@@ -2,6 +2,7 @@
 
 #include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
+#include "host/flatten/start_media.hpp"
 #include "host/measure/confidence.hpp"
 #include "host/render/measure_schedules.hpp"
 #include "shaders/shared/limits.h"
@@ -55,18 +56,10 @@ std::uint32_t comparedSamples(const RenderSettings& settings)
     return std::min(settings.sampleEnd, samples < kBlockSamples ? std::bit_ceil(samples) : blocks * kBlockSamples);
 }
 
-}  // namespace
+float aspectOf(const RenderSettings& settings) { return static_cast<float>(settings.width) / static_cast<float>(settings.height); }
 
-FlatScene flattened(const Scene& scene, SplitRule rule)
+Film renderBySchedules(const FlatScene& flat, const FlatCamera& flatCamera, const RenderSettings& settings)
 {
-    const Primitives primitives = makePrimitives(scene);
-    return flattenScene(scene, primitives, buildSceneBvh(primitives, rule));
-}
-
-Film renderFlat(const FlatScene& flat, const Camera& camera, const RenderSettings& settings)
-{
-    const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
-    const FlatCamera flatCamera = flattenCamera(camera, aspect);
     if (!canMeasureSchedules(settings) || settings.seconds) {
         return renderBy(settings.schedule, flat, flatCamera, settings);
     }
@@ -85,16 +78,30 @@ Film renderFlat(const FlatScene& flat, const Camera& camera, const RenderSetting
     return film;
 }
 
+}  // namespace
+
+FlatScene flattened(const Scene& scene, SplitRule rule)
+{
+    const Primitives primitives = makePrimitives(scene);
+    return flattenScene(scene, primitives, buildSceneBvh(primitives, rule));
+}
+
+Film renderFlat(const FlatScene& flat, const Camera& camera, const RenderSettings& settings)
+{
+    return renderBySchedules(flat, flattenCamera(camera, aspectOf(settings)), settings);
+}
+
 Film renderScene(const Scene& scene, const RenderSettings& settings)
 {
-    return renderFlat(flattened(scene), scene.cameras.front(), settings);
+    const FlatScene flat = flattened(scene);
+    const FlatCamera camera = flattenCamera(scene.cameras.front(), aspectOf(settings));
+    return renderBySchedules(flat, placeInMedia(camera, scene, flat), settings);
 }
 
 std::vector<Film> renderSeeds(const Scene& scene, const RenderSettings& settings, std::uint32_t count)
 {
     const FlatScene flat = flattened(scene);
-    const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
-    const FlatCamera camera = flattenCamera(scene.cameras.front(), aspect);
+    const FlatCamera camera = flattenCamera(scene.cameras.front(), aspectOf(settings));
     Renderer renderer(testDevice(), flat, camera, settings);
     std::vector<Film> films;
     for (std::uint32_t seed = 0; seed < count; ++seed) {

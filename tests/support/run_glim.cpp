@@ -6,13 +6,17 @@
 #include <gtest/gtest.h>
 
 #include <fcntl.h>
+#include <poll.h>
+#include <pty.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <thread>
+#include <utility>
 
 extern char** environ;
 
@@ -51,11 +55,16 @@ std::vector<char*> pointersTo(std::vector<std::string>& texts)
     return pointers;
 }
 
-pid_t start(const GlimCall& call, const std::filesystem::path& out, const std::filesystem::path& err)
+std::vector<std::string> wordsOf(const GlimCall& call)
 {
     std::vector<std::string> words{call.program.string()};
     words.insert(words.end(), call.arguments.begin(), call.arguments.end());
-    std::vector<std::string> variables = environmentOf(call);
+    return words;
+}
+
+pid_t start(const GlimCall& call, const std::filesystem::path& out, const std::filesystem::path& err)
+{
+    std::vector<std::string> words = wordsOf(call), variables = environmentOf(call);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
@@ -91,6 +100,12 @@ int await(pid_t process, const GlimCall& call, const std::filesystem::path& err)
     return status;
 }
 
+void setEnd(GlimRun& run, int status)
+{
+    run.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    run.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+}
+
 }  // namespace
 
 GlimRun runGlim(const GlimCall& call)
@@ -102,11 +117,60 @@ GlimRun runGlim(const GlimCall& call)
         return run;
     }
     const int status = await(process, call, folder / "err");
-    run.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    run.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    setEnd(run, status);
     run.out = bytesOfFile(folder / "out");
     run.err = bytesOfFile(folder / "err");
     return run;
+}
+
+GlimRun runOnTerminal(const GlimCall& call, unsigned short columns, const TerminalWatch& watch)
+{
+    std::vector<std::string> words = wordsOf(call), variables = environmentOf(call);
+    const std::vector<char*> arguments = pointersTo(words), environment = pointersTo(variables);
+    GlimRun run;
+    winsize size{};
+    size.ws_row = 24;
+    size.ws_col = columns;
+    int terminal = -1;
+    const pid_t process = forkpty(&terminal, nullptr, nullptr, &size);
+    if (process == 0) {
+        if (chdir(call.folder.c_str()) == 0) {
+            execve(arguments[0], arguments.data(), environment.data());
+        }
+        _exit(127);
+    }
+    EXPECT_GT(process, 0);
+    if (process < 0) {
+        return run;
+    }
+    const Clock::time_point deadline = Clock::now() + kPatience;
+    // Reading fails once nobody has the terminal open.
+    for (char text[4096]; terminal >= 0 && Clock::now() < deadline;) {
+        pollfd poll{terminal, POLLIN, 0};
+        if (::poll(&poll, 1, 10) > 0) {
+            const ssize_t length = read(terminal, text, sizeof text);
+            if (length <= 0) {
+                break;
+            }
+            run.out.append(text, static_cast<std::size_t>(length));
+        }
+        if (watch && !watch(terminal, run.out)) {
+            close(std::exchange(terminal, -1));
+        }
+    }
+    setEnd(run, await(process, {}, {}));
+    if (terminal >= 0) {
+        close(terminal);
+    }
+    return run;
+}
+
+GlimCall afterCommand(const std::string& command, GlimCall call, const std::string& redirections)
+{
+    const std::string script = command + R"(; exec "$0" "$@" )" + redirections;
+    call.arguments.insert(call.arguments.begin(), {"-c", script, call.program.string()});
+    call.program = "/bin/sh";
+    return call;
 }
 
 GlimRun runGlim(const std::vector<std::string>& arguments)

@@ -36,6 +36,14 @@ inline bool hasLine(const std::string& err) { return err.find('\n') != std::stri
 GlimRun runGlim(const GlimCall& call);
 GlimRun runGlim(const std::vector<std::string>& arguments);
 
+// The same on a terminal of its own, which is standard input, output and error, and the session's: `out` has all that it showed. `watch`
+// is given the terminal's other end and what it showed so far; false hangs up.
+using TerminalWatch = std::function<bool(int terminal, const std::string& shown)>;
+GlimRun runOnTerminal(const GlimCall& call, unsigned short columns = 80, const TerminalWatch& watch = {});
+
+// The call by a shell, after a command that changes what glim finds ("ulimit -f 2"); `redirections` as in ">&-".
+GlimCall afterCommand(const std::string& command, GlimCall call, const std::string& redirections = "");
+
 // The path of scenes/NAME.
 std::string sceneFile(const std::string& name);
 

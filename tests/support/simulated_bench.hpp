@@ -80,6 +80,7 @@ inline SceneBench simulateBench(Flaw flaw, std::uint64_t trial)
             point.samples = 1U << i;
             PictureError error = measureError(pictures[i], reference);
             point.seconds.push_back(each * point.samples);
+            point.cpuSeconds.push_back(1.8 * each * point.samples);
             point.kernelSeconds.push_back(0.9 * each * point.samples);
             point.mse.push_back(error.mse);
             point.relMse.push_back(error.relMse);

@@ -221,7 +221,7 @@ std::vector<glm::vec3> verticesOf(const Triangles& triangles)
 Scene sceneOf(const Triangles& triangles, const std::vector<Sphere>& spheres)
 {
     Scene scene;
-    scene.materials.emplace_back();
+    scene.materials.emplace_back().doubleSided = true;
     scene.spheres = spheres;
     if (!triangles.empty()) {
         addMesh(scene, triangles);

@@ -59,7 +59,7 @@ class LocalTest(FarmCase):
         self.expect_whole()
 
     def test_driver_ends_in_many_ways(self):
-        """A task that fails everywhere, a full disk, SIGINT, SIGKILL and a damaged folder: the same command goes on."""
+        """A task that fails everywhere, a full disk, SIGINT, SIGHUP, SIGKILL and a damaged folder: the same command goes on."""
         said = self.finish(self.start_farm(glim=self.program('return 1, "no more light."')), 1)
         self.assertEqual(said.count("page 0 failed on worker"), 2, said)
         self.assertRegex(said, "farm: page 0 failed too often, at last on worker .*: no more light.\n$")
@@ -69,10 +69,11 @@ class LocalTest(FarmCase):
         self.open("limit")
         self.assertIn("File too large", self.finish(farm, 1))
         stuck = self.program('if page.number > 3:\n    wait_for(FOLDER, "never")')
-        farm = self.start_farm(glim=stuck)
-        self.wait_for_pages(2)
-        farm.send_signal(signal.SIGINT)
-        self.assertIn("the same command goes on", self.finish(farm, 130))
+        for number in (signal.SIGINT, signal.SIGHUP):
+            farm = self.start_farm(glim=stuck)
+            self.wait_for_pages(2)
+            farm.send_signal(number)
+            self.assertIn("the same command goes on", self.finish(farm, 128 + number))
         self.assertGreaterEqual(len(self.pages()), 2)
         farm = self.start_farm(glim=stuck)
         self.wait_for_pages(4)

@@ -41,9 +41,12 @@ class Page:
             file.write(change(content))
 
     def replace(self, *pairs):
-        """Replaces bytes of its film, and has glim compute the digest of what comes of it."""
+        """Replaces bytes of its film, and has glim compute the digests of what comes of it: from a film of the first format, which has none."""
+        kind = b"glim:film\0double\0\x08\0\0\0"
+        formats = kind + struct.pack("<d", 3), kind + struct.pack("<d", 1)
+
         def change(content):
-            for old, new in (*pairs, (b"glim:digest", b"glim:forgot")):
+            for old, new in (*pairs, formats, (b"glim:digest", b"glim:forgot"), (b"glim:headerDigest", b"glim:headerForgot")):
                 if content.count(old) != 1 or len(old) != len(new):
                     raise ValueError("%s is there %d times" % (old, content.count(old)))
                 content = content.replace(old, new)

@@ -16,7 +16,7 @@ import time
 import unittest
 from unittest import mock
 
-from farm_fixture import FARM, GLIM, LONG, SCENE, SIZE, FarmCase, main, wait_until
+from farm_fixture import FARM, GLIM, LONG, ROOT, SCENE, SIZE, FarmCase, main, wait_until
 from render_farm.arguments import PAGE, parse_arguments
 from render_farm.errors import FarmError
 from render_farm.exr_header import read_film_header, read_header
@@ -401,6 +401,19 @@ class TargetTest(FarmCase):
         said = self.finish(self.start_farm("--target-relmse", "1e-9", spp=300))
         self.assertIn("the target is not reached", said)
         self.expect_whole(300)
+
+    def test_black_picture_ends(self):
+        """Its error stays unknown, which meets no target."""
+        with open(os.path.join(ROOT, "scenes", "light_point.gltf"), encoding="utf-8") as file:
+            scene = json.load(file)
+        for light in scene["extensions"]["KHR_lights_punctual"]["lights"]:
+            light["intensity"] = 0
+        with open(self.path("black.gltf"), "w", encoding="utf-8") as file:
+            json.dump(scene, file)
+        farm = self.start([FARM, self.path("black.gltf"), "-o", self.out, "--spp", "100000", "--size", "8x8", "--target-rmse", "9%"], GLIM)
+        self.assertIn("the target is not reached, for the error is unknown", self.finish(farm))
+        self.assertEqual(read_film_header(self.out).samples, "0:1024")
+        self.assertIsNone(read_film_error(Glim(GLIM, self.folder), self.out))
 
     def test_rungs(self):
         self.assertEqual([pages for pages in range(30) if is_rung(pages)], [*range(1, 12), 13, 15, 17, 19, 21, 24, 27])

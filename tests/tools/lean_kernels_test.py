@@ -38,7 +38,7 @@ USERS = {
     "Iridescence": ["sample_lights_and_bounce"],
     "Transmission": ["sample_lights_and_bounce"],
     "DiffuseTransmission": ["sample_lights_and_bounce"],
-    "Media": ["sample_lights_and_bounce"],
+    "Media": ["trace_closest", "sample_lights_and_bounce"],
     "Dispersion": ["sample_lights_and_bounce"],
     "ThinWalls": ["trace_closest", "trace_shadow"],
     "Unlit": ["trace_closest", "trace_shadow", "sample_lights_and_bounce"],
@@ -47,6 +47,8 @@ USERS = {
     "RectangleLights": ["sample_lights_and_bounce"],
     "LightTree": ["sample_lights_and_bounce"],
     "Instances": ["trace_closest", "trace_shadow", "sample_lights_and_bounce"],
+    "LampsInMedia": [],  # trace_light_paths
+    "SingleSided": ["trace_closest", "trace_shadow"],
 }
 # What a feature needs before it has any code.
 NEEDS = {

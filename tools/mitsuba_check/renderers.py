@@ -109,12 +109,19 @@ def run_glim(program, *arguments, show_errors=False, driver=None):
     if done.returncode != 0:
         lines = (done.stderr or "").strip().splitlines() or ["see above" if show_errors else "it said nothing"]
         raise CheckError("glim %s ended with exit code %d: %s" % (arguments[0], done.returncode, lines[-1]))
+    return done.stdout
+
+
+def two_sided(program):
+    """The option that shows back faces, as Mitsuba does; builds without it always do."""
+    return ["--back-faces", "shown"] if "--back-faces" in run_glim(program, "render", "--help-all") else []
 
 
 class Glim:
     def __init__(self, options, folder, program, driver=None):
         self.options, self.folder, self.program, self.driver = options, folder, program, driver
         self.device, self.stats = None, None
+        self.two_sided = two_sided(program)
 
     def render(self, seed, spp):
         """The path of the picture."""
@@ -123,7 +130,7 @@ class Glim:
             if os.path.exists(path):
                 os.remove(path)
         options = self.options
-        more = [] if options.environment is None else ["--environment", text_of(options.environment)]
+        more = self.two_sided + ([] if options.environment is None else ["--environment", text_of(options.environment)])
         run_glim(self.program, "render", options.scene, "-o", exr, "--stats", stats, "--size", "%dx%d" % options.size, "--progress",
                  "none", "--spp", str(spp), "--seed", str(seed), "--bounces", str(options.bounces), *more, driver=self.driver)
         if not (os.path.exists(exr) and os.path.exists(stats)):

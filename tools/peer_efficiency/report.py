@@ -3,6 +3,7 @@
 import json
 
 from mitsuba_check.report import with_interval
+from whole_file import write_whole
 
 from .references import name_of
 
@@ -45,6 +46,5 @@ def to_tables(options, rows):
 
 
 def write_json(options, rows):
-    with open(options.json, "w", encoding="utf-8") as file:
-        json.dump({"spp": options.spp, "seeds": options.seeds, "bounces": options.bounces, "rows": rows}, file, indent=2)
-        file.write("\n")
+    content = {"spp": options.spp, "seeds": options.seeds, "bounces": options.bounces, "rows": rows}
+    write_whole(options.json, (json.dumps(content, indent=2) + "\n").encode())

@@ -6,7 +6,7 @@ import tempfile
 
 from render_farm.errors import FarmError
 from render_farm.exr_header import FilmHeader, read_film_header, read_header
-from render_farm.job_folder import sync_folder, write_whole
+from whole_file import publish, write_whole
 from render_farm.picture import check_identity
 
 
@@ -107,8 +107,7 @@ class Animation:
         new, path = os.path.join(self.folder.pages, "%d.exr" % frame), numbered(self.options.output, frame)
         write_whole(new, film)
         self.read_whole(new, frame)
-        os.replace(new, path)
-        sync_folder(os.path.dirname(path))
+        publish(new, path)
         self.there.add(frame)
 
     def holds(self, frame):

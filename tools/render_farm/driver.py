@@ -259,14 +259,15 @@ def keep_interrupts_from_children():
 
 
 async def until_signal(work):
-    """Runs `work`. SIGINT and SIGTERM end it; returns the signal, or None."""
+    """Runs `work`. SIGINT, SIGTERM and, unless it is ignored (nohup), SIGHUP end it; returns the signal, or None."""
     keep_interrupts_from_children()
     task, stopped = asyncio.ensure_future(work), []
 
     def stop(number):
         stopped.append(number)
         task.cancel()
-    for number in (signal.SIGINT, signal.SIGTERM):
+    hang_up = [signal.SIGHUP] if signal.getsignal(signal.SIGHUP) != signal.SIG_IGN else []
+    for number in (signal.SIGINT, signal.SIGTERM, *hang_up):
         asyncio.get_running_loop().add_signal_handler(number, stop, number)
     try:
         await task

@@ -7,30 +7,7 @@ import os
 import shutil
 
 from render_farm.errors import FarmError
-
-
-def sync_folder(path):
-    descriptor = os.open(path, os.O_RDONLY | os.O_DIRECTORY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)
-
-
-def write_whole(path, content):
-    """Writes the whole file or, with OSError, nothing that has its name."""
-    partial = path + ".partial"
-    try:
-        with open(partial, "wb") as file:
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
-        os.rename(partial, path)
-    except OSError:
-        if os.path.exists(partial):
-            os.unlink(partial)
-        raise
-    sync_folder(os.path.dirname(path))
+from whole_file import sync_folder, write_whole
 
 
 def check_place(path):
@@ -71,6 +48,10 @@ class JobFolder:
         raise FarmError("%s: is damaged; remove %s to begin anew" % (path, self.path))
 
     def take_lock(self):
+        if not os.path.isdir(os.path.dirname(self.path)):
+            raise FarmError("%s: cannot be made: the folder %s does not exist" % (self.path, os.path.dirname(self.path)))
+        if os.path.islink(self.path) or (os.path.exists(self.path) and not self.is_ours()):
+            raise FarmError("%s: is no folder of a farm; expected none of this name" % self.path)
         with contextlib.suppress(FileExistsError):
             os.mkdir(self.path, 0o700)
         try:
@@ -85,6 +66,11 @@ class JobFolder:
             fcntl.flock(self.lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError as error:
             raise FarmError("%s: another farm works on it now" % self.path) from error
+
+    def is_ours(self):
+        """Nothing but a farm's folder may be removed at the end. One that was killed at the beginning has `pages` at most."""
+        return os.path.isdir(self.path) and (os.path.exists(os.path.join(self.path, "job.json"))
+                                             or all(name == "pages" or name.startswith(".glim-") for name in os.listdir(self.path)))
 
     def remove(self):
         shutil.rmtree(self.path)

@@ -44,7 +44,7 @@ def farm(options, progress):
         if stopped is not None:
             progress.say("stopped; the same command goes on from %s" % picture.folder.path)
             return 128 + stopped
-    print(picture.close())
+    print(picture.close(), flush=True)
     return 0
 
 

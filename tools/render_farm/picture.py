@@ -7,8 +7,8 @@ import re
 from render_farm.arguments import PAGE
 from render_farm.errors import FarmError
 from render_farm.exr_header import FilmHeader, read_film_header, read_header
-from render_farm.film_error import is_rung, next_rung, read_film_error
-from render_farm.job_folder import sync_folder, write_whole
+from render_farm.film_error import UNKNOWN_SAMPLES, is_rung, next_rung, read_film_error
+from whole_file import publish, write_whole
 
 BATCH = 16  # pages that are folded at a time: each fold writes the film anew
 EXACT = "bit-identical to a single run"
@@ -111,7 +111,8 @@ class Picture:
         """Whether the film of so many pages is the picture. Finds out its error."""
         self.error = read_film_error(self.glim, film)
         reached = self.options.target and is_rung(pages) and self.error and self.error.times_to(self.options.target) <= 1
-        return bool(reached) or pages == self.all
+        unknown = self.options.target and not self.error and is_rung(pages) and pages * PAGE >= UNKNOWN_SAMPLES
+        return bool(reached or unknown) or pages == self.all
 
     @property
     def expected(self):
@@ -295,9 +296,9 @@ class Picture:
         beyond = [page for page in self.files if page >= self.count]
         if self.options.target:
             reached = self.error and self.error.times_to(self.options.target) <= 1
-            self.say("the target is %s; pages beyond that were not needed: %d" % ("reached" if reached else "not reached", len(beyond)))
-        os.replace(self.folder.film, self.options.output)
-        sync_folder(os.path.dirname(self.options.output))
+            state = "reached" if reached else "not reached" if self.error else "not reached, for the error is unknown"
+            self.say("the target is %s; pages beyond that were not needed: %d" % (state, len(beyond)))
+        publish(self.folder.film, self.options.output)
         self.finished = True
 
     def png(self):

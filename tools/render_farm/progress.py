@@ -1,9 +1,11 @@
 """What the farm says on stderr."""
 
-import sys
+import contextlib
+import os
 import time
 
 LINE_SECONDS = 10  # between lines where no terminal shows them
+STDERR = 2
 
 
 def duration(seconds):
@@ -14,6 +16,20 @@ def duration(seconds):
     return "%.1f h" % (seconds / 3600)
 
 
+def write(text):
+    """A terminal that has hung up and a reader that is gone end no render."""
+    with contextlib.suppress(OSError):
+        os.write(STDERR, text.encode(errors="replace"))
+
+
+def fit(line):
+    """As much of it as a terminal shows without a second line."""
+    columns = 0
+    with contextlib.suppress(OSError):
+        columns = os.get_terminal_size(STDERR).columns
+    return line[:columns - 1] if columns else line
+
+
 class Progress:
     def __init__(self):
         self.line = ""
@@ -22,7 +38,7 @@ class Progress:
         self.samples = 0
 
     def say(self, text):
-        print("\r\033[K" * bool(self.line) + "farm: " + text, file=sys.stderr, flush=True)
+        write("\r\033[K" * bool(self.line) + "farm: " + text + "\n")
         self.line = ""
 
     def add(self, samples):
@@ -41,10 +57,11 @@ class Progress:
             line += ", %.3g Msamples/s, %s left" % (rate / 1e6, duration(samples_left / rate))
         line += ", %s" % error if error else ""
         line += ", %s" % dashboard if dashboard else ""
-        if sys.stderr.isatty():
+        if os.isatty(STDERR):
+            line = fit(line)
             if line != self.line:
-                print("\r\033[K" + line, end="", file=sys.stderr, flush=True)
+                write("\r\033[K" + line)
             self.line = line
         elif now - self.shown >= LINE_SECONDS:
-            print(line, file=sys.stderr, flush=True)
+            write(line + "\n")
             self.shown = now

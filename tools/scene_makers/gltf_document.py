@@ -6,6 +6,8 @@ import math
 import os
 import struct
 
+from whole_file import write_whole
+
 FLOAT, SHORT, UNSIGNED_SHORT, UNSIGNED_INT = 5126, 5122, 5123, 5125
 WRAPS = {"repeat": 10497, "mirror": 33648, "clamp": 33071}
 
@@ -266,10 +268,3 @@ def to_glb(document, data):
     if data:
         chunks += struct.pack("<II", len(data), 0x004E4942) + data
     return struct.pack("<III", 0x46546C67, 2, 12 + len(chunks)) + chunks
-
-
-def write_whole(path, content):
-    temporary = "%s.part" % path
-    with open(temporary, "wb") as file:
-        file.write(content)
-    os.replace(temporary, path)

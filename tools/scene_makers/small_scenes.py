@@ -112,7 +112,8 @@ def veach_mis():
     plates = ((0.005, -2.70651, 0.25609, -2.08375, -0.526323), (0.02, -3.28825, 1.36972, -2.83856, 0.476536),
               (0.05, -3.73096, 2.70046, -3.43378, 1.74564), (0.1, -3.99615, 4.0667, -3.82069, 3.08221))
     for alpha, front_y, front_z, back_y, back_z in plates:
-        metal = document.material("plate %g" % alpha, (0.35, 0.4, 0.45), metallic=1.0, roughness=math.sqrt(alpha))
+        metal = document.material("plate %g" % alpha, (0.35, 0.4, 0.45), metallic=1.0, roughness=math.sqrt(alpha),
+                                  double_sided=True)  # their shadows
         document.quad("plate %g" % alpha, [[-4, front_y, front_z], [4, front_y, front_z], [4, back_y, back_z],
                                            [-4, back_y, back_z]], metal)
     room = document.material("room", (0.4, 0.4, 0.4))

@@ -9,7 +9,7 @@ import shutil
 import sys
 import tempfile
 
-from scene_makers.gltf_document import write_whole
+from whole_file import write_whole
 
 from .glim import Glim
 from .lab import Lab

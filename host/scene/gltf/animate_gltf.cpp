@@ -195,7 +195,8 @@ std::vector<double> Animator::readTimes(const GltfAnimation::Sampler& sampler)
     for (std::size_t i = 1; i < times.size(); ++i) {
         const bool jumps = times[i] <= times[i - 1] && times[i - 1] - times[i] <= kTimeRounding * std::abs(times[i]);
         if (jumps) {
-            warnings_.add("values jump where times of keys do not increase", "accessors[" + std::to_string(sampler.input) + "] (" + use + ")");
+            warnings_.add("values jump where times of keys do not increase",
+                          "accessors[" + std::to_string(sampler.input) + "] (" + use + ")");
             times[i] = times[i - 1];
         } else if (!(times[i] > times[i - 1])) {
             refuse(file_, "accessors[" + std::to_string(sampler.input) + "] (" + use + ") holds " + toText(times[i]) + " after " +

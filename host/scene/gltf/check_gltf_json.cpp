@@ -316,25 +316,40 @@ private:
     Warnings& warnings_;
 };
 
-// Erases members that are null, wherever glim may read them. `place` is that of the value, and the same after the call.
-void eraseNulls(json& value, std::string& place, Warnings& warnings)
+// Where a value stands in the document, written out only where a message needs it.
+struct JsonPlace {
+    const JsonPlace* parent = nullptr;  // none: the document
+    const std::string* member = nullptr;
+    std::size_t element = 0;  // without a member
+
+    std::string text() const
+    {
+        if (parent == nullptr) {
+            return "";
+        }
+        const std::string before = parent->text();
+        return before + (member == nullptr ? "[" + std::to_string(element) + "]" : (before.empty() ? "" : ".") + shortened(*member));
+    }
+};
+
+// Erases members that are null, wherever glim may read them.
+void eraseNulls(json& value, const JsonPlace& place, Warnings& warnings)
 {
-    const std::size_t length = place.size();
     if (value.is_array()) {
         for (std::size_t i = 0; i < value.size(); ++i) {
             if (value[i].is_structured()) {
-                eraseNulls(value[i], place += "[" + std::to_string(i) + "]", warnings);
-                place.resize(length);
+                eraseNulls(value[i], {&place, nullptr, i}, warnings);
             }
         }
         return;
     }
     for (auto member = value.begin(); member != value.end();) {
+        const JsonPlace at{&place, &member.key()};
         const bool isNull = member->is_null();
-        if (isNull || (member->is_structured() && member.key() != "extras")) {
-            place += (length == 0 ? "" : ".") + shortened(member.key());
-            isNull ? warnings.add("members that are null count as left out", place) : eraseNulls(*member, place, warnings);
-            place.resize(length);
+        if (isNull) {
+            warnings.add("members that are null count as left out", at.text());
+        } else if (member->is_structured() && member.key() != "extras") {
+            eraseNulls(*member, at, warnings);
         }
         member = isNull ? value.erase(member) : std::next(member);
     }
@@ -452,8 +467,7 @@ void checkGltfJson(const std::string& path, json& document, Warnings& warnings)
         throw InputError(path + ": is glTF 1.0; expected glTF 2.0, which converters for old files make of it");
     }
     if (document.is_object()) {
-        std::string place;
-        eraseNulls(document, place, warnings);
+        eraseNulls(document, JsonPlace(), warnings);
     }
     static const RuleNode kRules = makeRules();
     JsonCheck(path, document, warnings).apply(kRules);

@@ -198,7 +198,8 @@ void poseMesh(const GltfFile& file, const tinygltf::Mesh& source, std::size_t pr
         morphMesh(mesh, readMorphTargets(file, source, primitive, pose.weights, vertexCount, place, warnings));
     }
     if (pose.skin) {
-        const Influences influences = readInfluences(file, source.primitives[primitive], file.skins[*pose.skin], vertexCount, place, warnings);
+        const Influences influences =
+            readInfluences(file, source.primitives[primitive], file.skins[*pose.skin], vertexCount, place, warnings);
         skinMesh(mesh, influences, pose.worldFromBind);
     }
 }

@@ -1,5 +1,6 @@
 #include "host/scene/gltf/read_geometry.hpp"
 
+#include "host/scene/choose_origin.hpp"
 #include "host/scene/gltf/check_size.hpp"
 #include "host/scene/gltf/read_instancing.hpp"
 #include "host/scene/gltf/read_mesh.hpp"
@@ -20,9 +21,8 @@ namespace {
 // Relative tolerance for the equal lengths and orthogonality of a uniform scale's columns: matrices are often printed floats.
 constexpr double kUniformScale = 1e-5;
 
-// The origin is the box's centre rounded to 2^-8 of the extent, so that subtracting it is exact even where the centre
-// itself needs all 53 bits.
-constexpr int kOriginBits = 8;
+// So many triangles are looked at, and at least one of each instance, to place the origin.
+constexpr std::size_t kMostPlaces = std::size_t{1} << 16U;
 
 struct WorldSphere {
     Sphere sphere;  // without its centre
@@ -51,18 +51,6 @@ void checkPoint(const GltfFile& file, std::size_t node, const glm::dvec3& point)
 }
 
 double extentOf(const Box& box) { return std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z}); }
-
-glm::dvec3 computeOrigin(const Box& box)
-{
-    const glm::dvec3 center = 0.5 * box.min + 0.5 * box.max;
-    const double extent = extentOf(box);
-    if (!std::isfinite(extent) || extent == 0.0) {
-        return center;
-    }
-    const double grid = std::ldexp(1.0, std::ilogb(extent) - kOriginBits);
-    return glm::dvec3(std::round(center.x / grid), std::round(center.y / grid), std::round(center.z / grid)) * grid +
-           0.0;  // no negative zero
-}
 
 WorldSphere readSphere(const GltfFile& file, const PlacedNode& node, std::uint32_t defaultMaterial)
 {
@@ -128,6 +116,9 @@ private:
     void forEachPoint(const MeshInstance& instance, const Visit& visit) const;
     Box computeBox() const;
     void checkExtent(const Box& box) const;
+    std::vector<Place> placesOf() const;
+    void addPlaces(const MeshInstance& instance, std::size_t step, std::vector<Place>& places) const;
+    void placeOrigin();
     void requireSomething() const;
 
     const GltfFile& file_;
@@ -299,6 +290,50 @@ void GeometryReader::checkExtent(const Box& box) const
     }
 }
 
+// Every step-th triangle.
+void GeometryReader::addPlaces(const MeshInstance& instance, std::size_t step, std::vector<Place>& places) const
+{
+    const Mesh& mesh = scene_.meshes[instance.mesh];
+    const glm::dmat3 linear(instance.worldFromMesh);
+    const glm::dvec3 translation(instance.worldFromMesh[3]);
+    const std::size_t count = mesh.indices.size() / 3;
+    for (std::size_t i = 0; i < count; i += step) {
+        Box box;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            box.extend(linear * mesh.positions[mesh.indices[3 * i + corner]] + translation);
+        }
+        if (const double size = extentOf(box); size > 0.0) {
+            places.push_back({0.5 * box.min + 0.5 * box.max, size, static_cast<double>(std::min(step, count - i)), instance.node});
+        }
+    }
+}
+
+std::vector<Place> GeometryReader::placesOf() const
+{
+    std::vector<Place> places;
+    const std::size_t step = std::max<std::size_t>(1, triangles_ / kMostPlaces);
+    for (const MeshInstance& instance : scene_.instances) {
+        addPlaces(instance, step, places);
+    }
+    for (const WorldSphere& sphere : spheres_) {
+        places.push_back({sphere.center, 2.0 * static_cast<double>(sphere.sphere.radius), 1.0, sphere.sphere.node});
+    }
+    return places;
+}
+
+void GeometryReader::placeOrigin()
+{
+    const std::vector<Place> places = placesOf();
+    if (places.empty()) {
+        return;
+    }
+    scene_.origin = chooseOrigin(places);
+    for (const CoarsePart& part : findCoarseParts(places, scene_.origin)) {
+        warnings_.add("far from most of the scene, float32 rounds positions by more than small parts allow",
+                      nodeLabel(file_, part.part) + " (steps of " + toText(part.spacing) + " m, parts of " + toText(part.size) + " m)");
+    }
+}
+
 void GeometryReader::requireSomething() const
 {
     for (const MeshInstance& instance : scene_.instances) {
@@ -322,7 +357,7 @@ void GeometryReader::finish()
     if (triangles_ + spheres_.size() > 0) {
         const Box box = computeBox();
         checkExtent(box);
-        scene_.origin = computeOrigin(box);
+        placeOrigin();
     }
     for (WorldSphere& sphere : spheres_) {
         sphere.sphere.center = sphere.center - scene_.origin;

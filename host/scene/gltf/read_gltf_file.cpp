@@ -249,8 +249,7 @@ void warnOfSamplers(const json& document, Warnings& warnings)
     constexpr int kNone = 0;
     const std::pair<const char*, std::vector<int>> members[] = {
         {"magFilter", {kNone, kNearest, kLinear}},
-        {"minFilter",
-         {kNone, kNearest, kLinear, kNearestMipmapNearest, kLinearMipmapNearest, kNearestMipmapLinear, kLinearMipmapLinear}},
+        {"minFilter", {kNone, kNearest, kLinear, kNearestMipmapNearest, kLinearMipmapNearest, kNearestMipmapLinear, kLinearMipmapLinear}},
         {"wrapS", {kNone, kRepeat, kClampToEdge, kMirroredRepeat}},
         {"wrapT", {kNone, kRepeat, kClampToEdge, kMirroredRepeat}},
     };
@@ -390,8 +389,8 @@ std::filesystem::path externalFile(const std::string& path, const std::string& u
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     const std::array<std::string, 3> names = namesOf(uri);
     std::error_code unreadable;
-    const auto* const found =
-        std::find_if(names.begin(), names.end(), [&](const std::string& name) { return std::filesystem::exists(folder / name, unreadable); });
+    const auto* const found = std::find_if(names.begin(), names.end(),
+                                           [&](const std::string& name) { return std::filesystem::exists(folder / name, unreadable); });
     return folder / (found == names.end() ? names[1] : *found);
 }
 

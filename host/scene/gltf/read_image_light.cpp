@@ -86,9 +86,9 @@ RadianceMap unrollCube(const Cube& cube, const glm::dquat& worldFromCube)
     return map;
 }
 
-Face readFace(const GltfFile& file, const std::string& place, std::size_t image, Scene& scene)
+Face readFace(const GltfFile& file, const std::string& place, std::size_t image, Scene& scene, Warnings& warnings)
 {
-    const DecodedImage pixels = readImage(file, image, scene);
+    const DecodedImage pixels = readImage(file, image, scene, warnings);
     if (pixels.width != pixels.height) {
         refuse(file, place + " is " + std::to_string(pixels.width) + "x" + std::to_string(pixels.height) + " pixels; expected a square");
     }
@@ -102,7 +102,7 @@ Face readFace(const GltfFile& file, const std::string& place, std::size_t image,
     return face;
 }
 
-Cube readCube(const GltfFile& file, const tinygltf::Value& light, const std::string& place, Scene& scene)
+Cube readCube(const GltfFile& file, const tinygltf::Value& light, const std::string& place, Scene& scene, Warnings& warnings)
 {
     const tinygltf::Value& levels = light.Get("specularImages");
     const bool whole = levels.ArrayLen() > 0 && levels.Get(0).IsArray() && levels.Get(0).ArrayLen() == 6;
@@ -112,7 +112,7 @@ Cube readCube(const GltfFile& file, const tinygltf::Value& light, const std::str
     Cube cube;
     for (std::size_t i = 0; i < cube.size(); ++i) {
         const std::string at = place + ".specularImages[0][" + std::to_string(i) + "]";
-        cube[i] = readFace(file, at, static_cast<std::size_t>(levels.Get(0).Get(static_cast<int>(i)).GetNumberAsInt()), scene);
+        cube[i] = readFace(file, at, static_cast<std::size_t>(levels.Get(0).Get(static_cast<int>(i)).GetNumberAsInt()), scene, warnings);
         if (cube[i].size != cube[0].size) {
             refuse(file, at + " is " + std::to_string(cube[i].size) + " pixels wide; expected " + std::to_string(cube[0].size) +
                              " as the first face");
@@ -136,7 +136,8 @@ glm::dquat readRotation(const GltfFile& file, const tinygltf::Value& light, cons
 
 }  // namespace
 
-std::optional<Environment> readImageLight(const GltfFile& file, std::size_t sceneOfFile, DecodedParts& decoded, Scene& scene)
+std::optional<Environment> readImageLight(const GltfFile& file, std::size_t sceneOfFile, DecodedParts& decoded, Scene& scene,
+                                          Warnings& warnings)
 {
     const auto use = file.model.scenes[sceneOfFile].extensions.find(kName);
     if (use == file.model.scenes[sceneOfFile].extensions.end()) {
@@ -149,7 +150,7 @@ std::optional<Environment> readImageLight(const GltfFile& file, std::size_t scen
     const glm::dquat rotation = readRotation(file, light, place);
     const std::string name =
         place + " " + exactText(rotation.w) + "," + exactText(rotation.x) + "," + exactText(rotation.y) + "," + exactText(rotation.z);
-    environment.map = decoded.findMap(name, [&] { return unrollCube(readCube(file, light, place, scene), rotation); });
+    environment.map = decoded.findMap(name, [&] { return unrollCube(readCube(file, light, place, scene, warnings), rotation); });
     environment.source = kName;
     environment.radiance = glm::vec3(light.Has("intensity") ? static_cast<float>(light.Get("intensity").GetNumberAsDouble()) : 1.0F);
     return environment;

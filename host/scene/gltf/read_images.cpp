@@ -26,10 +26,14 @@ std::string nameOf(const GltfFile& file, std::size_t image)
     return label("images", image, named ? source.uri : source.name);
 }
 
-DecodedImage decodeNamed(const GltfFile& file, std::size_t image, std::span<const unsigned char> bytes)
+DecodedImage decodeNamed(const GltfFile& file, std::size_t image, std::span<const unsigned char> bytes, Warnings& warnings)
 {
     try {
-        return decodeImage(bytes);
+        DecodedImage decoded = decodeImage(bytes);
+        if (decoded.noEnd) {
+            warnings.add("JPEG images without their end marker are drawn", nameOf(file, image));
+        }
+        return decoded;
     } catch (const InputError& error) {
         refuse(file, nameOf(file, image) + " " + error.what());
     }
@@ -73,9 +77,6 @@ private:
     std::uint32_t add(std::uint32_t image, bool isColor)
     {
         const std::shared_ptr<const DecodedImage> pixels = find(image, isColor);
-        if (pixels->noEnd) {
-            warnings_.add("JPEG images without their end marker are drawn", nameOf(file_, image));
-        }
         bytes_ += pixels->rgba8.size() + 2 * pixels->rgba16.size();
         if (bytes_ > kMaxTextureBytes) {
             refuse(file_, "its textures take more than " + std::to_string(kMaxTextureBytes >> 20U) +
@@ -109,7 +110,7 @@ private:
     DecodedImage decode(std::uint32_t image) const
     {
         try {
-            return readImage(file_, image, scene_);
+            return readImage(file_, image, scene_, warnings_);
         } catch (const InputError& error) {
             if (options_.missingTextures == MissingTextures::Refuse) {
                 throw InputError(error.what() + std::string(" (--missing-textures grey draws it grey)"));
@@ -132,7 +133,7 @@ private:
 
 }  // namespace
 
-DecodedImage readImage(const GltfFile& file, std::size_t image, Scene& scene)
+DecodedImage readImage(const GltfFile& file, std::size_t image, Scene& scene, Warnings& warnings)
 {
     const EncodedImage& source = file.images[image];
     if (!source.range) {
@@ -144,9 +145,9 @@ DecodedImage readImage(const GltfFile& file, std::size_t image, Scene& scene)
             bytes = readUri(file.path, place, source.uri, kMost);
         }
         noteFile(file, image, scene);
-        return decodeNamed(file, image, bytes);
+        return decodeNamed(file, image, bytes, warnings);
     }
-    return decodeNamed(file, image, findBytes(file.path, file.buffers, *source.range, nameOf(file, image)));
+    return decodeNamed(file, image, findBytes(file.path, file.buffers, *source.range, nameOf(file, image)), warnings);
 }
 
 void readImages(const GltfFile& file, const LoadOptions& options, const std::vector<bool>& used, DecodedParts& decoded, Scene& scene,

@@ -29,7 +29,7 @@ struct DecodedParts {
 };
 
 // Throws InputError that names the image and says what is wrong. Notes the image's file, if it has one, among scene.files.
-DecodedImage readImage(const GltfFile& file, std::size_t image, Scene& scene);
+DecodedImage readImage(const GltfFile& file, std::size_t image, Scene& scene, Warnings& warnings);
 
 // Fills scene.images with those that the materials use (used[i]: material i is used) and makes the textures refer to them; unused materials
 // lose their textures. Each image is there once, unless it is scaled down and used both for colours and for numbers. A missing or broken

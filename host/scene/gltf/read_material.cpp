@@ -157,7 +157,7 @@ void MaterialReader::readTransmission(Material& material)
 {
     material.ior = numberOr(source_, "KHR_materials_ior", "ior", 1.5);
     if (material.ior < 1.0F && 1.0 - static_cast<double>(material.ior) <= kRounding) {
-        warnings_.add(kClamped, place_ + " ior " + toText(material.ior));
+        warnings_.add(kClamped, place_ + " (index of refraction)");
         material.ior = 1.0F;
     }
     if (material.ior < 1.0F && material.ior != 0.0F) {
@@ -170,7 +170,8 @@ void MaterialReader::readTransmission(Material& material)
     material.diffuseTransmissionColor = colorOr(source_, kDiffuseTransmission, "diffuseTransmissionColorFactor", glm::vec3(1.0F));
     material.diffuseTransmissionColorTexture = readTexture(kDiffuseTransmission, "diffuseTransmissionColorTexture");
     const bool transmits = material.transmission > 0.0F || material.diffuseTransmission > 0.0F;
-    material.solid = transmits && numberOr(source_, kVolume, "thicknessFactor", 0.0) > 0.0F;
+    material.thick = numberOr(source_, kVolume, "thicknessFactor", 0.0) > 0.0F;
+    material.solid = transmits && material.thick;
     if (!material.solid) {
         return;
     }

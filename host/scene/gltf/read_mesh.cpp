@@ -119,7 +119,9 @@ std::optional<Mesh> readPrimitive(const GltfFile& file, const tinygltf::Primitiv
         warnings.add(std::string(primitive.mode == TINYGLTF_MODE_POINTS ? "points" : "lines") + " are left out", place);
         return std::nullopt;
     }
-    const auto isEmpty = [&file](int accessor) { return accessor >= 0 && file.model.accessors[static_cast<std::size_t>(accessor)].count == 0; };
+    const auto isEmpty = [&file](int accessor) {
+        return accessor >= 0 && file.model.accessors[static_cast<std::size_t>(accessor)].count == 0;
+    };
     if (isEmpty(position->second) || isEmpty(primitive.indices)) {
         warnings.add("meshes without vertices are left out", place);
         return std::nullopt;

@@ -11,7 +11,7 @@ TriangleHit intersectTriangle(TraversalRay traversal, Record record, float tMax)
     return kMollerTrumbore ? intersectMollerTrumbore(traversal.origin, traversal.direction, floatsOf(record.t0), floatsOf(record.t1),
                                                      floatsOf(record.t2), tMax)
                            : intersectWatertight(traversal.origin, traversal.shear, floatsOf(record.t0), floatsOf(record.t1), floatsOf(record.t2),
-                                                 tMax, isSliver(record));
+                                                 tMax, isSliver(record), hasFeature(kFeatureLargeTriangles));
 }
 
 #endif

@@ -13,10 +13,11 @@ TriangleHit intersectMollerTrumbore(vec3 origin, vec3 direction, vec3 v0, vec3 v
     float det = dot(e1, p);
     vec3 s = origin - v0;
     vec3 q = cross(s, e1);
-    vec2 barycentric = vec2(dot(s, p), dot(direction, q)) / det;
+    vec2 weights = vec2(dot(s, p), dot(direction, q));
+    vec2 barycentric = weights / det;
     float t = dot(e2, q) / det;
     bool inside = barycentric.x >= 0.0 && barycentric.y >= 0.0 && barycentric.x + barycentric.y <= 1.0;
-    return det != 0.0 && inside && t > 0.0 && t <= tMax ? TriangleHit(t, barycentric, 1.0) : kNoTriangleHit;
+    return det != 0.0 && inside && t > 0.0 && t <= tMax ? TriangleHit(t, weights, det) : kNoTriangleHit;
 }
 
 #endif

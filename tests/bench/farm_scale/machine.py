@@ -13,7 +13,7 @@ import distributed
 
 from farm_scale import HEIGHT, PARTS, WIDTH
 from render_farm import no_http  # noqa: F401
-from render_farm.job_folder import write_whole
+from whole_file import write_whole
 
 SIZE = "960x540"
 ROWS = 540

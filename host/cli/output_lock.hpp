@@ -1,0 +1,27 @@
+// One process at a time may write a film.
+#pragma once
+
+#include <filesystem>
+
+namespace glim {
+
+// Throws InputError if another glim writes the file that `output` leads to; the sentence names that process. The lock is a hidden file
+// beside it, which says whose it is, has a lock of the system (flock) and is removed at the end. A file or link of that name that is not
+// glim's is refused and left as it is. Where the system has no locks, that is said and nothing is locked.
+class OutputLock {
+public:
+    explicit OutputLock(const std::filesystem::path& output);
+    ~OutputLock();
+    OutputLock(const OutputLock&) = delete;
+    OutputLock& operator=(const OutputLock&) = delete;
+
+private:
+    void removeLeftover() const;
+    bool make();
+    [[noreturn]] void refuse(const std::string& reason) const;
+
+    std::filesystem::path output_, path_;
+    int file_ = -1;
+};
+
+}  // namespace glim

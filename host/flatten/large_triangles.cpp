@@ -1,0 +1,100 @@
+#include "host/flatten/large_triangles.hpp"
+
+#include "host/scene/choose_origin.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glim {
+namespace {
+
+constexpr double kMostToPrimitive = 0x1p12, kMostToDistance = 0x1p7;
+
+// Cameras and lamps are held against so many triangles, the largest ones.
+constexpr std::size_t kMostCompared = 64;
+
+struct Extent {
+    double size;
+    std::size_t triangle;
+};
+
+double largestOf(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
+
+double sizeOf(const Triangle& triangle)
+{
+    const auto& [a, b, c] = triangle.vertices;
+    return largestOf(glm::dvec3(glm::max(a, glm::max(b, c))) - glm::dvec3(glm::min(a, glm::min(b, c))));
+}
+
+// The largest factor by which the placement may lengthen an extent.
+double scaleOf(const Placement& placement)
+{
+    const glm::dmat3& m = placement.linear;
+    return largestOf(glm::abs(m[0]) + glm::abs(m[1]) + glm::abs(m[2]));
+}
+
+// At most that: the farther of the triangle's plane and its box.
+double distanceTo(const Triangle& triangle, const glm::dvec3& point)
+{
+    const glm::dvec3 a(triangle.vertices[0]), b(triangle.vertices[1]), c(triangle.vertices[2]);
+    const glm::dvec3 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
+    const double toPlane = std::abs(glm::dot(glm::normalize(glm::cross(b - a, c - a)), point - a));
+    return std::max(toPlane, glm::length(glm::max(glm::max(low - point, point - high), glm::dvec3(0.0))));
+}
+
+std::vector<glm::dvec3> viewpointsOf(const Scene& scene)
+{
+    std::vector<glm::dvec3> points;
+    for (const Camera& camera : scene.cameras) {
+        points.emplace_back(camera.position);
+    }
+    for (const PunctualLight& light : scene.lights) {
+        if (light.kind != PunctualLight::Kind::Directional) {
+            points.emplace_back(light.position);
+        }
+    }
+    return points;
+}
+
+bool isCloseToLarge(const Scene& scene, const Primitives& primitives, std::vector<Extent> extents)
+{
+    const std::size_t compared = std::min(kMostCompared, extents.size());
+    std::partial_sort(extents.begin(), extents.begin() + static_cast<std::ptrdiff_t>(compared), extents.end(),
+                      [](const Extent& a, const Extent& b) { return a.size > b.size; });
+    const std::vector<glm::dvec3> points = viewpointsOf(scene);
+    return std::any_of(extents.begin(), extents.begin() + static_cast<std::ptrdiff_t>(compared), [&](const Extent& extent) {
+        return std::any_of(points.begin(), points.end(), [&](const glm::dvec3& point) {
+            const double distance = distanceTo(primitives.triangles[extent.triangle], point);
+            return distance > 0.0 && extent.size > kMostToDistance * distance;
+        });
+    });
+}
+
+}  // namespace
+
+bool hasLargeTriangles(const Scene& scene, const Primitives& primitives)
+{
+    std::vector<Extent> extents;
+    std::vector<double> sizes;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < primitives.triangles.size(); ++i) {
+        extents.push_back({sizeOf(primitives.triangles[i]), i});
+        sizes.push_back(extents.back().size);
+        largest = std::max(largest, sizes.back());
+    }
+    for (const Placement& placement : primitives.placements) {
+        const double scale = scaleOf(placement);
+        const std::vector<Triangle>& triangles = primitives.sharedMeshes[placement.sharedMesh].triangles;
+        for (std::size_t i = 0; i < std::min(kMostCompared, triangles.size()); ++i) {
+            sizes.push_back(scale * sizeOf(triangles[i]));
+            largest = std::max(largest, sizes.back());
+        }
+    }
+    for (const Sphere& sphere : primitives.spheres) {
+        sizes.push_back(2.0 * static_cast<double>(sphere.radius));
+    }
+    return !sizes.empty() &&
+           (largest > kMostToPrimitive * fineSize(std::move(sizes)) || isCloseToLarge(scene, primitives, std::move(extents)));
+}
+
+}  // namespace glim

@@ -1,0 +1,15 @@
+// The media that rays are in where they begin: a camera or a lamp may lie in a solid, or in several that contain each other.
+#pragma once
+
+#include "host/flatten/flat_scene.hpp"
+#include "host/scene/scene.hpp"
+
+namespace glim {
+
+// The camera with the media of its rays (FlatCamera::media).
+FlatCamera placeInMedia(FlatCamera camera, const Scene& scene, const FlatScene& flat);
+
+// Whether some lamp lies in the bounding box of a solid: then light paths have to look for the media that they begin in.
+bool mayLampsBeInMedia(const Scene& scene, const FlatScene& flat);
+
+}  // namespace glim

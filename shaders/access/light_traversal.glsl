@@ -1,0 +1,62 @@
+// What a light path meets next. Single-sided surfaces are there as they are for a path from the camera, which takes the same way in the other
+// direction.
+#ifndef GLIM_ACCESS_LIGHT_TRAVERSAL
+#define GLIM_ACCESS_LIGHT_TRAVERSAL
+
+#include "transparency.glsl"
+
+Passage lightPassageOf(PathRay ray)
+{
+    Passage passage = passageOf(ray);
+    passage.query.sides = kFronts | kBacks;
+    return passage;
+}
+
+// The last of so many candidates replaces those before it: each is chosen as often as the others.
+bool isChosen(SampleId id, uint bounce, uint primitive, uint candidates)
+{
+    uint bits = hash4(uvec4(id.pixel, id.index, kDimensionAlpha | bounce << 1u, id.seed ^ primitive * 0x9e3779b9u)).y;
+    return unitFloat(bits) * float(candidates) < 1.0;
+}
+
+// As follow(). Light ends at the back of a single-sided surface, since a path from the camera, which meets the front there, does not go on.
+// Light that comes to the front scatters, and goes on as well, since a path from the camera that comes from behind passes. Where it
+// scatters at several surfaces, one is chosen; `weight` makes up for the others.
+VisibleHit followLight(SampleId id, uint bounce, Passage passage, inout Steps steps)
+{
+    VisibleHit chosen = VisibleHit(hitOf(makeMiss()), vec3(1.0));
+    vec3 weight = vec3(1.0);
+    uint candidates = 0u;
+    bool goesOn = false;
+    do {
+        VisibleHit met = follow(id, bounce, passage, steps);
+        goesOn = false;
+        if (!hasFeature(kFeatureSingleSided) || passage.isShadow) {
+            chosen = met;
+        } else if (met.hit.record != kNoRecord) {
+            PlacedRecord placed = fetchPlacedRecord(met.hit.record);
+            vec3 point = passage.ray.origin + passage.ray.direction * met.hit.t;
+            bool single = isSingleSided(placed.record);
+            bool front = dot(geometricNormal(placed, point), passage.direction) < 0.0;
+            weight *= met.weight;
+            if (front || !single) {
+                ++candidates;
+                if (isChosen(id, bounce, primitiveOf(placed.record), candidates)) {
+                    chosen = VisibleHit(met.hit, weight);
+                }
+            }
+            goesOn = single && front;
+            passage.query.afterT = met.hit.t;
+            passage.query.afterPrimitive = primitiveOf(placed.record);
+        }
+    } while (goesOn && candidates <= kMaxPassed);
+    if (goesOn) {
+        reportTransparencyCap();
+    }
+    if (candidates > 1u) {
+        chosen.weight *= float(candidates);
+    }
+    return chosen;
+}
+
+#endif
