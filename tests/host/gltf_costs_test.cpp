@@ -176,6 +176,7 @@ TEST(GltfCosts, NumbersWithinDracoStreams)
 {
     DracoOptions quantized;
     quantized.quantizationBits = 8;
+    quantized.speed = 0;
     const GltfBuilder right = build(makeHills(6), draco(quantized));
     const Bytes stream = encodeDraco(makeHills(6), quantized);
     std::size_t refused = 0;

@@ -136,6 +136,7 @@ Bytes encodeDraco(const Geometry& geometry, const DracoOptions& options)
     }
     draco::ExpertEncoder encoder(mesh);
     encoder.SetEncodingMethod(options.edgebreaker ? draco::MESH_EDGEBREAKER_ENCODING : draco::MESH_SEQUENTIAL_ENCODING);
+    encoder.SetSpeedOptions(options.speed, options.speed);
     for (const int id : ids) {
         if (options.quantizationBits > 0) {
             encoder.SetAttributeQuantization(id, options.quantizationBits);

@@ -40,6 +40,7 @@ struct DracoOptions {
     bool edgebreaker = true;
     int quantizationBits = 0;  // 0: values are kept as they are
     bool metadata = false;
+    int speed = 5;  // 0 to 10; below 4 texture coordinates are predicted from positions
 };
 
 // Unique ids of the attributes are those of kDracoAttributes.

@@ -356,7 +356,7 @@ class StrangersTest(FarmCase):
     def test_folder_of_someone_else(self):
         """A stranger made the job's folder first, or a link of that name."""
         os.symlink(self.folder, self.out + ".farm")
-        self.assertIn("is not a folder that can be used", self.finish(self.start_farm(spp=4), 1))
+        self.assertIn("is no folder of a farm", self.finish(self.start_farm(spp=4), 1))
         os.unlink(self.out + ".farm")
         os.mkdir(self.out + ".farm")
         if os.geteuid() == 0:

@@ -48,16 +48,11 @@ class JobFolder:
         raise FarmError("%s: is damaged; remove %s to begin anew" % (path, self.path))
 
     def take_lock(self):
-        if not os.path.isdir(os.path.dirname(self.path)):
-            raise FarmError("%s: cannot be made: the folder %s does not exist" % (self.path, os.path.dirname(self.path)))
-        if os.path.islink(self.path) or (os.path.exists(self.path) and not self.is_ours()):
-            raise FarmError("%s: is no folder of a farm; expected none of this name" % self.path)
         with contextlib.suppress(FileExistsError):
             os.mkdir(self.path, 0o700)
-        try:
-            self.lock = os.open(self.path, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)  # until this process ends
-        except OSError as error:
-            raise FarmError("%s: is not a folder that can be used; remove it to begin anew (%s)" % (self.path, error.strerror)) from error
+        if os.path.islink(self.path) or not self.is_ours():
+            raise FarmError("%s: is no folder of a farm; expected none of this name" % self.path)
+        self.lock = os.open(self.path, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)  # until this process ends
         if os.fstat(self.lock).st_uid != os.geteuid():
             raise FarmError("%s: belongs to another user, who could change what is rendered" % self.path)
         os.fchmod(self.lock, 0o700)  # certificates of Slurm's jobs are in it
