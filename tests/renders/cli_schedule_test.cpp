@@ -68,8 +68,12 @@ TEST(PathCapacityTest, ChangesNoBit)
     for (const char* schedule : {"wavefront", "persistent"}) {
         const auto digest = [&](const std::vector<std::string>& more) {
             GlimCall call;
-            call.arguments = {"render", sceneFile("cornell_mirror_glass.gltf"), "-o", "x.exr", "--size", "16x16", "--spp", "64", "--schedule",
-                              schedule, "--stats", "s.json"};
+            call.arguments = {"render",     sceneFile("cornell_mirror_glass.gltf"),
+                              "-o",         "x.exr",
+                              "--size",     "16x16",
+                              "--spp",      "64",
+                              "--schedule", schedule,
+                              "--stats",    "s.json"};
             call.arguments.insert(call.arguments.end(), more.begin(), more.end());
             call.folder = folder.path();
             const GlimRun run = runGlim(call);
