@@ -8,10 +8,12 @@
 namespace glim {
 namespace {
 
-// The origin is rounded to 2^-8 of the median size, so that subtracting it is exact even where it would need all 53 bits.
+// A median is rounded to 2^-8 of the median size, so that subtracting it is exact even where it would need all 53 bits.
 constexpr int kOriginBits = 8;
 
 constexpr std::size_t kTinyShare = 64, kTinyCount = 4;
+
+constexpr double kMostReach = 4.0;
 
 // A part is coarse if so many of its primitives are smaller than 64 times the spacing of coordinates.
 constexpr double kCoarseShare = 1.0 / 8.0, kLeastSteps = 64.0;
@@ -53,6 +55,33 @@ double medianOf(std::vector<Weighted> values)
     return values.back().x;
 }
 
+double weightOf(const Place& place, double least) { return place.count * least / std::max(place.size, least); }
+
+glm::dvec3 medianOf(std::span<const Place> places, double least)
+{
+    const double grid = std::ldexp(1.0, std::ilogb(nthOf(sizesOf(places), places.size() / 2)) - kOriginBits);
+    glm::dvec3 median;
+    for (int axis = 0; axis < 3; ++axis) {
+        std::vector<Weighted> values;
+        for (const Place& place : places) {
+            values.push_back({place.center[axis], weightOf(place, least)});
+        }
+        median[axis] = std::round(medianOf(std::move(values)) / grid) * grid + 0.0;  // no negative zero
+    }
+    return median;
+}
+
+// How far half of the weight lies away at most.
+double reachOf(const glm::dvec3& origin, std::span<const Place> places, double least)
+{
+    std::vector<Weighted> values;
+    for (const Place& place : places) {
+        const glm::dvec3 from = glm::abs(place.center - origin);
+        values.push_back({std::max({from.x, from.y, from.z}) + 0.5 * place.size, weightOf(place, least)});
+    }
+    return medianOf(std::move(values));
+}
+
 double spacingAt(const Place& place, const glm::dvec3& origin)
 {
     const glm::dvec3 from = glm::abs(place.center - origin);
@@ -74,19 +103,11 @@ double fineSize(std::vector<double> sizes)
     return nthOf(std::move(sizes), n);
 }
 
-glm::dvec3 chooseOrigin(std::span<const Place> places)
+glm::dvec3 chooseOrigin(std::span<const Place> places, const glm::dvec3& center)
 {
     const double least = fineSize(sizesOf(places));
-    const double grid = std::ldexp(1.0, std::ilogb(nthOf(sizesOf(places), places.size() / 2)) - kOriginBits);
-    glm::dvec3 origin;
-    for (int axis = 0; axis < 3; ++axis) {
-        std::vector<Weighted> values;
-        for (const Place& place : places) {
-            values.push_back({place.center[axis], place.count * least / std::max(place.size, least)});
-        }
-        origin[axis] = std::round(medianOf(std::move(values)) / grid) * grid + 0.0;  // no negative zero
-    }
-    return origin;
+    const glm::dvec3 median = medianOf(places, least);
+    return reachOf(center, places, least) > kMostReach * reachOf(median, places, least) ? median : center;
 }
 
 std::vector<CoarsePart> findCoarseParts(std::span<const Place> places, const glm::dvec3& origin)

@@ -21,10 +21,11 @@ struct Place {
 // does not count. `sizes` is not empty.
 double fineSize(std::vector<double> sizes);
 
-// The point from which the sum over all primitives of distance / size, which is what float32 loses, is least: the median, weighted by
-// 1 / size. However far away they lie, parts that have less than half of the weight do not move it far; and the largest coordinate is at
-// most twice what it is about the centre of the scene's box. `places` is not empty.
-glm::dvec3 chooseOrigin(std::span<const Place> places);
+// The centre of the scene's box; or the median of all primitives, weighted by 1 / size, if from there half of the weight lies within a
+// quarter of the distance. The median is where the sum of distance / size, which is what float32 loses, is least. However far away they
+// lie, parts that have less than half of the weight do not move it far, and the largest coordinate is at most twice that about the centre.
+// `places` is not empty.
+glm::dvec3 chooseOrigin(std::span<const Place> places, const glm::dvec3& center);
 
 // A part that rounding to float32 shows in.
 struct CoarsePart {

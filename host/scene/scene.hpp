@@ -1,5 +1,5 @@
 // A scene as plain values: no Vulkan, no glTF. Meshes are in object space; instances place them in the world, in double. All other
-// positions are float32 relative to `origin`, which lies amid the scene's primitives in world coordinates (choose_origin.hpp) and was
+// positions are float32 relative to `origin`, which lies amid the scene in world coordinates (choose_origin.hpp) and was
 // subtracted in double: far from the world's origin nothing is lost.
 #pragma once
 

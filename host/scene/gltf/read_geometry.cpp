@@ -21,6 +21,10 @@ namespace {
 // Relative tolerance for the equal lengths and orthogonality of a uniform scale's columns: matrices are often printed floats.
 constexpr double kUniformScale = 1e-5;
 
+// The box's centre is rounded to 2^-8 of the extent, so that subtracting it is exact even where the centre
+// itself needs all 53 bits.
+constexpr int kOriginBits = 8;
+
 // So many triangles are looked at, and at least one of each instance, to place the origin.
 constexpr std::size_t kMostPlaces = std::size_t{1} << 16U;
 
@@ -51,6 +55,18 @@ void checkPoint(const GltfFile& file, std::size_t node, const glm::dvec3& point)
 }
 
 double extentOf(const Box& box) { return std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z}); }
+
+glm::dvec3 roundedCenter(const Box& box)
+{
+    const glm::dvec3 center = 0.5 * box.min + 0.5 * box.max;
+    const double extent = extentOf(box);
+    if (!std::isfinite(extent) || extent == 0.0) {
+        return center;
+    }
+    const double grid = std::ldexp(1.0, std::ilogb(extent) - kOriginBits);
+    return glm::dvec3(std::round(center.x / grid), std::round(center.y / grid), std::round(center.z / grid)) * grid +
+           0.0;  // no negative zero
+}
 
 WorldSphere readSphere(const GltfFile& file, const PlacedNode& node, std::uint32_t defaultMaterial)
 {
@@ -118,7 +134,7 @@ private:
     void checkExtent(const Box& box) const;
     std::vector<Place> placesOf() const;
     void addPlaces(const MeshInstance& instance, std::size_t step, std::vector<Place>& places) const;
-    void placeOrigin();
+    void placeOrigin(const Box& box);
     void requireSomething() const;
 
     const GltfFile& file_;
@@ -321,13 +337,10 @@ std::vector<Place> GeometryReader::placesOf() const
     return places;
 }
 
-void GeometryReader::placeOrigin()
+void GeometryReader::placeOrigin(const Box& box)
 {
     const std::vector<Place> places = placesOf();
-    if (places.empty()) {
-        return;
-    }
-    scene_.origin = chooseOrigin(places);
+    scene_.origin = places.empty() ? roundedCenter(box) : chooseOrigin(places, roundedCenter(box));
     for (const CoarsePart& part : findCoarseParts(places, scene_.origin)) {
         warnings_.add("far from most of the scene, float32 rounds positions by more than small parts allow",
                       nodeLabel(file_, part.part) + " (steps of " + toText(part.spacing) + " m, parts of " + toText(part.size) + " m)");
@@ -357,7 +370,7 @@ void GeometryReader::finish()
     if (triangles_ + spheres_.size() > 0) {
         const Box box = computeBox();
         checkExtent(box);
-        placeOrigin();
+        placeOrigin(box);
     }
     for (WorldSphere& sphere : spheres_) {
         sphere.sphere.center = sphere.center - scene_.origin;
