@@ -138,7 +138,7 @@ TEST(CommandLineTest, HelpLeavesTuningAndTheCourseToHelpAll)
         return groups;
     };
     const std::set<std::string> course{"--direct", "--light-samples", "--roulette", "--tolerance", "--batch", "--max-spp"},
-        tuning{"--schedule", "--accelerator", "--split", "--intersector"};
+        tuning{"--schedule", "--path-capacity", "--accelerator", "--split", "--intersector"};
     for (const std::string command : {"render", "preview", "bench"}) {
         const std::string help = helpOf(command, "--help"), all = helpOf(command, "--help-all");
         EXPECT_EQ(groupsIn(help), groupsOf(command, false)) << command;
