@@ -35,7 +35,8 @@ float sizeOf(const Box& box)
 
 bool overlap(const Box& a, const Box& b, float slack)
 {
-    return glm::all(glm::lessThanEqual(a.low, b.high + slack)) && glm::all(glm::lessThanEqual(b.low, a.high + slack));
+    return a.low.x <= b.high.x + slack && b.low.x <= a.high.x + slack && a.low.y <= b.high.y + slack && b.low.y <= a.high.y + slack &&
+           a.low.z <= b.high.z + slack && b.low.z <= a.high.z + slack;
 }
 
 // Whether the triangles touch more than at an edge: some direction in the plane, across an edge of either, would tell them apart.
@@ -258,7 +259,8 @@ std::vector<Overlap> findOverlaps(const std::vector<Triangle>& triangles, const 
         const auto end = std::ranges::upper_bound(sorted, box.high[axis] + slack, {}, &Lamp::begin);
         comparisons += static_cast<std::size_t>(std::max(end - first, std::ptrdiff_t{0}));
         for (auto lamp = first; lamp < end; ++lamp) {
-            if (lamp->triangle != i && overlap(lamp->box, box, kCoplanar * std::max(sizeOf(lamp->box), sizeOf(box)))) {
+            if (overlap(lamp->box, box, slack) && lamp->triangle != i &&
+                overlap(lamp->box, box, kCoplanar * std::max(sizeOf(lamp->box), sizeOf(box)))) {
                 comparisons += kCostOfPair;
                 const float lift = liftOf(triangles[lamp->triangle], lamp->box, triangles[i], box);
                 if (lift > 0.0F) {
