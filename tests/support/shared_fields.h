@@ -11,7 +11,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 429u;
+GLIM_CONST uint kSharedWords = 430u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -88,6 +88,7 @@ U(pass_.pass.bounce) U(pass_.pass.accumulate) U(pass_.pass.sizes) U(pass_.lightR
 U(pass_.lightRound.lightSamples) U(pass_.lightRound.addsEmission) U(pass_.lightRound.firstRecord) U(pass_.lightRound.endRecord)
 F3(parameters.camera.position) F3(parameters.camera.right) F3(parameters.camera.up) F3(parameters.camera.forward)
 U(parameters.camera.kind) F3(parameters.camera.lensRight) F3(parameters.camera.lensUp) F(parameters.camera.inverseFocus)
+U(parameters.camera.media)
 U(parameters.width) U(parameters.height) U(parameters.seed) U(parameters.maxBounces) U(parameters.minPathLength)
 U(parameters.maxPathLength) U(parameters.lightCount) U(parameters.finiteLights) F(parameters.infiniteImportance) U(parameters.environmentLight) F3(parameters.environment)
 F(parameters.clampIndirect) U(parameters.canarySteps) U(parameters.triangleCount) U(parameters.instanceCount) U(parameters.firstInstanceRecord) U(parameters.firstUv) U(parameters.firstTangent)
