@@ -71,6 +71,7 @@ class LocalTest(FarmCase):
         stuck = self.program('if page.number > 3:\n    wait_for(FOLDER, "never")')
         for number in (signal.SIGINT, signal.SIGHUP):
             farm = self.start_farm(glim=stuck)
+            wait_until(lambda: " of 8 pages" in farm.stderr.readline(), "it hands out pages")
             self.wait_for_pages(2)
             farm.send_signal(number)
             self.assertIn("the same command goes on", self.finish(farm, 128 + number))

@@ -12,7 +12,7 @@ import distributed
 from distributed.comm import addressing
 
 from render_farm import glim_child
-from render_farm.errors import FarmError
+from render_farm.errors import FarmError, stop_signals
 from render_farm.ledger import Ledger
 from render_farm.picture import OtherClass
 from render_farm.security import is_private
@@ -259,15 +259,14 @@ def keep_interrupts_from_children():
 
 
 async def until_signal(work):
-    """Runs `work`. SIGINT, SIGTERM and, unless it is ignored (nohup), SIGHUP end it; returns the signal, or None."""
+    """Runs `work`. The signals that stop a farm end it; returns the signal, or None."""
     keep_interrupts_from_children()
     task, stopped = asyncio.ensure_future(work), []
 
     def stop(number):
         stopped.append(number)
         task.cancel()
-    hang_up = [signal.SIGHUP] if signal.getsignal(signal.SIGHUP) != signal.SIG_IGN else []
-    for number in (signal.SIGINT, signal.SIGTERM, *hang_up):
+    for number in stop_signals():
         asyncio.get_running_loop().add_signal_handler(number, stop, number)
     try:
         await task

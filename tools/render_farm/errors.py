@@ -1,4 +1,12 @@
-"""What ends a farm with one sentence."""
+"""What ends a farm: one sentence, or a signal."""
+
+import signal
+
+
+def stop_signals():
+    """SIGINT, SIGTERM and, unless it is ignored (nohup), SIGHUP."""
+    hang_up = [signal.SIGHUP] if signal.getsignal(signal.SIGHUP) != signal.SIG_IGN else []
+    return [signal.SIGINT, signal.SIGTERM, *hang_up]
 
 
 class FarmError(Exception):

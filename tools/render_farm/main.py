@@ -12,7 +12,7 @@ sys.path[0] = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
 from conversion.errors import ConversionError  # noqa: E402
 from render_farm.arguments import parse_arguments  # noqa: E402
 from render_farm.environment import DASHBOARD, ENVIRONMENT, JOBQUEUE  # noqa: E402
-from render_farm.errors import FarmError  # noqa: E402
+from render_farm.errors import FarmError, stop_signals  # noqa: E402
 from render_farm.progress import Progress  # noqa: E402
 from render_farm.security import check_network  # noqa: E402
 
@@ -54,7 +54,7 @@ def stop(number, _frame):
 
 def main():
     options, progress = parse_arguments(sys.argv[1:]), Progress()
-    for number in (signal.SIGINT, signal.SIGTERM):
+    for number in stop_signals():
         signal.signal(number, stop)
     try:
         is_safe = check_network(options)
