@@ -342,7 +342,7 @@ TEST(LightVertexTest, AMirrorReflectsItsColour)
     }
 }
 
-// Light that comes from within a solid has been absorbed on its way (Beer and Lambert), even if its lamp is there.
+// Light that comes from within a solid has been absorbed on its way (Beer and Lambert).
 TEST(LightVertexTest, LightWithinASolidIsAbsorbed)
 {
     Material material = glass();
@@ -358,6 +358,9 @@ TEST(LightVertexTest, LightWithinASolidIsAbsorbed)
         Scene scene;
         scene.materials.push_back(material);
         addMesh(scene, {within ? Triangle{{a, c, b}} : Triangle{{a, b, c}}});
+        for (Case& arriving : cases) {
+            arriving.ray.media = within ? 1 : 0;
+        }
         const std::vector<Result> results = shade(scene, cases);
         for (std::size_t i = 0; i < cases.size(); ++i) {
             const dvec3 truth = kThroughput * (within ? glm::exp(-distances[i] * dvec3(material.absorption)) : dvec3(1.0));
