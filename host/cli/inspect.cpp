@@ -1,4 +1,5 @@
 #include "host/cli/commands.hpp"
+#include "host/cli/format.hpp"
 #include "host/cli/parse.hpp"
 #include "host/cli/picture_options.hpp"
 #include "host/cli/resolve_options.hpp"
@@ -230,11 +231,11 @@ std::string pointText(const glm::dvec3& p)
     return text;
 }
 
-// As a float, whose text is short, unless that rounds by more than a ten-thousandth of `size`.
+// To a millionth of `size`.
 std::string coordinateText(double value, double size)
 {
-    const auto rounded = static_cast<float>(value);
-    return std::abs(static_cast<double>(rounded) - value) > 1e-4 * size ? exactText(value) : exactText(rounded);
+    const double digits = value == 0.0 ? 1.0 : std::ceil(std::log10(std::abs(value) / (1e-6 * size)));
+    return format("%.*g", static_cast<int>(std::clamp(digits, 1.0, 17.0)), value + 0.0);
 }
 
 std::string textOf(const Bounds& bounds)

@@ -169,9 +169,10 @@ TEST(CommandLineTest, InspectCountsWhatIsThere)
     for (const std::string& line : {std::string("triangles 2"), std::string("spheres 1"), "bounds " + point + " to " + point + " m",
                                     "BVH: [0-9]+ nodes, depth [0-9]+, surface-area cost " + digits + ", built in " + digits + " s",
                                     "on the device: " + digits + " MiB, " + digits + " MiB of it textures",
-                                    std::string("needs: [A-Za-z ]+(, [A-Za-z ]+)*"), std::string("camera 0 \"framed\", perspective")}) {
+                                    std::string("needs: [-A-Za-z ]+(, [-A-Za-z ]+)*"), std::string("camera 0 \"framed\", perspective")}) {
         EXPECT_TRUE(std::regex_search(text.out, std::regex("\n  " + line + "\n"))) << text.out << "lacks: " << line;
     }
+    EXPECT_TRUE(contains(text.out, "\n  bounds (-0.5, -0.5, -1) to (1, 1, 3.5) m\n")) << text.out;
     EXPECT_EQ(folder.entries(), 1);
 }
 
