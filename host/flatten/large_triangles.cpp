@@ -13,6 +13,9 @@ constexpr double kMostToPrimitive = 0x1p12, kMostToDistance = 0x1p7;
 // Cameras and lamps are held against so many triangles, the largest ones.
 constexpr std::size_t kMostCompared = 64;
 
+// So many triangles of an instance tell the sizes of its mesh.
+constexpr std::size_t kMostSampled = 64;
+
 struct Extent {
     double size;
     std::size_t triangle;
@@ -82,13 +85,20 @@ bool hasLargeTriangles(const Scene& scene, const Primitives& primitives)
         sizes.push_back(extents.back().size);
         largest = std::max(largest, sizes.back());
     }
+    std::vector<double> largestInMesh;
+    for (const SharedMesh& mesh : primitives.sharedMeshes) {
+        double& most = largestInMesh.emplace_back(0.0);
+        for (const Triangle& triangle : mesh.triangles) {
+            most = std::max(most, sizeOf(triangle));
+        }
+    }
     for (const Placement& placement : primitives.placements) {
         const double scale = scaleOf(placement);
         const std::vector<Triangle>& triangles = primitives.sharedMeshes[placement.sharedMesh].triangles;
-        for (std::size_t i = 0; i < std::min(kMostCompared, triangles.size()); ++i) {
+        for (std::size_t i = 0; i < std::min(kMostSampled, triangles.size()); ++i) {
             sizes.push_back(scale * sizeOf(triangles[i]));
-            largest = std::max(largest, sizes.back());
         }
+        largest = std::max(largest, scale * largestInMesh[placement.sharedMesh]);
     }
     for (const Sphere& sphere : primitives.spheres) {
         sizes.push_back(2.0 * static_cast<double>(sphere.radius));

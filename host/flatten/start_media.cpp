@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 namespace glim {
 namespace {
@@ -48,13 +51,16 @@ Box originsOf(const FlatCamera& camera)
     return {glm::dvec3(camera.position - extent), glm::dvec3(camera.position + extent)};
 }
 
-// A ray that is followed from the middle of the origins, to find out which of several solids is left first. No axis, no diagonal.
-const glm::dvec3 kOutwards(0.36, 0.48, 0.8);
+// Where the ray along kOutwards crosses the skin of a solid.
+struct Crossing {
+    double t;
+    bool enters;
+};
 
 // Of all solids of one medium.
 struct Surroundings {
-    double winding = 0.0;                                   // how many of them are around the point
-    double exit = std::numeric_limits<double>::infinity();  // where the ray first leaves one, 0: nowhere
+    double winding = 0.0;  // how many of them are around the point
+    std::vector<Crossing> crossings;
 };
 
 // a, b, c: the corners seen from the point. The solid angle: Van Oosterom, Strackee, "The Solid Angle of a Plane Triangle", 1983. Their sum
@@ -66,22 +72,45 @@ void addTriangle(Surroundings& around, const glm::dvec3& a, const glm::dvec3& b,
     const double volume = glm::dot(a, glm::cross(b, c));
     const double solidAngle = 2.0 * std::atan2(volume, la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
     around.winding += solidAngle / (4.0 * std::numbers::pi);
-    const double x = glm::dot(kOutwards, glm::cross(b, c)), y = glm::dot(kOutwards, glm::cross(c, a)),
-                 z = glm::dot(kOutwards, glm::cross(a, b));
-    if (x >= 0.0 && y >= 0.0 && z >= 0.0 && x + y + z > 0.0 && volume > 0.0) {
-        around.exit = std::min(around.exit, volume / (x + y + z));
+    const glm::dvec3 ray(kOutwards),
+        weights(glm::dot(ray, glm::cross(b, c)), glm::dot(ray, glm::cross(c, a)), glm::dot(ray, glm::cross(a, b)));
+    const double sum = weights.x + weights.y + weights.z;  // > 0 where the triangle is seen from behind
+    const double side = sum > 0.0 ? 1.0 : -1.0;
+    if (sum != 0.0 && glm::all(glm::greaterThanEqual(side * weights, glm::dvec3(0.0))) && volume / sum > 0.0) {
+        around.crossings.push_back({volume / sum, sum < 0.0});
     }
 }
 
 void addSphere(Surroundings& around, const Sphere& sphere, const glm::dvec3& point)
 {
     const glm::dvec3 center = glm::dvec3(sphere.center) - point;
-    const double radius = static_cast<double>(sphere.radius), along = glm::dot(kOutwards, center);
-    const double inside = radius * radius - glm::dot(center, center);
-    if (inside > 0.0) {
-        around.winding += 1.0;
-        around.exit = std::min(around.exit, along + std::sqrt(along * along + inside));
+    const double radius = static_cast<double>(sphere.radius), along = glm::dot(glm::dvec3(kOutwards), center);
+    const double inside = radius * radius - glm::dot(center, center), square = along * along + inside;
+    around.winding += inside > 0.0 ? 1.0 : 0.0;
+    if (square >= 0.0 && along + std::sqrt(square) > 0.0) {
+        if (along - std::sqrt(square) > 0.0) {
+            around.crossings.push_back({along - std::sqrt(square), true});
+        }
+        around.crossings.push_back({along + std::sqrt(square), false});
     }
+}
+
+// Where the ray leaves the solids around the point, nearest first: those that it has not entered before.
+std::vector<double> exitsOf(Surroundings around)
+{
+    std::ranges::sort(around.crossings, {}, &Crossing::t);
+    std::vector<double> exits;
+    int entered = 0;
+    for (const Crossing& crossing : around.crossings) {
+        if (crossing.enters || entered > 0) {
+            entered += crossing.enters ? 1 : -1;
+        } else {
+            exits.push_back(crossing.t);
+        }
+    }
+    const long count = std::max(0L, std::lround(around.winding));  // a crossing at an edge counts twice, or never
+    exits.resize(static_cast<std::size_t>(count), std::numeric_limits<double>::infinity());
+    return exits;
 }
 
 // Looks at the solids of a scene from a box of points.
@@ -97,8 +126,16 @@ public:
     // Of the camera's rays: as in FlatCamera.
     uint find()
     {
+        std::map<uint, Box> boxes;  // of all solids of a medium
         for (const MeshInstance& instance : scene_.instances) {
-            addMesh(instance);
+            for (const glm::dvec3& p : mediumOf(instance) != 0 ? positionsOf(scene_, instance) : std::vector<glm::dvec3>()) {
+                boxes[mediumOf(instance)].add(p);
+            }
+        }
+        for (const MeshInstance& instance : scene_.instances) {
+            if (const uint medium = mediumOf(instance); medium != 0 && overlap(origins_, boxes[medium])) {
+                addMesh(instance, around_[medium]);
+            }
         }
         for (const Sphere& sphere : scene_.spheres) {
             if (const uint medium = flat_.mediumOfMaterial[sphere.material]; medium != 0) {
@@ -110,19 +147,17 @@ public:
     }
 
 private:
-    void addMesh(const MeshInstance& instance)
+    uint mediumOf(const MeshInstance& instance) const { return flat_.mediumOfMaterial[scene_.meshes[instance.mesh].material]; }
+
+    void addMesh(const MeshInstance& instance, Surroundings& around)
     {
         const Mesh& mesh = scene_.meshes[instance.mesh];
-        const uint medium = flat_.mediumOfMaterial[mesh.material];
-        if (medium == 0) {
-            return;
-        }
         const std::vector<glm::dvec3> positions = positionsOf(scene_, instance);
         const bool mirrors = glm::determinant(glm::dmat3(instance.worldFromMesh)) < 0.0;
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
             const glm::dvec3 &a = positions[mesh.indices[i]], &b = positions[mesh.indices[i + (mirrors ? 2 : 1)]],
                              &c = positions[mesh.indices[i + (mirrors ? 1 : 2)]];
-            addTriangle(around_[medium], a - middle_, b - middle_, c - middle_);
+            addTriangle(around, a - middle_, b - middle_, c - middle_);
             straddles_ = straddles_ || overlap(origins_, Box{glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))});
         }
     }
@@ -136,18 +171,21 @@ private:
         return nearest <= static_cast<double>(sphere.radius) && farthest >= static_cast<double>(sphere.radius);
     }
 
-    // The solid that the ray leaves first is the innermost. Of more than there is room for, the outermost are forgotten.
+    // The solid that the ray leaves first is the innermost. Where there are more than a ray remembers, the device finds and reports them.
     uint wordOf() const
     {
         std::vector<std::pair<double, uint>> inside;
         for (const auto& [medium, around] : around_) {
-            for (int i = 0; i < static_cast<int>(std::lround(around.winding)); ++i) {
-                inside.emplace_back(around.exit, medium);
+            for (const double exit : exitsOf(around)) {
+                inside.emplace_back(exit, medium);
             }
         }
         std::ranges::sort(inside);
+        if (inside.size() > kMaxNestedMedia) {
+            return kMediaVary;
+        }
         uint word = 0;
-        for (std::size_t place = 0; place < std::min<std::size_t>(inside.size(), kMaxNestedMedia); ++place) {
+        for (std::size_t place = 0; place < inside.size(); ++place) {
             word |= inside[place].second << (place * kMediumBits);
         }
         return word;

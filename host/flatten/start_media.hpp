@@ -9,7 +9,7 @@ namespace glim {
 // The camera with the media of its rays (FlatCamera::media).
 FlatCamera placeInMedia(FlatCamera camera, const Scene& scene, const FlatScene& flat);
 
-// Whether some lamp lies in the bounding box of a solid: then light paths have to look for the media that they begin in.
+// Whether the box around all lamps meets that of a solid: then light paths have to look for the media that they begin in.
 bool mayLampsBeInMedia(const Scene& scene, const FlatScene& flat);
 
 }  // namespace glim

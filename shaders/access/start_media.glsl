@@ -6,8 +6,6 @@
 #include "transparency.glsl"
 #include "lib/media.glsl"
 
-const vec3 kOutwards = vec3(0.36, 0.48, 0.8);  // no axis, no diagonal
-
 uint mediumAt(PlacedRecord placed)
 {
     MaterialData data = fetchMaterial(materialOf(placed.record));
@@ -18,32 +16,39 @@ uint mediumAt(PlacedRecord placed)
     return p.layers == 0u ? 0u : fetchLayers(p.layers).medium;
 }
 
-// In the form of a ray's media (lib/media.glsl).
-uint mediaAround(vec3 point)
+// In the form of a ray's media (lib/media.glsl). Media beyond its four numbers are counted and forgotten, as is the rest of a walk through
+// kMaxPassed surfaces of solids.
+uint mediaAround(vec3 point, inout Steps steps)
 {
     PathRay ray = PathRay(point, kNoPrimitive, kOutwards, 0u);
     Query query = anyHit();
-    Steps uncounted = Steps(0u, 0u);
     uint around = 0u, places = 0u, entered = 0u, passed = 0u;
-    bool goesOn = false;
+    uint last = 0u;  // the medium of the surface before: a ray through an edge meets two triangles in one place
+    bool goesOn = false, forgets = false;
     do {
-        PathHit hit = traceClosest(ray, query, uncounted);
+        PathHit hit = traceClosest(ray, query, steps);
         goesOn = hit.record != kNoRecord && passed < kMaxPassed;
         if (goesOn) {
             PlacedRecord placed = fetchPlacedRecord(hit.record);
             uint medium = mediumAt(placed);
-            vec3 at = ray.origin + ray.direction * hit.t;
-            vec3 n = isSphere(placed.record) ? at - floatsOf(placed.record.t0) : placedNormal(placed);
-            bool enters = dot(n, kOutwards) < 0.0, matched = isInMedium(entered, medium);
-            bool found = medium != 0u && !enters && !matched && places < kMaxNestedMedia;
+            medium = hit.t == query.afterT && medium == last ? 0u : medium;
+            bool enters = dot(geometricNormal(placed, ray.origin + ray.direction * hit.t), kOutwards) < 0.0;
+            bool found = medium != 0u && !enters && !isInMedium(entered, medium);
+            forgets = forgets || (medium != 0u && enters && isFull(entered)) || (found && places == kMaxNestedMedia);
+            found = found && places < kMaxNestedMedia;
             around |= found ? medium << (places * kMediumBits) : 0u;
             places += found ? 1u : 0u;
             entered = medium == 0u ? entered : mediaBeyond(entered, medium, enters);
+            passed += medium == 0u ? 0u : 1u;
+            forgets = forgets || passed == kMaxPassed;
+            last = medium == 0u ? last : medium;
             query.afterT = hit.t;
             query.afterPrimitive = primitiveOf(placed.record);
-            ++passed;
         }
     } while (goesOn);
+    if (forgets) {
+        reportMediaCap();
+    }
     return around;
 }
 

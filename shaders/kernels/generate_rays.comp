@@ -26,7 +26,11 @@ void main()
         vec2 jitter = unitFloat(samplePair(id, kDimensionPixel, kSobol));
         vec2 corner = vec2(id.pixel % render.width, id.pixel / render.width);
         PathRay ray = rayThrough(render.camera, id, filmFromPixel(corner + jitter, vec2(render.width, render.height)));
-        ray.media = hasFeature(kFeatureMedia) && render.camera.media == kMediaVary ? mediaAround(ray.origin) : render.camera.media;
+        ray.media = render.camera.media;
+        if (hasFeature(kFeatureMedia) && ray.media == kMediaVary) {
+            Steps uncounted = Steps(0u, 0u);
+            ray.media = mediaAround(ray.origin, uncounted);
+        }
         pathRays[slot] = ray;
         pathStates[slot] = PathState(vec3(1.0), 0.0, 0.0, 1.0, 0u, 0u);
         pathRadiance[slot] = PathRadiance(vec3(0.0), 0.0);

@@ -49,7 +49,7 @@ uint fetchEntry(uint entry)
     return pass.bounce == 0u ? entry | kUnbegun : activeQueue[entry];
 }
 
-LightPath takePath(uint entry)
+LightPath takePath(uint entry, inout Work work)
 {
     uint slot = entry & ~kUnbegun;
     SampleId id = lightPathOfSlot(slot);
@@ -57,8 +57,10 @@ LightPath takePath(uint entry)
         return LightPath(slot, id, fetchRay(slot), fetchState(slot), fetchRadiance(slot).radiance, 0.0);
     }
     LightRay light = sampleEmission(id);
-    if (hasFeature(kFeatureLampsInMedia)) {
-        light.ray.media = mediaAround(light.ray.origin);
+    if (hasFeature(kFeatureLampsInMedia) && any(notEqual(light.flux, vec3(0.0)))) {
+        Steps steps = Steps(0u, 0u);
+        light.ray.media = mediaAround(light.ray.origin, steps);
+        work.steps += steps.nodes + steps.primitives;
     }
     return LightPath(slot, id, light.ray, PathState(vec3(1.0), 0.0, 0.0, 1.0, 0u, 0u), light.flux, light.range);
 }
@@ -141,7 +143,7 @@ void traceShare(uint entry, uint end, inout Work work)
     if (entry < end) {
         do {
             if (!alive) {
-                path = takePath(fetchEntry(entry));
+                path = takePath(fetchEntry(entry), work);
                 alive = any(notEqual(path.flux, vec3(0.0)));
             }
             if (alive) {

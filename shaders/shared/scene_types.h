@@ -265,7 +265,9 @@ GLIM_CONST uint kFirstCausticLight = kMaxCausticTargets + 1u;
 GLIM_CONST uint kPerspective = 0u;
 GLIM_CONST uint kOrthographic = 1u;
 
-GLIM_CONST uint kMediaVary = 0x10000000u;
+GLIM_CONST uint kMediaVary = 0x10000000u;  // above the numbers of the media
+// Along this ray the solids around a point are told from others, and which is the innermost. No axis, no diagonal; about a unit vector.
+GLIM_CONST vec3 kOutwards = vec3(0.36f, 0.48f, 0.8f);
 
 // For film coordinates (x, y) in [-1, 1], y up: perspective rays leave `position` along forward + x right + y up;
 // orthographic rays leave position + x right + y up along forward. A thin lens moves the origin by a point of the disk with

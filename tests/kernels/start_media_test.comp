@@ -15,7 +15,8 @@ layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases
 void main()
 {
     if (isTestThread()) {
-        EXPECT_EQUAL(mediaAround(cases[TEST_THREAD].point), cases[TEST_THREAD].media);
+        Steps steps = Steps(0u, 0u);
+        EXPECT_EQUAL(mediaAround(cases[TEST_THREAD].point, steps), cases[TEST_THREAD].media);
     }
     endTest();
 }

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 
 namespace glim {
@@ -16,16 +17,17 @@ struct Case {
     uint media;
 };
 
-constexpr float kHalf = 2.0F;             // of a cube
-constexpr float kRadii[] = {1.0F, 0.4F};  // of a ball in it, and of one in the ball
+constexpr float kHalf = 2.0F;                   // of a cube
+constexpr float kRadii[] = {1.0F, 0.7F, 0.4F};  // of a ball in it, of one in the ball, and of one in that
+constexpr float kIors[] = {1.5F, 1.4F, 1.5F};
 const glm::vec3 kCenter(0.5F, 0.0F, 0.0F);
 
 Scene nestedSolids()
 {
     SceneBuilder builder;
     builder.cube(kHalf, builder.glass(1.3F), false);
-    for (const float radius : kRadii) {
-        builder.sphere(kCenter, radius, builder.glass(1.4F + radius));
+    for (std::size_t i = 0; i < std::size(kRadii); ++i) {
+        builder.sphere(kCenter, kRadii[i], builder.glass(kIors[i]));
     }
     builder.quad({glm::vec3(-1, 1, 1), {1, 1, 1}, {1, 1, -1}, {-1, 1, -1}}, builder.lambert(glm::vec3(0.5F)));  // no solid
     return builder.scene();
@@ -37,11 +39,11 @@ std::optional<uint> mediaAt(const glm::vec3& p, const std::vector<std::uint32_t>
     constexpr float kNear = 1e-3F;
     const glm::vec3 a = glm::abs(p);
     const float fromCube = std::max({a.x, a.y, a.z}) - kHalf, fromCenter = glm::distance(p, kCenter);
-    if (std::abs(fromCube) < kNear || std::abs(fromCenter - kRadii[0]) < kNear || std::abs(fromCenter - kRadii[1]) < kNear) {
+    if (std::abs(fromCube) < kNear || std::ranges::any_of(kRadii, [&](float r) { return std::abs(fromCenter - r) < kNear; })) {
         return std::nullopt;
     }
     uint word = fromCube < 0.0F ? media[0] : 0;
-    for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t i = 0; i < std::size(kRadii); ++i) {
         word = fromCenter < kRadii[i] ? word << kMediumBits | media[1 + i] : word;
     }
     return word;
@@ -67,7 +69,7 @@ TEST(StartMediaTest, HostAndDeviceFindTheSolidsAroundAPoint)
                 << point.x << ' ' << point.y << ' ' << point.z;
         }
     }
-    EXPECT_GE(nested, 50U);
+    EXPECT_GE(nested, 50U);  // in a ball
     onDevice.test(test_kernels::start_media_test).cases(cases).run();
 }
 

@@ -19,7 +19,10 @@ protected:
     void writeScene(int cameras)
     {
         GltfBuilder builder;
-        builder.addNode({{"mesh", builder.addTriangleMesh()}});
+        const std::size_t mesh = builder.addTriangleMesh();
+        builder.append("materials", {{"doubleSided", true}});  // cameras go around it
+        builder.document["meshes"][mesh]["primitives"][0]["material"] = 0;
+        builder.addNode({{"mesh", mesh}});
         for (int i = 0; i < cameras; ++i) {
             builder.append(
                 "cameras",

@@ -53,14 +53,14 @@ TEST(DegenerateInputTest, H44IsRefusedOrRendered)
     addLight(shining, 1.0);
     const std::vector<std::pair<const char*, GltfBuilder>> refused = {{"NaN", besideTriangle({0, 0, 0, nan, 0, 0, 0, 1, 0})},
                                                                       {"infinity", besideTriangle({0, 0, 0, infinity, 0, 0, 0, 1, 0})},
-                                                                      {"beyond float", withTriangle({{"scale", {1e39, 1e39, 1e39}}})},
-                                                                      {"empty mesh", besideTriangle({})}};
+                                                                      {"beyond float", withTriangle({{"scale", {1e39, 1e39, 1e39}}})}};
     for (const auto& [name, builder] : refused) {
         EXPECT_NE(refusal(builder), "") << name;
     }
     const std::vector<std::pair<const char*, GltfBuilder>> rendered = {
         {"negative determinant", shining},
         {"no light", dark},
+        {"empty mesh", besideTriangle({})},
         {"coincident corners", besideTriangle({0, 0, 1, 0, 0, 1, 0, 1, 1})},
         {"collinear corners", besideTriangle({0, 0, 1, 1, 0, 1, 2, 0, 1})},
         {"zero scale", withTriangle({{"scale", {0, 0, 0}}})},

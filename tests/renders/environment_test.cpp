@@ -210,7 +210,7 @@ TEST(EnvironmentTest, H15HotTexelsAtThePoles)
     const double below = irradianceOfTexel(map, map.height - 1, 2.0 * radiance);
     const std::string size = std::to_string(map.width) + " x " + std::to_string(map.height);
     SceneBuilder builder;
-    builder.quad({glm::vec3(-5, 0, 5), {5, 0, 5}, {5, 0, -5}, {-5, 0, -5}}, builder.lambert(glm::vec3(0.5F)))
+    builder.quad({glm::vec3(-5, 0, 5), {5, 0, 5}, {5, 0, -5}, {-5, 0, -5}}, builder.lambert(glm::vec3(0.5F), glm::vec3(0.0F), true))
         .orthographic({0.03F, 0.05F, 0.02F}, {0, 0, 0}, 1e-3F)
         .orthographic({0.03F, -0.05F, 0.02F}, {0, 0, 0}, 1e-3F);
     Scene scene = builder.scene();
@@ -244,7 +244,7 @@ double varianceOf(const Film& film)
 TEST(EnvironmentTest, H15SunAndSkyByLightsAndByTheCosine)
 {
     SceneBuilder builder;
-    builder.quad({glm::vec3(-5, 0, 5), {5, 0, 5}, {5, 0, -5}, {-5, 0, -5}}, builder.lambert(glm::vec3(0.5F)))
+    builder.quad({glm::vec3(-5, 0, 5), {5, 0, 5}, {5, 0, -5}, {-5, 0, -5}}, builder.lambert(glm::vec3(0.5F), glm::vec3(0.0F), true))
         .orthographic({0.03F, 0.05F, 0.02F}, {0, 0, 0}, 1e-3F);
     Scene scene = builder.scene();
     setMap(scene, sunAndSky());

@@ -49,7 +49,7 @@ Scene bumpyBall(int subdivisions)
 Scene forest(int trees)
 {
     SceneBuilder builder = meadow();
-    const auto white = builder.lambert(glm::vec3(0.5F));
+    const auto white = builder.lambert(glm::vec3(0.5F), glm::vec3(0.0F), true);
     builder.quad({glm::vec3(-10, 0, 10), {10, 0, 10}, {10, 0, -10}, {-10, 0, -10}}, white);
     Scene scene = builder.scene();
     Random random(5);
