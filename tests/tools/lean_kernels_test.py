@@ -48,6 +48,7 @@ USERS = {
     "LightTree": ["sample_lights_and_bounce"],
     "Instances": ["trace_closest", "trace_shadow", "sample_lights_and_bounce"],
     "LampsInMedia": [],  # trace_light_paths
+    "LargeTriangles": ["trace_closest", "trace_shadow", "sample_lights_and_bounce"],
     "SingleSided": ["trace_closest", "trace_shadow"],
 }
 # What a feature needs before it has any code.
