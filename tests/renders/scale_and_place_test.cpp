@@ -153,12 +153,13 @@ TEST(ScaleAndPlaceTest, H8EveryPlaceGivesThePicture)
     EXPECT_FALSE(z.agrees());
 }
 
-// 1e9 m from the origin doubles are 1.2e-7 m apart, .1 % of the smallest room: pictures are the same within their error.
+// 1e9 m from the origin doubles are 1.2e-7 m apart, .1 % of the smallest room: pictures are the same within their error. With the same
+// random numbers, so that noise, which they share, neither hides nor feigns a difference.
 TEST(ScaleAndPlaceTest, H8SmallOrLargeAndFarAway)
 {
-    const Film unit = renderRoom(roomAt(1.0, 0.0), 0);
     std::uint32_t seed = 2;
     for (const auto& [scale, shift] : {std::pair{1e-4, 1e9}, {1e-2, 1e6}, {1e5, 1e4}}) {
+        const Film unit = renderRoom(roomAt(1.0, 0.0), seed);
         const ZTest z = compare(renderRoom(roomAt(scale, shift), seed++), unit);
         printHardCase("H8", "room of " + figure(scale) + " at " + figure(shift), samplesOf(unit), describe(z));
         EXPECT_TRUE(z.agrees()) << scale << " at " << shift << ": " << describe(z);

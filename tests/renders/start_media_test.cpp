@@ -1,6 +1,6 @@
 // Rays that begin within solids: a camera in water, a lamp in glass. What is left of light after d metres is exp(-absorption d).
-#include "host/flatten/flatten_scene.hpp"
 #include "host/flatten/start_media.hpp"
+#include "host/flatten/flatten_scene.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/caustic_films.hpp"
 #include "tests/support/render_scene.hpp"
