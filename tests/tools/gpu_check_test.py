@@ -68,6 +68,19 @@ class GpuCheck(unittest.TestCase):
         shutil.copytree(self.bundle, copy)
         return copy
 
+    def test_a_bundle_that_fails_leaves_nothing(self):
+        build = tempfile.mkdtemp(dir=self.scratch)
+        os.mkdir(os.path.join(build, "tests"))
+        for glim, sentence in ((None, "glim: No such file or directory"), (b"no program", "strip: exit code 1: .*")):
+            if glim:
+                with open(os.path.join(build, "glim"), "wb") as file:
+                    file.write(glim)
+            folder = os.path.join(self.scratch, "failed")
+            done = subprocess.run([sys.executable, "-B", CHECK, "bundle", folder, "--build", build], stderr=subprocess.PIPE, text=True)
+            self.assertEqual(done.returncode, 2)
+            self.assertRegex(done.stderr, "\\Agpu_check: copying programs and libraries\ngpu_check: .*%s\n\\Z" % sentence)
+            self.assertFalse(os.path.exists(folder))
+
     def test_the_bundle_is_small_and_leaves_out_what_the_machine_has(self):
         self.assertLessEqual(sum(map(os.path.getsize, files_in(self.bundle))), 64 << 20)
         with zipfile.ZipFile(os.path.join(self.bundle, "programs.zip")) as archive:
