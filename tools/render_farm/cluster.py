@@ -74,7 +74,7 @@ async def start_cluster(options, wanted):
         async with distributed.Client(cluster, asynchronous=True) as client:
             yield client
     finally:
-        with contextlib.suppress(RuntimeError):
+        with contextlib.suppress(Exception):  # it is raised above
             await start
         await cluster.close()
 
