@@ -257,6 +257,7 @@ class UseTest(PythonCase):
                             ("^origin: cannot use 5, ", lambda: glim.look_at(5, (0, 0, 0))),
                             ("^exposure: cannot use 'bright', ", lambda: film.save(self.path("a.png"), exposure="bright")),
                             ("^exposure: cannot use 1000000000.0, ", lambda: film.save(self.path("a.png"), exposure=1e9)),
+                            ("^exposure: cannot use 1000", lambda: film.save(self.path("a.png"), exposure=10**400)),
                             ("^exposure: cannot use nan", lambda: film.save(self.path("a.png"), exposure=float("nan"))),
                             ("^tone: cannot use 5, ", lambda: film.save(self.path("a.png"), tone=5)),
                             ("^path: cannot use 5, ", lambda: film.save(5))):
