@@ -247,9 +247,11 @@ class UseTest(PythonCase):
     def test_arguments_of_other_types(self):
         """One sentence of glim's own, that names the argument."""
         film = glim.render(GEMS, size=(8, 8), spp=1)
-        for words, call in (("^films: cannot use 1, ", lambda: glim.merge([1])), ("^films: cannot use <glim.Film", lambda: glim.merge(film)),
+        for words, call in (("^films: cannot use 1, ", lambda: glim.merge([1])),
+                            ("^films: cannot use <glim.Film", lambda: glim.merge(film)),
                             ("^films: cannot use 'ab', ", lambda: glim.merge("ab")), ("^path: cannot use 5, ", lambda: glim.read(5)),
-                            ("^scene: cannot use None, ", lambda: glim.render(None)), ("^resume: cannot use 5, ", lambda: glim.render(GEMS, resume=5)),
+                            ("^scene: cannot use None, ", lambda: glim.render(None)),
+                            ("^resume: cannot use 5, ", lambda: glim.render(GEMS, resume=5)),
                             ("^progress: cannot use 5, ", lambda: glim.render(GEMS, progress=5)),
                             ("^bounces: .*true.*expected", lambda: glim.render(GEMS, bounces=True)),
                             ("^size: cannot use True, ", lambda: glim.render(GEMS, size=(True, 8))),

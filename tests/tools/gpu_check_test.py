@@ -55,7 +55,8 @@ class GpuCheck(unittest.TestCase):
     def check(self, bundle, *options):
         """The exit code, the results and the table. It runs as on a machine without the sources: by the bundle's own copy."""
         out = tempfile.mkdtemp(dir=self.scratch)
-        done = subprocess.run([sys.executable, "-B", os.path.join(bundle, "gpu_check"), "run", "-o", out, *options], stdout=subprocess.PIPE, text=True)
+        done = subprocess.run([sys.executable, "-B", os.path.join(bundle, "gpu_check"), "run", "-o", out, *options],
+                              stdout=subprocess.PIPE, text=True)
         with open(os.path.join(out, "result.json"), encoding="utf-8") as file:
             results = json.load(file)
         with open(os.path.join(out, "table.md"), encoding="utf-8") as file:
