@@ -63,8 +63,8 @@ async def start_cluster(options, wanted):
         cluster = make_slurm_cluster(options, security, dashboard, NO_HTTP, QUIET)
     else:
         cluster = distributed.LocalCluster(n_workers=options.local, threads_per_worker=1, processes=True, host="127.0.0.1",
-                                           protocol="tls://", security=security, dashboard_address=dashboard, memory_limit=0, silence_logs=QUIET,
-                                           asynchronous=True)
+                                           protocol="tls://", security=security, dashboard_address=dashboard, memory_limit=0,
+                                           silence_logs=QUIET, asynchronous=True)
     start = asyncio.ensure_future(cluster)
     try:
         try:
