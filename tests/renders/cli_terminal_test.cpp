@@ -177,8 +177,8 @@ TEST_F(TerminalTest, ReadersThatDoNotReadAreNotWaitedFor)
     const int end = open(pipe.c_str(), O_RDWR | O_NONBLOCK);
     while (write(end, "full", 4) > 0) {
     }
-    runGlim(afterCommand("true", call({"--spp", "300", "--progress", "json"}), "2>pipe"));
-    EXPECT_EQ(film().sampleRanges.front().second, 300U);
+    runGlim(afterCommand("true", call({"--spp", "256", "--progress", "json"}), "2>pipe"));
+    EXPECT_EQ(film().sampleRanges.front().second, 256U);
     runGlim(afterCommand("true", call({"--spp", "600", "--resume"}), "2>pipe"));  // says where it goes on
     close(end);
     std::filesystem::remove(pipe);
