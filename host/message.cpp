@@ -1,5 +1,9 @@
 #include "host/message.hpp"
 
+#include "host/takes_more.hpp"
+
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
@@ -73,12 +77,13 @@ MessageListener messageListener;
 
 void tell(const std::string& sentence, bool isWarning)
 {
+    constexpr int kPatience = 1000;  // milliseconds
     constexpr std::size_t kMost = 8192, kBegin = 6144, kEnd = 1024;
     const bool fits = sentence.size() <= kMost;
     const std::string bounded = fits ? sentence : sentence.substr(0, kBegin) + " ... " + sentence.substr(sentence.size() - kEnd);
     if (messageListener) {
         messageListener(escaped(bounded), isWarning);
-    } else {
+    } else if (takesMore(STDERR_FILENO, kPatience)) {
         std::cerr << "glim: " + escaped(bounded) + '\n';
     }
 }

@@ -15,6 +15,7 @@ std::string shortened(const std::string& text);
 std::string inQuotes(const std::string& text);  // the same in quotes
 
 // Prints the line "glim: SENTENCE" on stderr, escaped. One of more than 8 KiB loses its middle.
+// It is lost if stderr takes nothing for a second.
 void say(const std::string& sentence);
 // The same, about something that may make a picture other than its user expects.
 void warn(const std::string& sentence);

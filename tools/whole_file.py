@@ -14,7 +14,8 @@ def sync_folder(path):
 
 
 def publish(new, path):
-    """Gives the file `new` the name `path`. It keeps the mode of a file that was there."""
+    """Gives the file `new` the name `path`, or that of the file to which `path` is a link. It keeps the mode of a file that was there."""
+    path = os.path.realpath(path)
     with contextlib.suppress(FileNotFoundError):
         shutil.copymode(path, new)
     os.replace(new, path)
@@ -23,7 +24,7 @@ def publish(new, path):
 
 def write_whole(path, content):
     """Writes the whole file or, with OSError that names it, nothing."""
-    folder, name = os.path.split(path)
+    folder, name = os.path.split(os.path.realpath(path))
     partial = os.path.join(folder, ".glim-%s.partial" % name)
     try:
         with contextlib.suppress(FileNotFoundError):

@@ -10,6 +10,7 @@
 #include "host/flatten/camera_options.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/render/check_memory.hpp"
+#include "host/takes_more.hpp"
 
 #include <unistd.h>
 #include <algorithm>
@@ -98,13 +99,13 @@ public:
     {}
     ~RoundPrinter()
     {
-        if (shows_) {
+        if (shows_ && takesMore(STDERR_FILENO)) {
             std::fputs("\r\033[K", stderr);
         }
     }
     void print(int round) const
     {
-        if (shows_) {
+        if (shows_ && takesMore(STDERR_FILENO)) {
             std::fprintf(stderr, "\r\033[Kround %d", round + 1);
         }
     }

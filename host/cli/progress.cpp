@@ -3,8 +3,8 @@
 #include "host/cli/format.hpp"
 #include "host/cli/parse.hpp"
 #include "host/json.hpp"
+#include "host/takes_more.hpp"
 
-#include <poll.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -22,13 +22,6 @@ constexpr double kInterval = 0.1;  // seconds
 double rate(const RenderProgress& progress)
 {
     return progress.seconds > 0.0 ? static_cast<double>(progress.samples - progress.resumedSamples) / progress.seconds : 0.0;
-}
-
-// Whether a line can be written at once: a render waits for no reader.
-bool takesMore(int file)
-{
-    pollfd poll{file, POLLOUT, 0};
-    return ::poll(&poll, 1, 0) > 0 && (poll.revents & POLLOUT) != 0;
 }
 
 // Of the terminal as it is now; 0: unknown.
@@ -144,7 +137,7 @@ std::string ProgressPrinter::jsonOf(const RenderProgress& progress, const Progre
 
 void ProgressPrinter::finish()
 {
-    if (style_ == ProgressStyle::Bar && last_ >= 0.0) {
+    if (style_ == ProgressStyle::Bar && last_ >= 0.0 && takesMore(STDERR_FILENO)) {
         std::fputs("\r\033[K", stderr);
     }
 }

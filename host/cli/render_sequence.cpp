@@ -337,15 +337,15 @@ ExitCode SequenceRenderer::writeShot(const RenderOptions& options, const Picture
     }
     labelFilm(film, options);
     const std::optional<Denoising>& denoising = rendered.denoising;
+    const auto start = std::chrono::steady_clock::now();
+    writeFilmOf(options, rendered, denoising);
+    const std::optional<Look> look = drawFilm(options, denoising ? showDenoised(film, denoising->picture.radiance) : film);
+    const double writeSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     warnIfUnknown(rendered);
     if (options.denoise && !denoising && !rendered.denoisingError) {
         say("the picture is not denoised: " +
             std::string(watch_->signal() == 0 ? "too few samples were finished" : "the render was ended"));
     }
-    const auto start = std::chrono::steady_clock::now();
-    writeFilmOf(options, rendered, denoising);
-    const std::optional<Look> look = drawFilm(options, denoising ? showDenoised(film, denoising->picture.radiance) : film);
-    const double writeSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const std::optional<double> idSeconds = writeIdentities(options, frame.camera, film);
     // Before the control, whose samples are no suspects.
     std::vector<Suspect> suspects = tryTo("find the brightest samples", [&] { return findSuspects(session_.renderer(), film); });

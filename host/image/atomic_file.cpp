@@ -6,6 +6,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <sys/types.h>
 #include <unistd.h>
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <functional>
 #include <string>
@@ -84,13 +86,20 @@ bool removeLeftover(const fs::path& path)
     return isGone;
 }
 
+std::uint64_t randomBits()
+{
+    std::uint64_t bits = 0;
+    static_cast<void>(!getrandom(&bits, sizeof bits, 0));  // 0 where the kernel has no such call
+    return bits;
+}
+
 // Calls make(name), which makes a file beside `target` or fails as open does, until it succeeds. One name per target, so that a leftover is
-// found; others while that is taken. Returns the name, or none if it failed for another reason.
+// found; while that is taken, others that nobody can foresee and take. Returns the name, or none if it failed for another reason.
 fs::path nameBeside(const fs::path& target, const std::function<bool(const fs::path&)>& make)
 {
     constexpr int kMostNames = 100;
     for (int i = 0; i < kMostNames; ++i) {
-        const fs::path name = hiddenBeside(target, (i == 0 ? "" : "." + std::to_string(i)) + ".partial");
+        const fs::path name = hiddenBeside(target, (i == 0 ? "" : "." + hexadecimal(randomBits())) + ".partial");
         do {
             if (make(name)) {
                 return name;

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <new>
 #include <utility>
 
 namespace glim {
@@ -351,7 +352,12 @@ bool Renderer::isGoodEnough(const StoppingCriterion& criterion)
         return false;
     }
     judgedSamples_ = pictureSamples_;
-    timesToTarget_ = std::min(criterion(film()), 1e6);
+    constexpr double kUnknown = 1e6;
+    try {
+        timesToTarget_ = std::min(criterion(film()), kUnknown);
+    } catch (const std::bad_alloc&) {  // of a copy of the film: its samples are worth more than its error
+        timesToTarget_ = kUnknown;
+    }
     plannedSamples_ = static_cast<std::uint64_t>(static_cast<double>(pictureSamples_) * std::max(timesToTarget_, 1.0));
     return timesToTarget_ <= 1.0;
 }

@@ -75,8 +75,8 @@ vec4 mixTexels(int at, int step, float weight)
     return lower + (upper - lower) * weight;
 }
 
-// a and b of the lobe of two widths, alpha.x >= alpha.y >= kMinAlpha, at a direction on the upper side. Linear in four numbers: a + b is off
-// by less than 4e-3, b by 4e-2.
+// a and b of the lobe of two widths, alpha.x >= alpha.y >= kMinAlpha, at a direction on the upper side. Linear in four numbers: a + b is
+// off by less than 4e-3, b by 4e-2.
 vec2 fetchAlbedo(vec2 alpha, vec3 w)
 {
     float sine = length(w.xy), stretched = stretchedLength(w, alpha);

@@ -31,8 +31,8 @@ float intersectSphere(TraversalRay traversal, Record record, float tMax, bool is
     return intersectSphere(traversal.origin, traversal.direction, floatsOf(record.t0), uintBitsToFloat(record.t1.x), tMax, isSource);
 }
 
-// The sides from which a query meets single-sided surfaces: the fronts if its rays go as those of a path from the camera, the backs if they go
-// the other way. A path from a light meets both (light_traversal.glsl).
+// The sides from which a query meets single-sided surfaces: the fronts if its rays go as those of a path from the camera, the backs if they
+// go the other way. A path from a light meets both (light_traversal.glsl).
 const uint kFronts = 1u;
 const uint kBacks = 2u;
 

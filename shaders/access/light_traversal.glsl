@@ -1,5 +1,5 @@
-// What a light path meets next. Single-sided surfaces are there as they are for a path from the camera, which takes the same way in the other
-// direction.
+// What a light path meets next. Single-sided surfaces are there as they are for a path from the camera, which takes the same way in the
+// other direction.
 #ifndef GLIM_ACCESS_LIGHT_TRAVERSAL
 #define GLIM_ACCESS_LIGHT_TRAVERSAL
 

@@ -128,10 +128,10 @@ struct Depths {
     float reciprocal;
 };
 
-// Any coordinate's weighted mean over the vertices is the ray's at t. The weights' errors are those of sheared vertices, which mix the axes;
-// they move t by the vertices' extent along the chosen axis, divided by the direction there. Woop et al. take the direction's largest axis;
-// this takes the least error of the three. So a flat ground along an axis, however large, gives t as if it were small; and the error's
-// share along the normal n is at most that of the weights times sum |n_k| extent_k, because min(extent_k / |d_k|) sum |n_k d_k| is.
+// Any coordinate's weighted mean over the vertices is the ray's at t. The weights' errors are those of sheared vertices, which mix the
+// axes; they move t by the vertices' extent along the chosen axis, divided by the direction there. Woop et al. take the direction's largest
+// axis; this takes the least error of the three. So a flat ground along an axis, however large, gives t as if it were small; and the
+// error's share along the normal n is at most that of the weights times sum |n_k| extent_k, because min(extent_k / |d_k|) sum |n_k d_k| is.
 Depths depthsOf(vec3 a, vec3 b, vec3 c, Shear shear)
 {
     vec3 extent = max(abs(b - a), abs(c - a));

@@ -137,6 +137,20 @@ TEST(AtomicFile, KeepsTheModeOfTheFileThatItReplaces)
     }
 }
 
+TEST(AtomicFile, NobodyCanTakeAllNames)
+{
+    const ScratchFolder folder;
+    std::filesystem::create_directory(hiddenBeside(folder / "a", ".partial"));
+    for (int i = 0; i < 100; ++i) {
+        std::filesystem::create_directory(hiddenBeside(folder / "a", "." + std::to_string(i) + ".partial"));
+    }
+    AtomicFile file(folder / "a");
+    file.write("new", 3);
+    file.commit();
+    EXPECT_EQ(bytesOfFile(folder / "a"), "new");
+    EXPECT_EQ(folder.entries(), 102);
+}
+
 // Those of other programs and users, which a folder for all may have.
 TEST(AtomicFile, PassesByWhatHasItsTemporaryName)
 {

@@ -378,6 +378,8 @@ TEST(GltfAnimation, RefusesWhatIsBroken)
                "animations[0] (\"first\").channels[0] animates /nodes/0/translation of a node whose matrix shears or flattens; "
                "expected a node without a matrix");
     }
+    expect([&](AnimatedTriangle& b) { b.document["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0.5, 0, 0, 1, 0, 0, 0, 0, 1}; },
+           "nodes[0].matrix has the last row 0 0.5 0 1; expected 0 0 0 1");
     for (const char* pointer : {"/nodes/1/scale", "/nodes/99999999999/scale", "/materials/0/alphaCutoff"}) {
         expect(
             [&](AnimatedTriangle& b) {

@@ -297,6 +297,7 @@ TEST(GltfExporters, SamplersOfUnknownFiltersAndWraps)
     EXPECT_EQ(linear.materials.at(0).baseColorTexture->wrapS, Wrap::Clamp);
     EXPECT_EQ(warning(linear, "filters"), std::string(kReplaced) + "magFilter 9987");
     EXPECT_TRUE(textureOf({{"magFilter", 9984}}).materials.at(0).baseColorTexture->nearest);
+    EXPECT_TRUE(textureOf({{"magFilter", 0}, {"minFilter", 9728}}).materials.at(0).baseColorTexture->nearest) << "as without the 0";
     const Scene unknown = textureOf({{"minFilter", -1}, {"wrapT", 10496}});  // GL_CLAMP
     EXPECT_EQ(unknown.materials.at(0).baseColorTexture->wrapT, Wrap::Repeat);
     EXPECT_EQ(warning(unknown, "filters"), std::string(kReplaced) + "minFilter -1, samplers[0].wrapT 10496");

@@ -58,7 +58,8 @@ def entries():
     """(alpha, along over alpha, the lesser alpha over along, cosine, 2)."""
     table = np.empty((ALPHAS, RATIOS, RATIOS, COSINES, 2))
     seen = steps(COSINES, LEAST_COSINE, 4 / 3)
-    for (i, ax), (j, wide), (k, narrow) in product(*map(enumerate, (steps(ALPHAS, LEAST_ALPHA, 4 / 3), *2 * (steps(RATIOS, LEAST_RATIO),)))):
+    ratios = steps(RATIOS, LEAST_RATIO)
+    for (i, ax), (j, wide), (k, narrow) in product(*map(enumerate, (steps(ALPHAS, LEAST_ALPHA, 4 / 3), ratios, ratios))):
         along = wide * ax
         ay = narrow * along
         squares = ax**2 - ay**2

@@ -40,7 +40,9 @@ class Lobes:
     @property
     def curves(self):
         """The albedos of the GGX lobe, functions of what `place` returns."""
-        return ggx.albedo_curves(float(self.alpha_x)) if self.isotropic else ggx.anisotropic_albedo(float(self.alpha_x), float(self.alpha_y))
+        if self.isotropic:
+            return ggx.albedo_curves(float(self.alpha_x))
+        return ggx.anisotropic_albedo(float(self.alpha_x), float(self.alpha_y))
 
     def place(self, w):
         """|cos| of directions (..., 3); of an anisotropic lobe the directions, mirrored to the upper side, in its frame."""

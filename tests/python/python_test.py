@@ -247,9 +247,11 @@ class UseTest(PythonCase):
     def test_arguments_of_other_types(self):
         """One sentence of glim's own, that names the argument."""
         film = glim.render(GEMS, size=(8, 8), spp=1)
-        for words, call in (("^films: cannot use 1, ", lambda: glim.merge([1])), ("^films: cannot use <glim.Film", lambda: glim.merge(film)),
+        for words, call in (("^films: cannot use 1, ", lambda: glim.merge([1])),
+                            ("^films: cannot use <glim.Film", lambda: glim.merge(film)),
                             ("^films: cannot use 'ab', ", lambda: glim.merge("ab")), ("^path: cannot use 5, ", lambda: glim.read(5)),
-                            ("^scene: cannot use None, ", lambda: glim.render(None)), ("^resume: cannot use 5, ", lambda: glim.render(GEMS, resume=5)),
+                            ("^scene: cannot use None, ", lambda: glim.render(None)),
+                            ("^resume: cannot use 5, ", lambda: glim.render(GEMS, resume=5)),
                             ("^progress: cannot use 5, ", lambda: glim.render(GEMS, progress=5)),
                             ("^bounces: .*true.*expected", lambda: glim.render(GEMS, bounces=True)),
                             ("^size: cannot use True, ", lambda: glim.render(GEMS, size=(True, 8))),
@@ -257,6 +259,7 @@ class UseTest(PythonCase):
                             ("^origin: cannot use 5, ", lambda: glim.look_at(5, (0, 0, 0))),
                             ("^exposure: cannot use 'bright', ", lambda: film.save(self.path("a.png"), exposure="bright")),
                             ("^exposure: cannot use 1000000000.0, ", lambda: film.save(self.path("a.png"), exposure=1e9)),
+                            ("^exposure: cannot use 1000", lambda: film.save(self.path("a.png"), exposure=10**400)),
                             ("^exposure: cannot use nan", lambda: film.save(self.path("a.png"), exposure=float("nan"))),
                             ("^tone: cannot use 5, ", lambda: film.save(self.path("a.png"), tone=5)),
                             ("^path: cannot use 5, ", lambda: film.save(5))):

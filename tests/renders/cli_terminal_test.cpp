@@ -177,10 +177,28 @@ TEST_F(TerminalTest, ReadersThatDoNotReadAreNotWaitedFor)
     const int end = open(pipe.c_str(), O_RDWR | O_NONBLOCK);
     while (write(end, "full", 4) > 0) {
     }
-    runGlim(afterCommand("true", call({"--spp", "300", "--progress", "json"}), "2>pipe"));
+    runGlim(afterCommand("true", call({"--spp", "256", "--progress", "json"}), "2>pipe"));
+    EXPECT_EQ(film().sampleRanges.front().second, 256U);
+    runGlim(afterCommand("true", call({"--spp", "600", "--resume"}), "2>pipe"));  // says where it goes on
     close(end);
     std::filesystem::remove(pipe);
-    expectFilmOf(300);
+    expectFilmOf(600);
+}
+
+TEST_F(TerminalTest, AFilmIsWrittenWhileItsTerminalIsStopped)
+{
+    bool isStopped = false, isWritten = false;
+    const GlimRun run = runOnTerminal(call({"--time", "1"}), 80, [&](int terminal, const std::string& shown) {
+        if (!isStopped && showsBar(shown)) {
+            isStopped = write(terminal, "\x13", 1) == 1;  // Ctrl-S
+        } else if (isStopped && !isWritten && std::filesystem::exists(folder_ / "x.exr")) {
+            isWritten = write(terminal, "\x11", 1) == 1;  // Ctrl-Q
+        }
+        return true;
+    });
+    EXPECT_TRUE(isWritten) << run.out;
+    EXPECT_EQ(run.exitCode, 0) << run.out;
+    film();
 }
 
 TEST_F(TerminalTest, ACommandAfterACheckpointKeepsNoFilmWaiting)

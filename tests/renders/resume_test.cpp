@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <new>
 #include <random>
 
 namespace glim {
@@ -159,6 +160,14 @@ TEST(ResumeTargetTest, StopsWhereOneRunDoes)
         EXPECT_GT(pieces.end, 200U) << "a target that is met later tells more";
         EXPECT_LT(pieces.end, 8192U);
     }
+}
+
+// It is unknown then, and the render goes on.
+TEST(ResumeTargetTest, MemoryThatIsMissingForTheErrorLosesNoSample)
+{
+    const auto criterion = [](const Film&) -> double { throw std::bad_alloc(); };
+    Pieces pieces(mixedScene(), squareSettings(8, 512), criterion);
+    EXPECT_TRUE(sameBits(pieces.renderAtOnce(), renderScene(mixedScene(), squareSettings(8, 512))));
 }
 
 // Films without a checkpoint go on if they end with a page, or lie within one and end with a block.

@@ -159,8 +159,8 @@ class SchedulerCase(FarmCase):
 
     def start_scheduler(self, *more, **environment):
         file = self.path("scheduler.json")
-        process = self.start([sys.executable, "-m", "distributed.cli.dask_scheduler", "--protocol", "tls", "--host", "127.0.0.1", "--port", "0",
-                              *self.dask, "--scheduler-file", file, *more], GLIM, **environment)
+        process = self.start([sys.executable, "-m", "distributed.cli.dask_scheduler", "--protocol", "tls", "--host", "127.0.0.1",
+                              "--port", "0", *self.dask, "--scheduler-file", file, *more], GLIM, **environment)
         wait_until(lambda: os.path.exists(file) and os.path.getsize(file), "the scheduler runs")
         with open(file, encoding="utf-8") as content:
             self.address = json.load(content)["address"]

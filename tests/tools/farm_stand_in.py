@@ -41,7 +41,8 @@ class Page:
             file.write(change(content))
 
     def replace(self, *pairs):
-        """Replaces bytes of its film, and has glim compute the digests of what comes of it: from a film of the first format, which has none."""
+        """Replaces bytes of its film, and has glim compute the digests of what comes of it: from a film of the first format, which
+        has none."""
         kind = b"glim:film\0double\0\x08\0\0\0"
         formats = kind + struct.pack("<d", 3), kind + struct.pack("<d", 1)
 

@@ -217,7 +217,8 @@ class CommandTest(unittest.TestCase):
                             (["--resume"], "goes on"), (["--camera", "all"], "one picture"), (["--spp", "0"], "whole number"),
                             (["--frames", "1:2"], "####"), (["--fps", "3"], "--frames"), (["--frames", "2:1"], "A:B"),
                             (["--local", "2", "--scheduler", "tcp://h:1"], "not allowed"), (["--tls-ca", "a"], "together"),
-                            (["--png", "a.jpg"], ".png"), (["--exposure", "bright"], "stops from -100"), (["--local", "9999"], "at most 1000"),
+                            (["--png", "a.jpg"], ".png"), (["--exposure", "bright"], "stops from -100"),
+                            (["--local", "9999"], "at most 1000"),
                             (["--insecure"], "always have TLS"), (["--dashboard", "--scheduler", "tls://h:1"], "a dashboard of its own"),
                             (["--slurm", "time=1:00", "-o", "a b.exr"], "cannot name")):
             with self.assertRaises(SystemExit) as caught, mock.patch("sys.stderr") as stderr:
@@ -335,8 +336,8 @@ class StrangersTest(FarmCase):
             wait_until(lambda: os.path.exists(self.out + ".farm/job.json") and begun(farm.pid), "the farm is under way")
             os.killpg(farm.pid, number)
             said = self.finish(farm, 128 + number)
-            self.assertEqual([line for line in said.splitlines() if not re.match("farm: stopped|farm: worker .* is gone|farm: page .* failed|"
-                                                                                  "[0-9]+ of [0-9]+ pages", line)], [])
+            expected = "farm: stopped|farm: worker .* is gone|farm: page .* failed|[0-9]+ of [0-9]+ pages"
+            self.assertEqual([line for line in said.splitlines() if not re.match(expected, line)], [])
             self.assertEqual(os.listdir(self.path("tmp")), [])
             if os.path.lexists(self.path("claim-rendering")):
                 os.unlink(self.path("claim-rendering"))

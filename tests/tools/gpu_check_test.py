@@ -55,7 +55,8 @@ class GpuCheck(unittest.TestCase):
     def check(self, bundle, *options):
         """The exit code, the results and the table. It runs as on a machine without the sources: by the bundle's own copy."""
         out = tempfile.mkdtemp(dir=self.scratch)
-        done = subprocess.run([sys.executable, "-B", os.path.join(bundle, "gpu_check"), "run", "-o", out, *options], stdout=subprocess.PIPE, text=True)
+        done = subprocess.run([sys.executable, "-B", os.path.join(bundle, "gpu_check"), "run", "-o", out, *options],
+                              stdout=subprocess.PIPE, text=True)
         with open(os.path.join(out, "result.json"), encoding="utf-8") as file:
             results = json.load(file)
         with open(os.path.join(out, "table.md"), encoding="utf-8") as file:
@@ -67,6 +68,19 @@ class GpuCheck(unittest.TestCase):
         copy = os.path.join(tempfile.mkdtemp(dir=self.scratch), "bundle")
         shutil.copytree(self.bundle, copy)
         return copy
+
+    def test_a_bundle_that_fails_leaves_nothing(self):
+        build = tempfile.mkdtemp(dir=self.scratch)
+        os.mkdir(os.path.join(build, "tests"))
+        for glim, sentence in ((None, "glim: No such file or directory"), (b"no program", "strip: exit code 1: .*")):
+            if glim:
+                with open(os.path.join(build, "glim"), "wb") as file:
+                    file.write(glim)
+            folder = os.path.join(self.scratch, "failed")
+            done = subprocess.run([sys.executable, "-B", CHECK, "bundle", folder, "--build", build], stderr=subprocess.PIPE, text=True)
+            self.assertEqual(done.returncode, 2)
+            self.assertRegex(done.stderr, "\\Agpu_check: copying programs and libraries\ngpu_check: .*%s\n\\Z" % sentence)
+            self.assertFalse(os.path.exists(folder))
 
     def test_the_bundle_is_small_and_leaves_out_what_the_machine_has(self):
         self.assertLessEqual(sum(map(os.path.getsize, files_in(self.bundle))), 64 << 20)

@@ -2,7 +2,7 @@
 
 bundle makes a folder of at most 64 MiB with all that glim needs. run tells what the device of the machine makes of it, in at most eight
 minutes on a GPU: precision and tests of kernels, bits, golden pictures, speed. It writes result.json and table.md after each step. Its exit
-code is 1 if a picture is wrong, and 0 otherwise, whatever else fails."""
+code is 1 if a picture is wrong, 2 if there is no bundle or an option is wrong, and else 0, whatever else fails."""
 
 import argparse
 import json

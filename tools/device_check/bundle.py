@@ -21,8 +21,12 @@ FALLBACKS = ("libstdc++.so.6", "libgcc_s.so.1")
 OF_NVIDIA = ("libXext.so.6",)
 
 
-def run(*words, **more):
-    return subprocess.run(words, check=True, text=True, stdout=subprocess.PIPE, **more).stdout
+def run(*words):
+    done = subprocess.run(words, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, errors="replace")
+    if done.returncode != 0:
+        last = done.stderr.strip().rpartition("\n")[2]
+        raise CheckError("%s: exit code %d%s" % (words[0], done.returncode, last and ": " + last))
+    return done.stdout
 
 
 def libraries_of(program):
@@ -144,7 +148,7 @@ def draw_films(folder, glim):
     for scene in BITS_SCENES:
         path, film = os.path.join(folder, "scenes", scene + ".gltf"), os.path.join(films, scene + ".exr")
         words = render_words(glim, path, film, BITS_SIZE, BITS_SIZE)
-        run(*words, "--spp", str(BITS_SPP), "--device", "llvmpipe", stderr=subprocess.DEVNULL)
+        run(*words, "--spp", str(BITS_SPP), "--device", "llvmpipe")
     devices = json.loads(run(glim, "devices", "--json"))
     return next("%s, %s" % (d["name"], d["driver"]) for d in devices if "llvmpipe" in d["name"])
 
@@ -152,6 +156,16 @@ def draw_films(folder, glim):
 def make_bundle(folder, build, say):
     if os.path.exists(folder) and os.listdir(folder):
         raise CheckError("%s is there already and not empty; expected a new folder" % folder)
+    try:
+        fill_bundle(folder, build, say)
+    except BaseException as error:
+        shutil.rmtree(folder, ignore_errors=True)
+        if isinstance(error, OSError):
+            raise CheckError("%s: %s" % (error.filename, error.strerror)) from error
+        raise
+
+
+def fill_bundle(folder, build, say):
     glim, tests = os.path.join(build, "glim"), os.path.join(build, "tests", "glim_tests")
     programs = os.path.join(folder, "programs")
     os.makedirs(os.path.join(programs, "bin"))

@@ -45,7 +45,7 @@ class Check:
         record["devices"] = json.loads(outcome.out)
         for index, device in enumerate(record["devices"]):
             named = self.device is None and device["usable"] or self.device is not None and (
-                self.device == str(index) or self.device.lower() in device["name"].lower())
+                self.device == str(index) if self.device.isdigit() else self.device.lower() in device["name"].lower())
             if named:
                 record["device"] = device
                 self.device = str(index)

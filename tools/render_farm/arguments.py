@@ -13,7 +13,8 @@ DESCRIPTION = """Renders one picture, or the frames of an animation, by many wor
 whatever dies meanwhile: the same command goes on. Options that are not listed here are those of `glim render`, such as --size 1920x1080."""
 EPILOG = """\
 Parts of the picture wait in OUT.exr.farm, which is removed when the picture is there. tools/farm.md says more.
-Exit codes: 0 done, 1 bad input or a worker's failure, 2 usage, 3 device, 130 or 143 stopped by SIGINT or SIGTERM."""
+Exit codes: 0 done, 1 bad input or a worker's failure, 2 usage, 3 device, 129, 130 or 143 stopped by
+SIGHUP, SIGINT or SIGTERM."""
 
 SPLITS = "the farm hands out samples itself; expected --spp"
 STOPS = "the farm hands out whole pages of samples; expected --spp, and --target-rmse or --target-relmse to stop before"

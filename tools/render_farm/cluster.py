@@ -27,13 +27,15 @@ async def connect(options, wanted):
         # The farm counts failures itself; Dask would blame a part for workers that died of other causes.
         "distributed.scheduler.allowed-failures": 1000, "distributed.scheduler.work-stealing": False,
         # A part takes seconds to minutes; Dask's measurements of itself, up to a hundred a second, cost 3 % of a core a process.
-        "distributed.worker.profile.enabled": False, "distributed.admin.tick.interval": "1s", "distributed.admin.system-monitor.interval": "5s"}):
+        "distributed.worker.profile.enabled": False, "distributed.admin.tick.interval": "1s",
+        "distributed.admin.system-monitor.interval": "5s"}):
         async with (connect_to_scheduler if options.scheduler else start_cluster)(options, wanted) as client:
             yield client
 
 
 def make_security(options):
-    """The user's certificates, or (FarmError, OSError) a refusal. Without them one for this farm alone, which stays in the memory of its processes."""
+    """The user's certificates, or (FarmError, OSError) a refusal. Without them one for this farm alone, which stays in the
+    memory of its processes."""
     if not options.tls_ca:
         return distributed.Security.temporary()
     security = distributed.Security(
@@ -60,9 +62,9 @@ async def start_cluster(options, wanted):
         from render_farm.slurm import adapt, make_slurm_cluster
         cluster = make_slurm_cluster(options, security, dashboard, NO_HTTP, QUIET)
     else:
-        cluster = distributed.LocalCluster(n_workers=options.local, threads_per_worker=1, processes=True, host="127.0.0.1", protocol="tls://",
-                                           security=security, dashboard_address=dashboard, memory_limit=0, silence_logs=QUIET,
-                                           asynchronous=True)
+        cluster = distributed.LocalCluster(n_workers=options.local, threads_per_worker=1, processes=True, host="127.0.0.1",
+                                           protocol="tls://", security=security, dashboard_address=dashboard, memory_limit=0,
+                                           silence_logs=QUIET, asynchronous=True)
     start = asyncio.ensure_future(cluster)
     try:
         try:
@@ -74,7 +76,7 @@ async def start_cluster(options, wanted):
         async with distributed.Client(cluster, asynchronous=True) as client:
             yield client
     finally:
-        with contextlib.suppress(RuntimeError):
+        with contextlib.suppress(Exception):  # it is raised above
             await start
         await cluster.close()
 

@@ -252,8 +252,8 @@ class Driver:
 
 
 def keep_interrupts_from_children():
-    """Ctrl-C in a terminal is sent to every process of the farm, and is for the driver alone. A child has the mask of the thread that starts
-    it. So one thread takes the signal, and it starts none."""
+    """Ctrl-C in a terminal is sent to every process of the farm, and is for the driver alone. A child has the mask of the thread that
+    starts it. So one thread takes the signal, and it starts none."""
     threading.Thread(target=threading.Event().wait, daemon=True).start()
     signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
 

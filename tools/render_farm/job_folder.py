@@ -50,11 +50,11 @@ class JobFolder:
     def take_lock(self):
         with contextlib.suppress(FileExistsError):
             os.mkdir(self.path, 0o700)
+        if os.lstat(self.path).st_uid != os.geteuid():
+            raise FarmError("%s: belongs to another user, who could change what is rendered" % self.path)
         if os.path.islink(self.path) or not self.is_ours():
             raise FarmError("%s: is no folder of a farm; expected none of this name" % self.path)
         self.lock = os.open(self.path, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)  # until this process ends
-        if os.fstat(self.lock).st_uid != os.geteuid():
-            raise FarmError("%s: belongs to another user, who could change what is rendered" % self.path)
         os.fchmod(self.lock, 0o700)  # certificates of Slurm's jobs are in it
         os.makedirs(self.pages, exist_ok=True)
         try:

@@ -71,7 +71,7 @@ def main():
         progress.say(str(error))
         sys.exit(error.code)
     except (ConversionError, OSError) as error:
-        progress.say(str(error))
+        progress.say(str(error) if getattr(error, "filename", None) is None else "%s: %s" % (error.filename, error.strerror))
         sys.exit(1)
 
 

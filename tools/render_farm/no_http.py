@@ -1,5 +1,5 @@
-"""Dask without its web servers: they authenticate nobody, and tell whoever asks what runs where. To be imported before a scheduler or a worker
-starts, as --preload of `dask scheduler` and `dask worker` does. Both need --no-dashboard too, which has no server of its own."""
+"""Dask without its web servers: they authenticate nobody, and tell whoever asks what runs where. To be imported before a scheduler or a
+worker starts, as --preload of `dask scheduler` and `dask worker` does. Both need --no-dashboard too, which has no server of its own."""
 
 from distributed.node import ServerNode
 

@@ -2,6 +2,7 @@
 
 import contextlib
 import os
+import select
 import time
 
 LINE_SECONDS = 10  # between lines where no terminal shows them
@@ -16,10 +17,11 @@ def duration(seconds):
     return "%.1f h" % (seconds / 3600)
 
 
-def write(text):
-    """A terminal that has hung up and a reader that is gone end no render."""
+def write(text, patience=0):
+    """A terminal that has hung up and a reader that is gone end no render. One that takes nothing for so many seconds is not waited for."""
     with contextlib.suppress(OSError):
-        os.write(STDERR, text.encode(errors="replace"))
+        if select.select([], [STDERR], [], patience)[1]:
+            os.write(STDERR, text.encode(errors="replace"))
 
 
 def fit(line):
@@ -38,7 +40,7 @@ class Progress:
         self.samples = 0
 
     def say(self, text):
-        write("\r\033[K" * bool(self.line) + "farm: " + text + "\n")
+        write("\r\033[K" * bool(self.line) + "farm: " + text + "\n", patience=1)
         self.line = ""
 
     def add(self, samples):

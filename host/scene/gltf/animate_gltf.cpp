@@ -4,6 +4,7 @@
 #include "host/scene/gltf/check_gltf_json.hpp"
 #include "host/scene/gltf/gltf_schema.hpp"
 #include "host/scene/gltf/parse_model.hpp"
+#include "host/scene/gltf/place_nodes.hpp"
 #include "host/scene/gltf/read_accessor.hpp"
 #include "host/text.hpp"
 
@@ -84,7 +85,7 @@ private:
     std::optional<Property> findProperty(const std::string& pointer, const std::string& place);
     json* findParent(const std::vector<std::string>& steps);
     void spellOutWeights(const std::vector<std::string>& steps, const std::string& place);
-    void replaceMatrix(json& node, const std::string& pointer, const std::string& place);
+    void replaceMatrix(std::size_t index, const std::string& pointer, const std::string& place);
     std::vector<double> readTimes(const GltfAnimation::Sampler& sampler);
     Keyframes readKeyframes(const GltfAnimation::Sampler& sampler, const Property& property, const std::string& place);
     void set(const Property& property, std::vector<double> value, const std::string& pointer);
@@ -153,7 +154,7 @@ std::optional<Property> Animator::findProperty(const std::string& pointer, const
     }
     const bool moves = path == "nodes[].translation" || path == "nodes[].rotation" || path == "nodes[].scale";
     if (moves && property.parent->contains("matrix")) {
-        replaceMatrix(*property.parent, pointer, place);
+        replaceMatrix(std::stoul(steps[1]), pointer, place);
     }
     property.rotation = vector && rule->count == 4 && steps.back() == "rotation";
     property.components = vector ? rule->count : 1;
@@ -164,11 +165,12 @@ std::optional<Property> Animator::findProperty(const std::string& pointer, const
 }
 
 // The matrix of a node that moves, in the parts that move.
-void Animator::replaceMatrix(json& node, const std::string& pointer, const std::string& place)
+void Animator::replaceMatrix(std::size_t index, const std::string& pointer, const std::string& place)
 {
     constexpr double kOrthogonal = 1e-4;  // of columns of unit length
-    const auto m = node["matrix"].get<std::vector<double>>();
-    glm::dmat3 axes(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]);
+    json& node = document_["nodes"][index];
+    const glm::dmat4 matrix = readMatrix(file_, index, node["matrix"].get<std::vector<double>>());
+    glm::dmat3 axes(matrix);
     glm::dvec3 scale(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]));
     scale.x = glm::determinant(axes) < 0.0 ? -scale.x : scale.x;
     const bool flat = scale.x == 0.0 || scale.y == 0.0 || scale.z == 0.0;
@@ -181,7 +183,7 @@ void Animator::replaceMatrix(json& node, const std::string& pointer, const std::
     }
     const glm::dquat rotation = glm::quat_cast(axes);
     node.erase("matrix");
-    node["translation"] = {m[12], m[13], m[14]};
+    node["translation"] = {matrix[3].x, matrix[3].y, matrix[3].z};
     node["rotation"] = {rotation.x, rotation.y, rotation.z, rotation.w};
     node["scale"] = {scale.x, scale.y, scale.z};
     warnings_.add("matrices of nodes that are animated count as translation, rotation and scale", shortened(pointer));

@@ -316,35 +316,19 @@ private:
     Warnings& warnings_;
 };
 
-// Where a value stands in the document, written out only where a message needs it.
-struct JsonPlace {
-    const JsonPlace* parent = nullptr;  // none: the document
-    const std::string* member = nullptr;
-    std::size_t element = 0;  // without a member
-
-    std::string text() const
-    {
-        if (parent == nullptr) {
-            return "";
-        }
-        const std::string before = parent->text();
-        return before + (member == nullptr ? "[" + std::to_string(element) + "]" : (before.empty() ? "" : ".") + shortened(*member));
-    }
-};
-
-// Erases members that are null, wherever glim may read them.
-void eraseNulls(json& value, const JsonPlace& place, Warnings& warnings)
+// Erases members that are null, but for those in extras.
+void eraseNulls(json& value, const Place& place, Warnings& warnings)
 {
     if (value.is_array()) {
         for (std::size_t i = 0; i < value.size(); ++i) {
             if (value[i].is_structured()) {
-                eraseNulls(value[i], {&place, nullptr, i}, warnings);
+                eraseNulls(value[i], {&place, "", i}, warnings);
             }
         }
         return;
     }
     for (auto member = value.begin(); member != value.end();) {
-        const JsonPlace at{&place, &member.key()};
+        const Place at{&place, member.key(), {}};
         const bool isNull = member->is_null();
         if (isNull) {
             warnings.add("members that are null count as left out", at.text());
@@ -467,7 +451,7 @@ void checkGltfJson(const std::string& path, json& document, Warnings& warnings)
         throw InputError(path + ": is glTF 1.0; expected glTF 2.0, which converters for old files make of it");
     }
     if (document.is_object()) {
-        eraseNulls(document, JsonPlace(), warnings);
+        eraseNulls(document, Place(), warnings);
     }
     static const RuleNode kRules = makeRules();
     JsonCheck(path, document, warnings).apply(kRules);

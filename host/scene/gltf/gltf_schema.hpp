@@ -108,7 +108,7 @@ constexpr SchemaRule kSchemaRules[] = {
     schema::other("images[].mimeType", JsonKind::String),
     schema::index("images[].bufferView", "bufferViews"),
     schema::other("samplers", JsonKind::Array),
-    schema::whole("samplers[].magFilter", Need::Optional, -kMaxInt, kMaxInt),  // what glTF does not know is replaced
+    schema::zeroIsNone(schema::whole("samplers[].magFilter", Need::Optional, -kMaxInt, kMaxInt)),
     schema::whole("samplers[].minFilter", Need::Optional, -kMaxInt, kMaxInt),
     schema::whole("samplers[].wrapS", Need::Optional, -kMaxInt, kMaxInt),
     schema::whole("samplers[].wrapT", Need::Optional, -kMaxInt, kMaxInt),

@@ -79,20 +79,6 @@ void noteParentsOfRoots(const GltfFile& file, const std::vector<int>& roots, con
     }
 }
 
-glm::dmat4 readMatrix(const GltfFile& file, std::size_t index)
-{
-    const std::vector<double>& values = file.model.nodes[index].matrix;
-    glm::dmat4 matrix;
-    for (int i = 0; i < 16; ++i) {
-        matrix[i / 4][i % 4] = values[static_cast<std::size_t>(i)];
-    }
-    if (values[3] != 0.0 || values[7] != 0.0 || values[11] != 0.0 || values[15] != 1.0) {
-        refuse(file, nodeLabel(file, index) + ".matrix has the last row " + toText(values[3]) + " " + toText(values[7]) + " " +
-                         toText(values[11]) + " " + toText(values[15]) + "; expected 0 0 0 1");
-    }
-    return matrix;
-}
-
 glm::dmat3 readRotation(const GltfFile& file, std::size_t index)
 {
     const tinygltf::Node& node = file.model.nodes[index];
@@ -110,7 +96,7 @@ glm::dmat4 parentFromNode(const GltfFile& file, std::size_t index)
 {
     const tinygltf::Node& node = file.model.nodes[index];
     if (!node.matrix.empty()) {
-        return readMatrix(file, index);
+        return readMatrix(file, index, node.matrix);
     }
     glm::dmat4 matrix(readRotation(file, index));
     for (int c = 0; c < 3; ++c) {
@@ -151,6 +137,19 @@ bool isVisible(const GltfFile& file, std::size_t index)
 }
 
 }  // namespace
+
+glm::dmat4 readMatrix(const GltfFile& file, std::size_t node, const std::vector<double>& values)
+{
+    glm::dmat4 matrix;
+    for (int i = 0; i < 16; ++i) {
+        matrix[i / 4][i % 4] = values[static_cast<std::size_t>(i)];
+    }
+    if (values[3] != 0.0 || values[7] != 0.0 || values[11] != 0.0 || values[15] != 1.0) {
+        refuse(file, nodeLabel(file, node) + ".matrix has the last row " + toText(values[3]) + " " + toText(values[7]) + " " +
+                         toText(values[11]) + " " + toText(values[15]) + "; expected 0 0 0 1");
+    }
+    return matrix;
+}
 
 std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& options, Warnings& warnings)
 {

@@ -19,6 +19,9 @@ struct PlacedNode {
 // In document order, parents first. Checks that the nodes form trees.
 std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& options, Warnings& warnings);
 
+// Of a node's 16 numbers. Refuses another last row than 0 0 0 1.
+glm::dmat4 readMatrix(const GltfFile& file, std::size_t node, const std::vector<double>& values);
+
 // Where `nodes` stand in the world, visible or not. The nodes form trees.
 std::vector<glm::dmat4> worldFromNodes(const GltfFile& file, const std::vector<std::size_t>& nodes);
 

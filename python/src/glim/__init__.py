@@ -98,7 +98,7 @@ class Error(NamedTuple):
 def _stops(exposure):
     try:
         stops = float(exposure)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         stops = math.nan
     if isinstance(exposure, (bool, str, bytes)) or not -100 <= stops <= 100:
         raise InputError("exposure: cannot use %r, expected stops from -100 to 100, or \"auto\"" % (exposure,))
