@@ -6,6 +6,7 @@ import functools
 import signal
 import threading
 import time
+from multiprocessing import resource_tracker
 
 import cloudpickle
 import distributed
@@ -253,7 +254,9 @@ class Driver:
 
 def keep_interrupts_from_children():
     """Ctrl-C in a terminal is sent to every process of the farm, and is for the driver alone. A child has the mask of the thread that
-    starts it. So one thread takes the signal, and it starts none."""
+    starts it. So one thread takes the signal, and it starts none. multiprocessing's resource tracker lets the signal through again in the
+    thread that starts it, so it is started before."""
+    resource_tracker.ensure_running()
     threading.Thread(target=threading.Event().wait, daemon=True).start()
     signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
 
