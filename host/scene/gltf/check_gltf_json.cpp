@@ -114,14 +114,21 @@ struct Place {
 // What holds for the values at one path, and at the paths that begin with it. So the work of a check grows with the document, and not with
 // its elements times the rules for them.
 struct RuleNode {
+    std::string name;  // of a member
     std::vector<SchemaRule> rules;
-    std::vector<std::pair<std::string, RuleNode>> members;  // in the order of the rules
-    std::unique_ptr<RuleNode> elements, values;             // `[]`, `{}`
+    std::vector<std::unique_ptr<RuleNode>> members;  // in the order of the rules
+    std::unique_ptr<RuleNode> elements, values;      // `[]`, `{}`
 
-    RuleNode& memberOf(std::string_view name)
+    RuleNode& memberOf(std::string_view wanted)
     {
-        const auto known = std::find_if(members.begin(), members.end(), [name](const auto& member) { return member.first == name; });
-        return known != members.end() ? known->second : members.emplace_back(name, RuleNode()).second;
+        for (const std::unique_ptr<RuleNode>& member : members) {
+            if (member->name == wanted) {
+                return *member;
+            }
+        }
+        RuleNode& made = *members.emplace_back(std::make_unique<RuleNode>());
+        made.name = wanted;
+        return made;
     }
 
     // `rest`: what is left of the rule's path.
@@ -135,8 +142,8 @@ struct RuleNode {
             all->add(rule, rest.substr(2));
         } else {
             rest.remove_prefix(rest.front() == '.' ? 1 : 0);
-            const std::string_view name = rest.substr(0, rest.find_first_of(".[{"));
-            memberOf(name).add(rule, rest.substr(name.size()));
+            const std::string_view member = rest.substr(0, rest.find_first_of(".[{"));
+            memberOf(member).add(rule, rest.substr(member.size()));
         }
     }
     void add(const std::string& place, std::span<const SchemaRule> more)
@@ -207,7 +214,7 @@ private:
             }
         }
         for (std::size_t i = 0; i < node.members.size() && value.is_object(); ++i) {
-            visitMember(node.members[i].second, value, {&place, node.members[i].first, {}});
+            visitMember(*node.members[i], value, {&place, node.members[i]->name, {}});
         }
     }
 
