@@ -234,7 +234,7 @@ FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const W
     addLights(flat, scene, primitives, recordOf);
     markOtherRecords(flat, bvh.order, recordOf);
     addCaustics(flat, scene, primitives);
-    flat.features |= mayLampsBeInMedia(scene, flat) ? kFeatureLampsInMedia : 0U;
+    flat.features |= mayLampsBeInMedia(flat) ? kFeatureLampsInMedia : 0U;
     return flat;
 }
 

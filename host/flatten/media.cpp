@@ -1,6 +1,7 @@
 #include "host/flatten/media.hpp"
 
 #include "host/error.hpp"
+#include "host/flatten/bounds.hpp"
 
 #include <algorithm>
 
@@ -9,20 +10,16 @@ namespace {
 
 struct Solid {
     std::uint32_t medium;
-    glm::dvec3 lo, hi;
+    Bounds bounds;
 };
 
-bool overlap(const Solid& a, const Solid& b) { return glm::all(glm::lessThan(a.lo, b.hi)) && glm::all(glm::lessThan(b.lo, a.hi)); }
-
-Solid boxOf(const Scene& scene, const MeshInstance& instance, std::uint32_t medium)
+Bounds boundsOf(const Scene& scene, const MeshInstance& instance)
 {
-    Solid solid{medium, glm::dvec3(1e300), glm::dvec3(-1e300)};
+    Bounds bounds;
     for (const glm::dvec3& position : scene.meshes[instance.mesh].positions) {
-        const glm::dvec3 p = instance.worldFromMesh * glm::dvec4(position, 1.0);
-        solid.lo = glm::min(solid.lo, p);
-        solid.hi = glm::max(solid.hi, p);
+        bounds.add(glm::dvec3(instance.worldFromMesh * glm::dvec4(position, 1.0)));
     }
-    return solid;
+    return bounds;
 }
 
 // By their bounding boxes.
@@ -30,7 +27,7 @@ bool differentMediaOverlap(const std::vector<Solid>& solids)
 {
     for (std::size_t i = 0; i < solids.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
-            if (solids[i].medium != solids[j].medium && overlap(solids[i], solids[j])) {
+            if (solids[i].medium != solids[j].medium && overlap(solids[i].bounds, solids[j].bounds)) {
                 return true;
             }
         }
@@ -75,13 +72,13 @@ public:
         std::vector<Solid> solids;
         for (const MeshInstance& instance : scene_.instances) {
             if (const std::uint32_t medium = numberOf(scene_.meshes[instance.mesh].material)) {
-                solids.push_back(boxOf(scene_, instance, medium));
+                solids.push_back({medium, boundsOf(scene_, instance)});
             }
         }
         for (const Sphere& sphere : scene_.spheres) {
             if (const std::uint32_t medium = numberOf(sphere.material)) {
                 const glm::dvec3 center = sphere.center, radius(static_cast<double>(sphere.radius));
-                solids.push_back({medium, center - radius, center + radius});
+                solids.push_back({medium, {center - radius, center + radius}});
             }
         }
         // Of one medium only, thousands of solids need no comparison.

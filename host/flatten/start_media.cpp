@@ -1,50 +1,102 @@
 #include "host/flatten/start_media.hpp"
 
+#include "host/flatten/bounds.hpp"
+
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <map>
 #include <numbers>
+#include <ranges>
 #include <utility>
 #include <vector>
 
 namespace glim {
 namespace {
 
-struct Box {
-    glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
+// A primitive that rays can meet: a sphere, or a triangle whose front is counter-clockwise.
+struct Surface {
+    std::uint32_t material;
+    bool isSphere;
+    glm::dvec3 corners[3];  // of a sphere: the centre, the radius three times, nothing
 
-    void add(const glm::dvec3& p)
+    Bounds bounds() const
     {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
+        Bounds bounds;
+        if (isSphere) {
+            bounds = {corners[0] - corners[1], corners[0] + corners[1]};
+        } else {
+            for (const glm::dvec3& corner : corners) {
+                bounds.add(corner);
+            }
+        }
+        return bounds;
     }
 };
 
-bool overlap(const Box& a, const Box& b)
+Surface surfaceOf(const uvec4* record)
 {
-    return glm::all(glm::lessThanEqual(a.low, b.high)) && glm::all(glm::lessThanEqual(b.low, a.high));
-}
-
-Box boxOf(const Sphere& sphere)
-{
-    const glm::dvec3 center(sphere.center), radius(static_cast<double>(sphere.radius));
-    return {center - radius, center + radius};
-}
-
-// Positions are relative to the scene's origin, as the camera's are.
-std::vector<glm::dvec3> positionsOf(const Scene& scene, const MeshInstance& instance)
-{
-    std::vector<glm::dvec3> positions = scene.meshes[instance.mesh].positions;
-    for (glm::dvec3& p : positions) {
-        p = glm::dvec3(instance.worldFromMesh * glm::dvec4(p, 1.0)) - scene.origin;
+    const auto vectorOf = [](const uvec4& texel) { return glm::dvec3(std::bit_cast<glm::vec3>(uvec3(texel))); };
+    Surface surface{record[1].w & kMaterialMask, (record[1].w & kSphereBit) != 0, {}};
+    for (int i = 0; i < 3; ++i) {
+        surface.corners[i] = vectorOf(record[i]);
     }
-    return positions;
+    surface.corners[1] = surface.isSphere ? glm::dvec3(surface.corners[1].x) : surface.corners[1];
+    return surface;
+}
+
+Surface placed(Surface surface, const InstanceData& by)
+{
+    const glm::dmat3 linear(by.column0, by.column1, by.column2);
+    for (glm::dvec3& corner : surface.corners) {
+        corner = linear * corner + glm::dvec3(by.translation);
+    }
+    if (by.mirrors != 0) {
+        std::swap(surface.corners[1], surface.corners[2]);
+    }
+    return surface;
+}
+
+// Each primitive of each instance once, in the places that the device knows: where float32 is coarse, a skin without holes has none either.
+template <class Visit>
+void forEachSurface(const FlatScene& flat, const Visit& visit)
+{
+    const auto idOf = [&flat](std::uint32_t record) { return flat.records[std::size_t{record} * kRecordTexels].w; };
+    const auto visitRecords = [&](std::uint32_t begin, std::uint32_t end, const auto& place) {
+        const auto records = std::views::iota(begin, end);
+        if (records.empty()) {
+            return;
+        }
+        const auto [first, last] = std::ranges::minmax(records | std::views::transform(idOf));
+        std::vector<bool> seen(last - first + 1);
+        for (const std::uint32_t record : records) {
+            if (!seen[idOf(record) - first]) {
+                seen[idOf(record) - first] = true;
+                visit(place(surfaceOf(&flat.records[std::size_t{record} * kRecordTexels])));
+            }
+        }
+    };
+    const std::vector<uvec4>& texels = flat.instances;
+    std::vector<InstanceData> instances(texels.size() / kInstanceTexels);
+    std::memcpy(instances.data(), texels.data(), texels.size() * sizeof(uvec4));
+    std::vector<std::uint32_t> begins = {
+        static_cast<std::uint32_t>(flat.records.size() / kRecordTexels)};  // of the shared meshes' records, then their end
+    for (const InstanceData& instance : instances) {
+        begins.push_back(instance.beginRecord - instance.firstRecord);
+    }
+    std::ranges::sort(begins);
+    visitRecords(0, begins.front(), std::identity());
+    for (const InstanceData& instance : instances) {
+        const std::uint32_t begin = instance.beginRecord - instance.firstRecord;
+        visitRecords(begin, *std::ranges::upper_bound(begins, begin), [&](const Surface& surface) { return placed(surface, instance); });
+    }
 }
 
 // Where rays of the camera begin.
-Box originsOf(const FlatCamera& camera)
+Bounds originsOf(const FlatCamera& camera)
 {
     const vec3 extent = glm::abs(camera.lensRight) + glm::abs(camera.lensUp) +
                         (camera.kind == kOrthographic ? glm::abs(camera.right) + glm::abs(camera.up) : vec3(0.0F));
@@ -81,10 +133,10 @@ void addTriangle(Surroundings& around, const glm::dvec3& a, const glm::dvec3& b,
     }
 }
 
-void addSphere(Surroundings& around, const Sphere& sphere, const glm::dvec3& point)
+// The centre is seen from the point too.
+void addSphere(Surroundings& around, const glm::dvec3& center, double radius)
 {
-    const glm::dvec3 center = glm::dvec3(sphere.center) - point;
-    const double radius = static_cast<double>(sphere.radius), along = glm::dot(glm::dvec3(kOutwards), center);
+    const double along = glm::dot(glm::dvec3(kOutwards), center);
     const double inside = radius * radius - glm::dot(center, center), square = along * along + inside;
     around.winding += inside > 0.0 ? 1.0 : 0.0;
     if (square >= 0.0 && along + std::sqrt(square) > 0.0) {
@@ -116,9 +168,8 @@ std::vector<double> exitsOf(Surroundings around)
 // Looks at the solids of a scene from a box of points.
 class SolidFinder {
 public:
-    SolidFinder(const Scene& scene, const FlatScene& flat, const Box& origins)
-        : scene_(scene),
-          flat_(flat),
+    SolidFinder(const FlatScene& flat, const Bounds& origins)
+        : flat_(flat),
           origins_(origins),
           middle_(0.5 * (origins.low + origins.high))
     {}
@@ -126,49 +177,44 @@ public:
     // Of the camera's rays: as in FlatCamera.
     uint find()
     {
-        std::map<uint, Box> boxes;  // of all solids of a medium
-        for (const MeshInstance& instance : scene_.instances) {
-            for (const glm::dvec3& p : mediumOf(instance) != 0 ? positionsOf(scene_, instance) : std::vector<glm::dvec3>()) {
-                boxes[mediumOf(instance)].add(p);
+        std::map<uint, Bounds> bounds;  // of all solids of a medium
+        forEachSurface(flat_, [&](const Surface& surface) {
+            if (const uint medium = mediumOf(surface); medium != 0) {
+                bounds[medium].add(surface.bounds());
             }
+        });
+        std::erase_if(bounds, [&](const auto& entry) { return !touch(origins_, entry.second); });
+        if (bounds.empty()) {
+            return 0;
         }
-        for (const MeshInstance& instance : scene_.instances) {
-            if (const uint medium = mediumOf(instance); medium != 0 && overlap(origins_, boxes[medium])) {
-                addMesh(instance, around_[medium]);
+        forEachSurface(flat_, [&](const Surface& surface) {
+            if (const uint medium = mediumOf(surface); bounds.contains(medium)) {
+                add(surface, around_[medium]);
             }
-        }
-        for (const Sphere& sphere : scene_.spheres) {
-            if (const uint medium = flat_.mediumOfMaterial[sphere.material]; medium != 0) {
-                addSphere(around_[medium], sphere, middle_);
-                straddles_ = straddles_ || isSkinIn(sphere);
-            }
-        }
+        });
         return straddles_ ? kMediaVary : wordOf();
     }
 
 private:
-    uint mediumOf(const MeshInstance& instance) const { return flat_.mediumOfMaterial[scene_.meshes[instance.mesh].material]; }
+    uint mediumOf(const Surface& surface) const { return flat_.mediumOfMaterial[surface.material]; }
 
-    void addMesh(const MeshInstance& instance, Surroundings& around)
+    void add(const Surface& surface, Surroundings& around)
     {
-        const Mesh& mesh = scene_.meshes[instance.mesh];
-        const std::vector<glm::dvec3> positions = positionsOf(scene_, instance);
-        const bool mirrors = glm::determinant(glm::dmat3(instance.worldFromMesh)) < 0.0;
-        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-            const glm::dvec3 &a = positions[mesh.indices[i]], &b = positions[mesh.indices[i + (mirrors ? 2 : 1)]],
-                             &c = positions[mesh.indices[i + (mirrors ? 1 : 2)]];
+        const auto& [a, b, c] = surface.corners;
+        if (surface.isSphere) {
+            addSphere(around, a - middle_, b.x);
+        } else {
             addTriangle(around, a - middle_, b - middle_, c - middle_);
-            straddles_ = straddles_ || overlap(origins_, Box{glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))});
         }
+        straddles_ = straddles_ || (surface.isSphere ? isSkinIn(a, b.x) : touch(origins_, surface.bounds()));
     }
 
     // Whether part of the sphere's surface lies among the points.
-    bool isSkinIn(const Sphere& sphere) const
+    bool isSkinIn(const glm::dvec3& center, double radius) const
     {
-        const glm::dvec3 center(sphere.center);
         const double nearest = glm::distance(center, glm::clamp(center, origins_.low, origins_.high));
         const double farthest = glm::length(glm::max(glm::abs(origins_.low - center), glm::abs(origins_.high - center)));
-        return nearest <= static_cast<double>(sphere.radius) && farthest >= static_cast<double>(sphere.radius);
+        return nearest <= radius && farthest >= radius;
     }
 
     // The solid that the ray leaves first is the innermost. Where there are more than a ray remembers, the device finds and reports them.
@@ -191,62 +237,40 @@ private:
         return word;
     }
 
-    const Scene& scene_;
     const FlatScene& flat_;
-    const Box origins_;
+    const Bounds origins_;
     const glm::dvec3 middle_;
     std::map<uint, Surroundings> around_;  // by medium
     bool straddles_ = false;               // some points are inside of a solid, others are not
 };
 
-// Boxes of what a predicate on materials chooses.
-std::vector<Box> boxesOf(const Scene& scene, const std::function<bool(std::uint32_t material)>& isChosen)
-{
-    std::vector<Box> boxes;
-    for (const MeshInstance& instance : scene.instances) {
-        if (isChosen(scene.meshes[instance.mesh].material)) {
-            Box& box = boxes.emplace_back();
-            for (const glm::dvec3& p : positionsOf(scene, instance)) {
-                box.add(p);
-            }
-        }
-    }
-    for (const Sphere& sphere : scene.spheres) {
-        if (isChosen(sphere.material)) {
-            boxes.push_back(boxOf(sphere));
-        }
-    }
-    return boxes;
-}
-
 }  // namespace
 
-FlatCamera placeInMedia(FlatCamera camera, const Scene& scene, const FlatScene& flat)
+FlatCamera placeInMedia(FlatCamera camera, const FlatScene& flat)
 {
     const bool tracked = (flat.features & kFeatureMedia) != 0;
-    camera.media = tracked ? SolidFinder(scene, flat, originsOf(camera)).find() : 0;
+    camera.media = tracked ? SolidFinder(flat, originsOf(camera)).find() : 0;
     return camera;
 }
 
-bool mayLampsBeInMedia(const Scene& scene, const FlatScene& flat)
+bool mayLampsBeInMedia(const FlatScene& flat)
 {
     if ((flat.features & kFeatureMedia) == 0) {
         return false;
     }
-    const auto isLamp = [&scene](std::uint32_t material) { return scene.materials[material].emission != glm::vec3(0.0F); };
-    std::vector<Box> lamps = boxesOf(scene, isLamp);
-    for (const PunctualLight& light : scene.lights) {
-        if (light.kind != PunctualLight::Kind::Directional) {
-            lamps.push_back({glm::dvec3(light.position), glm::dvec3(light.position)});
+    Bounds lit;  // around all lamps: many cost no more than one
+    for (const FlatLight& light : flat.lights) {
+        const uint kind = light.kind & kLightKindMask;
+        if (kind == kPointLight || kind == kSpotLight) {
+            lit.add(glm::dvec3(light.position));
         }
     }
-    Box lit;  // around all of them: many lamps cost no more than one
-    for (const Box& lamp : lamps) {
-        lit.add(lamp.low);
-        lit.add(lamp.high);
-    }
-    const std::vector<Box> solids = boxesOf(scene, [&](std::uint32_t material) { return flat.mediumOfMaterial[material] != 0; });
-    return std::ranges::any_of(solids, [&lit](const Box& solid) { return overlap(solid, lit); });
+    forEachSurface(flat, [&](const Surface& surface) {
+        if (flat.materials[surface.material].emission != vec3(0.0F)) {
+            lit.add(surface.bounds());
+        }
+    });
+    return SolidFinder(flat, lit).find() != 0;
 }
 
 }  // namespace glim

@@ -2,14 +2,13 @@
 #pragma once
 
 #include "host/flatten/flat_scene.hpp"
-#include "host/scene/scene.hpp"
 
 namespace glim {
 
 // The camera with the media of its rays (FlatCamera::media).
-FlatCamera placeInMedia(FlatCamera camera, const Scene& scene, const FlatScene& flat);
+FlatCamera placeInMedia(FlatCamera camera, const FlatScene& flat);
 
-// Whether the box around all lamps meets that of a solid: then light paths have to look for the media that they begin in.
-bool mayLampsBeInMedia(const Scene& scene, const FlatScene& flat);
+// Whether the box around all lamps meets that around all solids of a medium: then light paths have to look for the media that they begin in.
+bool mayLampsBeInMedia(const FlatScene& flat);
 
 }  // namespace glim

@@ -148,7 +148,7 @@ const Camera& findCamera(const Scene& scene, const std::optional<std::string>& c
 
 FlatCamera flattenCamera(const PreparedScene& prepared, const Camera& camera, float aspectRatio, const Lens& lens)
 {
-    return placeInMedia(flattenCamera(camera, aspectRatio, lens), prepared.scene, prepared.flat);
+    return placeInMedia(flattenCamera(camera, aspectRatio, lens), prepared.flat);
 }
 
 glm::uvec2 defaultSize(const Camera& camera)

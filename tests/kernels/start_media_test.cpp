@@ -58,14 +58,14 @@ TEST(StartMediaTest, HostAndDeviceFindTheSolidsAroundAPoint)
     std::vector<Case> cases;
     std::size_t nested = 0;
     while (cases.size() < 4000) {
-        const auto coordinate = [&random] { return static_cast<float>(random.uniform(-1.2, 1.2) * kHalf); };
+        const auto coordinate = [&random] { return static_cast<float>(random.uniform(-1.2, 1.2)) * kHalf; };
         const glm::vec3 point(coordinate(), coordinate(), coordinate());
         if (const auto media = mediaAt(point, onDevice.flat.mediumOfMaterial)) {
             cases.push_back({point, *media});
             nested += *media >> kMediumBits != 0 ? 1 : 0;
             Camera camera;
             camera.position = point;
-            ASSERT_EQ(placeInMedia(flattenCamera(camera, 1.0F), scene, onDevice.flat).media, *media)
+            ASSERT_EQ(placeInMedia(flattenCamera(camera, 1.0F), onDevice.flat).media, *media)
                 << point.x << ' ' << point.y << ' ' << point.z;
         }
     }

@@ -302,7 +302,7 @@ TEST_P(CausticsTest, AgreeWithPathTracing)
     Scene scene = variant.builder.scene();
     variant.change(scene);
     const FlatScene flat = flattened(scene);
-    const FlatCamera camera = placeInMedia(flattenCamera(scene.cameras.front(), 1.0F, variant.lens), scene, flat);
+    const FlatCamera camera = placeInMedia(flattenCamera(scene.cameras.front(), 1.0F, variant.lens), flat);
     const Film light = renderCaustics(flat, camera, variant.settings, true);
     RenderSettings others = variant.settings;
     others.seed = 1;

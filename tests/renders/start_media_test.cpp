@@ -1,5 +1,6 @@
 // Rays that begin within solids: a camera in water, a lamp in glass. What is left of light after d metres is exp(-absorption d).
 #include "host/flatten/start_media.hpp"
+#include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/caustic_films.hpp"
@@ -137,7 +138,7 @@ TEST(StartMediaTest, ALensAcrossABoundarySeesBoth)
     Scene scene = lookingAlongZ();
     addBox(scene, {-2, -2, -1}, {0, 2, 2}, addMedium(scene, kThin));
     const FlatScene flat = flattened(scene);
-    const FlatCamera camera = placeInMedia(flattenCamera(scene.cameras.front(), 1.0F, {0.1F, 1e6F}), scene, flat);
+    const FlatCamera camera = placeInMedia(flattenCamera(scene.cameras.front(), 1.0F, {0.1F, 1e6F}), flat);
     EXPECT_EQ(camera.media, kMediaVary);
     RenderSettings settings = squareSettings(16, 64);
     expectMean("half a lens in a box", renderCaustics(flat, camera, settings, true), 0.5 + 0.5 * kThin);
@@ -153,7 +154,7 @@ TEST(StartMediaTest, TheHostKnowsWhereACameraIs)
     const auto mediaAt = [&](const glm::vec3& position, const Lens& lens = {}) {
         Camera camera = scene.cameras.front();
         camera.position = position;
-        return placeInMedia(flattenCamera(camera, 1.0F, lens), scene, flat).media;
+        return placeInMedia(flattenCamera(camera, 1.0F, lens), flat).media;
     };
     const uint water = flat.mediumOfMaterial[outer], ball = flat.mediumOfMaterial[inner];
     EXPECT_EQ(mediaAt({0, 0, 0}), ball | water << kMediumBits);
@@ -166,6 +167,68 @@ TEST(StartMediaTest, TheHostKnowsWhereACameraIs)
     EXPECT_EQ(mediaAt({1.45F, 0, 0}, {0.1F, 1.0F}), kMediaVary);
 }
 
+// What rays never meet is no solid: what is transparent all over, and what an opaque lamp in the same place hides.
+TEST(StartMediaTest, SolidsThatAreNotThereAreNotAround)
+{
+    Scene scene = lookingAlongZ();
+    const std::uint32_t water = addMedium(scene, kThin), clear = addMedium(scene, kDense);
+    scene.materials[clear].alphaMode = AlphaMode::Blend;
+    scene.materials[clear].alpha = 0.0F;
+    scene.materials.push_back(makeLambert(glm::vec3(0.0F), glm::vec3(2.0F), true));
+    addBox(scene, {-1, -1, -1}, {1, 1, 1}, clear);
+    addBall(scene, 0.5F, water);
+    addBall(scene, 0.5F, clear + 1);
+    addBall(scene, 0.5F, water, {0, 5, 0});
+    const FlatScene flat = flattened(scene);
+    const auto mediaAt = [&](const glm::vec3& position) {
+        Camera camera = scene.cameras.front();
+        camera.position = position;
+        return placeInMedia(flattenCamera(camera, 1.0F), flat).media;
+    };
+    EXPECT_NE(flat.features & kFeatureMedia, 0U);
+    EXPECT_EQ(mediaAt({0, 0, 0}), 0U);
+    EXPECT_EQ(mediaAt({0.9F, 0, 0}), 0U);
+    EXPECT_EQ(mediaAt({0, 5, 0}), flat.mediumOfMaterial[water]);
+    expectPixels(renderScene(scene, squareSettings(8, 8)), glm::dvec3(2.0));
+}
+
+// Light paths look for their media only where a lamp may lie in some.
+TEST(StartMediaTest, LampsBetweenSolidsAreInNone)
+{
+    for (const float y : {0.0F, 3.0F}) {
+        Scene scene = lookingAlongZ();
+        const std::uint32_t water = addMedium(scene, kThin);
+        scene.materials.push_back(makeLambert(glm::vec3(0.0F), glm::vec3(2.0F)));
+        addBall(scene, 1.0F, water, {0, 3, 0});
+        addBall(scene, 1.0F, water, {0, -3, 0});
+        addBall(scene, 0.1F, water + 1, {0, y, 0});
+        EXPECT_EQ((flattened(scene).features & kFeatureLampsInMedia) != 0, y != 0.0F);
+    }
+}
+
+// An instance of a shared mesh, turned inside out and back, is where it is.
+TEST(StartMediaTest, InstancesAreSolidsTooWhereTheyArePlaced)
+{
+    Scene scene = lookingAlongZ();
+    addBox(scene, {-1, -1, -1}, {1, 1, 1}, addMedium(scene, kThin));
+    const std::vector<MeshInstance> halves = scene.instances;
+    for (const double x : {-10.0, 10.0}) {
+        for (MeshInstance instance : halves) {
+            instance.worldFromMesh[3].x = x;
+            instance.worldFromMesh[0].x = x < 0.0 ? -2.0 : 2.0;
+            scene.instances.push_back(instance);
+        }
+    }
+    const Primitives primitives = makePrimitives(scene, 0);
+    const FlatScene flat = flattenScene(scene, primitives, buildSceneBvh(primitives, SplitRule::Sah));
+    ASSERT_EQ(primitives.placements.size(), 6U);
+    for (const auto& [x, isInside] : {std::pair(0.9F, true), {1.1F, false}, {-11.9F, true}, {-12.1F, false}, {8.1F, true}, {7.9F, false}}) {
+        Camera camera = scene.cameras.front();
+        camera.position = {x, 0.1F, 0.2F};
+        EXPECT_EQ(placeInMedia(flattenCamera(camera, 1.0F), flat).media, isInside ? 1U : 0U) << x;
+    }
+}
+
 // Nobody tracks media where nothing absorbs: the camera's word stays 0, and so do the bits.
 TEST(StartMediaTest, GlassThatAbsorbsNothingIsNotTracked)
 {
@@ -173,7 +236,7 @@ TEST(StartMediaTest, GlassThatAbsorbsNothingIsNotTracked)
     addBall(scene, 1.0F, addMedium(scene, glm::dvec3(1.0)));
     const FlatScene flat = flattened(scene);
     EXPECT_EQ(flat.features & (kFeatureMedia | kFeatureLampsInMedia), 0U);
-    EXPECT_EQ(placeInMedia(flattenCamera(scene.cameras.front(), 1.0F, {10.0F, 1.0F}), scene, flat).media, 0U);
+    EXPECT_EQ(placeInMedia(flattenCamera(scene.cameras.front(), 1.0F, {10.0F, 1.0F}), flat).media, 0U);
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ Film renderScene(const Scene& scene, const RenderSettings& settings)
 {
     const FlatScene flat = flattened(scene);
     const FlatCamera camera = flattenCamera(scene.cameras.front(), aspectOf(settings));
-    return renderBySchedules(flat, placeInMedia(camera, scene, flat), settings);
+    return renderBySchedules(flat, placeInMedia(camera, flat), settings);
 }
 
 std::vector<Film> renderSeeds(const Scene& scene, const RenderSettings& settings, std::uint32_t count)
