@@ -1,12 +1,16 @@
 #include "host/flatten/lift_lamps.hpp"
 
+#include "host/bvh/bvh.hpp"
 #include "host/text.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace glim {
@@ -17,10 +21,6 @@ constexpr std::size_t kCostOfPair = 64;  // whose boxes overlap, in comparisons
 constexpr float kCoplanar = 0x1p-22F;    // of the coordinates: two roundings
 constexpr float kLift = 0x1p-18F;        // of the coordinates: what a hit at a grazing angle of .1 is off by
 
-struct Box {
-    glm::vec3 low, high;
-};
-
 Box boxOf(const Triangle& triangle)
 {
     const auto& [a, b, c] = triangle.vertices;
@@ -29,14 +29,14 @@ Box boxOf(const Triangle& triangle)
 
 float sizeOf(const Box& box)
 {
-    const glm::vec3 size = glm::max(glm::abs(box.low), glm::abs(box.high));
+    const glm::vec3 size = glm::max(glm::abs(box.lo), glm::abs(box.hi));
     return std::max({size.x, size.y, size.z});
 }
 
 bool overlap(const Box& a, const Box& b, float slack)
 {
-    return a.low.x <= b.high.x + slack && b.low.x <= a.high.x + slack && a.low.y <= b.high.y + slack && b.low.y <= a.high.y + slack &&
-           a.low.z <= b.high.z + slack && b.low.z <= a.high.z + slack;
+    return a.lo.x <= b.hi.x + slack && b.lo.x <= a.hi.x + slack && a.lo.y <= b.hi.y + slack && b.lo.y <= a.hi.y + slack &&
+           a.lo.z <= b.hi.z + slack && b.lo.z <= a.hi.z + slack;
 }
 
 // Whether the triangles touch more than at an edge: some direction in the plane, across an edge of either, would tell them apart.
@@ -184,40 +184,55 @@ Copies findHidden(const Scene& scene, const Primitives& primitives)
     return hidden;
 }
 
-// Of spheres in the same place the first that emits stays, or where none does all.
-std::size_t leaveOutSpheres(const Scene& scene, Primitives& primitives)
+// Of spheres in one place the lowest is met. So opaque lamps change places with what is before them, unless light passes that, and what
+// they hide is left out. Returns how many are.
+std::size_t placeSpheres(const Scene& scene, Primitives& primitives)
 {
-    using SpherePlace = std::array<float, 4>;
-    const auto placeOfSphere = [](const Sphere& sphere) {
-        return SpherePlace{sphere.center.x, sphere.center.y, sphere.center.z, sphere.radius};
-    };
+    using Place = std::array<float, 4>;
+    const std::vector<Sphere> spheres = std::exchange(primitives.spheres, {});
+    const std::vector<bool> hasAlpha(primitives.hasAlpha);
     const std::size_t triangles = primitives.triangles.size();
-    const auto isClear = [&](std::size_t i) { return !primitives.hasAlpha.empty() && primitives.hasAlpha[triangles + i]; };
-    std::map<SpherePlace, std::size_t> lamps;
-    for (std::size_t i = 0; i < primitives.spheres.size(); ++i) {
-        if (emits(scene.materials[primitives.spheres[i].material]) && !isClear(i)) {
-            lamps.emplace(placeOfSphere(primitives.spheres[i]), i);
+    const auto placeOf = [&](std::size_t i) {
+        return Place{spheres[i].center.x, spheres[i].center.y, spheres[i].center.z, spheres[i].radius};
+    };
+    const auto isClear = [&](std::size_t i) { return !hasAlpha.empty() && hasAlpha[triangles + i]; };
+    const auto isLamp = [&](std::size_t i) { return emits(scene.materials[spheres[i].material]) && !isClear(i); };
+    const auto isTwoSided = [&](std::size_t i) { return isSeenFromBehind(scene.materials[spheres[i].material]); };
+    std::vector<std::size_t> order(spheres.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::map<Place, std::size_t> firstLamps;
+    for (const std::size_t i : order) {
+        if (isLamp(i)) {
+            firstLamps.try_emplace(placeOf(i), i);
         }
     }
-    if (lamps.empty()) {
-        return 0;
-    }
-    std::vector<Sphere> kept;
-    std::vector<bool> hasAlpha(primitives.hasAlpha.begin(),
-                               primitives.hasAlpha.begin() + static_cast<std::ptrdiff_t>(primitives.hasAlpha.empty() ? 0 : triangles));
-    for (std::size_t i = 0; i < primitives.spheres.size(); ++i) {
-        const auto lamp = lamps.find(placeOfSphere(primitives.spheres[i]));
-        if (lamp == lamps.end() || lamp->second == i || (isClear(i) && i < lamp->second)) {
-            kept.push_back(primitives.spheres[i]);
-            if (!primitives.hasAlpha.empty()) {
-                hasAlpha.push_back(isClear(i));
-            }
+    std::map<Place, std::vector<std::size_t>> groups;
+    for (const std::size_t i : order) {
+        if (const auto lamp = firstLamps.find(placeOf(i)); lamp != firstLamps.end() && !(isClear(i) && i < lamp->second)) {
+            groups[lamp->first].push_back(i);
         }
     }
-    const std::size_t left = primitives.spheres.size() - kept.size();
-    primitives.spheres = std::move(kept);
-    primitives.hasAlpha = std::move(hasAlpha);
-    return left;
+    constexpr auto kLeftOut = std::numeric_limits<std::size_t>::max();
+    for (const auto& [place, slots] : groups) {
+        std::vector<std::size_t> group = slots, kept;
+        std::ranges::stable_partition(group, isLamp);
+        std::ranges::copy_if(group, std::back_inserter(kept), [&](std::size_t i) {
+            return std::ranges::none_of(kept, [&](std::size_t before) { return isLamp(before) && (isTwoSided(before) || !isTwoSided(i)); });
+        });
+        kept.resize(slots.size(), kLeftOut);
+        for (std::size_t k = 0; k < slots.size(); ++k) {
+            order[slots[k]] = kept[k];
+        }
+    }
+    std::erase(order, kLeftOut);
+    primitives.hasAlpha.resize(hasAlpha.empty() ? 0 : triangles);
+    for (const std::size_t i : order) {
+        primitives.spheres.push_back(spheres[i]);
+        if (!hasAlpha.empty()) {
+            primitives.hasAlpha.push_back(isClear(i));
+        }
+    }
+    return spheres.size() - order.size();
 }
 
 // A lamp and another triangle that overlap in one plane.
@@ -238,15 +253,15 @@ std::vector<Overlap> findOverlaps(const std::vector<Triangle>& triangles, const 
     Box all = boxOf(triangles[lamps[0]]);
     for (const std::uint32_t lamp : lamps) {
         const Box box = boxOf(triangles[lamp]);
-        all = {glm::min(all.low, box.low), glm::max(all.high, box.high)};
+        all = {glm::min(all.lo, box.lo), glm::max(all.hi, box.hi)};
         sorted.push_back({0.0F, lamp, box});
     }
-    const glm::vec3 extent = all.high - all.low;
+    const glm::vec3 extent = all.hi - all.lo;
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
     float widest = 0.0F;
     for (Lamp& lamp : sorted) {
-        lamp.begin = lamp.box.low[axis];
-        widest = std::max(widest, lamp.box.high[axis] - lamp.begin);
+        lamp.begin = lamp.box.lo[axis];
+        widest = std::max(widest, lamp.box.hi[axis] - lamp.begin);
     }
     std::ranges::sort(sorted, {}, [](const Lamp& lamp) { return std::pair(lamp.begin, lamp.triangle); });
     const float lampSize = sizeOf(all);
@@ -255,8 +270,8 @@ std::vector<Overlap> findOverlaps(const std::vector<Triangle>& triangles, const 
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
         const Box box = boxOf(triangles[i]);
         const float slack = 2.0F * kCoplanar * std::max(lampSize, sizeOf(box));
-        const auto first = std::ranges::lower_bound(sorted, box.low[axis] - widest - slack, {}, &Lamp::begin);
-        const auto end = std::ranges::upper_bound(sorted, box.high[axis] + slack, {}, &Lamp::begin);
+        const auto first = std::ranges::lower_bound(sorted, box.lo[axis] - widest - slack, {}, &Lamp::begin);
+        const auto end = std::ranges::upper_bound(sorted, box.hi[axis] + slack, {}, &Lamp::begin);
         comparisons += static_cast<std::size_t>(std::max(end - first, std::ptrdiff_t{0}));
         for (auto lamp = first; lamp < end; ++lamp) {
             if (overlap(lamp->box, box, slack) && lamp->triangle != i &&
@@ -317,6 +332,17 @@ Copies placeLamps(const Scene& scene, const Primitives& primitives, std::vector<
     return copies;
 }
 
+float largestStep(const Copies& copies)
+{
+    float largest = 0.0F;
+    for (const auto& [triangle, steps] : copies) {
+        for (const glm::vec3& step : steps) {
+            largest = std::max(largest, glm::length(step));
+        }
+    }
+    return largest;
+}
+
 }  // namespace
 
 void liftLamps(const Scene& scene, Primitives& primitives)
@@ -326,7 +352,7 @@ void liftLamps(const Scene& scene, Primitives& primitives)
         replaceTriangles(primitives, hidden);
         primitives.warnings.push_back("left out " + counted(hidden.size(), "emitting triangle") + " in the same place as another");
     }
-    if (const std::size_t count = leaveOutSpheres(scene, primitives); count > 0) {
+    if (const std::size_t count = placeSpheres(scene, primitives); count > 0) {
         primitives.warnings.push_back("left out " + counted(count, "sphere") + " in the same place as one that emits");
     }
     std::vector<std::uint32_t> lamps = findEmitting(scene, primitives);
@@ -341,8 +367,8 @@ void liftLamps(const Scene& scene, Primitives& primitives)
     const auto moved = placeLamps(scene, primitives, findOverlaps(primitives.triangles, lamps), lamps);
     if (!moved.empty()) {
         replaceTriangles(primitives, moved);
-        primitives.warnings.push_back(counted(moved.size(), "emitting triangle") +
-                                      " in the plane of another surface: moved by some millionths of their place to their front");
+        primitives.warnings.push_back(counted(moved.size(), "emitting triangle") + " in the plane of another surface: moved by up to " +
+                                      exactText(largestStep(moved)) + " m to their front");
     }
 }
 

@@ -179,6 +179,29 @@ TEST(HardLightTest, BallsInOnePlace)
     }
 }
 
+// Within a ball of radiance 1 and albedo .5 one bounce gives 1.5. The one-sided lamp in its place is not there from within.
+TEST(HardLightTest, BallsInOnePlaceFromWithin)
+{
+    for (const bool oneSidedFirst : {false, true}) {
+        SceneBuilder builder;
+        const std::uint32_t ball = builder.lambert(glm::vec3(0.5F), glm::vec3(1.0F), true),
+                            other = builder.lambert(glm::vec3(0.0F), glm::vec3(3.0F));
+        builder.sphere({0, 0, 0}, 0.5F, oneSidedFirst ? other : ball).sphere({0, 0, 0}, 0.5F, oneSidedFirst ? ball : other);
+        for (const bool inside : {false, true}) {
+            const glm::vec3 eye(0, 0, inside ? 0.2F : 2.0F);
+            RenderSettings settings = squareSettings(16, 64);
+            SceneBuilder seen = builder;
+            seen.perspective(eye, {0, 0, -1}, 0.2F);
+            for (const DirectLight direct : {DirectLight::Mis, DirectLight::Lights, DirectLight::Bsdf}) {
+                settings.bounces = 1;
+                settings.course.direct = direct;
+                const double truth = inside ? 1.5 : oneSidedFirst ? 3.0 : 1.0;
+                expectMean(inside ? "from within" : "from without", renderScene(seen.scene(), settings), glm::dvec3(truth));
+            }
+        }
+    }
+}
+
 // 24 lamps that the floor sees, and one in a closed black box, of ten times their power, which takes most of the choices.
 TEST(HardLightTest, H14AStrongLampThatIsHidden)
 {
