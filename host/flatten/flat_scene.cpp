@@ -91,9 +91,6 @@ std::uint64_t fingerprint(const FlatScene& scene)
     if (!scene.environmentMap->texels.empty() || scene.hidesEnvironment) {
         print.add(std::vector<vec3>{scene.environment, vec3(scene.environmentTurn, scene.hidesEnvironment ? 1.0F : 0.0F)});
     }
-    if ((scene.features & kFeatureLargeTriangles) != 0) {  // other bits, and what decides may be a camera that is not used
-        print.add(std::vector<std::uint32_t>{1});
-    }
     for (std::size_t at = 0; at < scene.instances.size(); at += kInstanceTexels) {
         std::array<uvec4, kInstanceTexels> instance{};
         std::copy_n(scene.instances.begin() + static_cast<std::ptrdiff_t>(at), kInstanceTexels, instance.begin());

@@ -3,6 +3,7 @@
 
 #include "host/image/decode_image.hpp"
 #include "host/image/radiance_map.hpp"
+#include "host/scene/placed_mesh.hpp"
 #include "shaders/shared/features.h"
 #include "shaders/shared/limits.h"
 #include "shaders/shared/scene_types.h"
@@ -105,7 +106,8 @@ struct FlatScene {
     std::uint32_t environmentLight = 0;  // index among lights, if the scene has kFeatureEnvironment
     std::vector<uvec4> caustics;         // as scene_types.h says; empty without kFeatureCaustics
     std::uint32_t causticTargets = 0, causticLights = 0;
-    float brightness = 0.0F;  // about the radiance, W/(sr m^2), that the brightest light gives a white surface; of caustics
+    std::vector<Triangle> largest;  // the largest 64 triangles that share no mesh; not on the device
+    float brightness = 0.0F;        // about the radiance, W/(sr m^2), that the brightest light gives a white surface; of caustics
 };
 
 // How many bytes the scene takes on the device.

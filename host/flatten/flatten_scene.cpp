@@ -206,7 +206,7 @@ FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const W
     flat.nodes = packNodes(bvh);
     flat.stackLevels = stackLevelsOf(bvh);
     flat.features = primitives.spheres.empty() ? 0U : kFeatureSpheres;
-    flat.features |= hasLargeTriangles(scene, primitives) ? kFeatureLargeTriangles : 0U;
+    findLargeTriangles(flat, scene, primitives);
     flattenMaterials(flat, scene, findColored(scene));
     for (const MeshInstance& instance : scene.instances) {
         flat.features |= flat.materialFeatures[scene.meshes[instance.mesh].material];

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace glim {
 namespace {
@@ -45,37 +46,31 @@ double distanceTo(const Triangle& triangle, const glm::dvec3& point)
     return std::max(toPlane, glm::length(glm::max(glm::max(low - point, point - high), glm::dvec3(0.0))));
 }
 
-std::vector<glm::dvec3> viewpointsOf(const Scene& scene)
+bool isCloseTo(const Triangle& triangle, const glm::dvec3& point)
 {
-    std::vector<glm::dvec3> points;
-    for (const Camera& camera : scene.cameras) {
-        points.emplace_back(camera.position);
-    }
-    for (const PunctualLight& light : scene.lights) {
-        if (light.kind != PunctualLight::Kind::Directional) {
-            points.emplace_back(light.position);
-        }
-    }
-    return points;
+    const double distance = distanceTo(triangle, point);
+    return distance > 0.0 && sizeOf(triangle) > kMostToDistance * distance;
 }
 
-bool isCloseToLarge(const Scene& scene, const Primitives& primitives, std::vector<Extent> extents)
+bool isCloseToLamp(const Scene& scene, const Triangle& triangle)
 {
-    const std::size_t compared = std::min(kMostCompared, extents.size());
-    std::partial_sort(extents.begin(), extents.begin() + static_cast<std::ptrdiff_t>(compared), extents.end(),
-                      [](const Extent& a, const Extent& b) { return a.size > b.size; });
-    const std::vector<glm::dvec3> points = viewpointsOf(scene);
-    return std::any_of(extents.begin(), extents.begin() + static_cast<std::ptrdiff_t>(compared), [&](const Extent& extent) {
-        return std::any_of(points.begin(), points.end(), [&](const glm::dvec3& point) {
-            const double distance = distanceTo(primitives.triangles[extent.triangle], point);
-            return distance > 0.0 && extent.size > kMostToDistance * distance;
-        });
+    return std::ranges::any_of(scene.lights, [&](const PunctualLight& light) {
+        return light.kind != PunctualLight::Kind::Directional && isCloseTo(triangle, glm::dvec3(light.position));
     });
+}
+
+std::vector<Triangle> largestOf(const std::vector<Triangle>& triangles, std::vector<Extent> extents)
+{
+    const auto end = extents.begin() + static_cast<std::ptrdiff_t>(std::min(kMostCompared, extents.size()));
+    std::partial_sort(extents.begin(), end, extents.end(), [](const Extent& a, const Extent& b) { return a.size > b.size; });
+    std::vector<Triangle> largest;
+    std::transform(extents.begin(), end, std::back_inserter(largest), [&](const Extent& extent) { return triangles[extent.triangle]; });
+    return largest;
 }
 
 }  // namespace
 
-bool hasLargeTriangles(const Scene& scene, const Primitives& primitives)
+void findLargeTriangles(FlatScene& flat, const Scene& scene, const Primitives& primitives)
 {
     std::vector<Extent> extents;
     std::vector<double> sizes;
@@ -103,8 +98,17 @@ bool hasLargeTriangles(const Scene& scene, const Primitives& primitives)
     for (const Sphere& sphere : primitives.spheres) {
         sizes.push_back(2.0 * static_cast<double>(sphere.radius));
     }
-    return !sizes.empty() &&
-           (largest > kMostToPrimitive * fineSize(std::move(sizes)) || isCloseToLarge(scene, primitives, std::move(extents)));
+    flat.largest = largestOf(primitives.triangles, std::move(extents));
+    const bool isLarge = (!sizes.empty() && largest > kMostToPrimitive * fineSize(std::move(sizes))) ||
+                         std::ranges::any_of(flat.largest, [&](const Triangle& triangle) { return isCloseToLamp(scene, triangle); });
+    flat.features |= isLarge ? kFeatureLargeTriangles : 0U;
+}
+
+FeatureMask featuresSeenBy(const FlatScene& flat, const FlatCamera& camera)
+{
+    const bool isClose =
+        std::ranges::any_of(flat.largest, [&](const Triangle& triangle) { return isCloseTo(triangle, glm::dvec3(camera.position)); });
+    return flat.features | (isClose ? kFeatureLargeTriangles : 0U);
 }
 
 }  // namespace glim

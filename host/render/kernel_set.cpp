@@ -1,5 +1,6 @@
 #include "host/render/kernel_set.hpp"
 
+#include "host/flatten/large_triangles.hpp"
 #include "host/render/course.hpp"
 #include "host/render/parameters.hpp"
 #include "kernels.hpp"
@@ -46,7 +47,7 @@ Specialization constantsOf(FeatureMask features)
 
 Specialization specialize(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
 {
-    Specialization constants = constantsOf(scene.features & ~(tracesLight(scene, settings) ? 0U : kFeatureCaustics));
+    Specialization constants = constantsOf(featuresSeenBy(scene, camera) & ~(tracesLight(scene, settings) ? 0U : kFeatureCaustics));
     constants[kSpecWorkgroup] = settings.workgroup;
     constants[kSpecStackLevels] = scene.stackLevels;
     constants[kSpecTexelViews] = static_cast<std::uint32_t>((scene.images->texels.size() >> kTexelViewBits) + 1);

@@ -60,7 +60,7 @@ Wavefront::Wavefront(Device& device, const FlatScene& scene, const FlatCamera& c
       shared_(*own_),
       parameters_(device, scene, camera, settings),
       course_(device, scene, settings),
-      compiled_(lasting.kernels && serves(lasting.kernels->set.specialization, specialize(scene, camera, settings))
+      compiled_(lasting.kernels && glim::serves(lasting.kernels->set.specialization, specialize(scene, camera, settings))
                     ? std::move(lasting.kernels)
                     : std::make_shared<CompiledKernels>(device, scene, camera, settings, schedule_)),
       layout_(compiled_->layout),
@@ -83,6 +83,11 @@ Wavefront::Wavefront(Device& device, SharedResources& shared, const FlatScene& s
       kernels_(compiled_->set)
 {
     compile();
+}
+
+bool Wavefront::serves(const FlatScene& scene, const FlatCamera& camera) const
+{
+    return glim::serves(kernels_.specialization, specialize(scene, camera, settings_));
 }
 
 void Wavefront::setCamera(const FlatCamera& camera, std::uint32_t width, std::uint32_t height)

@@ -43,7 +43,9 @@ public:
     SharedResources& shared() { return shared_; }
     LastingResources lasting() const { return {compiled_, shared_.scene.textures()}; }
 
-    // Sets the camera of the following passes. It has a lens if and only if the first one had.
+    // Whether the kernels do for that camera.
+    bool serves(const FlatScene& scene, const FlatCamera& camera) const;
+    // Sets the camera of the following passes.
     void setCamera(const FlatCamera& camera, std::uint32_t width, std::uint32_t height);
     void setSeed(std::uint32_t seed) { parameters_.setSeed(seed); }
 

@@ -73,6 +73,28 @@ TEST(LargeTest, H51ACardAboveALargeGround)
     }
 }
 
+// The file's camera is far from a ground of 2,000 km; another one, as of --look-from or the window, is 2 m above it and looks at it
+// obliquely.
+TEST(LargeTest, H51ACameraThatComesNear)
+{
+    SceneBuilder builder;
+    builder.quad(ground(1e6F), builder.lambert(glm::vec3(0.5F))).environment(glm::vec3(1.0F));
+    builder.orthographic({0, 1e6F, 0}, {0, 0, 0}, 1e5F);
+    builder.orthographic({0.3F, 2.0F, 0.2F}, {8.3F, 0.0F, 0.2F}, 1e-4F);
+    FlatScene flat = flattened(builder.scene());
+    ASSERT_EQ(flat.features & kFeatureLargeTriangles, 0U);
+    RenderSettings settings = squareSettings(kSide, 1);
+    settings.aov = Aov::Depth;
+    const auto render = [&] { return renderFlat(flat, builder.scene().cameras.back(), settings); };
+    const double truth = std::sqrt(68.0), off = worstOf(render(), truth);
+    flat.largest.clear();
+    const double naive = worstOf(render(), truth);
+    printHardCase("H51", "depth of a ground of +-1e6 m from 2 m above it", kSide * kSide, "off by at most " + figure(off),
+                  "without care: " + figure(naive));
+    EXPECT_LT(off, 6e-5);  // across the window: 1e-4 / tan(14 degrees) of 8.2 m
+    EXPECT_GT(naive, 1e-3);
+}
+
 std::vector<float> floatsOf(const std::vector<glm::vec3>& vectors)
 {
     std::vector<float> floats;
