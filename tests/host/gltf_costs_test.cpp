@@ -180,22 +180,23 @@ TEST(GltfCosts, NumbersWithinDracoStreams)
     const GltfBuilder right = build(makeHills(6), draco(quantized));
     const Bytes stream = encodeDraco(makeHills(6), quantized);
     std::size_t refused = 0;
-    const std::uint64_t peak = peakOf([&] {
-        for (std::size_t at = 11; at + 4 <= stream.size(); ++at) {
-            Bytes damaged = stream;
-            const std::uint32_t largest = 0x7fffffff;
-            std::memcpy(&damaged[at], &largest, sizeof largest);
-            GltfBuilder builder = right;
-            builder.document["bufferViews"][0] = {{"buffer", 1}, {"byteLength", damaged.size()}};
-            builder.otherBuffers.push_back({{"byteLength", damaged.size()}, {"uri", "damaged.bin"}});
-            writeTemporary("damaged.bin", std::string(damaged.begin(), damaged.end()));
-            try {
-                load(builder, litByTheSky());
-            } catch (const std::exception&) {
-                ++refused;
-            }
-        }
-    });
+    std::uint64_t peak = 0;  // of one stream at a time: sanitizers keep for a while what is freed
+    for (std::size_t at = 11; at + 4 <= stream.size(); ++at) {
+        Bytes damaged = stream;
+        const std::uint32_t largest = 0x7fffffff;
+        std::memcpy(&damaged[at], &largest, sizeof largest);
+        GltfBuilder builder = right;
+        builder.document["bufferViews"][0] = {{"buffer", 1}, {"byteLength", damaged.size()}};
+        builder.otherBuffers.push_back({{"byteLength", damaged.size()}, {"uri", "damaged.bin"}});
+        writeTemporary("damaged.bin", std::string(damaged.begin(), damaged.end()));
+        peak = std::max(peak, peakOf([&] {
+                            try {
+                                load(builder, litByTheSky());
+                            } catch (const std::exception&) {
+                                ++refused;
+                            }
+                        }));
+    }
     EXPECT_GT(refused, stream.size() / 4);
     EXPECT_LT(peak, 64 * kMiB);
 }
