@@ -1,4 +1,5 @@
 // glim serve: answers, and the bits of what it renders.
+#include "host/cli/film_report.hpp"
 #include "host/json.hpp"
 #include "host/render/film_file.hpp"
 #include "tests/support/run_glim.hpp"
@@ -121,6 +122,18 @@ TEST_F(ServeTest, DrawsPicturesAsARenderDoes)
     const Json refused = server_.ask(words("served.exr", "served.gif"));
     EXPECT_EQ(refused.at("code").number(), 2.0);
     EXPECT_NE(refused.at("error").text().find("expected a name that ends in .png, .jpg, .jpeg or .webp"), std::string::npos);
+}
+
+TEST_F(ServeTest, AnUnknownErrorEndsTheRenderAndNotTheServer)
+{
+    const std::string film = (folder_ / "bright.exr").string(), statistics = (folder_ / "bright.json").string();
+    expectDone({sceneFile("cornell.gltf"), "--size", "8x8", "--environment", "1e25,1e25,1e25", "--target-rmse", "1%", "-o", film, "--stats",
+                statistics});
+    EXPECT_EQ(readFilm(film).pixels.front().count, kSamplesOfUnknownError);
+    const auto parsed = Json::parse(bytesOfFile(statistics));
+    ASSERT_TRUE(parsed);
+    EXPECT_EQ(parsed->at("stopReason").text(), "unknown error");
+    EXPECT_NE(digestServed({sceneFile("cornell.gltf"), "--size", "8x8", "--spp", "2"}), "");
 }
 
 TEST_F(ServeTest, PicturesHaveTheBitsThatTheyHaveAlone)
