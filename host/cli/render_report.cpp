@@ -179,6 +179,7 @@ Json statisticsOf(const RenderReport& report)
             {"samples", s.samples},
             {"resumedSamples", s.resumedSamples},
             {"digest", digestOf(report.film)},
+            {"pixelsDigest", pixelsDigestOf(report.film)},
             {"samplesPerSecond", perSecond(s.samples, s.renderSeconds)},
             {"rays", {{"closest", s.cameraAndBounceRays}, {"shadow", s.shadowRays}, {"total", rays}}},
             {"raysPerSecond", perSecond(rays, s.renderSeconds)},

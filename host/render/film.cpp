@@ -41,6 +41,14 @@ std::string digestOf(const Film& film)
     return digest.finish();
 }
 
+std::string pixelsDigestOf(const Film& film)
+{
+    Digest digest;
+    digest.add(film.pixels);
+    digest.add(film.splats);
+    return digest.finish();
+}
+
 PixelMoments foldMoments(const PixelMoments& a, const PixelMoments& b)
 {
     if (a.count == 0) {

@@ -43,6 +43,9 @@ struct Film {
 // SHA-256 of what makes the film: its identity, sample ranges and moments, not when and where it was rendered.
 std::string digestOf(const Film& film);
 
+// SHA-256 of the moments alone: equal for films of the same bits, whatever kernels and devices they are of.
+std::string pixelsDigestOf(const Film& film);
+
 // Chan, Golub, LeVeque 1983 for the mean and the sum of squares between blocks. Exactly this order of float32 operations makes a merged
 // film equal to the single run bit for bit.
 PixelMoments foldMoments(const PixelMoments& a, const PixelMoments& b);

@@ -279,6 +279,7 @@ Image headerOf(const Film& film)
                         {"glim:kernels", film.identity.kernels},
                         {"glim:arithmetic", film.arithmetic},
                         {"glim:digest", digestOf(film)},
+                        {"glim:pixels", pixelsDigestOf(film)},
                         {kHeaderDigest, ""}};  // which ExrWriter computes
     return image;
 }

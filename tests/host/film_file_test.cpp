@@ -71,6 +71,24 @@ TEST(FilmFile, ReadsBackEveryBitOfSplats)
     EXPECT_EQ(std::memcmp(back.splats.data(), film.splats.data(), film.splats.size() * sizeof(SplatMoments)), 0);
 }
 
+TEST(FilmFile, NamesItsPixelsApartFromWhatMadeThem)
+{
+    const ScratchFolder folder;
+    Film film = filmWithSplats();
+    const std::string digest = digestOf(film), pixels = pixelsDigestOf(film);
+    film.identity.kernels = "others";
+    film.arithmetic = "another";
+    EXPECT_NE(digestOf(film), digest);
+    EXPECT_EQ(pixelsDigestOf(film), pixels);
+    writeFilm(folder / "a.exr", film);
+    EXPECT_EQ(std::get<std::string>(readExrHeader(folder / "a.exr").attributes.at("glim:pixels")), pixels);
+    for (float* value : {&film.pixels[1].depth, &film.splats[1].clamped}) {
+        *value += 1.0F;
+        EXPECT_NE(pixelsDigestOf(film), pixels);
+        *value -= 1.0F;
+    }
+}
+
 // Asserts (tools/test --sanitize) see whether the sum of the blocks overflows.
 TEST(FilmFile, ReadsBackAnyNumberOfBlocks)
 {

@@ -217,6 +217,11 @@ class Film:
         """SHA-256 of what makes the film. Equal digests are equal bits."""
         return self._native.digest
 
+    @property
+    def pixels_digest(self) -> str:
+        """SHA-256 of the moments alone: equal for the same bits, whatever kernels and device they are of."""
+        return self._native.pixels_digest
+
     def resume(self, progress: Optional[Progress] = None, **options) -> "Film":
         """Renders more samples, as in film.resume(spp=1024), and returns the film of all, with the bits of one render. Options are those
         of the film but for the ones that are given. For films that this process has rendered; Scene.render(resume=film) takes others."""
