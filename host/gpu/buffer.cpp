@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <utility>
 
 namespace glim {
 namespace {
@@ -46,80 +45,66 @@ void refuseTooLarge(const DeviceDescription& device, const std::string& name, Bu
 // A buffer in host memory, for copies to and from memory that the host does not map.
 class Staging {
 public:
-    // From here on the destructor runs even if a step fails.
     Staging(const Device& device, std::uint64_t size)
-        : Staging(device)
+        : memory_(device),
+          handle_(device)
     {
         VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
         info.size = size;
         info.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-        check(vkCreateBuffer(device.handle(), &info, nullptr, &handle_), "create a staging buffer");
+        check(vkCreateBuffer(device.handle(), &info, nullptr, handle_.receive()), "create a staging buffer");
         VkMemoryRequirements needs;
-        vkGetBufferMemoryRequirements(device.handle(), handle_, &needs);
+        vkGetBufferMemoryRequirements(device.handle(), handle_.get(), &needs);
         VkMemoryPropertyFlags have = 0;
         VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
         allocation.allocationSize = needs.size;
         allocation.memoryTypeIndex =
             device.findMemoryType(needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
                                   VK_MEMORY_PROPERTY_HOST_CACHED_BIT, &have);
-        check(vkAllocateMemory(device.handle(), &allocation, nullptr, &memory_), "allocate a staging buffer");
-        check(vkBindBufferMemory(device.handle(), handle_, memory_, 0), "bind a staging buffer");
-        check(vkMapMemory(device.handle(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped_), "map a staging buffer");
+        check(vkAllocateMemory(device.handle(), &allocation, nullptr, memory_.receive()), "allocate a staging buffer");
+        check(vkBindBufferMemory(device.handle(), handle_.get(), memory_.get(), 0), "bind a staging buffer");
+        check(vkMapMemory(device.handle(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &mapped_), "map a staging buffer");
     }
-    ~Staging()
-    {
-        vkDestroyBuffer(device_.handle(), handle_, nullptr);
-        vkFreeMemory(device_.handle(), memory_, nullptr);
-    }
-    Staging(const Staging&) = delete;
-    Staging& operator=(const Staging&) = delete;
 
-    VkBuffer handle() const { return handle_; }
+    VkBuffer handle() const { return handle_.get(); }
     void* mapped() const { return mapped_; }
 
 private:
-    explicit Staging(const Device& device)
-        : device_(device)
-    {}
-
-    const Device& device_;
-    VkBuffer handle_ = VK_NULL_HANDLE;
-    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    Owned<VkDeviceMemory, vkFreeMemory> memory_;  // outlives the buffer
+    Owned<VkBuffer, vkDestroyBuffer> handle_;
     void* mapped_ = nullptr;
 };
 
 }  // namespace
 
-Buffer::Buffer(Device& device, BufferKind kind, std::uint64_t size)
+Buffer::Buffer(Device& device, const std::string& name, BufferKind kind, std::uint64_t size)
     : device_(&device),
       kind_(kind),
-      size_(size)
-{}
-
-// From here on the destructor runs even if a step fails.
-Buffer::Buffer(Device& device, const std::string& name, BufferKind kind, std::uint64_t size)
-    : Buffer(device, kind, size)
+      size_(size),
+      memory_(device),
+      handle_(device),
+      view_(device)
 {
     refuseTooLarge(device.description(), name, kind, size);
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = size;
     info.usage = usageOf(kind);
-    check(vkCreateBuffer(device.handle(), &info, nullptr, &handle_), "create the buffer of the " + name);
+    check(vkCreateBuffer(device.handle(), &info, nullptr, handle_.receive()), "create the buffer of the " + name);
     allocate(name);
-    device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(handle_), name);
+    device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(handle_.get()), name);
     if (hasTexels(kind)) {
         VkBufferViewCreateInfo view{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
-        view.buffer = handle_;
+        view.buffer = handle_.get();
         view.format = texelFormat(kind);
         view.range = VK_WHOLE_SIZE;
-        check(vkCreateBufferView(device.handle(), &view, nullptr, &view_), "create the texel view of the " + name);
+        check(vkCreateBufferView(device.handle(), &view, nullptr, view_.receive()), "create the texel view of the " + name);
     }
 }
 
 void Buffer::allocate(const std::string& name)
 {
     VkMemoryRequirements needs;
-    vkGetBufferMemoryRequirements(device_->handle(), handle_, &needs);
+    vkGetBufferMemoryRequirements(device_->handle(), handle_.get(), &needs);
     const VkMemoryPropertyFlags host = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     // Device memory that is also host-cached is memory that both share. A discrete GPU may also expose some of its own memory to the
     // host, but that is small (256 MiB) or slow to read, and stays unmapped.
@@ -132,43 +117,19 @@ void Buffer::allocate(const std::string& name)
         device_->findMemoryType(needs.memoryTypeBits, readback ? host : VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT},
                                 readback ? VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_HOST_CACHED_BIT} : shared, &have);
     const bool mappable = device_->memoryPolicy() == MemoryPolicy::MapShared && (have & shared) == shared;
-    const VkResult result = vkAllocateMemory(device_->handle(), &allocation, nullptr, &memory_);
+    const VkResult result = memory_.allocate(allocation);
     if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
         throw DeviceError("The " + name + " need " + megabytes(needs.size) + ", but device \"" + device_->description().name +
                           "\" has no more memory (of " + megabytes(device_->description().memory) + ").");
     }
     check(result, "allocate the " + name);
-    allocated_ = needs.size;
-    device_->addMemory(static_cast<std::int64_t>(allocated_));
-    check(vkBindBufferMemory(device_->handle(), handle_, memory_, 0), "bind the memory of the " + name);
+    check(vkBindBufferMemory(device_->handle(), handle_.get(), memory_.get(), 0), "bind the memory of the " + name);
     if (readback || mappable) {
         void* mapped = nullptr;
-        check(vkMapMemory(device_->handle(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped), "map the " + name);
+        check(vkMapMemory(device_->handle(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &mapped), "map the " + name);
         mapped_ = static_cast<std::byte*>(mapped);
     }
 }
-
-Buffer::~Buffer()
-{
-    if (handle_ == VK_NULL_HANDLE) {
-        return;
-    }
-    vkDestroyBufferView(device_->handle(), view_, nullptr);
-    vkDestroyBuffer(device_->handle(), handle_, nullptr);
-    vkFreeMemory(device_->handle(), memory_, nullptr);
-    device_->addMemory(-static_cast<std::int64_t>(allocated_));
-}
-
-Buffer::Buffer(Buffer&& other) noexcept
-    : device_(other.device_),
-      kind_(other.kind_),
-      size_(other.size_),
-      handle_(std::exchange(other.handle_, nullptr)),
-      memory_(other.memory_),
-      view_(other.view_),
-      allocated_(other.allocated_),
-      mapped_(other.mapped_)
-{}
 
 void Buffer::upload(std::span<const std::byte> bytes)
 {
@@ -185,7 +146,7 @@ void Buffer::upload(std::span<const std::byte> bytes)
         const std::uint64_t count = std::min<std::uint64_t>(bytes.size() - offset, kStagingBytes);
         std::memcpy(staging.mapped(), bytes.data() + offset, count);
         Commands commands(*device_);
-        commands.copy(staging.handle(), 0, handle_, count, offset);
+        commands.copy(staging.handle(), 0, handle_.get(), count, offset);
         commands.submitAndWait();
     }
 }
@@ -204,7 +165,7 @@ void Buffer::download(std::span<std::byte> bytes) const
     for (std::uint64_t offset = 0; offset < bytes.size(); offset += kStagingBytes) {
         const std::uint64_t count = std::min<std::uint64_t>(bytes.size() - offset, kStagingBytes);
         Commands commands(*device_);
-        commands.copy(handle_, offset, staging.handle(), count);
+        commands.copy(handle_.get(), offset, staging.handle(), count);
         commands.submitAndWait();
         std::memcpy(bytes.data() + offset, staging.mapped(), count);
     }

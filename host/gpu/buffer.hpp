@@ -1,7 +1,7 @@
 // A buffer in device memory, and the copies between it and the host.
 #pragma once
 
-#include "host/gpu/device.hpp"
+#include "host/gpu/owned.hpp"
 
 #include <cstring>
 #include <span>
@@ -31,12 +31,9 @@ class Buffer {
 public:
     // `size` is in bytes, at least 1. Throws DeviceError with the name, the size and the limit if the device does not allow it.
     Buffer(Device& device, const std::string& name, BufferKind kind, std::uint64_t size);
-    ~Buffer();
-    Buffer(Buffer&& other) noexcept;
-    Buffer& operator=(Buffer&&) = delete;
 
-    VkBuffer handle() const { return handle_; }
-    VkBufferView texelView() const { return view_; }
+    VkBuffer handle() const { return handle_.get(); }
+    VkBufferView texelView() const { return view_.get(); }
     BufferKind kind() const { return kind_; }
     std::uint64_t size() const { return size_; }
     bool isMapped() const { return mapped_ != nullptr; }
@@ -47,16 +44,14 @@ public:
     void download(std::span<std::byte> bytes) const;
 
 private:
-    Buffer(Device& device, BufferKind kind, std::uint64_t size);
     void allocate(const std::string& name);
 
     Device* device_;
     BufferKind kind_;
     std::uint64_t size_;
-    VkBuffer handle_ = VK_NULL_HANDLE;
-    VkDeviceMemory memory_ = VK_NULL_HANDLE;
-    VkBufferView view_ = VK_NULL_HANDLE;
-    std::uint64_t allocated_ = 0;
+    OwnedMemory memory_;  // outlives the buffer
+    Owned<VkBuffer, vkDestroyBuffer> handle_;
+    Owned<VkBufferView, vkDestroyBufferView> view_;
     std::byte* mapped_ = nullptr;  // null if host copies are staged
 };
 

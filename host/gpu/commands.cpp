@@ -5,19 +5,22 @@
 namespace glim {
 
 Commands::Commands(const Device& device)
-    : device_(device)
+    : device_(device),
+      pool_(device),
+      fence_(device),
+      queries_(device)
 {
     VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     poolInfo.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
     poolInfo.queueFamilyIndex = device.queueFamily();
-    check(vkCreateCommandPool(device.handle(), &poolInfo, nullptr, &pool_), "create a command pool");
+    check(vkCreateCommandPool(device.handle(), &poolInfo, nullptr, pool_.receive()), "create a command pool");
     VkCommandBufferAllocateInfo bufferInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-    bufferInfo.commandPool = pool_;
+    bufferInfo.commandPool = pool_.get();
     bufferInfo.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     bufferInfo.commandBufferCount = 1;
     check(vkAllocateCommandBuffers(device.handle(), &bufferInfo, &buffer_), "allocate a command buffer");
     const VkFenceCreateInfo fenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    check(vkCreateFence(device.handle(), &fenceInfo, nullptr, &fence_), "create a fence");
+    check(vkCreateFence(device.handle(), &fenceInfo, nullptr, fence_.receive()), "create a fence");
     VkCommandBufferBeginInfo beginInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     beginInfo.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check(vkBeginCommandBuffer(buffer_, &beginInfo), "begin a command buffer");
@@ -25,16 +28,9 @@ Commands::Commands(const Device& device)
         VkQueryPoolCreateInfo queryInfo{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
         queryInfo.queryType = VK_QUERY_TYPE_TIMESTAMP;
         queryInfo.queryCount = 2 * kMaxTimed;
-        check(vkCreateQueryPool(device.handle(), &queryInfo, nullptr, &queries_), "create a query pool");
-        vkResetQueryPool(device.handle(), queries_, 0, 2 * kMaxTimed);
+        check(vkCreateQueryPool(device.handle(), &queryInfo, nullptr, queries_.receive()), "create a query pool");
+        vkResetQueryPool(device.handle(), queries_.get(), 0, 2 * kMaxTimed);
     }
-}
-
-Commands::~Commands()
-{
-    vkDestroyQueryPool(device_.handle(), queries_, nullptr);
-    vkDestroyFence(device_.handle(), fence_, nullptr);
-    vkDestroyCommandPool(device_.handle(), pool_, nullptr);
 }
 
 void Commands::begin(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push)
@@ -47,15 +43,16 @@ void Commands::begin(const Kernel& kernel, const Bindings& bindings, std::span<c
     if (!push.empty()) {
         vkCmdPushConstants(buffer_, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, static_cast<std::uint32_t>(push.size()), push.data());
     }
-    if (queries_ != VK_NULL_HANDLE && timed_.size() < kMaxTimed) {
-        vkCmdWriteTimestamp(buffer_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries_, static_cast<std::uint32_t>(2 * timed_.size()));
+    if (queries_.get() != VK_NULL_HANDLE && timed_.size() < kMaxTimed) {
+        vkCmdWriteTimestamp(buffer_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries_.get(), static_cast<std::uint32_t>(2 * timed_.size()));
     }
 }
 
 void Commands::end(const Kernel& kernel)
 {
-    if (queries_ != VK_NULL_HANDLE && timed_.size() < kMaxTimed) {
-        vkCmdWriteTimestamp(buffer_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries_, static_cast<std::uint32_t>(2 * timed_.size() + 1));
+    if (queries_.get() != VK_NULL_HANDLE && timed_.size() < kMaxTimed) {
+        vkCmdWriteTimestamp(buffer_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries_.get(),
+                            static_cast<std::uint32_t>(2 * timed_.size() + 1));
         timed_.push_back(kernel.name());
     }
     barrier();
@@ -148,8 +145,8 @@ void Commands::submitAndWait(VkSemaphore done)
     info.pCommandBuffers = &buffer_;
     info.signalSemaphoreCount = done == VK_NULL_HANDLE ? 0 : 1;
     info.pSignalSemaphores = &done;
-    check(vkQueueSubmit(device_.queue(), 1, &info, fence_), "submit work");
-    check(vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, UINT64_MAX), "wait for the device");
+    check(vkQueueSubmit(device_.queue(), 1, &info, fence_.get()), "submit work");
+    check(vkWaitForFences(device_.handle(), 1, fence_.address(), VK_TRUE, UINT64_MAX), "wait for the device");
     device_.instance().refuseMessages();
 }
 
@@ -157,10 +154,10 @@ std::vector<KernelTime> Commands::times() const
 {
     std::vector<std::uint64_t> ticks(2 * timed_.size());
     if (!ticks.empty()) {
-        check(
-            vkGetQueryPoolResults(device_.handle(), queries_, 0, static_cast<std::uint32_t>(ticks.size()), ticks.size() * sizeof(ticks[0]),
-                                  ticks.data(), sizeof(ticks[0]), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-            "read timestamps");
+        check(vkGetQueryPoolResults(device_.handle(), queries_.get(), 0, static_cast<std::uint32_t>(ticks.size()),
+                                    ticks.size() * sizeof(ticks[0]), ticks.data(), sizeof(ticks[0]),
+                                    VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+              "read timestamps");
     }
     std::vector<KernelTime> times;
     for (std::size_t i = 0; i < timed_.size(); ++i) {

@@ -14,9 +14,6 @@ struct KernelTime {
 class Commands {
 public:
     explicit Commands(const Device& device);
-    ~Commands();
-    Commands(const Commands&) = delete;
-    Commands& operator=(const Commands&) = delete;
 
     // `push` holds the first of the layout's push constants, as many as the kernel reads; `groups` workgroups along x.
     void dispatch(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push, std::uint32_t groups);
@@ -55,11 +52,11 @@ private:
     static constexpr std::uint32_t kMaxTimed = 1024;
 
     const Device& device_;
-    VkCommandPool pool_ = VK_NULL_HANDLE;
-    VkCommandBuffer buffer_ = VK_NULL_HANDLE;
-    VkFence fence_ = VK_NULL_HANDLE;
-    VkQueryPool queries_ = VK_NULL_HANDLE;
-    std::vector<std::string> timed_;  // kernel names, one per timed dispatch
+    Owned<VkCommandPool, vkDestroyCommandPool> pool_;
+    VkCommandBuffer buffer_ = VK_NULL_HANDLE;  // of the pool
+    Owned<VkFence, vkDestroyFence> fence_;
+    Owned<VkQueryPool, vkDestroyQueryPool> queries_;  // none if the device has no timestamps
+    std::vector<std::string> timed_;                  // kernel names, one per timed dispatch
 };
 
 }  // namespace glim

@@ -86,8 +86,13 @@ void check(VkResult result, const std::string& action)
     }
 }
 
-VulkanInstance::VulkanInstance(const std::vector<const char*>& extensions)
+VulkanInstance::VulkanInstance(Nothing)
     : messages_(std::make_unique<std::atomic<int>>(0))
+{}
+
+// From here on the destructor runs even if a step fails.
+VulkanInstance::VulkanInstance(const std::vector<const char*>& extensions)
+    : VulkanInstance(Nothing())
 {
     VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
     application.pApplicationName = "glim";

@@ -31,6 +31,9 @@ public:
     void refuseMessages() const;
 
 private:
+    struct Nothing {};
+    explicit VulkanInstance(Nothing);
+
     VkInstance handle_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     // The layers keep its address. It is atomic because kernels are compiled in several threads.

@@ -1,7 +1,6 @@
 #include "host/gpu/kernel.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace glim {
 namespace {
@@ -30,7 +29,9 @@ VkWriteDescriptorSet writeOf(VkDescriptorSet set, std::uint32_t binding, VkDescr
 KernelLayout::KernelLayout(const Device& device, const std::vector<BindingSlot>& slots, std::uint32_t pushSize,
                            const std::vector<std::uint32_t>& images)
     : device_(device),
-      pushSize_(pushSize)
+      pushSize_(pushSize),
+      setLayout_(device),
+      pipelineLayout_(device)
 {
     for (const BindingSlot& slot : slots) {
         if (hasStorage(slot.kind)) {
@@ -58,100 +59,78 @@ KernelLayout::KernelLayout(const Device& device, const std::vector<BindingSlot>&
     VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
     setInfo.bindingCount = static_cast<std::uint32_t>(bindings_.size());
     setInfo.pBindings = bindings_.data();
-    check(vkCreateDescriptorSetLayout(device.handle(), &setInfo, nullptr, &setLayout_), "create a descriptor layout");
+    check(vkCreateDescriptorSetLayout(device.handle(), &setInfo, nullptr, setLayout_.receive()), "create a descriptor layout");
 
     const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, pushSize};
     VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
     info.setLayoutCount = 1;
-    info.pSetLayouts = &setLayout_;
+    info.pSetLayouts = setLayout_.address();
     info.pushConstantRangeCount = pushSize > 0 ? 1 : 0;
     info.pPushConstantRanges = &push;
-    check(vkCreatePipelineLayout(device.handle(), &info, nullptr, &pipelineLayout_), "create a pipeline layout");
-}
-
-KernelLayout::~KernelLayout()
-{
-    vkDestroyPipelineLayout(device_.handle(), pipelineLayout_, nullptr);
-    vkDestroyDescriptorSetLayout(device_.handle(), setLayout_, nullptr);
+    check(vkCreatePipelineLayout(device.handle(), &info, nullptr, pipelineLayout_.receive()), "create a pipeline layout");
 }
 
 Bindings::Bindings(const KernelLayout& layout, const std::map<std::uint32_t, const Buffer*>& buffers,
                    const std::map<std::uint32_t, const StorageImage*>& images)
-    : device_(&layout.device())
+    : pool_(layout.device())
 {
+    const VkDevice device = layout.device().handle();
     const std::vector<VkDescriptorPoolSize> sizes = poolSizes(layout);
     VkDescriptorPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
     poolInfo.maxSets = 1;
     poolInfo.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
     poolInfo.pPoolSizes = sizes.data();
-    check(vkCreateDescriptorPool(device_->handle(), &poolInfo, nullptr, &pool_), "create a descriptor pool");
+    check(vkCreateDescriptorPool(device, &poolInfo, nullptr, pool_.receive()), "create a descriptor pool");
     VkDescriptorSetAllocateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
     const VkDescriptorSetLayout setLayout = layout.setLayout();
-    setInfo.descriptorPool = pool_;
+    setInfo.descriptorPool = pool_.get();
     setInfo.descriptorSetCount = 1;
     setInfo.pSetLayouts = &setLayout;
-    check(vkAllocateDescriptorSets(device_->handle(), &setInfo, &set_), "allocate a descriptor set");
+    check(vkAllocateDescriptorSets(device, &setInfo, &set_), "allocate a descriptor set");
 
     for (const auto& [binding, buffer] : buffers) {
         if (hasStorage(buffer->kind())) {
             const VkDescriptorBufferInfo range{buffer->handle(), 0, VK_WHOLE_SIZE};
             VkWriteDescriptorSet write = writeOf(set_, binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
             write.pBufferInfo = &range;
-            vkUpdateDescriptorSets(device_->handle(), 1, &write, 0, nullptr);
+            vkUpdateDescriptorSets(device, 1, &write, 0, nullptr);
         }
         if (hasTexels(buffer->kind())) {
             const VkBufferView view = buffer->texelView();
             VkWriteDescriptorSet write = writeOf(set_, layout.texelBinding(binding), VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER);
             write.pTexelBufferView = &view;
-            vkUpdateDescriptorSets(device_->handle(), 1, &write, 0, nullptr);
+            vkUpdateDescriptorSets(device, 1, &write, 0, nullptr);
         }
     }
     for (const auto& [binding, image] : images) {
         const VkDescriptorImageInfo whole{VK_NULL_HANDLE, image->view(), VK_IMAGE_LAYOUT_GENERAL};
         VkWriteDescriptorSet write = writeOf(set_, binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
         write.pImageInfo = &whole;
-        vkUpdateDescriptorSets(device_->handle(), 1, &write, 0, nullptr);
+        vkUpdateDescriptorSets(device, 1, &write, 0, nullptr);
     }
 }
 
-Bindings::~Bindings() { vkDestroyDescriptorPool(device_->handle(), pool_, nullptr); }
-
-Bindings::Bindings(Bindings&& other) noexcept
-    : device_(other.device_),
-      pool_(std::exchange(other.pool_, nullptr)),
-      set_(other.set_)
-{}
-
 Kernel::Kernel(const KernelLayout& layout, const EmbeddedShader& shader, const Specialization& specialization)
     : layout_(&layout),
-      name_(shader.name)
+      name_(shader.name),
+      pipeline_(layout.device())
 {
     const VkDevice device = layout.device().handle();
     const std::vector<std::uint32_t> spirv = specialize(shader, specialization);
     VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     moduleInfo.codeSize = spirv.size() * sizeof(std::uint32_t);
     moduleInfo.pCode = spirv.data();
-    VkShaderModule module = VK_NULL_HANDLE;
-    check(vkCreateShaderModule(device, &moduleInfo, nullptr, &module), "load kernel " + name_);
+    Owned<VkShaderModule, vkDestroyShaderModule> module(layout.device());
+    check(vkCreateShaderModule(device, &moduleInfo, nullptr, module.receive()), "load kernel " + name_);
 
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     info.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-    info.stage.module = module;
+    info.stage.module = module.get();
     info.stage.pName = "main";
     info.layout = layout.pipelineLayout();
-    const VkResult result = vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_);
-    vkDestroyShaderModule(device, module, nullptr);
-    check(result, "compile kernel " + name_);
-    layout.device().setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline_), name_);
+    check(vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &info, nullptr, pipeline_.receive()), "compile kernel " + name_);
+    layout.device().setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline_.get()), name_);
 }
-
-Kernel::~Kernel() { vkDestroyPipeline(layout_->device().handle(), pipeline_, nullptr); }
-
-Kernel::Kernel(Kernel&& other) noexcept
-    : layout_(other.layout_),
-      name_(std::move(other.name_)),
-      pipeline_(std::exchange(other.pipeline_, nullptr))
-{}
 
 }  // namespace glim

@@ -21,14 +21,11 @@ public:
     // `images` are the bindings of storage images.
     KernelLayout(const Device& device, const std::vector<BindingSlot>& slots, std::uint32_t pushSize,
                  const std::vector<std::uint32_t>& images = {});
-    ~KernelLayout();
-    KernelLayout(const KernelLayout&) = delete;
-    KernelLayout& operator=(const KernelLayout&) = delete;
 
     const Device& device() const { return device_; }
     const std::vector<VkDescriptorSetLayoutBinding>& bindings() const { return bindings_; }
-    VkDescriptorSetLayout setLayout() const { return setLayout_; }
-    VkPipelineLayout pipelineLayout() const { return pipelineLayout_; }
+    VkDescriptorSetLayout setLayout() const { return setLayout_.get(); }
+    VkPipelineLayout pipelineLayout() const { return pipelineLayout_.get(); }
     std::uint32_t pushSize() const { return pushSize_; }
     // Where the texels of the buffer at `binding` are bound. The buffer must have texels.
     std::uint32_t texelBinding(std::uint32_t binding) const { return texelBindings_.at(binding); }
@@ -38,8 +35,8 @@ private:
     std::vector<VkDescriptorSetLayoutBinding> bindings_;
     std::map<std::uint32_t, std::uint32_t> texelBindings_;
     std::uint32_t pushSize_;
-    VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
-    VkPipelineLayout pipelineLayout_ = VK_NULL_HANDLE;
+    Owned<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout> setLayout_;
+    Owned<VkPipelineLayout, vkDestroyPipelineLayout> pipelineLayout_;
 };
 
 // The buffers and images at the bindings of a layout. A binding that no kernel uses may stay empty.
@@ -47,33 +44,26 @@ class Bindings {
 public:
     Bindings(const KernelLayout& layout, const std::map<std::uint32_t, const Buffer*>& buffers,
              const std::map<std::uint32_t, const StorageImage*>& images = {});
-    ~Bindings();
-    Bindings(Bindings&& other) noexcept;
-    Bindings& operator=(Bindings&&) = delete;
 
     VkDescriptorSet set() const { return set_; }
 
 private:
-    const Device* device_;
-    VkDescriptorPool pool_ = VK_NULL_HANDLE;
-    VkDescriptorSet set_ = VK_NULL_HANDLE;
+    Owned<VkDescriptorPool, vkDestroyDescriptorPool> pool_;
+    VkDescriptorSet set_ = VK_NULL_HANDLE;  // of the pool
 };
 
 class Kernel {
 public:
     Kernel(const KernelLayout& layout, const EmbeddedShader& shader, const Specialization& specialization);
-    ~Kernel();
-    Kernel(Kernel&& other) noexcept;
-    Kernel& operator=(Kernel&&) = delete;
 
     const std::string& name() const { return name_; }
     const KernelLayout& layout() const { return *layout_; }
-    VkPipeline pipeline() const { return pipeline_; }
+    VkPipeline pipeline() const { return pipeline_.get(); }
 
 private:
     const KernelLayout* layout_;
     std::string name_;
-    VkPipeline pipeline_ = VK_NULL_HANDLE;
+    Owned<VkPipeline, vkDestroyPipeline> pipeline_;
 };
 
 }  // namespace glim

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::uint32_t kImages = 2;  // the least that the backend takes; every submission is waited for
 
-VkRenderPass createPass(const Device& device, VkFormat format)
+Owned<VkRenderPass, vkDestroyRenderPass> createPass(const Device& device, VkFormat format)
 {
     VkAttachmentDescription image{};
     image.format = format;
@@ -27,28 +27,35 @@ VkRenderPass createPass(const Device& device, VkFormat format)
     info.attachmentCount = info.subpassCount = 1;
     info.pAttachments = &image;
     info.pSubpasses = &subpass;
-    VkRenderPass pass = VK_NULL_HANDLE;
-    check(vkCreateRenderPass(device.handle(), &info, nullptr, &pass), "create a render pass");
+    Owned<VkRenderPass, vkDestroyRenderPass> pass(device);
+    check(vkCreateRenderPass(device.handle(), &info, nullptr, pass.receive()), "create a render pass");
     return pass;
 }
 
-VkDescriptorPool createPool(const Device& device)
+Owned<VkDescriptorPool, vkDestroyDescriptorPool> createPool(const Device& device)
 {
     const VkDescriptorPoolSize fonts{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1};
     VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
     info.flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT;
     info.maxSets = info.poolSizeCount = 1;
     info.pPoolSizes = &fonts;
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    check(vkCreateDescriptorPool(device.handle(), &info, nullptr, &pool), "create a descriptor pool");
+    Owned<VkDescriptorPool, vkDestroyDescriptorPool> pool(device);
+    check(vkCreateDescriptorPool(device.handle(), &info, nullptr, pool.receive()), "create a descriptor pool");
     return pool;
 }
 
 }  // namespace
 
+class PanelPainter::Backend {
+public:
+    Backend(ImGui_ImplVulkan_InitInfo& info, VkRenderPass pass) { ImGui_ImplVulkan_Init(&info, pass); }
+    ~Backend() { ImGui_ImplVulkan_Shutdown(); }
+    Backend(const Backend&) = delete;
+    Backend& operator=(const Backend&) = delete;
+};
+
 PanelPainter::PanelPainter(const Device& device, VkFormat format)
-    : device_(device),
-      pass_(createPass(device, format)),
+    : pass_(createPass(device, format)),
       pool_(createPool(device))
 {
     ImGui_ImplVulkan_InitInfo info{};
@@ -57,11 +64,11 @@ PanelPainter::PanelPainter(const Device& device, VkFormat format)
     info.Device = device.handle();
     info.QueueFamily = device.queueFamily();
     info.Queue = device.queue();
-    info.DescriptorPool = pool_;
+    info.DescriptorPool = pool_.get();
     info.MinImageCount = info.ImageCount = kImages;
     info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
     info.CheckVkResultFn = [](VkResult result) { check(result, "draw the window's panels"); };
-    ImGui_ImplVulkan_Init(&info, pass_);
+    backend_ = std::make_unique<Backend>(info, pass_.get());
 #if IMGUI_VERSION_NUM >= 19000  // Debian 13
     ImGui_ImplVulkan_CreateFontsTexture();
 #else
@@ -72,17 +79,12 @@ PanelPainter::PanelPainter(const Device& device, VkFormat format)
 #endif
 }
 
-PanelPainter::~PanelPainter()
-{
-    ImGui_ImplVulkan_Shutdown();
-    vkDestroyDescriptorPool(device_.handle(), pool_, nullptr);
-    vkDestroyRenderPass(device_.handle(), pass_, nullptr);
-}
+PanelPainter::~PanelPainter() = default;
 
 void PanelPainter::draw(Commands& commands, VkFramebuffer framebuffer, VkExtent2D size, ImDrawData& panels) const
 {
     VkRenderPassBeginInfo begin{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
-    begin.renderPass = pass_;
+    begin.renderPass = pass_.get();
     begin.framebuffer = framebuffer;
     begin.renderArea.extent = size;
     commands.record([&](VkCommandBuffer buffer) {

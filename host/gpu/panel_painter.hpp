@@ -16,14 +16,16 @@ public:
     PanelPainter& operator=(const PanelPainter&) = delete;
 
     // For framebuffers with one colour attachment.
-    VkRenderPass pass() const { return pass_; }
+    VkRenderPass pass() const { return pass_.get(); }
     // The framebuffer's image goes from the layout of a colour attachment to that for presenting.
     void draw(Commands& commands, VkFramebuffer framebuffer, VkExtent2D size, ImDrawData& panels) const;
 
 private:
-    const Device& device_;
-    VkRenderPass pass_ = VK_NULL_HANDLE;
-    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    class Backend;  // ImGui's
+
+    Owned<VkRenderPass, vkDestroyRenderPass> pass_;
+    Owned<VkDescriptorPool, vkDestroyDescriptorPool> pool_;
+    std::unique_ptr<Backend> backend_;
 };
 
 }  // namespace glim

@@ -9,6 +9,9 @@
 namespace glim {
 namespace {
 
+// About ten scenes' kernels, some 10 MiB: a process that serves for weeks keeps no more.
+constexpr std::size_t kMaxKept = 64;
+
 // Drivers do set constants themselves, but Mesa translates the whole kernel and inlines every call before it drops what they make
 // unreachable: that took .9 s for trace_paths. No pass here changes arithmetic: SPIRV-Tools folds no operation that is NoContraction.
 std::vector<std::uint32_t> optimize(const EmbeddedShader& shader, const Specialization& specialization)
@@ -51,6 +54,9 @@ std::vector<std::uint32_t> specialize(const EmbeddedShader& shader, const Specia
     }
     const std::vector<std::uint32_t> specialized = optimize(shader, specialization);  // several kernels at a time
     const std::lock_guard lock(mutex);
+    if (known.size() >= kMaxKept) {
+        known.clear();
+    }
     return known.emplace(key, specialized).first->second;
 }
 

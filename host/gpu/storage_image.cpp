@@ -12,7 +12,10 @@ constexpr VkFormat kFormat = VK_FORMAT_R8G8B8A8_UNORM;  // storage and blit sour
 StorageImage::StorageImage(Device& device, const std::string& name, std::uint32_t width, std::uint32_t height)
     : device_(device),
       width_(width),
-      height_(height)
+      height_(height),
+      memory_(device),
+      handle_(device),
+      view_(device)
 {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(device.physical(), &properties);
@@ -29,17 +32,17 @@ StorageImage::StorageImage(Device& device, const std::string& name, std::uint32_
     info.samples = VK_SAMPLE_COUNT_1_BIT;
     info.tiling = VK_IMAGE_TILING_OPTIMAL;
     info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    check(vkCreateImage(device.handle(), &info, nullptr, &handle_),
+    check(vkCreateImage(device.handle(), &info, nullptr, handle_.receive()),
           "create " + name + " of " + std::to_string(width) + "x" + std::to_string(height) + " pixels");
     allocate(name);
 
     VkImageViewCreateInfo viewInfo{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
-    viewInfo.image = handle_;
+    viewInfo.image = handle_.get();
     viewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
     viewInfo.format = kFormat;
     viewInfo.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    check(vkCreateImageView(device.handle(), &viewInfo, nullptr, &view_), "create a view of " + name);
-    device.setName(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(handle_), name);
+    check(vkCreateImageView(device.handle(), &viewInfo, nullptr, view_.receive()), "create a view of " + name);
+    device.setName(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(handle_.get()), name);
 
     Commands commands(device);
     commands.clear(*this);
@@ -49,23 +52,13 @@ StorageImage::StorageImage(Device& device, const std::string& name, std::uint32_
 void StorageImage::allocate(const std::string& name)
 {
     VkMemoryRequirements needs;
-    vkGetImageMemoryRequirements(device_.handle(), handle_, &needs);
+    vkGetImageMemoryRequirements(device_.handle(), handle_.get(), &needs);
     VkMemoryPropertyFlags chosen = 0;
     VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     info.allocationSize = needs.size;
     info.memoryTypeIndex = device_.findMemoryType(needs.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, &chosen);
-    check(vkAllocateMemory(device_.handle(), &info, nullptr, &memory_), "allocate " + std::to_string(needs.size) + " bytes for " + name);
-    allocated_ = needs.size;
-    device_.addMemory(static_cast<std::int64_t>(allocated_));
-    check(vkBindImageMemory(device_.handle(), handle_, memory_, 0), "bind memory of " + name);
-}
-
-StorageImage::~StorageImage()
-{
-    vkDestroyImageView(device_.handle(), view_, nullptr);
-    vkDestroyImage(device_.handle(), handle_, nullptr);
-    vkFreeMemory(device_.handle(), memory_, nullptr);
-    device_.addMemory(-static_cast<std::int64_t>(allocated_));
+    check(memory_.allocate(info), "allocate " + std::to_string(needs.size) + " bytes for " + name);
+    check(vkBindImageMemory(device_.handle(), handle_.get(), memory_.get(), 0), "bind memory of " + name);
 }
 
 }  // namespace glim

@@ -58,29 +58,15 @@ Swapchain::Swapchain(Device& device, VkSurfaceKHR surface)
       surface_(surface),
       format_(chooseFormat(device, surface)),
       mode_(chooseMode(device, surface)),
-      painter_(device, format_.format)
+      painter_(device, format_.format),
+      handle_(device),
+      acquired_(device)
 {
     const VkFenceCreateInfo info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    check(vkCreateFence(device.handle(), &info, nullptr, &acquired_), "create a fence");
+    check(vkCreateFence(device.handle(), &info, nullptr, acquired_.receive()), "create a fence");
 }
 
-Swapchain::~Swapchain()
-{
-    vkQueueWaitIdle(device_.queue());
-    destroyImages();
-    vkDestroySwapchainKHR(device_.handle(), handle_, nullptr);
-    vkDestroyFence(device_.handle(), acquired_, nullptr);
-}
-
-void Swapchain::destroyImages()
-{
-    for (const Target& target : targets_) {
-        vkDestroyFramebuffer(device_.handle(), target.framebuffer, nullptr);
-        vkDestroyImageView(device_.handle(), target.view, nullptr);
-        vkDestroySemaphore(device_.handle(), target.drawn, nullptr);
-    }
-    targets_.clear();
-}
+Swapchain::~Swapchain() { vkQueueWaitIdle(device_.queue()); }
 
 // Returns false if the window has no area.
 bool Swapchain::rebuild(std::uint32_t width, std::uint32_t height)
@@ -92,7 +78,7 @@ bool Swapchain::rebuild(std::uint32_t width, std::uint32_t height)
         return false;
     }
     check(vkQueueWaitIdle(device_.queue()), "wait for the device");
-    destroyImages();
+    targets_.clear();
     VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
     info.surface = surface_;
     info.minImageCount = std::max(3U, surface.minImageCount + 1);
@@ -109,11 +95,10 @@ bool Swapchain::rebuild(std::uint32_t width, std::uint32_t height)
                                                                                                      : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
     info.presentMode = mode_;
     info.clipped = VK_TRUE;
-    info.oldSwapchain = handle_;
-    VkSwapchainKHR fresh = VK_NULL_HANDLE;
-    const VkResult result = vkCreateSwapchainKHR(device_.handle(), &info, nullptr, &fresh);
-    vkDestroySwapchainKHR(device_.handle(), handle_, nullptr);
-    handle_ = fresh;
+    info.oldSwapchain = handle_.get();
+    Owned<VkSwapchainKHR, vkDestroySwapchainKHR> fresh(device_);
+    const VkResult result = vkCreateSwapchainKHR(device_.handle(), &info, nullptr, fresh.receive());
+    handle_ = std::move(fresh);
     check(result, "create a swapchain");
     getImages();
     stale_ = false;
@@ -123,9 +108,9 @@ bool Swapchain::rebuild(std::uint32_t width, std::uint32_t height)
 void Swapchain::getImages()
 {
     std::uint32_t count = 0;
-    check(vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, nullptr), "list the swapchain's images");
+    check(vkGetSwapchainImagesKHR(device_.handle(), handle_.get(), &count, nullptr), "list the swapchain's images");
     std::vector<VkImage> images(count);
-    check(vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, images.data()), "list the swapchain's images");
+    check(vkGetSwapchainImagesKHR(device_.handle(), handle_.get(), &count, images.data()), "list the swapchain's images");
     for (const VkImage image : images) {
         targets_.push_back(makeTarget(image));
     }
@@ -133,22 +118,22 @@ void Swapchain::getImages()
 
 Swapchain::Target Swapchain::makeTarget(VkImage image) const
 {
-    Target target{image};
+    Target target(device_, image);
     VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
     view.image = image;
     view.viewType = VK_IMAGE_VIEW_TYPE_2D;
     view.format = format_.format;
     view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    check(vkCreateImageView(device_.handle(), &view, nullptr, &target.view), "create a view of the window's image");
+    check(vkCreateImageView(device_.handle(), &view, nullptr, target.view.receive()), "create a view of the window's image");
     VkFramebufferCreateInfo framebuffer{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
     framebuffer.renderPass = painter_.pass();
     framebuffer.attachmentCount = framebuffer.layers = 1;
-    framebuffer.pAttachments = &target.view;
+    framebuffer.pAttachments = target.view.address();
     framebuffer.width = extent_.width;
     framebuffer.height = extent_.height;
-    check(vkCreateFramebuffer(device_.handle(), &framebuffer, nullptr, &target.framebuffer), "create a framebuffer");
+    check(vkCreateFramebuffer(device_.handle(), &framebuffer, nullptr, target.framebuffer.receive()), "create a framebuffer");
     const VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
-    check(vkCreateSemaphore(device_.handle(), &semaphore, nullptr, &target.drawn), "create a semaphore");
+    check(vkCreateSemaphore(device_.handle(), &semaphore, nullptr, target.drawn.receive()), "create a semaphore");
     return target;
 }
 
@@ -156,14 +141,15 @@ Swapchain::Target Swapchain::makeTarget(VkImage image) const
 std::uint32_t Swapchain::acquire()
 {
     std::uint32_t image = kNoImage;
-    const VkResult result = vkAcquireNextImageKHR(device_.handle(), handle_, kAcquireNanoseconds, VK_NULL_HANDLE, acquired_, &image);
+    const VkResult result =
+        vkAcquireNextImageKHR(device_.handle(), handle_.get(), kAcquireNanoseconds, VK_NULL_HANDLE, acquired_.get(), &image);
     stale_ = result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR;
     if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_TIMEOUT || result == VK_NOT_READY) {
         return kNoImage;
     }
     check(result, "acquire an image of the window");
-    check(vkWaitForFences(device_.handle(), 1, &acquired_, VK_TRUE, UINT64_MAX), "wait for an image of the window");
-    check(vkResetFences(device_.handle(), 1, &acquired_), "reset a fence");
+    check(vkWaitForFences(device_.handle(), 1, acquired_.address(), VK_TRUE, UINT64_MAX), "wait for an image of the window");
+    check(vkResetFences(device_.handle(), 1, acquired_.address()), "reset a fence");
     return image;
 }
 
@@ -179,14 +165,14 @@ bool Swapchain::present(const StorageImage& image, ImDrawData& panels, std::uint
     const Target& target = targets_[index];
     Commands commands(device_);
     commands.blit(image, target.image, extent_);
-    painter_.draw(commands, target.framebuffer, extent_, panels);
-    commands.submitAndWait(target.drawn);
+    painter_.draw(commands, target.framebuffer.get(), extent_, panels);
+    commands.submitAndWait(target.drawn.get());
 
     VkPresentInfoKHR info{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
     info.waitSemaphoreCount = 1;
-    info.pWaitSemaphores = &target.drawn;
+    info.pWaitSemaphores = target.drawn.address();
     info.swapchainCount = 1;
-    info.pSwapchains = &handle_;
+    info.pSwapchains = handle_.address();
     info.pImageIndices = &index;
     const VkResult result = vkQueuePresentKHR(device_.queue(), &info);
     stale_ = stale_ || result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR;

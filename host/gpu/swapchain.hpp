@@ -41,13 +41,19 @@ public:
 
 private:
     struct Target {
-        VkImage image = VK_NULL_HANDLE;
-        VkImageView view = VK_NULL_HANDLE;
-        VkFramebuffer framebuffer = VK_NULL_HANDLE;
-        VkSemaphore drawn = VK_NULL_HANDLE;  // signalled when the image may be presented
+        Target(const Device& device, VkImage ofSwapchain)
+            : image(ofSwapchain),
+              view(device),
+              framebuffer(device),
+              drawn(device)
+        {}
+
+        VkImage image;  // of the swapchain
+        Owned<VkImageView, vkDestroyImageView> view;
+        Owned<VkFramebuffer, vkDestroyFramebuffer> framebuffer;
+        Owned<VkSemaphore, vkDestroySemaphore> drawn;  // signalled when the image may be presented
     };
     bool rebuild(std::uint32_t width, std::uint32_t height);
-    void destroyImages();
     void getImages();
     Target makeTarget(VkImage image) const;
     std::uint32_t acquire();
@@ -59,8 +65,8 @@ private:
     PanelPainter painter_;
     VkExtent2D extent_{0, 0};  // the size of the images; 0: there are none
     bool stale_ = true;        // the images no longer fit the surface
-    VkSwapchainKHR handle_ = VK_NULL_HANDLE;
-    VkFence acquired_ = VK_NULL_HANDLE;
+    Owned<VkSwapchainKHR, vkDestroySwapchainKHR> handle_;
+    Owned<VkFence, vkDestroyFence> acquired_;
     std::vector<Target> targets_;
 };
 

@@ -2,6 +2,7 @@
 //
 // GLIM_LOSE_DEVICE_AT  n: the n-th submission and everything that waits from there on answers VK_ERROR_DEVICE_LOST
 // GLIM_REFUSE_MEMORY_AT  n: the n-th allocation and all after it answer VK_ERROR_OUT_OF_DEVICE_MEMORY
+// GLIM_REFUSE_OBJECTS_AT  n: the n-th object and all after it are not made: VK_ERROR_OUT_OF_HOST_MEMORY
 // GLIM_LACK_FEATURES  set: the device has none of Vulkan's features
 #include <dlfcn.h>
 
@@ -27,7 +28,7 @@ bool isDue(const char* variable, int before)
     return at != nullptr && before + 1 >= std::atoi(at);
 }
 
-std::atomic<int> submissions = 0, allocations = 0;
+std::atomic<int> submissions = 0, allocations = 0, objects = 0;
 
 bool isLost() { return isDue("GLIM_LOSE_DEVICE_AT", submissions - 1); }
 
@@ -67,6 +68,35 @@ VkResult vkAllocateMemory(VkDevice device, const VkMemoryAllocateInfo* info, con
 {
     static const auto next = original<PFN_vkAllocateMemory>("vkAllocateMemory");
     return isDue("GLIM_REFUSE_MEMORY_AT", allocations++) ? VK_ERROR_OUT_OF_DEVICE_MEMORY : next(device, info, callbacks, memory);
+}
+
+#define GLIM_REFUSE(Object)                                                                                                      \
+    VkResult vkCreate##Object(VkDevice device, const Vk##Object##CreateInfo* info, const VkAllocationCallbacks* callbacks,       \
+                              Vk##Object* object)                                                                                \
+    {                                                                                                                            \
+        static const auto next = original<PFN_vkCreate##Object>("vkCreate" #Object);                                             \
+        return isDue("GLIM_REFUSE_OBJECTS_AT", objects++) ? VK_ERROR_OUT_OF_HOST_MEMORY : next(device, info, callbacks, object); \
+    }
+GLIM_REFUSE(Buffer)
+GLIM_REFUSE(BufferView)
+GLIM_REFUSE(CommandPool)
+GLIM_REFUSE(DescriptorPool)
+GLIM_REFUSE(DescriptorSetLayout)
+GLIM_REFUSE(Fence)
+GLIM_REFUSE(PipelineLayout)
+GLIM_REFUSE(QueryPool)
+GLIM_REFUSE(ShaderModule)
+
+VkResult vkAllocateCommandBuffers(VkDevice device, const VkCommandBufferAllocateInfo* info, VkCommandBuffer* buffers)
+{
+    static const auto next = original<PFN_vkAllocateCommandBuffers>("vkAllocateCommandBuffers");
+    return isDue("GLIM_REFUSE_OBJECTS_AT", objects++) ? VK_ERROR_OUT_OF_HOST_MEMORY : next(device, info, buffers);
+}
+
+VkResult vkAllocateDescriptorSets(VkDevice device, const VkDescriptorSetAllocateInfo* info, VkDescriptorSet* sets)
+{
+    static const auto next = original<PFN_vkAllocateDescriptorSets>("vkAllocateDescriptorSets");
+    return isDue("GLIM_REFUSE_OBJECTS_AT", objects++) ? VK_ERROR_OUT_OF_HOST_MEMORY : next(device, info, sets);
 }
 
 void vkGetPhysicalDeviceFeatures2(VkPhysicalDevice device, VkPhysicalDeviceFeatures2* features)

@@ -106,6 +106,26 @@ TEST_F(DeviceFaultTest, MemoryThatIsRefusedIsNamed)
     EXPECT_GT(faults, 5);
 }
 
+// The validation layers print a line for each object that is left when the device goes.
+TEST_F(DeviceFaultTest, WhatCannotBeMadeLeavesNothingBehind)
+{
+    GlimCall faulty = call();
+    faulty.environment["LD_PRELOAD"] = GLIM_FAIL_IN_VULKAN;
+    faulty.environment["GLIM_VALIDATION"] = "1";
+    int faults = 0;
+    for (int at = 1;; at += 1 + at / 6) {
+        std::filesystem::remove(film_);
+        faulty.environment["GLIM_REFUSE_OBJECTS_AT"] = std::to_string(at);
+        const GlimRun run = runGlim(faulty);
+        if (run.exitCode == 0) {
+            break;
+        }
+        ++faults;
+        expectSentence(run, "VK_ERROR_OUT_OF_HOST_MEMORY");
+    }
+    EXPECT_GT(faults, 20);
+}
+
 TEST_F(DeviceFaultTest, ADriverWithoutWhatGlimNeedsIsNotUsed)
 {
     expectSentence(runWith("GLIM_LACK_FEATURES", "1"), "which lacks scalarBlockLayout");
