@@ -19,6 +19,17 @@ public:
     {}
 };
 
+// A mistake in what was asked for: options and their values. One sentence without a full stop. `main` exits with ExitCode::Usage.
+class UsageError : public std::runtime_error {
+public:
+    explicit UsageError(const std::string& sentence)
+        : std::runtime_error(escaped(sentence))
+    {}
+    UsageError(const std::string& option, const std::string& why)
+        : UsageError(option + ": " + why)
+    {}
+};
+
 // One sentence: which device or driver call, what it answered, what was expected of it.
 class DeviceError : public std::runtime_error {
 public:

@@ -137,6 +137,11 @@ std::string Json::dump(int indent) const
 }
 
 bool Json::isObject() const { return std::holds_alternative<Object>(value_); }
+bool Json::isArray() const { return std::holds_alternative<Array>(value_); }
+bool Json::isText() const { return std::holds_alternative<std::string>(value_); }
+bool Json::isBoolean() const { return std::holds_alternative<bool>(value_); }
+bool Json::isNull() const { return std::holds_alternative<std::nullptr_t>(value_); }
+bool Json::isNumber() const { return !isObject() && !isArray() && !isText() && !isBoolean() && !isNull(); }
 
 bool Json::is(const std::string& text) const
 {
@@ -168,6 +173,14 @@ const Json& Json::at(std::size_t index) const
         throw JsonError("there is no element " + std::to_string(index));
     }
     return elements()[index];
+}
+
+const std::vector<Json::Member>& Json::members() const
+{
+    if (const Object* object = std::get_if<Object>(&value_)) {
+        return *object;
+    }
+    throw JsonError(dump() + " is not an object");
 }
 
 const std::vector<Json>& Json::elements() const

@@ -64,7 +64,13 @@ public:
     // `indent` spaces per level; -1: all on one line. Infinities and NaN become null; bytes that are not UTF-8 become U+FFFD.
     std::string dump(int indent = -1) const;
 
+    bool isNull() const;
     bool isObject() const;
+    bool isArray() const;
+    bool isText() const;
+    bool isNumber() const;
+    bool isBoolean() const;
+    const std::vector<Member>& members() const;       // of an object; throws JsonError
     bool is(const std::string& text) const;           // whether it is this string
     const Json* find(const std::string& name) const;  // null if there is no such member or this is no object
     // These throw JsonError.

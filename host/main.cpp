@@ -1,7 +1,7 @@
 // The command line in, the exit code out.
 #include "host/cli/commands.hpp"
-#include "host/cli/outcome.hpp"
-#include "host/cli/version.hpp"
+#include "host/job/outcome.hpp"
+#include "host/job/version.hpp"
 #include "host/message.hpp"
 
 #include <iostream>

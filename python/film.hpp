@@ -1,7 +1,7 @@
 // Films as Python sees them.
 #pragma once
 
-#include "host/cli/denoising.hpp"
+#include "host/job/denoising.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/identify.hpp"
 

@@ -1,8 +1,7 @@
-// The C++ side of `import glim`. The Python side (glim/__init__.py) turns keyword arguments into the words of `glim render`, whose parser
-// checks them here too.
-#include "host/cli/render_picture.hpp"
-#include "host/cli/render_report.hpp"
+// The C++ side of `import glim`. Keyword arguments are the options of a job.
 #include "host/gpu/device.hpp"
+#include "host/job/render_picture.hpp"
+#include "host/job/render_report.hpp"
 #include "host/render/film_pictures.hpp"
 #include "host/render/identify.hpp"
 #include "host/render/merge_films.hpp"
@@ -47,22 +46,45 @@ void refuseFork()
 constexpr const char* kRefused[] = {"--png",           "--image",    "--rates",  "--ids",       "--stats",   "--checkpoint", "--resume",
                                     "--on-checkpoint", "--progress", "--frames", "--turntable", "--cameras", "--replay",     "--suspects"};
 
-void parse(std::vector<std::string> words, RenderOptions& options)
+// Of bytes, a truth, a number, or a list of bytes and numbers (glim/_options.py).
+Json valueOf(nb::handle value)
 {
-    CommandLine line("", "", "");
-    const Command command = line.addCommand("render", "");
-    addRenderOptions(command, options);
-    command.onRun([&] {
-        for (const char* name : kRefused) {
-            if (command.isGiven(name)) {
-                throw UsageError(name, "is for the command line alone");
-            }
+    if (nb::isinstance<nb::bool_>(value)) {
+        return nb::cast<bool>(value);
+    }
+    if (nb::isinstance<nb::int_>(value)) {
+        return nb::cast<std::int64_t>(value);
+    }
+    if (nb::isinstance<nb::float_>(value)) {
+        return nb::cast<double>(value);
+    }
+    if (nb::isinstance<nb::bytes>(value)) {
+        const auto bytes = nb::cast<nb::bytes>(value);
+        return std::string(bytes.c_str(), bytes.size());
+    }
+    Json list = Json::array();
+    for (const nb::handle element : nb::cast<nb::list>(value)) {
+        list.append(valueOf(element));
+    }
+    return list;
+}
+
+RenderJob jobOf(const nb::dict& values)
+{
+    RenderJob job;
+    OptionTable table;
+    addJobOptions(table, job);
+    table.option("--output").require(false);
+    for (const auto& [name, value] : values) {
+        table.set(nb::cast<std::string>(name), OptionValue(valueOf(value)));
+    }
+    for (const char* name : kRefused) {
+        if (table.isGiven(name)) {
+            throw UsageError(name, "is for the command line alone");
         }
-        return ExitCode::Done;
-    });
-    words.insert(words.begin(), "render");
-    words.insert(words.end(), {"--output", "film.exr"});  // which is not written
-    line.run(words);
+    }
+    table.finish();
+    return job;
 }
 
 // Asks Python whether a render goes on. Python's exceptions wait until the film is done.
@@ -100,13 +122,11 @@ public:
     // The last film of this scene, also if it was stopped; null if there is none, or if the last one had no sample.
     std::shared_ptr<PythonFilm> lastFilm() const { return lastFilm_; }
 
-    // `words`: as paths, since names of files need not be Unicode.
-    std::shared_ptr<PythonFilm> render(const std::vector<std::filesystem::path>& words, const std::shared_ptr<PythonFilm>& resumed,
-                                       bool withIds, nb::object progress)
+    std::shared_ptr<PythonFilm> render(const nb::dict& values, const std::shared_ptr<PythonFilm>& resumed, bool withIds,
+                                       nb::object progress)
     {
         refuseFork();
-        RenderOptions options;
-        parse({words.begin(), words.end()}, options);
+        const RenderJob options = jobOf(values);
         Watcher watcher(std::move(progress));
         {
             const nb::gil_scoped_release release;
@@ -120,7 +140,7 @@ public:
     }
 
 private:
-    std::shared_ptr<PythonFilm> renderWithin(const RenderOptions& options, const PythonFilm* resumed, bool withIds, Watcher& watcher)
+    std::shared_ptr<PythonFilm> renderWithin(const RenderJob& options, const PythonFilm* resumed, bool withIds, Watcher& watcher)
     {
         std::unique_ptr<SceneSession> session = std::move(session_);  // none stays if anything is thrown
         if (!session || !session->serves(options)) {
@@ -234,7 +254,7 @@ NB_MODULE(_glim, module)
     bindFilm(module);
     nb::class_<PythonScene>(module, "Scene")
         .def(nb::init<>())
-        .def("render", &PythonScene::render, nb::arg("words"), nb::arg("resumed").none(), nb::arg("ids"), nb::arg("progress").none())
+        .def("render", &PythonScene::render, nb::arg("values"), nb::arg("resumed").none(), nb::arg("ids"), nb::arg("progress").none())
         .def_prop_ro("last_film", &PythonScene::lastFilm);
     module.def("merge", &merge, nb::arg("films"), nb::call_guard<nb::gil_scoped_release>());
     module.def("devices", &devices);

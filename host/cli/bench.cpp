@@ -5,14 +5,14 @@
 #include "host/cli/bench_options.hpp"
 #include "host/cli/bench_report.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/fastest_schedule.hpp"
-#include "host/cli/interrupt.hpp"
-#include "host/cli/output_file.hpp"
-#include "host/cli/progress.hpp"
-#include "host/cli/resolve_options.hpp"
-#include "host/cli/version.hpp"
 #include "host/error.hpp"
 #include "host/flatten/camera_options.hpp"
+#include "host/job/fastest_schedule.hpp"
+#include "host/job/interrupt.hpp"
+#include "host/job/output_file.hpp"
+#include "host/job/progress.hpp"
+#include "host/job/resolve_options.hpp"
+#include "host/job/version.hpp"
 #include "host/render/check_memory.hpp"
 #include "host/render/film_file.hpp"
 #include "host/text.hpp"
@@ -83,7 +83,7 @@ BenchOptions optionsOf(const SceneBench& baseline, const std::string& file, cons
 {
     BenchOptions options;
     CommandLine line("", "", "");
-    const Command command = line.addCommand("bench", "");
+    Command& command = line.addCommand("bench", "");
     addBenchOptions(command, options);
     command.onRun([] { return ExitCode::Done; });
     std::vector<std::string> words{"bench", asked.scenes.front().string()};
@@ -299,7 +299,7 @@ ExitCode runBench(const BenchOptions& options)
 void addBench(CommandLine& line)
 {
     auto options = std::make_shared<BenchOptions>();
-    const Command command = line.addCommand("bench", "Measure how fast the error of a picture falls, or compare with an earlier bench");
+    Command& command = line.addCommand("bench", "Measure how fast the error of a picture falls, or compare with an earlier bench");
     addBenchOptions(command, *options);
     command.setFooter(
         "Renders K seeds and compares each with the reference after 1, 2, 4 ... samples per pixel. Intervals are 95 %.\n"

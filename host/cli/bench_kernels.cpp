@@ -2,13 +2,13 @@
 
 #include "host/bench/kernel_rates.hpp"
 #include "host/bench/make_hills.hpp"
-#include "host/cli/fastest_schedule.hpp"
-#include "host/cli/interrupt.hpp"
-#include "host/cli/output_file.hpp"
-#include "host/cli/version.hpp"
 #include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/camera_options.hpp"
 #include "host/flatten/flatten_scene.hpp"
+#include "host/job/fastest_schedule.hpp"
+#include "host/job/interrupt.hpp"
+#include "host/job/output_file.hpp"
+#include "host/job/version.hpp"
 #include "host/render/check_memory.hpp"
 #include "host/takes_more.hpp"
 

@@ -2,8 +2,8 @@
 
 #include "host/bench/bench_reference.hpp"
 #include "host/bench/run_bench.hpp"
-#include "host/cli/parse.hpp"
-#include "host/cli/resolve_options.hpp"
+#include "host/job/parse.hpp"
+#include "host/job/resolve_options.hpp"
 
 #include <bit>
 #include <set>
@@ -15,14 +15,14 @@ constexpr std::uint32_t kLeastSeeds = 16;  // fewer give no spread worth an inte
 constexpr std::uint32_t kMostSeeds = 1024;
 constexpr std::uint32_t kMostSamples = kMaxSample / kReferenceFactor;
 
-void addSampling(const Command& command, BenchOptions& options)
+void addSampling(OptionTable& table, BenchOptions& options)
 {
-    command.beginGroup("Sampling and stopping");
+    table.beginGroup("Sampling and stopping");
     const Option seconds =
-        addNumber<double>(command, {"--seconds", "S", "Render time per seed, at least 64 samples per pixel", 1e-3, 1e6, "1"},
+        addNumber<double>(table, {"--seconds", "S", "Render time per seed, at least 64 samples per pixel", 1e-3, 1e6, "1"},
                           [&options](double value) { options.seconds = value; });
     addNumber<std::uint32_t>(
-        command, {"--spp", "N", "Samples per pixel of each seed, a power of two", kLeastBenchSamples, kMostSamples, "by --seconds"},
+        table, {"--spp", "N", "Samples per pixel of each seed, a power of two", kLeastBenchSamples, kMostSamples, "by --seconds"},
         [&options](std::uint32_t samples) {
             if (!std::has_single_bit(samples)) {
                 throw UsageError("--spp", "\"" + std::to_string(samples) + "\": expected a power of two, as in 256");
@@ -30,40 +30,40 @@ void addSampling(const Command& command, BenchOptions& options)
             options.samples = samples;
         })
         .excludes(seconds);
-    addNumber<std::uint32_t>(command,
+    addNumber<std::uint32_t>(table,
                              {"--seeds", "K", "Independent renders, with consecutive seeds from --seed", kLeastSeeds, kMostSeeds, "16"},
                              [&options](std::uint32_t count) { options.seeds = count; });
-    addChoice(command, "--adaptive", "RULE", "off, neighbours or neighbours:absolute, beyond 64 samples per pixel [off]",
+    addChoice(table, "--adaptive", "RULE", "off, neighbours or neighbours:absolute, beyond 64 samples per pixel [off]",
               {"off", "neighbours", "neighbours:absolute"}, [&options](std::size_t i) {
                   constexpr Adaptive kRules[] = {Adaptive::Off, Adaptive::Neighbours, Adaptive::NeighboursAbsolute};
                   options.settings.adaptive = kRules[i];
               });
-    addSampler(command, options.settings);
+    addSampler(table, options.settings);
 }
 
-void addOutput(const Command& command, BenchOptions& options)
+void addOutput(OptionTable& table, BenchOptions& options)
 {
-    command.beginGroup("Output");
-    command.addPath("-o,--output", "OUT.json", "Results as JSON; OUT.csv has the raw measurements [bench.json]", options.output);
+    table.beginGroup("Output");
+    table.addPath("-o,--output", "OUT.json", "Results as JSON; OUT.csv has the raw measurements [bench.json]", options.output);
     const Option reference =
-        command.addPath("--reference", "R.exr", "Picture to measure against [OUT.SCENE.exr, made if missing]", options.reference);
-    command.addFlag("--make-reference", "Make OUT.SCENE.exr even if it exists", options.makeReference).excludes(reference);
-    command.addPath("--against", "BASELINE.json", "Also compare with an earlier bench of the same pictures", options.against);
-    command.addFlag("--kernels", "Measure rays per second of the kernels instead", options.kernels);
-    addProgress(command, options.progress);
+        table.addPath("--reference", "R.exr", "Picture to measure against [OUT.SCENE.exr, made if missing]", options.reference);
+    table.addFlag("--make-reference", "Make OUT.SCENE.exr even if it exists", options.makeReference).excludes(reference);
+    table.addPath("--against", "BASELINE.json", "Also compare with an earlier bench of the same pictures", options.against);
+    table.addFlag("--kernels", "Measure rays per second of the kernels instead", options.kernels);
+    addProgress(table, options.progress);
 }
 
-void resolveBench(const Command& command, BenchOptions& options)
+void resolveBench(OptionTable& table, BenchOptions& options)
 {
     if (options.scenes.empty() && !options.kernels) {
         throw UsageError("SCENE is required");
     }
-    options.outputGiven = command.isGiven("--output");
-    options.words = command.wordsGiven({"--output", "--reference", "--make-reference", "--against", "--kernels", "--progress", "--seconds",
-                                        "--spp", "--seeds", "--seed", "--device"});
+    options.outputGiven = table.isGiven("--output");
+    options.words = table.wordsGiven({"--output", "--reference", "--make-reference", "--against", "--kernels", "--progress", "--seconds",
+                                      "--spp", "--seeds", "--seed", "--device"});
     // For resolveLight, which also refuses more light samples than can be counted.
     options.settings.sampleEnd = options.samples.value_or(kLeastBenchSamples);
-    resolveLight(command, options);
+    resolveLight(table, options);
     if (options.settings.adaptive != Adaptive::Off && options.settings.sampleEnd <= kPilotSamples && options.samples) {
         throw UsageError("--spp", "\"" + std::to_string(*options.samples) + "\": --adaptive neighbours begins with " +
                                       std::to_string(kPilotSamples) + " samples of every pixel; expected more");
@@ -82,22 +82,22 @@ void resolveBench(const Command& command, BenchOptions& options)
 
 }  // namespace
 
-void addBenchOptions(const Command& command, BenchOptions& options)
+void addBenchOptions(OptionTable& table, BenchOptions& options)
 {
-    command.beginGroup("Picture");
-    command.addPaths("SCENE", "FILE", "Scenes, .gltf or .glb; without one, --kernels makes hills in memory", options.scenes);
-    addPicture(command, options, std::to_string(kBenchHeight));
-    addCamera(command, options);
-    addSampling(command, options);
-    addLightTransport(command, options.settings);
-    addCaustics(command, options.settings);
-    addCourseEstimators(command, options.settings);
-    addDevice(command, options);
-    addOutput(command, options);
+    table.beginGroup("Picture");
+    table.addPaths("SCENE", "FILE", "Scenes, .gltf or .glb; without one, --kernels makes hills in memory", options.scenes);
+    addPicture(table, options, std::to_string(kBenchHeight));
+    addCamera(table, options);
+    addSampling(table, options);
+    addLightTransport(table, options.settings);
+    addCaustics(table, options.settings);
+    addCourseEstimators(table, options.settings);
+    addDevice(table, options);
+    addOutput(table, options);
     for (const char* other : {"--seconds", "--spp", "--seeds", "--reference", "--make-reference", "--against", "--adaptive"}) {
-        command.option("--kernels").excludes(command.option(other));
+        table.option("--kernels").excludes(table.option(other));
     }
-    command.onParsed([command, &options] { resolveBench(command, options); });
+    table.onFinished([&table, &options] { resolveBench(table, options); });
 }
 
 std::filesystem::path csvOf(const BenchOptions& options) { return std::filesystem::path(options.output).replace_extension(".csv"); }

@@ -1,8 +1,8 @@
 // The options of `glim bench`.
 #pragma once
 
-#include "host/cli/picture_options.hpp"
-#include "host/cli/progress.hpp"
+#include "host/job/picture_options.hpp"
+#include "host/job/progress.hpp"
 
 #include <vector>
 
@@ -25,7 +25,7 @@ struct BenchOptions : PictureOptions {
 };
 
 // Adds every option of `bench` to `command`; they write into `options`, which must outlive it.
-void addBenchOptions(const Command& command, BenchOptions& options);
+void addBenchOptions(OptionTable& table, BenchOptions& options);
 
 std::filesystem::path csvOf(const BenchOptions& options);
 // The file of the reference of `scene` without --reference.

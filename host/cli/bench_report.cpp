@@ -1,7 +1,7 @@
 #include "host/cli/bench_report.hpp"
 
 #include "host/bench/summarize_bench.hpp"
-#include "host/cli/format.hpp"
+#include "host/job/format.hpp"
 #include "host/render/settings.hpp"
 
 #include <algorithm>

@@ -97,136 +97,71 @@ std::string sentenceOf(const CLI::App& app, const std::string& complaint)
     return unknown.empty() ? complaint : "\"" + unknown[0] + "\" was not expected: no such command, option or argument";
 }
 
+void addOption(CLI::App& app, HelpFormatter& formatter, OptionTable& table, const OptionTable::Entry& entry)
+{
+    std::string names;
+    for (const std::string& name : entry.isArgument() ? std::vector{entry.name()} : entry.names) {
+        names += (names.empty() ? "" : ",") + name;
+    }
+    const auto set = [&table, name = entry.name()](const std::string& text) { table.set(name, text); };
+    CLI::Option* option = nullptr;
+    if (entry.isFlag()) {
+        option = app.add_flag_function(
+            names, [set](std::int64_t count) { set(count > 0 ? "true" : "false"); }, entry.help);
+    } else if (entry.isMany) {
+        option = app.add_option_function<std::vector<std::string>>(
+            names, [set](const std::vector<std::string>& texts) { std::ranges::for_each(texts, set); }, entry.help);
+    } else {
+        option = app.add_option_function<std::string>(names, set, entry.help);
+    }
+    if (!entry.isFlag()) {
+        option->type_name(entry.unit);
+    }
+    option->group(entry.group);
+    if (entry.isArgument()) {
+        option->required(entry.isRequired);  // the usage says so
+    }
+    if (entry.isHidden) {
+        formatter.hide(option);
+    }
+}
+
 }  // namespace
-
-const Option& Option::require(bool required) const
-{
-    option_->required(required);
-    return *this;
-}
-
-const Option& Option::needs(const Option& other) const
-{
-    option_->needs(other.option_);
-    return *this;
-}
-
-const Option& Option::excludes(const Option& other) const
-{
-    option_->excludes(other.option_);
-    return *this;
-}
-
-void Command::beginGroup(const std::string& title) const { app_->option_defaults()->group(title); }
-
-Option Command::add(const std::string& names, const std::string& unit, const std::string& help,
-                    std::function<void(const std::string&)> take) const
-{
-    CLI::Option* option = app_->add_option_function<std::string>(names, std::move(take), help);
-    option->type_name(unit);
-    return Option(option);
-}
-
-Option Command::addPath(const std::string& names, const std::string& unit, const std::string& help, std::filesystem::path& path) const
-{
-    return add(names, unit, help, [&path](const std::string& text) { path = text; });
-}
-
-Option Command::addPath(const std::string& names, const std::string& unit, const std::string& help,
-                        std::optional<std::filesystem::path>& path) const
-{
-    return add(names, unit, help, [&path](const std::string& text) { path = text; });
-}
-
-Option Command::addPaths(const std::string& name, const std::string& unit, const std::string& help,
-                         std::vector<std::filesystem::path>& paths) const
-{
-    CLI::Option* option = app_->add_option_function<std::vector<std::string>>(
-        name, [&paths](const std::vector<std::string>& texts) { paths.assign(texts.begin(), texts.end()); }, help);
-    option->type_name(unit);
-    return Option(option);
-}
-
-Option Command::addFlag(const std::string& names, const std::string& help, bool& flag) const
-{
-    return Option(app_->add_flag(names, flag, help));
-}
-
-void Command::hide(const std::vector<std::string>& names) const
-{
-    for (const std::string& name : names) {
-        static_cast<HelpFormatter&>(*app_->get_formatter()).hide(app_->get_option(name));
-    }
-}
-
-void Command::setFooter(const std::string& text) const { app_->footer(text); }
-
-Option Command::option(const std::string& name) const { return Option(app_->get_option(name)); }
-
-bool Command::isGiven(const std::string& option) const { return app_->count(option) > 0; }
-
-std::string Command::textOf(const std::string& option) const { return app_->get_option(option)->results().front(); }
-
-std::vector<std::string> Command::wordsGiven(const std::vector<std::string>& except) const
-{
-    std::vector<std::string> words;
-    for (const CLI::Option* option : app_->get_options()) {
-        const std::string name = option->get_lnames().empty() ? std::string() : "--" + option->get_lnames().front();
-        if (option->count() > 0 && !option->get_positional() && std::ranges::find(except, name) == except.end()) {
-            words.push_back(option->get_type_size() == 0 ? name : name + "=" + option->results().front());
-        }
-    }
-    return words;
-}
-
-void Command::onParsed(std::function<void()> check) const { app_->parse_complete_callback(std::move(check)); }
-
-void Command::onRun(std::function<ExitCode()> run) const
-{
-    app_->callback([exitCode = exitCode_, run = std::move(run)] { *exitCode = run(); });
-}
-
-CommandLine::CommandLine(const std::string& description, const std::string& version, const std::string& footer)
-    : app_(std::make_unique<CLI::App>(description, "glim"))
-{
-    app_->set_version_flag("--version", version, "Print version, commit and build type");
-    app_->get_option("--version")->group(HelpFormatter::kHelpGroup);
-    app_->get_option("--help")->group(HelpFormatter::kHelpGroup);
-    app_->formatter(std::make_shared<HelpFormatter>());
-    app_->require_subcommand(1);
-    app_->footer(footer);
-}
-
-CommandLine::~CommandLine() = default;
-
-Command CommandLine::addCommand(const std::string& name, const std::string& description)
-{
-    CLI::App* app = app_->add_subcommand(name, description);
-    app->set_help_flag("-h,--help", "Print the common options")->group(HelpFormatter::kHelpGroup);
-    app->set_help_all_flag(HelpFormatter::kHelpAll, "Print every option")->group(HelpFormatter::kHelpGroup);
-    app->formatter(std::make_shared<HelpFormatter>());
-    app->footer("");  // not the whole program's
-    return {app, &exitCode_};
-}
 
 ExitCode CommandLine::run(std::vector<std::string> words)
 {
-    for (const std::string& word : words) {
-        if (word.find('\0') != std::string::npos) {  // a name of a file would end there
-            throw UsageError(inQuotes(word) + " has a null character; expected a text without one");
+    CLI::App app(description_, "glim");
+    app.set_version_flag("--version", version_, "Print version, commit and build type");
+    app.get_option("--version")->group(HelpFormatter::kHelpGroup);
+    app.get_option("--help")->group(HelpFormatter::kHelpGroup);
+    app.formatter(std::make_shared<HelpFormatter>());
+    app.require_subcommand(1);
+    app.footer(footer_);
+    ExitCode code = ExitCode::Done;
+    for (Command& command : commands_) {
+        CLI::App* sub = app.add_subcommand(command.name_, command.description_);
+        sub->set_help_flag("-h,--help", "Print the common options")->group(HelpFormatter::kHelpGroup);
+        sub->set_help_all_flag(HelpFormatter::kHelpAll, "Print every option")->group(HelpFormatter::kHelpGroup);
+        const auto formatter = std::make_shared<HelpFormatter>();
+        sub->formatter(formatter);
+        sub->footer(command.footer_);
+        for (const OptionTable::Entry& entry : command.entries()) {
+            addOption(*sub, *formatter, command, entry);
         }
+        sub->parse_complete_callback([&command] { command.finish(); });
+        sub->callback([&command, &code] { code = command.run_ ? command.run_() : ExitCode::Done; });
     }
     std::reverse(words.begin(), words.end());  // as CLI11 takes them
     try {
-        app_->parse(std::move(words));
+        app.parse(std::move(words));
     } catch (const CLI::Success& asked) {
-        app_->exit(asked);
+        app.exit(asked);
     } catch (const CLI::ParseError& error) {
-        throw UsageError(sentenceOf(*app_, error.what()));
+        throw UsageError(sentenceOf(app, error.what()));
     } catch (const UsageError& error) {
-        throw UsageError(sentenceOf(*app_, error.what()));
+        throw UsageError(sentenceOf(app, error.what()));
     }
-    return exitCode_;
+    return code;
 }
 
 }  // namespace glim

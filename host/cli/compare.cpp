@@ -1,8 +1,8 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/compare_report.hpp"
-#include "host/cli/output_file.hpp"
 #include "host/image/exr.hpp"
 #include "host/image/png.hpp"
+#include "host/job/output_file.hpp"
 #include "host/measure/error_picture.hpp"
 #include "host/message.hpp"
 #include "host/render/film_file.hpp"
@@ -99,7 +99,7 @@ void runCompare(const CompareOptions& options)
 void addCompare(CommandLine& line)
 {
     auto options = std::make_shared<CompareOptions>();
-    const Command command = line.addCommand("compare", "Measure how far a picture is from a reference");
+    Command& command = line.addCommand("compare", "Measure how far a picture is from a reference");
     command.beginGroup("Picture");
     command.addPath("picture", "A.exr", "Picture: any OpenEXR file with R, G, B", options->picture).require();
     command.addPath("reference", "B.exr", "Reference, of the same size", options->reference).require();

@@ -64,7 +64,7 @@ void runDevices(bool json)
 void addDevices(CommandLine& line)
 {
     auto json = std::make_shared<bool>(false);
-    const Command command = line.addCommand("devices", "List the Vulkan devices, the one used by default first");
+    Command& command = line.addCommand("devices", "List the Vulkan devices, the one used by default first");
     command.beginGroup("Output");
     command.addFlag("--json", "Print JSON; sizes in bytes", *json);
     command.onRun([json] {

@@ -1,8 +1,8 @@
 #include "host/cli/commands.hpp"
-#include "host/cli/format.hpp"
-#include "host/cli/parse.hpp"
-#include "host/cli/picture_options.hpp"
-#include "host/cli/resolve_options.hpp"
+#include "host/job/format.hpp"
+#include "host/job/parse.hpp"
+#include "host/job/picture_options.hpp"
+#include "host/job/resolve_options.hpp"
 #include "host/json.hpp"
 #include "host/message.hpp"
 #include "host/render/prepare_scene.hpp"
@@ -340,7 +340,7 @@ void runInspect(const InspectOptions& options)
 void addInspect(CommandLine& line)
 {
     auto options = std::make_shared<InspectOptions>();
-    const Command command = line.addCommand("inspect", "Print what a scene contains, costs and needs");
+    Command& command = line.addCommand("inspect", "Print what a scene contains, costs and needs");
     command.beginGroup("Picture");
     command.addPath("SCENE", "FILE", "Scene, .gltf or .glb", options->scene).require();
     addSceneIndex(command, options->load.scene);
@@ -348,7 +348,7 @@ void addInspect(CommandLine& line)
     addTextures(command, options->load.missingTextures, options->load.maxTexture);
     command.beginGroup("Output");
     command.addFlag("--json", "Print JSON with every digit; sizes in bytes", options->json);
-    command.onParsed([command, options] { resolveAnimation(command, options->load.at.has_value()); });
+    command.onFinished([&command, options] { resolveAnimation(command, options->load.at.has_value()); });
     command.onRun([options] {
         runInspect(*options);
         return ExitCode::Done;

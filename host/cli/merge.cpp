@@ -1,7 +1,7 @@
 #include "host/cli/commands.hpp"
-#include "host/cli/look_options.hpp"
-#include "host/cli/output_file.hpp"
-#include "host/cli/output_lock.hpp"
+#include "host/job/look_options.hpp"
+#include "host/job/output_file.hpp"
+#include "host/job/output_lock.hpp"
 #include "host/message.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/merge_films.hpp"
@@ -44,7 +44,7 @@ void runMerge(const MergeOptions& options)
 void addMerge(CommandLine& line)
 {
     auto options = std::make_shared<MergeOptions>();
-    const Command command = line.addCommand("merge", "Merge renders of one picture over different samples or rows into one");
+    Command& command = line.addCommand("merge", "Merge renders of one picture over different samples or rows into one");
     command.beginGroup("Picture");
     command.addPaths("films", "A.exr", "Films written by glim render or glim merge, in any order", options->inputs).require();
     command.beginGroup("Output");
@@ -56,7 +56,7 @@ void addMerge(CommandLine& line)
         "not overlap. Adjacent ranges of 256 samples, starting at a multiple of 256, give the bits of a single run;\n"
         "other ranges give it up to rounding, and the command says so. Films of some rows (render --rows) must adjoin\n"
         "and have the same samples.");
-    command.onParsed([command, options] { resolvePictureFiles(command, options->pictures); });
+    command.onFinished([&command, options] { resolvePictureFiles(command, options->pictures); });
     command.onRun([options] {
         runMerge(*options);
         return ExitCode::Done;

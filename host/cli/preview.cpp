@@ -1,8 +1,8 @@
 #include "host/preview/preview.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/parse.hpp"
-#include "host/cli/picture_options.hpp"
-#include "host/cli/resolve_options.hpp"
+#include "host/job/parse.hpp"
+#include "host/job/picture_options.hpp"
+#include "host/job/resolve_options.hpp"
 
 #include <memory>
 
@@ -14,19 +14,19 @@ struct WindowOptions : PictureOptions {
     std::optional<std::filesystem::path> script;
 };
 
-void addWindow(const Command& command, WindowOptions& options)
+void addWindow(OptionTable& table, WindowOptions& options)
 {
-    command.beginGroup("Output");
-    addLook(command, options.look, "the window and the PNG", "none; neutral in the built-in studio");
-    addNumber<std::uint32_t>(command, {"--frames", "N", "Quit after showing this many pictures", 1, 1000000000, "never"},
+    table.beginGroup("Output");
+    addLook(table, options.look, "the window and the PNG", "none; neutral in the built-in studio");
+    addNumber<std::uint32_t>(table, {"--frames", "N", "Quit after showing this many pictures", 1, 1000000000, "never"},
                              [&options](std::uint32_t frames) { options.frames = frames; });
-    command.addPath("--script", "FILE", "Replay the input that this file lists", options.script);
+    table.addPath("--script", "FILE", "Replay the input that this file lists", options.script);
 }
 
 // Without a limit the picture is refined until the window closes.
-void resolveEnd(const Command& command, RenderSettings& settings)
+void resolveEnd(OptionTable& table, RenderSettings& settings)
 {
-    const bool ends = command.isGiven("--spp") || command.isGiven("--samples") || command.isGiven("--max-spp");
+    const bool ends = table.isGiven("--spp") || table.isGiven("--samples") || table.isGiven("--max-spp");
     if (!ends && !isCourse(settings.adaptive)) {
         settings.sampleEnd = kMaxSample / settings.course.lightSamples;
     }
@@ -37,7 +37,7 @@ void resolveEnd(const Command& command, RenderSettings& settings)
 void addPreview(CommandLine& line)
 {
     auto options = std::make_shared<WindowOptions>();
-    const Command command = line.addCommand("preview", "Show a glTF scene in a window, and refine it while you look around");
+    Command& command = line.addCommand("preview", "Show a glTF scene in a window, and refine it while you look around");
     command.beginGroup("Picture");
     command.addPath("SCENE", "FILE", "Scene, .gltf or .glb; loaded again when it changes", options->scene).require();
     addPicture(command, *options);
@@ -58,7 +58,7 @@ void addPreview(CommandLine& line)
         "H shows the panels, a list of keys too, or the picture alone.\n"
         "Exit codes: 0 done, 1 bad input or no display, 2 usage, 3 device.\n"
         "host/cli/README.md has more on every option.");
-    command.onParsed([command, options] {
+    command.onFinished([&command, options] {
         resolvePicture(command, *options);
         resolveEnd(command, options->settings);
         options->settings.caustics = false;  // their light would come in blocks of samples, seconds late

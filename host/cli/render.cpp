@@ -1,16 +1,17 @@
 #include "host/cli/commands.hpp"
-#include "host/cli/render_sequence.hpp"
 #include "host/cli/replay.hpp"
+#include "host/job/render_sequence.hpp"
 
+#include <iostream>
 #include <memory>
 
 namespace glim {
 
 void addRender(CommandLine& line)
 {
-    auto options = std::make_shared<RenderOptions>();
-    const Command command = line.addCommand("render", "Render a glTF scene to an EXR file");
-    addRenderOptions(command, *options);
+    auto options = std::make_shared<RenderJob>();
+    Command& command = line.addCommand("render", "Render a glTF scene to an EXR file");
+    addJobOptions(command, *options);
     command.setFooter(
         "EXR layers: R, G, B, A, albedo, normal, depth.Z, count.X, variance, error, and more for `glim merge`.\n"
         "The same scene, seed and options give the same pixels. Ctrl-C writes what is finished.\n"
@@ -21,7 +22,7 @@ void addRender(CommandLine& line)
             runReplay(*options);
             return ExitCode::Done;
         }
-        return RenderSession().render(*options);
+        return RenderSession(std::cout).render(*options);
     });
 }
 

@@ -1,8 +1,8 @@
 #include "host/cli/replay.hpp"
 
-#include "host/cli/output_file.hpp"
 #include "host/error.hpp"
 #include "host/flatten/camera_options.hpp"
+#include "host/job/output_file.hpp"
 #include "host/render/describe_primitive.hpp"
 #include "host/render/prepare_scene.hpp"
 #include "host/render/replay.hpp"
@@ -15,7 +15,7 @@ namespace glim {
 namespace {
 
 struct ReplayReport {
-    const RenderOptions& options;
+    const RenderJob& options;
     const PreparedScene& prepared;
     const RenderSettings& settings;
     const DeviceDescription& device;
@@ -307,7 +307,7 @@ void refuseOutside(const SamplePlace& place, const RenderSettings& settings)
 
 }  // namespace
 
-void runReplay(const RenderOptions& options)
+void runReplay(const RenderJob& options)
 {
     if (options.stats) {
         checkTarget(*options.stats, ".json", {options.scene});

@@ -1,10 +1,10 @@
 // glim render SCENE --replay X,Y,SAMPLE
 #pragma once
 
-#include "host/cli/render_options.hpp"
+#include "host/job/render_job.hpp"
 
 namespace glim {
 
-void runReplay(const RenderOptions& options);
+void runReplay(const RenderJob& options);
 
 }  // namespace glim

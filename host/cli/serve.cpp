@@ -1,7 +1,7 @@
 #include "host/cli/commands.hpp"
-#include "host/cli/outcome.hpp"
-#include "host/cli/render_sequence.hpp"
-#include "host/cli/version.hpp"
+#include "host/job/outcome.hpp"
+#include "host/job/render_sequence.hpp"
+#include "host/job/version.hpp"
 #include "host/json.hpp"
 
 #include <iostream>
@@ -9,69 +9,49 @@
 namespace glim {
 namespace {
 
-constexpr const char* kRequest = R"({"id": 1, "render": ["scene.glb", "-o", "out.exr", "--spp", "64"]})";
+constexpr const char* kRequest = R"({"id": 1, "render": {"file": "scene.glb", "output": "out.exr", "spp": 64, "size": [640, 480]}})";
 
-struct Request {
-    Json id;
-    std::vector<std::string> words;  // as of `glim render`
-};
-
-Request parseRequest(const std::string& line)
+ExitCode render(RenderSession& session, const Json& options)
 {
-    const auto refuse = [] { return UsageError(std::string("a request is not of the form ") + kRequest); };
-    const std::optional<Json> json = Json::parse(line);
-    if (!json || !json->isObject()) {
-        throw refuse();
-    }
-    try {
-        Request request{json->at("id"), {"render"}};
-        for (const Json& word : json->at("render").elements()) {
-            request.words.push_back(word.text());
+    RenderJob job;
+    OptionTable table;
+    addJobOptions(table, job);
+    for (const Json::Member& option : options.members()) {
+        if (!option.value.isNull()) {
+            table.set(option.name, OptionValue(option.value));
         }
-        return request;
-    } catch (const JsonError&) {
-        throw refuse();
     }
-}
-
-ExitCode render(RenderSession& session, const std::vector<std::string>& words)
-{
-    RenderOptions options;
-    CommandLine line("Renders by requests", versionText(), "");
-    const Command command = line.addCommand("render", "As `glim render`");
-    addRenderOptions(command, options);
-    command.onRun([&] {
-        if (options.replay) {
-            throw UsageError("--replay", "expected a picture to render; `glim render` replays samples");
-        }
-        return session.render(options);
-    });
-    return line.run(words);
+    table.finish();
+    if (job.replay) {
+        throw UsageError("--replay", "expected a picture to render; `glim render` replays samples");
+    }
+    return session.render(job);
 }
 
 bool isSignal(ExitCode code) { return code == ExitCode::HungUp || code == ExitCode::Interrupted || code == ExitCode::Terminated; }
 
 ExitCode serve()
 {
-    std::ostream answers(std::cout.rdbuf());
-    std::cout.rdbuf(std::cerr.rdbuf());  // what renders report
-    RenderSession session;
+    RenderSession session(std::cerr);
     ExitCode last = ExitCode::Done;
     for (std::string text; !isSignal(last) && std::getline(std::cin, text);) {
         Json id;
         const Outcome outcome = outcomeOf([&] {
-            const Request request = parseRequest(text);
-            id = request.id;
-            return render(session, request.words);
+            const std::optional<Json> request = Json::parse(text);
+            id = request && request->find("id") != nullptr ? request->at("id") : Json();
+            const Json* options = request ? request->find("render") : nullptr;
+            if (!request || request->find("id") == nullptr || options == nullptr || !options->isObject()) {
+                throw UsageError(std::string("a request is not of the form ") + kRequest);
+            }
+            return render(session, *options);
         });
         last = outcome.code;
-        answers << Json{{"id", id},
-                        {"code", static_cast<int>(outcome.code)},
-                        {"error", outcome.error.empty() ? Json() : Json(outcome.error)}}
-                       .dump()
-                << std::endl;
+        std::cout << Json{{"id", id},
+                          {"code", static_cast<int>(outcome.code)},
+                          {"error", outcome.error.empty() ? Json() : Json(outcome.error)}}
+                         .dump()
+                  << std::endl;
     }
-    std::cout.rdbuf(answers.rdbuf());
     return isSignal(last) ? last : ExitCode::Done;
 }
 
@@ -79,8 +59,9 @@ ExitCode serve()
 
 void addServe(CommandLine& line)
 {
-    const Command command = line.addCommand("serve", "Render what standard input asks for, and keep the scene");
-    command.setFooter(std::string("Each line of standard input is a request, with the words of `glim render`:\n    ") + kRequest +
+    Command& command = line.addCommand("serve", "Render what standard input asks for, and keep the scene");
+    command.setFooter(std::string("Each line of standard input is a request, with the options of `glim render` by their names:\n    ") +
+                      kRequest +
                       "\nEach is answered by a line of standard output, once its files are written. `code` is the exit code that\n"
                       "`glim render` would have, and `error` null or one sentence:\n"
                       "    {\"id\":1,\"code\":0,\"error\":null}\n"

@@ -1,7 +1,7 @@
 #include "host/view/view.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/look_options.hpp"
-#include "host/cli/parse.hpp"
+#include "host/job/look_options.hpp"
+#include "host/job/parse.hpp"
 
 #include <memory>
 
@@ -10,16 +10,15 @@ namespace glim {
 void addView(CommandLine& line)
 {
     auto options = std::make_shared<ViewOptions>();
-    const Command command = line.addCommand("view", "Show finished films in a window: layers, differences, values of pixels");
+    Command& command = line.addCommand("view", "Show finished films in a window: layers, differences, values of pixels");
     command.beginGroup("Picture");
     command.addPath("A", "A.exr", "Film, or any other OpenEXR file; read again when it changes", options->film).require();
     command.addPath("B", "B.exr", "A second film of the same size; A is compared with it", options->reference);
     command.beginGroup("Window");
     command.add("--size", "WxH", "Pixels of the window, each side 1 to 65535 [the film's, from 640x480 to the screen's]",
-                [options](const std::string& text) { options->size = parseSize(text); });
+                [options](const OptionValue& value) { options->size = parseSize(value); });
     addLook(command, options->look, "colours", "none");
-    command.add("--device", "D", "Index or part of a name from `glim devices` [the first usable one]",
-                [options](const std::string& text) { options->device = text; });
+    command.addText("--device", "D", "Index or part of a name from `glim devices` [the first usable one]", options->device);
     command.addPath("--script", "FILE", "Replay the input that this file lists", options->script);
     command.setFooter(
         "Mouse: drag moves the picture, the wheel zooms, the panel shows the pixel under the mouse, a click prints\n"

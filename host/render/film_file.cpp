@@ -3,6 +3,7 @@
 #include "host/error.hpp"
 #include "host/image/exr.hpp"
 #include "host/text.hpp"
+#include "version.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,7 @@
 #include "host/image/cryptomatte.hpp"
 #include "host/image/exr.hpp"
 #include "host/render/describe_primitive.hpp"
+#include "version.h"
 
 #include <algorithm>
 #include <bit>

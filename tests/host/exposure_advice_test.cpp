@@ -1,5 +1,5 @@
 // A PNG that shows nothing says so, with an exposure that shows it.
-#include "host/cli/exposure_advice.hpp"
+#include "host/job/exposure_advice.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // --schedule auto on a device that is no software: measured once, in a render that is long enough, and kept unless it is within the noise.
-#include "host/cli/fastest_schedule.hpp"
+#include "host/job/fastest_schedule.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>

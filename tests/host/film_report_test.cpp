@@ -1,4 +1,4 @@
-#include "host/cli/film_report.hpp"
+#include "host/job/film_report.hpp"
 
 #include <gtest/gtest.h>
 

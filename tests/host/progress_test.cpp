@@ -1,4 +1,4 @@
-#include "host/cli/progress.hpp"
+#include "host/job/progress.hpp"
 
 #include <gtest/gtest.h>
 

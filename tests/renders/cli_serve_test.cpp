@@ -1,5 +1,5 @@
 // glim serve: answers, and the bits of what it renders.
-#include "host/cli/film_report.hpp"
+#include "host/job/film_report.hpp"
 #include "host/json.hpp"
 #include "host/render/film_file.hpp"
 #include "tests/support/run_glim.hpp"
@@ -21,6 +21,16 @@ extern char** environ;
 
 namespace glim::test {
 namespace {
+
+// The options that {"a.gltf", "--size", "8x8"} gives a render, by name.
+Json optionsOf(const std::vector<std::string>& words)
+{
+    Json options{{"file", words[0]}};
+    for (std::size_t i = 1; i + 1 < words.size(); i += 2) {
+        options.set(words[i] == "-o" ? "output" : words[i].substr(2), words[i + 1]);
+    }
+    return options;
+}
 
 // `glim serve` as a program that talks to it: one request, one answer.
 class Server {
@@ -65,7 +75,7 @@ public:
     }
     Json ask(const std::vector<std::string>& words)
     {
-        send(Json{{"id", "a"}, {"render", words}}.dump());
+        send(Json{{"id", "a"}, {"render", optionsOf(words)}}.dump());
         return receive();
     }
     void signal(int number) const { EXPECT_EQ(kill(process_, number), 0); }
@@ -160,6 +170,29 @@ TEST_F(ServeTest, PicturesHaveTheBitsThatTheyHaveAlone)
     }
 }
 
+// Numbers, lists and truths say the same as texts; null says nothing.
+TEST_F(ServeTest, OptionsAreValues)
+{
+    const Json size{Json::array({16.0, 12})}, from{Json::array({0, 1, 3})}, at{Json::array({0, "1", 0})};
+    const std::string film = (folder_ / "served.exr").string();
+    server_.send(Json{{"id", 1},
+                      {"render", Json{{"file", sceneFile("cornell.gltf")},
+                                      {"output", film},
+                                      {"size", size},
+                                      {"spp", 70},
+                                      {"look_from", from},
+                                      {"look-at", at},
+                                      {"environment_background", false},
+                                      {"confine", true},
+                                      {"denoise", false},
+                                      {"target_rmse", 0.5},
+                                      {"fps", Json()}}}}
+                     .dump());
+    EXPECT_EQ(server_.receive().dump(), R"({"id":1,"code":0,"error":null})");
+    EXPECT_EQ(digestOf(readFilm(film)), digestAlone({sceneFile("cornell.gltf"), "--size", "16x12", "--spp", "70", "--look-from", "0,1,3",
+                                                     "--look-at", "0,1,0", "--environment-background", "off", "--target-rmse", "50%"}));
+}
+
 TEST_F(ServeTest, AnotherShapeOfThePictureKeepsTheKernels)
 {
     const std::string stats = (folder_ / "stats.json").string();
@@ -194,20 +227,26 @@ TEST_F(ServeTest, ARefusalIsASentenceAndNotTheEnd)
         EXPECT_EQ(answer.at("code").number(), code);
         EXPECT_NE(answer.at("error").text().find(reason), std::string::npos) << answer.dump();
     };
-    expectRefused(server_.ask({scene, "-o", film, "--sp", "4"}), 2, "--sp");
+    expectRefused(server_.ask({scene, "-o", film, "--sp", "4"}), 2, R"("sp": there is no such option)");
     expectRefused(server_.ask({"missing.gltf", "-o", film}), 1, "missing.gltf: cannot be read");
     expectRefused(server_.ask({scene, "--replay", "1,1,1"}), 2, "--replay");
-    server_.send(R"({"id":1,"render":["scene.gltf\u0000.png","-o","a.exr"]})");
+    server_.send(R"({"id":1,"render":{"file":"scene.gltf\u0000.png","output":"a.exr"}})");
     expectRefused(server_.receive(), 2, R"("scene.gltf\x00.png" has a null character)");
     server_.send(std::string(1'000'000, '['));
     expectRefused(server_.receive(), 2, "a request is not of the form");
     for (const char* line :
-         {"", "x", "[]", "{}", R"({"id":1})", R"({"id":1,"render":"x"})", R"({"id":1,"render":[1]})", R"({"render":[]})"}) {
+         {"", "x", "[]", "{}", R"({"id":1})", R"({"id":1,"render":"x"})", R"({"id":1,"render":[1]})", R"({"render":{}})"}) {
         server_.send(line);
         expectRefused(server_.receive(), 2, "a request is not of the form");
     }
     server_.send(R"({"id":{"page":[7]},"render":[]})");
     EXPECT_EQ(server_.receive().at("id").dump(), R"({"page":[7]})");
+    server_.send(R"({"id":1,"render":{}})");
+    expectRefused(server_.receive(), 2, "SCENE is required");
+    server_.send(R"({"id":1,"render":{"file":["a.gltf",["b"]]}})");
+    expectRefused(server_.receive(), 2, "expected a text, a number, true, false, or a list of texts and numbers");
+    server_.send(R"({"id":1,"render":{"file":"a.gltf","output":"a.exr","spp":4,"time":2}})");
+    expectRefused(server_.receive(), 2, "--spp excludes --time");
     const Json done = server_.ask({scene, "--size", "8x8", "--spp", "4", "-o", film});
     EXPECT_EQ(done.dump(), R"({"id":"a","code":0,"error":null})");
     EXPECT_EQ(server_.end(), 0);
@@ -216,8 +255,8 @@ TEST_F(ServeTest, ARefusalIsASentenceAndNotTheEnd)
 TEST_F(ServeTest, ASignalEndsItAfterTheAnswer)
 {
     server_.send(Json{{"id", 1},
-                      {"render", std::vector<std::string>{sceneFile("cornell.gltf"), "--size", "64x64", "--spp", "1000000", "--progress",
-                                                          "json", "-o", (folder_ / "a.exr").string()}}}
+                      {"render", optionsOf({sceneFile("cornell.gltf"), "--size", "64x64", "--spp", "1000000", "--progress", "json", "-o",
+                                            (folder_ / "a.exr").string()})}}
                      .dump());
     while (!hasLine(bytesOfFile(folder_ / "err"))) {
         usleep(1000);

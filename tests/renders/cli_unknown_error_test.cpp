@@ -1,5 +1,5 @@
 // Renders whose error nobody can know: they say so, meet no target, and end.
-#include "host/cli/film_report.hpp"
+#include "host/job/film_report.hpp"
 #include "host/render/film_file.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/run_glim.hpp"

@@ -94,16 +94,18 @@ std::string helpOf(const std::string& command, const std::string& option)
     return run.out;
 }
 
-// Every name that host/cli gives to an option, by its sources.
+// Every name that the sources give to an option.
 std::set<std::string> optionsInSources()
 {
     static const std::regex kName(R"re("(?:-\w,)?(--[a-z-]+)")re");
     std::set<std::string> names;
-    for (const auto& entry : fs::directory_iterator(fs::path(GLIM_SOURCE_DIR) / "host/cli")) {
-        if (entry.path().extension() == ".cpp") {
-            const std::string text = bytesOfFile(entry.path());
-            for (std::sregex_iterator i(text.begin(), text.end(), kName), end; i != end; ++i) {
-                names.insert((*i)[1]);
+    for (const char* folder : {"host/cli", "host/job"}) {
+        for (const auto& entry : fs::directory_iterator(fs::path(GLIM_SOURCE_DIR) / folder)) {
+            if (entry.path().extension() == ".cpp") {
+                const std::string text = bytesOfFile(entry.path());
+                for (std::sregex_iterator i(text.begin(), text.end(), kName), end; i != end; ++i) {
+                    names.insert((*i)[1]);
+                }
             }
         }
     }
@@ -239,7 +241,7 @@ TEST(CommandLineTest, NonsenseValuesAreUsageErrorsBeforeAnyWork)
     expectUsageBeforeWork(cases);
 }
 
-// A few: host/render_options_test.cpp has them all.
+// A few: host/render_job_test.cpp has them all.
 TEST(CommandLineTest, OptionsThatDoNotGoTogetherAreUsageErrorsBeforeAnyWork)
 {
     expectUsageBeforeWork({{{"--direct", "light"}, "--direct: \"light\": expected mis or "},

@@ -1,7 +1,7 @@
 // Pictures of one scene whose lights are times powers of two: the stated error is the same part of the radiance, or unknown, and never
 // less.
-#include "host/cli/film_report.hpp"
 #include "host/flatten/flatten_scene.hpp"
+#include "host/job/film_report.hpp"
 #include "host/measure/error_estimate.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/render_scene.hpp"

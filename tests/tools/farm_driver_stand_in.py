@@ -69,8 +69,8 @@ class StandInPicture:
     def publish(self):
         self.finished = True
 
-    def arguments(self, part):
-        return ["--samples", "%d:%d" % (part, part + 1)]
+    def job(self, part):
+        return {"samples": "%d:%d" % (part, part + 1)}
 
     def samples(self, _part):
         return 256

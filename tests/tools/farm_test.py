@@ -226,7 +226,7 @@ class CommandTest(unittest.TestCase):
             self.assertEqual(caught.exception.code, 2, more)
             self.assertIn(words, "".join(call.args[0] for call in stderr.write.call_args_list))
         options = parse_arguments(good + ["--size", "8x8", "--look-from", "-1,2,3"])
-        self.assertEqual((options.others, options.spp), (["--size", "8x8", "--look-from", "-1,2,3"], 4))
+        self.assertEqual((options.job, options.spp), ({"file": options.scene, "size": "8x8", "look-from": "-1,2,3"}, 4))
 
     def test_no_commands_from_a_network_without_tls(self):
         for value, words in (("tcp://10.0.0.1:8786", "--insecure"), ("tcp://127.0.0.1:8786", "--insecure"),
@@ -427,7 +427,7 @@ class TargetTest(FarmCase):
 class BandsTest(FarmCase):
     def test_driver_is_killed_and_bands_are_damaged_or_of_other_rows(self):
         glim = self.program("""
-            if page.arguments[page.arguments.index("--rows") + 1] == "9:12":
+            if page.job["rows"] == "9:12":
                 wait_for(FOLDER, "never")
         """)
         farm = self.start_farm("--bands", "5", "--local", "2", glim=glim)

@@ -49,7 +49,7 @@ class Animation:
         self.header, self.pixels = header, header.pixels
         job = {"frames": "%d:%d" % self.options.frames, "fps": self.options.fps or "24", "samples": self.options.spp, **header.identity()}
         self.folder.hold(job, {"plan": {"frames": self.count}, "glim": self.glim.version(),
-                               "command": [self.options.scene, *self.options.others]})
+                               "render": self.options.job})
         self.identity = header.identity()
         del self.identity["scene"]  # each frame has one of its own
         if self.options.any_device:
@@ -81,11 +81,10 @@ class Animation:
         return True
 
     def picture(self, frame):
-        fps = ["--fps", self.options.fps] if self.options.fps else []
-        return [self.options.scene, *self.options.others, "--frames", "%d:%d" % (frame, frame), *fps]
+        return {**self.options.job, "frames": "%d:%d" % (frame, frame), "fps": self.options.fps}
 
-    def arguments(self, frame):
-        return [*self.picture(frame), "--spp", str(self.options.spp)]
+    def job(self, frame):
+        return {**self.picture(frame), "spp": self.options.spp}
 
     def samples(self, _frame):
         """Of one pixel."""

@@ -127,30 +127,45 @@ def make_parser():
 
 
 def parse_arguments(arguments):
-    """Returns the options, among them `scene`, and `others`: those of `glim render`, as they were given. Exits with code 2."""
+    """Returns the options, among them `scene`, and `job`: the file and what `glim render` is asked for, by name. Exits with code 2."""
     parser = make_parser()
     if not arguments or arguments[0] in ("-h", "--help"):
         parser.parse_args(arguments)
     if arguments[0].startswith("-"):
         parser.error("the first argument is %s, expected the scene" % arguments[0])
     options, others = parser.parse_known_args(arguments[1:])
-    options.scene, options.others = os.path.abspath(arguments[0]), others
+    options.scene = os.path.abspath(arguments[0])
+    options.job = {"file": options.scene, **options_of(parser, others)}
     has_target = options.target_rmse or options.target_relmse
     options.target = FilmError(options.target_relmse, options.target_rmse) if has_target else None
-    refuse_others(parser, others)
+    refuse_others(parser, options.job)
     refuse_combinations(parser, options)
     options.output = os.path.realpath(options.output)
     options.png = options.png and os.path.abspath(options.png)
     return options
 
 
-def refuse_others(parser, others):
-    for other, value in zip(others, [*others[1:], ""]):
-        name, _, joined = other.partition("=")
-        if name in REFUSED:
-            parser.error("%s: %s" % (name, REFUSED[name]))
-        if name == "--camera" and "all" in (joined, value):
-            parser.error("--camera all: %s" % ONE)
+def options_of(parser, words):
+    """["--size", "96x96", "--seed=3", "--confine"] -> {"size": "96x96", "seed": "3", "confine": True}"""
+    options, words = {}, list(words)
+    while words:
+        name, joined, value = words.pop(0).partition("=")
+        if not name.startswith("--"):
+            parser.error("%s: expected an option, as in --size 1920x1080" % name)
+        if not joined:
+            value = words.pop(0) if words and not words[0].startswith("--") else True
+        if name[2:] in options:
+            parser.error("%s: is given twice" % name)
+        options[name[2:]] = value
+    return options
+
+
+def refuse_others(parser, job):
+    for name, why in REFUSED.items():
+        if name[2:] in job:
+            parser.error("%s: %s" % (name, why))
+    if job.get("camera") == "all":
+        parser.error("--camera all: %s" % ONE)
 
 
 def refuse_combinations(parser, options):

@@ -29,8 +29,8 @@ class Bands(Picture):
     def rows(self, band):
         return "%d:%d" % self.bounds(band)
 
-    def arguments(self, band):
-        return [*super().arguments(band), "--rows", self.rows(band)]
+    def job(self, band):
+        return {**super().job(band), "rows": self.rows(band)}
 
     def samples(self, band):
         begin, end = self.bounds(band)

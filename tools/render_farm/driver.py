@@ -27,13 +27,14 @@ cloudpickle.register_pickle_by_value(glim_child)  # workers need not have this c
 host_of = functools.lru_cache(maxsize=None)(addressing.get_address_host)  # asked for each worker in each turn
 
 
-def make_task(program, arguments, folder):
+def make_task(program, job, folder):
     """A function without arguments, which goes to a worker by value."""
     def task():
         worker = distributed.get_worker()
         if not hasattr(worker, "glim_servers"):
             worker.glim_servers = glim_child.Servers()
-        return glim_child.serve_film(worker.glim_servers, program, arguments, folder, worker.local_directory)
+        film, _, error = glim_child.serve_film(worker.glim_servers, program, job, folder, worker.local_directory)
+        return film, error
     return task
 
 
@@ -128,7 +129,7 @@ class Driver:
             part = self.ledger.lend(worker, host_of(worker), usable, time.monotonic())
             if part is None:
                 continue
-            task = make_task(self.picture.glim.program, self.picture.arguments(part), self.picture.glim.folder)
+            task = make_task(self.picture.glim.program, self.picture.job(part), self.picture.glim.folder)
             future = self.client.submit(task, workers=[worker], allow_other_workers=False, pure=False)
             self.busy.add(worker)
             self.tasks[part, worker] = asyncio.create_task(self.follow(part, worker, future))

@@ -2,11 +2,10 @@
 
 import os
 import subprocess
-import tempfile
 
 from render_farm.errors import FarmError
 from render_farm.exr_header import FilmHeader, read_header
-from render_farm.glim_child import last_sentence, run_glim
+from render_farm.glim_child import Servers, last_sentence, run_glim, serve_film
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
 
@@ -44,11 +43,13 @@ class Glim:
             raise FarmError(last_sentence(code, said), code if code > 0 else 1)
         return said
 
-    def sample(self, arguments):
+    def sample(self, job):
         """The header of the picture's first sample: what it is a picture of, known before any worker is asked."""
-        with tempfile.TemporaryDirectory(prefix="glim-farm-") as own:
-            name = "film.#.exr" if "--frames" in arguments else "film.exr"
-            self.run(["render", *arguments, "--samples", "0:1", "--confine", "--progress", "none", "-o", os.path.join(own, name)])
-            (name,) = [name for name in os.listdir(own) if name.endswith(".exr")]
-            with open(os.path.join(own, name), "rb") as file:
-                return FilmHeader(read_header(file.read(), "the first sample"), "the first sample")
+        servers = Servers()
+        try:
+            film, code, error = serve_film(servers, self.program, {**job, "samples": "0:1"}, self.folder)
+        finally:
+            servers.end()
+        if film is None:
+            raise FarmError(error, code if code > 0 else 1)
+        return FilmHeader(read_header(film, "the first sample"), "the first sample")

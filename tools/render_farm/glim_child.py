@@ -40,11 +40,11 @@ class Server:
         self.said = tempfile.TemporaryFile("a+b")
         self.process = start(program, ["serve"], folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.said)
 
-    def render(self, words):
-        """Returns the exit code that `glim render` with these words would have, and why it failed in one line."""
+    def render(self, job):
+        """Returns the exit code that `glim render` with these options would have, and why it failed in one line."""
         self.said.truncate(0)
         try:
-            self.process.stdin.write(json.dumps({"id": 0, "render": words}).encode() + b"\n")
+            self.process.stdin.write(json.dumps({"id": 0, "render": job}).encode() + b"\n")
             self.process.stdin.flush()
             answer = self.process.stdout.readline()
         except BrokenPipeError:
@@ -70,12 +70,12 @@ class Servers:
     def __init__(self):
         self.server = None
 
-    def render(self, program, folder, words):
+    def render(self, program, folder, job):
         if self.server and (self.server.key != (program, folder) or self.server.process.poll() is not None):
             self.end()
         if not self.server:
             self.server = Server(program, folder)
-        return self.server.render(words)
+        return self.server.render(job)
 
     def end(self):
         if self.server:
@@ -89,21 +89,21 @@ def end_server_of(dask_worker):
         dask_worker.glim_servers.end()
 
 
-def serve_film(servers, program, arguments, folder, scratch):
+def serve_film(servers, program, job, folder, scratch=None):
     """Has the server render one film in a folder of its own within `scratch`, which must exist.
 
-    program: glim's, unless GLIM_BINARY of this machine names another. arguments: those of `glim render`, without the output. What the scene
-    names must lie in its folder: other machines are not to send files of this one.
-    Returns the film's bytes or None, and why not in one line."""
-    with tempfile.TemporaryDirectory(dir=scratch) as own:
-        film = os.path.join(own, "film.#.exr" if "--frames" in arguments else "film.exr")
-        words = [*arguments, "--confine", "--progress", "none", "-o", film]
+    program: glim's, unless GLIM_BINARY of this machine names another. job: options of `glim render` by name, without the output. What the
+    scene names must lie in its folder: other machines are not to send files of this one.
+    Returns the film's bytes or None, the exit code of `glim render`, and why it failed in one line."""
+    with tempfile.TemporaryDirectory(dir=scratch, prefix="glim-farm-") as own:
+        film = os.path.join(own, "film.#.exr" if "frames" in job else "film.exr")
+        job = {**job, "confine": True, "progress": "none", "output": film}
         try:
-            code, error = servers.render(os.environ.get("GLIM_BINARY") or program, folder, words)
+            code, error = servers.render(os.environ.get("GLIM_BINARY") or program, folder, job)
         except OSError as caught:
-            return None, "glim cannot be run: %s" % caught
+            return None, 1, "glim cannot be run: %s" % caught
         if code != 0:
-            return None, error
+            return None, code, error
         (name,) = [name for name in os.listdir(own) if name.endswith(".exr")]
         with open(os.path.join(own, name), "rb") as file:
-            return file.read(), ""
+            return file.read(), 0, ""

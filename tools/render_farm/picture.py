@@ -64,7 +64,7 @@ class Picture:
 
     def open(self):
         """Finds out what is asked and what is done. Returns the digests of the pages that are rendered already."""
-        self.header = self.glim.sample([self.options.scene, *self.options.others])
+        self.header = self.glim.sample(self.options.job)
         self.pixels = self.header.pixels
         self.identity = self.header.identity()
         if self.options.any_device:
@@ -74,7 +74,7 @@ class Picture:
         self.folder.hold({"samples": self.options.spp, "target": target and vars(target), "bands": self.options.bands,
                           **self.header.identity()},
                          {"plan": {"%ss" % self.part: self.count}, "glim": self.glim.version(),
-                          "command": [self.options.scene, *self.options.others]})
+                          "render": self.options.job})
         if self.is_there():
             self.say("%s is whole and was kept" % self.options.output)
             self.finished = True
@@ -176,8 +176,9 @@ class Picture:
         """The rows that its film must have."""
         return "0:%d" % self.header.height
 
-    def arguments(self, page):
-        return [self.options.scene, *self.options.others, "--samples", self.range(page)]
+    def job(self, page):
+        """What `glim serve` is asked to render, but for where the film goes."""
+        return {**self.options.job, "samples": self.range(page)}
 
     def samples(self, page):
         """Of one pixel."""

@@ -17,7 +17,7 @@ import warnings
 from typing import Any, Callable, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 from glim._errors import DeviceError, InputError
-from glim._options import in_python, path_of, words_of
+from glim._options import in_python, path_of, values_of
 
 __all__ = ["DeviceError", "Error", "Film", "GlimWarning", "InputError", "Scene", "devices", "load", "look_at", "merge", "read", "render"]
 
@@ -267,7 +267,7 @@ class Scene:
         self.path = path
         self._options = options
         path_of(path, "scene")
-        words_of(options)
+        values_of(options)
         self._native = None
         self._lock = threading.Lock()
         self._last = None
@@ -289,7 +289,7 @@ class Scene:
 
         Other threads may run meanwhile; one picture is rendered at a time. Raises InputError and DeviceError."""
         asked = {**self._options, **options}
-        words = [self._scene_word(), *words_of(asked)]
+        values = {"file": os.fsencode(path_of(self.path, "scene")), **values_of(asked)}
         before = None if resume is None else _native_film(resume, "resume")
         if progress is not None and not callable(progress):
             raise InputError("progress: cannot use %r, expected a function" % (progress,))
@@ -298,17 +298,13 @@ class Scene:
         with self._lock, _call() as native:
             self._native = self._native or native.Scene()
             try:
-                rendered = self._native.render(words, before, bool(ids), progress)
+                rendered = self._native.render(values, before, bool(ids), progress)
             except (InputError, DeviceError):
                 raise
             except BaseException as stop:
                 stop.film = self._keep(asked, self._native.last_film)
                 raise
             return self._keep(asked, rendered)
-
-    def _scene_word(self):
-        path = path_of(self.path, "scene")
-        return os.path.join(".", path) if path.startswith("-") else path
 
     def _keep(self, asked, rendered):
         self._last = (rendered, asked) if rendered else None  # not the Film, which refers to the scene: a cycle would keep the device

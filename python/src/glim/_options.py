@@ -1,12 +1,9 @@
-"""Keyword arguments as words of the command line, which `glim render --help-all` lists."""
+"""Keyword arguments as values of the options that `glim render --help-all` lists."""
 
 import os
 import re
 
 from glim._errors import InputError
-
-
-SWITCHES = {"caustics", "environment_background"}  # on or off
 
 
 def path_of(value, what):
@@ -20,38 +17,31 @@ def path_of(value, what):
     return text
 
 
-def words_of(options):
-    """{"spp": 16, "size": (640, 480), "confine": True} -> ["--spp", "16", "--size", "640x480", "--confine"]. None is left out."""
-    words = []
+def values_of(options):
+    """{"spp": 16, "size": (640, 480), "scene": None} -> {"spp": 16, "size": [640, 480]}. Texts become bytes, as names of files are."""
+    values = {}
     for name, value in options.items():
-        if name in ("help", "help_all", "output") or not re.fullmatch("[a-z][a-z_]*", name):
+        if name in ("help", "help_all", "output", "file") or not re.fullmatch("[a-z][a-z_]*", name):
             raise TypeError("glim: there is no option %s" % name)
-        if name in SWITCHES and isinstance(value, bool):
-            value = "on" if value else "off"
-        if value is None or value is False:
-            continue
-        option = "--" + name.replace("_", "-")
-        if value is True:
-            words.append(option + "=true")  # which no option takes but a flag
-        else:
-            text = text_of(name, value)
-            words += [option + "=" + text] if text.startswith("--") else [option, text]
-    return words
+        if value is not None:
+            values[name] = value_of(name, value)
+    return values
 
 
-def text_of(name, value):
+def value_of(name, value):
     if hasattr(value, "tolist"):  # of numpy
         value = value.tolist()
-    if name == "target_rmse" and isinstance(value, (int, float)):
-        return "%r%%" % (100 * value)
     if isinstance(value, (str, bytes, os.PathLike)):
-        return path_of(value, name)
+        return os.fsencode(path_of(value, name))
+    if isinstance(value, bool):
+        return value
+    if isinstance(value, (list, tuple)) and not any(isinstance(item, (bool, list, tuple)) for item in value):
+        return [value_of(name, item) for item in value]
     if isinstance(value, (list, tuple)):
-        between = {"size": "x", "samples": ":", "rows": ":"}.get(name, ",")
-        return between.join(text_of(name, item) for item in value)
+        value = next(item for item in value if isinstance(item, (bool, list, tuple)))
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise InputError("%s: cannot use %r, expected a number, a text or a sequence of numbers" % (name, value))
-    return repr(value)
+    return float(value) if abs(value) >= 2**63 else value
 
 
 def in_python(sentence):

@@ -1,9 +1,0 @@
-#include "host/cli/version.hpp"
-
-#include "commit.h"
-
-namespace glim {
-
-std::string versionText() { return "glim " GLIM_VERSION " (commit " GLIM_COMMIT ", " GLIM_BUILD_TYPE " build)"; }
-
-}  // namespace glim

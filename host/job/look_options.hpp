@@ -1,0 +1,34 @@
+// The options of pictures to look at: the files, and how light becomes their colours.
+#pragma once
+
+#include "host/job/option_table.hpp"
+#include "host/render/film_pictures.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace glim {
+
+struct PictureFiles {
+    std::optional<std::filesystem::path> png, image;
+
+    bool areGiven() const { return png || image; }
+};
+
+// --exposure of `picture`, as in "the PNG", and --tone, with its default in the help.
+void addLook(OptionTable& table, LookOptions& look, const std::string& picture, const std::string& tone);
+
+// --png and --image.
+void addPictureFiles(OptionTable& table, PictureFiles& files);
+// Refuses a look without a file, and an --image of an unknown kind.
+void resolvePictureFiles(const OptionTable& table, const PictureFiles& files);
+// As checkTarget (output_file.hpp), of each file.
+void checkPictureTargets(const PictureFiles& files, const std::vector<std::filesystem::path>& inputs);
+
+// The look of a film. Says which exposure was chosen.
+Look chooseLook(const LookOptions& options, const Film& film);
+
+void writePictures(const PictureFiles& files, const Film& film, const Look& look);
+
+}  // namespace glim

@@ -1,0 +1,229 @@
+#include "host/job/option_table.hpp"
+
+#include "host/text.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glim {
+namespace {
+
+std::vector<std::string> splitText(const std::string& text, char separator)
+{
+    std::vector<std::string> parts(1);
+    for (const char c : text) {
+        if (c == separator) {
+            parts.emplace_back();
+        } else {
+            parts.back() += c;
+        }
+    }
+    return parts;
+}
+
+}  // namespace
+
+OptionValue::OptionValue(std::string text)
+    : kind_(Kind::Text),
+      parts_{std::move(text)}
+{}
+
+OptionValue::OptionValue(const char* text)
+    : OptionValue(std::string(text))
+{}
+
+OptionValue::OptionValue(const Json& json)
+{
+    const auto take = [this, &json](const Json& value) {
+        if (value.isText()) {
+            parts_.push_back(value.text());
+        } else if (value.isNumber()) {
+            const double number = value.number();
+            const bool isWhole = std::abs(number) < 0x1p53 && number == std::floor(number);
+            parts_.push_back(isWhole ? std::to_string(static_cast<std::int64_t>(number)) : exactText(number));
+        } else {
+            throw UsageError(json.dump() + ": expected a text, a number, true, false, or a list of texts and numbers");
+        }
+    };
+    if (json.isBoolean()) {
+        kind_ = Kind::Truth;
+        parts_ = {json.boolean() ? "true" : "false"};
+    } else if (json.isArray()) {
+        kind_ = Kind::List;
+        std::ranges::for_each(json.elements(), take);
+    } else {
+        kind_ = json.isText() ? Kind::Text : Kind::Number;
+        take(json);
+    }
+}
+
+std::optional<bool> OptionValue::truth() const { return kind_ == Kind::Truth ? std::optional(parts_.front() == "true") : std::nullopt; }
+
+std::string OptionValue::text() const
+{
+    std::string text;
+    for (const std::string& part : parts_) {
+        text += (&part == &parts_.front() ? "" : ",") + part;
+    }
+    return text;
+}
+
+std::vector<std::string> OptionValue::split(char separator) const
+{
+    return kind_ == Kind::List ? parts_ : splitText(parts_.front(), separator);
+}
+
+const Option& Option::require(bool required) const
+{
+    table_->entries_[index_].isRequired = required;
+    return *this;
+}
+
+const Option& Option::needs(const Option& other) const
+{
+    table_->entries_[index_].needs.push_back(other.index_);
+    return *this;
+}
+
+const Option& Option::excludes(const Option& other) const
+{
+    table_->entries_[index_].excludes.push_back(other.index_);
+    table_->entries_[other.index_].excludes.push_back(index_);
+    return *this;
+}
+
+Option OptionTable::add(const std::string& names, const std::string& unit, const std::string& help,
+                        std::function<void(const OptionValue&)> take)
+{
+    Entry& entry = entries_.emplace_back();
+    entry.names = splitText(names, ',');
+    entry.unit = unit;
+    entry.help = help;
+    entry.group = group_;
+    entry.take = std::move(take);
+    return {*this, entries_.size() - 1};
+}
+
+Option OptionTable::addText(const std::string& names, const std::string& unit, const std::string& help, std::string& text)
+{
+    return add(names, unit, help, [&text](const OptionValue& value) { text = value.text(); });
+}
+
+Option OptionTable::addText(const std::string& names, const std::string& unit, const std::string& help, std::optional<std::string>& text)
+{
+    return add(names, unit, help, [&text](const OptionValue& value) { text = value.text(); });
+}
+
+Option OptionTable::addPath(const std::string& names, const std::string& unit, const std::string& help, std::filesystem::path& path)
+{
+    return add(names, unit, help, [&path](const OptionValue& value) { path = value.text(); });
+}
+
+Option OptionTable::addPath(const std::string& names, const std::string& unit, const std::string& help,
+                            std::optional<std::filesystem::path>& path)
+{
+    return add(names, unit, help, [&path](const OptionValue& value) { path = value.text(); });
+}
+
+Option OptionTable::addPaths(const std::string& name, const std::string& unit, const std::string& help,
+                             std::vector<std::filesystem::path>& paths)
+{
+    const Option option = add(name, unit, help, [&paths](const OptionValue& value) { paths.emplace_back(value.text()); });
+    entries_.back().isMany = true;
+    return option;
+}
+
+Option OptionTable::addFlag(const std::string& names, const std::string& help, bool& flag)
+{
+    const std::string name = splitText(names, ',').back();
+    return add(names, "", help, [&flag, name](const OptionValue& value) {
+        if (value.text() != "true" && value.text() != "false") {
+            throw UsageError(name, inQuotes(value.text()) + ": expected true or false");
+        }
+        flag = value.text() == "true";
+    });
+}
+
+void OptionTable::hide(const std::vector<std::string>& names)
+{
+    for (const std::string& name : names) {
+        entries_[indexOf(name)].isHidden = true;
+    }
+}
+
+std::optional<std::size_t> OptionTable::find(const std::string& name) const
+{
+    const auto entry =
+        std::ranges::find_if(entries_, [&name](const Entry& e) { return std::ranges::find(e.names, name) != e.names.end(); });
+    return entry == entries_.end() ? std::nullopt : std::optional(static_cast<std::size_t>(entry - entries_.begin()));
+}
+
+std::size_t OptionTable::indexOf(const std::string& name) const
+{
+    if (const std::optional<std::size_t> index = find(name)) {
+        return *index;
+    }
+    throw UsageError(inQuotes(name) + ": there is no such option");
+}
+
+bool OptionTable::isGiven(const std::string& name) const
+{
+    const std::optional<std::size_t> index = find(name);
+    return index && !entries_[*index].given.empty();
+}
+
+std::vector<std::string> OptionTable::wordsGiven(const std::vector<std::string>& except) const
+{
+    std::vector<std::string> words;
+    for (const Entry& entry : entries_) {
+        if (!entry.given.empty() && !entry.isArgument() && std::ranges::find(except, entry.name()) == except.end()) {
+            words.push_back(entry.isFlag() ? entry.name() : entry.name() + "=" + entry.given.front().text());
+        }
+    }
+    return words;
+}
+
+void OptionTable::set(const std::string& name, const OptionValue& value)
+{
+    std::optional<std::size_t> index = find(name);
+    if (!index) {
+        std::string option = "--" + name;
+        std::ranges::replace(option, '_', '-');
+        index = find(option);
+    }
+    if (!index) {
+        throw UsageError(inQuotes(name) + ": there is no such option");
+    }
+    if (const std::string text = value.text(); text.find('\0') != std::string::npos) {  // a name of a file would end there
+        throw UsageError(inQuotes(text) + " has a null character; expected a text without one");
+    }
+    Entry& entry = entries_[*index];
+    entry.take(value);
+    if (!entry.isFlag() || value.text() == "true") {
+        entry.given.push_back(value);
+    }
+}
+
+void OptionTable::finish() const
+{
+    const auto isMissing = [this](std::size_t index) { return entries_[index].given.empty(); };
+    for (const Entry& entry : entries_) {
+        if (entry.isRequired && entry.given.empty()) {
+            throw UsageError(entry.name() + " is required");
+        }
+        if (entry.given.empty()) {
+            continue;
+        }
+        if (const auto lacks = std::ranges::find_if(entry.needs, isMissing); lacks != entry.needs.end()) {
+            throw UsageError(entry.name() + " requires " + entries_[*lacks].name());
+        }
+        if (const auto other = std::ranges::find_if_not(entry.excludes, isMissing); other != entry.excludes.end()) {
+            throw UsageError(entry.name() + " excludes " + entries_[*other].name());
+        }
+    }
+    if (check_) {
+        check_();
+    }
+}
+
+}  // namespace glim

@@ -1,0 +1,126 @@
+// What can be asked of a job or of a command: names, help, where values go, and which options go together. A command line sets options by
+// text; programs set them by values.
+#pragma once
+
+#include "host/error.hpp"
+#include "host/json.hpp"
+
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace glim {
+
+// What an option is set to: a text, or what a program says: a number, a truth, a list of texts and numbers.
+class OptionValue {
+public:
+    OptionValue(std::string text);
+    OptionValue(const char* text);
+    // Throws UsageError for null, objects and lists of lists.
+    explicit OptionValue(const Json& json);
+
+    bool isText() const { return kind_ == Kind::Text; }
+    bool isNumber() const { return kind_ == Kind::Number; }
+    // Nothing if it is no truth.
+    std::optional<bool> truth() const;
+    // As a command line has it; of a list, with commas.
+    std::string text() const;
+    // The elements of a list, or the parts of a text between separators.
+    std::vector<std::string> split(char separator) const;
+
+private:
+    enum class Kind { Text, Number, Truth, List };
+
+    Kind kind_;
+    std::vector<std::string> parts_;  // one unless it is a list
+};
+
+class OptionTable;
+
+// An option of a table.
+class Option {
+public:
+    Option(OptionTable& table, std::size_t index)
+        : table_(&table),
+          index_(index)
+    {}
+
+    const Option& require(bool required = true) const;
+    const Option& needs(const Option& other) const;
+    const Option& excludes(const Option& other) const;
+
+private:
+    friend class OptionTable;
+
+    OptionTable* table_;
+    std::size_t index_;
+};
+
+class OptionTable {
+public:
+    struct Entry {
+        std::vector<std::string> names;  // "-o", "--output"; without dashes: an argument
+        std::string unit, help, group;   // `unit` as in "OUT.exr"; none: a flag
+        std::function<void(const OptionValue&)> take;
+        bool isMany = false;  // takes several values
+        bool isHidden = false, isRequired = false;
+        std::vector<std::size_t> needs, excludes;
+        std::vector<OptionValue> given;
+
+        bool isFlag() const { return unit.empty(); }
+        bool isArgument() const { return names.back().front() != '-'; }
+        const std::string& name() const { return names.back(); }
+    };
+
+    OptionTable() = default;
+    OptionTable(const OptionTable&) = delete;
+    OptionTable& operator=(const OptionTable&) = delete;
+
+    // The help lists the options that are added from now on under this title.
+    void beginGroup(const std::string& title) { group_ = title; }
+
+    // `names` as in "-o,--output", or "SCENE" for an argument. `take` throws UsageError. What it stores into must outlive the table.
+    Option add(const std::string& names, const std::string& unit, const std::string& help, std::function<void(const OptionValue&)> take);
+    Option addText(const std::string& names, const std::string& unit, const std::string& help, std::string& text);
+    Option addText(const std::string& names, const std::string& unit, const std::string& help, std::optional<std::string>& text);
+    Option addPath(const std::string& names, const std::string& unit, const std::string& help, std::filesystem::path& path);
+    Option addPath(const std::string& names, const std::string& unit, const std::string& help, std::optional<std::filesystem::path>& path);
+    // Takes one or more values.
+    Option addPaths(const std::string& name, const std::string& unit, const std::string& help, std::vector<std::filesystem::path>& paths);
+    Option addFlag(const std::string& names, const std::string& help, bool& flag);
+
+    // The full help alone lists these.
+    void hide(const std::vector<std::string>& names);
+
+    Option option(const std::string& name) { return {*this, indexOf(name)}; }
+    bool isGiven(const std::string& name) const;  // false too if the table has no such option
+    std::string textOf(const std::string& name) const { return entries_[indexOf(name)].given.front().text(); }  // if it is given
+
+    // The options that are given, as in "--size=8x8", but for these and for arguments.
+    std::vector<std::string> wordsGiven(const std::vector<std::string>& except) const;
+
+    // Called by finish() after its own checks; throws UsageError.
+    void onFinished(std::function<void()> check) { check_ = std::move(check); }
+
+    // `name` as in "--look-from", "look-from" or "look_from". Throws UsageError if there is no such option, and what `take` throws.
+    void set(const std::string& name, const OptionValue& value);
+    // To be called once after all options are set. Throws UsageError if some do not go together, or if a required one is missing.
+    void finish() const;
+
+    const std::deque<Entry>& entries() const { return entries_; }
+
+private:
+    friend class Option;
+
+    std::optional<std::size_t> find(const std::string& name) const;
+    std::size_t indexOf(const std::string& name) const;  // throws UsageError
+
+    std::deque<Entry> entries_;
+    std::string group_;
+    std::function<void()> check_;
+};
+
+}  // namespace glim

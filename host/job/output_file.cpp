@@ -1,0 +1,37 @@
+#include "host/job/output_file.hpp"
+
+#include "host/error.hpp"
+#include "host/image/atomic_file.hpp"
+
+namespace fs = std::filesystem;
+
+namespace glim {
+
+void checkTarget(const fs::path& target, std::string_view extension, const std::vector<fs::path>& inputs)
+{
+    checkWritable(target, extension);
+    std::error_code error;
+    static_cast<void>(fs::status(target, error));
+    if (error == std::errc::filename_too_long) {
+        throw InputError(target.string() + ": cannot be written: " + error.message() + ".");
+    }
+    for (const fs::path& input : inputs) {
+        std::error_code ignored;
+        if (fs::equivalent(target, input, ignored)) {
+            throw InputError(target.string() + ": cannot be written: it is the input " + input.string() + ".");
+        }
+    }
+    // Permission bits are not enough: they let root write into /proc. This makes a file and removes it.
+    const AtomicFile probe(target);
+}
+
+void writeText(const fs::path& path, std::string_view text)
+{
+    AtomicFile file(path);
+    file.write(text.data(), text.size());
+    file.commit();
+}
+
+void writeJson(const fs::path& path, const Json& json) { writeText(path, json.dump(2) + "\n"); }
+
+}  // namespace glim

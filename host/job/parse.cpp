@@ -1,0 +1,258 @@
+#include "host/job/parse.hpp"
+
+#include "host/text.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <regex>
+#include <sstream>
+
+namespace glim {
+namespace {
+
+// The whole of `text` as a number, or nothing.
+template <class T>
+bool parseNumber(const std::string& text, T& value)
+{
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    return error == std::errc{} && stop == end && !text.empty();
+}
+
+std::string join(const std::vector<std::string>& parts, const std::string& separator)
+{
+    std::string text;
+    for (const std::string& part : parts) {
+        text += (text.empty() ? "" : separator) + part;
+    }
+    return text;
+}
+
+// Three finite numbers.
+template <class Vector>
+bool parseTriple(const OptionValue& value, Vector& triple)
+{
+    const std::vector<std::string> parts = value.split(',');
+    bool valid = parts.size() == 3;
+    for (int k = 0; valid && k < 3; ++k) {
+        valid = parseNumber(parts[static_cast<std::size_t>(k)], triple[k]) && std::isfinite(triple[k]);
+    }
+    return valid;
+}
+
+template <class T>
+std::string textOf(T number)
+{
+    std::ostringstream text;
+    text << number;
+    return text.str();
+}
+
+template <class T>
+T parseBounded(const NumberOption<T>& option, const OptionValue& given, const std::string& others = "")
+{
+    T value{};
+    const std::string text = given.text();
+    const std::string unsignedText = text.substr(text.rfind('+', 0) == 0 ? 1 : 0);
+    // NaN fails both comparisons.
+    if (!parseNumber(unsignedText, value) || !(value >= option.low && value <= option.high)) {
+        throw UsageError(option.name, "\"" + text + "\": expected a " + (std::is_integral_v<T> ? "whole number" : "number") + " from " +
+                                          textOf(option.low) + " to " + textOf(option.high) + others);
+    }
+    return value;
+}
+
+}  // namespace
+
+template <class T>
+Option addNumber(OptionTable& table, const NumberOption<T>& option, std::function<void(T)> store)
+{
+    const std::string help = option.what + ", " + textOf(option.low) + " to " + textOf(option.high) + " [" + option.fallback + "]";
+    return table.add(option.name, option.unit, help, [option, store](const OptionValue& value) { store(parseBounded(option, value)); });
+}
+
+template Option addNumber(OptionTable&, const NumberOption<std::uint32_t>&, std::function<void(std::uint32_t)>);
+template Option addNumber(OptionTable&, const NumberOption<float>&, std::function<void(float)>);
+template Option addNumber(OptionTable&, const NumberOption<double>&, std::function<void(double)>);
+
+Option addChoice(OptionTable& table, const std::string& name, const std::string& unit, const std::string& help,
+                 const std::vector<std::string>& names, std::function<void(std::size_t)> store)
+{
+    return table.add(name, unit, help, [name, names, store](const OptionValue& value) {
+        const std::string text = value.truth() ? (*value.truth() ? "on" : "off") : value.text();
+        const auto found = std::find(names.begin(), names.end(), text);
+        if (found == names.end()) {
+            throw UsageError(name, "\"" + text + "\": expected " + join(names, " or "));
+        }
+        store(static_cast<std::size_t>(found - names.begin()));
+    });
+}
+
+Option addSceneIndex(OptionTable& table, std::optional<std::size_t>& index)
+{
+    constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
+    return addNumber<std::uint32_t>(table, {"--scene", "INDEX", "Scene of the file", 0, kMost, "the file's default scene"},
+                                    [&index](std::uint32_t value) { index = value; });
+}
+
+glm::uvec2 parseSize(const OptionValue& value)
+{
+    const std::string text = value.text();
+    const std::vector<std::string> parts = value.split('x');
+    glm::uvec2 size(0);
+    if (parts.size() != 2 || !parseNumber(parts[0], size.x) || !parseNumber(parts[1], size.y) || size.x == 0 || size.y == 0 ||
+        size.x > kMaxSide || size.y > kMaxSide) {
+        throw UsageError("--size",
+                         "\"" + text + "\": expected WIDTHxHEIGHT in pixels, each 1 to " + std::to_string(kMaxSide) + ", as in 640x480");
+    }
+    return size;
+}
+
+FrameRange parseFrames(const OptionValue& value)
+{
+    constexpr std::uint32_t kMostFrame = 999999999;
+    const std::string text = value.text();
+    const std::vector<std::string> parts = value.split(':');
+    FrameRange range;
+    const bool numbers = (parts.size() == 2 || parts.size() == 3) && parseNumber(parts[0], range.first) &&
+                         parseNumber(parts[1], range.last) && (parts.size() == 2 || parseNumber(parts[2], range.step));
+    if (!numbers || range.first > range.last || range.last > kMostFrame || range.step == 0) {
+        throw UsageError("--frames",
+                         "\"" + text + "\": expected FIRST:LAST or FIRST:LAST:STEP with FIRST <= LAST and STEP >= 1, as in 1:250");
+    }
+    return range;
+}
+
+std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& option, const OptionValue& value, std::uint32_t most)
+{
+    const std::string text = value.text();
+    const std::vector<std::string> parts = value.split(':');
+    std::pair<std::uint32_t, std::uint32_t> range;
+    if (parts.size() != 2 || !parseNumber(parts[0], range.first) || !parseNumber(parts[1], range.second) || range.first >= range.second ||
+        range.second > most) {
+        throw UsageError(option, "\"" + text + "\": expected BEGIN:END with BEGIN < END <= " + std::to_string(most) + ", as in 0:256");
+    }
+    return range;
+}
+
+double parsePercent(const std::string& option, const OptionValue& value)
+{
+    const std::string text = value.text();
+    double percent = 0.0;
+    if (value.isNumber() && parseNumber(text, percent) && percent > 0.0 && percent <= 10.0) {
+        return percent;
+    }
+    if (text.empty() || text.back() != '%' || !parseNumber(text.substr(0, text.size() - 1), percent) ||
+        !(percent > 0.0 && percent <= 1000.0)) {
+        throw UsageError(option, "\"" + text + "\": expected more than 0 and at most 1000 percent of the mean, as in 1%");
+    }
+    return 0.01 * percent;
+}
+
+std::optional<double> parseExposure(const OptionValue& value)
+{
+    if (value.text() == "auto") {
+        return std::nullopt;
+    }
+    return parseBounded<double>({"--exposure", "", "", -100.0, 100.0, ""}, value, ", or auto");
+}
+
+SamplePlace parseSample(const OptionValue& value)
+{
+    const std::string text = value.text();
+    const std::vector<std::string> parts = value.split(',');
+    SamplePlace place{};
+    if (parts.size() != 3 || !parseNumber(parts[0], place.x) || !parseNumber(parts[1], place.y) || !parseNumber(parts[2], place.sample) ||
+        place.x >= kMaxSide || place.y >= kMaxSide || place.sample >= kMaxSample) {
+        throw UsageError("--replay", "\"" + text + "\": expected X,Y,SAMPLE with whole numbers X and Y from 0 to " +
+                                         std::to_string(kMaxSide - 1) + " and SAMPLE from 0 to " + std::to_string(kMaxSample - 1) +
+                                         ", as in 12,40,7");
+    }
+    return place;
+}
+
+double parseDuration(const std::string& option, const OptionValue& given)
+{
+    const std::string text = given.text() + (given.isNumber() ? "s" : "");
+    const double unit = text.empty() ? 0.0 : text.back() == 's' ? 1.0 : text.back() == 'm' ? 60.0 : text.back() == 'h' ? 3600.0 : 0.0;
+    double value = 0.0;
+    if (unit == 0.0 || !parseNumber(text.substr(0, text.size() - 1), value) || !(value > 0.0) || !std::isfinite(value)) {
+        throw UsageError(option, "\"" + text + "\": expected a time above 0 with its unit, as in 90s, 5m or 1h");
+    }
+    return value * unit;
+}
+
+float parseSurvival(const OptionValue& value)
+{
+    const std::string text = value.text();
+    const std::string start = "fixed:";
+    float survival = 0.0F;
+    if (text.rfind(start, 0) != 0 || !parseNumber(text.substr(start.size()), survival) || !std::isnormal(survival) ||
+        !(survival > 0.0F && survival <= 1.0F)) {
+        throw UsageError("--roulette", "\"" + text + "\": expected throughput, none or fixed:P with 0 < P <= 1, as in fixed:0.7");
+    }
+    return survival;
+}
+
+EnvironmentChoice parseEnvironment(const OptionValue& value)
+{
+    const std::string text = value.text();
+    if (text == "none" || text == "studio") {
+        return text == "none" ? BuiltInEnvironment::None : BuiltInEnvironment::Studio;
+    }
+    const bool isMap = std::regex_search(text, std::regex("\\.(hdr|exr)$", std::regex::icase));
+    return isMap ? EnvironmentChoice(std::filesystem::path(text)) : EnvironmentChoice(parseRadiance(value));
+}
+
+std::string describeEnvironment(const EnvironmentChoice& choice)
+{
+    if (const auto* radiance = std::get_if<glm::vec3>(&choice)) {
+        return exactText(radiance->r) + "," + exactText(radiance->g) + "," + exactText(radiance->b);
+    }
+    if (const auto* file = std::get_if<std::filesystem::path>(&choice)) {
+        return file->string();
+    }
+    return std::get<BuiltInEnvironment>(choice) == BuiltInEnvironment::None ? "none" : "studio";
+}
+
+Sun parseSun(const OptionValue& value)
+{
+    const std::string text = value.text();
+    glm::dvec3 triple(0.0);
+    if (!parseTriple(value, triple) || std::abs(triple.x) > 360.0 || std::abs(triple.y) > 90.0 || !(triple.z >= 0.0 && triple.z <= 1e30)) {
+        throw UsageError("--sun", "\"" + text +
+                                      "\": expected azimuth and elevation in degrees, within 360 and 90, and an irradiance >= 0 in "
+                                      "W/m^2, as in 30,45,1000");
+    }
+    return {triple.x, triple.y, static_cast<float>(triple.z)};
+}
+
+std::string describeSun(const Sun& sun)
+{
+    return exactText(sun.azimuth) + "," + exactText(sun.elevation) + "," + exactText(sun.irradiance);
+}
+
+glm::vec3 parseRadiance(const OptionValue& value)
+{
+    const std::string text = value.text();
+    glm::vec3 radiance(0.0F);
+    if (!parseTriple(value, radiance) || glm::any(glm::lessThan(radiance, glm::vec3(0.0F)))) {
+        throw UsageError("--environment", "\"" + text +
+                                              "\": expected the name of a .hdr or .exr map, a constant radiance R,G,B with "
+                                              "numbers >= 0, as in 1,1,1, studio or none");
+    }
+    return radiance;
+}
+
+glm::dvec3 parsePoint(const std::string& option, const OptionValue& value)
+{
+    glm::dvec3 point(0.0);
+    if (!parseTriple(value, point)) {
+        throw UsageError(option, "\"" + value.text() + "\": expected three numbers, as in 1,2.5,-3");
+    }
+    return point;
+}
+
+}  // namespace glim

@@ -1,0 +1,231 @@
+#include "host/job/picture_options.hpp"
+
+#include "host/job/parse.hpp"
+#include "host/render/prepare_scene.hpp"
+
+#include <limits>
+#include <tuple>
+
+namespace glim {
+namespace {
+
+Option addPoint(OptionTable& table, const std::string& name, const std::string& help, PictureOptions& options, glm::dvec3 Pose::*point)
+{
+    return table.add(name, "X,Y,Z", help, [&options, name, point](const OptionValue& value) {
+        options.pose = options.pose.value_or(Pose{});
+        (*options.pose).*point = parsePoint(name, value);
+    });
+}
+
+void addPose(OptionTable& table, PictureOptions& options)
+{
+    const Option from = addPoint(table, "--look-from", "Place the camera here instead, in world coordinates", options, &Pose::from);
+    const Option at = addPoint(table, "--look-at", "Point in the middle of the picture", options, &Pose::at);
+    from.needs(at);
+    at.needs(from);
+    addPoint(table, "--look-up", "Direction that points upwards in the picture [0,1,0]", options, &Pose::up).needs(from);
+    addNumber<double>(table, {"--zoom", "Z", "Magnification", 1e-6, 1e6, "1"}, [&options](double zoom) {
+        options.pose = options.pose.value_or(Pose{});
+        options.pose->zoom = zoom;
+    }).needs(from);
+}
+
+void addLens(OptionTable& table, PictureOptions& options)
+{
+    const Option radius = addNumber<float>(table, {"--lens-radius", "R", "Radius of a thin lens in metres", 0.0F, 1e6F, "0, a pinhole"},
+                                           [&options](float metres) { options.lens.radius = metres; });
+    const Option distance =
+        addNumber<float>(table, {"--focal-distance", "D", "Distance of the plane in focus, in metres", 1e-6F, 1e9F, "none"},
+                         [&options](float metres) { options.lens.focalDistance = metres; });
+    radius.needs(distance);
+    distance.needs(radius);
+}
+
+void addRoulette(OptionTable& table, RenderSettings& settings)
+{
+    table.add("--roulette", "R", "Russian roulette: throughput, none, or fixed:P, a survival probability [throughput]",
+              [&settings](const OptionValue& value) {
+                  if (const std::string text = value.text(); text == "throughput" || text == "none") {
+                      settings.course.roulette = text == "none" ? Roulette::None : Roulette::Throughput;
+                  } else {
+                      settings.course.survival = parseSurvival(value);
+                      settings.course.roulette = Roulette::Fixed;
+                  }
+              });
+}
+
+}  // namespace
+
+void addPicture(OptionTable& table, PictureOptions& options, const std::string& height)
+{
+    addSceneIndex(table, options.sceneIndex);
+    table.addText("--variant", "NAME", "Variant of the file's materials [the file's own materials]", options.variant);
+    addAnimation(table, options.at, options.animation);
+    table.add("--environment", "E", ".hdr or .exr map, radiance R,G,B, studio or none [the file's, else studio if unlit]",
+              [&options](const OptionValue& value) { options.environment = parseEnvironment(value); });
+    addNumber<float>(table, {"--environment-rotation", "DEG", "Turn of the map about the vertical axis", -360.0F, 360.0F, "0"},
+                     [&options](float degrees) { options.environmentRotation = degrees; });
+    addEnum(table, "--environment-background", "B", "Whether the camera sees the environment: on or off [on]", {"off", "on"},
+            options.environmentBackground);
+    table.add("--sun", "AZIMUTH,ELEVATION,E", "A directional light: degrees right of -z, degrees up, W/m^2",
+              [&options](const OptionValue& value) { options.sun = parseSun(value); });
+    addEnum(table, "--back-faces", "B", "Back faces of single-sided opaque surfaces: culled or shown [culled]", {"culled", "shown"},
+            options.showsBackFaces);
+    addTextures(table, options.missingTextures, options.maxTexture);
+    table.addFlag("--confine", "Refuse files that the scene names outside of its folder", options.confined);
+    table.add("--size", "WxH", "Pixels, each side 1 to 65535 [" + height + " high, width by the camera's aspect ratio]",
+              [&options](const OptionValue& value) { options.size = parseSize(value); });
+}
+
+void addAnimation(OptionTable& table, std::optional<double>& at, std::string& animation)
+{
+    addNumber<double>(table, {"--at", "SECONDS", "Time of the file's animation", 0.0, 1e9, "the file's rest pose"},
+                      [&at](double seconds) { at = seconds; });
+    table.addText("--animation", "NAME|INDEX", "Animation that is played [0]", animation);
+}
+
+void addTextures(OptionTable& table, MissingTextures& missing, std::uint32_t& largest)
+{
+    addEnum(table, "--missing-textures", "T", "Images that cannot be read: refuse the scene, or grey in their place [refuse]",
+            {"refuse", "grey"}, missing);
+    addNumber<std::uint32_t>(
+        table,
+        {"--max-texture", "N", "Scale larger images down to N pixels a side or less", 1, kMaxImageSide, std::to_string(kMaxImageSide)},
+        [&largest](std::uint32_t pixels) { largest = pixels; });
+}
+
+void addCamera(OptionTable& table, PictureOptions& options, const std::string& more)
+{
+    table.beginGroup("Camera");
+    table.addText("--camera", "NAME|INDEX", "Camera of the file, or framed: one that sees the whole scene" + more + " [0]", options.camera);
+    addPose(table, options);
+    addLens(table, options);
+}
+
+void addSampleCount(OptionTable& table, RenderSettings& settings, const std::string& sppDefault, const std::string& rangeDefault)
+{
+    const Option spp = addNumber<std::uint32_t>(table, {"--spp", "N", "Samples per pixel", 1, kMaxSample, sppDefault},
+                                                [&settings](std::uint32_t count) { settings.sampleEnd = count; });
+    const Option samples =
+        table.add("--samples", "BEGIN:END",
+                  "Sample indices BEGIN to END - 1, for `glim merge`, 0 to " + std::to_string(kMaxSample) + " [" + rangeDefault + "]",
+                  [&settings](const OptionValue& value) {
+                      std::tie(settings.sampleBegin, settings.sampleEnd) = parseRange("--samples", value, kMaxSample);
+                  });
+    const Option time = addNumber<double>(table, {"--time", "SECONDS", "Stop after this time, at the end of a pass", 1e-3, 1e9, "off"},
+                                          [&settings](double seconds) { settings.seconds = seconds; });
+    spp.excludes(time).excludes(samples);
+}
+
+void addAdaptive(OptionTable& table, RenderSettings& settings)
+{
+    addEnum(table, "--adaptive", "RULE", "Adaptive sampling: off, neighbours or neighbours:absolute [off]",
+            {"off", "course", "course:literal", "neighbours", "neighbours:absolute"}, settings.adaptive);
+}
+
+void addSampler(OptionTable& table, RenderSettings& settings)
+{
+    addNumber<std::uint32_t>(table, {"--seed", "N", "Seed of the random numbers", 0, std::numeric_limits<std::uint32_t>::max(), "0"},
+                             [&settings](std::uint32_t seed) { settings.seed = seed; });
+    addEnum(table, "--sampler", "S", "sobol (Owen-scrambled) or independent [sobol; independent with --adaptive course]",
+            {"sobol", "independent"}, settings.sampler);
+}
+
+void addLightTransport(OptionTable& table, RenderSettings& settings)
+{
+    table.beginGroup("Light transport");
+    addNumber<std::uint32_t>(table, {"--bounces", "N", "Maximum surfaces between camera and light (0: emission alone)", 0, 1000000, "64"},
+                             [&settings](std::uint32_t bounces) { settings.bounces = bounces; });
+    addEnum(table, "--paths", "PART", "Part of the light: all, emission, direct or indirect [all]",
+            {"all", "emission", "direct", "indirect"}, settings.paths);
+    addNumber<float>(table, {"--clamp-indirect", "X", "Clamp indirect light to this radiance (biased)", 1e-30F, 1e30F, "off"},
+                     [&settings](float limit) { settings.clampIndirect = limit; });
+}
+
+void addCaustics(OptionTable& table, RenderSettings& settings)
+{
+    addEnum(table, "--caustics", "C", "Caustics of lamps and specular surfaces by light paths: on or off [on]", {"off", "on"},
+            settings.caustics);
+}
+
+void addCourseEstimators(OptionTable& table, RenderSettings& settings)
+{
+    table.beginGroup("Course estimators (Berkeley CS 184)");
+    addEnum(table, "--direct", "D", "Direct light: mis, lights, hemisphere or bsdf [mis]", {"mis", "lights", "hemisphere", "bsdf"},
+            settings.course.direct);
+    addNumber<std::uint32_t>(table,
+                             {"--light-samples", "N", "Samples per light (--direct lights) or per vertex (hemisphere)", 1, 65536, "1"},
+                             [&settings](std::uint32_t count) { settings.course.lightSamples = count; });
+    addRoulette(table, settings);
+    table.hide({"--direct", "--light-samples", "--roulette"});
+}
+
+void addCourseRule(OptionTable& table, RenderSettings& settings)
+{
+    addNumber<float>(table, {"--tolerance", "T", "Relative error at which --adaptive course stops a pixel", 1e-30F, 1e6F, "0.05"},
+                     [&settings](float tolerance) { settings.course.tolerance = tolerance; });
+    addNumber<std::uint32_t>(table, {"--batch", "N", "Samples between convergence tests of --adaptive course", 2, 1048576, "32"},
+                             [&settings](std::uint32_t count) { settings.course.batch = count; });
+    addNumber<std::uint32_t>(table, {"--max-spp", "N", "Maximum samples per pixel of --adaptive course", 2, kMaxSample, "2048"},
+                             [&settings](std::uint32_t count) { settings.sampleEnd = count; });
+    table.hide({"--tolerance", "--batch", "--max-spp"});
+}
+
+void addDevice(OptionTable& table, PictureOptions& options)
+{
+    table.beginGroup("Device");
+    table.addText("--device", "D", "Index or part of a name from `glim devices` [the first usable one]", options.device);
+    addEnum(table, "--schedule", "S", "Kernel schedule: wavefront, persistent or auto, the faster one; same picture [auto]",
+            {"auto", "wavefront", "persistent"}, options.settings.schedule);
+    addNumber<std::uint32_t>(table, {"--path-capacity", "N", "Paths in flight; same picture", kBlockSamples, 1U << 24U, "262144"},
+                             [&options](std::uint32_t paths) { options.settings.pathCapacity = paths; });
+    addEnum(table, "--accelerator", "A", "Acceleration structure: bvh, or none (brute force) [bvh]", {"bvh", "none"},
+            options.settings.course.accelerator);
+    addEnum(table, "--split", "RULE", "Split of BVH nodes: sah, mean or median [sah]", {"sah", "mean", "median"}, options.split);
+    addEnum(table, "--intersector", "I", "Triangle test: watertight or moller-trumbore [watertight]", {"watertight", "moller-trumbore"},
+            options.settings.course.intersector);
+    table.hide({"--schedule", "--path-capacity", "--accelerator", "--split", "--intersector"});
+}
+
+LoadOptions loadOptionsOf(const PictureOptions& options)
+{
+    LoadOptions load;
+    load.scene = options.sceneIndex;
+    load.variant = options.variant;
+    load.at = options.at;
+    load.animation = options.animation;
+    load.environment = options.environment;
+    load.environmentRotation = glm::radians(options.environmentRotation);
+    load.environmentBackground = options.environmentBackground;
+    load.sun = options.sun;
+    load.showsBackFaces = options.showsBackFaces;
+    load.missingTextures = options.missingTextures;
+    load.confined = options.confined;
+    load.maxTexture = options.maxTexture;
+    load.framed = options.camera == "framed";
+    if (options.size) {
+        load.aspectRatio = static_cast<float>(options.size->x) / static_cast<float>(options.size->y);
+    }
+    return load;
+}
+
+Camera cameraOf(const Scene& scene, const PictureOptions& options)
+{
+    const Camera& camera = findCamera(scene, options.camera);
+    return options.pose ? placeCamera(camera, *options.pose, scene.origin) : camera;
+}
+
+RenderSettings settingsFor(const PictureOptions& options, const Camera& camera)
+{
+    RenderSettings settings = options.settings;
+    const glm::uvec2 size = options.size.value_or(defaultSize(camera));
+    settings.width = size.x;
+    settings.height = size.y;
+    if (settings.rows && settings.rows->second > size.y) {
+        throw UsageError("--rows", std::to_string(settings.rows->first) + ":" + std::to_string(settings.rows->second) +
+                                       ": the picture has " + std::to_string(size.y) + " rows");
+    }
+    return settings;
+}
+
+}  // namespace glim

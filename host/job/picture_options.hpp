@@ -1,0 +1,64 @@
+// The options that render, preview and bench share.
+#pragma once
+
+#include "host/bvh/build_bvh.hpp"
+#include "host/flatten/flatten_scene.hpp"
+#include "host/job/look_options.hpp"
+#include "host/job/option_table.hpp"
+#include "host/render/settings.hpp"
+#include "host/scene/load_gltf.hpp"
+#include "host/scene/pose.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace glim {
+
+struct PictureOptions {
+    std::filesystem::path scene;
+    std::optional<glm::uvec2> size;
+    std::optional<std::size_t> sceneIndex;
+    std::optional<std::string> device, camera;
+    std::optional<Pose> pose;
+    std::optional<EnvironmentChoice> environment;
+    std::string variant, animation;
+    std::optional<double> at;          // seconds
+    float environmentRotation = 0.0F;  // degrees
+    bool environmentBackground = true;
+    std::optional<Sun> sun;
+    bool showsBackFaces = false;
+    MissingTextures missingTextures = MissingTextures::Refuse;
+    bool confined = false;  // the files that the scene names lie in its folder
+    std::uint32_t maxTexture = kMaxImageSide;
+    LookOptions look;
+    Lens lens;
+    SplitRule split = SplitRule::Sah;
+    RenderSettings settings;  // all but width and height
+};
+
+// Each adds options to the help's current group. They write into `options` or `settings`, which must outlive the table.
+void addPicture(OptionTable& table, PictureOptions& options, const std::string& height = "512");  // default of --size
+void addAnimation(OptionTable& table, std::optional<double>& at, std::string& animation);
+void addTextures(OptionTable& table, MissingTextures& missing, std::uint32_t& largest);
+void addSampleCount(OptionTable& table, RenderSettings& settings, const std::string& sppDefault, const std::string& rangeDefault);
+void addAdaptive(OptionTable& table, RenderSettings& settings);
+void addSampler(OptionTable& table, RenderSettings& settings);
+
+// Each adds a whole group of the help. `more`: what else --camera may be.
+void addCamera(OptionTable& table, PictureOptions& options, const std::string& more = "");
+void addLightTransport(OptionTable& table, RenderSettings& settings);
+void addCaustics(OptionTable& table, RenderSettings& settings);
+void addCourseEstimators(OptionTable& table, RenderSettings& settings);
+void addDevice(OptionTable& table, PictureOptions& options);
+
+// Adds the limits of --adaptive course to the group of addCourseEstimators.
+void addCourseRule(OptionTable& table, RenderSettings& settings);
+
+LoadOptions loadOptionsOf(const PictureOptions& options);
+// The camera that the options choose, placed where they say.
+Camera cameraOf(const Scene& scene, const PictureOptions& options);
+// The settings with a size: from the options, or else from the camera.
+RenderSettings settingsFor(const PictureOptions& options, const Camera& camera);
+
+}  // namespace glim

@@ -1,0 +1,94 @@
+#include "host/job/render_job.hpp"
+
+#include "host/job/resolve_options.hpp"
+
+namespace glim {
+namespace {
+
+void addAov(OptionTable& table, RenderJob& options)
+{
+    addEnum(table, "--view", "V", "Picture of: shaded, normal, depth, albedo or bvh-steps [shaded]",
+            {"shaded", "normal", "depth", "albedo", "bvh-steps"}, options.settings.aov);
+}
+
+void addTargets(OptionTable& table, ErrorTarget& target)
+{
+    table.add("--target-rmse", "P%", "Stop when the estimated RMSE is this share of the picture's mean, as in 1% [off]",
+              [&target](const OptionValue& value) { target.rmse = parsePercent("--target-rmse", value); });
+    addNumber<double>(table, {"--target-relmse", "E", "Stop when the estimated relMSE is at most this", 1e-12, 1e6, "off"},
+                      [&target](double value) { target.relMse = value; });
+    table.addFlag("--denoised", "Targets are of the denoised picture, whose error is measured at every look", target.denoised);
+}
+
+void addSequence(OptionTable& table, RenderJob& options)
+{
+    SequenceOptions& sequence = options.sequence;
+    table.beginGroup("Several pictures");
+    const Option frames = table.add("--frames", "A:B[:STEP]", "Frames A to B of the animation; each number replaces #### in names of files",
+                                    [&sequence](const OptionValue& value) { sequence.frames = parseFrames(value); });
+    addNumber<double>(table, {"--fps", "N", "Frames per second of --frames", 1e-3, 1e6, "24"}, [&sequence](double fps) {
+        sequence.fps = fps;
+    }).needs(frames);
+    const Option turntable =
+        addNumber<std::uint32_t>(table, {"--turntable", "N", "Pictures from a circle around the scene", 1, 100000, "off"},
+                                 [&sequence](std::uint32_t count) { sequence.turntable = count; });
+    const Option cameras = table.addPath("--cameras", "FILE.json", "Pictures by an array of cameras: host/cli/README.md", sequence.cameras);
+    frames.excludes(table.option("--at")).excludes(turntable).excludes(cameras);
+    turntable.excludes(cameras);
+    for (const Option* chooser : {&turntable, &cameras}) {
+        chooser->excludes(table.option("--camera")).excludes(table.option("--look-from"));
+    }
+}
+
+void addOutput(OptionTable& table, RenderJob& options)
+{
+    table.beginGroup("Output");
+    table.addPath("-o,--output", "OUT.exr", "Scene-linear EXR with layers; required without --replay", options.output).require();
+    addPictureFiles(table, options.pictures);
+    addLook(table, options.look, "the picture", "none; neutral in the built-in studio");
+    const Option denoise =
+        table.addFlag("--denoise", "Also write a denoised picture and its measured error; the PNG shows it", options.denoise);
+    table.addPath("--oidn", "PATH", "Library of Open Image Denoise that denoises instead, or its folder [glim's own]", options.oidn)
+        .needs(denoise);
+    table.option("--denoised").needs(denoise);
+    table.addPath("--rates", "R.png", "Also draw the samples per pixel, blue (fewest) to red (most)", options.rates);
+    table.addPath("--ids", "I.exr", "Also write which nodes, meshes and materials each pixel shows, and Cryptomatte", options.ids);
+    table.addPath("--stats", "S.json", "Also write times, counts and estimated errors, or the path of --replay", options.stats);
+    addCheckpoint(table, options.checkpoint);
+    addProgress(table, options.progress);
+    addNumber<std::uint32_t>(table, {"--suspects", "N", "List the brightest samples, the firefly candidates", 1, 1000, "off"},
+                             [&options](std::uint32_t count) { options.settings.suspects = count; });
+    table.add("--replay", "X,Y,SAMPLE", "Print every vertex of one sample's path, and render no picture",
+              [&table, &options](const OptionValue& value) {
+                  options.replay = parseSample(value);
+                  table.option("--output").require(false);
+              });
+}
+
+}  // namespace
+
+void addJobOptions(OptionTable& table, RenderJob& options)
+{
+    table.beginGroup("Picture");
+    table.addPath("file,SCENE", "FILE", "Scene, .gltf or .glb", options.scene).require();
+    addPicture(table, options);
+    addAov(table, options);
+    table.add("--rows", "BEGIN:END", "Only rows BEGIN to END - 1 of the picture, for `glim merge`, 0 at the top [all]",
+              [&options](const OptionValue& value) { options.settings.rows = parseRange("--rows", value, kMaxSide); });
+    addCamera(table, options, ", or all");
+    addSequence(table, options);
+    table.beginGroup("Sampling and stopping");
+    addSampleCount(table, options.settings, "64; 4 with a --view other than shaded", "0:64");
+    addTargets(table, options.target);
+    addAdaptive(table, options.settings);
+    addSampler(table, options.settings);
+    addLightTransport(table, options.settings);
+    addCaustics(table, options.settings);
+    addCourseEstimators(table, options.settings);
+    addCourseRule(table, options.settings);
+    addDevice(table, options);
+    addOutput(table, options);
+    table.onFinished([&table, &options] { resolveRender(table, options); });
+}
+
+}  // namespace glim

@@ -1,0 +1,29 @@
+// The options of `glim render`.
+#pragma once
+
+#include "host/job/checkpoint_writer.hpp"
+#include "host/job/film_report.hpp"
+#include "host/job/parse.hpp"
+#include "host/job/picture_options.hpp"
+#include "host/job/progress.hpp"
+#include "host/job/sequence.hpp"
+
+namespace glim {
+
+struct RenderJob : PictureOptions {
+    std::filesystem::path output;
+    PictureFiles pictures;
+    std::optional<std::filesystem::path> rates, ids, stats;
+    SequenceOptions sequence;
+    bool denoise = false;
+    std::optional<std::filesystem::path> oidn;  // instead of glim's own denoiser
+    CheckpointOptions checkpoint;
+    std::optional<SamplePlace> replay;  // instead of a picture
+    ProgressStyle progress = ProgressStyle::Auto;
+    ErrorTarget target;
+};
+
+// Adds every option of `render` to `table`; they write into `options`, which must outlive it.
+void addJobOptions(OptionTable& table, RenderJob& options);
+
+}  // namespace glim

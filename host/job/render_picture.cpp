@@ -1,0 +1,133 @@
+#include "host/job/render_picture.hpp"
+
+#include "host/flatten/camera_options.hpp"
+#include "host/job/format.hpp"
+#include "host/job/outcome.hpp"
+#include "host/message.hpp"
+#include "host/render/check_memory.hpp"
+#include "host/render/film_origin.hpp"
+#include "host/render/merge_films.hpp"
+#include "host/text.hpp"
+#include "shaders/shared/limits.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace glim {
+
+PictureFrame framePicture(const SceneSession& session, const RenderJob& options)
+{
+    const Camera camera = cameraOf(session.prepared().scene, options);
+    const RenderSettings settings = settingsFor(options, camera);
+    checkMemory(session.prepared(), settings, session.device().description(), options.checkpoint.isGiven());
+    const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
+    return {flattenCamera(session.prepared(), camera, aspect, options.lens), settings};
+}
+
+void labelFilm(Film& film, const RenderJob& options)
+{
+    film.sceneFile = options.scene.string();
+    film.identity.settings += describeCamera(options.pose, options.lens);
+}
+
+std::string describeOther(const Film& film, const SceneSession& session, const PictureFrame& frame, const RenderJob& options)
+{
+    Film expected = emptyFilm(frame.settings);
+    expected.identity = identityOf(SceneIdentity(session.prepared().flat), frame.camera, frame.settings);
+    labelFilm(expected, options);
+    return film.identity.kernels != expected.identity.kernels
+               ? "it is by another version of glim's kernels; `glim merge` adds samples that this one renders"
+               : describeDifference(film, expected);
+}
+
+void resumeFrom(Renderer& renderer, StoredFilm stored, const std::string& name)
+{
+    const std::string samples = sampleRangesText(stored.film), arithmetic = stored.film.arithmetic, device = stored.film.device;
+    const auto refuse = [&](const std::string& reason) {
+        throw InputError(name + ": cannot be resumed: it has samples " + samples + ", " + reason + ".");
+    };
+    const auto [begin, end] = stored.film.sampleRanges.front();
+    const RenderSettings& settings = renderer.settings();
+    if (begin != settings.sampleBegin) {
+        refuse("expected them to begin at " + std::to_string(settings.sampleBegin));
+    }
+    if (!stored.checkpoint && end - begin <= kBlockSamples) {
+        say(name + " has no finished block of samples, so the render begins anew");
+        return;
+    }
+    std::optional<Checkpoint> checkpoint = stored.checkpoint ? std::move(stored.checkpoint) : checkpointOf(std::move(stored.film));
+    if (!checkpoint) {
+        refuse("expected one range that ends with a page of " + std::to_string(kPageSamples) + "; `glim merge` adds others");
+    }
+    if (!renderer.canResume(*checkpoint)) {
+        refuse(isNeighbours(settings.adaptive) ? "planned for another --spp" : "more than were asked for");
+    }
+    renderer.resume(*std::move(checkpoint));
+    const double pixels = settings.pixelCount();
+    say(name + " is resumed at " +
+        exactText(std::round(100.0 * static_cast<double>(renderer.statistics().resumedSamples) / pixels) / 100.0) + " samples per pixel");
+    if (arithmetic != arithmeticFingerprint(renderer.device())) {
+        say(renderer.device().description().name + " rounds otherwise than " + device +
+            " did, so the film will equal a single run up to rounding");
+    }
+}
+
+RenderedFilm renderPicture(Renderer& renderer, const RenderJob& options, FilmDenoiser& denoiser, const RenderObserver& observer,
+                           const std::function<bool()>& keepsCheckpoint)
+{
+    RenderedFilm rendered;
+    const ErrorTarget& target = options.target;
+    RenderProgress last{};
+    bool goesOn = true;
+    const RenderObserver observe = [&](const RenderProgress& now) {
+        last = now;
+        last.betweenPasses = false;
+        return goesOn = observer(now);
+    };
+    const auto denoise = [&] {
+        rendered.denoising.reset();
+        rendered.denoisingError = nullptr;
+        try {
+            rendered.denoising = denoiser.denoise(options, renderer, [&] { return goesOn = observer(last); });
+        } catch (const std::exception&) {
+            rendered.denoisingError = std::current_exception();
+        }
+    };
+    const auto timesOfDenoised = [&] {
+        denoise();
+        return rendered.denoising ? timesToTarget(rendered.denoising->picture.measured, target) : std::numeric_limits<double>::infinity();
+    };
+    const auto criterion = [&](const Film& film) {
+        const double times = target.denoised ? timesOfDenoised() : timesToTarget(film, target);
+        rendered.isGood = times <= 1.0;
+        rendered.isUnknown = std::isinf(times) && goesOn && renderer.sampleCount() >= kSamplesOfUnknownError;
+        return rendered.isUnknown ? 0.0 : times;
+    };
+    const auto atEnd = [&] {
+        try {
+            rendered.checkpoint = keepsCheckpoint() ? renderer.checkpoint() : std::nullopt;
+        } catch (const DeviceError&) {
+            throw;  // nor could the film be read
+        } catch (const std::exception& error) {
+            say("the film has no checkpoint: " + reasonOf(error));
+        }
+    };
+    rendered.film = renderer.render(observe, target.isGiven() ? StoppingCriterion(criterion) : nullptr, atEnd);
+    if (options.denoise && !(target.denoised && (rendered.isGood || rendered.isUnknown))) {
+        denoise();  // else the last look at the target did
+    }
+    return rendered;
+}
+
+void warnIfUnknown(const RenderedFilm& rendered)
+{
+    if (rendered.isUnknown) {
+        warn(format("the target is not reached after %.4g samples per pixel, and the render ends, because the error is unknown: ",
+                    computeRates(rendered.film).mean) +
+             (estimateError(rendered.film) ? "it is not measured of the denoised picture" : whyUnknown(rendered.film)) +
+             "; without a target it has the samples that --spp asks for.");
+    }
+}
+
+}  // namespace glim

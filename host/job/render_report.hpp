@@ -1,0 +1,34 @@
+// The report of a render: one line for people, JSON for machines.
+#pragma once
+
+#include "host/job/denoising.hpp"
+#include "host/job/render_job.hpp"
+#include "host/measure/control_bias.hpp"
+#include "host/render/prepare_scene.hpp"
+#include "host/render/suspects.hpp"
+
+#include <iosfwd>
+
+namespace glim {
+
+struct RenderReport {
+    const RenderJob& options;
+    const PreparedScene& prepared;
+    const Film& film;
+    std::optional<Look> look;  // of the picture, if one was asked for
+    const RenderStatistics& statistics;
+    const DeviceDescription& device;
+    std::string stopReason;  // "samples", "time", "tolerance", "target", "unknown error", or the signal's name
+    double writeSeconds;
+    std::optional<double> idSeconds;  // of --ids
+    std::vector<Suspect> suspects;
+    std::optional<ControlBias> bias;     // of adaptive renders
+    std::optional<Denoising> denoising;  // of --denoise
+};
+
+// Of what is wrong or missing in a picture, as far as it is known.
+void warnOfPicture(const Film& film, const RenderStatistics& statistics, const RenderSettings& settings);
+void printSummary(const RenderReport& report, std::ostream& out);
+void writeStatistics(const std::filesystem::path& path, const RenderReport& report);
+
+}  // namespace glim

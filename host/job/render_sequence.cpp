@@ -1,0 +1,396 @@
+#include "host/job/render_sequence.hpp"
+
+#include "host/job/film_report.hpp"
+#include "host/job/interrupt.hpp"
+#include "host/job/outcome.hpp"
+#include "host/job/output_file.hpp"
+#include "host/job/output_lock.hpp"
+#include "host/job/render_picture.hpp"
+#include "host/job/render_report.hpp"
+#include "host/message.hpp"
+#include "host/render/film_pictures.hpp"
+#include "host/render/identify.hpp"
+#include "host/text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <ostream>
+
+namespace glim {
+namespace {
+
+// `inputs`: files that are not to be overwritten.
+void checkTargets(const RenderJob& options, const std::vector<std::filesystem::path>& inputs)
+{
+    checkTarget(options.output, ".exr", inputs);
+    checkPictureTargets(options.pictures, inputs);
+    if (options.rates) {
+        checkTarget(*options.rates, ".png", inputs);
+    }
+    if (options.ids) {
+        checkTarget(*options.ids, ".exr", inputs);
+    }
+    if (options.stats) {
+        checkTarget(*options.stats, ".json", inputs);
+    }
+}
+
+// A picture with holes is better than none, but not better than an existing one.
+bool wouldRuin(const std::filesystem::path& output, const Film& film)
+{
+    std::error_code ignored;
+    return std::filesystem::exists(output, ignored) &&
+           std::any_of(film.pixels.begin(), film.pixels.end(), [](const PixelMoments& p) { return p.count == 0; });
+}
+
+std::string stopReason(int signal, const RenderedFilm& rendered, const RenderSettings& settings, bool isDone)
+{
+    const Film& film = rendered.film;
+    if (signal != 0) {
+        return nameOfSignal(signal);
+    }
+    if (rendered.isGood) {
+        return "target";
+    }
+    if (rendered.isUnknown) {
+        return "unknown error";
+    }
+    if (!isDone) {
+        return "time";
+    }
+    const bool calm = isCourse(settings.adaptive) && std::none_of(film.pixels.begin(), film.pixels.end(),
+                                                                  [&](const PixelMoments& p) { return p.count >= settings.sampleEnd; });
+    return calm ? "tolerance" : "samples";
+}
+
+// The look of the pictures, if there are any.
+std::optional<Look> drawFilm(const RenderJob& options, const Film& film)
+{
+    std::optional<Look> look;
+    if (options.pictures.areGiven()) {
+        look = chooseLook(options.look, film);
+        writePictures(options.pictures, film, *look);
+    }
+    if (options.rates) {
+        writeFilmPicture(*options.rates, film, Aov::SampleCount);
+    }
+    return look;
+}
+
+void writeFilmOf(const RenderJob& options, const RenderedFilm& rendered, const std::optional<Denoising>& denoising)
+{
+    if (denoising) {
+        writeFilm(options.output, rendered.film, {denoising->picture.radiance, denoising->picture.error, denoising->denoiser});
+    } else if (rendered.checkpoint) {
+        writeFilm(options.output, rendered.film, *rendered.checkpoint);
+    } else {
+        writeFilm(options.output, rendered.film);
+    }
+}
+
+RenderedFilm renderWatched(Renderer& renderer, const RenderJob& options, FilmDenoiser& denoiser, CheckpointWriter& writer,
+                           ProgressPrinter& progress, const InterruptWatch& watch)
+{
+    const auto observe = [&](const RenderProgress& now) {
+        progress.print(now, writer.lastWritten());
+        if (watch.signal() != 0) {
+            writer.abandon();
+        } else if (now.betweenPasses) {
+            writer.offer(renderer, watch.takeRequest());
+        }
+        return watch.signal() == 0;
+    };
+    return renderPicture(renderer, options, denoiser, observe, [&] { return watch.signal() != 0 || options.checkpoint.isGiven(); });
+}
+
+std::optional<ControlBias> measureBias(Renderer& renderer, const Film& film, const InterruptWatch& watch)
+{
+    if (renderer.settings().adaptive == Adaptive::Off) {
+        return std::nullopt;
+    }
+    const auto control = renderer.sampleControl(film, [&] { return watch.signal() == 0; });
+    return control ? estimateControlBias(film, *control) : std::nullopt;
+}
+
+// For what only informs: it can fail, and the render is none the worse for it.
+template <class Inform>
+auto tryTo(const char* purpose, Inform inform) -> decltype(inform())
+{
+    try {
+        return inform();
+    } catch (const std::exception& error) {
+        say(std::string("it was not possible to ") + purpose + ": " + reasonOf(error));
+        return decltype(inform())();
+    }
+}
+
+bool isThere(const std::filesystem::path& file)
+{
+    std::error_code ignored;
+    return std::filesystem::exists(file, ignored);
+}
+
+// Whether a film has all samples that were asked for. A checkpoint does not end at a target: it might reach one where nobody has looked.
+bool isWhole(const StoredFilm& stored, const RenderJob& options)
+{
+    const RenderSettings& settings = options.settings;
+    const Film& film = stored.film;
+    if (!film.complete) {
+        return false;
+    }
+    const bool resumes = options.checkpoint.resume;
+    if (isCourse(settings.adaptive) || (settings.seconds && !resumes)) {
+        return true;
+    }
+    const auto [begin, end] = film.sampleRanges.front();
+    const bool all = isNeighbours(settings.adaptive)
+                         ? computeRates(film).mean >= settings.sampleEnd
+                         : begin == settings.sampleBegin && (end == settings.sampleEnd || (resumes && end > settings.sampleEnd));
+    const bool mayBeShort = !stored.checkpoint && options.target.isGiven() && !options.target.denoised;
+    const double times = mayBeShort ? timesToTarget(film, options.target) : 2.0;
+    return all || times <= 1.0 || (std::isinf(times) && computeRates(film).mean >= kSamplesOfUnknownError);
+}
+
+}  // namespace
+
+// Renders one picture after another.
+class SequenceRenderer {
+public:
+    SequenceRenderer(const RenderJob& options, std::ostream& reports)
+        : reports_(reports),
+          session_(options)
+    {}
+
+    bool serves(const RenderJob& options) const { return session_.serves(options); }
+    ExitCode renderAll(const RenderJob& options, const InterruptWatch& watch);
+
+private:
+    RenderJob optionsOf(const Shot& shot) const;
+    ExitCode renderShot(const RenderJob& options);
+    std::optional<StoredFilm> readOutput(const RenderJob& options, const PictureFrame& frame) const;
+    bool keep(const RenderJob& options, const StoredFilm& stored) const;
+    std::optional<double> writeIdentities(const RenderJob& options, const FlatCamera& camera, const Film& film);
+    ExitCode writeShot(const RenderJob& options, const PictureFrame& frame, RenderedFilm rendered);
+
+    std::ostream& reports_;
+    RenderJob options_;
+    bool isSequence_ = false;
+    const InterruptWatch* watch_ = nullptr;  // of the request under way
+    SceneSession session_;
+    SequencePlace place_;
+    std::shared_ptr<const CameraRayKernels> rayKernels_;
+};
+
+RenderJob SequenceRenderer::optionsOf(const Shot& shot) const
+{
+    RenderJob options = options_;
+    if (isSequence_) {
+        options.output = numberedPath(options.output, shot.number);
+        for (std::optional<std::filesystem::path>* file :
+             {&options.pictures.png, &options.pictures.image, &options.rates, &options.ids, &options.stats}) {
+            *file = *file ? std::optional(numberedPath(**file, shot.number)) : std::nullopt;
+        }
+    }
+    options.at = shot.at;
+    options.camera = shot.camera;
+    options.pose = shot.pose;
+    return options;
+}
+
+ExitCode SequenceRenderer::renderAll(const RenderJob& options, const InterruptWatch& watch)
+{
+    options_ = options;
+    isSequence_ = isSequence(options.sequence, options);
+    session_.denoiser().open(options);
+    watch_ = &watch;
+    session_.pose(firstTime(options.sequence, options));
+    const std::vector<Shot> shots = listShots(options.sequence, options, session_.prepared().scene);
+    for (const Shot& shot : shots) {
+        checkTargets(optionsOf(shot), session_.prepared().scene.files);
+    }
+    if (options_.settings.aov == Aov::Radiance) {
+        warnIfNoLights(session_.prepared());
+    }
+    sayIfCameraIsNumber(session_.prepared().scene, options_.camera);
+    if (options_.pictures.areGiven() && options_.settings.aov == Aov::Radiance && !options_.look.tone) {
+        options_.look.tone = chooseTone(session_.prepared().scene);
+    }
+    place_ = {};
+    place_.count = shots.size();
+    for (const Shot& shot : shots) {
+        session_.pose(shot.at);
+        const ExitCode code = renderShot(optionsOf(shot));
+        if (code != ExitCode::Done) {
+            return code;
+        }
+        ++place_.index;
+    }
+    if (isSequence_) {
+        reports_ << place_.rendered << " of " << place_.count << " pictures rendered in " << std::fixed << std::setprecision(2)
+                 << place_.seconds << " s" << (place_.rendered < place_.count ? ", the others were there\n" : "\n");
+    }
+    return ExitCode::Done;
+}
+
+ExitCode SequenceRenderer::renderShot(const RenderJob& options)
+{
+    const auto start = std::chrono::steady_clock::now();
+    const PictureFrame frame = framePicture(session_, options);
+    if (watch_->signal() != 0) {
+        return finish(watch_->signal(), place_.rendered == 0 ? "nothing was rendered or written"
+                                                             : options.output.string() + " and what follows was not rendered");
+    }
+    const OutputLock lock(options.output);
+    std::optional<StoredFilm> stored;
+    if (isSequence_ || options.checkpoint.resume) {
+        stored = readOutput(options, frame);
+    }
+    if (stored && keep(options, *stored)) {
+        return ExitCode::Done;
+    }
+    Renderer& renderer = session_.begin(frame.camera, frame.settings);
+    if (stored && options.checkpoint.resume) {
+        resumeFrom(renderer, *std::move(stored), options.output.string());
+    }
+    stored.reset();
+    CheckpointWriter writer(options.checkpoint, options.output, [&options](Film& film) { labelFilm(film, options); });
+    ProgressPrinter progress(options.progress, frame.settings.seconds, frame.settings.pixelCount(), place_);
+    RenderedFilm rendered;
+    try {
+        rendered = renderWatched(renderer, options, session_.denoiser(), writer, progress, *watch_);
+    } catch (const DeviceError& error) {
+        progress.finish();
+        writer.finish();
+        const auto kept = writer.lastWritten();
+        throw DeviceError(error.what() + (kept ? " " + options.output.string() + " has the last checkpoint, of " +
+                                                     exactText(std::round(100.0 * kept->samplesPerPixel) / 100.0) + " samples per pixel."
+                                               : std::string()));
+    }
+    progress.finish();
+    writer.abandon();
+    writer.finish();
+    const ExitCode code = writeShot(options, frame, std::move(rendered));
+    ++place_.rendered;
+    place_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return code;
+}
+
+// The film at --output, if it is of this picture. A film that cannot be resumed is refused; others are rendered anew.
+std::optional<StoredFilm> SequenceRenderer::readOutput(const RenderJob& options, const PictureFrame& frame) const
+{
+    if (!isThere(options.output)) {
+        return std::nullopt;
+    }
+    StoredFilm stored;
+    try {
+        stored = readStoredFilm(options.output);
+    } catch (const InputError&) {
+        if (options.checkpoint.resume) {
+            throw;
+        }
+        return std::nullopt;
+    }
+    const std::string difference = describeOther(stored.film, session_, frame, options);
+    if (!difference.empty() && options.checkpoint.resume) {
+        throw InputError(options.output.string() + ": cannot be resumed: " + difference + ".");
+    }
+    return difference.empty() ? std::optional(std::move(stored)) : std::nullopt;
+}
+
+// Keeps a film that is whole already; its PNGs may be of another exposure, and are drawn again.
+bool SequenceRenderer::keep(const RenderJob& options, const StoredFilm& stored) const
+{
+    if (!isWhole(stored, options) || (options.ids && !isThere(*options.ids)) || (options.stats && !isThere(*options.stats))) {
+        return false;
+    }
+    if (!options.denoise) {
+        drawFilm(options, stored.film);
+    } else if (const auto radiance = readDenoised(options.output)) {
+        drawFilm(options, showDenoised(stored.film, *radiance));
+    } else {
+        return false;
+    }
+    reports_ << escaped(options.output.string()) << ": is whole and was kept\n";
+    return true;
+}
+
+// Seconds that it took, if it was asked for.
+std::optional<double> SequenceRenderer::writeIdentities(const RenderJob& options, const FlatCamera& camera, const Film& film)
+{
+    if (!options.ids) {
+        return std::nullopt;
+    }
+    const auto start = std::chrono::steady_clock::now();
+    Identifier identifier(session_.renderer(), session_.prepared(), camera, rayKernels_);
+    writeIds(*options.ids, identifier, film);
+    rayKernels_ = identifier.kernels();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+ExitCode SequenceRenderer::writeShot(const RenderJob& options, const PictureFrame& frame, RenderedFilm rendered)
+{
+    Film& film = rendered.film;
+    if (watch_->signal() != 0 && session_.renderer().statistics().samples == 0) {
+        return finish(watch_->signal(), "no sample was finished, and nothing is written");
+    }
+    if (watch_->signal() != 0 && wouldRuin(options.output, film)) {
+        return finish(watch_->signal(), "some pixels had no sample yet, so " + options.output.string() + " is left as it was");
+    }
+    labelFilm(film, options);
+    const std::optional<Denoising>& denoising = rendered.denoising;
+    const auto start = std::chrono::steady_clock::now();
+    writeFilmOf(options, rendered, denoising);
+    const std::optional<Look> look = drawFilm(options, denoising ? showDenoised(film, denoising->picture.radiance) : film);
+    const double writeSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    warnIfUnknown(rendered);
+    if (options.denoise && !denoising && !rendered.denoisingError) {
+        say("the picture is not denoised: " +
+            std::string(watch_->signal() == 0 ? "too few samples were finished" : "the render was ended"));
+    }
+    const std::optional<double> idSeconds = writeIdentities(options, frame.camera, film);
+    // Before the control, whose samples are no suspects.
+    std::vector<Suspect> suspects = tryTo("find the brightest samples", [&] { return findSuspects(session_.renderer(), film); });
+    const auto bias = tryTo("measure the bias", [&] { return measureBias(session_.renderer(), film, *watch_); });
+    const RenderReport report{options,
+                              session_.prepared(),
+                              film,
+                              look,
+                              session_.renderer().statistics(),
+                              session_.device().description(),
+                              stopReason(watch_->signal(), rendered, frame.settings, session_.renderer().isDone()),
+                              writeSeconds,
+                              idSeconds,
+                              std::move(suspects),
+                              bias,
+                              denoising};
+    if (options.stats) {
+        writeStatistics(*options.stats, report);
+    }
+    tryTo("report on the film", [&] { printSummary(report, reports_); });
+    if (rendered.denoisingError) {
+        std::rethrow_exception(rendered.denoisingError);
+    }
+    return finish(watch_->signal(), "what was finished is in " + options.output.string());
+}
+
+RenderSession::RenderSession(std::ostream& reports)
+    : reports_(reports)
+{}
+RenderSession::~RenderSession() = default;
+
+ExitCode RenderSession::render(const RenderJob& options)
+{
+    checkTargets(options, {options.scene});
+    const InterruptWatch watch;
+    std::unique_ptr<SequenceRenderer> renderer = std::move(renderer_);  // none stays if anything is thrown
+    if (!renderer || !renderer->serves(options)) {
+        renderer.reset();  // so that no two scenes are on the device
+        renderer = std::make_unique<SequenceRenderer>(options, reports_);
+    }
+    const ExitCode code = renderer->renderAll(options, watch);
+    renderer_ = std::move(renderer);
+    return code;
+}
+
+}  // namespace glim

@@ -1,0 +1,344 @@
+#include "host/job/resolve_options.hpp"
+
+#include "host/image/picture_file.hpp"
+#include "host/job/parse.hpp"
+#include "host/text.hpp"
+#include "shaders/shared/limits.h"
+
+#include <algorithm>
+#include <span>
+
+namespace glim {
+namespace {
+
+constexpr std::uint32_t kAovSamples = 4, kMaxSpp = 2048;
+constexpr std::uint64_t kMaxCounter = std::uint64_t{1} << 32;  // sample index * light samples + light sample
+
+[[noreturn]] void refuse(const OptionTable& table, const std::string& option, const std::string& why)
+{
+    throw UsageError(option, inQuotes(table.textOf(option)) + ": " + why);
+}
+
+void refuseIfGiven(const OptionTable& table, const std::string& option, const std::string& why)
+{
+    if (table.isGiven(option)) {
+        refuse(table, option, why);
+    }
+}
+
+// Options that mean nothing, or cannot be had, where something else is asked for.
+template <class Asked>
+struct Rule {
+    std::vector<const char*> options;
+    bool (*excludedBy)(const Asked&);
+    const char* why;  // {--view} stands for that option's value
+};
+
+bool isOfAov(const PictureOptions& picture) { return picture.settings.aov != Aov::Radiance; }
+bool isOfAovWithoutExposure(const PictureOptions& picture) { return isOfAov(picture) && picture.settings.aov != Aov::Albedo; }
+bool isByCourse(const PictureOptions& picture) { return isCourse(picture.settings.adaptive); }
+bool isNotByCourse(const PictureOptions& picture) { return !isByCourse(picture); }
+bool isByNeighbours(const PictureOptions& picture) { return isNeighbours(picture.settings.adaptive); }
+bool isWithoutBvh(const PictureOptions& picture) { return picture.settings.course.accelerator == Accelerator::None; }
+bool isOfRows(const PictureOptions& picture) { return picture.settings.rows.has_value(); }
+bool hasOneLightSample(const PictureOptions& picture)
+{
+    return picture.settings.course.direct == DirectLight::Mis || picture.settings.course.direct == DirectLight::Bsdf;
+}
+
+const Rule<PictureOptions> kPictureRules[] = {
+    {{"--bounces", "--direct", "--light-samples", "--paths", "--roulette", "--clamp-indirect", "--caustics", "--adaptive", "--rates",
+      "--suspects", "--target-rmse", "--target-relmse", "--tone"},
+     isOfAov,
+     "has no effect with --view {--view}"},
+    {{"--exposure"}, isOfAovWithoutExposure, "has no effect with --view {--view}"},
+    {{"--tolerance", "--batch", "--max-spp"}, isNotByCourse, "has an effect only with --adaptive course or course:literal"},
+    {{"--spp", "--samples"}, isByCourse, "--adaptive course itself chooses the samples; expected --max-spp as their limit"},
+    {{"--samples"}, isByNeighbours, "--adaptive itself chooses the samples; expected --spp as their mean"},
+    {{"--light-samples"}, hasOneLightSample, "has an effect only with --direct lights or --direct hemisphere"},
+    {{"--split"}, isWithoutBvh, "with --accelerator none there is no BVH to split"},
+    {{"--checkpoint", "--resume"},
+     isByCourse,
+     "a pixel of --adaptive course stops by its luminances, which no film holds; expected --adaptive off or neighbours"},
+    {{"--target-rmse", "--target-relmse"}, isByCourse, "--adaptive course has a rule of its own; expected --adaptive neighbours or off"},
+    {{"--adaptive", "--target-rmse", "--target-relmse"}, isOfRows, "looks at the whole picture; expected no --rows"},
+    {{"--ids", "--suspects", "--replay"}, isOfRows, "is of the whole picture; expected no --rows"},
+};
+
+bool isReplay(const RenderJob& job) { return job.replay.has_value(); }
+bool isWithoutCheckpoints(const RenderJob& job) { return !job.checkpoint.isGiven(); }
+bool isWithoutTarget(const RenderJob& job) { return !job.target.isGiven(); }
+bool isDenoised(const RenderJob& job) { return job.denoise; }
+bool listsSuspects(const RenderJob& job) { return job.settings.suspects > 0; }
+bool isByAllCameras(const RenderJob& job) { return job.camera == "all"; }
+bool isReplayOfSequence(const RenderJob& job) { return isReplay(job) && isSequence(job.sequence, job); }
+
+const Rule<RenderJob> kRenderRules[] = {
+    {{"--output", "--png", "--image", "--rates", "--ids", "--progress", "--time", "--suspects", "--target-rmse", "--target-relmse",
+      "--checkpoint", "--resume"},
+     isReplay,
+     "has no effect with --replay, which makes no picture"},
+    {{"--replay"}, isReplayOfSequence, "expected the options of one picture"},
+    {{"--frames", "--look-from"}, isByAllCameras, "has one camera; expected its name or index as --camera"},
+    {{"--on-checkpoint"}, isWithoutCheckpoints, "without --checkpoint or --resume there are no checkpoints"},
+    {{"--resume"}, listsSuspects, "the brightest samples of earlier runs are not kept; expected no --suspects"},
+    {{"--denoised"}, isWithoutTarget, "says what --target-rmse or --target-relmse is of; expected one of them"},
+    {{"--rows"}, isDenoised, "has no rows around it, which --denoise needs; expected the whole picture"},
+    {{"--checkpoint", "--resume"}, isDenoised, "keeps no halves of the samples, which --denoise needs"},
+    {{"--replay"}, isDenoised, "makes no picture; expected no --denoise"},
+};
+
+std::string withValues(const OptionTable& table, std::string why)
+{
+    for (std::size_t begin = why.find('{'); begin != std::string::npos; begin = why.find('{')) {
+        const std::size_t end = why.find('}', begin);
+        why.replace(begin, end + 1 - begin, table.textOf(why.substr(begin + 1, end - begin - 1)));
+    }
+    return why;
+}
+
+template <class Asked>
+void apply(std::span<const Rule<Asked>> rules, const OptionTable& table, const Asked& asked)
+{
+    for (const Rule<Asked>& rule : rules) {
+        for (const char* option : rule.options) {
+            if (table.isGiven(option) && rule.excludedBy(asked)) {
+                refuse(table, option, withValues(table, rule.why));
+            }
+        }
+    }
+}
+
+void resolveAov(const OptionTable& table, RenderSettings& settings)
+{
+    if (settings.aov == Aov::Radiance) {
+        return;
+    }
+    if (settings.aov == Aov::BvhSteps && settings.course.accelerator == Accelerator::None) {
+        refuse(table, "--view", "with --accelerator none there is no BVH; expected --accelerator bvh");
+    }
+    settings.bounces = 0;
+    if (!table.isGiven("--spp") && !table.isGiven("--samples")) {
+        settings.sampleEnd = kAovSamples;
+    }
+}
+
+void resolveCourse(const OptionTable& table, RenderSettings& settings)
+{
+    if (settings.sampler == Sampler::Sobol) {
+        refuseIfGiven(table, "--sampler", "the statistics of --adaptive course assume independent samples; expected --sampler independent");
+    }
+    settings.sampler = Sampler::Independent;
+    settings.sampleEnd = table.isGiven("--max-spp") ? settings.sampleEnd : kMaxSpp;
+    if (settings.course.batch > settings.sampleEnd) {
+        refuseIfGiven(table, "--batch", "expected at most --max-spp, which is " + std::to_string(settings.sampleEnd));
+        refuse(table, "--max-spp", "expected at least --batch, which is " + std::to_string(settings.course.batch));
+    }
+}
+
+// The default is four times the samples that every pixel gets first.
+void resolveNeighbours(const OptionTable& table, RenderSettings& settings)
+{
+    if (settings.sampleEnd <= kPilotSamples) {
+        refuseIfGiven(table, "--spp",
+                      "--adaptive neighbours begins with " + std::to_string(kPilotSamples) + " samples of every pixel; expected more");
+    }
+    settings.sampleEnd = table.isGiven("--spp") ? settings.sampleEnd : 4 * kPilotSamples;
+}
+
+void resolveAdaptive(const OptionTable& table, RenderSettings& settings)
+{
+    if (isNeighbours(settings.adaptive)) {
+        resolveNeighbours(table, settings);
+    }
+    if (isCourse(settings.adaptive)) {
+        resolveCourse(table, settings);
+    }
+}
+
+void resolveTime(const OptionTable& table, RenderSettings& settings)
+{
+    if (settings.seconds && !isCourse(settings.adaptive) && !table.isGiven("--samples")) {
+        settings.sampleEnd = mostSamples(settings);
+    }
+}
+
+bool hasSampleCount(const OptionTable& table) { return table.isGiven("--spp") || table.isGiven("--samples"); }
+
+// Any sample may be replayed, unless other options limit the samples.
+void resolveReplay(const OptionTable& table, RenderJob& job)
+{
+    if (!job.replay) {
+        return;
+    }
+    if (job.settings.aov != Aov::Radiance) {
+        refuse(table, "--view", "has no light paths to replay; expected --view shaded");
+    }
+    RenderSettings& settings = job.settings;
+    if (isNeighbours(settings.adaptive) || (!hasSampleCount(table) && settings.adaptive == Adaptive::Off)) {
+        settings.sampleBegin = job.replay->sample;
+        settings.sampleEnd = job.replay->sample + 1;
+    }
+    if (job.replay->sample < settings.sampleBegin || job.replay->sample >= settings.sampleEnd) {
+        refuse(table, "--replay",
+               "expected one of the samples that the other options ask for, " + std::to_string(settings.sampleBegin) + " to " +
+                   std::to_string(settings.sampleEnd - 1));
+    }
+}
+
+void checkLightSamples(const OptionTable& table, const RenderSettings& settings)
+{
+    if (std::uint64_t{settings.sampleEnd} * settings.course.lightSamples > kMaxCounter) {
+        refuse(table, "--light-samples",
+               "times " + std::to_string(settings.sampleEnd) + " samples per pixel is more than 2^32; expected at most " +
+                   std::to_string(kMaxCounter / settings.sampleEnd));
+    }
+}
+
+// Refuses what would be black in every scene.
+void checkPaths(const OptionTable& table, const RenderSettings& settings)
+{
+    const std::uint32_t least = settings.paths == PathParts::Direct ? 1 : settings.paths == PathParts::Indirect ? 2 : 0;
+    if (settings.bounces < least) {
+        refuseIfGiven(table, "--bounces",
+                      "leaves nothing of --paths " + table.textOf("--paths") + "; expected at least " + std::to_string(least));
+    }
+}
+
+// Without another limit only the target ends the render.
+void resolveTarget(const OptionTable& table, RenderJob& job)
+{
+    if (!job.target.isGiven()) {
+        return;
+    }
+    if (!hasSampleCount(table)) {
+        job.settings.sampleEnd = mostSamples(job.settings);
+    }
+    const std::uint32_t least = leastSamplesForError(job.settings.sampleBegin);
+    if (job.settings.sampleEnd - job.settings.sampleBegin < least) {
+        for (const char* option : {"--target-rmse", "--target-relmse"}) {
+            refuseIfGiven(table, option, "the error is estimated from " + std::to_string(least) + " samples on; expected at least as many");
+        }
+    }
+}
+
+void resolveDenoise(const OptionTable& table, RenderJob& job)
+{
+    if (!job.denoise) {
+        return;
+    }
+    const RenderSettings& settings = job.settings;
+    if (settings.aov != Aov::Radiance) {
+        refuse(table, "--view", "has next to no noise; expected no --denoise");
+    }
+    if (settings.adaptive != Adaptive::Off) {
+        refuse(table, "--adaptive", "gives pixels samples that are no two independent halves, which --denoise needs");
+    }
+    const std::uint32_t least = leastSamplesForError(settings.sampleBegin), samples = settings.sampleEnd - settings.sampleBegin;
+    if (samples < least) {
+        refuse(table, table.isGiven("--samples") ? "--samples" : "--spp",
+               "--denoise needs two blocks of samples; expected " + std::to_string(least) + " or more");
+    }
+    job.settings.halves = true;
+}
+
+// Whether two outputs are one file, at least with some number: a#.exr and a##.exr are with 10.
+bool mayBeSame(const std::filesystem::path& a, const std::filesystem::path& b)
+{
+    const auto withoutRun = [](const std::filesystem::path& path) {
+        std::string name = path.lexically_normal().string();
+        name.erase(std::unique(name.begin(), name.end(), [](char x, char y) { return x == '#' && y == '#'; }), name.end());
+        return name;
+    };
+    return withoutRun(a) == withoutRun(b);
+}
+
+// The options that name the files of a picture.
+constexpr const char* kOutputs[] = {"--output", "--png", "--image", "--rates", "--ids", "--stats"};
+
+void checkNames(const OptionTable& table, const RenderJob& job)
+{
+    if (!isSequence(job.sequence, job)) {
+        return;
+    }
+    for (const char* output : kOutputs) {
+        if (!table.isGiven(output)) {
+            continue;
+        }
+        const std::string name = std::filesystem::path(table.textOf(output)).filename().string();
+        const std::size_t begin = name.find('#');
+        if (begin == std::string::npos || name.find('#', name.find_first_not_of('#', begin)) != std::string::npos) {
+            refuse(table, output, "names one file for several pictures; expected one run of # in its name, as in out.####.exr");
+        }
+    }
+}
+
+void checkFiles(const OptionTable& table, const RenderJob& job)
+{
+    resolvePictureFiles(table, job.pictures);
+    const auto &image = job.pictures.image, &png = job.pictures.png;
+    if (image && ((png && mayBeSame(*image, *png)) || (job.rates && mayBeSame(*image, *job.rates)))) {
+        refuse(table, "--image", "expected another file than those of --png and --rates");
+    }
+    const std::uint32_t longest = image ? longestSide(*pictureKindOf(*image)) : kMaxSide;
+    if (job.size && std::max(job.size->x, job.size->y) > longest) {
+        refuse(table, "--image",
+               "files of this kind hold at most " + std::to_string(longest) + " pixels a side; expected a smaller --size");
+    }
+    if (png && job.rates && mayBeSame(*png, *job.rates)) {
+        refuse(table, "--rates", "expected another file than that of --png");
+    }
+    if (job.ids && mayBeSame(*job.ids, job.output)) {
+        refuse(table, "--ids", "expected another file than that of --output");
+    }
+}
+
+}  // namespace
+
+void resolveAnimation(const OptionTable& table, bool hasTime)
+{
+    if (!hasTime) {
+        refuseIfGiven(table, "--animation", "without a time nothing is played; expected --at");
+    }
+}
+
+std::uint32_t mostSamples(const RenderSettings& settings)
+{
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(kMaxSample, kMaxCounter / settings.course.lightSamples));
+}
+
+void resolvePicture(const OptionTable& table, PictureOptions& picture)
+{
+    resolveAnimation(table, picture.at.has_value());
+    apply<PictureOptions>(kPictureRules, table, picture);
+    resolveAdaptive(table, picture.settings);
+    resolveTime(table, picture.settings);
+    checkLightSamples(table, picture.settings);
+    checkPaths(table, picture.settings);
+}
+
+void resolveLight(const OptionTable& table, const PictureOptions& picture)
+{
+    apply<PictureOptions>(kPictureRules, table, picture);
+    checkLightSamples(table, picture.settings);
+    checkPaths(table, picture.settings);
+}
+
+void resolveRender(const OptionTable& table, RenderJob& job)
+{
+    resolveAnimation(table, job.at || job.sequence.frames);
+    apply<PictureOptions>(kPictureRules, table, job);
+    apply<RenderJob>(kRenderRules, table, job);
+    checkNames(table, job);
+    resolveAov(table, job.settings);
+    resolveAdaptive(table, job.settings);
+    resolveTime(table, job.settings);
+    resolveReplay(table, job);
+    resolveTarget(table, job);
+    checkLightSamples(table, job.settings);
+    checkPaths(table, job.settings);
+    resolveDenoise(table, job);
+    checkFiles(table, job);
+}
+
+}  // namespace glim

@@ -1,0 +1,93 @@
+#include "host/job/scene_session.hpp"
+
+#include "host/job/fastest_schedule.hpp"
+
+#include <algorithm>
+
+namespace glim {
+namespace {
+
+LoadOptions loadOptionsFor(const RenderJob& options)
+{
+    LoadOptions load = loadOptionsOf(options);
+    load.framed = load.framed || options.sequence.turntable > 0;
+    load.at.reset();  // pose() says when
+    return load;
+}
+
+// Without what may differ between two pictures of one session.
+RenderSettings lastingSettings(RenderSettings settings)
+{
+    const RenderSettings other;
+    settings.rows = other.rows;
+    settings.sampleBegin = other.sampleBegin;
+    settings.sampleEnd = other.sampleEnd;
+    settings.seconds = other.seconds;
+    settings.seed = other.seed;
+    return settings;
+}
+
+}  // namespace
+
+SceneSession::SceneSession(const RenderJob& options)
+    : options_(options),
+      device_(instance_, options.device),
+      file_(options.scene, loadOptionsFor(options)),
+      time_(firstTime(options.sequence, options)),
+      prepared_(prepareScene(file_, time_, options.split)),
+      stamps_(stampsOf(prepared_.scene.files))
+{}
+
+std::vector<SceneSession::Stamp> SceneSession::stampsOf(const std::vector<std::filesystem::path>& files)
+{
+    std::vector<Stamp> stamps;
+    std::error_code gone;
+    for (const std::filesystem::path& file : files) {
+        stamps.emplace_back(std::filesystem::last_write_time(file, gone), std::filesystem::file_size(file, gone));
+    }
+    return stamps;
+}
+
+bool SceneSession::serves(const RenderJob& options) const
+{
+    LoadOptions load = loadOptionsFor(options);
+    const LoadOptions mine = loadOptionsFor(options_);
+    if (std::ranges::none_of(prepared_.scene.cameras, [](const Camera& camera) { return camera.name == "framed"; })) {
+        load.aspectRatio = mine.aspectRatio;
+    }
+    const bool sameScene =
+        options.scene == options_.scene && load == mine && options.split == options_.split && stamps_ == stampsOf(prepared_.scene.files);
+    const bool sameLens = (options.lens.radius > 0.0F) == (options_.lens.radius > 0.0F);
+    return sameScene && sameLens && options.device == options_.device &&
+           lastingSettings(options.settings) == lastingSettings(options_.settings);
+}
+
+void SceneSession::pose(std::optional<double> time)
+{
+    if (time != time_) {
+        prepared_ = prepareScene(file_, time, options_.split, std::move(prepared_));
+        time_ = time;
+        isSceneNew_ = true;
+    }
+}
+
+Renderer& SceneSession::begin(const FlatCamera& camera, RenderSettings settings)
+{
+    if (!renderer_ || renderer_->settings().rows != settings.rows) {
+        renderer_.reset();  // so that no two are on the device
+        settings.fastest =
+            fastestSchedule(device_.description(), settings, [&] { return measureSchedules(device_, prepared_.flat, camera, settings); });
+        renderer_.emplace(device_, prepared_.flat, camera, settings);
+    } else if (isSceneNew_ || !renderer_->serves(prepared_.flat, camera)) {
+        renderer_->setSampling(settings);
+        renderer_->restart(prepared_.flat, camera, settings.width, settings.height);
+    } else {
+        renderer_->clearStatistics();
+        renderer_->setSampling(settings);
+        renderer_->restart(camera, settings.width, settings.height);
+    }
+    isSceneNew_ = false;
+    return *renderer_;
+}
+
+}  // namespace glim

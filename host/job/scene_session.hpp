@@ -1,0 +1,50 @@
+// A scene on a device, for one picture after another.
+#pragma once
+
+#include "host/job/denoising.hpp"
+#include "host/job/render_job.hpp"
+#include "host/render/prepare_scene.hpp"
+#include "host/render/renderer.hpp"
+
+#include <utility>
+
+namespace glim {
+
+class SceneSession {
+public:
+    // Reads the scene at the time of the first picture that the options ask for. Throws InputError, or DeviceError without a usable device.
+    explicit SceneSession(const RenderJob& options);
+
+    // Whether it can render what these options ask for: they differ from its own in nothing but samples, seed, size, rows, camera, time
+    // and outputs, and no file of the scene has changed.
+    bool serves(const RenderJob& options) const;
+
+    // The scene at another time.
+    void pose(std::optional<double> time);
+    // The renderer, at the beginning of a picture. It is a new one if other rows are asked for. A new one for a long picture measures which
+    // schedule is the faster one.
+    Renderer& begin(const FlatCamera& camera, RenderSettings settings);
+
+    const PreparedScene& prepared() const { return prepared_; }
+    const Device& device() const { return device_; }
+    Renderer& renderer() { return *renderer_; }  // after the first begin()
+    FilmDenoiser& denoiser() { return denoiser_; }
+
+private:
+    using Stamp = std::pair<std::filesystem::file_time_type, std::uintmax_t>;  // last write and length
+
+    static std::vector<Stamp> stampsOf(const std::vector<std::filesystem::path>& files);
+
+    RenderJob options_;
+    VulkanInstance instance_;
+    Device device_;
+    SceneFile file_;
+    std::optional<double> time_;
+    PreparedScene prepared_;
+    std::vector<Stamp> stamps_;
+    std::optional<Renderer> renderer_;
+    FilmDenoiser denoiser_;
+    bool isSceneNew_ = true;  // to the renderer
+};
+
+}  // namespace glim

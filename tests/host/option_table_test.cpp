@@ -1,0 +1,107 @@
+// What sets options by text and by value, and what is refused.
+#include "host/job/option_table.hpp"
+#include "host/job/parse.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+namespace glim {
+namespace {
+
+using test::expectRefusal;
+
+// Options of each kind, and what they store.
+class OptionTableTest : public ::testing::Test {
+protected:
+    OptionTableTest()
+    {
+        const Option size = table_.add("-s,--size", "WxH", "", [this](const OptionValue& value) { size_ = parseSize(value); });
+        addNumber<std::uint32_t>(table_, {"--spp", "N", "", 1, 1000000, ""}, [this](std::uint32_t count) { spp_ = count; }).needs(size);
+        addNumber<double>(table_, {"--time", "S", "", 0.0, 1e30, ""}, [this](double seconds) {
+            time_ = seconds;
+        }).excludes(table_.option("--spp"));
+        addChoice(table_, "--back-faces", "B", "", {"off", "on"}, [this](std::size_t i) { choice_ = i; });
+        table_.addFlag("--confine", "", confined_);
+        table_.addPath("file,SCENE", "F", "", file_).require();
+    }
+    void set(const std::string& name, const std::string& json) { table_.set(name, OptionValue(*Json::parse(json))); }
+    void expectRefused(const std::string& name, const std::string& json, const std::string& part)
+    {
+        expectRefusal<UsageError>([&] { set(name, json); }, part);
+    }
+
+    OptionTable table_;
+    glm::uvec2 size_{0};
+    std::uint32_t spp_ = 0;
+    double time_ = 0.0;
+    std::size_t choice_ = 9;
+    bool confined_ = false;
+    std::filesystem::path file_;
+};
+
+TEST_F(OptionTableTest, TextsAndValuesSayTheSame)
+{
+    for (const char* size : {R"("640x480")", "[640, 480]", R"(["640", 480.0])"}) {
+        size_ = glm::uvec2(0);
+        set("size", size);
+        EXPECT_EQ(size_, glm::uvec2(640, 480)) << size;
+    }
+    for (const char* count : {R"("17")", "17", "17.0", "[17]"}) {
+        spp_ = 0;
+        set("--spp", count);
+        EXPECT_EQ(spp_, 17U) << count;
+    }
+    set("spp", "100000");
+    EXPECT_EQ(spp_, 100000U);
+    for (const auto& [text, choice] : {std::pair(R"("on")", 1U), {"false", 0U}, {"true", 1U}}) {
+        set("back_faces", text);
+        EXPECT_EQ(choice_, choice) << text;
+    }
+    for (const double seconds : {1e22, 0.1, 3.0, 100000.0}) {
+        table_.set("time", OptionValue(Json(seconds)));
+        EXPECT_EQ(time_, seconds);
+    }
+    EXPECT_EQ(parsePercent("", OptionValue("1%")), parsePercent("", OptionValue(Json(0.01))));
+    EXPECT_EQ(parseDuration("", OptionValue("2m")), parseDuration("", OptionValue(Json(120))));
+}
+
+TEST_F(OptionTableTest, FlagsThatAreFalseAreNotGiven)
+{
+    set("confine", "false");
+    EXPECT_FALSE(confined_ || table_.isGiven("--confine"));
+    set("confine", "true");
+    EXPECT_TRUE(confined_ && table_.isGiven("--confine"));
+    EXPECT_FALSE(table_.isGiven("--nowhere"));
+}
+
+TEST_F(OptionTableTest, WhatIsNoValueIsRefused)
+{
+    expectRefused("spp", "true", R"(--spp: "true": expected a whole number from 1 to 1000000)");
+    expectRefused("spp", "1.5", R"("1.5": expected a whole number)");
+    expectRefused("spp", "-1", R"("-1": expected a whole number)");
+    expectRefused("spp", "null", "null: expected a text, a number, true, false, or a list");
+    expectRefused("size", R"({"x": 1})", R"({"x":1}: expected a text)");
+    expectRefused("size", "[[640], 480]", "expected a text, a number");
+    expectRefused("size", "[640]", R"("640": expected WIDTHxHEIGHT)");
+    expectRefused("confine", "2", R"("2": expected true or false)");
+    expectRefused("bounces", "2", R"("bounces": there is no such option)");
+    expectRefused("file", R"("a\u0000b")", R"("a\x00b" has a null character)");
+    EXPECT_FALSE(table_.isGiven("--spp") || table_.isGiven("--size"));
+}
+
+TEST_F(OptionTableTest, WhatDoesNotGoTogetherIsRefused)
+{
+    const auto expectUnfinished = [this](const std::string& part) { expectRefusal<UsageError>([this] { table_.finish(); }, part); };
+    expectUnfinished("SCENE is required");
+    set("file", R"("a.gltf")");
+    set("spp", "4");
+    expectUnfinished("--spp requires --size");
+    set("-s", R"("8x8")");
+    table_.finish();
+    set("time", "2");
+    expectUnfinished("--spp excludes --time");
+    EXPECT_EQ(table_.wordsGiven({"--time"}), (std::vector<std::string>{"--size=8x8", "--spp=4"}));
+}
+
+}  // namespace
+}  // namespace glim
