@@ -9,11 +9,11 @@ namespace glim {
 // find, and shadow rays, which end before a lamp, find the light of all. The order is: lamps before other surfaces, then the lower
 // primitive. Adds warnings of what it has changed.
 //
-// Leaves out emitting triangles in the same place as one that comes before them and hides them, by a hash of their vertices, and spheres that
-// an emitting one in the same place hides.
-// Then moves emitting triangles that overlap another triangle in its plane by some roundings of their place to their front, those that come
-// first farthest. A double-sided one is moved to both sides, as two triangles. Emission by a texture moves nothing, for it may be black
-// there, and neither do double-sided lamps that light passes. Nothing is moved where the search would take 1e8 comparisons of boxes.
+// Leaves out emitting triangles in the same place as one that comes before them and hides them, by a hash of their vertices, and spheres
+// that an emitting one in the same place hides. Then moves emitting triangles that overlap another triangle in its plane by some roundings
+// of their place to their front, those that come first farthest. A double-sided one is moved to both sides, as two triangles. Emission by a
+// texture moves nothing, for it may be black there, and neither do double-sided lamps that light passes. Nothing is moved where the search
+// would take 1e8 comparisons of boxes.
 void liftLamps(const Scene& scene, Primitives& primitives);
 
 }  // namespace glim

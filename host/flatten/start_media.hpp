@@ -8,7 +8,8 @@ namespace glim {
 // The camera with the media of its rays (FlatCamera::media).
 FlatCamera placeInMedia(FlatCamera camera, const FlatScene& flat);
 
-// Whether the box around all lamps meets that around all solids of a medium: then light paths have to look for the media that they begin in.
+// Whether the box around all lamps meets that around all solids of a medium: then light paths have to look for the media that they begin
+// in.
 bool mayLampsBeInMedia(const FlatScene& flat);
 
 }  // namespace glim
