@@ -46,7 +46,7 @@ void refuseFork()
 constexpr const char* kRefused[] = {"--png",           "--image",    "--rates",  "--ids",       "--stats",   "--checkpoint", "--resume",
                                     "--on-checkpoint", "--progress", "--frames", "--turntable", "--cameras", "--replay",     "--suspects"};
 
-// Of bytes, a truth, a number, or a list of bytes and numbers (glim/_options.py).
+// Of bytes, a truth, a number, a list of bytes and numbers, or a dictionary of these (glim/_options.py).
 Json valueOf(nb::handle value)
 {
     if (nb::isinstance<nb::bool_>(value)) {
@@ -62,6 +62,13 @@ Json valueOf(nb::handle value)
         const auto bytes = nb::cast<nb::bytes>(value);
         return std::string(bytes.c_str(), bytes.size());
     }
+    if (nb::isinstance<nb::dict>(value)) {
+        Json object = Json::object();
+        for (const auto& [name, member] : nb::cast<nb::dict>(value)) {
+            object.set(nb::cast<std::string>(name), valueOf(member));
+        }
+        return object;
+    }
     Json list = Json::array();
     for (const nb::handle element : nb::cast<nb::list>(value)) {
         list.append(valueOf(element));
@@ -76,7 +83,7 @@ RenderJob jobOf(const nb::dict& values)
     addJobOptions(table, job);
     table.option("--output").require(false);
     for (const auto& [name, value] : values) {
-        table.set(nb::cast<std::string>(name), OptionValue(valueOf(value)));
+        table.set(nb::cast<std::string>(name), valueOf(value));
     }
     for (const char* name : kRefused) {
         if (table.isGiven(name)) {

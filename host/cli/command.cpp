@@ -103,14 +103,15 @@ void addOption(CLI::App& app, HelpFormatter& formatter, OptionTable& table, cons
     for (const std::string& name : entry.isArgument() ? std::vector{entry.name()} : entry.names) {
         names += (names.empty() ? "" : ",") + name;
     }
-    const auto set = [&table, name = entry.name()](const std::string& text) { table.set(name, text); };
+    const auto set = [&table, name = entry.name()](const std::string& text) { table.set(name, OptionValue(text)); };
     CLI::Option* option = nullptr;
     if (entry.isFlag()) {
         option = app.add_flag_function(
             names, [set](std::int64_t count) { set(count > 0 ? "true" : "false"); }, entry.help);
-    } else if (entry.isMany) {
+    } else if (entry.takes != OptionTable::Entry::Takes::One) {
         option = app.add_option_function<std::vector<std::string>>(
             names, [set](const std::vector<std::string>& texts) { std::ranges::for_each(texts, set); }, entry.help);
+        option->allow_extra_args(entry.takes == OptionTable::Entry::Takes::Several);
     } else {
         option = app.add_option_function<std::string>(names, set, entry.help);
     }

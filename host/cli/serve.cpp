@@ -17,9 +17,7 @@ ExitCode render(RenderSession& session, const Json& options)
     OptionTable table;
     addJobOptions(table, job);
     for (const Json::Member& option : options.members()) {
-        if (!option.value.isNull()) {
-            table.set(option.name, OptionValue(option.value));
-        }
+        table.set(option.name, option.value);
     }
     table.finish();
     if (job.replay) {

@@ -57,6 +57,12 @@ OptionValue::OptionValue(const Json& json)
     }
 }
 
+OptionValue::OptionValue(std::string key, const Json& json)
+    : OptionValue(json)
+{
+    key_ = std::move(key);
+}
+
 std::optional<bool> OptionValue::truth() const { return kind_ == Kind::Truth ? std::optional(parts_.front() == "true") : std::nullopt; }
 
 std::string OptionValue::text() const
@@ -125,11 +131,19 @@ Option OptionTable::addPath(const std::string& names, const std::string& unit, c
     return add(names, unit, help, [&path](const OptionValue& value) { path = value.text(); });
 }
 
+Option OptionTable::addEach(const std::string& names, const std::string& unit, const std::string& help,
+                            std::function<void(const OptionValue&)> take)
+{
+    const Option option = add(names, unit, help, std::move(take));
+    entries_.back().takes = Entry::Takes::Each;
+    return option;
+}
+
 Option OptionTable::addPaths(const std::string& name, const std::string& unit, const std::string& help,
                              std::vector<std::filesystem::path>& paths)
 {
     const Option option = add(name, unit, help, [&paths](const OptionValue& value) { paths.emplace_back(value.text()); });
-    entries_.back().isMany = true;
+    entries_.back().takes = Entry::Takes::Several;
     return option;
 }
 
@@ -176,31 +190,55 @@ std::vector<std::string> OptionTable::wordsGiven(const std::vector<std::string>&
 {
     std::vector<std::string> words;
     for (const Entry& entry : entries_) {
-        if (!entry.given.empty() && !entry.isArgument() && std::ranges::find(except, entry.name()) == except.end()) {
-            words.push_back(entry.isFlag() ? entry.name() : entry.name() + "=" + entry.given.front().text());
+        if (entry.isArgument() || std::ranges::find(except, entry.name()) != except.end()) {
+            continue;
+        }
+        for (const OptionValue& value : entry.given) {
+            const std::string key = value.key().empty() ? "" : value.key() + "=";
+            words.push_back(entry.isFlag() ? entry.name() : entry.name() + "=" + key + value.text());
         }
     }
     return words;
 }
 
+std::size_t OptionTable::indexOfAny(const std::string& name) const
+{
+    if (const std::optional<std::size_t> index = find(name)) {
+        return *index;
+    }
+    std::string option = "--" + name;
+    std::ranges::replace(option, '_', '-');
+    if (const std::optional<std::size_t> index = find(option)) {
+        return *index;
+    }
+    throw UsageError(inQuotes(name) + ": there is no such option");
+}
+
 void OptionTable::set(const std::string& name, const OptionValue& value)
 {
-    std::optional<std::size_t> index = find(name);
-    if (!index) {
-        std::string option = "--" + name;
-        std::ranges::replace(option, '_', '-');
-        index = find(option);
-    }
-    if (!index) {
-        throw UsageError(inQuotes(name) + ": there is no such option");
-    }
-    if (const std::string text = value.text(); text.find('\0') != std::string::npos) {  // a name of a file would end there
+    Entry& entry = entries_[indexOfAny(name)];
+    if (const std::string text = value.key() + value.text(); text.find('\0') != std::string::npos) {  // a name of a file would end there
         throw UsageError(inQuotes(text) + " has a null character; expected a text without one");
     }
-    Entry& entry = entries_[*index];
     entry.take(value);
     if (!entry.isFlag() || value.text() == "true") {
         entry.given.push_back(value);
+    }
+}
+
+void OptionTable::set(const std::string& name, const Json& value)
+{
+    const Entry& entry = entries_[indexOfAny(name)];
+    if (value.isObject() && entry.takes == Entry::Takes::Each) {
+        for (const Json::Member& member : value.members()) {
+            set(entry.name(), OptionValue(member.name, member.value));
+        }
+    } else if (value.isArray() && entry.takes != Entry::Takes::One) {
+        for (const Json& element : value.elements()) {
+            set(entry.name(), OptionValue(element));
+        }
+    } else if (!value.isNull()) {
+        set(entry.name(), OptionValue(value));
     }
 }
 

@@ -21,13 +21,18 @@ public:
     OptionValue(const char* text);
     // Throws UsageError for null, objects and lists of lists.
     explicit OptionValue(const Json& json);
+    // What a member of an object says: a name and a value.
+    OptionValue(std::string key, const Json& json);
 
     bool isText() const { return kind_ == Kind::Text; }
     bool isNumber() const { return kind_ == Kind::Number; }
+    bool isList() const { return kind_ == Kind::List; }
     // Nothing if it is no truth.
     std::optional<bool> truth() const;
     // As a command line has it; of a list, with commas.
     std::string text() const;
+    // Empty unless it is a member's.
+    const std::string& key() const { return key_; }
     // The elements of a list, or the parts of a text between separators.
     std::vector<std::string> split(char separator) const;
 
@@ -35,6 +40,7 @@ private:
     enum class Kind { Text, Number, Truth, List };
 
     Kind kind_;
+    std::string key_;
     std::vector<std::string> parts_;  // one unless it is a list
 };
 
@@ -65,7 +71,7 @@ public:
         std::vector<std::string> names;  // "-o", "--output"; without dashes: an argument
         std::string unit, help, group;   // `unit` as in "OUT.exr"; none: a flag
         std::function<void(const OptionValue&)> take;
-        bool isMany = false;  // takes several values
+        enum class Takes { One, Each, Several } takes = Takes::One;  // Each: one each time it is given; Several: all that follow
         bool isHidden = false, isRequired = false;
         std::vector<std::size_t> needs, excludes;
         std::vector<OptionValue> given;
@@ -88,6 +94,9 @@ public:
     Option addText(const std::string& names, const std::string& unit, const std::string& help, std::optional<std::string>& text);
     Option addPath(const std::string& names, const std::string& unit, const std::string& help, std::filesystem::path& path);
     Option addPath(const std::string& names, const std::string& unit, const std::string& help, std::optional<std::filesystem::path>& path);
+    // May be given several times. Programs give an object, of which each member is one.
+    Option addEach(const std::string& names, const std::string& unit, const std::string& help,
+                   std::function<void(const OptionValue&)> take);
     // Takes one or more values.
     Option addPaths(const std::string& name, const std::string& unit, const std::string& help, std::vector<std::filesystem::path>& paths);
     Option addFlag(const std::string& names, const std::string& help, bool& flag);
@@ -107,6 +116,8 @@ public:
 
     // `name` as in "--look-from", "look-from" or "look_from". Throws UsageError if there is no such option, and what `take` throws.
     void set(const std::string& name, const OptionValue& value);
+    // null counts as left out; members of objects are set one by one, where an option may be given several times.
+    void set(const std::string& name, const Json& value);
     // To be called once after all options are set. Throws UsageError if some do not go together, or if a required one is missing.
     void finish() const;
 
@@ -116,7 +127,8 @@ private:
     friend class Option;
 
     std::optional<std::size_t> find(const std::string& name) const;
-    std::size_t indexOf(const std::string& name) const;  // throws UsageError
+    std::size_t indexOf(const std::string& name) const;     // throws UsageError
+    std::size_t indexOfAny(const std::string& name) const;  // the same; the name may be as programs have it
 
     std::deque<Entry> entries_;
     std::string group_;

@@ -159,6 +159,23 @@ std::optional<double> parseExposure(const OptionValue& value)
     return parseBounded<double>({"--exposure", "", "", -100.0, 100.0, ""}, value, ", or auto");
 }
 
+Edit parseEdit(const OptionValue& value)
+{
+    const std::string text = value.text();
+    const std::size_t equals = value.key().empty() ? text.find('=') : 0;
+    Edit edit{value.key().empty() ? text.substr(0, equals) : value.key(),
+              value.key().empty() ? text.substr(std::min(equals, text.size() - 1) + 1) : text};
+    if (!edit.pointer.starts_with('/') || equals == std::string::npos) {
+        throw UsageError("--set", inQuotes(value.key() + text) +
+                                      ": expected a pointer and a value, as in /materials/0/pbrMetallicRoughness/roughnessFactor=0.2");
+    }
+    if (value.isList() || !Json::parse(edit.value)) {  // numbers with commas, or a word
+        const std::string list = "[" + edit.value + "]";
+        edit.value = Json::parse(list) ? list : Json(edit.value).dump();
+    }
+    return edit;
+}
+
 SamplePlace parseSample(const OptionValue& value)
 {
     const std::string text = value.text();

@@ -41,6 +41,7 @@ std::string describeEnvironment(const EnvironmentChoice& choice);
 Sun parseSun(const OptionValue& value);  // "30,45,1000"
 std::string describeSun(const Sun& sun);
 glm::vec3 parseRadiance(const OptionValue& value);                           // "1,1,1", >= 0; a file is refused
+Edit parseEdit(const OptionValue& value);                                    // "POINTER=VALUE", or a value whose key is the pointer
 SamplePlace parseSample(const OptionValue& value);                           // "12,40,7"
 glm::dvec3 parsePoint(const std::string& option, const OptionValue& value);  // "1,2.5,-3"
 double parsePercent(const std::string& option, const OptionValue& value);    // "1%", in (0, 1000]; returns 1 for 100%

@@ -71,6 +71,8 @@ void addPicture(OptionTable& table, PictureOptions& options, const std::string& 
               [&options](const OptionValue& value) { options.sun = parseSun(value); });
     addEnum(table, "--back-faces", "B", "Back faces of single-sided opaque surfaces: culled or shown [culled]", {"culled", "shown"},
             options.showsBackFaces);
+    table.addEach("--set", "POINTER=VALUE", "Change what the file has there, as in /materials/paint/alphaCutoff=0.5; repeatable",
+                  [&options](const OptionValue& value) { options.edits.push_back(parseEdit(value)); });
     addTextures(table, options.missingTextures, options.maxTexture);
     table.addFlag("--confine", "Refuse files that the scene names outside of its folder", options.confined);
     table.add("--size", "WxH", "Pixels, each side 1 to 65535 [" + height + " high, width by the camera's aspect ratio]",
@@ -199,6 +201,7 @@ LoadOptions loadOptionsOf(const PictureOptions& options)
     load.environmentBackground = options.environmentBackground;
     load.sun = options.sun;
     load.showsBackFaces = options.showsBackFaces;
+    load.edits = options.edits;
     load.missingTextures = options.missingTextures;
     load.confined = options.confined;
     load.maxTexture = options.maxTexture;

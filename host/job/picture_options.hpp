@@ -28,6 +28,7 @@ struct PictureOptions {
     bool environmentBackground = true;
     std::optional<Sun> sun;
     bool showsBackFaces = false;
+    std::vector<Edit> edits;
     MissingTextures missingTextures = MissingTextures::Refuse;
     bool confined = false;  // the files that the scene names lie in its folder
     std::uint32_t maxTexture = kMaxImageSide;

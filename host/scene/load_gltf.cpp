@@ -360,7 +360,7 @@ SceneFile::~SceneFile() = default;
 Scene SceneFile::sceneAt(std::optional<double> seconds)
 {
     if (!contents_) {
-        contents_ = std::make_unique<Contents>(Contents{readGltfFile(path_, options_.confined), options_, {}, {}, {}});
+        contents_ = std::make_unique<Contents>(Contents{readGltfFile(path_, options_.confined, options_.edits), options_, {}, {}, {}});
         contents_->animations = listAnimations(contents_->file);
     }
     auto& [file, options, animations, decoded, framed, posed] = *contents_;

@@ -1,12 +1,14 @@
 // glTF 2.0 (.gltf, .glb) to Scene: the only place that knows tinygltf.
 #pragma once
 
+#include "host/scene/edit.hpp"
 #include "host/scene/scene.hpp"
 
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <variant>
+#include <vector>
 
 namespace glim {
 
@@ -39,6 +41,8 @@ struct LoadOptions {
     std::string animation;                     // name or index; empty: the first
     float aspectRatio = 1.0F;                  // of the picture, for the framed camera
     bool framed = false;                       // adds it to the file's cameras; it is always there if the file has none
+
+    std::vector<Edit> edits;  // of the file, one after the other
 
     bool operator==(const LoadOptions&) const = default;
 };

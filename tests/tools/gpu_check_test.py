@@ -69,6 +69,11 @@ class GpuCheck(unittest.TestCase):
         shutil.copytree(self.bundle, copy)
         return copy
 
+    def test_no_device_is_a_failure(self):
+        code, results, _ = self.check(self.bundle, "--device", "no such GPU")
+        self.assertEqual((code, list(results["steps"])), (3, ["device"]))
+        self.assertIn("has the name that was given", results["steps"]["device"]["state"])
+
     def test_a_bundle_that_fails_leaves_nothing(self):
         build = tempfile.mkdtemp(dir=self.scratch)
         os.mkdir(os.path.join(build, "tests"))

@@ -2,7 +2,7 @@
 
 bundle makes a folder of at most 64 MiB with all that glim needs. run tells what the device of the machine makes of it, in at most eight
 minutes on a GPU: precision and tests of kernels, bits, golden pictures, speed. It writes result.json and table.md after each step. Its exit
-code is 1 if a picture is wrong, 2 if there is no bundle or an option is wrong, and else 0, whatever else fails."""
+code is 1 if a picture is wrong, 2 if there is no bundle or an option is wrong, 3 if there is no device, and else 0, whatever else fails."""
 
 import argparse
 import json
@@ -73,6 +73,9 @@ def run_checks(options):
     with open(runner.path("table.md"), encoding="utf-8") as file:
         print(file.read())
     say("wrote %s" % folder)
+    if "device" not in runner.results["steps"]["device"]:
+        say("there is no device to check: %s" % runner.results["steps"]["device"]["state"])
+        return 3
     return 1 if runner.results["wrong"] else 0
 
 

@@ -23,8 +23,8 @@ class Outcome:
     def reason(self):
         if self.code is None:
             return "ended after %.0f s" % self.seconds
-        lines = [*self.err.splitlines(), *reversed(self.out.splitlines())]
-        said = next((line.strip()[:300] for line in lines if line.strip()), "it said nothing")
+        lines = [*reversed(self.err.splitlines()), *reversed(self.out.splitlines())]
+        said = next((line.strip()[:300] for line in lines if line.strip() and not line.startswith("Run with --help")), "it said nothing")
         return "exit code %d: %s" % (self.code, said) if self.code >= 0 else "signal %d: %s" % (-self.code, said)
 
 

@@ -3,13 +3,12 @@
 #include "host/message.hpp"
 #include "host/scene/gltf/check_gltf_json.hpp"
 #include "host/scene/gltf/gltf_schema.hpp"
+#include "host/scene/gltf/object_model.hpp"
 #include "host/scene/gltf/parse_model.hpp"
 #include "host/scene/gltf/place_nodes.hpp"
 #include "host/scene/gltf/read_accessor.hpp"
 #include "host/text.hpp"
 
-#include <glm/glm.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -22,40 +21,6 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kVisible = "nodes[].extensions.KHR_node_visibility.visible";
-
-// A pointer (RFC 6901) in steps: /nodes/3/scale is nodes, 3, scale. Names that glim reads need no unescaping.
-std::vector<std::string> split(const std::string& pointer)
-{
-    std::vector<std::string> steps;
-    for (std::size_t at = 0; at < pointer.size() && pointer[at] == '/';) {
-        const std::size_t end = std::min(pointer.find('/', at + 1), pointer.size());
-        steps.push_back(pointer.substr(at + 1, end - at - 1));
-        at = end;
-    }
-    return steps;
-}
-
-bool isIndex(const std::string& step) { return !step.empty() && step.find_first_not_of("0123456789") == std::string::npos; }
-
-// Null if there is no such member or element.
-json* follow(json& at, const std::string& step)
-{
-    constexpr std::size_t kMostDigits = 9;
-    if (at.is_array() && isIndex(step) && step.size() <= kMostDigits && std::stoul(step) < at.size()) {
-        return &at[std::stoul(step)];
-    }
-    return at.is_object() && at.contains(step) ? &at[step] : nullptr;
-}
-
-// The schema's path of a pointer: nodes[].scale.
-std::string pathOf(const std::vector<std::string>& steps)
-{
-    std::string path;
-    for (const std::string& step : steps) {
-        path += isIndex(step) ? "[]" : (path.empty() ? "" : ".") + step;
-    }
-    return path;
-}
 
 // A property that an animation changes.
 struct Property {
@@ -136,8 +101,8 @@ void Animator::spellOutWeights(const std::vector<std::string>& steps, const std:
 
 std::optional<Property> Animator::findProperty(const std::string& pointer, const std::string& place)
 {
-    const std::vector<std::string> steps = split(pointer);
-    const std::string path = pathOf(steps);
+    const std::vector<std::string> steps = splitPointer(pointer);
+    const std::string path = schemaPathOf(steps);
     const bool allWeights = path == "nodes[].weights" || path == "meshes[].weights";
     const SchemaRule* rule = findRule(allWeights ? path + "[]" : path);
     const bool vector = rule != nullptr && rule->kind == JsonKind::Numbers && rule->count <= 4;
@@ -167,25 +132,9 @@ std::optional<Property> Animator::findProperty(const std::string& pointer, const
 // The matrix of a node that moves, in the parts that move.
 void Animator::replaceMatrix(std::size_t index, const std::string& pointer, const std::string& place)
 {
-    constexpr double kOrthogonal = 1e-4;  // of columns of unit length
-    json& node = document_["nodes"][index];
-    const glm::dmat4 matrix = readMatrix(file_, index, node["matrix"].get<std::vector<double>>());
-    glm::dmat3 axes(matrix);
-    glm::dvec3 scale(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]));
-    scale.x = glm::determinant(axes) < 0.0 ? -scale.x : scale.x;
-    const bool flat = scale.x == 0.0 || scale.y == 0.0 || scale.z == 0.0;
-    for (int c = 0; c < 3; ++c) {
-        axes[c] /= flat ? 1.0 : scale[c];
-    }
-    const glm::dvec3 cosines(glm::dot(axes[0], axes[1]), glm::dot(axes[1], axes[2]), glm::dot(axes[2], axes[0]));
-    if (flat || !(glm::length(cosines) <= kOrthogonal)) {
+    if (!splitMatrix(document_["nodes"][index])) {
         refuse(file_, place + " animates " + pointer + " of a node whose matrix shears or flattens; expected a node without a matrix");
     }
-    const glm::dquat rotation = glm::quat_cast(axes);
-    node.erase("matrix");
-    node["translation"] = {matrix[3].x, matrix[3].y, matrix[3].z};
-    node["rotation"] = {rotation.x, rotation.y, rotation.z, rotation.w};
-    node["scale"] = {scale.x, scale.y, scale.z};
     warnings_.add("matrices of nodes that are animated count as translation, rotation and scale", shortened(pointer));
 }
 

@@ -1,6 +1,7 @@
 // A glTF file with checked JSON and its buffers in memory. All readers in this folder begin with it.
 #pragma once
 
+#include "host/scene/edit.hpp"
 #include "host/scene/keyframes.hpp"
 #include "host/scene/scene.hpp"
 #include "host/scene/warnings.hpp"
@@ -76,8 +77,8 @@ struct GltfFile {
     Warnings warnings;                   // of what was mended in its JSON
 };
 
-// `confined`: refuses files that the document names outside of its folder.
-GltfFile readGltfFile(const std::filesystem::path& file, bool confined);
+// `confined`: refuses files that the document names outside of its folder. `edits`: changes the document first (edit_gltf.hpp).
+GltfFile readGltfFile(const std::filesystem::path& file, bool confined, std::span<const Edit> edits = {});
 
 // The bytes of a uri: data in it, or at most the first `most` of a file relative to the glTF file. `place` names what has the uri.
 std::vector<unsigned char> readUri(const std::string& path, const std::string& place, const std::string& uri,

@@ -306,6 +306,14 @@ class Scene:
                 raise
             return self._keep(asked, rendered)
 
+    def set(self, pointer: str, value) -> None:
+        """Changes the scene for the renders that follow: what its glTF file has at a pointer of the object model, as in
+        scene.set("/materials/paint/pbrMetallicRoughness/baseColorFactor", (1, 0, 0, 1)). A name may stand for an index. None takes the
+        change back. Films of other changes cannot be merged."""
+        edits = {key: edit for key, edit in (self._options.get("set") or {}).items() if key != pointer}
+        self._options = {**self._options, "set": {**edits, pointer: value} if value is not None else edits}
+        values_of(self._options)
+
     def _keep(self, asked, rendered):
         self._last = (rendered, asked) if rendered else None  # not the Film, which refers to the scene: a cycle would keep the device
         return self.last_film

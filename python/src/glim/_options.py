@@ -29,6 +29,8 @@ def values_of(options):
 
 
 def value_of(name, value):
+    if isinstance(value, dict) and all(isinstance(key, str) for key in value):
+        return {key: value_of("%s[%r]" % (name, key), member) for key, member in value.items()}
     if hasattr(value, "tolist"):  # of numpy
         value = value.tolist()
     if isinstance(value, (str, bytes, os.PathLike)):

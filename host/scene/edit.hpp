@@ -1,0 +1,15 @@
+// A change of a scene's file: what its object model has at a pointer.
+#pragma once
+
+#include <string>
+
+namespace glim {
+
+struct Edit {
+    std::string pointer;  // as of KHR_animation_pointer: /materials/0/alphaCutoff; a name may stand for an index
+    std::string value;    // JSON
+
+    bool operator==(const Edit&) const = default;
+};
+
+}  // namespace glim

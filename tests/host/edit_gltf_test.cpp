@@ -1,0 +1,133 @@
+// Changes of a file by pointers: the scene is that of a file that has the values.
+#include "host/flatten/flatten_scene.hpp"
+#include "host/scene/load_gltf.hpp"
+#include "tests/support/gltf_builder.hpp"
+#include "tests/support/render_scene.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+namespace glim::test {
+namespace {
+
+using nlohmann::json;
+
+// A triangle below two nodes, with a material, a light and a camera. Some names are those of several things.
+GltfBuilder builder()
+{
+    GltfBuilder builder;
+    builder.append("materials", {{"name", "paint"}});
+    builder.append("materials", {{"name", "other"}});
+    const std::size_t mesh = builder.addTriangleMesh();
+    builder.document["meshes"][mesh]["primitives"][0]["material"] = 0;
+    builder.addNode({{"mesh", mesh}, {"name", "card"}});
+    builder.addNode({{"mesh", mesh}, {"name", "card"}, {"matrix", {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 1, 2, 3, 1}}});
+    builder.addNode({{"camera", 0}, {"name", "eye"}, {"translation", {0, 0, 5}}});
+    builder.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    builder.append("cameras", {{"type", "perspective"}, {"name", "lens"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}});
+    builder.document["extensionsUsed"] = {"KHR_lights_punctual"};
+    builder.document["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"name", "bulb"}, {"intensity", 3.0}}};
+    return builder;
+}
+
+LoadOptions edited(const std::vector<Edit>& edits)
+{
+    LoadOptions options;
+    options.edits = edits;
+    return options;
+}
+
+// Of the scene and its first camera.
+std::string fingerprintOf(const Scene& scene)
+{
+    return fingerprint(fingerprint(flattened(scene)), flattenCamera(scene.cameras.front(), 1.0F));
+}
+
+// The edit gives what the file gives with `value` at the place.
+void expectSame(const std::string& pointer, const json& value, const std::string& place)
+{
+    GltfBuilder other = builder();
+    other.document[json::json_pointer(place)] = value;
+    const std::string before = fingerprintOf(load(builder())), expected = fingerprintOf(load(other));
+    EXPECT_NE(expected, before) << pointer;
+    EXPECT_EQ(fingerprintOf(load(builder(), edited({{pointer, value.dump()}}))), expected) << pointer;
+}
+
+TEST(EditGltf, SetsWhatAFileCouldHave)
+{
+    for (const auto& [pointer, value, place] :
+         {std::tuple("/materials/0/pbrMetallicRoughness/baseColorFactor", json{1, 0.5, 0, 1}, ""),
+          {"/materials/paint/pbrMetallicRoughness/roughnessFactor", 0.25, "/materials/0/pbrMetallicRoughness/roughnessFactor"},
+          {"/materials/paint/extensions/KHR_materials_clearcoat/clearcoatFactor", 1,
+           "/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor"},
+          {"/materials/0/emissiveFactor", json{1, 2, 3}, ""},
+          {"/materials/0/alphaMode", "BLEND", ""},
+          {"/materials/0/doubleSided", true, ""},
+          {"/nodes/0/translation", json{1, 2, 3}, ""},
+          {"/nodes/eye/rotation", json{0, 0.6, 0, 0.8}, "/nodes/2/rotation"},
+          {"/nodes/0/extensions/KHR_node_visibility/visible", false, ""},
+          {"/cameras/lens/perspective/yfov", 0.7, "/cameras/0/perspective/yfov"},
+          {"/extensions/KHR_lights_punctual/lights/bulb/intensity", 7, "/extensions/KHR_lights_punctual/lights/0/intensity"}}) {
+        expectSame(pointer, value, *place == '\0' ? pointer : place);
+    }
+}
+
+TEST(EditGltf, OneComesAfterTheOther)
+{
+    GltfBuilder other = builder();
+    other.document["materials"][0]["pbrMetallicRoughness"] = {{"roughnessFactor", 0.5}, {"metallicFactor", 0.25}};
+    const Scene scene = load(builder(), edited({{"/materials/0/pbrMetallicRoughness/roughnessFactor", "0.1"},
+                                                {"/materials/0/pbrMetallicRoughness/metallicFactor", "0.25"},
+                                                {"/materials/paint/pbrMetallicRoughness/roughnessFactor", "0.5"}}));
+    EXPECT_EQ(fingerprintOf(scene), fingerprintOf(load(other)));
+}
+
+// Parts take the place of a matrix, and a matrix that of the parts.
+TEST(EditGltf, ANodeHasAMatrixOrParts)
+{
+    const auto placeOf = [](const std::vector<Edit>& edits, std::size_t instance) {
+        return load(builder(), edited(edits)).instances[instance].worldFromMesh;
+    };
+    glm::dmat4 moved = placeOf({}, 1);
+    moved[3] = {7.0, 8.0, 9.0, 1.0};
+    EXPECT_EQ(placeOf({{"/nodes/1/translation", "[7, 8, 9]"}}, 1), moved);
+    EXPECT_EQ(placeOf({{"/nodes/0/scale", "[3, 3, 3]"}, {"/nodes/0/matrix", "[2,0,0,0, 0,2,0,0, 0,0,2,0, 7,8,9,1]"}}, 0), moved);
+}
+
+void expectRefused(const Edit& edit, const std::string& part)
+{
+    expectRefusal<InputError>([&] { load(builder(), edited({edit})); }, part);
+}
+
+TEST(EditGltf, RefusesWithThePointerOrThePlace)
+{
+    expectRefused(
+        {"/materials/glass/alphaCutoff", "1"},
+        "--set /materials/glass/alphaCutoff: nothing there is named \"glass\"; expected an index, or one of \"paint\", \"other\"");
+    expectRefused({"/nodes/card/scale", "[1, 1, 1]"}, "2 things there are named \"card\"; expected one of their indices, 0, 1");
+    expectRefused({"/materials/2/alphaCutoff", "1"}, "the file has 2 elements there");
+    expectRefused({"/materials/0/alphaCutoff/deep", "1"}, "names nothing that glim can change");
+    expectRefused({"/lights/0/intensity", "1"}, "the file has no lights there");
+    for (const char* pointer :
+         {"", "/", "/asset/version", "/materials", "/materials/0", "/materials/0/name", "/nodes/0/mesh", "/scene", "/accessors/0/count",
+          "/meshes/0/primitives/0/material", "/cameras/0/type", "/materials/0/unknown", "/materials/0/normalTexture/index"}) {
+        expectRefused({pointer, "1"}, "names nothing that glim can change");
+    }
+    expectRefused({"/materials/0/alphaCutoff", "-2"}, "materials[0].alphaCutoff is -2; expected");
+    expectRefused({"/materials/0/pbrMetallicRoughness/baseColorFactor", "[1, 2]"}, "materials[0].pbrMetallicRoughness.baseColorFactor");
+    expectRefused({"/materials/0/alphaMode", "\"GLASS\""}, "materials[0].alphaMode");
+    expectRefused({"/materials/0/doubleSided", "3"}, "materials[0].doubleSided");
+    expectRefused({"/materials/0/alphaCutoff", "1,2"}, "is not JSON");
+    expectRefused({"/nodes/0/weights/0", "1"}, "the file has no weights there");
+}
+
+TEST(EditGltf, APointerIsEscaped)
+{
+    GltfBuilder slashes = builder();
+    slashes.document["materials"][0]["name"] = "a/b~c";
+    const Scene scene = load(slashes, edited({{"/materials/a~1b~0c/alphaCutoff", "0.75"}}));
+    EXPECT_EQ(scene.materials[0].alphaCutoff, 0.75F);
+}
+
+}  // namespace
+}  // namespace glim::test
