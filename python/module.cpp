@@ -154,7 +154,7 @@ private:
             session.reset();
             session = std::make_unique<SceneSession>(options);
         }
-        session->pose(options.at);
+        session->pose(options.edits, options.at);
         if (options.settings.aov == Aov::Radiance) {
             warnIfNoLights(session->prepared());
         }

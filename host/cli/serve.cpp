@@ -64,7 +64,7 @@ void addServe(CommandLine& line)
                       "`glim render` would have, and `error` null or one sentence:\n"
                       "    {\"id\":1,\"code\":0,\"error\":null}\n"
                       "Scene, device and kernels serve again for requests that differ in nothing but samples, seed, size, camera,\n"
-                      "time and outputs. It ends with its input, or after a signal like `glim render`.");
+                      "time, edits and outputs. It ends with its input, or after a signal like `glim render`.");
     command.onRun(serve);
 }
 

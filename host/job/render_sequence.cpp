@@ -204,7 +204,7 @@ ExitCode SequenceRenderer::renderAll(const RenderJob& options, const InterruptWa
     isSequence_ = isSequence(options.sequence, options);
     session_.denoiser().open(options);
     watch_ = &watch;
-    session_.pose(firstTime(options.sequence, options));
+    session_.pose(options.edits, firstTime(options.sequence, options));
     const std::vector<Shot> shots = listShots(options.sequence, options, session_.prepared().scene);
     for (const Shot& shot : shots) {
         checkTargets(optionsOf(shot), session_.prepared().scene.files);
@@ -219,7 +219,7 @@ ExitCode SequenceRenderer::renderAll(const RenderJob& options, const InterruptWa
     place_ = {};
     place_.count = shots.size();
     for (const Shot& shot : shots) {
-        session_.pose(shot.at);
+        session_.pose(options.edits, shot.at);
         const ExitCode code = renderShot(optionsOf(shot));
         if (code != ExitCode::Done) {
             return code;

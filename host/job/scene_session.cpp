@@ -52,6 +52,7 @@ bool SceneSession::serves(const RenderJob& options) const
 {
     LoadOptions load = loadOptionsFor(options);
     const LoadOptions mine = loadOptionsFor(options_);
+    load.edits = mine.edits;
     if (std::ranges::none_of(prepared_.scene.cameras, [](const Camera& camera) { return camera.name == "framed"; })) {
         load.aspectRatio = mine.aspectRatio;
     }
@@ -62,9 +63,14 @@ bool SceneSession::serves(const RenderJob& options) const
            lastingSettings(options.settings) == lastingSettings(options_.settings);
 }
 
-void SceneSession::pose(std::optional<double> time)
+void SceneSession::pose(const std::vector<Edit>& edits, std::optional<double> time)
 {
-    if (time != time_) {
+    const bool isEdited = edits != options_.edits;
+    if (isEdited) {
+        file_.edit(edits);
+        options_.edits = edits;
+    }
+    if (isEdited || time != time_) {
         prepared_ = prepareScene(file_, time, options_.split, std::move(prepared_));
         time_ = time;
         isSceneNew_ = true;

@@ -15,12 +15,12 @@ public:
     // Reads the scene at the time of the first picture that the options ask for. Throws InputError, or DeviceError without a usable device.
     explicit SceneSession(const RenderJob& options);
 
-    // Whether it can render what these options ask for: they differ from its own in nothing but samples, seed, size, rows, camera, time
-    // and outputs, and no file of the scene has changed.
+    // Whether it can render what these options ask for: they differ from its own in nothing but samples, seed, size, rows, camera, time,
+    // edits and outputs, and no file of the scene has changed.
     bool serves(const RenderJob& options) const;
 
-    // The scene at another time.
-    void pose(std::optional<double> time);
+    // The scene with these edits of its file, at that time.
+    void pose(const std::vector<Edit>& edits, std::optional<double> time);
     // The renderer, at the beginning of a picture. It is a new one if other rows are asked for. A new one for a long picture measures which
     // schedule is the faster one.
     Renderer& begin(const FlatCamera& camera, RenderSettings settings);

@@ -407,6 +407,17 @@ Scene SceneFile::sceneAt(std::optional<double> seconds)
     return scene;
 }
 
+void SceneFile::edit(const std::vector<Edit>& edits)
+{
+    if (contents_) {
+        contents_->file = readGltfFile(path_, options_.confined, edits);
+        contents_->options.edits = edits;
+        contents_->framed.reset();
+        contents_->posed = false;
+    }
+    options_.edits = edits;
+}
+
 Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options) { return SceneFile(path, options).sceneAt(options.at); }
 
 }  // namespace glim

@@ -59,6 +59,8 @@ public:
     // The scene at `seconds` into the animation; if absent in the file's rest pose. It has passed checkScene. A framed camera sees the
     // whole rest pose, at any time. Throws InputError with one sentence that names file, place, value and what was expected.
     Scene sceneAt(std::optional<double> seconds);
+    // Edits in place of those of the options. Reads the file again, but keeps its decoded images and maps.
+    void edit(const std::vector<Edit>& edits);
     const std::filesystem::path& path() const { return path_; }
 
 private:

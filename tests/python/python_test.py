@@ -226,6 +226,22 @@ class FilmTest(PythonCase):
 
 
 class UseTest(PythonCase):
+    def test_edits(self):
+        """scene.set and the option are one, and None takes a change back."""
+        pointer, blue = "/materials/0/pbrMetallicRoughness/baseColorFactor", (0.1, 0.2, 0.9, 1)
+        kept, options = glim.load(scene("textures"), size=(8, 8)), {"spp": 2}
+        before = kept.render(**options).digest
+        kept.set(pointer, blue)
+        after = kept.render(**options).digest
+        self.assertNotEqual(after, before)
+        self.assertEqual(glim.render(kept.path, size=(8, 8), set={pointer: blue}, **options).digest, after)
+        kept.set(pointer, None)
+        self.assertEqual(kept.render(**options).digest, before)
+        with self.assertRaisesRegex(glim.InputError, "nothing there is named"):
+            glim.render(kept.path, set={"/materials/nobody/alphaCutoff": 1})
+        with self.assertRaisesRegex(glim.InputError, "cannot use <object"):
+            kept.set(pointer, object())
+
     def test_refusals(self):
         for options, words in (({"spp": 0}, "^spp: .*expected"), ({"sppp": 1}, "sppp"), ({"size": "8"}, "^size: "),
                                ({"png": "a.png"}, "^png: .*command line"), ({"time": object()}, "^time: "),

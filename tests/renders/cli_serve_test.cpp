@@ -193,6 +193,22 @@ TEST_F(ServeTest, OptionsAreValues)
                                                      "--look-at", "0,1,0", "--environment-background", "off", "--target-rmse", "50%"}));
 }
 
+// Back and forth: what was set before does not stay.
+TEST_F(ServeTest, EditsAreOfTheirRequestAlone)
+{
+    const std::string scene = sceneFile("textures.gltf");
+    const std::vector<std::string> plain{scene, "--size", "16x12", "--spp", "4"};
+    std::vector<std::string> edited = plain;
+    edited.insert(edited.end(), {"--set", "/materials/0/pbrMetallicRoughness/baseColorFactor=0.1,0.2,0.3,1"});
+    const std::string before = digestServed(plain), after = digestServed(edited);
+    EXPECT_NE(after, before);
+    EXPECT_EQ(after, digestAlone(edited));
+    EXPECT_EQ(digestServed(plain), before);
+    const Json refused = server_.ask({scene, "-o", (folder_ / "a.exr").string(), "--set", "/materials/nobody/alphaCutoff=1"});
+    EXPECT_EQ(refused.at("code").number(), 1.0);
+    EXPECT_EQ(digestServed(plain), before);
+}
+
 TEST_F(ServeTest, AnotherShapeOfThePictureKeepsTheKernels)
 {
     const std::string stats = (folder_ / "stats.json").string();

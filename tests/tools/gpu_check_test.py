@@ -140,7 +140,7 @@ class GpuCheck(unittest.TestCase):
         with open(empty, "w", encoding="utf-8") as file:
             json.dump({"file_format_version": "1.0.0", "ICD": {"library_path": "/nowhere/lib.so", "api_version": "1.2.0"}}, file)
         code, results, table = self.check(self.bundle, "--driver", empty)
-        self.assertEqual(code, 0)
+        self.assertEqual(code, 3)
         self.assertEqual(list(results["steps"]), ["device"])
         self.assertIn("failed: CheckError: glim devices: exit code 3", table)
 
