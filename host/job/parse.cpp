@@ -169,9 +169,18 @@ Edit parseEdit(const OptionValue& value)
         throw UsageError("--set", inQuotes(value.key() + text) +
                                       ": expected a pointer and a value, as in /materials/0/pbrMetallicRoughness/roughnessFactor=0.2");
     }
-    if (value.isList() || !Json::parse(edit.value)) {  // numbers with commas, or a word
-        const std::string list = "[" + edit.value + "]";
-        edit.value = Json::parse(list) ? list : Json(edit.value).dump();
+    const std::vector<std::string> parts = OptionValue(edit.value).split(',');
+    Json numbers = Json::array();
+    for (const std::string& part : parts) {
+        double number = 0.0;
+        if (parseNumber(part, number)) {
+            numbers.append(number);
+        }
+    }
+    if (numbers.elements().size() == parts.size()) {  // JSON has no .5
+        edit.value = parts.size() == 1 && !value.isList() ? numbers.at(0).dump() : numbers.dump();
+    } else if (!Json::parse(edit.value)) {
+        edit.value = Json(edit.value).dump();  // a word
     }
     return edit;
 }

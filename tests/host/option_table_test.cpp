@@ -65,6 +65,26 @@ TEST_F(OptionTableTest, TextsAndValuesSayTheSame)
     EXPECT_EQ(parseDuration("", OptionValue("2m")), parseDuration("", OptionValue(Json(120))));
 }
 
+TEST_F(OptionTableTest, EditsAreAPointerAndJson)
+{
+    for (const auto& [text, json] : {std::pair("1,.25,-3e2,1", "[1.0,0.25,-300.0,1.0]"),
+                                     {".5", "0.5"},
+                                     {"true", "true"},
+                                     {"BLEND", "\"BLEND\""},
+                                     {"[1, 2]", "[1, 2]"},
+                                     {"a=b,c", "\"a=b,c\""},
+                                     {"", "\"\""}}) {
+        EXPECT_EQ(parseEdit(OptionValue(std::string("/x/y=") + text)), (Edit{"/x/y", json})) << text;
+        EXPECT_EQ(parseEdit(OptionValue("/x/y", Json(text))), (Edit{"/x/y", json})) << text;
+    }
+    EXPECT_EQ(parseEdit(OptionValue("/x", Json::array({0.5}))), (Edit{"/x", "[0.5]"}));
+    EXPECT_EQ(parseEdit(OptionValue("/x", Json(0.5))), (Edit{"/x", "0.5"}));
+    EXPECT_EQ(parseEdit(OptionValue("/x", Json(false))), (Edit{"/x", "false"}));
+    for (const char* text : {"", "/x", "x=1", "=1"}) {
+        expectRefusal<UsageError>([&] { parseEdit(OptionValue(text)); }, "expected a pointer and a value");
+    }
+}
+
 TEST_F(OptionTableTest, FlagsThatAreFalseAreNotGiven)
 {
     set("confine", "false");
