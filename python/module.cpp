@@ -46,7 +46,7 @@ void refuseFork()
 constexpr const char* kRefused[] = {"--png",           "--image",    "--rates",  "--ids",       "--stats",   "--checkpoint", "--resume",
                                     "--on-checkpoint", "--progress", "--frames", "--turntable", "--cameras", "--replay",     "--suspects"};
 
-// Of bytes, a truth, a number, a list of bytes and numbers, or a dictionary of these (glim/_options.py).
+// The Json of a Python value: bytes, a bool, a number, a list of bytes and numbers, or a dict of these (glim/_options.py).
 Json valueOf(nb::handle value)
 {
     if (nb::isinstance<nb::bool_>(value)) {
@@ -149,8 +149,11 @@ public:
 private:
     std::shared_ptr<PythonFilm> renderWithin(const RenderJob& options, const PythonFilm* resumed, bool withIds, Watcher& watcher)
     {
-        std::unique_ptr<SceneSession> session = std::move(session_);  // none stays if anything is thrown
+        // None stays if anything is thrown. The kernels go before the device, which the session has.
+        std::unique_ptr<SceneSession> session = std::move(session_);
+        std::shared_ptr<const CameraRayKernels> rayKernels = std::move(rayKernels_);
         if (!session || !session->serves(options)) {
+            rayKernels.reset();
             session.reset();
             session = std::make_unique<SceneSession>(options);
         }
@@ -177,7 +180,7 @@ private:
         RenderedFilm rendered =
             renderPicture(renderer, options, session->denoiser(), std::ref(watcher), [&] { return !wholePages || !renderer.isDone(); });
         if (renderer.statistics().samples + renderer.statistics().resumedSamples == 0) {
-            session_ = std::move(session);
+            keep(std::move(session), std::move(rayKernels));
             return nullptr;
         }
         labelFilm(rendered.film, options);
@@ -186,11 +189,11 @@ private:
         auto film = std::make_shared<PythonFilm>(std::move(rendered.film), std::move(rendered.checkpoint));
         film->setDenoising(std::move(rendered.denoising));
         if (withIds) {
-            Identifier identifier(renderer, session->prepared(), frame.camera, rayKernels_);
+            Identifier identifier(renderer, session->prepared(), frame.camera, rayKernels);
             film->identify(identifier);
-            rayKernels_ = identifier.kernels();
+            rayKernels = identifier.kernels();
         }
-        session_ = std::move(session);
+        keep(std::move(session), std::move(rayKernels));
         if (rendered.denoisingError) {
             lastFilm_ = film;
             std::rethrow_exception(rendered.denoisingError);
@@ -198,8 +201,14 @@ private:
         return film;
     }
 
+    void keep(std::unique_ptr<SceneSession> session, std::shared_ptr<const CameraRayKernels> rayKernels)
+    {
+        session_ = std::move(session);
+        rayKernels_ = std::move(rayKernels);
+    }
+
     std::unique_ptr<SceneSession> session_;
-    std::shared_ptr<const CameraRayKernels> rayKernels_;
+    std::shared_ptr<const CameraRayKernels> rayKernels_;  // of the session's device
     std::shared_ptr<PythonFilm> lastFilm_;
 };
 

@@ -97,24 +97,38 @@ std::string sentenceOf(const CLI::App& app, const std::string& complaint)
     return unknown.empty() ? complaint : "\"" + unknown[0] + "\" was not expected: no such command, option or argument";
 }
 
-void addOption(CLI::App& app, HelpFormatter& formatter, OptionTable& table, const OptionTable::Entry& entry)
+// A flag and what it was set to. CLI11's functions for flags end with exceptions of the standard library if the text is no boolean.
+struct GivenFlag {
+    CLI::Option* option;
+    std::string name;
+    std::unique_ptr<bool> value = std::make_unique<bool>(false);
+};
+
+CLI::Option* addToApp(CLI::App& app, OptionTable& table, const OptionTable::Entry& entry, const std::string& names,
+                      std::vector<GivenFlag>& flags)
+{
+    using Takes = OptionTable::Entry::Takes;
+    const auto set = [&table, name = entry.name()](const std::string& text) { table.set(name, OptionValue(text)); };
+    if (entry.isFlag()) {
+        GivenFlag& flag = flags.emplace_back(GivenFlag{nullptr, entry.name()});
+        return flag.option = app.add_flag(names, *flag.value, entry.help);
+    }
+    if (entry.takes == Takes::One) {
+        return app.add_option_function<std::string>(names, set, entry.help);
+    }
+    CLI::Option* option = app.add_option_function<std::vector<std::string>>(
+        names, [set](const std::vector<std::string>& texts) { std::ranges::for_each(texts, set); }, entry.help);
+    option->allow_extra_args(entry.takes == Takes::Several);
+    return option;
+}
+
+void addOption(CLI::App& app, HelpFormatter& formatter, OptionTable& table, const OptionTable::Entry& entry, std::vector<GivenFlag>& flags)
 {
     std::string names;
     for (const std::string& name : entry.isArgument() ? std::vector{entry.name()} : entry.names) {
         names += (names.empty() ? "" : ",") + name;
     }
-    const auto set = [&table, name = entry.name()](const std::string& text) { table.set(name, OptionValue(text)); };
-    CLI::Option* option = nullptr;
-    if (entry.isFlag()) {
-        option = app.add_flag_function(
-            names, [set](std::int64_t count) { set(count > 0 ? "true" : "false"); }, entry.help);
-    } else if (entry.takes != OptionTable::Entry::Takes::One) {
-        option = app.add_option_function<std::vector<std::string>>(
-            names, [set](const std::vector<std::string>& texts) { std::ranges::for_each(texts, set); }, entry.help);
-        option->allow_extra_args(entry.takes == OptionTable::Entry::Takes::Several);
-    } else {
-        option = app.add_option_function<std::string>(names, set, entry.help);
-    }
+    CLI::Option* option = addToApp(app, table, entry, names, flags);
     if (!entry.isFlag()) {
         option->type_name(entry.unit);
     }
@@ -146,10 +160,18 @@ ExitCode CommandLine::run(std::vector<std::string> words)
         const auto formatter = std::make_shared<HelpFormatter>();
         sub->formatter(formatter);
         sub->footer(command.footer_);
+        const auto flags = std::make_shared<std::vector<GivenFlag>>();
         for (const OptionTable::Entry& entry : command.entries()) {
-            addOption(*sub, *formatter, command, entry);
+            addOption(*sub, *formatter, command, entry, *flags);
         }
-        sub->parse_complete_callback([&command] { command.finish(); });
+        sub->parse_complete_callback([&command, flags] {
+            for (const GivenFlag& flag : *flags) {
+                if (flag.option->count() > 0) {
+                    command.set(flag.name, OptionValue(*flag.value ? "true" : "false"));
+                }
+            }
+            command.finish();
+        });
         sub->callback([&command, &code] { code = command.run_ ? command.run_() : ExitCode::Done; });
     }
     std::reverse(words.begin(), words.end());  // as CLI11 takes them

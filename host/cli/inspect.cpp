@@ -1,4 +1,5 @@
 #include "host/cli/commands.hpp"
+#include "host/flatten/large_triangles.hpp"
 #include "host/job/format.hpp"
 #include "host/job/parse.hpp"
 #include "host/job/picture_options.hpp"
@@ -130,6 +131,12 @@ Counts lobesOf(const FlatScene& flat)
     return counts;
 }
 
+// Of the scene as its first camera sees it.
+FeatureMask featuresOf(const PreparedScene& prepared)
+{
+    return featuresSeenBy(prepared.flat, flattenCamera(prepared, prepared.scene.cameras.front(), 1.0F, {}));
+}
+
 std::size_t singleSided(const Scene& scene)
 {
     return static_cast<std::size_t>(std::ranges::count_if(scene.materials, std::not_fn(meetsBackFaces)));
@@ -210,7 +217,7 @@ void printJson(const InspectOptions& options, const PreparedScene& prepared)
                        {"media", mediaOf(prepared)},
                        {"variants", prepared.scene.variants},
                        {"animations", animations},
-                       {"needs", objectOf(needsOf(prepared.flat.features))},
+                       {"needs", objectOf(needsOf(featuresOf(prepared)))},
                        {"cameras", cameras},
                        {"warnings", prepared.scene.warnings}};
     std::cout << json.dump(2) << '\n';
@@ -303,7 +310,7 @@ void printText(const InspectOptions& options, const PreparedScene& prepared)
               << "  on the device: " << mebibytes(sizeInBytes(prepared.flat)) << ", " << mebibytes(textureBytes(prepared.flat))
               << " of it textures\n  needs:";
     const char* separator = " ";
-    for (const auto& [name, needed] : needsOf(prepared.flat.features)) {
+    for (const auto& [name, needed] : needsOf(featuresOf(prepared))) {
         if (needed) {
             std::cout << separator << name;
             separator = ", ";

@@ -19,6 +19,9 @@ ExitCode render(RenderSession& session, const Json& options)
     for (const Json::Member& option : options.members()) {
         table.set(option.name, option.value);
     }
+    if (!table.isGiven("SCENE")) {
+        throw UsageError("file is required");
+    }
     table.finish();
     if (job.replay) {
         throw UsageError("--replay", "expected a picture to render; `glim render` replays samples");
@@ -63,8 +66,8 @@ void addServe(CommandLine& line)
                       "\nEach is answered by a line of standard output, once its files are written. `code` is the exit code that\n"
                       "`glim render` would have, and `error` null or one sentence:\n"
                       "    {\"id\":1,\"code\":0,\"error\":null}\n"
-                      "Scene, device and kernels serve again for requests that differ in nothing but samples, seed, size, camera,\n"
-                      "time, edits and outputs. It ends with its input, or after a signal like `glim render`.");
+                      "The device and the kernels serve again for requests that differ in nothing but samples, seed, size, rows,\n"
+                      "camera, time, edits and outputs. glim serve ends at the end of its input, or after a signal.");
     command.onRun(serve);
 }
 

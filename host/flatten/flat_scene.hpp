@@ -106,7 +106,7 @@ struct FlatScene {
     std::uint32_t environmentLight = 0;  // index among lights, if the scene has kFeatureEnvironment
     std::vector<uvec4> caustics;         // as scene_types.h says; empty without kFeatureCaustics
     std::uint32_t causticTargets = 0, causticLights = 0;
-    std::vector<Triangle> largest;  // the largest 64 triangles that share no mesh; not on the device
+    std::vector<Triangle> largest;  // the 64 largest triangles outside of shared meshes; not on the device
     float brightness = 0.0F;        // about the radiance, W/(sr m^2), that the brightest light gives a white surface; of caustics
 };
 

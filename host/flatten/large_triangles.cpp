@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kMostToPrimitive = 0x1p12, kMostToDistance = 0x1p7;
 
-// Cameras and lamps are held against so many triangles, the largest ones.
+// Cameras and lamps are compared with this many triangles, the largest ones.
 constexpr std::size_t kMostCompared = 64;
 
-// So many triangles of an instance tell the sizes of its mesh.
+// This many triangles of a mesh stand for the sizes of all.
 constexpr std::size_t kMostSampled = 64;
 
 struct Extent {
@@ -37,7 +37,7 @@ double scaleOf(const Placement& placement)
     return largestOf(glm::abs(m[0]) + glm::abs(m[1]) + glm::abs(m[2]));
 }
 
-// At most that: the farther of the triangle's plane and its box.
+// A lower bound of the distance: the larger of those to the triangle's plane and to its box.
 double distanceTo(const Triangle& triangle, const glm::dvec3& point)
 {
     const glm::dvec3 a(triangle.vertices[0]), b(triangle.vertices[1]), c(triangle.vertices[2]);

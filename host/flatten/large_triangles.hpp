@@ -6,12 +6,12 @@
 
 namespace glim {
 
-// Elsewhere points are lifted off triangles by some 2^-20 of the triangle's size, and the distance to a hit is known to 2^-22 of it. The
-// feature is needed where that is more than 2^-8 of the size of fine primitives, or more than 2^-13 of the distance of a lamp. Sets it, and
-// FlatScene::largest.
+// Without the feature, points are lifted off a triangle by some 2^-20 of its size, and the distance to a hit is known to 2^-22 of its size.
+// The feature is needed if the lift is more than 2^-8 of the size of fine primitives, or more than 2^-13 of the distance from a triangle to
+// a lamp. Sets the feature and FlatScene::largest.
 void findLargeTriangles(FlatScene& flat, const Scene& scene, const Primitives& primitives);
 
-// Those of the scene; and that one where the camera is so near.
+// The features of the scene, and kFeatureLargeTriangles too if the camera is that close to a large triangle.
 FeatureMask featuresSeenBy(const FlatScene& flat, const FlatCamera& camera);
 
 }  // namespace glim

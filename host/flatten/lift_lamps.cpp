@@ -184,8 +184,8 @@ Copies findHidden(const Scene& scene, const Primitives& primitives)
     return hidden;
 }
 
-// Of spheres in one place the lowest is met. So opaque lamps change places with what is before them, unless light passes that, and what
-// they hide is left out. Returns how many are.
+// Of coincident spheres a ray meets the one with the lowest index. Emitting opaque spheres therefore take the lower indices, but not before
+// a sphere with alpha. Spheres that they hide are left out. Returns how many.
 std::size_t placeSpheres(const Scene& scene, Primitives& primitives)
 {
     using Place = std::array<float, 4>;

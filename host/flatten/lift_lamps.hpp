@@ -6,14 +6,14 @@
 namespace glim {
 
 // Where surfaces coincide, rounding would decide which of them a ray meets: lamps look torn, rays miss light that MIS weights trust them to
-// find, and shadow rays, which end before a lamp, find the light of all. The order is: lamps before other surfaces, then the lower
-// primitive. Adds warnings of what it has changed.
+// find, and shadow rays, which end before a lamp, find the light of all. The order is: lamps before other surfaces, then the
+// primitive with the lower index. Adds warnings of what it has changed.
 //
-// Leaves out emitting triangles in the same place as one that comes before them and hides them, by a hash of their vertices, and spheres
-// that an emitting one in the same place hides. Then moves emitting triangles that overlap another triangle in its plane by some roundings
-// of their place to their front, those that come first farthest. A double-sided one is moved to both sides, as two triangles. Emission by a
-// texture moves nothing, for it may be black there, and neither do double-sided lamps that light passes. Nothing is moved where the search
-// would take 1e8 comparisons of boxes.
+// First leaves out emitting triangles with the vertices of an earlier emitting one that hides them, and spheres that a coincident emitting
+// sphere hides. Then moves each emitting triangle that overlaps a coplanar one towards its front, by some roundings of its coordinates.
+// Triangles with lower indices move farther. A double-sided one becomes two triangles, one moved to each side. Triangles with an emissive
+// texture do not move, because the texture may be black there. Double-sided lamps that let light through do not move either. Nothing moves
+// if the search would take more than 1e8 comparisons of boxes.
 void liftLamps(const Scene& scene, Primitives& primitives);
 
 }  // namespace glim

@@ -60,7 +60,8 @@ Surface placed(Surface surface, const InstanceData& by)
     return surface;
 }
 
-// Each primitive of each instance once, in the places that the device knows: where float32 is coarse, a skin without holes has none either.
+// Visits each primitive of each instance once, with the float32 coordinates that the device has. Triangles share their rounded vertices, so
+// a closed surface stays closed.
 template <class Visit>
 void forEachSurface(const FlatScene& flat, const Visit& visit)
 {
@@ -103,7 +104,7 @@ Bounds originsOf(const FlatCamera& camera)
     return {glm::dvec3(camera.position - extent), glm::dvec3(camera.position + extent)};
 }
 
-// Where the ray along kOutwards crosses the skin of a solid.
+// Where the ray along kOutwards crosses the surface of a solid.
 struct Crossing {
     double t;
     bool enters;
@@ -133,7 +134,7 @@ void addTriangle(Surroundings& around, const glm::dvec3& a, const glm::dvec3& b,
     }
 }
 
-// The centre is seen from the point too.
+// `center` is relative to the point, like the corners of addTriangle.
 void addSphere(Surroundings& around, const glm::dvec3& center, double radius)
 {
     const double along = glm::dot(glm::dvec3(kOutwards), center);
@@ -147,7 +148,7 @@ void addSphere(Surroundings& around, const glm::dvec3& center, double radius)
     }
 }
 
-// Where the ray leaves the solids around the point, nearest first: those that it has not entered before.
+// The distances at which the ray leaves the solids around the point, nearest first. Solids that the ray enters later are not among them.
 std::vector<double> exitsOf(Surroundings around)
 {
     std::ranges::sort(around.crossings, {}, &Crossing::t);
@@ -174,7 +175,7 @@ public:
           middle_(0.5 * (origins.low + origins.high))
     {}
 
-    // Of the camera's rays: as in FlatCamera.
+    // The media that the camera's rays begin in, as in FlatCamera::media.
     uint find()
     {
         std::map<uint, Bounds> bounds;  // of all solids of a medium
@@ -206,11 +207,11 @@ private:
         } else {
             addTriangle(around, a - middle_, b - middle_, c - middle_);
         }
-        straddles_ = straddles_ || (surface.isSphere ? isSkinIn(a, b.x) : touch(origins_, surface.bounds()));
+        straddles_ = straddles_ || (surface.isSphere ? isSurfaceIn(a, b.x) : touch(origins_, surface.bounds()));
     }
 
     // Whether part of the sphere's surface lies among the points.
-    bool isSkinIn(const glm::dvec3& center, double radius) const
+    bool isSurfaceIn(const glm::dvec3& center, double radius) const
     {
         const double nearest = glm::distance(center, glm::clamp(center, origins_.low, origins_.high));
         const double farthest = glm::length(glm::max(glm::abs(origins_.low - center), glm::abs(origins_.high - center)));

@@ -8,8 +8,8 @@ namespace glim {
 // The camera with the media of its rays (FlatCamera::media).
 FlatCamera placeInMedia(FlatCamera camera, const FlatScene& flat);
 
-// Whether the box around all lamps meets that around all solids of a medium: then light paths have to look for the media that they begin
-// in.
+// Whether a lamp may lie in a solid. False if no surface of a solid touches the box around all lamps, and the middle of that box lies in no
+// solid. Light paths look for the media that they begin in only if it is true.
 bool mayLampsBeInMedia(const FlatScene& flat);
 
 }  // namespace glim

@@ -1,4 +1,4 @@
-// Vulkan objects that destroy themselves. A class whose members they are leaves nothing behind if a later step of its constructor fails.
+// Vulkan objects that destroy themselves. If a constructor throws, its members of these types destroy what they hold.
 #pragma once
 
 #include "host/gpu/device.hpp"
@@ -26,7 +26,7 @@ public:
         return *this;
     }
 
-    // Where Vulkan's functions write what they make. Destroys what was there.
+    // The address that a Vulkan function writes a new handle to. Destroys the object held before.
     Object* receive()
     {
         reset();
@@ -46,7 +46,7 @@ private:
     Object object_ = VK_NULL_HANDLE;
 };
 
-// Memory of the device, which counts it.
+// Device memory. The Device counts its bytes.
 class OwnedMemory {
 public:
     explicit OwnedMemory(Device& device)

@@ -46,7 +46,7 @@ OptionValue::OptionValue(const Json& json)
         }
     };
     if (json.isBoolean()) {
-        kind_ = Kind::Truth;
+        kind_ = Kind::Boolean;
         parts_ = {json.boolean() ? "true" : "false"};
     } else if (json.isArray()) {
         kind_ = Kind::List;
@@ -63,7 +63,7 @@ OptionValue::OptionValue(std::string key, const Json& json)
     key_ = std::move(key);
 }
 
-std::optional<bool> OptionValue::truth() const { return kind_ == Kind::Truth ? std::optional(parts_.front() == "true") : std::nullopt; }
+std::optional<bool> OptionValue::boolean() const { return kind_ == Kind::Boolean ? std::optional(parts_.front() == "true") : std::nullopt; }
 
 std::string OptionValue::text() const
 {
@@ -219,6 +219,9 @@ void OptionTable::set(const std::string& name, const OptionValue& value)
     Entry& entry = entries_[indexOfAny(name)];
     if (const std::string text = value.key() + value.text(); text.find('\0') != std::string::npos) {  // a name of a file would end there
         throw UsageError(inQuotes(text) + " has a null character; expected a text without one");
+    }
+    if (entry.takes == Entry::Takes::One && !entry.given.empty()) {
+        throw UsageError(entry.name() + ": is given twice");
     }
     entry.take(value);
     if (!entry.isFlag() || value.text() == "true") {

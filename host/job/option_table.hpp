@@ -14,7 +14,7 @@
 
 namespace glim {
 
-// What an option is set to: a text, or what a program says: a number, a truth, a list of texts and numbers.
+// The value of an option: text from a command line; text, a number, a boolean or a list of texts and numbers from a program.
 class OptionValue {
 public:
     OptionValue(std::string text);
@@ -24,12 +24,11 @@ public:
     // What a member of an object says: a name and a value.
     OptionValue(std::string key, const Json& json);
 
-    bool isText() const { return kind_ == Kind::Text; }
     bool isNumber() const { return kind_ == Kind::Number; }
     bool isList() const { return kind_ == Kind::List; }
-    // Nothing if it is no truth.
-    std::optional<bool> truth() const;
-    // As a command line has it; of a list, with commas.
+    // Nothing if the value is no boolean.
+    std::optional<bool> boolean() const;
+    // The value as a command line has it; a list has commas.
     std::string text() const;
     // Empty unless it is a member's.
     const std::string& key() const { return key_; }
@@ -37,7 +36,7 @@ public:
     std::vector<std::string> split(char separator) const;
 
 private:
-    enum class Kind { Text, Number, Truth, List };
+    enum class Kind { Text, Number, Boolean, List };
 
     Kind kind_;
     std::string key_;
@@ -101,14 +100,14 @@ public:
     Option addPaths(const std::string& name, const std::string& unit, const std::string& help, std::vector<std::filesystem::path>& paths);
     Option addFlag(const std::string& names, const std::string& help, bool& flag);
 
-    // The full help alone lists these.
+    // Only --help-all lists these.
     void hide(const std::vector<std::string>& names);
 
     Option option(const std::string& name) { return {*this, indexOf(name)}; }
     bool isGiven(const std::string& name) const;  // false too if the table has no such option
     std::string textOf(const std::string& name) const { return entries_[indexOf(name)].given.front().text(); }  // if it is given
 
-    // The options that are given, as in "--size=8x8", but for these and for arguments.
+    // The options that are given, as in "--size=8x8", without arguments and without those named in `except`.
     std::vector<std::string> wordsGiven(const std::vector<std::string>& except) const;
 
     // Called by finish() after its own checks; throws UsageError.

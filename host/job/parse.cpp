@@ -81,7 +81,7 @@ Option addChoice(OptionTable& table, const std::string& name, const std::string&
                  const std::vector<std::string>& names, std::function<void(std::size_t)> store)
 {
     return table.add(name, unit, help, [name, names, store](const OptionValue& value) {
-        const std::string text = value.truth() ? (*value.truth() ? "on" : "off") : value.text();
+        const std::string text = value.boolean() ? (*value.boolean() ? "on" : "off") : value.text();
         const auto found = std::find(names.begin(), names.end(), text);
         if (found == names.end()) {
             throw UsageError(name, "\"" + text + "\": expected " + join(names, " or "));
@@ -173,12 +173,14 @@ Edit parseEdit(const OptionValue& value)
     Json numbers = Json::array();
     for (const std::string& part : parts) {
         double number = 0.0;
-        if (parseNumber(part, number)) {
+        if (parseNumber(part, number) && std::isfinite(number)) {
             numbers.append(number);
         }
     }
     if (numbers.elements().size() == parts.size()) {  // JSON has no .5
         edit.value = parts.size() == 1 && !value.isList() ? numbers.at(0).dump() : numbers.dump();
+    } else if (value.isList()) {
+        throw UsageError("--set", edit.pointer + ": expected a number, a list of numbers, true, false or a word");
     } else if (!Json::parse(edit.value)) {
         edit.value = Json(edit.value).dump();  // a word
     }

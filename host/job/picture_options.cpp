@@ -71,7 +71,7 @@ void addPicture(OptionTable& table, PictureOptions& options, const std::string& 
               [&options](const OptionValue& value) { options.sun = parseSun(value); });
     addEnum(table, "--back-faces", "B", "Back faces of single-sided opaque surfaces: culled or shown [culled]", {"culled", "shown"},
             options.showsBackFaces);
-    table.addEach("--set", "POINTER=VALUE", "Change what the file has there, as in /materials/paint/alphaCutoff=0.5; repeatable",
+    table.addEach("--set", "POINTER=VALUE", "Other value at a glTF pointer, as in /materials/paint/alphaCutoff=0.5; repeatable",
                   [&options](const OptionValue& value) { options.edits.push_back(parseEdit(value)); });
     addTextures(table, options.missingTextures, options.maxTexture);
     table.addFlag("--confine", "Refuse files that the scene names outside of its folder", options.confined);

@@ -84,12 +84,13 @@ Renderer& SceneSession::begin(const FlatCamera& camera, RenderSettings settings)
         settings.fastest =
             fastestSchedule(device_.description(), settings, [&] { return measureSchedules(device_, prepared_.flat, camera, settings); });
         renderer_.emplace(device_, prepared_.flat, camera, settings);
-    } else if (isSceneNew_ || !renderer_->serves(prepared_.flat, camera)) {
+    } else if (isSceneNew_) {
         renderer_->setSampling(settings);
         renderer_->restart(prepared_.flat, camera, settings.width, settings.height);
     } else {
         renderer_->clearStatistics();
         renderer_->setSampling(settings);
+        renderer_->adapt(prepared_.flat, camera);
         renderer_->restart(camera, settings.width, settings.height);
     }
     isSceneNew_ = false;

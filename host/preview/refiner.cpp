@@ -68,11 +68,8 @@ void Refiner::begin(std::uint32_t scale, bool fresh)
     scale_ = scale;
     fresh_ = fresh;
     const glm::uvec2 film = (size_ + scale - 1U) / scale;
-    if (renderer_.serves(prepared_.flat, camera_)) {
-        renderer_.restart(camera_, film.x, film.y);
-    } else {
-        renderer_.restart(prepared_.flat, camera_, film.x, film.y);
-    }
+    renderer_.adapt(prepared_.flat, camera_);
+    renderer_.restart(camera_, film.x, film.y);
     seconds_ = 0.0;
 }
 

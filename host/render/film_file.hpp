@@ -16,7 +16,7 @@
 // denoised.RGB, denoisedError.RGB   a denoised picture and its estimated RMSE, for viewing: reading a film ignores them
 //
 // The attribute glim:digest is the film's SHA-256 (film.hpp), and glim:headerDigest that of the header, by which damage is noticed.
-// glim:pixels is that of the moments alone, by which films of different kernels are compared.
+// glim:pixels is the SHA-256 of the pixels and splats alone: it tells whether films of different kernels have the same bits.
 //
 // Layers end in one letter, as Blender expects; the attributes are named glim:*.
 #pragma once

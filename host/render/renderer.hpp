@@ -85,8 +85,8 @@ public:
     PathRadiance traceSample(std::uint32_t pixel, std::uint32_t sample) { return wavefront_->traceSample(pixel, sample); }
     // What the next picture has of samples, seed and time. The other settings must be the same as before.
     void setSampling(const RenderSettings& settings);
-    // Whether the kernels do for that camera, which the scene may need others for.
-    bool serves(const FlatScene& scene, const FlatCamera& camera) const { return wavefront_->serves(scene, camera); }
+    // Takes other kernels if the present ones do not serve this camera, which is close to large triangles, or no longer.
+    void adapt(const FlatScene& scene, const FlatCamera& camera) { wavefront_->adapt(scene, camera); }
     // Starts another picture of the scene, from a camera that the kernels serve.
     void restart(const FlatCamera& camera, std::uint32_t width, std::uint32_t height);
     // Starts a picture of another scene. Keeps the kernels if they serve it.

@@ -60,11 +60,9 @@ Wavefront::Wavefront(Device& device, const FlatScene& scene, const FlatCamera& c
       shared_(*own_),
       parameters_(device, scene, camera, settings),
       course_(device, scene, settings),
-      compiled_(lasting.kernels && glim::serves(lasting.kernels->set.specialization, specialize(scene, camera, settings))
+      compiled_(lasting.kernels && serves(lasting.kernels->set.specialization, specialize(scene, camera, settings))
                     ? std::move(lasting.kernels)
-                    : std::make_shared<CompiledKernels>(device, scene, camera, settings, schedule_)),
-      layout_(compiled_->layout),
-      kernels_(compiled_->set)
+                    : std::make_shared<CompiledKernels>(device, scene, camera, settings, schedule_))
 {
     compile();
 }
@@ -78,16 +76,22 @@ Wavefront::Wavefront(Device& device, SharedResources& shared, const FlatScene& s
       shared_(shared),
       parameters_(device, scene, camera, settings),
       course_(device, scene, settings),
-      compiled_(std::make_shared<CompiledKernels>(device, scene, camera, settings, schedule_)),
-      layout_(compiled_->layout),
-      kernels_(compiled_->set)
+      compiled_(std::make_shared<CompiledKernels>(device, scene, camera, settings, schedule_))
 {
     compile();
 }
 
-bool Wavefront::serves(const FlatScene& scene, const FlatCamera& camera) const
+void Wavefront::adapt(const FlatScene& scene, const FlatCamera& camera)
 {
-    return glim::serves(kernels_.specialization, specialize(scene, camera, settings_));
+    const Specialization needed = specialize(scene, camera, settings_);
+    if (serves(kernels().specialization, needed)) {
+        return;
+    }
+    std::swap(compiled_, spare_);
+    if (!compiled_ || !serves(kernels().specialization, needed)) {
+        compiled_ = std::make_shared<CompiledKernels>(device_, scene, camera, settings_, schedule_);
+        compile();
+    }
 }
 
 void Wavefront::setCamera(const FlatCamera& camera, std::uint32_t width, std::uint32_t height)
@@ -110,12 +114,12 @@ BufferMap Wavefront::constants() const
 
 std::unique_ptr<Tile> Wavefront::makeTile(std::uint32_t begin, std::uint32_t count)
 {
-    return std::make_unique<Tile>(device_, layout_, constants(), shared_.paths, begin, count, settings_);
+    return std::make_unique<Tile>(device_, compiled_->layout, constants(), shared_.paths, begin, count, settings_);
 }
 
 std::unique_ptr<SplatBuffer> Wavefront::makeSplatBuffer(std::uint32_t count)
 {
-    return std::make_unique<SplatBuffer>(device_, layout_, constants(), shared_.paths, count);
+    return std::make_unique<SplatBuffer>(device_, compiled_->layout, constants(), shared_.paths, count);
 }
 
 // llvmpipe compiles a kernel at its first dispatch. This one has nothing to do, so that no timed dispatch pays for that.
@@ -128,8 +132,8 @@ void Wavefront::compile()
     nothing.pass.bounce = 1;
     nothing.pass.sizes = kSizesPaths | kSizesShadow;
     Commands commands(device_);
-    for (const Kernel* kernel : kernels_.all()) {
-        const bool light = kernels_.traceLightPaths && kernel == &*kernels_.traceLightPaths;
+    for (const Kernel* kernel : kernels().all()) {
+        const bool light = kernels().traceLightPaths && kernel == &*kernels().traceLightPaths;
         commands.dispatch(*kernel, light ? splats->bindings(0) : tile->bindings(0),
                           std::as_bytes(std::span<const CoursePass, 1>(&nothing, 1)), 1);
     }
@@ -154,11 +158,11 @@ std::optional<PassSeconds> Wavefront::trace(const Tile& tile, Pass pass, const s
         shared_.paths.emptyQueues();
         return std::nullopt;
     }
-    if (kernels_.showAov) {
-        recording.dispatch(*kernels_.showAov, tile.bindings(0), pass, groupsOf(pass.pixelCount * pass.sampleCount));
+    if (kernels().showAov) {
+        recording.dispatch(*kernels().showAov, tile.bindings(0), pass, groupsOf(pass.pixelCount * pass.sampleCount));
     }
-    recording.dispatch(*kernels_.accumulate, tile.bindings(0), pass, groupsOf(pass.pixelCount));
-    course_.recordLuminance(recording, kernels_, tile.bindings(0), pass, groupsOf(pass.pixelCount));
+    recording.dispatch(*kernels().accumulate, tile.bindings(0), pass, groupsOf(pass.pixelCount));
+    course_.recordLuminance(recording, kernels(), tile.bindings(0), pass, groupsOf(pass.pixelCount));
     recording.finish();
     return PassSeconds{recording.longest(), recording.total()};
 }
@@ -166,8 +170,8 @@ std::optional<PassSeconds> Wavefront::trace(const Tile& tile, Pass pass, const s
 void Wavefront::tracePaths(Recording& recording, const Tile& tile, Pass& pass)
 {
     // generate_rays fills the queue that bounce 0 reads: the next queue of the odd bindings.
-    recording.dispatch(*kernels_.generateRays, tile.bindings(1), pass, groupsOf(pass.pixelCount * pass.sampleCount));
-    if (kernels_.tracePaths) {
+    recording.dispatch(*kernels().generateRays, tile.bindings(1), pass, groupsOf(pass.pixelCount * pass.sampleCount));
+    if (kernels().tracePaths) {
         tracePersistently(recording, tile, pass);
     } else {
         traceByWavefront(recording, tile, pass);
@@ -199,24 +203,24 @@ void Wavefront::recordBounce(Recording& recording, const Bindings& bindings, con
     Pass next = pass;
     next.bounce = pass.bounce + 1;
     if (usesCourseEstimators(settings_)) {
-        course_.recordBounce(recording, kernels_, bindings, pass, sizes);
+        course_.recordBounce(recording, kernels(), bindings, pass, sizes);
         recordSize(recording, bindings, next, kSizesPaths);
         return;
     }
-    recording.dispatchIndirect(*kernels_.traceClosest, bindings, pass, sizes, offsetof(QueueSizes, closestGroups));
-    recording.dispatchIndirect(*kernels_.sampleLightsAndBounce, bindings, pass, sizes, offsetof(QueueSizes, closestGroups));
+    recording.dispatchIndirect(*kernels().traceClosest, bindings, pass, sizes, offsetof(QueueSizes, closestGroups));
+    recording.dispatchIndirect(*kernels().sampleLightsAndBounce, bindings, pass, sizes, offsetof(QueueSizes, closestGroups));
     const PathLengths lengths = pathLengths(settings_);
     const bool hasShadowRays = samplesLights(pass.bounce, lengths.maxBounces, lengths.min, lightCount_);
     recordSize(recording, bindings, next, hasShadowRays ? kSizesPaths | kSizesShadow : kSizesPaths);
     if (hasShadowRays) {
-        recording.dispatchIndirect(*kernels_.traceShadow, bindings, pass, sizes, offsetof(QueueSizes, shadowGroups));
+        recording.dispatchIndirect(*kernels().traceShadow, bindings, pass, sizes, offsetof(QueueSizes, shadowGroups));
     }
 }
 
 void Wavefront::recordSize(Recording& recording, const Bindings& bindings, Pass pass, std::uint32_t queues) const
 {
     pass.sizes = queues;
-    recording.dispatch(*kernels_.sizeDispatch, bindings, pass, 1);
+    recording.dispatch(*kernels().sizeDispatch, bindings, pass, 1);
 }
 
 void Wavefront::recordTrace(Recording& recording, const std::optional<Kernel>& production, const std::optional<Kernel>& course,
@@ -238,7 +242,7 @@ void Wavefront::tracePersistently(Recording& recording, const Tile& tile, Pass& 
     bool alive = true;
     for (std::uint32_t parity = 0; alive; parity = 1 - parity) {
         const Bindings& bindings = tile.bindings(parity);
-        recording.dispatchIndirect(*kernels_.tracePaths, bindings, pass, shared_.paths.queueSizes(), offsetof(QueueSizes, closestGroups));
+        recording.dispatchIndirect(*kernels().tracePaths, bindings, pass, shared_.paths.queueSizes(), offsetof(QueueSizes, closestGroups));
         recordSize(recording, bindings, pass, kSizesShares);
         recording.finish();
         alive = isAnyPathAlive(recording);
@@ -257,7 +261,7 @@ std::optional<PassSeconds> Wavefront::traceLight(const SplatBuffer& splats, std:
     Recording recording(device_, statistics_, settings_.portion, shouldContinue);
     const std::uint32_t share = settings_.workgroup * kPathsPerThread;
     // Fills the queue that the next dispatch reads, as generate_rays does.
-    recording.dispatch(*kernels_.traceLightPaths, splats.bindings(1), pass, (count + share - 1) / share);
+    recording.dispatch(*kernels().traceLightPaths, splats.bindings(1), pass, (count + share - 1) / share);
     pass.bounce = 1;
     bool alive = true;
     for (std::uint32_t parity = 0; alive; parity = 1 - parity) {
@@ -266,7 +270,7 @@ std::optional<PassSeconds> Wavefront::traceLight(const SplatBuffer& splats, std:
         recording.finish();
         alive = isAnyPathAlive(recording);
         if (alive) {
-            recording.dispatchIndirect(*kernels_.traceLightPaths, bindings, pass, shared_.paths.queueSizes(),
+            recording.dispatchIndirect(*kernels().traceLightPaths, bindings, pass, shared_.paths.queueSizes(),
                                        offsetof(QueueSizes, closestGroups));
         }
     }
@@ -310,7 +314,7 @@ std::vector<PathHit> Wavefront::traceRays(const Tile& tile, std::span<const Path
     pass.sampleCount = 1;
     Recording recording(device_, statistics_);
     recordSize(recording, tile.bindings(0), pass, kSizesPaths);
-    recordTrace(recording, kernels_.traceClosest, kernels_.course.traceClosest, tile.bindings(0), pass,
+    recordTrace(recording, kernels().traceClosest, kernels().course.traceClosest, tile.bindings(0), pass,
                 offsetof(QueueSizes, closestGroups));
     recording.finish();
     return download<PathHit>(shared_.paths.hits(), rays.size());
@@ -324,7 +328,7 @@ std::vector<bool> Wavefront::traceShadowRays(const Tile& tile, std::span<const S
     pass.sampleCount = 1;
     Recording recording(device_, statistics_);
     recordSize(recording, tile.bindings(0), pass, kSizesShadow);
-    recordTrace(recording, kernels_.traceShadow, kernels_.course.traceShadow, tile.bindings(0), pass, offsetof(QueueSizes, shadowGroups));
+    recordTrace(recording, kernels().traceShadow, kernels().course.traceShadow, tile.bindings(0), pass, offsetof(QueueSizes, shadowGroups));
     recording.finish();
     const std::vector<PathRadiance> found = download<PathRadiance>(shared_.paths.radiance(), rays.size());
     std::vector<bool> free(rays.size());
@@ -338,7 +342,7 @@ void Wavefront::closeBlocks(const Tile& tile)
     pass.pixelCount = tile.count();
     pass.accumulate = kEndsBlock | kEveryPixel;
     Recording recording(device_, statistics_);
-    recording.dispatch(*kernels_.accumulate, tile.bindings(0), pass, groupsOf(pass.pixelCount));
+    recording.dispatch(*kernels().accumulate, tile.bindings(0), pass, groupsOf(pass.pixelCount));
     recording.finish();
 }
 
@@ -349,7 +353,7 @@ void Wavefront::choosePixels(Tile& tile, std::uint32_t samples)
     all.pass.pixelCount = tile.count();
     all.pass.firstSample = samples;
     Recording recording(device_, statistics_);
-    recording.dispatch(*kernels_.course.choosePixels, tile.bindings(0), all, groupsOf(tile.count()));
+    recording.dispatch(*kernels().course.choosePixels, tile.bindings(0), all, groupsOf(tile.count()));
     recording.finish();
     tile.readChosenCount();
 }

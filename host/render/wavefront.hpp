@@ -43,8 +43,9 @@ public:
     SharedResources& shared() { return shared_; }
     LastingResources lasting() const { return {compiled_, shared_.scene.textures()}; }
 
-    // Whether the kernels do for that camera.
-    bool serves(const FlatScene& scene, const FlatCamera& camera) const;
+    // Takes other kernels if the present ones do not serve this camera, and compiles them if need be: a camera close to large triangles
+    // needs kFeatureLargeTriangles. The kernels before stay for cameras that come back.
+    void adapt(const FlatScene& scene, const FlatCamera& camera);
     // Sets the camera of the following passes.
     void setCamera(const FlatCamera& camera, std::uint32_t width, std::uint32_t height);
     void setSeed(std::uint32_t seed) { parameters_.setSeed(seed); }
@@ -86,6 +87,7 @@ public:
     void clearStatistics();
 
 private:
+    const KernelSet& kernels() const { return compiled_->set; }
     void compile();
     BufferMap constants() const;
     void tracePaths(Recording& recording, const Tile& tile, Pass& pass);
@@ -109,9 +111,7 @@ private:
     SharedResources& shared_;
     DeviceParameters parameters_;
     CourseEstimators course_;
-    std::shared_ptr<const CompiledKernels> compiled_;
-    const KernelLayout& layout_;
-    const KernelSet& kernels_;
+    std::shared_ptr<const CompiledKernels> compiled_, spare_;
 };
 
 }  // namespace glim

@@ -72,7 +72,7 @@ TEST(EditGltf, SetsWhatAFileCouldHave)
     }
 }
 
-TEST(EditGltf, OneComesAfterTheOther)
+TEST(EditGltf, EditsApplyInOrder)
 {
     GltfBuilder other = builder();
     other.document["materials"][0]["pbrMetallicRoughness"] = {{"roughnessFactor", 0.5}, {"metallicFactor", 0.25}};
@@ -82,7 +82,7 @@ TEST(EditGltf, OneComesAfterTheOther)
     EXPECT_EQ(fingerprintOf(scene), fingerprintOf(load(other)));
 }
 
-// Parts take the place of a matrix, and a matrix that of the parts.
+// An edit of a part splits the matrix; one of the matrix removes the parts.
 TEST(EditGltf, ANodeHasAMatrixOrParts)
 {
     const auto placeOf = [](const std::vector<Edit>& edits, std::size_t instance) {
@@ -101,24 +101,41 @@ void expectRefused(const Edit& edit, const std::string& part)
 
 TEST(EditGltf, RefusesWithThePointerOrThePlace)
 {
-    expectRefused(
-        {"/materials/glass/alphaCutoff", "1"},
-        "--set /materials/glass/alphaCutoff: nothing there is named \"glass\"; expected an index, or one of \"paint\", \"other\"");
-    expectRefused({"/nodes/card/scale", "[1, 1, 1]"}, "2 things there are named \"card\"; expected one of their indices, 0, 1");
-    expectRefused({"/materials/2/alphaCutoff", "1"}, "the file has 2 elements there");
-    expectRefused({"/materials/0/alphaCutoff/deep", "1"}, "names nothing that glim can change");
-    expectRefused({"/lights/0/intensity", "1"}, "the file has no lights there");
+    expectRefused({"/materials/glass/alphaCutoff", "1"},
+                  "--set /materials/glass/alphaCutoff: no element of /materials is named \"glass\"; expected an index from 0 to 1, or one "
+                  "of \"paint\", \"other\"");
+    expectRefused({"/nodes/card/scale", "[1, 1, 1]"}, "2 elements of /nodes are named \"card\"; expected one of their indices, 0, 1");
+    expectRefused({"/materials/2/alphaCutoff", "1"}, "/materials has 2 elements; expected an index from 0 to 1, or a name");
+    expectRefused({"/materials/0/alphaCutoff/deep", "1"}, "is no value that glim can change");
+    expectRefused({"/lights/0/intensity", "1"}, "the file has no /lights; expected a pointer");
     for (const char* pointer :
          {"", "/", "/asset/version", "/materials", "/materials/0", "/materials/0/name", "/nodes/0/mesh", "/scene", "/accessors/0/count",
-          "/meshes/0/primitives/0/material", "/cameras/0/type", "/materials/0/unknown", "/materials/0/normalTexture/index"}) {
-        expectRefused({pointer, "1"}, "names nothing that glim can change");
+          "/meshes/0/primitives/0/material", "/cameras/0/type", "/materials/0/unknown", "/materials/0/normalTexture/index",
+          "/materials/0/pbrMetallicRoughness.roughnessFactor", "/materials[]/alphaCutoff"}) {
+        expectRefused({pointer, "1"}, "is no value that glim can change");
     }
     expectRefused({"/materials/0/alphaCutoff", "-2"}, "materials[0].alphaCutoff is -2; expected");
     expectRefused({"/materials/0/pbrMetallicRoughness/baseColorFactor", "[1, 2]"}, "materials[0].pbrMetallicRoughness.baseColorFactor");
     expectRefused({"/materials/0/alphaMode", "\"GLASS\""}, "materials[0].alphaMode");
     expectRefused({"/materials/0/doubleSided", "3"}, "materials[0].doubleSided");
     expectRefused({"/materials/0/alphaCutoff", "1,2"}, "is not JSON");
-    expectRefused({"/nodes/0/weights/0", "1"}, "the file has no weights there");
+    expectRefused({"/nodes/0/weights/0", "1"}, "the file has no /nodes/0/weights; expected a pointer");
+}
+
+// Each edit is checked before the next one reads what it wrote.
+TEST(EditGltf, AWrongValueIsRefusedBeforeTheNextEdit)
+{
+    for (const auto& [matrix, part] : {std::pair("[1, 2]", "nodes[0].matrix is"),
+                                       {"5", "nodes[0].matrix is"},
+                                       {"[2,0,0,0, 0,2,0,0, 0,0,2,0, 1,2,3,9]", "the node's matrix shears, flattens or projects"}}) {
+        const LoadOptions options = edited({{"/nodes/0/matrix", matrix}, {"/nodes/0/translation", "[1, 2, 3]"}});
+        expectRefusal<InputError>([&] { load(builder(), options); }, part);
+    }
+    expectRefusal<InputError>(
+        [&] {
+            load(builder(), edited({{"/nodes/0/weights", "5"}, {"/nodes/0/weights/0", "1"}}));
+        },
+        "nodes[0].weights");
 }
 
 TEST(EditGltf, APointerIsEscaped)

@@ -71,7 +71,7 @@ TEST(FilmFile, ReadsBackEveryBitOfSplats)
     EXPECT_EQ(std::memcmp(back.splats.data(), film.splats.data(), film.splats.size() * sizeof(SplatMoments)), 0);
 }
 
-TEST(FilmFile, NamesItsPixelsApartFromWhatMadeThem)
+TEST(FilmFile, PixelsDigestIgnoresKernelsAndDevice)
 {
     const ScratchFolder folder;
     Film film = filmWithSplats();

@@ -201,7 +201,8 @@ TEST(GltfCosts, NumbersWithinDracoStreams)
     EXPECT_LT(peak, 64 * kMiB);
 }
 
-// A file lists how long its animations are. Each of these has times of its own, which are one and the same array: it is read once.
+// A file lists how long its animations are. Each animation has its own accessor of times, but all of them name the same bytes, which are
+// read once.
 TEST(GltfCosts, TimesThatManyAnimationsName)
 {
     const auto animated = [](std::size_t keys, int animations) {

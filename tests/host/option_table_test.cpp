@@ -11,9 +11,8 @@ namespace {
 using test::expectRefusal;
 
 // Options of each kind, and what they store.
-class OptionTableTest : public ::testing::Test {
-protected:
-    OptionTableTest()
+struct Options {
+    Options()
     {
         const Option size = table_.add("-s,--size", "WxH", "", [this](const OptionValue& value) { size_ = parseSize(value); });
         addNumber<std::uint32_t>(table_, {"--spp", "N", "", 1, 1000000, ""}, [this](std::uint32_t count) { spp_ = count; }).needs(size);
@@ -39,27 +38,29 @@ protected:
     std::filesystem::path file_;
 };
 
-TEST_F(OptionTableTest, TextsAndValuesSayTheSame)
+class OptionTableTest : public ::testing::Test, protected Options {};
+
+TEST(OptionValues, SayTheSameAsTexts)
 {
     for (const char* size : {R"("640x480")", "[640, 480]", R"(["640", 480.0])"}) {
-        size_ = glm::uvec2(0);
-        set("size", size);
-        EXPECT_EQ(size_, glm::uvec2(640, 480)) << size;
+        Options options;
+        options.set("size", size);
+        EXPECT_EQ(options.size_, glm::uvec2(640, 480)) << size;
     }
-    for (const char* count : {R"("17")", "17", "17.0", "[17]"}) {
-        spp_ = 0;
-        set("--spp", count);
-        EXPECT_EQ(spp_, 17U) << count;
+    for (const char* count : {R"("100000")", "100000", "100000.0", "[100000]", "1e5"}) {
+        Options options;
+        options.set("--spp", count);
+        EXPECT_EQ(options.spp_, 100000U) << count;
     }
-    set("spp", "100000");
-    EXPECT_EQ(spp_, 100000U);
     for (const auto& [text, choice] : {std::pair(R"("on")", 1U), {"false", 0U}, {"true", 1U}}) {
-        set("back_faces", text);
-        EXPECT_EQ(choice_, choice) << text;
+        Options options;
+        options.set("back_faces", text);
+        EXPECT_EQ(options.choice_, choice) << text;
     }
     for (const double seconds : {1e22, 0.1, 3.0, 100000.0}) {
-        table_.set("time", OptionValue(Json(seconds)));
-        EXPECT_EQ(time_, seconds);
+        Options options;
+        options.table_.set("time", OptionValue(Json(seconds)));
+        EXPECT_EQ(options.time_, seconds);
     }
     EXPECT_EQ(parsePercent("", OptionValue("1%")), parsePercent("", OptionValue(Json(0.01))));
     EXPECT_EQ(parseDuration("", OptionValue("2m")), parseDuration("", OptionValue(Json(120))));
@@ -80,9 +81,13 @@ TEST_F(OptionTableTest, EditsAreAPointerAndJson)
     EXPECT_EQ(parseEdit(OptionValue("/x", Json::array({0.5}))), (Edit{"/x", "[0.5]"}));
     EXPECT_EQ(parseEdit(OptionValue("/x", Json(0.5))), (Edit{"/x", "0.5"}));
     EXPECT_EQ(parseEdit(OptionValue("/x", Json(false))), (Edit{"/x", "false"}));
+    for (const char* word : {"inf", "nan", "1,inf"}) {  // null would take a property away
+        EXPECT_EQ(parseEdit(OptionValue(std::string("/x=") + word)).value, Json(word).dump());
+    }
     for (const char* text : {"", "/x", "x=1", "=1"}) {
         expectRefusal<UsageError>([&] { parseEdit(OptionValue(text)); }, "expected a pointer and a value");
     }
+    expectRefusal<UsageError>([&] { parseEdit(OptionValue("/x", Json::array({"a", "b"}))); }, "expected a number, a list of numbers");
 }
 
 TEST_F(OptionTableTest, FlagsThatAreFalseAreNotGiven)
@@ -117,6 +122,9 @@ TEST_F(OptionTableTest, WhatDoesNotGoTogetherIsRefused)
     set("spp", "4");
     expectUnfinished("--spp requires --size");
     set("-s", R"("8x8")");
+    for (const char* name : {"size", "--size", "-s"}) {
+        expectRefused(name, R"("9x9")", "--size: is given twice");
+    }
     table_.finish();
     set("time", "2");
     expectUnfinished("--spp excludes --time");

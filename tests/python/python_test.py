@@ -237,10 +237,11 @@ class UseTest(PythonCase):
         self.assertEqual(glim.render(kept.path, size=(8, 8), set={pointer: blue}, **options).digest, after)
         kept.set(pointer, None)
         self.assertEqual(kept.render(**options).digest, before)
-        with self.assertRaisesRegex(glim.InputError, "nothing there is named"):
+        with self.assertRaisesRegex(glim.InputError, "is named \"nobody\""):
             glim.render(kept.path, set={"/materials/nobody/alphaCutoff": 1})
         with self.assertRaisesRegex(glim.InputError, "cannot use <object"):
             kept.set(pointer, object())
+        self.assertEqual(kept.render(**options).digest, before)
 
     def test_refusals(self):
         for options, words in (({"spp": 0}, "^spp: .*expected"), ({"sppp": 1}, "sppp"), ({"size": "8"}, "^size: "),
@@ -270,6 +271,7 @@ class UseTest(PythonCase):
                             ("^resume: cannot use 5, ", lambda: glim.render(GEMS, resume=5)),
                             ("^progress: cannot use 5, ", lambda: glim.render(GEMS, progress=5)),
                             ("^bounces: .*true.*expected", lambda: glim.render(GEMS, bounces=True)),
+                            ("^spp: cannot use 1000", lambda: glim.render(GEMS, spp=10**400)),
                             ("^size: cannot use True, ", lambda: glim.render(GEMS, size=(True, 8))),
                             ('camera "spp": expected one of', lambda: glim.render(GEMS, camera="--spp", spp=1)),
                             ("^origin: cannot use 5, ", lambda: glim.look_at(5, (0, 0, 0))),

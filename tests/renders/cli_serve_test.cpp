@@ -170,7 +170,7 @@ TEST_F(ServeTest, PicturesHaveTheBitsThatTheyHaveAlone)
     }
 }
 
-// Numbers, lists and truths say the same as texts; null says nothing.
+// Numbers, lists and booleans say the same as texts; null counts as left out.
 TEST_F(ServeTest, OptionsAreValues)
 {
     const Json size{Json::array({16.0, 12})}, from{Json::array({0, 1, 3})}, at{Json::array({0, "1", 0})};
@@ -258,7 +258,7 @@ TEST_F(ServeTest, ARefusalIsASentenceAndNotTheEnd)
     server_.send(R"({"id":{"page":[7]},"render":[]})");
     EXPECT_EQ(server_.receive().at("id").dump(), R"({"page":[7]})");
     server_.send(R"({"id":1,"render":{}})");
-    expectRefused(server_.receive(), 2, "SCENE is required");
+    expectRefused(server_.receive(), 2, "file is required");
     server_.send(R"({"id":1,"render":{"file":["a.gltf",["b"]]}})");
     expectRefused(server_.receive(), 2, "expected a text, a number, true, false, or a list of texts and numbers");
     server_.send(R"({"id":1,"render":{"file":"a.gltf","output":"a.exr","spp":4,"time":2}})");

@@ -185,6 +185,10 @@ TEST(CommandLineTest, CommandsAndOptionsThatDoNotExist)
     expectUsage(runGlim({"render", "--fast"}), "\"--fast\" was not expected");
     expectUsage(runGlim({"render", "x.gltf", "-o", "x.exr", "y.gltf"}), "\"y.gltf\" was not expected");
     expectUsage(runGlim({"render"}), "SCENE is required");
+    for (const char* flag : {"--confine=abc", "--denoise=maybe"}) {
+        expectUsage(runGlim({"render", "x.gltf", "-o", "x.exr", flag}), std::string(flag).substr(0, std::string(flag).find('=')));
+    }
+    expectUsage(runGlim({"render", "x.gltf", "-o", "x.exr", "--spp", "4", "--spp", "5"}), "--spp");
     expectUsage(runGlim({"render", "x.gltf"}), "--output is required");
     expectUsage(runGlim({"merge", "x.exr"}), "--output is required");
     expectUsage(runGlim({"compare", "x.exr"}), "reference is required");

@@ -167,7 +167,7 @@ TEST(HardLightTest, ADoubleSidedLampInTheCeiling)
     }
 }
 
-TEST(HardLightTest, BallsInOnePlace)
+TEST(HardLightTest, CoincidentSpheres)
 {
     const double irradiance = irradianceOfSphere({0, 1.5, 0}, 0.5, {0, 1, 0});
     for (const bool lit : {false, true}) {
@@ -180,7 +180,7 @@ TEST(HardLightTest, BallsInOnePlace)
 }
 
 // Within a ball of radiance 1 and albedo .5 one bounce gives 1.5. The one-sided lamp in its place is not there from within.
-TEST(HardLightTest, BallsInOnePlaceFromWithin)
+TEST(HardLightTest, CoincidentSpheresFromWithin)
 {
     for (const bool oneSidedFirst : {false, true}) {
         SceneBuilder builder;

@@ -1,9 +1,12 @@
 // H51, H52: large triangles beside small things, and parts that lie far from the rest.
+#include "host/flatten/flatten_scene.hpp"
 #include "host/flatten/primitives.hpp"
+#include "host/render/renderer.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/render_scene.hpp"
+#include "tests/support/test_device.hpp"
 #include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>
@@ -93,6 +96,30 @@ TEST(LargeTest, H51ACameraThatComesNear)
                   "without care: " + figure(naive));
     EXPECT_LT(off, 6e-5);  // across the window: 1e-4 / tan(14 degrees) of 8.2 m
     EXPECT_GT(naive, 1e-3);
+}
+
+// As the window does it: kernels change with the camera, and those before come back with theirs.
+TEST(LargeTest, H51ARendererFollowsItsCamera)
+{
+    SceneBuilder builder;
+    builder.quad(ground(1e6F), builder.lambert(glm::vec3(0.5F))).environment(glm::vec3(1.0F));
+    builder.orthographic({0, 1e6F, 0}, {0, 0, 0}, 1e5F);
+    builder.orthographic({0.3F, 2.0F, 0.2F}, {8.3F, 0.0F, 0.2F}, 1e-4F);
+    const FlatScene flat = flattened(builder.scene());
+    const FlatCamera far = flattenCamera(builder.scene().cameras.front(), 1.0F), near = flattenCamera(builder.scene().cameras.back(), 1.0F);
+    RenderSettings settings = squareSettings(kSide, 1);
+    settings.aov = Aov::Depth;
+    Renderer renderer(testDevice(), flat, far, settings);
+    const auto render = [&](const FlatCamera& camera) {
+        renderer.adapt(flat, camera);
+        renderer.restart(camera, kSide, kSide);
+        return renderer.render([](const RenderProgress&) { return true; });
+    };
+    const Film before = render(far);
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_LT(worstOf(render(near), std::sqrt(68.0)), 6e-5);
+        EXPECT_TRUE(sameBits(render(far), before));
+    }
 }
 
 std::vector<float> floatsOf(const std::vector<glm::vec3>& vectors)

@@ -168,7 +168,7 @@ TEST(StartMediaTest, TheHostKnowsWhereACameraIs)
 }
 
 // What rays never meet is no solid: what is transparent all over, and what an opaque lamp in the same place hides.
-TEST(StartMediaTest, SolidsThatAreNotThereAreNotAround)
+TEST(StartMediaTest, HiddenOrTransparentSolidsDoNotCount)
 {
     Scene scene = lookingAlongZ();
     const std::uint32_t water = addMedium(scene, kThin), clear = addMedium(scene, kDense);

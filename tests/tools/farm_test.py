@@ -213,7 +213,8 @@ class CommandTest(unittest.TestCase):
                             (["--bands", "1001"], "from 1 to 1000"), (["--bands", "4", "--target-rmse", "1%"], "neither --frames nor"),
                             (["--slurm", "gres=gpu:1"], "the time among them"), (["--workers", "0:4"], "--slurm as well"),
                             (["--slurm", "time=1:00", "--workers", "4:2"], "the fewest and the most"),
-                            (["--samples=0:4"], "hands out samples itself"),
+                            (["--samples=0:4"], "hands out samples itself"), (["--seed=1", "--seed", "2"], "given twice"),
+                            (["stray"], "expected an option"),
                             (["--resume"], "goes on"), (["--camera", "all"], "one picture"), (["--spp", "0"], "whole number"),
                             (["--frames", "1:2"], "####"), (["--fps", "3"], "--frames"), (["--frames", "2:1"], "A:B"),
                             (["--local", "2", "--scheduler", "tcp://h:1"], "not allowed"), (["--tls-ca", "a"], "together"),
@@ -225,8 +226,9 @@ class CommandTest(unittest.TestCase):
                 parse_arguments(good + more)
             self.assertEqual(caught.exception.code, 2, more)
             self.assertIn(words, "".join(call.args[0] for call in stderr.write.call_args_list))
-        options = parse_arguments(good + ["--size", "8x8", "--look-from", "-1,2,3"])
-        self.assertEqual((options.job, options.spp), ({"file": options.scene, "size": "8x8", "look-from": "-1,2,3"}, 4))
+        options = parse_arguments(good + ["--size", "8x8", "--look-from", "-1,2,3", "--confine", "--set=/a/b=1", "--set", "/c=d"])
+        self.assertEqual((options.job, options.spp), ({"file": options.scene, "size": "8x8", "look-from": "-1,2,3", "confine": True,
+                                                       "set": ["/a/b=1", "/c=d"]}, 4))
 
     def test_no_commands_from_a_network_without_tls(self):
         for value, words in (("tcp://10.0.0.1:8786", "--insecure"), ("tcp://127.0.0.1:8786", "--insecure"),

@@ -150,13 +150,16 @@ def options_of(parser, words):
     options, words = {}, list(words)
     while words:
         name, joined, value = words.pop(0).partition("=")
-        if not name.startswith("--"):
+        if not re.fullmatch("--[a-z][a-z-]*", name) or name == "--file":
             parser.error("%s: expected an option, as in --size 1920x1080" % name)
         if not joined:
             value = words.pop(0) if words and not words[0].startswith("--") else True
-        if name[2:] in options:
+        if name == "--set":  # the one that may be repeated
+            options.setdefault("set", []).append(value)
+        elif name[2:] in options:
             parser.error("%s: is given twice" % name)
-        options[name[2:]] = value
+        else:
+            options[name[2:]] = value
     return options
 
 

@@ -132,7 +132,9 @@ std::optional<Property> Animator::findProperty(const std::string& pointer, const
 // The matrix of a node that moves, in the parts that move.
 void Animator::replaceMatrix(std::size_t index, const std::string& pointer, const std::string& place)
 {
-    if (!splitMatrix(document_["nodes"][index])) {
+    json& node = document_["nodes"][index];
+    readMatrix(file_, index, node["matrix"].get<std::vector<double>>());  // refuses one that projects
+    if (!splitMatrix(node)) {
         refuse(file_, place + " animates " + pointer + " of a node whose matrix shears or flattens; expected a node without a matrix");
     }
     warnings_.add("matrices of nodes that are animated count as translation, rotation and scale", shortened(pointer));

@@ -31,12 +31,12 @@ public:
         std::vector<std::string> steps = splitPointer(edit_.pointer);
         json* at = &document_;
         for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
-            at = &enter(*at, steps[i], steps[i + 1]);
+            at = &enter(*at, steps, i);
         }
         const std::string schemaPath = schemaPathOf(steps);
         checkProperty(steps, schemaPath);
         if (at->is_array() && follow(*at, steps.back()) == nullptr) {
-            refuse("the file has " + counted(at->size(), "element") + " there; expected an index below that");
+            refuseIndex(*at, steps, steps.size() - 1);
         }
         settleTransform(*at, schemaPath, steps.back());
         json value = json::parse(edit_.value, nullptr, false);
@@ -49,31 +49,55 @@ public:
 private:
     [[noreturn]] void refuse(const std::string& why) const { throw InputError(path_ + ": --set " + edit_.pointer + ": " + why + "."); }
 
-    // What is below `at`. An index takes the place of a name.
-    json& enter(json& at, std::string& step, const std::string& next) const
+    // The pointer up to a step.
+    static std::string placeOf(const std::vector<std::string>& steps, std::size_t count)
     {
+        std::string place;
+        for (std::size_t i = 0; i < count; ++i) {
+            place += "/" + steps[i];
+        }
+        return place;
+    }
+
+    static std::string indicesOf(const json& list)
+    {
+        return list.empty() ? "no elements" : "an index from 0 to " + std::to_string(list.size() - 1);
+    }
+
+    [[noreturn]] void refuseIndex(const json& list, const std::vector<std::string>& steps, std::size_t step) const
+    {
+        refuse(placeOf(steps, step) + " has " + counted(list.size(), "element") +
+               (list.empty() ? std::string() : "; expected " + indicesOf(list) + ", or a name"));
+    }
+
+    // What step i leads to, below `at`. An index takes the place of a name.
+    json& enter(json& at, std::vector<std::string>& steps, std::size_t i) const
+    {
+        std::string& step = steps[i];
         if (at.is_array() && !isIndex(step)) {
-            step = std::to_string(indexOf(at, step));
+            step = std::to_string(indexOf(at, placeOf(steps, i), step));
         }
         if (json* below = follow(at, step)) {
             return *below;
         }
         if (at.is_array()) {
-            refuse("the file has " + counted(at.size(), "element") + " there; expected an index below that, or a name");
+            refuseIndex(at, steps, i);
         }
-        if (!at.is_object() || isIndex(next)) {
-            refuse("the file has no " + step + " there; expected a property that it has");
+        if (!at.is_object() || isIndex(steps[i + 1])) {
+            refuse("the file has no " + placeOf(steps, i + 1) +
+                   "; expected a pointer into nodes, materials, cameras, meshes or extensions/KHR_lights_punctual/lights");
         }
         return at[step] = json::object();
     }
 
-    std::size_t indexOf(const json& list, const std::string& name) const
+    std::size_t indexOf(const json& list, const std::string& place, const std::string& name) const
     {
         std::vector<std::size_t> found;
         std::string names;
         std::size_t named = 0;
         for (std::size_t i = 0; i < list.size(); ++i) {
-            const std::string own = list[i].is_object() ? list[i].value("name", "") : "";
+            const json* const given = list[i].is_object() && list[i].contains("name") ? &list[i]["name"] : nullptr;
+            const std::string own = given != nullptr && given->is_string() ? given->get<std::string>() : std::string();
             if (own == name) {
                 found.push_back(i);
             }
@@ -85,15 +109,15 @@ private:
             return found.front();
         }
         if (found.empty()) {
-            refuse("nothing there is named " + inQuotes(name) + "; expected an index" +
+            refuse("no element of " + place + " is named " + inQuotes(name) + "; expected " + indicesOf(list) +
                    (names.empty() ? std::string() : ", or one of " + names + moreThanListed(named)));
         }
         std::string indices;
         for (std::size_t i = 0; i < std::min(found.size(), kMostListed); ++i) {
             indices += (i == 0 ? "" : ", ") + std::to_string(found[i]);
         }
-        refuse(counted(found.size(), "thing") + " there are named " + inQuotes(name) + "; expected one of their indices, " + indices +
-               moreThanListed(found.size()));
+        refuse(counted(found.size(), "element") + " of " + place + " are named " + inQuotes(name) + "; expected one of their indices, " +
+               indices + moreThanListed(found.size()));
     }
 
     void checkProperty(const std::vector<std::string>& steps, const std::string& schemaPath) const
@@ -105,8 +129,8 @@ private:
         const bool isChangeable = std::ranges::any_of(kChangeable, [&](const char* start) { return schemaPath.starts_with(start); });
         if (steps.empty() || !hasValue || !isChangeable || steps.back() == "type") {
             refuse(
-                "names nothing that glim can change; expected a pointer to a value, as in "
-                "/materials/0/pbrMetallicRoughness/roughnessFactor");
+                "is no value that glim can change; expected a number, boolean or word of a node, material, camera or light, or the weights "
+                "of a mesh, as in /materials/0/pbrMetallicRoughness/roughnessFactor");
         }
     }
 
@@ -120,7 +144,10 @@ private:
         }
         const bool isPart = schemaPath == "nodes[]." + name && (name == "translation" || name == "rotation" || name == "scale");
         if (isPart && parent.contains("matrix") && !splitMatrix(parent)) {
-            refuse("the node has a matrix that shears or flattens; expected an edit of all of it, the node's matrix");
+            refuse(
+                "the node's matrix shears, flattens or projects and cannot be split into translation, rotation and scale; expected an edit "
+                "of the "
+                "node's matrix");
         }
     }
 
@@ -131,11 +158,6 @@ private:
 
 }  // namespace
 
-void editGltf(const std::string& path, json& document, std::span<const Edit> edits)
-{
-    for (const Edit& edit : edits) {
-        Editor(path, document, edit).apply();
-    }
-}
+void editGltf(const std::string& path, json& document, const Edit& edit) { Editor(path, document, edit).apply(); }
 
 }  // namespace glim

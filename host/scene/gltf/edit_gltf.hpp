@@ -5,14 +5,14 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <span>
 #include <string>
 
 namespace glim {
 
-// Sets each property that glim reads and that has a value: numbers, truths and words of nodes, materials, cameras, lights and weights of
-// meshes. Objects on the way that the file leaves out are made. A translation, a rotation or a scale of a node with a matrix takes its
-// place, and a matrix theirs. `document` has passed checkGltfJson, and is to pass it again, which checks the values. Throws InputError.
-void editGltf(const std::string& path, nlohmann::json& document, std::span<const Edit> edits);
+// An edit sets a number, an array of numbers, a boolean or an enumerated string of a node, a material, a camera
+// or a light, or the weights of a mesh. Missing objects on the way are created. If an edit sets the translation, rotation or scale of a
+// node with a matrix, the matrix is first split into the three. An edit of the matrix removes them. `document` has passed checkGltfJson,
+// and is to pass it again, which checks the values. Throws InputError.
+void editGltf(const std::string& path, nlohmann::json& document, const Edit& edit);
 
 }  // namespace glim

@@ -1,6 +1,7 @@
 #include "host/scene/gltf/object_model.hpp"
 
 #include <glm/glm.hpp>
+#include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
@@ -52,6 +53,9 @@ std::string schemaPathOf(const std::vector<std::string>& steps)
 {
     std::string path;
     for (const std::string& step : steps) {
+        if (step.find_first_of(".[]{}") != std::string::npos) {
+            return "";
+        }
         path += isIndex(step) ? "[]" : (path.empty() ? "" : ".") + step;
     }
     return path;
@@ -61,7 +65,13 @@ bool splitMatrix(json& node)
 {
     constexpr double kOrthogonal = 1e-4;  // of columns of unit length
     const auto numbers = node["matrix"].get<std::vector<double>>();
+    if (numbers.size() != 16) {
+        return false;
+    }
     const glm::dmat4 matrix = glm::make_mat4(numbers.data());
+    if (glm::row(matrix, 3) != glm::dvec4(0.0, 0.0, 0.0, 1.0)) {
+        return false;
+    }
     glm::dmat3 axes(matrix);
     glm::dvec3 scale(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]));
     scale.x = glm::determinant(axes) < 0.0 ? -scale.x : scale.x;

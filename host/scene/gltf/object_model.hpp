@@ -16,11 +16,11 @@ bool isIndex(const std::string& step);
 // A member or an element; null if there is none.
 nlohmann::json* follow(nlohmann::json& at, const std::string& step);
 
-// The schema's path (gltf_schema.hpp): nodes[].scale.
+// The schema's path (gltf_schema.hpp): nodes[].scale. Empty if a step has one of .[]{}, which no property has.
 std::string schemaPathOf(const std::vector<std::string>& steps);
 
-// Gives a node a translation, a rotation and a scale in place of its matrix, which has 16 numbers. Returns false, and changes nothing, if
-// the matrix shears or flattens.
+// Gives a node a translation, a rotation and a scale in place of its matrix. Returns false, and changes nothing, if the matrix shears,
+// flattens or projects.
 bool splitMatrix(nlohmann::json& node);
 
 }  // namespace glim

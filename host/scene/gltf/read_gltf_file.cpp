@@ -359,8 +359,8 @@ GltfFile readGltfFile(const std::filesystem::path& file, bool confined, std::spa
     json document = parseJson(path, container.json);
     GltfFile result;
     checkGltfJson(path, document, result.warnings);
-    if (!edits.empty()) {
-        editGltf(path, document, edits);
+    for (const Edit& edit : edits) {
+        editGltf(path, document, edit);
         checkGltfJson(path, document, result.warnings);
     }
     if (confined) {

@@ -219,7 +219,7 @@ class Film:
 
     @property
     def pixels_digest(self) -> str:
-        """SHA-256 of the moments alone: equal for the same bits, whatever kernels and device they are of."""
+        """SHA-256 of the pixels alone. Films with the same bits have the same one, whatever kernels and device made them."""
         return self._native.pixels_digest
 
     def resume(self, progress: Optional[Progress] = None, **options) -> "Film":
@@ -307,12 +307,19 @@ class Scene:
             return self._keep(asked, rendered)
 
     def set(self, pointer: str, value) -> None:
-        """Changes the scene for the renders that follow: what its glTF file has at a pointer of the object model, as in
-        scene.set("/materials/paint/pbrMetallicRoughness/baseColorFactor", (1, 0, 0, 1)). A name may stand for an index. None takes the
-        change back. Films of other changes cannot be merged."""
-        edits = {key: edit for key, edit in (self._options.get("set") or {}).items() if key != pointer}
-        self._options = {**self._options, "set": {**edits, pointer: value} if value is not None else edits}
-        values_of(self._options)
+        """Sets a value of the scene for the renders that follow; the file stays as it is.
+
+        pointer: of the glTF object model, as in "/materials/paint/pbrMetallicRoughness/baseColorFactor". The name of an element may
+            replace its index.
+        value: a number, a sequence of numbers, a bool or a text. None undoes the change.
+        Films that were rendered with different changes cannot be merged."""
+        before = self._options.get("set") or {}
+        if not isinstance(before, dict):
+            raise InputError("set: cannot use %r with Scene.set, expected a dict of pointers and values" % (before,))
+        edits = {key: edit for key, edit in before.items() if key != pointer}
+        options = {**self._options, "set": {**edits, pointer: value} if value is not None else edits}
+        values_of(options)
+        self._options = options
 
     def _keep(self, asked, rendered):
         self._last = (rendered, asked) if rendered else None  # not the Film, which refers to the scene: a cycle would keep the device

@@ -43,7 +43,10 @@ def value_of(name, value):
         value = next(item for item in value if isinstance(item, (bool, list, tuple)))
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise InputError("%s: cannot use %r, expected a number, a text or a sequence of numbers" % (name, value))
-    return float(value) if abs(value) >= 2**63 else value
+    try:
+        return float(value) if abs(value) >= 2**63 else value
+    except OverflowError:
+        raise InputError("%s: cannot use %r, expected a smaller number" % (name, value)) from None
 
 
 def in_python(sentence):
