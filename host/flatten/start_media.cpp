@@ -3,9 +3,9 @@
 #include "host/flatten/bounds.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <limits>
 #include <map>
@@ -80,9 +80,12 @@ void forEachSurface(const FlatScene& flat, const Visit& visit)
             }
         }
     };
-    const std::vector<uvec4>& texels = flat.instances;
-    std::vector<InstanceData> instances(texels.size() / kInstanceTexels);
-    std::memcpy(instances.data(), texels.data(), texels.size() * sizeof(uvec4));
+    std::vector<InstanceData> instances;
+    for (auto at = flat.instances.begin(); at != flat.instances.end(); at += kInstanceTexels) {
+        std::array<uvec4, kInstanceTexels> texels{};
+        std::copy_n(at, kInstanceTexels, texels.begin());
+        instances.push_back(std::bit_cast<InstanceData>(texels));
+    }
     std::vector<std::uint32_t> begins = {
         static_cast<std::uint32_t>(flat.records.size() / kRecordTexels)};  // of the shared meshes' records, then their end
     for (const InstanceData& instance : instances) {
