@@ -149,6 +149,9 @@ public:
 private:
     std::shared_ptr<PythonFilm> renderWithin(const RenderJob& options, const PythonFilm* resumed, bool withIds, Watcher& watcher)
     {
+        if (session_ && session_->serves(options)) {
+            session_->pose(options.edits, options.at);  // what the scene refuses changes nothing
+        }
         // None stays if anything is thrown. The kernels go before the device, which the session has.
         std::unique_ptr<SceneSession> session = std::move(session_);
         std::shared_ptr<const CameraRayKernels> rayKernels = std::move(rayKernels_);

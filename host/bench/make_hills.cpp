@@ -18,7 +18,7 @@ void addMesh(Scene& scene, const char* name, Mesh mesh, const Material& material
     mesh.name = name;
     mesh.material = static_cast<std::uint32_t>(scene.materials.size());
     scene.instances.push_back({name, static_cast<std::uint32_t>(scene.meshes.size())});
-    scene.meshes.push_back(std::move(mesh));
+    scene.meshes.change().push_back(std::move(mesh));
     scene.materials.push_back(material);
 }
 

@@ -75,6 +75,9 @@ std::string pictureText(const BenchOptions& options)
     if (options.sun) {
         text += " sun=" + describeSun(*options.sun);
     }
+    for (const Addition& addition : options.additions) {
+        text += " add=" + describeAddition(addition);
+    }
     for (const Edit& edit : options.edits) {
         text += " " + edit.pointer + "=" + edit.value;
     }

@@ -142,7 +142,7 @@ bool areSame(const SharedMesh& a, const SharedMesh& b);
 template <class T>
 bool areAllSame(const std::vector<T>& a, const std::vector<T>& b)
 {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const T& x, const T& y) { return areSame(x, y); });
+    return &a == &b || std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const T& x, const T& y) { return areSame(x, y); });
 }
 
 bool areSame(const SharedMesh& a, const SharedMesh& b) { return areAllSame(a.triangles, b.triangles); }
@@ -248,6 +248,16 @@ std::vector<WideNode> rootsOf(const WideBvh& bvh)
     return roots;
 }
 
+WideBvh refitOrBuild(WideBvh previous, const Primitives& before, const Primitives& primitives, SplitRule rule)
+{
+    if (canRefit(previous, before, primitives)) {
+        if (auto refitted = refitBvh(previous, boxesOfTop(primitives, rootsOf(previous)), 1.0 / kWorthwhile)) {
+            return *std::move(refitted);
+        }
+    }
+    return primitives.placements.empty() ? buildSceneBvh(primitives, rule) : buildTwoLevels(primitives, rule, previous, before);
+}
+
 }  // namespace
 
 std::vector<Box> primitiveBoxes(const Primitives& primitives)
@@ -273,12 +283,12 @@ WideBvh updateSceneBvh(WideBvh previous, const Primitives& before, const Primiti
     if (haveSameSurfaces(before, primitives)) {
         return previous;
     }
-    if (canRefit(previous, before, primitives)) {
-        if (auto refitted = refitBvh(previous, boxesOfTop(primitives, rootsOf(previous)), 1.0 / kWorthwhile)) {
-            return *std::move(refitted);
-        }
-    }
-    return primitives.placements.empty() ? buildSceneBvh(primitives, rule) : buildTwoLevels(primitives, rule, previous, before);
+    return refitOrBuild(std::move(previous), before, primitives, rule);
+}
+
+WideBvh moveInstances(WideBvh previous, const Primitives& primitives, SplitRule rule)
+{
+    return refitOrBuild(std::move(previous), primitives, primitives, rule);
 }
 
 }  // namespace glim

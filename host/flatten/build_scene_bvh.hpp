@@ -18,4 +18,7 @@ WideBvh buildSceneBvh(const Primitives& primitives, SplitRule rule = SplitRule::
 // most; else builds it again, but for the trees of shared meshes that are the same.
 WideBvh updateSceneBvh(WideBvh previous, const Primitives& before, const Primitives& primitives, SplitRule rule = SplitRule::Sah);
 
+// The same of primitives whose placements alone have changed since.
+WideBvh moveInstances(WideBvh previous, const Primitives& primitives, SplitRule rule);
+
 }  // namespace glim

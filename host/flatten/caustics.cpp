@@ -119,6 +119,7 @@ public:
     }
 
     bool operator[](std::size_t material) const { return specular_[material]; }
+    bool any() const { return std::ranges::find(specular_, true) != specular_.end(); }
 
 private:
     bool isSmooth(float roughness, const std::optional<Texture>& texture) const
@@ -156,10 +157,9 @@ private:
     std::vector<bool> specular_;
 };
 
-std::vector<BoundingSphere> findTargets(const FlatScene& flat, const Scene& scene, const Primitives& primitives,
+std::vector<BoundingSphere> findTargets(const SpecularMaterials& specular, const Scene& scene, const Primitives& primitives,
                                         std::span<const BoundingSphere> placed)
 {
-    const SpecularMaterials specular(flat, scene);
     std::vector<BoundingSphere> targets;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const std::uint32_t first = primitives.firstTriangles[i], end = primitives.firstTriangles[i + 1];
@@ -354,10 +354,14 @@ uvec4 texelOf(const BoundingSphere& sphere)
 
 void addCaustics(FlatScene& flat, const Scene& scene, const Primitives& primitives)
 {
-    const std::vector<BoundingSphere> placed = spheresOfPlacements(primitives);
-    std::vector<BoundingSphere> targets = findTargets(flat, scene, primitives, placed);
+    const SpecularMaterials specular(flat, scene);
     const std::size_t lights = flat.lights.size() - ((flat.features & kFeatureEnvironment) != 0 ? 1 : 0);
-    if (targets.empty() || lights == 0) {
+    if (!specular.any() || lights == 0) {
+        return;
+    }
+    const std::vector<BoundingSphere> placed = spheresOfPlacements(primitives);
+    std::vector<BoundingSphere> targets = findTargets(specular, scene, primitives, placed);
+    if (targets.empty()) {
         return;
     }
     targets = grouped(std::move(targets));

@@ -24,10 +24,31 @@ void addNormals(Fingerprint& print, const FlatScene& scene, std::size_t primitiv
     }
 }
 
-template <class T>
-std::uint64_t bytesOf(const std::vector<T>& values)
+// In order of primitives, because the order and the number of records depend on the tree.
+std::uint64_t printSurfaces(const FlatScene& scene)
 {
-    return values.size() * sizeof(T);
+    const std::size_t count = scene.records.size() / kRecordTexels;
+    std::vector<std::uint32_t> recordOf;
+    for (std::uint32_t record = 0; record < count; ++record) {
+        const std::size_t primitive = scene.records[record * kRecordTexels].w;
+        recordOf.resize(std::max(recordOf.size(), primitive + 1));
+        recordOf[primitive] = record;
+    }
+    Fingerprint print;
+    for (std::size_t primitive = 0; primitive < recordOf.size(); ++primitive) {
+        const std::size_t at = std::size_t{recordOf[primitive]} * kRecordTexels;
+        print.addBytes(std::as_bytes(std::span(scene.records).subspan(at, kRecordTexels)));
+        if (!scene.triangles.empty()) {
+            addNormals(print, scene, primitive);
+        }
+    }
+    return print.state();
+}
+
+template <class Values>
+std::uint64_t bytesOf(const Values& values)
+{
+    return values.size() * sizeof(values[0]);
 }
 
 static_assert(sizeof(MaterialData) == kMaterialTexels * sizeof(uvec4));
@@ -57,22 +78,9 @@ std::uint64_t imageBytes(const FlatScene& scene) { return bytesOf(scene.images->
 
 std::uint64_t fingerprint(const FlatScene& scene)
 {
-    // In order of primitives, because the order and the number of records depend on the tree.
-    const std::size_t count = scene.records.size() / kRecordTexels;
-    std::vector<std::uint32_t> recordOf;
-    for (std::uint32_t record = 0; record < count; ++record) {
-        const std::size_t primitive = scene.records[record * kRecordTexels].w;
-        recordOf.resize(std::max(recordOf.size(), primitive + 1));
-        recordOf[primitive] = record;
-    }
-    Fingerprint print;
-    for (std::size_t primitive = 0; primitive < recordOf.size(); ++primitive) {
-        const std::size_t at = std::size_t{recordOf[primitive]} * kRecordTexels;
-        print.addBytes(std::as_bytes(std::span(scene.records).subspan(at, kRecordTexels)));
-        if (!scene.triangles.empty()) {
-            addNormals(print, scene, primitive);
-        }
-    }
+    std::optional<std::uint64_t>& surfaces = *scene.surfacesPrint;
+    surfaces = surfaces ? surfaces : printSurfaces(scene);
+    Fingerprint print(*surfaces);
     print.add(scene.materials);
     for (FlatLight light : scene.lights) {
         light.record = 0;

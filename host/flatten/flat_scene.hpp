@@ -4,12 +4,14 @@
 #include "host/image/decode_image.hpp"
 #include "host/image/radiance_map.hpp"
 #include "host/scene/placed_mesh.hpp"
+#include "host/shared_vector.hpp"
 #include "shaders/shared/features.h"
 #include "shaders/shared/limits.h"
 #include "shaders/shared/scene_types.h"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -74,11 +76,19 @@ struct PackedEnvironment {
     std::uint64_t fingerprint = 0;  // of the texels
 };
 
+// That the records of a primitive say which light it is.
+struct LightMark {
+    std::uint32_t primitive;
+    std::uint32_t light;  // its index plus 1
+
+    bool operator==(const LightMark&) const = default;
+};
+
 struct FlatScene {
-    std::vector<uvec4> nodes;
-    std::vector<uvec4> records;              // for traversal, in the order of the BVH's leaves
-    std::vector<uvec4> triangles, vertices;  // for shading; empty if no triangle has vertex attributes
-    std::vector<uvec4> instances;            // of shared meshes; empty without kFeatureInstances
+    SharedVector<uvec4> nodes;
+    SharedVector<uvec4> records;              // for traversal, in the order of the BVH's leaves
+    SharedVector<uvec4> triangles, vertices;  // for shading; empty if no triangle has vertex attributes
+    SharedVector<uvec4> instances;            // of shared meshes; empty without kFeatureInstances
     std::uint32_t triangleCount = 0;
     std::uint32_t firstInstanceRecord = 0;                        // records from here on are those of instances (scene_types.h)
     std::uint32_t firstUv = 0, firstTangent = 0, firstColor = 0;  // sections of `vertices`
@@ -94,10 +104,12 @@ struct FlatScene {
     std::vector<std::uint64_t> imageBytes;  // of each image of the scene; 0: of one colour, which is in the factors. Not on the device
     std::vector<uvec4> albedos;             // empty without kFeaturePrincipled
     std::vector<FlatLight> lights;
+    std::vector<LightMark> lightMarks;  // in the records; not on the device
     std::vector<LightNode> lightNodes;
     std::uint32_t finiteLights = 0;               // the first lights
     float infiniteImportance = 0.0F;              // as in RenderParameters
     FeatureMask features = 0;                     // kFeatureSpheres ...: what the scene needs
+    FeatureMask surfaceFeatures = 0;              // of these, what its shapes need, whatever they are made of
     std::uint32_t stackLevels = kMaxStackLevels;  // of the traversal stack
     vec3 environment{0.0F};                       // radiance, or what multiplies that of the map
     bool hidesEnvironment = false;                // from the camera
@@ -106,6 +118,8 @@ struct FlatScene {
     std::uint32_t environmentLight = 0;  // index among lights, if the scene has kFeatureEnvironment
     std::vector<uvec4> caustics;         // as scene_types.h says; empty without kFeatureCaustics
     std::uint32_t causticTargets = 0, causticLights = 0;
+    // Of the fingerprint what records, triangles and vertices make of it, once somebody has asked.
+    std::shared_ptr<std::optional<std::uint64_t>> surfacesPrint = std::make_shared<std::optional<std::uint64_t>>();
     std::vector<Triangle> largest;  // the 64 largest triangles outside of shared meshes; not on the device
     float brightness = 0.0F;        // about the radiance, W/(sr m^2), that the brightest light gives a white surface; of caustics
 };

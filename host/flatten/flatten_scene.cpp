@@ -12,6 +12,7 @@
 #include "host/flatten/start_media.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <span>
@@ -42,25 +43,43 @@ std::vector<std::uint32_t> materialWordsOf(const Scene& scene)
     return words;
 }
 
-void pushTriangle(FlatScene& flat, const Triangle& triangle, std::uint32_t id, std::uint32_t material, bool alpha)
+// Of each primitive: the last one if it has several.
+std::vector<std::uint32_t> findRecords(const Primitives& primitives, const WideBvh& bvh)
 {
-    const bool sliver = isSliver(triangle);
-    flat.features |= (sliver ? kFeatureSlivers : 0U) | ((material & kSingleSidedBit) != 0 ? kFeatureSingleSided : 0U);
-    flat.records.push_back(texel(triangle.vertices[0], id));
-    flat.records.push_back(texel(triangle.vertices[1], material | (sliver ? kSliverBit : 0U) | (alpha ? kAlphaBit : 0U)));
-    flat.records.push_back(texel(triangle.vertices[2], 0));
+    std::vector<std::uint32_t> recordOf(primitives.count());
+    for (std::uint32_t record = 0; record < bvh.order.size() && bvh.order[record] < recordOf.size(); ++record) {
+        recordOf[bvh.order[record]] = record;
+    }
+    return recordOf;
 }
 
-void pushSphere(FlatScene& flat, const Sphere& sphere, std::uint32_t id, std::uint32_t material, bool alpha)
-{
-    flat.features |= (material & kSingleSidedBit) != 0 ? kFeatureSingleSided : 0U;
-    flat.records.push_back(texel(sphere.center, id));
-    flat.records.push_back(texel({sphere.radius, 0.0F, 0.0F}, material | kSphereBit | (alpha ? kAlphaBit : 0U)));
-    flat.records.push_back(texel({0.0F, 0.0F, 0.0F}, 0));
-}
+// The records of primitives and shared meshes, and what features they need.
+struct Records {
+    std::vector<uvec4> texels;
+    FeatureMask features = 0;
 
-// Returns one record per primitive: the last one if it has several.
-std::vector<std::uint32_t> pushRecords(FlatScene& flat, const Scene& scene, const Primitives& primitives, const WideBvh& bvh)
+    void push(const Triangle& triangle, std::uint32_t id, std::uint32_t material, bool alpha)
+    {
+        const bool sliver = isSliver(triangle);
+        features |= sliver ? kFeatureSlivers : 0U;
+        push(triangle.vertices[0], id, triangle.vertices[1], material | (sliver ? kSliverBit : 0U), alpha, triangle.vertices[2]);
+    }
+    void push(const Sphere& sphere, std::uint32_t id, std::uint32_t material, bool alpha)
+    {
+        push(sphere.center, id, {sphere.radius, 0.0F, 0.0F}, material | kSphereBit, alpha, glm::vec3(0.0F));
+    }
+
+private:
+    void push(const glm::vec3& first, std::uint32_t id, const glm::vec3& second, std::uint32_t material, bool alpha, const glm::vec3& third)
+    {
+        features |= ((material & kSingleSidedBit) != 0 ? kFeatureSingleSided : 0U) | (alpha ? kFeatureAlpha : 0U);
+        texels.push_back(texel(first, id));
+        texels.push_back(texel(second, material | (alpha ? kAlphaBit : 0U)));
+        texels.push_back(texel(third, 0));
+    }
+};
+
+void pushRecords(Records& records, const Scene& scene, const Primitives& primitives, const WideBvh& bvh)
 {
     const std::vector<std::uint32_t> words = materialWordsOf(scene);
     std::vector<std::uint32_t> materials;  // by triangle
@@ -68,45 +87,33 @@ std::vector<std::uint32_t> pushRecords(FlatScene& flat, const Scene& scene, cons
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         materials.resize(primitives.firstTriangles[i + 1], words[scene.meshes[scene.instances[i].mesh].material]);
     }
-    std::vector<std::uint32_t> recordOf(primitives.count());
-    flat.records.reserve(bvh.order.size() * kRecordTexels);
-    for (std::uint32_t record = 0; record < bvh.order.size(); ++record) {
-        const std::uint32_t id = bvh.order[record];
+    records.texels.reserve(bvh.order.size() * kRecordTexels);
+    for (const std::uint32_t id : bvh.order) {
         if (id >= primitives.count()) {
             break;  // shared meshes follow
         }
-        recordOf[id] = record;
         const bool alpha = !primitives.hasAlpha.empty() && primitives.hasAlpha[id];
-        flat.features |= alpha ? kFeatureAlpha : 0U;
         if (id < materials.size()) {
-            pushTriangle(flat, primitives.triangles[id], id, materials[id], alpha);
+            records.push(primitives.triangles[id], id, materials[id], alpha);
         } else {
             const Sphere& sphere = primitives.spheres[id - materials.size()];
-            pushSphere(flat, sphere, id, words[sphere.material], alpha);
+            records.push(sphere, id, words[sphere.material], alpha);
         }
     }
-    return recordOf;
-}
-
-void pushSharedRecords(FlatScene& flat, const Scene& scene, const Primitives& primitives, const WideBvh& bvh)
-{
-    const std::vector<std::uint32_t> words = materialWordsOf(scene);
     for (std::size_t i = 0; i < bvh.meshTrees.size(); ++i) {
         const SharedMesh& mesh = primitives.sharedMeshes[i];
         const std::uint32_t material = words[scene.meshes[mesh.mesh].material];
         for (std::uint32_t k = 0; k < bvh.meshTrees[i].entryCount; ++k) {
             const std::uint32_t triangle = bvh.order[bvh.meshTrees[i].firstEntry + k] - mesh.firstId;
-            flat.features |= mesh.hasAlpha[triangle] ? kFeatureAlpha : 0U;
-            pushTriangle(flat, mesh.triangles[triangle], mesh.firstId + triangle, material, mesh.hasAlpha[triangle]);
+            records.push(mesh.triangles[triangle], mesh.firstId + triangle, material, mesh.hasAlpha[triangle]);
         }
     }
 }
 
-// After all records.
 void pushInstances(FlatScene& flat, const Primitives& primitives, const WideBvh& bvh)
 {
     constexpr std::uint64_t kMost = kNoRecord;
-    flat.firstInstanceRecord = static_cast<std::uint32_t>(bvh.order.size());
+    std::vector<uvec4> instances;
     std::uint64_t record = flat.firstInstanceRecord, primitive = primitives.count();
     for (const Placement& placement : primitives.placements) {
         const MeshTree& tree = bvh.meshTrees[placement.sharedMesh];
@@ -121,12 +128,19 @@ void pushInstances(FlatScene& flat, const Primitives& primitives, const WideBvh&
             throw InputError("the scene's instances have " + std::to_string(primitives.computeTriangleCount()) +
                              " triangles; expected fewer than 4294967295.");
         }
-        const auto* texels = reinterpret_cast<const uvec4*>(&data);
-        flat.instances.insert(flat.instances.end(), texels, texels + kInstanceTexels);
+        const auto texels = std::bit_cast<std::array<uvec4, kInstanceTexels>>(data);
+        instances.insert(instances.end(), texels.begin(), texels.end());
     }
+    flat.instances = std::move(instances);
+}
+
+// The tree, with what its nodes say of instances.
+void pushTree(FlatScene& flat, const Primitives& primitives, const WideBvh& bvh)
+{
+    std::vector<uvec4> nodes = packNodes(bvh);
     for (const InstanceNode& node : bvh.instances) {
         const auto rows = meshFromScene(primitives.placements[node.instance]);
-        uvec4* texels = &flat.nodes[std::size_t{node.node} * kNodeTexels];
+        uvec4* texels = &nodes[std::size_t{node.node} * kNodeTexels];
         const uvec4* instance = &flat.instances[std::size_t{node.instance} * kInstanceTexels];
         texels[0] = std::bit_cast<uvec4>(rows[0]);
         texels[1] = {node.root, 0, 0, 0};
@@ -134,36 +148,38 @@ void pushInstances(FlatScene& flat, const Primitives& primitives, const WideBvh&
         texels[3] = std::bit_cast<uvec4>(rows[2]);
         texels[4] = {instance[1].w, instance[2].w, 0, 0};
     }
-    flat.features |= primitives.placements.empty() ? 0U : kFeatureInstances;
+    flat.nodes = std::move(nodes);
 }
 
 void pushShading(FlatScene& flat, const Primitives& primitives)
 {
-    flat.triangleCount = static_cast<std::uint32_t>(primitives.triangles.size());
-    flat.triangles.reserve(primitives.vertexIndices.size());
-    for (const glm::uvec3& vertices : primitives.vertexIndices) {
-        flat.triangles.emplace_back(vertices, 0U);
+    std::vector<uvec4> triangles, vertices;
+    triangles.reserve(primitives.vertexIndices.size());
+    for (const glm::uvec3& corners : primitives.vertexIndices) {
+        triangles.emplace_back(corners, 0U);
     }
     for (const SharedMesh& mesh : primitives.sharedMeshes) {
-        flat.triangles.resize(mesh.vertexIndices.empty() ? flat.triangles.size() : std::max(flat.triangles.size(), primitives.count()));
-        for (const glm::uvec3& vertices : mesh.vertexIndices) {
-            flat.triangles.emplace_back(vertices, 0U);
+        triangles.resize(mesh.vertexIndices.empty() ? triangles.size() : std::max(triangles.size(), primitives.count()));
+        for (const glm::uvec3& corners : mesh.vertexIndices) {
+            triangles.emplace_back(corners, 0U);
         }
     }
     for (const glm::vec3& normal : primitives.vertexNormals) {
-        flat.vertices.push_back(texel(normal, 0));
-        flat.features |= normal != glm::vec3(0.0F) ? kFeatureSmooth : 0U;
+        vertices.push_back(texel(normal, 0));
+        flat.surfaceFeatures |= normal != glm::vec3(0.0F) ? kFeatureSmooth : 0U;
     }
-    const auto pushSection = [&flat](const std::vector<glm::vec4>& values, std::uint32_t& first) {
-        first = values.empty() ? 0 : static_cast<std::uint32_t>(flat.vertices.size());
+    const auto pushSection = [&vertices](const std::vector<glm::vec4>& values, std::uint32_t& first) {
+        first = values.empty() ? 0 : static_cast<std::uint32_t>(vertices.size());
         for (const glm::vec4& value : values) {
-            flat.vertices.push_back(texel(glm::vec3(value), std::bit_cast<std::uint32_t>(value.w)));
+            vertices.push_back(texel(glm::vec3(value), std::bit_cast<std::uint32_t>(value.w)));
         }
     };
     pushSection(primitives.vertexUvs, flat.firstUv);
     pushSection(primitives.vertexTangents, flat.firstTangent);
     pushSection(primitives.vertexColors, flat.firstColor);
-    flat.features |= primitives.vertexColors.empty() ? 0U : kFeatureVertexColors;
+    flat.surfaceFeatures |= primitives.vertexColors.empty() ? 0U : kFeatureVertexColors;
+    flat.triangles = std::move(triangles);
+    flat.vertices = std::move(vertices);
 }
 
 // Which materials are drawn with vertex colours.
@@ -177,15 +193,23 @@ std::vector<bool> findColored(const Scene& scene)
     return colored;
 }
 
-// Marks the other records of each emitting primitive; addLights has marked one.
-void markOtherRecords(FlatScene& flat, std::span<const std::uint32_t> order, std::span<const std::uint32_t> recordOf)
+// In place of the marks `before`.
+void markLights(FlatScene& flat, std::span<const LightMark> before, std::span<const std::uint32_t> order,
+                std::span<const std::uint32_t> recordOf)
 {
+    std::vector<uvec4>& records = flat.records.change();
+    const auto markOf = [&records](std::size_t record) -> std::uint32_t& { return records[record * kRecordTexels + 2].w; };
+    for (const LightMark& mark : before) {
+        markOf(recordOf[mark.primitive]) = 0;
+    }
+    for (const LightMark& mark : flat.lightMarks) {
+        markOf(recordOf[mark.primitive]) = mark.light;
+    }
     if (order.size() == recordOf.size()) {
-        return;  // each primitive has one
+        return;  // each primitive has one record
     }
     for (std::size_t record = 0; record < order.size() && order[record] < recordOf.size(); ++record) {
-        const std::size_t marked = recordOf[order[record]];
-        flat.records[record * kRecordTexels + 2].w = flat.records[marked * kRecordTexels + 2].w;
+        markOf(record) = markOf(recordOf[order[record]]);
     }
 }
 
@@ -194,26 +218,51 @@ std::uint32_t stackLevelsOf(const WideBvh& bvh) { return std::max((bvh.depth + 1
 
 static_assert(kMaxStackLevels % 4 == 0);
 
-}  // namespace
-
-FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const WideBvh& bvh, const FlatScene& previous)
+// What depends on shapes alone.
+void pushSurfaces(FlatScene& flat, const Scene& scene, const Primitives& primitives, const WideBvh& bvh)
 {
-    FlatScene flat;
-    flat.images = previous.images;
-    if (scene.environment && scene.environment->radiance != glm::vec3(0.0F) && scene.environment->map == previous.environmentMap->source) {
-        flat.environmentMap = previous.environmentMap;
-    }
-    flat.nodes = packNodes(bvh);
-    flat.stackLevels = stackLevelsOf(bvh);
-    flat.features = primitives.spheres.empty() ? 0U : kFeatureSpheres;
-    findLargeTriangles(flat, scene, primitives);
-    flattenMaterials(flat, scene, findColored(scene));
-    for (const MeshInstance& instance : scene.instances) {
-        flat.features |= flat.materialFeatures[scene.meshes[instance.mesh].material];
-    }
-    for (const Sphere& sphere : scene.spheres) {
-        flat.features |= flat.materialFeatures[sphere.material];
-    }
+    pushShading(flat, primitives);
+    Records records;
+    pushRecords(records, scene, primitives, bvh);
+    flat.records = std::move(records.texels);
+    flat.surfaceFeatures |= records.features | (primitives.spheres.empty() ? 0U : kFeatureSpheres) |
+                            (primitives.placements.empty() ? 0U : kFeatureInstances);
+    flat.triangleCount = static_cast<std::uint32_t>(primitives.triangles.size());
+    flat.firstInstanceRecord = static_cast<std::uint32_t>(bvh.order.size());
+}
+
+void keepSurfaces(FlatScene& flat, const FlatScene& previous)
+{
+    flat.triangles = previous.triangles;
+    flat.vertices = previous.vertices;
+    flat.firstUv = previous.firstUv;
+    flat.firstTangent = previous.firstTangent;
+    flat.firstColor = previous.firstColor;
+    flat.records = previous.records;
+    flat.surfaceFeatures = previous.surfaceFeatures;
+    flat.triangleCount = previous.triangleCount;
+    flat.firstInstanceRecord = previous.firstInstanceRecord;
+    flat.surfacesPrint = previous.surfacesPrint;
+}
+
+// Where they are: the tree, instances, and how large they are beside each other.
+void placeSurfaces(FlatScene& flat, const Primitives& primitives, const WideBvh& bvh)
+{
+    pushInstances(flat, primitives, bvh);
+    pushTree(flat, primitives, bvh);
+    flat.surfaceFeatures &= ~kFeatureLargeTriangles;
+    findLargeTriangles(flat, primitives);
+}
+
+void keepPlaces(FlatScene& flat, const FlatScene& previous)
+{
+    flat.instances = previous.instances;
+    flat.nodes = previous.nodes;
+    flat.largest = previous.largest;
+}
+
+void addTables(FlatScene& flat)
+{
     if ((flat.features & kFeaturePrincipled) != 0) {
         static const std::vector<uvec4> albedos = makeAlbedoTable();  // .4 s of CPU time
         flat.albedos = albedos;
@@ -227,12 +276,49 @@ FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const W
         flat.albedos.resize(kFirstAnisotropicAlbedo);
         flat.albedos.insert(flat.albedos.end(), anisotropic.begin(), anisotropic.end());
     }
-    pushShading(flat, primitives);
-    const std::vector<std::uint32_t> recordOf = pushRecords(flat, scene, primitives, bvh);
-    pushSharedRecords(flat, scene, primitives, bvh);
-    pushInstances(flat, primitives, bvh);
+}
+
+void placeLights(FlatScene& flat, const Scene& scene, const Primitives& primitives, const WideBvh& bvh, std::span<const LightMark> before)
+{
+    const bool mayEmit = std::ranges::any_of(scene.materials, [](const Material& material) { return material.emission != glm::vec3(0.0F); });
+    const std::vector<std::uint32_t> recordOf = mayEmit || !before.empty() ? findRecords(primitives, bvh) : std::vector<std::uint32_t>();
     addLights(flat, scene, primitives, recordOf);
-    markOtherRecords(flat, bvh.order, recordOf);
+    if (!std::ranges::equal(flat.lightMarks, before)) {
+        markLights(flat, before, bvh.order, recordOf);
+        flat.surfacesPrint = std::make_shared<std::optional<std::uint64_t>>();
+    }
+}
+
+}  // namespace
+
+FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const WideBvh& bvh, const FlatScene& previous, Same same)
+{
+    FlatScene flat;
+    flat.images = previous.images;
+    if (scene.environment && scene.environment->radiance != glm::vec3(0.0F) && scene.environment->map == previous.environmentMap->source) {
+        flat.environmentMap = previous.environmentMap;
+    }
+    flat.stackLevels = stackLevelsOf(bvh);
+    if (same == Same::Nothing) {
+        pushSurfaces(flat, scene, primitives, bvh);
+    } else {
+        keepSurfaces(flat, previous);
+    }
+    if (same == Same::Everything) {
+        keepPlaces(flat, previous);
+    } else {
+        placeSurfaces(flat, primitives, bvh);
+    }
+    flat.features = flat.surfaceFeatures | (areLampsClose(flat, scene) ? kFeatureLargeTriangles : 0U);
+    flattenMaterials(flat, scene, findColored(scene));
+    for (const MeshInstance& instance : scene.instances) {
+        flat.features |= flat.materialFeatures[scene.meshes[instance.mesh].material];
+    }
+    for (const Sphere& sphere : scene.spheres) {
+        flat.features |= flat.materialFeatures[sphere.material];
+    }
+    addTables(flat);
+    placeLights(flat, scene, primitives, bvh, same == Same::Nothing ? std::span<const LightMark>() : previous.lightMarks);
     addCaustics(flat, scene, primitives);
     flat.features |= mayLampsBeInMedia(flat) ? kFeatureLampsInMedia : 0U;
     return flat;

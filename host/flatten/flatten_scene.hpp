@@ -7,9 +7,10 @@
 
 namespace glim {
 
-// `primitives`: those of the scene; `bvh.order` holds each at least once. Images and environment maps that `previous` has packed are
-// shared with it.
-FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const WideBvh& bvh, const FlatScene& previous = {});
+// `primitives`: those of the scene; `bvh.order` holds each at least once. What `previous` has packed is shared with it: images, environment
+// maps, and of the primitives what is the `same`.
+FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const WideBvh& bvh, const FlatScene& previous = {},
+                       Same same = Same::Nothing);
 
 // A thin lens, in metres. Radius 0 is a pinhole; its focal distance does not matter.
 struct Lens {

@@ -70,7 +70,7 @@ std::vector<Triangle> largestOf(const std::vector<Triangle>& triangles, std::vec
 
 }  // namespace
 
-void findLargeTriangles(FlatScene& flat, const Scene& scene, const Primitives& primitives)
+void findLargeTriangles(FlatScene& flat, const Primitives& primitives)
 {
     std::vector<Extent> extents;
     std::vector<double> sizes;
@@ -99,9 +99,13 @@ void findLargeTriangles(FlatScene& flat, const Scene& scene, const Primitives& p
         sizes.push_back(2.0 * static_cast<double>(sphere.radius));
     }
     flat.largest = largestOf(primitives.triangles, std::move(extents));
-    const bool isLarge = (!sizes.empty() && largest > kMostToPrimitive * fineSize(std::move(sizes))) ||
-                         std::ranges::any_of(flat.largest, [&](const Triangle& triangle) { return isCloseToLamp(scene, triangle); });
-    flat.features |= isLarge ? kFeatureLargeTriangles : 0U;
+    const bool isLarge = !sizes.empty() && largest > kMostToPrimitive * fineSize(std::move(sizes));
+    flat.surfaceFeatures |= isLarge ? kFeatureLargeTriangles : 0U;
+}
+
+bool areLampsClose(const FlatScene& flat, const Scene& scene)
+{
+    return std::ranges::any_of(flat.largest, [&](const Triangle& triangle) { return isCloseToLamp(scene, triangle); });
 }
 
 FeatureMask featuresSeenBy(const FlatScene& flat, const FlatCamera& camera)

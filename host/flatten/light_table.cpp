@@ -363,7 +363,7 @@ private:
         powers_.push_back(power);
     }
 
-    // In the order of the tree's leaves, and marks the records that emit.
+    // In the order of the tree's leaves.
     void pushFinite()
     {
         // Relative to the strongest, so that sums of them are finite.
@@ -381,10 +381,10 @@ private:
             flat_.lights.push_back(light);
             const std::uint32_t kind = light.kind & kLightKindMask, mark = static_cast<std::uint32_t>(flat_.lights.size());
             if (kind <= kSphereLight) {
-                flat_.records[std::size_t{recordOf_[light.primitive]} * kRecordTexels + 2].w = mark;
+                flat_.lightMarks.push_back({light.primitive, mark});
             }
             if (kind == kRectangleLight) {
-                flat_.records[std::size_t{recordOf_[light.otherPrimitive]} * kRecordTexels + 2].w = mark;
+                flat_.lightMarks.push_back({light.otherPrimitive, mark});
             }
         }
     }

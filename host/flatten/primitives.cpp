@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <tuple>
 
 namespace glim {
 namespace {
@@ -69,6 +70,7 @@ public:
         }
         made_.firstTriangles.push_back(static_cast<std::uint32_t>(made_.triangles.size()));
         shareMeshes(shared);
+        placeSharedMeshes(scene_, made_);
         for (const Sphere& sphere : scene_.spheres) {
             addPrimitive(alpha_.classify(sphere), [&] { made_.spheres.push_back(sphere); });
         }
@@ -140,11 +142,8 @@ private:
                 index = static_cast<std::uint32_t>(made_.sharedMeshes.size());
                 made_.sharedMeshes.push_back(shareMesh(instance.mesh));
             }
-            const glm::dmat3 linear(instance.worldFromMesh);
-            const glm::dvec3 translation =
-                linear * made_.sharedMeshes[index].center + (glm::dvec3(instance.worldFromMesh[3]) - scene_.origin);
             if (!made_.sharedMeshes[index].triangles.empty()) {
-                made_.placements.push_back({i, index, linear, translation});
+                made_.placements.push_back({i, index});
             }
         }
     }
@@ -284,7 +283,62 @@ private:
     std::size_t flatTriangles_ = 0, badNormals_ = 0;
 };
 
+bool areSame(const glm::dmat4& a, const glm::dmat4& b)
+{
+    return std::memcmp(&a, &b, sizeof a) == 0;  // 0 and -0 place vertices differently
+}
+
+bool areSame(const Sphere& a, const Sphere& b)
+{
+    return std::memcmp(&a.center, &b.center, sizeof a.center) == 0 && a.radius == b.radius && a.material == b.material;
+}
+
+// Whether the materials may differ in colours alone, and in other numbers that shapes do not depend on.
+bool haveSameSurfaces(const Material& a, const Material& b)
+{
+    const auto shapeOf = [](const Material& m) {
+        const auto textures = texturesOf(m);
+        const bool isTextured = std::ranges::any_of(textures, [](const auto* texture) { return texture->has_value(); });
+        return std::tuple(m.alphaMode, m.alpha, m.alphaCutoff, m.doubleSided, m.thick, isTextured, m.emissiveTexture.has_value(),
+                          m.emission != glm::vec3(0.0F), m.transmission > 0.0F, m.diffuseTransmission > 0.0F);
+    };
+    return shapeOf(a) == shapeOf(b) && a.baseColorTexture == b.baseColorTexture;
+}
+
 }  // namespace
+
+Same compareSurfaces(const Scene& before, const Primitives& primitives, const Scene& scene)
+{
+    const auto spheres = [](const Sphere& a, const Sphere& b) { return areSame(a, b); };
+    const auto instances = [](const MeshInstance& a, const MeshInstance& b) { return a.mesh == b.mesh; };
+    if (!before.meshes.isSameAs(scene.meshes) || before.origin != scene.origin || before.showsBackFaces != scene.showsBackFaces ||
+        !std::ranges::equal(before.materials, scene.materials, haveSameSurfaces) ||
+        !std::ranges::equal(before.spheres, scene.spheres, spheres) ||
+        !std::ranges::equal(before.instances, scene.instances, instances)) {
+        return Same::Nothing;
+    }
+    std::vector<bool> isShared(scene.meshes.size(), false);
+    for (const SharedMesh& mesh : primitives.sharedMeshes) {
+        isShared[mesh.mesh] = true;
+    }
+    Same same = Same::Everything;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        if (!areSame(before.instances[i].worldFromMesh, scene.instances[i].worldFromMesh)) {
+            same = same != Same::Nothing && isShared[scene.instances[i].mesh] ? Same::AllButPlacements : Same::Nothing;
+        }
+    }
+    return same;
+}
+
+void placeSharedMeshes(const Scene& scene, Primitives& primitives)
+{
+    for (Placement& placement : primitives.placements) {
+        const glm::dmat4& worldFromMesh = scene.instances[placement.instance].worldFromMesh;
+        placement.linear = glm::dmat3(worldFromMesh);
+        placement.translation =
+            placement.linear * primitives.sharedMeshes[placement.sharedMesh].center + (glm::dvec3(worldFromMesh[3]) - scene.origin);
+    }
+}
 
 std::uint32_t Primitives::instanceOf(std::uint32_t triangle) const
 {

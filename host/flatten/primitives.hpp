@@ -54,4 +54,13 @@ struct Primitives {
 // normals that are zero or not finite are replaced by the face normal; lamps in the plane of another surface are lifted (lift_lamps.hpp).
 Primitives makePrimitives(const Scene& scene, std::uint64_t mostFlatTriangles = kMostFlatTriangles);
 
+// What two scenes have in common: all primitives, all but the placements of shared meshes, or maybe nothing.
+enum class Same { Nothing, AllButPlacements, Everything };
+
+// `primitives`: those of `before`. Scenes that share their meshes' array may have more in common than nothing.
+Same compareSurfaces(const Scene& before, const Primitives& primitives, const Scene& scene);
+
+// Places the shared meshes as the scene does, which has all but the placements in common with that of the primitives.
+void placeSharedMeshes(const Scene& scene, Primitives& primitives);
+
 }  // namespace glim

@@ -2,6 +2,10 @@
 
 #include "host/text.hpp"
 
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -165,7 +169,7 @@ Edit parseEdit(const OptionValue& value)
     const std::size_t equals = value.key().empty() ? text.find('=') : 0;
     Edit edit{value.key().empty() ? text.substr(0, equals) : value.key(),
               value.key().empty() ? text.substr(std::min(equals, text.size() - 1) + 1) : text};
-    if (!edit.pointer.starts_with('/') || equals == std::string::npos) {
+    if (!(edit.pointer.starts_with('/') || edit.pointer.find("#/") != std::string::npos) || equals == std::string::npos) {
         throw UsageError("--set", inQuotes(value.key() + text) +
                                       ": expected a pointer and a value, as in /materials/0/pbrMetallicRoughness/roughnessFactor=0.2");
     }
@@ -185,6 +189,53 @@ Edit parseEdit(const OptionValue& value)
         edit.value = Json(edit.value).dump();  // a word
     }
     return edit;
+}
+
+Addition parseAddition(const OptionValue& value)
+{
+    constexpr std::size_t kOfPoint = 3, kOfMatrix = 16;
+    const std::string text = value.text();
+    const std::size_t at = text.rfind('@');
+    const bool isMember = !value.key().empty();
+    const std::vector<std::string> parts =
+        isMember ? value.split(',') : at == std::string::npos ? std::vector<std::string>() : OptionValue(text.substr(at + 1)).split(',');
+    std::vector<double> numbers;
+    for (const std::string& part : parts) {
+        double number = 0.0;
+        if (parseNumber(part, number) && std::isfinite(number)) {
+            numbers.push_back(number);
+        }
+    }
+    const bool areNumbers = numbers.size() == parts.size() && (numbers.size() == kOfPoint || numbers.size() == kOfMatrix);
+    // An @ may be part of a file's name, unless numbers follow.
+    if (isMember ? !areNumbers : !numbers.empty() && !areNumbers) {
+        throw UsageError("--add", inQuotes(isMember ? value.key() + " " + text : text) +
+                                      ": expected a file, and after an @ where it stands: x,y,z in metres, or the 16 numbers of a matrix, "
+                                      "column by column");
+    }
+    Addition addition{isMember ? value.key() : areNumbers ? text.substr(0, at) : text};
+    if (numbers.size() == kOfPoint) {
+        addition.worldFromFile = glm::translate(glm::dmat4(1.0), glm::dvec3(numbers[0], numbers[1], numbers[2]));
+    } else if (areNumbers) {
+        addition.worldFromFile = glm::make_mat4(numbers.data());
+        const glm::dvec4 row = glm::row(addition.worldFromFile, 3);
+        if (row != glm::dvec4(0.0, 0.0, 0.0, 1.0) || glm::determinant(glm::dmat3(addition.worldFromFile)) == 0.0) {
+            throw UsageError("--add", inQuotes(text) + ": expected a matrix with a volume, whose last row is 0 0 0 1");
+        }
+    }
+    if (addition.file.empty()) {
+        throw UsageError("--add", inQuotes(text) + ": expected a file before the @");
+    }
+    return addition;
+}
+
+std::string describeAddition(const Addition& addition)
+{
+    std::string text = addition.file.string();
+    for (int i = 0; i < 16 && addition.worldFromFile != glm::dmat4(1.0); ++i) {
+        text += (i == 0 ? "@" : ",") + exactText(addition.worldFromFile[i / 4][i % 4]);
+    }
+    return text;
 }
 
 SamplePlace parseSample(const OptionValue& value)

@@ -73,6 +73,8 @@ void addPicture(OptionTable& table, PictureOptions& options, const std::string& 
             options.showsBackFaces);
     table.addEach("--set", "POINTER=VALUE", "Other value at a glTF pointer, as in /materials/paint/alphaCutoff=0.5; repeatable",
                   [&options](const OptionValue& value) { options.edits.push_back(parseEdit(value)); });
+    table.addEach("--add", "FILE[@x,y,z]", "Another file's shapes and lights, moved by metres or a matrix; repeatable",
+                  [&options](const OptionValue& value) { options.additions.push_back(parseAddition(value)); });
     addTextures(table, options.missingTextures, options.maxTexture);
     table.addFlag("--confine", "Refuse files that the scene names outside of its folder", options.confined);
     table.add("--size", "WxH", "Pixels, each side 1 to 65535 [" + height + " high, width by the camera's aspect ratio]",
@@ -202,6 +204,7 @@ LoadOptions loadOptionsOf(const PictureOptions& options)
     load.sun = options.sun;
     load.showsBackFaces = options.showsBackFaces;
     load.edits = options.edits;
+    load.additions = options.additions;
     load.missingTextures = options.missingTextures;
     load.confined = options.confined;
     load.maxTexture = options.maxTexture;

@@ -29,6 +29,7 @@ struct PictureOptions {
     std::optional<Sun> sun;
     bool showsBackFaces = false;
     std::vector<Edit> edits;
+    std::vector<Addition> additions;
     MissingTextures missingTextures = MissingTextures::Refuse;
     bool confined = false;  // the files that the scene names lie in its folder
     std::uint32_t maxTexture = kMaxImageSide;

@@ -163,6 +163,7 @@ public:
     {}
 
     bool serves(const RenderJob& options) const { return session_.serves(options); }
+    void pose(const RenderJob& options) { session_.pose(options.edits, firstTime(options.sequence, options)); }
     ExitCode renderAll(const RenderJob& options, const InterruptWatch& watch);
 
 private:
@@ -204,7 +205,7 @@ ExitCode SequenceRenderer::renderAll(const RenderJob& options, const InterruptWa
     isSequence_ = isSequence(options.sequence, options);
     session_.denoiser().open(options);
     watch_ = &watch;
-    session_.pose(options.edits, firstTime(options.sequence, options));
+    pose(options);
     const std::vector<Shot> shots = listShots(options.sequence, options, session_.prepared().scene);
     for (const Shot& shot : shots) {
         checkTargets(optionsOf(shot), session_.prepared().scene.files);
@@ -383,6 +384,9 @@ ExitCode RenderSession::render(const RenderJob& options)
 {
     checkTargets(options, {options.scene});
     const InterruptWatch watch;
+    if (renderer_ && renderer_->serves(options)) {
+        renderer_->pose(options);  // what the scene refuses changes nothing
+    }
     std::unique_ptr<SequenceRenderer> renderer = std::move(renderer_);  // none stays if anything is thrown
     if (!renderer || !renderer->serves(options)) {
         renderer.reset();  // so that no two scenes are on the device

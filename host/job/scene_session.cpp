@@ -1,5 +1,6 @@
 #include "host/job/scene_session.hpp"
 
+#include "host/error.hpp"
 #include "host/job/fastest_schedule.hpp"
 
 #include <algorithm>
@@ -33,10 +34,11 @@ SceneSession::SceneSession(const RenderJob& options)
     : options_(options),
       device_(instance_, options.device),
       file_(options.scene, loadOptionsFor(options)),
-      time_(firstTime(options.sequence, options)),
-      prepared_(prepareScene(file_, time_, options.split)),
-      stamps_(stampsOf(prepared_.scene.files))
-{}
+      time_(firstTime(options.sequence, options))
+{
+    updateScene(prepared_, file_, time_, options.split);
+    stamps_ = stampsOf(prepared_.scene.files);
+}
 
 std::vector<SceneSession::Stamp> SceneSession::stampsOf(const std::vector<std::filesystem::path>& files)
 {
@@ -66,15 +68,22 @@ bool SceneSession::serves(const RenderJob& options) const
 void SceneSession::pose(const std::vector<Edit>& edits, std::optional<double> time)
 {
     const bool isEdited = edits != options_.edits;
+    const bool isLost = prepared_.bvh.nodes.empty();  // to a lack of memory
+    if (!isEdited && time == time_ && !isLost) {
+        return;
+    }
     if (isEdited) {
         file_.edit(edits);
-        options_.edits = edits;
     }
-    if (isEdited || time != time_) {
-        prepared_ = prepareScene(file_, time, options_.split, std::move(prepared_));
-        time_ = time;
-        isSceneNew_ = true;
+    try {
+        updateScene(prepared_, file_, time, options_.split);
+    } catch (const InputError&) {
+        file_.edit(options_.edits);
+        throw;
     }
+    options_.edits = edits;
+    time_ = time;
+    isSceneNew_ = true;
 }
 
 Renderer& SceneSession::begin(const FlatCamera& camera, RenderSettings settings)

@@ -19,7 +19,7 @@ public:
     // edits and outputs, and no file of the scene has changed.
     bool serves(const RenderJob& options) const;
 
-    // The scene with these edits of its file, at that time.
+    // The scene with these edits of its files, at that time. If a file refuses, throws InputError and changes nothing.
     void pose(const std::vector<Edit>& edits, std::optional<double> time);
     // The renderer, at the beginning of a picture. It is a new one if other rows are asked for. A new one for a long picture measures which
     // schedule is the faster one.

@@ -19,6 +19,26 @@ Buffer uploaded(Device& device, const std::string& name, BufferKind kind, const 
     return buffer;
 }
 
+// The array on the device, where it may be already.
+DeviceArray upload(Device& device, const std::string& name, const SharedVector<uvec4>& values, DeviceArray before)
+{
+    if (before.buffer && before.source.is(values)) {
+        return before;
+    }
+    before = {};  // so that no two are on the device
+    return {SharedVector<uvec4>::Identity(values), std::make_shared<const Buffer>(uploaded<uvec4>(device, name, BufferKind::Texel, values))};
+}
+
+LastingBuffers upload(Device& device, const FlatScene& scene, LastingBuffers before)
+{
+    return {before.textures && before.textures->serve(scene) ? std::move(before.textures) : std::make_shared<DeviceTextures>(device, scene),
+            upload(device, "scene's BVH nodes", scene.nodes, std::move(before.nodes)),
+            upload(device, "scene's records", scene.records, std::move(before.records)),
+            upload(device, "scene's triangles for shading", scene.triangles, std::move(before.triangles)),
+            upload(device, "scene's vertices", scene.vertices, std::move(before.vertices)),
+            upload(device, "scene's instances", scene.instances, std::move(before.instances))};
+}
+
 // The materials and what lies behind them, as texels.
 std::vector<uvec4> materialTexels(const FlatScene& scene)
 {
@@ -72,18 +92,13 @@ void DeviceTextures::addTo(std::map<std::uint32_t, const Buffer*>& buffers) cons
     }
 }
 
-DeviceScene::DeviceScene(Device& device, const FlatScene& scene, std::shared_ptr<const DeviceTextures> textures)
-    : textures_(textures && textures->serve(scene) ? std::move(textures) : std::make_shared<DeviceTextures>(device, scene)),
-      nodes_(uploaded(device, "scene's BVH nodes", BufferKind::Texel, scene.nodes)),
-      records_(uploaded(device, "scene's records", BufferKind::Texel, scene.records)),
-      triangles_(uploaded(device, "scene's triangles for shading", BufferKind::Texel, scene.triangles)),
-      vertices_(uploaded(device, "scene's vertices", BufferKind::Texel, scene.vertices)),
+DeviceScene::DeviceScene(Device& device, const FlatScene& scene, LastingBuffers lasting)
+    : lasting_(upload(device, scene, std::move(lasting))),
       materials_(uploaded(device, "scene's materials", BufferKind::Texel, materialTexels(scene))),
       lights_(uploaded(device, "scene's lights", BufferKind::Texel, scene.lights)),
       lightNodes_(uploaded(device, "scene's light tree", BufferKind::Texel, scene.lightNodes)),
       albedos_(uploaded(device, "albedo table", BufferKind::Texel, scene.albedos)),
-      caustics_(uploaded(device, "targets of light paths", BufferKind::Texel, scene.caustics)),
-      instances_(uploaded(device, "scene's instances", BufferKind::Texel, scene.instances))
+      caustics_(uploaded(device, "targets of light paths", BufferKind::Texel, scene.caustics))
 {}
 
 std::vector<BindingSlot> DeviceScene::slots()
@@ -102,10 +117,12 @@ std::vector<BindingSlot> DeviceScene::slots()
 std::map<std::uint32_t, const Buffer*> DeviceScene::buffers() const
 {
     std::map<std::uint32_t, const Buffer*> buffers{
-        {kBindNodes, &nodes_},         {kBindRecords, &records_},    {kBindTriangles, &triangles_},   {kBindVertices, &vertices_},
-        {kBindMaterials, &materials_}, {kBindLights, &lights_},      {kBindLightNodes, &lightNodes_}, {kBindAlbedos, &albedos_},
-        {kBindCaustics, &caustics_},   {kBindInstances, &instances_}};
-    textures_->addTo(buffers);
+        {kBindNodes, lasting_.nodes.buffer.get()},         {kBindRecords, lasting_.records.buffer.get()},
+        {kBindTriangles, lasting_.triangles.buffer.get()}, {kBindVertices, lasting_.vertices.buffer.get()},
+        {kBindMaterials, &materials_},                     {kBindLights, &lights_},
+        {kBindLightNodes, &lightNodes_},                   {kBindAlbedos, &albedos_},
+        {kBindCaustics, &caustics_},                       {kBindInstances, lasting_.instances.buffer.get()}};
+    lasting_.textures->addTo(buffers);
     return buffers;
 }
 

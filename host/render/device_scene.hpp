@@ -22,20 +22,32 @@ private:
     Buffer environment_, environmentCells_;
 };
 
+// An array of a scene, on the device.
+struct DeviceArray {
+    SharedVector<uvec4>::Identity source;
+    std::shared_ptr<const Buffer> buffer;
+};
+
+// What the next scene may have in common with this one.
+struct LastingBuffers {
+    std::shared_ptr<const DeviceTextures> textures;
+    DeviceArray nodes, records, triangles, vertices, instances;
+};
+
 class DeviceScene {
 public:
-    // Uses `textures` if they serve the scene. Throws DeviceError, saying by how much, if the scene exceeds the device.
-    DeviceScene(Device& device, const FlatScene& scene, std::shared_ptr<const DeviceTextures> textures = nullptr);
+    // Uses what serves the scene of `lasting`. Throws DeviceError, saying by how much, if the scene exceeds the device.
+    DeviceScene(Device& device, const FlatScene& scene, LastingBuffers lasting = {});
 
     // The binding slots of scene.glsl.
     static std::vector<BindingSlot> slots();
     // The buffers for all these slots.
     std::map<std::uint32_t, const Buffer*> buffers() const;
-    const std::shared_ptr<const DeviceTextures>& textures() const { return textures_; }
+    const LastingBuffers& lasting() const { return lasting_; }
 
 private:
-    std::shared_ptr<const DeviceTextures> textures_;
-    Buffer nodes_, records_, triangles_, vertices_, materials_, lights_, lightNodes_, albedos_, caustics_, instances_;
+    LastingBuffers lasting_;
+    Buffer materials_, lights_, lightNodes_, albedos_, caustics_;
 };
 
 }  // namespace glim

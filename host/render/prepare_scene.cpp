@@ -63,18 +63,26 @@ PreparedScene prepare(Scene scene, SplitRule split, Clock::time_point start, Pre
 {
     PreparedScene prepared;
     prepared.scene = std::move(scene);
-    prepared.primitives = makePrimitives(prepared.scene);
+    const bool first = previous.bvh.nodes.empty();
+    const Same same = first ? Same::Nothing : compareSurfaces(previous.scene, previous.primitives, prepared.scene);
+    if (same == Same::Nothing) {
+        prepared.primitives = makePrimitives(prepared.scene);
+    } else {
+        prepared.primitives = std::move(previous.primitives);
+        placeSharedMeshes(prepared.scene, prepared.primitives);
+    }
     prepared.scene.warnings.insert(prepared.scene.warnings.end(), prepared.primitives.warnings.begin(), prepared.primitives.warnings.end());
     sayWarnings(prepared.scene, previous.scene);
     const Clock::time_point loaded = Clock::now();
-    const bool first = previous.bvh.nodes.empty();
     if (first) {
         stage("building the BVH of " + std::to_string(prepared.primitives.count()) + " primitives");
     }
-    prepared.bvh = first ? buildSceneBvh(prepared.primitives, split)
-                         : updateSceneBvh(std::move(previous.bvh), previous.primitives, prepared.primitives, split);
+    prepared.bvh = first                            ? buildSceneBvh(prepared.primitives, split)
+                   : same == Same::Everything       ? std::move(previous.bvh)
+                   : same == Same::AllButPlacements ? moveInstances(std::move(previous.bvh), prepared.primitives, split)
+                                                    : updateSceneBvh(std::move(previous.bvh), previous.primitives, prepared.primitives, split);
     prepared.split = split;
-    prepared.flat = flattenScene(prepared.scene, prepared.primitives, prepared.bvh, previous.flat);
+    prepared.flat = flattenScene(prepared.scene, prepared.primitives, prepared.bvh, previous.flat, same);
     if (first) {
         sayTextureMemory(prepared.flat);
     }
@@ -95,11 +103,13 @@ PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions&
     return within(file, [&] { return prepare(loadGltf(file, options), split, start, {}, stage); });
 }
 
-PreparedScene prepareScene(SceneFile& file, std::optional<double> seconds, SplitRule split, PreparedScene previous)
+void updateScene(PreparedScene& prepared, SceneFile& file, std::optional<double> seconds, SplitRule split)
 {
     const Clock::time_point start = Clock::now();
-    const auto unheard = [](const std::string&) {};
-    return within(file.path(), [&] { return prepare(file.sceneAt(seconds), split, start, std::move(previous), unheard); });
+    prepared = within(file.path(), [&] {
+        Scene scene = file.sceneAt(seconds);
+        return prepare(std::move(scene), split, start, std::move(prepared), [](const std::string&) {});
+    });
 }
 
 void sayIfCameraIsNumber(const Scene& scene, const std::optional<std::string>& choice)

@@ -33,9 +33,10 @@ void sayIfCameraIsNumber(const Scene& scene, const std::optional<std::string>& c
 // Warns on stderr if the scene has no light.
 void warnIfNoLights(const PreparedScene& prepared);
 
-// The scene of a file at `seconds` into its animation, or if absent in its rest pose. `previous`, which holds nothing afterwards, is the
-// scene at another time: its textures are used again and its BVH is updated, and what it warned of is not printed again.
-PreparedScene prepareScene(SceneFile& file, std::optional<double> seconds, SplitRule split, PreparedScene previous = {});
+// Makes it the scene of a file at `seconds` into its animation, or if absent in its rest pose. If it holds the file's scene at another time
+// or with other edits, only what differs is made again, and what it warned of is not printed again. If the file refuses, throws InputError
+// and leaves it as it was.
+void updateScene(PreparedScene& prepared, SceneFile& file, std::optional<double> seconds, SplitRule split);
 
 // The camera of that index, else of that name (the first if absent). Throws InputError that lists the cameras.
 const Camera& findCamera(const Scene& scene, const std::optional<std::string>& choice);

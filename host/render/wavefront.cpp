@@ -56,7 +56,7 @@ Wavefront::Wavefront(Device& device, const FlatScene& scene, const FlatCamera& c
       settings_(settings),
       lightCount_(static_cast<std::uint32_t>(scene.lights.size())),
       schedule_(chooseSchedule(settings, device.description())),
-      own_(SharedResources{DeviceScene(device, scene, std::move(lasting.textures)), PathBuffers(device, settings.pathCapacity)}),
+      own_(SharedResources{DeviceScene(device, scene, std::move(lasting.buffers)), PathBuffers(device, settings.pathCapacity)}),
       shared_(*own_),
       parameters_(device, scene, camera, settings),
       course_(device, scene, settings),

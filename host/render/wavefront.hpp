@@ -29,7 +29,7 @@ struct SharedResources {
 // What the scene at another time may use again.
 struct LastingResources {
     std::shared_ptr<const CompiledKernels> kernels;
-    std::shared_ptr<const DeviceTextures> textures;
+    LastingBuffers buffers;
 };
 
 class Wavefront {
@@ -41,7 +41,7 @@ public:
     // Uses the resources of another one of the same scene, which must outlive this one and be idle while it traces.
     Wavefront(Device& device, SharedResources& shared, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
     SharedResources& shared() { return shared_; }
-    LastingResources lasting() const { return {compiled_, shared_.scene.textures()}; }
+    LastingResources lasting() const { return {compiled_, shared_.scene.lasting()}; }
 
     // Takes other kernels if the present ones do not serve this camera, and compiles them if need be: a camera close to large triangles
     // needs kFeatureLargeTriangles. The kernels before stay for cameras that come back.

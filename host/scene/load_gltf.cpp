@@ -6,14 +6,15 @@
 #include "host/scene/frame_camera.hpp"
 #include "host/scene/gltf/animate_gltf.hpp"
 #include "host/scene/gltf/check_gltf_json.hpp"
+#include "host/scene/gltf/edit_gltf.hpp"
 #include "host/scene/gltf/pose_mesh.hpp"
 #include "host/scene/gltf/read_geometry.hpp"
 #include "host/scene/gltf/read_image_light.hpp"
 #include "host/scene/gltf/read_images.hpp"
 #include "host/scene/gltf/read_lights_cameras.hpp"
 #include "host/scene/gltf/read_material.hpp"
+#include "host/scene/join_scenes.hpp"
 #include "host/scene/make_studio.hpp"
-#include "host/scene/make_tangents.hpp"
 #include "host/text.hpp"
 
 #include <algorithm>
@@ -264,35 +265,6 @@ void readMaterials(const GltfFile& file, const LoadOptions& options, DecodedPart
     }
 }
 
-// The texture coordinates that the material's tangents follow, if it needs any.
-std::optional<std::uint32_t> uvSetOfTangents(const Material& material)
-{
-    for (const auto* texture : {&material.normalTexture, &material.clearcoatNormalTexture, &material.anisotropyTexture}) {
-        if (*texture) {
-            return (*texture)->uvSet;
-        }
-    }
-    return material.anisotropy > 0.0F ? std::optional<std::uint32_t>(0) : std::nullopt;
-}
-
-// Gives tangents to every mesh that is drawn with a normal map and has none, by the texture coordinates of that map. Flat meshes have those
-// of their faces, whatever the file says.
-void giveTangents(Scene& scene, Warnings& warnings)
-{
-    for (Mesh& mesh : scene.meshes) {
-        const std::optional<std::uint32_t> uvSet = uvSetOfTangents(scene.materials[mesh.material]);
-        if (!uvSet || (!mesh.tangents.empty() && !mesh.normals.empty())) {
-            continue;
-        }
-        mesh.tangents.clear();
-        if ((*uvSet == 0 ? mesh.uv0 : mesh.uv1).empty()) {
-            warnings.add("normal maps and anisotropy without texture coordinates are ignored", mesh.name);
-        } else if (addTangents(mesh, *uvSet == 1) > 0) {
-            warnings.add("texture coordinates of normal maps have no area in some triangles", mesh.name);
-        }
-    }
-}
-
 template <class Entries>
 std::vector<std::string> namesOf(const Entries& entries)
 {
@@ -316,91 +288,203 @@ Camera placeFramed(const Framed& framed, const glm::dvec3& origin)
     return camera;
 }
 
+// One file of a scene.
+class FilePart {
+public:
+    FilePart(const std::filesystem::path& path, LoadOptions options, bool isAdded)
+        : file_(readGltfFile(path, options.confined)),
+          options_(std::move(options)),
+          isAdded_(isAdded)
+    {
+        edit(options_.edits);
+        animations_ = listAnimations(file_);
+    }
+
+    // Leaves the part as it was if it throws.
+    void edit(const std::vector<Edit>& edits)
+    {
+        editGltf(file_, edits);
+        options_.edits = edits;
+        framed_.reset();
+        posed_ = false;
+    }
+
+    // Without the lights and cameras that the options give it.
+    Scene read(std::optional<double> seconds, Warnings& warnings);
+    Camera frame(const Scene& scene);
+
+    DecodedParts& decoded() { return decoded_; }
+
+private:
+    Framed frameRestPose();
+
+    GltfFile file_;
+    LoadOptions options_;
+    bool isAdded_;
+    std::vector<Animation> animations_;
+    DecodedParts decoded_;
+    ReadMeshes meshes_;
+    std::optional<Framed> framed_;  // on the rest pose
+    bool posed_ = false;            // the file's model is not in its rest pose
+};
+
+Framed FilePart::frameRestPose()
+{
+    restoreRestPose(file_);
+    posed_ = false;
+    Scene rest;
+    rest.materials.resize(file_.model.materials.size() + 1);
+    ReadMeshes unused;
+    Warnings unheard;
+    readGeometry(file_, placeNodes(file_, options_, unheard), rest, unused, unheard);
+    return {frameCamera(rest, options_.aspectRatio), rest.origin};
+}
+
+Camera FilePart::frame(const Scene& scene)
+{
+    if (!posed_) {
+        return frameCamera(scene, options_.aspectRatio);
+    }
+    framed_ = framed_ ? framed_ : frameRestPose();
+    return placeFramed(*framed_, scene.origin);
+}
+
+Scene FilePart::read(std::optional<double> seconds, Warnings& warnings)
+{
+    Scene scene;
+    scene.variants = readVariants(file_);
+    file_.variant = findVariant(file_, scene.variants, options_.variant);
+    scene.file = file_.path;
+    scene.files = file_.files;
+    scene.nodeNames = namesOf(file_.model.nodes);
+    scene.meshNames = namesOf(file_.model.meshes);
+    scene.animations = animations_;
+    scene.skins = file_.skins.size();
+    scene.morphTargets = countAllMorphTargets(file_);
+    scene.showsBackFaces = options_.showsBackFaces;
+    scene.materials.resize(file_.model.materials.size() + 1);
+    warnings.add(file_.warnings);
+    warnings.add(file_.editWarnings);
+    if (posed_) {
+        restoreRestPose(file_);
+    }
+    if (!isAdded_) {
+        chooseTime(file_, options_, seconds, animations_, warnings);
+    }
+    posed_ = seconds.has_value();
+    const std::vector<PlacedNode> nodes = placeNodes(file_, options_, warnings);
+    if (!isAdded_) {
+        scene.environment = chooseEnvironment(file_, options_, decoded_, scene, warnings);
+    }
+    noteIgnoredParts(file_, warnings);
+    readGeometry(file_, nodes, scene, meshes_, warnings);
+    if (!isAdded_) {
+        requireShapes(file_, scene);
+    }
+    readMaterials(file_, options_, decoded_, scene, warnings);
+    readLightsAndCameras(file_, nodes, scene, warnings);
+    return scene;
+}
+
+// The edits of the part of that name, with pointers as it has them; of the first one if there is no name.
+std::vector<Edit> editsOf(const std::vector<Edit>& edits, const std::optional<std::filesystem::path>& name)
+{
+    std::vector<Edit> own;
+    for (const Edit& edit : edits) {
+        const std::size_t hash = edit.pointer.starts_with('/') ? 0 : edit.pointer.find("#/");
+        const std::string file = edit.pointer.substr(0, hash);
+        if (name ? hash > 0 && (file == name->string() || file == name->filename()) : hash == 0) {
+            own.push_back({edit.pointer.substr(name ? hash + 1 : 0), edit.value});
+        }
+    }
+    return own;
+}
+
+// Refuses an edit of a file that is not there.
+void checkFilesOfEdits(const std::filesystem::path& path, const LoadOptions& options)
+{
+    for (const Edit& edit : options.edits) {
+        const auto isOf = [&](const Addition& addition) { return !editsOf({edit}, addition.file).empty(); };
+        if (!edit.pointer.starts_with('/') && std::ranges::none_of(options.additions, isOf)) {
+            std::string known;
+            for (const Addition& addition : options.additions) {
+                known += (known.empty() ? "" : ", ") + inQuotes(addition.file.filename().string());
+            }
+            throw InputError(path.string() + ": --set " + edit.pointer + ": expected a pointer that begins with /" +
+                             (known.empty() ? ", since no file is added" : ", or with one of " + known + " and a #") + ".");
+        }
+    }
+}
+
 }  // namespace
 
 struct SceneFile::Contents {
-    GltfFile file;
-    LoadOptions options;
-    std::vector<Animation> animations;
-    DecodedParts decoded;
-    std::optional<Framed> framed;  // on the rest pose
-    bool posed = false;            // the file's model is not in its rest pose
+    FilePart main;
+    std::vector<FilePart> added;
+    JoinedMeshes joined;
 
-    Framed frameRestPose();
-    Camera frame(const Scene& scene);
-};
-
-Framed SceneFile::Contents::frameRestPose()
-{
-    restoreRestPose(file);
-    posed = false;
-    Scene rest;
-    rest.materials.resize(file.model.materials.size() + 1);
-    Warnings unheard;
-    readGeometry(file, placeNodes(file, options, unheard), rest, unheard);
-    return {frameCamera(rest, options.aspectRatio), rest.origin};
-}
-
-Camera SceneFile::Contents::frame(const Scene& scene)
-{
-    if (!posed) {
-        return frameCamera(scene, options.aspectRatio);
+    Contents(const std::filesystem::path& path, const LoadOptions& options)
+        : main(path, withEdits(options, editsOf(options.edits, std::nullopt)), false)
+    {
+        for (const Addition& addition : options.additions) {
+            LoadOptions own;
+            own.missingTextures = options.missingTextures;
+            own.confined = options.confined;
+            own.maxTexture = options.maxTexture;
+            added.emplace_back(addition.file, withEdits(own, editsOf(options.edits, addition.file)), true);
+        }
     }
-    framed = framed ? framed : frameRestPose();
-    return placeFramed(*framed, scene.origin);
-}
+
+    static LoadOptions withEdits(LoadOptions options, std::vector<Edit> edits)
+    {
+        options.edits = std::move(edits);
+        return options;
+    }
+};
 
 SceneFile::SceneFile(const std::filesystem::path& file, const LoadOptions& options)
     : path_(file),
       options_(options)
-{}
+{
+    checkFilesOfEdits(path_, options_);
+}
 
 SceneFile::~SceneFile() = default;
 
 Scene SceneFile::sceneAt(std::optional<double> seconds)
 {
     if (!contents_) {
-        contents_ = std::make_unique<Contents>(Contents{readGltfFile(path_, options_.confined, options_.edits), options_, {}, {}, {}});
-        contents_->animations = listAnimations(contents_->file);
+        contents_ = std::make_unique<Contents>(path_, options_);
     }
-    auto& [file, options, animations, decoded, framed, posed] = *contents_;
-    Scene scene;
-    scene.variants = readVariants(file);
-    file.variant = findVariant(file, scene.variants, options.variant);
-    scene.file = file.path;
-    scene.files = file.files;
-    scene.nodeNames = namesOf(file.model.nodes);
-    scene.meshNames = namesOf(file.model.meshes);
-    scene.animations = animations;
-    scene.skins = file.skins.size();
-    scene.morphTargets = countAllMorphTargets(file);
-    scene.showsBackFaces = options.showsBackFaces;
-    scene.materials.resize(file.model.materials.size() + 1);
-    Warnings warnings = file.warnings;
-    if (posed) {
-        restoreRestPose(file);
+    Warnings warnings;
+    Scene scene = contents_->main.read(seconds, warnings);
+    if (options_.sun) {
+        scene.lights.push_back(lightOf(*options_.sun));
     }
-    chooseTime(file, options, seconds, animations, warnings);
-    posed = seconds.has_value();
-    const std::vector<PlacedNode> nodes = placeNodes(file, options, warnings);
-    scene.environment = chooseEnvironment(file, options, decoded, scene, warnings);
-    noteIgnoredParts(file, warnings);
-    readGeometry(file, nodes, scene, warnings);
-    readMaterials(file, options, decoded, scene, warnings);
-    giveTangents(scene, warnings);
-    readLightsAndCameras(file, nodes, scene, warnings);
-    if (options.sun) {
-        scene.lights.push_back(lightOf(*options.sun));
+    std::optional<Camera> framed;
+    if (scene.cameras.empty() || options_.framed) {
+        framed = contents_->main.frame(scene);
     }
-    if (!options.environment && !hasLight(scene)) {
-        scene.environment = makeStudioEnvironment(options, decoded);
+    if (!options_.additions.empty()) {
+        std::vector<AddedScene> others;
+        for (std::size_t i = 0; i < options_.additions.size(); ++i) {
+            Warnings own;
+            others.push_back({contents_->added[i].read(std::nullopt, own), options_.additions[i].worldFromFile});
+            for (const std::string& line : own.lines()) {
+                warnings.add(others.back().scene.file + ": " + line);
+            }
+        }
+        scene = joinScenes(std::move(scene), others, contents_->joined);
+    }
+    if (!options_.environment && !hasLight(scene)) {
+        scene.environment = makeStudioEnvironment(options_, contents_->main.decoded());
         warnings.add("the scene has no light: the built-in studio lights it (--environment none keeps it dark)");
     }
     if (scene.cameras.empty()) {
         warnings.add("the scene has no camera: one is framed on its bounding box");
     }
-    if (scene.cameras.empty() || options.framed) {
-        scene.cameras.push_back(contents_->frame(scene));
+    if (framed) {
+        scene.cameras.push_back(*framed);
     }
     scene.warnings = warnings.lines();
     checkScene(scene);
@@ -409,11 +493,22 @@ Scene SceneFile::sceneAt(std::optional<double> seconds)
 
 void SceneFile::edit(const std::vector<Edit>& edits)
 {
+    LoadOptions options = options_;
+    options.edits = edits;
+    checkFilesOfEdits(path_, options);
+    const auto apply = [this](const std::vector<Edit>& all) {
+        contents_->main.edit(editsOf(all, std::nullopt));
+        for (std::size_t i = 0; i < options_.additions.size(); ++i) {
+            contents_->added[i].edit(editsOf(all, options_.additions[i].file));
+        }
+    };
     if (contents_) {
-        contents_->file = readGltfFile(path_, options_.confined, edits);
-        contents_->options.edits = edits;
-        contents_->framed.reset();
-        contents_->posed = false;
+        try {
+            apply(edits);
+        } catch (const InputError&) {
+            apply(options_.edits);
+            throw;
+        }
     }
     options_.edits = edits;
 }

@@ -26,6 +26,14 @@ struct Sun {
     bool operator==(const Sun&) const = default;
 };
 
+// A file whose shapes and lights stand in the scene too.
+struct Addition {
+    std::filesystem::path file;
+    glm::dmat4 worldFromFile{1.0};  // affine and invertible
+
+    bool operator==(const Addition&) const = default;
+};
+
 struct LoadOptions {
     std::optional<std::size_t> scene;              // index into the file's scenes; if absent its default scene, else the first
     std::optional<EnvironmentChoice> environment;  // replaces the file's
@@ -42,7 +50,8 @@ struct LoadOptions {
     float aspectRatio = 1.0F;                  // of the picture, for the framed camera
     bool framed = false;                       // adds it to the file's cameras; it is always there if the file has none
 
-    std::vector<Edit> edits;  // of the file, one after the other
+    std::vector<Edit> edits;          // of the file, one after the other
+    std::vector<Addition> additions;  // in their rest pose
 
     bool operator==(const LoadOptions&) const = default;
 };
@@ -57,9 +66,10 @@ public:
     SceneFile& operator=(const SceneFile&) = delete;
 
     // The scene at `seconds` into the animation; if absent in the file's rest pose. It has passed checkScene. A framed camera sees the
-    // whole rest pose, at any time. Throws InputError with one sentence that names file, place, value and what was expected.
+    // file's whole rest pose, at any time, and what is added as it comes. Throws InputError with one sentence that names file, place, value and what was expected.
     Scene sceneAt(std::optional<double> seconds);
-    // Edits in place of those of the options. Reads the file again, but keeps its decoded images and maps.
+    // Edits in place of those of the options. Buffers, images and maps stay, and meshes that no edit bends. A pointer begins with the name
+    // of an added file and a # where it is one of that file. Throws InputError, and then nothing is changed.
     void edit(const std::vector<Edit>& edits);
     const std::filesystem::path& path() const { return path_; }
 

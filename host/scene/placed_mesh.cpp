@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <span>
 
 namespace glim {
 
@@ -65,11 +66,15 @@ WorldBox placeBox(const Scene& scene, const MeshInstance& instance, const WorldB
     return {glm::vec3(placed - extent), glm::vec3(placed + extent)};
 }
 
-// Calls `take` with every vertex of a triangle that has a surface.
+std::span<const MeshInstance> ownInstances(const Scene& scene) { return std::span(scene.instances).first(scene.instances.size() - scene.addedInstances); }
+
+std::span<const Sphere> ownSpheres(const Scene& scene) { return std::span(scene.spheres).first(scene.spheres.size() - scene.addedSpheres); }
+
+// Calls `take` with every vertex of a triangle that has a surface and was not added.
 template <class Take>
 void visitVertices(const Scene& scene, Take take)
 {
-    for (const MeshInstance& instance : scene.instances) {
+    for (const MeshInstance& instance : ownInstances(scene)) {
         const PlacedMesh placed(scene, instance);
         for (std::size_t i = 0; i < placed.triangleCount(); ++i) {
             const Triangle triangle = placed.triangle(i);
@@ -97,7 +102,7 @@ WorldBox computeBoxOfMeshBoxes(const Scene& scene)
         meshes.push_back(computeMeshBox(mesh));
     }
     WorldBox box{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
-    for (const MeshInstance& instance : scene.instances) {
+    for (const MeshInstance& instance : ownInstances(scene)) {
         if (!scene.meshes[instance.mesh].indices.empty()) {
             const WorldBox placed = placeBox(scene, instance, meshes[instance.mesh]);
             box = {glm::min(box.low, placed.low), glm::max(box.high, placed.high)};
@@ -111,7 +116,7 @@ WorldBox computeBoxOfMeshBoxes(const Scene& scene)
 WorldBox computeWorldBox(const Scene& scene)
 {
     WorldBox box = isLarge(scene) ? computeBoxOfMeshBoxes(scene) : computeTriangleBox(scene);
-    for (const Sphere& sphere : scene.spheres) {
+    for (const Sphere& sphere : ownSpheres(scene)) {
         box = {glm::min(box.low, sphere.center - sphere.radius), glm::max(box.high, sphere.center + sphere.radius)};
     }
     return box.low.x <= box.high.x ? box : WorldBox{glm::vec3(-1.0F), glm::vec3(1.0F)};
@@ -127,7 +132,7 @@ double computeRadius(const Scene& scene, const glm::dvec3& center)
     double radius = 0.0;
     const auto distance = [&center](const glm::dvec3& point) { return std::hypot(point.x - center.x, point.z - center.z); };
     visitVertices(scene, [&](const glm::vec3& vertex) { radius = std::max(radius, distance(vertex)); });
-    for (const Sphere& sphere : scene.spheres) {
+    for (const Sphere& sphere : ownSpheres(scene)) {
         radius = std::max(radius, distance(sphere.center) + static_cast<double>(sphere.radius));
     }
     return radius;

@@ -33,14 +33,14 @@ private:
     std::vector<glm::vec3> positions_;  // by vertex
 };
 
-// The bounds of everything that has a surface; 2 m of each axis where nothing has.
+// The bounds of everything that has a surface and was not added to the scene; 2 m of each axis where nothing has.
 struct WorldBox {
     glm::vec3 low, high;  // relative to the scene's origin
 };
 
 WorldBox computeWorldBox(const Scene& scene);
 
-// How far anything that has a surface reaches from the vertical axis through `center`; of large scenes, how far their box does.
+// How far any of that reaches from the vertical axis through `center`; of large scenes, how far their box does.
 double computeRadius(const Scene& scene, const glm::dvec3& center);
 
 }  // namespace glim

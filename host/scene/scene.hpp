@@ -5,6 +5,7 @@
 
 #include "host/image/decode_image.hpp"
 #include "host/image/radiance_map.hpp"
+#include "host/shared_vector.hpp"
 
 #include <glm/glm.hpp>
 
@@ -31,6 +32,8 @@ struct Texture {
     bool nearest = false;  // else bilinear
     // Coordinates of the image are (dot(rowU, (u, v, 1)), dot(rowV, (u, v, 1))).
     glm::vec3 rowU{1.0F, 0.0F, 0.0F}, rowV{0.0F, 1.0F, 0.0F};
+
+    bool operator==(const Texture&) const = default;
 };
 
 // What a surface does to light: glTF's material, with glTF's defaults. Colours are linear Rec.709. Textures multiply.
@@ -213,9 +216,10 @@ struct Scene {
     std::string file;
     std::vector<std::filesystem::path> files;  // the files it was read from: `file`, its buffers, images and map
     glm::dvec3 origin{0.0};
-    std::vector<Mesh> meshes;
+    SharedVector<Mesh> meshes;
     std::vector<MeshInstance> instances;
     std::vector<Sphere> spheres;
+    std::size_t addedInstances = 0, addedSpheres = 0;  // the last ones: of files that were added. Cameras are framed on the others
     std::size_t flattened = 0;  // meshes and spheres of the file that are left out as their nodes are scaled to a plane, a line or a point
     std::vector<Material> materials;                // in the file's order
     std::optional<std::uint32_t> defaultMaterial;   // the one of them that the file does not have

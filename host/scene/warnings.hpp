@@ -23,6 +23,17 @@ public:
         }
         kinds_[places_.at(sentence)].second.push_back(name);
     }
+    void add(const Warnings& others)
+    {
+        for (const auto& [sentence, names] : others.kinds_) {
+            if (names.empty()) {
+                add(sentence);
+            }
+            for (const std::string& name : names) {
+                add(sentence, name);
+            }
+        }
+    }
 
     // "the sentence: first, second, third and 4 more", in the order in which each kind was met first.
     std::vector<std::string> lines() const

@@ -46,7 +46,7 @@ const Breakage kBreakages[] = {
     {"mesh 1 has an attribute", [](Scene& s) { s.meshes[1].colors.resize(2); }},
     {"mesh 1 has a triangle with fewer", [](Scene& s) { s.meshes[1].indices.push_back(0); }},
     {"mesh 1 has a triangle with a vertex", [](Scene& s) { s.meshes[1].indices[1] = 3; }},
-    {"mesh 0 has a material", [](Scene& s) { s.meshes[0].material = 1; }},
+    {"mesh 0 has a material", [](Scene& s) { s.meshes.change()[0].material = 1; }},
     {"instance 1 is of a mesh", [](Scene& s) { s.instances[1].mesh = 2; }},
     {"instance 0 has a transform that is not finite", [](Scene& s) { s.instances[0].worldFromMesh[3].x = kInfinity; }},
     {"instance 0 has a transform that is not affine", [](Scene& s) { s.instances[0].worldFromMesh[1].w = 1.0; }},

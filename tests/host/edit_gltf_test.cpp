@@ -109,11 +109,12 @@ TEST(EditGltf, RefusesWithThePointerOrThePlace)
     expectRefused({"/materials/0/alphaCutoff/deep", "1"}, "is no value that glim can change");
     expectRefused({"/lights/0/intensity", "1"}, "the file has no /lights; expected a pointer");
     for (const char* pointer :
-         {"", "/", "/asset/version", "/materials", "/materials/0", "/materials/0/name", "/nodes/0/mesh", "/scene", "/accessors/0/count",
+         {"/", "/asset/version", "/materials", "/materials/0", "/materials/0/name", "/nodes/0/mesh", "/scene", "/accessors/0/count",
           "/meshes/0/primitives/0/material", "/cameras/0/type", "/materials/0/unknown", "/materials/0/normalTexture/index",
           "/materials/0/pbrMetallicRoughness.roughnessFactor", "/materials[]/alphaCutoff"}) {
         expectRefused({pointer, "1"}, "is no value that glim can change");
     }
+    expectRefused({"", "1"}, "--set : expected a pointer that begins with /, since no file is added.");
     expectRefused({"/materials/0/alphaCutoff", "-2"}, "materials[0].alphaCutoff is -2; expected");
     expectRefused({"/materials/0/pbrMetallicRoughness/baseColorFactor", "[1, 2]"}, "materials[0].pbrMetallicRoughness.baseColorFactor");
     expectRefused({"/materials/0/alphaMode", "\"GLASS\""}, "materials[0].alphaMode");

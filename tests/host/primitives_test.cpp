@@ -149,8 +149,8 @@ Scene squaresInOnePlace()
     Scene scene = sceneWith({square(true), lamp, lamp}, {{"wall", 0}, {"lamp", 1}, {"again", 2}, {"clear", 2}});
     scene.materials.resize(3);
     scene.materials[1].emission = glm::vec3(1.0F);
-    scene.meshes.push_back(lamp);
-    scene.meshes[3].material = 2;
+    scene.meshes.change().push_back(lamp);
+    scene.meshes.change()[3].material = 2;
     scene.instances[3].mesh = 3;
     scene.materials[2].alphaMode = AlphaMode::Blend;
     scene.materials[2].alpha = 0.5F;
@@ -219,9 +219,9 @@ TEST(FlattenScene, UnusedMaterialsAddNoFeature)
     scene.materials[1].solid = true;
     scene.materials[1].metallic = scene.materials[1].roughness = 0.0F;
     EXPECT_EQ(flattened(scene).features & kFeatureDielectric, 0U);
-    scene.meshes[0].material = 1;
+    scene.meshes.change()[0].material = 1;
     EXPECT_EQ(flattened(scene).features & kFeatureDielectric, kFeatureDielectric);
-    scene.meshes[0].material = 0;
+    scene.meshes.change()[0].material = 0;
     scene.spheres.push_back({"", glm::vec3(0.0F), 1.0F, 1});
     EXPECT_EQ(flattened(scene).features & kFeatureDielectric, kFeatureDielectric);
 }

@@ -1,4 +1,6 @@
 // A scene file at one time after another: what is read once, and what is made again.
+#include "host/error.hpp"
+#include "host/flatten/build_scene_bvh.hpp"
 #include "host/render/prepare_scene.hpp"
 #include "tests/support/encode_images.hpp"
 #include "tests/support/gltf_builder.hpp"
@@ -74,7 +76,7 @@ TEST_F(SceneFileTest, KeepsWhatDoesNotMove)
     const void* nodes = nullptr;
     FlatScene before;
     for (const double seconds : {0.0, 0.5, 1.5, 1.0}) {
-        prepared = prepareScene(file, seconds, SplitRule::Sah, std::move(prepared));
+        updateScene(prepared, file, seconds, SplitRule::Sah);
         LoadOptions options = studio();
         options.at = seconds;
         const PreparedScene fresh = prepareScene(folder_ / "scene.gltf", options);
@@ -96,16 +98,120 @@ TEST_F(SceneFileTest, KeepsWhatDoesNotMove)
 TEST_F(SceneFileTest, ImagesOfAnotherFileAreItsOwn)
 {
     SceneFile file(folder_ / "scene.gltf", studio());
-    PreparedScene prepared = prepareScene(file, 0.0, SplitRule::Sah);
+    PreparedScene prepared;
+    updateScene(prepared, file, 0.0, SplitRule::Sah);
     const Bytes texels = encodePng(2, 1, {1, 2, 3, 4, 5, 6});
     writeText(folder_ / "image.png", std::string(texels.begin(), texels.end()));
     SceneFile other(folder_ / "scene.gltf", studio());
     const std::vector<std::uint32_t> before = prepared.flat.images->texels;
-    prepared = prepareScene(other, 0.0, SplitRule::Sah, std::move(prepared));
+    updateScene(prepared, other, 0.0, SplitRule::Sah);
     const PreparedScene fresh = prepareScene(folder_ / "scene.gltf", studio());
     EXPECT_EQ(prepared.flat.images->texels, fresh.flat.images->texels);
     EXPECT_EQ(fingerprint(prepared.flat), fingerprint(fresh.flat));
     EXPECT_NE(prepared.flat.images->texels, before);
+}
+
+// Two triangles, one of them a lamp, below a light.
+GltfBuilder twoCards()
+{
+    GltfBuilder builder;
+    const std::size_t mesh = builder.addTriangleMesh(), lamp = builder.addTriangleMesh();
+    builder.append("materials", {{"alphaMode", "MASK"}});
+    builder.append("materials", {{"emissiveFactor", {1, 1, 1}}});
+    builder.document["meshes"][mesh]["primitives"][0]["material"] = 0;
+    builder.document["meshes"][lamp]["primitives"][0]["material"] = 1;
+    for (int i = 0; i < 4; ++i) {
+        builder.addNode({{"mesh", mesh}, {"translation", {2 * i, 0, 0}}});
+    }
+    builder.addNode({{"mesh", lamp}, {"translation", {0, 3, 0}}});
+    builder.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"translation", {0, 5, 0}}});
+    builder.document["extensionsUsed"] = {"KHR_lights_punctual"};
+    builder.document["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    return builder;
+}
+
+// Whatever was edited before, the scene is the one that a fresh start gives, and what an edit does not touch is the same array.
+TEST_F(SceneFileTest, AnEditTouchesWhatItChanges)
+{
+    struct Case {
+        Edit edit;
+        bool keepsMeshes, keepsRecords, keepsNodes;
+    };
+    const std::string path = writeTemporary("cards.gltf", twoCards().toGltf());
+    SceneFile file(path);
+    PreparedScene prepared;
+    updateScene(prepared, file, std::nullopt, SplitRule::Sah);
+    for (const Case& c :
+         {Case{{"/materials/0/pbrMetallicRoughness/baseColorFactor", "[0.5, 0.25, 0, 1]"}, true, true, true},
+          {{"/materials/1/emissiveFactor", "[0.5, 0.5, 0.5]"}, true, true, true},
+          {{"/extensions/KHR_lights_punctual/lights/0/intensity", "7"}, true, true, true},
+          {{"/nodes/5/translation", "[0, 6, 0]"}, true, true, true},
+          {{"/materials/1/emissiveFactor", "[0, 0, 0]"}, true, false, false},
+          {{"/materials/0/emissiveFactor", "[1, 0, 0]"}, true, false, false},
+          {{"/materials/0/doubleSided", "true"}, true, false, false},
+          {{"/materials/0/alphaCutoff", "2"}, true, false, false},
+          {{"/nodes/1/translation", "[2, 1, 0]"}, true, false, false},
+          {{"/materials/0/extensions/KHR_materials_anisotropy/anisotropyStrength", "0.5"}, false, false, false}}) {
+        for (const std::vector<Edit>& edits : {std::vector<Edit>{c.edit}, {}}) {
+            const FlatScene before = prepared.flat;
+            const SharedVector<Mesh> meshes = prepared.scene.meshes;
+            file.edit(edits);
+            updateScene(prepared, file, std::nullopt, SplitRule::Sah);
+            LoadOptions options;
+            options.edits = edits;
+            const PreparedScene fresh = prepareScene(path, options);
+            const std::string what = c.edit.pointer + (edits.empty() ? " undone" : "");
+            EXPECT_EQ(fingerprint(prepared.flat), fingerprint(fresh.flat)) << what;
+            EXPECT_EQ(prepared.flat.features, fresh.flat.features) << what;
+            EXPECT_EQ(prepared.flat.records.size(), fresh.flat.records.size()) << what;
+            EXPECT_EQ(prepared.scene.meshes.isSameAs(meshes), c.keepsMeshes) << what;
+            EXPECT_EQ(prepared.flat.records.isSameAs(before.records), c.keepsRecords) << what;
+            EXPECT_EQ(prepared.flat.nodes.isSameAs(before.nodes), c.keepsNodes) << what;
+        }
+    }
+}
+
+// Where one instance of a shared mesh moves, the shapes stay the same arrays.
+TEST_F(SceneFileTest, ASharedMeshMovesAlone)
+{
+    GltfBuilder cards = twoCards();
+    const Scene before = load(cards);
+    cards.document["nodes"][2]["translation"] = {4, 1, 0};
+    Scene after = load(cards);
+    after.meshes = before.meshes;
+    after.origin = before.origin;
+    Primitives primitives = makePrimitives(before, 0);
+    ASSERT_EQ(primitives.placements.size(), 4U);
+    const WideBvh bvh = buildSceneBvh(primitives);
+    const FlatScene flat = flattenScene(before, primitives, bvh);
+    ASSERT_EQ(compareSurfaces(before, primitives, after), Same::AllButPlacements);
+    placeSharedMeshes(after, primitives);
+    const WideBvh movedBvh = moveInstances(bvh, primitives, SplitRule::Sah);
+    const FlatScene moved = flattenScene(after, primitives, movedBvh, flat, Same::AllButPlacements);
+    const Primitives freshPrimitives = makePrimitives(after, 0);
+    const FlatScene fresh = flattenScene(after, freshPrimitives, buildSceneBvh(freshPrimitives));
+    EXPECT_EQ(fingerprint(moved), fingerprint(fresh));
+    EXPECT_NE(fingerprint(moved), fingerprint(flat));
+    EXPECT_EQ(moved.features, fresh.features);
+    EXPECT_EQ(moved.instances, fresh.instances);
+    EXPECT_TRUE(moved.records.isSameAs(flat.records));
+    EXPECT_TRUE(moved.triangles.isSameAs(flat.triangles));
+    // A flattened instance that moves is another shape.
+    Scene lamp = after;
+    lamp.instances[4].worldFromMesh[3].y += 1.0;
+    EXPECT_EQ(compareSurfaces(after, primitives, lamp), Same::Nothing);
+}
+
+// A pointer that the file does not have changes nothing.
+TEST_F(SceneFileTest, ARefusedEditLeavesTheSceneAsItWas)
+{
+    const std::string path = writeTemporary("cards.gltf", twoCards().toGltf());
+    SceneFile file(path);
+    const std::vector<Edit> edits{{"/materials/0/alphaCutoff", "0.75"}};
+    file.edit(edits);
+    ASSERT_EQ(file.sceneAt(std::nullopt).materials[0].alphaCutoff, 0.75F);
+    EXPECT_THROW(file.edit({{"/materials/0/alphaCutoff", "0.25"}, {"/materials/9/alphaCutoff", "0.25"}}), InputError);
+    EXPECT_EQ(file.sceneAt(std::nullopt).materials[0].alphaCutoff, 0.75F);
 }
 
 // Nothing is left to hit, and nothing was there before: the tree is a root.

@@ -64,7 +64,7 @@ Scene cardsInFrontOfCards()
     }
     builder.environment(glm::vec3(0.3F)).perspective({0, 1, 4}, {0, 0, 0}, 0.7F);
     Scene scene = builder.scene();
-    for (Mesh& mesh : scene.meshes) {
+    for (Mesh& mesh : scene.meshes.change()) {
         setQuadUvs(mesh, 3.0F);
         for (std::size_t i = 0; mesh.material == blended && i < mesh.positions.size(); ++i) {
             mesh.colors.emplace_back(1.0F, 1.0F, 1.0F, 0.25F * static_cast<float>(i % 4) + 0.25F);
@@ -153,7 +153,7 @@ TEST(AlphaTest, ShadowsOfCardsMultiply)
     setAlpha(3, 0.5F);
     scene.materials[cards[3]].baseColorTexture = scene.materials[cards[1]].baseColorTexture;
     setQuadUvs(scene.meshes[4], 1.0F);
-    scene.meshes[4].colors = scene.meshes[3].colors;
+    scene.meshes.change()[4].colors = scene.meshes[3].colors;
     // A mask below its cutoff is not there, one whose factor is 0 neither.
     setAlpha(4, 0.49F);
     scene.materials[cards[4]].alphaMode = AlphaMode::Mask;

@@ -266,7 +266,7 @@ const NamedVariant kVariants[] = {
              half.alpha = 0.4F;
              addPane(scene, thin);
              addPane(scene, half);
-             for (glm::dvec3& p : scene.meshes.back().positions) {
+             for (glm::dvec3& p : scene.meshes.change().back().positions) {
                  p.y += 0.2;
              }
          });

@@ -206,7 +206,11 @@ TEST_F(ServeTest, EditsAreOfTheirRequestAlone)
     EXPECT_EQ(digestServed(plain), before);
     const Json refused = server_.ask({scene, "-o", (folder_ / "a.exr").string(), "--set", "/materials/nobody/alphaCutoff=1"});
     EXPECT_EQ(refused.at("code").number(), 1.0);
-    EXPECT_EQ(digestServed(plain), before);
+    const std::string stats = (folder_ / "stats.json").string();
+    std::vector<std::string> again = plain;
+    again.insert(again.end(), {"--stats", stats});
+    EXPECT_EQ(digestServed(again), before);
+    EXPECT_EQ(Json::parse(bytesOfFile(stats))->at("seconds").at("upload").number(), 0.0) << "the scene has stayed";
 }
 
 TEST_F(ServeTest, AnotherShapeOfThePictureKeepsTheKernels)

@@ -57,7 +57,7 @@ TEST(CountersTest, BytesOfASmoothTriangle)
 {
     for (const auto& [scene, limit] : {std::pair{makeHills(200), 85.0}, {bumpyBall(5), 126.0}, {forest(60), 126.0}}) {
         Scene smooth = scene;
-        Mesh& mesh = smooth.meshes.back();
+        Mesh& mesh = smooth.meshes.change().back();
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
             mesh.normals.emplace_back(1.0, static_cast<double>(i), 0.0);
         }

@@ -332,7 +332,7 @@ TEST(HardLightTest, H7TeapotInAStadium)
     hall.environment.reset();
     hall.materials.push_back(makeLambert(glm::vec3(0.0F), glm::vec3(1.0F)));
     const Scene walls = SceneBuilder().cube(500.0F, 1, true).scene();
-    hall.meshes.push_back(walls.meshes[0]);
+    hall.meshes.change().push_back(walls.meshes[0]);
     hall.instances.push_back({"", 1});
     RenderSettings settings = squareSettings(kSide, oneBounce().sampleEnd);
     settings.sampler = Sampler::Independent;

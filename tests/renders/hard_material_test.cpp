@@ -327,8 +327,8 @@ TEST(HardMaterialTest, H50ManyInstancesOfOneImage)
     scene.instances.clear();
     for (std::uint32_t m = 0; m < kMaterials; ++m) {
         scene.materials.push_back(material);
-        scene.meshes.push_back(mesh);
-        scene.meshes.back().material = m + 1;
+        scene.meshes.change().push_back(mesh);
+        scene.meshes.change().back().material = m + 1;
         for (std::uint32_t i = 0; i < kEach; ++i) {
             MeshInstance& instance = scene.instances.emplace_back();
             instance.mesh = m + 1;
@@ -380,8 +380,8 @@ TEST(TexturedLampTest, IsFoundByLightsAndByBsdfsAlike)
     for (std::uint32_t i = 1; i < 3; ++i) {
         scene.materials.push_back(scene.materials[1]);
         scene.materials.back().emissiveTexture->image = i;
-        scene.meshes.push_back(scene.meshes[1]);
-        scene.meshes.back().material = i + 1;
+        scene.meshes.change().push_back(scene.meshes[1]);
+        scene.meshes.change().back().material = i + 1;
         MeshInstance& instance = scene.instances.emplace_back();
         instance.mesh = i + 1;
         instance.worldFromMesh = glm::translate(glm::dmat4(1.0), glm::dvec3(i == 1 ? 2.5 : -2.5, 0.2, 0.0));

@@ -104,7 +104,7 @@ TEST(IdentifyTest, SharesOfAPixelAreExactAndRanked)
     Scene scene = builder.scene();
     scene.instances[7].name = scene.instances[8].name = "pair";
     scene.materials[red].name = "red";
-    scene.meshes[6].name = "six";
+    scene.meshes.change()[6].name = "six";
     const auto [film, ids] = identify(prepare(scene), squareSettings(1, 64));
 
     EXPECT_EQ(ids.counts.at("node.X")[0], 6U) << "the smaller index of two that cover 3/16";

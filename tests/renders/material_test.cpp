@@ -370,7 +370,7 @@ Scene quadOf(const Material& material, const DecodedImage* image)
         .perspective({0, 0, 3}, {0, 0, 0}, 0.3F);
     Scene scene = builder.scene();
     scene.materials[0] = material;
-    Mesh& mesh = scene.meshes[0];
+    Mesh& mesh = scene.meshes.change()[0];
     for (const glm::dvec3& p : mesh.positions) {
         mesh.uv0.emplace_back(glm::vec2(p) * 3.7F);
     }

@@ -206,7 +206,7 @@ void addMesh(Scene& scene, const Triangles& triangles, std::uint32_t material, c
     mesh.indices.resize(mesh.positions.size());
     std::iota(mesh.indices.begin(), mesh.indices.end(), 0U);
     scene.instances.push_back({"", static_cast<std::uint32_t>(scene.meshes.size())});
-    scene.meshes.push_back(std::move(mesh));
+    scene.meshes.change().push_back(std::move(mesh));
 }
 
 std::vector<glm::vec3> verticesOf(const Triangles& triangles)

@@ -154,8 +154,8 @@ def options_of(parser, words):
             parser.error("%s: expected an option, as in --size 1920x1080" % name)
         if not joined:
             value = words.pop(0) if words and not words[0].startswith("--") else True
-        if name == "--set":  # the one that may be repeated
-            options.setdefault("set", []).append(value)
+        if name in ("--add", "--set"):  # those that may be repeated
+            options.setdefault(name[2:], []).append(value)
         elif name[2:] in options:
             parser.error("%s: is given twice" % name)
         else:

@@ -2,8 +2,10 @@
 
 #include "host/error.hpp"
 #include "host/scene/gltf/check_gltf_json.hpp"
+#include "host/scene/gltf/gltf_container.hpp"
 #include "host/scene/gltf/gltf_schema.hpp"
 #include "host/scene/gltf/object_model.hpp"
+#include "host/scene/gltf/parse_model.hpp"
 #include "host/text.hpp"
 
 #include <nlohmann/json.hpp>
@@ -156,8 +158,57 @@ private:
     const Edit& edit_;
 };
 
+// `to` with the parts of `document` that edits may change, but for the weights of meshes.
+json copyParts(const json& document, json to)
+{
+    for (const char* part : {"nodes", "materials", "cameras", "extensions"}) {
+        if (document.contains(part)) {
+            to[part] = document[part];
+        }
+    }
+    return to;
+}
+
 }  // namespace
 
-void editGltf(const std::string& path, json& document, const Edit& edit) { Editor(path, document, edit).apply(); }
+void editGltf(GltfFile& file, std::span<const Edit> edits)
+{
+    if (edits.empty() && !file.original) {
+        return;
+    }
+    Warnings warnings;
+    if (!file.original) {
+        json original = parseJson(file.path, openContainer(file.path).json);
+        checkGltfJson(file.path, original, warnings);
+        file.original = std::make_shared<const json>(std::move(original));
+        warnings = {};  // known since the file was read
+    }
+    json document = *file.original;
+    for (const Edit& edit : edits) {
+        Editor(file.path, document, edit).apply();
+        checkGltfJson(file.path, document, warnings);
+    }
+    tinygltf::Model changed = parseModel(file.path, copyParts(document, {{"asset", document["asset"]}}));
+    file.editWarnings = std::move(warnings);
+    file.model.nodes = std::move(changed.nodes);
+    file.model.materials = std::move(changed.materials);
+    file.model.cameras = std::move(changed.cameras);
+    file.model.lights = std::move(changed.lights);
+    file.model.extensions = std::move(changed.extensions);
+    for (std::size_t i = 0; i < file.model.meshes.size(); ++i) {
+        file.model.meshes[i].weights = document["meshes"][i].value("weights", std::vector<double>());
+    }
+    if (file.document) {
+        json whole = copyParts(document, *file.document);
+        for (std::size_t i = 0; i < file.model.meshes.size(); ++i) {
+            if (document["meshes"][i].contains("weights")) {
+                whole["meshes"][i]["weights"] = document["meshes"][i]["weights"];
+            } else {
+                whole["meshes"][i].erase("weights");
+            }
+        }
+        file.document = std::make_shared<const json>(std::move(whole));
+    }
+}
 
 }  // namespace glim

@@ -1,18 +1,17 @@
-// Changes a document before it is read.
+// Changes what was read of a file.
 #pragma once
 
 #include "host/scene/edit.hpp"
+#include "host/scene/gltf/gltf_file.hpp"
 
-#include <nlohmann/json_fwd.hpp>
-
-#include <string>
+#include <span>
 
 namespace glim {
 
-// An edit sets a number, an array of numbers, a boolean or an enumerated string of a node, a material, a camera
-// or a light, or the weights of a mesh. Missing objects on the way are created. If an edit sets the translation, rotation or scale of a
-// node with a matrix, the matrix is first split into the three. An edit of the matrix removes them. `document` has passed checkGltfJson,
-// and is to pass it again, which checks the values. Throws InputError.
-void editGltf(const std::string& path, nlohmann::json& document, const Edit& edit);
+// Makes the file what it would be with these edits, one after the other, in place of those before. Buffers and images stay as they were read.
+// An edit sets a number, an array of numbers, a boolean or an enumerated string of a node, a material, a camera or a light, or the weights
+// of a mesh. Missing objects on the way are created. If an edit sets the translation, rotation or scale of a node with a matrix, the matrix
+// is first split into the three. An edit of the matrix removes them. Throws InputError, and leaves the file as it was.
+void editGltf(GltfFile& file, std::span<const Edit> edits);
 
 }  // namespace glim

@@ -1,7 +1,6 @@
 // A glTF file with checked JSON and its buffers in memory. All readers in this folder begin with it.
 #pragma once
 
-#include "host/scene/edit.hpp"
 #include "host/scene/keyframes.hpp"
 #include "host/scene/scene.hpp"
 #include "host/scene/warnings.hpp"
@@ -68,6 +67,7 @@ struct GltfFile {
     // Index properties are in range, numbers have their type, nothing is compressed. Holds none of what is listed below.
     tinygltf::Model model;
     std::shared_ptr<const nlohmann::json> document;  // of an animated file: what the model was parsed from
+    std::shared_ptr<const nlohmann::json> original;  // of a file with edits: its checked JSON, without them, and with what is compressed
     Buffers buffers;                                 // the file's, each at least as long as its byteLength, then what was decompressed
     std::vector<EncodedImage> images;
     std::vector<GltfTexture> textures;
@@ -75,10 +75,11 @@ struct GltfFile {
     std::vector<GltfAnimation> animations;
     std::optional<std::size_t> variant;  // of KHR_materials_variants, that is to be drawn
     Warnings warnings;                   // of what was mended in its JSON
+    Warnings editWarnings;               // and in edits
 };
 
-// `confined`: refuses files that the document names outside of its folder. `edits`: changes the document first (edit_gltf.hpp).
-GltfFile readGltfFile(const std::filesystem::path& file, bool confined, std::span<const Edit> edits = {});
+// `confined`: refuses files that the document names outside of its folder.
+GltfFile readGltfFile(const std::filesystem::path& file, bool confined);
 
 // The bytes of a uri: data in it, or at most the first `most` of a file relative to the glTF file. `place` names what has the uri.
 std::vector<unsigned char> readUri(const std::string& path, const std::string& place, const std::string& uri,

@@ -12,6 +12,8 @@ struct MeshPose {
     std::optional<std::size_t> skin;
     std::vector<glm::dmat4> worldFromBind;  // by joint of the skin
     std::vector<double> weights;            // of morph targets; empty if all are 0
+
+    bool operator==(const MeshPose&) const = default;
 };
 
 // Of the primitive that has the most: others may lack some.

@@ -3,7 +3,9 @@
 #include "host/scene/choose_origin.hpp"
 #include "host/scene/gltf/check_size.hpp"
 #include "host/scene/gltf/read_instancing.hpp"
+#include "host/scene/gltf/read_material.hpp"
 #include "host/scene/gltf/read_mesh.hpp"
+#include "host/scene/make_tangents.hpp"
 #include "host/scene/placed_mesh.hpp"
 #include "host/scene/share_meshes.hpp"
 #include "host/text.hpp"
@@ -107,11 +109,53 @@ std::string listPointsAndLines(const GltfFile& file)
     return std::string(points ? "points" : "") + (points && lines ? " and " : "") + (lines ? "lines" : "");
 }
 
+// The texture coordinates that the material's tangents follow, if it needs any.
+std::optional<std::uint32_t> uvSetOfTangents(const Material& material)
+{
+    for (const auto* texture : {&material.normalTexture, &material.clearcoatNormalTexture, &material.anisotropyTexture}) {
+        if (*texture) {
+            return (*texture)->uvSet;
+        }
+    }
+    return material.anisotropy > 0.0F ? std::optional<std::uint32_t>(0) : std::nullopt;
+}
+
+std::vector<ReadMeshes::Needs> listNeeds(const GltfFile& file)
+{
+    std::vector<ReadMeshes::Needs> needs;
+    Warnings unheard;
+    const auto add = [&](int index) {
+        const Material material = readMaterial(file, index, unheard);
+        needs.push_back({material.uvSets, uvSetOfTangents(material)});
+    };
+    for (std::size_t i = 0; i < file.model.materials.size(); ++i) {
+        add(static_cast<int>(i));
+    }
+    add(-1);
+    return needs;
+}
+
+// A mesh that is drawn with a normal map and has no tangents gets them, by the texture coordinates of that map. Flat meshes have those of
+// their faces, whatever the file says.
+void giveTangents(Mesh& mesh, std::uint32_t uvSet, Warnings& warnings)
+{
+    if (!mesh.tangents.empty() && !mesh.normals.empty()) {
+        return;
+    }
+    mesh.tangents.clear();
+    if ((uvSet == 0 ? mesh.uv0 : mesh.uv1).empty()) {
+        warnings.add("normal maps and anisotropy without texture coordinates are ignored", mesh.name);
+    } else if (addTangents(mesh, uvSet == 1) > 0) {
+        warnings.add("texture coordinates of normal maps have no area in some triangles", mesh.name);
+    }
+}
+
 class GeometryReader {
 public:
-    GeometryReader(const GltfFile& file, Scene& scene, Warnings& warnings)
+    GeometryReader(const GltfFile& file, Scene& scene, ReadMeshes& read, Warnings& warnings)
         : file_(file),
           scene_(scene),
+          read_(read),
           warnings_(warnings),
           defaultMaterial_(static_cast<std::uint32_t>(file.model.materials.size()))
     {}
@@ -124,7 +168,9 @@ private:
     void leaveOut(const PlacedNode& node);
     void addInstances(const PlacedNode& node, std::size_t mesh);
     void addInstance(const PlacedNode& placed, std::size_t mesh);
-    const std::vector<std::uint32_t>& meshesOf(std::size_t node, std::size_t mesh);
+    std::size_t useOf(std::size_t node, std::size_t mesh);
+    void readUses();
+    void placeUses();
     void countTriangles();
     static std::array<glm::dvec3, 8> cornersOf(const Mesh& mesh);
     // The vertices of the instance's mesh; of a scene with very many the corners of a box around them.
@@ -135,15 +181,16 @@ private:
     std::vector<Place> placesOf() const;
     void addPlaces(const MeshInstance& instance, std::size_t step, std::vector<Place>& places) const;
     void placeOrigin(const Box& box);
-    void requireSomething() const;
 
     const GltfFile& file_;
     Scene& scene_;
+    ReadMeshes& read_;
     Warnings& warnings_;
     std::uint32_t defaultMaterial_;
-    // The scene's meshes by mesh of the file, skin and weights of morph targets: nodes that agree in these share them.
-    std::map<std::tuple<std::size_t, int, std::vector<double>>, std::vector<std::uint32_t>> meshes_;
-    std::vector<std::array<glm::dvec3, 8>> meshCorners_;  // by mesh of the scene, if it has more than kMostFlatTriangles
+    // By mesh of the file, skin and weights of morph targets: nodes that agree in these share meshes.
+    std::map<std::tuple<std::size_t, int, std::vector<double>>, std::size_t> indices_;
+    std::vector<ReadMeshes::Use> uses_;
+    std::vector<std::pair<PlacedNode, std::size_t>> placed_;  // each with its use
     std::vector<WorldSphere> spheres_;
     std::size_t triangles_ = 0, emptySpheres_ = 0;
 };
@@ -179,23 +226,56 @@ void GeometryReader::leaveOut(const PlacedNode& node)
     warnings_.add("meshes and spheres that are scaled to a plane, a line or a point are left out", nodeLabel(file_, node.index));
 }
 
-const std::vector<std::uint32_t>& GeometryReader::meshesOf(std::size_t node, std::size_t mesh)
+std::size_t GeometryReader::useOf(std::size_t node, std::size_t mesh)
 {
     const int skin = file_.model.nodes[node].skin;
     MeshPose pose;
     pose.weights = morphWeightsOf(file_, node);
-    const auto [found, isNew] = meshes_.try_emplace({mesh, skin, pose.weights});
+    const auto [found, isNew] = indices_.try_emplace({mesh, skin, pose.weights}, uses_.size());
     if (isNew) {
         if (skin >= 0) {
             pose.skin = static_cast<std::size_t>(skin);
             pose.worldFromBind = placeJoints(file_, *pose.skin);
         }
-        for (Mesh& read : readMeshes(file_, mesh, pose, warnings_)) {
-            found->second.push_back(static_cast<std::uint32_t>(scene_.meshes.size()));
-            scene_.meshes.push_back(std::move(read));
-        }
+        uses_.push_back({mesh, std::move(pose)});
     }
     return found->second;
+}
+
+void GeometryReader::readUses()
+{
+    std::vector<ReadMeshes::Needs> needs = listNeeds(file_);
+    if (uses_ == read_.uses && needs == read_.needs) {
+        return;
+    }
+    read_ = {};
+    std::vector<Mesh> meshes;
+    for (const ReadMeshes::Use& use : uses_) {
+        std::vector<std::uint32_t>& ids = read_.meshesOf.emplace_back();
+        for (Mesh& mesh : readMeshes(file_, use.mesh, use.pose, read_.warnings)) {
+            if (const std::optional<std::uint32_t> uvSet = needs[mesh.material].uvSetOfTangents) {
+                giveTangents(mesh, *uvSet, read_.warnings);
+            }
+            ids.push_back(static_cast<std::uint32_t>(meshes.size()));
+            meshes.push_back(std::move(mesh));
+        }
+    }
+    read_.meshes = std::move(meshes);
+    read_.needs = std::move(needs);
+    read_.uses = std::move(uses_);
+}
+
+void GeometryReader::placeUses()
+{
+    scene_.meshes = read_.meshes;
+    warnings_.add(read_.warnings);
+    for (const auto& [placed, use] : placed_) {
+        const std::string& name = file_.model.nodes[placed.index].name;
+        for (const std::uint32_t id : read_.meshesOf[use]) {
+            scene_.instances.push_back(
+                {name.empty() ? scene_.meshes[id].name : name, id, placed.worldFromNode, static_cast<std::uint32_t>(placed.index)});
+        }
+    }
 }
 
 // glTF 2.0, section 3.7.3.3: a skinned mesh does not follow its node, only the skin's joints.
@@ -219,11 +299,7 @@ void GeometryReader::addInstances(const PlacedNode& node, std::size_t mesh)
 
 void GeometryReader::addInstance(const PlacedNode& placed, std::size_t mesh)
 {
-    const std::string& name = file_.model.nodes[placed.index].name;
-    for (const std::uint32_t id : meshesOf(placed.index, mesh)) {
-        scene_.instances.push_back(
-            {name.empty() ? scene_.meshes[id].name : name, id, placed.worldFromNode, static_cast<std::uint32_t>(placed.index)});
-    }
+    placed_.emplace_back(placed, useOf(placed.index, mesh));
 }
 
 void GeometryReader::countTriangles()
@@ -234,9 +310,9 @@ void GeometryReader::countTriangles()
     if (triangles_ > std::numeric_limits<std::uint32_t>::max()) {
         refuse(file_, "the scene has " + std::to_string(triangles_) + " triangles; expected at most 4294967295");
     }
-    if (triangles_ > kMostFlatTriangles) {
+    if (triangles_ > kMostFlatTriangles && read_.corners.empty()) {
         for (const Mesh& mesh : scene_.meshes) {
-            meshCorners_.push_back(cornersOf(mesh));
+            read_.corners.push_back(cornersOf(mesh));
         }
     }
 }
@@ -261,8 +337,8 @@ void GeometryReader::forEachPoint(const MeshInstance& instance, const Visit& vis
     if (mesh.indices.empty()) {
         return;
     }
-    if (!meshCorners_.empty()) {
-        for (const glm::dvec3& corner : meshCorners_[instance.mesh]) {
+    if (triangles_ > kMostFlatTriangles) {
+        for (const glm::dvec3& corner : read_.corners[instance.mesh]) {
             visit(corner);
         }
         return;
@@ -347,25 +423,10 @@ void GeometryReader::placeOrigin(const Box& box)
     }
 }
 
-void GeometryReader::requireSomething() const
-{
-    for (const MeshInstance& instance : scene_.instances) {
-        const PlacedMesh placed(scene_, instance);
-        for (std::size_t i = 0; i < placed.triangleCount(); ++i) {
-            if (faceNormal(placed.triangle(i)) != glm::dvec3(0.0)) {
-                return;
-            }
-        }
-    }
-    if (const std::string others = listPointsAndLines(file_); triangles_ + emptySpheres_ == 0 && !others.empty()) {
-        refuse(file_, "the file holds " + others + ", which glim does not draw; expected triangles");
-    }
-    refuse(file_, "the scene has no triangle and no sphere to draw (" + std::to_string(triangles_) + " of zero area, " +
-                      std::to_string(emptySpheres_) + " of zero radius); expected at least one");
-}
-
 void GeometryReader::finish()
 {
+    readUses();
+    placeUses();
     countTriangles();
     if (triangles_ + spheres_.size() > 0) {
         const Box box = computeBox();
@@ -379,21 +440,40 @@ void GeometryReader::finish()
     if (emptySpheres_ > 0) {
         warnings_.add("left out " + counted(emptySpheres_, "sphere") + " of zero radius");
     }
-    if (scene_.spheres.empty() && scene_.flattened == 0) {
-        requireSomething();
-    }
 }
 
 }  // namespace
 
-void readGeometry(const GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& scene, Warnings& warnings)
+void readGeometry(const GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& scene, ReadMeshes& read, Warnings& warnings)
 {
     checkSize(file, nodes);
-    GeometryReader reader(file, scene, warnings);
+    GeometryReader reader(file, scene, read, warnings);
     for (const PlacedNode& node : nodes) {
         reader.addNode(node);
     }
     reader.finish();
+}
+
+void requireShapes(const GltfFile& file, const Scene& scene)
+{
+    if (!scene.spheres.empty() || scene.flattened > 0) {
+        return;
+    }
+    std::size_t triangles = 0;
+    for (const MeshInstance& instance : scene.instances) {
+        const PlacedMesh placed(scene, instance);
+        triangles += placed.triangleCount();
+        for (std::size_t i = 0; i < placed.triangleCount(); ++i) {
+            if (faceNormal(placed.triangle(i)) != glm::dvec3(0.0)) {
+                return;
+            }
+        }
+    }
+    if (const std::string others = listPointsAndLines(file); triangles == 0 && !others.empty()) {
+        refuse(file, "the file holds " + others + ", which glim does not draw; expected triangles");
+    }
+    refuse(file, "the scene has no triangle and no sphere to draw" +
+                     (triangles == 0 ? "" : " (" + counted(triangles, "triangle") + " of zero area)") + "; expected at least one");
 }
 
 }  // namespace glim

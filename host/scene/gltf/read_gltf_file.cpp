@@ -3,7 +3,6 @@
 #include "host/message.hpp"
 #include "host/scene/gltf/check_gltf_json.hpp"
 #include "host/scene/gltf/decompress.hpp"
-#include "host/scene/gltf/edit_gltf.hpp"
 #include "host/scene/gltf/gltf_container.hpp"
 #include "host/scene/gltf/gltf_file.hpp"
 #include "host/scene/gltf/gltf_schema.hpp"
@@ -352,17 +351,13 @@ void confine(const std::string& path, const json& document)
 
 }  // namespace
 
-GltfFile readGltfFile(const std::filesystem::path& file, bool confined, std::span<const Edit> edits)
+GltfFile readGltfFile(const std::filesystem::path& file, bool confined)
 {
     const std::string path = file.string();
     GltfContainer container = openContainer(file);
     json document = parseJson(path, container.json);
     GltfFile result;
     checkGltfJson(path, document, result.warnings);
-    for (const Edit& edit : edits) {
-        editGltf(path, document, edit);
-        checkGltfJson(path, document, result.warnings);
-    }
     if (confined) {
         confine(path, document);
     }
