@@ -2,7 +2,6 @@
 
 #include "host/measure/compare_images.hpp"
 #include "host/measure/picture.hpp"
-#include "host/render/film_pictures.hpp"
 #include "shaders/shared/limits.h"
 
 #include <algorithm>
@@ -20,23 +19,31 @@ void FilmMeter::restart()
     renew();
 }
 
-bool FilmMeter::measure(Refiner& refiner, Aov aov, bool choosesExposure, bool isWaiting)
+void FilmMeter::expose(const Film& film, Aov aov)
+{
+    if (!options_.exposure) {
+        look_.exposure = chooseExposure(film, aov);
+    }
+}
+
+void FilmMeter::measure(Refiner& refiner, Aov aov, bool isWaiting)
 {
     const std::uint32_t samples = refiner.sampleCount();
-    const bool ranged = aov == Aov::Depth || aov == Aov::SampleCount || aov == Aov::BvhSteps;
-    const bool first = (ranged || choosesExposure) && measuredAov_ != aov;
-    if (!first && (samples < 1 || samples < kGrowth * static_cast<double>(measuredAt_) || isWaiting)) {
-        return false;
+    const bool isExposed = !options_.exposure && (aov == Aov::Radiance || aov == Aov::Albedo);
+    const bool isRanged = aov == Aov::Depth || aov == Aov::SampleCount || aov == Aov::BvhSteps;
+    const bool isFirst = (isRanged || isExposed) && measuredAov_ != aov;
+    if (!isFirst && (samples < 1 || samples < kGrowth * static_cast<double>(measuredAt_) || isWaiting)) {
+        return;
     }
-    if (!ranged && !choosesExposure && samples < leastSamplesForError(0)) {
-        return false;
+    if (!isRanged && !isExposed && samples < leastSamplesForError(0)) {
+        return;
     }
     const Film film = refiner.renderer().film();
     measuredAt_ = samples;
     measuredAov_ = aov;
     range_ = computeRange(film, aov);
-    if (choosesExposure) {
-        exposure_ = chooseExposure(film, aov);
+    if (isExposed) {
+        expose(film, aov);
     }
     if (aov == Aov::SampleCount) {
         range_.high = std::max(range_.high, 2.0F * range_.low);  // the scale should not show the present sweep alone
@@ -44,7 +51,6 @@ bool FilmMeter::measure(Refiner& refiner, Aov aov, bool choosesExposure, bool is
     if (const auto errors = estimateErrors(pictureOf(film)); errors && errors->relMse > 0.0 && aov != Aov::BvhSteps) {
         errors_.push_back({refiner.seconds(), errors->relMse});
     }
-    return true;
 }
 
 }  // namespace glim

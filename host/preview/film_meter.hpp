@@ -1,9 +1,10 @@
-// Measures what needs the whole film, which takes time to copy: now and then as its samples grow.
+// How the picture looks, and what is measured of the whole film for that. Copying a film takes time, so this is done now and then as its
+// samples grow.
 #pragma once
 
 #include "host/preview/panels.hpp"
 #include "host/preview/refiner.hpp"
-#include "host/render/aov.hpp"
+#include "host/render/film_pictures.hpp"
 
 #include <optional>
 #include <vector>
@@ -12,24 +13,38 @@ namespace glim {
 
 class FilmMeter {
 public:
+    explicit FilmMeter(const LookOptions& options)
+        : options_(options)
+    {
+        look_.exposure = options.exposure.value_or(0.0);
+    }
+
+    // From now on the exposure is no longer chosen by the film, nor the tone by the scene.
+    void setExposure(double stops) { options_.exposure = look_.exposure = stops; }
+    void setTone(Tone tone) { options_.tone = look_.tone = tone; }
+    void enter(const Scene& scene) { look_.tone = options_.tone ? *options_.tone : chooseTone(scene); }
+
     // Forgets the errors: a new picture begins.
     void restart();
     // Measures at the next call.
     void renew() { measuredAt_ = 0; }
-    // Measures if the samples have grown by a quarter since the last time, but not while the user `isWaiting`. `choosesExposure`: also an
-    // exposure for the film. At once if that or the range of another AOV is not known yet. Returns whether it has measured.
-    bool measure(Refiner& refiner, Aov aov, bool choosesExposure, bool isWaiting);
+    // Measures if the samples have grown by a quarter since the last time, but not while the user `isWaiting`. At once if an exposure for
+    // `aov` or its range is not known yet.
+    void measure(Refiner& refiner, Aov aov, bool isWaiting);
 
     const std::vector<ErrorPoint>& errors() const { return errors_; }  // of the present picture
     const DisplayRange& range() const { return range_; }
-    double exposure() const { return exposure_; }  // in stops
+    const Look& look() const { return look_; }
+    // Takes an exposure for this film, unless it was set.
+    void expose(const Film& film, Aov aov);
 
 private:
+    LookOptions options_;
+    Look look_;
     std::vector<ErrorPoint> errors_;
     DisplayRange range_;
-    double exposure_ = 0.0;
     std::uint64_t measuredAt_ = 0;    // samples
-    std::optional<Aov> measuredAov_;  // that range_ and exposure_ belong to
+    std::optional<Aov> measuredAov_;  // that range_ belongs to
 };
 
 }  // namespace glim

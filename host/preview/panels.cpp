@@ -99,6 +99,17 @@ void showFigures(const PanelFigures& figures)
 
 }  // namespace
 
+std::vector<std::string> PanelMessages::lines() const
+{
+    std::vector<std::string> lines;
+    for (const std::string& line : {stage, trouble, notice.text()}) {
+        if (!line.empty() && std::ranges::find(lines, line) == lines.end()) {
+            lines.push_back(line);
+        }
+    }
+    return lines;
+}
+
 PanelChoices showControls(const PanelFigures& figures, PanelChoices choices)
 {
     if (beginPanel("glim (H: help)###controls")) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/render/aov.hpp"
+#include "host/window/notice.hpp"
 
 #include <glm/glm.hpp>
 
@@ -36,6 +37,16 @@ struct PanelChoices {
     Aov layer = Aov::Radiance;
     std::size_t camera = 0;
     bool operator==(const PanelChoices&) const = default;
+};
+
+// The sentences that the window shows.
+struct PanelMessages {
+    std::string stage;    // of the scene that is being loaded; empty if none is
+    std::string trouble;  // why the present file is not shown; empty if it is
+    Notice notice;
+
+    // Those that there are, each once.
+    std::vector<std::string> lines() const;
 };
 
 // Call these inside a frame (host/window/gui.hpp).

@@ -5,8 +5,22 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace glim {
+namespace {
+
+// Half the height of the picture at the point that the camera looks at, in metres.
+double halfHeightOf(const Camera& camera, const Pose& pose)
+{
+    if (camera.kind == Camera::Kind::Orthographic) {
+        return static_cast<double>(camera.halfHeight);  // includes the zoom
+    }
+    return std::tan(0.5 * static_cast<double>(camera.yfov)) * glm::length(pose.at - pose.from);
+}
+
+}  // namespace
 
 void Viewpoint::enter(const Scene& scene)
 {
@@ -32,13 +46,52 @@ bool Viewpoint::choose(std::size_t index)
     }
     index_ = index;
     pose_.reset();
+    moved_ = true;
     return true;
 }
 
-void Viewpoint::reset()
+void Viewpoint::reset() { choose(firstIndex_); }
+
+void Viewpoint::move(const Pose& pose)
 {
-    index_ = firstIndex_;
-    pose_.reset();
+    pose_ = pose;
+    moved_ = true;
+}
+
+void Viewpoint::follow(const Gesture& gesture, double height)
+{
+    const Camera seen = camera();
+    switch (gesture.kind) {
+    case Gesture::Kind::Orbit: move(orbit(pose(), gesture.motion, height)); break;
+    case Gesture::Kind::Pan: move(pan(pose(), gesture.motion, 2.0 * halfHeightOf(seen, pose()) / height)); break;
+    case Gesture::Kind::Dolly: move(dolly(pose(), gesture.notches, seen.kind)); break;
+    case Gesture::Kind::Click: break;
+    }
+}
+
+bool Viewpoint::press(char key, double aspectRatio)
+{
+    switch (key) {
+    case 'F': move(frame(pose(), bounds_, cameras_[index_], aspectRatio)); return true;
+    case 'R': reset(); return true;
+    case 'W':
+    case 'A':
+    case 'S':
+    case 'D':
+    case 'Q':
+    case 'E': held_.insert(key); return true;
+    default: return false;
+    }
+}
+
+void Viewpoint::fly(Time now)
+{
+    const double seconds = std::min(0.1, std::chrono::duration<double>(now - std::exchange(flown_, now)).count());
+    const auto axis = [this](char more, char less) { return (held_.contains(more) ? 1.0 : 0.0) - (held_.contains(less) ? 1.0 : 0.0); };
+    const glm::dvec3 direction(axis('D', 'A'), axis('E', 'Q'), axis('W', 'S'));
+    if (direction != glm::dvec3(0.0)) {
+        move(::glim::fly(pose(), 0.5 * bounds_.radius * seconds * direction));
+    }
 }
 
 std::string Viewpoint::describeAsGltf() const

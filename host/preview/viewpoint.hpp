@@ -1,15 +1,19 @@
-// The camera that the user moves.
+// The camera that the user moves, by gestures of the mouse and by keys.
 #pragma once
 
 #include "host/preview/controls.hpp"
+#include "host/window/gestures.hpp"
 
 #include <optional>
+#include <set>
 #include <string>
 
 namespace glim {
 
 class Viewpoint {
 public:
+    using Time = std::chrono::steady_clock::time_point;
+
     // Starts with the file's camera `index`, or with the camera placed by `pose`.
     Viewpoint(std::size_t index, const std::optional<Pose>& pose)
         : index_(index),
@@ -21,20 +25,27 @@ public:
     void enter(const Scene& scene);
     Camera camera() const;
     const std::vector<Camera>& cameras() const { return cameras_; }
-    const Camera& fileCamera() const { return cameras_[index_]; }  // without the user's moves
-    const Bounds& bounds() const { return bounds_; }
 
     // Returns to the file's camera `index`. Returns false if there is none.
     bool choose(std::size_t index);
     void reset();
-    // `change` makes the new pose from the present one.
-    template <class Change>
-    void move(Change&& change)
-    {
-        pose_ = change(pose());
-    }
-    Pose pose() const;
+    void move(const Pose& pose);
+    // Moves as the gesture says, in a picture of this height in pixels. A click moves nothing.
+    void follow(const Gesture& gesture, double height);
+    // Takes the keys that move the camera: F frames the scene, in a picture of this aspect ratio, R resets, and others fly while they are
+    // held. Returns whether `key` is one of them.
+    bool press(char key, double aspectRatio);
+    void release(char key) { held_.erase(key); }
+    void releaseAll() { held_.clear(); }
+    bool isFlying() const { return !held_.empty(); }
+    // Flies from the time of the last call until `now`, by half the scene's radius a second.
+    void fly(Time now);
 
+    // Whether the camera has moved since the last call of see().
+    bool hasMoved() const { return moved_; }
+    void see() { moved_ = false; }
+
+    Pose pose() const;
     std::size_t index() const { return index_; }
     const std::optional<Pose>& moved() const { return pose_; }
     // The camera and its node as glTF.
@@ -45,7 +56,10 @@ private:
     glm::dvec3 origin_{0.0};
     Bounds bounds_;
     std::size_t index_, firstIndex_;
-    std::optional<Pose> pose_;  // absent: the camera was not moved
+    std::optional<Pose> pose_;  // absent: the file's camera was not moved
+    bool moved_ = false;
+    std::set<char> held_;
+    Time flown_;
 };
 
 }  // namespace glim

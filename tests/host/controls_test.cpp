@@ -144,7 +144,7 @@ TEST(ViewpointTest, IsTheFilesCameraUntilItMoves)
     EXPECT_FALSE(viewpoint.moved());
     EXPECT_EQ(viewpoint.camera().position, glm::vec3(1, 0, 10));
     expectNear(viewpoint.pose().at, {1, 0, 0});
-    viewpoint.move([](const Pose& pose) { return fly(pose, {0, 0, 1}); });
+    viewpoint.move(fly(viewpoint.pose(), {0, 0, 1}));
     EXPECT_EQ(viewpoint.camera().position, glm::vec3(1, 0, 9));
     EXPECT_EQ(cameraOptions(viewpoint.moved(), {}), " --look-from 1,0,9 --look-at 1,0,-1 --look-up 0,1,0");
     EXPECT_FALSE(viewpoint.choose(2));
@@ -153,6 +153,51 @@ TEST(ViewpointTest, IsTheFilesCameraUntilItMoves)
     EXPECT_EQ(viewpoint.index(), 1U);
     viewpoint.reset();
     EXPECT_EQ(viewpoint.index(), 0U);
+}
+
+// The sphere around the ball has a radius of 2 sqrt(3).
+TEST(ViewpointTest, KeysFlyWhileTheyAreHeld)
+{
+    using namespace std::chrono_literals;
+    Viewpoint viewpoint(0, std::nullopt);
+    viewpoint.enter(twoCameras());
+    const Viewpoint::Time start = Viewpoint::Time::clock::now();
+    viewpoint.fly(start);
+    EXPECT_FALSE(viewpoint.hasMoved());
+    EXPECT_TRUE(viewpoint.press('W', 1.0));
+    EXPECT_TRUE(viewpoint.press('E', 1.0));
+    EXPECT_FALSE(viewpoint.press('V', 1.0)) << "is not the camera's";
+    EXPECT_TRUE(viewpoint.isFlying());
+    viewpoint.fly(start + 50ms);
+    EXPECT_TRUE(viewpoint.hasMoved());
+    const double step = 0.05 * std::sqrt(3.0);
+    expectNear(viewpoint.pose().from, {1, step, 10 - step}, 1e-6);
+    viewpoint.fly(start + 1h);
+    expectNear(viewpoint.pose().from, {1, 3.0 * step, 10 - 3.0 * step}, 1e-6);  // a tenth of a second at most
+    viewpoint.see();
+    viewpoint.release('E');
+    viewpoint.press('S', 1.0);
+    viewpoint.fly(start + 2h);
+    EXPECT_FALSE(viewpoint.hasMoved()) << "there and back";
+    viewpoint.releaseAll();
+    EXPECT_FALSE(viewpoint.isFlying());
+}
+
+TEST(ViewpointTest, FollowsTheMouse)
+{
+    Viewpoint viewpoint(0, std::nullopt);
+    viewpoint.enter(twoCameras());
+    const Pose before = viewpoint.pose();
+    viewpoint.follow({.kind = Gesture::Kind::Click}, 100.0);
+    EXPECT_FALSE(viewpoint.hasMoved());
+    viewpoint.follow({.kind = Gesture::Kind::Orbit, .motion = {100.0, 0.0}}, 100.0);
+    expectNear(viewpoint.pose().from, {1, 0, -10}, 1e-9);
+    EXPECT_TRUE(viewpoint.hasMoved());
+    viewpoint.follow({.kind = Gesture::Kind::Dolly, .notches = 1.0}, 100.0);
+    expectNear(viewpoint.pose().from, {1, 0, -9}, 1e-9);
+    viewpoint.press('R', 1.0);
+    viewpoint.follow({.kind = Gesture::Kind::Pan, .motion = {0.0, 100.0}}, 100.0);
+    expectNear(viewpoint.pose().at, before.at + glm::dvec3(0, 2.0 * std::tan(0.35) * 10.0, 0), 1e-5);  // by the picture's height
 }
 
 TEST(ViewOptionsTest, AreExact)
@@ -170,7 +215,7 @@ TEST(ViewpointTest, StaysInAnotherScene)
 {
     Viewpoint viewpoint(1, std::nullopt);
     viewpoint.enter(twoCameras());
-    viewpoint.move([](const Pose& pose) { return fly(pose, {0, 1, 0}); });
+    viewpoint.move(fly(viewpoint.pose(), {0, 1, 0}));
     Scene other = twoCameras();
     other.origin = {100, 0, 0};
     viewpoint.enter(other);

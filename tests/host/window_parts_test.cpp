@@ -1,5 +1,7 @@
 // Scripts, waits, events and gestures of the window.
 #include "host/error.hpp"
+#include "host/preview/pacer.hpp"
+#include "host/preview/panels.hpp"
 #include "host/window/gestures.hpp"
 #include "host/window/latency.hpp"
 #include "host/window/notice.hpp"
@@ -157,6 +159,61 @@ TEST(NoticeTest, HasATime)
     notice.show("here");
     EXPECT_EQ(notice.text(), "here");
     EXPECT_FALSE(notice.expire()) << "not yet";
+}
+
+TEST(PanelMessagesTest, AreShownOnce)
+{
+    PanelMessages messages;
+    EXPECT_TRUE(messages.lines().empty());
+    messages.trouble = "a.gltf: broken";
+    messages.notice.show(messages.trouble);
+    messages.stage = "loading a.gltf";
+    EXPECT_EQ(messages.lines(), (std::vector<std::string>{"loading a.gltf", "a.gltf: broken"}));
+}
+
+// An input waits until a picture is shown that began after it.
+TEST(PacerTest, InputsWaitForTheirPicture)
+{
+    using namespace std::chrono_literals;
+    const Pacer::Time start = Pacer::Time::clock::now();
+    Pacer pacer;
+    pacer.spend(start, start);
+    pacer.show(false);
+    EXPECT_FALSE(pacer.isChanged());
+    pacer.await(start);
+    EXPECT_TRUE(pacer.isChanged());
+    pacer.begin();
+    EXPECT_FALSE(pacer.isShown());
+    pacer.await(start + 10ms);
+    pacer.spend(start + 20ms, start + 30ms);
+    pacer.show(true);
+    EXPECT_TRUE(pacer.isShown());
+    EXPECT_TRUE(pacer.isChanged()) << "the camera has moved on";
+    EXPECT_EQ(pacer.latency().count(), 1U);
+    EXPECT_TRUE(pacer.isDue(start + 30ms, false)) << "an input waits";
+    pacer.begin();
+    pacer.spend(start + 40ms, start + 50ms);
+    pacer.show(false);
+    EXPECT_EQ(pacer.latency().count(), 2U);
+    EXPECT_NEAR(pacer.latency().quantile(1.0), 0.04, 1e-9);
+    EXPECT_NEAR(pacer.latency().quantile(0.0), 0.03, 1e-9);
+}
+
+// Presenting that takes 10 ms may take place every 100 ms, or every 60th of a second while something moves.
+TEST(PacerTest, PresentingTakesATenthOfTheTime)
+{
+    using namespace std::chrono_literals;
+    const Pacer::Time start = Pacer::Time::clock::now(), end = start + 10ms;
+    Pacer pacer;
+    pacer.spend(start, end);
+    pacer.show(false);
+    EXPECT_FALSE(pacer.isDue(end + 99ms, false));
+    EXPECT_TRUE(pacer.isDue(end + 101ms, false));
+    EXPECT_FALSE(pacer.isDue(end + 16ms, true));
+    EXPECT_TRUE(pacer.isDue(end + 17ms, true));
+    pacer.spend(start, start + 1ms);
+    EXPECT_FALSE(pacer.isDue(start + 33ms, false));
+    EXPECT_TRUE(pacer.isDue(start + 35ms, false));
 }
 
 }  // namespace

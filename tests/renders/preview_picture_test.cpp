@@ -1,5 +1,7 @@
 // The window shows and writes what `glim render` gives.
+#include "host/preview/scene_pictures.hpp"
 #include "tests/support/preview_fixture.hpp"
+#include "tests/support/test_device.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -134,6 +136,35 @@ TEST_F(PreviewTest, PanelsGrowWithTheDensityOfTheDisplay)
     const double once = covered(96);
     EXPECT_GT(once, 100 * 100);
     EXPECT_NEAR(covered(192) / once, 4.0, 0.5);
+}
+
+// The picture of steps and that of light are of the same view, whichever layer was shown while the camera moved.
+TEST(ScenePicturesTest, LayersShowThePresentView)
+{
+    const glm::uvec2 size(8, 6);
+    ScenePictures pictures(testDevice(), {}, {});
+    EXPECT_TRUE(pictures.isEmpty());
+    const auto enter = [&pictures] {
+        pictures.enter(std::make_unique<PreparedScene>(prepareScene(test::sceneFile("cornell_spheres.gltf"), LoadOptions{})));
+        return pictures.scene().scene.cameras.front();
+    };
+    Camera camera = enter();
+    pictures.show(camera, size);
+    EXPECT_FALSE(pictures.choose(Aov::Normal, camera, size, false));
+    EXPECT_FALSE(pictures.isCompiled(pictures.layers().back()));
+    EXPECT_TRUE(pictures.choose(Aov::BvhSteps, camera, size, false));
+    EXPECT_TRUE(pictures.shown().isFresh());
+    EXPECT_FALSE(pictures.choose(Aov::Depth, camera, size, false)) << "the camera has not moved";
+    EXPECT_TRUE(pictures.choose(Aov::BvhSteps, camera, size, false));
+    camera.position.z += 0.5F;
+    pictures.show(camera, size);
+    EXPECT_TRUE(pictures.choose(Aov::Radiance, camera, size, false));
+    EXPECT_EQ(pictures.shown().camera().position, camera.position);
+    EXPECT_TRUE(pictures.choose(Aov::BvhSteps, camera, size, true));
+    EXPECT_TRUE(pictures.choose(Aov::Radiance, camera, size, false)) << "it had moved before";
+    pictures.choose(Aov::BvhSteps, camera, size, false);
+    pictures.show(enter(), size);
+    EXPECT_EQ(pictures.layer(), Aov::Radiance) << "another scene has no such kernels yet";
 }
 
 }  // namespace

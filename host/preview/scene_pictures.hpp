@@ -1,0 +1,49 @@
+// A scene's pictures: one of light, which has most of the layers, and one of BVH steps.
+#pragma once
+
+#include "host/preview/refiner.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace glim {
+
+class ScenePictures {
+public:
+    // `settings` and `lens` of all scenes; the size does not matter.
+    ScenePictures(Device& device, const RenderSettings& settings, const Lens& lens)
+        : device_(device),
+          settings_(settings),
+          lens_(lens)
+    {}
+
+    // Takes the scene in place of the one before, which stays if the new one is refused. show() follows.
+    void enter(std::unique_ptr<PreparedScene> prepared);
+    bool isEmpty() const { return light_ == nullptr; }
+    const PreparedScene& scene() const { return *prepared_; }
+
+    // What can be chosen: without a BVH there are no steps.
+    std::vector<Aov> layers() const;
+    Aov layer() const { return layer_; }
+    // Whether choose() must first compile kernels, which takes a while.
+    bool isCompiled(Aov layer) const { return layer != Aov::BvhSteps || steps_; }
+    // Shows another layer. `hasMoved`: the camera is another one than that of the last show(). Returns whether a new picture began.
+    bool choose(Aov layer, const Camera& camera, const glm::uvec2& size, bool hasMoved);
+
+    // Starts the picture of this camera in this size.
+    void show(const Camera& camera, const glm::uvec2& size);
+    // The picture of the chosen layer.
+    Refiner& shown() const { return layer_ == Aov::BvhSteps ? *steps_ : *light_; }
+
+private:
+    Device& device_;
+    RenderSettings settings_;
+    Lens lens_;
+    std::unique_ptr<PreparedScene> prepared_;
+    std::unique_ptr<Refiner> light_;
+    std::unique_ptr<Refiner> steps_;  // made when it is first shown; shares light_'s buffers
+    Aov layer_ = Aov::Radiance;
+    bool lightIsStale_ = false;  // the camera has moved since light_ was last shown
+};
+
+}  // namespace glim
