@@ -1,6 +1,5 @@
 #include "host/job/scene_session.hpp"
 
-#include "host/error.hpp"
 #include "host/job/fastest_schedule.hpp"
 
 #include <algorithm>
@@ -73,13 +72,9 @@ void SceneSession::pose(const std::vector<Edit>& edits, std::optional<double> ti
         return;
     }
     if (isEdited) {
-        file_.edit(edits);
-    }
-    try {
+        editScene(prepared_, file_, edits, time, options_.split);
+    } else {
         updateScene(prepared_, file_, time, options_.split);
-    } catch (const InputError&) {
-        file_.edit(options_.edits);
-        throw;
     }
     options_.edits = edits;
     time_ = time;

@@ -1,5 +1,6 @@
 #include "host/preview/panels.hpp"
 
+#include "host/text.hpp"
 #include "host/window/widgets.hpp"
 
 #include <imgui.h>
@@ -25,10 +26,11 @@ constexpr HelpLine kHelp[] = {
     {"+ -", "exposure"},
     {"T", "next tone"},
     {"V", "next layer"},
-    {"click", "print what is there"},
+    {"click", "print what is there, and change it in the panel"},
+    {"Z", "undo the last change"},
     {"Space", "pause"},
     {"P", "write PNG and EXR"},
-    {"C", "print the camera"},
+    {"C", "print camera and changes as options"},
     {"H", "panels, help too, nothing"},
     {"Esc", "quit"},
 };
@@ -97,6 +99,21 @@ void showFigures(const PanelFigures& figures)
     ImGui::TextUnformatted(figures.device.c_str());
 }
 
+SurfaceChoices changeSurface(const PanelFigures& figures, SurfaceChoices choices)
+{
+    ImGui::TextUnformatted(figures.surface.c_str());
+    if (figures.hasMaterial) {
+        ImGui::ColorEdit3("base colour", &choices.baseColor.r, ImGuiColorEditFlags_Float);
+        ImGui::SliderFloat("metallic", &choices.metallic, 0.0F, 1.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+        ImGui::SliderFloat("roughness", &choices.roughness, 0.0F, 1.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    }
+    if (figures.hasNode) {
+        const float step = 0.01F * std::max(1.0F, std::abs(choices.translation.x));
+        ImGui::DragFloat3("translation, m", &choices.translation.x, step, 0.0F, 0.0F, "%.3g");
+    }
+    return choices;
+}
+
 }  // namespace
 
 std::vector<std::string> PanelMessages::lines() const
@@ -117,6 +134,13 @@ PanelChoices showControls(const PanelFigures& figures, PanelChoices choices)
         choices.tone = toneCombo(choices.tone);
         choices.layer = choose("layer", figures.layers, choices.layer, [](Aov layer) { return nameOf(layer); });
         choices.camera = chooseCamera(figures.cameras, choices.camera);
+        if (!figures.surface.empty()) {
+            ImGui::Separator();
+            choices.surface = changeSurface(figures, choices.surface);
+        }
+        if (figures.edits > 0) {
+            choices.undo = ImGui::Button(("undo (" + counted(figures.edits, "change") + ")###undo").c_str());
+        }
         ImGui::Separator();
         showFigures(figures);
         if (!figures.errors.empty()) {

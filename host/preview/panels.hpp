@@ -1,6 +1,7 @@
 // The panels over the preview's picture.
 #pragma once
 
+#include "host/preview/surface_edits.hpp"
 #include "host/render/aov.hpp"
 #include "host/window/notice.hpp"
 
@@ -28,6 +29,9 @@ struct PanelFigures {
     std::string device;
     std::vector<Aov> layers;
     std::vector<std::string> cameras;
+    std::string surface;  // what was clicked, with its material; empty: nothing
+    bool hasMaterial = false, hasNode = false;  // that the user may change
+    std::size_t edits = 0;
 };
 
 // What the user changes in the panels.
@@ -36,6 +40,8 @@ struct PanelChoices {
     Tone tone = Tone::None;
     Aov layer = Aov::Radiance;
     std::size_t camera = 0;
+    SurfaceChoices surface;
+    bool undo = false;
     bool operator==(const PanelChoices&) const = default;
 };
 

@@ -1,22 +1,14 @@
 #include "host/preview/pick.hpp"
 
 #include "host/measure/float_range.hpp"
-#include "host/render/describe_primitive.hpp"
 #include "shaders/shared/limits.h"
 
 #include <cstdio>
-#include <optional>
 
 namespace glim {
 namespace {
 
 double meanOf(const glm::dvec3& value) { return (value.r + value.g + value.b) / 3.0; }
-
-struct Pick {
-    glm::dvec3 position;  // world coordinates
-    double distance;      // metres from the ray's origin
-    PrimitiveDescription primitive;
-};
 
 // The ray through the centre of a pixel of a picture of this size, and through the middle of the lens.
 PathRay rayThrough(const FlatCamera& camera, const glm::uvec2& pixel, const glm::uvec2& size)
@@ -27,27 +19,22 @@ PathRay rayThrough(const FlatCamera& camera, const glm::uvec2& pixel, const glm:
                                         : PathRay{camera.position, kNoPrimitive, glm::normalize(camera.forward + across)};
 }
 
-// The surface behind the centre of a pixel.
-std::optional<Pick> pick(Renderer& renderer, const PreparedScene& prepared, const FlatCamera& camera, const glm::uvec2& pixel,
-                         const glm::uvec2& size)
+}  // namespace
+
+std::optional<Pick> pick(Refiner& refiner, const PreparedScene& prepared, const glm::uvec2& pixel, const glm::uvec2& size)
 {
-    const PathRay ray = rayThrough(camera, pixel, size);
-    const PathHit hit = renderer.traceRay(ray);
+    const PathRay ray = rayThrough(refiner.camera(), pixel, size);
+    const PathHit hit = refiner.renderer().traceRay(ray);
     if (hit.record == kNoRecord) {
         return std::nullopt;
     }
-    Pick found;
-    found.distance = static_cast<double>(hit.t);
-    found.position = prepared.scene.origin + glm::dvec3(ray.origin) + found.distance * glm::dvec3(ray.direction);
-    found.primitive = describeRecord(prepared, hit.record);
-    return found;
+    const double distance = static_cast<double>(hit.t);
+    return Pick{prepared.scene.origin + glm::dvec3(ray.origin) + distance * glm::dvec3(ray.direction), distance,
+                describeRecord(prepared, hit.record)};
 }
 
-}  // namespace
-
-std::string describeSurface(Refiner& refiner, const PreparedScene& prepared, const glm::uvec2& pixel, const glm::uvec2& size)
+std::string describeSurface(const std::optional<Pick>& found)
 {
-    const std::optional<Pick> found = pick(refiner.renderer(), prepared, refiner.camera(), pixel, size);
     if (!found) {
         return "nothing";
     }

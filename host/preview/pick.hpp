@@ -3,13 +3,23 @@
 
 #include "host/preview/refiner.hpp"
 #include "host/render/aov.hpp"
+#include "host/render/describe_primitive.hpp"
 
+#include <optional>
 #include <string>
 
 namespace glim {
 
-// The surface behind the centre of a pixel of a window of this size, and its place: "nothing" if there is none.
-std::string describeSurface(Refiner& refiner, const PreparedScene& prepared, const glm::uvec2& pixel, const glm::uvec2& size);
+struct Pick {
+    glm::dvec3 position;  // world coordinates
+    double distance;      // metres from the ray's origin
+    PrimitiveDescription primitive;
+};
+
+// The surface behind the centre of a pixel of a window of this size.
+std::optional<Pick> pick(Refiner& refiner, const PreparedScene& prepared, const glm::uvec2& pixel, const glm::uvec2& size);
+// The surface and its place: "nothing" if there is none.
+std::string describeSurface(const std::optional<Pick>& found);
 // For example "; 64 samples, mean (1, 1, 1) W/(sr m^2), standard error (.1, .1, .1)".
 std::string describeSamples(Refiner& refiner, const glm::uvec2& pixel, Aov aov);
 

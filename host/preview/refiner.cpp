@@ -45,6 +45,8 @@ Refiner::Refiner(const Refiner& other, const PreparedScene& prepared, const Rend
       renderer_(other.renderer_, prepared.flat, camera_, startingSettings(settings))
 {}
 
+void Refiner::renew() { renderer_.restart(prepared_.flat, camera_, 1, 1); }
+
 // `seconds` is what a coarse picture at movingScale_ took. A picture of twice the resolution takes up to four times as long.
 void Refiner::chooseMovingScale(double seconds)
 {

@@ -17,6 +17,8 @@ public:
     // Shares the resources of `other`, which is of the same scene and must outlive this one.
     Refiner(const Refiner& other, const PreparedScene& prepared, const RenderSettings& settings);
 
+    // To be called when the scene has changed. Kernels and buffers that serve it stay; show() follows.
+    void renew();
     // Starts the picture of this camera in this size. It is coarse at first, since the camera may move on.
     void show(const Camera& camera, const glm::uvec2& size);
     // Works for about 100 ms, but ends earlier once `shouldContinue` returns false or a coarse picture is complete. Returns false if

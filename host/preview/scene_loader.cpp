@@ -54,18 +54,20 @@ void SceneLoader::begin()
 {
     loaded_ = readStamps();
     began_ = std::filesystem::file_time_type::clock::now();
-    loading_ = std::async(std::launch::async, [this] {
-        return std::make_unique<PreparedScene>(prepareScene(file_, options_, split_, [this](const std::string& stage) {
+    loading_ = std::async(std::launch::async, [this, options = options_] {
+        auto loaded = std::make_unique<LoadedScene>(file_, options);
+        updateScene(loaded->prepared, loaded->file, options.at, split_, [this](const std::string& stage) {
             if (ended_) {
                 throw InputError("loading was given up");
             }
             const std::lock_guard lock(mutex_);
             stage_ = stage;
-        }));
+        });
+        return loaded;
     });
 }
 
-std::unique_ptr<PreparedScene> SceneLoader::take()
+std::unique_ptr<LoadedScene> SceneLoader::take()
 {
     if (!loading_.valid()) {
         if (hasChanged()) {
@@ -81,9 +83,9 @@ std::unique_ptr<PreparedScene> SceneLoader::take()
         stage_.clear();
     }
     try {
-        std::unique_ptr<PreparedScene> prepared = loading_.get();
-        watch(prepared->scene.files);
-        return prepared;
+        std::unique_ptr<LoadedScene> loaded = loading_.get();
+        watch(loaded->prepared.scene.files);
+        return loaded;
     } catch (...) {
         watch({file_, std::filesystem::absolute(file_).parent_path()});  // a missing file may appear in the folder
         throw;

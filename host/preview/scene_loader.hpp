@@ -10,6 +10,16 @@
 
 namespace glim {
 
+// A scene, and its file to change it by.
+struct LoadedScene {
+    LoadedScene(const std::filesystem::path& path, const LoadOptions& options)
+        : file(path, options)
+    {}
+
+    SceneFile file;
+    PreparedScene prepared;
+};
+
 class SceneLoader {
 public:
     SceneLoader(std::filesystem::path file, LoadOptions options, SplitRule split);
@@ -17,7 +27,9 @@ public:
     ~SceneLoader() { ended_ = true; }  // then waits until the current stage ends
 
     // The scene if it has been loaded since the last call, or null. Throws what loading threw.
-    std::unique_ptr<PreparedScene> take();
+    std::unique_ptr<LoadedScene> take();
+    // Of scenes that are loaded from now on.
+    void setEdits(const std::vector<Edit>& edits) { options_.edits = edits; }
     // The current stage, as in "loading a.gltf"; empty if nothing is being loaded.
     std::string stage() const;
 
@@ -43,7 +55,7 @@ private:
     std::atomic<bool> ended_ = false;
     mutable std::mutex mutex_;
     std::string stage_;
-    std::future<std::unique_ptr<PreparedScene>> loading_;
+    std::future<std::unique_ptr<LoadedScene>> loading_;
 };
 
 }  // namespace glim

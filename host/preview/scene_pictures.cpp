@@ -4,12 +4,25 @@
 
 namespace glim {
 
-void ScenePictures::enter(std::unique_ptr<PreparedScene> prepared)
+void ScenePictures::enter(std::unique_ptr<LoadedScene> loaded)
 {
-    auto light = std::make_unique<Refiner>(device_, *prepared, settings_, lens_);
-    steps_.reset();  // it uses buffers of light_
+    auto light = std::make_unique<Refiner>(device_, loaded->prepared, settings_, lens_);
+    leaveSteps();
     light_ = std::move(light);
-    prepared_ = std::move(prepared);
+    loaded_ = std::move(loaded);
+}
+
+void ScenePictures::edit(const std::vector<Edit>& edits, std::optional<double> seconds, SplitRule split)
+{
+    editScene(loaded_->prepared, loaded_->file, edits, seconds, split);
+    leaveSteps();
+    light_->renew();
+}
+
+// They use buffers of light_.
+void ScenePictures::leaveSteps()
+{
+    steps_.reset();
     if (layer_ == Aov::BvhSteps) {
         layer_ = Aov::Radiance;
     }
@@ -31,7 +44,7 @@ bool ScenePictures::choose(Aov layer, const Camera& camera, const glm::uvec2& si
         settings.aov = Aov::BvhSteps;
         settings.bounces = 0;
         settings.adaptive = Adaptive::Off;
-        steps_ = std::make_unique<Refiner>(*light_, *prepared_, settings);
+        steps_ = std::make_unique<Refiner>(*light_, loaded_->prepared, settings);
     }
     const bool isStale = lightIsStale_ || hasMoved, leavesSteps = std::exchange(layer_, layer) == Aov::BvhSteps;
     const bool entersSteps = layer_ == Aov::BvhSteps, begins = entersSteps || (leavesSteps && isStale);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/preview/refiner.hpp"
+#include "host/preview/scene_loader.hpp"
 
 #include <memory>
 #include <vector>
@@ -18,9 +19,13 @@ public:
     {}
 
     // Takes the scene in place of the one before, which stays if the new one is refused. show() follows.
-    void enter(std::unique_ptr<PreparedScene> prepared);
+    void enter(std::unique_ptr<LoadedScene> loaded);
+    // The scene with these edits. Kernels and what the edits do not touch stay. If they are refused, throws InputError and changes nothing.
+    // show() follows.
+    void edit(const std::vector<Edit>& edits, std::optional<double> seconds, SplitRule split);
     bool isEmpty() const { return light_ == nullptr; }
-    const PreparedScene& scene() const { return *prepared_; }
+    const PreparedScene& scene() const { return loaded_->prepared; }
+    const SceneFile& file() const { return loaded_->file; }
 
     // What can be chosen: without a BVH there are no steps.
     std::vector<Aov> layers() const;
@@ -36,10 +41,12 @@ public:
     Refiner& shown() const { return layer_ == Aov::BvhSteps ? *steps_ : *light_; }
 
 private:
+    void leaveSteps();
+
     Device& device_;
     RenderSettings settings_;
     Lens lens_;
-    std::unique_ptr<PreparedScene> prepared_;
+    std::unique_ptr<LoadedScene> loaded_;
     std::unique_ptr<Refiner> light_;
     std::unique_ptr<Refiner> steps_;  // made when it is first shown; shares light_'s buffers
     Aov layer_ = Aov::Radiance;

@@ -1,5 +1,6 @@
 #include "host/preview/session.hpp"
 
+#include "host/error.hpp"
 #include "host/flatten/camera_options.hpp"
 #include "host/memory.hpp"
 #include "host/message.hpp"
@@ -92,8 +93,8 @@ void Session::takeEvents(double seconds)
 void Session::takeScene()
 {
     try {
-        if (std::unique_ptr<PreparedScene> prepared = loader_.take()) {
-            enter(std::move(prepared));
+        if (std::unique_ptr<LoadedScene> loaded = loader_.take()) {
+            enter(std::move(loaded));
             messages_.trouble.clear();
         }
     } catch (const std::exception& error) {
@@ -113,33 +114,51 @@ void Session::takeScene()
 }
 
 // All that depends on the scene. What may refuse it comes first.
-void Session::enter(std::unique_ptr<PreparedScene> prepared)
+void Session::enter(std::unique_ptr<LoadedScene> loaded)
 {
+    const PreparedScene& prepared = loaded->prepared;
     RenderSettings settings = options_.settings;
     settings.width = display_.width();
     settings.height = display_.height();
-    checkMemory(*prepared, settings, screen_.device().description());
+    checkMemory(prepared, settings, screen_.device().description());
     window_.setTitle("glim: compiling kernels for " + options_.scene.filename().string());
     if (!viewpoint_) {
-        const Camera& chosen = findCamera(prepared->scene, options_.camera);
-        sayIfCameraIsNumber(prepared->scene, options_.camera);
+        const Camera& chosen = findCamera(prepared.scene, options_.camera);
+        sayIfCameraIsNumber(prepared.scene, options_.camera);
         if (options_.pose) {
-            placeCamera(chosen, *options_.pose, prepared->scene.origin);  // refuses a pose without direction
+            placeCamera(chosen, *options_.pose, prepared.scene.origin);  // refuses a pose without direction
         }
-        viewpoint_.emplace(static_cast<std::size_t>(&chosen - prepared->scene.cameras.data()), options_.pose);
+        viewpoint_.emplace(static_cast<std::size_t>(&chosen - prepared.scene.cameras.data()), options_.pose);
         if (!options_.size) {
             window_.setSize(defaultSize(chosen));
         }
     }
-    warnIfNoLights(*prepared);
-    meter_.enter(prepared->scene);
+    warnIfNoLights(prepared);
+    meter_.enter(prepared.scene);
     const bool isFirst = pictures_.isEmpty();
-    pictures_.enter(std::move(prepared));
+    pictures_.enter(std::move(loaded));
+    surface_.reset();
     viewpoint_->enter(pictures_.scene().scene);
     if (!isFirst) {
         tell(options_.scene.string() + " has changed and is loaded again");
     }
     window_.setTitle("glim: " + options_.scene.filename().string());
+    show();
+}
+
+// What is refused is said, and the scene stays as it was.
+void Session::edit(const std::vector<Edit>& edits)
+{
+    const std::vector<Edit> all = joinEdits(options_.load.edits, edits);
+    try {
+        pictures_.edit(all, options_.load.at, options_.split);
+    } catch (const InputError& error) {
+        tell(error.what());
+        return;
+    }
+    edits_ = edits;
+    loader_.setEdits(all);
+    viewpoint_->enter(pictures_.scene().scene);
     show();
 }
 
@@ -318,6 +337,17 @@ void Session::pressForScene(char key)
         }
     } else if (key == 'C') {
         printCamera();
+    } else if (key == 'Z') {
+        undo();
+    }
+}
+
+void Session::undo()
+{
+    if (edits_.empty()) {
+        say("There is nothing to undo.");
+    } else {
+        edit({edits_.begin(), edits_.end() - 1});
     }
 }
 
@@ -346,7 +376,8 @@ void Session::chooseCamera(std::size_t index)
 
 void Session::buildPanels()
 {
-    const PanelChoices before{meter_.look().exposure, meter_.look().tone, pictures_.layer(), viewpoint_ ? viewpoint_->index() : 0};
+    const PanelChoices before{meter_.look().exposure, meter_.look().tone, pictures_.layer(), viewpoint_ ? viewpoint_->index() : 0,
+                              surface_ ? choicesOf(*surface_, pictures_.scene().scene, pictures_.file()) : SurfaceChoices()};
     PanelChoices wanted = before;
     screen_.gui().frame(size(), [&] {
         const bool isThere = !pictures_.isEmpty();
@@ -372,6 +403,15 @@ void Session::buildPanels()
     if (wanted.camera != before.camera) {
         chooseCamera(wanted.camera);
     }
+    if (wanted.undo) {
+        undo();
+    } else if (surface_ && wanted.surface != before.surface) {
+        std::vector<Edit> edits = edits_;
+        for (const Edit& change : listEdits(*surface_, before.surface, wanted.surface)) {
+            edits = withEdit(std::move(edits), change);
+        }
+        edit(edits);
+    }
 }
 
 PanelFigures Session::figures() const
@@ -390,6 +430,10 @@ PanelFigures Session::figures() const
     for (const Camera& camera : viewpoint_->cameras()) {
         figures.cameras.push_back(camera.name);
     }
+    figures.surface = surface_ ? surface_->name : "";
+    figures.hasMaterial = surface_ && surface_->materialPointer;
+    figures.hasNode = surface_ && surface_->nodePointer;
+    figures.edits = edits_.size();
     return figures;
 }
 
@@ -399,7 +443,12 @@ void Session::clickAt(const glm::dvec2& position)
         return;
     }
     const glm::uvec2 pixel(glm::clamp(position, glm::dvec2(0.0), glm::dvec2(size() - 1U)));
-    const std::string there = describeSurface(pictures_.shown(), pictures_.scene(), pixel, size());
+    const std::optional<Pick> found = pick(pictures_.shown(), pictures_.scene(), pixel, size());
+    const std::string there = describeSurface(found);
+    surface_.reset();
+    if (found) {
+        surface_ = chooseSurface(found->primitive, pictures_.scene().scene, pictures_.file());
+    }
     std::cout << "pixel (" << pixel.x << ", " << pixel.y << ") of " << size().x << "x" << size().y << ": " << there
               << describeSamples(pictures_.shown(), pixel, pictures_.layer()) << std::endl;
     say(there);
@@ -408,7 +457,7 @@ void Session::clickAt(const glm::dvec2& position)
 void Session::printCamera()
 {
     const std::string options = "--camera " + std::to_string(viewpoint_->index()) + cameraOptions(viewpoint_->moved(), options_.lens) +
-                                " --size " + std::to_string(display_.width()) + "x" + std::to_string(display_.height());
+                                " --size " + std::to_string(display_.width()) + "x" + std::to_string(display_.height()) + editOptions(joinEdits(options_.load.edits, edits_));
     std::cout << options << '\n' << viewpoint_->describeAsGltf() << std::endl;
     say(options);
 }

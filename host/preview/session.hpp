@@ -38,7 +38,8 @@ private:
     // The loop.
     void takeEvents(double seconds);
     void takeScene();
-    void enter(std::unique_ptr<PreparedScene> prepared);
+    void enter(std::unique_ptr<LoadedScene> loaded);
+    void edit(const std::vector<Edit>& edits);
     void resize();
     void followCamera();
     void show();
@@ -57,6 +58,7 @@ private:
     void chooseCamera(std::size_t index);
     void clickAt(const glm::dvec2& position);
     void printCamera();
+    void undo();
     void writePictures();
     void say(const std::string& text);   // shows the text in the window
     void tell(const std::string& text);  // shows the text in the window and prints it to stderr
@@ -78,6 +80,9 @@ private:
     FilmMeter meter_;
     Pacer pacer_;
     PanelMessages messages_;
+
+    std::vector<Edit> edits_;               // of the user, after those of the options
+    std::optional<ChosenSurface> surface_;  // that was clicked
 
     std::deque<Event> inbox_;      // events that are taken but not handled yet
     std::function<void()> later_;  // work that starts once the window shows the message about it

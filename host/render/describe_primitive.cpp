@@ -25,16 +25,21 @@ std::string describePunctual(const Scene& scene, const FlatLight& flat)
     return kind + " light " + named(found->name);
 }
 
+PrimitiveDescription describeTriangle(const Scene& scene, const MeshInstance& instance, std::uint32_t triangle)
+{
+    const std::uint32_t material = scene.meshes[instance.mesh].material;
+    return {"instance " + named(instance.name), triangle, named(scene.materials[material].name), instance.node, material};
+}
+
 PrimitiveDescription describePrimitive(const Scene& scene, const Primitives& primitives, std::uint32_t id)
 {
     if (id >= primitives.triangles.size()) {
         const Sphere& sphere = primitives.spheres[id - primitives.triangles.size()];
-        return {"sphere " + named(sphere.name), std::nullopt, named(scene.materials[sphere.material].name)};
+        return {"sphere " + named(sphere.name), std::nullopt, named(scene.materials[sphere.material].name), sphere.node, sphere.material};
     }
     const std::uint32_t index = primitives.instanceOf(id);
     const MeshInstance& instance = scene.instances[index];
-    return {"instance " + named(instance.name), id - primitives.firstTriangles[index],
-            named(scene.materials[scene.meshes[instance.mesh].material].name)};
+    return describeTriangle(scene, instance, id - primitives.firstTriangles[index]);
 }
 
 PrimitiveDescription describeInstanceRecord(const PreparedScene& prepared, std::uint32_t record)
@@ -44,8 +49,7 @@ PrimitiveDescription describeInstanceRecord(const PreparedScene& prepared, std::
     const std::uint32_t shared = prepared.flat.records[std::size_t{record - instance[1].w} * kRecordTexels].w;
     const Placement& placement = prepared.primitives.placements[index];
     const MeshInstance& placed = prepared.scene.instances[placement.instance];
-    return {"instance " + named(placed.name), shared - prepared.primitives.sharedMeshes[placement.sharedMesh].firstId,
-            named(prepared.scene.materials[prepared.scene.meshes[placed.mesh].material].name)};
+    return describeTriangle(prepared.scene, placed, shared - prepared.primitives.sharedMeshes[placement.sharedMesh].firstId);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ struct PrimitiveDescription {
     std::string object;                     // as in: instance "floor", or: sphere without a name
     std::optional<std::uint32_t> triangle;  // of its mesh; those of zero area do not count
     std::string material;
+    std::uint32_t node, materialIndex;  // of the scene
 };
 
 // As in: instance "floor", triangle 3.

@@ -103,13 +103,29 @@ PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions&
     return within(file, [&] { return prepare(loadGltf(file, options), split, start, {}, stage); });
 }
 
-void updateScene(PreparedScene& prepared, SceneFile& file, std::optional<double> seconds, SplitRule split)
+void updateScene(PreparedScene& prepared, SceneFile& file, std::optional<double> seconds, SplitRule split, const Stage& stage)
 {
     const Clock::time_point start = Clock::now();
+    stage("loading " + file.path().filename().string());
     prepared = within(file.path(), [&] {
         Scene scene = file.sceneAt(seconds);
-        return prepare(std::move(scene), split, start, std::move(prepared), [](const std::string&) {});
+        return prepare(std::move(scene), split, start, std::move(prepared), stage);
     });
+}
+
+void editScene(PreparedScene& prepared, SceneFile& file, const std::vector<Edit>& edits, std::optional<double> seconds, SplitRule split)
+{
+    const std::vector<Edit> before = file.edits();
+    file.edit(edits);
+    try {
+        updateScene(prepared, file, seconds, split);
+    } catch (const InputError&) {
+        file.edit(before);
+        if (prepared.bvh.nodes.empty()) {  // there was too little memory
+            updateScene(prepared, file, seconds, split);
+        }
+        throw;
+    }
 }
 
 void sayIfCameraIsNumber(const Scene& scene, const std::optional<std::string>& choice)

@@ -314,6 +314,7 @@ public:
     Camera frame(const Scene& scene);
 
     DecodedParts& decoded() { return decoded_; }
+    const tinygltf::Model& model() const { return file_.model; }
 
 private:
     Framed frameRestPose();
@@ -419,9 +420,14 @@ void checkFilesOfEdits(const std::filesystem::path& path, const LoadOptions& opt
 }  // namespace
 
 struct SceneFile::Contents {
+    struct Place {
+        std::size_t part, index;  // part 0 is the scene's own file
+    };
+
     FilePart main;
     std::vector<FilePart> added;
     JoinedMeshes joined;
+    std::vector<std::uint32_t> firstNodes, firstMaterials;  // of each part, in the last scene
 
     Contents(const std::filesystem::path& path, const LoadOptions& options)
         : main(path, withEdits(options, editsOf(options.edits, std::nullopt)), false)
@@ -433,6 +439,15 @@ struct SceneFile::Contents {
             own.maxTexture = options.maxTexture;
             added.emplace_back(addition.file, withEdits(own, editsOf(options.edits, addition.file)), true);
         }
+    }
+
+    const tinygltf::Model& modelOf(std::size_t part) const { return part == 0 ? main.model() : added[part - 1].model(); }
+
+    // `firsts`: firstNodes or firstMaterials.
+    static Place placeOf(const std::vector<std::uint32_t>& firsts, std::uint32_t index)
+    {
+        const auto after = std::ranges::upper_bound(firsts, index);
+        return {static_cast<std::size_t>(after - firsts.begin() - 1), index - *(after - 1)};
     }
 
     static LoadOptions withEdits(LoadOptions options, std::vector<Edit> edits)
@@ -465,14 +480,20 @@ Scene SceneFile::sceneAt(std::optional<double> seconds)
     if (scene.cameras.empty() || options_.framed) {
         framed = contents_->main.frame(scene);
     }
+    auto node = static_cast<std::uint32_t>(scene.nodeNames.size()), material = static_cast<std::uint32_t>(scene.materials.size());
+    contents_->firstNodes = contents_->firstMaterials = {0};
     if (!options_.additions.empty()) {
         std::vector<AddedScene> others;
         for (std::size_t i = 0; i < options_.additions.size(); ++i) {
             Warnings own;
+            contents_->firstNodes.push_back(node);
+            contents_->firstMaterials.push_back(material);
             others.push_back({contents_->added[i].read(std::nullopt, own), options_.additions[i].worldFromFile});
             for (const std::string& line : own.lines()) {
                 warnings.add(others.back().scene.file + ": " + line);
             }
+            node += static_cast<std::uint32_t>(others.back().scene.nodeNames.size());
+            material += static_cast<std::uint32_t>(others.back().scene.materials.size());
         }
         scene = joinScenes(std::move(scene), others, contents_->joined);
     }
@@ -511,6 +532,33 @@ void SceneFile::edit(const std::vector<Edit>& edits)
         }
     }
     options_.edits = edits;
+}
+
+std::optional<std::string> SceneFile::pointerToNode(std::uint32_t node) const
+{
+    const auto [part, index] = Contents::placeOf(contents_->firstNodes, node);
+    return index < contents_->modelOf(part).nodes.size() ? std::optional(prefixOf(part) + "/nodes/" + std::to_string(index)) : std::nullopt;
+}
+
+std::optional<std::string> SceneFile::pointerToMaterial(std::uint32_t material) const
+{
+    const auto [part, index] = Contents::placeOf(contents_->firstMaterials, material);
+    return index < contents_->modelOf(part).materials.size() ? std::optional(prefixOf(part) + "/materials/" + std::to_string(index))
+                                                             : std::nullopt;
+}
+
+std::string SceneFile::prefixOf(std::size_t part) const
+{
+    return part == 0 ? "" : options_.additions[part - 1].file.filename().string() + "#";
+}
+
+glm::dvec3 SceneFile::translationOf(std::uint32_t node) const
+{
+    const auto [part, index] = Contents::placeOf(contents_->firstNodes, node);
+    const tinygltf::Node& found = contents_->modelOf(part).nodes.at(index);
+    const std::vector<double>& numbers = found.matrix.empty() ? found.translation : found.matrix;
+    const std::size_t first = found.matrix.empty() ? 0 : 12;
+    return numbers.empty() ? glm::dvec3(0.0) : glm::dvec3(numbers[first], numbers[first + 1], numbers[first + 2]);
 }
 
 Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options) { return SceneFile(path, options).sceneAt(options.at); }

@@ -72,9 +72,20 @@ public:
     // of an added file and a # where it is one of that file. Throws InputError, and then nothing is changed.
     void edit(const std::vector<Edit>& edits);
     const std::filesystem::path& path() const { return path_; }
+    const std::vector<Edit>& edits() const { return options_.edits; }
+
+    // Where edits find a node or a material of the last scene, as in /materials/3 or floor.glb#/materials/0; nothing for what no file has,
+    // as the default material.
+    std::optional<std::string> pointerToNode(std::uint32_t node) const;
+    std::optional<std::string> pointerToMaterial(std::uint32_t material) const;
+    // Of that node, relative to its parent, as the file and the edits have it.
+    glm::dvec3 translationOf(std::uint32_t node) const;
 
 private:
     struct Contents;
+
+    std::string prefixOf(std::size_t part) const;
+
     std::filesystem::path path_;
     LoadOptions options_;
     std::unique_ptr<Contents> contents_;  // null before the first scene

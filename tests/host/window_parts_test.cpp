@@ -2,6 +2,7 @@
 #include "host/error.hpp"
 #include "host/preview/pacer.hpp"
 #include "host/preview/panels.hpp"
+#include "host/preview/surface_edits.hpp"
 #include "host/window/gestures.hpp"
 #include "host/window/latency.hpp"
 #include "host/window/notice.hpp"
@@ -23,6 +24,24 @@ std::vector<ScriptStep> read(const std::string& text)
     const test::ScratchFolder folder;
     test::writeText(folder / "script", text);
     return readScript(folder / "script");
+}
+
+TEST(SurfaceEdits, SayWhatDiffers)
+{
+    const ChosenSurface surface{"a", 0, 0, "/nodes/3", "b.glb#/materials/1"};
+    const SurfaceChoices before{{1.0F, 0.5F, 0.25F, 0.75F}, 1.0F, 0.5F, {0.0F, 0.0F, 0.0F}};
+    EXPECT_TRUE(listEdits(surface, before, before).empty());
+    SurfaceChoices after = before;
+    after.baseColor.r = 0.0F;
+    after.roughness = 0.1F;
+    after.translation.y = -2.0F;
+    const std::vector<Edit> edits = listEdits(surface, before, after);
+    EXPECT_EQ(editOptions(edits),
+              " --set b.glb#/materials/1/pbrMetallicRoughness/baseColorFactor=0,0.5,0.25,0.75 --set "
+              "b.glb#/materials/1/pbrMetallicRoughness/roughnessFactor=0.1 --set /nodes/3/translation=0,-2,0");
+    EXPECT_TRUE(listEdits({"a", 0, 0, std::nullopt, std::nullopt}, before, after).empty()) << "of what no file has";
+    EXPECT_EQ(withEdit(edits, {"/nodes/3/translation", "[1,1,1]"}).size(), 3U);
+    EXPECT_EQ(withEdit(edits, {edits[0].pointer, "[1,1,1,1]"}).back().value, "[1,1,1,1]");
 }
 
 TEST(ScriptTest, ReadsEveryStep)

@@ -138,6 +138,43 @@ TEST_F(PreviewTest, PanelsGrowWithTheDensityOfTheDisplay)
     EXPECT_NEAR(covered(192) / once, 4.0, 0.5);
 }
 
+void enterScene(ScenePictures& pictures, const LoadOptions& options)
+{
+    auto loaded = std::make_unique<LoadedScene>(test::sceneFile("cornell_spheres.gltf"), options);
+    updateScene(loaded->prepared, loaded->file, std::nullopt, SplitRule::Sah);
+    pictures.enter(std::move(loaded));
+}
+
+// Other kernels, too: the walls get a coat.
+TEST(ScenePicturesTest, AnEditShowsTheSceneThatItMakes)
+{
+    RenderSettings settings;
+    settings.sampleEnd = 2;
+    const std::vector<Edit> edits{{"/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor", "1"},
+                                  {"/nodes/0/translation", "[0.125, 0, 0]"}};
+    const auto filmOf = [](ScenePictures& pictures) {
+        pictures.show(pictures.scene().scene.cameras.front(), {8, 6});
+        while (pictures.shown().sampleCount() == 0 || !pictures.shown().isDone()) {
+            pictures.shown().refine(false, nullptr);
+        }
+        return pictures.shown().renderer().film();
+    };
+    ScenePictures pictures(testDevice(), settings, {}), edited(testDevice(), settings, {});
+    enterScene(pictures, {});
+    const Film before = filmOf(pictures);
+    EXPECT_THROW(pictures.edit({{"/materials/99/alphaCutoff", "1"}}, std::nullopt, SplitRule::Sah), InputError);
+    EXPECT_TRUE(sameBits(filmOf(pictures), before));
+    pictures.edit(edits, std::nullopt, SplitRule::Sah);
+    LoadOptions options;
+    options.edits = edits;
+    enterScene(edited, options);
+    const Film after = filmOf(pictures);
+    EXPECT_TRUE(sameBits(after, filmOf(edited)));
+    EXPECT_FALSE(sameBits(after, before));
+    pictures.edit({}, std::nullopt, SplitRule::Sah);
+    EXPECT_TRUE(sameBits(filmOf(pictures), before));
+}
+
 // The picture of steps and that of light are of the same view, whichever layer was shown while the camera moved.
 TEST(ScenePicturesTest, LayersShowThePresentView)
 {
@@ -145,7 +182,7 @@ TEST(ScenePicturesTest, LayersShowThePresentView)
     ScenePictures pictures(testDevice(), {}, {});
     EXPECT_TRUE(pictures.isEmpty());
     const auto enter = [&pictures] {
-        pictures.enter(std::make_unique<PreparedScene>(prepareScene(test::sceneFile("cornell_spheres.gltf"), LoadOptions{})));
+        enterScene(pictures, {});
         return pictures.scene().scene.cameras.front();
     };
     Camera camera = enter();

@@ -178,6 +178,26 @@ TEST_F(PreviewTest, ControlsOfThePanelsDoWhatTheKeysDo)
     EXPECT_EQ(session("0 key T\n0 key T\n0 key T\n0 key V\n"), expected("--view normal"));
 }
 
+// A surface that is clicked is changed in the panel. The options that C prints render the same, and Z undoes it.
+TEST_F(PreviewTest, ThePanelChangesTheSurfaceThatWasClicked)
+{
+    width = 320;
+    height = 240;
+    panels = true;
+    const GlimRun session = run(
+        "0 samples 1\n0 click 305,120\n0.2 drag left 20,177 240,177\n0.2 samples 1\n0 key C\n0 key P\n0.2 key Z\n0.2 samples 1\n0 key P\n0 "
+        "close\n",
+        {"--spp", "1"});
+    const std::size_t option = session.out.find(" --set /materials/");
+    ASSERT_NE(option, std::string::npos) << session.out << session.err;
+    const std::string set = session.out.substr(option + 1, session.out.find('\n', option) - option - 1);
+    EXPECT_TRUE(set.ends_with("/pbrMetallicRoughness/metallicFactor=1")) << set;
+    const Film plain = render("--spp 1"), changed = render("--spp 1 " + set);
+    EXPECT_FALSE(sameBits(plain, changed));
+    EXPECT_TRUE(sameBits(film(1), changed));
+    EXPECT_TRUE(sameBits(film(2), plain));
+}
+
 TEST_F(PreviewTest, PauseStopsSampling)
 {
     width = 24;
