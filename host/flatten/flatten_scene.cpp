@@ -2,7 +2,6 @@
 
 #include "host/error.hpp"
 #include "host/flatten/albedo_table.hpp"
-#include "host/flatten/anisotropic_albedo.hpp"
 #include "host/flatten/caustics.hpp"
 #include "host/flatten/flatten_materials.hpp"
 #include "host/flatten/large_triangles.hpp"
