@@ -8,7 +8,7 @@
 
 namespace glim {
 
-// SHA-256 (FIPS 180-4), by OpenSSL.
+// SHA-256 (FIPS 180-4), by OpenSSL: for what a file says of itself, since two films that differ never have the same.
 class Digest {
 public:
     Digest();

@@ -7,7 +7,8 @@
 
 namespace glim {
 
-// FNV-1a, 64 bits (Fowler, Noll, Vo): not cryptographic.
+// FNV-1a, 64 bits (Fowler, Noll, Vo): for what is compared with what glim itself has just made. Files have its values, so no faster hash of
+// a library takes its place.
 class Fingerprint {
 public:
     explicit Fingerprint(std::uint64_t state = 14695981039346656037ULL)

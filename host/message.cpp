@@ -1,7 +1,6 @@
 #include "host/message.hpp"
 
-#include "host/takes_more.hpp"
-
+#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -89,6 +88,12 @@ void tell(const std::string& sentence, bool isWarning)
 }
 
 }  // namespace
+
+bool takesMore(int file, int milliseconds)
+{
+    pollfd poll{file, POLLOUT, 0};
+    return ::poll(&poll, 1, milliseconds) > 0 && (poll.revents & POLLOUT) != 0;
+}
 
 void say(const std::string& sentence) { tell(sentence, false); }
 void warn(const std::string& sentence) { tell(sentence, true); }

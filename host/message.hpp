@@ -14,6 +14,10 @@ std::string escaped(const std::string& text);
 std::string shortened(const std::string& text);
 std::string inQuotes(const std::string& text);  // the same in quotes
 
+// Whether a line can be written to the file of this number within so long. Nothing waits for a reader that does not read: a terminal that
+// is stopped, a pipe that is full.
+bool takesMore(int file, int milliseconds = 0);
+
 // Prints the line "glim: SENTENCE" on stderr, escaped. One of more than 8 KiB loses its middle.
 // It is lost if stderr takes nothing for a second.
 void say(const std::string& sentence);

@@ -1,12 +1,22 @@
 // Numbers as text.
 #pragma once
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
 #include <string>
 
 namespace glim {
+
+// As printf; at most 255 bytes.
+std::string format(const char* pattern, auto... values)
+{
+    char text[256];
+    std::snprintf(text, sizeof text, pattern, values...);
+    return text;
+}
 
 // The shortest text that reads back as the same number.
 template <class T>
@@ -22,6 +32,13 @@ inline std::string hexadecimal(std::uint64_t value)
     char digits[17];
     std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(value));
     return digits;
+}
+
+// Of letters in ASCII.
+inline std::string lowerCase(std::string text)
+{
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
 }
 
 // "1 sphere", "2 spheres".

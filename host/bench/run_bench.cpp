@@ -1,5 +1,6 @@
 #include "host/bench/run_bench.hpp"
 
+#include "host/clock.hpp"
 #include "host/measure/compare_images.hpp"
 
 #include <algorithm>
@@ -46,13 +47,13 @@ double cpuSecondsOfProcess() { return static_cast<double>(std::clock()) / CLOCKS
 // Samples until every pixel has `samples`. Returns the seconds it took, or nothing if `shouldContinue` ended it.
 std::optional<double> sampleUntil(Renderer& renderer, std::uint32_t samples, const std::function<bool()>& shouldContinue)
 {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     while (renderer.sampleCount() < samples) {
         if (!renderer.advance(shouldContinue)) {
             return std::nullopt;
         }
     }
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return secondsSince(start);
 }
 
 // Renders one seed and adds its entry to every point. Returns the terms of the last point's error, or nothing if `shouldContinue`

@@ -1,4 +1,4 @@
-#include "host/bvh/split_by_sah.hpp"
+#include "host/bvh/split_node.hpp"
 
 #include <cstdint>
 

@@ -1,7 +1,5 @@
 #include "host/bvh/split_node.hpp"
 
-#include "host/bvh/split_by_sah.hpp"
-
 #include <bit>
 
 namespace glim {

@@ -1,10 +1,12 @@
 #include "host/bench/bench_file.hpp"
+
 #include "host/bench/bench_reference.hpp"
 #include "host/bench/run_bench.hpp"
 #include "host/cli/bench_kernels.hpp"
 #include "host/cli/bench_options.hpp"
 #include "host/cli/bench_report.hpp"
 #include "host/cli/commands.hpp"
+#include "host/clock.hpp"
 #include "host/error.hpp"
 #include "host/flatten/camera_options.hpp"
 #include "host/job/fastest_schedule.hpp"
@@ -42,7 +44,7 @@ public:
     // `samples` per pixel of the current part are done. False once the user wants to stop.
     bool show(std::uint64_t samples)
     {
-        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+        const double seconds = secondsSince(start_);
         if (total_ > 0) {
             printer_.print({pixels_ * (done_ + samples), pixels_ * total_, seconds});
         }
@@ -53,7 +55,7 @@ private:
     ProgressPrinter printer_;
     const InterruptWatch& watch_;
     std::uint64_t pixels_, done_ = 0, total_ = 0;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    Clock::time_point start_ = Clock::now();
 };
 
 glm::uvec2 sizeOf(const BenchOptions& options, const Camera& camera)

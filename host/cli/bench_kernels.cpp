@@ -9,8 +9,8 @@
 #include "host/job/interrupt.hpp"
 #include "host/job/output_file.hpp"
 #include "host/job/version.hpp"
+#include "host/message.hpp"
 #include "host/render/check_memory.hpp"
-#include "host/takes_more.hpp"
 
 #include <unistd.h>
 #include <algorithm>

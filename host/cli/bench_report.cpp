@@ -1,8 +1,8 @@
 #include "host/cli/bench_report.hpp"
 
 #include "host/bench/summarize_bench.hpp"
-#include "host/job/format.hpp"
 #include "host/render/settings.hpp"
+#include "host/text.hpp"
 
 #include <algorithm>
 #include <cmath>

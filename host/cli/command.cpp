@@ -64,8 +64,12 @@ private:
 
     static std::string nameOf(const CLI::Option* option)
     {
-        const std::string unit = option->get_type_size() == 0 ? "" : option->get_type_name();
-        return "  " + option->get_name(false, true) + (unit.empty() || option->get_positional() ? "" : " " + unit);
+        if (option->get_positional()) {
+            return "  " + option->get_name();
+        }
+        const std::string unit = option->get_type_size() == 0 ? "" : " " + option->get_type_name();
+        const std::string letter = option->get_snames().empty() ? "" : "-" + option->get_snames().front() + ",";
+        return "  " + letter + "--" + option->get_lnames().back() + unit;  // other long names are former ones
     }
 
     static constexpr std::size_t kWidestColumn = 27;  // longer names push their description to the right

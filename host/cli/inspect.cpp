@@ -1,6 +1,5 @@
 #include "host/cli/commands.hpp"
 #include "host/flatten/large_triangles.hpp"
-#include "host/job/format.hpp"
 #include "host/job/parse.hpp"
 #include "host/job/picture_options.hpp"
 #include "host/job/resolve_options.hpp"

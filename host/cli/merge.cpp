@@ -28,7 +28,7 @@ void runMerge(const MergeOptions& options)
     const OutputLock lock(options.output);
     const MergedFilm merged = mergeFilms(options.inputs);
     writeFilm(options.output, merged.film);
-    if (options.pictures.areGiven()) {
+    if (!options.pictures.empty()) {
         writePictures(options.pictures, merged.film, chooseLook(options.look, merged.film));
     }
     std::cerr << "Merged " << options.inputs.size() << " films into " << escaped(options.output.string()) << ", samples "

@@ -1,10 +1,10 @@
 #include "host/denoise/nl_means.hpp"
 
+#include "host/clock.hpp"
 #include "kernels.hpp"
 #include "shaders/shared/bindings.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace glim {
@@ -72,12 +72,12 @@ bool NlMeans::run(const Kernel& kernel, const Bindings& bindings, DenoisePass pa
             return false;
         }
         pass.count = std::min(count - pass.first, most);
-        const auto start = std::chrono::steady_clock::now();
+        const auto start = Clock::now();
         Commands commands(device_);
         commands.dispatch(kernel, bindings, std::as_bytes(std::span<const DenoisePass, 1>(&pass, 1)),
                           (pass.count + kWorkgroup - 1) / kWorkgroup);
         commands.submitAndWait();
-        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        const double seconds = secondsSince(start);
         if (pass.count == most) {
             const double wanted = most * std::clamp(kDispatchSeconds / seconds, 0.25, 2.0);
             most = std::clamp(static_cast<std::uint32_t>(wanted), kWorkgroup, device_.description().maxGroups * kWorkgroup);

@@ -1,9 +1,9 @@
 #include "host/flatten/albedo_table.hpp"
 
 #include "host/bvh/parallel_for.hpp"
-#include "host/flatten/gauss_rule.hpp"
+#include "host/flatten/albedo_parts.hpp"
+#include "shaders/shared/microfacets.h"
 
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <thread>
@@ -44,14 +44,12 @@ glm::dvec2 integrateAlbedo(const GaussRule& rule, double cosine, double alpha)
                 continue;
             }
             const double visible = vh / (cosine * hz * (1.0 + lambdaV + lambda(lz, alpha)));
-            const double value = 2.0 * weight * std::sin(beta) * std::cos(beta) / kPi * visible, schlick = std::pow(1.0 - vh, 5.0);
+            const double value = 2.0 * weight * std::sin(beta) * std::cos(beta) / kPi * visible, schlick = fifthPower(1.0 - vh);
             sum += glm::dvec2(1.0 - schlick, schlick) * value;
         }
     }
     return sum;
 }
-
-double rounded(double value) { return std::ldexp(std::round(std::ldexp(value, 22)), -22); }
 
 double rootAt(std::size_t i) { return static_cast<double>(i) / (kAlbedoSize - 1); }
 
@@ -61,7 +59,7 @@ std::vector<glm::dvec2> makeRow(const GaussRule& rule, std::size_t j)
     const double alpha = std::pow(rootAt(j), 4.0);
     std::vector<glm::dvec2> row;
     for (std::size_t i = 0; i < kAlbedoSize; ++i) {
-        const double cosine = std::max(std::pow(rootAt(i), 4.0), 1e-9), schlick = std::pow(1.0 - cosine, 5.0);
+        const double cosine = std::max(std::pow(rootAt(i), 4.0), 1e-9), schlick = fifthPower(1.0 - cosine);
         const glm::dvec2 ab = j == 0 ? glm::dvec2(1.0 - schlick, schlick) : integrateAlbedo(rule, cosine, alpha);
         row.emplace_back(rounded(ab.x), rounded(ab.y));
     }
@@ -82,23 +80,11 @@ glm::dvec2 averageOf(const std::vector<glm::dvec2>& row)
     return {rounded(sum.x), rounded(sum.y)};
 }
 
-uvec4 texelOf(const glm::dvec2& a, const glm::dvec2& b)
-{
-    const auto bits = [](double value) { return std::bit_cast<std::uint32_t>(static_cast<float>(value)); };
-    return {bits(a.x), bits(a.y), bits(b.x), bits(b.y)};
-}
-
-// Estevez and Kulla's fit of the sheen's masking, as in lib/bsdf/sheen.glsl.
 double sheenLambda(double cosine, double alpha)
 {
-    constexpr double kRough[] = {21.5473, 3.82987, 0.19823, -1.97760, -4.32054};
-    constexpr double kSmooth[] = {25.3245, 3.32435, 0.16801, -1.27393, -4.85967};
-    double c[5];
-    for (int i = 0; i < 5; ++i) {
-        c[i] = std::lerp(kRough[i], kSmooth[i], (1.0 - alpha) * (1.0 - alpha));
-    }
-    const auto fit = [&c](double x) { return c[0] / (1.0 + c[1] * std::pow(x, c[2])) + c[3] * x + c[4]; };
-    return std::exp(cosine < 0.5 ? fit(cosine) : 2.0 * fit(0.5) - fit(1.0 - cosine));
+    const SheenFit fit = sheenFitOf(alpha);
+    const auto log = [&fit](double x) { return evalSheenFit(fit, x, std::pow(x, fit.c)); };
+    return std::exp(cosine < 0.5 ? log(cosine) : 2.0 * log(0.5) - log(1.0 - cosine));
 }
 
 // Over wi with z = x^4 and the azimuth pi (1 - y^2) from wo's: dense at the horizon opposite to wo, where the lobe lies.
@@ -151,14 +137,12 @@ std::vector<uvec4> makeAlbedoTable()
     std::vector<std::vector<glm::dvec2>> rows(kAlbedoSize);
     parallelFor(rows.size(), std::thread::hardware_concurrency(), [&](std::size_t j) { rows[j] = makeRow(rule, j); });
     std::vector<uvec4> table;
+    std::vector<glm::dvec2> averages;
     for (const std::vector<glm::dvec2>& row : rows) {
-        for (std::size_t i = 0; i < kAlbedoSize; ++i) {
-            table.push_back(texelOf(row[i], row[std::min<std::size_t>(i + 1, kAlbedoSize - 1)]));
-        }
+        pushTexels(table, row);
+        averages.push_back(averageOf(row));
     }
-    for (std::size_t j = 0; j < kAlbedoSize; ++j) {
-        table.push_back(texelOf(averageOf(rows[j]), averageOf(rows[std::min<std::size_t>(j + 1, kAlbedoSize - 1)])));
-    }
+    pushTexels(table, averages);
     return table;
 }
 

@@ -1,4 +1,4 @@
-// The directional albedos of the GGX lobe, as a table for kernels (shaders/access/albedo_table.glsl).
+// The directional albedos of lobes, as tables for kernels (shaders/access/albedo_table.glsl), by quadrature in double.
 #pragma once
 
 #include "shaders/shared/scene_types.h"
@@ -7,11 +7,14 @@
 
 namespace glim {
 
-// (kAlbedoSize + 1) * kAlbedoSize texels of four floats, by quadrature in double. Values are rounded to 2^-22, so that all machines make
-// the same table whatever their sine is.
+// Of the GGX lobe: (kAlbedoSize + 1) * kAlbedoSize texels.
 std::vector<uvec4> makeAlbedoTable();
 
-// That of the sheen lobe, kAlbedoSize^2 texels (fetchSheenAlbedo).
+// Of the sheen lobe: kAlbedoSize^2 texels (fetchSheenAlbedo).
 std::vector<uvec4> makeSheenTable();
+
+// Of the anisotropic GGX lobe: kAnisotropicAlbedos texels of albedos and kAnisotropicAverageRatios * kAnisotropicAverageAlphas of averages
+// (scene_types.h).
+std::vector<uvec4> makeAnisotropicAlbedoTable();
 
 }  // namespace glim

@@ -1,10 +1,10 @@
-#include "host/flatten/anisotropic_albedo.hpp"
+#include "host/flatten/albedo_table.hpp"
 
 #include "host/bvh/parallel_for.hpp"
-#include "host/flatten/gauss_rule.hpp"
+#include "host/flatten/albedo_parts.hpp"
+#include "shaders/shared/microfacets.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <thread>
@@ -17,12 +17,6 @@ constexpr std::size_t kCosines = kAnisotropicCosines, kRatios = kAnisotropicRati
 
 // In the place of 0 at the ends of the table's axes: what the functions tend to.
 constexpr double kLeastSeen = 1e-4, kLeastRatio = 1e-3, kLeastAlpha = 1e-3;
-
-double rounded(double value) { return std::ldexp(std::round(std::ldexp(value, 22)), -22); }
-
-double fifthPower(double x) { return x * x * x * x * x; }
-
-double stretchedLength(const glm::dvec3& w, const glm::dvec2& alpha) { return glm::length(glm::dvec3(alpha * glm::dvec2(w), w.z)); }
 
 // Half circles of azimuths, as cosine, sine and weight, with more nodes at their ends, and nodes in (0, 1) with more at 0.
 struct Nodes {
@@ -169,15 +163,6 @@ std::vector<glm::dvec2> makeAverages(const std::vector<glm::dvec2>& entries)
         averages[i] = averageOf(entries, cosines, azimuths, std::max(root * root, kLeastAlpha), ratio);
     });
     return averages;
-}
-
-void pushTexels(std::vector<uvec4>& table, const std::vector<glm::dvec2>& values)
-{
-    const auto bits = [](double value) { return std::bit_cast<std::uint32_t>(static_cast<float>(value)); };
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const glm::dvec2 &here = values[i], &next = values[std::min(i + 1, values.size() - 1)];
-        table.emplace_back(bits(here.x), bits(here.y), bits(next.x), bits(next.y));
-    }
 }
 
 }  // namespace

@@ -133,7 +133,7 @@ std::uint64_t imageBytes(const FlatScene& scene);
 
 // A fingerprint of all of the above except the tree.
 std::uint64_t fingerprint(const FlatScene& scene);
-// The fingerprint of a scene and a camera. Films with equal fingerprints show the same picture.
+// Of a scene and a camera.
 std::string fingerprint(std::uint64_t scene, const FlatCamera& camera);
 
 }  // namespace glim

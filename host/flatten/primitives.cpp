@@ -313,8 +313,7 @@ Same compareSurfaces(const Scene& before, const Primitives& primitives, const Sc
     const auto instances = [](const MeshInstance& a, const MeshInstance& b) { return a.mesh == b.mesh; };
     if (!before.meshes.isSameAs(scene.meshes) || before.origin != scene.origin || before.showsBackFaces != scene.showsBackFaces ||
         !std::ranges::equal(before.materials, scene.materials, haveSameSurfaces) ||
-        !std::ranges::equal(before.spheres, scene.spheres, spheres) ||
-        !std::ranges::equal(before.instances, scene.instances, instances)) {
+        !std::ranges::equal(before.spheres, scene.spheres, spheres) || !std::ranges::equal(before.instances, scene.instances, instances)) {
         return Same::Nothing;
     }
     std::vector<bool> isShared(scene.meshes.size(), false);

@@ -1,9 +1,9 @@
 #include "host/gpu/device.hpp"
 
 #include "host/memory.hpp"
+#include "host/text.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <iterator>
 #include <thread>
@@ -133,12 +133,6 @@ std::vector<Candidate> findCandidates(const VulkanInstance& instance)
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return rank(a.description) < rank(b.description); });
     return candidates;
-}
-
-std::string lowerCase(std::string text)
-{
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
 }
 
 std::string listOf(const std::vector<Candidate>& candidates)

@@ -1,4 +1,4 @@
-#include "host/image/hdr.hpp"
+#include "host/image/radiance_map.hpp"
 
 #include "host/error.hpp"
 

@@ -1,4 +1,4 @@
-#include "host/image/jpeg.hpp"
+#include "host/image/picture_file.hpp"
 
 #include "host/error.hpp"
 #include "host/image/atomic_file.hpp"

@@ -1,11 +1,9 @@
 #include "host/image/picture_file.hpp"
 
 #include "host/error.hpp"
-#include "host/image/jpeg.hpp"
-#include "host/image/webp.hpp"
+#include "host/text.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <string>
 
@@ -15,9 +13,7 @@ std::optional<PictureKind> pictureKindOf(const std::filesystem::path& path)
 {
     static const std::map<std::string, PictureKind> kKinds{
         {".png", PictureKind::Png}, {".jpg", PictureKind::Jpeg}, {".jpeg", PictureKind::Jpeg}, {".webp", PictureKind::Webp}};
-    std::string ending = path.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const auto found = kKinds.find(ending);
+    const auto found = kKinds.find(lowerCase(path.extension().string()));
     return found == kKinds.end() ? std::nullopt : std::optional(found->second);
 }
 

@@ -26,4 +26,10 @@ constexpr std::uint32_t longestSide(PictureKind kind)
 // Writes sRGB bytes to a file of the kind that its name says. Throws InputError if it cannot be, and then nothing is written.
 void writePicture(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, const std::vector<Rgb8>& pixels);
 
+// As writePng. Quality 95, colours in full resolution (4:4:4).
+void writeJpeg(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, const std::vector<Rgb8>& pixels);
+
+// As writePng, without loss.
+void writeWebp(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, const std::vector<Rgb8>& pixels);
+
 }  // namespace glim

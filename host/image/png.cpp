@@ -92,6 +92,12 @@ std::uint8_t srgbByte(double linear)
     return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
 }
 
+Rgb8 roundToBytes(const glm::dvec3& color)
+{
+    const auto round = [](double channel) { return static_cast<std::uint8_t>(std::lround(channel)); };
+    return {round(color.r), round(color.g), round(color.b)};
+}
+
 void writePng(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, const std::vector<Rgb8>& pixels)
 {
     AtomicFile file(path);

@@ -1,6 +1,8 @@
 // PNG files, for people to look at: 8 bits a channel, opaque.
 #pragma once
 
+#include <glm/glm.hpp>
+
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -12,6 +14,9 @@ namespace glim {
 std::uint8_t srgbByte(double linear);
 
 using Rgb8 = std::array<std::uint8_t, 3>;
+
+// Of channels from 0 to 255.
+Rgb8 roundToBytes(const glm::dvec3& color);
 
 // Writes sRGB bytes as they are. Row 0 is at the top, pixels go from left to right.
 void writePng(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, const std::vector<Rgb8>& pixels);

@@ -2,7 +2,6 @@
 
 #include "host/error.hpp"
 #include "host/image/exr_header.hpp"
-#include "host/image/hdr.hpp"
 #include "host/input_file.hpp"
 
 #include <OpenEXR/ImfArray.h>

@@ -21,4 +21,9 @@ struct RadianceMap {
 // Tells the kind by the content. Throws InputError, "<file>: <sentence>".
 RadianceMap readRadianceMap(const std::filesystem::path& file);
 
+// Radiance's .hdr files: red, green and blue with a common exponent. Ward, "Real Pixels" (Graphics Gems II, 1991). Throws InputError that
+// names the line or the row. Reads runs of the new and the old kind, plain pixels, all eight orders of the axes, and divides by the product
+// of the EXPOSURE and COLORCORR lines. Own code, since stb_image reads one order of the axes and drops the exposure.
+RadianceMap readHdr(const std::filesystem::path& file);
+
 }  // namespace glim

@@ -1,4 +1,4 @@
-#include "host/image/webp.hpp"
+#include "host/image/picture_file.hpp"
 
 #include "host/image/atomic_file.hpp"
 

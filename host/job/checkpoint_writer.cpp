@@ -23,11 +23,6 @@ constexpr double kDefaultInterval = 300.0;
 constexpr double kMostShare = 0.01;  // of the time, for writing
 constexpr std::chrono::seconds kPatience{2};
 
-double secondsSince(std::chrono::steady_clock::time_point start)
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 template <class Value>
 bool isUnderWay(const std::future<Value>& work)
 {

@@ -1,12 +1,12 @@
 // Writes a film while it is rendered, so that a later run can continue it.
 #pragma once
 
+#include "host/clock.hpp"
 #include "host/job/option_table.hpp"
 #include "host/job/progress.hpp"
 #include "host/render/renderer.hpp"
 
 #include <atomic>
-#include <chrono>
 #include <exception>
 #include <filesystem>
 #include <future>
@@ -54,8 +54,6 @@ public:
     std::optional<WrittenCheckpoint> lastWritten() const;
 
 private:
-    using Clock = std::chrono::steady_clock;
-
     void begin(const Renderer& renderer);
     std::optional<double> write(const Checkpoint& checkpoint) const;
     void fail(const std::exception& error);

@@ -1,9 +1,9 @@
 #include "host/job/denoising.hpp"
 
-#include "host/job/format.hpp"
+#include "host/clock.hpp"
 #include "host/measure/error_estimate.hpp"
+#include "host/text.hpp"
 
-#include <chrono>
 #include <cstdio>
 #include <limits>
 #include <utility>
@@ -24,7 +24,7 @@ std::optional<Denoising> FilmDenoiser::denoise(const RenderJob& options, Rendere
     if (halves == nullptr || !hasBothHalves(*halves) || !shouldContinue()) {
         return std::nullopt;
     }
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     open(options);
     if (!options.oidn && !nlMeans_) {
         nlMeans_.emplace(renderer.device());
@@ -35,7 +35,7 @@ std::optional<Denoising> FilmDenoiser::denoise(const RenderJob& options, Rendere
     if (!picture) {
         return std::nullopt;
     }
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = secondsSince(start);
     return Denoising{*std::move(picture), options.oidn ? oidn_->name() : "non-local means", seconds};
 }
 

@@ -1,6 +1,6 @@
 #include "host/job/exposure_advice.hpp"
 
-#include "host/render/luminance.hpp"
+#include "shaders/shared/luminance.h"
 #include "shaders/shared/tone_mapping.h"
 
 #include <glm/glm.hpp>

@@ -1,6 +1,6 @@
 #include "host/job/film_report.hpp"
 
-#include "host/job/format.hpp"
+#include "host/text.hpp"
 
 #include <algorithm>
 #include <cmath>

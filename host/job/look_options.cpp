@@ -8,15 +8,6 @@
 #include <cstdio>
 
 namespace glim {
-namespace {
-
-[[noreturn]] void refuse(const OptionTable& table, const std::string& option, const std::string& why)
-{
-    throw UsageError(option, "\"" + table.textOf(option) + "\": " + why);
-}
-
-}  // namespace
-
 void addLook(OptionTable& table, LookOptions& look, const std::string& picture, const std::string& tone)
 {
     table.add("--exposure", "EV", "Exposure of " + picture + " in stops, -100 to 100 or auto; not the EXR's [0]",
@@ -27,29 +18,28 @@ void addLook(OptionTable& table, LookOptions& look, const std::string& picture, 
 
 void addPictureFiles(OptionTable& table, PictureFiles& files)
 {
-    table.addPath("--png", "P.png", "Also write an sRGB picture", files.png);
-    table.addPath("--image", "P.jpg", "Also write it as .png, .jpg (or .jpeg, quality 95, 4:4:4) or .webp (lossless)", files.image);
+    table.addEach("--png,--image", "P.png", "Also write an sRGB picture: .png, .jpg (or .jpeg, quality 95, 4:4:4) or .webp (lossless)",
+                  [&files](const OptionValue& value) { files.emplace_back(value.text()); });
 }
 
 void resolvePictureFiles(const OptionTable& table, const PictureFiles& files)
 {
     for (const char* option : {"--exposure", "--tone"}) {
-        if (!files.areGiven() && table.isGiven(option)) {
-            refuse(table, option, "is of a picture; expected --png or --image with it");
+        if (files.empty() && table.isGiven(option)) {
+            throw UsageError(option, inQuotes(table.textOf(option)) + ": is of a picture; expected --image with it");
         }
     }
-    if (files.image && !pictureKindOf(*files.image)) {
-        refuse(table, "--image", std::string("expected a name that ends in ") + kPictureEndings);
+    for (const std::filesystem::path& file : files) {
+        if (!pictureKindOf(file)) {
+            throw UsageError("--image", inQuotes(file.string()) + ": expected a name that ends in " + kPictureEndings);
+        }
     }
 }
 
 void checkPictureTargets(const PictureFiles& files, const std::vector<std::filesystem::path>& inputs)
 {
-    if (files.png) {
-        checkTarget(*files.png, ".png", inputs);
-    }
-    if (files.image) {
-        checkTarget(*files.image, "", inputs);
+    for (const std::filesystem::path& file : files) {
+        checkTarget(file, "", inputs);
     }
 }
 
@@ -67,10 +57,8 @@ Look chooseLook(const LookOptions& options, const Film& film)
 
 void writePictures(const PictureFiles& files, const Film& film, const Look& look)
 {
-    for (const auto& file : {files.png, files.image}) {
-        if (file) {
-            writeFilmPicture(*file, film, aovOf(film), look);
-        }
+    for (const std::filesystem::path& file : files) {
+        writeFilmPicture(file, film, aovOf(film), look);
     }
 }
 

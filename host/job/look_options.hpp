@@ -7,21 +7,18 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace glim {
 
-struct PictureFiles {
-    std::optional<std::filesystem::path> png, image;
-
-    bool areGiven() const { return png || image; }
-};
+using PictureFiles = std::vector<std::filesystem::path>;
 
 // --exposure of `picture`, as in "the PNG", and --tone, with its default in the help.
 void addLook(OptionTable& table, LookOptions& look, const std::string& picture, const std::string& tone);
 
-// --png and --image.
+// --image; --png is its former name.
 void addPictureFiles(OptionTable& table, PictureFiles& files);
-// Refuses a look without a file, and an --image of an unknown kind.
+// Refuses a look without a file, and files of an unknown kind.
 void resolvePictureFiles(const OptionTable& table, const PictureFiles& files);
 // As checkTarget (output_file.hpp), of each file.
 void checkPictureTargets(const PictureFiles& files, const std::vector<std::filesystem::path>& inputs);

@@ -1,5 +1,5 @@
 // What can be asked of a job or of a command: names, help, where values go, and which options go together. A command line sets options by
-// text; programs set them by values.
+// text; programs set them by values. Own code, since CLI11 knows words alone; it reads those of the command line (host/cli/command.cpp).
 #pragma once
 
 #include "host/error.hpp"
@@ -67,7 +67,7 @@ private:
 class OptionTable {
 public:
     struct Entry {
-        std::vector<std::string> names;  // "-o", "--output"; without dashes: an argument
+        std::vector<std::string> names;  // "-o", "--output"; without dashes: an argument. The help has the last of several long ones
         std::string unit, help, group;   // `unit` as in "OUT.exr"; none: a flag
         std::function<void(const OptionValue&)> take;
         enum class Takes { One, Each, Several } takes = Takes::One;  // Each: one each time it is given; Several: all that follow
@@ -106,6 +106,8 @@ public:
     Option option(const std::string& name) { return {*this, indexOf(name)}; }
     bool isGiven(const std::string& name) const;  // false too if the table has no such option
     std::string textOf(const std::string& name) const { return entries_[indexOf(name)].given.front().text(); }  // if it is given
+
+    const std::vector<OptionValue>& valuesOf(const std::string& name) const { return entries_[indexOf(name)].given; }
 
     // The options that are given, as in "--size=8x8", without arguments and without those named in `except`.
     std::vector<std::string> wordsGiven(const std::vector<std::string>& except) const;

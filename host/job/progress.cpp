@@ -1,9 +1,9 @@
 #include "host/job/progress.hpp"
 
-#include "host/job/format.hpp"
 #include "host/job/parse.hpp"
 #include "host/json.hpp"
-#include "host/takes_more.hpp"
+#include "host/message.hpp"
+#include "host/text.hpp"
 
 #include <sys/ioctl.h>
 #include <unistd.h>

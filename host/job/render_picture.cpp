@@ -1,11 +1,10 @@
 #include "host/job/render_picture.hpp"
 
 #include "host/flatten/camera_options.hpp"
-#include "host/job/format.hpp"
 #include "host/job/outcome.hpp"
 #include "host/message.hpp"
 #include "host/render/check_memory.hpp"
-#include "host/render/film_origin.hpp"
+#include "host/render/film_identity.hpp"
 #include "host/render/merge_films.hpp"
 #include "host/text.hpp"
 #include "shaders/shared/limits.h"

@@ -2,11 +2,11 @@
 
 #include "host/job/exposure_advice.hpp"
 #include "host/job/film_report.hpp"
-#include "host/job/format.hpp"
 #include "host/job/output_file.hpp"
 #include "host/message.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/parameters.hpp"
+#include "host/text.hpp"
 
 #include <sys/resource.h>
 #include <algorithm>
@@ -209,7 +209,7 @@ void warnOfExposure(const RenderReport& report)
     const RenderJob& options = report.options;
     if (report.look && options.settings.aov == Aov::Radiance) {
         if (const auto advice = adviseExposure(report.film, *report.look)) {
-            warn((options.pictures.png ? *options.pictures.png : *options.pictures.image).string() + ' ' + *advice + '.');
+            warn(options.pictures.front().string() + ' ' + *advice + '.');
         }
     }
 }

@@ -1,5 +1,6 @@
 #include "host/job/render_sequence.hpp"
 
+#include "host/clock.hpp"
 #include "host/job/film_report.hpp"
 #include "host/job/interrupt.hpp"
 #include "host/job/outcome.hpp"
@@ -68,7 +69,7 @@ std::string stopReason(int signal, const RenderedFilm& rendered, const RenderSet
 std::optional<Look> drawFilm(const RenderJob& options, const Film& film)
 {
     std::optional<Look> look;
-    if (options.pictures.areGiven()) {
+    if (!options.pictures.empty()) {
         look = chooseLook(options.look, film);
         writePictures(options.pictures, film, *look);
     }
@@ -188,8 +189,10 @@ RenderJob SequenceRenderer::optionsOf(const Shot& shot) const
     RenderJob options = options_;
     if (isSequence_) {
         options.output = numberedPath(options.output, shot.number);
-        for (std::optional<std::filesystem::path>* file :
-             {&options.pictures.png, &options.pictures.image, &options.rates, &options.ids, &options.stats}) {
+        for (std::filesystem::path& file : options.pictures) {
+            file = numberedPath(file, shot.number);
+        }
+        for (std::optional<std::filesystem::path>* file : {&options.rates, &options.ids, &options.stats}) {
             *file = *file ? std::optional(numberedPath(**file, shot.number)) : std::nullopt;
         }
     }
@@ -214,7 +217,7 @@ ExitCode SequenceRenderer::renderAll(const RenderJob& options, const InterruptWa
         warnIfNoLights(session_.prepared());
     }
     sayIfCameraIsNumber(session_.prepared().scene, options_.camera);
-    if (options_.pictures.areGiven() && options_.settings.aov == Aov::Radiance && !options_.look.tone) {
+    if (!options_.pictures.empty() && options_.settings.aov == Aov::Radiance && !options_.look.tone) {
         options_.look.tone = chooseTone(session_.prepared().scene);
     }
     place_ = {};
@@ -236,7 +239,7 @@ ExitCode SequenceRenderer::renderAll(const RenderJob& options, const InterruptWa
 
 ExitCode SequenceRenderer::renderShot(const RenderJob& options)
 {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     const PictureFrame frame = framePicture(session_, options);
     if (watch_->signal() != 0) {
         return finish(watch_->signal(), place_.rendered == 0 ? "nothing was rendered or written"
@@ -273,7 +276,7 @@ ExitCode SequenceRenderer::renderShot(const RenderJob& options)
     writer.finish();
     const ExitCode code = writeShot(options, frame, std::move(rendered));
     ++place_.rendered;
-    place_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    place_.seconds += secondsSince(start);
     return code;
 }
 
@@ -322,11 +325,11 @@ std::optional<double> SequenceRenderer::writeIdentities(const RenderJob& options
     if (!options.ids) {
         return std::nullopt;
     }
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     Identifier identifier(session_.renderer(), session_.prepared(), camera, rayKernels_);
     writeIds(*options.ids, identifier, film);
     rayKernels_ = identifier.kernels();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return secondsSince(start);
 }
 
 ExitCode SequenceRenderer::writeShot(const RenderJob& options, const PictureFrame& frame, RenderedFilm rendered)
@@ -340,10 +343,10 @@ ExitCode SequenceRenderer::writeShot(const RenderJob& options, const PictureFram
     }
     labelFilm(film, options);
     const std::optional<Denoising>& denoising = rendered.denoising;
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     writeFilmOf(options, rendered, denoising);
     const std::optional<Look> look = drawFilm(options, denoising ? showDenoised(film, denoising->picture.radiance) : film);
-    const double writeSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double writeSeconds = secondsSince(start);
     warnIfUnknown(rendered);
     if (options.denoise && !denoising && !rendered.denoisingError) {
         say("the picture is not denoised: " +

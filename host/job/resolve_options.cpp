@@ -74,8 +74,8 @@ bool isByAllCameras(const RenderJob& job) { return job.camera == "all"; }
 bool isReplayOfSequence(const RenderJob& job) { return isReplay(job) && isSequence(job.sequence, job); }
 
 const Rule<RenderJob> kRenderRules[] = {
-    {{"--output", "--png", "--image", "--rates", "--ids", "--progress", "--time", "--suspects", "--target-rmse", "--target-relmse",
-      "--checkpoint", "--resume"},
+    {{"--output", "--image", "--rates", "--ids", "--progress", "--time", "--suspects", "--target-rmse", "--target-relmse", "--checkpoint",
+      "--resume"},
      isReplay,
      "has no effect with --replay, which makes no picture"},
     {{"--replay"}, isReplayOfSequence, "expected the options of one picture"},
@@ -254,7 +254,7 @@ bool mayBeSame(const std::filesystem::path& a, const std::filesystem::path& b)
 }
 
 // The options that name the files of a picture.
-constexpr const char* kOutputs[] = {"--output", "--png", "--image", "--rates", "--ids", "--stats"};
+constexpr const char* kOutputs[] = {"--output", "--image", "--rates", "--ids", "--stats"};
 
 void checkNames(const OptionTable& table, const RenderJob& job)
 {
@@ -262,13 +262,14 @@ void checkNames(const OptionTable& table, const RenderJob& job)
         return;
     }
     for (const char* output : kOutputs) {
-        if (!table.isGiven(output)) {
-            continue;
-        }
-        const std::string name = std::filesystem::path(table.textOf(output)).filename().string();
-        const std::size_t begin = name.find('#');
-        if (begin == std::string::npos || name.find('#', name.find_first_not_of('#', begin)) != std::string::npos) {
-            refuse(table, output, "names one file for several pictures; expected one run of # in its name, as in out.####.exr");
+        for (const OptionValue& value : table.valuesOf(output)) {
+            const std::string name = std::filesystem::path(value.text()).filename().string();
+            const std::size_t begin = name.find('#');
+            if (begin == std::string::npos || name.find('#', name.find_first_not_of('#', begin)) != std::string::npos) {
+                throw UsageError(output,
+                                 inQuotes(value.text()) +
+                                     ": names one file for several pictures; expected one run of # in its name, as in out.####.exr");
+            }
         }
     }
 }
@@ -276,17 +277,16 @@ void checkNames(const OptionTable& table, const RenderJob& job)
 void checkFiles(const OptionTable& table, const RenderJob& job)
 {
     resolvePictureFiles(table, job.pictures);
-    const auto &image = job.pictures.image, &png = job.pictures.png;
-    if (image && ((png && mayBeSame(*image, *png)) || (job.rates && mayBeSame(*image, *job.rates)))) {
-        refuse(table, "--image", "expected another file than those of --png and --rates");
-    }
-    const std::uint32_t longest = image ? longestSide(*pictureKindOf(*image)) : kMaxSide;
-    if (job.size && std::max(job.size->x, job.size->y) > longest) {
-        refuse(table, "--image",
-               "files of this kind hold at most " + std::to_string(longest) + " pixels a side; expected a smaller --size");
-    }
-    if (png && job.rates && mayBeSame(*png, *job.rates)) {
-        refuse(table, "--rates", "expected another file than that of --png");
+    for (auto file = job.pictures.begin(); file != job.pictures.end(); ++file) {
+        const auto isFile = [&file](const std::filesystem::path& other) { return mayBeSame(*file, other); };
+        const std::string name = inQuotes(file->string());
+        if (std::any_of(job.pictures.begin(), file, isFile) || (job.rates && isFile(*job.rates))) {
+            throw UsageError("--image", name + ": expected another file than those of --rates and of another --image");
+        }
+        if (const std::uint32_t longest = longestSide(*pictureKindOf(*file)); job.size && std::max(job.size->x, job.size->y) > longest) {
+            throw UsageError("--image", name + ": files of this kind hold at most " + std::to_string(longest) +
+                                            " pixels a side; expected a smaller --size");
+        }
     }
     if (job.ids && mayBeSame(*job.ids, job.output)) {
         refuse(table, "--ids", "expected another file than that of --output");

@@ -1,6 +1,6 @@
 #include "host/measure/error_picture.hpp"
 
-#include "host/image/heat_color.hpp"
+#include "shaders/shared/display_colors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,22 +10,13 @@ namespace {
 
 constexpr double kShareBelowScale = 0.95;
 
-double signedError(const glm::dvec3& x, const glm::dvec3& r, double relative, double epsilon)
-{
-    double sum = 0.0;
-    for (int c = 0; c < 3; ++c) {
-        sum += x[c] != r[c] ? (x[c] - r[c]) / std::sqrt(relative * r[c] * r[c] + epsilon) : 0.0;
-    }
-    return sum / 3.0;
-}
-
 }  // namespace
 
 double chooseErrorScale(const Picture& picture, const Picture& reference, double relative, double epsilon)
 {
     std::vector<double> sizes;
     for (std::size_t i = 0; i < picture.radiance.size(); ++i) {
-        const double error = signedError(picture.radiance[i], reference.radiance[i], relative, epsilon);
+        const double error = signedDifference(picture.radiance[i], reference.radiance[i], relative, epsilon);
         if (std::isfinite(error)) {
             sizes.push_back(std::abs(error));
         }
@@ -44,9 +35,9 @@ ErrorPicture drawErrors(const Picture& picture, const Picture& reference, double
     result.scale = chooseErrorScale(picture, reference, 1.0, epsilon);
     for (std::size_t i = 0; i < picture.radiance.size(); ++i) {
         const bool finite = isFinite(picture.radiance[i]) && isFinite(reference.radiance[i]);
-        const double error = signedError(picture.radiance[i], reference.radiance[i], 1.0, epsilon);
+        const double error = signedDifference(picture.radiance[i], reference.radiance[i], 1.0, epsilon);
         const double scaled = error == 0 ? 0.0 : error / result.scale;
-        result.pixels.push_back(finite ? differenceColor(scaled) : kMagenta);
+        result.pixels.push_back(finite ? roundToBytes(differenceColor(scaled)) : kMagenta);
     }
     return result;
 }

@@ -9,8 +9,6 @@ namespace {
 constexpr double kFrameSeconds = 1.0 / 30.0, kMovingFrameSeconds = 1.0 / 60.0;
 constexpr double kPresentShare = 0.1;  // the most of the time that presenting may take while nothing moves
 
-double secondsBetween(Pacer::Time begin, Pacer::Time end) { return std::chrono::duration<double>(end - begin).count(); }
-
 }  // namespace
 
 void Pacer::await(Time time)

@@ -1,16 +1,16 @@
 // When pictures are presented, and how long inputs wait for them.
 #pragma once
 
+#include "host/clock.hpp"
 #include "host/window/latency.hpp"
 
-#include <chrono>
 #include <vector>
 
 namespace glim {
 
 class Pacer {
 public:
-    using Time = std::chrono::steady_clock::time_point;
+    using Time = Clock::time_point;
 
     // An input came at `time`, which a picture is to answer.
     void await(Time time);

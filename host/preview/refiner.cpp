@@ -14,11 +14,6 @@ constexpr std::uint32_t kPortion = 2;
 constexpr double kMovingSeconds = 0.03;  // aim for a coarse picture: input, picture and presenting stay below 100 ms together
 constexpr double kStillSeconds = 0.15;   // time after the last move until the full size is started
 
-double secondsBetween(std::chrono::steady_clock::time_point begin, std::chrono::steady_clock::time_point end)
-{
-    return std::chrono::duration<double>(end - begin).count();
-}
-
 RenderSettings startingSettings(RenderSettings settings)
 {
     settings.width = settings.height = 1;

@@ -1,11 +1,11 @@
 // A picture that refines. While the camera moves it has few large pixels, so that it follows at once; then it gets all of them.
 #pragma once
 
+#include "host/clock.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/render/prepare_scene.hpp"
 #include "host/render/renderer.hpp"
 
-#include <chrono>
 #include <memory>
 
 namespace glim {
@@ -39,8 +39,6 @@ public:
 
 private:
     static constexpr std::uint32_t kCoarsest = 8;
-    using Clock = std::chrono::steady_clock;
-
     void chooseMovingScale(double seconds);
     void begin(std::uint32_t scale, bool fresh);
     void advance(const std::function<bool()>& shouldContinue);

@@ -1,6 +1,7 @@
 // The preview's rendering thread: hands the user's input to the parts that answer it, renders, and presents pictures.
 #pragma once
 
+#include "host/clock.hpp"
 #include "host/preview/film_meter.hpp"
 #include "host/preview/pacer.hpp"
 #include "host/preview/panels.hpp"
@@ -28,8 +29,6 @@ public:
     void printSummary() const;
 
 private:
-    using Clock = std::chrono::steady_clock;
-
     bool hasMoved() const { return viewpoint_ && viewpoint_->hasMoved(); }
     bool isWhole() const { return !hasMoved() && pictures_.shown().sampleCount() > 0; }
     bool isInputWaiting() const { return hasMoved() || !inbox_.empty() || !events_.isEmpty(); }

@@ -86,7 +86,7 @@ bool Viewpoint::press(char key, double aspectRatio)
 
 void Viewpoint::fly(Time now)
 {
-    const double seconds = std::min(0.1, std::chrono::duration<double>(now - std::exchange(flown_, now)).count());
+    const double seconds = std::min(0.1, secondsBetween(std::exchange(flown_, now), now));
     const auto axis = [this](char more, char less) { return (held_.contains(more) ? 1.0 : 0.0) - (held_.contains(less) ? 1.0 : 0.0); };
     const glm::dvec3 direction(axis('D', 'A'), axis('E', 'Q'), axis('W', 'S'));
     if (direction != glm::dvec3(0.0)) {

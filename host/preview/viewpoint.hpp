@@ -1,6 +1,7 @@
 // The camera that the user moves, by gestures of the mouse and by keys.
 #pragma once
 
+#include "host/clock.hpp"
 #include "host/preview/controls.hpp"
 #include "host/window/gestures.hpp"
 
@@ -12,7 +13,7 @@ namespace glim {
 
 class Viewpoint {
 public:
-    using Time = std::chrono::steady_clock::time_point;
+    using Time = Clock::time_point;
 
     // Starts with the file's camera `index`, or with the camera placed by `pose`.
     Viewpoint(std::size_t index, const std::optional<Pose>& pose)

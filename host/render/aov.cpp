@@ -1,6 +1,6 @@
 #include "host/render/aov.hpp"
 
-#include "host/image/heat_color.hpp"
+#include "shaders/shared/display_colors.h"
 #include "shaders/shared/display_types.h"
 #include "shaders/shared/tone_mapping.h"
 
@@ -19,8 +19,6 @@ static_assert(static_cast<std::uint32_t>(Tone::None) == kToneNone && static_cast
 
 bool isFinite(const glm::vec3& value) { return std::isfinite(value.x) && std::isfinite(value.y) && std::isfinite(value.z); }
 
-std::uint8_t plainByte(float value) { return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(value, 0.0F, 1.0F))); }
-
 Rgb8 srgb(const glm::vec3& linear, const Look& look)
 {
     const double scale = std::exp2(look.exposure);
@@ -28,29 +26,6 @@ Rgb8 srgb(const glm::vec3& linear, const Look& look)
                                  ? scale * glm::dvec3(linear)
                                  : glm::dvec3(mapTone(static_cast<float>(scale) * linear, static_cast<std::uint32_t>(look.tone)));
     return {srgbByte(shown.r), srgbByte(shown.g), srgbByte(shown.b)};
-}
-
-Rgb8 normalColor(const PixelMoments& pixel)
-{
-    const glm::vec3 color = 0.5F + 0.5F * pixel.normal / pixel.alpha;
-    return pixel.alpha > 0.0F ? Rgb8{plainByte(color.r), plainByte(color.g), plainByte(color.b)} : Rgb8{};
-}
-
-// A number's place on its scale.
-double place(float value, const DisplayRange& range, double atLeast)
-{
-    const double low = static_cast<double>(range.low);
-    return (static_cast<double>(value) - low) / std::max(atLeast, static_cast<double>(range.high) - low);
-}
-
-Rgb8 depthColor(const PixelMoments& pixel, const DisplayRange& range)
-{
-    if (!(pixel.alpha > 0.0F)) {
-        return {};
-    }
-    const double share = std::clamp(place(pixel.depth, range, 1e-30), 0.0, 1.0);
-    const std::uint8_t grey = plainByte(static_cast<float>(std::lerp(1.0, static_cast<double>(kFarthestGrey), share)));
-    return {grey, grey, grey};
 }
 
 // The value that `aov` shows of a pixel; nothing if it has none.
@@ -100,12 +75,13 @@ Rgb8 displayColor(const PixelMoments& pixel, Aov aov, const DisplayRange& range,
     if (!isFinite(pixel.mean)) {
         return kMagenta;
     }
+    const double low = static_cast<double>(range.low), high = static_cast<double>(range.high);
     switch (aov) {
-    case Aov::Normal: return normalColor(pixel);
-    case Aov::Depth: return depthColor(pixel, range);
+    case Aov::Normal: return pixel.alpha > 0.0F ? roundToBytes(vectorColor(pixel.normal / pixel.alpha)) : Rgb8{};
+    case Aov::Depth: return pixel.alpha > 0.0F ? roundToBytes(depthColor(pixel.depth, range.low, range.high)) : Rgb8{};
     case Aov::Albedo: return srgb(pixel.albedo, {look.exposure, Tone::None});
-    case Aov::SampleCount: return heatColor(place(static_cast<float>(pixel.count), range, 1.0));
-    case Aov::BvhSteps: return heatColor(place(pixel.mean.r, range, 1e-30));
+    case Aov::SampleCount: return roundToBytes(heatColor(placeOnScale(pixel.count, low, high, 1.0)));
+    case Aov::BvhSteps: return roundToBytes(heatColor(placeOnScale(static_cast<double>(pixel.mean.r), low, high, kSmallestScale)));
     case Aov::Radiance: break;
     }
     return srgb(pixel.mean, look);

@@ -49,44 +49,20 @@ std::string pixelsDigestOf(const Film& film)
     return digest.finish();
 }
 
-PixelMoments foldMoments(const PixelMoments& a, const PixelMoments& b)
+PixelMoments widened(const SplatMoments& splat)
 {
-    if (a.count == 0) {
-        return b;
-    }
-    if (b.count == 0) {
-        return a;
-    }
-    PixelMoments sum{};
-    sum.count = a.count + b.count;
-    sum.blocks = a.blocks + b.blocks;
-    const float share = static_cast<float>(b.count) / static_cast<float>(sum.count);
-    const glm::vec3 delta = b.mean - a.mean;
-    sum.mean = a.mean + delta * share;
-    sum.squares = (a.squares + b.squares) + (delta * delta) * (static_cast<float>(a.count) * share);
-    sum.alpha = a.alpha + (b.alpha - a.alpha) * share;
-    sum.albedo = a.albedo + (b.albedo - a.albedo) * share;
-    sum.normal = a.normal + (b.normal - a.normal) * share;
-    sum.depth = std::min(a.depth, b.depth);
-    sum.clamped = a.clamped + (b.clamped - a.clamped) * share;
-    return sum;
+    PixelMoments pixel{};
+    pixel.count = splat.count;
+    pixel.blocks = splat.blocks;
+    pixel.mean = splat.mean;
+    pixel.squares = splat.squares;
+    pixel.clamped = splat.clamped;
+    return pixel;
 }
 
-SplatMoments foldMoments(const SplatMoments& a, const SplatMoments& b)
-{
-    PixelMoments first{}, second{};
-    const auto copy = [](PixelMoments& to, const SplatMoments& from) {
-        to.count = from.count;
-        to.blocks = from.blocks;
-        to.mean = from.mean;
-        to.squares = from.squares;
-        to.clamped = from.clamped;
-    };
-    copy(first, a);
-    copy(second, b);
-    const PixelMoments sum = foldMoments(first, second);
-    return {sum.count, sum.blocks, sum.mean, sum.squares, sum.clamped};
-}
+SplatMoments narrowed(const PixelMoments& pixel) { return {pixel.count, pixel.blocks, pixel.mean, pixel.squares, pixel.clamped}; }
+
+SplatMoments foldMoments(const SplatMoments& a, const SplatMoments& b) { return narrowed(foldMoments(widened(a), widened(b))); }
 
 void foldSplats(std::vector<SplatMoments>& film, const std::vector<SplatMoments>& page)
 {
@@ -133,14 +109,13 @@ PixelMoments shownPixel(const Film& film, std::size_t i)
         return pixel;
     }
     const SplatMoments& splat = film.splats[i];
-    const PixelMoments light{splat.count, splat.blocks, splat.mean, splat.squares};
     pixel.mean += splat.mean;
     pixel.clamped += splat.clamped;
     if (pixel.blocks < 2 || splat.blocks < 2) {
         pixel.blocks = std::min(pixel.blocks, splat.blocks);
         return pixel;
     }
-    const glm::vec3 a = varianceOfMean(film.pixels[i]), b = varianceOfMean(light), sum = a + b;
+    const glm::vec3 a = varianceOfMean(film.pixels[i]), b = varianceOfMean(widened(splat)), sum = a + b;
     pixel.blocks = jointBlocks(static_cast<double>(a.r + a.g + a.b), pixel.blocks, static_cast<double>(b.r + b.g + b.b), splat.blocks);
     pixel.squares = sum * (static_cast<float>(pixel.blocks - 1) * static_cast<float>(pixel.count));
     return pixel;

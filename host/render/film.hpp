@@ -10,12 +10,17 @@
 
 namespace glim {
 
-// Two films may be merged exactly if all of this agrees (their sample ranges must be disjoint).
+// Four questions, by what the file of a film has (film_file.hpp):
+//   May two films be merged?                        glim:scene, glim:settings and glim:seed are equal, and no sample is in both
+//   Would a single run have the bits of the merged? glim:kernels and glim:arithmetic are equal as well
+//   Have two films the same pixels?                 glim:pixels is equal, whatever rendered them
+//   Is a film whole, or are two the same one?       glim:digest, of all of the above, and glim:headerDigest, of the file's header
+// Scene, kernels and arithmetic are fingerprints (host/fingerprint.hpp), the others SHA-256 (host/digest.hpp).
 struct FilmIdentity {
-    std::string scene;     // hash of what was rendered: geometry, materials, lights, camera
-    std::string settings;  // every option that changes a sample: "seed=1 sampler=sobol bounces=64 ..."
+    std::string scene;     // what was rendered: geometry, materials, lights, camera
+    std::string settings;  // every option that changes a sample: "sampler=sobol bounces=64 ..."
     std::uint32_t seed = 0;
-    std::string kernels;  // fingerprint (film_origin.hpp); films of others are not of the same bits, but may be merged
+    std::string kernels;
 };
 
 // What light paths have brought to a pixel: caustics, which camera paths leave out. Samples are those of the picture, the same for all
@@ -36,20 +41,19 @@ struct Film {
     FilmIdentity identity;
     double seconds = 0.0;    // spent sampling
     std::string device;      // names the device and driver
-    std::string arithmetic;  // fingerprints (film_origin.hpp) of all devices, with spaces between them
+    std::string arithmetic;  // fingerprints of how all devices round, with spaces between them
     std::string sceneFile;   // as given
 };
 
-// SHA-256 of what makes the film: its identity, sample ranges and moments, not when and where it was rendered.
+// Of what makes the film: its identity, sample ranges and moments, not when and where it was rendered.
 std::string digestOf(const Film& film);
 
-// SHA-256 of the moments alone: equal for films of the same bits, whatever kernels and devices they are of.
+// Of the moments alone.
 std::string pixelsDigestOf(const Film& film);
 
-// Chan, Golub, LeVeque 1983 for the mean and the sum of squares between blocks. Exactly this order of float32 operations makes a merged
-// film equal to the single run bit for bit.
-PixelMoments foldMoments(const PixelMoments& a, const PixelMoments& b);
-
+// Splats are moments without what only camera rays know.
+PixelMoments widened(const SplatMoments& splat);
+SplatMoments narrowed(const PixelMoments& pixel);
 SplatMoments foldMoments(const SplatMoments& a, const SplatMoments& b);
 
 // Folds `page` onto `film`. Either may be empty.

@@ -15,8 +15,7 @@
 //
 // denoised.RGB, denoisedError.RGB   a denoised picture and its estimated RMSE, for viewing: reading a film ignores them
 //
-// The attribute glim:digest is the film's SHA-256 (film.hpp), and glim:headerDigest that of the header, by which damage is noticed.
-// glim:pixels is the SHA-256 of the pixels and splats alone: it tells whether films of different kernels have the same bits.
+// By glim:digest, glim:headerDigest and glim:pixels damage is noticed and films are compared (film.hpp).
 //
 // Layers end in one letter, as Blender expects; the attributes are named glim:*.
 #pragma once

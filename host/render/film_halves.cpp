@@ -16,15 +16,7 @@ std::uint32_t ordinalOf(std::uint32_t sample)
 
 SplatMoments withoutMoments(const SplatMoments& all, const SplatMoments& part)
 {
-    const auto wide = [](const SplatMoments& splat) {
-        PixelMoments pixel{};
-        pixel.count = splat.count;
-        pixel.mean = splat.mean;
-        pixel.clamped = splat.clamped;
-        return pixel;
-    };
-    const PixelMoments rest = withoutMoments(wide(all), wide(part));
-    return {rest.count, rest.blocks, rest.mean, rest.squares, rest.clamped};
+    return narrowed(withoutMoments(widened(all), widened(part)));
 }
 
 template <class Moments>

@@ -1,8 +1,36 @@
 #include "host/render/film_identity.hpp"
 
-#include "host/render/film_origin.hpp"
+#include "host/fingerprint.hpp"
+#include "host/gpu/commands.hpp"
+#include "host/text.hpp"
+#include "kernels.hpp"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/limits.h"
+
+#include <mutex>
 
 namespace glim {
+namespace {
+
+// To be raised when the host changes bits that the scene's fingerprint does not know, as in the fold of pages or the light tree.
+constexpr std::uint64_t kHostVersion = 1;
+
+std::string probe(Device& device)
+{
+    const KernelLayout layout(device, {{kBindProbed, BufferKind::Readback}}, 0);
+    const Kernel kernel(layout, kernels::probe_arithmetic, {{kSpecWorkgroup, 64}});
+    constexpr std::size_t kCount = std::size_t{kProbedInputs} * kProbedOperations;
+    const Buffer results(device, "probed arithmetic", BufferKind::Readback, kCount * sizeof(float));
+    const Bindings bindings(layout, {{kBindProbed, &results}});
+    Commands commands(device);
+    commands.dispatch(kernel, bindings, {}, kProbedInputs / 64);
+    commands.submitAndWait();
+    Fingerprint print;
+    print.add(download<float>(results, kCount));
+    return hexadecimal(print.state());
+}
+
+}  // namespace
 
 SceneIdentity::SceneIdentity(const FlatScene& scene)
     : fingerprint(glim::fingerprint(scene)),
@@ -23,6 +51,36 @@ FilmIdentity identityOf(const SceneIdentity& scene, const FlatCamera& camera, co
 {
     return {fingerprint(scene.fingerprint, camera), describeSettings(settings) + (scene.sharesMeshes ? " meshes=shared" : ""),
             settings.seed, kernelsFingerprint()};
+}
+
+std::string kernelsFingerprint()
+{
+    static const std::string known = [] {
+        Fingerprint print;
+        print.add(std::vector<std::uint64_t>{kHostVersion});
+        for (const EmbeddedShader& shader :
+             {kernels::generate_rays, kernels::size_dispatch, kernels::accumulate, kernels::trace_paths, kernels::trace_closest,
+              kernels::sample_lights_and_bounce, kernels::trace_shadow, kernels::trace_light_paths, kernels::show_aov,
+              kernels::course_trace_closest, kernels::course_sample_lights, kernels::course_trace_shadow, kernels::course_bounce,
+              kernels::course_sample_hemisphere, kernels::course_trace_hemisphere, kernels::course_add_luminance,
+              kernels::course_choose_pixels}) {
+            print.addBytes(std::as_bytes(shader.words()));
+        }
+        return hexadecimal(print.state());
+    }();
+    return known;
+}
+
+std::string arithmeticFingerprint(Device& device)
+{
+    static std::mutex mutex;
+    static std::map<std::string, std::string> known;  // by device and driver
+    const std::lock_guard lock(mutex);
+    std::string& fingerprint = known[device.description().name + ", " + device.description().driver];
+    if (fingerprint.empty()) {
+        fingerprint = probe(device);
+    }
+    return fingerprint;
 }
 
 }  // namespace glim

@@ -1,12 +1,14 @@
-// What films are of: the identity that a render gives to its film.
+// The identity that a render gives to its film (film.hpp says what films are compared by).
 #pragma once
 
 #include "host/flatten/flat_scene.hpp"
+#include "host/gpu/device.hpp"
 #include "host/render/film.hpp"
 #include "host/render/settings.hpp"
 
 namespace glim {
 
+// The scene's part of it, which takes time and which another camera leaves as it is.
 struct SceneIdentity {
     explicit SceneIdentity(const FlatScene& scene);
 
@@ -18,5 +20,12 @@ struct SceneIdentity {
 Film emptyFilm(const RenderSettings& settings);
 
 FilmIdentity identityOf(const SceneIdentity& scene, const FlatCamera& camera, const RenderSettings& settings);
+
+// Of the kernels that films come from.
+std::string kernelsFingerprint();
+
+// Of what the device makes of probe_arithmetic. It is probed once per process and driver. Devices with equal fingerprints are taken to give
+// equal bits; Vulkan allows others to differ in most operations.
+std::string arithmeticFingerprint(Device& device);
 
 }  // namespace glim

@@ -2,8 +2,8 @@
 
 #include "host/image/picture_file.hpp"
 #include "host/message.hpp"
-#include "host/render/luminance.hpp"
 #include "host/render/settings.hpp"
+#include "shaders/shared/luminance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,8 @@
 #include "host/render/measure_schedules.hpp"
 
+#include "host/clock.hpp"
+
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace glim {
@@ -38,9 +39,9 @@ double samplesPerSecond(Renderer& renderer, const FlatCamera& camera)
 double timeRender(Renderer& renderer, const FlatCamera& camera)
 {
     renderer.restart(camera, renderer.settings().seed);
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     renderer.render([](const RenderProgress&) { return true; });
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return secondsSince(start);
 }
 
 bool canMeasureSchedules(const RenderSettings& settings)

@@ -1,5 +1,6 @@
 #include "host/render/prepare_scene.hpp"
 
+#include "host/clock.hpp"
 #include "host/error.hpp"
 #include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/start_media.hpp"
@@ -15,10 +16,6 @@
 
 namespace glim {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsBetween(Clock::time_point begin, Clock::time_point end) { return std::chrono::duration<double>(end - begin).count(); }
 
 void sayTextureMemory(const FlatScene& flat)
 {
@@ -77,10 +74,11 @@ PreparedScene prepare(Scene scene, SplitRule split, Clock::time_point start, Pre
     if (first) {
         stage("building the BVH of " + std::to_string(prepared.primitives.count()) + " primitives");
     }
-    prepared.bvh = first                            ? buildSceneBvh(prepared.primitives, split)
-                   : same == Same::Everything       ? std::move(previous.bvh)
-                   : same == Same::AllButPlacements ? moveInstances(std::move(previous.bvh), prepared.primitives, split)
-                                                    : updateSceneBvh(std::move(previous.bvh), previous.primitives, prepared.primitives, split);
+    prepared.bvh = first                      ? buildSceneBvh(prepared.primitives, split)
+                   : same == Same::Everything ? std::move(previous.bvh)
+                   : same == Same::AllButPlacements
+                       ? moveInstances(std::move(previous.bvh), prepared.primitives, split)
+                       : updateSceneBvh(std::move(previous.bvh), previous.primitives, prepared.primitives, split);
     prepared.split = split;
     prepared.flat = flattenScene(prepared.scene, prepared.primitives, prepared.bvh, previous.flat, same);
     if (first) {

@@ -6,7 +6,6 @@
 #include "host/render/renderer.hpp"
 
 #include "host/render/check_status.hpp"
-#include "host/render/film_origin.hpp"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/limits.h"
 
@@ -21,11 +20,6 @@
 
 namespace glim {
 namespace {
-
-double secondsSince(std::chrono::steady_clock::time_point start)
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 // Whether a uniform render with a target judges its error after the samples from `begin` to `end`: at ends of blocks, at least a tenth
 // apart. Judging more often would stop where the estimate happens to be low, and takes time.

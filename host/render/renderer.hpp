@@ -1,6 +1,7 @@
 // Renders: sweeps over the picture, pass after pass.
 #pragma once
 
+#include "host/clock.hpp"
 #include "host/render/block_queue.hpp"
 #include "host/render/checkpoint.hpp"
 #include "host/render/film_halves.hpp"
@@ -9,7 +10,6 @@
 #include "host/render/pass_size.hpp"
 #include "host/render/wavefront.hpp"
 
-#include <chrono>
 #include <functional>
 
 namespace glim {
@@ -111,12 +111,10 @@ public:
     void clearStatistics();
 
 private:
-    using Clock = std::chrono::steady_clock;
-
     void open(const FlatScene& scene, const FlatCamera& camera);
     void makeTiles();
     void begin(const FlatCamera& camera);
-    double secondsSinceStart() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+    double secondsSinceStart() const { return secondsSince(start_); }
     void describe(Film& film) const;
     bool runPass(const Pass& pass, const std::function<bool()>& shouldContinue);
     std::uint32_t lightEnd() const;

@@ -1,6 +1,6 @@
 #include "host/render/suspects.hpp"
 
-#include "host/render/luminance.hpp"
+#include "shaders/shared/luminance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -18,6 +18,7 @@
 // AOVs insert show_aov before accumulate. The course's estimators have bounces of their own (course.hpp).
 #include "host/render/wavefront.hpp"
 
+#include "host/clock.hpp"
 #include "host/error.hpp"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/limits.h"
@@ -125,7 +126,7 @@ std::unique_ptr<SplatBuffer> Wavefront::makeSplatBuffer(std::uint32_t count)
 // llvmpipe compiles a kernel at its first dispatch. This one has nothing to do, so that no timed dispatch pays for that.
 void Wavefront::compile()
 {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     const std::unique_ptr<Tile> tile = makeTile(0, 1);
     const std::unique_ptr<SplatBuffer> splats = makeSplatBuffer(1);
     CoursePass nothing{passOf(*tile), {}};
@@ -138,7 +139,7 @@ void Wavefront::compile()
                           std::as_bytes(std::span<const CoursePass, 1>(&nothing, 1)), 1);
     }
     commands.submitAndWait();
-    compileSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    compileSeconds_ = secondsSince(start);
 }
 
 Pass Wavefront::passOf(const Tile& tile) const

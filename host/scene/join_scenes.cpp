@@ -88,7 +88,8 @@ private:
     {
         const double scale = uniformScaleOf(glm::dmat3(added.worldFromScene));
         if (scale == 0.0) {
-            throw InputError(added.scene.file + " has spheres, and its matrix scales them unevenly or shears them; expected a uniform scale");
+            throw InputError(added.scene.file +
+                             " has spheres, and its matrix scales them unevenly or shears them; expected a uniform scale");
         }
         sphere.center = place(added, sphere.center);
         sphere.radius = static_cast<float>(scale * static_cast<double>(sphere.radius));

@@ -55,7 +55,7 @@ void ViewSession::run()
             handle(event);
             ++handledEvents_;
         }
-        if (std::chrono::duration<double>(Clock::now() - looked).count() >= kIdleSeconds) {
+        if (secondsSince(looked) >= kIdleSeconds) {
             readChangedFilms();
             looked = Clock::now();
         }
@@ -324,7 +324,7 @@ void ViewSession::present()
     changed_ = false;
     const Clock::time_point now = Clock::now();
     for (const Clock::time_point came : std::exchange(waiting_, {})) {
-        latency_.add(std::chrono::duration<double>(now - came).count());
+        latency_.add(secondsBetween(came, now));
     }
     window_.reportShown(0, true, handledEvents_);
 }

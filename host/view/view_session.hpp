@@ -1,6 +1,7 @@
 // The viewer's thread. It owns the device, handles the user's input and shows the films.
 #pragma once
 
+#include "host/clock.hpp"
 #include "host/view/painter.hpp"
 #include "host/view/placement.hpp"
 #include "host/view/view.hpp"
@@ -23,8 +24,6 @@ public:
     void printSummary() const;
 
 private:
-    using Clock = std::chrono::steady_clock;
-
     // What the window shows of the chosen layer.
     struct Shown {
         Layer layer;  // A's, or B's if only that has it

@@ -1,10 +1,10 @@
-// The tables of directional albedos (host/flatten/albedo_table.hpp and anisotropic_albedo.hpp make them).
+// The tables of directional albedos (host/flatten/albedo_table.hpp makes them).
 #ifndef GLIM_ACCESS_ALBEDO_TABLE
 #define GLIM_ACCESS_ALBEDO_TABLE
 
 #include "features.glsl"
 #include "lib/bsdf/ggx.glsl"
-#include "lib/thin_film.glsl"
+#include "lib/fresnel.glsl"
 #include "shared/scene_types.h"
 
 layout(set = 0, binding = kBindAlbedos) uniform usamplerBuffer sceneAlbedos;

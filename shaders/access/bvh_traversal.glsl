@@ -2,7 +2,7 @@
 #ifndef GLIM_ACCESS_BVH_TRAVERSAL
 #define GLIM_ACCESS_BVH_TRAVERSAL
 
-#include "lib/infinity.glsl"
+#include "lib/finite.glsl"
 #include "lib/intersect_node.glsl"
 #include "lib/intersect_sphere.glsl"
 #include "lib/intersect_triangle.glsl"
@@ -199,7 +199,7 @@ struct Steps {
 
 // Loops test their condition at the end. If they test it at the beginning, llvmpipe runs the body once more with no lane active. But the
 // code after such a loop may use only variables that the loop carries from iteration to iteration: on Mesa 22.3.6 anything else is
-// recomputed for a lane that has left, as long as other lanes stay, from variables that have changed since.
+// recomputed for a lane that has left, as long as other lanes stay, from variables that may have changed since (KernelRulesTest).
 PathHit traceClosest(PathRay ray, Query query, inout Steps steps)
 {
     TraversalRay traversal = makeTraversalRay(ray.origin, ray.direction);

@@ -64,15 +64,12 @@ uint findEntry(uint first, uint count, uint word, uint stride, out uvec4 entry)
 {
     uint range = texelFetch(sceneEnvironmentCells, int(first + stride * chooseBin(word, count))).w;
     uint low = range & 0xffffu, high = range >> 16u, middle;
-    bool found;
+    bool going;
     do {
         middle = (low + high) >> 1u;
         entry = texelFetch(sceneEnvironmentCells, int(first + stride * middle));
-        bool below = word < entry.x, above = word > entry.y;
-        high = below ? middle - 1u : high;
-        low = above ? middle + 1u : low;
-        found = !below && !above;
-    } while (!found && low <= high);
+        going = searchesOn(entry, word, middle, low, high);
+    } while (going);
     return middle;
 }
 

@@ -2,7 +2,7 @@
 #ifndef GLIM_ACCESS_FIRST_HIT
 #define GLIM_ACCESS_FIRST_HIT
 
-#include "lib/infinity.glsl"
+#include "lib/finite.glsl"
 #include "interaction.glsl"
 #include "parameters.glsl"
 

@@ -3,6 +3,7 @@
 #define GLIM_ACCESS_INTERACTION
 
 #include "lib/frame.glsl"
+#include "lib/fresnel.glsl"
 #include "lib/offset_point.glsl"
 #include "placed_record.glsl"
 #include "shared/path_types.h"
@@ -150,7 +151,7 @@ vec3 visibleNormal(SurfaceInteraction si, vec3 wo)
 // least; otherwise normal maps and coarse smooth meshes have black rims. As Cycles does; the threshold is its own. Needs dot(ns, wo) > 0.
 vec3 reflectingNormal(vec3 ns, vec3 ng, vec3 wo)
 {
-    vec3 mirrored = 2.0 * dot(ns, wo) * ns - wo;
+    vec3 mirrored = reflectAbout(wo, ns);
     float least = min(0.9 * dot(ng, wo), 0.01);
     float outwards = dot(mirrored, ng);
     if (outwards >= least) {

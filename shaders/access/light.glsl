@@ -4,7 +4,7 @@
 
 #include "lib/cone.glsl"
 #include "lib/frame.glsl"
-#include "lib/infinity.glsl"
+#include "lib/finite.glsl"
 #include "lib/punctual.glsl"
 #include "lib/spherical_rectangle.glsl"
 #include "lib/spherical_triangle.glsl"

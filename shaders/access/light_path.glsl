@@ -26,15 +26,12 @@ LightChoice chooseCausticLight(uint word)
 {
     uvec4 entry = texelFetch(sceneCaustics, int(kFirstCausticLight + chooseBin(word, render.causticLights)));
     uint low = entry.z, high = entry.w, middle;
-    bool found;
+    bool going;
     do {
         middle = low + ((high - low) >> 1u);
         entry = texelFetch(sceneCaustics, int(kFirstCausticLight + middle));
-        bool below = word < entry.x, above = word > entry.y;
-        high = below ? middle - 1u : high;
-        low = above ? middle + 1u : low;
-        found = !below && !above;
-    } while (!found && low <= high);
+        going = searchesOn(entry, word, middle, low, high);
+    } while (going);
     return LightChoice(middle, (float(entry.y - entry.x) + 1.0) * (1.0 / 4294967296.0));
 }
 

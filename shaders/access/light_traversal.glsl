@@ -5,13 +5,6 @@
 
 #include "transparency.glsl"
 
-Passage lightPassageOf(PathRay ray)
-{
-    Passage passage = passageOf(ray);
-    passage.query.sides = kFronts | kBacks;
-    return passage;
-}
-
 // The last of so many candidates replaces those before it: each is chosen as often as the others.
 bool isChosen(SampleId id, uint bounce, uint primitive, uint candidates)
 {

@@ -4,7 +4,7 @@
 
 #include "lib/dispersion.glsl"
 #include "lib/hash.glsl"
-#include "lib/infinity.glsl"
+#include "lib/finite.glsl"
 #include "lib/media.glsl"
 #include "lib/portable.glsl"
 #include "material.glsl"

@@ -5,7 +5,7 @@
 #define GLIM_ACCESS_TRANSPARENCY
 
 #include "bvh_traversal.glsl"
-#include "lib/luminance.glsl"
+#include "shared/luminance.h"
 #include "material.glsl"
 #include "pass.glsl"
 #include "status.glsl"

@@ -10,7 +10,7 @@
 #include "access/paths.glsl"
 #include "access/status.glsl"
 #include "lib/finite.glsl"
-#include "lib/luminance.glsl"
+#include "shared/luminance.h"
 #include "lib/moments.glsl"
 #include "lib/sampler.glsl"
 

@@ -14,11 +14,7 @@
 #define UPDATES_RAY_COUNTS
 #include "access/path_vertex.glsl"
 #include "access/radiance.glsl"
-#include "access/status.glsl"
 #include "access/traverse.glsl"
-
-// Neighbouring threads that share a run of the queue, so that they stay in one place of the picture.
-const uint kNeighbours = 8u;
 
 struct Path {
     uint slot;
@@ -28,17 +24,29 @@ struct Path {
     PathRadiance light;
 };
 
-struct Work {
-    uint closest, shadow;  // rays
-    uint steps;
-};
+const uint kPathSides = kFronts, kConnectionSides = kFronts;
+const bool kSeenByCamera = false;
+const FeatureMask kDimmingFeatures = kFeatureThinWalls;
 
-Path takePath(uint slot)
+#include "access/path_loop.glsl"
+
+uint fetchEntry(uint entry)
 {
-    return Path(slot, sampleOfSlot(slot), fetchRay(slot), fetchState(slot), fetchRadiance(slot));
+    return activeQueue[entry];
 }
 
-void addLight(inout Path path, vec3 contribution, uint pathLength)
+bool takePath(uint slot, out Path path, inout Work work)
+{
+    path = Path(slot, sampleOfSlot(slot), fetchRay(slot), fetchState(slot), fetchRadiance(slot));
+    return true;
+}
+
+VisibleHit followPath(Path path, Passage passage, inout Steps steps)
+{
+    return follow(path.id, path.state.bounce, passage, steps);
+}
+
+void addLight(inout Path path, uint pixel, vec3 contribution, uint pathLength)
 {
     if (isLengthInRange(pathLength)) {
         path.light = addLight(path.light, contribution, pathLength, render.clampIndirect);
@@ -51,31 +59,11 @@ void visitMiss(inout Path path)
         pathFirstHits[path.slot] = makeNoFirstHit();
     }
     if (hasEnvironment()) {
-        addLight(path, shadeMiss(path.ray, path.state), path.state.bounce);
+        addLight(path, 0u, shadeMiss(path.ray, path.state), path.state.bounce);
     }
 }
 
-// What advance() follows: the path's ray, then a shadow ray that meets alpha and the light that it carries.
-struct Followed {
-    Passage passage;
-    vec3 contribution;
-    uint pathLength;
-};
-
-// Adds the light, unless surfaces with alpha dim it first: then the ray is `followed` next.
-void traceShadowRay(inout Path path, ShadowRay ray, inout Work work, inout Steps steps, inout Followed followed)
-{
-    bool metAlpha;
-    bool clear = isUnoccluded(ray, kFronts, steps, metAlpha);
-    ++work.shadow;
-    if (hasFeature(kFeatureAlpha) && clear && metAlpha) {
-        followed = Followed(passageOf(ray, kFronts), ray.contribution, path.state.bounce + 1u);
-    } else if (clear) {
-        addLight(path, ray.contribution, path.state.bounce + 1u);
-    }
-}
-
-// Adds light in the order in which the wavefront does. False if the path ends.
+// Adds light in the order in which the wavefront does.
 bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps steps, inout Followed followed)
 {
     VertexResult vertex = shadeSurface(path.id, path.ray, hit, path.state);
@@ -83,80 +71,22 @@ bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps ste
         pathFirstHits[path.slot] = vertex.firstHit;
     }
     if (hasEmissiveSurfaces()) {
-        addLight(path, vertex.emitted, path.state.bounce);
+        addLight(path, 0u, vertex.emitted, path.state.bounce);
     }
     if (vertex.hasShadowRay) {
-        traceShadowRay(path, vertex.shadowRay, work, steps, followed);
+        traceConnection(path, vertex.shadowRay, vertex.shadowRay.contribution, 0u, work, steps, followed);
     }
     path.ray = vertex.ray;
     path.state = vertex.state;
     return vertex.hasNextRay;
 }
 
-// Traces the path to its next surface. False if the path ends. The loop goes on for a shadow ray that meets alpha.
-bool advance(inout Path path, inout Work work)
+void endPath(Path path)
 {
-    Steps steps = Steps(0u, 0u);
-    Followed followed = Followed(passageOf(path.ray), vec3(0.0), 0u);
-    bool alive = false;
-    bool again = false;
-    do {
-        VisibleHit met = follow(path.id, path.state.bounce, followed.passage, steps);
-        again = false;
-        if (hasFeature(kFeatureAlpha) && followed.passage.isShadow) {
-            if (isClear(met.weight)) {
-                addLight(path, followed.contribution * met.weight, followed.pathLength);
-            }
-        } else {
-            ++work.closest;
-            if (hasFeature(kFeatureThinWalls)) {
-                path.state.throughput *= met.weight;
-            }
-            if (met.hit.record == kNoRecord) {
-                visitMiss(path);
-            } else {
-                alive = visitSurface(path, met.hit, work, steps, followed);
-                again = followed.passage.isShadow;
-            }
-        }
-    } while (hasFeature(kFeatureAlpha) && again);
-    work.steps += steps.nodes + steps.primitives;
-    return alive;
-}
-
-void traceShare(uint entry, uint end, inout Work work)
-{
-    Path path;
-    bool alive = false;
-    if (entry < end) {
-        do {
-            if (!alive) {
-                path = takePath(activeQueue[entry]);
-            }
-            alive = advance(path, work);
-            if (!alive) {
-                pathRadiance[path.slot] = path.light;
-                entry += kNeighbours;
-            }
-        } while (entry < end && work.steps < kStepsPerThread);
-    }
-    if (alive) {
-        pathRays[path.slot] = path.ray;
-        pathStates[path.slot] = path.state;
-        pathRadiance[path.slot] = path.light;
-    }
-    for (; entry < end; entry += kNeighbours) {
-        nextQueue[atomicAdd(queueTails.next, 1u)] = activeQueue[entry];
-    }
+    pathRadiance[path.slot] = path.light;
 }
 
 void main()
 {
-    uint thread = interleavedInvocation();
-    uint lane = thread % kNeighbours;
-    uint begin = (thread - lane) * kPathsPerThread;
-    Work work = Work(0u, 0u, 0u);
-    traceShare(begin + lane, min(queueSizes.closest, begin + kNeighbours * kPathsPerThread), work);
-    countRays(work.closest, work.shadow);
-    checkLoopBudget(render.canarySteps);
+    traceQueue(queueSizes.closest);
 }

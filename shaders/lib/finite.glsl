@@ -1,6 +1,9 @@
 #ifndef GLIM_LIB_FINITE
 #define GLIM_LIB_FINITE
 
+// GLSL has no literal for it, and uintBitsToFloat is not a constant expression.
+#define kInfinity uintBitsToFloat(0x7f800000u)
+
 // Tests the bits, because a driver may assume that no float is NaN or infinite.
 bool isFinite(float x)
 {

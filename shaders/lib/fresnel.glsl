@@ -27,12 +27,16 @@ float fresnelDielectric(float cosine, float eta)
     return min(1.0, 0.5 * (parallel * parallel + perpendicular * perpendicular));
 }
 
-// Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994.
+// The weight of F90 against F0. Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994.
+float schlickWeight(float cosine)
+{
+    float m = clamp(1.0 - cosine, 0.0, 1.0), m2 = m * m;
+    return m2 * m2 * m;
+}
+
 vec3 fresnelSchlick(vec3 normalReflectance, float cosine)
 {
-    float m = clamp(1.0 - cosine, 0.0, 1.0);
-    float m2 = m * m;
-    return normalReflectance + (1.0 - normalReflectance) * (m2 * m2 * m);
+    return normalReflectance + (1.0 - normalReflectance) * schlickWeight(cosine);
 }
 
 // The mirror direction of wo; both point away from the surface. n: unit.

@@ -1,4 +1,4 @@
-// Counter-based random numbers.
+// Counter-based random numbers, and the search that they do in tables.
 #ifndef GLIM_LIB_HASH
 #define GLIM_LIB_HASH
 
@@ -36,6 +36,16 @@ uint chooseBin(uint bits, uint count)
     uint high, low;
     umulExtended(bits, count, high, low);
     return high;
+}
+
+// A step of the binary search for the entry of a table (host/flatten/piecewise_constant.hpp) that a random word falls to: whether it is
+// another one than `middle`. low and high stay once it is found.
+bool searchesOn(uvec4 entry, uint word, uint middle, inout uint low, inout uint high)
+{
+    bool below = word < entry.x, above = word > entry.y;
+    high = below ? middle - 1u : high;
+    low = above ? middle + 1u : low;
+    return (below || above) && low <= high;
 }
 
 #endif

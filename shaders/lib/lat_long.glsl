@@ -4,7 +4,8 @@
 
 #include "warp.glsl"
 
-// In [0, pi / 4] for t in [0, 1], off by 1.1e-7 at most; a polynomial in t^2, fitted here, so that all drivers give the same bits.
+// In [0, pi / 4] for t in [0, 1], off by 1.1e-7 at most; a polynomial in t^2, fitted here, so that all drivers give the same bits. It looks
+// directions up in maps, and the one of portableAtan2 measures solid angles: pictures rest on the bits of each, so both stay.
 float arcTangent(float t)
 {
     float s = t * t;
@@ -24,10 +25,7 @@ float arcTangent(float t)
 float angleOf(float y, float x)
 {
     float ax = abs(x), ay = abs(y), most = max(ax, ay);
-    float a = most > 0.0 ? arcTangent(min(ax, ay) / most) : 0.0;
-    a = ay > ax ? 0.5 * kPi - a : a;
-    a = x < 0.0 ? kPi - a : a;
-    return y < 0.0 ? -a : a;
+    return unfoldAngle(most > 0.0 ? arcTangent(min(ax, ay) / most) : 0.0, y, x);
 }
 
 // In [0, 1]. Accurate at the poles too, where an arc cosine is not.

@@ -47,8 +47,15 @@ float portablePow(float x, float y)
     return x > 1e-37 ? portableExp2(y * portableLog2(x)) : 0.0;
 }
 
-// The angle of the point (x, y) from the x axis, in [-pi, pi], off by 2.2e-7 of its size; 0 at (0, 0). The polynomial is a minimax fit for
-// slopes up to tan(pi/8).
+// `angle` of the point (|x|, |y|) from the nearer axis, as the angle of (x, y) from the x axis, in [-pi, pi].
+float unfoldAngle(float angle, float y, float x)
+{
+    angle = abs(y) > abs(x) ? 1.57079633 - angle : angle;
+    angle = x < 0.0 ? 3.14159265 - angle : angle;
+    return y < 0.0 ? -angle : angle;
+}
+
+// The angle of the point (x, y), off by 2.2e-7 of its size; 0 at (0, 0). The polynomial is a minimax fit for slopes up to tan(pi/8).
 float portableAtan2(float y, float x)
 {
     float high = max(abs(x), abs(y));
@@ -63,10 +70,7 @@ float portableAtan2(float y, float x)
     p = p * s2 + 0.19977926;
     p = p * s2 - 0.33332955;
     float angle = slope + slope * (s2 * p);
-    angle = steep ? 0.785398163 + angle : angle;
-    angle = abs(y) > abs(x) ? 1.57079633 - angle : angle;
-    angle = x < 0.0 ? 3.14159265 - angle : angle;
-    return y < 0.0 ? -angle : angle;
+    return unfoldAngle(steep ? 0.785398163 + angle : angle, y, x);
 }
 
 // (cos x, sin x) for |x| <= pi/2; the cosine is off by 1.3e-7, the sine by 1.3e-7 of its size. Minimax fits.

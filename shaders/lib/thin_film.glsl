@@ -4,6 +4,7 @@
 #ifndef GLIM_LIB_THIN_FILM
 #define GLIM_LIB_THIN_FILM
 
+#include "fresnel.glsl"
 #include "portable.glsl"
 #include "warp.glsl"
 
@@ -12,12 +13,6 @@ vec3 normalReflectance(vec3 to, float from)
 {
     vec3 r = (to - from) / (to + from);
     return r * r;
-}
-
-float schlickWeight(float cosine)
-{
-    float m = clamp(1.0 - cosine, 0.0, 1.0), m2 = m * m;
-    return m2 * m2 * m;
 }
 
 // One Gaussian of the fits: its response to a path difference, phase in radians per wave number.

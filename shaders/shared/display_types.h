@@ -6,9 +6,6 @@
 
 GLIM_SHARED_BEGIN
 
-// The grey of the farthest depth: brighter than the black where no surface is.
-GLIM_CONST float kFarthestGrey = 0.125;
-
 // Push constants: a tile of the film, stretched over the window's picture.
 struct DisplayPass {
     uint width, height;  // of the picture

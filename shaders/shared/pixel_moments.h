@@ -17,6 +17,31 @@ struct PixelMoments {
     float clamped;  // radiance taken away by --clamp-indirect, mean of the three channels
 };
 
+// Chan, Golub, LeVeque, "Algorithms for Computing the Sample Variance", 1983. The device folds blocks into pages, the
+// host pages into films. Exactly this order of float32 operations makes a merged film equal to the single run bit for bit.
+GLIM_FUNCTION PixelMoments foldMoments(PixelMoments a, PixelMoments b)
+{
+    if (a.count == 0u) {
+        return b;
+    }
+    if (b.count == 0u) {
+        return a;
+    }
+    PixelMoments sum = a;
+    sum.count = a.count + b.count;
+    sum.blocks = a.blocks + b.blocks;
+    float share = float(b.count) / float(sum.count);
+    vec3 delta = b.mean - a.mean;
+    sum.mean = a.mean + delta * share;
+    sum.squares = (a.squares + b.squares) + (delta * delta) * (float(a.count) * share);
+    sum.alpha = a.alpha + (b.alpha - a.alpha) * share;
+    sum.albedo = a.albedo + (b.albedo - a.albedo) * share;
+    sum.normal = a.normal + (b.normal - a.normal) * share;
+    sum.depth = min(a.depth, b.depth);
+    sum.clamped = a.clamped + (b.clamped - a.clamped) * share;
+    return sum;
+}
+
 // Luminance (Rec.709) of a pixel's samples, for adaptive sampling.
 struct LuminanceMoments {
     uint count;

@@ -5,11 +5,6 @@
 
 GLIM_SHARED_BEGIN
 
-#ifdef __cplusplus
-using glm::max;  // of numbers; C++ finds those of vectors by their arguments
-using glm::min;
-#endif
-
 GLIM_CONST uint kToneNone = 0u;
 GLIM_CONST uint kToneNeutral = 1u;
 GLIM_CONST uint kToneAgx = 2u;

@@ -18,6 +18,15 @@ using vec3 = glm::vec3;
 using uvec2 = glm::uvec2;
 using uvec3 = glm::uvec3;
 using uvec4 = glm::uvec4;
+using Real = double;  // the host shows pictures in double precision, kernels in single
+using RealVec2 = glm::dvec2;
+using RealVec3 = glm::dvec3;
+using glm::abs;  // of numbers; C++ finds those of vectors by their arguments
+using glm::clamp;
+using glm::max;
+using glm::min;
+using glm::mix;
+using glm::sqrt;
 }  // namespace glim
 #else
 #extension GL_EXT_scalar_block_layout : require
@@ -25,6 +34,9 @@ using uvec4 = glm::uvec4;
 #define GLIM_SHARED_END
 #define GLIM_CONST const
 #define GLIM_FUNCTION
+#define Real float
+#define RealVec2 vec2
+#define RealVec3 vec3
 #endif
 
 #endif

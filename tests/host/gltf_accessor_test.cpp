@@ -19,17 +19,6 @@ Scene loadPositions(GltfBuilder& builder, std::size_t accessor)
     return load(builder);
 }
 
-glm::vec3 vertex(const Scene& scene, std::size_t triangle, int corner)
-{
-    return makePrimitives(scene).triangles.at(triangle).vertices[corner] + glm::vec3(scene.origin);
-}
-
-glm::vec3 normal(const Scene& scene, std::size_t triangle, int corner)
-{
-    const Primitives primitives = makePrimitives(scene);
-    return primitives.vertexNormals.at(primitives.vertexIndices.at(triangle)[corner]);
-}
-
 template <typename Component>
 void expectIntegers(int componentType, bool normalized, double one)
 {

@@ -19,16 +19,9 @@ using nlohmann::json;
 
 constexpr const char* kClamped = "numbers that rounding has put out of their range are clamped: ";
 
-GltfBuilder withTriangle()
-{
-    GltfBuilder builder;
-    builder.addNode({{"mesh", builder.addTriangleMesh()}});
-    return builder;
-}
-
 GltfBuilder withMaterial(const json& material)
 {
-    GltfBuilder builder = withTriangle();
+    GltfBuilder builder = oneTriangle();
     builder.append("materials", material);
     builder.document["meshes"][0]["primitives"][0]["material"] = 0;
     return builder;
@@ -36,7 +29,7 @@ GltfBuilder withMaterial(const json& material)
 
 GltfBuilder withLight(const json& light)
 {
-    GltfBuilder builder = withTriangle();
+    GltfBuilder builder = oneTriangle();
     builder.document["extensions"]["KHR_lights_punctual"]["lights"] = json::array({light});
     builder.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
     return builder;
@@ -49,7 +42,7 @@ GltfBuilder withSpot(double inner, double outer)
 
 GltfBuilder withCamera(const json& camera)
 {
-    GltfBuilder builder = withTriangle();
+    GltfBuilder builder = oneTriangle();
     builder.append("cameras", camera);
     builder.addNode({{"camera", 0}});
     return builder;
@@ -97,7 +90,7 @@ void expectRefusal(const GltfBuilder& builder, const std::string& sentence)
 TEST(GltfExporters, MissingColoursAreBlackAndOpaque)
 {
     for (const char* type : {"VEC3", "VEC4"}) {
-        GltfBuilder builder = withTriangle();
+        GltfBuilder builder = oneTriangle();
         const bool opaque = std::string(type) == "VEC3";
         const std::vector<float> value(opaque ? 3 : 4, 0.5F);
         const json sparse = {{"count", 1},
@@ -155,14 +148,14 @@ TEST(GltfExporters, ZerosThatStandForNoValue)
           {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
            {"KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationDistance", 0}, {"attenuationColor", {0.5, 0.5, 0.5}}}}}}}));
     EXPECT_EQ(glass.materials.at(0).absorption, glm::vec3(0.0F));
-    GltfBuilder strided = withTriangle();
+    GltfBuilder strided = oneTriangle();
     strided.document["bufferViews"][0]["byteStride"] = 0;
     EXPECT_EQ(warning(loadDark(strided), kZeros), std::string(kZeros) + "bufferViews[0].byteStride");
 }
 
 TEST(GltfExporters, IndicesMayHaveAStride)
 {
-    GltfBuilder builder = withTriangle();
+    GltfBuilder builder = oneTriangle();
     const std::size_t indices = builder.addAccessor(toBytes<std::uint16_t>({2, 0, 1}), kUnsignedShort, "SCALAR", 3);
     builder.document["bufferViews"].back()["byteStride"] = 2;
     builder.document["meshes"][0]["primitives"][0]["indices"] = indices;
@@ -210,7 +203,7 @@ TEST(GltfExporters, LastRowsOfMatricesAreRounded)
 {
     const char* kRounded = "last rows of matrices are rounded to 0 0 0 1: ";
     for (const auto& [at, value] : {std::pair(15, 0.9999999), {15, 1.00005}, {3, 1e-17}, {11, -1e-6}}) {
-        GltfBuilder builder = withTriangle();
+        GltfBuilder builder = oneTriangle();
         json& matrix = builder.document["nodes"][0]["matrix"];
         matrix = {1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1};
         matrix[static_cast<std::size_t>(at)] = value;
@@ -268,12 +261,12 @@ TEST(GltfExporters, WholeNumbersMayBeWrittenWithAPoint)
 
 TEST(GltfExporters, NothingMayBeEmptyThatIsRead)
 {
-    GltfBuilder builder = withTriangle();
+    GltfBuilder builder = oneTriangle();
     const std::size_t view = builder.append("bufferViews", {{"buffer", 0}, {"byteLength", 0}});
     const std::size_t empty =
         builder.append("accessors", {{"bufferView", view}, {"componentType", kFloat}, {"type", "VEC3"}, {"count", 0}});
     builder.otherBuffers.push_back({{"byteLength", 0}});
-    EXPECT_EQ(loadDark(builder).warnings.size(), loadDark(withTriangle()).warnings.size()) << "nobody reads it";
+    EXPECT_EQ(loadDark(builder).warnings.size(), loadDark(oneTriangle()).warnings.size()) << "nobody reads it";
     builder.addNode({{"mesh", builder.addMesh({{"attributes", {{"POSITION", empty}}}})}});
     const Scene scene = loadDark(builder);
     EXPECT_EQ(scene.instances.size(), 1U);
@@ -349,7 +342,7 @@ TEST(GltfExporters, OldFilesPointsAndLinesAreCalledSo)
 
 TEST(GltfExporters, AUrlIsNoFile)
 {
-    GltfBuilder builder = withTriangle();
+    GltfBuilder builder = oneTriangle();
     builder.otherBuffers.push_back({{"byteLength", 4}, {"uri", "https://example.org/a.bin"}});
     expectRefusal(builder,
                   "buffers[1].uri is \"https://example.org/a.bin\"; expected a path relative to the glTF file, as glim reads files and "

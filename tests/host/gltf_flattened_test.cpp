@@ -16,16 +16,9 @@ constexpr const char* kWarning = "meshes and spheres that are scaled to a plane,
 
 std::string warningsOf(const Scene& scene) { return ::testing::PrintToString(scene.warnings); }
 
-GltfBuilder withTriangle()
-{
-    GltfBuilder builder;
-    builder.addNode({{"mesh", builder.addTriangleMesh()}});
-    return builder;
-}
-
 TEST(GltfFlattened, MeshesAndSpheresAreLeftOutAndCounted)
 {
-    GltfBuilder builder = withTriangle();
+    GltfBuilder builder = oneTriangle();
     builder.addNode({{"name", "hidden"}, {"mesh", 0}, {"scale", {0, 0, 0}}});
     builder.addNode({{"name", "sheet"}, {"mesh", 0}, {"scale", {1, 0, 1}}});
     builder.addNode({{"name", "ball"}, {"scale", {0, 0, 0}}, {"extras", {{"sphere", {{"radius", 1}}}}}});
@@ -44,7 +37,7 @@ TEST(GltfFlattened, MeshesAndSpheresAreLeftOutAndCounted)
 
 TEST(GltfFlattened, InstancesOfANodeAreLeftOutOneByOne)
 {
-    GltfBuilder builder = withTriangle();
+    GltfBuilder builder = oneTriangle();
     const std::size_t scales = builder.addVec3({1, 1, 1, 0, 0, 0, 2, 2, 2, 1, 1, 0});
     builder.addNode({{"mesh", 0}, {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"SCALE", scales}}}}}}}});
     const Scene scene = load(builder);
@@ -66,7 +59,7 @@ TEST(GltfFlattened, ASceneOfNothingElseIsEmptyAndFramed)
 
 TEST(GltfFlattened, AnAnimationMayPassThroughZero)
 {
-    GltfBuilder builder = withTriangle();
+    GltfBuilder builder = oneTriangle();
     const std::size_t input = builder.addAccessor(toBytes(std::vector<float>{0, 1}), kFloat, "SCALAR", 2);
     const std::size_t output = builder.addVec3({1, 1, 1, -1, -1, -1});
     builder.append("animations", {{"samplers", {{{"input", input}, {"output", output}}}},
@@ -83,7 +76,7 @@ TEST(GltfFlattened, AnAnimationMayPassThroughZero)
 // A quarter turn about y takes -z to -x.
 TEST(GltfFlattened, CamerasAndLightsKeepTheirDirection)
 {
-    GltfBuilder builder = withTriangle();
+    GltfBuilder builder = oneTriangle();
     builder.document["cameras"] = json::array({{{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}}});
     builder.document["extensions"]["KHR_lights_punctual"]["lights"] = json::array({{{"type", "directional"}}});
     const double half = std::sqrt(0.5);
@@ -113,7 +106,7 @@ TEST(GltfSize, HugeScenesAreRefusedAndTinyOnesSaid)
 
 TEST(GltfSize, CamerasBeyondSixteenToOneAreSaidAndBounded)
 {
-    GltfBuilder builder = withTriangle();
+    GltfBuilder builder = oneTriangle();
     for (const double ratio : {16.0, 1e30, 1e-30}) {
         const std::size_t camera =
             builder.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}, {"aspectRatio", ratio}}}});

@@ -28,11 +28,6 @@ GltfBuilder instances(const json& attributes, GltfBuilder builder = {})
     return builder;
 }
 
-glm::vec3 vertex(const Scene& scene, std::size_t triangle, int corner)
-{
-    return makePrimitives(scene).triangles.at(triangle).vertices[corner] + glm::vec3(scene.origin);
-}
-
 TEST(GltfInstancing, InstancesAreTurnedScaledAndMovedBelowTheirNode)
 {
     GltfBuilder builder;

@@ -16,16 +16,9 @@ constexpr float kTolerance = 1e-6F;
 // Turns -Z to +X.
 const json kQuarterTurn = {0, -std::sqrt(0.5), 0, std::sqrt(0.5)};
 
-GltfBuilder withTriangle()
-{
-    GltfBuilder builder;
-    builder.addNode({{"mesh", builder.addTriangleMesh()}});
-    return builder;
-}
-
 PunctualLight readLight(const json& light)
 {
-    GltfBuilder builder = withTriangle();
+    GltfBuilder builder = oneTriangle();
     builder.document["extensions"]["KHR_lights_punctual"]["lights"] = json::array({light});
     builder.addNode({{"name", "lamp"},
                      {"translation", {1, 2, 3}},
@@ -49,7 +42,7 @@ TEST(GltfLights, ReadsPointLights)
 
 TEST(GltfLights, RefusesWhatDoesNotFitAFloatWithItsValue)
 {
-    GltfBuilder builder = withTriangle();
+    GltfBuilder builder = oneTriangle();
     builder.document["extensions"]["KHR_lights_punctual"]["lights"] = json::array({{{"type", "point"}, {"intensity", 1e39}}});
     builder.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
     EXPECT_NE(refusal(builder).find("lights[0] has the intensity 1e+39 and the colour 1; expected a product that fits a float"),
@@ -70,7 +63,7 @@ TEST(GltfLights, ASunCanBeAdded)
     const auto directionOf = [](double azimuth, double elevation) {
         LoadOptions options;
         options.sun = Sun{azimuth, elevation, 7.0F};
-        const Scene scene = load(withTriangle(), options);
+        const Scene scene = load(oneTriangle(), options);
         EXPECT_EQ(scene.lights.size(), 1U);
         EXPECT_FALSE(scene.environment) << "a sun lights the scene, so that no studio does";
         EXPECT_EQ(scene.lights.at(0).kind, PunctualLight::Kind::Directional);
@@ -105,7 +98,7 @@ TEST(GltfLights, ReadsTheRange)
 
 Scene readCamera(const json& camera, json node)
 {
-    GltfBuilder builder = withTriangle();
+    GltfBuilder builder = oneTriangle();
     builder.append("cameras", camera);
     node["camera"] = 0;
     builder.addNode(node);
@@ -161,7 +154,7 @@ TEST(GltfCameras, ShearIsTakenOut)
 
 TEST(GltfCameras, ANumberIsAnIndexBeforeItIsAName)
 {
-    GltfBuilder builder = withTriangle();
+    GltfBuilder builder = oneTriangle();
     builder.append("cameras", kPerspective);
     for (const char* name : {"1", "side", "7"}) {
         builder.addNode({{"camera", 0}, {"name", name}});

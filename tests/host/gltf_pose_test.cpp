@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -53,20 +52,9 @@ struct SkinnedTriangle : GltfBuilder {
 // All vertices follow the first joint.
 SkinnedTriangle rigid() { return SkinnedTriangle({{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}}); }
 
-glm::dvec3 vertex(const Scene& scene, std::size_t index, std::size_t instance = 0)
-{
-    const MeshInstance& placed = scene.instances.at(instance);
-    return glm::dvec3(placed.worldFromMesh * glm::dvec4(scene.meshes.at(placed.mesh).positions.at(index), 1.0));
-}
-
 void expectNear(const glm::dvec3& value, const glm::dvec3& expected, double tolerance = kTolerance)
 {
     EXPECT_LT(glm::length(value - expected), tolerance) << value.x << ' ' << value.y << ' ' << value.z;
-}
-
-bool warns(const Scene& scene, const std::string& fragment)
-{
-    return std::ranges::any_of(scene.warnings, [&](const std::string& line) { return line.find(fragment) != std::string::npos; });
 }
 
 // joint world x inverse bind: (1, 0, 0) moves to (-1, 0, 0), turns to (0, -1, 0), moves to (1, -1, 0).
@@ -77,11 +65,11 @@ TEST(GltfPose, AJointTurnsAboutWhereItWasBound)
     const std::vector<float> bind{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -2, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     builder.document["skins"][0]["inverseBindMatrices"] = builder.addAccessor(toBytes(bind), kFloat, "MAT4", 2);
     const Scene scene = load(builder);
-    expectNear(vertex(scene, 0), {1, -2, 0});
-    expectNear(vertex(scene, 1), {1, -1, 0});
-    expectNear(vertex(scene, 2), {0, -2, 0});
+    expectNear(placedVertex(scene, 0), {1, -2, 0});
+    expectNear(placedVertex(scene, 1), {1, -1, 0});
+    expectNear(placedVertex(scene, 2), {0, -2, 0});
     EXPECT_EQ(scene.skins, 1U);
-    EXPECT_FALSE(warns(scene, "skin"));
+    EXPECT_FALSE(hasWarning(scene.warnings, "skin"));
 }
 
 TEST(GltfPose, JointsFollowTheirParentsEvenUnseen)
@@ -94,8 +82,8 @@ TEST(GltfPose, JointsFollowTheirParentsEvenUnseen)
                              {"scale", {2, 2, 2}},
                              {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}});
     const Scene scene = load(builder);
-    expectNear(vertex(scene, 0), {0, 2, 0});
-    expectNear(vertex(scene, 1), {0, 4, 0});
+    expectNear(placedVertex(scene, 0), {0, 2, 0});
+    expectNear(placedVertex(scene, 1), {0, 4, 0});
 }
 
 // (0, 1, 0) is turned to (-1, 0, 0) by one joint, and moved to (0, 1, 8) by the other.
@@ -104,9 +92,9 @@ TEST(GltfPose, TwoJointsAreBlended)
     SkinnedTriangle builder({{0.5F, 0.5F, 0, 0, 1, 0, 0, 0, 0.25F, 0.75F, 0, 0}});
     builder.finish({{"rotation", kQuarterTurnAboutZ}}, {{"translation", {0, 0, 8}}});
     const Scene scene = load(builder);
-    expectNear(vertex(scene, 0), {0, 0, 4});
-    expectNear(vertex(scene, 1), {0, 1, 0});
-    expectNear(vertex(scene, 2), {-0.25, 0.75, 6});
+    expectNear(placedVertex(scene, 0), {0, 0, 4});
+    expectNear(placedVertex(scene, 1), {0, 1, 0});
+    expectNear(placedVertex(scene, 2), {-0.25, 0.75, 6});
 }
 
 TEST(GltfPose, AVertexMayFollowEightJoints)
@@ -114,8 +102,8 @@ TEST(GltfPose, AVertexMayFollowEightJoints)
     SkinnedTriangle builder({{0.5F, 0.125F, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, {0.25F, 0.125F, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}});
     builder.finish({{"translation", {4, 0, 0}}}, {{"translation", {0, 8, 1}}});
     const Scene scene = load(builder);
-    expectNear(vertex(scene, 0), {3, 2, 0.25});
-    expectNear(vertex(scene, 1), {5, 0, 0});
+    expectNear(placedVertex(scene, 0), {3, 2, 0.25});
+    expectNear(placedVertex(scene, 1), {5, 0, 0});
 }
 
 TEST(GltfPose, TheNodeOfASkinnedMeshDoesNotMoveIt)
@@ -124,7 +112,7 @@ TEST(GltfPose, TheNodeOfASkinnedMeshDoesNotMoveIt)
     builder.finish({{"translation", {0, 0, 1}}}, json::object(), {{"translation", {7, 7, 7}}, {"scale", {0, 3, 3}}});
     const Scene scene = load(builder);
     EXPECT_EQ(scene.instances.at(0).worldFromMesh, glm::dmat4(1.0));
-    expectNear(vertex(scene, 1), {1, 0, 1});
+    expectNear(placedVertex(scene, 1), {1, 0, 1});
 }
 
 // 51 and 204 of 255 are 1/5 and 4/5.
@@ -136,8 +124,8 @@ TEST(GltfPose, WeightsMayBeBytes)
     builder.addSet({0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0}, weights);
     builder.finish({{"translation", {5, 0, 0}}}, {{"translation", {0, 10, 0}}});
     const Scene scene = load(builder);
-    expectNear(vertex(scene, 0), {1, 8, 0});
-    EXPECT_FALSE(warns(scene, "normalised"));
+    expectNear(placedVertex(scene, 0), {1, 8, 0});
+    EXPECT_FALSE(hasWarning(scene.warnings, "normalised"));
 }
 
 TEST(GltfPose, WeightsThatDoNotAddUpAreNormalised)
@@ -145,15 +133,15 @@ TEST(GltfPose, WeightsThatDoNotAddUpAreNormalised)
     SkinnedTriangle builder({{1, 3, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}});
     builder.finish({{"translation", {4, 0, 0}}}, {{"translation", {0, 4, 0}}});
     const Scene scene = load(builder);
-    expectNear(vertex(scene, 0), {1, 3, 0});
-    expectNear(vertex(scene, 2), {4, 1, 0});
-    EXPECT_TRUE(warns(scene, "weights of joints that do not add up to 1 are normalised: meshes[0].primitives[0]"));
+    expectNear(placedVertex(scene, 0), {1, 3, 0});
+    expectNear(placedVertex(scene, 2), {4, 1, 0});
+    EXPECT_TRUE(hasWarning(scene.warnings, "weights of joints that do not add up to 1 are normalised: meshes[0].primitives[0]"));
 
     SkinnedTriangle rounded({{1 - 0x1p-11F, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}});
     rounded.finish({{"translation", {4, 0, 0}}}, json::object());
     const Scene same = load(rounded);
-    expectNear(vertex(same, 0), {4 - 0x1p-9, 0, 0});
-    EXPECT_FALSE(warns(same, "normalised"));
+    expectNear(placedVertex(same, 0), {4 - 0x1p-9, 0, 0});
+    EXPECT_FALSE(hasWarning(same.warnings, "normalised"));
 }
 
 // Target 0 lifts all by z = 1 and target 1 moves the second vertex by x = 1.
@@ -176,11 +164,11 @@ GltfBuilder morphed(const json& meshWeights, const json& nodeWeights)
 TEST(GltfPose, WeightsOfTheNodeGoBeforeThoseOfTheMesh)
 {
     const Scene rest = load(morphed(nullptr, nullptr));
-    expectNear(vertex(rest, 1), {1, 0, 0});
+    expectNear(placedVertex(rest, 1), {1, 0, 0});
     EXPECT_EQ(rest.morphTargets, 2U);
-    expectNear(vertex(load(morphed({0.5, 0}, nullptr)), 1), {1, 0, 0.5});
-    expectNear(vertex(load(morphed({0.5, 0}, {2, -0.25})), 1), {0.75, 0, 2});
-    expectNear(vertex(load(morphed({0.5, 0}, {0, 0})), 1), {1, 0, 0});
+    expectNear(placedVertex(load(morphed({0.5, 0}, nullptr)), 1), {1, 0, 0.5});
+    expectNear(placedVertex(load(morphed({0.5, 0}, {2, -0.25})), 1), {0.75, 0, 2});
+    expectNear(placedVertex(load(morphed({0.5, 0}, {0, 0})), 1), {1, 0, 0});
 }
 
 TEST(GltfPose, NodesOfOneMeshAndPoseShareIt)
@@ -191,9 +179,9 @@ TEST(GltfPose, NodesOfOneMeshAndPoseShareIt)
     builder.addNode({{"mesh", 0}});
     const Scene scene = load(builder);
     EXPECT_EQ(scene.meshes.size(), 3U);
-    expectNear(vertex(scene, 1, 1), {6, 0, 1});
-    expectNear(vertex(scene, 1, 2), {2, 0, 1});
-    expectNear(vertex(scene, 1, 3), {1, 0, 0});
+    expectNear(placedVertex(scene, 1, 1), {6, 0, 1});
+    expectNear(placedVertex(scene, 1, 2), {2, 0, 1});
+    expectNear(placedVertex(scene, 1, 3), {1, 0, 0});
 }
 
 // (0, 1, 0) is morphed to (0, 3, 0), which the joint turns to (-3, 0, 0); skinned first it would be (-1, 2, 0).
@@ -202,7 +190,7 @@ TEST(GltfPose, MeshesAreMorphedBeforeTheyAreSkinned)
     SkinnedTriangle builder = rigid();
     builder.primitive["targets"] = json::array({{{"POSITION", builder.addVec3({0, 0, 0, 0, 0, 0, 0, 2, 0})}}});
     builder.finish({{"rotation", kQuarterTurnAboutZ}}, json::object(), {{"weights", {1}}});
-    expectNear(vertex(load(builder), 2), {-3, 0, 0});
+    expectNear(placedVertex(load(builder), 2), {-3, 0, 0});
 }
 
 TEST(GltfPose, MorphTargetsMayBeSparse)
@@ -214,8 +202,8 @@ TEST(GltfPose, MorphTargetsMayBeSparse)
                       {"indices", {{"bufferView", builder.addAov({1})}, {"componentType", kUnsignedByte}}},
                       {"values", {{"bufferView", builder.addAov(toBytes<float>({0, 0, 7}))}}}};
     const Scene scene = load(builder);
-    expectNear(vertex(scene, 0), {0, 0, 0});
-    expectNear(vertex(scene, 1), {1, 0, 7});
+    expectNear(placedVertex(scene, 0), {0, 0, 0});
+    expectNear(placedVertex(scene, 1), {1, 0, 7});
 }
 
 // KHR_mesh_quantization: deltas of 127 are 1.
@@ -227,8 +215,8 @@ TEST(GltfPose, MorphTargetsMayBeBytes)
     builder.document["bufferViews"].back()["byteStride"] = 4;
     builder.document["meshes"][0]["primitives"][0]["targets"][0]["POSITION"] = lift;
     const Scene scene = load(builder);
-    expectNear(vertex(scene, 0), {0, 0, 0.5});
-    expectNear(vertex(scene, 1), {1, 0, -0.5});
+    expectNear(placedVertex(scene, 0), {0, 0, 0.5});
+    expectNear(placedVertex(scene, 1), {1, 0, -0.5});
 }
 
 TEST(GltfPose, NormalsAndTangentsAreMorphedToo)
@@ -247,7 +235,8 @@ TEST(GltfPose, NormalsAndTangentsAreMorphedToo)
     expectNear(mesh.normals.at(1), {0, 0, 1});
     expectNear(glm::dvec3(mesh.tangents.at(0)), {half, 0, -half}, 1e-7);
     EXPECT_EQ(mesh.tangents.at(0).w, -1.0F);
-    EXPECT_TRUE(warns(scene, "morph targets move positions, normals and tangents only: COLOR_0 of meshes[0].primitives[0].targets[0]"));
+    EXPECT_TRUE(hasWarning(scene.warnings,
+                           "morph targets move positions, normals and tangents only: COLOR_0 of meshes[0].primitives[0].targets[0]"));
 }
 
 // The target turns the triangle about y: u, which rises along x, rises along -z then.

@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -14,31 +13,6 @@ namespace glim::test {
 namespace {
 
 using nlohmann::json;
-
-GltfBuilder oneTriangle(json node = json::object())
-{
-    GltfBuilder builder;
-    node["mesh"] = builder.addTriangleMesh();
-    builder.addNode(node);
-    return builder;
-}
-
-glm::vec3 vertex(const Scene& scene, std::size_t triangle, int corner)
-{
-    return makePrimitives(scene).triangles.at(triangle).vertices[corner] + glm::vec3(scene.origin);
-}
-
-glm::vec3 normal(const Scene& scene, std::size_t triangle, int corner)
-{
-    const Primitives primitives = makePrimitives(scene);
-    return primitives.vertexNormals.at(primitives.vertexIndices.at(triangle)[corner]);
-}
-
-bool hasWarning(const std::vector<std::string>& warnings, const std::string& fragment)
-{
-    return std::any_of(warnings.begin(), warnings.end(),
-                       [&](const std::string& warning) { return warning.find(fragment) != std::string::npos; });
-}
 
 void expectTheTriangle(const Scene& scene)
 {

@@ -53,7 +53,7 @@ TEST(RenderJob, DefaultsAreThoseOfTheSettings)
     EXPECT_EQ(options.settings.course.accelerator, Accelerator::Bvh);
     EXPECT_EQ(options.split, SplitRule::Sah);
     EXPECT_EQ(options.lens.radius, 0.0F);
-    EXPECT_FALSE(options.settings.seconds || options.pictures.areGiven() || options.rates || options.stats);
+    EXPECT_FALSE(options.settings.seconds || !options.pictures.empty() || options.rates || options.stats);
 }
 
 TEST(RenderJob, LightIsFoundAsAsked)
@@ -144,7 +144,7 @@ TEST(RenderJob, ViewsTakeFewSamplesAndNoBounce)
         EXPECT_EQ(settings(option + " --spp 9").sampleEnd, 9U);
         EXPECT_EQ(settings(option + " --samples 8:24").sampleEnd, 24U);
         EXPECT_EQ(settings(option + " --time 2").sampleEnd, kMaxSample);
-        EXPECT_EQ(settings(option + " --sampler independent --split mean --png p.png").aov, aov);
+        EXPECT_EQ(settings(option + " --sampler independent --split mean --image p.png").aov, aov);
     }
     EXPECT_EQ(settings("--view shaded").sampleEnd, 64U);
     EXPECT_EQ(settings("--view shaded --bounces 2").bounces, 2U);
@@ -185,8 +185,8 @@ TEST(RenderJob, WhatDoesNotGoTogetherIsRefused)
         {"--adaptive course --batch 4096", "--batch", "4096", "--max-spp, which is 2048"},
         {"--adaptive course --batch 64 --max-spp 32", "--batch", "64", "--max-spp, which is 32"},
         {"--adaptive course --max-spp 31", "--max-spp", "31", "--batch, which is 32"},
-        {"--png a.png --rates a.png", "--rates", "a.png", "--png"},
-        {"--png a.png --rates ./a.png", "--rates", "./a.png", "--png"},
+        {"--image a.png --rates a.png", "--image", "a.png", "--rates"},
+        {"--image a.png --rates ./a.png", "--image", "a.png", "--rates"},
         {"--ids x.exr", "--ids", "x.exr", "--output"},
         {"--ids ./x.exr", "--ids", "./x.exr", "--output"}};
     for (const auto& [options, option, value, other] : cases) {
@@ -209,7 +209,7 @@ TEST(RenderJob, ViewsRefuseWhatHasNoMeaningThere)
         }
     }
     for (const std::string view : {"normal", "depth", "bvh-steps"}) {
-        expectRefused("--png p.png --exposure 1 --view " + view, "--exposure: \"1\": has no effect with --view " + view);
+        expectRefused("--image p.png --exposure 1 --view " + view, "--exposure: \"1\": has no effect with --view " + view);
     }
 }
 
@@ -217,23 +217,24 @@ TEST(RenderJob, PicturesHaveALook)
 {
     EXPECT_EQ(parse("").look.exposure, 0.0);
     EXPECT_EQ(parse("").look.tone, std::nullopt);
-    EXPECT_EQ(parse("--png p.png --exposure auto").look.exposure, std::nullopt);
+    EXPECT_EQ(parse("--image p.png --exposure auto").look.exposure, std::nullopt);
     EXPECT_EQ(parse("--image p.jpg --exposure +1.5").look.exposure, 1.5);
-    EXPECT_EQ(parse("--png p.png --tone none").look.tone, Tone::None);
-    EXPECT_EQ(parse("--png p.png --tone neutral").look.tone, Tone::Neutral);
+    EXPECT_EQ(parse("--image p.png --tone none").look.tone, Tone::None);
+    EXPECT_EQ(parse("--image p.png --tone neutral").look.tone, Tone::Neutral);
     EXPECT_EQ(parse("--image p.webp --tone agx").look.tone, Tone::Agx);
-    EXPECT_EQ(parse("--image p.JPEG --png p.png").pictures.image, "p.JPEG");
-    expectRefused("--exposure 1", "--exposure: \"1\": is of a picture; expected --png or --image with it");
-    expectRefused("--tone agx --rates r.png", "--tone: \"agx\": is of a picture; expected --png or --image with it");
-    expectRefused("--png p.png --tone aces", "--tone: \"aces\": expected none or neutral or agx");
-    expectRefused("--png p.png --exposure full", "--exposure: \"full\": expected a number from -100 to 100, or auto");
+    EXPECT_EQ(parse("--image p.JPEG --png p.png").pictures, (PictureFiles{"p.JPEG", "p.png"})) << "--png is a former name";
+    expectRefused("--exposure 1", "--exposure: \"1\": is of a picture; expected --image with it");
+    expectRefused("--tone agx --rates r.png", "--tone: \"agx\": is of a picture; expected --image with it");
+    expectRefused("--image p.png --tone aces", "--tone: \"aces\": expected none or neutral or agx");
+    expectRefused("--image p.png --exposure full", "--exposure: \"full\": expected a number from -100 to 100, or auto");
     for (const std::string view : {"normal", "depth", "albedo", "bvh-steps"}) {
-        expectRefused("--png p.png --tone agx --view " + view, "--tone: \"agx\": has no effect with --view " + view);
+        expectRefused("--image p.png --tone agx --view " + view, "--tone: \"agx\": has no effect with --view " + view);
     }
     for (const std::string name : {"p.gif", "p", "p.exr"}) {
         expectRefused("--image " + name, "--image: \"" + name + "\": expected a name that ends in .png, .jpg, .jpeg or .webp");
     }
-    expectRefused("--image p#.png --png p##.png", "--image: \"p#.png\": expected another file than those of --png and --rates");
+    expectRefused("--image p#.png --png p##.png",
+                  "--image: \"p##.png\": expected another file than those of --rates and of another --image");
     expectRefused("--image p.png --rates p.png", "--image: \"p.png\": expected another file");
     expectRefused("--image p.webp --size 16384x4",
                   "--image: \"p.webp\": files of this kind hold at most 16383 pixels a side; expected a smaller --size");
@@ -261,7 +262,7 @@ TEST(RenderJob, ReplaysTakeTheSamplesThatARenderWouldHave)
 TEST(RenderJob, ReplaysRefuseWhatIsOfPictures)
 {
     for (const std::string option :
-         {"--output x.exr", "--png p.png", "--rates r.png", "--ids i.exr", "--progress json", "--time 1", "--suspects 3"}) {
+         {"--output x.exr", "--image p.png", "--rates r.png", "--ids i.exr", "--progress json", "--time 1", "--suspects 3"}) {
         const std::string name = option.substr(0, option.find(' ')), value = option.substr(name.size() + 1);
         expectRefused("--replay 1,2,3 " + option, name + ": \"" + value + "\": has no effect with --replay");
     }

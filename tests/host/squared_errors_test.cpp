@@ -1,6 +1,6 @@
-#include "host/image/heat_color.hpp"
 #include "host/measure/compare_images.hpp"
 #include "host/measure/error_picture.hpp"
+#include "shaders/shared/display_colors.h"
 #include "tests/support/noisy_picture.hpp"
 
 #include <gtest/gtest.h>
@@ -65,14 +65,16 @@ TEST(TrimErrors, FirefliesAreTheShareThatTheyHave)
     EXPECT_GT(result.trimmed.share.relMse, 0.99);
 }
 
+Rgb8 colorOf(double difference) { return roundToBytes(differenceColor(difference)); }
+
 TEST(DifferenceColor, IsBlueBelowAndRedAbove)
 {
-    EXPECT_EQ(differenceColor(0.0), (Rgb8{255, 255, 255}));
-    EXPECT_EQ(differenceColor(1.0), (Rgb8{200, 0, 0}));
-    EXPECT_EQ(differenceColor(7.0), differenceColor(1.0));
-    EXPECT_EQ(differenceColor(-1.0), (Rgb8{0, 40, 200}));
-    EXPECT_EQ(differenceColor(-std::numeric_limits<double>::infinity()), differenceColor(-1.0));
-    EXPECT_EQ(differenceColor(0.5), (Rgb8{228, 128, 128}));
+    EXPECT_EQ(colorOf(0.0), (Rgb8{255, 255, 255}));
+    EXPECT_EQ(colorOf(1.0), (Rgb8{200, 0, 0}));
+    EXPECT_EQ(colorOf(7.0), colorOf(1.0));
+    EXPECT_EQ(colorOf(-1.0), (Rgb8{0, 40, 200}));
+    EXPECT_EQ(colorOf(-std::numeric_limits<double>::infinity()), colorOf(-1.0));
+    EXPECT_EQ(colorOf(0.5), (Rgb8{228, 128, 128}));
 }
 
 TEST(DrawErrors, ColoursSayTheSignAndTheScaleIsWhatMostStayBelow)
@@ -85,11 +87,11 @@ TEST(DrawErrors, ColoursSayTheSignAndTheScaleIsWhatMostStayBelow)
     picture.radiance[101] = glm::vec3(1e6F);
     const ErrorPicture drawn = drawErrors(picture, reference, 0.04);
     EXPECT_NEAR(drawn.scale, 0.96 / std::sqrt(4.04), 1e-6);
-    EXPECT_EQ(drawn.pixels[0], differenceColor(-1.0));
-    EXPECT_EQ(drawn.pixels[26], differenceColor(-0.5));
-    EXPECT_EQ(drawn.pixels[50], differenceColor(0.0));
-    EXPECT_EQ(drawn.pixels[74], differenceColor(0.5));
-    EXPECT_EQ(drawn.pixels[101], differenceColor(1.0));
+    EXPECT_EQ(drawn.pixels[0], colorOf(-1.0));
+    EXPECT_EQ(drawn.pixels[26], colorOf(-0.5));
+    EXPECT_EQ(drawn.pixels[50], colorOf(0.0));
+    EXPECT_EQ(drawn.pixels[74], colorOf(0.5));
+    EXPECT_EQ(drawn.pixels[101], colorOf(1.0));
 }
 
 TEST(DrawErrors, OfNothingWrongIsWhiteAndOfNothingFiniteMagenta)
@@ -103,11 +105,11 @@ TEST(DrawErrors, OfNothingWrongIsWhiteAndOfNothingFiniteMagenta)
     corner.radiance[4].y = std::numeric_limits<float>::quiet_NaN();
     const ErrorPicture drawn = drawErrors(corner, truth, 0.01);
     EXPECT_GT(drawn.scale, 0.0);
-    EXPECT_EQ(drawn.pixels[3], differenceColor(-1.0));
+    EXPECT_EQ(drawn.pixels[3], colorOf(-1.0));
     EXPECT_EQ(drawn.pixels[4], kMagenta);
-    EXPECT_EQ(drawn.pixels[5], differenceColor(0.0));
+    EXPECT_EQ(drawn.pixels[5], colorOf(0.0));
     const Picture black{1, 1, {glm::vec3(0.0F)}, {}}, lit{1, 1, {glm::vec3(1.0F)}, {}};
-    EXPECT_EQ(drawErrors(lit, black, 0.0).pixels[0], differenceColor(1.0));
+    EXPECT_EQ(drawErrors(lit, black, 0.0).pixels[0], colorOf(1.0));
 }
 
 // Of 100 pixels that differ by 1, 2 ... 100, at a reference of 10.

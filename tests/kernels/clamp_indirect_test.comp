@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
 #include "lib/clamp_indirect.glsl"
-#include "lib/infinity.glsl"
+#include "lib/finite.glsl"
 
 struct Case {
     vec3 contribution;

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
-#include "lib/infinity.glsl"
+#include "lib/finite.glsl"
 
 void main()
 {

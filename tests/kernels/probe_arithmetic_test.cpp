@@ -1,7 +1,7 @@
 // What tells devices apart by how they round (shaders/kernels/probe_arithmetic.comp): its inputs cover what kernels use, and its results
 // are those of the operations that it names.
 #include "host/gpu/commands.hpp"
-#include "host/render/film_origin.hpp"
+#include "host/render/film_identity.hpp"
 #include "kernels.hpp"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/limits.h"

@@ -1,7 +1,7 @@
 // The viewer shows the colours that files and `glim compare` have.
-#include "host/image/heat_color.hpp"
 #include "host/render/aov.hpp"
 #include "host/view/layers.hpp"
+#include "shaders/shared/display_colors.h"
 #include "shaders/shared/display_types.h"
 #include "test_kernels.hpp"
 #include "tests/support/kernel_test.hpp"
@@ -47,7 +47,7 @@ vec3 colorOfFilm(const Case& c)
     case ShownAs::Heat: {
         const glm::dvec3 v(c.value);
         const double low = static_cast<double>(range.low), high = static_cast<double>(range.high);
-        return bytesOf(heatColor(((v.x + v.y + v.z) / 3.0 - low) / (high - low)));
+        return bytesOf(roundToBytes(heatColor(((v.x + v.y + v.z) / 3.0 - low) / (high - low))));
     }
     default: pixel.mean = c.value; return bytesOf(displayColor(pixel, Aov::Radiance, range, look));
     }
@@ -62,7 +62,7 @@ vec3 colorOfDifference(const Case& c)
         const double divisor = std::sqrt(static_cast<double>(c.view.relative) * r * r + static_cast<double>(c.view.epsilon));
         sum += x == r ? 0.0 : (x - r) / divisor;
     }
-    return bytesOf(differenceColor(static_cast<double>(c.view.scale) * sum / 3.0));
+    return bytesOf(roundToBytes(differenceColor(static_cast<double>(c.view.scale) * sum / 3.0)));
 }
 
 TEST(ViewColorTest, ColoursAreThoseOfFilesAndOfCompare)
@@ -105,8 +105,8 @@ TEST(ViewColorTest, ABlackReferenceLeavesOnlyRightAndWrong)
     view.scale = 0.01F;
     view.relative = 1.0F;
     const std::vector<Case> cases{{vec3(0.0F), vec3(0.0F), view, vec3(255.0F)},
-                                  {vec3(1e-9F), vec3(0.0F), view, bytesOf(differenceColor(1.0))},
-                                  {vec3(-1e-9F), vec3(0.0F), view, bytesOf(differenceColor(-1.0))}};
+                                  {vec3(1e-9F), vec3(0.0F), view, bytesOf(roundToBytes(differenceColor(1.0)))},
+                                  {vec3(-1e-9F), vec3(0.0F), view, bytesOf(roundToBytes(differenceColor(-1.0)))}};
     KernelTest test(test_kernels::view_test);
     test.cases(cases).resultsOf<vec3>(cases.size()).run();
 }

@@ -14,8 +14,6 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 GlimRun bench(const Arguments& more)
 {
     Arguments arguments{"bench", sceneFile("cornell_spheres.gltf"), "--size", "8x8"};

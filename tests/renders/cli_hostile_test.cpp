@@ -13,8 +13,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 // One line "glim: ..." that contains `part`, and exit code 1.
 void expectSentence(const GlimRun& run, const std::string& part)
 {
@@ -32,13 +30,6 @@ GlimRun runLimited(unsigned kibibytes, const std::vector<std::string>& arguments
     call.arguments = {"-c", "ulimit -v " + std::to_string(kibibytes) + " && exec \"$0\" \"$@\"", GLIM_BINARY};
     call.arguments.insert(call.arguments.end(), arguments.begin(), arguments.end());
     return runGlim(call);
-}
-
-GltfBuilder withTriangle()
-{
-    GltfBuilder builder;
-    builder.addNode({{"mesh", builder.addTriangleMesh()}});
-    return builder;
 }
 
 GlimCall smallRender(const ScratchFolder& folder, const std::vector<std::string>& options)
@@ -67,7 +58,7 @@ TEST(CommandLineTest, ACacheThatIsNoFileCountsAsMissing)
 TEST(CommandLineTest, TooLittleMemoryNamesTheFileAndTheAmount)
 {
     const ScratchFolder folder;
-    json document = withTriangle().document;
+    json document = oneTriangle().document;
     for (int i = 0; i < 1000000; ++i) {
         document["nodes"].push_back(json::object());
     }
@@ -93,7 +84,7 @@ TEST(CommandLineTest, TooFewAddressesForTheDriverAreSaid)
 TEST(CommandLineTest, ControlCharactersDoNotReachTheTerminal)
 {
     const ScratchFolder folder;
-    GltfBuilder builder = withTriangle();
+    GltfBuilder builder = oneTriangle();
     const char name[] = "red\x1b[31m\nline\xc2\x9b";
     builder.document["nodes"][0]["name"] = name;
     builder.addNode({{"mesh", 0}, {"name", name}, {"scale", {0, 0, 0}}});
@@ -119,7 +110,7 @@ TEST(CommandLineTest, ControlCharactersDoNotReachTheTerminal)
 TEST(CommandLineTest, MessagesAreBounded)
 {
     const ScratchFolder folder;
-    GltfBuilder builder = withTriangle();
+    GltfBuilder builder = oneTriangle();
     builder.addNode({{"mesh", 0}, {"name", std::string(1 << 20, 'a')}, {"scale", {0, 0, 0}}});
     json extensions = json::object();
     for (int i = 0; i < 100000; ++i) {

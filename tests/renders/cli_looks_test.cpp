@@ -84,8 +84,6 @@ protected:
     ScratchFolder folder_;
 };
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 TEST_F(LooksTest, InspectListsLobesTexturesEnvironmentAndMedia)
 {
     writeCoated();

@@ -18,8 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 GlimCall smallRender(const ScratchFolder& folder, const std::vector<std::string>& options = {})
 {
     GlimCall call;

@@ -244,7 +244,7 @@ TEST_F(SequenceTest, OptionsThatContradictEachOtherAreRefused)
     expect({"--frames", "2:1", "-o", "f#.exr"}, "--frames: \"2:1\": expected FIRST:LAST or FIRST:LAST:STEP");
     expect({"--frames", "1:2", "-o", "f.exr"}, "--output: \"f.exr\": names one file for several pictures");
     expect({"--frames", "1:2", "-o", "f#.exr", "--image", "f.jpg"}, "--image: \"f.jpg\": names one file for several pictures");
-    expect({"--frames", "1:2", "-o", "f#.exr", "--png", "#-#.png"}, "--png: \"#-#.png\": names one file for several pictures");
+    expect({"--frames", "1:2", "-o", "f#.exr", "--png", "#-#.png"}, "--image: \"#-#.png\": names one file for several pictures");
     expect({"--frames", "1:2", "--at", "1", "-o", "f#.exr"}, "--at excludes --frames");
     expect({"--frames", "1:2", "--turntable", "3", "-o", "f#.exr"}, "--frames excludes --turntable");
     expect({"--frames", "1:2", "--camera", "all", "-o", "f#.exr"},

@@ -15,8 +15,6 @@ namespace fs = std::filesystem;
 
 using Arguments = std::vector<std::string>;
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 // One line "glim: ..." on stderr that contains `part`, nothing on stdout.
 void expectSentence(const GlimRun& run, int exitCode, const std::string& part)
 {
@@ -276,7 +274,6 @@ TEST(CommandLineTest, OutputsThatCannotBeWrittenAreRefusedBeforeAnyWork)
         {{"-o", (folder / "file/x.exr").string()}, "is not a folder"},
         {{"-o", (folder / "folder.exr").string()}, "it is a folder"},
         {{"-o", "/proc/x.exr"}, "/proc/x.exr: cannot be written"},  // root may write there by its permission bits
-        {{"-o", good, "--png", (folder / "x.jpg").string()}, "does not end in .png"},
         {{"-o", good, "--png", (folder / "none/x.png").string()}, "does not exist"},
         {{"-o", good, "--rates", (folder / "x.jpg").string()}, "does not end in .png"},
         {{"-o", good, "--rates", (folder / "none/x.png").string()}, "does not exist"},

@@ -315,9 +315,9 @@ TEST_F(PreviewTest, RefusesWhatItCannotShow)
     GlimCall blind = call("");
     blind.environment["DISPLAY"] = std::nullopt;
     blind.environment["WAYLAND_DISPLAY"] = std::nullopt;
-    refusal(blind, 1, "`glim render --png`");
+    refusal(blind, 1, "`glim render --image`");
     blind.environment["DISPLAY"] = ":4711";
-    refusal(blind, 1, "`glim render --png`");
+    refusal(blind, 1, "`glim render --image`");
     refusal(call("0 jump\n"), 1, "script, line 1: \"0 jump\": expected a delay");
     for (const int depth : {8, 16}) {
         const VirtualScreen colours(depth);

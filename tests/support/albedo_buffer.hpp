@@ -2,7 +2,6 @@
 #pragma once
 
 #include "host/flatten/albedo_table.hpp"
-#include "host/flatten/anisotropic_albedo.hpp"
 #include "host/gpu/buffer.hpp"
 #include "shaders/shared/bindings.h"
 #include "tests/support/test_device.hpp"

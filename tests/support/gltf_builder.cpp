@@ -1,9 +1,11 @@
 #include "tests/support/gltf_builder.hpp"
 
 #include "host/error.hpp"
+#include "host/flatten/primitives.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -83,6 +85,14 @@ std::size_t GltfBuilder::addNode(const json& node)
 
 std::size_t GltfBuilder::addTriangleMesh() { return addMesh({{"attributes", {{"POSITION", addVec3({0, 0, 0, 1, 0, 0, 0, 1, 0})}}}}); }
 
+GltfBuilder oneTriangle(json node)
+{
+    GltfBuilder builder;
+    node["mesh"] = builder.addTriangleMesh();
+    builder.addNode(node);
+    return builder;
+}
+
 std::string GltfBuilder::toGltf() const
 {
     json copy = document;
@@ -142,6 +152,28 @@ std::string writeTemporary(const std::string& name, const std::string& content)
 Scene loadText(const std::string& content, const LoadOptions& options) { return loadGltf(writeTemporary("scene.gltf", content), options); }
 
 Scene load(const GltfBuilder& builder, const LoadOptions& options) { return loadText(builder.toGltf(), options); }
+
+bool hasWarning(const std::vector<std::string>& warnings, const std::string& fragment)
+{
+    return std::ranges::any_of(warnings, [&](const std::string& warning) { return warning.find(fragment) != std::string::npos; });
+}
+
+glm::vec3 vertex(const Scene& scene, std::size_t triangle, int corner)
+{
+    return makePrimitives(scene).triangles.at(triangle).vertices[corner] + glm::vec3(scene.origin);
+}
+
+glm::vec3 normal(const Scene& scene, std::size_t triangle, int corner)
+{
+    const Primitives primitives = makePrimitives(scene);
+    return primitives.vertexNormals.at(primitives.vertexIndices.at(triangle)[corner]);
+}
+
+glm::dvec3 placedVertex(const Scene& scene, std::size_t index, std::size_t instance)
+{
+    const MeshInstance& placed = scene.instances.at(instance);
+    return glm::dvec3(placed.worldFromMesh * glm::dvec4(scene.meshes.at(placed.mesh).positions.at(index), 1.0));
+}
 
 std::string loadRefusal(const std::string& path, const LoadOptions& options)
 {

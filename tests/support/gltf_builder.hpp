@@ -50,6 +50,9 @@ private:
     Bytes bytes_;
 };
 
+// A node with such a triangle, and what else is given of the node.
+GltfBuilder oneTriangle(nlohmann::json node = nlohmann::json::object());
+
 // A triangle with a skin of two joints and a morph target; animation 0 turns a joint and moves the target's weight.
 GltfBuilder posedTriangle();
 
@@ -58,6 +61,14 @@ std::string writeTemporary(const std::string& name, const std::string& content);
 
 Scene loadText(const std::string& content, const LoadOptions& options = {});
 Scene load(const GltfBuilder& builder, const LoadOptions& options = {});
+
+bool hasWarning(const std::vector<std::string>& warnings, const std::string& fragment);
+
+// Of a corner of a triangle of the flattened scene, in the world.
+glm::vec3 vertex(const Scene& scene, std::size_t triangle, int corner);
+glm::vec3 normal(const Scene& scene, std::size_t triangle, int corner);
+// Of the mesh of an instance, in the world.
+glm::dvec3 placedVertex(const Scene& scene, std::size_t index, std::size_t instance = 0);
 
 // The sentence that loading is refused with; fails the test and returns "" if it is not.
 std::string loadRefusal(const std::string& path, const LoadOptions& options = {});

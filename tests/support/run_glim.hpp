@@ -29,6 +29,8 @@ struct GlimRun {
     std::string out, err;
 };
 
+inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
 // Whether there is a whole line.
 inline bool hasLine(const std::string& err) { return err.find('\n') != std::string::npos; }
 

@@ -75,7 +75,7 @@ class Animation:
 
     def read_whole(self, path, frame):
         """Whether glim can read the film, from which it draws the PNG."""
-        more = ["--png", numbered(self.options.png, frame), "--exposure", self.options.exposure] if self.options.png else []
+        more = ["--image", numbered(self.options.png, frame), "--exposure", self.options.exposure] if self.options.png else []
         with tempfile.TemporaryDirectory(dir=self.folder.path) as scratch:
             self.glim.run(["merge", path, "-o", os.path.join(scratch, "film.exr"), *more])
         return True

@@ -303,7 +303,7 @@ class Picture:
         self.finished = True
 
     def png(self):
-        return ["--png", self.options.png, "--exposure", self.options.exposure] if self.options.png else []
+        return ["--image", self.options.png, "--exposure", self.options.exposure] if self.options.png else []
 
     def close(self):
         self.folder.remove()

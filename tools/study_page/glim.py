@@ -71,7 +71,7 @@ class Glim:
         command = [self.binary, "render", scene, "-o", exr, "--stats", stats, "--schedule", "wavefront", "--size", "%dx%d" % size,
                    "--progress", "none", *options]
         if png:
-            command += ["--png", stem + ".png"]
+            command += ["--image", stem + ".png"]
         if rates:
             command += ["--rates", stem + ".rates.png"]
         self.run(*command)

@@ -1,7 +1,6 @@
-#include "host/scene/gltf/check_size.hpp"
+#include "host/scene/gltf/read_geometry.hpp"
 
 #include "host/memory.hpp"
-#include "host/scene/gltf/read_instancing.hpp"
 #include "host/scene/share_meshes.hpp"
 #include "host/text.hpp"
 

@@ -2,11 +2,11 @@
 
 #include "host/error.hpp"
 #include "host/input_file.hpp"
+#include "host/text.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -131,8 +131,7 @@ void checkJsonStart(const std::filesystem::path& file, const std::vector<unsigne
     if (first == std::string_view::npos || text[first] == '{' || text[first] == '[') {
         return;
     }
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string extension = lowerCase(file.extension().string());
     const bool converted = extension == ".obj" || extension == ".ply";
     throw InputError(file.string() + ": is not glTF: it begins with the byte " + std::to_string(static_cast<unsigned char>(text[first])) +
                      "; expected a .gltf or a .glb file" + (converted ? ", which tools/to_gltf makes of " + extension + " files" : ""));

@@ -1,10 +1,7 @@
 #include "host/scene/gltf/read_geometry.hpp"
 
 #include "host/scene/choose_origin.hpp"
-#include "host/scene/gltf/check_size.hpp"
-#include "host/scene/gltf/read_instancing.hpp"
 #include "host/scene/gltf/read_material.hpp"
-#include "host/scene/gltf/read_mesh.hpp"
 #include "host/scene/make_tangents.hpp"
 #include "host/scene/placed_mesh.hpp"
 #include "host/scene/share_meshes.hpp"
@@ -297,10 +294,7 @@ void GeometryReader::addInstances(const PlacedNode& node, std::size_t mesh)
     }
 }
 
-void GeometryReader::addInstance(const PlacedNode& placed, std::size_t mesh)
-{
-    placed_.emplace_back(placed, useOf(placed.index, mesh));
-}
+void GeometryReader::addInstance(const PlacedNode& placed, std::size_t mesh) { placed_.emplace_back(placed, useOf(placed.index, mesh)); }
 
 void GeometryReader::countTriangles()
 {

@@ -33,11 +33,30 @@ struct ReadMeshes {
     Warnings warnings;
 };
 
+// Asks whether a scene fits into memory before any of it is read, by the counts of accessors alone. Refuses one that needs more memory
+// than the machine has, or than the process may take.
+void checkSize(const GltfFile& file, const std::vector<PlacedNode>& nodes);
+
 // Fills origin, meshes, instances and spheres of `scene`, whose materials are the file's, followed by the default one. Refuses
 // coordinates that do not fit float32. `read`: what the scene before has read, or nothing yet.
 void readGeometry(const GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& scene, ReadMeshes& read, Warnings& warnings);
 
 // Refuses a scene with nothing to draw. What animations have flattened counts as drawn.
 void requireShapes(const GltfFile& file, const Scene& scene);
+
+// What glTF calls a primitive of a mesh is a mesh here. Each is named after the file's mesh, with a number if that has several primitives.
+// The default material's index follows the file's last one. Points, lines and primitives without positions are left out, each with a
+// warning.
+std::vector<Mesh> readMeshes(const GltfFile& file, std::size_t mesh, const MeshPose& pose, Warnings& warnings);
+
+// EXT_mesh_gpu_instancing: how many instances of its mesh the node has, without reading them.
+std::uint64_t countInstances(const GltfFile& file, std::size_t node);
+
+// The same where no attribute has a bufferView, else 0.
+std::uint64_t countUnbackedInstances(const GltfFile& file, std::size_t node);
+
+// Where the node's instances stand, in the node's own space: one identity without the extension. Refuses attributes of different counts and
+// values that are not finite.
+std::vector<glm::dmat4> readInstanceTransforms(const GltfFile& file, std::size_t node);
 
 }  // namespace glim

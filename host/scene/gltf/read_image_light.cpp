@@ -1,4 +1,4 @@
-#include "host/scene/gltf/read_image_light.hpp"
+#include "host/scene/gltf/read_lights.hpp"
 
 #include "host/error.hpp"
 #include "host/image/srgb.hpp"

@@ -1,4 +1,4 @@
-#include "host/scene/gltf/read_instancing.hpp"
+#include "host/scene/gltf/read_geometry.hpp"
 
 #include "host/scene/gltf/read_accessor.hpp"
 

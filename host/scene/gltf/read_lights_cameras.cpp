@@ -1,4 +1,4 @@
-#include "host/scene/gltf/read_lights_cameras.hpp"
+#include "host/scene/gltf/read_lights.hpp"
 
 #include "host/scene/gltf/gltf_schema.hpp"
 

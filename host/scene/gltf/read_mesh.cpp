@@ -1,4 +1,4 @@
-#include "host/scene/gltf/read_mesh.hpp"
+#include "host/scene/gltf/read_geometry.hpp"
 
 #include "host/scene/gltf/read_accessor.hpp"
 #include "host/scene/gltf/read_material.hpp"

@@ -17,7 +17,7 @@
 #include "access/status.glsl"
 #include "lib/course/split_sample.glsl"
 #include "lib/course/uniform_hemisphere.glsl"
-#include "lib/infinity.glsl"
+#include "lib/finite.glsl"
 
 void queueRay(uint slot, SurfaceInteraction si, Bsdf bsdf, vec3 wo)
 {

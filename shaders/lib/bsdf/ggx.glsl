@@ -5,16 +5,12 @@
 #define GLIM_LIB_BSDF_GGX
 
 #include "bsdf_sample.glsl"
+#include "lib/fresnel.glsl"
 #include "lib/warp.glsl"
+#include "shared/microfacets.h"
 
 // Below this alpha the lobe is a delta lobe: its density would leave float's range of good relative precision.
 const float kMinAlpha = 1e-3;
-
-// Length of w after the stretch that makes the microfacets' distribution uniform.
-float stretchedLength(vec3 w, vec2 alpha)
-{
-    return length(vec3(alpha * w.xy, w.z));
-}
 
 // Density of microfacet normals per steradian, for h on the upper side; in terms of sin^2, without cancellation at small alpha.
 float distributionGgx(vec3 h, vec2 alpha)
@@ -60,8 +56,7 @@ vec3 sampleVisibleNormal(vec3 wo, vec2 alpha, vec2 u)
 // The direction may lie below the horizon; then it carries nothing.
 vec3 sampleGgx(vec3 wo, vec2 alpha, vec2 u)
 {
-    vec3 h = sampleVisibleNormal(wo, alpha, u);
-    return 2.0 * dot(wo, h) * h - wo;
+    return reflectAbout(wo, sampleVisibleNormal(wo, alpha, u));
 }
 
 #endif

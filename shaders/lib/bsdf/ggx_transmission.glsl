@@ -5,7 +5,6 @@
 #define GLIM_LIB_BSDF_GGX_TRANSMISSION
 
 #include "ggx.glsl"
-#include "lib/fresnel.glsl"
 
 // Closer to 1 an interface bends nothing that float could tell, and has no half vector.
 const float kMinEtaStep = 1e-4;

@@ -6,6 +6,7 @@
 
 #include "lib/portable.glsl"
 #include "lib/warp.glsl"
+#include "shared/microfacets.h"
 
 const float kMinSheenRoughness = 0.01;  // below, the lobe is left out: it is narrower than float can resolve
 
@@ -17,20 +18,13 @@ vec3 sampleSheen(vec2 u)
     return vec3(sqrt(u.y * (2.0 - u.y)) * circle, 1.0 - u.y);
 }
 
-// The fitted masking function Lambda, section 3.
-float maskingFit(float x, vec4 fit, float e)
-{
-    return fit.x / (1.0 + fit.y * portablePow(x, fit.z)) + fit.w * x + e;
-}
-
+// Lambda, section 3.
 float sheenMasking(float cosine, float alpha)
 {
-    float t = (1.0 - alpha) * (1.0 - alpha);
-    vec4 fit = mix(vec4(21.5473, 3.82987, 0.19823, -1.97760), vec4(25.3245, 3.32435, 0.16801, -1.27393), t);
-    float e = mix(-4.32054, -4.85967, t);
+    SheenFit fit = sheenFitOf(alpha);
     float x = min(cosine, 1.0 - cosine);
-    float l = maskingFit(x, fit, e);
-    return portableExp(cosine < 0.5 ? l : 2.0 * maskingFit(0.5, fit, e) - l);
+    float l = evalSheenFit(fit, x, portablePow(x, fit.c));
+    return portableExp(cosine < 0.5 ? l : 2.0 * evalSheenFit(fit, 0.5, portablePow(0.5, fit.c)) - l);
 }
 
 // For the colour white, times |cos| of wi, in sr^-1. Its albedo exceeds 1 at low roughness: see sheenScale.

@@ -2,7 +2,7 @@
 #ifndef GLIM_LIB_COURSE_STOP_RULE
 #define GLIM_LIB_COURSE_STOP_RULE
 
-#include "lib/luminance.glsl"
+#include "shared/luminance.h"
 #include "shared/pixel_moments.h"
 
 // Welford, "Note on a Method for Calculating Corrected Sums of Squares and Products", 1962.

@@ -1,5 +1,7 @@
-#include "host/flatten/gauss_rule.hpp"
+#include "host/flatten/albedo_parts.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -27,6 +29,23 @@ GaussRule::GaussRule(std::size_t count)
         }
         nodes.push_back(x);
         weights.push_back(2.0 / ((1.0 - x * x) * slope * slope));
+    }
+}
+
+double rounded(double value) { return std::ldexp(std::round(std::ldexp(value, 22)), -22); }
+
+double fifthPower(double x) { return x * x * x * x * x; }
+
+uvec4 texelOf(const glm::dvec2& a, const glm::dvec2& b)
+{
+    const auto bits = [](double value) { return std::bit_cast<std::uint32_t>(static_cast<float>(value)); };
+    return {bits(a.x), bits(a.y), bits(b.x), bits(b.y)};
+}
+
+void pushTexels(std::vector<uvec4>& table, const std::vector<glm::dvec2>& row)
+{
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        table.push_back(texelOf(row[i], row[std::min(i + 1, row.size() - 1)]));
     }
 }
 

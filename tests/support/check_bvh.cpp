@@ -1,4 +1,4 @@
-#include "host/bvh/check_bvh.hpp"
+#include "tests/support/check_bvh.hpp"
 
 #include "host/bvh/surface_area.hpp"
 

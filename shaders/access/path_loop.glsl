@@ -1,0 +1,128 @@
+// The loop of the kernels that trace paths to their end. A thread takes entries of the queue, one after the other. Paths beyond its limits
+// go into the next queue as they are.
+// A kernel includes this behind its struct Path, which has at least slot, ray, state and light. It defines the functions that are declared
+// here, and the constants kPathSides and kConnectionSides (of single-sided surfaces, for the path's rays and for those that connect it to a
+// light or to the camera), kSeenByCamera (what these meet is seen by it) and kDimmingFeatures (with which surfaces on the way dim the
+// path).
+#ifndef GLIM_ACCESS_PATH_LOOP
+#define GLIM_ACCESS_PATH_LOOP
+
+#include "paths.glsl"
+#include "status.glsl"
+#include "traverse.glsl"
+
+struct Work {
+    uint closest, shadow;  // rays
+    uint steps;
+};
+
+// What advance() follows: the path's ray, then a ray that connects it and meets alpha, and the light that this one carries.
+struct Followed {
+    Passage passage;
+    vec3 contribution;
+    uint pixel;       // of light paths
+    uint pathLength;  // surfaces met between camera and light
+};
+
+uint fetchEntry(uint entry);
+bool takePath(uint entry, out Path path, inout Work work);  // false if it carries nothing
+VisibleHit followPath(Path path, Passage passage, inout Steps steps);
+void addLight(inout Path path, uint pixel, vec3 contribution, uint pathLength);
+void visitMiss(inout Path path);
+bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps steps, inout Followed followed);  // false if the path ends
+void endPath(Path path);
+
+// Adds the light, unless surfaces with alpha dim it first: then the ray is `followed` next.
+void traceConnection(inout Path path, ShadowRay ray, vec3 contribution, uint pixel, inout Work work, inout Steps steps,
+                     inout Followed followed)
+{
+    bool metAlpha;
+    bool clear = isUnoccluded(ray, kConnectionSides, steps, metAlpha);
+    uint pathLength = path.state.bounce + 1u;
+    ++work.shadow;
+    if (hasFeature(kFeatureAlpha) && clear && metAlpha) {
+        followed = Followed(passageOf(ray, kConnectionSides), contribution, pixel, pathLength);
+        followed.passage.fromCamera = kSeenByCamera;
+    } else if (clear) {
+        addLight(path, pixel, contribution, pathLength);
+    }
+}
+
+// Traces the path to its next surface. False if the path ends. The loop goes on for a ray that connects it and meets alpha.
+bool advance(inout Path path, inout Work work)
+{
+    Steps steps = Steps(0u, 0u);
+    Followed followed = Followed(passageOf(path.ray), vec3(0.0), 0u, 0u);
+    followed.passage.query.sides = kPathSides;
+    bool alive = false;
+    bool again = false;
+    do {
+        VisibleHit met = followPath(path, followed.passage, steps);
+        again = false;
+        if (hasFeature(kFeatureAlpha) && followed.passage.isShadow) {
+            if (isClear(met.weight)) {
+                addLight(path, followed.pixel, followed.contribution * met.weight, followed.pathLength);
+            }
+        } else {
+            ++work.closest;
+            if (hasFeature(kDimmingFeatures)) {
+                path.state.throughput *= met.weight;
+            }
+            if (met.hit.record == kNoRecord) {
+                visitMiss(path);
+            } else {
+                alive = visitSurface(path, met.hit, work, steps, followed);
+                again = followed.passage.isShadow;
+            }
+        }
+    } while (hasFeature(kFeatureAlpha) && again);
+    work.steps += steps.nodes + steps.primitives;
+    return alive;
+}
+
+// Neighbouring threads that share a run of the queue, so that they stay in one place of the picture.
+const uint kNeighbours = 8u;
+
+void traceShare(uint entry, uint end, inout Work work)
+{
+    Path path;
+    bool alive = false;
+    if (entry < end) {
+        do {
+            if (!alive) {
+                alive = takePath(fetchEntry(entry), path, work);
+            }
+            if (alive) {
+                alive = advance(path, work);
+            }
+            if (!alive) {
+                endPath(path);
+                entry += kNeighbours;
+            }
+        } while (entry < end && work.steps < kStepsPerThread);
+    }
+    if (alive) {
+        pathRays[path.slot] = path.ray;
+        pathStates[path.slot] = path.state;
+        pathRadiance[path.slot] = path.light;
+        nextQueue[atomicAdd(queueTails.next, 1u)] = path.slot;
+        entry += kNeighbours;
+    }
+    for (; entry < end; entry += kNeighbours) {
+        nextQueue[atomicAdd(queueTails.next, 1u)] = fetchEntry(entry);
+    }
+}
+
+// count: of the queue's entries.
+void traceQueue(uint count)
+{
+    uint thread = interleavedInvocation();
+    uint lane = thread % kNeighbours;
+    uint begin = (thread - lane) * kPathsPerThread;
+    Work work = Work(0u, 0u, 0u);
+    traceShare(begin + lane, min(count, begin + kNeighbours * kPathsPerThread), work);
+    countRays(work.closest, work.shadow);
+    checkLoopBudget(render.canarySteps);
+}
+
+#endif
