@@ -170,7 +170,7 @@ isBuilt() {
     [[ -z $(cd "$root" && find CMakeLists.txt CMakePresets.json host python shaders tests tools -newer "$1" -print -quit) ]]
 }
 
-# build DIRECTORY PRESET TESTS TARGET PACKAGE_LINE...: called under the lock.
+# build DIRECTORY PRESET TESTS TARGETS PACKAGE_LINE...: called under the lock. TARGETS: one word or several in one argument.
 build() {
     local directory=$1 preset=$2 tests=$3 target=$4 stamp=$1/.built-$4 start=$SECONDS hint=
     shift 4
@@ -187,12 +187,12 @@ build() {
     describeBuild "$preset" >"$stamp.new"
     say "building in $directory"
     configure "$directory" "$preset" "$tests" || fail "cmake could not configure the build$hint"
-    cmake --build "$directory" --target "$target" 2>&1 | showProgress || fail "the build failed$hint"
+    cmake --build "$directory" --target $target 2>&1 | showProgress || fail "the build failed$hint"
     mv "$stamp.new" "$stamp"
     say "built in $((SECONDS - start)) s"
 }
 
-# ensureBuilt DIRECTORY PRESET TESTS TARGET PACKAGE_LINE...: returns fast if nothing has changed. If several run at a time, one builds and
+# ensureBuilt DIRECTORY PRESET TESTS TARGETS PACKAGE_LINE...: returns fast if nothing has changed. If several run at a time, one builds and
 # the others wait.
 ensureBuilt() {
     isBuilt "$1/.built-$4" "$2" && return
