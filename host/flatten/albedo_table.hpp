@@ -11,7 +11,7 @@ namespace glim {
 // the same table whatever their sine is.
 std::vector<uvec4> makeAlbedoTable();
 
-// That of the sheen lobe, kAlbedoSize^2 texels (fetchSheenAlbedo).
+// The table of the sheen lobe: kAlbedoSize^2 texels (fetchSheenAlbedo).
 std::vector<uvec4> makeSheenTable();
 
 }  // namespace glim
