@@ -28,7 +28,7 @@ struct BenchOptions : PictureOptions {
 void addBenchOptions(OptionTable& table, BenchOptions& options);
 
 std::filesystem::path csvOf(const BenchOptions& options);
-// The file of the reference of `scene` without --reference.
+// The file of the reference for `scene`, if --reference names none.
 std::filesystem::path referenceOf(const BenchOptions& options, const std::filesystem::path& scene);
 
 }  // namespace glim

@@ -12,8 +12,8 @@ namespace glim {
 void printBench(const SceneBench& bench);
 
 // Ratios to a baseline, whether their intervals exclude 1 (times only if they were measured by turns), and what the intervals do not
-// account for. `whyNotByTurns`: why the baseline's
-// figures are those of its file, as in "it has the same options"; empty if both were rendered now, by turns.
+// account for. `whyNotByTurns`: why the baseline's figures are those of its file, as in "it has the same options"; empty if both were
+// rendered now, by turns.
 void printComparison(const BenchComparison& comparison, const SceneBench& baseline, const std::string& file,
                      const std::string& whyNotByTurns);
 

@@ -60,7 +60,7 @@ void writeDifferences(const CompareOptions& options, const Picture& picture, con
 {
     if (options.difference) {
         writeExr(*options.difference, signedDifference(picture, reference));
-        std::cerr << "Wrote A - B to " << escaped(options.difference->string()) << ".\n";
+        std::cerr << "Wrote picture - reference to " << escaped(options.difference->string()) << ".\n";
     }
     if (options.differencePng) {
         const ErrorPicture drawn = drawErrors(picture, reference, epsilon);
@@ -103,9 +103,9 @@ void addCompare(CommandLine& line)
     command.beginGroup("Picture");
     command.addPath("picture", "A.exr", "Picture: any OpenEXR file with R, G, B", options->picture).require();
     command.addPath("reference", "B.exr", "Reference, of the same size", options->reference).require();
-    command.addPath("--variance", "V.exr", "Variance of the reference's pixels [the layer in B.exr]", options->variance);
+    command.addPath("--variance", "V.exr", "Variance of the reference's pixels [the reference's layer]", options->variance);
     command.beginGroup("Output");
-    command.addPath("--diff", "D.exr", "Write the signed difference A - B", options->difference);
+    command.addPath("--diff", "D.exr", "Write the difference picture - reference", options->difference);
     command.addPath("--diff-png", "D.png", "Draw the relative error: blue too dark, red too bright", options->differencePng);
     command.addFlag("--json", "Print JSON instead of a table; unknown numbers are null", options->json);
     command.setFooter(

@@ -63,11 +63,11 @@ void addServe(CommandLine& line)
     Command& command = line.addCommand("serve", "Render what standard input asks for, and keep the scene");
     command.setFooter(std::string("Each line of standard input is a request, with the options of `glim render` by their names:\n    ") +
                       kRequest +
-                      "\nEach is answered by a line of standard output, once its files are written. `code` is the exit code that\n"
+                      "\nA line of standard output answers each request once its files are written. `code` is the exit code that\n"
                       "`glim render` would have, and `error` null or one sentence:\n"
                       "    {\"id\":1,\"code\":0,\"error\":null}\n"
-                      "The device and the kernels serve again for requests that differ in nothing but samples, seed, size, rows,\n"
-                      "camera, time, edits and outputs. glim serve ends at the end of its input, or after a signal.");
+                      "Requests that differ only in samples, seed, size, rows, camera, time, edits and outputs reuse the device\n"
+                      "and the kernels. glim serve ends at the end of its input, or after a signal.");
     command.onRun(serve);
 }
 

@@ -17,8 +17,9 @@ using Denoiser = std::function<std::optional<std::vector<glm::vec3>>(const Film&
 
 struct DenoisedError {
     Interval mse;
-    // Relative to the radiance of both halves' mean as it was: the denoised one is low together with what is known of its error where few
-    // samples have found light. It was .65 to 1.5 times the true relMSE in six scenes (tests/denoising.md), so it has no interval.
+    // Relative to the radiance before denoising, the mean of both halves: where few samples have found light, the denoised radiance and
+    // what is known of its error are low together. It was .65 to 1.5 times the true relMSE in six scenes (tests/denoising.md), so it has no
+    // interval.
     double relMse = 0.0;
     double noisyMse = 0.0, noisyRelMse = 0.0;  // of the mean of both halves, by the same samples
     double mean = 0.0;                         // radiance over pixels and channels, W/(sr m^2)

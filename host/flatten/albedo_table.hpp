@@ -10,7 +10,7 @@ namespace glim {
 // Of the GGX lobe: (kAlbedoSize + 1) * kAlbedoSize texels.
 std::vector<uvec4> makeAlbedoTable();
 
-// Of the sheen lobe: kAlbedoSize^2 texels (fetchSheenAlbedo).
+// The table of the sheen lobe: kAlbedoSize^2 texels (fetchSheenAlbedo).
 std::vector<uvec4> makeSheenTable();
 
 // Of the anisotropic GGX lobe: kAnisotropicAlbedos texels of albedos and kAnisotropicAverageRatios * kAnisotropicAverageAlphas of averages

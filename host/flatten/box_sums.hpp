@@ -1,4 +1,4 @@
-// Sums over rectangles of an image in constant time, for what is asked of the footprints of many triangles. Crow, "Summed-Area Tables for
+// Sums over rectangles of an image in constant time, for the footprints of many triangles. Crow, "Summed-Area Tables for
 // Texture Mapping", 1984.
 #pragma once
 

@@ -127,7 +127,7 @@ struct FlatScene {
 // How many bytes the scene takes on the device.
 std::uint64_t sizeInBytes(const FlatScene& scene);
 
-// Of these, those of images and environment maps, and those of images alone.
+// How many of these bytes are images and environment maps, and images alone.
 std::uint64_t textureBytes(const FlatScene& scene);
 std::uint64_t imageBytes(const FlatScene& scene);
 

@@ -16,7 +16,7 @@ struct Media {
     bool disperses = false;
 };
 
-// Of the materials that are used. Throws InputError if there are more than kMaxMedia.
+// The media of the materials that are used. Throws InputError if there are more than kMaxMedia.
 Media findMedia(const Scene& scene);
 
 }  // namespace glim

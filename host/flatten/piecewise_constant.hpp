@@ -18,7 +18,7 @@ struct PiecewiseConstantEntry {
 // One entry per weight. Weights are at least 0, one above. Every entry keeps a positive probability.
 std::vector<PiecewiseConstantEntry> buildPiecewiseConstant(std::span<const double> weights);
 
-// Exactly that with which an entry is sampled.
+// The exact probability with which an entry is sampled.
 double probabilityOf(const PiecewiseConstantEntry& entry);
 
 }  // namespace glim

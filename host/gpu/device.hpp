@@ -28,7 +28,7 @@ struct DeviceDescription {
     std::string missing;                  // the first feature that glim needs and this device lacks; empty if usable
 };
 
-// What Mesa's software driver takes of a limit on addresses, most of it while it compiles. It crashes where this is not there.
+// The address space that Mesa's software driver needs, most of it while it compiles. It crashes without.
 std::uint64_t driverAddresses();
 
 // All devices that Vulkan shows, best first: discrete, integrated, virtual, other, software. Vulkan's order decides within a kind.

@@ -1,4 +1,4 @@
-// What libjpeg does instead of ending the program: it leaves to where setjmp was called, past no destructor.
+// Makes libjpeg return to where setjmp was called, instead of ending the program. The jump passes no destructor.
 #pragma once
 
 #include <cstdio>  // jpeglib.h needs it before itself

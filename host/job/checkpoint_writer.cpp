@@ -43,7 +43,8 @@ void addCheckpoint(OptionTable& table, CheckpointOptions& options)
     table.add("--checkpoint", "TIME", "Write the film so far this often, as in 90s, 5m or 1h [5m with --resume]",
               [&options](const OptionValue& value) { options.seconds = parseDuration("--checkpoint", value); });
     table.addFlag("--resume", "Continue the film at --output if there is one", options.resume);
-    table.addText("--on-checkpoint", "COMMAND", "Run by the shell after each checkpoint, with its name in GLIM_FILM", options.command);
+    table.addText("--on-checkpoint", "COMMAND", "Shell command to run after each checkpoint; GLIM_FILM is the film's name",
+                  options.command);
 }
 
 CheckpointWriter::CheckpointWriter(const CheckpointOptions& options, std::filesystem::path output, std::function<void(Film&)> label)

@@ -71,7 +71,7 @@ void addPicture(OptionTable& table, PictureOptions& options, const std::string& 
               [&options](const OptionValue& value) { options.sun = parseSun(value); });
     addEnum(table, "--back-faces", "B", "Back faces of single-sided opaque surfaces: culled or shown [culled]", {"culled", "shown"},
             options.showsBackFaces);
-    table.addEach("--set", "POINTER=VALUE", "Other value at a glTF pointer, as in /materials/paint/alphaCutoff=0.5; repeatable",
+    table.addEach("--set", "POINTER=VALUE", "Set the value at a glTF pointer, as in /materials/paint/alphaCutoff=0.5; repeatable",
                   [&options](const OptionValue& value) { options.edits.push_back(parseEdit(value)); });
     table.addEach("--add", "FILE[@x,y,z]", "Another file's shapes and lights, moved by metres or a matrix; repeatable",
                   [&options](const OptionValue& value) { options.additions.push_back(parseAddition(value)); });
@@ -148,7 +148,7 @@ void addLightTransport(OptionTable& table, RenderSettings& settings)
 
 void addCaustics(OptionTable& table, RenderSettings& settings)
 {
-    addEnum(table, "--caustics", "C", "Caustics of lamps and specular surfaces by light paths: on or off [on]", {"off", "on"},
+    addEnum(table, "--caustics", "C", "Caustics of lights and specular surfaces by light paths: on or off [on]", {"off", "on"},
             settings.caustics);
 }
 

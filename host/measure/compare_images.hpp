@@ -69,7 +69,7 @@ std::optional<SquaredErrors> measureErrors(const Picture& picture, const Picture
 // The picture's expected distance from the truth if it is unbiased, from its own variance. Nothing where no variance is known, where it
 // left float's range (float_range.hpp), and where a pixel is not finite.
 std::optional<SquaredErrors> estimateErrors(const Picture& picture);
-// The same for a reference, relative to its own values and of its finite pixels: to be subtracted from comparisons with it.
+// The expected error of a reference, over its finite pixels and relative to its own values: to be subtracted from comparisons with it.
 std::optional<SquaredErrors> noiseOfReference(const Picture& reference);
 
 // The mean over the channels of all finite pixels.

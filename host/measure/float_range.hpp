@@ -1,4 +1,4 @@
-// What float32 leaves of a variance.
+// Whether float32 still holds a variance.
 #pragma once
 
 #include <algorithm>

@@ -24,7 +24,7 @@ Picture pictureOf(const Film& film);
 // The channels R, G, B and, if there are, variance.R, .G, .B. `name` is for the message of InputError.
 Picture pictureOf(const Image& image, const std::string& name);
 
-// R, G and B of `image` as the variance of `picture`.
+// Sets the variance of `picture` to R, G and B of `image`.
 void setVariance(Picture& picture, const Image& image, const std::string& name);
 
 bool isFinite(const glm::dvec3& value);

@@ -96,7 +96,7 @@ auto texturesOf(SomeMaterial& m)
                       &m.iridescenceThicknessTexture};
 }
 
-// Of these, those whose RGB is a colour, in sRGB; the others hold numbers.
+// The textures of these whose RGB is a colour, in sRGB; the others hold numbers.
 template <class SomeMaterial>
 auto colorTexturesOf(SomeMaterial& m)
 {
@@ -104,10 +104,10 @@ auto colorTexturesOf(SomeMaterial& m)
                       &m.sheenColorTexture};
 }
 
-// Whether rays from behind meet it; glTF 2.0, section 3.9.6. Extensions that let light through leave no back face out.
+// Whether rays from behind meet the surface; glTF 2.0, section 3.9.6. Extensions that let light through leave no back face out.
 inline bool meetsBackFaces(const Material& m) { return m.doubleSided || m.transmission > 0.0F || m.thick || m.diffuseTransmission > 0.0F; }
 
-// Nothing but a diffuse lobe.
+// A material that has a diffuse lobe alone.
 inline Material makeLambert(const glm::vec3& albedo, const glm::vec3& emission = glm::vec3(0.0F), bool doubleSided = false)
 {
     Material material;

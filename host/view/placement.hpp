@@ -22,7 +22,7 @@ Placement zoomAt(const Placement& placement, const glm::dvec2& point, double fac
 // The picture's pixel under a point of the window; nothing beside the picture.
 std::optional<glm::uvec2> pixelAt(const Placement& placement, const glm::dvec2& point, const glm::uvec2& picture);
 
-// The part of the window that shows the picture: its pixels from `low` up to, but without, `high`. A picture that is thinner than a pixel
+// The part of the window that shows the picture: its pixels from `low` to `high`, without `high`. A picture that is thinner than a pixel
 // of the window has one.
 struct Rectangle {
     glm::uvec2 low{0}, high{0};

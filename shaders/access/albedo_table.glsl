@@ -54,7 +54,7 @@ float fetchSheenAlbedo(AlbedoRow row, float cosine)
     return both.x + (both.y - both.x) * row.weight;
 }
 
-// Between which two steps of an axis a number lies.
+// The two steps of an axis between which a number lies.
 struct AlbedoCell {
     int first;
     float weight;  // of the other one
@@ -97,7 +97,7 @@ vec2 fetchAlbedo(vec2 alpha, vec3 w)
     return vec2(entry.x * (1.0 - schlick), entry.x * schlick);
 }
 
-// Their averages.
+// The averages of a and b for a lobe of two widths.
 vec2 fetchAverageAlbedo(vec2 alpha)
 {
     AlbedoCell ratio = albedoCell(alpha.y / alpha.x, kAnisotropicAverageRatios);

@@ -38,7 +38,7 @@ Frame makeFrame(vec3 n, vec3 tangent)
     return Frame(x, cross(n, x), n);
 }
 
-// wo in the shading frame, not along the surface: there lobes divide by its cosine.
+// wo in the shading frame, kept out of the surface's plane, because lobes divide by its cosine.
 vec3 outgoing(Frame frame, vec3 wo)
 {
     vec3 local = frameFromWorld(frame, wo);

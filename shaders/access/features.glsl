@@ -14,7 +14,7 @@ layout(constant_id = kSpecUpperFeatures) const uint kUpperFeatures = 0xffffffffu
 // finds the constant where it decides a branch (host/gpu/specialize.hpp).
 #define hasFeature(feature) ((kLowerFeatures & (feature).x | kUpperFeatures & (feature).y) != 0u)
 
-// What has a LayersData.
+// Features whose materials have a LayersData.
 const FeatureMask kLayerFeatures = kFeatureClearcoat | kFeatureSheen | kFeatureAnisotropy | kFeatureIridescence | kFeatureTransmission |
                             kFeatureDiffuseTransmission | kFeatureMedia;
 

@@ -35,7 +35,8 @@ vec3 triangleNormal(vec3 v0, vec3 v1, vec3 v2)
     return triangleNormalFromSides(v1 - v0, v2 - v1, v0 - v2);
 }
 
-// That of a placed triangle. It is placed as a normal, because rounding the sides would tilt a thin triangle. A mirrored front stays the front.
+// The unit normal of a placed triangle. It is placed as a normal, because rounding the sides would tilt a thin triangle. A mirrored front
+// stays the front.
 vec3 placedNormal(PlacedRecord placed)
 {
     vec3 n = triangleNormal(floatsOf(placed.record.t0), floatsOf(placed.record.t1), floatsOf(placed.record.t2));

@@ -113,13 +113,14 @@ float pdfSurfaceLight(LightContext context, uint light, float t, float cosine)
     return pdfSurfaceLight(fetchLight(light), probabilityOfLight(context, light), context, t, cosine);
 }
 
-// The same of the environment in the direction wi. cosine: against the normal that lights were sampled for.
+// Density per steradian with which choosing and sampling lights would have found the environment in the direction wi. cosine: against the
+// normal that lights were sampled for.
 float pdfEnvironment(LightContext context, vec3 wi, float cosine)
 {
     return probabilityOfLight(context, render.environmentLight) * (hasEnvironmentMap() ? pdfEnvironmentMap(wi) : pdfCosineHemisphere(cosine));
 }
 
-// Whether its emission changes over the surface, by a texture, coverage or a coat.
+// Whether the light's emission changes over its surface, by a texture, coverage or a coat.
 #define isUneven(light) (hasFeature(kFeatureTextures | kFeatureAlpha | kFeatureClearcoat) && ((light).kind & kUnevenLight) != 0u)
 
 // A sampled point of a surface light.

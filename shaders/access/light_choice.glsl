@@ -84,7 +84,7 @@ float finiteShareAt(LightContext context)
     return share;
 }
 
-// Of a finite light whose importance among those has the share `byImportance`.
+// The probability of a finite light that has the share `byImportance` of all finite lights' importance.
 float mixedProbability(float finiteShare, float byImportance)
 {
     return finiteShare * (kUniformShare / float(render.finiteLights) + (1.0 - kUniformShare) * byImportance);

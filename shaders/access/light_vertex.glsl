@@ -41,14 +41,14 @@ Bsdf bsdfTowards(vec3 wo, SurfaceInteraction si, SurfaceMaterial material)
     return makeBsdf(si, material, wo);
 }
 
-// Veach 1997, section 5.3.2: what the BSDF of particles is of that of radiance, if the shading normal is not the geometric one. Here from f
-// * cos against ns of the light's direction wi, and per area across wo.
+// The ratio of the BSDF of particles to that of radiance where the shading normal is not the geometric one (Veach 1997, section 5.3.2).
+// Here from f * cos against ns of the light's direction wi, and per area across wo.
 float adjointFactor(vec3 ng, vec3 wi, vec3 wo)
 {
     return abs(dot(wo, ng)) / max(abs(dot(wi, ng)), 1e-12);
 }
 
-// What a specular sample's weight, that of radiance, becomes for particles: without refraction's scaling, and corrected as above.
+// A specular sample's weight for particles, from that for radiance: without refraction's scaling, and corrected as above.
 vec3 specularWeight(BsdfSample s, vec3 wi, vec3 ng, vec3 ns)
 {
     bool refracts = (s.flags & kBsdfTransmission) != 0u;
@@ -83,7 +83,7 @@ bool isInPicture(CameraConnection connection, out uint pixel)
     return inside;
 }
 
-// state.throughput: over the path's flux. The first scattering must be specular: what is not has no next ray.
+// state.throughput: over the path's flux. The first scattering must be specular, or the path ends.
 LightVertex shadeLightVertex(SampleId id, PathRay ray, PathHit hit, PathState state)
 {
     vec3 wi = -ray.direction;

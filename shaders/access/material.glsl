@@ -46,7 +46,7 @@ vec4 textureCoordinates(PlacedRecord placed, vec3 point, vec2 barycentric)
 }
 
 // glTF 2.0, section 3.9.3. The frame is that of MikkTSpace: interpolated normal and tangent, neither of unit length. On the back the whole
-// normal is turned. Not finite or zero: the normal stays.
+// normal is flipped. A result that is zero or not finite leaves the normal as it is.
 vec3 mappedNormal(SurfaceInteraction si, vec3 texel, float scale)
 {
     float side = si.front ? 1.0 : -1.0;
@@ -62,7 +62,7 @@ vec3 mappedNormal(SurfaceInteraction si, vec3 texel, float scale)
 
 #define isUnlit(data) (hasFeature(kFeatureUnlit) && (data).lobe == kUnlit)
 
-// Whether the light that it transmits passes straight, and is transparency.glsl's.
+// Whether the light that the material transmits passes straight; transparency.glsl then transmits it.
 bool passesStraight(MaterialData data)
 {
     return (data.flags & kThinWall) != 0u;

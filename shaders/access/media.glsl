@@ -21,7 +21,7 @@ vec3 mediaTransmittance(uint media, float distance_)
     return vec3(portableExp(-depth.r), portableExp(-depth.g), portableExp(-depth.b));
 }
 
-// The same along a shadow ray that leaves the surface to the side of wo or, through a rough one, to the other.
+// The share that is left along a shadow ray that leaves the surface to the side of wo or, through a rough one, to the other.
 vec3 mediaTransmittance(uint media, SurfaceInteraction si, uint medium, ShadowRay ray)
 {
     bool crosses = medium != 0u && dot(ray.direction, si.ng) < 0.0;

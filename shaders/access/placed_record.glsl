@@ -34,7 +34,7 @@ vec3 placeVector(InstanceData instance, vec3 v)
     return instance.column0 * v.x + instance.column1 * v.y + instance.column2 * v.z;
 }
 
-// By the inverse transpose, up to a positive factor: the cofactors with the determinant's sign.
+// Places a normal by the inverse transpose, up to a positive factor: the cofactors with the determinant's sign.
 vec3 placeNormal(InstanceData instance, vec3 n)
 {
     vec3 placed = cross(instance.column1, instance.column2) * n.x + cross(instance.column2, instance.column0) * n.y +

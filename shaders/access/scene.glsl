@@ -143,10 +143,10 @@ bool isSliver(Record record)
     return hasFeature(kFeatureSlivers) && (record.t1.w & kSliverBit) != 0u;
 }
 
-// Neither opaque nor transparent all over.
+// Whether the primitive is neither opaque nor transparent all over.
 #define hasAlpha(record) (hasFeature(kFeatureAlpha) && ((record).t1.w & kAlphaBit) != 0u)
 
-// Not there for a ray of a path from the camera that comes from behind.
+// Whether rays of camera paths that come from behind pass the primitive.
 #define isSingleSided(record) (hasFeature(kFeatureSingleSided) && ((record).t1.w & kSingleSidedBit) != 0u)
 
 uint materialOf(Record record)

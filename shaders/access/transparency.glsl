@@ -108,7 +108,7 @@ Passage passageOf(ShadowRay ray, uint sides)
 }
 
 // The first hit that the ray does not pass, or of a shadow ray what all of them let through. Both in one function, so that trace_paths has
-// one copy of the traversal. `id`, `bounce`: not of shadow rays.
+// one copy of the traversal. `id`, `bounce`: unused for shadow rays.
 VisibleHit follow(SampleId id, uint bounce, Passage passage, inout Steps steps)
 {
     if (!hasFeature(kFeatureAlpha)) {
@@ -168,7 +168,7 @@ bool isClear(vec3 transmittance_)
     return hasFeature(kFeatureThinWalls) ? any(greaterThan(transmittance_, vec3(0.0))) : transmittance_.x > 0.0;
 }
 
-// What is left of a contribution; without alpha its bits.
+// What is left of a contribution; without alpha, the same bits.
 vec3 attenuated(vec3 contribution, vec3 clear)
 {
     return hasFeature(kFeatureAlpha) ? contribution * clear : contribution;

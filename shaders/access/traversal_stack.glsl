@@ -24,7 +24,7 @@ bool hasAny(NodeGroup group)
     return group.left >= 1u << kFirstNodeBit;
 }
 
-// Takes the nearest.
+// Takes the nearest child of the group.
 uint takeNode(inout NodeGroup group, uint octant)
 {
     uint bit = uint(findMSB(group.left));

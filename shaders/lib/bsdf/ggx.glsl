@@ -35,7 +35,7 @@ float evalGgx(vec3 wo, vec3 wi, vec2 alpha)
     return visibility * distributionGgx(halfVector(wo, wi), alpha) * wi.z;
 }
 
-// Of sampleGgx, per steradian. Needs wo.z > 0 and wi.z > 0.
+// The density of sampleGgx, per steradian. Needs wo.z > 0 and wi.z > 0.
 float pdfGgx(vec3 wo, vec3 wi, vec2 alpha)
 {
     return 0.5 * distributionGgx(halfVector(wo, wi), alpha) / (wo.z + stretchedLength(wo, alpha));
@@ -53,7 +53,7 @@ vec3 sampleVisibleNormal(vec3 wo, vec2 alpha, vec2 u)
     return h / length(h);
 }
 
-// The direction may lie below the horizon; then it carries nothing.
+// The sampled direction may lie below the surface; it then carries nothing.
 vec3 sampleGgx(vec3 wo, vec2 alpha, vec2 u)
 {
     return reflectAbout(wo, sampleVisibleNormal(wo, alpha, u));

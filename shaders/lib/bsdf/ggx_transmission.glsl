@@ -25,15 +25,15 @@ float refractionJacobian(vec3 wo, vec3 wi, vec3 h, float eta)
     return eta * eta * -dot(wi, h) / (denominator * denominator);
 }
 
-// For a transmittance of 1, times |cos| of wi, of radiance, which the change of its solid angle scales by 1 / eta^2 (Veach 1997, section
-// 5.2). Eq. 21.
+// The lobe for a transmittance of 1, times |cos| of wi, eq. 21. It is that of radiance, which the change of its solid angle scales by 1 /
+// eta^2 (Veach 1997, section 5.2).
 float evalGgxTransmission(vec3 wo, vec3 wi, vec3 h, vec2 alpha, float eta)
 {
     float lambdas = -wi.z * stretchedLength(wo, alpha) + wo.z * stretchedLength(wi, alpha);
     return 2.0 * dot(wo, h) * distributionGgx(h, alpha) * refractionJacobian(wo, wi, h, eta) * -wi.z / (lambdas * eta * eta);
 }
 
-// Density of refracting wo at a visible normal.
+// The density, per steradian, of refracting wo at a visible normal.
 float pdfGgxTransmission(vec3 wo, vec3 wi, vec3 h, vec2 alpha, float eta)
 {
     return 2.0 * dot(wo, h) * distributionGgx(h, alpha) / (wo.z + stretchedLength(wo, alpha)) * refractionJacobian(wo, wi, h, eta);

@@ -9,7 +9,7 @@
 #include "lib/portable.glsl"
 #include "lib/warp.glsl"
 
-// F0 a + F90 b for single scattering; `x` is a, `y` is b.
+// The albedo of single scattering, F0 a + F90 b. `ab`: a and b.
 vec3 singleScatteringAlbedo(vec2 ab, vec3 f0, float f90)
 {
     return f0 * ab.x + f90 * ab.y;

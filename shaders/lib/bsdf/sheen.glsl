@@ -27,7 +27,7 @@ float sheenMasking(float cosine, float alpha)
     return portableExp(cosine < 0.5 ? l : 2.0 * evalSheenFit(fit, 0.5, portablePow(0.5, fit.c)) - l);
 }
 
-// For the colour white, times |cos| of wi, in sr^-1. Its albedo exceeds 1 at low roughness: see sheenScale.
+// The lobe for the colour white, times |cos| of wi, in sr^-1. Its albedo exceeds 1 at low roughness: see sheenScale.
 float evalSheen(vec3 wo, vec3 wi, float alpha)
 {
     vec3 h = wo + wi;
@@ -37,7 +37,7 @@ float evalSheen(vec3 wo, vec3 wi, float alpha)
     return d / ((1.0 + sheenMasking(wo.z, alpha) + sheenMasking(wi.z, alpha)) * 4.0 * wo.z);
 }
 
-// What brings the albedo to at most 1 for both directions, and stays reciprocal. e: the albedos.
+// The reciprocal factor that brings the albedo to at most 1 for both directions. eOut, eIn: their albedos.
 float sheenScale(float eOut, float eIn)
 {
     return 1.0 / max(1.0, max(eOut, eIn));
