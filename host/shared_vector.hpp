@@ -35,8 +35,8 @@ public:
     // The values, to be changed: from here on this is another array. Copied if somebody else holds them.
     std::vector<T>& change()
     {
-        values_ = values_.use_count() > 1 ? std::make_shared<std::vector<T>>(*values_)
-                                          : std::make_shared<std::vector<T>>(std::move(*values_));
+        values_ =
+            values_.use_count() > 1 ? std::make_shared<std::vector<T>>(*values_) : std::make_shared<std::vector<T>>(std::move(*values_));
         return *values_;
     }
 

@@ -225,8 +225,8 @@ void pushSurfaces(FlatScene& flat, const Scene& scene, const Primitives& primiti
     Records records;
     pushRecords(records, scene, primitives, bvh);
     flat.records = std::move(records.texels);
-    flat.surfaceFeatures |= records.features | (primitives.spheres.empty() ? 0U : kFeatureSpheres) |
-                            (primitives.placements.empty() ? 0U : kFeatureInstances);
+    flat.surfaceFeatures |=
+        records.features | (primitives.spheres.empty() ? 0U : kFeatureSpheres) | (primitives.placements.empty() ? 0U : kFeatureInstances);
     flat.triangleCount = static_cast<std::uint32_t>(primitives.triangles.size());
     flat.firstInstanceRecord = static_cast<std::uint32_t>(bvh.order.size());
 }
@@ -280,7 +280,8 @@ void addTables(FlatScene& flat)
 
 void placeLights(FlatScene& flat, const Scene& scene, const Primitives& primitives, const WideBvh& bvh, std::span<const LightMark> before)
 {
-    const bool mayEmit = std::ranges::any_of(scene.materials, [](const Material& material) { return material.emission != glm::vec3(0.0F); });
+    const bool mayEmit =
+        std::ranges::any_of(scene.materials, [](const Material& material) { return material.emission != glm::vec3(0.0F); });
     const std::vector<std::uint32_t> recordOf = mayEmit || !before.empty() ? findRecords(primitives, bvh) : std::vector<std::uint32_t>();
     addLights(flat, scene, primitives, recordOf);
     if (!std::ranges::equal(flat.lightMarks, before)) {

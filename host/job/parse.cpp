@@ -197,8 +197,9 @@ Addition parseAddition(const OptionValue& value)
     const std::string text = value.text();
     const std::size_t at = text.rfind('@');
     const bool isMember = !value.key().empty();
-    const std::vector<std::string> parts =
-        isMember ? value.split(',') : at == std::string::npos ? std::vector<std::string>() : OptionValue(text.substr(at + 1)).split(',');
+    const std::vector<std::string> parts = isMember                  ? value.split(',')
+                                           : at == std::string::npos ? std::vector<std::string>()
+                                                                     : OptionValue(text.substr(at + 1)).split(',');
     std::vector<double> numbers;
     for (const std::string& part : parts) {
         double number = 0.0;

@@ -26,7 +26,8 @@ DeviceArray upload(Device& device, const std::string& name, const SharedVector<u
         return before;
     }
     before = {};  // so that no two are on the device
-    return {SharedVector<uvec4>::Identity(values), std::make_shared<const Buffer>(uploaded<uvec4>(device, name, BufferKind::Texel, values))};
+    return {SharedVector<uvec4>::Identity(values),
+            std::make_shared<const Buffer>(uploaded<uvec4>(device, name, BufferKind::Texel, values))};
 }
 
 LastingBuffers upload(Device& device, const FlatScene& scene, LastingBuffers before)
@@ -116,12 +117,16 @@ std::vector<BindingSlot> DeviceScene::slots()
 
 std::map<std::uint32_t, const Buffer*> DeviceScene::buffers() const
 {
-    std::map<std::uint32_t, const Buffer*> buffers{
-        {kBindNodes, lasting_.nodes.buffer.get()},         {kBindRecords, lasting_.records.buffer.get()},
-        {kBindTriangles, lasting_.triangles.buffer.get()}, {kBindVertices, lasting_.vertices.buffer.get()},
-        {kBindMaterials, &materials_},                     {kBindLights, &lights_},
-        {kBindLightNodes, &lightNodes_},                   {kBindAlbedos, &albedos_},
-        {kBindCaustics, &caustics_},                       {kBindInstances, lasting_.instances.buffer.get()}};
+    std::map<std::uint32_t, const Buffer*> buffers{{kBindNodes, lasting_.nodes.buffer.get()},
+                                                   {kBindRecords, lasting_.records.buffer.get()},
+                                                   {kBindTriangles, lasting_.triangles.buffer.get()},
+                                                   {kBindVertices, lasting_.vertices.buffer.get()},
+                                                   {kBindMaterials, &materials_},
+                                                   {kBindLights, &lights_},
+                                                   {kBindLightNodes, &lightNodes_},
+                                                   {kBindAlbedos, &albedos_},
+                                                   {kBindCaustics, &caustics_},
+                                                   {kBindInstances, lasting_.instances.buffer.get()}};
     lasting_.textures->addTo(buffers);
     return buffers;
 }

@@ -77,10 +77,11 @@ PreparedScene prepare(Scene scene, SplitRule split, Clock::time_point start, Pre
     if (first) {
         stage("building the BVH of " + std::to_string(prepared.primitives.count()) + " primitives");
     }
-    prepared.bvh = first                            ? buildSceneBvh(prepared.primitives, split)
-                   : same == Same::Everything       ? std::move(previous.bvh)
-                   : same == Same::AllButPlacements ? moveInstances(std::move(previous.bvh), prepared.primitives, split)
-                                                    : updateSceneBvh(std::move(previous.bvh), previous.primitives, prepared.primitives, split);
+    prepared.bvh = first                      ? buildSceneBvh(prepared.primitives, split)
+                   : same == Same::Everything ? std::move(previous.bvh)
+                   : same == Same::AllButPlacements
+                       ? moveInstances(std::move(previous.bvh), prepared.primitives, split)
+                       : updateSceneBvh(std::move(previous.bvh), previous.primitives, prepared.primitives, split);
     prepared.split = split;
     prepared.flat = flattenScene(prepared.scene, prepared.primitives, prepared.bvh, previous.flat, same);
     if (first) {

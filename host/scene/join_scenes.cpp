@@ -49,9 +49,9 @@ public:
     {
         const Scene& other = added.scene;
         for (Material material : other.materials) {
-            for (std::optional<Texture>* texture : texturesOf(material)) {
-                if (*texture) {
-                    (*texture)->image += first.image;
+            for (std::optional<Texture>& texture : material.textures) {
+                if (texture) {
+                    texture->image += first.image;
                 }
             }
             scene_.materials.push_back(std::move(material));
@@ -88,7 +88,8 @@ private:
     {
         const double scale = uniformScaleOf(glm::dmat3(added.worldFromScene));
         if (scale == 0.0) {
-            throw InputError(added.scene.file + " has spheres, and its matrix scales them unevenly or shears them; expected a uniform scale");
+            throw InputError(added.scene.file +
+                             " has spheres, and its matrix scales them unevenly or shears them; expected a uniform scale");
         }
         sphere.center = place(added, sphere.center);
         sphere.radius = static_cast<float>(scale * static_cast<double>(sphere.radius));

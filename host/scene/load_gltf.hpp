@@ -66,7 +66,8 @@ public:
     SceneFile& operator=(const SceneFile&) = delete;
 
     // The scene at `seconds` into the animation; if absent in the file's rest pose. It has passed checkScene. A framed camera sees the
-    // file's whole rest pose, at any time, and what is added as it comes. Throws InputError with one sentence that names file, place, value and what was expected.
+    // file's whole rest pose, at any time, and what is added as it comes. Throws InputError with one sentence that names file, place, value
+    // and what was expected.
     Scene sceneAt(std::optional<double> seconds);
     // Edits in place of those of the options. Buffers, images and maps stay, and meshes that no edit bends. A pointer begins with the name
     // of an added file and a # where it is one of that file. Throws InputError, and then nothing is changed.

@@ -66,7 +66,10 @@ WorldBox placeBox(const Scene& scene, const MeshInstance& instance, const WorldB
     return {glm::vec3(placed - extent), glm::vec3(placed + extent)};
 }
 
-std::span<const MeshInstance> ownInstances(const Scene& scene) { return std::span(scene.instances).first(scene.instances.size() - scene.addedInstances); }
+std::span<const MeshInstance> ownInstances(const Scene& scene)
+{
+    return std::span(scene.instances).first(scene.instances.size() - scene.addedInstances);
+}
 
 std::span<const Sphere> ownSpheres(const Scene& scene) { return std::span(scene.spheres).first(scene.spheres.size() - scene.addedSpheres); }
 

@@ -59,9 +59,9 @@ protected:
 
 TEST_F(JoinScenesTest, ShapesAndLightsStandWhereTheMatrixSays)
 {
-    const glm::dmat4 matrix = glm::scale(glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(101, 2, 3)), 0.5 * 3.14159265358979323846,
-                                                     glm::dvec3(0, 0, 1)),
-                                         glm::dvec3(2.0));
+    const glm::dmat4 matrix =
+        glm::scale(glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(101, 2, 3)), 0.5 * 3.14159265358979323846, glm::dvec3(0, 0, 1)),
+                   glm::dvec3(2.0));
     const Scene scene = loadGltf(table(), with("vase.gltf", matrix));
     ASSERT_EQ(scene.instances.size(), 2U);
     ASSERT_EQ(scene.spheres.size(), 1U);
@@ -143,9 +143,10 @@ TEST_F(JoinScenesTest, EditsNameTheirFile)
     EXPECT_EQ(scene.materials[0].baseColor, glm::vec3(1, 1, 0));
     EXPECT_EQ(scene.materials[scene.spheres[0].material].baseColor, glm::vec3(0, 0, 1));
     options.edits = {{"lamp.gltf#/materials/0/alphaCutoff", "1"}};
-    expectRefusal<InputError>([&] { loadGltf(table(), options); },
-                              "--set lamp.gltf#/materials/0/alphaCutoff: expected a pointer that begins with /, or with one of \"vase.gltf\" and "
-                              "a #.");
+    expectRefusal<InputError>(
+        [&] { loadGltf(table(), options); },
+        "--set lamp.gltf#/materials/0/alphaCutoff: expected a pointer that begins with /, or with one of \"vase.gltf\" and "
+        "a #.");
     options.edits = {{"vase.gltf#/materials/9/alphaCutoff", "1"}};
     expectRefusal<InputError>([&] { loadGltf(table(), options); }, "vase.gltf: --set /materials/9/alphaCutoff: /materials has 2 elements");
 }
