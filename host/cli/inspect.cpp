@@ -112,8 +112,7 @@ Json objectOf(const Entries& entries)
 Counts lobesOf(const FlatScene& flat)
 {
     constexpr const char* kLobes[] = {"diffuse", "mirror", "glass", "glTF", "unlit"};
-    constexpr FeatureMask kLayers = kFeatureClearcoat | kFeatureSheen | kFeatureAnisotropy | kFeatureIridescence | kFeatureTransmission |
-                                    kFeatureDiffuseTransmission | kFeatureThinWalls;
+    constexpr FeatureMask kLayers = kLayerFeatures | kFeatureThinWalls;
     Counts counts;
     const auto add = [&counts](const char* name, std::ptrdiff_t count) {
         if (count > 0) {

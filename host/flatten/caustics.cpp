@@ -146,10 +146,10 @@ private:
             return lobe == kMirror || lobe == kDielectric;
         }
         const Material& material = scene_.materials[id];
-        const bool smooth = material.glossy ? material.roughness > 1.0F - std::sqrt(kMinAlpha) || material.specularColorTexture
-                                            : isSmooth(material.roughness, material.metallicRoughnessTexture);
+        const bool smooth = material.glossy ? material.roughness > 1.0F - std::sqrt(kMinAlpha) || material.textures[kSlotSpecularColor]
+                                            : isSmooth(material.roughness, material.textures[kSlotMetallicRoughness]);
         return smooth || mayMatchIndex(material) ||
-               (material.clearcoat > 0.0F && isSmooth(material.clearcoatRoughness, material.clearcoatRoughnessTexture));
+               (material.clearcoat > 0.0F && isSmooth(material.clearcoatRoughness, material.textures[kSlotClearcoatRoughness]));
     }
 
     const FlatScene& flat_;

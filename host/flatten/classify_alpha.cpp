@@ -31,12 +31,12 @@ bool hasAlpha(const Mesh& mesh)
 
 const AlphaClassifier::Shares& AlphaClassifier::sharesOf(const Material& material)
 {
-    const Rule rule(material.baseColorTexture->image, material.alphaMode, material.alphaCutoff, material.alpha);
+    const Rule rule(material.textures[kSlotBaseColor]->image, material.alphaMode, material.alphaCutoff, material.alpha);
     const auto known = shares_.find(rule);
     if (known != shares_.end()) {
         return known->second;
     }
-    const DecodedImage& image = *scene_.images[material.baseColorTexture->image].pixels;
+    const DecodedImage& image = *scene_.images[material.textures[kSlotBaseColor]->image].pixels;
     const auto sumsOf = [&](Coverage coverage) {
         return BoxSums(image.width, image.height, [&](std::uint32_t x, std::uint32_t y) {
             const float alpha = material.alpha * alphaOf(image, std::size_t{y} * image.width + x);
@@ -58,10 +58,10 @@ Coverage AlphaClassifier::classify(const Mesh& mesh, const std::array<std::uint3
     if (hasAlpha(mesh)) {
         return Coverage::Mixed;
     }
-    if (!material.baseColorTexture) {
+    if (!material.textures[kSlotBaseColor]) {
         return coverageOf(material, material.alpha);
     }
-    const Texture& texture = *material.baseColorTexture;
+    const Texture& texture = *material.textures[kSlotBaseColor];
     const std::vector<glm::vec2>& uv = texture.uvSet == 0 ? mesh.uv0 : mesh.uv1;
     glm::vec2 at[3] = {};
     for (std::size_t v = 0; v < 3 && !uv.empty(); ++v) {
@@ -79,7 +79,7 @@ Coverage AlphaClassifier::classify(const Sphere& sphere) const
     const Material& material = scene_.materials[sphere.material];
     return material.unlit || passesStraight(material) ? Coverage::Mixed
            : material.alphaMode == AlphaMode::Opaque  ? Coverage::Opaque
-           : material.baseColorTexture                ? Coverage::Mixed
+           : material.textures[kSlotBaseColor]        ? Coverage::Mixed
                                                       : coverageOf(material, material.alpha);
 }
 

@@ -17,48 +17,6 @@
 
 namespace glim {
 
-// Readable names for the bits of shaders/shared/features.h.
-struct Feature {
-    FeatureMask bit;
-    const char* name;
-};
-
-constexpr Feature kFeatures[] = {{kFeatureSpheres, "spheres"},
-                                 {kFeatureSlivers, "slivers"},
-                                 {kFeatureSmooth, "smooth normals"},
-                                 {kFeatureMirror, "mirrors"},
-                                 {kFeatureDielectric, "glass"},
-                                 {kFeatureTriangleLights, "triangle lights"},
-                                 {kFeatureSphereLights, "sphere lights"},
-                                 {kFeaturePunctualLights, "punctual lights"},
-                                 {kFeatureEnvironment, "environment"},
-                                 {kFeaturePrincipled, "glTF materials"},
-                                 {kFeatureTextures, "textures"},
-                                 {kFeatureNormalMaps, "normal maps"},
-                                 {kFeatureVertexColors, "vertex colours"},
-                                 {kFeatureAlpha, "alpha"},
-                                 {kFeatureEnvironmentMap, "environment map"},
-                                 {kFeatureTextureTransforms, "texture transforms"},
-                                 {kFeatureWideTextures, "16-bit textures"},
-                                 {kFeatureClearcoat, "clearcoat"},
-                                 {kFeatureSheen, "sheen"},
-                                 {kFeatureAnisotropy, "anisotropy"},
-                                 {kFeatureIridescence, "iridescence"},
-                                 {kFeatureTransmission, "transmission"},
-                                 {kFeatureDiffuseTransmission, "diffuse transmission"},
-                                 {kFeatureMedia, "volumes"},
-                                 {kFeatureDispersion, "dispersion"},
-                                 {kFeatureThinWalls, "thin walls"},
-                                 {kFeatureUnlit, "unlit materials"},
-                                 {kFeatureGlossiness, "specular-glossiness"},
-                                 {kFeatureRectangleLights, "rectangle lights"},
-                                 {kFeatureLightTree, "several lights"},
-                                 {kFeatureCaustics, "caustics"},
-                                 {kFeatureInstances, "instances"},
-                                 {kFeatureLampsInMedia, "lamps in volumes"},
-                                 {kFeatureSingleSided, "single-sided surfaces"},
-                                 {kFeatureLargeTriangles, "large triangles"}};
-
 // The images of a scene as kernels read them: each once, however many textures use it.
 struct PackedImages {
     std::vector<std::weak_ptr<const DecodedImage>> sources;  // in this order

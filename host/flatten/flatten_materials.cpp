@@ -15,30 +15,27 @@ namespace {
 // Below this roughness a metal is a mirror: its alpha is below that of the GGX lobe's limit (lib/bsdf/ggx.glsl).
 constexpr float kMirrorAlpha = 1e-3F;
 
-bool isTextured(const Material& material)
-{
-    for (const auto* texture : texturesOf(material)) {
-        if (texture->has_value()) {
-            return true;
-        }
-    }
-    return false;
-}
+static_assert(std::size(kTextureSlots) <= 32, "PrincipledData::textures has a bit for each");
+static_assert([] {
+    uint number = 0;
+    return std::ranges::all_of(kTextureSlots, [&number](const TextureSlot& slot) { return slot.number == number++; });
+}());
 
-bool hasLayers(const Material& m)
+// The layers that the material has.
+FeatureMask layersOf(const Material& m)
 {
-    return m.transmission > 0.0F || m.diffuseTransmission > 0.0F || m.clearcoat > 0.0F || m.sheenColor != glm::vec3(0.0F) ||
-           m.anisotropy > 0.0F || m.iridescence > 0.0F;
+    return (m.clearcoat > 0.0F ? kFeatureClearcoat : 0U) | (m.sheenColor != glm::vec3(0.0F) ? kFeatureSheen : 0U) |
+           (m.anisotropy > 0.0F ? kFeatureAnisotropy : 0U) | (m.iridescence > 0.0F ? kFeatureIridescence : 0U) |
+           (m.transmission > 0.0F ? kFeatureTransmission : 0U) | (m.diffuseTransmission > 0.0F ? kFeatureDiffuseTransmission : 0U);
 }
 
 // A smooth solid dielectric, tinted by the base colour, and nothing else.
 bool isSmoothGlass(const Material& m)
 {
-    const bool layered = m.diffuseTransmission > 0.0F || m.clearcoat > 0.0F || m.sheenColor != glm::vec3(0.0F) || m.anisotropy > 0.0F ||
-                         m.iridescence > 0.0F;
-    const bool textured = m.transmissionTexture || m.metallicRoughnessTexture || m.specularTexture || m.specularColorTexture;
+    const bool textured =
+        m.textures[kSlotTransmission] || m.textures[kSlotMetallicRoughness] || m.textures[kSlotSpecular] || m.textures[kSlotSpecularColor];
     return m.solid && m.transmission == 1.0F && m.metallic == 0.0F && m.specular == 1.0F && m.specularColor == glm::vec3(1.0F) &&
-           m.roughness * m.roughness < kMirrorAlpha && !m.glossy && !layered && !textured;
+           m.roughness * m.roughness < kMirrorAlpha && !m.glossy && layersOf(m) == kFeatureTransmission && !textured;
 }
 
 // The one colour of an image, if it has no other: in [0, 1], as stored.
@@ -137,7 +134,7 @@ public:
         if (textured || colored || tracked || data.lobe == kPrincipled) {
             data.principled = static_cast<std::uint32_t>(flat_.principled.size() + 1);  // its place is known at the end
             flat_.principled.push_back(makePrincipled(material));
-            if (hasLayers(material) || tracked) {
+            if (layersOf(material) != 0 || tracked) {
                 flat_.layers.push_back(makeLayers(material, media_.ofMaterial[id]));
                 flat_.principled.back().layers = static_cast<std::uint32_t>(flat_.layers.size());
             }
@@ -168,18 +165,7 @@ public:
         }
         for (PrincipledData& data : flat_.principled) {
             place(data.layers, firstLayers, kLayersTexels);
-            for (std::uint32_t* texture : {&data.baseColorTexture, &data.metallicRoughnessTexture, &data.normalTexture,
-                                           &data.emissiveTexture, &data.specularTexture, &data.specularColorTexture}) {
-                place(*texture, firstTexture, kTextureTexels);
-            }
-        }
-        for (LayersData& data : flat_.layers) {
-            for (std::uint32_t* texture :
-                 {&data.clearcoatTexture, &data.clearcoatRoughnessTexture, &data.clearcoatNormalTexture, &data.sheenColorTexture,
-                  &data.sheenRoughnessTexture, &data.anisotropyTexture, &data.iridescenceTexture, &data.iridescenceThicknessTexture,
-                  &data.transmissionTexture, &data.diffuseTransmissionTexture, &data.diffuseTransmissionColorTexture}) {
-                place(*texture, firstTexture, kTextureTexels);
-            }
+            place(data.firstTexture, firstTexture, kTextureTexels);
         }
         flat_.mediumOfMaterial.assign(scene_.materials.size(), 0);
         if (media_.tracked) {
@@ -192,87 +178,54 @@ public:
 private:
     static constexpr float kUnusedIor = 1.5F;
 
-    // A colour is fetched by `multiply`, which gets it as a linear one if `srgb`.
-    template <class Multiply>
-    void fold(std::optional<Texture>& texture, bool srgb, const Multiply& multiply)
+    // Images of one colour become part of the factors.
+    void foldTextures(Material& m) const
     {
-        if (!texture || !colors_[texture->image]) {
-            return;
+        for (const TextureSlot& slot : kTextureSlots) {
+            std::optional<Texture>& texture = m.textures[slot.number];
+            if (texture && colors_[texture->image] && slot.holds != TexelKind::Direction) {
+                glm::dvec4 color = *colors_[texture->image];
+                for (int c = 0; slot.holds == TexelKind::Color && c < 3; ++c) {
+                    color[c] = linearFromSrgb(color[c]);
+                }
+                foldTexel(slot.number, color, m);
+                texture.reset();
+            }
         }
-        glm::dvec4 color = *colors_[texture->image];
-        for (int c = 0; srgb && c < 3; ++c) {
-            color[c] = linearFromSrgb(color[c]);
-        }
-        multiply(color);
-        texture.reset();
-    }
-
-    void foldTextures(Material& m)
-    {
-        fold(m.baseColorTexture, true, [&m](const glm::dvec4& color) {
-            m.baseColor *= glm::vec3(color);
-            m.alpha *= static_cast<float>(color.a);
-        });
-        fold(m.metallicRoughnessTexture, false, [&m](const glm::dvec4& color) {
-            m.roughness *= static_cast<float>(color.g);
-            m.metallic *= static_cast<float>(color.b);
-        });
-        fold(m.emissiveTexture, true, [&m](const glm::dvec4& color) { m.emission *= glm::vec3(color); });
-        fold(m.specularTexture, false, [&m](const glm::dvec4& color) { m.specular *= static_cast<float>(color.a); });
-        fold(m.specularColorTexture, true, [&m](const glm::dvec4& color) {
-            m.specularColor *= glm::vec3(color);
-            m.roughness *= m.glossy ? static_cast<float>(color.a) : 1.0F;
-        });
-        if (m.glossy && !m.specularColorTexture) {
+        if (m.glossy && !m.textures[kSlotSpecularColor]) {
             m.roughness = 1.0F - m.roughness;
             m.baseColor *= 1.0F - std::max({m.specularColor.r, m.specularColor.g, m.specularColor.b});
             m.glossy = false;
         }
-        foldLayers(m);
     }
 
-    void foldLayers(Material& m)
+    // As applyTexel on the device (access/material.glsl), and what that leaves to others.
+    static void foldTexel(uint slot, const glm::vec4& texel, Material& m)
     {
-        const auto foldChannel = [this](std::optional<Texture>& texture, int channel, float& value) {
-            fold(texture, false, [&](const glm::dvec4& color) { value *= static_cast<float>(color[channel]); });
-        };
-        const auto foldColor = [this](std::optional<Texture>& texture, glm::vec3& value) {
-            fold(texture, true, [&](const glm::dvec4& color) { value *= glm::vec3(color); });
-        };
-        foldChannel(m.transmissionTexture, 0, m.transmission);
-        foldChannel(m.diffuseTransmissionTexture, 3, m.diffuseTransmission);
-        foldColor(m.diffuseTransmissionColorTexture, m.diffuseTransmissionColor);
-        foldChannel(m.clearcoatTexture, 0, m.clearcoat);
-        foldChannel(m.clearcoatRoughnessTexture, 1, m.clearcoatRoughness);
-        foldColor(m.sheenColorTexture, m.sheenColor);
-        foldChannel(m.sheenRoughnessTexture, 3, m.sheenRoughness);
-        foldChannel(m.iridescenceTexture, 0, m.iridescence);
-        fold(m.iridescenceThicknessTexture, false, [&m](const glm::dvec4& color) {
-            m.iridescenceThicknessMaximum =
-                std::lerp(m.iridescenceThicknessMinimum, m.iridescenceThicknessMaximum, static_cast<float>(color.g));
-        });
+        const glm::vec3 rgb(texel);
+        const float r = texel.r, g = texel.g, b = texel.b, a = texel.a;
+#define TIMES(record, factor, channels) m.factor *= channels;
+#define SLOT(number, name, holds, feature, path, times) \
+    if (slot == kSlot##name) {                          \
+        times                                           \
+    }
+        GLIM_TEXTURE_SLOTS(SLOT)
+#undef SLOT
+#undef TIMES
+        m.alpha *= slot == kSlotBaseColor ? a : 1.0F;
+        m.roughness *= slot == kSlotSpecularColor && m.glossy ? a : 1.0F;
+        if (slot == kSlotIridescenceThickness) {
+            m.iridescenceThicknessMaximum = std::lerp(m.iridescenceThicknessMinimum, m.iridescenceThicknessMaximum, g);
+        }
     }
 
     // A factor of 0 gives the kernels and bits of a material without the extension.
     static void leaveOutAbsentLayers(Material& m)
     {
-        if (m.clearcoat == 0.0F) {
-            m.clearcoatTexture = m.clearcoatRoughnessTexture = m.clearcoatNormalTexture = std::nullopt;
-        }
-        if (m.sheenColor == glm::vec3(0.0F)) {
-            m.sheenColorTexture = m.sheenRoughnessTexture = std::nullopt;
-        }
-        if (m.anisotropy == 0.0F) {
-            m.anisotropyTexture = std::nullopt;
-        }
-        if (m.iridescence == 0.0F) {
-            m.iridescenceTexture = m.iridescenceThicknessTexture = std::nullopt;
-        }
-        if (m.transmission == 0.0F) {
-            m.transmissionTexture = std::nullopt;
-        }
-        if (m.diffuseTransmission == 0.0F) {
-            m.diffuseTransmissionTexture = m.diffuseTransmissionColorTexture = std::nullopt;
+        for (const TextureSlot& slot : kTextureSlots) {
+            if ((slot.feature & kLayerFeatures & ~layersOf(m)) != 0) {
+                m.textures[slot.number].reset();
+            }
         }
     }
 
@@ -281,36 +234,21 @@ private:
         LayersData data{};
         data.clearcoat = m.clearcoat;
         data.clearcoatRoughness = m.clearcoatRoughness;
-        data.clearcoatTexture = addTexture(m.clearcoatTexture, false);
-        data.clearcoatRoughnessTexture = addTexture(m.clearcoatRoughnessTexture, false);
-        data.clearcoatNormalTexture = addTexture(m.clearcoatNormalTexture, false);
         data.clearcoatNormalScale = m.clearcoatNormalScale;
         data.sheenColor = m.sheenColor;
         data.sheenRoughness = m.sheenRoughness;
-        data.sheenColorTexture = addTexture(m.sheenColorTexture, true);
-        data.sheenRoughnessTexture = addTexture(m.sheenRoughnessTexture, false);
         data.anisotropy = m.anisotropy;
         data.anisotropyCosine = std::cos(m.anisotropyRotation);
         data.anisotropySine = std::sin(m.anisotropyRotation);
-        data.anisotropyTexture = addTexture(m.anisotropyTexture, false);
         data.iridescence = m.iridescence;
         data.iridescenceIor = m.iridescenceIor;
         data.iridescenceThicknessMinimum = m.iridescenceThicknessMinimum;
         data.iridescenceThicknessMaximum = m.iridescenceThicknessMaximum;
-        data.iridescenceTexture = addTexture(m.iridescenceTexture, false);
-        data.iridescenceThicknessTexture = addTexture(m.iridescenceThicknessTexture, false);
         data.transmission = m.transmission;
-        data.transmissionTexture = addTexture(m.transmissionTexture, false);
         data.diffuseTransmission = m.diffuseTransmission;
         data.diffuseTransmissionColor = m.diffuseTransmissionColor;
-        data.diffuseTransmissionTexture = addTexture(m.diffuseTransmissionTexture, false);
-        data.diffuseTransmissionColorTexture = addTexture(m.diffuseTransmissionColorTexture, true);
         data.medium = medium;
-        features_ |= (m.clearcoat > 0.0F ? kFeatureClearcoat : 0U) | (m.sheenColor != glm::vec3(0.0F) ? kFeatureSheen : 0U) |
-                     (m.anisotropy > 0.0F ? kFeatureAnisotropy : 0U) | (m.iridescence > 0.0F ? kFeatureIridescence : 0U) |
-                     (m.transmission > 0.0F && lobeOf(m) == kPrincipled ? kFeatureTransmission : 0U) |
-                     (m.diffuseTransmission > 0.0F ? kFeatureDiffuseTransmission : 0U) |
-                     (data.clearcoatNormalTexture != 0 ? kFeatureNormalMaps : 0U);
+        features_ |= layersOf(m) & ~(lobeOf(m) == kPrincipled ? 0U : kFeatureTransmission);
         return data;
     }
 
@@ -324,36 +262,32 @@ private:
         data.specular = m.specular;
         data.specularColor = m.specularColor;
         data.normalScale = m.normalScale;
-        data.baseColorTexture = addTexture(m.baseColorTexture, true);
-        data.metallicRoughnessTexture = addTexture(m.metallicRoughnessTexture, false);
-        data.normalTexture = addTexture(m.normalTexture, false);
-        data.emissiveTexture = addTexture(m.emissiveTexture, true);
-        data.specularTexture = addTexture(m.specularTexture, false);
-        data.specularColorTexture = addTexture(m.specularColorTexture, true);
         data.glossy = m.glossy ? 1 : 0;
-        features_ |= data.normalTexture != 0 ? kFeatureNormalMaps : 0U;
+        features_ |= m.textures[kSlotNormal] || m.textures[kSlotClearcoatNormal] ? kFeatureNormalMaps : 0U;
+        for (const TextureSlot& slot : kTextureSlots) {
+            if (const std::optional<Texture>& texture = m.textures[slot.number]) {
+                addTexture(*texture, slot.holds == TexelKind::Color);
+                data.firstTexture = data.textures == 0 ? static_cast<std::uint32_t>(flat_.textures.size()) : data.firstTexture;
+                data.textures |= 1U << slot.number;
+            }
+        }
         return data;
     }
 
-    // Its number from 1 on, or 0.
-    std::uint32_t addTexture(const std::optional<Texture>& texture, bool srgb)
+    void addTexture(const Texture& texture, bool srgb)
     {
-        if (!texture) {
-            return 0;
-        }
-        const DecodedImage& image = *scene_.images[texture->image].pixels;
-        const bool transformed = texture->rowU != glm::vec3(1, 0, 0) || texture->rowV != glm::vec3(0, 1, 0);
+        const DecodedImage& image = *scene_.images[texture.image].pixels;
+        const bool transformed = texture.rowU != glm::vec3(1, 0, 0) || texture.rowV != glm::vec3(0, 1, 0);
         const bool wide = !image.rgba16.empty();
         TextureData data{};
-        data.firstTexel = addImage(texture->image);
+        data.firstTexel = addImage(texture.image);
         data.size = image.width | image.height << 16U;
-        data.flags = wrapBits(texture->wrapS) << kWrapS | wrapBits(texture->wrapT) << kWrapT | (texture->nearest ? kNearest : 0U) |
-                     (srgb ? kSrgb : 0U) | (wide ? kWide : 0U) | (texture->uvSet == 1 ? kSecondUv : 0U) | (transformed ? kTransformed : 0U);
-        data.rowU = texture->rowU;
-        data.rowV = texture->rowV;
+        data.flags = wrapBits(texture.wrapS) << kWrapS | wrapBits(texture.wrapT) << kWrapT | (texture.nearest ? kNearest : 0U) |
+                     (srgb ? kSrgb : 0U) | (wide ? kWide : 0U) | (texture.uvSet == 1 ? kSecondUv : 0U) | (transformed ? kTransformed : 0U);
+        data.rowU = texture.rowU;
+        data.rowV = texture.rowV;
         flat_.textures.push_back(data);
         features_ |= kFeatureTextures | (transformed ? kFeatureTextureTransforms : 0U) | (wide ? kFeatureWideTextures : 0U);
-        return static_cast<std::uint32_t>(flat_.textures.size());
     }
 
     static std::uint32_t wrapBits(Wrap wrap) { return wrap == Wrap::Clamp ? kClamp : wrap == Wrap::Mirrored ? kMirrored : kRepeat; }
@@ -384,8 +318,8 @@ private:
 
 std::uint32_t lobeOf(const Material& m)
 {
-    const bool plain = !hasLayers(m);
-    const bool smooth = m.roughness * m.roughness < kMirrorAlpha && !m.metallicRoughnessTexture;
+    const bool plain = layersOf(m) == 0;
+    const bool smooth = m.roughness * m.roughness < kMirrorAlpha && !m.textures[kSlotMetallicRoughness];
     if (m.unlit) {
         return kUnlit;
     }
@@ -400,10 +334,10 @@ std::uint32_t lobeOf(const Material& m)
 
 bool passesStraight(const Material& m)
 {
-    const bool smooth = m.roughness * m.roughness < kMirrorAlpha && !m.metallicRoughnessTexture;
-    const bool plain = m.clearcoat == 0.0F && m.sheenColor == glm::vec3(0.0F) && m.iridescence == 0.0F && m.anisotropy == 0.0F &&
-                       !m.specularTexture && !m.specularColorTexture && !m.glossy;
-    return !m.unlit && m.transmission > 0.0F && !m.solid && m.metallic < 1.0F && smooth && plain;
+    const bool smooth = m.roughness * m.roughness < kMirrorAlpha && !m.textures[kSlotMetallicRoughness];
+    const bool plain = (layersOf(m) & ~kFeatureDiffuseTransmission) == kFeatureTransmission && !m.textures[kSlotSpecular] &&
+                       !m.textures[kSlotSpecularColor] && !m.glossy;
+    return !m.unlit && !m.solid && m.metallic < 1.0F && smooth && plain;
 }
 
 void flattenMaterials(FlatScene& flat, const Scene& scene, const std::vector<bool>& colored)

@@ -359,7 +359,7 @@ void liftLamps(const Scene& scene, Primitives& primitives)
     std::erase_if(lamps, [&](std::uint32_t lamp) {
         const Material& material = materialOf(scene, primitives, lamp);
         const bool isClear = isPassed(material) || (!primitives.hasAlpha.empty() && primitives.hasAlpha[lamp]);
-        return material.emissiveTexture || (material.doubleSided && isClear);
+        return material.textures[kSlotEmissive] || (material.doubleSided && isClear);
     });
     if (lamps.empty()) {
         return;

@@ -277,7 +277,7 @@ private:
         if (!hasEmissiveImage(material)) {
             return 1.0;
         }
-        const std::uint32_t image = material.emissiveTexture->image;
+        const std::uint32_t image = material.textures[kSlotEmissive]->image;
         const auto known = images_.find(image);
         const EmissiveImage& sums =
             known != images_.end() ? known->second : images_.emplace(image, EmissiveImage(*scene_.images[image].pixels)).first->second;
@@ -285,13 +285,13 @@ private:
         for (int v = 0; v < 3; ++v) {
             uvs[v] = primitives_.vertexUvs[primitives_.vertexIndices[triangle][v]];
         }
-        return sums.mean(*material.emissiveTexture, uvs);
+        return sums.mean(*material.textures[kSlotEmissive], uvs);
     }
 
     // An image of one colour is part of the factors.
     bool hasEmissiveImage(const Material& material) const
     {
-        return material.emissiveTexture && flat_.imageBytes[material.emissiveTexture->image] > 0;
+        return material.textures[kSlotEmissive] && flat_.imageBytes[material.textures[kSlotEmissive]->image] > 0;
     }
 
     FlatLight surfaceLight(std::uint32_t id) const

@@ -49,7 +49,7 @@ public:
         for (const MeshInstance& instance : scene.instances) {
             const Mesh& mesh = scene.meshes[instance.mesh];
             smooth_ = smooth_ || !mesh.normals.empty();
-            mapped_ = mapped_ || isTextured(mesh.material);
+            mapped_ = mapped_ || isTextured(scene_.materials[mesh.material]);
             tangents_ = tangents_ || !mesh.tangents.empty();
             colored_ = colored_ || !mesh.colors.empty();
         }
@@ -88,12 +88,6 @@ public:
     }
 
 private:
-    bool isTextured(std::uint32_t material) const
-    {
-        const auto textures = texturesOf(scene_.materials[material]);
-        return std::any_of(textures.begin(), textures.end(), [](const auto* texture) { return texture->has_value(); });
-    }
-
     template <class Add>
     void addPrimitive(Coverage coverage, const Add& add)
     {
@@ -297,12 +291,11 @@ bool areSame(const Sphere& a, const Sphere& b)
 bool haveSameSurfaces(const Material& a, const Material& b)
 {
     const auto shapeOf = [](const Material& m) {
-        const auto textures = texturesOf(m);
-        const bool isTextured = std::ranges::any_of(textures, [](const auto* texture) { return texture->has_value(); });
-        return std::tuple(m.alphaMode, m.alpha, m.alphaCutoff, m.doubleSided, m.thick, isTextured, m.emissiveTexture.has_value(),
+        const bool isOpaque = m.alphaMode == AlphaMode::Opaque;
+        return std::tuple(m.alphaMode, isOpaque ? 1.0F : m.alpha, isOpaque ? 0.0F : m.alphaCutoff, m.doubleSided, m.thick, isTextured(m), m.textures[kSlotEmissive].has_value(),
                           m.emission != glm::vec3(0.0F), m.transmission > 0.0F, m.diffuseTransmission > 0.0F);
     };
-    return shapeOf(a) == shapeOf(b) && a.baseColorTexture == b.baseColorTexture;
+    return shapeOf(a) == shapeOf(b) && a.textures[kSlotBaseColor] == b.textures[kSlotBaseColor];
 }
 
 }  // namespace

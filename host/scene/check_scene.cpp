@@ -119,8 +119,8 @@ void SceneCheck::checkMaterials() const
                     std::isfinite(material.clearcoatNormalScale) && std::isfinite(material.iridescenceIor) &&
                     material.iridescenceIor >= 1.0F,
                 "material", i, "has a dispersion, film or rotation that is negative or not finite");
-        for (const std::optional<Texture>* texture : texturesOf(material)) {
-            require(!*texture || ((*texture)->image < scene_.images.size() && (*texture)->uvSet <= 1), "material", i,
+        for (const std::optional<Texture>& texture : material.textures) {
+            require(!texture || (texture->image < scene_.images.size() && texture->uvSet <= 1), "material", i,
                     "has a texture without an image");
         }
     }

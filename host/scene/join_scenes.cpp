@@ -49,9 +49,9 @@ public:
     {
         const Scene& other = added.scene;
         for (Material material : other.materials) {
-            for (std::optional<Texture>* texture : texturesOf(material)) {
-                if (*texture) {
-                    (*texture)->image += first.image;
+            for (std::optional<Texture>& texture : material.textures) {
+                if (texture) {
+                    texture->image += first.image;
                 }
             }
             scene_.materials.push_back(std::move(material));

@@ -184,7 +184,7 @@ bool hasLight(const Scene& scene)
     const std::vector<bool> used = findUsedMaterials(scene);
     bool lamp = false;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        lamp = lamp || (used[i] && !scene.materials[i].emissiveTexture && scene.materials[i].emission != glm::vec3(0.0F));
+        lamp = lamp || (used[i] && !scene.materials[i].textures[kSlotEmissive] && scene.materials[i].emission != glm::vec3(0.0F));
     }
     return lamp || !scene.lights.empty() || scene.environment;
 }

@@ -6,12 +6,15 @@
 #include "host/image/decode_image.hpp"
 #include "host/image/radiance_map.hpp"
 #include "host/shared_vector.hpp"
+#include "shaders/shared/texture_slots.h"
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -67,41 +70,12 @@ struct Material {
     std::array<std::uint32_t, 2> uvSets{0, 1};  // the sets of the file that uv0 and uv1 of the material's meshes are
     bool unlit = false;                         // _unlit: the base colour, for the camera alone
     bool glossy = false;                        // _pbrSpecularGlossiness: specularColor is F0, and roughness the glossiness
-    std::optional<Texture> baseColorTexture, metallicRoughnessTexture, normalTexture, emissiveTexture, specularTexture,
-        specularColorTexture, transmissionTexture, diffuseTransmissionTexture, diffuseTransmissionColorTexture, clearcoatTexture,
-        clearcoatRoughnessTexture, clearcoatNormalTexture, sheenColorTexture, sheenRoughnessTexture, anisotropyTexture, iridescenceTexture,
-        iridescenceThicknessTexture;
+    std::array<std::optional<Texture>, std::size(kTextureSlots)> textures;  // at kSlotBaseColor ...
 };
 
-// Every texture that a material may have.
-template <class SomeMaterial>
-auto texturesOf(SomeMaterial& m)
+inline bool isTextured(const Material& m)
 {
-    return std::array{&m.baseColorTexture,
-                      &m.metallicRoughnessTexture,
-                      &m.normalTexture,
-                      &m.emissiveTexture,
-                      &m.specularTexture,
-                      &m.specularColorTexture,
-                      &m.transmissionTexture,
-                      &m.diffuseTransmissionTexture,
-                      &m.diffuseTransmissionColorTexture,
-                      &m.clearcoatTexture,
-                      &m.clearcoatRoughnessTexture,
-                      &m.clearcoatNormalTexture,
-                      &m.sheenColorTexture,
-                      &m.sheenRoughnessTexture,
-                      &m.anisotropyTexture,
-                      &m.iridescenceTexture,
-                      &m.iridescenceThicknessTexture};
-}
-
-// The textures of these whose RGB is a colour, in sRGB; the others hold numbers.
-template <class SomeMaterial>
-auto colorTexturesOf(SomeMaterial& m)
-{
-    return std::array{&m.baseColorTexture, &m.emissiveTexture, &m.specularColorTexture, &m.diffuseTransmissionColorTexture,
-                      &m.sheenColorTexture};
+    return std::ranges::any_of(m.textures, [](const std::optional<Texture>& texture) { return texture.has_value(); });
 }
 
 // Whether rays from behind meet the surface; glTF 2.0, section 3.9.6. Extensions that let light through leave no back face out.

@@ -14,13 +14,12 @@ layout(constant_id = kSpecUpperFeatures) const uint kUpperFeatures = 0xffffffffu
 // finds the constant where it decides a branch (host/gpu/specialize.hpp).
 #define hasFeature(feature) ((kLowerFeatures & (feature).x | kUpperFeatures & (feature).y) != 0u)
 
-// Features whose materials have a LayersData.
-const FeatureMask kLayerFeatures = kFeatureClearcoat | kFeatureSheen | kFeatureAnisotropy | kFeatureIridescence | kFeatureTransmission |
-                            kFeatureDiffuseTransmission | kFeatureMedia;
+// Whether materials have a LayersData.
+#define hasLayers() hasFeature(kLayerFeatures | kFeatureMedia)
 
 // Light that a ray may hit by chance.
 #define hasEnvironment() hasFeature(kFeatureEnvironment)
-#define hasEmissiveSurfaces() hasFeature(kFeatureTriangleLights | kFeatureRectangleLights | kFeatureSphereLights | kFeatureUnlit)
+#define hasEmissiveSurfaces() hasFeature(kEmissiveSurfaces)
 
 const FeatureMask kFiniteLights = kFeatureTriangleLights | kFeatureRectangleLights | kFeatureSphereLights | kFeaturePunctualLights;
 const FeatureMask kInfiniteLights = kFeatureEnvironment | kFeaturePunctualLights;

@@ -88,7 +88,7 @@ float alphaOf(PlacedRecord placed, vec3 point, vec2 barycentric)
     MaterialData material = fetchMaterial(materialOf(placed.record));
     float alpha = material.alpha;
     if (hasFeature(kFeaturePrincipled) && material.principled != 0u) {
-        uint texture_ = fetchPrincipled(material.principled).baseColorTexture;
+        uint texture_ = textureIn(fetchPrincipled(material.principled), kSlotBaseColor);
         alpha *= vertexColor(placed, barycentric).a * sampleTexture(texture_, textureCoordinates(placed, point, barycentric)).a;
     }
     return coverageOf(material, alpha);
@@ -100,9 +100,6 @@ float passedCoat(float clearcoat, float cosine)
     return 1.0 - clearcoat * (0.04 + 0.96 * schlickWeight(cosine));
 }
 
-const LayersData kNoLayers = LayersData(0.0, 0.0, 0u, 0u, vec3(0.0), 0.0, 0u, 0u, 0u, 1.0, 0.0, 1.0, 0.0, 0u, 0.0, 1.3, 0.0, 0.0, 0u, 0u,
-                                        0.0, 0u, vec3(0.0), 0.0, 0u, 0u, 0u, 0u);
-
 // What texture, coat and coverage multiply a material's emission by, at a point of a record. cosine: of the direction it leaves in.
 vec3 emissionFactor(PlacedRecord placed, vec3 point, vec2 barycentric, float cosine)
 {
@@ -112,15 +109,12 @@ vec3 emissionFactor(PlacedRecord placed, vec3 point, vec2 barycentric, float cos
     if (hasFeature(kFeaturePrincipled) && data.principled != 0u) {
         PrincipledData p = fetchPrincipled(data.principled);
         bool coated = hasFeature(kFeatureClearcoat) && p.layers != 0u;
-        LayersData layers = kNoLayers;
-        if (coated) {
-            layers = fetchLayers(p.layers);
-        }
-        uvec3 textures = uvec3(p.emissiveTexture, layers.clearcoatTexture, hasAlpha(placed.record) ? p.baseColorTexture : 0u);
+        uvec3 textures = uvec3(textureIn(p, kSlotEmissive), coated ? textureIn(p, kSlotClearcoat) : 0u,
+                               hasAlpha(placed.record) ? textureIn(p, kSlotBaseColor) : 0u);
         ThreeTexels texels = sampleTextures(textures, textureCoordinates(placed, point, barycentric));
         factor = texels.x.rgb;
         if (coated) {
-            factor *= passedCoat(layers.clearcoat * texels.y.r, cosine);
+            factor *= passedCoat(fetchLayers(p.layers).clearcoat * texels.y.r, cosine);
         }
         alpha *= vertexColor(placed, barycentric).a * texels.z.a;
     }
@@ -143,42 +137,12 @@ uint mediumOf(SurfaceMaterial material)
     return material.layers.medium;
 }
 
-// Every texture of a material.
-const uint kSlotBaseColor = 0u;
-const uint kSlotMetallicRoughness = 1u;
-const uint kSlotNormal = 2u;
-const uint kSlotEmissive = 3u;
-const uint kSlotSpecular = 4u;
-const uint kSlotSpecularColor = 5u;
-const uint kSlotClearcoat = 6u;
-const uint kSlotClearcoatRoughness = 7u;
-const uint kSlotClearcoatNormal = 8u;
-const uint kSlotSheenColor = 9u;
-const uint kSlotSheenRoughness = 10u;
-const uint kSlotAnisotropy = 11u;
-const uint kSlotIridescence = 12u;
-const uint kSlotIridescenceThickness = 13u;
-const uint kSlotTransmission = 14u;
-const uint kSlotDiffuseTransmission = 15u;
-const uint kSlotDiffuseTransmissionColor = 16u;
-const uint kSlots = 17u;
-
-uint[kSlots] texturesOf(PrincipledData p, LayersData l)
+void turnAnisotropy(vec2 texel, inout LayersData layers)
 {
-    return uint[kSlots](p.baseColorTexture, p.metallicRoughnessTexture, hasFeature(kFeatureNormalMaps) ? p.normalTexture : 0u,
-                        hasEmissiveSurfaces() ? p.emissiveTexture : 0u, p.specularTexture, p.specularColorTexture, l.clearcoatTexture,
-                        l.clearcoatRoughnessTexture, hasFeature(kFeatureNormalMaps) ? l.clearcoatNormalTexture : 0u, l.sheenColorTexture,
-                        l.sheenRoughnessTexture, l.anisotropyTexture, l.iridescenceTexture, l.iridescenceThicknessTexture,
-                        l.transmissionTexture, l.diffuseTransmissionTexture, l.diffuseTransmissionColorTexture);
-}
-
-void turnAnisotropy(vec3 texel, inout LayersData layers)
-{
-    vec2 d = 2.0 * texel.xy - 1.0;
+    vec2 d = 2.0 * texel - 1.0;
     float size = length(d);
     d = size > 0.0 ? d / size : vec2(1.0, 0.0);
     vec2 turn = vec2(layers.anisotropyCosine, layers.anisotropySine);
-    layers.anisotropy *= texel.z;
     layers.anisotropyCosine = turn.x * d.x - turn.y * d.y;
     layers.anisotropySine = turn.y * d.x + turn.x * d.y;
 }
@@ -189,59 +153,51 @@ struct SampledNormals {
 
 void applyTexel(uint slot, vec4 texel, inout SurfaceMaterial material, inout SampledNormals normals)
 {
-    if (slot == kSlotBaseColor) material.data.baseColor *= texel.rgb;
-    if (slot == kSlotEmissive) material.data.emission *= texel.rgb;
-    if (slot == kSlotMetallicRoughness) {
-        material.principled.metallic *= texel.b;
-        material.principled.roughness *= texel.g;
+#define TIMES(record, factor, channels) material.record.factor *= texel.channels;
+#define SLOT(number, name, holds, feature, path, times) \
+    if (hasFeature(feature)) { \
+        if (slot == kSlot##name) { times } \
     }
-    if (slot == kSlotSpecular) material.principled.specular *= texel.a;
-    if (slot == kSlotSpecularColor) {
-        material.principled.specularColor *= texel.rgb;
-        bool glossy = hasFeature(kFeatureGlossiness) && material.principled.glossy != 0u;
-        material.principled.roughness *= glossy ? texel.a : 1.0;
-    }
+    GLIM_TEXTURE_SLOTS(SLOT)
+#undef SLOT
+#undef TIMES
     if (slot == kSlotNormal) normals.base = texel.xyz;
+    if (hasFeature(kFeatureGlossiness)) {
+        if (slot == kSlotSpecularColor) material.principled.roughness *= material.principled.glossy != 0u ? texel.a : 1.0;
+    }
     if (hasFeature(kFeatureClearcoat)) {
-        if (slot == kSlotClearcoat) material.layers.clearcoat *= texel.r;
-        if (slot == kSlotClearcoatRoughness) material.layers.clearcoatRoughness *= texel.g;
         if (slot == kSlotClearcoatNormal) normals.coat = texel.xyz;
     }
-    if (hasFeature(kFeatureSheen)) {
-        if (slot == kSlotSheenColor) material.layers.sheenColor *= texel.rgb;
-        if (slot == kSlotSheenRoughness) material.layers.sheenRoughness *= texel.a;
+    if (hasFeature(kFeatureAnisotropy)) {
+        if (slot == kSlotAnisotropy) turnAnisotropy(texel.xy, material.layers);
     }
-    if (hasFeature(kFeatureAnisotropy) && slot == kSlotAnisotropy) turnAnisotropy(texel.xyz, material.layers);
     if (hasFeature(kFeatureIridescence)) {
-        if (slot == kSlotIridescence) material.layers.iridescence *= texel.r;
         if (slot == kSlotIridescenceThickness) {
             material.filmThickness =
                 mix(material.layers.iridescenceThicknessMinimum, material.layers.iridescenceThicknessMaximum, texel.g);
         }
     }
-    if (hasFeature(kFeatureTransmission) && slot == kSlotTransmission) material.layers.transmission *= texel.r;
-    if (hasFeature(kFeatureDiffuseTransmission)) {
-        if (slot == kSlotDiffuseTransmission) material.layers.diffuseTransmission *= texel.a;
-        if (slot == kSlotDiffuseTransmissionColor) material.layers.diffuseTransmissionColor *= texel.rgb;
-    }
+}
+
+// The slots that matter in the scene.
+uint slotsOfScene()
+{
+    uint slots = 0u;
+#define SLOT(number, name, holds, feature, path, times) slots |= hasFeature(feature) ? 1u << number : 0u;
+    GLIM_TEXTURE_SLOTS(SLOT)
+#undef SLOT
+    return slots;
 }
 
 // A loop over the textures that the material has: one copy of the code that samples them, and no time for those that it has not.
 SampledNormals applyTextures(vec4 uv, inout SurfaceMaterial material)
 {
-    uint textures[kSlots] = texturesOf(material.principled, material.layers);
-    uint left = 0u;
-    for (uint slot = 0u; slot < kSlots; ++slot) {
-        left |= textures[slot] != 0u ? 1u << slot : 0u;
-    }
     SampledNormals normals = SampledNormals(vec3(0.5, 0.5, 1.0), vec3(0.5, 0.5, 1.0));
+    uint left = material.principled.textures & slotsOfScene();
     if (left != 0u) {
         do {
-            uint slot = uint(findLSB(left)), texture_ = 0u;
-            for (uint i = 0u; i < kSlots; ++i) {
-                texture_ = i == slot ? textures[i] : texture_;
-            }
-            applyTexel(slot, sampleTexture(texture_, uv), material, normals);
+            uint slot = uint(findLSB(left));
+            applyTexel(slot, sampleTexture(textureIn(material.principled, slot), uv), material, normals);
             left &= left - 1u;
         } while (left != 0u);
     }
@@ -264,12 +220,12 @@ SurfaceMaterial materialAt(inout SurfaceInteraction si)
 {
     SurfaceMaterial material;
     material.data = fetchMaterial(si.material);
-    material.layers = kNoLayers;
+    material.layers = noLayers();
     material.coatNormal = si.ns;
     material.iors = si.front ? vec2(1.0, material.data.ior) : vec2(material.data.ior, 1.0);
     if (hasFeature(kFeaturePrincipled) && material.data.principled != 0u) {
         material.principled = fetchPrincipled(material.data.principled);
-        bool layered = hasFeature(kLayerFeatures) && material.principled.layers != 0u;
+        bool layered = hasLayers() && material.principled.layers != 0u;
         if (layered) {
             material.layers = fetchLayers(material.principled.layers);
             material.filmThickness = material.layers.iridescenceThicknessMaximum;
@@ -279,10 +235,10 @@ SurfaceMaterial materialAt(inout SurfaceInteraction si)
         }
         if (hasFeature(kFeatureTextures)) {
             SampledNormals normals = applyTextures(textureCoordinates(si), material);
-            if (hasFeature(kFeatureNormalMaps) && hasFeature(kFeatureClearcoat) && material.layers.clearcoatNormalTexture != 0u) {
+            if (hasFeature(kFeatureNormalMaps) && hasFeature(kFeatureClearcoat) && hasTexture(material.principled, kSlotClearcoatNormal)) {
                 material.coatNormal = mappedNormal(si, normals.coat, material.layers.clearcoatNormalScale);
             }
-            if (hasFeature(kFeatureNormalMaps) && material.principled.normalTexture != 0u) {
+            if (hasFeature(kFeatureNormalMaps) && hasTexture(material.principled, kSlotNormal)) {
                 si.ns = mappedNormal(si, normals.base, material.principled.normalScale);
             }
         }

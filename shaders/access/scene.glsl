@@ -55,50 +55,73 @@ PrincipledData fetchPrincipled(uint principled)
     int at = int(principled);
     vec4 a = uintBitsToFloat(texelFetch(sceneMaterials, at));
     vec4 b = uintBitsToFloat(texelFetch(sceneMaterials, at + 1));
-    uvec4 c = uvec4(0u), d = uvec4(0u);
-    if (hasFeature(kFeatureTextures)) {
+    uvec4 c = uvec4(0u);
+    if (hasFeature(kFeatureTextures) || hasLayers()) {
         c = texelFetch(sceneMaterials, at + 2);
-        d = texelFetch(sceneMaterials, at + 3);
     }
-    bool layered = hasFeature(kLayerFeatures);
-    if (!hasFeature(kFeatureTextures) && layered) {
-        d = texelFetch(sceneMaterials, at + 3);
-    }
-    return PrincipledData(a.x, a.y, a.z, a.w, b.xyz, b.w, c.x, c.y, c.z, c.w, d.x, d.y, layered ? d.z : 0u, d.w);
+    return PrincipledData(a.x, a.y, a.z, a.w, b.xyz, b.w, c.x, c.y, c.z, c.w, uvec4(0u));
 }
 
-// Only what the scene's features need; the rest is 0.
+LayersData noLayers()
+{
+    LayersData l;
+    l.clearcoat = l.clearcoatRoughness = 0.0;
+    l.clearcoatNormalScale = 1.0;
+    l.sheenColor = vec3(0.0);
+    l.sheenRoughness = 0.0;
+    l.anisotropy = 0.0;
+    l.anisotropyCosine = 1.0;
+    l.anisotropySine = 0.0;
+    l.iridescence = 0.0;
+    l.iridescenceIor = 1.3;
+    l.iridescenceThicknessMinimum = l.iridescenceThicknessMaximum = 0.0;
+    l.diffuseTransmissionColor = vec3(0.0);
+    l.diffuseTransmission = 0.0;
+    l.transmission = 0.0;
+    l.medium = 0u;
+    return l;
+}
+
+// Only what the scene's features need.
 LayersData fetchLayers(uint layers)
 {
     int at = int(layers);
-    uvec4 a = uvec4(0u), b = uvec4(0u), c = uvec4(0u), d = uvec4(0u), e = uvec4(0u), f = uvec4(0u), g = uvec4(0u), h = uvec4(0u);
+    LayersData l = noLayers();
     if (hasFeature(kFeatureClearcoat)) {
-        a = texelFetch(sceneMaterials, at);
+        vec4 a = uintBitsToFloat(texelFetch(sceneMaterials, at));
+        l.clearcoat = a.x;
+        l.clearcoatRoughness = a.y;
+        l.clearcoatNormalScale = a.z;
     }
     if (hasFeature(kFeatureSheen)) {
-        b = texelFetch(sceneMaterials, at + 1);
-    }
-    if (hasFeature(kFeatureTextures) && hasFeature(kFeatureSheen | kFeatureClearcoat)) {
-        c = texelFetch(sceneMaterials, at + 2);
+        vec4 b = uintBitsToFloat(texelFetch(sceneMaterials, at + 1));
+        l.sheenColor = b.rgb;
+        l.sheenRoughness = b.w;
     }
     if (hasFeature(kFeatureAnisotropy)) {
-        d = texelFetch(sceneMaterials, at + 3);
+        vec4 c = uintBitsToFloat(texelFetch(sceneMaterials, at + 2));
+        l.anisotropy = c.x;
+        l.anisotropyCosine = c.y;
+        l.anisotropySine = c.z;
     }
     if (hasFeature(kFeatureIridescence)) {
-        e = texelFetch(sceneMaterials, at + 4);
-    }
-    if (hasFeature(kFeatureIridescence | kFeatureTransmission)) {
-        f = texelFetch(sceneMaterials, at + 5);
+        vec4 d = uintBitsToFloat(texelFetch(sceneMaterials, at + 3));
+        l.iridescence = d.x;
+        l.iridescenceIor = d.y;
+        l.iridescenceThicknessMinimum = d.z;
+        l.iridescenceThicknessMaximum = d.w;
     }
     if (hasFeature(kFeatureDiffuseTransmission)) {
-        g = texelFetch(sceneMaterials, at + 6);
+        vec4 e = uintBitsToFloat(texelFetch(sceneMaterials, at + 4));
+        l.diffuseTransmissionColor = e.rgb;
+        l.diffuseTransmission = e.w;
     }
-    if (hasFeature(kFeatureDiffuseTransmission | kFeatureTransmission | kFeatureMedia)) {
-        h = texelFetch(sceneMaterials, at + 7);
+    if (hasFeature(kFeatureTransmission | kFeatureDiffuseTransmission | kFeatureMedia)) {
+        uvec4 f = texelFetch(sceneMaterials, at + 5);
+        l.transmission = uintBitsToFloat(f.x);
+        l.medium = f.y;
     }
-    vec4 bf = uintBitsToFloat(b), df = uintBitsToFloat(d), ef = uintBitsToFloat(e), gf = uintBitsToFloat(g);
-    return LayersData(uintBitsToFloat(a.x), uintBitsToFloat(a.y), a.z, a.w, bf.xyz, bf.w, c.x, c.y, c.z, uintBitsToFloat(c.w), df.x, df.y,
-                      df.z, d.w, ef.x, ef.y, ef.z, ef.w, f.x, f.y, uintBitsToFloat(f.z), f.w, gf.xyz, gf.w, h.x, h.y, h.z, h.w);
+    return l;
 }
 
 MediumData fetchMedium(uint firstMedium, uint medium)

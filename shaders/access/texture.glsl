@@ -5,6 +5,7 @@
 
 #include "lib/texture_filter.glsl"
 #include "scene.glsl"
+#include "shared/texture_slots.h"
 
 #define TEXEL_VIEW(number) layout(set = 0, binding = kBindTexels + number) uniform usamplerBuffer sceneTexels##number
 TEXEL_VIEW(0);
@@ -88,6 +89,18 @@ vec4 sampleTexture(uint texture_, vec4 uv)
         ++texel;
     } while (texel < count);
     return value;
+}
+
+bool hasTexture(PrincipledData p, uint slot)
+{
+    return (p.textures & 1u << slot) != 0u;
+}
+
+// The texture in a slot of the material, or 0.
+uint textureIn(PrincipledData p, uint slot)
+{
+    uint before = bitCount(p.textures & (1u << slot) - 1u);
+    return hasTexture(p, slot) ? p.firstTexture + kTextureTexels * before : 0u;
 }
 
 struct ThreeTexels {

@@ -45,15 +45,11 @@ Crossing crossingAt(PlacedRecord placed, PathRay ray, vec3 direction, PathHit hi
     if (hasFeature(kFeaturePrincipled) && data.principled != 0u) {
         PrincipledData p = fetchPrincipled(data.principled);
         bool thin = hasFeature(kFeatureThinWalls) && passesStraight(data);
-        LayersData layers = kNoLayers;
-        if (thin) {
-            layers = fetchLayers(p.layers);
-        }
         vec4 uv = textureCoordinates(placed, point, hit.barycentric), color = vertexColor(placed, hit.barycentric);
-        ThreeTexels texels = sampleTextures(uvec3(p.baseColorTexture, layers.transmissionTexture, 0u), uv);
+        ThreeTexels texels = sampleTextures(uvec3(textureIn(p, kSlotBaseColor), thin ? textureIn(p, kSlotTransmission) : 0u, 0u), uv);
         alpha *= color.a * texels.x.a;
         if (thin) {
-            straight = data.baseColor * color.rgb * texels.x.rgb * (layers.transmission * texels.y.r * (1.0 - p.metallic)) *
+            straight = data.baseColor * color.rgb * texels.x.rgb * (fetchLayers(p.layers).transmission * texels.y.r * (1.0 - p.metallic)) *
                        straightFresnel(placed, p, direction, point);
         }
     }

@@ -6,52 +6,75 @@
 
 GLIM_SHARED_BEGIN
 
+// clang-format off
+// FEATURE(name, bit, what `inspect` calls it): kFeatureSpheres ...
+#define GLIM_FEATURES(FEATURE) \
+    FEATURE(Spheres, 0, "spheres") \
+    FEATURE(Slivers, 1, "slivers") /* triangles thinner than kSliverHeight */ \
+    FEATURE(Smooth, 2, "smooth normals") /* triangles with vertex normals */ \
+    FEATURE(Mirror, 3, "mirrors") \
+    FEATURE(Dielectric, 4, "glass") \
+    FEATURE(TriangleLights, 5, "triangle lights") \
+    FEATURE(SphereLights, 6, "sphere lights") \
+    FEATURE(PunctualLights, 7, "punctual lights") \
+    FEATURE(Environment, 8, "environment") \
+    FEATURE(Principled, 9, "glTF materials") /* the glTF material: GGX over a diffuse base */ \
+    FEATURE(Textures, 10, "textures") \
+    FEATURE(NormalMaps, 11, "normal maps") \
+    FEATURE(VertexColors, 12, "vertex colours") \
+    FEATURE(Alpha, 13, "alpha") /* primitives that are transparent in places */ \
+    FEATURE(EnvironmentMap, 14, "environment map") /* with Environment */ \
+    FEATURE(TextureTransforms, 15, "texture transforms") \
+    FEATURE(WideTextures, 16, "16-bit textures") \
+    FEATURE(Clearcoat, 17, "clearcoat") \
+    FEATURE(Sheen, 18, "sheen") \
+    FEATURE(Anisotropy, 19, "anisotropy") \
+    FEATURE(Iridescence, 20, "iridescence") \
+    FEATURE(Transmission, 21, "transmission") /* by the GGX lobe, of solids and thin walls */ \
+    FEATURE(DiffuseTransmission, 22, "diffuse transmission") \
+    FEATURE(Media, 23, "volumes") /* absorption, or solids within each other */ \
+    FEATURE(Dispersion, 24, "dispersion") \
+    FEATURE(ThinWalls, 25, "thin walls") /* smooth ones, which light passes straight; with Alpha */ \
+    FEATURE(Unlit, 26, "unlit materials") /* with Alpha */ \
+    FEATURE(Glossiness, 27, "specular-glossiness") \
+    FEATURE(RectangleLights, 28, "rectangle lights") \
+    FEATURE(LightTree, 29, "several lights") /* one at least finite: which is chosen depends on the point */ \
+    FEATURE(Caustics, 30, "caustics") /* traced from lights to specular surfaces */ \
+    FEATURE(Instances, 31, "instances") /* that share meshes */ \
+    FEATURE(LampsInMedia, 32, "lamps in volumes") /* with Media */ \
+    FEATURE(SingleSided, 33, "single-sided surfaces") /* not there for rays from behind */ \
+    FEATURE(LargeTriangles, 34, "large triangles") /* beside small or close things */
+// clang-format on
+
 #ifdef __cplusplus
 using FeatureMask = std::uint64_t;
-#define GLIM_FEATURE(name, bit) inline constexpr FeatureMask name = FeatureMask{1} << bit
+#define GLIM_FEATURE(name, bit, text) inline constexpr FeatureMask kFeature##name = FeatureMask{1} << bit;
 #else
 #define FeatureMask uvec2  // the lower and the upper half
-#define GLIM_FEATURE(name, bit) const FeatureMask name = bit < 32 ? FeatureMask(1u << (bit & 31), 0u) : FeatureMask(0u, 1u << (bit & 31))
+#define GLIM_FEATURE(name, bit, text) \
+    const FeatureMask kFeature##name = bit < 32 ? FeatureMask(1u << (bit & 31), 0u) : FeatureMask(0u, 1u << (bit & 31));
 #endif
+GLIM_FEATURES(GLIM_FEATURE)
+#undef GLIM_FEATURE
 
-GLIM_FEATURE(kFeatureSpheres, 0);
-GLIM_FEATURE(kFeatureSlivers, 1);  // triangles thinner than kSliverHeight
-GLIM_FEATURE(kFeatureSmooth, 2);   // triangles with vertex normals
-GLIM_FEATURE(kFeatureMirror, 3);
-GLIM_FEATURE(kFeatureDielectric, 4);
-GLIM_FEATURE(kFeatureTriangleLights, 5);
-GLIM_FEATURE(kFeatureSphereLights, 6);
-GLIM_FEATURE(kFeaturePunctualLights, 7);
-GLIM_FEATURE(kFeatureEnvironment, 8);
-GLIM_FEATURE(kFeaturePrincipled, 9);  // the glTF material: GGX over a diffuse base
-GLIM_FEATURE(kFeatureTextures, 10);
-GLIM_FEATURE(kFeatureNormalMaps, 11);
-GLIM_FEATURE(kFeatureVertexColors, 12);
-GLIM_FEATURE(kFeatureAlpha, 13);           // primitives that are transparent in places
-GLIM_FEATURE(kFeatureEnvironmentMap, 14);  // with kFeatureEnvironment
-GLIM_FEATURE(kFeatureTextureTransforms, 15);
-GLIM_FEATURE(kFeatureWideTextures, 16);  // of 16 bits per channel
-GLIM_FEATURE(kFeatureClearcoat, 17);
-GLIM_FEATURE(kFeatureSheen, 18);
-GLIM_FEATURE(kFeatureAnisotropy, 19);
-GLIM_FEATURE(kFeatureIridescence, 20);
-GLIM_FEATURE(kFeatureTransmission, 21);  // by the GGX lobe, of solids and thin walls
-GLIM_FEATURE(kFeatureDiffuseTransmission, 22);
-GLIM_FEATURE(kFeatureMedia, 23);  // absorption, or solids within each other
-GLIM_FEATURE(kFeatureDispersion, 24);
-GLIM_FEATURE(kFeatureThinWalls, 25);  // smooth ones, which light passes straight; with kFeatureAlpha
-GLIM_FEATURE(kFeatureUnlit, 26);      // with kFeatureAlpha
-GLIM_FEATURE(kFeatureGlossiness, 27);
-GLIM_FEATURE(kFeatureRectangleLights, 28);
-GLIM_FEATURE(kFeatureLightTree, 29);       // several lights, one at least finite: which is chosen depends on the point
-GLIM_FEATURE(kFeatureCaustics, 30);        // traced from lights to specular surfaces
-GLIM_FEATURE(kFeatureInstances, 31);       // that share meshes
-GLIM_FEATURE(kFeatureLampsInMedia, 32);    // with kFeatureMedia: lamps may lie in solids
-GLIM_FEATURE(kFeatureSingleSided, 33);     // surfaces that are not there for rays from behind
-GLIM_FEATURE(kFeatureLargeTriangles, 34);  // beside small or close things
+// Layers of kPrincipled.
+GLIM_CONST FeatureMask kLayerFeatures =
+    kFeatureClearcoat | kFeatureSheen | kFeatureAnisotropy | kFeatureIridescence | kFeatureTransmission | kFeatureDiffuseTransmission;
+// Surfaces that emit.
+GLIM_CONST FeatureMask kEmissiveSurfaces = kFeatureTriangleLights | kFeatureRectangleLights | kFeatureSphereLights | kFeatureUnlit;
 
 #ifdef __cplusplus
 inline constexpr FeatureMask kAllFeatures = ~FeatureMask{0};  // of any scene
+
+struct Feature {
+    FeatureMask bit;
+    const char* name;
+};
+inline constexpr Feature kFeatures[] = {
+#define GLIM_FEATURE(name, bit, text) {kFeature##name, text},
+    GLIM_FEATURES(GLIM_FEATURE)
+#undef GLIM_FEATURE
+};
 #endif
 
 GLIM_SHARED_END

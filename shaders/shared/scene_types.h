@@ -64,7 +64,7 @@ GLIM_CONST uint kLobeThrough = 4u;  // diffuse transmission
 // much as loading the four of a texel. So structs are whole texels, and each vec3 shares one with a scalar.
 GLIM_CONST uint kMaterialTexels = 3u;
 GLIM_CONST uint kPrincipledTexels = 4u;
-GLIM_CONST uint kLayersTexels = 8u;
+GLIM_CONST uint kLayersTexels = 6u;
 GLIM_CONST uint kMediumTexels = 2u;
 GLIM_CONST uint kTextureTexels = 3u;
 GLIM_CONST uint kLightTexels = 5u;
@@ -102,8 +102,7 @@ struct MaterialData {
     float alphaCutoff;  // of those: below it they are transparent, else opaque; or kCoverage or kOpaque
 };
 
-// The rest of a material. It lies in the buffer of the materials, behind them; behind that the layers, the textures and the media. A
-// texture is the texel of its TextureData, or 0.
+// The rest of a material. It lies in the buffer of the materials, behind them; behind that the layers, the textures and the media.
 struct PrincipledData {
     float metallic;
     float roughness;
@@ -111,44 +110,32 @@ struct PrincipledData {
     float specular;
     vec3 specularColor;
     float normalScale;
-    uint baseColorTexture;          // sRGB, alpha
-    uint metallicRoughnessTexture;  // roughness in G, metallic in B
-    uint normalTexture;
-    uint emissiveTexture;       // sRGB
-    uint specularTexture;       // A
-    uint specularColorTexture;  // sRGB; with `glossy` its alpha multiplies the glossiness
-    uint layers;                // texel of its LayersData, or 0
-    uint glossy;                // 1: KHR_materials_pbrSpecularGlossiness; roughness is the glossiness
+    uint textures;      // bit i: it has one in slot i of texture_slots.h
+    uint firstTexture;  // texel of the TextureData of the first of these; the others follow in the order of slots
+    uint layers;        // texel of its LayersData, or 0
+    uint glossy;        // 1: KHR_materials_pbrSpecularGlossiness; roughness is the glossiness
+    uvec4 unused;       // keeps the fingerprints of scenes without textures and layers, by which films are merged
 };
 
-// What the extensions add. The factor 0 leaves a layer out.
+// What the extensions add, a texel for each. The factor 0 leaves a layer out.
 struct LayersData {
     float clearcoat;
     float clearcoatRoughness;
-    uint clearcoatTexture;           // R
-    uint clearcoatRoughnessTexture;  // G
+    float clearcoatNormalScale;
+    uint unusedOfClearcoat;
     vec3 sheenColor;
     float sheenRoughness;
-    uint sheenColorTexture;      // sRGB
-    uint sheenRoughnessTexture;  // A
-    uint clearcoatNormalTexture;
-    float clearcoatNormalScale;
     float anisotropy;
     float anisotropyCosine, anisotropySine;  // of its rotation, counter-clockwise from the tangent
-    uint anisotropyTexture;                  // RG direction, B strength
+    uint unusedOfAnisotropy;
     float iridescence;
     float iridescenceIor;
     float iridescenceThicknessMinimum, iridescenceThicknessMaximum;  // nm
-    uint iridescenceTexture;                                         // R
-    uint iridescenceThicknessTexture;                                // G
-    float transmission;
-    uint transmissionTexture;  // R
     vec3 diffuseTransmissionColor;
     float diffuseTransmission;
-    uint diffuseTransmissionTexture;       // A
-    uint diffuseTransmissionColorTexture;  // sRGB
-    uint medium;                           // number of what it encloses, from 1 on; 0: a thin wall
-    uint unused;
+    float transmission;
+    uint medium;  // number of what it encloses, from 1 on; 0: a thin wall
+    uvec2 unused;
 };
 
 // What is inside a solid that transmits. Medium 1 is at RenderParameters::firstMedium.

@@ -231,7 +231,7 @@ private:
     {
         if (choice_.oneIn(4)) {
             const SchemaRule& rule = choice_.of(kTextureRules);
-            apply(std::string("materials[].") + choice_.of(kTextureSlots) + rule.path, rule);
+            apply("materials[]." + std::string(choice_.of(kTexturePaths)) + rule.path, rule);
             return;
         }
         const SchemaRule& rule = choice_.of(kSchemaRules);

@@ -34,8 +34,8 @@ int main(int argc, char** argv)
             addWords(rule.target, ", ", words);
         }
     }
-    for (const char* slot : glim::kTextureSlots) {
-        addWords(slot, ".", words);
+    for (const std::string_view path : glim::kTexturePaths) {
+        addWords(std::string(path), ".", words);
     }
     for (const char* extension : glim::kMeshoptExtensions) {
         words.insert(extension);

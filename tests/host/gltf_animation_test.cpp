@@ -201,7 +201,7 @@ TEST(GltfAnimation, PointsToMaterials)
     EXPECT_EQ(material.roughness, 0.25F);
     EXPECT_EQ(material.emission, glm::vec3(10.0F));
     EXPECT_EQ(material.clearcoat, 0.5F);
-    const Texture texture = material.baseColorTexture.value();
+    const Texture texture = material.textures[kSlotBaseColor].value();
     EXPECT_EQ(texture.rowU, glm::vec3(2.0F, 0.0F, 0.25F));
     EXPECT_EQ(texture.rowV, glm::vec3(0.0F, 4.0F, 0.5F));
 }

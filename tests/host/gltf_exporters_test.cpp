@@ -286,13 +286,13 @@ TEST(GltfExporters, SamplersOfUnknownFiltersAndWraps)
     };
     const char* kReplaced = "filters and wraps that glTF does not know there count as the nearest that it knows: samplers[0].";
     const Scene linear = textureOf({{"magFilter", 9987}, {"wrapS", 33071}});
-    EXPECT_FALSE(linear.materials.at(0).baseColorTexture->nearest);
-    EXPECT_EQ(linear.materials.at(0).baseColorTexture->wrapS, Wrap::Clamp);
+    EXPECT_FALSE(linear.materials.at(0).textures[kSlotBaseColor]->nearest);
+    EXPECT_EQ(linear.materials.at(0).textures[kSlotBaseColor]->wrapS, Wrap::Clamp);
     EXPECT_EQ(warning(linear, "filters"), std::string(kReplaced) + "magFilter 9987");
-    EXPECT_TRUE(textureOf({{"magFilter", 9984}}).materials.at(0).baseColorTexture->nearest);
-    EXPECT_TRUE(textureOf({{"magFilter", 0}, {"minFilter", 9728}}).materials.at(0).baseColorTexture->nearest) << "as without the 0";
+    EXPECT_TRUE(textureOf({{"magFilter", 9984}}).materials.at(0).textures[kSlotBaseColor]->nearest);
+    EXPECT_TRUE(textureOf({{"magFilter", 0}, {"minFilter", 9728}}).materials.at(0).textures[kSlotBaseColor]->nearest) << "as without the 0";
     const Scene unknown = textureOf({{"minFilter", -1}, {"wrapT", 10496}});  // GL_CLAMP
-    EXPECT_EQ(unknown.materials.at(0).baseColorTexture->wrapT, Wrap::Repeat);
+    EXPECT_EQ(unknown.materials.at(0).textures[kSlotBaseColor]->wrapT, Wrap::Repeat);
     EXPECT_EQ(warning(unknown, "filters"), std::string(kReplaced) + "minFilter -1, samplers[0].wrapT 10496");
     EXPECT_EQ(count(textureOf({{"magFilter", 9728}, {"minFilter", 9987}, {"wrapS", 33648}}), "filters"), 0U);
 }

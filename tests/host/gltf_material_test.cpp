@@ -129,9 +129,7 @@ TEST(GltfMaterial, TheDefaultsAreThoseOfTheSpecification)
     EXPECT_EQ(material.alphaMode, AlphaMode::Opaque);
     EXPECT_EQ(material.alphaCutoff, 0.5F);
     EXPECT_EQ(material.normalScale, 1.0F);
-    for (const auto* texture : texturesOf(material)) {
-        EXPECT_FALSE(texture->has_value());
-    }
+    EXPECT_FALSE(isTextured(material));
 }
 
 // KHR_materials_volume: the share (attenuationColor) is left after attenuationDistance.

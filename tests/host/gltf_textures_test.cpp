@@ -160,9 +160,9 @@ TEST(GltfTextures, LargeImagesAreScaledDownByTheirUse)
     const Scene scene = load(builder, options);
     ASSERT_EQ(scene.images.size(), 2U);
     const Material& material = scene.materials[0];
-    EXPECT_EQ(material.baseColorTexture->image, material.emissiveTexture->image);
-    EXPECT_EQ(scene.images[material.baseColorTexture->image].pixels->rgba8, (Texels{188, 188, 188, 255}));
-    EXPECT_EQ(scene.images[material.metallicRoughnessTexture->image].pixels->rgba8, (Texels{128, 128, 128, 255}));
+    EXPECT_EQ(material.textures[kSlotBaseColor]->image, material.textures[kSlotEmissive]->image);
+    EXPECT_EQ(scene.images[material.textures[kSlotBaseColor]->image].pixels->rgba8, (Texels{188, 188, 188, 255}));
+    EXPECT_EQ(scene.images[material.textures[kSlotMetallicRoughness]->image].pixels->rgba8, (Texels{128, 128, 128, 255}));
 }
 
 // Two sets of any number, each with its texture.
@@ -184,13 +184,13 @@ TEST(GltfTextures, AnyTwoSetsOfTextureCoordinates)
     };
     for (const auto& [color, emission] : {std::pair(0, 0), {0, 1}, {1, 0}, {2, 2}, {0, 3}, {4, 1}, {5, 2}}) {
         const Scene scene = loadSets(color, emission, -1);
-        EXPECT_EQ(coordinateOf(scene, scene.materials[0].baseColorTexture), static_cast<float>(color));
-        EXPECT_EQ(coordinateOf(scene, scene.materials[0].emissiveTexture), static_cast<float>(emission));
+        EXPECT_EQ(coordinateOf(scene, scene.materials[0].textures[kSlotBaseColor]), static_cast<float>(color));
+        EXPECT_EQ(coordinateOf(scene, scene.materials[0].textures[kSlotEmissive]), static_cast<float>(emission));
         EXPECT_FALSE(mentions(scene.warnings, "texture coordinates"));
     }
     const Scene scene = loadSets(1, 2, 4);
-    EXPECT_EQ(coordinateOf(scene, scene.materials[0].emissiveTexture), 2.0F);
-    EXPECT_EQ(coordinateOf(scene, scene.materials[0].normalTexture), 1.0F);
+    EXPECT_EQ(coordinateOf(scene, scene.materials[0].textures[kSlotEmissive]), 2.0F);
+    EXPECT_EQ(coordinateOf(scene, scene.materials[0].textures[kSlotNormal]), 1.0F);
     EXPECT_TRUE(
         mentions(scene.warnings, "of more than two sets of texture coordinates the highest are replaced by the lowest: materials[0]"));
 }

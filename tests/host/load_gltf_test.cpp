@@ -316,7 +316,7 @@ TEST(LoadGltf, DecodesTheImagesThatMaterialsUse)
     ASSERT_EQ(scene.images.size(), 1U);
     EXPECT_EQ(scene.images[0].width, 2U);
     EXPECT_EQ(scene.images[0].pixels->rgba8, (std::vector<std::uint8_t>{255, 0, 0, 128, 0, 255, 0, 255}));
-    const std::optional<Texture>& texture = scene.materials.at(0).baseColorTexture;
+    const std::optional<Texture>& texture = scene.materials.at(0).textures[kSlotBaseColor];
     ASSERT_TRUE(texture);
     EXPECT_EQ(texture->uvSet, 1U);
     EXPECT_EQ(texture->wrapS, Wrap::Clamp);
@@ -333,7 +333,7 @@ TEST(LoadGltf, DecodesImagesOfTheSameBytesOnce)
     builder.document["materials"][0]["emissiveTexture"] = {{"index", 1}};
     const Scene scene = load(builder);
     EXPECT_EQ(scene.images.size(), 1U);
-    EXPECT_EQ(scene.materials.at(0).emissiveTexture.value().image, 0U);
+    EXPECT_EQ(scene.materials.at(0).textures[kSlotEmissive].value().image, 0U);
 }
 
 TEST(LoadGltf, NamesImagesThatAreMissingOrBroken)

@@ -143,6 +143,7 @@ TEST_F(SceneFileTest, AnEditTouchesWhatItChanges)
     updateScene(prepared, file, std::nullopt, SplitRule::Sah);
     for (const Case& c : {Case{{"/materials/0/pbrMetallicRoughness/baseColorFactor", "[0.5, 0.25, 0, 1]"}, true, true, true},
                           {{"/materials/1/emissiveFactor", "[0.5, 0.5, 0.5]"}, true, true, true},
+          {{"/materials/1/alphaCutoff", "0.25"}, true, true, true},  // of an opaque material
                           {{"/extensions/KHR_lights_punctual/lights/0/intensity", "7"}, true, true, true},
                           {{"/nodes/5/translation", "[0, 6, 0]"}, true, true, true},
                           {{"/materials/1/emissiveFactor", "[0, 0, 0]"}, true, false, false},

@@ -11,7 +11,7 @@ SurfaceMaterial notedMaterial()
     material.data.principled = 1u;
     material.principled.metallic = 35.0;
     material.principled.roughness = 36.0;
-    material.layers = kNoLayers;
+    material.layers = noLayers();
     material.layers.transmission = 37.0;
     material.layers.diffuseTransmission = 38.0;
     material.layers.clearcoat = 39.0;

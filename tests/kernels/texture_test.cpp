@@ -82,8 +82,8 @@ Scene sceneOf(const std::vector<Texture>& textures, const std::vector<DecodedIma
         scene.images.push_back({"image", image});
     }
     for (const Texture& texture : textures) {
-        scene.materials.emplace_back().baseColorTexture = texture;
-        scene.materials.emplace_back().specularTexture = texture;
+        scene.materials.emplace_back().textures[kSlotBaseColor] = texture;
+        scene.materials.emplace_back().textures[kSlotSpecular] = texture;
     }
     return scene;
 }
@@ -132,7 +132,7 @@ TEST(TextureTest, H36LookUpsAsInDouble)
             const PrincipledData& data = scene.flat.principled.at(firstPrincipled + 2 * i + (srgb ? 0 : 1));
             for (int k = 0; k < 100; ++k) {
                 Case c;
-                c.texture = srgb ? data.baseColorTexture : data.specularTexture;
+                c.texture = data.firstTexture;
                 c.uv =
                     glm::dvec4(random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5));
                 Expected e{};

@@ -74,10 +74,10 @@ Scene cardsInFrontOfCards()
     scene.images.push_back({"leaf", randomAlpha(8, 1)});
     scene.images.push_back({"smoke", randomAlpha(4, 2)});
     scene.materials[masked].alphaMode = AlphaMode::Mask;
-    scene.materials[masked].baseColorTexture.emplace();
+    scene.materials[masked].textures[kSlotBaseColor].emplace();
     scene.materials[blended].alphaMode = AlphaMode::Blend;
     scene.materials[blended].alpha = 0.8F;
-    scene.materials[blended].baseColorTexture.emplace().image = 1;
+    scene.materials[blended].textures[kSlotBaseColor].emplace().image = 1;
     return scene;
 }
 
@@ -139,7 +139,7 @@ TEST(AlphaTest, ShadowsOfCardsMultiply)
     // A texture whose alpha is 51 and 204 by halves: .5 where they meet, in the middle of the card. Factor .8: .4.
     setAlpha(1, 0.8F);
     scene.images.push_back({"halves", alphaImage(2, {51, 204})});
-    scene.materials[cards[1]].baseColorTexture.emplace();
+    scene.materials[cards[1]].textures[kSlotBaseColor].emplace();
     setQuadUvs(scene.meshes[2], 1.0F);
     through *= 1.0 - 0.8 * 0.5;
     // The colour of a vertex: .2 and .6, so .4 in the middle.
@@ -151,7 +151,7 @@ TEST(AlphaTest, ShadowsOfCardsMultiply)
     // Both, and a factor.
     through *= 1.0 - 0.5 * 0.5 * 0.4;
     setAlpha(3, 0.5F);
-    scene.materials[cards[3]].baseColorTexture = scene.materials[cards[1]].baseColorTexture;
+    scene.materials[cards[3]].textures[kSlotBaseColor] = scene.materials[cards[1]].textures[kSlotBaseColor];
     setQuadUvs(scene.meshes[4], 1.0F);
     scene.meshes.change()[4].colors = scene.meshes[3].colors;
     // A mask below its cutoff is not there, one whose factor is 0 neither.
@@ -181,8 +181,8 @@ TEST(AlphaTest, TexturesAndVertexAlphaAreCoverageToTheCamera)
     Scene scene = builder.scene();
     scene.materials[0].alphaMode = AlphaMode::Blend;
     scene.materials[0].alpha = 0.8F;
-    scene.materials[0].baseColorTexture.emplace();
-    scene.materials[0].baseColorTexture->nearest = true;
+    scene.materials[0].textures[kSlotBaseColor].emplace();
+    scene.materials[0].textures[kSlotBaseColor]->nearest = true;
     const DecodedImage image = randomAlpha(4, 3);
     double mean = 0.0;
     for (std::size_t i = 0; i < 16; ++i) {
@@ -241,7 +241,7 @@ TEST(AlphaTest, AFlatNormalMapIsNone)
     plain.environment->radiance = glm::vec3(0.2F);
     plain.spheres.push_back({"", {1.0F, 1.5F, 2.0F}, 0.5F, 1});
     plain.materials.push_back(makeLambert(glm::vec3(0.0F), glm::vec3(10.0F)));
-    material.normalTexture.emplace();
+    material.textures[kSlotNormal].emplace();
     material.normalScale = 0.0F;
     Scene scaled = plain;
     scaled.materials[0] = material;
@@ -288,7 +288,7 @@ TEST(AlphaTest, H47NormalMapsThatPointAway)
         Scene scene = builder.scene();
         for (std::uint32_t i = 0; i < kStrips; ++i) {
             scene.materials[i] = glossy(materials[i / 5].first, materials[i / 5].second);
-            scene.materials[i].normalTexture.emplace().image = i % 5;
+            scene.materials[i].textures[kSlotNormal].emplace().image = i % 5;
             setQuadUvs(scene.meshes[i], 1.0F);
             scene.meshes[i].tangents.assign(6, glm::vec4(1, 0, 0, 1));
         }

@@ -31,7 +31,7 @@ double samplesOf(const RenderSettings& settings) { return 1.0 * settings.width *
 Material matt(bool nearest, Wrap wrap = Wrap::Repeat)
 {
     Material material = makeLambert(glm::vec3(1.0F));
-    Texture& texture = material.baseColorTexture.emplace();
+    Texture& texture = material.textures[kSlotBaseColor].emplace();
     texture.nearest = nearest;
     texture.wrapS = texture.wrapT = wrap;
     return material;
@@ -108,7 +108,7 @@ Scene rowOf(const std::vector<Tile>& tiles)
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         scene.images.push_back({tiles[i].name, tiles[i].image});
         scene.materials[i] = tiles[i].material;
-        scene.materials[i].baseColorTexture->image = static_cast<std::uint32_t>(i);
+        scene.materials[i].textures[kSlotBaseColor]->image = static_cast<std::uint32_t>(i);
         for (const glm::dvec3& p : scene.meshes[i].positions) {
             const glm::vec2 at(static_cast<float>(p.x) - static_cast<float>(i), 1.0F - static_cast<float>(p.y));
             scene.meshes[i].uv0.push_back(glm::mix(tiles[i].firstUv, tiles[i].lastUv, at));
@@ -361,7 +361,7 @@ Scene texturedLamp(const DecodedImage& image)
         .perspective({0, 0.5F, 3}, {0, 0, 0}, 0.5F);
     Scene scene = builder.scene();
     scene.images.push_back({"lamp", image});
-    scene.materials[1].emissiveTexture.emplace();
+    scene.materials[1].textures[kSlotEmissive].emplace();
     for (const glm::dvec3& p : scene.meshes[1].positions) {
         scene.meshes[1].uv0.emplace_back(glm::vec2(p.x, p.z));
     }
@@ -379,7 +379,7 @@ TEST(TexturedLampTest, IsFoundByLightsAndByBsdfsAlike)
         {"checker", greyImage(2, 2, [](std::uint32_t x, std::uint32_t y) { return static_cast<std::uint8_t>(x == y ? 255 : 0); })});
     for (std::uint32_t i = 1; i < 3; ++i) {
         scene.materials.push_back(scene.materials[1]);
-        scene.materials.back().emissiveTexture->image = i;
+        scene.materials.back().textures[kSlotEmissive]->image = i;
         scene.meshes.change().push_back(scene.meshes[1]);
         scene.meshes.change().back().material = i + 1;
         MeshInstance& instance = scene.instances.emplace_back();
@@ -399,7 +399,7 @@ TEST(TexturedLampTest, ATextureOfOneColourIsPartOfTheEmission)
 {
     Scene textured = texturedLamp(greyImage(2, 2, [](std::uint32_t, std::uint32_t) { return std::uint8_t{128}; }));
     Scene plain = textured;
-    plain.materials[1].emissiveTexture.reset();
+    plain.materials[1].textures[kSlotEmissive].reset();
     plain.materials[1].emission *= static_cast<float>(test::linearFromSrgb(128.0 / 255.0));
     const RenderSettings settings = persistent(16, 16, 16);
     EXPECT_NEAR(meanOf(renderScene(textured, settings)).mean.g / meanOf(renderScene(plain, settings)).mean.g, 1.0, 1e-5);

@@ -200,7 +200,7 @@ TEST(IdentifyTest, HolesOfMasksShowWhatIsBehind)
     addCard(builder, -1.0F, 1.0F, -1.0F, white);
     Scene scene = builder.scene();
     scene.materials[mask].alphaMode = AlphaMode::Mask;
-    scene.materials[mask].baseColorTexture.emplace().nearest = true;
+    scene.materials[mask].textures[kSlotBaseColor].emplace().nearest = true;
     DecodedImage halves;
     halves.width = 2;
     halves.height = 1;

@@ -357,7 +357,7 @@ TEST(MaterialTest, ATextureOfOneColourIsPartOfTheFactor)
         image.rgba16[i] = i % 4 == 3 ? 65535 : 48192;  // sRGB of .5, to 16 bits
     }
     textured.images.push_back({"half", image});
-    textured.materials[0].baseColorTexture.emplace();
+    textured.materials[0].textures[kSlotBaseColor].emplace();
     const Film a = renderScene(plain, squareSettings(32, 64)), b = renderScene(textured, squareSettings(32, 64));
     EXPECT_NEAR(meanOf(a).mean.x, meanOf(b).mean.x, 2e-5);
 }
@@ -376,7 +376,7 @@ Scene quadOf(const Material& material, const DecodedImage* image)
     }
     if (image != nullptr) {
         scene.images.push_back({"checker", *image});
-        scene.materials[0].baseColorTexture.emplace();
+        scene.materials[0].textures[kSlotBaseColor].emplace();
     }
     return scene;
 }
@@ -394,7 +394,7 @@ TEST(MaterialTest, AlphaIsCoverage)
     card.alpha = 1.0F;
     card.alphaMode = AlphaMode::Mask;
     Scene checker = quadOf(card, &image);
-    checker.materials[0].baseColorTexture->nearest = true;
+    checker.materials[0].textures[kSlotBaseColor]->nearest = true;
     expectMean("a checker of holes", renderScene(checker, squareSettings(64, 256)), glm::dvec3(0.5));
 }
 

@@ -11,7 +11,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 430u;
+GLIM_CONST uint kSharedWords = 422u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -104,16 +104,13 @@ U(chosen.pixel) U(chosen.samplesBefore)
 F3(material.baseColor) U(material.lobe) F3(material.emission) F(material.ior) U(material.flags) U(material.principled) F(material.alpha)
 F(material.alphaCutoff)
 F(principled.metallic) F(principled.roughness) F(principled.reflectance) F(principled.specular) F3(principled.specularColor)
-F(principled.normalScale) U(principled.baseColorTexture) U(principled.metallicRoughnessTexture) U(principled.normalTexture)
-U(principled.emissiveTexture) U(principled.specularTexture) U(principled.specularColorTexture) U(principled.layers) U(principled.glossy)
-F(layers.clearcoat) F(layers.clearcoatRoughness) U(layers.clearcoatTexture) U(layers.clearcoatRoughnessTexture)
-F3(layers.sheenColor) F(layers.sheenRoughness) U(layers.sheenColorTexture) U(layers.sheenRoughnessTexture)
-U(layers.clearcoatNormalTexture) F(layers.clearcoatNormalScale) F(layers.anisotropy) F(layers.anisotropyCosine)
-F(layers.anisotropySine) U(layers.anisotropyTexture) F(layers.iridescence) F(layers.iridescenceIor)
-F(layers.iridescenceThicknessMinimum) F(layers.iridescenceThicknessMaximum) U(layers.iridescenceTexture)
-U(layers.iridescenceThicknessTexture) F(layers.transmission) U(layers.transmissionTexture) F3(layers.diffuseTransmissionColor)
-F(layers.diffuseTransmission) U(layers.diffuseTransmissionTexture) U(layers.diffuseTransmissionColorTexture) U(layers.medium)
-U(layers.unused)
+F(principled.normalScale) U(principled.textures) U(principled.firstTexture) U(principled.layers) U(principled.glossy)
+U2(principled.unused) U(principled.unused.z) U(principled.unused.w)
+F(layers.clearcoat) F(layers.clearcoatRoughness) F(layers.clearcoatNormalScale) U(layers.unusedOfClearcoat)
+F3(layers.sheenColor) F(layers.sheenRoughness)
+F(layers.anisotropy) F(layers.anisotropyCosine) F(layers.anisotropySine) U(layers.unusedOfAnisotropy)
+F(layers.iridescence) F(layers.iridescenceIor) F(layers.iridescenceThicknessMinimum) F(layers.iridescenceThicknessMaximum)
+F3(layers.diffuseTransmissionColor) F(layers.diffuseTransmission) F(layers.transmission) U(layers.medium) U2(layers.unused)
 F3(medium.absorption) F(medium.ior) F(medium.spread) F3(medium.unused)
 U(texture_.firstTexel) U(texture_.size) U(texture_.flags) U(texture_.unused) F3(texture_.rowU) U(texture_.unusedU) F3(texture_.rowV)
 U(texture_.unusedV)

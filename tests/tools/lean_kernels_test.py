@@ -11,7 +11,7 @@ import unittest
 from pathlib import Path
 
 SHARED = Path(__file__).resolve().parents[2] / "shaders/shared"
-BITS = {name: 1 << int(bit) for name, bit in re.findall(r"GLIM_FEATURE\(kFeature(\w+), (\d+)\)", (SHARED / "features.h").read_text())}
+BITS = {name: 1 << int(bit) for name, bit in re.findall(r"FEATURE\((\w+), (\d+), ", (SHARED / "features.h").read_text())}
 # Triangle lights stay on: without any light nothing is left to see.
 FEATURES = [name for name in BITS if name != "TriangleLights"]
 # The kernels that have code for each feature, once the others are off.

@@ -158,8 +158,8 @@ RuleNode makeRules()
 {
     RuleNode rules;
     rules.add("", kSchemaRules);
-    for (const std::string slot : kTextureSlots) {
-        rules.add("materials[]." + slot, kTextureRules);
+    for (const std::string_view slot : kTexturePaths) {
+        rules.add("materials[]." + std::string(slot), kTextureRules);
     }
     for (const std::string name : kMeshoptExtensions) {
         rules.add("buffers[].extensions." + name, kMeshoptBufferRules);
@@ -442,7 +442,7 @@ const SchemaRule* findRule(const std::string& path)
             return &rule;
         }
     }
-    for (const char* slot : kTextureSlots) {
+    for (const std::string_view slot : kTexturePaths) {
         for (const SchemaRule& rule : kTextureRules) {
             if (path == "materials[]." + std::string(slot) + rule.path) {
                 return &rule;

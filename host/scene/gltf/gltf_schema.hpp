@@ -1,8 +1,11 @@
 // A table of the properties that glim reads, after the schemas of glTF 2.0 and its extensions.
 #pragma once
 
+#include "shaders/shared/texture_slots.h"
+
 #include <cfloat>
 #include <cstddef>
+#include <string_view>
 
 namespace glim {
 
@@ -234,30 +237,19 @@ constexpr SchemaRule kSchemaRules[] = {
     schema::index("scene", "scenes"),
 };
 
+constexpr std::string_view kGlossinessColor = "extensions.KHR_materials_pbrSpecularGlossiness.diffuseTexture";
+constexpr std::string_view kGlossinessSpecular = "extensions.KHR_materials_pbrSpecularGlossiness.specularGlossinessTexture";
+
 // Where materials refer to textures. Each may have texture coordinates and KHR_texture_transform.
-constexpr const char* kTextureSlots[] = {
-    "pbrMetallicRoughness.baseColorTexture",
-    "pbrMetallicRoughness.metallicRoughnessTexture",
-    "normalTexture",
-    "occlusionTexture",
-    "emissiveTexture",
-    "extensions.KHR_materials_specular.specularTexture",
-    "extensions.KHR_materials_specular.specularColorTexture",
-    "extensions.KHR_materials_transmission.transmissionTexture",
-    "extensions.KHR_materials_volume.thicknessTexture",
-    "extensions.KHR_materials_diffuse_transmission.diffuseTransmissionTexture",
-    "extensions.KHR_materials_diffuse_transmission.diffuseTransmissionColorTexture",
-    "extensions.KHR_materials_clearcoat.clearcoatTexture",
-    "extensions.KHR_materials_clearcoat.clearcoatRoughnessTexture",
-    "extensions.KHR_materials_clearcoat.clearcoatNormalTexture",
-    "extensions.KHR_materials_sheen.sheenColorTexture",
-    "extensions.KHR_materials_sheen.sheenRoughnessTexture",
-    "extensions.KHR_materials_anisotropy.anisotropyTexture",
-    "extensions.KHR_materials_iridescence.iridescenceTexture",
-    "extensions.KHR_materials_iridescence.iridescenceThicknessTexture",
-    "extensions.KHR_materials_pbrSpecularGlossiness.diffuseTexture",
-    "extensions.KHR_materials_pbrSpecularGlossiness.specularGlossinessTexture",
+// clang-format off
+constexpr std::string_view kTexturePaths[] = {
+#define SLOT(number, name, holds, feature, path, times) path,
+    GLIM_TEXTURE_SLOTS(SLOT)
+#undef SLOT
+    kGlossinessColor, kGlossinessSpecular,
+    "occlusionTexture", "extensions.KHR_materials_volume.thicknessTexture",
 };
+// clang-format on
 constexpr SchemaRule kTextureRules[] = {
     schema::index(".index", "textures", Need::Required),
     schema::whole(".texCoord", Need::Optional, 0, kMaxInt),

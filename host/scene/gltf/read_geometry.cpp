@@ -109,9 +109,9 @@ std::string listPointsAndLines(const GltfFile& file)
 // The texture coordinates that the material's tangents follow, if it needs any.
 std::optional<std::uint32_t> uvSetOfTangents(const Material& material)
 {
-    for (const auto* texture : {&material.normalTexture, &material.clearcoatNormalTexture, &material.anisotropyTexture}) {
-        if (*texture) {
-            return (*texture)->uvSet;
+    for (const TextureSlot& slot : kTextureSlots) {
+        if (slot.holds == TexelKind::Direction && material.textures[slot.number]) {
+            return material.textures[slot.number]->uvSet;
         }
     }
     return material.anisotropy > 0.0F ? std::optional<std::uint32_t>(0) : std::nullopt;

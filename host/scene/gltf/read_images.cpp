@@ -155,12 +155,12 @@ void readImages(const GltfFile& file, const LoadOptions& options, const std::vec
 {
     ImageReader reader(file, options, decoded, scene, warnings);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        const auto colors = colorTexturesOf(scene.materials[i]);
-        for (std::optional<Texture>* texture : texturesOf(scene.materials[i])) {
+        for (const TextureSlot& slot : kTextureSlots) {
+            std::optional<Texture>& texture = scene.materials[i].textures[slot.number];
             if (!used[i]) {
-                texture->reset();
-            } else if (texture->has_value()) {
-                reader.read(**texture, std::find(colors.begin(), colors.end(), texture) != colors.end());
+                texture.reset();
+            } else if (texture) {
+                reader.read(*texture, slot.holds == TexelKind::Color);
             }
         }
     }

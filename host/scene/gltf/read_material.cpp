@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 #include <set>
+#include <string_view>
 
 namespace glim {
 namespace {
@@ -24,7 +25,7 @@ constexpr const char* kGlossiness = "KHR_materials_pbrSpecularGlossiness";
 
 constexpr double kLeastAttenuation = 1e-6;  // of a channel: black would absorb all at once
 
-const tinygltf::Value* findProperty(const tinygltf::Material& source, const char* extension, const char* name)
+const tinygltf::Value* findProperty(const tinygltf::Material& source, const std::string& extension, const std::string& name)
 {
     const auto found = source.extensions.find(extension);
     return found == source.extensions.end() || !found->second.Has(name) ? nullptr : &found->second.Get(name);
@@ -78,7 +79,7 @@ public:
 private:
     void readTextures(Material& material);
     std::optional<Texture> readTexture(int index, int uvSet, const tinygltf::Value* transform);
-    std::optional<Texture> readTexture(const char* extension, const char* name);
+    std::optional<Texture> readTexture(std::string_view path);
     template <class Info>
     std::optional<Texture> readTexture(const Info& info)
     {
@@ -129,9 +130,12 @@ std::optional<Texture> MaterialReader::readTexture(int index, int uvSet, const t
     return texture;
 }
 
-std::optional<Texture> MaterialReader::readTexture(const char* extension, const char* name)
+// `path`: of an extension, as in gltf_schema.hpp.
+std::optional<Texture> MaterialReader::readTexture(std::string_view path)
 {
-    const tinygltf::Value* info = findProperty(source_, extension, name);
+    const std::size_t extension = path.find('.') + 1, name = path.find('.', extension) + 1;
+    const tinygltf::Value* info =
+        findProperty(source_, std::string(path.substr(extension, name - 1 - extension)), std::string(path.substr(name)));
     if (info == nullptr) {
         return std::nullopt;
     }
@@ -144,13 +148,17 @@ std::optional<Texture> MaterialReader::readTexture(const char* extension, const 
 
 void MaterialReader::readTextures(Material& material)
 {
-    material.baseColorTexture = readTexture(source_.pbrMetallicRoughness.baseColorTexture);
-    material.metallicRoughnessTexture = readTexture(source_.pbrMetallicRoughness.metallicRoughnessTexture);
-    material.normalTexture = readTexture(source_.normalTexture);
+    for (const TextureSlot& slot : kTextureSlots) {
+        if (slot.path.starts_with("extensions.")) {
+            material.textures[slot.number] = readTexture(slot.path);
+        }
+    }
+    // The core's are members of tinygltf's material.
+    material.textures[kSlotBaseColor] = readTexture(source_.pbrMetallicRoughness.baseColorTexture);
+    material.textures[kSlotMetallicRoughness] = readTexture(source_.pbrMetallicRoughness.metallicRoughnessTexture);
+    material.textures[kSlotNormal] = readTexture(source_.normalTexture);
+    material.textures[kSlotEmissive] = readTexture(source_.emissiveTexture);
     material.normalScale = static_cast<float>(source_.normalTexture.scale);
-    material.emissiveTexture = readTexture(source_.emissiveTexture);
-    material.specularTexture = readTexture(kSpecular, "specularTexture");
-    material.specularColorTexture = readTexture(kSpecular, "specularColorTexture");
 }
 
 void MaterialReader::readTransmission(Material& material)
@@ -164,11 +172,8 @@ void MaterialReader::readTransmission(Material& material)
         refuse(file_, place_ + " has the index of refraction " + toText(material.ior) + "; expected 0 or at least 1");
     }
     material.transmission = numberOr(source_, kTransmission, "transmissionFactor", 0.0);
-    material.transmissionTexture = readTexture(kTransmission, "transmissionTexture");
     material.diffuseTransmission = numberOr(source_, kDiffuseTransmission, "diffuseTransmissionFactor", 0.0);
-    material.diffuseTransmissionTexture = readTexture(kDiffuseTransmission, "diffuseTransmissionTexture");
     material.diffuseTransmissionColor = colorOr(source_, kDiffuseTransmission, "diffuseTransmissionColorFactor", glm::vec3(1.0F));
-    material.diffuseTransmissionColorTexture = readTexture(kDiffuseTransmission, "diffuseTransmissionColorTexture");
     const bool transmits = material.transmission > 0.0F || material.diffuseTransmission > 0.0F;
     material.thick = numberOr(source_, kVolume, "thicknessFactor", 0.0) > 0.0F;
     material.solid = transmits && material.thick;
@@ -190,26 +195,18 @@ void MaterialReader::readLayers(Material& material)
 {
     material.clearcoat = numberOr(source_, kClearcoat, "clearcoatFactor", 0.0);
     material.clearcoatRoughness = numberOr(source_, kClearcoat, "clearcoatRoughnessFactor", 0.0);
-    material.clearcoatTexture = readTexture(kClearcoat, "clearcoatTexture");
-    material.clearcoatRoughnessTexture = readTexture(kClearcoat, "clearcoatRoughnessTexture");
-    material.clearcoatNormalTexture = readTexture(kClearcoat, "clearcoatNormalTexture");
     const tinygltf::Value* normal = findProperty(source_, kClearcoat, "clearcoatNormalTexture");
     if (normal != nullptr && normal->Has("scale")) {
         material.clearcoatNormalScale = static_cast<float>(normal->Get("scale").GetNumberAsDouble());
     }
     material.sheenColor = colorOr(source_, kSheen, "sheenColorFactor", glm::vec3(0.0F));
     material.sheenRoughness = numberOr(source_, kSheen, "sheenRoughnessFactor", 0.0);
-    material.sheenColorTexture = readTexture(kSheen, "sheenColorTexture");
-    material.sheenRoughnessTexture = readTexture(kSheen, "sheenRoughnessTexture");
     material.anisotropy = numberOr(source_, kAnisotropy, "anisotropyStrength", 0.0);
     material.anisotropyRotation = numberOr(source_, kAnisotropy, "anisotropyRotation", 0.0);
-    material.anisotropyTexture = readTexture(kAnisotropy, "anisotropyTexture");
     material.iridescence = numberOr(source_, kIridescence, "iridescenceFactor", 0.0);
     material.iridescenceIor = numberOr(source_, kIridescence, "iridescenceIor", 1.3);
     material.iridescenceThicknessMinimum = numberOr(source_, kIridescence, "iridescenceThicknessMinimum", 100.0);
     material.iridescenceThicknessMaximum = numberOr(source_, kIridescence, "iridescenceThicknessMaximum", 400.0);
-    material.iridescenceTexture = readTexture(kIridescence, "iridescenceTexture");
-    material.iridescenceThicknessTexture = readTexture(kIridescence, "iridescenceThicknessTexture");
 }
 
 // Replaces metallic and roughness, where the file has both: KHR_materials_pbrSpecularGlossiness is the better version of the two.
@@ -227,19 +224,19 @@ void MaterialReader::readGlossiness(Material& material)
     material.baseColor = colorOr(source_, kGlossiness, "diffuseFactor", glm::vec3(1.0F));
     const tinygltf::Value* diffuse = findProperty(source_, kGlossiness, "diffuseFactor");
     material.alpha = diffuse == nullptr ? 1.0F : static_cast<float>(diffuse->Get(3).GetNumberAsDouble());
-    material.baseColorTexture = readTexture(kGlossiness, "diffuseTexture");
-    material.specularColorTexture = readTexture(kGlossiness, "specularGlossinessTexture");
-    material.metallicRoughnessTexture.reset();
-    material.specularTexture.reset();
+    material.textures[kSlotBaseColor] = readTexture(kGlossinessColor);
+    material.textures[kSlotSpecularColor] = readTexture(kGlossinessSpecular);
+    material.textures[kSlotMetallicRoughness].reset();
+    material.textures[kSlotSpecular].reset();
 }
 
 // A mesh keeps two sets: the lowest two that the material's textures use.
 void MaterialReader::chooseUvSets(Material& material)
 {
     std::set<std::uint32_t> used;
-    for (const std::optional<Texture>* texture : texturesOf(material)) {
-        if (*texture) {
-            used.insert((*texture)->uvSet);
+    for (const std::optional<Texture>& texture : material.textures) {
+        if (texture) {
+            used.insert(texture->uvSet);
         }
     }
     if (used.empty() || *used.rbegin() <= 1) {
@@ -248,9 +245,9 @@ void MaterialReader::chooseUvSets(Material& material)
     ignore(used.size() > 2, "of more than two sets of texture coordinates the highest are replaced by the lowest");
     material.uvSets[0] = *used.begin();
     material.uvSets[1] = used.size() > 1 ? *std::next(used.begin()) : *used.begin();
-    for (std::optional<Texture>* texture : texturesOf(material)) {
-        if (*texture) {
-            (*texture)->uvSet = (*texture)->uvSet == material.uvSets[1] && used.size() > 1 ? 1 : 0;
+    for (std::optional<Texture>& texture : material.textures) {
+        if (texture) {
+            texture->uvSet = texture->uvSet == material.uvSets[1] && used.size() > 1 ? 1 : 0;
         }
     }
 }
