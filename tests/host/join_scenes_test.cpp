@@ -72,7 +72,7 @@ TEST_F(JoinScenesTest, ShapesAndLightsStandWhereTheMatrixSays)
     EXPECT_EQ(scene.materials[mesh.material].name, "glaze");
     EXPECT_EQ(scene.materials[scene.spheres[0].material].name, "bead");
     EXPECT_EQ(scene.nodeNames[scene.instances[1].node], "vase");
-    EXPECT_EQ(scene.images.at(scene.materials[mesh.material].baseColorTexture->image).width, 2U);
+    EXPECT_EQ(scene.images.at(scene.materials[mesh.material].textures[kSlotBaseColor]->image).width, 2U);
     // A quarter turn takes +y to -x.
     const auto worldOf = [&](const glm::vec3& point) { return glm::dvec3(point) + scene.origin; };
     EXPECT_LT(glm::length(worldOf(scene.spheres[0].center) - glm::dvec3(101 - 4, 2, 3)), 1e-5);
