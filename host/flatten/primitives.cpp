@@ -1,6 +1,7 @@
 #include "host/flatten/primitives.hpp"
 
 #include "host/flatten/classify_alpha.hpp"
+#include "host/flatten/flatten_materials.hpp"
 #include "host/flatten/lift_lamps.hpp"
 #include "host/text.hpp"
 
@@ -292,7 +293,7 @@ bool haveSameSurfaces(const Material& a, const Material& b)
 {
     const auto shapeOf = [](const Material& m) {
         const bool isOpaque = m.alphaMode == AlphaMode::Opaque;
-        return std::tuple(m.alphaMode, isOpaque ? 1.0F : m.alpha, isOpaque ? 0.0F : m.alphaCutoff, m.doubleSided, m.thick, isTextured(m), m.textures[kSlotEmissive].has_value(),
+        return std::tuple(m.alphaMode, isOpaque ? 1.0F : m.alpha, isOpaque ? 0.0F : m.alphaCutoff, passesStraight(m), m.doubleSided, m.thick, isTextured(m), m.textures[kSlotEmissive].has_value(),
                           m.emission != glm::vec3(0.0F), m.transmission > 0.0F, m.diffuseTransmission > 0.0F);
     };
     return shapeOf(a) == shapeOf(b) && a.textures[kSlotBaseColor] == b.textures[kSlotBaseColor];

@@ -111,20 +111,32 @@ TEST_F(SceneFileTest, ImagesOfAnotherFileAreItsOwn)
     EXPECT_NE(prepared.flat.images->texels, before);
 }
 
-// Two triangles, one of them a lamp, below a light.
-GltfBuilder twoCards()
+// Four fans of eight triangles, a lamp and a pane of rough glass, below a light.
+GltfBuilder fans()
 {
     GltfBuilder builder;
-    const std::size_t mesh = builder.addTriangleMesh(), lamp = builder.addTriangleMesh();
+    std::vector<float> corners{0.0F, 0.0F, 0.0F};
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t i = 0; i < 9; ++i) {
+        corners.insert(corners.end(), {1.0F, 0.125F * static_cast<float>(i), 0.0F});
+        indices.insert(indices.end(), {0U, i, i + 1});
+    }
+    indices.erase(indices.begin(), indices.begin() + 3);
+    const std::size_t mesh = builder.addMesh({{"attributes", {{"POSITION", builder.addVec3(corners)}}}, {"indices", builder.addIndices(indices)}});
+    const std::size_t lamp = builder.addTriangleMesh(), pane = builder.addTriangleMesh();
     builder.append("materials", {{"alphaMode", "MASK"}});
     builder.append("materials", {{"emissiveFactor", {1, 1, 1}}});
+    builder.append("materials", {{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0.5}}},
+                                 {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}});
     builder.document["meshes"][mesh]["primitives"][0]["material"] = 0;
     builder.document["meshes"][lamp]["primitives"][0]["material"] = 1;
+    builder.document["meshes"][pane]["primitives"][0]["material"] = 2;
     for (int i = 0; i < 4; ++i) {
         builder.addNode({{"mesh", mesh}, {"translation", {2 * i, 0, 0}}});
     }
     builder.addNode({{"mesh", lamp}, {"translation", {0, 3, 0}}});
     builder.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"translation", {0, 5, 0}}});
+    builder.addNode({{"mesh", pane}, {"translation", {0, 0, 2}}});
     builder.document["extensionsUsed"] = {"KHR_lights_punctual"};
     builder.document["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
     return builder;
@@ -137,7 +149,7 @@ TEST_F(SceneFileTest, AnEditTouchesWhatItChanges)
         Edit edit;
         bool keepsMeshes, keepsRecords, keepsNodes;
     };
-    const std::string path = writeTemporary("cards.gltf", twoCards().toGltf());
+    const std::string path = writeTemporary("fans.gltf", fans().toGltf());
     SceneFile file(path);
     PreparedScene prepared;
     updateScene(prepared, file, std::nullopt, SplitRule::Sah);
@@ -149,6 +161,7 @@ TEST_F(SceneFileTest, AnEditTouchesWhatItChanges)
                           {{"/materials/1/emissiveFactor", "[0, 0, 0]"}, true, false, false},
                           {{"/materials/0/emissiveFactor", "[1, 0, 0]"}, true, false, false},
                           {{"/materials/0/doubleSided", "true"}, true, false, false},
+          {{"/materials/2/pbrMetallicRoughness/roughnessFactor", "0"}, true, false, false},  // rays pass it straight
                           {{"/materials/0/alphaCutoff", "2"}, true, false, false},
                           {{"/nodes/1/translation", "[2, 1, 0]"}, true, false, false},
                           {{"/materials/0/extensions/KHR_materials_anisotropy/anisotropyStrength", "0.5"}, false, false, false}}) {
@@ -174,10 +187,10 @@ TEST_F(SceneFileTest, AnEditTouchesWhatItChanges)
 // Where one instance of a shared mesh moves, the shapes stay the same arrays.
 TEST_F(SceneFileTest, ASharedMeshMovesAlone)
 {
-    GltfBuilder cards = twoCards();
-    const Scene before = load(cards);
-    cards.document["nodes"][2]["translation"] = {4, 1, 0};
-    Scene after = load(cards);
+    GltfBuilder moved = fans();
+    const Scene before = load(moved);
+    moved.document["nodes"][2]["translation"] = {4, 1, 0};
+    Scene after = load(moved);
     after.meshes = before.meshes;
     after.origin = before.origin;
     Primitives primitives = makePrimitives(before, 0);
@@ -187,15 +200,15 @@ TEST_F(SceneFileTest, ASharedMeshMovesAlone)
     ASSERT_EQ(compareSurfaces(before, primitives, after), Same::AllButPlacements);
     placeSharedMeshes(after, primitives);
     const WideBvh movedBvh = moveInstances(bvh, primitives, SplitRule::Sah);
-    const FlatScene moved = flattenScene(after, primitives, movedBvh, flat, Same::AllButPlacements);
+    const FlatScene flatMoved = flattenScene(after, primitives, movedBvh, flat, Same::AllButPlacements);
     const Primitives freshPrimitives = makePrimitives(after, 0);
     const FlatScene fresh = flattenScene(after, freshPrimitives, buildSceneBvh(freshPrimitives));
-    EXPECT_EQ(fingerprint(moved), fingerprint(fresh));
-    EXPECT_NE(fingerprint(moved), fingerprint(flat));
-    EXPECT_EQ(moved.features, fresh.features);
-    EXPECT_EQ(moved.instances, fresh.instances);
-    EXPECT_TRUE(moved.records.isSameAs(flat.records));
-    EXPECT_TRUE(moved.triangles.isSameAs(flat.triangles));
+    EXPECT_EQ(fingerprint(flatMoved), fingerprint(fresh));
+    EXPECT_NE(fingerprint(flatMoved), fingerprint(flat));
+    EXPECT_EQ(flatMoved.features, fresh.features);
+    EXPECT_EQ(flatMoved.instances, fresh.instances);
+    EXPECT_TRUE(flatMoved.records.isSameAs(flat.records));
+    EXPECT_TRUE(flatMoved.triangles.isSameAs(flat.triangles));
     // A flattened instance that moves is another shape.
     Scene lamp = after;
     lamp.instances[4].worldFromMesh[3].y += 1.0;
@@ -205,7 +218,7 @@ TEST_F(SceneFileTest, ASharedMeshMovesAlone)
 // A pointer that the file does not have changes nothing.
 TEST_F(SceneFileTest, ARefusedEditLeavesTheSceneAsItWas)
 {
-    const std::string path = writeTemporary("cards.gltf", twoCards().toGltf());
+    const std::string path = writeTemporary("fans.gltf", fans().toGltf());
     SceneFile file(path);
     const std::vector<Edit> edits{{"/materials/0/alphaCutoff", "0.75"}};
     file.edit(edits);
