@@ -180,8 +180,8 @@ private:
         }
         // Of whole pages by uniform sampling the film says all.
         const bool wholePages = frame.settings.adaptive == Adaptive::Off && frame.settings.sampleEnd % kPageSamples == 0;
-        RenderedFilm rendered =
-            renderPicture(renderer, options, session->denoiser(), std::ref(watcher), [&] { return !wholePages || !renderer.isDone(); });
+        RenderedFilm rendered = renderPicture(renderer, options, session->denoiser(), std::ref(watcher),
+                                              [&] { return !wholePages || !renderer.plan().isDone(); });
         if (renderer.statistics().samples + renderer.statistics().resumedSamples == 0) {
             keep(std::move(session), std::move(rayKernels));
             return nullptr;

@@ -108,7 +108,7 @@ std::vector<KernelRate> measureKernelRates(Device& device, FlatScene scene, cons
         if (timers.empty()) {
             timers.emplace_back(device, scene, camera, variant.settings);
         } else {
-            timers.emplace_back(device, timers.front(), scene, camera, variant.settings);
+            timers.emplace_back(timers.front(), scene, camera, variant.settings);
         }
     }
     const RaySets& rays = timers.front().rays();

@@ -48,7 +48,7 @@ double cpuSecondsOfProcess() { return static_cast<double>(std::clock()) / CLOCKS
 std::optional<double> sampleUntil(Renderer& renderer, std::uint32_t samples, const std::function<bool()>& shouldContinue)
 {
     const auto start = Clock::now();
-    while (renderer.sampleCount() < samples) {
+    while (renderer.plan().sampleCount() < samples) {
         if (!renderer.advance(shouldContinue)) {
             return std::nullopt;
         }
@@ -173,7 +173,7 @@ std::optional<std::vector<RenderedSeeds>> renderSeeds(const std::vector<BenchSid
         const auto& [renderer, camera] = sides[turn];
         renderer.restart(camera, seeds[round]);
         auto last = renderSeed(renderer, reference, rendered[turn].points,
-                               [&, &renderer = renderer] { return observer(std::uint64_t{samples} * i + renderer.sampleCount()); });
+                               [&, &renderer = renderer] { return observer(std::uint64_t{samples} * i + renderer.plan().sampleCount()); });
         if (!last) {
             return std::nullopt;
         }

@@ -1,5 +1,7 @@
 #include "host/bench/trace_timer.hpp"
 
+#include "host/render/replay.hpp"
+
 #include <algorithm>
 
 namespace glim {
@@ -28,33 +30,34 @@ RenderSettings byWavefront(RenderSettings settings)
 
 }  // namespace
 
-RaySets captureRays(Wavefront& wavefront, const Tile& tile)
+RaySets captureRays(RenderResources& resources, std::uint32_t pixels)
 {
     RaySets sets;
-    Pass pass = wavefront.passOf(tile);
-    pass.pixelCount = tile.count();
+    const std::unique_ptr<Tile> tile = resources.makeTile(0, pixels);
+    Pass pass = tile->pass();
+    pass.pixelCount = pixels;
     pass.sampleCount = 1;
-    wavefront.watch(tile, pass, [&](const std::string& kernel, const CoursePass& at, PathBuffers& paths) {
+    watchPass(resources, *tile, pass, [&](const std::string& kernel, const CoursePass& at, PathBuffers& paths) {
         const QueueTails tails = download<QueueTails>(paths.queueTails(), 1)[0];
         if (kernel == "generate_rays") {
-            sets.primary = download<PathRay>(paths.rays(), tile.count());
+            sets.primary = download<PathRay>(paths.rays(), pixels);
         } else if (kernel == "sample_lights_and_bounce" && at.pass.bounce == 0) {
-            sets.shadow = queued<ShadowRay>(paths.shadowRays(), paths.shadowQueue(), tails.shadow, tile.count());
-            sets.diffuse = queued<PathRay>(paths.rays(), paths.nextQueue(0), tails.next, tile.count());
+            sets.shadow = queued<ShadowRay>(paths.shadowRays(), paths.shadowQueue(), tails.shadow, pixels);
+            sets.diffuse = queued<PathRay>(paths.rays(), paths.nextQueue(0), tails.next, pixels);
         }
     });
     return sets;
 }
 
 TraceTimer::TraceTimer(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
-    : wavefront_(device, scene, camera, byWavefront(settings)),
-      tile_(wavefront_.makeTile(0, settings.width * settings.height)),
-      rays_(captureRays(wavefront_, *tile_))
+    : resources_(device, scene, camera, byWavefront(settings)),
+      tracer_(resources_),
+      rays_(captureRays(resources_, settings.width * settings.height))
 {}
 
-TraceTimer::TraceTimer(Device& device, TraceTimer& other, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
-    : wavefront_(device, other.wavefront_.shared(), scene, camera, byWavefront(settings)),
-      tile_(wavefront_.makeTile(0, settings.width * settings.height)),
+TraceTimer::TraceTimer(const TraceTimer& other, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
+    : resources_(other.resources_, scene, camera, byWavefront(settings)),
+      tracer_(resources_),
       rays_(other.rays_)
 {}
 
@@ -63,8 +66,8 @@ double TraceTimer::secondsOf(const std::string& kernel) const
 {
     double seconds = 0.0;
     for (const std::string& name : {kernel, "course_" + kernel}) {
-        const auto found = wavefront_.statistics().find(name);
-        seconds += found == wavefront_.statistics().end() ? 0.0 : found->second.seconds;
+        const auto found = resources_.statistics.find(name);
+        seconds += found == resources_.statistics.end() ? 0.0 : found->second.seconds;
     }
     return seconds;
 }
@@ -72,14 +75,14 @@ double TraceTimer::secondsOf(const std::string& kernel) const
 TraceTimer::Closest TraceTimer::trace(std::span<const PathRay> rays)
 {
     const double before = secondsOf("trace_closest");
-    std::vector<PathHit> hits = wavefront_.traceRays(*tile_, rays);
+    std::vector<PathHit> hits = tracer_.trace(rays);
     return {std::move(hits), secondsOf("trace_closest") - before};
 }
 
 TraceTimer::Shadow TraceTimer::trace(std::span<const ShadowRay> rays)
 {
     const double before = secondsOf("trace_shadow");
-    std::vector<bool> free = wavefront_.traceShadowRays(*tile_, rays);
+    std::vector<bool> free = tracer_.trace(rays);
     return {std::move(free), secondsOf("trace_shadow") - before};
 }
 

@@ -1,7 +1,7 @@
 // Captures rays as kernels make them, and times the kernels that trace them.
 #pragma once
 
-#include "host/render/wavefront.hpp"
+#include "host/render/ray_tracer.hpp"
 
 namespace glim {
 
@@ -11,8 +11,8 @@ struct RaySets {
     std::vector<ShadowRay> shadow;  // from what the camera sees to a light
 };
 
-// Rays of the first sample of every pixel of the tile. The tile has at most pathCapacity pixels.
-RaySets captureRays(Wavefront& wavefront, const Tile& tile);
+// Rays of the first sample of each of the first `pixels` pixels of the picture, at most pathCapacity.
+RaySets captureRays(RenderResources& resources, std::uint32_t pixels);
 
 class TraceTimer {
 public:
@@ -20,7 +20,7 @@ public:
     TraceTimer(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
 
     // Uses the resources and the rays of `other`, which must outlive it. Only one of the two may trace at a time.
-    TraceTimer(Device& device, TraceTimer& other, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
+    TraceTimer(const TraceTimer& other, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
 
     const RaySets& rays() const { return rays_; }
 
@@ -39,8 +39,8 @@ public:
 private:
     double secondsOf(const std::string& kernel) const;
 
-    Wavefront wavefront_;
-    std::unique_ptr<Tile> tile_;
+    RenderResources resources_;
+    RayTracer tracer_;
     RaySets rays_;
 };
 

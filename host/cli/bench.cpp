@@ -219,7 +219,7 @@ bool measure(Device& device, const BenchOptions& options, BenchJob& job, std::op
         }
     }
     const std::uint32_t samples = options.samples.value_or(*fitting);
-    const std::string identity = renderer.folded().identity.scene;
+    const std::string identity = renderer.films().folded().identity.scene;
     const RenderSettings longRender = referenceSettings(job.settings, samples);
     bench.reference = options.reference.value_or(referenceOf(options, bench.scene)).string();
     const bool made = options.reference || (!options.makeReference && isReference(bench.reference, identity, longRender));

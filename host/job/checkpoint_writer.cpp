@@ -91,7 +91,7 @@ void CheckpointWriter::begin(const Renderer& renderer)
     }
     asked_ = false;
     last_ = Clock::now();
-    samplesPerPixel_ = static_cast<double>(renderer.pictureSamples()) / static_cast<double>(checkpoint->film.pixels.size());
+    samplesPerPixel_ = static_cast<double>(renderer.plan().pictureSamples()) / static_cast<double>(checkpoint->film.pixels.size());
     label_(checkpoint->film);
     writing_ = std::async(std::launch::async, [this, checkpoint = *std::move(checkpoint)] { return write(checkpoint); });
 }

@@ -20,14 +20,14 @@ void FilmDenoiser::open(const RenderJob& options)
 
 std::optional<Denoising> FilmDenoiser::denoise(const RenderJob& options, Renderer& renderer, const std::function<bool()>& shouldContinue)
 {
-    const FilmHalves* halves = renderer.halves();
+    const FilmHalves* halves = renderer.films().halves();
     if (halves == nullptr || !hasBothHalves(*halves) || !shouldContinue()) {
         return std::nullopt;
     }
     const auto start = Clock::now();
     open(options);
     if (!options.oidn && !nlMeans_) {
-        nlMeans_.emplace(renderer.device());
+        nlMeans_.emplace(renderer.resources().device);
     }
     auto picture = denoiseHalves(*halves, [&](const Film& film) {
         return options.oidn ? std::optional(oidn_->denoise(film)) : nlMeans_->denoise(film, shouldContinue);

@@ -59,15 +59,15 @@ void resumeFrom(Renderer& renderer, StoredFilm stored, const std::string& name)
     if (!checkpoint) {
         refuse("expected one range that ends with a page of " + std::to_string(kPageSamples) + "; `glim merge` adds others");
     }
-    if (!renderer.canResume(*checkpoint)) {
+    if (!renderer.plan().canResume(checkpoint->progress)) {
         refuse(isNeighbours(settings.adaptive) ? "planned for another --spp" : "more than were asked for");
     }
     renderer.resume(*std::move(checkpoint));
     const double pixels = settings.pixelCount();
     say(name + " is resumed at " +
         exactText(std::round(100.0 * static_cast<double>(renderer.statistics().resumedSamples) / pixels) / 100.0) + " samples per pixel");
-    if (arithmetic != arithmeticFingerprint(renderer.device())) {
-        say(renderer.device().description().name + " rounds otherwise than " + device +
+    if (arithmetic != arithmeticFingerprint(renderer.resources().device)) {
+        say(renderer.resources().device.description().name + " rounds otherwise than " + device +
             " did, so the film will equal a single run up to rounding");
     }
 }
@@ -100,7 +100,7 @@ RenderedFilm renderPicture(Renderer& renderer, const RenderJob& options, FilmDen
     const auto criterion = [&](const Film& film) {
         const double times = target.denoised ? timesOfDenoised() : timesToTarget(film, target);
         rendered.isGood = times <= 1.0;
-        rendered.isUnknown = std::isinf(times) && goesOn && renderer.sampleCount() >= kSamplesOfUnknownError;
+        rendered.isUnknown = std::isinf(times) && goesOn && renderer.plan().sampleCount() >= kSamplesOfUnknownError;
         return rendered.isUnknown ? 0.0 : times;
     };
     const auto atEnd = [&] {

@@ -362,7 +362,7 @@ ExitCode SequenceRenderer::writeShot(const RenderJob& options, const PictureFram
                               look,
                               session_.renderer().statistics(),
                               session_.device().description(),
-                              stopReason(watch_->signal(), rendered, frame.settings, session_.renderer().isDone()),
+                              stopReason(watch_->signal(), rendered, frame.settings, session_.renderer().plan().isDone()),
                               writeSeconds,
                               idSeconds,
                               std::move(suspects),

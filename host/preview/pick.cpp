@@ -1,6 +1,7 @@
 #include "host/preview/pick.hpp"
 
 #include "host/measure/float_range.hpp"
+#include "host/render/ray_tracer.hpp"
 #include "shaders/shared/limits.h"
 
 #include <cstdio>
@@ -24,7 +25,7 @@ PathRay rayThrough(const FlatCamera& camera, const glm::uvec2& pixel, const glm:
 std::optional<Pick> pick(Refiner& refiner, const PreparedScene& prepared, const glm::uvec2& pixel, const glm::uvec2& size)
 {
     const PathRay ray = rayThrough(refiner.camera(), pixel, size);
-    const PathHit hit = refiner.renderer().traceRay(ray);
+    const PathHit hit = RayTracer(refiner.renderer().resources()).trace(std::span(&ray, 1)).front();
     if (hit.record == kNoRecord) {
         return std::nullopt;
     }

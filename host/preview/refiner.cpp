@@ -72,13 +72,13 @@ void Refiner::begin(std::uint32_t scale, bool fresh)
 
 void Refiner::advance(const std::function<bool()>& shouldContinue)
 {
-    const std::uint64_t before = renderer_.pictureSamples();
+    const std::uint64_t before = renderer_.plan().pictureSamples();
     const Clock::time_point start = Clock::now();
     const bool whole = renderer_.advance(shouldContinue);
     const double spent = secondsBetween(start, Clock::now());
     seconds_ += spent;
     if (whole) {
-        const double now = static_cast<double>(renderer_.pictureSamples() - before) / spent;
+        const double now = static_cast<double>(renderer_.plan().pictureSamples() - before) / spent;
         speed_ = speed_ == 0.0 ? now : 0.8 * speed_ + 0.2 * now;
     }
 }
@@ -88,20 +88,20 @@ bool Refiner::refine(bool paused, const std::function<bool()>& shouldContinue)
     if (scale_ > 1 && !fresh_ && secondsBetween(moved_, Clock::now()) > kStillSeconds) {
         begin(1, false);
     }
-    const bool whole = renderer_.sampleCount() > 0;
+    const bool whole = renderer_.plan().sampleCount() > 0;
     if (isDone() || (whole && paused)) {
         return scale_ > 1;  // the full size comes next
     }
     // The first picture is always completed. Otherwise a user who moves without rest would see none.
     do {
         advance(fresh_ ? nullptr : shouldContinue);
-    } while (fresh_ && renderer_.sampleCount() == 0);
+    } while (fresh_ && renderer_.plan().sampleCount() == 0);
     if (std::exchange(fresh_, false)) {
         chooseMovingScale(seconds_);
     }
     return true;
 }
 
-bool Refiner::isDone() const { return renderer_.isDone() || (settings_.seconds && scale_ == 1 && seconds() >= *settings_.seconds); }
+bool Refiner::isDone() const { return renderer_.plan().isDone() || (settings_.seconds && scale_ == 1 && seconds() >= *settings_.seconds); }
 
 }  // namespace glim

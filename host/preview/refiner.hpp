@@ -30,7 +30,7 @@ public:
     // Whether every pixel has all its samples, or the time is up.
     bool isDone() const;
     // The samples of each pixel of the picture in full size; 0 while it is coarse.
-    std::uint32_t sampleCount() const { return scale_ == 1 ? renderer_.sampleCount() : 0; }
+    std::uint32_t sampleCount() const { return scale_ == 1 ? renderer_.plan().sampleCount() : 0; }
     std::uint32_t scale() const { return scale_; }  // the side of a film pixel in pixels of the picture
     double seconds() const { return seconds_; }     // spent on the picture
     double samplesPerSecond() const { return speed_; }

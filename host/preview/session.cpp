@@ -418,7 +418,7 @@ PanelFigures Session::figures() const
 {
     Refiner& picture = pictures_.shown();
     PanelFigures figures;
-    figures.samples = picture.renderer().sampleCount();
+    figures.samples = picture.renderer().plan().sampleCount();
     figures.seconds = picture.seconds();
     figures.samplesPerSecond = picture.samplesPerSecond();
     figures.state = paused_ ? "paused" : picture.isDone() && picture.scale() == 1 ? "done" : "";

@@ -57,7 +57,7 @@ Bindings CameraRays::bind(std::uint32_t parity) const
     return Bindings(kernels_->layout, buffers);
 }
 
-// As Wavefront::compile.
+// As RenderResources::compile.
 void CameraRays::compile()
 {
     choose({});

@@ -1,7 +1,8 @@
 // Traces the camera rays of a picture's samples again, without shading.
 #pragma once
 
-#include "host/render/wavefront.hpp"
+#include "host/render/pass_size.hpp"
+#include "host/render/render_resources.hpp"
 
 namespace glim {
 

@@ -5,10 +5,6 @@
 
 namespace glim {
 
-std::uint32_t blockEnd(std::uint32_t sample) { return (sample / blockSamples(sample) + 1) * blockSamples(sample); }
-
-bool endsBlock(std::uint32_t end) { return end > 0 && end % blockSamples(end - 1) == 0; }
-
 Film filmOf(Checkpoint checkpoint)
 {
     foldPage(checkpoint.film, 0, checkpoint.page);
@@ -27,7 +23,7 @@ std::optional<Checkpoint> checkpointOf(Film film)
         return std::nullopt;
     }
     Checkpoint checkpoint;
-    checkpoint.sample = checkpoint.lightSample = end;
+    checkpoint.progress.sample = checkpoint.progress.lightSample = end;
     checkpoint.film = std::move(film);
     if (end % kPageSamples != 0) {
         std::swap(checkpoint.page, checkpoint.film.pixels);
@@ -39,11 +35,13 @@ std::optional<Checkpoint> checkpointOf(Film film)
 
 std::string digestOf(const Checkpoint& checkpoint)
 {
+    const SampleProgress& progress = checkpoint.progress;
+    const AdaptiveProgress adaptive = progress.adaptive.value_or(AdaptiveProgress{});
     Digest digest;
-    digest.add(std::vector<std::uint32_t>{checkpoint.sample, checkpoint.pixelsAhead, checkpoint.lightSample});
-    if (const auto& adaptive = checkpoint.adaptive) {
-        digest.add(std::vector<std::uint32_t>{adaptive->mean, adaptive->roundEnd, adaptive->commonEnd, adaptive->chosenBegin,
-                                              adaptive->choosing ? 1U : 0U});
+    digest.add(std::vector<std::uint32_t>{progress.sample, progress.pixelsAhead, progress.lightSample});
+    if (progress.adaptive) {
+        digest.add(std::vector<std::uint32_t>{adaptive.mean, adaptive.roundEnd, adaptive.commonEnd, adaptive.chosenBegin,
+                                              adaptive.choosing ? 1U : 0U});
     }
     for (const auto* moments : {&checkpoint.film.pixels, &checkpoint.page, &checkpoint.common}) {
         digest.add(*moments);
@@ -51,8 +49,8 @@ std::string digestOf(const Checkpoint& checkpoint)
     for (const auto* moments : {&checkpoint.film.splats, &checkpoint.pageSplats, &checkpoint.commonSplats}) {
         digest.add(*moments);
     }
-    digest.add(checkpoint.chosen);
-    digest.add(checkpoint.blocksLeft);
+    digest.add(adaptive.chosen);
+    digest.add(adaptive.blocksLeft);
     return digest.finish();
 }
 

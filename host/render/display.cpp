@@ -47,13 +47,13 @@ void Display::run(const Kernel& kernel, const Bindings& bindings, const DisplayP
 // Uploads again the pages that the renderer has folded on the host.
 void Display::takeFolded(const Renderer& renderer)
 {
-    if (renderer.foldVersion() == 0 || renderer.foldVersion() == foldVersion_) {
+    if (renderer.films().foldVersion() == 0 || renderer.films().foldVersion() == foldVersion_) {
         return;
     }
-    foldVersion_ = renderer.foldVersion();
+    foldVersion_ = renderer.films().foldVersion();
     folded_.clear();
-    for (const auto& tile : renderer.tiles()) {
-        const std::span<const PixelMoments> pixels = std::span(renderer.folded().pixels).subspan(tile->begin(), tile->count());
+    for (const auto& tile : renderer.films().tiles()) {
+        const std::span<const PixelMoments> pixels = std::span(renderer.films().folded().pixels).subspan(tile->begin(), tile->count());
         folded_.push_back(std::make_unique<Buffer>(device_, "film's folded pages", BufferKind::Storage, pixels.size_bytes()));
         upload(*folded_.back(), pixels);
     }
@@ -71,9 +71,9 @@ void Display::draw(const Renderer& renderer, Aov aov, const DisplayRange& range,
     pass.tone = static_cast<std::uint32_t>(look.tone);
     pass.low = range.low;
     pass.high = range.high;
-    const bool anyFolded = renderer.foldVersion() != 0;
-    for (std::size_t i = 0; i < renderer.tiles().size(); ++i) {
-        const Tile& tile = *renderer.tiles()[i];
+    const bool anyFolded = renderer.films().foldVersion() != 0;
+    for (std::size_t i = 0; i < renderer.films().tiles().size(); ++i) {
+        const Tile& tile = *renderer.films().tiles()[i];
         const Buffer& folded = anyFolded ? *folded_[i] : tile.pages();  // a placeholder that the kernel does not read
         const Bindings bindings(layout_, {{kBindBlocks, &tile.blocks()}, {kBindPages, &tile.pages()}, {kBindFolded, &folded}},
                                 {{kBindPicture, &*picture_}});

@@ -218,8 +218,9 @@ const char* placeOfFolded(const Film& film, const Checkpoint& checkpoint)
 std::string progressText(const Checkpoint& checkpoint, const std::string& folded)
 {
     std::ostringstream text;
-    text << folded << ' ' << checkpoint.sample << ' ' << checkpoint.pixelsAhead << ' ' << checkpoint.lightSample;
-    if (const auto& adaptive = checkpoint.adaptive) {
+    const SampleProgress& progress = checkpoint.progress;
+    text << folded << ' ' << progress.sample << ' ' << progress.pixelsAhead << ' ' << progress.lightSample;
+    if (const auto& adaptive = progress.adaptive) {
         text << ' ' << adaptive->mean << ' ' << adaptive->roundEnd << ' ' << adaptive->commonEnd << ' ' << adaptive->chosenBegin << ' '
              << adaptive->choosing;
     }
@@ -233,13 +234,13 @@ void addCheckpoint(const Checkpoint& checkpoint, const char* folded, const Run& 
     }
     addGroup(checkpoint.page, checkpoint.pageSplats, run, image, "page.");
     addGroup(checkpoint.common, checkpoint.commonSplats, run, image, "common.");
-    if (checkpoint.adaptive) {
+    if (const auto& adaptive = checkpoint.progress.adaptive) {
         const auto copy = [&run](const std::vector<std::uint32_t>& counts) {
             const std::span<const std::uint32_t> part = run.of(counts);
             return std::vector(part.begin(), part.end());
         };
-        image.counts["chosen.X"] = copy(checkpoint.chosen);
-        image.counts["blocksLeft.X"] = copy(checkpoint.blocksLeft);
+        image.counts["chosen.X"] = copy(adaptive->chosen);
+        image.counts["blocksLeft.X"] = copy(adaptive->blocksLeft);
     }
 }
 
@@ -454,17 +455,18 @@ Film filmOfImage(const fs::path& path, const Image& image)
 Checkpoint checkpointOfImage(const fs::path& path, const Image& image, const Film& film)
 {
     Checkpoint checkpoint;
+    SampleProgress& progress = checkpoint.progress;
     checkpoint.film = film;
     const std::size_t pixels = checkpoint.film.pixels.size();
     const auto text = attribute<std::string>(path, image, kProgress);
     std::istringstream stream(text);
     std::string folded;
-    stream >> folded >> checkpoint.sample >> checkpoint.pixelsAhead >> checkpoint.lightSample;
+    stream >> folded >> progress.sample >> progress.pixelsAhead >> progress.lightSample;
     if (AdaptiveProgress a; !stream.fail() && !stream.eof()) {
         stream >> a.mean >> a.roundEnd >> a.commonEnd >> a.chosenBegin >> a.choosing;
-        checkpoint.adaptive = a;
+        progress.adaptive = a;
     }
-    if (stream.fail() || !stream.eof() || checkpoint.pixelsAhead >= pixels || (folded != kAll && folded != kNothing && folded != kApart)) {
+    if (stream.fail() || !stream.eof() || progress.pixelsAhead >= pixels || (folded != kAll && folded != kNothing && folded != kApart)) {
         throw InputError(path.string() + ": is damaged: its progress is \"" + text + "\".");
     }
     if (folded != kAll) {
@@ -473,13 +475,13 @@ Checkpoint checkpointOfImage(const fs::path& path, const Image& image, const Fil
         takeGroup(path, image, checkpoint.film.pixels, checkpoint.film.splats, "folded.");
         takeGroup(path, image, checkpoint.page, checkpoint.pageSplats, "page.");
     }
-    if (checkpoint.adaptive) {
+    if (auto& adaptive = progress.adaptive) {
         takeGroup(path, image, checkpoint.common, checkpoint.commonSplats, "common.");
         checkpoint.common.resize(pixels);
-        checkpoint.chosen.resize(pixels);
-        checkpoint.blocksLeft.resize(pixels);
-        takePlane(path, image.counts, "chosen.X", 0, checkpoint.chosen);
-        takePlane(path, image.counts, "blocksLeft.X", 0, checkpoint.blocksLeft);
+        adaptive->chosen.resize(pixels);
+        adaptive->blocksLeft.resize(pixels);
+        takePlane(path, image.counts, "chosen.X", 0, adaptive->chosen);
+        takePlane(path, image.counts, "blocksLeft.X", 0, adaptive->blocksLeft);
     }
     checkDigest(path, "its checkpoint", digestOf(checkpoint), attribute<std::string>(path, image, kProgressDigest));
     return checkpoint;

@@ -64,7 +64,7 @@ struct Identifier::Planes {
 Identifier::Identifier(const Renderer& renderer, const PreparedScene& prepared, const FlatCamera& camera,
                        std::shared_ptr<const CameraRayKernels> kernels)
     : prepared_(prepared),
-      rays_(renderer.device(), renderer.shared(), prepared.flat, camera, renderer.settings(), std::move(kernels))
+      rays_(renderer.resources().device, *renderer.resources().shared, prepared.flat, camera, renderer.settings(), std::move(kernels))
 {
     for (const MeshInstance& instance : prepared.scene.instances) {
         const Mesh& mesh = prepared.scene.meshes[instance.mesh];

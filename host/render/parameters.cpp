@@ -26,11 +26,6 @@ bool tracesLight(const FlatScene& scene, const RenderSettings& settings)
            pathLengths(settings).maxBounces >= 2 && !usesCourseEstimators(settings) && !isCourse(settings.adaptive);
 }
 
-std::uint32_t lightPathCount(std::uint32_t width, std::uint32_t height)
-{
-    return static_cast<std::uint32_t>((std::uint64_t{width} * height + 9) / 10);
-}
-
 float splatScale(const FlatScene& scene)
 {
     if (!(scene.brightness > 0.0F) || !std::isfinite(scene.brightness)) {

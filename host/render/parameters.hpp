@@ -18,9 +18,6 @@ PathLengths pathLengths(const RenderSettings& settings);
 // estimators and its own rule of when a pixel is done, both of camera paths.
 bool tracesLight(const FlatScene& scene, const RenderSettings& settings);
 
-// Light paths for each sample of the picture: one for ten pixels (tests/bench/EXPERIMENTS.md).
-std::uint32_t lightPathCount(std::uint32_t width, std::uint32_t height);
-
 // Units of a splat per W/(sr m^2). A pixel holds 2^32 times the radiance that the scene's brightest light gives a white surface, in steps
 // of 2^-32 of it.
 float splatScale(const FlatScene& scene);

@@ -147,7 +147,6 @@ Tile::Tile(Device& device, const KernelLayout& layout, const BufferMap& constant
     : device_(device),
       begin_(begin),
       count_(count),
-      chosenCount_(count),
       chooses_(settings.adaptive != Adaptive::Off),
       blocks_(arrayOf<BlockSums>(device, "film's blocks", count)),
       pages_(arrayOf<PixelMoments>(device, "film's pages", count)),
@@ -203,7 +202,6 @@ std::vector<PixelMoments> Tile::takePages()
 
 void Tile::chooseAll()
 {
-    chosenCount_ = count_;
     if (chooses_) {
         std::vector<ChosenPixel> all(count_);
         for (std::uint32_t i = 0; i < count_; ++i) {
@@ -215,20 +213,13 @@ void Tile::chooseAll()
 
 void Tile::choose(const std::vector<ChosenPixel>& pixels)
 {
-    chosenCount_ = static_cast<std::uint32_t>(pixels.size());
     std::vector<uint> list(1 + 2 * pixels.size());
-    list[0] = chosenCount_;
+    list[0] = static_cast<uint>(pixels.size());
     static_assert(sizeof(ChosenPixel) == 2 * sizeof(uint));
     std::memcpy(list.data() + 1, pixels.data(), pixels.size() * sizeof(ChosenPixel));
     upload(chosen_, std::span<const uint>(list));
 }
 
-void Tile::chooseNone()
-{
-    chosenCount_ = 0;
-    fillWithZero({&chosen_});
-}
-
-void Tile::readChosenCount() { chosenCount_ = download<uint>(chosen_, 1)[0]; }
+void Tile::chooseNone() { fillWithZero({&chosen_}); }
 
 }  // namespace glim

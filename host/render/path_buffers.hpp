@@ -68,7 +68,13 @@ public:
 
     std::uint32_t begin() const { return begin_; }
     std::uint32_t count() const { return count_; }
-    std::uint32_t chosenCount() const { return chosenCount_; }
+    // An empty pass over it.
+    Pass pass() const
+    {
+        Pass pass{};
+        pass.tileBegin = begin_;
+        return pass;
+    }
     const Bindings& bindings(std::uint32_t parity) const { return parity == 0 ? *even_ : *odd_; }
     const Buffer& blocks() const { return blocks_; }
     const Buffer& pages() const { return pages_; }
@@ -86,14 +92,14 @@ public:
     void chooseAll();
     void choose(const std::vector<ChosenPixel>& pixels);
     void chooseNone();
-    // After course_choose_pixels has filled the list.
-    void readChosenCount();
+    // How many course_choose_pixels has put into the list.
+    std::uint32_t readChosenCount() const { return download<uint>(chosen_, 1)[0]; }
 
 private:
     void fillWithZero(std::initializer_list<const Buffer*> buffers);
 
     Device& device_;
-    std::uint32_t begin_, count_, chosenCount_;
+    std::uint32_t begin_, count_;
     bool chooses_;
     Buffer blocks_, pages_;
     Buffer luminance_;  // LuminanceMoments

@@ -1,7 +1,10 @@
 #include "host/render/replay.hpp"
 
 #include "host/render/check_status.hpp"
+#include "host/render/pass_tracer.hpp"
 #include "shaders/shared/limits.h"
+
+#include <cstring>
 
 namespace glim {
 namespace {
@@ -119,22 +122,45 @@ RenderSettings settingsOfOne(RenderSettings settings)
 
 }  // namespace
 
+void watchPass(RenderResources& resources, const Tile& tile, Pass pass, const PathWatch& watch)
+{
+    Recording::Watch watchKernel;
+    if (watch) {
+        watchKernel = [&](const Kernel& kernel, std::span<const std::byte> push) {
+            CoursePass dispatched{};
+            std::memcpy(&dispatched, push.data(), push.size());
+            watch(kernel.name(), dispatched, resources.paths());
+        };
+    }
+    Recording recording(resources.device, resources.statistics, watchKernel);
+    PassTracer(resources).tracePaths(recording, tile, pass);
+    recording.finish();
+}
+
+PathRadiance traceSample(RenderResources& resources, std::uint32_t pixel, std::uint32_t sample, const PathWatch& watch)
+{
+    const std::unique_ptr<Tile> tile = resources.makeTile(pixel, 1);
+    Pass pass = tile->pass();
+    pass.pixelCount = pass.sampleCount = 1;
+    pass.firstSample = sample;
+    watchPass(resources, *tile, pass, watch);
+    return resources.paths().takeRadiance();
+}
+
 Replay::Replay(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
-    : device_(device),
-      maxBounces_(pathLengths(settings).maxBounces),
+    : maxBounces_(pathLengths(settings).maxBounces),
       recordCount_(static_cast<std::uint32_t>(scene.records.size()) / kRecordTexels),
-      wavefront_(device, scene, camera, settingsOfOne(settings))
+      resources_(device, scene, camera, settingsOfOne(settings))
 {}
 
 ReplayedPath Replay::trace(std::uint32_t pixel, std::uint32_t sample)
 {
     ReplayedPath path;
-    path.radiance = wavefront_.traceSample(pixel, sample);
+    path.radiance = traceSample(resources_, pixel, sample);
     PathRecorder recorder(path.vertices, maxBounces_, recordCount_);
-    wavefront_.traceSample(pixel, sample, [&](const std::string& kernel, const CoursePass& pass, PathBuffers& paths) {
-        recorder.record(kernel, pass, paths);
-    });
-    refuseBrokenStatus(device_.description(), wavefront_.paths());
+    traceSample(resources_, pixel, sample,
+                [&](const std::string& kernel, const CoursePass& pass, PathBuffers& paths) { recorder.record(kernel, pass, paths); });
+    refuseBrokenStatus(resources_.device.description(), resources_.paths());
     return path;
 }
 

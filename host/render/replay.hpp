@@ -1,11 +1,21 @@
-// Traces one path of a render again, alone, with the same kernels in the same order, and records everything that happens to it.
+// Traces one path of a render again, alone, with the same kernels in the same order, and looks at it after each of them.
 #pragma once
 
-#include "host/render/wavefront.hpp"
+#include "host/render/render_resources.hpp"
 
+#include <functional>
+#include <string>
 #include <vector>
 
 namespace glim {
+
+// Called after each kernel with its name, its pass (and round, for a kernel of the course), and the buffers to look at.
+using PathWatch = std::function<void(const std::string& kernel, const CoursePass& pass, PathBuffers& paths)>;
+
+// Traces a pass that is added to no film, and calls `watch`, if any, after each kernel.
+void watchPass(RenderResources& resources, const Tile& tile, Pass pass, const PathWatch& watch);
+// Traces one sample of one pixel, and adds it to no film. If the watch takes radiance, returns what it has left.
+PathRadiance traceSample(RenderResources& resources, std::uint32_t pixel, std::uint32_t sample, const PathWatch& watch = nullptr);
 
 // A round of direct light at a vertex.
 struct SampledLight {
@@ -53,9 +63,8 @@ public:
     ReplayedPath trace(std::uint32_t pixel, std::uint32_t sample);
 
 private:
-    const Device& device_;
     std::uint32_t maxBounces_, recordCount_;
-    Wavefront wavefront_;
+    RenderResources resources_;
 };
 
 }  // namespace glim

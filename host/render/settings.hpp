@@ -25,7 +25,7 @@ enum class DirectLight {
 };
 
 // Which kernels trace a pass, with the same bits: one for each step of all paths, or one that traces path after path to its end
-// (wavefront.cpp).
+// (pass_tracer.cpp).
 // Auto: if both can, the one known to be faster on the device. If none is known: persistent on software devices, where it was faster in
 // every scene measured, and wavefront on GPUs, none of which was measured.
 enum class Schedule { Auto, Wavefront, Persistent };
@@ -53,6 +53,12 @@ inline std::uint32_t leastSamplesForError(std::uint32_t begin)
 // The samples of every pixel that Neighbours begins with. Two blocks are the fewest that give a variance; 48 neighbours give it well
 // enough.
 inline constexpr std::uint32_t kPilotSamples = 2 * kFirstBlockSamples;
+
+// Light paths for each sample of the picture: one for ten pixels (tests/bench/EXPERIMENTS.md).
+inline std::uint32_t lightPathCount(std::uint32_t width, std::uint32_t height)
+{
+    return static_cast<std::uint32_t>((std::uint64_t{width} * height + 9) / 10);
+}
 
 // The estimators of the course, beside the production path (course.hpp). With these defaults the production kernels trace.
 struct CourseSettings {

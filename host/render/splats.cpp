@@ -1,7 +1,7 @@
 #include "host/render/splats.hpp"
 
 #include "host/gpu/commands.hpp"
-#include "host/render/checkpoint.hpp"
+#include "host/render/sample_plan.hpp"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/limits.h"
 

@@ -53,9 +53,8 @@ public:
     void add(std::span<const Splat> splats, std::uint32_t firstSample, std::uint32_t sampleCount);
     // Closes the block, whole or not, and folds the page into `film`.
     void foldInto(std::vector<SplatMoments>& film);
-    // Without the open block, which has this many samples.
+    // Without the open block.
     const std::vector<SplatMoments>& page() const { return page_; }
-    std::uint32_t openSamples() const { return samples_; }
     void setPage(std::vector<SplatMoments> page) { page_ = std::move(page); }
 
 private:

@@ -1,5 +1,6 @@
 #include "host/render/suspects.hpp"
 
+#include "host/render/replay.hpp"
 #include "shaders/shared/luminance.h"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ double shareOf(double part, double whole) { return std::isfinite(whole) ? part /
 std::vector<Brightest> findBrightest(const Renderer& renderer, std::size_t count)
 {
     std::vector<Brightest> found;
-    for (const auto& tile : renderer.tiles()) {
+    for (const auto& tile : renderer.films().tiles()) {
         const std::vector<BrightestSample> samples = download<BrightestSample>(tile->brightest(), tile->count());
         for (std::uint32_t i = 0; i < tile->count(); ++i) {
             if (samples[i].luminance > 0.0F) {
@@ -51,7 +52,7 @@ std::vector<Suspect> findSuspects(Renderer& renderer, const Film& film)
     std::vector<Suspect> suspects;
     for (const Brightest& each : findBrightest(renderer, renderer.settings().suspects)) {
         const PixelMoments pixel = shownPixel(film, each.pixel);
-        const PathRadiance path = renderer.traceSample(each.pixel, each.sampleIndex);
+        const PathRadiance path = traceSample(renderer.resources(), each.pixel, each.sampleIndex);
         const double luminance = luminanceOf(path.radiance), part = luminance / pixel.count;
         suspects.push_back(
             {each.pixel, each.sampleIndex, path.radiance, luminance, shareOf(part, luminanceOf(pixel.mean)), shareOf(part, picture)});

@@ -91,9 +91,9 @@ private:
         switch (choice.below(8)) {
         case 0: change(checkpoint.page, choice); break;
         case 1: change(checkpoint.film.pixels, choice); break;
-        case 2: change(checkpoint.sample, choice); break;
-        case 3: change(checkpoint.pixelsAhead, choice); break;
-        case 4: change(checkpoint.lightSample, choice); break;
+        case 2: change(checkpoint.progress.sample, choice); break;
+        case 3: change(checkpoint.progress.pixelsAhead, choice); break;
+        case 4: change(checkpoint.progress.lightSample, choice); break;
         case 5: checkpoint.pageSplats.assign(choice.oneIn(2) ? checkpoint.film.pixels.size() : 0, SplatMoments{}); break;
         case 6: checkpoint.page.assign(choice.oneIn(2) ? checkpoint.film.pixels.size() : 0, PixelMoments{}); break;
         default: changeAdaptive(checkpoint, choice);
@@ -102,10 +102,10 @@ private:
 
     static void changeAdaptive(Checkpoint& checkpoint, Choice& choice)
     {
-        AdaptiveProgress adaptive = checkpoint.adaptive.value_or(AdaptiveProgress{});
+        std::optional<AdaptiveProgress>& progress = checkpoint.progress.adaptive;
+        AdaptiveProgress& adaptive = progress ? *progress : progress.emplace();
         change(choice.oneIn(2) ? adaptive.roundEnd : adaptive.chosenBegin, choice);
-        checkpoint.adaptive = adaptive;
-        for (auto* counts : {&checkpoint.chosen, &checkpoint.blocksLeft}) {
+        for (auto* counts : {&adaptive.chosen, &adaptive.blocksLeft}) {
             counts->resize(checkpoint.film.pixels.size());
             change(*counts, choice);
         }

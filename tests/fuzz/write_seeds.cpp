@@ -187,10 +187,9 @@ void writeFilms(const fs::path& folder)
     checkpoint.page = checkpoint.film.pixels;
     checkpoint.pageSplats = checkpoint.film.splats;
     writeFilm(folder / "page.exr", filmOf(checkpoint), checkpoint);
-    checkpoint.adaptive = AdaptiveProgress{64, 128, 64, 128, true};
+    checkpoint.progress.adaptive =
+        AdaptiveProgress{64, 128, 64, 128, true, std::vector<std::uint32_t>(6, 4), std::vector<std::uint32_t>(6, 2)};
     checkpoint.common = checkpoint.page;
-    checkpoint.chosen.assign(6, 4);
-    checkpoint.blocksLeft.assign(6, 2);
     writeFilm(folder / "adaptive.exr", filmOf(checkpoint), checkpoint);
 }
 

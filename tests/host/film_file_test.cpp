@@ -300,7 +300,7 @@ TEST(FilmFile, AnyDamageToTheHeaderIsNoticed)
     const auto path = folder / "a.exr";
     Checkpoint checkpoint;
     checkpoint.film = filmWithSplats();
-    checkpoint.sample = checkpoint.lightSample = checkpoint.film.sampleRanges[0].second;
+    checkpoint.progress.sample = checkpoint.progress.lightSample = checkpoint.film.sampleRanges[0].second;
     writeFilm(path, checkpoint.film, checkpoint);
     ASSERT_TRUE(readStoredFilm(path).checkpoint);
     const std::string whole = bytesOfFile(path);

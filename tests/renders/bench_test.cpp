@@ -105,7 +105,7 @@ TEST_F(BenchTest, SidesTakeTurns)
     std::string turns;
     std::uint64_t last = 0;
     const auto note = [&](std::uint64_t samples) {
-        const char now = first.sampleCount() > 0 && first.sampleCount() < kSamples ? 'a' : 'b';
+        const char now = first.plan().sampleCount() > 0 && first.plan().sampleCount() < kSamples ? 'a' : 'b';
         const bool isNext = samples / kSamples > last / kSamples || turns.empty();
         turns += isNext && samples % kSamples > 0 ? std::string(1, now) : std::string();
         last = isNext && samples % kSamples > 0 ? samples : last;

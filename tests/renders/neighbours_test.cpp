@@ -108,7 +108,7 @@ TEST(NeighboursTest, DoesNotDependOnHowTheWorkIsCut)
     const Scene scene = mixedScene();
     Renderer renderer(testDevice(), flattened(scene), flattenCamera(scene.cameras.front(), 1.0F), settings);
     int calls = 0;
-    while (!renderer.isDone()) {
+    while (!renderer.plan().isDone()) {
         renderer.advance([&] { return ++calls % 70 != 3; });  // now and then a pass is given up
         renderer.film();
     }
@@ -134,7 +134,7 @@ TEST(NeighboursTest, PixelsHaveTheWantedSamplesOnAverage)
         EXPECT_EQ(renderer.statistics().samples, samplesOf(film));
         EXPECT_EQ(last, samplesOf(film));
         EXPECT_TRUE(film.complete);
-        EXPECT_TRUE(renderer.isDone());
+        EXPECT_TRUE(renderer.plan().isDone());
         if (spp == 300) {
             // Each half gets a half of the samples that is spread evenly; the other half goes to where there is noise.
             EXPECT_EQ(film.pixels[10 * 20 + 17].count, 128U);  // of 300 / 2, whole blocks
@@ -157,7 +157,7 @@ TEST(NeighboursTest, ATargetEndsItWithTheRoundThatReachesIt)
     EXPECT_GE(reached, 0.8 * target) << "rounds end near the target";
     EXPECT_TRUE(film.complete);
     EXPECT_GT(samplesOf(film), film.pixels.size() * kPilotSamples);
-    EXPECT_FALSE(renderer.isDone());
+    EXPECT_FALSE(renderer.plan().isDone());
 }
 
 // Given up in the middle of a round: whole blocks, and no claim of more.
@@ -167,12 +167,12 @@ TEST(NeighboursTest, AFilmOfAnUnfinishedRoundSaysSo)
     RenderSettings settings = neighbours(28, 300);
     settings.pathCapacity = 2000;  // so that a round has many passes
     Renderer renderer(testDevice(), flattened(scene), flattenCamera(scene.cameras.front(), 1.0F), settings);
-    while (renderer.sampleCount() < 192) {
+    while (renderer.plan().sampleCount() < 192) {
         renderer.advance();
     }
     EXPECT_TRUE(renderer.film().complete);
     int unfinished = 0;
-    for (; renderer.sampleCount() == 192; ++unfinished) {
+    for (; renderer.plan().sampleCount() == 192; ++unfinished) {
         const Film film = renderer.film();
         EXPECT_EQ(film.complete, unfinished == 0);
         for (const PixelMoments& pixel : film.pixels) {
@@ -191,7 +191,7 @@ TEST(NeighboursTest, AFilmOfAnUnfinishedRoundSaysSo)
     const Film whole = renderScene(scene, settings);
     renderer.advance();
     renderer.restart(flattenCamera(scene.cameras.front(), 1.0F), 13, 13);
-    while (renderer.sampleCount() < 128) {
+    while (renderer.plan().sampleCount() < 128) {
         renderer.advance();
     }
     renderer.advance();

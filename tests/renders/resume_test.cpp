@@ -38,7 +38,7 @@ public:
             restart();
             if (std::filesystem::exists(file_)) {
                 std::optional<Checkpoint> checkpoint = readStoredFilm(file_).checkpoint;
-                EXPECT_TRUE(checkpoint && renderer_.canResume(*checkpoint));
+                EXPECT_TRUE(checkpoint && renderer_.plan().canResume(checkpoint->progress));
                 renderer_.resume(*std::move(checkpoint));
             }
             int left = passesOf();
@@ -50,14 +50,14 @@ public:
                 return !ended;
             };
             const Film film = renderer_.render(observe, criterion_, [&] { checkpoint = renderer_.checkpoint(); });
-            if (renderer_.isDone() || !ended) {
+            if (renderer_.plan().isDone() || !ended) {
                 end = film.sampleRanges.front().second;
                 return film;
             }
             if (checkpoint) {
                 apart += checkpoint->page.empty() ? 0 : 1;
-                ahead += checkpoint->pixelsAhead > 0 ? 1 : 0;
-                choosing += checkpoint->adaptive && checkpoint->adaptive->choosing ? 1 : 0;
+                ahead += checkpoint->progress.pixelsAhead > 0 ? 1 : 0;
+                choosing += checkpoint->progress.adaptive && checkpoint->progress.adaptive->choosing ? 1 : 0;
                 writeFilm(file_, film, *checkpoint);
                 EXPECT_TRUE(sameBits(readFilm(file_), film));
             }
@@ -198,13 +198,13 @@ TEST(ResumeFilmTest, CheckpointsBeyondTheEndDoNot)
     const FlatScene flat = flattened(mixedScene());
     const Renderer renderer(testDevice(), flat, flattenCamera(mixedScene().cameras.front(), 1.0F), settings);
     Checkpoint checkpoint;
-    checkpoint.sample = 256;
-    EXPECT_TRUE(renderer.canResume(checkpoint));
-    checkpoint.pixelsAhead = 1;
-    EXPECT_FALSE(renderer.canResume(checkpoint)) << "that pixel has the samples up to 384";
-    checkpoint.pixelsAhead = 0;
-    checkpoint.adaptive.emplace();
-    EXPECT_FALSE(renderer.canResume(checkpoint));
+    checkpoint.progress.sample = 256;
+    EXPECT_TRUE(renderer.plan().canResume(checkpoint.progress));
+    checkpoint.progress.pixelsAhead = 1;
+    EXPECT_FALSE(renderer.plan().canResume(checkpoint.progress)) << "that pixel has the samples up to 384";
+    checkpoint.progress.pixelsAhead = 0;
+    checkpoint.progress.adaptive.emplace();
+    EXPECT_FALSE(renderer.plan().canResume(checkpoint.progress));
 }
 
 TEST(ResumeFilmTest, WhatLacksSamplesDoesNot)

@@ -1,8 +1,8 @@
 // Whatever a render is asked for, the persistent schedule gives the bits and the rays of the wavefront, or refuses.
 #include "host/error.hpp"
 #include "host/flatten/flatten_scene.hpp"
+#include "host/render/render_resources.hpp"
 #include "host/render/replay.hpp"
-#include "host/render/wavefront.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/test_device.hpp"
@@ -150,7 +150,7 @@ TEST(PersistentTest, PathsAreReplayedByTheWavefront)
     for (std::uint32_t pixel = 3; pixel < 256; pixel += 50) {
         const ReplayedPath path = replay.trace(pixel, 5);
         EXPECT_FALSE(path.vertices.empty());
-        EXPECT_EQ(renderer.traceSample(pixel, 5).radiance, path.radiance.radiance);
+        EXPECT_EQ(traceSample(renderer.resources(), pixel, 5).radiance, path.radiance.radiance);
     }
 }
 

@@ -1,6 +1,7 @@
 // A render in steps, from one camera after the other, gives the films of whole renders. A window shows them as files do.
 #include "host/flatten/flatten_scene.hpp"
 #include "host/render/display.hpp"
+#include "host/render/ray_tracer.hpp"
 #include "shaders/shared/bindings.h"
 #include "test_kernels.hpp"
 #include "tests/support/build_scene.hpp"
@@ -23,7 +24,7 @@ FlatCamera cameraOf(const Scene& scene, const RenderSettings& settings)
 // Light paths go first.
 void advanceToSamples(Renderer& renderer)
 {
-    while (renderer.pictureSamples() == 0 && renderer.advance()) {
+    while (renderer.plan().pictureSamples() == 0 && renderer.advance()) {
     }
 }
 
@@ -45,9 +46,9 @@ TEST_F(StepsTest, FilmsAreThoseOfWholeRenders)
     int films = 0;
     std::uint64_t samples = 0;
     while (renderer.advance()) {
-        const std::uint32_t count = renderer.sampleCount();
-        const bool whole = renderer.pictureSamples() == std::uint64_t{count} * 24 * 24;
-        if (renderer.pictureSamples() == std::exchange(samples, renderer.pictureSamples())) {
+        const std::uint32_t count = renderer.plan().sampleCount();
+        const bool whole = renderer.plan().pictureSamples() == std::uint64_t{count} * 24 * 24;
+        if (renderer.plan().pictureSamples() == std::exchange(samples, renderer.plan().pictureSamples())) {
             continue;  // light paths are ahead of the camera's
         }
         if (!whole || (count > 4 && count != 32 && count != 256 && count != 290)) {
@@ -63,7 +64,7 @@ TEST_F(StepsTest, FilmsAreThoseOfWholeRenders)
         ++films;
     }
     EXPECT_EQ(films, 6);
-    EXPECT_TRUE(renderer.isDone());
+    EXPECT_TRUE(renderer.plan().isDone());
 }
 
 TEST_F(StepsTest, OtherCamerasBeginAgain)
@@ -78,7 +79,7 @@ TEST_F(StepsTest, OtherCamerasBeginAgain)
         Scene moved = scene;
         moved.cameras[0].position += glm::vec3(0.1F * static_cast<float>(size.y), 0.0F, 0.0F);
         renderer.restart(cameraOf(moved, settings), size.x, size.y);
-        EXPECT_EQ(renderer.pictureSamples(), 0U);
+        EXPECT_EQ(renderer.plan().pictureSamples(), 0U);
         while (renderer.advance()) {
         }
         RenderSettings same = settings;
@@ -98,7 +99,7 @@ TEST_F(StepsTest, PassesThatAreGivenUpAreTracedAgain)
     settings.course.lightSamples = 16;
     Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
     int calls = 0, given = 0;
-    while (!renderer.isDone()) {
+    while (!renderer.plan().isDone()) {
         calls = 0;
         given += renderer.advance([&] { return ++calls != 3 || given > 4; }) ? 0 : 1;
     }
@@ -129,8 +130,10 @@ TEST_F(StepsTest, OneRayMeetsWhatTheCameraSees)
     Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
     renderer.advance();
     const Camera& camera = scene.cameras[0];
-    const PathHit hit = renderer.traceRay({camera.position, kNoPrimitive, camera.forward});
-    const PathHit miss = renderer.traceRay({camera.position + 1e4F * camera.up, kNoPrimitive, camera.up});
+    RayTracer tracer(renderer.resources());
+    const auto hitOf = [&tracer](const PathRay& ray) { return tracer.trace(std::span(&ray, 1)).front(); };
+    const PathHit hit = hitOf({camera.position, kNoPrimitive, camera.forward});
+    const PathHit miss = hitOf({camera.position + 1e4F * camera.up, kNoPrimitive, camera.up});
     EXPECT_NE(hit.record, kNoRecord);
     EXPECT_EQ(miss.record, kNoRecord);
     while (renderer.advance()) {
@@ -215,7 +218,7 @@ TEST_F(StepsTest, AWindowKeepsTheCoarsePictureUnderTheFine)
     }
     renderer.restart(cameraOf(scene, settings), 24, 24);
     advanceToSamples(renderer);
-    ASSERT_EQ(renderer.pictureSamples(), 64U);
+    ASSERT_EQ(renderer.plan().pictureSamples(), 64U);
     display.draw(renderer, Aov::Albedo, {}, {});
     const std::vector<Rgb8> mixed = shownBy(display);
     const Film film = renderer.film();

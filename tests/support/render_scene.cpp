@@ -69,7 +69,7 @@ Film renderBySchedules(const FlatScene& flat, const FlatCamera& flatCamera, cons
     bool compared = false;
     Film film = renderBy(Schedule::Persistent, flat, flatCamera, settings, [&](Renderer& renderer) {
         const std::uint64_t samples = std::uint64_t{first.sampleEnd} * settings.width * settings.height;
-        if (!compared && first.sampleEnd < settings.sampleEnd && renderer.pictureSamples() == samples) {
+        if (!compared && first.sampleEnd < settings.sampleEnd && renderer.plan().pictureSamples() == samples) {
             compared = true;
             EXPECT_TRUE(sameBits(wavefront, renderer.film())) << "by the two schedules, after " << first.sampleEnd << " samples";
         }

@@ -14,15 +14,15 @@ std::vector<Film> renderSingleSamples(const Scene& scene, const RenderSettings& 
 {
     const FlatScene flat = flattened(scene);
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
-    Wavefront wavefront(testDevice(), flat, flattenCamera(scene.cameras.front(), aspect), settings);
-    const std::unique_ptr<Tile> tile = wavefront.makeTile(0, settings.width * settings.height);
-    Pass pass = wavefront.passOf(*tile);
+    RenderResources resources(testDevice(), flat, flattenCamera(scene.cameras.front(), aspect), settings);
+    const std::unique_ptr<Tile> tile = resources.makeTile(0, settings.width * settings.height);
+    Pass pass = tile->pass();
     pass.pixelCount = tile->count();
     pass.sampleCount = 1;
     pass.accumulate = kEndsBlock;
     std::vector<Film> films(settings.sampleEnd);
     for (pass.firstSample = 0; pass.firstSample < settings.sampleEnd; ++pass.firstSample) {
-        wavefront.trace(*tile, pass, nullptr);
+        PassTracer(resources).trace(*tile, pass, nullptr);
         Film& film = films[pass.firstSample];
         film.width = settings.width;
         film.height = settings.height;

@@ -1,0 +1,73 @@
+// Sums a picture's samples: on the device block by block and page by page, then folded into a film on the host.
+#pragma once
+
+#include "host/render/checkpoint.hpp"
+#include "host/render/film_halves.hpp"
+#include "host/render/pass_tracer.hpp"
+
+namespace glim {
+
+class FilmAccumulator {
+public:
+    // `resources` must stay. `film`: what is known of the picture before it has samples. `splatScale`: as of SplatSums, if light paths are
+    // traced.
+    FilmAccumulator(RenderResources& resources, const RenderSettings& settings, Film film, std::optional<float> splatScale);
+    // Starts another picture.
+    void restart(const RenderSettings& settings, Film film);
+
+    // The tiles on the device have what is not folded yet, folded() has the rest. The version changes whenever folded() does; it is 0
+    // while nothing is folded, and unique over all accumulators.
+    const std::vector<std::unique_ptr<Tile>>& tiles() const { return tiles_; }
+    const Film& folded() const { return film_; }
+    std::uint64_t foldVersion() const { return foldVersion_; }
+    // Null unless the settings ask for them.
+    const FilmHalves* halves() const { return halves_ ? &*halves_ : nullptr; }
+    // Of --adaptive neighbours: the samples that all pixels share, at the end of their part of a round.
+    const Film& common() const { return common_; }
+    void addSplats(std::span<const Splat> splats, const LightPass& pass) { splats_->add(splats, pass.firstSample, pass.sampleCount); }
+
+    void chooseAllPixels();
+    // In ascending order.
+    void choosePixels(const std::vector<PixelStart>& pixels);
+    // Chooses those that the course's rule has not stopped after this many samples. Returns how many of each tile these are.
+    std::vector<std::uint32_t> testPixels(std::uint32_t samples);
+
+    // Close the open blocks, which may be partial in adaptive renders and at the end, and fold all pages.
+    void fold();
+    void foldCommon();
+    // The samples that are not folded, which end before `sample`, into the halves, if there are any.
+    void takeHalves(std::uint32_t sample);
+
+    // All samples so far; sampling may go on.
+    Film sum();
+    PixelMoments sum(std::uint32_t pixel);
+    // All samples; only restart() may follow.
+    Film takeFilm();
+    // The samples that are not folded, as a film of its own. They are gone then.
+    std::vector<PixelMoments> takePages();
+
+    // Without the blocks that are not finished.
+    Checkpoint checkpoint() const;
+    void resume(Checkpoint checkpoint);
+
+private:
+    void makeTiles();
+    void begin(Film film);
+    void foldPages(Film& film, const std::vector<std::unique_ptr<Tile>>& tiles);
+    Film pageSoFar();
+    void renewVersion();
+
+    RenderResources& resources_;
+    PassTracer tracer_;
+    RenderSettings settings_;
+    std::optional<float> splatScale_;
+    std::vector<std::unique_ptr<Tile>> tiles_;
+    std::vector<std::unique_ptr<Tile>> spare_;  // tiles of the previous size, to which a window soon returns
+    glm::uvec2 spareSize_{0, 0};
+    std::optional<SplatSums> splats_;
+    Film film_, common_;
+    std::optional<FilmHalves> halves_;
+    std::uint64_t foldVersion_ = 0;
+};
+
+}  // namespace glim

@@ -1,0 +1,116 @@
+#include "host/render/render_resources.hpp"
+
+#include "host/clock.hpp"
+#include "host/error.hpp"
+#include "shaders/shared/bindings.h"
+
+#include <utility>
+
+namespace glim {
+
+Schedule chooseSchedule(const RenderSettings& settings, const DeviceDescription& device)
+{
+    const bool course = usesCourseEstimators(settings);
+    if (settings.schedule == Schedule::Persistent && course) {
+        throw InputError(
+            "--schedule persistent: the course's estimators (--direct, --roulette, --accelerator, --intersector) need "
+            "--schedule wavefront.");
+    }
+    if (settings.schedule != Schedule::Auto) {
+        return settings.schedule;
+    }
+    const bool known = settings.fastest != Schedule::Auto;
+    return !course && (known ? settings.fastest == Schedule::Persistent : device.software) ? Schedule::Persistent : Schedule::Wavefront;
+}
+
+RenderResources::RenderResources(Device& of, std::shared_ptr<SharedResources> resources, std::shared_ptr<const CompiledKernels> kernels,
+                                 const FlatScene& scene, const FlatCamera& camera, const RenderSettings& asked)
+    : device(of),
+      settings(asked),
+      schedule(chooseSchedule(asked, of.description())),
+      lightCount(static_cast<std::uint32_t>(scene.lights.size())),
+      shared(std::move(resources)),
+      parameters(of, scene, camera, asked),
+      course(of, scene, asked),
+      compiled(kernels && serves(kernels->set.specialization, specialize(scene, camera, asked))
+                   ? std::move(kernels)
+                   : std::make_shared<CompiledKernels>(of, scene, camera, asked, schedule))
+{
+    compile();
+}
+
+RenderResources::RenderResources(Device& of, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& asked,
+                                 LastingResources lasting)
+    : RenderResources(of,
+                      std::make_shared<SharedResources>(
+                          SharedResources{DeviceScene(of, scene, std::move(lasting.buffers)), PathBuffers(of, asked.pathCapacity)}),
+                      std::move(lasting.kernels), scene, camera, asked)
+{}
+
+RenderResources::RenderResources(const RenderResources& other, const FlatScene& scene, const FlatCamera& camera,
+                                 const RenderSettings& asked)
+    : RenderResources(other.device, other.shared, nullptr, scene, camera, asked)
+{}
+
+void RenderResources::adapt(const FlatScene& scene, const FlatCamera& camera)
+{
+    const Specialization needed = specialize(scene, camera, settings);
+    if (serves(kernels().specialization, needed)) {
+        return;
+    }
+    std::swap(compiled, spare);
+    if (!compiled || !serves(kernels().specialization, needed)) {
+        compiled = std::make_shared<CompiledKernels>(device, scene, camera, settings, schedule);
+        compile();
+    }
+}
+
+void RenderResources::clearStatistics()
+{
+    statistics.clear();
+    shared->paths.clearCounters();
+}
+
+BufferMap RenderResources::constants() const
+{
+    BufferMap constants = shared->scene.buffers();
+    constants.insert({{kBindParameters, &parameters.buffer()}, {kBindCourseParameters, &course.parameters()}});
+    return constants;
+}
+
+std::unique_ptr<Tile> RenderResources::makeTile(std::uint32_t begin, std::uint32_t count) const
+{
+    return std::make_unique<Tile>(device, compiled->layout, constants(), shared->paths, begin, count, settings);
+}
+
+std::unique_ptr<SplatBuffer> RenderResources::makeSplatBuffer(std::uint32_t count) const
+{
+    return std::make_unique<SplatBuffer>(device, compiled->layout, constants(), shared->paths, count);
+}
+
+// llvmpipe compiles a kernel at its first dispatch. This one has nothing to do, so that no timed dispatch pays for that.
+void RenderResources::compile()
+{
+    const auto start = Clock::now();
+    const std::unique_ptr<Tile> tile = makeTile(0, 1);
+    const std::unique_ptr<SplatBuffer> splats = makeSplatBuffer(1);
+    CoursePass nothing{tile->pass(), {}};
+    nothing.pass.bounce = 1;
+    nothing.pass.sizes = kSizesPaths | kSizesShadow;
+    Commands commands(device);
+    for (const Kernel* kernel : kernels().all()) {
+        const bool light = kernels().traceLightPaths && kernel == &*kernels().traceLightPaths;
+        commands.dispatch(*kernel, light ? splats->bindings(0) : tile->bindings(0),
+                          std::as_bytes(std::span<const CoursePass, 1>(&nothing, 1)), 1);
+    }
+    commands.submitAndWait();
+    compileSeconds = secondsSince(start);
+}
+
+void RenderResources::recordSize(Recording& recording, const Bindings& bindings, Pass pass, std::uint32_t queues) const
+{
+    pass.sizes = queues;
+    recording.dispatch(*kernels().sizeDispatch, bindings, pass, 1);
+}
+
+}  // namespace glim

@@ -1,0 +1,77 @@
+// What kernels work with: the scene, the path buffers, the parameters, and the kernels themselves. Passes (pass_tracer.hpp), rays
+// (ray_tracer.hpp) and single paths (replay.hpp) are traced with it.
+#pragma once
+
+#include "host/render/course.hpp"
+#include "host/render/device_scene.hpp"
+#include "host/render/kernel_set.hpp"
+#include "host/render/parameters.hpp"
+#include "host/render/path_buffers.hpp"
+#include "host/render/recording.hpp"
+#include "host/render/splats.hpp"
+
+#include <memory>
+
+namespace glim {
+
+// The schedule that a render is to use. Throws InputError if the one asked for cannot render the other settings.
+Schedule chooseSchedule(const RenderSettings& settings, const DeviceDescription& device);
+
+// What several renders of one scene may share. Only one of them may render at a time.
+struct SharedResources {
+    DeviceScene scene;
+    PathBuffers paths;
+};
+
+// What the scene at another time may use again.
+struct LastingResources {
+    std::shared_ptr<const CompiledKernels> kernels;
+    LastingBuffers buffers;
+};
+
+struct RenderResources {
+    // Uploads the scene and compiles the kernels for what it needs, unless those of `lasting`, made for the same settings, serve it too.
+    RenderResources(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings,
+                    LastingResources lasting = {});
+    // Shares the scene and the path buffers of `other`, which is of the same scene and must be idle while this one is used.
+    RenderResources(const RenderResources& other, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
+    RenderResources(const RenderResources&) = delete;
+    RenderResources& operator=(const RenderResources&) = delete;
+
+    LastingResources lasting() const { return {compiled, shared->scene.lasting()}; }
+    // Takes other kernels if the present ones do not serve this camera, and compiles them if need be: a camera close to large triangles
+    // needs kFeatureLargeTriangles. The kernels before stay for cameras that come back.
+    void adapt(const FlatScene& scene, const FlatCamera& camera);
+    // Counters on the device too.
+    void clearStatistics();
+
+    // A tile of the film's pixels, all of them chosen.
+    std::unique_ptr<Tile> makeTile(std::uint32_t begin, std::uint32_t count) const;
+    // For the picture's bands of pixels.
+    std::unique_ptr<SplatBuffer> makeSplatBuffer(std::uint32_t count) const;
+
+    const KernelSet& kernels() const { return compiled->set; }
+    PathBuffers& paths() const { return shared->paths; }
+    std::uint32_t groupsOf(std::uint32_t count) const { return (count + settings.workgroup - 1) / settings.workgroup; }
+    // Records size_dispatch for these queues (kSizesPaths ...).
+    void recordSize(Recording& recording, const Bindings& bindings, Pass pass, std::uint32_t queues) const;
+
+    Device& device;
+    const RenderSettings settings;
+    const Schedule schedule;  // never Auto
+    const std::uint32_t lightCount;
+    const std::shared_ptr<SharedResources> shared;
+    DeviceParameters parameters;
+    const CourseEstimators course;
+    std::shared_ptr<const CompiledKernels> compiled, spare;
+    double compileSeconds = 0.0;
+    std::map<std::string, KernelStatistics> statistics;
+
+private:
+    RenderResources(Device& device, std::shared_ptr<SharedResources> shared, std::shared_ptr<const CompiledKernels> kernels,
+                    const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
+    void compile();
+    BufferMap constants() const;
+};
+
+}  // namespace glim
