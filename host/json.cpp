@@ -101,10 +101,10 @@ Json Json::object()
 
 std::optional<Json> Json::parse(const std::string& text)
 {
-    constexpr int kMostLevels = 256;  // conversion and destructors recurse
+    constexpr int kMaxLevels = 256;  // conversion and destructors recurse
     bool deep = false;
     const auto look = [&deep](int depth, JsonConversion::Other::parse_event_t /*event*/, const JsonConversion::Other& /*value*/) {
-        deep = deep || depth > kMostLevels;
+        deep = deep || depth > kMaxLevels;
         return !deep;
     };
     const JsonConversion::Other other = JsonConversion::Other::parse(text, look, false);

@@ -43,7 +43,7 @@ public:
         range.begin();
     }
     Json(const Range& range)
-        : Json(arrayOf(range.begin(), range.end()))
+        : Json(makeArray(range.begin(), range.end()))
     {}
     Json(std::initializer_list<Member> members);  // an object, in this order
     Json(const Json& other);
@@ -102,7 +102,7 @@ private:
         }
     }
     template <class Iterator>
-    static Json arrayOf(Iterator begin, Iterator end)
+    static Json makeArray(Iterator begin, Iterator end)
     {
         Json json = array();
         for (; begin != end; ++begin) {

@@ -46,7 +46,7 @@ int main(int argc, char** argv)
     glim::addCompare(line);
     glim::addBench(line);
     glim::addMerge(line);
-    glim::Outcome outcome = glim::outcomeOf([&] { return line.run({argv + 1, argv + argc}); });
+    glim::Outcome outcome = glim::runForOutcome([&] { return line.run({argv + 1, argv + argc}); });
     if (outcome.code == glim::ExitCode::Done && (!std::cout.flush() || std::ferror(stdout) != 0)) {
         outcome = {glim::ExitCode::BadInput, "The results could not be written to standard output."};
     }

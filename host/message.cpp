@@ -77,8 +77,8 @@ MessageListener messageListener;
 void tell(const std::string& sentence, bool isWarning)
 {
     constexpr int kPatience = 1000;  // milliseconds
-    constexpr std::size_t kMost = 8192, kBegin = 6144, kEnd = 1024;
-    const bool fits = sentence.size() <= kMost;
+    constexpr std::size_t kMax = 8192, kBegin = 6144, kEnd = 1024;
+    const bool fits = sentence.size() <= kMax;
     const std::string bounded = fits ? sentence : sentence.substr(0, kBegin) + " ... " + sentence.substr(sentence.size() - kEnd);
     if (messageListener) {
         messageListener(escaped(bounded), isWarning);

@@ -48,10 +48,10 @@ inline std::string counted(std::size_t count, const std::string& noun)
 }
 
 // How many names a sentence lists, and what follows them: nothing or " and 4 more".
-constexpr std::size_t kMostListed = 20;
+constexpr std::size_t kMaxListed = 20;
 inline std::string moreThanListed(std::size_t count)
 {
-    return count > kMostListed ? " and " + std::to_string(count - kMostListed) + " more" : "";
+    return count > kMaxListed ? " and " + std::to_string(count - kMaxListed) + " more" : "";
 }
 
 }  // namespace glim

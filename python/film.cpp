@@ -68,7 +68,7 @@ Layer<float> variance(const PythonFilm& film)
     std::vector<float> values;
     values.reserve(3 * film.pixels().size());
     for (const PixelMoments& pixel : film.pixels()) {
-        const glm::vec3 of = varianceOfMean(pixel);
+        const glm::vec3 of = computeVarianceOfMean(pixel);
         values.insert(values.end(), {of.r, of.g, of.b});
     }
     return copied(film.film(), std::move(values), 3);
@@ -140,12 +140,12 @@ void savePicture(const PythonFilm& film, const std::filesystem::path& path, std:
                  std::optional<std::uint32_t> width)
 {
     const Film shown = film.denoising() ? showDenoised(film.film(), film.denoising()->picture.radiance) : film.film();
-    const Aov aov = aovOf(shown);
+    const Aov aov = getAov(shown);
     Look look{exposure ? *exposure : chooseExposure(shown, aov), Tone::None};
     for (const Tone known : {Tone::Neutral, Tone::Agx}) {
-        look.tone = tone == nameOf(known) ? known : look.tone;
+        look.tone = tone == getName(known) ? known : look.tone;
     }
-    if (tone != nameOf(look.tone)) {
+    if (tone != getName(look.tone)) {
         throw InputError("tone: " + inQuotes(tone) + ": expected none, neutral or agx.");
     }
     writeFilmPicture(path, width && *width < shown.width ? shrunk(shown, *width) : shown, aov, look);
@@ -209,8 +209,8 @@ void bindFilm(nb::module_& module)
         .def_prop_ro("seconds", [](const PythonFilm& film) { return film.film().seconds; })
         .def_prop_ro("device", [](const PythonFilm& film) { return film.film().device; })
         .def_prop_ro("settings", [](const PythonFilm& film) { return film.film().identity.settings; })
-        .def_prop_ro("digest", [](const PythonFilm& film) { return digestOf(film.film()); })
-        .def_prop_ro("pixels_digest", [](const PythonFilm& film) { return pixelsDigestOf(film.film()); })
+        .def_prop_ro("digest", [](const PythonFilm& film) { return computeDigest(film.film()); })
+        .def_prop_ro("pixels_digest", [](const PythonFilm& film) { return computePixelsDigest(film.film()); })
         .def_prop_ro("rgb", floats(&PixelMoments::mean, 3), own)
         .def_prop_ro("alpha", floats(&PixelMoments::alpha, 1), own)
         .def_prop_ro("albedo", floats(&PixelMoments::albedo, 3), own)

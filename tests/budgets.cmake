@@ -25,7 +25,7 @@ set(onlyInCi
     Sides.BouncesPassBackFaces
     LinearityTest.T20LightsAddUp
     LinearityTest.T20PermutedChannelsArePermutedBitForBit
-    RoulettePictureTest.H24H25AlbedoOf99
+    RoulettePictureTest.H24H25RoomOfAlbedo99Percent
     RoulettePictureTest.FixedHasInfiniteVarianceAboveItsLimit
     TruthTest.T11DiskLightAsPolygon
     TruthTest.T12RectangleAndTriangleLight
@@ -40,7 +40,7 @@ set(onlyInCi
     MaterialTest.RoughPanesKeepTheAlbedoOfSingleScattering
     HardMaterialTest.H45AlphaAtTheDeltaLimit
     HardMaterialTest.H48BlackAttenuation
-    HardLightTest.OfLampsInOnePlaceTheFirstShines
+    HardLightTest.OfCoincidentLightsTheFirstShines
     HardLightTest.H14AMillionEmitters
     HardLightTest.ADoubleSidedLampInTheCeiling
     HardLightTest.H7TeapotInAStadium
@@ -60,7 +60,7 @@ set(onlyInCi
     Samplers/ErrorEstimateTest.*
     ErrorEstimateBlocksTest.*
     BenchTest.*
-    NeighboursTest.H29IsNotDarker
+    NeighboursTest.H29PictureIsNotDarker
     NeighboursTest.TheControlIsNewSamplesOfAFewPixels
     NeighboursTest.AFilmOfAnUnfinishedRoundSaysSo
     NeighboursTest.DoesNotDependOnHowTheWorkIsCut

@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::uint32_t kFormat = 2;
 
-Json jsonOf(const Interval& interval) { return {{"value", interval.value}, {"low", interval.low}, {"high", interval.high}}; }
+Json toJson(const Interval& interval) { return {{"value", interval.value}, {"low", interval.low}, {"high", interval.high}}; }
 
-Json jsonOf(const BenchPoint& point, const PointSummary& summary)
+Json toJson(const BenchPoint& point, const PointSummary& summary)
 {
     return {{"samples", point.samples},
             {"seconds", point.seconds},
@@ -29,34 +29,34 @@ Json jsonOf(const BenchPoint& point, const PointSummary& summary)
             {"summary",
              {{"seconds", summary.seconds},
               {"kernelSeconds", summary.kernelSeconds},
-              {"mse", jsonOf(summary.mse)},
-              {"relMse", jsonOf(summary.relMse)},
+              {"mse", toJson(summary.mse)},
+              {"relMse", toJson(summary.relMse)},
               {"trimmedRelMse", summary.trimmedRelMse},
               {"floorLimited", summary.floorLimited}}}};
 }
 
-Json jsonOf(const BenchSummary& summary)
+Json toJson(const BenchSummary& summary)
 {
     const SlopeTest& test = summary.slopeTest;
-    return {{"slope", jsonOf(summary.slope)},
-            {"fit", {{"factor", summary.fit.factor}, {"power", jsonOf(summary.fit.power)}, {"rest", jsonOf(summary.fit.rest)}}},
+    return {{"slope", toJson(summary.slope)},
+            {"fit", {{"factor", summary.fit.factor}, {"power", toJson(summary.fit.power)}, {"rest", toJson(summary.fit.rest)}}},
             {"slopeTest",
              {{"holds", test.holds()},
               {"slopeHolds", test.slopeHolds()},
               {"slopeMargin", test.slopeMargin},
               {"biasHolds", test.biasHolds()},
               {"biasLimit", test.biasLimit}}},
-            {"efficiency", jsonOf(summary.efficiency)},
-            {"kernelEfficiency", jsonOf(summary.kernelEfficiency)},
+            {"efficiency", toJson(summary.efficiency)},
+            {"kernelEfficiency", toJson(summary.kernelEfficiency)},
             {"samplesPerSecond", summary.samplesPerSecond}};
 }
 
-Json jsonOf(const SceneBench& bench)
+Json toJson(const SceneBench& bench)
 {
     const BenchSummary summary = summarizeBench(bench);
     Json points = Json::array();
     for (std::size_t i = 0; i < bench.points.size(); ++i) {
-        points.append(jsonOf(bench.points[i], summary.points[i]));
+        points.append(toJson(bench.points[i], summary.points[i]));
     }
     const StartUp& start = bench.startUp;
     return {{"scene", bench.scene},
@@ -77,7 +77,7 @@ Json jsonOf(const SceneBench& bench)
             {"seeds", bench.seeds},
             {"points", points},
             {"bias", {{"squared", bench.bias.squared}, {"error", bench.bias.error}}},
-            {"summary", jsonOf(summary)}};
+            {"summary", toJson(summary)}};
 }
 
 std::vector<double> numbersOf(const Json& json)
@@ -162,7 +162,7 @@ std::string benchJson(const std::vector<SceneBench>& benches)
 {
     Json scenes = Json::array();
     for (const SceneBench& bench : benches) {
-        scenes.append(jsonOf(bench));
+        scenes.append(toJson(bench));
     }
     return Json({{"glim:bench", kFormat}, {"scenes", scenes}}).dump(1) + "\n";
 }

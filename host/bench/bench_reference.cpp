@@ -52,7 +52,7 @@ Picture readReference(const std::filesystem::path& file, std::uint32_t width, st
                          sizeText(width, height) + " as of the bench.");
     }
     if (image.attributes.count("glim:film") > 0) {
-        const Film film = filmHeaderOf(file, image);
+        const Film film = readFilmHeader(file, image);
         if (film.identity.scene != scene) {
             throw InputError(file.string() + ": is a picture of another scene or camera (" + film.sceneFile +
                              "), expected one of the scene of the bench.");
@@ -62,7 +62,7 @@ Picture readReference(const std::filesystem::path& file, std::uint32_t width, st
                              ", which is one of the bench's, expected another: the errors would not be independent.");
         }
     }
-    return pictureOf(image, file.string());
+    return makePicture(image, file.string());
 }
 
 }  // namespace glim

@@ -7,7 +7,7 @@
 namespace glim {
 namespace {
 
-constexpr double kLeastPower = 0.25, kMostPower = 4.0;
+constexpr double kMinPower = 0.25, kMaxPower = 4.0;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 struct LinearFit {
@@ -50,11 +50,11 @@ FittedError fitError(const std::vector<double>& samples, const std::vector<doubl
         return {kUnknown, kUnknown, kUnknown};
     }
     constexpr int kSteps = 30;
-    const double stride = std::log(kMostPower / kLeastPower) / kSteps;
+    const double stride = std::log(kMaxPower / kMinPower) / kSteps;
     int best = 0;
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i <= kSteps; ++i) {
-        const double squares = fitLine(samples, errors, kLeastPower * std::exp(stride * i)).squares;
+        const double squares = fitLine(samples, errors, kMinPower * std::exp(stride * i)).squares;
         if (squares < least) {
             best = i;
             least = squares;
@@ -62,8 +62,8 @@ FittedError fitError(const std::vector<double>& samples, const std::vector<doubl
     }
     // Between its neighbours by golden-section search (Kiefer 1953).
     const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
-    double low = kLeastPower * std::exp(stride * std::max(best - 1, 0));
-    double high = kLeastPower * std::exp(stride * std::min(best + 1, kSteps));
+    double low = kMinPower * std::exp(stride * std::max(best - 1, 0));
+    double high = kMinPower * std::exp(stride * std::min(best + 1, kSteps));
     for (int i = 0; i < 25; ++i) {
         const double left = high - golden * (high - low), right = low + golden * (high - low);
         if (fitLine(samples, errors, left).squares < fitLine(samples, errors, right).squares) {

@@ -59,7 +59,7 @@ public:
     {
         double best = 0.0;
         for (std::size_t i = 0; i < variants.size() && !rays_.empty(); ++i) {
-            rates.push_back({name_, variants[i].name, rays_.size(), spreadOf(rates_[i]), 0.0});
+            rates.push_back({name_, variants[i].name, rays_.size(), computeSpread(rates_[i]), 0.0});
             best = std::max(best, rates.back().rate.median);
         }
         for (KernelRate& rate : rates) {
@@ -73,7 +73,7 @@ private:
     std::vector<std::vector<double>> rates_;
 };
 
-RenderSettings settingsOf(const RenderSettings& asked, Schedule schedule)
+RenderSettings makeSettings(const RenderSettings& asked, Schedule schedule)
 {
     RenderSettings settings = asked;
     settings.sampleEnd = kPictureSamples;
@@ -82,16 +82,16 @@ RenderSettings settingsOf(const RenderSettings& asked, Schedule schedule)
 }
 
 // Seconds of the tracing kernels in all renders so far.
-double traceSecondsOf(const Renderer& renderer)
+double measureTraceSeconds(const Renderer& renderer)
 {
     const auto& kernels = renderer.statistics().kernels;
-    const auto secondsOf = [&](const char* name) { return kernels.contains(name) ? kernels.at(name).seconds : 0.0; };
-    return secondsOf("trace_closest") + secondsOf("trace_shadow");
+    const auto getSeconds = [&](const char* name) { return kernels.contains(name) ? kernels.at(name).seconds : 0.0; };
+    return getSeconds("trace_closest") + getSeconds("trace_shadow");
 }
 
 }  // namespace
 
-Spread spreadOf(std::vector<double> values)
+Spread computeSpread(std::vector<double> values)
 {
     std::sort(values.begin(), values.end());
     return {values[values.size() / 2], values.front(), values.back()};
@@ -132,26 +132,29 @@ std::vector<KernelRate> measureKernelRates(Device& device, FlatScene scene, cons
 std::optional<PictureRate> measurePictureRate(Device& device, const FlatScene& scene, const FlatCamera& camera,
                                               const RenderSettings& settings, const std::function<bool(int round)>& shouldContinue)
 {
-    Renderer wavefront(device, scene, camera, settingsOf(settings, Schedule::Wavefront));
-    Renderer renderer(wavefront, scene, camera, settingsOf(settings, settings.schedule));
+    Renderer wavefront(device, scene, camera, makeSettings(settings, Schedule::Wavefront));
+    Renderer renderer(wavefront, scene, camera, makeSettings(settings, settings.schedule));
     std::vector<double> seconds, traceSeconds;
     for (int round = -1; round < kPictureRenders; ++round) {
         if (!shouldContinue(std::max(0, round))) {
             return std::nullopt;
         }
-        const double before = traceSecondsOf(wavefront);
+        const double before = measureTraceSeconds(wavefront);
         timeRender(wavefront, camera);
         const double took = timeRender(renderer, camera);
         if (round >= 0) {  // the first round does not count: first dispatches take longer
             seconds.push_back(took);
-            traceSeconds.push_back(traceSecondsOf(wavefront) - before);
+            traceSeconds.push_back(measureTraceSeconds(wavefront) - before);
         }
     }
     const RenderStatistics& all = renderer.statistics();  // its rays include the wavefront's, whose buffers it shares
     constexpr std::uint64_t kRenders = kPictureRenders + 1;
-    return PictureRate{
-        all.schedule,      all.samples / kRenders,       all.cameraAndBounceRays / (2 * kRenders), all.shadowRays / (2 * kRenders),
-        spreadOf(seconds), spreadOf(traceSeconds).median};
+    return PictureRate{all.schedule,
+                       all.samples / kRenders,
+                       all.cameraAndBounceRays / (2 * kRenders),
+                       all.shadowRays / (2 * kRenders),
+                       computeSpread(seconds),
+                       computeSpread(traceSeconds).median};
 }
 
 }  // namespace glim

@@ -18,7 +18,7 @@ struct Spread {
 };
 
 // `values`: at least one.
-Spread spreadOf(std::vector<double> values);
+Spread computeSpread(std::vector<double> values);
 
 struct KernelRate {
     std::string rays;     // primary, diffuse, shadow

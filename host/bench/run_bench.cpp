@@ -72,7 +72,7 @@ std::optional<std::vector<float>> renderSeed(Renderer& renderer, const Picture& 
         }
         seconds += *taken;
         cpuSeconds += cpuSecondsOfProcess() - cpuStart;
-        error = measureError(pictureOf(renderer.film()), reference);
+        error = measureError(makePicture(renderer.film()), reference);
         point.seconds.push_back(seconds);
         point.cpuSeconds.push_back(cpuSeconds);
         point.kernelSeconds.push_back(renderer.statistics().passSeconds - kernelStart);
@@ -96,7 +96,7 @@ PictureError measureError(const Picture& picture, const Picture& reference)
 // The error of the floor is that of a sum of squared normal variables; a pixel's three channels count as one.
 Floor measureFloor(const Picture& reference)
 {
-    const auto noise = noiseOfReference(reference);
+    const auto noise = estimateReferenceNoise(reference);
     if (!noise) {
         return {};
     }
@@ -153,7 +153,7 @@ std::optional<std::uint32_t> chooseSamples(Renderer& renderer, const FlatCamera&
         each = *taken / samples;
         samples *= 2;
     } while (each * samples < kPilotShare * seconds && samples < most);
-    const std::uint32_t least = renderer.settings().adaptive == Adaptive::Off ? kLeastBenchSamples : 2 * kPilotSamples;
+    const std::uint32_t least = renderer.settings().adaptive == Adaptive::Off ? kMinBenchSamples : 2 * kPilotSamples;
     const double fitting = std::clamp(seconds / each, static_cast<double>(least), static_cast<double>(most));
     return std::bit_floor(static_cast<std::uint32_t>(fitting));
 }
@@ -169,15 +169,15 @@ std::optional<std::vector<RenderedSeeds>> renderSeeds(const std::vector<BenchSid
     }
     std::vector<std::vector<std::vector<float>>> terms(sides.size());
     for (std::size_t i = 0; i < seeds.size() * sides.size(); ++i) {
-        const std::size_t round = i / sides.size(), turn = (i + round) % sides.size();
-        const auto& [renderer, camera] = sides[turn];
+        const std::size_t round = i / sides.size(), at = (i + round) % sides.size();
+        const auto& [renderer, camera] = sides[at];
         renderer.restart(camera, seeds[round]);
-        auto last = renderSeed(renderer, reference, rendered[turn].points,
+        auto last = renderSeed(renderer, reference, rendered[at].points,
                                [&, &renderer = renderer] { return observer(std::uint64_t{samples} * i + renderer.plan().sampleCount()); });
         if (!last) {
             return std::nullopt;
         }
-        terms[turn].push_back(std::move(*last));
+        terms[at].push_back(std::move(*last));
     }
     const Floor floor = measureFloor(reference);
     for (std::size_t side = 0; side < sides.size(); ++side) {

@@ -25,12 +25,12 @@ Floor measureFloor(const Picture& reference);
 Bias estimateBias(const std::vector<std::vector<float>>& terms, const Floor& floor);
 
 // Six doublings; a slope over fewer says little.
-inline constexpr std::uint32_t kLeastBenchSamples = 64;
+inline constexpr std::uint32_t kMinBenchSamples = 64;
 
 // Is called several times a second with the samples that each pixel has had so far, over all seeds; false ends the work.
 using BenchObserver = std::function<bool(std::uint64_t samples)>;
 
-// The power of two, from kLeastBenchSamples (for adaptive renders, twice kPilotSamples) to `most`, that takes about `seconds`. Measured
+// The power of two, from kMinBenchSamples (for adaptive renders, twice kPilotSamples) to `most`, that takes about `seconds`. Measured
 // after the first dispatches, so that their costs are paid. Nothing if `observer` ended it.
 std::optional<std::uint32_t> chooseSamples(Renderer& renderer, const FlatCamera& camera, double seconds, std::uint32_t most,
                                            const BenchObserver& observer);

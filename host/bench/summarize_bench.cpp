@@ -39,8 +39,8 @@ PointSummary summarizePoint(const BenchPoint& point, const Floor& floor)
     };
     PointSummary summary;
     summary.samples = point.samples;
-    summary.seconds = medianOf(point.seconds);
-    summary.kernelSeconds = medianOf(point.kernelSeconds);
+    summary.seconds = computeMedian(point.seconds);
+    summary.kernelSeconds = computeMedian(point.kernelSeconds);
     summary.mse = meanLess(point.mse, floor.mse);
     summary.relMse = meanLess(point.relMse, floor.relMse);
     for (const double error : point.trimmedRelMse) {
@@ -66,7 +66,7 @@ ErrorFit fitBench(const SceneBench& bench)
 Interval efficiencyBy(const SceneBench& bench, const std::vector<double>& seconds)
 {
     const BenchPoint& last = bench.points.back();
-    if (medianOf(seconds) <= 0.0) {
+    if (computeMedian(seconds) <= 0.0) {
         constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
         return {kUnknown, kUnknown, kUnknown};
     }
@@ -107,7 +107,7 @@ double meanOver(const std::vector<double>& values, const std::vector<std::size_t
     return sum / static_cast<double>(indices.size());
 }
 
-double medianOf(const std::vector<double>& values)
+double computeMedian(const std::vector<double>& values)
 {
     std::vector<double> sorted = values;
     std::sort(sorted.begin(), sorted.end());
@@ -120,7 +120,7 @@ double medianOver(const std::vector<double>& values, const std::vector<std::size
     for (const std::size_t index : indices) {
         chosen.push_back(values[index]);
     }
-    return medianOf(chosen);
+    return computeMedian(chosen);
 }
 
 double slopeOver(const SceneBench& bench, const std::vector<std::size_t>& indices)
@@ -167,7 +167,7 @@ BenchComparison compareBenches(const SceneBench& bench, const SceneBench& baseli
     comparison.mse = ratio([](const Side& a, const Side& b) { return a.mse / b.mse; });
     comparison.mean = ratio([](const Side& a, const Side& b) { return a.mean / b.mean; });
     comparison.samplesPerSecond = ratio([](const Side& a, const Side& b) { return b.seconds / a.seconds; });
-    if (medianOf(mine.cpuSeconds) > 0.0 && medianOf(other.cpuSeconds) > 0.0) {
+    if (computeMedian(mine.cpuSeconds) > 0.0 && computeMedian(other.cpuSeconds) > 0.0) {
         comparison.cpuEfficiency = ratio([](const Side& a, const Side& b) { return b.error * b.cpuSeconds / (a.error * a.cpuSeconds); });
         comparison.samplesPerCpuSecond = ratio([](const Side& a, const Side& b) { return b.cpuSeconds / a.cpuSeconds; });
     }

@@ -43,7 +43,7 @@ struct BenchSummary {
 
 BenchSummary summarizeBench(const SceneBench& bench);
 
-double medianOf(const std::vector<double>& values);
+double computeMedian(const std::vector<double>& values);
 // Over the values that `indices` select.
 double meanOver(const std::vector<double>& values, const std::vector<std::size_t>& indices);
 double medianOver(const std::vector<double>& values, const std::vector<std::size_t>& indices);

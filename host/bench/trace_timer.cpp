@@ -41,7 +41,7 @@ RaySets captureRays(RenderResources& resources, std::uint32_t pixels)
         const QueueTails tails = download<QueueTails>(paths.queueTails(), 1)[0];
         if (kernel == "generate_rays") {
             sets.primary = download<PathRay>(paths.rays(), pixels);
-        } else if (kernel == "sample_lights_and_bounce" && at.pass.bounce == 0) {
+        } else if (kernel == "shade_surface" && at.pass.bounce == 0) {
             sets.shadow = queued<ShadowRay>(paths.shadowRays(), paths.shadowQueue(), tails.shadow, pixels);
             sets.diffuse = queued<PathRay>(paths.rays(), paths.nextQueue(0), tails.next, pixels);
         }
@@ -62,7 +62,7 @@ TraceTimer::TraceTimer(const TraceTimer& other, const FlatScene& scene, const Fl
 {}
 
 // Seconds of the kernel and of its counterpart of the course.
-double TraceTimer::secondsOf(const std::string& kernel) const
+double TraceTimer::getSeconds(const std::string& kernel) const
 {
     double seconds = 0.0;
     for (const std::string& name : {kernel, "course_" + kernel}) {
@@ -74,16 +74,16 @@ double TraceTimer::secondsOf(const std::string& kernel) const
 
 TraceTimer::Closest TraceTimer::trace(std::span<const PathRay> rays)
 {
-    const double before = secondsOf("trace_closest");
+    const double before = getSeconds("trace_closest");
     std::vector<PathHit> hits = tracer_.trace(rays);
-    return {std::move(hits), secondsOf("trace_closest") - before};
+    return {std::move(hits), getSeconds("trace_closest") - before};
 }
 
 TraceTimer::Shadow TraceTimer::trace(std::span<const ShadowRay> rays)
 {
-    const double before = secondsOf("trace_shadow");
+    const double before = getSeconds("trace_shadow");
     std::vector<bool> free = tracer_.trace(rays);
-    return {std::move(free), secondsOf("trace_shadow") - before};
+    return {std::move(free), getSeconds("trace_shadow") - before};
 }
 
 }  // namespace glim

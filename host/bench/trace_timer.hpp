@@ -37,7 +37,7 @@ public:
     Shadow trace(std::span<const ShadowRay> rays);
 
 private:
-    double secondsOf(const std::string& kernel) const;
+    double getSeconds(const std::string& kernel) const;
 
     RenderResources resources_;
     RayTracer tracer_;

@@ -12,7 +12,7 @@ namespace glim {
 namespace {
 
 // The largest subtree that one thread builds alone, in primitives: it fits the cache of a core.
-constexpr std::uint32_t kMostAlone = 8192;
+constexpr std::uint32_t kMaxPerThread = 8192;
 
 struct Task {
     std::uint32_t node, begin, end;
@@ -62,9 +62,9 @@ public:
 private:
     NodeBounds readBoxes(std::span<const Box> boxes)
     {
-        std::vector<NodeBounds> bounds((count_ + kMostAlone - 1) / kMostAlone);
+        std::vector<NodeBounds> bounds((count_ + kMaxPerThread - 1) / kMaxPerThread);
         parallelFor(bounds.size(), threads_, [&](std::size_t chunk) {
-            const auto begin = static_cast<std::uint32_t>(chunk) * kMostAlone, end = std::min(begin + kMostAlone, count_);
+            const auto begin = static_cast<std::uint32_t>(chunk) * kMaxPerThread, end = std::min(begin + kMaxPerThread, count_);
             for (std::uint32_t i = begin; i < end; ++i) {
                 references_[i] = {boxes[i], i};
             }
@@ -89,7 +89,7 @@ private:
             std::vector<NodeSplit> splits(end - begin);
             parallelFor(splits.size(), threads_, [&](std::size_t i) {
                 const Task& task = parts_[begin + i].task;
-                splits[i] = task.end - task.begin > kMostAlone ? split(task) : NodeSplit{};
+                splits[i] = task.end - task.begin > kMaxPerThread ? split(task) : NodeSplit{};
             });
             for (std::size_t i = begin; i < end; ++i) {
                 const Task task = parts_[i].task;

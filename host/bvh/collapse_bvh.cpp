@@ -51,8 +51,8 @@ Roots childrenOf(const Bvh& bvh, const std::vector<Subtree>& subtrees, std::uint
         return {node};  // a leaf as root: few primitives
     }
     const std::uint32_t left = subtrees[node].nodeToLeft;
-    collect(bvh, subtrees, bvh.nodes[node].first, std::min(left, kMostRoots), roots);
-    collect(bvh, subtrees, bvh.nodes[node].first + 1, std::min(kBvhWidth - left, kMostRoots), roots);
+    collect(bvh, subtrees, bvh.nodes[node].first, std::min(left, kMaxRoots), roots);
+    collect(bvh, subtrees, bvh.nodes[node].first + 1, std::min(kBvhWidth - left, kMaxRoots), roots);
     if (!std::all_of(roots.begin(), roots.end(), [&](std::uint32_t root) { return fits(subtrees[root], depth); })) {
         roots.clear();
         collectEvenly(bvh, node, 3, roots);
@@ -209,10 +209,10 @@ void append(WideBvh& wide, const WideBvh& part, std::uint32_t at)
 
 WideBvh collapseBvh(const Bvh& bvh, unsigned threads, std::uint32_t firstInstance)
 {
-    constexpr std::uint32_t kMostAlone = 8192;  // one thread builds a subtree of at most this many primitives
+    constexpr std::uint32_t kMaxPerThread = 8192;  // one thread builds a subtree of at most this many primitives
     const std::vector<Subtree> subtrees = examineSubtrees(bvh, threads, firstInstance);
     Collapser top(bvh, subtrees, firstInstance);
-    const std::vector<Task> tasks = top.collapse(0, 1, kMostAlone);
+    const std::vector<Task> tasks = top.collapse(0, 1, kMaxPerThread);
     std::vector<Collapser> parts(tasks.size(), Collapser(bvh, subtrees, firstInstance));
     parallelFor(tasks.size(), threads, [&](std::size_t i) { parts[i].collapse(tasks[i].binary, tasks[i].depth, 0); });
     WideBvh wide = std::move(top.result());

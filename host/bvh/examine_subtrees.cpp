@@ -23,7 +23,7 @@ RootShare shareRoots(const Subtree& left, const Subtree& right, std::uint32_t ro
 {
     RootShare best{std::numeric_limits<float>::infinity(), 1};
     for (std::uint32_t k = 1; k < roots; ++k) {
-        const std::uint32_t l = std::min(k, kMostRoots), r = std::min(roots - k, kMostRoots);
+        const std::uint32_t l = std::min(k, kMaxRoots), r = std::min(roots - k, kMaxRoots);
         const float cost = left.cost[l - 1] + right.cost[r - 1];
         if (cost < best.cost) {
             best = {cost, static_cast<std::uint8_t>(k)};
@@ -50,15 +50,14 @@ Subtree join(const BvhNode& node, const Subtree& left, const Subtree& right)
     subtree.count = left.count + right.count;
     const auto area = static_cast<float>(computeHalfArea(node.box));
     subtree.hasInstance = left.hasInstance || right.hasInstance;
-    const float asLeaf = subtree.count <= kMaxLeafRecords && !subtree.hasInstance
-                             ? area * static_cast<float>(subtree.count) * kPrimitiveCost
-                             : std::numeric_limits<float>::infinity();
+    const float asLeaf = subtree.count <= kMaxLeafRefs && !subtree.hasInstance ? area * static_cast<float>(subtree.count) * kPrimitiveCost
+                                                                               : std::numeric_limits<float>::infinity();
     subtree.height = static_cast<std::uint8_t>(1 + std::max(left.height, right.height));
     const RootShare asNode = shareRoots(left, right, kBvhWidth);
     subtree.nodeToLeft = asNode.toLeft;
     subtree.isLeaf = asLeaf <= asNode.cost + area;
     subtree.cost[0] = std::min(asLeaf, asNode.cost + area);
-    for (std::uint32_t roots = 2; roots <= kMostRoots; ++roots) {
+    for (std::uint32_t roots = 2; roots <= kMaxRoots; ++roots) {
         const RootShare share = shareRoots(left, right, roots);
         const bool pays = share.cost < subtree.cost[roots - 2];
         subtree.cost[roots - 1] = pays ? share.cost : subtree.cost[roots - 2];
@@ -100,8 +99,8 @@ public:
 private:
     void collectParts(const Part& part)
     {
-        constexpr std::uint32_t kMostAlone = 16384;  // one thread examines a subtree of at most this many nodes
-        if (part.end - part.begin <= kMostAlone) {
+        constexpr std::uint32_t kMaxPerThread = 16384;  // one thread examines a subtree of at most this many nodes
+        if (part.end - part.begin <= kMaxPerThread) {
             parts_.push_back(part);
             return;
         }

@@ -14,7 +14,7 @@ Box unite(const Box& a, const Box& b) { return {glm::min(a.lo, b.lo), glm::max(a
 
 }  // namespace
 
-std::optional<WideBvh> refitBvh(WideBvh bvh, std::span<const Box> boxes, double mostCost)
+std::optional<WideBvh> refitBvh(WideBvh bvh, std::span<const Box> boxes, double maxCost)
 {
     const std::size_t nodeCount = bvh.meshTrees.empty() ? bvh.nodes.size() : bvh.meshTrees.front().firstNode;
     std::vector<Box> ofNodes(nodeCount, kEmptyBox);
@@ -39,7 +39,7 @@ std::optional<WideBvh> refitBvh(WideBvh bvh, std::span<const Box> boxes, double 
         areas += inner ? computeHalfArea(ofNodes[i]) : 0.0;
     }
     bvh.box = ofNodes[0];
-    return areas <= mostCost * bvh.cost * computeHalfArea(bvh.box) ? std::optional(std::move(bvh)) : std::nullopt;
+    return areas <= maxCost * bvh.cost * computeHalfArea(bvh.box) ? std::optional(std::move(bvh)) : std::nullopt;
 }
 
 }  // namespace glim

@@ -5,13 +5,13 @@
 namespace glim {
 namespace {
 
-constexpr std::uint32_t kMostSwept = 4;
+constexpr std::uint32_t kMaxSwept = 4;
 constexpr std::uint32_t kMaxBins = 32;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // --- Few primitives: every split between two centres ---
 
-using Order = std::array<std::uint32_t, kMostSwept>;
+using Order = std::array<std::uint32_t, kMaxSwept>;
 
 // A stable sort by centre. Ranking by counting has no branch that could be mispredicted.
 Order sortAlong(std::size_t axis, std::span<const Lanes> centres)
@@ -36,7 +36,7 @@ struct Place {
 void chooseBetter(Place& best, std::span<const Reference> references, const Order& order)
 {
     const auto count = static_cast<std::uint32_t>(references.size());
-    std::array<double, kMostSwept> rightWeight;
+    std::array<double, kMaxSwept> rightWeight;
     LaneBox right;
     for (std::uint32_t i = count; --i > 0;) {
         right.grow(references[order[i]].box);
@@ -54,8 +54,8 @@ void chooseBetter(Place& best, std::span<const Reference> references, const Orde
 
 NodeSplit splitBySweep(std::span<Reference> references, double area)
 {
-    std::array<Reference, kMostSwept> before;
-    std::array<Lanes, kMostSwept> centres;
+    std::array<Reference, kMaxSwept> before;
+    std::array<Lanes, kMaxSwept> centres;
     const std::size_t count = references.size();
     for (std::size_t i = 0; i < count; ++i) {
         before[i] = references[i];
@@ -212,7 +212,7 @@ NodeSplit splitBySah(std::span<Reference> references, std::span<Reference> scrat
     if (!(area > 0.0)) {
         return {};
     }
-    return references.size() <= kMostSwept ? splitBySweep(references, area) : splitByBins(references, scratch, bounds);
+    return references.size() <= kMaxSwept ? splitBySweep(references, area) : splitByBins(references, scratch, bounds);
 }
 
 }  // namespace glim

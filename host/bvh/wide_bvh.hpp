@@ -20,7 +20,7 @@ struct WideChild {
 
     Kind kind = Kind::Nothing;
     std::uint32_t first = 0;  // inner: index of the node
-    std::uint32_t count = 0;  // leaf: number of primitives, at most kMaxLeafRecords
+    std::uint32_t count = 0;  // leaf: number of primitives, at most kMaxLeafRefs
     Box box{};
 };
 

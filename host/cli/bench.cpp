@@ -87,7 +87,7 @@ std::string pictureText(const BenchOptions& options)
 }
 
 // The options of a baseline, to be rendered again beside those that were asked for. Refuses words that are none of them.
-BenchOptions optionsOf(const SceneBench& baseline, const std::string& file, const BenchOptions& asked)
+BenchOptions makeOptions(const SceneBench& baseline, const std::string& file, const BenchOptions& asked)
 {
     BenchOptions options;
     CommandLine line("", "", "");
@@ -150,14 +150,14 @@ SceneBench describeBench(const BenchOptions& options, const std::filesystem::pat
 
 BenchJob prepareJob(const BenchOptions& options, const std::filesystem::path& scene, const DeviceDescription& device)
 {
-    BenchJob job{prepareScene(scene, loadOptionsOf(options), options.split), options.settings, {}, {}};
+    BenchJob job{prepareScene(scene, makeLoadOptions(options), options.split), options.settings, {}, {}};
     warnIfNoLights(job.prepared);
     sayIfCameraIsNumber(job.prepared.scene, options.camera);
-    const Camera camera = cameraOf(job.prepared.scene, options);
+    const Camera camera = makeCamera(job.prepared.scene, options);
     const glm::uvec2 size = sizeOf(options, camera);
     job.settings.width = size.x;
     job.settings.height = size.y;
-    job.settings.sampleEnd = std::bit_floor(mostSamples(job.settings));
+    job.settings.sampleEnd = std::bit_floor(maxSamples(job.settings));
     job.settings.fastest = rememberedSchedule(device);
     checkMemory(job.prepared, job.settings, device);
     job.camera = flattenCamera(job.prepared, camera, static_cast<float>(size.x) / static_cast<float>(size.y), options.lens);
@@ -203,7 +203,7 @@ bool measure(Device& device, const BenchOptions& options, BenchJob& job, std::op
     std::vector<BenchSide> sides{{renderer, job.camera}};
     bench.startUp = {job.prepared.loadSeconds, job.prepared.buildSeconds, renderer.statistics().uploadSeconds,
                      renderer.statistics().compileSeconds};
-    bench.schedule = nameOf(renderer.statistics().schedule);
+    bench.schedule = getName(renderer.statistics().schedule);
     // This also warms up for --spp: first dispatches take longer.
     const auto fitting =
         chooseSamples(renderer, job.camera, options.samples ? 0.0 : options.seconds, job.settings.sampleEnd / kReferenceFactor, show);
@@ -221,7 +221,7 @@ bool measure(Device& device, const BenchOptions& options, BenchJob& job, std::op
     const std::uint32_t samples = options.samples.value_or(*fitting);
     const std::string identity = renderer.films().folded().identity.scene;
     const RenderSettings longRender = referenceSettings(job.settings, samples);
-    bench.reference = options.reference.value_or(referenceOf(options, bench.scene)).string();
+    bench.reference = options.reference.value_or(getReferencePath(options, bench.scene)).string();
     const bool made = options.reference || (!options.makeReference && isReference(bench.reference, identity, longRender));
     const std::uint64_t work = std::uint64_t{samples} * bench.seeds.size() * sides.size();
     progress.plan(made ? work : work + longRender.sampleEnd);
@@ -253,10 +253,10 @@ void checkTargets(const BenchOptions& options)
         }
     }
     checkTarget(options.output, ".json", inputs);
-    checkTarget(csvOf(options), ".csv", inputs);
+    checkTarget(getCsvPath(options), ".csv", inputs);
     for (const std::filesystem::path& scene : options.scenes) {
         if (!options.reference) {
-            checkTarget(referenceOf(options, scene), ".exr", inputs);
+            checkTarget(getReferencePath(options, scene), ".exr", inputs);
         }
     }
 }
@@ -279,7 +279,7 @@ ExitCode runBench(const BenchOptions& options)
         std::string apart;
         if (baseline != nullptr) {
             if (baseline->options && *baseline->options != *job.bench.options) {
-                other = prepareJob(optionsOf(*baseline, options.against->string(), options), scene, device.description());
+                other = prepareJob(makeOptions(*baseline, options.against->string(), options), scene, device.description());
             }
             apart = whyNotByTurns(*baseline, job, other);
             if (!apart.empty()) {
@@ -297,7 +297,7 @@ ExitCode runBench(const BenchOptions& options)
         std::cout << std::flush;
         benches.push_back(std::move(job.bench));
         writeText(options.output, benchJson(benches));
-        writeText(csvOf(options), benchCsv(benches));
+        writeText(getCsvPath(options), benchCsv(benches));
     }
     return ExitCode::Done;
 }

@@ -34,7 +34,7 @@ PreparedScene prepareHills(SplitRule split)
     return prepared;
 }
 
-Json jsonOf(const std::string& scene, const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device,
+Json toJson(const std::string& scene, const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device,
             const std::vector<KernelRate>& rates, const PictureRate& picture)
 {
     Json table = Json::array();
@@ -55,7 +55,7 @@ Json jsonOf(const std::string& scene, const PreparedScene& prepared, const Rende
             {"version", versionText()},
             {"rates", table},
             {"picture",
-             {{"schedule", nameOf(picture.schedule)},
+             {{"schedule", getName(picture.schedule)},
               {"samples", picture.samples},
               {"rays", {{"closest", picture.closest}, {"shadow", picture.shadow}}},
               {"seconds", {{"median", picture.seconds.median}, {"low", picture.seconds.low}, {"high", picture.seconds.high}}},
@@ -70,7 +70,7 @@ void print(const PictureRate& picture)
     std::snprintf(line, sizeof line,
                   "picture, %u samples per pixel, %s: %.3g s [%.3g, %.3g], %.3g Msamples/s; %.2f closest-hit and %.2f shadow rays "
                   "per sample; tracing alone takes %.2f of the time\n",
-                  kPictureSamples, nameOf(picture.schedule), picture.seconds.median, picture.seconds.low, picture.seconds.high,
+                  kPictureSamples, getName(picture.schedule), picture.seconds.median, picture.seconds.low, picture.seconds.high,
                   1e-6 * samples / picture.seconds.median, static_cast<double>(picture.closest) / samples,
                   static_cast<double>(picture.shadow) / samples, picture.traceShare());
     std::cout << line << std::flush;
@@ -118,7 +118,7 @@ private:
 bool measure(Device& device, const BenchOptions& options, const std::string& name, const PreparedScene& prepared,
              const InterruptWatch& watch, Json& tables)
 {
-    const Camera camera = cameraOf(prepared.scene, options);
+    const Camera camera = makeCamera(prepared.scene, options);
     const glm::uvec2 size = options.size.value_or(defaultSize(camera));
     RenderSettings settings = options.settings;
     settings.fastest = rememberedSchedule(device.description());
@@ -138,7 +138,7 @@ bool measure(Device& device, const BenchOptions& options, const std::string& nam
     }
     print(name, prepared, device.description(), rates);
     print(*picture);
-    tables.append(jsonOf(name, prepared, settings, device.description(), rates, *picture));
+    tables.append(toJson(name, prepared, settings, device.description(), rates, *picture));
     return true;
 }
 
@@ -157,7 +157,7 @@ ExitCode runBenchKernels(const BenchOptions& options)
         return watch.signal() == 0 && measure(device, options, name, prepared, watch, tables);
     };
     for (const std::filesystem::path& scene : options.scenes) {
-        if (!finished(scene.string(), prepareScene(scene, loadOptionsOf(options), options.split))) {
+        if (!finished(scene.string(), prepareScene(scene, makeLoadOptions(options), options.split))) {
             return finish(watch.signal(), "no figures are written");
         }
     }

@@ -11,9 +11,9 @@
 namespace glim {
 namespace {
 
-constexpr std::uint32_t kLeastSeeds = 16;  // fewer give no spread worth an interval (Celarek et al. 2019)
-constexpr std::uint32_t kMostSeeds = 1024;
-constexpr std::uint32_t kMostSamples = kMaxSample / kReferenceFactor;
+constexpr std::uint32_t kMinSeeds = 16;  // fewer give no spread worth an interval (Celarek et al. 2019)
+constexpr std::uint32_t kMaxSeeds = 1024;
+constexpr std::uint32_t kMaxSamples = kMaxSample / kReferenceFactor;
 
 void addSampling(OptionTable& table, BenchOptions& options)
 {
@@ -22,7 +22,7 @@ void addSampling(OptionTable& table, BenchOptions& options)
         addNumber<double>(table, {"--seconds", "S", "Render time per seed, at least 64 samples per pixel", 1e-3, 1e6, "1"},
                           [&options](double value) { options.seconds = value; });
     addNumber<std::uint32_t>(
-        table, {"--spp", "N", "Samples per pixel of each seed, a power of two", kLeastBenchSamples, kMostSamples, "by --seconds"},
+        table, {"--spp", "N", "Samples per pixel of each seed, a power of two", kMinBenchSamples, kMaxSamples, "by --seconds"},
         [&options](std::uint32_t samples) {
             if (!std::has_single_bit(samples)) {
                 throw UsageError("--spp", "\"" + std::to_string(samples) + "\": expected a power of two, as in 256");
@@ -30,8 +30,7 @@ void addSampling(OptionTable& table, BenchOptions& options)
             options.samples = samples;
         })
         .excludes(seconds);
-    addNumber<std::uint32_t>(table,
-                             {"--seeds", "K", "Independent renders, with consecutive seeds from --seed", kLeastSeeds, kMostSeeds, "16"},
+    addNumber<std::uint32_t>(table, {"--seeds", "K", "Independent renders, with consecutive seeds from --seed", kMinSeeds, kMaxSeeds, "16"},
                              [&options](std::uint32_t count) { options.seeds = count; });
     addChoice(table, "--adaptive", "RULE", "off, neighbours or neighbours:absolute, beyond 64 samples per pixel [off]",
               {"off", "neighbours", "neighbours:absolute"}, [&options](std::size_t i) {
@@ -62,7 +61,7 @@ void resolveBench(OptionTable& table, BenchOptions& options)
     options.words = table.wordsGiven({"--output", "--reference", "--make-reference", "--against", "--kernels", "--progress", "--seconds",
                                       "--spp", "--seeds", "--seed", "--device"});
     // For resolveLight, which also refuses more light samples than can be counted.
-    options.settings.sampleEnd = options.samples.value_or(kLeastBenchSamples);
+    options.settings.sampleEnd = options.samples.value_or(kMinBenchSamples);
     resolveLight(table, options);
     if (options.settings.adaptive != Adaptive::Off && options.settings.sampleEnd <= kPilotSamples && options.samples) {
         throw UsageError("--spp", "\"" + std::to_string(*options.samples) + "\": --adaptive neighbours begins with " +
@@ -70,7 +69,7 @@ void resolveBench(OptionTable& table, BenchOptions& options)
     }
     std::set<std::filesystem::path> references;
     for (const std::filesystem::path& scene : options.scenes) {
-        if (!references.insert(referenceOf(options, scene)).second) {
+        if (!references.insert(getReferencePath(options, scene)).second) {
             throw UsageError("SCENE", "\"" + scene.string() + "\": expected scenes of different names");
         }
     }
@@ -100,9 +99,9 @@ void addBenchOptions(OptionTable& table, BenchOptions& options)
     table.onFinished([&table, &options] { resolveBench(table, options); });
 }
 
-std::filesystem::path csvOf(const BenchOptions& options) { return std::filesystem::path(options.output).replace_extension(".csv"); }
+std::filesystem::path getCsvPath(const BenchOptions& options) { return std::filesystem::path(options.output).replace_extension(".csv"); }
 
-std::filesystem::path referenceOf(const BenchOptions& options, const std::filesystem::path& scene)
+std::filesystem::path getReferencePath(const BenchOptions& options, const std::filesystem::path& scene)
 {
     const std::string stem = options.output.stem().string() + "." + scene.stem().string() + ".exr";
     return options.output.parent_path() / stem;

@@ -27,8 +27,8 @@ struct BenchOptions : PictureOptions {
 // Adds every option of `bench` to `command`; they write into `options`, which must outlive it.
 void addBenchOptions(OptionTable& table, BenchOptions& options);
 
-std::filesystem::path csvOf(const BenchOptions& options);
+std::filesystem::path getCsvPath(const BenchOptions& options);
 // The file of the reference for `scene`, if --reference names none.
-std::filesystem::path referenceOf(const BenchOptions& options, const std::filesystem::path& scene);
+std::filesystem::path getReferencePath(const BenchOptions& options, const std::filesystem::path& scene);
 
 }  // namespace glim

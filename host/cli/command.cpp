@@ -26,7 +26,7 @@ public:
         }
         // The Help group comes last, though CLI11 defines it first.
         std::stable_partition(options.begin(), options.end(), [](const CLI::Option* o) { return o->get_group() != kHelpGroup; });
-        std::string text = app->get_description() + "\n\nUsage: " + name + usageOf(app) + "\n" + listCommands(app) + listOptions(options);
+        std::string text = app->get_description() + "\n\nUsage: " + name + getUsage(app) + "\n" + listCommands(app) + listOptions(options);
         if (!app->get_footer().empty()) {
             text += "\n" + app->get_footer() + "\n";
         }
@@ -36,7 +36,7 @@ public:
     static constexpr const char *kHelpGroup = "Help", *kHelpAll = "--help-all";
 
 private:
-    static std::string usageOf(const CLI::App* app)
+    static std::string getUsage(const CLI::App* app)
     {
         std::string text = app->get_subcommands({}).empty() ? " [OPTIONS]" : " COMMAND [OPTIONS]";
         for (const CLI::Option* option : app->get_options()) {
@@ -62,7 +62,7 @@ private:
         return text;
     }
 
-    static std::string nameOf(const CLI::Option* option)
+    static std::string getName(const CLI::Option* option)
     {
         if (option->get_positional()) {
             return "  " + option->get_name();
@@ -78,7 +78,7 @@ private:
     {
         std::size_t width = 0;
         for (const CLI::Option* option : options) {
-            width = std::max(width, std::min(nameOf(option).size() + 2, kWidestColumn));
+            width = std::max(width, std::min(getName(option).size() + 2, kWidestColumn));
         }
         std::string text, group;
         for (const CLI::Option* option : options) {
@@ -86,7 +86,7 @@ private:
                 group = option->get_group();
                 text.append("\n").append(group).append(":\n");
             }
-            text += pad(nameOf(option), width) + option->get_description() + "\n";
+            text += pad(getName(option), width) + option->get_description() + "\n";
         }
         return text;
     }

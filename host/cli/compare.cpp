@@ -25,12 +25,12 @@ struct CompareOptions {
 };
 
 // The film's header if glim wrote the picture.
-std::optional<Film> filmOf(const std::filesystem::path& path, const Image& image)
+std::optional<Film> makeFilm(const std::filesystem::path& path, const Image& image)
 {
     if (image.attributes.count("glim:film") == 0) {
         return std::nullopt;
     }
-    const Film film = filmHeaderOf(path, image);
+    const Film film = readFilmHeader(path, image);
     if (!film.complete) {
         say(path.string() + " comes from a render that was stopped early: some pixels have fewer samples or none.");
     }
@@ -39,7 +39,7 @@ std::optional<Film> filmOf(const std::filesystem::path& path, const Image& image
 
 Relation relate(const CompareOptions& options, const Image& image, const Image& referenceImage, bool equal)
 {
-    const auto film = filmOf(options.picture, image), reference = filmOf(options.reference, referenceImage);
+    const auto film = makeFilm(options.picture, image), reference = makeFilm(options.reference, referenceImage);
     return equal                                                  ? Relation::Identical
            : film && reference && shareSamples(*film, *reference) ? Relation::SharedSamples
                                                                   : Relation::Independent;
@@ -74,8 +74,8 @@ void runCompare(const CompareOptions& options)
 {
     checkTargets(options);
     const Image image = readExr(options.picture), referenceImage = readExr(options.reference);
-    const Picture picture = pictureOf(image, options.picture.string());
-    Picture reference = pictureOf(referenceImage, options.reference.string());
+    const Picture picture = makePicture(image, options.picture.string());
+    Picture reference = makePicture(referenceImage, options.reference.string());
     if (options.variance) {
         setVariance(reference, readExr(*options.variance), options.variance->string());
     }

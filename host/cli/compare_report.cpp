@@ -102,14 +102,14 @@ void printTest(const ZTest& test)
     row("verdict") << (test.agrees() ? "agree up to noise" : "differ by more than noise") << " (level 1 %)\n";
 }
 
-Json jsonOf(const SquaredErrors& errors)
+Json toJson(const SquaredErrors& errors)
 {
     return {{"mse", errors.mse}, {"relmse", errors.relMse}, {"relmse_absolute", errors.relMseAbsolute}};
 }
 
-Json jsonOf(const MeanRatio& ratio) { return {{"value", ratio.value}, {"low", ratio.low}, {"high", ratio.high}}; }
+Json toJson(const MeanRatio& ratio) { return {{"value", ratio.value}, {"low", ratio.low}, {"high", ratio.high}}; }
 
-Json jsonOf(const ZTest& test)
+Json toJson(const ZTest& test)
 {
     return {{"agree", test.agrees()},
             {"mean_z", test.meanZ},
@@ -121,22 +121,22 @@ Json jsonOf(const ZTest& test)
             {"mean_square_margin", test.meanSquareMargin}};
 }
 
-Json jsonOf(const Comparison& result, const std::optional<ZTest>& test)
+Json toJson(const Comparison& result, const std::optional<ZTest>& test)
 {
-    Json json = jsonOf(result.errors);
+    Json json = toJson(result.errors);
     json.set("rmse", std::sqrt(result.errors.mse));
     json.set("mape", result.mape);
     json.set("relmse_epsilon", result.epsilon);
-    Json trimmed = jsonOf(result.trimmed.kept);
+    Json trimmed = toJson(result.trimmed.kept);
     trimmed.set("dropped_pixels", result.trimmed.dropped);
-    trimmed.set("dropped_share", jsonOf(result.trimmed.share));
+    trimmed.set("dropped_share", toJson(result.trimmed.share));
     json.set("trimmed", trimmed);
-    json.set("noise", result.noise ? jsonOf(*result.noise) : Json());
-    json.set("reference_noise", result.referenceNoise ? jsonOf(*result.referenceNoise) : Json());
-    json.set("mean_ratio", {{"all", jsonOf(result.ratioOfAll)},
-                            {"R", jsonOf(result.ratio[0])},
-                            {"G", jsonOf(result.ratio[1])},
-                            {"B", jsonOf(result.ratio[2])},
+    json.set("noise", result.noise ? toJson(*result.noise) : Json());
+    json.set("reference_noise", result.referenceNoise ? toJson(*result.referenceNoise) : Json());
+    json.set("mean_ratio", {{"all", toJson(result.ratioOfAll)},
+                            {"R", toJson(result.ratio[0])},
+                            {"G", toJson(result.ratio[1])},
+                            {"B", toJson(result.ratio[2])},
                             {"interval", {{"level", 0.95}, {"source", sourceName(result.intervalSource)}}}});
     json.set("max_error", {{"x", result.maxError.x},
                            {"y", result.maxError.y},
@@ -147,11 +147,11 @@ Json jsonOf(const Comparison& result, const std::optional<ZTest>& test)
                         {"non_finite", result.nonFinite},
                         {"non_finite_in_reference", result.nonFiniteInReference},
                         {"without_variance", result.withoutVariance}});
-    json.set("z_test", test ? jsonOf(*test) : Json());
+    json.set("z_test", test ? toJson(*test) : Json());
     return json;
 }
 
-const char* nameOf(Relation relation)
+const char* getName(Relation relation)
 {
     switch (relation) {
     case Relation::Identical: return "identical";
@@ -178,8 +178,8 @@ void printTable(const CompareReport& report)
 
 void printJson(const CompareReport& report)
 {
-    Json json = jsonOf(report.result, report.test);
-    json.set("relation", nameOf(report.relation));
+    Json json = toJson(report.result, report.test);
+    json.set("relation", getName(report.relation));
     std::cout << json.dump(2) << '\n';
 }
 

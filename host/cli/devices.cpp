@@ -10,7 +10,7 @@ namespace {
 
 std::uint64_t mebibytes(std::uint64_t bytes) { return bytes >> 20; }
 
-Json jsonOf(const DeviceDescription& d)
+Json toJson(const DeviceDescription& d)
 {
     return {{"name", d.name},
             {"driver", d.driver},
@@ -49,7 +49,7 @@ void runDevices(bool json)
     Json list = Json::array();
     for (std::size_t i = 0; i < devices.size(); ++i) {
         if (json) {
-            list.append(jsonOf(devices[i]));
+            list.append(toJson(devices[i]));
         } else {
             printDevice(i, devices[i]);
         }

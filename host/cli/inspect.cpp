@@ -71,7 +71,7 @@ Instancing instancingOf(const PreparedScene& prepared)
         for (const SharedMesh& mesh : prepared.primitives.sharedMeshes) {
             instancing.triangles += mesh.triangles.size();
         }
-        instancing.reason = "the scene has more than " + std::to_string(kMostFlatTriangles) + " triangles, counted once for each instance";
+        instancing.reason = "the scene has more than " + std::to_string(kMaxFlatTriangles) + " triangles, counted once for each instance";
         return instancing;
     }
     for (const MeshUse& use : countMeshUses(prepared.scene)) {
@@ -79,7 +79,7 @@ Instancing instancingOf(const PreparedScene& prepared)
         instancing.instances += use.instances > 1 ? use.instances : 0;
         instancing.triangles += use.instances > 1 ? use.triangles : 0;
     }
-    instancing.reason = "rays are faster so, and the scene has at most " + std::to_string(kMostFlatTriangles) +
+    instancing.reason = "rays are faster so, and the scene has at most " + std::to_string(kMaxFlatTriangles) +
                         " triangles, or all meshes that could be shared emit";
     return instancing;
 }
@@ -88,7 +88,7 @@ struct Bounds {
     glm::dvec3 low, high;  // world coordinates, metres
 };
 
-Bounds boundsOf(const PreparedScene& prepared)
+Bounds computeBounds(const PreparedScene& prepared)
 {
     const Box& box = prepared.bvh.box;
     return {prepared.scene.origin + glm::dvec3(box.lo), prepared.scene.origin + glm::dvec3(box.hi)};
@@ -108,10 +108,10 @@ Json objectOf(const Entries& entries)
     return json;
 }
 
-// How many materials have each lobe, of those that some material has.
-Counts lobesOf(const FlatScene& flat)
+// How many materials have each type, of those that some material has.
+Counts countMaterialTypes(const FlatScene& flat)
 {
-    constexpr const char* kLobes[] = {"diffuse", "mirror", "glass", "glTF", "unlit"};
+    constexpr const char* kMaterialTypes[] = {"diffuse", "mirror", "glass", "glTF", "unlit"};
     constexpr FeatureMask kLayers = kLayerFeatures | kFeatureThinWalls;
     Counts counts;
     const auto add = [&counts](const char* name, std::ptrdiff_t count) {
@@ -119,8 +119,8 @@ Counts lobesOf(const FlatScene& flat)
             counts.emplace_back(name, static_cast<std::size_t>(count));
         }
     };
-    for (std::uint32_t lobe = 0; lobe < std::size(kLobes); ++lobe) {
-        add(kLobes[lobe], std::ranges::count(flat.materials, lobe, &MaterialData::lobe));
+    for (std::uint32_t type = 0; type < std::size(kMaterialTypes); ++type) {
+        add(kMaterialTypes[type], std::ranges::count(flat.materials, type, &MaterialData::type));
     }
     for (const Feature& feature : kFeatures) {
         const auto has = [&feature](FeatureMask features) { return (features & feature.bit & kLayers) != 0; };
@@ -130,7 +130,7 @@ Counts lobesOf(const FlatScene& flat)
 }
 
 // Of the scene as its first camera sees it.
-FeatureMask featuresOf(const PreparedScene& prepared)
+FeatureMask getFeatures(const PreparedScene& prepared)
 {
     return featuresSeenBy(prepared.flat, flattenCamera(prepared, prepared.scene.cameras.front(), 1.0F, {}));
 }
@@ -140,7 +140,7 @@ std::size_t singleSided(const Scene& scene)
     return static_cast<std::size_t>(std::ranges::count_if(scene.materials, std::not_fn(meetsBackFaces)));
 }
 
-Json texturesOf(const PreparedScene& prepared)
+Json describeTextures(const PreparedScene& prepared)
 {
     Json textures = Json::array();
     for (std::size_t i = 0; i < prepared.scene.images.size(); ++i) {
@@ -188,7 +188,7 @@ void printJson(const InspectOptions& options, const PreparedScene& prepared)
     for (const Animation& animation : prepared.scene.animations) {
         animations.append({{"name", animation.name}, {"seconds", animation.duration}});
     }
-    const Bounds bounds = boundsOf(prepared);
+    const Bounds bounds = computeBounds(prepared);
     const Instancing instancing = instancingOf(prepared);
     const Json json = {{"scene", options.scene.string()},
                        {"counts", objectOf(countsOf(prepared))},
@@ -208,14 +208,14 @@ void printJson(const InspectOptions& options, const PreparedScene& prepared)
                        {"loadSeconds", prepared.loadSeconds},
                        {"deviceBytes", sizeInBytes(prepared.flat)},
                        {"textureBytes", textureBytes(prepared.flat)},
-                       {"lobes", objectOf(lobesOf(prepared.flat))},
+                       {"lobes", objectOf(countMaterialTypes(prepared.flat))},
                        {"singleSided", singleSided(prepared.scene)},
-                       {"textures", texturesOf(prepared)},
+                       {"textures", describeTextures(prepared)},
                        {"environment", environmentOf(prepared)},
                        {"media", mediaOf(prepared)},
                        {"variants", prepared.scene.variants},
                        {"animations", animations},
-                       {"needs", objectOf(needsOf(featuresOf(prepared)))},
+                       {"needs", objectOf(needsOf(getFeatures(prepared)))},
                        {"cameras", cameras},
                        {"warnings", prepared.scene.warnings}};
     std::cout << json.dump(2) << '\n';
@@ -243,7 +243,7 @@ std::string coordinateText(double value, double size)
     return format("%.*g", static_cast<int>(std::clamp(digits, 1.0, 17.0)), value + 0.0);
 }
 
-std::string textOf(const Bounds& bounds)
+std::string toText(const Bounds& bounds)
 {
     const glm::dvec3 sides = bounds.high - bounds.low;
     const double size = std::max({sides.x, sides.y, sides.z});
@@ -258,7 +258,7 @@ std::string mebibytes(std::uint64_t bytes) { return threeDigits(static_cast<doub
 void printLooks(const PreparedScene& prepared)
 {
     const char* separator = "  lobes: ";
-    for (const auto& [name, count] : lobesOf(prepared.flat)) {
+    for (const auto& [name, count] : countMaterialTypes(prepared.flat)) {
         std::cout << separator << name << ' ' << count;
         separator = ", ";
     }
@@ -302,13 +302,13 @@ void printText(const InspectOptions& options, const PreparedScene& prepared)
                   << " (" << counted(instancing.triangles, "triangle") << ") " << (instancing.shared ? "share these" : "are flattened")
                   << ": " << instancing.reason << '\n';
     }
-    std::cout << "  bounds " << textOf(boundsOf(prepared)) << '\n'
+    std::cout << "  bounds " << toText(computeBounds(prepared)) << '\n'
               << "  BVH: " << prepared.bvh.nodes.size() << " nodes, depth " << prepared.bvh.depth << ", surface-area cost "
               << threeDigits(static_cast<double>(prepared.bvh.cost)) << ", built in " << threeDigits(prepared.buildSeconds) << " s\n"
               << "  on the device: " << mebibytes(sizeInBytes(prepared.flat)) << ", " << mebibytes(textureBytes(prepared.flat))
               << " of it textures\n  needs:";
     const char* separator = " ";
-    for (const auto& [name, needed] : needsOf(featuresOf(prepared))) {
+    for (const auto& [name, needed] : needsOf(getFeatures(prepared))) {
         if (needed) {
             std::cout << separator << name;
             separator = ", ";

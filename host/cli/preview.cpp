@@ -67,7 +67,7 @@ void addPreview(CommandLine& line)
         }
     });
     command.onRun([options] {
-        preview({options->scene, loadOptionsOf(*options), options->split, options->size, options->camera, options->device, options->pose,
+        preview({options->scene, makeLoadOptions(*options), options->split, options->size, options->camera, options->device, options->pose,
                  options->lens, options->look, options->settings, options->frames, options->script});
         return ExitCode::Done;
     });

@@ -37,7 +37,7 @@ static_assert(std::size(kLobes) == kPrincipled + kLobeThrough + 1);
 constexpr std::uint32_t kDelta = 1, kTransmitted = 2;  // lib/bsdf/bsdf_sample.glsl
 
 // Exact: reads back as the same bits.
-std::string textOf(const glm::vec3& v)
+std::string toText(const glm::vec3& v)
 {
     std::string text("(");
     text.append(exactText(v.x)).append(", ").append(exactText(v.y)).append(", ").append(exactText(v.z)).append(")");
@@ -57,16 +57,16 @@ float cosineOf(const PathVertex& vertex) { return -glm::dot(vertex.surface.ns, v
 
 std::string addedText(const PathRadiance& added)
 {
-    return "adds " + textOf(added.radiance) + (added.clamped > 0.0F ? ", clamped by " + exactText(added.clamped) : "");
+    return "adds " + toText(added.radiance) + (added.clamped > 0.0F ? ", clamped by " + exactText(added.clamped) : "");
 }
 
 void printSurface(const ReplayReport& report, const PathVertex& vertex)
 {
-    const PrimitiveDescription met = describeRecord(report.prepared, vertex.hit.record);
+    const PrimitiveDescription met = describePrimitive(report.prepared, vertex.hit.primitiveRef);
     const PathNote& note = vertex.surface;
-    std::cout << textOf(met) << ", material " << met.material << ", at " << pointText(worldOf(report.prepared, note.point)) << ", "
-              << exactText(vertex.hit.t) << " m on\n  " << (note.front != 0 ? "front" : "back") << ", normal " << textOf(note.ng)
-              << (note.ns == note.ng ? "" : ", shading normal " + textOf(note.ns)) << ", cosine " << exactText(cosineOf(vertex)) << "\n";
+    std::cout << toText(met) << ", material " << met.material << ", at " << pointText(worldOf(report.prepared, note.point)) << ", "
+              << exactText(vertex.hit.t) << " m on\n  " << (note.front != 0 ? "front" : "back") << ", normal " << toText(note.ng)
+              << (note.ns == note.ng ? "" : ", shading normal " + toText(note.ns)) << ", cosine " << exactText(cosineOf(vertex)) << "\n";
 }
 
 // What the material has there besides its base colour: name in the text, name in the JSON.
@@ -88,14 +88,14 @@ constexpr MaterialNumber kMaterialNumbers[] = {{"metallic", "metallic", &PathNot
 
 void printMaterial(const ReplayReport& report, const PathNote& note)
 {
-    std::cout << "  base colour " << textOf(note.baseColor);
+    std::cout << "  base colour " << toText(note.baseColor);
     for (const MaterialNumber& number : kMaterialNumbers) {
         if (note.*number.value != 0.0F) {
             std::cout << ", " << number.text << " " << exactText(note.*number.value);
         }
     }
     if (note.sheenColor != glm::vec3(0.0F)) {
-        std::cout << ", sheen colour " << textOf(note.sheenColor);
+        std::cout << ", sheen colour " << toText(note.sheenColor);
     }
     if (note.alpha != 1.0F) {
         std::cout << ", alpha " << exactText(note.alpha);
@@ -103,7 +103,7 @@ void printMaterial(const ReplayReport& report, const PathNote& note)
     if (note.medium != 0) {
         const MediumData& medium = report.prepared.flat.media[note.medium - 1];
         std::cout << "\n  reached through medium " << note.medium << ": index " << exactText(medium.ior) << ", absorption "
-                  << textOf(medium.absorption) << " per metre";
+                  << toText(medium.absorption) << " per metre";
     }
     std::cout << "\n";
 }
@@ -129,7 +129,7 @@ Json materialJson(const ReplayReport& report, const PathNote& note)
 void printArrival(const PathVertex& vertex)
 {
     std::cout << "  ray from pdf " << (vertex.before.pdf > 0.0F ? exactText(vertex.before.pdf) + " per sr" : "0 (camera or delta lobe)")
-              << ", throughput " << textOf(vertex.before.throughput) << "\n";
+              << ", throughput " << toText(vertex.before.throughput) << "\n";
     // The light that the ray has hit may have weight 0, since light sampling finds it as well.
     if (vertex.emitted.radiance != glm::vec3(0.0F) || vertex.surface.misWeightOfHit != 1.0F) {
         std::cout << "  light hit: MIS weight " << exactText(vertex.surface.misWeightOfHit)
@@ -148,7 +148,7 @@ void printSampledLight(const ReplayReport& report, const SampledLight& each)
         std::cout << ", no contribution\n";
         return;
     }
-    std::cout << " towards " << textOf(each.ray.direction);
+    std::cout << " towards " << toText(each.ray.direction);
     if (!each.hemisphere) {
         std::cout << ", pdf " << (note.lightPdf > 0.0F ? exactText(note.lightPdf) + " per sr" : "0 (delta light)") << " against the BSDF's "
                   << exactText(note.bsdfPdf) << ", MIS weight " << exactText(note.misWeightOfLight);
@@ -157,7 +157,7 @@ void printSampledLight(const ReplayReport& report, const SampledLight& each)
     std::cout << ", "
               << (!lost             ? addedText(each.added)
                   : each.hemisphere ? "hits no light"
-                                    : "occluded (would add " + textOf(each.ray.contribution) + ")")
+                                    : "occluded (would add " + toText(each.ray.contribution) + ")")
               << "\n";
 }
 
@@ -167,8 +167,8 @@ void printScattering(const PathVertex& vertex)
     if (vertex.end == PathEnd::Continues) {
         std::cout << " by its " << kLobes[vertex.bsdf.lobe] << " lobe" << ((vertex.bsdf.lobeFlags & kDelta) != 0 ? ", delta" : "")
                   << ((vertex.bsdf.lobeFlags & kTransmitted) != 0 ? ", to the other side" : "") << ", with pdf "
-                  << exactText(vertex.after.pdf) << ", weight " << textOf(vertex.bsdf.weight) << ", throughput "
-                  << textOf(vertex.after.throughput);
+                  << exactText(vertex.after.pdf) << ", weight " << toText(vertex.bsdf.weight) << ", throughput "
+                  << toText(vertex.after.throughput);
     }
     if (vertex.bsdf.continuation > 0.0F) {
         std::cout << ", continuation probability " << exactText(vertex.bsdf.continuation);
@@ -179,8 +179,8 @@ void printScattering(const PathVertex& vertex)
 void printVertex(const ReplayReport& report, const PathVertex& vertex)
 {
     std::cout << "bounce " << vertex.bounce << ": ";
-    if (vertex.hit.record == kNoRecord) {
-        std::cout << "nothing along " << textOf(vertex.ray.direction) << "\n";
+    if (vertex.hit.primitiveRef == kNoPrimitiveRef) {
+        std::cout << "nothing along " << toText(vertex.ray.direction) << "\n";
         printArrival(vertex);
         return;
     }
@@ -193,25 +193,25 @@ void printVertex(const ReplayReport& report, const PathVertex& vertex)
     printScattering(vertex);
 }
 
-Json jsonOf(const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); }
-Json jsonOf(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
-Json jsonOf(const PathRadiance& added) { return {{"added", jsonOf(added.radiance)}, {"clamped", added.clamped}}; }
+Json toJson(const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); }
+Json toJson(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
+Json toJson(const PathRadiance& added) { return {{"added", toJson(added.radiance)}, {"clamped", added.clamped}}; }
 
 Json surfaceJson(const ReplayReport& report, const PathVertex& vertex)
 {
-    if (vertex.hit.record == kNoRecord) {
+    if (vertex.hit.primitiveRef == kNoPrimitiveRef) {
         return nullptr;
     }
-    const PrimitiveDescription met = describeRecord(report.prepared, vertex.hit.record);
+    const PrimitiveDescription met = describePrimitive(report.prepared, vertex.hit.primitiveRef);
     return {{"object", met.object},
             {"triangle", met.triangle ? Json(*met.triangle) : Json()},
             {"material", met.material},
             {"values", materialJson(report, vertex.surface)},
-            {"position", jsonOf(worldOf(report.prepared, vertex.surface.point))},
+            {"position", toJson(worldOf(report.prepared, vertex.surface.point))},
             {"distance", vertex.hit.t},
             {"front", vertex.surface.front != 0},
-            {"normal", jsonOf(vertex.surface.ng)},
-            {"shadingNormal", jsonOf(vertex.surface.ns)},
+            {"normal", toJson(vertex.surface.ng)},
+            {"shadingNormal", toJson(vertex.surface.ns)},
             {"cosine", cosineOf(vertex)}};
 }
 
@@ -223,11 +223,11 @@ Json lightJson(const ReplayReport& report, const SampledLight& each)
                  {"weight", each.note.misWeightOfLight},
                  {"shadowRay", nullptr}};
     if (each.hasShadowRay) {
-        json.set("shadowRay", {{"origin", jsonOf(worldOf(report.prepared, each.ray.origin))},
-                               {"direction", jsonOf(each.ray.direction)},
-                               {"contribution", jsonOf(each.ray.contribution)}});
+        json.set("shadowRay", {{"origin", toJson(worldOf(report.prepared, each.ray.origin))},
+                               {"direction", toJson(each.ray.direction)},
+                               {"contribution", toJson(each.ray.contribution)}});
     }
-    json.update(jsonOf(each.added));
+    json.update(toJson(each.added));
     return json;
 }
 
@@ -238,12 +238,12 @@ Json vertexJson(const ReplayReport& report, const PathVertex& vertex)
         sampled.append(lightJson(report, each));
     }
     Json emission = {{"pdf", vertex.surface.lightPdfOfHit}, {"weight", vertex.surface.misWeightOfHit}};
-    emission.update(jsonOf(vertex.emitted));
+    emission.update(toJson(vertex.emitted));
     Json json = {{"bounce", vertex.bounce},
-                 {"origin", jsonOf(worldOf(report.prepared, vertex.ray.origin))},
-                 {"direction", jsonOf(vertex.ray.direction)},
+                 {"origin", toJson(worldOf(report.prepared, vertex.ray.origin))},
+                 {"direction", toJson(vertex.ray.direction)},
                  {"pdf", vertex.before.pdf},
-                 {"throughput", jsonOf(vertex.before.throughput)},
+                 {"throughput", toJson(vertex.before.throughput)},
                  {"surface", surfaceJson(report, vertex)},
                  {"emission", emission},
                  {"sampledLights", sampled},
@@ -254,9 +254,9 @@ Json vertexJson(const ReplayReport& report, const PathVertex& vertex)
         json.set("next", {{"lobe", kLobes[vertex.bsdf.lobe]},
                           {"delta", (vertex.bsdf.lobeFlags & kDelta) != 0},
                           {"transmitted", (vertex.bsdf.lobeFlags & kTransmitted) != 0},
-                          {"weight", jsonOf(vertex.bsdf.weight)},
+                          {"weight", toJson(vertex.bsdf.weight)},
                           {"pdf", vertex.after.pdf},
-                          {"throughput", jsonOf(vertex.after.throughput)}});
+                          {"throughput", toJson(vertex.after.throughput)}});
     }
     return json;
 }
@@ -268,12 +268,12 @@ void printReplay(const ReplayReport& report)
               << ", " << place.y << "), sample " << place.sample << ", on " << report.device.name << "\n";
     if (!report.path.vertices.empty()) {
         const PathRay& ray = report.path.vertices.front().ray;
-        std::cout << "camera at " << pointText(worldOf(report.prepared, ray.origin)) << " towards " << textOf(ray.direction) << "\n";
+        std::cout << "camera at " << pointText(worldOf(report.prepared, ray.origin)) << " towards " << toText(ray.direction) << "\n";
     }
     for (const PathVertex& vertex : report.path.vertices) {
         printVertex(report, vertex);
     }
-    std::cout << "radiance " << textOf(report.path.radiance.radiance) << " W/(sr m^2)\n";
+    std::cout << "radiance " << toText(report.path.radiance.radiance) << " W/(sr m^2)\n";
 }
 
 void writeReplay(const std::filesystem::path& file, const ReplayReport& report)
@@ -290,7 +290,7 @@ void writeReplay(const std::filesystem::path& file, const ReplayReport& report)
                        {"sample", place.sample},
                        {"settings", describeSettings(report.settings) + describeCamera(report.options.pose, report.options.lens)},
                        {"device", {{"name", report.device.name}, {"driver", report.device.driver}, {"kind", report.device.kind}}},
-                       {"radiance", jsonOf(report.path.radiance.radiance)},
+                       {"radiance", toJson(report.path.radiance.radiance)},
                        {"clamped", report.path.radiance.clamped},
                        {"vertices", vertices}};
     writeJson(file, json);
@@ -314,8 +314,8 @@ void runReplay(const RenderJob& options)
     }
     const VulkanInstance instance;
     Device device(instance, options.device);
-    const PreparedScene prepared = prepareScene(options.scene, loadOptionsOf(options), options.split);
-    const Camera camera = cameraOf(prepared.scene, options);
+    const PreparedScene prepared = prepareScene(options.scene, makeLoadOptions(options), options.split);
+    const Camera camera = makeCamera(prepared.scene, options);
     sayIfCameraIsNumber(prepared.scene, options.camera);
     const RenderSettings settings = settingsFor(options, camera);
     refuseOutside(*options.replay, settings);

@@ -37,7 +37,7 @@ ExitCode serve()
     ExitCode last = ExitCode::Done;
     for (std::string text; !isSignal(last) && std::getline(std::cin, text);) {
         Json id;
-        const Outcome outcome = outcomeOf([&] {
+        const Outcome outcome = runForOutcome([&] {
             const std::optional<Json> request = Json::parse(text);
             id = request && request->find("id") != nullptr ? request->at("id") : Json();
             const Json* options = request ? request->find("render") : nullptr;

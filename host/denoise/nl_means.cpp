@@ -29,13 +29,13 @@ float scaleOf(const std::vector<PixelMoments>& pixels)
 // Where the variance is unknown, the pixel itself stands for its standard error.
 NoisyPixel noisyPixel(const PixelMoments& pixel, float scale)
 {
-    constexpr float kMost = 1e15F;  // so that no square overflows
-    const glm::vec3 mean = glm::clamp(pixel.mean / scale, -kMost, kMost);
-    const glm::vec3 variance = varianceOfMean(pixel) / (scale * scale);
+    constexpr float kMax = 1e15F;  // so that no square overflows
+    const glm::vec3 mean = glm::clamp(pixel.mean / scale, -kMax, kMax);
+    const glm::vec3 variance = computeVarianceOfMean(pixel) / (scale * scale);
     NoisyPixel noisy{mean, mean * mean};
     for (int c = 0; c < 3; ++c) {
         if (std::isfinite(variance[c])) {
-            noisy.variance[c] = std::min(variance[c], kMost * kMost);
+            noisy.variance[c] = std::min(variance[c], kMax * kMax);
         }
     }
     return noisy;

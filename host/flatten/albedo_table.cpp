@@ -68,7 +68,7 @@ std::vector<glm::dvec2> makeRow(const GaussRule& rule, std::size_t j)
 
 // 2 int f(cosine) cosine dcosine of the function that the row's bilinear look-up gives, exactly: linear in x between columns, and the
 // cosine is x^4.
-glm::dvec2 averageOf(const std::vector<glm::dvec2>& row)
+glm::dvec2 computeAverage(const std::vector<glm::dvec2>& row)
 {
     glm::dvec2 sum(0.0);
     for (std::size_t i = 0; i + 1 < kAlbedoSize; ++i) {
@@ -82,7 +82,7 @@ glm::dvec2 averageOf(const std::vector<glm::dvec2>& row)
 
 double sheenLambda(double cosine, double alpha)
 {
-    const SheenFit fit = sheenFitOf(alpha);
+    const SheenFit fit = fitSheen(alpha);
     const auto log = [&fit](double x) { return evalSheenFit(fit, x, std::pow(x, fit.c)); };
     return std::exp(cosine < 0.5 ? log(cosine) : 2.0 * log(0.5) - log(1.0 - cosine));
 }
@@ -111,13 +111,13 @@ double integrateSheen(const GaussRule& rule, double cosine, double alpha)
 
 std::vector<uvec4> makeSheenTable()
 {
-    constexpr double kLeastAlpha = 1e-4, kLeastCosine = 1e-5;  // kMinSheenRoughness squared; below, the lobe is not resolved
+    constexpr double kMinAlpha = 1e-4, kMinCosine = 1e-5;  // kMinSheenRoughness squared; below, the lobe is not resolved
     const GaussRule rule(kNodes);
     std::vector<std::vector<double>> rows(kAlbedoSize);
     parallelFor(rows.size(), std::thread::hardware_concurrency(), [&](std::size_t j) {
         for (std::size_t i = 0; i < kAlbedoSize; ++i) {
             rows[j].push_back(rounded(
-                integrateSheen(rule, std::max(std::pow(rootAt(i), 4.0), kLeastCosine), std::max(std::pow(rootAt(j), 4.0), kLeastAlpha))));
+                integrateSheen(rule, std::max(std::pow(rootAt(i), 4.0), kMinCosine), std::max(std::pow(rootAt(j), 4.0), kMinAlpha))));
         }
     });
     std::vector<uvec4> table;
@@ -140,7 +140,7 @@ std::vector<uvec4> makeAlbedoTable()
     std::vector<glm::dvec2> averages;
     for (const std::vector<glm::dvec2>& row : rows) {
         pushTexels(table, row);
-        averages.push_back(averageOf(row));
+        averages.push_back(computeAverage(row));
     }
     pushTexels(table, averages);
     return table;

@@ -16,7 +16,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr std::size_t kCosines = kAnisotropicCosines, kRatios = kAnisotropicRatios, kAlphas = kAnisotropicAlphas;
 
 // In the place of 0 at the ends of the table's axes: what the functions tend to.
-constexpr double kLeastSeen = 1e-4, kLeastRatio = 1e-3, kLeastAlpha = 1e-3;
+constexpr double kMinSeen = 1e-4, kMinRatio = 1e-3, kMinAlpha = 1e-3;
 
 // Half circles of azimuths, as cosine, sine and weight, with more nodes at their ends, and nodes in (0, 1) with more at 0.
 struct Nodes {
@@ -98,11 +98,11 @@ std::vector<glm::dvec2> makeEntries()
     const Nodes nodes;
     std::vector<glm::dvec2> entries(kAnisotropicAlbedos);
     parallelFor(kRatios * kRatios * kAlphas, std::thread::hardware_concurrency(), [&](std::size_t row) {
-        const double narrow = std::max(share(row % kRatios, kRatios), kLeastRatio);
-        const double wide = std::max(share(row / kRatios % kRatios, kRatios), kLeastRatio);
-        const double alpha = std::max(powerOfShare(row / (kRatios * kRatios), kAlphas), kLeastAlpha);
+        const double narrow = std::max(share(row % kRatios, kRatios), kMinRatio);
+        const double wide = std::max(share(row / kRatios % kRatios, kRatios), kMinRatio);
+        const double alpha = std::max(powerOfShare(row / (kRatios * kRatios), kAlphas), kMinAlpha);
         for (std::size_t i = 0; i < kCosines; ++i) {
-            entries[row * kCosines + i] = entryOf(nodes, std::max(powerOfShare(i, kCosines), kLeastSeen), narrow, wide, alpha);
+            entries[row * kCosines + i] = entryOf(nodes, std::max(powerOfShare(i, kCosines), kMinSeen), narrow, wide, alpha);
         }
     });
     return entries;
@@ -136,8 +136,8 @@ glm::dvec2 lookUp(const std::vector<glm::dvec2>& entries, const glm::dvec3& w, c
 }
 
 // l and b (scene_types.h): of what kernels look up, so that what the microfacets lose in one direction comes back in all.
-glm::dvec2 averageOf(const std::vector<glm::dvec2>& entries, const GaussRule& cosines, const GaussRule& azimuths, double alphaX,
-                     double ratio)
+glm::dvec2 computeAverage(const std::vector<glm::dvec2>& entries, const GaussRule& cosines, const GaussRule& azimuths, double alphaX,
+                          double ratio)
 {
     const glm::dvec2 alpha(alphaX, ratio * alphaX);
     glm::dvec2 sum(0.0);
@@ -158,9 +158,9 @@ std::vector<glm::dvec2> makeAverages(const std::vector<glm::dvec2>& entries)
     const GaussRule cosines(24), azimuths(10);
     std::vector<glm::dvec2> averages(std::size_t{kAnisotropicAverageRatios} * kAnisotropicAverageAlphas);
     parallelFor(averages.size(), std::thread::hardware_concurrency(), [&](std::size_t i) {
-        const double ratio = std::max(share(i % kAnisotropicAverageRatios, kAnisotropicAverageRatios), kLeastRatio);
+        const double ratio = std::max(share(i % kAnisotropicAverageRatios, kAnisotropicAverageRatios), kMinRatio);
         const double root = share(i / kAnisotropicAverageRatios, kAnisotropicAverageAlphas);
-        averages[i] = averageOf(entries, cosines, azimuths, std::max(root * root, kLeastAlpha), ratio);
+        averages[i] = computeAverage(entries, cosines, azimuths, std::max(root * root, kMinAlpha), ratio);
     });
     return averages;
 }

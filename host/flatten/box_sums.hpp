@@ -35,7 +35,8 @@ public:
     // The mean over all texels that a bilinear look-up within the box can touch, and one more on each side.
     double mean(const UvBox& box, const Texture& texture) const
     {
-        const Span x = spanOf(box.low.x, box.high.x, width_, texture.wrapS), y = spanOf(box.low.y, box.high.y, height_, texture.wrapT);
+        const Span x = computeSpan(box.low.x, box.high.x, width_, texture.wrapS),
+                   y = computeSpan(box.low.y, box.high.y, height_, texture.wrapT);
         std::uint64_t sum = 0;
         for (const Range& across : x.ranges) {
             for (const Range& down : y.ranges) {
@@ -58,7 +59,7 @@ private:
     std::uint64_t& at(std::uint32_t x, std::uint32_t y) { return sums_[std::size_t{y} * (width_ + 1) + x]; }
     std::uint64_t at(std::uint32_t x, std::uint32_t y) const { return sums_[std::size_t{y} * (width_ + 1) + x]; }
 
-    static Span spanOf(float low, float high, std::uint32_t size, Wrap wrap)
+    static Span computeSpan(float low, float high, std::uint32_t size, Wrap wrap)
     {
         const double first = std::floor(static_cast<double>(low) * size - 0.5) - 1.0,
                      last = std::floor(static_cast<double>(high) * size - 0.5) + 2.0;
@@ -85,7 +86,7 @@ private:
 };
 
 // The box of three corners' texture coordinates in the image.
-inline UvBox uvBoxOf(const Texture& texture, const glm::vec2 (&uv)[3])
+inline UvBox computeUvBox(const Texture& texture, const glm::vec2 (&uv)[3])
 {
     UvBox box{glm::vec2(std::numeric_limits<float>::infinity()), glm::vec2(-std::numeric_limits<float>::infinity())};
     for (const glm::vec2& corner : uv) {

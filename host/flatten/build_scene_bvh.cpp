@@ -20,7 +20,7 @@ constexpr double kWorthwhile = 0.9;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Rounded outwards.
-Box boxOf(const Sphere& sphere)
+Box computeBox(const Sphere& sphere)
 {
     Box box{sphere.center - sphere.radius, sphere.center + sphere.radius};
     for (int k = 0; k < 3; ++k) {
@@ -61,12 +61,12 @@ WideBvh buildTree(const std::vector<Triangle>& triangles, std::vector<Box> boxes
 }
 
 // Trees that follow one another share the stack.
-constexpr std::uint32_t kMostDepthOfTwo = kMaxWideDepth / 2;
+constexpr std::uint32_t kMaxDepthOfTwo = kMaxWideDepth / 2;
 
 WideBvh buildMeshTree(const SharedMesh& mesh, SplitRule rule)
 {
     WideBvh tree = buildTree(mesh.triangles, boxesOf(mesh.triangles), rule);
-    return tree.depth <= kMostDepthOfTwo ? tree : collapseBvh(buildBvh(boxesOf(mesh.triangles), SplitRule::Median));
+    return tree.depth <= kMaxDepthOfTwo ? tree : collapseBvh(buildBvh(boxesOf(mesh.triangles), SplitRule::Median));
 }
 
 // Where a ray enters an instance: at a node of the mesh's tree, for all that is below.
@@ -105,7 +105,7 @@ std::vector<Box> boxesOfTop(const Primitives& primitives, std::span<const WideNo
     }
     const glm::vec3 farthest = farthestOf(boxes);
     for (std::size_t i = 0; i < primitives.placements.size(); ++i) {
-        const glm::vec3 error = errorOfRays(primitives.placements[i], farthest);
+        const glm::vec3 error = boundRayError(primitives.placements[i], farthest);
         Box& box = boxes[firstInstance + i];
         box = {box.lo - error, box.hi + error};
     }
@@ -118,7 +118,7 @@ WideBvh buildTopTree(const Primitives& primitives, std::span<const WideNode> roo
     const std::vector<Box> boxes = boxesOfTop(primitives, roots);
     WideBvh top =
         collapseBvh(buildBvh(boxes, rule, std::thread::hardware_concurrency(), 1), std::thread::hardware_concurrency(), firstInstance);
-    if (top.depth > kMostDepthOfTwo) {
+    if (top.depth > kMaxDepthOfTwo) {
         top = collapseBvh(buildBvh(boxes, SplitRule::Median, std::thread::hardware_concurrency(), 1), std::thread::hardware_concurrency(),
                           firstInstance);
     }
@@ -264,7 +264,7 @@ std::vector<Box> primitiveBoxes(const Primitives& primitives)
 {
     std::vector<Box> boxes = boxesOf(primitives.triangles);
     for (const Sphere& sphere : primitives.spheres) {
-        boxes.push_back(boxOf(sphere));
+        boxes.push_back(computeBox(sphere));
     }
     return boxes;
 }

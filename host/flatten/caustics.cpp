@@ -45,7 +45,7 @@ BoundingSphere boundingSphere(std::span<const BoundingSphere> spheres)
     return bound;
 }
 
-BoundingSphere sphereOf(const Sphere& sphere)
+BoundingSphere computeBoundingSphere(const Sphere& sphere)
 {
     const double radius = static_cast<double>(sphere.radius);
     return {sphere.center, radius, 4.0 * kPi * radius * radius};
@@ -72,7 +72,7 @@ BoundingSphere boundingSphere(std::span<const Triangle> triangles)
 }
 
 // About the mesh's sphere; its area is about that of a uniform scale.
-BoundingSphere sphereOf(const Placement& placement, const BoundingSphere& mesh)
+BoundingSphere computeBoundingSphere(const Placement& placement, const BoundingSphere& mesh)
 {
     const glm::dmat3& linear = placement.linear;
     // The Frobenius norm is at least the greatest stretch.
@@ -89,13 +89,13 @@ std::vector<BoundingSphere> spheresOfPlacements(const Primitives& primitives)
         meshes.push_back(mesh.triangles.empty() ? BoundingSphere{} : boundingSphere(mesh.triangles));
     }
     for (const Placement& placement : primitives.placements) {
-        spheres.push_back(sphereOf(placement, meshes[placement.sharedMesh]));
+        spheres.push_back(computeBoundingSphere(placement, meshes[placement.sharedMesh]));
     }
     return spheres;
 }
 
 // The least value of a channel, in [0, 1].
-float leastOf(const DecodedImage& image, std::size_t channel)
+float findMin(const DecodedImage& image, std::size_t channel)
 {
     std::uint32_t least = 65535;
     for (std::size_t at = channel; at < image.rgba8.size(); at += 4) {
@@ -124,7 +124,7 @@ public:
 private:
     bool isSmooth(float roughness, const std::optional<Texture>& texture) const
     {
-        const float least = roughness * (texture ? leastOf(*scene_.images[texture->image].pixels, 1) : 1.0F);
+        const float least = roughness * (texture ? findMin(*scene_.images[texture->image].pixels, 1) : 1.0F);
         return least * least < kMinAlpha;
     }
 
@@ -141,9 +141,9 @@ private:
 
     bool mayBeSpecular(std::size_t id) const
     {
-        const std::uint32_t lobe = flat_.materials[id].lobe;
-        if (lobe != kPrincipled) {
-            return lobe == kMirror || lobe == kDielectric;
+        const std::uint32_t type = flat_.materials[id].type;
+        if (type != kPrincipled) {
+            return type == kMirror || type == kDielectric;
         }
         const Material& material = scene_.materials[id];
         const bool smooth = material.glossy ? material.roughness > 1.0F - std::sqrt(kMinAlpha) || material.textures[kSlotSpecularColor]
@@ -174,7 +174,7 @@ std::vector<BoundingSphere> findTargets(const SpecularMaterials& specular, const
     }
     for (const Sphere& sphere : primitives.spheres) {
         if (specular[sphere.material]) {
-            targets.push_back(sphereOf(sphere));
+            targets.push_back(computeBoundingSphere(sphere));
         }
     }
     return targets;
@@ -253,7 +253,7 @@ double shareOf(const FlatLight& light, const BoundingSphere& target)
 }
 
 // W.
-double fluxOf(const FlatLight& light)
+double computeFlux(const FlatLight& light)
 {
     const std::uint32_t kind = light.kind & kLightKindMask;
     const double size = static_cast<double>(light.size);
@@ -271,11 +271,11 @@ double fluxToTargets(const FlatLight& light, std::span<const BoundingSphere> tar
         sum += (light.kind & kLightKindMask) == kDirectionalLight ? kPi * target.radius * target.radius * strength(light.intensity)
                                                                   : shareOf(light, target);
     }
-    return (light.kind & kLightKindMask) == kDirectionalLight ? sum : std::min(sum, 1.0) * fluxOf(light);
+    return (light.kind & kLightKindMask) == kDirectionalLight ? sum : std::min(sum, 1.0) * computeFlux(light);
 }
 
 // W/(sr m^2), about.
-double brightnessOf(const FlatLight& light, double sceneRadius)
+double computeBrightness(const FlatLight& light, double sceneRadius)
 {
     const std::uint32_t kind = light.kind & kLightKindMask;
     const double intensity = strength(light.intensity);
@@ -284,8 +284,8 @@ double brightnessOf(const FlatLight& light, double sceneRadius)
 
 bool isPunctual(const FlatLight& light) { return (light.kind & kLightKindMask) > kSphereLight; }
 
-// The probability, about, that a specular ray from the target meets the lamp.
-double shareOfLamp(const FlatLight& light, const BoundingSphere& target)
+// The probability, about, that a specular ray from the target meets the light.
+double computeShareOfLight(const FlatLight& light, const BoundingSphere& target)
 {
     const bool sphere = (light.kind & kLightKindMask) == kSphereLight;
     const double size = static_cast<double>(light.size), area = sphere ? kPi * size * size : size;
@@ -295,9 +295,9 @@ double shareOfLamp(const FlatLight& light, const BoundingSphere& target)
 }
 
 // Whether light paths meet caustics more often than camera paths do, in a room of this surface area: per sample of a pixel, a tenth of the
-// share of light paths that hit what they are aimed at, against the chance that a diffuse ray meets a target and then a lamp. The factor is
-// measured, with lamps of three sizes, balls and a mirror for a wall (tests/bench/EXPERIMENTS.md). Camera paths never find a light without
-// extent.
+// share of light paths that hit what they are aimed at, against the chance that a diffuse ray meets a target and then a light. The factor
+// is measured, with lights of three sizes, balls and a mirror for a wall (tests/bench/EXPERIMENTS.md). Camera paths never find a light
+// without extent.
 bool areLightPathsBetter(std::span<const FlatLight> lights, std::span<const double> fluxes, std::span<const BoundingSphere> targets,
                          double roomArea)
 {
@@ -311,7 +311,7 @@ bool areLightPathsBetter(std::span<const FlatLight> lights, std::span<const doub
             if (isPunctual(lights[i]) && fluxes[i] > 0.0) {
                 return true;
             }
-            share += shareOfLamp(lights[i], target);
+            share += computeShareOfLight(lights[i], target);
         }
         const double weight = kPi * target.radius * target.radius;
         hits += weight * shown;
@@ -370,7 +370,7 @@ void addCaustics(FlatScene& flat, const Scene& scene, const Primitives& primitiv
         all.push_back(boundingSphere(primitives.triangles));
     }
     for (const Sphere& sphere : primitives.spheres) {
-        all.push_back(sphereOf(sphere));
+        all.push_back(computeBoundingSphere(sphere));
     }
     const BoundingSphere whole = boundingSphere(std::span<const BoundingSphere>(all));
     std::vector<double> fluxes;
@@ -378,7 +378,7 @@ void addCaustics(FlatScene& flat, const Scene& scene, const Primitives& primitiv
     for (std::size_t i = 0; i < lights; ++i) {
         fluxes.push_back(fluxToTargets(flat.lights[i], targets));
         sum += fluxes.back();
-        brightness = std::max(brightness, brightnessOf(flat.lights[i], whole.radius));
+        brightness = std::max(brightness, computeBrightness(flat.lights[i], whole.radius));
     }
     if (!(sum > 0.0) || !areLightPathsBetter(std::span(flat.lights).first(lights), fluxes, targets, roomArea(primitives, placed))) {
         return;

@@ -13,7 +13,7 @@ float alphaOf(const DecodedImage& image, std::size_t texel)
                                 : static_cast<float>(image.rgba16[4 * texel + 3]) / 65535.0F;
 }
 
-Coverage coverageOf(const Material& material, float alpha)
+Coverage computeCoverage(const Material& material, float alpha)
 {
     if (material.alphaMode == AlphaMode::Mask) {
         return alpha >= material.alphaCutoff ? Coverage::Opaque : Coverage::Transparent;
@@ -29,7 +29,7 @@ bool hasAlpha(const Mesh& mesh)
 
 }  // namespace
 
-const AlphaClassifier::Shares& AlphaClassifier::sharesOf(const Material& material)
+const AlphaClassifier::Shares& AlphaClassifier::findShares(const Material& material)
 {
     const Rule rule(material.textures[kSlotBaseColor]->image, material.alphaMode, material.alphaCutoff, material.alpha);
     const auto known = shares_.find(rule);
@@ -40,7 +40,7 @@ const AlphaClassifier::Shares& AlphaClassifier::sharesOf(const Material& materia
     const auto sumsOf = [&](Coverage coverage) {
         return BoxSums(image.width, image.height, [&](std::uint32_t x, std::uint32_t y) {
             const float alpha = material.alpha * alphaOf(image, std::size_t{y} * image.width + x);
-            return coverageOf(material, alpha) == coverage ? 1U : 0U;
+            return computeCoverage(material, alpha) == coverage ? 1U : 0U;
         });
     };
     return shares_.emplace(rule, Shares{sumsOf(Coverage::Opaque), sumsOf(Coverage::Transparent)}).first->second;
@@ -59,7 +59,7 @@ Coverage AlphaClassifier::classify(const Mesh& mesh, const std::array<std::uint3
         return Coverage::Mixed;
     }
     if (!material.textures[kSlotBaseColor]) {
-        return coverageOf(material, material.alpha);
+        return computeCoverage(material, material.alpha);
     }
     const Texture& texture = *material.textures[kSlotBaseColor];
     const std::vector<glm::vec2>& uv = texture.uvSet == 0 ? mesh.uv0 : mesh.uv1;
@@ -67,8 +67,8 @@ Coverage AlphaClassifier::classify(const Mesh& mesh, const std::array<std::uint3
     for (std::size_t v = 0; v < 3 && !uv.empty(); ++v) {
         at[v] = uv[corners[v]];
     }
-    const Shares& shares = sharesOf(material);
-    const UvBox box = uvBoxOf(texture, at);
+    const Shares& shares = findShares(material);
+    const UvBox box = computeUvBox(texture, at);
     return shares.opaque.mean(box, texture) == 1.0        ? Coverage::Opaque
            : shares.transparent.mean(box, texture) == 1.0 ? Coverage::Transparent
                                                           : Coverage::Mixed;
@@ -80,7 +80,7 @@ Coverage AlphaClassifier::classify(const Sphere& sphere) const
     return material.unlit || passesStraight(material) ? Coverage::Mixed
            : material.alphaMode == AlphaMode::Opaque  ? Coverage::Opaque
            : material.textures[kSlotBaseColor]        ? Coverage::Mixed
-                                                      : coverageOf(material, material.alpha);
+                                                      : computeCoverage(material, material.alpha);
 }
 
 }  // namespace glim

@@ -24,7 +24,7 @@ private:
     struct Shares {
         BoxSums opaque, transparent;
     };
-    const Shares& sharesOf(const Material& material);
+    const Shares& findShares(const Material& material);
 
     // What a texel's coverage depends on: image, mode, cutoff and factor. Sums are as large as images, and materials may share one.
     using Rule = std::tuple<std::uint32_t, AlphaMode, float, float>;

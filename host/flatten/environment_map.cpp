@@ -41,7 +41,7 @@ uvec2 packTexel(const glm::vec3& color)
 
 double strongest(const glm::vec3& c) { return static_cast<double>(std::max({c.r, c.g, c.b})); }
 
-// The mean of the bilinear interpolant over a texel, a filter (1, 6, 1) / 8 each way: no cell next to a lamp is without weight.
+// The mean of the bilinear interpolant over a texel, a filter (1, 6, 1) / 8 each way: no cell next to a light is without weight.
 double meanOverTexel(const RadianceMap& map, std::uint32_t x, std::uint32_t y)
 {
     const std::uint32_t left = x == 0 ? map.width - 1 : x - 1, right = x + 1 == map.width ? 0 : x + 1;
@@ -125,10 +125,10 @@ std::vector<uvec4> makeCells(const std::vector<double>& weights, const CellGrid&
     std::vector<uvec4> cells;
     cells.reserve(weights.size() + 2 * std::size_t{grid.height});
     for (std::uint32_t row = 0; row < grid.height; ++row) {
-        const double pdfOfRow = probabilityOf(rows[row]) / solidAngle(row, grid);
+        const double pdfOfRow = computeProbability(rows[row]) / solidAngle(row, grid);
         const std::span<const double> ofRow = std::span(weights).subspan(std::size_t{row} * grid.width, grid.width);
         for (const PiecewiseConstantEntry& cell : buildPiecewiseConstant(ofRow)) {
-            cells.push_back(texelOf(cell, pdfOfRow * probabilityOf(cell)));
+            cells.push_back(texelOf(cell, pdfOfRow * computeProbability(cell)));
         }
     }
     for (std::uint32_t row = 0; row < grid.height; ++row) {

@@ -24,20 +24,20 @@ void addNormals(Fingerprint& print, const FlatScene& scene, std::size_t primitiv
     }
 }
 
-// In order of primitives, because the order and the number of records depend on the tree.
+// In order of primitives, because the order and the number of references depend on the tree.
 std::uint64_t printSurfaces(const FlatScene& scene)
 {
-    const std::size_t count = scene.records.size() / kRecordTexels;
-    std::vector<std::uint32_t> recordOf;
-    for (std::uint32_t record = 0; record < count; ++record) {
-        const std::size_t primitive = scene.records[record * kRecordTexels].w;
-        recordOf.resize(std::max(recordOf.size(), primitive + 1));
-        recordOf[primitive] = record;
+    const std::size_t count = scene.primitiveRefs.size() / kPrimitiveRefTexels;
+    std::vector<std::uint32_t> refOfPrimitive;
+    for (std::uint32_t ref = 0; ref < count; ++ref) {
+        const std::size_t primitive = scene.primitiveRefs[ref * kPrimitiveRefTexels].w;
+        refOfPrimitive.resize(std::max(refOfPrimitive.size(), primitive + 1));
+        refOfPrimitive[primitive] = ref;
     }
     Fingerprint print;
-    for (std::size_t primitive = 0; primitive < recordOf.size(); ++primitive) {
-        const std::size_t at = std::size_t{recordOf[primitive]} * kRecordTexels;
-        print.addBytes(std::as_bytes(std::span(scene.records).subspan(at, kRecordTexels)));
+    for (std::size_t primitive = 0; primitive < refOfPrimitive.size(); ++primitive) {
+        const std::size_t at = std::size_t{refOfPrimitive[primitive]} * kPrimitiveRefTexels;
+        print.addBytes(std::as_bytes(std::span(scene.primitiveRefs).subspan(at, kPrimitiveRefTexels)));
         if (!scene.triangles.empty()) {
             addNormals(print, scene, primitive);
         }
@@ -64,9 +64,10 @@ static_assert(sizeof(LightNode) == kLightNodeTexels * sizeof(uvec4));
 
 std::uint64_t sizeInBytes(const FlatScene& scene)
 {
-    return bytesOf(scene.nodes) + bytesOf(scene.records) + bytesOf(scene.triangles) + bytesOf(scene.vertices) + bytesOf(scene.materials) +
-           bytesOf(scene.lights) + bytesOf(scene.lightNodes) + bytesOf(scene.principled) + bytesOf(scene.layers) + bytesOf(scene.textures) +
-           bytesOf(scene.media) + bytesOf(scene.albedos) + bytesOf(scene.caustics) + bytesOf(scene.instances) + textureBytes(scene);
+    return bytesOf(scene.nodes) + bytesOf(scene.primitiveRefs) + bytesOf(scene.triangles) + bytesOf(scene.vertices) +
+           bytesOf(scene.materials) + bytesOf(scene.lights) + bytesOf(scene.lightNodes) + bytesOf(scene.principled) +
+           bytesOf(scene.layers) + bytesOf(scene.textures) + bytesOf(scene.media) + bytesOf(scene.albedos) + bytesOf(scene.caustics) +
+           bytesOf(scene.instances) + textureBytes(scene);
 }
 
 std::uint64_t textureBytes(const FlatScene& scene)
@@ -83,7 +84,7 @@ std::uint64_t fingerprint(const FlatScene& scene)
     Fingerprint print(*surfaces);
     print.add(scene.materials);
     for (FlatLight light : scene.lights) {
-        light.record = 0;
+        light.primitiveRef = 0;
         print.add(std::vector<FlatLight>{light});
     }
     print.add(scene.principled);
@@ -97,12 +98,12 @@ std::uint64_t fingerprint(const FlatScene& scene)
         print.add(std::vector<std::uint64_t>{scene.environmentMap->fingerprint});
     }
     if (!scene.environmentMap->texels.empty() || scene.hidesEnvironment) {
-        print.add(std::vector<vec3>{scene.environment, vec3(scene.environmentTurn, scene.hidesEnvironment ? 1.0F : 0.0F)});
+        print.add(std::vector<vec3>{scene.environment, vec3(scene.environmentRotation, scene.hidesEnvironment ? 1.0F : 0.0F)});
     }
     for (std::size_t at = 0; at < scene.instances.size(); at += kInstanceTexels) {
         std::array<uvec4, kInstanceTexels> instance{};
         std::copy_n(scene.instances.begin() + static_cast<std::ptrdiff_t>(at), kInstanceTexels, instance.begin());
-        instance[0].w = instance[1].w = 0;  // records
+        instance[0].w = instance[1].w = 0;  // references
         print.addBytes(std::as_bytes(std::span(instance)));
     }
     print.add(scene.caustics);  // films with caustics by path tracing are others

@@ -34,7 +34,7 @@ struct PackedEnvironment {
     std::uint64_t fingerprint = 0;  // of the texels
 };
 
-// That the records of a primitive say which light it is.
+// That the references of a primitive say which light it is.
 struct LightMark {
     std::uint32_t primitive;
     std::uint32_t light;  // its index plus 1
@@ -44,11 +44,11 @@ struct LightMark {
 
 struct FlatScene {
     SharedVector<uvec4> nodes;
-    SharedVector<uvec4> records;              // for traversal, in the order of the BVH's leaves
+    SharedVector<uvec4> primitiveRefs;        // for traversal, in the order of the BVH's leaves
     SharedVector<uvec4> triangles, vertices;  // for shading; empty if no triangle has vertex attributes
     SharedVector<uvec4> instances;            // of shared meshes; empty without kFeatureInstances
     std::uint32_t triangleCount = 0;
-    std::uint32_t firstInstanceRecord = 0;                        // records from here on are those of instances (scene_types.h)
+    std::uint32_t firstInstanceRef = 0;                           // references from here on are those of instances (scene_types.h)
     std::uint32_t firstUv = 0, firstTangent = 0, firstColor = 0;  // sections of `vertices`
     std::vector<MaterialData> materials;
     std::vector<PrincipledData> principled;  // behind the materials, in the same buffer
@@ -62,7 +62,7 @@ struct FlatScene {
     std::vector<std::uint64_t> imageBytes;  // of each image of the scene; 0: of one colour, which is in the factors. Not on the device
     std::vector<uvec4> albedos;             // empty without kFeaturePrincipled
     std::vector<FlatLight> lights;
-    std::vector<LightMark> lightMarks;  // in the records; not on the device
+    std::vector<LightMark> lightMarks;  // in the references; not on the device
     std::vector<LightNode> lightNodes;
     std::uint32_t finiteLights = 0;               // the first lights
     float infiniteImportance = 0.0F;              // as in RenderParameters
@@ -71,12 +71,12 @@ struct FlatScene {
     std::uint32_t stackLevels = kMaxStackLevels;  // of the traversal stack
     vec3 environment{0.0F};                       // radiance, or what multiplies that of the map
     bool hidesEnvironment = false;                // from the camera
-    vec2 environmentTurn{1.0F, 0.0F};             // cosine and sine of the map's rotation
+    vec2 environmentRotation{1.0F, 0.0F};         // cosine and sine of the map's rotation
     std::shared_ptr<const PackedEnvironment> environmentMap = std::make_shared<PackedEnvironment>();  // never null
     std::uint32_t environmentLight = 0;  // index among lights, if the scene has kFeatureEnvironment
     std::vector<uvec4> caustics;         // as scene_types.h says; empty without kFeatureCaustics
     std::uint32_t causticTargets = 0, causticLights = 0;
-    // Of the fingerprint what records, triangles and vertices make of it, once somebody has asked.
+    // Of the fingerprint what references, triangles and vertices make of it, once somebody has asked.
     std::shared_ptr<std::optional<std::uint64_t>> surfacesPrint = std::make_shared<std::optional<std::uint64_t>>();
     std::vector<Triangle> largest;  // the 64 largest triangles outside of shared meshes; not on the device
     float brightness = 0.0F;        // about the radiance, W/(sr m^2), that the brightest light gives a white surface; of caustics

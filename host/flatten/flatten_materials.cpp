@@ -22,7 +22,7 @@ static_assert([] {
 }());
 
 // The layers that the material has.
-FeatureMask layersOf(const Material& m)
+FeatureMask findLayers(const Material& m)
 {
     return (m.clearcoat > 0.0F ? kFeatureClearcoat : 0U) | (m.sheenColor != glm::vec3(0.0F) ? kFeatureSheen : 0U) |
            (m.anisotropy > 0.0F ? kFeatureAnisotropy : 0U) | (m.iridescence > 0.0F ? kFeatureIridescence : 0U) |
@@ -35,7 +35,7 @@ bool isSmoothGlass(const Material& m)
     const bool textured =
         m.textures[kSlotTransmission] || m.textures[kSlotMetallicRoughness] || m.textures[kSlotSpecular] || m.textures[kSlotSpecularColor];
     return m.solid && m.transmission == 1.0F && m.metallic == 0.0F && m.specular == 1.0F && m.specularColor == glm::vec3(1.0F) &&
-           m.roughness * m.roughness < kMirrorAlpha && !m.glossy && layersOf(m) == kFeatureTransmission && !textured;
+           m.roughness * m.roughness < kMirrorAlpha && !m.glossy && findLayers(m) == kFeatureTransmission && !textured;
 }
 
 // The one colour of an image, if it has no other: in [0, 1], as stored.
@@ -121,9 +121,9 @@ public:
         data.ior = material.transmission > 0.0F ? material.ior : kUnusedIor;
         const bool thin = passesStraight(source) && material.transmission > 0.0F;
         data.flags = (material.doubleSided ? kDoubleSided : 0U) | (thin ? kThinWall : 0U);
-        data.lobe = lobeOf(material);
-        if ((textured || colored) && (data.lobe == kLambert || data.lobe == kMirror)) {
-            data.lobe = kPrincipled;
+        data.type = chooseMaterialType(material);
+        if ((textured || colored) && (data.type == kLambert || data.type == kMirror)) {
+            data.type = kPrincipled;
         }
         if (material.alphaMode != AlphaMode::Opaque || material.unlit || thin) {
             data.alpha = material.alpha;
@@ -131,16 +131,16 @@ public:
                                : material.alphaMode == AlphaMode::Blend ? kCoverage
                                                                         : kOpaque;
         }
-        if (textured || colored || tracked || data.lobe == kPrincipled) {
+        if (textured || colored || tracked || data.type == kPrincipled) {
             data.principled = static_cast<std::uint32_t>(flat_.principled.size() + 1);  // its place is known at the end
             flat_.principled.push_back(makePrincipled(material));
-            if (layersOf(material) != 0 || tracked) {
+            if (findLayers(material) != 0 || tracked) {
                 flat_.layers.push_back(makeLayers(material, media_.ofMaterial[id]));
                 flat_.principled.back().layers = static_cast<std::uint32_t>(flat_.layers.size());
             }
             features_ |= kFeaturePrincipled | (material.glossy ? kFeatureGlossiness : 0U);
         }
-        features_ |= data.lobe == kMirror ? kFeatureMirror : data.lobe == kDielectric ? kFeatureDielectric : 0U;
+        features_ |= data.type == kMirror ? kFeatureMirror : data.type == kDielectric ? kFeatureDielectric : 0U;
         features_ |= tracked ? kFeatureMedia | (media_.disperses ? kFeatureDispersion : 0U) : 0U;
         features_ |= material.unlit ? kFeatureUnlit : thin ? kFeatureThinWalls : 0U;
         flat_.materials.push_back(data);
@@ -204,7 +204,7 @@ private:
     {
         const glm::vec3 rgb(texel);
         const float r = texel.r, g = texel.g, b = texel.b, a = texel.a;
-#define TIMES(record, factor, channels) m.factor *= channels;
+#define TIMES(part, factor, channels) m.factor *= channels;
 #define SLOT(number, name, holds, feature, path, times) \
     if (slot == kSlot##name) {                          \
         times                                           \
@@ -223,7 +223,7 @@ private:
     static void leaveOutAbsentLayers(Material& m)
     {
         for (const TextureSlot& slot : kTextureSlots) {
-            if ((slot.feature & kLayerFeatures & ~layersOf(m)) != 0) {
+            if ((slot.feature & kLayerFeatures & ~findLayers(m)) != 0) {
                 m.textures[slot.number].reset();
             }
         }
@@ -248,7 +248,7 @@ private:
         data.diffuseTransmission = m.diffuseTransmission;
         data.diffuseTransmissionColor = m.diffuseTransmissionColor;
         data.medium = medium;
-        features_ |= layersOf(m) & ~(lobeOf(m) == kPrincipled ? 0U : kFeatureTransmission);
+        features_ |= findLayers(m) & ~(chooseMaterialType(m) == kPrincipled ? 0U : kFeatureTransmission);
         return data;
     }
 
@@ -316,9 +316,9 @@ private:
 
 }  // namespace
 
-std::uint32_t lobeOf(const Material& m)
+std::uint32_t chooseMaterialType(const Material& m)
 {
-    const bool plain = layersOf(m) == 0;
+    const bool plain = findLayers(m) == 0;
     const bool smooth = m.roughness * m.roughness < kMirrorAlpha && !m.textures[kSlotMetallicRoughness];
     if (m.unlit) {
         return kUnlit;
@@ -335,7 +335,7 @@ std::uint32_t lobeOf(const Material& m)
 bool passesStraight(const Material& m)
 {
     const bool smooth = m.roughness * m.roughness < kMirrorAlpha && !m.textures[kSlotMetallicRoughness];
-    const bool plain = (layersOf(m) & ~kFeatureDiffuseTransmission) == kFeatureTransmission && !m.textures[kSlotSpecular] &&
+    const bool plain = (findLayers(m) & ~kFeatureDiffuseTransmission) == kFeatureTransmission && !m.textures[kSlotSpecular] &&
                        !m.textures[kSlotSpecularColor] && !m.glossy;
     return !m.unlit && !m.solid && m.metallic < 1.0F && smooth && plain;
 }

@@ -1,4 +1,4 @@
-// Materials and images to the records that kernels read.
+// Materials and images to the data that kernels read.
 #pragma once
 
 #include "host/flatten/flat_scene.hpp"
@@ -7,7 +7,7 @@
 namespace glim {
 
 // kLambert ... (shaders/shared/scene_types.h): the simplest that draws the material exactly, textures and vertex colours apart.
-std::uint32_t lobeOf(const Material& material);
+std::uint32_t chooseMaterialType(const Material& material);
 
 // Whether light that the material transmits passes it straight, so that shadow rays pass it too: a smooth thin wall whose reflection no
 // layer or texture changes.

@@ -32,7 +32,7 @@ bool isSliver(const Triangle& triangle)
     return glm::length(glm::cross(a, c)) < static_cast<double>(kSliverHeight) * square;
 }
 
-// What records say of each material.
+// What primitive references say of each material.
 std::vector<std::uint32_t> materialWordsOf(const Scene& scene)
 {
     std::vector<std::uint32_t> words;
@@ -45,15 +45,15 @@ std::vector<std::uint32_t> materialWordsOf(const Scene& scene)
 // Of each primitive: the last one if it has several.
 std::vector<std::uint32_t> findRecords(const Primitives& primitives, const WideBvh& bvh)
 {
-    std::vector<std::uint32_t> recordOf(primitives.count());
-    for (std::uint32_t record = 0; record < bvh.order.size() && bvh.order[record] < recordOf.size(); ++record) {
-        recordOf[bvh.order[record]] = record;
+    std::vector<std::uint32_t> refOfPrimitive(primitives.count());
+    for (std::uint32_t ref = 0; ref < bvh.order.size() && bvh.order[ref] < refOfPrimitive.size(); ++ref) {
+        refOfPrimitive[bvh.order[ref]] = ref;
     }
-    return recordOf;
+    return refOfPrimitive;
 }
 
-// The records of primitives and shared meshes, and what features they need.
-struct Records {
+// The references of primitives and shared meshes, and what features they need.
+struct PrimitiveRefs {
     std::vector<uvec4> texels;
     FeatureMask features = 0;
 
@@ -78,7 +78,7 @@ private:
     }
 };
 
-void pushRecords(Records& records, const Scene& scene, const Primitives& primitives, const WideBvh& bvh)
+void pushPrimitiveRefs(PrimitiveRefs& refs, const Scene& scene, const Primitives& primitives, const WideBvh& bvh)
 {
     const std::vector<std::uint32_t> words = materialWordsOf(scene);
     std::vector<std::uint32_t> materials;  // by triangle
@@ -86,17 +86,17 @@ void pushRecords(Records& records, const Scene& scene, const Primitives& primiti
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         materials.resize(primitives.firstTriangles[i + 1], words[scene.meshes[scene.instances[i].mesh].material]);
     }
-    records.texels.reserve(bvh.order.size() * kRecordTexels);
+    refs.texels.reserve(bvh.order.size() * kPrimitiveRefTexels);
     for (const std::uint32_t id : bvh.order) {
         if (id >= primitives.count()) {
             break;  // shared meshes follow
         }
         const bool alpha = !primitives.hasAlpha.empty() && primitives.hasAlpha[id];
         if (id < materials.size()) {
-            records.push(primitives.triangles[id], id, materials[id], alpha);
+            refs.push(primitives.triangles[id], id, materials[id], alpha);
         } else {
             const Sphere& sphere = primitives.spheres[id - materials.size()];
-            records.push(sphere, id, words[sphere.material], alpha);
+            refs.push(sphere, id, words[sphere.material], alpha);
         }
     }
     for (std::size_t i = 0; i < bvh.meshTrees.size(); ++i) {
@@ -104,26 +104,26 @@ void pushRecords(Records& records, const Scene& scene, const Primitives& primiti
         const std::uint32_t material = words[scene.meshes[mesh.mesh].material];
         for (std::uint32_t k = 0; k < bvh.meshTrees[i].entryCount; ++k) {
             const std::uint32_t triangle = bvh.order[bvh.meshTrees[i].firstEntry + k] - mesh.firstId;
-            records.push(mesh.triangles[triangle], mesh.firstId + triangle, material, mesh.hasAlpha[triangle]);
+            refs.push(mesh.triangles[triangle], mesh.firstId + triangle, material, mesh.hasAlpha[triangle]);
         }
     }
 }
 
 void pushInstances(FlatScene& flat, const Primitives& primitives, const WideBvh& bvh)
 {
-    constexpr std::uint64_t kMost = kNoRecord;
+    constexpr std::uint64_t kMax = kNoPrimitiveRef;
     std::vector<uvec4> instances;
-    std::uint64_t record = flat.firstInstanceRecord, primitive = primitives.count();
+    std::uint64_t ref = flat.firstInstanceRef, primitive = primitives.count();
     for (const Placement& placement : primitives.placements) {
         const MeshTree& tree = bvh.meshTrees[placement.sharedMesh];
         const SharedMesh& mesh = primitives.sharedMeshes[placement.sharedMesh];
         InstanceData data = placeInstance(placement, tree.box);
-        data.beginRecord = static_cast<std::uint32_t>(record);
-        data.firstRecord = data.beginRecord - tree.firstEntry;
+        data.beginRef = static_cast<std::uint32_t>(ref);
+        data.firstRef = data.beginRef - tree.firstEntry;
         data.firstPrimitive = static_cast<std::uint32_t>(primitive) - mesh.firstId;
-        record += tree.entryCount;
+        ref += tree.entryCount;
         primitive += mesh.triangles.size();
-        if (std::max(record, primitive) >= kMost) {
+        if (std::max(ref, primitive) >= kMax) {
             throw InputError("the scene's instances have " + std::to_string(primitives.computeTriangleCount()) +
                              " triangles; expected fewer than 4294967295.");
         }
@@ -194,21 +194,21 @@ std::vector<bool> findColored(const Scene& scene)
 
 // In place of the marks `before`.
 void markLights(FlatScene& flat, std::span<const LightMark> before, std::span<const std::uint32_t> order,
-                std::span<const std::uint32_t> recordOf)
+                std::span<const std::uint32_t> refOfPrimitive)
 {
-    std::vector<uvec4>& records = flat.records.change();
-    const auto markOf = [&records](std::size_t record) -> std::uint32_t& { return records[record * kRecordTexels + 2].w; };
+    std::vector<uvec4>& refs = flat.primitiveRefs.change();
+    const auto markOf = [&refs](std::size_t ref) -> std::uint32_t& { return refs[ref * kPrimitiveRefTexels + 2].w; };
     for (const LightMark& mark : before) {
-        markOf(recordOf[mark.primitive]) = 0;
+        markOf(refOfPrimitive[mark.primitive]) = 0;
     }
     for (const LightMark& mark : flat.lightMarks) {
-        markOf(recordOf[mark.primitive]) = mark.light;
+        markOf(refOfPrimitive[mark.primitive]) = mark.light;
     }
-    if (order.size() == recordOf.size()) {
-        return;  // each primitive has one record
+    if (order.size() == refOfPrimitive.size()) {
+        return;  // each primitive has one reference
     }
-    for (std::size_t record = 0; record < order.size() && order[record] < recordOf.size(); ++record) {
-        markOf(record) = markOf(recordOf[order[record]]);
+    for (std::size_t ref = 0; ref < order.size() && order[ref] < refOfPrimitive.size(); ++ref) {
+        markOf(ref) = markOf(refOfPrimitive[order[ref]]);
     }
 }
 
@@ -221,13 +221,13 @@ static_assert(kMaxStackLevels % 4 == 0);
 void pushSurfaces(FlatScene& flat, const Scene& scene, const Primitives& primitives, const WideBvh& bvh)
 {
     pushShading(flat, primitives);
-    Records records;
-    pushRecords(records, scene, primitives, bvh);
-    flat.records = std::move(records.texels);
+    PrimitiveRefs refs;
+    pushPrimitiveRefs(refs, scene, primitives, bvh);
+    flat.primitiveRefs = std::move(refs.texels);
     flat.surfaceFeatures |=
-        records.features | (primitives.spheres.empty() ? 0U : kFeatureSpheres) | (primitives.placements.empty() ? 0U : kFeatureInstances);
+        refs.features | (primitives.spheres.empty() ? 0U : kFeatureSpheres) | (primitives.placements.empty() ? 0U : kFeatureInstances);
     flat.triangleCount = static_cast<std::uint32_t>(primitives.triangles.size());
-    flat.firstInstanceRecord = static_cast<std::uint32_t>(bvh.order.size());
+    flat.firstInstanceRef = static_cast<std::uint32_t>(bvh.order.size());
 }
 
 void keepSurfaces(FlatScene& flat, const FlatScene& previous)
@@ -237,10 +237,10 @@ void keepSurfaces(FlatScene& flat, const FlatScene& previous)
     flat.firstUv = previous.firstUv;
     flat.firstTangent = previous.firstTangent;
     flat.firstColor = previous.firstColor;
-    flat.records = previous.records;
+    flat.primitiveRefs = previous.primitiveRefs;
     flat.surfaceFeatures = previous.surfaceFeatures;
     flat.triangleCount = previous.triangleCount;
-    flat.firstInstanceRecord = previous.firstInstanceRecord;
+    flat.firstInstanceRef = previous.firstInstanceRef;
     flat.surfacesPrint = previous.surfacesPrint;
 }
 
@@ -281,10 +281,11 @@ void placeLights(FlatScene& flat, const Scene& scene, const Primitives& primitiv
 {
     const bool mayEmit =
         std::ranges::any_of(scene.materials, [](const Material& material) { return material.emission != glm::vec3(0.0F); });
-    const std::vector<std::uint32_t> recordOf = mayEmit || !before.empty() ? findRecords(primitives, bvh) : std::vector<std::uint32_t>();
-    addLights(flat, scene, primitives, recordOf);
+    const std::vector<std::uint32_t> refOfPrimitive =
+        mayEmit || !before.empty() ? findRecords(primitives, bvh) : std::vector<std::uint32_t>();
+    addLights(flat, scene, primitives, refOfPrimitive);
     if (!std::ranges::equal(flat.lightMarks, before)) {
-        markLights(flat, before, bvh.order, recordOf);
+        markLights(flat, before, bvh.order, refOfPrimitive);
         flat.surfacesPrint = std::make_shared<std::optional<std::uint64_t>>();
     }
 }
@@ -309,7 +310,7 @@ FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const W
     } else {
         placeSurfaces(flat, primitives, bvh);
     }
-    flat.features = flat.surfaceFeatures | (areLampsClose(flat, scene) ? kFeatureLargeTriangles : 0U);
+    flat.features = flat.surfaceFeatures | (areLightsClose(flat, scene) ? kFeatureLargeTriangles : 0U);
     flattenMaterials(flat, scene, findColored(scene));
     for (const MeshInstance& instance : scene.instances) {
         flat.features |= flat.materialFeatures[scene.meshes[instance.mesh].material];
@@ -320,7 +321,7 @@ FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const W
     addTables(flat);
     placeLights(flat, scene, primitives, bvh, same == Same::Nothing ? std::span<const LightMark>() : previous.lightMarks);
     addCaustics(flat, scene, primitives);
-    flat.features |= mayLampsBeInMedia(flat) ? kFeatureLampsInMedia : 0U;
+    flat.features |= mayLightsBeInMedia(flat) ? kFeatureLightsInMedia : 0U;
     return flat;
 }
 

@@ -9,13 +9,13 @@
 namespace glim {
 namespace {
 
-constexpr double kMostToPrimitive = 0x1p12, kMostToDistance = 0x1p7;
+constexpr double kMaxToPrimitive = 0x1p12, kMaxToDistance = 0x1p7;
 
-// Cameras and lamps are compared with this many triangles, the largest ones.
-constexpr std::size_t kMostCompared = 64;
+// Cameras and lights are compared with this many triangles, the largest ones.
+constexpr std::size_t kMaxCompared = 64;
 
 // This many triangles of a mesh stand for the sizes of all.
-constexpr std::size_t kMostSampled = 64;
+constexpr std::size_t kMaxSampled = 64;
 
 struct Extent {
     double size;
@@ -49,10 +49,10 @@ double distanceTo(const Triangle& triangle, const glm::dvec3& point)
 bool isCloseTo(const Triangle& triangle, const glm::dvec3& point)
 {
     const double distance = distanceTo(triangle, point);
-    return distance > 0.0 && sizeOf(triangle) > kMostToDistance * distance;
+    return distance > 0.0 && sizeOf(triangle) > kMaxToDistance * distance;
 }
 
-bool isCloseToLamp(const Scene& scene, const Triangle& triangle)
+bool isCloseToLight(const Scene& scene, const Triangle& triangle)
 {
     return std::ranges::any_of(scene.lights, [&](const PunctualLight& light) {
         return light.kind != PunctualLight::Kind::Directional && isCloseTo(triangle, glm::dvec3(light.position));
@@ -61,7 +61,7 @@ bool isCloseToLamp(const Scene& scene, const Triangle& triangle)
 
 std::vector<Triangle> largestOf(const std::vector<Triangle>& triangles, std::vector<Extent> extents)
 {
-    const auto end = extents.begin() + static_cast<std::ptrdiff_t>(std::min(kMostCompared, extents.size()));
+    const auto end = extents.begin() + static_cast<std::ptrdiff_t>(std::min(kMaxCompared, extents.size()));
     std::partial_sort(extents.begin(), end, extents.end(), [](const Extent& a, const Extent& b) { return a.size > b.size; });
     std::vector<Triangle> largest;
     std::transform(extents.begin(), end, std::back_inserter(largest), [&](const Extent& extent) { return triangles[extent.triangle]; });
@@ -90,7 +90,7 @@ void findLargeTriangles(FlatScene& flat, const Primitives& primitives)
     for (const Placement& placement : primitives.placements) {
         const double scale = scaleOf(placement);
         const std::vector<Triangle>& triangles = primitives.sharedMeshes[placement.sharedMesh].triangles;
-        for (std::size_t i = 0; i < std::min(kMostSampled, triangles.size()); ++i) {
+        for (std::size_t i = 0; i < std::min(kMaxSampled, triangles.size()); ++i) {
             sizes.push_back(scale * sizeOf(triangles[i]));
         }
         largest = std::max(largest, scale * largestInMesh[placement.sharedMesh]);
@@ -99,13 +99,13 @@ void findLargeTriangles(FlatScene& flat, const Primitives& primitives)
         sizes.push_back(2.0 * static_cast<double>(sphere.radius));
     }
     flat.largest = largestOf(primitives.triangles, std::move(extents));
-    const bool isLarge = !sizes.empty() && largest > kMostToPrimitive * fineSize(std::move(sizes));
+    const bool isLarge = !sizes.empty() && largest > kMaxToPrimitive * fineSize(std::move(sizes));
     flat.surfaceFeatures |= isLarge ? kFeatureLargeTriangles : 0U;
 }
 
-bool areLampsClose(const FlatScene& flat, const Scene& scene)
+bool areLightsClose(const FlatScene& flat, const Scene& scene)
 {
-    return std::ranges::any_of(flat.largest, [&](const Triangle& triangle) { return isCloseToLamp(scene, triangle); });
+    return std::ranges::any_of(flat.largest, [&](const Triangle& triangle) { return isCloseToLight(scene, triangle); });
 }
 
 FeatureMask featuresSeenBy(const FlatScene& flat, const FlatCamera& camera)

@@ -8,11 +8,11 @@ namespace glim {
 
 // Without the feature, points are lifted off a triangle by some 2^-20 of its size, and the distance to a hit is known to 2^-22 of its size.
 // The feature is needed if the lift is more than 2^-8 of the size of fine primitives, or more than 2^-13 of the distance from a triangle to
-// a lamp. Sets FlatScene::largest, and the feature among those of the surfaces if it is the sizes that need it.
+// a light. Sets FlatScene::largest, and the feature among those of the surfaces if it is the sizes that need it.
 void findLargeTriangles(FlatScene& flat, const Primitives& primitives);
 
-// Whether it is a lamp that needs it.
-bool areLampsClose(const FlatScene& flat, const Scene& scene);
+// Whether it is a light that needs it.
+bool areLightsClose(const FlatScene& flat, const Scene& scene);
 
 // The features of the scene, and kFeatureLargeTriangles too if the camera is that close to a large triangle.
 FeatureMask featuresSeenBy(const FlatScene& flat, const FlatCamera& camera);

@@ -41,17 +41,17 @@ public:
         for (int v = 0; v < 3; ++v) {
             uv[v] = texture.uvSet == 0 ? glm::vec2(uvs[v].x, uvs[v].y) : glm::vec2(uvs[v].z, uvs[v].w);
         }
-        const UvBox box = uvBoxOf(texture, uv);
+        const UvBox box = computeUvBox(texture, uv);
         const double rows = static_cast<double>(box.high.y - box.low.y) * height_;
         if (!(rows > 1.0) || !(rows < 1e6)) {
             return sums_.mean(box, texture) / kOne;
         }
-        return meanOfStrips(texture, uv, box, std::min(static_cast<std::uint32_t>(rows), kMostStrips)) / kOne;
+        return meanOfStrips(texture, uv, box, std::min(static_cast<std::uint32_t>(rows), kMaxStrips)) / kOne;
     }
 
 private:
     static constexpr double kOne = 1 << 20;
-    static constexpr std::uint32_t kMostStrips = 64;
+    static constexpr std::uint32_t kMaxStrips = 64;
 
     // The triangle is cut into strips along the image's rows, each of which counts by its width.
     double meanOfStrips(const Texture& texture, const glm::vec2 (&uv)[3], const UvBox& box, std::uint32_t strips) const
@@ -146,11 +146,11 @@ std::optional<FiniteLight> rectangleLight(const FlatLight& surface, const Triang
 // Collects the lights.
 class LightTable {
 public:
-    LightTable(FlatScene& flat, const Scene& scene, const Primitives& primitives, std::span<const std::uint32_t> recordOf)
+    LightTable(FlatScene& flat, const Scene& scene, const Primitives& primitives, std::span<const std::uint32_t> refOfPrimitive)
         : flat_(flat),
           scene_(scene),
           primitives_(primitives),
-          recordOf_(recordOf)
+          refOfPrimitive_(refOfPrimitive)
     {}
 
     void addInstance(std::size_t instance)
@@ -184,7 +184,7 @@ public:
         light.position = sphere.center;
         light.size = sphere.radius;
         light.primitive = static_cast<std::uint32_t>(primitives_.triangles.size() + index);
-        light.record = recordOf_[light.primitive];
+        light.primitiveRef = refOfPrimitive_[light.primitive];
         const LightBounds bounds{sphere.center - sphere.radius, sphere.center + sphere.radius, sphere.radius};
         const double radius = static_cast<double>(sphere.radius);
         flat_.features |= kFeatureSphereLights;
@@ -234,7 +234,7 @@ public:
             return;
         }
         flat_.features |= environment.map ? kFeatureEnvironmentMap : 0U;
-        flat_.environmentTurn = {std::cos(environment.rotation), std::sin(environment.rotation)};
+        flat_.environmentRotation = {std::cos(environment.rotation), std::sin(environment.rotation)};
         flat_.hidesEnvironment = !environment.background;
         FlatLight light{};
         light.kind = kEnvironmentLight;
@@ -314,10 +314,10 @@ private:
             const int corner = cornerOf(primitives_.triangles[i]);
             const glm::vec3 &a = primitives_.triangles[i].vertices[(corner + 1) % 3],
                             &b = primitives_.triangles[i].vertices[(corner + 2) % 3];
-            const Ends ends{a.x, a.y, a.z, b.x, b.y, b.z}, turned{b.x, b.y, b.z, a.x, a.y, a.z};
-            const auto found = open.find(std::max(ends, turned));
+            const Ends ends{a.x, a.y, a.z, b.x, b.y, b.z}, reversed{b.x, b.y, b.z, a.x, a.y, a.z};
+            const auto found = open.find(std::max(ends, reversed));
             if (found == open.end()) {
-                open.emplace(std::max(ends, turned), i);
+                open.emplace(std::max(ends, reversed), i);
             } else if (rectangleLight(surface, primitives_.triangles[found->second], cornerOf(primitives_.triangles[found->second]),
                                       primitives_.triangles[i])) {
                 otherHalf[i - first] = found->second;
@@ -352,7 +352,7 @@ private:
                                                   : *rectangleLight(surface, triangle, cornerOf(triangle), primitives_.triangles[other]);
         light.light.primitive = primitive;
         light.light.otherPrimitive = other;
-        light.light.record = recordOf_[primitive];
+        light.light.primitiveRef = refOfPrimitive_[primitive];
         flat_.features |= other == kNoPrimitive ? kFeatureTriangleLights : kFeatureRectangleLights;
         add(light, factor * static_cast<double>(light.light.size) * strength(surface.intensity));
     }
@@ -392,7 +392,7 @@ private:
     FlatScene& flat_;
     const Scene& scene_;
     const Primitives& primitives_;
-    std::span<const std::uint32_t> recordOf_;
+    std::span<const std::uint32_t> refOfPrimitive_;
     std::vector<FiniteLight> finite_;
     std::vector<double> powers_;  // of these, W/sr
     std::vector<FlatLight> infinite_;
@@ -402,9 +402,9 @@ private:
 
 }  // namespace
 
-void addLights(FlatScene& flat, const Scene& scene, const Primitives& primitives, std::span<const std::uint32_t> recordOf)
+void addLights(FlatScene& flat, const Scene& scene, const Primitives& primitives, std::span<const std::uint32_t> refOfPrimitive)
 {
-    LightTable table(flat, scene, primitives, recordOf);
+    LightTable table(flat, scene, primitives, refOfPrimitive);
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         table.addInstance(i);
     }

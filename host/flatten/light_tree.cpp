@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr std::uint32_t kBins = 16;
-constexpr std::uint32_t kMostUnevenLevels = 32;  // below these, halves have equal numbers of lights: no tree is deeper than 64
+constexpr std::uint32_t kMaxUnevenLevels = 32;  // below these, halves have equal numbers of lights: no tree is deeper than 64
 
 struct Item {
     LightBounds bounds;
@@ -63,7 +63,7 @@ float orientationCost(const Cluster& cluster)
 }
 
 // Power times directions times extent. The squared diagonal tells apart clusters along a line, whose boxes have no surface.
-float costOf(const Cluster& cluster)
+float computeCost(const Cluster& cluster)
 {
     const vec3 d = cluster.high - cluster.low;
     const float surface = 2.0F * (d.x * d.y + d.y * d.z + d.z * d.x);
@@ -129,7 +129,7 @@ private:
             return;
         }
         std::vector<std::uint32_t> children{halves_[binary].child, halves_[binary].child + 1};
-        while (children.size() < kMostLightChildren) {
+        while (children.size() < kMaxLightChildren) {
             const auto dearest = std::ranges::max_element(children, {}, [this](std::uint32_t i) { return halves_[i].cost; });
             if (halves_[*dearest].child == 0) {
                 break;
@@ -159,7 +159,7 @@ private:
             cluster.add(items_[i].bounds, items_[begin].bounds.axis);
         }
         const std::uint32_t middle = partition(cluster, begin, end, level), child = static_cast<std::uint32_t>(halves_.size());
-        halves_[node] = {inner(cluster, begin, end), child, costOf(cluster)};
+        halves_[node] = {inner(cluster, begin, end), child, computeCost(cluster)};
         halves_.resize(halves_.size() + 2);
         split(child, begin, middle, level + 1);
         split(child + 1, middle, end, level + 1);
@@ -198,7 +198,7 @@ private:
             high = glm::max(high, centerOf(items_[i].bounds));
         }
         const vec3 extent = high - low;
-        const Split best = level < kMostUnevenLevels && end - begin > 2 ? findSplit(low, extent, begin, end, cluster) : Split{};
+        const Split best = level < kMaxUnevenLevels && end - begin > 2 ? findSplit(low, extent, begin, end, cluster) : Split{};
         const auto first = items_.begin() + begin, last = items_.begin() + end;
         if (best.cost < INFINITY) {
             const auto middle = std::partition(first, last, [&](const Item& item) {
@@ -256,7 +256,7 @@ private:
         for (std::size_t bin = bins.size() - 1; bin > 0; --bin) {
             if (bins[bin].count > 0) {
                 rest.add(bins[bin]);
-                costOfRest[bin] = costOf(rest);
+                costOfRest[bin] = computeCost(rest);
             }
         }
         // A split before an empty bin is one before the next bin that is not.
@@ -266,7 +266,7 @@ private:
             if (bins[bin].count == 0 || first.count == 0) {
                 continue;
             }
-            const float cost = thinness * (costOf(first) + costOfRest[bin]);
+            const float cost = thinness * (computeCost(first) + costOfRest[bin]);
             if (cost < best.cost) {
                 best = {cost, axis, static_cast<std::uint32_t>(bin)};
             }

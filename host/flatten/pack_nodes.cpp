@@ -12,10 +12,10 @@
 namespace glim {
 namespace {
 
-static_assert(kBvhWidth == 8 && kMaxLeafRecords == 3, "what fits into a word of hits");
+static_assert(kBvhWidth == 8 && kMaxLeafRefs == 3, "what fits into a word of hits");
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr double kMostSteps = 255.0;
+constexpr double kMaxSteps = 255.0;
 
 // Grows every box by at least one ulp and 2^-30 of the scene. Even for the smallest direction component that intersect_node.glsl has, a
 // face that would pass through the ray's origin is then hit at |t| >= 1e9 scene sizes. Rounding in double is far below that.
@@ -29,7 +29,7 @@ Box thicken(const Box& box, float pad)
     return thick;
 }
 
-Box boundsOf(const WideNode& node, float pad)
+Box computeBounds(const WideNode& node, float pad)
 {
     Box bounds{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
     for (const WideChild& child : node.children) {
@@ -47,11 +47,11 @@ float padOf(const Box& root)
     return std::ldexp(std::max({farthest.x, farthest.y, farthest.z, std::numeric_limits<float>::min()}), -30);
 }
 
-// The biased float exponent of the smallest power of two such that kMostSteps of them cover the extent.
+// The biased float exponent of the smallest power of two such that kMaxSteps of them cover the extent.
 std::uint32_t biasedExponent(double extent)
 {
     int exponent = 0;
-    const double mantissa = std::frexp(extent / kMostSteps, &exponent);  // in [1/2, 1)
+    const double mantissa = std::frexp(extent / kMaxSteps, &exponent);  // in [1/2, 1)
     return static_cast<std::uint32_t>(std::clamp(mantissa == 0.5 ? exponent - 1 : exponent, -126, 127) + 127);
 }
 
@@ -71,15 +71,15 @@ Planes packPlanes(const WideNode& node, float pad, int axis, float from, std::ui
         const Box box = thicken(node.children[i].box, pad);
         const double lo = std::floor((static_cast<double>(box.lo[axis]) - static_cast<double>(from)) / step);
         const double hi = std::ceil((static_cast<double>(box.hi[axis]) - static_cast<double>(from)) / step);
-        planes.lo[i / 4] |= static_cast<std::uint32_t>(std::clamp(lo, 0.0, kMostSteps)) << i % 4 * 8;
-        planes.hi[i / 4] |= static_cast<std::uint32_t>(std::clamp(hi, 0.0, kMostSteps)) << i % 4 * 8;
+        planes.lo[i / 4] |= static_cast<std::uint32_t>(std::clamp(lo, 0.0, kMaxSteps)) << i % 4 * 8;
+        planes.hi[i / 4] |= static_cast<std::uint32_t>(std::clamp(hi, 0.0, kMaxSteps)) << i % 4 * 8;
     }
     return planes;
 }
 
 // A node's children, without their boxes.
 struct Content {
-    std::uint32_t firstNode = 0, firstRecord = 0;
+    std::uint32_t firstNode = 0, firstRef = 0;
     std::uint32_t inner = 0;                 // bit i: child i is a node
     std::array<std::uint32_t, 2> entries{};  // a byte for each child
 };
@@ -87,7 +87,7 @@ struct Content {
 Content contentOf(const WideNode& node)
 {
     Content content;
-    std::uint32_t records = 0;
+    std::uint32_t refs = 0;
     for (std::uint32_t i = 0; i < kBvhWidth; ++i) {
         const WideChild& child = node.children[i];
         std::uint32_t entry = 0;
@@ -96,9 +96,9 @@ Content contentOf(const WideNode& node)
             content.inner |= 1U << i;
             entry = 1U << 5 | (kFirstNodeBit + i);
         } else if (child.kind == WideChild::Kind::Leaf) {
-            content.firstRecord = records == 0 ? child.first : content.firstRecord;
-            entry = ((1U << child.count) - 1) << 5 | records;
-            records += child.count;
+            content.firstRef = refs == 0 ? child.first : content.firstRef;
+            entry = ((1U << child.count) - 1) << 5 | refs;
+            refs += child.count;
         }
         content.entries[i / 4] |= entry << i % 4 * 8;
     }
@@ -111,7 +111,7 @@ std::array<uvec4, kNodeTexels> pack(const WideNode& node, float pad)
     if ((content.entries[0] | content.entries[1]) == 0) {
         return {};  // an instance, which flatten_scene.cpp fills in
     }
-    const Box bounds = boundsOf(node, pad);
+    const Box bounds = computeBounds(node, pad);
     std::array<Planes, 3> planes;
     std::uint32_t exponents = content.inner << 24;
     for (int axis = 0; axis < 3; ++axis) {
@@ -121,7 +121,7 @@ std::array<uvec4, kNodeTexels> pack(const WideNode& node, float pad)
     }
     return {{{std::bit_cast<std::uint32_t>(bounds.lo.x), std::bit_cast<std::uint32_t>(bounds.lo.y),
               std::bit_cast<std::uint32_t>(bounds.lo.z), exponents},
-             {content.firstNode, content.firstRecord, content.entries[0], content.entries[1]},
+             {content.firstNode, content.firstRef, content.entries[0], content.entries[1]},
              {planes[0].lo[0], planes[0].lo[1], planes[1].lo[0], planes[1].lo[1]},
              {planes[2].lo[0], planes[2].lo[1], planes[0].hi[0], planes[0].hi[1]},
              {planes[1].hi[0], planes[1].hi[1], planes[2].hi[0], planes[2].hi[1]}}};

@@ -42,7 +42,7 @@ std::vector<PiecewiseConstantEntry> buildPiecewiseConstant(std::span<const doubl
     return entries;
 }
 
-double probabilityOf(const PiecewiseConstantEntry& entry)
+double computeProbability(const PiecewiseConstantEntry& entry)
 {
     return (static_cast<double>(entry.last - entry.first) + 1.0) / static_cast<double>(kWords);
 }

@@ -19,6 +19,6 @@ struct PiecewiseConstantEntry {
 std::vector<PiecewiseConstantEntry> buildPiecewiseConstant(std::span<const double> weights);
 
 // The exact probability with which an entry is sampled.
-double probabilityOf(const PiecewiseConstantEntry& entry);
+double computeProbability(const PiecewiseConstantEntry& entry);
 
 }  // namespace glim

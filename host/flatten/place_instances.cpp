@@ -15,7 +15,7 @@ glm::dmat3 absolute(const glm::dmat3& m) { return {glm::abs(m[0]), glm::abs(m[1]
 glm::dvec3 farthestOf(const Box& box) { return glm::max(glm::abs(glm::dvec3(box.lo)), glm::abs(glm::dvec3(box.hi))); }
 
 // In the scene's space: the error of a point that is taken from the scene, where its coordinates are at most `farthest`, to the mesh.
-glm::dvec3 errorOfInverse(const Placement& placement, const glm::dvec3& farthest)
+glm::dvec3 boundInverseError(const Placement& placement, const glm::dvec3& farthest)
 {
     const glm::dmat3 inverse = glm::inverse(placement.linear);
     return absolute(placement.linear) * (kGamma * (absolute(inverse) * farthest + glm::abs(inverse * placement.translation)));
@@ -49,7 +49,7 @@ InstanceData placeInstance(const Placement& placement, const Box& meshBox)
     data.translation = glm::vec3(placement.translation);
     data.mirrors = glm::determinant(placement.linear) < 0.0 ? 1 : 0;
     const glm::dvec3 placed = absolute(placement.linear) * farthestOf(meshBox) + glm::abs(placement.translation);
-    data.errorBound = roundUp(errorOfInverse(placement, placed) + kGamma * placed);
+    data.errorBound = roundUp(boundInverseError(placement, placed) + kGamma * placed);
     return data;
 }
 
@@ -67,10 +67,10 @@ Box placeBoxes(const Placement& placement, std::span<const Box> parts)
     return placed;
 }
 
-glm::vec3 errorOfRays(const Placement& placement, const glm::vec3& farthest)
+glm::vec3 boundRayError(const Placement& placement, const glm::vec3& farthest)
 {
     // Once for the origin; the way from there to a surface is at most twice as long on each axis.
-    return roundUp(errorOfInverse(placement, 3.0 * glm::dvec3(farthest)));
+    return roundUp(boundInverseError(placement, 3.0 * glm::dvec3(farthest)));
 }
 
 }  // namespace glim

@@ -13,7 +13,7 @@ namespace glim {
 // Rows of the transform from the scene's space to the mesh's.
 std::array<glm::vec4, 3> meshFromScene(const Placement& placement);
 
-// Without records and primitive ids. `meshBox`: of the shared mesh.
+// Without references and primitive ids. `meshBox`: of the shared mesh.
 InstanceData placeInstance(const Placement& placement, const Box& meshBox);
 
 // Holds the boxes `parts` of the mesh's space as the placement places them.
@@ -21,6 +21,6 @@ Box placeBoxes(const Placement& placement, std::span<const Box> parts);
 
 // How far a ray of the scene, as the kernels transform it, may pass beside its place, per axis. `farthest`: the greatest coordinates of
 // the scene.
-glm::vec3 errorOfRays(const Placement& placement, const glm::vec3& farthest);
+glm::vec3 boundRayError(const Placement& placement, const glm::vec3& farthest);
 
 }  // namespace glim

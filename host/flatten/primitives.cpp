@@ -2,7 +2,7 @@
 
 #include "host/flatten/classify_alpha.hpp"
 #include "host/flatten/flatten_materials.hpp"
-#include "host/flatten/lift_lamps.hpp"
+#include "host/flatten/lift_lights.hpp"
 #include "host/text.hpp"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ struct Vertex {
 
 using Words = std::array<std::uint32_t, 15>;
 
-std::size_t hashOf(const Words& words)
+std::size_t computeHash(const Words& words)
 {
     std::uint64_t hash = 14695981039346656037ULL;  // FNV-1a, a word at a time; the multiplication's high bits are the good ones
     for (const std::uint32_t word : words) {
@@ -59,9 +59,9 @@ public:
         }
     }
 
-    Primitives make(std::uint64_t mostFlatTriangles)
+    Primitives make(std::uint64_t maxFlatTriangles)
     {
-        const std::vector<bool> shared = chooseSharedMeshes(countMeshUses(scene_), mostFlatTriangles);
+        const std::vector<bool> shared = chooseSharedMeshes(countMeshUses(scene_), maxFlatTriangles);
         for (const MeshInstance& instance : scene_.instances) {
             made_.firstTriangles.push_back(static_cast<std::uint32_t>(made_.triangles.size()));
             if (!shared[instance.mesh]) {
@@ -212,7 +212,7 @@ private:
             const double length = glm::length(tangent);
             const bool usable = std::isfinite(length) && length > 0.0;
             vertex.tangent = usable ? glm::vec4(tangent / length, mesh.tangents[index].w) : glm::vec4(0.0F);
-            // cross(normal, tangent) turns round when the instance mirrors.
+            // cross(normal, tangent) changes its sign when the instance mirrors.
             vertex.tangent.w *= glm::determinant(worldFromMesh_) < 0.0 ? -1.0F : 1.0F;
         }
         if (!mesh.colors.empty()) {
@@ -243,7 +243,7 @@ private:
     std::uint32_t findOrAddVertex(const Vertex& vertex)
     {
         const Words words = wordsOf(vertex.normal, vertex.uv, vertex.tangent, vertex.color);
-        std::size_t slot = hashOf(words) & (slots_.size() - 1);
+        std::size_t slot = computeHash(words) & (slots_.size() - 1);
         while (slots_[slot] != kNotYet && wordsOfVertex(slots_[slot]) != words) {
             slot = (slot + 1) & (slots_.size() - 1);
         }
@@ -293,8 +293,9 @@ bool haveSameSurfaces(const Material& a, const Material& b)
 {
     const auto shapeOf = [](const Material& m) {
         const bool isOpaque = m.alphaMode == AlphaMode::Opaque;
-        return std::tuple(m.alphaMode, isOpaque ? 1.0F : m.alpha, isOpaque ? 0.0F : m.alphaCutoff, passesStraight(m), m.doubleSided, m.thick, isTextured(m), m.textures[kSlotEmissive].has_value(),
-                          m.emission != glm::vec3(0.0F), m.transmission > 0.0F, m.diffuseTransmission > 0.0F);
+        return std::tuple(m.alphaMode, isOpaque ? 1.0F : m.alpha, isOpaque ? 0.0F : m.alphaCutoff, passesStraight(m), m.doubleSided,
+                          m.thick, isTextured(m), m.textures[kSlotEmissive].has_value(), m.emission != glm::vec3(0.0F),
+                          m.transmission > 0.0F, m.diffuseTransmission > 0.0F);
     };
     return shapeOf(a) == shapeOf(b) && a.textures[kSlotBaseColor] == b.textures[kSlotBaseColor];
 }
@@ -333,7 +334,7 @@ void placeSharedMeshes(const Scene& scene, Primitives& primitives)
     }
 }
 
-std::uint32_t Primitives::instanceOf(std::uint32_t triangle) const
+std::uint32_t Primitives::findInstance(std::uint32_t triangle) const
 {
     const auto after = std::upper_bound(firstTriangles.begin(), firstTriangles.end(), triangle);
     return static_cast<std::uint32_t>(after - firstTriangles.begin() - 1);
@@ -348,10 +349,10 @@ std::uint64_t Primitives::computeTriangleCount() const
     return count;
 }
 
-Primitives makePrimitives(const Scene& scene, std::uint64_t mostFlatTriangles)
+Primitives makePrimitives(const Scene& scene, std::uint64_t maxFlatTriangles)
 {
-    Primitives primitives = PrimitiveMaker(scene).make(mostFlatTriangles);
-    liftLamps(scene, primitives);
+    Primitives primitives = PrimitiveMaker(scene).make(maxFlatTriangles);
+    liftLights(scene, primitives);
     auto id = static_cast<std::uint32_t>(primitives.count());
     for (SharedMesh& mesh : primitives.sharedMeshes) {
         mesh.firstId = id;

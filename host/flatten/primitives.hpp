@@ -47,12 +47,12 @@ struct Primitives {
 
     std::size_t count() const { return triangles.size() + spheres.size(); }
     std::uint64_t computeTriangleCount() const;  // those of shared meshes once for each instance
-    std::uint32_t instanceOf(std::uint32_t triangle) const;
+    std::uint32_t findInstance(std::uint32_t triangle) const;
 };
 
 // Meshes are shared as scene/share_meshes.hpp says. Triangles without area and primitives that are transparent all over are dropped;
-// normals that are zero or not finite are replaced by the face normal; lamps in the plane of another surface are lifted (lift_lamps.hpp).
-Primitives makePrimitives(const Scene& scene, std::uint64_t mostFlatTriangles = kMostFlatTriangles);
+// normals that are zero or not finite are replaced by the face normal; lights in the plane of another surface are lifted (lift_lights.hpp).
+Primitives makePrimitives(const Scene& scene, std::uint64_t maxFlatTriangles = kMaxFlatTriangles);
 
 // What two scenes have in common: all primitives, all but the placements of shared meshes, or maybe nothing.
 enum class Same { Nothing, AllButPlacements, Everything };

@@ -17,9 +17,9 @@ namespace {
 
 // A box is split if it wastes more area than this many boxes of mean size. Triangles of about one size do not waste as much. Smaller
 // limits lower a tree's cost by .02 at most.
-constexpr double kLeastWaste = 2.0;
+constexpr double kMinWaste = 2.0;
 // At most one extra piece per 10 primitives, and at least one per 50. Two or three times as many pieces lower a tree's cost by .03. If
-// there are fewer than the minimum, they are of the walls and the lamp around the actual subject, and splitting those does not pay
+// there are fewer than the minimum, they are of the walls and the light around the actual subject, and splitting those does not pay
 // (tests/bench/EXPERIMENTS.md).
 constexpr std::size_t kMaxSplitShare = 10, kMinSplitShare = 50;
 
@@ -76,17 +76,17 @@ Polygon clip(const Triangle& triangle, const Box& box)
 // The result is finite.
 Box roundedOutwards(const glm::dvec3& lo, const glm::dvec3& hi)
 {
-    constexpr float kMost = std::numeric_limits<float>::max();
+    constexpr float kMax = std::numeric_limits<float>::max();
     Box box;
     for (int k = 0; k < 3; ++k) {
-        box.lo[k] = std::nextafter(static_cast<float>(std::max(lo[k], -static_cast<double>(kMost))), -kMost);
-        box.hi[k] = std::nextafter(static_cast<float>(std::min(hi[k], static_cast<double>(kMost))), kMost);
+        box.lo[k] = std::nextafter(static_cast<float>(std::max(lo[k], -static_cast<double>(kMax))), -kMax);
+        box.hi[k] = std::nextafter(static_cast<float>(std::min(hi[k], static_cast<double>(kMax))), kMax);
     }
     return box;
 }
 
 // Within `clipped`, the box that the polygon was clipped by.
-Box boundsOf(const Polygon& polygon, const Box& clipped)
+Box computeBounds(const Polygon& polygon, const Box& clipped)
 {
     glm::dvec3 lo = polygon.corners[0], hi = polygon.corners[0];
     for (const glm::dvec3& corner : std::span(polygon.corners).first(polygon.count)) {
@@ -132,7 +132,7 @@ public:
             whole_.hi = glm::max(whole_.hi, box.hi);
             sum += computeHalfArea(box);
         }
-        leastWaste_ = kLeastWaste * sum / static_cast<double>(boxes.size());
+        minWaste_ = kMinWaste * sum / static_cast<double>(boxes.size());
         pieces_.primitives.resize(boxes.size());
         std::iota(pieces_.primitives.begin(), pieces_.primitives.end(), 0U);
         pieces_.boxes = std::move(boxes);
@@ -168,9 +168,9 @@ private:
     void consider(std::uint32_t piece)
     {
         const Box& box = pieces_.boxes[piece];
-        if (computeHalfArea(box) > leastWaste_) {
+        if (computeHalfArea(box) > minWaste_) {
             const double waste = computeWaste(clip(triangles_[pieces_.primitives[piece]], box), box);
-            if (waste > leastWaste_) {
+            if (waste > minWaste_) {
                 wastes_.push({waste, piece});
             }
         }
@@ -203,8 +203,8 @@ private:
         if (lower.count == 0 || upper.count == 0) {
             return;
         }
-        pieces_.boxes[piece] = boundsOf(lower, below);
-        pieces_.boxes.push_back(boundsOf(upper, above));
+        pieces_.boxes[piece] = computeBounds(lower, below);
+        pieces_.boxes.push_back(computeBounds(upper, above));
         pieces_.primitives.push_back(id);
         consider(piece);
         consider(static_cast<std::uint32_t>(pieces_.boxes.size() - 1));
@@ -221,7 +221,7 @@ private:
 
     std::span<const Triangle> triangles_;
     Box whole_;
-    double leastWaste_;
+    double minWaste_;
     Pieces pieces_;
     std::priority_queue<Waste> wastes_;
 };

@@ -37,12 +37,12 @@ struct Surface {
     }
 };
 
-Surface surfaceOf(const uvec4* record)
+Surface makeSurface(const uvec4* ref)
 {
     const auto vectorOf = [](const uvec4& texel) { return glm::dvec3(std::bit_cast<glm::vec3>(uvec3(texel))); };
-    Surface surface{record[1].w & kMaterialMask, (record[1].w & kSphereBit) != 0, {}};
+    Surface surface{ref[1].w & kMaterialMask, (ref[1].w & kSphereBit) != 0, {}};
     for (int i = 0; i < 3; ++i) {
-        surface.corners[i] = vectorOf(record[i]);
+        surface.corners[i] = vectorOf(ref[i]);
     }
     surface.corners[1] = surface.isSphere ? glm::dvec3(surface.corners[1].x) : surface.corners[1];
     return surface;
@@ -65,18 +65,18 @@ Surface placed(Surface surface, const InstanceData& by)
 template <class Visit>
 void forEachSurface(const FlatScene& flat, const Visit& visit)
 {
-    const auto idOf = [&flat](std::uint32_t record) { return flat.records[std::size_t{record} * kRecordTexels].w; };
-    const auto visitRecords = [&](std::uint32_t begin, std::uint32_t end, const auto& place) {
-        const auto records = std::views::iota(begin, end);
-        if (records.empty()) {
+    const auto idOf = [&flat](std::uint32_t ref) { return flat.primitiveRefs[std::size_t{ref} * kPrimitiveRefTexels].w; };
+    const auto visitRefs = [&](std::uint32_t begin, std::uint32_t end, const auto& place) {
+        const auto refs = std::views::iota(begin, end);
+        if (refs.empty()) {
             return;
         }
-        const auto [first, last] = std::ranges::minmax(records | std::views::transform(idOf));
+        const auto [first, last] = std::ranges::minmax(refs | std::views::transform(idOf));
         std::vector<bool> seen(last - first + 1);
-        for (const std::uint32_t record : records) {
-            if (!seen[idOf(record) - first]) {
-                seen[idOf(record) - first] = true;
-                visit(place(surfaceOf(&flat.records[std::size_t{record} * kRecordTexels])));
+        for (const std::uint32_t ref : refs) {
+            if (!seen[idOf(ref) - first]) {
+                seen[idOf(ref) - first] = true;
+                visit(place(makeSurface(&flat.primitiveRefs[std::size_t{ref} * kPrimitiveRefTexels])));
             }
         }
     };
@@ -87,20 +87,20 @@ void forEachSurface(const FlatScene& flat, const Visit& visit)
         instances.push_back(std::bit_cast<InstanceData>(texels));
     }
     std::vector<std::uint32_t> begins = {
-        static_cast<std::uint32_t>(flat.records.size() / kRecordTexels)};  // of the shared meshes' records, then their end
+        static_cast<std::uint32_t>(flat.primitiveRefs.size() / kPrimitiveRefTexels)};  // of the shared meshes' references, then their end
     for (const InstanceData& instance : instances) {
-        begins.push_back(instance.beginRecord - instance.firstRecord);
+        begins.push_back(instance.beginRef - instance.firstRef);
     }
     std::ranges::sort(begins);
-    visitRecords(0, begins.front(), std::identity());
+    visitRefs(0, begins.front(), std::identity());
     for (const InstanceData& instance : instances) {
-        const std::uint32_t begin = instance.beginRecord - instance.firstRecord;
-        visitRecords(begin, *std::ranges::upper_bound(begins, begin), [&](const Surface& surface) { return placed(surface, instance); });
+        const std::uint32_t begin = instance.beginRef - instance.firstRef;
+        visitRefs(begin, *std::ranges::upper_bound(begins, begin), [&](const Surface& surface) { return placed(surface, instance); });
     }
 }
 
 // Where rays of the camera begin.
-Bounds originsOf(const FlatCamera& camera)
+Bounds boundOrigins(const FlatCamera& camera)
 {
     const vec3 extent = glm::abs(camera.lensRight) + glm::abs(camera.lensUp) +
                         (camera.kind == kOrthographic ? glm::abs(camera.right) + glm::abs(camera.up) : vec3(0.0F));
@@ -183,7 +183,7 @@ public:
     {
         std::map<uint, Bounds> bounds;  // of all solids of a medium
         forEachSurface(flat_, [&](const Surface& surface) {
-            if (const uint medium = mediumOf(surface); medium != 0) {
+            if (const uint medium = getMedium(surface); medium != 0) {
                 bounds[medium].add(surface.bounds());
             }
         });
@@ -192,7 +192,7 @@ public:
             return 0;
         }
         forEachSurface(flat_, [&](const Surface& surface) {
-            if (const uint medium = mediumOf(surface); bounds.contains(medium)) {
+            if (const uint medium = getMedium(surface); bounds.contains(medium)) {
                 add(surface, around_[medium]);
             }
         });
@@ -200,7 +200,7 @@ public:
     }
 
 private:
-    uint mediumOf(const Surface& surface) const { return flat_.mediumOfMaterial[surface.material]; }
+    uint getMedium(const Surface& surface) const { return flat_.mediumOfMaterial[surface.material]; }
 
     void add(const Surface& surface, Surroundings& around)
     {
@@ -253,16 +253,16 @@ private:
 FlatCamera placeInMedia(FlatCamera camera, const FlatScene& flat)
 {
     const bool tracked = (flat.features & kFeatureMedia) != 0;
-    camera.media = tracked ? SolidFinder(flat, originsOf(camera)).find() : 0;
+    camera.media = tracked ? SolidFinder(flat, boundOrigins(camera)).find() : 0;
     return camera;
 }
 
-bool mayLampsBeInMedia(const FlatScene& flat)
+bool mayLightsBeInMedia(const FlatScene& flat)
 {
     if ((flat.features & kFeatureMedia) == 0) {
         return false;
     }
-    Bounds lit;  // around all lamps: many cost no more than one
+    Bounds lit;  // around all lights: many cost no more than one
     for (const FlatLight& light : flat.lights) {
         const uint kind = light.kind & kLightKindMask;
         if (kind == kPointLight || kind == kSpotLight) {

@@ -1,4 +1,4 @@
-// The media that rays are in where they begin: a camera or a lamp may lie in a solid, or in several that contain each other.
+// The media that rays are in where they begin: a camera or a light may lie in a solid, or in several that contain each other.
 #pragma once
 
 #include "host/flatten/flat_scene.hpp"
@@ -8,8 +8,8 @@ namespace glim {
 // The camera with the media of its rays (FlatCamera::media).
 FlatCamera placeInMedia(FlatCamera camera, const FlatScene& flat);
 
-// Whether a lamp may lie in a solid. False if no surface of a solid touches the box around all lamps, and the middle of that box lies in no
-// solid. Light paths look for the media that they begin in only if it is true.
-bool mayLampsBeInMedia(const FlatScene& flat);
+// Whether a light may lie in a solid. False if no surface of a solid touches the box around all lights, and the middle of that box lies in
+// no solid. Light paths look for the media that they begin in only if it is true.
+bool mayLightsBeInMedia(const FlatScene& flat);
 
 }  // namespace glim

@@ -17,7 +17,7 @@ VkFormat texelFormat(BufferKind kind)
                                         : VK_FORMAT_R32G32B32A32_UINT;
 }
 
-VkBufferUsageFlags usageOf(BufferKind kind)
+VkBufferUsageFlags getUsage(BufferKind kind)
 {
     const VkBufferUsageFlags texels = hasTexels(kind) ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : 0;
     const VkBufferUsageFlags storage = hasStorage(kind) ? VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT : 0;
@@ -27,7 +27,7 @@ VkBufferUsageFlags usageOf(BufferKind kind)
 std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes + (1U << 20) - 1) >> 20) + " MiB"; }
 
 // The most bytes of a buffer of this kind that a kernel can address.
-std::uint64_t limitOf(const DeviceDescription& device, BufferKind kind)
+std::uint64_t getLimit(const DeviceDescription& device, BufferKind kind)
 {
     const std::uint64_t texels = device.maxTexelElements * texelBytes(kind);
     return !hasStorage(kind) ? texels : kind == BufferKind::Both ? std::min(texels, device.maxStorageBuffer) : device.maxStorageBuffer;
@@ -35,7 +35,7 @@ std::uint64_t limitOf(const DeviceDescription& device, BufferKind kind)
 
 void refuseTooLarge(const DeviceDescription& device, const std::string& name, BufferKind kind, std::uint64_t size)
 {
-    const std::uint64_t limit = std::min(limitOf(device, kind), device.maxAllocation);
+    const std::uint64_t limit = std::min(getLimit(device, kind), device.maxAllocation);
     if (size > limit) {
         throw DeviceError("The " + name + " need " + megabytes(size) + ", which is " + megabytes(size - limit) + " more than device \"" +
                           device.name + "\" allows in one buffer (" + megabytes(limit) + ").");
@@ -88,7 +88,7 @@ Buffer::Buffer(Device& device, const std::string& name, BufferKind kind, std::ui
     refuseTooLarge(device.description(), name, kind, size);
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = size;
-    info.usage = usageOf(kind);
+    info.usage = getUsage(kind);
     check(vkCreateBuffer(device.handle(), &info, nullptr, handle_.receive()), "create the buffer of the " + name);
     allocate(name);
     device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(handle_.get()), name);

@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
 // Vulkan's name of a failure. (vk::to_string would cost its only user 3.6 s of compilation.)
-std::string nameOf(VkResult result)
+std::string getName(VkResult result)
 {
     switch (result) {
     case VK_ERROR_OUT_OF_HOST_MEMORY: return "VK_ERROR_OUT_OF_HOST_MEMORY";
@@ -79,7 +79,7 @@ void check(VkResult result, const std::string& action)
 {
     if (result < 0) {
         const std::optional<AddressLimit> limit = addressLimit();
-        throw DeviceError("Vulkan could not " + action + ": " + nameOf(result) +
+        throw DeviceError("Vulkan could not " + action + ": " + getName(result) +
                           (limit ? "; of the addresses that a limit (ulimit -v) allows the process, " + std::to_string(limit->left >> 20U) +
                                        " MiB are left."
                                  : "."));

@@ -42,7 +42,7 @@ VkPresentModeKHR chooseMode(const Device& device, VkSurfaceKHR surface)
     return mailbox ? VK_PRESENT_MODE_MAILBOX_KHR : VK_PRESENT_MODE_FIFO_KHR;
 }
 
-VkExtent2D extentOf(const VkSurfaceCapabilitiesKHR& surface, std::uint32_t width, std::uint32_t height)
+VkExtent2D chooseExtent(const VkSurfaceCapabilitiesKHR& surface, std::uint32_t width, std::uint32_t height)
 {
     if (surface.currentExtent.width != 0xffffffff) {
         return surface.currentExtent;
@@ -73,7 +73,7 @@ bool Swapchain::rebuild(std::uint32_t width, std::uint32_t height)
 {
     VkSurfaceCapabilitiesKHR surface;
     check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_.physical(), surface_, &surface), "look at the window");
-    extent_ = extentOf(surface, width, height);
+    extent_ = chooseExtent(surface, width, height);
     if (extent_.width == 0 || extent_.height == 0) {
         return false;
     }

@@ -90,8 +90,8 @@ std::uint64_t randomBits()
 // found; while that is taken, others that nobody can foresee and take. Returns the name, or none if it failed for another reason.
 fs::path nameBeside(const fs::path& target, const std::function<bool(const fs::path&)>& make)
 {
-    constexpr int kMostNames = 100;
-    for (int i = 0; i < kMostNames; ++i) {
+    constexpr int kMaxNames = 100;
+    for (int i = 0; i < kMaxNames; ++i) {
         const fs::path name = hiddenBeside(target, (i == 0 ? "" : "." + hexadecimal(randomBits())) + ".partial");
         do {
             if (make(name)) {
@@ -135,9 +135,9 @@ void keepMode(int file, const fs::path& replaced)
 
 fs::path followLinks(fs::path path)
 {
-    constexpr int kMostLinks = 40;  // as Linux
+    constexpr int kMaxLinks = 40;  // as Linux
     std::error_code ignored;
-    for (int i = 0; i < kMostLinks && fs::is_symlink(path, ignored); ++i) {
+    for (int i = 0; i < kMaxLinks && fs::is_symlink(path, ignored); ++i) {
         path = path.parent_path() / fs::read_symlink(path, ignored);
     }
     return path;

@@ -152,8 +152,8 @@ DecodedImage decodePng(Bytes bytes)
     image.hasAlpha = (png_get_color_type(reader.png(), reader.info()) & PNG_COLOR_MASK_ALPHA) != 0 ||
                      png_get_valid(reader.png(), reader.info(), PNG_INFO_tRNS) != 0;
     // No byte of deflate stands for more than 1032 others: a header that promises more costs no memory.
-    constexpr std::uint64_t kMostDeflated = 1032;
-    if (bytes.size() * kMostDeflated < png_get_rowbytes(reader.png(), reader.info()) * std::uint64_t{image.height}) {
+    constexpr std::uint64_t kMaxDeflated = 1032;
+    if (bytes.size() * kMaxDeflated < png_get_rowbytes(reader.png(), reader.info()) * std::uint64_t{image.height}) {
         source.error = "it ends early";
         require(false);
     }
@@ -278,9 +278,9 @@ DecodedImage decodeJpeg(Bytes bytes)
     require(readJpegHeader(reader, bytes));
     checkSize("JPEG", reader.jpeg.image_width, reader.jpeg.image_height);
     // Huffman's codes have at least a bit for each block of 64 pixels: a header that promises more costs no memory.
-    constexpr std::uint64_t kMostPixelsPerByte = 512;
+    constexpr std::uint64_t kMaxPixelsPerByte = 512;
     if (reader.jpeg.arith_code == FALSE &&
-        std::uint64_t{reader.jpeg.image_width} * reader.jpeg.image_height > kMostPixelsPerByte * bytes.size()) {
+        std::uint64_t{reader.jpeg.image_width} * reader.jpeg.image_height > kMaxPixelsPerByte * bytes.size()) {
         throw InputError("is a broken JPEG (it ends early)");
     }
     DecodedImage image;

@@ -42,7 +42,7 @@ namespace {
 constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 30;
 
 // Deflate makes 1032 bytes of one at most, and PXR24 four of three.
-constexpr std::uint64_t kMostInflation = 1400;
+constexpr std::uint64_t kMaxInflation = 1400;
 
 constexpr std::size_t kDigits = 64;  // of a SHA-256
 
@@ -153,7 +153,7 @@ void checkInflation(const fs::path& path, const Imf::Header& header, const Image
     for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
         bytes += pixelCount(image) * (channel.channel().type == Imf::HALF ? 2 : 4);
     }
-    if (const std::uint64_t size = fs::file_size(path); bytes > kSmall + kMostInflation * size) {
+    if (const std::uint64_t size = fs::file_size(path); bytes > kSmall + kMaxInflation * size) {
         throw InputError(path.string() + ": its data window of " + std::to_string(image.width) + "x" + std::to_string(image.height) +
                          " pixels has " + std::to_string(bytes >> 20U) + " MiB, expected what its " + std::to_string(size) +
                          " bytes can hold.");

@@ -95,7 +95,7 @@ bool areTexts(const std::string& value)
 
 bool fits(const std::string& type, const std::string& value)
 {
-    constexpr std::uint64_t kMostDeflated = 1032;
+    constexpr std::uint64_t kMaxDeflated = 1032;
     if (type == "chlist") {
         return areChannels(value);
     }
@@ -106,7 +106,7 @@ bool fits(const std::string& type, const std::string& value)
         return value.size() >= 8 && value.size() - 8 == std::uint64_t{4} * u32(value, 0) * u32(value, 4);
     }
     if (type == "idmanifest") {
-        return value.size() >= 4 && u32(value, 0) <= kMostDeflated * value.size();
+        return value.size() >= 4 && u32(value, 0) <= kMaxDeflated * value.size();
     }
     const auto* fixed = std::find_if(std::begin(kFixedTypes), std::end(kFixedTypes), [&](const FixedType& t) { return t.name == type; });
     return fixed == std::end(kFixedTypes) || fixed->bytes == value.size();

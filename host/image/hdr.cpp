@@ -192,11 +192,11 @@ void HdrReader::readRow(std::uint32_t row, std::vector<Pixel>& pixels)
 
 RadianceMap HdrReader::read()
 {
-    constexpr int kMostLines = 4096;
+    constexpr int kMaxLines = 4096;
     int lines = 0;
     for (std::string line = readLine(); !line.empty(); line = readLine()) {
-        if (++lines > kMostLines) {
-            refuse("has more than " + std::to_string(kMostLines) + " lines in its header");
+        if (++lines > kMaxLines) {
+            refuse("has more than " + std::to_string(kMaxLines) + " lines in its header");
         }
         readVariable(line);
     }

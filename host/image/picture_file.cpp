@@ -9,7 +9,7 @@
 
 namespace glim {
 
-std::optional<PictureKind> pictureKindOf(const std::filesystem::path& path)
+std::optional<PictureKind> getPictureKind(const std::filesystem::path& path)
 {
     static const std::map<std::string, PictureKind> kKinds{
         {".png", PictureKind::Png}, {".jpg", PictureKind::Jpeg}, {".jpeg", PictureKind::Jpeg}, {".webp", PictureKind::Webp}};
@@ -19,7 +19,7 @@ std::optional<PictureKind> pictureKindOf(const std::filesystem::path& path)
 
 void writePicture(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, const std::vector<Rgb8>& pixels)
 {
-    const std::optional<PictureKind> kind = pictureKindOf(path);
+    const std::optional<PictureKind> kind = getPictureKind(path);
     if (!kind) {
         throw InputError(path.string() + ": cannot be written: its name does not end in " + kPictureEndings + ".");
     }

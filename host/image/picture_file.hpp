@@ -13,7 +13,7 @@ namespace glim {
 enum class PictureKind { Png, Jpeg, Webp };
 
 // The kind by the ending of the name: .png, .jpg or .jpeg, .webp, in upper or lower case. Nothing for other endings.
-std::optional<PictureKind> pictureKindOf(const std::filesystem::path& path);
+std::optional<PictureKind> getPictureKind(const std::filesystem::path& path);
 // The endings, for sentences: ".png, .jpg, .jpeg or .webp".
 inline constexpr const char* kPictureEndings = ".png, .jpg, .jpeg or .webp";
 

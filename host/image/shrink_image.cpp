@@ -32,11 +32,11 @@ template <class Channel>
 std::vector<Channel> shrink(const std::vector<Channel>& texels, std::uint32_t width, const std::vector<Cover>& columns,
                             const std::vector<Cover>& rows, bool srgb)
 {
-    constexpr std::size_t kMost = sizeof(Channel) == 1 ? 255 : 65535;
-    std::vector<float> linear(kMost + 1), plain(kMost + 1);
-    for (std::size_t i = 0; i <= kMost; ++i) {
-        plain[i] = static_cast<float>(i) / kMost;
-        linear[i] = srgb ? static_cast<float>(linearFromSrgb(static_cast<double>(i) / kMost)) : plain[i];
+    constexpr std::size_t kMax = sizeof(Channel) == 1 ? 255 : 65535;
+    std::vector<float> linear(kMax + 1), plain(kMax + 1);
+    for (std::size_t i = 0; i <= kMax; ++i) {
+        plain[i] = static_cast<float>(i) / kMax;
+        linear[i] = srgb ? static_cast<float>(linearFromSrgb(static_cast<double>(i) / kMax)) : plain[i];
     }
     std::vector<Channel> small;
     small.reserve(columns.size() * rows.size() * 4);
@@ -54,7 +54,7 @@ std::vector<Channel> shrink(const std::vector<Channel>& texels, std::uint32_t wi
             }
             for (std::size_t c = 0; c < 4; ++c) {
                 const double mean = std::clamp(static_cast<double>(sums[c]), 0.0, 1.0);
-                small.push_back(static_cast<Channel>(std::lround((srgb && c < 3 ? srgbFromLinear(mean) : mean) * kMost)));
+                small.push_back(static_cast<Channel>(std::lround((srgb && c < 3 ? srgbFromLinear(mean) : mean) * kMax)));
             }
         }
     }

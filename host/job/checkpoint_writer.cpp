@@ -20,7 +20,7 @@ namespace glim {
 namespace {
 
 constexpr double kDefaultInterval = 300.0;
-constexpr double kMostShare = 0.01;  // of the time, for writing
+constexpr double kMaxShare = 0.01;  // of the time, for writing
 constexpr std::chrono::seconds kPatience{2};
 
 template <class Value>
@@ -104,7 +104,7 @@ void CheckpointWriter::finish()
     interval_ = options_.seconds.value_or(kDefaultInterval);
     try {
         if (const std::optional<double> seconds = writing_.get()) {
-            interval_ = std::max(interval_, *seconds / kMostShare);
+            interval_ = std::max(interval_, *seconds / kMaxShare);
             writtenSamples_ = samplesPerPixel_;
             written_ = Clock::now();
             failed_.end();
@@ -122,7 +122,7 @@ void CheckpointWriter::fail(const std::exception& error)
     asked_ = false;
     last_ = Clock::now();
     interval_ = options_.seconds.value_or(kDefaultInterval);
-    failed_.sayAgain("no checkpoint: " + reasonOf(error));
+    failed_.sayAgain("no checkpoint: " + describeReason(error));
 }
 
 std::optional<WrittenCheckpoint> CheckpointWriter::lastWritten() const
@@ -133,7 +133,7 @@ std::optional<WrittenCheckpoint> CheckpointWriter::lastWritten() const
 std::optional<double> CheckpointWriter::write(const Checkpoint& checkpoint) const
 {
     const auto start = Clock::now();
-    if (!writeFilm(output_, filmOf(checkpoint), checkpoint, [this] { return !abandoned_; })) {
+    if (!writeFilm(output_, makeFilm(checkpoint), checkpoint, [this] { return !abandoned_; })) {
         return std::nullopt;
     }
     return secondsSince(start);

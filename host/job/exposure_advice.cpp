@@ -57,7 +57,7 @@ std::optional<std::string> adviseExposure(const Film& film, const Look& look)
     std::vector<double> luminances;
     double sum = 0.0, clipped = 0.0;
     for (const glm::dvec3& c : shown) {
-        luminances.push_back(luminanceOf(c));
+        luminances.push_back(computeLuminance(c));
         sum += luminances.back();
         clipped += isWhite(scale * c, look.tone) ? 1.0 : 0.0;
     }

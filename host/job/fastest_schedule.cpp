@@ -75,7 +75,7 @@ void remember(const DeviceDescription& device, const ScheduleRates& rates)
 {
     Json json = readRemembered();
     json.set(keyOf(device), {{"version", versionText()},
-                             {"fastest", nameOf(rates.fastest())},
+                             {"fastest", getName(rates.fastest())},
                              {"samplesPerSecond", {{"wavefront", slowest(rates.wavefront)}, {"persistent", slowest(rates.persistent)}}}});
     writeJson(rememberedFile(), json);
 }
@@ -102,9 +102,9 @@ Schedule rememberedSchedule(const DeviceDescription& device)
     if (version == nullptr || !version->is(versionText()) || fastest == nullptr) {
         return Schedule::Auto;
     }
-    return fastest->is(nameOf(Schedule::Persistent))  ? Schedule::Persistent
-           : fastest->is(nameOf(Schedule::Wavefront)) ? Schedule::Wavefront
-                                                      : Schedule::Auto;
+    return fastest->is(getName(Schedule::Persistent))  ? Schedule::Persistent
+           : fastest->is(getName(Schedule::Wavefront)) ? Schedule::Wavefront
+                                                       : Schedule::Auto;
 }
 
 Schedule fastestSchedule(const DeviceDescription& device, const RenderSettings& settings, const std::function<ScheduleRates()>& measure)

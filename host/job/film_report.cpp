@@ -86,13 +86,13 @@ std::string whyUnknown(const Film& film)
         return std::to_string(pixels) + " pixels have too few samples";
     }
     const double mean = computeMean(film, [](const PixelMoments& p) { return meanOf(p.mean); });
-    const double variance = computeMean(film, [](const PixelMoments& p) { return meanOf(varianceOfMean(p)); });
+    const double variance = computeMean(film, [](const PixelMoments& p) { return meanOf(computeVarianceOfMean(p)); });
     return mean == 0.0                                      ? "the picture is black"
            : std::isfinite(mean) && std::isfinite(variance) ? "its radiance is so small that float32 does not hold the squares"
                                                             : "its radiance is so large that float32 does not hold the squares";
 }
 
-Json estimateOf(const Film& film, const RenderSettings& settings)
+Json describeEstimate(const Film& film, const RenderSettings& settings)
 {
     const auto estimate = knownError(film, settings);
     if (!estimate) {

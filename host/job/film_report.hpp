@@ -56,7 +56,7 @@ std::size_t pixelsWithoutError(const Film& film);
 std::string whyUnknown(const Film& film);
 
 // null where the error is unknown.
-Json estimateOf(const Film& film, const RenderSettings& settings);
+Json describeEstimate(const Film& film, const RenderSettings& settings);
 
 // Reads like ", estimated relMSE .001 [.0009, .0011], RMSE 2 % [...] of the mean".
 std::string errorText(const Film& film, const RenderSettings& settings);

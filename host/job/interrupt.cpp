@@ -61,14 +61,14 @@ bool InterruptWatch::takeRequest() const
 
 int InterruptWatch::signal() const { return received; }
 
-const char* nameOfSignal(int signal) { return signal == SIGINT ? "SIGINT" : signal == SIGTERM ? "SIGTERM" : "SIGHUP"; }
+const char* getSignalName(int signal) { return signal == SIGINT ? "SIGINT" : signal == SIGTERM ? "SIGTERM" : "SIGHUP"; }
 
 ExitCode finish(int signal, const std::string& what)
 {
     if (signal == 0) {
         return ExitCode::Done;
     }
-    say("stopped by " + std::string(nameOfSignal(signal)) + "; " + what + ".");
+    say("stopped by " + std::string(getSignalName(signal)) + "; " + what + ".");
     return signal == SIGINT ? ExitCode::Interrupted : signal == SIGTERM ? ExitCode::Terminated : ExitCode::HungUp;
 }
 

@@ -20,7 +20,7 @@ public:
     bool takeRequest() const;  // whether SIGUSR1 has come since the last call
 };
 
-const char* nameOfSignal(int signal);
+const char* getSignalName(int signal);
 // The exit code of work that `signal` ended (0: nothing did). If one did, prints that, and `what` became of the work, to stderr.
 ExitCode finish(int signal, const std::string& what);
 

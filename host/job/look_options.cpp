@@ -13,7 +13,8 @@ void addLook(OptionTable& table, LookOptions& look, const std::string& picture, 
     table.add("--exposure", "EV", "Exposure of " + picture + " in stops, -100 to 100 or auto; not the EXR's [0]",
               [&look](const OptionValue& value) { look.exposure = parseExposure(value); });
     addChoice(table, "--tone", "T", "Tone mapping: none, neutral or agx [" + tone + "]",
-              {nameOf(Tone::None), nameOf(Tone::Neutral), nameOf(Tone::Agx)}, [&look](std::size_t i) { look.tone = static_cast<Tone>(i); });
+              {getName(Tone::None), getName(Tone::Neutral), getName(Tone::Agx)},
+              [&look](std::size_t i) { look.tone = static_cast<Tone>(i); });
 }
 
 void addPictureFiles(OptionTable& table, PictureFiles& files)
@@ -26,11 +27,11 @@ void resolvePictureFiles(const OptionTable& table, const PictureFiles& files)
 {
     for (const char* option : {"--exposure", "--tone"}) {
         if (files.empty() && table.isGiven(option)) {
-            throw UsageError(option, inQuotes(table.textOf(option)) + ": is of a picture; expected --image with it");
+            throw UsageError(option, inQuotes(table.toText(option)) + ": is of a picture; expected --image with it");
         }
     }
     for (const std::filesystem::path& file : files) {
-        if (!pictureKindOf(file)) {
+        if (!getPictureKind(file)) {
             throw UsageError("--image", inQuotes(file.string()) + ": expected a name that ends in " + kPictureEndings);
         }
     }
@@ -47,7 +48,7 @@ Look chooseLook(const LookOptions& options, const Film& film)
 {
     Look look{options.exposure.value_or(0.0), options.tone.value_or(Tone::None)};
     if (!options.exposure) {
-        look.exposure = chooseExposure(film, aovOf(film));
+        look.exposure = chooseExposure(film, getAov(film));
         char stops[32];
         std::snprintf(stops, sizeof stops, "%+.2f", look.exposure);
         say(std::string("--exposure auto is ") + stops + " stops, which show the log-average luminance as .18");
@@ -58,7 +59,7 @@ Look chooseLook(const LookOptions& options, const Film& film)
 void writePictures(const PictureFiles& files, const Film& film, const Look& look)
 {
     for (const std::filesystem::path& file : files) {
-        writeFilmPicture(file, film, aovOf(film), look);
+        writeFilmPicture(file, film, getAov(film), look);
     }
 }
 

@@ -201,7 +201,7 @@ std::vector<std::string> OptionTable::wordsGiven(const std::vector<std::string>&
     return words;
 }
 
-std::size_t OptionTable::indexOfAny(const std::string& name) const
+std::size_t OptionTable::findAnyIndex(const std::string& name) const
 {
     if (const std::optional<std::size_t> index = find(name)) {
         return *index;
@@ -216,7 +216,7 @@ std::size_t OptionTable::indexOfAny(const std::string& name) const
 
 void OptionTable::set(const std::string& name, const OptionValue& value)
 {
-    Entry& entry = entries_[indexOfAny(name)];
+    Entry& entry = entries_[findAnyIndex(name)];
     if (const std::string text = value.key() + value.text(); text.find('\0') != std::string::npos) {  // a name of a file would end there
         throw UsageError(inQuotes(text) + " has a null character; expected a text without one");
     }
@@ -231,7 +231,7 @@ void OptionTable::set(const std::string& name, const OptionValue& value)
 
 void OptionTable::set(const std::string& name, const Json& value)
 {
-    const Entry& entry = entries_[indexOfAny(name)];
+    const Entry& entry = entries_[findAnyIndex(name)];
     if (value.isObject() && entry.takes == Entry::Takes::Each) {
         for (const Json::Member& member : value.members()) {
             set(entry.name(), OptionValue(member.name, member.value));

@@ -105,7 +105,7 @@ public:
 
     Option option(const std::string& name) { return {*this, indexOf(name)}; }
     bool isGiven(const std::string& name) const;  // false too if the table has no such option
-    std::string textOf(const std::string& name) const { return entries_[indexOf(name)].given.front().text(); }  // if it is given
+    std::string toText(const std::string& name) const { return entries_[indexOf(name)].given.front().text(); }  // if it is given
 
     const std::vector<OptionValue>& valuesOf(const std::string& name) const { return entries_[indexOf(name)].given; }
 
@@ -128,8 +128,8 @@ private:
     friend class Option;
 
     std::optional<std::size_t> find(const std::string& name) const;
-    std::size_t indexOf(const std::string& name) const;     // throws UsageError
-    std::size_t indexOfAny(const std::string& name) const;  // the same; the name may be as programs have it
+    std::size_t indexOf(const std::string& name) const;       // throws UsageError
+    std::size_t findAnyIndex(const std::string& name) const;  // the same; the name may be as programs have it
 
     std::deque<Entry> entries_;
     std::string group_;

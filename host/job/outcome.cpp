@@ -12,12 +12,12 @@ std::string sentence(const std::string& text) { return text.ends_with('.') ? tex
 
 }  // namespace
 
-std::string reasonOf(const std::exception& error)
+std::string describeReason(const std::exception& error)
 {
     return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ? memorySentence() : error.what();
 }
 
-Outcome outcomeOf(const std::function<ExitCode()>& command)
+Outcome runForOutcome(const std::function<ExitCode()>& command)
 {
     try {
         return {command(), {}};
@@ -28,7 +28,7 @@ Outcome outcomeOf(const std::function<ExitCode()>& command)
     } catch (const DeviceError& error) {
         return {ExitCode::Device, sentence(error.what())};
     } catch (const std::bad_alloc& error) {
-        return {ExitCode::BadInput, sentence("For this scene and picture " + reasonOf(error))};
+        return {ExitCode::BadInput, sentence("For this scene and picture " + describeReason(error))};
     }
 }
 

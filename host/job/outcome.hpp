@@ -15,9 +15,9 @@ struct Outcome {
 };
 
 // For a sentence.
-std::string reasonOf(const std::exception& error);
+std::string describeReason(const std::exception& error);
 
 // Catches the errors that are not bugs in glim.
-Outcome outcomeOf(const std::function<ExitCode()>& command);
+Outcome runForOutcome(const std::function<ExitCode()>& command);
 
 }  // namespace glim

@@ -47,7 +47,7 @@ bool parseTriple(const OptionValue& value, Vector& triple)
 }
 
 template <class T>
-std::string textOf(T number)
+std::string toText(T number)
 {
     std::ostringstream text;
     text << number;
@@ -63,7 +63,7 @@ T parseBounded(const NumberOption<T>& option, const OptionValue& given, const st
     // NaN fails both comparisons.
     if (!parseNumber(unsignedText, value) || !(value >= option.low && value <= option.high)) {
         throw UsageError(option.name, "\"" + text + "\": expected a " + (std::is_integral_v<T> ? "whole number" : "number") + " from " +
-                                          textOf(option.low) + " to " + textOf(option.high) + others);
+                                          toText(option.low) + " to " + toText(option.high) + others);
     }
     return value;
 }
@@ -73,7 +73,7 @@ T parseBounded(const NumberOption<T>& option, const OptionValue& given, const st
 template <class T>
 Option addNumber(OptionTable& table, const NumberOption<T>& option, std::function<void(T)> store)
 {
-    const std::string help = option.what + ", " + textOf(option.low) + " to " + textOf(option.high) + " [" + option.fallback + "]";
+    const std::string help = option.what + ", " + toText(option.low) + " to " + toText(option.high) + " [" + option.fallback + "]";
     return table.add(option.name, option.unit, help, [option, store](const OptionValue& value) { store(parseBounded(option, value)); });
 }
 
@@ -96,8 +96,8 @@ Option addChoice(OptionTable& table, const std::string& name, const std::string&
 
 Option addSceneIndex(OptionTable& table, std::optional<std::size_t>& index)
 {
-    constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
-    return addNumber<std::uint32_t>(table, {"--scene", "INDEX", "Scene of the file", 0, kMost, "the file's default scene"},
+    constexpr std::uint32_t kMax = std::numeric_limits<std::uint32_t>::max();
+    return addNumber<std::uint32_t>(table, {"--scene", "INDEX", "Scene of the file", 0, kMax, "the file's default scene"},
                                     [&index](std::uint32_t value) { index = value; });
 }
 
@@ -116,13 +116,13 @@ glm::uvec2 parseSize(const OptionValue& value)
 
 FrameRange parseFrames(const OptionValue& value)
 {
-    constexpr std::uint32_t kMostFrame = 999999999;
+    constexpr std::uint32_t kMaxFrame = 999999999;
     const std::string text = value.text();
     const std::vector<std::string> parts = value.split(':');
     FrameRange range;
     const bool numbers = (parts.size() == 2 || parts.size() == 3) && parseNumber(parts[0], range.first) &&
                          parseNumber(parts[1], range.last) && (parts.size() == 2 || parseNumber(parts[2], range.step));
-    if (!numbers || range.first > range.last || range.last > kMostFrame || range.step == 0) {
+    if (!numbers || range.first > range.last || range.last > kMaxFrame || range.step == 0) {
         throw UsageError("--frames",
                          "\"" + text + "\": expected FIRST:LAST or FIRST:LAST:STEP with FIRST <= LAST and STEP >= 1, as in 1:250");
     }

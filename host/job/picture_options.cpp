@@ -63,7 +63,7 @@ void addPicture(OptionTable& table, PictureOptions& options, const std::string& 
     addAnimation(table, options.at, options.animation);
     table.add("--environment", "E", ".hdr or .exr map, radiance R,G,B, studio or none [the file's, else studio if unlit]",
               [&options](const OptionValue& value) { options.environment = parseEnvironment(value); });
-    addNumber<float>(table, {"--environment-rotation", "DEG", "Turn of the map about the vertical axis", -360.0F, 360.0F, "0"},
+    addNumber<float>(table, {"--environment-rotation", "DEG", "Rotation of the map about the vertical axis", -360.0F, 360.0F, "0"},
                      [&options](float degrees) { options.environmentRotation = degrees; });
     addEnum(table, "--environment-background", "B", "Whether the camera sees the environment: on or off [on]", {"off", "on"},
             options.environmentBackground);
@@ -191,7 +191,7 @@ void addDevice(OptionTable& table, PictureOptions& options)
     table.hide({"--schedule", "--path-capacity", "--accelerator", "--split", "--intersector"});
 }
 
-LoadOptions loadOptionsOf(const PictureOptions& options)
+LoadOptions makeLoadOptions(const PictureOptions& options)
 {
     LoadOptions load;
     load.scene = options.sceneIndex;
@@ -215,7 +215,7 @@ LoadOptions loadOptionsOf(const PictureOptions& options)
     return load;
 }
 
-Camera cameraOf(const Scene& scene, const PictureOptions& options)
+Camera makeCamera(const Scene& scene, const PictureOptions& options)
 {
     const Camera& camera = findCamera(scene, options.camera);
     return options.pose ? placeCamera(camera, *options.pose, scene.origin) : camera;

@@ -57,9 +57,9 @@ void addDevice(OptionTable& table, PictureOptions& options);
 // Adds the limits of --adaptive course to the group of addCourseEstimators.
 void addCourseRule(OptionTable& table, RenderSettings& settings);
 
-LoadOptions loadOptionsOf(const PictureOptions& options);
+LoadOptions makeLoadOptions(const PictureOptions& options);
 // The camera that the options choose, placed where they say.
-Camera cameraOf(const Scene& scene, const PictureOptions& options);
+Camera makeCamera(const Scene& scene, const PictureOptions& options);
 // The settings with a size: from the options, or else from the camera.
 RenderSettings settingsFor(const PictureOptions& options, const Camera& camera);
 

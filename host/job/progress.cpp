@@ -90,8 +90,8 @@ void ProgressPrinter::print(const RenderProgress& progress, const std::optional<
 void ProgressPrinter::write(const RenderProgress& progress, const std::optional<WrittenCheckpoint>& checkpoint) const
 {
     const ProgressEstimate estimate = estimateProgress(progress, timeLimit_);
-    const std::string text = style_ == ProgressStyle::Bar ? "\r\033[K" + fitBar(barOf(progress, estimate), columnsOf(STDERR_FILENO))
-                                                          : jsonOf(progress, estimate, checkpoint) + '\n';
+    const std::string text = style_ == ProgressStyle::Bar ? "\r\033[K" + fitBar(formatBar(progress, estimate), columnsOf(STDERR_FILENO))
+                                                          : toJson(progress, estimate, checkpoint) + '\n';
     std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
@@ -105,7 +105,7 @@ std::optional<double> ProgressPrinter::estimateAll(const RenderProgress& progres
     return *estimate.remaining + perPicture * static_cast<double>(place_.count - place_.index - 1);
 }
 
-std::string ProgressPrinter::barOf(const RenderProgress& progress, const ProgressEstimate& estimate) const
+std::string ProgressPrinter::formatBar(const RenderProgress& progress, const ProgressEstimate& estimate) const
 {
     const std::string picture =
         place_.count > 1 ? "picture " + std::to_string(place_.index + 1) + " of " + std::to_string(place_.count) + " " : "";
@@ -117,7 +117,7 @@ std::string ProgressPrinter::barOf(const RenderProgress& progress, const Progres
            (all ? format("%.0f s", *all) : "unknown");
 }
 
-std::string ProgressPrinter::jsonOf(const RenderProgress& progress, const ProgressEstimate& estimate,
+std::string ProgressPrinter::toJson(const RenderProgress& progress, const ProgressEstimate& estimate,
                                     const std::optional<WrittenCheckpoint>& checkpoint) const
 {
     Json line = {{"picture", place_.index + 1},

@@ -53,8 +53,8 @@ private:
     void write(const RenderProgress& progress, const std::optional<WrittenCheckpoint>& checkpoint) const;
     // Seconds to the end of the last picture.
     std::optional<double> estimateAll(const RenderProgress& progress, const ProgressEstimate& estimate) const;
-    std::string barOf(const RenderProgress& progress, const ProgressEstimate& estimate) const;
-    std::string jsonOf(const RenderProgress& progress, const ProgressEstimate& estimate,
+    std::string formatBar(const RenderProgress& progress, const ProgressEstimate& estimate) const;
+    std::string toJson(const RenderProgress& progress, const ProgressEstimate& estimate,
                        const std::optional<WrittenCheckpoint>& checkpoint) const;
 
     ProgressStyle style_;

@@ -17,7 +17,7 @@ namespace glim {
 
 PictureFrame framePicture(const SceneSession& session, const RenderJob& options)
 {
-    const Camera camera = cameraOf(session.prepared().scene, options);
+    const Camera camera = makeCamera(session.prepared().scene, options);
     const RenderSettings settings = settingsFor(options, camera);
     checkMemory(session.prepared(), settings, session.device().description(), options.checkpoint.isGiven());
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
@@ -33,7 +33,7 @@ void labelFilm(Film& film, const RenderJob& options)
 std::string describeOther(const Film& film, const SceneSession& session, const PictureFrame& frame, const RenderJob& options)
 {
     Film expected = emptyFilm(frame.settings);
-    expected.identity = identityOf(SceneIdentity(session.prepared().flat), frame.camera, frame.settings);
+    expected.identity = makeIdentity(SceneIdentity(session.prepared().flat), frame.camera, frame.settings);
     labelFilm(expected, options);
     return film.identity.kernels != expected.identity.kernels
                ? "it is by another version of glim's kernels; `glim merge` adds samples that this one renders"
@@ -55,7 +55,7 @@ void resumeFrom(Renderer& renderer, StoredFilm stored, const std::string& name)
         say(name + " has no finished block of samples, so the render begins anew");
         return;
     }
-    std::optional<Checkpoint> checkpoint = stored.checkpoint ? std::move(stored.checkpoint) : checkpointOf(std::move(stored.film));
+    std::optional<Checkpoint> checkpoint = stored.checkpoint ? std::move(stored.checkpoint) : makeCheckpoint(std::move(stored.film));
     if (!checkpoint) {
         refuse("expected one range that ends with a page of " + std::to_string(kPageSamples) + "; `glim merge` adds others");
     }
@@ -109,7 +109,7 @@ RenderedFilm renderPicture(Renderer& renderer, const RenderJob& options, FilmDen
         } catch (const DeviceError&) {
             throw;  // nor could the film be read
         } catch (const std::exception& error) {
-            say("the film has no checkpoint: " + reasonOf(error));
+            say("the film has no checkpoint: " + describeReason(error));
         }
     };
     rendered.film = renderer.render(observe, target.isGiven() ? StoppingCriterion(criterion) : nullptr, atEnd);

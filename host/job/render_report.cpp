@@ -92,7 +92,7 @@ Json adaptiveOf(const RenderReport& report)
     return json;
 }
 
-Json stepsOf(const RenderReport& report)
+Json countSteps(const RenderReport& report)
 {
     if (report.options.settings.aov != Aov::BvhSteps) {
         return nullptr;
@@ -153,7 +153,7 @@ Json rowsOf(const Film& film)
 
 Json lookOf(const RenderReport& report)
 {
-    return report.look ? Json{{"exposure", report.look->exposure}, {"tone", nameOf(report.look->tone)}} : Json(nullptr);
+    return report.look ? Json{{"exposure", report.look->exposure}, {"tone", getName(report.look->tone)}} : Json(nullptr);
 }
 
 Json statisticsOf(const RenderReport& report)
@@ -165,7 +165,7 @@ Json statisticsOf(const RenderReport& report)
             {"rows", rowsOf(report.film)},
             {"sampleRange", Json::array({report.film.sampleRanges[0].first, report.film.sampleRanges[0].second})},
             {"settings", report.film.identity.settings},
-            {"schedule", nameOf(s.schedule)},
+            {"schedule", getName(s.schedule)},
             {"stopReason", report.stopReason},
             {"device", {{"name", report.device.name}, {"driver", report.device.driver}, {"kind", report.device.kind}}},
             {"seconds",
@@ -178,8 +178,8 @@ Json statisticsOf(const RenderReport& report)
               {"ids", report.idSeconds}}},
             {"samples", s.samples},
             {"resumedSamples", s.resumedSamples},
-            {"digest", digestOf(report.film)},
-            {"pixelsDigest", pixelsDigestOf(report.film)},
+            {"digest", computeDigest(report.film)},
+            {"pixelsDigest", computePixelsDigest(report.film)},
             {"samplesPerSecond", perSecond(s.samples, s.renderSeconds)},
             {"rays", {{"closest", s.cameraAndBounceRays}, {"shadow", s.shadowRays}, {"total", rays}}},
             {"raysPerSecond", perSecond(rays, s.renderSeconds)},
@@ -195,12 +195,12 @@ Json statisticsOf(const RenderReport& report)
             {"lightPathsPerSample", report.film.splats.empty() ? Json(nullptr) : Json(lightPathsOf(report.film))},
             {"look", lookOf(report)},
             {"clampIndirect", clampingOf(report.film, report.options)},
-            {"estimate", estimateOf(report.film, report.options.settings)},
+            {"estimate", describeEstimate(report.film, report.options.settings)},
             {"denoised", report.denoising ? denoisingJson(*report.denoising) : Json(nullptr)},
             {"pixelsWithoutEstimate", pixelsWithoutError(report.film)},
             {"bvh", bvhOf(report)},
             {"adaptive", adaptiveOf(report)},
-            {"steps", stepsOf(report)},
+            {"steps", countSteps(report)},
             {"suspects", suspectsOf(report)}};
 }
 

@@ -49,7 +49,7 @@ std::string stopReason(int signal, const RenderedFilm& rendered, const RenderSet
 {
     const Film& film = rendered.film;
     if (signal != 0) {
-        return nameOfSignal(signal);
+        return getSignalName(signal);
     }
     if (rendered.isGood) {
         return "target";
@@ -121,7 +121,7 @@ auto tryTo(const char* purpose, Inform inform) -> decltype(inform())
     try {
         return inform();
     } catch (const std::exception& error) {
-        say(std::string("it was not possible to ") + purpose + ": " + reasonOf(error));
+        say(std::string("it was not possible to ") + purpose + ": " + describeReason(error));
         return decltype(inform())();
     }
 }
@@ -168,7 +168,7 @@ public:
     ExitCode renderAll(const RenderJob& options, const InterruptWatch& watch);
 
 private:
-    RenderJob optionsOf(const Shot& shot) const;
+    RenderJob makeOptions(const Shot& shot) const;
     ExitCode renderShot(const RenderJob& options);
     std::optional<StoredFilm> readOutput(const RenderJob& options, const PictureFrame& frame) const;
     bool keep(const RenderJob& options, const StoredFilm& stored) const;
@@ -184,7 +184,7 @@ private:
     std::shared_ptr<const CameraRayKernels> rayKernels_;
 };
 
-RenderJob SequenceRenderer::optionsOf(const Shot& shot) const
+RenderJob SequenceRenderer::makeOptions(const Shot& shot) const
 {
     RenderJob options = options_;
     if (isSequence_) {
@@ -211,7 +211,7 @@ ExitCode SequenceRenderer::renderAll(const RenderJob& options, const InterruptWa
     pose(options);
     const std::vector<Shot> shots = listShots(options.sequence, options, session_.prepared().scene);
     for (const Shot& shot : shots) {
-        checkTargets(optionsOf(shot), session_.prepared().scene.files);
+        checkTargets(makeOptions(shot), session_.prepared().scene.files);
     }
     if (options_.settings.aov == Aov::Radiance) {
         warnIfNoLights(session_.prepared());
@@ -224,7 +224,7 @@ ExitCode SequenceRenderer::renderAll(const RenderJob& options, const InterruptWa
     place_.count = shots.size();
     for (const Shot& shot : shots) {
         session_.pose(options.edits, shot.at);
-        const ExitCode code = renderShot(optionsOf(shot));
+        const ExitCode code = renderShot(makeOptions(shot));
         if (code != ExitCode::Done) {
             return code;
         }

@@ -16,7 +16,7 @@ constexpr std::uint64_t kMaxCounter = std::uint64_t{1} << 32;  // sample index *
 
 [[noreturn]] void refuse(const OptionTable& table, const std::string& option, const std::string& why)
 {
-    throw UsageError(option, inQuotes(table.textOf(option)) + ": " + why);
+    throw UsageError(option, inQuotes(table.toText(option)) + ": " + why);
 }
 
 void refuseIfGiven(const OptionTable& table, const std::string& option, const std::string& why)
@@ -92,7 +92,7 @@ std::string withValues(const OptionTable& table, std::string why)
 {
     for (std::size_t begin = why.find('{'); begin != std::string::npos; begin = why.find('{')) {
         const std::size_t end = why.find('}', begin);
-        why.replace(begin, end + 1 - begin, table.textOf(why.substr(begin + 1, end - begin - 1)));
+        why.replace(begin, end + 1 - begin, table.toText(why.substr(begin + 1, end - begin - 1)));
     }
     return why;
 }
@@ -159,7 +159,7 @@ void resolveAdaptive(const OptionTable& table, RenderSettings& settings)
 void resolveTime(const OptionTable& table, RenderSettings& settings)
 {
     if (settings.seconds && !isCourse(settings.adaptive) && !table.isGiven("--samples")) {
-        settings.sampleEnd = mostSamples(settings);
+        settings.sampleEnd = maxSamples(settings);
     }
 }
 
@@ -201,7 +201,7 @@ void checkPaths(const OptionTable& table, const RenderSettings& settings)
     const std::uint32_t least = settings.paths == PathParts::Direct ? 1 : settings.paths == PathParts::Indirect ? 2 : 0;
     if (settings.bounces < least) {
         refuseIfGiven(table, "--bounces",
-                      "leaves nothing of --paths " + table.textOf("--paths") + "; expected at least " + std::to_string(least));
+                      "leaves nothing of --paths " + table.toText("--paths") + "; expected at least " + std::to_string(least));
     }
 }
 
@@ -212,9 +212,9 @@ void resolveTarget(const OptionTable& table, RenderJob& job)
         return;
     }
     if (!hasSampleCount(table)) {
-        job.settings.sampleEnd = mostSamples(job.settings);
+        job.settings.sampleEnd = maxSamples(job.settings);
     }
-    const std::uint32_t least = leastSamplesForError(job.settings.sampleBegin);
+    const std::uint32_t least = minSamplesForError(job.settings.sampleBegin);
     if (job.settings.sampleEnd - job.settings.sampleBegin < least) {
         for (const char* option : {"--target-rmse", "--target-relmse"}) {
             refuseIfGiven(table, option, "the error is estimated from " + std::to_string(least) + " samples on; expected at least as many");
@@ -234,7 +234,7 @@ void resolveDenoise(const OptionTable& table, RenderJob& job)
     if (settings.adaptive != Adaptive::Off) {
         refuse(table, "--adaptive", "gives pixels samples that are no two independent halves, which --denoise needs");
     }
-    const std::uint32_t least = leastSamplesForError(settings.sampleBegin), samples = settings.sampleEnd - settings.sampleBegin;
+    const std::uint32_t least = minSamplesForError(settings.sampleBegin), samples = settings.sampleEnd - settings.sampleBegin;
     if (samples < least) {
         refuse(table, table.isGiven("--samples") ? "--samples" : "--spp",
                "--denoise needs two blocks of samples; expected " + std::to_string(least) + " or more");
@@ -283,7 +283,7 @@ void checkFiles(const OptionTable& table, const RenderJob& job)
         if (std::any_of(job.pictures.begin(), file, isFile) || (job.rates && isFile(*job.rates))) {
             throw UsageError("--image", name + ": expected another file than those of --rates and of another --image");
         }
-        if (const std::uint32_t longest = longestSide(*pictureKindOf(*file)); job.size && std::max(job.size->x, job.size->y) > longest) {
+        if (const std::uint32_t longest = longestSide(*getPictureKind(*file)); job.size && std::max(job.size->x, job.size->y) > longest) {
             throw UsageError("--image", name + ": files of this kind hold at most " + std::to_string(longest) +
                                             " pixels a side; expected a smaller --size");
         }
@@ -302,7 +302,7 @@ void resolveAnimation(const OptionTable& table, bool hasTime)
     }
 }
 
-std::uint32_t mostSamples(const RenderSettings& settings)
+std::uint32_t maxSamples(const RenderSettings& settings)
 {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(kMaxSample, kMaxCounter / settings.course.lightSamples));
 }

@@ -16,6 +16,6 @@ void resolveLight(const OptionTable& table, const PictureOptions& picture);
 void resolveAnimation(const OptionTable& table, bool hasTime);
 
 // The largest number of samples per pixel: the sampler counts samples of lights in 32 bits.
-std::uint32_t mostSamples(const RenderSettings& settings);
+std::uint32_t maxSamples(const RenderSettings& settings);
 
 }  // namespace glim

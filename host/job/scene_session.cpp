@@ -9,7 +9,7 @@ namespace {
 
 LoadOptions loadOptionsFor(const RenderJob& options)
 {
-    LoadOptions load = loadOptionsOf(options);
+    LoadOptions load = makeLoadOptions(options);
     load.framed = load.framed || options.sequence.turntable > 0;
     load.at.reset();  // pose() says when
     return load;
@@ -36,10 +36,10 @@ SceneSession::SceneSession(const RenderJob& options)
       time_(firstTime(options.sequence, options))
 {
     updateScene(prepared_, file_, time_, options.split);
-    stamps_ = stampsOf(prepared_.scene.files);
+    stamps_ = readStamps(prepared_.scene.files);
 }
 
-std::vector<SceneSession::Stamp> SceneSession::stampsOf(const std::vector<std::filesystem::path>& files)
+std::vector<SceneSession::Stamp> SceneSession::readStamps(const std::vector<std::filesystem::path>& files)
 {
     std::vector<Stamp> stamps;
     std::error_code gone;
@@ -58,7 +58,7 @@ bool SceneSession::serves(const RenderJob& options) const
         load.aspectRatio = mine.aspectRatio;
     }
     const bool sameScene =
-        options.scene == options_.scene && load == mine && options.split == options_.split && stamps_ == stampsOf(prepared_.scene.files);
+        options.scene == options_.scene && load == mine && options.split == options_.split && stamps_ == readStamps(prepared_.scene.files);
     const bool sameLens = (options.lens.radius > 0.0F) == (options_.lens.radius > 0.0F);
     return sameScene && sameLens && options.device == options_.device &&
            lastingSettings(options.settings) == lastingSettings(options_.settings);

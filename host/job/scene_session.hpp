@@ -33,7 +33,7 @@ public:
 private:
     using Stamp = std::pair<std::filesystem::file_time_type, std::uintmax_t>;  // last write and length
 
-    static std::vector<Stamp> stampsOf(const std::vector<std::filesystem::path>& files);
+    static std::vector<Stamp> readStamps(const std::vector<std::filesystem::path>& files);
 
     RenderJob options_;
     VulkanInstance instance_;

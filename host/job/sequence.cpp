@@ -40,7 +40,7 @@ Pose zoomedPose(const CameraEntry& entry, const Camera& camera, const Scene& sce
     if (camera.kind != Camera::Kind::Perspective) {
         throw InputError(place + ".yfov: camera \"" + camera.name + "\" is orthographic; expected zoom instead.");
     }
-    Pose pose = entry.pose.value_or(poseOf(camera, 1.0, scene.origin));
+    Pose pose = entry.pose.value_or(computePose(camera, 1.0, scene.origin));
     pose.zoom = std::tan(0.5 * static_cast<double>(camera.yfov)) / std::tan(0.5 * *entry.yfov);
     return pose;
 }

@@ -245,7 +245,7 @@ Comparison compareImages(const Picture& picture, const Picture& reference)
     result.withoutVariance =
         picture.variance.empty() ? picture.radiance.size() : static_cast<std::size_t>(std::ranges::count_if(picture.variance, isUnknown));
     result.noise = estimateErrors(picture);
-    result.referenceNoise = noiseOfReference(reference);
+    result.referenceNoise = estimateReferenceNoise(reference);
     return result;
 }
 
@@ -278,7 +278,7 @@ std::optional<SquaredErrors> estimateErrors(const Picture& picture)
     return errorsRelativeTo(robustRadiance(picture.width, picture.height, picture.radiance, picture.variance), picture);
 }
 
-std::optional<SquaredErrors> noiseOfReference(const Picture& reference)
+std::optional<SquaredErrors> estimateReferenceNoise(const Picture& reference)
 {
     return errorsRelativeTo({reference.radiance.begin(), reference.radiance.end()}, reference);
 }

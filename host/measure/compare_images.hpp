@@ -57,7 +57,7 @@ struct Comparison {
     MeanRatio ratioOfAll;  // all channels together; its interval allows for fully correlated channels
     IntervalSource intervalSource = IntervalSource::None;
     MaxError maxError;                                   // the largest |x-r|
-    std::optional<SquaredErrors> noise, referenceNoise;  // estimateErrors(picture), noiseOfReference(reference)
+    std::optional<SquaredErrors> noise, referenceNoise;  // estimateErrors(picture), estimateReferenceNoise(reference)
 };
 
 // Refuses (InputError) pictures of different sizes.
@@ -70,7 +70,7 @@ std::optional<SquaredErrors> measureErrors(const Picture& picture, const Picture
 // left float's range (float_range.hpp), and where a pixel is not finite.
 std::optional<SquaredErrors> estimateErrors(const Picture& picture);
 // The expected error of a reference, over its finite pixels and relative to its own values: to be subtracted from comparisons with it.
-std::optional<SquaredErrors> noiseOfReference(const Picture& reference);
+std::optional<SquaredErrors> estimateReferenceNoise(const Picture& reference);
 
 // The mean over the channels of all finite pixels.
 double meanRadiance(const Picture& picture);

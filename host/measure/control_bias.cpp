@@ -10,7 +10,7 @@
 namespace glim {
 namespace {
 
-constexpr std::size_t kLeastPixels = 32;  // with fewer, of uneven radiance, intervals contain the truth too rarely
+constexpr std::size_t kMinPixels = 32;  // with fewer, of uneven radiance, intervals contain the truth too rarely
 
 double meanOf(const PixelMoments& pixel)
 {
@@ -31,7 +31,7 @@ std::optional<ControlBias> estimateControlBias(const Film& film, const Film& con
             laterSum += later.back();
         }
     }
-    if (chosen.size() < kLeastPixels || !std::isfinite(chosenSum) || !(laterSum > *std::max_element(later.begin(), later.end()))) {
+    if (chosen.size() < kMinPixels || !std::isfinite(chosenSum) || !(laterSum > *std::max_element(later.begin(), later.end()))) {
         return std::nullopt;
     }
     // The ratio without each pixel in turn: if few bright pixels make up the sums, this tells more than the spread of the differences.

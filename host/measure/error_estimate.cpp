@@ -55,7 +55,7 @@ std::vector<Part> partsOf(const Film& film, const std::function<double(std::size
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
         const PixelMoments pixel = shownPixel(film, i);
         if (pixel.blocks >= 2) {
-            const glm::vec3 variance = varianceOfMean(pixel);
+            const glm::vec3 variance = computeVarianceOfMean(pixel);
             double sum = 0.0;
             for (int c = 0; c < 3; ++c) {
                 const double square = static_cast<double>(variance[c]);
@@ -71,7 +71,7 @@ std::vector<Part> partsOf(const Film& film, const std::function<double(std::size
 
 std::optional<ErrorEstimate> estimateError(const Film& film)
 {
-    const Picture picture = pictureOf(film);
+    const Picture picture = makePicture(film);
     const auto errors = estimateErrors(picture);
     if (!errors) {
         return std::nullopt;

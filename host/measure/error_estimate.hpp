@@ -15,7 +15,7 @@ struct ErrorEstimate {
     double mean = 0.0;             // radiance over pixels and channels, W/(sr m^2)
     std::size_t pixelsOfHalf = 0;  // the fewest pixels that make up half of mse
 
-    // Too few pixels to tell what others would be like: a lamp's rim in a small picture, or paths so rare and bright that most are
+    // Too few pixels to tell what others would be like: a light's rim in a small picture, or paths so rare and bright that most are
     // missing.
     bool isOfFew() const { return pixelsOfHalf < 10 && errors.mse > 0.0; }
 };

@@ -38,17 +38,17 @@ void clearUnknown(std::vector<glm::vec3>& variance, const std::vector<std::uint3
 
 }  // namespace
 
-Picture pictureOf(const Film& film)
+Picture makePicture(const Film& film)
 {
     Picture picture{film.width, film.height, {}, {}, film.rowsAbove, 0};
     for (const PixelMoments& pixel : shownPixels(film)) {
         picture.radiance.push_back(pixel.mean);
-        picture.variance.push_back(varianceOfMean(pixel));
+        picture.variance.push_back(computeVarianceOfMean(pixel));
     }
     return picture;
 }
 
-Picture pictureOf(const Image& image, const std::string& name)
+Picture makePicture(const Image& image, const std::string& name)
 {
     Picture picture{image.width, image.height, colors(image, "", name), {}, image.rowsAbove, image.columnsLeft};
     if (image.channels.contains("variance.R")) {

@@ -19,10 +19,10 @@ struct Picture {
     std::uint32_t rowsAbove = 0, columnsLeft = 0;  // of the whole, which this lacks
 };
 
-Picture pictureOf(const Film& film);
+Picture makePicture(const Film& film);
 
 // The channels R, G, B and, if there are, variance.R, .G, .B. `name` is for the message of InputError.
-Picture pictureOf(const Image& image, const std::string& name);
+Picture makePicture(const Image& image, const std::string& name);
 
 // Sets the variance of `picture` to R, G and B of `image`.
 void setVariance(Picture& picture, const Image& image, const std::string& name);

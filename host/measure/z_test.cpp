@@ -26,7 +26,7 @@ void addRegion(Region& sum, const Region& term)
     sum.magnitude += term.magnitude;
 }
 
-double zOf(const Region& region, int c)
+double computeZ(const Region& region, int c)
 {
     const double excess = std::max(0.0, std::abs(region.difference[c]) - kRounding * region.magnitude[c]);
     return excess == 0 ? 0.0 : std::copysign(excess / std::sqrt(region.variance[c]), region.difference[c]);
@@ -47,7 +47,7 @@ void addBlock(ZTest& test, const Region& block, std::uint32_t x, std::uint32_t y
 {
     for (int c = 0; c < 3; ++c) {
         const std::size_t channel = static_cast<std::size_t>(c);
-        const double z = zOf(block, c);
+        const double z = computeZ(block, c);
         if (hasNoise(block, c)) {
             ++test.blocks[channel];
             test.meanSquare[channel] += z * z;
@@ -119,7 +119,7 @@ ZTest zTest(const Picture& picture, const Picture& reference, double alpha)
     for (int c = 0; c < 3; ++c) {
         const std::size_t channel = static_cast<std::size_t>(c);
         const double count = static_cast<double>(test.blocks[channel]);
-        test.meanZ[channel] = zOf(whole, c);
+        test.meanZ[channel] = computeZ(whole, c);
         if (count > 0) {
             test.meanSquare[channel] /= count;
             test.meanSquareMargin[channel] = 4.0 * std::sqrt(2.0 / count);

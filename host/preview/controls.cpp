@@ -18,7 +18,7 @@ struct Axes {
     glm::dvec3 right, up, forward;
 };
 
-Axes axesOf(const Pose& pose)
+Axes computeAxes(const Pose& pose)
 {
     const glm::dvec3 forward = glm::normalize(pose.at - pose.from);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, pose.up));
@@ -40,14 +40,14 @@ Pose orbit(const Pose& pose, const glm::dvec2& motion, double height)
     const double polar = std::acos(std::clamp(glm::dot(glm::normalize(back), up), -1.0, 1.0));
     const double wanted = std::clamp(polar - motion.y * perPixel, kPole, std::numbers::pi - kPole);
     back = rotate(back, glm::normalize(glm::cross(up, back)), wanted - polar);
-    Pose turned = pose;
-    turned.from = pose.at + back;
-    return turned;
+    Pose orbited = pose;
+    orbited.from = pose.at + back;
+    return orbited;
 }
 
 Pose pan(const Pose& pose, const glm::dvec2& motion, double pixel)
 {
-    const Axes axes = axesOf(pose);
+    const Axes axes = computeAxes(pose);
     const glm::dvec3 offset = pixel * (motion.y * axes.up - motion.x * axes.right);
     Pose moved = pose;
     moved.from += offset;
@@ -72,7 +72,7 @@ Pose dolly(const Pose& pose, double notches, Camera::Kind kind)
 
 Pose fly(const Pose& pose, const glm::dvec3& offset)
 {
-    const Axes axes = axesOf(pose);
+    const Axes axes = computeAxes(pose);
     const glm::dvec3 step = offset.x * axes.right + offset.y * axes.up + offset.z * axes.forward;
     Pose moved = pose;
     moved.from += step;
@@ -89,7 +89,7 @@ Pose frame(const Pose& pose, const Bounds& bounds, const Camera& camera, double 
     moved.zoom = orthographic ? std::abs(static_cast<double>(camera.halfHeight)) * narrower / bounds.radius : 1.0;
     const double distance = orthographic ? 2.0 * bounds.radius : bounds.radius / std::sin(std::atan(slope));
     moved.at = bounds.center;
-    moved.from = bounds.center - distance * axesOf(pose).forward;
+    moved.from = bounds.center - distance * computeAxes(pose).forward;
     return moved;
 }
 

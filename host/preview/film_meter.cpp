@@ -35,7 +35,7 @@ void FilmMeter::measure(Refiner& refiner, Aov aov, bool isWaiting)
     if (!isFirst && (samples < 1 || samples < kGrowth * static_cast<double>(measuredAt_) || isWaiting)) {
         return;
     }
-    if (!isRanged && !isExposed && samples < leastSamplesForError(0)) {
+    if (!isRanged && !isExposed && samples < minSamplesForError(0)) {
         return;
     }
     const Film film = refiner.renderer().film();
@@ -48,7 +48,7 @@ void FilmMeter::measure(Refiner& refiner, Aov aov, bool isWaiting)
     if (aov == Aov::SampleCount) {
         range_.high = std::max(range_.high, 2.0F * range_.low);  // the scale should not show the present sweep alone
     }
-    if (const auto errors = estimateErrors(pictureOf(film)); errors && errors->relMse > 0.0 && aov != Aov::BvhSteps) {
+    if (const auto errors = estimateErrors(makePicture(film)); errors && errors->relMse > 0.0 && aov != Aov::BvhSteps) {
         errors_.push_back({refiner.seconds(), errors->relMse});
     }
 }

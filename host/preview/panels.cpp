@@ -35,7 +35,7 @@ constexpr HelpLine kHelp[] = {
     {"Esc", "quit"},
 };
 
-const char* nameOf(Aov aov)
+const char* getName(Aov aov)
 {
     constexpr const char* kNames[] = {"shaded", "normal", "depth", "albedo", "BVH steps", "samples"};
     return kNames[static_cast<int>(aov)];
@@ -132,7 +132,7 @@ PanelChoices showControls(const PanelFigures& figures, PanelChoices choices)
     if (beginPanel("glim (H: help)###controls")) {
         choices.exposure = exposureSlider(choices.exposure);
         choices.tone = toneCombo(choices.tone);
-        choices.layer = choose("layer", figures.layers, choices.layer, [](Aov layer) { return nameOf(layer); });
+        choices.layer = choose("layer", figures.layers, choices.layer, [](Aov layer) { return getName(layer); });
         choices.camera = chooseCamera(figures.cameras, choices.camera);
         if (!figures.surface.empty()) {
             ImGui::Separator();

@@ -29,7 +29,7 @@ struct PanelFigures {
     std::string device;
     std::vector<Aov> layers;
     std::vector<std::string> cameras;
-    std::string surface;  // what was clicked, with its material; empty: nothing
+    std::string surface;                        // what was clicked, with its material; empty: nothing
     bool hasMaterial = false, hasNode = false;  // that the user may change
     std::size_t edits = 0;
 };

@@ -26,12 +26,12 @@ std::optional<Pick> pick(Refiner& refiner, const PreparedScene& prepared, const 
 {
     const PathRay ray = rayThrough(refiner.camera(), pixel, size);
     const PathHit hit = RayTracer(refiner.renderer().resources()).trace(std::span(&ray, 1)).front();
-    if (hit.record == kNoRecord) {
+    if (hit.primitiveRef == kNoPrimitiveRef) {
         return std::nullopt;
     }
     const double distance = static_cast<double>(hit.t);
     return Pick{prepared.scene.origin + glm::dvec3(ray.origin) + distance * glm::dvec3(ray.direction), distance,
-                describeRecord(prepared, hit.record)};
+                describePrimitive(prepared, hit.primitiveRef)};
 }
 
 std::string describeSurface(const std::optional<Pick>& found)
@@ -42,7 +42,7 @@ std::string describeSurface(const std::optional<Pick>& found)
     char place[200];
     std::snprintf(place, sizeof place, ", at (%.6g, %.6g, %.6g), %.6g m away", found->position.x, found->position.y, found->position.z,
                   found->distance);
-    return textOf(found->primitive) + ", material " + found->primitive.material + place;
+    return toText(found->primitive) + ", material " + found->primitive.material + place;
 }
 
 std::string describeSamples(Refiner& refiner, const glm::uvec2& pixel, Aov aov)
@@ -50,7 +50,7 @@ std::string describeSamples(Refiner& refiner, const glm::uvec2& pixel, Aov aov)
     const RenderSettings& film = refiner.renderer().settings();
     const glm::uvec2 place = pixel / refiner.scale();
     const PixelMoments moments = refiner.renderer().moments(place.y * film.width + place.x);
-    const glm::vec3 variance = varianceOfMean(moments), error = glm::sqrt(variance);
+    const glm::vec3 variance = computeVarianceOfMean(moments), error = glm::sqrt(variance);
     char text[300];
     std::snprintf(text, sizeof text, "; %u sample%s, mean (%.6g, %.6g, %.6g)%s", moments.count, moments.count == 1 ? "" : "s",
                   static_cast<double>(moments.mean.r), static_cast<double>(moments.mean.g), static_cast<double>(moments.mean.b),

@@ -457,7 +457,8 @@ void Session::clickAt(const glm::dvec2& position)
 void Session::printCamera()
 {
     const std::string options = "--camera " + std::to_string(viewpoint_->index()) + cameraOptions(viewpoint_->moved(), options_.lens) +
-                                " --size " + std::to_string(display_.width()) + "x" + std::to_string(display_.height()) + editOptions(joinEdits(options_.load.edits, edits_));
+                                " --size " + std::to_string(display_.width()) + "x" + std::to_string(display_.height()) +
+                                editOptions(joinEdits(options_.load.edits, edits_));
     std::cout << options << '\n' << viewpoint_->describeAsGltf() << std::endl;
     say(options);
 }

@@ -53,8 +53,8 @@ std::vector<Edit> listEdits(const ChosenSurface& surface, const SurfaceChoices& 
         }
     }
     if (surface.nodePointer && after.translation != before.translation) {
-        edits.push_back({*surface.nodePointer + "/translation",
-                         listOf(std::array{after.translation.x, after.translation.y, after.translation.z})});
+        edits.push_back(
+            {*surface.nodePointer + "/translation", listOf(std::array{after.translation.x, after.translation.y, after.translation.z})});
     }
     return edits;
 }

@@ -12,7 +12,7 @@ namespace glim {
 namespace {
 
 // Half the height of the picture at the point that the camera looks at, in metres.
-double halfHeightOf(const Camera& camera, const Pose& pose)
+double computeHalfHeight(const Camera& camera, const Pose& pose)
 {
     if (camera.kind == Camera::Kind::Orthographic) {
         return static_cast<double>(camera.halfHeight);  // includes the zoom
@@ -36,7 +36,7 @@ Camera Viewpoint::camera() const { return pose_ ? placeCamera(cameras_[index_], 
 Pose Viewpoint::pose() const
 {
     const Camera& camera = cameras_[index_];
-    return pose_ ? *pose_ : poseOf(camera, guessDistance(camera, bounds_, origin_), origin_);
+    return pose_ ? *pose_ : computePose(camera, guessDistance(camera, bounds_, origin_), origin_);
 }
 
 bool Viewpoint::choose(std::size_t index)
@@ -63,7 +63,7 @@ void Viewpoint::follow(const Gesture& gesture, double height)
     const Camera seen = camera();
     switch (gesture.kind) {
     case Gesture::Kind::Orbit: move(orbit(pose(), gesture.motion, height)); break;
-    case Gesture::Kind::Pan: move(pan(pose(), gesture.motion, 2.0 * halfHeightOf(seen, pose()) / height)); break;
+    case Gesture::Kind::Pan: move(pan(pose(), gesture.motion, 2.0 * computeHalfHeight(seen, pose()) / height)); break;
     case Gesture::Kind::Dolly: move(dolly(pose(), gesture.notches, seen.kind)); break;
     case Gesture::Kind::Click: break;
     }
@@ -98,7 +98,7 @@ std::string Viewpoint::describeAsGltf() const
 {
     const Camera seen = camera();
     const glm::dvec3 from = glm::dvec3(seen.position) + origin_;
-    const glm::dquat turn = glm::quat_cast(glm::dmat3(glm::dvec3(seen.right), glm::dvec3(seen.up), -glm::dvec3(seen.forward)));
+    const glm::dquat rotation = glm::quat_cast(glm::dmat3(glm::dvec3(seen.right), glm::dvec3(seen.up), -glm::dvec3(seen.forward)));
     Json camera;
     if (seen.kind == Camera::Kind::Perspective) {
         Json lens = {{"yfov", seen.yfov}, {"znear", 0.01}};
@@ -110,8 +110,9 @@ std::string Viewpoint::describeAsGltf() const
         camera = {{"type", "orthographic"},
                   {"orthographic", {{"xmag", seen.halfWidth}, {"ymag", seen.halfHeight}, {"znear", 0.01}, {"zfar", 1000.0}}}};
     }
-    const Json node = {
-        {"camera", 0}, {"translation", Json::array({from.x, from.y, from.z})}, {"rotation", Json::array({turn.x, turn.y, turn.z, turn.w})}};
+    const Json node = {{"camera", 0},
+                       {"translation", Json::array({from.x, from.y, from.z})},
+                       {"rotation", Json::array({rotation.x, rotation.y, rotation.z, rotation.w})}};
     return Json{{"cameras", Json::array({camera})}, {"nodes", Json::array({node})}}.dump();
 }
 

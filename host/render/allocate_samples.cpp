@@ -13,7 +13,7 @@ namespace {
 constexpr int kRadius = 3;  // radius of the neighbourhood: 7x7
 
 // The epsilon of relMSE, which is added to squared radiance: a relative error says nothing about black pixels.
-double epsilonOf(const Film& film)
+double computeEpsilon(const Film& film)
 {
     double sum = 0.0;
     for (const PixelMoments& pixel : shownPixels(film)) {
@@ -25,7 +25,7 @@ double epsilonOf(const Film& film)
 
 // The variance of one sample, estimated from block means: the mean over channels, each divided by its `scale`. Negative if it is unknown
 // or exceeds a float.
-double varianceOfSample(const PixelMoments& pixel, const glm::dvec3& scale)
+double computeVarianceOfSample(const PixelMoments& pixel, const glm::dvec3& scale)
 {
     if (pixel.blocks < 2) {
         return -1.0;
@@ -74,10 +74,10 @@ std::vector<double> computeShares(const Film& film, SquaredError error)
     if (error == SquaredError::Relative) {
         const std::vector<glm::dvec3> likely = robustRadiance(film);
         std::transform(likely.begin(), likely.end(), scales.begin(),
-                       [epsilon = epsilonOf(film)](const glm::dvec3& radiance) { return radiance * radiance + epsilon; });
+                       [epsilon = computeEpsilon(film)](const glm::dvec3& radiance) { return radiance * radiance + epsilon; });
     }
     std::vector<double> variances(film.pixels.size()), shares(film.pixels.size());
-    std::transform(film.pixels.begin(), film.pixels.end(), scales.begin(), variances.begin(), varianceOfSample);
+    std::transform(film.pixels.begin(), film.pixels.end(), scales.begin(), variances.begin(), computeVarianceOfSample);
     const int width = static_cast<int>(film.width), height = static_cast<int>(film.height);
     for (int y = 0, i = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x, ++i) {

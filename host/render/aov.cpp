@@ -40,7 +40,7 @@ std::optional<float> valueOf(const PixelMoments& pixel, Aov aov)
 
 }  // namespace
 
-const char* nameOf(Tone tone)
+const char* getName(Tone tone)
 {
     constexpr const char* kNames[] = {"none", "neutral", "agx"};
     return kNames[static_cast<std::size_t>(tone)];

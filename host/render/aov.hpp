@@ -9,7 +9,7 @@ namespace glim {
 
 // How light becomes the colours of a picture. The values are those of kToneNone ... (shaders/shared/tone_mapping.h).
 enum class Tone : std::uint32_t { None, Neutral, Agx };
-const char* nameOf(Tone tone);  // none, neutral, agx
+const char* getName(Tone tone);  // none, neutral, agx
 struct Look {
     double exposure = 0.0;  // stops, of radiance and albedo
     Tone tone = Tone::None;

@@ -13,13 +13,13 @@ void BlockQueue::add(const std::vector<std::uint32_t>& blocks)
     std::transform(blocks.begin(), blocks.end(), blocks_.begin(), blocks_.begin(), std::plus<>());
 }
 
-std::optional<Sweep> BlockQueue::take(std::uint32_t mostSamples)
+std::optional<Sweep> BlockQueue::take(std::uint32_t maxSamples)
 {
     if (isEmpty()) {
         return std::nullopt;
     }
     const std::uint32_t most = *std::max_element(blocks_.begin(), blocks_.end());
-    const std::uint32_t blocks = std::bit_floor(std::min(most, std::max(1U, mostSamples / kBlockSamples)));
+    const std::uint32_t blocks = std::bit_floor(std::min(most, std::max(1U, maxSamples / kBlockSamples)));
     Sweep sweep{blocks * kBlockSamples, {}};
     for (std::uint32_t pixel = 0; pixel < blocks_.size(); ++pixel) {
         if (blocks_[pixel] >= blocks) {

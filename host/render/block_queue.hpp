@@ -39,8 +39,8 @@ public:
 
     void add(const std::vector<std::uint32_t>& blocks);
     // Takes the same number of blocks of every pixel that still needs as many: the largest power of two that some pixel needs, at most
-    // `mostSamples` but at least one block. Returns nothing once all are taken.
-    std::optional<Sweep> take(std::uint32_t mostSamples);
+    // `maxSamples` but at least one block. Returns nothing once all are taken.
+    std::optional<Sweep> take(std::uint32_t maxSamples);
 
     // The samples taken of each pixel, and the first index beyond all of them.
     const std::vector<std::uint32_t>& samples() const { return samples_; }

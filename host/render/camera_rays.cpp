@@ -11,7 +11,7 @@ namespace glim {
 namespace {
 
 // Neighbours: passes go over lists of pixels.
-RenderSettings settingsOfRays(RenderSettings settings)
+RenderSettings makeRaySettings(RenderSettings settings)
 {
     settings.adaptive = Adaptive::Neighbours;
     settings.aov = Aov::Radiance;
@@ -34,7 +34,7 @@ CameraRayKernels::CameraRayKernels(Device& device, const Specialization& constan
 CameraRays::CameraRays(Device& device, SharedResources& shared, const FlatScene& scene, const FlatCamera& camera,
                        const RenderSettings& settings, std::shared_ptr<const CameraRayKernels> kernels)
     : device_(device),
-      settings_(settingsOfRays(settings)),
+      settings_(makeRaySettings(settings)),
       paths_(shared.paths),
       scene_(shared.scene),
       passSize_(scene, settings_),

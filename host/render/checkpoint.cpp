@@ -5,14 +5,14 @@
 
 namespace glim {
 
-Film filmOf(Checkpoint checkpoint)
+Film makeFilm(Checkpoint checkpoint)
 {
     foldPage(checkpoint.film, 0, checkpoint.page);
     foldSplats(checkpoint.film.splats, checkpoint.pageSplats);
     return std::move(checkpoint.film);
 }
 
-std::optional<Checkpoint> checkpointOf(Film film)
+std::optional<Checkpoint> makeCheckpoint(Film film)
 {
     if (!film.complete || film.sampleRanges.size() != 1) {
         return std::nullopt;
@@ -33,7 +33,7 @@ std::optional<Checkpoint> checkpointOf(Film film)
     return checkpoint;
 }
 
-std::string digestOf(const Checkpoint& checkpoint)
+std::string computeDigest(const Checkpoint& checkpoint)
 {
     const SampleProgress& progress = checkpoint.progress;
     const AdaptiveProgress adaptive = progress.adaptive.value_or(AdaptiveProgress{});

@@ -19,13 +19,13 @@ struct Checkpoint {
 };
 
 // The film that it shows.
-Film filmOf(Checkpoint checkpoint);
+Film makeFilm(Checkpoint checkpoint);
 
 // Of a film without a checkpoint, by uniform sampling. Returns nothing if its last page has blocks that cannot be told apart any more, or
 // if it lacks samples.
-std::optional<Checkpoint> checkpointOf(Film film);
+std::optional<Checkpoint> makeCheckpoint(Film film);
 
 // SHA-256 of all of it but its film's time and device.
-std::string digestOf(const Checkpoint& checkpoint);
+std::string computeDigest(const Checkpoint& checkpoint);
 
 }  // namespace glim

@@ -21,7 +21,7 @@ CourseEstimators::CourseEstimators(Device& device, const FlatScene& scene, const
       parameters_(device, "course's parameters", BufferKind::Storage, sizeof(CourseParameters))
 {
     CourseParameters parameters{};
-    parameters.recordCount = recordCount_ = static_cast<std::uint32_t>(scene.records.size()) / kRecordTexels;
+    parameters.refCount = refCount_ = static_cast<std::uint32_t>(scene.primitiveRefs.size()) / kPrimitiveRefTexels;
     parameters.continuation = settings.course.survival;
     parameters.tolerance = settings.course.tolerance;
     parameters.constantSamples = settings.adaptive == Adaptive::CourseLiteral ? 0 : kConstantSamples;
@@ -64,9 +64,9 @@ void CourseEstimators::recordTrace(Recording& recording, const Kernel& kernel, c
                                    const Buffer& queueSizes, std::uint64_t groupsOffset) const
 {
     const bool bruteForce = settings_.course.accelerator == Accelerator::None;
-    const std::uint32_t step = bruteForce ? kScanRecords : recordCount_;
-    for (round.lightRound.firstRecord = 0; round.lightRound.firstRecord < recordCount_; round.lightRound.firstRecord += step) {
-        round.lightRound.endRecord = std::min(recordCount_, round.lightRound.firstRecord + step);
+    const std::uint32_t step = bruteForce ? kScanPrimitiveRefs : refCount_;
+    for (round.lightRound.firstRef = 0; round.lightRound.firstRef < refCount_; round.lightRound.firstRef += step) {
+        round.lightRound.endRef = std::min(refCount_, round.lightRound.firstRef + step);
         recording.dispatchIndirect(kernel, bindings, round, queueSizes, groupsOffset);
     }
 }

@@ -19,7 +19,7 @@ bool usesCourseEstimators(const RenderSettings& settings);
 //   course_bounce
 //
 // A round over the hemisphere has course_sample_hemisphere and course_trace_hemisphere instead. Brute force repeats each trace kernel for
-// one range of records after another.
+// one range of references after another.
 class CourseEstimators {
 public:
     CourseEstimators(Device& device, const FlatScene& scene, const RenderSettings& settings);
@@ -42,7 +42,7 @@ private:
     RenderSettings settings_;
     std::uint32_t lightCount_;
     std::vector<LightRound> rounds_;  // of direct light at each hit
-    std::uint32_t recordCount_ = 0;
+    std::uint32_t refCount_ = 0;
     Buffer parameters_;
 };
 

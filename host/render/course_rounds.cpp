@@ -14,13 +14,13 @@ bool isDelta(const FlatLight& light) { return light.kind == kPointLight || light
 
 void refuseTooMany(const FlatScene& scene, const RenderSettings& settings)
 {
-    constexpr std::uint64_t kMost = 1U << 20;
+    constexpr std::uint64_t kMax = 1U << 20;
     const auto deltas = static_cast<std::uint64_t>(std::count_if(scene.lights.begin(), scene.lights.end(), isDelta));
     const std::uint64_t rays = deltas + (scene.lights.size() - deltas) * settings.course.lightSamples;
-    if (settings.course.direct == DirectLight::Lights && rays > kMost) {
+    if (settings.course.direct == DirectLight::Lights && rays > kMax) {
         throw InputError("--direct lights: the scene's " + std::to_string(scene.lights.size()) + " lights with " +
                          std::to_string(settings.course.lightSamples) + " samples each would take " + std::to_string(rays) +
-                         " rays per hit, expected at most " + std::to_string(kMost) + ".");
+                         " rays per hit, expected at most " + std::to_string(kMax) + ".");
     }
 }
 

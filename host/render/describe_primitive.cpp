@@ -37,16 +37,16 @@ PrimitiveDescription describePrimitive(const Scene& scene, const Primitives& pri
         const Sphere& sphere = primitives.spheres[id - primitives.triangles.size()];
         return {"sphere " + named(sphere.name), std::nullopt, named(scene.materials[sphere.material].name), sphere.node, sphere.material};
     }
-    const std::uint32_t index = primitives.instanceOf(id);
+    const std::uint32_t index = primitives.findInstance(id);
     const MeshInstance& instance = scene.instances[index];
     return describeTriangle(scene, instance, id - primitives.firstTriangles[index]);
 }
 
-PrimitiveDescription describeInstanceRecord(const PreparedScene& prepared, std::uint32_t record)
+PrimitiveDescription describeInstancedPrimitive(const PreparedScene& prepared, std::uint32_t ref)
 {
-    const std::uint32_t index = placementOf(prepared.flat, record);
+    const std::uint32_t index = findPlacement(prepared.flat, ref);
     const uvec4* instance = &prepared.flat.instances[std::size_t{index} * kInstanceTexels];
-    const std::uint32_t shared = prepared.flat.records[std::size_t{record - instance[1].w} * kRecordTexels].w;
+    const std::uint32_t shared = prepared.flat.primitiveRefs[std::size_t{ref - instance[1].w} * kPrimitiveRefTexels].w;
     const Placement& placement = prepared.primitives.placements[index];
     const MeshInstance& placed = prepared.scene.instances[placement.instance];
     return describeTriangle(prepared.scene, placed, shared - prepared.primitives.sharedMeshes[placement.sharedMesh].firstId);
@@ -54,26 +54,26 @@ PrimitiveDescription describeInstanceRecord(const PreparedScene& prepared, std::
 
 }  // namespace
 
-std::string textOf(const PrimitiveDescription& primitive)
+std::string toText(const PrimitiveDescription& primitive)
 {
     return primitive.object + (primitive.triangle ? ", triangle " + std::to_string(*primitive.triangle) : "");
 }
 
-bool isOfInstance(const FlatScene& flat, std::uint32_t record) { return record >= flat.firstInstanceRecord && !flat.instances.empty(); }
+bool isInstanced(const FlatScene& flat, std::uint32_t ref) { return ref >= flat.firstInstanceRef && !flat.instances.empty(); }
 
-std::uint32_t placementOf(const FlatScene& flat, std::uint32_t record)
+std::uint32_t findPlacement(const FlatScene& flat, std::uint32_t ref)
 {
     const auto indices = std::views::iota(std::size_t{0}, flat.instances.size() / kInstanceTexels);
-    const auto after = std::ranges::upper_bound(indices, record, {}, [&](std::size_t i) { return flat.instances[i * kInstanceTexels].w; });
+    const auto after = std::ranges::upper_bound(indices, ref, {}, [&](std::size_t i) { return flat.instances[i * kInstanceTexels].w; });
     return static_cast<std::uint32_t>(after - indices.begin() - 1);
 }
 
-PrimitiveDescription describeRecord(const PreparedScene& prepared, std::uint32_t record)
+PrimitiveDescription describePrimitive(const PreparedScene& prepared, std::uint32_t ref)
 {
-    if (isOfInstance(prepared.flat, record)) {
-        return describeInstanceRecord(prepared, record);
+    if (isInstanced(prepared.flat, ref)) {
+        return describeInstancedPrimitive(prepared, ref);
     }
-    const std::uint32_t id = prepared.flat.records[std::size_t{record} * kRecordTexels].w;
+    const std::uint32_t id = prepared.flat.primitiveRefs[std::size_t{ref} * kPrimitiveRefTexels].w;
     return describePrimitive(prepared.scene, prepared.primitives, id);
 }
 

@@ -16,13 +16,13 @@ struct PrimitiveDescription {
 };
 
 // As in: instance "floor", triangle 3.
-std::string textOf(const PrimitiveDescription& primitive);
+std::string toText(const PrimitiveDescription& primitive);
 
-// Whether the record is one of the instances' (scene_types.h), and which of the primitives' placements it then belongs to.
-bool isOfInstance(const FlatScene& flat, std::uint32_t record);
-std::uint32_t placementOf(const FlatScene& flat, std::uint32_t record);
+// Whether the primitive reference is one of the instances' (scene_types.h), and which of the primitives' placements it then belongs to.
+bool isInstanced(const FlatScene& flat, std::uint32_t ref);
+std::uint32_t findPlacement(const FlatScene& flat, std::uint32_t ref);
 
-PrimitiveDescription describeRecord(const PreparedScene& prepared, std::uint32_t record);
+PrimitiveDescription describePrimitive(const PreparedScene& prepared, std::uint32_t ref);
 
 // As in: spot light "lamp", or: environment.
 std::string describeLight(const PreparedScene& prepared, std::uint32_t light);

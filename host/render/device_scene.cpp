@@ -34,7 +34,7 @@ LastingBuffers upload(Device& device, const FlatScene& scene, LastingBuffers bef
 {
     return {before.textures && before.textures->serve(scene) ? std::move(before.textures) : std::make_shared<DeviceTextures>(device, scene),
             upload(device, "scene's BVH nodes", scene.nodes, std::move(before.nodes)),
-            upload(device, "scene's records", scene.records, std::move(before.records)),
+            upload(device, "scene's primitive references", scene.primitiveRefs, std::move(before.primitiveRefs)),
             upload(device, "scene's triangles for shading", scene.triangles, std::move(before.triangles)),
             upload(device, "scene's vertices", scene.vertices, std::move(before.vertices)),
             upload(device, "scene's instances", scene.instances, std::move(before.instances))};
@@ -105,7 +105,7 @@ DeviceScene::DeviceScene(Device& device, const FlatScene& scene, LastingBuffers 
 std::vector<BindingSlot> DeviceScene::slots()
 {
     std::vector<BindingSlot> slots{{kBindEnvironment, BufferKind::Texel8}};
-    for (const std::uint32_t binding : {kBindNodes, kBindRecords, kBindTriangles, kBindVertices, kBindMaterials, kBindLights,
+    for (const std::uint32_t binding : {kBindNodes, kBindPrimitiveRefs, kBindTriangles, kBindVertices, kBindMaterials, kBindLights,
                                         kBindLightNodes, kBindAlbedos, kBindEnvironmentCells, kBindCaustics, kBindInstances}) {
         slots.push_back({binding, BufferKind::Texel});
     }
@@ -118,7 +118,7 @@ std::vector<BindingSlot> DeviceScene::slots()
 std::map<std::uint32_t, const Buffer*> DeviceScene::buffers() const
 {
     std::map<std::uint32_t, const Buffer*> buffers{{kBindNodes, lasting_.nodes.buffer.get()},
-                                                   {kBindRecords, lasting_.records.buffer.get()},
+                                                   {kBindPrimitiveRefs, lasting_.primitiveRefs.buffer.get()},
                                                    {kBindTriangles, lasting_.triangles.buffer.get()},
                                                    {kBindVertices, lasting_.vertices.buffer.get()},
                                                    {kBindMaterials, &materials_},

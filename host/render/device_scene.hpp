@@ -31,7 +31,7 @@ struct DeviceArray {
 // What the next scene may have in common with this one.
 struct LastingBuffers {
     std::shared_ptr<const DeviceTextures> textures;
-    DeviceArray nodes, records, triangles, vertices, instances;
+    DeviceArray nodes, refs, triangles, vertices, instances;
 };
 
 class DeviceScene {

@@ -25,7 +25,7 @@ Display::Display(Device& device)
 
 void Display::resize(std::uint32_t width, std::uint32_t height) { picture_.emplace(device_, "window's picture", width, height); }
 
-const Kernel& Display::previewOf(Aov aov, bool folded)
+const Kernel& Display::getPreview(Aov aov, bool folded)
 {
     const auto found = previews_.find({aov, folded});
     if (found != previews_.end()) {
@@ -79,7 +79,7 @@ void Display::draw(const Renderer& renderer, Aov aov, const DisplayRange& range,
                                 {{kBindPicture, &*picture_}});
         pass.tileBegin = tile.begin();
         pass.tileCount = tile.count();
-        run(previewOf(aov, anyFolded), bindings, pass, tile.count());
+        run(getPreview(aov, anyFolded), bindings, pass, tile.count());
     }
 }
 

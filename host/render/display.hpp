@@ -26,7 +26,7 @@ public:
 
 private:
     void run(const Kernel& kernel, const Bindings& bindings, const DisplayPass& pass, std::uint64_t threads);
-    const Kernel& previewOf(Aov aov, bool folded);
+    const Kernel& getPreview(Aov aov, bool folded);
     void takeFolded(const Renderer& renderer);
 
     Device& device_;

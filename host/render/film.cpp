@@ -14,8 +14,8 @@ namespace {
 // Different Population Variances are Involved", 1947.
 std::uint32_t jointBlocks(double varianceA, std::uint32_t blocksA, double varianceB, std::uint32_t blocksB)
 {
-    constexpr double kMost = 4294967294.0;  // a file may claim any number of blocks
-    const double least = std::min(blocksA, blocksB) - 1.0, most = std::min(static_cast<double>(blocksA) + blocksB - 2.0, kMost);
+    constexpr double kMax = 4294967294.0;  // a file may claim any number of blocks
+    const double least = std::min(blocksA, blocksB) - 1.0, most = std::min(static_cast<double>(blocksA) + blocksB - 2.0, kMax);
     const double spread = varianceA * varianceA / (blocksA - 1.0) + varianceB * varianceB / (blocksB - 1.0);
     const double sum = varianceA + varianceB, degrees = sum * sum / spread;
     return 1 + static_cast<std::uint32_t>(std::lround(std::isfinite(degrees) ? std::clamp(degrees, least, most) : least));
@@ -23,7 +23,7 @@ std::uint32_t jointBlocks(double varianceA, std::uint32_t blocksA, double varian
 
 }  // namespace
 
-std::string digestOf(const Film& film)
+std::string computeDigest(const Film& film)
 {
     Digest digest;
     for (const std::string& text : {film.identity.scene, film.identity.settings, film.identity.kernels, film.arithmetic}) {
@@ -41,7 +41,7 @@ std::string digestOf(const Film& film)
     return digest.finish();
 }
 
-std::string pixelsDigestOf(const Film& film)
+std::string computePixelsDigest(const Film& film)
 {
     Digest digest;
     digest.add(film.pixels);
@@ -75,7 +75,7 @@ void foldSplats(std::vector<SplatMoments>& film, const std::vector<SplatMoments>
     }
 }
 
-bool isOfOneArithmetic(const Film& film) { return film.arithmetic.find(' ') == std::string::npos; }
+bool hasOneArithmetic(const Film& film) { return film.arithmetic.find(' ') == std::string::npos; }
 
 void addArithmetic(Film& film, const std::string& arithmetic)
 {
@@ -94,7 +94,7 @@ void foldPage(Film& film, std::size_t begin, const std::vector<PixelMoments>& pa
                    [](const PixelMoments& folded, const PixelMoments& known) { return foldMoments(known, folded); });
 }
 
-glm::vec3 varianceOfMean(const PixelMoments& moments)
+glm::vec3 computeVarianceOfMean(const PixelMoments& moments)
 {
     if (moments.blocks < 2) {
         return glm::vec3(std::numeric_limits<float>::quiet_NaN());
@@ -115,7 +115,7 @@ PixelMoments shownPixel(const Film& film, std::size_t i)
         pixel.blocks = std::min(pixel.blocks, splat.blocks);
         return pixel;
     }
-    const glm::vec3 a = varianceOfMean(film.pixels[i]), b = varianceOfMean(widened(splat)), sum = a + b;
+    const glm::vec3 a = computeVarianceOfMean(film.pixels[i]), b = computeVarianceOfMean(widened(splat)), sum = a + b;
     pixel.blocks = jointBlocks(static_cast<double>(a.r + a.g + a.b), pixel.blocks, static_cast<double>(b.r + b.g + b.b), splat.blocks);
     pixel.squares = sum * (static_cast<float>(pixel.blocks - 1) * static_cast<float>(pixel.count));
     return pixel;

@@ -46,10 +46,10 @@ struct Film {
 };
 
 // Of what makes the film: its identity, sample ranges and moments, not when and where it was rendered.
-std::string digestOf(const Film& film);
+std::string computeDigest(const Film& film);
 
 // Of the moments alone.
-std::string pixelsDigestOf(const Film& film);
+std::string computePixelsDigest(const Film& film);
 
 // Splats are moments without what only camera rays know.
 PixelMoments widened(const SplatMoments& splat);
@@ -60,14 +60,14 @@ SplatMoments foldMoments(const SplatMoments& a, const SplatMoments& b);
 void foldSplats(std::vector<SplatMoments>& film, const std::vector<SplatMoments>& page);
 
 // Whether all of it is of one arithmetic: only then can it be bit-identical to a single run.
-bool isOfOneArithmetic(const Film& film);
+bool hasOneArithmetic(const Film& film);
 void addArithmetic(Film& film, const std::string& arithmetic);
 
 // Folds `page` onto the pixels of `film` from index `begin` on.
 void foldPage(Film& film, std::size_t begin, const std::vector<PixelMoments>& page);
 
 // Variance of a pixel's mean from its block means; NaN where fewer than two blocks are known.
-glm::vec3 varianceOfMean(const PixelMoments& moments);
+glm::vec3 computeVarianceOfMean(const PixelMoments& moments);
 
 // The pixel as the film shows it: its moments with the mean, the variance of the mean and the clamped light of camera and light paths
 // together.

@@ -113,7 +113,7 @@ void addErrors(std::span<const PixelMoments> pixels, Image& image)
         variances.clear();  // of the rows before
         errors.clear();
         for (const PixelMoments& pixel : pixels) {
-            variances.push_back(pixel.blocks >= 2 ? varianceOfMean(pixel)[c] : std::numeric_limits<float>::infinity());
+            variances.push_back(pixel.blocks >= 2 ? computeVarianceOfMean(pixel)[c] : std::numeric_limits<float>::infinity());
             errors.push_back(std::sqrt(variances.back()));
         }
     }
@@ -280,8 +280,8 @@ Image headerOf(const Film& film)
                         {"glim:device", film.device},
                         {"glim:kernels", film.identity.kernels},
                         {"glim:arithmetic", film.arithmetic},
-                        {"glim:digest", digestOf(film)},
-                        {"glim:pixels", pixelsDigestOf(film)},
+                        {"glim:digest", computeDigest(film)},
+                        {"glim:pixels", computePixelsDigest(film)},
                         {kHeaderDigest, ""}};  // which ExrWriter computes
     return image;
 }
@@ -313,7 +313,7 @@ bool write(const fs::path& path, const Film& film, const Additions& additions, c
         header.attributes["glim:denoiser"] = additions.denoised->denoiser;
     }
     if (checkpoint != nullptr) {
-        header.attributes[kProgressDigest] = digestOf(*checkpoint);
+        header.attributes[kProgressDigest] = computeDigest(*checkpoint);
         header.attributes[kProgress] = progressText(*checkpoint, folded);
     }
     addRows(header, 0, 0);
@@ -447,12 +447,12 @@ Film filmOfImage(const fs::path& path, const Image& image)
         takeLayers(path, kMeanLayers, image, film.pixels);
     }
     if (const std::string digest = textIfPresent(image, "glim:digest"); !digest.empty()) {
-        checkDigest(path, "its samples", digestOf(film), digest);
+        checkDigest(path, "its samples", computeDigest(film), digest);
     }
     return film;
 }
 
-Checkpoint checkpointOfImage(const fs::path& path, const Image& image, const Film& film)
+Checkpoint readCheckpoint(const fs::path& path, const Image& image, const Film& film)
 {
     Checkpoint checkpoint;
     SampleProgress& progress = checkpoint.progress;
@@ -483,7 +483,7 @@ Checkpoint checkpointOfImage(const fs::path& path, const Image& image, const Fil
         takePlane(path, image.counts, "chosen.X", 0, adaptive->chosen);
         takePlane(path, image.counts, "blocksLeft.X", 0, adaptive->blocksLeft);
     }
-    checkDigest(path, "its checkpoint", digestOf(checkpoint), attribute<std::string>(path, image, kProgressDigest));
+    checkDigest(path, "its checkpoint", computeDigest(checkpoint), attribute<std::string>(path, image, kProgressDigest));
     return checkpoint;
 }
 
@@ -548,13 +548,13 @@ StoredFilm readStoredFilm(const fs::path& path)
     const Image image = readSealed(path, readExr);
     StoredFilm stored{filmOfImage(path, image), std::nullopt};
     if (image.attributes.contains(kProgress)) {
-        stored.checkpoint = checkpointOfImage(path, image, stored.film);
+        stored.checkpoint = readCheckpoint(path, image, stored.film);
     }
     return stored;
 }
 
 Film readFilmHeader(const fs::path& path) { return filmOfHeader(path, readSealed(path, readExrHeader)); }
 
-Film filmHeaderOf(const fs::path& path, const Image& image) { return filmOfHeader(path, image); }
+Film readFilmHeader(const fs::path& path, const Image& image) { return filmOfHeader(path, image); }
 
 }  // namespace glim

@@ -62,7 +62,7 @@ StoredFilm readStoredFilm(const std::filesystem::path& path);
 // All but `pixels`.
 Film readFilmHeader(const std::filesystem::path& path);
 // The same of a picture that was read, which another program may have changed since: for what it says of itself, not for its pixels.
-Film filmHeaderOf(const std::filesystem::path& path, const Image& image);
+Film readFilmHeader(const std::filesystem::path& path, const Image& image);
 
 // "0:256 512:768"
 std::string sampleRangesText(const Film& film);

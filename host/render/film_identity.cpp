@@ -47,7 +47,7 @@ Film emptyFilm(const RenderSettings& settings)
     return film;
 }
 
-FilmIdentity identityOf(const SceneIdentity& scene, const FlatCamera& camera, const RenderSettings& settings)
+FilmIdentity makeIdentity(const SceneIdentity& scene, const FlatCamera& camera, const RenderSettings& settings)
 {
     return {fingerprint(scene.fingerprint, camera), describeSettings(settings) + (scene.sharesMeshes ? " meshes=shared" : ""),
             settings.seed, kernelsFingerprint()};
@@ -60,10 +60,9 @@ std::string kernelsFingerprint()
         print.add(std::vector<std::uint64_t>{kHostVersion});
         for (const EmbeddedShader& shader :
              {kernels::generate_rays, kernels::size_dispatch, kernels::accumulate, kernels::trace_paths, kernels::trace_closest,
-              kernels::sample_lights_and_bounce, kernels::trace_shadow, kernels::trace_light_paths, kernels::show_aov,
-              kernels::course_trace_closest, kernels::course_sample_lights, kernels::course_trace_shadow, kernels::course_bounce,
-              kernels::course_sample_hemisphere, kernels::course_trace_hemisphere, kernels::course_add_luminance,
-              kernels::course_choose_pixels}) {
+              kernels::shade_surface, kernels::trace_shadow, kernels::trace_light_paths, kernels::show_aov, kernels::course_trace_closest,
+              kernels::course_sample_lights, kernels::course_trace_shadow, kernels::course_bounce, kernels::course_sample_hemisphere,
+              kernels::course_trace_hemisphere, kernels::course_add_luminance, kernels::course_choose_pixels}) {
             print.addBytes(std::as_bytes(shader.words()));
         }
         return hexadecimal(print.state());

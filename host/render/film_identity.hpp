@@ -19,7 +19,7 @@ struct SceneIdentity {
 // A film without pixels, of the size that the settings ask for.
 Film emptyFilm(const RenderSettings& settings);
 
-FilmIdentity identityOf(const SceneIdentity& scene, const FlatCamera& camera, const RenderSettings& settings);
+FilmIdentity makeIdentity(const SceneIdentity& scene, const FlatCamera& camera, const RenderSettings& settings);
 
 // Of the kernels that films come from.
 std::string kernelsFingerprint();

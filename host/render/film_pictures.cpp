@@ -11,7 +11,7 @@
 
 namespace glim {
 
-Aov aovOf(const Film& film)
+Aov getAov(const Film& film)
 {
     const std::map<std::string, Aov> aovs = {
         {"normal", Aov::Normal}, {"depth", Aov::Depth}, {"albedo", Aov::Albedo}, {"bvh-steps", Aov::BvhSteps}};
@@ -42,17 +42,17 @@ double chooseExposure(const Film& film, Aov aov)
 
 double chooseExposure(const std::vector<glm::vec3>& pixels)
 {
-    constexpr double kKey = 0.18, kMost = 100.0;
+    constexpr double kKey = 0.18, kMax = 100.0;
     double sum = 0.0, count = 0.0;
     for (const glm::vec3& pixel : pixels) {
-        const double luminance = luminanceOf(glm::dvec3(pixel));
+        const double luminance = computeLuminance(glm::dvec3(pixel));
         if (luminance > 0.0 && std::isfinite(luminance)) {
             sum += std::log2(luminance);
             count += 1.0;
         }
     }
     const double stops = count > 0.0 ? std::log2(kKey) - sum / count : 0.0;
-    return std::clamp(std::round(100.0 * stops) / 100.0 + 0.0, -kMost, kMost);  // + 0 makes 0 of -0
+    return std::clamp(std::round(100.0 * stops) / 100.0 + 0.0, -kMax, kMax);  // + 0 makes 0 of -0
 }
 
 Tone chooseTone(const Scene& scene)

@@ -10,7 +10,7 @@
 namespace glim {
 
 // The AOV of the film's --view, which its settings name.
-Aov aovOf(const Film& film);
+Aov getAov(const Film& film);
 
 // A file of the kind that the ending of `path` names (host/image/picture_file.hpp).
 void writeFilmPicture(const std::filesystem::path& path, const Film& film, Aov aov, const Look& look = {});

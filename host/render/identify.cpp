@@ -82,13 +82,13 @@ void Identifier::addObject(const std::array<std::uint32_t, kKinds>& indices)
         identity.indices[2] = kNoIndex;
     }
     for (std::size_t kind = 0; kind < kKinds; ++kind) {
-        const std::string name = nameOf(kind, identity.indices[kind]);
+        const std::string name = getName(kind, identity.indices[kind]);
         identity.mattes[kind] = manifests_[kind].try_emplace(name, matteId(name)).first->second;
     }
     objects_.push_back(identity);
 }
 
-std::string Identifier::nameOf(std::size_t kind, std::uint32_t index) const
+std::string Identifier::getName(std::size_t kind, std::uint32_t index) const
 {
     if (index == kNoIndex) {
         return kOthers[kind];
@@ -113,16 +113,16 @@ Image Identifier::frame(const Film& film) const
 
 std::uint32_t Identifier::objectOf(const PathHit& hit) const
 {
-    if (hit.record == kNoRecord) {
+    if (hit.primitiveRef == kNoPrimitiveRef) {
         return kNoIndex;
     }
     const Primitives& primitives = prepared_.primitives;
-    if (isOfInstance(prepared_.flat, hit.record)) {
-        return primitives.placements[placementOf(prepared_.flat, hit.record)].instance;
+    if (isInstanced(prepared_.flat, hit.primitiveRef)) {
+        return primitives.placements[findPlacement(prepared_.flat, hit.primitiveRef)].instance;
     }
-    const std::uint32_t id = prepared_.flat.records[std::size_t{hit.record} * kRecordTexels].w;
+    const std::uint32_t id = prepared_.flat.primitiveRefs[std::size_t{hit.primitiveRef} * kPrimitiveRefTexels].w;
     if (id < primitives.triangles.size()) {
-        return primitives.instanceOf(id);
+        return primitives.findInstance(id);
     }
     return static_cast<std::uint32_t>(prepared_.scene.instances.size() + id - primitives.triangles.size());
 }

@@ -40,14 +40,14 @@ Specialization specializeCourse(Specialization constants, const RenderSettings& 
 
 }  // namespace
 
-Specialization constantsOf(FeatureMask features)
+Specialization makeConstants(FeatureMask features)
 {
     return {{kSpecFeatures, static_cast<std::uint32_t>(features)}, {kSpecUpperFeatures, static_cast<std::uint32_t>(features >> 32)}};
 }
 
 Specialization specialize(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
 {
-    Specialization constants = constantsOf(featuresSeenBy(scene, camera) & ~(tracesLight(scene, settings) ? 0U : kFeatureCaustics));
+    Specialization constants = makeConstants(featuresSeenBy(scene, camera) & ~(tracesLight(scene, settings) ? 0U : kFeatureCaustics));
     constants[kSpecWorkgroup] = settings.workgroup;
     constants[kSpecStackLevels] = scene.stackLevels;
     constants[kSpecTexelViews] = static_cast<std::uint32_t>((scene.images->texels.size() >> kTexelViewBits) + 1);
@@ -88,7 +88,7 @@ KernelSet::KernelSet(const KernelLayout& layout, const FlatScene& scene, const F
     } else if (schedule == Schedule::Persistent) {
         compile(tracePaths, kernels::trace_paths, production);
     } else {
-        compile(sampleLightsAndBounce, kernels::sample_lights_and_bounce, production);
+        compile(shadeSurface, kernels::shade_surface, production);
         compile(traceClosest, kernels::trace_closest, production);
         compile(traceShadow, kernels::trace_shadow, production);
     }
@@ -114,8 +114,8 @@ std::vector<const Kernel*> KernelSet::all() const
 {
     std::vector<const Kernel*> kernels;
     for (const std::optional<Kernel>* kernel :
-         {&sizeDispatch, &generateRays, &traceClosest, &sampleLightsAndBounce, &traceShadow, &tracePaths, &traceLightPaths, &accumulate,
-          &showAov, &course.traceClosest, &course.sampleLights, &course.traceShadow, &course.bounce, &course.sampleHemisphere,
+         {&sizeDispatch, &generateRays, &traceClosest, &shadeSurface, &traceShadow, &tracePaths, &traceLightPaths, &accumulate, &showAov,
+          &course.traceClosest, &course.sampleLights, &course.traceShadow, &course.bounce, &course.sampleHemisphere,
           &course.traceHemisphere, &course.addLuminance, &course.choosePixels}) {
         if (*kernel) {
             kernels.push_back(&**kernel);

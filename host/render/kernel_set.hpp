@@ -17,7 +17,7 @@ struct CourseKernels {
 };
 
 // Those of what a scene needs: kFeatureSpheres ...
-Specialization constantsOf(FeatureMask features);
+Specialization makeConstants(FeatureMask features);
 
 // The constants of the production kernels.
 Specialization specialize(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
@@ -35,10 +35,10 @@ struct KernelSet {
 
     Specialization specialization;  // of the production kernels; that of the course's follows from it and the settings
     std::optional<Kernel> generateRays, sizeDispatch, accumulate;
-    std::optional<Kernel> traceClosest, sampleLightsAndBounce, traceShadow;  // of the wavefront
-    std::optional<Kernel> tracePaths;                                        // of the persistent schedule
-    std::optional<Kernel> traceLightPaths;                                   // of caustics
-    std::optional<Kernel> showAov;                                           // of AOVs other than radiance
+    std::optional<Kernel> traceClosest, shadeSurface, traceShadow;  // of the wavefront
+    std::optional<Kernel> tracePaths;                               // of the persistent schedule
+    std::optional<Kernel> traceLightPaths;                          // of caustics
+    std::optional<Kernel> showAov;                                  // of AOVs other than radiance
     CourseKernels course;
 };
 

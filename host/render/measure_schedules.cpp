@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint32_t kSide = 128, kSamples = 8;
 constexpr int kRounds = 5;
 
-RenderSettings settingsOf(const RenderSettings& asked, Schedule schedule)
+RenderSettings makeSettings(const RenderSettings& asked, Schedule schedule)
 {
     RenderSettings settings = asked;
     settings.width = settings.height = kSide;
@@ -61,8 +61,8 @@ Schedule ScheduleRates::fastest() const
 
 ScheduleRates measureSchedules(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
 {
-    Renderer wavefront(device, scene, camera, settingsOf(settings, Schedule::Wavefront));
-    Renderer persistent(wavefront, scene, camera, settingsOf(settings, Schedule::Persistent));
+    Renderer wavefront(device, scene, camera, makeSettings(settings, Schedule::Wavefront));
+    Renderer persistent(wavefront, scene, camera, makeSettings(settings, Schedule::Persistent));
     ScheduleRates rates;
     for (int round = 0; round <= kRounds; ++round) {
         const double first = samplesPerSecond(wavefront, camera), second = samplesPerSecond(persistent, camera);

@@ -135,7 +135,7 @@ void foldHeader(Film& film, const Film& next)
     addOrigin(film, next);
 }
 
-bool isOneRun(const Film& film) { return film.complete && film.sampleRanges.size() == 1 && isOfOneArithmetic(film); }
+bool isOneRun(const Film& film) { return film.complete && film.sampleRanges.size() == 1 && hasOneArithmetic(film); }
 
 // `below`: the next rows.
 void appendRows(Film& film, Film below)
@@ -193,7 +193,7 @@ bool continuesExactly(const Film& film, const Film& next)
         return false;
     }
     const auto [begin, end] = next.sampleRanges.front();
-    const bool alike = film.identity.kernels == next.identity.kernels && film.arithmetic == next.arithmetic && isOfOneArithmetic(film);
+    const bool alike = film.identity.kernels == next.identity.kernels && film.arithmetic == next.arithmetic && hasOneArithmetic(film);
     return alike && begin == film.sampleRanges.front().second && begin % kPageSamples == 0 && end - begin <= kPageSamples;
 }
 

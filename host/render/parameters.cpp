@@ -51,7 +51,7 @@ DeviceParameters::DeviceParameters(Device& device, const FlatScene& scene, const
     parameters_.canarySteps = 3;
     parameters_.triangleCount = scene.triangleCount;
     parameters_.instanceCount = static_cast<std::uint32_t>(scene.instances.size() / kInstanceTexels);
-    parameters_.firstInstanceRecord = scene.firstInstanceRecord;
+    parameters_.firstInstanceRef = scene.firstInstanceRef;
     parameters_.firstUv = scene.firstUv;
     parameters_.firstTangent = scene.firstTangent;
     parameters_.firstColor = scene.firstColor;
@@ -59,7 +59,7 @@ DeviceParameters::DeviceParameters(Device& device, const FlatScene& scene, const
     parameters_.hidesEnvironment = scene.hidesEnvironment ? 1 : 0;
     parameters_.environmentSize = scene.environmentMap->size;
     parameters_.environmentCells = scene.environmentMap->cellCount;
-    parameters_.environmentTurn = scene.environmentTurn;
+    parameters_.environmentRotation = scene.environmentRotation;
     parameters_.causticTargets = scene.causticTargets;
     parameters_.causticLights = scene.causticLights;
     parameters_.splatScale = splatScale(scene);

@@ -14,7 +14,7 @@ constexpr double kTargetDispatchSeconds = 0.05;
 // make many dispatches. But the longest dispatch gets at least this share of it, or else starting dispatches costs more than their work:
 // at 32x32 with passes of a second, 512 rounds took three times as long with 1 ms for the longest as with 10, since those of later
 // bounces have a hundredth of its rays.
-constexpr double kLeastDispatchShare = 0.01;
+constexpr double kMinDispatchShare = 0.01;
 // The paths of a first pass, for one round of direct light and rays of kUsualSteps steps.
 constexpr std::uint32_t kFirstPassPaths = 1U << 14;
 constexpr std::uint64_t kUsualSteps = 64;
@@ -24,8 +24,8 @@ constexpr double kFastDispatchSeconds = 0.005;
 
 std::uint32_t firstPassPaths(const FlatScene& scene, const RenderSettings& settings)
 {
-    const std::uint64_t records = scene.records.size() / kRecordTexels;
-    const std::uint64_t steps = settings.course.accelerator == Accelerator::None ? std::max(records, kUsualSteps) : kUsualSteps;
+    const std::uint64_t refs = scene.primitiveRefs.size() / kPrimitiveRefTexels;
+    const std::uint64_t steps = settings.course.accelerator == Accelerator::None ? std::max(refs, kUsualSteps) : kUsualSteps;
     const std::uint64_t work = steps * lightRounds(scene, settings).size();
     return std::clamp(static_cast<std::uint32_t>(kFirstPassPaths * kUsualSteps / work), kBlockSamples, settings.pathCapacity);
 }
@@ -44,7 +44,7 @@ void PassSize::learn(std::uint32_t paths, const PassSeconds& seconds)
     if (seconds.longest <= kTargetDispatchSeconds && (seconds.longest <= 0.0 || 2 * std::uint64_t{paths} <= paths_)) {
         return;
     }
-    const double byPass = passSeconds_ * std::max(1.0 / seconds.total, kLeastDispatchShare / seconds.longest);
+    const double byPass = passSeconds_ * std::max(1.0 / seconds.total, kMinDispatchShare / seconds.longest);
     const double scale = std::clamp(std::min(kTargetDispatchSeconds / seconds.longest, byPass), 0.5, 2.0);
     const std::uint32_t most = seconds.longest < kFastDispatchSeconds ? capacity_ : std::min(capacity_, kUnsurePaths);
     paths_ = static_cast<std::uint32_t>(std::clamp(paths * scale, double{kBlockSamples}, double(most)));

@@ -1,7 +1,7 @@
 // A pass traces some samples of some pixels to their end. The wavefront:
 //
 //   generate_rays
-//   per bounce:  size_dispatch -> trace_closest -> sample_lights_and_bounce -> size_dispatch -> trace_shadow (where lights are sampled)
+//   per bounce:  size_dispatch -> trace_closest -> shade_surface -> size_dispatch -> trace_shadow (where lights are sampled)
 //   accumulate
 //
 // The persistent schedule, in which one kernel traces path after path to its end:
@@ -39,10 +39,10 @@ std::optional<PassSeconds> PassTracer::trace(const Tile& tile, Pass pass, const 
         return std::nullopt;
     }
     if (kernels().showAov) {
-        recording.dispatch(*kernels().showAov, tile.bindings(0), pass, resources_.groupsOf(pass.pixelCount * pass.sampleCount));
+        recording.dispatch(*kernels().showAov, tile.bindings(0), pass, resources_.countGroups(pass.pixelCount * pass.sampleCount));
     }
-    recording.dispatch(*kernels().accumulate, tile.bindings(0), pass, resources_.groupsOf(pass.pixelCount));
-    resources_.course.recordLuminance(recording, kernels(), tile.bindings(0), pass, resources_.groupsOf(pass.pixelCount));
+    recording.dispatch(*kernels().accumulate, tile.bindings(0), pass, resources_.countGroups(pass.pixelCount));
+    resources_.course.recordLuminance(recording, kernels(), tile.bindings(0), pass, resources_.countGroups(pass.pixelCount));
     recording.finish();
     return PassSeconds{recording.longest(), recording.total()};
 }
@@ -50,7 +50,7 @@ std::optional<PassSeconds> PassTracer::trace(const Tile& tile, Pass pass, const 
 void PassTracer::tracePaths(Recording& recording, const Tile& tile, Pass& pass)
 {
     // generate_rays fills the queue that bounce 0 reads: the next queue of the odd bindings.
-    recording.dispatch(*kernels().generateRays, tile.bindings(1), pass, resources_.groupsOf(pass.pixelCount * pass.sampleCount));
+    recording.dispatch(*kernels().generateRays, tile.bindings(1), pass, resources_.countGroups(pass.pixelCount * pass.sampleCount));
     if (kernels().tracePaths) {
         tracePersistently(recording, tile, pass);
     } else {
@@ -88,7 +88,7 @@ void PassTracer::recordBounce(Recording& recording, const Bindings& bindings, co
         return;
     }
     recording.dispatchIndirect(*kernels().traceClosest, bindings, pass, sizes, offsetof(QueueSizes, closestGroups));
-    recording.dispatchIndirect(*kernels().sampleLightsAndBounce, bindings, pass, sizes, offsetof(QueueSizes, closestGroups));
+    recording.dispatchIndirect(*kernels().shadeSurface, bindings, pass, sizes, offsetof(QueueSizes, closestGroups));
     const PathLengths lengths = pathLengths(resources_.settings);
     const bool hasShadowRays = samplesLights(pass.bounce, lengths.maxBounces, lengths.min, resources_.lightCount);
     resources_.recordSize(recording, bindings, next, hasShadowRays ? kSizesPaths | kSizesShadow : kSizesPaths);
@@ -150,7 +150,7 @@ void PassTracer::closeBlocks(const Tile& tile)
     pass.pixelCount = tile.count();
     pass.accumulate = kEndsBlock | kEveryPixel;
     Recording recording(resources_.device, resources_.statistics);
-    recording.dispatch(*kernels().accumulate, tile.bindings(0), pass, resources_.groupsOf(pass.pixelCount));
+    recording.dispatch(*kernels().accumulate, tile.bindings(0), pass, resources_.countGroups(pass.pixelCount));
     recording.finish();
 }
 
@@ -161,7 +161,7 @@ std::uint32_t PassTracer::choosePixels(Tile& tile, std::uint32_t samples)
     all.pass.pixelCount = tile.count();
     all.pass.firstSample = samples;
     Recording recording(resources_.device, resources_.statistics);
-    recording.dispatch(*kernels().course.choosePixels, tile.bindings(0), all, resources_.groupsOf(tile.count()));
+    recording.dispatch(*kernels().course.choosePixels, tile.bindings(0), all, resources_.countGroups(tile.count()));
     recording.finish();
     return tile.readChosenCount();
 }

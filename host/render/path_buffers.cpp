@@ -11,7 +11,7 @@ namespace glim {
 namespace {
 
 template <class T>
-Buffer arrayOf(Device& device, const std::string& name, std::uint64_t count, BufferKind kind = BufferKind::Storage)
+Buffer makeArray(Device& device, const std::string& name, std::uint64_t count, BufferKind kind = BufferKind::Storage)
 {
     return Buffer(device, name, kind, count * sizeof(T));
 }
@@ -21,7 +21,7 @@ template <class T>
 Buffer texelArrayOf(Device& device, const std::string& name, std::uint64_t count)
 {
     static_assert(sizeof(T) % 16 == 0);
-    return arrayOf<T>(device, name, count, BufferKind::Both);
+    return makeArray<T>(device, name, count, BufferKind::Both);
 }
 
 BufferMap merged(BufferMap a, const BufferMap& b)
@@ -58,11 +58,11 @@ PathBuffers::PathBuffers(Device& device, std::uint32_t capacity)
       radiance_(texelArrayOf<PathRadiance>(device, "path radiances", capacity)),
       firstHits_(texelArrayOf<FirstHit>(device, "first hits", capacity)),
       shadowRays_(texelArrayOf<ShadowRay>(device, "shadow rays", capacity)),
-      queueA_(arrayOf<uint>(device, "queue's entries", capacity)),
-      queueB_(arrayOf<uint>(device, "queue's entries", capacity)),
-      shadowQueue_(arrayOf<uint>(device, "shadow queue's entries", capacity)),
+      queueA_(makeArray<uint>(device, "queue's entries", capacity)),
+      queueB_(makeArray<uint>(device, "queue's entries", capacity)),
+      shadowQueue_(makeArray<uint>(device, "shadow queue's entries", capacity)),
       queueSizes_(device, "queue sizes", BufferKind::Readback, sizeof(QueueSizes)),
-      queueTails_(arrayOf<QueueTails>(device, "queue tails", 1)),
+      queueTails_(makeArray<QueueTails>(device, "queue tails", 1)),
       rayCounts_(device, "ray counts", BufferKind::Readback, sizeof(RayCounts)),
       note_(device, "path's note", BufferKind::Readback, sizeof(PathNote)),
       status_(device, "status words", BufferKind::Readback, sizeof(Status))
@@ -148,10 +148,10 @@ Tile::Tile(Device& device, const KernelLayout& layout, const BufferMap& constant
       begin_(begin),
       count_(count),
       chooses_(settings.adaptive != Adaptive::Off),
-      blocks_(arrayOf<BlockSums>(device, "film's blocks", count)),
-      pages_(arrayOf<PixelMoments>(device, "film's pages", count)),
-      luminance_(arrayOf<LuminanceMoments>(device, "pixels' luminances", isCourse(settings.adaptive) ? count : 1)),
-      brightest_(arrayOf<BrightestSample>(device, "pixels' brightest samples", settings.suspects > 0 ? count : 1)),
+      blocks_(makeArray<BlockSums>(device, "film's blocks", count)),
+      pages_(makeArray<PixelMoments>(device, "film's pages", count)),
+      luminance_(makeArray<LuminanceMoments>(device, "pixels' luminances", isCourse(settings.adaptive) ? count : 1)),
+      brightest_(makeArray<BrightestSample>(device, "pixels' brightest samples", settings.suspects > 0 ? count : 1)),
       chosen_(device, "chosen pixels", BufferKind::Storage, sizeof(uint) + (chooses_ ? count : 1) * sizeof(ChosenPixel))
 {
     const auto fixed = merged(constants, {{kBindBlocks, &blocks_},

@@ -29,16 +29,16 @@ void sayTextureMemory(const FlatScene& flat)
 
 void sayWarnings(const Scene& scene, const Scene& previous)
 {
-    constexpr std::size_t kMostLines = 20;
+    constexpr std::size_t kMaxLines = 20;
     const std::set<std::string> known(previous.warnings.begin(), previous.warnings.end());
     std::size_t count = 0;
     for (const std::string& warning : scene.warnings) {
-        if (known.count(warning) == 0 && ++count <= kMostLines) {
+        if (known.count(warning) == 0 && ++count <= kMaxLines) {
             warn(warning);
         }
     }
-    if (count > kMostLines) {
-        warn("and " + counted(count - kMostLines, "more warning"));
+    if (count > kMaxLines) {
+        warn("and " + counted(count - kMaxLines, "more warning"));
     }
 }
 
@@ -162,7 +162,7 @@ const Camera& findCamera(const Scene& scene, const std::optional<std::string>& c
         if (scene.cameras[i].name == *choice) {
             return scene.cameras[i];
         }
-        if (i < kMostListed) {
+        if (i < kMaxListed) {
             list += (i == 0 ? "" : ", ") + std::to_string(i) + " " + inQuotes(scene.cameras[i].name);
         }
     }
@@ -180,7 +180,7 @@ glm::uvec2 defaultSize(const Camera& camera)
     constexpr std::uint32_t kHeight = 512;
     const bool orthographic = camera.kind == Camera::Kind::Orthographic;
     const float aspectRatio = orthographic ? std::abs(camera.halfWidth / camera.halfHeight) : camera.aspectRatio.value_or(1.0F);
-    const float bounded = std::clamp(aspectRatio, 1.0F / kMostAspectRatio, kMostAspectRatio);
+    const float bounded = std::clamp(aspectRatio, 1.0F / kMaxAspectRatio, kMaxAspectRatio);
     return {static_cast<std::uint32_t>(std::round(static_cast<float>(kHeight) * bounded)), kHeight};
 }
 

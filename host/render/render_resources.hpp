@@ -52,7 +52,7 @@ struct RenderResources {
 
     const KernelSet& kernels() const { return compiled->set; }
     PathBuffers& paths() const { return shared->paths; }
-    std::uint32_t groupsOf(std::uint32_t count) const { return (count + settings.workgroup - 1) / settings.workgroup; }
+    std::uint32_t countGroups(std::uint32_t count) const { return (count + settings.workgroup - 1) / settings.workgroup; }
     // Records size_dispatch for these queues (kSizesPaths ...).
     void recordSize(Recording& recording, const Bindings& bindings, Pass pass, std::uint32_t queues) const;
 

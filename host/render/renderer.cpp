@@ -51,7 +51,7 @@ void Renderer::open(const FlatScene& scene, const FlatCamera& camera)
 Film Renderer::emptyFilmOf(const FlatCamera& camera) const
 {
     Film film = emptyFilm(settings_);
-    film.identity = identityOf(sceneIdentity_, camera, settings_);
+    film.identity = makeIdentity(sceneIdentity_, camera, settings_);
     film.device = resources_->device.description().name + ", " + resources_->device.description().driver;
     film.arithmetic = arithmeticFingerprint(resources_->device);
     return film;

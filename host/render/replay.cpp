@@ -18,15 +18,15 @@ T firstOf(const Buffer& buffer)
 // Records the only path after each kernel. What a kernel adds is taken out at once, so that it is known exactly.
 class PathRecorder {
 public:
-    PathRecorder(std::vector<PathVertex>& vertices, std::uint32_t maxBounces, std::uint32_t recordCount)
+    PathRecorder(std::vector<PathVertex>& vertices, std::uint32_t maxBounces, std::uint32_t refCount)
         : vertices_(vertices),
           maxBounces_(maxBounces),
-          recordCount_(recordCount)
+          refCount_(refCount)
     {}
 
     void record(const std::string& kernel, const CoursePass& at, PathBuffers& paths)
     {
-        const bool whole = at.lightRound.endRecord == recordCount_;  // brute force: the last of several dispatches
+        const bool whole = at.lightRound.endRef == refCount_;  // brute force: the last of several dispatches
         if (kernel == "trace_closest" || (kernel == "course_trace_closest" && whole)) {
             alive_ = firstOf<QueueSizes>(paths.queueSizes()).closest > 0;
             if (alive_) {
@@ -37,7 +37,7 @@ public:
         if (!alive_) {
             return;
         }
-        if (kernel == "sample_lights_and_bounce") {
+        if (kernel == "shade_surface") {
             const PathNote note = paths.takeNote();
             takeSampled(note, true, paths);
             endVertex(note, at.pass, paths);
@@ -95,16 +95,16 @@ private:
         vertex.bsdf = note;
         vertex.after = firstOf<PathState>(paths.states());
         const bool continues = firstOf<QueueTails>(paths.queueTails()).next > 0;
-        vertex.end = continues                                   ? PathEnd::Continues
-                     : vertex.hit.record == kNoRecord            ? PathEnd::Missed
-                     : pass.bounce == maxBounces_                ? PathEnd::LastBounce
-                     : vertex.bsdf.continuation > 0.0F           ? PathEnd::Roulette
-                     : vertex.bsdf.throughput == glm::vec3(0.0F) ? PathEnd::Absorbed
-                                                                 : PathEnd::Redundant;
+        vertex.end = continues                                    ? PathEnd::Continues
+                     : vertex.hit.primitiveRef == kNoPrimitiveRef ? PathEnd::Missed
+                     : pass.bounce == maxBounces_                 ? PathEnd::LastBounce
+                     : vertex.bsdf.continuation > 0.0F            ? PathEnd::Roulette
+                     : vertex.bsdf.throughput == glm::vec3(0.0F)  ? PathEnd::Absorbed
+                                                                  : PathEnd::Redundant;
     }
 
     std::vector<PathVertex>& vertices_;
-    std::uint32_t maxBounces_, recordCount_;
+    std::uint32_t maxBounces_, refCount_;
     ShadowRay ray_{};
     bool alive_ = false;
 };
@@ -149,7 +149,7 @@ PathRadiance traceSample(RenderResources& resources, std::uint32_t pixel, std::u
 
 Replay::Replay(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
     : maxBounces_(pathLengths(settings).maxBounces),
-      recordCount_(static_cast<std::uint32_t>(scene.records.size()) / kRecordTexels),
+      refCount_(static_cast<std::uint32_t>(scene.primitiveRefs.size()) / kPrimitiveRefTexels),
       resources_(device, scene, camera, settingsOfOne(settings))
 {}
 
@@ -157,7 +157,7 @@ ReplayedPath Replay::trace(std::uint32_t pixel, std::uint32_t sample)
 {
     ReplayedPath path;
     path.radiance = traceSample(resources_, pixel, sample);
-    PathRecorder recorder(path.vertices, maxBounces_, recordCount_);
+    PathRecorder recorder(path.vertices, maxBounces_, refCount_);
     traceSample(resources_, pixel, sample,
                 [&](const std::string& kernel, const CoursePass& pass, PathBuffers& paths) { recorder.record(kernel, pass, paths); });
     refuseBrokenStatus(resources_.device.description(), resources_.paths());

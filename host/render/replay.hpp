@@ -63,7 +63,7 @@ public:
     ReplayedPath trace(std::uint32_t pixel, std::uint32_t sample);
 
 private:
-    std::uint32_t maxBounces_, recordCount_;
+    std::uint32_t maxBounces_, refCount_;
     RenderResources resources_;
 };
 

@@ -57,7 +57,7 @@ std::vector<glm::dvec3> robustRadiance(const Film& film)
     std::vector<glm::vec3> radiance, variance;
     for (const PixelMoments& pixel : shownPixels(film)) {
         radiance.push_back(pixel.mean);
-        variance.push_back(varianceOfMean(pixel));
+        variance.push_back(computeVarianceOfMean(pixel));
     }
     return robustRadiance(film.width, film.height, radiance, variance);
 }

@@ -27,7 +27,7 @@ bool isJudgedAt(std::uint32_t begin, std::uint32_t end)
     while (sample < end) {
         sample = blockEnd(sample);
         const std::uint32_t count = sample - begin;
-        if (count >= leastSamplesForError(begin) && count >= 1.1 * judged) {
+        if (count >= minSamplesForError(begin) && count >= 1.1 * judged) {
             judged = count;
         }
     }
@@ -335,11 +335,11 @@ void SamplePlan::startChosenSweep(std::uint32_t paths)
     }
 }
 
-void SamplePlan::expectTarget() { plannedSamples_ = std::uint64_t{settings_.pixelCount()} * leastSamplesForError(settings_.sampleBegin); }
+void SamplePlan::expectTarget() { plannedSamples_ = std::uint64_t{settings_.pixelCount()} * minSamplesForError(settings_.sampleBegin); }
 
 bool SamplePlan::isJudgedNow() const
 {
-    const bool due = isNeighbours(settings_.adaptive) ? isBetweenRounds() && mean_ >= leastSamplesForError(settings_.sampleBegin)
+    const bool due = isNeighbours(settings_.adaptive) ? isBetweenRounds() && mean_ >= minSamplesForError(settings_.sampleBegin)
                                                       : isJudgedAt(settings_.sampleBegin, sample_);
     return !sweeping_ && due && judgedSamples_ != pictureSamples_;
 }

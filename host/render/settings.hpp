@@ -44,7 +44,7 @@ enum class Aov : std::uint32_t { Radiance, Normal, Depth, Albedo, BvhSteps, Samp
 enum class Adaptive { Off, Course, CourseLiteral, Neighbours, NeighboursAbsolute };
 
 // The fewest samples from `begin` on whose error can be estimated: up to the end of a second block.
-inline std::uint32_t leastSamplesForError(std::uint32_t begin)
+inline std::uint32_t minSamplesForError(std::uint32_t begin)
 {
     const std::uint32_t second = (begin / blockSamples(begin) + 1) * blockSamples(begin);
     return second + blockSamples(second) - begin;
@@ -114,7 +114,7 @@ struct RenderSettings {
 };
 
 // The name that --schedule and the statistics use.
-inline const char* nameOf(Schedule schedule)
+inline const char* getName(Schedule schedule)
 {
     return schedule == Schedule::Persistent ? "persistent" : schedule == Schedule::Wavefront ? "wavefront" : "auto";
 }

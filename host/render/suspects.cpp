@@ -47,15 +47,15 @@ std::vector<Suspect> findSuspects(Renderer& renderer, const Film& film)
     }
     double picture = 0.0;
     for (const PixelMoments& pixel : shownPixels(film)) {
-        picture += luminanceOf(pixel.mean);
+        picture += computeLuminance(pixel.mean);
     }
     std::vector<Suspect> suspects;
     for (const Brightest& each : findBrightest(renderer, renderer.settings().suspects)) {
         const PixelMoments pixel = shownPixel(film, each.pixel);
         const PathRadiance path = traceSample(renderer.resources(), each.pixel, each.sampleIndex);
-        const double luminance = luminanceOf(path.radiance), part = luminance / pixel.count;
+        const double luminance = computeLuminance(path.radiance), part = luminance / pixel.count;
         suspects.push_back(
-            {each.pixel, each.sampleIndex, path.radiance, luminance, shareOf(part, luminanceOf(pixel.mean)), shareOf(part, picture)});
+            {each.pixel, each.sampleIndex, path.radiance, luminance, shareOf(part, computeLuminance(pixel.mean)), shareOf(part, picture)});
     }
     return suspects;
 }

@@ -13,10 +13,10 @@ constexpr int kOriginBits = 8;
 
 constexpr std::size_t kTinyShare = 64, kTinyCount = 4;
 
-constexpr double kMostReach = 4.0;
+constexpr double kMaxReach = 4.0;
 
 // A part is coarse if so many of its primitives are smaller than 64 times the spacing of coordinates.
-constexpr double kCoarseShare = 1.0 / 8.0, kLeastSteps = 64.0;
+constexpr double kCoarseShare = 1.0 / 8.0, kMinSteps = 64.0;
 
 double nthOf(std::vector<double> values, std::size_t n)
 {
@@ -39,7 +39,7 @@ struct Weighted {
 };
 
 // The first x with at least half of the weight at or below it.
-double medianOf(std::vector<Weighted> values)
+double computeMedian(std::vector<Weighted> values)
 {
     std::sort(values.begin(), values.end(), [](const Weighted& a, const Weighted& b) { return a.x < b.x; });
     double all = 0.0, below = 0.0;
@@ -57,7 +57,7 @@ double medianOf(std::vector<Weighted> values)
 
 double weightOf(const Place& place, double least) { return place.count * least / std::max(place.size, least); }
 
-glm::dvec3 medianOf(std::span<const Place> places, double least)
+glm::dvec3 computeMedian(std::span<const Place> places, double least)
 {
     const double grid = std::ldexp(1.0, std::ilogb(nthOf(sizesOf(places), places.size() / 2)) - kOriginBits);
     glm::dvec3 median;
@@ -66,7 +66,7 @@ glm::dvec3 medianOf(std::span<const Place> places, double least)
         for (const Place& place : places) {
             values.push_back({place.center[axis], weightOf(place, least)});
         }
-        median[axis] = std::round(medianOf(std::move(values)) / grid) * grid + 0.0;  // no negative zero
+        median[axis] = std::round(computeMedian(std::move(values)) / grid) * grid + 0.0;  // no negative zero
     }
     return median;
 }
@@ -79,7 +79,7 @@ double reachOf(const glm::dvec3& origin, std::span<const Place> places, double l
         const glm::dvec3 from = glm::abs(place.center - origin);
         values.push_back({std::max({from.x, from.y, from.z}) + 0.5 * place.size, weightOf(place, least)});
     }
-    return medianOf(std::move(values));
+    return computeMedian(std::move(values));
 }
 
 double spacingAt(const Place& place, const glm::dvec3& origin)
@@ -106,8 +106,8 @@ double fineSize(std::vector<double> sizes)
 glm::dvec3 chooseOrigin(std::span<const Place> places, const glm::dvec3& center)
 {
     const double least = fineSize(sizesOf(places));
-    const glm::dvec3 median = medianOf(places, least);
-    return reachOf(center, places, least) > kMostReach * reachOf(median, places, least) ? median : center;
+    const glm::dvec3 median = computeMedian(places, least);
+    return reachOf(center, places, least) > kMaxReach * reachOf(median, places, least) ? median : center;
 }
 
 std::vector<CoarsePart> findCoarseParts(std::span<const Place> places, const glm::dvec3& origin)
@@ -117,7 +117,7 @@ std::vector<CoarsePart> findCoarseParts(std::span<const Place> places, const glm
         Tally& tally = parts[place.part];
         const CoarsePart here{place.part, spacingAt(place, origin), place.size};
         tally.count += place.count;
-        tally.coarse += here.spacing * kLeastSteps > here.size ? place.count : 0.0;
+        tally.coarse += here.spacing * kMinSteps > here.size ? place.count : 0.0;
         tally.worst = tally.worst.size == 0.0 || isCoarser(here, tally.worst) ? here : tally.worst;
     }
     std::vector<CoarsePart> coarse;

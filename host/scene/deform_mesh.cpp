@@ -63,7 +63,7 @@ void skinMesh(Mesh& mesh, const Influences& influences, std::span<const glm::dma
             mesh.normals[i] = unitOrSame(side * (cofactors(linear) * mesh.normals[i]));
         }
         if (!mesh.tangents.empty()) {
-            // cross(normal, tangent) turns round when the matrix mirrors.
+            // cross(normal, tangent) changes its sign when the matrix mirrors.
             mesh.tangents[i] = glm::vec4(unitOrSame(linear * glm::dvec3(mesh.tangents[i])), side * static_cast<double>(mesh.tangents[i].w));
         }
     }

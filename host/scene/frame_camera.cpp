@@ -15,23 +15,23 @@ constexpr double kMargin = 0.05;
 // The corners of a shape as a camera sees them from far away along one axis of its picture: how far aside, and how much nearer than the
 // shape's centre.
 struct Corner {
-    double aside, nearer;
+    double lateral, nearer;
 };
 
 using Corners = std::vector<Corner>;
 
 // Where the camera stands on that axis, if corners at the least and the greatest slope against the view direction are to be as steep as
-// each other: `aside`. `distance` of the camera from the centre: where this slope is `slope`.
+// each other: `lateral`. `distance` of the camera from the centre: where this slope is `slope`.
 struct Place {
-    double aside, distance;
+    double lateral, distance;
 };
 
 Place fit(const Corners& corners, double slope)
 {
     double high = -std::numeric_limits<double>::infinity(), low = -high;
     for (const Corner& corner : corners) {
-        high = std::max(high, corner.aside + slope * corner.nearer);
-        low = std::min(low, corner.aside - slope * corner.nearer);
+        high = std::max(high, corner.lateral + slope * corner.nearer);
+        low = std::min(low, corner.lateral - slope * corner.nearer);
     }
     return {0.5 * (high + low), 0.5 * (high - low) / slope};
 }
@@ -44,7 +44,7 @@ double centered(const Corners& corners, double slope, double distance)
         const double middle = 0.5 * (flat + steep);
         (fit(corners, middle).distance > distance ? flat : steep) = middle;
     }
-    return fit(corners, steep).aside;
+    return fit(corners, steep).lateral;
 }
 
 // Axes and place of a camera, the place relative to the shape's centre.
@@ -77,7 +77,7 @@ Framing frame(const std::vector<glm::dvec3>& corners, double yfov, double aspect
 
 glm::dvec3 centerOf(const WorldBox& box) { return 0.5 * glm::dvec3(box.low) + 0.5 * glm::dvec3(box.high); }
 
-glm::dvec3 turnAboutY(const glm::dvec3& v, double angle)
+glm::dvec3 rotateAboutY(const glm::dvec3& v, double angle)
 {
     return {std::cos(angle) * v.x + std::sin(angle) * v.z, v.y, std::cos(angle) * v.z - std::sin(angle) * v.x};
 }
@@ -106,24 +106,24 @@ Camera frameCamera(const Scene& scene, float aspectRatio)
 
 std::vector<Pose> frameTurntable(const Scene& scene, float aspectRatio, std::uint32_t count)
 {
-    constexpr int kSides = 64;  // of the prism around the cylinder that the scene turns in
-    constexpr double kTurn = 6.283185307179586;
+    constexpr int kSides = 64;  // of the prism around the cylinder in which the scene rotates
+    constexpr double kTwoPi = 6.283185307179586;
     const WorldBox box = computeWorldBox(scene);
     const glm::dvec3 center = centerOf(box), up(0.0, 0.5 * (static_cast<double>(box.high.y) - static_cast<double>(box.low.y)), 0.0);
-    const double radius = computeRadius(scene, center) / std::cos(0.5 * kTurn / kSides);
+    const double radius = computeRadius(scene, center) / std::cos(0.5 * kTwoPi / kSides);
     std::vector<glm::dvec3> corners;
     for (int i = 0; i < kSides; ++i) {
-        const glm::dvec3 side = turnAboutY({0.0, 0.0, radius}, kTurn * i / kSides);
+        const glm::dvec3 side = rotateAboutY({0.0, 0.0, radius}, kTwoPi * i / kSides);
         corners.push_back(side + up);
         corners.push_back(side - up);
     }
     const Framing framing = frame(corners, static_cast<double>(Camera().yfov), static_cast<double>(aspectRatio));
     std::vector<Pose> poses;
     for (std::uint32_t i = 0; i < count; ++i) {
-        const double angle = kTurn * i / count;
+        const double angle = kTwoPi * i / count;
         Pose pose;
-        pose.from = scene.origin + center + turnAboutY(framing.position, angle);
-        pose.at = pose.from - framing.distance * turnAboutY(framing.backward, angle);
+        pose.from = scene.origin + center + rotateAboutY(framing.position, angle);
+        pose.at = pose.from - framing.distance * rotateAboutY(framing.backward, angle);
         poses.push_back(pose);
     }
     return poses;

@@ -27,7 +27,7 @@ std::vector<double> unit(const std::vector<double>& rotation)
 }
 
 // By the shorter way round.
-std::vector<double> turn(const std::vector<double>& from, const std::vector<double>& to, double share)
+std::vector<double> slerp(const std::vector<double>& from, const std::vector<double>& to, double share)
 {
     const std::vector<double> a = unit(from), b = unit(to);
     const glm::dquat between = glm::slerp(glm::dquat(a[3], a[0], a[1], a[2]), glm::dquat(b[3], b[0], b[1], b[2]), share);
@@ -68,7 +68,7 @@ std::vector<double> valueBetween(const Keyframes& keyframes, std::size_t key, do
         return splineBetween(keyframes, key, share, interval);
     }
     const std::vector<double> from = partOf(keyframes, key, kValue), to = partOf(keyframes, key + 1, kValue);
-    return keyframes.rotation ? turn(from, to, share) : mix(from, to, share);
+    return keyframes.rotation ? slerp(from, to, share) : mix(from, to, share);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ constexpr double kMaxFloat = std::numeric_limits<float>::max();
 void noteIgnoredParts(const GltfFile& file, Warnings& warnings)
 {
     for (const std::string& extension : file.model.extensionsUsed) {
-        const ExtensionEffect effect = effectOf(extension);
+        const ExtensionEffect effect = getEffect(extension);
         const bool ofMaterials = extension.find("_materials_") != std::string::npos;  // noted with each material
         if ((effect == ExtensionEffect::Looks && !ofMaterials) || effect == ExtensionEffect::Content) {
             warnings.add("extensions are ignored", shortened(extension));
@@ -40,7 +40,7 @@ std::vector<Animation> listAnimations(const GltfFile& file)
 {
     std::vector<Animation> animations;
     for (std::size_t i = 0; i < file.animations.size(); ++i) {
-        animations.push_back({file.animations[i].name, durationOf(file, i)});
+        animations.push_back({file.animations[i].name, computeDuration(file, i)});
     }
     return animations;
 }
@@ -67,7 +67,7 @@ std::size_t findAnimation(const GltfFile& file, const std::vector<Animation>& an
         if (choice.empty() || animations[i].name == choice || std::to_string(i) == choice) {
             return i;
         }
-        if (i < kMostListed) {
+        if (i < kMaxListed) {
             known += (known.empty() ? "" : ", ") + describeAnimation(animations, i);
         }
     }
@@ -178,15 +178,15 @@ Environment makeStudioEnvironment(const LoadOptions& options, DecodedParts& deco
     return environment;
 }
 
-// Emission by a texture, as of the lamps of a model, is not there to light a scene.
+// Emission by a texture, as of the lights of a model, is not there to light a scene.
 bool hasLight(const Scene& scene)
 {
     const std::vector<bool> used = findUsedMaterials(scene);
-    bool lamp = false;
+    bool isLit = false;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        lamp = lamp || (used[i] && !scene.materials[i].textures[kSlotEmissive] && scene.materials[i].emission != glm::vec3(0.0F));
+        isLit = isLit || (used[i] && !scene.materials[i].textures[kSlotEmissive] && scene.materials[i].emission != glm::vec3(0.0F));
     }
-    return lamp || !scene.lights.empty() || scene.environment;
+    return isLit || !scene.lights.empty() || scene.environment;
 }
 
 std::optional<Environment> chooseEnvironment(const GltfFile& file, const LoadOptions& options, DecodedParts& decoded, Scene& scene,
@@ -240,7 +240,7 @@ std::optional<std::size_t> findVariant(const GltfFile& file, const std::vector<s
         return name.empty() ? std::nullopt : std::optional<std::size_t>(found - variants.begin());
     }
     std::string known;
-    for (std::size_t i = 0; i < std::min(variants.size(), kMostListed); ++i) {
+    for (std::size_t i = 0; i < std::min(variants.size(), kMaxListed); ++i) {
         known += (known.empty() ? "" : ", ") + inQuotes(variants[i]);
     }
     refuse(file, "it has no variant " + inQuotes(name) + "; expected " +

@@ -21,7 +21,7 @@ std::uint64_t bitsOf(float a, float b)
 }
 
 template <std::size_t N>
-std::size_t hashOf(const std::array<std::uint64_t, N>& words)
+std::size_t computeHash(const std::array<std::uint64_t, N>& words)
 {
     std::uint64_t hash = 0;
     for (const std::uint64_t word : words) {
@@ -39,7 +39,7 @@ std::vector<std::uint32_t> findFirstEqual(std::size_t count, const KeyOf& keyOf)
     std::vector<std::uint32_t> firsts(count);
     for (std::uint32_t item = 0; item < count; ++item) {
         const auto key = keyOf(item);
-        std::size_t slot = hashOf(key) & (slots.size() - 1);
+        std::size_t slot = computeHash(key) & (slots.size() - 1);
         while (slots[slot] != kNone && keyOf(slots[slot]) != key) {
             slot = (slot + 1) & (slots.size() - 1);
         }
@@ -132,9 +132,9 @@ private:
 };
 
 struct Face {
-    glm::dvec3 tangent{0.0};  // unit; zero if there is no uv area
-    bool turns = false;       // uv go around the triangle from the u axis to the v axis
-    bool collapsed = false;   // two corners have one position: its edges connect nothing
+    glm::dvec3 tangent{0.0};            // unit; zero if there is no uv area
+    bool preservesOrientation = false;  // uv go around the triangle from the u axis to the v axis
+    bool collapsed = false;             // two corners have one position: its edges connect nothing
 };
 
 Face makeFace(const Corners& corners, std::uint32_t first)
@@ -147,11 +147,11 @@ Face makeFace(const Corners& corners, std::uint32_t first)
     const glm::dvec2 toB = glm::dvec2(corners.uv(first + 1)) - glm::dvec2(corners.uv(first));
     const glm::dvec2 toC = glm::dvec2(corners.uv(first + 2)) - glm::dvec2(corners.uv(first));
     const double area = toB.x * toC.y - toC.x * toB.y;
-    face.turns = area > 0.0;
+    face.preservesOrientation = area > 0.0;
     if (face.collapsed || !std::isfinite(area) || area == 0.0) {
         return face;
     }
-    const double sign = face.turns ? 1.0 : -1.0;
+    const double sign = face.preservesOrientation ? 1.0 : -1.0;
     const glm::dvec3 tangent = unitOrZero(sign * ((b - a) * toC.y - (c - a) * toB.y));
     const glm::dvec3 bitangent = unitOrZero(sign * ((c - a) * toB.x - (b - a) * toC.x));
     if (bitangent != glm::dvec3(0.0)) {
@@ -246,24 +246,24 @@ private:
     void gatherGroup(std::uint32_t corner)
     {
         group_.clear();
-        const bool turns = faces_[corner / 3].turns;
-        join(corner, turns);
-        for (std::uint32_t at = acrossOutgoing(corner); at != kNone && join(at, turns);) {
+        const bool preservesOrientation = faces_[corner / 3].preservesOrientation;
+        join(corner, preservesOrientation);
+        for (std::uint32_t at = acrossOutgoing(corner); at != kNone && join(at, preservesOrientation);) {
             at = acrossOutgoing(at);
         }
-        for (std::uint32_t at = acrossIncoming(corner); at != kNone && join(at, turns);) {
+        for (std::uint32_t at = acrossIncoming(corner); at != kNone && join(at, preservesOrientation);) {
             at = acrossIncoming(at);
         }
     }
 
-    bool join(std::uint32_t corner, bool turns)
+    bool join(std::uint32_t corner, bool preservesOrientation)
     {
         Face& face = faces_[corner / 3];
         const std::uint32_t first = corner - corner % 3;
         if (face.tangent == glm::dvec3(0.0) && !grouped_[first] && !grouped_[first + 1] && !grouped_[first + 2]) {
-            face.turns = turns;  // without uv area, the first group decides
+            face.preservesOrientation = preservesOrientation;  // without uv area, the first group decides
         }
-        if (grouped_[corner] || face.turns != turns) {
+        if (grouped_[corner] || face.preservesOrientation != preservesOrientation) {
             return false;
         }
         grouped_[corner] = true;
@@ -287,7 +287,7 @@ private:
     }
 
     // From tangent to bitangent is counter-clockwise seen from the front, if from rising u to falling v is.
-    float handedness(std::uint32_t corner) const { return faces_[corner / 3].turns ? -1.0F : 1.0F; }
+    float handedness(std::uint32_t corner) const { return faces_[corner / 3].preservesOrientation ? -1.0F : 1.0F; }
 
     bool isSet(std::uint32_t corner) const { return glm::vec3(tangents_[corner]) != glm::vec3(0.0F); }
 

@@ -95,7 +95,7 @@ WorldBox computeTriangleBox(const Scene& scene)
     return box;
 }
 
-bool isLarge(const Scene& scene) { return countTriangles(countMeshUses(scene)) > kMostFlatTriangles; }
+bool isLarge(const Scene& scene) { return countTriangles(countMeshUses(scene)) > kMaxFlatTriangles; }
 
 // Quicker, and larger where meshes are turned.
 WorldBox computeBoxOfMeshBoxes(const Scene& scene)

@@ -30,7 +30,7 @@ Camera placeCamera(const Camera& camera, const Pose& pose, const glm::dvec3& sce
     return placed;
 }
 
-Pose poseOf(const Camera& camera, double distance, const glm::dvec3& sceneOrigin)
+Pose computePose(const Camera& camera, double distance, const glm::dvec3& sceneOrigin)
 {
     constexpr double kLevel = 1e-3;  // radians of roll that still count as level
     const glm::dvec3 right(camera.right), up(camera.up), forward(camera.forward);

@@ -18,6 +18,6 @@ Camera placeCamera(const Camera& camera, const Pose& pose, const glm::dvec3& sce
 
 // Returns the pose of `camera`, which looks at the point `distance` metres ahead. Up is +Y if the camera is level, so that it stays level
 // when it is turned.
-Pose poseOf(const Camera& camera, double distance, const glm::dvec3& sceneOrigin);
+Pose computePose(const Camera& camera, double distance, const glm::dvec3& sceneOrigin);
 
 }  // namespace glim

@@ -33,7 +33,7 @@ public:
             result.camera = readCamera();
         }
         if (entry_.contains("matrix")) {
-            result.pose = poseOf(readNumbers<16>("matrix"));
+            result.pose = computePose(readNumbers<16>("matrix"));
         } else if (entry_.contains("from")) {
             result.pose = readPose();
         }
@@ -132,7 +132,7 @@ private:
     }
 
     // A glTF camera looks along its -z, and its +y is up.
-    Pose poseOf(const std::array<double, 16>& m) const
+    Pose computePose(const std::array<double, 16>& m) const
     {
         const glm::dvec3 up(m[4], m[5], m[6]), backward(m[8], m[9], m[10]);
         if (!(glm::length(glm::cross(up, backward)) > 0.0) || glm::length(glm::dvec4(m[3], m[7], m[11], m[15] - 1.0)) > kAffineRounding) {

@@ -167,7 +167,7 @@ struct PunctualLight {
 };
 
 // The default size of a picture follows its camera's aspect ratio up to this, and down to its inverse.
-inline constexpr float kMostAspectRatio = 16.0F;
+inline constexpr float kMaxAspectRatio = 16.0F;
 
 struct Camera {
     enum class Kind : std::uint32_t { Perspective, Orthographic };

@@ -16,7 +16,7 @@ struct Candidate {
 
 }  // namespace
 
-std::vector<bool> chooseSharedMeshes(std::span<const MeshUse> uses, std::uint64_t mostFlatTriangles)
+std::vector<bool> chooseSharedMeshes(std::span<const MeshUse> uses, std::uint64_t maxFlatTriangles)
 {
     std::vector<Candidate> candidates;
     for (std::size_t i = 0; i < uses.size(); ++i) {
@@ -30,7 +30,7 @@ std::vector<bool> chooseSharedMeshes(std::span<const MeshUse> uses, std::uint64_
     std::uint64_t triangles = countTriangles(uses);
     std::vector<bool> shared(uses.size(), false);
     for (const Candidate& candidate : candidates) {
-        if (triangles <= mostFlatTriangles) {
+        if (triangles <= maxFlatTriangles) {
             break;
         }
         shared[candidate.mesh] = true;

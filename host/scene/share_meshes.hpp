@@ -9,7 +9,7 @@ namespace glim {
 
 // A scene of at most so many triangles, counted once for each instance, shares no mesh: rays are faster through one tree. The limit must
 // not depend on the machine, because a shared mesh rounds otherwise.
-inline constexpr std::uint64_t kMostFlatTriangles = std::uint64_t{1} << 22U;
+inline constexpr std::uint64_t kMaxFlatTriangles = std::uint64_t{1} << 22U;
 
 struct MeshUse {
     std::uint64_t instances = 0;
@@ -19,7 +19,7 @@ struct MeshUse {
 
 // One entry for each mesh. Shares as few as the limit allows, and those first that save most triangles. Meshes that emit are never shared:
 // each of their triangles is a light of its own, whatever instance it is of.
-std::vector<bool> chooseSharedMeshes(std::span<const MeshUse> uses, std::uint64_t mostFlatTriangles = kMostFlatTriangles);
+std::vector<bool> chooseSharedMeshes(std::span<const MeshUse> uses, std::uint64_t maxFlatTriangles = kMaxFlatTriangles);
 
 std::vector<MeshUse> countMeshUses(const Scene& scene);
 

@@ -117,7 +117,7 @@ float meanOf(const glm::vec3& value) { return (value.x + value.y + value.z) / 3.
 
 }  // namespace
 
-std::vector<Layer> layersOf(const Image& image)
+std::vector<Layer> collectLayers(const Image& image)
 {
     std::vector<Layer> layers;
     for (auto& [prefix, channels] : channelsByPrefix(image)) {
@@ -161,7 +161,7 @@ Picture valuesOf(const Image& image, const Layer& layer)
     return values;
 }
 
-std::optional<DisplayRange> rangeOf(const Image& image, const Layer& layer, const Picture& values)
+std::optional<DisplayRange> getRange(const Image& image, const Layer& layer, const Picture& values)
 {
     const bool isDepth = layer.shownAs == ShownAs::Depth;
     if (!isDepth && layer.shownAs != ShownAs::Heat) {
@@ -198,7 +198,7 @@ std::vector<double> numbersOf(const Image& image, const Layer& layer, std::size_
     return numbers;
 }
 
-std::string textOf(const std::vector<double>& numbers)
+std::string toText(const std::vector<double>& numbers)
 {
     constexpr double kLargestWhole = 4294967296.0;
     std::string text;

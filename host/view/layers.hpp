@@ -30,7 +30,7 @@ struct Layer {
 
 // R, G, B of one prefix make a layer, with A if there is one, and so do X, Y, Z. Each other channel is a layer of its own. They are in the
 // order of their prefixes. Colour has none and comes first.
-std::vector<Layer> layersOf(const Image& image);
+std::vector<Layer> collectLayers(const Image& image);
 
 // What the window shows of `layer`, as `radiance`, without variance: its three channels or one of them three times. Vectors of films of
 // glim are divided by alpha. A depth becomes 0 if it is infinite, if it is 1e9 or more (so others write that nothing is there), or if alpha
@@ -39,11 +39,11 @@ Picture valuesOf(const Image& image, const Layer& layer);
 
 // The ends of the scale of depths and heat; nothing for other layers, and if no value is finite. Of depths and counts: the least and the
 // most. Of other numbers: 0, or the least if that is negative, and what 99.9 % stay below.
-std::optional<DisplayRange> rangeOf(const Image& image, const Layer& layer, const Picture& values);
+std::optional<DisplayRange> getRange(const Image& image, const Layer& layer, const Picture& values);
 
 // The numbers of a pixel as the file has them.
 std::vector<double> numbersOf(const Image& image, const Layer& layer, std::size_t pixel);
 // With six digits, whole numbers with all, as in "0.5 0.25 1"; "-" without numbers.
-std::string textOf(const std::vector<double>& numbers);
+std::string toText(const std::vector<double>& numbers);
 
 }  // namespace glim

@@ -23,7 +23,7 @@ glm::dvec2 placeOf(const Placement& placement, const glm::dvec2& point) { return
 struct Span {
     std::uint32_t begin, end;
 };
-Span spanOf(double low, double high, std::uint32_t count)
+Span computeSpan(double low, double high, std::uint32_t count)
 {
     const double last = static_cast<double>(count) - 1.0;
     const auto begin = static_cast<std::uint32_t>(std::clamp(std::ceil(low - 0.5), 0.0, last));
@@ -96,7 +96,7 @@ void layUnder(const Picture& picture, const Placement& placement, const glm::uve
     const double half = averages && placement.zoom < 1.0 ? 0.5 : 0.0;
     const auto spanAt = [&](std::uint32_t pixel, double corner, std::uint32_t count) {
         const double center = static_cast<double>(pixel) + 0.5 - corner;
-        return spanOf((center - half) / placement.zoom, (center + half) / placement.zoom, count);
+        return computeSpan((center - half) / placement.zoom, (center + half) / placement.zoom, count);
     };
     std::vector<Span> columns;
     for (std::uint32_t x = covered.low.x; x < covered.high.x; ++x) {

@@ -6,7 +6,7 @@
 namespace glim {
 namespace {
 
-constexpr glm::uvec2 kLeastSize(640, 480);  // the panel needs about as much
+constexpr glm::uvec2 kMinSize(640, 480);  // the panel needs about as much
 
 }  // namespace
 
@@ -14,7 +14,7 @@ void view(const ViewOptions& options)
 {
     const std::vector<ScriptStep> script = options.script ? readScript(*options.script) : std::vector<ScriptStep>{};
     ViewedFilms films(options.film, options.reference);  // refused before the display is missed
-    const glm::uvec2 size = options.size ? *options.size : glm::min(glm::max(films.size(), kLeastSize), Window::screenSize());
+    const glm::uvec2 size = options.size ? *options.size : glm::min(glm::max(films.size(), kMinSize), Window::screenSize());
     EventQueue events;
     Window window("glim: " + films.title(), size, events);
     runWindow(window, script, [&] {

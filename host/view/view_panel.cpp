@@ -23,7 +23,7 @@ constexpr HelpLine kHelp[] = {
     {"Esc", "quit"},
 };
 
-const char* nameOf(Side side)
+const char* getName(Side side)
 {
     constexpr const char* kNames[] = {"A", "B", "A - B"};
     return kNames[static_cast<int>(side)];
@@ -38,7 +38,7 @@ ViewChoices showViewPanel(const ViewFigures& figures, ViewChoices choices)
         std::iota(indices.begin(), indices.end(), std::size_t{0});
         choices.layer = choose("layer", indices, choices.layer, [&](std::size_t i) { return figures.layers[i].c_str(); });
         if (figures.sides.size() > 1) {
-            choices.side = choose("film", figures.sides, choices.side, [](Side side) { return nameOf(side); });
+            choices.side = choose("film", figures.sides, choices.side, [](Side side) { return getName(side); });
         }
         ImGui::BeginDisabled(!figures.isExposed);
         choices.exposure = exposureSlider(choices.exposure);

@@ -176,7 +176,7 @@ void ViewSession::chooseLayer(std::size_t index)
     std::optional<DisplayRange> range;
     for (std::size_t i = 0; i < values_.size(); ++i) {
         values_[i] = layer.of[i] ? valuesOf(films_.image(i), *layer.of[i]) : Picture{};
-        const auto own = layer.of[i] ? rangeOf(films_.image(i), *layer.of[i], values_[i]) : std::nullopt;
+        const auto own = layer.of[i] ? getRange(films_.image(i), *layer.of[i], values_[i]) : std::nullopt;
         range = range && own ? joined(*range, *own) : own ? own : range;
     }
     shown_.range = range.value_or(DisplayRange{});
@@ -388,14 +388,14 @@ std::vector<std::string> ViewSession::describePixel() const
         if (place && layer.of[i]) {
             numbers[i] = numbersOf(films_.image(i), *layer.of[i], pixel);
         }
-        lines.push_back((i == 0 ? "A " : "B ") + textOf(numbers[i]));
+        lines.push_back((i == 0 ? "A " : "B ") + toText(numbers[i]));
     }
     if (films_.count() > 1) {
         std::vector<double> differences;
         for (std::size_t c = 0; c < std::min(numbers[0].size(), numbers[1].size()); ++c) {
             differences.push_back(numbers[0][c] - numbers[1][c]);
         }
-        lines.push_back("A - B " + textOf(differences));
+        lines.push_back("A - B " + toText(differences));
     }
     return lines;
 }
@@ -411,7 +411,7 @@ void ViewSession::print(const glm::uvec2& pixel) const
         for (const ViewedLayer& layer : films_.layers()) {
             if (layer.of[i]) {
                 std::cout << separator << escaped(layer.name) << ' '
-                          << textOf(numbersOf(films_.image(i), *layer.of[i], std::size_t{pixel.y} * size.x + pixel.x));
+                          << toText(numbersOf(films_.image(i), *layer.of[i], std::size_t{pixel.y} * size.x + pixel.x));
                 separator = ", ";
             }
         }

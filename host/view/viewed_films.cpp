@@ -33,7 +33,7 @@ std::filesystem::file_time_type timeOf(const std::filesystem::path& path)
 Image read(const std::filesystem::path& path)
 {
     Image image = readExr(path);
-    if (layersOf(image).empty()) {
+    if (collectLayers(image).empty()) {
         throw InputError(path.string() + ": has no channels.");
     }
     return image;
@@ -80,7 +80,7 @@ void ViewedFilms::listLayers()
 {
     layers_.clear();
     for (std::size_t i = 0; i < files_.size(); ++i) {
-        for (Layer& layer : layersOf(files_[i].image)) {
+        for (Layer& layer : collectLayers(files_[i].image)) {
             const auto found = std::find_if(layers_.begin(), layers_.end(), [&](const ViewedLayer& known) {
                 return known.name == layer.name && !known.of[i] && isAlike(known, layer);
             });

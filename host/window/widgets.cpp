@@ -37,7 +37,7 @@ double exposureSlider(double stops)
 
 Tone toneCombo(Tone chosen)
 {
-    return choose("tone", {Tone::None, Tone::Neutral, Tone::Agx}, chosen, [](Tone tone) { return nameOf(tone); });
+    return choose("tone", {Tone::None, Tone::Neutral, Tone::Agx}, chosen, [](Tone tone) { return getName(tone); });
 }
 
 void showHelp(std::span<const HelpLine> lines)

@@ -41,7 +41,7 @@ void initialize()
 
 // The key's name as the help has it, or '\0'. Letters, + and - follow the user's keyboard layout; other keys, and also + and -, are
 // found by their place on an American keyboard.
-char nameOf(int key, int scancode)
+char getName(int key, int scancode)
 {
     if (key == GLFW_KEY_ESCAPE) {
         return kEscape;
@@ -78,7 +78,7 @@ Window::Window(const std::string& title, const glm::uvec2& size, EventQueue& eve
     }
     glfwSetWindowUserPointer(window_, this);
     glfwSetKeyCallback(window_,
-                       [](GLFWwindow* w, int key, int scancode, int action, int) { self(w)->onKey(nameOf(key, scancode), action); });
+                       [](GLFWwindow* w, int key, int scancode, int action, int) { self(w)->onKey(getName(key, scancode), action); });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int modifiers) {
         self(w)->onButton(button, action, (modifiers & GLFW_MOD_SHIFT) != 0);
     });

@@ -12,7 +12,7 @@
 #include "principled.glsl"
 
 struct Bsdf {
-    uint lobe;    // kLambert ...
+    uint type;    // kLambert ...
     vec3 color;   // albedo, reflectance at normal incidence, or tint
     float eta;    // dielectric: index beyond the interface over that on wo's side
     Frame frame;  // z: the shading normal on wo's side
@@ -21,10 +21,10 @@ struct Bsdf {
     Principled principled;
 };
 
-#define isDielectric(lobe) (hasFeature(kFeatureDielectric) && (lobe) == kDielectric)
-#define isMirror(lobe) (hasFeature(kFeatureMirror) && (lobe) == kMirror)
-#define isPrincipled(lobe) (hasFeature(kFeaturePrincipled) && (lobe) == kPrincipled)
-#define scattersNothing(lobe) (hasFeature(kFeatureUnlit) && (lobe) == kUnlit)
+#define isDielectric(type) (hasFeature(kFeatureDielectric) && (type) == kDielectric)
+#define isMirror(type) (hasFeature(kFeatureMirror) && (type) == kMirror)
+#define isPrincipled(type) (hasFeature(kFeaturePrincipled) && (type) == kPrincipled)
+#define scattersNothing(type) (hasFeature(kFeatureUnlit) && (type) == kUnlit)
 
 // The frame whose x axis is the tangent. A tangent within 1e-6 rad of n, where float has lost its direction, gives any frame.
 Frame makeFrame(vec3 n, vec3 tangent)
@@ -39,7 +39,7 @@ Frame makeFrame(vec3 n, vec3 tangent)
 }
 
 // wo in the shading frame, kept out of the surface's plane, because lobes divide by its cosine.
-vec3 outgoing(Frame frame, vec3 wo)
+vec3 outgoingInFrame(Frame frame, vec3 wo)
 {
     vec3 local = frameFromWorld(frame, wo);
     return vec3(local.xy, max(local.z, 1e-6));
@@ -56,7 +56,7 @@ Principled makePrincipled(SurfaceInteraction si, SurfaceMaterial material, Frame
     m.passesStraight = hasFeature(kFeatureThinWalls) && passesStraight(material.data);
     vec3 coatNormal = dot(material.coatNormal, wo) > 0.0 ? material.coatNormal : si.ng;
     m.coatNormal = frameFromWorld(frame, coatNormal);
-    return makePrincipled(m, outgoing(frame, wo));
+    return makePrincipled(m, outgoingInFrame(frame, wo));
 }
 
 // For a dielectric the shading normal alone decides on which side wo is, and so which index is in front, even against the geometric normal.
@@ -66,21 +66,21 @@ Principled makePrincipled(SurfaceInteraction si, SurfaceMaterial material, Frame
 Bsdf makeBsdf(SurfaceInteraction si, SurfaceMaterial material, vec3 wo)
 {
     MaterialData data = material.data;
-    bool dielectric = isDielectric(data.lobe);
+    bool dielectric = isDielectric(data.type);
     bool behind = dot(si.ns, wo) < 0.0;
     float eta = behind ? material.iors.x / material.iors.y : material.iors.y / material.iors.x;
     vec3 ns = dielectric ? faceForward(si.ns, wo) : visibleNormal(si, wo);
     Bsdf bsdf;
-    bsdf.lobe = data.lobe;
+    bsdf.type = data.type;
     bsdf.color = data.baseColor;
     bsdf.eta = dielectric ? eta : 1.0;
     bsdf.ng = si.ng;
-    if (isPrincipled(data.lobe)) {
+    if (isPrincipled(data.type)) {
         ns = reflectingNormal(ns, si.ng, wo);
     }
     bsdf.frame = makeFrame(ns);
-    bsdf.medium = mediumOf(material);
-    if (isPrincipled(data.lobe)) {
+    bsdf.medium = getMedium(material);
+    if (isPrincipled(data.type)) {
         if (hasFeature(kFeatureAnisotropy) && material.layers.anisotropy > 0.0) {
             bsdf.frame = makeFrame(ns, material.tangent);
         }
@@ -92,23 +92,23 @@ Bsdf makeBsdf(SurfaceInteraction si, SurfaceMaterial material, vec3 wo)
 // Whether any lobe can be evaluated, so that sampling lights makes sense.
 bool hasNonDelta(Bsdf bsdf)
 {
-    bool principled = isPrincipled(bsdf.lobe) && !isDeltaOnly(bsdf.principled);
-    return bsdf.lobe == kLambert || principled;
+    bool principled = isPrincipled(bsdf.type) && !isDeltaOnly(bsdf.principled);
+    return bsdf.type == kLambert || principled;
 }
 
 // Whether a lobe that is not delta transmits.
 #define transmitsDiffusely(bsdf) \
-    (hasFeature(kFeatureTransmission | kFeatureDiffuseTransmission) && isPrincipled((bsdf).lobe) && hasNonDelta(bsdf))
+    (hasFeature(kFeatureTransmission | kFeatureDiffuseTransmission) && isPrincipled((bsdf).type) && hasNonDelta(bsdf))
 
 // PathState::normal of a vertex, for the choice of lights.
-uint horizonOf(Bsdf bsdf)
+uint encodeReceiverNormal(Bsdf bsdf)
 {
-    return !hasFeature(kFeatureLightTree) ? 0u : transmitsDiffusely(bsdf) ? kNoHorizon : encodeNormal(bsdf.frame.z);
+    return !hasFeature(kFeatureLightTree) ? 0u : transmitsDiffusely(bsdf) ? kNoReceiverNormal : encodeNormal(bsdf.frame.z);
 }
 
-vec3 decodeHorizon(uint normal)
+vec3 decodeReceiverNormal(uint normal)
 {
-    return normal == kNoHorizon ? vec3(0.0) : decodeNormal(normal);
+    return normal == kNoReceiverNormal ? vec3(0.0) : decodeNormal(normal);
 }
 
 // `local`: wi in the shading frame. `outwards`: its cosine against bsdf.ng.
@@ -116,8 +116,8 @@ BsdfEval evalInFrame(Bsdf bsdf, vec3 wo, vec3 local, float outwards)
 {
     bool reflects = hasNonDelta(bsdf) && local.z > 0.0 && outwards > 0.0;
     bool through = transmitsDiffusely(bsdf) && local.z < 0.0 && outwards < 0.0;
-    if (isPrincipled(bsdf.lobe) && (reflects || through)) {
-        return evalPrincipled(bsdf.principled, outgoing(bsdf.frame, wo), local);
+    if (isPrincipled(bsdf.type) && (reflects || through)) {
+        return evalPrincipled(bsdf.principled, outgoingInFrame(bsdf.frame, wo), local);
     }
     return BsdfEval(reflects ? evalLambert(bsdf.color, local) : vec3(0.0), reflects ? pdfLambert(local) : 0.0);
 }
@@ -132,20 +132,20 @@ BsdfEval evalBsdf(Bsdf bsdf, vec3 wo, vec3 wi)
 // surface absorbs the light. `local`: wi in the shading frame, of a sample that is still unweighted.
 BsdfSample sampleReflection(Bsdf bsdf, vec3 wo, vec2 u, float uLobe, inout vec3 local)
 {
-    if (isMirror(bsdf.lobe)) {
+    if (isMirror(bsdf.type)) {
         BsdfSample mirrored = sampleMirror(bsdf.color, wo, bsdf.frame.z);
         return dot(mirrored.wi, bsdf.ng) > 0.0 ? mirrored : sampleMirror(bsdf.color, wo, bsdf.ng);
     }
     BsdfSample s;
-    if (isPrincipled(bsdf.lobe)) {
-        s = samplePrincipledDirection(bsdf.principled, outgoing(bsdf.frame, wo), u, uLobe);
+    if (isPrincipled(bsdf.type)) {
+        s = samplePrincipledDirection(bsdf.principled, outgoingInFrame(bsdf.frame, wo), u, uLobe);
     } else {
         s = sampleLambert(bsdf.color, u);
     }
     local = s.wi;
     s.wi = worldFromFrame(bsdf.frame, local);
     float outwards = (s.flags & kBsdfTransmission) != 0u ? -dot(s.wi, bsdf.ng) : dot(s.wi, bsdf.ng);
-    s.weight = outwards > 0.0 && !scattersNothing(bsdf.lobe) ? s.weight : vec3(0.0);
+    s.weight = outwards > 0.0 && !scattersNothing(bsdf.type) ? s.weight : vec3(0.0);
     return s;
 }
 
@@ -154,7 +154,7 @@ BsdfSample sampleUnweighted(Bsdf bsdf, vec3 wo, vec2 u, float uLobe, out vec3 lo
 {
     BsdfSample s;
     local = vec3(0.0);
-    if (isDielectric(bsdf.lobe)) {
+    if (isDielectric(bsdf.type)) {
         s = sampleDielectric(bsdf.color, bsdf.eta, wo, bsdf.frame.z, uLobe);
     } else {
         s = sampleReflection(bsdf, wo, u, uLobe, local);
@@ -168,7 +168,7 @@ BsdfSample sampleBsdf(Bsdf bsdf, vec3 wo, vec2 u, float uLobe)
     vec3 local;
     BsdfSample s = sampleUnweighted(bsdf, wo, u, uLobe, local);
     if (hasFeature(kFeaturePrincipled)) {
-        s = weighted(s, evalInFrame(bsdf, wo, local, dot(s.wi, bsdf.ng)));
+        s = weightSample(s, evalInFrame(bsdf, wo, local, dot(s.wi, bsdf.ng)));
     }
     return s;
 }
@@ -193,7 +193,7 @@ BsdfPair evalAndSampleBsdf(Bsdf bsdf, vec3 wo, vec3 lightWi, vec2 u, float uLobe
         vec3 wi = ofNext ? pair.next.wi : lightWi;
         BsdfEval f = evalInFrame(bsdf, wo, ofNext ? local : frameFromWorld(bsdf.frame, lightWi), dot(wi, bsdf.ng));
         if (ofNext) {
-            pair.next = weighted(pair.next, f);
+            pair.next = weightSample(pair.next, f);
         } else {
             pair.light = f;
         }
@@ -205,7 +205,7 @@ BsdfPair evalAndSampleBsdf(Bsdf bsdf, vec3 wo, vec3 lightWi, vec2 u, float uLobe
 // Which lobe sampleBsdf chooses: kLambert, kMirror or kDielectric, or kPrincipled + kLobeInterface ...
 uint sampledLobe(Bsdf bsdf, float uLobe)
 {
-    return isPrincipled(bsdf.lobe) ? kPrincipled + chooseLobe(bsdf.principled, uLobe) : bsdf.lobe;
+    return isPrincipled(bsdf.type) ? kPrincipled + chooseLobe(bsdf.principled, uLobe) : bsdf.type;
 }
 
 #endif

@@ -24,11 +24,11 @@ TraversalRay makeTraversalRay(vec3 origin, vec3 direction)
     return TraversalRay(origin, direction, reciprocal, rayOctant(reciprocal), makeShear(direction));
 }
 
-TriangleHit intersectTriangle(TraversalRay traversal, Record record, float tMax);
+TriangleHit intersectTriangle(TraversalRay traversal, PrimitiveRef ref, float tMax);
 
-float intersectSphere(TraversalRay traversal, Record record, float tMax, bool isSource)
+float intersectSphere(TraversalRay traversal, PrimitiveRef ref, float tMax, bool isSource)
 {
-    return intersectSphere(traversal.origin, traversal.direction, floatsOf(record.t0), uintBitsToFloat(record.t1.x), tMax, isSource);
+    return intersectSphere(traversal.origin, traversal.direction, toFloats(ref.t0), uintBitsToFloat(ref.t1.x), tMax, isSource);
 }
 
 // The sides from which a query meets single-sided surfaces: the fronts if its rays go as those of a path from the camera, the backs if they
@@ -37,13 +37,13 @@ const uint kFronts = 1u;
 const uint kBacks = 2u;
 
 // The far side, which a ray meets from within, if the near one does not count.
-float intersectSphere(TraversalRay traversal, Record record, float tMax, bool isSource, uint sides)
+float intersectSphere(TraversalRay traversal, PrimitiveRef ref, float tMax, bool isSource, uint sides)
 {
-    float t = intersectSphere(traversal, record, tMax, isSource);
-    if (isSingleSided(record) && sides != (kFronts | kBacks)) {
-        bool fromWithin = dot(traversal.origin + t * traversal.direction - floatsOf(record.t0), traversal.direction) > 0.0;
+    float t = intersectSphere(traversal, ref, tMax, isSource);
+    if (isSingleSided(ref) && sides != (kFronts | kBacks)) {
+        bool fromWithin = dot(traversal.origin + t * traversal.direction - toFloats(ref.t0), traversal.direction) > 0.0;
         if (sides == kBacks && !fromWithin) {
-            t = intersectSphere(traversal, record, tMax, true);
+            t = intersectSphere(traversal, ref, tMax, true);
         }
         t = sides == kFronts && fromWithin ? -1.0 : t;
     }
@@ -52,59 +52,60 @@ float intersectSphere(TraversalRay traversal, Record record, float tMax, bool is
 
 // t in (0, tMax] and barycentrics, or t < 0. A ray never meets the triangle it leaves; a sphere only from within. An instance that mirrors
 // leaves the sides as they are: a mirrored front stays the front.
-TriangleHit intersectRecord(TraversalRay traversal, Record record, float tMax, bool isSource, uint sides)
+TriangleHit intersectShape(TraversalRay traversal, PrimitiveRef ref, float tMax, bool isSource, uint sides)
 {
-    if (isSphere(record)) {
-        return TriangleHit(intersectSphere(traversal, record, tMax, isSource, sides), vec2(0.0), 1.0);
+    if (isSphere(ref)) {
+        return TriangleHit(intersectSphere(traversal, ref, tMax, isSource, sides), vec2(0.0), 1.0);
     }
     TriangleHit hit = kNoTriangleHit;
     if (!isSource) {
-        hit = intersectTriangle(traversal, record, tMax);
+        hit = intersectTriangle(traversal, ref, tMax);
     }
-    if (isSingleSided(record) && (sides & (hit.sum < 0.0 ? kBacks : kFronts)) == 0u) {
+    if (isSingleSided(ref) && (sides & (hit.sum < 0.0 ? kBacks : kFronts)) == 0u) {
         hit.t = -1.0;
     }
     return hit;
 }
 
-TriangleHit intersectRecord(TraversalRay traversal, Record record, float tMax, bool isSource)
+TriangleHit intersectShape(TraversalRay traversal, PrimitiveRef ref, float tMax, bool isSource)
 {
-    return intersectRecord(traversal, record, tMax, isSource, kFronts);
+    return intersectShape(traversal, ref, tMax, isSource, kFronts);
 }
 
-// Leaf records that are still to be tested: bit i of `left` stands for record first + i.
-struct Records {
+// Leaf references that are still to be tested: bit i of `left` stands for reference first + i.
+struct PrimitiveRefs {
     uint first;
     uint left;
 };
 
-uint takeRecord(inout Records records)
+uint takePrimitiveRef(inout PrimitiveRefs refs)
 {
-    uint bit = uint(findLSB(records.left));
-    records.left &= records.left - 1u;
-    return records.first + bit;
+    uint bit = uint(findLSB(refs.left));
+    refs.left &= refs.left - 1u;
+    return refs.first + bit;
 }
 
 const uint kNodeBits = 0xffffffffu << kFirstNodeBit;
 
-void visitNode(TraversalRay traversal, uint node, float tMax, out NodeGroup children, out Records records)
+void visitNode(TraversalRay traversal, uint node, float tMax, out NodeGroup children, out PrimitiveRefs refs)
 {
     int at = int(node * kNodeTexels);
     uvec4 head = texelFetch(sceneNodes, at);
     uvec4 content = texelFetch(sceneNodes, at + 1);
-    uint hits = hitsOfNode(head, content, texelFetch(sceneNodes, at + 2), texelFetch(sceneNodes, at + 3), texelFetch(sceneNodes, at + 4),
-                           traversal.origin, traversal.reciprocal, traversal.octant, tMax);
+    uint hits = intersectChildren(head, content, texelFetch(sceneNodes, at + 2), texelFetch(sceneNodes, at + 3), texelFetch(sceneNodes,
+                                                                                                                            at + 4),
+                                  traversal.origin, traversal.reciprocal, traversal.octant, tMax);
     children = NodeGroup(content.x, (hits & kNodeBits) | head.w >> 24u);
     if (hasFeature(kFeatureInstances)) {
         bool isInstance = (content.z | content.w) == 0u;
         children.left = isInstance ? kRootGroup.left | kEntersInstance : children.left;
     }
-    records = Records(content.y, hits & ~kNodeBits);
+    refs = PrimitiveRefs(content.y, hits & ~kNodeBits);
 }
 
-// What leads from the mesh that is traversed to the instance: to be added to its records and primitive ids. 0 outside instances.
+// What leads from the mesh that is traversed to the instance: to be added to its references and primitive ids. 0 outside instances.
 struct InstanceOffsets {
-    uint record;
+    uint primitiveRef;
     uint primitive;
 };
 
@@ -132,19 +133,19 @@ void changeSpace(vec3 origin, vec3 direction, uint node, inout NodeGroup group, 
 }
 
 struct Closest {
-    uint record;
+    uint primitiveRef;
     uint primitive;
     TriangleHit hit;
 };
 
 Closest makeMiss()
 {
-    return Closest(kNoRecord, kNoPrimitive, TriangleHit(kInfinity, vec2(0.0), 1.0));
+    return Closest(kNoPrimitiveRef, kNoPrimitive, TriangleHit(kInfinity, vec2(0.0), 1.0));
 }
 
-PathHit hitOf(Closest best)
+PathHit makePathHit(Closest best)
 {
-    return PathHit(best.record, best.hit.t, barycentricOf(best.hit));
+    return PathHit(best.primitiveRef, best.hit.t, computeBarycentric(best.hit));
 }
 
 // What a query for the closest hit looks for. Hits are ordered by t, then by primitive: this order does not depend on the tree, and with
@@ -154,11 +155,11 @@ struct Query {
     float afterT;          // only hits after this one
     uint afterPrimitive;
     uint target;           // not this primitive
-    bool alphaOnly;        // only records with alpha
+    bool alphaOnly;        // only references with alpha
     uint sides;            // of single-sided surfaces
 };
 
-Query anyHit() { return Query(kInfinity, 0.0, kNoPrimitive, kNoPrimitive, false, kFronts); }
+Query unrestrictedQuery() { return Query(kInfinity, 0.0, kNoPrimitive, kNoPrimitive, false, kFronts); }
 
 bool isAfter(Query query, float t, uint primitive)
 {
@@ -166,29 +167,30 @@ bool isAfter(Query query, float t, uint primitive)
 }
 
 // Whether the query may be one that goes on behind a hit.
-#define mayGoOn(query) (hasFeature(kFeatureAlpha | kFeatureMedia) || (hasFeature(kFeatureSingleSided) && (query).sides == (kFronts | kBacks)))
+#define mayContinue(query) \
+    (hasFeature(kFeatureAlpha | kFeatureMedia) || (hasFeature(kFeatureSingleSided) && (query).sides == (kFronts | kBacks)))
 
 // Ties go to the lower primitive, so that the result does not depend on the tree.
-void meetRecord(TraversalRay traversal, InstanceOffsets offsets, uint index, uint source, Query query, inout Closest best)
+void intersectPrimitive(TraversalRay traversal, InstanceOffsets offsets, uint index, uint source, Query query, inout Closest best)
 {
-    Record record = fetchRecord(index);
-    uint primitive = primitiveOf(record) + offsets.primitive;
-    TriangleHit hit = intersectRecord(traversal, record, best.hit.t, primitive == source, query.sides);
+    PrimitiveRef ref = fetchPrimitiveRef(index);
+    uint primitive = getPrimitive(ref) + offsets.primitive;
+    TriangleHit hit = intersectShape(traversal, ref, best.hit.t, primitive == source, query.sides);
     bool counts = true;
-    if (mayGoOn(query)) {
-        if (isSphere(record) && !isAfter(query, hit.t, primitive)) {
-            hit = TriangleHit(intersectSphere(traversal, record, best.hit.t, true, query.sides), vec2(0.0), 1.0);  // the far side
+    if (mayContinue(query)) {
+        if (isSphere(ref) && !isAfter(query, hit.t, primitive)) {
+            hit = TriangleHit(intersectSphere(traversal, ref, best.hit.t, true, query.sides), vec2(0.0), 1.0);  // the far side
         }
-        counts = isAfter(query, hit.t, primitive) && primitive != query.target && (hasAlpha(record) || !query.alphaOnly);
+        counts = isAfter(query, hit.t, primitive) && primitive != query.target && (hasAlpha(ref) || !query.alphaOnly);
     }
     if (counts && hit.t > 0.0 && (hit.t < best.hit.t || primitive < best.primitive)) {
-        best = Closest(index + offsets.record, primitive, hit);
+        best = Closest(index + offsets.primitiveRef, primitive, hit);
     }
 }
 
-void meetRecord(TraversalRay traversal, uint index, uint source, inout Closest best)
+void intersectPrimitive(TraversalRay traversal, uint index, uint source, inout Closest best)
 {
-    meetRecord(traversal, kNoOffsets, index, source, anyHit(), best);
+    intersectPrimitive(traversal, kNoOffsets, index, source, unrestrictedQuery(), best);
 }
 
 // What a traversal has done.
@@ -211,14 +213,14 @@ PathHit traceClosest(PathRay ray, Query query, inout Steps steps)
     do {
         uint node = takeNode(group, traversal.octant);
         NodeGroup children;
-        Records records;
-        visitNode(traversal, node, best.hit.t, children, records);
+        PrimitiveRefs refs;
+        visitNode(traversal, node, best.hit.t, children, refs);
         ++steps.nodes;
-        if (records.left != 0u) {
+        if (refs.left != 0u) {
             do {
-                meetRecord(traversal, offsets, takeRecord(records), ray.source, query, best);
+                intersectPrimitive(traversal, offsets, takePrimitiveRef(refs), ray.source, query, best);
                 ++steps.primitives;
-            } while (records.left != 0u);
+            } while (refs.left != 0u);
         }
         if (hasFeature(kFeatureInstances)) {
             markWayBack(stack, children, group);
@@ -228,16 +230,16 @@ PathHit traceClosest(PathRay ray, Query query, inout Steps steps)
             changeSpace(ray.origin, ray.direction, node, group, traversal, offsets);
         }
     } while (hasAny(group));
-    return hitOf(best);
+    return makePathHit(best);
 }
 
 PathHit traceClosest(PathRay ray)
 {
     Steps uncounted = Steps(0u, 0u);
-    return traceClosest(ray, anyHit(), uncounted);
+    return traceClosest(ray, unrestrictedQuery(), uncounted);
 }
 
-// True if nothing but `target` and records with alpha lies between origin and origin + tMax * direction. `metAlpha`: some of these did.
+// True if nothing but `target` and references with alpha lies between origin and origin + tMax * direction. `metAlpha`: some of these did.
 // `sides`: of single-sided surfaces.
 bool isUnoccluded(ShadowRay ray, uint sides, inout Steps steps, out bool metAlpha)
 {
@@ -251,29 +253,29 @@ bool isUnoccluded(ShadowRay ray, uint sides, inout Steps steps, out bool metAlph
     do {
         uint node = takeNode(group, traversal.octant);
         NodeGroup children;
-        Records records;
-        visitNode(traversal, node, ray.tMax, children, records);
+        PrimitiveRefs refs;
+        visitNode(traversal, node, ray.tMax, children, refs);
         ++steps.nodes;
         if (hasFeature(kFeatureInstances)) {
             markWayBack(stack, children, group);
         }
         group = nextGroup(stack, children, group);
         going = hasAny(group);
-        if (records.left != 0u) {
+        if (refs.left != 0u) {
             do {
-                Record record = fetchRecord(takeRecord(records));
-                uint primitive = primitiveOf(record) + offsets.primitive;
-                TriangleHit hit = intersectRecord(traversal, record, ray.tMax, primitive == ray.source, sides);
+                PrimitiveRef ref = fetchPrimitiveRef(takePrimitiveRef(refs));
+                uint primitive = getPrimitive(ref) + offsets.primitive;
+                TriangleHit hit = intersectShape(traversal, ref, ray.tMax, primitive == ray.source, sides);
                 ++steps.primitives;
                 bool met = hit.t > 0.0 && primitive != ray.target;
                 if (hasFeature(kFeatureAlpha)) {
-                    metAlpha = metAlpha || (met && hasAlpha(record));
-                    met = met && !hasAlpha(record);
+                    metAlpha = metAlpha || (met && hasAlpha(ref));
+                    met = met && !hasAlpha(ref);
                 }
                 occluded = occluded || met;
                 going = going && !met;
-                records.left = met ? 0u : records.left;
-            } while (records.left != 0u);
+                refs.left = met ? 0u : refs.left;
+            } while (refs.left != 0u);
         }
         if (hasFeature(kFeatureInstances)) {
             changeSpace(ray.origin, ray.direction, node, group, traversal, offsets);

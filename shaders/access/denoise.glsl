@@ -19,7 +19,7 @@ bool isInBand(ivec2 at)
 }
 
 // From a pixel to the i-th of the row of its window that the pass is about.
-ivec2 offsetOf(int i)
+ivec2 getWindowOffset(int i)
 {
     return ivec2(i, int(pass.windowRow)) - kWindowRadius;
 }
@@ -29,7 +29,7 @@ uint pixelAt(ivec2 at)
     return uint(at.y) * pass.width + uint(at.x);
 }
 
-ivec2 placeOf(uint pixel)
+ivec2 getPixelPosition(uint pixel)
 {
     return ivec2(int(pixel % pass.width), int(pixel / pass.width));
 }

@@ -12,13 +12,14 @@
 // If a lobe that is not delta transmits, the side is unknown before wi is: p is then the point itself.
 LightContext makeLightContext(SurfaceInteraction si, Bsdf bsdf)
 {
-    return LightContext(transmitsDiffusely(bsdf) ? si.p : offsetRayOrigin(si, si.ng), bsdf.frame.z, decodeHorizon(horizonOf(bsdf)));
+    return LightContext(transmitsDiffusely(bsdf) ? si.p : offsetRayOrigin(si, si.ng), bsdf.frame.z,
+                        decodeReceiverNormal(encodeReceiverNormal(bsdf)));
 }
 
 // The context of the vertex that the path's ray has left.
 LightContext previousContext(PathRay ray, PathState state)
 {
-    vec3 n = decodeHorizon(state.normal);
+    vec3 n = decodeReceiverNormal(state.normal);
     return LightContext(ray.origin, n, n);
 }
 

@@ -18,9 +18,9 @@ DECLARE(kBindFolded, PixelMoments, filmFolded);  // of the pages that the host h
 layout(set = 0, binding = kBindPicture, rgba8) writeonly uniform image2D picture;
 
 // All samples so far, as the host folds them.
-PixelMoments momentsOfPixel(uint pixel)
+PixelMoments computePixelMoments(uint pixel)
 {
-    PixelMoments page = foldMoments(filmPages[pixel], momentsOfBlock(filmBlocks[pixel]));
+    PixelMoments page = foldMoments(filmPages[pixel], computeBlockMoments(filmBlocks[pixel]));
     return kFolded ? foldMoments(filmFolded[pixel], page) : page;
 }
 

@@ -18,22 +18,22 @@ layout(set = 0, binding = kBindEnvironmentCells) uniform usamplerBuffer sceneEnv
 // Three mantissas of 18 bits and an exponent.
 vec3 environmentTexel(uint x, uint y)
 {
-    uvec2 packed_ = texelFetch(sceneEnvironment, int(y * render.environmentSize.x + x)).xy;
-    uvec3 mantissa = uvec3(packed_.x & 0x3ffffu, packed_.x >> 18u | (packed_.y & 0xfu) << 14u, packed_.y >> 4u & 0x3ffffu);
-    return vec3(mantissa) * uintBitsToFloat((packed_.y >> 22u & 0xffu) << 23u);
+    uvec2 bits = texelFetch(sceneEnvironment, int(y * render.environmentSize.x + x)).xy;
+    uvec3 mantissa = uvec3(bits.x & 0x3ffffu, bits.x >> 18u | (bits.y & 0xfu) << 14u, bits.y >> 4u & 0x3ffffu);
+    return vec3(mantissa) * uintBitsToFloat((bits.y >> 22u & 0xffu) << 23u);
 }
 
 // Between the world and the map: rotated about the y axis.
 vec3 mapFromWorld(vec3 w)
 {
-    vec2 turn = render.environmentTurn;
-    return vec3(turn.x * w.x - turn.y * w.z, w.y, turn.y * w.x + turn.x * w.z);
+    vec2 rotation = render.environmentRotation;
+    return vec3(rotation.x * w.x - rotation.y * w.z, w.y, rotation.y * w.x + rotation.x * w.z);
 }
 
 vec3 worldFromMap(vec3 w)
 {
-    vec2 turn = render.environmentTurn;
-    return vec3(turn.x * w.x + turn.y * w.z, w.y, turn.x * w.z - turn.y * w.x);
+    vec2 rotation = render.environmentRotation;
+    return vec3(rotation.x * w.x + rotation.y * w.z, w.y, rotation.x * w.z - rotation.y * w.x);
 }
 
 // Radiance from the direction w, unit, in world space.

@@ -5,20 +5,20 @@
 #include "lib/frame.glsl"
 #include "lib/fresnel.glsl"
 #include "lib/offset_point.glsl"
-#include "placed_record.glsl"
+#include "placed_primitive.glsl"
 #include "shared/path_types.h"
 
 struct SurfaceInteraction {
     vec3 p;            // on the surface, to within errorBound
     vec3 errorBound;
     vec3 ng;           // unit geometric normal, on the side of wo
-    vec3 ns;           // unit shading normal, turned with ng; an interpolated one may still point away from wo
+    vec3 ns;           // unit shading normal, flipped with ng; an interpolated one may still point away from wo
     vec2 barycentric;  // weights of v1 and v2
     bool front;        // wo is on the front side
     uint material;
     uint primitive;
     uint light;        // index + 1, or 0
-    uint triangle;     // as in PlacedRecord
+    uint triangle;     // as in PlacedPrimitive
     uint instance;     // that places the triangle, or kNoInstance
 };
 
@@ -37,9 +37,9 @@ vec3 triangleNormal(vec3 v0, vec3 v1, vec3 v2)
 
 // The unit normal of a placed triangle. It is placed as a normal, because rounding the sides would tilt a thin triangle. A mirrored front
 // stays the front.
-vec3 placedNormal(PlacedRecord placed)
+vec3 placedNormal(PlacedPrimitive placed)
 {
-    vec3 n = triangleNormal(floatsOf(placed.record.t0), floatsOf(placed.record.t1), floatsOf(placed.record.t2));
+    vec3 n = triangleNormal(toFloats(placed.ref.t0), toFloats(placed.ref.t1), toFloats(placed.ref.t2));
     if (hasFeature(kFeatureInstances) && placed.instance != kNoInstance) {
         n = normalizeSafely(placeNormal(fetchInstance(placed.instance), n));
     }
@@ -66,8 +66,9 @@ vec3 normalizeOrZero(vec3 v)
 vec4 placedDirection(InstanceData instance, uint at, bool isNormal)
 {
     vec4 direction = uintBitsToFloat(texelFetch(sceneVertices, int(at)));
-    float sign_ = !isNormal && instance.mirrors != 0u ? -1.0 : 1.0;  // cross(normal, tangent) turns round
-    return vec4(normalizeOrZero(isNormal ? placeNormal(instance, direction.xyz) : placeVector(instance, direction.xyz)), sign_ * direction.w);
+    float tangentSign = !isNormal && instance.mirrors != 0u ? -1.0 : 1.0;  // cross(normal, tangent) changes its sign
+    return vec4(normalizeOrZero(isNormal ? placeNormal(instance, direction.xyz) : placeVector(instance, direction.xyz)),
+                tangentSign * direction.w);
 }
 
 // Interpolated normals or tangents of the vertices, in the section that begins at texel `first`. Each is placed and made unit before, as
@@ -89,19 +90,19 @@ vec3 vertexNormal(uint triangle, uint instance, vec2 barycentric)
     return vertexDirection(0u, true, triangle, instance, barycentric).xyz;
 }
 
-SurfaceInteraction interactionWithSphere(Record record, vec3 near)
+SurfaceInteraction interactionWithSphere(PrimitiveRef ref, vec3 near)
 {
-    vec3 center = floatsOf(record.t0);
-    float radius = uintBitsToFloat(record.t1.x);
+    vec3 center = toFloats(ref.t0);
+    float radius = uintBitsToFloat(ref.t1.x);
     vec3 n = near - center;
     n = n / length(n);
-    return SurfaceInteraction(center + radius * n, sphereErrorBound(center, radius), n, n, vec2(0.0), true, materialOf(record),
-                              primitiveOf(record), record.t2.w, 0u, kNoInstance);
+    return SurfaceInteraction(center + radius * n, sphereErrorBound(center, radius), n, n, vec2(0.0), true, getMaterial(ref),
+                              getPrimitive(ref), ref.t2.w, 0u, kNoInstance);
 }
 
-SurfaceInteraction interactionWithTriangle(PlacedRecord placed, PathRay ray, PathHit hit)
+SurfaceInteraction interactionWithTriangle(PlacedPrimitive placed, PathRay ray, PathHit hit)
 {
-    Record record = placed.record;
+    PrimitiveRef ref = placed.ref;
     PlacedTriangle triangle = placedTriangle(placed);
     vec3 v0 = triangle.v0, e1 = triangle.e1, e2 = triangle.e2;
     vec3 n = placedNormal(placed);
@@ -115,8 +116,8 @@ SurfaceInteraction interactionWithTriangle(PlacedRecord placed, PathRay ray, Pat
         p = nearby ? moveWithinPlane(p, ray.origin + ray.direction * hit.t, n) : p;
         errorBound *= nearby ? 2.0 : 1.0;
     }
-    SurfaceInteraction si = SurfaceInteraction(p, errorBound, n, n, hit.barycentric, true, materialOf(record), primitiveOf(record),
-                                               record.t2.w, placed.triangle, placed.instance);
+    SurfaceInteraction si = SurfaceInteraction(p, errorBound, n, n, hit.barycentric, true, getMaterial(ref), getPrimitive(ref),
+                                               ref.t2.w, placed.triangle, placed.instance);
     if (hasFeature(kFeatureSmooth)) {
         vec3 smoothed = vertexNormal(placed.triangle, placed.instance, hit.barycentric);
         float square = dot(smoothed, smoothed);
@@ -128,10 +129,10 @@ SurfaceInteraction interactionWithTriangle(PlacedRecord placed, PathRay ray, Pat
 // Once per hit. Both normals are flipped if the geometric one is not on the side of wo = -ray.direction.
 SurfaceInteraction makeSurfaceInteraction(PathRay ray, PathHit hit)
 {
-    PlacedRecord placed = fetchPlacedRecord(hit.record);
+    PlacedPrimitive placed = fetchPlacedPrimitive(hit.primitiveRef);
     SurfaceInteraction si;
-    if (isSphere(placed.record)) {
-        si = interactionWithSphere(placed.record, ray.origin + ray.direction * hit.t);
+    if (isSphere(placed.ref)) {
+        si = interactionWithSphere(placed.ref, ray.origin + ray.direction * hit.t);
     } else {
         si = interactionWithTriangle(placed, ray, hit);
     }

@@ -25,7 +25,7 @@ struct LightSample {
 
 const LightSample kNoLight = LightSample(vec3(0.0), vec3(0.0), 0.0, vec3(0.0), kNoPrimitive, 1.0);
 
-uint kindOf(FlatLight light)
+uint getLightKind(FlatLight light)
 {
     return light.kind & kLightKindMask;
 }
@@ -35,8 +35,8 @@ bool isDoubleSided(FlatLight light)
     return (light.kind & kDoubleSidedLight) != 0u;
 }
 
-#define isSphereLight(light) (hasFeature(kFeatureSphereLights) && kindOf(light) == kSphereLight)
-#define isRectangleLight(light) (hasFeature(kFeatureRectangleLights) && kindOf(light) == kRectangleLight)
+#define isSphereLight(light) (hasFeature(kFeatureSphereLights) && getLightKind(light) == kSphereLight)
+#define isRectangleLight(light) (hasFeature(kFeatureRectangleLights) && getLightKind(light) == kRectangleLight)
 
 // Whether a sphere light is sampled by its cone, with sin^2 of the half angle; from within or on the surface it is sampled by area. `from`
 // is relative to the centre.
@@ -63,7 +63,7 @@ SphericalRectangle rectangleSeenFrom(FlatLight light, vec3 p)
     return makeSphericalRectangle(p, light.position, light.edge1 / length1, light.edge2 / length2, length1, length2);
 }
 
-float solidAngleOf(FlatLight light, vec3 p)
+float computeSolidAngle(FlatLight light, vec3 p)
 {
     float solidAngle = 0.0;
     if (isRectangleLight(light)) {
@@ -103,21 +103,22 @@ float pdfSurfaceLight(FlatLight light, float probability, LightContext context, 
         }
         return probability * t * t / (4.0 * kPi * light.size * light.size * cosine);
     }
-    return probability * (isNear(light, context.p) ? 1.0 / solidAngleOf(light, context.p) : t * t / (light.size * cosine));
+    return probability * (isNear(light, context.p) ? 1.0 / computeSolidAngle(light, context.p) : t * t / (light.size * cosine));
 }
 
 // Density per steradian with which choosing and sampling lights would have found the light that a ray has hit at distance t and |cos|
 // `cosine`.
 float pdfSurfaceLight(LightContext context, uint light, float t, float cosine)
 {
-    return pdfSurfaceLight(fetchLight(light), probabilityOfLight(context, light), context, t, cosine);
+    return pdfSurfaceLight(fetchLight(light), computeLightProbability(context, light), context, t, cosine);
 }
 
 // Density per steradian with which choosing and sampling lights would have found the environment in the direction wi. cosine: against the
 // normal that lights were sampled for.
 float pdfEnvironment(LightContext context, vec3 wi, float cosine)
 {
-    return probabilityOfLight(context, render.environmentLight) * (hasEnvironmentMap() ? pdfEnvironmentMap(wi) : pdfCosineHemisphere(cosine));
+    return computeLightProbability(context,
+                                   render.environmentLight) * (hasEnvironmentMap() ? pdfEnvironmentMap(wi) : pdfCosineHemisphere(cosine));
 }
 
 // Whether the light's emission changes over its surface, by a texture, coverage or a coat.
@@ -130,7 +131,7 @@ struct LightPoint {
     float cosine;  // of the direction that its light leaves in
 };
 
-vec3 normalOfLight(FlatLight light)
+vec3 computeLightNormal(FlatLight light)
 {
     return triangleNormalFromSides(light.edge1, light.edge2 - light.edge1, -light.edge2);
 }
@@ -141,18 +142,18 @@ LightSample samplePolygonLight(FlatLight light, float probability, LightContext 
     float solidAngle;
     vec2 barycentric = samplePolygon(light, context.p, u, solidAngle);
     vec3 point = trianglePoint(light.position, light.edge1, light.edge2, barycentric);
-    vec3 n = normalOfLight(light);
+    vec3 n = computeLightNormal(light);
     vec3 towards = point - context.p;
-    float distance_ = length(towards);
-    float facing = -dot(n, towards) / distance_;
+    float lightDistance = length(towards);
+    float facing = -dot(n, towards) / lightDistance;
     float cosine = isDoubleSided(light) ? abs(facing) : facing;
     bool near = isNear(light, context.p);
-    float pdf = probability * (near ? 1.0 / solidAngle : distance_ * distance_ / (light.size * cosine));
+    float pdf = probability * (near ? 1.0 / solidAngle : lightDistance * lightDistance / (light.size * cosine));
     vec3 target = offsetPoint(point, facing > 0.0 ? n : -n, triangleErrorBound(light.position, light.edge1, light.edge2, hasFeature(kFeatureLargeTriangles)));
     bool faces = cosine > 0.0 && (!near || solidAngle > 0.0);
     uint primitive = isRectangleLight(light) && barycentric.x + barycentric.y > 1.0 ? light.otherPrimitive : light.primitive;
     at = LightPoint(point, barycentric, cosine);
-    return LightSample(faces ? towards / distance_ : vec3(0.0), light.intensity, faces ? pdf : 0.0, target, primitive, 1.0);
+    return LightSample(faces ? towards / lightDistance : vec3(0.0), light.intensity, faces ? pdf : 0.0, target, primitive, 1.0);
 }
 
 // From outside: uniform in the cone.
@@ -182,15 +183,15 @@ LightSample sampleSphereArea(FlatLight light, float probability, LightContext co
     vec3 n = sampleSphere(u);
     vec3 point = light.position + light.size * n;
     vec3 towards = point - context.p;
-    float distance_ = length(towards);
-    float cosine = dot(n, towards) / distance_;
+    float lightDistance = length(towards);
+    float cosine = dot(n, towards) / lightDistance;
     if (!(cosine > 0.0)) {
         return kNoLight;
     }
-    float pdf = pdfSurfaceLight(light, probability, context, distance_, cosine);
+    float pdf = pdfSurfaceLight(light, probability, context, lightDistance, cosine);
     vec3 target = offsetPoint(point, -n, sphereErrorBound(light.position, light.size));
     at = LightPoint(point, vec2(0.0), cosine);
-    return LightSample(towards / distance_, light.intensity, pdf, target, light.primitive, 1.0);
+    return LightSample(towards / lightDistance, light.intensity, pdf, target, light.primitive, 1.0);
 }
 
 LightSample sampleSphereLight(FlatLight light, float probability, LightContext context, vec2 u, out LightPoint at)
@@ -213,7 +214,7 @@ LightSample sampleSurfaceLight(FlatLight light, float probability, LightContext 
         s = samplePolygonLight(light, probability, context, u, at);
     }
     if (isUneven(light) && s.pdf > 0.0) {
-        s.radiance *= emissionFactor(fetchPlacedRecord(light.record), at.p, at.barycentric, at.cosine);
+        s.radiance *= emissionFactor(fetchPlacedPrimitive(light.primitiveRef), at.p, at.barycentric, at.cosine);
     }
     s.radiance = s.pdf > 0.0 ? s.radiance / s.pdf : vec3(0.0);
     return s;
@@ -221,7 +222,7 @@ LightSample sampleSurfaceLight(FlatLight light, float probability, LightContext 
 
 LightSample samplePunctualLight(FlatLight light, float probability, vec3 from)
 {
-    if (kindOf(light) == kDirectionalLight) {
+    if (getLightKind(light) == kDirectionalLight) {
         return LightSample(-light.edge1, light.intensity / probability, 0.0, from - light.edge1, kNoPrimitive, kInfinity);
     }
     vec3 towards = light.position - from;
@@ -231,7 +232,7 @@ LightSample samplePunctualLight(FlatLight light, float probability, vec3 from)
     }
     vec3 wi = towards / sqrt(distance2);
     float falloff = rangeFalloff(distance2, light.size);
-    if (kindOf(light) == kSpotLight) {
+    if (getLightKind(light) == kSpotLight) {
         falloff *= spotFalloff(versine(-wi, light.edge1), light.versineInner, light.versineOuter);
     }
     return LightSample(wi, light.intensity * falloff / distance2 / probability, 0.0, light.position, kNoPrimitive, 1.0);
@@ -260,7 +261,7 @@ LightSample sampleEnvironmentMap(float probability, LightContext context, uvec2 
 // The density includes `probability`, with which the light was chosen. bits: two random words.
 LightSample sampleLight(FlatLight light, float probability, LightContext context, uvec2 bits)
 {
-    uint kind = kindOf(light);
+    uint kind = getLightKind(light);
     if (hasFeature(kFeatureTriangleLights | kFeatureRectangleLights | kFeatureSphereLights) && kind <= kSphereLight) {
         return sampleSurfaceLight(light, probability, context, unitFloat(bits));
     }

@@ -11,7 +11,7 @@
 struct LightContext {
     vec3 p;   // origin of shadow rays on ng's side: only by this offset is a point on a sphere light's wall inside the light
     vec3 ns;  // unit
-    vec3 horizon;  // ns as PathState has it, to the same bits in both cases; 0 at a surface that transmits, which has no horizon
+    vec3 receiverNormal;  // ns as PathState has it, to the same bits in both cases; 0 at a surface that transmits, where both sides count
 };
 
 struct LightChoice {
@@ -36,12 +36,12 @@ LightChoice walkLightTree(LightContext context, uint bits, uint light)
     uint level = 0u;
     do {
         uint first = node.children & ((1u << kLightChildBits) - 1u), count = childCount(node);
-        float importances[kMostLightChildren];
+        float importances[kMaxLightChildren];
         float sum = 0.0, chosen = 0.0, before = 0.0;
         uint at = 0u, i = 0u;
         do {
             LightNode child = fetchLightNode(first + i);
-            float importance = lightImportance(child, context.p, context.horizon);
+            float importance = lightImportance(child, context.p, context.receiverNormal);
             importances[i] = importance;
             sum += importance;
             bool takes = !draws && child.firstLight <= light;
@@ -78,7 +78,7 @@ float finiteShareAt(LightContext context)
 {
     float share = hasFeature(kFiniteLights) && render.finiteLights > 0u ? 1.0 : 0.0;
     if (hasFeature(kFeatureLightTree) && hasFeature(kInfiniteLights) && render.infiniteImportance > 0.0 && share > 0.0) {
-        float importance = lightImportance(fetchLightNode(0u), context.p, context.horizon);
+        float importance = lightImportance(fetchLightNode(0u), context.p, context.receiverNormal);
         share = 0.1 + 0.8 * importance / (importance + render.infiniteImportance);
     }
     return share;
@@ -114,8 +114,8 @@ LightChoice chooseLight(LightContext context, uvec2 bits)
     if (finite) {
         choice.probability = finiteShare;
         if (hasFeature(kFeatureLightTree)) {
-            bool uniform_ = u < kUniformShare * finiteShare;
-            uint light = uniform_ ? chooseBin(bits.x, render.finiteLights) : kNoLightIndex;
+            bool isUniform = u < kUniformShare * finiteShare;
+            uint light = isUniform ? chooseBin(bits.x, render.finiteLights) : kNoLightIndex;
             choice = walkLightTree(context, bits.x, light);
             choice.probability = mixedProbability(finiteShare, choice.probability);
         }
@@ -127,7 +127,7 @@ LightChoice chooseLight(LightContext context, uvec2 bits)
 }
 
 // The probability with which chooseLight chooses a light, to the same bits.
-float probabilityOfLight(LightContext context, uint light)
+float computeLightProbability(LightContext context, uint light)
 {
     float finiteShare = finiteShareAt(context);
     if (hasFeature(kInfiniteLights) && light >= render.finiteLights) {

@@ -41,21 +41,21 @@ vec3 sampleTargets(Emitter emitter, float uTarget, vec2 u, out float pdf)
     float sum = 0.0;
     uint i = 0u;
     do {
-        sum += coneOf(fetchTarget(i), emitter).importance;
+        sum += makeTargetCone(fetchTarget(i), emitter).importance;
     } while (++i < render.causticTargets);
     float below = 0.0;
     uint chosen = 0u;
     i = 0u;
     do {
-        float importance = coneOf(fetchTarget(i), emitter).importance;
+        float importance = makeTargetCone(fetchTarget(i), emitter).importance;
         chosen = importance > 0.0 && uTarget * sum >= below ? i : chosen;
         below += importance;
     } while (++i < render.causticTargets);
-    vec3 w = sampleTargetCone(coneOf(fetchTarget(chosen), emitter), emitter, u);
+    vec3 w = sampleTargetCone(makeTargetCone(fetchTarget(chosen), emitter), emitter, u);
     pdf = 0.0;
     i = 0u;
     do {
-        TargetCone cone = coneOf(fetchTarget(i), emitter);
+        TargetCone cone = makeTargetCone(fetchTarget(i), emitter);
         pdf += i == chosen || isInCone(cone, w) ? cone.importance / cone.solidAngle : 0.0;
     } while (++i < render.causticTargets);
     pdf = sum > 0.0 ? pdf / sum : 0.0;
@@ -67,7 +67,7 @@ LightRay sampleSurfaceEmission(FlatLight light, vec2 uPoint, float uTarget, vec2
 {
     bool sphere = isSphereLight(light), rectangle = isRectangleLight(light);
     vec2 barycentric = rectangle ? uPoint : sampleTriangle(uPoint);
-    vec3 n = sphere ? sampleSphere(uPoint) : normalOfLight(light);
+    vec3 n = sphere ? sampleSphere(uPoint) : computeLightNormal(light);
     vec3 p = sphere ? light.position + light.size * n : trianglePoint(light.position, light.edge1, light.edge2, barycentric);
     float area = sphere ? 4.0 * kPi * light.size * light.size : light.size;
     float pdf;
@@ -78,7 +78,7 @@ LightRay sampleSurfaceEmission(FlatLight light, vec2 uPoint, float uTarget, vec2
     }
     vec3 radiance = light.intensity;
     if (isUneven(light)) {
-        radiance *= emissionFactor(fetchPlacedRecord(light.record), p, barycentric, cosine);
+        radiance *= emissionFactor(fetchPlacedPrimitive(light.primitiveRef), p, barycentric, cosine);
     }
     vec3 error = sphere ? sphereErrorBound(light.position, light.size) : triangleErrorBound(light.position, light.edge1, light.edge2, hasFeature(kFeatureLargeTriangles));
     uint primitive = rectangle && barycentric.x + barycentric.y > 1.0 ? light.otherPrimitive : light.primitive;
@@ -120,12 +120,12 @@ LightRay sampleDirectionalEmission(FlatLight light, float uTarget, vec2 u)
 }
 
 // Of all targets, together at most.
-float solidAngleOfTargets(Emitter emitter)
+float computeTargetsSolidAngle(Emitter emitter)
 {
     float sum = 0.0;
     uint i = 0u;
     do {
-        sum += coneOf(fetchTarget(i), emitter).solidAngle;
+        sum += makeTargetCone(fetchTarget(i), emitter).solidAngle;
     } while (++i < render.causticTargets);
     return sum;
 }
@@ -133,13 +133,13 @@ float solidAngleOfTargets(Emitter emitter)
 // A spot that is narrower than the targets is sampled by its own cone.
 LightRay samplePointEmission(FlatLight light, float uTarget, vec2 u)
 {
-    bool spot = kindOf(light) == kSpotLight;
+    bool spot = getLightKind(light) == kSpotLight;
     vec3 axis = spot ? light.edge1 : vec3(0.0, 0.0, 1.0);
     Emitter emitter = Emitter(light.position, spot ? kEmitsSpot : kEmitsAround, axis, light.versineInner, light.versineOuter);
     float pdf;
     vec3 w = sampleTargets(emitter, uTarget, u, pdf);
     float outer = light.versineOuter;
-    if (spot && outer < 1.0 && 2.0 * kPi * outer < solidAngleOfTargets(emitter)) {
+    if (spot && outer < 1.0 && 2.0 * kPi * outer < computeTargetsSolidAngle(emitter)) {
         float sin2 = outer * (2.0 - outer);
         w = worldFromFrame(makeFrame(axis), sampleCone(u, sin2));
         pdf = pdf > 0.0 ? pdfCone(sin2) : 0.0;
@@ -159,7 +159,7 @@ LightRay sampleEmission(SampleId id)
     vec2 u = unitFloat(lightPathPair(id, render.lightPaths, kDimensionAim, kSobol));
     LightChoice choice = chooseCausticLight(which.x);
     FlatLight light = fetchLight(choice.light);
-    uint kind = kindOf(light);
+    uint kind = getLightKind(light);
     float uTarget = unitFloat(which.y);
     LightRay from = kNoLightRay;
     if (hasFeature(kFeatureTriangleLights | kFeatureRectangleLights | kFeatureSphereLights) && kind <= kSphereLight) {

@@ -12,35 +12,35 @@ bool isChosen(SampleId id, uint bounce, uint primitive, uint candidates)
     return unitFloat(bits) * float(candidates) < 1.0;
 }
 
-// As follow(). Light ends at the back of a single-sided surface, since a path from the camera, which meets the front there, does not go on.
-// Light that comes to the front scatters, and goes on as well, since a path from the camera that comes from behind passes. Where it
-// scatters at several surfaces, one is chosen; `weight` makes up for the others.
-VisibleHit followLight(SampleId id, uint bounce, Passage passage, inout Steps steps)
+// As traceThroughAlpha(). Light ends at the back of a single-sided surface, since a path from the camera, which meets the front there, does
+// not go on. Light that comes to the front scatters, and goes on as well, since a path from the camera that comes from behind passes. Where
+// it scatters at several surfaces, one is chosen; `weight` makes up for the others.
+VisibleHit traceLightThroughAlpha(SampleId id, uint bounce, AlphaRay alphaRay, inout Steps steps)
 {
-    VisibleHit chosen = VisibleHit(hitOf(makeMiss()), vec3(1.0));
+    VisibleHit chosen = VisibleHit(makePathHit(makeMiss()), vec3(1.0));
     vec3 weight = vec3(1.0);
     uint candidates = 0u;
     bool goesOn = false;
     do {
-        VisibleHit met = follow(id, bounce, passage, steps);
+        VisibleHit met = traceThroughAlpha(id, bounce, alphaRay, steps);
         goesOn = false;
-        if (!hasFeature(kFeatureSingleSided) || passage.isShadow) {
+        if (!hasFeature(kFeatureSingleSided) || alphaRay.isShadow) {
             chosen = met;
-        } else if (met.hit.record != kNoRecord) {
-            PlacedRecord placed = fetchPlacedRecord(met.hit.record);
-            vec3 point = passage.ray.origin + passage.ray.direction * met.hit.t;
-            bool single = isSingleSided(placed.record);
-            bool front = dot(geometricNormal(placed, point), passage.direction) < 0.0;
+        } else if (met.hit.primitiveRef != kNoPrimitiveRef) {
+            PlacedPrimitive placed = fetchPlacedPrimitive(met.hit.primitiveRef);
+            vec3 point = alphaRay.ray.origin + alphaRay.ray.direction * met.hit.t;
+            bool single = isSingleSided(placed.ref);
+            bool front = dot(geometricNormal(placed, point), alphaRay.direction) < 0.0;
             weight *= met.weight;
             if (front || !single) {
                 ++candidates;
-                if (isChosen(id, bounce, primitiveOf(placed.record), candidates)) {
+                if (isChosen(id, bounce, getPrimitive(placed.ref), candidates)) {
                     chosen = VisibleHit(met.hit, weight);
                 }
             }
             goesOn = single && front;
-            passage.query.afterT = met.hit.t;
-            passage.query.afterPrimitive = primitiveOf(placed.record);
+            alphaRay.query.afterT = met.hit.t;
+            alphaRay.query.afterPrimitive = getPrimitive(placed.ref);
         }
     } while (goesOn && candidates <= kMaxPassed);
     if (goesOn) {

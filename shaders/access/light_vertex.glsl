@@ -1,4 +1,4 @@
-// A light path's vertex: where light from a lamp, once it has met a specular surface, is sent to the camera and scatters on.
+// A vertex of a light path that has met a specular surface: its light is sent to the camera and scatters on.
 #ifndef GLIM_ACCESS_LIGHT_VERTEX
 #define GLIM_ACCESS_LIGHT_VERTEX
 
@@ -8,7 +8,7 @@
 #include "media.glsl"
 #include "next_ray.glsl"
 
-float continuationOf(BsdfSample s, vec3 throughput, float etaScale, uint bounce)
+float computeContinuation(BsdfSample s, vec3 throughput, float etaScale, uint bounce)
 {
     return continuationProbability(throughput, 1.0, bounce);
 }
@@ -23,7 +23,7 @@ struct LightVertex {
 };
 
 // The surface as seen from its other side.
-void turn(inout SurfaceInteraction si, inout SurfaceMaterial material)
+void flip(inout SurfaceInteraction si, inout SurfaceMaterial material)
 {
     si.ng = -si.ng;
     si.ns = -si.ns;
@@ -36,7 +36,7 @@ void turn(inout SurfaceInteraction si, inout SurfaceMaterial material)
 Bsdf bsdfTowards(vec3 wo, SurfaceInteraction si, SurfaceMaterial material)
 {
     if (dot(wo, si.ng) < 0.0) {
-        turn(si, material);
+        flip(si, material);
     }
     return makeBsdf(si, material, wo);
 }
@@ -56,7 +56,7 @@ vec3 specularWeight(BsdfSample s, vec3 wi, vec3 ng, vec3 ns)
     return s.weight * (s.eta * s.eta * shading * adjointFactor(ng, wi, s.wi));
 }
 
-BounceNumbers numbersOfLightBounce(SampleId id, uint bounce)
+BounceNumbers sampleLightBounceNumbers(SampleId id, uint bounce)
 {
     uint dimension = kDimensionLightBounce + bounce * kDimensionsPerBounce;
     vec2 direction = unitFloat(independentPair(id, dimension + kDimensionBsdf));
@@ -88,7 +88,7 @@ LightVertex shadeLightVertex(SampleId id, PathRay ray, PathHit hit, PathState st
 {
     vec3 wi = -ray.direction;
     SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
-    SurfaceMaterial material = materialAt(si);
+    SurfaceMaterial material = makeSurfaceMaterial(si);
     if (hasFeature(kFeatureMedia)) {
         state.throughput *= mediaTransmittance(ray.media, hit.t);
         setIndices(id, si, material, ray.media, state.throughput);
@@ -96,7 +96,7 @@ LightVertex shadeLightVertex(SampleId id, PathRay ray, PathHit hit, PathState st
     CameraConnection connection = connect(id, si, state.bounce);
     LightVertex vertex;
     bool inPicture = isInPicture(connection, vertex.pixel), isFirst = state.bounce == 0u;
-    BounceNumbers u = numbersOfLightBounce(id, state.bounce);
+    BounceNumbers u = sampleLightBounceNumbers(id, state.bounce);
     // The BSDF of light's own direction is sampled. What it scatters to the camera and onwards is evaluated by the BSDFs that a path from the
     // camera has there. All in a loop, for one copy of the code.
     const uint kSamples = 0u, kToCamera = 1u, kOnwards = 2u;
@@ -117,7 +117,7 @@ LightVertex shadeLightVertex(SampleId id, PathRay ray, PathHit hit, PathState st
         }
         BsdfEval f = evalInFrame(bsdf, wo, local, dot(to, bsdf.ng));
         if (now == kSamples) {
-            next = weighted(next, f);
+            next = weightSample(next, f);
             bool scatters = !isFirst && hasNonDelta(bsdf);
             left |= scatters && inPicture ? 1u << kToCamera : 0u;
             left |= scatters && (next.flags & kBsdfDelta) == 0u ? 1u << kOnwards : 0u;

@@ -33,14 +33,14 @@ vec4 textureCoordinates(SurfaceInteraction si)
     return vertexAttribute(render.firstUv, si);
 }
 
-// The same at a point of a record that is not yet an interaction.
-vec4 textureCoordinates(PlacedRecord placed, vec3 point, vec2 barycentric)
+// The same at a point of a reference that is not yet an interaction.
+vec4 textureCoordinates(PlacedPrimitive placed, vec3 point, vec2 barycentric)
 {
     if (!hasFeature(kFeatureTextures)) {
         return vec4(0.0);
     }
-    if (isSphere(placed.record)) {
-        return latLongFromDirection(normalizeSafely(point - floatsOf(placed.record.t0))).xyxy;
+    if (isSphere(placed.ref)) {
+        return latLongFromDirection(normalizeSafely(point - toFloats(placed.ref.t0))).xyxy;
     }
     return vertexAttribute(render.firstUv, placed.triangle, barycentric);
 }
@@ -60,7 +60,7 @@ vec3 mappedNormal(SurfaceInteraction si, vec3 texel, float scale)
     return square > 0.0 && dot(tangent.xyz, tangent.xyz) > 0.0 ? side * mapped / sqrt(square) : si.ns;
 }
 
-#define isUnlit(data) (hasFeature(kFeatureUnlit) && (data).lobe == kUnlit)
+#define isUnlit(data) (hasFeature(kFeatureUnlit) && (data).type == kUnlit)
 
 // Whether the light that the material transmits passes straight; transparency.glsl then transmits it.
 bool passesStraight(MaterialData data)
@@ -69,29 +69,29 @@ bool passesStraight(MaterialData data)
 }
 
 // Coverage, in [0, 1], of a material whose alpha with textures and vertex colours is given.
-float coverageOf(MaterialData material, float alpha)
+float computeCoverage(MaterialData material, float alpha)
 {
     float masked = alpha >= material.alphaCutoff ? 1.0 : 0.0;
     return material.alphaCutoff == kOpaque ? 1.0 : material.alphaCutoff >= 0.0 ? masked : alpha;
 }
 
-// Colour 0 of a record's vertices; white if it has none.
-vec4 vertexColor(PlacedRecord placed, vec2 barycentric)
+// Colour 0 of a reference's vertices; white if it has none.
+vec4 vertexColor(PlacedPrimitive placed, vec2 barycentric)
 {
-    bool colored = hasFeature(kFeatureVertexColors) && render.firstColor != 0u && !isSphere(placed.record);
+    bool colored = hasFeature(kFeatureVertexColors) && render.firstColor != 0u && !isSphere(placed.ref);
     return colored ? vertexAttribute(render.firstColor, placed.triangle, barycentric) : vec4(1.0);
 }
 
-// Coverage at a point of a record with alpha.
-float alphaOf(PlacedRecord placed, vec3 point, vec2 barycentric)
+// Coverage at a point of a reference with alpha.
+float computeAlpha(PlacedPrimitive placed, vec3 point, vec2 barycentric)
 {
-    MaterialData material = fetchMaterial(materialOf(placed.record));
+    MaterialData material = fetchMaterial(getMaterial(placed.ref));
     float alpha = material.alpha;
     if (hasFeature(kFeaturePrincipled) && material.principled != 0u) {
-        uint texture_ = textureIn(fetchPrincipled(material.principled), kSlotBaseColor);
-        alpha *= vertexColor(placed, barycentric).a * sampleTexture(texture_, textureCoordinates(placed, point, barycentric)).a;
+        uint textureTexel = textureIn(fetchPrincipled(material.principled), kSlotBaseColor);
+        alpha *= vertexColor(placed, barycentric).a * sampleTexture(textureTexel, textureCoordinates(placed, point, barycentric)).a;
     }
-    return coverageOf(material, alpha);
+    return computeCoverage(material, alpha);
 }
 
 // What a clearcoat leaves of emission, which lies below it: by its Fresnel reflectance at the geometric normal. `cosine`: against that.
@@ -100,17 +100,17 @@ float passedCoat(float clearcoat, float cosine)
     return 1.0 - clearcoat * (0.04 + 0.96 * schlickWeight(cosine));
 }
 
-// What texture, coat and coverage multiply a material's emission by, at a point of a record. cosine: of the direction it leaves in.
-vec3 emissionFactor(PlacedRecord placed, vec3 point, vec2 barycentric, float cosine)
+// What texture, coat and coverage multiply a material's emission by, at a point of a reference. cosine: of the direction it leaves in.
+vec3 emissionFactor(PlacedPrimitive placed, vec3 point, vec2 barycentric, float cosine)
 {
-    MaterialData data = fetchMaterial(materialOf(placed.record));
+    MaterialData data = fetchMaterial(getMaterial(placed.ref));
     vec3 factor = vec3(1.0);
     float alpha = data.alpha;
     if (hasFeature(kFeaturePrincipled) && data.principled != 0u) {
         PrincipledData p = fetchPrincipled(data.principled);
         bool coated = hasFeature(kFeatureClearcoat) && p.layers != 0u;
         uvec3 textures = uvec3(textureIn(p, kSlotEmissive), coated ? textureIn(p, kSlotClearcoat) : 0u,
-                               hasAlpha(placed.record) ? textureIn(p, kSlotBaseColor) : 0u);
+                               hasAlpha(placed.ref) ? textureIn(p, kSlotBaseColor) : 0u);
         ThreeTexels texels = sampleTextures(textures, textureCoordinates(placed, point, barycentric));
         factor = texels.x.rgb;
         if (coated) {
@@ -118,7 +118,7 @@ vec3 emissionFactor(PlacedRecord placed, vec3 point, vec2 barycentric, float cos
         }
         alpha *= vertexColor(placed, barycentric).a * texels.z.a;
     }
-    return hasAlpha(placed.record) ? factor * coverageOf(data, alpha) : factor;
+    return hasAlpha(placed.ref) ? factor * computeCoverage(data, alpha) : factor;
 }
 
 struct SurfaceMaterial {
@@ -127,24 +127,24 @@ struct SurfaceMaterial {
     LayersData layers;          // with textures; factors are 0 if there is none
     float filmThickness;        // nm
     vec3 tangent;               // of anisotropy, in world space; of any length
-    vec3 coatNormal;            // unit, turned with ng
+    vec3 coatNormal;            // unit, flipped with ng
     vec2 iors;                  // of a solid that transmits: on wo's side, and beyond the surface
 };
 
 // Number of the medium that the surface encloses, or 0.
-uint mediumOf(SurfaceMaterial material)
+uint getMedium(SurfaceMaterial material)
 {
     return material.layers.medium;
 }
 
-void turnAnisotropy(vec2 texel, inout LayersData layers)
+void rotateAnisotropy(vec2 texel, inout LayersData layers)
 {
     vec2 d = 2.0 * texel - 1.0;
     float size = length(d);
     d = size > 0.0 ? d / size : vec2(1.0, 0.0);
-    vec2 turn = vec2(layers.anisotropyCosine, layers.anisotropySine);
-    layers.anisotropyCosine = turn.x * d.x - turn.y * d.y;
-    layers.anisotropySine = turn.y * d.x + turn.x * d.y;
+    vec2 rotation = vec2(layers.anisotropyCosine, layers.anisotropySine);
+    layers.anisotropyCosine = rotation.x * d.x - rotation.y * d.y;
+    layers.anisotropySine = rotation.y * d.x + rotation.x * d.y;
 }
 
 struct SampledNormals {
@@ -153,7 +153,7 @@ struct SampledNormals {
 
 void applyTexel(uint slot, vec4 texel, inout SurfaceMaterial material, inout SampledNormals normals)
 {
-#define TIMES(record, factor, channels) material.record.factor *= texel.channels;
+#define TIMES(part, factor, channels) material.part.factor *= texel.channels;
 #define SLOT(number, name, holds, feature, path, times) \
     if (hasFeature(feature)) { \
         if (slot == kSlot##name) { times } \
@@ -169,7 +169,7 @@ void applyTexel(uint slot, vec4 texel, inout SurfaceMaterial material, inout Sam
         if (slot == kSlotClearcoatNormal) normals.coat = texel.xyz;
     }
     if (hasFeature(kFeatureAnisotropy)) {
-        if (slot == kSlotAnisotropy) turnAnisotropy(texel.xy, material.layers);
+        if (slot == kSlotAnisotropy) rotateAnisotropy(texel.xy, material.layers);
     }
     if (hasFeature(kFeatureIridescence)) {
         if (slot == kSlotIridescenceThickness) {
@@ -204,7 +204,7 @@ SampledNormals applyTextures(vec4 uv, inout SurfaceMaterial material)
     return normals;
 }
 
-// The tangent that anisotropy turns from: of the mesh, or on a sphere the way that longitude grows.
+// The tangent that anisotropy is rotated from: of the mesh, or on a sphere the way that longitude grows.
 vec3 surfaceTangent(SurfaceInteraction si, LayersData layers)
 {
     vec3 outward = si.front ? si.ng : -si.ng;
@@ -216,7 +216,7 @@ vec3 surfaceTangent(SurfaceInteraction si, LayersData layers)
 }
 
 // May change the interaction's shading normal.
-SurfaceMaterial materialAt(inout SurfaceInteraction si)
+SurfaceMaterial makeSurfaceMaterial(inout SurfaceInteraction si)
 {
     SurfaceMaterial material;
     material.data = fetchMaterial(si.material);

@@ -10,14 +10,14 @@
 #include "material.glsl"
 #include "pass.glsl"
 
-// The share of light that is left after `distance_` metres within a ray's innermost medium.
-vec3 mediaTransmittance(uint media, float distance_)
+// The share of light that is left after `lightDistance` metres within a ray's innermost medium.
+vec3 mediaTransmittance(uint media, float lightDistance)
 {
     uint medium = innermost(media);
     if (!hasFeature(kFeatureMedia) || medium == 0u) {
         return vec3(1.0);
     }
-    vec3 depth = fetchMedium(render.firstMedium, medium).absorption * min(distance_, 1e30);
+    vec3 depth = fetchMedium(render.firstMedium, medium).absorption * min(lightDistance, 1e30);
     return vec3(portableExp(-depth.r), portableExp(-depth.g), portableExp(-depth.b));
 }
 
@@ -29,7 +29,7 @@ vec3 mediaTransmittance(uint media, SurfaceInteraction si, uint medium, ShadowRa
     return mediaTransmittance(along, ray.tMax > 1.0 ? kInfinity : length(ray.direction));
 }
 
-float iorOf(uint medium, Wavelength wavelength)
+float computeIor(uint medium, Wavelength wavelength)
 {
     if (medium == 0u) {
         return 1.0;
@@ -46,7 +46,7 @@ bool isDispersive(uint medium)
 // Sets the indices on the two sides, and where the surface disperses, the path's colour. `media`: of the ray that arrives.
 void setIndices(SampleId id, SurfaceInteraction si, inout SurfaceMaterial material, inout uint media, inout vec3 throughput)
 {
-    uint medium = mediumOf(material);
+    uint medium = getMedium(material);
     if (!hasFeature(kFeatureMedia) || medium == 0u) {
         return;
     }
@@ -61,7 +61,7 @@ void setIndices(SampleId id, SurfaceInteraction si, inout SurfaceMaterial materi
             media |= kHasWavelength;
         }
     }
-    material.iors = vec2(iorOf(here, wavelength), iorOf(beyond, wavelength));
+    material.iors = vec2(computeIor(here, wavelength), computeIor(beyond, wavelength));
 }
 
 #endif

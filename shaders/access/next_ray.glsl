@@ -16,7 +16,7 @@ struct BounceNumbers {
     float lobe, roulette;
 };
 
-BounceNumbers numbersOfBounce(SampleId id, uint bounce)
+BounceNumbers sampleBounceNumbers(SampleId id, uint bounce)
 {
     vec2 direction = unitFloat(samplePair(id, bounceDimension(bounce, kDimensionBsdf), kSobol));
     vec2 lobe = unitFloat(samplePair(id, bounceDimension(bounce, kDimensionLobe), kSobol));
@@ -25,7 +25,7 @@ BounceNumbers numbersOfBounce(SampleId id, uint bounce)
 
 // Roulette's probability that the sampled ray is traced. The including file defines it: path_vertex.glsl, and course/bounce.glsl for the
 // course. `throughput` includes the sample's weight.
-float continuationOf(BsdfSample s, vec3 throughput, float etaScale, uint bounce);
+float computeContinuation(BsdfSample s, vec3 throughput, float etaScale, uint bounce);
 
 // The media that a ray which leaves the surface is in.
 uint mediaOfNextRay(uint media, SurfaceInteraction si, Bsdf bsdf, vec3 wi)
@@ -47,7 +47,7 @@ bool continuePath(BsdfSample s, BounceNumbers u, SurfaceInteraction si, Bsdf bsd
     vec3 throughput = state.throughput * s.weight;
     noteBounce(s.weight, throughput);
     float etaScale = state.etaScale * (s.eta * s.eta);
-    float continuation = continuationOf(s, throughput, etaScale, state.bounce);
+    float continuation = computeContinuation(s, throughput, etaScale, state.bounce);
     bool scatters = any(notEqual(throughput, vec3(0.0)));
     if (scatters) {
         noteContinuation(continuation);
@@ -59,14 +59,14 @@ bool continuePath(BsdfSample s, BounceNumbers u, SurfaceInteraction si, Bsdf bsd
         ray.media |= diffuse ? kIsDiffuseFirst : 0u;
     }
     state = PathState(throughput / continuation, s.pdf, max(0.0, dot(s.wi, bsdf.frame.z)), etaScale, state.bounce + 1u,
-                      horizonOf(bsdf));
+                      encodeReceiverNormal(bsdf));
     return scatters && u.roulette < continuation;
 }
 
 // Samples the BSDF, and continues the path.
 bool bouncePath(SampleId id, SurfaceInteraction si, Bsdf bsdf, vec3 wo, uint media, out PathRay ray, inout PathState state)
 {
-    BounceNumbers u = numbersOfBounce(id, state.bounce);
+    BounceNumbers u = sampleBounceNumbers(id, state.bounce);
     return continuePath(sampleBsdf(bsdf, wo, u.direction, u.lobe), u, si, bsdf, media, ray, state);
 }
 

@@ -22,7 +22,7 @@ void noteSurface(SurfaceInteraction si, vec3 ns)
 void noteMaterial(SurfaceInteraction si, PathHit hit, SurfaceMaterial material, uint media)
 {
     if (kNotes) {
-        PlacedRecord placed = fetchPlacedRecord(hit.record);
+        PlacedPrimitive placed = fetchPlacedPrimitive(hit.primitiveRef);
         bool principled = hasFeature(kFeaturePrincipled) && material.data.principled != 0u;
         pathNote.baseColor = material.data.baseColor;
         pathNote.metallic = principled ? material.principled.metallic : 0.0;
@@ -36,7 +36,7 @@ void noteMaterial(SurfaceInteraction si, PathHit hit, SurfaceMaterial material, 
         pathNote.anisotropy = material.layers.anisotropy;
         pathNote.iridescence = material.layers.iridescence;
         pathNote.filmThickness = material.layers.iridescence > 0.0 ? material.filmThickness : 0.0;
-        pathNote.alpha = hasAlpha(placed.record) ? alphaOf(placed, si.p, hit.barycentric) : 1.0;
+        pathNote.alpha = hasAlpha(placed.ref) ? computeAlpha(placed, si.p, hit.barycentric) : 1.0;
         pathNote.medium = innermost(media);
     }
 }

@@ -32,29 +32,29 @@ layout(local_size_x_id = kSpecWorkgroup) in;
 uint interleavedInvocation()
 {
     uint groups = gl_NumWorkGroups.x;
-    uint half_ = (groups + 1u) / 2u;
+    uint halfCount = (groups + 1u) / 2u;
     uint id = gl_WorkGroupID.x;
-    uint group = id < half_ ? 2u * id : 2u * (id - half_) + 1u;
+    uint group = id < halfCount ? 2u * id : 2u * (id - halfCount) + 1u;
     return group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
 }
 
 // Index in the tile of the pass's pixel number `i`.
-uint pixelOfPass(uint i)
+uint getPassPixel(uint i)
 {
     return kChosen ? chosenPixels[pass.firstPixel + i].pixel : pass.firstPixel + i;
 }
 
 // First sample of the pass's pixel number `i`.
-uint firstSampleOfPass(uint i)
+uint getFirstSample(uint i)
 {
     return kChosen ? chosenPixels[pass.firstPixel + i].samplesBefore + pass.firstSample : pass.firstSample;
 }
 
-SampleId sampleOfSlot(uint slot)
+SampleId makeSampleId(uint slot)
 {
     uint pixel = slot / pass.sampleCount;
-    return SampleId(render.seed, pass.tileBegin + pixelOfPass(pixel),
-                    firstSampleOfPass(pixel) + (slot - pixel * pass.sampleCount));
+    return SampleId(render.seed, pass.tileBegin + getPassPixel(pixel),
+                    getFirstSample(pixel) + (slot - pixel * pass.sampleCount));
 }
 
 #endif

@@ -16,9 +16,9 @@ struct Work {
     uint steps;
 };
 
-// What advance() follows: the path's ray, then a ray that connects it and meets alpha, and the light that this one carries.
-struct Followed {
-    Passage passage;
+// What advance() traces: the path's ray, then a ray that connects it and meets alpha, and the light that this one carries.
+struct TracedRay {
+    AlphaRay alphaRay;
     vec3 contribution;
     uint pixel;       // of light paths
     uint pathLength;  // surfaces met between camera and light
@@ -26,23 +26,23 @@ struct Followed {
 
 uint fetchEntry(uint entry);
 bool takePath(uint entry, out Path path, inout Work work);  // false if it carries nothing
-VisibleHit followPath(Path path, Passage passage, inout Steps steps);
+VisibleHit tracePathThroughAlpha(Path path, AlphaRay alphaRay, inout Steps steps);
 void addLight(inout Path path, uint pixel, vec3 contribution, uint pathLength);
 void visitMiss(inout Path path);
-bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps steps, inout Followed followed);  // false if the path ends
+bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps steps, inout TracedRay traced);  // false if the path ends
 void endPath(Path path);
 
-// Adds the light, unless surfaces with alpha dim it first: then the ray is `followed` next.
+// Adds the light, unless surfaces with alpha dim it first: then the ray is `traced` next.
 void traceConnection(inout Path path, ShadowRay ray, vec3 contribution, uint pixel, inout Work work, inout Steps steps,
-                     inout Followed followed)
+                     inout TracedRay traced)
 {
     bool metAlpha;
     bool clear = isUnoccluded(ray, kConnectionSides, steps, metAlpha);
     uint pathLength = path.state.bounce + 1u;
     ++work.shadow;
     if (hasFeature(kFeatureAlpha) && clear && metAlpha) {
-        followed = Followed(passageOf(ray, kConnectionSides), contribution, pixel, pathLength);
-        followed.passage.fromCamera = kSeenByCamera;
+        traced = TracedRay(makeAlphaRay(ray, kConnectionSides), contribution, pixel, pathLength);
+        traced.alphaRay.fromCamera = kSeenByCamera;
     } else if (clear) {
         addLight(path, pixel, contribution, pathLength);
     }
@@ -52,27 +52,27 @@ void traceConnection(inout Path path, ShadowRay ray, vec3 contribution, uint pix
 bool advance(inout Path path, inout Work work)
 {
     Steps steps = Steps(0u, 0u);
-    Followed followed = Followed(passageOf(path.ray), vec3(0.0), 0u, 0u);
-    followed.passage.query.sides = kPathSides;
+    TracedRay traced = TracedRay(makeAlphaRay(path.ray), vec3(0.0), 0u, 0u);
+    traced.alphaRay.query.sides = kPathSides;
     bool alive = false;
     bool again = false;
     do {
-        VisibleHit met = followPath(path, followed.passage, steps);
+        VisibleHit met = tracePathThroughAlpha(path, traced.alphaRay, steps);
         again = false;
-        if (hasFeature(kFeatureAlpha) && followed.passage.isShadow) {
+        if (hasFeature(kFeatureAlpha) && traced.alphaRay.isShadow) {
             if (isClear(met.weight)) {
-                addLight(path, followed.pixel, followed.contribution * met.weight, followed.pathLength);
+                addLight(path, traced.pixel, traced.contribution * met.weight, traced.pathLength);
             }
         } else {
             ++work.closest;
             if (hasFeature(kDimmingFeatures)) {
                 path.state.throughput *= met.weight;
             }
-            if (met.hit.record == kNoRecord) {
+            if (met.hit.primitiveRef == kNoPrimitiveRef) {
                 visitMiss(path);
             } else {
-                alive = visitSurface(path, met.hit, work, steps, followed);
-                again = followed.passage.isShadow;
+                alive = visitSurface(path, met.hit, work, steps, traced);
+                again = traced.alphaRay.isShadow;
             }
         }
     } while (hasFeature(kFeatureAlpha) && again);

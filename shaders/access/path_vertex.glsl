@@ -45,7 +45,7 @@ float misWeightOfSample(float lightPdf, float bsdfPdf)
     return lightPdf > 0.0 ? powerHeuristic(lightPdf, bsdfPdf) : 1.0;
 }
 
-float continuationOf(BsdfSample s, vec3 throughput, float etaScale, uint bounce)
+float computeContinuation(BsdfSample s, vec3 throughput, float etaScale, uint bounce)
 {
     return continuationProbability(throughput, etaScale, bounce);
 }
@@ -62,7 +62,7 @@ VertexResult shadeSurface(SampleId id, PathRay ray, PathHit hit, PathState state
 {
     vec3 wo = -ray.direction;
     SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
-    SurfaceMaterial material = materialAt(si);
+    SurfaceMaterial material = makeSurfaceMaterial(si);
     uint arrivedIn = ray.media;
     if (hasFeature(kFeatureMedia)) {
         state.throughput *= mediaTransmittance(ray.media, hit.t);
@@ -88,7 +88,7 @@ VertexResult shadeSurface(SampleId id, PathRay ray, PathHit hit, PathState state
     if (samples) {
         light = sampleDirectLight(id, si, bsdf, state.bounce);
     }
-    BounceNumbers u = numbersOfBounce(id, state.bounce);
+    BounceNumbers u = sampleBounceNumbers(id, state.bounce);
     BsdfPair pair = evalAndSampleBsdf(bsdf, wo, light.wi, u.direction, u.lobe);
     result.hasShadowRay = samples && makeShadowRay(si, light, pair.light, state, result.shadowRay);
     if (hasFeature(kFeatureMedia) && result.hasShadowRay) {

@@ -19,7 +19,7 @@
 #include "lib/thin_film.glsl"
 
 // A lobe that is not black is sampled with at least this probability, before all of them are scaled to 1.
-const float kLeastLobeProbability = 0.02;
+const float kMinLobeProbability = 0.02;
 const float kCoatF0 = 0.04;  // of the index 1.5
 
 // The material's numbers at the point, with textures. Directions and frames of this file are in the shading frame, z on wo's side.
@@ -43,7 +43,7 @@ struct InterfaceFresnel {
 struct Principled {
     // The interface.
     vec2 alpha;
-    bool smooth_;          // a delta lobe
+    bool isSmooth;          // a delta lobe
     vec3 f0;
     float f90;
     vec3 transmitted;      // colour of light that it transmits, times its share; 0: none
@@ -217,13 +217,13 @@ void setTransmission(inout Principled p, PrincipledInput m)
     p.eta = p.solid && abs(m.eta - 1.0) >= kMinEtaStep ? m.eta : 1.0;
     if (p.solid && p.eta == 1.0) {
         // No interface: Schlick's F90, and with it multiple scattering, would make a rough ball of index 1 visible.
-        p.smooth_ = true;
+        p.isSmooth = true;
         p.dielectricF0 = vec3(0.0);
         p.dielectricF90 = 0.0;
         p.f0 = m.baseColor * m.data.metallic;
         p.f90 = m.data.metallic;
     }
-    float share = p.smooth_ && !p.solid && m.passesStraight ? 0.0 : m.layers.transmission;
+    float share = p.isSmooth && !p.solid && m.passesStraight ? 0.0 : m.layers.transmission;
     p.transmitted = m.baseColor * share * (1.0 - m.data.metallic);
 }
 
@@ -239,7 +239,7 @@ Principled makePrincipled(PrincipledInput m, vec3 wo)
         p.alpha.x = mix(alpha, 1.0, strength * strength);
         tableAlpha = sqrt(0.5 * (p.alpha.x * p.alpha.x + alpha * alpha));
     }
-    p.smooth_ = p.alpha.x < kMinAlpha;
+    p.isSmooth = p.alpha.x < kMinAlpha;
     p.alpha = max(p.alpha, kMinAlpha);
     float reflectance = data.reflectance;
     if (hasFeature(kFeatureTransmission) && m.layers.transmission > 0.0 && m.layers.medium != 0u) {
@@ -317,8 +317,8 @@ Principled makePrincipled(PrincipledInput m, vec3 wo)
         sheenWeight = channelMean(p.sheen) * min(p.sheenAlbedo, 1.0);
     }
     float sum = max(weights.x + weights.y + weights.z + weights.w + sheenWeight, 1e-30);
-    vec4 probability = mix(clamp(weights / sum, kLeastLobeProbability, 1.0), vec4(0.0), lessThanEqual(weights, vec4(0.0)));
-    p.pSheen = sheenWeight > 0.0 ? max(sheenWeight / sum, kLeastLobeProbability) : 0.0;
+    vec4 probability = mix(clamp(weights / sum, kMinLobeProbability, 1.0), vec4(0.0), lessThanEqual(weights, vec4(0.0)));
+    p.pSheen = sheenWeight > 0.0 ? max(sheenWeight / sum, kMinLobeProbability) : 0.0;
     float scale = 1.0 / max(probability.x + probability.y + probability.z + probability.w + p.pSheen, 1e-30);
     p.pInterface = probability.x * scale;
     p.pDiffuse = probability.y * scale;
@@ -343,7 +343,7 @@ Principled makePrincipled(PrincipledInput m, vec3 wo)
 // Whether all lobes are delta.
 bool isDeltaOnly(Principled p)
 {
-    return p.smooth_ && p.pDiffuse + p.pSheen + p.pThrough + (p.coatSmooth ? 0.0 : p.pCoat) == 0.0;
+    return p.isSmooth && p.pDiffuse + p.pSheen + p.pThrough + (p.coatSmooth ? 0.0 : p.pCoat) == 0.0;
 }
 
 // What evalAbove and evalBelow need.
@@ -385,7 +385,7 @@ BsdfEval evalBelow(Principled p, InterfaceEval e, vec3 wo, vec3 wi)
     if (hasFeature(kFeatureDiffuseTransmission)) {
         result = BsdfEval(p.diffuseThrough * passedInterface(p, e.ab, e.dielectric) * -wi.z, p.pThrough * pdfCosineHemisphere(-wi.z));
     }
-    if (transmits(p) && !p.smooth_ && e.h.z > 0.0) {
+    if (transmits(p) && !p.isSmooth && e.h.z > 0.0) {
         vec3 mirrored = vec3(wi.xy, -wi.z);
         float share = (1.0 - reflectedShare(p, e.fresnel)) * p.pInterface;
         float f = p.solid ? evalGgxTransmission(wo, wi, e.h, p.alpha, p.eta) : evalGgx(wo, mirrored, p.alpha);
@@ -405,7 +405,7 @@ BsdfEval evalAbove(Principled p, InterfaceEval e, vec3 wo, vec3 wi)
 {
     vec3 diffuse = p.scattered * (1.0 - e.ab.x - e.ab.y) + p.diffuse * passedInterface(p, e.ab, e.dielectric);
     BsdfEval result = BsdfEval(diffuse * wi.z, p.pDiffuse * pdfDiffuse(p, wi.z));
-    if (!p.smooth_) {
+    if (!p.isSmooth) {
         result.f += e.fresnel.both * evalGgx(wo, wi, p.alpha);
         result.pdf += p.pInterface * reflectedShare(p, e.fresnel) * pdfGgx(wo, wi, p.alpha);
     }
@@ -515,7 +515,7 @@ BsdfSample sampleDelta(Principled p, uint lobe, vec3 wo, float u)
 BsdfSample samplePrincipledDirection(Principled p, vec3 wo, vec2 u, float uLobe)
 {
     uint lobe = chooseLobe(p, uLobe);
-    if ((lobe == kLobeInterface && p.smooth_) || (hasFeature(kFeatureClearcoat) && lobe == kLobeCoat && p.coatSmooth)) {
+    if ((lobe == kLobeInterface && p.isSmooth) || (hasFeature(kFeatureClearcoat) && lobe == kLobeCoat && p.coatSmooth)) {
         return sampleDelta(p, lobe, wo, uLobe);
     }
     bool below = false;
@@ -550,7 +550,7 @@ BsdfSample samplePrincipledDirection(Principled p, vec3 wo, vec2 u, float uLobe)
 BsdfSample samplePrincipled(Principled p, vec3 wo, vec2 u, float uLobe)
 {
     BsdfSample s = samplePrincipledDirection(p, wo, u, uLobe);
-    return weighted(s, evalPrincipled(p, wo, s.wi));
+    return weightSample(s, evalPrincipled(p, wo, s.wi));
 }
 
 #endif

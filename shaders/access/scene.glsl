@@ -6,7 +6,7 @@
 #include "shared/scene_types.h"
 
 layout(set = 0, binding = kBindNodes) uniform usamplerBuffer sceneNodes;
-layout(set = 0, binding = kBindRecords) uniform usamplerBuffer sceneRecords;
+layout(set = 0, binding = kBindPrimitiveRefs) uniform usamplerBuffer scenePrimitiveRefs;
 layout(set = 0, binding = kBindTriangles) uniform usamplerBuffer sceneTriangles;
 layout(set = 0, binding = kBindVertices) uniform usamplerBuffer sceneVertices;
 layout(set = 0, binding = kBindMaterials) uniform usamplerBuffer sceneMaterials;
@@ -14,18 +14,18 @@ layout(set = 0, binding = kBindLights) uniform usamplerBuffer sceneLights;
 layout(set = 0, binding = kBindLightNodes) uniform usamplerBuffer sceneLightNodes;
 layout(set = 0, binding = kBindInstances) uniform usamplerBuffer sceneInstances;
 
-// Three texels; scene_types.h says what is in them.
-struct Record {
+// A leaf's entry for a primitive: three texels (scene_types.h).
+struct PrimitiveRef {
     uvec4 t0, t1, t2;
 };
 
-Record fetchRecord(uint record)
+PrimitiveRef fetchPrimitiveRef(uint ref)
 {
-    int at = int(record * kRecordTexels);
-    return Record(texelFetch(sceneRecords, at), texelFetch(sceneRecords, at + 1), texelFetch(sceneRecords, at + 2));
+    int at = int(ref * kPrimitiveRefTexels);
+    return PrimitiveRef(texelFetch(scenePrimitiveRefs, at), texelFetch(scenePrimitiveRefs, at + 1), texelFetch(scenePrimitiveRefs, at + 2));
 }
 
-vec3 floatsOf(uvec4 texel)
+vec3 toFloats(uvec4 texel)
 {
     return uintBitsToFloat(texel.xyz);
 }
@@ -38,7 +38,7 @@ InstanceData fetchInstance(uint instance)
     uvec4 c = texelFetch(sceneInstances, at + 2);
     uvec4 d = texelFetch(sceneInstances, at + 3);
     uvec4 e = texelFetch(sceneInstances, at + 4);
-    return InstanceData(floatsOf(a), a.w, floatsOf(b), b.w, floatsOf(c), c.w, floatsOf(d), d.w, floatsOf(e), e.w);
+    return InstanceData(toFloats(a), a.w, toFloats(b), b.w, toFloats(c), c.w, toFloats(d), d.w, toFloats(e), e.w);
 }
 
 MaterialData fetchMaterial(uint material)
@@ -47,7 +47,7 @@ MaterialData fetchMaterial(uint material)
     uvec4 a = texelFetch(sceneMaterials, at);
     uvec4 b = texelFetch(sceneMaterials, at + 1);
     uvec4 c = texelFetch(sceneMaterials, at + 2);
-    return MaterialData(floatsOf(a), a.w, floatsOf(b), uintBitsToFloat(b.w), c.x, c.y, uintBitsToFloat(c.z), uintBitsToFloat(c.w));
+    return MaterialData(toFloats(a), a.w, toFloats(b), uintBitsToFloat(b.w), c.x, c.y, uintBitsToFloat(c.z), uintBitsToFloat(c.w));
 }
 
 PrincipledData fetchPrincipled(uint principled)
@@ -140,8 +140,8 @@ FlatLight fetchLight(uint light)
     uvec4 c = texelFetch(sceneLights, at + 2);
     uvec4 d = texelFetch(sceneLights, at + 3);
     uvec4 e = texelFetch(sceneLights, at + 4);
-    return FlatLight(a.x, a.y, a.z, a.w, floatsOf(b), uintBitsToFloat(b.w), floatsOf(c), uintBitsToFloat(c.w), floatsOf(d),
-                     uintBitsToFloat(d.w), floatsOf(e), uintBitsToFloat(e.w));
+    return FlatLight(a.x, a.y, a.z, a.w, toFloats(b), uintBitsToFloat(b.w), toFloats(c), uintBitsToFloat(c.w), toFloats(d),
+                     uintBitsToFloat(d.w), toFloats(e), uintBitsToFloat(e.w));
 }
 
 LightNode fetchLightNode(uint node)
@@ -150,31 +150,31 @@ LightNode fetchLightNode(uint node)
     uvec4 a = texelFetch(sceneLightNodes, at);
     uvec4 b = texelFetch(sceneLightNodes, at + 1);
     uvec4 c = texelFetch(sceneLightNodes, at + 2);
-    return LightNode(floatsOf(a), uintBitsToFloat(a.w), floatsOf(b), uintBitsToFloat(b.w), uintBitsToFloat(c.x), uintBitsToFloat(c.y), c.z,
+    return LightNode(toFloats(a), uintBitsToFloat(a.w), toFloats(b), uintBitsToFloat(b.w), uintBitsToFloat(c.x), uintBitsToFloat(c.y), c.z,
                      c.w);
 }
 
-uint primitiveOf(Record record)
+uint getPrimitive(PrimitiveRef ref)
 {
-    return record.t0.w;
+    return ref.t0.w;
 }
 
-#define isSphere(record) (hasFeature(kFeatureSpheres) && ((record).t1.w & kSphereBit) != 0u)
+#define isSphere(ref) (hasFeature(kFeatureSpheres) && ((ref).t1.w & kSphereBit) != 0u)
 
-bool isSliver(Record record)
+bool isSliver(PrimitiveRef ref)
 {
-    return hasFeature(kFeatureSlivers) && (record.t1.w & kSliverBit) != 0u;
+    return hasFeature(kFeatureSlivers) && (ref.t1.w & kSliverBit) != 0u;
 }
 
 // Whether the primitive is neither opaque nor transparent all over.
-#define hasAlpha(record) (hasFeature(kFeatureAlpha) && ((record).t1.w & kAlphaBit) != 0u)
+#define hasAlpha(ref) (hasFeature(kFeatureAlpha) && ((ref).t1.w & kAlphaBit) != 0u)
 
 // Whether rays of camera paths that come from behind pass the primitive.
-#define isSingleSided(record) (hasFeature(kFeatureSingleSided) && ((record).t1.w & kSingleSidedBit) != 0u)
+#define isSingleSided(ref) (hasFeature(kFeatureSingleSided) && ((ref).t1.w & kSingleSidedBit) != 0u)
 
-uint materialOf(Record record)
+uint getMaterial(PrimitiveRef ref)
 {
-    return record.t1.w & kMaterialMask;
+    return ref.t1.w & kMaterialMask;
 }
 
 #endif

@@ -10,9 +10,9 @@
 // The picture's pixels from Pass::tileBegin on.
 layout(set = 0, binding = kBindSplats, scalar) buffer SplatsBuffer { Splat splats[]; };
 
-const float kMostUnits = 4611686018427387904.0;  // 2^62
+const float kMaxUnits = 4611686018427387904.0;  // 2^62
 
-// Adds a number of units below kMostUnits.
+// Adds a number of units below kMaxUnits.
 #define ADD_UNITS(sum, units) \
     { \
         float rounded = roundEven(units); \
@@ -44,7 +44,7 @@ void addSplat(uint pixel, uint sampleIndex, vec3 contribution, uint pathLength)
     ClampedLight light = clampIndirect(contribution, pathLength, render.clampIndirect);
     vec3 units = light.kept * render.splatScale;
     float removed = light.removed * render.splatScale;
-    if (!(max(max(units.r, units.g), max(units.b, removed)) < kMostUnits)) {
+    if (!(max(max(units.r, units.g), max(units.b, removed)) < kMaxUnits)) {
         reportSplatOverflow();
         return;
     }

@@ -6,9 +6,9 @@
 #include "transparency.glsl"
 #include "lib/media.glsl"
 
-uint mediumAt(PlacedRecord placed)
+uint mediumAt(PlacedPrimitive placed)
 {
-    MaterialData data = fetchMaterial(materialOf(placed.record));
+    MaterialData data = fetchMaterial(getMaterial(placed.ref));
     if (data.principled == 0u) {
         return 0u;
     }
@@ -21,15 +21,15 @@ uint mediumAt(PlacedRecord placed)
 uint mediaAround(vec3 point, inout Steps steps)
 {
     PathRay ray = PathRay(point, kNoPrimitive, kOutwards, 0u);
-    Query query = anyHit();
+    Query query = unrestrictedQuery();
     uint around = 0u, places = 0u, entered = 0u, passed = 0u;
     uint last = 0u;  // the medium of the surface before: a ray through an edge meets two triangles in one place
     bool goesOn = false, forgets = false;
     do {
         PathHit hit = traceClosest(ray, query, steps);
-        goesOn = hit.record != kNoRecord && passed < kMaxPassed;
+        goesOn = hit.primitiveRef != kNoPrimitiveRef && passed < kMaxPassed;
         if (goesOn) {
-            PlacedRecord placed = fetchPlacedRecord(hit.record);
+            PlacedPrimitive placed = fetchPlacedPrimitive(hit.primitiveRef);
             uint medium = mediumAt(placed);
             medium = hit.t == query.afterT && medium == last ? 0u : medium;
             bool enters = dot(geometricNormal(placed, ray.origin + ray.direction * hit.t), kOutwards) < 0.0;
@@ -43,7 +43,7 @@ uint mediaAround(vec3 point, inout Steps steps)
             forgets = forgets || passed == kMaxPassed;
             last = medium == 0u ? last : medium;
             query.afterT = hit.t;
-            query.afterPrimitive = primitiveOf(placed.record);
+            query.afterPrimitive = getPrimitive(placed.ref);
         }
     } while (goesOn);
     if (forgets) {

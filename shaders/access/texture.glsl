@@ -37,14 +37,14 @@ uvec4 fetchTexel(uint texel)
     return uvec4(0u);
 }
 
-TextureData fetchTexture(uint texture_)
+TextureData fetchTexture(uint textureTexel)
 {
-    int at = int(texture_);
+    int at = int(textureTexel);
     uvec4 a = texelFetch(sceneMaterials, at);
     TextureData data = TextureData(a.x, a.y, a.z, a.w, vec3(1.0, 0.0, 0.0), 0u, vec3(0.0, 1.0, 0.0), 0u);
     if (hasFeature(kFeatureTextureTransforms) && (data.flags & kTransformed) != 0u) {
-        data.rowU = floatsOf(texelFetch(sceneMaterials, at + 1));
-        data.rowV = floatsOf(texelFetch(sceneMaterials, at + 2));
+        data.rowU = toFloats(texelFetch(sceneMaterials, at + 1));
+        data.rowV = toFloats(texelFetch(sceneMaterials, at + 2));
     }
     return data;
 }
@@ -65,12 +65,12 @@ vec4 decodedTexel(TextureData data, uint x, uint y)
 
 // `uv`: the texture coordinates of set 0 and set 1. White if there is no texture. The loop over texels keeps kernels small: drivers inline
 // every call.
-vec4 sampleTexture(uint texture_, vec4 uv)
+vec4 sampleTexture(uint textureTexel, vec4 uv)
 {
-    if (!hasFeature(kFeatureTextures) || texture_ == 0u) {
+    if (!hasFeature(kFeatureTextures) || textureTexel == 0u) {
         return vec4(1.0);
     }
-    TextureData data = fetchTexture(texture_);
+    TextureData data = fetchTexture(textureTexel);
     uvec2 size = uvec2(data.size & 0xffffu, data.size >> 16u), wrap = uvec2(data.flags >> kWrapS & 3u, data.flags >> kWrapT & 3u);
     vec2 at = (data.flags & kSecondUv) != 0u ? uv.zw : uv.xy;
     at = vec2(dot(data.rowU.xy, at) + data.rowU.z, dot(data.rowV.xy, at) + data.rowV.z);

@@ -13,13 +13,13 @@
 // Surfaces that a ray passes; the next one counts as opaque, and the ray is counted.
 const uint kMaxPassed = 256u;
 
-vec3 geometricNormal(PlacedRecord placed, vec3 point)
+vec3 geometricNormal(PlacedPrimitive placed, vec3 point)
 {
-    return isSphere(placed.record) ? normalizeSafely(point - floatsOf(placed.record.t0)) : placedNormal(placed);
+    return isSphere(placed.ref) ? normalizeSafely(point - toFloats(placed.ref.t0)) : placedNormal(placed);
 }
 
 // What the interface of a smooth thin wall transmits straight, per channel: 1 - F, by the geometric normal.
-vec3 straightFresnel(PlacedRecord placed, PrincipledData p, vec3 direction, vec3 point)
+vec3 straightFresnel(PlacedPrimitive placed, PrincipledData p, vec3 direction, vec3 point)
 {
     vec3 n = geometricNormal(placed, point);
     vec3 f0 = min(p.reflectance * p.specularColor, vec3(1.0)) * p.specular;
@@ -33,10 +33,10 @@ struct Crossing {
 };
 
 // seesUnlit: the ray is the camera's. direction: unit.
-Crossing crossingAt(PlacedRecord placed, PathRay ray, vec3 direction, PathHit hit, bool seesUnlit)
+Crossing computeCrossing(PlacedPrimitive placed, PathRay ray, vec3 direction, PathHit hit, bool seesUnlit)
 {
     vec3 point = ray.origin + ray.direction * hit.t;
-    MaterialData data = fetchMaterial(materialOf(placed.record));
+    MaterialData data = fetchMaterial(getMaterial(placed.ref));
     if (isUnlit(data) && !seesUnlit) {
         return Crossing(0.0, vec3(1.0));
     }
@@ -53,7 +53,7 @@ Crossing crossingAt(PlacedRecord placed, PathRay ray, vec3 direction, PathHit hi
                        straightFresnel(placed, p, direction, point);
         }
     }
-    alpha = coverageOf(data, alpha);
+    alpha = computeCoverage(data, alpha);
     Crossing crossing = Crossing(alpha, vec3(1.0 - alpha));
     if (hasFeature(kFeatureThinWalls)) {
         crossing.through += alpha * straight;
@@ -61,17 +61,18 @@ Crossing crossingAt(PlacedRecord placed, PathRay ray, vec3 direction, PathHit hi
     return crossing;
 }
 
-// Whether the ray goes on behind the surface; `weight` is then or otherwise what its throughput is multiplied by. The two sides of a sphere
-// draw for themselves.
-bool isPassed(SampleId id, uint bounce, Record record, PathRay ray, PathHit hit, Crossing crossing, out vec3 weight)
+// Whether the ray goes on behind the surface, as by IgnoreHit of an any-hit shader. `weight` multiplies its throughput in either case. The
+// two sides of a sphere draw for themselves.
+bool ignoresHit(SampleId id, uint bounce, PrimitiveRef ref, PathRay ray, PathHit hit, Crossing crossing, out vec3 weight)
 {
-    bool leaves = isSphere(record) && dot(ray.origin + ray.direction * hit.t - floatsOf(record.t0), ray.direction) > 0.0;
-    uint bits = hash4(uvec4(id.pixel, id.index, kDimensionAlpha | bounce << 1u | uint(leaves), id.seed ^ primitiveOf(record) * 0x9e3779b9u)).x;
+    bool leaves = isSphere(ref) && dot(ray.origin + ray.direction * hit.t - toFloats(ref.t0), ray.direction) > 0.0;
+    uint bits = hash4(uvec4(id.pixel, id.index, kDimensionAlpha | bounce << 1u | uint(leaves),
+                            id.seed ^ getPrimitive(ref) * 0x9e3779b9u)).x;
     if (!hasFeature(kFeatureThinWalls)) {
         weight = vec3(1.0);
         return unitFloat(bits) >= crossing.alpha;
     }
-    float probability = luminanceOf(crossing.through);
+    float probability = computeLuminance(crossing.through);
     bool passes = !(unitFloat(bits) < 1.0 - probability);
     weight = passes ? crossing.through / probability : vec3(crossing.alpha / (1.0 - probability));
     return passes;
@@ -82,8 +83,8 @@ struct VisibleHit {
     vec3 weight;  // of what the ray carries
 };
 
-// A ray on its way through surfaces with alpha.
-struct Passage {
+// A ray that goes on through surfaces with alpha.
+struct AlphaRay {
     PathRay ray;
     vec3 direction;  // unit
     Query query;
@@ -91,60 +92,60 @@ struct Passage {
     bool fromCamera;  // of shadow rays: it sees unlit surfaces
 };
 
-Passage passageOf(PathRay ray)
+AlphaRay makeAlphaRay(PathRay ray)
 {
-    return Passage(ray, ray.direction, anyHit(), false, false);
+    return AlphaRay(ray, ray.direction, unrestrictedQuery(), false, false);
 }
 
 // Only surfaces with alpha are looked for. `sides`: of single-sided ones.
-Passage passageOf(ShadowRay ray, uint sides)
+AlphaRay makeAlphaRay(ShadowRay ray, uint sides)
 {
-    return Passage(PathRay(ray.origin, ray.source, ray.direction, 0u), normalizeSafely(ray.direction),
-                   Query(ray.tMax, 0.0, kNoPrimitive, ray.target, true, sides), true, false);
+    return AlphaRay(PathRay(ray.origin, ray.source, ray.direction, 0u), normalizeSafely(ray.direction),
+                    Query(ray.tMax, 0.0, kNoPrimitive, ray.target, true, sides), true, false);
 }
 
 // The first hit that the ray does not pass, or of a shadow ray what all of them let through. Both in one function, so that trace_paths has
 // one copy of the traversal. `id`, `bounce`: unused for shadow rays.
-VisibleHit follow(SampleId id, uint bounce, Passage passage, inout Steps steps)
+VisibleHit traceThroughAlpha(SampleId id, uint bounce, AlphaRay alphaRay, inout Steps steps)
 {
     if (!hasFeature(kFeatureAlpha)) {
-        return VisibleHit(traceClosest(passage.ray, passage.query, steps), vec3(1.0));
+        return VisibleHit(traceClosest(alphaRay.ray, alphaRay.query, steps), vec3(1.0));
     }
     PathHit hit;
     vec3 weight = vec3(1.0);
     uint passed = 0u;
     bool passes = false;
     do {
-        hit = traceClosest(passage.ray, passage.query, steps);
+        hit = traceClosest(alphaRay.ray, alphaRay.query, steps);
         passes = false;
-        if (hit.record != kNoRecord) {
-            PlacedRecord placed = fetchPlacedRecord(hit.record);
-            Record record = placed.record;
-            if (hasAlpha(record)) {
-                bool fromCamera = passage.fromCamera || (!passage.isShadow && bounce == 0u);
-                Crossing crossing = crossingAt(placed, passage.ray, passage.direction, hit, fromCamera);
+        if (hit.primitiveRef != kNoPrimitiveRef) {
+            PlacedPrimitive placed = fetchPlacedPrimitive(hit.primitiveRef);
+            PrimitiveRef ref = placed.ref;
+            if (hasAlpha(ref)) {
+                bool fromCamera = alphaRay.fromCamera || (!alphaRay.isShadow && bounce == 0u);
+                Crossing crossing = computeCrossing(placed, alphaRay.ray, alphaRay.direction, hit, fromCamera);
                 vec3 factor = crossing.through;
                 passes = any(greaterThan(weight * factor, vec3(0.0)));
-                if (!passage.isShadow) {
-                    passes = isPassed(id, bounce, record, passage.ray, hit, crossing, factor);
+                if (!alphaRay.isShadow) {
+                    passes = ignoresHit(id, bounce, ref, alphaRay.ray, hit, crossing, factor);
                 }
                 weight *= factor;
             }
-            passage.query.afterT = hit.t;
-            passage.query.afterPrimitive = primitiveOf(record);
+            alphaRay.query.afterT = hit.t;
+            alphaRay.query.afterPrimitive = getPrimitive(ref);
         }
         ++passed;
     } while (passes && passed <= kMaxPassed);
     if (passes) {
         reportTransparencyCap();
-        weight = passage.isShadow ? vec3(0.0) : weight;
+        weight = alphaRay.isShadow ? vec3(0.0) : weight;
     }
     return VisibleHit(hit, weight);
 }
 
 VisibleHit traceVisible(SampleId id, uint bounce, PathRay ray, inout Steps steps)
 {
-    return follow(id, bounce, passageOf(ray), steps);
+    return traceThroughAlpha(id, bounce, makeAlphaRay(ray), steps);
 }
 
 // What the shadow ray's way lets through, per channel, in [0, 1].
@@ -154,18 +155,18 @@ vec3 transmittance(ShadowRay ray)
     bool metAlpha;
     vec3 clear = vec3(isUnoccluded(ray, kFronts, uncounted, metAlpha) ? 1.0 : 0.0);
     if (hasFeature(kFeatureAlpha) && metAlpha && clear.x > 0.0) {
-        clear = follow(SampleId(0u, 0u, 0u), 0u, passageOf(ray, kFronts), uncounted).weight;
+        clear = traceThroughAlpha(SampleId(0u, 0u, 0u), 0u, makeAlphaRay(ray, kFronts), uncounted).weight;
     }
     return clear;
 }
 
-bool isClear(vec3 transmittance_)
+bool isClear(vec3 clear)
 {
-    return hasFeature(kFeatureThinWalls) ? any(greaterThan(transmittance_, vec3(0.0))) : transmittance_.x > 0.0;
+    return hasFeature(kFeatureThinWalls) ? any(greaterThan(clear, vec3(0.0))) : clear.x > 0.0;
 }
 
 // What is left of a contribution; without alpha, the same bits.
-vec3 attenuated(vec3 contribution, vec3 clear)
+vec3 attenuate(vec3 contribution, vec3 clear)
 {
     return hasFeature(kFeatureAlpha) ? contribution * clear : contribution;
 }

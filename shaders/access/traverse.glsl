@@ -4,10 +4,10 @@
 
 #include "transparency.glsl"
 
-TriangleHit intersectTriangle(TraversalRay traversal, Record record, float tMax)
+TriangleHit intersectTriangle(TraversalRay traversal, PrimitiveRef ref, float tMax)
 {
-    return intersectWatertight(traversal.origin, traversal.shear, floatsOf(record.t0), floatsOf(record.t1), floatsOf(record.t2), tMax,
-                               isSliver(record), hasFeature(kFeatureLargeTriangles));
+    return intersectWatertight(traversal.origin, traversal.shear, toFloats(ref.t0), toFloats(ref.t1), toFloats(ref.t2), tMax,
+                               isSliver(ref), hasFeature(kFeatureLargeTriangles));
 }
 
 #endif

@@ -36,7 +36,7 @@ struct PassPixel {
 PassPixel passPixel(uint pixel)
 {
     bool every = (pass.accumulate & kEveryPixel) != 0u;
-    return PassPixel(pixel, every ? pixel : pixelOfPass(pixel), every ? pass.firstSample : firstSampleOfPass(pixel));
+    return PassPixel(pixel, every ? pixel : getPassPixel(pixel), every ? pass.firstSample : getFirstSample(pixel));
 }
 
 BlockSums addFinished(PassPixel from, uint i, BlockSums sums)
@@ -49,7 +49,7 @@ BlockSums addFinished(PassPixel from, uint i, BlockSums sums)
     }
     FirstHit first = fetchFirstHit(slot);
     if (kSuspects) {
-        keepBrightest(from.at, luminanceOf(path.radiance), from.firstSample + i);
+        keepBrightest(from.at, computeLuminance(path.radiance), from.firstSample + i);
     }
     return addSample(sums, path, first);
 }
@@ -76,7 +76,7 @@ void addPixel(PassPixel from)
             ends = endsBlock(from, i);
         }
         if (ends) {
-            filmPages[from.at] = foldMoments(filmPages[from.at], momentsOfBlock(sums));
+            filmPages[from.at] = foldMoments(filmPages[from.at], computeBlockMoments(sums));
             sums = emptyBlock();
         }
     }

@@ -6,11 +6,11 @@
 
 void comparePixel(uint pixel)
 {
-    ivec2 place = placeOf(pixel);
+    ivec2 place = getPixelPosition(pixel);
     vec3 mean = noisy[pixel].mean;
     vec3 variance = pooled[pixel];
     for (int i = 0; i < kWindowWidth; ++i) {
-        ivec2 at = place + offsetOf(i);
+        ivec2 at = place + getWindowOffset(i);
         if (isInBand(at)) {
             uint other = pixelAt(at);
             distances[pixel * uint(kWindowWidth) + uint(i)] = pixelDistance(mean, variance, noisy[other].mean, pooled[other]);

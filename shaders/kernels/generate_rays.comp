@@ -23,7 +23,7 @@ void main()
 {
     uint slot = interleavedInvocation();
     if (slot < pass.pixelCount * pass.sampleCount) {
-        SampleId id = sampleOfSlot(slot);
+        SampleId id = makeSampleId(slot);
         vec2 jitter = unitFloat(samplePair(id, kDimensionPixel, kSobol));
         vec2 corner = vec2(id.pixel % render.width, id.pixel / render.width);
         PathRay ray = rayThrough(render.camera, id, filmFromPixel(corner + jitter, vec2(render.width, render.height)));

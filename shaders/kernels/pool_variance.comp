@@ -23,6 +23,6 @@ void main()
 {
     if (gl_GlobalInvocationID.x < pass.count) {
         uint pixel = pass.first + gl_GlobalInvocationID.x;
-        pooled[pixel] = poolAround(placeOf(pixel));
+        pooled[pixel] = poolAround(getPixelPosition(pixel));
     }
 }

@@ -8,7 +8,7 @@
 #include "lib/display.glsl"
 
 // The first pixel of the picture that is not left of or above the film's pixel `film`.
-uvec2 cornerOf(uvec2 film)
+uvec2 computeCorner(uvec2 film)
 {
     uvec2 size = uvec2(pass.filmWidth, pass.filmHeight);
     return (film * uvec2(pass.width, pass.height) + size - 1u) / size;
@@ -16,15 +16,15 @@ uvec2 cornerOf(uvec2 film)
 
 void drawPixel(uint pixel)
 {
-    PixelMoments moments = momentsOfPixel(pixel);
+    PixelMoments moments = computePixelMoments(pixel);
     if (moments.count == 0u) {
         return;
     }
     vec4 color = vec4(displayColor(moments, kAov, pass), 1.0);
     uint index = pass.tileBegin + pixel;
     uvec2 film = uvec2(index % pass.filmWidth, index / pass.filmWidth);
-    uvec2 low = cornerOf(film);
-    uvec2 high = cornerOf(film + 1u);
+    uvec2 low = computeCorner(film);
+    uvec2 high = computeCorner(film + 1u);
     for (uint y = low.y; y < high.y; ++y) {
         for (uint x = low.x; x < high.x; ++x) {
             imageStore(picture, ivec2(x, y), color);

@@ -10,17 +10,17 @@
 #include "access/status.glsl"
 #include "access/traverse.glsl"
 
-vec3 stepsOf(PathRay ray)
+vec3 countSteps(PathRay ray)
 {
     Steps steps = Steps(0u, 0u);
-    traceClosest(ray, anyHit(), steps);
+    traceClosest(ray, unrestrictedQuery(), steps);
     return vec3(steps.nodes, steps.primitives, 0.0);
 }
 
-vec3 aovOf(uint slot)
+vec3 getAov(uint slot)
 {
     if (kAov == kAovBvhSteps) {
-        return stepsOf(fetchRay(slot));
+        return countSteps(fetchRay(slot));
     }
     FirstHit first = fetchFirstHit(slot);
     if (kAov == kAovDepth) {
@@ -33,7 +33,7 @@ void main()
 {
     uint slot = interleavedInvocation();
     if (slot < pass.pixelCount * pass.sampleCount) {
-        pathRadiance[slot] = PathRadiance(aovOf(slot), 0.0);
+        pathRadiance[slot] = PathRadiance(getAov(slot), 0.0);
     }
     checkLoopBudget(render.canarySteps);
 }

@@ -9,7 +9,7 @@
 #include "access/paths.glsl"
 #include "access/status.glsl"
 
-uint groupsOf(uint count, uint share)
+uint countGroups(uint count, uint share)
 {
     uint groupEntries = gl_WorkGroupSize.x * share;
     return (count + groupEntries - 1u) / groupEntries;
@@ -26,7 +26,7 @@ uint takePaths(uint slots, uint share)
 {
     uint count = pass.bounce == 0u ? slots : checkQueue(queueTails.next, slots);
     queueSizes.closest = count;
-    queueSizes.closestGroups = uvec3(groupsOf(count, share), 1u, 1u);
+    queueSizes.closestGroups = uvec3(countGroups(count, share), 1u, 1u);
     queueTails.next = 0u;
     return count;
 }
@@ -35,7 +35,7 @@ void sizeShadow(uint slots)
 {
     uint count = checkQueue(queueTails.shadow, slots);
     queueSizes.shadow = count;
-    queueSizes.shadowGroups = uvec3(groupsOf(count, 1u), 1u, 1u);
+    queueSizes.shadowGroups = uvec3(countGroups(count, 1u), 1u, 1u);
     queueTails.shadow = 0u;
     rayCounts.shadow = add64(rayCounts.shadow, count);
 }

@@ -17,7 +17,7 @@ void main()
     if (entry < queueSizes.closest) {
         uint slot = activeQueue[entry];
         Steps uncounted = Steps(0u, 0u);
-        VisibleHit visible = traceVisible(sampleOfSlot(slot), pass.bounce, fetchRay(slot), uncounted);
+        VisibleHit visible = traceVisible(makeSampleId(slot), pass.bounce, fetchRay(slot), uncounted);
         pathHits[slot] = visible.hit;
         if (hasFeature(kFeatureThinWalls)) {
             pathStates[slot].throughput = fetchState(slot).throughput * visible.weight;

@@ -1,8 +1,8 @@
-// One thread takes light paths of the pass, one after the other, and traces each to its end. A path begins at a lamp, meets a specular surface
-// first, and is then seen by the camera from every surface that is not: caustics, which paths from the camera leave out. Slot i of the pass is
-// light path firstPixel + i, counted from that of sample firstSample on. Paths beyond the kernel's limits go into the next queue as they are.
-// Reads the scene; the queue unless it is the pass's first dispatch. Updates rays, states, radiance (the paths' flux), splats, ray counts.
-// Appends to the next queue.
+// One thread takes light paths of the pass, one after the other, and traces each to its end. A path begins at a light, meets a specular
+// surface first, and is then seen by the camera from every surface that is not: caustics, which paths from the camera leave out. Slot i of
+// the pass is light path firstPixel + i, counted from that of sample firstSample on. Paths beyond the kernel's limits go into the next
+// queue as they are. Reads the scene; the queue unless it is the pass's first dispatch. Updates rays, states, radiance (the paths' flux),
+// splats, ray counts. Appends to the next queue.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_ACTIVE_QUEUE
@@ -34,10 +34,10 @@ const FeatureMask kDimmingFeatures = kFeatureThinWalls | kFeatureSingleSided;
 
 #include "access/path_loop.glsl"
 
-SampleId lightPathOfSlot(uint slot)
+SampleId makeLightPathId(uint slot)
 {
-    uint number = pass.firstPixel + slot, sample_ = number / render.lightPaths;
-    return lightPathId(render.seed, number - sample_ * render.lightPaths, pass.firstSample + sample_);
+    uint number = pass.firstPixel + slot, sampleNumber = number / render.lightPaths;
+    return lightPathId(render.seed, number - sampleNumber * render.lightPaths, pass.firstSample + sampleNumber);
 }
 
 // In the queue, beside the slot: the path has not begun.
@@ -51,12 +51,12 @@ uint fetchEntry(uint entry)
 bool takePath(uint entry, out Path path, inout Work work)
 {
     uint slot = entry & ~kUnbegun;
-    SampleId id = lightPathOfSlot(slot);
+    SampleId id = makeLightPathId(slot);
     if ((entry & kUnbegun) == 0u) {
         path = Path(slot, id, fetchRay(slot), fetchState(slot), fetchRadiance(slot), 0.0);
     } else {
         LightRay light = sampleEmission(id);
-        if (hasFeature(kFeatureLampsInMedia) && any(notEqual(light.flux, vec3(0.0)))) {
+        if (hasFeature(kFeatureLightsInMedia) && any(notEqual(light.flux, vec3(0.0)))) {
             Steps steps = Steps(0u, 0u);
             light.ray.media = mediaAround(light.ray.origin, steps);
             work.steps += steps.nodes + steps.primitives;
@@ -66,9 +66,9 @@ bool takePath(uint entry, out Path path, inout Work work)
     return any(notEqual(path.light.radiance, vec3(0.0)));
 }
 
-VisibleHit followPath(Path path, Passage passage, inout Steps steps)
+VisibleHit tracePathThroughAlpha(Path path, AlphaRay alphaRay, inout Steps steps)
 {
-    return followLight(path.id, path.state.bounce + 1u, passage, steps);  // no ray of it is the camera's
+    return traceLightThroughAlpha(path.id, path.state.bounce + 1u, alphaRay, steps);  // no ray of it is the camera's
 }
 
 void addLight(inout Path path, uint pixel, vec3 contribution, uint pathLength)
@@ -78,14 +78,14 @@ void addLight(inout Path path, uint pixel, vec3 contribution, uint pathLength)
 
 void visitMiss(inout Path path) {}
 
-bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps steps, inout Followed followed)
+bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps steps, inout TracedRay traced)
 {
     if (path.state.bounce == 0u) {
         path.light.radiance *= rangeFalloff(hit.t * hit.t, path.range);
     }
     LightVertex vertex = shadeLightVertex(path.id, path.ray, hit, path.state);
     if (vertex.hasSplat) {
-        traceConnection(path, vertex.cameraRay, path.light.radiance * vertex.cameraRay.contribution, vertex.pixel, work, steps, followed);
+        traceConnection(path, vertex.cameraRay, path.light.radiance * vertex.cameraRay.contribution, vertex.pixel, work, steps, traced);
     }
     path.ray = vertex.ray;
     path.state = vertex.state;

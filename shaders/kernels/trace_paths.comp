@@ -1,5 +1,5 @@
 // One thread takes paths of the active queue, one after the other, and traces each to its end: the other schedule, instead of
-// trace_closest, sample_lights_and_bounce and trace_shadow. Paths beyond its limits go into the next queue as they are.
+// trace_closest, shade_surface and trace_shadow. Paths beyond its limits go into the next queue as they are.
 // Reads the scene, the queue. Updates rays, states, radiance, ray counts. Writes first hits; appends to the next queue.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -37,13 +37,13 @@ uint fetchEntry(uint entry)
 
 bool takePath(uint slot, out Path path, inout Work work)
 {
-    path = Path(slot, sampleOfSlot(slot), fetchRay(slot), fetchState(slot), fetchRadiance(slot));
+    path = Path(slot, makeSampleId(slot), fetchRay(slot), fetchState(slot), fetchRadiance(slot));
     return true;
 }
 
-VisibleHit followPath(Path path, Passage passage, inout Steps steps)
+VisibleHit tracePathThroughAlpha(Path path, AlphaRay alphaRay, inout Steps steps)
 {
-    return follow(path.id, path.state.bounce, passage, steps);
+    return traceThroughAlpha(path.id, path.state.bounce, alphaRay, steps);
 }
 
 void addLight(inout Path path, uint pixel, vec3 contribution, uint pathLength)
@@ -64,7 +64,7 @@ void visitMiss(inout Path path)
 }
 
 // Adds light in the order in which the wavefront does.
-bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps steps, inout Followed followed)
+bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps steps, inout TracedRay traced)
 {
     VertexResult vertex = shadeSurface(path.id, path.ray, hit, path.state);
     if (path.state.bounce == 0u) {
@@ -74,7 +74,7 @@ bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps ste
         addLight(path, 0u, vertex.emitted, path.state.bounce);
     }
     if (vertex.hasShadowRay) {
-        traceConnection(path, vertex.shadowRay, vertex.shadowRay.contribution, 0u, work, steps, followed);
+        traceConnection(path, vertex.shadowRay, vertex.shadowRay.contribution, 0u, work, steps, traced);
     }
     path.ray = vertex.ray;
     path.state = vertex.state;

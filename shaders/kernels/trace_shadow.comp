@@ -18,7 +18,7 @@ void main()
         ShadowRay ray = fetchShadowRay(slot);
         vec3 clear = transmittance(ray);
         if (isClear(clear)) {
-            addRadiance(slot, attenuated(ray.contribution, clear), pass.bounce + 1u);
+            addRadiance(slot, attenuate(ray.contribution, clear), pass.bounce + 1u);
         }
     }
     checkLoopBudget(render.canarySteps);

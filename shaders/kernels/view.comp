@@ -12,7 +12,7 @@ vec3 colorAt(uvec2 at, uint index)
     if (at.x < pass.left || at.x >= pass.right || at.y < pass.top || at.y >= pass.bottom) {
         return kAroundFilm;
     }
-    vec3 reference = pass.shownAs == kShownAsDifference ? referenceOf[index] : vec3(0.0);
+    vec3 reference = pass.shownAs == kShownAsDifference ? getReferencePath[index] : vec3(0.0);
     return viewColor(viewed[index], reference, pass);
 }
 

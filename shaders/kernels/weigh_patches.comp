@@ -13,7 +13,7 @@ vec2 rowDistance(ivec2 center, int i)
     vec2 sum = vec2(0.0);
     for (int x = -kPatchRadius; x <= kPatchRadius; ++x) {
         ivec2 at = center + ivec2(x, 0);
-        if (isInBand(at) && isInBand(at + offsetOf(i))) {
+        if (isInBand(at) && isInBand(at + getWindowOffset(i))) {
             sum += vec2(distances[pixelAt(at) * uint(kWindowWidth) + uint(i)], 1.0);
         }
     }
@@ -22,7 +22,7 @@ vec2 rowDistance(ivec2 center, int i)
 
 void weigh(ivec2 place, int i, vec2 distance)
 {
-    ivec2 other = place + offsetOf(i);
+    ivec2 other = place + getWindowOffset(i);
     if (isInBand(place) && isInBand(other)) {
         float weight = patchWeight(distance.x / distance.y);
         uint pixel = pixelAt(place);
@@ -51,7 +51,7 @@ void weighStrip(ivec2 top)
 void main()
 {
     if (gl_GlobalInvocationID.x < pass.count) {
-        ivec2 strip = placeOf(pass.first + gl_GlobalInvocationID.x);
+        ivec2 strip = getPixelPosition(pass.first + gl_GlobalInvocationID.x);
         weighStrip(ivec2(strip.x, strip.y * kStripRows));
     }
 }

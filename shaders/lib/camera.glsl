@@ -18,18 +18,18 @@ vec2 filmFromPixel(vec2 position, vec2 size)
 // The unit vector along forward + across. `forward` is a unit vector, `across` is perpendicular to it. Computed as forward plus a
 // correction, which is small in a narrow field of view, so only the last sum rounds (0.05 pixel of 0.1 degree / 1920, against 0.1 by
 // normalize).
-vec3 aside(vec3 forward, vec3 across)
+vec3 normalizeSum(vec3 forward, vec3 across)
 {
     float square = dot(across, across);
-    float length_ = sqrt(1.0 + square);
-    return forward + (across - forward * (square / (1.0 + length_))) / length_;
+    float secant = sqrt(1.0 + square);
+    return forward + (across - forward * (square / (1.0 + secant))) / secant;
 }
 
 PathRay cameraRay(FlatCamera camera, vec2 film)
 {
     vec3 across = film.x * camera.right + film.y * camera.up;
     return camera.kind == kOrthographic ? PathRay(camera.position + across, kNoPrimitive, camera.forward, 0u)
-                                        : PathRay(camera.position, kNoPrimitive, aside(camera.forward, across), 0u);
+                                        : PathRay(camera.position, kNoPrimitive, normalizeSum(camera.forward, across), 0u);
 }
 
 // The ray through a thin lens. `disk`: the point of the aperture, in the unit disk. All rays of one film point meet where the pinhole's ray
@@ -40,8 +40,8 @@ PathRay lensRay(FlatCamera camera, vec2 film, vec2 disk)
     vec3 aperture = disk.x * camera.lensRight + disk.y * camera.lensUp;
     bool orthographic = camera.kind == kOrthographic;
     vec3 origin = camera.position + aperture + (orthographic ? across : vec3(0.0));
-    vec3 turn = (orthographic ? vec3(0.0) : across) - aperture * camera.inverseFocus;
-    return PathRay(origin, kNoPrimitive, aside(camera.forward, turn), 0u);
+    vec3 slope = (orthographic ? vec3(0.0) : across) - aperture * camera.inverseFocus;
+    return PathRay(origin, kNoPrimitive, normalizeSum(camera.forward, slope), 0u);
 }
 
 // A point as the camera sees it.

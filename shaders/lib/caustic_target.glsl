@@ -32,7 +32,7 @@ struct TargetCone {
     float importance;  // at least what the emitter may send there, up to a factor that all targets share
 };
 
-TargetCone coneOf(vec4 target, Emitter emitter)
+TargetCone makeTargetCone(vec4 target, Emitter emitter)
 {
     vec3 towards = target.xyz - emitter.p;
     float distance2 = dot(towards, towards), radius2 = target.w * target.w;
@@ -45,7 +45,7 @@ TargetCone coneOf(vec4 target, Emitter emitter)
     float cosine = dot(emitter.axis, cone.axis);
     cosine = emitter.profile == kEmitsFromBoth ? abs(cosine) : cosine;
     cosine = clamp(cosine, -1.0, 1.0);
-    float nearest = cosOfRest(cosine, sinFromCos(cosine), sqrt(1.0 - cone.sin2), sqrt(cone.sin2));
+    float nearest = cosSubtractClamped(cosine, sinFromCos(cosine), sqrt(1.0 - cone.sin2), sqrt(cone.sin2));
     float most = emitter.profile == kEmitsSpot     ? spotFalloff(max(0.0, 1.0 - nearest - kSlack), emitter.inner, emitter.outer)
                  : emitter.profile == kEmitsAround ? 1.0
                                                    : max(nearest, 0.0);

@@ -16,7 +16,7 @@ Frame makeFrame(vec3 n)
     return Frame(vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), vec3(b, s + n.y * n.y * a, -n.y), n);
 }
 
-// Turns the normal to the side of w.
+// Flips the normal to the side of w.
 vec3 faceForward(vec3 n, vec3 w)
 {
     return dot(n, w) < 0.0 ? -n : n;

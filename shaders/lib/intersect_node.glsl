@@ -15,7 +15,7 @@ const float kFarPad = 1.0000009;
 // Smaller direction components are replaced by this, so that 0 * inf, a NaN, cannot arise.
 const float kSmallestDirection = 1e-20;
 
-// Reciprocal direction for hitsOfNode; finite, with the sign of -0 kept.
+// Reciprocal direction for intersectChildren; finite, with the sign of -0 kept.
 vec3 reciprocalDirection(vec3 d)
 {
     uvec3 sign = floatBitsToUint(d) & 0x80000000u;
@@ -58,7 +58,7 @@ bool meetsChild(Slabs slabs, uint shift, Grid grid, int last)
     return max(max(n.x, n.y), max(n.z, 0)) <= min(min(f.x, f.y), min(f.z, last));
 }
 
-uint hitsOfFour(Slabs slabs, Grid grid, uint entries, uint octant, int last)
+uint intersectFourChildren(Slabs slabs, Grid grid, uint entries, uint octant, int last)
 {
     // For all four at once: which bits to set, and where. Places of inner children (kFirstNodeBit and up) are permuted so that the nearest
     // is uppermost.
@@ -74,7 +74,7 @@ uint hitsOfFour(Slabs slabs, Grid grid, uint entries, uint octant, int last)
 }
 
 // The word of hits of a node (scene_types.h) within [0, tMax]. The bits of inner children are in the order of rayOctant.
-uint hitsOfNode(uvec4 head, uvec4 content, uvec4 a, uvec4 b, uvec4 c, vec3 origin, vec3 reciprocal, uint octant, float tMax)
+uint intersectChildren(uvec4 head, uvec4 content, uvec4 a, uvec4 b, uvec4 c, vec3 origin, vec3 reciprocal, uint octant, float tMax)
 {
     Grid grid = makeGrid(head, origin, reciprocal);
     uvec2 xNear = (octant & 1u) != 0u ? a.xy : b.zw, xFar = (octant & 1u) != 0u ? b.zw : a.xy;
@@ -83,7 +83,7 @@ uint hitsOfNode(uvec4 head, uvec4 content, uvec4 a, uvec4 b, uvec4 c, vec3 origi
     int last = floatBitsToInt(tMax * kFarPad);
     Slabs first = Slabs(uvec3(xNear.x, yNear.x, zNear.x), uvec3(xFar.x, yFar.x, zFar.x));
     Slabs second = Slabs(uvec3(xNear.y, yNear.y, zNear.y), uvec3(xFar.y, yFar.y, zFar.y));
-    return hitsOfFour(first, grid, content.z, octant, last) | hitsOfFour(second, grid, content.w, octant, last);
+    return intersectFourChildren(first, grid, content.z, octant, last) | intersectFourChildren(second, grid, content.w, octant, last);
 }
 
 #endif

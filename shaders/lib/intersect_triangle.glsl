@@ -11,7 +11,7 @@ struct TriangleHit {
 
 const TriangleHit kNoTriangleHit = TriangleHit(-1.0, vec2(0.0), 1.0);
 
-vec2 barycentricOf(TriangleHit hit)
+vec2 computeBarycentric(TriangleHit hit)
 {
     return hit.weights / hit.sum;
 }
@@ -39,25 +39,25 @@ vec3 permute(vec3 v, Shear shear)
     return vec3(pick(v, shear.x), pick(v, shear.y), pick(v, shear.z));
 }
 
-Component componentOf(uint index)
+Component makeComponent(uint index)
 {
     return Component(index == 0u, index == 1u);
 }
 
 // Shorter components of a direction are too near to denormal numbers to be divided by.
-const float kLeastComponent = 1e-20;
+const float kMinComponent = 1e-20;
 
 Shear makeShear(vec3 d)
 {
     vec3 a = abs(d);
     uint z = a.z >= a.x && a.z >= a.y ? 2u : (a.x >= a.y ? 0u : 1u);
-    bool flip = pick(d, componentOf(z)) < 0.0;
+    bool flip = pick(d, makeComponent(z)) < 0.0;
     uint next = z == 2u ? 0u : z + 1u;
     uint last = z == 0u ? 2u : z - 1u;
-    Shear shear = Shear(vec3(0.0), componentOf(flip ? last : next), componentOf(flip ? next : last), componentOf(z), vec2(0.0));
+    Shear shear = Shear(vec3(0.0), makeComponent(flip ? last : next), makeComponent(flip ? next : last), makeComponent(z), vec2(0.0));
     vec3 p = permute(d, shear);
     shear.s = vec3(p.x / p.z, p.y / p.z, 1.0 / p.z);
-    shear.reciprocal = vec2(abs(p.x) > kLeastComponent ? 1.0 / p.x : 0.0, abs(p.y) > kLeastComponent ? 1.0 / p.y : 0.0);
+    shear.reciprocal = vec2(abs(p.x) > kMinComponent ? 1.0 / p.x : 0.0, abs(p.y) > kMinComponent ? 1.0 / p.y : 0.0);
     return shear;
 }
 
@@ -132,7 +132,7 @@ struct Depths {
 // axes; they move t by the vertices' extent along the chosen axis, divided by the direction there. Woop et al. take the direction's largest
 // axis; this takes the least error of the three. So a flat ground along an axis, however large, gives t as if it were small; and the
 // error's share along the normal n is at most that of the weights times sum |n_k| extent_k, because min(extent_k / |d_k|) sum |n_k d_k| is.
-Depths depthsOf(vec3 a, vec3 b, vec3 c, Shear shear)
+Depths computeDepths(vec3 a, vec3 b, vec3 c, Shear shear)
 {
     vec3 extent = max(abs(b - a), abs(c - a));
     vec3 error = extent * abs(vec3(shear.reciprocal, shear.s.z));
@@ -163,7 +163,7 @@ TriangleHit intersectWatertight(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3
     float det = e.x + e.y + e.z;
     Depths depths = Depths(vec3(a.z, b.z, c.z), shear.s.z);
     if (large) {
-        depths = depthsOf(a, b, c, shear);
+        depths = computeDepths(a, b, c, shear);
     }
     float t = depths.reciprocal * (e.x * depths.ofVertices.x + e.y * depths.ofVertices.y + e.z * depths.ofVertices.z) / det;
     bool hit = !haveBothSigns(e) && !areBeside(pa, pb, pc) && det != 0.0 && t > 0.0 && t <= tMax;

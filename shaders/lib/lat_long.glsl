@@ -22,7 +22,7 @@ float arcTangent(float t)
 }
 
 // The angle of (x, y) from the x axis, in [-pi, pi]; 0 at the origin.
-float angleOf(float y, float x)
+float computeAngle(float y, float x)
 {
     float ax = abs(x), ay = abs(y), most = max(ax, ay);
     return unfoldAngle(most > 0.0 ? arcTangent(min(ax, ay) / most) : 0.0, y, x);
@@ -31,8 +31,8 @@ float angleOf(float y, float x)
 // In [0, 1]. Accurate at the poles too, where an arc cosine is not.
 vec2 latLongFromDirection(vec3 w)
 {
-    float u = 0.5 + angleOf(w.x, -w.z) * (0.5 / kPi);
-    float v = angleOf(length(w.xz), w.y) * (1.0 / kPi);
+    float u = 0.5 + computeAngle(w.x, -w.z) * (0.5 / kPi);
+    float v = computeAngle(length(w.xz), w.y) * (1.0 / kPi);
     return vec2(clamp(u, 0.0, 1.0), clamp(v, 0.0, 1.0));
 }
 

@@ -5,13 +5,13 @@
 #include "shared/scene_types.h"
 
 // cos(max(a - b, 0)) of two angles in [0, pi], from their cosines and sines.
-float cosOfRest(float cosA, float sinA, float cosB, float sinB)
+float cosSubtractClamped(float cosA, float sinA, float cosB, float sinB)
 {
     return cosA > cosB ? 1.0 : cosA * cosB + sinA * sinB;
 }
 
 // The sine of the same.
-float sinOfRest(float cosA, float sinA, float cosB, float sinB)
+float sinSubtractClamped(float cosA, float sinA, float cosB, float sinB)
 {
     return cosA > cosB ? 0.0 : sinA * cosB - cosA * sinB;
 }
@@ -35,9 +35,9 @@ float lightImportance(LightNode node, vec3 p, vec3 n)
     float cosAxis = -dot(node.axis, towards) * inverseDistance;
     cosAxis = clamp((node.children & kTwoSidedNode) != 0u ? abs(cosAxis) : cosAxis, -1.0, 1.0);
     float sinAxis = sinFromCos(cosAxis), sinNormals = sinFromCos(node.cosNormals);
-    float cosNearest = cosOfRest(cosAxis, sinAxis, node.cosNormals, sinNormals);
-    float sinNearest = sinOfRest(cosAxis, sinAxis, node.cosNormals, sinNormals);
-    float cosEmitted = cosOfRest(cosNearest, sinNearest, cosSphere, sinSphere);
+    float cosNearest = cosSubtractClamped(cosAxis, sinAxis, node.cosNormals, sinNormals);
+    float sinNearest = sinSubtractClamped(cosAxis, sinAxis, node.cosNormals, sinNormals);
+    float cosEmitted = cosSubtractClamped(cosNearest, sinNearest, cosSphere, sinSphere);
     float cosReceived = n == vec3(0.0) ? 1.0 : clamp(dot(n, towards) * inverseDistance * cosSphere + sinSphere, 0.0, 1.0);
     float seen = cosEmitted > node.cosEmission ? max(cosEmitted, 0.0) * cosReceived : 0.0;
     return node.power * inverse * (distance2 > radius2 ? seen : 1.0);

@@ -11,7 +11,7 @@ BlockSums emptyBlock()
     return BlockSums(0u, vec3(0.0), 0.0, vec3(0.0), vec3(0.0), kInfinity, 0.0);
 }
 
-PixelMoments momentsOfBlock(BlockSums sums)
+PixelMoments computeBlockMoments(BlockSums sums)
 {
     float share = sums.count > 0u ? 1.0 / float(sums.count) : 0.0;
     return PixelMoments(sums.count, min(sums.count, 1u), sums.radiance * share, vec3(0.0), sums.alpha * share,

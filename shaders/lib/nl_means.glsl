@@ -9,7 +9,7 @@
 const float kSimilarity = 0.5;
 
 // Keeps what is constant but for rounding alike: the square of 1e-5 of the picture's mean.
-const float kLeastVariance = 1e-10;
+const float kMinVariance = 1e-10;
 
 // The squared difference of two means in units of their noise, less what noise alone gives, but of B's noise no more than A's. Where the
 // radiance is the same, it is 0 on average if B has no more noise than A, and above 0 if it has more. The mean of the three channels.
@@ -17,7 +17,7 @@ float pixelDistance(vec3 meanA, vec3 varianceA, vec3 meanB, vec3 varianceB)
 {
     vec3 difference = meanA - meanB;
     vec3 excess = difference * difference - (varianceA + min(varianceA, varianceB));
-    vec3 distance = excess / (kLeastVariance + (kSimilarity * kSimilarity) * (varianceA + varianceB));
+    vec3 distance = excess / (kMinVariance + (kSimilarity * kSimilarity) * (varianceA + varianceB));
     return (distance.x + distance.y + distance.z) * (1.0 / 3.0);
 }
 

@@ -19,9 +19,9 @@ uint encodeNormal(vec3 n)
 }
 
 // A unit vector to float's rounding, within 6.5e-5 radians of the vector that was encoded.
-vec3 decodeNormal(uint packed_)
+vec3 decodeNormal(uint bits)
 {
-    ivec2 steps = ivec2(int(packed_ << 16u) >> 16, int(packed_) >> 16);
+    ivec2 steps = ivec2(int(bits << 16u) >> 16, int(bits) >> 16);
     vec2 p = vec2(steps) / kNormalSteps;
     float z = 1.0 - abs(p.x) - abs(p.y);
     vec3 n = vec3(z >= 0.0 ? p : octahedralWrap(p, 1.0), z);

@@ -10,9 +10,9 @@ vec3 trianglePoint(vec3 v0, vec3 e1, vec3 e2, vec2 barycentric)
 
 // Bounds the rounding of trianglePoint, and along the normal that of a later test of a coplanar triangle of this size: NVIDIA, "Solving
 // Self-Intersection Artifacts in DirectX Raytracing", 2023 (optix-toolkit, SelfIntersectionAvoidance): 2^-24 |v0| + 3 * 2^-24 of the
-// largest extent, as that test mixes the axes. The test of `large` triangles does not (depthsOf): each axis counts by its own extent, as
-// for the point. That has u = 2^-24 of |v0 + s| for the last sum and, for s = e1 b1 + e2 b2, one each for the edges, the products and the
-// sum: together u (|v0| + 4 max(|e1|, |e2|)), and 6 u of it are allowed for.
+// largest extent, as that test mixes the axes. The test of `large` triangles does not (computeDepths): each axis counts by its own extent,
+// as for the point. That has u = 2^-24 of |v0 + s| for the last sum and, for s = e1 b1 + e2 b2, one each for the edges, the products and
+// the sum: together u (|v0| + 4 max(|e1|, |e2|)), and 6 u of it are allowed for.
 vec3 triangleErrorBound(vec3 v0, vec3 e1, vec3 e2, bool large)
 {
     vec3 extent = abs(e1) + abs(e2) + abs(e1 - e2);

@@ -22,7 +22,7 @@ struct SphericalRectangle {
 // Half the solid angle is the phase of the trace of the product of (1 + sigma.corner) / 2 over unit corners, sigma: Pauli's matrices. With
 // three corners that is the formula of Van Oosterom and Strackee, "The Solid Angle of a Plane Triangle", 1983. Off by 7e-7 of its size, plus
 // 6e-8 of size / distance to the rim (5e-5 over a rim .001 away). The height's own rounding comes on top, 1e-7 of distance / height.
-float solidAngleOfRectangle(vec2 low, vec2 size, float height)
+float computeRectangleSolidAngle(vec2 low, vec2 size, float height)
 {
     vec2 high = low + size;
     vec2 low2 = low * low;
@@ -48,7 +48,7 @@ SphericalRectangle makeSphericalRectangle(vec3 p, vec3 corner, vec3 x, vec3 y, f
     vec2 low = vec2(dot(from, x), dot(from, y));
     vec2 size = vec2(lengthX, lengthY);
     float height = abs(dot(from, cross(x, y)));
-    return SphericalRectangle(low, size, height, solidAngleOfRectangle(low, size, height));
+    return SphericalRectangle(low, size, height, computeRectangleSolidAngle(low, size, height));
 }
 
 // Whether to measure a share u of [low, high] from its low end: from the end farther from 0, or from the nearer in u if 0 is within. What
@@ -74,8 +74,8 @@ vec2 sampleSphericalRectangle(SphericalRectangle rectangle, vec2 u)
     float inner = low.y * high.y + height2;
     float numerator = rectangle.height * rectangle.size.y;
     float denominator = (x + sqrt(x * x + low2)) * (x + sqrt(x * x + high2)) + inner;
-    vec2 turn = portableCosSin(0.5 * rectangle.solidAngle * (fromLow ? u.x : 1.0 - u.x));
-    float product = numerator * (denominator * turn.x - numerator * turn.y) / (numerator * turn.x + denominator * turn.y) - inner;
+    vec2 cosSin = portableCosSin(0.5 * rectangle.solidAngle * (fromLow ? u.x : 1.0 - u.x));
+    float product = numerator * (denominator * cosSin.x - numerator * cosSin.y) / (numerator * cosSin.x + denominator * cosSin.y) - inner;
     // product = sqrt(low2 high2) e^(a+b), where x = sqrt(low2) sinh(a) = sqrt(high2) sinh(b).
     float opposite = low2 * high2 / product;
     x = 0.5 * (product - opposite) / sqrt(low2 + high2 + product + opposite);

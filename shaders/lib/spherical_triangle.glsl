@@ -57,10 +57,10 @@ vec2 sampleSphericalTriangle(SphericalTriangle triangle, vec2 u)
     // cot(R/2) numerator = side (|a + share e2| + |a|) / share + lengthA dot(b, e2) + lengthB dot(a, e2), side = lengthA lengthB + dot(a, b).
     // Cosine and sine of R/2 are not normalised. They come from the nearer end: none cancels, and the angle is at most pi/2.
     bool fromWhole = u.x >= 0.5;
-    vec2 turn = portableCosSin(0.5 * triangle.solidAngle * (fromWhole ? 1.0 - u.x : u.x));
+    vec2 cosSin = portableCosSin(0.5 * triangle.solidAngle * (fromWhole ? 1.0 - u.x : u.x));
     vec2 whole = vec2(triangle.denominator, triangle.numerator);
-    turn = fromWhole ? vec2(dot(whole, turn), whole.y * turn.x - whole.x * turn.y) : turn;
-    float cotangent = triangle.numerator * turn.x;
+    cosSin = fromWhole ? vec2(dot(whole, cosSin), whole.y * cosSin.x - whole.x * cosSin.y) : cosSin;
+    float cotangent = triangle.numerator * cosSin.x;
     // Squared, by the law of cosines: share = ratio ((lengthA + along) / (1 - ratio length) + (lengthA - along) / (1 + ratio length)), where
     // ratio = share / (|a + share e2| + |a|), and along is a's part along e2. What cancels over an edge is replaced by a cross product.
     float product = dot(a, b);
@@ -71,9 +71,9 @@ vec2 sampleSphericalTriangle(SphericalTriangle triangle, vec2 u)
     float small = square(cross(a, triangle.e2)) / (lengthE2 * lengthE2 * large);
     float before = along < 0.0 ? small : large;  // lengthA + along
     float behind = along < 0.0 ? large : small;
-    float minus = cotangent - turn.y * (lengthB * lengthE2 * before + dot(b, lengthA * triangle.e2 + lengthE2 * a));
-    float plus = cotangent + turn.y * (lengthB * lengthE2 * behind - dot(b, lengthA * triangle.e2 - lengthE2 * a));
-    float share = side * turn.y * (before / minus + behind / plus);
+    float minus = cotangent - cosSin.y * (lengthB * lengthE2 * before + dot(b, lengthA * triangle.e2 + lengthE2 * a));
+    float plus = cotangent + cosSin.y * (lengthB * lengthE2 * behind - dot(b, lengthA * triangle.e2 - lengthE2 * a));
+    float share = side * cosSin.y * (before / minus + behind / plus);
     share = minus > 0.0 && plus > 0.0 ? clampShare(share) : 1.0;
 
     // The arc from b to c, uniform in 1 - cos(angle from b).

@@ -10,7 +10,7 @@ GLIM_CONST uint kTexelsOf = 64u;
 
 // scene.glsl
 GLIM_CONST uint kBindNodes = 0u;
-GLIM_CONST uint kBindRecords = 1u;
+GLIM_CONST uint kBindPrimitiveRefs = 1u;
 GLIM_CONST uint kBindTriangles = 2u;
 GLIM_CONST uint kBindMaterials = 3u;
 GLIM_CONST uint kBindLights = 4u;

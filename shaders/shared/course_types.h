@@ -19,14 +19,14 @@ GLIM_CONST uint kRouletteNone = 2u;
 GLIM_CONST uint kAnyLight = 0xfffffffeu;
 
 // Direct light is estimated in rounds of one ray per path: sample `lightSample` of `lightSamples` of one light or of the hemisphere. Brute
-// force runs in several dispatches, each over records [firstRecord, endRecord).
+// force runs in several dispatches, each over references [firstRef, endRef).
 struct CourseRound {
     uint light;  // an index, kAnyLight or kNoLightIndex
     uint lightSample;
     uint lightSamples;
     uint addsEmission;  // 1: the round adds the emission that the ray itself has hit (the first round)
-    uint firstRecord;
-    uint endRecord;
+    uint firstRef;
+    uint endRef;
 };
 
 // Push constants of the course's kernels.
@@ -37,7 +37,7 @@ struct CoursePass {
 
 // What stays the same during a render.
 struct CourseParameters {
-    uint recordCount;
+    uint refCount;
     float continuation;    // of kRouletteFixed: the probability to continue
     float tolerance;       // of course_choose_pixels: half the 95 % interval over the mean
     uint constantSamples;  // a pixel whose samples are all equal needs this many

@@ -41,7 +41,7 @@ GLIM_SHARED_BEGIN
     FEATURE(LightTree, 29, "several lights") /* one at least finite: which is chosen depends on the point */ \
     FEATURE(Caustics, 30, "caustics") /* traced from lights to specular surfaces */ \
     FEATURE(Instances, 31, "instances") /* that share meshes */ \
-    FEATURE(LampsInMedia, 32, "lamps in volumes") /* with Media */ \
+    FEATURE(LightsInMedia, 32, "lights in volumes") /* with Media */ \
     FEATURE(SingleSided, 33, "single-sided surfaces") /* not there for rays from behind */ \
     FEATURE(LargeTriangles, 34, "large triangles") /* beside small or close things */
 // clang-format on

@@ -14,8 +14,8 @@ GLIM_CONST uint kBlockSamples = 128u;
 GLIM_CONST uint kFirstBlockSamples = 32u;
 GLIM_CONST uint kPageSamples = 256u;
 
-// Records that brute force tries per dispatch: Mesa before 24 stops loops after 65,535 iterations.
-GLIM_CONST uint kScanRecords = 8192u;
+// Primitive references that brute force tries per dispatch: Mesa before 24 stops loops after 65,535 iterations.
+GLIM_CONST uint kScanPrimitiveRefs = 8192u;
 
 // A thread of trace_paths takes at most kPathsPerThread paths, one after the other. Once it has visited nodes and tested primitives
 // kStepsPerThread times, it begins no further ray. What is left goes into the next dispatch. Eight lanes of Mesa before 24 have 65,535

@@ -5,7 +5,7 @@
 GLIM_SHARED_BEGIN
 
 // Of linear Rec.709.
-GLIM_FUNCTION Real luminanceOf(RealVec3 radiance) { return dot(radiance, RealVec3(0.2126, 0.7152, 0.0722)); }
+GLIM_FUNCTION Real computeLuminance(RealVec3 radiance) { return dot(radiance, RealVec3(0.2126, 0.7152, 0.0722)); }
 
 GLIM_SHARED_END
 #endif

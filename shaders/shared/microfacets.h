@@ -13,7 +13,7 @@ struct SheenFit {
     Real a, b, c, d, e;
 };
 
-GLIM_FUNCTION SheenFit sheenFitOf(Real alpha)
+GLIM_FUNCTION SheenFit fitSheen(Real alpha)
 {
     Real t = (1.0 - alpha) * (1.0 - alpha);
     SheenFit fit;

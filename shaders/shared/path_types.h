@@ -15,7 +15,7 @@ struct PathRay {
 };
 
 struct PathHit {
-    uint record;  // kNoRecord: a miss
+    uint primitiveRef;  // kNoPrimitiveRef: a miss
     float t;
     vec2 barycentric;  // weights of v1 and v2; a sphere's are unused
 };
@@ -26,11 +26,11 @@ struct PathState {
     float cosine;    // of the ray's direction against the shading normal it left, >= 0
     float etaScale;  // product of squared relative indices: throughput * etaScale is without refraction's scaling of radiance
     uint bounce;     // surfaces met
-    uint normal;     // shading normal where the ray started, octahedral (lib/octahedral.glsl), or kNoHorizon
+    uint normal;     // shading normal where the ray started, octahedral (lib/octahedral.glsl), or kNoReceiverNormal
 };
 
 // PathState::normal of a surface that transmits: lights on both sides count.
-GLIM_CONST uint kNoHorizon = 0x80008000u;
+GLIM_CONST uint kNoReceiverNormal = 0x80008000u;
 
 struct PathRadiance {
     vec3 radiance;
@@ -49,7 +49,7 @@ struct ShadowRay {
     vec3 origin;
     uint source;
     vec3 direction;  // unnormalised; the unit direction for directional lights and the environment (see `tMax`)
-    uint target;     // primitive of the light, which does not shadow itself, or kNoPrimitive; of hemisphere rays the record met so far
+    uint target;     // primitive of the light, which does not shadow itself, or kNoPrimitive; of hemisphere rays the reference met so far
     vec3 contribution;
     float tMax;  // 1, or infinity
 };
@@ -186,13 +186,13 @@ struct RenderParameters {
     uint canarySteps;          // 3, unknown to the compiler
     uint triangleCount;        // primitives from here on are spheres
     uint instanceCount;
-    uint firstInstanceRecord;                // records from here on are those of instances (scene_types.h)
+    uint firstInstanceRef;                   // references from here on are those of instances (scene_types.h)
     uint firstUv, firstTangent, firstColor;  // sections of the vertices (scene_types.h)
     uint firstMedium;                        // texel of the first MediumData
     uint hidesEnvironment;                   // 1: from the camera
     uvec2 environmentSize;                   // texels of the map
     uvec2 environmentCells;                  // of its sampler
-    vec2 environmentTurn;                    // cosine and sine of its rotation
+    vec2 environmentRotation;                // cosine and sine of its rotation
     uint causticTargets, causticLights;      // how many there are (scene_types.h)
     uint lightPaths;                         // per sample of the picture
     float splatScale;                        // units of a splat per W/(sr m^2), a power of two

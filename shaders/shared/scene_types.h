@@ -6,35 +6,36 @@
 GLIM_SHARED_BEGIN
 
 // A BVH node is five texels (uvec4, floats by their bits). It holds the boxes of its eight children, quantized to a grid of its own:
-//   (origin.xyz, exponents | inner << 24) (first node, first record, entries 0-3, entries 4-7)
+//   (origin.xyz, exponents | inner << 24) (first node, first reference, entries 0-3, entries 4-7)
 //   (lo.x 0-3, lo.x 4-7, lo.y 0-3, lo.y 4-7) (lo.z 0-3, lo.z 4-7, hi.x 0-3, hi.x 4-7) (hi.y 0-3, hi.y 4-7, hi.z 0-3, hi.z 4-7)
 // Planes are one byte per child, in steps of 2^(exponent - 127) from the origin; exponents are one byte per axis. Bit i of `inner` is set
-// if child i is a node. Child nodes follow one another from the first node on, in the order of the children; so do the records of leaves
-// from the first record on. An entry is one byte per child. Its lower five bits are a place in the word of hits, its upper three the bits
-// to set there: bit kFirstNodeBit + i of an inner child, or a bit for each of a leaf's records, counted from the first. 0: no child.
+// if child i is a node. Child nodes follow one another from the first node on, in the order of the children; so do the references of leaves
+// from the first reference on. An entry is one byte per child. Its lower five bits are a place in the word of hits, its upper three the
+// bits to set there: bit kFirstNodeBit + i of an inner child, or a bit for each of a leaf's references, counted from the first. 0: no
+// child.
 //
 // With kFeatureInstances, a node without entries is an instance of a shared mesh, which has a tree of its own:
-//   (row 0 of meshFromWorld) (root of the mesh's tree, 0, 0, 0) (row 1) (row 2) (firstRecord, firstPrimitive of its InstanceData, 0, 0)
+//   (row 0 of meshFromWorld) (root of the mesh's tree, 0, 0, 0) (row 1) (row 2) (firstRef, firstPrimitive of its InstanceData, 0, 0)
 GLIM_CONST uint kNodeTexels = 5u;
-GLIM_CONST uint kMaxLeafRecords = 3u;
-GLIM_CONST uint kFirstNodeBit = 24u;  // 8 leaves have as many records at most
+GLIM_CONST uint kMaxLeafRefs = 3u;
+GLIM_CONST uint kFirstNodeBit = 24u;  // 8 leaves have as many references at most
 
-// Records are in the order of the leaves, three texels each. A primitive may have several, all alike:
+// Primitive references are in the order of the leaves, three texels each. A primitive may have several, all alike:
 //   triangle: (v0.xyz, primitive id) (v1.xyz, material | bits) (v2.xyz, light + 1 or 0)
 //   sphere:   (centre.xyz, primitive id) (radius, 0, 0, material | bits) (0, 0, 0, light + 1 or 0)
 // The primitive id is the index in the scene (triangles, then spheres). A ray's source and target are primitive ids, and the lower id wins
 // a tie, so pictures do not depend on the tree.
 //
-// What shading reads of the vertices is in two buffers of their own, so that further records of a primitive do not duplicate it. A triangle
-// is one texel, by its primitive id: (vertex, vertex, vertex, 0). Vertex i is one texel in each section that the scene has: at i its normal
-// (xyz, 0), at firstUv + i its texture coordinates (set 0, set 1), at firstTangent + i its tangent (xyz, sign of the bitangent), at
-// firstColor + i its colour (RenderParameters). Flat triangles have the normal 0. Vertex 0 is that of triangles without any attribute.
+// What shading reads of the vertices is in two buffers of their own, so that further references of a primitive do not duplicate it. A
+// triangle is one texel, by its primitive id: (vertex, vertex, vertex, 0). Vertex i is one texel in each section that the scene has: at i
+// its normal (xyz, 0), at firstUv + i its texture coordinates (set 0, set 1), at firstTangent + i its tangent (xyz, sign of the bitangent),
+// at firstColor + i its colour (RenderParameters). Flat triangles have the normal 0. Vertex 0 is that of triangles without any attribute.
 // Scenes that need none of it have neither buffer.
 //
 // Shared meshes come last, in a space of their own. Their triangles have the primitive ids after the scene's spheres. A hit of an instance
-// has a record and a primitive id of its own: those of the mesh plus firstRecord and firstPrimitive, modulo 2^32. The records of instances
-// begin at RenderParameters::firstInstanceRecord, in the order of the instances; no buffer has them.
-GLIM_CONST uint kRecordTexels = 3u;
+// has a reference and a primitive id of its own: those of the mesh plus firstRef and firstPrimitive, modulo 2^32. The references of
+// instances begin at RenderParameters::firstInstanceRef, in the order of the instances; no buffer has them.
+GLIM_CONST uint kPrimitiveRefTexels = 3u;
 GLIM_CONST uint kSphereBit = 0x80000000u;
 GLIM_CONST uint kSliverBit = 0x40000000u;       // thinner than kSliverHeight
 GLIM_CONST uint kAlphaBit = 0x20000000u;        // neither opaque all over nor transparent all over
@@ -43,10 +44,10 @@ GLIM_CONST uint kMaterialMask = 0x0fffffffu;
 // Below this ratio of height to longest side, a triangle's edge functions are corrected by the rounding errors of their products.
 // Uncorrected, each is off by up to 2^-23 of that side's square, so that above this ratio a hit moves by less than 2^-11 of the side.
 GLIM_CONST float kSliverHeight = 9.765625e-4f;
-GLIM_CONST uint kNoRecord = 0xffffffffu;
+GLIM_CONST uint kNoPrimitiveRef = 0xffffffffu;
 GLIM_CONST uint kNoPrimitive = 0xffffffffu;
 
-// How a material scatters (access/bsdf.glsl). The first three are materials of one lobe (lib/bsdf).
+// Types of materials (access/bsdf.glsl). The first three have one lobe (lib/bsdf).
 GLIM_CONST uint kLambert = 0u;
 GLIM_CONST uint kMirror = 1u;
 GLIM_CONST uint kDielectric = 2u;
@@ -72,10 +73,10 @@ GLIM_CONST uint kLightNodeTexels = 3u;
 
 // An instance of a shared mesh. In these terms a point of the mesh's space is linear * p + translation in the scene's.
 struct InstanceData {
-    vec3 column0;      // of the linear part
-    uint beginRecord;  // the first of its records
+    vec3 column0;   // of the linear part
+    uint beginRef;  // the first of its references
     vec3 column1;
-    uint firstRecord;  // its records minus those of the mesh
+    uint firstRef;  // its references minus those of the mesh
     vec3 column2;
     uint firstPrimitive;  // its primitive ids minus those of the mesh
     vec3 translation;
@@ -93,7 +94,7 @@ GLIM_CONST uint kThinWall = 2u;     // light passes it straight (access/transpar
 
 struct MaterialData {
     vec3 baseColor;
-    uint lobe;          // kLambert ...
+    uint type;          // kLambert ...
     vec3 emission;      // radiance, W/(sr m^2)
     float ior;          // of a solid that transmits
     uint flags;         // kDoubleSided | kThinWall
@@ -212,7 +213,7 @@ GLIM_CONST uint kUnevenLight = 0x200u;  // its emission changes over the surface
 // the light tree's leaves; infinite ones, the directional lights and the environment, last.
 struct FlatLight {
     uint kind;            // kTriangleLight ..., | kDoubleSidedLight | kUnevenLight
-    uint record;          // triangle, sphere: one of its records
+    uint primitiveRef;    // triangle, sphere: one of its references
     uint primitive;       // triangle, sphere; rectangle: of the half at `position`
     uint otherPrimitive;  // rectangle: of the other half
     vec3 intensity;       // surfaces, constant environment: radiance; point, spot: W/sr; directional: W/m^2
@@ -238,7 +239,7 @@ struct LightNode {
     uint firstLight;    // below it; of a leaf: its light
 };
 GLIM_CONST uint kLightChildBits = 27u;
-GLIM_CONST uint kMostLightChildren = 8u;
+GLIM_CONST uint kMaxLightChildren = 8u;
 GLIM_CONST uint kTwoSidedNode = 0x80000000u;  // each of its lights emits from both sides
 GLIM_CONST float kUniformShare = 0.1f;        // of the choices between finite lights that ignore importance
 

@@ -12,8 +12,8 @@ GLIM_SHARED_BEGIN
 // clang-format off
 // SLOT(number, name, what its texels hold, the feature without which it does nothing, where glTF's material has it, what it multiplies).
 //
-// Texels hold a Color (RGB in sRGB), a Number or a Direction in the tangent frame. TIMES(record, factor, channels): these channels multiply
-// that factor, of the record in SurfaceMaterial (access/material.glsl) and of Material (host/scene/scene.hpp). What a slot does beyond that
+// Texels hold a Color (RGB in sRGB), a Number or a Direction in the tangent frame. TIMES(part, factor, channels): these channels multiply
+// that factor, of the part of SurfaceMaterial (access/material.glsl) and of Material (host/scene/scene.hpp). What a slot does beyond that
 // is in applyTexel there, and in foldTexel (host/flatten/flatten_materials.cpp) for images of one colour.
 #define GLIM_TEXTURE_SLOTS(SLOT) \
     SLOT(0, BaseColor, Color, kFeatureTextures, "pbrMetallicRoughness.baseColorTexture", TIMES(data, baseColor, rgb)) \

@@ -10,7 +10,7 @@ GLIM_CONST uint kToneNeutral = 1u;
 GLIM_CONST uint kToneAgx = 2u;
 
 // Infinity counts as this much, which every tone shows as white.
-GLIM_CONST float kMostToned = 1e30F;
+GLIM_CONST float kMaxToned = 1e30F;
 
 // Khronos PBR Neutral, with the names of its specification (KhronosGroup/ToneMapping, PBR_Neutral/README.md, 2024).
 GLIM_FUNCTION vec3 toneNeutral(vec3 c)
@@ -51,7 +51,7 @@ GLIM_FUNCTION vec3 mapTone(vec3 c, uint tone)
     if (tone == kToneNone) {
         return c;
     }
-    vec3 bounded = clamp(c, 0.0F, kMostToned);
+    vec3 bounded = clamp(c, 0.0F, kMaxToned);
     if (tone == kToneNeutral) {
         return clamp(toneNeutral(bounded), 0.0F, 1.0F);
     }

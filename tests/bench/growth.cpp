@@ -23,7 +23,7 @@ double nanosecondsOf(TraceTimer& timer, const std::vector<Ray>& rays)
     for (int round = 0; round < kRounds; ++round) {
         seconds.push_back(timer.trace(rays).seconds);
     }
-    return 1e9 * spreadOf(seconds).median / static_cast<double>(rays.size());
+    return 1e9 * computeSpread(seconds).median / static_cast<double>(rays.size());
 }
 
 void measureHills(Device& device, int cells)
@@ -41,7 +41,7 @@ void measureHills(Device& device, int cells)
     const RaySets& rays = timer.rays();
     const double primary = nanosecondsOf(timer, rays.primary), diffuse = nanosecondsOf(timer, rays.diffuse);
     std::printf("| %.0f | %.3f | %.2f | %u | %.0f | %.0f | %.0f | %.0f |\n", triangles, seconds, triangles / seconds / 1e6, bvh.depth,
-                16.0 * static_cast<double>(flat.nodes.size() + flat.records.size()) / triangles, primary, diffuse,
+                16.0 * static_cast<double>(flat.nodes.size() + flat.primitiveRefs.size()) / triangles, primary, diffuse,
                 nanosecondsOf(timer, rays.shadow));
     std::fflush(stdout);
 }

@@ -54,8 +54,8 @@ void compareRates(const Place& place, const char* name, std::size_t rays, const 
         ratios.push_back(0.5 * (before + after) / seconds);
         rates.push_back(static_cast<double>(rays) / seconds / 1e6);
     }
-    const Spread ratio = spreadOf(ratios);
-    std::printf("| %s | %.2f | %.2f [%.2f, %.2f] | %s | %s |\n", name, spreadOf(rates).median, ratio.median, ratio.low, ratio.high,
+    const Spread ratio = computeSpread(ratios);
+    std::printf("| %s | %.2f | %.2f [%.2f, %.2f] | %s | %s |\n", name, computeSpread(rates).median, ratio.median, ratio.low, ratio.high,
                 differing.c_str(), changeText(place, name, ratio).c_str());
     std::fflush(stdout);
 }
@@ -70,7 +70,8 @@ std::string countDifferent(const FlatScene& flat, const std::vector<PathHit>& ou
 {
     std::size_t different = 0;
     for (std::size_t i = 0; i < ours.size(); ++i) {
-        const std::uint32_t id = ours[i].record == kNoRecord ? kNoPrimitive : flat.records[ours[i].record * kRecordTexels].w;
+        const std::uint32_t id =
+            ours[i].primitiveRef == kNoPrimitiveRef ? kNoPrimitive : flat.primitiveRefs[ours[i].primitiveRef * kPrimitiveRefTexels].w;
         different += id == theirs[i].triangle || std::abs(ours[i].t - theirs[i].t) <= 1e-4F * theirs[i].t ? 0 : 1;
     }
     return std::to_string(different) + " of " + std::to_string(ours.size());
@@ -92,7 +93,7 @@ void measure(Device& device, Place place, BenchScene bench)
     const double triangles = static_cast<double>(primitives.triangles.size());
     std::printf("\n### %s\n\n%.0f triangles, tree in %.2f s (%.2f M/s), depth %u, cost %.2f, %.0f bytes a triangle\n\n", bench.name.c_str(),
                 triangles, buildSeconds, triangles / buildSeconds / 1e6, bvh.depth, bvh.cost,
-                16.0 * static_cast<double>(flat.nodes.size() + flat.records.size()) / triangles);
+                16.0 * static_cast<double>(flat.nodes.size() + flat.primitiveRefs.size()) / triangles);
     std::printf("| rays | Mrays/s | over Embree's | other hits | recorded |\n|---|---|---|---|---|\n");
     const RaySets& rays = timer.rays();
     for (const auto& [name, set] : {std::pair{"primary", &rays.primary}, {"diffuse", &rays.diffuse}}) {

@@ -44,7 +44,7 @@ std::optional<std::string> findSentenceDefect(const std::string& sentence, const
 
 }  // namespace
 
-double mostSeconds() { return kSanitized ? 4.0 : 1.0; }
+double maxSeconds() { return kSanitized ? 4.0 : 1.0; }
 
 std::optional<std::string> findDefect(const std::string& start, const std::function<void()>& step)
 {
@@ -59,9 +59,9 @@ std::optional<std::string> findDefect(const std::string& start, const std::funct
         return std::string("throws what is no InputError: ") + error.what();
     }
     const double seconds = cpuSeconds() - begin;
-    return seconds <= mostSeconds()
+    return seconds <= maxSeconds()
                ? std::nullopt
-               : std::optional("takes " + std::to_string(seconds) + " s of CPU time; expected " + std::to_string(mostSeconds()));
+               : std::optional("takes " + std::to_string(seconds) + " s of CPU time; expected " + std::to_string(maxSeconds()));
 }
 
 }  // namespace glim::fuzz

@@ -8,7 +8,7 @@
 namespace glim::fuzz {
 
 // A second of CPU time of all threads, which leaves out what else the machine does; four with sanitizers, which are that much slower.
-double mostSeconds();
+double maxSeconds();
 
 // Runs `step` and says how it breaks the promise, if it does. It may throw InputError that begins with `start`. Memory is limited from
 // outside (tools/fuzz).

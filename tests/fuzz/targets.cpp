@@ -109,14 +109,14 @@ Defect load(Bytes bytes)
 
 Defect build(Bytes bytes)
 {
-    constexpr std::uint64_t kMostTriangles = 100'000;
+    constexpr std::uint64_t kMaxTriangles = 100'000;
     Defect defect;
     const Defect broken = runOnScene(bytes, [&](const Scene& scene) {
-        if (countTriangles(scene) > kMostTriangles) {
+        if (countTriangles(scene) > kMaxTriangles) {
             return;
         }
-        const std::uint64_t mostFlat = bytes.size() % 2 == 0 ? kMostFlatTriangles : 4;  // beyond it instances share meshes
-        const Primitives primitives = makePrimitives(scene, mostFlat);
+        const std::uint64_t maxFlat = bytes.size() % 2 == 0 ? kMaxFlatTriangles : 4;  // beyond it instances share meshes
+        const Primitives primitives = makePrimitives(scene, maxFlat);
         if (const std::vector<Box> boxes = primitiveBoxes(primitives); !boxes.empty()) {
             defect = findBvhDefect(buildBvh(boxes), boxes);
         }
@@ -159,10 +159,10 @@ Defect findRoundTripDefect(const StoredFilm& stored)
         writeFilm(copy, stored.film);
     }
     const StoredFilm back = readStoredFilm(copy);
-    if (digestOf(back.film) != digestOf(stored.film)) {
+    if (computeDigest(back.film) != computeDigest(stored.film)) {
         return "a film that is written again is not the same";
     }
-    if (stored.checkpoint && (!back.checkpoint || digestOf(*back.checkpoint) != digestOf(*stored.checkpoint))) {
+    if (stored.checkpoint && (!back.checkpoint || computeDigest(*back.checkpoint) != computeDigest(*stored.checkpoint))) {
         return "a checkpoint that is written again is not the same";
     }
     return std::nullopt;
@@ -176,9 +176,9 @@ Defect film(Bytes bytes)
     Defect defect = findDefect(file.string() + ": ", [&] {
         const StoredFilm stored = readStoredFilm(file);
         lost = findRoundTripDefect(stored);
-        checkpointOf(stored.film);
+        makeCheckpoint(stored.film);
         if (stored.checkpoint) {
-            filmOf(*stored.checkpoint);
+            makeFilm(*stored.checkpoint);
         }
     });
     for (const std::vector<fs::path>& files : {std::vector{file, file}, std::vector{other, file}}) {
@@ -190,9 +190,9 @@ Defect film(Bytes bytes)
 // A legal WebP of 40 bytes may have 16383x16383 pixels, which take a gigabyte and seconds.
 bool isLargeWebp(Bytes bytes)
 {
-    constexpr int kMostPixels = 1 << 22;
+    constexpr int kMaxPixels = 1 << 22;
     WebPBitstreamFeatures features;
-    return WebPGetFeatures(bytes.data(), bytes.size(), &features) == VP8_STATUS_OK && features.width > kMostPixels / features.height;
+    return WebPGetFeatures(bytes.data(), bytes.size(), &features) == VP8_STATUS_OK && features.width > kMaxPixels / features.height;
 }
 
 Defect image(Bytes bytes)

@@ -182,15 +182,15 @@ void writeFilms(const fs::path& folder)
     Film apart = smallFilm(0, 64, false);
     apart.sampleRanges.emplace_back(128, 256);
     writeFilm(folder / "apart.exr", apart);
-    Checkpoint checkpoint = checkpointOf(smallFilm(0, kPageSamples, true)).value();
-    writeFilm(folder / "whole_page.exr", filmOf(checkpoint), checkpoint);
+    Checkpoint checkpoint = makeCheckpoint(smallFilm(0, kPageSamples, true)).value();
+    writeFilm(folder / "whole_page.exr", makeFilm(checkpoint), checkpoint);
     checkpoint.page = checkpoint.film.pixels;
     checkpoint.pageSplats = checkpoint.film.splats;
-    writeFilm(folder / "page.exr", filmOf(checkpoint), checkpoint);
+    writeFilm(folder / "page.exr", makeFilm(checkpoint), checkpoint);
     checkpoint.progress.adaptive =
         AdaptiveProgress{64, 128, 64, 128, true, std::vector<std::uint32_t>(6, 4), std::vector<std::uint32_t>(6, 2)};
     checkpoint.common = checkpoint.page;
-    writeFilm(folder / "adaptive.exr", filmOf(checkpoint), checkpoint);
+    writeFilm(folder / "adaptive.exr", makeFilm(checkpoint), checkpoint);
 }
 
 }  // namespace

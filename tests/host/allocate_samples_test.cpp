@@ -22,7 +22,7 @@ constexpr std::uint32_t kSide = 32;
 std::size_t at(std::uint32_t x, std::uint32_t y) { return std::size_t{y} * kSide + x; }
 
 // Every pixel has two blocks. Their means give this variance of a sample.
-Film filmOf(float mean, float variance)
+Film makeFilm(float mean, float variance)
 {
     Film film;
     film.width = film.height = kSide;
@@ -43,7 +43,7 @@ double meanOf(const std::vector<double>& values)
 TEST(AllocateSamplesTest, EvenFilmsAreSampledEvenly)
 {
     for (const float variance : {0.0F, 1.0F}) {
-        for (const double share : computeShares(filmOf(1.0F, variance), SquaredError::Relative)) {
+        for (const double share : computeShares(makeFilm(1.0F, variance), SquaredError::Relative)) {
             EXPECT_NEAR(share, 1.0, 1e-12);
         }
     }
@@ -52,7 +52,7 @@ TEST(AllocateSamplesTest, EvenFilmsAreSampledEvenly)
 // A pixel's own variance, whether zero or large, does not change its own share.
 TEST(AllocateSamplesTest, APixelIsNotAskedAboutItself)
 {
-    Film film = filmOf(1.0F, 1.0F);
+    Film film = makeFilm(1.0F, 1.0F);
     for (const float own : {0.0F, 1e6F}) {
         film.pixels[at(16, 16)].squares = glm::vec3(own);
         const std::vector<double> shares = computeShares(film, SquaredError::Absolute);
@@ -71,7 +71,7 @@ TEST(AllocateSamplesTest, APixelIsNotAskedAboutItself)
 // In bright halves four times the variance is the same relative error.
 TEST(AllocateSamplesTest, RelativeErrorsCountByRadiance)
 {
-    Film film = filmOf(10.0F, 1.0F);
+    Film film = makeFilm(10.0F, 1.0F);
     for (std::uint32_t y = 0; y < kSide; ++y) {
         for (std::uint32_t x = kSide / 2; x < kSide; ++x) {
             film.pixels[at(x, y)].mean = glm::vec3(20.0F);
@@ -90,7 +90,7 @@ TEST(AllocateSamplesTest, RelativeErrorsCountByRadiance)
 // Nothing is known of pixels with one block or none: they do not count as neighbours.
 TEST(AllocateSamplesTest, WhatIsUnknownIsLeftOut)
 {
-    Film film = filmOf(1.0F, 1.0F);
+    Film film = makeFilm(1.0F, 1.0F);
     film.pixels[at(8, 8)].blocks = 1;
     film.pixels[at(9, 8)].blocks = 0;
     film.pixels[at(8, 8)].squares = glm::vec3(1e9F);
@@ -98,7 +98,7 @@ TEST(AllocateSamplesTest, WhatIsUnknownIsLeftOut)
     for (const double share : computeShares(film, SquaredError::Absolute)) {
         EXPECT_NEAR(share, 1.0, 1e-12);
     }
-    Film alone = filmOf(1.0F, 1.0F);
+    Film alone = makeFilm(1.0F, 1.0F);
     alone.width = alone.height = 1;
     alone.pixels.resize(1);
     EXPECT_EQ(computeShares(alone, SquaredError::Relative), std::vector<double>{1.0});
@@ -134,7 +134,7 @@ TEST(AllocateSamplesTest, BlocksComeToTheWantedMeanWithinHalfOfOne)
     }
 }
 
-TEST(AllocateSamplesTest, WhoHasEnoughGetsNoMore)
+TEST(AllocateSamplesTest, PixelsWithEnoughSamplesGetNoMore)
 {
     const std::vector<double> shares{0.5, 1.0, 1.5};
     EXPECT_EQ(allocateBlocks(shares, {320, 320, 320}, 320.0), (std::vector<std::uint32_t>{0, 0, 0}));

@@ -16,8 +16,8 @@
 namespace glim {
 namespace {
 
-using test::bytesOfFile;
 using test::expectRefusal;
+using test::readFileBytes;
 using test::ScratchFolder;
 using test::writeText;
 
@@ -43,7 +43,7 @@ TEST(AtomicFile, AppearsOnlyWhenCommitted)
     file.write("ab", 2);
     EXPECT_EQ(file.tell(), 4U);
     file.commit();
-    EXPECT_EQ(bytesOfFile(path), "01ab456789");
+    EXPECT_EQ(readFileBytes(path), "01ab456789");
     EXPECT_EQ(folder.entries(), 1);
 }
 
@@ -66,7 +66,7 @@ TEST(AtomicFile, KeepsTheOldFileAndNothingElseWhenTheDiskIsFull)
         "a.exr: cannot be written: File too large");
     setrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, handler);
-    EXPECT_EQ(bytesOfFile(path), "old");
+    EXPECT_EQ(readFileBytes(path), "old");
     EXPECT_EQ(folder.entries(), 1);
 }
 
@@ -78,7 +78,7 @@ TEST(AtomicFile, TwoAtOnceDoNotMeet)
     b.write("b", 1);
     b.commit();
     a.commit();
-    EXPECT_EQ(bytesOfFile(folder / "a") + bytesOfFile(folder / "b"), "ab");
+    EXPECT_EQ(readFileBytes(folder / "a") + readFileBytes(folder / "b"), "ab");
 }
 
 TEST(AtomicFile, WritesThroughASymbolicLink)
@@ -91,7 +91,7 @@ TEST(AtomicFile, WritesThroughASymbolicLink)
     file.write("new", 3);
     file.commit();
     EXPECT_TRUE(std::filesystem::is_symlink(folder / "a.exr"));
-    EXPECT_EQ(bytesOfFile(folder / "real/a.exr"), "new");
+    EXPECT_EQ(readFileBytes(folder / "real/a.exr"), "new");
 }
 
 TEST(AtomicFile, MakesTheFileThatALinkLeadsTo)
@@ -132,7 +132,7 @@ TEST(AtomicFile, KeepsTheModeOfTheFileThatItReplaces)
         struct stat status {};
         stat((folder / "a").c_str(), &status);
         EXPECT_EQ(status.st_mode & 07777U, mode);
-        EXPECT_EQ(bytesOfFile(folder / "a"), "new");
+        EXPECT_EQ(readFileBytes(folder / "a"), "new");
         std::filesystem::remove(folder / "link");
     }
 }
@@ -147,12 +147,12 @@ TEST(AtomicFile, NobodyCanTakeAllNames)
     AtomicFile file(folder / "a");
     file.write("new", 3);
     file.commit();
-    EXPECT_EQ(bytesOfFile(folder / "a"), "new");
+    EXPECT_EQ(readFileBytes(folder / "a"), "new");
     EXPECT_EQ(folder.entries(), 102);
 }
 
 // Those of other programs and users, which a folder for all may have.
-TEST(AtomicFile, PassesByWhatHasItsTemporaryName)
+TEST(AtomicFile, SkipsTemporaryNamesThatExist)
 {
     const ScratchFolder folder;
     const auto temporary = hiddenBeside(folder / "a", ".partial");
@@ -160,12 +160,12 @@ TEST(AtomicFile, PassesByWhatHasItsTemporaryName)
         AtomicFile file(folder / "a");
         file.write(what, std::strlen(what));
         file.commit();
-        EXPECT_EQ(bytesOfFile(folder / "a"), what);
+        EXPECT_EQ(readFileBytes(folder / "a"), what);
     };
     writeText(folder / "foreign", "foreign");
     std::filesystem::create_symlink("foreign", temporary);
     expectWritten("link");
-    EXPECT_EQ(bytesOfFile(folder / "foreign"), "foreign");
+    EXPECT_EQ(readFileBytes(folder / "foreign"), "foreign");
     EXPECT_TRUE(std::filesystem::is_symlink(temporary));
     std::filesystem::remove(temporary);
     ASSERT_EQ(mkfifo(temporary.c_str(), 0600), 0);
@@ -195,7 +195,7 @@ TEST(CheckWritable, AcceptsNewAndExistingFilesAndTouchesNothing)
     EXPECT_EQ(folder.entries(), 0);
     writeText(folder / "old.exr", "old");
     checkWritable(folder / "old.exr", ".exr");
-    EXPECT_EQ(bytesOfFile(folder / "old.exr"), "old");
+    EXPECT_EQ(readFileBytes(folder / "old.exr"), "old");
 }
 
 TEST(CheckWritable, RefusesWithTheReason)

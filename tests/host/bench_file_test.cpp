@@ -13,8 +13,8 @@
 namespace glim {
 namespace {
 
-using test::bytesOfFile;
 using test::expectRefusal;
+using test::readFileBytes;
 using test::writeText;
 
 SceneBench someBench()

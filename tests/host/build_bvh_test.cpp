@@ -94,7 +94,7 @@ using Rule = test::Named<SplitRule>;
 
 class BuildBvhInput : public testing::TestWithParam<std::tuple<Input, Rule>> {};
 
-std::string nameOf(const testing::TestParamInfo<std::tuple<Input, Rule>>& info)
+std::string getName(const testing::TestParamInfo<std::tuple<Input, Rule>>& info)
 {
     const auto& [input, rule] = info.param;
     return std::string(input.name) + rule.name;
@@ -151,14 +151,14 @@ INSTANTIATE_TEST_SUITE_P(
                                                return Boxes(makeRandom(1000, 1.0F).size(), Box{glm::vec3(0), glm::vec3(1e-44F)});
                                            }}),
                      kEveryRule),
-    nameOf);
+    getName);
 INSTANTIATE_TEST_SUITE_P(Random, BuildBvhInput,
                          testing::Combine(testing::Values(Input{"Points", [] { return makeRandom(20000, 0.0F); }},
                                                           Input{"Small", [] { return makeRandom(20000, 0.01F); }},
                                                           Input{"Overlapping", [] { return makeRandom(20000, 1.0F); }},
                                                           Input{"Terrain", [] { return makeTerrain(100); }}),
                                           kEveryRule),
-                         nameOf);
+                         getName);
 
 // Cost of the tree that splits at the median along the widest axis, down to four primitives.
 struct MedianTree {

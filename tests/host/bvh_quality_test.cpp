@@ -34,7 +34,7 @@ TEST(BvhQuality, CostIsWithinFivePercentOfAFullSweeps)
     for (const auto& [name, scene] : {std::pair{"bumpy ball in a box", bumpyBall(6)},
                                       {"hills", makeHills(150)},
                                       {"forest", forest(40)},
-                                      {"random triangles", sceneOf(randomTriangles(30000, 0.05F, 1))}}) {
+                                      {"random triangles", makeTestScene(randomTriangles(30000, 0.05F, 1))}}) {
         const std::vector<Box> boxes = primitiveBoxes(makePrimitives(scene));
         const double sweep = computeSweepCost(boxes), cost = buildBvh(boxes).cost;
         std::cout << name << ": " << boxes.size() << " triangles, cost " << cost << ", with a full sweep " << sweep << ", ratio "
@@ -55,7 +55,7 @@ TEST(BvhThreads, AnyNumberGivesTheSameTrees)
 {
     for (const Triangles& mesh :
          {terrain(150), randomTriangles(30000, 0.05F, 1), coincidentTriangles(30000), growingLine(30000, 1e-10F, 1.001)}) {
-        const std::vector<Box> boxes = primitiveBoxes(primitivesOf(mesh));
+        const std::vector<Box> boxes = primitiveBoxes(makeTestPrimitives(mesh));
         for (const SplitRule rule : {SplitRule::Sah, SplitRule::Mean, SplitRule::Median}) {
             const Bvh alone = buildBvh(boxes, rule, 1);
             const WideBvh wideAlone = collapseBvh(alone, 1);

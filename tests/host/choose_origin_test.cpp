@@ -77,7 +77,7 @@ void PrintTo(const Input& input, std::ostream* out) { *out << input.name; }
 
 class ChooseOriginTest : public testing::TestWithParam<Input> {};
 
-TEST_P(ChooseOriginTest, H52HoldsWhatIsDetailed)
+TEST_P(ChooseOriginTest, H52OriginIsNearTheDetail)
 {
     Random random(7);
     Places places;

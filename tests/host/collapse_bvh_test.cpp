@@ -63,7 +63,7 @@ private:
             } else if (child.kind == Kind::Leaf) {
                 EXPECT_TRUE(nextEntry == 0 || child.first == nextEntry) << "node " << index;
                 nextEntry = child.first + child.count;
-                EXPECT_TRUE(child.count >= 1 && child.count <= kMaxLeafRecords) << child.count;
+                EXPECT_TRUE(child.count >= 1 && child.count <= kMaxLeafRefs) << child.count;
                 walked_.cost += computeHalfArea(child.box) / area_ * child.count;
                 for (std::uint32_t i = child.first; i < nextEntry; ++i) {
                     EXPECT_TRUE(contains(child.box, boxes_[bvh_.order.at(i)]));
@@ -82,7 +82,7 @@ TEST(CollapseBvhTest, KeepsItsInvariants)
 {
     for (const Triangles& mesh : {icosphere(0), terrain(40), terrain(120), randomTriangles(3000, 0.1F, 1), growingLine(5000, 1e-4F, 1.001),
                                   coincidentTriangles(1000)}) {
-        const std::vector<Box> boxes = primitiveBoxes(primitivesOf(mesh));
+        const std::vector<Box> boxes = primitiveBoxes(makeTestPrimitives(mesh));
         for (const SplitRule rule : {SplitRule::Sah, SplitRule::Mean, SplitRule::Median}) {
             const WideBvh wide = collapseBvh(buildBvh(boxes, rule));
             const Walked walked = Walker(wide, boxes).walk();
@@ -103,7 +103,7 @@ TEST(RefitBvhTest, KeepsTheInvariants)
 {
     Random random(5);
     for (const SplitRule rule : {SplitRule::Sah, SplitRule::Median}) {
-        std::vector<Box> boxes = primitiveBoxes(primitivesOf(randomTriangles(3000, 0.1F, 1)));
+        std::vector<Box> boxes = primitiveBoxes(makeTestPrimitives(randomTriangles(3000, 0.1F, 1)));
         const WideBvh built = collapseBvh(buildBvh(boxes, rule));
         for (Box& box : boxes) {
             const glm::vec3 step = 0.1F * glm::vec3(random.direction());
@@ -123,9 +123,9 @@ TEST(RefitBvhTest, KeepsTheInvariants)
 TEST(RefitBvhTest, IsBuiltAgainIfTooCostly)
 {
     Triangles mesh = randomTriangles(3000, 0.1F, 1);
-    const Primitives before = primitivesOf(mesh);
+    const Primitives before = makeTestPrimitives(mesh);
     std::ranges::reverse(mesh);
-    const Primitives after = primitivesOf(mesh);
+    const Primitives after = makeTestPrimitives(mesh);
     const WideBvh built = buildSceneBvh(before);
     EXPECT_EQ(updateSceneBvh(built, before, after).order, buildSceneBvh(after).order);
     EXPECT_NE(built.order, buildSceneBvh(after).order);
@@ -208,9 +208,9 @@ TEST(CollapseBvhTest, FewPrimitivesAreOneNode)
 
 // --- the least cost, by trying everything ---
 
-class LeastCost {
+class MinCost {
 public:
-    explicit LeastCost(const Bvh& bvh)
+    explicit MinCost(const Bvh& bvh)
         : bvh_(bvh)
     {}
 
@@ -225,7 +225,7 @@ private:
         return node.count > 0 ? node.count : countOf(node.first) + countOf(node.first + 1);
     }
     double area(std::uint32_t i) const { return computeHalfArea(bvh_.nodes[i].box); }
-    double asLeaf(std::uint32_t i) const { return countOf(i) <= kMaxLeafRecords ? area(i) * countOf(i) * kPrimitive : 1e300; }
+    double asLeaf(std::uint32_t i) const { return countOf(i) <= kMaxLeafRefs ? area(i) * countOf(i) * kPrimitive : 1e300; }
 
     // The least cost of this subtree as a child of another node.
     double ofRoot(std::uint32_t i) const { return bvh_.nodes[i].count > 0 ? asLeaf(i) : std::min(asLeaf(i), ofNode(i)); }
@@ -246,7 +246,7 @@ private:
     const Bvh& bvh_;
 };
 
-double costOf(const WideBvh& wide)
+double computeCost(const WideBvh& wide)
 {
     double cost = computeHalfArea(wide.box);
     for (const WideNode& node : wide.nodes) {
@@ -269,8 +269,8 @@ TEST(CollapseBvhTest, NoOtherChoiceIsCheaper)
                 boxes.push_back({lo, lo + glm::abs(glm::vec3(random.normalVector()))});
             }
             const Bvh bvh = buildBvh(boxes);
-            const double least = LeastCost(bvh).find();
-            EXPECT_NEAR(costOf(collapseBvh(bvh)), least, 1e-5 * least) << count;
+            const double least = MinCost(bvh).find();
+            EXPECT_NEAR(computeCost(collapseBvh(bvh)), least, 1e-5 * least) << count;
         }
     }
 }

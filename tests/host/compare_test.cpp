@@ -104,10 +104,10 @@ TEST(CompareImages, RefusesOtherSizesOtherRowsAndNothingToCompare)
     band.pixels.resize(4);
     Film below = band;
     band.rowsBelow = below.rowsAbove = 2;
-    expectRefusal<InputError>([&] { compareImages(pictureOf(band), pictureOf(below)); }, "rows 0 and 2 of a larger one");
-    Picture aside = pictureOf(band);
+    expectRefusal<InputError>([&] { compareImages(makePicture(band), makePicture(below)); }, "rows 0 and 2 of a larger one");
+    Picture aside = makePicture(band);
     aside.columnsLeft = 3;
-    expectRefusal<InputError>([&] { compareImages(pictureOf(band), aside); }, "columns 0 and 3 of a larger one");
+    expectRefusal<InputError>([&] { compareImages(makePicture(band), aside); }, "columns 0 and 3 of a larger one");
     const Picture nothing = uniform(2, glm::vec3(std::numeric_limits<float>::quiet_NaN()));
     expectRefusal<InputError>([&] { compareImages(nothing, uniform(2, glm::vec3(1.0F))); }, "No pixel is finite");
 }
@@ -178,7 +178,7 @@ TEST(EstimateErrors, OfAKnownVariance)
     picture.variance[1].x = 0.25F;
     picture.radiance[2].y = std::numeric_limits<float>::infinity();
     EXPECT_FALSE(estimateErrors(picture));
-    EXPECT_TRUE(noiseOfReference(picture)) << "of what is compared with it";
+    EXPECT_TRUE(estimateReferenceNoise(picture)) << "of what is compared with it";
     picture.variance.clear();
     EXPECT_FALSE(estimateErrors(picture));
 }
@@ -253,9 +253,9 @@ protected:
 TEST_F(CompareCommand, PrintsJsonThatAgreesWithTheFunctions)
 {
     const auto json = nlohmann::json::parse(run({a, b, "--variance", v, "--json", "--diff", d}));
-    Picture reference = pictureOf(readExr(b), b);
+    Picture reference = makePicture(readExr(b), b);
     setVariance(reference, readExr(v), v);
-    const Picture picture = pictureOf(readExr(a), a);
+    const Picture picture = makePicture(readExr(a), a);
     const Comparison expected = compareImages(picture, reference);
     EXPECT_EQ(json["relmse"], expected.errors.relMse);
     EXPECT_EQ(json["relmse_absolute"], expected.errors.relMseAbsolute);
@@ -285,7 +285,7 @@ TEST_F(CompareCommand, DrawsTheErrors)
     const std::string png = folder / "d.png";
     run({a, b, "--diff-png", png});
     const auto pixels = test::decodePng(png);
-    const Picture picture = pictureOf(readExr(a), a), reference = pictureOf(readExr(b), b);
+    const Picture picture = makePicture(readExr(a), a), reference = makePicture(readExr(b), b);
     const ErrorPicture expected = drawErrors(picture, reference, compareImages(picture, reference).epsilon);
     ASSERT_EQ(pixels.size(), expected.pixels.size());
     for (std::size_t i = 0; i < pixels.size(); ++i) {

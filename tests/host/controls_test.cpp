@@ -115,11 +115,11 @@ TEST(PoseTest, IsTheCamerasOwn)
     camera.forward = forward;
     camera.right = glm::normalize(glm::cross(forward, glm::vec3(0, 1, 0)));
     camera.up = glm::cross(camera.right, forward);
-    EXPECT_EQ(poseOf(camera, 2.0, {}).up, glm::dvec3(0, 1, 0));
+    EXPECT_EQ(computePose(camera, 2.0, {}).up, glm::dvec3(0, 1, 0));
     std::swap(camera.right, camera.up);
     camera.right = -camera.right;
-    EXPECT_EQ(poseOf(camera, 2.0, {}).up, glm::dvec3(camera.up));
-    const Camera again = placeCamera(camera, poseOf(camera, 2.0, {}), {});
+    EXPECT_EQ(computePose(camera, 2.0, {}).up, glm::dvec3(camera.up));
+    const Camera again = placeCamera(camera, computePose(camera, 2.0, {}), {});
     expectNear(again.forward, camera.forward, 1e-6);
     expectNear(again.up, camera.up, 1e-6);
     expectNear(again.position, camera.position, 0.0);

@@ -172,7 +172,7 @@ TEST(DenoisedPicture, IsNoneIfTheDenoiserWasEnded)
     EXPECT_FALSE(denoiseHalves(halvesOf(3, 0.1, kNormal), [](const Film&) { return std::nullopt; }));
 }
 
-TEST(FilmHalves, TakeTurnsByBlocks)
+TEST(FilmHalves, BlocksAlternate)
 {
     EXPECT_EQ(FilmHalves::nextEnd(0), 16U);
     EXPECT_EQ(FilmHalves::nextEnd(16), 32U);
@@ -202,7 +202,7 @@ TEST(FilmHalves, TakeTurnsByBlocks)
     EXPECT_NEAR(first.pixels[0].mean.r, (16.0F * 3.0F + 32.0F * 6.0F) / 64.0F, 1e-5F);
     EXPECT_NEAR(second.pixels[0].mean.r, 3.5F, 1e-5F);
     EXPECT_NEAR(second.splats[0].mean.r, 35.0F, 1e-4F);
-    EXPECT_NEAR(varianceOfMean(second.pixels[0]).r, 0.25F, 1e-5F);  // of 3 and 4
+    EXPECT_NEAR(computeVarianceOfMean(second.pixels[0]).r, 0.25F, 1e-5F);  // of 3 and 4
     EXPECT_EQ(first.splats[0].count, 64U);
     EXPECT_FALSE(hasBothHalves(FilmHalves(RenderSettings{})));
     EXPECT_TRUE(hasBothHalves(halves));

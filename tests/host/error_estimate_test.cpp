@@ -127,35 +127,35 @@ Coverage measureCoverage(const Population& population, std::uint32_t pixels, std
 }
 
 // Five standard deviations below .95, for the share of so many films.
-double leastCoverage(int films) { return 0.95 - 5.0 * std::sqrt(0.95 * 0.05 / films); }
+double minCoverage(int films) { return 0.95 - 5.0 * std::sqrt(0.95 * 0.05 / films); }
 
-TEST(ErrorEstimate, H30CoversWhatIsSmooth)
+TEST(ErrorEstimate, H30IntervalCoversSmoothPictures)
 {
     for (const std::uint32_t blocks : {2U, 4U, 16U}) {
         const Coverage share = measureCoverage(smooth(), 256, blocks, 1000);
         for (const double each : {share.mse, share.relMse}) {
-            EXPECT_GE(each, leastCoverage(1000));
-            EXPECT_LE(each, 1.9 - leastCoverage(1000)) << "nor is the interval too wide";
+            EXPECT_GE(each, minCoverage(1000));
+            EXPECT_LE(each, 1.9 - minCoverage(1000)) << "nor is the interval too wide";
         }
     }
 }
 
-TEST(ErrorEstimate, H30CoversEdges)
+TEST(ErrorEstimate, H30IntervalCoversEdges)
 {
     const Coverage share = measureCoverage(edges(), 640, 4, 1000);
-    EXPECT_GE(share.mse, leastCoverage(1000));
-    EXPECT_GE(share.relMse, leastCoverage(1000));
+    EXPECT_GE(share.mse, minCoverage(1000));
+    EXPECT_GE(share.relMse, minCoverage(1000));
 }
 
-TEST(ErrorEstimate, H30CoversHeavyTails)
+TEST(ErrorEstimate, H30IntervalCoversHeavyTails)
 {
     const Coverage share = measureCoverage(heavy(), 256, 4, 200);
-    EXPECT_GE(share.mse, leastCoverage(200));
-    EXPECT_GE(share.relMse, leastCoverage(200));
+    EXPECT_GE(share.mse, minCoverage(200));
+    EXPECT_GE(share.relMse, minCoverage(200));
 }
 
 // While the rare samples that make up the error are missing, no interval can hold it. Once one is there, the report says so.
-TEST(ErrorEstimate, H30SaysWhereRareSamplesAreAllOfTheError)
+TEST(ErrorEstimate, H30WarnsWhereRareSamplesAreAllOfTheError)
 {
     EXPECT_LT(measureCoverage(rare(), 256, 4, 500).mse, 0.9) << "one film in three has met one";
     Random random(7);
@@ -176,7 +176,7 @@ TEST(ErrorEstimate, IsThatOfThePicture)
     Random random(1);
     Film film = draw(edges(), 640, 4, random);
     const ErrorEstimate estimate = *estimateError(film);
-    EXPECT_DOUBLE_EQ(estimate.errors.mse, estimateErrors(pictureOf(film))->mse);
+    EXPECT_DOUBLE_EQ(estimate.errors.mse, estimateErrors(makePicture(film))->mse);
     EXPECT_LT(estimate.mse.low, estimate.errors.mse);
     EXPECT_GT(estimate.mse.high, estimate.errors.mse);
     EXPECT_NEAR(std::sqrt(estimate.mse.low * estimate.mse.high), estimate.errors.mse, 1e-9 * estimate.errors.mse);

@@ -22,7 +22,7 @@ void add(Film& film, int pixels, float radiance, bool covered = true)
     }
 }
 
-Film filmOf(float radiance)
+Film makeFilm(float radiance)
 {
     Film film;
     add(film, 1000, radiance);
@@ -39,9 +39,9 @@ double adviceIn(const std::string& sentence)
 TEST(ExposureAdviceTest, PicturesThatShowSomethingAreLeftAlone)
 {
     for (const float radiance : {0.05F, 0.5F, 1.0F, 1.2F}) {
-        EXPECT_EQ(adviseExposure(filmOf(radiance), {}), std::nullopt) << radiance;
+        EXPECT_EQ(adviseExposure(makeFilm(radiance), {}), std::nullopt) << radiance;
     }
-    EXPECT_EQ(adviseExposure(filmOf(1000.0F), {-10.0}), std::nullopt);
+    EXPECT_EQ(adviseExposure(makeFilm(1000.0F), {-10.0}), std::nullopt);
     EXPECT_EQ(adviseExposure(Film(), {}), std::nullopt);
 }
 
@@ -49,7 +49,7 @@ TEST(ExposureAdviceTest, PicturesThatShowSomethingAreLeftAlone)
 TEST(ExposureAdviceTest, AdviceIsRightAtOnce)
 {
     for (const float radiance : {2.0F, 2174.0F, 1e20F, 1e-4F, 1e-20F}) {
-        const Film film = filmOf(radiance);
+        const Film film = makeFilm(radiance);
         const auto advice = adviseExposure(film, {});
         ASSERT_TRUE(advice) << radiance;
         EXPECT_EQ(advice->rfind(radiance > 1.0F ? "is burnt out: " : "is almost black: ", 0), 0U) << *advice;
@@ -61,7 +61,7 @@ TEST(ExposureAdviceTest, AdviceIsRightAtOnce)
 // A fifth of the surfaces may be white, in all channels; a coloured lamp is not.
 TEST(ExposureAdviceTest, OnlyWhiteCounts)
 {
-    Film film = filmOf(0.5F);
+    Film film = makeFilm(0.5F);
     for (int i = 0; i < 200; ++i) {
         film.pixels[static_cast<std::size_t>(i)].mean = vec3(9.0F);
     }
@@ -78,7 +78,7 @@ TEST(ExposureAdviceTest, OnlyWhiteCounts)
 // A bright sky behind a scene says nothing about it, unless nothing else is there.
 TEST(ExposureAdviceTest, SurfacesCountBeforeTheirBackground)
 {
-    Film film = filmOf(0.5F);
+    Film film = makeFilm(0.5F);
     add(film, 5000, 30.0F, false);
     EXPECT_EQ(adviseExposure(film, {}), std::nullopt);
     Film sky;
@@ -88,8 +88,8 @@ TEST(ExposureAdviceTest, SurfacesCountBeforeTheirBackground)
 
 TEST(ExposureAdviceTest, BlackIsSaidWithoutAnExposure)
 {
-    EXPECT_EQ(adviseExposure(filmOf(0.0F), {}), "is black: no light reaches what it shows");
-    Film lamp = filmOf(0.0F);
+    EXPECT_EQ(adviseExposure(makeFilm(0.0F), {}), "is black: no light reaches what it shows");
+    Film lamp = makeFilm(0.0F);
     lamp.pixels[3].mean = vec3(1.0F);
     EXPECT_EQ(adviseExposure(lamp, {}), std::nullopt) << "a lamp in the dark";
 }

@@ -21,8 +21,8 @@
 namespace glim {
 namespace {
 
-using test::bytesOfFile;
 using test::expectRefusal;
+using test::readFileBytes;
 using test::ScratchFolder;
 using test::writeText;
 
@@ -68,7 +68,7 @@ TEST(Exr, TheSameImageGivesTheSameBytes)
     const ScratchFolder folder;
     writeExr(folder / "a.exr", makeImage());
     writeExr(folder / "b.exr", makeImage());
-    EXPECT_EQ(bytesOfFile(folder / "a.exr"), bytesOfFile(folder / "b.exr"));
+    EXPECT_EQ(readFileBytes(folder / "a.exr"), readFileBytes(folder / "b.exr"));
     EXPECT_EQ(folder.entries(), 2);
 }
 
@@ -100,7 +100,7 @@ TEST(Exr, BandsMakeTheSameFile)
         writer.write(band);
     }
     writer.commit();
-    EXPECT_EQ(bytesOfFile(folder / "a.exr"), bytesOfFile(folder / "b.exr"));
+    EXPECT_EQ(readFileBytes(folder / "a.exr"), readFileBytes(folder / "b.exr"));
     EXPECT_EQ(readExr(folder / "b.exr").counts, image.counts);
 }
 
@@ -267,7 +267,7 @@ TEST(Exr, RefusesEveryTruncation)
         image.channels["R"].push_back(static_cast<float>(i * 7919 % 1601));
     }
     writeExr(folder / "a.exr", image);
-    const std::string bytes = bytesOfFile(folder / "a.exr");
+    const std::string bytes = readFileBytes(folder / "a.exr");
     for (std::size_t length = 4; length < bytes.size(); length += 37) {
         writeText(folder / "cut.exr", bytes.substr(0, length));
         EXPECT_THROW(readExr(folder / "cut.exr"), InputError) << length << " of " << bytes.size();
@@ -301,7 +301,7 @@ TEST(Exr, RefusesDamagedWindowsBeforeTheyCostMemory)
             file.setFrameBuffer(frame);
             file.writePixels(40);
         }
-        const std::string sound = bytesOfFile(folder / "a.exr");
+        const std::string sound = readFileBytes(folder / "a.exr");
         const std::pair<std::int32_t, std::int32_t> corners[] = {
             {1 << 17, 39}, {39, 1 << 17}, {1 << 20, 1 << 10}, {39, 0x7ffffffe}, {0x7ffffffe, 39}};
         for (const auto& [x, y] : corners) {
@@ -320,7 +320,7 @@ TEST(Exr, RefusesAttributesThatLieAboutTheirSize)
     using namespace std::string_literals;
     const ScratchFolder folder;
     writeExr(folder / "good.exr", makeImage());
-    const std::string good = bytesOfFile(folder / "good.exr");
+    const std::string good = readFileBytes(folder / "good.exr");
     const auto expectRefused = [&](const std::string& name, std::size_t byte, char value, const std::string& expected) {
         std::string bytes = good;
         bytes[bytes.find(name) + name.size() + byte] = value;
@@ -370,10 +370,10 @@ TEST(Exr, AFailedWriteLeavesTheOldFile)
 {
     const ScratchFolder folder;
     writeExr(folder / "a.exr", makeImage());
-    const std::string before = bytesOfFile(folder / "a.exr");
+    const std::string before = readFileBytes(folder / "a.exr");
     Image broken;  // OpenEXR refuses an image without pixels
     EXPECT_THROW(writeExr(folder / "a.exr", broken), InputError);
-    EXPECT_EQ(bytesOfFile(folder / "a.exr"), before);
+    EXPECT_EQ(readFileBytes(folder / "a.exr"), before);
     EXPECT_EQ(folder.entries(), 1);
 }
 

@@ -41,7 +41,7 @@ protected:
             return rates;
         });
     }
-    json kept() const { return json::parse(bytesOfFile(cache_ / "schedules.json")); }
+    json kept() const { return json::parse(readFileBytes(cache_ / "schedules.json")); }
 
     ScratchFolder folder_;
     fs::path cache_;

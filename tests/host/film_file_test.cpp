@@ -14,8 +14,8 @@
 namespace glim {
 namespace {
 
-using test::bytesOfFile;
 using test::expectRefusal;
+using test::readFileBytes;
 using test::sameBits;
 using test::ScratchFolder;
 using test::simulateFilm;
@@ -75,16 +75,16 @@ TEST(FilmFile, PixelsDigestIgnoresKernelsAndDevice)
 {
     const ScratchFolder folder;
     Film film = filmWithSplats();
-    const std::string digest = digestOf(film), pixels = pixelsDigestOf(film);
+    const std::string digest = computeDigest(film), pixels = computePixelsDigest(film);
     film.identity.kernels = "others";
     film.arithmetic = "another";
-    EXPECT_NE(digestOf(film), digest);
-    EXPECT_EQ(pixelsDigestOf(film), pixels);
+    EXPECT_NE(computeDigest(film), digest);
+    EXPECT_EQ(computePixelsDigest(film), pixels);
     writeFilm(folder / "a.exr", film);
     EXPECT_EQ(std::get<std::string>(readExrHeader(folder / "a.exr").attributes.at("glim:pixels")), pixels);
     for (float* value : {&film.pixels[1].depth, &film.splats[1].clamped}) {
         *value += 1.0F;
-        EXPECT_NE(pixelsDigestOf(film), pixels);
+        EXPECT_NE(computePixelsDigest(film), pixels);
         *value -= 1.0F;
     }
 }
@@ -97,21 +97,21 @@ TEST(FilmFile, ReadsBackAnyNumberOfBlocks)
     film.splats[1].blocks = std::numeric_limits<std::uint32_t>::max();
     const ScratchFolder folder;
     writeFilm(folder / "a.exr", film);
-    EXPECT_EQ(digestOf(readFilm(folder / "a.exr")), digestOf(film));
+    EXPECT_EQ(computeDigest(readFilm(folder / "a.exr")), computeDigest(film));
 }
 
-TEST(FilmFile, ThatIsGivenUpLeavesTheFileAsItWas)
+TEST(FilmFile, AnAbandonedWriteLeavesTheFileAsItWas)
 {
     const ScratchFolder folder;
     writeFilm(folder / "a.exr", simulateFilm(0, 64));
-    const std::string before = bytesOfFile(folder / "a.exr");
+    const std::string before = readFileBytes(folder / "a.exr");
     Checkpoint checkpoint;
     checkpoint.film = simulateFilm(0, 256);
     EXPECT_FALSE(writeFilm(folder / "a.exr", checkpoint.film, checkpoint, [] { return false; }));
-    EXPECT_EQ(bytesOfFile(folder / "a.exr"), before);
+    EXPECT_EQ(readFileBytes(folder / "a.exr"), before);
     EXPECT_EQ(folder.entries(), 1);
     EXPECT_TRUE(writeFilm(folder / "a.exr", checkpoint.film, checkpoint));
-    EXPECT_NE(bytesOfFile(folder / "a.exr"), before);
+    EXPECT_NE(readFileBytes(folder / "a.exr"), before);
 }
 
 TEST(FilmFile, ShowsCameraAndLightPathsTogether)
@@ -124,7 +124,7 @@ TEST(FilmFile, ShowsCameraAndLightPathsTogether)
     const SplatMoments& splat = film.splats[9];
     EXPECT_EQ(image.channels.at("G")[9], pixel.mean.g + splat.mean.g);
     EXPECT_EQ(image.channels.at("camera.G")[9], pixel.mean.g);
-    const float variance = varianceOfMean(pixel).g + splat.squares.g / (2.0F * 128.0F);
+    const float variance = computeVarianceOfMean(pixel).g + splat.squares.g / (2.0F * 128.0F);
     EXPECT_NEAR(image.channels.at("variance.G")[9], variance, 1e-6F * variance);
     // Between the fewer blocks of the two and those of both.
     const std::uint32_t blocks = shownPixel(film, 9).blocks;
@@ -137,7 +137,7 @@ TEST(FilmFile, TheSameFilmGivesTheSameBytes)
     const ScratchFolder folder;
     writeFilm(folder / "a.exr", simulateFilm(0, 300));
     writeFilm(folder / "b.exr", simulateFilm(0, 300));
-    EXPECT_EQ(bytesOfFile(folder / "a.exr"), bytesOfFile(folder / "b.exr"));
+    EXPECT_EQ(readFileBytes(folder / "a.exr"), readFileBytes(folder / "b.exr"));
 }
 
 TEST(FilmFile, HasTheLayersOtherProgramsLookFor)
@@ -194,12 +194,12 @@ TEST(FilmFile, EveryRowHasItsOwnVariance)
     writeFilm(folder / "a.exr", film, DenoisedLayers{denoised, error, "none"});
     const Image image = readExr(folder / "a.exr");
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
-        ASSERT_EQ(image.channels.at("variance.G")[i], varianceOfMean(film.pixels[i]).g) << i;
-        ASSERT_EQ(image.channels.at("error.G")[i], std::sqrt(varianceOfMean(film.pixels[i]).g)) << i;
+        ASSERT_EQ(image.channels.at("variance.G")[i], computeVarianceOfMean(film.pixels[i]).g) << i;
+        ASSERT_EQ(image.channels.at("error.G")[i], std::sqrt(computeVarianceOfMean(film.pixels[i]).g)) << i;
         ASSERT_EQ(image.channels.at("denoised.R")[i], static_cast<float>(i));
         ASSERT_EQ(image.channels.at("denoisedError.G")[i], static_cast<float>(i));
     }
-    EXPECT_EQ(digestOf(readFilm(folder / "a.exr")), digestOf(film));
+    EXPECT_EQ(computeDigest(readFilm(folder / "a.exr")), computeDigest(film));
 }
 
 TEST(FilmFile, UnknownVarianceIsLeftOutOrInfinite)
@@ -218,9 +218,9 @@ TEST(FilmFile, UnknownVarianceIsLeftOutOrInfinite)
     // The error of the others is known; that of a picture whose square overflowed is not.
     const auto errorsOfFile = [&] {
         writeFilm(folder / "b.exr", film);
-        return estimateErrors(pictureOf(readExr(folder / "b.exr"), "b.exr"));
+        return estimateErrors(makePicture(readExr(folder / "b.exr"), "b.exr"));
     };
-    EXPECT_EQ(errorsOfFile()->mse, estimateErrors(pictureOf(film))->mse);
+    EXPECT_EQ(errorsOfFile()->mse, estimateErrors(makePicture(film))->mse);
     film.pixels[3].squares.g = std::numeric_limits<float>::infinity();
     EXPECT_FALSE(errorsOfFile());
 }
@@ -303,7 +303,7 @@ TEST(FilmFile, AnyDamageToTheHeaderIsNoticed)
     checkpoint.progress.sample = checkpoint.progress.lightSample = checkpoint.film.sampleRanges[0].second;
     writeFilm(path, checkpoint.film, checkpoint);
     ASSERT_TRUE(readStoredFilm(path).checkpoint);
-    const std::string whole = bytesOfFile(path);
+    const std::string whole = readFileBytes(path);
     const std::size_t end = headerEnd(whole);
     ASSERT_GT(end, 1500U);
     for (std::size_t at = 0; at < end; ++at) {
@@ -330,7 +330,7 @@ TEST(FilmFile, EarlierFilmsAreRead)
         image.attributes["glim:film"] = film.splats.empty() ? 1.0 : 2.0;
         image.attributes.erase("glim:headerDigest");
         writeExr(path, image);
-        EXPECT_EQ(digestOf(readFilm(path)), digestOf(film));
+        EXPECT_EQ(computeDigest(readFilm(path)), computeDigest(film));
         image.attributes["glim:film"] = film.splats.empty() ? 3.0 : 4.0;
         writeExr(path, image);
         expectRefusal<InputError>([&] { readFilm(path); }, "is damaged: it has no attribute glim:headerDigest");

@@ -29,7 +29,7 @@ PixelMoments pixel(const glm::vec3& mean, float alpha = 1.0F)
     return moments;
 }
 
-Film filmOf(Aov aov, const std::vector<PixelMoments>& pixels)
+Film makeFilm(Aov aov, const std::vector<PixelMoments>& pixels)
 {
     RenderSettings settings;
     settings.aov = aov;
@@ -44,8 +44,8 @@ Film filmOf(Aov aov, const std::vector<PixelMoments>& pixels)
 std::vector<Rgb> picture(Aov aov, const std::vector<PixelMoments>& pixels, double exposure = 0.0)
 {
     const ScratchFolder folder;
-    const Film film = filmOf(aov, pixels);
-    writeFilmPicture(folder / "a.png", film, aovOf(film), {exposure});
+    const Film film = makeFilm(aov, pixels);
+    writeFilmPicture(folder / "a.png", film, getAov(film), {exposure});
     EXPECT_EQ(folder.entries(), 1);
     return test::decodePng(folder / "a.png");
 }
@@ -57,7 +57,7 @@ std::vector<Rgb> ratesPicture(const std::vector<std::uint32_t>& counts)
         pixels[i].count = counts[i];
     }
     const ScratchFolder folder;
-    writeFilmPicture(folder / "r.png", filmOf(Aov::Radiance, pixels), Aov::SampleCount);
+    writeFilmPicture(folder / "r.png", makeFilm(Aov::Radiance, pixels), Aov::SampleCount);
     return test::decodePng(folder / "r.png");
 }
 
@@ -103,7 +103,7 @@ TEST(FilmPictures, TonesAreOfLightAlone)
 TEST(FilmPictures, AnExposureIsChosenByTheLogAverage)
 {
     const auto chosen = [](const std::vector<PixelMoments>& pixels) {
-        return chooseExposure(filmOf(Aov::Radiance, pixels), Aov::Radiance);
+        return chooseExposure(makeFilm(Aov::Radiance, pixels), Aov::Radiance);
     };
     const PixelMoments dark = pixel(glm::vec3(0.09F)), bright = pixel(glm::vec3(0.36F));
     EXPECT_EQ(chosen({dark, bright}), 0.0);
@@ -120,7 +120,7 @@ TEST(FilmPictures, AnExposureIsChosenByTheLogAverage)
     EXPECT_EQ(chosen({pixel(glm::vec3(1e-38F))}), 100.0) << "as far as --exposure goes";
     PixelMoments painted = bright;
     painted.albedo = glm::vec3(0.09F);
-    EXPECT_EQ(chooseExposure(filmOf(Aov::Albedo, {painted}), Aov::Albedo), 1.0);
+    EXPECT_EQ(chooseExposure(makeFilm(Aov::Albedo, {painted}), Aov::Albedo), 1.0);
 }
 
 TEST(FilmPictures, NormalsAreBytesWithoutACurve)

@@ -44,7 +44,7 @@ TEST(FrameCamera, CentresAndFillsWhateverTheShape)
                 vertex = half * vertex + 3.0F * half;
             }
         }
-        const Scene scene = sceneOf(box);
+        const Scene scene = makeTestScene(box);
         for (const float aspectRatio : {0.25F, 1.0F, 1.7F, 5.0F}) {
             const Camera camera = frameCamera(scene, aspectRatio);
             const Extent extent = seen(camera, 2.0F * half, 4.0F * half, static_cast<double>(aspectRatio));
@@ -67,7 +67,7 @@ TEST(FrameCamera, TurntablesShowTheBoxFromEverySide)
                 vertex *= half;
             }
         }
-        Scene scene = sceneOf(box);
+        Scene scene = makeTestScene(box);
         scene.origin = {1000.0, 0.0, -7.0};
         scene.instances[0].worldFromMesh = glm::translate(glm::dmat4(1.0), scene.origin);
         for (const float aspectRatio : {0.5F, 1.7F}) {

@@ -104,7 +104,8 @@ TEST(ShareMeshes, SharedOnesAreStoredOnce)
     // Of one triangle: it would be larger shared.
     EXPECT_TRUE(makePrimitives(scene, 0).sharedMeshes.empty());
     for (int i = 0; i < 4; ++i) {
-        scene.meshes[1].indices.insert(scene.meshes[1].indices.end(), {0, 1, 2});
+        std::vector<std::uint32_t>& indices = scene.meshes.change()[1].indices;
+        indices.insert(indices.end(), {0, 1, 2});
     }
     const Primitives primitives = makePrimitives(scene, 0);
     ASSERT_EQ(primitives.sharedMeshes.size(), 1U);

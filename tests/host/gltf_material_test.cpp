@@ -69,7 +69,7 @@ TEST(GltfMaterial, LambertIsADielectricWithoutReflection)
 {
     const Mapped mapped = map(lambert());
     EXPECT_EQ(ofMaterials(mapped.warnings), Lines{});
-    EXPECT_EQ(lobeOf(mapped.material), kLambert);
+    EXPECT_EQ(chooseMaterialType(mapped.material), kLambert);
     EXPECT_EQ(mapped.material.baseColor, glm::vec3(0.25F, 0.5F, 0.75F));
     EXPECT_EQ(mapped.material.emission, glm::vec3(0.0F));
     EXPECT_FALSE(mapped.material.doubleSided);
@@ -92,9 +92,9 @@ TEST(GltfMaterial, EmissionIsFactorTimesStrength)
 TEST(GltfMaterial, TheSimplestLobeIsChosen)
 {
     const auto lobe = [](double metallic, double roughness, double specularFactor) {
-        return lobeOf(map({{"pbrMetallicRoughness", {{"metallicFactor", metallic}, {"roughnessFactor", roughness}}},
-                           {"extensions", specular(specularFactor)}})
-                          .material);
+        return chooseMaterialType(map({{"pbrMetallicRoughness", {{"metallicFactor", metallic}, {"roughnessFactor", roughness}}},
+                                       {"extensions", specular(specularFactor)}})
+                                      .material);
     };
     EXPECT_EQ(lobe(1, 0, 1), kMirror);
     EXPECT_EQ(lobe(1, 0.0316, 0), kMirror);
@@ -102,7 +102,7 @@ TEST(GltfMaterial, TheSimplestLobeIsChosen)
     EXPECT_EQ(lobe(0.99, 0, 0), kPrincipled);
     EXPECT_EQ(lobe(0, 0, 0), kLambert);
     EXPECT_EQ(lobe(0, 0, 0.1), kPrincipled);
-    EXPECT_EQ(lobeOf(map(glass()).material), kDielectric);
+    EXPECT_EQ(chooseMaterialType(map(glass()).material), kDielectric);
 }
 
 TEST(GltfMaterial, SolidGlassIsExact)
@@ -149,7 +149,7 @@ TEST(GltfMaterial, AttenuationIsAbsorptionPerMetre)
 
 TEST(GltfMaterial, SmoothSolidGlassAloneIsTheSimpleLobe)
 {
-    EXPECT_EQ(lobeOf(map(glass()).material), kDielectric);
+    EXPECT_EQ(chooseMaterialType(map(glass()).material), kDielectric);
     const std::pair<const char*, json> others[] = {
         {"/pbrMetallicRoughness/roughnessFactor", 0.25},
         {"/pbrMetallicRoughness/metallicFactor", 0.5},
@@ -161,7 +161,7 @@ TEST(GltfMaterial, SmoothSolidGlassAloneIsTheSimpleLobe)
     for (const auto& [place, value] : others) {
         json material = glass();
         material[json::json_pointer(place)] = value;
-        EXPECT_EQ(lobeOf(map(material).material), kPrincipled) << place;
+        EXPECT_EQ(chooseMaterialType(map(material).material), kPrincipled) << place;
     }
 }
 
@@ -215,7 +215,7 @@ TEST(GltfMaterial, UnlitEmitsNothing)
     const Material m = map({{"emissiveFactor", {1, 1, 1}}, {"extensions", {{"KHR_materials_unlit", json::object()}}}}).material;
     EXPECT_TRUE(m.unlit);
     EXPECT_EQ(m.emission, glm::vec3(0.0F));
-    EXPECT_EQ(lobeOf(m), kUnlit);
+    EXPECT_EQ(chooseMaterialType(m), kUnlit);
 }
 
 TEST(GltfMaterial, VariantsChooseAmongMaterials)
@@ -232,16 +232,16 @@ TEST(GltfMaterial, VariantsChooseAmongMaterials)
     primitive["extensions"]["KHR_materials_variants"]["mappings"] = {{{"material", 1}, {"variants", {1}}}};
     builder.addNode({{"mesh", mesh}});
     LoadOptions options;
-    const auto materialOf = [&](const std::string& variant) {
+    const auto getMaterial = [&](const std::string& variant) {
         options.variant = variant;
         const Scene scene = load(builder, options);
         return scene.materials[scene.meshes[0].material].name;
     };
-    EXPECT_EQ(materialOf(""), "clay");
-    EXPECT_EQ(materialOf("day"), "clay");
-    EXPECT_EQ(materialOf("night"), "red");
+    EXPECT_EQ(getMaterial(""), "clay");
+    EXPECT_EQ(getMaterial("day"), "clay");
+    EXPECT_EQ(getMaterial("night"), "red");
     try {
-        materialOf("noon");
+        getMaterial("noon");
         FAIL();
     } catch (const InputError& error) {
         EXPECT_TRUE(mentions({error.what()}, "has no variant \"noon\"; expected one of \"day\", \"night\"")) << error.what();

@@ -196,7 +196,7 @@ protected:
 TEST_F(MergeRows, AreOneRunIfTheyHaveTheSameSamplesAndArithmetic)
 {
     EXPECT_TRUE(planMerge({a, b}, {"a.exr", "b.exr"}).exact);
-    EXPECT_NE(digestOf(a), digestOf(b));
+    EXPECT_NE(computeDigest(a), computeDigest(b));
     EXPECT_EQ(planMerge({b, a}, {"b.exr", "a.exr"}).order, (std::vector<std::size_t>{1, 0}));
     b.arithmetic = "another";
     EXPECT_FALSE(planMerge({a, b}, {"a.exr", "b.exr"}).exact);

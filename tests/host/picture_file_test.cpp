@@ -13,7 +13,7 @@
 namespace glim {
 namespace {
 
-using test::bytesOfFile;
+using test::readFileBytes;
 using test::ScratchFolder;
 
 constexpr std::uint32_t kWidth = 40, kHeight = 24;
@@ -35,7 +35,7 @@ std::vector<Rgb8> picture()
 
 DecodedImage decoded(const std::filesystem::path& path)
 {
-    const std::string bytes = bytesOfFile(path);
+    const std::string bytes = readFileBytes(path);
     return decodeImage({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
 }
 
@@ -55,12 +55,12 @@ int errorOf(const DecodedImage& image, const std::vector<Rgb8>& pixels)
 
 TEST(PictureFile, TheEndingChoosesTheKind)
 {
-    EXPECT_EQ(pictureKindOf("a.png"), PictureKind::Png);
-    EXPECT_EQ(pictureKindOf("a.jpg"), PictureKind::Jpeg);
-    EXPECT_EQ(pictureKindOf("b/a.JPEG"), PictureKind::Jpeg);
-    EXPECT_EQ(pictureKindOf("a.png.WebP"), PictureKind::Webp);
+    EXPECT_EQ(getPictureKind("a.png"), PictureKind::Png);
+    EXPECT_EQ(getPictureKind("a.jpg"), PictureKind::Jpeg);
+    EXPECT_EQ(getPictureKind("b/a.JPEG"), PictureKind::Jpeg);
+    EXPECT_EQ(getPictureKind("a.png.WebP"), PictureKind::Webp);
     for (const char* other : {"a.gif", "png", "a.jpg.exr", "a", "", "a.jp", "jpg/a"}) {
-        EXPECT_EQ(pictureKindOf(other), std::nullopt) << other;
+        EXPECT_EQ(getPictureKind(other), std::nullopt) << other;
     }
 }
 
@@ -70,10 +70,10 @@ TEST(PictureFile, HoldsThePicture)
     const std::vector<Rgb8> pixels = picture();
     for (const char* name : {"a.png", "a.webp", "a.jpg", "b.jpeg"}) {
         writePicture(folder / name, kWidth, kHeight, pixels);
-        const bool lossy = pictureKindOf(name) == PictureKind::Jpeg;
+        const bool lossy = getPictureKind(name) == PictureKind::Jpeg;
         const int error = errorOf(decoded(folder / name), pixels);
         EXPECT_LE(error, lossy ? 12 : 0);  // with colours in half the resolution the stripes would be off by 90
-        EXPECT_EQ(bytesOfFile(folder / name).substr(0, 4), lossy ? "\xff\xd8\xff\xe0" : name[2] == 'p' ? "\x89PNG" : "RIFF");
+        EXPECT_EQ(readFileBytes(folder / name).substr(0, 4), lossy ? "\xff\xd8\xff\xe0" : name[2] == 'p' ? "\x89PNG" : "RIFF");
     }
     EXPECT_EQ(folder.entries(), 4);
 }
@@ -82,7 +82,7 @@ TEST(PictureFile, JpegIsOfTheStatedQuality)
 {
     const ScratchFolder folder;
     writePicture(folder / "a.jpg", kWidth, kHeight, picture());
-    const std::string bytes = bytesOfFile(folder / "a.jpg");
+    const std::string bytes = readFileBytes(folder / "a.jpg");
     // The standard's first quantizer is 16 (ITU-T T.81, table K.1), and libjpeg's quality 95 scales it by .1.
     const std::size_t table = bytes.find("\xff\xdb"), frame = bytes.find("\xff\xc0");
     ASSERT_NE(table, std::string::npos);
@@ -96,18 +96,18 @@ TEST(PictureFile, JpegIsOfTheStatedQuality)
 TEST(PictureFile, IsRefusedWhereItCannotBe)
 {
     const ScratchFolder folder;
-    const std::vector<Rgb8> long_(70000);
-    test::expectRefusal<InputError>([&] { writePicture(folder / "a.gif", 1, 1, long_); },
+    const std::vector<Rgb8> tooLong(70000);
+    test::expectRefusal<InputError>([&] { writePicture(folder / "a.gif", 1, 1, tooLong); },
                                     "a.gif: cannot be written: its name does not end in .png, .jpg, .jpeg or .webp.");
     for (const char* name : {"none/a.png", "none/a.jpg", "none/a.webp"}) {
-        test::expectRefusal<InputError>([&] { writePicture(folder / name, 1, 1, long_); }, "does not exist");
+        test::expectRefusal<InputError>([&] { writePicture(folder / name, 1, 1, tooLong); }, "does not exist");
     }
-    test::expectRefusal<InputError>([&] { writePicture(folder / "a.webp", 16384, 1, long_); },
+    test::expectRefusal<InputError>([&] { writePicture(folder / "a.webp", 16384, 1, tooLong); },
                                     "a.webp: cannot be written: a picture of 16384x1 pixels; expected at most 16383 a side");
-    test::expectRefusal<InputError>([&] { writePicture(folder / "a.jpg", 1, 65501, long_); }, "expected at most 65500 a side");
+    test::expectRefusal<InputError>([&] { writePicture(folder / "a.jpg", 1, 65501, tooLong); }, "expected at most 65500 a side");
     EXPECT_EQ(folder.entries(), 0);
-    writePicture(folder / "a.webp", 16383, 1, long_);
-    writePicture(folder / "a.jpg", 1, 65500, long_);
+    writePicture(folder / "a.webp", 16383, 1, tooLong);
+    writePicture(folder / "a.jpg", 1, 65500, tooLong);
     EXPECT_EQ(folder.entries(), 2);
 }
 

@@ -19,7 +19,7 @@ void expectPartition(const std::vector<PiecewiseConstantEntry>& entries)
     for (std::size_t i = 0; i < count; ++i) {
         EXPECT_LE(entries[i].first, entries[i].last);
         EXPECT_TRUE(i == 0 || entries[i].first == entries[i - 1].last + 1);
-        sum += probabilityOf(entries[i]);
+        sum += computeProbability(entries[i]);
         for (const std::uint32_t word : {entries[i].first, entries[i].last}) {
             const PiecewiseConstantEntry& bin = entries[static_cast<std::size_t>(word * count >> 32)];
             EXPECT_LE(bin.searchBegin, i);
@@ -42,7 +42,7 @@ TEST(PiecewiseConstant, ProbabilitiesAreInProportionToWeights)
         const std::vector<PiecewiseConstantEntry> entries = buildPiecewiseConstant(weights);
         expectPartition(entries);
         for (std::size_t i = 0; i < count; ++i) {
-            EXPECT_NEAR(probabilityOf(entries[i]), weights[i] / sum, 1e-9 * weights[i] / sum + 0x1p-31);
+            EXPECT_NEAR(computeProbability(entries[i]), weights[i] / sum, 1e-9 * weights[i] / sum + 0x1p-31);
         }
     }
 }
@@ -55,7 +55,7 @@ TEST(PiecewiseConstant, NoEntryIsLost)
         weights[sun] = 1e30;
         const std::vector<PiecewiseConstantEntry> entries = buildPiecewiseConstant(weights);
         expectPartition(entries);
-        EXPECT_GT(probabilityOf(entries[sun]), 1.0 - 1e-5);
+        EXPECT_GT(computeProbability(entries[sun]), 1.0 - 1e-5);
     }
 }
 

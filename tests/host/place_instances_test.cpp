@@ -63,7 +63,7 @@ TEST(PlaceInstances, RaysPassNoFartherBesideTheirPlaceThanTheBound)
             const glm::dvec3 inMesh = glm::dvec3(toMesh(rows, origin, 1.0F)) + glm::dvec3(toMesh(rows, way, 0.0F));
             const glm::dvec3 back = placement.linear * inMesh + placement.translation;
             const double share =
-                shareOf(back - (glm::dvec3(origin) + glm::dvec3(way)), errorOfRays(placement, glm::vec3(glm::dvec3(away))));
+                shareOf(back - (glm::dvec3(origin) + glm::dvec3(way)), boundRayError(placement, glm::vec3(glm::dvec3(away))));
             worst = std::max(worst, share);
         }
     }

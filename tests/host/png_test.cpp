@@ -10,8 +10,8 @@
 namespace glim {
 namespace {
 
-using test::bytesOfFile;
 using test::decodePng;
+using test::readFileBytes;
 using test::ScratchFolder;
 
 // Published pairs of the sRGB curve; and its inverse: each byte is the one nearest to the light that it stands for.
@@ -38,7 +38,7 @@ TEST(Png, HoldsThePixelsFromTheTopLeft)
     writePng(folder / "a.png", 3, 2, pixels);
     EXPECT_EQ(decodePng(folder / "a.png"), read);
     writePng(folder / "b.png", 3, 2, pixels);
-    EXPECT_EQ(bytesOfFile(folder / "a.png"), bytesOfFile(folder / "b.png"));
+    EXPECT_EQ(readFileBytes(folder / "a.png"), readFileBytes(folder / "b.png"));
     EXPECT_EQ(folder.entries(), 2);
 }
 

@@ -40,8 +40,8 @@ TEST(PrimitivesTest, AreTheTrianglesOfEachInstanceInTurn)
     const Primitives primitives = makePrimitives(scene);
     EXPECT_EQ(primitives.count(), 5U);
     EXPECT_EQ(primitives.firstTriangles, (std::vector<std::uint32_t>{0, 2, 4}));
-    EXPECT_EQ(primitives.instanceOf(1), 0U);
-    EXPECT_EQ(primitives.instanceOf(2), 1U);
+    EXPECT_EQ(primitives.findInstance(1), 0U);
+    EXPECT_EQ(primitives.findInstance(2), 1U);
     EXPECT_EQ(primitives.triangles[0].vertices[1], glm::vec3(0, 0, 0));
     EXPECT_EQ(primitives.triangles[3].vertices[2], glm::vec3(3, 1, 0));
     EXPECT_TRUE(primitives.vertexNormals.empty() && primitives.vertexIndices.empty());
@@ -93,7 +93,7 @@ TEST(PrimitivesTest, WhatHasNoAreaHasNoId)
     const glm::dmat4 tiny = glm::scale(glm::dmat4(1.0), glm::dvec3(1e-60));
     const Primitives primitives = makePrimitives(sceneWith({square(true)}, {{"tiny", 0, tiny}, {"", 0}}));
     EXPECT_EQ(primitives.firstTriangles, (std::vector<std::uint32_t>{0, 0, 2}));
-    EXPECT_EQ(primitives.instanceOf(0), 1U);
+    EXPECT_EQ(primitives.findInstance(0), 1U);
     ASSERT_EQ(primitives.warnings.size(), 1U);
     EXPECT_NE(primitives.warnings[0].find("2 triangles"), std::string::npos);
     const FlatScene flat = flattened(sceneWith({square(true)}, {{"tiny", 0, tiny}, {"", 0}}));
@@ -107,14 +107,14 @@ TEST(PrimitivesTest, VerticesThatNoTriangleHasAreLeftOut)
     EXPECT_EQ(makePrimitives(sceneWith({part}, {{"", 0}})).vertexNormals.size(), 4U);
 }
 
-// Normals are per primitive, not per record.
+// Normals are per primitive, not per reference.
 TEST(PrimitivesTest, PiecesDuplicateNoNormals)
 {
-    Scene scene = sceneOf({});
+    Scene scene = makeTestScene({});
     const Triangles triangles = strips(12, 9);
     addMesh(scene, triangles, 0, std::vector<glm::vec3>(3 * triangles.size(), glm::vec3(0, 0, 1)));
     const FlatScene flat = flattened(scene);
-    EXPECT_GT(flat.records.size(), kRecordTexels * triangles.size() + 100);
+    EXPECT_GT(flat.primitiveRefs.size(), kPrimitiveRefTexels * triangles.size() + 100);
     EXPECT_EQ(flat.triangles.size(), triangles.size());
     EXPECT_EQ(flat.vertices.size(), 2U) << "none, and the one that all corners have";
 }
@@ -201,7 +201,8 @@ TEST(PrimitivesTest, SharedMeshesFollowWhatIsLeft)
     Scene scene = squaresInOnePlace();
     const std::vector<std::uint32_t> once = scene.meshes[0].indices;
     for (int i = 0; i < 4; ++i) {
-        scene.meshes[0].indices.insert(scene.meshes[0].indices.end(), once.begin(), once.end());
+        std::vector<std::uint32_t>& indices = scene.meshes.change()[0].indices;
+        indices.insert(indices.end(), once.begin(), once.end());
         scene.instances.push_back({"more", 0});
     }
     const Primitives primitives = makePrimitives(scene, 0);

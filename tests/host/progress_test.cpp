@@ -27,10 +27,10 @@ TEST(ProgressEstimate, IsOfWhatIsLeft)
 // Whatever a plan says, and however wrong it was.
 TEST(ProgressEstimate, IsAShareAndATimeOrUnknown)
 {
-    constexpr std::uint64_t kMost = ~std::uint64_t{0};
+    constexpr std::uint64_t kMax = ~std::uint64_t{0};
     for (const std::uint64_t samples :
-         {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{99}, std::uint64_t{104}, std::uint64_t{1} << 60U, kMost}) {
-        for (const std::uint64_t total : {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{100}, kMost}) {
+         {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{99}, std::uint64_t{104}, std::uint64_t{1} << 60U, kMax}) {
+        for (const std::uint64_t total : {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{100}, kMax}) {
             for (const std::uint64_t resumed : {std::uint64_t{0}, samples / 2, samples}) {
                 for (const double seconds : {0.0, 1e-9, 1.0, 1e9}) {
                     for (const auto limit : {std::optional<double>(), std::optional(0.0), std::optional(1e-3), std::optional(1e3)}) {

@@ -170,7 +170,7 @@ struct PlannedRender {
     Taken taken;
 };
 
-RenderSettings settingsOf(std::uint32_t begin, std::uint32_t end)
+RenderSettings makeSettings(std::uint32_t begin, std::uint32_t end)
 {
     RenderSettings settings;
     settings.width = 9;
@@ -192,7 +192,7 @@ TEST(SamplePlanTest, UniformRendersTakeEachSampleOnceAndInOrder)
 {
     for (const auto& [begin, end] : {std::pair{0U, 1U}, {0U, 20U}, {0U, 600U}, {200U, 700U}, {128U, 129U}}) {
         for (const bool light : {false, true}) {
-            PlannedRender render(settingsOf(begin, end), light);
+            PlannedRender render(makeSettings(begin, end), light);
             while (render.advance()) {
             }
             for (const std::vector<std::uint32_t>& samples : render.taken.samples) {
@@ -214,7 +214,7 @@ TEST(SamplePlanTest, UniformRendersTakeEachSampleOnceAndInOrder)
 // A render that is stopped early covers its picture evenly.
 TEST(SamplePlanTest, SweepsGrowToBlocks)
 {
-    RenderSettings settings = settingsOf(0, 300);
+    RenderSettings settings = makeSettings(0, 300);
     const auto sweepsOf = [&] {
         SamplePlan plan(settings, false);
         std::vector<std::uint32_t> ends;
@@ -242,7 +242,7 @@ TEST(SamplePlanTest, InterruptedRendersTakeEachSampleOnce)
 {
     for (const std::uint32_t every : {1U, 2U, 3U, 7U, 20U}) {
         for (const auto& [begin, end] : {std::pair{0U, 400U}, {200U, 500U}}) {
-            PlannedRender render(settingsOf(begin, end), true);
+            PlannedRender render(makeSettings(begin, end), true);
             int interruptions = 0;
             for (std::uint32_t pass = 1; render.advance(); ++pass) {
                 interruptions += pass % every == 0 && interruptions < 40 && render.interrupt() ? 1 : 0;
@@ -288,7 +288,7 @@ void expectAllocated(const PlannedRender& render, std::uint32_t mean)
 TEST(SamplePlanTest, AdaptiveRendersHaveTheirMean)
 {
     for (const std::uint32_t mean : {192U, 640U}) {
-        RenderSettings settings = settingsOf(0, mean);
+        RenderSettings settings = makeSettings(0, mean);
         settings.adaptive = Adaptive::Neighbours;
         PlannedRender render(settings, true);
         while (render.advance()) {
@@ -302,7 +302,7 @@ TEST(SamplePlanTest, AdaptiveRendersHaveTheirMean)
 TEST(SamplePlanTest, InterruptedAdaptiveRendersHaveTheSame)
 {
     for (const std::uint32_t every : {5U, 17U, 40U}) {
-        RenderSettings settings = settingsOf(0, 640);
+        RenderSettings settings = makeSettings(0, 640);
         settings.adaptive = Adaptive::Neighbours;
         PlannedRender render(settings, true);
         int interruptions = 0;
@@ -323,7 +323,7 @@ TEST(SamplePlanTest, InterruptedAdaptiveRendersHaveTheSame)
 // The course's rule takes pixels out at the ends of batches.
 TEST(SamplePlanTest, StoppedPixelsGetNoMore)
 {
-    RenderSettings settings = settingsOf(0, 100);
+    RenderSettings settings = makeSettings(0, 100);
     settings.adaptive = Adaptive::Course;
     settings.course.batch = 24;
     PlannedRender render(settings, false);
@@ -338,9 +338,9 @@ TEST(SamplePlanTest, StoppedPixelsGetNoMore)
 
 TEST(SamplePlanTest, TargetsAreJudgedAtEndsOfBlocks)
 {
-    PlannedRender render(settingsOf(0, 2048), false);
+    PlannedRender render(makeSettings(0, 2048), false);
     render.plan.expectTarget();
-    EXPECT_EQ(render.plan.plannedSamples(), 45U * leastSamplesForError(0));
+    EXPECT_EQ(render.plan.plannedSamples(), 45U * minSamplesForError(0));
     std::vector<std::uint32_t> judged;
     while (render.advance()) {
         if (render.plan.isJudgedNow()) {

@@ -122,7 +122,8 @@ GltfBuilder fans()
         indices.insert(indices.end(), {0U, i, i + 1});
     }
     indices.erase(indices.begin(), indices.begin() + 3);
-    const std::size_t mesh = builder.addMesh({{"attributes", {{"POSITION", builder.addVec3(corners)}}}, {"indices", builder.addIndices(indices)}});
+    const std::size_t mesh =
+        builder.addMesh({{"attributes", {{"POSITION", builder.addVec3(corners)}}}, {"indices", builder.addIndices(indices)}});
     const std::size_t lamp = builder.addTriangleMesh(), pane = builder.addTriangleMesh();
     builder.append("materials", {{"alphaMode", "MASK"}});
     builder.append("materials", {{"emissiveFactor", {1, 1, 1}}});
@@ -155,13 +156,13 @@ TEST_F(SceneFileTest, AnEditTouchesWhatItChanges)
     updateScene(prepared, file, std::nullopt, SplitRule::Sah);
     for (const Case& c : {Case{{"/materials/0/pbrMetallicRoughness/baseColorFactor", "[0.5, 0.25, 0, 1]"}, true, true, true},
                           {{"/materials/1/emissiveFactor", "[0.5, 0.5, 0.5]"}, true, true, true},
-          {{"/materials/1/alphaCutoff", "0.25"}, true, true, true},  // of an opaque material
+                          {{"/materials/1/alphaCutoff", "0.25"}, true, true, true},  // of an opaque material
                           {{"/extensions/KHR_lights_punctual/lights/0/intensity", "7"}, true, true, true},
                           {{"/nodes/5/translation", "[0, 6, 0]"}, true, true, true},
                           {{"/materials/1/emissiveFactor", "[0, 0, 0]"}, true, false, false},
                           {{"/materials/0/emissiveFactor", "[1, 0, 0]"}, true, false, false},
                           {{"/materials/0/doubleSided", "true"}, true, false, false},
-          {{"/materials/2/pbrMetallicRoughness/roughnessFactor", "0"}, true, false, false},  // rays pass it straight
+                          {{"/materials/2/pbrMetallicRoughness/roughnessFactor", "0"}, true, false, false},  // rays pass it straight
                           {{"/materials/0/alphaCutoff", "2"}, true, false, false},
                           {{"/nodes/1/translation", "[2, 1, 0]"}, true, false, false},
                           {{"/materials/0/extensions/KHR_materials_anisotropy/anisotropyStrength", "0.5"}, false, false, false}}) {
@@ -176,9 +177,9 @@ TEST_F(SceneFileTest, AnEditTouchesWhatItChanges)
             const std::string what = c.edit.pointer + (edits.empty() ? " undone" : "");
             EXPECT_EQ(fingerprint(prepared.flat), fingerprint(fresh.flat)) << what;
             EXPECT_EQ(prepared.flat.features, fresh.flat.features) << what;
-            EXPECT_EQ(prepared.flat.records.size(), fresh.flat.records.size()) << what;
+            EXPECT_EQ(prepared.flat.primitiveRefs.size(), fresh.flat.primitiveRefs.size()) << what;
             EXPECT_EQ(prepared.scene.meshes.isSameAs(meshes), c.keepsMeshes) << what;
-            EXPECT_EQ(prepared.flat.records.isSameAs(before.records), c.keepsRecords) << what;
+            EXPECT_EQ(prepared.flat.primitiveRefs.isSameAs(before.primitiveRefs), c.keepsRecords) << what;
             EXPECT_EQ(prepared.flat.nodes.isSameAs(before.nodes), c.keepsNodes) << what;
         }
     }
@@ -207,7 +208,7 @@ TEST_F(SceneFileTest, ASharedMeshMovesAlone)
     EXPECT_NE(fingerprint(flatMoved), fingerprint(flat));
     EXPECT_EQ(flatMoved.features, fresh.features);
     EXPECT_EQ(flatMoved.instances, fresh.instances);
-    EXPECT_TRUE(flatMoved.records.isSameAs(flat.records));
+    EXPECT_TRUE(flatMoved.primitiveRefs.isSameAs(flat.primitiveRefs));
     EXPECT_TRUE(flatMoved.triangles.isSameAs(flat.triangles));
     // A flattened instance that moves is another shape.
     Scene lamp = after;

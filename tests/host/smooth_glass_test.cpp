@@ -87,7 +87,7 @@ struct Outcome {
 Outcome measure(Rule rule)
 {
     const Triangles ball = icosphere(1);
-    const Reference reference(sceneOf(ball));
+    const Reference reference(makeTestScene(ball));
     Random random(23);
     Outcome outcome;
     for (int i = 0; i < kPaths; ++i) {
@@ -99,7 +99,7 @@ Outcome measure(Rule rule)
     return outcome;
 }
 
-TEST(SmoothGlassTest, H23TheShadingNormalSaysWhichSide)
+TEST(SmoothGlassTest, H23ShadingNormalDecidesTheSide)
 {
     const Outcome shading = measure(sideByShading), face = measure(sideByFace);
     printHardCase("H23", "glass ball of 80 triangles, by the rule alone", kPaths, "mean " + figure(shading.mean),

@@ -9,16 +9,9 @@
 namespace glim {
 namespace {
 
-const EmbeddedShader* const kKernels[] = {&kernels::accumulate,
-                                          &kernels::course_bounce,
-                                          &kernels::course_sample_lights,
-                                          &kernels::generate_rays,
-                                          &kernels::sample_lights_and_bounce,
-                                          &kernels::show_aov,
-                                          &kernels::size_dispatch,
-                                          &kernels::trace_closest,
-                                          &kernels::trace_paths,
-                                          &kernels::trace_shadow};
+const EmbeddedShader* const kKernels[] = {
+    &kernels::accumulate, &kernels::course_bounce, &kernels::course_sample_lights, &kernels::generate_rays, &kernels::shade_surface,
+    &kernels::show_aov,   &kernels::size_dispatch, &kernels::trace_closest,        &kernels::trace_paths,   &kernels::trace_shadow};
 
 const FeatureMask kFeatureMasks[] = {
     0,
@@ -38,7 +31,7 @@ TEST(SpecializeTest, KernelsStayValid)
     for (const EmbeddedShader* kernel : kKernels) {
         for (const FeatureMask features : kFeatureMasks) {
             SCOPED_TRACE(std::string(kernel->name) + " with features " + std::to_string(features));
-            const std::vector<std::uint32_t> words = specialize(*kernel, constantsOf(features));
+            const std::vector<std::uint32_t> words = specialize(*kernel, makeConstants(features));
             EXPECT_TRUE(tools.Validate(words.data(), words.size(), options)) << message;
         }
     }
@@ -47,7 +40,7 @@ TEST(SpecializeTest, KernelsStayValid)
 // The size of the code decides how long drivers take to start. 2: measured 2.4.
 TEST(SpecializeTest, CodeThatASceneDoesNotNeedIsGone)
 {
-    const auto size = [](FeatureMask features) { return specialize(kernels::trace_paths, constantsOf(features)).size(); };
+    const auto size = [](FeatureMask features) { return specialize(kernels::trace_paths, makeConstants(features)).size(); };
     EXPECT_LT(2 * size(kFeatureTriangleLights), size(kAllFeatures));
 }
 

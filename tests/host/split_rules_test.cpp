@@ -24,7 +24,7 @@ Boxes makeCubes(const std::vector<float>& places, int axis)
     return boxes;
 }
 
-std::vector<std::uint32_t> primitivesOf(const Bvh& bvh, std::size_t leaf)
+std::vector<std::uint32_t> makeTestPrimitives(const Bvh& bvh, std::size_t leaf)
 {
     const auto first = bvh.order.begin() + bvh.nodes[leaf].first;
     std::vector<std::uint32_t> primitives(first, first + bvh.nodes[leaf].count);
@@ -39,11 +39,11 @@ TEST(SplitRules, MeanSplitsAtTheMeanOfTheCentres)
     for (const int axis : {0, 1, 2}) {
         const Bvh bvh = buildBvh(makeCubes({3, 35, 0, 5, 1, 6, 2, 4}, axis), SplitRule::Mean);
         ASSERT_EQ(bvh.nodes.size(), 9U);
-        EXPECT_EQ(primitivesOf(bvh, 2), (std::vector<std::uint32_t>{1}));
-        EXPECT_EQ(primitivesOf(bvh, 5), (std::vector<std::uint32_t>{2}));
-        EXPECT_EQ(primitivesOf(bvh, 6), (std::vector<std::uint32_t>{4, 6}));
-        EXPECT_EQ(primitivesOf(bvh, 7), (std::vector<std::uint32_t>{0, 7}));
-        EXPECT_EQ(primitivesOf(bvh, 8), (std::vector<std::uint32_t>{3, 5}));
+        EXPECT_EQ(makeTestPrimitives(bvh, 2), (std::vector<std::uint32_t>{1}));
+        EXPECT_EQ(makeTestPrimitives(bvh, 5), (std::vector<std::uint32_t>{2}));
+        EXPECT_EQ(makeTestPrimitives(bvh, 6), (std::vector<std::uint32_t>{4, 6}));
+        EXPECT_EQ(makeTestPrimitives(bvh, 7), (std::vector<std::uint32_t>{0, 7}));
+        EXPECT_EQ(makeTestPrimitives(bvh, 8), (std::vector<std::uint32_t>{3, 5}));
         EXPECT_EQ(bvh.depth, 3U);
         EXPECT_NEAR(bvh.cost, 1.0 + (15.0 + 7.0 + 9.0 + 3.0 + 3.0 + 3 * 2 * 5.0) / 73.0, 1e-12);
     }
@@ -54,10 +54,10 @@ TEST(SplitRules, MedianSplitsByCount)
 {
     const Bvh bvh = buildBvh(makeCubes({3, 35, 0, 5, 1, 6, 2, 4}, 0), SplitRule::Median);
     ASSERT_EQ(bvh.nodes.size(), 7U);
-    EXPECT_EQ(primitivesOf(bvh, 3), (std::vector<std::uint32_t>{2, 4}));
-    EXPECT_EQ(primitivesOf(bvh, 4), (std::vector<std::uint32_t>{0, 6}));
-    EXPECT_EQ(primitivesOf(bvh, 5), (std::vector<std::uint32_t>{3, 7}));
-    EXPECT_EQ(primitivesOf(bvh, 6), (std::vector<std::uint32_t>{1, 5}));
+    EXPECT_EQ(makeTestPrimitives(bvh, 3), (std::vector<std::uint32_t>{2, 4}));
+    EXPECT_EQ(makeTestPrimitives(bvh, 4), (std::vector<std::uint32_t>{0, 6}));
+    EXPECT_EQ(makeTestPrimitives(bvh, 5), (std::vector<std::uint32_t>{3, 7}));
+    EXPECT_EQ(makeTestPrimitives(bvh, 6), (std::vector<std::uint32_t>{1, 5}));
     EXPECT_NEAR(bvh.cost, 1.0 + (9.0 + 65.0 + 2.0 * (5.0 + 5.0 + 5.0 + 61.0)) / 73.0, 1e-12);
 }
 

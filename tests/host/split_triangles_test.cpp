@@ -89,7 +89,7 @@ TEST(SplitTrianglesTest, PiecesHoldTheirTriangles)
     for (const float scale : {1.0F, 0x1p-50F, 0x1p50F, 0x1p127F}) {
         for (const Triangles& mesh : {awkward(), strips(40, 5)}) {
             const Primitives primitives =
-                primitivesOf(placed(mesh, scale, 0.0F), scale == 1.0F ? randomSpheres(30, 0.5F, 6) : std::vector<Sphere>{});
+                makeTestPrimitives(placed(mesh, scale, 0.0F), scale == 1.0F ? randomSpheres(30, 0.5F, 6) : std::vector<Sphere>{});
             const std::vector<Box> whole = primitiveBoxes(primitives);
             const Pieces pieces = splitTriangles(primitives.triangles, whole);
             ASSERT_FALSE(pieces.boxes.empty());
@@ -115,26 +115,26 @@ TEST(SplitTrianglesTest, PiecesHoldTheirTriangles)
 
 TEST(SplitTrianglesTest, ATenthMoreAtMostAndTheWorstFirst)
 {
-    const Primitives primitives = primitivesOf(strips(12, 9));
+    const Primitives primitives = makeTestPrimitives(strips(12, 9));
     const std::vector<Box> whole = primitiveBoxes(primitives);
     const Pieces pieces = splitTriangles(primitives.triangles, whole);
     EXPECT_EQ(pieces.boxes.size(), whole.size() + whole.size() / 10);
     const auto boxes = byPrimitive(pieces, whole.size());
-    double leastSplit = 1e300, greatestLeft = 0.0, before = 0.0, after = 0.0;
+    double minSplit = 1e300, greatestLeft = 0.0, before = 0.0, after = 0.0;
     for (std::size_t id = 0; id < whole.size(); ++id) {
         EXPECT_TRUE(boxes[id].size() == 1 || id >= 12 * 40) << "only strips waste so much, triangle " << id;
-        leastSplit = boxes[id].size() > 1 ? std::min(leastSplit, halfArea(whole[id])) : leastSplit;
+        minSplit = boxes[id].size() > 1 ? std::min(minSplit, halfArea(whole[id])) : minSplit;
         before += halfArea(whole[id]);
         for (const Box& box : boxes[id]) {
             greatestLeft = std::max(greatestLeft, halfArea(box));
             after += halfArea(box);
         }
     }
-    std::cout << "half the surface of all boxes " << before << ", of pieces' " << after << "; the least divided " << leastSplit
+    std::cout << "half the surface of all boxes " << before << ", of pieces' " << after << "; the least divided " << minSplit
               << ", the greatest left " << greatestLeft << "\n";
     EXPECT_LT(after, 0.5 * before);
     // A strip's box is all waste, but for some hundredths.
-    EXPECT_LT(greatestLeft, 1.05 * leastSplit);
+    EXPECT_LT(greatestLeft, 1.05 * minSplit);
 }
 
 TEST(SplitTrianglesTest, NothingIsSplitWhereLittleWastes)
@@ -142,8 +142,9 @@ TEST(SplitTrianglesTest, NothingIsSplitWhereLittleWastes)
     Triangles roofed = terrain(40);
     roofed.push_back({{{-10, 5, -10}, {10, 5, -10}, {10, 9, 10}}});  // makes 57 more, of which less than a fiftieth are no reason
     for (const Primitives& primitives :
-         {primitivesOf(roofed), primitivesOf(terrain(300)), primitivesOf(icosphere(4)), primitivesOf({}, randomSpheres(50, 1.0F, 3)),
-          primitivesOf(randomTriangles(9, 1.0F, 2)), primitivesOf(coincidentTriangles(1)), primitivesOf(Triangles(20, Triangle{}))}) {
+         {makeTestPrimitives(roofed), makeTestPrimitives(terrain(300)), makeTestPrimitives(icosphere(4)),
+          makeTestPrimitives({}, randomSpheres(50, 1.0F, 3)), makeTestPrimitives(randomTriangles(9, 1.0F, 2)),
+          makeTestPrimitives(coincidentTriangles(1)), makeTestPrimitives(Triangles(20, Triangle{}))}) {
         EXPECT_TRUE(splitTriangles(primitives.triangles, primitiveBoxes(primitives)).boxes.empty())
             << primitives.triangles.size() << " triangles";
     }
@@ -171,11 +172,11 @@ bool reaches(const WideBvh& bvh, std::uint32_t primitive, const glm::dvec3& poin
     return false;
 }
 
-double costOf(const std::vector<Box>& boxes) { return collapseBvh(buildBvh(boxes)).cost; }
+double computeCost(const std::vector<Box>& boxes) { return collapseBvh(buildBvh(boxes)).cost; }
 
 TEST(SceneBvhTest, IsOfPiecesWhereThatIsCheaper)
 {
-    const Primitives primitives = primitivesOf(strips(12, 9));
+    const Primitives primitives = makeTestPrimitives(strips(12, 9));
     const WideBvh whole = collapseBvh(buildBvh(primitiveBoxes(primitives))), bvh = buildSceneBvh(primitives);
     std::cout << "cost of primitives " << whole.cost << ", of pieces " << bvh.cost << "\n";
     EXPECT_LT(bvh.cost, 0.9 * whole.cost);
@@ -200,11 +201,11 @@ TEST(SceneBvhTest, IsOfPrimitivesElsewhere)
     Triangles mixed = randomTriangles(500, 0.1F, 5);
     const Triangles larger = randomTriangles(100, 0.4F, 77);
     mixed.insert(mixed.end(), larger.begin(), larger.end());
-    const std::vector<Box> boxes = primitiveBoxes(primitivesOf(mixed));
-    const double gain = costOf(splitTriangles(mixed, boxes).boxes) / costOf(boxes);
+    const std::vector<Box> boxes = primitiveBoxes(makeTestPrimitives(mixed));
+    const double gain = computeCost(splitTriangles(mixed, boxes).boxes) / computeCost(boxes);
     EXPECT_GT(gain, 0.9);
     EXPECT_LT(gain, 0.97) << "a little cheaper";
-    for (const Primitives& primitives : {primitivesOf(terrain(50), randomSpheres(20, 0.5F, 4)), room, primitivesOf(mixed)}) {
+    for (const Primitives& primitives : {makeTestPrimitives(terrain(50), randomSpheres(20, 0.5F, 4)), room, makeTestPrimitives(mixed)}) {
         const WideBvh whole = collapseBvh(buildBvh(primitiveBoxes(primitives))), bvh = buildSceneBvh(primitives);
         EXPECT_EQ(bvh.order, whole.order);
         EXPECT_EQ(bvh.cost, whole.cost);

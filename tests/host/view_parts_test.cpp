@@ -36,7 +36,7 @@ Image imageOf(std::uint32_t width, std::uint32_t height, const std::vector<std::
 
 Layer layerOf(const Image& image, const std::string& name)
 {
-    for (const Layer& layer : layersOf(image)) {
+    for (const Layer& layer : collectLayers(image)) {
         if (layer.name == name) {
             return layer;
         }
@@ -89,7 +89,7 @@ TEST(LayersTest, ChannelsAreGroupedAsTheirNamesSay)
         {"depth", 1, ShownAs::Depth, false, false},       {"motion.X", 1, ShownAs::Heat, false, false},
         {"motion.Y", 1, ShownAs::Heat, false, false},     {"node", 1, ShownAs::Ids, false, false},
         {"normal", 3, ShownAs::Vector, false, false}};
-    const std::vector<Layer> layers = layersOf(image);
+    const std::vector<Layer> layers = collectLayers(image);
     ASSERT_EQ(layers.size(), expected.size());
     for (std::size_t i = 0; i < layers.size(); ++i) {
         EXPECT_EQ(layers[i].name, expected[i].name);
@@ -99,8 +99,8 @@ TEST(LayersTest, ChannelsAreGroupedAsTheirNamesSay)
         EXPECT_EQ(layers[i].isToned, expected[i].isToned) << layers[i].name;
     }
     EXPECT_EQ(layers[0].channels, (std::vector<std::string>{"R", "G", "B", "A"}));
-    EXPECT_EQ(textOf(numbersOf(image, layers[0], 1)), "0.5 1.5 2.5 3.5");
-    EXPECT_EQ(textOf(numbersOf(image, layerOf(image, "count"), 3)), "10");
+    EXPECT_EQ(toText(numbersOf(image, layers[0], 1)), "0.5 1.5 2.5 3.5");
+    EXPECT_EQ(toText(numbersOf(image, layerOf(image, "count"), 3)), "10");
 }
 
 TEST(LayersTest, ALoneYIsLuminance)
@@ -112,9 +112,9 @@ TEST(LayersTest, ALoneYIsLuminance)
 
 TEST(LayersTest, NumbersAreWrittenWithSixDigitsAndWholeOnesWithAll)
 {
-    EXPECT_EQ(textOf({}), "-");
-    EXPECT_EQ(textOf({4294967295.0, 0.1234567, 1e30, -2.0}), "4294967295 0.123457 1e+30 -2");
-    EXPECT_EQ(textOf({std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}), "nan inf");
+    EXPECT_EQ(toText({}), "-");
+    EXPECT_EQ(toText({4294967295.0, 0.1234567, 1e30, -2.0}), "4294967295 0.123457 1e+30 -2");
+    EXPECT_EQ(toText({std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}), "nan inf");
 }
 
 TEST(LayersTest, NormalsOfFilmsAreDividedByAlphaAndDepthsWithoutASurfaceAreNothing)
@@ -131,13 +131,13 @@ TEST(LayersTest, NormalsOfFilmsAreDividedByAlphaAndDepthsWithoutASurfaceAreNothi
     EXPECT_EQ(valuesOf(image, normal).radiance[2], glm::vec3(0.0F));
     const Picture depths = valuesOf(image, depth);
     EXPECT_EQ(depths.radiance, (std::vector<glm::vec3>{glm::vec3(3.0F), glm::vec3(2.0F), glm::vec3(0.0F), glm::vec3(0.0F)}));
-    const auto range = rangeOf(image, depth, depths);
+    const auto range = getRange(image, depth, depths);
     ASSERT_TRUE(range);
     EXPECT_EQ(range->low, 2.0F);
     EXPECT_EQ(range->high, 3.0F);
-    EXPECT_FALSE(rangeOf(image, normal, valuesOf(image, normal)));
+    EXPECT_FALSE(getRange(image, normal, valuesOf(image, normal)));
     image.channels["depth.Z"] = {0.0F, 0.0F, 0.0F, std::numeric_limits<float>::infinity()};
-    EXPECT_FALSE(rangeOf(image, depth, valuesOf(image, depth))) << "nothing is there";
+    EXPECT_FALSE(getRange(image, depth, valuesOf(image, depth))) << "nothing is there";
     image.channels["depth.Z"][0] = std::numeric_limits<float>::quiet_NaN();
     EXPECT_TRUE(std::isnan(valuesOf(image, depth).radiance[0].x)) << "is seen";
 }
@@ -153,7 +153,7 @@ TEST(LayersTest, RangesOfHeat)
     image.channels["error.R"][7] = std::numeric_limits<float>::infinity();
     const auto range = [&](const char* name) {
         const Layer layer = layerOf(image, name);
-        return rangeOf(image, layer, valuesOf(image, layer)).value();
+        return getRange(image, layer, valuesOf(image, layer)).value();
     };
     EXPECT_EQ(range("error").low, 0.0F);
     EXPECT_EQ(range("error").high, 998.0F) << "of 999 finite numbers the largest but one";

@@ -20,7 +20,7 @@ void main()
         Case c = cases[TEST_THREAD];
         Principled p = makePrincipled(c.material, c.wo);
         Principled scattered = p;
-        scattered.smooth_ = true;  // leaves the single reflections out
+        scattered.isSmooth = true;  // leaves the single reflections out
         float sum = 0.0;
         for (uint i = 0u; i < kSide * kSide; ++i) {
             vec2 u = (vec2(i / kSide, i % kSide) + 0.5) / float(kSide);

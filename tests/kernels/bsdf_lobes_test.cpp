@@ -35,7 +35,7 @@ double reflectance(double cosine, double eta)
 
 glm::dvec3 upwards(glm::dvec3 d, const glm::dvec3& n) { return glm::dot(d, n) < 0.0 ? -d : d; }
 
-Case caseOf(Random& random)
+Case makeCase(Random& random)
 {
     Case c{};
     c.albedo = vec3(random.uniform(), random.uniform(), random.uniform());
@@ -60,7 +60,7 @@ TEST(BsdfLobesTest, WeightsAreWhatTheyStandFor)
     for (int round = 0; round < testRounds(); ++round) {
         Random random(static_cast<std::uint64_t>(round) * 7 + 21);
         std::vector<Case> cases(200000);
-        std::generate(cases.begin(), cases.end(), [&random] { return caseOf(random); });
+        std::generate(cases.begin(), cases.end(), [&random] { return makeCase(random); });
         const float edges[] = {0.0F, 0x1p-24F, 0.5F, 1.0F - 0x1p-24F};  // H18
         for (std::size_t i = 0; i < 16; ++i) {
             cases[i].u = {edges[i % 4], edges[i / 4]};

@@ -107,7 +107,7 @@ bool transmits(const BsdfCase& c)
 }
 
 // Features of the kernels that the cases need: fewer compile faster.
-FeatureMask featuresOf(const std::vector<BsdfCase>& cases)
+FeatureMask getFeatures(const std::vector<BsdfCase>& cases)
 {
     FeatureMask features = kFeaturePrincipled;
     for (const BsdfCase& c : cases) {
@@ -154,7 +154,7 @@ public:
         }
         const std::size_t threads = sides.size() * kCells * kCells;
         KernelTest test(test_kernels::bsdf_cells_test);
-        test.buffers(albedos_.bound()).features(featuresOf(cases_)).cases(cells).resultsOf<glm::vec4>(threads);
+        test.buffers(albedos_.bound()).features(getFeatures(cases_)).cases(cells).resultsOf<glm::vec4>(threads);
         test.threads(static_cast<std::uint32_t>(threads)).run();
         return test.results<glm::vec4>();
     }
@@ -194,7 +194,7 @@ std::vector<double> countsOf(const std::vector<Side>& sides, std::span<const Sam
 }
 
 struct Summary {
-    double leastP = 1.0, largestZ = 0.0, largestWeight = 0.0, difference = 0.0, variance = 0.0, tests = 0.0, excess = 0.0;
+    double minP = 1.0, largestZ = 0.0, largestWeight = 0.0, difference = 0.0, variance = 0.0, tests = 0.0, excess = 0.0;
     std::vector<float> weights;
 };
 
@@ -214,9 +214,9 @@ void check(const std::vector<Side>& sides, std::span<const glm::vec4> integrals,
     expected.push_back(std::max(0.0, n * (1.0 - total.x)));
     summary.excess = std::max(summary.excess, total.x - 1.0);
     EXPECT_LE(total.x, 1.0 + kQuadrature) << "integral of the density";
-    const ChiSquare test = chiSquareOf(countsOf(sides, hashed), expected);
+    const ChiSquare test = computeChiSquare(countsOf(sides, hashed), expected);
     EXPECT_GE(test.p, familyLevel(tests)) << "chi-square " << test.statistic << " with " << test.cells << " cells";
-    summary.leastP = std::min(summary.leastP, test.p);
+    summary.minP = std::min(summary.minP, test.p);
     glm::dvec3 sum(0.0), squares(0.0);
     for (const SampledDirection& s : hashed) {
         const glm::dvec3 weight = isContinuous(s) ? glm::dvec3(s.weight) : glm::dvec3(0.0);
@@ -254,7 +254,7 @@ Summary checkSampling(const std::string& what, const std::vector<BsdfCase>& case
     const std::vector<glm::vec4> integrals = sampled.integrate(sides);
     Summary summary;
     for (int round = 0; round < testRounds(); ++round) {
-        const auto hashed = sampled.sample(kPointsHashed, count, featuresOf(cases), static_cast<uint>(round) + 1);
+        const auto hashed = sampled.sample(kPointsHashed, count, getFeatures(cases), static_cast<uint>(round) + 1);
         for (std::size_t i = 0, side = 0; i < cases.size(); ++i) {
             const std::size_t first = side;
             while (side < sides.size() && sides[side].bsdf == i) {
@@ -272,9 +272,9 @@ Summary checkSampling(const std::string& what, const std::vector<BsdfCase>& case
                      summary.weights.end());
     const double difference = summary.difference / summary.tests, error = std::sqrt(summary.variance) / summary.tests;
     EXPECT_LE(std::abs(difference), 5.0 * error + kQuadrature) << what << ": mean of all albedos";
-    std::cout << "  " << what << ": " << cases.size() << " cases, least p " << summary.leastP << ", |z| of albedos up to "
-              << summary.largestZ << ", their mean off by " << difference << " +- " << error << ", weights up to " << summary.largestWeight
-              << ", median " << summary.weights[summary.weights.size() / 2] << '\n';
+    std::cout << "  " << what << ": " << cases.size() << " cases, least p " << summary.minP << ", |z| of albedos up to " << summary.largestZ
+              << ", their mean off by " << difference << " +- " << error << ", weights up to " << summary.largestWeight << ", median "
+              << summary.weights[summary.weights.size() / 2] << '\n';
     return summary;
 }
 

@@ -87,7 +87,7 @@ struct Worst {
 };
 
 // The origin is a sum of five products, position and aperture among them. The direction is off by half an ulp when forward is added, and by
-// some 12 half ulps of what turns it: six in across and aperture / depth, six in aside.
+// some 12 half ulps of what turns it: six in across and aperture / depth, six in normalizeSum.
 void expectRay(const Case& c, const PathRay& ray, Worst& worst)
 {
     const Truth truth = truthOf(c);

@@ -19,13 +19,13 @@ struct Case {
     float originTolerance;
 };
 
-double halfHeightOf(const Camera& camera)
+double computeHalfHeight(const Camera& camera)
 {
     return camera.kind == Camera::Kind::Perspective ? std::tan(0.5 * static_cast<double>(camera.yfov))
                                                     : static_cast<double>(camera.halfHeight);
 }
 
-glm::dvec2 filmOf(vec2 position, vec2 size)
+glm::dvec2 makeFilm(vec2 position, vec2 size)
 {
     return {2.0 * static_cast<double>(position.x) / static_cast<double>(size.x) - 1.0,
             1.0 - 2.0 * static_cast<double>(position.y) / static_cast<double>(size.y)};
@@ -35,17 +35,17 @@ glm::dvec2 filmOf(vec2 position, vec2 size)
 glm::dvec3 acrossOf(const Camera& camera, vec2 position, vec2 size)
 {
     const double aspect = static_cast<double>(size.x) / static_cast<double>(size.y);
-    const glm::dvec2 film = filmOf(position, size);
-    return halfHeightOf(camera) * (film.x * aspect * glm::dvec3(camera.right) + film.y * glm::dvec3(camera.up));
+    const glm::dvec2 film = makeFilm(position, size);
+    return computeHalfHeight(camera) * (film.x * aspect * glm::dvec3(camera.right) + film.y * glm::dvec3(camera.up));
 }
 
-Case caseOf(const Camera& camera, vec2 position, vec2 size)
+Case makeCase(const Camera& camera, vec2 position, vec2 size)
 {
-    Case c{flattenCamera(camera, size.x / size.y), position, size, filmOf(position, size), {}, {}, 0.0F};
+    Case c{flattenCamera(camera, size.x / size.y), position, size, makeFilm(position, size), {}, {}, 0.0F};
     const bool perspective = camera.kind == Camera::Kind::Perspective;
     const glm::dvec3 across = acrossOf(camera, position, size), forward(camera.forward), eye(camera.position);
     c.origin = perspective ? eye : eye + across;
-    const double extent = halfHeightOf(camera) * (1.0 + static_cast<double>(size.x / size.y));
+    const double extent = computeHalfHeight(camera) * (1.0 + static_cast<double>(size.x / size.y));
     c.originTolerance = perspective ? 0.0F : static_cast<float>(5e-7 * (glm::length(eye) + extent));
     c.direction = glm::normalize(perspective ? forward + across : forward);
     return c;
@@ -70,7 +70,7 @@ TEST(CameraTest, RaysGoWhereTheFilmSays)
         }
         const std::uint32_t height = 1 + random.below(4000);
         const vec2 size(1 + random.below(3 * height), height);
-        cases.push_back(caseOf(camera, positionIn(random, size, i), size));
+        cases.push_back(makeCase(camera, positionIn(random, size, i), size));
     }
     KernelTest(test_kernels::camera_test).cases(cases).resultsOf<vec3>(cases.size()).run();
 }
@@ -88,7 +88,7 @@ TEST(CameraTest, H35ThinFieldsOfView)
     for (int i = 0; i < 100000; ++i) {
         Camera camera = anyCamera(random);
         camera.yfov = static_cast<float>(0.1 * std::numbers::pi / 180.0);
-        cases.push_back(caseOf(camera, positionIn(random, {kSize, kSize}, i), {kSize, kSize}));
+        cases.push_back(makeCase(camera, positionIn(random, {kSize, kSize}, i), {kSize, kSize}));
         truth.push_back(glm::normalize(glm::dvec3(camera.forward) + acrossOf(camera, cases.back().position, {kSize, kSize})));
     }
     KernelTest test(test_kernels::camera_test);

@@ -26,7 +26,7 @@ void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        TargetCone cone = coneOf(c.target, c.emitter);
+        TargetCone cone = makeTargetCone(c.target, c.emitter);
         vec3 w = sampleTargetCone(cone, c.emitter, c.u);
         EXPECT_NEAR(dot(w, w), 1.0, 1e-6);
         results[TEST_THREAD] = Result(cone.axis, cone.solidAngle, cone.importance, uint(cone.around), w, uint(isInCone(cone, c.probe)));

@@ -26,7 +26,7 @@ struct Case {
 // 1 - cos of the half angle = 2 sin^2 of half of it; the cone's solid angle is 2 pi times that.
 double riseOf(double sin2) { return 2.0 * std::pow(std::sin(0.5 * std::asin(std::sqrt(sin2))), 2.0); }
 
-Case caseOf(float sin2, vec2 u)
+Case makeCase(float sin2, vec2 u)
 {
     const double whole = riseOf(static_cast<double>(sin2)), rise = static_cast<double>(u.x) * whole;
     const double phi = kPi * (2.0 * static_cast<double>(u.y) - 1.0), r = std::sqrt(rise * (2.0 - rise));
@@ -47,19 +47,19 @@ double naiveError(double ratio)
 }
 
 // Ratios of radius to distance from 1e-6 to 0.999999.
-TEST(ConeTest, H11KeepsItsDigitsHoweverSmall)
+TEST(ConeTest, H11SmallConesAreAccurate)
 {
     Random random(11);
     std::vector<Case> cases;
     const int count = static_cast<int>(hardTrials(200000));
     for (int i = 0; i < count; ++i) {
         const double ratio = i % 2 == 0 ? random.logUniform(1e-6, 1.0) : 1.0 - random.logUniform(1e-6, 1.0);
-        cases.push_back(caseOf(static_cast<float>(ratio * ratio), {random.unitFloat(), random.unitFloat()}));
+        cases.push_back(makeCase(static_cast<float>(ratio * ratio), {random.unitFloat(), random.unitFloat()}));
     }
     for (const float x : {0.0F, 0x1p-24F, 0.5F, 1.0F - 0x1p-24F}) {
         for (const float y : {0.0F, 0x1p-24F, 0.5F, 1.0F - 0x1p-24F}) {
-            cases.push_back(caseOf(1e-12F, {x, y}));
-            cases.push_back(caseOf(1.0F, {x, y}));
+            cases.push_back(makeCase(1e-12F, {x, y}));
+            cases.push_back(makeCase(1.0F, {x, y}));
         }
     }
     KernelTest(test_kernels::cone_test).cases(cases).resultsOf<vec3>(cases.size()).run();
@@ -75,7 +75,7 @@ void expectUniform(float sin2, std::uint64_t seed)
     Random random(seed);
     std::vector<Case> cases;
     for (int i = 0; i < 1000000; ++i) {
-        cases.push_back(caseOf(sin2, {random.unitFloat(), random.unitFloat()}));
+        cases.push_back(makeCase(sin2, {random.unitFloat(), random.unitFloat()}));
     }
     KernelTest test(test_kernels::cone_test);
     test.cases(cases).resultsOf<vec3>(cases.size()).run();

@@ -37,7 +37,7 @@ TEST(ContactTest, H10LightOnACeiling)
             for (const vec3& corner : downQuad(0.5F, 2.0F - gap)) {
                 corners.push_back(dvec3(corner) - dvec3(point));
             }
-            receivers.push_back({point, {0, 1, 0}, irradianceOfPolygon(corners, {0, 1, 0}), kLookUp});
+            receivers.push_back({point, {0, 1, 0}, computePolygonIrradiance(corners, {0, 1, 0}), kLookUp});
         }
         if (gap == 0.0F) {
             receivers.push_back({{0.6F, 2, 0.1F}, {0, -1, 0}, 0.0, kLookUp});
@@ -69,7 +69,7 @@ TEST(ContactTest, H10SphereLightOnTheFloor)
     builder.sphere({0, 0.5F, 0}, 0.5F, builder.lambert(vec3(0.0F), vec3(1.0F)));
     std::vector<Receiver> receivers;
     for (const float x : {2.0F, 0.5F, 0.1F, 0.03F, 0.01F}) {
-        const double truth = irradianceOfSphere({-static_cast<double>(x), 0.5, 0}, 0.5, {0, 1, 0});
+        const double truth = computeSphereIrradiance({-static_cast<double>(x), 0.5, 0}, 0.5, {0, 1, 0});
         // Looked up from below the sphere's underside, which is x^2 / (2 r) above the floor.
         receivers.push_back({{x, 0, 0}, {0, 1, 0}, truth, std::min(kLookUp, 0.5F * x * x)});
     }

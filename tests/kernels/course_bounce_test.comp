@@ -25,7 +25,7 @@ void main()
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
         vec3 wo = -c.ray.direction;
-        SurfaceMaterial material = materialAt(c.si);
+        SurfaceMaterial material = makeSurfaceMaterial(c.si);
         Bsdf bsdf = makeBsdf(c.si, material, wo);
         PathState before = c.state;
         bool alive = bouncePath(SampleId(render.seed, TEST_THREAD, 0u), c.si, bsdf, wo, 0u, c.ray, c.state);

@@ -23,7 +23,7 @@ layout(set = 0, binding = kBindResults, scalar) writeonly buffer Results { Resul
 
 vec3 lightFound(Case c, PathRay ray, PathHit hit)
 {
-    if (hit.record == kNoRecord) {
+    if (hit.primitiveRef == kNoPrimitiveRef) {
         return c.state.throughput * weightedEnvironment(ray, c.state);
     }
     SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
@@ -36,12 +36,12 @@ void main()
         Case c = cases[TEST_THREAD];
         SurfaceInteraction si = SurfaceInteraction(c.point, vec3(0.0), c.ng, c.ns, vec2(0.0), true, 0u, 77u, 0u, 0u, kNoInstance);
         ShadowRay shadow = ShadowRay(vec3(0.0), 0u, vec3(0.0), 0u, vec3(0.0), 0.0);
-        SurfaceMaterial material = materialAt(si);
+        SurfaceMaterial material = makeSurfaceMaterial(si);
         Bsdf bsdf = makeBsdf(si, material, c.ns);
         bool asks = sampleLightOfRound(SampleId(render.seed, TEST_THREAD, 0u), si, bsdf, c.ns, c.state, shadow);
         PathRay ray = PathRay(c.point, kNoPrimitive, c.towards, 0u);
         PathHit hit = traceClosest(ray);
-        results[TEST_THREAD] = Result(uint(asks), shadow, uint(hit.record != kNoRecord), lightFound(c, ray, hit));
+        results[TEST_THREAD] = Result(uint(asks), shadow, uint(hit.primitiveRef != kNoPrimitiveRef), lightFound(c, ray, hit));
         EXPECT_TRUE(!asks || shadow.source == 77u);
     }
     endTest();

@@ -23,9 +23,9 @@ struct Result {
 };
 
 // Now and then a piece is empty.
-Case cutAnywhere(const TraverseCase& c, std::uint32_t records, Random& random)
+Case cutAnywhere(const TraverseCase& c, std::uint32_t refs, Random& random)
 {
-    const std::uint32_t a = random.below(records + 1), b = random.below(8) == 0 ? a : random.below(records + 1);
+    const std::uint32_t a = random.below(refs + 1), b = random.below(8) == 0 ? a : random.below(refs + 1);
     return {c.ray, c.target, c.tMax, {std::min(a, b), std::max(a, b)}};
 }
 
@@ -56,7 +56,7 @@ TEST_P(ScanTest, InPiecesAgreesWithTheTree)
     }
     std::size_t hits = 0, occluded = 0;
     for (const Result& result : scan(onDevice, rays)) {
-        hits += result.hit.record != kNoRecord ? 1 : 0;
+        hits += result.hit.primitiveRef != kNoPrimitiveRef ? 1 : 0;
         occluded += result.unoccluded == 0 ? 1 : 0;
     }
     std::cout << GetParam().name << ": " << rays.size() << " rays, " << hits << " hits, " << occluded << " occluded\n";
@@ -77,7 +77,7 @@ TEST(ScanTiesTest, GoToTheLowestPrimitive)
         mesh.insert(mesh.end(), copy.begin(), copy.end());
     }
     const Sphere sphere{"", glm::vec3(0.0F), 0.9F, 0};
-    const SceneOnDevice scene(sceneOf(mesh, {sphere, sphere, sphere}));
+    const SceneOnDevice scene(makeTestScene(mesh, {sphere, sphere, sphere}));
     std::vector<TraverseCase> rays;
     for (const Triangle& triangle : copy) {
         for (const glm::vec3& vertex : triangle.vertices) {
@@ -90,7 +90,7 @@ TEST(ScanTiesTest, GoToTheLowestPrimitive)
     }
     std::size_t spheres = 0;
     for (const Result& result : scan(scene, rays)) {
-        const std::uint32_t id = scene.idOf(result.hit.record);
+        const std::uint32_t id = scene.idOf(result.hit.primitiveRef);
         EXPECT_TRUE(id < copy.size() || id == mesh.size()) << id;
         spheres += id == mesh.size() ? 1 : 0;
     }

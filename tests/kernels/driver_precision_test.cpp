@@ -49,7 +49,7 @@ void count(Errors& worst, const Case& c, const Result& r)
     raise(worst.power, ulps(r.power, std::exp2(x)) / (3.0 + 2.0 * std::abs(x)));
 }
 
-TEST(DriverPrecisionTest, H41IsWhatVulkanPromises)
+TEST(DriverPrecisionTest, H41PrecisionIsWhatVulkanRequires)
 {
     Random random(41);
     std::vector<Case> cases(hardTrials(200000));

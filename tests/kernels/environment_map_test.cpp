@@ -95,7 +95,7 @@ public:
         test.parameters().environment = vec3(1.0F);
         test.parameters().environmentSize = map.size;
         test.parameters().environmentCells = map.cellCount;
-        test.parameters().environmentTurn = turn_;
+        test.parameters().environmentRotation = turn_;
         test.buffers({{kBindEnvironment, &*texels_}, {kBindEnvironmentCells, &*cells_}});
         test.cases(cases).resultsOf<Result>(cases.size()).run();
         return test.results<Result>();

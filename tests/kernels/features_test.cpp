@@ -75,7 +75,7 @@ TEST(FeaturesTest, EachFeatureIsABitOfItsOwn)
         for (const FeatureMask features : {mask, ~mask}) {
             Case expected = defaults();
             expected.features = features;
-            expectFeatures(expected, constantsOf(features));
+            expectFeatures(expected, makeConstants(features));
         }
     }
 }

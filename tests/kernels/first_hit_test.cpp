@@ -21,7 +21,7 @@ TEST(FirstHitTest, IsWhatTheCameraSaw)
         Camera camera;
         camera.position = scale * random.normalVector();
         camera.forward = random.direction();
-        const SceneOnDevice scene(sceneOf(icosphere(0)), camera);
+        const SceneOnDevice scene(makeTestScene(icosphere(0)), camera);
         std::vector<Case> cases;
         for (int i = 0; i < 1000; ++i) {
             Case c{scale * random.normalVector(), random.direction(), {random.uniform(), random.uniform(), random.uniform()}, 0, 0};

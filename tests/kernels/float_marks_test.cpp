@@ -59,7 +59,7 @@ TEST_P(FloatMarksTest, H3H37H38EveryOperationIsExact)
     for (const FeatureMask features :
          {FeatureMask{0}, kFeatureTriangleLights | kFeatureMirror, kFeaturePrincipled | kFeatureTextures, kAllFeatures}) {
         SCOPED_TRACE("features " + std::to_string(features));
-        const Marks given = marksOf(specialize(*GetParam().value, constantsOf(features)));
+        const Marks given = marksOf(specialize(*GetParam().value, makeConstants(features)));
         EXPECT_TRUE(given.keepsInfinity);
         EXPECT_TRUE(std::includes(given.marked.begin(), given.marked.end(), given.arithmetic.begin(), given.arithmetic.end()));
         EXPECT_EQ(given.arithmetic.empty(), GetParam().value == &kernels::size_dispatch);
@@ -68,8 +68,8 @@ TEST_P(FloatMarksTest, H3H37H38EveryOperationIsExact)
 
 INSTANTIATE_TEST_SUITE_P(Kernels, FloatMarksTest,
                          testing::Values(named(kernels::generate_rays), named(kernels::size_dispatch), named(kernels::trace_closest),
-                                         named(kernels::sample_lights_and_bounce), named(kernels::trace_paths),
-                                         named(kernels::trace_shadow), named(kernels::accumulate)),
+                                         named(kernels::shade_surface), named(kernels::trace_paths), named(kernels::trace_shadow),
+                                         named(kernels::accumulate)),
                          test::nameOfParameter);
 
 }  // namespace

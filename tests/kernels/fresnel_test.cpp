@@ -75,7 +75,7 @@ void setDirections(Case& c, Random& random)
     c.passedTolerance = k > 2.0 * error ? static_cast<float>(2e-6 * (1.0 + 1.0 / eta) + error / std::sqrt(k)) : -1.0F;
 }
 
-Case caseOf(Random& random, int kind)
+Case makeCase(Random& random, int kind)
 {
     Case c{};
     c.eta = static_cast<float>(random.logUniform(1.0 / 3.0, 3.0));
@@ -118,7 +118,7 @@ TEST(FresnelTest, H21AgreesWithTheSineAndTangentLaws)
         std::vector<Case> cases;
         float largest = 0.0F, ordinary = 0.0F;
         for (int i = 0; i < kCases; ++i) {
-            cases.push_back(caseOf(random, i % 8));
+            cases.push_back(makeCase(random, i % 8));
             const Case& c = cases.back();
             const float k = 1.0F - (1.0F - c.cosine) * (1.0F + c.cosine) / (c.eta * c.eta);
             largest = std::max(largest, c.tolerance);

@@ -42,9 +42,9 @@ void leave(PathRay ray, PathHit hit, uint index)
     float bounds = largest((next.origin - si.p) / (si.errorBound + 1.2e-7 * abs(si.p)));
     atomicMax(tally.largestOffset, floatBitsToUint(bounds));
     PathHit met = traceClosest(next);
-    bool again = met.record != kNoRecord && fetchPlacedRecord(met.record).instance == index;
+    bool again = met.primitiveRef != kNoPrimitiveRef && fetchPlacedPrimitive(met.primitiveRef).instance == index;
     ShadowRay shadow = ShadowRay(next.origin, next.source, wi, kNoPrimitive, vec3(1.0), kInfinity);
-    EXPECT_TRUE(isUnoccluded(shadow) == (met.record == kNoRecord));
+    EXPECT_TRUE(isUnoccluded(shadow) == (met.primitiveRef == kNoPrimitiveRef));
     atomicAdd(tally.again, again ? 1u : 0u);
 }
 
@@ -54,7 +54,7 @@ TraversalRay enter(vec3 origin, vec3 direction, InstanceData instance)
     uint node = 0u;  // the instances' nodes are among the first
     for (uint i = 0u; i < 32u; ++i) {
         uvec4 content = texelFetch(sceneNodes, int(i * kNodeTexels + 1u));
-        bool found = (content.z | content.w) == 0u && texelFetch(sceneNodes, int(i * kNodeTexels + 4u)).x == instance.firstRecord;
+        bool found = (content.z | content.w) == 0u && texelFetch(sceneNodes, int(i * kNodeTexels + 4u)).x == instance.firstRef;
         node = found ? i : node;
     }
     EXPECT_TRUE(node != 0u);
@@ -66,19 +66,19 @@ TraversalRay enter(vec3 origin, vec3 direction, InstanceData instance)
     return traversal;
 }
 
-// From 3 away, along the mesh at the record's first vertex.
-void graze(Record record, InstanceData instance)
+// From 3 away, along the mesh at the reference's first vertex.
+void graze(PrimitiveRef ref, InstanceData instance)
 {
-    vec3 v0 = floatsOf(record.t0);
+    vec3 v0 = toFloats(ref.t0);
     uvec4 bits = randomBits(3u);
     Frame frame = makeFrame(normalizeSafely(v0));
     float angle = 6.2831853 * unitFloat(bits.x);
     vec3 beside = frame.x * cos(angle) + frame.y * sin(angle);
     vec3 origin = placePoint(instance, v0 + 3.0 * beside);
     vec3 direction = placePoint(instance, v0) - origin;
-    if (intersectRecord(enter(origin, direction, instance), record, kInfinity, false).t > 0.0) {
+    if (intersectShape(enter(origin, direction, instance), ref, kInfinity, false).t > 0.0) {
         atomicAdd(tally.grazing, 1u);
-        atomicAdd(tally.lost, traceClosest(PathRay(origin, kNoPrimitive, direction, 0u)).record == kNoRecord ? 1u : 0u);
+        atomicAdd(tally.lost, traceClosest(PathRay(origin, kNoPrimitive, direction, 0u)).primitiveRef == kNoPrimitiveRef ? 1u : 0u);
     }
 }
 
@@ -88,9 +88,9 @@ void main()
     uvec4 a = randomBits(0u), b = randomBits(1u);
     uint index = chooseBin(a.w, render.instanceCount);
     InstanceData instance = fetchInstance(index);
-    Record record = fetchRecord(chooseBin(a.x, uint(textureSize(sceneRecords)) / kRecordTexels));
-    vec3 v0 = floatsOf(record.t0), v1 = floatsOf(record.t1), v2 = floatsOf(record.t2);
-    graze(record, instance);
+    PrimitiveRef ref = fetchPrimitiveRef(chooseBin(a.x, uint(textureSize(scenePrimitiveRefs)) / kPrimitiveRefTexels));
+    vec3 v0 = toFloats(ref.t0), v1 = toFloats(ref.t1), v2 = toFloats(ref.t2);
+    graze(ref, instance);
     vec2 inside = sampleTriangle(unitFloat(a.yz));
     vec3 aim = kind == 0u ? v0 + (v1 - v0) * (0.05 + 0.9 * unitFloat(a.y)) : kind == 1u ? v0 : v0 + (v1 - v0) * inside.x + (v2 - v0) * inside.y;
     vec3 origin = placePoint(instance, 0.3 * (1.0 - 2.0 * vec3(unitFloat(b.xy), unitFloat(b.z))));
@@ -98,14 +98,14 @@ void main()
     vec3 direction = (b.w & 1u) != 0u ? normalizeSafely(target - origin) : target - origin;
     PathRay ray = PathRay(origin, kNoPrimitive, direction, 0u);
     PathHit hit = traceClosest(ray);
-    EXPECT_TRUE(isinf(hit.t) == (hit.record == kNoRecord));
+    EXPECT_TRUE(isinf(hit.t) == (hit.primitiveRef == kNoPrimitiveRef));
     atomicAdd(tally.rays[kind], 1u);
-    if (hit.record == kNoRecord) {
+    if (hit.primitiveRef == kNoPrimitiveRef) {
         atomicAdd(tally.misses[kind], 1u);
     } else {
         float size = largest(abs(instance.column0) + abs(instance.column1) + abs(instance.column2));
         bool there = abs(hit.t * length(direction) - length(target - origin)) <= tolerance * size;
-        atomicAdd(tally.astray[kind], there && fetchPlacedRecord(hit.record).instance == index ? 0u : 1u);
+        atomicAdd(tally.astray[kind], there && fetchPlacedPrimitive(hit.primitiveRef).instance == index ? 0u : 1u);
         leave(ray, hit, index);
     }
     endTest();

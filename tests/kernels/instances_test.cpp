@@ -41,7 +41,7 @@ void PrintTo(const Row& row, std::ostream* out) { *out << row.name; }
 
 Scene rowOf(const Triangles& mesh, const Row& row)
 {
-    Scene scene = sceneOf(mesh);
+    Scene scene = makeTestScene(mesh);
     scene.instances.clear();
     scene.origin = row.origin;
     const double step = 8.0 * std::max({std::abs(row.scale.x), std::abs(row.scale.y), std::abs(row.scale.z)});
@@ -58,7 +58,7 @@ Tally shoot(const Triangles& mesh, const Row& row)
     const Scene scene = rowOf(mesh, row);
     const SceneOnDevice onDevice(scene, makePrimitives(scene, 0));
     EXPECT_EQ(onDevice.flat.instances.size(), 8U * kInstanceTexels);
-    EXPECT_EQ(onDevice.flat.records.size() / kRecordTexels, onDevice.bvh.order.size());
+    EXPECT_EQ(onDevice.flat.primitiveRefs.size() / kPrimitiveRefTexels, onDevice.bvh.order.size());
     KernelTest test = onDevice.test(test_kernels::instances_test);
     test.cases(std::vector<float>{row.tolerance}).resultsOf<Tally>(1);
     test.threads(static_cast<std::uint32_t>(hardTrials(samplesFor(90'048, 25)))).run();

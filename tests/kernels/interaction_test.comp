@@ -20,7 +20,7 @@ void main()
     if (isTestThread()) {
         PathRay ray = rays[TEST_THREAD];
         PathHit hit = traceClosest(ray);
-        if (hit.record == kNoRecord) {
+        if (hit.primitiveRef == kNoPrimitiveRef) {
             results[TEST_THREAD].hit = hit;
         } else {
             SurfaceInteraction s = makeSurfaceInteraction(ray, hit);

@@ -43,7 +43,7 @@ protected:
             sphere.center += shift;
             sphere.material = kRound;
         }
-        Scene scene = sceneOf(placed(randomTriangles(150, 0.3F, 1), 1.0F, shift), spheres);
+        Scene scene = makeTestScene(placed(randomTriangles(150, 0.3F, 1), 1.0F, shift), spheres);
         scene.materials.resize(3);
         scene.showsBackFaces = true;
         scene.materials[kSmooth].emission = glm::vec3(1.0F, 0.5F, 0.25F);
@@ -146,7 +146,7 @@ void SurfaceTest::checkTriangle(const Primitives& primitives, std::uint32_t id, 
         EXPECT_LE(glm::length(point - onRay), 100.0 * kUlp * reach);
     }
     dvec3 shading = n;
-    if (primitives.instanceOf(id) == kSmooth) {
+    if (primitives.findInstance(id) == kSmooth) {
         const glm::uvec3 m = primitives.vertexIndices[id];
         const auto normal = [&](int v) { return dvec3(primitives.vertexNormals[m[v]]); };
         shading = glm::normalize((1.0 - b1 - b2) * normal(0) + b1 * normal(1) + b2 * normal(2));
@@ -188,7 +188,7 @@ TEST_P(SurfaceTest, IsTheOneOfTheScene)
     for (std::size_t i = 0; i < rays.size() && !HasFailure(); ++i) {
         SCOPED_TRACE("ray " + std::to_string(i));
         const Result& r = results[i];
-        const std::uint32_t id = onDevice.idOf(r.hit.record);
+        const std::uint32_t id = onDevice.idOf(r.hit.primitiveRef);
         if (id == kNoPrimitive) {
             continue;
         }
@@ -219,7 +219,7 @@ INSTANTIATE_TEST_SUITE_P(Shifts, SurfaceTest, testing::Values(0.0F, 100.0F));
 // Where the three normals cancel, the flat one is taken.
 TEST(SurfaceNormalTest, FallsBackToTheFlatOne)
 {
-    Scene scene = sceneOf({});
+    Scene scene = makeTestScene({});
     const glm::vec3 up(0, 0, 1);
     addMesh(scene, {{{glm::vec3(-1, -1, 0), glm::vec3(1, -1, 0), glm::vec3(0, 1, 0)}}}, 0, {up, -up, up});
     const SceneOnDevice onDevice(scene);

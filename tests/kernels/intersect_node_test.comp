@@ -30,8 +30,8 @@ void main()
         EXPECT_TRUE(all(lessThanEqual(abs(exact), vec3(1.0000003e20))) && !any(isnan(exact)));
         EXPECT_TRUE((floatBitsToUint(exact) & 0x80000000u) == (floatBitsToUint(c.direction) & 0x80000000u));
         EXPECT_EQUAL(rayOctant(exact), c.octant);
-        uint hits = hitsOfNode(c.texels[0], c.texels[1], c.texels[2], c.texels[3], c.texels[4], c.origin, nudge(exact, c.nudges),
-                               c.octant, c.tmax);
+        uint hits = intersectChildren(c.texels[0], c.texels[1], c.texels[2], c.texels[3], c.texels[4], c.origin, nudge(exact, c.nudges),
+                                      c.octant, c.tmax);
         EXPECT_EQUAL(hits & c.mustHit, c.mustHit);
         EXPECT_EQUAL(hits & c.mustMiss, 0u);
     }

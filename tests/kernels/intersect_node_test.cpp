@@ -194,7 +194,7 @@ Case rayAt(const Tree& tree, Random& random, double scale, NaiveMisses& naive)
     return c;
 }
 
-TEST(IntersectNodeTest, H4H5MissesNoBoxThatTheSceneNeeds)
+TEST(IntersectNodeTest, H4H5IsConservative)
 {
     constexpr std::size_t kRays = 334000;
     NaiveMisses naive{};

@@ -113,7 +113,7 @@ struct Row {
 };
 
 // Radius, distance, largest share of false misses, largest mean error; at 1e5 five half ulps of t.
-TEST(IntersectSphereTest, H9KeepsItsDigitsFarAway)
+TEST(IntersectSphereTest, H9FarSpheresAreAccurate)
 {
     for (const Row& row : {Row{1.0, 2.0, 1e-5, 1e-6}, Row{1.0, 1e3, 1e-5, 2e-4}, Row{1.0, 1e4, 1e-4, 1e-3}, Row{1.0, 1e5, 5e-4, 2e-2},
                            Row{1e-3, 10.0, 1e-4, 1e-3}}) {
@@ -130,7 +130,7 @@ TEST(IntersectSphereTest, H9KeepsItsDigitsFarAway)
 }
 
 // A ground sphere of radius 1e5, seen from 1 above; looking down.
-TEST(IntersectSphereTest, H9GroundUnderTheEye)
+TEST(IntersectSphereTest, H9HugeSphereBelowTheCamera)
 {
     Random random(7);
     std::vector<Case> cases(hardTrials(400000));

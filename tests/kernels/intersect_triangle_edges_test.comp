@@ -5,13 +5,13 @@
 #include "lib/course/intersect_moller_trumbore.glsl"
 #include "lib/intersect_triangle.glsl"
 
-const uint kMostRim = 6u;
+const uint kMaxRim = 6u;
 
 // Triangles (hub, rim[i], rim[i + 1]) for i < triangles; the last rim point is the first again in a closed fan.
 struct Case {
     vec3 origin, direction;
     vec3 hub;
-    vec3 rim[kMostRim];
+    vec3 rim[kMaxRim];
     uint triangles;
     uint turn;  // which corner of triangle i comes first: bits 2i, 2i + 1; bit 31: wound the other way
 };
@@ -26,7 +26,7 @@ void main()
         Shear shear = makeShear(c.direction);
         uvec2 hits = uvec2(0u);
         for (uint i = 0u; i < c.triangles; ++i) {
-            vec3 corner[3] = vec3[](c.hub, c.rim[i], c.rim[(i + 1u) % kMostRim]);
+            vec3 corner[3] = vec3[](c.hub, c.rim[i], c.rim[(i + 1u) % kMaxRim]);
             uint first = (c.turn >> (2u * i)) & 3u;
             vec3 v0 = corner[first % 3u];
             uint back = c.turn >> 31u;

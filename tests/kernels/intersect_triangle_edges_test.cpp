@@ -12,10 +12,10 @@
 namespace glim {
 namespace {
 
-constexpr std::uint32_t kMostRim = 6;
+constexpr std::uint32_t kMaxRim = 6;
 
 struct Case {
-    vec3 origin, direction, hub, rim[kMostRim];
+    vec3 origin, direction, hub, rim[kMaxRim];
     std::uint32_t triangles, turn;
 };
 
@@ -71,12 +71,12 @@ Case vertexCase(Random& random, double scale, double shift)
     c.hub = scale * shift * random.direction();
     const glm::dvec3 x = glm::normalize(glm::cross(view, glm::dvec3(view.z, view.x, view.y) + glm::dvec3(0.3, 0.1, 0.2)));
     const glm::dvec3 y = glm::cross(view, x);
-    for (std::uint32_t i = 0; i < kMostRim; ++i) {
+    for (std::uint32_t i = 0; i < kMaxRim; ++i) {
         const double phi = (i + random.uniform(-0.3, 0.3)) * std::numbers::pi / 3.0;
         const glm::dvec3 out = x * std::cos(phi) + y * std::sin(phi);
         c.rim[i] = glm::dvec3(c.hub) + scale * (random.uniform(0.3, 1.0) * out + random.uniform(-1.0, 1.0) * view);
     }
-    c.triangles = kMostRim;
+    c.triangles = kMaxRim;
     c.turn = random.bits();
     aim(c, random, glm::dvec3(c.hub), view, scale, axis);
     return c;

@@ -32,7 +32,7 @@ void expectVerdict(Case c, bool sliver)
     TriangleHit back = intersectWatertight(c.origin, shear, c.v0, c.v2, c.v1, c.tmax, sliver, true);
     EXPECT_TRUE(c.verdict > kHit || (back.t > 0.0) == isHit);
     if (isHit) {
-        vec2 b = barycentricOf(hit);
+        vec2 b = computeBarycentric(hit);
         float less = uintBitsToFloat(floatBitsToUint(hit.t) - 1u);
         EXPECT_TRUE(hit.t <= c.tmax && min(b.x, b.y) >= 0.0 && b.x + b.y <= 1.0000002);
         EXPECT_TRUE(intersectWatertight(c.origin, shear, c.v0, c.v1, c.v2, hit.t, sliver, true).t == hit.t);
@@ -40,7 +40,7 @@ void expectVerdict(Case c, bool sliver)
     }
     if (isHit && c.verdict == kHit) {
         EXPECT_NEAR(hit.t, c.t, c.tTolerance);
-        EXPECT_NEAR_VECTOR(barycentricOf(hit), c.barycentric, c.barycentricTolerance);
+        EXPECT_NEAR_VECTOR(computeBarycentric(hit), c.barycentric, c.barycentricTolerance);
     }
 }
 
@@ -56,7 +56,7 @@ void main()
             TriangleHit other = intersectMollerTrumbore(c.origin, c.direction, c.v0, c.v1, c.v2, c.tmax);
             EXPECT_TRUE((other.t > 0.0) == (c.verdict == kHit));
             EXPECT_TRUE(c.verdict != kHit || abs(other.t - c.t) <= 1e-5 * c.t);
-            EXPECT_TRUE(c.verdict != kHit || distance(barycentricOf(other), c.barycentric) <= 1e-4);
+            EXPECT_TRUE(c.verdict != kHit || distance(computeBarycentric(other), c.barycentric) <= 1e-4);
         }
     }
     endTest();

@@ -28,8 +28,8 @@ void main()
         vec3 direction = directionFromLatLong(c.u, c.q, c.lower != 0u);
         EXPECT_NEAR(dot(direction, direction), 1.0, 5e-7);
         EXPECT_EQUAL(directionFromLatLong(c.u, 0.0, c.lower != 0u).y, c.lower != 0u ? -1.0 : 1.0);
-        EXPECT_EQUAL(angleOf(0.0, 0.0), 0.0);
-        results[TEST_THREAD] = Result(at, direction, angleOf(c.w.y, c.w.x));
+        EXPECT_EQUAL(computeAngle(0.0, 0.0), 0.0);
+        results[TEST_THREAD] = Result(at, direction, computeAngle(c.w.y, c.w.x));
     }
     endTest();
 }

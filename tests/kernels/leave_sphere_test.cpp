@@ -16,7 +16,7 @@ TEST(LeaveSphereTest, RaysOutwardsNeverReturnAndRaysInwardsCrossIt)
         for (int i = -2; i <= 2; ++i) {
             spheres.push_back({"", glm::vec3(5.0F * radius * static_cast<float>(i), radius, -radius), radius, 0});
         }
-        const SceneOnDevice scene(sceneOf({}, spheres));
+        const SceneOnDevice scene(makeTestScene({}, spheres));
         scene.test(test_kernels::leave_sphere_test).threads(samplesFor(200'000, 20) / 64 * 64).run();
     }
 }

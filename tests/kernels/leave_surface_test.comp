@@ -35,7 +35,7 @@ float largest(vec3 v)
     return max(abs(v.x), max(abs(v.y), abs(v.z)));
 }
 
-void leave(PathRay ray, PathHit hit, Record record, float size)
+void leave(PathRay ray, PathHit hit, PrimitiveRef ref, float size)
 {
     SurfaceInteraction surface = makeSurfaceInteraction(ray, hit);
     uvec4 bits = randomBits(3u);
@@ -45,35 +45,35 @@ void leave(PathRay ray, PathHit hit, Record record, float size)
     EXPECT_TRUE(dot(origin - surface.p, normal) >= 0.0);
     float offset = largest(origin - surface.p) - 4.8e-7 * largest(surface.p);
     atomicMax(tally.largestOffset, floatBitsToUint(max(0.0, offset / size)));
-    bool again = intersectRecord(makeTraversalRay(origin, wi), record, kInfinity, false).t > 0.0;
+    bool again = intersectShape(makeTraversalRay(origin, wi), ref, kInfinity, false).t > 0.0;
     PathHit next = traceClosest(PathRay(origin, surface.primitive, wi, 0u));
     vec3 naive = ray.origin + ray.direction * hit.t;
-    bool naiveAgain = intersectRecord(makeTraversalRay(naive, wi), record, kInfinity, false).t > 1e-4;
+    bool naiveAgain = intersectShape(makeTraversalRay(naive, wi), ref, kInfinity, false).t > 1e-4;
     atomicAdd(tally.naiveHits, naiveAgain ? 1u : 0u);
     atomicAdd(tally.left, 1u);
     atomicAdd(tally.selfHits, again ? 1u : 0u);
     atomicAdd(tally.skippedHits, primitiveMet(next) == surface.primitive ? 1u : 0u);
-    atomicAdd(tally.otherHits, next.record != kNoRecord ? 1u : 0u);
+    atomicAdd(tally.otherHits, next.primitiveRef != kNoPrimitiveRef ? 1u : 0u);
 }
 
 void main()
 {
     uvec4 bits = randomBits(0u);
-    uint index = chooseBin(bits.x, uint(textureSize(sceneRecords)) / kRecordTexels);
-    Record record = fetchRecord(index);
-    vec3 v0 = floatsOf(record.t0);
-    vec3 e1 = floatsOf(record.t1) - v0;
-    vec3 e2 = floatsOf(record.t2) - v0;
+    uint index = chooseBin(bits.x, uint(textureSize(scenePrimitiveRefs)) / kPrimitiveRefTexels);
+    PrimitiveRef ref = fetchPrimitiveRef(index);
+    vec3 v0 = toFloats(ref.t0);
+    vec3 e1 = toFloats(ref.t1) - v0;
+    vec3 e2 = toFloats(ref.t2) - v0;
     float size = max(largest(e1), largest(e2));
     vec2 b = sampleTriangle(unitFloat(bits.yz));
     vec3 near = setup.reach * (1.0 - 2.0 * vec3(unitFloat(randomBits(1u).xy), unitFloat(bits.w)));
     vec3 target = setup.reach > 0.0 ? near : v0 + e1 * b.x + e2 * b.y;
     vec3 direction = sampleSphere(unitFloat(randomBits(2u).xy));
-    float distance_ = setup.reach > 0.0 ? 4.0 * setup.reach : 0.5 * size;
-    PathRay ray = PathRay(target - direction * distance_, kNoPrimitive, direction, 0u);
-    TriangleHit hit = intersectRecord(makeTraversalRay(ray.origin, ray.direction), record, kInfinity, false);
+    float lightDistance = setup.reach > 0.0 ? 4.0 * setup.reach : 0.5 * size;
+    PathRay ray = PathRay(target - direction * lightDistance, kNoPrimitive, direction, 0u);
+    TriangleHit hit = intersectShape(makeTraversalRay(ray.origin, ray.direction), ref, kInfinity, false);
     if (hit.t > 0.0) {
-        leave(ray, PathHit(index, hit.t, barycentricOf(hit)), record, size);
+        leave(ray, PathHit(index, hit.t, computeBarycentric(hit)), ref, size);
     }
     endTest();
 }

@@ -16,7 +16,7 @@
 namespace glim {
 namespace {
 
-constexpr std::uint32_t kMostGroups = 65535;  // of a dispatch, on every device
+constexpr std::uint32_t kMaxGroups = 65535;  // of a dispatch, on every device
 
 struct Setup {
     float reach;
@@ -33,9 +33,9 @@ struct Tally {
 
 Tally leave(const Triangles& mesh, float reach, std::uint32_t rays, FeatureMask features = kAllFeatures)
 {
-    const SceneOnDevice scene(sceneOf(mesh));
+    const SceneOnDevice scene(makeTestScene(mesh));
     KernelTest test = scene.test(test_kernels::leave_surface_test);
-    test.features(features).cases(std::vector<Setup>{{reach}}).resultsOf<Tally>(1).threads(std::min(rays / 64, kMostGroups) * 64).run();
+    test.features(features).cases(std::vector<Setup>{{reach}}).resultsOf<Tally>(1).threads(std::min(rays / 64, kMaxGroups) * 64).run();
     return test.results<Tally>()[0];
 }
 
@@ -60,7 +60,7 @@ void PrintTo(const Input& input, std::ostream* out) { *out << input.name; }
 
 class LeaveSurfaceTest : public testing::TestWithParam<Input> {};
 
-TEST_P(LeaveSurfaceTest, H7MeetsItNoMore)
+TEST_P(LeaveSurfaceTest, H7RayDoesNotHitTheSurfaceThatItLeaves)
 {
     const Tally tally = leave(GetParam().make(), GetParam().reach, static_cast<std::uint32_t>(hardTrials(samplesFor(300'000, 20))));
     const float offset = std::bit_cast<float>(tally.largestOffset);
@@ -86,8 +86,8 @@ INSTANTIATE_TEST_SUITE_P(Places, LeaveSurfaceTest,
                                          Input{"Size1e3AtOrigin", [] { return aroundTheOrigin(1e3F); }, 1.0F, true}),
                          [](const testing::TestParamInfo<Input>& parameter) { return std::string(parameter.param.name); });
 
-// A triangle in pieces has several records, and the ray meets none of them. With the offset alone, rays meet long triangles more often.
-TEST(LeavePiecesTest, H7MeetsNoRecordOfTheTriangle)
+// A triangle in pieces has several references, and the ray meets none of them. With the offset alone, rays meet long triangles more often.
+TEST(LeavePiecesTest, H7RayHitsNoPieceOfTheTriangleThatItLeaves)
 {
     const Tally tally = leave(strips(12, 9), 0.0F, static_cast<std::uint32_t>(hardTrials(samplesFor(300'000, 20))));
     printHardCase("H7", "triangles in pieces", tally.left,

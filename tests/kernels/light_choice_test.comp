@@ -6,7 +6,7 @@
 
 struct Case {
     vec3 p;
-    vec3 horizon;
+    vec3 receiverNormal;
 };
 
 struct Result {
@@ -26,7 +26,7 @@ void drawLight(LightContext context)
     LightChoice choice = chooseLight(context, bits.xy);
     EXPECT_TRUE(choice.light < render.lightCount);
     // To the same bits, or MIS weights of a light that is sampled and of one that is hit do not add up.
-    EXPECT_TRUE(choice.probability == probabilityOfLight(context, choice.light));
+    EXPECT_TRUE(choice.probability == computeLightProbability(context, choice.light));
     FlatLight flatLight = fetchLight(choice.light);
     LightSample light = sampleLight(flatLight, choice.probability, context, bits.zw);
     LightSample certain = sampleLight(flatLight, 1.0, context, bits.zw);
@@ -43,6 +43,6 @@ void drawLight(LightContext context)
 void main()
 {
     Case c = cases[TEST_THREAD / pass.sampleCount];
-    drawLight(LightContext(c.p, c.horizon == vec3(0.0) ? vec3(0.0, 1.0, 0.0) : c.horizon, c.horizon));
+    drawLight(LightContext(c.p, c.receiverNormal == vec3(0.0) ? vec3(0.0, 1.0, 0.0) : c.receiverNormal, c.receiverNormal));
     endTest();
 }

@@ -29,7 +29,7 @@ constexpr std::size_t kFamily = 60;
 
 struct Receiver {
     vec3 p;
-    vec3 horizon;  // 0: light from all sides counts
+    vec3 receiverNormal;  // 0: light from all sides counts
 };
 
 struct Result {
@@ -163,7 +163,7 @@ TEST(LightChoiceTest, H14AMillionLights)
         triangle = {{at, at + vec3(1e-3F, 0, 0), at + vec3(0, 1e-3F * (1.5F + uniform(random)), 1e-3F)}};
     }
     triangles[0] = {{vec3(0, 0.9F, 0), vec3(100, 0.9F, 0), vec3(0, 0.9F, 100)}};
-    Scene scene = sceneOf({}, {});
+    Scene scene = makeTestScene({}, {});
     scene.materials.resize(2);
     scene.materials[1].emission = vec3(1.0F);
     addMesh(scene, triangles, 1);
@@ -232,7 +232,7 @@ Variances variancesOf(const std::vector<dvec3>& places, const std::vector<dvec3>
     for (std::size_t i = 0; i < places.size(); ++i) {
         const dvec3 towards = places[i] - dvec3(receiver.p);
         const double d2 = glm::dot(towards, towards);
-        const double received = std::max(0.0, glm::dot(towards, dvec3(receiver.horizon))) / std::sqrt(d2);
+        const double received = std::max(0.0, glm::dot(towards, dvec3(receiver.receiverNormal))) / std::sqrt(d2);
         const double c = powers[i] * std::max(0.0, -glm::dot(normals[i], towards)) / std::sqrt(d2) * received / d2;
         sum += c;
         byTree += c * c / probabilities[i];
@@ -241,7 +241,7 @@ Variances variancesOf(const std::vector<dvec3>& places, const std::vector<dvec3>
     return {byTree / (sum * sum) - 1.0, byPower / (sum * sum) - 1.0};
 }
 
-double medianOf(std::vector<double> values)
+double computeMedian(std::vector<double> values)
 {
     std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
     return values[values.size() / 2];
@@ -264,7 +264,7 @@ TEST(LightChoiceTest, FollowsWhatArrivesBetterThanPower)
         std::mt19937 random(7);
         std::uniform_real_distribution<float> uniform(-1.0F, 1.0F);
         std::normal_distribution<float> normal;
-        Scene scene = sceneOf({}, {});
+        Scene scene = makeTestScene({}, {});
         constexpr std::uint32_t kShades = 64;
         std::vector<Triangles> byShade(kShades);
         for (std::uint32_t i = 0; i < field.count; ++i) {
@@ -303,9 +303,9 @@ TEST(LightChoiceTest, FollowsWhatArrivesBetterThanPower)
             tree.push_back(variances.tree);
             power.push_back(variances.power);
         }
-        printHardCase("H14", std::string(field.name) + ": relative variance of one choice", field.count, figure(medianOf(tree)),
-                      "by power: " + figure(medianOf(power)));
-        EXPECT_GT(medianOf(power), field.gain * medianOf(tree)) << field.name;
+        printHardCase("H14", std::string(field.name) + ": relative variance of one choice", field.count, figure(computeMedian(tree)),
+                      "by power: " + figure(computeMedian(power)));
+        EXPECT_GT(computeMedian(power), field.gain * computeMedian(tree)) << field.name;
     }
 }
 
@@ -417,7 +417,7 @@ TEST(LightChoiceTest, ALineOfEverNearerLights)
 TEST(LightChoiceTest, RectanglesAreFound)
 {
     const auto lights = [](const std::vector<Triangle>& triangles) {
-        Scene scene = sceneOf({}, {});
+        Scene scene = makeTestScene({}, {});
         scene.materials.resize(2);
         scene.materials[1].emission = vec3(1.0F);
         addMesh(scene, triangles, 1);

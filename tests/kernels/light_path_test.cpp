@@ -59,7 +59,7 @@ bool meets(const PathRay& ray, const Ball& ball)
 double powerOfPatch(const dvec3& p, const dvec3& n, const Ball& ball)
 {
     const dvec3 towards = ball.center - p;
-    return glm::length(towards) <= ball.radius ? kPi : irradianceOfSphere(towards, ball.radius, n);
+    return glm::length(towards) <= ball.radius ? kPi : computeSphereIrradiance(towards, ball.radius, n);
 }
 
 // The same from a parallelogram's points p + x a + y b with x, y in [0, 1), or the half of it with x + y < 1.
@@ -180,7 +180,7 @@ struct Setting {
     bool isNarrow = false;
 };
 
-SceneBuilder sceneOf(const Setting& setting)
+SceneBuilder makeTestScene(const Setting& setting)
 {
     SceneBuilder builder;
     const auto glass = builder.glass(1.5F);
@@ -198,7 +198,7 @@ class LightPathTest : public testing::TestWithParam<test::Named<Setting>> {};
 TEST_P(LightPathTest, CarryThePowerThatReachesEachTarget)
 {
     const Setting& setting = GetParam().value;
-    const SceneOnDevice scene(sceneOf(setting).scene());
+    const SceneOnDevice scene(makeTestScene(setting).scene());
     const std::vector<Result> paths = begin(scene, std::vector<uint>(kPaths));
     for (std::size_t i = 0; i < setting.balls.size(); ++i) {
         double power = 0.0;
@@ -242,7 +242,7 @@ INSTANTIATE_TEST_SUITE_P(Lamps, LightPathTest, testing::ValuesIn(kSettings), tes
 // Rays of directional light begin before the whole scene, and those of surfaces on the side that they go to.
 TEST(LightPathRayTest, BeginsWhereItsLampIs)
 {
-    const auto pathsOf = [](const Lamp& lamp) { return begin(SceneOnDevice(sceneOf({{lamp}}).scene()), std::vector<uint>(4096)); };
+    const auto pathsOf = [](const Lamp& lamp) { return begin(SceneOnDevice(makeTestScene({{lamp}}).scene()), std::vector<uint>(4096)); };
     for (const Result& path : pathsOf(sunLamp())) {
         for (const Ball& ball : kBalls) {
             EXPECT_GT(glm::dot(ball.center - dvec3(path.ray.origin), dvec3(path.ray.direction)), ball.radius);

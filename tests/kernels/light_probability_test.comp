@@ -6,7 +6,7 @@
 
 struct Case {
     vec3 p;
-    vec3 horizon;
+    vec3 receiverNormal;
 };
 
 layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
@@ -15,8 +15,8 @@ layout(set = 0, binding = kBindResults, scalar) buffer Results { float results[]
 void main()
 {
     if (isTestThread()) {
-        LightContext context = LightContext(cases[0].p, vec3(0.0), cases[0].horizon);
-        results[TEST_THREAD] = probabilityOfLight(context, TEST_THREAD);
+        LightContext context = LightContext(cases[0].p, vec3(0.0), cases[0].receiverNormal);
+        results[TEST_THREAD] = computeLightProbability(context, TEST_THREAD);
         EXPECT_TRUE(results[TEST_THREAD] > 0.0);
     }
     endTest();

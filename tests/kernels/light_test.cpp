@@ -74,7 +74,7 @@ TEST(LightTest, SphereAboveAndAcrossTheHorizon)
     std::vector<Receiver> receivers;
     for (const float degrees : {0.0F, 30.0F, 60.0F, 75.0F, 90.0F, 105.0F, 110.0F, 130.0F}) {
         const vec3 n = tilted(degrees);
-        receivers.push_back({vec3(0.0F), n, irradianceOfSphere({0, 2, 0}, 0.75, glm::normalize(dvec3(n)))});
+        receivers.push_back({vec3(0.0F), n, computeSphereIrradiance({0, 2, 0}, 0.75, glm::normalize(dvec3(n)))});
     }
     expectIrradiance("T10 sphere", builder.scene(), receivers);
 }
@@ -127,10 +127,10 @@ TEST(LightTest, PolygonFromBothSidesAndItsPlane)
         builder.polygon(kPentagon, builder.lambert(vec3(0.0F), vec3(1.0F), doubleSided));
         std::vector<Receiver> receivers;
         for (const vec3& point : {vec3(0, 0, 0), vec3(0, 0.9F, 0), vec3(3, 0.5F, 1), vec3(-0.5F, -10, 2)}) {
-            receivers.push_back({point, {0, 1, 0}, irradianceOfPolygon(seenFrom(kPentagon, point), {0, 1, 0})});
+            receivers.push_back({point, {0, 1, 0}, computePolygonIrradiance(seenFrom(kPentagon, point), {0, 1, 0})});
         }
         for (const vec3& point : {vec3(0, 2, 0), vec3(1, 1.5F, -2)}) {
-            const double truth = irradianceOfPolygon(seenFrom(kPentagon, point), {0, -1, 0});
+            const double truth = computePolygonIrradiance(seenFrom(kPentagon, point), {0, -1, 0});
             receivers.push_back({point, {0, -1, 0}, doubleSided ? truth : 0.0});
         }
         for (const vec3& point : {vec3(4, 1, 0), vec3(0, 1, 0)}) {  // in its plane, beside it and on it
@@ -154,9 +154,9 @@ TEST(LightTest, DiskOfManyTriangles)
     std::vector<Receiver> receivers;
     for (const float offset : {0.0F, 0.5F, 2.0F}) {
         const vec3 point(offset, 0, 0);
-        receivers.push_back({point, {0, 1, 0}, irradianceOfPolygon(seenFrom(rim, point), {0, 1, 0})});
+        receivers.push_back({point, {0, 1, 0}, computePolygonIrradiance(seenFrom(rim, point), {0, 1, 0})});
         // The areas differ by 2/3 (pi / corners)^2.
-        EXPECT_NEAR(receivers.back().truth / irradianceOfDisk(0.5, 1.0, static_cast<double>(offset)), 1.0, 5e-4);
+        EXPECT_NEAR(receivers.back().truth / computeDiskIrradiance(0.5, 1.0, static_cast<double>(offset)), 1.0, 5e-4);
     }
     expectIrradiance("T11 disk", builder.scene(), receivers);
 }
@@ -172,11 +172,11 @@ TEST(LightTest, SumsOverAllLights)
     const vec3 point(0.5F, 0, 0);
     const double directional = 0.25 * 0.6;
     const double pointLight = 2.0 / std::pow(3.5 * 3.5 + 1.0, 1.5);
-    const double truth = irradianceOfPolygon(seenFrom(kPentagon, point), {0, 1, 0}) +
-                         4.0 * irradianceOfSphere({7.5, 3, 0}, 0.5, {0, 1, 0}) + pointLight + directional;
+    const double truth = computePolygonIrradiance(seenFrom(kPentagon, point), {0, 1, 0}) +
+                         4.0 * computeSphereIrradiance({7.5, 3, 0}, 0.5, {0, 1, 0}) + pointLight + directional;
     const vec3 free(6, 0, 0);
-    const double freeTruth = irradianceOfPolygon(seenFrom(kPentagon, free), {0, 1, 0}) +
-                             4.0 * irradianceOfSphere({2, 3, 0}, 0.5, {0, 1, 0}) + 2.0 / std::pow(82.0, 1.5) + directional;
+    const double freeTruth = computePolygonIrradiance(seenFrom(kPentagon, free), {0, 1, 0}) +
+                             4.0 * computeSphereIrradiance({2, 3, 0}, 0.5, {0, 1, 0}) + 2.0 / std::pow(82.0, 1.5) + directional;
     expectIrradiance("all lights", builder.scene(), {{point, {0, 1, 0}, truth}, {free, {0, 1, 0}, freeTruth}});
 }
 

@@ -27,7 +27,7 @@ void main()
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
         PathHit hit = traceClosest(c.ray);
-        EXPECT_TRUE(hit.record != kNoRecord);
+        EXPECT_TRUE(hit.primitiveRef != kNoPrimitiveRef);
         LightVertex v = shadeLightVertex(lightPathId(render.seed, TEST_THREAD, 0u), c.ray, hit, c.state);
         results[TEST_THREAD] = Result(uint(v.hasSplat), v.pixel, v.cameraRay, uint(v.hasNextRay), v.ray, v.state);
     }

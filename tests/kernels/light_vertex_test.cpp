@@ -72,7 +72,7 @@ std::vector<Result> shade(const Scene& scene, const std::vector<Case>& cases, co
     return test.results<Result>();
 }
 
-Case caseOf(const dvec3& origin, const dvec3& direction, uint bounce)
+Case makeCase(const dvec3& origin, const dvec3& direction, uint bounce)
 {
     return {{vec3(origin), kNoPrimitive, vec3(glm::normalize(direction)), 0}, {vec3(kThroughput), 0.0F, 0.0F, 1.0F, bounce, 0}};
 }
@@ -83,7 +83,7 @@ Case downwards(Random& random, uint bounce)
     const dvec3 to(random.uniform(-2.0, 2.0), 0.0, random.uniform(-2.0, 2.0));
     dvec3 back = random.direction();
     back.y = std::abs(back.y) + 0.1;
-    return caseOf(to + glm::normalize(back), -back, bounce);
+    return makeCase(to + glm::normalize(back), -back, bounce);
 }
 
 dvec3 pointOf(const PathRay& ray)
@@ -120,7 +120,7 @@ Material glass()
 }
 
 // Where the picture shows p, in film coordinates, through the point of the lens whose ray was traced: in space, as scene_types.h says.
-dvec2 filmOf(const FlatCamera& camera, const dvec3& p, const dvec3& aperture)
+dvec2 makeFilm(const FlatCamera& camera, const dvec3& p, const dvec3& aperture)
 {
     const dvec3 position(camera.position), right(camera.right), up(camera.up), forward(camera.forward);
     const double inverse = static_cast<double>(camera.inverseFocus), depth = glm::dot(p - position, forward);
@@ -145,7 +145,7 @@ double filmPerArea(const FlatCamera& camera, const dvec3& p, const dvec3& apertu
 {
     constexpr double kStep = 1e-4;
     const auto side = [&](const dvec3& step) {
-        return (filmOf(camera, p + step, aperture) - filmOf(camera, p - step, aperture)) / (2.0 * kStep);
+        return (makeFilm(camera, p + step, aperture) - makeFilm(camera, p - step, aperture)) / (2.0 * kStep);
     };
     const dvec2 x = side({kStep, 0, 0}), z = side({0, 0, kStep});
     return std::abs(x.x * z.y - x.y * z.x) / 4.0;
@@ -174,7 +174,7 @@ TEST_P(LightVertexCameraTest, ASplatIsTheFluxOverThePixelsArea)
         const dvec3 aperture = apertureOf(camera, from, towards);
         EXPECT_LE(glm::length(aperture), static_cast<double>(view.lens.radius) + 1e-4);
         farthest = std::max(farthest, glm::length(aperture));
-        const dvec2 film = filmOf(camera, p, aperture), pixel = dvec2(0.5 * (film.x + 1.0) * kWidth, 0.5 * (1.0 - film.y) * kHeight);
+        const dvec2 film = makeFilm(camera, p, aperture), pixel = dvec2(0.5 * (film.x + 1.0) * kWidth, 0.5 * (1.0 - film.y) * kHeight);
         const dvec2 edge = glm::abs(pixel - glm::round(pixel));
         if (std::min(edge.x, edge.y) < 1e-3) {
             continue;  // rounding decides
@@ -221,7 +221,7 @@ TEST(LightVertexTest, WhichVerticesCount)
 {
     std::vector<Case> cases;
     for (uint bounce = 0; bounce < kMaxBounces; ++bounce) {
-        cases.push_back(caseOf({0.3, 1.0, -0.2}, {0, -1, 0}, bounce));
+        cases.push_back(makeCase({0.3, 1.0, -0.2}, {0, -1, 0}, bounce));
         cases.back().state.throughput = vec3(1.0F);
     }
     for (const uint least : {0U, 2U, 4U}) {
@@ -264,7 +264,7 @@ TEST(LightVertexTest, SplatsOfShadingNormalsAreTheAdjoint)
 // part which is above ns too. That is (1 + cos of the angle between the normals) / 2 of a cosine's integral.
 void expectFlux(const std::string& name, const dvec3& normal, const dvec3& direction)
 {
-    std::vector<Case> cases(1U << 18, caseOf(-direction, direction, 3));
+    std::vector<Case> cases(1U << 18, makeCase(-direction, direction, 3));
     for (Case& c : cases) {
         c.state.throughput *= 0.2F;  // so that roulette ends some
     }
@@ -303,7 +303,7 @@ TEST(LightVertexTest, GlassSplitsThePower)
 {
     for (const dvec3& normal : {kUp, kTilted}) {
         const dvec3 direction = glm::normalize(dvec3(-0.4, -1.0, 0.5));
-        const std::vector<Case> cases(1U << 17, caseOf(-direction, direction, 0));
+        const std::vector<Case> cases(1U << 17, makeCase(-direction, direction, 0));
         std::vector<double> reflected;
         for (const Result& r : shade(tiltedFloor(glass(), normal), cases)) {
             ASSERT_EQ(r.hasNextRay, 1U);
@@ -351,7 +351,7 @@ TEST(LightVertexTest, LightWithinASolidIsAbsorbed)
     const dvec3 direction = glm::normalize(dvec3(0.1, -1.0, 0.05));
     std::vector<Case> cases;
     for (const double distance : distances) {
-        cases.push_back(caseOf(-distance * direction, direction, 0));
+        cases.push_back(makeCase(-distance * direction, direction, 0));
     }
     const vec3 a(-10, 0, 10), b(10, 0, 10), c(0, 0, -10);
     for (const bool within : {true, false}) {

@@ -15,7 +15,7 @@ struct Case {
     uint media, medium, entered, left, innermost, full, inside;
 };
 
-constexpr std::size_t kMost = 4;
+constexpr std::size_t kMax = 4;
 
 // The innermost first.
 uint packed(const std::vector<uint>& list, uint wavelength)
@@ -30,7 +30,7 @@ uint packed(const std::vector<uint>& list, uint wavelength)
 std::vector<uint> entered(std::vector<uint> list, uint medium)
 {
     list.insert(list.begin(), medium);
-    list.resize(std::min(list.size(), kMost));
+    list.resize(std::min(list.size(), kMax));
     return list;
 }
 
@@ -57,7 +57,7 @@ TEST(MediaTest, FollowsAList)
             const uint medium = known ? list[random.below(static_cast<uint>(list.size()))] : 1 + random.below(kinds);
             const std::ptrdiff_t times = std::count(list.begin(), list.end(), medium);
             cases.push_back({packed(list, wavelength), medium, packed(entered(list, medium), wavelength),
-                             packed(left(list, medium), wavelength), list.empty() ? 0U : list[0], list.size() == kMost ? 1U : 0U,
+                             packed(left(list, medium), wavelength), list.empty() ? 0U : list[0], list.size() == kMax ? 1U : 0U,
                              times > 0 ? 1U : 0U});
             full += cases.back().full;
             twice += times > 1 ? 1 : 0;

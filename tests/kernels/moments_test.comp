@@ -22,14 +22,14 @@ bool sameBits(PixelMoments a, PixelMoments b)
 void main()
 {
     if (isTestThread()) {
-        PixelMoments page = momentsOfBlock(emptyBlock());
+        PixelMoments page = computeBlockMoments(emptyBlock());
         EXPECT_EQUAL(page.count, 0u);
         EXPECT_EQUAL(page.blocks, 0u);
         for (uint i = 0u; i < kBlocks; ++i) {
-            page = foldMoments(page, momentsOfBlock(cases[TEST_THREAD].blocks[i]));
+            page = foldMoments(page, computeBlockMoments(cases[TEST_THREAD].blocks[i]));
         }
         EXPECT_TRUE(sameBits(page, cases[TEST_THREAD].expected));
-        EXPECT_TRUE(sameBits(foldMoments(page, momentsOfBlock(emptyBlock())), page));
+        EXPECT_TRUE(sameBits(foldMoments(page, computeBlockMoments(emptyBlock())), page));
     }
     endTest();
 }

@@ -70,7 +70,7 @@ TEST(MomentsTest, DeviceAndHostFoldToTheSameBits)
 
 // H26: samples that ruin plain sums, added in blocks and folds. The mean is within 1e-5, the variance of the blocks within 1e-4
 // of double arithmetic on the same samples.
-TEST(MomentsTest, H26StreamsKeepTheirDigits)
+TEST(MomentsTest, H26LongStreamsAreAccurate)
 {
     std::mt19937 random(5);
     std::normal_distribution<float> gauss;

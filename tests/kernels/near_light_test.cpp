@@ -25,7 +25,7 @@ Near measure(float height)
         glm::vec3(-0.5F, height, -0.5F), {0.5F, height, -0.5F}, {0.5F, height, 0.5F}, {-0.5F, height, 0.5F}};
     SceneBuilder builder;
     builder.quad(corners, builder.lambert(glm::vec3(0.0F), glm::vec3(1.0F)));
-    const double truth = irradianceOfPolygon(std::vector<glm::dvec3>(corners.begin(), corners.end()), {0, 1, 0});
+    const double truth = computePolygonIrradiance(std::vector<glm::dvec3>(corners.begin(), corners.end()), {0, 1, 0});
     const auto estimate = expectIrradiance("T12 near square", builder.scene(), {{glm::vec3(0.0F), {0, 1, 0}, truth}})[0];
     const double trials = static_cast<double>(hardTrials(2048 * 64));
     return {estimate.standardError * std::sqrt(trials) / truth, trials};

@@ -24,14 +24,14 @@ void main()
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
         vec3 wo = -c.ray.direction;
-        SurfaceMaterial material = materialAt(c.si);
+        SurfaceMaterial material = makeSurfaceMaterial(c.si);
         Bsdf bsdf = makeBsdf(c.si, material, wo);
         PathState before = c.state;
         bool alive = bouncePath(SampleId(render.seed, TEST_THREAD, 0u), c.si, bsdf, wo, 0u, c.ray, c.state);
         EXPECT_TRUE(!alive || c.state.bounce == before.bounce + 1u);
         EXPECT_TRUE(!alive || distance(decodeNormal(c.state.normal), bsdf.frame.z) < 7e-5);
         // The sampled direction can be evaluated, with the same density, unless it is of a delta lobe.
-        BounceNumbers u = numbersOfBounce(SampleId(render.seed, TEST_THREAD, 0u), before.bounce);
+        BounceNumbers u = sampleBounceNumbers(SampleId(render.seed, TEST_THREAD, 0u), before.bounce);
         BsdfSample s = sampleBsdf(bsdf, wo, u.direction, u.lobe);
         BsdfEval f = evalBsdf(bsdf, wo, s.wi);
         // Together they give the same.

@@ -57,7 +57,7 @@ std::vector<glm::dvec3> denoiseByDefinition(const Film& film)
             int count = 0;
             for (int j = std::max(0, y - 2); j <= std::min(height - 1, y + 2); ++j) {
                 for (int i = std::max(0, x - 2); i <= std::min(width - 1, x + 2); ++i, ++count) {
-                    sum += glm::dvec3(varianceOfMean(at(i, j)));
+                    sum += glm::dvec3(computeVarianceOfMean(at(i, j)));
                 }
             }
             pooled.push_back(sum / static_cast<double>(count));

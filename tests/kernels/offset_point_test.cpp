@@ -62,7 +62,7 @@ void setNext(Case& c, Random& random)
 }
 
 // One half of the points lie close to the edge that the neighbour shares.
-Case caseOf(const Row& row, bool large, Random& random)
+Case makeCase(const Row& row, bool large, Random& random)
 {
     Case c{};
     const double toEdge = random.below(2) == 0 ? random.uniform() : random.logUniform(1e-8, 1.0);
@@ -93,7 +93,7 @@ Case caseOf(const Row& row, bool large, Random& random)
 }
 
 // What an offset may be at most; by axes, each counts by its share of the normal.
-double limitOf(const Case& c, const glm::dvec3& point)
+double getLimit(const Case& c, const glm::dvec3& point)
 {
     const glm::dvec3 e1 = glm::dvec3(c.v1) - glm::dvec3(c.v0), e2 = glm::dvec3(c.v2) - glm::dvec3(c.v0);
     if (c.large == 0) {
@@ -121,7 +121,7 @@ void count(Tally& tally, const Case& c, const Result& r)
     tally.behind += glm::dot(glm::dvec3(r.origin) - glm::dvec3(c.v0), n) > 0.0 ? 0.0 : 1.0;
     tally.inSphere += glm::distance(glm::dvec3(r.onSphere), glm::dvec3(c.v0)) > glm::length(e1) ? 0.0 : 1.0;
     tally.offset += glm::distance(glm::dvec3(r.origin), glm::dvec3(r.point));
-    tally.limit += limitOf(c, glm::dvec3(r.point));
+    tally.limit += getLimit(c, glm::dvec3(r.point));
 }
 
 void expectToLeave(const Row& row, bool large)
@@ -130,7 +130,7 @@ void expectToLeave(const Row& row, bool large)
     for (int round = 0; round < testRounds(); ++round) {
         Random random(static_cast<std::uint64_t>(round) * 13 + 10);
         std::vector<Case> cases(300000);
-        std::generate(cases.begin(), cases.end(), [&] { return caseOf(row, large, random); });
+        std::generate(cases.begin(), cases.end(), [&] { return makeCase(row, large, random); });
         KernelTest test(test_kernels::offset_point_test);
         test.cases(cases).resultsOf<Result>(cases.size()).run();
         const std::vector<Result> results = test.results<Result>();
@@ -151,7 +151,7 @@ void expectToLeave(const Row& row, bool large)
 }
 
 // A ray skips the triangle that it leaves (traverse.glsl): `self` counts the hits that only this rule prevents.
-TEST(OffsetPointTest, H7RaysDoNotMeetWhatTheyLeave)
+TEST(OffsetPointTest, H7RaysDoNotHitTheSurfaceThatTheyLeave)
 {
     for (const Row& row : kRows) {
         expectToLeave(row, true);

@@ -23,7 +23,7 @@ void main()
     results[place].group = gl_WorkGroupID.x;
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        SampleId id = sampleOfSlot(TEST_THREAD);
+        SampleId id = makeSampleId(TEST_THREAD);
         EXPECT_EQUAL(id.seed, c.seed);
         EXPECT_EQUAL(id.pixel, c.pixel);
         EXPECT_EQUAL(id.index, c.index);

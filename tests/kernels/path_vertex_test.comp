@@ -28,14 +28,14 @@ void main()
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
         PathHit hit = traceClosest(c.ray);
-        if (hit.record == kNoRecord) {
+        if (hit.primitiveRef == kNoPrimitiveRef) {
             results[TEST_THREAD].emitted = shadeMiss(c.ray, c.state);
         } else {
             VertexResult v = shadeSurface(SampleId(render.seed, TEST_THREAD, 0u), c.ray, hit, c.state);
             results[TEST_THREAD] =
                 Result(v.emitted, v.firstHit, uint(v.hasShadowRay), v.shadowRay, uint(v.hasNextRay), v.ray, v.state);
         }
-        EXPECT_TRUE((hit.record == kNoRecord) == (c.ray.direction.y > 0.0));
+        EXPECT_TRUE((hit.primitiveRef == kNoPrimitiveRef) == (c.ray.direction.y > 0.0));
     }
     endTest();
 }

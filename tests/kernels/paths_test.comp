@@ -27,7 +27,7 @@ void main()
         EXPECT_EQUAL(queueSizes.shadowGroups.z, 77u);
         EXPECT_EQUAL(fetchRay(slot).source, 5000u + slot);
         EXPECT_EQUAL(fetchShadowRay(slot).target, 6000u + slot);
-        EXPECT_EQUAL(fetchHit(slot).record, 8000u + slot);
+        EXPECT_EQUAL(fetchHit(slot).primitiveRef, 8000u + slot);
         pathStates[slot].pdf = fetchState(slot).pdf + f;
         pathRadiance[slot].clamped = fetchRadiance(slot).clamped + 2.0 * f;
         pathHits[slot] = PathHit(slot, 3.0 * f, vec2(0.25, 0.5));

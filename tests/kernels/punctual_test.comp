@@ -9,7 +9,7 @@ struct Case {
     float angle;
     float inner, outer;
     float falloff;
-    float distance_, range;
+    float lightDistance, range;
     float window;
 };
 
@@ -23,7 +23,7 @@ void main()
         EXPECT_NEAR(versine(c.a, c.b), c.angle, 4e-7 * c.angle + 1e-20);
         // The ramp divides rounding by its width.
         EXPECT_NEAR(spotFalloff(versine(c.a, c.b), c.inner, c.outer), c.falloff, 2e-6 * (1.0 + c.outer / max(c.outer - c.inner, 1e-10)));
-        EXPECT_NEAR(rangeFalloff(c.distance_ * c.distance_, c.range), c.window, 1e-6);
+        EXPECT_NEAR(rangeFalloff(c.lightDistance * c.lightDistance, c.range), c.window, 1e-6);
     }
     endTest();
 }

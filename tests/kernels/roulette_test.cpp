@@ -18,7 +18,7 @@ struct Case {
 };
 
 // H24: min(1, 3 times the largest throughput freed of eta^2), from the third hit on; in particular 1, not .95, at albedo .99.
-TEST(RouletteTest, H24SurvivesByThroughput)
+TEST(RouletteTest, H24SurvivalProbabilityFollowsTheThroughput)
 {
     std::vector<Case> cases;
     for (const float t : {1e-6F, 0.01F, 0.3F, 0.5F, 0.7F, 0.95F, 0.99F, 1.0F, 2.25F}) {

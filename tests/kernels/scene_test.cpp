@@ -11,7 +11,7 @@ namespace glim {
 namespace {
 
 struct Case {
-    uint record;
+    uint primitiveRef;
     uint id;
     uint triangle;
     vec3 corners[3];
@@ -40,7 +40,7 @@ Scene makeScene()
     first.resize(first.size() / 2);
     first[kSliver] = {{glm::vec3(0.0F), glm::vec3(0.5F, 0.99F * kSliverHeight, 0.0F), glm::vec3(1.0F, 0.0F, 0.0F)}};
     first[kNearlySliver] = {{glm::vec3(0.0F), glm::vec3(0.5F, 1.01F * kSliverHeight, 0.0F), glm::vec3(1.0F, 0.0F, 0.0F)}};
-    Scene scene = sceneOf(first, randomSpheres(20, 0.2F, 2));
+    Scene scene = makeTestScene(first, randomSpheres(20, 0.2F, 2));
     scene.materials.resize(3);
     scene.materials[1].baseColor = glm::vec3(0.1F, 0.2F, 0.3F);
     scene.materials[1].emission = glm::vec3(1.0F, 2.0F, 3.0F);
@@ -56,14 +56,14 @@ Scene makeScene()
     return scene;
 }
 
-Case caseOf(const Scene& scene, const Primitives& primitives, std::uint32_t id)
+Case makeCase(const Scene& scene, const Primitives& primitives, std::uint32_t id)
 {
     Case c{};
     c.id = id;
     const auto triangles = static_cast<std::uint32_t>(primitives.triangles.size());
     c.triangle = id < triangles ? 1 : 0;
     if (id < triangles) {
-        const std::uint32_t mesh = primitives.instanceOf(id);
+        const std::uint32_t mesh = primitives.findInstance(id);
         std::copy_n(primitives.triangles[id].vertices, 3, c.corners);
         for (std::size_t v = 0; mesh == 1 && v < 3; ++v) {
             const glm::dvec3 normal(cornerNormal(3 * (id - primitives.firstTriangles[1]) + v));
@@ -91,12 +91,12 @@ TEST(SceneTest, IsOnTheDeviceAsItWasMade)
     camera.position = glm::vec3(1.0F, 2.0F, 3.0F);
     const SceneOnDevice onDevice(scene, camera);
     std::vector<Case> cases;
-    for (std::uint32_t record = 0; record < onDevice.bvh.order.size(); ++record) {
-        cases.push_back(caseOf(scene, onDevice.primitives, onDevice.bvh.order[record]));
-        cases.back().record = record;
+    for (std::uint32_t ref = 0; ref < onDevice.bvh.order.size(); ++ref) {
+        cases.push_back(makeCase(scene, onDevice.primitives, onDevice.bvh.order[ref]));
+        cases.back().primitiveRef = ref;
         cases.back().cameraPosition = camera.position;
     }
-    EXPECT_GT(cases.size(), onDevice.primitives.count()) << "some have several records";
+    EXPECT_GT(cases.size(), onDevice.primitives.count()) << "some have several references";
     onDevice.test(test_kernels::scene_test).cases(cases).run();
 }
 

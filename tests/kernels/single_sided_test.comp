@@ -1,5 +1,5 @@
-// One thread is one segment. What the ray along it meets is compared with every record in turn, whose side is that of its normal; and the
-// shadow ray along it with the one of a light path, which goes the other way.
+// One thread is one segment. What the ray along it meets is compared with every reference in turn, whose side is that of its normal; and
+// the shadow ray along it with the one of a light path, which goes the other way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
@@ -22,14 +22,14 @@ layout(set = 0, binding = kBindResults, scalar) writeonly buffer Results { Resul
 float closestOfAll(PathRay ray)
 {
     TraversalRay traversal = makeTraversalRay(ray.origin, ray.direction);
-    uint records = uint(textureSize(sceneRecords)) / kRecordTexels;
+    uint refs = uint(textureSize(scenePrimitiveRefs)) / kPrimitiveRefTexels;
     float best = kInfinity;
-    for (uint i = 0u; i < records; ++i) {
-        Record record = fetchRecord(i);
-        TriangleHit hit = intersectRecord(traversal, record, kInfinity, false, kFronts | kBacks);
+    for (uint i = 0u; i < refs; ++i) {
+        PrimitiveRef ref = fetchPrimitiveRef(i);
+        TriangleHit hit = intersectShape(traversal, ref, kInfinity, false, kFronts | kBacks);
         if (hit.t > 0.0) {
-            vec3 n = geometricNormal(PlacedRecord(record, 0u, kNoInstance), ray.origin + hit.t * ray.direction);
-            best = isSingleSided(record) && dot(n, ray.direction) >= 0.0 ? best : min(best, hit.t);
+            vec3 n = geometricNormal(PlacedPrimitive(ref, 0u, kNoInstance), ray.origin + hit.t * ray.direction);
+            best = isSingleSided(ref) && dot(n, ray.direction) >= 0.0 ? best : min(best, hit.t);
         }
     }
     return best;
@@ -42,7 +42,7 @@ void main()
         PathRay ray = PathRay(c.from, kNoPrimitive, c.to - c.from, 0u);
         PathHit hit = traceClosest(ray);
         uint fromBehind = 0u;
-        if (hit.record != kNoRecord) {
+        if (hit.primitiveRef != kNoPrimitiveRef) {
             SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
             fromBehind = si.front ? 0u : 1u;
         }

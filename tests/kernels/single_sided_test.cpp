@@ -100,7 +100,7 @@ TEST(SingleSidedTest, RaysFromBehindMeetOnlyOtherSurfaces)
 // A closed mesh is met from outside at its near side and not from within, also where an instance mirrors it.
 TEST(SingleSidedTest, AMirroredFrontStaysTheFront)
 {
-    for (const std::uint64_t mostFlatTriangles : {kMostFlatTriangles, std::uint64_t{0}}) {
+    for (const std::uint64_t maxFlatTriangles : {kMaxFlatTriangles, std::uint64_t{0}}) {
         for (const glm::dvec3 scale : {glm::dvec3(1, 1, 1), glm::dvec3(1, 1, -1), glm::dvec3(-0.5, -1.5, -1), glm::dvec3(-1, 2, -0.3)}) {
             Scene scene;
             scene.materials.emplace_back();
@@ -109,8 +109,8 @@ TEST(SingleSidedTest, AMirroredFrontStaysTheFront)
             scene.instances[0].worldFromMesh = glm::scale(turned, scale);
             scene.instances.push_back(scene.instances[0]);
             scene.instances[1].worldFromMesh[3] += glm::dvec4(50, 0, 0, 0);
-            const SceneOnDevice onDevice(scene, makePrimitives(scene, mostFlatTriangles));
-            ASSERT_EQ(onDevice.flat.instances.empty(), mostFlatTriangles != 0);
+            const SceneOnDevice onDevice(scene, makePrimitives(scene, maxFlatTriangles));
+            ASSERT_EQ(onDevice.flat.instances.empty(), maxFlatTriangles != 0);
             Random random(3);
             std::vector<Segment> segments;
             for (int i = 0; i < 2000; ++i) {

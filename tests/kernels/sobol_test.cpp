@@ -33,7 +33,7 @@ uvec2 sobolPoint(std::uint32_t index)
     return point;
 }
 
-Case caseOf(std::uint32_t index, const uvec3& seeds, Random& random)
+Case makeCase(std::uint32_t index, const uvec3& seeds, Random& random)
 {
     const std::uint32_t keep = random.below(32), flipped = 0x80000000U >> keep;
     return {index, seeds, sobolPoint(index), keep, (index ^ flipped) ^ (random.bits() & (flipped - 1))};
@@ -79,11 +79,11 @@ TEST(SobolTest, H33FirstPointsAreANet)
     std::vector<Case> cases;
     std::vector<uvec2> points;
     for (std::uint32_t i = 0; i < 4096; ++i) {
-        cases.push_back(caseOf(i, uvec3(0), random));
+        cases.push_back(makeCase(i, uvec3(0), random));
         points.push_back(cases.back().point);
     }
     for (int i = 0; i < 100000; ++i) {
-        cases.push_back(caseOf(random.bits(), {random.bits(), random.bits(), random.bits()}, random));
+        cases.push_back(makeCase(random.bits(), {random.bits(), random.bits(), random.bits()}, random));
     }
     scrambled(cases);  // the kernel compares its points with these
     EXPECT_EQ(countUnevenIntervals(points.data(), 12), 0);
@@ -97,7 +97,7 @@ std::vector<uvec2> sequences(std::uint32_t count, std::uint32_t length, std::uin
     for (std::uint32_t s = 0; s < count; ++s) {
         const uvec3 seeds(random.bits(), random.bits(), random.bits());
         for (std::uint32_t i = 0; i < length; ++i) {
-            cases.push_back(caseOf(i, seeds, random));
+            cases.push_back(makeCase(i, seeds, random));
         }
     }
     return scrambled(cases);
@@ -130,7 +130,7 @@ TEST(SobolTest, ScrambledPointsAreUniform)
         Random random(32 + index);
         std::vector<Case> cases;
         for (std::uint32_t i = 0; i < kSeeds; ++i) {
-            cases.push_back(caseOf(index, {random.bits(), random.bits(), random.bits()}, random));
+            cases.push_back(makeCase(index, {random.bits(), random.bits(), random.bits()}, random));
         }
         std::vector<double> counts(64 * 64, 0.0), low(4096, 0.0);
         for (const uvec2& p : scrambled(cases)) {

@@ -39,7 +39,7 @@ Corners cornersOf(const Case& c)
 
 glm::dvec3 pointOf(const Corners& v, glm::dvec2 weights) { return v[0] + weights.x * (v[1] - v[0]) + weights.y * (v[2] - v[0]); }
 
-// Van Oosterom and Strackee. H12IsRightWhereItIsKnown compares with angles known on paper.
+// Van Oosterom and Strackee. H12AgreesWithKnownSolidAngles compares with angles known on paper.
 double solidAngle(const Corners& v)
 {
     const double a = glm::length(v[0]), b = glm::length(v[1]), c = glm::length(v[2]);
@@ -85,7 +85,7 @@ Arc arcOf(const Corners& v, glm::dvec2 u)
     return {share, bisect(u.y, [&v, share](double middle) { return partOfArc(v, {share, middle}); })};
 }
 
-Case caseOf(const glm::dvec3& p, const glm::dvec3& v0, const glm::dvec3& e1, const glm::dvec3& e2)
+Case makeCase(const glm::dvec3& p, const glm::dvec3& v0, const glm::dvec3& e1, const glm::dvec3& e2)
 {
     Case c{};
     c.p = vec3(p);
@@ -96,7 +96,7 @@ Case caseOf(const glm::dvec3& p, const glm::dvec3& v0, const glm::dvec3& e1, con
 }
 
 // The triangle (0, 0), (1, 0), (.25, 1) at a height over the point whose foot is `foot`: no coordinate is rounded but the foot's.
-Case upright(glm::dvec2 foot, double height) { return caseOf({}, {-foot, height}, {1, 0, 0}, {0.25, 1, 0}); }
+Case upright(glm::dvec2 foot, double height) { return makeCase({}, {-foot, height}, {1, 0, 0}, {0.25, 1, 0}); }
 
 struct Errors {
     double rounding;  // 1, or 0 where the height over the plane is exact
@@ -179,18 +179,18 @@ TEST(SphericalTriangleTest, H12AgreesWithDouble)
     for (const double low : {1e-1, 1e-2, 1e-3, 1e-4}) {
         expectFamily("triangles down to " + figure(low) + " of the distance", random, {1.0, 2e-5}, [&] {
             const double size = random.logUniform(low, 10.0 * low);
-            return caseOf(random.direction(), {}, edge(size), edge(size));
+            return makeCase(random.direction(), {}, edge(size), edge(size));
         });
     }
     expectFamily("slivers", random, {1.0, 1e-3}, [&] {
         const glm::dvec3 e1 = edge(1.0);
-        return caseOf(random.direction(), {}, e1, e1 * random.uniform(0.2, 1.5) + edge(random.logUniform(1e-3, 1e-1)));
+        return makeCase(random.direction(), {}, e1, e1 * random.uniform(0.2, 1.5) + edge(random.logUniform(1e-3, 1e-1)));
     });
     expectFamily("slivers with a short edge", random, {1.0, 1e-3}, [&] {
         const glm::dvec3 e1 = edge(1.0), e2 = edge(random.logUniform(1e-3, 1e-1));
-        return random.below(2) == 0 ? caseOf(random.direction(), {}, e1, e2) : caseOf(random.direction(), {}, e2, e1);
+        return random.below(2) == 0 ? makeCase(random.direction(), {}, e1, e2) : makeCase(random.direction(), {}, e2, e1);
     });
-    expectFamily("far ones", random, {1.0, 1e-5}, [&] { return caseOf(1e5 * random.direction(), {}, edge(1e2), edge(1e2)); });
+    expectFamily("far ones", random, {1.0, 1e-5}, [&] { return makeCase(1e5 * random.direction(), {}, edge(1e2), edge(1e2)); });
     for (const double height : {0.1, 0.01, 0.001}) {
         const std::string what = "triangle of 1 at " + figure(height);
         expectFamily(what + ", points over it and beside", random, {0.0, 1e-3}, [&] {
@@ -205,11 +205,11 @@ TEST(SphericalTriangleTest, H12AgreesWithDouble)
 }
 
 // A face of the octahedron, half a face of the cube and a face of the tetrahedron, each from the centre.
-TEST(SphericalTriangleTest, H12IsRightWhereItIsKnown)
+TEST(SphericalTriangleTest, H12AgreesWithKnownSolidAngles)
 {
     Random random(13);
-    std::vector<Case> cases{caseOf({}, {1, 0, 0}, {-1, 1, 0}, {-1, 0, 1}), caseOf({}, {-1, -1, 1}, {2, 0, 0}, {2, 2, 0}),
-                            caseOf({}, {1, 1, 1}, {0, -2, -2}, {-2, 0, -2})};
+    std::vector<Case> cases{makeCase({}, {1, 0, 0}, {-1, 1, 0}, {-1, 0, 1}), makeCase({}, {-1, -1, 1}, {2, 0, 0}, {2, 2, 0}),
+                            makeCase({}, {1, 1, 1}, {0, -2, -2}, {-2, 0, -2})};
     const std::array<double, 3> fractions{8.0, 12.0, 4.0};
     for (std::size_t i = 0; i < cases.size(); ++i) {
         const double truth = 4.0 * std::numbers::pi / fractions[i];
@@ -222,7 +222,7 @@ TEST(SphericalTriangleTest, H12IsRightWhereItIsKnown)
 }
 
 // The solid angle is 0 in the triangle's plane and on it, and nothing is NaN. In a plane of any direction, rounding decides the angle.
-TEST(SphericalTriangleTest, H12InThePlaneNothingIsSeen)
+TEST(SphericalTriangleTest, H12SolidAngleIsZeroInThePlane)
 {
     Random random(14);
     std::vector<Case> cases;
@@ -238,13 +238,13 @@ TEST(SphericalTriangleTest, H12InThePlaneNothingIsSeen)
     for (const double x : {-0.5, 0.0, 0.25, 0.5, 0.75, 1.0, 2.0}) {
         for (const double y : {-0.5, 0.0, 0.25, 0.5, 1.0, 2.0}) {
             add(upright({x, y}, 0.0), 0.0F, 0.0F);
-            add(caseOf({x, y, 1}, {}, {1, 0, 0}, {2, 0, 0}), 0.0F, 0.0F);
-            add(caseOf({x, y, 1}, {}, {1, 0, 0}, {0, 0, 0}), 0.0F, 0.0F);
+            add(makeCase({x, y, 1}, {}, {1, 0, 0}, {2, 0, 0}), 0.0F, 0.0F);
+            add(makeCase({x, y, 1}, {}, {1, 0, 0}, {0, 0, 0}), 0.0F, 0.0F);
             for (const double height : {1e-30, 1e-12, 1e-7}) {
                 add(upright({x, y}, height), 3.1415927F, 1.000001F);
             }
             const glm::dvec3 v0 = random.direction(), e1 = random.normalVector(), e2 = random.normalVector();
-            add(caseOf(v0 + x * e1 + y * e2, v0, e1, e2), 3.1415927F, 1.000001F);
+            add(makeCase(v0 + x * e1 + y * e2, v0, e1, e2), 3.1415927F, 1.000001F);
         }
     }
     KernelTest(test_kernels::spherical_triangle_test).cases(cases).resultsOf<Result>(cases.size()).run();
@@ -305,10 +305,10 @@ TEST(SphericalTriangleTest, H12IsUniform)
     expectUniform("triangle over the point, .1", upright({0.4, 0.3}, 0.1), 15);
     expectUniform("triangle over the point, .001", upright({0.4, 0.3}, 0.001), 16);
     expectUniform("triangle beside the point, .01", upright({-0.01, 0.3}, 0.01), 17);
-    expectUniform("triangle seen from afar", caseOf({3, -2, 4}, {}, {1, 0.3, 0.2}, {-0.2, 0.8, 0.5}), 18);
-    expectUniform("small triangle", caseOf({0.3, -0.2, 1}, {}, {1e-3, 3e-4, 2e-4}, {-2e-4, 8e-4, 5e-4}), 19);
-    expectUniform("sliver across", caseOf({0.3, -0.2, 1}, {}, {1, 0, 0}, {0, 1e-3, 0}), 20);
-    expectUniform("sliver along", caseOf({0.3, -0.2, 1}, {}, {0, 1e-3, 0}, {1, 0, 0}), 21);
+    expectUniform("triangle seen from afar", makeCase({3, -2, 4}, {}, {1, 0.3, 0.2}, {-0.2, 0.8, 0.5}), 18);
+    expectUniform("small triangle", makeCase({0.3, -0.2, 1}, {}, {1e-3, 3e-4, 2e-4}, {-2e-4, 8e-4, 5e-4}), 19);
+    expectUniform("sliver across", makeCase({0.3, -0.2, 1}, {}, {1, 0, 0}, {0, 1e-3, 0}), 20);
+    expectUniform("sliver along", makeCase({0.3, -0.2, 1}, {}, {0, 1e-3, 0}, {1, 0, 0}), 21);
 }
 
 TEST(SphericalTriangleTest, H12HasTheIrradianceOfAPolygon)
@@ -322,7 +322,7 @@ TEST(SphericalTriangleTest, H12HasTheIrradianceOfAPolygon)
             const glm::dvec3 point = pointOf(v, glm::dvec2(result.weights));
             values.push_back(static_cast<double>(result.solidAngle) * point.z / glm::length(point));
         }
-        expectSampleMean("triangle at " + figure(height), values, irradianceOfPolygon({v.begin(), v.end()}, {0, 0, 1}), 4);
+        expectSampleMean("triangle at " + figure(height), values, computePolygonIrradiance({v.begin(), v.end()}, {0, 0, 1}), 4);
     }
 }
 

@@ -22,8 +22,8 @@ void main()
         Case c = cases[TEST_THREAD];
         EXPECT_EQUAL(uint(isAccurate(c.moments, c.tolerance, c.constantSamples)), c.accurate);
         // The weights' rounding, the products' and two sums': half an ulp each.
-        EXPECT_CLOSE(luminanceOf(c.color), c.luminance, 4.0 / 16777216.0);
-        results[TEST_THREAD] = luminanceOf(c.color);
+        EXPECT_CLOSE(computeLuminance(c.color), c.luminance, 4.0 / 16777216.0);
+        results[TEST_THREAD] = computeLuminance(c.color);
     }
     endTest();
 }

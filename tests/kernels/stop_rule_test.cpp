@@ -174,7 +174,7 @@ std::pair<std::vector<LuminanceMoments>, std::vector<Sums>> addUp(const Stream& 
 // so that after n of them the mean is off by grid sqrt(n / 36). The sum S of squares is rounded alike, in its own grid of at
 // most S 2^-23; takes in the error e of the mean, 2 e deviation sqrt(n) + n e^2; and loses squares below half its grid step,
 // which are 2/3 peak (2^-24 k)^1.5 deviation^2 at step k, in the mean over the steps 2/5 of the last one's.
-TEST(StopRuleTest, H26StreamsKeepTheirDigits)
+TEST(StopRuleTest, H26LongStreamsAreAccurate)
 {
     const double limit = scoreLimit(2 * kSeeds * (streams().size() - 1));
     for (const Stream& stream : streams()) {

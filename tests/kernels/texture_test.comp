@@ -5,7 +5,7 @@
 #include "access/texture.glsl"
 
 struct Case {
-    uint texture_;
+    uint textureTexel;
     vec4 uv;
     uint texel;   // of a view
 };
@@ -23,7 +23,7 @@ void main()
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
         EXPECT_TRUE(sampleTexture(0u, c.uv) == vec4(1.0));
-        results[TEST_THREAD] = Result(sampleTexture(c.texture_, c.uv), fetchTexel(c.texel));
+        results[TEST_THREAD] = Result(sampleTexture(c.textureTexel, c.uv), fetchTexel(c.texel));
     }
     endTest();
 }

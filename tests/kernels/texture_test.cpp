@@ -75,9 +75,9 @@ void setTransform(Texture& texture, double angle, const glm::dvec2& scale, const
 }
 
 // Two materials for each texture: one has it as base colour, in sRGB, one as specular strength.
-Scene sceneOf(const std::vector<Texture>& textures, const std::vector<DecodedImage>& images)
+Scene makeTestScene(const std::vector<Texture>& textures, const std::vector<DecodedImage>& images)
 {
-    Scene scene = sceneOf(icosphere(0));
+    Scene scene = makeTestScene(icosphere(0));
     for (const DecodedImage& image : images) {
         scene.images.push_back({"image", image});
     }
@@ -119,7 +119,7 @@ TEST(TextureTest, H36LookUpsAsInDouble)
             }
         }
     }
-    const SceneOnDevice scene(sceneOf(textures, images));
+    const SceneOnDevice scene(makeTestScene(textures, images));
     const std::size_t firstPrincipled = scene.flat.principled.size() - 2 * textures.size();
     struct Expected {
         glm::dvec4 value;
@@ -173,7 +173,7 @@ TEST(TextureTest, TexelsOfEveryView)
             cases.push_back({0, glm::vec4(0.0F), view << kTexelViewBits | i});
         }
     }
-    const SceneOnDevice scene(sceneOf(icosphere(0)));
+    const SceneOnDevice scene(makeTestScene(icosphere(0)));
     for (const std::uint32_t bound : {kMaxTexelViews, 2U}) {
         std::map<std::uint32_t, const Buffer*> buffers;
         for (std::uint32_t view = 0; view < kMaxTexelViews; ++view) {

@@ -90,12 +90,12 @@ TEST(ToneMappingTest, LightStaysInOrder)
         for (float light = 1e-6F; light < 1e6F; light *= 1.01F) {
             const Rgb8 shown = shownAs(vec3(light), tone);
             for (std::size_t k = 0; k < 3; ++k) {
-                ASSERT_GE(shown[k], before[k]) << nameOf(tone) << " at " << light;
+                ASSERT_GE(shown[k], before[k]) << getName(tone) << " at " << light;
             }
             before = shown;
         }
-        EXPECT_EQ(before, (Rgb8{255, 255, 255})) << nameOf(tone);
-        EXPECT_EQ(shownAs(vec3(0.0F), tone), (Rgb8{0, 0, 0})) << nameOf(tone);
+        EXPECT_EQ(before, (Rgb8{255, 255, 255})) << getName(tone);
+        EXPECT_EQ(shownAs(vec3(0.0F), tone), (Rgb8{0, 0, 0})) << getName(tone);
     }
 }
 
@@ -104,11 +104,11 @@ TEST(ToneMappingTest, TheBrightestLightIsWhite)
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     for (const Tone tone : {Tone::Neutral, Tone::Agx}) {
         for (const vec3 color : {vec3(1e30F), vec3(1e30F, 0.0F, 0.0F), vec3(0.0F, 1.0F, 3e38F)}) {
-            EXPECT_EQ(shownAs(color, tone), (Rgb8{255, 255, 255})) << nameOf(tone);
+            EXPECT_EQ(shownAs(color, tone), (Rgb8{255, 255, 255})) << getName(tone);
         }
         for (const vec3 color : {vec3(kInfinity), vec3(0.0F, kInfinity, 0.0F)}) {
             const vec3 shown = mapTone(color, static_cast<uint>(tone));
-            EXPECT_TRUE(glm::all(glm::greaterThan(shown, vec3(0.99F)))) << nameOf(tone);
+            EXPECT_TRUE(glm::all(glm::greaterThan(shown, vec3(0.99F)))) << getName(tone);
         }
     }
 }

@@ -7,10 +7,10 @@
 #include "shared/path_types.h"
 
 uint nodeTests = 0u;
-uint recordFetches = 0u;
-#define hitsOfNode(head, content, a, b, c, origin, reciprocal, ahead, tMax) \
-    (++nodeTests, hitsOfNode(head, content, a, b, c, origin, reciprocal, ahead, tMax))
-#define fetchRecord(record) (++recordFetches, fetchRecord(record))
+uint refFetches = 0u;
+#define intersectChildren(head, content, a, b, c, origin, reciprocal, ahead, tMax) \
+    (++nodeTests, intersectChildren(head, content, a, b, c, origin, reciprocal, ahead, tMax))
+#define fetchPrimitiveRef(ref) (++refFetches, fetchPrimitiveRef(ref))
 #include "access/traverse.glsl"
 
 struct Result {
@@ -29,9 +29,9 @@ void main()
     if (isTestThread()) {
         PathRay ray = rays[TEST_THREAD];
         Steps steps = Steps(0u, 0u);
-        PathHit hit = traceClosest(ray, anyHit(), steps);
+        PathHit hit = traceClosest(ray, unrestrictedQuery(), steps);
         uint nodes = nodeTests;
-        uint primitives = recordFetches;
+        uint primitives = refFetches;
         Steps shadow = Steps(0u, 0u);
         bool metAlpha;
         ShadowRay shadowRay = ShadowRay(ray.origin, ray.source, ray.direction, kNoPrimitive, vec3(0.0), kInfinity);
@@ -40,7 +40,7 @@ void main()
         EXPECT_TRUE(spent || steps.nodes == nodes);
         EXPECT_TRUE(spent || steps.primitives == primitives);
         EXPECT_TRUE(spent || shadow.nodes == nodeTests - nodes);
-        EXPECT_TRUE(spent || shadow.primitives == recordFetches - primitives);
+        EXPECT_TRUE(spent || shadow.primitives == refFetches - primitives);
         EXPECT_TRUE(nodes > 0u && nodeTests > nodes);
         results[TEST_THREAD] = Result(hit, nodes, primitives, nodeTests - nodes, uint(unoccluded));
     }

@@ -83,7 +83,7 @@ Means meanSteps(const std::vector<Result>& results)
 TEST(TraverseStepsTest, AreWhatTheTreesCostPredicts)
 {
     for (const Triangles& mesh : {terrain(100), randomTriangles(20000, 0.03F, 1)}) {
-        const SceneOnDevice scene(sceneOf(mesh));
+        const SceneOnDevice scene(makeTestScene(mesh));
         KernelTest test = scene.test(test_kernels::traverse_steps_test);
         const Means means = meanSteps(trace(test, uniformLines(scene.bvh.box, 20000)));
         std::cout << mesh.size() << " triangles: cost of a line " << scene.bvh.cost << ", steps of a ray " << means.closest
@@ -99,7 +99,7 @@ TEST(TraverseStepsTest, AreWhatTheTreesCostPredicts)
 TEST(TraverseStepsTest, H6CoincidentTrianglesGiveTheLowestOrAreReported)
 {
     for (const std::size_t count : {5000, 100000}) {
-        const SceneOnDevice scene(sceneOf(coincidentTriangles(count)));
+        const SceneOnDevice scene(makeTestScene(coincidentTriangles(count)));
         EXPECT_LE(scene.bvh.depth, kMaxWideDepth);
         std::vector<PathRay> rays;
         for (int i = 0; i < 64; ++i) {
@@ -109,7 +109,7 @@ TEST(TraverseStepsTest, H6CoincidentTrianglesGiveTheLowestOrAreReported)
         const std::vector<Result> results = trace(test.mayExhaustLoops(), rays);
         std::size_t wrong = 0;
         for (const Result& result : results) {
-            wrong += scene.idOf(result.hit.record) == 0 && result.hit.t == 1.0F && result.unoccluded == 0 ? 0 : 1;
+            wrong += scene.idOf(result.hit.primitiveRef) == 0 && result.hit.t == 1.0F && result.unoccluded == 0 ? 0 : 1;
         }
         printHardCase("H6", std::to_string(count) + " coincident triangles", 64,
                       "depth " + std::to_string(scene.bvh.depth) + ", " + std::to_string(wrong) + " wrong, " +
@@ -121,7 +121,7 @@ TEST(TraverseStepsTest, H6CoincidentTrianglesGiveTheLowestOrAreReported)
 
 TEST(TraverseStepsTest, TheStackIsAsDeepAsTheTreeNeeds)
 {
-    const SceneOnDevice scene(sceneOf(terrain(120)));
+    const SceneOnDevice scene(makeTestScene(terrain(120)));
     const std::vector<PathRay> rays = uniformLines(scene.bvh.box, 20000);
     const auto traceWith = [&](uint levels) {
         KernelTest test = scene.test(test_kernels::traverse_steps_test);
@@ -130,7 +130,7 @@ TEST(TraverseStepsTest, TheStackIsAsDeepAsTheTreeNeeds)
     const auto countDifferences = [&](const std::vector<Result>& results, const std::vector<Result>& expected) {
         std::size_t different = 0;
         for (std::size_t i = 0; i < results.size(); ++i) {
-            different += results[i].nodes != expected[i].nodes || results[i].hit.record != expected[i].hit.record ? 1 : 0;
+            different += results[i].nodes != expected[i].nodes || results[i].hit.primitiveRef != expected[i].hit.primitiveRef ? 1 : 0;
         }
         return different;
     };
@@ -142,7 +142,7 @@ TEST(TraverseStepsTest, TheStackIsAsDeepAsTheTreeNeeds)
 
 TEST(TraverseStepsTest, H6GrowingLineAgreesWithTheReference)
 {
-    const Scene line = sceneOf(growingLine(100000, 1e-4F, 1.0002));
+    const Scene line = makeTestScene(growingLine(100000, 1e-4F, 1.0002));
     const SceneOnDevice scene(line);
     EXPECT_LE(scene.bvh.depth, kMaxWideDepth);
     std::mt19937 random(5);
@@ -164,7 +164,7 @@ TEST(TraverseStepsTest, H6GrowingLineAgreesWithTheReference)
         const ReferenceRay ray{glm::dvec3(rays[i].origin), glm::dvec3(rays[i].direction)};
         const ReferenceHit grown = reference.closest(ray, 3e-3), shrunk = reference.closest(ray, -3e-3);
         if (grown.id == shrunk.id) {
-            EXPECT_EQ(scene.idOf(results[i].hit.record), grown.id) << "ray " << i;
+            EXPECT_EQ(scene.idOf(results[i].hit.primitiveRef), grown.id) << "ray " << i;
             ++compared;
         }
     }

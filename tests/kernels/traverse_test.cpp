@@ -40,11 +40,11 @@ void compareClosest(const Reference& reference, const SceneOnDevice& scene, cons
     EXPECT_GE(t, nearer * (1.0 - slack) - slack);
     EXPECT_LE(t, farther * (1.0 + slack) + slack);
     ++tally.rays;
-    tally.hits += hit.record != kNoRecord ? 1 : 0;
+    tally.hits += hit.primitiveRef != kNoPrimitiveRef ? 1 : 0;
     if (grown.id != shrunk.id) {
         ++tally.ambiguous;
     } else {
-        EXPECT_EQ(scene.idOf(hit.record), grown.id);
+        EXPECT_EQ(scene.idOf(hit.primitiveRef), grown.id);
     }
 }
 
@@ -115,7 +115,7 @@ std::vector<Case> raysAtCuts(const Triangles& triangles, const Pieces& pieces, s
 // The kernel compares with brute force, bit by bit.
 TEST(TraversePiecesTest, LoseNoHitWhereTheyMeet)
 {
-    const SceneOnDevice onDevice(sceneOf(strips(12, 9)));
+    const SceneOnDevice onDevice(makeTestScene(strips(12, 9)));
     const Triangles& triangles = onDevice.primitives.triangles;
     ASSERT_GT(onDevice.bvh.order.size(), triangles.size() + 40);
     const std::vector<Case> cases = raysAtCuts(triangles, splitTriangles(triangles, primitiveBoxes(onDevice.primitives)), 30000);
@@ -123,10 +123,10 @@ TEST(TraversePiecesTest, LoseNoHitWhereTheyMeet)
     test.cases(cases).resultsOf<Result>(cases.size()).run();
     std::size_t met = 0;
     for (const Result& result : test.results<Result>()) {
-        met += result.hit.record != kNoRecord && std::abs(result.hit.t - 1.0F) < 1e-5F ? 1 : 0;
+        met += result.hit.primitiveRef != kNoPrimitiveRef && std::abs(result.hit.t - 1.0F) < 1e-5F ? 1 : 0;
     }
-    std::cout << onDevice.bvh.order.size() << " records of " << triangles.size() << " triangles, " << met << " of " << cases.size()
-              << " rays met where they were aimed\n";
+    std::cout << onDevice.bvh.order.size() << " primitive references of " << triangles.size() << " triangles, " << met << " of "
+              << cases.size() << " rays met where they were aimed\n";
     EXPECT_GT(met, cases.size() / 4);
 }
 
@@ -136,7 +136,7 @@ TEST(TraverseTiesTest, GoToTheLowestPrimitive)
     Triangles mesh = icosphere(1);
     const Triangles copy = mesh;
     mesh.insert(mesh.end(), copy.begin(), copy.end());
-    const SceneOnDevice scene(sceneOf(mesh));
+    const SceneOnDevice scene(makeTestScene(mesh));
     std::vector<Case> cases;
     for (const Triangle& triangle : copy) {
         for (const glm::vec3& vertex : triangle.vertices) {
@@ -147,14 +147,14 @@ TEST(TraverseTiesTest, GoToTheLowestPrimitive)
     KernelTest test = scene.test(test_kernels::traverse_test);
     test.cases(cases).resultsOf<Result>(cases.size()).run();
     for (const Result& result : test.results<Result>()) {
-        EXPECT_LT(scene.idOf(result.hit.record), copy.size());
+        EXPECT_LT(scene.idOf(result.hit.primitiveRef), copy.size());
     }
 }
 
 // The ray meets a strip of 2 x 2e-7, where plain edge functions are rounding noise; the distance that they interpolate is negative.
-TEST(TraverseSliverTest, H2KeepsItsHit)
+TEST(TraverseSliverTest, H2SliverIsHit)
 {
-    const SceneOnDevice scene(sceneOf(sliverBox(150)));
+    const SceneOnDevice scene(makeTestScene(sliverBox(150)));
     const auto bits = [](uint x, uint y, uint z) {
         return vec3(std::bit_cast<float>(x), std::bit_cast<float>(y), std::bit_cast<float>(z));
     };
@@ -162,7 +162,7 @@ TEST(TraverseSliverTest, H2KeepsItsHit)
     for (const FeatureMask slivers : {FeatureMask{0}, kFeatureSlivers}) {
         KernelTest test = scene.test(test_kernels::traverse_test);
         test.features(slivers).cases(std::vector<Case>{{ray, kNoPrimitive, 1.0F}}).resultsOf<Result>(1).run();
-        EXPECT_EQ(test.results<Result>()[0].hit.record != kNoRecord, slivers != 0);
+        EXPECT_EQ(test.results<Result>()[0].hit.primitiveRef != kNoPrimitiveRef, slivers != 0);
     }
 }
 

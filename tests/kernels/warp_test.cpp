@@ -103,7 +103,7 @@ TEST(WarpTest, CirclesAreExactAndOfUnitRadius)
 }
 
 // The kernel compares disk, hemisphere and densities; spheres are compared here, with Archimedes' map in double.
-TEST(WarpTest, H18HitsTheDiskSphereAndTriangle)
+TEST(WarpTest, H18PointsAreOnTheDiskTheSphereAndTheTriangle)
 {
     const std::vector<vec2> points = hardPoints();
     const std::vector<Result> results = warped(points);

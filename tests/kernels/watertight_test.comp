@@ -8,6 +8,6 @@
 void main()
 {
     PathHit hit = shootRay();
-    EXPECT_TRUE(isinf(hit.t) == (hit.record == kNoRecord));
+    EXPECT_TRUE(isinf(hit.t) == (hit.primitiveRef == kNoPrimitiveRef));
     endTest();
 }

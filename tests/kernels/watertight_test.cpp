@@ -40,7 +40,7 @@ struct Closed {
 Tally shoot(const Closed& closed, const Place& place, bool mollerTrumbore)
 {
     const Triangles triangles = placed(closed.mesh, place.scale, place.shift);
-    const SceneOnDevice scene(sceneOf(triangles), primitivesOf(triangles));
+    const SceneOnDevice scene(makeTestScene(triangles), makeTestPrimitives(triangles));
     // Far from the origin the mesh is rounded to a grid of 1e-3 of its size, and no longer quite convex.
     const float tolerance = place.scale * (place.shift > 0.0F ? 2e-2F : 1e-5F);
     KernelTest test = scene.test(mollerTrumbore ? test_kernels::course_watertight_test : test_kernels::watertight_test);

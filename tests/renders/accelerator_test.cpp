@@ -14,7 +14,7 @@ namespace glim {
 namespace {
 
 // A mesh of more triangles than one dispatch of brute force tries, under a lamp and a sky; a loose shell around it throws shadows
-// from everywhere in the list of records.
+// from everywhere in the list of references.
 Scene meshScene()
 {
     SceneBuilder builder;
@@ -58,7 +58,7 @@ Scene tiledScene()
     return builder.scene();
 }
 
-// Strips, some of which emit, aslant through a ball of small triangles. The strips are split into pieces and have many records.
+// Strips, some of which emit, aslant through a ball of small triangles. The strips are split into pieces and have many references.
 Scene aslantScene()
 {
     SceneBuilder builder;
@@ -95,7 +95,7 @@ TEST_P(AcceleratorTest, NoneGivesTheBitsOfTheTree)
         settings.course.accelerator = Accelerator::None;
         EXPECT_TRUE(sameBits(tree, renderScene(scene, settings))) << scene.instances.size() << " instances";
     }
-    EXPECT_GT(makePrimitives(meshScene()).count(), 2 * kScanRecords);
+    EXPECT_GT(makePrimitives(meshScene()).count(), 2 * kScanPrimitiveRefs);
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, AcceleratorTest,
@@ -170,8 +170,8 @@ TEST(IntersectorTest, MollerTrumboreAgreesInTheMean)
     expectSameMean("moller-trumbore", renderScene(meshScene(), settings), watertight);
 }
 
-// Timestamps show that brute force tries every record: as many dispatches of trace_closest per bounce as there are portions.
-TEST(AcceleratorDispatchTest, NoneScansEveryRecord)
+// Timestamps show that brute force tries every reference: as many dispatches of trace_closest per bounce as there are portions.
+TEST(AcceleratorDispatchTest, NoneScansEveryPrimitiveRef)
 {
     const Scene scene = meshScene();
     const FlatScene flat = flattened(scene);
@@ -180,7 +180,7 @@ TEST(AcceleratorDispatchTest, NoneScansEveryRecord)
     settings.course.accelerator = Accelerator::None;
     Renderer renderer(testDevice(), flat, flattenCamera(scene.cameras.front(), 1.0F), settings);
     renderer.render([](const RenderProgress&) { return true; });
-    const auto portions = (flat.records.size() / kRecordTexels + kScanRecords - 1) / kScanRecords;
+    const auto portions = (flat.primitiveRefs.size() / kPrimitiveRefTexels + kScanPrimitiveRefs - 1) / kScanPrimitiveRefs;
     EXPECT_EQ(portions, 4U);
     EXPECT_EQ(renderer.statistics().kernels.at("course_trace_closest").dispatches, portions);
 }

@@ -144,7 +144,7 @@ TEST(AdaptiveTest, TracesOnlyTheSamplesItKeeps)
 
 // H28. A floor of which one sample in 200 finds the lamp, by its scattered ray: the course's rule takes 32 black samples for
 // certainty.
-TEST(AdaptiveTest, H28ABlackFirstBatchIsNotTheTruth)
+TEST(AdaptiveTest, H28ABlackFirstBatchStopsNoPixel)
 {
     SceneBuilder builder;
     const float radius = std::sqrt(0.005F);

@@ -91,7 +91,7 @@ TEST(AlphaTest, AScenesOnlySurfaceMayBeTransparentAllOver)
     scene.materials[clear].alphaMode = AlphaMode::Blend;
     scene.materials[clear].alpha = 0.0F;
     const FlatScene flat = flattened(scene);
-    EXPECT_EQ(flat.records.size(), 0U);
+    EXPECT_EQ(flat.primitiveRefs.size(), 0U);
     EXPECT_EQ(flat.nodes.size(), kNodeTexels) << "a root";
     for (const PixelMoments& pixel : renderFlat(flat, scene.cameras.front(), squareSettings(4, 2)).pixels) {
         EXPECT_EQ(pixel.mean, glm::vec3(0.25F));

@@ -42,7 +42,7 @@ TEST_P(ArenaTest, AgreesWithAnIndependentRenderer)
     const std::string name = GetParam().scene;
     const fs::path references = name[1] == '_' ? scenes : scenes / "references";
     const std::string reference = (references / (name + "_256_d12.exr")).string();
-    Picture truth = pictureOf(readExr(reference), reference);
+    Picture truth = makePicture(readExr(reference), reference);
     const std::string variance = (references / (name + "_256_d12.var.exr")).string();
     setVariance(truth, readExr(variance), variance);
 
@@ -57,7 +57,7 @@ TEST_P(ArenaTest, AgreesWithAnIndependentRenderer)
         }
     }
     const Film film = renderScene(scene, settings);
-    const ZTest test = zTest(pictureOf(film), truth, 1e-4);
+    const ZTest test = zTest(makePicture(film), truth, 1e-4);
     std::printf("%s: z of means %.2f %.2f %.2f (limit %.2f), worst block %.2f (limit %.2f), mean z^2 %.3f, sees %.2e\n", name.c_str(),
                 test.meanZ[0], test.meanZ[1], test.meanZ[2], test.meanLimit, test.worstZ, test.blockLimit, test.meanSquare[0],
                 test.detectableBias);

@@ -27,7 +27,7 @@ protected:
         scene = std::make_unique<Scene>(loadGltf(GLIM_SOURCE_DIR "/scenes/cornell_spheres.gltf"));
         flat = std::make_unique<FlatScene>(flattened(*scene));
         reference = std::make_unique<Picture>(
-            pictureOf(renderFlat(*flat, scene->cameras.front(), referenceSettings(squareSettings(kSide, kSamples), kSamples))));
+            makePicture(renderFlat(*flat, scene->cameras.front(), referenceSettings(squareSettings(kSide, kSamples), kSamples))));
     }
     static void TearDownTestSuite()
     {
@@ -83,7 +83,7 @@ TEST_F(BenchTest, PointsAreThoseOfPlainRenders)
         EXPECT_EQ(point.samples, spp);
         settings.seed = 3;
         settings.sampleEnd = spp;
-        const PictureError plain = measureError(pictureOf(renderScene(*scene, settings)), *reference);
+        const PictureError plain = measureError(makePicture(renderScene(*scene, settings)), *reference);
         EXPECT_EQ(point.relMse[1], plain.relMse);
         EXPECT_EQ(point.mse[1], plain.mse);
         EXPECT_EQ(point.relMse[0], point.relMse[2]);
@@ -151,7 +151,7 @@ TEST_F(BenchTest, ChoosesAPowerOfTwoThatTakesAboutAsLong)
 {
     RenderSettings settings = squareSettings(kSide, 1U << 20);
     Renderer renderer(testDevice(), *flat, camera(), settings);
-    EXPECT_EQ(chooseSamples(renderer, camera(), 1e-3, 1U << 20, goOn), kLeastBenchSamples);
+    EXPECT_EQ(chooseSamples(renderer, camera(), 1e-3, 1U << 20, goOn), kMinBenchSamples);
     EXPECT_EQ(chooseSamples(renderer, camera(), 1e6, 128, goOn), 128U);
     EXPECT_FALSE(chooseSamples(renderer, camera(), 1.0, 128, [](std::uint64_t) { return false; }));
 }

@@ -61,7 +61,7 @@ TEST_F(CausticsFilmTest, AdaptiveRendersHaveTheSameLight)
     settings.adaptive = Adaptive::Neighbours;
     settings.seed = 1;
     const Film adaptive = render(settings);
-    expectAgreement("adaptive", pictureOf(adaptive), pictureOf(plain));
+    expectAgreement("adaptive", makePicture(adaptive), makePicture(plain));
     EXPECT_EQ(adaptive.splats.front().count, settings.sampleEnd);
     settings.pathCapacity = 3000;
     EXPECT_TRUE(sameBits(adaptive, render(settings)));

@@ -60,7 +60,7 @@ void addSmooth(Scene& scene, const Material& material, const glm::vec3& center, 
             v = center + radius * v;
         }
     }
-    addMesh(scene, placed, static_cast<std::uint32_t>(scene.materials.size() - 1), verticesOf(sphere));
+    addMesh(scene, placed, static_cast<std::uint32_t>(scene.materials.size() - 1), listVertices(sphere));
 }
 
 // A pane before the camera's right half and between lamp and balls: their fronts face camera and lamp, or if turned their backs.
@@ -310,7 +310,7 @@ TEST_P(CausticsTest, AgreeWithPathTracing)
     ASSERT_FALSE(light.splats.empty());
     EXPECT_TRUE(path.splats.empty());
     EXPECT_GT(meanOfSplats(light), 0.0);
-    expectAgreement(GetParam().name, pictureOf(light), pictureOf(path));
+    expectAgreement(GetParam().name, makePicture(light), makePicture(path));
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, CausticsTest, testing::ValuesIn(kVariants), test::nameOfParameter);

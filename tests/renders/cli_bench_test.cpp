@@ -50,12 +50,12 @@ TEST(BenchCommandTest, MeasuresWritesAndComparesWithAnEarlierBench)
     EXPECT_GT(benches[0].startUp.compile, 0.0);
     EXPECT_GT(benches[0].points.back().kernelSeconds[0], 0.0);
     EXPECT_GT(benches[0].points.back().seconds[0], benches[0].points.back().kernelSeconds[0]);
-    EXPECT_EQ(bytesOfFile(folder / "a.csv"), benchCsv(benches));
+    EXPECT_EQ(readFileBytes(folder / "a.csv"), benchCsv(benches));
 
-    const std::string bytes = bytesOfFile(reference);
+    const std::string bytes = readFileBytes(reference);
     run = bench({"--spp", "64", "-o", second, "--direct", "hemisphere", "--reference", reference, "--against", first});
     ASSERT_EQ(run.exitCode, 0) << run.err;
-    EXPECT_EQ(bytesOfFile(reference), bytes);
+    EXPECT_EQ(readFileBytes(reference), bytes);
     EXPECT_FALSE(std::filesystem::exists(folder / "b.cornell_spheres.exr"));
     EXPECT_TRUE(contains(run.out, "after 64 samples, seeds paired, by turns")) << run.out;
     EXPECT_TRUE(contains(run.out, "\n  not excluded: a load that slows one of the two more than the other")) << run.out;
@@ -86,7 +86,7 @@ TEST(BenchCommandTest, MeasuresWritesAndComparesWithAnEarlierBench)
 
     // An existing reference is used again, and two runs differ only in times.
     run = bench({"--spp", "64", "-o", first});
-    EXPECT_EQ(bytesOfFile(reference), bytes);
+    EXPECT_EQ(readFileBytes(reference), bytes);
     EXPECT_EQ(readBenches(first)[0].points.back().relMse, benches[0].points.back().relMse);
 
     expectSentence(runGlim({"bench", sceneFile("cornell.gltf"), "--size", "8x8", "-o", second, "--against", first}), 1,
@@ -149,7 +149,7 @@ TEST(BenchKernelsTest, TellsWhichVariantIsFastest)
     const GlimRun run = runGlim({"bench", "--kernels", sceneFile("cornell_spheres.gltf"), "--size", "32x32", "-o", file});
     ASSERT_EQ(run.exitCode, 0) << run.err;
     EXPECT_EQ(run.err, "");
-    const auto table = nlohmann::json::parse(bytesOfFile(file)).at(0);
+    const auto table = nlohmann::json::parse(readFileBytes(file)).at(0);
     EXPECT_EQ(table.at("spheres"), 2);
     std::map<std::string, std::size_t> variants, best;
     for (const auto& rate : table.at("rates")) {

@@ -39,7 +39,7 @@ protected:
         EXPECT_NE(refused.err.find(words), std::string::npos) << refused.err;
         EXPECT_FALSE(std::filesystem::exists(folder_ / "no.exr"));
     }
-    json statistics(const char* name) const { return json::parse(bytesOfFile(folder_ / name)); }
+    json statistics(const char* name) const { return json::parse(readFileBytes(folder_ / name)); }
 
     ScratchFolder folder_;
 };
@@ -51,7 +51,7 @@ TEST_F(DenoiseTest, TheFilmKeepsItsBits)
         expectDone({"--samples", samples, "-o", "plain.exr"});
         expectDone({"--samples", samples, "-o", "denoised.exr", "--denoise"});
         const Film plain = readFilm(folder_ / "plain.exr"), denoised = readFilm(folder_ / "denoised.exr");
-        EXPECT_EQ(digestOf(plain), digestOf(denoised)) << samples;
+        EXPECT_EQ(computeDigest(plain), computeDigest(denoised)) << samples;
     }
 }
 
@@ -73,7 +73,7 @@ TEST_F(DenoiseTest, AddsLayersAndFigures)
     }
     EXPECT_GT(changed, 0.01 * sum);
     EXPECT_LT(changed, 0.2 * sum);
-    EXPECT_NE(bytesOfFile(folder_ / "a.png"), bytesOfFile(folder_ / "b.png"));
+    EXPECT_NE(readFileBytes(folder_ / "a.png"), readFileBytes(folder_ / "b.png"));
     EXPECT_EQ(statistics("b.json")["denoised"], nullptr);
     const json known = statistics("a.json")["denoised"];
     EXPECT_LT(known["mse95"][0], known["mse"]);
@@ -93,7 +93,7 @@ TEST_F(DenoiseTest, MergedFilmsAreThoseOfTheirSamples)
     call.arguments = {"merge", "a.exr", "b.exr", "-o", "merged.exr"};
     call.folder = folder_.path();
     EXPECT_EQ(runGlim(call).exitCode, 0);
-    EXPECT_EQ(digestOf(readFilm(folder_ / "merged.exr")), digestOf(readFilm(folder_ / "whole.exr")));
+    EXPECT_EQ(computeDigest(readFilm(folder_ / "merged.exr")), computeDigest(readFilm(folder_ / "whole.exr")));
     EXPECT_FALSE(readDenoised(folder_ / "merged.exr"));
 }
 
@@ -116,10 +116,10 @@ TEST_F(DenoiseTest, FramesThatAreThereKeepTheirDenoisedPicture)
     denoised.push_back("--denoise");
     const GlimRun first = run(denoised);  // the films have none yet
     EXPECT_NE(first.out.find("2 of 2 pictures rendered"), std::string::npos) << first.out;
-    const std::string png = bytesOfFile(folder_ / "f1.png");
+    const std::string png = readFileBytes(folder_ / "f1.png");
     const GlimRun second = run(denoised);
     EXPECT_NE(second.out.find("0 of 2 pictures rendered"), std::string::npos) << second.out;
-    EXPECT_EQ(bytesOfFile(folder_ / "f1.png"), png);
+    EXPECT_EQ(readFileBytes(folder_ / "f1.png"), png);
 }
 
 TEST_F(DenoiseTest, RefusesWhatHasNoHalves)

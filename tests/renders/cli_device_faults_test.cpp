@@ -45,7 +45,7 @@ protected:
 TEST_F(DeviceFaultTest, ALostDeviceLeavesTheLastCheckpoint)
 {
     ASSERT_EQ(runGlim(call()).exitCode, 0);
-    const std::string expected = digestOf(readFilm(film_));
+    const std::string expected = computeDigest(readFilm(film_));
     int faults = 0, checkpoints = 0;
     for (int at = 1;; at += 1 + at / 3) {
         std::filesystem::remove(film_);
@@ -60,7 +60,7 @@ TEST_F(DeviceFaultTest, ALostDeviceLeavesTheLastCheckpoint)
         EXPECT_EQ(folder_.entries(), kept ? 1 : 0);
         EXPECT_EQ(run.err.find("has the last checkpoint") != std::string::npos, kept) << run.err;
         EXPECT_EQ(runGlim(call()).exitCode, 0);
-        EXPECT_EQ(digestOf(readFilm(film_)), expected) << at;
+        EXPECT_EQ(computeDigest(readFilm(film_)), expected) << at;
     }
     EXPECT_GT(faults, 5);
     EXPECT_GT(checkpoints, 0);
@@ -71,7 +71,7 @@ TEST_F(DeviceFaultTest, ADeviceThatIsLostAfterTheRenderLeavesTheFilm)
     GlimCall denoised;
     denoised.arguments = {"render", sceneFile("cornell.gltf"), "--size", "16x16", "--spp", "64", "--denoise", "-o", film_.string()};
     ASSERT_EQ(runGlim(denoised).exitCode, 0);
-    const std::string expected = digestOf(readFilm(film_));
+    const std::string expected = computeDigest(readFilm(film_));
     denoised.environment["LD_PRELOAD"] = GLIM_FAIL_IN_VULKAN;
     int kept = 0;
     for (int at = 1;; at += 1 + at / 2) {
@@ -84,7 +84,7 @@ TEST_F(DeviceFaultTest, ADeviceThatIsLostAfterTheRenderLeavesTheFilm)
         expectSentence(run, "VK_ERROR_DEVICE_LOST");
         if (std::filesystem::exists(film_)) {
             ++kept;
-            EXPECT_EQ(digestOf(readFilm(film_)), expected);
+            EXPECT_EQ(computeDigest(readFilm(film_)), expected);
             EXPECT_NE(run.out.find("64 samples per pixel"), std::string::npos) << run.out;
         }
     }

@@ -48,7 +48,7 @@ public:
         return runGlim(call);
     }
     Film film(const char* name) const { return readFilm(folder_ / name); }
-    json statistics(const char* name) const { return json::parse(bytesOfFile(folder_ / name)); }
+    json statistics(const char* name) const { return json::parse(readFileBytes(folder_ / name)); }
     std::filesystem::path folder() const { return folder_.path(); }
     bool exists(const char* name) const { return std::filesystem::exists(folder_ / name); }
 
@@ -99,7 +99,7 @@ TEST(CommandLineTest, MergedBandsOfRowsAreTheBitsOfTheSingleRun)
     const GlimRun run = films.merge(names);
     EXPECT_NE(run.err.find("bit-identical to a single run"), std::string::npos) << run.err;
     EXPECT_FALSE(films.film("whole.exr").splats.empty());
-    EXPECT_EQ(digestOf(films.film("merged.exr")), digestOf(films.film("whole.exr")));
+    EXPECT_EQ(computeDigest(films.film("merged.exr")), computeDigest(films.film("whole.exr")));
     const GlimRun two = films.merge({"film5.exr", "film4.exr", "film0.exr", "film1.exr", "-o", "two.exr"});
     EXPECT_EQ(two.exitCode, 0) << two.err;
     const Film part = films.film("two.exr"), whole = films.film("whole.exr");
@@ -291,7 +291,7 @@ TEST(CommandLineTest, ResultsAreOnStdoutAndChatterOnStderr)
     const GlimRun bar = runGlim(films.call("x.exr", {"--spp", "64", "--progress", "bar"}));
     EXPECT_NE(bar.err.find("Msamples/s"), std::string::npos) << bar.err;
     EXPECT_EQ(countLines(bar.out), 1U);
-    json scene = json::parse(bytesOfFile(sceneFile("cornell.gltf")));
+    json scene = json::parse(readFileBytes(sceneFile("cornell.gltf")));
     scene["extensionsUsed"].push_back("VENDOR_toon");
     scene["materials"][0]["extensions"]["VENDOR_toon"] = json::object();
     std::ofstream(films.folder() / "warned.gltf") << scene;

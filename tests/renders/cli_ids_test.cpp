@@ -31,7 +31,7 @@ protected:
     }
     Film film() const { return readFilm(folder_ / "x.exr"); }
     Image ids() const { return readExr(folder_ / "i.exr"); }
-    json statistics() const { return json::parse(bytesOfFile(folder_ / "s.json")); }
+    json statistics() const { return json::parse(readFileBytes(folder_ / "s.json")); }
 
     ScratchFolder folder_;
 };

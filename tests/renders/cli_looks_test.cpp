@@ -34,7 +34,7 @@ protected:
         arguments.insert(arguments.end(), options.begin(), options.end());
         return run(arguments);
     }
-    json jsonIn(const char* name) const { return json::parse(bytesOfFile(folder_ / name)); }
+    json jsonIn(const char* name) const { return json::parse(readFileBytes(folder_ / name)); }
 
     // A coated triangle that fills the view, with a texture of 4x2 texels.
     void writeCoated() const
@@ -210,7 +210,7 @@ TEST_F(LooksTest, ToneMappingIsOfPicturesAlone)
         const GlimRun done = render(all);
         EXPECT_EQ(done.exitCode, 0) << done.err;
         EXPECT_FALSE(contains(done.err, "--tone")) << done.err;
-        return bytesOfFile(folder_ / "x.png");
+        return readFileBytes(folder_ / "x.png");
     };
     const std::string plain = drawn({});
     EXPECT_EQ(jsonIn("s.json").at("look"), json({{"exposure", 0}, {"tone", "none"}}));
@@ -223,7 +223,7 @@ TEST_F(LooksTest, ToneMappingIsOfPicturesAlone)
     render({"--stats", "s.json"});
     EXPECT_TRUE(jsonIn("s.json").at("look").is_null());
     ASSERT_EQ(run({"merge", "x.exr", "-o", "y.exr", "--image", "y.png", "--tone", "agx", "--exposure", "1.5"}).exitCode, 0);
-    EXPECT_EQ(bytesOfFile(folder_ / "y.png"), agx);
+    EXPECT_EQ(readFileBytes(folder_ / "y.png"), agx);
 }
 
 TEST_F(LooksTest, TheStudioIsShownByNeutralUnlessToldOtherwise)
@@ -234,7 +234,7 @@ TEST_F(LooksTest, TheStudioIsShownByNeutralUnlessToldOtherwise)
     EXPECT_TRUE(contains(chosen.err, sentence)) << chosen.err;
     for (const char* tone : {"neutral", "none"}) {
         EXPECT_FALSE(contains(render({"--png", "b.png", "--tone", tone}).err, sentence));
-        EXPECT_EQ(bytesOfFile(folder_ / "b.png") == bytesOfFile(folder_ / "a.png"), tone == std::string("neutral")) << tone;
+        EXPECT_EQ(readFileBytes(folder_ / "b.png") == readFileBytes(folder_ / "a.png"), tone == std::string("neutral")) << tone;
     }
     EXPECT_TRUE(contains(render({"--png", "b.png", "--environment", "studio"}).err, sentence));
     EXPECT_FALSE(contains(render({"--png", "b.png", "--environment", "1,1,1"}).err, sentence));
@@ -253,17 +253,17 @@ TEST_F(LooksTest, ExposureIsChosenAndSaid)
         << chosen.err;
     EXPECT_EQ(jsonIn("s.json").at("look").at("exposure"), std::stod(match[1]));
     EXPECT_EQ(chosen.err, render({"--png", "b.png", "--exposure", match[1]}).err + match.str());
-    EXPECT_EQ(bytesOfFile(folder_ / "b.png"), bytesOfFile(folder_ / "a.png"));
+    EXPECT_EQ(readFileBytes(folder_ / "b.png"), readFileBytes(folder_ / "a.png"));
     const GlimRun merged = run({"merge", "x.exr", "-o", "y.exr", "--png", "b.png", "--exposure", "auto"});
     EXPECT_TRUE(contains(merged.err, match.str())) << merged.err;
-    EXPECT_EQ(bytesOfFile(folder_ / "b.png"), bytesOfFile(folder_ / "a.png"));
+    EXPECT_EQ(readFileBytes(folder_ / "b.png"), readFileBytes(folder_ / "a.png"));
 }
 
 TEST_F(LooksTest, PicturesAreOfTheKindOfTheirName)
 {
     std::filesystem::copy_file(sceneFile("cornell.gltf"), folder_ / "scene.gltf");
     const auto pixelsOf = [this](const std::string& name) {
-        const std::string bytes = bytesOfFile(folder_ / name.c_str());
+        const std::string bytes = readFileBytes(folder_ / name.c_str());
         return decodeImage({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}).rgba8;
     };
     ASSERT_EQ(render({"--png", "x.png", "--image", "x.webp"}).exitCode, 0);
@@ -271,7 +271,7 @@ TEST_F(LooksTest, PicturesAreOfTheKindOfTheirName)
     EXPECT_EQ(pixelsOf("x.webp"), pixels);
     ASSERT_EQ(
         run({"render", "scene.gltf", "-o", "f#.exr", "--size", "8x8", "--spp", "2", "--turntable", "2", "--image", "f#.jpeg"}).exitCode, 0);
-    EXPECT_EQ(bytesOfFile(folder_ / "f1.jpeg").substr(0, 3), "\xff\xd8\xff");
+    EXPECT_EQ(readFileBytes(folder_ / "f1.jpeg").substr(0, 3), "\xff\xd8\xff");
 }
 
 TEST_F(LooksTest, TexturesAreScaledDownOnDemand)
@@ -303,15 +303,15 @@ TEST_F(LooksTest, LargeTexturesAreStatedBeforeTheRender)
 TEST_F(LooksTest, NoTextureAndNoMapIsOverwritten)
 {
     writeCoated();
-    const std::string texture = bytesOfFile(folder_ / "wood.png");
+    const std::string texture = readFileBytes(folder_ / "wood.png");
     const GlimRun run = render({"--png", "wood.png"});
     EXPECT_EQ(run.exitCode, 1);
     EXPECT_TRUE(contains(run.err, "glim: wood.png: cannot be written: it is the input ")) << run.err;
-    EXPECT_EQ(bytesOfFile(folder_ / "wood.png"), texture);
+    EXPECT_EQ(readFileBytes(folder_ / "wood.png"), texture);
     ASSERT_EQ(this->run({"render", sceneFile("cornell.gltf"), "-o", "x.exr", "--size", "4x4", "--spp", "1"}).exitCode, 0);
-    const std::string map = bytesOfFile(folder_ / "x.exr");
+    const std::string map = readFileBytes(folder_ / "x.exr");
     EXPECT_TRUE(contains(render({"--environment", "x.exr"}).err, "x.exr: cannot be written: it is the input"));
-    EXPECT_EQ(bytesOfFile(folder_ / "x.exr"), map);
+    EXPECT_EQ(readFileBytes(folder_ / "x.exr"), map);
 }
 
 // Each mistake is one sentence, and leaves nothing behind.

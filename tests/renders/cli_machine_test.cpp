@@ -122,12 +122,12 @@ TEST(CommandLineTest, FilesThatWouldGrowTooLargeAreNotWritten)
         GlimCall call;
         call.arguments = arguments;
         call.folder = folder.path();
-        const std::string before = bytesOfFile(film);
+        const std::string before = readFileBytes(film);
         const GlimRun run = runGlim(afterCommand("ulimit -f 1", call));
         EXPECT_EQ(run.signal, 0);
         EXPECT_EQ(run.exitCode, 1);
         EXPECT_TRUE(contains(run.err, std::string(file) + ": cannot be written: File too large.")) << run.err;
-        EXPECT_EQ(bytesOfFile(film), before);
+        EXPECT_EQ(readFileBytes(film), before);
         EXPECT_EQ(folder.entries(), 2);
     }
     GlimCall inspect;

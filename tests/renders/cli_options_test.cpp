@@ -58,12 +58,12 @@ TEST_F(OptionsTest, ChangeThePicture)
         {"", "--view bvh-steps"},
     };
     std::map<std::string, Film> films;  // by options
-    const auto filmOf = [&](const std::string& options) -> const Film& {
+    const auto makeFilm = [&](const std::string& options) -> const Film& {
         const auto found = films.find(options);
         return found != films.end() ? found->second : films.emplace(options, render("--spp 4 " + options)).first->second;
     };
     for (const auto& [one, other] : kPairs) {
-        EXPECT_FALSE(sameBits(filmOf(one), filmOf(other))) << other;
+        EXPECT_FALSE(sameBits(makeFilm(one), makeFilm(other))) << other;
     }
     const auto steps = [this](const char* rule) {
         return render("--spp 4 --view bvh-steps --split " + std::string(rule), "many_lights.gltf");

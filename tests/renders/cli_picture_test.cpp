@@ -191,7 +191,7 @@ TEST(CommandLineTest, StatisticsAreCompleteAndSane)
     const GlimRun run = runGlim({"render", sceneFile("cornell.gltf"), "-o", (folder / "x.exr").string(), "--size", "16x8", "--spp", "64",
                                  "--schedule", "persistent", "--stats", stats.string()});
     ASSERT_EQ(run.exitCode, 0) << run.err;
-    const json s = json::parse(bytesOfFile(stats));
+    const json s = json::parse(readFileBytes(stats));
     EXPECT_EQ(s.at("samples"), 16 * 8 * 64);
     EXPECT_EQ(s.at("size"), json({16, 8}));
     EXPECT_EQ(s.at("sampleRange"), json({0, 64}));
@@ -244,7 +244,7 @@ TEST(CommandLineTest, ClampingSaysWhatItTook)
     const GlimRun run = runGlim(clamped);
     ASSERT_EQ(run.exitCode, 0);
     EXPECT_NE(run.err.find("--clamp-indirect removed "), std::string::npos) << run.err;
-    const json energy = json::parse(bytesOfFile(stats)).at("clampIndirect");
+    const json energy = json::parse(readFileBytes(stats)).at("clampIndirect");
     EXPECT_GT(energy.at("removedShare"), 0.01);
     EXPECT_NEAR(meanOf() + energy.at("removedMeanRadiance").get<double>(), whole, 1e-3 * whole);
 }

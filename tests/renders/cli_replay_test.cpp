@@ -24,7 +24,7 @@ GlimRun renderIn(const ScratchFolder& folder, Arguments arguments, const Argumen
     return runGlim(call);
 }
 
-json jsonIn(const ScratchFolder& folder, const char* name) { return json::parse(bytesOfFile(folder / name)); }
+json jsonIn(const ScratchFolder& folder, const char* name) { return json::parse(readFileBytes(folder / name)); }
 
 // The sum, in order and in float32, of what the text says is added; exact numbers make it the bits of the radiance.
 glm::vec3 sumOfText(const std::string& text)

@@ -28,7 +28,7 @@ public:
         const GlimRun run = call(arguments);
         EXPECT_EQ(run.exitCode, 0) << run.err;
         EXPECT_EQ(countLines(run.out), 1U) << run.out;
-        return {run.out, json::parse(bytesOfFile(folder_ / "s.json"))};
+        return {run.out, json::parse(readFileBytes(folder_ / "s.json"))};
     }
     GlimRun call(const Arguments& arguments) const
     {

@@ -48,17 +48,17 @@ protected:
     }
     void expectRefused(const std::vector<std::string>& arguments, const std::string& reason) const
     {
-        const std::string before = bytesOfFile(film_);
+        const std::string before = readFileBytes(film_);
         const GlimRun run = runGlim(call(arguments));
         EXPECT_EQ(run.exitCode, 1) << run.out << run.err;
         EXPECT_NE(run.err.find(reason), std::string::npos) << run.err;
         EXPECT_EQ(countLines(run.err), 1U) << run.err;
-        EXPECT_EQ(bytesOfFile(film_), before);
+        EXPECT_EQ(readFileBytes(film_), before);
     }
     std::string digestOfOneRun(const std::string& samples)
     {
         expectDone({"--spp", samples});
-        const std::string digest = digestOf(readFilm(film_));
+        const std::string digest = computeDigest(readFilm(film_));
         std::filesystem::remove(film_);
         return digest;
     }
@@ -89,7 +89,7 @@ TEST_F(CommandLineResumeTest, KilledWithinAnyWriteItGoesOnWithTheSameBits)
                 readFilm(film_);
             }
             expectDone({"--spp", spp, "--resume"});
-            EXPECT_EQ(digestOf(readFilm(film_)), expected) << "killed at call " << at;
+            EXPECT_EQ(computeDigest(readFilm(film_)), expected) << "killed at call " << at;
             EXPECT_EQ(folder_.entries(), 1U) << "killed at call " << at;
         }
         std::filesystem::remove(film_);
@@ -116,7 +116,7 @@ TEST_F(CommandLineResumeTest, KilledAtAnyMomentItGoesOnWithTheSameBits)
         ASSERT_LT(kills, 30);
     }
     EXPECT_GT(kills, 1);
-    EXPECT_EQ(digestOf(readFilm(film_)), expected);
+    EXPECT_EQ(computeDigest(readFilm(film_)), expected);
     EXPECT_EQ(folder_.entries(), 1U);
 }
 
@@ -127,25 +127,25 @@ TEST_F(CommandLineResumeTest, GoesOnFromAFilmOfFewerSamples)
     expectDone({"--spp", "300", "--resume"});
     const GlimRun run = runGlim(call({"--spp", "640", "--resume"}));
     EXPECT_NE(run.err.find("is resumed at 256 samples per pixel"), std::string::npos) << "the last block was not whole: " << run.err;
-    EXPECT_EQ(digestOf(readFilm(film_)), expected);
-    const std::string before = bytesOfFile(film_);
+    EXPECT_EQ(computeDigest(readFilm(film_)), expected);
+    const std::string before = readFileBytes(film_);
     const GlimRun fewer = runGlim(call({"--spp", "300", "--resume"}));
     EXPECT_EQ(fewer.exitCode, 0) << fewer.err;
     EXPECT_NE(fewer.out.find("is whole and was kept"), std::string::npos) << fewer.out;
-    EXPECT_EQ(bytesOfFile(film_), before);
+    EXPECT_EQ(readFileBytes(film_), before);
 }
 
 TEST_F(CommandLineResumeTest, NeighboursGoOn)
 {
     expectDone({"--spp", "512", "--adaptive", "neighbours"});
-    const std::string expected = digestOf(readFilm(film_));
+    const std::string expected = computeDigest(readFilm(film_));
     std::filesystem::remove(film_);
     GlimCall stopped = call({"--spp", "512", "--adaptive", "neighbours", "--resume", "--progress", "json"});
     stopped.signalWhen = hasLine;
     stopped.signal = SIGINT;
     EXPECT_EQ(runGlim(stopped).exitCode, 128 + SIGINT);
     expectDone({"--spp", "512", "--adaptive", "neighbours", "--resume"});
-    EXPECT_EQ(digestOf(readFilm(film_)), expected);
+    EXPECT_EQ(computeDigest(readFilm(film_)), expected);
     expectRefused({"--spp", "1024", "--adaptive", "neighbours", "--resume"}, "planned for another --spp");
 }
 
@@ -157,14 +157,14 @@ TEST_F(CommandLineResumeTest, UserSignalWritesAndGoesOn)
     asked.signal = SIGUSR1;
     const GlimRun run = runGlim(asked);
     EXPECT_EQ(run.exitCode, 0) << run.err;
-    EXPECT_EQ(digestOf(readFilm(film_)), expected);
+    EXPECT_EQ(computeDigest(readFilm(film_)), expected);
     EXPECT_NE(run.err.find("\"checkpoint\":{\"samplesPerPixel\":"), std::string::npos) << run.err;
     const Film seen = readFilm(folder_ / "seen.exr");
     EXPECT_LT(seen.sampleRanges.front().second, 4000U);
     EXPECT_TRUE(readStoredFilm(folder_ / "seen.exr").checkpoint);
     std::filesystem::rename(folder_ / "seen.exr", film_);
     expectDone({"--spp", "4000", "--resume"});
-    EXPECT_EQ(digestOf(readFilm(film_)), expected);
+    EXPECT_EQ(computeDigest(readFilm(film_)), expected);
 }
 
 TEST_F(CommandLineResumeTest, FailedCommandsAndFullDisksAreSaidAndTheRenderGoesOn)
@@ -172,13 +172,13 @@ TEST_F(CommandLineResumeTest, FailedCommandsAndFullDisksAreSaidAndTheRenderGoesO
     const GlimRun run = runGlim(call({"--spp", "300", "--checkpoint", "1m", "--on-checkpoint", "exit 7"}));
     EXPECT_EQ(run.exitCode, 0);
     EXPECT_NE(run.err.find("--on-checkpoint: the command failed with status 7"), std::string::npos) << run.err;
-    const std::string before = bytesOfFile(film_);
+    const std::string before = readFileBytes(film_);
     // After those of the lock.
     const GlimRun full = runGlim(failing(call({"--spp", "600", "--resume"}), 6, "full", folder_.path()));
     EXPECT_EQ(full.exitCode, 1);
     EXPECT_NE(full.err.find("no checkpoint: "), std::string::npos) << full.err;
     EXPECT_NE(full.err.find("film.exr: cannot be written: No space left on device"), std::string::npos) << full.err;
-    EXPECT_EQ(bytesOfFile(film_), before);
+    EXPECT_EQ(readFileBytes(film_), before);
     EXPECT_EQ(folder_.entries(), 1U);
 }
 
@@ -221,12 +221,12 @@ TEST_F(CommandLineResumeTest, OneProcessWrites)
     EXPECT_EQ(folder_.entries(), 2U) << "the lock of a process that is gone is taken, and removed";
 }
 
-TEST_F(CommandLineResumeTest, ALockIsNothingButALock)
+TEST_F(CommandLineResumeTest, WhatIsInPlaceOfTheLockIsRefusedAndLeft)
 {
     const std::filesystem::path lock = hiddenBeside(film_, ".lock"), mine = folder_ / "mine";
     const auto expectLeft = [&](const std::filesystem::path& file, const std::string& content) {
         expectRefused({"--spp", "4"}, lock.string() + ": is not glim's lock; expected no file of this name.");
-        EXPECT_EQ(bytesOfFile(file), content);
+        EXPECT_EQ(readFileBytes(file), content);
         EXPECT_TRUE(std::filesystem::exists(std::filesystem::symlink_status(lock)));
         std::filesystem::remove(lock);
     };
@@ -246,7 +246,7 @@ TEST_F(CommandLineResumeTest, ALockIsNothingButALock)
     // What the user calls so, as flock(1) does, is none of glim's business.
     writeText(folder_ / "film.exr.lock", "mine");
     expectDone({"--spp", "4"});
-    EXPECT_EQ(bytesOfFile(folder_ / "film.exr.lock"), "mine");
+    EXPECT_EQ(readFileBytes(folder_ / "film.exr.lock"), "mine");
 }
 
 TEST_F(CommandLineResumeTest, OtherFilmsAreRefusedAndLeft)
@@ -303,7 +303,7 @@ TEST_F(CommandLineResumeTest, AnotherArithmeticIsSaid)
     const GlimRun run = runGlim(call({"--spp", "512", "--resume"}));
     EXPECT_EQ(run.exitCode, 0) << run.err;
     EXPECT_NE(run.err.find("rounds otherwise than another device did"), std::string::npos) << run.err;
-    EXPECT_FALSE(isOfOneArithmetic(readFilm(film_)));
+    EXPECT_FALSE(hasOneArithmetic(readFilm(film_)));
     GlimCall merge;
     merge.arguments = {"merge", film_.string(), "-o", film_.string()};
     EXPECT_NE(runGlim(merge).err.find("equal to a single run up to rounding"), std::string::npos);

@@ -29,7 +29,7 @@ TEST(AutoScheduleTest, ASoftwareDeviceTakesThePersistentOneWhateverIsKept)
         const GlimRun run = runGlim(call);
         EXPECT_EQ(run.exitCode, 0) << run.err;
         EXPECT_EQ(run.err.find("measured"), std::string::npos) << run.err;
-        return json::parse(bytesOfFile(folder / "s.json"));
+        return json::parse(readFileBytes(folder / "s.json"));
     };
     const json first = render({});
     EXPECT_EQ(first.at("schedule"), "persistent");
@@ -78,7 +78,7 @@ TEST(PathCapacityTest, ChangesNoBit)
             call.folder = folder.path();
             const GlimRun run = runGlim(call);
             EXPECT_EQ(run.exitCode, 0) << run.err;
-            return json::parse(bytesOfFile(folder / "s.json")).at("digest").get<std::string>();
+            return json::parse(readFileBytes(folder / "s.json")).at("digest").get<std::string>();
         };
         const std::string usual = digest({});
         for (const char* capacity : {"129", "2097152"}) {

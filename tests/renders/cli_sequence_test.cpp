@@ -50,7 +50,7 @@ protected:
         return done;
     }
     Film film(const char* name) const { return readFilm(folder_ / name); }
-    json statistics(const char* name) const { return json::parse(bytesOfFile(folder_ / name)); }
+    json statistics(const char* name) const { return json::parse(readFileBytes(folder_ / name)); }
     // Whether two films are of the same scene and have the same bits.
     void expectSame(const char* a, const char* b) const
     {

@@ -23,7 +23,7 @@ namespace glim::test {
 namespace {
 
 // The options that {"a.gltf", "--size", "8x8"} gives a render, by name.
-Json optionsOf(const std::vector<std::string>& words)
+Json makeOptions(const std::vector<std::string>& words)
 {
     Json options{{"file", words[0]}};
     for (std::size_t i = 1; i + 1 < words.size(); i += 2) {
@@ -75,7 +75,7 @@ public:
     }
     Json ask(const std::vector<std::string>& words)
     {
-        send(Json{{"id", "a"}, {"render", optionsOf(words)}}.dump());
+        send(Json{{"id", "a"}, {"render", makeOptions(words)}}.dump());
         return receive();
     }
     void signal(int number) const { EXPECT_EQ(kill(process_, number), 0); }
@@ -103,14 +103,14 @@ protected:
     {
         words.insert(words.end(), {"-o", (folder_ / "served.exr").string()});
         expectDone(words);
-        return digestOf(readFilm(folder_ / "served.exr"));
+        return computeDigest(readFilm(folder_ / "served.exr"));
     }
     std::string digestAlone(std::vector<std::string> words)
     {
         words.insert(words.begin(), "render");
         words.insert(words.end(), {"-o", (folder_ / "alone.exr").string()});
         EXPECT_EQ(runGlim(words).exitCode, 0);
-        return digestOf(readFilm(folder_ / "alone.exr"));
+        return computeDigest(readFilm(folder_ / "alone.exr"));
     }
 
     ScratchFolder folder_;
@@ -128,7 +128,7 @@ TEST_F(ServeTest, DrawsPicturesAsARenderDoes)
     std::vector<std::string> alone = words("alone.exr", "alone.webp");
     alone.insert(alone.begin(), "render");
     ASSERT_EQ(runGlim(alone).exitCode, 0);
-    EXPECT_EQ(bytesOfFile(folder_ / "served.webp"), bytesOfFile(folder_ / "alone.webp"));
+    EXPECT_EQ(readFileBytes(folder_ / "served.webp"), readFileBytes(folder_ / "alone.webp"));
     const Json refused = server_.ask(words("served.exr", "served.gif"));
     EXPECT_EQ(refused.at("code").number(), 2.0);
     EXPECT_NE(refused.at("error").text().find("expected a name that ends in .png, .jpg, .jpeg or .webp"), std::string::npos);
@@ -140,7 +140,7 @@ TEST_F(ServeTest, AnUnknownErrorEndsTheRenderAndNotTheServer)
     expectDone({sceneFile("cornell.gltf"), "--size", "8x8", "--environment", "1e25,1e25,1e25", "--target-rmse", "1%", "-o", film, "--stats",
                 statistics});
     EXPECT_EQ(readFilm(film).pixels.front().count, kSamplesOfUnknownError);
-    const auto parsed = Json::parse(bytesOfFile(statistics));
+    const auto parsed = Json::parse(readFileBytes(statistics));
     ASSERT_TRUE(parsed);
     EXPECT_EQ(parsed->at("stopReason").text(), "unknown error");
     EXPECT_NE(digestServed({sceneFile("cornell.gltf"), "--size", "8x8", "--spp", "2"}), "");
@@ -189,8 +189,9 @@ TEST_F(ServeTest, OptionsAreValues)
                                       {"fps", Json()}}}}
                      .dump());
     EXPECT_EQ(server_.receive().dump(), R"({"id":1,"code":0,"error":null})");
-    EXPECT_EQ(digestOf(readFilm(film)), digestAlone({sceneFile("cornell.gltf"), "--size", "16x12", "--spp", "70", "--look-from", "0,1,3",
-                                                     "--look-at", "0,1,0", "--environment-background", "off", "--target-rmse", "50%"}));
+    EXPECT_EQ(computeDigest(readFilm(film)),
+              digestAlone({sceneFile("cornell.gltf"), "--size", "16x12", "--spp", "70", "--look-from", "0,1,3", "--look-at", "0,1,0",
+                           "--environment-background", "off", "--target-rmse", "50%"}));
 }
 
 // Back and forth: what was set before does not stay.
@@ -210,7 +211,7 @@ TEST_F(ServeTest, EditsAreOfTheirRequestAlone)
     std::vector<std::string> again = plain;
     again.insert(again.end(), {"--stats", stats});
     EXPECT_EQ(digestServed(again), before);
-    EXPECT_EQ(Json::parse(bytesOfFile(stats))->at("seconds").at("upload").number(), 0.0) << "the scene has stayed";
+    EXPECT_EQ(Json::parse(readFileBytes(stats))->at("seconds").at("upload").number(), 0.0) << "the scene has stayed";
 }
 
 TEST_F(ServeTest, AnotherShapeOfThePictureKeepsTheKernels)
@@ -218,7 +219,7 @@ TEST_F(ServeTest, AnotherShapeOfThePictureKeepsTheKernels)
     const std::string stats = (folder_ / "stats.json").string();
     for (const bool kept : {false, true}) {
         digestServed({sceneFile("cornell.gltf"), "--size", kept ? "8x6" : "6x8", "--spp", "4", "--stats", stats});
-        const auto seconds = Json::parse(bytesOfFile(stats));
+        const auto seconds = Json::parse(readFileBytes(stats));
         ASSERT_TRUE(seconds);
         EXPECT_EQ(seconds->at("seconds").at("upload").number() == 0.0, kept);
     }
@@ -227,7 +228,7 @@ TEST_F(ServeTest, AnotherShapeOfThePictureKeepsTheKernels)
 TEST_F(ServeTest, AFileThatHasChangedIsReadAgain)
 {
     const std::filesystem::path scene = folder_ / "scene.gltf";
-    std::string text = bytesOfFile(sceneFile("cornell.gltf"));
+    std::string text = readFileBytes(sceneFile("cornell.gltf"));
     std::ofstream(scene) << text;
     const std::string before = digestServed({scene.string(), "--size", "8x8", "--spp", "4"});
     const std::size_t color = text.find("\"baseColorFactor\"");
@@ -275,10 +276,10 @@ TEST_F(ServeTest, ARefusalIsASentenceAndNotTheEnd)
 TEST_F(ServeTest, ASignalEndsItAfterTheAnswer)
 {
     server_.send(Json{{"id", 1},
-                      {"render", optionsOf({sceneFile("cornell.gltf"), "--size", "64x64", "--spp", "1000000", "--progress", "json", "-o",
-                                            (folder_ / "a.exr").string()})}}
+                      {"render", makeOptions({sceneFile("cornell.gltf"), "--size", "64x64", "--spp", "1000000", "--progress", "json", "-o",
+                                              (folder_ / "a.exr").string()})}}
                      .dump());
-    while (!hasLine(bytesOfFile(folder_ / "err"))) {
+    while (!hasLine(readFileBytes(folder_ / "err"))) {
         usleep(1000);
     }
     server_.signal(SIGTERM);

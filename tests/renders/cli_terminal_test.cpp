@@ -167,7 +167,7 @@ TEST_F(TerminalTest, StandardStreamsThatAreClosedAreNoFiles)
 {
     const char* command = "for i in 0 1 2; do readlink /proc/$PPID/fd/$i; done >streams";
     runGlim(afterCommand("true", call({"--spp", "300", "--checkpoint", "1m", "--on-checkpoint", command}), "<&- >&- 2>&-"));
-    EXPECT_EQ(bytesOfFile(folder_ / "streams"), "/dev/null\n/dev/null\n/dev/null\n");
+    EXPECT_EQ(readFileBytes(folder_ / "streams"), "/dev/null\n/dev/null\n/dev/null\n");
 }
 
 TEST_F(TerminalTest, ReadersThatDoNotReadAreNotWaitedFor)

@@ -32,7 +32,7 @@ protected:
         call.folder = folder_.path();
         GlimRun run = runGlim(call);
         EXPECT_EQ(run.exitCode, 0) << run.err;
-        std::string text = bytesOfFile(folder_ / "s.json");
+        std::string text = readFileBytes(folder_ / "s.json");
         return {std::move(run), text, json::parse(text)};
     }
     std::string lit(double candela) const
@@ -111,7 +111,7 @@ TEST_F(UnknownErrorTest, IsTheEndOfTheRenderOnceMore)
 {
     const std::string scene = lit(0.0);
     render(scene, {"--target-rmse", "1%", "--checkpoint", "1000s"});
-    const std::string bytes = bytesOfFile(folder_ / "x.exr");
+    const std::string bytes = readFileBytes(folder_ / "x.exr");
     EXPECT_EQ(render(scene, {"--target-rmse", "1%", "--resume"}).parsed.at("resumedSamples"), 1024 * 8 * 8);
     EXPECT_EQ(samplesOf(), kSamplesOfUnknownError);
 }

@@ -100,7 +100,7 @@ std::set<std::string> optionsInSources()
     for (const char* folder : {"host/cli", "host/job"}) {
         for (const auto& entry : fs::directory_iterator(fs::path(GLIM_SOURCE_DIR) / folder)) {
             if (entry.path().extension() == ".cpp") {
-                const std::string text = bytesOfFile(entry.path());
+                const std::string text = readFileBytes(entry.path());
                 for (std::sregex_iterator i(text.begin(), text.end(), kName), end; i != end; ++i) {
                     names.insert((*i)[1]);
                 }
@@ -127,7 +127,7 @@ TEST(CommandLineTest, HelpAllListsEveryOptionOnALineOfItsOwn)
 
 TEST(CommandLineTest, HelpLeavesTuningAndTheCourseToHelpAll)
 {
-    const auto groupsOf = [](const std::string& command, bool course) {
+    const auto countGroups = [](const std::string& command, bool course) {
         std::vector<std::string> groups{"Picture", "Camera", "Sampling and stopping", "Light transport", "Device", "Output", "Help"};
         if (course) {
             groups.insert(groups.begin() + 4, "Course estimators (Berkeley CS 184)");
@@ -141,8 +141,8 @@ TEST(CommandLineTest, HelpLeavesTuningAndTheCourseToHelpAll)
         tuning{"--schedule", "--path-capacity", "--accelerator", "--split", "--intersector"};
     for (const std::string command : {"render", "preview", "bench"}) {
         const std::string help = helpOf(command, "--help"), all = helpOf(command, "--help-all");
-        EXPECT_EQ(groupsIn(help), groupsOf(command, false)) << command;
-        EXPECT_EQ(groupsIn(all), groupsOf(command, true)) << command;
+        EXPECT_EQ(groupsIn(help), countGroups(command, false)) << command;
+        EXPECT_EQ(groupsIn(all), countGroups(command, true)) << command;
         std::set<std::string> shown = optionsIn(help), expected = optionsIn(all);
         for (const auto& hidden : {course, tuning}) {
             for (const std::string& option : hidden) {
@@ -170,7 +170,7 @@ TEST(CommandLineTest, HelpNamesCommandsUnitsRangesAndDefaults)
 // What the help has no room for.
 TEST(CommandLineTest, TheReadmeExplainsEveryOption)
 {
-    const std::string text = bytesOfFile(fs::path(GLIM_SOURCE_DIR) / "host/cli/README.md");
+    const std::string text = readFileBytes(fs::path(GLIM_SOURCE_DIR) / "host/cli/README.md");
     for (const std::string& option : optionsInSources()) {
         EXPECT_TRUE(std::regex_search(text, std::regex("`" + option + "[ `,]"))) << option;
     }
@@ -298,7 +298,7 @@ TEST(CommandLineTest, InputsAreNeverOverwritten)
     fs::copy_file(sceneFile("cornell.gltf"), scene);
     fs::copy_file(sceneFile("cornell.gltf"), stats);
     fs::create_symlink(scene, folder / "link.exr");
-    const std::string bytes = bytesOfFile(scene);
+    const std::string bytes = readFileBytes(scene);
     const Arguments small{"--size", "4x4", "--spp", "1"};
     for (const Arguments& options :
          {Arguments{scene.string(), "-o", scene.string()}, Arguments{scene.string(), "-o", (folder / "link.exr").string()},
@@ -308,8 +308,8 @@ TEST(CommandLineTest, InputsAreNeverOverwritten)
         arguments.insert(arguments.end(), small.begin(), small.end());
         expectSentence(runGlim(arguments), 1, "it is the input");
     }
-    EXPECT_EQ(bytesOfFile(scene), bytes);
-    EXPECT_EQ(bytesOfFile(stats), bytes);
+    EXPECT_EQ(readFileBytes(scene), bytes);
+    EXPECT_EQ(readFileBytes(stats), bytes);
     const std::string film = (folder / "film.exr").string();
     ASSERT_EQ(runGlim({"render", scene.string(), "-o", film, "--size", "4x4", "--spp", "1"}).exitCode, 0);
     expectSentence(runGlim({"compare", film, film, "--diff", film}), 1, "it is the input");
@@ -331,7 +331,7 @@ TEST(CommandLineTest, RefusedScenesLeaveTheTargetAsItWas)
     for (const std::string& scene : {sceneFile("none.gltf"), sceneFile("refused/not_json.gltf"), sceneFile("")}) {
         expectSentence(runGlim({"render", scene, "-o", target}), 1, scene + ": ");
     }
-    EXPECT_EQ(bytesOfFile(target), "what was here before");
+    EXPECT_EQ(readFileBytes(target), "what was here before");
     EXPECT_EQ(folder.entries(), 1);
     expectSentence(runGlim({"inspect", sceneFile("refused/not_json.gltf")}), 1, "not JSON: syntax error at byte 30.\n");
     expectSentence(runGlim({"inspect", ""}), 1, "A file name is empty; expected that of a .gltf or a .glb file.\n");

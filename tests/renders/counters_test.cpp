@@ -65,7 +65,7 @@ TEST(CountersTest, BytesOfASmoothTriangle)
     }
 }
 
-// At every hit trace_closest, sample_lights_and_bounce, size_dispatch and, but for the last, which samples no lights, trace_shadow;
+// At every hit trace_closest, shade_surface, size_dispatch and, but for the last, which samples no lights, trace_shadow;
 // generate_rays, the first size_dispatch and accumulate once, which also ends the last block. 16 samples come in passes of 1, 1, 2, 4 and 8
 // while nothing is known of their time.
 TEST(CountersTest, APassTakesFourDispatchesABounce)

@@ -102,7 +102,7 @@ TEST(MergedRenderTest, H34PagesMergeToTheBitsOfTheSingleRun)
 }
 
 // FNV-1a of all moments.
-std::uint64_t hashOf(const Film& film)
+std::uint64_t computeHash(const Film& film)
 {
     std::uint64_t hash = 14695981039346656037ULL;
     const auto add = [&hash](std::span<const std::byte> bytes) {
@@ -119,7 +119,7 @@ std::uint64_t hashOf(const Film& film)
 // software driver: tools/test --driver checks that.
 void expectHash(const std::string& name, const Film& film, std::uint64_t expected)
 {
-    const std::uint64_t hash = hashOf(film);
+    const std::uint64_t hash = computeHash(film);
     std::printf("%s on %s: %#018llx\n", name.c_str(), film.device.c_str(), static_cast<unsigned long long>(hash));
     if (testDevice().description().software) {
         EXPECT_EQ(hash, expected);

@@ -54,7 +54,7 @@ Scene smoothBall()
     const auto lamp = builder.lambert(glm::vec3(0.0F), glm::vec3(4.0F));
     builder.sphere({1.5F, 1.5F, 1.0F}, 0.4F, lamp).environment(glm::vec3(0.2F, 0.3F, 0.4F)).perspective({0, 0.5F, 4}, {0, 0, 0}, 0.6F);
     Scene scene = builder.scene();
-    addMesh(scene, icosphere(1), 0, verticesOf(icosphere(1)));
+    addMesh(scene, icosphere(1), 0, listVertices(icosphere(1)));
     return scene;
 }
 
@@ -161,7 +161,7 @@ double meanVariance(const FlatScene& flat, const Camera& camera, const RenderSet
 {
     double sum = 0.0;
     for (const PixelMoments& pixel : renderFlat(flat, camera, settings).pixels) {
-        sum += static_cast<double>(varianceOfMean(pixel).g);
+        sum += static_cast<double>(computeVarianceOfMean(pixel).g);
     }
     return sum;
 }

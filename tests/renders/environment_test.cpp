@@ -96,7 +96,7 @@ std::vector<Block> blocksOf(const Film& film, std::uint32_t side, std::uint32_t 
             Block& b = blocks[std::size_t{y / block} * across + x / block];
             const PixelMoments& pixel = film.pixels[std::size_t{y} * side + x];
             b.mean += glm::dvec3(pixel.mean) / pixels;
-            b.variance += glm::dvec3(varianceOfMean(pixel)) / (pixels * pixels);
+            b.variance += glm::dvec3(computeVarianceOfMean(pixel)) / (pixels * pixels);
         }
     }
     return blocks;
@@ -235,7 +235,7 @@ double varianceOf(const Film& film)
 {
     double sum = 0.0;
     for (const PixelMoments& pixel : film.pixels) {
-        sum += static_cast<double>(varianceOfMean(pixel).g) * pixel.count;
+        sum += static_cast<double>(computeVarianceOfMean(pixel).g) * pixel.count;
     }
     return sum / static_cast<double>(film.pixels.size());
 }

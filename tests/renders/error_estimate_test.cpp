@@ -125,7 +125,7 @@ struct Spread {
     }
 };
 
-Spread spreadOf(const std::vector<Film>& films)
+Spread computeSpread(const std::vector<Film>& films)
 {
     const std::vector<glm::dvec3> mean = meanPicture(films);
     Spread spread;
@@ -150,13 +150,13 @@ void compareWithSamples(const Spread& spread)
 }
 
 // Of `count` intervals of probability .95 at least so many must hold: five standard deviations below the mean.
-double leastCovered(double count) { return 0.95 * count - 5.0 * std::sqrt(0.95 * 0.05 * count); }
+double minCovered(double count) { return 0.95 * count - 5.0 * std::sqrt(0.95 * 0.05 * count); }
 
 bool holds(const Interval& interval, double error) { return error >= interval.low && error <= interval.high; }
 
 TEST_P(ErrorEstimateTest, H30IsTheSpreadOfOtherSeeds)
 {
-    const Spread spread = spreadOf(renderSeeds(GetParam().value.scene(), settings, kSeeds));
+    const Spread spread = computeSpread(renderSeeds(GetParam().value.scene(), settings, kSeeds));
     double told = 0.0, covered = 0.0;
     for (std::size_t i = 0; i < kSeeds; ++i) {
         const ErrorEstimate& estimate = spread.estimates[i];
@@ -167,7 +167,7 @@ TEST_P(ErrorEstimateTest, H30IsTheSpreadOfOtherSeeds)
     std::printf("  the interval holds the error of %.0f of %.0f renders (%.0f more say that few pixels make it up)\n", covered, told,
                 kSeeds - told);
     EXPECT_GE(told, kSeeds / 2) << "or there is little to test";
-    EXPECT_GE(covered, leastCovered(told));
+    EXPECT_GE(covered, minCovered(told));
     if (settings.sampler == Sampler::Sobol && !settings.caustics) {
         compareWithSamples(spread);
     }
@@ -178,11 +178,11 @@ TEST_P(ErrorEstimateTest, H30IsTheSpreadOfOtherSeeds)
 TEST_P(ErrorEstimateTest, H30RelativeErrorsAreRelativeToTheTruth)
 {
     const std::vector<Film> films = renderSeeds(glassRoom(), settings, kSeeds);
-    const Spread spread = spreadOf(films);
+    const Spread spread = computeSpread(films);
     double covered = 0.0, naive = 0.0, truth = 0.0, squares = 0.0;
     for (std::size_t i = 0; i < kSeeds; ++i) {
         covered += holds(spread.estimates[i].relMse, spread.errors[i].relMse) ? 1.0 : 0.0;
-        const double error = spread.errors[i].relMse, stated = noiseOfReference(pictureOf(films[i]))->relMse;
+        const double error = spread.errors[i].relMse, stated = estimateReferenceNoise(makePicture(films[i]))->relMse;
         naive += stated;
         truth += error;
         squares += (error - stated) * (error - stated);
@@ -192,7 +192,7 @@ TEST_P(ErrorEstimateTest, H30RelativeErrorsAreRelativeToTheTruth)
                   "x " + figure(reported / truth) + " of the truth; the interval holds " + figure(covered) + " of 32",
                   "relative to the pixel's own value: x " + figure(naive / truth));
     EXPECT_NEAR(reported / truth, 1.0, 0.15) << "neighbours are but like it";
-    EXPECT_GE(covered, leastCovered(kSeeds));
+    EXPECT_GE(covered, minCovered(kSeeds));
     const double missing = (truth - naive) / kSeeds;
     const double deviation = std::sqrt((squares / kSeeds - missing * missing) / (kSeeds - 1.0));
     EXPECT_GT(missing, scoreLimit(200) * deviation) << "or the case is not hard";
@@ -205,7 +205,7 @@ TEST(ErrorEstimateBlocksTest, H30BlocksOfThreeSizes)
     RenderSettings settings = squareSettings(64, 2 * kBlockSamples);
     settings.bounces = 1;
     const Scene scene = loadGltf(GLIM_SOURCE_DIR "/scenes/light_directional.gltf");
-    const std::vector<double> ratios = spreadOf(renderSeeds(scene, settings, kSeeds)).ratios(&SquaredErrors::mse);
+    const std::vector<double> ratios = computeSpread(renderSeeds(scene, settings, kSeeds)).ratios(&SquaredErrors::mse);
     double mean = 0.0, squares = 0.0;
     for (const double ratio : ratios) {
         mean += ratio / kSeeds;

@@ -54,10 +54,10 @@ TEST_P(GoldenTest, AgreesWithTheLongRender)
     const std::string scene = GetParam().scene;
     const std::string file = GLIM_SOURCE_DIR "/tests/renders/golden/" + scene + ".exr";
     if (std::getenv("GLIM_WRITE_GOLDEN") != nullptr) {
-        writeGolden(file, pictureOf(renderFile(scene, kGoldenSamples, 1)));
+        writeGolden(file, makePicture(renderFile(scene, kGoldenSamples, 1)));
     }
-    const Picture golden = pictureOf(readExr(file), file);
-    const ZTest test = zTest(pictureOf(renderFile(scene, GetParam().samples, 2)), golden, 1e-4);
+    const Picture golden = makePicture(readExr(file), file);
+    const ZTest test = zTest(makePicture(renderFile(scene, GetParam().samples, 2)), golden, 1e-4);
     std::printf("%s: z of means %.2f %.2f %.2f (limit %.2f), worst block %.2f (limit %.2f), sees a bias of %.2e\n", scene.c_str(),
                 test.meanZ[0], test.meanZ[1], test.meanZ[2], test.meanLimit, test.worstZ, test.blockLimit, test.detectableBias);
     EXPECT_TRUE(test.meansAgree());

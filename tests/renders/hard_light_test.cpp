@@ -37,7 +37,7 @@ std::array<glm::vec3, 4> downQuad(float half, float y)
 
 double irradianceOf(std::span<const glm::vec3> corners)
 {
-    return irradianceOfPolygon(std::vector<glm::dvec3>(corners.begin(), corners.end()), {0, 1, 0});
+    return computePolygonIrradiance(std::vector<glm::dvec3>(corners.begin(), corners.end()), {0, 1, 0});
 }
 
 RenderSettings oneBounce()
@@ -72,7 +72,7 @@ std::pair<Scene, double> lampBelowTheCeiling(float gap)
     return {builder.scene(), irradianceOf(lamp)};
 }
 
-// In one plane with the ceiling, rounding would decide which of the two a ray meets, and the light would lack 1.3 % (lift_lamps.hpp).
+// In one plane with the ceiling, rounding would decide which of the two a ray meets, and the light would lack 1.3 % (lift_lights.hpp).
 TEST(HardLightTest, H10LightTouchingTheCeiling)
 {
     for (const float gap : {0.0F, 1e-4F, 1e-2F}) {
@@ -91,7 +91,7 @@ TEST(HardLightTest, H10LightAgainstAWall)
     expectFloor("H10", "lamp between floor and wall", builder.scene(), irradianceOf(lamp));
 }
 
-// Of lamps in one place a ray meets the first (lift_lamps.hpp), and sampled lights agree: both lit the floor before.
+// Of lamps in one place a ray meets the first (lift_lights.hpp), and sampled lights agree: both lit the floor before.
 void expectFloorInAllWays(const std::string& name, const Scene& scene, double irradiance)
 {
     for (const auto& [way, direct] :
@@ -130,7 +130,7 @@ Scene lampsAboveTheFloor(const std::vector<LampQuad>& lamps)
     return builder.scene();
 }
 
-TEST(HardLightTest, OfLampsInOnePlaceTheFirstShines)
+TEST(HardLightTest, OfCoincidentLightsTheFirstShines)
 {
     const std::array<glm::vec3, 4> lamp = downQuad(0.5F, 1.5F), below = shifted(lamp, {0, -1e-6F, 0});
     const double irradiance = irradianceOf(lamp);
@@ -169,7 +169,7 @@ TEST(HardLightTest, ADoubleSidedLampInTheCeiling)
 
 TEST(HardLightTest, CoincidentSpheres)
 {
-    const double irradiance = irradianceOfSphere({0, 1.5, 0}, 0.5, {0, 1, 0});
+    const double irradiance = computeSphereIrradiance({0, 1.5, 0}, 0.5, {0, 1, 0});
     for (const bool lit : {false, true}) {
         SceneBuilder builder = floorScene();
         const std::uint32_t first = builder.lambert(glm::vec3(0.0F), glm::vec3(1.0F)),
@@ -230,7 +230,7 @@ TEST(HardLightTest, H14AStrongLampThatIsHidden)
 }
 
 // A lamp of 4 m above a lid with a hole of 20 cm: the floor sees the lamp through all of the hole and nowhere else.
-TEST(HardLightTest, H14AKeyhole)
+TEST(HardLightTest, H14LightThroughAKeyhole)
 {
     SceneBuilder builder = floorScene();
     const std::uint32_t lid = builder.lambert(glm::vec3(0.0F));
@@ -339,7 +339,7 @@ TEST(HardLightTest, H7TeapotInAStadium)
     const Film sky = renderScene(ring, settings);
     settings.seed = 1;
     settings.course.direct = DirectLight::Bsdf;
-    const ZTest z = zTest(pictureOf(renderScene(hall, settings)), pictureOf(sky), 1e-3 / 200.0);
+    const ZTest z = zTest(makePicture(renderScene(hall, settings)), makePicture(sky), 1e-3 / 200.0);
     printHardCase("H7", "a ring of 1 cm in a hall of 1 km", 1.0 * kSide * kSide * settings.sampleEnd,
                   "z of the mean " + figure(z.meanZ[1]) + ", worst block " + figure(z.worstZ) + " of " + figure(z.blockLimit));
     EXPECT_TRUE(z.agrees());

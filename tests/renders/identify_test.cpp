@@ -19,10 +19,10 @@ namespace glim {
 namespace {
 
 // Nodes are the instances and then the spheres, meshes and materials those of the scene.
-PreparedScene prepare(Scene scene, std::uint64_t mostFlatTriangles = kMostFlatTriangles)
+PreparedScene prepare(Scene scene, std::uint64_t maxFlatTriangles = kMaxFlatTriangles)
 {
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-        scene.meshes[i].fileMesh = static_cast<std::uint32_t>(i);
+        scene.meshes.change()[i].fileMesh = static_cast<std::uint32_t>(i);
         scene.meshNames.push_back(scene.meshes[i].name);
     }
     for (MeshInstance& instance : scene.instances) {
@@ -35,7 +35,7 @@ PreparedScene prepare(Scene scene, std::uint64_t mostFlatTriangles = kMostFlatTr
     }
     PreparedScene prepared;
     prepared.scene = std::move(scene);
-    prepared.primitives = makePrimitives(prepared.scene, mostFlatTriangles);
+    prepared.primitives = makePrimitives(prepared.scene, maxFlatTriangles);
     prepared.bvh = buildSceneBvh(prepared.primitives);
     prepared.flat = flattenScene(prepared.scene, prepared.primitives, prepared.bvh);
     return prepared;
@@ -280,9 +280,9 @@ TEST(IdentifyTest, SamplesAreThoseOfThePicture)
     Lens lens;
     lens.radius = 0.05F;
     lens.focalDistance = 6.0F;
-    for (const std::uint64_t mostFlatTriangles : {std::uint64_t{kMostFlatTriangles}, std::uint64_t{0}}) {
-        const PreparedScene prepared = prepare(scene, mostFlatTriangles);
-        EXPECT_EQ(prepared.primitives.placements.empty(), mostFlatTriangles > 0);
+    for (const std::uint64_t maxFlatTriangles : {std::uint64_t{kMaxFlatTriangles}, std::uint64_t{0}}) {
+        const PreparedScene prepared = prepare(scene, maxFlatTriangles);
+        EXPECT_EQ(prepared.primitives.placements.empty(), maxFlatTriangles > 0);
         RenderSettings settings = squareSettings(24, 40);
         settings.seed = 3;
         settings.sampleBegin = 7;

@@ -15,9 +15,9 @@
 namespace glim {
 namespace {
 
-FlatScene flattenedWith(const Scene& scene, std::uint64_t mostFlatTriangles, SplitRule rule = SplitRule::Sah)
+FlatScene flattenedWith(const Scene& scene, std::uint64_t maxFlatTriangles, SplitRule rule = SplitRule::Sah)
 {
-    const Primitives primitives = makePrimitives(scene, mostFlatTriangles);
+    const Primitives primitives = makePrimitives(scene, maxFlatTriangles);
     return flattenScene(scene, primitives, buildSceneBvh(primitives, rule));
 }
 
@@ -53,7 +53,7 @@ Scene yard()
     scene.materials[card].alphaMode = AlphaMode::Blend;
     scene.materials[card].alpha = 0.5F;
     const Triangles ball = icosphere(2), cards = strips(3, 5);
-    const std::uint32_t smooth = addShape(scene, ball, metal, verticesOf(ball)), angular = addShape(scene, ball, red);
+    const std::uint32_t smooth = addShape(scene, ball, metal, listVertices(ball)), angular = addShape(scene, ball, red);
     const std::uint32_t clear = addShape(scene, icosphere(3), glass), leaves = addShape(scene, cards, card);
     const std::uint32_t light = addShape(scene, icosphere(1), lamp);
     addInstance(scene, smooth, {-1.5, 0.7, -1.0}, 0.4, glm::dvec3(0.7));
@@ -76,7 +76,7 @@ TEST(SharedMeshesTest, LookLikeFlattenedOnes)
     const FlatScene flat = flattenedWith(scene, 1U << 20), shared = flattenedWith(scene, 0);
     EXPECT_EQ(flat.features & kFeatureInstances, 0U);
     EXPECT_NE(shared.features & kFeatureInstances, 0U);
-    EXPECT_LT(shared.records.size(), flat.records.size());
+    EXPECT_LT(shared.primitiveRefs.size(), flat.primitiveRefs.size());
     EXPECT_EQ(shared.lights.size(), flat.lights.size()) << "each lamp of each instance is a light";
     RenderSettings settings = squareSettings(48, samplesFor(256));
     const Film expected = renderFlat(flat, scene.cameras.front(), settings);
@@ -124,7 +124,7 @@ TEST(SharedMeshesTest, DoNotDependOnTheTreeOrTheSchedule)
     EXPECT_TRUE(sameBits(sah, renderFlat(flattenedWith(scene, 0), scene.cameras.front(), settings)));
 }
 
-// Each record of an instance has the instance's name and the triangle's number in the mesh.
+// Each reference of an instance has the instance's name and the triangle's number in the mesh.
 TEST(SharedMeshesTest, AreNamedByTheirInstances)
 {
     PreparedScene prepared;
@@ -135,12 +135,12 @@ TEST(SharedMeshesTest, AreNamedByTheirInstances)
     prepared.primitives = makePrimitives(prepared.scene, 0);
     prepared.bvh = buildSceneBvh(prepared.primitives);
     prepared.flat = flattenScene(prepared.scene, prepared.primitives, prepared.bvh);
-    std::uint32_t record = prepared.flat.firstInstanceRecord;
+    std::uint32_t ref = prepared.flat.firstInstanceRef;
     for (const Placement& placement : prepared.primitives.placements) {
         const SharedMesh& mesh = prepared.primitives.sharedMeshes[placement.sharedMesh];
         const MeshTree& tree = prepared.bvh.meshTrees[placement.sharedMesh];
         for (std::uint32_t k = 0; k < tree.entryCount; ++k) {
-            const PrimitiveDescription found = describeRecord(prepared, record++);
+            const PrimitiveDescription found = describePrimitive(prepared, ref++);
             EXPECT_EQ(found.object, "instance \"" + std::to_string(placement.instance) + "\"");
             ASSERT_TRUE(found.triangle);
             EXPECT_EQ(*found.triangle, prepared.bvh.order[tree.firstEntry + k] - mesh.firstId);
@@ -181,14 +181,14 @@ TEST(SharedMeshesTest, KeepTheirTrees)
 TEST(SharedMeshesTest, MoveInARefittedTree)
 {
     Scene scene = yard();
-    for (const std::uint64_t mostFlat : {std::uint64_t{0}, std::uint64_t{1} << 20U}) {
-        const Primitives before = makePrimitives(scene, mostFlat);
+    for (const std::uint64_t maxFlat : {std::uint64_t{0}, std::uint64_t{1} << 20U}) {
+        const Primitives before = makePrimitives(scene, maxFlat);
         const WideBvh built = buildSceneBvh(before);
         Scene moved = scene;
         for (std::size_t i = 1; i < moved.instances.size(); ++i) {
             moved.instances[i].worldFromMesh[3] += glm::dvec4(i % 2 == 1 ? 0.2 : -0.2, 0.1, 0.05, 0);
         }
-        const Primitives primitives = makePrimitives(moved, mostFlat);
+        const Primitives primitives = makePrimitives(moved, maxFlat);
         const WideBvh updated = updateSceneBvh(built, before, primitives), fresh = buildSceneBvh(primitives);
         EXPECT_EQ(updated.order, built.order);
         EXPECT_NE(updated.order, fresh.order);
@@ -197,7 +197,7 @@ TEST(SharedMeshesTest, MoveInARefittedTree)
         RenderSettings settings = squareSettings(32, 32);
         settings.schedule = Schedule::Persistent;
         EXPECT_TRUE(sameBits(renderFlat(flat, moved.cameras.front(), settings), renderFlat(other, moved.cameras.front(), settings)))
-            << mostFlat;
+            << maxFlat;
     }
 }
 

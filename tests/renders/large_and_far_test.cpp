@@ -122,7 +122,7 @@ TEST(LargeTest, H51ARendererFollowsItsCamera)
     }
 }
 
-std::vector<float> floatsOf(const std::vector<glm::vec3>& vectors)
+std::vector<float> toFloats(const std::vector<glm::vec3>& vectors)
 {
     std::vector<float> floats;
     for (const glm::vec3& v : vectors) {
@@ -136,10 +136,10 @@ Scene ballAndCard(double distance)
 {
     test::GltfBuilder builder;
     builder.append("materials", {{"pbrMetallicRoughness", {{"baseColorFactor", {0.8, 0.8, 0.8, 1}}, {"metallicFactor", 0}}}});
-    const std::vector<glm::vec3> normals = verticesOf(icosphere(3));
-    std::vector<float> positions = floatsOf(normals);
+    const std::vector<glm::vec3> normals = listVertices(icosphere(3));
+    std::vector<float> positions = toFloats(normals);
     std::transform(positions.begin(), positions.end(), positions.begin(), [](float x) { return 0.1F * x; });
-    const json attributes = {{"POSITION", builder.addVec3(positions)}, {"NORMAL", builder.addVec3(floatsOf(normals))}};
+    const json attributes = {{"POSITION", builder.addVec3(positions)}, {"NORMAL", builder.addVec3(toFloats(normals))}};
     builder.addNode({{"mesh", builder.addMesh({{"attributes", attributes}, {"material", 0}})}});
     builder.append("cameras",
                    {{"type", "orthographic"}, {"orthographic", {{"xmag", 0.15}, {"ymag", 0.15}, {"znear", 0.01}, {"zfar", 100}}}});

@@ -89,7 +89,7 @@ TEST_P(MirroredLightTest, IsAnImageOfIt)
     settings.bounces = 2;
     const Film film = renderScene(scene, settings);
     ASSERT_FALSE(film.splats.empty());
-    expectAgreement(GetParam().name, pictureOf(film), floorPicture(light, scene.cameras.front(), 32));
+    expectAgreement(GetParam().name, makePicture(film), floorPicture(light, scene.cameras.front(), 32));
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -262,7 +262,7 @@ TEST(NeighboursTest, TheErrorIsLess)
 
 // H29. Against uniform renders of the same seeds, which share the first 64 samples. Beside it the course's rule, which looks at each
 // pixel by itself.
-TEST(NeighboursTest, H29IsNotDarker)
+TEST(NeighboursTest, H29PictureIsNotDarker)
 {
     constexpr std::uint32_t kSeeds = 24;
     const Scene scene = loadGltf(GLIM_SOURCE_DIR "/scenes/cornell_mirror_glass.gltf");

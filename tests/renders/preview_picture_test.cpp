@@ -99,7 +99,7 @@ TEST_F(PreviewTest, NeverFlashesBlack)
     }
     const Watched seen = watch(12, script);
     // With one sample a pixel, .565 of the window has light from the first view; a flash would leave none.
-    EXPECT_GT(seen.leastLight, 0.5) << "of the window, all through";
+    EXPECT_GT(seen.minLight, 0.5) << "of the window, all through";
     EXPECT_GE(seen.pictures.size(), 12U);
 }
 
@@ -152,7 +152,7 @@ TEST(ScenePicturesTest, AnEditShowsTheSceneThatItMakes)
     settings.sampleEnd = 2;
     const std::vector<Edit> edits{{"/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor", "1"},
                                   {"/nodes/0/translation", "[0.125, 0, 0]"}};
-    const auto filmOf = [](ScenePictures& pictures) {
+    const auto makeFilm = [](ScenePictures& pictures) {
         pictures.show(pictures.scene().scene.cameras.front(), {8, 6});
         while (pictures.shown().sampleCount() == 0 || !pictures.shown().isDone()) {
             pictures.shown().refine(false, nullptr);
@@ -161,18 +161,18 @@ TEST(ScenePicturesTest, AnEditShowsTheSceneThatItMakes)
     };
     ScenePictures pictures(testDevice(), settings, {}), edited(testDevice(), settings, {});
     enterScene(pictures, {});
-    const Film before = filmOf(pictures);
+    const Film before = makeFilm(pictures);
     EXPECT_THROW(pictures.edit({{"/materials/99/alphaCutoff", "1"}}, std::nullopt, SplitRule::Sah), InputError);
-    EXPECT_TRUE(sameBits(filmOf(pictures), before));
+    EXPECT_TRUE(sameBits(makeFilm(pictures), before));
     pictures.edit(edits, std::nullopt, SplitRule::Sah);
     LoadOptions options;
     options.edits = edits;
     enterScene(edited, options);
-    const Film after = filmOf(pictures);
-    EXPECT_TRUE(sameBits(after, filmOf(edited)));
+    const Film after = makeFilm(pictures);
+    EXPECT_TRUE(sameBits(after, makeFilm(edited)));
     EXPECT_FALSE(sameBits(after, before));
     pictures.edit({}, std::nullopt, SplitRule::Sah);
-    EXPECT_TRUE(sameBits(filmOf(pictures), before));
+    EXPECT_TRUE(sameBits(makeFilm(pictures), before));
 }
 
 // The picture of steps and that of light are of the same view, whichever layer was shown while the camera moved.

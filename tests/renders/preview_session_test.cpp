@@ -247,7 +247,7 @@ TEST_F(PreviewTest, AnswersEveryInput)
     width = 640;
     height = 480;
     panels = true;
-    const GlimRun session = run(bytesOfFile(GLIM_SOURCE_DIR "/tests/renders/look_around.script"));
+    const GlimRun session = run(readFileBytes(GLIM_SOURCE_DIR "/tests/renders/look_around.script"));
     int frames = 0, inputs = 0, median = -1, most = -1;
     const std::size_t last = session.err.rfind("glim: ");
     ASSERT_NE(last, std::string::npos) << session.err;

@@ -31,7 +31,7 @@ RenderSettings smallSettings(std::uint32_t begin, std::uint32_t end)
 
 bool sameBits(const vec3& a, const vec3& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-double luminanceOf(const vec3& color) { return glm::dot(glm::dvec3(color), glm::dvec3(0.2126, 0.7152, 0.0722)); }
+double computeLuminance(const vec3& color) { return glm::dot(glm::dvec3(color), glm::dvec3(0.2126, 0.7152, 0.0722)); }
 
 // Everything that was added, in order and in float32.
 PathRadiance sumOf(const ReplayedPath& path)
@@ -62,7 +62,7 @@ void expectConnected(const FlatScene& flat, const ReplayedPath& path)
             const PathVertex& next = path.vertices[i + 1];
             EXPECT_EQ(next.before.throughput, vertex.after.throughput);
             EXPECT_EQ(next.before.pdf, vertex.after.pdf);
-            EXPECT_EQ(next.ray.source, flat.records[std::size_t{vertex.hit.record} * kRecordTexels].w);
+            EXPECT_EQ(next.ray.source, flat.primitiveRefs[std::size_t{vertex.hit.primitiveRef} * kPrimitiveRefTexels].w);
             EXPECT_EQ(vertex.after.throughput, vertex.bsdf.throughput / vertex.bsdf.continuation);
         }
     }
@@ -85,7 +85,7 @@ protected:
         std::vector<std::uint32_t> order(film.pixels.size());
         std::iota(order.begin(), order.end(), 0U);
         std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return luminanceOf(film.pixels[a].mean) > luminanceOf(film.pixels[b].mean);
+            return computeLuminance(film.pixels[a].mean) > computeLuminance(film.pixels[b].mean);
         });
         order.resize(count);
         for (std::uint32_t pixel = 0; pixel < film.pixels.size(); pixel += 17) {
@@ -103,7 +103,7 @@ protected:
             expectConnected(flat_, path);
             vertices_ += path.vertices.size();
         }
-        EXPECT_GT(luminanceOf(film.pixels[order[0]].mean), 0.0);
+        EXPECT_GT(computeLuminance(film.pixels[order[0]].mean), 0.0);
     }
 
     Scene scene_;
@@ -166,7 +166,7 @@ void checkVertex(const PathVertex& vertex, std::size_t lights, Tally& tally)
         EXPECT_NEAR(static_cast<double>(vertex.surface.misWeightOfHit), power(vertex.before.pdf, vertex.surface.lightPdfOfHit), 1e-6);
         ++tally.emitted;
     }
-    if (vertex.hit.record != kNoRecord) {
+    if (vertex.hit.primitiveRef != kNoPrimitiveRef) {
         const vec3 there = vertex.ray.origin + vertex.hit.t * vertex.ray.direction;
         EXPECT_LT(glm::distance(vertex.surface.point, there), 1e-5F * (1.0F + glm::length(there) + vertex.hit.t));
         EXPECT_NEAR(glm::length(vertex.surface.ng), 1.0F, 1e-6F);
@@ -216,14 +216,14 @@ std::vector<Best> findBest(const Film& film, const std::vector<Film>& singles)
         best[i].pixel = i;
         for (std::uint32_t sample = 0; sample < film.pixels[i].count; ++sample) {
             const vec3 radiance = singles[sample].pixels[i].mean;
-            if (luminanceOf(radiance) > luminanceOf(best[i].radiance)) {
+            if (computeLuminance(radiance) > computeLuminance(best[i].radiance)) {
                 best[i].radiance = radiance;
                 best[i].sample = sample;
             }
         }
     }
     std::stable_sort(best.begin(), best.end(),
-                     [](const Best& a, const Best& b) { return luminanceOf(a.radiance) > luminanceOf(b.radiance); });
+                     [](const Best& a, const Best& b) { return computeLuminance(a.radiance) > computeLuminance(b.radiance); });
     return best;
 }
 
@@ -231,7 +231,7 @@ void expectSuspects(const std::vector<Suspect>& suspects, const std::vector<Best
 {
     double picture = 0.0;
     for (const PixelMoments& pixel : shownPixels(film)) {
-        picture += luminanceOf(pixel.mean);
+        picture += computeLuminance(pixel.mean);
     }
     ASSERT_EQ(suspects.size(), 30U);
     for (std::size_t i = 0; i < suspects.size(); ++i) {
@@ -240,8 +240,8 @@ void expectSuspects(const std::vector<Suspect>& suspects, const std::vector<Best
         EXPECT_EQ(suspects[i].pixel, best[i].pixel);
         EXPECT_EQ(suspects[i].sampleIndex, best[i].sample);
         EXPECT_TRUE(sameBits(suspects[i].radiance, best[i].radiance));
-        EXPECT_DOUBLE_EQ(suspects[i].luminance, luminanceOf(best[i].radiance));
-        EXPECT_DOUBLE_EQ(suspects[i].shareOfPixel, suspects[i].luminance / (pixel.count * luminanceOf(pixel.mean)));
+        EXPECT_DOUBLE_EQ(suspects[i].luminance, computeLuminance(best[i].radiance));
+        EXPECT_DOUBLE_EQ(suspects[i].shareOfPixel, suspects[i].luminance / (pixel.count * computeLuminance(pixel.mean)));
         EXPECT_DOUBLE_EQ(suspects[i].shareOfPicture, suspects[i].luminance / pixel.count / picture);
     }
 }

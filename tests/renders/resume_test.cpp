@@ -131,7 +131,7 @@ TEST_P(ResumeTest, RowsHaveTheBitsOfThePicture)
     Pieces pieces(mixedScene(), settings);
     const Film rows = pieces.renderAtOnce();
     EXPECT_TRUE(sameBits(rows, expected));
-    EXPECT_NE(digestOf(rows), digestOf(picture));
+    EXPECT_NE(computeDigest(rows), computeDigest(picture));
     expectTheBitsOfOneRun(pieces, 20);
 }
 
@@ -177,7 +177,7 @@ TEST(ResumeFilmTest, AnyFilmThatEndsWithAPageGoesOn)
         RenderSettings settings = squareSettings(12, end);
         settings.schedule = Schedule::Persistent;
         const Scene scene = mixedScene();
-        std::optional<Checkpoint> checkpoint = checkpointOf(renderScene(scene, settings));
+        std::optional<Checkpoint> checkpoint = makeCheckpoint(renderScene(scene, settings));
         ASSERT_EQ(checkpoint.has_value(), end != 640U) << end;
         if (!checkpoint) {
             continue;
@@ -213,15 +213,15 @@ TEST(ResumeFilmTest, WhatLacksSamplesDoesNot)
     settings.schedule = Schedule::Persistent;
     Film film = renderScene(mixedScene(), settings);
     film.complete = false;
-    EXPECT_FALSE(checkpointOf(film));
+    EXPECT_FALSE(makeCheckpoint(film));
     film.complete = true;
-    EXPECT_TRUE(checkpointOf(film));
+    EXPECT_TRUE(makeCheckpoint(film));
     film.sampleRanges = {{0, 128}, {256, 384}};
-    EXPECT_FALSE(checkpointOf(film));
+    EXPECT_FALSE(makeCheckpoint(film));
     film.sampleRanges = {{0, 100}};
-    EXPECT_FALSE(checkpointOf(film)) << "within a block";
+    EXPECT_FALSE(makeCheckpoint(film)) << "within a block";
     film.sampleRanges = {{128, 384}};
-    EXPECT_FALSE(checkpointOf(film)) << "over two pages";
+    EXPECT_FALSE(makeCheckpoint(film)) << "over two pages";
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ TEST(RoulettePictureTest, FixedHasInfiniteVarianceAboveItsLimit)
         double sum = 0.0;
         const Film film = render(a, Roulette::Fixed, bounces, kSamples);
         for (const PixelMoments& pixel : film.pixels) {
-            sum += static_cast<double>(varianceOfMean(pixel).g) * kSamples;
+            sum += static_cast<double>(computeVarianceOfMean(pixel).g) * kSamples;
         }
         const double measured = sum / static_cast<double>(film.pixels.size()), expected = variance(a, bounces);
         // Squared error of a variance from n samples in blocks: fourth central moment / n + variance^2 * (2 / blocks).
@@ -98,7 +98,7 @@ TEST(RoulettePictureTest, FixedHasInfiniteVarianceAboveItsLimit)
 
 // The truth is 1 / (1 - a) = 100. By throughput a path goes on for certain until that is 1/3, after 110 bounces; each further bounce then
 // adds 1/3, and their number is geometric: a path's value has the deviation sqrt(a) / (1 - a) / 3 = 33.2.
-TEST(RoulettePictureTest, H24H25AlbedoOf99)
+TEST(RoulettePictureTest, H24H25RoomOfAlbedo99Percent)
 {
     constexpr double kAlbedo = 0.99, kDeviation = 99.5 / 3.0;
     constexpr std::uint32_t kSide = 16, kBounces = 3000;  // 8e-14 of the light is beyond them

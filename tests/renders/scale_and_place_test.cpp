@@ -92,7 +92,7 @@ Film renderRoom(const Scene& scene, std::uint32_t seed)
 
 double samplesOf(const Film& film) { return 1.0 * kSide * kSide * film.sampleRanges.back().second; }
 
-ZTest compare(const Film& film, const Film& reference) { return zTest(pictureOf(film), pictureOf(reference), 1e-3 / 200.0); }
+ZTest compare(const Film& film, const Film& reference) { return zTest(makePicture(film), makePicture(reference), 1e-3 / 200.0); }
 
 std::string describe(const ZTest& z)
 {
@@ -184,11 +184,11 @@ Scene roomOfInstances(const glm::dvec3& scale, double shift)
     return test::load(builder, options);
 }
 
-Film renderShared(const Scene& scene, std::uint64_t mostFlatTriangles, std::uint32_t seed)
+Film renderShared(const Scene& scene, std::uint64_t maxFlatTriangles, std::uint32_t seed)
 {
-    const Primitives primitives = makePrimitives(scene, mostFlatTriangles);
+    const Primitives primitives = makePrimitives(scene, maxFlatTriangles);
     const FlatScene flat = flattenScene(scene, primitives, buildSceneBvh(primitives));
-    EXPECT_EQ((flat.features & kFeatureInstances) != 0, mostFlatTriangles == 0);
+    EXPECT_EQ((flat.features & kFeatureInstances) != 0, maxFlatTriangles == 0);
     RenderSettings settings = squareSettings(kSide, samplesFor(64));
     settings.bounces = 4;
     settings.seed = seed;

@@ -42,7 +42,7 @@ std::pair<glm::dvec3, glm::dvec3> meanOf(const Picture& picture, const Region& r
 TEST(TexturesScene, HalvesOfASquareAgree)
 {
     const Scene scene = loadGltf(GLIM_SOURCE_DIR "/scenes/textures.gltf");
-    const Picture picture = pictureOf(renderScene(scene, squareSettings(64, 128)));
+    const Picture picture = makePicture(renderScene(scene, squareSettings(64, 128)));
 
     // The byte 188 of sRGB: ((188 / 255 + .055) / 1.055)^2.4 = .502886 (IEC 61966-2-1), on either side of x = 24.4.
     for (const Region& half : {Region{19, 49, 23, 60}, Region{25, 49, 30, 60}}) {

@@ -136,8 +136,8 @@ TEST_F(StagingTest, ARenderHasTheBitsOfMappedMemory)
             };
             const auto [staged, stagedRays] = render(device);
             const auto [mapped, mappedRays] = render(testDevice());
-            EXPECT_TRUE(sameBits(staged, mapped)) << nameOf(schedule);
-            EXPECT_EQ(stagedRays, mappedRays) << nameOf(schedule);
+            EXPECT_TRUE(sameBits(staged, mapped)) << getName(schedule);
+            EXPECT_EQ(stagedRays, mappedRays) << getName(schedule);
         }
     }
 }

@@ -17,7 +17,7 @@ namespace {
 // Left after a metre.
 const glm::dvec3 kThin(0.1, 0.5, 0.9), kDense(0.3, 0.2, 0.05);
 
-Material mediumOf(const glm::dvec3& afterAMetre)
+Material getMedium(const glm::dvec3& afterAMetre)
 {
     Material m;
     m.transmission = 1.0F;
@@ -30,7 +30,7 @@ Material mediumOf(const glm::dvec3& afterAMetre)
 
 std::uint32_t addMedium(Scene& scene, const glm::dvec3& afterAMetre)
 {
-    scene.materials.push_back(mediumOf(afterAMetre));
+    scene.materials.push_back(getMedium(afterAMetre));
     return static_cast<std::uint32_t>(scene.materials.size() - 1);
 }
 
@@ -202,7 +202,7 @@ TEST(StartMediaTest, LampsBetweenSolidsAreInNone)
         addBall(scene, 1.0F, water, {0, 3, 0});
         addBall(scene, 1.0F, water, {0, -3, 0});
         addBall(scene, 0.1F, water + 1, {0, y, 0});
-        EXPECT_EQ((flattened(scene).features & kFeatureLampsInMedia) != 0, y != 0.0F);
+        EXPECT_EQ((flattened(scene).features & kFeatureLightsInMedia) != 0, y != 0.0F);
     }
 }
 
@@ -235,7 +235,7 @@ TEST(StartMediaTest, GlassThatAbsorbsNothingIsNotTracked)
     Scene scene = lookingAlongZ();
     addBall(scene, 1.0F, addMedium(scene, glm::dvec3(1.0)));
     const FlatScene flat = flattened(scene);
-    EXPECT_EQ(flat.features & (kFeatureMedia | kFeatureLampsInMedia), 0U);
+    EXPECT_EQ(flat.features & (kFeatureMedia | kFeatureLightsInMedia), 0U);
     EXPECT_EQ(placeInMedia(flattenCamera(scene.cameras.front(), 1.0F, {10.0F, 1.0F}), flat).media, 0U);
 }
 

@@ -16,7 +16,7 @@
 namespace glim {
 namespace {
 
-FlatCamera cameraOf(const Scene& scene, const RenderSettings& settings)
+FlatCamera makeCamera(const Scene& scene, const RenderSettings& settings)
 {
     return flattenCamera(scene.cameras.front(), static_cast<float>(settings.width) / static_cast<float>(settings.height));
 }
@@ -42,7 +42,7 @@ protected:
 TEST_F(StepsTest, FilmsAreThoseOfWholeRenders)
 {
     settings.schedule = Schedule::Persistent;
-    Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
+    Renderer renderer(testDevice(), flat, makeCamera(scene, settings), settings);
     int films = 0;
     std::uint64_t samples = 0;
     while (renderer.advance()) {
@@ -71,14 +71,14 @@ TEST_F(StepsTest, OtherCamerasBeginAgain)
 {
     settings.sampleEnd = 40;
     settings.schedule = Schedule::Persistent;
-    Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
+    Renderer renderer(testDevice(), flat, makeCamera(scene, settings), settings);
     renderer.advance();
     for (const glm::uvec2 size : {glm::uvec2(24, 24), glm::uvec2(7, 30), glm::uvec2(7, 30)}) {
         settings.width = size.x;
         settings.height = size.y;
         Scene moved = scene;
         moved.cameras[0].position += glm::vec3(0.1F * static_cast<float>(size.y), 0.0F, 0.0F);
-        renderer.restart(cameraOf(moved, settings), size.x, size.y);
+        renderer.restart(makeCamera(moved, settings), size.x, size.y);
         EXPECT_EQ(renderer.plan().pictureSamples(), 0U);
         while (renderer.advance()) {
         }
@@ -97,7 +97,7 @@ TEST_F(StepsTest, PassesThatAreGivenUpAreTracedAgain)
     settings.sampleEnd = 8;
     settings.course.direct = DirectLight::Lights;
     settings.course.lightSamples = 16;
-    Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
+    Renderer renderer(testDevice(), flat, makeCamera(scene, settings), settings);
     int calls = 0, given = 0;
     while (!renderer.plan().isDone()) {
         calls = 0;
@@ -114,7 +114,7 @@ TEST_F(StepsTest, AdaptiveFilmsToo)
     settings.sampleEnd = 300;
     settings.course.tolerance = 0.2F;
     settings.schedule = Schedule::Persistent;
-    Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
+    Renderer renderer(testDevice(), flat, makeCamera(scene, settings), settings);
     while (renderer.advance()) {
         renderer.film();
     }
@@ -127,15 +127,15 @@ TEST_F(StepsTest, OneRayMeetsWhatTheCameraSees)
     settings.sampleEnd = 4;
     settings.adaptive = Adaptive::Off;
     settings.schedule = Schedule::Wavefront;
-    Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
+    Renderer renderer(testDevice(), flat, makeCamera(scene, settings), settings);
     renderer.advance();
     const Camera& camera = scene.cameras[0];
     RayTracer tracer(renderer.resources());
-    const auto hitOf = [&tracer](const PathRay& ray) { return tracer.trace(std::span(&ray, 1)).front(); };
-    const PathHit hit = hitOf({camera.position, kNoPrimitive, camera.forward});
-    const PathHit miss = hitOf({camera.position + 1e4F * camera.up, kNoPrimitive, camera.up});
-    EXPECT_NE(hit.record, kNoRecord);
-    EXPECT_EQ(miss.record, kNoRecord);
+    const auto makePathHit = [&tracer](const PathRay& ray) { return tracer.trace(std::span(&ray, 1)).front(); };
+    const PathHit hit = makePathHit({camera.position, kNoPrimitive, camera.forward});
+    const PathHit miss = makePathHit({camera.position + 1e4F * camera.up, kNoPrimitive, camera.up});
+    EXPECT_NE(hit.primitiveRef, kNoPrimitiveRef);
+    EXPECT_EQ(miss.primitiveRef, kNoPrimitiveRef);
     while (renderer.advance()) {
     }
     EXPECT_TRUE(sameBits(renderer.film(), renderScene(scene, settings))) << "no part of the picture";
@@ -181,10 +181,10 @@ TEST_F(StepsTest, AWindowShowsWhatFilesHold)
     for (const std::uint32_t samples : {1U, 40U, 290U}) {
         RenderSettings one = settings;
         one.sampleEnd = samples;
-        Renderer light(testDevice(), flat, cameraOf(scene, one), one);
+        Renderer light(testDevice(), flat, makeCamera(scene, one), one);
         one.aov = Aov::BvhSteps;
         one.bounces = 0;
-        Renderer steps(testDevice(), flat, cameraOf(scene, one), one);
+        Renderer steps(testDevice(), flat, makeCamera(scene, one), one);
         while (light.advance() || steps.advance()) {
         }
         for (const Aov aov : {Aov::Radiance, Aov::Normal, Aov::Depth, Aov::Albedo, Aov::SampleCount, Aov::BvhSteps}) {
@@ -208,15 +208,15 @@ TEST_F(StepsTest, AWindowKeepsTheCoarsePictureUnderTheFine)
     display.resize(24, 24);
     settings.sampleEnd = 1;
     settings.pathCapacity = 64;
-    Renderer renderer(testDevice(), flat, cameraOf(scene, settings), settings);
-    renderer.restart(cameraOf(scene, settings), 3, 3);
+    Renderer renderer(testDevice(), flat, makeCamera(scene, settings), settings);
+    renderer.restart(makeCamera(scene, settings), 3, 3);
     advanceToSamples(renderer);
     display.draw(renderer, Aov::Albedo, {}, {});
     const std::vector<Rgb8> coarse = shownBy(display);
     for (std::size_t i = 0; i < coarse.size(); ++i) {
         EXPECT_EQ(coarse[i], coarse[i / 24 / 8 * 8 * 24 + i % 24 / 8 * 8]) << "blocks of eight";
     }
-    renderer.restart(cameraOf(scene, settings), 24, 24);
+    renderer.restart(makeCamera(scene, settings), 24, 24);
     advanceToSamples(renderer);
     ASSERT_EQ(renderer.plan().pictureSamples(), 64U);
     display.draw(renderer, Aov::Albedo, {}, {});

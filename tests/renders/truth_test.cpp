@@ -89,7 +89,7 @@ TEST(TruthTest, H23SmoothGlassUnderAConstantSkyVanishes)
     builder.glass(1.5F);
     builder.environment(glm::vec3(1.0F)).perspective({0, 0, 5}, {0, 0, 0}, 0.4F);  // silhouettes too
     Scene scene = builder.scene();
-    addMesh(scene, icosphere(1), 0, verticesOf(icosphere(1)));
+    addMesh(scene, icosphere(1), 0, listVertices(icosphere(1)));
     RenderSettings settings = squareSettings(48, samplesFor(64));
     settings.bounces = 1000;
     expectEverywhere(renderScene(scene, settings), glm::dvec3(1.0), 8);

@@ -61,7 +61,7 @@ TEST(ViewTest, BvhStepsCountsNodesAndPrimitives)
         EXPECT_EQ(pixel.mean, glm::vec3(1.0F, 1.0F, 0.0F));
     }
     const Triangles triangles = icosphere(5);
-    Scene mesh = sceneOf(triangles);
+    Scene mesh = makeTestScene(triangles);
     mesh.cameras = builder.scene().cameras;
     const MeanEstimate steps = meanOf(view(mesh, Aov::BvhSteps));
     std::printf("%zu triangles: %.1f nodes and %.1f primitives per camera ray\n", triangles.size(), steps.mean.r, steps.mean.g);

@@ -5,7 +5,7 @@
 #include "any_bsdf.h"
 #include "material_case.glsl"
 
-vec2 alphaOf(MaterialCase m)
+vec2 computeAlpha(MaterialCase m)
 {
     float alpha = m.roughness * m.roughness;
     return max(vec2(mix(alpha, 1.0, m.anisotropy * m.anisotropy), alpha), kMinAlpha);
@@ -16,7 +16,7 @@ float etaOf(MaterialCase m) { return m.inside > 0.0 ? 1.0 / m.ior : m.ior; }
 // A lobe has the reflectance or transmittance 1.
 BsdfEval evalAny(BsdfCase c, Principled p, vec3 wi)
 {
-    vec2 alpha = alphaOf(c.material);
+    vec2 alpha = computeAlpha(c.material);
     if (c.what == kSampleGgx && wi.z > 0.0) {
         return BsdfEval(vec3(evalGgx(c.wo, wi, alpha)), pdfGgx(c.wo, wi, alpha));
     }
@@ -38,7 +38,7 @@ BsdfSample sampleAny(BsdfCase c, Principled p, vec3 u)
     if (c.what == kSamplePrincipled) {
         return samplePrincipled(p, c.wo, u.xy, u.z);
     }
-    vec2 alpha = alphaOf(c.material);
+    vec2 alpha = computeAlpha(c.material);
     vec3 wi = c.what == kSampleGgx ? sampleGgx(c.wo, alpha, u.xy) : sampleSheen(u.xy);
     bool valid = wi.z > 0.0;
     if (c.what == kSampleTransmission) {

@@ -12,7 +12,7 @@ namespace glim {
 
 // Sphere of radius r around `center`, receiver with unit normal n outside it; also where the horizon cuts the sphere (Snyder
 // 1996, in the form of Lagarde and de Rousiers 2014).
-inline double irradianceOfSphere(const glm::dvec3& center, double r, const glm::dvec3& n)
+inline double computeSphereIrradiance(const glm::dvec3& center, double r, const glm::dvec3& n)
 {
     const double d = glm::length(center), h = d / r;
     const double c = glm::dot(center, n) / d, s = std::sqrt(std::max(0.0, 1.0 - c * c));
@@ -29,7 +29,7 @@ inline double irradianceOfSphere(const glm::dvec3& center, double r, const glm::
 }
 
 // Polygon above the horizon (Lambert 1760).
-inline double irradianceOfPolygon(const std::vector<glm::dvec3>& corners, const glm::dvec3& n)
+inline double computePolygonIrradiance(const std::vector<glm::dvec3>& corners, const glm::dvec3& n)
 {
     double sum = 0.0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -42,7 +42,7 @@ inline double irradianceOfPolygon(const std::vector<glm::dvec3>& corners, const 
 }
 
 // Disk of radius r parallel to the receiver, its centre at height h and offset d.
-inline double irradianceOfDisk(double r, double h, double d)
+inline double computeDiskIrradiance(double r, double h, double d)
 {
     const double sum = h * h + d * d + r * r;
     return std::numbers::pi / 2.0 * (1.0 - (sum - 2.0 * r * r) / std::sqrt(sum * sum - 4.0 * r * r * d * d));

@@ -46,7 +46,7 @@ public:
     }
     KernelTest& features(FeatureMask features)
     {
-        for (const auto& [id, value] : constantsOf(features)) {
+        for (const auto& [id, value] : makeConstants(features)) {
             specialization_[id] = value;
         }
         return *this;

@@ -14,7 +14,7 @@ namespace {
 
 void expectSilence(const GlimRun& done) { EXPECT_EQ(done.err.find("validation"), std::string::npos) << done.err; }
 
-double shareOfLight(const Pixels& window)
+double computeShareOfLight(const Pixels& window)
 {
     const auto lit = std::count_if(window.begin(), window.end(), [](const auto& pixel) { return pixel != std::array{0, 0, 0}; });
     return static_cast<double>(lit) / static_cast<double>(window.size());
@@ -74,7 +74,7 @@ PreviewTest::Watched PreviewTest::watch(std::size_t pictures, const std::string&
         const auto isWithin = [start](int seconds) { return std::chrono::steady_clock::now() < start + std::chrono::seconds(seconds); };
         while (isWithin(3) || (seen.pictures.size() < pictures && isWithin(60))) {
             const Pixels now = windowOf(screen.pixels());
-            seen.leastLight = std::min(seen.leastLight, shareOfLight(now));
+            seen.minLight = std::min(seen.minLight, computeShareOfLight(now));
             seen.pictures.insert(now);
         }
     });

@@ -33,7 +33,7 @@ protected:
     // `pictures`, but for no longer than a minute.
     struct Watched {
         std::set<Pixels> pictures;  // all that were seen
-        double leastLight = 1.0;    // the share of the window that was not black, at the least
+        double minLight = 1.0;      // the share of the window that was not black, at the least
     };
     Watched watch(std::size_t pictures, const std::string& script, const std::vector<std::string>& more = {}) const;
     // The part of the screen that is the window.

@@ -1,4 +1,4 @@
-// The primitive that a ray met, whichever of its records that was.
+// The primitive that a ray met, whichever of its references that was.
 #ifndef GLIM_TEST_PRIMITIVE_MET
 #define GLIM_TEST_PRIMITIVE_MET
 
@@ -7,7 +7,7 @@
 
 uint primitiveMet(PathHit hit)
 {
-    return hit.record == kNoRecord ? kNoPrimitive : primitiveOf(fetchRecord(hit.record));
+    return hit.primitiveRef == kNoPrimitiveRef ? kNoPrimitive : getPrimitive(fetchPrimitiveRef(hit.primitiveRef));
 }
 
 #endif

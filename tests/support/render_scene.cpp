@@ -126,7 +126,7 @@ MeanEstimate meanOf(const Film& film)
     glm::dvec3 sum(0.0), variance(0.0);
     for (const PixelMoments& pixel : shownPixels(film)) {
         sum += glm::dvec3(pixel.mean);
-        variance += glm::dvec3(varianceOfMean(pixel));
+        variance += glm::dvec3(computeVarianceOfMean(pixel));
     }
     const double pixels = static_cast<double>(film.pixels.size());
     return {sum / pixels, glm::sqrt(variance) / pixels};

@@ -85,7 +85,7 @@ int await(pid_t process, const GlimCall& call, const std::filesystem::path& err)
     int status = 0;
     bool signalled = !call.signalWhen;
     while (waitpid(process, &status, WNOHANG) == 0) {
-        if (!signalled && call.signalWhen(bytesOfFile(err))) {
+        if (!signalled && call.signalWhen(readFileBytes(err))) {
             kill(process, call.signal);
             signalled = true;
         }
@@ -118,8 +118,8 @@ GlimRun runGlim(const GlimCall& call)
     }
     const int status = await(process, call, folder / "err");
     setEnd(run, status);
-    run.out = bytesOfFile(folder / "out");
-    run.err = bytesOfFile(folder / "err");
+    run.out = readFileBytes(folder / "out");
+    run.err = readFileBytes(folder / "err");
     return run;
 }
 

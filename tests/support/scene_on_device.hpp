@@ -1,4 +1,4 @@
-// A scene on the test device, with tables that lead from a kernel's records back to the scene's primitives.
+// A scene on the test device, with tables that lead from a kernel's references back to the scene's primitives.
 #pragma once
 
 #include "host/flatten/build_scene_bvh.hpp"
@@ -23,16 +23,17 @@ struct SceneOnDevice {
           flat(flattenScene(scene, primitives, bvh)),
           device(testDevice(), flat),
           camera(flattenCamera(view, 1.0F)),
-          recordOf(primitives.count())
+          refOfPrimitive(primitives.count())
     {
-        for (std::uint32_t record = 0; record < bvh.order.size(); ++record) {
-            recordOf.resize(std::max<std::size_t>(recordOf.size(), bvh.order[record] + 1));  // shared meshes come after the primitives
-            recordOf[bvh.order[record]] = record;
+        for (std::uint32_t ref = 0; ref < bvh.order.size(); ++ref) {
+            refOfPrimitive.resize(
+                std::max<std::size_t>(refOfPrimitive.size(), bvh.order[ref] + 1));  // shared meshes come after the primitives
+            refOfPrimitive[bvh.order[ref]] = ref;
         }
     }
 
-    // The primitive that stands at a record; kNoPrimitive for none.
-    std::uint32_t idOf(std::uint32_t record) const { return record == kNoRecord ? kNoPrimitive : bvh.order[record]; }
+    // The primitive that stands at a reference; kNoPrimitive for none.
+    std::uint32_t idOf(std::uint32_t ref) const { return ref == kNoPrimitiveRef ? kNoPrimitive : bvh.order[ref]; }
 
     // `kernel` over this scene, compiled for what the scene needs; camera and number of lights are in its parameters.
     KernelTest test(const EmbeddedShader& kernel) const
@@ -43,7 +44,7 @@ struct SceneOnDevice {
         test.specialize(kSpecStackLevels, flat.stackLevels).features(flat.features).specialize(kSpecTexelViews, 1);
         test.parameters().triangleCount = flat.triangleCount;
         test.parameters().instanceCount = static_cast<std::uint32_t>(flat.instances.size() / kInstanceTexels);
-        test.parameters().firstInstanceRecord = flat.firstInstanceRecord;
+        test.parameters().firstInstanceRef = flat.firstInstanceRef;
         test.parameters().lightCount = static_cast<std::uint32_t>(flat.lights.size());
         test.parameters().finiteLights = flat.finiteLights;
         test.parameters().infiniteImportance = flat.infiniteImportance;
@@ -55,7 +56,7 @@ struct SceneOnDevice {
     FlatScene flat;
     DeviceScene device;
     FlatCamera camera;
-    std::vector<std::uint32_t> recordOf;  // by primitive: one of its records
+    std::vector<std::uint32_t> refOfPrimitive;  // by primitive: one of its references
 };
 
 }  // namespace glim

@@ -38,7 +38,7 @@ private:
     std::filesystem::path path_;
 };
 
-inline std::string bytesOfFile(const std::filesystem::path& path)
+inline std::string readFileBytes(const std::filesystem::path& path)
 {
     std::ifstream stream(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};

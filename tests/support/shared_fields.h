@@ -39,7 +39,7 @@ struct EverySharedStruct {
     PrincipledData principled;
     LayersData layers;
     MediumData medium;
-    TextureData texture_;
+    TextureData textureTexel;
     FlatLight light;
     LightNode lightNode;
     InstanceData instance;
@@ -56,7 +56,7 @@ GLIM_SHARED_END
 #ifdef F3
 // clang-format off
 F3(ray.origin) U(ray.source) F3(ray.direction) U(ray.media)
-U(hit.record) F(hit.t) F2(hit.barycentric)
+U(hit.primitiveRef) F(hit.t) F2(hit.barycentric)
 F3(state.throughput) F(state.pdf) F(state.cosine) F(state.etaScale) U(state.bounce) U(state.normal)
 F3(radiance.radiance) F(radiance.clamped)
 F3(firstHit.albedo) F(firstHit.alpha) F3(firstHit.normal) F(firstHit.depth)
@@ -85,23 +85,23 @@ F(blockSums.clamped)
 U2(splat.red) U2(splat.green) U2(splat.blue) U2(splat.clamped)
 U(pass_.pass.tileBegin) U(pass_.pass.firstPixel) U(pass_.pass.pixelCount) U(pass_.pass.firstSample) U(pass_.pass.sampleCount)
 U(pass_.pass.bounce) U(pass_.pass.accumulate) U(pass_.pass.sizes) U(pass_.lightRound.light) U(pass_.lightRound.lightSample)
-U(pass_.lightRound.lightSamples) U(pass_.lightRound.addsEmission) U(pass_.lightRound.firstRecord) U(pass_.lightRound.endRecord)
+U(pass_.lightRound.lightSamples) U(pass_.lightRound.addsEmission) U(pass_.lightRound.firstRef) U(pass_.lightRound.endRef)
 F3(parameters.camera.position) F3(parameters.camera.right) F3(parameters.camera.up) F3(parameters.camera.forward)
 U(parameters.camera.kind) F3(parameters.camera.lensRight) F3(parameters.camera.lensUp) F(parameters.camera.inverseFocus)
 U(parameters.camera.media)
 U(parameters.width) U(parameters.height) U(parameters.seed) U(parameters.maxBounces) U(parameters.minPathLength)
 U(parameters.maxPathLength) U(parameters.lightCount) U(parameters.finiteLights) F(parameters.infiniteImportance) U(parameters.environmentLight) F3(parameters.environment)
-F(parameters.clampIndirect) U(parameters.canarySteps) U(parameters.triangleCount) U(parameters.instanceCount) U(parameters.firstInstanceRecord) U(parameters.firstUv) U(parameters.firstTangent)
+F(parameters.clampIndirect) U(parameters.canarySteps) U(parameters.triangleCount) U(parameters.instanceCount) U(parameters.firstInstanceRef) U(parameters.firstUv) U(parameters.firstTangent)
 U(parameters.firstColor) U(parameters.firstMedium) U(parameters.hidesEnvironment) U2(parameters.environmentSize) U2(parameters.environmentCells)
-F2(parameters.environmentTurn) U(parameters.causticTargets) U(parameters.causticLights) U(parameters.lightPaths)
+F2(parameters.environmentRotation) U(parameters.causticTargets) U(parameters.causticLights) U(parameters.lightPaths)
 F(parameters.splatScale)
-U(course_.recordCount) F(course_.continuation) F(course_.tolerance) U(course_.constantSamples)
+U(course_.refCount) F(course_.continuation) F(course_.tolerance) U(course_.constantSamples)
 U(pixelMoments.count) U(pixelMoments.blocks) F3(pixelMoments.mean) F3(pixelMoments.squares) F(pixelMoments.alpha)
 F3(pixelMoments.albedo) F3(pixelMoments.normal) F(pixelMoments.depth) F(pixelMoments.clamped)
 U(luminanceMoments.count) F(luminanceMoments.mean) F(luminanceMoments.squares) U(luminanceMoments.met)
 F(brightest.luminance) U(brightest.sampleIndex)
 U(chosen.pixel) U(chosen.samplesBefore)
-F3(material.baseColor) U(material.lobe) F3(material.emission) F(material.ior) U(material.flags) U(material.principled) F(material.alpha)
+F3(material.baseColor) U(material.type) F3(material.emission) F(material.ior) U(material.flags) U(material.principled) F(material.alpha)
 F(material.alphaCutoff)
 F(principled.metallic) F(principled.roughness) F(principled.reflectance) F(principled.specular) F3(principled.specularColor)
 F(principled.normalScale) U(principled.textures) U(principled.firstTexture) U(principled.layers) U(principled.glossy)
@@ -112,13 +112,13 @@ F(layers.anisotropy) F(layers.anisotropyCosine) F(layers.anisotropySine) U(layer
 F(layers.iridescence) F(layers.iridescenceIor) F(layers.iridescenceThicknessMinimum) F(layers.iridescenceThicknessMaximum)
 F3(layers.diffuseTransmissionColor) F(layers.diffuseTransmission) F(layers.transmission) U(layers.medium) U2(layers.unused)
 F3(medium.absorption) F(medium.ior) F(medium.spread) F3(medium.unused)
-U(texture_.firstTexel) U(texture_.size) U(texture_.flags) U(texture_.unused) F3(texture_.rowU) U(texture_.unusedU) F3(texture_.rowV)
-U(texture_.unusedV)
-U(light.kind) U(light.record) U(light.primitive) U(light.otherPrimitive) F3(light.intensity) F(light.probability) F3(light.position)
+U(textureTexel.firstTexel) U(textureTexel.size) U(textureTexel.flags) U(textureTexel.unused) F3(textureTexel.rowU) U(textureTexel.unusedU) F3(textureTexel.rowV)
+U(textureTexel.unusedV)
+U(light.kind) U(light.primitiveRef) U(light.primitive) U(light.otherPrimitive) F3(light.intensity) F(light.probability) F3(light.position)
 F(light.size) F3(light.edge1) F(light.versineInner) F3(light.edge2) F(light.versineOuter)
 F3(lightNode.center) F(lightNode.radius) F3(lightNode.axis) F(lightNode.power) F(lightNode.cosNormals) F(lightNode.cosEmission)
 U(lightNode.children) U(lightNode.firstLight)
-F3(instance.column0) U(instance.beginRecord) F3(instance.column1) U(instance.firstRecord) F3(instance.column2) U(instance.firstPrimitive)
+F3(instance.column0) U(instance.beginRef) F3(instance.column1) U(instance.firstRef) F3(instance.column2) U(instance.firstPrimitive)
 F3(instance.translation) U(instance.mirrors) F3(instance.errorBound) U(instance.unused)
 U(display.width) U(display.height) U(display.filmWidth) U(display.filmHeight) U(display.tileBegin) U(display.tileCount)
 F(display.scale) U(display.tone) F(display.low) F(display.high)

@@ -31,10 +31,10 @@ vec3 aim(vec3 from, vec3 to, bool normalized)
 // How far the rounding of the barycentrics may move the hit along a thin triangle.
 float slackOn(uint index, vec3 origin, vec3 direction)
 {
-    Record record = fetchRecord(index);
-    vec3 a = floatsOf(record.t1) - floatsOf(record.t0);
-    vec3 b = floatsOf(record.t2) - floatsOf(record.t0);
-    vec3 reach = max(abs(floatsOf(record.t1) - origin), abs(floatsOf(record.t2) - origin));
+    PrimitiveRef ref = fetchPrimitiveRef(index);
+    vec3 a = toFloats(ref.t1) - toFloats(ref.t0);
+    vec3 b = toFloats(ref.t2) - toFloats(ref.t0);
+    vec3 reach = max(abs(toFloats(ref.t1) - origin), abs(toFloats(ref.t2) - origin));
     float seen = abs(dot(cross(a, b), normalizeSafely(direction)));
     return setup.noise * dot(reach, reach) / seen * max(length(a), length(b));
 }
@@ -45,9 +45,9 @@ PathHit shootRay()
     uint kind = TEST_THREAD % 3u;
     uvec4 a = hash4(uvec4(TEST_THREAD, 0u, 0u, render.seed));
     uvec4 b = hash4(uvec4(TEST_THREAD, 1u, 0u, render.seed));
-    Record record = fetchRecord(chooseBin(a.x, uint(textureSize(sceneRecords)) / kRecordTexels));
-    vec3 v0 = floatsOf(record.t0);
-    vec3 target = kind == 1u ? v0 : v0 + (floatsOf(record.t1) - v0) * (0.05 + 0.9 * unitFloat(a.y));
+    PrimitiveRef ref = fetchPrimitiveRef(chooseBin(a.x, uint(textureSize(scenePrimitiveRefs)) / kPrimitiveRefTexels));
+    vec3 v0 = toFloats(ref.t0);
+    vec3 target = kind == 1u ? v0 : v0 + (toFloats(ref.t1) - v0) * (0.05 + 0.9 * unitFloat(a.y));
     vec3 origin = setup.center + setup.scale * 0.3 * (1.0 - 2.0 * vec3(unitFloat(b.xy), unitFloat(b.z)));
     if (kind == 2u) {
         vec3 d = abs(target - setup.center);
@@ -58,10 +58,10 @@ PathHit shootRay()
     vec3 direction = aim(origin, target, (b.w & 1u) != 0u);
     PathHit hit = traceClosest(PathRay(origin, kNoPrimitive, direction, 0u));
     atomicAdd(tally.rays[kind], 1u);
-    if (hit.record == kNoRecord) {
+    if (hit.primitiveRef == kNoPrimitiveRef) {
         atomicAdd(tally.misses[kind], 1u);
     } else if (!(abs(hit.t * length(direction) - length(target - origin)) <=
-                 setup.tolerance + slackOn(hit.record, origin, direction))) {
+                 setup.tolerance + slackOn(hit.primitiveRef, origin, direction))) {
         atomicAdd(tally.astray[kind], 1u);
     }
     return hit;

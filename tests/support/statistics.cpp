@@ -55,7 +55,7 @@ double chiSquareTail(double x, double freedom)
     return half < a + 1.0 ? 1.0 - gammaSeries(a, half) : gammaFraction(a, half);
 }
 
-ChiSquare chiSquareOf(std::span<const double> counts, std::span<const double> expected)
+ChiSquare computeChiSquare(std::span<const double> counts, std::span<const double> expected)
 {
     double statistic = 0.0, pooledCount = 0.0, pooledExpected = 0.0;
     double cells = 0.0;
@@ -79,7 +79,7 @@ ChiSquare chiSquareOf(std::span<const double> counts, std::span<const double> ex
 
 void expectCounts(const std::string& what, std::span<const double> counts, std::span<const double> expected, std::size_t tests)
 {
-    const ChiSquare test = chiSquareOf(counts, expected);
+    const ChiSquare test = computeChiSquare(counts, expected);
     EXPECT_EQ(test.impossible, 0.0) << what << ": in impossible cells";
     std::cout << "  " << what << ": chi-square " << test.statistic << " with " << test.cells << " cells, p = " << test.p << '\n';
     EXPECT_GE(test.p, familyLevel(tests)) << what;

@@ -18,7 +18,7 @@ struct ChiSquare {
     double statistic, cells, p;
     double impossible;  // counted where none is expected
 };
-ChiSquare chiSquareOf(std::span<const double> counts, std::span<const double> expected);
+ChiSquare computeChiSquare(std::span<const double> counts, std::span<const double> expected);
 
 // Pearson's test of counts against expected counts. Cells with an expected count below 5 are pooled. `tests` is the number of
 // comparisons of the family. Prints the p-value.

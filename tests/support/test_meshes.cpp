@@ -186,7 +186,7 @@ Triangles placed(Triangles mesh, float scale, float shift)
     return mesh;
 }
 
-Primitives primitivesOf(const Triangles& triangles, const std::vector<Sphere>& spheres)
+Primitives makeTestPrimitives(const Triangles& triangles, const std::vector<Sphere>& spheres)
 {
     Primitives primitives;
     primitives.triangles = triangles;
@@ -199,7 +199,7 @@ void addMesh(Scene& scene, const Triangles& triangles, std::uint32_t material, c
 {
     Mesh mesh;
     mesh.material = material;
-    for (const glm::vec3& vertex : verticesOf(triangles)) {
+    for (const glm::vec3& vertex : listVertices(triangles)) {
         mesh.positions.emplace_back(vertex);
     }
     mesh.normals.assign(normals.begin(), normals.end());
@@ -209,7 +209,7 @@ void addMesh(Scene& scene, const Triangles& triangles, std::uint32_t material, c
     scene.meshes.change().push_back(std::move(mesh));
 }
 
-std::vector<glm::vec3> verticesOf(const Triangles& triangles)
+std::vector<glm::vec3> listVertices(const Triangles& triangles)
 {
     std::vector<glm::vec3> vertices;
     for (const Triangle& triangle : triangles) {
@@ -218,7 +218,7 @@ std::vector<glm::vec3> verticesOf(const Triangles& triangles)
     return vertices;
 }
 
-Scene sceneOf(const Triangles& triangles, const std::vector<Sphere>& spheres)
+Scene makeTestScene(const Triangles& triangles, const std::vector<Sphere>& spheres)
 {
     Scene scene;
     scene.materials.emplace_back().doubleSided = true;

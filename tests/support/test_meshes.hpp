@@ -8,13 +8,13 @@ namespace glim {
 using Triangles = std::vector<Triangle>;
 
 // Without a scene: ids are indices into `triangles`, then into `spheres`.
-Primitives primitivesOf(const Triangles& triangles, const std::vector<Sphere>& spheres = {});
+Primitives makeTestPrimitives(const Triangles& triangles, const std::vector<Sphere>& spheres = {});
 
 // Adds a mesh and an instance of it. `normals`: none, or three per triangle.
 void addMesh(Scene& scene, const Triangles& triangles, std::uint32_t material = 0, const std::vector<glm::vec3>& normals = {});
 
 // The vertices, three per triangle: on the unit sphere, the normals there.
-std::vector<glm::vec3> verticesOf(const Triangles& triangles);
+std::vector<glm::vec3> listVertices(const Triangles& triangles);
 
 // 20 * 4^subdivisions triangles, vertices on the unit sphere, fronts outwards.
 Triangles icosphere(int subdivisions);
@@ -48,6 +48,6 @@ Triangles growingLine(std::size_t count, float first, double ratio);
 Triangles placed(Triangles mesh, float scale, float shift);
 
 // One mesh of one white material, and spheres of the same.
-Scene sceneOf(const Triangles& mesh, const std::vector<Sphere>& spheres = {});
+Scene makeTestScene(const Triangles& mesh, const std::vector<Sphere>& spheres = {});
 
 }  // namespace glim

@@ -53,7 +53,7 @@ public:
     {
         const Primitives& primitives = scene_.primitives;
         TraverseCase c = {};
-        const std::uint32_t id = below(scene_.recordOf.size());
+        const std::uint32_t id = below(scene_.refOfPrimitive.size());
         c.ray.source = id;
         c.ray.direction = glm::normalize(point(1.0F));
         if (id < primitives.triangles.size()) {
@@ -77,7 +77,7 @@ private:
 
     void pickShadow(TraverseCase& c)
     {
-        c.target = random_() % 2 == 0 ? below(scene_.recordOf.size()) : kNoPrimitive;
+        c.target = random_() % 2 == 0 ? below(scene_.refOfPrimitive.size()) : kNoPrimitive;
         c.tMax = random_() % 4 == 0 ? std::numeric_limits<float>::infinity() : std::uniform_real_distribution<float>(0.05F, 1.0F)(random_);
     }
 
@@ -103,14 +103,14 @@ inline void PrintTo(const TraverseInput& input, std::ostream* out) { *out << inp
 
 inline std::vector<TraverseInput> traverseInputs()
 {
-    return {{"Mixed", [] { return sceneOf(randomTriangles(250, 0.3F, 1), randomSpheres(50, 0.2F, 2)); }},
-            {"Large", [] { return sceneOf(randomTriangles(60, 1.5F, 3), randomSpheres(6, 1.2F, 4)); }},
-            {"Spheres", [] { return sceneOf({}, randomSpheres(200, 0.3F, 5)); }},
-            {"Small", [] { return sceneOf(randomTriangles(500, 0.1F, 6), randomSpheres(100, 0.1F, 7)); }},
-            {"Strips", [] { return sceneOf(placed(strips(12, 9), 0.5F, 0.0F), randomSpheres(20, 0.2F, 10)); }},
-            {"OneTriangle", [] { return sceneOf(randomTriangles(1, 1.5F, 8)); }},
+    return {{"Mixed", [] { return makeTestScene(randomTriangles(250, 0.3F, 1), randomSpheres(50, 0.2F, 2)); }},
+            {"Large", [] { return makeTestScene(randomTriangles(60, 1.5F, 3), randomSpheres(6, 1.2F, 4)); }},
+            {"Spheres", [] { return makeTestScene({}, randomSpheres(200, 0.3F, 5)); }},
+            {"Small", [] { return makeTestScene(randomTriangles(500, 0.1F, 6), randomSpheres(100, 0.1F, 7)); }},
+            {"Strips", [] { return makeTestScene(placed(strips(12, 9), 0.5F, 0.0F), randomSpheres(20, 0.2F, 10)); }},
+            {"OneTriangle", [] { return makeTestScene(randomTriangles(1, 1.5F, 8)); }},
             {"OneSphere", [] {
-                 return sceneOf({}, {{"", glm::vec3(0.1F, 0.2F, 0.0F), 0.8F, 0}});
+                 return makeTestScene({}, {{"", glm::vec3(0.1F, 0.2F, 0.0F), 0.8F, 0}});
              }}};
 }
 

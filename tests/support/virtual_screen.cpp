@@ -90,7 +90,7 @@ VirtualScreen::~VirtualScreen()
 
 std::vector<std::array<int, 3>> VirtualScreen::pixels() const
 {
-    const std::string dump = bytesOfFile(folder_ / "Xvfb_screen0");
+    const std::string dump = readFileBytes(folder_ / "Xvfb_screen0");
     std::vector<std::array<int, 3>> pixels;
     if (dump.size() < 4 * kFields || field(dump, kBitsPerPixel) != 32) {
         ADD_FAILURE() << "the screen cannot be read";

@@ -102,7 +102,7 @@ void Animator::spellOutWeights(const std::vector<std::string>& steps, const std:
 std::optional<Property> Animator::findProperty(const std::string& pointer, const std::string& place)
 {
     const std::vector<std::string> steps = splitPointer(pointer);
-    const std::string path = schemaPathOf(steps);
+    const std::string path = makeSchemaPath(steps);
     const bool allWeights = path == "nodes[].weights" || path == "meshes[].weights";
     const SchemaRule* rule = findRule(allWeights ? path + "[]" : path);
     const bool vector = rule != nullptr && rule->kind == JsonKind::Numbers && rule->count <= 4;
@@ -215,7 +215,7 @@ void Animator::apply(std::size_t channel, double seconds)
 
 }  // namespace
 
-double durationOf(const GltfFile& file, std::size_t animation)
+double computeDuration(const GltfFile& file, std::size_t animation)
 {
     const GltfAnimation& source = file.animations[animation];
     std::set<std::size_t> inputs;

@@ -389,20 +389,20 @@ bool holdsOneOf(const std::string& name, std::initializer_list<const char*> part
 void checkExtensions(const std::string& path, const json& document)
 {
     for (const json& extension : document.value("extensionsRequired", json::array())) {
-        if (effectOf(extension.get<std::string>()) == ExtensionEffect::Content) {
+        if (getEffect(extension.get<std::string>()) == ExtensionEffect::Content) {
             throw InputError(path + ": extensionsRequired names " + shortened(extension.get<std::string>()) +
                              ", without which geometry or images may be missing; expected a file that does not need it");
         }
     }
 }
 
-// Elements of `collection` have an object of the name that `nameOf` gives, unless it is empty.
+// Elements of `collection` have an object of the name that `getName` gives, unless it is empty.
 template <class NameOf>
-void checkParts(const std::string& path, const json& document, const json::json_pointer& collection, const NameOf& nameOf)
+void checkParts(const std::string& path, const json& document, const json::json_pointer& collection, const NameOf& getName)
 {
     const json elements = document.value(collection, json::array());
     for (std::size_t i = 0; i < elements.size(); ++i) {
-        const std::string type = elements[i]["type"].get<std::string>(), name = nameOf(type);
+        const std::string type = elements[i]["type"].get<std::string>(), name = getName(type);
         if (!name.empty() && !elements[i].contains(name)) {
             std::string place = collection.to_string().substr(1);
             std::replace(place.begin(), place.end(), '/', '.');
@@ -419,7 +419,7 @@ bool isSupportedExtension(const std::string& name)
     return std::find(std::begin(kSupportedExtensions), std::end(kSupportedExtensions), name) != std::end(kSupportedExtensions);
 }
 
-ExtensionEffect effectOf(const std::string& name)
+ExtensionEffect getEffect(const std::string& name)
 {
     if (isSupportedExtension(name)) {
         return ExtensionEffect::Supported;

@@ -27,6 +27,6 @@ enum class ExtensionEffect {
     Looks,    // materials and lights
     Content,  // geometry or images; a file that requires it is refused
 };
-ExtensionEffect effectOf(const std::string& name);
+ExtensionEffect getEffect(const std::string& name);
 
 }  // namespace glim

@@ -123,7 +123,7 @@ public:
         require(primitive.value("mode", TINYGLTF_MODE_TRIANGLES) == TINYGLTF_MODE_TRIANGLES && primitive.contains("indices"),
                 " belongs to a primitive that is no indexed triangle list; expected one");
         const std::span<const unsigned char> bytes =
-            findBytes(path_, buffers_, rangeOf(document_["bufferViews"][view]), "bufferViews[" + std::to_string(view) + "]");
+            findBytes(path_, buffers_, getRange(document_["bufferViews"][view]), "bufferViews[" + std::to_string(view) + "]");
         const std::unique_ptr<draco::Mesh> mesh = decodeMesh(bytes, accessorOf(primitive["indices"])["count"].get<std::uint64_t>());
 
         std::vector<unsigned char> decoded;

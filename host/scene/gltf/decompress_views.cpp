@@ -106,7 +106,7 @@ void decompressViews(const std::string& path, json& document, Buffers& buffers)
             const json& source = view["extensions"][name];
             const std::string place = "bufferViews[" + std::to_string(i) + "].extensions." + name;
             const ViewDecoder decoder(path, place, source);
-            const std::span<const unsigned char> bytes = findBytes(path, buffers, rangeOf(source), place);
+            const std::span<const unsigned char> bytes = findBytes(path, buffers, getRange(source), place);
             const auto length = view["byteLength"].get<std::uint64_t>();
             decoder.checkSize(length, bytes.size());
             if (length > room) {

@@ -35,7 +35,7 @@ public:
         for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
             at = &enter(*at, steps, i);
         }
-        const std::string schemaPath = schemaPathOf(steps);
+        const std::string schemaPath = makeSchemaPath(steps);
         checkProperty(steps, schemaPath);
         if (at->is_array() && follow(*at, steps.back()) == nullptr) {
             refuseIndex(*at, steps, steps.size() - 1);
@@ -103,7 +103,7 @@ private:
             if (own == name) {
                 found.push_back(i);
             }
-            if (!own.empty() && named++ < kMostListed) {
+            if (!own.empty() && named++ < kMaxListed) {
                 names += (names.empty() ? "" : ", ") + inQuotes(own);
             }
         }
@@ -115,7 +115,7 @@ private:
                    (names.empty() ? std::string() : ", or one of " + names + moreThanListed(named)));
         }
         std::string indices;
-        for (std::size_t i = 0; i < std::min(found.size(), kMostListed); ++i) {
+        for (std::size_t i = 0; i < std::min(found.size(), kMaxListed); ++i) {
             indices += (i == 0 ? "" : ", ") + std::to_string(found[i]);
         }
         refuse(counted(found.size(), "element") + " of " + place + " are named " + inQuotes(name) + "; expected one of their indices, " +

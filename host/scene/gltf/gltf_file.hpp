@@ -93,7 +93,7 @@ void refuseOutside(const std::string& path, const std::string& place, const std:
 
 std::uint64_t countBytes(const Buffers& buffers);
 // What an object with `buffer`, `byteOffset` and `byteLength` names.
-BufferRange rangeOf(const nlohmann::json& view);
+BufferRange getRange(const nlohmann::json& view);
 // Refuses a range that ends past its buffer. `place` names what has the range.
 std::span<const unsigned char> findBytes(const std::string& path, const Buffers& buffers, const BufferRange& range,
                                          const std::string& place);

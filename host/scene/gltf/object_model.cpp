@@ -42,14 +42,14 @@ bool isIndex(const std::string& step) { return !step.empty() && step.find_first_
 
 json* follow(json& at, const std::string& step)
 {
-    constexpr std::size_t kMostDigits = 9;
-    if (at.is_array() && isIndex(step) && step.size() <= kMostDigits && std::stoul(step) < at.size()) {
+    constexpr std::size_t kMaxDigits = 9;
+    if (at.is_array() && isIndex(step) && step.size() <= kMaxDigits && std::stoul(step) < at.size()) {
         return &at[std::stoul(step)];
     }
     return at.is_object() && at.contains(step) ? &at[step] : nullptr;
 }
 
-std::string schemaPathOf(const std::vector<std::string>& steps)
+std::string makeSchemaPath(const std::vector<std::string>& steps)
 {
     std::string path;
     for (const std::string& step : steps) {

@@ -17,7 +17,7 @@ bool isIndex(const std::string& step);
 nlohmann::json* follow(nlohmann::json& at, const std::string& step);
 
 // The schema's path (gltf_schema.hpp): nodes[].scale. Empty if a step has one of .[]{}, which no property has.
-std::string schemaPathOf(const std::vector<std::string>& steps);
+std::string makeSchemaPath(const std::vector<std::string>& steps);
 
 // Gives a node a translation, a rotation and a scale in place of its matrix. Returns false, and changes nothing, if the matrix shears,
 // flattens or projects.

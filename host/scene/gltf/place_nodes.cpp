@@ -106,9 +106,9 @@ glm::dmat4 parentFromNode(const GltfFile& file, std::size_t index)
     return matrix;
 }
 
-double spanOf(const glm::dmat3& linear) { return glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]); }
+double computeSpan(const glm::dmat3& linear) { return glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]); }
 
-bool isInvertible(const glm::dmat3& linear) { return std::abs(glm::determinant(linear)) > kSingular * spanOf(linear); }
+bool isInvertible(const glm::dmat3& linear) { return std::abs(glm::determinant(linear)) > kSingular * computeSpan(linear); }
 
 // Of a matrix that flattens no axes are known.
 glm::dmat3 parentFromAxes(const GltfFile& file, std::size_t index, const glm::dmat3& parentFromNode)
@@ -208,7 +208,7 @@ std::vector<glm::dmat4> worldFromNodes(const GltfFile& file, const std::vector<s
 bool isFlattening(const PlacedNode& node)
 {
     const glm::dmat3 linear(node.worldFromNode);
-    return std::isfinite(spanOf(linear)) && !isInvertible(linear);
+    return std::isfinite(computeSpan(linear)) && !isInvertible(linear);
 }
 
 glm::dmat3 readLinear(const GltfFile& file, const PlacedNode& node)

@@ -170,7 +170,7 @@ std::size_t countMorphTargets(const tinygltf::Mesh& mesh)
     return count;
 }
 
-std::vector<double> morphWeightsOf(const GltfFile& file, std::size_t node)
+std::vector<double> readMorphWeights(const GltfFile& file, std::size_t node)
 {
     const tinygltf::Node& source = file.model.nodes[node];
     std::vector<double> weights = source.weights;

@@ -20,7 +20,7 @@ struct MeshPose {
 std::size_t countMorphTargets(const tinygltf::Mesh& mesh);
 
 // The weights of the node's morph targets: its own, else its mesh's; empty if all are 0.
-std::vector<double> morphWeightsOf(const GltfFile& file, std::size_t node);
+std::vector<double> readMorphWeights(const GltfFile& file, std::size_t node);
 
 // The matrices of a skin's joints, which go from the pose that the skin was bound in to the world.
 std::vector<glm::dmat4> placeJoints(const GltfFile& file, std::size_t skin);

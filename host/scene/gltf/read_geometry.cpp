@@ -25,7 +25,7 @@ constexpr double kUniformScale = 1e-5;
 constexpr int kOriginBits = 8;
 
 // So many triangles are looked at, and at least one of each instance, to place the origin.
-constexpr std::size_t kMostPlaces = std::size_t{1} << 16U;
+constexpr std::size_t kMaxPlaces = std::size_t{1} << 16U;
 
 struct WorldSphere {
     Sphere sphere;  // without its centre
@@ -53,12 +53,12 @@ void checkPoint(const GltfFile& file, std::size_t node, const glm::dvec3& point)
     }
 }
 
-double extentOf(const Box& box) { return std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z}); }
+double chooseExtent(const Box& box) { return std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z}); }
 
 glm::dvec3 roundedCenter(const Box& box)
 {
     const glm::dvec3 center = 0.5 * box.min + 0.5 * box.max;
-    const double extent = extentOf(box);
+    const double extent = chooseExtent(box);
     if (!std::isfinite(extent) || extent == 0.0) {
         return center;
     }
@@ -227,7 +227,7 @@ std::size_t GeometryReader::useOf(std::size_t node, std::size_t mesh)
 {
     const int skin = file_.model.nodes[node].skin;
     MeshPose pose;
-    pose.weights = morphWeightsOf(file_, node);
+    pose.weights = readMorphWeights(file_, node);
     const auto [found, isNew] = indices_.try_emplace({mesh, skin, pose.weights}, uses_.size());
     if (isNew) {
         if (skin >= 0) {
@@ -304,7 +304,7 @@ void GeometryReader::countTriangles()
     if (triangles_ > std::numeric_limits<std::uint32_t>::max()) {
         refuse(file_, "the scene has " + std::to_string(triangles_) + " triangles; expected at most 4294967295");
     }
-    if (triangles_ > kMostFlatTriangles && read_.corners.empty()) {
+    if (triangles_ > kMaxFlatTriangles && read_.corners.empty()) {
         for (const Mesh& mesh : scene_.meshes) {
             read_.corners.push_back(cornersOf(mesh));
         }
@@ -331,7 +331,7 @@ void GeometryReader::forEachPoint(const MeshInstance& instance, const Visit& vis
     if (mesh.indices.empty()) {
         return;
     }
-    if (triangles_ > kMostFlatTriangles) {
+    if (triangles_ > kMaxFlatTriangles) {
         for (const glm::dvec3& corner : read_.corners[instance.mesh]) {
             visit(corner);
         }
@@ -366,13 +366,13 @@ Box GeometryReader::computeBox() const
 // rightly.
 void GeometryReader::checkExtent(const Box& box) const
 {
-    constexpr double kLeast = 1e-12, kMost = 1e18;
-    const double extent = extentOf(box);
-    if (extent > kMost) {
-        refuse(file_, "the scene is " + toText(extent) + " m large; expected at most " + toText(kMost) + " m");
+    constexpr double kMin = 1e-12, kMax = 1e18;
+    const double extent = chooseExtent(box);
+    if (extent > kMax) {
+        refuse(file_, "the scene is " + toText(extent) + " m large; expected at most " + toText(kMax) + " m");
     }
-    if (extent > 0.0 && extent < kLeast) {
-        warnings_.add("the scene is " + toText(extent) + " m large: below " + toText(kLeast) + " m its picture may lack what is there");
+    if (extent > 0.0 && extent < kMin) {
+        warnings_.add("the scene is " + toText(extent) + " m large: below " + toText(kMin) + " m its picture may lack what is there");
     }
 }
 
@@ -388,7 +388,7 @@ void GeometryReader::addPlaces(const MeshInstance& instance, std::size_t step, s
         for (std::size_t corner = 0; corner < 3; ++corner) {
             box.extend(linear * mesh.positions[mesh.indices[3 * i + corner]] + translation);
         }
-        if (const double size = extentOf(box); size > 0.0) {
+        if (const double size = chooseExtent(box); size > 0.0) {
             places.push_back({0.5 * box.min + 0.5 * box.max, size, static_cast<double>(std::min(step, count - i)), instance.node});
         }
     }
@@ -397,7 +397,7 @@ void GeometryReader::addPlaces(const MeshInstance& instance, std::size_t step, s
 std::vector<Place> GeometryReader::placesOf() const
 {
     std::vector<Place> places;
-    const std::size_t step = std::max<std::size_t>(1, triangles_ / kMostPlaces);
+    const std::size_t step = std::max<std::size_t>(1, triangles_ / kMaxPlaces);
     for (const MeshInstance& instance : scene_.instances) {
         addPlaces(instance, step, places);
     }

@@ -140,7 +140,7 @@ std::vector<std::uint64_t> listEnds(const json& document)
 {
     std::vector<std::uint64_t> ends(document.value("buffers", json::array()).size(), 0);
     const auto extend = [&ends](const json& view) {
-        const BufferRange range = rangeOf(view);
+        const BufferRange range = getRange(view);
         ends[range.buffer] = std::max(ends[range.buffer], range.offset + range.length);
     };
     for (const json& view : document.value("bufferViews", json::array())) {
@@ -164,7 +164,7 @@ void checkLength(const std::string& path, const std::string& place, std::uint64_
     }
 }
 
-std::uint64_t lengthOf(const std::filesystem::path& file)
+std::uint64_t getFileSize(const std::filesystem::path& file)
 {
     std::error_code unreadable;
     const std::uintmax_t length = std::filesystem::file_size(file, unreadable);
@@ -193,7 +193,7 @@ Buffers readBuffers(const std::string& path, const json& document, const GltfCon
             bytes = readBytes(path, needed, container.binary->begin);
         } else if (expected > 0) {
             bytes = readUri(path, place, uri, needed);
-            checkLength(path, place, isDataUri(uri) ? bytes.size() : lengthOf(externalFile(path, uri)), expected);
+            checkLength(path, place, isDataUri(uri) ? bytes.size() : getFileSize(externalFile(path, uri)), expected);
         }
         buffers.push_back(std::move(bytes));
     }
@@ -219,7 +219,7 @@ std::vector<EncodedImage> listImages(const json& document)
         EncodedImage image{entry.value("name", ""), entry.value("uri", ""), std::nullopt};
         if (entry.contains("bufferView")) {
             const json& view = document["bufferViews"][entry["bufferView"].get<std::size_t>()];
-            image.range = rangeOf(view);
+            image.range = getRange(view);
         }
         images.push_back(std::move(image));
     }
@@ -416,7 +416,7 @@ std::uint64_t countBytes(const Buffers& buffers)
                            [](std::uint64_t sum, const std::vector<unsigned char>& buffer) { return sum + buffer.size(); });
 }
 
-BufferRange rangeOf(const json& view)
+BufferRange getRange(const json& view)
 {
     return {view["buffer"].get<std::size_t>(), view.value("byteOffset", std::uint64_t{0}), view["byteLength"].get<std::uint64_t>()};
 }

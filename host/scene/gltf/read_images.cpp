@@ -19,7 +19,7 @@ DecodedImage makeGrey()
     return grey;
 }
 
-std::string nameOf(const GltfFile& file, std::size_t image)
+std::string getName(const GltfFile& file, std::size_t image)
 {
     const EncodedImage& source = file.images[image];
     const bool named = source.name.empty() && !isDataUri(source.uri);
@@ -31,11 +31,11 @@ DecodedImage decodeNamed(const GltfFile& file, std::size_t image, std::span<cons
     try {
         DecodedImage decoded = decodeImage(bytes);
         if (decoded.noEnd) {
-            warnings.add("JPEG images without their end marker are drawn", nameOf(file, image));
+            warnings.add("JPEG images without their end marker are drawn", getName(file, image));
         }
         return decoded;
     } catch (const InputError& error) {
-        refuse(file, nameOf(file, image) + " " + error.what());
+        refuse(file, getName(file, image) + " " + error.what());
     }
 }
 
@@ -83,7 +83,7 @@ private:
                               " MiB; expected less (--max-texture N scales them down)");
         }
         const auto index = static_cast<std::uint32_t>(scene_.images.size());
-        scene_.images.emplace_back(nameOf(file_, image), pixels);
+        scene_.images.emplace_back(getName(file_, image), pixels);
         images_[{sourceOf(image), isColor}] = index;
         if (decoded_.images[{image, !isColor}] == pixels) {
             images_[{sourceOf(image), !isColor}] = index;
@@ -138,16 +138,16 @@ DecodedImage readImage(const GltfFile& file, std::size_t image, Scene& scene, Wa
     const EncodedImage& source = file.images[image];
     if (!source.range) {
         // A file of another kind may have gigabytes, and so may what follows a picture.
-        constexpr std::uint64_t kBeginning = 16, kMost = std::uint64_t{1} << 30U;
+        constexpr std::uint64_t kBeginning = 16, kMax = std::uint64_t{1} << 30U;
         const std::string place = "images[" + std::to_string(image) + "]";
         std::vector<unsigned char> bytes = readUri(file.path, place, source.uri, kBeginning);
         if (!isDataUri(source.uri) && beginsAsImage(bytes)) {
-            bytes = readUri(file.path, place, source.uri, kMost);
+            bytes = readUri(file.path, place, source.uri, kMax);
         }
         noteFile(file, image, scene);
         return decodeNamed(file, image, bytes, warnings);
     }
-    return decodeNamed(file, image, findBytes(file.path, file.buffers, *source.range, nameOf(file, image)), warnings);
+    return decodeNamed(file, image, findBytes(file.path, file.buffers, *source.range, getName(file, image)), warnings);
 }
 
 void readImages(const GltfFile& file, const LoadOptions& options, const std::vector<bool>& used, DecodedParts& decoded, Scene& scene,

@@ -21,7 +21,7 @@ glm::vec3 readPosition(const GltfFile& file, const PlacedNode& node, const Scene
     return position;
 }
 
-std::string nameOf(const GltfFile& file, const PlacedNode& node, const std::string& own)
+std::string getName(const GltfFile& file, const PlacedNode& node, const std::string& own)
 {
     const std::string& name = file.model.nodes[node.index].name;
     return name.empty() ? own : name;
@@ -46,7 +46,7 @@ PunctualLight readLight(const GltfFile& file, const PlacedNode& node, std::size_
     const tinygltf::Light& source = file.model.lights[index];
     const std::string place = label("lights", index, source.name);
     PunctualLight light;
-    light.name = nameOf(file, node, source.name);
+    light.name = getName(file, node, source.name);
     light.position = readPosition(file, node, scene);
     light.direction = -glm::normalize(readAxes(file, node)[2]);
     for (int c = 0; c < 3; ++c) {
@@ -86,7 +86,7 @@ Camera readCamera(const GltfFile& file, const PlacedNode& node, std::size_t inde
 {
     const tinygltf::Camera& source = file.model.cameras[index];
     Camera camera;
-    camera.name = nameOf(file, node, source.name);
+    camera.name = getName(file, node, source.name);
     camera.position = readPosition(file, node, scene);
     readCameraPose(file, node, camera);
     if (glm::determinant(glm::dmat3(node.worldFromNode)) < 0.0) {
@@ -107,7 +107,7 @@ Camera readCamera(const GltfFile& file, const PlacedNode& node, std::size_t inde
         }
         camera.aspectRatio = static_cast<float>(std::abs(source.orthographic.xmag / source.orthographic.ymag));
     }
-    if (const float ratio = camera.aspectRatio.value_or(1.0F); !(ratio <= kMostAspectRatio && ratio * kMostAspectRatio >= 1.0F)) {
+    if (const float ratio = camera.aspectRatio.value_or(1.0F); !(ratio <= kMaxAspectRatio && ratio * kMaxAspectRatio >= 1.0F)) {
         warnings.add("cameras of an aspect ratio beyond 16:1 or 1:16 get a picture of that shape, unless --size says another",
                      nodeLabel(file, node.index) + " " + toText(static_cast<double>(ratio)));
     }

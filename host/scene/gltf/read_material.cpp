@@ -23,7 +23,7 @@ constexpr const char* kAnisotropy = "KHR_materials_anisotropy";
 constexpr const char* kIridescence = "KHR_materials_iridescence";
 constexpr const char* kGlossiness = "KHR_materials_pbrSpecularGlossiness";
 
-constexpr double kLeastAttenuation = 1e-6;  // of a channel: black would absorb all at once
+constexpr double kMinAttenuation = 1e-6;  // of a channel: black would absorb all at once
 
 const tinygltf::Value* findProperty(const tinygltf::Material& source, const std::string& extension, const std::string& name)
 {
@@ -183,7 +183,7 @@ void MaterialReader::readTransmission(Material& material)
     if (material.ior == 0.0F) {
         refuse(file_, place_ + " is glass with the index of refraction 0; expected at least 1");
     }
-    const glm::dvec3 color = glm::max(glm::dvec3(colorOr(source_, kVolume, "attenuationColor", glm::vec3(1.0F))), kLeastAttenuation);
+    const glm::dvec3 color = glm::max(glm::dvec3(colorOr(source_, kVolume, "attenuationColor", glm::vec3(1.0F))), kMinAttenuation);
     const tinygltf::Value* distance = findProperty(source_, kVolume, "attenuationDistance");
     if (distance != nullptr) {
         material.absorption = glm::min((0.0 - glm::log(color)) / distance->GetNumberAsDouble(), 1e30);  // no -0

@@ -75,7 +75,7 @@ void checkVertexCount(const GltfFile& file, std::size_t count, int mode, const s
 }
 
 // KHR_materials_variants: the mapping that lists the variant, else the primitive's own.
-int materialOf(const GltfFile& file, const tinygltf::Primitive& primitive)
+int getMaterial(const GltfFile& file, const tinygltf::Primitive& primitive)
 {
     const auto extension = primitive.extensions.find("KHR_materials_variants");
     if (!file.variant || extension == primitive.extensions.end() || !extension->second.Has("mappings")) {
@@ -131,7 +131,7 @@ std::optional<Mesh> readPrimitive(const GltfFile& file, const tinygltf::Primitiv
     const std::size_t count = mesh.positions.size();
     mesh.normals = readAttribute<glm::dvec3>(file, primitive.attributes, "NORMAL", "normals", count, place);
     mesh.tangents = readAttribute<glm::vec4>(file, primitive.attributes, "TANGENT", "tangents", count, place);
-    const int material = materialOf(file, primitive);
+    const int material = getMaterial(file, primitive);
     mesh.uv0 = readUvs(file, primitive, uvSetsOf(file, material)[0], count, place);
     mesh.uv1 = readUvs(file, primitive, uvSetsOf(file, material)[1], count, place);
     mesh.colors = readAttribute<glm::vec4>(file, primitive.attributes, "COLOR_0", "vertex colours", count, place);

@@ -14,7 +14,7 @@ bool isRedundant(BsdfSample s, uint bounce)
     return sampled && s.pdf > 0.0 && bounce + 1u == render.maxBounces;
 }
 
-float continuationOf(BsdfSample s, vec3 throughput, float etaScale, uint bounce)
+float computeContinuation(BsdfSample s, vec3 throughput, float etaScale, uint bounce)
 {
     return isRedundant(s, bounce)            ? 0.0
            : kRoulette == kRouletteThroughput ? continuationProbability(throughput, etaScale, bounce)

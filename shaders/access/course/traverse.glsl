@@ -6,12 +6,12 @@
 #include "access/course/features.glsl"
 #include "lib/course/intersect_moller_trumbore.glsl"
 
-TriangleHit intersectTriangle(TraversalRay traversal, Record record, float tMax)
+TriangleHit intersectTriangle(TraversalRay traversal, PrimitiveRef ref, float tMax)
 {
-    return kMollerTrumbore ? intersectMollerTrumbore(traversal.origin, traversal.direction, floatsOf(record.t0), floatsOf(record.t1),
-                                                     floatsOf(record.t2), tMax)
-                           : intersectWatertight(traversal.origin, traversal.shear, floatsOf(record.t0), floatsOf(record.t1), floatsOf(record.t2),
-                                                 tMax, isSliver(record), hasFeature(kFeatureLargeTriangles));
+    return kMollerTrumbore ? intersectMollerTrumbore(traversal.origin, traversal.direction, toFloats(ref.t0), toFloats(ref.t1),
+                                                     toFloats(ref.t2), tMax)
+                           : intersectWatertight(traversal.origin, traversal.shear, toFloats(ref.t0), toFloats(ref.t1), toFloats(ref.t2),
+                                                 tMax, isSliver(ref), hasFeature(kFeatureLargeTriangles));
 }
 
 #endif

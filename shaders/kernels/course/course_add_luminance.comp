@@ -15,13 +15,13 @@ void main()
 {
     uint pixel = interleavedInvocation();
     if (pixel < pass.pixelCount) {
-        uint at = pixelOfPass(pixel);
+        uint at = getPassPixel(pixel);
         LuminanceMoments moments = filmLuminance[at];
         for (uint i = 0u; i < pass.sampleCount; ++i) {
             uint slot = pixel * pass.sampleCount + i;
             vec3 radiance = fetchRadiance(slot).radiance;
             if (isFinite(radiance)) {
-                moments = addLuminance(moments, luminanceOf(radiance), fetchFirstHit(slot).alpha > 0.0);
+                moments = addLuminance(moments, computeLuminance(radiance), fetchFirstHit(slot).alpha > 0.0);
             }
         }
         filmLuminance[at] = moments;

@@ -17,15 +17,15 @@
 void visit(uint slot)
 {
     PathHit hit = fetchHit(slot);
-    if (hit.record == kNoRecord) {
+    if (hit.primitiveRef == kNoPrimitiveRef) {
         return;
     }
     PathRay ray = fetchRay(slot);
     PathState state = fetchState(slot);
     SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
-    SurfaceMaterial material = materialAt(si);
+    SurfaceMaterial material = makeSurfaceMaterial(si);
     vec3 wo = -ray.direction;
-    if (bouncePath(sampleOfSlot(slot), si, makeBsdf(si, material, wo), wo, 0u, ray, state)) {
+    if (bouncePath(makeSampleId(slot), si, makeBsdf(si, material, wo), wo, 0u, ray, state)) {
         pathRays[slot] = ray;
         pathStates[slot] = state;
         nextQueue[atomicAdd(queueTails.next, 1u)] = slot;

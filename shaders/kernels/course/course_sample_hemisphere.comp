@@ -21,7 +21,7 @@
 
 void queueRay(uint slot, SurfaceInteraction si, Bsdf bsdf, vec3 wo)
 {
-    SampleId id = splitSample(sampleOfSlot(slot), kNoLightIndex, lightRound.lightSample, lightRound.lightSamples);
+    SampleId id = splitSample(makeSampleId(slot), kNoLightIndex, lightRound.lightSample, lightRound.lightSamples);
     vec2 u = unitFloat(samplePair(id, bounceDimension(pass.bounce, kDimensionPoint), kSobol));
     vec3 local = sampleUniformHemisphere(u);
     vec3 wi = worldFromFrame(bsdf.frame, local);
@@ -30,19 +30,19 @@ void queueRay(uint slot, SurfaceInteraction si, Bsdf bsdf, vec3 wo)
     if (all(equal(contribution, vec3(0.0)))) {
         return;
     }
-    pathShadowRays[slot] = ShadowRay(offsetRayOrigin(si, wi), si.primitive, wi, kNoRecord, contribution, kInfinity);
+    pathShadowRays[slot] = ShadowRay(offsetRayOrigin(si, wi), si.primitive, wi, kNoPrimitiveRef, contribution, kInfinity);
     shadowQueue[atomicAdd(queueTails.shadow, 1u)] = slot;
 }
 
 void visit(uint slot)
 {
     PathHit hit = fetchHit(slot);
-    if (hit.record == kNoRecord) {
+    if (hit.primitiveRef == kNoPrimitiveRef) {
         return;
     }
     PathRay ray = fetchRay(slot);
     SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
-    SurfaceMaterial material = materialAt(si);
+    SurfaceMaterial material = makeSurfaceMaterial(si);
     Bsdf bsdf = makeBsdf(si, material, -ray.direction);
     if (hasNonDelta(bsdf)) {
         queueRay(slot, si, bsdf, -ray.direction);

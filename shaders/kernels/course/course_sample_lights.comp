@@ -34,7 +34,7 @@ void visitSurface(uint slot, PathRay ray, PathHit hit, PathState state)
 {
     vec3 wo = -ray.direction;
     SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
-    SurfaceMaterial material = materialAt(si);
+    SurfaceMaterial material = makeSurfaceMaterial(si);
     Bsdf bsdf = makeBsdf(si, material, wo);
     noteSurface(si, bsdf.frame.z);
     noteMaterial(si, hit, material, 0u);
@@ -47,7 +47,7 @@ void visitSurface(uint slot, PathRay ray, PathHit hit, PathState state)
     }
     ShadowRay shadow;
     if (lightRound.light != kNoLightIndex && hasNonDelta(bsdf) &&
-        sampleLightOfRound(sampleOfSlot(slot), si, bsdf, wo, state, shadow)) {
+        sampleLightOfRound(makeSampleId(slot), si, bsdf, wo, state, shadow)) {
         pathShadowRays[slot] = shadow;
         shadowQueue[atomicAdd(queueTails.shadow, 1u)] = slot;
     }
@@ -59,7 +59,7 @@ void main()
     if (entry < queueSizes.closest) {
         uint slot = activeQueue[entry];
         PathHit hit = fetchHit(slot);
-        if (hit.record != kNoRecord) {
+        if (hit.primitiveRef != kNoPrimitiveRef) {
             visitSurface(slot, fetchRay(slot), hit, fetchState(slot));
         } else if (lightRound.addsEmission != 0u) {
             visitMiss(slot, fetchRay(slot), fetchState(slot));

@@ -12,13 +12,13 @@
 #include "access/paths.glsl"
 #include "access/status.glsl"
 
-PathHit scanRecords(uint slot)
+PathHit scanRefs(uint slot)
 {
-    PathHit met = hitOf(makeMiss());
-    if (lightRound.firstRecord > 0u) {
+    PathHit met = makePathHit(makeMiss());
+    if (lightRound.firstRef > 0u) {
         met = fetchHit(slot);
     }
-    return scanClosest(fetchRay(slot), met, lightRound.firstRecord, lightRound.endRecord);
+    return scanClosest(fetchRay(slot), met, lightRound.firstRef, lightRound.endRef);
 }
 
 void main()
@@ -27,7 +27,7 @@ void main()
     if (entry < queueSizes.closest) {
         uint slot = activeQueue[entry];
         Steps uncounted = Steps(0u, 0u);
-        pathHits[slot] = kBruteForce ? scanRecords(slot) : traceVisible(sampleOfSlot(slot), pass.bounce, fetchRay(slot), uncounted).hit;
+        pathHits[slot] = kBruteForce ? scanRefs(slot) : traceVisible(makeSampleId(slot), pass.bounce, fetchRay(slot), uncounted).hit;
     }
     checkLoopBudget(render.canarySteps);
 }

@@ -17,20 +17,20 @@
 
 vec3 radianceFound(PathRay ray, PathHit hit)
 {
-    if (hit.record == kNoRecord) {
+    if (hit.primitiveRef == kNoPrimitiveRef) {
         vec3 radiance = hasEnvironmentMap() ? environmentRadiance(ray.direction) : render.environment;
         return hasEnvironment() ? radiance : vec3(0.0);
     }
     SurfaceInteraction si = makeSurfaceInteraction(ray, hit);
-    SurfaceMaterial material = materialAt(si);
+    SurfaceMaterial material = makeSurfaceMaterial(si);
     return emittedRadiance(si, material.data);
 }
 
 // Without barycentric coordinates, which emission does not depend on.
-PathHit scanRecords(uint slot, PathRay ray, ShadowRay soFar)
+PathHit scanRefs(uint slot, PathRay ray, ShadowRay soFar)
 {
-    PathHit hit = scanClosest(ray, PathHit(soFar.target, soFar.tMax, vec2(0.0)), lightRound.firstRecord, lightRound.endRecord);
-    pathShadowRays[slot].target = hit.record;
+    PathHit hit = scanClosest(ray, PathHit(soFar.target, soFar.tMax, vec2(0.0)), lightRound.firstRef, lightRound.endRef);
+    pathShadowRays[slot].target = hit.primitiveRef;
     pathShadowRays[slot].tMax = hit.t;
     return hit;
 }
@@ -39,10 +39,10 @@ void visit(uint slot)
 {
     ShadowRay shadow = fetchShadowRay(slot);
     PathRay ray = PathRay(shadow.origin, shadow.source, shadow.direction, 0u);
-    SampleId id = splitSample(sampleOfSlot(slot), kNoLightIndex, lightRound.lightSample, lightRound.lightSamples);
+    SampleId id = splitSample(makeSampleId(slot), kNoLightIndex, lightRound.lightSample, lightRound.lightSamples);
     Steps uncounted = Steps(0u, 0u);
-    PathHit hit = kBruteForce ? scanRecords(slot, ray, shadow) : traceVisible(id, pass.bounce + 1u, ray, uncounted).hit;
-    if (lightRound.endRecord == course.recordCount) {
+    PathHit hit = kBruteForce ? scanRefs(slot, ray, shadow) : traceVisible(id, pass.bounce + 1u, ray, uncounted).hit;
+    if (lightRound.endRef == course.refCount) {
         addShareOfRadiance(slot, shadow.contribution * radianceFound(ray, hit), pass.bounce + 1u);
     }
 }

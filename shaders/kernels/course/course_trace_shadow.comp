@@ -14,7 +14,7 @@
 
 bool isUnoccludedSoFar(uint slot, ShadowRay ray)
 {
-    bool unoccluded = ray.tMax > 0.0 && scanUnoccluded(ray, lightRound.firstRecord, lightRound.endRecord);
+    bool unoccluded = ray.tMax > 0.0 && scanUnoccluded(ray, lightRound.firstRef, lightRound.endRef);
     if (!unoccluded) {
         pathShadowRays[slot].tMax = 0.0;
     }
@@ -28,8 +28,8 @@ void main()
         uint slot = shadowQueue[entry];
         ShadowRay ray = fetchShadowRay(slot);
         vec3 clear = kBruteForce ? vec3(isUnoccludedSoFar(slot, ray) ? 1.0 : 0.0) : transmittance(ray);
-        if (isClear(clear) && lightRound.endRecord == course.recordCount) {
-            addShareOfRadiance(slot, attenuated(ray.contribution, clear), pass.bounce + 1u);
+        if (isClear(clear) && lightRound.endRef == course.refCount) {
+            addShareOfRadiance(slot, attenuate(ray.contribution, clear), pass.bounce + 1u);
         }
     }
     checkLoopBudget(render.canarySteps);

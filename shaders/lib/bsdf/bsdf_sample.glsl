@@ -22,7 +22,7 @@ struct BsdfSample {
 };
 
 // `f`: the BSDF at s.wi. Samples that have their weight keep it.
-BsdfSample weighted(BsdfSample s, BsdfEval f)
+BsdfSample weightSample(BsdfSample s, BsdfEval f)
 {
     if ((s.flags & kBsdfUnweighted) != 0u) {
         s.weight = f.pdf > 0.0 ? f.f / f.pdf : vec3(0.0);

@@ -21,7 +21,7 @@ vec3 sampleSheen(vec2 u)
 // Lambda, section 3.
 float sheenMasking(float cosine, float alpha)
 {
-    SheenFit fit = sheenFitOf(alpha);
+    SheenFit fit = fitSheen(alpha);
     float x = min(cosine, 1.0 - cosine);
     float l = evalSheenFit(fit, x, portablePow(x, fit.c));
     return portableExp(cosine < 0.5 ? l : 2.0 * evalSheenFit(fit, 0.5, portablePow(0.5, fit.c)) - l);

@@ -1,23 +1,23 @@
-// Records of hits. Those of instances are the records of their mesh, to be placed in the scene (scene_types.h).
+// Primitive references of hits. Those of instances are the references of their mesh, to be placed in the scene (scene_types.h).
 #ifndef GLIM_ACCESS_PLACED_RECORD
 #define GLIM_ACCESS_PLACED_RECORD
 
 #include "parameters.glsl"
 #include "scene.glsl"
 
-struct PlacedRecord {
-    Record record;  // as the buffer has it, but with the primitive id of the hit
+struct PlacedPrimitive {
+    PrimitiveRef ref;  // as the buffer has it, but with the primitive id of the hit
     uint triangle;  // index in the buffer of triangles; not of spheres
     uint instance;  // that places it, or kNoInstance
 };
 
-// The instance that has the record, by binary search.
-uint findInstance(uint record)
+// The instance that has the reference, by binary search.
+uint findInstance(uint ref)
 {
     uint low = 0u, high = render.instanceCount;
     do {
         uint middle = (low + high) >> 1u;
-        bool begins = texelFetch(sceneInstances, int(middle * kInstanceTexels)).w <= record;
+        bool begins = texelFetch(sceneInstances, int(middle * kInstanceTexels)).w <= ref;
         low = begins ? middle : low;
         high = begins ? high : middle;
     } while (high - low > 1u);
@@ -42,19 +42,19 @@ vec3 placeNormal(InstanceData instance, vec3 n)
     return instance.mirrors != 0u ? -placed : placed;
 }
 
-// Of a hit; or of any record of the buffer, as long as that is not a shared mesh's.
-PlacedRecord fetchPlacedRecord(uint record)
+// Of a hit; or of any reference of the buffer, as long as that is not a shared mesh's.
+PlacedPrimitive fetchPlacedPrimitive(uint ref)
 {
-    if (hasFeature(kFeatureInstances) && record >= render.firstInstanceRecord) {
-        uint index = findInstance(record);
+    if (hasFeature(kFeatureInstances) && ref >= render.firstInstanceRef) {
+        uint index = findInstance(ref);
         InstanceData instance = fetchInstance(index);
-        Record mesh = fetchRecord(record - instance.firstRecord);
-        uint triangle = primitiveOf(mesh);
+        PrimitiveRef mesh = fetchPrimitiveRef(ref - instance.firstRef);
+        uint triangle = getPrimitive(mesh);
         mesh.t0.w += instance.firstPrimitive;
-        return PlacedRecord(mesh, triangle, index);
+        return PlacedPrimitive(mesh, triangle, index);
     }
-    Record own = fetchRecord(record);
-    return PlacedRecord(own, primitiveOf(own), kNoInstance);
+    PrimitiveRef own = fetchPrimitiveRef(ref);
+    return PlacedPrimitive(own, getPrimitive(own), kNoInstance);
 }
 
 // Vertex 0 and the sides to the other two. Sides are placed by themselves: far from the origin their ends round more.
@@ -63,10 +63,10 @@ struct PlacedTriangle {
     vec3 e1, e2;
 };
 
-PlacedTriangle placedTriangle(PlacedRecord placed)
+PlacedTriangle placedTriangle(PlacedPrimitive placed)
 {
-    vec3 v0 = floatsOf(placed.record.t0);
-    PlacedTriangle triangle = PlacedTriangle(v0, floatsOf(placed.record.t1) - v0, floatsOf(placed.record.t2) - v0);
+    vec3 v0 = toFloats(placed.ref.t0);
+    PlacedTriangle triangle = PlacedTriangle(v0, toFloats(placed.ref.t1) - v0, toFloats(placed.ref.t2) - v0);
     if (hasFeature(kFeatureInstances) && placed.instance != kNoInstance) {
         InstanceData instance = fetchInstance(placed.instance);
         triangle = PlacedTriangle(placePoint(instance, v0), placeVector(instance, triangle.e1), placeVector(instance, triangle.e2));

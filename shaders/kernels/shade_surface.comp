@@ -32,7 +32,7 @@ void visitMiss(uint slot, PathRay ray, PathState state)
 
 void visitSurface(uint slot, PathRay ray, PathHit hit, PathState state)
 {
-    VertexResult vertex = shadeSurface(sampleOfSlot(slot), ray, hit, state);
+    VertexResult vertex = shadeSurface(makeSampleId(slot), ray, hit, state);
     if (pass.bounce == 0u) {
         pathFirstHits[slot] = vertex.firstHit;
     }
@@ -58,7 +58,7 @@ void main()
         PathRay ray = fetchRay(slot);
         PathHit hit = fetchHit(slot);
         PathState state = fetchState(slot);
-        if (hit.record == kNoRecord) {
+        if (hit.primitiveRef == kNoPrimitiveRef) {
             visitMiss(slot, ray, state);
         } else {
             visitSurface(slot, ray, hit, state);

@@ -1,4 +1,4 @@
-#include "host/flatten/lift_lamps.hpp"
+#include "host/flatten/lift_lights.hpp"
 
 #include "host/bvh/bvh.hpp"
 #include "host/text.hpp"
@@ -16,12 +16,12 @@
 namespace glim {
 namespace {
 
-constexpr std::size_t kMostComparisons = 100'000'000;
+constexpr std::size_t kMaxComparisons = 100'000'000;
 constexpr std::size_t kCostOfPair = 64;  // whose boxes overlap, in comparisons
 constexpr float kCoplanar = 0x1p-22F;    // of the coordinates: two roundings
 constexpr float kLift = 0x1p-18F;        // of the coordinates: what a hit at a grazing angle of .1 is off by
 
-Box boxOf(const Triangle& triangle)
+Box computeBox(const Triangle& triangle)
 {
     const auto& [a, b, c] = triangle.vertices;
     return {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
@@ -46,15 +46,15 @@ bool overlapInPlane(const Triangle& a, const Triangle& b, const glm::dvec3& norm
         for (int i = 0; i < 3; ++i) {
             const glm::dvec3 from(of->vertices[i]);
             const glm::dvec3 across = glm::normalize(glm::cross(normal, glm::dvec3(of->vertices[(i + 1) % 3]) - from));
-            const auto rangeOf = [&](const Triangle& triangle) {
+            const auto getRange = [&](const Triangle& triangle) {
                 std::array<double, 3> at{};
                 for (std::size_t v = 0; v < 3; ++v) {
                     at[v] = glm::dot(across, glm::dvec3(triangle.vertices[v]) - from);
                 }
                 return std::pair(*std::ranges::min_element(at), *std::ranges::max_element(at));
             };
-            const auto [aLow, aHigh] = rangeOf(a);
-            const auto [bLow, bHigh] = rangeOf(b);
+            const auto [aLow, aHigh] = getRange(a);
+            const auto [bLow, bHigh] = getRange(b);
             if (std::min(aHigh, bHigh) - std::max(aLow, bLow) <= slack) {
                 return false;
             }
@@ -63,31 +63,31 @@ bool overlapInPlane(const Triangle& a, const Triangle& b, const glm::dvec3& norm
     return true;
 }
 
-// How far the lamp must move, or 0, if their boxes overlap.
-float liftOf(const Triangle& lamp, const Box& box, const Triangle& other, const Box& otherBox)
+// How far the light must move, or 0, if their boxes overlap.
+float computeLift(const Triangle& light, const Box& box, const Triangle& other, const Box& otherBox)
 {
     const float size = std::max(sizeOf(box), sizeOf(otherBox));
     const double slack = static_cast<double>(kCoplanar * size);
-    const glm::dvec3 normal = glm::normalize(faceNormal(lamp)), at(lamp.vertices[0]);
+    const glm::dvec3 normal = glm::normalize(faceNormal(light)), at(light.vertices[0]);
     const bool coplanar =
         std::ranges::all_of(other.vertices, [&](const glm::vec3& v) { return std::abs(glm::dot(normal, glm::dvec3(v) - at)) <= slack; });
-    return coplanar && overlapInPlane(lamp, other, normal, 4.0 * slack) ? kLift * size : 0.0F;
+    return coplanar && overlapInPlane(light, other, normal, 4.0 * slack) ? kLift * size : 0.0F;
 }
 
 bool emits(const Material& material) { return material.emission != glm::vec3(0.0F); }
 
-bool isPassed(const Material& material) { return material.transmission > 0.0F || material.diffuseTransmission > 0.0F; }
+bool transmitsLight(const Material& material) { return material.transmission > 0.0F || material.diffuseTransmission > 0.0F; }
 
-bool isSeenFromBehind(const Material& material) { return material.doubleSided || isPassed(material); }
+bool isSeenFromBehind(const Material& material) { return material.doubleSided || transmitsLight(material); }
 
-const Material& materialOf(const Scene& scene, const MeshInstance& instance)
+const Material& getMaterial(const Scene& scene, const MeshInstance& instance)
 {
     return scene.materials[scene.meshes[instance.mesh].material];
 }
 
-const Material& materialOf(const Scene& scene, const Primitives& primitives, std::uint32_t triangle)
+const Material& getMaterial(const Scene& scene, const Primitives& primitives, std::uint32_t triangle)
 {
-    return materialOf(scene, scene.instances[primitives.instanceOf(triangle)]);
+    return getMaterial(scene, scene.instances[primitives.findInstance(triangle)]);
 }
 
 std::vector<std::uint32_t> findEmitting(const Scene& scene, const Primitives& primitives)
@@ -95,7 +95,7 @@ std::vector<std::uint32_t> findEmitting(const Scene& scene, const Primitives& pr
     std::vector<std::uint32_t> found;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         for (std::uint32_t t = primitives.firstTriangles[i];
-             emits(materialOf(scene, scene.instances[i])) && t < primitives.firstTriangles[i + 1]; ++t) {
+             emits(getMaterial(scene, scene.instances[i])) && t < primitives.firstTriangles[i + 1]; ++t) {
             found.push_back(t);
         }
     }
@@ -139,7 +139,7 @@ void replaceTriangles(Primitives& primitives, const Copies& copies)
 }
 
 // The same for the same vertices in any order.
-std::uint64_t hashOf(const Triangle& triangle)
+std::uint64_t computeHash(const Triangle& triangle)
 {
     std::uint64_t sum = 0;
     for (const glm::vec3& vertex : triangle.vertices) {
@@ -155,30 +155,30 @@ std::uint64_t hashOf(const Triangle& triangle)
 // Emitting triangles with the vertices of one before them that hides them.
 Copies findHidden(const Scene& scene, const Primitives& primitives)
 {
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> lamps;
-    for (const std::uint32_t lamp : findEmitting(scene, primitives)) {
-        lamps.emplace_back(hashOf(primitives.triangles[lamp]), lamp);
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> lights;
+    for (const std::uint32_t light : findEmitting(scene, primitives)) {
+        lights.emplace_back(computeHash(primitives.triangles[light]), light);
     }
-    std::ranges::sort(lamps);
+    std::ranges::sort(lights);
     const auto hides = [&](std::uint32_t first, std::uint32_t second) {
         const Triangle &a = primitives.triangles[first], &b = primitives.triangles[second];
         const bool sameFront = glm::dot(faceNormal(a), faceNormal(b)) > 0.0;
         return std::ranges::is_permutation(a.vertices, b.vertices) &&
-               (isSeenFromBehind(materialOf(scene, primitives, first)) ||
-                (sameFront && !isSeenFromBehind(materialOf(scene, primitives, second))));
+               (isSeenFromBehind(getMaterial(scene, primitives, first)) ||
+                (sameFront && !isSeenFromBehind(getMaterial(scene, primitives, second))));
     };
     Copies hidden;
-    constexpr std::size_t kMostStanding = 8;  // at one place: one to each side and one to both; more by chance
-    std::vector<std::uint32_t> standing;      // opaque ones of one hash
-    for (std::size_t i = 0; i < lamps.size(); ++i) {
-        if (i == 0 || lamps[i].first != lamps[i - 1].first) {
+    constexpr std::size_t kMaxStanding = 8;  // at one place: one to each side and one to both; more by chance
+    std::vector<std::uint32_t> standing;     // opaque ones of one hash
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        if (i == 0 || lights[i].first != lights[i - 1].first) {
             standing.clear();
         }
-        const std::uint32_t lamp = lamps[i].second;
-        if (std::ranges::any_of(standing, [&](std::uint32_t first) { return hides(first, lamp); })) {
-            hidden[lamp];
-        } else if (standing.size() < kMostStanding && (primitives.hasAlpha.empty() || !primitives.hasAlpha[lamp])) {
-            standing.push_back(lamp);
+        const std::uint32_t light = lights[i].second;
+        if (std::ranges::any_of(standing, [&](std::uint32_t first) { return hides(first, light); })) {
+            hidden[light];
+        } else if (standing.size() < kMaxStanding && (primitives.hasAlpha.empty() || !primitives.hasAlpha[light])) {
+            standing.push_back(light);
         }
     }
     return hidden;
@@ -196,28 +196,29 @@ std::size_t placeSpheres(const Scene& scene, Primitives& primitives)
         return Place{spheres[i].center.x, spheres[i].center.y, spheres[i].center.z, spheres[i].radius};
     };
     const auto isClear = [&](std::size_t i) { return !hasAlpha.empty() && hasAlpha[triangles + i]; };
-    const auto isLamp = [&](std::size_t i) { return emits(scene.materials[spheres[i].material]) && !isClear(i); };
+    const auto isLight = [&](std::size_t i) { return emits(scene.materials[spheres[i].material]) && !isClear(i); };
     const auto isTwoSided = [&](std::size_t i) { return isSeenFromBehind(scene.materials[spheres[i].material]); };
     std::vector<std::size_t> order(spheres.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::map<Place, std::size_t> firstLamps;
+    std::map<Place, std::size_t> firstLights;
     for (const std::size_t i : order) {
-        if (isLamp(i)) {
-            firstLamps.try_emplace(placeOf(i), i);
+        if (isLight(i)) {
+            firstLights.try_emplace(placeOf(i), i);
         }
     }
     std::map<Place, std::vector<std::size_t>> groups;
     for (const std::size_t i : order) {
-        if (const auto lamp = firstLamps.find(placeOf(i)); lamp != firstLamps.end() && !(isClear(i) && i < lamp->second)) {
-            groups[lamp->first].push_back(i);
+        if (const auto light = firstLights.find(placeOf(i)); light != firstLights.end() && !(isClear(i) && i < light->second)) {
+            groups[light->first].push_back(i);
         }
     }
     constexpr auto kLeftOut = std::numeric_limits<std::size_t>::max();
     for (const auto& [place, slots] : groups) {
         std::vector<std::size_t> group = slots, kept;
-        std::ranges::stable_partition(group, isLamp);
+        std::ranges::stable_partition(group, isLight);
         std::ranges::copy_if(group, std::back_inserter(kept), [&](std::size_t i) {
-            return std::ranges::none_of(kept, [&](std::size_t before) { return isLamp(before) && (isTwoSided(before) || !isTwoSided(i)); });
+            return std::ranges::none_of(kept,
+                                        [&](std::size_t before) { return isLight(before) && (isTwoSided(before) || !isTwoSided(i)); });
         });
         kept.resize(slots.size(), kLeftOut);
         for (std::size_t k = 0; k < slots.size(); ++k) {
@@ -235,98 +236,99 @@ std::size_t placeSpheres(const Scene& scene, Primitives& primitives)
     return spheres.size() - order.size();
 }
 
-// A lamp and another triangle that overlap in one plane.
+// A light and another triangle that overlap in one plane.
 struct Overlap {
-    std::uint32_t lamp, other;
+    std::uint32_t light, other;
     float lift;
 };
 
-// Each triangle is compared with the lamps that begin near it along one axis. Nothing if there are too many to compare.
-std::vector<Overlap> findOverlaps(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& lamps)
+// Each triangle is compared with the lights that begin near it along one axis. Nothing if there are too many to compare.
+std::vector<Overlap> findOverlaps(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& lights)
 {
-    struct Lamp {
+    struct SortedLight {
         float begin;
         std::uint32_t triangle;
         Box box;
     };
-    std::vector<Lamp> sorted;
-    Box all = boxOf(triangles[lamps[0]]);
-    for (const std::uint32_t lamp : lamps) {
-        const Box box = boxOf(triangles[lamp]);
+    std::vector<SortedLight> sorted;
+    Box all = computeBox(triangles[lights[0]]);
+    for (const std::uint32_t light : lights) {
+        const Box box = computeBox(triangles[light]);
         all = {glm::min(all.lo, box.lo), glm::max(all.hi, box.hi)};
-        sorted.push_back({0.0F, lamp, box});
+        sorted.push_back({0.0F, light, box});
     }
     const glm::vec3 extent = all.hi - all.lo;
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
     float widest = 0.0F;
-    for (Lamp& lamp : sorted) {
-        lamp.begin = lamp.box.lo[axis];
-        widest = std::max(widest, lamp.box.hi[axis] - lamp.begin);
+    for (SortedLight& light : sorted) {
+        light.begin = light.box.lo[axis];
+        widest = std::max(widest, light.box.hi[axis] - light.begin);
     }
-    std::ranges::sort(sorted, {}, [](const Lamp& lamp) { return std::pair(lamp.begin, lamp.triangle); });
-    const float lampSize = sizeOf(all);
+    std::ranges::sort(sorted, {}, [](const SortedLight& light) { return std::pair(light.begin, light.triangle); });
+    const float lightSize = sizeOf(all);
     std::vector<Overlap> overlaps;
     std::size_t comparisons = 0;
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-        const Box box = boxOf(triangles[i]);
-        const float slack = 2.0F * kCoplanar * std::max(lampSize, sizeOf(box));
-        const auto first = std::ranges::lower_bound(sorted, box.lo[axis] - widest - slack, {}, &Lamp::begin);
-        const auto end = std::ranges::upper_bound(sorted, box.hi[axis] + slack, {}, &Lamp::begin);
+        const Box box = computeBox(triangles[i]);
+        const float slack = 2.0F * kCoplanar * std::max(lightSize, sizeOf(box));
+        const auto first = std::ranges::lower_bound(sorted, box.lo[axis] - widest - slack, {}, &SortedLight::begin);
+        const auto end = std::ranges::upper_bound(sorted, box.hi[axis] + slack, {}, &SortedLight::begin);
         comparisons += static_cast<std::size_t>(std::max(end - first, std::ptrdiff_t{0}));
-        for (auto lamp = first; lamp < end; ++lamp) {
-            if (overlap(lamp->box, box, slack) && lamp->triangle != i &&
-                overlap(lamp->box, box, kCoplanar * std::max(sizeOf(lamp->box), sizeOf(box)))) {
+        for (auto light = first; light < end; ++light) {
+            if (overlap(light->box, box, slack) && light->triangle != i &&
+                overlap(light->box, box, kCoplanar * std::max(sizeOf(light->box), sizeOf(box)))) {
                 comparisons += kCostOfPair;
-                const float lift = liftOf(triangles[lamp->triangle], lamp->box, triangles[i], box);
+                const float lift = computeLift(triangles[light->triangle], light->box, triangles[i], box);
                 if (lift > 0.0F) {
-                    overlaps.push_back({lamp->triangle, i, lift});
+                    overlaps.push_back({light->triangle, i, lift});
                 }
             }
         }
-        if (comparisons > kMostComparisons) {
+        if (comparisons > kMaxComparisons) {
             return {};
         }
     }
     return overlaps;
 }
 
-// What the lamps become: from the last one to the first, each above those that it must hide.
-Copies placeLamps(const Scene& scene, const Primitives& primitives, std::vector<Overlap> overlaps, const std::vector<std::uint32_t>& lamps)
+// What the lights become: from the last one to the first, each above those that it must hide.
+Copies stackLights(const Scene& scene, const Primitives& primitives, std::vector<Overlap> overlaps,
+                   const std::vector<std::uint32_t>& lights)
 {
     struct Sides {
         float front = 0.0F, back = 0.0F;
     };
-    std::ranges::sort(overlaps, std::greater(), [](const Overlap& overlap) { return std::pair(overlap.lamp, overlap.other); });
+    std::ranges::sort(overlaps, std::greater(), [](const Overlap& overlap) { return std::pair(overlap.light, overlap.other); });
     std::map<std::uint32_t, Sides> lifts;
     for (const Overlap& overlap : overlaps) {
         const bool sameFront =
-            glm::dot(faceNormal(primitives.triangles[overlap.lamp]), faceNormal(primitives.triangles[overlap.other])) > 0.0;
-        const bool isLamp = std::ranges::binary_search(lamps, overlap.other), isFirst = overlap.lamp < overlap.other;
-        const bool twoSided = materialOf(scene, primitives, overlap.lamp).doubleSided;
-        const bool otherTwoSided = isLamp && materialOf(scene, primitives, overlap.other).doubleSided;
+            glm::dot(faceNormal(primitives.triangles[overlap.light]), faceNormal(primitives.triangles[overlap.other])) > 0.0;
+        const bool isLight = std::ranges::binary_search(lights, overlap.other), isFirst = overlap.light < overlap.other;
+        const bool twoSided = getMaterial(scene, primitives, overlap.light).doubleSided;
+        const bool otherTwoSided = isLight && getMaterial(scene, primitives, overlap.other).doubleSided;
         const auto other = lifts.find(overlap.other);
         const Sides below = other == lifts.end() ? Sides() : other->second;
-        // Against a lamp that shines to the same side, the first one is above it.
+        // Against a light that shines to the same side, the first one is above it.
         const auto raise = [&](float& lift, bool otherShines, float otherLift) {
             if (!otherShines || isFirst) {
                 lift = std::max(lift, (otherShines ? otherLift : 0.0F) + overlap.lift);
             }
         };
-        Sides sides = lifts[overlap.lamp];
-        raise(sides.front, isLamp && (sameFront || otherTwoSided), sameFront ? below.front : below.back);
+        Sides sides = lifts[overlap.light];
+        raise(sides.front, isLight && (sameFront || otherTwoSided), sameFront ? below.front : below.back);
         if (twoSided) {
-            raise(sides.back, isLamp && (!sameFront || otherTwoSided), sameFront ? below.back : below.front);
+            raise(sides.back, isLight && (!sameFront || otherTwoSided), sameFront ? below.back : below.front);
         }
-        lifts[overlap.lamp] = sides;
+        lifts[overlap.light] = sides;
     }
     Copies copies;
-    for (const auto& [lamp, sides] : lifts) {
-        const glm::dvec3 normal = glm::normalize(faceNormal(primitives.triangles[lamp]));
+    for (const auto& [light, sides] : lifts) {
+        const glm::dvec3 normal = glm::normalize(faceNormal(primitives.triangles[light]));
         if (sides.front > 0.0F || sides.back > 0.0F) {
-            copies[lamp] = {glm::vec3(static_cast<double>(sides.front) * normal)};
+            copies[light] = {glm::vec3(static_cast<double>(sides.front) * normal)};
         }
         if (sides.back > 0.0F) {
-            copies[lamp].emplace_back(static_cast<double>(-sides.back) * normal);
+            copies[light].emplace_back(static_cast<double>(-sides.back) * normal);
         }
     }
     return copies;
@@ -345,7 +347,7 @@ float largestStep(const Copies& copies)
 
 }  // namespace
 
-void liftLamps(const Scene& scene, Primitives& primitives)
+void liftLights(const Scene& scene, Primitives& primitives)
 {
     const Copies hidden = findHidden(scene, primitives);
     if (!hidden.empty()) {
@@ -355,16 +357,16 @@ void liftLamps(const Scene& scene, Primitives& primitives)
     if (const std::size_t count = placeSpheres(scene, primitives); count > 0) {
         primitives.warnings.push_back("left out " + counted(count, "sphere") + " in the same place as one that emits");
     }
-    std::vector<std::uint32_t> lamps = findEmitting(scene, primitives);
-    std::erase_if(lamps, [&](std::uint32_t lamp) {
-        const Material& material = materialOf(scene, primitives, lamp);
-        const bool isClear = isPassed(material) || (!primitives.hasAlpha.empty() && primitives.hasAlpha[lamp]);
+    std::vector<std::uint32_t> lights = findEmitting(scene, primitives);
+    std::erase_if(lights, [&](std::uint32_t light) {
+        const Material& material = getMaterial(scene, primitives, light);
+        const bool isClear = transmitsLight(material) || (!primitives.hasAlpha.empty() && primitives.hasAlpha[light]);
         return material.textures[kSlotEmissive] || (material.doubleSided && isClear);
     });
-    if (lamps.empty()) {
+    if (lights.empty()) {
         return;
     }
-    const auto moved = placeLamps(scene, primitives, findOverlaps(primitives.triangles, lamps), lamps);
+    const auto moved = stackLights(scene, primitives, findOverlaps(primitives.triangles, lights), lights);
     if (!moved.empty()) {
         replaceTriangles(primitives, moved);
         primitives.warnings.push_back(counted(moved.size(), "emitting triangle") + " in the plane of another surface: moved by up to " +
