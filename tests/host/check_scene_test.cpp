@@ -38,14 +38,14 @@ TEST(CheckScene, AcceptsASoundScene) { EXPECT_NO_THROW(checkScene(makeScene()));
 const float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
 
 const Breakage kBreakages[] = {
-    {"mesh 1 has a position that is not finite", [](Scene& s) { s.meshes[1].positions[2].y = kNan; }},
-    {"mesh 0 has an attribute", [](Scene& s) { s.meshes[0].normals.pop_back(); }},
-    {"mesh 0 has an attribute", [](Scene& s) { s.meshes[0].uv0.resize(1); }},
-    {"mesh 1 has an attribute", [](Scene& s) { s.meshes[1].uv1.resize(4); }},
-    {"mesh 1 has an attribute", [](Scene& s) { s.meshes[1].tangents.resize(2); }},
-    {"mesh 1 has an attribute", [](Scene& s) { s.meshes[1].colors.resize(2); }},
-    {"mesh 1 has a triangle with fewer", [](Scene& s) { s.meshes[1].indices.push_back(0); }},
-    {"mesh 1 has a triangle with a vertex", [](Scene& s) { s.meshes[1].indices[1] = 3; }},
+    {"mesh 1 has a position that is not finite", [](Scene& s) { s.meshes.change()[1].positions[2].y = kNan; }},
+    {"mesh 0 has an attribute", [](Scene& s) { s.meshes.change()[0].normals.pop_back(); }},
+    {"mesh 0 has an attribute", [](Scene& s) { s.meshes.change()[0].uv0.resize(1); }},
+    {"mesh 1 has an attribute", [](Scene& s) { s.meshes.change()[1].uv1.resize(4); }},
+    {"mesh 1 has an attribute", [](Scene& s) { s.meshes.change()[1].tangents.resize(2); }},
+    {"mesh 1 has an attribute", [](Scene& s) { s.meshes.change()[1].colors.resize(2); }},
+    {"mesh 1 has a triangle with fewer", [](Scene& s) { s.meshes.change()[1].indices.push_back(0); }},
+    {"mesh 1 has a triangle with a vertex", [](Scene& s) { s.meshes.change()[1].indices[1] = 3; }},
     {"mesh 0 has a material", [](Scene& s) { s.meshes.change()[0].material = 1; }},
     {"instance 1 is of a mesh", [](Scene& s) { s.instances[1].mesh = 2; }},
     {"instance 0 has a transform that is not finite", [](Scene& s) { s.instances[0].worldFromMesh[3].x = kInfinity; }},

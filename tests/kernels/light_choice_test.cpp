@@ -191,7 +191,7 @@ TEST(LightChoiceTest, IsTheSameAtEveryScale)
         const std::vector<std::vector<double>> plain = probabilities(SceneOnDevice(scene), kReceivers);
         for (const float scale : {1e-3F, 1e3F}) {
             Scene scaled = scene;
-            for (Mesh& mesh : scaled.meshes) {
+            for (Mesh& mesh : scaled.meshes.change()) {
                 for (auto& position : mesh.positions) {
                     position *= static_cast<double>(scale);
                 }

@@ -145,7 +145,7 @@ TEST(AlphaTest, ShadowsOfCardsMultiply)
     // The colour of a vertex: .2 and .6, so .4 in the middle.
     setAlpha(2, 1.0F);
     for (const float alpha : {0.2F, 0.6F, 0.6F, 0.2F, 0.6F, 0.2F}) {
-        scene.meshes[3].colors.emplace_back(0.5F, 0.5F, 0.5F, alpha);
+        scene.meshes.change()[3].colors.emplace_back(0.5F, 0.5F, 0.5F, alpha);
     }
     through *= 0.6;
     // Both, and a factor.
@@ -191,7 +191,7 @@ TEST(AlphaTest, TexturesAndVertexAlphaAreCoverageToTheCamera)
     scene.images.push_back({"alphas", image});
     setQuadUvs(scene.meshes[0], 4.0F);  // so that the texture and the vertices' gradient are all but independent
     for (int i = 0; i < 6; ++i) {
-        scene.meshes[0].colors.emplace_back(1.0F, 1.0F, 1.0F, 0.5F);
+        scene.meshes.change()[0].colors.emplace_back(1.0F, 1.0F, 1.0F, 0.5F);
     }
     RenderSettings settings = squareSettings(64, samplesFor(64));
     settings.schedule = Schedule::Persistent;
@@ -219,8 +219,8 @@ Scene mappedQuad(const Material& material, const glm::vec3& camera)
     Scene scene = builder.scene();
     scene.materials[0] = material;
     setQuadUvs(scene.meshes[0], 5.0F);
-    scene.meshes[0].tangents.assign(6, glm::vec4(1, 0, 0, 1));
-    scene.meshes[0].normals.assign(6, glm::dvec3(0, 0, 1));
+    scene.meshes.change()[0].tangents.assign(6, glm::vec4(1, 0, 0, 1));
+    scene.meshes.change()[0].normals.assign(6, glm::dvec3(0, 0, 1));
     return scene;
 }
 
@@ -250,7 +250,7 @@ TEST(AlphaTest, AFlatNormalMapIsNone)
     material.normalScale = 1.0F;
     halves.materials[0] = material;
     halves.images.push_back({"halves", normalImage({{127, 127, 255}, {128, 128, 255}})});
-    halves.meshes[0].uv0.assign(6, glm::vec2(0.5F, 0.0F));
+    halves.meshes.change()[0].uv0.assign(6, glm::vec2(0.5F, 0.0F));
     RenderSettings settings = squareSettings(32, 32);
     settings.schedule = Schedule::Persistent;
     const Film expected = renderScene(plain, settings);
@@ -290,7 +290,7 @@ TEST(AlphaTest, H47NormalMapsThatPointAway)
             scene.materials[i] = glossy(materials[i / 5].first, materials[i / 5].second);
             scene.materials[i].textures[kSlotNormal].emplace().image = i % 5;
             setQuadUvs(scene.meshes[i], 1.0F);
-            scene.meshes[i].tangents.assign(6, glm::vec4(1, 0, 0, 1));
+            scene.meshes.change()[i].tangents.assign(6, glm::vec4(1, 0, 0, 1));
         }
         for (const auto& [name, texel] : maps) {
             scene.images.push_back({name, normalImage({texel, texel})});

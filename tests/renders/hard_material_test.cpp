@@ -109,9 +109,10 @@ Scene rowOf(const std::vector<Tile>& tiles)
         scene.images.push_back({tiles[i].name, tiles[i].image});
         scene.materials[i] = tiles[i].material;
         scene.materials[i].textures[kSlotBaseColor]->image = static_cast<std::uint32_t>(i);
-        for (const glm::dvec3& p : scene.meshes[i].positions) {
+        Mesh& mesh = scene.meshes.change()[i];
+        for (const glm::dvec3& p : mesh.positions) {
             const glm::vec2 at(static_cast<float>(p.x) - static_cast<float>(i), 1.0F - static_cast<float>(p.y));
-            scene.meshes[i].uv0.push_back(glm::mix(tiles[i].firstUv, tiles[i].lastUv, at));
+            mesh.uv0.push_back(glm::mix(tiles[i].firstUv, tiles[i].lastUv, at));
         }
     }
     return scene;
@@ -362,8 +363,9 @@ Scene texturedLamp(const DecodedImage& image)
     Scene scene = builder.scene();
     scene.images.push_back({"lamp", image});
     scene.materials[1].textures[kSlotEmissive].emplace();
-    for (const glm::dvec3& p : scene.meshes[1].positions) {
-        scene.meshes[1].uv0.emplace_back(glm::vec2(p.x, p.z));
+    Mesh& mesh = scene.meshes.change()[1];
+    for (const glm::dvec3& p : mesh.positions) {
+        mesh.uv0.emplace_back(glm::vec2(p.x, p.z));
     }
     return scene;
 }

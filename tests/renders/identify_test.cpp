@@ -206,7 +206,7 @@ TEST(IdentifyTest, HolesOfMasksShowWhatIsBehind)
     halves.height = 1;
     halves.rgba8 = {255, 255, 255, 0, 255, 255, 255, 255};
     scene.images.push_back({"halves", halves});
-    scene.meshes[0].uv0 = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
+    scene.meshes.change()[0].uv0 = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
     const auto [film, ids] = identify(prepare(scene), squareSettings(8, 16));
     for (std::size_t pixel = 0; pixel < 64; ++pixel) {
         const std::uint32_t node = pixel % 8 < 4 ? 1 : 0;
