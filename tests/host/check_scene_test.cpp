@@ -18,7 +18,7 @@ Scene makeScene()
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     mesh.normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
     mesh.indices = {0, 1, 2};
-    scene.meshes = {mesh, mesh};
+    scene.meshes = std::vector<Mesh>{mesh, mesh};
     scene.instances = {{"a", 0}, {"b", 1}};
     scene.spheres.resize(1);
     scene.materials.resize(1);
