@@ -49,7 +49,7 @@ protected:
     LoadOptions with(const std::string& name, const glm::dmat4& matrix = glm::dmat4(1.0)) const
     {
         LoadOptions options;
-        options.additions = {{folder_ / name, matrix}};
+        options.additions = {{folder_.path() / name, matrix}};
         return options;
     }
     std::string table() const { return (folder_ / "table.gltf").string(); }

@@ -140,7 +140,7 @@ TEST(AlphaTest, ShadowsOfCardsMultiply)
     setAlpha(1, 0.8F);
     scene.images.push_back({"halves", alphaImage(2, {51, 204})});
     scene.materials[cards[1]].textures[kSlotBaseColor].emplace();
-    setQuadUvs(scene.meshes[2], 1.0F);
+    setQuadUvs(scene.meshes.change()[2], 1.0F);
     through *= 1.0 - 0.8 * 0.5;
     // The colour of a vertex: .2 and .6, so .4 in the middle.
     setAlpha(2, 1.0F);
@@ -152,7 +152,7 @@ TEST(AlphaTest, ShadowsOfCardsMultiply)
     through *= 1.0 - 0.5 * 0.5 * 0.4;
     setAlpha(3, 0.5F);
     scene.materials[cards[3]].textures[kSlotBaseColor] = scene.materials[cards[1]].textures[kSlotBaseColor];
-    setQuadUvs(scene.meshes[4], 1.0F);
+    setQuadUvs(scene.meshes.change()[4], 1.0F);
     scene.meshes.change()[4].colors = scene.meshes[3].colors;
     // A mask below its cutoff is not there, one whose factor is 0 neither.
     setAlpha(4, 0.49F);
@@ -189,7 +189,7 @@ TEST(AlphaTest, TexturesAndVertexAlphaAreCoverageToTheCamera)
         mean += image.rgba8[4 * i + 3] / 255.0 / 16.0;
     }
     scene.images.push_back({"alphas", image});
-    setQuadUvs(scene.meshes[0], 4.0F);  // so that the texture and the vertices' gradient are all but independent
+    setQuadUvs(scene.meshes.change()[0], 4.0F);  // so that the texture and the vertices' gradient are all but independent
     for (int i = 0; i < 6; ++i) {
         scene.meshes.change()[0].colors.emplace_back(1.0F, 1.0F, 1.0F, 0.5F);
     }
@@ -218,7 +218,7 @@ Scene mappedQuad(const Material& material, const glm::vec3& camera)
         .orthographic(camera, {0, 0, 0}, 0.5F);
     Scene scene = builder.scene();
     scene.materials[0] = material;
-    setQuadUvs(scene.meshes[0], 5.0F);
+    setQuadUvs(scene.meshes.change()[0], 5.0F);
     scene.meshes.change()[0].tangents.assign(6, glm::vec4(1, 0, 0, 1));
     scene.meshes.change()[0].normals.assign(6, glm::dvec3(0, 0, 1));
     return scene;
@@ -289,7 +289,7 @@ TEST(AlphaTest, H47NormalMapsThatPointAway)
         for (std::uint32_t i = 0; i < kStrips; ++i) {
             scene.materials[i] = glossy(materials[i / 5].first, materials[i / 5].second);
             scene.materials[i].textures[kSlotNormal].emplace().image = i % 5;
-            setQuadUvs(scene.meshes[i], 1.0F);
+            setQuadUvs(scene.meshes.change()[i], 1.0F);
             scene.meshes.change()[i].tangents.assign(6, glm::vec4(1, 0, 0, 1));
         }
         for (const auto& [name, texel] : maps) {

@@ -158,7 +158,7 @@ TEST(SharedMeshesTest, KeepTheirTrees)
     const WideBvh sah = buildSceneBvh(before), median = buildSceneBvh(before, SplitRule::Median);
     scene.instances.back().worldFromMesh[3].y += 1.0;  // a lamp, flattened
     scene.instances[1].worldFromMesh[3].x += 0.1;
-    scene.meshes[scene.instances[1].mesh].positions[5] *= 1.01;
+    scene.meshes.change()[scene.instances[1].mesh].positions[5] *= 1.01;
     const std::uint32_t deformed = scene.instances[1].mesh;
     const Primitives after = makePrimitives(scene, 0);
     const WideBvh fresh = buildSceneBvh(after), kept = updateSceneBvh(sah, before, after);
