@@ -19,7 +19,7 @@ void addLook(OptionTable& table, LookOptions& look, const std::string& picture, 
 
 void addPictureFiles(OptionTable& table, PictureFiles& files)
 {
-    table.addEach("--png,--image", "P.png", "Also write an sRGB picture: .png, .jpg (or .jpeg, quality 95, 4:4:4) or .webp (lossless)",
+    table.addEach("--png,--image", "P.png", "Also write an sRGB picture: .png, .jpg (quality 95, 4:4:4) or .webp (lossless)",
                   [&files](const OptionValue& value) { files.emplace_back(value.text()); });
 }
 

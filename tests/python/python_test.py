@@ -245,7 +245,7 @@ class UseTest(PythonCase):
 
     def test_refusals(self):
         for options, words in (({"spp": 0}, "^spp: .*expected"), ({"sppp": 1}, "sppp"), ({"size": "8"}, "^size: "),
-                               ({"png": "a.png"}, "^png: .*command line"), ({"time": object()}, "^time: "),
+                               ({"image": "a.png"}, "^image: .*command line"), ({"time": object()}, "^time: "),
                                ({"target_rmse": .01, "spp": 4}, "^target_rmse: .*64")):
             with self.assertRaisesRegex(glim.InputError, words):
                 glim.render(GEMS, **options)

@@ -181,11 +181,11 @@ TEST_F(PreviewTest, ControlsOfThePanelsDoWhatTheKeysDo)
 // A surface that is clicked is changed in the panel. The options that C prints render the same, and Z undoes it.
 TEST_F(PreviewTest, ThePanelChangesTheSurfaceThatWasClicked)
 {
-    width = 320;
+    width = 640;
     height = 240;
     panels = true;
     const GlimRun session = run(
-        "0 samples 1\n0 click 305,120\n0.2 drag left 20,177 240,177\n0.2 samples 1\n0 key C\n0 key P\n0.2 key Z\n0.2 samples 1\n0 key P\n0 "
+        "0 samples 1\n0 click 425,120\n0.2 drag left 20,177 240,177\n0.2 samples 1\n0 key C\n0 key P\n0.2 key Z\n0.2 samples 1\n0 key P\n0 "
         "close\n",
         {"--spp", "1"});
     const std::size_t option = session.out.find(" --set /materials/");
