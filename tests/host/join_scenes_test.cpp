@@ -151,6 +151,17 @@ TEST_F(JoinScenesTest, EditsNameTheirFile)
     expectRefusal<InputError>([&] { loadGltf(table(), options); }, "vase.gltf: --set /materials/9/alphaCutoff: /materials has 2 elements");
 }
 
+// Neither file, if one refuses.
+TEST_F(JoinScenesTest, ARefusedEditChangesNothing)
+{
+    SceneFile file(table(), with("vase.gltf"));
+    const glm::vec3 before = file.sceneAt(std::nullopt).materials[0].baseColor;
+    EXPECT_THROW(
+        file.edit({{"/materials/0/pbrMetallicRoughness/baseColorFactor", "[0, 0, 1, 1]"}, {"vase.gltf#/materials/9/alphaCutoff", "1"}}),
+        InputError);
+    EXPECT_EQ(file.sceneAt(std::nullopt).materials[0].baseColor, before);
+}
+
 // Meshes stay the same array while the files' do.
 TEST_F(JoinScenesTest, AnEditKeepsTheMeshes)
 {
