@@ -43,7 +43,7 @@ std::vector<std::uint32_t> materialWordsOf(const Scene& scene)
 }
 
 // Of each primitive: the last one if it has several.
-std::vector<std::uint32_t> findRecords(const Primitives& primitives, const WideBvh& bvh)
+std::vector<std::uint32_t> findPrimitiveRefs(const Primitives& primitives, const WideBvh& bvh)
 {
     std::vector<std::uint32_t> refOfPrimitive(primitives.count());
     for (std::uint32_t ref = 0; ref < bvh.order.size() && bvh.order[ref] < refOfPrimitive.size(); ++ref) {
@@ -192,15 +192,11 @@ std::vector<bool> findColored(const Scene& scene)
     return colored;
 }
 
-// In place of the marks `before`.
-void markLights(FlatScene& flat, std::span<const LightMark> before, std::span<const std::uint32_t> order,
-                std::span<const std::uint32_t> refOfPrimitive)
+// The same primitives as before, if the references had marks: whether a material emits is part of what makes surfaces the same.
+void markLights(FlatScene& flat, std::span<const std::uint32_t> order, std::span<const std::uint32_t> refOfPrimitive)
 {
     std::vector<uvec4>& refs = flat.primitiveRefs.change();
     const auto markOf = [&refs](std::size_t ref) -> std::uint32_t& { return refs[ref * kPrimitiveRefTexels + 2].w; };
-    for (const LightMark& mark : before) {
-        markOf(refOfPrimitive[mark.primitive]) = 0;
-    }
     for (const LightMark& mark : flat.lightMarks) {
         markOf(refOfPrimitive[mark.primitive]) = mark.light;
     }
@@ -281,11 +277,10 @@ void placeLights(FlatScene& flat, const Scene& scene, const Primitives& primitiv
 {
     const bool mayEmit =
         std::ranges::any_of(scene.materials, [](const Material& material) { return material.emission != glm::vec3(0.0F); });
-    const std::vector<std::uint32_t> refOfPrimitive =
-        mayEmit || !before.empty() ? findRecords(primitives, bvh) : std::vector<std::uint32_t>();
+    const std::vector<std::uint32_t> refOfPrimitive = mayEmit ? findPrimitiveRefs(primitives, bvh) : std::vector<std::uint32_t>();
     addLights(flat, scene, primitives, refOfPrimitive);
     if (!std::ranges::equal(flat.lightMarks, before)) {
-        markLights(flat, before, bvh.order, refOfPrimitive);
+        markLights(flat, bvh.order, refOfPrimitive);
         flat.surfacesPrint = std::make_shared<std::optional<std::uint64_t>>();
     }
 }

@@ -56,8 +56,6 @@ std::uint32_t chosenBegin(const RenderSettings& settings)
 
 std::uint32_t blockEnd(std::uint32_t sample) { return (sample / blockSamples(sample) + 1) * blockSamples(sample); }
 
-bool endsBlock(std::uint32_t end) { return end > 0 && end % blockSamples(end - 1) == 0; }
-
 std::vector<std::uint32_t> countByTile(const std::vector<PixelStart>& pixels, const RenderSettings& settings)
 {
     std::vector<std::uint32_t> counts((settings.pixelCount() + settings.tilePixels - 1) / settings.tilePixels, 0);

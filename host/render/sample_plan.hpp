@@ -10,6 +10,7 @@
 #include "host/render/block_queue.hpp"
 #include "host/render/film.hpp"
 #include "host/render/settings.hpp"
+#include "shaders/shared/limits.h"
 
 #include <cstddef>
 #include <deque>
@@ -172,6 +173,6 @@ std::vector<std::uint32_t> countByTile(const std::vector<PixelStart>& pixels, co
 
 // The end of the block that begins with this sample.
 std::uint32_t blockEnd(std::uint32_t sample);
-bool endsBlock(std::uint32_t end);
+inline bool endsBlock(std::uint32_t end) { return end > 0 && end % blockSamples(end - 1) == 0; }
 
 }  // namespace glim

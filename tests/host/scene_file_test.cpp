@@ -136,7 +136,7 @@ GltfBuilder fans()
         builder.addNode({{"mesh", mesh}, {"translation", {2 * i, 0, 0}}});
     }
     builder.addNode({{"mesh", lamp}, {"translation", {0, 3, 0}}});
-    builder.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"translation", {0, 5, 0}}});
+    builder.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"translation", {0, -5, 0}}});
     builder.addNode({{"mesh", pane}, {"translation", {0, 0, 2}}});
     builder.document["extensionsUsed"] = {"KHR_lights_punctual"};
     builder.document["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
@@ -154,18 +154,20 @@ TEST_F(SceneFileTest, AnEditTouchesWhatItChanges)
     SceneFile file(path);
     PreparedScene prepared;
     updateScene(prepared, file, std::nullopt, SplitRule::Sah);
-    for (const Case& c : {Case{{"/materials/0/pbrMetallicRoughness/baseColorFactor", "[0.5, 0.25, 0, 1]"}, true, true, true},
-                          {{"/materials/1/emissiveFactor", "[0.5, 0.5, 0.5]"}, true, true, true},
-                          {{"/materials/1/alphaCutoff", "0.25"}, true, true, true},  // of an opaque material
-                          {{"/extensions/KHR_lights_punctual/lights/0/intensity", "7"}, true, true, true},
-                          {{"/nodes/5/translation", "[0, 6, 0]"}, true, true, true},
-                          {{"/materials/1/emissiveFactor", "[0, 0, 0]"}, true, false, false},
-                          {{"/materials/0/emissiveFactor", "[1, 0, 0]"}, true, false, false},
-                          {{"/materials/0/doubleSided", "true"}, true, false, false},
-                          {{"/materials/2/pbrMetallicRoughness/roughnessFactor", "0"}, true, false, false},  // rays pass it straight
-                          {{"/materials/0/alphaCutoff", "2"}, true, false, false},
-                          {{"/nodes/1/translation", "[2, 1, 0]"}, true, false, false},
-                          {{"/materials/0/extensions/KHR_materials_anisotropy/anisotropyStrength", "0.5"}, false, false, false}}) {
+    for (const Case& c :
+         {Case{{"/materials/0/pbrMetallicRoughness/baseColorFactor", "[0.5, 0.25, 0, 1]"}, true, true, true},
+          {{"/materials/1/emissiveFactor", "[0.5, 0.5, 0.5]"}, true, true, true},
+          {{"/materials/1/alphaCutoff", "0.25"}, true, true, true},  // of an opaque material
+          {{"/extensions/KHR_lights_punctual/lights/0/intensity", "7"}, true, true, true},
+          {{"/nodes/5/translation", "[0, -6, 0]"}, true, true, true},
+          {{"/extensions/KHR_lights_punctual/lights/0/intensity", "0"}, true, false, true},  // the lamp is another light of the list
+          {{"/materials/1/emissiveFactor", "[0, 0, 0]"}, true, false, false},
+          {{"/materials/0/emissiveFactor", "[1, 0, 0]"}, true, false, false},
+          {{"/materials/0/doubleSided", "true"}, true, false, false},
+          {{"/materials/2/pbrMetallicRoughness/roughnessFactor", "0"}, true, false, false},  // rays pass it straight
+          {{"/materials/0/alphaCutoff", "2"}, true, false, false},
+          {{"/nodes/1/translation", "[2, 1, 0]"}, true, false, false},
+          {{"/materials/0/extensions/KHR_materials_anisotropy/anisotropyStrength", "0.5"}, false, false, false}}) {
         for (const std::vector<Edit>& edits : {std::vector<Edit>{c.edit}, {}}) {
             const FlatScene before = prepared.flat;
             const SharedVector<Mesh> meshes = prepared.scene.meshes;

@@ -145,13 +145,13 @@ void enterScene(ScenePictures& pictures, const LoadOptions& options)
     pictures.enter(std::move(loaded));
 }
 
-// Other kernels, too: the walls get a coat.
+// Other kernels, too: the walls get a coat, and one moves.
 TEST(ScenePicturesTest, AnEditShowsTheSceneThatItMakes)
 {
     RenderSettings settings;
     settings.sampleEnd = 2;
     const std::vector<Edit> edits{{"/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor", "1"},
-                                  {"/nodes/0/translation", "[0.125, 0, 0]"}};
+                                  {"/nodes/4/translation", "[0.125, 0, 0]"}};
     const auto makeFilm = [](ScenePictures& pictures) {
         pictures.show(pictures.scene().scene.cameras.front(), {8, 6});
         while (pictures.shown().sampleCount() == 0 || !pictures.shown().isDone()) {
