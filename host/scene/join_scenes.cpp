@@ -1,25 +1,17 @@
 #include "host/scene/join_scenes.hpp"
 
 #include "host/error.hpp"
+#include "host/scene/uniform_scale.hpp"
+#include "host/text.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace glim {
 namespace {
 
-// The factor by which the matrix lengthens everything, or 0 if it lengthens one direction more than another.
-double uniformScaleOf(const glm::dmat3& linear)
-{
-    constexpr double kRounding = 1e-5;  // of matrices that are printed floats
-    const double scale = std::cbrt(std::abs(glm::determinant(linear)));
-    const glm::dmat3 difference = glm::transpose(linear) * linear - glm::dmat3(scale * scale);
-    for (int c = 0; c < 9; ++c) {
-        if (!(std::abs(difference[c / 3][c % 3]) <= kRounding * scale * scale)) {
-            return 0.0;
-        }
-    }
-    return scale;
-}
+// Farther away, squares of coordinates do not fit float32. The limit is that of one file's extent (gltf/read_geometry.cpp).
+constexpr double kMaxDistance = 1e18;
 
 template <class T>
 void append(std::vector<T>& values, const std::vector<T>& others)
@@ -60,6 +52,7 @@ public:
             instance.mesh += first.mesh;
             instance.node += first.node;
             instance.worldFromMesh = added.worldFromScene * instance.worldFromMesh;
+            checkDistance(added, instance, other.meshes[instance.mesh - first.mesh]);
             scene_.instances.push_back(std::move(instance));
         }
         for (const Sphere& sphere : other.spheres) {
@@ -78,15 +71,41 @@ public:
     }
 
 private:
+    // By the corners of a box around the mesh.
+    void checkDistance(const AddedScene& added, const MeshInstance& instance, const Mesh& mesh) const
+    {
+        if (mesh.positions.empty()) {
+            return;
+        }
+        glm::dvec3 low = mesh.positions.front(), high = low;
+        for (const glm::dvec3& position : mesh.positions) {
+            low = glm::min(low, position);
+            high = glm::max(high, position);
+        }
+        for (int i = 0; i < 8; ++i) {
+            const glm::dvec3 corner((i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z);
+            checkDistance(added, glm::dvec3(instance.worldFromMesh * glm::dvec4(corner, 1.0)));
+        }
+    }
+
+    void checkDistance(const AddedScene& added, const glm::dvec3& world) const
+    {
+        const double distance = glm::length(world - scene_.origin);
+        if (!(distance <= kMaxDistance)) {
+            throw InputError(added.scene.file + " is added " + exactText(distance) + " m away from the scene; expected at most 1e18 m");
+        }
+    }
+
     glm::vec3 place(const AddedScene& added, const glm::vec3& point) const
     {
         const glm::dvec3 world = glm::dmat3(added.worldFromScene) * (glm::dvec3(point) + added.scene.origin);
+        checkDistance(added, world + glm::dvec3(added.worldFromScene[3]));
         return world + (glm::dvec3(added.worldFromScene[3]) - scene_.origin);
     }
 
     void addSphere(const AddedScene& added, Sphere sphere, const Firsts& first)
     {
-        const double scale = uniformScaleOf(glm::dmat3(added.worldFromScene));
+        const double scale = computeUniformScale(glm::dmat3(added.worldFromScene));
         if (scale == 0.0) {
             throw InputError(added.scene.file +
                              " has spheres, and its matrix scales them unevenly or shears them; expected a uniform scale");
@@ -121,14 +140,25 @@ Scene joinScenes(Scene scene, const std::vector<AddedScene>& others, JoinedMeshe
     Joiner joiner(scene);
     std::vector<SharedVector<Mesh>> parts{scene.meshes};
     std::vector<Firsts> firsts;
+    std::vector<std::uint32_t> firstMaterials;
     std::size_t meshes = scene.meshes.size();
     for (const AddedScene& added : others) {
         firsts.push_back(joiner.firsts(meshes));
+        firstMaterials.push_back(firsts.back().material);
         joiner.add(added, firsts.back());
         parts.push_back(added.scene.meshes);
         meshes += added.scene.meshes.size();
     }
-    if (!areSame(parts, joined.parts)) {
+    std::uint64_t bytes = 0;
+    for (const TextureImage& image : scene.images) {
+        bytes += image.pixels->rgba8.size() + 2 * image.pixels->rgba16.size();
+    }
+    if (bytes > kMaxTextureBytes) {
+        throw InputError(scene.file + " and the files that are added have textures of more than " +
+                         std::to_string(kMaxTextureBytes >> 20U) + " MiB; expected fewer or smaller ones (--max-texture)");
+    }
+    // An edit may hide the last sphere of the default material, and then the numbers behind it change.
+    if (firstMaterials != joined.firstMaterials || !areSame(parts, joined.parts)) {
         std::vector<Mesh> all(scene.meshes.begin(), scene.meshes.end());
         for (std::size_t i = 0; i < others.size(); ++i) {
             for (Mesh mesh : others[i].scene.meshes) {
@@ -137,7 +167,7 @@ Scene joinScenes(Scene scene, const std::vector<AddedScene>& others, JoinedMeshe
                 all.push_back(std::move(mesh));
             }
         }
-        joined = {std::move(parts), std::move(all)};
+        joined = {std::move(parts), std::move(firstMaterials), std::move(all)};
     }
     scene.meshes = joined.meshes;
     return scene;

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace glim {
 namespace {
@@ -386,32 +387,60 @@ Scene FilePart::read(std::optional<double> seconds, Warnings& warnings)
     return scene;
 }
 
-// The edits of the part of that name, with pointers as it has them; of the first one if there is no name.
-std::vector<Edit> editsOf(const std::vector<Edit>& edits, const std::optional<std::filesystem::path>& name)
+// Whether the edit's pointer begins with the file's path or name and a #. Absolute paths begin with / as other pointers do.
+bool isOf(const Edit& edit, const Addition& addition)
+{
+    const std::size_t hash = edit.pointer.find("#/");
+    const std::string file = edit.pointer.substr(0, hash);
+    return hash != std::string::npos && (file == addition.file.string() || file == addition.file.filename());
+}
+
+// With pointers as the file has them.
+std::vector<Edit> editsOf(const std::vector<Edit>& edits, const Addition& addition)
 {
     std::vector<Edit> own;
     for (const Edit& edit : edits) {
-        const std::size_t hash = edit.pointer.starts_with('/') ? 0 : edit.pointer.find("#/");
-        const std::string file = edit.pointer.substr(0, hash);
-        if (name ? hash > 0 && (file == name->string() || file == name->filename()) : hash == 0) {
-            own.push_back({edit.pointer.substr(name ? hash + 1 : 0), edit.value});
+        if (isOf(edit, addition)) {
+            own.push_back({edit.pointer.substr(edit.pointer.find("#/") + 1), edit.value});
         }
     }
     return own;
+}
+
+// Those of no file that is added.
+std::vector<Edit> ownEdits(std::vector<Edit> edits, const std::vector<Addition>& additions)
+{
+    std::erase_if(edits, [&](const Edit& edit) {
+        return std::ranges::any_of(additions, [&edit](const Addition& addition) { return isOf(edit, addition); });
+    });
+    return edits;
 }
 
 // Refuses an edit of a file that is not there.
 void checkFilesOfEdits(const std::filesystem::path& path, const LoadOptions& options)
 {
     for (const Edit& edit : options.edits) {
-        const auto isOf = [&](const Addition& addition) { return !editsOf({edit}, addition.file).empty(); };
-        if (!edit.pointer.starts_with('/') && std::ranges::none_of(options.additions, isOf)) {
+        std::set<std::string> files;
+        for (const Addition& addition : options.additions) {
+            if (isOf(edit, addition)) {
+                files.insert(inQuotes(addition.file.string()));
+            }
+        }
+        if (files.empty() && !edit.pointer.starts_with('/')) {
             std::string known;
             for (const Addition& addition : options.additions) {
                 known += (known.empty() ? "" : ", ") + inQuotes(addition.file.filename().string());
             }
             throw InputError(path.string() + ": --set " + edit.pointer + ": expected a pointer that begins with /" +
                              (known.empty() ? ", since no file is added" : ", or with one of " + known + " and a #") + ".");
+        }
+        if (files.size() > 1) {
+            std::string candidates;
+            for (const std::string& file : files) {
+                candidates += (candidates.empty() ? "" : ", ") + file;
+            }
+            throw InputError(path.string() + ": --set " + edit.pointer + ": several added files have this name; expected one of " +
+                             candidates + " and a #.");
         }
     }
 }
@@ -429,14 +458,14 @@ struct SceneFile::Contents {
     std::vector<std::uint32_t> firstNodes, firstMaterials;  // of each part, in the last scene
 
     Contents(const std::filesystem::path& path, const LoadOptions& options)
-        : main(path, withEdits(options, editsOf(options.edits, std::nullopt)), false)
+        : main(path, withEdits(options, ownEdits(options.edits, options.additions)), false)
     {
         for (const Addition& addition : options.additions) {
             LoadOptions own;
             own.missingTextures = options.missingTextures;
             own.confined = options.confined;
             own.maxTexture = options.maxTexture;
-            added.emplace_back(addition.file, withEdits(own, editsOf(options.edits, addition.file)), true);
+            added.emplace_back(addition.file, withEdits(own, editsOf(options.edits, addition)), true);
         }
     }
 
@@ -517,9 +546,9 @@ void SceneFile::edit(const std::vector<Edit>& edits)
     options.edits = edits;
     checkFilesOfEdits(path_, options);
     const auto apply = [this](const std::vector<Edit>& all) {
-        contents_->main.edit(editsOf(all, std::nullopt));
+        contents_->main.edit(ownEdits(all, options_.additions));
         for (std::size_t i = 0; i < options_.additions.size(); ++i) {
-            contents_->added[i].edit(editsOf(all, options_.additions[i].file));
+            contents_->added[i].edit(editsOf(all, options_.additions[i]));
         }
     };
     if (contents_) {
@@ -548,7 +577,13 @@ std::optional<std::string> SceneFile::pointerToMaterial(std::uint32_t material) 
 
 std::string SceneFile::prefixOf(std::size_t part) const
 {
-    return part == 0 ? "" : options_.additions[part - 1].file.filename().string() + "#";
+    if (part == 0) {
+        return "";
+    }
+    const std::filesystem::path& file = options_.additions[part - 1].file;
+    const bool isAmbiguous = std::ranges::any_of(
+        options_.additions, [&file](const Addition& other) { return other.file != file && other.file.filename() == file.filename(); });
+    return (isAmbiguous ? file : file.filename()).string() + "#";
 }
 
 glm::dvec3 SceneFile::translationOf(std::uint32_t node) const

@@ -181,6 +181,48 @@ TEST_F(JoinScenesTest, RefusesWhatAFileCannotBe)
     expectRefusal<InputError>([&] { loadGltf(table(), with("none.gltf")); }, "none.gltf: cannot be read");
     expectRefusal<InputError>([&] { loadGltf(table(), with("vase.gltf", glm::scale(glm::dmat4(1.0), glm::dvec3(1, 2, 1)))); },
                               "vase.gltf has spheres, and its matrix scales them unevenly");
+    for (const double away : {1e19, 1e300}) {
+        for (const char* name : {"vase.gltf", "table.gltf"}) {
+            expectRefusal<InputError>([&] { loadGltf(table(), with(name, glm::translate(glm::dmat4(1.0), glm::dvec3(away, 0, 0)))); },
+                                      "m away from the scene; expected at most 1e18 m");
+        }
+    }
+}
+
+// Two files of one name in different folders are told apart by their paths.
+TEST_F(JoinScenesTest, RefusesAnAmbiguousFile)
+{
+    std::filesystem::create_directory(folder_ / "other");
+    std::filesystem::copy_file(folder_ / "table.gltf", folder_ / "other/table.gltf");
+    LoadOptions options;
+    options.additions = {{folder_ / "table.gltf", glm::dmat4(1.0)}, {folder_ / "other/table.gltf", glm::dmat4(1.0)}};
+    const std::string place = "#/materials/0/pbrMetallicRoughness/baseColorFactor";
+    options.edits = {{"table.gltf" + place, "[0, 0, 1, 1]"}};
+    expectRefusal<InputError>([&] { loadGltf(table(), options); }, "several added files have this name; expected one of \"");
+    options.edits = {{(folder_ / "other/table.gltf").string() + place, "[0, 0, 1, 1]"}};
+    SceneFile file(table(), options);
+    const Scene scene = file.sceneAt(std::nullopt);
+    EXPECT_EQ(scene.materials.at(1).baseColor, glm::vec3(1, 0, 0));
+    EXPECT_EQ(scene.materials.at(2).baseColor, glm::vec3(0, 0, 1));
+    EXPECT_EQ(file.pointerToMaterial(2), (folder_ / "other/table.gltf").string() + "#/materials/0");
+}
+
+// The default material goes with the sphere that is hidden, and the numbers of the added materials change.
+TEST_F(JoinScenesTest, MaterialsStayThoseOfTheirMeshes)
+{
+    GltfBuilder builder;
+    builder.append("materials", {{"name", "red"}});
+    const std::size_t mesh = builder.addTriangleMesh();
+    builder.document["meshes"][mesh]["primitives"][0]["material"] = 0;
+    builder.addNode({{"mesh", mesh}});
+    builder.addNode({{"extras", {{"sphere", {{"radius", 0.5}}}}}});
+    writeText(folder_ / "ball.gltf", builder.toGltf());
+    SceneFile file(folder_ / "ball.gltf", with("vase.gltf"));
+    for (const char* visible : {"true", "false", "true"}) {
+        file.edit({{"/nodes/1/extensions/KHR_node_visibility/visible", visible}});
+        const Scene scene = file.sceneAt(std::nullopt);
+        EXPECT_EQ(scene.materials.at(scene.meshes[scene.instances.at(1).mesh].material).name, "glaze") << visible;
+    }
 }
 
 TEST(ParseAddition, TakesAFileAndWhereItStands)

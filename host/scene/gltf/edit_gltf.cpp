@@ -148,8 +148,7 @@ private:
         if (isPart && parent.contains("matrix") && !splitMatrix(parent)) {
             refuse(
                 "the node's matrix shears, flattens or projects and cannot be split into translation, rotation and scale; expected an edit "
-                "of the "
-                "node's matrix");
+                "of the node's matrix");
         }
     }
 

@@ -5,6 +5,7 @@
 #include "host/scene/make_tangents.hpp"
 #include "host/scene/placed_mesh.hpp"
 #include "host/scene/share_meshes.hpp"
+#include "host/scene/uniform_scale.hpp"
 #include "host/text.hpp"
 
 #include <algorithm>
@@ -16,9 +17,6 @@
 
 namespace glim {
 namespace {
-
-// Relative tolerance for the equal lengths and orthogonality of a uniform scale's columns: matrices are often printed floats.
-constexpr double kUniformScale = 1e-5;
 
 // The box's centre is rounded to 2^-8 of the extent, so that subtracting it is exact even where the centre
 // itself needs all 53 bits.
@@ -71,15 +69,10 @@ WorldSphere readSphere(const GltfFile& file, const PlacedNode& node, std::uint32
 {
     const tinygltf::Value& source = file.model.nodes[node.index].extras.Get("sphere");
     const glm::dmat3 linear = readLinear(file, node);
-    const double scale = std::cbrt(std::abs(glm::determinant(linear)));
-    const glm::dmat3 gram = glm::transpose(linear) * linear;
-    for (int c = 0; c < 9; ++c) {
-        const double expected = c / 3 == c % 3 ? scale * scale : 0.0;
-        if (!(std::abs(gram[c / 3][c % 3] - expected) <= kUniformScale * scale * scale)) {
-            refuse(file, nodeLabel(file, node.index) + " scales its sphere by " + toText(glm::length(linear[0])) + " " +
-                             toText(glm::length(linear[1])) + " " + toText(glm::length(linear[2])) +
-                             " or shears it; expected a uniform scale");
-        }
+    const double scale = computeUniformScale(linear);
+    if (scale == 0.0) {
+        refuse(file, nodeLabel(file, node.index) + " scales its sphere by " + toText(glm::length(linear[0])) + " " +
+                         toText(glm::length(linear[1])) + " " + toText(glm::length(linear[2])) + " or shears it; expected a uniform scale");
     }
     WorldSphere world;
     world.sphere.node = static_cast<std::uint32_t>(node.index);
