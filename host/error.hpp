@@ -3,6 +3,8 @@
 
 #include "host/message.hpp"
 
+#include <initializer_list>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -10,32 +12,48 @@ namespace glim {
 
 enum class ExitCode : int { Done = 0, BadInput = 1, Usage = 2, Device = 3, HungUp = 129, Interrupted = 130, Terminated = 143 };
 
-// One sentence: which file, which place in it, which value, what was expected. It is escaped at once, since what() would end at a byte of
-// 0.
-class InputError : public std::runtime_error {
+class Error : public std::runtime_error {
 public:
-    explicit InputError(const std::string& sentence)
-        : std::runtime_error(escaped(sentence))
+    explicit Error(const Message& message)
+        : std::runtime_error(message.sentence),
+          message_(std::make_shared<const Message>(message))
     {}
+    Error(MessageId id, std::initializer_list<MessagePart> words)
+        : Error(Message(id, words))
+    {}
+    // What an error within a larger step says, with `words` around its sentence.
+    Error(const Error& inner, std::initializer_list<MessagePart> words)
+        : Error(Message(inner.message(), words))
+    {}
+    explicit Error(const std::string& sentence)
+        : Error(MessageId::WindowReport, {sentence})
+    {}
+
+    const Message& message() const { return *message_; }
+
+private:
+    std::shared_ptr<const Message> message_;  // shared, as a copy of an exception must not throw
 };
 
-// A mistake in what was asked for: options and their values. One sentence without a full stop. `main` exits with ExitCode::Usage.
-class UsageError : public std::runtime_error {
+// Which file, which place in it, which value, what was expected.
+class InputError : public Error {
 public:
-    explicit UsageError(const std::string& sentence)
-        : std::runtime_error(escaped(sentence))
-    {}
+    using Error::Error;
+};
+
+// A mistake in what was asked for: options and their values. The sentence has no full stop. `main` exits with ExitCode::Usage.
+class UsageError : public Error {
+public:
+    using Error::Error;
     UsageError(const std::string& option, const std::string& why)
         : UsageError(option + ": " + why)
     {}
 };
 
-// One sentence: which device or driver call, what it answered, what was expected of it.
-class DeviceError : public std::runtime_error {
+// Which device or driver call, what it answered, what was expected of it.
+class DeviceError : public Error {
 public:
-    explicit DeviceError(const std::string& sentence)
-        : std::runtime_error(escaped(sentence))
-    {}
+    using Error::Error;
 };
 
 }  // namespace glim

@@ -10,6 +10,8 @@
 #include <malloc.h>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <string>
 
 namespace {
 
@@ -34,9 +36,15 @@ int main(int argc, char** argv)
 #endif
     openStandardStreams();
     std::signal(SIGXFSZ, [](int) {});  // a file that grows too large is an error of the write
+    const char* const form = std::getenv("GLIM_MESSAGES");
+    const bool asJson = form != nullptr && std::string(form) == "json";
+    if (asJson) {
+        glim::listenToMessages(glim::sayAsJson);
+    }
     glim::CommandLine line("glim: a path tracer in Vulkan compute kernels", glim::versionText(),
                            "`glim COMMAND --help` lists a command's options.\n"
-                           "Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 129, 130 or 143 stopped by a signal.");
+                           "Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 129, 130 or 143 stopped by a signal.\n"
+                           "With GLIM_MESSAGES=json in the environment each message is a line of JSON with its id.");
     glim::addRender(line);
     glim::addServe(line);
     glim::addPreview(line);
@@ -48,12 +56,13 @@ int main(int argc, char** argv)
     glim::addMerge(line);
     glim::Outcome outcome = glim::runForOutcome([&] { return line.run({argv + 1, argv + argc}); });
     if (outcome.code == glim::ExitCode::Done && (!std::cout.flush() || std::ferror(stdout) != 0)) {
-        outcome = {glim::ExitCode::BadInput, "The results could not be written to standard output."};
+        outcome = {glim::ExitCode::BadInput,
+                   glim::Message(glim::MessageId::FileUnwritable, {"The results could not be written to standard output."})};
     }
-    if (!outcome.error.empty()) {
-        glim::say(outcome.error);
+    if (outcome.error) {
+        glim::say(glim::Severity::Error, *outcome.error);
     }
-    if (outcome.code == glim::ExitCode::Usage) {
+    if (outcome.code == glim::ExitCode::Usage && !asJson) {
         std::cerr << "Run with --help for more information.\n";
     }
     return static_cast<int>(outcome.code);

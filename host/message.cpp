@@ -1,5 +1,7 @@
 #include "host/message.hpp"
 
+#include "host/json.hpp"
+
 #include <poll.h>
 #include <unistd.h>
 
@@ -74,20 +76,72 @@ namespace {
 
 MessageListener messageListener;
 
-void tell(const std::string& sentence, bool isWarning)
+void printLine(const std::string& line)
 {
     constexpr int kPatience = 1000;  // milliseconds
-    constexpr std::size_t kMax = 8192, kBegin = 6144, kEnd = 1024;
-    const bool fits = sentence.size() <= kMax;
-    const std::string bounded = fits ? sentence : sentence.substr(0, kBegin) + " ... " + sentence.substr(sentence.size() - kEnd);
-    if (messageListener) {
-        messageListener(escaped(bounded), isWarning);
-    } else if (takesMore(STDERR_FILENO, kPatience)) {
-        std::cerr << "glim: " + escaped(bounded) + '\n';
+    if (takesMore(STDERR_FILENO, kPatience)) {
+        std::cerr << line + '\n';
     }
 }
 
+// Of more than 8 KiB the middle is lost.
+std::string bounded(const std::string& sentence)
+{
+    constexpr std::size_t kMax = 8192, kBegin = 6144, kEnd = 1024;
+    return sentence.size() <= kMax ? sentence : escaped(sentence.substr(0, kBegin) + " ... " + sentence.substr(sentence.size() - kEnd));
+}
+
+const char* nameOf(Severity severity) { return severity == Severity::Error ? "error" : severity == Severity::Warning ? "warning" : "note"; }
+
 }  // namespace
+
+std::string toText(MessageId id)
+{
+#define GLIM_NAME(name) #name,
+    constexpr const char* kNames[] = {GLIM_MESSAGE_IDS(GLIM_NAME)};
+#undef GLIM_NAME
+    std::string text;
+    for (const char* c = kNames[static_cast<std::size_t>(id)]; *c != 0; ++c) {
+        const bool isCapital = *c >= 'A' && *c <= 'Z';
+        text += isCapital && !text.empty() ? "-" : "";
+        text += isCapital ? static_cast<char>(*c - 'A' + 'a') : *c;
+    }
+    return text;
+}
+
+namespace part {
+
+MessagePart file(const std::string& path) { return {MessagePart::Kind::File, path, path}; }
+MessagePart place(const std::string& place) { return {MessagePart::Kind::Place, place, place}; }
+MessagePart value(const std::string& value) { return {MessagePart::Kind::Value, value, value}; }
+MessagePart quoted(const std::string& value) { return {MessagePart::Kind::Value, inQuotes(value), value}; }
+MessagePart expected(const std::string& what) { return {MessagePart::Kind::Expected, what, what}; }
+
+}  // namespace part
+
+Message::Message(MessageId which, std::initializer_list<MessagePart> words)
+    : id(which)
+{
+    for (const MessagePart& word : words) {
+        sentence += word.words;
+        std::string* const parts[] = {nullptr, &file, &place, &value, &expected};
+        std::string* const named = parts[static_cast<std::size_t>(word.kind)];
+        if (named != nullptr && named->empty()) {
+            *named = escaped(word.part);
+        }
+    }
+    sentence = escaped(sentence);
+}
+
+Message::Message(const Message& inner, std::initializer_list<MessagePart> words)
+    : Message(inner.id, words)
+{
+    for (std::string Message::*member : {&Message::file, &Message::place, &Message::value, &Message::expected}) {
+        if ((this->*member).empty()) {
+            this->*member = inner.*member;
+        }
+    }
+}
 
 bool takesMore(int file, int milliseconds)
 {
@@ -95,9 +149,38 @@ bool takesMore(int file, int milliseconds)
     return ::poll(&poll, 1, milliseconds) > 0 && (poll.revents & POLLOUT) != 0;
 }
 
-void say(const std::string& sentence) { tell(sentence, false); }
-void warn(const std::string& sentence) { tell(sentence, true); }
+void say(Severity severity, const Message& message)
+{
+    if (messageListener) {
+        messageListener(severity, message);
+    } else {
+        printLine("glim: " + bounded(message.sentence));
+    }
+}
+
+void say(MessageId id, std::initializer_list<MessagePart> words) { say(Severity::Note, Message(id, words)); }
+void warn(MessageId id, std::initializer_list<MessagePart> words) { say(Severity::Warning, Message(id, words)); }
+
+void sayAsJson(Severity severity, const Message& message)
+{
+    Json line{{"severity", nameOf(severity)}};
+    line.update(toJson(message));
+    line.set("sentence", bounded(message.sentence));
+    printLine(line.dump());
+}
 
 void listenToMessages(MessageListener listener) { messageListener = std::move(listener); }
+
+Json toJson(const Message& message)
+{
+    Json json{{"id", toText(message.id)}};
+    for (const auto& [name, part] :
+         {std::pair{"file", &message.file}, {"place", &message.place}, {"value", &message.value}, {"expected", &message.expected}}) {
+        if (!part->empty()) {
+            json.set(name, *part);
+        }
+    }
+    return json;
+}
 
 }  // namespace glim

@@ -249,19 +249,29 @@ nb::list devices()
     return list;
 }
 
+// An object of glim._errors.
+nb::object inPython(const char* name, const Message& message)
+{
+    const auto part = [](const std::string& text) -> nb::object { return text.empty() ? nb::none() : nb::object(nb::str(text.c_str())); };
+    return nb::module_::import_("glim._errors")
+        .attr(name)(message.sentence, toText(message.id), part(message.file), part(message.place), part(message.value),
+                    part(message.expected));
+}
+
 void translate(const std::exception_ptr& thrown, void*)
 {
-    const auto raise = [](const char* name, const char* what) {
-        PyErr_SetString(nb::module_::import_("glim._errors").attr(name).ptr(), what);
+    const auto raise = [](const char* name, const Error& error) {
+        const nb::object raised = inPython(name, error.message());
+        PyErr_SetObject(raised.type().ptr(), raised.ptr());
     };
     try {
         std::rethrow_exception(thrown);
     } catch (const UsageError& error) {
-        raise("InputError", error.what());
+        raise("InputError", error);
     } catch (const InputError& error) {
-        raise("InputError", error.what());
+        raise("InputError", error);
     } catch (const DeviceError& error) {
-        raise("DeviceError", error.what());
+        raise("DeviceError", error);
     }
 }
 
@@ -278,9 +288,9 @@ NB_MODULE(_glim, module)
     module.def("merge", &merge, nb::arg("films"), nb::call_guard<nb::gil_scoped_release>());
     module.def("devices", &devices);
     module.def("listen", [](nb::callable listener) {
-        listenToMessages([listener](const std::string& sentence, bool isWarning) {
+        listenToMessages([listener](Severity severity, const Message& message) {
             const nb::gil_scoped_acquire gil;
-            listener(sentence, isWarning);
+            listener(inPython("GlimWarning", message), severity == Severity::Warning);
         });
         // Before the interpreter ends, which no reference to `listener` may outlive.
         nb::module_::import_("atexit").attr("register")(nb::cpp_function([] { listenToMessages(nullptr); }));

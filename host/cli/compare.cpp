@@ -32,7 +32,8 @@ std::optional<Film> makeFilm(const std::filesystem::path& path, const Image& ima
     }
     const Film film = readFilmHeader(path, image);
     if (!film.complete) {
-        say(path.string() + " comes from a render that was stopped early: some pixels have fewer samples or none.");
+        say(MessageId::IncompleteFilm,
+            {part::file(path), " comes from a render that was stopped early: some pixels have fewer samples or none."});
     }
     return film;
 }

@@ -188,6 +188,11 @@ void printJson(const InspectOptions& options, const PreparedScene& prepared)
     for (const Animation& animation : prepared.scene.animations) {
         animations.append({{"name", animation.name}, {"seconds", animation.duration}});
     }
+    Json warnings = Json::array(), warningIds = Json::array();
+    for (const Message& warning : prepared.scene.warnings) {
+        warnings.append(warning.sentence);
+        warningIds.append(toText(warning.id));
+    }
     const Bounds bounds = computeBounds(prepared);
     const Instancing instancing = instancingOf(prepared);
     const Json json = {{"scene", options.scene.string()},
@@ -217,7 +222,8 @@ void printJson(const InspectOptions& options, const PreparedScene& prepared)
                        {"animations", animations},
                        {"needs", objectOf(needsOf(getFeatures(prepared)))},
                        {"cameras", cameras},
-                       {"warnings", prepared.scene.warnings}};
+                       {"warnings", warnings},
+                       {"warningIds", warningIds}};
     std::cout << json.dump(2) << '\n';
 }
 

@@ -49,7 +49,8 @@ ExitCode serve()
         last = outcome.code;
         std::cout << Json{{"id", id},
                           {"code", static_cast<int>(outcome.code)},
-                          {"error", outcome.error.empty() ? Json() : Json(outcome.error)}}
+                          {"error", outcome.error ? Json(outcome.error->sentence) : Json()},
+                          {"reason", outcome.error ? toJson(*outcome.error) : Json()}}
                          .dump()
                   << std::endl;
     }
@@ -64,8 +65,9 @@ void addServe(CommandLine& line)
     command.setFooter(std::string("Each line of standard input is a request, with the options of `glim render` by their names:\n    ") +
                       kRequest +
                       "\nA line of standard output answers each request once its files are written. `code` is the exit code that\n"
-                      "`glim render` would have, and `error` null or one sentence:\n"
-                      "    {\"id\":1,\"code\":0,\"error\":null}\n"
+                      "`glim render` would have, and `error` null or one sentence. `reason` is null, or for programs the\n"
+                      "id of the sentence and what it is about, if there is such: file, place (as an option), value, expected.\n"
+                      "    {\"id\":1,\"code\":0,\"error\":null,\"reason\":null}\n"
                       "Requests that differ only in samples, seed, size, rows, camera, time, edits and outputs reuse the device\n"
                       "and the kernels. glim serve ends at the end of its input, or after a signal.");
     command.onRun(serve);

@@ -352,10 +352,13 @@ void liftLights(const Scene& scene, Primitives& primitives)
     const Copies hidden = findHidden(scene, primitives);
     if (!hidden.empty()) {
         replaceTriangles(primitives, hidden);
-        primitives.warnings.push_back("left out " + counted(hidden.size(), "emitting triangle") + " in the same place as another");
+        primitives.warnings.push_back(
+            {MessageId::HiddenLight,
+             {"left out ", part::value(counted(hidden.size(), "emitting triangle")), " in the same place as another"}});
     }
     if (const std::size_t count = placeSpheres(scene, primitives); count > 0) {
-        primitives.warnings.push_back("left out " + counted(count, "sphere") + " in the same place as one that emits");
+        primitives.warnings.push_back(
+            {MessageId::HiddenLight, {"left out ", part::value(counted(count, "sphere")), " in the same place as one that emits"}});
     }
     std::vector<std::uint32_t> lights = findEmitting(scene, primitives);
     std::erase_if(lights, [&](std::uint32_t light) {
@@ -369,8 +372,10 @@ void liftLights(const Scene& scene, Primitives& primitives)
     const auto moved = stackLights(scene, primitives, findOverlaps(primitives.triangles, lights), lights);
     if (!moved.empty()) {
         replaceTriangles(primitives, moved);
-        primitives.warnings.push_back(counted(moved.size(), "emitting triangle") + " in the plane of another surface: moved by up to " +
-                                      exactText(largestStep(moved)) + " m to their front");
+        primitives.warnings.push_back(
+            {MessageId::LiftedLight,
+             {part::value(counted(moved.size(), "emitting triangle")), " in the plane of another surface: moved by up to ",
+              exactText(largestStep(moved)), " m to their front"}});
     }
 }
 

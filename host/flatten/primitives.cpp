@@ -79,11 +79,13 @@ public:
             made_.hasAlpha.clear();
         }
         if (flatTriangles_ > 0) {
-            made_.warnings.push_back("left out " + counted(flatTriangles_, "triangle") + " of zero area");
+            made_.warnings.push_back(
+                {MessageId::FlatTriangle, {"left out ", part::value(counted(flatTriangles_, "triangle")), " of zero area"}});
         }
         if (badNormals_ > 0) {
-            made_.warnings.push_back("used the face normal in place of " + counted(badNormals_, "normal") +
-                                     " of zero length or not finite");
+            made_.warnings.push_back(
+                {MessageId::BadNormal,
+                 {"used the face normal in place of ", part::value(counted(badNormals_, "normal")), " of zero length or not finite"}});
         }
         return std::move(made_);
     }

@@ -43,7 +43,7 @@ struct Primitives {
 
     std::vector<bool> hasAlpha;  // by primitive: neither opaque nor transparent all over; empty if no primitive is
 
-    std::vector<std::string> warnings;  // one line each: what was dropped or replaced
+    std::vector<Message> warnings;  // one line each: what was dropped or replaced
 
     std::size_t count() const { return triangles.size() + spheres.size(); }
     std::uint64_t computeTriangleCount() const;  // those of shared meshes once for each instance

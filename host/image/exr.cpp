@@ -280,7 +280,7 @@ Image readExr(const fs::path& path)
             throw InputError(path.string() + ": is incomplete: rows of pixels are missing.");
         }
         if (Imf::isMultiPart(file.version())) {
-            warn(path.string() + ": has several parts, and only the first is read");
+            warn(MessageId::PartsIgnored, {part::file(path), ": has several parts, and only the first is read"});
         }
         readHeader(path, file.header(), image);
         readChannels(path, file, image);

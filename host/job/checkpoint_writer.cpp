@@ -31,10 +31,10 @@ bool isUnderWay(const std::future<Value>& work)
 
 }  // namespace
 
-void RepeatedMessage::sayAgain(const std::string& sentence)
+void RepeatedMessage::sayAgain(MessageId id, const std::string& sentence)
 {
     if (std::has_single_bit(++times_)) {
-        say(sentence + (times_ > 1 ? " (" + std::to_string(times_) + " times in a row)" : ""));
+        say(id, {sentence, times_ > 1 ? " (" + std::to_string(times_) + " times in a row)" : ""});
     }
 }
 
@@ -60,7 +60,7 @@ CheckpointWriter::~CheckpointWriter()
 {
     finish();
     if (command_.valid() && command_.wait_for(kPatience) != std::future_status::ready) {
-        say("--on-checkpoint: the command still runs and is waited for");
+        say(MessageId::CommandRuns, {part::place("--on-checkpoint"), ": the command still runs and is waited for"});
         command_.wait();
     }
 }
@@ -122,7 +122,7 @@ void CheckpointWriter::fail(const std::exception& error)
     asked_ = false;
     last_ = Clock::now();
     interval_ = options_.seconds.value_or(kDefaultInterval);
-    failed_.sayAgain("no checkpoint: " + describeReason(error));
+    failed_.sayAgain(MessageId::NoCheckpoint, "no checkpoint: " + describeReason(error));
 }
 
 std::optional<WrittenCheckpoint> CheckpointWriter::lastWritten() const
@@ -147,7 +147,8 @@ void CheckpointWriter::runCommand()
     pid_t process = 0;
     int status = 0;
     if (const int error = posix_spawn(&process, "/bin/sh", nullptr, nullptr, words, environ); error != 0) {
-        commandFailed_.sayAgain("--on-checkpoint: the command cannot be run: " + std::string(std::strerror(error)));
+        commandFailed_.sayAgain(MessageId::CommandFailed,
+                                "--on-checkpoint: the command cannot be run: " + std::string(std::strerror(error)));
         return;
     }
     while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
@@ -155,9 +156,11 @@ void CheckpointWriter::runCommand()
     if (status == 0) {
         commandFailed_.end();
     } else if (WIFSIGNALED(status)) {
-        commandFailed_.sayAgain("--on-checkpoint: the command was ended by signal " + std::to_string(WTERMSIG(status)));
+        commandFailed_.sayAgain(MessageId::CommandFailed,
+                                "--on-checkpoint: the command was ended by signal " + std::to_string(WTERMSIG(status)));
     } else {
-        commandFailed_.sayAgain("--on-checkpoint: the command failed with status " + std::to_string(WEXITSTATUS(status)));
+        commandFailed_.sayAgain(MessageId::CommandFailed,
+                                "--on-checkpoint: the command failed with status " + std::to_string(WEXITSTATUS(status)));
     }
 }
 

@@ -28,7 +28,7 @@ void addCheckpoint(OptionTable& table, CheckpointOptions& options);
 // Says what happens again and again the 1st, 2nd, 4th, 8th ... time in a row.
 class RepeatedMessage {
 public:
-    void sayAgain(const std::string& sentence);
+    void sayAgain(MessageId id, const std::string& sentence);
     void end() { times_ = 0; }
 
 private:

@@ -85,7 +85,7 @@ void report(const ScheduleRates& rates)
     char text[128];
     std::snprintf(text, sizeof text, "measured once on this device: persistent %.2f, wavefront %.2f Msamples/s; kept in ",
                   1e-6 * slowest(rates.persistent), 1e-6 * slowest(rates.wavefront));
-    say(text + rememberedFile().string());
+    say(MessageId::ScheduleChosen, {text, part::file(rememberedFile())});
 }
 
 }  // namespace
@@ -121,7 +121,7 @@ Schedule fastestSchedule(const DeviceDescription& device, const RenderSettings& 
         remember(device, rates);
         report(rates);
     } catch (const InputError& error) {  // the disk is full, say
-        say("the faster schedule will be measured again: " + std::string(error.what()));
+        say(MessageId::ScheduleForgotten, {"the faster schedule will be measured again: ", error.what()});
     }
     return rates.fastest();
 }

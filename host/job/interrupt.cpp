@@ -68,7 +68,7 @@ ExitCode finish(int signal, const std::string& what)
     if (signal == 0) {
         return ExitCode::Done;
     }
-    say("stopped by " + std::string(getSignalName(signal)) + "; " + what + ".");
+    say(MessageId::StoppedBySignal, {"stopped by ", part::value(getSignalName(signal)), "; ", what, "."});
     return signal == SIGINT ? ExitCode::Interrupted : signal == SIGTERM ? ExitCode::Terminated : ExitCode::HungUp;
 }
 

@@ -51,7 +51,8 @@ Look chooseLook(const LookOptions& options, const Film& film)
         look.exposure = chooseExposure(film, getAov(film));
         char stops[32];
         std::snprintf(stops, sizeof stops, "%+.2f", look.exposure);
-        say(std::string("--exposure auto is ") + stops + " stops, which show the log-average luminance as .18");
+        say(MessageId::ExposureChosen,
+            {part::place("--exposure"), " auto is ", part::value(stops), " stops, which show the log-average luminance as .18"});
     }
     return look;
 }

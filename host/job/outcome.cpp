@@ -8,7 +8,11 @@
 namespace glim {
 namespace {
 
-std::string sentence(const std::string& text) { return text.ends_with('.') ? text : text + '.'; }
+Message asSentence(Message message)
+{
+    message.sentence += message.sentence.ends_with('.') ? "" : ".";
+    return message;
+}
 
 }  // namespace
 
@@ -22,13 +26,13 @@ Outcome runForOutcome(const std::function<ExitCode()>& command)
     try {
         return {command(), {}};
     } catch (const UsageError& error) {
-        return {ExitCode::Usage, error.what()};
+        return {ExitCode::Usage, error.message()};
     } catch (const InputError& error) {
-        return {ExitCode::BadInput, sentence(error.what())};
+        return {ExitCode::BadInput, asSentence(error.message())};
     } catch (const DeviceError& error) {
-        return {ExitCode::Device, sentence(error.what())};
+        return {ExitCode::Device, asSentence(error.message())};
     } catch (const std::bad_alloc& error) {
-        return {ExitCode::BadInput, sentence("For this scene and picture " + describeReason(error))};
+        return {ExitCode::BadInput, Message(MessageId::OutOfMemory, {"For this scene and picture ", describeReason(error), "."})};
     }
 }
 

@@ -5,13 +5,14 @@
 
 #include <exception>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace glim {
 
 struct Outcome {
     ExitCode code = ExitCode::Done;
-    std::string error;  // one sentence; empty if nothing was thrown
+    std::optional<Message> error = std::nullopt;  // nothing if nothing was thrown
 };
 
 // For a sentence.

@@ -112,7 +112,8 @@ bool OutputLock::make()
     }
     const bool isLocked = flock(file, LOCK_EX | LOCK_NB) == 0;
     if (!isLocked && errno != EWOULDBLOCK) {
-        say(path_.string() + " cannot be locked, so another glim may write " + output_.string() + " too: " + std::strerror(errno));
+        say(MessageId::NotLocked,
+            {part::file(path_), " cannot be locked, so another glim may write ", output_.string(), " too: ", std::strerror(errno)});
         unlink(path_.c_str());
         close(file);
         return true;

@@ -52,7 +52,7 @@ void resumeFrom(Renderer& renderer, StoredFilm stored, const std::string& name)
         refuse("expected them to begin at " + std::to_string(settings.sampleBegin));
     }
     if (!stored.checkpoint && end - begin <= kBlockSamples) {
-        say(name + " has no finished block of samples, so the render begins anew");
+        say(MessageId::BegunAnew, {part::file(name), " has no finished block of samples, so the render begins anew"});
         return;
     }
     std::optional<Checkpoint> checkpoint = stored.checkpoint ? std::move(stored.checkpoint) : makeCheckpoint(std::move(stored.film));
@@ -64,11 +64,13 @@ void resumeFrom(Renderer& renderer, StoredFilm stored, const std::string& name)
     }
     renderer.resume(*std::move(checkpoint));
     const double pixels = settings.pixelCount();
-    say(name + " is resumed at " +
-        exactText(std::round(100.0 * static_cast<double>(renderer.statistics().resumedSamples) / pixels) / 100.0) + " samples per pixel");
+    say(MessageId::Resumed,
+        {part::file(name), " is resumed at ",
+         part::value(exactText(std::round(100.0 * static_cast<double>(renderer.statistics().resumedSamples) / pixels) / 100.0)),
+         " samples per pixel"});
     if (arithmetic != arithmeticFingerprint(renderer.resources().device)) {
-        say(renderer.resources().device.description().name + " rounds otherwise than " + device +
-            " did, so the film will equal a single run up to rounding");
+        say(MessageId::OtherRounding, {part::value(renderer.resources().device.description().name), " rounds otherwise than ", device,
+                                       " did, so the film will equal a single run up to rounding"});
     }
 }
 
@@ -109,7 +111,7 @@ RenderedFilm renderPicture(Renderer& renderer, const RenderJob& options, FilmDen
         } catch (const DeviceError&) {
             throw;  // nor could the film be read
         } catch (const std::exception& error) {
-            say("the film has no checkpoint: " + describeReason(error));
+            say(MessageId::NoCheckpoint, {"the film has no checkpoint: ", describeReason(error)});
         }
     };
     rendered.film = renderer.render(observe, target.isGiven() ? StoppingCriterion(criterion) : nullptr, atEnd);
@@ -122,10 +124,11 @@ RenderedFilm renderPicture(Renderer& renderer, const RenderJob& options, FilmDen
 void warnIfUnknown(const RenderedFilm& rendered)
 {
     if (rendered.isUnknown) {
-        warn(format("the target is not reached after %.4g samples per pixel, and the render ends, because the error is unknown: ",
-                    computeRates(rendered.film).mean) +
-             (estimateError(rendered.film) ? "it is not measured of the denoised picture" : whyUnknown(rendered.film)) +
-             "; without a target it has the samples that --spp asks for.");
+        warn(MessageId::TargetUnreachable,
+             {"the target is not reached after ", part::value(format("%.4g samples per pixel", computeRates(rendered.film).mean)),
+              ", and the render ends, because the error is unknown: ",
+              estimateError(rendered.film) ? "it is not measured of the denoised picture" : whyUnknown(rendered.film),
+              "; without a target it has the samples that --spp asks for."});
     }
 }
 

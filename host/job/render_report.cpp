@@ -209,7 +209,7 @@ void warnOfExposure(const RenderReport& report)
     const RenderJob& options = report.options;
     if (report.look && options.settings.aov == Aov::Radiance) {
         if (const auto advice = adviseExposure(report.film, *report.look)) {
-            warn(options.pictures.front().string() + ' ' + *advice + '.');
+            warn(MessageId::ExposureAdvised, {part::file(options.pictures.front()), " ", *advice, "."});
         }
     }
 }
@@ -281,29 +281,36 @@ void warnOfPicture(const Film& film, const RenderStatistics& statistics, const R
 {
     const auto gaps = std::count_if(film.pixels.begin(), film.pixels.end(), [](const PixelMoments& p) { return p.count == 0; });
     if (gaps > 0) {
-        warn(std::to_string(gaps) + " of " + std::to_string(film.pixels.size()) + " pixels have no sample and are black.");
+        warn(MessageId::PixelsWithoutSamples,
+             {part::value(std::to_string(gaps)), " of ", std::to_string(film.pixels.size()), " pixels have no sample and are black."});
     }
     if (statistics.nonFinite > 0) {
         const Located& first = statistics.located[0];
-        warn(format("%u samples were not finite and were discarded; the first: pixel (%u, %u), sample %u.", statistics.nonFinite,
-                    first.pixel % film.width, first.pixel / film.width, first.sampleIndex));
+        warn(
+            MessageId::NonFiniteSamples,
+            {part::value(std::to_string(statistics.nonFinite)), " samples were not finite and were discarded; the first: ",
+             part::place(format("pixel (%u, %u), sample %u", first.pixel % film.width, first.pixel / film.width, first.sampleIndex)), "."});
     }
     const auto unheld = std::count_if(film.pixels.begin(), film.pixels.end(), [](const PixelMoments& p) { return !isFinite(p.mean); });
     if (unheld > 0 && settings.aov == Aov::Radiance) {
-        warn(format("%zu pixels are not finite: float32 does not hold the sums of their samples.", static_cast<std::size_t>(unheld)));
+        warn(MessageId::NonFinitePixels,
+             {part::value(std::to_string(unheld)), " pixels are not finite: float32 does not hold the sums of their samples."});
     }
     if (statistics.transparencyCaps > 0) {
-        warn(std::to_string(statistics.transparencyCaps) +
-             " rays met more transparent surfaces in a row than they may pass; the next one was opaque to them.");
+        warn(MessageId::TransparencyCap,
+             {part::value(std::to_string(statistics.transparencyCaps)),
+              " rays met more transparent surfaces in a row than they may pass; the next one was opaque to them."});
     }
     if (statistics.mediaCaps > 0) {
-        warn(std::to_string(statistics.mediaCaps) +
-             " rays entered a solid within four others and forgot the outermost, so what these rays meet there is wrong.");
+        warn(MessageId::MediaCap,
+             {part::value(std::to_string(statistics.mediaCaps)),
+              " rays entered a solid within four others and forgot the outermost, so what these rays meet there is wrong."});
     }
     if (std::isfinite(settings.clampIndirect)) {
         const ClampedEnergy energy = computeClampedEnergy(film);
-        warn(format("--clamp-indirect removed %g %% of the picture's light (mean radiance %g).", 100.0 * energy.removedShare(),
-                    energy.removed));
+        warn(MessageId::LightClamped,
+             {part::place("--clamp-indirect"), " removed ", part::value(format("%g %%", 100.0 * energy.removedShare())),
+              " of the picture's light ", format("(mean radiance %g).", energy.removed)});
     }
 }
 

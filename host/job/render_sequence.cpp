@@ -121,7 +121,7 @@ auto tryTo(const char* purpose, Inform inform) -> decltype(inform())
     try {
         return inform();
     } catch (const std::exception& error) {
-        say(std::string("it was not possible to ") + purpose + ": " + describeReason(error));
+        say(MessageId::NotInformed, {"it was not possible to ", purpose, ": ", describeReason(error)});
         return decltype(inform())();
     }
 }
@@ -349,8 +349,8 @@ ExitCode SequenceRenderer::writeShot(const RenderJob& options, const PictureFram
     const double writeSeconds = secondsSince(start);
     warnIfUnknown(rendered);
     if (options.denoise && !denoising && !rendered.denoisingError) {
-        say("the picture is not denoised: " +
-            std::string(watch_->signal() == 0 ? "too few samples were finished" : "the render was ended"));
+        say(MessageId::NotDenoised,
+            {"the picture is not denoised: ", watch_->signal() == 0 ? "too few samples were finished" : "the render was ended"});
     }
     const std::optional<double> idSeconds = writeIdentities(options, frame.camera, film);
     // Before the control, whose samples are no suspects.

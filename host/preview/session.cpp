@@ -249,7 +249,7 @@ void Session::say(const std::string& text)
 
 void Session::tell(const std::string& text)
 {
-    glim::say(text);
+    glim::say(MessageId::WindowReport, {text});
     say(text);
 }
 
@@ -479,7 +479,7 @@ void Session::writePictures()
 void Session::printSummary() const
 {
     const std::string waits = pacer_.latency().describe();
-    glim::say(std::to_string(frames_) + " frames" + (waits.empty() ? "" : "; " + waits));
+    glim::say(MessageId::WindowReport, {part::value(std::to_string(frames_)), " frames", waits.empty() ? "" : "; " + waits});
 }
 
 }  // namespace glim

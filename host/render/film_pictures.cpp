@@ -60,7 +60,7 @@ Tone chooseTone(const Scene& scene)
     if (!scene.environment || scene.environment->source != "studio") {
         return Tone::None;
     }
-    say("the built-in studio lights the scene, so --tone is neutral");
+    say(MessageId::ToneChosen, {"the built-in studio lights the scene, so ", part::place("--tone"), " is ", part::value("neutral")});
     return Tone::Neutral;
 }
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <new>
 #include <set>
 
@@ -22,23 +23,25 @@ void sayTextureMemory(const FlatScene& flat)
     constexpr std::uint64_t kWorthSaying = std::uint64_t{64} << 20U;
     const std::uint64_t all = textureBytes(flat), images = imageBytes(flat);
     if (all > kWorthSaying) {
-        say("textures take " + std::to_string(images >> 20U) + " MiB on the device and the environment " +
-            std::to_string((all - images) >> 20U) + " MiB" + (images > kWorthSaying ? "; --max-texture N scales textures down" : ""));
+        say(MessageId::TextureMemory,
+            {"textures take ", part::value(std::to_string(images >> 20U) + " MiB"), " on the device and the environment ",
+             std::to_string((all - images) >> 20U), " MiB", images > kWorthSaying ? "; --max-texture N scales textures down" : ""});
     }
 }
 
 void sayWarnings(const Scene& scene, const Scene& previous)
 {
     constexpr std::size_t kMaxLines = 20;
-    const std::set<std::string> known(previous.warnings.begin(), previous.warnings.end());
+    std::set<std::string> known;
+    std::ranges::transform(previous.warnings, std::inserter(known, known.end()), &Message::sentence);
     std::size_t count = 0;
-    for (const std::string& warning : scene.warnings) {
-        if (known.count(warning) == 0 && ++count <= kMaxLines) {
-            warn(warning);
+    for (const Message& warning : scene.warnings) {
+        if (known.count(warning.sentence) == 0 && ++count <= kMaxLines) {
+            say(Severity::Warning, warning);
         }
     }
     if (count > kMaxLines) {
-        warn("and " + counted(count - kMaxLines, "more warning"));
+        warn(MessageId::MoreWarnings, {"and ", counted(count - kMaxLines, "more warning")});
     }
 }
 
@@ -51,7 +54,7 @@ PreparedScene within(const std::filesystem::path& file, const std::function<Prep
     try {
         return prepare();
     } catch (const std::bad_alloc&) {
-        throw InputError(file.string() + ": " + memorySentence());
+        throw InputError(MessageId::OutOfMemory, {part::file(file), ": ", memorySentence()});
     }
 }
 
@@ -135,15 +138,15 @@ void sayIfCameraIsNumber(const Scene& scene, const std::optional<std::string>& c
     const std::string index = std::to_string(&camera - scene.cameras.data());
     const bool named = std::ranges::any_of(scene.cameras, [&](const Camera& other) { return &other != &camera && other.name == *choice; });
     const std::string name = camera.name.empty() ? "" : ": the camera is " + inQuotes(camera.name);
-    say("--camera " + *choice +
-        (index == *choice ? " is an index" + name + (named ? ", not the one named " + inQuotes(*choice) : "")
-                          : " is a name: the camera has the index " + index));
+    say(MessageId::CameraChosen, {part::place("--camera"), " ", part::value(*choice),
+                                  index == *choice ? " is an index" + name + (named ? ", not the one named " + inQuotes(*choice) : "")
+                                                   : " is a name: the camera has the index " + index});
 }
 
 void warnIfNoLights(const PreparedScene& prepared)
 {
     if (prepared.flat.lights.empty()) {
-        warn("the scene has no light, so every picture of it is black; --environment 1,1,1 lights it");
+        warn(MessageId::NoLight, {"the scene has no light, so every picture of it is black; --environment 1,1,1 lights it"});
     }
 }
 

@@ -32,7 +32,7 @@ void noteIgnoredParts(const GltfFile& file, Warnings& warnings)
         const ExtensionEffect effect = getEffect(extension);
         const bool ofMaterials = extension.find("_materials_") != std::string::npos;  // noted with each material
         if ((effect == ExtensionEffect::Looks && !ofMaterials) || effect == ExtensionEffect::Content) {
-            warnings.add("extensions are ignored", shortened(extension));
+            warnings.add(MessageId::ExtensionIgnored, "extensions are ignored", shortened(extension));
         }
     }
 }
@@ -84,8 +84,9 @@ void chooseTime(GltfFile& file, const LoadOptions& options, std::optional<double
     if (seconds) {
         animateGltf(file, findAnimation(file, animations, options.animation), *seconds, warnings);
     } else if (!animations.empty()) {
-        warnings.add("the scene is drawn in its rest pose: --at SECONDS poses it by animation " + describeAnimation(animations, 0) +
-                     (animations.size() == 1 ? "" : ", --animation by another of " + std::to_string(animations.size())));
+        warnings.add(MessageId::RestPose,
+                     "the scene is drawn in its rest pose: --at SECONDS poses it by animation " + describeAnimation(animations, 0) +
+                         (animations.size() == 1 ? "" : ", --animation by another of " + std::to_string(animations.size())));
     }
 }
 
@@ -97,8 +98,8 @@ Environment readMap(const std::filesystem::path& path, const LoadOptions& option
     environment.source = path.string();
     scene.files.push_back(path);
     if (environment.map->repaired > 0) {
-        warnings.add(path.string() + " holds " + counted(environment.map->repaired, "texel") +
-                     " that are negative or not finite; they count as 0");
+        warnings.add(MessageId::RepairedTexels, path.string() + " holds " + counted(environment.map->repaired, "texel") +
+                                                    " that are negative or not finite; they count as 0");
     }
     return environment;
 }
@@ -114,7 +115,7 @@ std::optional<Environment> readNamedMap(const GltfFile& file, const LoadOptions&
     const tinygltf::Value& source = extras.Get("environment");
     const std::string place = label("scenes", index, file.model.scenes[index].name) + ".extras.environment";
     if (!source.IsObject() || !source.Has("file") || !source.Get("file").IsString()) {
-        warnings.add(place + " has no \"file\" and is ignored");
+        warnings.add(MessageId::ExtrasIgnored, place + " has no \"file\" and is ignored");
         return std::nullopt;
     }
     const std::string name = source.Get("file").Get<std::string>();
@@ -517,8 +518,8 @@ Scene SceneFile::sceneAt(std::optional<double> seconds)
             contents_->firstNodes.push_back(node);
             contents_->firstMaterials.push_back(material);
             others.push_back({contents_->added[i].read(std::nullopt, own), options_.additions[i].worldFromFile});
-            for (const std::string& line : own.lines()) {
-                warnings.add(others.back().scene.file + ": " + line);
+            for (const Message& message : own.messages()) {
+                warnings.add(message.id, others.back().scene.file + ": " + message.sentence);
             }
             node += static_cast<std::uint32_t>(others.back().scene.nodeNames.size());
             material += static_cast<std::uint32_t>(others.back().scene.materials.size());
@@ -527,15 +528,15 @@ Scene SceneFile::sceneAt(std::optional<double> seconds)
     }
     if (!options_.environment && !hasLight(scene)) {
         scene.environment = makeStudioEnvironment(options_, contents_->main.decoded());
-        warnings.add("the scene has no light: the built-in studio lights it (--environment none keeps it dark)");
+        warnings.add(MessageId::StudioLight, "the scene has no light: the built-in studio lights it (--environment none keeps it dark)");
     }
     if (scene.cameras.empty()) {
-        warnings.add("the scene has no camera: one is framed on its bounding box");
+        warnings.add(MessageId::FramedCamera, "the scene has no camera: one is framed on its bounding box");
     }
     if (framed) {
         scene.cameras.push_back(*framed);
     }
-    scene.warnings = warnings.lines();
+    scene.warnings = warnings.messages();
     checkScene(scene);
     return scene;
 }

@@ -5,6 +5,7 @@
 
 #include "host/image/decode_image.hpp"
 #include "host/image/radiance_map.hpp"
+#include "host/message.hpp"
 #include "host/shared_vector.hpp"
 #include "shaders/shared/texture_slots.h"
 
@@ -206,7 +207,7 @@ struct Scene {
     std::vector<std::string> variants;  // names in KHR_materials_variants
     std::vector<Animation> animations;
     std::size_t skins = 0, morphTargets = 0;  // of the file
-    std::vector<std::string> warnings;        // one line each: what was ignored, mapped, dropped or framed
+    std::vector<Message> warnings;            // one line each: what was ignored, mapped, dropped or framed
 };
 
 }  // namespace glim

@@ -1,6 +1,8 @@
 // Warnings, one line per kind, however many things it concerns.
 #pragma once
 
+#include "host/message.hpp"
+
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -10,48 +12,63 @@ namespace glim {
 
 class Warnings {
 public:
-    void add(const std::string& sentence)
+    void add(MessageId id, const std::string& sentence)
     {
         places_.try_emplace(sentence, kinds_.size());
-        kinds_.push_back({sentence, {}});
+        kinds_.push_back({id, sentence, {}});
     }
     // One more thing that the sentence holds for.
-    void add(const std::string& sentence, const std::string& name)
+    void add(MessageId id, const std::string& sentence, const std::string& name)
     {
         if (places_.count(sentence) == 0) {
-            add(sentence);
+            add(id, sentence);
         }
-        kinds_[places_.at(sentence)].second.push_back(name);
+        kinds_[places_.at(sentence)].names.push_back(name);
     }
     void add(const Warnings& others)
     {
-        for (const auto& [sentence, names] : others.kinds_) {
-            if (names.empty()) {
-                add(sentence);
+        for (const Kind& kind : others.kinds_) {
+            if (kind.names.empty()) {
+                add(kind.id, kind.sentence);
             }
-            for (const std::string& name : names) {
-                add(sentence, name);
+            for (const std::string& name : kind.names) {
+                add(kind.id, kind.sentence, name);
             }
         }
     }
 
-    // "the sentence: first, second, third and 4 more", in the order in which each kind was met first.
-    std::vector<std::string> lines() const
+    // "the sentence: first, second, third and 4 more", in the order in which each kind was met first. The names are the place.
+    std::vector<Message> messages() const
     {
-        constexpr std::size_t kNamed = 3;
-        std::vector<std::string> lines;
-        for (const auto& [kind, names] : kinds_) {
-            std::string line = kind;
-            for (std::size_t i = 0; i < names.size() && i < kNamed; ++i) {
-                line += (i == 0 ? ": " : ", ") + names[i];
+        std::vector<Message> messages;
+        for (const Kind& kind : kinds_) {
+            if (kind.names.empty()) {
+                messages.push_back({kind.id, {kind.sentence}});
+            } else {
+                messages.push_back({kind.id, {kind.sentence, ": ", part::place(listed(kind.names))}});
             }
-            lines.push_back(names.size() > kNamed ? line + " and " + std::to_string(names.size() - kNamed) + " more" : line);
         }
-        return lines;
+        return messages;
     }
 
 private:
-    std::vector<std::pair<std::string, std::vector<std::string>>> kinds_;
+    struct Kind {
+        MessageId id;
+        std::string sentence;
+        std::vector<std::string> names;
+    };
+
+    static std::string listed(const std::vector<std::string>& names)
+    {
+        constexpr std::size_t kNamed = 3;
+        std::string list;
+        for (std::size_t i = 0; i < names.size() && i < kNamed; ++i) {
+            list += (i == 0 ? "" : ", ") + names[i];
+        }
+        return names.size() > kNamed ? list + " and " + std::to_string(names.size() - kNamed) + " more" : list;
+    }
+
+    std::vector<Kind> kinds_;
     std::unordered_map<std::string, std::size_t> places_;  // of each sentence in kinds_
 };
 

@@ -71,7 +71,7 @@ void ViewSession::run()
 void ViewSession::printSummary() const
 {
     if (latency_.count() > 0) {
-        say(latency_.describe());
+        say(MessageId::WindowReport, {latency_.describe()});
     }
 }
 
@@ -247,7 +247,7 @@ std::vector<Side> ViewSession::sides() const
 
 void ViewSession::tell(const std::string& text)
 {
-    say(text);
+    say(MessageId::WindowReport, {text});
     notice_.show(text);
     changed_ = true;
 }

@@ -173,8 +173,8 @@ TEST(GltfAccessor, PointsAndLinesAreLeftOutAndSaidSo)
     const Scene scene = load(builder);
     EXPECT_EQ(makePrimitives(scene).triangles.size(), 1U);
     ASSERT_GE(scene.warnings.size(), 2U);
-    EXPECT_NE(scene.warnings[0].find("lines are left out: meshes[0].primitives[0]"), std::string::npos);
-    EXPECT_NE(scene.warnings[1].find("points are left out"), std::string::npos);
+    EXPECT_NE(sentencesOf(scene.warnings)[0].find("lines are left out: meshes[0].primitives[0]"), std::string::npos);
+    EXPECT_NE(sentencesOf(scene.warnings)[1].find("points are left out"), std::string::npos);
 }
 
 // A triangle with all attributes that a mesh can have; colours are normalised bytes without alpha, texture coordinates normalised shorts.

@@ -63,15 +63,15 @@ Scene loadDark(const GltfBuilder& builder)
 
 std::size_t count(const Scene& scene, const std::string& fragment)
 {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(scene.warnings, [&](const std::string& line) { return line.find(fragment) != std::string::npos; }));
+    return static_cast<std::size_t>(std::ranges::count_if(
+        sentencesOf(scene.warnings), [&](const std::string& line) { return line.find(fragment) != std::string::npos; }));
 }
 
 // The line that begins so; there is one.
 std::string warning(const Scene& scene, const std::string& beginning)
 {
     std::string found;
-    for (const std::string& line : scene.warnings) {
+    for (const std::string& line : sentencesOf(scene.warnings)) {
         if (line.starts_with(beginning)) {
             EXPECT_EQ(found, "") << "is said twice";
             found = line;

@@ -120,7 +120,7 @@ TEST(GltfCameras, ReadsPerspectiveCameras)
     EXPECT_EQ(scene.cameras.at(0).name, "node");
     EXPECT_EQ(scene.cameras.at(0).aspectRatio, 1.25F);
     EXPECT_EQ(scene.cameras.at(0).position + glm::vec3(scene.origin), glm::vec3(7, 8, 9));
-    EXPECT_EQ(::testing::PrintToString(scene.warnings).find("framed"), std::string::npos);
+    EXPECT_EQ(::testing::PrintToString(sentencesOf(scene.warnings)).find("framed"), std::string::npos);
 }
 
 TEST(GltfCameras, ReadsOrthographicCameras)
@@ -183,7 +183,7 @@ TEST(GltfCameras, FramesTheWholeBoxWhereThereIsNone)
         LoadOptions options;
         options.aspectRatio = aspectRatio;
         const Scene scene = load(builder, options);
-        EXPECT_NE(scene.warnings.back().find("no camera"), std::string::npos);
+        EXPECT_NE(sentencesOf(scene.warnings).back().find("no camera"), std::string::npos);
         const Camera& camera = scene.cameras.at(0);
         const auto isSeen = [&](const glm::vec3& point) {
             const glm::vec3 to = point - camera.position;

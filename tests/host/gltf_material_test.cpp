@@ -28,7 +28,7 @@ Mapped map(const json& material)
     builder.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
     builder.addNode({{"camera", 0}});
     const Scene scene = load(builder);
-    return {scene.materials.at(scene.meshes.at(0).material), scene.warnings};
+    return {scene.materials.at(scene.meshes.at(0).material), sentencesOf(scene.warnings)};
 }
 
 json specular(double factor) { return {{"KHR_materials_specular", {{"specularFactor", factor}}}}; }
@@ -259,7 +259,7 @@ TEST(GltfMaterial, OneLineForEachExtensionThatIsIgnored)
         builder.document["meshes"][mesh]["primitives"][0]["material"] = i;
         builder.addNode({{"mesh", mesh}});
     }
-    const Lines lines = ofMaterials(load(builder).warnings);
+    const Lines lines = ofMaterials(sentencesOf(load(builder).warnings));
     ASSERT_EQ(lines.size(), 1U);
     EXPECT_EQ(lines[0], "VENDOR_toon is ignored: materials[0] (\"clay\"), materials[1] (\"clay\"), materials[2] (\"clay\") and 2 more");
 }
@@ -276,7 +276,7 @@ TEST(GltfMaterial, UnusedMaterialsSayNothing)
     builder.addNode({{"mesh", mesh}});
     const Scene scene = load(builder);
     EXPECT_EQ(scene.materials.size(), 2U);
-    EXPECT_FALSE(mentions(scene.warnings, "VENDOR_toon"));
+    EXPECT_FALSE(mentions(sentencesOf(scene.warnings), "VENDOR_toon"));
 }
 
 }  // namespace

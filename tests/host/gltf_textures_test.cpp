@@ -128,7 +128,7 @@ TEST(GltfTextures, AJpegWithoutItsEndIsDrawnAndSaidSo)
     jpeg.resize(jpeg.size() - 2);
     const Scene scene = load(texturedTriangle({{"uri", base64Uri("image/jpeg", jpeg)}, {"name", "wood"}}));
     EXPECT_NEAR(scene.images.at(0).pixels->rgba8.at(0), 90, 1);
-    EXPECT_TRUE(mentions(scene.warnings, "JPEG images without their end marker are drawn: images[0] (\"wood\")"));
+    EXPECT_TRUE(mentions(sentencesOf(scene.warnings), "JPEG images without their end marker are drawn: images[0] (\"wood\")"));
 }
 
 TEST(GltfTextures, BrokenOnesAreNamedOrGrey)
@@ -141,8 +141,8 @@ TEST(GltfTextures, BrokenOnesAreNamedOrGrey)
     options.missingTextures = MissingTextures::Grey;
     const Scene scene = loadGltf(path, options);
     EXPECT_EQ(scene.images.at(0).pixels->rgba8, (Texels{128, 128, 128, 255}));
-    EXPECT_TRUE(mentions(scene.warnings, "images that cannot be read are drawn grey: " + sentence))
-        << ::testing::PrintToString(scene.warnings);
+    EXPECT_TRUE(mentions(sentencesOf(scene.warnings), "images that cannot be read are drawn grey: " + sentence))
+        << ::testing::PrintToString(sentencesOf(scene.warnings));
     EXPECT_NE(loadRefusal(writeTemporary("lost_image.gltf", texturedTriangle({{"uri", "lost.png"}}).toGltf()))
                   .find("images[0] names the file \"lost.png\""),
               std::string::npos);
@@ -186,13 +186,13 @@ TEST(GltfTextures, AnyTwoSetsOfTextureCoordinates)
         const Scene scene = loadSets(color, emission, -1);
         EXPECT_EQ(coordinateOf(scene, scene.materials[0].textures[kSlotBaseColor]), static_cast<float>(color));
         EXPECT_EQ(coordinateOf(scene, scene.materials[0].textures[kSlotEmissive]), static_cast<float>(emission));
-        EXPECT_FALSE(mentions(scene.warnings, "texture coordinates"));
+        EXPECT_FALSE(mentions(sentencesOf(scene.warnings), "texture coordinates"));
     }
     const Scene scene = loadSets(1, 2, 4);
     EXPECT_EQ(coordinateOf(scene, scene.materials[0].textures[kSlotEmissive]), 2.0F);
     EXPECT_EQ(coordinateOf(scene, scene.materials[0].textures[kSlotNormal]), 1.0F);
-    EXPECT_TRUE(
-        mentions(scene.warnings, "of more than two sets of texture coordinates the highest are replaced by the lowest: materials[0]"));
+    EXPECT_TRUE(mentions(sentencesOf(scene.warnings),
+                         "of more than two sets of texture coordinates the highest are replaced by the lowest: materials[0]"));
 }
 
 // Six faces, whose left halves are of one value and whose right halves of another.
@@ -244,8 +244,8 @@ TEST(GltfTextures, FacesOfACubeLightTheScene)
     for (const auto& [w, value] : expected) {
         EXPECT_NEAR(radianceTowards(map, w.x, w.y, w.z), linear(value), 1e-4F) << w.x << " " << w.y << " " << w.z;
     }
-    EXPECT_FALSE(mentions(scene.warnings, "EXT_lights_image_based"));
-    EXPECT_FALSE(mentions(scene.warnings, "no light"));
+    EXPECT_FALSE(mentions(sentencesOf(scene.warnings), "EXT_lights_image_based"));
+    EXPECT_FALSE(mentions(sentencesOf(scene.warnings), "no light"));
     const Scene jpegs = load(litByImages(kFaces, true));
     EXPECT_NEAR(radianceTowards(*jpegs.environment->map, 1, 0, -s), linear(40), 0.01F);
     LoadOptions dark;
@@ -315,14 +315,14 @@ TEST(GltfTextures, RequiredExtensionsAreRefusedIfContentMayBeMissing)
     }
     for (const char* extension :
          {"KHR_materials_unlit", "KHR_node_visibility", "KHR_mesh_quantization", "KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
-        EXPECT_FALSE(mentions(load(require(extension)).warnings, extension)) << "supported";
+        EXPECT_FALSE(mentions(sentencesOf(load(require(extension)).warnings), extension)) << "supported";
     }
     for (const char* extension :
          {"KHR_animation_pointer", "KHR_xmp_json_ld", "KHR_node_selectability", "EXT_mesh_features", "KHR_audio_emitter"}) {
-        EXPECT_FALSE(mentions(load(require(extension)).warnings, extension)) << "it changes no still picture";
+        EXPECT_FALSE(mentions(sentencesOf(load(require(extension)).warnings), extension)) << "it changes no still picture";
     }
     for (const char* extension : {"EXT_lights_ies", "KHR_lights_area"}) {
-        EXPECT_TRUE(mentions(load(require(extension)).warnings, std::string("extensions are ignored: ") + extension));
+        EXPECT_TRUE(mentions(sentencesOf(load(require(extension)).warnings), std::string("extensions are ignored: ") + extension));
     }
 }
 
@@ -331,7 +331,7 @@ TEST(GltfTextures, RequiredExtensionsOfMaterialsAreSaidToBeIgnored)
     GltfBuilder builder = texturedTriangle({{"uri", base64Uri("image/png", redPng())}});
     builder.document["extensionsRequired"] = {"KHR_materials_to_come"};
     builder.document["materials"][0]["extensions"]["KHR_materials_to_come"] = {{"glow", 1}};
-    EXPECT_TRUE(mentions(load(builder).warnings, "KHR_materials_to_come is ignored: materials[0]"));
+    EXPECT_TRUE(mentions(sentencesOf(load(builder).warnings), "KHR_materials_to_come is ignored: materials[0]"));
 }
 
 TEST(GltfTextures, ScatteringWithinSolidsIsSaidToBeIgnored)
@@ -340,8 +340,8 @@ TEST(GltfTextures, ScatteringWithinSolidsIsSaidToBeIgnored)
     builder.document["extensionsRequired"] = {"KHR_materials_volume_scatter"};
     json& extension = builder.document["materials"][0]["extensions"]["KHR_materials_volume_scatter"];
     extension = {{"multiscatterColor", {0.5, 0.25, 1}}, {"scatterAnisotropy", 0.5}};
-    EXPECT_TRUE(
-        mentions(load(builder).warnings, "KHR_materials_volume_scatter is ignored (light does not scatter within solids): materials[0]"));
+    EXPECT_TRUE(mentions(sentencesOf(load(builder).warnings),
+                         "KHR_materials_volume_scatter is ignored (light does not scatter within solids): materials[0]"));
     extension["scatterAnisotropy"] = 2;
     EXPECT_NE(refusal(builder).find("scatterAnisotropy is 2; expected a number from -1 to 1"), std::string::npos) << refusal(builder);
 }
@@ -356,7 +356,8 @@ TEST(GltfTextures, InvisibleNodesAndWhatHangsBelowAreLeftOut)
         {{"name", "ghost"}, {"mesh", mesh}, {"children", {child}}, {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}});
     const Scene scene = load(builder);
     EXPECT_EQ(scene.instances.size(), 1U);
-    EXPECT_TRUE(mentions(scene.warnings, "invisible nodes are left out: nodes[2] (\"ghost\")")) << ::testing::PrintToString(scene.warnings);
+    EXPECT_TRUE(mentions(sentencesOf(scene.warnings), "invisible nodes are left out: nodes[2] (\"ghost\")"))
+        << ::testing::PrintToString(sentencesOf(scene.warnings));
 }
 
 }  // namespace

@@ -1,8 +1,11 @@
 // What messages do to words from files and from the command line.
 #include "host/message.hpp"
 #include "host/error.hpp"
+#include "host/json.hpp"
 
 #include <gtest/gtest.h>
+
+#include <set>
 
 namespace glim {
 namespace {
@@ -42,7 +45,40 @@ TEST(Message, LongNamesAreCutBetweenCharacters)
 TEST(Message, ErrorsKeepWhatFollowsAByteOfZero)
 {
     using namespace std::string_literals;
-    EXPECT_STREQ(InputError("nodes[0] (\"a\0b\") is bad"s).what(), "nodes[0] (\"a\\x00b\") is bad");
+    const InputError error(MessageId::OutOfRange, {"nodes[0] (\"a\0b\") is "s, part::value("\0"s)});
+    EXPECT_STREQ(error.what(), "nodes[0] (\"a\\x00b\") is \\x00");
+    EXPECT_EQ(error.message().value, "\\x00");
+}
+
+TEST(Message, PartsAreTheFirstWordsOfTheirKind)
+{
+    const Message message(MessageId::DanglingIndex, {part::file("a.gltf"), ": ", part::place("nodes[0].mesh"), " is ", part::value("7"),
+                                                     " as ", part::place("nodes[1].mesh"), "; expected ", part::expected("one below 3")});
+    EXPECT_EQ(message.sentence, "a.gltf: nodes[0].mesh is 7 as nodes[1].mesh; expected one below 3");
+    EXPECT_EQ(toJson(message).dump(),
+              R"({"id":"dangling-index","file":"a.gltf","place":"nodes[0].mesh","value":"7","expected":"one below 3"})");
+    EXPECT_EQ(toJson(Message(MessageId::NoLight, {"dark"})).dump(), R"({"id":"no-light"})");
+}
+
+TEST(Message, WordsAroundAMessageKeepWhatItIsAbout)
+{
+    const InputError inner(MessageId::FileMissing, {part::file("wood.png"), ": is not there; expected ", part::expected("a picture")});
+    const InputError outer(inner, {part::file("a.gltf"), ": ", part::place("images[0]"), " cannot be read (", inner.what(), ")"});
+    EXPECT_EQ(outer.message().id, MessageId::FileMissing);
+    EXPECT_EQ(outer.message().file, "a.gltf");
+    EXPECT_EQ(outer.message().place, "images[0]");
+    EXPECT_EQ(outer.message().expected, "a picture");
+    EXPECT_STREQ(outer.what(), "a.gltf: images[0] cannot be read (wood.png: is not there; expected a picture)");
+}
+
+TEST(Message, IdsHaveNamesOfTheirOwn)
+{
+    std::set<std::string> names;
+    for (unsigned i = 0; i < kMessageIdCount; ++i) {
+        names.insert(toText(static_cast<MessageId>(i)));
+    }
+    EXPECT_EQ(names.size(), kMessageIdCount);
+    EXPECT_EQ(toText(MessageId::FileMissing), "file-missing");
 }
 
 }  // namespace

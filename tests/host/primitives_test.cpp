@@ -84,7 +84,7 @@ TEST(PrimitivesTest, ABadNormalGivesWayToTheFaceOfEachTriangle)
     const glm::vec3 other = primitives.vertexNormals[primitives.vertexIndices[1].x];
     EXPECT_LT(glm::length(other - glm::normalize(glm::vec3(1, -1, 1))), 1e-6F);
     ASSERT_EQ(primitives.warnings.size(), 1U);
-    EXPECT_EQ(primitives.warnings[0].find("used the face normal in place of 2 normals"), 0U);
+    EXPECT_EQ(test::sentencesOf(primitives.warnings)[0].find("used the face normal in place of 2 normals"), 0U);
 }
 
 // Triangles whose vertices coincide in float32 have no area.
@@ -95,7 +95,7 @@ TEST(PrimitivesTest, WhatHasNoAreaHasNoId)
     EXPECT_EQ(primitives.firstTriangles, (std::vector<std::uint32_t>{0, 0, 2}));
     EXPECT_EQ(primitives.findInstance(0), 1U);
     ASSERT_EQ(primitives.warnings.size(), 1U);
-    EXPECT_NE(primitives.warnings[0].find("2 triangles"), std::string::npos);
+    EXPECT_NE(test::sentencesOf(primitives.warnings)[0].find("2 triangles"), std::string::npos);
     const FlatScene flat = flattened(sceneWith({square(true)}, {{"tiny", 0, tiny}, {"", 0}}));
     EXPECT_EQ(flat.triangles.size(), 2U);
 }

@@ -198,7 +198,7 @@ TEST(FarTest, WarnsOnceOfWhatFloat32CannotHold)
 {
     const auto warningsOf = [](double distance) {
         std::vector<std::string> found;
-        for (const std::string& warning : ballAndCard(distance).warnings) {
+        for (const std::string& warning : test::sentencesOf(ballAndCard(distance).warnings)) {
             if (warning.find("float32") != std::string::npos) {
                 found.push_back(warning);
             }

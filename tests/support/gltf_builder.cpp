@@ -153,9 +153,14 @@ Scene loadText(const std::string& content, const LoadOptions& options) { return 
 
 Scene load(const GltfBuilder& builder, const LoadOptions& options) { return loadText(builder.toGltf(), options); }
 
-bool hasWarning(const std::vector<std::string>& warnings, const std::string& fragment)
+bool hasWarning(const std::vector<Message>& warnings, MessageId id, const std::string& place)
 {
-    return std::ranges::any_of(warnings, [&](const std::string& warning) { return warning.find(fragment) != std::string::npos; });
+    return std::ranges::any_of(warnings, [&](const Message& m) { return m.id == id && m.place.find(place) != std::string::npos; });
+}
+
+bool hasWarning(const std::vector<Message>& warnings, const std::string& fragment)
+{
+    return std::ranges::any_of(warnings, [&](const Message& m) { return m.sentence.find(fragment) != std::string::npos; });
 }
 
 glm::vec3 vertex(const Scene& scene, std::size_t triangle, int corner)
@@ -189,6 +194,11 @@ std::string loadRefusal(const std::string& path, const LoadOptions& options)
 std::string refusal(const GltfBuilder& builder, const LoadOptions& options)
 {
     return loadRefusal(writeTemporary("scene.gltf", builder.toGltf()), options);
+}
+
+void expectRefused(const GltfBuilder& builder, MessageId id, const Parts& parts, const LoadOptions& options)
+{
+    expectRefusal<InputError>([&] { loadGltf(writeTemporary("scene.gltf", builder.toGltf()), options); }, id, parts);
 }
 
 }  // namespace glim::test

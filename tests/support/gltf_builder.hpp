@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/scene/load_gltf.hpp"
+#include "tests/support/expect_message.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -62,7 +63,9 @@ std::string writeTemporary(const std::string& name, const std::string& content);
 Scene loadText(const std::string& content, const LoadOptions& options = {});
 Scene load(const GltfBuilder& builder, const LoadOptions& options = {});
 
-bool hasWarning(const std::vector<std::string>& warnings, const std::string& fragment);
+// Whether there is a warning with this id, whose place has `place` in it.
+bool hasWarning(const std::vector<Message>& warnings, MessageId id, const std::string& place = "");
+bool hasWarning(const std::vector<Message>& warnings, const std::string& fragment);
 
 // Of a corner of a triangle of the flattened scene, in the world.
 glm::vec3 vertex(const Scene& scene, std::size_t triangle, int corner);
@@ -73,5 +76,7 @@ glm::dvec3 placedVertex(const Scene& scene, std::size_t index, std::size_t insta
 // The sentence that loading is refused with; fails the test and returns "" if it is not.
 std::string loadRefusal(const std::string& path, const LoadOptions& options = {});
 std::string refusal(const GltfBuilder& builder, const LoadOptions& options = {});
+// The file `builder` makes is refused so.
+void expectRefused(const GltfBuilder& builder, MessageId id, const Parts& parts, const LoadOptions& options = {});
 
 }  // namespace glim::test

@@ -107,7 +107,7 @@ std::optional<Property> Animator::findProperty(const std::string& pointer, const
     const SchemaRule* rule = findRule(allWeights ? path + "[]" : path);
     const bool vector = rule != nullptr && rule->kind == JsonKind::Numbers && rule->count <= 4;
     if (rule == nullptr || !(vector || rule->kind == JsonKind::Number || path == kVisible)) {
-        warnings_.add("animations of what glim does not draw are ignored", shortened(pointer));
+        warnings_.add(MessageId::AnimationIgnored, "animations of what glim does not draw are ignored", shortened(pointer));
         return std::nullopt;
     }
     if (allWeights || path == "nodes[].weights[]" || path == "meshes[].weights[]") {
@@ -137,7 +137,8 @@ void Animator::replaceMatrix(std::size_t index, const std::string& pointer, cons
     if (!splitMatrix(node)) {
         refuse(file_, place + " animates " + pointer + " of a node whose matrix shears or flattens; expected a node without a matrix");
     }
-    warnings_.add("matrices of nodes that are animated count as translation, rotation and scale", shortened(pointer));
+    warnings_.add(MessageId::MatrixDecomposed, "matrices of nodes that are animated count as translation, rotation and scale",
+                  shortened(pointer));
 }
 
 std::vector<double> Animator::readTimes(const GltfAnimation::Sampler& sampler)
@@ -148,7 +149,7 @@ std::vector<double> Animator::readTimes(const GltfAnimation::Sampler& sampler)
     for (std::size_t i = 1; i < times.size(); ++i) {
         const bool jumps = times[i] <= times[i - 1] && times[i - 1] - times[i] <= kTimeRounding * std::abs(times[i]);
         if (jumps) {
-            warnings_.add("values jump where times of keys do not increase",
+            warnings_.add(MessageId::UnorderedKeys, "values jump where times of keys do not increase",
                           "accessors[" + std::to_string(sampler.input) + "] (" + use + ")");
             times[i] = times[i - 1];
         } else if (!(times[i] > times[i - 1])) {
@@ -180,7 +181,8 @@ void Animator::set(const Property& property, std::vector<double> value, const st
     for (double& number : value) {
         const double clamped = std::clamp(number, property.min, property.max);
         if (clamped != number) {
-            warnings_.add("animated values outside the range of their property are clamped", shortened(pointer));
+            warnings_.add(MessageId::AnimatedValueClamped, "animated values outside the range of their property are clamped",
+                          shortened(pointer));
             number = clamped;
         }
     }

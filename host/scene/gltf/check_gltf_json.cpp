@@ -228,7 +228,7 @@ private:
                 }
             }
         } else if (isNone(node, *member)) {
-            warnings_.add("zeros count as left out where glTF has no meaning for 0", place.text());
+            warnings_.add(MessageId::ZeroIgnored, "zeros count as left out where glTF has no meaning for 0", place.text());
             value.erase(member);
         } else {
             visit(node, *member, place);
@@ -261,7 +261,7 @@ private:
     void clampRounded(const SchemaRule& rule, json& value, const Place& place) const
     {
         if (isRoundedOut(rule, value)) {
-            warnings_.add(kClamped, place.text() + " " + excerpt(value));
+            warnings_.add(MessageId::NumberClamped, kClamped, place.text() + " " + excerpt(value));
             value = std::clamp(value.get<double>(), rule.min, rule.max);
         }
     }
@@ -338,7 +338,7 @@ void eraseNulls(json& value, const Place& place, Warnings& warnings)
         const Place at{&place, member.key(), {}};
         const bool isNull = member->is_null();
         if (isNull) {
-            warnings.add("members that are null count as left out", at.text());
+            warnings.add(MessageId::NullIgnored, "members that are null count as left out", at.text());
         } else if (member->is_structured() && member.key() != "extras") {
             eraseNulls(*member, at, warnings);
         }
@@ -364,7 +364,7 @@ void makeAffine(json& document, Warnings& warnings)
             for (std::size_t column = 0; column < 4; ++column) {
                 (*matrix)[4 * column + 3] = column == 3 ? 1.0 : 0.0;
             }
-            warnings.add("last rows of matrices are rounded to 0 0 0 1", "nodes[" + std::to_string(i) + "]");
+            warnings.add(MessageId::MatrixRounded, "last rows of matrices are rounded to 0 0 0 1", "nodes[" + std::to_string(i) + "]");
         }
     }
 }

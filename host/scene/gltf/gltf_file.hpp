@@ -99,6 +99,7 @@ std::span<const unsigned char> findBytes(const std::string& path, const Buffers&
                                          const std::string& place);
 
 // Throws InputError: "<path>: <sentence>".
+[[noreturn]] void refuse(const GltfFile& file, MessageId id, std::initializer_list<MessagePart> words);
 [[noreturn]] void refuse(const GltfFile& file, const std::string& sentence);
 
 // How messages name things: nodes[3] ("lamp").

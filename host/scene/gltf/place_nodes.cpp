@@ -63,7 +63,7 @@ std::vector<int> findRoots(const GltfFile& file, const LoadOptions& options, con
             roots.push_back(static_cast<int>(i));
         }
     }
-    warnings.add("the file has no scene: all its nodes are drawn");
+    warnings.add(MessageId::NoScene, "the file has no scene: all its nodes are drawn");
     return roots;
 }
 
@@ -73,7 +73,8 @@ void noteParentsOfRoots(const GltfFile& file, const std::vector<int>& roots, con
     for (const int root : roots) {
         const auto index = static_cast<std::size_t>(root);
         if (parents[index] != kNone) {
-            warnings.add("roots of the scene are drawn without the transforms of their parents, which the scene does not hold",
+            warnings.add(MessageId::ParentTransformIgnored,
+                         "roots of the scene are drawn without the transforms of their parents, which the scene does not hold",
                          nodeLabel(file, index));
         }
     }
@@ -171,7 +172,7 @@ std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& opti
         }
         met[node.index] = true;
         if (!isVisible(file, node.index)) {
-            warnings.add("invisible nodes are left out", nodeLabel(file, node.index));
+            warnings.add(MessageId::InvisibleNode, "invisible nodes are left out", nodeLabel(file, node.index));
             continue;
         }
         const glm::dmat4 own = parentFromNode(file, node.index);

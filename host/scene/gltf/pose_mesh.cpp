@@ -115,13 +115,13 @@ Influences readInfluences(const GltfFile& file, const tinygltf::Primitive& primi
     }
     bool normalized = false;
     if (negative) {
-        warnings.add("weights of joints just below 0 count as 0", place);
+        warnings.add(MessageId::WeightsClamped, "weights of joints just below 0 count as 0", place);
     }
     for (std::size_t i = 0; i < vertexCount; ++i) {
         normalized = normalizeWeights(influences, i) || normalized;
     }
     if (normalized) {
-        warnings.add("weights of joints that do not add up to 1 are normalised", place);
+        warnings.add(MessageId::WeightsNormalized, "weights of joints that do not add up to 1 are normalised", place);
     }
     return influences;
 }
@@ -138,7 +138,7 @@ std::vector<MorphTarget> readMorphTargets(const GltfFile& file, const tinygltf::
                          "; expected as many of both");
     }
     if (count < weights.size()) {
-        warnings.add("morph targets that other parts of a mesh have do not move those without them", place);
+        warnings.add(MessageId::MissingMorphTarget, "morph targets that other parts of a mesh have do not move those without them", place);
     }
     std::vector<MorphTarget> targets;
     for (std::size_t i = 0; i < count; ++i) {
@@ -152,7 +152,8 @@ std::vector<MorphTarget> readMorphTargets(const GltfFile& file, const tinygltf::
         targets.push_back({weights[i], read("POSITION", "positions"), read("NORMAL", "normals"), read("TANGENT", "tangents")});
         for (const auto& [attribute, accessor] : primitive.targets[i]) {
             if (attribute != "POSITION" && attribute != "NORMAL" && attribute != "TANGENT") {
-                warnings.add("morph targets move positions, normals and tangents only", shortened(attribute) + " of " + targetPlace);
+                warnings.add(MessageId::MorphAttributeIgnored, "morph targets move positions, normals and tangents only",
+                             shortened(attribute) + " of " + targetPlace);
             }
         }
     }

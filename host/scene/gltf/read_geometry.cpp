@@ -134,9 +134,9 @@ void giveTangents(Mesh& mesh, std::uint32_t uvSet, Warnings& warnings)
     }
     mesh.tangents.clear();
     if ((uvSet == 0 ? mesh.uv0 : mesh.uv1).empty()) {
-        warnings.add("normal maps and anisotropy without texture coordinates are ignored", mesh.name);
+        warnings.add(MessageId::NoTextureCoordinates, "normal maps and anisotropy without texture coordinates are ignored", mesh.name);
     } else if (addTangents(mesh, uvSet == 1) > 0) {
-        warnings.add("texture coordinates of normal maps have no area in some triangles", mesh.name);
+        warnings.add(MessageId::FlatTextureCoordinates, "texture coordinates of normal maps have no area in some triangles", mesh.name);
     }
 }
 
@@ -213,7 +213,8 @@ void GeometryReader::addSphere(const PlacedNode& node)
 void GeometryReader::leaveOut(const PlacedNode& node)
 {
     ++scene_.flattened;
-    warnings_.add("meshes and spheres that are scaled to a plane, a line or a point are left out", nodeLabel(file_, node.index));
+    warnings_.add(MessageId::FlattenedNode, "meshes and spheres that are scaled to a plane, a line or a point are left out",
+                  nodeLabel(file_, node.index));
 }
 
 std::size_t GeometryReader::useOf(std::size_t node, std::size_t mesh)
@@ -365,7 +366,8 @@ void GeometryReader::checkExtent(const Box& box) const
         refuse(file_, "the scene is " + toText(extent) + " m large; expected at most " + toText(kMax) + " m");
     }
     if (extent > 0.0 && extent < kMin) {
-        warnings_.add("the scene is " + toText(extent) + " m large: below " + toText(kMin) + " m its picture may lack what is there");
+        warnings_.add(MessageId::TinyScene,
+                      "the scene is " + toText(extent) + " m large: below " + toText(kMin) + " m its picture may lack what is there");
     }
 }
 
@@ -405,7 +407,7 @@ void GeometryReader::placeOrigin(const Box& box)
     const std::vector<Place> places = placesOf();
     scene_.origin = places.empty() ? roundedCenter(box) : chooseOrigin(places, roundedCenter(box));
     for (const CoarsePart& part : findCoarseParts(places, scene_.origin)) {
-        warnings_.add("far from most of the scene, float32 rounds positions by more than small parts allow",
+        warnings_.add(MessageId::FarPart, "far from most of the scene, float32 rounds positions by more than small parts allow",
                       nodeLabel(file_, part.part) + " (steps of " + toText(part.spacing) + " m, parts of " + toText(part.size) + " m)");
     }
 }
@@ -425,7 +427,7 @@ void GeometryReader::finish()
         scene_.spheres.push_back(sphere.sphere);
     }
     if (emptySpheres_ > 0) {
-        warnings_.add("left out " + counted(emptySpheres_, "sphere") + " of zero radius");
+        warnings_.add(MessageId::EmptySphere, "left out " + counted(emptySpheres_, "sphere") + " of zero radius");
     }
 }
 

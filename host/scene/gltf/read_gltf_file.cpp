@@ -258,7 +258,8 @@ void warnOfSamplers(const json& document, Warnings& warnings)
         for (const auto& [member, known] : members) {
             const int value = sampler.value(member, kNone);
             if (std::find(known.begin(), known.end(), value) == known.end()) {
-                warnings.add("filters and wraps that glTF does not know there count as the nearest that it knows",
+                warnings.add(MessageId::UnknownSampler,
+                             "filters and wraps that glTF does not know there count as the nearest that it knows",
                              "samplers[" + std::to_string(index) + "]." + member + " " + std::to_string(value));
             }
         }
@@ -430,6 +431,11 @@ std::span<const unsigned char> findBytes(const std::string& path, const Buffers&
                          std::to_string(buffer.size()) + " of buffers[" + std::to_string(range.buffer) + "]");
     }
     return std::span(buffer).subspan(range.offset, range.length);
+}
+
+void refuse(const GltfFile& file, MessageId id, std::initializer_list<MessagePart> words)
+{
+    throw InputError(Message(Message(id, words), {part::file(file.path), ": ", Message(id, words).sentence}));
 }
 
 void refuse(const GltfFile& file, const std::string& sentence) { throw InputError(file.path + ": " + sentence); }

@@ -31,7 +31,7 @@ DecodedImage decodeNamed(const GltfFile& file, std::size_t image, std::span<cons
     try {
         DecodedImage decoded = decodeImage(bytes);
         if (decoded.noEnd) {
-            warnings.add("JPEG images without their end marker are drawn", getName(file, image));
+            warnings.add(MessageId::UnterminatedJpeg, "JPEG images without their end marker are drawn", getName(file, image));
         }
         return decoded;
     } catch (const InputError& error) {
@@ -117,7 +117,7 @@ private:
             }
             std::string reason = error.what();
             reason.erase(0, reason.rfind(file_.path + ": ", 0) == 0 ? file_.path.size() + 2 : 0);
-            warnings_.add("images that cannot be read are drawn grey", reason);
+            warnings_.add(MessageId::GreyImage, "images that cannot be read are drawn grey", reason);
             return makeGrey();
         }
     }

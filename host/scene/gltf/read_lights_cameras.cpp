@@ -35,7 +35,7 @@ void readCones(const GltfFile& file, const tinygltf::SpotLight& spot, const std:
         refuse(file, place + " has the inner cone angle " + toText(inner) + "; expected at most the outer one, " + toText(outer));
     }
     if (static_cast<float>(inner) > static_cast<float>(outer)) {
-        warnings.add("inner cones that rounding has made larger than the outer ones are clamped", place);
+        warnings.add(MessageId::ConeClamped, "inner cones that rounding has made larger than the outer ones are clamped", place);
     }
     light.versineOuter = std::max(versine(outer), FLT_MIN);
     light.versineInner = std::min(versine(inner), std::nextafter(light.versineOuter, 0.0F));
@@ -90,7 +90,7 @@ Camera readCamera(const GltfFile& file, const PlacedNode& node, std::size_t inde
     camera.position = readPosition(file, node, scene);
     readCameraPose(file, node, camera);
     if (glm::determinant(glm::dmat3(node.worldFromNode)) < 0.0) {
-        warnings.add("mirrored cameras are drawn upright", nodeLabel(file, node.index));
+        warnings.add(MessageId::MirroredCamera, "mirrored cameras are drawn upright", nodeLabel(file, node.index));
     }
     if (source.type == "perspective") {
         camera.yfov = static_cast<float>(source.perspective.yfov);
@@ -108,7 +108,8 @@ Camera readCamera(const GltfFile& file, const PlacedNode& node, std::size_t inde
         camera.aspectRatio = static_cast<float>(std::abs(source.orthographic.xmag / source.orthographic.ymag));
     }
     if (const float ratio = camera.aspectRatio.value_or(1.0F); !(ratio <= kMaxAspectRatio && ratio * kMaxAspectRatio >= 1.0F)) {
-        warnings.add("cameras of an aspect ratio beyond 16:1 or 1:16 get a picture of that shape, unless --size says another",
+        warnings.add(MessageId::ExtremeAspectRatio,
+                     "cameras of an aspect ratio beyond 16:1 or 1:16 get a picture of that shape, unless --size says another",
                      nodeLabel(file, node.index) + " " + toText(static_cast<double>(ratio)));
     }
     return camera;

@@ -91,10 +91,10 @@ private:
     void readGlossiness(Material& material);
     void chooseUvSets(Material& material);
     void warnOfExtensions();
-    void ignore(bool condition, const std::string& what)
+    void ignore(bool condition, MessageId id, const std::string& what)
     {
         if (condition) {
-            warnings_.add(what, place_);
+            warnings_.add(id, what, place_);
         }
     }
 
@@ -115,7 +115,7 @@ std::optional<Texture> MaterialReader::readTexture(int index, int uvSet, const t
             refuse(file_, label("textures", static_cast<std::size_t>(index), source.name) +
                               " has only a KTX2 image (KHR_texture_basisu); expected a source that is PNG, JPEG or WebP");
         }
-        ignore(true, "textures without a source are ignored");
+        ignore(true, MessageId::TextureWithoutSource, "textures without a source are ignored");
         return std::nullopt;
     }
     Texture texture;
@@ -165,7 +165,7 @@ void MaterialReader::readTransmission(Material& material)
 {
     material.ior = numberOr(source_, "KHR_materials_ior", "ior", 1.5);
     if (material.ior < 1.0F && 1.0 - static_cast<double>(material.ior) <= kRounding) {
-        warnings_.add(kClamped, place_ + " (index of refraction)");
+        warnings_.add(MessageId::NumberClamped, kClamped, place_ + " (index of refraction)");
         material.ior = 1.0F;
     }
     if (material.ior < 1.0F && material.ior != 0.0F) {
@@ -242,7 +242,8 @@ void MaterialReader::chooseUvSets(Material& material)
     if (used.empty() || *used.rbegin() <= 1) {
         return;
     }
-    ignore(used.size() > 2, "of more than two sets of texture coordinates the highest are replaced by the lowest");
+    ignore(used.size() > 2, MessageId::TooManyUvSets,
+           "of more than two sets of texture coordinates the highest are replaced by the lowest");
     material.uvSets[0] = *used.begin();
     material.uvSets[1] = used.size() > 1 ? *std::next(used.begin()) : *used.begin();
     for (std::optional<Texture>& texture : material.textures) {
@@ -256,7 +257,7 @@ void MaterialReader::warnOfExtensions()
 {
     for (const auto& [name, extension] : source_.extensions) {
         const bool scatter = name == "KHR_materials_volume_scatter";
-        ignore(!isSupportedExtension(name),
+        ignore(!isSupportedExtension(name), MessageId::ExtensionIgnored,
                shortened(name) + (scatter ? " is ignored (light does not scatter within solids)" : " is ignored"));
     }
 }

@@ -112,18 +112,20 @@ std::optional<Mesh> readPrimitive(const GltfFile& file, const tinygltf::Primitiv
 {
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) {
-        warnings.add("meshes without POSITION are left out", place);
+        warnings.add(MessageId::MeshWithoutPosition, "meshes without POSITION are left out", place);
         return std::nullopt;
     }
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
-        warnings.add(std::string(primitive.mode == TINYGLTF_MODE_POINTS ? "points" : "lines") + " are left out", place);
+        const bool isPoints = primitive.mode == TINYGLTF_MODE_POINTS;
+        warnings.add(isPoints ? MessageId::PointsLeftOut : MessageId::LinesLeftOut, isPoints ? "points are left out" : "lines are left out",
+                     place);
         return std::nullopt;
     }
     const auto isEmpty = [&file](int accessor) {
         return accessor >= 0 && file.model.accessors[static_cast<std::size_t>(accessor)].count == 0;
     };
     if (isEmpty(position->second) || isEmpty(primitive.indices)) {
-        warnings.add("meshes without vertices are left out", place);
+        warnings.add(MessageId::EmptyMesh, "meshes without vertices are left out", place);
         return std::nullopt;
     }
     Mesh mesh;

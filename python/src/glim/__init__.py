@@ -16,7 +16,7 @@ import threading
 import warnings
 from typing import Any, Callable, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple, Union
 
-from glim._errors import DeviceError, InputError
+from glim._errors import DeviceError, GlimWarning, InputError
 from glim._options import in_python, path_of, values_of
 
 __all__ = ["DeviceError", "Error", "Film", "GlimWarning", "InputError", "Scene", "devices", "load", "look_at", "merge", "read", "render"]
@@ -28,10 +28,6 @@ _log = logging.getLogger("glim")
 _heard = threading.local()  # what the C++ side has said during a call of this thread
 
 
-class GlimWarning(UserWarning):
-    """Something may make a picture other than its user expects."""
-
-
 def _native():
     """The C++ side, which needs Vulkan's loader: hence not before something is rendered or read."""
     try:
@@ -39,7 +35,7 @@ def _native():
     except ImportError as error:
         if "libvulkan" in str(error):
             raise DeviceError("Vulkan's loader is missing (%s); Debian has it and a software device in libvulkan1 and mesa-vulkan-drivers."
-                              % error) from error
+                              % error, id="library-missing") from error
         raise
     if not _native.listens:
         _glim.listen(_hear)
@@ -50,34 +46,38 @@ def _native():
 _native.listens = False
 
 
-def _warn(sentence):
+def _warn(warning):
     """Names the line that called glim."""
     level, frame = 1, sys._getframe()
     while frame.f_back and frame.f_code.co_filename in (__file__, contextlib.__file__):
         level, frame = level + 1, frame.f_back
-    warnings.warn(sentence, GlimWarning, stacklevel=level)
+    warnings.warn(warning, stacklevel=level)
 
 
-def _hear(sentence, is_warning):
-    if getattr(_heard, "sentences", None) is not None:
-        _heard.sentences.append((sentence, is_warning))
+def _hear(message, is_warning):
+    if getattr(_heard, "messages", None) is not None:
+        _heard.messages.append((message, is_warning))
+
+
+def _in_python(message):
+    return type(message)(in_python(str(message)), message.id, message.file, message.place, message.value, message.expected)
 
 
 @contextlib.contextmanager
 def _call():
-    """Around a call of the C++ side: its sentences become warnings and lines of the log "glim", its errors name keyword arguments."""
-    outer, _heard.sentences = getattr(_heard, "sentences", None), []  # `progress` may call, too
+    """Around a call of the C++ side: its messages become warnings and lines of the log "glim", its errors name keyword arguments."""
+    outer, _heard.messages = getattr(_heard, "messages", None), []  # `progress` may call, too
     try:
         yield _native()
     except (InputError, DeviceError) as error:
-        raise type(error)(in_python(str(error))) from None
+        raise _in_python(error) from None
     finally:
-        sentences, _heard.sentences = _heard.sentences, outer
-        for sentence, is_warning in sentences:
+        messages, _heard.messages = _heard.messages, outer
+        for message, is_warning in messages:
             if is_warning:
-                _warn(in_python(sentence))
+                _warn(_in_python(message))
             else:
-                _log.info(in_python(sentence))
+                _log.info(in_python(str(message)))
 
 
 class Error(NamedTuple):

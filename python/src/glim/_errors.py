@@ -1,9 +1,22 @@
 """What glim raises."""
 
 
-class InputError(ValueError):
+class _Message:
+    """One sentence. `id` says what kind of sentence it is, as in "file-missing" or "out-of-range", and stays when the sentence is written
+    better. `file`, `place` (in it, or an option), `value` and `expected` are what it names, or None."""
+
+    def __init__(self, sentence, id="wrong-type", file=None, place=None, value=None, expected=None):
+        super().__init__(sentence)
+        self.id, self.file, self.place, self.value, self.expected = id, file, place, value, expected
+
+
+class InputError(_Message, ValueError):
     """A file or an option that cannot be used, in one sentence: which one, what it is, and what was expected."""
 
 
-class DeviceError(RuntimeError):
+class DeviceError(_Message, RuntimeError):
     """Vulkan or its device failed or is missing, in one sentence."""
+
+
+class GlimWarning(_Message, UserWarning):
+    """Something may make a picture other than its user expects."""
