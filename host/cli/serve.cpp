@@ -26,11 +26,12 @@ ExitCode render(RenderSession& session, const Json& options)
     addJobOptions(table, job);
     setOptions(table, options);
     if (!table.isGiven("SCENE")) {
-        throw UsageError("file is required");
+        throw UsageError(MessageId::Missing, {part::place("file"), " is required"});
     }
     table.finish();
     if (job.replay) {
-        throw UsageError("--replay", "expected a picture to render; `glim render` replays samples");
+        throw UsageError(MessageId::Unsupported, {part::place("--replay"), ": expected ", part::expected("a picture to render"),
+                                                  "; `glim render` replays samples"});
     }
     return session.render(job);
 }
@@ -63,7 +64,7 @@ ExitCode serve()
             const Json* const options = toRender != nullptr ? toRender : toMerge;
             if (!request || request->find("id") == nullptr || options == nullptr || !options->isObject() ||
                 (toRender != nullptr && toMerge != nullptr)) {
-                throw UsageError(std::string("a request is not of the form ") + kRequest);
+                throw UsageError(MessageId::Malformed, {"a request is not of the form ", part::expected(kRequest)});
             }
             if (toMerge != nullptr) {
                 merged = merge(*toMerge);

@@ -30,42 +30,46 @@ void labelFilm(Film& film, const RenderJob& options)
     film.identity.settings += describeCamera(options.pose, options.lens);
 }
 
-std::string describeOther(const Film& film, const SceneSession& session, const PictureFrame& frame, const RenderJob& options)
+std::optional<Message> findOther(const Film& film, const SceneSession& session, const PictureFrame& frame, const RenderJob& options)
 {
     Film expected = emptyFilm(frame.settings);
     expected.identity = makeIdentity(SceneIdentity(session.prepared().flat), frame.camera, frame.settings);
     labelFilm(expected, options);
-    return film.identity.kernels != expected.identity.kernels
-               ? "it is by another version of glim's kernels; `glim merge` adds samples that this one renders"
-               : describeDifference(film, expected);
+    if (film.identity.kernels != expected.identity.kernels) {
+        return Message(MessageId::Mismatch, {"it is by another version of glim's ", part::place("kernels"),
+                                             "; `glim merge` adds samples that this one renders"});
+    }
+    return findDifference(film, expected);
 }
 
-void resumeFrom(Renderer& renderer, StoredFilm stored, const std::string& name)
+void resumeFrom(Renderer& renderer, StoredFilm stored, const MessagePart& name)
 {
     const std::string samples = sampleRangesText(stored.film), arithmetic = stored.film.arithmetic, device = stored.film.device;
-    const auto refuse = [&](const std::string& reason) {
-        throw InputError(name + ": cannot be resumed: it has samples " + samples + ", " + reason + ".");
+    const auto refuse = [&](MessageId id, std::initializer_list<MessagePart> why) {
+        const Message reason(id, why);
+        throw InputError(Message(reason, {name, ": cannot be resumed: it has samples ", part::value(samples), ", ", reason.sentence, "."}));
     };
     const auto [begin, end] = stored.film.sampleRanges.front();
     const RenderSettings& settings = renderer.settings();
     if (begin != settings.sampleBegin) {
-        refuse("expected them to begin at " + std::to_string(settings.sampleBegin));
+        refuse(MessageId::Mismatch, {"expected ", part::expected("them to begin at " + std::to_string(settings.sampleBegin))});
     }
     if (!stored.checkpoint && end - begin <= kBlockSamples) {
-        say(MessageId::BegunAnew, {part::file(name), " has no finished block of samples, so the render begins anew"});
+        say(MessageId::BegunAnew, {name, " has no finished block of samples, so the render begins anew"});
         return;
     }
     std::optional<Checkpoint> checkpoint = stored.checkpoint ? std::move(stored.checkpoint) : makeCheckpoint(std::move(stored.film));
     if (!checkpoint) {
-        refuse("expected one range that ends with a page of " + std::to_string(kPageSamples) + "; `glim merge` adds others");
+        refuse(MessageId::Unsupported, {"expected ", part::expected("one range that ends with a page of " + std::to_string(kPageSamples)),
+                                        "; `glim merge` adds others"});
     }
     if (!renderer.plan().canResume(checkpoint->progress)) {
-        refuse(isNeighbours(settings.adaptive) ? "planned for another --spp" : "more than were asked for");
+        refuse(MessageId::Mismatch, {isNeighbours(settings.adaptive) ? "planned for another --spp" : "more than were asked for"});
     }
     renderer.resume(*std::move(checkpoint));
     const double pixels = settings.pixelCount();
     say(MessageId::Resumed,
-        {part::file(name), " is resumed at ",
+        {name, " is resumed at ",
          part::value(exactText(std::round(100.0 * static_cast<double>(renderer.statistics().resumedSamples) / pixels) / 100.0)),
          " samples per pixel"});
     if (arithmetic != arithmeticFingerprint(renderer.resources().device)) {

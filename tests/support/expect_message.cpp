@@ -82,6 +82,19 @@ std::vector<Said> findMessages(const std::string& err)
     return said;
 }
 
+void expectSaid(const GlimRun& run, MessageId id, const Parts& parts)
+{
+    const std::vector<Said> said = findMessages(run.err);
+    const auto found = std::ranges::find(said, id, [](const Said& one) { return one.message.id; });
+    ASSERT_NE(found, said.end()) << "no " << toText(id) << " in\n" << run.err;
+    expectMessage(found->message, id, parts);
+}
+
+bool hasSaid(const GlimRun& run, MessageId id)
+{
+    return std::ranges::any_of(findMessages(run.err), [id](const Said& one) { return one.message.id == id; });
+}
+
 void expectRefused(const GlimRun& run, int exitCode, MessageId id, const Parts& parts)
 {
     EXPECT_EQ(run.exitCode, exitCode) << run.err;

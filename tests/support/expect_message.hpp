@@ -48,6 +48,10 @@ struct Said {
 // The messages among the lines of stderr.
 std::vector<Said> findMessages(const std::string& err);
 
+// Of a run for messages: fails unless one with this id was said. The parts are of the first.
+void expectSaid(const GlimRun& run, MessageId id, const Parts& parts = {});
+bool hasSaid(const GlimRun& run, MessageId id);
+
 // Of a run for messages that was refused: the exit code, one error as the only line of stderr, nothing on stdout.
 void expectRefused(const GlimRun& run, int exitCode, MessageId id, const Parts& parts = {});
 
