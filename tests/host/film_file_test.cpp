@@ -267,7 +267,7 @@ TEST_F(FilmFileRefusal, OfCountsThatAnotherProgramMadeFloats)
     expectRefused("is not a complete film: it has no channel count.X");
 }
 
-TEST_F(FilmFileRefusal, OfASeedThatIsNone)
+TEST_F(FilmFileRefusal, OfANegativeSeed)
 {
     image.attributes["glim:seed"] = -1.0;
     expectRefused("its seed is -1");

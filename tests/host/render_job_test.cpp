@@ -259,7 +259,7 @@ TEST(RenderJob, ReplaysTakeTheSamplesThatARenderWouldHave)
     expectRefused("--replay 0,0,131072 --direct lights --light-samples 32768", "is more than 2^32");
 }
 
-TEST(RenderJob, ReplaysRefuseWhatIsOfPictures)
+TEST(RenderJob, ReplaysRefuseOptionsOfPictures)
 {
     for (const std::string option :
          {"--output x.exr", "--image p.png", "--rates r.png", "--ids i.exr", "--progress json", "--time 1", "--suspects 3"}) {
