@@ -1,4 +1,4 @@
-// One picture of a session, in memory.
+// Renders one picture of a session, in memory.
 #pragma once
 
 #include "host/job/scene_session.hpp"

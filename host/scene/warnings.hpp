@@ -1,4 +1,4 @@
-// Warnings, one line per kind, however many things it concerns.
+// Warnings: one line for each kind, however many things that kind concerns.
 #pragma once
 
 #include "host/message.hpp"

@@ -67,7 +67,7 @@ TEST(BenchFile, CsvHasALineForEveryRenderOfEveryPoint)
     EXPECT_EQ(std::count(line.begin(), line.end(), ','), 14) << line;
 }
 
-TEST(BenchFile, WhatIsNoBenchIsRefused)
+TEST(BenchFile, OtherFilesAreRefused)
 {
     const test::ScratchFolder folder;
     const auto file = folder / "x.json";

@@ -49,7 +49,7 @@ TEST(CompareImages, MetricsOfAKnownDifference)
     EXPECT_TRUE(std::isnan(result.ratioOfAll.low));
 }
 
-TEST(CompareImages, ErrorsAloneAreTheSame)
+TEST(CompareImages, MeasureErrorsGivesTheSameErrors)
 {
     Picture picture = addNoise(makeTruth(12, 9), 0.3F, 3), reference = addNoise(makeTruth(12, 9), 0.1F, 4);
     picture.radiance[5].g = std::numeric_limits<float>::quiet_NaN();

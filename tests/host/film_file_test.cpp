@@ -269,7 +269,7 @@ TEST_F(FilmFileRefusal, OfCountsThatAnotherProgramMadeFloats)
     expectRefused(MessageId::FileDamaged, {.place = "count.X"});
 }
 
-TEST_F(FilmFileRefusal, OfASeedThatIsNone)
+TEST_F(FilmFileRefusal, OfANegativeSeed)
 {
     image.attributes["glim:seed"] = -1.0;
     expectRefused(MessageId::OutOfRange, {.place = "seed", .value = "-1.000000"});

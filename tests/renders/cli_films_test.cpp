@@ -173,7 +173,7 @@ TEST(CommandLineTest, TimeEndsARender)
     EXPECT_EQ(films.film("x.exr").pixels[0].count, 16U);
 }
 
-TEST(CommandLineTest, PixelsThatNoTimeWasLeftForAreSaid)
+TEST(CommandLineTest, PixelsWithoutASampleAreReported)
 {
     const Films films;
     const GlimRun run = runForMessages(films.call("x.exr", {"--time", "0.001", "--size", "512x512"}));

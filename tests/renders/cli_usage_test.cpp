@@ -337,7 +337,7 @@ TEST(CommandLineTest, RefusedScenesLeaveTheTargetAsItWas)
     expectSentence(runGlim({"inspect", ""}), 1, "A file name is empty; expected that of a .gltf or a .glb file.\n");
 }
 
-TEST(CommandLineTest, WhatTheSceneDoesNotHaveIsNamedWithWhatItHas)
+TEST(CommandLineTest, UnknownNamesAreRefusedWithThoseOfTheScene)
 {
     const ScratchFolder folder;
     const Arguments render{"render", sceneFile("cornell.gltf"), "-o", (folder / "x.exr").string()};
