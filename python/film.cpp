@@ -146,7 +146,8 @@ void savePicture(const PythonFilm& film, const std::filesystem::path& path, std:
         look.tone = tone == getName(known) ? known : look.tone;
     }
     if (tone != getName(look.tone)) {
-        throw InputError("tone: " + inQuotes(tone) + ": expected none, neutral or agx.");
+        throw InputError(MessageId::UnknownName,
+                         {part::place("tone"), ": ", part::quoted(tone), ": expected ", part::expected("none, neutral or agx"), "."});
     }
     writeFilmPicture(path, width && *width < shown.width ? shrunk(shown, *width) : shown, aov, look);
 }

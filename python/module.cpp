@@ -36,9 +36,9 @@ void refuseFork()
 {
     pid_t nobody = 0;
     if (!user.compare_exchange_strong(nobody, getpid()) && nobody != getpid()) {
-        throw DeviceError(
-            "this process was forked from one that has used glim, and Vulkan does not survive that; start it anew, as "
-            "multiprocessing's method spawn does.");
+        throw DeviceError(MessageId::Unsupported,
+                          {"this process was forked from one that has used glim, and Vulkan does not survive that; start it anew, as "
+                           "multiprocessing's method spawn does."});
     }
 }
 
@@ -87,7 +87,7 @@ RenderJob jobOf(const nb::dict& values)
     }
     for (const char* name : kRefused) {
         if (table.isGiven(name)) {
-            throw UsageError(name, "is for the command line alone");
+            throw UsageError(MessageId::Unsupported, {part::place(name), ": is for the command line alone"});
         }
     }
     table.finish();
@@ -168,10 +168,11 @@ private:
         const PictureFrame frame = framePicture(*session, options);
         if (resumed != nullptr) {
             if (options.denoise) {
-                throw InputError("--denoise needs two halves of the samples, which a film that is resumed does not keep.");
+                throw InputError(MessageId::Conflict, {part::place("--denoise"),
+                                                       " needs two halves of the samples, which a film that is resumed does not keep."});
             }
             if (const std::string difference = describeOther(resumed->film(), *session, frame, options); !difference.empty()) {
-                throw InputError("the film cannot be resumed: " + difference + ".");
+                throw InputError(MessageId::Mismatch, {"the film cannot be resumed: ", difference, "."});
             }
         }
         Renderer& renderer = session->begin(frame.camera, frame.settings);
@@ -218,7 +219,7 @@ private:
 std::pair<std::shared_ptr<PythonFilm>, bool> merge(const std::vector<std::shared_ptr<PythonFilm>>& films)
 {
     if (films.empty()) {
-        throw InputError("there are no films to merge.");
+        throw InputError(MessageId::Empty, {"there are no films to merge."});
     }
     std::vector<Film> headers;
     std::vector<std::string> names;

@@ -99,7 +99,7 @@ BenchOptions makeOptions(const SceneBench& baseline, const std::string& file, co
     try {
         line.run(words);
     } catch (const UsageError& error) {
-        throw InputError(file + ": names options that this version of glim refuses: " + error.what() + ".");
+        throw InputError(error, {part::file(file), ": names options that this version of glim refuses: ", error.what(), "."});
     }
     options.settings.seed = asked.settings.seed;
     options.seeds = asked.seeds;
@@ -120,7 +120,8 @@ const SceneBench& findBaseline(const std::vector<SceneBench>& baselines, const s
         }
         list += (list.empty() ? "" : "; ") + describe(baseline);
     }
-    throw InputError(file + ": has " + list + "; expected " + describe(bench) + ".");
+    throw InputError(MessageId::Mismatch,
+                     {part::file(file), ": has ", part::value(list), "; expected ", part::expected(describe(bench)), "."});
 }
 
 // A scene, ready to be measured.

@@ -25,7 +25,8 @@ void addSampling(OptionTable& table, BenchOptions& options)
         table, {"--spp", "N", "Samples per pixel of each seed, a power of two", kMinBenchSamples, kMaxSamples, "by --seconds"},
         [&options](std::uint32_t samples) {
             if (!std::has_single_bit(samples)) {
-                throw UsageError("--spp", "\"" + std::to_string(samples) + "\": expected a power of two, as in 256");
+                throw UsageError(MessageId::OutOfRange, {part::place("--spp"), ": ", part::quoted(std::to_string(samples)), ": expected ",
+                                                         part::expected("a power of two, as in 256")});
             }
             options.samples = samples;
         })
@@ -55,7 +56,7 @@ void addOutput(OptionTable& table, BenchOptions& options)
 void resolveBench(OptionTable& table, BenchOptions& options)
 {
     if (options.scenes.empty() && !options.kernels) {
-        throw UsageError("SCENE is required");
+        throw UsageError(MessageId::Missing, {part::place("SCENE"), " is required"});
     }
     options.outputGiven = table.isGiven("--output");
     options.words = table.wordsGiven({"--output", "--reference", "--make-reference", "--against", "--kernels", "--progress", "--seconds",
@@ -64,18 +65,20 @@ void resolveBench(OptionTable& table, BenchOptions& options)
     options.settings.sampleEnd = options.samples.value_or(kMinBenchSamples);
     resolveLight(table, options);
     if (options.settings.adaptive != Adaptive::Off && options.settings.sampleEnd <= kPilotSamples && options.samples) {
-        throw UsageError("--spp", "\"" + std::to_string(*options.samples) + "\": --adaptive neighbours begins with " +
-                                      std::to_string(kPilotSamples) + " samples of every pixel; expected more");
+        throw UsageError(MessageId::OutOfRange, {part::place("--spp"), ": ", part::quoted(std::to_string(*options.samples)),
+                                                 ": --adaptive neighbours begins with ", std::to_string(kPilotSamples),
+                                                 " samples of every pixel; expected ", part::expected("more")});
     }
     std::set<std::filesystem::path> references;
     for (const std::filesystem::path& scene : options.scenes) {
         if (!references.insert(getReferencePath(options, scene)).second) {
-            throw UsageError("SCENE", "\"" + scene.string() + "\": expected scenes of different names");
+            throw UsageError(MessageId::Duplicate,
+                             {part::place("SCENE"), ": ", part::quoted(scene), ": expected ", part::expected("scenes of different names")});
         }
     }
     if (options.reference && options.scenes.size() > 1) {
-        throw UsageError("--reference", "\"" + options.reference->string() + "\": expected one SCENE with it, not " +
-                                            std::to_string(options.scenes.size()));
+        throw UsageError(MessageId::Conflict, {part::place("--reference"), ": ", part::quoted(*options.reference), ": expected ",
+                                               part::expected("one SCENE"), " with it, not ", std::to_string(options.scenes.size())});
     }
 }
 

@@ -95,10 +95,34 @@ private:
 };
 
 // CLI11 would complain about what is missing even if a word that it does not know explains it.
-std::string sentenceOf(const CLI::App& app, const std::string& complaint)
+void refuseUnknown(const CLI::App& app)
 {
-    const std::vector<std::string> unknown = app.remaining(true);
-    return unknown.empty() ? complaint : "\"" + unknown[0] + "\" was not expected: no such command, option or argument";
+    if (const std::vector<std::string> unknown = app.remaining(true); !unknown.empty()) {
+        throw UsageError(MessageId::UnknownName, {part::quoted(unknown[0]), " was not expected: no such command, option or argument"});
+    }
+}
+
+// CLI11's errors have an option and what is wrong in their sentences alone, as in "--spp: At Most 1 required but received 2", "SCENE is
+// required" and "Could not convert: --confine = abc". Options are read by their tables; only flags are converted.
+UsageError translate(const CLI::ParseError& error)
+{
+    const std::string sentence = error.what(), name = sentence.substr(0, sentence.find_first_of(": "));
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+        const bool isTwice = sentence.find("At Most") != std::string::npos;
+        return isTwice ? UsageError(MessageId::Duplicate, {part::place(name), ": is given twice"})
+                       : UsageError(MessageId::Missing, {part::place(name), ": expected ", part::expected("a value")});
+    }
+    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
+        return name == "A" ? UsageError(MessageId::Missing, {"A ", part::place("command"), " is required"})
+                           : UsageError(MessageId::Missing, {part::place(name), " is required"});
+    }
+    const std::size_t begin = sentence.find("--"), end = sentence.find(" = ");
+    if (begin < end && end != std::string::npos) {
+        return {MessageId::WrongType,
+                {part::place(sentence.substr(begin, end - begin)), ": ", part::quoted(sentence.substr(end + 3)), ": expected ",
+                 part::expected("true or false")}};
+    }
+    return {MessageId::Malformed, {sentence}};
 }
 
 // A flag and what it was set to. CLI11's functions for flags end with exceptions of the standard library if the text is no boolean.
@@ -184,9 +208,11 @@ ExitCode CommandLine::run(std::vector<std::string> words)
     } catch (const CLI::Success& asked) {
         app.exit(asked);
     } catch (const CLI::ParseError& error) {
-        throw UsageError(sentenceOf(app, error.what()));
-    } catch (const UsageError& error) {
-        throw UsageError(sentenceOf(app, error.what()));
+        refuseUnknown(app);
+        throw translate(error);
+    } catch (const UsageError&) {
+        refuseUnknown(app);
+        throw;
     }
     return code;
 }

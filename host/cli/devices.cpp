@@ -44,7 +44,7 @@ void runDevices(bool json)
     const VulkanInstance instance;
     const std::vector<DeviceDescription> devices = listDevices(instance);
     if (devices.empty()) {
-        throw DeviceError("Vulkan finds no device (a software one comes with Debian's mesa-vulkan-drivers).");
+        throw DeviceError(MessageId::DeviceMissing, {"Vulkan finds no device (a software one comes with Debian's mesa-vulkan-drivers)."});
     }
     Json list = Json::array();
     for (std::size_t i = 0; i < devices.size(); ++i) {

@@ -299,9 +299,13 @@ void writeReplay(const std::filesystem::path& file, const ReplayReport& report)
 void refuseOutside(const SamplePlace& place, const RenderSettings& settings)
 {
     if (place.x >= settings.width || place.y >= settings.height) {
-        throw InputError("--replay: pixel " + std::to_string(place.x) + "," + std::to_string(place.y) + " is outside the picture of " +
-                         std::to_string(settings.width) + "x" + std::to_string(settings.height) + "; expected X from 0 to " +
-                         std::to_string(settings.width - 1) + " and Y from 0 to " + std::to_string(settings.height - 1) + ".");
+        throw InputError(
+            MessageId::OutOfRange,
+            {part::place("--replay"), ": pixel ", part::value(std::to_string(place.x) + "," + std::to_string(place.y)),
+             " is outside the picture of ", std::to_string(settings.width), "x", std::to_string(settings.height), "; expected ",
+             part::expected("X from 0 to " + std::to_string(settings.width - 1) + " and Y from 0 to " +
+                            std::to_string(settings.height - 1)),
+             "."});
     }
 }
 

@@ -20,11 +20,12 @@ ExitCode render(RenderSession& session, const Json& options)
         table.set(option.name, option.value);
     }
     if (!table.isGiven("SCENE")) {
-        throw UsageError("file is required");
+        throw UsageError(MessageId::Missing, {part::place("file"), " is required"});
     }
     table.finish();
     if (job.replay) {
-        throw UsageError("--replay", "expected a picture to render; `glim render` replays samples");
+        throw UsageError(MessageId::Unsupported, {part::place("--replay"), ": expected ", part::expected("a picture to render"),
+                                                  "; `glim render` replays samples"});
     }
     return session.render(job);
 }
@@ -42,7 +43,7 @@ ExitCode serve()
             id = request && request->find("id") != nullptr ? request->at("id") : Json();
             const Json* options = request ? request->find("render") : nullptr;
             if (!request || request->find("id") == nullptr || options == nullptr || !options->isObject()) {
-                throw UsageError(std::string("a request is not of the form ") + kRequest);
+                throw UsageError(MessageId::Malformed, {"a request is not of the form ", part::expected(kRequest)});
             }
             return render(session, *options);
         });

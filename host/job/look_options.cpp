@@ -27,12 +27,14 @@ void resolvePictureFiles(const OptionTable& table, const PictureFiles& files)
 {
     for (const char* option : {"--exposure", "--tone"}) {
         if (files.empty() && table.isGiven(option)) {
-            throw UsageError(option, inQuotes(table.toText(option)) + ": is of a picture; expected --image with it");
+            throw UsageError(MessageId::Requires, {part::place(option), ": ", part::quoted(table.toText(option)),
+                                                   ": is of a picture; expected ", part::expected("--image"), " with it"});
         }
     }
     for (const std::filesystem::path& file : files) {
         if (!getPictureKind(file)) {
-            throw UsageError("--image", inQuotes(file.string()) + ": expected a name that ends in " + kPictureEndings);
+            throw UsageError(MessageId::UnknownFormat, {part::place("--image"), ": ", part::quoted(file), ": expected ",
+                                                        part::expected(std::string("a name that ends in ") + kPictureEndings)});
         }
     }
 }

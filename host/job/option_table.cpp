@@ -21,6 +21,8 @@ std::vector<std::string> splitText(const std::string& text, char separator)
     return parts;
 }
 
+UsageError noSuchOption(const std::string& name) { return {MessageId::UnknownName, {part::quoted(name), ": there is no such option"}}; }
+
 }  // namespace
 
 OptionValue::OptionValue(std::string text)
@@ -42,7 +44,8 @@ OptionValue::OptionValue(const Json& json)
             const bool isWhole = std::abs(number) < 0x1p53 && number == std::floor(number);
             parts_.push_back(isWhole ? std::to_string(static_cast<std::int64_t>(number)) : exactText(number));
         } else {
-            throw UsageError(json.dump() + ": expected a text, a number, true, false, or a list of texts and numbers");
+            throw UsageError(MessageId::WrongType, {part::value(json.dump()), ": expected ",
+                                                    part::expected("a text, a number, true, false, or a list of texts and numbers")});
         }
     };
     if (json.isBoolean()) {
@@ -152,7 +155,8 @@ Option OptionTable::addFlag(const std::string& names, const std::string& help, b
     const std::string name = splitText(names, ',').back();
     return add(names, "", help, [&flag, name](const OptionValue& value) {
         if (value.text() != "true" && value.text() != "false") {
-            throw UsageError(name, inQuotes(value.text()) + ": expected true or false");
+            throw UsageError(MessageId::WrongType,
+                             {part::place(name), ": ", part::quoted(value.text()), ": expected ", part::expected("true or false")});
         }
         flag = value.text() == "true";
     });
@@ -177,7 +181,7 @@ std::size_t OptionTable::indexOf(const std::string& name) const
     if (const std::optional<std::size_t> index = find(name)) {
         return *index;
     }
-    throw UsageError(inQuotes(name) + ": there is no such option");
+    throw noSuchOption(name);
 }
 
 bool OptionTable::isGiven(const std::string& name) const
@@ -211,17 +215,18 @@ std::size_t OptionTable::findAnyIndex(const std::string& name) const
     if (const std::optional<std::size_t> index = find(option)) {
         return *index;
     }
-    throw UsageError(inQuotes(name) + ": there is no such option");
+    throw noSuchOption(name);
 }
 
 void OptionTable::set(const std::string& name, const OptionValue& value)
 {
     Entry& entry = entries_[findAnyIndex(name)];
     if (const std::string text = value.key() + value.text(); text.find('\0') != std::string::npos) {  // a name of a file would end there
-        throw UsageError(inQuotes(text) + " has a null character; expected a text without one");
+        throw UsageError(MessageId::Malformed,
+                         {part::quoted(text), " has a null character; expected ", part::expected("a text without one")});
     }
     if (entry.takes == Entry::Takes::One && !entry.given.empty()) {
-        throw UsageError(entry.name() + ": is given twice");
+        throw UsageError(MessageId::Duplicate, {part::place(entry.name()), ": is given twice"});
     }
     entry.take(value);
     if (!entry.isFlag() || value.text() == "true") {
@@ -250,16 +255,16 @@ void OptionTable::finish() const
     const auto isMissing = [this](std::size_t index) { return entries_[index].given.empty(); };
     for (const Entry& entry : entries_) {
         if (entry.isRequired && entry.given.empty()) {
-            throw UsageError(entry.name() + " is required");
+            throw UsageError(MessageId::Missing, {part::place(entry.name()), " is required"});
         }
         if (entry.given.empty()) {
             continue;
         }
         if (const auto lacks = std::ranges::find_if(entry.needs, isMissing); lacks != entry.needs.end()) {
-            throw UsageError(entry.name() + " requires " + entries_[*lacks].name());
+            throw UsageError(MessageId::Requires, {part::place(entry.name()), " requires ", part::expected(entries_[*lacks].name())});
         }
         if (const auto other = std::ranges::find_if_not(entry.excludes, isMissing); other != entry.excludes.end()) {
-            throw UsageError(entry.name() + " excludes " + entries_[*other].name());
+            throw UsageError(MessageId::Conflict, {part::place(entry.name()), " excludes ", part::value(entries_[*other].name())});
         }
     }
     if (check_) {

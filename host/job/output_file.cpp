@@ -13,12 +13,12 @@ void checkTarget(const fs::path& target, std::string_view extension, const std::
     std::error_code error;
     static_cast<void>(fs::status(target, error));
     if (error == std::errc::filename_too_long) {
-        throw InputError(target.string() + ": cannot be written: " + error.message() + ".");
+        throw InputError(MessageId::FileUnwritable, {part::file(target), ": cannot be written: ", error.message(), "."});
     }
     for (const fs::path& input : inputs) {
         std::error_code ignored;
         if (fs::equivalent(target, input, ignored)) {
-            throw InputError(target.string() + ": cannot be written: it is the input " + input.string() + ".");
+            throw InputError(MessageId::Conflict, {part::file(target), ": cannot be written: it is the input ", part::value(input), "."});
         }
     }
     // Permission bits are not enough: they let root write into /proc. This makes a file and removes it.

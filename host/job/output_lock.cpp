@@ -89,14 +89,14 @@ void OutputLock::removeLeftover() const
         close(present);
     }
     if (!owner) {
-        refuse("is not glim's lock; expected no file of this name");
+        refuse(MessageId::UnknownFormat, {"is not glim's lock; expected ", part::expected("no file of this name")});
     }
     if (isHeld) {
-        throw InputError(output_.string() + ": is written by another glim" + (owner->empty() ? "" : ", process " + *owner) +
-                         "; expected only one.");
+        throw InputError(MessageId::FileInUse, {part::file(output_), ": is written by another glim", owner->empty() ? "" : ", process ",
+                                                part::value(*owner), "; expected ", part::expected("only one"), "."});
     }
     if (!isRemoved) {
-        refuse("was left by a glim that is gone, and cannot be removed: " + std::string(std::strerror(error)));
+        refuse(MessageId::FileUnwritable, {"was left by a glim that is gone, and cannot be removed: ", std::strerror(error)});
     }
 }
 
@@ -105,7 +105,7 @@ bool OutputLock::make()
 {
     const int file = open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file < 0 && errno != EEXIST) {
-        refuse("cannot be made: " + std::string(std::strerror(errno)));
+        refuse(MessageId::FileUnwritable, {"cannot be made: ", std::strerror(errno)});
     }
     if (file < 0) {
         return false;
@@ -127,12 +127,16 @@ bool OutputLock::make()
         const std::string reason = std::strerror(errno);
         unlink(path_.c_str());
         close(file);
-        refuse("cannot be written: " + reason);
+        refuse(MessageId::FileUnwritable, {"cannot be written: ", reason});
     }
     file_ = file;
     return true;
 }
 
-void OutputLock::refuse(const std::string& reason) const { throw InputError(path_.string() + ": " + reason + "."); }
+void OutputLock::refuse(MessageId id, std::initializer_list<MessagePart> why) const
+{
+    const Message reason(id, why);
+    throw InputError(Message(reason, {part::file(path_), ": ", reason.sentence, "."}));
+}
 
 }  // namespace glim

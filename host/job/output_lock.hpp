@@ -1,7 +1,10 @@
 // One process at a time may write a film.
 #pragma once
 
+#include "host/message.hpp"
+
 #include <filesystem>
+#include <initializer_list>
 
 namespace glim {
 
@@ -18,7 +21,7 @@ public:
 private:
     void removeLeftover() const;
     bool make();
-    [[noreturn]] void refuse(const std::string& reason) const;
+    [[noreturn]] void refuse(MessageId id, std::initializer_list<MessagePart> why) const;
 
     std::filesystem::path output_, path_;
     int file_ = -1;

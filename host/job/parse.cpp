@@ -54,6 +54,13 @@ std::string toText(T number)
     return text.str();
 }
 
+// `text` has the right form if `isWellFormed`.
+[[noreturn]] void refuse(const std::string& option, const std::string& text, bool isWellFormed, const std::string& expected)
+{
+    throw UsageError(isWellFormed ? MessageId::OutOfRange : MessageId::Malformed,
+                     {part::place(option), ": ", part::quoted(text), ": expected ", part::expected(expected)});
+}
+
 template <class T>
 T parseBounded(const NumberOption<T>& option, const OptionValue& given, const std::string& others = "")
 {
@@ -62,8 +69,11 @@ T parseBounded(const NumberOption<T>& option, const OptionValue& given, const st
     const std::string unsignedText = text.substr(text.rfind('+', 0) == 0 ? 1 : 0);
     // NaN fails both comparisons.
     if (!parseNumber(unsignedText, value) || !(value >= option.low && value <= option.high)) {
-        throw UsageError(option.name, "\"" + text + "\": expected a " + (std::is_integral_v<T> ? "whole number" : "number") + " from " +
-                                          toText(option.low) + " to " + toText(option.high) + others);
+        double number = 0.0;
+        const bool isNumber = parseNumber(unsignedText, number) && (!std::is_integral_v<T> || number == std::floor(number));
+        refuse(option.name, text, isNumber,
+               std::string(std::is_integral_v<T> ? "a whole number" : "a number") + " from " + toText(option.low) + " to " +
+                   toText(option.high) + others);
     }
     return value;
 }
@@ -88,7 +98,8 @@ Option addChoice(OptionTable& table, const std::string& name, const std::string&
         const std::string text = value.boolean() ? (*value.boolean() ? "on" : "off") : value.text();
         const auto found = std::find(names.begin(), names.end(), text);
         if (found == names.end()) {
-            throw UsageError(name, "\"" + text + "\": expected " + join(names, " or "));
+            throw UsageError(MessageId::UnknownName,
+                             {part::place(name), ": ", part::quoted(text), ": expected ", part::expected(join(names, " or "))});
         }
         store(static_cast<std::size_t>(found - names.begin()));
     });
@@ -106,10 +117,9 @@ glm::uvec2 parseSize(const OptionValue& value)
     const std::string text = value.text();
     const std::vector<std::string> parts = value.split('x');
     glm::uvec2 size(0);
-    if (parts.size() != 2 || !parseNumber(parts[0], size.x) || !parseNumber(parts[1], size.y) || size.x == 0 || size.y == 0 ||
-        size.x > kMaxSide || size.y > kMaxSide) {
-        throw UsageError("--size",
-                         "\"" + text + "\": expected WIDTHxHEIGHT in pixels, each 1 to " + std::to_string(kMaxSide) + ", as in 640x480");
+    const bool areNumbers = parts.size() == 2 && parseNumber(parts[0], size.x) && parseNumber(parts[1], size.y);
+    if (!areNumbers || size.x == 0 || size.y == 0 || size.x > kMaxSide || size.y > kMaxSide) {
+        refuse("--size", text, areNumbers, "WIDTHxHEIGHT in pixels, each 1 to " + std::to_string(kMaxSide) + ", as in 640x480");
     }
     return size;
 }
@@ -120,11 +130,10 @@ FrameRange parseFrames(const OptionValue& value)
     const std::string text = value.text();
     const std::vector<std::string> parts = value.split(':');
     FrameRange range;
-    const bool numbers = (parts.size() == 2 || parts.size() == 3) && parseNumber(parts[0], range.first) &&
-                         parseNumber(parts[1], range.last) && (parts.size() == 2 || parseNumber(parts[2], range.step));
-    if (!numbers || range.first > range.last || range.last > kMaxFrame || range.step == 0) {
-        throw UsageError("--frames",
-                         "\"" + text + "\": expected FIRST:LAST or FIRST:LAST:STEP with FIRST <= LAST and STEP >= 1, as in 1:250");
+    const bool areNumbers = (parts.size() == 2 || parts.size() == 3) && parseNumber(parts[0], range.first) &&
+                            parseNumber(parts[1], range.last) && (parts.size() == 2 || parseNumber(parts[2], range.step));
+    if (!areNumbers || range.first > range.last || range.last > kMaxFrame || range.step == 0) {
+        refuse("--frames", text, areNumbers, "FIRST:LAST or FIRST:LAST:STEP with FIRST <= LAST and STEP >= 1, as in 1:250");
     }
     return range;
 }
@@ -134,9 +143,9 @@ std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& option, co
     const std::string text = value.text();
     const std::vector<std::string> parts = value.split(':');
     std::pair<std::uint32_t, std::uint32_t> range;
-    if (parts.size() != 2 || !parseNumber(parts[0], range.first) || !parseNumber(parts[1], range.second) || range.first >= range.second ||
-        range.second > most) {
-        throw UsageError(option, "\"" + text + "\": expected BEGIN:END with BEGIN < END <= " + std::to_string(most) + ", as in 0:256");
+    const bool areNumbers = parts.size() == 2 && parseNumber(parts[0], range.first) && parseNumber(parts[1], range.second);
+    if (!areNumbers || range.first >= range.second || range.second > most) {
+        refuse(option, text, areNumbers, "BEGIN:END with BEGIN < END <= " + std::to_string(most) + ", as in 0:256");
     }
     return range;
 }
@@ -148,9 +157,9 @@ double parsePercent(const std::string& option, const OptionValue& value)
     if (value.isNumber() && parseNumber(text, percent) && percent > 0.0 && percent <= 10.0) {
         return percent;
     }
-    if (text.empty() || text.back() != '%' || !parseNumber(text.substr(0, text.size() - 1), percent) ||
-        !(percent > 0.0 && percent <= 1000.0)) {
-        throw UsageError(option, "\"" + text + "\": expected more than 0 and at most 1000 percent of the mean, as in 1%");
+    const bool isPercent = !text.empty() && text.back() == '%' && parseNumber(text.substr(0, text.size() - 1), percent);
+    if (!isPercent || !(percent > 0.0 && percent <= 1000.0)) {
+        refuse(option, text, isPercent || value.isNumber(), "more than 0 and at most 1000 percent of the mean, as in 1%");
     }
     return 0.01 * percent;
 }
@@ -170,8 +179,7 @@ Edit parseEdit(const OptionValue& value)
     Edit edit{value.key().empty() ? text.substr(0, equals) : value.key(),
               value.key().empty() ? text.substr(std::min(equals, text.size() - 1) + 1) : text};
     if (!(edit.pointer.starts_with('/') || edit.pointer.find("#/") != std::string::npos) || equals == std::string::npos) {
-        throw UsageError("--set", inQuotes(value.key() + text) +
-                                      ": expected a pointer and a value, as in /materials/0/pbrMetallicRoughness/roughnessFactor=0.2");
+        refuse("--set", value.key() + text, false, "a pointer and a value, as in /materials/0/pbrMetallicRoughness/roughnessFactor=0.2");
     }
     const std::vector<std::string> parts = OptionValue(edit.value).split(',');
     Json numbers = Json::array();
@@ -184,7 +192,8 @@ Edit parseEdit(const OptionValue& value)
     if (numbers.elements().size() == parts.size()) {  // JSON has no .5
         edit.value = parts.size() == 1 && !value.isList() ? numbers.at(0).dump() : numbers.dump();
     } else if (value.isList()) {
-        throw UsageError("--set", edit.pointer + ": expected a number, a list of numbers, true, false or a word");
+        throw UsageError(MessageId::WrongType, {part::place("--set"), ": ", part::value(edit.pointer), ": expected ",
+                                                part::expected("a number, a list of numbers, true, false or a word")});
     } else if (!Json::parse(edit.value)) {
         edit.value = Json(edit.value).dump();  // a word
     }
@@ -210,9 +219,8 @@ Addition parseAddition(const OptionValue& value)
     const bool areNumbers = numbers.size() == parts.size() && (numbers.size() == kOfPoint || numbers.size() == kOfMatrix);
     // An @ may be part of a file's name, unless numbers follow.
     if (isMember ? !areNumbers : !numbers.empty() && !areNumbers) {
-        throw UsageError("--add", inQuotes(isMember ? value.key() + " " + text : text) +
-                                      ": expected a file, and after an @ where it stands: x,y,z in metres, or the 16 numbers of a matrix, "
-                                      "column by column");
+        refuse("--add", isMember ? value.key() + " " + text : text, false,
+               "a file, and after an @ where it stands: x,y,z in metres, or the 16 numbers of a matrix, column by column");
     }
     Addition addition{isMember ? value.key() : areNumbers ? text.substr(0, at) : text};
     if (numbers.size() == kOfPoint) {
@@ -221,11 +229,13 @@ Addition parseAddition(const OptionValue& value)
         addition.worldFromFile = glm::make_mat4(numbers.data());
         const glm::dvec4 row = glm::row(addition.worldFromFile, 3);
         if (row != glm::dvec4(0.0, 0.0, 0.0, 1.0) || glm::determinant(glm::dmat3(addition.worldFromFile)) == 0.0) {
-            throw UsageError("--add", inQuotes(text) + ": expected a matrix with a volume, whose last row is 0 0 0 1");
+            throw UsageError(MessageId::Degenerate, {part::place("--add"), ": ", part::quoted(text), ": expected ",
+                                                     part::expected("a matrix with a volume, whose last row is 0 0 0 1")});
         }
     }
     if (addition.file.empty()) {
-        throw UsageError("--add", inQuotes(text) + ": expected a file before the @");
+        throw UsageError(MessageId::Missing,
+                         {part::place("--add"), ": ", part::quoted(text), ": expected ", part::expected("a file before the @")});
     }
     return addition;
 }
@@ -244,11 +254,12 @@ SamplePlace parseSample(const OptionValue& value)
     const std::string text = value.text();
     const std::vector<std::string> parts = value.split(',');
     SamplePlace place{};
-    if (parts.size() != 3 || !parseNumber(parts[0], place.x) || !parseNumber(parts[1], place.y) || !parseNumber(parts[2], place.sample) ||
-        place.x >= kMaxSide || place.y >= kMaxSide || place.sample >= kMaxSample) {
-        throw UsageError("--replay", "\"" + text + "\": expected X,Y,SAMPLE with whole numbers X and Y from 0 to " +
-                                         std::to_string(kMaxSide - 1) + " and SAMPLE from 0 to " + std::to_string(kMaxSample - 1) +
-                                         ", as in 12,40,7");
+    const bool areNumbers =
+        parts.size() == 3 && parseNumber(parts[0], place.x) && parseNumber(parts[1], place.y) && parseNumber(parts[2], place.sample);
+    if (!areNumbers || place.x >= kMaxSide || place.y >= kMaxSide || place.sample >= kMaxSample) {
+        refuse("--replay", text, areNumbers,
+               "X,Y,SAMPLE with whole numbers X and Y from 0 to " + std::to_string(kMaxSide - 1) + " and SAMPLE from 0 to " +
+                   std::to_string(kMaxSample - 1) + ", as in 12,40,7");
     }
     return place;
 }
@@ -258,8 +269,9 @@ double parseDuration(const std::string& option, const OptionValue& given)
     const std::string text = given.text() + (given.isNumber() ? "s" : "");
     const double unit = text.empty() ? 0.0 : text.back() == 's' ? 1.0 : text.back() == 'm' ? 60.0 : text.back() == 'h' ? 3600.0 : 0.0;
     double value = 0.0;
-    if (unit == 0.0 || !parseNumber(text.substr(0, text.size() - 1), value) || !(value > 0.0) || !std::isfinite(value)) {
-        throw UsageError(option, "\"" + text + "\": expected a time above 0 with its unit, as in 90s, 5m or 1h");
+    const bool isTime = unit != 0.0 && parseNumber(text.substr(0, text.size() - 1), value);
+    if (!isTime || !(value > 0.0) || !std::isfinite(value)) {
+        refuse(option, text, isTime, "a time above 0 with its unit, as in 90s, 5m or 1h");
     }
     return value * unit;
 }
@@ -269,9 +281,9 @@ float parseSurvival(const OptionValue& value)
     const std::string text = value.text();
     const std::string start = "fixed:";
     float survival = 0.0F;
-    if (text.rfind(start, 0) != 0 || !parseNumber(text.substr(start.size()), survival) || !std::isnormal(survival) ||
-        !(survival > 0.0F && survival <= 1.0F)) {
-        throw UsageError("--roulette", "\"" + text + "\": expected throughput, none or fixed:P with 0 < P <= 1, as in fixed:0.7");
+    const bool isNumber = text.starts_with(start) && parseNumber(text.substr(start.size()), survival);
+    if (!isNumber || !std::isnormal(survival) || !(survival > 0.0F && survival <= 1.0F)) {
+        refuse("--roulette", text, isNumber, "throughput, none or fixed:P with 0 < P <= 1, as in fixed:0.7");
     }
     return survival;
 }
@@ -301,10 +313,10 @@ Sun parseSun(const OptionValue& value)
 {
     const std::string text = value.text();
     glm::dvec3 triple(0.0);
-    if (!parseTriple(value, triple) || std::abs(triple.x) > 360.0 || std::abs(triple.y) > 90.0 || !(triple.z >= 0.0 && triple.z <= 1e30)) {
-        throw UsageError("--sun", "\"" + text +
-                                      "\": expected azimuth and elevation in degrees, within 360 and 90, and an irradiance >= 0 in "
-                                      "W/m^2, as in 30,45,1000");
+    const bool isTriple = parseTriple(value, triple);
+    if (!isTriple || std::abs(triple.x) > 360.0 || std::abs(triple.y) > 90.0 || !(triple.z >= 0.0 && triple.z <= 1e30)) {
+        refuse("--sun", text, isTriple,
+               "azimuth and elevation in degrees, within 360 and 90, and an irradiance >= 0 in W/m^2, as in 30,45,1000");
     }
     return {triple.x, triple.y, static_cast<float>(triple.z)};
 }
@@ -318,10 +330,10 @@ glm::vec3 parseRadiance(const OptionValue& value)
 {
     const std::string text = value.text();
     glm::vec3 radiance(0.0F);
-    if (!parseTriple(value, radiance) || glm::any(glm::lessThan(radiance, glm::vec3(0.0F)))) {
-        throw UsageError("--environment", "\"" + text +
-                                              "\": expected the name of a .hdr or .exr map, a constant radiance R,G,B with "
-                                              "numbers >= 0, as in 1,1,1, studio or none");
+    const bool isTriple = parseTriple(value, radiance);
+    if (!isTriple || glm::any(glm::lessThan(radiance, glm::vec3(0.0F)))) {
+        refuse("--environment", text, isTriple,
+               "the name of a .hdr or .exr map, a constant radiance R,G,B with numbers >= 0, as in 1,1,1, studio or none");
     }
     return radiance;
 }
@@ -330,7 +342,7 @@ glm::dvec3 parsePoint(const std::string& option, const OptionValue& value)
 {
     glm::dvec3 point(0.0);
     if (!parseTriple(value, point)) {
-        throw UsageError(option, "\"" + value.text() + "\": expected three numbers, as in 1,2.5,-3");
+        refuse(option, value.text(), false, "three numbers, as in 1,2.5,-3");
     }
     return point;
 }

@@ -228,8 +228,9 @@ RenderSettings settingsFor(const PictureOptions& options, const Camera& camera)
     settings.width = size.x;
     settings.height = size.y;
     if (settings.rows && settings.rows->second > size.y) {
-        throw UsageError("--rows", std::to_string(settings.rows->first) + ":" + std::to_string(settings.rows->second) +
-                                       ": the picture has " + std::to_string(size.y) + " rows");
+        const std::string rows = std::to_string(settings.rows->first) + ":" + std::to_string(settings.rows->second);
+        throw UsageError(MessageId::OutOfRange, {part::place("--rows"), ": ", part::value(rows), ": the picture has ",
+                                                 part::expected(std::to_string(size.y) + " rows")});
     }
     return settings;
 }

@@ -40,32 +40,34 @@ std::string describeOther(const Film& film, const SceneSession& session, const P
                : describeDifference(film, expected);
 }
 
-void resumeFrom(Renderer& renderer, StoredFilm stored, const std::string& name)
+void resumeFrom(Renderer& renderer, StoredFilm stored, const MessagePart& name)
 {
     const std::string samples = sampleRangesText(stored.film), arithmetic = stored.film.arithmetic, device = stored.film.device;
-    const auto refuse = [&](const std::string& reason) {
-        throw InputError(name + ": cannot be resumed: it has samples " + samples + ", " + reason + ".");
+    const auto refuse = [&](MessageId id, std::initializer_list<MessagePart> why) {
+        const Message reason(id, why);
+        throw InputError(Message(reason, {name, ": cannot be resumed: it has samples ", part::value(samples), ", ", reason.sentence, "."}));
     };
     const auto [begin, end] = stored.film.sampleRanges.front();
     const RenderSettings& settings = renderer.settings();
     if (begin != settings.sampleBegin) {
-        refuse("expected them to begin at " + std::to_string(settings.sampleBegin));
+        refuse(MessageId::Mismatch, {"expected ", part::expected("them to begin at " + std::to_string(settings.sampleBegin))});
     }
     if (!stored.checkpoint && end - begin <= kBlockSamples) {
-        say(MessageId::BegunAnew, {part::file(name), " has no finished block of samples, so the render begins anew"});
+        say(MessageId::BegunAnew, {name, " has no finished block of samples, so the render begins anew"});
         return;
     }
     std::optional<Checkpoint> checkpoint = stored.checkpoint ? std::move(stored.checkpoint) : makeCheckpoint(std::move(stored.film));
     if (!checkpoint) {
-        refuse("expected one range that ends with a page of " + std::to_string(kPageSamples) + "; `glim merge` adds others");
+        refuse(MessageId::Unsupported, {"expected ", part::expected("one range that ends with a page of " + std::to_string(kPageSamples)),
+                                        "; `glim merge` adds others"});
     }
     if (!renderer.plan().canResume(checkpoint->progress)) {
-        refuse(isNeighbours(settings.adaptive) ? "planned for another --spp" : "more than were asked for");
+        refuse(MessageId::Mismatch, {isNeighbours(settings.adaptive) ? "planned for another --spp" : "more than were asked for"});
     }
     renderer.resume(*std::move(checkpoint));
     const double pixels = settings.pixelCount();
     say(MessageId::Resumed,
-        {part::file(name), " is resumed at ",
+        {name, " is resumed at ",
          part::value(exactText(std::round(100.0 * static_cast<double>(renderer.statistics().resumedSamples) / pixels) / 100.0)),
          " samples per pixel"});
     if (arithmetic != arithmeticFingerprint(renderer.resources().device)) {

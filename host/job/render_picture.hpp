@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/job/scene_session.hpp"
+#include "host/message.hpp"
 #include "host/render/film_file.hpp"
 
 #include <exception>
@@ -28,7 +29,7 @@ void labelFilm(Film& film, const RenderJob& options);
 std::string describeOther(const Film& film, const SceneSession& session, const PictureFrame& frame, const RenderJob& options);
 
 // Lets the renderer go on from a film of the picture, which `name` names in messages. Throws InputError if it cannot. Says what it does.
-void resumeFrom(Renderer& renderer, StoredFilm stored, const std::string& name);
+void resumeFrom(Renderer& renderer, StoredFilm stored, const MessagePart& name);
 
 struct RenderedFilm {
     Film film;  // without a label

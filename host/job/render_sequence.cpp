@@ -255,7 +255,7 @@ ExitCode SequenceRenderer::renderShot(const RenderJob& options)
     }
     Renderer& renderer = session_.begin(frame.camera, frame.settings);
     if (stored && options.checkpoint.resume) {
-        resumeFrom(renderer, *std::move(stored), options.output.string());
+        resumeFrom(renderer, *std::move(stored), part::file(options.output));
     }
     stored.reset();
     CheckpointWriter writer(options.checkpoint, options.output, [&options](Film& film) { labelFilm(film, options); });
@@ -267,9 +267,11 @@ ExitCode SequenceRenderer::renderShot(const RenderJob& options)
         progress.finish();
         writer.finish();
         const auto kept = writer.lastWritten();
-        throw DeviceError(error.what() + (kept ? " " + options.output.string() + " has the last checkpoint, of " +
-                                                     exactText(std::round(100.0 * kept->samplesPerPixel) / 100.0) + " samples per pixel."
-                                               : std::string()));
+        if (!kept) {
+            throw;
+        }
+        throw DeviceError(error, {error.what(), " ", part::file(options.output), " has the last checkpoint, of ",
+                                  exactText(std::round(100.0 * kept->samplesPerPixel) / 100.0), " samples per pixel."});
     }
     progress.finish();
     writer.abandon();
@@ -297,7 +299,7 @@ std::optional<StoredFilm> SequenceRenderer::readOutput(const RenderJob& options,
     }
     const std::string difference = describeOther(stored.film, session_, frame, options);
     if (!difference.empty() && options.checkpoint.resume) {
-        throw InputError(options.output.string() + ": cannot be resumed: " + difference + ".");
+        throw InputError(MessageId::Mismatch, {part::file(options.output), ": cannot be resumed: ", difference, "."});
     }
     return difference.empty() ? std::optional(std::move(stored)) : std::nullopt;
 }

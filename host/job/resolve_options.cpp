@@ -14,15 +14,16 @@ namespace {
 constexpr std::uint32_t kAovSamples = 4, kMaxSpp = 2048;
 constexpr std::uint64_t kMaxCounter = std::uint64_t{1} << 32;  // sample index * light samples + light sample
 
-[[noreturn]] void refuse(const OptionTable& table, const std::string& option, const std::string& why)
+[[noreturn]] void refuse(const OptionTable& table, const std::string& option, MessageId id, std::initializer_list<MessagePart> why)
 {
-    throw UsageError(option, inQuotes(table.toText(option)) + ": " + why);
+    const Message reason(id, why);
+    throw UsageError(Message(reason, {part::place(option), ": ", part::quoted(table.toText(option)), ": ", reason.sentence}));
 }
 
-void refuseIfGiven(const OptionTable& table, const std::string& option, const std::string& why)
+void refuseIfGiven(const OptionTable& table, const std::string& option, MessageId id, std::initializer_list<MessagePart> why)
 {
     if (table.isGiven(option)) {
-        refuse(table, option, why);
+        refuse(table, option, id, why);
     }
 }
 
@@ -31,7 +32,8 @@ template <class Asked>
 struct Rule {
     std::vector<const char*> options;
     bool (*excludedBy)(const Asked&);
-    const char* why;  // {--view} stands for that option's value
+    MessageId id;
+    const char *why, *expected = "";  // {--view} stands for that option's value
 };
 
 bool isOfAov(const PictureOptions& picture) { return picture.settings.aov != Aov::Radiance; }
@@ -50,19 +52,38 @@ const Rule<PictureOptions> kPictureRules[] = {
     {{"--bounces", "--direct", "--light-samples", "--paths", "--roulette", "--clamp-indirect", "--caustics", "--adaptive", "--rates",
       "--suspects", "--target-rmse", "--target-relmse", "--tone"},
      isOfAov,
+     MessageId::Conflict,
      "has no effect with --view {--view}"},
-    {{"--exposure"}, isOfAovWithoutExposure, "has no effect with --view {--view}"},
-    {{"--tolerance", "--batch", "--max-spp"}, isNotByCourse, "has an effect only with --adaptive course or course:literal"},
-    {{"--spp", "--samples"}, isByCourse, "--adaptive course itself chooses the samples; expected --max-spp as their limit"},
-    {{"--samples"}, isByNeighbours, "--adaptive itself chooses the samples; expected --spp as their mean"},
-    {{"--light-samples"}, hasOneLightSample, "has an effect only with --direct lights or --direct hemisphere"},
-    {{"--split"}, isWithoutBvh, "with --accelerator none there is no BVH to split"},
+    {{"--exposure"}, isOfAovWithoutExposure, MessageId::Conflict, "has no effect with --view {--view}"},
+    {{"--tolerance", "--batch", "--max-spp"},
+     isNotByCourse,
+     MessageId::Requires,
+     "has an effect only with ",
+     "--adaptive course or course:literal"},
+    {{"--spp", "--samples"},
+     isByCourse,
+     MessageId::Conflict,
+     "--adaptive course itself chooses the samples; expected ",
+     "--max-spp as their limit"},
+    {{"--samples"}, isByNeighbours, MessageId::Conflict, "--adaptive itself chooses the samples; expected ", "--spp as their mean"},
+    {{"--light-samples"}, hasOneLightSample, MessageId::Requires, "has an effect only with ", "--direct lights or --direct hemisphere"},
+    {{"--split"}, isWithoutBvh, MessageId::Conflict, "with --accelerator none there is no BVH to split"},
     {{"--checkpoint", "--resume"},
      isByCourse,
-     "a pixel of --adaptive course stops by its luminances, which no film holds; expected --adaptive off or neighbours"},
-    {{"--target-rmse", "--target-relmse"}, isByCourse, "--adaptive course has a rule of its own; expected --adaptive neighbours or off"},
-    {{"--adaptive", "--target-rmse", "--target-relmse"}, isOfRows, "looks at the whole picture; expected no --rows"},
-    {{"--ids", "--suspects", "--replay"}, isOfRows, "is of the whole picture; expected no --rows"},
+     MessageId::Conflict,
+     "a pixel of --adaptive course stops by its luminances, which no film holds; expected ",
+     "--adaptive off or neighbours"},
+    {{"--target-rmse", "--target-relmse"},
+     isByCourse,
+     MessageId::Conflict,
+     "--adaptive course has a rule of its own; expected ",
+     "--adaptive neighbours or off"},
+    {{"--adaptive", "--target-rmse", "--target-relmse"},
+     isOfRows,
+     MessageId::Conflict,
+     "looks at the whole picture; expected ",
+     "no --rows"},
+    {{"--ids", "--suspects", "--replay"}, isOfRows, MessageId::Conflict, "is of the whole picture; expected ", "no --rows"},
 };
 
 bool isReplay(const RenderJob& job) { return job.replay.has_value(); }
@@ -77,15 +98,16 @@ const Rule<RenderJob> kRenderRules[] = {
     {{"--output", "--image", "--rates", "--ids", "--progress", "--time", "--suspects", "--target-rmse", "--target-relmse", "--checkpoint",
       "--resume"},
      isReplay,
+     MessageId::Conflict,
      "has no effect with --replay, which makes no picture"},
-    {{"--replay"}, isReplayOfSequence, "expected the options of one picture"},
-    {{"--frames", "--look-from"}, isByAllCameras, "has one camera; expected its name or index as --camera"},
-    {{"--on-checkpoint"}, isWithoutCheckpoints, "without --checkpoint or --resume there are no checkpoints"},
-    {{"--resume"}, listsSuspects, "the brightest samples of earlier runs are not kept; expected no --suspects"},
-    {{"--denoised"}, isWithoutTarget, "says what --target-rmse or --target-relmse is of; expected one of them"},
-    {{"--rows"}, isDenoised, "has no rows around it, which --denoise needs; expected the whole picture"},
-    {{"--checkpoint", "--resume"}, isDenoised, "keeps no halves of the samples, which --denoise needs"},
-    {{"--replay"}, isDenoised, "makes no picture; expected no --denoise"},
+    {{"--replay"}, isReplayOfSequence, MessageId::Conflict, "expected ", "the options of one picture"},
+    {{"--frames", "--look-from"}, isByAllCameras, MessageId::Conflict, "has one camera; expected ", "its name or index as --camera"},
+    {{"--on-checkpoint"}, isWithoutCheckpoints, MessageId::Requires, "without --checkpoint or --resume there are no checkpoints"},
+    {{"--resume"}, listsSuspects, MessageId::Conflict, "the brightest samples of earlier runs are not kept; expected ", "no --suspects"},
+    {{"--denoised"}, isWithoutTarget, MessageId::Requires, "says what --target-rmse or --target-relmse is of; expected ", "one of them"},
+    {{"--rows"}, isDenoised, MessageId::Conflict, "has no rows around it, which --denoise needs; expected ", "the whole picture"},
+    {{"--checkpoint", "--resume"}, isDenoised, MessageId::Conflict, "keeps no halves of the samples, which --denoise needs"},
+    {{"--replay"}, isDenoised, MessageId::Conflict, "makes no picture; expected ", "no --denoise"},
 };
 
 std::string withValues(const OptionTable& table, std::string why)
@@ -103,7 +125,7 @@ void apply(std::span<const Rule<Asked>> rules, const OptionTable& table, const A
     for (const Rule<Asked>& rule : rules) {
         for (const char* option : rule.options) {
             if (table.isGiven(option) && rule.excludedBy(asked)) {
-                refuse(table, option, withValues(table, rule.why));
+                refuse(table, option, rule.id, {withValues(table, rule.why), part::expected(rule.expected)});
             }
         }
     }
@@ -115,7 +137,8 @@ void resolveAov(const OptionTable& table, RenderSettings& settings)
         return;
     }
     if (settings.aov == Aov::BvhSteps && settings.course.accelerator == Accelerator::None) {
-        refuse(table, "--view", "with --accelerator none there is no BVH; expected --accelerator bvh");
+        refuse(table, "--view", MessageId::Conflict,
+               {"with --accelerator none there is no BVH; expected ", part::expected("--accelerator bvh")});
     }
     settings.bounces = 0;
     if (!table.isGiven("--spp") && !table.isGiven("--samples")) {
@@ -126,13 +149,17 @@ void resolveAov(const OptionTable& table, RenderSettings& settings)
 void resolveCourse(const OptionTable& table, RenderSettings& settings)
 {
     if (settings.sampler == Sampler::Sobol) {
-        refuseIfGiven(table, "--sampler", "the statistics of --adaptive course assume independent samples; expected --sampler independent");
+        refuseIfGiven(
+            table, "--sampler", MessageId::Conflict,
+            {"the statistics of --adaptive course assume independent samples; expected ", part::expected("--sampler independent")});
     }
     settings.sampler = Sampler::Independent;
     settings.sampleEnd = table.isGiven("--max-spp") ? settings.sampleEnd : kMaxSpp;
     if (settings.course.batch > settings.sampleEnd) {
-        refuseIfGiven(table, "--batch", "expected at most --max-spp, which is " + std::to_string(settings.sampleEnd));
-        refuse(table, "--max-spp", "expected at least --batch, which is " + std::to_string(settings.course.batch));
+        refuseIfGiven(table, "--batch", MessageId::OutOfRange,
+                      {"expected ", part::expected("at most --max-spp, which is " + std::to_string(settings.sampleEnd))});
+        refuse(table, "--max-spp", MessageId::OutOfRange,
+               {"expected ", part::expected("at least --batch, which is " + std::to_string(settings.course.batch))});
     }
 }
 
@@ -140,8 +167,9 @@ void resolveCourse(const OptionTable& table, RenderSettings& settings)
 void resolveNeighbours(const OptionTable& table, RenderSettings& settings)
 {
     if (settings.sampleEnd <= kPilotSamples) {
-        refuseIfGiven(table, "--spp",
-                      "--adaptive neighbours begins with " + std::to_string(kPilotSamples) + " samples of every pixel; expected more");
+        refuseIfGiven(table, "--spp", MessageId::OutOfRange,
+                      {"--adaptive neighbours begins with ", std::to_string(kPilotSamples), " samples of every pixel; expected ",
+                       part::expected("more")});
     }
     settings.sampleEnd = table.isGiven("--spp") ? settings.sampleEnd : 4 * kPilotSamples;
 }
@@ -172,7 +200,7 @@ void resolveReplay(const OptionTable& table, RenderJob& job)
         return;
     }
     if (job.settings.aov != Aov::Radiance) {
-        refuse(table, "--view", "has no light paths to replay; expected --view shaded");
+        refuse(table, "--view", MessageId::Conflict, {"has no light paths to replay; expected ", part::expected("--view shaded")});
     }
     RenderSettings& settings = job.settings;
     if (isNeighbours(settings.adaptive) || (!hasSampleCount(table) && settings.adaptive == Adaptive::Off)) {
@@ -180,18 +208,18 @@ void resolveReplay(const OptionTable& table, RenderJob& job)
         settings.sampleEnd = job.replay->sample + 1;
     }
     if (job.replay->sample < settings.sampleBegin || job.replay->sample >= settings.sampleEnd) {
-        refuse(table, "--replay",
-               "expected one of the samples that the other options ask for, " + std::to_string(settings.sampleBegin) + " to " +
-                   std::to_string(settings.sampleEnd - 1));
+        refuse(table, "--replay", MessageId::OutOfRange,
+               {"expected ", part::expected("one of the samples that the other options ask for, " + std::to_string(settings.sampleBegin) +
+                                            " to " + std::to_string(settings.sampleEnd - 1))});
     }
 }
 
 void checkLightSamples(const OptionTable& table, const RenderSettings& settings)
 {
     if (std::uint64_t{settings.sampleEnd} * settings.course.lightSamples > kMaxCounter) {
-        refuse(table, "--light-samples",
-               "times " + std::to_string(settings.sampleEnd) + " samples per pixel is more than 2^32; expected at most " +
-                   std::to_string(kMaxCounter / settings.sampleEnd));
+        refuse(table, "--light-samples", MessageId::OutOfRange,
+               {"times ", std::to_string(settings.sampleEnd), " samples per pixel is more than 2^32; expected ",
+                part::expected("at most " + std::to_string(kMaxCounter / settings.sampleEnd))});
     }
 }
 
@@ -200,8 +228,9 @@ void checkPaths(const OptionTable& table, const RenderSettings& settings)
 {
     const std::uint32_t least = settings.paths == PathParts::Direct ? 1 : settings.paths == PathParts::Indirect ? 2 : 0;
     if (settings.bounces < least) {
-        refuseIfGiven(table, "--bounces",
-                      "leaves nothing of --paths " + table.toText("--paths") + "; expected at least " + std::to_string(least));
+        refuseIfGiven(
+            table, "--bounces", MessageId::OutOfRange,
+            {"leaves nothing of --paths ", table.toText("--paths"), "; expected ", part::expected("at least " + std::to_string(least))});
     }
 }
 
@@ -217,7 +246,9 @@ void resolveTarget(const OptionTable& table, RenderJob& job)
     const std::uint32_t least = minSamplesForError(job.settings.sampleBegin);
     if (job.settings.sampleEnd - job.settings.sampleBegin < least) {
         for (const char* option : {"--target-rmse", "--target-relmse"}) {
-            refuseIfGiven(table, option, "the error is estimated from " + std::to_string(least) + " samples on; expected at least as many");
+            refuseIfGiven(
+                table, option, MessageId::OutOfRange,
+                {"the error is estimated from ", std::to_string(least), " samples on; expected ", part::expected("at least as many")});
         }
     }
 }
@@ -229,15 +260,16 @@ void resolveDenoise(const OptionTable& table, RenderJob& job)
     }
     const RenderSettings& settings = job.settings;
     if (settings.aov != Aov::Radiance) {
-        refuse(table, "--view", "has next to no noise; expected no --denoise");
+        refuse(table, "--view", MessageId::Conflict, {"has next to no noise; expected ", part::expected("no --denoise")});
     }
     if (settings.adaptive != Adaptive::Off) {
-        refuse(table, "--adaptive", "gives pixels samples that are no two independent halves, which --denoise needs");
+        refuse(table, "--adaptive", MessageId::Conflict,
+               {"gives pixels samples that are no two independent halves, which --denoise needs"});
     }
     const std::uint32_t least = minSamplesForError(settings.sampleBegin), samples = settings.sampleEnd - settings.sampleBegin;
     if (samples < least) {
-        refuse(table, table.isGiven("--samples") ? "--samples" : "--spp",
-               "--denoise needs two blocks of samples; expected " + std::to_string(least) + " or more");
+        refuse(table, table.isGiven("--samples") ? "--samples" : "--spp", MessageId::OutOfRange,
+               {"--denoise needs two blocks of samples; expected ", part::expected(std::to_string(least) + " or more")});
     }
     job.settings.halves = true;
 }
@@ -266,9 +298,9 @@ void checkNames(const OptionTable& table, const RenderJob& job)
             const std::string name = std::filesystem::path(value.text()).filename().string();
             const std::size_t begin = name.find('#');
             if (begin == std::string::npos || name.find('#', name.find_first_not_of('#', begin)) != std::string::npos) {
-                throw UsageError(output,
-                                 inQuotes(value.text()) +
-                                     ": names one file for several pictures; expected one run of # in its name, as in out.####.exr");
+                throw UsageError(MessageId::Conflict,
+                                 {part::place(output), ": ", part::quoted(value.text()), ": names one file for several pictures; expected ",
+                                  part::expected("one run of # in its name, as in out.####.exr")});
             }
         }
     }
@@ -279,17 +311,18 @@ void checkFiles(const OptionTable& table, const RenderJob& job)
     resolvePictureFiles(table, job.pictures);
     for (auto file = job.pictures.begin(); file != job.pictures.end(); ++file) {
         const auto isFile = [&file](const std::filesystem::path& other) { return mayBeSame(*file, other); };
-        const std::string name = inQuotes(file->string());
         if (std::any_of(job.pictures.begin(), file, isFile) || (job.rates && isFile(*job.rates))) {
-            throw UsageError("--image", name + ": expected another file than those of --rates and of another --image");
+            throw UsageError(MessageId::Duplicate, {part::place("--image"), ": ", part::quoted(*file), ": expected ",
+                                                    part::expected("another file than those of --rates and of another --image")});
         }
         if (const std::uint32_t longest = longestSide(*getPictureKind(*file)); job.size && std::max(job.size->x, job.size->y) > longest) {
-            throw UsageError("--image", name + ": files of this kind hold at most " + std::to_string(longest) +
-                                            " pixels a side; expected a smaller --size");
+            throw UsageError(MessageId::TooLarge,
+                             {part::place("--image"), ": ", part::quoted(*file), ": files of this kind hold at most ",
+                              std::to_string(longest), " pixels a side; expected ", part::expected("a smaller --size")});
         }
     }
     if (job.ids && mayBeSame(*job.ids, job.output)) {
-        refuse(table, "--ids", "expected another file than that of --output");
+        refuse(table, "--ids", MessageId::Duplicate, {"expected ", part::expected("another file than that of --output")});
     }
 }
 
@@ -298,7 +331,7 @@ void checkFiles(const OptionTable& table, const RenderJob& job)
 void resolveAnimation(const OptionTable& table, bool hasTime)
 {
     if (!hasTime) {
-        refuseIfGiven(table, "--animation", "without a time nothing is played; expected --at");
+        refuseIfGiven(table, "--animation", MessageId::Requires, {"without a time nothing is played; expected ", part::expected("--at")});
     }
 }
 

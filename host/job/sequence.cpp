@@ -34,11 +34,13 @@ std::vector<Shot> listTurntable(const SequenceOptions& sequence, const PictureOp
     return shots;
 }
 
-// The pose of an entry that has a field of view: that of its camera, magnified.
-Pose zoomedPose(const CameraEntry& entry, const Camera& camera, const Scene& scene, const std::string& place)
+// The pose of an entry that has a field of view: that of its camera, magnified. `place` in the file is the entry's.
+Pose zoomedPose(const CameraEntry& entry, const Camera& camera, const Scene& scene, const std::filesystem::path& file,
+                const std::string& place)
 {
     if (camera.kind != Camera::Kind::Perspective) {
-        throw InputError(place + ".yfov: camera \"" + camera.name + "\" is orthographic; expected zoom instead.");
+        throw InputError(MessageId::Conflict, {part::file(file), ": ", part::place(place + ".yfov"), ": camera ", part::quoted(camera.name),
+                                               " is orthographic; expected ", part::expected("zoom"), " instead."});
     }
     Pose pose = entry.pose.value_or(computePose(camera, 1.0, scene.origin));
     pose.zoom = std::tan(0.5 * static_cast<double>(camera.yfov)) / std::tan(0.5 * *entry.yfov);
@@ -50,16 +52,18 @@ std::vector<Shot> listCameras(const std::filesystem::path& file, const PictureOp
     std::vector<Shot> shots;
     for (const CameraEntry& entry : readCameraFile(file)) {
         const auto number = static_cast<std::uint32_t>(shots.size());
-        const std::string place = file.string() + ": [" + std::to_string(number) + "]";
+        const std::string place = "[" + std::to_string(number) + "]";
         try {
             const Camera& camera = findCamera(scene, entry.camera);
-            shots.push_back({number, picture.at, entry.camera, entry.yfov ? zoomedPose(entry, camera, scene, place) : entry.pose});
+            shots.push_back({number, picture.at, entry.camera, entry.yfov ? zoomedPose(entry, camera, scene, file, place) : entry.pose});
             if (shots.back().pose) {
                 placeCamera(camera, *shots.back().pose, scene.origin);  // now, not after the pictures before it
             }
         } catch (const InputError& error) {
-            const std::string reason = error.what();
-            throw InputError(reason.rfind(place, 0) == 0 ? reason : place + ": " + reason);
+            if (error.message().place.starts_with(place)) {
+                throw;
+            }
+            throw InputError(error, {part::file(file), ": ", part::place(place), ": ", error.what()});
         }
     }
     return shots;

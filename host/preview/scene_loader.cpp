@@ -58,7 +58,7 @@ void SceneLoader::begin()
         auto loaded = std::make_unique<LoadedScene>(file_, options);
         updateScene(loaded->prepared, loaded->file, options.at, split_, [this](const std::string& stage) {
             if (ended_) {
-                throw InputError("loading was given up");
+                throw InputError(MessageId::Stopped, {"loading was given up"});
             }
             const std::lock_guard lock(mutex_);
             stage_ = stage;

@@ -8,10 +8,12 @@
 // Films of some rows (--rows) are folded by themselves. Then the bands, which must be adjacent and have the same samples, become one film.
 #pragma once
 
+#include "host/message.hpp"
 #include "host/render/film.hpp"
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 
 namespace glim {
 
@@ -23,7 +25,8 @@ struct MergePlan {
 // Looks at the headers only. Refuses different pictures, overlapping samples and rows that do not fit (InputError, which uses `names`).
 MergePlan planMerge(const std::vector<Film>& films, const std::vector<std::string>& names);
 
-// In what `film` is of another picture or other rows than `first`, as in "its seed is 1, expected 0"; empty if it is of the same.
+// In what `film` is of another picture or other rows than `first`, as in "its seed is 1, expected 0"; nothing if it is of the same.
+std::optional<Message> findDifference(const Film& film, const Film& first);
 std::string describeDifference(const Film& film, const Film& first);
 
 // Whether both are of the same picture and have a sample in common.

@@ -34,7 +34,7 @@ Image read(const std::filesystem::path& path)
 {
     Image image = readExr(path);
     if (collectLayers(image).empty()) {
-        throw InputError(path.string() + ": has no channels.");
+        throw InputError(MessageId::Empty, {part::file(path), ": has no channels."});
     }
     return image;
 }
@@ -57,14 +57,15 @@ ViewedFilms::ViewedFilms(const std::filesystem::path& a, const std::optional<std
     listLayers();
 }
 
-std::optional<std::string> ViewedFilms::disagreement(const File& a, const Image& imageOfA, const File& b, const Image& imageOfB)
+std::optional<Message> ViewedFilms::disagreement(const File& a, const Image& imageOfA, const File& b, const Image& imageOfB)
 {
     if (imageOfA.width == imageOfB.width && imageOfA.height == imageOfB.height && imageOfA.rowsAbove == imageOfB.rowsAbove &&
         imageOfA.columnsLeft == imageOfB.columnsLeft) {
         return std::nullopt;
     }
     const auto sizeOf = [](const Image& image) { return sizeText(image) + placeText(image); };
-    return b.path.string() + ": is " + sizeOf(imageOfB) + ", expected " + sizeOf(imageOfA) + ", the size of " + a.path.string() + ".";
+    return Message(MessageId::Mismatch, {part::file(b.path), ": is ", part::value(sizeOf(imageOfB)), ", expected ",
+                                         part::expected(sizeOf(imageOfA)), ", the size of ", a.path.string(), "."});
 }
 
 std::string ViewedFilms::title() const
@@ -110,7 +111,7 @@ ViewedFilms::Reading ViewedFilms::readChanged()
     const auto latest = [](const File& file) -> const Image& { return file.fresh ? *file.fresh : file.image; };
     const auto why = files_.size() > 1 ? disagreement(files_[0], latest(files_[0]), files_[1], latest(files_[1])) : std::nullopt;
     if (!any || why) {
-        reading.trouble = any ? *why : reading.trouble;
+        reading.trouble = any ? why->sentence : reading.trouble;
         return reading;
     }
     for (File& file : files_) {

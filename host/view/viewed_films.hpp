@@ -1,6 +1,7 @@
 // The films that are viewed: A, and B if there are two.
 #pragma once
 
+#include "host/message.hpp"
 #include "host/view/layers.hpp"
 
 #include <array>
@@ -44,7 +45,7 @@ private:
         std::optional<Image> fresh;  // read again, but not taken yet
     };
 
-    static std::optional<std::string> disagreement(const File& a, const Image& imageOfA, const File& b, const Image& imageOfB);
+    static std::optional<Message> disagreement(const File& a, const Image& imageOfA, const File& b, const Image& imageOfB);
     void listLayers();
 
     std::vector<File> files_;

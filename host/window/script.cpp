@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -126,7 +127,8 @@ std::vector<ScriptStep> readScript(const std::filesystem::path& file)
 {
     std::ifstream stream(file);
     if (!stream) {
-        throw InputError(file.string() + ": the script cannot be read.");
+        throw InputError(errno == ENOENT ? MessageId::FileMissing : MessageId::FileUnreadable,
+                         {part::file(file), ": the script cannot be read."});
     }
     std::vector<ScriptStep> steps;
     std::string line;
@@ -141,9 +143,12 @@ std::vector<ScriptStep> readScript(const std::filesystem::path& file)
         words.expect(step.delay >= 0.0);
         const bool known = readArguments(words.word(), words, step);
         if (!known || !words.isGoodToTheEnd()) {
-            throw InputError(file.string() + ", line " + std::to_string(number) + ": \"" + line +
-                             "\": expected a delay in seconds and a step, as in \"0.5 key V\", \"0 drag left 10,20 30,40\", "
-                             "\"0 scroll 1\", \"0 click 5,5\", \"1 resize 300x200\", \"0 samples 16\" or \"0 close\".");
+            throw InputError(
+                MessageId::Malformed,
+                {part::file(file), ", ", part::place("line " + std::to_string(number)), ": ", part::quoted(line), ": expected ",
+                 part::expected("a delay in seconds and a step, as in \"0.5 key V\", \"0 drag left 10,20 30,40\", \"0 scroll 1\", "
+                                "\"0 click 5,5\", \"1 resize 300x200\", \"0 samples 16\" or \"0 close\""),
+                 "."});
         }
         steps.push_back(step);
     }

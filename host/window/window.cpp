@@ -28,7 +28,7 @@ std::string reason()
 
 [[noreturn]] void refuse(const std::string& what)
 {
-    throw InputError(what + " (" + reason() + "); `glim render --image` writes pictures without a window.");
+    throw InputError(MessageId::NoWindow, {what, " (", reason(), "); `glim render --image` writes pictures without a window."});
 }
 
 // It may be called again.
@@ -74,7 +74,8 @@ Window::Window(const std::string& title, const glm::uvec2& size, EventQueue& eve
     if (window_ == nullptr) {
         const std::string why = reason();
         glfwTerminate();
-        throw InputError("No window can be opened here (" + why + "); `glim render --image` writes pictures without one.");
+        throw InputError(MessageId::NoWindow,
+                         {"No window can be opened here (", why, "); `glim render --image` writes pictures without one."});
     }
     glfwSetWindowUserPointer(window_, this);
     glfwSetKeyCallback(window_,

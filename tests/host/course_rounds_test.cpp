@@ -101,7 +101,7 @@ TEST(LightRounds, MoreThanAMillionAreRefused)
     const std::vector<uint> kinds(16, kSphereLight);
     EXPECT_EQ(lightRounds(sceneWith(kinds), settings).size(), 1U << 20);
     test::expectRefusal<InputError>([&] { lightRounds(sceneWith(std::vector<uint>(17, kSphereLight)), settings); }, MessageId::TooLarge,
-                                    {.place = "--direct", .value = "1114112", .expected = "1048576"});
+                                    {.place = "--direct", .value = "1114112", .expected = "at most 1048576"});
 }
 
 }  // namespace

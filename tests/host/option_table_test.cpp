@@ -1,7 +1,7 @@
 // What sets options by text and by value, and what is refused.
 #include "host/job/option_table.hpp"
 #include "host/job/parse.hpp"
-#include "tests/support/scratch_folder.hpp"
+#include "tests/support/expect_message.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,7 @@ namespace glim {
 namespace {
 
 using test::expectRefusal;
+using test::Parts;
 
 // Options of each kind, and what they store.
 struct Options {
@@ -24,9 +25,10 @@ struct Options {
         table_.addPath("file,SCENE", "F", "", file_).require();
     }
     void set(const std::string& name, const std::string& json) { table_.set(name, OptionValue(*Json::parse(json))); }
-    void expectRefused(const std::string& name, const std::string& json, const std::string& part)
+    void expectRefused(const std::string& name, const std::string& json, MessageId id, const Parts& parts)
     {
-        expectRefusal<UsageError>([&] { set(name, json); }, part);
+        SCOPED_TRACE(name + " " + json);
+        expectRefusal<UsageError>([&] { set(name, json); }, id, parts);
     }
 
     OptionTable table_;
@@ -85,9 +87,10 @@ TEST_F(OptionTableTest, EditsAreAPointerAndJson)
         EXPECT_EQ(parseEdit(OptionValue(std::string("/x=") + word)).value, Json(word).dump());
     }
     for (const char* text : {"", "/x", "x=1", "=1"}) {
-        expectRefusal<UsageError>([&] { parseEdit(OptionValue(text)); }, "expected a pointer and a value");
+        expectRefusal<UsageError>([&] { parseEdit(OptionValue(text)); }, MessageId::Malformed, {.place = "--set", .value = text});
     }
-    expectRefusal<UsageError>([&] { parseEdit(OptionValue("/x", Json::array({"a", "b"}))); }, "expected a number, a list of numbers");
+    expectRefusal<UsageError>([&] { parseEdit(OptionValue("/x", Json::array({"a", "b"}))); }, MessageId::WrongType,
+                              {.place = "--set", .value = "/x"});
 }
 
 TEST_F(OptionTableTest, FlagsThatAreFalseAreNotGiven)
@@ -101,33 +104,35 @@ TEST_F(OptionTableTest, FlagsThatAreFalseAreNotGiven)
 
 TEST_F(OptionTableTest, WhatIsNoValueIsRefused)
 {
-    expectRefused("spp", "true", R"(--spp: "true": expected a whole number from 1 to 1000000)");
-    expectRefused("spp", "1.5", R"("1.5": expected a whole number)");
-    expectRefused("spp", "-1", R"("-1": expected a whole number)");
-    expectRefused("spp", "null", "null: expected a text, a number, true, false, or a list");
-    expectRefused("size", R"({"x": 1})", R"({"x":1}: expected a text)");
-    expectRefused("size", "[[640], 480]", "expected a text, a number");
-    expectRefused("size", "[640]", R"("640": expected WIDTHxHEIGHT)");
-    expectRefused("confine", "2", R"("2": expected true or false)");
-    expectRefused("bounces", "2", R"("bounces": there is no such option)");
-    expectRefused("file", R"("a\u0000b")", R"("a\x00b" has a null character)");
+    expectRefused("spp", "true", MessageId::Malformed, {.place = "--spp", .value = "true", .expected = "1 to 1000000"});
+    expectRefused("spp", "1.5", MessageId::Malformed, {.place = "--spp", .value = "1.5"});
+    expectRefused("spp", "-1", MessageId::OutOfRange, {.place = "--spp", .value = "-1"});
+    expectRefused("spp", "null", MessageId::WrongType, {.value = "null"});
+    expectRefused("size", R"({"x": 1})", MessageId::WrongType, {.value = R"({"x":1})"});
+    expectRefused("size", "[[640], 480]", MessageId::WrongType, {.value = "[[640],480]"});
+    expectRefused("size", "[640]", MessageId::Malformed, {.place = "--size", .value = "640", .expected = "WIDTHxHEIGHT"});
+    expectRefused("confine", "2", MessageId::WrongType, {.place = "--confine", .value = "2", .expected = "true or false"});
+    expectRefused("bounces", "2", MessageId::UnknownName, {.value = "bounces"});
+    expectRefused("file", R"("a\u0000b")", MessageId::Malformed, {.value = R"(a\x00b)"});
     EXPECT_FALSE(table_.isGiven("--spp") || table_.isGiven("--size"));
 }
 
 TEST_F(OptionTableTest, WhatDoesNotGoTogetherIsRefused)
 {
-    const auto expectUnfinished = [this](const std::string& part) { expectRefusal<UsageError>([this] { table_.finish(); }, part); };
-    expectUnfinished("SCENE is required");
+    const auto expectUnfinished = [this](MessageId id, const Parts& parts) {
+        expectRefusal<UsageError>([this] { table_.finish(); }, id, parts);
+    };
+    expectUnfinished(MessageId::Missing, {.place = "SCENE"});
     set("file", R"("a.gltf")");
     set("spp", "4");
-    expectUnfinished("--spp requires --size");
+    expectUnfinished(MessageId::Requires, {.place = "--spp", .expected = "--size"});
     set("-s", R"("8x8")");
     for (const char* name : {"size", "--size", "-s"}) {
-        expectRefused(name, R"("9x9")", "--size: is given twice");
+        expectRefused(name, R"("9x9")", MessageId::Duplicate, {.place = "--size"});
     }
     table_.finish();
     set("time", "2");
-    expectUnfinished("--spp excludes --time");
+    expectUnfinished(MessageId::Conflict, {.place = "--spp", .value = "--time"});
     EXPECT_EQ(table_.wordsGiven({"--time"}), (std::vector<std::string>{"--size=8x8", "--spp=4"}));
 }
 

@@ -5,6 +5,7 @@
 #include "host/view/layers.hpp"
 #include "host/view/placement.hpp"
 #include "host/view/viewed_films.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -295,9 +296,10 @@ TEST(ViewedFilmsTest, SizesAndRowsMustAgree)
     writeExr(folder / "a.exr", colors(4, 3));
     writeExr(folder / "b.exr", colors(3, 4));
     writeExr(folder / "c.exr", colors(4, 3, 2));
-    test::expectRefusal<InputError>([&] { ViewedFilms(folder / "a.exr", folder / "b.exr"); }, "b.exr: is 3x4, expected 4x3, the size of ");
-    test::expectRefusal<InputError>([&] { ViewedFilms(folder / "a.exr", folder / "c.exr"); },
-                                    "c.exr: is 4x3 from (0, 2) on, expected 4x3, the size of ");
+    test::expectRefusal<InputError>([&] { ViewedFilms(folder / "a.exr", folder / "b.exr"); }, MessageId::Mismatch,
+                                    {.file = "b.exr", .value = "3x4", .expected = "4x3"});
+    test::expectRefusal<InputError>([&] { ViewedFilms(folder / "a.exr", folder / "c.exr"); }, MessageId::Mismatch,
+                                    {.file = "c.exr", .value = "4x3 from (0, 2) on", .expected = "4x3"});
     EXPECT_EQ(ViewedFilms(folder / "a.exr", std::nullopt).count(), 1U);
 }
 

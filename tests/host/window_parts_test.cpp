@@ -7,6 +7,7 @@
 #include "host/window/latency.hpp"
 #include "host/window/notice.hpp"
 #include "host/window/script.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -74,9 +75,10 @@ TEST(ScriptTest, NamesTheLineThatIsBad)
     for (const char* line :
          {"key V", "-1 key V", "nan key V", "0", "0 jump", "0 key", "0 key VV", "0 key #", "0 drag right 1,2 3,4", "0 drag left 1,2",
           "0 drag left 1,2 3", "0 scroll up", "0 resize 0x5", "0 resize 1e9x5", "0 samples 0", "0 click 1,2 3", "0 close now"}) {
-        test::expectRefusal<InputError>([&] { read(std::string("0 key A\n") + line + "\n"); }, "script, line 2: ");
+        test::expectRefusal<InputError>([&] { read(std::string("0 key A\n") + line + "\n"); }, MessageId::Malformed,
+                                        {.file = "/script", .place = "line 2", .value = line});
     }
-    test::expectRefusal<InputError>([] { readScript("missing"); }, "missing: the script cannot be read");
+    test::expectRefusal<InputError>([] { readScript("missing"); }, MessageId::FileMissing, {.file = "missing"});
 }
 
 TEST(LatencyTest, QuantilesAreOfTheWaits)
