@@ -290,7 +290,7 @@ TEST(GltfAnimation, JumpsWhereTimesAreEqual)
         for (const auto& [seconds, x] : {std::pair(0.5, 1.0), {0.99999, 1.99998}, {1.0, 5.0}, {1.5, 5.5}, {3.0, 6.0}}) {
             expectNear(placedVertex(loadAt(builder, seconds), 0), {x, 0, 0}, 1e-12);
         }
-        EXPECT_TRUE(hasWarning(loadAt(builder, 0.5).warnings, MessageId::UnorderedKeys, "accessors[1] (times of animations[0]"));
+        EXPECT_TRUE(hasWarning(loadAt(builder, 0.5).warnings, MessageId::UnorderedKeys, "accessors[2] (times of animations[0]"));
     }
 }
 

@@ -471,10 +471,11 @@ void requireShapes(const GltfFile& file, const Scene& scene)
         refuse(file, MessageId::Unsupported,
                {"the file holds ", part::value(others), ", which glim does not draw; expected ", part::expected("triangles")});
     }
-    refuse(
-        file, MessageId::Empty,
-        {"the scene has no triangle and no sphere to draw",
-         (triangles == 0 ? "" : " (" + counted(triangles, "triangle") + " of zero area)"), "; expected ", part::expected("at least one")});
+    const std::string flat = counted(triangles, "triangle");
+    const MessagePart found =
+        triangles == 0 ? MessagePart("") : MessagePart(MessagePart::Kind::Value, " (" + flat + " of zero area)", flat);
+    refuse(file, MessageId::Empty,
+           {"the scene has no triangle and no sphere to draw", found, "; expected ", part::expected("at least one")});
 }
 
 }  // namespace glim
