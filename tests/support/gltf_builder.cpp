@@ -163,6 +163,13 @@ bool hasWarning(const std::vector<Message>& warnings, const std::string& fragmen
     return std::ranges::any_of(warnings, [&](const Message& m) { return m.sentence.find(fragment) != std::string::npos; });
 }
 
+Message findWarning(const std::vector<Message>& warnings, MessageId id)
+{
+    EXPECT_EQ(std::ranges::count(warnings, id, &Message::id), 1) << toText(id) << ' ' << ::testing::PrintToString(warnings);
+    const auto found = std::ranges::find(warnings, id, &Message::id);
+    return found == warnings.end() ? Message(id, {}) : *found;
+}
+
 glm::vec3 vertex(const Scene& scene, std::size_t triangle, int corner)
 {
     return makePrimitives(scene).triangles.at(triangle).vertices[corner] + glm::vec3(scene.origin);

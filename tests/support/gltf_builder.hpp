@@ -66,6 +66,8 @@ Scene load(const GltfBuilder& builder, const LoadOptions& options = {});
 // Whether there is a warning with this id, whose place has `place` in it.
 bool hasWarning(const std::vector<Message>& warnings, MessageId id, const std::string& place = "");
 bool hasWarning(const std::vector<Message>& warnings, const std::string& fragment);
+// The one warning with this id; fails if there is none or another.
+Message findWarning(const std::vector<Message>& warnings, MessageId id);
 
 // Of a corner of a triangle of the flattened scene, in the world.
 glm::vec3 vertex(const Scene& scene, std::size_t triangle, int corner);

@@ -374,8 +374,9 @@ void GeometryReader::checkExtent(const Box& box) const
                {"the scene is ", part::value(toText(extent)), " m large; expected ", part::expected("at most " + toText(kMax) + " m")});
     }
     if (extent > 0.0 && extent < kMin) {
-        warnings_.add(MessageId::TinyScene,
-                      "the scene is " + toText(extent) + " m large: below " + toText(kMin) + " m its picture may lack what is there");
+        warnings_.add(
+            {MessageId::TinyScene,
+             {"the scene is ", part::value(toText(extent)), " m large: below ", toText(kMin), " m its picture may lack what is there"}});
     }
 }
 
@@ -435,7 +436,7 @@ void GeometryReader::finish()
         scene_.spheres.push_back(sphere.sphere);
     }
     if (emptySpheres_ > 0) {
-        warnings_.add(MessageId::EmptySphere, "left out " + counted(emptySpheres_, "sphere") + " of zero radius");
+        warnings_.add({MessageId::EmptySphere, {"left out ", part::value(counted(emptySpheres_, "sphere")), " of zero radius"}});
     }
 }
 
