@@ -207,12 +207,6 @@ std::optional<Message> findDifference(const Film& film, const Film& first)
     return difference || haveSameRows(film, first) ? difference : mismatch("range of rows", rowsText(film), rowsText(first));
 }
 
-std::string describeDifference(const Film& film, const Film& first)
-{
-    const std::optional<Message> difference = findDifference(film, first);
-    return difference ? difference->sentence : "";
-}
-
 MergePlan planMerge(const std::vector<Film>& films, const std::vector<std::string>& names)
 {
     MergePlan plan;

@@ -27,7 +27,6 @@ MergePlan planMerge(const std::vector<Film>& films, const std::vector<std::strin
 
 // In what `film` is of another picture or other rows than `first`, as in "its seed is 1, expected 0"; nothing if it is of the same.
 std::optional<Message> findDifference(const Film& film, const Film& first);
-std::string describeDifference(const Film& film, const Film& first);
 
 // Whether both are of the same picture and have a sample in common.
 bool shareSamples(const Film& a, const Film& b);
