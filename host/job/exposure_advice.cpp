@@ -47,7 +47,7 @@ bool isWhite(const glm::dvec3& light, Tone tone)
 
 }  // namespace
 
-std::optional<std::string> adviseExposure(const Film& film, const Look& look)
+std::optional<Message> adviseExposure(const Film& film, const Look& look)
 {
     const std::vector<glm::dvec3> shown = findShown(film);
     if (shown.empty()) {
@@ -66,7 +66,7 @@ std::optional<std::string> adviseExposure(const Film& film, const Look& look)
         return std::nullopt;
     }
     if (sum == 0.0) {
-        return "is black: no light reaches what it shows";
+        return Message(MessageId::ExposureAdvised, {"is black: no light reaches what it shows"});
     }
     const auto place = luminances.begin() + static_cast<std::ptrdiff_t>((1.0 - kExceeding) * (count - 1.0));
     std::nth_element(luminances.begin(), place, luminances.end());
@@ -74,15 +74,12 @@ std::optional<std::string> adviseExposure(const Film& film, const Look& look)
         return std::nullopt;  // a few lights in the dark
     }
     const double advice = std::clamp(std::floor(10.0 * std::log2(kShownAs / *place)) / 10.0, -100.0, 100.0);
-    char text[160];
-    if (burnt) {
-        std::snprintf(text, sizeof text, "is burnt out: %.0f %% of what it shows is white; --exposure %.1f shows it",
-                      100.0 * clipped / count, advice);
-    } else {
-        std::snprintf(text, sizeof text, "is almost black: its mean is %.2g %% of white; --exposure %.1f shows it",
-                      100.0 * sum * scale / count, advice);
-    }
-    return text;
+    char share[32], stops[32];
+    std::snprintf(share, sizeof share, burnt ? "%.0f %%" : "%.2g %%", 100.0 * (burnt ? clipped : sum * scale) / count);
+    std::snprintf(stops, sizeof stops, "%.1f", advice);
+    return Message(MessageId::ExposureAdvised, {burnt ? "is burnt out: " : "is almost black: its mean is ", part::value(share),
+                                                burnt ? " of what it shows is white; " : " of white; ", part::place("--exposure"), " ",
+                                                part::expected(stops), " shows it"});
 }
 
 }  // namespace glim

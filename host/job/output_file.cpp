@@ -13,7 +13,7 @@ void checkTarget(const fs::path& target, std::string_view extension, const std::
     std::error_code error;
     static_cast<void>(fs::status(target, error));
     if (error == std::errc::filename_too_long) {
-        throw InputError(MessageId::FileUnwritable, {part::file(target), ": cannot be written: ", error.message(), "."});
+        throw InputError(MessageId::FileUnwritable, {part::file(target), ": cannot be written: ", part::value(error.message()), "."});
     }
     for (const fs::path& input : inputs) {
         std::error_code ignored;

@@ -64,7 +64,10 @@ void resumeFrom(Renderer& renderer, StoredFilm stored, const MessagePart& name)
                                         "; `glim merge` adds others"});
     }
     if (!renderer.plan().canResume(checkpoint->progress)) {
-        refuse(MessageId::Mismatch, {isNeighbours(settings.adaptive) ? "planned for another --spp" : "more than were asked for"});
+        if (isNeighbours(settings.adaptive)) {
+            refuse(MessageId::Mismatch, {"planned for another ", part::place("--spp")});
+        }
+        refuse(MessageId::Mismatch, {"more than were asked for"});
     }
     renderer.resume(*std::move(checkpoint));
     const double pixels = settings.pixelCount();

@@ -209,7 +209,7 @@ void warnOfExposure(const RenderReport& report)
     const RenderJob& options = report.options;
     if (report.look && options.settings.aov == Aov::Radiance) {
         if (const auto advice = adviseExposure(report.film, *report.look)) {
-            warn(MessageId::ExposureAdvised, {part::file(options.pictures.front()), " ", *advice, "."});
+            say(Severity::Warning, Message(*advice, {part::file(options.pictures.front()), " ", advice->sentence, "."}));
         }
     }
 }

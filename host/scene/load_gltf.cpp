@@ -87,9 +87,10 @@ void chooseTime(GltfFile& file, const LoadOptions& options, std::optional<double
     if (seconds) {
         animateGltf(file, findAnimation(file, animations, options.animation), *seconds, warnings);
     } else if (!animations.empty()) {
-        warnings.add(MessageId::RestPose,
-                     "the scene is drawn in its rest pose: --at SECONDS poses it by animation " + describeAnimation(animations, 0) +
-                         (animations.size() == 1 ? "" : ", --animation by another of " + std::to_string(animations.size())));
+        warnings.add(
+            {MessageId::RestPose,
+             {"the scene is drawn in its rest pose: --at SECONDS poses it by animation ", part::value(describeAnimation(animations, 0)),
+              animations.size() == 1 ? "" : ", --animation by another of " + std::to_string(animations.size())}});
     }
 }
 

@@ -18,15 +18,21 @@ public:
         kinds_.push_back({message, {}});
     }
     void add(MessageId id, const std::string& sentence) { add(Message(id, {sentence})); }
-    // One more thing that the sentence holds for, and what is the place of it.
-    void add(MessageId id, const std::string& sentence, const MessagePart& name)
+    // One more thing that the sentence holds for. Its part is the place.
+    void add(const Message& message, const MessagePart& name)
+    {
+        if (places_.count(message.sentence) == 0) {
+            add(message);
+        }
+        kinds_[places_.at(message.sentence)].names.push_back(name);
+    }
+    void add(MessageId id, const std::string& sentence, const std::string& name)
     {
         if (places_.count(sentence) == 0) {
             add(id, sentence);
         }
-        kinds_[places_.at(sentence)].names.push_back(name);
+        kinds_[places_.at(sentence)].names.push_back(part::place(name));
     }
-    void add(MessageId id, const std::string& sentence, const std::string& name) { add(id, sentence, part::place(name)); }
     void add(const Warnings& others)
     {
         for (const Kind& kind : others.kinds_) {
@@ -34,7 +40,7 @@ public:
                 add(kind.message);
             }
             for (const MessagePart& name : kind.names) {
-                add(kind.message.id, kind.message.sentence, name);
+                add(kind.message, name);
             }
         }
     }
@@ -49,7 +55,7 @@ public:
             } else {
                 const MessagePart places(MessagePart::Kind::Place, listed(kind.names, &MessagePart::words),
                                          listed(kind.names, &MessagePart::part));
-                messages.push_back({kind.message.id, {kind.message.sentence, ": ", places}});
+                messages.push_back({kind.message, {kind.message.sentence, ": ", places}});
             }
         }
         return messages;

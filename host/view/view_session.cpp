@@ -269,8 +269,8 @@ void ViewSession::readChangedFilms()
     for (const std::string& file : reading.taken) {
         tell(file + ": read again");
     }
-    if (!reading.trouble.empty()) {
-        tell(reading.trouble);
+    if (reading.trouble) {
+        tell(reading.trouble->sentence);
     }
 }
 

@@ -105,13 +105,13 @@ ViewedFilms::Reading ViewedFilms::readChanged()
             file.fresh = read(file.path);
             any = true;
         } catch (const InputError& error) {
-            reading.trouble = error.what();
+            reading.trouble = error.message();
         }
     }
     const auto latest = [](const File& file) -> const Image& { return file.fresh ? *file.fresh : file.image; };
     const auto why = files_.size() > 1 ? disagreement(files_[0], latest(files_[0]), files_[1], latest(files_[1])) : std::nullopt;
     if (!any || why) {
-        reading.trouble = any ? why->sentence : reading.trouble;
+        reading.trouble = any ? why : reading.trouble;
         return reading;
     }
     for (File& file : files_) {

@@ -33,7 +33,7 @@ public:
     // Reads again the files that have been written since. They are taken once their sizes agree; one that is refused stays as it was.
     struct Reading {
         std::vector<std::string> taken;  // names of files
-        std::string trouble;             // a sentence; empty if there is none
+        std::optional<Message> trouble;
     };
     Reading readChanged();
 

@@ -40,7 +40,7 @@ TEST(FuzzCorpus, ImagesAreDecodedOrRefused) { replay("image", "image"); }
 TEST(FuzzContract, NoticesEachViolation)
 {
     const auto defectOf = [](const std::function<void()>& step) { return findDefect("a.gltf: ", step).value_or(""); };
-    const auto refusing = [](const std::string& sentence) { return [sentence] { throw InputError(sentence); }; };
+    const auto refusing = [](const std::string& sentence) { return [sentence] { throw InputError(MessageId::Malformed, {sentence}); }; };
     EXPECT_EQ(defectOf([] {}), "");
     EXPECT_EQ(defectOf(refusing("a.gltf: is not glTF; expected it")), "");
     EXPECT_EQ(defectOf([] { throw std::out_of_range("x"); }), "throws what is no InputError: x");

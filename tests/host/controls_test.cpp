@@ -4,6 +4,7 @@
 #include "host/preview/viewpoint.hpp"
 
 #include "host/error.hpp"
+#include "tests/support/expect_message.hpp"
 
 #include <gtest/gtest.h>
 
@@ -101,9 +102,22 @@ TEST(PoseTest, PlacesCamerasFarFromTheOrigin)
 
 TEST(PoseTest, RefusesNoDirection)
 {
-    EXPECT_THROW(placeCamera({}, {{1, 1, 1}, {1, 1, 1}, {0, 1, 0}, 1.0}, {}), InputError);
-    EXPECT_THROW(placeCamera({}, {{0, 5, 0}, {0, 0, 0}, {0, 1, 0}, 1.0}, {}), InputError);
-    EXPECT_THROW(placeCamera({}, {{0, 5, 0}, {0, 0, 0}, {0, 0, 0}, 1.0}, {}), InputError);
+    using test::expectRefusal;
+    expectRefusal<InputError>(
+        [] {
+            placeCamera({}, {{1, 1, 1}, {1, 1, 1}, {0, 1, 0}, 1.0}, {});
+        },
+        MessageId::Degenerate, {.place = "--look-at"});
+    expectRefusal<InputError>(
+        [] {
+            placeCamera({}, {{0, 5, 0}, {0, 0, 0}, {0, 1, 0}, 1.0}, {});
+        },
+        MessageId::Degenerate, {.place = "--look-up"});
+    expectRefusal<InputError>(
+        [] {
+            placeCamera({}, {{0, 5, 0}, {0, 0, 0}, {0, 0, 0}, 1.0}, {});
+        },
+        MessageId::Degenerate, {.place = "--look-up"});
 }
 
 // A level camera stays level when it is turned; one that is rolled keeps its roll.

@@ -94,49 +94,51 @@ TEST(EditGltf, ANodeHasAMatrixOrParts)
     EXPECT_EQ(placeOf({{"/nodes/0/scale", "[3, 3, 3]"}, {"/nodes/0/matrix", "[2,0,0,0, 0,2,0,0, 0,0,2,0, 7,8,9,1]"}}, 0), moved);
 }
 
-void expectRefused(const Edit& edit, const std::string& part)
-{
-    expectRefusal<InputError>([&] { load(builder(), edited({edit})); }, part);
-}
+void expectRefused(const Edit& edit, MessageId id, const Parts& parts) { test::expectRefused(builder(), id, parts, edited({edit})); }
 
 TEST(EditGltf, RefusesWithThePointerOrThePlace)
 {
-    expectRefused({"/materials/glass/alphaCutoff", "1"},
-                  "--set /materials/glass/alphaCutoff: no element of /materials is named \"glass\"; expected an index from 0 to 1, or one "
-                  "of \"paint\", \"other\"");
-    expectRefused({"/nodes/card/scale", "[1, 1, 1]"}, "2 elements of /nodes are named \"card\"; expected one of their indices, 0, 1");
-    expectRefused({"/materials/2/alphaCutoff", "1"}, "/materials has 2 elements; expected an index from 0 to 1, or a name");
-    expectRefused({"/materials/0/alphaCutoff/deep", "1"}, "is no value that glim can change");
-    expectRefused({"/lights/0/intensity", "1"}, "the file has no /lights; expected a pointer");
+    expectRefused({"/materials/glass/alphaCutoff", "1"}, MessageId::UnknownName,
+                  {.place = "/materials/glass/alphaCutoff", .value = "glass", .expected = "0 to 1, or one of \"paint\", \"other\""});
+    expectRefused({"/nodes/card/scale", "[1, 1, 1]"}, MessageId::AmbiguousName,
+                  {.place = "/nodes/card/scale", .value = "card", .expected = "0, 1"});
+    expectRefused({"/materials/2/alphaCutoff", "1"}, MessageId::DanglingIndex,
+                  {.place = "/materials/2/alphaCutoff", .value = "/materials", .expected = "0 to 1"});
+    expectRefused({"/materials/0/alphaCutoff/deep", "1"}, MessageId::Unsupported, {.place = "/materials/0/alphaCutoff/deep"});
+    expectRefused({"/lights/0/intensity", "1"}, MessageId::UnknownName, {.place = "/lights/0/intensity", .value = "/lights"});
     for (const char* pointer :
          {"/", "/asset/version", "/materials", "/materials/0", "/materials/0/name", "/nodes/0/mesh", "/scene", "/accessors/0/count",
           "/meshes/0/primitives/0/material", "/cameras/0/type", "/materials/0/unknown", "/materials/0/normalTexture/index",
           "/materials/0/pbrMetallicRoughness.roughnessFactor", "/materials[]/alphaCutoff"}) {
-        expectRefused({pointer, "1"}, "is no value that glim can change");
+        expectRefused({pointer, "1"}, MessageId::Unsupported, {.place = pointer});
     }
-    expectRefused({"", "1"}, "--set : expected a pointer that begins with /, since no file is added.");
-    expectRefused({"/materials/0/alphaCutoff", "-2"}, "materials[0].alphaCutoff is -2; expected");
-    expectRefused({"/materials/0/pbrMetallicRoughness/baseColorFactor", "[1, 2]"}, "materials[0].pbrMetallicRoughness.baseColorFactor");
-    expectRefused({"/materials/0/alphaMode", "\"GLASS\""}, "materials[0].alphaMode");
-    expectRefused({"/materials/0/doubleSided", "3"}, "materials[0].doubleSided");
-    expectRefused({"/materials/0/alphaCutoff", "1,2"}, "is not JSON");
-    expectRefused({"/nodes/0/weights/0", "1"}, "the file has no /nodes/0/weights; expected a pointer");
+    expectRefused({"", "1"}, MessageId::Malformed, {.expected = "begins with /, since no file is added"});
+    expectRefused({"/materials/0/alphaCutoff", "-2"}, MessageId::OutOfRange, {.place = "materials[0].alphaCutoff", .value = "-2"});
+    expectRefused({"/materials/0/pbrMetallicRoughness/baseColorFactor", "[1, 2]"}, MessageId::Mismatch,
+                  {.place = "materials[0].pbrMetallicRoughness.baseColorFactor", .expected = "4"});
+    expectRefused({"/materials/0/alphaMode", "\"GLASS\""}, MessageId::UnknownName,
+                  {.place = "materials[0].alphaMode", .value = "\"GLASS\""});
+    expectRefused({"/materials/0/doubleSided", "3"}, MessageId::WrongType, {.place = "materials[0].doubleSided", .value = "3"});
+    expectRefused({"/materials/0/alphaCutoff", "1,2"}, MessageId::Malformed, {.place = "/materials/0/alphaCutoff", .value = "1,2"});
+    expectRefused({"/nodes/0/weights/0", "1"}, MessageId::UnknownName, {.place = "/nodes/0/weights/0", .value = "/nodes/0/weights"});
 }
 
 // Each edit is checked before the next one reads what it wrote.
 TEST(EditGltf, AWrongValueIsRefusedBeforeTheNextEdit)
 {
-    for (const auto& [matrix, part] : {std::pair("[1, 2]", "nodes[0].matrix is"),
-                                       {"5", "nodes[0].matrix is"},
-                                       {"[2,0,0,0, 0,2,0,0, 0,0,2,0, 1,2,3,9]", "the node's matrix shears, flattens or projects"}}) {
+    struct Case {
+        const char* matrix;
+        MessageId id;
+        const char* place;
+    };
+    for (const auto& [matrix, id, place] : {Case{"[1, 2]", MessageId::Mismatch, "nodes[0].matrix"},
+                                            {"5", MessageId::WrongType, "nodes[0].matrix"},
+                                            {"[2,0,0,0, 0,2,0,0, 0,0,2,0, 1,2,3,9]", MessageId::Degenerate, "/nodes/0/translation"}}) {
         const LoadOptions options = edited({{"/nodes/0/matrix", matrix}, {"/nodes/0/translation", "[1, 2, 3]"}});
-        expectRefusal<InputError>([&] { load(builder(), options); }, part);
+        test::expectRefused(builder(), id, {.place = place}, options);
     }
-    expectRefusal<InputError>(
-        [&] {
-            load(builder(), edited({{"/nodes/0/weights", "5"}, {"/nodes/0/weights/0", "1"}}));
-        },
-        "nodes[0].weights");
+    test::expectRefused(builder(), MessageId::WrongType, {.place = "nodes[0].weights", .value = "5"},
+                        edited({{"/nodes/0/weights", "5"}, {"/nodes/0/weights/0", "1"}}));
 }
 
 TEST(EditGltf, APointerIsEscaped)

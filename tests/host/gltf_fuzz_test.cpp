@@ -56,7 +56,7 @@ void fuzz(const std::string& original, const std::string& name, const LoadOption
             checkScene(scene);
             ++loaded;
         } catch (const InputError& error) {
-            EXPECT_GT(std::string(error.what()).size(), path.size() + 2) << "mutant " << i;
+            EXPECT_EQ(error.message().file, path) << "mutant " << i << ": " << error.what();
         } catch (const std::exception& error) {
             ADD_FAILURE() << "mutant " << i << " of " << name << ": " << error.what();
         }

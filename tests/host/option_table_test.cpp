@@ -89,8 +89,11 @@ TEST_F(OptionTableTest, EditsAreAPointerAndJson)
     for (const char* text : {"", "/x", "x=1", "=1"}) {
         expectRefusal<UsageError>([&] { parseEdit(OptionValue(text)); }, MessageId::Malformed, {.place = "--set", .value = text});
     }
-    expectRefusal<UsageError>([&] { parseEdit(OptionValue("/x", Json::array({"a", "b"}))); }, MessageId::WrongType,
-                              {.place = "--set", .value = "/x"});
+    expectRefusal<UsageError>(
+        [&] {
+            parseEdit(OptionValue("/x", Json::array({"a", "b"})));
+        },
+        MessageId::WrongType, {.place = "--set", .value = "/x"});
 }
 
 TEST_F(OptionTableTest, FlagsThatAreFalseAreNotGiven)

@@ -1,5 +1,6 @@
 #include "host/flatten/primitives.hpp"
 #include "host/flatten/flatten_scene.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/test_meshes.hpp"
@@ -84,7 +85,7 @@ TEST(PrimitivesTest, ABadNormalGivesWayToTheFaceOfEachTriangle)
     const glm::vec3 other = primitives.vertexNormals[primitives.vertexIndices[1].x];
     EXPECT_LT(glm::length(other - glm::normalize(glm::vec3(1, -1, 1))), 1e-6F);
     ASSERT_EQ(primitives.warnings.size(), 1U);
-    EXPECT_EQ(test::sentencesOf(primitives.warnings)[0].find("used the face normal in place of 2 normals"), 0U);
+    test::expectMessage(primitives.warnings[0], MessageId::BadNormal, {.value = "2 normals"});
 }
 
 // Triangles whose vertices coincide in float32 have no area.
@@ -95,7 +96,7 @@ TEST(PrimitivesTest, WhatHasNoAreaHasNoId)
     EXPECT_EQ(primitives.firstTriangles, (std::vector<std::uint32_t>{0, 0, 2}));
     EXPECT_EQ(primitives.findInstance(0), 1U);
     ASSERT_EQ(primitives.warnings.size(), 1U);
-    EXPECT_NE(test::sentencesOf(primitives.warnings)[0].find("2 triangles"), std::string::npos);
+    test::expectMessage(primitives.warnings[0], MessageId::FlatTriangle, {.value = "2 triangles"});
     const FlatScene flat = flattened(sceneWith({square(true)}, {{"tiny", 0, tiny}, {"", 0}}));
     EXPECT_EQ(flat.triangles.size(), 2U);
 }

@@ -85,13 +85,12 @@ TEST(RenderJob, RouletteHasItsProbability)
         EXPECT_EQ(found.course.roulette, Roulette::Fixed);
         EXPECT_EQ(found.course.survival, survival);
     }
-    for (const std::string text : {"fixed:1.2", "fixed:0", "fixed:-0.5", "fixed:nan", "fixed:inf"}) {
+    for (const std::string text : {"fixed:1.2", "fixed:0", "fixed:-0.5", "fixed:nan", "fixed:inf", "fixed:1e-40"}) {
         expectRefused("--roulette " + text, MessageId::OutOfRange, {.place = "--roulette", .value = text, .expected = "0 < P <= 1"});
     }
     for (const std::string text : {"fixed:", "fixed:0.5x", "fixed", "fixd", "0.7", "Fixed:0.7", ":0.7"}) {
         expectRefused("--roulette " + text, MessageId::Malformed, {.place = "--roulette", .value = text, .expected = "fixed:P"});
     }
-    EXPECT_THROW(parse("--roulette fixed:1e-40"), UsageError) << "a subnormal number";
 }
 
 TEST(RenderJob, RaysAreTracedAsAsked)
@@ -280,8 +279,7 @@ TEST(RenderJob, ReplaysRefuseOptionsOfPictures)
          {"--output x.exr", "--image p.png", "--rates r.png", "--ids i.exr", "--progress json", "--time 1", "--suspects 3"}) {
         expectRefused("--replay 1,2,3 " + option, MessageId::Conflict, partsOf(option));
     }
-    expectRefused("--replay 1,2,3 --view normal", MessageId::Conflict,
-                  {.place = "--view", .value = "normal", .expected = "--view shaded"});
+    expectRefused("--replay 1,2,3 --view normal", MessageId::Conflict, {.place = "--view", .value = "normal", .expected = "--view shaded"});
     EXPECT_TRUE(parse("--replay 1,2,3 --view shaded").replay);
     for (const std::string place : {"1,2", "1,2,3,4", "1,,3", "a,2,3", "1,2,", "-1,2,3", "1.5,2,3", "+1,2,3"}) {
         expectRefused("--replay " + place, MessageId::Malformed, {.place = "--replay", .value = place, .expected = "X,Y,SAMPLE"});

@@ -1,7 +1,7 @@
 // `glim bench` as a user runs it: files, the reference that is used again, baselines, and what is refused.
 #include "host/bench/bench_file.hpp"
 #include "host/bench/summarize_bench.hpp"
-#include "tests/support/run_glim.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -13,6 +13,7 @@ namespace glim::test {
 namespace {
 
 using Arguments = std::vector<std::string>;
+using Id = MessageId;
 
 GlimRun bench(const Arguments& more)
 {
@@ -21,13 +22,12 @@ GlimRun bench(const Arguments& more)
     return runGlim(arguments);
 }
 
-void expectSentence(const GlimRun& run, int exitCode, const std::string& part)
+// Exits with 1, or with 2 of a mistake in the options.
+void expectBadInput(const Arguments& arguments, MessageId id, const Parts& parts)
 {
-    EXPECT_EQ(run.exitCode, exitCode) << run.err;
-    EXPECT_TRUE(contains(run.err, part)) << run.err << "lacks: " << part;
-    EXPECT_EQ(countLines(run.err), exitCode == 2 ? 2U : 1U) << run.err;
-    EXPECT_EQ(run.out, "");
+    expectRefused(runForMessages(arguments), 1, id, parts);
 }
+void expectUsage(const Arguments& arguments, MessageId id, const Parts& parts) { expectRefused(runForMessages(arguments), 2, id, parts); }
 
 TEST(BenchCommandTest, MeasuresWritesAndComparesWithAnEarlierBench)
 {
@@ -89,16 +89,20 @@ TEST(BenchCommandTest, MeasuresWritesAndComparesWithAnEarlierBench)
     EXPECT_EQ(readFileBytes(reference), bytes);
     EXPECT_EQ(readBenches(first)[0].points.back().relMse, benches[0].points.back().relMse);
 
-    expectSentence(runGlim({"bench", sceneFile("cornell.gltf"), "--size", "8x8", "-o", second, "--against", first}), 1,
-                   "a.json: has cornell_spheres.gltf at 8x8 with camera=0; expected cornell.gltf at 8x8 with camera=0.");
-    expectSentence(runGlim({"bench", sceneFile("cornell_spheres.gltf"), "--size", "8x9", "-o", second, "--against", first}), 1,
-                   "expected cornell_spheres.gltf at 8x9 with camera=0.");
-    expectSentence(runGlim({"bench", sceneFile("cornell_spheres.gltf"), "--size", "8x9", "-o", second, "--reference", reference}), 1,
-                   "is a picture of 8x8, expected 8x9 as of the bench");
-    expectSentence(runGlim({"bench", sceneFile("cornell.gltf"), "--size", "8x8", "-o", second, "--reference", reference}), 1,
-                   "is a picture of another scene or camera (");
-    expectSentence(bench({"-o", second, "--reference", reference, "--seed", "2147483640"}), 1,
-                   "was made from seed 2147483648, which is one of the bench's");
+    const std::string spheres = sceneFile("cornell_spheres.gltf"), cornell = sceneFile("cornell.gltf");
+    const auto with = [&](const std::string& scene, const std::string& size, const Arguments& more) {
+        Arguments arguments{"bench", scene, "--size", size, "-o", second};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return arguments;
+    };
+    const std::string had = "cornell_spheres.gltf at 8x8 with camera=0";
+    expectBadInput(with(cornell, "8x8", {"--against", first}), Id::Mismatch, {"a.json", {}, had, "cornell.gltf at 8x8 with camera=0"});
+    expectBadInput(with(spheres, "8x9", {"--against", first}), Id::Mismatch,
+                   {"a.json", {}, had, "cornell_spheres.gltf at 8x9 with camera=0"});
+    expectBadInput(with(spheres, "8x9", {"--reference", reference}), Id::Mismatch, {reference, {}, "8x8", "8x9"});
+    expectBadInput(with(cornell, "8x8", {"--reference", reference}), Id::Mismatch, {.file = reference, .place = "scene or camera"});
+    expectBadInput(with(spheres, "8x8", {"--reference", reference, "--seed", "2147483640"}), Id::Conflict,
+                   {.file = reference, .place = "seed", .value = "2147483648"});
 }
 
 TEST(BenchCommandTest, RefusesBeforeAnyWork)
@@ -107,24 +111,24 @@ TEST(BenchCommandTest, RefusesBeforeAnyWork)
     const std::string output = (folder / "x.json").string();
     const auto with = [&](Arguments more) {
         more.insert(more.begin(), {"bench", "no-such-scene.gltf", "-o", output});
-        return runGlim(more);
+        return more;
     };
-    expectSentence(runGlim({"bench"}), 2, "SCENE is required");
-    expectSentence(with({"--seeds", "15"}), 2, "--seeds: \"15\": expected a whole number from 16 to 1024");
-    expectSentence(with({"--spp", "63"}), 2, "--spp: \"63\": expected a whole number from 64 to ");
-    expectSentence(with({"--spp", "96"}), 2, "--spp: \"96\": expected a power of two, as in 256");
-    expectSentence(with({"--spp", "64", "--adaptive", "neighbours"}), 2, "--spp: \"64\": --adaptive neighbours begins with 64 samples");
-    expectSentence(with({"--adaptive", "course"}), 2, "expected off or neighbours or neighbours:absolute");
-    expectSentence(with({"--seconds", "0"}), 2, "--seconds: \"0\": expected a number from 0.001");
-    expectSentence(with({"--seconds", "1", "--spp", "64"}), 2, "--seconds excludes --spp");
-    expectSentence(with({"--reference", "r.exr", "--make-reference"}), 2, "--reference excludes --make-reference");
-    expectSentence(with({"other.gltf", "--reference", "r.exr"}), 2, "--reference: \"r.exr\": expected one SCENE with it, not 2");
-    expectSentence(with({"folder/no-such-scene.glb"}), 2, "SCENE: \"folder/no-such-scene.glb\": expected scenes of different names");
-    expectSentence(with({"--light-samples", "4"}), 2, "--light-samples: \"4\": has an effect only with --direct lights");
-    expectSentence(with({"--against", (folder / "none.json").string()}), 1, "none.json: cannot be read");
-    expectSentence(with({"--against", output}), 1, "x.json: cannot be");
-    expectSentence(runGlim({"bench", "x.gltf", "-o", (folder / "x.txt").string()}), 1, "does not end in .json");
-    expectSentence(with({}), 1, "no-such-scene.gltf: ");
+    expectUsage({"bench"}, Id::Missing, {.place = "SCENE"});
+    expectUsage(with({"--seeds", "15"}), Id::OutOfRange, {{}, "--seeds", "15", "16 to 1024"});
+    expectUsage(with({"--spp", "63"}), Id::OutOfRange, {{}, "--spp", "63", "64 to "});
+    expectUsage(with({"--spp", "96"}), Id::OutOfRange, {{}, "--spp", "96", "a power of two"});
+    expectUsage(with({"--spp", "64", "--adaptive", "neighbours"}), Id::OutOfRange, {{}, "--spp", "64", "more"});
+    expectUsage(with({"--adaptive", "course"}), Id::UnknownName, {{}, "--adaptive", "course", "off or neighbours or neighbours:absolute"});
+    expectUsage(with({"--seconds", "0"}), Id::OutOfRange, {{}, "--seconds", "0", "0.001"});
+    expectUsage(with({"--seconds", "1", "--spp", "64"}), Id::Conflict, {.place = "--seconds", .value = "--spp"});
+    expectUsage(with({"--reference", "r.exr", "--make-reference"}), Id::Conflict, {.place = "--reference", .value = "--make-reference"});
+    expectUsage(with({"other.gltf", "--reference", "r.exr"}), Id::Conflict, {{}, "--reference", "r.exr", "one SCENE"});
+    expectUsage(with({"folder/no-such-scene.glb"}), Id::Duplicate, {.place = "SCENE", .value = "folder/no-such-scene.glb"});
+    expectUsage(with({"--light-samples", "4"}), Id::Requires, {{}, "--light-samples", "4", "--direct lights"});
+    expectBadInput(with({"--against", (folder / "none.json").string()}), Id::FileUnreadable, {.file = "none.json"});
+    expectBadInput(with({"--against", output}), Id::FileUnreadable, {.file = "x.json"});
+    expectBadInput({"bench", "x.gltf", "-o", (folder / "x.txt").string()}, Id::UnknownFormat, {.file = "x.txt", .expected = ".json"});
+    expectBadInput(with({}), Id::FileMissing, {.file = "no-such-scene.gltf"});
     EXPECT_EQ(folder.entries(), 0);
 }
 
@@ -136,9 +140,9 @@ TEST(BenchCommandTest, AnInterruptWritesNoFigures)
                       "-o",    (folder / "x.json").string(),      "--progress", "json"};
     call.signalWhen = hasLine;
     call.signal = SIGINT;
-    const GlimRun run = runGlim(call);
+    const GlimRun run = runForMessages(call);
     EXPECT_EQ(run.exitCode, 130);
-    EXPECT_TRUE(contains(run.err, "glim: stopped by SIGINT; no figures are written.")) << run.err;
+    expectSaid(run, Id::StoppedBySignal, {.value = "SIGINT"});
     EXPECT_EQ(folder.entries(), 0);
 }
 
@@ -191,10 +195,9 @@ TEST(BenchKernelsTest, NeedsNoScene)
     const GlimRun run = runGlim({"bench", "--kernels", "--size", "16x16"});
     EXPECT_EQ(run.exitCode, 0) << run.err;
     EXPECT_TRUE(contains(run.out, "hills made in memory: 204802 triangles")) << run.out;
-    expectSentence(runGlim({"bench"}), 2, "SCENE is required");
-    expectSentence(runGlim({"bench", "--kernels", "--camera", "x"}), 1, "hills made in memory: camera \"x\"");
-    expectSentence(runGlim({"bench", "--kernels", "--spp", "64"}), 2, "excludes");
-    expectSentence(runGlim({"bench", "--kernels", "--size", "16x16", "-o", "/nowhere/k.json"}), 1, "/nowhere/k.json");
+    expectBadInput({"bench", "--kernels", "--camera", "x"}, Id::UnknownName, {.file = "hills made in memory", .value = "x"});
+    expectUsage({"bench", "--kernels", "--spp", "64"}, Id::Conflict, {.place = "--kernels", .value = "--spp"});
+    expectBadInput({"bench", "--kernels", "--size", "16x16", "-o", "/nowhere/k.json"}, Id::FileMissing, {.file = "/nowhere/k.json"});
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 #include "host/image/decode_image.hpp"
 #include "host/image/exr.hpp"
 #include "tests/support/encode_images.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/gltf_builder.hpp"
-#include "tests/support/run_glim.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -18,6 +18,7 @@ namespace {
 
 using nlohmann::json;
 using Arguments = std::vector<std::string>;
+using Id = MessageId;
 
 class LooksTest : public ::testing::Test {
 protected:
@@ -26,7 +27,7 @@ protected:
         GlimCall call;
         call.arguments = arguments;
         call.folder = folder_.path();
-        return runGlim(call);
+        return runForMessages(call);
     }
     GlimRun render(const Arguments& options) const
     {
@@ -145,7 +146,7 @@ TEST_F(LooksTest, BackFacesAreLeftOutUnlessAskedFor)
     EXPECT_EQ(meanOfFilm({}), 1.0);
     const GlimRun other = run({"render", "scene.gltf", "-o", "x.exr", "--size", "8x8", "--spp", "4", "--environment", "1,1,1",
                                "--back-faces", "shown", "--resume"});
-    EXPECT_TRUE(contains(other.err, "its scene, camera or environment")) << other.err;
+    expectRefused(other, 1, Id::Mismatch, {.file = "x.exr"});
     EXPECT_LT(meanOfFilm({"--back-faces", "shown"}), 0.9);
     EXPECT_EQ(meanOfFilm({"--back-faces", "culled"}), 1.0);
     EXPECT_EQ(render({"--back-faces", "hidden"}).exitCode, 2);
@@ -193,12 +194,13 @@ TEST_F(LooksTest, PicturesThatShowNothingSaySo)
     std::filesystem::copy_file(sceneFile("cornell.gltf"), folder_ / "scene.gltf");
     const GlimRun burnt = render({"--environment", "20000,20000,20000", "--png", "x.png"});
     EXPECT_EQ(burnt.exitCode, 0);
-    std::smatch match;
-    ASSERT_TRUE(std::regex_search(
-        burnt.err, match, std::regex("glim: x.png is burnt out: [0-9]+ % of what it shows is white; --exposure (-[0-9.]+) shows it\\.\n")))
-        << burnt.err;
-    EXPECT_FALSE(contains(render({"--environment", "20000,20000,20000", "--png", "x.png", "--exposure", match[1]}).err, "burnt"));
-    EXPECT_FALSE(contains(render({"--environment", "20000,20000,20000"}).err, "burnt")) << "an EXR has no exposure";
+    const std::optional<Message> advice = findMessage(burnt, Id::ExposureAdvised);
+    ASSERT_TRUE(advice) << burnt.err;
+    EXPECT_EQ(advice->file, "x.png");
+    EXPECT_LT(std::stod(advice->expected), 0.0);
+    const auto isAdvised = [this](const Arguments& options) { return hasSaid(render(options), Id::ExposureAdvised); };
+    EXPECT_FALSE(isAdvised({"--environment", "20000,20000,20000", "--png", "x.png", "--exposure", advice->expected}));
+    EXPECT_FALSE(isAdvised({"--environment", "20000,20000,20000"})) << "an EXR has no exposure";
 }
 
 TEST_F(LooksTest, ToneMappingIsOfPicturesAlone)
@@ -209,7 +211,7 @@ TEST_F(LooksTest, ToneMappingIsOfPicturesAlone)
         all.insert(all.end(), options.begin(), options.end());
         const GlimRun done = render(all);
         EXPECT_EQ(done.exitCode, 0) << done.err;
-        EXPECT_FALSE(contains(done.err, "--tone")) << done.err;
+        EXPECT_FALSE(hasSaid(done, Id::ToneChosen)) << done.err;
         return readFileBytes(folder_ / "x.png");
     };
     const std::string plain = drawn({});
@@ -229,33 +231,31 @@ TEST_F(LooksTest, ToneMappingIsOfPicturesAlone)
 TEST_F(LooksTest, TheStudioIsShownByNeutralUnlessToldOtherwise)
 {
     writeCoated();
-    const std::string sentence = "glim: the built-in studio lights the scene, so --tone is neutral\n";
-    const GlimRun chosen = render({"--png", "a.png"});
-    EXPECT_TRUE(contains(chosen.err, sentence)) << chosen.err;
+    const auto isChosen = [this](const Arguments& options) { return hasSaid(render(options), Id::ToneChosen); };
+    EXPECT_TRUE(isChosen({"--png", "a.png"}));
     for (const char* tone : {"neutral", "none"}) {
-        EXPECT_FALSE(contains(render({"--png", "b.png", "--tone", tone}).err, sentence));
+        EXPECT_FALSE(isChosen({"--png", "b.png", "--tone", tone}));
         EXPECT_EQ(readFileBytes(folder_ / "b.png") == readFileBytes(folder_ / "a.png"), tone == std::string("neutral")) << tone;
     }
-    EXPECT_TRUE(contains(render({"--png", "b.png", "--environment", "studio"}).err, sentence));
-    EXPECT_FALSE(contains(render({"--png", "b.png", "--environment", "1,1,1"}).err, sentence));
-    EXPECT_FALSE(contains(render({"--png", "b.png", "--view", "normal"}).err, sentence));
-    EXPECT_FALSE(contains(render({}).err, sentence)) << "there is no picture";
+    EXPECT_TRUE(isChosen({"--png", "b.png", "--environment", "studio"}));
+    EXPECT_FALSE(isChosen({"--png", "b.png", "--environment", "1,1,1"}));
+    EXPECT_FALSE(isChosen({"--png", "b.png", "--view", "normal"}));
+    EXPECT_FALSE(isChosen({})) << "there is no picture";
 }
 
 TEST_F(LooksTest, ExposureIsChosenAndSaid)
 {
     std::filesystem::copy_file(sceneFile("cornell.gltf"), folder_ / "scene.gltf");
     const GlimRun chosen = render({"--png", "a.png", "--exposure", "auto", "--stats", "s.json"});
-    std::smatch match;
-    ASSERT_TRUE(std::regex_search(
-        chosen.err, match,
-        std::regex("glim: --exposure auto is ([+-][0-9]+\\.[0-9][0-9]) stops, which show the log-average luminance as \\.18\n")))
-        << chosen.err;
-    EXPECT_EQ(jsonIn("s.json").at("look").at("exposure"), std::stod(match[1]));
-    EXPECT_EQ(chosen.err, render({"--png", "b.png", "--exposure", match[1]}).err + match.str());
+    const std::optional<Message> exposure = findMessage(chosen, Id::ExposureChosen);
+    ASSERT_TRUE(exposure) << chosen.err;
+    EXPECT_TRUE(std::regex_match(exposure->value, std::regex("[+-][0-9]+\\.[0-9][0-9]"))) << exposure->value;
+    EXPECT_EQ(jsonIn("s.json").at("look").at("exposure"), std::stod(exposure->value));
+    const GlimRun asked = render({"--png", "b.png", "--exposure", exposure->value});
+    EXPECT_EQ(findMessages(chosen.err).size(), findMessages(asked.err).size() + 1);
     EXPECT_EQ(readFileBytes(folder_ / "b.png"), readFileBytes(folder_ / "a.png"));
     const GlimRun merged = run({"merge", "x.exr", "-o", "y.exr", "--png", "b.png", "--exposure", "auto"});
-    EXPECT_TRUE(contains(merged.err, match.str())) << merged.err;
+    EXPECT_EQ(findMessage(merged, Id::ExposureChosen), exposure) << merged.err;
     EXPECT_EQ(readFileBytes(folder_ / "b.png"), readFileBytes(folder_ / "a.png"));
 }
 
@@ -295,22 +295,22 @@ TEST_F(LooksTest, LargeTexturesAreStatedBeforeTheRender)
     texels[0] = 8;
     const Bytes png = encodePng(4096, 4100, texels);
     writeText(folder_ / "wood.png", {png.begin(), png.end()});
-    EXPECT_TRUE(contains(render({}).err,
-                         "glim: textures take 64 MiB on the device and the environment 12 MiB; --max-texture N scales textures down\n"));
-    EXPECT_FALSE(contains(run({"inspect", "scene.gltf", "--max-texture", "2048"}).err, "textures take"));
+    const std::optional<Message> stated = findMessage(render({}), Id::TextureMemory);
+    ASSERT_TRUE(stated);
+    EXPECT_EQ(stated->value, "64 MiB");
+    EXPECT_TRUE(contains(stated->sentence, "12 MiB")) << stated->sentence;
+    EXPECT_FALSE(hasSaid(run({"inspect", "scene.gltf", "--max-texture", "2048"}), Id::TextureMemory));
 }
 
 TEST_F(LooksTest, NoTextureAndNoMapIsOverwritten)
 {
     writeCoated();
     const std::string texture = readFileBytes(folder_ / "wood.png");
-    const GlimRun run = render({"--png", "wood.png"});
-    EXPECT_EQ(run.exitCode, 1);
-    EXPECT_TRUE(contains(run.err, "glim: wood.png: cannot be written: it is the input ")) << run.err;
+    expectRefused(render({"--png", "wood.png"}), 1, Id::Conflict, {.file = "wood.png", .value = "wood.png"});
     EXPECT_EQ(readFileBytes(folder_ / "wood.png"), texture);
-    ASSERT_EQ(this->run({"render", sceneFile("cornell.gltf"), "-o", "x.exr", "--size", "4x4", "--spp", "1"}).exitCode, 0);
+    ASSERT_EQ(run({"render", sceneFile("cornell.gltf"), "-o", "x.exr", "--size", "4x4", "--spp", "1"}).exitCode, 0);
     const std::string map = readFileBytes(folder_ / "x.exr");
-    EXPECT_TRUE(contains(render({"--environment", "x.exr"}).err, "x.exr: cannot be written: it is the input"));
+    expectRefused(render({"--environment", "x.exr"}), 1, Id::Conflict, {.file = "x.exr", .value = "x.exr"});
     EXPECT_EQ(readFileBytes(folder_ / "x.exr"), map);
 }
 
@@ -324,43 +324,49 @@ TEST_F(LooksTest, WhatCannotBeUsedIsRefused)
     std::filesystem::copy_file(folder_ / "wood.png", folder_ / "picture.hdr");
     std::filesystem::create_directory(folder_ / "folder.exr");
     const std::ptrdiff_t entries = folder_.entries();
-    const std::pair<Arguments, std::pair<int, std::string>> cases[] = {
-        {{"--environment", "wood.png"}, {2, "--environment: \"wood.png\": expected the name of a .hdr or .exr map"}},
-        {{"--environment", "picture.hdr"}, {1, "picture.hdr: is neither OpenEXR nor Radiance (.hdr); expected one of these"}},
-        {{"--environment", "empty.hdr"}, {1, "empty.hdr: is neither OpenEXR nor Radiance"}},
-        {{"--environment", "half.hdr"}, {1, "half.hdr: ends in row 0 of 4"}},
-        {{"--environment", "text.exr"}, {1, "text.exr: is neither OpenEXR nor Radiance"}},
-        {{"--environment", "folder.exr"}, {1, "folder.exr: is a folder"}},
-        {{"--environment", "none.hdr"}, {1, "none.hdr: cannot be read: No such file"}},
-        {{"--environment", "1,1"}, {2, "--environment: \"1,1\": expected"}},
-        {{"--environment", ""}, {2, "--environment: \"\": expected"}},
-        {{"--sun", "30,45"}, {2, "--sun: \"30,45\": expected azimuth and elevation in degrees"}},
-        {{"--sun", "30,91,1"}, {2, "--sun: \"30,91,1\": expected azimuth and elevation in degrees"}},
-        {{"--sun", "0,0,-1"}, {2, "--sun: \"0,0,-1\": expected azimuth and elevation in degrees"}},
-        {{"--environment-rotation", "nan"}, {2, "--environment-rotation: \"nan\": expected a number from -360 to 360"}},
-        {{"--environment-rotation", "1e9"}, {2, "--environment-rotation: \"1e9\": expected a number"}},
-        {{"--environment-background", "ON"}, {2, "expected off or on"}},
-        {{"--missing-textures", "Grey"}, {2, "expected refuse or grey"}},
-        {{"--max-texture", "0"}, {2, "--max-texture: \"0\": expected a whole number from 1 to 16384"}},
-        {{"--max-texture", "-5"}, {2, "--max-texture: \"-5\": expected a whole number"}},
-        {{"--max-texture", "16385"}, {2, "--max-texture: \"16385\": expected a whole number"}},
-        {{"--max-texture", "big"}, {2, "--max-texture: \"big\": expected a whole number"}},
-        {{"--max-texture"}, {2, "--max-texture"}},
-        {{"--variant", "night"}, {1, "scene.gltf: it has no variant \"night\"; expected no --variant, since it has none"}},
+    struct Case {
+        std::string option, value;
+        int exitCode;
+        MessageId id;
+        Parts parts;
     };
-    for (const auto& [options, expected] : cases) {
-        Arguments arguments = options;
-        arguments.insert(arguments.end(), {"--png", "x.png", "--stats", "s.json"});
-        if (options.size() == 1) {
-            arguments = {"--png", "x.png", options[0]};
-        }
-        const GlimRun run = render(arguments);
-        EXPECT_EQ(run.exitCode, expected.first) << options.back() << run.err;
-        EXPECT_TRUE(contains(run.err, expected.second)) << run.err << "lacks: " << expected.second;
-        EXPECT_LE(countLines(run.err), expected.first == 1 ? 1U : 2U) << run.err;
-        EXPECT_EQ(run.out, "");
-        EXPECT_EQ(folder_.entries(), entries) << options.back();
+    const auto usage = [](MessageId id, const std::string& option, const std::string& value, const std::string& expected = "") {
+        return Case{option, value, 2, id, {.place = option, .value = value, .expected = expected}};
+    };
+    const auto map = [](MessageId id, const std::string& file, const Parts& parts = {}) {
+        return Case{"--environment", file, 1, id, {file, parts.place, parts.value, parts.expected}};
+    };
+    const std::vector<Case> cases{
+        usage(Id::Malformed, "--environment", "wood.png", ".hdr or .exr"),
+        map(Id::UnknownFormat, "picture.hdr", {.expected = "OpenEXR nor Radiance (.hdr)"}),
+        map(Id::UnknownFormat, "empty.hdr"),
+        map(Id::FileDamaged, "half.hdr", {.place = "row 0"}),
+        map(Id::UnknownFormat, "text.exr"),
+        map(Id::WrongType, "folder.exr", {.value = "a folder"}),
+        map(Id::FileMissing, "none.hdr"),
+        usage(Id::Malformed, "--environment", "1,1"),
+        usage(Id::Malformed, "--environment", ""),
+        usage(Id::Malformed, "--sun", "30,45"),
+        usage(Id::OutOfRange, "--sun", "30,91,1", "within 360 and 90"),
+        usage(Id::OutOfRange, "--sun", "0,0,-1", ">= 0"),
+        usage(Id::OutOfRange, "--environment-rotation", "nan", "-360 to 360"),
+        usage(Id::OutOfRange, "--environment-rotation", "1e9", "-360 to 360"),
+        usage(Id::UnknownName, "--environment-background", "ON", "off or on"),
+        usage(Id::UnknownName, "--missing-textures", "Grey", "refuse or grey"),
+        usage(Id::OutOfRange, "--max-texture", "0", "1 to 16384"),
+        usage(Id::OutOfRange, "--max-texture", "-5"),
+        usage(Id::OutOfRange, "--max-texture", "16385"),
+        usage(Id::Malformed, "--max-texture", "big"),
+        {"--variant", "night", 1, Id::UnknownName, {.file = "scene.gltf", .value = "night", .expected = "no --variant"}},
+    };
+    for (const Case& refused : cases) {
+        SCOPED_TRACE(refused.option + " " + refused.value);
+        const GlimRun run = render({refused.option, refused.value, "--png", "x.png", "--stats", "s.json"});
+        expectRefused(run, refused.exitCode, refused.id, refused.parts);
+        EXPECT_EQ(folder_.entries(), entries);
     }
+    expectRefused(render({"--png", "x.png", "--max-texture"}), 2, Id::Missing, {.place = "--max-texture"});
+    EXPECT_EQ(folder_.entries(), entries);
 }
 
 }  // namespace

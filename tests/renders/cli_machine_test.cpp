@@ -186,9 +186,9 @@ TEST(CommandLineTest, ScenesWithoutCameraOrLightAreFramedAndSaid)
     const GlimRun run = runForMessages(call);
     EXPECT_EQ(run.exitCode, 0) << run.err;
     expectSaid(run, MessageId::FramedCamera);
-    expectSaid(run, MessageId::NoLight);
+    expectSaid(run, MessageId::StudioLight);
     call.arguments.insert(call.arguments.end(), {"--environment", "1,1,1"});
-    EXPECT_FALSE(hasSaid(runForMessages(call), MessageId::NoLight));
+    EXPECT_FALSE(hasSaid(runForMessages(call), MessageId::StudioLight));
 }
 
 TEST(CommandLineTest, AnInstalledAndMovedProgramRendersWithoutADisplay)

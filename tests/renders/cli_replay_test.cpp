@@ -1,6 +1,6 @@
 // How a user finds a firefly: render with --suspects, then --replay the sample that it names. And what both refuse.
 #include "host/render/film_file.hpp"
-#include "tests/support/run_glim.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ GlimRun renderIn(const ScratchFolder& folder, Arguments arguments, const Argumen
     GlimCall call;
     call.arguments = arguments;
     call.folder = folder.path();
-    return runGlim(call);
+    return runForMessages(call);
 }
 
 json jsonIn(const ScratchFolder& folder, const char* name) { return json::parse(readFileBytes(folder / name)); }
@@ -108,29 +108,20 @@ TEST(CommandLineTest, NoSuspectsUnlessAskedFor)
     EXPECT_TRUE(jsonIn(folder, "s.json").at("suspects").is_null());
 }
 
-void expectRefusal(const GlimRun& run, int exitCode, const std::string& sentence)
-{
-    EXPECT_EQ(run.exitCode, exitCode);
-    EXPECT_EQ(run.out, "");
-    EXPECT_EQ(run.err.substr(0, run.err.find('\n')), "glim: " + sentence);
-}
-
 TEST(CommandLineTest, ReplaysOfWhatIsNotThereAreRefused)
 {
     const ScratchFolder folder;
     const Arguments scene{sceneFile("cornell.gltf"), "--size", "24x16"};
-    const std::string outside = " is outside the picture of 24x16; expected X from 0 to 23 and Y from 0 to 15.";
-    expectRefusal(renderIn(folder, scene, {"--replay", "24,0,0"}), 1, "--replay: pixel 24,0" + outside);
-    expectRefusal(renderIn(folder, scene, {"--replay", "0,16,0"}), 1, "--replay: pixel 0,16" + outside);
-    expectRefusal(renderIn(folder, scene, {"--replay", "0,0"}), 2,
-                  "--replay: \"0,0\": expected X,Y,SAMPLE with whole numbers X and Y from 0 to 65534 and SAMPLE from 0 to "
-                  "2147483647, as in 12,40,7");
-    expectRefusal(renderIn(folder, scene, {"--replay", "0,0,4", "--spp", "4"}), 2,
-                  "--replay: \"0,0,4\": expected one of the samples that the other options ask for, 0 to 3");
-    expectRefusal(renderIn(folder, scene, {"--replay", "0,0,0", "-o", "x.exr"}), 2,
-                  "--output: \"x.exr\": has no effect with --replay, which makes no picture");
-    expectRefusal(renderIn(folder, scene, {"--replay", "0,0,0", "--stats", "r.txt"}), 1,
-                  "r.txt: cannot be written: its name does not end in .json.");
+    const auto expect = [&](const Arguments& options, int exitCode, MessageId id, const Parts& parts) {
+        expectRefused(renderIn(folder, scene, options), exitCode, id, parts);
+    };
+    const std::string inside = "X from 0 to 23 and Y from 0 to 15";
+    expect({"--replay", "24,0,0"}, 1, MessageId::OutOfRange, {{}, "--replay", "24,0", inside});
+    expect({"--replay", "0,16,0"}, 1, MessageId::OutOfRange, {{}, "--replay", "0,16", inside});
+    expect({"--replay", "0,0"}, 2, MessageId::Malformed, {{}, "--replay", "0,0", "SAMPLE from 0 to 2147483647"});
+    expect({"--replay", "0,0,4", "--spp", "4"}, 2, MessageId::OutOfRange, {{}, "--replay", "0,0,4", "0 to 3"});
+    expect({"--replay", "0,0,0", "-o", "x.exr"}, 2, MessageId::Conflict, {.place = "--output", .value = "x.exr"});
+    expect({"--replay", "0,0,0", "--stats", "r.txt"}, 1, MessageId::UnknownFormat, {.file = "r.txt", .expected = ".json"});
     EXPECT_EQ(folder.entries(), 0);
 }
 

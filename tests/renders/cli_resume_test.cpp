@@ -145,7 +145,7 @@ TEST_F(CommandLineResumeTest, NeighboursGoOn)
     EXPECT_EQ(runGlim(stopped).exitCode, 128 + SIGINT);
     expectDone({"--spp", "512", "--adaptive", "neighbours", "--resume"});
     EXPECT_EQ(computeDigest(readFilm(film_)), expected);
-    expectRefused({"--spp", "1024", "--adaptive", "neighbours", "--resume"}, MessageId::Mismatch, {.value = "0:512"});
+    expectRefused({"--spp", "1024", "--adaptive", "neighbours", "--resume"}, MessageId::Mismatch, {.place = "--spp"});
 }
 
 TEST_F(CommandLineResumeTest, UserSignalWritesAndGoesOn)

@@ -2,7 +2,7 @@
 #include "host/job/film_report.hpp"
 #include "host/json.hpp"
 #include "host/render/film_file.hpp"
-#include "tests/support/run_glim.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <fcntl.h>
@@ -188,7 +188,7 @@ TEST_F(ServeTest, OptionsAreValues)
                                       {"target_rmse", 0.5},
                                       {"fps", Json()}}}}
                      .dump());
-    EXPECT_EQ(server_.receive().dump(), R"({"id":1,"code":0,"error":null})");
+    EXPECT_EQ(server_.receive().dump(), R"({"id":1,"code":0,"error":null,"reason":null})");
     EXPECT_EQ(computeDigest(readFilm(film)),
               digestAlone({sceneFile("cornell.gltf"), "--size", "16x12", "--spp", "70", "--look-from", "0,1,3", "--look-at", "0,1,0",
                            "--environment-background", "off", "--target-rmse", "50%"}));
@@ -241,35 +241,39 @@ TEST_F(ServeTest, AFileThatHasChangedIsReadAgain)
     EXPECT_EQ(after, digestAlone({scene.string(), "--size", "8x8", "--spp", "4"}));
 }
 
-TEST_F(ServeTest, ARefusalIsASentenceAndNotTheEnd)
+TEST_F(ServeTest, ARefusalIsASentenceWithAnIdAndNotTheEnd)
 {
     const std::string scene = sceneFile("cornell.gltf"), film = (folder_ / "a.exr").string();
-    const auto expectRefused = [&](const Json& answer, int code, const std::string& reason) {
+    const auto expectRefused = [&](const Json& answer, int code, MessageId id, const Parts& parts) {
         EXPECT_EQ(answer.at("code").number(), code);
-        EXPECT_NE(answer.at("error").text().find(reason), std::string::npos) << answer.dump();
+        Message reason = toMessage(answer.at("reason"));
+        reason.sentence = answer.at("error").text();
+        EXPECT_NE(reason.sentence, "");
+        expectMessage(reason, id, parts);
     };
-    expectRefused(server_.ask({scene, "-o", film, "--sp", "4"}), 2, R"("sp": there is no such option)");
-    expectRefused(server_.ask({"missing.gltf", "-o", film}), 1, "missing.gltf: cannot be read");
-    expectRefused(server_.ask({scene, "--replay", "1,1,1"}), 2, "--replay");
+    const Parts ofForm{.expected = "\"render\""};
+    expectRefused(server_.ask({scene, "-o", film, "--sp", "4"}), 2, MessageId::UnknownName, {.value = "sp"});
+    expectRefused(server_.ask({"missing.gltf", "-o", film}), 1, MessageId::FileMissing, {.file = "missing.gltf"});
+    expectRefused(server_.ask({scene, "--replay", "1,1,1"}), 2, MessageId::Unsupported, {.place = "--replay"});
     server_.send(R"({"id":1,"render":{"file":"scene.gltf\u0000.png","output":"a.exr"}})");
-    expectRefused(server_.receive(), 2, R"("scene.gltf\x00.png" has a null character)");
+    expectRefused(server_.receive(), 2, MessageId::Malformed, {.value = R"(scene.gltf\x00.png)"});
     server_.send(std::string(1'000'000, '['));
-    expectRefused(server_.receive(), 2, "a request is not of the form");
+    expectRefused(server_.receive(), 2, MessageId::Malformed, ofForm);
     for (const char* line :
          {"", "x", "[]", "{}", R"({"id":1})", R"({"id":1,"render":"x"})", R"({"id":1,"render":[1]})", R"({"render":{}})"}) {
         server_.send(line);
-        expectRefused(server_.receive(), 2, "a request is not of the form");
+        expectRefused(server_.receive(), 2, MessageId::Malformed, ofForm);
     }
     server_.send(R"({"id":{"page":[7]},"render":[]})");
     EXPECT_EQ(server_.receive().at("id").dump(), R"({"page":[7]})");
     server_.send(R"({"id":1,"render":{}})");
-    expectRefused(server_.receive(), 2, "file is required");
+    expectRefused(server_.receive(), 2, MessageId::Missing, {.place = "file"});
     server_.send(R"({"id":1,"render":{"file":["a.gltf",["b"]]}})");
-    expectRefused(server_.receive(), 2, "expected a text, a number, true, false, or a list of texts and numbers");
+    expectRefused(server_.receive(), 2, MessageId::WrongType, {.value = R"(["a.gltf",["b"]])"});
     server_.send(R"({"id":1,"render":{"file":"a.gltf","output":"a.exr","spp":4,"time":2}})");
-    expectRefused(server_.receive(), 2, "--spp excludes --time");
+    expectRefused(server_.receive(), 2, MessageId::Conflict, {.place = "--spp", .value = "--time"});
     const Json done = server_.ask({scene, "--size", "8x8", "--spp", "4", "-o", film});
-    EXPECT_EQ(done.dump(), R"({"id":"a","code":0,"error":null})");
+    EXPECT_EQ(done.dump(), R"({"id":"a","code":0,"error":null,"reason":null})");
     EXPECT_EQ(server_.end(), 0);
 }
 

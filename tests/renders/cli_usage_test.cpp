@@ -1,5 +1,5 @@
 // The command line refuses before it does any work, says why in one sentence, and leaves no file behind.
-#include "tests/support/run_glim.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -15,26 +15,9 @@ namespace fs = std::filesystem;
 
 using Arguments = std::vector<std::string>;
 
-// One line "glim: ..." on stderr that contains `part`, nothing on stdout.
-void expectSentence(const GlimRun& run, int exitCode, const std::string& part)
-{
-    EXPECT_EQ(run.exitCode, exitCode) << run.err;
-    EXPECT_EQ(run.err.rfind("glim: ", 0), 0U) << run.err;
-    EXPECT_TRUE(contains(run.err, part)) << run.err << "lacks: " << part;
-    EXPECT_EQ(countLines(run.err), 1U) << run.err;
-    EXPECT_EQ(run.out, "");
-}
+using Id = MessageId;
 
-// A mistake in the command itself: a second line points to --help.
-void expectUsage(const GlimRun& run, const std::string& part)
-{
-    EXPECT_EQ(run.exitCode, 2) << run.err;
-    EXPECT_EQ(run.err.rfind("glim: ", 0), 0U) << run.err;
-    EXPECT_TRUE(contains(run.err, part)) << run.err << "lacks: " << part;
-    EXPECT_TRUE(contains(run.err, "\nRun with --help")) << run.err;
-    EXPECT_EQ(countLines(run.err), 2U) << run.err;
-    EXPECT_EQ(run.out, "");
-}
+constexpr int kBadInput = 1, kUsage = 2;  // exit codes
 
 TEST(CommandLineTest, VersionNamesCommitAndBuild)
 {
@@ -178,87 +161,114 @@ TEST(CommandLineTest, TheReadmeExplainsEveryOption)
 
 TEST(CommandLineTest, CommandsAndOptionsThatDoNotExist)
 {
-    expectUsage(runGlim(Arguments{}), "subcommand is required");
-    expectUsage(runGlim({"rendre", "x.gltf"}), "\"rendre\" was not expected");
-    expectUsage(runGlim({"render", "--fast"}), "\"--fast\" was not expected");
-    expectUsage(runGlim({"render", "x.gltf", "-o", "x.exr", "y.gltf"}), "\"y.gltf\" was not expected");
-    expectUsage(runGlim({"render"}), "SCENE is required");
-    for (const char* flag : {"--confine=abc", "--denoise=maybe"}) {
-        expectUsage(runGlim({"render", "x.gltf", "-o", "x.exr", flag}), std::string(flag).substr(0, std::string(flag).find('=')));
-    }
-    expectUsage(runGlim({"render", "x.gltf", "-o", "x.exr", "--spp", "4", "--spp", "5"}), "--spp");
-    expectUsage(runGlim({"render", "x.gltf"}), "--output is required");
-    expectUsage(runGlim({"merge", "x.exr"}), "--output is required");
-    expectUsage(runGlim({"compare", "x.exr"}), "reference is required");
+    const auto expect = [](const Arguments& arguments, MessageId id, const Parts& parts) {
+        expectRefused(runForMessages(arguments), kUsage, id, parts);
+    };
+    expect({}, Id::Missing, {.place = "command"});
+    expect({"rendre", "x.gltf"}, Id::UnknownName, {.value = "rendre"});
+    expect({"render", "--fast"}, Id::UnknownName, {.value = "--fast"});
+    expect({"render", "x.gltf", "-o", "x.exr", "y.gltf"}, Id::UnknownName, {.value = "y.gltf"});
+    expect({"render"}, Id::Missing, {.place = "SCENE"});
+    expect({"render", "x.gltf", "-o", "x.exr", "--confine=abc"}, Id::WrongType, {.place = "--confine", .value = "abc"});
+    expect({"render", "x.gltf", "-o", "x.exr", "--denoise=maybe"}, Id::WrongType, {.place = "--denoise", .value = "maybe"});
+    expect({"render", "x.gltf", "-o", "x.exr", "--spp", "4", "--spp", "5"}, Id::Duplicate, {.place = "--spp"});
+    expect({"render", "x.gltf"}, Id::Missing, {.place = "--output"});
+    expect({"merge", "x.exr"}, Id::Missing, {.place = "--output"});
+    expect({"compare", "x.exr"}, Id::Missing, {.place = "reference"});
 }
 
-// Each of `cases` after "render SCENE -o x.exr": the options, and a part of the complaint about them.
-void expectUsageBeforeWork(const std::vector<std::pair<Arguments, std::string>>& cases)
+TEST(CommandLineTest, PeopleReadALineAndWhereToFindHelp)
+{
+    const GlimRun usage = runGlim({"render", "x.gltf", "-o", "x.exr", "--spp", "0"});
+    EXPECT_EQ(usage.exitCode, kUsage);
+    EXPECT_EQ(usage.err, "glim: --spp: \"0\": expected a whole number from 1 to 2147483648\nRun with --help for more information.\n");
+    EXPECT_EQ(usage.out, "");
+    const GlimRun input = runGlim({"inspect", sceneFile("refused/not_json.gltf")});
+    EXPECT_EQ(input.exitCode, kBadInput);
+    EXPECT_EQ(input.err, "glim: " + sceneFile("refused/not_json.gltf") + ": not JSON: syntax error at byte 30.\n");
+    EXPECT_EQ(input.out, "");
+}
+
+struct Refused {
+    Arguments options;
+    MessageId id;
+    Parts parts;
+};
+
+// Each of `cases` after "render SCENE -o x.exr".
+void expectUsageBeforeWork(const std::vector<Refused>& cases)
 {
     const ScratchFolder folder;
-    for (const auto& [options, part] : cases) {
+    for (const auto& [options, id, parts] : cases) {
+        SCOPED_TRACE(options.back());
         // The scene does not exist: a complaint about it would be work done before the value was looked at.
         Arguments arguments{"render", "no-such-scene.gltf", "-o", (folder / "x.exr").string()};
         arguments.insert(arguments.end(), options.begin(), options.end());
-        expectUsage(runGlim(arguments), part);
+        expectRefused(runForMessages(arguments), kUsage, id, parts);
         EXPECT_EQ(folder.entries(), 0);
     }
 }
 
+// The last two of `options` are the option that is refused and its value.
+Refused refusedFor(MessageId id, const Arguments& options, const std::string& expected = "")
+{
+    return {options, id, {.place = *(options.end() - 2), .value = options.back(), .expected = expected}};
+}
+
 TEST(CommandLineTest, NonsenseValuesAreUsageErrorsBeforeAnyWork)
 {
-    const std::string whole = "expected a whole number from ", number = "expected a number from ";
-    const std::vector<std::pair<Arguments, std::string>> cases{
-        {{"--spp", "0"}, "--spp: \"0\": " + whole + "1 to 2147483648"},
-        {{"--spp", "1.5"}, whole},
-        {{"--spp", "0x10"}, whole},
-        {{"--spp", "2147483649"}, whole},
-        {{"--spp", "1", "--spp", "2"}, "--spp"},
-        {{"--spp", "4", "--time", "1"}, "--spp excludes --time"},
-        {{"--spp", "4", "--samples", "0:4"}, "--spp excludes --samples"},
-        {{"--time", "nan"}, "--time: \"nan\": " + number},
-        {{"--time", "0"}, number},
-        {{"--exposure", "nan"}, "--exposure: \"nan\": " + number + "-100 to 100, or auto"},
-        {{"--clamp-indirect", "nan"}, number},
-        {{"--clamp-indirect", "0"}, number},
-        {{"--seed", "-1"}, "--seed: \"-1\": " + whole + "0 to 4294967295"},
-        {{"--seed", "4294967296"}, whole},
-        {{"--bounces", "-1"}, whole},
-        {{"--scene", "-1"}, whole},
-        {{"--size", "0x5"}, "--size: \"0x5\": expected WIDTHxHEIGHT"},
-        {{"--size", "64"}, "expected WIDTHxHEIGHT"},
-        {{"--size", "70000x1"}, "each 1 to 65535"},
-        {{"--samples", "7:5"}, "--samples: \"7:5\": expected BEGIN:END"},
-        {{"--samples", "0:2147483649"}, "END <= 2147483648"},
-        {{"--environment", "sky.png"}, "--environment: \"sky.png\": expected the name of a .hdr or .exr map"},
-        {{"--environment", "1,-1,0"}, "numbers >= 0"},
-        {{"--environment", "1,inf,0"}, "numbers >= 0"},
-        {{"--environment-rotation", "400"}, number + "-360 to 360"},
-        {{"--environment-background", "maybe"}, "expected off or on"},
-        {{"--missing-textures", "pink"}, "expected refuse or grey"},
-        {{"--sampler", "halton"}, "--sampler: \"halton\": expected sobol or independent"},
-        {{"--intersector", "fast"}, "expected watertight or moller-trumbore"},
-        {{"--progress", "loud"}, "expected bar or json or none"},
-        {{"--png"}, "--png"}};
-    expectUsageBeforeWork(cases);
+    const auto bad = [](MessageId id, const std::string& option, const std::string& value, const std::string& expected = "") {
+        return refusedFor(id, {option, value}, expected);
+    };
+    expectUsageBeforeWork({bad(Id::OutOfRange, "--spp", "0", "1 to 2147483648"),
+                           bad(Id::Malformed, "--spp", "1.5"),
+                           bad(Id::Malformed, "--spp", "0x10"),
+                           bad(Id::OutOfRange, "--spp", "2147483649"),
+                           {{"--spp", "1", "--spp", "2"}, Id::Duplicate, {.place = "--spp"}},
+                           {{"--spp", "4", "--time", "1"}, Id::Conflict, {.place = "--spp", .value = "--time"}},
+                           {{"--spp", "4", "--samples", "0:4"}, Id::Conflict, {.place = "--spp", .value = "--samples"}},
+                           bad(Id::OutOfRange, "--time", "nan"),
+                           bad(Id::OutOfRange, "--time", "0"),
+                           bad(Id::OutOfRange, "--exposure", "nan", "-100 to 100, or auto"),
+                           bad(Id::OutOfRange, "--clamp-indirect", "nan"),
+                           bad(Id::OutOfRange, "--clamp-indirect", "0"),
+                           bad(Id::OutOfRange, "--seed", "-1", "0 to 4294967295"),
+                           bad(Id::OutOfRange, "--seed", "4294967296"),
+                           bad(Id::OutOfRange, "--bounces", "-1"),
+                           bad(Id::OutOfRange, "--scene", "-1"),
+                           bad(Id::OutOfRange, "--size", "0x5", "WIDTHxHEIGHT"),
+                           bad(Id::Malformed, "--size", "64", "WIDTHxHEIGHT"),
+                           bad(Id::OutOfRange, "--size", "70000x1", "1 to 65535"),
+                           bad(Id::OutOfRange, "--samples", "7:5", "BEGIN < END"),
+                           bad(Id::OutOfRange, "--samples", "0:2147483649", "END <= 2147483648"),
+                           bad(Id::Malformed, "--environment", "sky.png", ".hdr or .exr"),
+                           bad(Id::OutOfRange, "--environment", "1,-1,0", ">= 0"),
+                           bad(Id::Malformed, "--environment", "1,inf,0", ">= 0"),
+                           bad(Id::OutOfRange, "--environment-rotation", "400", "-360 to 360"),
+                           bad(Id::UnknownName, "--environment-background", "maybe", "off or on"),
+                           bad(Id::UnknownName, "--missing-textures", "pink", "refuse or grey"),
+                           bad(Id::UnknownName, "--sampler", "halton", "sobol or independent"),
+                           bad(Id::UnknownName, "--intersector", "fast", "watertight or moller-trumbore"),
+                           bad(Id::UnknownName, "--progress", "loud", "bar or json or none"),
+                           {{"--png"}, Id::Missing, {.place = "--png"}}});
 }
 
 // A few: host/render_job_test.cpp has them all.
 TEST(CommandLineTest, OptionsThatDoNotGoTogetherAreUsageErrorsBeforeAnyWork)
 {
-    expectUsageBeforeWork({{{"--direct", "light"}, "--direct: \"light\": expected mis or "},
-                           {{"--light-samples", "65537"}, "--light-samples: \"65537\": expected "},
-                           {{"--roulette", "fixed:1.2"}, "--roulette: \"fixed:1.2\": expected "},
-                           {{"--accelerator", "kd-tree"}, "--accelerator: \"kd-tree\": expected bvh or none"},
-                           {{"--adaptive", "on"}, "--adaptive: \"on\": expected off or "},
-                           {{"--adaptive", "course", "--tolerance", "0"}, "--tolerance: \"0\": expected a number from "},
-                           {{"--adaptive", "course", "--spp", "64"}, "--spp: \"64\": "},
-                           {{"--view", "normals"}, "--view: \"normals\": expected shaded or "},
-                           {{"--lens-radius", "0.1"}, "--lens-radius requires --focal-distance"},
-                           {{"--look-from", "0,0,1"}, "--look-from requires --look-at"},
-                           {{"--look-up", "0,0,1"}, "--look-up requires --look-from"},
-                           {{"--look-from", "0,0", "--look-at", "0,0,0"}, "--look-from: \"0,0\": expected "},
-                           {{"--look-from", "0,0,nan", "--look-at", "0,0,0"}, "--look-from: \"0,0,nan\": expected "}});
+    expectUsageBeforeWork({refusedFor(Id::UnknownName, {"--direct", "light"}, "mis or "),
+                           refusedFor(Id::OutOfRange, {"--light-samples", "65537"}),
+                           refusedFor(Id::OutOfRange, {"--roulette", "fixed:1.2"}),
+                           refusedFor(Id::UnknownName, {"--accelerator", "kd-tree"}, "bvh or none"),
+                           refusedFor(Id::UnknownName, {"--adaptive", "on"}, "off or "),
+                           refusedFor(Id::OutOfRange, {"--adaptive", "course", "--tolerance", "0"}),
+                           refusedFor(Id::Conflict, {"--adaptive", "course", "--spp", "64"}, "--max-spp"),
+                           refusedFor(Id::UnknownName, {"--view", "normals"}, "shaded or "),
+                           {{"--lens-radius", "0.1"}, Id::Requires, {.place = "--lens-radius", .expected = "--focal-distance"}},
+                           {{"--look-from", "0,0,1"}, Id::Requires, {.place = "--look-from", .expected = "--look-at"}},
+                           {{"--look-up", "0,0,1"}, Id::Requires, {.place = "--look-up", .expected = "--look-from"}},
+                           refusedFor(Id::Malformed, {"--look-at", "0,0,0", "--look-from", "0,0"}),
+                           refusedFor(Id::Malformed, {"--look-at", "0,0,0", "--look-from", "0,0,nan"})});
 }
 
 TEST(CommandLineTest, OutputsThatCannotBeWrittenAreRefusedBeforeAnyWork)
@@ -267,28 +277,33 @@ TEST(CommandLineTest, OutputsThatCannotBeWrittenAreRefusedBeforeAnyWork)
     fs::create_directory(folder / "folder.exr");
     writeText(folder / "file", "");
     const std::string good = (folder / "x.exr").string();
-    const std::vector<std::pair<Arguments, std::string>> cases{
-        {{"-o", ""}, "empty file name"},
-        {{"-o", (folder / "x.png").string()}, "x.png: cannot be written: its name does not end in .exr"},
-        {{"-o", (folder / "none/x.exr").string()}, "does not exist"},
-        {{"-o", (folder / "file/x.exr").string()}, "is not a folder"},
-        {{"-o", (folder / "folder.exr").string()}, "it is a folder"},
-        {{"-o", "/proc/x.exr"}, "/proc/x.exr: cannot be written"},  // root may write there by its permission bits
-        {{"-o", good, "--png", (folder / "none/x.png").string()}, "does not exist"},
-        {{"-o", good, "--rates", (folder / "x.jpg").string()}, "does not end in .png"},
-        {{"-o", good, "--rates", (folder / "none/x.png").string()}, "does not exist"},
-        {{"-o", good, "--ids", (folder / "x.png").string()}, "does not end in .exr"},
-        {{"-o", good, "--ids", (folder / "none/x.exr").string()}, "does not exist"},
-        {{"-o", good, "--stats", (folder / "x.txt").string()}, "does not end in .json"},
-        {{"-o", good, "--stats", (folder / "none/x.json").string()}, "does not exist"}};
-    for (const auto& [options, part] : cases) {
+    // The last of the options is the file that is refused.
+    const auto bad = [](MessageId id, const Arguments& options, const std::string& expected = "") {
+        return Refused{options, id, {.file = options.back(), .expected = expected}};
+    };
+    const std::vector<Refused> cases{bad(Id::Missing, {"-o", ""}),
+                                     bad(Id::UnknownFormat, {"-o", (folder / "x.png").string()}, ".exr"),
+                                     bad(Id::FileMissing, {"-o", (folder / "none/x.exr").string()}),
+                                     bad(Id::WrongType, {"-o", (folder / "file/x.exr").string()}, "a folder"),
+                                     bad(Id::WrongType, {"-o", (folder / "folder.exr").string()}),
+                                     bad(Id::FileUnwritable, {"-o", "/proc/x.exr"}),  // root may write there by its permission bits
+                                     bad(Id::FileMissing, {"-o", good, "--png", (folder / "none/x.png").string()}),
+                                     bad(Id::UnknownFormat, {"-o", good, "--rates", (folder / "x.jpg").string()}, ".png"),
+                                     bad(Id::FileMissing, {"-o", good, "--rates", (folder / "none/x.png").string()}),
+                                     bad(Id::UnknownFormat, {"-o", good, "--ids", (folder / "x.png").string()}, ".exr"),
+                                     bad(Id::FileMissing, {"-o", good, "--ids", (folder / "none/x.exr").string()}),
+                                     bad(Id::UnknownFormat, {"-o", good, "--stats", (folder / "x.txt").string()}, ".json"),
+                                     bad(Id::FileMissing, {"-o", good, "--stats", (folder / "none/x.json").string()})};
+    for (const auto& [options, id, parts] : cases) {
+        SCOPED_TRACE(options.back());
         Arguments arguments{"render", "no-such-scene.gltf"};
         arguments.insert(arguments.end(), options.begin(), options.end());
-        expectSentence(runGlim(arguments), 1, part);
+        expectRefused(runForMessages(arguments), kBadInput, id, parts);
         EXPECT_EQ(folder.entries(), 2);
     }
-    expectSentence(runGlim({"merge", "a.exr", "-o", "/proc/x.exr"}), 1, "/proc/x.exr: cannot be written");
-    expectSentence(runGlim({"compare", "a.exr", "b.exr", "--diff", "/proc/x.exr"}), 1, "/proc/x.exr: cannot be written");
+    const Parts unwritable{.file = "/proc/x.exr"};
+    expectRefused(runForMessages({"merge", "a.exr", "-o", "/proc/x.exr"}), kBadInput, Id::FileUnwritable, unwritable);
+    expectRefused(runForMessages({"compare", "a.exr", "b.exr", "--diff", "/proc/x.exr"}), kBadInput, Id::FileUnwritable, unwritable);
 }
 
 TEST(CommandLineTest, InputsAreNeverOverwritten)
@@ -306,13 +321,13 @@ TEST(CommandLineTest, InputsAreNeverOverwritten)
         Arguments arguments{"render"};
         arguments.insert(arguments.end(), options.begin(), options.end());
         arguments.insert(arguments.end(), small.begin(), small.end());
-        expectSentence(runGlim(arguments), 1, "it is the input");
+        expectRefused(runForMessages(arguments), kBadInput, Id::Conflict, {.file = options.back(), .value = options.front()});
     }
     EXPECT_EQ(readFileBytes(scene), bytes);
     EXPECT_EQ(readFileBytes(stats), bytes);
     const std::string film = (folder / "film.exr").string();
     ASSERT_EQ(runGlim({"render", scene.string(), "-o", film, "--size", "4x4", "--spp", "1"}).exitCode, 0);
-    expectSentence(runGlim({"compare", film, film, "--diff", film}), 1, "it is the input");
+    expectRefused(runForMessages({"compare", film, film, "--diff", film}), kBadInput, Id::Conflict, {.file = film, .value = film});
 }
 
 TEST(CommandLineTest, RefusedScenesLeaveTheTargetAsItWas)
@@ -322,38 +337,43 @@ TEST(CommandLineTest, RefusedScenesLeaveTheTargetAsItWas)
     int files = 0;
     for (const auto& entry : fs::directory_iterator(sceneFile("refused"))) {
         ++files;
-        expectSentence(runGlim({"render", entry.path().string(), "-o", target, "--size", "4x4", "--spp", "1"}), 1,
-                       entry.path().filename().string() + ": ");
+        const GlimRun run = runGlim({"render", entry.path().string(), "-o", target, "--size", "4x4", "--spp", "1"});
+        EXPECT_EQ(run.exitCode, kBadInput) << run.err;
+        EXPECT_TRUE(run.err.starts_with("glim: " + entry.path().string() + ": ")) << run.err;
+        EXPECT_EQ(countLines(run.err), 1U) << run.err;
+        EXPECT_EQ(run.out, "");
         EXPECT_EQ(folder.entries(), 0) << entry.path();
     }
     EXPECT_GT(files, 0);
     writeText(target, "what was here before");
-    for (const std::string& scene : {sceneFile("none.gltf"), sceneFile("refused/not_json.gltf"), sceneFile("")}) {
-        expectSentence(runGlim({"render", scene, "-o", target}), 1, scene + ": ");
+    for (const auto& [scene, id] : {std::pair(sceneFile("none.gltf"), Id::FileMissing),
+                                    {sceneFile("refused/not_json.gltf"), Id::Malformed},
+                                    {sceneFile(""), Id::WrongType}}) {
+        expectRefused(runForMessages({"render", scene, "-o", target}), kBadInput, id, {.file = scene});
     }
     EXPECT_EQ(readFileBytes(target), "what was here before");
     EXPECT_EQ(folder.entries(), 1);
-    expectSentence(runGlim({"inspect", sceneFile("refused/not_json.gltf")}), 1, "not JSON: syntax error at byte 30.\n");
-    expectSentence(runGlim({"inspect", ""}), 1, "A file name is empty; expected that of a .gltf or a .glb file.\n");
+    expectRefused(runForMessages({"inspect", sceneFile("refused/not_json.gltf")}), kBadInput, Id::Malformed, {.value = "30"});
+    expectRefused(runForMessages({"inspect", ""}), kBadInput, Id::Missing, {.expected = ".gltf"});
 }
 
 TEST(CommandLineTest, UnknownNamesAreRefusedWithThoseOfTheScene)
 {
     const ScratchFolder folder;
     const Arguments render{"render", sceneFile("cornell.gltf"), "-o", (folder / "x.exr").string()};
-    const auto with = [&](const std::string& option, const std::string& value) {
+    const auto expect = [&](const std::string& option, const std::string& value, MessageId id, const Parts& parts) {
         Arguments arguments = render;
         arguments.insert(arguments.end(), {option, value});
-        return runGlim(arguments);
+        expectRefused(runForMessages(arguments), kBadInput, id, parts);
     };
-    expectSentence(with("--camera", "rear"), 1, "camera \"rear\": expected one of 0 \"front\"");
-    expectSentence(with("--camera", "1"), 1, "camera \"1\": expected one of 0 \"front\"");
-    expectSentence(with("--scene", "1"), 1, "scene 1 was asked for; expected one below 1");
-    expectSentence(with("--device", "no such device"), 1, "--device no such device: no such device; there are: 0 \"");
+    expect("--camera", "rear", Id::UnknownName, {"cornell.gltf", "camera", "rear", "0 \"front\""});
+    expect("--camera", "1", Id::UnknownName, {"cornell.gltf", "camera", "1", "0 \"front\""});
+    expect("--scene", "1", Id::DanglingIndex, {"cornell.gltf", "scene", "1", "below 1"});
+    expect("--device", "no such device", Id::UnknownName, {.place = "--device", .value = "no such device", .expected = "0 \""});
     for (const std::string digit : {"", "5", "6", "7", "8", "9"}) {  // most of which are in the name of some device
-        expectSentence(with("--device", digit), 1, "--device " + digit + ": no such device");
+        expect("--device", digit, Id::UnknownName, {.place = "--device", .value = digit});
     }
-    expectSentence(with("--size", "65535x65535"), 1, "cornell.gltf: the scene and a picture of 65535x65535 need ");
+    expect("--size", "65535x65535", Id::OutOfMemory, {.file = "cornell.gltf"});
     EXPECT_EQ(folder.entries(), 0);
 }
 

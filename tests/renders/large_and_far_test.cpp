@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace glim {
 namespace {
@@ -197,21 +198,16 @@ TEST(FarTest, H52AStrayPartLeavesTheRestAsItIs)
 TEST(FarTest, WarnsOnceOfWhatFloat32CannotHold)
 {
     const auto warningsOf = [](double distance) {
-        std::vector<std::string> found;
-        for (const std::string& warning : test::sentencesOf(ballAndCard(distance).warnings)) {
-            if (warning.find("float32") != std::string::npos) {
-                found.push_back(warning);
-            }
-        }
+        std::vector<Message> found;
+        std::ranges::copy_if(ballAndCard(distance).warnings, std::back_inserter(found),
+                             [](const Message& warning) { return warning.id == MessageId::FarPart; });
         return found;
     };
     EXPECT_EQ(warningsOf(0.0).size(), 0U);
     EXPECT_EQ(warningsOf(1e4).size(), 0U);
-    const std::vector<std::string> warnings = warningsOf(1e6);
+    const std::vector<Message> warnings = warningsOf(1e6);
     ASSERT_EQ(warnings.size(), 1U);
-    EXPECT_EQ(warnings[0],
-              "far from most of the scene, float32 rounds positions by more than small parts allow: nodes[2] (steps of 0.0625 m, "
-              "parts of 1 m)");
+    EXPECT_EQ(warnings[0].place, "nodes[2] (steps of 0.0625 m, parts of 1 m)");
 }
 
 }  // namespace

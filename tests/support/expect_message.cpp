@@ -1,7 +1,5 @@
 #include "tests/support/expect_message.hpp"
 
-#include "host/json.hpp"
-
 #include <algorithm>
 #include <optional>
 #include <ostream>
@@ -25,20 +23,20 @@ MessageId parseId(const std::string& text)
     return MessageId::NoLight;
 }
 
-Message toMessage(const Json& line)
+}  // namespace
+
+Message toMessage(const Json& json)
 {
-    Message message(parseId(line.at("id").text()), {});
+    Message message(parseId(json.at("id").text()), {});
     for (const auto& [name, part] : {std::pair{"sentence", &message.sentence},
                                      {"file", &message.file},
                                      {"place", &message.place},
                                      {"value", &message.value},
                                      {"expected", &message.expected}}) {
-        *part = line.find(name) == nullptr ? "" : line.at(name).text();
+        *part = json.find(name) == nullptr ? "" : json.at(name).text();
     }
     return message;
 }
-
-}  // namespace
 
 std::vector<std::string> sentencesOf(const std::vector<Message>& messages)
 {
@@ -104,6 +102,13 @@ void expectRefused(const GlimRun& run, int exitCode, MessageId id, const Parts& 
     ASSERT_EQ(said.size(), 1U) << run.err;
     EXPECT_EQ(said[0].severity, "error");
     expectMessage(said[0].message, id, parts);
+}
+
+std::optional<Message> findMessage(const GlimRun& run, MessageId id)
+{
+    const std::vector<Said> said = findMessages(run.err);
+    const auto found = std::ranges::find(said, id, [](const Said& one) { return one.message.id; });
+    return found == said.end() ? std::nullopt : std::optional(found->message);
 }
 
 }  // namespace test

@@ -2,11 +2,13 @@
 #pragma once
 
 #include "host/error.hpp"
+#include "host/json.hpp"
 #include "tests/support/run_glim.hpp"
 
 #include <gtest/gtest.h>
 
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,9 @@ void expectRefusal(Step step, MessageId id, const Parts& parts = {})
     }
 }
 
+// Of JSON with an id and parts, and with a sentence if it has one.
+Message toMessage(const Json& json);
+
 // What a process says to a program.
 GlimRun runForMessages(GlimCall call);
 GlimRun runForMessages(const std::vector<std::string>& arguments);
@@ -54,6 +59,9 @@ bool hasSaid(const GlimRun& run, MessageId id);
 
 // Of a run for messages that was refused: the exit code, one error as the only line of stderr, nothing on stdout.
 void expectRefused(const GlimRun& run, int exitCode, MessageId id, const Parts& parts = {});
+
+// The first with this id that a run for messages said.
+std::optional<Message> findMessage(const GlimRun& run, MessageId id);
 
 }  // namespace test
 }  // namespace glim

@@ -158,9 +158,11 @@ bool hasWarning(const std::vector<Message>& warnings, MessageId id, const std::s
     return std::ranges::any_of(warnings, [&](const Message& m) { return m.id == id && m.place.find(place) != std::string::npos; });
 }
 
-bool hasWarning(const std::vector<Message>& warnings, const std::string& fragment)
+Message findWarning(const std::vector<Message>& warnings, MessageId id)
 {
-    return std::ranges::any_of(warnings, [&](const Message& m) { return m.sentence.find(fragment) != std::string::npos; });
+    EXPECT_EQ(std::ranges::count(warnings, id, &Message::id), 1) << toText(id) << ' ' << ::testing::PrintToString(warnings);
+    const auto found = std::ranges::find(warnings, id, &Message::id);
+    return found == warnings.end() ? Message(id, {}) : *found;
 }
 
 glm::vec3 vertex(const Scene& scene, std::size_t triangle, int corner)
@@ -178,22 +180,6 @@ glm::dvec3 placedVertex(const Scene& scene, std::size_t index, std::size_t insta
 {
     const MeshInstance& placed = scene.instances.at(instance);
     return glm::dvec3(placed.worldFromMesh * glm::dvec4(scene.meshes.at(placed.mesh).positions.at(index), 1.0));
-}
-
-std::string loadRefusal(const std::string& path, const LoadOptions& options)
-{
-    try {
-        loadGltf(path, options);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    ADD_FAILURE() << path << " was not refused";
-    return "";
-}
-
-std::string refusal(const GltfBuilder& builder, const LoadOptions& options)
-{
-    return loadRefusal(writeTemporary("scene.gltf", builder.toGltf()), options);
 }
 
 void expectRefused(const GltfBuilder& builder, MessageId id, const Parts& parts, const LoadOptions& options)

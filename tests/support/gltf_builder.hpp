@@ -65,7 +65,8 @@ Scene load(const GltfBuilder& builder, const LoadOptions& options = {});
 
 // Whether there is a warning with this id, whose place has `place` in it.
 bool hasWarning(const std::vector<Message>& warnings, MessageId id, const std::string& place = "");
-bool hasWarning(const std::vector<Message>& warnings, const std::string& fragment);
+// The one warning with this id; fails if there is none or another.
+Message findWarning(const std::vector<Message>& warnings, MessageId id);
 
 // Of a corner of a triangle of the flattened scene, in the world.
 glm::vec3 vertex(const Scene& scene, std::size_t triangle, int corner);
@@ -73,9 +74,6 @@ glm::vec3 normal(const Scene& scene, std::size_t triangle, int corner);
 // Of the mesh of an instance, in the world.
 glm::dvec3 placedVertex(const Scene& scene, std::size_t index, std::size_t instance = 0);
 
-// The sentence that loading is refused with; fails the test and returns "" if it is not.
-std::string loadRefusal(const std::string& path, const LoadOptions& options = {});
-std::string refusal(const GltfBuilder& builder, const LoadOptions& options = {});
 // The file `builder` makes is refused so.
 void expectRefused(const GltfBuilder& builder, MessageId id, const Parts& parts, const LoadOptions& options = {});
 

@@ -1,6 +1,6 @@
 """Broken files, one for each thing that the loader refuses. Each is broken in one way only.
 
-scenes/README.md lists the sentences, and a test compares them.
+scenes/README.md lists why they are refused, and a test compares that.
 """
 
 import struct

@@ -236,7 +236,7 @@ std::vector<Value> readAttribute(const GltfFile& file, const std::map<std::strin
     std::vector<Value> values = readVectors<Value>(file, static_cast<std::size_t>(found->second), attribute + " of " + place);
     if (values.size() != vertexCount) {
         refuse(file, MessageId::Mismatch,
-               {part::place(place), " has ", part::value(std::to_string(values.size())), " ", plural, "; expected ",
+               {part::place(place), " has ", part::value(std::to_string(values.size()) + " " + plural), "; expected ",
                 part::expected("as many as its " + std::to_string(vertexCount) + " positions")});
     }
     return values;

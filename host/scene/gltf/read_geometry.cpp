@@ -374,8 +374,9 @@ void GeometryReader::checkExtent(const Box& box) const
                {"the scene is ", part::value(toText(extent)), " m large; expected ", part::expected("at most " + toText(kMax) + " m")});
     }
     if (extent > 0.0 && extent < kMin) {
-        warnings_.add(MessageId::TinyScene,
-                      "the scene is " + toText(extent) + " m large: below " + toText(kMin) + " m its picture may lack what is there");
+        warnings_.add(
+            {MessageId::TinyScene,
+             {"the scene is ", part::value(toText(extent)), " m large: below ", toText(kMin), " m its picture may lack what is there"}});
     }
 }
 
@@ -435,7 +436,7 @@ void GeometryReader::finish()
         scene_.spheres.push_back(sphere.sphere);
     }
     if (emptySpheres_ > 0) {
-        warnings_.add(MessageId::EmptySphere, "left out " + counted(emptySpheres_, "sphere") + " of zero radius");
+        warnings_.add({MessageId::EmptySphere, {"left out ", part::value(counted(emptySpheres_, "sphere")), " of zero radius"}});
     }
 }
 
@@ -470,10 +471,11 @@ void requireShapes(const GltfFile& file, const Scene& scene)
         refuse(file, MessageId::Unsupported,
                {"the file holds ", part::value(others), ", which glim does not draw; expected ", part::expected("triangles")});
     }
-    refuse(
-        file, MessageId::Empty,
-        {"the scene has no triangle and no sphere to draw",
-         (triangles == 0 ? "" : " (" + counted(triangles, "triangle") + " of zero area)"), "; expected ", part::expected("at least one")});
+    const std::string flat = counted(triangles, "triangle");
+    const MessagePart found =
+        triangles == 0 ? MessagePart("") : MessagePart(MessagePart::Kind::Value, " (" + flat + " of zero area)", flat);
+    refuse(file, MessageId::Empty,
+           {"the scene has no triangle and no sphere to draw", found, "; expected ", part::expected("at least one")});
 }
 
 }  // namespace glim

@@ -118,7 +118,7 @@ private:
             }
             std::string reason = error.what();
             reason.erase(0, reason.rfind(file_.path + ": ", 0) == 0 ? file_.path.size() + 2 : 0);
-            warnings_.add(MessageId::GreyImage, "images that cannot be read are drawn grey",
+            warnings_.add({MessageId::GreyImage, {"images that cannot be read are drawn grey"}},
                           MessagePart(MessagePart::Kind::Place, reason, error.message().place));
             return makeGrey();
         }

@@ -262,8 +262,10 @@ void MaterialReader::warnOfExtensions()
 {
     for (const auto& [name, extension] : source_.extensions) {
         const bool scatter = name == "KHR_materials_volume_scatter";
-        ignore(!isSupportedExtension(name), MessageId::ExtensionIgnored,
-               shortened(name) + (scatter ? " is ignored (light does not scatter within solids)" : " is ignored"));
+        if (!isSupportedExtension(name)) {
+            const char* const why = scatter ? " is ignored (light does not scatter within solids)" : " is ignored";
+            warnings_.add({MessageId::ExtensionIgnored, {part::value(shortened(name)), why}}, part::place(place_));
+        }
     }
 }
 
