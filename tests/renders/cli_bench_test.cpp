@@ -196,7 +196,7 @@ TEST(BenchKernelsTest, NeedsNoScene)
     EXPECT_EQ(run.exitCode, 0) << run.err;
     EXPECT_TRUE(contains(run.out, "hills made in memory: 204802 triangles")) << run.out;
     expectBadInput({"bench", "--kernels", "--camera", "x"}, Id::UnknownName, {.file = "hills made in memory", .value = "x"});
-    expectUsage({"bench", "--kernels", "--spp", "64"}, Id::Conflict, {.place = "--kernels", .value = "--spp"});
+    expectUsage({"bench", "--kernels", "--spp", "64"}, Id::Conflict, {.place = "--spp", .value = "--kernels"});
     expectBadInput({"bench", "--kernels", "--size", "16x16", "-o", "/nowhere/k.json"}, Id::FileMissing, {.file = "/nowhere/k.json"});
 }
 
