@@ -24,19 +24,22 @@ bool isUrl(const std::string& name) { return name.find("://") != std::string::np
 void requireFile(const fs::path& file, const std::string& expected)
 {
     if (file.empty()) {
-        throw InputError("A file name is empty; expected that of " + expected);
+        throw InputError(MessageId::Missing, {"A file name is empty; expected that of ", part::expected(expected)});
     }
     if (isUrl(file.string())) {
-        throw InputError(file.string() + ": is a URL; expected " + expected + ", as glim reads files and no URLs");
+        throw InputError(MessageId::Unsupported, {part::file(file), ": is ", part::value("a URL"), "; expected ", part::expected(expected),
+                                                  ", as glim reads files and no URLs"});
     }
     std::error_code error;
     const fs::file_status status = fs::status(file, error);
     if (!fs::exists(status)) {
-        throw InputError(file.string() +
-                         ": cannot be read: " + (error ? error : std::make_error_code(std::errc::no_such_file_or_directory)).message());
+        const std::error_code reason = error ? error : std::make_error_code(std::errc::no_such_file_or_directory);
+        throw InputError(status.type() == fs::file_type::not_found ? MessageId::FileMissing : MessageId::FileUnreadable,
+                         {part::file(file), ": cannot be read: ", part::value(reason.message())});
     }
     if (!fs::is_regular_file(status)) {
-        throw InputError(file.string() + ": is " + describe(status.type()) + "; expected " + expected);
+        throw InputError(MessageId::WrongType,
+                         {part::file(file), ": is ", part::value(describe(status.type())), "; expected ", part::expected(expected)});
     }
 }
 

@@ -171,8 +171,8 @@ private:
                 throw InputError(MessageId::Conflict, {part::place("--denoise"),
                                                        " needs two halves of the samples, which a film that is resumed does not keep."});
             }
-            if (const std::string difference = describeOther(resumed->film(), *session, frame, options); !difference.empty()) {
-                throw InputError(MessageId::Mismatch, {"the film cannot be resumed: ", difference, "."});
+            if (const std::optional<Message> difference = findOther(resumed->film(), *session, frame, options)) {
+                throw InputError(Message(*difference, {"the film cannot be resumed: ", difference->sentence, "."}));
             }
         }
         Renderer& renderer = session->begin(frame.camera, frame.settings);

@@ -140,6 +140,11 @@ set(onlyInCi
     AutoScheduleTest.*
     # One unit kernel that needs a picture of 65,535 columns.
     NlMeans.BandsOfALargePictureJoin
+    # The reference of the glTF material, PLY files of every kind, and the errors of eleven more denoised pictures. By default: the unit
+    # kernels that compare values with that reference, to_gltf with a file of each format, and one denoised picture.
+    OracleTest
+    ToGltfPlyTest
+    Blurs/DenoisedErrorTest.*
     # Farms of several processes, folders for other machines, SPIR-V's optimizer for each feature,
     # and the module for Python beside the command line. By default: what farms keep in files, and films in Python.
     FarmTest
@@ -168,6 +173,7 @@ set(byDefault
     Settings/ScheduleTest.ChangesNoBit/Clamp
     Settings/ScheduleTest.ChangesNoBit/Lens
     Settings/ScheduleTest.ChangesNoBit/Tiles
+    Blurs/DenoisedErrorTest.IsUnbiasedAndItsIntervalHolds/7
     PreviewTest.ShowsAndWritesWhatARenderGives
     PreviewTest.KeyboardAndMouseOfTheScreen
     ViewWindowTest.PrintsWhatIsClicked

@@ -100,8 +100,9 @@ BenchPoint pointOf(const Json& json, std::size_t seeds)
         const bool isOlder = &values == &point.cpuSeconds && json.find(name) == nullptr;
         values = isOlder ? std::vector<double>(seeds, 0.0) : numbersOf(json.at(name));
         if (values.size() != seeds) {
-            throw InputError(std::string("its ") + name + " after " + std::to_string(point.samples) + " samples are " +
-                             std::to_string(values.size()) + " numbers, expected " + std::to_string(seeds) + ", one for each seed");
+            throw InputError(MessageId::Mismatch, {"its ", part::place(name), " after ", std::to_string(point.samples), " samples are ",
+                                                   part::value(std::to_string(values.size())), " numbers, expected ",
+                                                   part::expected(std::to_string(seeds)), ", one for each seed"});
         }
     }
     return point;
@@ -139,8 +140,10 @@ SceneBench benchOf(const Json& json)
     }
     bench.bias = {bias.at("squared").number(), bias.at("error").number()};
     if (bench.seeds.size() < 2 || bench.points.empty()) {
-        throw InputError("it has " + std::to_string(bench.seeds.size()) + " seeds and " + std::to_string(bench.points.size()) +
-                         " points, expected at least two and one");
+        throw InputError(
+            MessageId::Missing,
+            {"it has ", part::value(std::to_string(bench.seeds.size()) + " seeds and " + std::to_string(bench.points.size()) + " points"),
+             ", expected ", part::expected("at least two and one")});
     }
     return bench;
 }
@@ -194,7 +197,8 @@ std::vector<SceneBench> readBenches(const std::filesystem::path& file)
     requireFile(file, "a JSON file of `glim bench`");
     std::ifstream stream(file, std::ios::binary);
     if (!stream) {
-        throw InputError(file.string() + ": cannot be read, expected a JSON file of `glim bench`.");
+        throw InputError(MessageId::FileUnreadable,
+                         {part::file(file), ": cannot be read, expected ", part::expected("a JSON file of `glim bench`"), "."});
     }
     const std::optional<Json> json = Json::parse({std::istreambuf_iterator<char>(stream), {}});
     try {
@@ -202,7 +206,8 @@ std::vector<SceneBench> readBenches(const std::filesystem::path& file)
             throw JsonError("no JSON");
         }
         if (json->at("glim:bench").count() != kFormat) {
-            throw InputError("it has format " + json->at("glim:bench").dump() + ", expected " + std::to_string(kFormat));
+            throw InputError(MessageId::UnknownFormat, {"it has ", part::place("format"), " ", part::value(json->at("glim:bench").dump()),
+                                                        ", expected ", part::expected(std::to_string(kFormat))});
         }
         std::vector<SceneBench> benches;
         for (const Json& scene : json->at("scenes").elements()) {
@@ -210,9 +215,10 @@ std::vector<SceneBench> readBenches(const std::filesystem::path& file)
         }
         return benches;
     } catch (const InputError& error) {
-        throw InputError(file.string() + ": is not a file of this version's `glim bench`: " + error.what() + ".");
+        throw InputError(error, {part::file(file), ": is not a file of this version's `glim bench`: ", error.what(), "."});
     } catch (const JsonError&) {
-        throw InputError(file.string() + ": is not a JSON file that `glim bench` wrote.");
+        throw InputError(MessageId::UnknownFormat,
+                         {part::file(file), ": is not ", part::expected("a JSON file that `glim bench` wrote"), "."});
     }
 }
 

@@ -48,18 +48,21 @@ Picture readReference(const std::filesystem::path& file, std::uint32_t width, st
 {
     const Image image = readExr(file);
     if (image.width != width || image.height != height) {
-        throw InputError(file.string() + ": is a picture of " + sizeText(image.width, image.height) + ", expected " +
-                         sizeText(width, height) + " as of the bench.");
+        throw InputError(MessageId::Mismatch, {part::file(file), ": is a picture of ", part::value(sizeText(image.width, image.height)),
+                                               ", expected ", part::expected(sizeText(width, height)), " as of the bench."});
     }
     if (image.attributes.count("glim:film") > 0) {
         const Film film = readFilmHeader(file, image);
         if (film.identity.scene != scene) {
-            throw InputError(file.string() + ": is a picture of another scene or camera (" + film.sceneFile +
-                             "), expected one of the scene of the bench.");
+            throw InputError(MessageId::Mismatch,
+                             {part::file(file), ": is a picture of another ", part::place("scene or camera"), " (",
+                              part::value(film.sceneFile), "), expected ", part::expected("one of the scene of the bench"), "."});
         }
         if (std::find(seeds.begin(), seeds.end(), film.identity.seed) != seeds.end()) {
-            throw InputError(file.string() + ": was made from seed " + std::to_string(film.identity.seed) +
-                             ", which is one of the bench's, expected another: the errors would not be independent.");
+            throw InputError(
+                MessageId::Conflict,
+                {part::file(file), ": was made from ", part::place("seed"), " ", part::value(std::to_string(film.identity.seed)),
+                 ", which is one of the bench's, expected another: the errors would not be independent."});
         }
     }
     return makePicture(image, file.string());

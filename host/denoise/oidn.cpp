@@ -27,7 +27,8 @@ fs::path libraryAt(const fs::path& path)
             return path / folder / kName;
         }
     }
-    throw InputError(path.string() + ": this folder has no " + kName + "; Python's package pyoidn has one.");
+    throw InputError(MessageId::LibraryMissing,
+                     {part::file(path), ": this folder has no ", part::expected(kName), "; Python's package pyoidn has one."});
 }
 
 }  // namespace
@@ -38,7 +39,10 @@ struct Oidn::Api {
         : library(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL))
     {
         if (library == nullptr) {
-            throw InputError(path.string() + ": Open Image Denoise cannot be loaded: " + dlerror() + ".");
+            const std::string reason = dlerror();
+            std::error_code ignored;
+            throw InputError(fs::exists(path, ignored) ? MessageId::LibraryFailed : MessageId::LibraryMissing,
+                             {part::file(path), ": Open Image Denoise cannot be loaded: ", part::value(reason), "."});
         }
         load(newDevice, "oidnNewDevice", path);
         load(commitDevice, "oidnCommitDevice", path);
@@ -62,7 +66,8 @@ struct Oidn::Api {
         function = reinterpret_cast<Function>(dlsym(library, name));
         if (function == nullptr) {
             dlclose(library);
-            throw InputError(path.string() + ": is not Open Image Denoise 2: it has no function " + name + ".");
+            throw InputError(MessageId::LibraryFailed,
+                             {part::file(path), ": is not Open Image Denoise 2: it has no function ", part::expected(name), "."});
         }
     }
 
@@ -91,7 +96,7 @@ Oidn::Oidn(const fs::path& path)
 {
     device_ = api_->newDevice(kCpuDevice);
     if (device_ == nullptr) {
-        throw DeviceError(path.string() + ": Open Image Denoise has no device for this processor.");
+        throw DeviceError(MessageId::DeviceMissing, {part::file(path), ": Open Image Denoise has no device for this processor."});
     }
     api_->commitDevice(device_);
     check("begin");
@@ -114,7 +119,8 @@ void Oidn::check(const std::string& action)
 {
     const char* message = nullptr;
     if (api_->getDeviceError(device_, &message) != 0) {
-        throw DeviceError("Open Image Denoise could not " + action + ": " + (message == nullptr ? "it does not say why" : message) + ".");
+        throw DeviceError(MessageId::LibraryFailed, {"Open Image Denoise could not ", part::place(action), ": ",
+                                                     part::value(message == nullptr ? "it does not say why" : message), "."});
     }
 }
 

@@ -1,4 +1,4 @@
-// What the tables of albedos are made with.
+// The building blocks of the albedo tables.
 #pragma once
 
 #include "shaders/shared/vocabulary.h"

@@ -1,4 +1,4 @@
-// What light paths are aimed at, and which lights they begin at.
+// The targets at which light paths are aimed, and the lights at which these paths begin.
 #pragma once
 
 #include "host/flatten/flat_scene.hpp"

@@ -1,4 +1,4 @@
-// Whether a triangle is opaque or transparent all over.
+// Tells whether a triangle is opaque or transparent all over.
 #pragma once
 
 #include "host/flatten/box_sums.hpp"

@@ -1,4 +1,4 @@
-// A map of radiance as kernels read it: packed texels, and the cells by which it is sampled (shaders/access/environment_map.glsl).
+// An environment map as kernels read it: packed texels, and the cells by which the map is sampled (shaders/access/environment_map.glsl).
 #pragma once
 
 #include "host/flatten/flat_scene.hpp"

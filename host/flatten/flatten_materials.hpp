@@ -1,4 +1,4 @@
-// Materials and images to the data that kernels read.
+// Converts materials and images to the data that kernels read.
 #pragma once
 
 #include "host/flatten/flat_scene.hpp"

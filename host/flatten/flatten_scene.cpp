@@ -124,8 +124,9 @@ void pushInstances(FlatScene& flat, const Primitives& primitives, const WideBvh&
         ref += tree.entryCount;
         primitive += mesh.triangles.size();
         if (std::max(ref, primitive) >= kMax) {
-            throw InputError("the scene's instances have " + std::to_string(primitives.computeTriangleCount()) +
-                             " triangles; expected fewer than 4294967295.");
+            throw InputError(MessageId::TooLarge,
+                             {"the scene's instances have ", part::value(std::to_string(primitives.computeTriangleCount())),
+                              " triangles; expected ", part::expected("fewer than 4294967295"), "."});
         }
         const auto texels = std::bit_cast<std::array<uvec4, kInstanceTexels>>(data);
         instances.insert(instances.end(), texels.begin(), texels.end());

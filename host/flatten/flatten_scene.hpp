@@ -1,4 +1,4 @@
-// Scene, Primitives and WideBvh to FlatScene.
+// Converts Scene, Primitives and WideBvh to FlatScene.
 #pragma once
 
 #include "host/bvh/wide_bvh.hpp"

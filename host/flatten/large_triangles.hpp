@@ -1,4 +1,4 @@
-// Whether some triangles are so large beside other things that float32 needs care with them (kFeatureLargeTriangles).
+// Tells whether a scene has triangles so large beside other things that they need more careful float32 code (kFeatureLargeTriangles).
 #pragma once
 
 #include "host/flatten/flat_scene.hpp"

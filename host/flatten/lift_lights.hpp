@@ -1,4 +1,4 @@
-// Lights that lie where another surface lies: which of them a ray meets.
+// Lights that coincide with another surface: decides which of the surfaces a ray meets.
 #pragma once
 
 #include "host/flatten/primitives.hpp"

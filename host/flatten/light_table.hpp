@@ -1,4 +1,4 @@
-// The scene's lights.
+// The table of a scene's lights.
 #pragma once
 
 #include "host/flatten/flat_scene.hpp"

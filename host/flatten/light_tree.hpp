@@ -1,4 +1,4 @@
-// The tree by which finite lights are chosen.
+// The light tree, by which finite lights are sampled (pbrt's BVHLightSampler, with eight children per node).
 #pragma once
 
 #include "shaders/shared/scene_types.h"

@@ -59,8 +59,9 @@ public:
             found_.media.push_back(medium);
         }
         if (found_.media.size() > kMaxMedia) {
-            throw InputError(scene_.file + ": more than " + std::to_string(kMaxMedia) +
-                             " different volumes (index, attenuation, dispersion); expected fewer");
+            throw InputError(MessageId::TooLarge,
+                             {part::file(scene_.file), ": more than ", part::value(std::to_string(kMaxMedia)),
+                              " different volumes (index, attenuation, dispersion); expected ", part::expected("fewer")});
         }
         found_.disperses = found_.disperses || medium.spread > 0.0F;
         found_.tracked = found_.tracked || found_.disperses || medium.absorption != vec3(0.0F);

@@ -1,4 +1,4 @@
-// Instances of shared meshes as the kernels need them: transforms in float32, with bounds of their rounding errors.
+// Instances of shared meshes as the kernels need them: transforms in float32, with bounds on their rounding errors.
 #pragma once
 
 #include "host/bvh/bvh.hpp"

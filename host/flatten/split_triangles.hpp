@@ -1,4 +1,4 @@
-// Splits the boxes of large triangles, so that they enclose less empty space.
+// Spatial splits: splits the boxes of large triangles, so that they enclose less empty space.
 #pragma once
 
 #include "host/bvh/bvh.hpp"

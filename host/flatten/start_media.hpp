@@ -1,4 +1,4 @@
-// The media that rays are in where they begin: a camera or a light may lie in a solid, or in several that contain each other.
+// The media in which rays begin: a camera or a light may lie in a solid, or in several nested solids.
 #pragma once
 
 #include "host/flatten/flat_scene.hpp"

@@ -37,8 +37,9 @@ void refuseTooLarge(const DeviceDescription& device, const std::string& name, Bu
 {
     const std::uint64_t limit = std::min(getLimit(device, kind), device.maxAllocation);
     if (size > limit) {
-        throw DeviceError("The " + name + " need " + megabytes(size) + ", which is " + megabytes(size - limit) + " more than device \"" +
-                          device.name + "\" allows in one buffer (" + megabytes(limit) + ").");
+        throw DeviceError(MessageId::DeviceLimit,
+                          {"The ", part::place(name), " need ", part::value(megabytes(size)), ", which is ", megabytes(size - limit),
+                           " more than device \"", device.name, "\" allows in one buffer (", part::expected(megabytes(limit)), ")."});
     }
 }
 
@@ -119,8 +120,9 @@ void Buffer::allocate(const std::string& name)
     const bool mappable = device_->memoryPolicy() == MemoryPolicy::MapShared && (have & shared) == shared;
     const VkResult result = memory_.allocate(allocation);
     if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
-        throw DeviceError("The " + name + " need " + megabytes(needs.size) + ", but device \"" + device_->description().name +
-                          "\" has no more memory (of " + megabytes(device_->description().memory) + ").");
+        throw DeviceError(MessageId::OutOfMemory, {"The ", part::place(name), " need ", part::value(megabytes(needs.size)),
+                                                   ", but device \"", device_->description().name, "\" has no more memory (of ",
+                                                   part::expected(megabytes(device_->description().memory)), ")."});
     }
     check(result, "allocate the " + name);
     check(vkBindBufferMemory(device_->handle(), handle_.get(), memory_.get(), 0), "bind the memory of the " + name);

@@ -181,7 +181,8 @@ Candidate choose(const VulkanInstance& instance, const std::optional<std::string
             continue;
         }
         if (!d.missing.empty()) {
-            throw DeviceError("Device \"" + d.name + "\" lacks " + d.missing + ", which glim needs.");
+            throw DeviceError(MessageId::DeviceLacks,
+                              {"Device ", part::quoted(d.name), " lacks ", part::expected(d.missing), ", which glim needs."});
         }
         if (surface == VK_NULL_HANDLE || canPresent(candidates[i], surface)) {
             return candidates[i];
@@ -189,13 +190,15 @@ Candidate choose(const VulkanInstance& instance, const std::optional<std::string
         blind += (blind.empty() ? "\"" : ", \"") + d.name + "\"";
     }
     if (!blind.empty()) {
-        throw InputError("This window cannot show pictures of " + blind + "; `glim render` writes them to a file instead.");
+        throw InputError(MessageId::NoWindow,
+                         {"This window cannot show pictures of ", part::value(blind), "; `glim render` writes them to a file instead."});
     }
     if (choice) {
-        throw InputError("--device " + *choice + ": no such device; there are: " + listOf(candidates) + ".");
+        throw InputError(MessageId::UnknownName, {part::place("--device"), " ", part::value(*choice),
+                                                  ": no such device; there are: ", part::expected(listOf(candidates)), "."});
     }
-    throw DeviceError("No usable Vulkan device; found: " + listOf(candidates) +
-                      " (a software one comes with Debian's mesa-vulkan-drivers).");
+    throw DeviceError(MessageId::DeviceMissing, {"No usable Vulkan device; found: ", part::value(listOf(candidates)),
+                                                 " (a software one comes with Debian's mesa-vulkan-drivers)."});
 }
 
 }  // namespace
@@ -221,8 +224,10 @@ Device::Device(const VulkanInstance& instance, const std::optional<std::string>&
     physical_ = chosen.physical;
     queueFamily_ = chosen.queueFamily;
     if (const auto limit = addressLimit(); description_.software && limit && limit->bytes < driverAddresses()) {
-        throw DeviceError("Device \"" + description_.name + "\" needs " + std::to_string(driverAddresses() >> 20U) +
-                          " MiB of addresses; a limit (ulimit -v) allows the process " + std::to_string(limit->bytes >> 20U) + " MiB.");
+        throw DeviceError(MessageId::OutOfMemory,
+                          {"Device \"", description_.name, "\" needs ", part::expected(std::to_string(driverAddresses() >> 20U) + " MiB"),
+                           " of addresses; a limit (", part::place("ulimit -v"), ") allows the process ",
+                           part::value(std::to_string(limit->bytes >> 20U) + " MiB"), "."});
     }
 
     const float priority = 1.0F;
@@ -261,7 +266,8 @@ std::uint32_t Device::findMemoryType(std::uint32_t allowed, VkMemoryPropertyFlag
             }
         }
     }
-    throw DeviceError("Device \"" + description_.name + "\" has no memory with the properties that a buffer needs.");
+    throw DeviceError(MessageId::DeviceLacks, {"Device ", part::quoted(description_.name), " has no ",
+                                               part::expected("memory with the properties that a buffer needs"), "."});
 }
 
 void Device::addMemory(std::int64_t bytes)

@@ -67,9 +67,8 @@ void requireValidationLayer()
     const bool found = std::any_of(layers.begin(), layers.end(),
                                    [](const VkLayerProperties& layer) { return std::strcmp(layer.layerName, kValidationLayer) == 0; });
     if (!found) {
-        throw DeviceError(
-            "GLIM_VALIDATION=1 asks for VK_LAYER_KHRONOS_validation, which is not installed "
-            "(Debian: vulkan-validationlayers).");
+        throw DeviceError(MessageId::LibraryMissing, {part::place("GLIM_VALIDATION"), "=1 asks for ", part::value(kValidationLayer),
+                                                      ", which is not installed (Debian: vulkan-validationlayers)."});
     }
 }
 
@@ -79,10 +78,12 @@ void check(VkResult result, const std::string& action)
 {
     if (result < 0) {
         const std::optional<AddressLimit> limit = addressLimit();
-        throw DeviceError("Vulkan could not " + action + ": " + getName(result) +
-                          (limit ? "; of the addresses that a limit (ulimit -v) allows the process, " + std::to_string(limit->left >> 20U) +
+        const bool noMemory = result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
+        throw DeviceError(noMemory ? MessageId::OutOfMemory : MessageId::DriverFailed,
+                          {"Vulkan could not ", part::place(action), ": ", part::value(getName(result)),
+                           limit ? "; of the addresses that a limit (ulimit -v) allows the process, " + std::to_string(limit->left >> 20U) +
                                        " MiB are left."
-                                 : "."));
+                                 : "."});
     }
 }
 
@@ -152,7 +153,7 @@ std::vector<VkPhysicalDevice> VulkanInstance::physicalDevices() const
 void VulkanInstance::refuseMessages() const
 {
     if (*messages_ > 0) {
-        throw DeviceError("The Vulkan validation layers have complained (see above); glim expects them silent.");
+        throw DeviceError(MessageId::DriverFailed, {"The Vulkan validation layers have complained (see above); glim expects them silent."});
     }
 }
 

@@ -24,6 +24,15 @@ VkWriteDescriptorSet writeOf(VkDescriptorSet set, std::uint32_t binding, VkDescr
     return write;
 }
 
+void refuseTooMany(const Device& device, const char* what, std::size_t used, std::size_t allowed)
+{
+    if (used > allowed) {
+        throw DeviceError(MessageId::DeviceLimit,
+                          {"glim's kernels use ", part::value(std::to_string(used)), " ", part::place(what), ", but device \"",
+                           device.description().name, "\" allows ", part::expected(std::to_string(allowed)), "."});
+    }
+}
+
 }  // namespace
 
 KernelLayout::KernelLayout(const Device& device, const std::vector<BindingSlot>& slots, std::uint32_t pushSize,
@@ -48,14 +57,8 @@ KernelLayout::KernelLayout(const Device& device, const std::vector<BindingSlot>&
     }
     const auto storage = static_cast<std::uint32_t>(
         std::count_if(slots.begin(), slots.end(), [](const BindingSlot& slot) { return hasStorage(slot.kind); }));
-    if (storage > device.description().maxStorageBuffers) {
-        throw DeviceError("glim's kernels use " + std::to_string(storage) + " storage buffers, but device \"" + device.description().name +
-                          "\" allows " + std::to_string(device.description().maxStorageBuffers) + ".");
-    }
-    if (texelBindings_.size() > device.description().maxTexelBuffers) {
-        throw DeviceError("glim's kernels use " + std::to_string(texelBindings_.size()) + " texel buffers, but device \"" +
-                          device.description().name + "\" allows " + std::to_string(device.description().maxTexelBuffers) + ".");
-    }
+    refuseTooMany(device, "storage buffers", storage, device.description().maxStorageBuffers);
+    refuseTooMany(device, "texel buffers", texelBindings_.size(), device.description().maxTexelBuffers);
     VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
     setInfo.bindingCount = static_cast<std::uint32_t>(bindings_.size());
     setInfo.pBindings = bindings_.data();

@@ -34,7 +34,8 @@ std::vector<std::uint32_t> optimize(const EmbeddedShader& shader, const Speciali
     options.set_run_validator(false);  // the build has validated it
     std::vector<std::uint32_t> specialized;
     if (!optimizer.Run(shader.begin, shader.words().size(), &specialized, options)) {
-        throw DeviceError("Kernel " + std::string(shader.name) + " cannot be specialized: " + message);
+        throw DeviceError(MessageId::LibraryFailed,
+                          {"Kernel ", part::place(shader.name), " cannot be specialized: ", part::value(message)});
     }
     return specialized;
 }

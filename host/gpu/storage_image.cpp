@@ -21,8 +21,10 @@ StorageImage::StorageImage(Device& device, const std::string& name, std::uint32_
     vkGetPhysicalDeviceProperties(device.physical(), &properties);
     const std::uint32_t most = properties.limits.maxImageDimension2D;
     if (width > most || height > most) {
-        throw DeviceError(name + " would have " + std::to_string(width) + "x" + std::to_string(height) + " pixels, and \"" +
-                          device.description().name + "\" has at most " + std::to_string(most) + " a side.");
+        throw DeviceError(
+            MessageId::DeviceLimit,
+            {part::place(name), " would have ", part::value(std::to_string(width) + "x" + std::to_string(height)), " pixels, and \"",
+             device.description().name, "\" has ", part::expected("at most " + std::to_string(most)), " a side."});
     }
     VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
     info.imageType = VK_IMAGE_TYPE_2D;

@@ -26,9 +26,9 @@ VkSurfaceFormatKHR chooseFormat(const Device& device, VkSurfaceKHR surface)
             return format;
         }
     }
-    throw InputError("Device \"" + device.description().name +
-                     "\" shows no plain 8-bit colours in this window; "
-                     "`glim render` writes the picture to a file instead.");
+    throw InputError(MessageId::NoWindow,
+                     {"Device ", part::quoted(device.description().name), " shows no ", part::expected("plain 8-bit colours"),
+                      " in this window; `glim render` writes the picture to a file instead."});
 }
 
 // In mailbox mode a new image replaces one that waits, so that presenting never blocks. Every device has FIFO mode.

@@ -25,10 +25,13 @@ namespace fs = std::filesystem;
 namespace glim {
 namespace {
 
-[[noreturn]] void refuse(const fs::path& path, const std::string& reason)
+[[noreturn]] void refuse(const fs::path& path, MessageId id, std::initializer_list<MessagePart> reason)
 {
-    throw InputError(path.string() + ": cannot be written: " + reason + ".");
+    const Message message(id, reason);
+    throw InputError(Message(message, {part::file(path), ": cannot be written: ", message.sentence, "."}));
 }
+
+[[noreturn]] void refuseByErrno(const fs::path& path) { refuse(path, MessageId::FileUnwritable, {part::value(std::strerror(errno))}); }
 
 fs::path folderOf(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
@@ -41,26 +44,26 @@ void checkTarget(const fs::path& path, const fs::path& target)
     const fs::path folder = folderOf(target);
     const fs::file_status folderStatus = fs::status(folder, error);
     if (!fs::exists(folderStatus)) {
-        refuse(path, "the folder " + folder.string() + " does not exist");
+        refuse(path, MessageId::FileMissing, {"the folder ", part::value(folder), " does not exist"});
     }
     if (!fs::is_directory(folderStatus)) {
-        refuse(path, folder.string() + " is not a folder");
+        refuse(path, MessageId::WrongType, {part::value(folder), " is not ", part::expected("a folder")});
     }
     const fs::file_status status = fs::status(target, error);
     if (fs::is_symlink(target, error)) {
-        refuse(path, "its links lead in a circle");
+        refuse(path, MessageId::Cycle, {"its links lead in a circle"});
     }
     if (fs::is_directory(status) || !target.has_filename()) {
-        refuse(path, "it is a folder");
+        refuse(path, MessageId::WrongType, {"it is ", part::value("a folder")});
     }
     if (fs::exists(status) && !fs::is_regular_file(status)) {
-        refuse(path, "it exists and is not a regular file");
+        refuse(path, MessageId::WrongType, {"it exists and is not ", part::expected("a regular file")});
     }
     if (fs::exists(status) && !mayWrite(target)) {
-        refuse(path, std::strerror(errno));
+        refuseByErrno(path);
     }
     if (!mayWrite(folder)) {
-        refuse(path, "in the folder " + folder.string() + ": " + std::strerror(errno));
+        refuse(path, MessageId::FileUnwritable, {"in the folder ", part::place(folder), ": ", part::value(std::strerror(errno))});
     }
 }
 
@@ -160,10 +163,10 @@ bool isFileAt(const fs::path& path, int descriptor)
 void checkWritable(const fs::path& path, std::string_view extension)
 {
     if (path.empty()) {
-        throw InputError("An empty file name cannot be written.");
+        throw InputError(MessageId::Missing, {"An empty file name cannot be written."});
     }
     if (!extension.empty() && lowerCase(path.extension().string()) != extension) {
-        refuse(path, "its name does not end in " + std::string(extension));
+        refuse(path, MessageId::UnknownFormat, {"its name does not end in ", part::expected(std::string(extension))});
     }
     checkTarget(path, followLinks(path));
 }
@@ -267,6 +270,6 @@ void AtomicFile::commit()
     syncFolder(folderOf(target_));
 }
 
-void AtomicFile::fail() const { refuse(name_, std::strerror(errno)); }
+void AtomicFile::fail() const { refuseByErrno(name_); }
 
 }  // namespace glim

@@ -24,8 +24,9 @@ bool startsWith(Bytes bytes, std::string_view magic, std::size_t at = 0)
 void checkSize(const char* kind, std::uint32_t width, std::uint32_t height)
 {
     if (width == 0 || height == 0 || width > kMaxImageSide || height > kMaxImageSide) {
-        throw InputError("is a " + std::string(kind) + " of " + std::to_string(width) + "x" + std::to_string(height) +
-                         " pixels; expected 1 to " + std::to_string(kMaxImageSide) + " in each direction");
+        throw InputError(MessageId::TooLarge,
+                         {"is a ", kind, " of ", part::value(std::to_string(width) + "x" + std::to_string(height)), " pixels; expected ",
+                          part::expected("1 to " + std::to_string(kMaxImageSide)), " in each direction"});
     }
 }
 
@@ -136,7 +137,7 @@ DecodedImage decodePng(Bytes bytes)
     PngReader reader(source);
     const auto require = [&source](bool good) {
         if (!good) {
-            throw InputError("is a broken PNG (" + source.error + ")");
+            throw InputError(MessageId::FileDamaged, {"is a broken PNG (", part::value(source.error), ")"});
         }
     };
     if (endsWithinChunk(bytes)) {
@@ -272,7 +273,7 @@ DecodedImage decodeJpeg(Bytes bytes)
     JpegReader reader;
     const auto require = [&reader](bool good) {
         if (!good) {
-            throw InputError("is a broken JPEG (" + std::string(reader.errors.message) + ")");
+            throw InputError(MessageId::FileDamaged, {"is a broken JPEG (", part::value(reader.errors.message), ")"});
         }
     };
     require(readJpegHeader(reader, bytes));
@@ -281,7 +282,7 @@ DecodedImage decodeJpeg(Bytes bytes)
     constexpr std::uint64_t kMaxPixelsPerByte = 512;
     if (reader.jpeg.arith_code == FALSE &&
         std::uint64_t{reader.jpeg.image_width} * reader.jpeg.image_height > kMaxPixelsPerByte * bytes.size()) {
-        throw InputError("is a broken JPEG (it ends early)");
+        throw InputError(MessageId::FileDamaged, {"is a broken JPEG (", part::value("it ends early"), ")"});
     }
     DecodedImage image;
     image.width = reader.jpeg.image_width;
@@ -297,10 +298,10 @@ DecodedImage decodeWebp(Bytes bytes)
 {
     WebPBitstreamFeatures features;
     if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK) {
-        throw InputError("is a broken WebP");
+        throw InputError(MessageId::FileDamaged, {"is a ", part::value("broken WebP")});
     }
     if (features.has_animation != 0) {
-        throw InputError("is an animated WebP; expected a still one");
+        throw InputError(MessageId::Unsupported, {"is an ", part::value("animated WebP"), "; expected ", part::expected("a still one")});
     }
     DecodedImage image;
     image.width = static_cast<std::uint32_t>(features.width);
@@ -309,7 +310,7 @@ DecodedImage decodeWebp(Bytes bytes)
     image.hasAlpha = features.has_alpha != 0;
     image.rgba8.resize(std::size_t{image.width} * image.height * 4);
     if (WebPDecodeRGBAInto(bytes.data(), bytes.size(), image.rgba8.data(), image.rgba8.size(), features.width * 4) == nullptr) {
-        throw InputError("is a broken WebP");
+        throw InputError(MessageId::FileDamaged, {"is a ", part::value("broken WebP")});
     }
     return image;
 }
@@ -345,8 +346,9 @@ DecodedImage decodeImage(Bytes bytes)
         return decodeWebp(bytes);
     }
     const bool ktx = startsWith(bytes, "\xabKTX 20");
-    throw InputError(std::string("is ") + (ktx ? "a KTX2 texture" : "of an unknown kind (" + firstBytes(bytes) + ")") +
-                     "; expected PNG, JPEG or WebP");
+    throw InputError(MessageId::UnknownFormat,
+                     {"is ", part::value(ktx ? "a KTX2 texture" : "of an unknown kind (" + firstBytes(bytes) + ")"), "; expected ",
+                      part::expected("PNG, JPEG or WebP")});
 }
 
 }  // namespace glim

@@ -53,12 +53,12 @@ void checkIsExr(const fs::path& path)
     requireFile(path, "an OpenEXR file");
     std::ifstream stream(path, std::ios::binary);
     if (!stream) {
-        throw InputError(path.string() + ": cannot be opened: " + std::strerror(errno) + ".");
+        throw InputError(MessageId::FileUnreadable, {part::file(path), ": cannot be opened: ", part::value(std::strerror(errno)), "."});
     }
     char magic[4] = {};
     stream.read(magic, sizeof magic);
     if (!stream || !Imf::isImfMagic(magic)) {
-        throw InputError(path.string() + ": is not an OpenEXR file.");
+        throw InputError(MessageId::UnknownFormat, {part::file(path), ": is not ", part::expected("an OpenEXR file"), "."});
     }
     checkExrHeader(path);
 }
@@ -74,16 +74,17 @@ int useAllCores()
 }
 
 // Runs `step` and turns OpenEXR's exceptions into InputError.
-void guarded(const fs::path& path, const char* failure, const std::function<void()>& step)
+void guarded(const fs::path& path, MessageId id, const std::function<void()>& step)
 {
     try {
         step();
     } catch (const InputError&) {
         throw;
     } catch (const std::bad_alloc&) {
-        throw InputError(path.string() + ": " + memorySentence() + ".");
+        throw InputError(MessageId::OutOfMemory, {part::file(path), ": ", memorySentence(), "."});
     } catch (const std::exception& error) {
-        throw InputError(path.string() + ": " + failure + " (" + error.what() + ").");
+        const char* const failure = id == MessageId::FileUnwritable ? "cannot be written" : "is damaged, or not an OpenEXR picture";
+        throw InputError(id, {part::file(path), ": ", failure, " (", part::value(error.what()), ")."});
     }
 }
 
@@ -120,8 +121,9 @@ void readHeader(const fs::path& path, const Imf::Header& header, Image& image)
     const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
     const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
     if (width < 1 || height < 1 || static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) > kMaxPixels) {
-        throw InputError(path.string() + ": its data window is " + std::to_string(width) + "x" + std::to_string(height) +
-                         ", expected 1 to " + std::to_string(kMaxPixels) + " pixels.");
+        throw InputError(MessageId::TooLarge, {part::file(path), ": its ", part::place("data window"), " is ",
+                                               part::value(std::to_string(width) + "x" + std::to_string(height)), ", expected ",
+                                               part::expected("1 to " + std::to_string(kMaxPixels) + " pixels"), "."});
     }
     image.width = static_cast<std::uint32_t>(width);
     image.height = static_cast<std::uint32_t>(height);
@@ -154,9 +156,10 @@ void checkInflation(const fs::path& path, const Imf::Header& header, const Image
         bytes += pixelCount(image) * (channel.channel().type == Imf::HALF ? 2 : 4);
     }
     if (const std::uint64_t size = fs::file_size(path); bytes > kSmall + kMaxInflation * size) {
-        throw InputError(path.string() + ": its data window of " + std::to_string(image.width) + "x" + std::to_string(image.height) +
-                         " pixels has " + std::to_string(bytes >> 20U) + " MiB, expected what its " + std::to_string(size) +
-                         " bytes can hold.");
+        throw InputError(MessageId::FileDamaged, {part::file(path), ": its ", part::place("data window"), " of ",
+                                                  part::value(std::to_string(image.width) + "x" + std::to_string(image.height)),
+                                                  " pixels has ", std::to_string(bytes >> 20U), " MiB, expected ",
+                                                  part::expected("what its " + std::to_string(size) + " bytes can hold"), "."});
     }
 }
 
@@ -182,7 +185,8 @@ void readChannels(const fs::path& path, Imf::InputFile& file, Image& image)
     Imf::FrameBuffer frame;
     for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
         if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1) {
-            throw InputError(path.string() + ": its channel " + channel.name() + " is subsampled, expected a value for every pixel.");
+            throw InputError(MessageId::Unsupported, {part::file(path), ": its channel ", part::place(channel.name()),
+                                                      " is subsampled, expected ", part::expected("a value for every pixel"), "."});
         }
     }
     tryFirstRow(file);
@@ -274,10 +278,11 @@ Image readExr(const fs::path& path)
 {
     checkIsExr(path);
     Image image;
-    guarded(path, "is damaged, or not an OpenEXR picture", [&] {
+    guarded(path, MessageId::FileDamaged, [&] {
         Imf::InputFile file(path.c_str(), useAllCores());
         if (!file.isComplete()) {
-            throw InputError(path.string() + ": is incomplete: rows of pixels are missing.");
+            throw InputError(MessageId::FileDamaged,
+                             {part::file(path), ": is ", part::value("incomplete"), ": rows of pixels are missing."});
         }
         if (Imf::isMultiPart(file.version())) {
             warn(MessageId::PartsIgnored, {part::file(path), ": has several parts, and only the first is read"});
@@ -292,7 +297,7 @@ Image readExrHeader(const fs::path& path)
 {
     checkIsExr(path);
     Image image;
-    guarded(path, "is damaged, or not an OpenEXR picture", [&] {
+    guarded(path, MessageId::FileDamaged, [&] {
         const Imf::InputFile file(path.c_str());
         readHeader(path, file.header(), image);
     });
@@ -304,11 +309,12 @@ void checkHeaderDigest(const fs::path& path, bool isSealed)
     std::ifstream stream(path, std::ios::binary);
     const auto seal = findSeal(stream, kHeaderDigest);
     if (!seal && isSealed) {
-        throw InputError(path.string() + ": is damaged: it has no attribute " + kHeaderDigest + ".");
+        throw InputError(MessageId::FileDamaged, {part::file(path), ": is damaged: it has no attribute ", part::place(kHeaderDigest), "."});
     }
     if (seal && seal->text != seal->digest) {
-        throw InputError(path.string() + ": is damaged: the SHA-256 of its header is " + seal->digest + ", expected " +
-                         inQuotes(seal->text) + ".");
+        throw InputError(MessageId::FileDamaged,
+                         {part::file(path), ": is damaged: the SHA-256 of its ", part::place("header"), " is ", part::value(seal->digest),
+                          ", expected ", MessagePart(MessagePart::Kind::Expected, inQuotes(seal->text), seal->text), "."});
     }
 }
 
@@ -319,7 +325,7 @@ struct ExrWriter::Output {
           stream(atomic, target.string()),
           row(picture.rowsAbove)
     {
-        guarded(path, "cannot be written", [&] { file.emplace(stream, headerOf(picture), useAllCores()); });
+        guarded(path, MessageId::FileUnwritable, [&] { file.emplace(stream, headerOf(picture), useAllCores()); });
         std::istringstream header(stream.endHeader());
         seal = findSeal(header, kHeaderDigest);
     }
@@ -340,7 +346,7 @@ ExrWriter::~ExrWriter() = default;
 
 void ExrWriter::write(const Image& rows)
 {
-    guarded(output_->path, "cannot be written", [&] {
+    guarded(output_->path, MessageId::FileUnwritable, [&] {
         output_->file->setFrameBuffer(frameOf(rows, output_->row));
         output_->file->writePixels(static_cast<int>(rows.height));
     });
@@ -349,7 +355,7 @@ void ExrWriter::write(const Image& rows)
 
 void ExrWriter::commit()
 {
-    guarded(output_->path, "cannot be written", [&] { output_->file.reset(); });  // which writes the table of rows
+    guarded(output_->path, MessageId::FileUnwritable, [&] { output_->file.reset(); });  // which writes the table of rows
     if (const auto& seal = output_->seal) {
         output_->atomic.seek(seal->position);
         output_->atomic.write(seal->digest.data(), seal->digest.size());

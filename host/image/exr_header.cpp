@@ -134,15 +134,17 @@ void checkExrHeader(const fs::path& path)
         }
         std::getline(stream, type, '\0');
         const std::streamoff bytes = readU32(stream), left = stream ? size - stream.tellg() : 0;
-        const std::string attribute = path.string() + ": is damaged: its attribute " + inQuotes(name);
+        const MessagePart attribute(MessagePart::Kind::Place, inQuotes(name), name);
         if (bytes > left) {
-            throw InputError(attribute + " has " + std::to_string(bytes) + " bytes, expected at most the " + std::to_string(left) +
-                             " that follow.");
+            throw InputError(MessageId::FileDamaged,
+                             {part::file(path), ": is damaged: its attribute ", attribute, " has ", part::value(std::to_string(bytes)),
+                              " bytes, expected ", part::expected("at most the " + std::to_string(left) + " that follow"), "."});
         }
         value.resize(static_cast<std::size_t>(bytes));
         stream.read(value.data(), bytes);
         if (!fits(type, value)) {
-            throw InputError(attribute + " has " + std::to_string(bytes) + " bytes, which make no " + inQuotes(type) + ".");
+            throw InputError(MessageId::FileDamaged, {part::file(path), ": is damaged: its attribute ", attribute, " has ",
+                                                      part::value(std::to_string(bytes)), " bytes, which make no ", inQuotes(type), "."});
         }
     }
 }

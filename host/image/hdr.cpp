@@ -31,7 +31,13 @@ public:
     RadianceMap read();
 
 private:
-    [[noreturn]] void refuse(const std::string& sentence) const { throw InputError(path_ + ": " + sentence); }
+    [[noreturn]] void refuse(MessageId id, std::initializer_list<MessagePart> words) const
+    {
+        const Message message(id, words);
+        throw InputError(Message(message, {part::file(path_), ": ", message.sentence}));
+    }
+    [[noreturn]] void refuseEnd(std::uint32_t row) const;
+    [[noreturn]] void refuseRun(std::uint64_t count, std::size_t x, std::uint32_t row) const;
     std::string readLine();
     void readVariable(const std::string& line);
     void readResolution(const std::string& line);
@@ -47,13 +53,25 @@ private:
     Header header_;
 };
 
+void HdrReader::refuseEnd(std::uint32_t row) const
+{
+    refuse(MessageId::FileDamaged, {"ends in ", part::place("row " + std::to_string(row)), " of ", std::to_string(header_.rows)});
+}
+
+void HdrReader::refuseRun(std::uint64_t count, std::size_t x, std::uint32_t row) const
+{
+    refuse(MessageId::FileDamaged,
+           {"has a run of ", part::value(std::to_string(count)), " pixels at ",
+            part::place("pixel " + std::to_string(x) + " of row " + std::to_string(row)), ", which has ", std::to_string(header_.columns)});
+}
+
 std::string HdrReader::readLine()
 {
     constexpr std::size_t kLongest = 4096;
     std::string line;
     for (int c = stream_.get(); c != '\n'; c = stream_.get()) {
         if (c < 0 || line.size() > kLongest) {
-            refuse("has no end of its header; expected a line with its resolution");
+            refuse(MessageId::FileDamaged, {"has no end of its header; expected ", part::expected("a line with its resolution")});
         }
         line += static_cast<char>(c);
     }
@@ -67,7 +85,8 @@ void HdrReader::readVariable(const std::string& line)
     std::istringstream value(line.size() > name.size() ? line.substr(name.size() + 1) : "");
     if (name == "FORMAT") {
         if (value.str().find("32-bit_rle_rgbe") == std::string::npos) {
-            refuse("is of the format \"" + value.str() + "\"; expected 32-bit_rle_rgbe");
+            refuse(MessageId::UnknownFormat,
+                   {"is of the format ", part::quoted(value.str()), "; expected ", part::expected("32-bit_rle_rgbe")});
         }
     } else if (name == "EXPOSURE" || name == "COLORCORR") {
         glm::dvec3 factor(1.0);
@@ -77,7 +96,7 @@ void HdrReader::readVariable(const std::string& line)
             value >> factor.y >> factor.z;
         }
         if (value.fail() || !(factor.x > 0.0 && factor.y > 0.0 && factor.z > 0.0)) {
-            refuse("has the header line \"" + line + "\"; expected positive numbers");
+            refuse(MessageId::OutOfRange, {"has the header line ", part::quoted(line), "; expected ", part::expected("positive numbers")});
         }
         header_.scale /= factor;
     }
@@ -97,7 +116,8 @@ void HdrReader::readResolution(const std::string& line)
     const std::int64_t width = byY ? columns : rows, height = byY ? rows : columns;
     if (text.fail() || (!byY && !byX) || width < 1 || height < 1 || width > kMaxMapWidth || height > kMaxMapHeight ||
         static_cast<std::uint64_t>(width * height) > kMaxMapTexels) {
-        refuse("has the resolution \"" + line + "\"; expected one like \"-Y 512 +X 1024\", of at most 16384x8192");
+        refuse(MessageId::OutOfRange, {"has the ", part::place("resolution"), " ", part::quoted(line), "; expected ",
+                                       part::expected("one like \"-Y 512 +X 1024\", of at most 16384x8192")});
     }
     header_.rowsAreY = byY;
     header_.yUpwards = (byY ? first : second)[0] == '+';
@@ -113,7 +133,7 @@ void HdrReader::checkLength()
     const std::streamoff begin = stream_.tellg(), least = header_.columns > 256 ? 12 : 4;
     const std::streamoff rows = (stream_.seekg(0, std::ios::end).tellg() - begin) / least;
     if (rows < header_.rows) {
-        refuse("ends in row " + std::to_string(rows) + " of " + std::to_string(header_.rows));
+        refuseEnd(static_cast<std::uint32_t>(rows));
     }
     stream_.seekg(begin);
 }
@@ -122,7 +142,7 @@ int HdrReader::readByte(std::uint32_t row)
 {
     const int byte = stream_.get();
     if (byte < 0) {
-        refuse("ends in row " + std::to_string(row) + " of " + std::to_string(header_.rows));
+        refuseEnd(row);
     }
     return byte;
 }
@@ -145,8 +165,7 @@ void HdrReader::readNewRuns(std::uint32_t row, std::vector<Pixel>& pixels)
             const bool repeats = code > 128;
             const auto count = static_cast<std::size_t>(repeats ? code - 128 : code);
             if (count == 0 || count > pixels.size() - x) {
-                refuse("has a run of " + std::to_string(count) + " pixels at pixel " + std::to_string(x) + " of row " +
-                       std::to_string(row) + ", which has " + std::to_string(pixels.size()));
+                refuseRun(count, x, row);
             }
             int value = repeats ? readByte(row) : 0;
             for (std::size_t i = 0; i < count; ++i, ++x) {
@@ -166,8 +185,7 @@ void HdrReader::readOldRuns(std::uint32_t row, Pixel first, std::vector<Pixel>& 
         const bool repeats = pixel[0] == 1 && pixel[1] == 1 && pixel[2] == 1;
         const std::uint64_t count = repeats ? pixel[3] * weight : 1;
         if (count > pixels.size() - x || (repeats && x == 0)) {
-            refuse("has a run of " + std::to_string(count) + " pixels at pixel " + std::to_string(x) + " of row " + std::to_string(row) +
-                   ", which has " + std::to_string(pixels.size()));
+            refuseRun(count, x, row);
         }
         for (std::uint64_t i = 0; i < count; ++i, ++x) {
             pixels[x] = repeats ? pixels[x - 1] : pixel;
@@ -177,7 +195,7 @@ void HdrReader::readOldRuns(std::uint32_t row, Pixel first, std::vector<Pixel>& 
             return;
         }
         if (weight > kMaxMapTexels) {
-            refuse("has an endless run in row " + std::to_string(row));
+            refuse(MessageId::FileDamaged, {"has an ", part::value("endless run"), " in ", part::place("row " + std::to_string(row))});
         }
     }
 }
@@ -196,7 +214,7 @@ RadianceMap HdrReader::read()
     int lines = 0;
     for (std::string line = readLine(); !line.empty(); line = readLine()) {
         if (++lines > kMaxLines) {
-            refuse("has more than " + std::to_string(kMaxLines) + " lines in its header");
+            refuse(MessageId::TooLarge, {"has more than ", part::expected(std::to_string(kMaxLines) + " lines"), " in its header"});
         }
         readVariable(line);
     }

@@ -64,7 +64,8 @@ void writeJpeg(const std::filesystem::path& path, std::uint32_t width, std::uint
     AtomicFile file(path);
     JpegWriter writer;
     if (!encode(writer, width, height, pixels.data())) {
-        throw InputError(path.string() + ": cannot be written as JPEG (" + writer.errors.message + ").");
+        throw InputError(MessageId::FileUnwritable,
+                         {part::file(path), ": cannot be written as JPEG (", part::value(writer.errors.message), ")."});
     }
     file.write(writer.bytes, writer.size);
     file.commit();

@@ -21,11 +21,14 @@ void writePicture(const std::filesystem::path& path, std::uint32_t width, std::u
 {
     const std::optional<PictureKind> kind = getPictureKind(path);
     if (!kind) {
-        throw InputError(path.string() + ": cannot be written: its name does not end in " + kPictureEndings + ".");
+        throw InputError(MessageId::UnknownFormat,
+                         {part::file(path), ": cannot be written: its name does not end in ", part::expected(kPictureEndings), "."});
     }
     if (std::max(width, height) > longestSide(*kind)) {
-        throw InputError(path.string() + ": cannot be written: a picture of " + std::to_string(width) + "x" + std::to_string(height) +
-                         " pixels; expected at most " + std::to_string(longestSide(*kind)) + " a side in a file of this kind.");
+        throw InputError(
+            MessageId::TooLarge,
+            {part::file(path), ": cannot be written: a picture of ", part::value(std::to_string(width) + "x" + std::to_string(height)),
+             " pixels; expected ", part::expected("at most " + std::to_string(longestSide(*kind))), " a side in a file of this kind."});
     }
     switch (*kind) {
     case PictureKind::Png: return writePng(path, width, height, pixels);

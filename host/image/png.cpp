@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <optional>
 #include <string>
 
 namespace glim {
@@ -16,8 +17,8 @@ namespace {
 
 struct PngSink {
     AtomicFile& file;
-    std::string error;  // a whole sentence after a failure
     const std::string name;
+    std::optional<Message> error = {};
 };
 
 // libpng is written in C and ends by longjmp, which no exception may cross. So the reason of a failure is kept until libpng returns.
@@ -28,7 +29,7 @@ void pngWrite(png_structp png, png_bytep bytes, png_size_t count)
         sink->file.write(bytes, count);
         return;
     } catch (const InputError& error) {
-        sink->error = error.what();
+        sink->error = error.message();
     }
     png_error(png, "write");
 }
@@ -38,8 +39,10 @@ void pngFlush(png_structp) {}
 [[noreturn]] void pngFail(png_structp png, png_const_charp reason)
 {
     auto* sink = static_cast<PngSink*>(png_get_error_ptr(png));
-    if (sink->error.empty()) {
-        sink->error = sink->name + ": cannot be written as PNG (" + reason + ").";
+    if (!sink->error) {
+        sink->error.emplace(
+            MessageId::FileUnwritable,
+            std::initializer_list<MessagePart>{part::file(sink->name), ": cannot be written as PNG (", part::value(reason), ")."});
     }
     png_longjmp(png, 1);
 }
@@ -101,9 +104,9 @@ Rgb8 roundToBytes(const glm::dvec3& color)
 void writePng(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, const std::vector<Rgb8>& pixels)
 {
     AtomicFile file(path);
-    PngSink sink{file, {}, path.string()};
+    PngSink sink{file, path.string()};
     if (!encode(sink, {width, height, pixels.data()})) {
-        throw InputError(sink.error);
+        throw InputError(*sink.error);
     }
     file.commit();
 }

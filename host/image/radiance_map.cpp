@@ -30,8 +30,9 @@ void checkMapSize(const std::string& path, std::int64_t width, std::int64_t heig
 {
     if (width < 1 || height < 1 || width > kMaxMapWidth || height > kMaxMapHeight ||
         static_cast<std::uint64_t>(width * height) > kMaxMapTexels) {
-        throw InputError(path + ": is a map of " + std::to_string(width) + "x" + std::to_string(height) +
-                         " texels; expected at most 16384x8192");
+        throw InputError(MessageId::TooLarge,
+                         {part::file(path), ": is a map of ", part::value(std::to_string(width) + "x" + std::to_string(height)),
+                          " texels; expected ", part::expected("at most 16384x8192")});
     }
 }
 
@@ -77,7 +78,9 @@ Place findPicture(const std::string& path, const Imf::MultiPartInputFile& file)
         }
     }
     if (best.rank == Place().rank) {
-        throw InputError(path + ": has no channels R, G and B, nor a layer Combined with these, nor Y alone; expected one of these");
+        throw InputError(MessageId::Missing,
+                         {part::file(path), ": has no ",
+                          part::expected("channels R, G and B, nor a layer Combined with these, nor Y alone"), "; expected one of these"});
     }
     return best;
 }
@@ -141,7 +144,7 @@ std::string readStart(const std::filesystem::path& file)
     requireFile(file, "a .hdr or .exr map");
     std::ifstream stream(file, std::ios::binary);
     if (!stream) {
-        throw InputError(file.string() + ": cannot be opened: " + std::strerror(errno));
+        throw InputError(MessageId::FileUnreadable, {part::file(file), ": cannot be opened: ", part::value(std::strerror(errno))});
     }
     char start[4] = {};
     stream.read(start, sizeof start);
@@ -160,13 +163,14 @@ RadianceMap readRadianceMap(const std::filesystem::path& file)
         } catch (const InputError&) {
             throw;
         } catch (const std::exception& error) {
-            throw InputError(path + ": cannot be read as OpenEXR (" + error.what() + ")");
+            throw InputError(MessageId::FileDamaged, {part::file(path), ": cannot be read as OpenEXR (", part::value(error.what()), ")"});
         }
     } else if (start.rfind("#?", 0) == 0) {
         map = readHdr(file);
         checkMapSize(path, map.width, map.height);
     } else {
-        throw InputError(path + ": is neither OpenEXR nor Radiance (.hdr); expected one of these");
+        throw InputError(MessageId::UnknownFormat,
+                         {part::file(path), ": is neither ", part::expected("OpenEXR nor Radiance (.hdr)"), "; expected one of these"});
     }
     repair(map);
     return map;

@@ -1,4 +1,4 @@
-// --denoise: the denoised picture of a render, and what is said of it.
+// --denoise: makes the denoised picture of a render, and reports its error.
 #pragma once
 
 #include "host/denoise/denoised_picture.hpp"

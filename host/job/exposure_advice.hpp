@@ -1,4 +1,4 @@
-// Whether a picture shows anything at its exposure.
+// Checks whether a picture is far too dark or too bright at its exposure.
 #pragma once
 
 #include "host/message.hpp"

@@ -1,7 +1,7 @@
-// The faster schedule of a device, measured once and kept by device and driver in schedules.json in $GLIM_CACHE_DIR, $XDG_CACHE_HOME/glim
-// or ~/.cache/glim; another version of glim measures it again. If anything is wrong with that file, it counts as missing: no bit of a
-// picture depends on it. A software device is never measured: its time is that of a CPU which others use too, and it takes the persistent
-// schedule by design (tests/bench/README.md).
+// The faster schedule of a device, measured once. It is kept by device and driver in schedules.json in $GLIM_CACHE_DIR,
+// $XDG_CACHE_HOME/glim or ~/.cache/glim; another version of glim measures again. If anything is wrong with that file, it counts as missing:
+// no bit of a picture depends on it. A software device is never measured, because other programs use its CPU too. It always takes the
+// persistent schedule (tests/bench/README.md).
 #pragma once
 
 #include "host/render/measure_schedules.hpp"

@@ -1,4 +1,4 @@
-// The options of pictures to look at: the files, and how light becomes their colours.
+// The options of pictures to look at (PNG, JPEG, WebP): their files, exposure and tone mapping.
 #pragma once
 
 #include "host/job/option_table.hpp"

@@ -1,5 +1,6 @@
-// What can be asked of a job or of a command: names, help, where values go, and which options go together. A command line sets options by
-// text; programs set them by values. Own code, since CLI11 knows words alone; it reads those of the command line (host/cli/command.cpp).
+// The options of a job or of a command: names, help, where values go, and which options can be combined. A command line sets options as
+// text; programs set them as values. This is glim's own code, since CLI11 has only text; CLI11 parses the command line
+// (host/cli/command.cpp).
 #pragma once
 
 #include "host/error.hpp"

@@ -1,4 +1,4 @@
-// What came of a command: its exit code and, if it was refused or failed, why.
+// The result of a command: its exit code and, if it was refused or failed, the reason.
 #pragma once
 
 #include "host/error.hpp"

@@ -1,4 +1,4 @@
-// One process at a time may write a film.
+// A lock, so that only one process at a time writes a film.
 #pragma once
 
 #include "host/message.hpp"

@@ -30,14 +30,16 @@ void labelFilm(Film& film, const RenderJob& options)
     film.identity.settings += describeCamera(options.pose, options.lens);
 }
 
-std::string describeOther(const Film& film, const SceneSession& session, const PictureFrame& frame, const RenderJob& options)
+std::optional<Message> findOther(const Film& film, const SceneSession& session, const PictureFrame& frame, const RenderJob& options)
 {
     Film expected = emptyFilm(frame.settings);
     expected.identity = makeIdentity(SceneIdentity(session.prepared().flat), frame.camera, frame.settings);
     labelFilm(expected, options);
-    return film.identity.kernels != expected.identity.kernels
-               ? "it is by another version of glim's kernels; `glim merge` adds samples that this one renders"
-               : describeDifference(film, expected);
+    if (film.identity.kernels != expected.identity.kernels) {
+        return Message(MessageId::Mismatch, {"it is by another version of glim's ", part::place("kernels"),
+                                             "; `glim merge` adds samples that this one renders"});
+    }
+    return findDifference(film, expected);
 }
 
 void resumeFrom(Renderer& renderer, StoredFilm stored, const MessagePart& name)

@@ -1,4 +1,4 @@
-// One picture of a session, in memory.
+// Renders one picture of a session, in memory.
 #pragma once
 
 #include "host/job/scene_session.hpp"
@@ -25,8 +25,8 @@ PictureFrame framePicture(const SceneSession& session, const RenderJob& options)
 // Adds what the film's file says besides its samples, so that the film can be made again from it.
 void labelFilm(Film& film, const RenderJob& options);
 
-// In what a film is not of the picture, as in "its seed is 1, expected 0"; empty if it is of it.
-std::string describeOther(const Film& film, const SceneSession& session, const PictureFrame& frame, const RenderJob& options);
+// In what a film is not of the picture, as in "its seed is 1, expected 0"; nothing if it is of it.
+std::optional<Message> findOther(const Film& film, const SceneSession& session, const PictureFrame& frame, const RenderJob& options);
 
 // Lets the renderer go on from a film of the picture, which `name` names in messages. Throws InputError if it cannot. Says what it does.
 void resumeFrom(Renderer& renderer, StoredFilm stored, const MessagePart& name);

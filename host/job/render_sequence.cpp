@@ -297,11 +297,11 @@ std::optional<StoredFilm> SequenceRenderer::readOutput(const RenderJob& options,
         }
         return std::nullopt;
     }
-    const std::string difference = describeOther(stored.film, session_, frame, options);
-    if (!difference.empty() && options.checkpoint.resume) {
-        throw InputError(MessageId::Mismatch, {part::file(options.output), ": cannot be resumed: ", difference, "."});
+    const std::optional<Message> difference = findOther(stored.film, session_, frame, options);
+    if (difference && options.checkpoint.resume) {
+        throw InputError(Message(*difference, {part::file(options.output), ": cannot be resumed: ", difference->sentence, "."}));
     }
-    return difference.empty() ? std::optional(std::move(stored)) : std::nullopt;
+    return difference ? std::nullopt : std::optional(std::move(stored));
 }
 
 // Keeps a film that is whole already; its PNGs may be of another exposure, and are drawn again.

@@ -18,19 +18,25 @@ constexpr std::uint32_t kBlockSide = 8;
 constexpr std::size_t kMinBlocks = 16;  // below, a normal interval from the blocks' spread would be too narrow
 constexpr double kAbsoluteEpsilon = 0.01;
 
+[[noreturn]] void refuseOtherPart(const char* what, std::uint32_t begin, std::uint32_t expected)
+{
+    throw InputError(MessageId::Mismatch, {"The pictures begin with ", part::place(what), " ", part::value(std::to_string(begin)), " and ",
+                                           part::expected(std::to_string(expected)), " of a larger one, expected the same ", what, "."});
+}
+
 void checkSizes(const Picture& picture, const Picture& reference)
 {
     if (picture.width != reference.width || picture.height != reference.height) {
-        throw InputError("The pictures are " + std::to_string(picture.width) + "x" + std::to_string(picture.height) + " and " +
-                         std::to_string(reference.width) + "x" + std::to_string(reference.height) + ", expected equal sizes.");
+        throw InputError(
+            MessageId::Mismatch,
+            {"The pictures are ", part::value(std::to_string(picture.width) + "x" + std::to_string(picture.height)), " and ",
+             part::expected(std::to_string(reference.width) + "x" + std::to_string(reference.height)), ", expected equal sizes."});
     }
     if (picture.columnsLeft != reference.columnsLeft) {
-        throw InputError("The pictures begin with columns " + std::to_string(picture.columnsLeft) + " and " +
-                         std::to_string(reference.columnsLeft) + " of a larger one, expected the same columns.");
+        refuseOtherPart("columns", picture.columnsLeft, reference.columnsLeft);
     }
     if (picture.rowsAbove != reference.rowsAbove) {
-        throw InputError("The pictures begin with rows " + std::to_string(picture.rowsAbove) + " and " +
-                         std::to_string(reference.rowsAbove) + " of a larger one, expected the same rows.");
+        refuseOtherPart("rows", picture.rowsAbove, reference.rowsAbove);
     }
 }
 
@@ -45,7 +51,7 @@ std::vector<bool> findComparable(const Picture& picture, const Picture& referenc
         result.compared += comparable[i];
     }
     if (result.compared == 0) {
-        throw InputError("No pixel is finite in both pictures, expected at least one to compare.");
+        throw InputError(MessageId::Empty, {"No pixel is finite in both pictures, expected at least one to compare."});
     }
     return comparable;
 }

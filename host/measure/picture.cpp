@@ -16,8 +16,8 @@ std::vector<glm::vec3> colors(const Image& image, const std::string& layer, cons
         const std::string channel = layer + letters[static_cast<std::size_t>(c)];
         const auto plane = image.channels.find(channel);
         if (plane == image.channels.end()) {
-            throw InputError(name + ": has no half or float channel " + channel + ", expected " + layer + "R, " + layer + "G and " + layer +
-                             "B.");
+            throw InputError(MessageId::Missing, {part::file(name), ": has no half or float channel ", part::place(channel), ", expected ",
+                                                  part::expected(layer + "R, " + layer + "G and " + layer + "B"), "."});
         }
         for (std::size_t i = 0; i < values.size(); ++i) {
             values[i][c] = plane->second[i];
@@ -65,15 +65,18 @@ Picture makePicture(const Image& image, const std::string& name)
 void setVariance(Picture& picture, const Image& image, const std::string& name)
 {
     if (image.width != picture.width || image.height != picture.height) {
-        throw InputError(name + ": is " + std::to_string(image.width) + "x" + std::to_string(image.height) + ", expected the reference's " +
-                         std::to_string(picture.width) + "x" + std::to_string(picture.height) + ".");
+        throw InputError(
+            MessageId::Mismatch,
+            {part::file(name), ": is ", part::value(std::to_string(image.width) + "x" + std::to_string(image.height)),
+             ", expected the reference's ", part::expected(std::to_string(picture.width) + "x" + std::to_string(picture.height)), "."});
     }
     picture.variance = colors(image, "", name);
     for (std::size_t i = 0; i < picture.variance.size(); ++i) {
         const glm::vec3& variance = picture.variance[i];
         if (std::fmin(variance.x, std::fmin(variance.y, variance.z)) < 0) {
-            throw InputError(name + ": pixel (" + std::to_string(i % picture.width) + ", " + std::to_string(i / picture.width) +
-                             ") is negative, expected a variance.");
+            const std::string pixel = "pixel (" + std::to_string(i % picture.width) + ", " + std::to_string(i / picture.width) + ")";
+            throw InputError(MessageId::OutOfRange, {part::file(name), ": ", part::place(pixel), " is ", part::value("negative"),
+                                                     ", expected ", part::expected("a variance"), "."});
         }
     }
 }

@@ -106,12 +106,13 @@ ZTest zTest(const Picture& picture, const Picture& reference, double alpha)
 {
     const std::size_t pixels = reference.radiance.size();
     if (picture.radiance.size() != pixels || picture.variance.size() != pixels || reference.variance.size() != pixels) {
-        throw InputError("A z-test was asked of pictures that differ in size or lack a variance, expected both known.");
+        throw InputError(MessageId::Mismatch,
+                         {"A z-test was asked of pictures that differ in size or lack a variance, expected both known."});
     }
     ZTest test;
     const Region whole = addBlocks(test, picture, reference);
     if (test.compared == 0) {
-        throw InputError("No pixel has a finite value and a known variance in both pictures, expected at least one.");
+        throw InputError(MessageId::Empty, {"No pixel has a finite value and a known variance in both pictures, expected at least one."});
     }
     test.meanLimit = twoSidedLimit(sidakLevel(alpha, 3));
     test.blockLimit = twoSidedLimit(sidakLevel(alpha, test.blocks[0] + test.blocks[1] + test.blocks[2]));

@@ -11,8 +11,9 @@ void checkMemory(const PreparedScene& prepared, const RenderSettings& settings, 
 {
     const std::uint64_t pathsAtOnce = std::uint64_t{device.maxGroups} * settings.workgroup;
     if (settings.pathCapacity > pathsAtOnce) {
-        throw InputError("Device \"" + device.name + "\" starts at most " + std::to_string(pathsAtOnce) + " paths at once, expected " +
-                         std::to_string(settings.pathCapacity) + " (--path-capacity).");
+        throw InputError(MessageId::DeviceLimit, {"Device \"", device.name, "\" starts at most ", part::value(std::to_string(pathsAtOnce)),
+                                                  " paths at once, expected ", part::expected(std::to_string(settings.pathCapacity)), " (",
+                                                  part::place("--path-capacity"), ")."});
     }
     const std::uint64_t pixels = settings.pixelCount();
     const bool light = tracesLight(prepared.flat, settings);
@@ -25,26 +26,29 @@ void checkMemory(const PreparedScene& prepared, const RenderSettings& settings, 
     const std::uint64_t films = 2 + second + (checkpoints ? 2 * (3 + second) : 0) + (settings.halves ? 4 : 0);
     const std::uint64_t onHost =
         pixels * (films * sizeof(PixelMoments) + (light ? films * sizeof(SplatMoments) + SplatSums::kPixelBytes : 0));
-    const auto refuse = [&](std::uint64_t needed, const std::string& owner, std::uint64_t there) {
+    const auto refuse = [&](std::uint64_t needed, const MessagePart& owner, std::uint64_t there) {
         if (needed > there) {
             const std::uint64_t textures = imageBytes(prepared.flat);
-            throw InputError(prepared.scene.file + ": the scene and a picture of " + std::to_string(settings.width) + "x" +
-                             std::to_string(settings.height) + " need " + std::to_string(needed >> 20) + " MiB, which is " +
-                             std::to_string((needed - there) >> 20) + " MiB more memory than " + owner + " has" +
-                             (textures < needed / 4
-                                  ? "."
-                                  : "; " + std::to_string(textures >> 20) + " MiB are textures, which --max-texture N scales down."));
+            throw InputError(
+                MessageId::OutOfMemory,
+                {part::file(prepared.scene.file), ": the scene and a picture of ", std::to_string(settings.width), "x",
+                 std::to_string(settings.height), " need ", part::value(std::to_string(needed >> 20) + " MiB"), ", which is ",
+                 std::to_string((needed - there) >> 20), " MiB more memory than ", owner, " has",
+                 textures < needed / 4 ? "."
+                                       : "; " + std::to_string(textures >> 20) + " MiB are textures, which --max-texture N scales down."});
         }
     };
+    const MessagePart machine = part::place("this machine");
     if (device.software) {
-        refuse(onHost + onDevice, "this machine", machineBytes());
+        refuse(onHost + onDevice, machine, machineBytes());
         if (const std::optional<AddressLimit> limit = addressLimit()) {
-            refuse(onHost + onDevice + driverAddresses(), "the process, by its limit (ulimit -v),", limit->bytes);
+            const MessagePart process(MessagePart::Kind::Place, "the process, by its limit (ulimit -v),", "ulimit -v");
+            refuse(onHost + onDevice + driverAddresses(), process, limit->bytes);
         }
         return;
     }
-    refuse(onHost, "this machine", machineBytes());
-    refuse(onDevice, "device \"" + device.name + "\"", device.memory);
+    refuse(onHost, machine, machineBytes());
+    refuse(onDevice, part::place("device \"" + device.name + "\""), device.memory);
 }
 
 }  // namespace glim

@@ -1,4 +1,4 @@
-// Whether a picture fits into memory.
+// Checks whether a picture fits into memory.
 #pragma once
 
 #include "host/gpu/device.hpp"

@@ -1,4 +1,4 @@
-// Whether the kernels could do all their work.
+// Checks whether the kernels could do all their work.
 #pragma once
 
 #include "host/render/path_buffers.hpp"

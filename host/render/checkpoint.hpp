@@ -1,4 +1,4 @@
-// What a render needs to go on as if it had never stopped.
+// The state that a render needs to continue as if it had never stopped.
 #pragma once
 
 #include "host/render/sample_plan.hpp"

@@ -18,9 +18,10 @@ void refuseTooMany(const FlatScene& scene, const RenderSettings& settings)
     const auto deltas = static_cast<std::uint64_t>(std::count_if(scene.lights.begin(), scene.lights.end(), isDelta));
     const std::uint64_t rays = deltas + (scene.lights.size() - deltas) * settings.course.lightSamples;
     if (settings.course.direct == DirectLight::Lights && rays > kMax) {
-        throw InputError("--direct lights: the scene's " + std::to_string(scene.lights.size()) + " lights with " +
-                         std::to_string(settings.course.lightSamples) + " samples each would take " + std::to_string(rays) +
-                         " rays per hit, expected at most " + std::to_string(kMax) + ".");
+        throw InputError(MessageId::TooLarge,
+                         {part::place("--direct"), " lights: the scene's ", std::to_string(scene.lights.size()), " lights with ",
+                          std::to_string(settings.course.lightSamples), " samples each would take ", part::value(std::to_string(rays)),
+                          " rays per hit, expected ", part::expected("at most " + std::to_string(kMax)), "."});
     }
 }
 
@@ -28,9 +29,9 @@ void refuseMissing(const FlatScene& scene, const RenderSettings& settings)
 {
     const std::optional<std::string> missing = missingInCourse(scene.features);
     if (missing && usesCourseEstimators(settings)) {
-        throw InputError("the scene has " + *missing +
-                         ", which the course's estimators do not know; expected the defaults of --direct, --roulette, --accelerator and "
-                         "--intersector.");
+        throw InputError(MessageId::Unsupported,
+                         {"the scene has ", part::value(*missing), ", which the course's estimators do not know; expected ",
+                          part::expected("the defaults of --direct, --roulette, --accelerator and --intersector"), "."});
     }
 }
 

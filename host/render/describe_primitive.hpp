@@ -1,4 +1,4 @@
-// The file's names for what rays hit.
+// Describes the primitive that a ray has hit, by the names in the scene's file.
 #pragma once
 
 #include "host/render/prepare_scene.hpp"

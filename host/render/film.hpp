@@ -1,4 +1,4 @@
-// A picture, what is known of its error, and what it shows.
+// A picture with its variance, its AOVs and its identity.
 #pragma once
 
 #include "shaders/shared/pixel_moments.h"

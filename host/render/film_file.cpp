@@ -93,7 +93,8 @@ void takePlane(const fs::path& path, const std::map<std::string, std::vector<Val
 {
     const auto plane = planes.find(name);
     if (plane == planes.end()) {
-        throw InputError(path.string() + ": is not a complete film: it has no channel " + name + " of the expected type.");
+        throw InputError(MessageId::FileDamaged,
+                         {part::file(path), ": is not a complete film: it has no channel ", part::place(name), " of the expected type."});
     }
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         std::memcpy(reinterpret_cast<std::byte*>(&pixels[i]) + offset, &plane->second[i], sizeof(Value));
@@ -337,7 +338,8 @@ Value attribute(const fs::path& path, const Image& image, const std::string& nam
 {
     const auto entry = image.attributes.find(name);
     if (entry == image.attributes.end() || !std::holds_alternative<Value>(entry->second)) {
-        throw InputError(path.string() + ": is not a film written by glim: it has no attribute " + name + " of the expected type.");
+        throw InputError(MessageId::UnknownFormat, {part::file(path), ": is not a film written by glim: it has no attribute ",
+                                                    part::place(name), " of the expected type."});
     }
     return std::get<Value>(entry->second);
 }
@@ -353,7 +355,8 @@ std::string textIfPresent(const Image& image, const std::string& name)
 void checkDigest(const fs::path& path, const std::string& what, const std::string& digest, const std::string& expected)
 {
     if (digest != expected) {
-        throw InputError(path.string() + ": is damaged: the SHA-256 of " + what + " is " + digest + ", expected " + expected + ".");
+        throw InputError(MessageId::FileDamaged, {part::file(path), ": is damaged: the SHA-256 of its ", part::place(what), " is ",
+                                                  part::value(digest), ", expected ", part::expected(expected), "."});
     }
 }
 
@@ -379,18 +382,20 @@ Film filmOfHeader(const fs::path& path, const Image& image)
 {
     const double format = attribute<double>(path, image, "glim:film");
     if (!(format >= kUnsealed && format <= kFormatWithSplats && format == std::floor(format))) {
-        throw InputError(path.string() + ": is a film of format " + exactText(format) + ", expected format " + exactText(kUnsealed) +
-                         " to " + exactText(kFormatWithSplats) + ".");
+        throw InputError(MessageId::UnknownFormat,
+                         {part::file(path), ": is a film of format ", part::value(exactText(format)), ", expected ",
+                          part::expected("format " + exactText(kUnsealed) + " to " + exactText(kFormatWithSplats)), "."});
     }
     const double seed = attribute<double>(path, image, "glim:seed");
     if (!(seed >= 0 && seed <= std::numeric_limits<std::uint32_t>::max() && seed == std::floor(seed))) {
-        throw InputError(path.string() + ": its seed is " + std::to_string(seed) + ", expected a 32-bit whole number.");
+        throw InputError(MessageId::OutOfRange, {part::file(path), ": its ", part::place("seed"), " is ", part::value(std::to_string(seed)),
+                                                 ", expected ", part::expected("a 32-bit whole number"), "."});
     }
     const auto samples = attribute<std::string>(path, image, "glim:samples");
     const auto ranges = parseRanges(samples);
     if (!ranges || ranges->empty()) {
-        throw InputError(path.string() + ": its sample ranges are \"" + samples +
-                         "\", expected ascending disjoint ranges such as \"0:256 512:768\".");
+        throw InputError(MessageId::Malformed, {part::file(path), ": its ", part::place("sample ranges"), " are ", part::quoted(samples),
+                                                ", expected ", part::expected("ascending disjoint ranges such as \"0:256 512:768\""), "."});
     }
     Film film;
     film.width = image.width;
@@ -447,7 +452,7 @@ Film filmOfImage(const fs::path& path, const Image& image)
         takeLayers(path, kMeanLayers, image, film.pixels);
     }
     if (const std::string digest = textIfPresent(image, "glim:digest"); !digest.empty()) {
-        checkDigest(path, "its samples", computeDigest(film), digest);
+        checkDigest(path, "samples", computeDigest(film), digest);
     }
     return film;
 }
@@ -467,7 +472,8 @@ Checkpoint readCheckpoint(const fs::path& path, const Image& image, const Film& 
         progress.adaptive = a;
     }
     if (stream.fail() || !stream.eof() || progress.pixelsAhead >= pixels || (folded != kAll && folded != kNothing && folded != kApart)) {
-        throw InputError(path.string() + ": is damaged: its progress is \"" + text + "\".");
+        throw InputError(MessageId::FileDamaged,
+                         {part::file(path), ": is damaged: its ", part::place("progress"), " is ", part::quoted(text), "."});
     }
     if (folded != kAll) {
         checkpoint.film.pixels.assign(pixels, PixelMoments{});
@@ -483,7 +489,7 @@ Checkpoint readCheckpoint(const fs::path& path, const Image& image, const Film& 
         takePlane(path, image.counts, "chosen.X", 0, adaptive->chosen);
         takePlane(path, image.counts, "blocksLeft.X", 0, adaptive->blocksLeft);
     }
-    checkDigest(path, "its checkpoint", computeDigest(checkpoint), attribute<std::string>(path, image, kProgressDigest));
+    checkDigest(path, "checkpoint", computeDigest(checkpoint), attribute<std::string>(path, image, kProgressDigest));
     return checkpoint;
 }
 

@@ -6,7 +6,7 @@
 // albedo.RGB, normal.XYZ, depth.Z   as in PixelMoments; depth is infinity where every sample missed
 // count.X, blocks.X, squares.RGB, clamped.X   the rest of PixelMoments, which merging needs
 //
-// With light paths, R, G, B and variance are of camera and light paths together, and there are more layers for merging:
+// If the render has light paths, R, G, B and variance are those of camera and light paths together, and there are more layers for merging:
 // camera.RGB   PixelMoments::mean
 // splats.RGB, splatSquares.RGB, splatClamped.X, splatCount.X, splatBlocks.X   SplatMoments
 //
@@ -15,7 +15,7 @@
 //
 // denoised.RGB, denoisedError.RGB   a denoised picture and its estimated RMSE, for viewing: reading a film ignores them
 //
-// By glim:digest, glim:headerDigest and glim:pixels damage is noticed and films are compared (film.hpp).
+// glim:digest, glim:headerDigest and glim:pixels serve to notice damage and to compare films (film.hpp).
 //
 // Layers end in one letter, as Blender expects; the attributes are named glim:*.
 #pragma once

@@ -1,4 +1,4 @@
-// The samples of a film in two independent halves, by which the error of a denoised picture is measured.
+// The samples of a film in two independent halves, from which the error of a denoised picture is measured.
 #pragma once
 
 #include "host/render/film.hpp"

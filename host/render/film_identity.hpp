@@ -1,4 +1,4 @@
-// The identity that a render gives to its film (film.hpp says what films are compared by).
+// The identity that a render gives to its film. film.hpp says how films are compared by it.
 #pragma once
 
 #include "host/flatten/flat_scene.hpp"

@@ -1,4 +1,4 @@
-// Films as pictures to look at.
+// Turns films into pictures to look at.
 #pragma once
 
 #include "host/render/aov.hpp"

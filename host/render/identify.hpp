@@ -2,10 +2,10 @@
 //
 // node.X, mesh.X, material.X   index in the file of what covers most of the pixel; kNoIndex where that is nothing, or nothing of the
 //                              file (the default material, the mesh of a sphere)
-// CryptoObject, CryptoAsset, CryptoMaterial   of nodes, meshes and materials (host/image/cryptomatte.hpp). What has no name is called
-//                              node.N, mesh.N or material.N by its index, mesh.sphere or material.default
+// CryptoObject, CryptoAsset, CryptoMaterial   of nodes, meshes and materials (host/image/cryptomatte.hpp). Without a name they are called
+//                              node.N, mesh.N or material.N by their index, mesh.sphere or material.default
 //
-// A mesh is to the nodes that share it what an asset is. Blender's reader knows these three layers alone.
+// Meshes use CryptoAsset, since nodes share a mesh as objects share an asset, and since Blender reads only these three layers.
 #pragma once
 
 #include "host/image/image.hpp"

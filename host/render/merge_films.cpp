@@ -41,38 +41,38 @@ std::string rowsText(const Film& film)
     return std::to_string(film.rowsAbove) + ":" + std::to_string(std::uint64_t{film.rowsAbove} + film.height);
 }
 
-std::string describe(const std::string& what, const std::string& value, const std::string& expected)
+Message mismatch(const std::string& what, const std::string& value, const std::string& expected)
 {
-    return "its " + what + " is " + value + ", expected " + expected;
+    return {MessageId::Mismatch, {"its ", part::place(what), " is ", part::value(value), ", expected ", part::expected(expected)}};
 }
 
-// As describeDifference, but for the rows.
-std::string describeOtherPicture(const Film& film, const Film& first)
+// As findDifference, but for the rows.
+std::optional<Message> findOtherPicture(const Film& film, const Film& first)
 {
     const auto sizeOf = [](const Film& of) {
         return std::to_string(of.width) + "x" + std::to_string(std::uint64_t{of.rowsAbove} + of.height + of.rowsBelow);
     };
     if (sizeOf(film) != sizeOf(first)) {
-        return describe("size", sizeOf(film), sizeOf(first));
+        return mismatch("size", sizeOf(film), sizeOf(first));
     }
     if (film.identity.scene != first.identity.scene) {
-        return describe("scene, camera or environment", quoted(film.identity.scene) + " (" + film.sceneFile + ")",
+        return mismatch("scene, camera or environment", quoted(film.identity.scene) + " (" + film.sceneFile + ")",
                         quoted(first.identity.scene) + " (" + first.sceneFile + ")");
     }
     if (film.identity.seed != first.identity.seed) {
-        return describe("seed", std::to_string(film.identity.seed), std::to_string(first.identity.seed));
+        return mismatch("seed", std::to_string(film.identity.seed), std::to_string(first.identity.seed));
     }
     if (film.identity.settings != first.identity.settings) {
         const auto [value, expected] = firstDifference(film.identity.settings, first.identity.settings);
-        return describe("setting", quoted(value), quoted(expected));
+        return mismatch("setting", quoted(value), quoted(expected));
     }
-    return {};
+    return std::nullopt;
 }
 
 void checkSamePicture(const Film& film, const std::string& name, const Film& first, const std::string& firstName)
 {
-    if (const std::string difference = describeOtherPicture(film, first); !difference.empty()) {
-        throw InputError(name + ": cannot be merged with " + firstName + ": " + difference + ".");
+    if (const std::optional<Message> other = findOtherPicture(film, first)) {
+        throw InputError(Message(*other, {part::file(name), ": cannot be merged with ", firstName, ": ", other->sentence, "."}));
     }
 }
 
@@ -95,9 +95,10 @@ void checkDisjoint(const std::vector<Film>& films, const std::vector<std::string
         const auto& [before, first] = ranges[i - 1];
         const auto& [range, second] = ranges[i];
         if (haveSameRows(films[first], films[second]) && range.first < before.second) {
-            throw InputError(names[second] + ": cannot be merged with " + names[first] + ": both hold samples " +
-                             std::to_string(range.first) + ":" + std::to_string(std::min(range.second, before.second)) +
-                             ", expected disjoint ranges.");
+            throw InputError(MessageId::Duplicate,
+                             {part::file(names[second]), ": cannot be merged with ", names[first], ": both hold ", part::place("samples"),
+                              " ", part::value(std::to_string(range.first) + ":" + std::to_string(std::min(range.second, before.second))),
+                              ", expected ", part::expected("disjoint ranges"), "."});
         }
     }
 }
@@ -150,13 +151,16 @@ void appendRows(Film& film, Film below)
 // Whether bands of one run are one run together. Refuses `below` unless it is the next band of `above`, with the same samples.
 bool continuesBelow(const Film& above, const Film& below, const std::string& name)
 {
-    const std::string itsRows = name + ": cannot be merged: its rows " + rowsText(below);
+    const MessagePart itsRows = part::place("rows " + rowsText(below));
     if (below.rowsAbove != std::uint64_t{above.rowsAbove} + above.height) {
-        throw InputError(itsRows + " come after rows " + rowsText(above) + ", expected the same rows or those that begin where they end.");
+        throw InputError(MessageId::Mismatch,
+                         {part::file(name), ": cannot be merged: its ", itsRows, " come after ", part::value("rows " + rowsText(above)),
+                          ", expected ", part::expected("the same rows or those that begin where they end"), "."});
     }
     if (below.sampleRanges != above.sampleRanges) {
-        throw InputError(itsRows + " have samples " + sampleRangesText(below) + ", expected " + sampleRangesText(above) + " as rows " +
-                         rowsText(above) + " have.");
+        throw InputError(MessageId::Mismatch,
+                         {part::file(name), ": cannot be merged: its ", itsRows, " have samples ", part::value(sampleRangesText(below)),
+                          ", expected ", part::expected(sampleRangesText(above)), " as rows ", rowsText(above), " have."});
     }
     return above.identity.kernels == below.identity.kernels && above.arithmetic == below.arithmetic;
 }
@@ -197,10 +201,10 @@ bool continuesExactly(const Film& film, const Film& next)
     return alike && begin == film.sampleRanges.front().second && begin % kPageSamples == 0 && end - begin <= kPageSamples;
 }
 
-std::string describeDifference(const Film& film, const Film& first)
+std::optional<Message> findDifference(const Film& film, const Film& first)
 {
-    const std::string difference = describeOtherPicture(film, first);
-    return difference.empty() && !haveSameRows(film, first) ? describe("range of rows", rowsText(film), rowsText(first)) : difference;
+    const std::optional<Message> difference = findOtherPicture(film, first);
+    return difference || haveSameRows(film, first) ? difference : mismatch("range of rows", rowsText(film), rowsText(first));
 }
 
 MergePlan planMerge(const std::vector<Film>& films, const std::vector<std::string>& names)

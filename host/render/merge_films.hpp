@@ -1,17 +1,20 @@
-// Films of the same picture, folded in order of their samples, and bands of its rows, put together.
+// Merges films of the same picture: folds them in order of their samples, and puts bands of rows together.
 //
-// A render is the left fold of its pages of kPageSamples. So a merge gives the bits of the single run if and only if the first film is
-// one contiguous run and each further one continues it from a page's beginning by at most that page. Such ranges are joined ("0:512").
-// Ranges that were merged only up to rounding stay apart ("0:512 512:1024"), so that a film never claims the bits of a run it does not
+// A render is the left fold of its pages of kPageSamples. So a merge gives the bits of a single run if and only if the first film is one
+// contiguous run, and each further film begins at the start of the next page and holds at most that page. Such ranges are joined ("0:512").
+// Ranges that were merged only up to rounding stay apart ("0:512 512:1024"), so that a film never claims the bits of a run that it does not
 // equal. A block that the ranges cut in two counts as two blocks.
 //
-// Films of some rows (--rows) are folded by themselves. Then the bands, which must be adjacent and have the same samples, become one film.
+// Films of a band of rows (--rows) are first folded band by band. Then the bands, which must be adjacent and have the same samples, become
+// one film.
 #pragma once
 
+#include "host/message.hpp"
 #include "host/render/film.hpp"
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 
 namespace glim {
 
@@ -23,8 +26,8 @@ struct MergePlan {
 // Looks at the headers only. Refuses different pictures, overlapping samples and rows that do not fit (InputError, which uses `names`).
 MergePlan planMerge(const std::vector<Film>& films, const std::vector<std::string>& names);
 
-// In what `film` is of another picture or other rows than `first`, as in "its seed is 1, expected 0"; empty if it is of the same.
-std::string describeDifference(const Film& film, const Film& first);
+// In what `film` is of another picture or other rows than `first`, as in "its seed is 1, expected 0"; nothing if it is of the same.
+std::optional<Message> findDifference(const Film& film, const Film& first);
 
 // Whether both are of the same picture and have a sample in common.
 bool shareSamples(const Film& a, const Film& b);

@@ -1,4 +1,4 @@
-// The buffers that kernels pass to each other, for all paths in flight, and the pixels that these add up to.
+// The buffers by which kernels pass data of all paths in flight to each other, and the pixels to which these paths add.
 #pragma once
 
 #include "host/gpu/kernel.hpp"

@@ -170,7 +170,8 @@ const Camera& findCamera(const Scene& scene, const std::optional<std::string>& c
         }
     }
     list += moreThanListed(scene.cameras.size());
-    throw InputError(scene.file + ": camera " + inQuotes(*choice) + ": expected one of " + list + ".");
+    throw InputError(MessageId::UnknownName, {part::file(scene.file), ": ", part::place("camera"), " ", part::quoted(*choice),
+                                              ": expected one of ", part::expected(list), "."});
 }
 
 FlatCamera flattenCamera(const PreparedScene& prepared, const Camera& camera, float aspectRatio, const Lens& lens)

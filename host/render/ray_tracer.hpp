@@ -1,4 +1,4 @@
-// Traces rays alone, without paths: those of a click, and those of a benchmark.
+// Traces single rays without paths, for clicks in the window and for benchmarks.
 #pragma once
 
 #include "host/render/render_resources.hpp"

@@ -12,9 +12,9 @@ Schedule chooseSchedule(const RenderSettings& settings, const DeviceDescription&
 {
     const bool course = usesCourseEstimators(settings);
     if (settings.schedule == Schedule::Persistent && course) {
-        throw InputError(
-            "--schedule persistent: the course's estimators (--direct, --roulette, --accelerator, --intersector) need "
-            "--schedule wavefront.");
+        throw InputError(MessageId::Conflict, {part::place("--schedule"), " ", part::value("persistent"),
+                                               ": the course's estimators (--direct, --roulette, --accelerator, --intersector) need ",
+                                               part::expected("--schedule wavefront"), "."});
     }
     if (settings.schedule != Schedule::Auto) {
         return settings.schedule;

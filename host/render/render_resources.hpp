@@ -1,5 +1,5 @@
-// What kernels work with: the scene, the path buffers, the parameters, and the kernels themselves. Passes (pass_tracer.hpp), rays
-// (ray_tracer.hpp) and single paths (replay.hpp) are traced with it.
+// The resources of a render: the scene, the path buffers, the parameters, and the kernels themselves. Passes (pass_tracer.hpp), rays
+// (ray_tracer.hpp) and single paths (replay.hpp) are traced with them.
 #pragma once
 
 #include "host/render/course.hpp"

@@ -1,4 +1,4 @@
-// Traces one path of a render again, alone, with the same kernels in the same order, and looks at it after each of them.
+// Traces one path of a render again, by itself, with the same kernels in the same order, and inspects the path after each kernel.
 #pragma once
 
 #include "host/render/render_resources.hpp"

@@ -1,4 +1,4 @@
-// The radiance that relative errors are measured against if there is no reference but the picture itself.
+// The radiance to which relative errors are relative if there is no reference picture.
 #pragma once
 
 #include "host/render/film.hpp"

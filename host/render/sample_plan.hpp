@@ -1,10 +1,11 @@
 // Which samples of which pixels come next, and which have been taken. Values, without a device.
 //
 // A pass traces some samples of some pixels to their end. A sweep is the passes that give all pixels, or those that an adaptive render has
-// chosen, the same number of samples. --adaptive neighbours works in rounds: sweeps over all pixels, then sweeps over chosen ones. These
-// take blocks of samples beyond those that all pixels will ever have.
+// chosen, the same number of samples. --adaptive neighbours works in rounds: sweeps over all pixels, then sweeps over chosen ones. Chosen
+// pixels take blocks of samples with higher indices than any block that all pixels will have.
 //
-// Which pixels share a pass depends on measured time: callers say how many `paths` it should have. The order of a pixel's samples does not.
+// Which pixels share a pass depends on measured time: callers say how many `paths` it should have. The order of a pixel's samples does not
+// depend on time.
 #pragma once
 
 #include "host/render/block_queue.hpp"

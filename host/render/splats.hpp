@@ -1,4 +1,4 @@
-// Light that light paths have brought to the pixels, on its way from the device to the film.
+// Splats: light that light paths add to pixels. Here they go from the device to the film.
 #pragma once
 
 #include "host/render/film.hpp"

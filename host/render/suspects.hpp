@@ -1,4 +1,4 @@
-// The samples that make a picture's fireflies.
+// Suspects: the brightest samples of a picture, which are its firefly candidates.
 #pragma once
 
 #include "host/render/renderer.hpp"

@@ -1,4 +1,4 @@
-// Where a scene's coordinates are to be 0, and what is too far from there for float32.
+// Chooses the origin of a scene's coordinates, and finds parts that are too far from it for float32.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,4 +1,4 @@
-// A change of a scene's file: what its object model has at a pointer.
+// A change to a scene's file: a new value at a pointer of its object model.
 #pragma once
 
 #include <string>

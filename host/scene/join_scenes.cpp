@@ -92,7 +92,8 @@ private:
     {
         const double distance = glm::length(world - scene_.origin);
         if (!(distance <= kMaxDistance)) {
-            throw InputError(added.scene.file + " is added " + exactText(distance) + " m away from the scene; expected at most 1e18 m");
+            throw InputError(MessageId::TooLarge, {part::file(added.scene.file), " is added ", part::value(exactText(distance)),
+                                                   " m away from the scene; expected ", part::expected("at most 1e18 m")});
         }
     }
 
@@ -107,8 +108,9 @@ private:
     {
         const double scale = computeUniformScale(glm::dmat3(added.worldFromScene));
         if (scale == 0.0) {
-            throw InputError(added.scene.file +
-                             " has spheres, and its matrix scales them unevenly or shears them; expected a uniform scale");
+            throw InputError(MessageId::Unsupported,
+                             {part::file(added.scene.file), " has spheres, and its matrix scales them unevenly or shears them; expected ",
+                              part::expected("a uniform scale")});
         }
         sphere.center = place(added, sphere.center);
         sphere.radius = static_cast<float>(scale * static_cast<double>(sphere.radius));
@@ -154,8 +156,9 @@ Scene joinScenes(Scene scene, const std::vector<AddedScene>& others, JoinedMeshe
         bytes += image.pixels->rgba8.size() + 2 * image.pixels->rgba16.size();
     }
     if (bytes > kMaxTextureBytes) {
-        throw InputError(scene.file + " and the files that are added have textures of more than " +
-                         std::to_string(kMaxTextureBytes >> 20U) + " MiB; expected fewer or smaller ones (--max-texture)");
+        throw InputError(MessageId::TooLarge, {part::file(scene.file), " and the files that are added have textures of more than ",
+                                               part::value(std::to_string(kMaxTextureBytes >> 20U)), " MiB; expected ",
+                                               part::expected("fewer or smaller ones (--max-texture)")});
     }
     // An edit may hide the last sphere of the default material, and then the numbers behind it change.
     if (firstMaterials != joined.firstMaterials || !areSame(parts, joined.parts)) {

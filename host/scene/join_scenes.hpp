@@ -1,4 +1,4 @@
-// Scenes of several files as one.
+// Joins the scenes of several files into one.
 #pragma once
 
 #include "host/scene/scene.hpp"

@@ -1,4 +1,4 @@
-// A property that changes over time, as glTF 2.0, appendix C, has it.
+// A property that changes over time, as defined in glTF 2.0, appendix C.
 #pragma once
 
 #include <cstddef>

@@ -72,9 +72,12 @@ std::size_t findAnimation(const GltfFile& file, const std::vector<Animation>& an
             known += (known.empty() ? "" : ", ") + describeAnimation(animations, i);
         }
     }
-    refuse(file,
-           "it has no animation" + (choice.empty() ? "" : ' ' + inQuotes(choice)) + "; expected " +
-               (known.empty() ? "no --at and no --frames, since it has none" : "one of " + known + moreThanListed(animations.size())));
+    const MessagePart expected = part::expected(known.empty() ? "no --at and no --frames, since it has none"
+                                                              : "one of " + known + moreThanListed(animations.size()));
+    if (choice.empty()) {
+        refuse(file, MessageId::Missing, {"it has no animation; expected ", expected});
+    }
+    refuse(file, MessageId::UnknownName, {"it has no animation ", part::quoted(choice), "; expected ", expected});
 }
 
 // The rest pose is what the file's nodes, weights and materials say, without any animation.
@@ -98,8 +101,9 @@ Environment readMap(const std::filesystem::path& path, const LoadOptions& option
     environment.source = path.string();
     scene.files.push_back(path);
     if (environment.map->repaired > 0) {
-        warnings.add(MessageId::RepairedTexels, path.string() + " holds " + counted(environment.map->repaired, "texel") +
-                                                    " that are negative or not finite; they count as 0");
+        warnings.add({MessageId::RepairedTexels,
+                      {part::file(path.string()), " holds ", part::value(counted(environment.map->repaired, "texel")),
+                       " that are negative or not finite; they count as 0"}});
     }
     return environment;
 }
@@ -115,7 +119,7 @@ std::optional<Environment> readNamedMap(const GltfFile& file, const LoadOptions&
     const tinygltf::Value& source = extras.Get("environment");
     const std::string place = label("scenes", index, file.model.scenes[index].name) + ".extras.environment";
     if (!source.IsObject() || !source.Has("file") || !source.Get("file").IsString()) {
-        warnings.add(MessageId::ExtrasIgnored, place + " has no \"file\" and is ignored");
+        warnings.add({MessageId::ExtrasIgnored, {part::place(place), " has no \"file\" and is ignored"}});
         return std::nullopt;
     }
     const std::string name = source.Get("file").Get<std::string>();
@@ -126,14 +130,16 @@ std::optional<Environment> readNamedMap(const GltfFile& file, const LoadOptions&
     try {
         environment = readMap(externalFile(file.path, name), options, decoded, scene, warnings);
     } catch (const InputError& error) {
-        refuse(file, place + " names the map " + inQuotes(name) + ", which cannot be read (" + error.what() + ")");
+        throw InputError(error, {part::file(file.path), ": ", part::place(place), " names the map ", part::quoted(name),
+                                 ", which cannot be read (", error.what(), ")"});
     }
     if (source.Has("strength")) {
         const tinygltf::Value& strength = source.Get("strength");
         const double factor = strength.IsNumber() ? strength.GetNumberAsDouble() : -1.0;
         if (!(factor >= 0.0 && factor <= kMaxFloat)) {
-            refuse(file, place + ".strength is " + (strength.IsNumber() ? toText(factor) : "not a number") +
-                             "; expected a number from 0 that fits a float");
+            refuse(file, MessageId::OutOfRange,
+                   {part::place(place + ".strength"), " is ", part::value(strength.IsNumber() ? toText(factor) : "not a number"),
+                    "; expected ", part::expected("a number from 0 that fits a float")});
         }
         environment.radiance = glm::vec3(static_cast<float>(factor));
     }
@@ -245,8 +251,9 @@ std::optional<std::size_t> findVariant(const GltfFile& file, const std::vector<s
     for (std::size_t i = 0; i < std::min(variants.size(), kMaxListed); ++i) {
         known += (known.empty() ? "" : ", ") + inQuotes(variants[i]);
     }
-    refuse(file, "it has no variant " + inQuotes(name) + "; expected " +
-                     (known.empty() ? "no --variant, since it has none" : "one of " + known + moreThanListed(variants.size())));
+    refuse(file, MessageId::UnknownName,
+           {"it has no variant ", part::quoted(name), "; expected ",
+            part::expected(known.empty() ? "no --variant, since it has none" : "one of " + known + moreThanListed(variants.size()))});
 }
 
 // The file's materials, then the default one. Those of unused ones say nothing.
@@ -432,16 +439,20 @@ void checkFilesOfEdits(const std::filesystem::path& path, const LoadOptions& opt
             for (const Addition& addition : options.additions) {
                 known += (known.empty() ? "" : ", ") + inQuotes(addition.file.filename().string());
             }
-            throw InputError(path.string() + ": --set " + edit.pointer + ": expected a pointer that begins with /" +
-                             (known.empty() ? ", since no file is added" : ", or with one of " + known + " and a #") + ".");
+            throw InputError(MessageId::Malformed,
+                             {part::file(path.string()), ": --set ", part::place(edit.pointer), ": expected ",
+                              part::expected("a pointer that begins with /" +
+                                             (known.empty() ? ", since no file is added" : ", or with one of " + known + " and a #")),
+                              "."});
         }
         if (files.size() > 1) {
             std::string candidates;
             for (const std::string& file : files) {
                 candidates += (candidates.empty() ? "" : ", ") + file;
             }
-            throw InputError(path.string() + ": --set " + edit.pointer + ": several added files have this name; expected one of " +
-                             candidates + " and a #.");
+            throw InputError(MessageId::AmbiguousName,
+                             {part::file(path.string()), ": --set ", part::place(edit.pointer),
+                              ": several added files have this name; expected ", part::expected("one of " + candidates + " and a #"), "."});
         }
     }
 }
@@ -519,7 +530,7 @@ Scene SceneFile::sceneAt(std::optional<double> seconds)
             contents_->firstMaterials.push_back(material);
             others.push_back({contents_->added[i].read(std::nullopt, own), options_.additions[i].worldFromFile});
             for (const Message& message : own.messages()) {
-                warnings.add(message.id, others.back().scene.file + ": " + message.sentence);
+                warnings.add(Message(message, {part::file(others.back().scene.file), ": ", message.sentence}));
             }
             node += static_cast<std::uint32_t>(others.back().scene.nodeNames.size());
             material += static_cast<std::uint32_t>(others.back().scene.materials.size());

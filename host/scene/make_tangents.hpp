@@ -1,6 +1,6 @@
-// Tangents for normal maps of meshes that come without: MikkTSpace (Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008),
-// which glTF 2.0 asks for (3.7.2.1), with no angular threshold. As glTF's tools do, it takes w for a v that grows downwards.
-// Own code, since Debian has no package of Mikkelsen's, and pictures have the bits of this one.
+// Tangents for normal maps of meshes that come without: MikkTSpace (Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008), which
+// glTF 2.0 asks for (3.7.2.1), with no angular threshold. As in glTF's tools, the sign w is that for a v that grows downwards. This is
+// glim's own code, since Debian has no package of Mikkelsen's, and since the bits of pictures depend on it.
 #pragma once
 
 #include "host/scene/scene.hpp"

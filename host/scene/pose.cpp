@@ -11,10 +11,12 @@ Camera placeCamera(const Camera& camera, const Pose& pose, const glm::dvec3& sce
     const glm::dvec3 ahead = pose.at - pose.from;
     const glm::dvec3 across = glm::cross(ahead, pose.up);
     if (!(glm::length(ahead) > 0.0)) {
-        throw InputError("--look-at: is where --look-from is; expected another point.");
+        throw InputError(MessageId::Degenerate,
+                         {part::place("--look-at"), ": is where --look-from is; expected ", part::expected("another point"), "."});
     }
     if (!(glm::length(across) > 1e-9 * glm::length(ahead) * glm::length(pose.up))) {
-        throw InputError("--look-up: expected a direction other than the one that the camera looks in.");
+        throw InputError(MessageId::Degenerate, {part::place("--look-up"), ": expected ",
+                                                 part::expected("a direction other than the one that the camera looks in"), "."});
     }
     const glm::dvec3 forward = glm::normalize(ahead), right = glm::normalize(across);
     Camera placed = camera;

@@ -40,39 +40,50 @@ public:
         if (entry_.contains("yfov")) {
             result.yfov = readNumber("yfov");
             if (!(*result.yfov > 0.0 && *result.yfov < kPi)) {
-                refuse(place_ + ".yfov is " + entry_["yfov"].dump() + "; expected radians between 0 and pi");
+                refuse(MessageId::OutOfRange, {part::place(place_ + ".yfov"), " is ", part::value(entry_["yfov"].dump()), "; expected ",
+                                               part::expected("radians between 0 and pi")});
             }
         }
         return result;
     }
 
 private:
-    [[noreturn]] void refuse(const std::string& sentence) const { throw InputError(file_ + ": " + sentence + "."); }
+    [[noreturn]] void refuse(MessageId id, std::initializer_list<MessagePart> words) const
+    {
+        const Message message(id, words);
+        throw InputError(Message(message, {part::file(file_), ": ", message.sentence, "."}));
+    }
 
     void checkMembers() const
     {
         if (!entry_.is_object()) {
-            refuse(place_ + " is " + entry_.dump().substr(0, 40) + "; expected an object");
+            refuse(MessageId::WrongType,
+                   {part::place(place_), " is ", part::value(entry_.dump().substr(0, 40)), "; expected ", part::expected("an object")});
         }
         constexpr std::array kMembers{"camera", "from", "at", "up", "zoom", "matrix", "yfov"};
         for (const auto& [name, value] : entry_.items()) {
             if (std::find(kMembers.begin(), kMembers.end(), name) == kMembers.end()) {
-                refuse(place_ + " has a member \"" + name + "\"; expected camera, from, at, up, zoom, matrix or yfov");
+                refuse(MessageId::UnknownName, {part::place(place_), " has a member \"", part::value(name), "\"; expected ",
+                                                part::expected("camera, from, at, up, zoom, matrix or yfov")});
             }
         }
         if (entry_.contains("from") != entry_.contains("at")) {
-            refuse(place_ + " has only one of from and at; expected both");
+            refuse(MessageId::Requires,
+                   {part::place(place_), " has only one of ", part::value("from and at"), "; expected ", part::expected("both")});
         }
         if (entry_.contains("matrix") && entry_.contains("from")) {
-            refuse(place_ + " has both matrix and from; expected one of them");
+            refuse(MessageId::Conflict,
+                   {part::place(place_), " has both ", part::value("matrix and from"), "; expected ", part::expected("one of them")});
         }
         for (const char* member : {"up", "zoom"}) {
             if (entry_.contains(member) && !entry_.contains("from")) {
-                refuse(place_ + " has a member \"" + member + "\" without from; expected from and at with it");
+                refuse(MessageId::Requires, {part::place(place_), " has a member \"", part::value(member), "\" without from; expected ",
+                                             part::expected("from and at with it")});
             }
         }
         if (entry_.contains("zoom") && entry_.contains("yfov")) {
-            refuse(place_ + " has both zoom and yfov; expected one of them");
+            refuse(MessageId::Conflict,
+                   {part::place(place_), " has both ", part::value("zoom and yfov"), "; expected ", part::expected("one of them")});
         }
     }
 
@@ -83,7 +94,8 @@ private:
             return std::to_string(camera.get<std::uint64_t>());
         }
         if (!camera.is_string()) {
-            refuse(place_ + ".camera is " + camera.dump().substr(0, 40) + "; expected a name or an index");
+            refuse(MessageId::WrongType, {part::place(place_ + ".camera"), " is ", part::value(camera.dump().substr(0, 40)), "; expected ",
+                                          part::expected("a name or an index")});
         }
         return camera.get<std::string>();
     }
@@ -91,7 +103,8 @@ private:
     double readNumber(const char* name) const
     {
         if (!entry_[name].is_number()) {
-            refuse(place_ + "." + name + " is " + entry_[name].dump().substr(0, 40) + "; expected a number");
+            refuse(MessageId::WrongType, {part::place(place_ + "." + name), " is ", part::value(entry_[name].dump().substr(0, 40)),
+                                          "; expected ", part::expected("a number")});
         }
         return entry_[name].get<double>();
     }
@@ -107,7 +120,8 @@ private:
             numbers[i] = valid ? value[i].get<double>() : 0.0;
         }
         if (!valid) {
-            refuse(place_ + "." + name + " is " + value.dump().substr(0, 40) + "; expected " + std::to_string(N) + " finite numbers");
+            refuse(MessageId::WrongType, {part::place(place_ + "." + name), " is ", part::value(value.dump().substr(0, 40)), "; expected ",
+                                          part::expected(std::to_string(N) + " finite numbers")});
         }
         return numbers;
     }
@@ -126,7 +140,8 @@ private:
         pose.up = entry_.contains("up") ? readPoint("up") : pose.up;
         pose.zoom = entry_.contains("zoom") ? readNumber("zoom") : pose.zoom;
         if (!(pose.zoom > 0.0 && std::isfinite(pose.zoom))) {
-            refuse(place_ + ".zoom is " + entry_["zoom"].dump() + "; expected a number above 0");
+            refuse(MessageId::OutOfRange, {part::place(place_ + ".zoom"), " is ", part::value(entry_["zoom"].dump()), "; expected ",
+                                           part::expected("a number above 0")});
         }
         return pose;
     }
@@ -136,7 +151,8 @@ private:
     {
         const glm::dvec3 up(m[4], m[5], m[6]), backward(m[8], m[9], m[10]);
         if (!(glm::length(glm::cross(up, backward)) > 0.0) || glm::length(glm::dvec4(m[3], m[7], m[11], m[15] - 1.0)) > kAffineRounding) {
-            refuse(place_ + ".matrix is not the pose of a camera; expected axes that differ and a last row of 0, 0, 0, 1");
+            refuse(MessageId::Degenerate, {part::place(place_ + ".matrix"), " is not the pose of a camera; expected ",
+                                           part::expected("axes that differ and a last row of 0, 0, 0, 1")});
         }
         Pose pose;
         pose.from = {m[12], m[13], m[14]};
@@ -157,7 +173,8 @@ std::vector<CameraEntry> readCameraFile(const std::filesystem::path& file)
     const std::vector<unsigned char> bytes = readBytes(file);
     const json document = parseJson(file.string(), std::string(bytes.begin(), bytes.end()));
     if (!document.is_array() || document.empty()) {
-        throw InputError(file.string() + ": expected an array of at least one camera.");
+        throw InputError(MessageId::WrongType,
+                         {part::file(file.string()), ": expected ", part::expected("an array of at least one camera"), "."});
     }
     std::vector<CameraEntry> entries;
     for (std::size_t i = 0; i < document.size(); ++i) {

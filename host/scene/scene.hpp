@@ -1,6 +1,6 @@
 // A scene as plain values: no Vulkan, no glTF. Meshes are in object space; instances place them in the world, in double. All other
-// positions are float32 relative to `origin`, which lies amid the scene in world coordinates (choose_origin.hpp) and was
-// subtracted in double: far from the world's origin nothing is lost.
+// positions are float32 relative to `origin`, a point amid the scene in world coordinates (choose_origin.hpp). It was subtracted in double,
+// so that a scene far from the world's origin loses no accuracy.
 #pragma once
 
 #include "host/image/decode_image.hpp"

@@ -1,4 +1,4 @@
-// Which meshes are kept once, however many instances they have.
+// Chooses the meshes that are stored once, however many instances they have.
 #pragma once
 
 #include "host/scene/scene.hpp"

@@ -1,4 +1,4 @@
-// What a matrix that keeps spheres makes of their radius.
+// The factor by which a matrix scales the radius of a sphere, if the matrix keeps spheres spherical.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,4 +1,4 @@
-// Warnings, one line per kind, however many things it concerns.
+// Warnings: one line for each kind, however many things that kind concerns.
 #pragma once
 
 #include "host/message.hpp"
@@ -12,27 +12,29 @@ namespace glim {
 
 class Warnings {
 public:
-    void add(MessageId id, const std::string& sentence)
+    void add(const Message& message)
     {
-        places_.try_emplace(sentence, kinds_.size());
-        kinds_.push_back({id, sentence, {}});
+        places_.try_emplace(message.sentence, kinds_.size());
+        kinds_.push_back({message, {}});
     }
-    // One more thing that the sentence holds for.
-    void add(MessageId id, const std::string& sentence, const std::string& name)
+    void add(MessageId id, const std::string& sentence) { add(Message(id, {sentence})); }
+    // One more thing that the sentence holds for, and what is the place of it.
+    void add(MessageId id, const std::string& sentence, const MessagePart& name)
     {
         if (places_.count(sentence) == 0) {
             add(id, sentence);
         }
         kinds_[places_.at(sentence)].names.push_back(name);
     }
+    void add(MessageId id, const std::string& sentence, const std::string& name) { add(id, sentence, part::place(name)); }
     void add(const Warnings& others)
     {
         for (const Kind& kind : others.kinds_) {
             if (kind.names.empty()) {
-                add(kind.id, kind.sentence);
+                add(kind.message);
             }
-            for (const std::string& name : kind.names) {
-                add(kind.id, kind.sentence, name);
+            for (const MessagePart& name : kind.names) {
+                add(kind.message.id, kind.message.sentence, name);
             }
         }
     }
@@ -43,9 +45,11 @@ public:
         std::vector<Message> messages;
         for (const Kind& kind : kinds_) {
             if (kind.names.empty()) {
-                messages.push_back({kind.id, {kind.sentence}});
+                messages.push_back(kind.message);
             } else {
-                messages.push_back({kind.id, {kind.sentence, ": ", part::place(listed(kind.names))}});
+                const MessagePart places(MessagePart::Kind::Place, listed(kind.names, &MessagePart::words),
+                                         listed(kind.names, &MessagePart::part));
+                messages.push_back({kind.message.id, {kind.message.sentence, ": ", places}});
             }
         }
         return messages;
@@ -53,17 +57,16 @@ public:
 
 private:
     struct Kind {
-        MessageId id;
-        std::string sentence;
-        std::vector<std::string> names;
+        Message message;
+        std::vector<MessagePart> names;
     };
 
-    static std::string listed(const std::vector<std::string>& names)
+    static std::string listed(const std::vector<MessagePart>& names, std::string MessagePart::*member)
     {
         constexpr std::size_t kNamed = 3;
         std::string list;
         for (std::size_t i = 0; i < names.size() && i < kNamed; ++i) {
-            list += (i == 0 ? "" : ", ") + names[i];
+            list += (i == 0 ? "" : ", ") + names[i].*member;
         }
         return names.size() > kNamed ? list + " and " + std::to_string(names.size() - kNamed) + " more" : list;
     }

@@ -1,5 +1,5 @@
-// One thread is one pixel of the pass. Adds its finished samples to the block, in the order of their index, and folds each block
-// into the page when it ends: the bits do not depend on how the work was cut.
+// One thread is one pixel of the pass. Adds its finished samples to the block, in the order of their index, and folds each block into the
+// page when the block ends. So the bits do not depend on how the samples were divided into passes.
 // Reads radiance and first hits. Updates blocks, pages and, in renders that ask for them, brightest samples; counts samples that are not
 // finite and leaves them out.
 #version 460

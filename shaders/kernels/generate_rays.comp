@@ -1,6 +1,6 @@
 // One thread is one slot of the pass: a sample of a pixel. Starts its path at the camera.
-// Reads the parameters, and the scene where rays begin in different media. Writes rays, states, radiance and the next queue, which holds
-// all slots; size_dispatch knows that.
+// Reads the parameters and, if rays begin in different media, the scene. Writes rays, states, radiance and the next queue, which holds all
+// slots; size_dispatch relies on that.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define WRITES_RAYS

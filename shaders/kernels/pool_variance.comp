@@ -1,4 +1,5 @@
-// One thread is one pixel. Averages the variance of the pixels around it: of few blocks of samples, a pixel's own is known badly.
+// One thread is one pixel. Averages the variance of the pixels around it, because a pixel's own variance is noisy if the pixel has few
+// blocks of samples.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "access/denoise.glsl"

@@ -1,6 +1,6 @@
-// One thread is one pixel of the film's tile, or several where the device has too few threads. Draws the rectangle of the window's
-// picture that it covers; where it has no sample yet, what was drawn before stays: an earlier camera's picture or a coarser
-// film's, never black. Only the fields that `kAov` shows are loaded: on a software driver the loads are this kernel's cost.
+// One thread is one pixel of the film's tile, or several where the device has too few threads. Draws the rectangle of the window's picture
+// that the pixel covers. If the pixel has no sample yet, the earlier drawing stays (the picture of an earlier camera or of a coarser film),
+// never black. Only the fields that `kAov` shows are loaded: on a software driver the loads are this kernel's cost.
 // Reads the film. Updates the picture.
 #version 460
 #extension GL_GOOGLE_include_directive : require

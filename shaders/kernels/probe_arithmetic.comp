@@ -1,5 +1,5 @@
-// One thread is one input. Writes what the driver makes of it with the operations that kernels use and that drivers may round differently
-// (Vulkan, "Precision and Operation of SPIR-V Instructions").
+// One thread is one input. Writes the results of those operations that kernels use and that drivers may round differently (Vulkan,
+// "Precision and Operation of SPIR-V Instructions").
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "access/arithmetic.glsl"

@@ -1,6 +1,6 @@
-// One thread is one entry of the active queue. Shades what its ray has met: adds the light that the ray itself has hit, samples one
-// light, for which it queues a shadow ray, and samples the BSDF with roulette, for which it queues the next ray. Both in one dispatch,
-// so that interaction, material and BSDF are made once.
+// One thread is one entry of the active queue. Shades what its ray has met: adds the light that the ray itself has hit, samples one light
+// and queues a shadow ray to it, and samples the BSDF with roulette and queues the next ray. One dispatch does both, so that interaction,
+// material and BSDF are made once.
 // Reads the scene, the queue, hits. Updates rays, states, radiance. Writes first hits, shadow rays, the note; appends to the shadow
 // queue and the next queue.
 #version 460

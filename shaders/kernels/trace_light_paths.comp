@@ -1,8 +1,8 @@
-// One thread takes light paths of the pass, one after the other, and traces each to its end. A path begins at a light, meets a specular
-// surface first, and is then seen by the camera from every surface that is not: caustics, which paths from the camera leave out. Slot i of
-// the pass is light path firstPixel + i, counted from that of sample firstSample on. Paths beyond the kernel's limits go into the next
-// queue as they are. Reads the scene; the queue unless it is the pass's first dispatch. Updates rays, states, radiance (the paths' flux),
-// splats, ray counts. Appends to the next queue.
+// One thread takes light paths of the pass, one after the other, and traces each to its end. A path begins at a light and meets a specular
+// surface first. Then it sends light to the camera from every surface that is not specular. These are the caustics that camera paths leave
+// out. Slot i of the pass is light path firstPixel + i, counted from that of sample firstSample on. Paths that exceed the kernel's limits
+// go into the next queue unfinished. Reads the scene; the queue unless it is the pass's first dispatch. Updates rays, states, radiance (the
+// paths' flux), splats, ray counts. Appends to the next queue.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_ACTIVE_QUEUE

@@ -1,5 +1,5 @@
-// One thread takes paths of the active queue, one after the other, and traces each to its end: the other schedule, instead of
-// trace_closest, shade_surface and trace_shadow. Paths beyond its limits go into the next queue as they are.
+// One thread takes paths of the active queue, one after the other, and traces each to its end. This is the persistent schedule, which
+// replaces trace_closest, shade_surface and trace_shadow. Paths that exceed the kernel's limits go into the next queue unfinished.
 // Reads the scene, the queue. Updates rays, states, radiance, ray counts. Writes first hits; appends to the next queue.
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -1,4 +1,4 @@
-// One thread is one pixel of the band, or several where the device has too few threads. Colours it by the film's pixel that is there.
+// One thread is one pixel of the band, or several where the device has too few threads. Colours it by the film's pixel at that place.
 // Reads pixels of one or two films. Updates the picture.
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -1,5 +1,5 @@
-// One thread is some rows of a column of pixels. Adds the pixels of one row of each one's window, weighted by how alike their patches are
-// (lib/nl_means.glsl). Neighbours in the column share rows of their patches.
+// One thread is some rows of a column of pixels. For each of these pixels it adds the pixels of one row of the search window, weighted by
+// how similar their patches are (lib/nl_means.glsl). Neighbours in the column share rows of their patches.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "access/denoise.glsl"

@@ -1,4 +1,4 @@
-// From the film to rays.
+// Camera models: from points on the film to rays, and back.
 #ifndef GLIM_LIB_CAMERA
 #define GLIM_LIB_CAMERA
 

@@ -1,4 +1,4 @@
-// Detects the driver's silent loop cap.
+// Detects that the driver has silently ended a loop too early.
 #ifndef GLIM_LIB_CANARY
 #define GLIM_LIB_CANARY
 

@@ -1,4 +1,4 @@
-// Aims light paths at bounding spheres of specular objects, the targets: xyz is the centre, w the radius.
+// Aims light paths at targets, the bounding spheres of specular objects. Of a target, xyz is the centre and w the radius.
 #ifndef GLIM_LIB_CAUSTIC_TARGET
 #define GLIM_LIB_CAUSTIC_TARGET
 

@@ -1,4 +1,4 @@
-// Counter-based random numbers, and the search that they do in tables.
+// Counter-based random numbers, and the search in tables that uses them.
 #ifndef GLIM_LIB_HASH
 #define GLIM_LIB_HASH
 

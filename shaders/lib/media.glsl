@@ -1,5 +1,5 @@
-// The media that a path is in: up to four numbers of seven bits in one word, the innermost lowest. 0: none. Overlapping solids, as of a
-// glass and its liquid, may be left in any order.
+// The media that a path is in: up to four numbers of seven bits in one word, with the innermost medium in the lowest bits. 0: none. A path
+// may leave overlapping solids, such as a glass and its liquid, in any order.
 #ifndef GLIM_LIB_MEDIA
 #define GLIM_LIB_MEDIA
 

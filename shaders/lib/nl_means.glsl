@@ -1,4 +1,4 @@
-// Non-local means: how alike two noisy pixels are. Rousselle, Knaus, Zwicker, "Adaptive Rendering with Non-Local Means Filtering", 2012,
+// Non-local means: how similar two noisy pixels are. Rousselle, Knaus, Zwicker, "Adaptive Rendering with Non-Local Means Filtering", 2012,
 // section 4.
 #ifndef GLIM_LIB_NL_MEANS
 #define GLIM_LIB_NL_MEANS

@@ -1,4 +1,4 @@
-// Lights without extent.
+// The falloffs of point and spot lights.
 #ifndef GLIM_LIB_PUNCTUAL
 #define GLIM_LIB_PUNCTUAL
 

@@ -1,7 +1,7 @@
 // A rectangle as a point sees it: its solid angle, and directions uniform in it. The parametrization is that of Urena, Fajardo and King,
 // "An Area-Preserving Parametrization for Spherical Rectangles", 2013: a strip across x, then a point along y. Their formulas measure x by
-// angles near the middle of the rectangle's plane, and lose it in float32 close to that plane and far from it; these measure the part of
-// the strip that lies beyond.
+// angles near the middle of the rectangle's plane. In float32 these angles lose x close to that plane and far from it. So the formulas here
+// measure the part of the strip that lies beyond.
 #ifndef GLIM_LIB_SPHERICAL_RECTANGLE
 #define GLIM_LIB_SPHERICAL_RECTANGLE
 

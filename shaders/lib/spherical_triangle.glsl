@@ -1,6 +1,6 @@
 // A triangle as a point sees it: its solid angle, and directions uniform in it. The parametrization is that of Arvo, "Stratified Sampling
-// of Spherical Triangles", 1995: a smaller triangle on one edge, then a point of an arc. It is solved here from Van Oosterom and Strackee's
-// formula, without the triangle's angles: they lose small triangles in float32.
+// of Spherical Triangles", 1995: a smaller triangle on one edge, then a point of an arc. Here the parametrization is solved from Van
+// Oosterom and Strackee's formula, without the triangle's angles, which lose small triangles in float32.
 #ifndef GLIM_LIB_SPHERICAL_TRIANGLE
 #define GLIM_LIB_SPHERICAL_TRIANGLE
 

@@ -1,4 +1,5 @@
-// Texture coordinates to texels, and their values, as glTF 2.0 has them: (0, 0) is the upper left corner of the image's first texel.
+// Texture coordinates to texels, and the values of texels, as glTF 2.0 defines them: (0, 0) is the upper left corner of the image's first
+// texel.
 #ifndef GLIM_LIB_TEXTURE_FILTER
 #define GLIM_LIB_TEXTURE_FILTER
 

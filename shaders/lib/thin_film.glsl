@@ -1,5 +1,5 @@
 // Reflectance of a thin film over a base: Belcour and Barla, "A Practical Extension to Microfacet Theory for the Modeling of Varying
-// Iridescence" (2017), as KHR_materials_iridescence gives it: Schlick's reflectance, Airy's sum up to m = 2, Gaussian fits of the
+// Iridescence" (2017), in the form of KHR_materials_iridescence: Schlick's reflectance, Airy's sum up to m = 2, Gaussian fits of the
 // sensitivities of the eye.
 #ifndef GLIM_LIB_THIN_FILM
 #define GLIM_LIB_THIN_FILM

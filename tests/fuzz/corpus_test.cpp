@@ -37,7 +37,7 @@ TEST(FuzzCorpus, ScenesAreBuilt) { replay("build", "load"); }
 TEST(FuzzCorpus, FilmsAreMergedOrRefused) { replay("film", "film"); }
 TEST(FuzzCorpus, ImagesAreDecodedOrRefused) { replay("image", "image"); }
 
-TEST(FuzzContract, NoticesWhatBreaksIt)
+TEST(FuzzContract, NoticesEachViolation)
 {
     const auto defectOf = [](const std::function<void()>& step) { return findDefect("a.gltf: ", step).value_or(""); };
     const auto refusing = [](const std::string& sentence) { return [sentence] { throw InputError(sentence); }; };

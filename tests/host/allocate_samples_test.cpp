@@ -88,7 +88,7 @@ TEST(AllocateSamplesTest, RelativeErrorsCountByRadiance)
 }
 
 // Nothing is known of pixels with one block or none: they do not count as neighbours.
-TEST(AllocateSamplesTest, WhatIsUnknownIsLeftOut)
+TEST(AllocateSamplesTest, PixelsOfUnknownVarianceAreLeftOut)
 {
     Film film = makeFilm(1.0F, 1.0F);
     film.pixels[at(8, 8)].blocks = 1;

@@ -1,5 +1,6 @@
 #include "host/image/atomic_file.hpp"
 #include "host/error.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -17,14 +18,15 @@ namespace glim {
 namespace {
 
 using test::expectRefusal;
+using test::Parts;
 using test::readFileBytes;
 using test::ScratchFolder;
 using test::writeText;
 
-void expectUnwritable(const std::filesystem::path& path, const std::string& part)
+void expectUnwritable(const std::filesystem::path& path, MessageId id, Parts parts)
 {
-    expectRefusal<InputError>([&] { checkWritable(path, ".exr"); }, part);
-    expectRefusal<InputError>([&] { checkWritable(path, ".exr"); }, path.string());
+    parts.file = path;
+    expectRefusal<InputError>([&] { checkWritable(path, ".exr"); }, id, parts);
 }
 
 TEST(AtomicFile, AppearsOnlyWhenCommitted)
@@ -63,7 +65,7 @@ TEST(AtomicFile, KeepsTheOldFileAndNothingElseWhenTheDiskIsFull)
             file.write(std::string(1000, 'x').data(), 1000);
             file.commit();
         },
-        "a.exr: cannot be written: File too large");
+        MessageId::FileUnwritable, {.file = "a.exr", .value = "File too large"});
     setrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, handler);
     EXPECT_EQ(readFileBytes(path), "old");
@@ -203,18 +205,19 @@ TEST(CheckWritable, RefusesWithTheReason)
     const ScratchFolder folder;
     std::filesystem::create_directory(folder / "folder.exr");
     writeText(folder / "file", "");
-    expectUnwritable(folder / "a.png", "does not end in .exr");
-    expectUnwritable(folder / "exr", "does not end in .exr");
-    expectUnwritable(folder / "missing/a.exr", "missing does not exist");
-    expectUnwritable(folder / "folder.exr", "it is a folder");
-    expectUnwritable(folder / "file/a.exr", "file is not a folder");
+    expectUnwritable(folder / "a.png", MessageId::UnknownFormat, {.expected = ".exr"});
+    expectUnwritable(folder / "exr", MessageId::UnknownFormat, {.expected = ".exr"});
+    expectUnwritable(folder / "missing/a.exr", MessageId::FileMissing, {.value = folder / "missing"});
+    expectUnwritable(folder / "folder.exr", MessageId::WrongType, {.value = "a folder"});
+    expectUnwritable(folder / "file/a.exr", MessageId::WrongType, {.value = folder / "file", .expected = "a folder"});
     std::filesystem::create_symlink("circle.exr", folder / "circle.exr");
-    expectUnwritable(folder / "circle.exr", "lead in a circle");
+    expectUnwritable(folder / "circle.exr", MessageId::Cycle, {});
     std::filesystem::create_symlink("missing/b.exr", folder / "nowhere.exr");
-    expectUnwritable(folder / "nowhere.exr", "missing does not exist");
-    expectRefusal<InputError>([] { checkWritable("", ".exr"); }, "empty file name");
-    expectRefusal<InputError>([] { checkWritable("/dev/null", ""); }, "not a regular file");
-    expectRefusal<InputError>([] { AtomicFile file("/dev/null"); }, "not a regular file");
+    expectUnwritable(folder / "nowhere.exr", MessageId::FileMissing, {.value = folder / "missing"});
+    expectRefusal<InputError>([] { checkWritable("", ".exr"); }, MessageId::Missing);
+    const Parts device{.file = "/dev/null", .expected = "a regular file"};
+    expectRefusal<InputError>([] { checkWritable("/dev/null", ""); }, MessageId::WrongType, device);
+    expectRefusal<InputError>([] { AtomicFile file("/dev/null"); }, MessageId::WrongType, device);
 }
 
 TEST(CheckWritable, RefusesWithoutPermission)
@@ -232,8 +235,8 @@ TEST(CheckWritable, RefusesWithoutPermission)
         ASSERT_EQ(chmod((folder / "closed").c_str(), 0500), 0);
     }
     ASSERT_EQ(chmod((folder / "kept.exr").c_str(), 0444), 0);
-    expectUnwritable(folder / "closed/a.exr", "Permission denied");
-    expectUnwritable(folder / "kept.exr", "Permission denied");
+    expectUnwritable(folder / "closed/a.exr", MessageId::FileUnwritable, {.place = folder / "closed", .value = "Permission denied"});
+    expectUnwritable(folder / "kept.exr", MessageId::FileUnwritable, {.value = "Permission denied"});
     ASSERT_EQ(seteuid(user), 0);
 }
 

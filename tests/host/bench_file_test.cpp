@@ -2,6 +2,7 @@
 #include "host/bench/bench_file.hpp"
 
 #include "host/error.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/simulated_bench.hpp"
 
@@ -66,23 +67,24 @@ TEST(BenchFile, CsvHasALineForEveryRenderOfEveryPoint)
     EXPECT_EQ(std::count(line.begin(), line.end(), ','), 14) << line;
 }
 
-TEST(BenchFile, WhatIsNoBenchIsRefused)
+TEST(BenchFile, OtherFilesAreRefused)
 {
     const test::ScratchFolder folder;
     const auto file = folder / "x.json";
-    const auto refuse = [&](const std::string& text, const std::string& part) {
+    const auto refuse = [&](const std::string& text, MessageId id, test::Parts parts = {}) {
         writeText(file, text);
-        expectRefusal<InputError>([&] { readBenches(file); }, part);
+        parts.file = "x.json";
+        expectRefusal<InputError>([&] { readBenches(file); }, id, parts);
     };
-    expectRefusal<InputError>([&] { readBenches(folder / "none.json"); }, "none.json: cannot be read");
-    refuse("{", "x.json: is not a JSON file that `glim bench` wrote");
-    refuse("{\"scenes\": []}", "is not a JSON file that `glim bench` wrote");
-    refuse("{\"glim:bench\": 7, \"scenes\": []}", "it has format 7, expected 2");
+    expectRefusal<InputError>([&] { readBenches(folder / "none.json"); }, MessageId::FileMissing, {.file = "none.json"});
+    refuse("{", MessageId::UnknownFormat);
+    refuse("{\"scenes\": []}", MessageId::UnknownFormat);
+    refuse("{\"glim:bench\": 7, \"scenes\": []}", MessageId::UnknownFormat, {.place = "format", .value = "7", .expected = "2"});
     auto json = nlohmann::json::parse(benchJson({someBench()}));
     json["scenes"][0]["points"][2]["mse"].erase(0);
-    refuse(json.dump(), "its mse after 4 samples are 15 numbers, expected 16, one for each seed");
+    refuse(json.dump(), MessageId::Mismatch, {.place = "mse", .value = "15", .expected = "16"});
     json["scenes"][0]["points"] = nlohmann::json::array();
-    refuse(json.dump(), "16 seeds and 0 points");
+    refuse(json.dump(), MessageId::Missing, {.value = "16 seeds and 0 points"});
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ TEST(Bootstrap, HasNoIntervalWhereADrawHasNoFigure)
     EXPECT_TRUE(std::isnan(none.low) && std::isnan(none.high));
 }
 
-TEST(Bootstrap, WhatDoesNotVaryHasAnIntervalOfNoWidth)
+TEST(Bootstrap, EqualValuesHaveAnIntervalOfNoWidth)
 {
     const std::vector<double> values(kSeeds, 3.0);
     const Interval point = bootstrap({kSeeds}, [&](const Draw& draw) { return meanOf(values, draw[0]); });

@@ -3,6 +3,7 @@
 #include "host/render/check_memory.hpp"
 
 #include "host/error.hpp"
+#include "tests/support/expect_message.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20U;
 
-std::string refusalOf(std::uint64_t textureBytes, std::uint64_t deviceMemory, std::uint32_t pathCapacity = 1024)
+void check(std::uint64_t textureBytes, std::uint64_t deviceMemory, std::uint32_t pathCapacity = 1024)
 {
     PreparedScene prepared;
     prepared.scene.file = "a.glb";
@@ -26,29 +27,30 @@ std::string refusalOf(std::uint64_t textureBytes, std::uint64_t deviceMemory, st
     device.software = false;
     device.memory = deviceMemory;
     device.maxGroups = 32;
-    try {
-        checkMemory(prepared, settings, device);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    checkMemory(prepared, settings, device);
 }
 
 TEST(CheckMemoryTest, TexturesThatDoNotFitNameTheOption)
 {
-    EXPECT_EQ(refusalOf(8 * kMebibyte, 64 * kMebibyte), "");
-    const std::string much = refusalOf(8 * kMebibyte, 2 * kMebibyte);
-    EXPECT_EQ(much.rfind("a.glb: the scene and a picture of 16x16 need 8 MiB, which is 6 MiB more memory than device \"toy\" has; ", 0), 0U)
-        << much;
-    EXPECT_NE(much.find("8 MiB are textures, which --max-texture N scales down."), std::string::npos) << much;
-    const std::string little = refusalOf(16, 1);
-    EXPECT_NE(little.find("more memory than device \"toy\" has."), std::string::npos) << little;
+    check(8 * kMebibyte, 64 * kMebibyte);
+    const auto refused = [](std::uint64_t textureBytes, std::uint64_t deviceMemory, const std::string& needed, bool namesOption) {
+        try {
+            check(textureBytes, deviceMemory);
+            ADD_FAILURE() << "accepted";
+        } catch (const InputError& error) {
+            test::expectMessage(error.message(), MessageId::OutOfMemory, {.file = "a.glb", .place = "device \"toy\"", .value = needed});
+            EXPECT_EQ(test::contains(error.what(), "8 MiB are textures, which --max-texture"), namesOption) << error.what();
+        }
+    };
+    refused(8 * kMebibyte, 2 * kMebibyte, "8 MiB", true);
+    refused(16, 1, "0 MiB", false);
 }
 
 TEST(CheckMemoryTest, PathsBeyondADispatchAreRefused)
 {
-    EXPECT_EQ(refusalOf(16, 64 * kMebibyte, 2048), "");
-    EXPECT_EQ(refusalOf(16, 64 * kMebibyte, 2049), "Device \"toy\" starts at most 2048 paths at once, expected 2049 (--path-capacity).");
+    check(16, 64 * kMebibyte, 2048);
+    test::expectRefusal<InputError>([] { check(16, 64 * kMebibyte, 2049); }, MessageId::DeviceLimit,
+                                    {.place = "--path-capacity", .value = "2048", .expected = "2049"});
 }
 
 }  // namespace

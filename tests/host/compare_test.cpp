@@ -4,6 +4,7 @@
 #include "host/measure/compare_images.hpp"
 #include "host/measure/error_picture.hpp"
 #include "tests/support/decode_png.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/noisy_picture.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -48,7 +49,7 @@ TEST(CompareImages, MetricsOfAKnownDifference)
     EXPECT_TRUE(std::isnan(result.ratioOfAll.low));
 }
 
-TEST(CompareImages, ErrorsAloneAreTheSame)
+TEST(CompareImages, MeasureErrorsGivesTheSameErrors)
 {
     Picture picture = addNoise(makeTruth(12, 9), 0.3F, 3), reference = addNoise(makeTruth(12, 9), 0.1F, 4);
     picture.radiance[5].g = std::numeric_limits<float>::quiet_NaN();
@@ -98,18 +99,21 @@ TEST(CompareImages, CountsNonFinitePixelsAndLeavesThemOut)
 
 TEST(CompareImages, RefusesOtherSizesOtherRowsAndNothingToCompare)
 {
-    expectRefusal<InputError>([] { compareImages(makeTruth(4, 5), makeTruth(5, 4)); }, "are 4x5 and 5x4");
+    expectRefusal<InputError>([] { compareImages(makeTruth(4, 5), makeTruth(5, 4)); }, MessageId::Mismatch,
+                              {.value = "4x5", .expected = "5x4"});
     Film band;
     band.width = band.height = 2;
     band.pixels.resize(4);
     Film below = band;
     band.rowsBelow = below.rowsAbove = 2;
-    expectRefusal<InputError>([&] { compareImages(makePicture(band), makePicture(below)); }, "rows 0 and 2 of a larger one");
+    expectRefusal<InputError>([&] { compareImages(makePicture(band), makePicture(below)); }, MessageId::Mismatch,
+                              {.place = "rows", .value = "0", .expected = "2"});
     Picture aside = makePicture(band);
     aside.columnsLeft = 3;
-    expectRefusal<InputError>([&] { compareImages(makePicture(band), aside); }, "columns 0 and 3 of a larger one");
+    expectRefusal<InputError>([&] { compareImages(makePicture(band), aside); }, MessageId::Mismatch,
+                              {.place = "columns", .value = "0", .expected = "3"});
     const Picture nothing = uniform(2, glm::vec3(std::numeric_limits<float>::quiet_NaN()));
-    expectRefusal<InputError>([&] { compareImages(nothing, uniform(2, glm::vec3(1.0F))); }, "No pixel is finite");
+    expectRefusal<InputError>([&] { compareImages(nothing, uniform(2, glm::vec3(1.0F))); }, MessageId::Empty);
 }
 
 // Share of intervals for the true ratio 1.1 that contain it, per channel and over all.
@@ -295,22 +299,23 @@ TEST_F(CompareCommand, DrawsTheErrors)
 
 TEST_F(CompareCommand, RefusesBadInput)
 {
-    const auto refused = [&](const std::vector<std::string>& arguments, const std::string& part) {
-        expectRefusal<InputError>([&] { run(arguments); }, part);
+    const auto refused = [&](const std::vector<std::string>& arguments, MessageId id, const test::Parts& parts) {
+        expectRefusal<InputError>([&] { run(arguments); }, id, parts);
     };
-    refused({a, folder / "missing.exr"}, "missing.exr: cannot be read");
-    refused({folder / "missing.exr", b, "--diff", folder / "d.png"}, "does not end in .exr");  // before any work
-    refused({folder / "missing.exr", b, "--diff-png", folder / "d.exr"}, "does not end in .png");
+    refused({a, folder / "missing.exr"}, MessageId::FileMissing, {.file = "missing.exr"});
+    const std::string missing = folder / "missing.exr";  // looked for after the names of what is to be written
+    refused({missing, b, "--diff", folder / "d.png"}, MessageId::UnknownFormat, {.file = "d.png", .expected = ".exr"});
+    refused({missing, b, "--diff-png", folder / "d.exr"}, MessageId::UnknownFormat, {.file = "d.exr", .expected = ".png"});
     Image small = readExr(b);
     small.channels.erase("B");
     writeExr(v, small);
-    refused({a, v}, "v.exr: has no half or float channel B");
+    refused({a, v}, MessageId::Missing, {.file = "v.exr", .place = "B"});
     writeExr(v, imageOf(makeTruth(32, 64), true));
-    refused({a, b, "--variance", v}, "v.exr: is 32x64, expected the reference's 64x64");
+    refused({a, b, "--variance", v}, MessageId::Mismatch, {.file = "v.exr", .value = "32x64", .expected = "64x64"});
     small = readExr(b);
     small.channels["G"][65] = -1.0F;
     writeExr(v, small);
-    refused({a, b, "--variance", v}, "pixel (1, 1) is negative");
+    refused({a, b, "--variance", v}, MessageId::OutOfRange, {.file = "v.exr", .place = "pixel (1, 1)"});
     EXPECT_THROW(run({a, b, "--unknown"}), UsageError);
     EXPECT_THROW(run({a}), UsageError);
 }

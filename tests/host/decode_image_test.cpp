@@ -1,10 +1,11 @@
-// Images of every kind, whole and broken: each decodes to the texels that it holds, or is refused with a sentence.
+// Images of every kind, whole and broken: each decodes to the texels that it holds, or is refused.
 #include "host/image/decode_image.hpp"
 
 #include "host/error.hpp"
 #include "host/image/shrink_image.hpp"
 #include "host/image/srgb.hpp"
 #include "tests/support/encode_images.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
@@ -17,14 +18,19 @@ namespace {
 
 using Texels = std::vector<std::uint8_t>;
 
-std::string refusalOf(const Bytes& bytes)
+bool isRefused(const Bytes& bytes)
 {
     try {
         decodeImage(bytes);
-    } catch (const InputError& error) {
-        return error.what();
+    } catch (const InputError&) {
+        return true;
     }
-    return "";
+    return false;
+}
+
+void expectBroken(const Bytes& bytes)
+{
+    expectRefusal<InputError>([&] { decodeImage(bytes); }, MessageId::FileDamaged);
 }
 
 Bytes truncated(Bytes bytes, std::size_t by)
@@ -120,14 +126,14 @@ TEST(DecodeImageTest, JpegsMayLackTheirEndMarkerAlone)
         EXPECT_EQ(open.rgba8, whole.rgba8);
         EXPECT_EQ(decodeImage(truncated(jpeg, 1)).rgba8, whole.rgba8);
         for (const std::size_t missing : {std::size_t{4}, std::size_t{40}, jpeg.size() / 2}) {
-            EXPECT_NE(refusalOf(truncated(jpeg, missing)).find("is a broken JPEG ("), std::string::npos) << missing;
+            expectBroken(truncated(jpeg, missing));
         }
     }
     const Bytes scan{0xff, 0xda}, jpeg = encodeJpeg(64, 64, values, JpegColors::Rgb, true);
     std::size_t scans = 0;
     for (auto at = std::search(jpeg.begin() + 2, jpeg.end(), scan.begin(), scan.end()); at != jpeg.end();
          at = std::search(at + 2, jpeg.end(), scan.begin(), scan.end())) {
-        EXPECT_NE(refusalOf(truncated(jpeg, static_cast<std::size_t>(jpeg.end() - at))).find("is a broken JPEG ("), std::string::npos);
+        expectBroken(truncated(jpeg, static_cast<std::size_t>(jpeg.end() - at)));
         ++scans;
     }
     EXPECT_GT(scans, 4U);
@@ -141,7 +147,7 @@ TEST(DecodeImageTest, WebpsKeepAlpha)
     EXPECT_EQ(image.rgba8, rgba);
 }
 
-TEST(DecodeImageTest, BrokenImagesAreRefusedWithASentence)
+TEST(DecodeImageTest, BrokenImagesAreRefused)
 {
     Bytes noise(64 * 64 * 3);
     Random random(7);
@@ -164,31 +170,35 @@ TEST(DecodeImageTest, BrokenImagesAreRefusedWithASentence)
     Bytes longText = encodePng(64, 64, noise, withText);
     longText[33] = 0x74;  // the first byte of that chunk's length
     Bytes animated{'R', 'I', 'F', 'F', 22, 0, 0, 0, 'W', 'E', 'B', 'P', 'V', 'P', '8', 'X', 10, 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 3, 0, 0};
-    const std::pair<Bytes, std::string> cases[] = {
-        {{}, "is of an unknown kind (it is empty); expected PNG, JPEG or WebP"},
-        {{'G', 'I', 'F', '8'}, "is of an unknown kind (it begins with 47 49 46 38)"},
-        {{0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb}, "is a KTX2 texture"},
-        {truncated(png, 100), "is a broken PNG (it ends within a chunk)"},
-        {truncated(png, png.size() - 20), "is a broken PNG (it ends within a chunk)"},
-        {longText, "is a broken PNG (it ends within a chunk)"},
-        {flipped, "is a broken PNG ("},
-        {withPngSize(png, 0, 64), "is a broken PNG ("},
-        {withPngSize(png, 16385, 64), "is a PNG of 16385x64 pixels; expected 1 to 16384 in each direction"},
-        {withPngSize(png, 0x7fffffff, 0x7fffffff), "pixels; expected 1 to 16384"},
-        {withPngSize(png, 16384, 16384), "is a broken PNG (it ends early)"},
-        {largeJpeg, "is a broken JPEG (it ends early)"},
-        {truncated(jpeg, 100), "is a broken JPEG ("},
-        {truncated(progressive, 100), "is a broken JPEG ("},
-        {truncated(jpeg, jpeg.size() - 10), "is a broken JPEG ("},
-        {encodeJpeg(20000, 1, Bytes(20000, 1), JpegColors::Grey), "is a JPEG of 20000x1 pixels; expected 1 to 16384"},
-        {truncated(webp, 100), "is a broken WebP"},
-        {truncated(webp, webp.size() - 14), "is a broken WebP"},
-        {animated, "is an animated WebP; expected a still one"},
+    struct Case {
+        Bytes bytes;
+        MessageId id;
+        std::string value = {};  // any of the libraries' own reasons
     };
-    for (const auto& [bytes, sentence] : cases) {
-        const std::string refusal = refusalOf(bytes);
-        EXPECT_NE(refusal.find(sentence), std::string::npos) << "\"" << refusal << "\" lacks " << sentence;
-        EXPECT_EQ(refusal.find('\n'), std::string::npos) << refusal;
+    const char *const withinChunk = "it ends within a chunk", *const early = "it ends early";
+    const Case cases[] = {
+        {{}, MessageId::UnknownFormat, "of an unknown kind (it is empty)"},
+        {{'G', 'I', 'F', '8'}, MessageId::UnknownFormat, "of an unknown kind (it begins with 47 49 46 38)"},
+        {{0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb}, MessageId::UnknownFormat, "a KTX2 texture"},
+        {truncated(png, 100), MessageId::FileDamaged, withinChunk},
+        {truncated(png, png.size() - 20), MessageId::FileDamaged, withinChunk},
+        {longText, MessageId::FileDamaged, withinChunk},
+        {flipped, MessageId::FileDamaged},
+        {withPngSize(png, 0, 64), MessageId::FileDamaged},
+        {withPngSize(png, 16385, 64), MessageId::TooLarge, "16385x64"},
+        {withPngSize(png, 0x7fffffff, 0x7fffffff), MessageId::TooLarge, "2147483647x2147483647"},
+        {withPngSize(png, 16384, 16384), MessageId::FileDamaged, early},
+        {largeJpeg, MessageId::FileDamaged, early},
+        {truncated(jpeg, 100), MessageId::FileDamaged},
+        {truncated(progressive, 100), MessageId::FileDamaged},
+        {truncated(jpeg, jpeg.size() - 10), MessageId::FileDamaged},
+        {encodeJpeg(20000, 1, Bytes(20000, 1), JpegColors::Grey), MessageId::TooLarge, "20000x1"},
+        {truncated(webp, 100), MessageId::FileDamaged, "broken WebP"},
+        {truncated(webp, webp.size() - 14), MessageId::FileDamaged, "broken WebP"},
+        {animated, MessageId::Unsupported, "animated WebP"},
+    };
+    for (const Case& c : cases) {
+        expectRefusal<InputError>([&] { decodeImage(c.bytes); }, c.id, {.value = c.value});
     }
 }
 
@@ -220,7 +230,7 @@ TEST(DecodeImageTest, SurvivesMutants)
             for (int k = 0; k < 3; ++k) {
                 mutant[random.below(static_cast<std::uint32_t>(mutant.size()))] = static_cast<unsigned char>(random.below(256));
             }
-            refused += refusalOf(mutant).empty() ? 0U : 1U;
+            refused += isRefused(mutant) ? 1U : 0U;
         }
     }
     EXPECT_GT(refused, 300U);

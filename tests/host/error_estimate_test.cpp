@@ -171,7 +171,7 @@ TEST(ErrorEstimate, H30WarnsWhereRareSamplesAreAllOfTheError)
     EXPECT_FALSE(estimateError(draw(smooth(), 256, 4, random))->isOfFew());
 }
 
-TEST(ErrorEstimate, IsThatOfThePicture)
+TEST(ErrorEstimate, AgreesWithTheErrorsOfThePicture)
 {
     Random random(1);
     Film film = draw(edges(), 640, 4, random);

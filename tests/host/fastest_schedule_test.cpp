@@ -98,7 +98,7 @@ TEST_F(FastestScheduleTest, OfASoftwareDeviceIsNeitherMeasuredNorRead)
     EXPECT_EQ(chooseSchedule(settings, device_), Schedule::Persistent);
 }
 
-TEST_F(FastestScheduleTest, AFileThatIsNoneIsMeasuredAgain)
+TEST_F(FastestScheduleTest, ABrokenFileIsMeasuredAgain)
 {
     fs::create_directories(cache_);
     for (const char* text : {"{", "[]"}) {

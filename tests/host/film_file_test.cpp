@@ -2,6 +2,7 @@
 #include "host/error.hpp"
 #include "host/image/exr.hpp"
 #include "host/measure/compare_images.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/simulated_film.hpp"
 
@@ -232,10 +233,11 @@ protected:
         writeFilm(path, simulateFilm(0, 64));
         image = readExr(path);
     }
-    void expectRefused(const std::string& part) const
+    void expectRefused(MessageId id, test::Parts parts) const
     {
         writeExr(path, image);
-        expectRefusal<InputError>([&] { readFilm(path); }, path.string() + ": " + part);
+        parts.file = path;
+        expectRefusal<InputError>([&] { readFilm(path); }, id, parts);
     }
     const ScratchFolder folder;
     const std::filesystem::path path = folder / "a.exr";
@@ -245,39 +247,39 @@ protected:
 TEST_F(FilmFileRefusal, OfAnotherPicture)
 {
     image.attributes.clear();
-    expectRefused("is not a film written by glim: it has no attribute glim:film");
+    expectRefused(MessageId::UnknownFormat, {.place = "glim:film"});
 }
 
 TEST_F(FilmFileRefusal, OfALaterFormat)
 {
     image.attributes["glim:film"] = 5.0;
-    expectRefused("is a film of format 5, expected format 1 to 4");
+    expectRefused(MessageId::UnknownFormat, {.value = "5", .expected = "1 to 4"});
 }
 
 TEST_F(FilmFileRefusal, OfALostChannel)
 {
     image.channels.erase("squares.G");
-    expectRefused("is not a complete film: it has no channel squares.G");
+    expectRefused(MessageId::FileDamaged, {.place = "squares.G"});
 }
 
 TEST_F(FilmFileRefusal, OfCountsThatAnotherProgramMadeFloats)
 {
     image.counts.erase("count.X");
     image.channels["count.X"].assign(image.channels["R"].size(), 64.0F);
-    expectRefused("is not a complete film: it has no channel count.X");
+    expectRefused(MessageId::FileDamaged, {.place = "count.X"});
 }
 
-TEST_F(FilmFileRefusal, OfASeedThatIsNone)
+TEST_F(FilmFileRefusal, OfANegativeSeed)
 {
     image.attributes["glim:seed"] = -1.0;
-    expectRefused("its seed is -1");
+    expectRefused(MessageId::OutOfRange, {.place = "seed", .value = "-1.000000"});
 }
 
 TEST_F(FilmFileRefusal, OfImpossibleSampleRanges)
 {
     for (const char* ranges : {"64:0", "0:64 32:96", "0-64", "0:64x", "0:", "-1:5", "0:4294967296", "64:128 0:64"}) {
         image.attributes["glim:samples"] = std::string(ranges);
-        expectRefused("its sample ranges are \"" + std::string(ranges) + "\"");
+        expectRefused(MessageId::Malformed, {.place = "sample ranges", .value = ranges});
     }
 }
 
@@ -333,7 +335,7 @@ TEST(FilmFile, EarlierFilmsAreRead)
         EXPECT_EQ(computeDigest(readFilm(path)), computeDigest(film));
         image.attributes["glim:film"] = film.splats.empty() ? 3.0 : 4.0;
         writeExr(path, image);
-        expectRefusal<InputError>([&] { readFilm(path); }, "is damaged: it has no attribute glim:headerDigest");
+        expectRefusal<InputError>([&] { readFilm(path); }, MessageId::FileDamaged, {.file = path, .place = "glim:headerDigest"});
     }
 }
 

@@ -58,7 +58,7 @@ TEST(GltfCompressionRefused, MeshoptWithoutItsBytes)
     expectRefusal(plain, "bufferViews[5] ends at byte 432; expected at most the 0 of buffers[1]");
 }
 
-TEST(GltfCompressionRefused, MemoryThatNoStreamPaysFor)
+TEST(GltfCompressionRefused, ClaimsOfMoreMemoryThanTheStreamCanFill)
 {
     GltfBuilder builder = build(makeHills(6), meshopt("INDICES"));
     json& view = builder.document["bufferViews"][5];

@@ -142,7 +142,7 @@ TEST_F(GltfHoles, OfBuffersAndImagesAreNotRead)
     expectRefusal(writeTemporary("textured.gltf", builder.toGltf()), "is of an unknown kind (it begins with 00 00 00 00)");
 }
 
-TEST(GltfCosts, ElementsThatNoBytesPayFor)
+TEST(GltfCosts, ElementsWithoutBytes)
 {
     GltfBuilder builder;
     const std::size_t zeros = builder.append("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", 4'194'303}});

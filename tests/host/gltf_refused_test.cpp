@@ -68,7 +68,7 @@ TEST(GltfRefused, IncompleteCamerasAndSpots)
               std::string::npos);
 }
 
-TEST(GltfRefused, MemoryThatNoByteOfTheFilePaysFor)
+TEST(GltfRefused, TooManyElementsWithoutABufferView)
 {
     GltfBuilder builder;
     const std::size_t positions = builder.append("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", 4500000}});
@@ -102,7 +102,7 @@ TEST(GltfRefused, SingularNodesThatCarryNothingAreHarmless)
     EXPECT_EQ(load(builder).instances.size(), 1U);
 }
 
-TEST(GltfRefused, NoEnvironmentThatTheCallerReplaces)
+TEST(GltfRefused, AReplacedEnvironmentIsNotRead)
 {
     LoadOptions options;
     options.environment = glm::vec3(1.0F, 2.0F, 3.0F);
@@ -110,7 +110,7 @@ TEST(GltfRefused, NoEnvironmentThatTheCallerReplaces)
     EXPECT_EQ(scene.environment->radiance, glm::vec3(1.0F, 2.0F, 3.0F));
 }
 
-TEST(GltfRefused, EnvironmentsThatAreNoMapAreOnlySaid)
+TEST(GltfRefused, InvalidEnvironmentsOnlyWarn)
 {
     GltfBuilder builder;
     builder.addNode({{"mesh", builder.addTriangleMesh()}});

@@ -3,6 +3,7 @@
 #include "host/error.hpp"
 #include "host/image/exr.hpp"
 #include "host/image/radiance_map.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -20,11 +21,15 @@ TEST(InputFile, OnlyRegularFilesAndLinksToThem)
     std::filesystem::create_symlink("file", folder / "link");
     EXPECT_NO_THROW(requireFile(folder / "file", "a file"));
     EXPECT_NO_THROW(requireFile(folder / "link", "a file"));
-    expectRefusal<InputError>([&] { requireFile(folder.path(), "a map"); }, ": is a folder; expected a map");
-    expectRefusal<InputError>([&] { requireFile("/dev/zero", "a map"); }, "/dev/zero: is a device; expected a map");
-    expectRefusal<InputError>([&] { requireFile(folder / "none", "a map"); }, "none: cannot be read: No such file");
-    expectRefusal<InputError>([&] { requireFile(folder / "file" / "none", "a map"); }, "none: cannot be read: Not a directory");
-    expectRefusal<InputError>([&] { requireFile("", "a map"); }, "expected that of a map");
+    const auto expectRefusedAs = [](const std::filesystem::path& file, MessageId id, const std::string& value) {
+        expectRefusal<InputError>([&] { requireFile(file, "a map"); }, id, {.file = file, .value = value});
+    };
+    expectRefusedAs(folder.path(), MessageId::WrongType, "a folder");
+    expectRefusedAs("/dev/zero", MessageId::WrongType, "a device");
+    expectRefusedAs(folder / "none", MessageId::FileMissing, "No such file or directory");
+    expectRefusedAs(folder / "file" / "none", MessageId::FileMissing, "Not a directory");
+    expectRefusedAs("http://example.org/a.hdr", MessageId::Unsupported, "a URL");
+    expectRefusal<InputError>([&] { requireFile("", "a map"); }, MessageId::Missing, {.expected = "a map"});
 }
 
 TEST(InputFile, NoReaderWaitsForAPipe)
@@ -32,16 +37,20 @@ TEST(InputFile, NoReaderWaitsForAPipe)
     const ScratchFolder folder;
     const std::filesystem::path pipe = folder / "pipe";
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-    expectRefusal<InputError>([&] { loadGltf(pipe); }, "pipe: is a pipe; expected a .gltf or a .glb file");
-    expectRefusal<InputError>([&] { readExr(pipe); }, "pipe: is a pipe; expected an OpenEXR file");
-    expectRefusal<InputError>([&] { readRadianceMap(pipe); }, "pipe: is a pipe; expected a .hdr or .exr map");
+    const auto expectNoPipe = [&](const auto& read, const std::string& expected) {
+        expectRefusal<InputError>([&] { read(pipe); }, MessageId::WrongType, {.file = "pipe", .value = "a pipe", .expected = expected});
+    };
+    expectNoPipe([](const auto& file) { loadGltf(file); }, ".gltf or a .glb");
+    expectNoPipe([](const auto& file) { readExr(file); }, "OpenEXR");
+    expectNoPipe([](const auto& file) { readRadianceMap(file); }, ".hdr or .exr");
 
     GltfBuilder builder;
     builder.addNode({{"mesh", builder.addTriangleMesh()}});
     json document = json::parse(builder.toGltf());
     document["buffers"][0]["uri"] = "pipe";
     writeText(folder / "scene.gltf", document.dump());
-    expectRefusal<InputError>([&] { loadGltf(folder / "scene.gltf"); }, "buffers[0] names the file \"pipe\", which cannot be read (");
+    expectRefusal<InputError>([&] { loadGltf(folder / "scene.gltf"); }, MessageId::WrongType,
+                              {.file = "scene.gltf", .place = "buffers[0]", .value = "pipe"});
 }
 
 }  // namespace

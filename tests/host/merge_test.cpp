@@ -2,6 +2,7 @@
 #include "host/error.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/merge_films.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/simulated_film.hpp"
 
@@ -14,6 +15,7 @@ namespace glim {
 namespace {
 
 using test::expectRefusal;
+using test::Parts;
 using test::sameBits;
 using test::ScratchFolder;
 using test::simulateFilm;
@@ -159,9 +161,13 @@ TEST(MergeCommand, RefusesAndWritesNothing)
     const ScratchFolder folder;
     const std::string a = folder / "a.exr", c = folder / "c.exr";
     writeFilm(a, simulateFilm(0, 256));
-    expectRefusal<InputError>([&] { runMerge({a, a, "-o", c}); }, "both hold samples 0:256");
-    expectRefusal<InputError>([&] { runMerge({a, "missing.exr", "-o", c}); }, "missing.exr: cannot be read");
-    expectRefusal<InputError>([&] { runMerge({"missing.exr", "-o", folder / "c.jpg"}); }, "does not end in .exr");
+    expectRefusal<InputError>([&] { runMerge({a, a, "-o", c}); }, MessageId::Duplicate, {.file = a, .place = "samples", .value = "0:256"});
+    expectRefusal<InputError>([&] { runMerge({a, "missing.exr", "-o", c}); }, MessageId::FileMissing, {.file = "missing.exr"});
+    expectRefusal<InputError>(
+        [&] {
+            runMerge({"missing.exr", "-o", folder / "c.jpg"});
+        },
+        MessageId::UnknownFormat, {.file = "c.jpg", .expected = ".exr"});
     EXPECT_THROW(runMerge({a}), UsageError);
     EXPECT_THROW(runMerge({a, "-o", c, "--exposure", "1"}), UsageError);
     EXPECT_THROW(runMerge({a, "-o", c, "--png", "c.png", "--exposure", "101"}), UsageError);
@@ -170,9 +176,10 @@ TEST(MergeCommand, RefusesAndWritesNothing)
 
 class MergeRefusal : public testing::Test {
 protected:
-    void expectRefused(const std::string& sentence) const
+    void expectRefused(MessageId id, Parts parts) const
     {
-        expectRefusal<InputError>([&] { planMerge({a, b}, {"a.exr", "b.exr"}); }, sentence);
+        parts.file = "b.exr";
+        expectRefusal<InputError>([&] { planMerge({a, b}, {"a.exr", "b.exr"}); }, id, parts);
     }
     Film a = simulateFilm(0, 256), b = simulateFilm(256, 512);
 };
@@ -180,7 +187,7 @@ protected:
 TEST_F(MergeRefusal, OfAnotherSize)
 {
     b.height = 6;
-    expectRefused("b.exr: cannot be merged with a.exr: its size is 7x6, expected 7x5.");
+    expectRefused(MessageId::Mismatch, {.place = "size", .value = "7x6", .expected = "7x5"});
 }
 
 // Rows 0:5 and 5:10 of a picture.
@@ -211,58 +218,60 @@ TEST_F(MergeRows, AreRefusedIfSomeAreMissingOrTwiceThere)
 {
     a.rowsBelow = 6;
     b.rowsAbove = 6;
-    expectRefused("b.exr: cannot be merged: its rows 6:11 come after rows 0:5, expected the same rows or those that begin where they end.");
+    expectRefused(MessageId::Mismatch, {.place = "rows 6:11", .value = "rows 0:5"});
     a.rowsBelow = 4;
     b.rowsAbove = 4;
-    expectRefused("its rows 4:9 come after rows 0:5");
+    expectRefused(MessageId::Mismatch, {.place = "rows 4:9", .value = "rows 0:5"});
     b.rowsBelow = 4;
     b.rowsAbove = 0;
     b.height = 5;
-    expectRefused("both hold samples 0:256");
+    expectRefused(MessageId::Duplicate, {.place = "samples", .value = "0:256"});
 }
 
 TEST_F(MergeRows, AreRefusedIfTheirSamplesDiffer)
 {
     b.sampleRanges = {{0, 300}};
-    expectRefused("b.exr: cannot be merged: its rows 5:10 have samples 0:300, expected 0:256 as rows 0:5 have.");
+    expectRefused(MessageId::Mismatch, {.place = "rows 5:10", .value = "0:300", .expected = "0:256"});
 }
 
 TEST_F(MergeRows, OfAPictureOfAnotherSize)
 {
     b.rowsBelow = 1;
-    expectRefused("its size is 7x11, expected 7x10.");
+    expectRefused(MessageId::Mismatch, {.place = "size", .value = "7x11", .expected = "7x10"});
 }
 
 TEST_F(MergeRefusal, OfAnotherScene)
 {
     b.identity.scene = "77aa";
     b.sceneFile = "scenes/other.gltf";
-    expectRefused("its scene, camera or environment is \"77aa\" (scenes/other.gltf), expected \"3f2a\" (scenes/box.gltf).");
+    expectRefused(
+        MessageId::Mismatch,
+        {.place = "scene, camera or environment", .value = "\"77aa\" (scenes/other.gltf)", .expected = "\"3f2a\" (scenes/box.gltf)"});
 }
 
 TEST_F(MergeRefusal, OfAnotherSeed)
 {
     b.identity.seed = 2;
-    expectRefused("its seed is 2, expected 1.");
+    expectRefused(MessageId::Mismatch, {.place = "seed", .value = "2", .expected = "1"});
 }
 
 TEST_F(MergeRefusal, OfAnotherSetting)
 {
     b.identity.settings = "bounces=64 sampler=independent";
-    expectRefused("its setting is \"sampler=independent\", expected \"sampler=sobol\".");
+    expectRefused(MessageId::Mismatch, {.place = "setting", .value = "\"sampler=independent\"", .expected = "\"sampler=sobol\""});
     b.identity.settings = "bounces=64 sampler=sobol clamp=3";
-    expectRefused("its setting is \"clamp=3\", expected \"\".");
+    expectRefused(MessageId::Mismatch, {.place = "setting", .value = "\"clamp=3\"", .expected = "\"\""});
 }
 
 TEST_F(MergeRefusal, OfOverlappingSamples)
 {
     b.sampleRanges = {{255, 300}};
-    expectRefused("b.exr: cannot be merged with a.exr: both hold samples 255:256, expected disjoint ranges.");
+    expectRefused(MessageId::Duplicate, {.place = "samples", .value = "255:256"});
     a.sampleRanges = {{0, 1000}, {2000, 3000}};
     b.sampleRanges = {{1500, 1600}, {2500, 2600}};
-    expectRefused("both hold samples 2500:2600");
+    expectRefused(MessageId::Duplicate, {.place = "samples", .value = "2500:2600"});
     b.sampleRanges = a.sampleRanges;
-    expectRefused("both hold samples 0:1000");
+    expectRefused(MessageId::Duplicate, {.place = "samples", .value = "0:1000"});
 }
 
 }  // namespace

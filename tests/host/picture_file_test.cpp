@@ -3,6 +3,7 @@
 #include "host/error.hpp"
 #include "host/image/decode_image.hpp"
 #include "tests/support/decode_png.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -97,14 +98,16 @@ TEST(PictureFile, IsRefusedWhereItCannotBe)
 {
     const ScratchFolder folder;
     const std::vector<Rgb8> tooLong(70000);
-    test::expectRefusal<InputError>([&] { writePicture(folder / "a.gif", 1, 1, tooLong); },
-                                    "a.gif: cannot be written: its name does not end in .png, .jpg, .jpeg or .webp.");
+    const auto expectRefused = [&](const char* name, std::uint32_t width, std::uint32_t height, MessageId id, test::Parts parts) {
+        parts.file = folder / name;
+        test::expectRefusal<InputError>([&] { writePicture(folder / name, width, height, tooLong); }, id, parts);
+    };
+    expectRefused("a.gif", 1, 1, MessageId::UnknownFormat, {.expected = ".png, .jpg, .jpeg or .webp"});
     for (const char* name : {"none/a.png", "none/a.jpg", "none/a.webp"}) {
-        test::expectRefusal<InputError>([&] { writePicture(folder / name, 1, 1, tooLong); }, "does not exist");
+        expectRefused(name, 1, 1, MessageId::FileMissing, {.value = folder / "none"});
     }
-    test::expectRefusal<InputError>([&] { writePicture(folder / "a.webp", 16384, 1, tooLong); },
-                                    "a.webp: cannot be written: a picture of 16384x1 pixels; expected at most 16383 a side");
-    test::expectRefusal<InputError>([&] { writePicture(folder / "a.jpg", 1, 65501, tooLong); }, "expected at most 65500 a side");
+    expectRefused("a.webp", 16384, 1, MessageId::TooLarge, {.value = "16384x1", .expected = "16383"});
+    expectRefused("a.jpg", 1, 65501, MessageId::TooLarge, {.value = "1x65501", .expected = "65500"});
     EXPECT_EQ(folder.entries(), 0);
     writePicture(folder / "a.webp", 16383, 1, tooLong);
     writePicture(folder / "a.jpg", 1, 65500, tooLong);

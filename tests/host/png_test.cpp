@@ -1,6 +1,7 @@
 #include "host/image/png.hpp"
 #include "host/error.hpp"
 #include "tests/support/decode_png.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -46,9 +47,10 @@ TEST(Png, IsRefusedWhereItCannotBe)
 {
     const ScratchFolder folder;
     const std::vector<Rgb8> one(1);
-    test::expectRefusal<InputError>([&] { writePng(folder / "missing/a.png", 1, 1, one); }, "does not exist");
+    test::expectRefusal<InputError>([&] { writePng(folder / "missing/a.png", 1, 1, one); }, MessageId::FileMissing,
+                                    {.file = "a.png", .value = folder / "missing"});
     // Too wide for libpng, which then leaves by longjmp.
-    test::expectRefusal<InputError>([&] { writePng(folder / "a.png", 0x80000000U, 1, one); }, "a.png: cannot be written as PNG (");
+    test::expectRefusal<InputError>([&] { writePng(folder / "a.png", 0x80000000U, 1, one); }, MessageId::FileUnwritable, {.file = "a.png"});
     EXPECT_EQ(folder.entries(), 0);
 }
 

@@ -2,6 +2,7 @@
 
 #include "host/error.hpp"
 #include "host/image/exr.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -27,14 +28,10 @@ protected:
         std::ofstream(file, std::ios::binary) << bytes;
         return readRadianceMap(file);
     }
-    std::string refusal(const std::string& bytes)
+    void expectRefused(const std::string& bytes, MessageId id, test::Parts parts = {})
     {
-        try {
-            read(bytes);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
+        parts.file = "map.hdr";
+        test::expectRefusal<InputError>([&] { read(bytes); }, id, parts);
     }
 
     test::ScratchFolder folder_;
@@ -82,7 +79,11 @@ TEST_F(RadianceMapTest, TheCombinedLayerOfSeveral)
         {"ViewLayer.Combined.R", 1.0F}, {"ViewLayer.Combined.G", 2.0F}, {"ViewLayer.Combined.B", 3.0F}, {"ViewLayer.Combined.A", 1.0F},
         {"ViewLayer.Depth.Z", 9.0F},    {"ViewLayer.DiffCol.R", 7.0F},  {"ViewLayer.DiffCol.G", 7.0F},  {"ViewLayer.DiffCol.B", 7.0F}};
     EXPECT_EQ(readRadianceMap(write(layers)).texels.at(1), glm::vec3(1, 2, 3));
-    EXPECT_THROW(readRadianceMap(write({layers.begin() + 4, layers.end()})), InputError) << "no layer is the picture";
+    test::expectRefusal<InputError>(
+        [&] {
+            readRadianceMap(write({layers.begin() + 4, layers.end()}));
+        },
+        MessageId::Missing, {.file = "layers.exr", .expected = "channels R, G and B"});
 }
 
 // Blender may write each pass as a part of its own.
@@ -163,20 +164,21 @@ TEST_F(RadianceMapTest, ExposureDivides)
 
 TEST_F(RadianceMapTest, SaysWhatIsWrong)
 {
-    EXPECT_NE(refusal("hello").find("neither OpenEXR nor Radiance"), std::string::npos);
-    EXPECT_NE(refusal("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n").find("32-bit_rle_xyze"), std::string::npos);
-    EXPECT_NE(refusal(kHeader + "-Y 99999 +X 99999\n").find("99999"), std::string::npos);
-    EXPECT_NE(refusal(kHeader + "-Y 2 +X 1\n" + pixel(1, 2, 3, 4)).find("ends in row 1 of 2"), std::string::npos);
-    EXPECT_NE(refusal(kHeader + "-Y 8192 +X 16384\n" + std::string(8191 * 12, 'x')).find("ends in row 8191 of 8192"), std::string::npos);
-    EXPECT_NE(refusal(kHeader + "-Y 1 +X 2\n" + pixel(1, 1, 1, 9)).find("a run of 9 pixels at pixel 0"), std::string::npos);
-    EXPECT_NE(refusal("#?RADIANCE\n").find("no end of its header"), std::string::npos);
+    expectRefused("hello", MessageId::UnknownFormat, {.expected = "OpenEXR nor Radiance"});
+    expectRefused("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n", MessageId::UnknownFormat, {.value = "32-bit_rle_xyze"});
+    expectRefused("#?RADIANCE\nEXPOSURE=-1\n\n", MessageId::OutOfRange, {.value = "EXPOSURE=-1"});
+    expectRefused(kHeader + "-Y 99999 +X 99999\n", MessageId::OutOfRange, {.place = "resolution", .value = "-Y 99999 +X 99999"});
+    expectRefused(kHeader + "-Y 2 +X 1\n" + pixel(1, 2, 3, 4), MessageId::FileDamaged, {.place = "row 1"});
+    expectRefused(kHeader + "-Y 8192 +X 16384\n" + std::string(8191 * 12, 'x'), MessageId::FileDamaged, {.place = "row 8191"});
+    expectRefused(kHeader + "-Y 1 +X 2\n" + pixel(1, 1, 1, 9), MessageId::FileDamaged, {.place = "pixel 0 of row 0", .value = "9"});
+    expectRefused("#?RADIANCE\n", MessageId::FileDamaged, {.expected = "a line with its resolution"});
     std::string lines = "#?RADIANCE\n";
     for (int line = 0; line < 5000; ++line) {
         lines += "A=1\n";
     }
-    EXPECT_NE(refusal(lines).find("more than 4096 lines"), std::string::npos);
-    EXPECT_THROW(readRadianceMap(folder_.path()), InputError);
-    EXPECT_THROW(readRadianceMap(folder_.path() / "missing.exr"), InputError);
+    expectRefused(lines, MessageId::TooLarge, {.expected = "4096 lines"});
+    test::expectRefusal<InputError>([&] { readRadianceMap(folder_.path()); }, MessageId::WrongType, {.value = "a folder"});
+    test::expectRefusal<InputError>([&] { readRadianceMap(folder_ / "missing.exr"); }, MessageId::FileMissing, {.file = "missing.exr"});
 }
 
 TEST_F(RadianceMapTest, SurvivesMutants)

@@ -273,7 +273,7 @@ TEST(RenderJob, ReplaysTakeTheSamplesThatARenderWouldHave)
                   {.place = "--light-samples", .value = "32768", .expected = "32767"});
 }
 
-TEST(RenderJob, ReplaysRefuseWhatIsOfPictures)
+TEST(RenderJob, ReplaysRefuseOptionsOfPictures)
 {
     for (const std::string option :
          {"--output x.exr", "--image p.png", "--rates r.png", "--ids i.exr", "--progress json", "--time 1", "--suspects 3"}) {

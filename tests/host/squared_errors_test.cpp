@@ -36,7 +36,7 @@ TEST(TrimErrors, DropsTheLargestTermsOfEachMetric)
     EXPECT_DOUBLE_EQ(trimmed.share.relMseAbsolute, 0.001);
 }
 
-TEST(TrimErrors, DropsNothingOfAThousandthThatIsNoPixel)
+TEST(TrimErrors, DropsNothingIfAThousandthIsLessThanAPixel)
 {
     const TrimmedErrors trimmed = trimErrors(rising(999));
     EXPECT_EQ(trimmed.dropped, 0U);
@@ -77,7 +77,7 @@ TEST(DifferenceColor, IsBlueBelowAndRedAbove)
     EXPECT_EQ(colorOf(0.5), (Rgb8{228, 128, 128}));
 }
 
-TEST(DrawErrors, ColoursSayTheSignAndTheScaleIsWhatMostStayBelow)
+TEST(DrawErrors, ColoursShowTheSignAndTheScaleIsThe95thPercentile)
 {
     // Errors of -1 to 1 in 101 equal steps against a reference of 2, and one firefly: 95 % stay below .95.
     Picture reference{102, 1, std::vector<glm::vec3>(102, glm::vec3(2.0F)), {}}, picture = reference;

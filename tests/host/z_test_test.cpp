@@ -1,8 +1,8 @@
 #include "host/measure/z_test.hpp"
 #include "host/error.hpp"
 #include "host/measure/confidence.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/noisy_picture.hpp"
-#include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -149,9 +149,9 @@ TEST(ZTest, LeavesOutUnknownPixelsButRefusesToTestNothing)
     EXPECT_EQ(test.compared, 254U);
     EXPECT_TRUE(test.agrees());
     picture.variance.assign(256, glm::vec3(std::numeric_limits<float>::quiet_NaN()));
-    test::expectRefusal<InputError>([&] { zTest(picture, truth); }, "No pixel");
+    test::expectRefusal<InputError>([&] { zTest(picture, truth); }, MessageId::Empty);
     picture.variance.clear();
-    test::expectRefusal<InputError>([&] { zTest(picture, truth); }, "lack a variance");
+    test::expectRefusal<InputError>([&] { zTest(picture, truth); }, MessageId::Mismatch);
 }
 
 }  // namespace

@@ -141,7 +141,7 @@ TEST(TextureFilterTest, CentresAreExact)
     }
 }
 
-TEST(TextureFilterTest, EdgesOfTheImageAndNumbersThatAreNone)
+TEST(TextureFilterTest, EdgesOfTheImageAndNumbersThatAreNotFinite)
 {
     constexpr float kInfinite = std::numeric_limits<float>::infinity();
     std::vector<Case> cases;

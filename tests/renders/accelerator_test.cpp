@@ -124,7 +124,7 @@ TEST(SplitRulePictureTest, EveryRuleGivesTheBitsOfTheOthers)
 }
 
 // Films are merged and resumed by their fingerprint, films of earlier builds too.
-TEST(FingerprintTest, IsWhatItWas)
+TEST(FingerprintTest, HasTheValueOfEarlierBuilds)
 {
     Scene scene = mixedScene();
     const std::uint64_t culled = fingerprint(flattened(scene));

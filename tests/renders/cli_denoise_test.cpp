@@ -1,6 +1,7 @@
 // --denoise: what it adds to a film, and what it leaves as it was.
 #include "host/image/exr.hpp"
 #include "host/render/film_file.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/run_glim.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/simulated_film.hpp"
@@ -23,20 +24,18 @@ protected:
         call.arguments = {"render", sceneFile(scene), "--size", "48x40", "--progress", "none"};
         call.arguments.insert(call.arguments.end(), arguments.begin(), arguments.end());
         call.folder = folder_.path();
-        return runGlim(call);
+        return runForMessages(call);
     }
     void expectDone(const std::vector<std::string>& arguments, const std::string& scene = "cornell_gems.gltf") const
     {
         const GlimRun done = run(arguments, scene);
         ASSERT_EQ(done.exitCode, 0) << done.err;
     }
-    void expectRefusal(const std::vector<std::string>& arguments, const std::string& words) const
+    void expectUsage(const std::vector<std::string>& arguments, MessageId id, const Parts& parts) const
     {
         std::vector<std::string> all{"-o", "no.exr", "--denoise"};
         all.insert(all.end(), arguments.begin(), arguments.end());
-        const GlimRun refused = run(all);
-        EXPECT_EQ(refused.exitCode, 2) << refused.err;
-        EXPECT_NE(refused.err.find(words), std::string::npos) << refused.err;
+        expectRefused(run(all), 2, id, parts);
         EXPECT_FALSE(std::filesystem::exists(folder_ / "no.exr"));
     }
     json statistics(const char* name) const { return json::parse(readFileBytes(folder_ / name)); }
@@ -124,25 +123,26 @@ TEST_F(DenoiseTest, FramesThatAreThereKeepTheirDenoisedPicture)
 
 TEST_F(DenoiseTest, RefusesWhatHasNoHalves)
 {
-    expectRefusal({"--spp", "63"}, "--spp: \"63\": --denoise needs two blocks of samples; expected 64 or more");
-    expectRefusal({"--adaptive", "neighbours"}, "--adaptive: \"neighbours\": gives pixels samples that are no two independent halves");
-    expectRefusal({"--view", "normal"}, "--view: \"normal\": has next to no noise; expected no --denoise");
-    expectRefusal({"--rows", "0:8"}, "--rows: \"0:8\": has no rows around it");
-    expectRefusal({"--checkpoint", "1m"}, "keeps no halves of the samples, which --denoise needs");
-    expectRefusal({"--denoised"}, "says what --target-rmse or --target-relmse is of; expected one of them");
+    expectUsage({"--spp", "63"}, MessageId::OutOfRange, {.place = "--spp", .value = "63", .expected = "64 or more"});
+    expectUsage({"--adaptive", "neighbours"}, MessageId::Conflict, {.place = "--adaptive", .value = "neighbours"});
+    expectUsage({"--view", "normal"}, MessageId::Conflict, {.place = "--view", .value = "normal", .expected = "no --denoise"});
+    expectUsage({"--rows", "0:8"}, MessageId::Conflict, {.place = "--rows", .value = "0:8"});
+    expectUsage({"--checkpoint", "1m"}, MessageId::Conflict, {.place = "--checkpoint"});
+    expectUsage({"--denoised"}, MessageId::Requires, {.place = "--denoised"});
 }
 
 TEST_F(DenoiseTest, RefusesWhatIsNoOpenImageDenoise)
 {
-    GlimRun refused = run({"--spp", "64", "-o", "no.exr", "--denoise", "--oidn", "."});
-    EXPECT_EQ(refused.exitCode, 1);
-    EXPECT_NE(refused.err.find(".: this folder has no libOpenImageDenoise.so.2"), std::string::npos) << refused.err;
-    refused = run({"--spp", "64", "-o", "no.exr", "--denoise", "--oidn", "libm.so.6"});
-    EXPECT_EQ(refused.exitCode, 1);
-    EXPECT_NE(refused.err.find("libm.so.6: is not Open Image Denoise 2: it has no function oidnNewDevice"), std::string::npos)
-        << refused.err;
-    refused = run({"--spp", "64", "-o", "no.exr", "--oidn", "libm.so.6"});
-    EXPECT_EQ(refused.exitCode, 2);
+    const std::vector<std::string> plain{"--spp", "64", "-o", "no.exr", "--oidn"};
+    const auto runWith = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all = plain;
+        all.insert(all.end(), more.begin(), more.end());
+        return run(all);
+    };
+    expectRefused(runWith({".", "--denoise"}), 1, MessageId::LibraryMissing, {.file = ".", .expected = "libOpenImageDenoise.so.2"});
+    expectRefused(runWith({"none.so", "--denoise"}), 1, MessageId::LibraryMissing, {.file = "none.so"});
+    expectRefused(runWith({"libm.so.6", "--denoise"}), 1, MessageId::LibraryFailed, {.file = "libm.so.6", .expected = "oidnNewDevice"});
+    expectRefused(runWith({"libm.so.6"}), 2, MessageId::Requires, {.place = "--oidn", .expected = "--denoise"});
     EXPECT_FALSE(std::filesystem::exists(folder_ / "no.exr"));
 }
 
@@ -155,9 +155,9 @@ TEST_F(DenoiseTest, IsLeftOutAtASignal)
     call.folder = folder_.path();
     call.signalWhen = hasLine;
     call.signal = 15;
-    const GlimRun ended = runGlim(call);
+    const GlimRun ended = runForMessages(call);
     EXPECT_EQ(ended.exitCode, 143);
-    EXPECT_NE(ended.err.find("the picture is not denoised: the render was ended"), std::string::npos) << ended.err;
+    expectSaid(ended, MessageId::NotDenoised);
     EXPECT_FALSE(readDenoised(folder_ / "a.exr"));
 }
 

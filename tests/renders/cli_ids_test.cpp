@@ -81,7 +81,7 @@ TEST_F(IdsTest, GoWithOtherWaysToSample)
     }
 }
 
-TEST_F(IdsTest, AreWrittenOfWhatASignalLeaves)
+TEST_F(IdsTest, AreWrittenForAPictureThatASignalEnded)
 {
     const GlimRun run = render({"--size", "60x60", "--spp", "2000000", "--progress", "json", "--ids", "i.exr"}, SIGINT);
     EXPECT_EQ(run.exitCode, 130) << run.err;

@@ -1,5 +1,6 @@
 // The program among its surroundings: devices, inspect, an installation, a machine without driver or display.
 #include "places.h"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/run_glim.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -123,10 +124,10 @@ TEST(CommandLineTest, FilesThatWouldGrowTooLargeAreNotWritten)
         call.arguments = arguments;
         call.folder = folder.path();
         const std::string before = readFileBytes(film);
-        const GlimRun run = runGlim(afterCommand("ulimit -f 1", call));
+        const GlimRun run = runForMessages(afterCommand("ulimit -f 1", call));
         EXPECT_EQ(run.signal, 0);
         EXPECT_EQ(run.exitCode, 1);
-        EXPECT_TRUE(contains(run.err, std::string(file) + ": cannot be written: File too large.")) << run.err;
+        expectSaid(run, MessageId::FileUnwritable, {.file = file, .value = "File too large"});
         EXPECT_EQ(readFileBytes(film), before);
         EXPECT_EQ(folder.entries(), 2);
     }
@@ -182,12 +183,12 @@ TEST(CommandLineTest, ScenesWithoutCameraOrLightAreFramedAndSaid)
     writeText(folder / "dark.gltf", builder.toGltf());
     GlimCall call = smallRender(folder);
     call.arguments[1] = "dark.gltf";
-    const GlimRun run = runGlim(call);
+    const GlimRun run = runForMessages(call);
     EXPECT_EQ(run.exitCode, 0) << run.err;
-    EXPECT_TRUE(contains(run.err, "camera")) << run.err;
-    EXPECT_TRUE(contains(run.err, "the scene has no light")) << run.err;
+    expectSaid(run, MessageId::FramedCamera);
+    expectSaid(run, MessageId::NoLight);
     call.arguments.insert(call.arguments.end(), {"--environment", "1,1,1"});
-    EXPECT_FALSE(contains(runGlim(call).err, "no light"));
+    EXPECT_FALSE(hasSaid(runForMessages(call), MessageId::NoLight));
 }
 
 TEST(CommandLineTest, AnInstalledAndMovedProgramRendersWithoutADisplay)

@@ -3,6 +3,7 @@
 #include "host/image/exr.hpp"
 #include "host/render/film_file.hpp"
 #include "shaders/shared/limits.h"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/run_glim.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/simulated_film.hpp"
@@ -46,13 +47,11 @@ protected:
         const GlimRun run = runGlim(call(arguments));
         EXPECT_EQ(run.exitCode, 0) << run.err;
     }
-    void expectRefused(const std::vector<std::string>& arguments, const std::string& reason) const
+    void expectRefused(const std::vector<std::string>& arguments, MessageId id, Parts parts = {}) const
     {
         const std::string before = readFileBytes(film_);
-        const GlimRun run = runGlim(call(arguments));
-        EXPECT_EQ(run.exitCode, 1) << run.out << run.err;
-        EXPECT_NE(run.err.find(reason), std::string::npos) << run.err;
-        EXPECT_EQ(countLines(run.err), 1U) << run.err;
+        parts.file = parts.file.empty() ? film_.string() : parts.file;
+        test::expectRefused(runForMessages(call(arguments)), 1, id, parts);
         EXPECT_EQ(readFileBytes(film_), before);
     }
     std::string digestOfOneRun(const std::string& samples)
@@ -125,8 +124,8 @@ TEST_F(CommandLineResumeTest, GoesOnFromAFilmOfFewerSamples)
     const std::string expected = digestOfOneRun("640");
     expectDone({"--spp", "256"});
     expectDone({"--spp", "300", "--resume"});
-    const GlimRun run = runGlim(call({"--spp", "640", "--resume"}));
-    EXPECT_NE(run.err.find("is resumed at 256 samples per pixel"), std::string::npos) << "the last block was not whole: " << run.err;
+    const GlimRun run = runForMessages(call({"--spp", "640", "--resume"}));
+    expectSaid(run, MessageId::Resumed, {.file = film_, .value = "256"});  // the last block was not whole
     EXPECT_EQ(computeDigest(readFilm(film_)), expected);
     const std::string before = readFileBytes(film_);
     const GlimRun fewer = runGlim(call({"--spp", "300", "--resume"}));
@@ -146,7 +145,7 @@ TEST_F(CommandLineResumeTest, NeighboursGoOn)
     EXPECT_EQ(runGlim(stopped).exitCode, 128 + SIGINT);
     expectDone({"--spp", "512", "--adaptive", "neighbours", "--resume"});
     EXPECT_EQ(computeDigest(readFilm(film_)), expected);
-    expectRefused({"--spp", "1024", "--adaptive", "neighbours", "--resume"}, "planned for another --spp");
+    expectRefused({"--spp", "1024", "--adaptive", "neighbours", "--resume"}, MessageId::Mismatch, {.value = "0:512"});
 }
 
 TEST_F(CommandLineResumeTest, UserSignalWritesAndGoesOn)
@@ -169,15 +168,16 @@ TEST_F(CommandLineResumeTest, UserSignalWritesAndGoesOn)
 
 TEST_F(CommandLineResumeTest, FailedCommandsAndFullDisksAreSaidAndTheRenderGoesOn)
 {
-    const GlimRun run = runGlim(call({"--spp", "300", "--checkpoint", "1m", "--on-checkpoint", "exit 7"}));
+    const GlimRun run = runForMessages(call({"--spp", "300", "--checkpoint", "1m", "--on-checkpoint", "exit 7"}));
     EXPECT_EQ(run.exitCode, 0);
-    EXPECT_NE(run.err.find("--on-checkpoint: the command failed with status 7"), std::string::npos) << run.err;
+    expectSaid(run, MessageId::CommandFailed);
+    EXPECT_TRUE(contains(run.err, "status 7")) << run.err;
     const std::string before = readFileBytes(film_);
     // After those of the lock.
-    const GlimRun full = runGlim(failing(call({"--spp", "600", "--resume"}), 6, "full", folder_.path()));
+    const GlimRun full = runForMessages(failing(call({"--spp", "600", "--resume"}), 6, "full", folder_.path()));
     EXPECT_EQ(full.exitCode, 1);
-    EXPECT_NE(full.err.find("no checkpoint: "), std::string::npos) << full.err;
-    EXPECT_NE(full.err.find("film.exr: cannot be written: No space left on device"), std::string::npos) << full.err;
+    expectSaid(full, MessageId::NoCheckpoint);
+    expectSaid(full, MessageId::FileUnwritable, {.file = film_, .value = "No space left on device"});
     EXPECT_EQ(readFileBytes(film_), before);
     EXPECT_EQ(folder_.entries(), 1U);
 }
@@ -205,16 +205,13 @@ TEST_F(CommandLineResumeTest, OneProcessWrites)
     const int held = open(lock.c_str(), O_RDWR);
     ASSERT_GE(held, 0);
     ASSERT_EQ(flock(held, LOCK_EX), 0);
-    const std::string sentence = ": is written by another glim, process 4711; expected only one.";
-    expectRefused({"--spp", "64", "--resume"}, "film.exr" + sentence);
-    expectRefused({"--spp", "64"}, "film.exr" + sentence);
+    expectRefused({"--spp", "64", "--resume"}, MessageId::FileInUse, {.value = "4711"});
+    expectRefused({"--spp", "64"}, MessageId::FileInUse, {.value = "4711"});
     const std::string link = (folder_ / "link.exr").string();
     for (const std::vector<std::string>& arguments :
          {std::vector<std::string>{"render", sceneFile("cornell.gltf"), "-o", link, "--size", "12x12"},
           {"merge", film_.string(), "-o", link}}) {
-        const GlimRun run = runGlim(arguments);
-        EXPECT_EQ(run.exitCode, 1);
-        EXPECT_EQ(run.err, "glim: " + link + sentence + "\n");
+        test::expectRefused(runForMessages(arguments), 1, MessageId::FileInUse, {.file = link, .value = "4711"});
     }
     close(held);
     expectDone({"--spp", "64", "--resume"});
@@ -225,7 +222,7 @@ TEST_F(CommandLineResumeTest, WhatIsInPlaceOfTheLockIsRefusedAndLeft)
 {
     const std::filesystem::path lock = hiddenBeside(film_, ".lock"), mine = folder_ / "mine";
     const auto expectLeft = [&](const std::filesystem::path& file, const std::string& content) {
-        expectRefused({"--spp", "4"}, lock.string() + ": is not glim's lock; expected no file of this name.");
+        expectRefused({"--spp", "4"}, MessageId::UnknownFormat, {.file = lock});
         EXPECT_EQ(readFileBytes(file), content);
         EXPECT_TRUE(std::filesystem::exists(std::filesystem::symlink_status(lock)));
         std::filesystem::remove(lock);
@@ -241,7 +238,7 @@ TEST_F(CommandLineResumeTest, WhatIsInPlaceOfTheLockIsRefusedAndLeft)
         expectLeft(lock, content);
     }
     ASSERT_EQ(mkfifo(lock.c_str(), 0600), 0);
-    expectRefused({"--spp", "4"}, "is not glim's lock");
+    expectRefused({"--spp", "4"}, MessageId::UnknownFormat, {.file = lock});
     std::filesystem::remove(lock);
     // What the user calls so, as flock(1) does, is none of glim's business.
     writeText(folder_ / "film.exr.lock", "mine");
@@ -252,19 +249,22 @@ TEST_F(CommandLineResumeTest, WhatIsInPlaceOfTheLockIsRefusedAndLeft)
 TEST_F(CommandLineResumeTest, OtherFilmsAreRefusedAndLeft)
 {
     expectDone({"--spp", "64"});
-    expectRefused({"--spp", "128", "--resume", "--seed", "1"}, "cannot be resumed: its seed is 0, expected 1");
-    expectRefused({"--spp", "128", "--resume", "--bounces", "3"}, "its setting is \"bounces=64\", expected \"bounces=3\"");
-    expectRefused({"--spp", "128", "--resume", "--size", "10x12"}, "its size is 12x12, expected 10x12");
-    expectRefused({"--spp", "128", "--resume", "--look-from", "0,1,2", "--look-at", "0,1,0"}, "its scene, camera or environment");
-    expectRefused({"--samples", "256:512", "--resume"}, "it has samples 0:64, expected them to begin at 256");
+    expectRefused({"--spp", "128", "--resume", "--seed", "1"}, MessageId::Mismatch, {.place = "seed", .value = "0", .expected = "1"});
+    expectRefused({"--spp", "128", "--resume", "--bounces", "3"}, MessageId::Mismatch,
+                  {.place = "setting", .value = "\"bounces=64\"", .expected = "\"bounces=3\""});
+    expectRefused({"--spp", "128", "--resume", "--size", "10x12"}, MessageId::Mismatch,
+                  {.place = "size", .value = "12x12", .expected = "10x12"});
+    expectRefused({"--spp", "128", "--resume", "--look-from", "0,1,2", "--look-at", "0,1,0"}, MessageId::Mismatch,
+                  {.place = "scene, camera or environment"});
+    expectRefused({"--samples", "256:512", "--resume"}, MessageId::Mismatch, {.value = "0:64", .expected = "at 256"});
     Film film = readFilm(film_);
     film.identity.kernels = "0123456789abcdef";
     writeFilm(film_, film);
-    expectRefused({"--spp", "128", "--resume"}, "it is by another version of glim's kernels");
+    expectRefused({"--spp", "128", "--resume"}, MessageId::Mismatch, {.place = "kernels"});
     expectDone({"--spp", "300"});
-    expectRefused({"--spp", "600", "--resume"}, "it has samples 0:300, expected one range that ends with a page of 256");
+    expectRefused({"--spp", "600", "--resume"}, MessageId::Unsupported, {.value = "0:300", .expected = "a page of 256"});
     writeText(film_, "no film");
-    expectRefused({"--spp", "600", "--resume"}, "is not an OpenEXR file");
+    expectRefused({"--spp", "600", "--resume"}, MessageId::UnknownFormat, {.expected = "an OpenEXR file"});
 }
 
 TEST_F(CommandLineResumeTest, DamagedFilmsAreRefused)
@@ -272,23 +272,22 @@ TEST_F(CommandLineResumeTest, DamagedFilmsAreRefused)
     expectDone({"--spp", "400", "--resume"});
     ASSERT_TRUE(readStoredFilm(film_).checkpoint);
     const Image image = readExr(film_);
-    for (const auto& [channel, sentence] :
-         {std::pair{"R", "the SHA-256 of its samples is "}, {"page.R", "the SHA-256 of its checkpoint is "}}) {
+    for (const auto& [channel, part] : {std::pair{"R", "samples"}, {"page.R", "checkpoint"}}) {
         Image damaged = image;
         ASSERT_TRUE(damaged.channels.contains(channel));
         damaged.channels[channel][7] = std::nextafter(damaged.channels[channel][7], 1e9F);
         writeExr(film_, damaged);
-        expectRefused({"--spp", "500", "--resume"}, sentence);
+        expectRefused({"--spp", "500", "--resume"}, MessageId::FileDamaged, {.place = part});
     }
     Image unsealed = image;
     unsealed.attributes.erase("glim:progressDigest");
     writeExr(film_, unsealed);
-    expectRefused({"--spp", "500", "--resume"}, "it has no attribute glim:progressDigest");
+    expectRefused({"--spp", "500", "--resume"}, MessageId::UnknownFormat, {.place = "glim:progressDigest"});
     for (const char* progress : {"", "apart", "apart 384 999 384", "elsewhere 384 0 384", "apart 384 0 384 1 1"}) {
         Image damaged = image;
         damaged.attributes["glim:progress"] = progress;
         writeExr(film_, damaged);
-        expectRefused({"--spp", "500", "--resume"}, std::string("is damaged: its progress is \"") + progress + "\"");
+        expectRefused({"--spp", "500", "--resume"}, MessageId::FileDamaged, {.place = "progress", .value = progress});
     }
 }
 
@@ -300,9 +299,9 @@ TEST_F(CommandLineResumeTest, AnotherArithmeticIsSaid)
     film.arithmetic = "0123456789abcdef";
     film.device = "another device";
     writeFilm(film_, film);
-    const GlimRun run = runGlim(call({"--spp", "512", "--resume"}));
+    const GlimRun run = runForMessages(call({"--spp", "512", "--resume"}));
     EXPECT_EQ(run.exitCode, 0) << run.err;
-    EXPECT_NE(run.err.find("rounds otherwise than another device did"), std::string::npos) << run.err;
+    expectSaid(run, MessageId::OtherRounding);
     EXPECT_FALSE(hasOneArithmetic(readFilm(film_)));
     GlimCall merge;
     merge.arguments = {"merge", film_.string(), "-o", film_.string()};

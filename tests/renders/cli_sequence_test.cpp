@@ -1,5 +1,6 @@
 // Several pictures by one call: frames, turntables and lists of cameras.
 #include "host/render/film_file.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/run_glim.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -41,7 +42,7 @@ protected:
         call.arguments = {"render", "scene.gltf", "--size", "12x8"};
         call.arguments.insert(call.arguments.end(), arguments.begin(), arguments.end());
         call.folder = folder_.path();
-        return runGlim(call);
+        return runForMessages(call);
     }
     GlimRun expectDone(const std::vector<std::string>& arguments) const
     {
@@ -208,51 +209,47 @@ TEST_F(SequenceTest, CamerasMayBeListed)
 TEST_F(SequenceTest, ListsOfCamerasThatAreWrongAreRefused)
 {
     writeScene(1);
-    const auto refusal = [this](const std::string& list) {
+    const auto expect = [this](const std::string& list, MessageId id, Parts parts) {
         writeText(folder_ / "list.json", list);
+        parts.file = "list.json";
         const GlimRun refused = run({"--cameras", "list.json", "-o", "c#.exr"});
         EXPECT_EQ(refused.exitCode, 1);
+        expectSaid(refused, id, parts);
         EXPECT_EQ(folder_.entries(), 2) << "something was written";
-        return refused.err;
     };
-    const auto expect = [&](const std::string& list, const std::string& sentence) {
-        const std::string err = refusal(list);
-        EXPECT_NE(err.find("list.json: " + sentence), std::string::npos) << err << "lacks: " << sentence;
-    };
-    expect("[", "not JSON: syntax error at byte 2");
-    expect("[]", "expected an array of at least one camera.");
-    expect("[3]", "[0] is 3; expected an object.");
-    expect(R"([{}, {"form": [0, 0, 0]}])", "[1] has a member \"form\"; expected camera, from, at, up, zoom, matrix or yfov.");
-    expect(R"([{"from": [0, 0, 1]}])", "[0] has only one of from and at; expected both.");
-    expect(R"([{"from": [0, 0], "at": [0, 0, 0]}])", "[0].from is [0,0]; expected 3 finite numbers.");
-    expect(R"([{"zoom": 2}])", "[0] has a member \"zoom\" without from; expected from and at with it.");
-    expect(R"([{"yfov": 4}])", "[0].yfov is 4; expected radians between 0 and pi.");
-    expect(R"([{"camera": 7}])", "[0]: scene.gltf: camera \"7\": expected one of 0 \"camera 0\".");
-    expect(R"([{}, {"from": [1, 1, 1], "at": [1, 1, 1]}])", "[1]: --look-at: is where --look-from is; expected another point.");
-    expect(R"([{"matrix": [1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1]}])",
-           "[0].matrix is not the pose of a camera; expected axes that differ and a last row of 0, 0, 0, 1.");
+    expect("[", MessageId::Malformed, {.value = "2"});
+    expect("[]", MessageId::WrongType, {.expected = "at least one camera"});
+    expect("[3]", MessageId::WrongType, {.place = "[0]", .value = "3"});
+    expect(R"([{}, {"form": [0, 0, 0]}])", MessageId::UnknownName,
+           {.place = "[1]", .value = "form", .expected = "camera, from, at, up, zoom, matrix or yfov"});
+    expect(R"([{"from": [0, 0, 1]}])", MessageId::Requires, {.place = "[0]", .value = "from and at"});
+    expect(R"([{"from": [0, 0], "at": [0, 0, 0]}])", MessageId::WrongType, {.place = "[0].from", .value = "[0,0]"});
+    expect(R"([{"zoom": 2}])", MessageId::Requires, {.place = "[0]", .value = "zoom"});
+    expect(R"([{"yfov": 4}])", MessageId::OutOfRange, {.place = "[0].yfov", .value = "4"});
+    expect(R"([{"camera": 7}])", MessageId::UnknownName, {.place = "[0]", .value = "7", .expected = "0 \"camera 0\""});
+    expect(R"([{}, {"from": [1, 1, 1], "at": [1, 1, 1]}])", MessageId::Degenerate, {.place = "[1]", .expected = "another point"});
+    expect(R"([{"matrix": [1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1]}])", MessageId::Degenerate, {.place = "[0].matrix"});
 }
 
 TEST_F(SequenceTest, OptionsThatContradictEachOtherAreRefused)
 {
     writeScene(1);
-    const auto expect = [this](const std::vector<std::string>& arguments, const std::string& sentence) {
-        const GlimRun refused = run(arguments);
-        EXPECT_EQ(refused.exitCode, 2) << sentence;
-        EXPECT_NE(refused.err.find(sentence), std::string::npos) << refused.err << "lacks: " << sentence;
+    const auto expect = [this](const std::vector<std::string>& arguments, MessageId id, const Parts& parts) {
+        SCOPED_TRACE(parts.place);
+        expectRefused(run(arguments), 2, id, parts);
     };
-    expect({"--frames", "2:1", "-o", "f#.exr"}, "--frames: \"2:1\": expected FIRST:LAST or FIRST:LAST:STEP");
-    expect({"--frames", "1:2", "-o", "f.exr"}, "--output: \"f.exr\": names one file for several pictures");
-    expect({"--frames", "1:2", "-o", "f#.exr", "--image", "f.jpg"}, "--image: \"f.jpg\": names one file for several pictures");
-    expect({"--frames", "1:2", "-o", "f#.exr", "--png", "#-#.png"}, "--image: \"#-#.png\": names one file for several pictures");
-    expect({"--frames", "1:2", "--at", "1", "-o", "f#.exr"}, "--at excludes --frames");
-    expect({"--frames", "1:2", "--turntable", "3", "-o", "f#.exr"}, "--frames excludes --turntable");
-    expect({"--frames", "1:2", "--camera", "all", "-o", "f#.exr"},
-           "--frames: \"1:2\": has one camera; expected its name or index as --camera");
-    expect({"--turntable", "3", "--camera", "0", "-o", "f#.exr"}, "--camera excludes --turntable");
-    expect({"--frames", "1:20", "-o", "f#.exr", "--ids", "f##.exr"}, "--ids: \"f##.exr\": expected another file than that of --output");
-    expect({"--fps", "3", "-o", "f.exr"}, "--fps requires --frames");
-    expect({"--camera", "all", "--replay", "1,1,1"}, "--replay");
+    expect({"--frames", "2:1", "-o", "f#.exr"}, MessageId::OutOfRange, {.place = "--frames", .value = "2:1"});
+    expect({"--frames", "1:2", "-o", "f.exr"}, MessageId::Conflict, {.place = "--output", .value = "f.exr"});
+    expect({"--frames", "1:2", "-o", "f#.exr", "--image", "f.jpg"}, MessageId::Conflict, {.place = "--image", .value = "f.jpg"});
+    expect({"--frames", "1:2", "-o", "f#.exr", "--png", "#-#.png"}, MessageId::Conflict, {.place = "--image", .value = "#-#.png"});
+    expect({"--frames", "1:2", "--at", "1", "-o", "f#.exr"}, MessageId::Conflict, {.place = "--at", .value = "--frames"});
+    expect({"--frames", "1:2", "--turntable", "3", "-o", "f#.exr"}, MessageId::Conflict, {.place = "--frames", .value = "--turntable"});
+    expect({"--frames", "1:2", "--camera", "all", "-o", "f#.exr"}, MessageId::Conflict,
+           {.place = "--frames", .value = "1:2", .expected = "--camera"});
+    expect({"--turntable", "3", "--camera", "0", "-o", "f#.exr"}, MessageId::Conflict, {.place = "--camera", .value = "--turntable"});
+    expect({"--frames", "1:20", "-o", "f#.exr", "--ids", "f##.exr"}, MessageId::Duplicate, {.place = "--ids", .value = "f##.exr"});
+    expect({"--fps", "3", "-o", "f.exr"}, MessageId::Requires, {.place = "--fps", .expected = "--frames"});
+    expect({"--camera", "all", "--replay", "1,1,1"}, MessageId::Conflict, {.place = "--replay"});
 }
 
 TEST_F(SequenceTest, ProgressSaysWhichPicture)

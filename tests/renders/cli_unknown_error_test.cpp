@@ -1,6 +1,7 @@
 // Renders whose error nobody can know: they say so, meet no target, and end.
 #include "host/job/film_report.hpp"
 #include "host/render/film_file.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/run_glim.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -30,7 +31,7 @@ protected:
         call.arguments = {"render", scene, "-o", "x.exr", "--size", "8x8", "--progress", "none", "--stats", "s.json"};
         call.arguments.insert(call.arguments.end(), options.begin(), options.end());
         call.folder = folder_.path();
-        GlimRun run = runGlim(call);
+        GlimRun run = runForMessages(call);
         EXPECT_EQ(run.exitCode, 0) << run.err;
         std::string text = readFileBytes(folder_ / "s.json");
         return {std::move(run), text, json::parse(text)};
@@ -88,7 +89,7 @@ TEST_F(UnknownErrorTest, MeetsNoTargetAndEndsTheRender)
         expectUnknown(rendered, because);
         EXPECT_EQ(rendered.parsed.at("stopReason"), "unknown error");
         EXPECT_EQ(samplesOf(), kSamplesOfUnknownError);
-        EXPECT_NE(rendered.run.err.find("the target is not reached after 1024 samples per pixel"), std::string::npos) << rendered.run.err;
+        expectSaid(rendered.run, MessageId::TargetUnreachable, {.value = "1024 samples per pixel"});
     }
     const Rendered less = render(lit(0.0), {"--target-rmse", "1%", "--spp", "128"});
     EXPECT_EQ(less.parsed.at("stopReason"), "samples");

@@ -357,7 +357,7 @@ TEST(CommandLineTest, RefusedScenesLeaveTheTargetAsItWas)
     expectRefused(runForMessages({"inspect", ""}), kBadInput, Id::Missing, {.expected = ".gltf"});
 }
 
-TEST(CommandLineTest, WhatTheSceneDoesNotHaveIsNamedWithWhatItHas)
+TEST(CommandLineTest, UnknownNamesAreRefusedWithThoseOfTheScene)
 {
     const ScratchFolder folder;
     const Arguments render{"render", sceneFile("cornell.gltf"), "-o", (folder / "x.exr").string()};

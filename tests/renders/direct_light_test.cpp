@@ -219,7 +219,7 @@ TEST(LightSamplesTest, CountPerLightAndHit)
 }
 
 // A picture without them would be wrong.
-TEST(DirectLightRefusalTest, OfWhatTheCourseDoesNotKnow)
+TEST(DirectLightRefusalTest, OfFeaturesThatTheCourseLacks)
 {
     RenderSettings settings = squareSettings(8, 1);
     settings.course.direct = DirectLight::Bsdf;

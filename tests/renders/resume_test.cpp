@@ -207,7 +207,7 @@ TEST(ResumeFilmTest, CheckpointsBeyondTheEndDoNot)
     EXPECT_FALSE(renderer.plan().canResume(checkpoint.progress));
 }
 
-TEST(ResumeFilmTest, WhatLacksSamplesDoesNot)
+TEST(ResumeFilmTest, FilmsThatLackSamplesDoNotGoOn)
 {
     RenderSettings settings = squareSettings(4, 256);
     settings.schedule = Schedule::Persistent;

@@ -4,6 +4,7 @@
 #include "host/render/render_resources.hpp"
 #include "host/render/replay.hpp"
 #include "tests/support/build_scene.hpp"
+#include "tests/support/expect_message.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/test_device.hpp"
 
@@ -154,17 +155,6 @@ TEST(PersistentTest, PathsAreReplayedByTheWavefront)
     }
 }
 
-void expectRefusal(const FlatScene& flat, const FlatCamera& camera, RenderSettings settings, const std::string& because)
-{
-    settings.schedule = Schedule::Persistent;
-    try {
-        const Renderer renderer(testDevice(), flat, camera, settings);
-        ADD_FAILURE() << "expected \"" << because << "\"";
-    } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find(because), std::string::npos) << error.what();
-    }
-}
-
 TEST(ScheduleChoiceTest, AutoIsTheFasterOneWhereThatCan)
 {
     DeviceDescription software, other;
@@ -205,7 +195,9 @@ TEST(PersistentTest, RefusesWhatOneKernelDoesNot)
                                  std::function([](RenderSettings& s) { s.course.roulette = Roulette::Fixed; })}) {
         RenderSettings settings = squareSettings(4, 1);
         ofCourse(settings);
-        expectRefusal(flat, camera, settings, "the course's estimators");
+        settings.schedule = Schedule::Persistent;
+        test::expectRefusal<InputError>([&] { const Renderer renderer(testDevice(), flat, camera, settings); }, MessageId::Conflict,
+                                        {.place = "--schedule", .value = "persistent", .expected = "--schedule wavefront"});
     }
 }
 

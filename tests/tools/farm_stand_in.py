@@ -104,11 +104,16 @@ def wait_for(folder, name):
 
 def stand_in(glim, mishap):
     """mishap: takes a Page, and returns the exit code and what is said."""
-    if sys.argv[1] != "serve":  # the driver's own calls
+    if sys.argv[1] != "serve":  # --version
         os.execv(glim, [glim, *sys.argv[1:]])
     server = subprocess.Popen([glim, "serve"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
     for line in sys.stdin:
         request = json.loads(line)
+        if "merge" in request:  # of the driver's own
+            server.stdin.write(line.encode())
+            server.stdin.flush()
+            print(server.stdout.readline().decode(), end="", flush=True)
+            continue
         if not request["render"]["confine"]:
             raise ValueError("files of the worker's machine can be read by a scene")
         page = Page(glim, server, request["render"])

@@ -75,9 +75,9 @@ class Animation:
 
     def read_whole(self, path, frame):
         """Whether glim can read the film, from which it draws the PNG."""
-        more = ["--image", numbered(self.options.png, frame), "--exposure", self.options.exposure] if self.options.png else []
+        picture = {"image": numbered(self.options.png, frame), "exposure": self.options.exposure} if self.options.png else {}
         with tempfile.TemporaryDirectory(dir=self.folder.path) as scratch:
-            self.glim.run(["merge", path, "-o", os.path.join(scratch, "film.exr"), *more])
+            self.glim.merge([path], os.path.join(scratch, "film.exr"), **picture)
         return True
 
     def picture(self, frame):

@@ -10,8 +10,8 @@ def stop_signals():
 
 
 class FarmError(Exception):
-    """code: the exit code, as glim's: 1 bad input, 2 usage, 3 device."""
+    """code: the exit code, as glim's: 1 bad input, 2 usage, 3 device. file: the one that is to blame, if that is known."""
 
-    def __init__(self, sentence, code=1):
+    def __init__(self, sentence, code=1, file=None):
         super().__init__(sentence)
-        self.code = code
+        self.code, self.file = code, file

@@ -1,12 +1,6 @@
 """How wrong a film still is by its own estimate, and when that is looked at."""
 
-import json
-import math
-
-from render_farm.errors import FarmError
-
 UNKNOWN_SAMPLES = 1024  # a film with a target ends after so many if its error is still unknown, as by `glim render`
-FLOOR = 0.01  # of relMSE: this share of the squared mean is in its denominator (host/cli/README.md)
 
 
 def is_rung(pages):
@@ -41,11 +35,5 @@ class FilmError:
 
 def read_film_error(glim, path):
     """The FilmError of a film, or None if it is unknown: of too few samples, of a black picture, or where float32 does not hold it."""
-    try:
-        said = json.loads(glim.read(["compare", path, path, "--json"]))
-    except FarmError as error:
-        if "No pixel is finite" in str(error):
-            return None
-        raise
-    noise, mean = said["noise"], math.sqrt(said["relmse_epsilon"] / FLOOR)
-    return None if noise is None or said["pixels"]["without_variance"] > 0 else FilmError(noise["relmse"], math.sqrt(noise["mse"]) / mean)
+    estimate = glim.merge([path])["estimate"]
+    return estimate and FilmError(estimate["relmse"], estimate["rmseOfMean"])

@@ -5,7 +5,7 @@ import subprocess
 
 from render_farm.errors import FarmError
 from render_farm.exr_header import FilmHeader, read_header
-from render_farm.glim_child import Servers, last_sentence, run_glim, serve_film
+from render_farm.glim_child import Servers, last_sentence, serve_film
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
 
@@ -25,23 +25,26 @@ class Glim:
 
     def version(self):
         try:
-            return self.read(["--version"]).strip()
+            done = subprocess.run([self.program, "--version"], capture_output=True, text=True, check=False)
         except OSError as error:
             raise FarmError("%s: is not glim: %s" % (self.program, error)) from error
-
-    def read(self, arguments):
-        """What glim prints. Refuses (FarmError) with glim's sentence."""
-        done = subprocess.run([self.program, *arguments], capture_output=True, text=True, cwd=self.folder, check=False)
         if done.returncode != 0:
             raise FarmError(last_sentence(done.returncode, done.stderr))
-        return done.stdout
+        return done.stdout.strip()
 
-    def run(self, arguments):
-        """What glim says on stderr. Refuses (FarmError) with glim's sentence and exit code."""
-        code, said = run_glim(self.program, arguments, self.folder)
-        if code != 0:
-            raise FarmError(last_sentence(code, said), code if code > 0 else 1)
-        return said
+    def merge(self, films, output=None, **options):
+        """Merges films into the file `output`; without one they are only looked at. options: others of `glim merge`.
+
+        Returns what the merged film is: samples, exact (the bits of a single run), complete, estimate (of its error, or None). Refuses
+        (FarmError, with the file that is to blame if there is one) with glim's sentence and exit code."""
+        servers = Servers()
+        try:
+            answer = servers.ask(self.program, self.folder, {"merge": {"films": films, "output": output, **options}})
+        finally:
+            servers.end()
+        if answer["code"] != 0:
+            raise FarmError(answer["error"], answer["code"] if answer["code"] > 0 else 1, (answer["reason"] or {}).get("file"))
+        return answer["film"]
 
     def sample(self, job):
         """The header of the picture's first sample: what it is a picture of, known before any worker is asked."""

@@ -16,13 +16,6 @@ def start(program, arguments, folder, **pipes):
     return subprocess.Popen(["setpriv", "--pdeathsig", "KILL", program, *arguments], cwd=folder, start_new_session=True, **pipes)
 
 
-def run_glim(program, arguments, folder):
-    """Runs glim. Returns its exit code and what it said on stderr."""
-    child = start(program, arguments, folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-    said = child.communicate()[1]
-    return child.returncode, said.decode(errors="replace").strip()
-
-
 def last_sentence(code, said):
     """Why glim failed, in one line."""
     lines = [line for line in said.splitlines() if line.strip() and not line.startswith("Run with --help")]
@@ -40,11 +33,11 @@ class Server:
         self.said = tempfile.TemporaryFile("a+b")
         self.process = start(program, ["serve"], folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.said)
 
-    def render(self, job):
-        """Returns the exit code that `glim render` with these options would have, and why it failed in one line."""
+    def ask(self, request):
+        """request: {"render": options of `glim render` by name} or {"merge": of `glim merge`}. Returns the answer of `glim serve`."""
         self.said.truncate(0)
         try:
-            self.process.stdin.write(json.dumps({"id": 0, "render": job}).encode() + b"\n")
+            self.process.stdin.write(json.dumps({"id": 0, **request}).encode() + b"\n")
             self.process.stdin.flush()
             answer = self.process.stdout.readline()
         except BrokenPipeError:
@@ -52,9 +45,8 @@ class Server:
         if not answer:
             code = self.end(ENDING_SECONDS)
             self.said.seek(0)
-            return code or 1, last_sentence(code, self.said.read().decode(errors="replace"))
-        answer = json.loads(answer)
-        return answer["code"], answer["error"] or ""
+            return {"code": code or 1, "error": last_sentence(code, self.said.read().decode(errors="replace")), "reason": None}
+        return json.loads(answer)
 
     def end(self, seconds=0):
         """Kills it unless it ends within these seconds. Returns the exit code."""
@@ -63,6 +55,12 @@ class Server:
         self.process.kill()
         return self.process.wait()
 
+    def close(self):
+        self.end()
+        for pipe in (self.process.stdin, self.process.stdout, self.said):
+            with contextlib.suppress(BrokenPipeError):
+                pipe.close()
+
 
 class Servers:
     """The server of a worker: of the program and the folder that were asked for last."""
@@ -70,16 +68,16 @@ class Servers:
     def __init__(self):
         self.server = None
 
-    def render(self, program, folder, job):
+    def ask(self, program, folder, request):
         if self.server and (self.server.key != (program, folder) or self.server.process.poll() is not None):
             self.end()
         if not self.server:
             self.server = Server(program, folder)
-        return self.server.render(job)
+        return self.server.ask(request)
 
     def end(self):
         if self.server:
-            self.server.end()
+            self.server.close()
             self.server = None
 
 
@@ -99,11 +97,11 @@ def serve_film(servers, program, job, folder, scratch=None):
         film = os.path.join(own, "film.#.exr" if "frames" in job else "film.exr")
         job = {**job, "confine": True, "progress": "none", "output": film}
         try:
-            code, error = servers.render(os.environ.get("GLIM_BINARY") or program, folder, job)
+            answer = servers.ask(os.environ.get("GLIM_BINARY") or program, folder, {"render": job})
         except OSError as caught:
             return None, 1, "glim cannot be run: %s" % caught
-        if code != 0:
-            return None, code, error
+        if answer["code"] != 0:
+            return None, answer["code"], answer["error"]
         (name,) = [name for name in os.listdir(own) if name.endswith(".exr")]
         with open(os.path.join(own, name), "rb") as file:
             return file.read(), 0, ""

@@ -11,7 +11,6 @@ from render_farm.film_error import UNKNOWN_SAMPLES, is_rung, next_rung, read_fil
 from whole_file import publish, write_whole
 
 BATCH = 16  # pages that are folded at a time: each fold writes the film anew
-EXACT = "bit-identical to a single run"
 
 
 class OtherClass(FarmError):
@@ -94,7 +93,7 @@ class Picture:
             whole = self.is_end(pages, self.options.output)
         except (FarmError, OSError):
             return False
-        if not whole or self.merge([self.options.output], self.folder.film, self.png()) is None:
+        if not whole or self.merge([self.options.output], self.folder.film, **self.png()) is None:
             self.error = None
             return False
         self.count = pages
@@ -247,23 +246,23 @@ class Picture:
         """Returns pages that turned out damaged, and others to be rendered again."""
         batch = [self.files[page] for page in pages]
         before = [self.folder.film] if self.folded else []
-        said = self.merge(before + batch, self.folder.film)
-        if said is None:
+        merged = self.merge(before + batch, self.folder.film)
+        if merged is None:
             return self.drop_damaged(before, batch)
-        if EXACT not in said and not self.options.any_device:
-            raise FarmError("%ss %d to %d do not fold exactly: %s" % (self.part, pages[0], pages[-1], said))
+        if not merged["exact"] and not self.options.any_device:
+            raise FarmError("%ss %d to %d do not fold exactly" % (self.part, pages[0], pages[-1]))
         for page in pages:
             os.unlink(self.files.pop(page))
         self.folded = pages.stop
         self.judge()
         return set(), set()
 
-    def merge(self, films, output, more=()):
-        """What glim said of a merge, or None if one of the films is damaged or of another picture."""
+    def merge(self, films, output, **options):
+        """What the merged film is, or None if one of the films is damaged or of another picture."""
         try:
-            return self.glim.run(["merge", *films, "-o", output, *more])
+            return self.glim.merge(films, output, **options)
         except FarmError as error:
-            if not any(film in str(error) for film in films):
+            if error.file not in films:
                 raise
             return None
 
@@ -292,7 +291,7 @@ class Picture:
 
     def publish(self):
         """Gives the whole picture its name."""
-        if self.options.png and self.merge([self.folder.film], self.folder.film, self.png()) is None:
+        if self.options.png and self.merge([self.folder.film], self.folder.film, **self.png()) is None:
             raise FarmError("%s: is damaged" % self.folder.film)
         beyond = [page for page in self.files if page >= self.count]
         if self.options.target:
@@ -303,7 +302,7 @@ class Picture:
         self.finished = True
 
     def png(self):
-        return ["--image", self.options.png, "--exposure", self.options.exposure] if self.options.png else []
+        return {"image": self.options.png, "exposure": self.options.exposure} if self.options.png else {}
 
     def close(self):
         self.folder.remove()

@@ -92,7 +92,9 @@ void Animator::spellOutWeights(const std::vector<std::string>& steps, const std:
         count = std::max(count, primitive.value("targets", json::array()).size());
     }
     if (count == 0) {
-        refuse(file_, place + " animates the weights of " + steps[0] + "[" + steps[1] + "], which has no morph targets; expected some");
+        refuse(file_, MessageId::Missing,
+               {part::place(place), " animates the weights of ", part::value(steps[0] + "[" + steps[1] + "]"),
+                ", which has no morph targets; expected ", part::expected("some")});
     }
     if (!owner->contains("weights")) {
         (*owner)["weights"] = mesh->value("weights", json(std::vector<double>(count, 0.0)));
@@ -115,7 +117,8 @@ std::optional<Property> Animator::findProperty(const std::string& pointer, const
     }
     Property property{findParent(steps), steps.back(), allWeights || vector, path == kVisible};
     if (property.parent == nullptr) {
-        refuse(file_, place + " points to " + pointer + "; expected a property that the file has");
+        refuse(file_, MessageId::UnknownName,
+               {part::place(place), " points to ", part::value(pointer), "; expected ", part::expected("a property that the file has")});
     }
     const bool moves = path == "nodes[].translation" || path == "nodes[].rotation" || path == "nodes[].scale";
     if (moves && property.parent->contains("matrix")) {
@@ -135,7 +138,9 @@ void Animator::replaceMatrix(std::size_t index, const std::string& pointer, cons
     json& node = document_["nodes"][index];
     readMatrix(file_, index, node["matrix"].get<std::vector<double>>());  // refuses one that projects
     if (!splitMatrix(node)) {
-        refuse(file_, place + " animates " + pointer + " of a node whose matrix shears or flattens; expected a node without a matrix");
+        refuse(file_, MessageId::Degenerate,
+               {part::place(place), " animates ", part::value(pointer), " of a node whose matrix shears or flattens; expected ",
+                part::expected("a node without a matrix")});
     }
     warnings_.add(MessageId::MatrixDecomposed, "matrices of nodes that are animated count as translation, rotation and scale",
                   shortened(pointer));
@@ -153,8 +158,10 @@ std::vector<double> Animator::readTimes(const GltfAnimation::Sampler& sampler)
                           "accessors[" + std::to_string(sampler.input) + "] (" + use + ")");
             times[i] = times[i - 1];
         } else if (!(times[i] > times[i - 1])) {
-            refuse(file_, "accessors[" + std::to_string(sampler.input) + "] (" + use + ") holds " + toText(times[i]) + " after " +
-                              toText(times[i - 1]) + " in element " + std::to_string(i) + "; expected times that do not decrease");
+            refuse(file_, MessageId::OutOfRange,
+                   {part::place("accessors[" + std::to_string(sampler.input) + "] (" + use + ")"), " holds ", part::value(toText(times[i])),
+                    " after ", toText(times[i - 1]), " in element ", std::to_string(i), "; expected ",
+                    part::expected("times that do not decrease")});
         }
     }
     return times;
@@ -166,12 +173,13 @@ Keyframes Animator::readKeyframes(const GltfAnimation::Sampler& sampler, const P
     keyframes.values = readNumbers(file_, sampler.output, property.components, "values of " + place);
     const std::size_t perKey = property.width * (sampler.interpolation == Interpolation::CubicSpline ? 3 : 1);
     if (keyframes.values.size() != keyframes.times.size() * perKey) {
-        refuse(file_, place + " has " + counted(keyframes.values.size() / property.components, "value") + " for " +
-                          counted(keyframes.times.size(), "time") + "; expected " +
-                          std::to_string(keyframes.times.size() * perKey / property.components));
+        refuse(file_, MessageId::Mismatch,
+               {part::place(place), " has ", part::value(counted(keyframes.values.size() / property.components, "value")), " for ",
+                counted(keyframes.times.size(), "time"), "; expected ",
+                part::expected(std::to_string(keyframes.times.size() * perKey / property.components))});
     }
     if (property.boolean && sampler.interpolation != Interpolation::Step) {
-        refuse(file_, place + " interpolates what is true or false; expected STEP");
+        refuse(file_, MessageId::WrongType, {part::place(place), " interpolates what is true or false; expected ", part::expected("STEP")});
     }
     return keyframes;
 }
@@ -201,14 +209,17 @@ void Animator::apply(std::size_t channel, double seconds)
     const auto& [sampler, pointer] = animation_.channels[channel];
     const std::string place = place_ + ".channels[" + std::to_string(channel) + "]";
     if (sampler >= animation_.samplers.size()) {
-        refuse(file_,
-               place + ".sampler is " + std::to_string(sampler) + "; expected one below " + std::to_string(animation_.samplers.size()));
+        refuse(file_, MessageId::DanglingIndex,
+               {part::place(place + ".sampler"), " is ", part::value(std::to_string(sampler)), "; expected ",
+                part::expected("one below " + std::to_string(animation_.samplers.size()))});
     }
     if (pointer.empty()) {
         return;
     }
     if (!targets_.insert(pointer).second) {
-        refuse(file_, place + " animates " + pointer + ", as another channel does; expected one channel for each property");
+        refuse(file_, MessageId::Duplicate,
+               {part::place(place), " animates ", part::value(pointer), ", as another channel does; expected ",
+                part::expected("one channel for each property")});
     }
     if (const std::optional<Property> property = findProperty(pointer, place)) {
         set(*property, valueAt(readKeyframes(animation_.samplers[sampler], *property, place), seconds), pointer);

@@ -1,4 +1,4 @@
-// Sets the properties of a file to what an animation makes of them at a time.
+// Sets the properties of a file to the values that an animation gives them at one time.
 #pragma once
 
 #include "host/scene/gltf/gltf_file.hpp"

@@ -183,14 +183,26 @@ private:
     void require(bool right, const Place& place, const json& value, const SchemaRule& rule) const
     {
         if (!right) {
-            refuse(place, value, describe(rule));
+            refuse(idOf(rule, value), place, value, describe(rule));
         }
     }
 
-    [[noreturn]] void refuse(const Place& place, const json& value, const std::string& expected) const
+    [[noreturn]] void refuse(MessageId id, const Place& place, const json& value, const std::string& expected) const
     {
-        throw InputError(path_ + ": " + (place.parent == nullptr ? "the document" : place.text()) + " is " + excerpt(value) +
-                         "; expected " + expected);
+        throw InputError(id, {part::file(path_), ": ", part::place(place.parent == nullptr ? "the document" : place.text()), " is ",
+                              part::value(excerpt(value)), "; expected ", part::expected(expected)});
+    }
+
+    static MessageId idOf(const SchemaRule& rule, const json& value)
+    {
+        switch (rule.kind) {
+        case JsonKind::Index: return value.is_number() ? MessageId::DanglingIndex : MessageId::WrongType;
+        case JsonKind::Whole:
+        case JsonKind::Number: return value.is_number() ? MessageId::OutOfRange : MessageId::WrongType;
+        case JsonKind::Numbers: return value.is_array() ? MessageId::Mismatch : MessageId::WrongType;
+        case JsonKind::OneOf: return value.is_string() ? MessageId::UnknownName : MessageId::WrongType;
+        default: return MessageId::WrongType;
+        }
     }
 
     void visit(const RuleNode& node, json& value, const Place& place) const
@@ -199,14 +211,14 @@ private:
             checkValue(rule, value, place);
         }
         if (node.elements && !value.is_array()) {
-            refuse(place, value, "an array");
+            refuse(MessageId::WrongType, place, value, "an array");
         }
         for (std::size_t i = 0; node.elements && i < value.size(); ++i) {
             visit(*node.elements, value[i], {&place, "", i});
         }
         const bool isExtras = place.name == "extras";  // which may hold anything
         if ((node.values || (!node.members.empty() && !isExtras)) && !value.is_object()) {
-            refuse(place, value, "an object");
+            refuse(MessageId::WrongType, place, value, "an object");
         }
         if (node.values) {
             for (auto& [key, member] : value.items()) {
@@ -224,7 +236,8 @@ private:
         if (member == value.end()) {
             for (const SchemaRule& rule : node.rules) {
                 if (rule.need == Need::Required) {
-                    throw InputError(path_ + ": " + place.text() + " is missing; expected " + describe(rule));
+                    throw InputError(MessageId::Missing, {part::file(path_), ": ", part::place(place.text()), " is missing; expected ",
+                                                          part::expected(describe(rule))});
                 }
             }
         } else if (isNone(node, *member)) {
@@ -253,7 +266,8 @@ private:
             const Place element{&place, "", i};
             clampRounded(rule, value[i], element);
             if (!isInRange(rule, value[i])) {
-                refuse(element, value[i], "a number" + describeRange(rule));
+                refuse(value[i].is_number() ? MessageId::OutOfRange : MessageId::WrongType, element, value[i],
+                       "a number" + describeRange(rule));
             }
         }
     }
@@ -390,8 +404,10 @@ void checkExtensions(const std::string& path, const json& document)
 {
     for (const json& extension : document.value("extensionsRequired", json::array())) {
         if (getEffect(extension.get<std::string>()) == ExtensionEffect::Content) {
-            throw InputError(path + ": extensionsRequired names " + shortened(extension.get<std::string>()) +
-                             ", without which geometry or images may be missing; expected a file that does not need it");
+            throw InputError(
+                MessageId::Unsupported,
+                {part::file(path), ": ", part::place("extensionsRequired"), " names ", part::value(shortened(extension.get<std::string>())),
+                 ", without which geometry or images may be missing; expected ", part::expected("a file that does not need it")});
         }
     }
 }
@@ -406,8 +422,8 @@ void checkParts(const std::string& path, const json& document, const json::json_
         if (!name.empty() && !elements[i].contains(name)) {
             std::string place = collection.to_string().substr(1);
             std::replace(place.begin(), place.end(), '/', '.');
-            throw InputError(path + ": " + place + "[" + std::to_string(i) + "]." + name +
-                             " is missing; expected an object, as its type is " + type);
+            throw InputError(MessageId::Missing, {part::file(path), ": ", part::place(place + "[" + std::to_string(i) + "]." + name),
+                                                  " is missing; expected ", part::expected("an object, as its type is " + type)});
         }
     }
 }
@@ -455,7 +471,8 @@ const SchemaRule* findRule(const std::string& path)
 void checkGltfJson(const std::string& path, json& document, Warnings& warnings)
 {
     if (document.is_object() && isFirstVersion(document)) {
-        throw InputError(path + ": is glTF 1.0; expected glTF 2.0, which converters for old files make of it");
+        throw InputError(MessageId::UnknownFormat, {part::file(path), ": is ", part::value("glTF 1.0"), "; expected ",
+                                                    part::expected("glTF 2.0, which converters for old files make of it")});
     }
     if (document.is_object()) {
         eraseNulls(document, Place(), warnings);
@@ -469,8 +486,9 @@ void checkGltfJson(const std::string& path, json& document, Warnings& warnings)
     const json& asset = document.at("asset");
     const std::string version = asset.value("version", ""), minVersion = asset.value("minVersion", "2.0");
     if (version.rfind("2.", 0) != 0 || minVersion != "2.0") {
-        throw InputError(path + ": asset asks for glTF " + shortened(asset.contains("minVersion") ? minVersion : version) +
-                         "; expected 2.0");
+        throw InputError(MessageId::UnknownFormat, {part::file(path), ": ", part::place("asset"), " asks for glTF ",
+                                                    part::value(shortened(asset.contains("minVersion") ? minVersion : version)),
+                                                    "; expected ", part::expected("2.0")});
     }
     checkExtensions(path, document);
 }

@@ -71,9 +71,10 @@ void checkUnbacked(const GltfFile& file, const std::vector<std::uint64_t>& insta
         }
     }
     if (const std::uint64_t most = kFewUnbacked + kUnbackedPerByte * countBytes(file.buffers); unbacked > most) {
-        refuse(file, "its primitives and instances use " + std::to_string(unbacked) +
-                         " elements of accessors without a bufferView, an instance as " + std::to_string(kVerticesPerInstance) +
-                         "; expected at most " + std::to_string(most) + " in a file of this size");
+        refuse(file, MessageId::TooLarge,
+               {"its primitives and instances use ", part::value(std::to_string(unbacked)),
+                " elements of accessors without a bufferView, an instance as ", std::to_string(kVerticesPerInstance), "; expected ",
+                part::expected("at most " + std::to_string(most) + " in a file of this size")});
     }
 }
 
@@ -107,9 +108,10 @@ void checkSize(const GltfFile& file, const std::vector<PlacedNode>& nodes)
     }
     const std::uint64_t needed = stored * kBytesPerTriangle + vertices * kBytesPerVertex + instances * kBytesPerInstance;
     if (const std::uint64_t available = availableBytes(); needed > available) {
-        refuse(file, "the scene has " + counted(countTriangles(uses), "triangle") + " in " + counted(instances, "instance") + "; " +
-                         std::to_string(stored) + " of them have to be stored, which takes at least " + std::to_string(needed >> 20U) +
-                         " MiB; expected at most the " + std::to_string(available >> 20U) + " MiB that the process may take");
+        refuse(file, MessageId::OutOfMemory,
+               {"the scene has ", counted(countTriangles(uses), "triangle"), " in ", counted(instances, "instance"), "; ",
+                std::to_string(stored), " of them have to be stored, which takes at least ", part::value(std::to_string(needed >> 20U)),
+                " MiB; expected ", part::expected("at most the " + std::to_string(available >> 20U) + " MiB that the process may take")});
     }
 }
 

@@ -121,7 +121,8 @@ public:
         const auto view = source["bufferView"].get<std::size_t>();
         place_ = "bufferViews[" + std::to_string(view) + "] (" + kExtension + " of " + place + ")";
         require(primitive.value("mode", TINYGLTF_MODE_TRIANGLES) == TINYGLTF_MODE_TRIANGLES && primitive.contains("indices"),
-                " belongs to a primitive that is no indexed triangle list; expected one");
+                MessageId::WrongType,
+                {part::place(place_), " belongs to a primitive that is no ", part::expected("indexed triangle list"), "; expected one"});
         const std::span<const unsigned char> bytes =
             findBytes(path_, buffers_, getRange(document_["bufferViews"][view]), "bufferViews[" + std::to_string(view) + "]");
         const std::unique_ptr<draco::Mesh> mesh = decodeMesh(bytes, accessorOf(primitive["indices"])["count"].get<std::uint64_t>());
@@ -140,10 +141,10 @@ public:
     }
 
 private:
-    void require(bool right, const std::string& rest) const
+    void require(bool right, MessageId id, std::initializer_list<MessagePart> words) const
     {
         if (!right) {
-            throw InputError(path_ + ": " + place_ + rest);
+            refuse(path_, id, words);
         }
     }
 
@@ -152,16 +153,22 @@ private:
     std::unique_ptr<draco::Mesh> decodeMesh(std::span<const unsigned char> bytes, std::uint64_t indexCount)
     {
         const std::optional<std::uint32_t> faces = readFaceCount(bytes);
-        require(faces.has_value(), " does not begin with the header of a Draco mesh of bitstream 2.2; expected one");
-        require(std::uint64_t{3} * *faces == indexCount, " holds " + std::to_string(*faces) + " triangles; expected a third of the " +
-                                                             std::to_string(indexCount) + " indices of its accessor");
-        require(indexCount <= std::max(kFewElements, kMaxCompression * bytes.size()),
-                " claims " + std::to_string(indexCount) + " indices in " + std::to_string(bytes.size()) + " bytes; expected fewer");
-        require(indexCount <= room_, " claims " + std::to_string(indexCount) + " indices; expected at most the " + std::to_string(room_) +
-                                         " that are left for a file of this size");
+        require(faces.has_value(), MessageId::UnknownFormat,
+                {part::place(place_), " does not begin with the header of a ", part::expected("Draco mesh of bitstream 2.2"),
+                 "; expected one"});
+        require(std::uint64_t{3} * *faces == indexCount, MessageId::Mismatch,
+                {part::place(place_), " holds ", part::value(std::to_string(*faces)), " triangles; expected ",
+                 part::expected("a third of the " + std::to_string(indexCount) + " indices of its accessor")});
+        require(indexCount <= std::max(kFewElements, kMaxCompression * bytes.size()), MessageId::TooLarge,
+                {part::place(place_), " claims ", part::value(std::to_string(indexCount)), " indices in ", std::to_string(bytes.size()),
+                 " bytes; expected ", part::expected("fewer")});
+        require(indexCount <= room_, MessageId::TooLarge,
+                {part::place(place_), " claims ", part::value(std::to_string(indexCount)), " indices; expected ",
+                 part::expected("at most the " + std::to_string(room_) + " that are left for a file of this size")});
         room_ -= indexCount;
         draco::StatusOr<std::unique_ptr<draco::Mesh>> mesh = decodeStream(bytes, indexCount);
-        require(mesh.ok(), " is damaged (" + mesh.status().error_msg_string() + "); expected a Draco mesh");
+        require(mesh.ok(), MessageId::FileDamaged,
+                {part::place(place_), " is damaged (", mesh.status().error_msg_string(), "); expected ", part::expected("a Draco mesh")});
         return std::move(mesh).value();
     }
 
@@ -193,17 +200,20 @@ private:
         const json accessor = accessorOf(index);
         const std::string place = " of accessors[" + std::to_string(index.get<std::size_t>()) + "] (" + name + ")";
         const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(id.get<std::uint32_t>());
-        require(attribute != nullptr, " has no attribute " + id.dump() + "; expected the one" + place);
+        require(attribute != nullptr, MessageId::Missing,
+                {part::place(place_), " has no attribute ", part::value(id.dump()), "; expected ", part::expected("the one" + place)});
         const std::map<std::string, int> components{{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}};
         const auto expected = components.find(accessor["type"].get<std::string>());
-        require(expected != components.end() && attribute->num_components() == expected->second,
-                " holds elements of " + std::to_string(attribute->num_components()) + " components; expected the " +
-                    accessor["type"].get<std::string>() + place);
-        require(accessor["count"] == mesh.num_points(),
-                " holds " + std::to_string(mesh.num_points()) + " vertices; expected the " + accessor["count"].dump() + place);
+        require(expected != components.end() && attribute->num_components() == expected->second, MessageId::Mismatch,
+                {part::place(place_), " holds elements of ", part::value(std::to_string(attribute->num_components())),
+                 " components; expected ", part::expected("the " + accessor["type"].get<std::string>() + place)});
+        require(accessor["count"] == mesh.num_points(), MessageId::Mismatch,
+                {part::place(place_), " holds ", part::value(std::to_string(mesh.num_points())), " vertices; expected ",
+                 part::expected("the " + accessor["count"].dump() + place)});
         const std::size_t offset = bytes.size();
-        require(appendValues(*attribute, accessor["componentType"].get<int>(), mesh.num_points(), bytes),
-                " holds values that do not fit; expected those of componentType " + accessor["componentType"].dump() + place);
+        require(appendValues(*attribute, accessor["componentType"].get<int>(), mesh.num_points(), bytes), MessageId::OutOfRange,
+                {part::place(place_), " holds values that do not fit; expected ",
+                 part::expected("those of componentType " + accessor["componentType"].dump() + place)});
         return addAccessor(accessor, view, offset);
     }
 

@@ -37,20 +37,21 @@ public:
 
     void checkSize(std::uint64_t viewLength, std::uint64_t compressed) const
     {
-        require(viewLength / stride_ == count_ && viewLength % stride_ == 0,
-                " has " + std::to_string(count_) + " elements of " + std::to_string(stride_) + " bytes; expected as many bytes as the " +
-                    std::to_string(viewLength) + " of its bufferView");
-        require(viewLength / kMaxCompression <= compressed, " claims " + std::to_string(viewLength) + " bytes; expected at most " +
-                                                                std::to_string(kMaxCompression * compressed) + " of its " +
-                                                                std::to_string(compressed));
+        require(viewLength / stride_ == count_ && viewLength % stride_ == 0, MessageId::Mismatch,
+                {part::place(place_), " has ", part::value(std::to_string(count_)), " elements of ", std::to_string(stride_),
+                 " bytes; expected ", part::expected("as many bytes as the " + std::to_string(viewLength) + " of its bufferView")});
+        require(viewLength / kMaxCompression <= compressed, MessageId::TooLarge,
+                {part::place(place_), " claims ", part::value(std::to_string(viewLength)), " bytes; expected ",
+                 part::expected("at most " + std::to_string(kMaxCompression * compressed) + " of its " + std::to_string(compressed))});
     }
 
     std::vector<unsigned char> decode(std::span<const unsigned char> bytes) const
     {
         std::vector<unsigned char> decoded(count_ * stride_);
-        require(decoderOf(mode_)(decoded.data(), count_, stride_, bytes.data(), bytes.size()) == 0,
-                " holds " + std::to_string(bytes.size()) + " bytes that are damaged or of an unknown version; expected " +
-                    std::to_string(count_) + " elements in mode " + mode_);
+        require(decoderOf(mode_)(decoded.data(), count_, stride_, bytes.data(), bytes.size()) == 0, MessageId::FileDamaged,
+                {part::place(place_), " holds ", part::value(std::to_string(bytes.size())),
+                 " bytes that are damaged or of an unknown version; expected ",
+                 part::expected(std::to_string(count_) + " elements in mode " + mode_)});
         if (filter_ == "OCTAHEDRAL") {
             meshopt_decodeFilterOct(decoded.data(), count_, stride_);
         } else if (filter_ == "QUATERNION") {
@@ -62,27 +63,33 @@ public:
     }
 
 private:
-    void require(bool right, const std::string& rest) const
+    void require(bool right, MessageId id, std::initializer_list<MessagePart> words) const
     {
         if (!right) {
-            throw InputError(path_ + ": " + place_ + rest);
+            refuse(path_, id, words);
         }
     }
 
     // What the decoders take for granted.
     void check() const
     {
-        const std::string stride = ".byteStride is " + std::to_string(stride_) + "; expected ";
+        const auto requireStride = [this](bool right, const std::string& expected) {
+            require(right, MessageId::OutOfRange,
+                    {part::place(place_ + ".byteStride"), " is ", part::value(std::to_string(stride_)), "; expected ",
+                     part::expected(expected)});
+        };
         if (mode_ == "ATTRIBUTES") {
-            require(stride_ % 4 == 0, stride + "a multiple of 4 in mode ATTRIBUTES");
-            require(filter_ != "OCTAHEDRAL" || stride_ == 4 || stride_ == 8, stride + "4 or 8 for the filter OCTAHEDRAL");
-            require(filter_ != "QUATERNION" || stride_ == 8, stride + "8 for the filter QUATERNION");
+            requireStride(stride_ % 4 == 0, "a multiple of 4 in mode ATTRIBUTES");
+            requireStride(filter_ != "OCTAHEDRAL" || stride_ == 4 || stride_ == 8, "4 or 8 for the filter OCTAHEDRAL");
+            requireStride(filter_ != "QUATERNION" || stride_ == 8, "8 for the filter QUATERNION");
             return;
         }
-        require(stride_ == 2 || stride_ == 4, stride + "2 or 4 in mode " + mode_);
-        require(filter_ == "NONE", ".filter is \"" + filter_ + "\"; expected NONE in mode " + mode_);
-        require(mode_ != "TRIANGLES" || count_ % 3 == 0,
-                ".count is " + std::to_string(count_) + "; expected a multiple of 3 in mode TRIANGLES");
+        requireStride(stride_ == 2 || stride_ == 4, "2 or 4 in mode " + mode_);
+        require(filter_ == "NONE", MessageId::Conflict,
+                {part::place(place_ + ".filter"), " is ", part::quoted(filter_), "; expected ", part::expected("NONE in mode " + mode_)});
+        require(mode_ != "TRIANGLES" || count_ % 3 == 0, MessageId::OutOfRange,
+                {part::place(place_ + ".count"), " is ", part::value(std::to_string(count_)), "; expected ",
+                 part::expected("a multiple of 3 in mode TRIANGLES")});
     }
 
     const std::string& path_;
@@ -110,8 +117,9 @@ void decompressViews(const std::string& path, json& document, Buffers& buffers)
             const auto length = view["byteLength"].get<std::uint64_t>();
             decoder.checkSize(length, bytes.size());
             if (length > room) {
-                throw InputError(path + ": " + place + " claims " + std::to_string(length) + " bytes; expected at most the " +
-                                 std::to_string(room) + " that are left for a file of this size");
+                refuse(path, MessageId::TooLarge,
+                       {part::place(place), " claims ", part::value(std::to_string(length)), " bytes; expected ",
+                        part::expected("at most the " + std::to_string(room) + " that are left for a file of this size")});
             }
             room -= length;
             buffers.push_back(decoder.decode(bytes));

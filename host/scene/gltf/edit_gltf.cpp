@@ -43,13 +43,18 @@ public:
         settleTransform(*at, schemaPath, steps.back());
         json value = json::parse(edit_.value, nullptr, false);
         if (value.is_discarded()) {
-            refuse(inQuotes(edit_.value) + " is not JSON; expected a number, a list of numbers, true, false or a word in quotes");
+            refuse(MessageId::Malformed, {part::quoted(edit_.value), " is not JSON; expected ",
+                                          part::expected("a number, a list of numbers, true, false or a word in quotes")});
         }
         (at->is_array() ? (*at)[std::stoul(steps.back())] : (*at)[steps.back()]) = std::move(value);
     }
 
 private:
-    [[noreturn]] void refuse(const std::string& why) const { throw InputError(path_ + ": --set " + edit_.pointer + ": " + why + "."); }
+    [[noreturn]] void refuse(MessageId id, std::initializer_list<MessagePart> why) const
+    {
+        const Message message(id, why);
+        throw InputError(Message(message, {part::file(path_), ": --set ", part::place(edit_.pointer), ": ", message.sentence, "."}));
+    }
 
     // The pointer up to a step.
     static std::string placeOf(const std::vector<std::string>& steps, std::size_t count)
@@ -68,8 +73,12 @@ private:
 
     [[noreturn]] void refuseIndex(const json& list, const std::vector<std::string>& steps, std::size_t step) const
     {
-        refuse(placeOf(steps, step) + " has " + counted(list.size(), "element") +
-               (list.empty() ? std::string() : "; expected " + indicesOf(list) + ", or a name"));
+        const std::string place = placeOf(steps, step), count = counted(list.size(), "element");
+        if (list.empty()) {
+            refuse(MessageId::DanglingIndex, {part::value(place), " has ", count});
+        }
+        refuse(MessageId::DanglingIndex,
+               {part::value(place), " has ", count, "; expected ", part::expected(indicesOf(list) + ", or a name")});
     }
 
     // What step i leads to, below `at`. An index takes the place of a name.
@@ -86,8 +95,9 @@ private:
             refuseIndex(at, steps, i);
         }
         if (!at.is_object() || isIndex(steps[i + 1])) {
-            refuse("the file has no " + placeOf(steps, i + 1) +
-                   "; expected a pointer into nodes, materials, cameras, meshes or extensions/KHR_lights_punctual/lights");
+            refuse(MessageId::UnknownName,
+                   {"the file has no ", part::value(placeOf(steps, i + 1)), "; expected ",
+                    part::expected("a pointer into nodes, materials, cameras, meshes or extensions/KHR_lights_punctual/lights")});
         }
         return at[step] = json::object();
     }
@@ -111,15 +121,16 @@ private:
             return found.front();
         }
         if (found.empty()) {
-            refuse("no element of " + place + " is named " + inQuotes(name) + "; expected " + indicesOf(list) +
-                   (names.empty() ? std::string() : ", or one of " + names + moreThanListed(named)));
+            refuse(MessageId::UnknownName,
+                   {"no element of ", place, " is named ", part::quoted(name), "; expected ",
+                    part::expected(indicesOf(list) + (names.empty() ? std::string() : ", or one of " + names + moreThanListed(named)))});
         }
         std::string indices;
         for (std::size_t i = 0; i < std::min(found.size(), kMaxListed); ++i) {
             indices += (i == 0 ? "" : ", ") + std::to_string(found[i]);
         }
-        refuse(counted(found.size(), "element") + " of " + place + " are named " + inQuotes(name) + "; expected one of their indices, " +
-               indices + moreThanListed(found.size()));
+        refuse(MessageId::AmbiguousName, {counted(found.size(), "element"), " of ", place, " are named ", part::quoted(name), "; expected ",
+                                          part::expected("one of their indices, " + indices + moreThanListed(found.size()))});
     }
 
     void checkProperty(const std::vector<std::string>& steps, const std::string& schemaPath) const
@@ -130,9 +141,10 @@ private:
                                                   rule->kind == JsonKind::Bool || rule->kind == JsonKind::OneOf);
         const bool isChangeable = std::ranges::any_of(kChangeable, [&](const char* start) { return schemaPath.starts_with(start); });
         if (steps.empty() || !hasValue || !isChangeable || steps.back() == "type") {
-            refuse(
-                "is no value that glim can change; expected a number, boolean or word of a node, material, camera or light, or the weights "
-                "of a mesh, as in /materials/0/pbrMetallicRoughness/roughnessFactor");
+            refuse(MessageId::Unsupported,
+                   {"is no value that glim can change; expected ",
+                    part::expected("a number, boolean or word of a node, material, camera or light, or the weights of a mesh, as in "
+                                   "/materials/0/pbrMetallicRoughness/roughnessFactor")});
         }
     }
 
@@ -146,9 +158,9 @@ private:
         }
         const bool isPart = schemaPath == "nodes[]." + name && (name == "translation" || name == "rotation" || name == "scale");
         if (isPart && parent.contains("matrix") && !splitMatrix(parent)) {
-            refuse(
-                "the node's matrix shears, flattens or projects and cannot be split into translation, rotation and scale; expected an edit "
-                "of the node's matrix");
+            refuse(MessageId::Degenerate,
+                   {"the node's matrix shears, flattens or projects and cannot be split into translation, rotation and scale; expected ",
+                    part::expected("an edit of the node's matrix")});
         }
     }
 

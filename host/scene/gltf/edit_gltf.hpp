@@ -1,4 +1,4 @@
-// Changes what was read of a file.
+// Applies edits to a file that has been read.
 #pragma once
 
 #include "host/scene/edit.hpp"

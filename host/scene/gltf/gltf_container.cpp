@@ -39,7 +39,7 @@ public:
         stream_.open(file, std::ios::binary | std::ios::ate);
         const std::streamoff size = stream_ ? static_cast<std::streamoff>(stream_.tellg()) : -1;
         if (size < 0) {
-            throw InputError(path_ + ": cannot be read: " + std::strerror(errno));
+            throw InputError(MessageId::FileUnreadable, {part::file(path_), ": cannot be read: ", std::strerror(errno)});
         }
         size_ = static_cast<std::uint64_t>(size);
         stream_.seekg(0);
@@ -53,7 +53,7 @@ public:
     void fill(Bytes& bytes)
     {
         if (!stream_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()))) {
-            throw InputError(path_ + ": cannot be read to its end: " + std::strerror(errno));
+            throw InputError(MessageId::FileUnreadable, {part::file(path_), ": cannot be read to its end: ", std::strerror(errno)});
         }
     }
     // Text up to a byte 0, which no JSON has. Holes of a file read as such bytes, for gigabytes.
@@ -88,25 +88,30 @@ GltfContainer readChunks(const std::string& path, PieceReader& reader, const std
     const std::uint32_t version = readU32(header, 4);
     const std::uint64_t length = readU32(header, 8);
     if (version != 2) {
-        throw InputError(path + ": the binary container has version " + std::to_string(version) + "; expected 2");
+        throw InputError(MessageId::UnknownFormat, {part::file(path), ": the binary container has version ",
+                                                    part::value(std::to_string(version)), "; expected ", part::expected("2")});
     }
     if (length > reader.size()) {
-        throw InputError(path + ": the file is truncated: it holds " + std::to_string(reader.size()) + " bytes; expected " +
-                         std::to_string(length));
+        throw InputError(MessageId::FileDamaged,
+                         {part::file(path), ": the file is truncated: it holds ", part::value(std::to_string(reader.size())),
+                          " bytes; expected ", part::expected(std::to_string(length))});
     }
     GltfContainer container;
     std::uint64_t at = kHeaderSize;
     for (int chunk = 0; at < length; ++chunk) {
-        const std::string place = path + ": chunk " + std::to_string(chunk) + " of the binary container";
+        const std::string place = "chunk " + std::to_string(chunk) + " of the binary container";
         reader.seek(at);
         const bool hasHeader = length - at >= kChunkHeaderSize;
         const std::vector<unsigned char> start = hasHeader ? reader.read(kChunkHeaderSize) : std::vector<unsigned char>();
         if (!hasHeader || length - at - kChunkHeaderSize < readU32(start, 0)) {
-            throw InputError(place + " is truncated at byte " + std::to_string(length) + "; expected its whole content");
+            throw InputError(MessageId::FileDamaged,
+                             {part::file(path), ": ", part::place(place), " is truncated at byte ", part::value(std::to_string(length)),
+                              "; expected ", part::expected("its whole content")});
         }
         const std::uint32_t size = readU32(start, 0), type = readU32(start, 4);
         if (chunk == 0 && type != kJsonChunk) {
-            throw InputError(place + " has type " + std::to_string(type) + "; expected JSON first");
+            throw InputError(MessageId::FileDamaged, {part::file(path), ": ", part::place(place), " has type ",
+                                                      part::value(std::to_string(type)), "; expected ", part::expected("JSON first")});
         }
         if (chunk == 0) {
             container.json = reader.readText(size);
@@ -116,7 +121,8 @@ GltfContainer readChunks(const std::string& path, PieceReader& reader, const std
         at += kChunkHeaderSize + size;
     }
     if (container.json.empty()) {
-        throw InputError(path + ": the binary container has no JSON chunk; expected one");
+        throw InputError(MessageId::Missing,
+                         {part::file(path), ": the binary container has no JSON chunk; expected ", part::expected("one")});
     }
     return container;
 }
@@ -133,8 +139,11 @@ void checkJsonStart(const std::filesystem::path& file, const std::vector<unsigne
     }
     const std::string extension = lowerCase(file.extension().string());
     const bool converted = extension == ".obj" || extension == ".ply";
-    throw InputError(file.string() + ": is not glTF: it begins with the byte " + std::to_string(static_cast<unsigned char>(text[first])) +
-                     "; expected a .gltf or a .glb file" + (converted ? ", which tools/to_gltf makes of " + extension + " files" : ""));
+    throw InputError(
+        MessageId::UnknownFormat,
+        {part::file(file.string()), ": is not glTF: it begins with the byte ",
+         part::value(std::to_string(static_cast<unsigned char>(text[first]))), "; expected ",
+         part::expected("a .gltf or a .glb file" + (converted ? ", which tools/to_gltf makes of " + extension + " files" : ""))});
 }
 
 int computeDepth(const std::string& text)
@@ -174,17 +183,19 @@ GltfContainer openContainer(const std::filesystem::path& file)
     PieceReader reader(file, "a .gltf or a .glb file");
     const std::vector<unsigned char> start = reader.read(std::min(reader.size(), kStart));
     if (start.empty()) {
-        throw InputError(path + ": the file is empty; expected glTF");
+        throw InputError(MessageId::Empty, {part::file(path), ": the file is empty; expected ", part::expected("glTF")});
     }
     if (start.size() >= 4 && readU32(start, 0) == kMagic) {
         if (start.size() < kHeaderSize) {
-            throw InputError(path + ": the binary container is truncated at byte " + std::to_string(start.size()) +
-                             "; expected a header of 12");
+            throw InputError(MessageId::FileDamaged,
+                             {part::file(path), ": the binary container is truncated at byte ", part::value(std::to_string(start.size())),
+                              "; expected ", part::expected("a header of 12")});
         }
         return readChunks(path, reader, start);
     }
     if (file.extension() == ".glb") {
-        throw InputError(path + ": does not start with the bytes \"glTF\"; expected them in a .glb");
+        throw InputError(MessageId::UnknownFormat,
+                         {part::file(path), ": does not start with the bytes ", part::expected("\"glTF\""), "; expected them in a .glb"});
     }
     checkJsonStart(file, start);
     reader.seek(0);
@@ -194,15 +205,17 @@ GltfContainer openContainer(const std::filesystem::path& file)
 nlohmann::json parseJson(const std::string& path, const std::string& text)
 {
     if (const int depth = computeDepth(text); depth > kMaxJsonDepth) {
-        throw InputError(path + ": the JSON is nested " + std::to_string(depth) + " levels deep; expected at most " +
-                         std::to_string(kMaxJsonDepth));
+        throw InputError(MessageId::TooLarge, {part::file(path), ": the JSON is nested ", part::value(std::to_string(depth)),
+                                               " levels deep; expected ", part::expected("at most " + std::to_string(kMaxJsonDepth))});
     }
     try {
         return nlohmann::json::parse(text);
     } catch (const nlohmann::json::parse_error& error) {
-        throw InputError(path + ": not JSON: syntax error at byte " + std::to_string(error.byte));
+        throw InputError(MessageId::Malformed,
+                         {part::file(path), ": not JSON: syntax error at byte ", part::value(std::to_string(error.byte))});
     } catch (const nlohmann::json::exception&) {
-        throw InputError(path + ": the JSON holds a number that does not fit a double; expected finite numbers");
+        throw InputError(MessageId::OutOfRange, {part::file(path), ": the JSON holds a number that does not fit a double; expected ",
+                                                 part::expected("finite numbers")});
     }
 }
 

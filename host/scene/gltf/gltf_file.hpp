@@ -98,9 +98,9 @@ BufferRange getRange(const nlohmann::json& view);
 std::span<const unsigned char> findBytes(const std::string& path, const Buffers& buffers, const BufferRange& range,
                                          const std::string& place);
 
-// Throws InputError: "<path>: <sentence>".
+// Throws InputError: "<path>: <words>".
+[[noreturn]] void refuse(const std::string& path, MessageId id, std::initializer_list<MessagePart> words);
 [[noreturn]] void refuse(const GltfFile& file, MessageId id, std::initializer_list<MessagePart> words);
-[[noreturn]] void refuse(const GltfFile& file, const std::string& sentence);
 
 // How messages name things: nodes[3] ("lamp").
 std::string label(const char* collection, std::size_t index, const std::string& name);

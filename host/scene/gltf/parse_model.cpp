@@ -81,7 +81,7 @@ tinygltf::Model parseModel(const std::string& path, json document)
     tinygltf::Model model;
     std::string error, warning;
     if (!parser.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()), "")) {
-        throw InputError(path + ": not valid glTF: " + error.substr(0, error.find('\n')));
+        throw InputError(MessageId::Malformed, {part::file(path), ": not valid glTF: ", error.substr(0, error.find('\n'))});
     }
     for (const std::size_t borrower : borrowers) {
         model.accessors[borrower].bufferView = -1;

@@ -21,8 +21,10 @@ std::vector<int> findParents(const GltfFile& file)
         for (const int child : nodes[i].children) {
             int& parent = parents[static_cast<std::size_t>(child)];
             if (parent != kNone) {
-                refuse(file, nodeLabel(file, static_cast<std::size_t>(child)) + " is a child of nodes[" + std::to_string(parent) +
-                                 "] and of nodes[" + std::to_string(i) + "]; expected one parent");
+                refuse(file, MessageId::Duplicate,
+                       {part::place(nodeLabel(file, static_cast<std::size_t>(child))),
+                        " is a child of nodes[" + std::to_string(parent) + "] and of ", part::value("nodes[" + std::to_string(i) + "]"),
+                        "; expected ", part::expected("one parent")});
             }
             parent = static_cast<int>(i);
         }
@@ -42,7 +44,9 @@ void checkAcyclic(const GltfFile& file, const std::vector<int>& parents)
             at = parents[static_cast<std::size_t>(at)];
         }
         if (at != kNone && walkThatMet[static_cast<std::size_t>(at)] == walk) {
-            refuse(file, nodeLabel(file, static_cast<std::size_t>(at)) + " is its own ancestor; expected a hierarchy without cycles");
+            refuse(file, MessageId::Cycle,
+                   {part::place(nodeLabel(file, static_cast<std::size_t>(at))), " is its own ancestor; expected ",
+                    part::expected("a hierarchy without cycles")});
         }
     }
 }
@@ -51,7 +55,9 @@ std::vector<int> findRoots(const GltfFile& file, const LoadOptions& options, con
 {
     const std::vector<tinygltf::Scene>& scenes = file.model.scenes;
     if (options.scene && *options.scene >= scenes.size()) {
-        refuse(file, "scene " + std::to_string(*options.scene) + " was asked for; expected one below " + std::to_string(scenes.size()));
+        refuse(file, MessageId::DanglingIndex,
+               {part::place("scene"), " ", part::value(std::to_string(*options.scene)), " was asked for; expected ",
+                part::expected("one below " + std::to_string(scenes.size()))});
     }
     if (!scenes.empty()) {
         const std::size_t first = file.model.defaultScene < 0 ? 0 : static_cast<std::size_t>(file.model.defaultScene);
@@ -88,7 +94,9 @@ glm::dmat3 readRotation(const GltfFile& file, std::size_t index)
     }
     const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
     if (!(glm::length(rotation) > 0.0)) {
-        refuse(file, nodeLabel(file, index) + ".rotation is 0; expected a unit quaternion");
+        refuse(file, MessageId::Degenerate,
+               {part::place(nodeLabel(file, index) + ".rotation"), " is ", part::value("0"), "; expected ",
+                part::expected("a unit quaternion")});
     }
     return glm::mat3_cast(glm::normalize(rotation));
 }
@@ -123,8 +131,9 @@ glm::dmat3 parentFromAxes(const GltfFile& file, std::size_t index, const glm::dm
 glm::dmat3 requireInvertible(const GltfFile& file, std::size_t node, const glm::dmat3& linear)
 {
     if (!isInvertible(linear)) {
-        refuse(file, nodeLabel(file, node) + " has a singular transform (determinant " + toText(glm::determinant(linear)) +
-                         "); expected one that can be inverted");
+        refuse(file, MessageId::Degenerate,
+               {part::place(nodeLabel(file, node)), " has a singular transform (determinant ",
+                part::value(toText(glm::determinant(linear))), "); expected ", part::expected("one that can be inverted")});
     }
     return linear;
 }
@@ -146,8 +155,10 @@ glm::dmat4 readMatrix(const GltfFile& file, std::size_t node, const std::vector<
         matrix[i / 4][i % 4] = values[static_cast<std::size_t>(i)];
     }
     if (values[3] != 0.0 || values[7] != 0.0 || values[11] != 0.0 || values[15] != 1.0) {
-        refuse(file, nodeLabel(file, node) + ".matrix has the last row " + toText(values[3]) + " " + toText(values[7]) + " " +
-                         toText(values[11]) + " " + toText(values[15]) + "; expected 0 0 0 1");
+        refuse(file, MessageId::OutOfRange,
+               {part::place(nodeLabel(file, node) + ".matrix"), " has the last row ",
+                part::value(toText(values[3]) + " " + toText(values[7]) + " " + toText(values[11]) + " " + toText(values[15])),
+                "; expected ", part::expected("0 0 0 1")});
     }
     return matrix;
 }
@@ -168,7 +179,9 @@ std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& opti
         PlacedNode node = pending.back();
         pending.pop_back();
         if (met[node.index]) {
-            refuse(file, nodeLabel(file, node.index) + " is met twice in its scene, as a root or below one; expected it once");
+            refuse(file, MessageId::Duplicate,
+                   {part::place(nodeLabel(file, node.index)), " is met twice in its scene, as a root or below one; expected ",
+                    part::expected("it once")});
         }
         met[node.index] = true;
         if (!isVisible(file, node.index)) {

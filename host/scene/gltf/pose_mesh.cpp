@@ -27,14 +27,18 @@ std::vector<glm::dmat4> readBindMatrices(const GltfFile& file, std::size_t index
     const std::string use = "inverseBindMatrices of " + skinLabel(file, index);
     std::vector<glm::dmat4> matrices = readMatrices(file, *skin.inverseBindMatrices, use);
     if (matrices.size() < skin.joints.size()) {
-        refuse(file, skinLabel(file, index) + " has " + std::to_string(matrices.size()) +
-                         " inverseBindMatrices; expected one for each of its " + std::to_string(skin.joints.size()) + " joints");
+        refuse(
+            file, MessageId::Mismatch,
+            {part::place(skinLabel(file, index)), " has ", part::value(std::to_string(matrices.size())), " inverseBindMatrices; expected ",
+             part::expected("one for each of its " + std::to_string(skin.joints.size()) + " joints")});
     }
     for (std::size_t i = 0; i < skin.joints.size(); ++i) {
         const glm::dvec4 row = glm::transpose(matrices[i])[3];
         if (!(glm::length(row - glm::dvec4(0, 0, 0, 1)) <= kAffineRounding)) {
-            refuse(file, use + " hold the last row " + toText(row.x) + " " + toText(row.y) + " " + toText(row.z) + " " + toText(row.w) +
-                             " in element " + std::to_string(i) + "; expected 0 0 0 1");
+            refuse(file, MessageId::OutOfRange,
+                   {part::place(use), " hold the last row ",
+                    part::value(toText(row.x) + " " + toText(row.y) + " " + toText(row.z) + " " + toText(row.w)), " in element ",
+                    std::to_string(i), "; expected ", part::expected("0 0 0 1")});
         }
     }
     return matrices;
@@ -47,15 +51,18 @@ std::size_t countSets(const GltfFile& file, const tinygltf::Primitive& primitive
         const std::string joints = "JOINTS_" + std::to_string(sets), weights = "WEIGHTS_" + std::to_string(sets);
         const bool hasJoints = primitive.attributes.count(joints) > 0, hasWeights = primitive.attributes.count(weights) > 0;
         if (hasJoints != hasWeights) {
-            refuse(file,
-                   place + " has " + (hasJoints ? joints : weights) + " without " + (hasJoints ? weights : joints) + "; expected both");
+            refuse(file, MessageId::Requires,
+                   {part::place(place), " has ", part::value(hasJoints ? joints : weights), " without ", (hasJoints ? weights : joints),
+                    "; expected ", part::expected("both")});
         }
         if (!hasJoints) {
             break;
         }
     }
     if (sets == 0) {
-        refuse(file, place + " has no JOINTS_0, though a node gives it a skin; expected joints and weights");
+        refuse(file, MessageId::Missing,
+               {part::place(place), " has no ", part::value("JOINTS_0"), ", though a node gives it a skin; expected ",
+                part::expected("joints and weights")});
     }
     return sets;
 }
@@ -63,10 +70,14 @@ std::size_t countSets(const GltfFile& file, const tinygltf::Primitive& primitive
 void checkInfluence(const GltfFile& file, const GltfSkin& skin, double joint, double weight, const std::string& where)
 {
     if (!(weight >= 0.0 && std::isfinite(weight))) {
-        refuse(file, where + " has a joint of weight " + toText(weight) + "; expected weights from 0");
+        refuse(
+            file, MessageId::OutOfRange,
+            {part::place(where), " has a joint of weight ", part::value(toText(weight)), "; expected ", part::expected("weights from 0")});
     }
     if (weight > 0.0 && !(joint >= 0.0 && joint < static_cast<double>(skin.joints.size()) && joint == std::floor(joint))) {
-        refuse(file, where + " follows joint " + toText(joint) + "; expected one below " + std::to_string(skin.joints.size()));
+        refuse(file, MessageId::DanglingIndex,
+               {part::place(where), " follows joint ", part::value(toText(joint)), "; expected ",
+                part::expected("one below " + std::to_string(skin.joints.size()))});
     }
 }
 
@@ -134,8 +145,9 @@ std::vector<MorphTarget> readMorphTargets(const GltfFile& file, const tinygltf::
     const tinygltf::Primitive& primitive = mesh.primitives[index];
     const std::size_t count = primitive.targets.size();
     if (count != weights.size() && !(count < weights.size() && countMorphTargets(mesh) == weights.size())) {
-        refuse(file, place + " has " + counted(count, "morph target") + " and " + counted(weights.size(), "weight") +
-                         "; expected as many of both");
+        refuse(file, MessageId::Mismatch,
+               {part::place(place), " has ", part::value(counted(count, "morph target")), " and ", counted(weights.size(), "weight"),
+                "; expected ", part::expected("as many of both")});
     }
     if (count < weights.size()) {
         warnings.add(MessageId::MissingMorphTarget, "morph targets that other parts of a mesh have do not move those without them", place);

@@ -37,14 +37,16 @@ Elements findElements(const GltfFile& file, std::size_t viewIndex, const Layout&
     const std::span<const unsigned char> bytes = findBytes(file.path, file.buffers, range, viewPlace);
     const std::size_t stride = view.byteStride == 0 ? layout.elementSize : view.byteStride;
     if (stride < layout.elementSize) {
-        refuse(file, viewPlace + ".byteStride is " + std::to_string(stride) + "; expected at least the " +
-                         std::to_string(layout.elementSize) + " bytes of an element of " + place);
+        refuse(file, MessageId::OutOfRange,
+               {part::place(viewPlace + ".byteStride"), " is ", part::value(std::to_string(stride)), "; expected ",
+                part::expected("at least the " + std::to_string(layout.elementSize) + " bytes of an element of " + place)});
     }
     const bool firstFits = layout.offset <= view.byteLength && layout.elementSize <= view.byteLength - layout.offset;
     const std::size_t room = firstFits ? (view.byteLength - layout.offset - layout.elementSize) / stride + 1 : 0;
     if (layout.count > room) {
-        refuse(file, place + " claims " + std::to_string(layout.count) + " elements; expected at most the " + std::to_string(room) +
-                         " that fit into " + viewPlace);
+        refuse(file, MessageId::OutOfRange,
+               {part::place(place), " claims ", part::value(std::to_string(layout.count)), " elements; expected ",
+                part::expected("at most the " + std::to_string(room) + " that fit into " + viewPlace)});
     }
     return {bytes.data() + layout.offset, stride, layout.count};
 }
@@ -81,14 +83,18 @@ Loader findLoader(const GltfFile& file, int componentType, const std::string& pl
     case TINYGLTF_COMPONENT_TYPE_FLOAT: return loadAs<float>;
     default: break;
     }
-    refuse(file, place + ".componentType is " + std::to_string(componentType) + "; expected one of 5120, 5121, 5122, 5123, 5125 and 5126");
+    refuse(file, MessageId::WrongType,
+           {part::place(place + ".componentType"), " is ", part::value(std::to_string(componentType)), "; expected ",
+            part::expected("one of 5120, 5121, 5122, 5123, 5125 and 5126")});
 }
 
 void checkIndexType(const GltfFile& file, int componentType, const std::string& place)
 {
     if (componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
         componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
-        refuse(file, place + ".componentType is " + std::to_string(componentType) + "; expected 5121, 5123 or 5125 for indices");
+        refuse(file, MessageId::WrongType,
+               {part::place(place + ".componentType"), " is ", part::value(std::to_string(componentType)), "; expected ",
+                part::expected("5121, 5123 or 5125 for indices")});
     }
 }
 
@@ -142,8 +148,9 @@ void replaceSparse(const GltfFile& file, const tinygltf::Accessor& accessor, con
     for (std::size_t i = 0; i < sparse.indices.count; ++i) {
         const std::size_t target = sparse.target(i);
         if (target >= values.size()) {
-            refuse(file,
-                   place + ".sparse replaces element " + std::to_string(target) + "; expected one below " + std::to_string(values.size()));
+            refuse(file, MessageId::DanglingIndex,
+                   {part::place(place + ".sparse"), " replaces element ", part::value(std::to_string(target)), "; expected ",
+                    part::expected("one below " + std::to_string(values.size()))});
         }
         values[target] = convert(decoder, sparse.value(i));
     }
@@ -177,14 +184,16 @@ void checkAccessor(const GltfFile& file, std::size_t index, int type, const char
 {
     const tinygltf::Accessor& accessor = file.model.accessors[index];
     if (accessor.type != type) {
-        refuse(file, place + " has another type; expected " + typeName);
+        refuse(file, MessageId::WrongType, {part::place(place), " has another type; expected ", part::expected(typeName)});
     }
     if (accessor.count == 0) {
-        refuse(file, place + ".count is 0; expected at least 1");
+        refuse(file, MessageId::OutOfRange,
+               {part::place(place + ".count"), " is ", part::value("0"), "; expected ", part::expected("at least 1")});
     }
     if (accessor.bufferView < 0 && accessor.count > kMaxUnbackedElements) {
-        refuse(file, place + " claims " + std::to_string(accessor.count) + " elements without a bufferView; expected at most " +
-                         std::to_string(kMaxUnbackedElements));
+        refuse(file, MessageId::TooLarge,
+               {part::place(place), " claims ", part::value(std::to_string(accessor.count)), " elements without a bufferView; expected ",
+                part::expected("at most " + std::to_string(kMaxUnbackedElements))});
     }
 }
 
@@ -226,8 +235,9 @@ std::vector<Value> readAttribute(const GltfFile& file, const std::map<std::strin
     }
     std::vector<Value> values = readVectors<Value>(file, static_cast<std::size_t>(found->second), attribute + " of " + place);
     if (values.size() != vertexCount) {
-        refuse(file, place + " has " + std::to_string(values.size()) + " " + plural + "; expected as many as its " +
-                         std::to_string(vertexCount) + " positions");
+        refuse(file, MessageId::Mismatch,
+               {part::place(place), " has ", part::value(std::to_string(values.size())), " ", plural, "; expected ",
+                part::expected("as many as its " + std::to_string(vertexCount) + " positions")});
     }
     return values;
 }
@@ -269,8 +279,9 @@ std::vector<double> readNumbers(const GltfFile& file, std::size_t accessor, std:
         for (std::size_t c = 0; c < components; ++c) {
             numbers.push_back(value[static_cast<int>(c)]);
             if (!std::isfinite(numbers.back())) {
-                refuse(file, place + " holds " + toText(numbers.back()) + " in element " +
-                                 std::to_string((numbers.size() - 1) / components) + "; expected finite numbers");
+                refuse(file, MessageId::OutOfRange,
+                       {part::place(place), " holds ", part::value(toText(numbers.back())), " in element ",
+                        std::to_string((numbers.size() - 1) / components), "; expected ", part::expected("finite numbers")});
             }
         }
     }
@@ -296,7 +307,9 @@ double readLastNumber(const GltfFile& file, std::size_t index, const std::string
         number = sparse.target(end) == last ? decoder(sparse.value(end), 0) : number;
     }
     if (!std::isfinite(number)) {
-        refuse(file, place + " holds " + toText(number) + " in element " + std::to_string(last) + "; expected finite numbers");
+        refuse(file, MessageId::OutOfRange,
+               {part::place(place), " holds ", part::value(toText(number)), " in element ", std::to_string(last), "; expected ",
+                part::expected("finite numbers")});
     }
     return number;
 }
@@ -306,8 +319,9 @@ std::vector<glm::dmat4> readMatrices(const GltfFile& file, std::size_t accessor,
     const std::string place = placeOf(accessor, use);
     checkAccessor(file, accessor, TINYGLTF_TYPE_MAT4, "MAT4", place);
     if (file.model.accessors[accessor].componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {  // others have padding
-        refuse(file, place + ".componentType is " + std::to_string(file.model.accessors[accessor].componentType) +
-                         "; expected 5126 for matrices");
+        refuse(file, MessageId::WrongType,
+               {part::place(place + ".componentType"), " is ", part::value(std::to_string(file.model.accessors[accessor].componentType)),
+                "; expected ", part::expected("5126 for matrices")});
     }
     const auto convert = [](const Decoder& decoder, const unsigned char* bytes) {
         glm::dmat4 matrix;

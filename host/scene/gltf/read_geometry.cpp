@@ -46,8 +46,10 @@ bool isFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(
 void checkPoint(const GltfFile& file, std::size_t node, const glm::dvec3& point)
 {
     if (!isFinite(point)) {
-        refuse(file, nodeLabel(file, node) + " places a point at " + toText(point.x) + " " + toText(point.y) + " " + toText(point.z) +
-                         "; expected finite coordinates");
+        refuse(file, MessageId::OutOfRange,
+               {part::place(nodeLabel(file, node)), " places a point at ",
+                part::value(toText(point.x) + " " + toText(point.y) + " " + toText(point.z)), "; expected ",
+                part::expected("finite coordinates")});
     }
 }
 
@@ -71,8 +73,10 @@ WorldSphere readSphere(const GltfFile& file, const PlacedNode& node, std::uint32
     const glm::dmat3 linear = readLinear(file, node);
     const double scale = computeUniformScale(linear);
     if (scale == 0.0) {
-        refuse(file, nodeLabel(file, node.index) + " scales its sphere by " + toText(glm::length(linear[0])) + " " +
-                         toText(glm::length(linear[1])) + " " + toText(glm::length(linear[2])) + " or shears it; expected a uniform scale");
+        refuse(file, MessageId::Unsupported,
+               {part::place(nodeLabel(file, node.index)), " scales its sphere by ",
+                part::value(toText(glm::length(linear[0])) + " " + toText(glm::length(linear[1])) + " " + toText(glm::length(linear[2]))),
+                " or shears it; expected ", part::expected("a uniform scale")});
     }
     WorldSphere world;
     world.sphere.node = static_cast<std::uint32_t>(node.index);
@@ -81,7 +85,9 @@ WorldSphere readSphere(const GltfFile& file, const PlacedNode& node, std::uint32
     world.sphere.radius = static_cast<float>(scale * source.Get("radius").GetNumberAsDouble());
     world.sphere.material = source.Has("material") ? static_cast<std::uint32_t>(source.Get("material").GetNumberAsInt()) : defaultMaterial;
     if (!std::isfinite(world.sphere.radius)) {
-        refuse(file, nodeLabel(file, node.index) + " has a sphere of infinite radius; expected one that fits a float");
+        refuse(file, MessageId::OutOfRange,
+               {part::place(nodeLabel(file, node.index)), " has a sphere of infinite radius; expected ",
+                part::expected("one that fits a float")});
     }
     return world;
 }
@@ -296,7 +302,8 @@ void GeometryReader::countTriangles()
         triangles_ += scene_.meshes[instance.mesh].indices.size() / 3;
     }
     if (triangles_ > std::numeric_limits<std::uint32_t>::max()) {
-        refuse(file_, "the scene has " + std::to_string(triangles_) + " triangles; expected at most 4294967295");
+        refuse(file_, MessageId::TooLarge,
+               {"the scene has ", part::value(std::to_string(triangles_)), " triangles; expected ", part::expected("at most 4294967295")});
     }
     if (triangles_ > kMaxFlatTriangles && read_.corners.empty()) {
         for (const Mesh& mesh : scene_.meshes) {
@@ -363,7 +370,8 @@ void GeometryReader::checkExtent(const Box& box) const
     constexpr double kMin = 1e-12, kMax = 1e18;
     const double extent = chooseExtent(box);
     if (extent > kMax) {
-        refuse(file_, "the scene is " + toText(extent) + " m large; expected at most " + toText(kMax) + " m");
+        refuse(file_, MessageId::TooLarge,
+               {"the scene is ", part::value(toText(extent)), " m large; expected ", part::expected("at most " + toText(kMax) + " m")});
     }
     if (extent > 0.0 && extent < kMin) {
         warnings_.add(MessageId::TinyScene,
@@ -459,10 +467,13 @@ void requireShapes(const GltfFile& file, const Scene& scene)
         }
     }
     if (const std::string others = listPointsAndLines(file); triangles == 0 && !others.empty()) {
-        refuse(file, "the file holds " + others + ", which glim does not draw; expected triangles");
+        refuse(file, MessageId::Unsupported,
+               {"the file holds ", part::value(others), ", which glim does not draw; expected ", part::expected("triangles")});
     }
-    refuse(file, "the scene has no triangle and no sphere to draw" +
-                     (triangles == 0 ? "" : " (" + counted(triangles, "triangle") + " of zero area)") + "; expected at least one");
+    refuse(
+        file, MessageId::Empty,
+        {"the scene has no triangle and no sphere to draw",
+         (triangles == 0 ? "" : " (" + counted(triangles, "triangle") + " of zero area)"), "; expected ", part::expected("at least one")});
 }
 
 }  // namespace glim

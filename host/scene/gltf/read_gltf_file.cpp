@@ -48,13 +48,14 @@ std::optional<std::uint32_t> base64Digit(char c)
 }
 
 // RFC 4648, with or without "=" at its end. `place` names the uri.
-std::vector<unsigned char> decodeBase64(const std::string& place, std::string_view data)
+std::vector<unsigned char> decodeBase64(const std::string& path, const std::string& place, std::string_view data)
 {
     const std::size_t end = data.find_last_not_of('=');
     const std::size_t size = end == std::string_view::npos ? 0 : end + 1;
     if (data.size() - size > 2 || size % 4 == 1) {
-        throw InputError(place + " has data of " + std::to_string(size) + " digits and " + std::to_string(data.size() - size) +
-                         " equals signs; expected base64");
+        throw InputError(MessageId::Malformed,
+                         {part::file(path), ": ", part::place(place), " has data of ", part::value(std::to_string(size)), " digits and ",
+                          std::to_string(data.size() - size), " equals signs; expected ", part::expected("base64")});
     }
     std::vector<unsigned char> bytes;
     bytes.reserve(size / 4 * 3);
@@ -62,7 +63,9 @@ std::vector<unsigned char> decodeBase64(const std::string& place, std::string_vi
     for (const char c : data.substr(0, size)) {
         const std::optional<std::uint32_t> digit = base64Digit(c);
         if (!digit) {
-            throw InputError(place + " has the byte " + std::to_string(static_cast<unsigned char>(c)) + " in its data; expected base64");
+            throw InputError(MessageId::Malformed, {part::file(path), ": ", part::place(place), " has the byte ",
+                                                    part::value(std::to_string(static_cast<unsigned char>(c))), " in its data; expected ",
+                                                    part::expected("base64")});
         }
         group = group << 6U | *digit;
         if (++digits % 4 == 0) {
@@ -86,7 +89,8 @@ std::vector<unsigned char> decodeDataUri(const std::string& path, const std::str
     constexpr std::string_view kBase64 = ";base64";
     const std::size_t comma = uri.find(',');
     if (comma == std::string::npos) {
-        throw InputError(path + ": " + place + ".uri is " + inQuotes(uri) + "; expected a comma between the media type and the data");
+        throw InputError(MessageId::Malformed, {part::file(path), ": ", part::place(place + ".uri"), " is ", part::quoted(uri),
+                                                "; expected ", part::expected("a comma between the media type and the data")});
     }
     const std::string_view header = std::string_view(uri).substr(0, comma);
     const bool isBase64 = header.size() >= kBase64.size() && header.substr(header.size() - kBase64.size()) == kBase64;
@@ -95,7 +99,7 @@ std::vector<unsigned char> decodeDataUri(const std::string& path, const std::str
     if (!isBase64) {
         return {decoded.begin(), decoded.end()};
     }
-    return decodeBase64(path + ": " + place + ".uri", isEncoded ? std::string_view(decoded) : std::string_view(uri).substr(comma + 1));
+    return decodeBase64(path, place + ".uri", isEncoded ? std::string_view(decoded) : std::string_view(uri).substr(comma + 1));
 }
 
 // The names of files that a uri may mean.
@@ -117,13 +121,16 @@ std::vector<unsigned char> readExternal(const std::string& path, const std::stri
     const std::array<std::string, 3> names = namesOf(uri);
     const bool url = isUrl(uri);
     if (url || !std::all_of(names.begin(), names.end(), isRelative)) {
-        throw InputError(path + ": " + place + ".uri is " + inQuotes(uri) + "; expected a path relative to the glTF file" +
-                         (url ? ", as glim reads files and no URLs" : ""));
+        throw InputError(
+            url ? MessageId::Unsupported : MessageId::Malformed,
+            {part::file(path), ": ", part::place(place + ".uri"), " is ", part::quoted(uri), "; expected ",
+             part::expected("a path relative to the glTF file" + std::string(url ? ", as glim reads files and no URLs" : ""))});
     }
     try {
         return readBytes(externalFile(path, uri), most);
     } catch (const InputError& error) {
-        throw InputError(path + ": " + place + " names the file " + inQuotes(uri) + ", which cannot be read (" + error.what() + ")");
+        throw InputError(error, {part::file(path), ": ", part::place(place), " names the file ", part::quoted(uri),
+                                 ", which cannot be read (", error.what(), ")"});
     }
 }
 
@@ -159,8 +166,8 @@ std::vector<std::uint64_t> listEnds(const json& document)
 void checkLength(const std::string& path, const std::string& place, std::uint64_t found, std::uint64_t expected)
 {
     if (found < expected) {
-        throw InputError(path + ": " + place + " holds " + std::to_string(found) + " bytes; expected its byteLength " +
-                         std::to_string(expected));
+        throw InputError(MessageId::FileDamaged, {part::file(path), ": ", part::place(place), " holds ", part::value(std::to_string(found)),
+                                                  " bytes; expected ", part::expected("its byteLength " + std::to_string(expected))});
     }
 }
 
@@ -187,7 +194,8 @@ Buffers readBuffers(const std::string& path, const json& document, const GltfCon
         }
         if (!entry.contains("uri") && expected > 0) {
             if (!buffers.empty() || !container.binary) {
-                throw InputError(path + ": " + place + " has no uri; expected one in all but the first buffer of a .glb");
+                throw InputError(MessageId::Missing, {part::file(path), ": ", part::place(place), " has no uri; expected ",
+                                                      part::expected("one in all but the first buffer of a .glb")});
             }
             checkLength(path, place, container.binary->size, expected);
             bytes = readBytes(path, needed, container.binary->begin);
@@ -401,8 +409,8 @@ void refuseOutside(const std::string& path, const std::string& place, const std:
     const std::filesystem::path file = std::filesystem::weakly_canonical(externalFile(path, uri), unreadable);
     const std::filesystem::path folder = std::filesystem::weakly_canonical(std::filesystem::absolute(path).parent_path(), unreadable);
     if (std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first != folder.end()) {
-        throw InputError(path + ": " + place + " names the file " + inQuotes(uri) +
-                         "; expected one in the folder of the scene (--confine)");
+        throw InputError(MessageId::OutsideFolder, {part::file(path), ": ", part::place(place), " names the file ", part::quoted(uri),
+                                                    "; expected ", part::expected("one in the folder of the scene (--confine)")});
     }
 }
 
@@ -427,18 +435,21 @@ std::span<const unsigned char> findBytes(const std::string& path, const Buffers&
 {
     const std::vector<unsigned char>& buffer = buffers[range.buffer];
     if (range.offset > buffer.size() || range.length > buffer.size() - range.offset) {
-        throw InputError(path + ": " + place + " ends at byte " + std::to_string(range.offset + range.length) + "; expected at most the " +
-                         std::to_string(buffer.size()) + " of buffers[" + std::to_string(range.buffer) + "]");
+        throw InputError(MessageId::OutOfRange, {part::file(path), ": ", part::place(place), " ends at byte ",
+                                                 part::value(std::to_string(range.offset + range.length)), "; expected ",
+                                                 part::expected("at most the " + std::to_string(buffer.size()) + " of buffers[" +
+                                                                std::to_string(range.buffer) + "]")});
     }
     return std::span(buffer).subspan(range.offset, range.length);
 }
 
-void refuse(const GltfFile& file, MessageId id, std::initializer_list<MessagePart> words)
+void refuse(const std::string& path, MessageId id, std::initializer_list<MessagePart> words)
 {
-    throw InputError(Message(Message(id, words), {part::file(file.path), ": ", Message(id, words).sentence}));
+    const Message message(id, words);
+    throw InputError(Message(message, {part::file(path), ": ", message.sentence}));
 }
 
-void refuse(const GltfFile& file, const std::string& sentence) { throw InputError(file.path + ": " + sentence); }
+void refuse(const GltfFile& file, MessageId id, std::initializer_list<MessagePart> words) { refuse(file.path, id, words); }
 
 std::string label(const char* collection, std::size_t index, const std::string& name)
 {

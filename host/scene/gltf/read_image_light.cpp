@@ -90,7 +90,9 @@ Face readFace(const GltfFile& file, const std::string& place, std::size_t image,
 {
     const DecodedImage pixels = readImage(file, image, scene, warnings);
     if (pixels.width != pixels.height) {
-        refuse(file, place + " is " + std::to_string(pixels.width) + "x" + std::to_string(pixels.height) + " pixels; expected a square");
+        refuse(file, MessageId::Mismatch,
+               {part::place(place), " is ", part::value(std::to_string(pixels.width) + "x" + std::to_string(pixels.height)),
+                " pixels; expected ", part::expected("a square")});
     }
     Face face;
     face.size = pixels.width;
@@ -107,15 +109,17 @@ Cube readCube(const GltfFile& file, const tinygltf::Value& light, const std::str
     const tinygltf::Value& levels = light.Get("specularImages");
     const bool whole = levels.ArrayLen() > 0 && levels.Get(0).IsArray() && levels.Get(0).ArrayLen() == 6;
     if (!whole) {
-        refuse(file, place + ".specularImages[0] has not six images; expected the faces of a cube");
+        refuse(file, MessageId::Mismatch,
+               {part::place(place + ".specularImages[0]"), " has not six images; expected ", part::expected("the faces of a cube")});
     }
     Cube cube;
     for (std::size_t i = 0; i < cube.size(); ++i) {
         const std::string at = place + ".specularImages[0][" + std::to_string(i) + "]";
         cube[i] = readFace(file, at, static_cast<std::size_t>(levels.Get(0).Get(static_cast<int>(i)).GetNumberAsInt()), scene, warnings);
         if (cube[i].size != cube[0].size) {
-            refuse(file, at + " is " + std::to_string(cube[i].size) + " pixels wide; expected " + std::to_string(cube[0].size) +
-                             " as the first face");
+            refuse(file, MessageId::Mismatch,
+                   {part::place(at), " is ", part::value(std::to_string(cube[i].size)), " pixels wide; expected ",
+                    part::expected(std::to_string(cube[0].size) + " as the first face")});
         }
     }
     return cube;
@@ -129,7 +133,8 @@ glm::dquat readRotation(const GltfFile& file, const tinygltf::Value& light, cons
     const auto number = [&light](int i) { return light.Get("rotation").Get(i).GetNumberAsDouble(); };
     const glm::dquat rotation(number(3), number(0), number(1), number(2));
     if (!(glm::length(rotation) > 0.0)) {
-        refuse(file, place + ".rotation is 0; expected a unit quaternion");
+        refuse(file, MessageId::Degenerate,
+               {part::place(place + ".rotation"), " is ", part::value("0"), "; expected ", part::expected("a unit quaternion")});
     }
     return glm::normalize(rotation);
 }

@@ -35,7 +35,7 @@ DecodedImage decodeNamed(const GltfFile& file, std::size_t image, std::span<cons
         }
         return decoded;
     } catch (const InputError& error) {
-        refuse(file, getName(file, image) + " " + error.what());
+        throw InputError(error, {part::file(file.path), ": ", part::place(getName(file, image)), " ", error.what()});
     }
 }
 
@@ -79,8 +79,9 @@ private:
         const std::shared_ptr<const DecodedImage> pixels = find(image, isColor);
         bytes_ += pixels->rgba8.size() + 2 * pixels->rgba16.size();
         if (bytes_ > kMaxTextureBytes) {
-            refuse(file_, "its textures take more than " + std::to_string(kMaxTextureBytes >> 20U) +
-                              " MiB; expected less (--max-texture N scales them down)");
+            refuse(file_, MessageId::TooLarge,
+                   {"its textures take more than ", part::value(std::to_string(kMaxTextureBytes >> 20U)), " MiB; expected ",
+                    part::expected("less (--max-texture N scales them down)")});
         }
         const auto index = static_cast<std::uint32_t>(scene_.images.size());
         scene_.images.emplace_back(getName(file_, image), pixels);
@@ -113,11 +114,12 @@ private:
             return readImage(file_, image, scene_, warnings_);
         } catch (const InputError& error) {
             if (options_.missingTextures == MissingTextures::Refuse) {
-                throw InputError(error.what() + std::string(" (--missing-textures grey draws it grey)"));
+                throw InputError(error, {error.what(), " (--missing-textures grey draws it grey)"});
             }
             std::string reason = error.what();
             reason.erase(0, reason.rfind(file_.path + ": ", 0) == 0 ? file_.path.size() + 2 : 0);
-            warnings_.add(MessageId::GreyImage, "images that cannot be read are drawn grey", reason);
+            warnings_.add(MessageId::GreyImage, "images that cannot be read are drawn grey",
+                          MessagePart(MessagePart::Kind::Place, reason, error.message().place));
             return makeGrey();
         }
     }

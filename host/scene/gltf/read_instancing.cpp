@@ -33,18 +33,20 @@ std::vector<Value> readAttribute(const GltfFile& file, std::size_t node, const c
     }
     const std::string place = std::string(attribute) + " of " + kName + " of " + nodeLabel(file, node);
     if (Value::length() == 4 && file.model.accessors[*accessor].type != TINYGLTF_TYPE_VEC4) {
-        refuse(file, place + " has another type; expected VEC4");
+        refuse(file, MessageId::WrongType, {part::place(place), " has another type; expected ", part::expected("VEC4")});
     }
     std::vector<Value> values = readVectors<Value>(file, *accessor, place);
     if (values.size() != count) {
-        refuse(file, place + " has " + std::to_string(values.size()) + " elements; expected as many as the other attributes, " +
-                         std::to_string(count));
+        refuse(file, MessageId::Mismatch,
+               {part::place(place), " has ", part::value(std::to_string(values.size())), " elements; expected ",
+                part::expected("as many as the other attributes, " + std::to_string(count))});
     }
     for (std::size_t i = 0; i < values.size(); ++i) {
         for (int c = 0; c < Value::length(); ++c) {
             if (!std::isfinite(values[i][c])) {
-                refuse(file, place + " holds " + toText(static_cast<double>(values[i][c])) + " in element " + std::to_string(i) +
-                                 "; expected finite numbers");
+                refuse(file, MessageId::OutOfRange,
+                       {part::place(place), " holds ", part::value(toText(static_cast<double>(values[i][c]))), " in element ",
+                        std::to_string(i), "; expected ", part::expected("finite numbers")});
             }
         }
     }
@@ -91,8 +93,9 @@ std::vector<glm::dmat4> readInstanceTransforms(const GltfFile& file, std::size_t
         if (!rotations.empty()) {
             const glm::dvec4 q(rotations[i]);
             if (!(glm::dot(q, q) > 0.0)) {
-                refuse(file, std::string("ROTATION of ") + kName + " of " + nodeLabel(file, node) + " is 0 in element " +
-                                 std::to_string(i) + "; expected unit quaternions");
+                refuse(file, MessageId::Degenerate,
+                       {part::place(std::string("ROTATION of ") + kName + " of " + nodeLabel(file, node)), " is ", part::value("0"),
+                        " in element ", std::to_string(i), "; expected ", part::expected("unit quaternions")});
             }
             transform = glm::dmat4(glm::mat3_cast(glm::normalize(glm::dquat(q.w, q.x, q.y, q.z))));
         }

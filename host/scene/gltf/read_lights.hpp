@@ -1,4 +1,4 @@
-// Reads what shines, and the cameras.
+// Reads lights, environments and cameras.
 #pragma once
 
 #include "host/scene/gltf/place_nodes.hpp"

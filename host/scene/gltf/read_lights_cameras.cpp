@@ -16,7 +16,9 @@ glm::vec3 readPosition(const GltfFile& file, const PlacedNode& node, const Scene
 {
     const glm::vec3 position(glm::dvec3(node.worldFromNode[3]) - scene.origin);
     if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(position.z)) {
-        refuse(file, nodeLabel(file, node.index) + " is not at a finite place; expected coordinates that fit a float");
+        refuse(file, MessageId::OutOfRange,
+               {part::place(nodeLabel(file, node.index)), " is not at a finite place; expected ",
+                part::expected("coordinates that fit a float")});
     }
     return position;
 }
@@ -32,7 +34,9 @@ void readCones(const GltfFile& file, const tinygltf::SpotLight& spot, const std:
 {
     const double inner = spot.innerConeAngle, outer = spot.outerConeAngle;
     if (inner > outer + kRounding * outer) {
-        refuse(file, place + " has the inner cone angle " + toText(inner) + "; expected at most the outer one, " + toText(outer));
+        refuse(file, MessageId::OutOfRange,
+               {part::place(place), " has the inner cone angle ", part::value(toText(inner)), "; expected ",
+                part::expected("at most the outer one, " + toText(outer))});
     }
     if (static_cast<float>(inner) > static_cast<float>(outer)) {
         warnings.add(MessageId::ConeClamped, "inner cones that rounding has made larger than the outer ones are clamped", place);
@@ -53,8 +57,9 @@ PunctualLight readLight(const GltfFile& file, const PlacedNode& node, std::size_
         const double color = source.color.empty() ? 1.0 : source.color[static_cast<std::size_t>(c)];
         light.intensity[c] = static_cast<float>(source.intensity * color);
         if (!std::isfinite(light.intensity[c])) {
-            refuse(file, place + " has the intensity " + toText(source.intensity) + " and the colour " + toText(color) +
-                             "; expected a product that fits a float");
+            refuse(file, MessageId::OutOfRange,
+                   {part::place(place), " has the intensity ", part::value(toText(source.intensity)), " and the colour ", toText(color),
+                    "; expected ", part::expected("a product that fits a float")});
         }
     }
     if (source.type == "point") {
@@ -102,8 +107,9 @@ Camera readCamera(const GltfFile& file, const PlacedNode& node, std::size_t inde
         camera.halfWidth = static_cast<float>(source.orthographic.xmag);
         camera.halfHeight = static_cast<float>(source.orthographic.ymag);
         if (camera.halfWidth == 0.0F || camera.halfHeight == 0.0F) {
-            refuse(file, label("cameras", index, source.name) + " has the xmag " + toText(source.orthographic.xmag) + " and the ymag " +
-                             toText(source.orthographic.ymag) + "; expected numbers other than 0");
+            refuse(file, MessageId::OutOfRange,
+                   {part::place(label("cameras", index, source.name)), " has the xmag ", part::value(toText(source.orthographic.xmag)),
+                    " and the ymag ", toText(source.orthographic.ymag), "; expected ", part::expected("numbers other than 0")});
         }
         camera.aspectRatio = static_cast<float>(std::abs(source.orthographic.xmag / source.orthographic.ymag));
     }

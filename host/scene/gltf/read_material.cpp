@@ -112,8 +112,9 @@ std::optional<Texture> MaterialReader::readTexture(int index, int uvSet, const t
     const GltfTexture& source = file_.textures[static_cast<std::size_t>(index)];
     if (!source.image) {
         if (source.basis) {
-            refuse(file_, label("textures", static_cast<std::size_t>(index), source.name) +
-                              " has only a KTX2 image (KHR_texture_basisu); expected a source that is PNG, JPEG or WebP");
+            refuse(file_, MessageId::Unsupported,
+                   {part::place(label("textures", static_cast<std::size_t>(index), source.name)), " has only a KTX2 image (",
+                    part::value("KHR_texture_basisu"), "); expected ", part::expected("a source that is PNG, JPEG or WebP")});
         }
         ignore(true, MessageId::TextureWithoutSource, "textures without a source are ignored");
         return std::nullopt;
@@ -169,7 +170,9 @@ void MaterialReader::readTransmission(Material& material)
         material.ior = 1.0F;
     }
     if (material.ior < 1.0F && material.ior != 0.0F) {
-        refuse(file_, place_ + " has the index of refraction " + toText(material.ior) + "; expected 0 or at least 1");
+        refuse(file_, MessageId::OutOfRange,
+               {part::place(place_), " has the index of refraction ", part::value(toText(material.ior)), "; expected ",
+                part::expected("0 or at least 1")});
     }
     material.transmission = numberOr(source_, kTransmission, "transmissionFactor", 0.0);
     material.diffuseTransmission = numberOr(source_, kDiffuseTransmission, "diffuseTransmissionFactor", 0.0);
@@ -181,7 +184,9 @@ void MaterialReader::readTransmission(Material& material)
         return;
     }
     if (material.ior == 0.0F) {
-        refuse(file_, place_ + " is glass with the index of refraction 0; expected at least 1");
+        refuse(file_, MessageId::OutOfRange,
+               {part::place(place_), " is glass with the index of refraction ", part::value("0"), "; expected ",
+                part::expected("at least 1")});
     }
     const glm::dvec3 color = glm::max(glm::dvec3(colorOr(source_, kVolume, "attenuationColor", glm::vec3(1.0F))), kMinAttenuation);
     const tinygltf::Value* distance = findProperty(source_, kVolume, "attenuationDistance");

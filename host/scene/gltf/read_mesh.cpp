@@ -18,8 +18,10 @@ std::vector<glm::dvec3> readPositions(const GltfFile& file, std::size_t accessor
     for (std::size_t i = 0; i < positions.size(); ++i) {
         for (int c = 0; c < 3; ++c) {
             if (!std::isfinite(positions[i][c])) {
-                refuse(file, "accessors[" + std::to_string(accessor) + "] (" + use + ") holds " + toText(positions[i][c]) + " in element " +
-                                 std::to_string(i) + "; expected finite numbers");
+                refuse(file, MessageId::OutOfRange,
+                       {part::place("accessors[" + std::to_string(accessor) + "] (" + use + ")"), " holds ",
+                        part::value(toText(positions[i][c])), " in element ", std::to_string(i), "; expected ",
+                        part::expected("finite numbers")});
             }
         }
     }
@@ -38,8 +40,10 @@ std::vector<std::uint32_t> readVertexOrder(const GltfFile& file, const tinygltf:
     std::vector<std::uint32_t> order = readIndices(file, accessor, "indices of " + place);
     for (std::size_t i = 0; i < order.size(); ++i) {
         if (order[i] >= vertexCount) {
-            refuse(file, "accessors[" + std::to_string(accessor) + "] (indices of " + place + ") holds " + std::to_string(order[i]) +
-                             " in element " + std::to_string(i) + "; expected indices below " + std::to_string(vertexCount));
+            refuse(file, MessageId::DanglingIndex,
+                   {part::place("accessors[" + std::to_string(accessor) + "] (indices of " + place + ")"), " holds ",
+                    part::value(std::to_string(order[i])), " in element ", std::to_string(i), "; expected ",
+                    part::expected("indices below " + std::to_string(vertexCount))});
         }
     }
     return order;
@@ -67,10 +71,14 @@ std::vector<std::uint32_t> listTriangles(const std::vector<std::uint32_t>& order
 void checkVertexCount(const GltfFile& file, std::size_t count, int mode, const std::string& place)
 {
     if (mode == TINYGLTF_MODE_TRIANGLES && count % 3 != 0) {
-        refuse(file, place + " has " + std::to_string(count) + " vertices for triangles; expected a multiple of 3");
+        refuse(file, MessageId::OutOfRange,
+               {part::place(place), " has ", part::value(std::to_string(count)), " vertices for triangles; expected ",
+                part::expected("a multiple of 3")});
     }
     if (count < 3) {
-        refuse(file, place + " has " + std::to_string(count) + " vertices for a strip or fan; expected at least 3");
+        refuse(file, MessageId::OutOfRange,
+               {part::place(place), " has ", part::value(std::to_string(count)), " vertices for a strip or fan; expected ",
+                part::expected("at least 3")});
     }
 }
 

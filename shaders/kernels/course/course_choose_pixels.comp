@@ -1,6 +1,6 @@
-// One thread is one pixel of a tile. Puts it on the list of chosen pixels if it still needs samples: it has all of the first pass.firstSample
-// samples, and more would help. So a pixel that has been left out once stays out, though a neighbour may meet a surface later: the samples of
-// every pixel are the first ones, without a gap. One of whose samples was not finite stays out too.
+// One thread is one pixel of a tile. Puts it on the list of chosen pixels if it has all of the first pass.firstSample samples and still
+// needs more. So a pixel that has been left out once stays out, even if a neighbour meets a surface later: the samples of every pixel are
+// the first ones, without a gap. A pixel with a sample that was not finite stays out too.
 // Reads the luminance of pixels. Appends to the list, whose count the host has set to 0.
 #version 460
 #extension GL_GOOGLE_include_directive : require

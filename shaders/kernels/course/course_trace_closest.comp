@@ -1,5 +1,5 @@
-// One thread is one entry of the active queue. Finds what its ray meets first, by the triangle test that the render asks for. Brute
-// force takes several dispatches, each of which goes on from what was met so far.
+// One thread is one entry of the active queue. Finds what its ray meets first, by the triangle test that the render asks for. Brute force
+// takes several dispatches, each of which goes on from the closest hit so far.
 // Reads the scene, the queue, rays. Writes hits (brute force also reads them).
 #version 460
 #extension GL_GOOGLE_include_directive : require

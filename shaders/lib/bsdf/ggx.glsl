@@ -1,6 +1,6 @@
 // The GGX microfacet lobe: reflection at microfacets whose normals follow the distribution of Trowbridge and Reitz (1975), with
 // height-correlated masking and shadowing, as in glTF 2.0, appendix B. Directions are in the shading frame, whose z axis is the shading
-// normal on the side of wo. `alpha`: roughness along x and y, at least kMinAlpha. Fresnel reflectance is left to the caller.
+// normal on the side of wo. `alpha`: the alphas along x and y, at least kMinAlpha. Fresnel reflectance is left to the caller.
 #ifndef GLIM_LIB_BSDF_GGX
 #define GLIM_LIB_BSDF_GGX
 

@@ -1,6 +1,6 @@
-// Transmission through an interface of GGX microfacets: Walter et al., "Microfacet Models for Refraction through Rough Surfaces" (2007),
-// with the masking of ggx.glsl, and through a thin wall. Directions are in the shading frame: wo.z > 0, wi.z < 0. `eta`: index beyond the
-// interface over that on wo's side. Fresnel transmittance and colour are left to the caller.
+// Transmission through an interface of GGX microfacets, and through a thin wall: Walter et al., "Microfacet Models for Refraction through
+// Rough Surfaces" (2007), with the masking of ggx.glsl. Directions are in the shading frame: wo.z > 0, wi.z < 0. `eta`: the index of
+// refraction beyond the interface over that on wo's side. Fresnel transmittance and colour are left to the caller.
 #ifndef GLIM_LIB_BSDF_GGX_TRANSMISSION
 #define GLIM_LIB_BSDF_GGX_TRANSMISSION
 

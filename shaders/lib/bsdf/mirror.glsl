@@ -1,4 +1,4 @@
-// The delta lobe of a perfect mirror. It cannot be evaluated and has no pdf: only sampling it finds its direction.
+// The delta lobe of a perfect mirror. It cannot be evaluated and has no pdf: its direction is found only by sampling.
 #ifndef GLIM_LIB_BSDF_MIRROR
 #define GLIM_LIB_BSDF_MIRROR
 

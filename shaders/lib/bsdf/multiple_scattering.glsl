@@ -1,8 +1,8 @@
-// What single scattering between microfacets loses, and what an interface leaves to the diffuse lobe below it. Both are diffuse lobes with
-// reciprocal weights: Kulla and Conty, "Revisiting Physically Based Shading at Imageworks" (SIGGRAPH course, 2017).
+// The energy that single scattering between microfacets loses, and the light that an interface leaves to the diffuse lobe below it. Both
+// are diffuse lobes with reciprocal weights: Kulla and Conty, "Revisiting Physically Based Shading at Imageworks" (SIGGRAPH course, 2017).
 //
-// Schlick's reflectance F0 + (F90 - F0) s is linear in F0 and F90, so the directional albedo of the GGX lobe is F0 a + F90 b with two
-// functions a and b of the direction and the roughness alone (access/albedo_table.glsl); a + b is the albedo for a reflectance of 1.
+// Schlick's reflectance F0 + (F90 - F0) s is linear in F0 and F90, so the directional albedo of the GGX lobe is F0 a + F90 b, where a and b
+// depend only on the direction and the roughness (access/albedo_table.glsl); a + b is the albedo for a reflectance of 1.
 #ifndef GLIM_LIB_BSDF_MULTIPLE_SCATTERING
 #define GLIM_LIB_BSDF_MULTIPLE_SCATTERING
 

@@ -1,6 +1,6 @@
 // The Charlie sheen of KHR_materials_sheen: Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF" (2017). alpha: the square of
-// sheenRoughness. Directions are in the shading frame with z > 0. It is sampled over the whole hemisphere uniformly: at grazing view it is
-// as wide as that.
+// sheenRoughness. Directions are in the shading frame with z > 0. The lobe is sampled by a uniform hemisphere, because at grazing view it
+// is as wide as the hemisphere.
 #ifndef GLIM_LIB_BSDF_SHEEN
 #define GLIM_LIB_BSDF_SHEEN
 

@@ -1,4 +1,4 @@
-// When a pixel of an adaptive render has had enough samples.
+// Decides when a pixel of an adaptive render has enough samples.
 #ifndef GLIM_LIB_COURSE_STOP_RULE
 #define GLIM_LIB_COURSE_STOP_RULE
 

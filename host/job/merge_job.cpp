@@ -1,0 +1,53 @@
+#include "host/job/merge_job.hpp"
+
+#include "host/job/film_report.hpp"
+#include "host/job/output_file.hpp"
+#include "host/job/output_lock.hpp"
+#include "host/json.hpp"
+#include "host/render/film_file.hpp"
+
+#include <optional>
+
+namespace glim {
+
+void addMergeOptions(OptionTable& table, MergeJob& job)
+{
+    table.beginGroup("Picture");
+    table.addPaths("films", "A.exr", "Films written by glim render or glim merge, in any order", job.inputs).require();
+    table.beginGroup("Output");
+    table.addPath("-o,--output", "C.exr", "Merged film; it may replace one of the inputs", job.output).require();
+    addPictureFiles(table, job.pictures);
+    addLook(table, job.look, "the picture", "none");
+    table.onFinished([&table, &job] { resolvePictureFiles(table, job.pictures); });
+}
+
+MergedFilm carryOut(const MergeJob& job)
+{
+    std::optional<OutputLock> lock;
+    if (!job.output.empty()) {
+        checkTarget(job.output, ".exr", {});
+    }
+    checkPictureTargets(job.pictures, {});
+    if (!job.output.empty()) {
+        lock.emplace(job.output);
+    }
+    MergedFilm merged = mergeFilms(job.inputs);
+    if (!job.output.empty()) {
+        writeFilm(job.output, merged.film);
+    }
+    if (!job.pictures.empty()) {
+        writePictures(job.pictures, merged.film, chooseLook(job.look, merged.film));
+    }
+    return merged;
+}
+
+Json describe(const MergedFilm& merged)
+{
+    const bool isKnown = pixelsWithoutError(merged.film) == 0;
+    return {{"samples", sampleRangesText(merged.film)},
+            {"exact", merged.exact},
+            {"complete", merged.film.complete},
+            {"estimate", isKnown ? describeEstimate(merged.film, RenderSettings()) : Json()}};
+}
+
+}  // namespace glim

@@ -1,0 +1,31 @@
+// Films of one picture over different samples or rows, to be merged: what is asked for, and what carries it out.
+#pragma once
+
+#include "host/job/look_options.hpp"
+#include "host/render/merge_films.hpp"
+
+#include <filesystem>
+#include <vector>
+
+namespace glim {
+
+class Json;
+
+struct MergeJob {
+    std::vector<std::filesystem::path> inputs;
+    std::filesystem::path output;  // empty: the merged film is not kept
+    PictureFiles pictures;
+    LookOptions look;
+};
+
+// `job` must outlive the table.
+void addMergeOptions(OptionTable& table, MergeJob& job);
+
+// Writes the files. Throws InputError.
+MergedFilm carryOut(const MergeJob& job);
+
+// {"samples": "0:512", "exact": true, "complete": true, "estimate": {...}}. `exact`: the bits of a single run. `estimate` is that of
+// reports (describeEstimate), and null while some pixel's error is unknown.
+Json describe(const MergedFilm& merged);
+
+}  // namespace glim
