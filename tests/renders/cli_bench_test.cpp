@@ -125,8 +125,8 @@ TEST(BenchCommandTest, RefusesBeforeAnyWork)
     expectUsage(with({"other.gltf", "--reference", "r.exr"}), Id::Conflict, {{}, "--reference", "r.exr", "one SCENE"});
     expectUsage(with({"folder/no-such-scene.glb"}), Id::Duplicate, {.place = "SCENE", .value = "folder/no-such-scene.glb"});
     expectUsage(with({"--light-samples", "4"}), Id::Requires, {{}, "--light-samples", "4", "--direct lights"});
-    expectBadInput(with({"--against", (folder / "none.json").string()}), Id::FileUnreadable, {.file = "none.json"});
-    expectBadInput(with({"--against", output}), Id::FileUnreadable, {.file = "x.json"});
+    expectBadInput(with({"--against", (folder / "none.json").string()}), Id::FileMissing, {.file = "none.json"});
+    expectBadInput(with({"--against", output}), Id::FileMissing, {.file = "x.json"});
     expectBadInput({"bench", "x.gltf", "-o", (folder / "x.txt").string()}, Id::UnknownFormat, {.file = "x.txt", .expected = ".json"});
     expectBadInput(with({}), Id::FileMissing, {.file = "no-such-scene.gltf"});
     EXPECT_EQ(folder.entries(), 0);
