@@ -113,7 +113,7 @@ TEST(LayersTest, ALoneYIsLuminance)
 
 TEST(LayersTest, NumbersAreWrittenWithSixDigitsAndWholeOnesWithAll)
 {
-    EXPECT_EQ(toText({}), "-");
+    EXPECT_EQ(toText(std::vector<double>()), "-");
     EXPECT_EQ(toText({4294967295.0, 0.1234567, 1e30, -2.0}), "4294967295 0.123457 1e+30 -2");
     EXPECT_EQ(toText({std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}), "nan inf");
 }

@@ -243,6 +243,32 @@ class UseTest(PythonCase):
             kept.set(pointer, object())
         self.assertEqual(kept.render(**options).digest, before)
 
+    def test_have_ids_and_parts(self):
+        def parts_of(step):
+            with self.assertRaises((glim.InputError, glim.DeviceError)) as caught:
+                step()
+            error = caught.exception
+            self.assertTrue(str(error))
+            return error.id, error.file, error.place, error.value
+
+        self.assertEqual(parts_of(lambda: glim.render(GEMS, spp=0)), ("out-of-range", None, "spp", "0"))
+        self.assertEqual(parts_of(lambda: glim.render(GEMS, target_rmse="much")), ("malformed", None, "target_rmse", "much"))
+        self.assertEqual(parts_of(lambda: glim.render(GEMS, no_option=1)), ("unknown-name", None, None, "no_option"))
+        self.assertEqual(parts_of(lambda: glim.render(GEMS, spp=object)), ("wrong-type", None, "spp", "<class 'object'>"))
+        self.assertEqual(parts_of(lambda: glim.render(GEMS, spp=1 << 2000))[:3], ("out-of-range", None, "spp"))
+        missing = self.path("missing.glb")
+        self.assertEqual(parts_of(lambda: glim.render(missing))[:3], ("file-missing", missing, None))
+        film = glim.render(GEMS, size=(8, 8), spp=1)
+        self.assertEqual(parts_of(lambda: film.save("x.gif"))[:2], ("unknown-format", "x.gif"))
+        self.assertEqual(parts_of(lambda: film.save("x.png", tone="aces")), ("unknown-name", None, "tone", "aces"))
+        self.assertEqual(parts_of(lambda: film.save("x.png", exposure=101)), ("out-of-range", None, "exposure", "101"))
+
+    def test_warnings_have_ids(self):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            glim.render(scene("textures"), size=(8, 8), spp=1, environment="none")
+        self.assertIn("no-light", [one.message.id for one in caught])
+
     def test_refusals(self):
         for options, words in (({"spp": 0}, "^spp: .*expected"), ({"sppp": 1}, "sppp"), ({"size": "8"}, "^size: "),
                                ({"image": "a.png"}, "^image: .*command line"), ({"time": object()}, "^time: "),

@@ -125,8 +125,8 @@ TEST(BenchCommandTest, RefusesBeforeAnyWork)
     expectUsage(with({"other.gltf", "--reference", "r.exr"}), Id::Conflict, {{}, "--reference", "r.exr", "one SCENE"});
     expectUsage(with({"folder/no-such-scene.glb"}), Id::Duplicate, {.place = "SCENE", .value = "folder/no-such-scene.glb"});
     expectUsage(with({"--light-samples", "4"}), Id::Requires, {{}, "--light-samples", "4", "--direct lights"});
-    expectBadInput(with({"--against", (folder / "none.json").string()}), Id::FileUnreadable, {.file = "none.json"});
-    expectBadInput(with({"--against", output}), Id::FileUnreadable, {.file = "x.json"});
+    expectBadInput(with({"--against", (folder / "none.json").string()}), Id::FileMissing, {.file = "none.json"});
+    expectBadInput(with({"--against", output}), Id::FileMissing, {.file = "x.json"});
     expectBadInput({"bench", "x.gltf", "-o", (folder / "x.txt").string()}, Id::UnknownFormat, {.file = "x.txt", .expected = ".json"});
     expectBadInput(with({}), Id::FileMissing, {.file = "no-such-scene.gltf"});
     EXPECT_EQ(folder.entries(), 0);
@@ -196,7 +196,7 @@ TEST(BenchKernelsTest, NeedsNoScene)
     EXPECT_EQ(run.exitCode, 0) << run.err;
     EXPECT_TRUE(contains(run.out, "hills made in memory: 204802 triangles")) << run.out;
     expectBadInput({"bench", "--kernels", "--camera", "x"}, Id::UnknownName, {.file = "hills made in memory", .value = "x"});
-    expectUsage({"bench", "--kernels", "--spp", "64"}, Id::Conflict, {.place = "--kernels", .value = "--spp"});
+    expectUsage({"bench", "--kernels", "--spp", "64"}, Id::Conflict, {.place = "--spp", .value = "--kernels"});
     expectBadInput({"bench", "--kernels", "--size", "16x16", "-o", "/nowhere/k.json"}, Id::FileMissing, {.file = "/nowhere/k.json"});
 }
 

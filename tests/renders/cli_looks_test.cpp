@@ -306,9 +306,11 @@ TEST_F(LooksTest, NoTextureAndNoMapIsOverwritten)
 {
     writeCoated();
     const std::string texture = readFileBytes(folder_ / "wood.png");
-    expectRefused(render({"--png", "wood.png"}), 1, Id::Conflict, {.file = "wood.png", .value = "wood.png"});
+    const GlimRun run = render({"--png", "wood.png"});
+    EXPECT_EQ(run.exitCode, 1);
+    expectSaid(run, Id::Conflict, {.file = "wood.png", .value = "wood.png"});
     EXPECT_EQ(readFileBytes(folder_ / "wood.png"), texture);
-    ASSERT_EQ(run({"render", sceneFile("cornell.gltf"), "-o", "x.exr", "--size", "4x4", "--spp", "1"}).exitCode, 0);
+    ASSERT_EQ(this->run({"render", sceneFile("cornell.gltf"), "-o", "x.exr", "--size", "4x4", "--spp", "1"}).exitCode, 0);
     const std::string map = readFileBytes(folder_ / "x.exr");
     expectRefused(render({"--environment", "x.exr"}), 1, Id::Conflict, {.file = "x.exr", .value = "x.exr"});
     EXPECT_EQ(readFileBytes(folder_ / "x.exr"), map);

@@ -16,7 +16,7 @@ import threading
 import warnings
 from typing import Any, Callable, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple, Union
 
-from glim._errors import DeviceError, GlimWarning, InputError
+from glim._errors import DeviceError, GlimWarning, InputError, unusable
 from glim._options import in_python, path_of, values_of
 
 __all__ = ["DeviceError", "Error", "Film", "GlimWarning", "InputError", "Scene", "devices", "load", "look_at", "merge", "read", "render"]
@@ -60,7 +60,9 @@ def _hear(message, is_warning):
 
 
 def _in_python(message):
-    return type(message)(in_python(str(message)), message.id, message.file, message.place, message.value, message.expected)
+    is_option = message.place and message.place.startswith("--")
+    place = in_python(message.place) if is_option else message.place
+    return type(message)(in_python(str(message)), message.id, message.file, place, message.value, message.expected)
 
 
 @contextlib.contextmanager
@@ -101,13 +103,14 @@ def _stops(exposure):
     except (TypeError, ValueError, OverflowError):
         stops = math.nan
     if isinstance(exposure, (bool, str, bytes)) or not -100 <= stops <= 100:
-        raise InputError("exposure: cannot use %r, expected stops from -100 to 100, or \"auto\"" % (exposure,))
+        raise unusable("exposure", exposure, "stops from -100 to 100, or \"auto\"",
+                       "out-of-range" if isinstance(exposure, (int, float)) and not isinstance(exposure, bool) else "wrong-type")
     return stops
 
 
 def _native_film(film, what):
     if not isinstance(film, Film):
-        raise InputError("%s: cannot use %r, expected a glim.Film" % (what, film))
+        raise unusable(what, film, "a glim.Film")
     return film._native
 
 
@@ -226,7 +229,8 @@ class Film:
         """Renders more samples, as in film.resume(spp=1024), and returns the film of all, with the bits of one render. Options are those
         of the film but for the ones that are given. For films that this process has rendered; Scene.render(resume=film) takes others."""
         if self._again is None:
-            raise InputError("the film was not rendered here; expected Scene.render(resume=film)")
+            raise InputError("the film was not rendered here; expected Scene.render(resume=film)", "unsupported",
+                             expected="Scene.render(resume=film)")
         scene, before = self._again
         return scene.render(progress=progress, resume=self, **{**before, **options})
 
@@ -236,7 +240,7 @@ class Film:
         name = path_of(path, "path")
         stops = None if isinstance(exposure, str) and exposure == "auto" else _stops(exposure)
         if not isinstance(tone, str):
-            raise InputError("tone: cannot use %r, expected none, neutral or agx" % (tone,))
+            raise unusable("tone", tone, "none, neutral or agx")
         ending = os.path.splitext(name)[1].lower()
         with _call():
             if ending in (".png", ".jpg", ".jpeg", ".webp"):
@@ -244,7 +248,8 @@ class Film:
             elif ending == ".exr":
                 self._native.save(name)
             else:
-                raise InputError("%s: cannot be written: its name does not end in .exr, .png, .jpg, .jpeg or .webp." % name)
+                raise InputError("%s: cannot be written: its name does not end in .exr, .png, .jpg, .jpeg or .webp." % name,
+                                 "unknown-format", file=name, expected=".exr, .png, .jpg, .jpeg or .webp")
 
     def _repr_png_(self) -> bytes:
         with tempfile.TemporaryDirectory() as folder:
@@ -292,8 +297,8 @@ class Scene:
         values = {"file": os.fsencode(path_of(self.path, "scene")), **values_of(asked)}
         before = None if resume is None else _native_film(resume, "resume")
         if progress is not None and not callable(progress):
-            raise InputError("progress: cannot use %r, expected a function" % (progress,))
-        if getattr(_heard, "sentences", None) is not None:
+            raise unusable("progress", progress, "a function")
+        if getattr(_heard, "messages", None) is not None:
             raise RuntimeError("glim: `progress` cannot render, as one picture is rendered at a time")
         with self._lock, _call() as native:
             self._native = self._native or native.Scene()
@@ -315,7 +320,8 @@ class Scene:
         Films that were rendered with different changes cannot be merged."""
         before = self._options.get("set") or {}
         if not isinstance(before, dict):
-            raise InputError("set: cannot use %r with Scene.set, expected a dict of pointers and values" % (before,))
+            raise InputError("set: cannot use %r with Scene.set, expected a dict of pointers and values" % (before,), "wrong-type",
+                             place="set", value=repr(before), expected="a dict of pointers and values")
         edits = {key: edit for key, edit in before.items() if key != pointer}
         options = {**self._options, "set": {**edits, pointer: value} if value is not None else edits}
         values_of(options)
@@ -352,7 +358,7 @@ def _point(name, value):
     try:
         return tuple(value)
     except TypeError:
-        raise InputError("%s: cannot use %r, expected three numbers" % (name, value)) from None
+        raise unusable(name, value, "three numbers") from None
 
 
 def read(path: Path) -> Film:
@@ -366,7 +372,7 @@ def merge(films: Iterable[Film]) -> Film:
     """One film of films of the same picture with different samples, or of adjacent rows. `exact` says whether it has the bits of a single
     render; else it equals one up to rounding."""
     if isinstance(films, (str, bytes)) or not isinstance(films, Iterable):
-        raise InputError("films: cannot use %r, expected a sequence of glim.Film" % (films,))
+        raise unusable("films", films, "a sequence of glim.Film")
     natives = [_native_film(film, "films") for film in films]
     with _call() as native:
         merged, exact = native.merge(natives)

@@ -14,6 +14,12 @@ class InputError(_Message, ValueError):
     """A file or an option that cannot be used, in one sentence: which one, what it is, and what was expected."""
 
 
+def unusable(name, value, expected, id="wrong-type"):
+    """The InputError for an argument with this value."""
+    return InputError("%s: cannot use %r, expected %s" % (name, value, expected), id, place=name,
+                      value=value if isinstance(value, str) else repr(value), expected=expected)
+
+
 class DeviceError(_Message, RuntimeError):
     """Vulkan or its device failed or is missing, in one sentence."""
 

@@ -3,7 +3,7 @@
 import os
 import re
 
-from glim._errors import InputError
+from glim._errors import InputError, unusable
 
 
 def path_of(value, what):
@@ -11,9 +11,10 @@ def path_of(value, what):
     try:
         text = os.fsdecode(value)
     except TypeError:
-        raise InputError("%s: cannot use %r, expected the name of a file" % (what, value)) from None
+        raise unusable(what, value, "the name of a file") from None
     if "\0" in text:
-        raise InputError("%s: %r has a null character, expected the name of a file" % (what, text))
+        raise InputError("%s: %r has a null character, expected the name of a file" % (what, text), "malformed", place=what, value=text,
+                         expected="the name of a file")
     return text
 
 
@@ -42,11 +43,11 @@ def value_of(name, value):
     if isinstance(value, (list, tuple)):
         value = next(item for item in value if isinstance(item, (bool, list, tuple)))
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise InputError("%s: cannot use %r, expected a number, a text or a sequence of numbers" % (name, value))
+        raise unusable(name, value, "a number, a text or a sequence of numbers")
     try:
         return float(value) if abs(value) >= 2**63 else value
     except OverflowError:
-        raise InputError("%s: cannot use %r, expected a smaller number" % (name, value)) from None
+        raise unusable(name, value, "a smaller number", "out-of-range") from None
 
 
 def in_python(sentence):
