@@ -25,9 +25,6 @@ public:
     Error(const Error& inner, std::initializer_list<MessagePart> words)
         : Error(Message(inner.message(), words))
     {}
-    explicit Error(const std::string& sentence)
-        : Error(MessageId::WindowReport, {sentence})
-    {}
 
     const Message& message() const { return *message_; }
 
@@ -45,9 +42,6 @@ public:
 class UsageError : public Error {
 public:
     using Error::Error;
-    UsageError(const std::string& option, const std::string& why)
-        : UsageError(option + ": " + why)
-    {}
 };
 
 // Which device or driver call, what it answered, what was expected of it.

@@ -39,7 +39,7 @@ int main(int argc, char** argv)
     const char* const form = std::getenv("GLIM_MESSAGES");
     const bool asJson = form != nullptr && std::string(form) == "json";
     if (asJson) {
-        glim::listenToMessages(glim::sayAsJson);
+        glim::setMessageForm(glim::MessageForm::Json);
     }
     glim::CommandLine line("glim: a path tracer in Vulkan compute kernels", glim::versionText(),
                            "`glim COMMAND --help` lists a command's options.\n"

@@ -16,18 +16,18 @@ namespace glim {
 namespace {
 
 // A handler of std::terminate can reach nothing but a global.
-std::string sentenceAtEnd;
+std::string lineAtEnd;
 
 thread_local std::size_t largestAllocation = std::numeric_limits<std::size_t>::max();
 
-[[noreturn]] void endWithSentence()
+[[noreturn]] void endWithLine()
 {
     try {
         if (std::current_exception()) {
             throw;
         }
     } catch (const std::bad_alloc&) {
-        std::fputs(sentenceAtEnd.c_str(), stderr);
+        std::fputs(lineAtEnd.c_str(), stderr);
         std::_Exit(static_cast<int>(ExitCode::BadInput));
     } catch (...) {
     }
@@ -66,8 +66,9 @@ std::string memorySentence()
 
 MemoryGuard::MemoryGuard(const std::filesystem::path& file)
 {
-    sentenceAtEnd = escaped("glim: " + file.string() + ": " + memorySentence()) + ".\n";
-    previous_ = std::set_terminate(endWithSentence);
+    lineAtEnd =
+        toLine(Severity::Error, Message(MessageId::OutOfMemory, {part::file(file), ": ", memorySentence(), "."})) + '\n';
+    previous_ = std::set_terminate(endWithLine);
 }
 
 MemoryGuard::~MemoryGuard() { std::set_terminate(previous_); }

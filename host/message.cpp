@@ -75,6 +75,7 @@ std::string inQuotes(const std::string& text) { return '"' + shortened(text) + '
 namespace {
 
 MessageListener messageListener;
+MessageForm messageForm = MessageForm::Text;
 
 void printLine(const std::string& line)
 {
@@ -149,25 +150,30 @@ bool takesMore(int file, int milliseconds)
     return ::poll(&poll, 1, milliseconds) > 0 && (poll.revents & POLLOUT) != 0;
 }
 
+void setMessageForm(MessageForm form) { messageForm = form; }
+
+std::string toLine(Severity severity, const Message& message)
+{
+    if (messageForm == MessageForm::Text) {
+        return "glim: " + bounded(message.sentence);
+    }
+    Json line{{"severity", nameOf(severity)}};
+    line.update(toJson(message));
+    line.set("sentence", bounded(message.sentence));
+    return line.dump();
+}
+
 void say(Severity severity, const Message& message)
 {
     if (messageListener) {
         messageListener(severity, message);
     } else {
-        printLine("glim: " + bounded(message.sentence));
+        printLine(toLine(severity, message));
     }
 }
 
 void say(MessageId id, std::initializer_list<MessagePart> words) { say(Severity::Note, Message(id, words)); }
 void warn(MessageId id, std::initializer_list<MessagePart> words) { say(Severity::Warning, Message(id, words)); }
-
-void sayAsJson(Severity severity, const Message& message)
-{
-    Json line{{"severity", nameOf(severity)}};
-    line.update(toJson(message));
-    line.set("sentence", bounded(message.sentence));
-    printLine(line.dump());
-}
 
 void listenToMessages(MessageListener listener) { messageListener = std::move(listener); }
 

@@ -70,8 +70,13 @@ struct Message {
 
 enum class Severity { Note, Warning, Error };
 
-// Prints the line "glim: SENTENCE" on stderr. One of more than 8 KiB loses its middle.
-// It is lost if stderr takes nothing for a second.
+// How messages are printed: "glim: SENTENCE", or for programs as JSON, {"severity": "error", "id": "file-missing", "file": "a.gltf",
+// "sentence": "..."}. A sentence of more than 8 KiB loses its middle.
+enum class MessageForm { Text, Json };
+void setMessageForm(MessageForm form);
+std::string toLine(Severity severity, const Message& message);
+
+// Prints the line on stderr. It is lost if stderr takes nothing for a second.
 void say(Severity severity, const Message& message);
 void say(MessageId id, std::initializer_list<MessagePart> words);   // a note
 void warn(MessageId id, std::initializer_list<MessagePart> words);  // of what may make a picture other than its user expects
@@ -82,7 +87,5 @@ void listenToMessages(MessageListener listener);
 
 // {"id": "file-missing", "file": "a.gltf"}: the id, and the parts that the message has.
 Json toJson(const Message& message);
-// Prints a line of JSON on stderr, as in {"severity": "error", "id": "file-missing", "file": "a.gltf", "sentence": "..."}.
-void sayAsJson(Severity severity, const Message& message);
 
 }  // namespace glim

@@ -153,7 +153,7 @@ std::vector<VkPhysicalDevice> VulkanInstance::physicalDevices() const
 void VulkanInstance::refuseMessages() const
 {
     if (*messages_ > 0) {
-        throw DeviceError(MessageId::DriverFailed, {"The Vulkan validation layers have complained (see above); glim expects them silent."});
+        throw DeviceError(MessageId::DriverFailed, {"The Vulkan validation layers have complained (see above); glim accepts no message of theirs."});
     }
 }
 

@@ -71,7 +71,7 @@ std::string HdrReader::readLine()
     std::string line;
     for (int c = stream_.get(); c != '\n'; c = stream_.get()) {
         if (c < 0 || line.size() > kLongest) {
-            refuse(MessageId::FileDamaged, {"has no end of its header; expected ", part::expected("a line with its resolution")});
+            refuse(MessageId::FileDamaged, {"has a header without an end; expected ", part::expected("a line with its resolution")});
         }
         line += static_cast<char>(c);
     }

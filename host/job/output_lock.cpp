@@ -96,7 +96,7 @@ void OutputLock::removeLeftover() const
                                                 part::value(*owner), "; expected ", part::expected("only one"), "."});
     }
     if (!isRemoved) {
-        refuse(MessageId::FileUnwritable, {"was left by a glim that is gone, and cannot be removed: ", std::strerror(error)});
+        refuse(MessageId::FileUnwritable, {"was left by an earlier glim and cannot be removed: ", std::strerror(error)});
     }
 }
 

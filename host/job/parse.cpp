@@ -220,7 +220,7 @@ Addition parseAddition(const OptionValue& value)
     // An @ may be part of a file's name, unless numbers follow.
     if (isMember ? !areNumbers : !numbers.empty() && !areNumbers) {
         refuse("--add", isMember ? value.key() + " " + text : text, false,
-               "a file, and after an @ where it stands: x,y,z in metres, or the 16 numbers of a matrix, column by column");
+               "a file, then if need be @ and its place: x,y,z in metres, or the 16 numbers of a matrix, column by column");
     }
     Addition addition{isMember ? value.key() : areNumbers ? text.substr(0, at) : text};
     if (numbers.size() == kOfPoint) {
@@ -230,7 +230,7 @@ Addition parseAddition(const OptionValue& value)
         const glm::dvec4 row = glm::row(addition.worldFromFile, 3);
         if (row != glm::dvec4(0.0, 0.0, 0.0, 1.0) || glm::determinant(glm::dmat3(addition.worldFromFile)) == 0.0) {
             throw UsageError(MessageId::Degenerate, {part::place("--add"), ": ", part::quoted(text), ": expected ",
-                                                     part::expected("a matrix with a volume, whose last row is 0 0 0 1")});
+                                                     part::expected("an invertible matrix whose last row is 0 0 0 1")});
         }
     }
     if (addition.file.empty()) {

@@ -17,7 +17,7 @@ void addTargets(OptionTable& table, ErrorTarget& target)
               [&target](const OptionValue& value) { target.rmse = parsePercent("--target-rmse", value); });
     addNumber<double>(table, {"--target-relmse", "E", "Stop when the estimated relMSE is at most this", 1e-12, 1e6, "off"},
                       [&target](double value) { target.relMse = value; });
-    table.addFlag("--denoised", "Apply the targets to the denoised picture, whose error is measured at every look", target.denoised);
+    table.addFlag("--denoised", "Apply the targets to the denoised picture, made anew at each check of the error", target.denoised);
 }
 
 void addSequence(OptionTable& table, RenderJob& options)

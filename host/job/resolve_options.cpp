@@ -71,7 +71,7 @@ const Rule<PictureOptions> kPictureRules[] = {
     {{"--checkpoint", "--resume"},
      isByCourse,
      MessageId::Conflict,
-     "a pixel of --adaptive course stops by its luminances, which no film holds; expected ",
+     "a film does not store the luminances by which --adaptive course stops pixels; expected ",
      "--adaptive off or neighbours"},
     {{"--target-rmse", "--target-relmse"},
      isByCourse,
@@ -81,7 +81,7 @@ const Rule<PictureOptions> kPictureRules[] = {
     {{"--adaptive", "--target-rmse", "--target-relmse"},
      isOfRows,
      MessageId::Conflict,
-     "looks at the whole picture; expected ",
+     "needs the whole picture; expected ",
      "no --rows"},
     {{"--ids", "--suspects", "--replay"}, isOfRows, MessageId::Conflict, "is of the whole picture; expected ", "no --rows"},
 };
@@ -101,12 +101,12 @@ const Rule<RenderJob> kRenderRules[] = {
      MessageId::Conflict,
      "has no effect with --replay, which makes no picture"},
     {{"--replay"}, isReplayOfSequence, MessageId::Conflict, "expected ", "the options of one picture"},
-    {{"--frames", "--look-from"}, isByAllCameras, MessageId::Conflict, "has one camera; expected ", "its name or index as --camera"},
+    {{"--frames", "--look-from"}, isByAllCameras, MessageId::Conflict, "needs a single camera; expected ", "its name or index as --camera"},
     {{"--on-checkpoint"}, isWithoutCheckpoints, MessageId::Requires, "without --checkpoint or --resume there are no checkpoints"},
     {{"--resume"}, listsSuspects, MessageId::Conflict, "the brightest samples of earlier runs are not kept; expected ", "no --suspects"},
     {{"--denoised"}, isWithoutTarget, MessageId::Requires, "says what --target-rmse or --target-relmse is of; expected ", "one of them"},
-    {{"--rows"}, isDenoised, MessageId::Conflict, "has no rows around it, which --denoise needs; expected ", "the whole picture"},
-    {{"--checkpoint", "--resume"}, isDenoised, MessageId::Conflict, "keeps no halves of the samples, which --denoise needs"},
+    {{"--rows"}, isDenoised, MessageId::Conflict, "lacks the rows around the band, which --denoise needs; expected ", "the whole picture"},
+    {{"--checkpoint", "--resume"}, isDenoised, MessageId::Conflict, "does not keep the two halves of the samples that --denoise needs"},
     {{"--replay"}, isDenoised, MessageId::Conflict, "makes no picture; expected ", "no --denoise"},
 };
 
@@ -264,7 +264,7 @@ void resolveDenoise(const OptionTable& table, RenderJob& job)
     }
     if (settings.adaptive != Adaptive::Off) {
         refuse(table, "--adaptive", MessageId::Conflict,
-               {"gives pixels samples that are no two independent halves, which --denoise needs"});
+               {"does not give the two independent halves of the samples that --denoise needs"});
     }
     const std::uint32_t least = minSamplesForError(settings.sampleBegin), samples = settings.sampleEnd - settings.sampleBegin;
     if (samples < least) {
@@ -331,7 +331,7 @@ void checkFiles(const OptionTable& table, const RenderJob& job)
 void resolveAnimation(const OptionTable& table, bool hasTime)
 {
     if (!hasTime) {
-        refuseIfGiven(table, "--animation", MessageId::Requires, {"without a time nothing is played; expected ", part::expected("--at")});
+        refuseIfGiven(table, "--animation", MessageId::Requires, {"has no effect without a time; expected ", part::expected("--at")});
     }
 }
 

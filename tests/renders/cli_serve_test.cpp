@@ -260,7 +260,7 @@ TEST_F(ServeTest, ARefusalIsASentenceWithAnIdAndNotTheEnd)
     server_.send(std::string(1'000'000, '['));
     expectRefused(server_.receive(), 2, MessageId::Malformed, ofForm);
     for (const char* line :
-         {"", "x", "[]", "{}", R"({"id":1})", R"({"id":1,"render":"x"})", R"({"id":1,"render":[1]})", R"({"render":{}})"}) {
+         {"", "x", "[]", "{}", R"({"id":1})", R"({"id":1,"render":"x"})", R"({"id":1,"render":[1]})", R"({"render":{}})", R"({"id":1,"render":{},"merge":{}})"}) {
         server_.send(line);
         expectRefused(server_.receive(), 2, MessageId::Malformed, ofForm);
     }
@@ -275,6 +275,39 @@ TEST_F(ServeTest, ARefusalIsASentenceWithAnIdAndNotTheEnd)
     const Json done = server_.ask({scene, "--size", "8x8", "--spp", "4", "-o", film});
     EXPECT_EQ(done.dump(), R"({"id":"a","code":0,"error":null,"reason":null})");
     EXPECT_EQ(server_.end(), 0);
+}
+
+TEST_F(ServeTest, FilmsAreMergedAndLookedAt)
+{
+    const auto film = [this](const char* name) { return (folder_ / name).string(); };
+    const auto merge = [&](const Json& options) {
+        server_.send(Json{{"id", "m"}, {"merge", options}}.dump());
+        return server_.receive();
+    };
+    for (const char* samples : {"0:256", "256:300", "300:320"}) {
+        expectDone({sceneFile("cornell.gltf"), "--size", "8x8", "--samples", samples, "-o", film(samples)});
+    }
+    const Json exact = merge({{"films", Json::array({film("256:300"), film("0:256")})}, {"output", film("merged.exr")}}).at("film");
+    EXPECT_EQ(exact.at("samples").text(), "0:300");
+    EXPECT_TRUE(exact.at("exact").boolean() && exact.at("complete").boolean());
+    expectDone({sceneFile("cornell.gltf"), "--size", "8x8", "--samples", "0:300", "-o", film("single.exr"), "--stats", film("single.json")});
+    EXPECT_EQ(computeDigest(readFilm(film("merged.exr"))), computeDigest(readFilm(film("single.exr"))));
+    const Json report = Json::parse(readFileBytes(film("single.json"))).value();
+    EXPECT_EQ(exact.at("estimate").dump(), report.at("estimate").dump());
+
+    const std::ptrdiff_t files = folder_.entries();
+    const Json rounded = merge({{"films", Json::array({film("256:300"), film("300:320")})}}).at("film");
+    EXPECT_EQ(rounded.at("samples").text(), "256:300 300:320");
+    EXPECT_FALSE(rounded.at("exact").boolean());
+    EXPECT_EQ(folder_.entries(), files) << "without an output nothing is written";
+    EXPECT_TRUE(merge({{"films", film("300:320")}}).at("film").at("estimate").isNull()) << "20 samples are one block";
+
+    const Json missing = merge({{"films", film("none.exr")}});
+    EXPECT_EQ(missing.at("code").number(), 1.0);
+    EXPECT_EQ(missing.at("reason").at("id").text(), toText(MessageId::FileMissing));
+    EXPECT_EQ(missing.at("reason").at("file").text(), film("none.exr"));
+    EXPECT_EQ(missing.find("film"), nullptr);
+    EXPECT_EQ(merge(Json::object()).at("reason").at("id").text(), toText(MessageId::Missing));
 }
 
 TEST_F(ServeTest, ASignalEndsItAfterTheAnswer)

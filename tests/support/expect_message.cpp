@@ -38,13 +38,6 @@ Message toMessage(const Json& json)
     return message;
 }
 
-std::vector<std::string> sentencesOf(const std::vector<Message>& messages)
-{
-    std::vector<std::string> sentences(messages.size());
-    std::ranges::transform(messages, sentences.begin(), &Message::sentence);
-    return sentences;
-}
-
 void expectMessage(const Message& message, MessageId id, const Parts& parts)
 {
     EXPECT_EQ(toText(message.id), toText(id)) << message.sentence;

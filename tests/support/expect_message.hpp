@@ -23,8 +23,6 @@ struct Parts {
     std::string file = {}, place = {}, value = {}, expected = {};
 };
 
-std::vector<std::string> sentencesOf(const std::vector<Message>& messages);
-
 void expectMessage(const Message& message, MessageId id, const Parts& parts = {});
 
 // Fails unless `step` throws an Error with such a message, of one line.

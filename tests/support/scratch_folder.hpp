@@ -46,16 +46,4 @@ inline std::string readFileBytes(const std::filesystem::path& path)
 
 inline void writeText(const std::filesystem::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
 
-// Fails unless `step` throws an Error whose message contains `part`.
-template <class Error, class Step>
-void expectRefusal(Step step, const std::string& part)
-{
-    try {
-        step();
-        ADD_FAILURE() << "nothing was refused, expected a message with: " << part;
-    } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what() << "\nlacks: " << part;
-    }
-}
-
 }  // namespace glim::test

@@ -109,7 +109,7 @@ std::optional<Property> Animator::findProperty(const std::string& pointer, const
     const SchemaRule* rule = findRule(allWeights ? path + "[]" : path);
     const bool vector = rule != nullptr && rule->kind == JsonKind::Numbers && rule->count <= 4;
     if (rule == nullptr || !(vector || rule->kind == JsonKind::Number || path == kVisible)) {
-        warnings_.add(MessageId::AnimationIgnored, "animations of what glim does not draw are ignored", shortened(pointer));
+        warnings_.add(MessageId::AnimationIgnored, "animations of properties that glim does not use are ignored", shortened(pointer));
         return std::nullopt;
     }
     if (allWeights || path == "nodes[].weights[]" || path == "meshes[].weights[]") {
@@ -139,7 +139,7 @@ void Animator::replaceMatrix(std::size_t index, const std::string& pointer, cons
     readMatrix(file_, index, node["matrix"].get<std::vector<double>>());  // refuses one that projects
     if (!splitMatrix(node)) {
         refuse(file_, MessageId::Degenerate,
-               {part::place(place), " animates ", part::value(pointer), " of a node whose matrix shears or flattens; expected ",
+               {part::place(place), " animates ", part::value(pointer), " of a node whose matrix shears or has a scale of 0; expected ",
                 part::expected("a node without a matrix")});
     }
     warnings_.add(MessageId::MatrixDecomposed, "matrices of nodes that are animated count as translation, rotation and scale",
@@ -179,7 +179,7 @@ Keyframes Animator::readKeyframes(const GltfAnimation::Sampler& sampler, const P
                 part::expected(std::to_string(keyframes.times.size() * perKey / property.components))});
     }
     if (property.boolean && sampler.interpolation != Interpolation::Step) {
-        refuse(file_, MessageId::WrongType, {part::place(place), " interpolates what is true or false; expected ", part::expected("STEP")});
+        refuse(file_, MessageId::WrongType, {part::place(place), " interpolates a boolean property; expected ", part::expected("STEP")});
     }
     return keyframes;
 }

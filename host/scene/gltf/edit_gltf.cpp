@@ -142,7 +142,7 @@ private:
         const bool isChangeable = std::ranges::any_of(kChangeable, [&](const char* start) { return schemaPath.starts_with(start); });
         if (steps.empty() || !hasValue || !isChangeable || steps.back() == "type") {
             refuse(MessageId::Unsupported,
-                   {"is no value that glim can change; expected ",
+                   {"is not a value that glim can change; expected ",
                     part::expected("a number, boolean or word of a node, material, camera or light, or the weights of a mesh, as in "
                                    "/materials/0/pbrMetallicRoughness/roughnessFactor")});
         }
