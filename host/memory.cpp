@@ -66,8 +66,7 @@ std::string memorySentence()
 
 MemoryGuard::MemoryGuard(const std::filesystem::path& file)
 {
-    lineAtEnd =
-        toLine(Severity::Error, Message(MessageId::OutOfMemory, {part::file(file), ": ", memorySentence(), "."})) + '\n';
+    lineAtEnd = toLine(Severity::Error, Message(MessageId::OutOfMemory, {part::file(file), ": ", memorySentence(), "."})) + '\n';
     previous_ = std::set_terminate(endWithLine);
 }
 

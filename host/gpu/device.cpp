@@ -190,8 +190,8 @@ Candidate choose(const VulkanInstance& instance, const std::optional<std::string
         blind += (blind.empty() ? "\"" : ", \"") + d.name + "\"";
     }
     if (!blind.empty()) {
-        throw InputError(MessageId::NoWindow,
-                         {"This window cannot show pictures that are rendered by ", part::value(blind), "; `glim render` writes them to a file instead."});
+        throw InputError(MessageId::NoWindow, {"This window cannot show pictures that are rendered by ", part::value(blind),
+                                               "; `glim render` writes them to a file instead."});
     }
     if (choice) {
         throw InputError(MessageId::UnknownName, {part::place("--device"), " ", part::value(*choice),

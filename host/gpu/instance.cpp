@@ -153,7 +153,8 @@ std::vector<VkPhysicalDevice> VulkanInstance::physicalDevices() const
 void VulkanInstance::refuseMessages() const
 {
     if (*messages_ > 0) {
-        throw DeviceError(MessageId::DriverFailed, {"The Vulkan validation layers have complained (see above); glim accepts no message of theirs."});
+        throw DeviceError(MessageId::DriverFailed,
+                          {"The Vulkan validation layers have complained (see above); glim accepts no message of theirs."});
     }
 }
 

@@ -78,11 +78,7 @@ const Rule<PictureOptions> kPictureRules[] = {
      MessageId::Conflict,
      "--adaptive course has a rule of its own; expected ",
      "--adaptive neighbours or off"},
-    {{"--adaptive", "--target-rmse", "--target-relmse"},
-     isOfRows,
-     MessageId::Conflict,
-     "needs the whole picture; expected ",
-     "no --rows"},
+    {{"--adaptive", "--target-rmse", "--target-relmse"}, isOfRows, MessageId::Conflict, "needs the whole picture; expected ", "no --rows"},
     {{"--ids", "--suspects", "--replay"}, isOfRows, MessageId::Conflict, "is of the whole picture; expected ", "no --rows"},
 };
 
@@ -263,8 +259,7 @@ void resolveDenoise(const OptionTable& table, RenderJob& job)
         refuse(table, "--view", MessageId::Conflict, {"has next to no noise; expected ", part::expected("no --denoise")});
     }
     if (settings.adaptive != Adaptive::Off) {
-        refuse(table, "--adaptive", MessageId::Conflict,
-               {"does not give the two independent halves of the samples that --denoise needs"});
+        refuse(table, "--adaptive", MessageId::Conflict, {"does not give the two independent halves of the samples that --denoise needs"});
     }
     const std::uint32_t least = minSamplesForError(settings.sampleBegin), samples = settings.sampleEnd - settings.sampleBegin;
     if (samples < least) {

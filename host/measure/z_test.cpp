@@ -106,8 +106,7 @@ ZTest zTest(const Picture& picture, const Picture& reference, double alpha)
 {
     const std::size_t pixels = reference.radiance.size();
     if (picture.radiance.size() != pixels || picture.variance.size() != pixels || reference.variance.size() != pixels) {
-        throw InputError(MessageId::Mismatch,
-                         {"A z-test needs two pictures of one size with known variances."});
+        throw InputError(MessageId::Mismatch, {"A z-test needs two pictures of one size with known variances."});
     }
     ZTest test;
     const Region whole = addBlocks(test, picture, reference);

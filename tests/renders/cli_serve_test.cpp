@@ -259,8 +259,8 @@ TEST_F(ServeTest, ARefusalIsASentenceWithAnIdAndNotTheEnd)
     expectRefused(server_.receive(), 2, MessageId::Malformed, {.value = R"(scene.gltf\x00.png)"});
     server_.send(std::string(1'000'000, '['));
     expectRefused(server_.receive(), 2, MessageId::Malformed, ofForm);
-    for (const char* line :
-         {"", "x", "[]", "{}", R"({"id":1})", R"({"id":1,"render":"x"})", R"({"id":1,"render":[1]})", R"({"render":{}})", R"({"id":1,"render":{},"merge":{}})"}) {
+    for (const char* line : {"", "x", "[]", "{}", R"({"id":1})", R"({"id":1,"render":"x"})", R"({"id":1,"render":[1]})", R"({"render":{}})",
+                             R"({"id":1,"render":{},"merge":{}})"}) {
         server_.send(line);
         expectRefused(server_.receive(), 2, MessageId::Malformed, ofForm);
     }
@@ -290,7 +290,8 @@ TEST_F(ServeTest, FilmsAreMergedAndLookedAt)
     const Json exact = merge({{"films", Json::array({film("256:300"), film("0:256")})}, {"output", film("merged.exr")}}).at("film");
     EXPECT_EQ(exact.at("samples").text(), "0:300");
     EXPECT_TRUE(exact.at("exact").boolean() && exact.at("complete").boolean());
-    expectDone({sceneFile("cornell.gltf"), "--size", "8x8", "--samples", "0:300", "-o", film("single.exr"), "--stats", film("single.json")});
+    expectDone(
+        {sceneFile("cornell.gltf"), "--size", "8x8", "--samples", "0:300", "-o", film("single.exr"), "--stats", film("single.json")});
     EXPECT_EQ(computeDigest(readFilm(film("merged.exr"))), computeDigest(readFilm(film("single.exr"))));
     const Json report = Json::parse(readFileBytes(film("single.json"))).value();
     EXPECT_EQ(exact.at("estimate").dump(), report.at("estimate").dump());

@@ -150,7 +150,8 @@ std::vector<MorphTarget> readMorphTargets(const GltfFile& file, const tinygltf::
                 "; expected ", part::expected("as many of both")});
     }
     if (count < weights.size()) {
-        warnings.add(MessageId::MissingMorphTarget, "primitives without morph targets stay as they are, though others of their mesh have some", place);
+        warnings.add(MessageId::MissingMorphTarget,
+                     "primitives without morph targets stay as they are, though others of their mesh have some", place);
     }
     std::vector<MorphTarget> targets;
     for (std::size_t i = 0; i < count; ++i) {
