@@ -279,7 +279,8 @@ TEST_F(ServeTest, ARefusalIsASentenceWithAnIdAndNotTheEnd)
 
 TEST_F(ServeTest, FilmsAreMergedAndLookedAt)
 {
-    const auto film = [this](const char* name) { return (folder_ / name).string(); };
+    const auto film = [this](const std::string& name) { return (folder_.path() / (name + ".exr")).string(); };
+    const std::string statistics = (folder_ / "single.json").string();
     const auto merge = [&](const Json& options) {
         server_.send(Json{{"id", "m"}, {"merge", options}}.dump());
         return server_.receive();
@@ -287,13 +288,12 @@ TEST_F(ServeTest, FilmsAreMergedAndLookedAt)
     for (const char* samples : {"0:256", "256:300", "300:320"}) {
         expectDone({sceneFile("cornell.gltf"), "--size", "8x8", "--samples", samples, "-o", film(samples)});
     }
-    const Json exact = merge({{"films", Json::array({film("256:300"), film("0:256")})}, {"output", film("merged.exr")}}).at("film");
+    const Json exact = merge({{"films", Json::array({film("256:300"), film("0:256")})}, {"output", film("merged")}}).at("film");
     EXPECT_EQ(exact.at("samples").text(), "0:300");
     EXPECT_TRUE(exact.at("exact").boolean() && exact.at("complete").boolean());
-    expectDone(
-        {sceneFile("cornell.gltf"), "--size", "8x8", "--samples", "0:300", "-o", film("single.exr"), "--stats", film("single.json")});
-    EXPECT_EQ(computeDigest(readFilm(film("merged.exr"))), computeDigest(readFilm(film("single.exr"))));
-    const Json report = Json::parse(readFileBytes(film("single.json"))).value();
+    expectDone({sceneFile("cornell.gltf"), "--size", "8x8", "--samples", "0:300", "-o", film("single"), "--stats", statistics});
+    EXPECT_EQ(computeDigest(readFilm(film("merged"))), computeDigest(readFilm(film("single"))));
+    const Json report = Json::parse(readFileBytes(statistics)).value();
     EXPECT_EQ(exact.at("estimate").dump(), report.at("estimate").dump());
 
     const std::ptrdiff_t files = folder_.entries();
@@ -303,10 +303,10 @@ TEST_F(ServeTest, FilmsAreMergedAndLookedAt)
     EXPECT_EQ(folder_.entries(), files) << "without an output nothing is written";
     EXPECT_TRUE(merge({{"films", film("300:320")}}).at("film").at("estimate").isNull()) << "20 samples are one block";
 
-    const Json missing = merge({{"films", film("none.exr")}});
+    const Json missing = merge({{"films", film("none")}});
     EXPECT_EQ(missing.at("code").number(), 1.0);
     EXPECT_EQ(missing.at("reason").at("id").text(), toText(MessageId::FileMissing));
-    EXPECT_EQ(missing.at("reason").at("file").text(), film("none.exr"));
+    EXPECT_EQ(missing.at("reason").at("file").text(), film("none"));
     EXPECT_EQ(missing.find("film"), nullptr);
     EXPECT_EQ(merge(Json::object()).at("reason").at("id").text(), toText(MessageId::Missing));
 }
