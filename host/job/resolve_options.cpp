@@ -100,7 +100,7 @@ const Rule<RenderJob> kRenderRules[] = {
     {{"--frames", "--look-from"}, isByAllCameras, MessageId::Conflict, "needs a single camera; expected ", "its name or index as --camera"},
     {{"--on-checkpoint"}, isWithoutCheckpoints, MessageId::Requires, "without --checkpoint or --resume there are no checkpoints"},
     {{"--resume"}, listsSuspects, MessageId::Conflict, "the brightest samples of earlier runs are not kept; expected ", "no --suspects"},
-    {{"--denoised"}, isWithoutTarget, MessageId::Requires, "says what --target-rmse or --target-relmse is of; expected ", "one of them"},
+    {{"--denoised"}, isWithoutTarget, MessageId::Requires, "has no effect without a target; expected ", "--target-rmse or --target-relmse"},
     {{"--rows"}, isDenoised, MessageId::Conflict, "lacks the rows around the band, which --denoise needs; expected ", "the whole picture"},
     {{"--checkpoint", "--resume"}, isDenoised, MessageId::Conflict, "does not keep the two halves of the samples that --denoise needs"},
     {{"--replay"}, isDenoised, MessageId::Conflict, "makes no picture; expected ", "no --denoise"},
