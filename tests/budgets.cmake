@@ -67,6 +67,7 @@ set(onlyInCi
     NeighboursTest.EveryPixelHasTheSamplesOfUniformRenders
     NeighboursTest.ATargetEndsItWithTheRoundThatReachesIt
     AdaptiveTest.WorksAcrossTiles
+    AdaptiveTest.EveryPixelHasTheBitsOfAUniformRenderOfItsCount
     AdaptiveTest.BatchesMayEndWithinABlock
     AdaptiveTest.H28ConstantPixelsStopAtTheFloor
     # The same bits whatever does not matter. By default: one sampler or schedule of each kind, and the hash of each scene's picture
@@ -105,6 +106,14 @@ set(onlyInCi
     CommandLineTest.MergeSaysThatAFilmEndedEarly
     CommandLineTest.ComparisonsTestNoNoiseThatIsShared
     CommandLineTest.ATargetEndsARender
+    CommandLineTest.NeighboursStopAtATargetOrInTime
+    CommandLineTest.AdaptiveFilmsAreNotTakenForUnfinishedOnes
+    CommandLineTest.TimeEndsAnAdaptiveRender
+    CommandLineTest.MergedPagesAreTheBitsOfTheSingleRun
+    CommandLineTest.ClampingSaysWhatItTook
+    CommandLineTest.TheSameSeedGivesTheSamePixels
+    CommandLineTest.AnEarlySignalSparesThePictureThatIsThere
+    CommandLineResumeTest.KilledAtAnyMomentItGoesOnWithTheSameBits
     CommandLineResumeTest.KilledWithinAnyWriteItGoesOnWithTheSameBits
     CommandLineResumeTest.UserSignalWritesAndGoesOn
     CommandLineResumeTest.NeighboursGoOn
@@ -123,6 +132,7 @@ set(onlyInCi
     DeviceFaultTest.ALostDeviceLeavesTheLastCheckpoint
     DeviceFaultTest.ADeviceThatIsLostAfterTheRenderLeavesTheFilm
     DeviceFaultTest.MemoryThatIsRefusedIsNamed
+    LooksTest.ToneMappingIsOfPicturesAlone
     LooksTest.TheStudioIsShownByNeutralUnlessToldOtherwise
     LooksTest.LargeTexturesAreStatedBeforeTheRender
     LooksTest.BackFacesAreLeftOutUnlessAskedFor
@@ -138,8 +148,12 @@ set(onlyInCi
     BenchCommandTest.MeasuresWritesAndComparesWithAnEarlierBench
     BenchKernelsTest.*
     AutoScheduleTest.*
-    # One unit kernel that needs a picture of 65,535 columns.
+    # Single tests of many cases: a picture of 65,535 columns, a million lights, mutants of files. By default: smaller ones, mutants of
+    # text, and the corpus of tools/fuzz.
     NlMeans.BandsOfALargePictureJoin
+    LightChoiceTest.H14AMillionLights
+    GltfFuzz.SurvivesMutantsOfPoses
+    GltfFuzz.SurvivesMutantsOfBinaryFiles
     # The reference of the glTF material, PLY files of every kind, and the errors of eleven more denoised pictures. By default: the unit
     # kernels that compare values with that reference, to_gltf with a file of each format, and one denoised picture.
     OracleTest
