@@ -85,11 +85,10 @@ void printLine(const std::string& line)
     }
 }
 
-// Of more than 8 KiB the middle is lost.
-std::string bounded(const std::string& sentence)
+std::string bounded(const std::string& text)
 {
     constexpr std::size_t kMax = 8192, kBegin = 6144, kEnd = 1024;
-    return sentence.size() <= kMax ? sentence : escaped(sentence.substr(0, kBegin) + " ... " + sentence.substr(sentence.size() - kEnd));
+    return escaped(text.size() <= kMax ? text : text.substr(0, kBegin) + " ... " + text.substr(text.size() - kEnd));
 }
 
 const char* nameOf(Severity severity) { return severity == Severity::Error ? "error" : severity == Severity::Warning ? "warning" : "note"; }
@@ -128,10 +127,10 @@ Message::Message(MessageId which, std::initializer_list<MessagePart> words)
         std::string* const parts[] = {nullptr, &file, &place, &value, &expected};
         std::string* const named = parts[static_cast<std::size_t>(word.kind)];
         if (named != nullptr && named->empty()) {
-            *named = escaped(word.part);
+            *named = bounded(word.part);
         }
     }
-    sentence = escaped(sentence);
+    sentence = bounded(sentence);
 }
 
 Message::Message(const Message& inner, std::initializer_list<MessagePart> words)
@@ -155,11 +154,11 @@ void setMessageForm(MessageForm form) { messageForm = form; }
 std::string toLine(Severity severity, const Message& message)
 {
     if (messageForm == MessageForm::Text) {
-        return "glim: " + bounded(message.sentence);
+        return "glim: " + message.sentence;
     }
     Json line{{"severity", nameOf(severity)}};
     line.update(toJson(message));
-    line.set("sentence", bounded(message.sentence));
+    line.set("sentence", message.sentence);
     return line.dump();
 }
 

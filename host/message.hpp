@@ -25,8 +25,7 @@ std::string inQuotes(const std::string& text);  // the same in quotes
 bool takesMore(int file, int milliseconds = 0);
 
 // Words of a sentence and, if they name one of its parts, that part.
-class MessagePart {
-public:
+struct MessagePart {
     enum class Kind { Words, File, Place, Value, Expected };
 
     MessagePart(const char* text)
@@ -54,7 +53,8 @@ MessagePart quoted(const std::string& value);
 MessagePart expected(const std::string& what);
 }  // namespace part
 
-// One sentence for the user, escaped, and for programs what it is about. A part is empty if the sentence has none.
+// One sentence for the user, escaped, and for programs what it is about. A part is empty if the sentence has none. Of a sentence or a part
+// of more than 8 KiB the middle is lost.
 struct Message {
     // The first words of each part are that part.
     Message(MessageId which, std::initializer_list<MessagePart> words);
@@ -71,7 +71,7 @@ struct Message {
 enum class Severity { Note, Warning, Error };
 
 // How messages are printed: "glim: SENTENCE", or for programs as JSON, {"severity": "error", "id": "file-missing", "file": "a.gltf",
-// "sentence": "..."}. A sentence of more than 8 KiB loses its middle.
+// "sentence": "..."}.
 enum class MessageForm { Text, Json };
 void setMessageForm(MessageForm form);
 std::string toLine(Severity severity, const Message& message);

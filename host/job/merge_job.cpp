@@ -23,17 +23,15 @@ void addMergeOptions(OptionTable& table, MergeJob& job)
 
 MergedFilm carryOut(const MergeJob& job)
 {
-    std::optional<OutputLock> lock;
-    if (!job.output.empty()) {
-        checkTarget(job.output, ".exr", {});
-    }
     checkPictureTargets(job.pictures, {});
-    if (!job.output.empty()) {
-        lock.emplace(job.output);
+    std::optional<OutputLock> lock;
+    if (job.output) {
+        checkTarget(*job.output, ".exr", {});
+        lock.emplace(*job.output);
     }
     MergedFilm merged = mergeFilms(job.inputs);
-    if (!job.output.empty()) {
-        writeFilm(job.output, merged.film);
+    if (job.output) {
+        writeFilm(*job.output, merged.film);
     }
     if (!job.pictures.empty()) {
         writePictures(job.pictures, merged.film, chooseLook(job.look, merged.film));

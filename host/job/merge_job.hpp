@@ -5,6 +5,7 @@
 #include "host/render/merge_films.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace glim {
@@ -13,7 +14,7 @@ class Json;
 
 struct MergeJob {
     std::vector<std::filesystem::path> inputs;
-    std::filesystem::path output;  // empty: the merged film is not kept
+    std::optional<std::filesystem::path> output;  // without one the films are only looked at
     PictureFiles pictures;
     LookOptions look;
 };

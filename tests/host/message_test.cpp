@@ -71,6 +71,18 @@ TEST(Message, WordsAroundAMessageKeepWhatItIsAbout)
     EXPECT_STREQ(outer.what(), "a.gltf: images[0] cannot be read (wood.png: is not there; expected a picture)");
 }
 
+TEST(Message, SentencesAndPartsAreBounded)
+{
+    const std::string all(1'000'000, 'a');
+    const Message message(MessageId::UnknownName,
+                          {part::file("\x1b" + all), ": ", part::place(all), part::value(all), part::expected(all)});
+    for (const std::string& text : {message.sentence, message.file, message.place, message.value, message.expected}) {
+        EXPECT_LE(text.size(), 8192U);
+        EXPECT_TRUE(text.ends_with("aaa"));
+    }
+    EXPECT_EQ(message.file.rfind("\\x1ba", 0), 0U);
+}
+
 TEST(Message, IdsHaveNamesOfTheirOwn)
 {
     std::set<std::string> names;
