@@ -22,8 +22,9 @@ double cpuSeconds()
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-// Words of the file are shortened before they get into a sentence; of more than this `say` would cut the middle.
-constexpr std::size_t kLongest = 8192;
+// Words of the file are shortened before they get into a sentence. `Message` cuts the middle out of more than 8 KiB, which must not
+// hide that they were not: what is left of it has 7 KiB.
+constexpr std::size_t kLongest = 4096;
 
 std::optional<std::string> findSentenceDefect(const std::string& sentence, const std::string& start)
 {

@@ -46,7 +46,8 @@ TEST(FuzzContract, NoticesEachViolation)
     EXPECT_EQ(defectOf([] { throw std::out_of_range("x"); }), "throws what is no InputError: x");
     EXPECT_EQ(defectOf(refusing("it is not glTF")), "does not begin with \"a.gltf: \": it is not glTF");
     EXPECT_EQ(defectOf(refusing("a.gltf: no")), "says too little: a.gltf: no");
-    EXPECT_EQ(defectOf(refusing("a.gltf: " + std::string(9000, 'x'))), "is a sentence of 9008 bytes");
+    EXPECT_EQ(defectOf(refusing("a.gltf: " + std::string(5000, 'x'))), "is a sentence of 5008 bytes");
+    EXPECT_EQ(defectOf(refusing("a.gltf: " + std::string(9000, 'x'))), "is a sentence of 7173 bytes");  // of a message that was cut
     volatile double sum = 0.0;
     const auto slow = [&] {
         for (const std::clock_t begin = std::clock();
